@@ -1,0 +1,40 @@
+#pragma once
+// The beating heart: keyframe meshes in, the surfaces of any phase out.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "motion/surface_frame.h"
+#include "scene/scene.h"
+
+namespace echocine {
+
+class HeartMotion {
+ public:
+  // Reads and checks every keyframe of every structure and prepares interpolation and subdivision.
+  // Errors: SceneError naming the scene's place, the file and the face or vertex.
+  explicit HeartMotion(const Scene& scene);
+  ~HeartMotion();
+  HeartMotion(HeartMotion&&) noexcept;
+
+  const std::vector<SurfaceTopology>& surfaces() const { return surfaces_; }
+
+  // The surfaces at a phase in [0, 1); keyframe phases reproduce their keyframes. Thread-safe;
+  // `frame` is reused without allocation once it has held a frame of this motion.
+  void frameAt(double phase, SurfaceFrame& frame) const;
+
+  // SHA-256 over everything read, in the scene's order.
+  const std::string& inputSha256() const { return input_sha256_; }
+
+ private:
+  struct MovingSurface;
+  std::vector<SurfaceTopology> surfaces_;
+  std::vector<MovingSurface> moving_;
+  std::string input_sha256_;
+};
+
+// Volume enclosed by a closed surface, positive when its faces look outward; 0 for a membrane. m^3.
+double enclosedVolume(const SurfaceTopology& surface, const std::vector<Vec3f>& positions_m);
+
+}  // namespace echocine

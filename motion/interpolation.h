@@ -1,0 +1,70 @@
+#pragma once
+// Periodic interpolation in time. Every kind is linear in the keyframes, so it is one weight per
+// keyframe that holds for all coordinates of all vertices.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/error.h"
+#include "scene/scene.h"
+
+namespace echocine {
+
+// Largest sum of absolute weights accepted at any phase: errors and wobbles of the keyframes come
+// out at most this much larger. Evenly spaced keyframes stay below 3 with every kind up to 100
+// keyframes; uneven ones can exceed any bound, first of all with trigonometric polynomials. Our
+// choice.
+inline constexpr double kMaxMagnification = 10;
+
+class KeyframeWeights {
+ public:
+  // x(phase) = sum of weight * row, where row r < keyframeCount() is keyframe r itself and row
+  // keyframeCount() + j is sum over k of rowWeights()[k] * keyframe k.
+  struct Term {
+    std::size_t row;
+    double weight;
+  };
+
+  // Phases in cycles. Throws SceneError that starts with the place unless they ascend within [0,
+  // 1), at least 1e-6 apart (also around the end), and the interpolation stays below
+  // kMaxMagnification.
+  KeyframeWeights(std::span<const double> phases, Interpolation kind,
+                  const SourcePlace& place = {});
+
+  std::size_t keyframeCount() const { return phases_.size(); }
+  std::size_t rowCount() const;
+  std::span<const double> rowWeights(std::size_t row) const;  // row >= keyframeCount()
+
+  // The cheapest form of the sum: at most four terms for all kinds but fourier, exactly one at a
+  // keyframe. The phase may be any finite number. Does not allocate when `terms` has the capacity.
+  void termsAt(double phase, std::vector<Term>& terms) const;
+
+  // One weight per keyframe; they sum to 1. Precondition: weights.size() == keyframeCount().
+  void at(double phase, std::span<double> weights) const;
+
+  // Largest sum of absolute weights over a cycle (the Lebesgue constant), from 16 samples an
+  // interval.
+  double magnification() const;
+
+ private:
+  struct Interval {
+    std::size_t left, right;  // keyframes
+    double length, fraction;  // in cycles; of the length, [0, 1)
+  };
+  Interval intervalAt(double phase) const;
+  double gapAfter(std::size_t keyframe) const;
+  void addCatmullRom(const Interval& at, std::vector<Term>& terms) const;
+  void addSpline(const Interval& at, std::vector<Term>& terms) const;
+  void addFourier(double phase, std::vector<Term>& terms) const;
+  void prepareSpline();
+  void prepareFourier();
+
+  std::vector<double> phases_;
+  Interpolation kind_;
+  std::vector<double>
+      curvature_;  // spline: second derivatives at keyframes, row-major from keyframes
+  std::vector<double> barycentric_;  // fourier: weight of each keyframe, largest magnitude 1
+};
+
+}  // namespace echocine

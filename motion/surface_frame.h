@@ -1,0 +1,31 @@
+#pragma once
+// What the motion stage hands on: the surfaces of one instant, in the probe frame and in metres.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/vec3.h"
+
+namespace echocine {
+
+using Triangle =
+    std::array<std::uint32_t, 3>;  // vertex indices, counter-clockwise seen from outside
+
+// What never changes over a loop.
+struct SurfaceTopology {
+  SurfaceId id{};
+  std::vector<Triangle> triangles;
+  std::uint32_t vertex_count = 0;
+  bool membrane = false;  // an open sheet: encloses nothing
+};
+
+// One instant. positions_m[s] has vertex_count entries for the surface with index s. Probe frame:
+// the imaging plane is y = 0, the apex is the origin, so single precision is fine to nanometres
+// wherever in the world the scene stands.
+struct SurfaceFrame {
+  std::vector<std::vector<Vec3f>> positions_m;
+};
+
+}  // namespace echocine

@@ -1,0 +1,40 @@
+#pragma once
+// The whole program in one call: a scene in, a folder with its cine loop out.
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "output/manifest.h"
+
+namespace echocine {
+
+struct RenderOptions {
+  std::filesystem::path folder;
+  int threads = 0;                            // 0: one per core
+  std::optional<std::pair<int, int>> frames;  // first and one past the last; absent: the whole loop
+  bool resume = false;                        // keep frames whose EXR is whole
+};
+
+// How far a run is, told after each finished frame from one thread at a time.
+struct Progress {
+  enum class Pass { measuring, rendering } pass = Pass::rendering;
+  int done = 0, total = 0;
+};
+
+struct Monitor {
+  std::function<void(const Progress&)> tell = [](const Progress&) {};
+  std::function<bool()> keep_going = [] { return true; };
+};
+
+struct RenderSummary {
+  int frames_done = 0, frames_wanted = 0;  // fewer when keep_going() said no
+  Manifest manifest;                       // written to the folder when nothing was cut short
+};
+
+// Throws SceneError (scene, meshes or range cannot be used; nothing is written) and JobError. Frames that were
+// finished before an error or a stop are whole, and the cine of a stopped run plays.
+RenderSummary renderCine(const Scene& scene, const RenderOptions& options, const Monitor& monitor);
+
+}  // namespace echocine

@@ -1,0 +1,48 @@
+// echocine: arguments in, one call, the exit code out. The only place that catches.
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <csignal>
+#include <new>
+
+#include "cli/render_command.h"
+#include "core/error.h"
+
+namespace {
+
+constexpr int kJobFailed = 1;
+constexpr int kUnusable = 2;
+
+int failed(int code, const char* what) {
+  fmt::print(stderr, "echocine: {}\n", what);
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // A file-size limit must come back as an error of write(), not end the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+  CLI::App app{"EchoCine: ultrasound cine loops ray-traced from a beating-heart mesh sequence"};
+  app.set_version_flag("--version", std::string("echocine ") + ECHOCINE_VERSION);
+  app.require_subcommand(1);
+  app.fallthrough(false);
+  echocine::RenderCommand render(app);
+  try {
+    app.parse(argc, argv);
+    return render.run();
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    return failed(kUnusable, fmt::format("{} (--help lists what is accepted)", error.what()).c_str());
+  } catch (const echocine::SceneError& error) {
+    return failed(kUnusable, error.what());
+  } catch (const echocine::JobError& error) {
+    return failed(kJobFailed, error.what());
+  } catch (const std::bad_alloc&) {
+    return failed(kJobFailed, "out of memory: fewer lines, samples, subdivision levels or threads need less");
+  } catch (const std::exception& error) {
+    return failed(kJobFailed, error.what());
+  }
+}

@@ -1,0 +1,24 @@
+#pragma once
+// How far a run is: a bar that redraws itself on a terminal, a line now and then elsewhere.
+
+#include <chrono>
+
+#include "cine.h"
+
+namespace echocine {
+
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet);
+  void show(const Progress& progress);  // from one thread at a time
+  void finish();                        // ends an open bar
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool quiet_, terminal_;
+  bool open_ = false;
+  Progress::Pass pass_ = Progress::Pass::measuring;
+  Clock::time_point pass_start_ = Clock::now(), last_shown_{};
+};
+
+}  // namespace echocine

@@ -1,0 +1,92 @@
+#include "cli/render_command.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <atomic>
+#include <charconv>
+#include <csignal>
+
+#include "cli/progress_line.h"
+#include "core/error.h"
+#include "motion/cardiac_clock.h"
+#include "scene/scene_reader.h"
+
+namespace echocine {
+
+namespace {
+
+std::atomic<bool> stop_wanted{false};
+
+void wantStop(int) { stop_wanted = true; }
+
+// "A:B", either end left out for the loop's own: ":10", "10:", "3:4".
+std::pair<int, int> parseRange(const std::string& text, int loop_frames) {
+  const std::size_t colon = text.find(':');
+  std::pair<int, int> range{0, loop_frames};
+  const auto read = [&](std::string_view part, int& value) {
+    if (part.empty()) return true;
+    const auto result = std::from_chars(part.data(), part.data() + part.size(), value);
+    return result.ec == std::errc() && result.ptr == part.data() + part.size();
+  };
+  const std::string_view view(text);
+  if (colon == std::string::npos || !read(view.substr(0, colon), range.first) ||
+      !read(view.substr(colon + 1), range.second))
+    throw SceneError(fmt::format(
+        "--frames: \"{}\" is not a range, accepted: A:B for the frames from A up to, without, B", text));
+  return range;
+}
+
+void printSummary(const RenderSummary& summary, const RenderOptions& options, const Scene& scene) {
+  const Manifest& m = summary.manifest;
+  fmt::print("{} frames in {}: {:.1f} frames/s on {} threads\n", summary.frames_done,
+             options.folder.string(), 1000 / m.wall_ms, options.threads > 0 ? std::to_string(options.threads) : "all");
+  std::string stages;
+  for (std::size_t s = 0; s < kStages; ++s)
+    stages += fmt::format("{}{} {:.2f}", s ? ", " : "", stageName(static_cast<Stage>(s)), m.stage_ms[s]);
+  fmt::print("  ms per frame and thread: {}\n", stages);
+  std::string parts;
+  const auto add = [&](const std::string& part) { parts += (parts.empty() ? "" : ", ") + part; };
+  if (scene.output.exr) add("intensity/frame_*.exr");
+  if (scene.output.cine) add("cine.avi");
+  if (scene.output.png) add("png/frame_*.png");
+  add("manifest.json");
+  fmt::print("  {}\n", parts);
+}
+
+}  // namespace
+
+RenderCommand::RenderCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "render", "Trace a scene's cine loop into EXR intensities and an AVI");
+  command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")->required();
+  command->add_option("-o,--output", options_.folder, "Folder for intensity/, cine.avi and manifest.json")
+      ->required();
+  command->add_option("--threads", options_.threads, "Threads; 0 for one per core")
+      ->check(CLI::Range(0, 4096));
+  command->add_option("--frames", frames_,
+                      "Only frames A up to, without, B of the loop, counted from 0 (A:B, A:, :B)");
+  command->add_flag("--resume", options_.resume,
+                    "Keep frames whose EXR is whole and of this very scene");
+  command->add_flag("--quiet", quiet_, "Print nothing but errors");
+}
+
+int RenderCommand::run() {
+  const Scene scene = readScene(scene_file_);
+  if (!frames_.empty()) options_.frames = parseRange(frames_, CardiacClock(scene.acquisition).frameCount());
+  std::signal(SIGINT, wantStop);
+  std::signal(SIGTERM, wantStop);
+  ProgressLine line(quiet_);
+  Monitor monitor;
+  monitor.tell = [&line](const Progress& progress) { line.show(progress); };
+  monitor.keep_going = [] { return !stop_wanted.load(); };
+  const RenderSummary summary = renderCine(scene, options_, monitor);
+  line.finish();
+  if (summary.frames_done < summary.frames_wanted)
+    throw JobError(fmt::format("stopped: {} of {} frames are finished in {}; --resume goes on from there",
+                               summary.frames_done, summary.frames_wanted, options_.folder.string()));
+  if (!quiet_) printSummary(summary, options_, scene);
+  return 0;
+}
+
+}  // namespace echocine

@@ -1,0 +1,26 @@
+#pragma once
+// echocine render SCENE.toml -o DIR
+
+#include <string>
+
+#include "cine.h"
+
+namespace CLI {
+class App;
+}
+
+namespace echocine {
+
+class RenderCommand {
+ public:
+  explicit RenderCommand(CLI::App& app);  // adds the sub-command
+  int run();                              // exit code
+
+ private:
+  std::string scene_file_;
+  std::string frames_;
+  bool quiet_ = false;
+  RenderOptions options_;
+};
+
+}  // namespace echocine

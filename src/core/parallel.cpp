@@ -1,0 +1,66 @@
+#include "core/parallel.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <utility>
+
+namespace echocine {
+
+namespace tbb = oneapi::tbb;
+
+void withThreads(int threads, const std::function<void()>& body) {
+  const int count = threads > 0 ? threads : tbb::info::default_concurrency();
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                            static_cast<std::size_t>(count));
+  tbb::task_arena arena(count);
+  arena.execute(body);
+}
+
+int threadCount() { return tbb::this_task_arena::max_concurrency(); }
+
+void isolated(const std::function<void()>& body) { tbb::this_task_arena::isolate(body); }
+
+void parallelBlocks(std::size_t count, std::size_t grain,
+                    const std::function<void(std::size_t, std::size_t)>& body) {
+  const std::size_t blocks = (count + grain - 1) / grain;
+  isolated([&] {
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      const std::size_t begin = block * grain;
+      body(begin, begin + grain < count ? begin + grain : count);
+    });
+  });
+}
+
+std::size_t parallelOrdered(std::size_t first, std::size_t last, std::size_t in_flight,
+                            const std::function<bool()>& keep_going,
+                            const std::function<std::shared_ptr<void>(std::size_t)>& work,
+                            const std::function<void(std::size_t, std::shared_ptr<void>)>& drain) {
+  using Item = std::pair<std::size_t, std::shared_ptr<void>>;
+  std::size_t next = first;
+  std::size_t drained = first;
+  tbb::parallel_pipeline(
+      in_flight,
+      tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order,
+                                          [&](tbb::flow_control& control) -> std::size_t {
+                                            if (next >= last || !keep_going()) {
+                                              control.stop();
+                                              return last;
+                                            }
+                                            return next++;
+                                          }) &
+          tbb::make_filter<std::size_t, Item>(
+              tbb::filter_mode::parallel,
+              [&](std::size_t i) -> Item { return {i, work(i)}; }) &
+          tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, [&](Item item) {
+            drain(item.first, std::move(item.second));
+            drained = item.first + 1;
+          }));
+  return drained;
+}
+
+}  // namespace echocine

@@ -1,0 +1,81 @@
+#pragma once
+// One frame from its phase to its pictures, with the memory that a frame needs while it is made.
+
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "geometry/frame_geometry.h"
+#include "motion/heart_motion.h"
+#include "output/manifest.h"
+#include "signal/signal_chain.h"
+#include "trace/trace_frame.h"
+
+namespace echocine {
+
+// Time spent in each stage, summed over threads.
+class StageClock {
+ public:
+  template <typename F>
+  auto time(Stage stage, F&& work) {
+    const Timer timer(ns_[static_cast<std::size_t>(stage)]);
+    return work();
+  }
+  std::array<double, kStages> milliseconds() const;
+
+ private:
+  struct Timer {
+    explicit Timer(std::atomic<std::int64_t>& ns) : sum(ns) {}
+    ~Timer() { sum += (std::chrono::steady_clock::now() - start).count(); }
+    std::atomic<std::int64_t>& sum;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  };
+  std::array<std::atomic<std::int64_t>, kStages> ns_{};
+};
+
+// Surfaces and hierarchy of one frame in the making; there are as many as frames in flight.
+struct Workspace {
+  explicit Workspace(const HeartMotion& motion) : geometry(motion.surfaces()) {}
+  SurfaceFrame surfaces;
+  FrameGeometry geometry;
+  PolarFrame polar;
+  std::vector<float> scratch;
+};
+
+class FrameMaker {
+ public:
+  FrameMaker(const Scene& scene, const EffectPlan& plan, const HeartMotion& motion);
+
+  // Borrows a workspace until the pointer dies; made on first use and used again.
+  std::shared_ptr<Workspace> workspace();
+
+  // motion -> geometry -> trace -> time gain and beam width: fills workspace.polar. Returns the volumes.
+  Volumes trace(double phase, Workspace& workspace);
+
+  // log compression -> scan conversion: workspace.polar.signal becomes grey.
+  GreyImage picture(double reference_intensity, Workspace& workspace, bool wanted);
+
+  const SignalChain& chain() const { return chain_; }
+  StageClock& clock() { return clock_; }
+  WorkCounts work() const;
+  std::vector<KeyframeVolume> keyframeVolumes() const;
+
+ private:
+  Volumes volumes(const SurfaceFrame& surfaces) const;
+
+  const Scene& scene_;
+  const HeartMotion& motion_;
+  SignalChain chain_;
+  TraceSettings settings_;
+  PlaneRequest request_;
+  StageClock clock_;
+  mutable std::mutex mutex_;
+  std::vector<std::unique_ptr<Workspace>> free_;
+  WorkCounts work_;
+};
+
+}  // namespace echocine

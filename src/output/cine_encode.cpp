@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/check.h"
+#include "output/cine_writer.h"
+#include "output/ffv1_encoder.h"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavutil/opt.h>
+}
+
+namespace echocine {
+namespace {
+
+struct FrameFree {
+  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+};
+struct PacketFree {
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+};
+
+void checkSize(const GreyImage& image) {
+  CHECK_LT(0, image.width);
+  CHECK_LT(0, image.height);
+  CHECK_EQ(image.pixels.size(),
+           static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+}
+
+std::vector<std::byte> asBytes(const std::uint8_t* data, std::size_t size) {
+  const auto* bytes = reinterpret_cast<const std::byte*>(data);
+  return {bytes, bytes + size};
+}
+
+std::vector<std::byte> encodeByOpenCv(const GreyImage& image, const char* format,
+                                      const std::vector<int>& settings) {
+  // cv::Mat has no view of constant data; imencode only reads.
+  const cv::Mat view(image.height, image.width, CV_8UC1,
+                     const_cast<std::uint8_t*>(image.pixels.data()));
+  std::vector<std::uint8_t> encoded;
+  try {
+    if (!cv::imencode(format, view, encoded, settings))
+      throw JobError(fmt::format("a frame cannot be encoded as {}", format));
+  } catch (const cv::Exception& error) {
+    throw JobError(fmt::format("a frame cannot be encoded as {}: {}", format, error.err));
+  }
+  return asBytes(encoded.data(), encoded.size());
+}
+
+std::vector<std::byte> encodeFfv1(const GreyImage& image) {
+  // A new encoder costs four frames' time (it clears 150 bytes of scratch memory per pixel), so
+  // each thread keeps its last one. Key frames share nothing: the bytes are those of a new encoder.
+  thread_local CodecContext codec;
+  if (!codec || codec->width != image.width || codec->height != image.height)
+    codec = openFfv1(image.width, image.height);
+  const std::unique_ptr<AVFrame, FrameFree> frame(av_frame_alloc());
+  const std::unique_ptr<AVPacket, PacketFree> packet(av_packet_alloc());
+  if (!frame || !packet) throw std::bad_alloc();
+  frame->format = AV_PIX_FMT_GRAY8;
+  frame->width = image.width;
+  frame->height = image.height;
+  // Without a reference-counted buffer the encoder copies the pixels.
+  frame->data[0] = const_cast<std::uint8_t*>(image.pixels.data());
+  frame->linesize[0] = image.width;
+  frame->pts = 0;
+  if (avcodec_send_frame(codec.get(), frame.get()) < 0 ||
+      avcodec_receive_packet(codec.get(), packet.get()) < 0)
+    throw JobError("a frame cannot be encoded as FFV1");
+  return asBytes(packet->data, static_cast<std::size_t>(packet->size));
+}
+
+}  // namespace
+
+void silenceLibav() {
+  [[maybe_unused]] static const bool done = [] {
+    av_log_set_level(AV_LOG_QUIET);
+    return true;
+  }();
+}
+
+void CodecContextFree::operator()(AVCodecContext* context) const {
+  avcodec_free_context(&context);
+}
+
+CodecContext openFfv1(int width, int height) {
+  silenceLibav();
+  const AVCodec* codec = avcodec_find_encoder(AV_CODEC_ID_FFV1);
+  if (codec == nullptr)
+    throw JobError("cine codec ffv1: the installed libavcodec has no FFV1 encoder, use mjpg");
+  CodecContext context(avcodec_alloc_context3(codec));
+  if (!context) throw std::bad_alloc();
+  context->width = width;
+  context->height = height;
+  context->pix_fmt = AV_PIX_FMT_GRAY8;
+  context->time_base = {1, 1};  // of no effect on the bytes
+  context->gop_size = 1;        // key frames only
+  context->level = 3;           // the version that RFC 9043 standardises, with a checksum per slice
+  context->thread_count = 1;    // frames are encoded in parallel already
+  context->flags |= AV_CODEC_FLAG_BITEXACT;
+  // The range coder takes a tenth longer than Golomb codes and a third off a smooth picture.
+  av_opt_set(context->priv_data, "coder", "range_def", 0);
+  if (avcodec_open2(context.get(), codec, nullptr) < 0)
+    throw JobError(fmt::format("cine codec ffv1: {} x {} pixels are not accepted", width, height));
+  return context;
+}
+
+std::vector<std::byte> encodeCineFrame(const GreyImage& image, CineCodec codec, int jpeg_quality) {
+  checkSize(image);
+  if (codec == CineCodec::ffv1) return encodeFfv1(image);
+  return encodeByOpenCv(image, ".jpg", {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
+}
+
+std::vector<std::byte> encodePng(const GreyImage& image) {
+  checkSize(image);
+  return encodeByOpenCv(image, ".png", {});
+}
+
+}  // namespace echocine

@@ -1,0 +1,129 @@
+// Resuming: is a file that an earlier run left behind the very one this run would write?
+
+#include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfIntAttribute.h>
+#include <ImfStringAttribute.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/hash.h"
+#include "output/exr_stack.h"
+#include "output/polar_plane.h"
+
+namespace echocine {
+namespace {
+
+enum class Found { nothing, another_scene, this_frame };
+
+template <typename Attribute, typename Value>
+bool holds(const Imf::Header& header, const char* name, const Value& value) {
+  const auto* attribute = header.findTypedAttribute<Attribute>(name);
+  return attribute != nullptr && attribute->value() == value;
+}
+
+bool hasSize(const Imf::Header& header, const Probe& probe) {
+  return header.dataWindow() == Imath::Box2i({0, 0}, {probe.lines - 1, probe.samples - 1});
+}
+
+bool hasChannels(const Imf::Header& header, const std::vector<Channel>& wanted) {
+  std::set<std::string> names;
+  for (const Channel channel : wanted) names.insert(channelName(channel));
+  std::set<std::string> found;
+  for (auto it = header.channels().begin(); it != header.channels().end(); ++it)
+    found.insert(it.name());
+  return names == found;
+}
+
+// One row of one channel.
+struct ChannelRow {
+  bool is_float = true;
+  std::vector<float> values;  // of an integer channel: its bit patterns
+};
+
+// A frame buffer that puts every row of the file into the same memory; empty rows when the layout
+// is none that ExrStack writes.
+Imf::FrameBuffer rowBuffer(const Imf::Header& header, std::vector<ChannelRow>& rows) {
+  const Imath::Box2i window = header.dataWindow();
+  Imf::FrameBuffer buffer;
+  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+    const Imf::Channel& channel = it.channel();
+    if (window.min != Imath::V2i(0, 0) || channel.type == Imf::HALF || channel.xSampling != 1 ||
+        channel.ySampling != 1) {
+      rows.clear();
+      return {};
+    }
+    rows.push_back({channel.type == Imf::FLOAT,
+                    std::vector<float>(static_cast<std::size_t>(window.max.x) + 1)});
+    const std::size_t row_stride = 0;
+    buffer.insert(it.name(),
+                  Imf::Slice(channel.type, reinterpret_cast<char*>(rows.back().values.data()),
+                             sizeof(float), row_stride));
+  }
+  return buffer;
+}
+
+// Reads every pixel; an unreadable one throws. False when the layout or a value is none that
+// ExrStack writes, which only damage can explain.
+bool pixelsAreWhole(Imf::InputFile& file) {
+  std::vector<ChannelRow> rows;
+  const Imf::FrameBuffer buffer = rowBuffer(file.header(), rows);
+  if (rows.empty()) return false;
+  file.setFrameBuffer(buffer);
+  for (int y = 0; y <= file.header().dataWindow().max.y; ++y) {
+    file.readPixels(y);
+    for (const ChannelRow& row : rows)
+      if (row.is_float && firstUnusable(row.values)) return false;
+  }
+  return true;
+}
+
+// Whether a header is what ExrStack::write gives this frame, the scene apart.
+bool isThisFrame(const Imf::Header& header, const FrameRecord& record, const Scene& scene,
+                 double reference_intensity) {
+  return hasSize(header, scene.probe) && hasChannels(header, scene.output.channels) &&
+         holds<Imf::IntAttribute>(header, "echocine:frame", record.frame) &&
+         holds<Imf::DoubleAttribute>(header, "echocine:reference_intensity", reference_intensity) &&
+         holds<Imf::StringAttribute>(header, "echocine:version", std::string(ECHOCINE_VERSION));
+}
+
+Found look(const std::filesystem::path& path, const FrameRecord& record, const Scene& scene,
+           const std::string& scene_sha256, double reference_intensity) {
+  try {
+    Imf::InputFile file(path.c_str(), 0);
+    const Imf::Header& header = file.header();
+    if (!file.isComplete()) return Found::nothing;
+    const bool same_scene =
+        holds<Imf::StringAttribute>(header, "echocine:scene_sha256", scene_sha256);
+    if (same_scene && !isThisFrame(header, record, scene, reference_intensity))
+      return Found::nothing;
+    if (!pixelsAreWhole(file)) return Found::nothing;
+    return same_scene ? Found::this_frame : Found::another_scene;
+  } catch (const std::exception&) {  // absent, cut short, or no OpenEXR file at all
+    return Found::nothing;
+  }
+}
+
+}  // namespace
+
+std::string ExrStack::existing(const FrameRecord& record) const {
+  const std::filesystem::path path = folder_ / fileName(record.frame);
+  switch (look(path, record, scene_, scene_sha256_, reference_intensity_)) {
+    case Found::this_frame:
+      return sha256HexOfFile(path);
+    case Found::another_scene:
+      throw SceneError(fmt::format(
+          "{}: belongs to another scene: choose another folder or render without --resume",
+          path.string()));
+    case Found::nothing:
+      break;
+  }
+  return {};
+}
+
+}  // namespace echocine

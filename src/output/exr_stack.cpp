@@ -1,0 +1,197 @@
+#include "output/exr_stack.h"
+
+#include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfIntAttribute.h>
+#include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
+#include <ImfThreading.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/check.h"
+#include "core/file.h"
+#include "core/hash.h"
+#include "output/cine_writer.h"
+#include "output/polar_plane.h"
+
+namespace echocine {
+namespace {
+
+// Collects a file in memory, so that it is hashed and written in one piece.
+class MemoryOutput : public Imf::OStream {
+ public:
+  MemoryOutput(const std::string& name, std::size_t expected_size) : OStream(name.c_str()) {
+    bytes_.reserve(expected_size);
+  }
+
+  void write(const char data[], int size) override {
+    const auto* from = reinterpret_cast<const std::byte*>(data);
+    // The library goes back once, to fill in the table of line offsets.
+    const std::size_t over = std::min(bytes_.size() - position_, static_cast<std::size_t>(size));
+    if (over > 0) std::memcpy(bytes_.data() + position_, from, over);
+    bytes_.insert(bytes_.end(), from + over, from + size);
+    position_ += static_cast<std::size_t>(size);
+  }
+  std::uint64_t tellp() override { return position_; }
+  void seekp(std::uint64_t position) override {
+    CHECK_LE(position, bytes_.size());
+    position_ = position;
+  }
+
+  const std::vector<std::byte>& bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+  std::size_t position_ = 0;
+};
+
+// As many as a scene may ask for.
+constexpr int kMostLines = 1 << 16, kMostSamples = 1 << 16;
+
+Imf::Compression compressionOf(ExrCompression compression) {
+  switch (compression) {
+    case ExrCompression::rle:
+      return Imf::RLE_COMPRESSION;
+    case ExrCompression::zips:
+      return Imf::ZIPS_COMPRESSION;
+    case ExrCompression::zip:
+      return Imf::ZIP_COMPRESSION;
+    case ExrCompression::piz:
+      return Imf::PIZ_COMPRESSION;
+    case ExrCompression::none:
+      break;
+  }
+  return Imf::NO_COMPRESSION;
+}
+
+const char* kindName(ProbeKind kind) {
+  switch (kind) {
+    case ProbeKind::curvilinear:
+      return "curvilinear";
+    case ProbeKind::linear:
+      return "linear";
+    case ProbeKind::phased:
+      break;
+  }
+  return "phased";
+}
+
+std::string probeJson(const Probe& probe) {
+  const auto triple = [](Vec3d v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
+  nlohmann::ordered_json json;
+  json["kind"] = kindName(probe.kind);
+  json["apex_m"] = triple(probe.pose.origin);
+  json["lateral"] = triple(probe.pose.x_axis);
+  json["elevation"] = triple(probe.pose.y_axis);
+  json["depth"] = triple(probe.pose.z_axis);
+  json["first_angle_rad"] = probe.first_angle_rad;
+  json["last_angle_rad"] = probe.last_angle_rad;
+  json["face_radius_m"] = probe.face_radius_m;
+  json["first_offset_m"] = probe.first_offset_m;
+  json["last_offset_m"] = probe.last_offset_m;
+  json["min_depth_m"] = probe.min_depth_m;
+  json["max_depth_m"] = probe.max_depth_m;
+  return json.dump();
+}
+
+// Refused here, a bad value names its place; in the file it would only spoil whatever reads it.
+void refuseUnusable(const FrameRecord& record, const ChannelPlane& plane, int samples) {
+  const std::optional<std::size_t> bad = firstUnusable(plane.values);
+  if (!bad) return;
+  const auto per_line = static_cast<std::size_t>(samples);
+  throw JobError(fmt::format(
+      "frame {}, line {}, sample {}: channel {} is {}: only finite values from 0 up are accepted",
+      record.frame, *bad / per_line, *bad % per_line, channelName(plane.channel),
+      plane.values[*bad]));
+}
+
+// Stores the planes as channels of the header and of the frame buffer; image takes the pixels.
+Imf::FrameBuffer layOut(const std::vector<ChannelPlane>& planes, const Probe& probe,
+                        std::uint32_t* image, Imf::Header& header) {
+  const auto lines = static_cast<std::size_t>(probe.lines);
+  const auto samples = static_cast<std::size_t>(probe.samples);
+  Imf::FrameBuffer buffer;
+  for (const ChannelPlane& plane : planes) {
+    const bool ids = plane.channel == Channel::medium;
+    if (ids)
+      rowsFromLines(plane.ids, lines, samples, image);
+    else
+      rowsFromLines(plane.values, lines, samples, image);
+    const Imf::PixelType type = ids ? Imf::UINT : Imf::FLOAT;
+    header.channels().insert(channelName(plane.channel), Imf::Channel(type));
+    buffer.insert(channelName(plane.channel),
+                  Imf::Slice(type, reinterpret_cast<char*>(image), sizeof(std::uint32_t),
+                             lines * sizeof(std::uint32_t)));
+    image += lines * samples;
+  }
+  return buffer;
+}
+
+}  // namespace
+
+ExrStack::ExrStack(std::filesystem::path folder, const Scene& scene, std::string scene_sha256,
+                   double reference_intensity)
+    : folder_(std::move(folder)),
+      scene_(scene),
+      scene_sha256_(std::move(scene_sha256)),
+      reference_intensity_(reference_intensity),
+      probe_json_(probeJson(scene.probe)) {
+  // Frames are encoded in parallel; threads of the library's own would only compete with them.
+  Imf::setGlobalThreadCount(0);
+  // A damaged header met on resuming must not make the library ask for gigabytes.
+  Imf::Header::setMaxImageSize(kMostLines, kMostSamples);
+}
+
+std::string ExrStack::fileName(int frame) {
+  return fmt::format("frame_{:04}.exr", frame);
+}
+
+std::string ExrStack::write(const FrameRecord& record,
+                            const std::vector<ChannelPlane>& planes) const {
+  const Probe& probe = scene_.probe;
+  for (const ChannelPlane& plane : planes) refuseUnusable(record, plane, probe.samples);
+
+  Imf::Header header(probe.lines, probe.samples, 1.0f, Imath::V2f(0, 0), 1.0f, Imf::INCREASING_Y,
+                     compressionOf(scene_.output.exr_compression));
+  const Rational rate = rationalFrameRate(scene_.acquisition.frame_rate_hz);
+  Imf::addFramesPerSecond(header,
+                          Imf::Rational(rate.numerator, static_cast<unsigned>(rate.denominator)));
+  header.insert("echocine:time_s", Imf::DoubleAttribute(record.time_s));
+  header.insert("echocine:phase", Imf::DoubleAttribute(record.phase));
+  header.insert("echocine:frame", Imf::IntAttribute(record.frame));
+  header.insert("echocine:probe", Imf::StringAttribute(probe_json_));
+  header.insert("echocine:frequency_hz", Imf::DoubleAttribute(probe.frequency_hz));
+  header.insert("echocine:scene_sha256", Imf::StringAttribute(scene_sha256_));
+  header.insert("echocine:reference_intensity", Imf::DoubleAttribute(reference_intensity_));
+  header.insert("echocine:version", Imf::StringAttribute(ECHOCINE_VERSION));
+
+  const std::filesystem::path path = folder_ / fileName(record.frame);
+  const std::size_t pixels =
+      static_cast<std::size_t>(probe.lines) * static_cast<std::size_t>(probe.samples);
+  const auto image = std::make_unique_for_overwrite<std::uint32_t[]>(planes.size() * pixels);
+  const Imf::FrameBuffer buffer = layOut(planes, probe, image.get(), header);
+
+  // Per sample row: its place in the table of offsets, its number and its size, 16 bytes together.
+  const std::size_t around = 4096 + 16 * static_cast<std::size_t>(probe.samples);
+  MemoryOutput stream(path.string(), planes.size() * pixels * sizeof(std::uint32_t) + around);
+  try {
+    Imf::OutputFile file(stream, header, 0);
+    file.setFrameBuffer(buffer);
+    file.writePixels(probe.samples);
+  } catch (const std::exception& error) {
+    throw JobError(fmt::format("{}: cannot be encoded: {}", path.string(), error.what()));
+  }
+  writeFileWhole(path, stream.bytes());
+  return sha256Hex(stream.bytes());
+}
+
+}  // namespace echocine

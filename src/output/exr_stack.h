@@ -1,0 +1,39 @@
+#pragma once
+// The intensity stack: one OpenEXR file per frame in beam space, x = scan line, y = sample.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "output/frame_record.h"
+
+namespace echocine {
+
+class ExrStack {
+ public:
+  // Files go to `folder`/frame_0000.exr and so on. scene_sha256 and reference_intensity go into
+  // every header. Precondition: the scene outlives the stack.
+  ExrStack(std::filesystem::path folder, const Scene& scene, std::string scene_sha256,
+           double reference_intensity);
+
+  // Encodes in memory, writes beside and renames. Returns the SHA-256 of the file. Thread-safe.
+  // Throws JobError: a value is negative or not finite (names frame, line and sample), or the file
+  // cannot be written.
+  std::string write(const FrameRecord& record, const std::vector<ChannelPlane>& planes) const;
+
+  // The SHA-256 of an existing whole file of this very scene and frame, or empty when there is
+  // none: absent, truncated, of another size, frame, channel list, reference or program version.
+  // Thread-safe. Throws SceneError when the file is whole but belongs to another scene.
+  std::string existing(const FrameRecord& record) const;
+
+  static std::string fileName(int frame);  // "frame_0000.exr"
+
+ private:
+  std::filesystem::path folder_;
+  const Scene& scene_;
+  std::string scene_sha256_;
+  double reference_intensity_;
+  std::string probe_json_;
+};
+
+}  // namespace echocine

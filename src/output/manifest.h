@@ -1,0 +1,51 @@
+#pragma once
+// manifest.json: what a finished run was made of and what it consists of.
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/work_counts.h"
+#include "output/frame_record.h"
+#include "scene/effect_plan.h"
+
+namespace echocine {
+
+// Closed structures' volumes in the order of the scene; membranes are left out.
+using Volumes = std::vector<std::pair<std::string, double>>;  // mL
+
+struct FrameEntry {
+  FrameRecord record;
+  Volumes volumes_ml;
+  std::string exr_sha256;  // empty without an intensity stack
+};
+
+struct KeyframeVolume {
+  std::string structure;
+  double phase = 0, volume_ml = 0;
+};
+
+// The stages that are timed, in the manifest's order.
+enum class Stage { motion, geometry, trace, signal, scan_conversion, exr, avi };
+inline constexpr std::size_t kStages = 7;
+const char* stageName(Stage stage);
+
+struct Manifest {
+  std::string scene_sha256;
+  EffectPlan plan;
+  double reference_intensity = 1;
+  int loop_frames = 0;
+  std::vector<FrameEntry> frames;
+  std::vector<KeyframeVolume> keyframes;
+  std::array<double, kStages> stage_ms{};  // per frame, summed over threads
+  double wall_ms = 0;                      // per frame
+  WorkCounts work;                          // of the whole run
+  std::map<std::string, std::string> files;  // path relative to the folder -> SHA-256
+};
+
+// Throws JobError.
+void writeManifest(const std::filesystem::path& path, const Scene& scene, const Manifest& manifest);
+
+}  // namespace echocine

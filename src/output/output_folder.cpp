@@ -1,0 +1,92 @@
+#include "output/output_folder.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+#include "core/file.h"
+
+namespace echocine {
+namespace {
+
+namespace fs = std::filesystem;
+
+void makeFolder(const fs::path& folder) {
+  std::error_code failed;
+  if (fs::exists(folder, failed) && !fs::is_directory(folder, failed))
+    throw JobError(fmt::format("{}: is a file, a folder is needed", folder.string()));
+  fs::create_directories(folder, failed);
+  if (failed)
+    throw JobError(
+        fmt::format("{}: cannot be made a folder: {}", folder.string(), failed.message()));
+}
+
+void removeFile(const fs::path& path) {
+  std::error_code failed;
+  fs::remove(path, failed);
+  if (failed)
+    throw JobError(fmt::format("{}: cannot be removed: {}", path.string(), failed.message()));
+}
+
+// Permissions do not tell (full disks, read-only mounts, a superuser), so a file is tried.
+void tryWriting(const fs::path& folder) {
+  const fs::path trial = folder / "write_test.part";
+  writeFileWhole(trial, std::as_bytes(std::span(std::string_view("echocine"))));
+  removeFile(trial);
+}
+
+// The number in "frame_0012.exr" for the ending ".exr"; nothing for any other name.
+std::optional<int> frameNumber(std::string_view name, std::string_view ending) {
+  constexpr std::string_view kStem = "frame_";
+  if (!name.starts_with(kStem) || !name.ends_with(ending)) return std::nullopt;
+  if (name.size() <= kStem.size() + ending.size()) return std::nullopt;
+  name.remove_prefix(kStem.size());
+  name.remove_suffix(ending.size());
+  int number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error != std::errc{} || end != name.data() + name.size() || number < 0) return std::nullopt;
+  return number;
+}
+
+// Deletes numbered frames from `first` on, and their half-written forms whatever the number.
+void removeFrames(const fs::path& folder, const std::string& ending, int first) {
+  std::vector<fs::path> stale;
+  std::error_code absent;
+  for (fs::directory_iterator it(folder, absent), end; it != end; it.increment(absent)) {
+    const std::string name = it->path().filename().string();
+    const std::optional<int> number = frameNumber(name, ending);
+    if ((number && *number >= first) || frameNumber(name, ending + ".part"))
+      stale.push_back(it->path());
+  }
+  for (const fs::path& path : stale) removeFile(path);
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(fs::path folder, const OutputSettings& settings, bool resume)
+    : folder_(std::move(folder)), resume_(resume) {
+  makeFolder(folder_);
+  tryWriting(folder_);
+  for (const auto& [wanted, subfolder] :
+       {std::pair(settings.exr, intensity()), {settings.png, png()}}) {
+    if (!wanted) continue;
+    makeFolder(subfolder);
+    tryWriting(subfolder);
+  }
+  removeFile(manifest());
+}
+
+void OutputFolder::removeStale(int frame_count) const {
+  const int first = resume_ ? frame_count : 0;
+  removeFrames(intensity(), ".exr", first);
+  removeFrames(png(), ".png", first);
+  if (!resume_) removeFile(cine());
+  removeFile(cine().string() + ".part");
+  removeFile(manifest().string() + ".part");
+}
+
+}  // namespace echocine

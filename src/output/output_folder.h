@@ -1,0 +1,32 @@
+#pragma once
+// The folder of a run: made, found writable, and rid of what earlier runs left.
+
+#include <filesystem>
+
+#include "scene/scene.h"
+
+namespace echocine {
+
+class OutputFolder {
+ public:
+  // Makes `folder` and, as far as the settings ask for them, its intensity/ and png/. Removes an
+  // earlier manifest.json at once: a folder without one is an unfinished run. Throws JobError when
+  // the path is a file or nothing can be written there.
+  OutputFolder(std::filesystem::path folder, const OutputSettings& settings, bool resume);
+
+  // Deletes leftovers of earlier runs. On resuming: frames past the loop's end and half-written
+  // files. Otherwise every frame and the cine too, for a run that ends early must not leave a mix
+  // of two. Files with names of other kinds are never touched. Throws JobError.
+  void removeStale(int frame_count) const;
+
+  std::filesystem::path intensity() const { return folder_ / "intensity"; }
+  std::filesystem::path png() const { return folder_ / "png"; }
+  std::filesystem::path cine() const { return folder_ / "cine.avi"; }
+  std::filesystem::path manifest() const { return folder_ / "manifest.json"; }
+
+ private:
+  std::filesystem::path folder_;
+  bool resume_;
+};
+
+}  // namespace echocine

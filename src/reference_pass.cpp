@@ -1,0 +1,51 @@
+#include "reference_pass.h"
+
+#include "core/parallel.h"
+#include "signal/reference.h"
+
+namespace echocine {
+
+namespace {
+
+// Our choice: loops of a beat are kept whole at usual sizes, and long ones stay bounded.
+constexpr std::size_t kKeptBytes = 128u << 20;
+
+std::size_t bytesOf(const PolarFrame& polar) {
+  std::size_t planes = polar.planes.size() + (polar.signal.empty() ? 0 : 1) + (polar.medium.empty() ? 0 : 1);
+  return planes * sizeof(float) * static_cast<std::size_t>(polar.lines) *
+         static_cast<std::size_t>(polar.samples);
+}
+
+}  // namespace
+
+std::optional<double> findReference(const Scene& scene, FrameMaker& maker, const CardiacClock& clock,
+                                    const Monitor& monitor, KeptFrames& kept) {
+  const bool compresses = scene.output.cine || scene.output.png || wants(scene, Channel::display);
+  if (scene.signal.reference_intensity) return scene.signal.reference_intensity;
+  if (!compresses) return 1;
+  IntensityHistogram histogram(scene.probe);
+  const int frames = clock.frameCount();
+  std::size_t kept_bytes = 0;
+  const std::size_t done = parallelOrdered(
+      0, static_cast<std::size_t>(frames), 2 * static_cast<std::size_t>(threadCount()),
+      monitor.keep_going,
+      [&](std::size_t i) -> std::shared_ptr<void> {
+        auto frame = std::make_shared<KeptFrame>();
+        const std::shared_ptr<Workspace> workspace = maker.workspace();
+        frame->volumes_ml = maker.trace(clock.at(static_cast<int>(i)).phase, *workspace);
+        maker.clock().time(Stage::signal, [&] { histogram.add(workspace->polar.signal); });
+        frame->polar = std::move(workspace->polar);
+        workspace->polar = {};
+        return frame;
+      },
+      [&](std::size_t i, std::shared_ptr<void> result) {
+        auto& frame = *static_cast<KeptFrame*>(result.get());
+        kept_bytes += bytesOf(frame.polar);
+        if (kept_bytes <= kKeptBytes) kept.emplace(static_cast<int>(i), std::move(frame));
+        monitor.tell({Progress::Pass::measuring, static_cast<int>(i) + 1, frames});
+      });
+  if (done < static_cast<std::size_t>(frames)) return std::nullopt;
+  return histogram.percentile(scene.signal.reference_percentile);
+}
+
+}  // namespace echocine

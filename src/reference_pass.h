@@ -1,0 +1,26 @@
+#pragma once
+// The first pass of a loop: its one reference for log compression.
+
+#include <map>
+#include <optional>
+
+#include "cine.h"
+#include "frame_maker.h"
+#include "motion/cardiac_clock.h"
+
+namespace echocine {
+
+// Frames that were traced while the reference was sought and need not be traced again.
+struct KeptFrame {
+  PolarFrame polar;
+  Volumes volumes_ml;
+};
+using KeptFrames = std::map<int, KeptFrame>;
+
+// The scene's absolute reference at once, or the percentile over all frames of the loop, whichever of them are
+// rendered, so that parts of a loop show the same grey as the whole. The first frames are kept, as many
+// as a fixed amount of memory holds. Nothing when the monitor stops the run.
+std::optional<double> findReference(const Scene& scene, FrameMaker& maker, const CardiacClock& clock,
+                                    const Monitor& monitor, KeptFrames& kept);
+
+}  // namespace echocine

@@ -1,0 +1,143 @@
+#include "render_pass.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/file.h"
+#include "core/hash.h"
+#include "core/parallel.h"
+#include "motion/ecg.h"
+#include "scene/scene_json.h"
+
+namespace echocine {
+
+namespace {
+
+std::string frameName(int frame, const char* extension) {
+  return std::filesystem::path(ExrStack::fileName(frame)).replace_extension(extension).string();
+}
+
+// The lead over the whole loop, finer than a picture is wide.
+std::vector<double> loopEcg(const Scene& scene, int frames) {
+  constexpr int kPoints = 4096;
+  const double loop_s = frames / scene.acquisition.frame_rate_hz;
+  std::vector<double> lead;
+  for (int i = 0; i < kPoints; ++i) {
+    const double beats = loop_s * i / (kPoints - 1) * scene.acquisition.heart_rate_hz;
+    lead.push_back(ecgAmplitude(beats - std::floor(beats)));
+  }
+  return lead;
+}
+
+}  // namespace
+
+std::string sceneSha256(const Scene& scene, const HeartMotion& motion) {
+  Sha256 hash;
+  hash.update(ECHOCINE_VERSION);
+  hash.update(sceneJson(scene).dump());
+  hash.update(mediaJson(scene).dump());
+  hash.update(motion.inputSha256());
+  return hash.hex();
+}
+
+RenderPass::RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept)
+    : parts_(parts),
+      manifest_(manifest),
+      kept_(kept),
+      exr_(parts.folder.intensity(), parts.scene, manifest.scene_sha256, manifest.reference_intensity),
+      overlay_(parts.scene, parts.maker.chain().geometry(),
+               parts.scene.output.ecg ? loopEcg(parts.scene, parts.clock.frameCount())
+                                      : std::vector<double>{}),
+      cine_(parts.folder.cine(), parts.scene.output, parts.scene.acquisition.frame_rate_hz) {}
+
+Volumes RenderPass::tracedFrame(const FrameRecord& record, Workspace& workspace) {
+  {
+    const std::lock_guard lock(kept_mutex_);
+    if (const auto found = kept_.find(record.frame); found != kept_.end()) {
+      workspace.polar = std::move(found->second.polar);
+      Volumes volumes_ml = std::move(found->second.volumes_ml);
+      kept_.erase(found);
+      return volumes_ml;
+    }
+  }
+  return parts_.maker.trace(record.phase, workspace);
+}
+
+void RenderPass::writeExr(const FrameRecord& record, const PolarFrame& polar, Finished& finished) {
+  if (!parts_.scene.output.exr || !finished.entry.exr_sha256.empty()) return;
+  std::vector<ChannelPlane> planes;
+  for (const Channel channel : parts_.scene.output.channels) {
+    if (channel == Channel::medium)
+      planes.push_back({channel, {}, polar.medium});
+    else if (channel == Channel::display)
+      planes.push_back({channel, polar.signal, {}});
+    else
+      planes.push_back({channel, polar.planes.at(channel), {}});
+  }
+  finished.entry.exr_sha256 = exr_.write(record, planes);
+}
+
+void RenderPass::writePictures(GreyImage& image, Finished& finished) {
+  const OutputSettings& o = parts_.scene.output;
+  const int frame = finished.entry.record.frame;
+  overlay_.draw(image, static_cast<double>(frame) / parts_.clock.frameCount());
+  if (o.cine) finished.cine_frame = encodeCineFrame(image, o.codec, o.jpeg_quality);
+  if (!o.png) return;
+  const std::vector<std::byte> png = encodePng(image);
+  writeFileWhole(parts_.folder.png() / frameName(frame, ".png"), png);
+  finished.png_sha256 = sha256Hex(png);
+}
+
+std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
+  const FrameTime time = parts_.clock.at(frame);
+  auto finished = std::make_shared<Finished>();
+  finished->entry.record = {frame, time.time_s, time.phase};
+  const FrameRecord& record = finished->entry.record;
+  StageClock& clock = parts_.maker.clock();
+  const OutputSettings& o = parts_.scene.output;
+  if (parts_.resume && o.exr)
+    finished->entry.exr_sha256 = clock.time(Stage::exr, [&] { return exr_.existing(record); });
+
+  const std::shared_ptr<Workspace> workspace = parts_.maker.workspace();
+  finished->entry.volumes_ml = tracedFrame(record, *workspace);
+  GreyImage image =
+      parts_.maker.picture(manifest_.reference_intensity, *workspace, o.cine || o.png);
+  clock.time(Stage::exr, [&] { writeExr(record, workspace->polar, *finished); });
+  if (o.cine || o.png) clock.time(Stage::avi, [&] { writePictures(image, *finished); });
+  return finished;
+}
+
+// One at a time, in the order of the frames.
+void RenderPass::drain(Finished& finished) {
+  if (parts_.scene.output.cine)
+    parts_.maker.clock().time(Stage::avi, [&] { cine_.add(finished.cine_frame); });
+  const FrameEntry& entry = finished.entry;
+  const int frame = entry.record.frame;
+  if (!entry.exr_sha256.empty())
+    manifest_.files["intensity/" + ExrStack::fileName(frame)] = entry.exr_sha256;
+  if (!finished.png_sha256.empty())
+    manifest_.files["png/" + frameName(frame, ".png")] = finished.png_sha256;
+  manifest_.frames.push_back(entry);
+}
+
+int RenderPass::run(int first, int last) {
+  parts_.folder.removeStale(parts_.clock.frameCount());
+  const auto finish = [&] {
+    if (!parts_.scene.output.cine || manifest_.frames.empty()) return;
+    parts_.maker.clock().time(Stage::avi, [&] { cine_.finish(); });
+    manifest_.files["cine.avi"] = sha256HexOfFile(parts_.folder.cine());
+  };
+  const std::size_t done = parallelOrdered(
+      static_cast<std::size_t>(first), static_cast<std::size_t>(last),
+      2 * static_cast<std::size_t>(threadCount()), parts_.monitor.keep_going,
+      [&](std::size_t i) { return make(static_cast<int>(i)); },
+      [&](std::size_t i, std::shared_ptr<void> result) {
+        drain(*static_cast<Finished*>(result.get()));
+        parts_.monitor.tell(
+            {Progress::Pass::rendering, static_cast<int>(i) + 1 - first, last - first});
+      });
+  finish();
+  return static_cast<int>(done) - first;
+}
+
+}  // namespace echocine

@@ -1,0 +1,60 @@
+#pragma once
+// The second pass of a loop: every frame to its files.
+
+#include <memory>
+#include <string>
+
+#include "cine.h"
+#include "frame_maker.h"
+#include "motion/cardiac_clock.h"
+#include "output/cine_writer.h"
+#include "output/exr_stack.h"
+#include "output/output_folder.h"
+#include "output/overlay.h"
+#include "reference_pass.h"
+
+namespace echocine {
+
+// SHA-256 over the resolved scene, its media, its meshes and the program's version: equal for two runs that must
+// give the same files.
+std::string sceneSha256(const Scene& scene, const HeartMotion& motion);
+
+class RenderPass {
+ public:
+  struct Parts {
+    const Scene& scene;
+    FrameMaker& maker;
+    const CardiacClock& clock;
+    const OutputFolder& folder;
+    const Monitor& monitor;
+    bool resume;
+  };
+  // Frames, file hashes and reference go through `manifest`; `kept` frames are used up.
+  RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept);
+
+  // Renders frames first..last-1; returns how many were finished.
+  int run(int first, int last);
+
+ private:
+  struct Finished {
+    FrameEntry entry;
+    std::vector<std::byte> cine_frame;
+    std::string png_sha256;
+  };
+
+  std::shared_ptr<Finished> make(int frame);
+  Volumes tracedFrame(const FrameRecord& record, Workspace& workspace);
+  void writeExr(const FrameRecord& record, const PolarFrame& polar, Finished& finished);
+  void writePictures(GreyImage& image, Finished& finished);
+  void drain(Finished& finished);
+
+  const Parts parts_;
+  Manifest& manifest_;
+  KeptFrames& kept_;
+  std::mutex kept_mutex_;
+  ExrStack exr_;
+  Overlay overlay_;
+  CineWriter cine_;
+};
+
+}  // namespace echocine

@@ -1,0 +1,102 @@
+#include "scene/media_reader.h"
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "scene/built_in_media.h"
+
+namespace echocine {
+
+namespace {
+
+enum class Kind { none, fixed, blood, tissue };
+
+BloodBackscatter readBlood(TomlTable& table, const MediumSpec& plasma) {
+  BloodBackscatter blood;
+  blood.hematocrit = table.number("hematocrit", std::nullopt, {.lo = 0, .hi = 1});
+  blood.cell_radius_m = metresFromMicrometres(
+      table.number("cell_radius_um", std::nullopt, NumberRange::positive()));
+  blood.cell_density_kg_m3 =
+      table.number("cell_density_kg_m3", std::nullopt, NumberRange::positive());
+  blood.cell_compressibility_per_pa = perPascalFromSquareCentimetrePerDyne(
+      table.number("cell_compressibility_cm2_dyn", std::nullopt, NumberRange::positive()));
+  blood.plasma_density_kg_m3 = plasma.density_kg_m3;
+  // A fluid's compressibility is G = 1 / (rho c^2).
+  blood.plasma_compressibility_per_pa =
+      1 / (plasma.density_kg_m3 * plasma.sound_speed_m_s * plasma.sound_speed_m_s);
+  return blood;
+}
+
+}  // namespace
+
+MediaTable::MediaTable() {
+  TomlTable table = TomlTable::parse(kBuiltInMedia, "data/media.toml");
+  read(table);
+  table.finish();
+}
+
+void MediaTable::read(TomlTable& file) {
+  std::vector<std::pair<std::string, TomlTable>> tables = file.namedTables("media");
+  // A blood medium refers to its plasma, which may stand anywhere in the file: two rounds.
+  for (const bool with_blood : {false, true})
+    for (auto& [name, table] : tables) {
+      TomlTable backscatter = table.table("backscatter");
+      if ((backscatter.text("kind", "") == "blood") == with_blood)
+        specs_[name] = readMedium(name, table);
+    }
+}
+
+MediumSpec MediaTable::readMedium(const std::string& name, TomlTable& table) const {
+  MediumSpec spec;
+  spec.name = name;
+  spec.density_kg_m3 = table.number("density_kg_m3", std::nullopt, NumberRange::positive());
+  spec.sound_speed_m_s = table.number("sound_speed_m_s", std::nullopt, NumberRange::positive());
+  spec.attenuation_db_cm_mhz =
+      table.number("attenuation_db_cm_mhz", std::nullopt, NumberRange::notNegative());
+  spec.attenuation_exponent = table.number("attenuation_exponent", 1.0, {.lo = 0, .hi = 4});
+  TomlTable backscatter = table.table("backscatter");
+  if (!backscatter.has("kind")) backscatter.fail("kind", "is missing, accepted: \"none\" | \"fixed\" | \"blood\" | \"tissue\"");
+  switch (backscatter.choice("kind", Kind::none,
+                             {{"none", Kind::none},
+                              {"fixed", Kind::fixed},
+                              {"blood", Kind::blood},
+                              {"tissue", Kind::tissue}})) {
+    case Kind::none:
+      break;
+    case Kind::fixed:
+      spec.backscatter = FixedBackscatter{perMetreFromPerCentimetre(
+          backscatter.number("per_cm_sr", std::nullopt, NumberRange::notNegative()))};
+      break;
+    case Kind::blood:
+      spec.backscatter = readBlood(backscatter, named(backscatter, "plasma", "plasma"));
+      break;
+    case Kind::tissue:
+      spec.backscatter = TissueBackscatter{
+          backscatter.number("velocity_variation", std::nullopt, {.lo = 0, .hi = 1}),
+          metresFromMicrometres(backscatter.number("correlation_length_um", std::nullopt,
+                                                   NumberRange::notNegative()))};
+      break;
+  }
+  backscatter.finish();
+  table.finish();
+  return spec;
+}
+
+const MediumSpec& MediaTable::named(TomlTable& table, std::string_view key,
+                                    std::string fallback) const {
+  const std::string name =
+      fallback.empty() ? table.text(key) : table.text(key, std::move(fallback));
+  const auto found = specs_.find(name);
+  if (found != specs_.end()) return found->second;
+  std::vector<std::string> names;
+  std::string accepted;
+  for (const auto& [known, spec] : specs_) {
+    names.push_back(known);
+    accepted += (accepted.empty() ? "" : ", ") + known;
+  }
+  const std::string nearest = nearestWord(name, names);
+  table.fail(key, fmt::format("\"{}\" is not a known medium, accepted: {}{}", name, accepted,
+                              nearest.empty() ? "" : " (nearest: " + nearest + ")"));
+}
+
+}  // namespace echocine

@@ -1,0 +1,112 @@
+#pragma once
+// A scene as the program works with it: plain structs in SI units, no library types. Every default of the
+// scene format stands here once, as a member's initial value; scene_reader.cpp has the keys.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/ids.h"
+#include "scene/channel.h"
+#include "scene/medium.h"
+#include "scene/probe.h"
+
+namespace echocine {
+
+struct Acquisition {
+  double heart_rate_hz = 65.0 / 60.0;
+  double frame_rate_hz = 50;
+  double beats = 1;
+};
+
+enum class Interpolation { linear, catmull_rom, spline, fourier };
+
+struct MotionSettings {
+  double mesh_unit_m = 1e-3;
+  Interpolation interpolation = Interpolation::spline;
+  int subdivision = 0;  // Loop levels
+  SourcePlace interpolation_place, subdivision_place;
+};
+
+struct Keyframe {
+  std::vector<std::filesystem::path> files;  // the mesh, then its lids
+  double phase = 0;                          // [0, 1)
+};
+
+struct Structure {
+  std::string name;
+  MediumId medium{};
+  bool membrane = false;       // an open sheet of a thin material: reflects, encloses nothing
+  int priority = 0;            // where closed structures overlap the highest wins
+  std::vector<Keyframe> keyframes;  // ascending phases
+  double reflection_gain = 1;       // factor of R in W of the non-specular lobe
+  double reflection_exponent = 2;   // n of the non-specular lobe
+  SourcePlace place;                // of its keyframes in the scene file
+};
+
+enum class Switch { automatic, on, off };
+
+struct EffectSwitches {
+  Switch reflection = Switch::automatic;         // echoes of interfaces
+  Switch transmission_loss = Switch::automatic;  // (1-R)^2 at each interface passed
+  Switch refraction = Switch::automatic;         // bent rays
+  Switch attenuation = Switch::automatic;        // exp(-4 alpha l)
+  Switch backscatter = Switch::automatic;        // Eqs. 4-7
+  Switch travel_time = Switch::off;              // place echoes at 1540 m/s t/2 instead of path length
+};
+
+enum class Tgc { perfect, table, none };
+enum class Spread { compensate, keep };
+enum class BeamWidth { focused, fixed, none };
+
+struct SignalSettings {
+  Tgc tgc = Tgc::perfect;
+  std::vector<std::pair<double, double>> tgc_table;  // (depth m, gain dB), ascending depths
+  Spread spread = Spread::compensate;
+  BeamWidth beam_width = BeamWidth::focused;
+  double beam_width_m = 0;           // for BeamWidth::fixed
+  double pulse_cycles = 2;           // axial averaging over the pulse, pulse_cycles * wavelength / 2
+  double dynamic_range_db = 60;
+  std::optional<double> reference_intensity;  // absolute, relative to I_S; else the percentile
+  double reference_percentile = 99.5;         // of all samples of the loop, near field left out
+  double grey_gamma = 1;                      // grey = (position in the dynamic range)^gamma
+};
+
+struct AccuracySettings {
+  int rays_per_beam = 1;
+};
+
+enum class ExrCompression { none, rle, zips, zip, piz };
+enum class CineCodec { mjpg, ffv1 };
+
+struct OutputSettings {
+  bool exr = true, cine = true, png = false;
+  std::vector<Channel> channels{Channel::y};
+  ExrCompression exr_compression = ExrCompression::none;
+  CineCodec codec = CineCodec::mjpg;
+  int jpeg_quality = 95;
+  int width = 800, height = 600;  // pixels
+  bool ecg = true, depth_ticks = true;
+};
+
+struct Scene {
+  std::filesystem::path file;
+  MediumId background{};
+  std::vector<Medium> media;  // resolved at the probe's frequency
+  double unit_volume_m3 = 1e-6;  // V of Eq. 4
+  Probe probe;
+  Acquisition acquisition;
+  MotionSettings motion;
+  std::vector<Structure> structures;
+  EffectSwitches effects;
+  SignalSettings signal;
+  AccuracySettings accuracy;
+  OutputSettings output;
+
+  const Medium& medium(MediumId id) const { return media[index(id)]; }
+};
+
+}  // namespace echocine

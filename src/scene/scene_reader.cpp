@@ -1,0 +1,275 @@
+#include "scene/scene_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/file.h"
+#include "core/units.h"
+#include "scene/media_reader.h"
+#include "scene/structure_reader.h"
+#include "scene/toml_table.h"
+
+namespace echocine {
+
+namespace {
+
+constexpr std::size_t kMaxSceneBytes = 4 << 20;
+constexpr double kMaxFrames = 1e6;
+constexpr double kMaxPolarSamples = 1 << 26;
+
+const NumberRange kPositive = NumberRange::positive();
+
+double readUnit(TomlTable& table, std::string_view key, double fallback) {
+  return table.choice(key, fallback, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}});
+}
+
+// The lateral axis is made perpendicular to the depth axis; the elevation axis completes a right-handed frame.
+Frame readPose(TomlTable& table, double mesh_unit_m) {
+  Frame pose;
+  const Vec3d axis = table.vector("axis");
+  const Vec3d lateral = table.vector("lateral");
+  pose.origin = mesh_unit_m * table.vector("apex");
+  if (length(axis) == 0) table.fail("axis", "is the zero vector, accepted: a direction");
+  if (length(lateral) == 0) table.fail("lateral", "is the zero vector, accepted: a direction");
+  pose.z_axis = normalised(axis);
+  const Vec3d unit_lateral = normalised(lateral);
+  const Vec3d across = unit_lateral - dot(unit_lateral, pose.z_axis) * pose.z_axis;
+  if (length(across) < 1e-6)
+    table.fail("lateral", "is parallel to axis, accepted: a direction across it");
+  pose.x_axis = normalised(across);
+  pose.y_axis = cross(pose.z_axis, pose.x_axis);
+  return pose;
+}
+
+void readFootprint(TomlTable& table, Probe& probe) {
+  if (probe.kind == ProbeKind::linear) {
+    const double width = metresFromMillimetres(table.number("width_mm", std::nullopt, kPositive));
+    probe.first_offset_m = -width / 2;
+    probe.last_offset_m = width / 2;
+    return;
+  }
+  const double sector =
+      radiansFromDegrees(table.number("sector_deg", std::nullopt, {.lo = 0, .hi = 180, .lo_open = true}));
+  probe.first_angle_rad = -sector / 2;
+  probe.last_angle_rad = sector / 2;
+  if (probe.kind == ProbeKind::curvilinear)
+    probe.face_radius_m =
+        metresFromMillimetres(table.number("face_radius_mm", std::nullopt, kPositive));
+}
+
+Probe readProbe(TomlTable table, double mesh_unit_m) {
+  Probe probe;
+  probe.kind = table.choice("kind", ProbeKind::phased,
+                            {{"phased", ProbeKind::phased},
+                             {"curvilinear", ProbeKind::curvilinear},
+                             {"linear", ProbeKind::linear}});
+  probe.pose = readPose(table, mesh_unit_m);
+  readFootprint(table, probe);
+  probe.min_depth_m =
+      metresFromMillimetres(table.number("min_depth_mm", 2.0, NumberRange::notNegative()));
+  probe.max_depth_m = metresFromMillimetres(table.number("depth_mm", std::nullopt, kPositive));
+  if (probe.max_depth_m <= probe.min_depth_m)
+    table.fail("depth_mm", fmt::format("is not over min_depth_mm = {}",
+                                       millimetresFromMetres(probe.min_depth_m)));
+  probe.frequency_hz =
+      hertzFromMegahertz(table.number("frequency_mhz", std::nullopt, {.lo = 0.1, .hi = 100}));
+  // Choices of ours: the 20 mm footprint of an adult cardiac probe, focused at half the depth.
+  probe.aperture_m = metresFromMillimetres(table.number("aperture_mm", 20.0, kPositive));
+  probe.focus_m = metresFromMillimetres(
+      table.number("focus_mm", millimetresFromMetres(probe.max_depth_m) / 2, kPositive));
+  probe.lines = table.integer("lines", 256, 1, 65536);
+  probe.samples = table.integer("samples", 1024, 1, 65536);
+  if (static_cast<double>(probe.lines) * probe.samples > kMaxPolarSamples)
+    table.fail("samples", fmt::format("lines x samples is {}, accepted: up to {}",
+                                      static_cast<double>(probe.lines) * probe.samples, kMaxPolarSamples));
+  table.finish();
+  return probe;
+}
+
+Acquisition readAcquisition(TomlTable table) {
+  Acquisition a;
+  a.heart_rate_hz = hertzFromBeatsPerMinute(
+      table.number("heart_rate_bpm", a.heart_rate_hz * 60, {.lo = 1, .hi = 1000}));
+  a.frame_rate_hz = table.number("frame_rate_hz", a.frame_rate_hz, {.lo = 0.1, .hi = 100000});
+  a.beats = table.number("beats", a.beats, {.lo = 0, .hi = 1e6, .lo_open = true});
+  if (a.beats / a.heart_rate_hz * a.frame_rate_hz > kMaxFrames)
+    table.fail("beats", fmt::format("the loop would have over {} frames", kMaxFrames));
+  table.finish();
+  return a;
+}
+
+MotionSettings readMotion(TomlTable table) {
+  MotionSettings m;
+  m.mesh_unit_m = readUnit(table, "mesh_unit", m.mesh_unit_m);
+  m.interpolation = table.choice("interpolation", m.interpolation,
+                                 {{"linear", Interpolation::linear},
+                                  {"catmull-rom", Interpolation::catmull_rom},
+                                  {"spline", Interpolation::spline},
+                                  {"fourier", Interpolation::fourier}});
+  m.subdivision = table.integer("subdivision", m.subdivision, 0, 8);
+  m.interpolation_place = table.place("interpolation");
+  m.subdivision_place = table.place("subdivision");
+  table.finish();
+  return m;
+}
+
+EffectSwitches readEffects(TomlTable table) {
+  EffectSwitches e;
+  const auto read = [&table](std::string_view key, Switch fallback) {
+    return table.choice(key, fallback,
+                        {{"auto", Switch::automatic}, {"on", Switch::on}, {"off", Switch::off}});
+  };
+  e.reflection = read("reflection", e.reflection);
+  e.transmission_loss = read("transmission_loss", e.transmission_loss);
+  e.refraction = read("refraction", e.refraction);
+  e.attenuation = read("attenuation", e.attenuation);
+  e.backscatter = read("backscatter", e.backscatter);
+  e.travel_time = read("travel_time", e.travel_time);
+  table.finish();
+  return e;
+}
+
+void readTgc(TomlTable& table, SignalSettings& s) {
+  s.tgc = table.choice("tgc", s.tgc,
+                       {{"perfect", Tgc::perfect}, {"table", Tgc::table}, {"none", Tgc::none}});
+  if (s.tgc != Tgc::table) return;
+  for (const auto& [depth_mm, gain_db] : table.pairs("tgc_table_mm_db")) {
+    const double depth_m = metresFromMillimetres(depth_mm);
+    if (!s.tgc_table.empty() && depth_m <= s.tgc_table.back().first)
+      table.fail("tgc_table_mm_db", "depths do not ascend, accepted: ascending depths");
+    s.tgc_table.emplace_back(depth_m, gain_db);
+  }
+  if (s.tgc_table.empty())
+    table.fail("tgc_table_mm_db", "is missing or empty, accepted: [[depth_mm, gain_db], ...]");
+}
+
+SignalSettings readSignal(TomlTable table) {
+  SignalSettings s;
+  readTgc(table, s);
+  s.spread = table.choice("spread", s.spread,
+                          {{"compensate", Spread::compensate}, {"keep", Spread::keep}});
+  s.beam_width = table.choice(
+      "beam_width", s.beam_width,
+      {{"focused", BeamWidth::focused}, {"fixed", BeamWidth::fixed}, {"none", BeamWidth::none}});
+  if (s.beam_width == BeamWidth::fixed)
+    s.beam_width_m = metresFromMillimetres(table.number("beam_width_mm", std::nullopt, kPositive));
+  s.pulse_cycles = table.number("pulse_cycles", s.pulse_cycles, {.lo = 0, .hi = 1000});
+  s.dynamic_range_db =
+      table.number("dynamic_range_db", s.dynamic_range_db, {.lo = 0, .hi = 1000, .lo_open = true});
+  if (table.has("reference_intensity"))
+    s.reference_intensity = table.number("reference_intensity", std::nullopt, kPositive);
+  else
+    s.reference_percentile = table.number("reference_percentile", s.reference_percentile,
+                                          {.lo = 0, .hi = 100, .lo_open = true});
+  s.grey_gamma = table.number("grey_gamma", s.grey_gamma, {.lo = 0, .hi = 100, .lo_open = true});
+  table.finish();
+  return s;
+}
+
+std::vector<Channel> readChannels(TomlTable& table) {
+  std::vector<Channel> channels;
+  for (const std::string& name : table.texts("channels")) {
+    const auto found = std::find_if(kAllChannels.begin(), kAllChannels.end(),
+                                    [&](Channel c) { return channelName(c) == name; });
+    if (found == kAllChannels.end()) {
+      std::string accepted;
+      for (const Channel c : kAllChannels) accepted += (accepted.empty() ? "" : ", ") + std::string(channelName(c));
+      table.fail("channels", fmt::format("\"{}\" is not a channel, accepted: {}", name, accepted));
+    }
+    channels.push_back(*found);
+  }
+  std::sort(channels.begin(), channels.end());
+  channels.erase(std::unique(channels.begin(), channels.end()), channels.end());
+  return channels;
+}
+
+OutputSettings readOutput(TomlTable table) {
+  OutputSettings o;
+  o.exr = table.boolean("exr", o.exr);
+  o.cine = table.boolean("cine", o.cine);
+  o.png = table.boolean("png", o.png);
+  if (table.has("channels")) o.channels = readChannels(table);
+  if (o.channels.empty()) table.fail("channels", "is empty, accepted: at least one channel");
+  o.exr_compression = table.choice("exr_compression", o.exr_compression,
+                                   {{"none", ExrCompression::none},
+                                    {"rle", ExrCompression::rle},
+                                    {"zips", ExrCompression::zips},
+                                    {"zip", ExrCompression::zip},
+                                    {"piz", ExrCompression::piz}});
+  o.codec = table.choice("codec", o.codec, {{"mjpg", CineCodec::mjpg}, {"ffv1", CineCodec::ffv1}});
+  o.jpeg_quality = table.integer("jpeg_quality", o.jpeg_quality, 1, 100);
+  o.width = table.integer("width", o.width, 16, 16384);
+  o.height = table.integer("height", o.height, 16, 16384);
+  o.ecg = table.boolean("ecg", o.ecg);
+  o.depth_ticks = table.boolean("depth_ticks", o.depth_ticks);
+  table.finish();
+  return o;
+}
+
+AccuracySettings readAccuracy(TomlTable table) {
+  AccuracySettings a;
+  a.rays_per_beam = table.integer("rays_per_beam", a.rays_per_beam, 1, 1);
+  table.finish();
+  return a;
+}
+
+// Gives each medium that the scene uses one id and its numbers at the probe's frequency.
+class MediaInUse {
+ public:
+  MediaInUse(Scene& scene) : scene_(scene) {}
+  MediumId idOf(const MediumSpec& spec) {
+    for (std::size_t i = 0; i < scene_.media.size(); ++i)
+      if (scene_.media[i].name == spec.name) return MediumId(i);
+    scene_.media.push_back(resolveMedium(spec, scene_.probe.frequency_hz));
+    return MediumId(scene_.media.size() - 1);
+  }
+
+ private:
+  Scene& scene_;
+};
+
+void readStructures(TomlTable& root, const MediaTable& table, MediaInUse& media, Scene& scene) {
+  for (TomlTable& entry : root.tables("structure")) {
+    Structure structure = readStructure(entry, scene.file.parent_path());
+    structure.medium = media.idOf(table.named(entry, "medium"));
+    entry.finish();
+    for (const Structure& other : scene.structures)
+      if (other.name == structure.name)
+        entry.fail("name", fmt::format("\"{}\" is taken, accepted: a name of its own", structure.name));
+    scene.structures.push_back(std::move(structure));
+  }
+}
+
+}  // namespace
+
+Scene parseScene(std::string_view text, const std::filesystem::path& file) {
+  TomlTable root = TomlTable::parse(text, file.string());
+  Scene scene;
+  scene.file = file;
+  scene.motion = readMotion(root.table("motion"));
+  scene.probe = readProbe(root.table("probe"), scene.motion.mesh_unit_m);
+  scene.acquisition = readAcquisition(root.table("acquisition"));
+  MediaTable media_table;
+  media_table.read(root);
+  MediaInUse media(scene);
+  scene.background = media.idOf(media_table.named(root, "background", "soft_tissue"));
+  readStructures(root, media_table, media, scene);
+  if (scene.structures.empty())
+    root.fail("structure", "is missing, accepted: at least one [[structure]]");
+  scene.unit_volume_m3 =
+      cubicMetresFromCubicCentimetres(root.number("unit_volume_cm3", 1.0, kPositive));
+  scene.effects = readEffects(root.table("effects"));
+  scene.signal = readSignal(root.table("signal"));
+  scene.accuracy = readAccuracy(root.table("accuracy"));
+  scene.output = readOutput(root.table("output"));
+  root.finish();
+  return scene;
+}
+
+Scene readScene(const std::filesystem::path& file) {
+  return parseScene(readTextFile(file, kMaxSceneBytes), file);
+}
+
+}  // namespace echocine

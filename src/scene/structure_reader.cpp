@@ -1,0 +1,117 @@
+#include "scene/structure_reader.h"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace echocine {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Compares digits by their value, so that frame_9 stands before frame_10.
+bool naturalLess(const std::string& a, const std::string& b) {
+  const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (isDigit(a[i]) && isDigit(b[j])) {
+      std::size_t i_end = i, j_end = j;
+      while (i_end < a.size() && isDigit(a[i_end])) ++i_end;
+      while (j_end < b.size() && isDigit(b[j_end])) ++j_end;
+      while (i < i_end - 1 && a[i] == '0') ++i;
+      while (j < j_end - 1 && b[j] == '0') ++j;
+      if (i_end - i != j_end - j) return i_end - i < j_end - j;
+      const int order = a.compare(i, i_end - i, b, j, j_end - j);
+      if (order != 0) return order < 0;
+      i = i_end;
+      j = j_end;
+    } else {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i;
+      ++j;
+    }
+  }
+  if (a.size() - i != b.size() - j) return a.size() - i < b.size() - j;
+  return a < b;
+}
+
+// The files that a pattern names, sorted; wild cards stand in the file name only.
+std::vector<fs::path> matchingFiles(const TomlTable& table, std::string_view key,
+                                    const fs::path& folder, const std::string& pattern) {
+  const fs::path full = fs::path(pattern).is_absolute() ? fs::path(pattern) : folder / pattern;
+  if (full.filename().string().find_first_of("*?[") == std::string::npos) return {full};
+  std::error_code failed;
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(full.parent_path(), failed))
+    if (fnmatch(full.filename().c_str(), entry.path().filename().c_str(), 0) == 0)
+      files.push_back(entry.path());
+  if (failed)
+    table.fail(key, fmt::format("folder {} cannot be read: {}", full.parent_path().string(),
+                                failed.message()));
+  if (files.empty()) table.fail(key, fmt::format("no file matches {}", full.string()));
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return naturalLess(a.filename().string(), b.filename().string());
+  });
+  return files;
+}
+
+std::vector<Keyframe> readPhasedKeyframes(TomlTable& table, const fs::path& folder) {
+  std::vector<Keyframe> keyframes;
+  for (TomlTable& entry : table.tables("keyframes")) {
+    const fs::path file = entry.text("file");
+    const double phase = entry.number("phase", std::nullopt, {.lo = 0, .hi = 1, .hi_open = true});
+    if (!keyframes.empty() && phase <= keyframes.back().phase)
+      entry.fail("phase", fmt::format("is {} after {}, accepted: ascending phases", phase,
+                                      keyframes.back().phase));
+    entry.finish();
+    keyframes.push_back({{file.is_absolute() ? file : folder / file}, phase});
+  }
+  return keyframes;
+}
+
+std::vector<Keyframe> readEvenKeyframes(TomlTable& table, const fs::path& folder) {
+  std::vector<Keyframe> keyframes;
+  for (const std::string& pattern : table.texts("keyframes"))
+    for (const fs::path& file : matchingFiles(table, "keyframes", folder, pattern))
+      keyframes.push_back({{file}, 0});
+  for (std::size_t i = 0; i < keyframes.size(); ++i)
+    keyframes[i].phase = static_cast<double>(i) / static_cast<double>(keyframes.size());
+  return keyframes;
+}
+
+void addLids(TomlTable& table, const fs::path& folder, std::vector<Keyframe>& keyframes) {
+  for (const std::string& pattern : table.texts("lids")) {
+    const std::vector<fs::path> files = matchingFiles(table, "lids", folder, pattern);
+    if (files.size() != keyframes.size())
+      table.fail("lids", fmt::format("{} names {} files, accepted: one for each of the {} keyframes",
+                                     pattern, files.size(), keyframes.size()));
+    for (std::size_t i = 0; i < files.size(); ++i) keyframes[i].files.push_back(files[i]);
+  }
+}
+
+}  // namespace
+
+Structure readStructure(TomlTable& table, const fs::path& folder) {
+  Structure structure;
+  structure.name = table.text("name");
+  if (structure.name.empty()) table.fail("name", "is empty, accepted: a name");
+  structure.membrane = table.boolean("membrane", structure.membrane);
+  if (!structure.membrane)
+    structure.priority = table.integer("priority", structure.priority, -1000000, 1000000);
+  structure.keyframes = table.isListOfTables("keyframes") ? readPhasedKeyframes(table, folder)
+                                                          : readEvenKeyframes(table, folder);
+  if (structure.keyframes.empty())
+    table.fail("keyframes", "is missing or empty, accepted: a file pattern, a list of files, or a list of {file, phase}");
+  addLids(table, folder, structure.keyframes);
+  structure.place = table.place("keyframes");
+  structure.reflection_gain =
+      table.number("reflection_gain", structure.reflection_gain, NumberRange::notNegative());
+  structure.reflection_exponent = table.number(
+      "reflection_exponent", structure.reflection_exponent, {.lo = 0, .hi = 1000});
+  return structure;
+}
+
+}  // namespace echocine

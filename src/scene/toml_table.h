@@ -1,0 +1,81 @@
+#pragma once
+// Typed access to a TOML table. Every key that is asked for becomes a known key; finish() refuses the
+// rest. Every error is a SceneError `file:line: key: what is wrong, what is accepted`.
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/vec3.h"
+
+namespace echocine {
+
+// Accepted numbers: lo..hi, an end left out when open.
+struct NumberRange {
+  double lo = -std::numeric_limits<double>::infinity();
+  double hi = std::numeric_limits<double>::infinity();
+  bool lo_open = false, hi_open = false;
+
+  static NumberRange positive() { return {.lo = 0, .lo_open = true}; }
+  static NumberRange notNegative() { return {.lo = 0}; }
+  bool contains(double value) const;
+  std::string text() const;  // "a number over 0"
+};
+
+class TomlTable {
+ public:
+  // `name` is what messages call the file.
+  static TomlTable parse(std::string_view text, const std::string& name);
+  ~TomlTable();
+  TomlTable(TomlTable&&) noexcept;
+
+  bool has(std::string_view key);
+  SourcePlace place(std::string_view key) const;  // of the key, or of the table when it is absent
+  [[noreturn]] void fail(std::string_view key, const std::string& what) const;
+
+  // Without a fallback the key is required.
+  double number(std::string_view key, std::optional<double> fallback, NumberRange range);
+  int integer(std::string_view key, std::optional<int> fallback, int lo, int hi);
+  bool boolean(std::string_view key, bool fallback);
+  std::string text(std::string_view key, std::optional<std::string> fallback = std::nullopt);
+  Vec3d vector(std::string_view key);
+
+  // The value that belongs to one of the names.
+  template <typename T>
+  T choice(std::string_view key, T fallback,
+           const std::vector<std::pair<std::string_view, T>>& choices) {
+    std::vector<std::string_view> names;
+    for (const auto& c : choices) names.push_back(c.first);
+    const std::optional<std::size_t> found = choiceIndex(key, names);
+    return found ? choices[*found].second : fallback;
+  }
+
+  bool isListOfTables(std::string_view key);
+  std::vector<std::string> texts(std::string_view key);              // a string or a list of strings
+  std::vector<std::pair<double, double>> pairs(std::string_view key);  // [[a, b], ...]
+
+  // Sub-tables; absent ones are empty, so that their defaults apply.
+  TomlTable table(std::string_view key);
+  std::vector<TomlTable> tables(std::string_view key);                        // [[key]]
+  std::vector<std::pair<std::string, TomlTable>> namedTables(std::string_view key);  // [key.name]
+
+  // Refuses keys nobody asked for, with the nearest known one.
+  void finish() const;
+
+ private:
+  struct Node;
+  explicit TomlTable(std::unique_ptr<Node> node);
+  std::optional<std::size_t> choiceIndex(std::string_view key,
+                                         const std::vector<std::string_view>& names);
+  std::unique_ptr<Node> node_;
+};
+
+// The candidate with the fewest edits to `word`, empty when none is near.
+std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace echocine

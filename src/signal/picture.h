@@ -1,0 +1,28 @@
+#pragma once
+// Pictures as they are shown, and where the probe frame lies in them.
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace echocine {
+
+// An 8-bit grey picture, rows from the top.
+struct GreyImage {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> pixels;
+};
+
+// Where the probe frame lies in the picture: pixel = origin + metres / metres_per_pixel, x to the right along
+// the lateral axis, y down along the depth axis.
+struct PictureGeometry {
+  double origin_x_px = 0, origin_y_px = 0;  // of the apex (curvilinear: centre of curvature)
+  double metres_per_pixel = 1;
+  int ecg_strip_px = 0;  // rows at the foot that the sector leaves free
+};
+
+// The largest upright picture of the scan area in the middle of the output size, with room for ticks and ECG.
+PictureGeometry pictureGeometry(const Scene& scene);
+
+}  // namespace echocine

@@ -1,0 +1,26 @@
+#include "signal/signal_chain.h"
+
+#include "signal/log_compression.h"
+#include "signal/time_gain.h"
+
+namespace echocine {
+
+SignalChain::SignalChain(const Scene& scene)
+    : settings_(scene.signal),
+      beam_(scene.probe, scene.signal),
+      geometry_(pictureGeometry(scene)),
+      converter_(scene.probe, geometry_, scene.output.width, scene.output.height,
+                 scene.signal.grey_gamma) {
+  if (settings_.tgc == Tgc::table) gains_ = timeGains(settings_.tgc_table, scene.probe);
+}
+
+void SignalChain::process(PolarFrame& frame, std::vector<float>& scratch) const {
+  if (!gains_.empty()) applyTimeGains(gains_, frame.signal);
+  beam_.apply(frame.signal, scratch);
+}
+
+void SignalChain::compress(PolarFrame& frame, double reference_intensity) const {
+  compressIntensities(frame.signal, reference_intensity, settings_.dynamic_range_db, frame.signal);
+}
+
+}  // namespace echocine

@@ -1,0 +1,39 @@
+#pragma once
+// The scanner's signal processing, the same in every frame of a loop:
+// time gain -> beam width -> log compression -> scan conversion -> grey map.
+// Spread is the tracer's part (it knows which intensity was scattered), by signalParts of its request.
+
+#include <vector>
+
+#include "signal/beam_width.h"
+#include "signal/scan_conversion.h"
+#include "trace/polar_frame.h"
+
+namespace echocine {
+
+class SignalChain {
+ public:
+  explicit SignalChain(const Scene& scene);
+
+  const PictureGeometry& geometry() const { return geometry_; }
+
+  // Time gain and beam width, in place on frame.signal: intensities as they are compressed.
+  void process(PolarFrame& frame, std::vector<float>& scratch) const;
+
+  // Log compression in place on frame.signal: from processed intensities to grey 0..1 in beam space.
+  void compress(PolarFrame& frame, double reference_intensity) const;
+
+  // Scan conversion and grey map.
+  void picture(const PolarFrame& frame, GreyImage& image) const {
+    converter_.convert(frame.signal, image);
+  }
+
+ private:
+  SignalSettings settings_;
+  std::vector<float> gains_;  // of a table TGC; empty: none
+  BeamAverage beam_;
+  PictureGeometry geometry_;
+  ScanConverter converter_;
+};
+
+}  // namespace echocine

@@ -1,0 +1,20 @@
+#pragma once
+// Time-gain compensation by a table of depth and gain.
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "scene/probe.h"
+
+namespace echocine {
+
+// Intensity gain of each sample: the table's decibels, linear between its depths and constant beyond its ends.
+// Precondition: depths ascend, at least one entry.
+std::vector<float> timeGains(const std::vector<std::pair<double, double>>& table_m_db,
+                             const Probe& probe);
+
+// Multiplies every line by the gains. plane.size() is a multiple of gains.size().
+void applyTimeGains(std::span<const float> gains, std::span<float> plane);
+
+}  // namespace echocine

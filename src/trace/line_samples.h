@@ -1,0 +1,40 @@
+#pragma once
+// Samples of a scan line from its stretches and echoes.
+
+#include <cstdint>
+#include <span>
+
+#include "trace/line_trace.h"
+
+namespace echocine {
+
+// Sample k is centred at min_depth + (k + 1/2) spacing and spans one spacing.
+struct Sampling {
+  double min_depth_m = 0, spacing_m = 0;
+  int samples = 0;
+
+  double centre(double k) const { return min_depth_m + (k + 0.5) * spacing_m; }
+};
+
+// Which of the paper's factors the intensity of a sample holds.
+struct IntensityParts {
+  bool reflection = true, backscatter = true;
+  bool attenuation = true;
+  // 0: the backscattered part falls as 1/l^2. Else it stands as if every sample were at this path length.
+  double spread_undone_at_m = 0;
+};
+
+// I_R of section 4.1 relative to I_S: eta_b V / l^2 exp(-A) prod (1-R)^2 at each sample's centre, plus the
+// echoes of the interfaces in its depth interval. Relative error of the backscattered part under 1e-6.
+// Behind the end of the ray every sample is exactly 0. values.size() == sampling.samples.
+void sampleIntensity(const LineTrace& line, const Sampling& sampling, const IntensityParts& parts,
+                     std::span<float> values);
+
+// A in nepers at each sample's centre; 0 behind the end of the ray.
+void sampleExponent(const LineTrace& line, const Sampling& sampling, std::span<float> values);
+
+// Medium at each sample's centre; kNoMedium behind the end of the ray.
+inline constexpr std::uint32_t kNoMedium = 0xffffffffu;
+void sampleMedium(const LineTrace& line, const Sampling& sampling, std::span<std::uint32_t> ids);
+
+}  // namespace echocine

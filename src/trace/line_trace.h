@@ -1,0 +1,38 @@
+#pragma once
+// What one scan line met, before it is sampled: a few stretches of constant medium and a few echoes. `Depth` is the
+// position on the image's depth axis: the path length, or 1540 m/s times half the travel time.
+
+#include <vector>
+
+#include "core/ids.h"
+
+namespace echocine {
+
+// One medium along a scan line. Path length l and attenuation exponent A = 4 sum alpha l grow linearly.
+struct Stretch {
+  double begin_depth_m = 0, end_depth_m = 0;
+  double begin_path_m = 0, path_per_depth = 1;   // l
+  double begin_exponent = 0, exponent_per_m = 0;  // A in nepers, and dA per metre of depth
+  double strength_m2_sr = 0;  // eta_b V times the losses prod (1-R)^2: intensity times l^2, unattenuated
+  MediumId medium{};
+};
+
+// The echo of one interface.
+struct Echo {
+  double depth_m = 0;
+  double intensity = 0;  // relative to I_S: W cos^n times the losses before it, unattenuated
+  double exponent = 0;   // A up to it
+};
+
+// Stretches follow each other without gap from depth 0; after the last one the ray has ended.
+struct LineTrace {
+  std::vector<Stretch> stretches;
+  std::vector<Echo> echoes;
+
+  void clear() {
+    stretches.clear();
+    echoes.clear();
+  }
+};
+
+}  // namespace echocine

@@ -1,0 +1,161 @@
+#include "trace/line_walker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trace/interface_law.h"
+
+namespace echocine {
+
+namespace {
+
+// A ray that bends more often is caught in a wedge; what it could still send back is nothing.
+constexpr int kMaxBends = 1000;
+
+}  // namespace
+
+LineWalker::LineWalker(const TraceSettings& settings, const Ray& start, const InsideSet& inside,
+                       LineTrace& trace)
+    : settings_(settings), trace_(trace), query_{start, inside, {}} {
+  trace_.clear();
+}
+
+// Where closed structures overlap the highest priority wins, among equals the later in the scene.
+MediumId LineWalker::mediumInside(const InsideSet& inside) const {
+  MediumId medium = settings_.background;
+  if (inside.none()) return medium;
+  int best = std::numeric_limits<int>::min();
+  for (std::size_t s = 0; s < settings_.surfaces.size(); ++s)
+    if (inside[s] && settings_.surfaces[s].priority >= best) {
+      best = settings_.surfaces[s].priority;
+      medium = settings_.surfaces[s].medium;
+    }
+  return medium;
+}
+
+// Eq. 3 along one medium, there and back: A grows by 4 alpha per metre.
+void LineWalker::walkTo(double distance_m) {
+  const Medium& medium = settings_.media[index(medium_)];
+  const double path_per_depth =
+      settings_.travel_time ? medium.sound_speed_m_s / kScannerSpeed : 1.0;
+  const double exponent_per_path = settings_.attenuation ? 4 * medium.attenuation_np_per_m : 0.0;
+  double step_m = distance_m - walked_m_;
+  const double end_depth_m = depth_m_ + step_m / path_per_depth;
+  if (end_depth_m >= settings_.max_depth_m) {
+    step_m = (settings_.max_depth_m - depth_m_) * path_per_depth;
+    alive_ = false;
+  }
+  const double next_depth_m = alive_ ? end_depth_m : settings_.max_depth_m;
+  const double eta_b = settings_.backscatter ? medium.backscatter_per_m_sr : 0.0;
+  trace_.stretches.push_back({.begin_depth_m = depth_m_,
+                              .end_depth_m = next_depth_m,
+                              .begin_path_m = path_m_,
+                              .path_per_depth = path_per_depth,
+                              .begin_exponent = exponent_,
+                              .exponent_per_m = exponent_per_path * path_per_depth,
+                              .strength_m2_sr = eta_b * settings_.unit_volume_m3 * passed_,
+                              .medium = medium_});
+  walked_m_ += step_m;
+  path_m_ += step_m;
+  depth_m_ = next_depth_m;
+  exponent_ += exponent_per_path * step_m;
+}
+
+// What the interface sends to the transducer, added to what is lost before it.
+void LineWalker::addEcho(double R, double cos_i, const SurfaceTraits& surface) {
+  if (!settings_.reflection || R == 0) return;
+  const double W = surface.gain * R;
+  trace_.echoes.push_back(
+      {depth_m_, passed_ * nonSpecularReturn(W, cos_i, surface.exponent), exponent_});
+}
+
+// Forward times backward transmission, T_12 T_21 = (1 - R)^2.
+void LineWalker::loseAt(double R, bool total) {
+  if (!settings_.transmission_loss) return;
+  if (total)
+    alive_ = false;
+  else
+    passed_ *= (1 - R) * (1 - R);
+}
+
+// The crossing whose normal and lobe stand for a group of coincident surfaces.
+const Crossing& LineWalker::deciding(Group group) const {
+  return *std::max_element(group.begin(), group.end(), [this](const Crossing& a, const Crossing& b) {
+    const SurfaceTraits& s = settings_.surfaces[index(a.surface)];
+    const SurfaceTraits& t = settings_.surfaces[index(b.surface)];
+    if (s.membrane != t.membrane) return s.membrane;
+    return std::pair(s.priority, a.surface) < std::pair(t.priority, b.surface);
+  });
+}
+
+void LineWalker::passInterface(Group group, MediumId after) {
+  const Medium& from = settings_.media[index(medium_)];
+  const Medium& to = settings_.media[index(after)];
+  medium_ = after;
+  if (from.impedance_kg_m2_s == to.impedance_kg_m2_s && from.sound_speed_m_s == to.sound_speed_m_s)
+    return;
+  const Crossing& crossing = deciding(group);
+  const Vec3d direction = query_.ray.direction;
+  const double cos_i = std::min(std::abs(dot(direction, crossing.normal)), 1.0);
+  const InterfaceLaw law = interfaceLaw(from.impedance_kg_m2_s, from.sound_speed_m_s,
+                                        to.impedance_kg_m2_s, to.sound_speed_m_s, cos_i);
+  addEcho(law.R, cos_i, settings_.surfaces[index(crossing.surface)]);
+  loseAt(law.R, law.total);
+  if (!alive_ || !settings_.refraction || from.sound_speed_m_s == to.sound_speed_m_s) return;
+  if (const auto bent = refracted(direction, crossing.normal, from.sound_speed_m_s, to.sound_speed_m_s))
+    bend(group, *bent);
+}
+
+// Two interfaces of a sheet that is thin against a sample: both echoes arrive together.
+void LineWalker::passMembrane(const Crossing& crossing) {
+  const SurfaceTraits& surface = settings_.surfaces[index(crossing.surface)];
+  const Medium& around = settings_.media[index(medium_)];
+  const Medium& sheet = settings_.media[index(surface.medium)];
+  const double cos_i = std::min(std::abs(dot(query_.ray.direction, crossing.normal)), 1.0);
+  const InterfaceLaw law = interfaceLaw(around.impedance_kg_m2_s, around.sound_speed_m_s,
+                                        sheet.impedance_kg_m2_s, sheet.sound_speed_m_s, cos_i);
+  addEcho(law.R, cos_i, surface);
+  loseAt(law.R, law.total);
+  if (!alive_) return;
+  addEcho(law.R, cos_i, surface);  // R is the same from the sheet outwards
+  loseAt(law.R, law.total);
+}
+
+void LineWalker::bend(Group group, Vec3d direction) {
+  query_.ray.origin = query_.ray.origin + walked_m_ * query_.ray.direction;
+  query_.ray.direction = direction;
+  query_.left_behind.clear();
+  for (const Crossing& c : group) query_.left_behind.emplace_back(c.surface, c.triangle);
+  walked_m_ = 0;
+  if (++bends_ > kMaxBends) alive_ = false;
+}
+
+void LineWalker::advance(const RayCrossings& met) {
+  InsideSet inside = met.inside;
+  medium_ = mediumInside(inside);
+  const std::vector<Crossing>& all = met.crossings;
+  const int bends_before = bends_;
+  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+    const double distance_m = all[begin].distance_m;
+    end = begin + 1;
+    while (end < all.size() && all[end].distance_m - distance_m <= settings_.thin_layer_m) ++end;
+    walkTo(distance_m);
+    if (!alive_) return;
+    const Group group(&all[begin], end - begin);
+    for (const Crossing& c : group) {
+      if (!settings_.surfaces[index(c.surface)].membrane) inside[index(c.surface)] = c.entering;
+    }
+    for (const Crossing& c : group)
+      if (alive_ && settings_.surfaces[index(c.surface)].membrane) passMembrane(c);
+    const MediumId after = mediumInside(inside);
+    if (alive_ && after != medium_) passInterface(group, after);
+    if (!alive_) return;
+    if (bends_ != bends_before) {
+      query_.inside = inside;
+      return;
+    }
+  }
+  walkTo(std::numeric_limits<double>::infinity());
+}
+
+}  // namespace echocine

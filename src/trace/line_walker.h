@@ -1,0 +1,49 @@
+#pragma once
+// Follows one scan line through the media: which medium, which loss, which echo, where it bends.
+
+#include "geometry/frame_geometry.h"
+#include "trace/line_trace.h"
+#include "trace/trace_settings.h"
+
+namespace echocine {
+
+class LineWalker {
+ public:
+  // Starts at the transducer. `inside`: the closed surfaces that hold the start. `trace` is cleared.
+  LineWalker(const TraceSettings& settings, const Ray& start, const InsideSet& inside,
+             LineTrace& trace);
+
+  // The ray to be asked next; alive() is false when the line has ended.
+  const RayQuery& query() const { return query_; }
+  bool alive() const { return alive_; }
+
+  // Goes along the crossings of query() to the depth of the image, to total reflection, or to the next
+  // bend, after which query() is a new ray.
+  void advance(const RayCrossings& met);
+
+ private:
+  using Group = std::span<const Crossing>;  // crossings of one interface, nearest first
+
+  MediumId mediumInside(const InsideSet& inside) const;
+  void walkTo(double distance_m);
+  void passInterface(Group group, MediumId after);
+  void passMembrane(const Crossing& crossing);
+  void addEcho(double R, double cos_i, const SurfaceTraits& surface);
+  void loseAt(double R, bool total);
+  void bend(Group group, Vec3d direction);
+  const Crossing& deciding(Group group) const;
+
+  const TraceSettings& settings_;
+  LineTrace& trace_;
+  RayQuery query_;
+  MediumId medium_{};
+  double walked_m_ = 0;   // along the present ray
+  double path_m_ = 0;     // l since the transducer
+  double depth_m_ = 0;    // on the image's axis
+  double exponent_ = 0;   // A since the transducer
+  double passed_ = 1;     // prod (1-R)^2
+  int bends_ = 0;
+  bool alive_ = true;
+};
+
+}  // namespace echocine

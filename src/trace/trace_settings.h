@@ -1,0 +1,36 @@
+#pragma once
+// The scene as the tracer sees it: plain numbers, looked up by surface, decided once per loop.
+
+#include <vector>
+
+#include "scene/effect_plan.h"
+#include "scene/scene.h"
+
+namespace echocine {
+
+// The speed by which a scanner turns echo times into depths: the soft-tissue average it is built for.
+inline constexpr double kScannerSpeed = 1540;  // m/s
+
+struct SurfaceTraits {
+  MediumId medium{};
+  int priority = 0;
+  bool membrane = false;
+  double gain = 1, exponent = 2;  // of the non-specular lobe
+};
+
+struct TraceSettings {
+  TraceSettings(const Scene& scene, const EffectPlan& plan);
+
+  std::vector<Medium> media;
+  std::vector<SurfaceTraits> surfaces;  // by SurfaceId
+  MediumId background{};
+  double unit_volume_m3 = 0;
+  double max_depth_m = 0;
+  // Crossings closer than this are one interface: a thousandth of a wavelength. A layer of thickness d reflects as
+  // (k d)^2, so thinner ones send nothing back; coincident walls come out as a single interface.
+  double thin_layer_m = 0;
+  bool reflection = true, transmission_loss = true, refraction = true, attenuation = true,
+       backscatter = true, travel_time = false;
+};
+
+}  // namespace echocine
