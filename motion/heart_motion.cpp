@@ -19,7 +19,7 @@ namespace echocine {
 namespace {
 
 // Single precision is good to a micrometre within this distance of the probe. Our choice.
-constexpr double kMaxDistance_m = 10;
+constexpr double kMaxDistanceMetres = 10;
 
 std::vector<double> phasesOf(const Structure& structure) {
   std::vector<double> phases;
@@ -44,7 +44,7 @@ bool mirrors(const Frame& pose) {
 SurfaceTopology controlTopology(const Structure& structure, SurfaceId id, const TriangleMesh& mesh,
                                 const Frame& pose) {
   SurfaceTopology topology{id, mesh.triangles, static_cast<std::uint32_t>(mesh.positions.size()),
-                           structure.membrane};
+                           structure.membrane, structure.keyframes.size() == 1};
   if (mirrors(pose))
     for (Triangle& t : topology.triangles) std::swap(t[1], t[2]);
   return topology;
@@ -57,13 +57,13 @@ std::vector<Vec3d> probePositions(const Structure& structure, const KeyframeMesh
   positions_m.reserve(keyframe.mesh.positions.size());
   for (const Vec3d& world : keyframe.mesh.positions) {
     const Vec3d p = scene.probe.pose.fromWorld(scene.motion.mesh_unit_m * world);
-    if (!(length(p) <= kMaxDistance_m))
+    if (!(length(p) <= kMaxDistanceMetres))
       throw SceneError(atPlace(
           structure.place,
           fmt::format("{}: {} reaches {:.4g} m from the probe's apex, at most {:g} m is accepted: "
                       "mend motion.mesh_unit or the probe's place",
                       structure.name, keyframe.parts.front().file.string(), length(p),
-                      kMaxDistance_m)));
+                      kMaxDistanceMetres)));
     positions_m.push_back(p);
   }
   return positions_m;
@@ -81,6 +81,18 @@ std::vector<Vec3d> weightedSum(std::span<const double> weights,
   for (std::size_t k = 0; k < keyframes.size(); ++k)
     for (std::size_t v = 0; v < sum.size(); ++v) sum[v] = sum[v] + weights[k] * keyframes[k][v];
   return sum;
+}
+
+// With weights w that sum to 1, sum w p = c + sum w (p - c) stays within sum |w| times the keyframes' half extent of
+// their middle c.
+Box loopBox(const std::vector<std::vector<Vec3d>>& keyframes_m, double magnification) {
+  Box box;
+  for (const std::vector<Vec3d>& positions : keyframes_m)
+    for (const Vec3d& p : positions) box.add(p);
+  constexpr double kSlack = 1.01;  // the magnification is known from samples
+  const double beyond = (keyframes_m.size() > 1 ? kSlack * magnification : 1) - 1;
+  const Vec3d widen = std::max(beyond, 0.0) / 2 * (box.hi - box.lo);
+  return {box.lo - widen, box.hi + widen};
 }
 
 // target = weight * source, or target += weight * source. Plain arrays of floats, so that the
@@ -148,14 +160,15 @@ HeartMotion::HeartMotion(const Scene& scene) {
   Sha256 digest;
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     const Structure& structure = scene.structures[s];
-    KeyframeWeights weights(phasesOf(structure), scene.motion.interpolation,
-                            scene.motion.interpolation_place);
+    KeyframeWeights weights(phasesOf(structure), scene.motion.interpolation, structure.place);
     const auto keyframes = readKeyframes(structure, scene.motion.mesh_unit_m, digest);
     SurfaceTopology topology = controlTopology(structure, static_cast<SurfaceId>(s),
                                                keyframes.front().mesh, scene.probe.pose);
     std::vector<std::vector<Vec3d>> positions_m;
+    positions_m.reserve(keyframes.size());
     for (const KeyframeMesh& keyframe : keyframes)
       positions_m.push_back(probePositions(structure, keyframe, scene));
+    loop_boxes_m_.push_back(loopBox(positions_m, weights.magnification()));
     MovingSurface moving{std::move(weights), {}, std::nullopt};
     for (const std::vector<Vec3d>& positions : positions_m)
       moving.rows_m.push_back(narrowed(positions));
@@ -173,8 +186,10 @@ HeartMotion::HeartMotion(HeartMotion&&) noexcept = default;
 
 void HeartMotion::frameAt(double phase, SurfaceFrame& frame) const {
   frame.positions_m.resize(moving_.size());
-  for (std::size_t s = 0; s < moving_.size(); ++s)
-    moving_[s].positionsAt(phase, frame.positions_m[s]);
+  for (std::size_t s = 0; s < moving_.size(); ++s) {
+    const bool in_place = surfaces_[s].still && !frame.positions_m[s].empty();
+    if (!in_place) moving_[s].positionsAt(phase, frame.positions_m[s]);
+  }
 }
 
 double enclosedVolume(const SurfaceTopology& surface, const std::vector<Vec3f>& positions_m) {

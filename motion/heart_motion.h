@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/box.h"
 #include "motion/surface_frame.h"
 #include "scene/scene.h"
 
@@ -20,6 +21,10 @@ class HeartMotion {
 
   const std::vector<SurfaceTopology>& surfaces() const { return surfaces_; }
 
+  // A box around each surface that no phase leaves: the keyframes' box, widened as far as the interpolation may
+  // overshoot (subdivision stays within its control points). Probe frame, m.
+  const std::vector<Box>& loopBoxes() const { return loop_boxes_m_; }
+
   // The surfaces at a phase in [0, 1); keyframe phases reproduce their keyframes. Thread-safe;
   // `frame` is reused without allocation once it has held a frame of this motion.
   void frameAt(double phase, SurfaceFrame& frame) const;
@@ -31,6 +36,7 @@ class HeartMotion {
   struct MovingSurface;
   std::vector<SurfaceTopology> surfaces_;
   std::vector<MovingSurface> moving_;
+  std::vector<Box> loop_boxes_m_;
   std::string input_sha256_;
 };
 

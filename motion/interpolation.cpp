@@ -31,8 +31,9 @@ void checkPhases(std::span<const double> phases, const SourcePlace& place) {
 }
 
 const char* advice(Interpolation kind) {
-  return kind == Interpolation::fourier ? "space them evenly or use interpolation = \"spline\""
-                                        : "space them evenly or use interpolation = \"linear\"";
+  return kind == Interpolation::fourier
+             ? "space them evenly or use motion.interpolation = \"spline\""
+             : "space them evenly or use motion.interpolation = \"linear\"";
 }
 
 // Solves A X = B in place of B. A is symmetric and strictly diagonally dominant, so elimination

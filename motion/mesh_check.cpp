@@ -12,8 +12,8 @@ namespace echocine {
 namespace {
 
 // Our choice: smaller is a wrong unit or a speck, larger is no part of a body.
-constexpr double kMinExtent_m = 1e-3;
-constexpr double kMaxExtent_m = 2.0;
+constexpr double kMinExtentMetres = 1e-3;
+constexpr double kMaxExtentMetres = 2.0;
 
 const MeshPart& partOfTriangle(const KeyframeMesh& keyframe, std::size_t triangle) {
   const MeshPart* found = &keyframe.parts.front();
@@ -126,7 +126,7 @@ void checkExtent(const Structure& structure, const KeyframeMesh& keyframe, doubl
   const Vec3d size = high - low;
   const double extent = std::max({size.x, size.y, size.z});
   const double extent_m = extent * mesh_unit_m;
-  if (!(extent_m >= kMinExtent_m && extent_m <= kMaxExtent_m))
+  if (!(extent_m >= kMinExtentMetres && extent_m <= kMaxExtentMetres))
     fail(structure, fmt::format("{} measures {:.4g} mesh units, which motion.mesh_unit makes "
                                 "{:.4g} m; 1 mm to 2 m is accepted: mend motion.mesh_unit",
                                 keyframe.parts.front().file.string(), extent, extent_m));

@@ -12,15 +12,18 @@ namespace echocine {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\v\f";
+bool isBlank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
 
 // Cuts the next blank-separated word off the front of a line; empty at its end.
 std::string_view nextWord(std::string_view& line) {
-  const std::size_t begin = line.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return line = {};
-  line.remove_prefix(begin);
-  const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
-  line.remove_prefix(word.size());
+  std::size_t begin = 0;
+  while (begin < line.size() && isBlank(line[begin])) ++begin;
+  std::size_t end = begin;
+  while (end < line.size() && !isBlank(line[end])) ++end;
+  const std::string_view word = line.substr(begin, end - begin);
+  line.remove_prefix(end);
   return word;
 }
 

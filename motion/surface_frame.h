@@ -19,6 +19,7 @@ struct SurfaceTopology {
   std::vector<Triangle> triangles;
   std::uint32_t vertex_count = 0;
   bool membrane = false;  // an open sheet: encloses nothing
+  bool still = false;     // one keyframe: the same in every frame
 };
 
 // One instant. positions_m[s] has vertex_count entries for the surface with index s. Probe frame:

@@ -11,6 +11,7 @@
 #include "frame_maker.h"
 #include "motion/cardiac_clock.h"
 #include "output/output_folder.h"
+#include "plan_loop.h"
 #include "reference_pass.h"
 #include "render_pass.h"
 
@@ -32,7 +33,7 @@ RenderSummary renderCine(const Scene& scene, const RenderOptions& options, const
   const auto start = std::chrono::steady_clock::now();
   const HeartMotion motion(scene);                // keyframes read, checked, ready to interpolate
   const CardiacClock clock(scene.acquisition);    // when each frame is, and where in the beat
-  const EffectPlan plan = planEffects(scene);     // what has to be computed at all
+  const LoopPlan plan = planLoop(scene, motion);  // what has to be computed at all, and how
   const auto [first, last] = frameRange(options, clock.frameCount());
   const OutputFolder folder(options.folder, scene.output, options.resume);
   FrameMaker maker(scene, plan, motion);          // motion -> geometry -> trace -> signal of one frame
@@ -43,7 +44,7 @@ RenderSummary renderCine(const Scene& scene, const RenderOptions& options, const
   summary.manifest.scene_sha256 = sceneSha256(scene, motion);
   withThreads(options.threads, [&] {
     KeptFrames kept;  // the loop's one reference for log compression, then every frame with it
-    const std::optional<double> reference = findReference(scene, maker, clock, monitor, kept);
+    const auto reference = findReference(scene, plan, maker, clock, monitor, kept);
     if (!reference) return;
     summary.manifest.reference_intensity = *reference;
     RenderPass pass({scene, maker, clock, folder, monitor, options.resume}, summary.manifest, kept);

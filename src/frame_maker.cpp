@@ -10,12 +10,13 @@ std::array<double, kStages> StageClock::milliseconds() const {
   return ms;
 }
 
-FrameMaker::FrameMaker(const Scene& scene, const EffectPlan& plan, const HeartMotion& motion)
+FrameMaker::FrameMaker(const Scene& scene, const LoopPlan& plan, const HeartMotion& motion)
     : scene_(scene),
+      plan_(plan),
       motion_(motion),
-      chain_(scene),
-      settings_(scene, plan),
-      request_(planeRequest(scene, plan)) {}
+      chain_(scene, plan.effects),
+      settings_(scene, plan.effects, plan.cell_echoes),
+      request_(planeRequest(scene, plan.effects)) {}
 
 std::shared_ptr<Workspace> FrameMaker::workspace() {
   std::unique_ptr<Workspace> space;
@@ -26,7 +27,12 @@ std::shared_ptr<Workspace> FrameMaker::workspace() {
       free_.pop_back();
     }
   }
-  if (!space) space = std::make_unique<Workspace>(motion_);
+  if (!space && plan_.slice)
+    space = std::make_unique<Workspace>(
+        Workspace{{}, PlaneSlice(motion_.surfaces(), scene_.probe, plan_.left_out), {}, {}});
+  if (!space)
+    space = std::make_unique<Workspace>(
+        Workspace{{}, FrameGeometry(motion_.surfaces(), plan_.left_out), {}, {}});
   return {space.release(), [this](Workspace* used) {
             const std::lock_guard lock(mutex_);
             free_.emplace_back(used);
@@ -50,11 +56,14 @@ Volumes FrameMaker::trace(double phase, Workspace& w) {
     motion_.frameAt(phase, w.surfaces);
     volumes_ml = volumes(w.surfaces);
   });
-  clock_.time(Stage::geometry, [&] { w.geometry.update(w.surfaces); });
-  WorkCounts work = clock_.time(Stage::trace, [&] {
-    return traceFrame(w.geometry, scene_.probe, settings_, request_, w.polar);
-  });
-  work.bvh_updates = 1;
+  const WorkCounts work = std::visit(
+      [&](auto& geometry) {
+        clock_.time(Stage::geometry, [&] { geometry.update(w.surfaces); });
+        return clock_.time(Stage::trace, [&] {
+          return traceFrame(geometry, scene_.probe, settings_, request_, w.polar);
+        });
+      },
+      w.geometry);
   if (request_.signal) clock_.time(Stage::signal, [&] { chain_.process(w.polar, w.scratch); });
   const std::lock_guard lock(mutex_);
   work_ += work;

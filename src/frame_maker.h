@@ -7,11 +7,14 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "geometry/frame_geometry.h"
+#include "geometry/plane_slice.h"
 #include "motion/heart_motion.h"
 #include "output/manifest.h"
+#include "scene/loop_plan.h"
 #include "signal/signal_chain.h"
 #include "trace/trace_frame.h"
 
@@ -39,16 +42,15 @@ class StageClock {
 
 // Surfaces and hierarchy of one frame in the making; there are as many as frames in flight.
 struct Workspace {
-  explicit Workspace(const HeartMotion& motion) : geometry(motion.surfaces()) {}
   SurfaceFrame surfaces;
-  FrameGeometry geometry;
+  std::variant<PlaneSlice, FrameGeometry> geometry;  // whichever the plan's tracer needs
   PolarFrame polar;
   std::vector<float> scratch;
 };
 
 class FrameMaker {
  public:
-  FrameMaker(const Scene& scene, const EffectPlan& plan, const HeartMotion& motion);
+  FrameMaker(const Scene& scene, const LoopPlan& plan, const HeartMotion& motion);
 
   // Borrows a workspace until the pointer dies; made on first use and used again.
   std::shared_ptr<Workspace> workspace();
@@ -68,6 +70,7 @@ class FrameMaker {
   Volumes volumes(const SurfaceFrame& surfaces) const;
 
   const Scene& scene_;
+  const LoopPlan& plan_;
   const HeartMotion& motion_;
   SignalChain chain_;
   TraceSettings settings_;

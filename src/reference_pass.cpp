@@ -18,11 +18,11 @@ std::size_t bytesOf(const PolarFrame& polar) {
 
 }  // namespace
 
-std::optional<double> findReference(const Scene& scene, FrameMaker& maker, const CardiacClock& clock,
-                                    const Monitor& monitor, KeptFrames& kept) {
-  const bool compresses = scene.output.cine || scene.output.png || wants(scene, Channel::display);
+std::optional<double> findReference(const Scene& scene, const LoopPlan& plan, FrameMaker& maker,
+                                    const CardiacClock& clock, const Monitor& monitor,
+                                    KeptFrames& kept) {
   if (scene.signal.reference_intensity) return scene.signal.reference_intensity;
-  if (!compresses) return 1;
+  if (!wantsPicture(scene) || !plan.effects.contrast) return 1;
   IntensityHistogram histogram(scene.probe);
   const int frames = clock.frameCount();
   std::size_t kept_bytes = 0;
@@ -36,6 +36,7 @@ std::optional<double> findReference(const Scene& scene, FrameMaker& maker, const
         maker.clock().time(Stage::signal, [&] { histogram.add(workspace->polar.signal); });
         frame->polar = std::move(workspace->polar);
         workspace->polar = {};
+        frame->polar.traces.clear();
         return frame;
       },
       [&](std::size_t i, std::shared_ptr<void> result) {
@@ -45,6 +46,7 @@ std::optional<double> findReference(const Scene& scene, FrameMaker& maker, const
         monitor.tell({Progress::Pass::measuring, static_cast<int>(i) + 1, frames});
       });
   if (done < static_cast<std::size_t>(frames)) return std::nullopt;
+  if (maker.work().crossings == 0) return 1;
   return histogram.percentile(scene.signal.reference_percentile);
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 // What a ray meets: plain records between the geometry and the trace stage.
 
-#include <bitset>
 #include <cstdint>
 #include <vector>
 
@@ -10,9 +9,7 @@
 
 namespace echocine {
 
-// The most structures a scene may have: their inside/outside states fit in a few words per ray.
-constexpr std::size_t kMaxSurfaces = 256;
-using InsideSet = std::bitset<kMaxSurfaces>;  // by SurfaceId
+using InsideSet = SurfaceSet;  // the closed surfaces that hold a point
 
 struct Ray {
   Vec3d origin;     // probe frame, m
@@ -25,6 +22,13 @@ struct Crossing {
   SurfaceId surface{};
   std::uint32_t triangle = 0;
   bool entering = false;  // into a closed surface; through a membrane's front
+};
+
+// What a ray meets, sorted by distance (ties by surface), and the states at its start as its crossings
+// prove them: along a ray the states of a closed surface alternate and end outside.
+struct RayCrossings {
+  std::vector<Crossing> crossings;
+  InsideSet inside;
 };
 
 }  // namespace echocine

@@ -1,6 +1,7 @@
 #include "geometry/crossing_rule.h"
 
 #include <cmath>
+#include <utility>
 
 namespace echocine {
 
@@ -23,43 +24,53 @@ Vec3d cutPoint(Vec3d p, double v_p, Vec3d q, double v_q) {
   return {(p.x * v_q - q.x * v_p) / s, (p.y * v_q - q.y * v_p) / s, (p.z * v_q - q.z * v_p) / s};
 }
 
-// Outward unit normal; a triangle without area takes the normal of its cut in the plane v = 0.
-Vec3d facetNormal(const RayPlanes& ray, Vec3d p0, Vec3d p1, Vec3d p2, Vec3d cut, bool entering) {
+}  // namespace
+
+std::optional<TriangleCut> cutTriangle(Vec3d p0, Vec3d p1, Vec3d p2, double v0, double v1,
+                                       double v2) {
+  const bool above0 = v0 >= 0, above1 = v1 >= 0, above2 = v2 >= 0;
+  if (above0 == above1 && above1 == above2) return std::nullopt;
+  const Vec3d p[3] = {p0, p1, p2};
+  const double v[3] = {v0, v1, v2};
+  // k is the vertex alone on its side, i and j follow it in the triangle's order.
+  const int k = above1 == above2 ? 0 : above0 == above2 ? 1 : 2;
+  const int i = (k + 1) % 3, j = (k + 2) % 3;
+  TriangleCut cut{cutPoint(p[k], v[k], p[i], v[i]), cutPoint(p[k], v[k], p[j], v[j])};
+  // Seen along a ray a front face runs clockwise: with k above, its first cut is the one of larger u.
+  if (!(v[k] >= 0)) std::swap(cut.from, cut.to);
+  return cut;
+}
+
+std::optional<CutCrossing> crossCut(const RayPlanes& ray, const TriangleCut& cut) {
+  const Vec3d from = cut.from - ray.origin, to = cut.to - ray.origin;
+  const double u1 = dot(ray.u_axis, from), u2 = dot(ray.u_axis, to);
+  const bool right1 = u1 >= 0, right2 = u2 >= 0;
+  if (right1 == right2) return std::nullopt;
+  const double w1 = dot(ray.direction, from), w2 = dot(ray.direction, to);
+  const double distance = (w1 * u2 - w2 * u1) / (u2 - u1);
+  if (!(distance > 0)) return std::nullopt;
+  return CutCrossing{distance, right1};
+}
+
+Vec3d facetNormal(Vec3d p0, Vec3d p1, Vec3d p2, const TriangleCut& cut, Vec3d v_axis) {
   const Vec3d n = cross(p1 - p0, p2 - p0);
   const double size = length(n);
   if (size > 0) return (1 / size) * n;
-  const Vec3d across = dot(cut, ray.direction) * ray.u_axis - dot(cut, ray.u_axis) * ray.direction;
+  const Vec3d across = cross(cut.to - cut.from, v_axis);
   const double across_size = length(across);
-  const Vec3d unit = across_size > 0 ? (1 / across_size) * across : ray.direction;
-  return (dot(unit, ray.direction) < 0) == entering ? unit : -unit;
+  return across_size > 0 ? (1 / across_size) * across : v_axis;
 }
-
-}  // namespace
 
 std::optional<Crossing> crossTriangle(const RayPlanes& ray, Vec3f p0, Vec3f p1, Vec3f p2,
                                       SurfaceId surface, std::uint32_t triangle) {
-  const Vec3d p[3] = {toDouble(p0) - ray.origin, toDouble(p1) - ray.origin,
-                      toDouble(p2) - ray.origin};
-  const double v[3] = {dot(ray.v_axis, p[0]), dot(ray.v_axis, p[1]), dot(ray.v_axis, p[2])};
-  const bool above[3] = {v[0] >= 0, v[1] >= 0, v[2] >= 0};
-  if (above[0] == above[1] && above[1] == above[2]) return std::nullopt;
-
-  // k is the vertex alone on its side, i and j follow it in the triangle's order.
-  const int k = above[1] == above[2] ? 0 : above[0] == above[2] ? 1 : 2;
-  const int i = (k + 1) % 3, j = (k + 2) % 3;
-  const Vec3d c1 = cutPoint(p[k], v[k], p[i], v[i]);
-  const Vec3d c2 = cutPoint(p[k], v[k], p[j], v[j]);
-  const double u1 = dot(ray.u_axis, c1), u2 = dot(ray.u_axis, c2);
-  const bool right1 = u1 >= 0, right2 = u2 >= 0;
-  if (right1 == right2) return std::nullopt;
-
-  const double w1 = dot(ray.direction, c1), w2 = dot(ray.direction, c2);
-  const double distance = (w1 * u2 - w2 * u1) / (u2 - u1);
-  if (!(distance > 0)) return std::nullopt;
-  // Seen along the ray a front face runs clockwise, so above the plane its first cut is the right one.
-  const bool entering = right1 == above[k];
-  return Crossing{distance, facetNormal(ray, p[0], p[1], p[2], c2 - c1, entering), surface, triangle,
-                  entering};
+  const Vec3d q0 = toDouble(p0), q1 = toDouble(p1), q2 = toDouble(p2);
+  const auto height = [&](Vec3d q) { return dot(ray.v_axis, q - ray.origin); };
+  const std::optional<TriangleCut> cut = cutTriangle(q0, q1, q2, height(q0), height(q1), height(q2));
+  if (!cut) return std::nullopt;
+  const std::optional<CutCrossing> crossing = crossCut(ray, *cut);
+  if (!crossing) return std::nullopt;
+  return Crossing{crossing->distance_m, facetNormal(q0, q1, q2, *cut, ray.v_axis), surface, triangle,
+                  crossing->entering};
 }
 
 }  // namespace echocine

@@ -9,6 +9,9 @@
 // one cut point has u >= 0 and the other has not. So the cuts of a closed mesh form closed loops,
 // and a loop changes between u >= 0 and u < 0 an even number of times: no crossing is lost or doubled, also
 // when vertices and edges lie exactly on the ray or in the plane.
+//
+// Rays of the imaging plane share their plane v = y, so a triangle's cut serves all of them: the plane slice and
+// the hierarchy of frame_geometry.h decide by the same numbers and agree to the last bit.
 
 #include <optional>
 
@@ -17,17 +20,35 @@
 
 namespace echocine {
 
-// A ray with its two planes. Rays in the imaging plane get v = y exactly.
+// A ray with its two planes. Rays of the imaging plane get v = y exactly.
 struct RayPlanes {
   explicit RayPlanes(const Ray& ray);
 
   Vec3d origin;
   Vec3d u_axis, v_axis, direction;  // right-handed, orthonormal
-
-  double v(Vec3f p) const { return dot(v_axis, toDouble(p) - origin); }
 };
 
-// The crossing of one triangle at a distance > 0, if any. `surface` and `triangle` are passed on.
+// A triangle's cut by a plane v = 0: a piece of contour, directed so that a front face seen along a ray in the
+// plane runs from u >= 0 to u < 0.
+struct TriangleCut {
+  Vec3d from, to;
+};
+
+// The cut of a triangle whose vertices have the heights v. Nothing when all lie on one side.
+std::optional<TriangleCut> cutTriangle(Vec3d p0, Vec3d p1, Vec3d p2, double v0, double v1, double v2);
+
+// The crossing of a ray with a cut by its plane v = 0, at a distance > 0, if any; normal as given.
+struct CutCrossing {
+  double distance_m = 0;
+  bool entering = false;
+};
+std::optional<CutCrossing> crossCut(const RayPlanes& ray, const TriangleCut& cut);
+
+// Unit normal on the side from which the triangle's vertices run counter-clockwise. A triangle without area takes
+// the normal of its cut within the plane with normal v_axis.
+Vec3d facetNormal(Vec3d p0, Vec3d p1, Vec3d p2, const TriangleCut& cut, Vec3d v_axis);
+
+// The crossing of one triangle, if any. `surface` and `triangle` are passed on.
 std::optional<Crossing> crossTriangle(const RayPlanes& ray, Vec3f p0, Vec3f p1, Vec3f p2,
                                       SurfaceId surface, std::uint32_t triangle);
 

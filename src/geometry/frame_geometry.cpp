@@ -8,23 +8,18 @@
 #include <cstring>
 #include <limits>
 
+#include "core/box.h"
 #include "core/check.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "geometry/crossing_rule.h"
+#include "geometry/line_states.h"
 
 namespace echocine {
 
 namespace {
 
 constexpr std::size_t kPacket = 16;
-
-struct Box {
-  Vec3d lo, hi;
-  bool contains(Vec3d p) const {
-    return p.x >= lo.x && p.y >= lo.y && p.z >= lo.z && p.x <= hi.x && p.y <= hi.y && p.z <= hi.z;
-  }
-};
 
 Box boxOf(const std::vector<Vec3f>& positions) {
   constexpr float kFar = std::numeric_limits<float>::infinity();
@@ -104,10 +99,13 @@ struct FrameGeometry::State {
   std::vector<Vec3f*> vertices;  // Embree's own buffers
   std::vector<RTCGeometry> geometries;
   std::vector<Box> boxes;
+  InsideSet membranes, absent;
+  bool held = false;  // a frame was taken over: still surfaces are in place
 
-  explicit State(const std::vector<SurfaceTopology>& topology);
+  State(const std::vector<SurfaceTopology>& topology, const InsideSet& left_out);
   ~State() {
-    for (RTCGeometry geometry : geometries) rtcReleaseGeometry(geometry);
+    for (RTCGeometry geometry : geometries)
+      if (geometry) rtcReleaseGeometry(geometry);
     rtcReleaseScene(scene);
   }
   State(const State&) = delete;
@@ -119,10 +117,12 @@ struct FrameGeometry::State {
   void crossAll(const RayPlanes& ray, std::uint32_t surface, std::vector<Crossing>& out) const;
   void crossCandidates(const RayQuery& query, std::vector<Candidate>& found,
                        RayCrossings& out) const;
+  void recount(const RayQuery& query, std::uint32_t surface, std::vector<Crossing>& crossings) const;
   void proveStates(const RayQuery& query, RayCrossings& out) const;
 };
 
-FrameGeometry::State::State(const std::vector<SurfaceTopology>& topology) : surfaces(topology) {
+FrameGeometry::State::State(const std::vector<SurfaceTopology>& topology, const InsideSet& left_out)
+    : surfaces(topology), absent(left_out) {
   CHECK_LE(topology.size(), kMaxSurfaces);
   scene = rtcNewScene(sharedDevice());
   rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST |
@@ -136,6 +136,13 @@ FrameGeometry::State::State(const std::vector<SurfaceTopology>& topology) : surf
 }
 
 void FrameGeometry::State::addSurface(const SurfaceTopology& surface) {
+  const auto id = static_cast<unsigned>(index(surface.id));
+  membranes[id] = surface.membrane;
+  if (absent[id]) {
+    geometries.push_back(nullptr);
+    vertices.push_back(nullptr);
+    return;
+  }
   RTCGeometry geometry = rtcNewGeometry(sharedDevice(), RTC_GEOMETRY_TYPE_TRIANGLE);
   geometries.push_back(geometry);
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
@@ -148,7 +155,7 @@ void FrameGeometry::State::addSurface(const SurfaceTopology& surface) {
   throwOnError("reserving memory for the meshes");
   std::copy(surface.triangles.begin(), surface.triangles.end(), t);
   vertices.push_back(v);
-  rtcAttachGeometry(scene, geometry);  // its geomID is the surface's index
+  rtcAttachGeometryByID(scene, geometry, id);
 }
 
 std::optional<Crossing> FrameGeometry::State::cross(const RayPlanes& ray, std::uint32_t surface,
@@ -187,77 +194,57 @@ void FrameGeometry::State::crossCandidates(const RayQuery& query, std::vector<Ca
   }
 }
 
-namespace {
-
-bool nearer(const Crossing& a, const Crossing& b) {
-  if (a.distance_m != b.distance_m) return a.distance_m < b.distance_m;
-  if (a.surface != b.surface) return a.surface < b.surface;
-  return a.triangle < b.triangle;
-}
-
-// Entries less exits of one closed surface.
-int balance(const std::vector<Crossing>& crossings, SurfaceId surface) {
-  int sum = 0;
-  for (const Crossing& c : crossings)
-    if (c.surface == surface) sum += c.entering ? 1 : -1;
-  return sum;
-}
-
-// Leaves of one surface's crossings only those that change its state. `depth` counts how often the start is
-// inside; where the counts cannot be right the states must at least alternate.
-void keepChanges(std::vector<Crossing>& crossings, SurfaceId surface, int depth, bool counts_right) {
-  std::erase_if(crossings, [&](const Crossing& c) {
-    if (c.surface != surface) return false;
-    const int before = depth;
-    depth += c.entering ? 1 : -1;
-    if (!counts_right) depth = std::clamp(depth, 0, 1);
-    return (before > 0) == (depth > 0);
-  });
-}
-
-}  // namespace
-
 // A closed surface's entries and exits balance with the state at the start. Where they do not, Embree has
 // lost a crossing (a ray within rounding of an edge), the start lies on the surface, or a refracted ray has met
 // the neighbour of the triangle it starts from: then every triangle is asked.
-void FrameGeometry::State::proveStates(const RayQuery& query, RayCrossings& out) const {
-  std::sort(out.crossings.begin(), out.crossings.end(), nearer);
-  out.inside = query.inside;
-  for (std::size_t s = 0; s < surfaces.size(); ++s) {
-    if (surfaces[s].membrane) continue;
-    const SurfaceId id{static_cast<std::uint32_t>(s)};
-    int inside = query.inside[s] ? 1 : 0;
-    bool right = balance(out.crossings, id) == -inside;
-    if (!right) {
-      std::erase_if(out.crossings, [id](const Crossing& c) { return c.surface == id; });
-      crossAll(RayPlanes(query.ray), static_cast<std::uint32_t>(s), out.crossings);
-      for (const auto& [left_surface, left_triangle] : query.left_behind)
-        std::erase_if(out.crossings, [&](const Crossing& c) {
-          return c.surface == left_surface && c.triangle == left_triangle;
-        });
-      std::sort(out.crossings.begin(), out.crossings.end(), nearer);
-      if (query.left_behind.empty()) inside = -balance(out.crossings, id);
-      right = inside >= 0 && balance(out.crossings, id) == -inside;
-      inside = std::max(inside, 0);
-      out.inside[s] = inside > 0;
-    }
-    keepChanges(out.crossings, id, inside, right);
-  }
+void FrameGeometry::State::recount(const RayQuery& query, std::uint32_t surface,
+                                   std::vector<Crossing>& crossings) const {
+  std::erase_if(crossings, [&](const Crossing& c) { return index(c.surface) == surface; });
+  crossAll(RayPlanes(query.ray), surface, crossings);
+  for (const auto& [left_surface, left_triangle] : query.left_behind)
+    std::erase_if(crossings, [&](const Crossing& c) {
+      return c.surface == left_surface && c.triangle == left_triangle;
+    });
 }
 
-FrameGeometry::FrameGeometry(const std::vector<SurfaceTopology>& surfaces)
-    : state_(std::make_unique<State>(surfaces)) {}
+void FrameGeometry::State::proveStates(const RayQuery& query, RayCrossings& out) const {
+  thread_local std::vector<int> balance, depth;
+  balance.resize(surfaces.size());
+  depth.resize(surfaces.size());
+  out.inside = query.inside;
+  InsideSet clamped;
+  balances(out.crossings, balance);
+  for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
+    depth[s] = query.inside[s] ? 1 : 0;
+    if (absent[s] || membranes[s] || balance[s] == -depth[s]) continue;
+    recount(query, s, out.crossings);
+    int recounted = 0;
+    for (const Crossing& c : out.crossings)
+      if (index(c.surface) == s) recounted += c.entering ? 1 : -1;
+    if (query.left_behind.empty()) depth[s] = std::max(-recounted, 0);
+    clamped[s] = recounted != -depth[s];
+    out.inside[s] = depth[s] > 0;
+  }
+  std::sort(out.crossings.begin(), out.crossings.end(), nearer);
+  keepChanges(out.crossings, depth, membranes, clamped);
+}
+
+FrameGeometry::FrameGeometry(const std::vector<SurfaceTopology>& surfaces,
+                             const InsideSet& left_out)
+    : state_(std::make_unique<State>(surfaces, left_out)) {}
 FrameGeometry::~FrameGeometry() = default;
 FrameGeometry::FrameGeometry(FrameGeometry&&) noexcept = default;
 
 void FrameGeometry::update(const SurfaceFrame& frame) {
   State& s = *state_;
   for (std::size_t i = 0; i < s.surfaces.size(); ++i) {
+    if (s.absent[i] || (s.surfaces[i].still && s.held)) continue;
     std::copy(frame.positions_m[i].begin(), frame.positions_m[i].end(), s.vertices[i]);
     s.boxes[i] = boxOf(frame.positions_m[i]);
     rtcUpdateGeometryBuffer(s.geometries[i], RTC_BUFFER_TYPE_VERTEX, 0);
     rtcCommitGeometry(s.geometries[i]);
   }
+  s.held = true;
   // Embree waits for its own tasks here; outside work must not be taken up meanwhile.
   isolated([&] { rtcCommitScene(s.scene); });
   throwOnError("updating the hierarchy");
@@ -268,10 +255,12 @@ InsideSet FrameGeometry::insideAt(Vec3d point) const {
   std::vector<Crossing> met;
   const RayPlanes depthwards(Ray{point, {0, 0, 1}});
   for (std::uint32_t i = 0; i < state_->surfaces.size(); ++i) {
-    if (state_->surfaces[i].membrane || !state_->boxes[i].contains(point)) continue;
+    if (state_->absent[i] || state_->surfaces[i].membrane || !state_->boxes[i].contains(point)) continue;
     met.clear();
     state_->crossAll(depthwards, i, met);
-    inside[i] = balance(met, SurfaceId{i}) < 0;
+    int balance = 0;
+    for (const Crossing& c : met) balance += c.entering ? 1 : -1;
+    inside[i] = balance < 0;
   }
   return inside;
 }

@@ -18,16 +18,11 @@ struct RayQuery {
   std::vector<std::pair<SurfaceId, std::uint32_t>> left_behind;  // triangles the origin lies on
 };
 
-// What a ray meets, sorted by distance (ties by surface), and the states at its start as its crossings
-// prove them: along a ray the states of a closed surface alternate and end outside.
-struct RayCrossings {
-  std::vector<Crossing> crossings;
-  InsideSet inside;
-};
-
 class FrameGeometry {
  public:
-  explicit FrameGeometry(const std::vector<SurfaceTopology>& surfaces);
+  // Surfaces in `left_out` meet no ray. Precondition: `surfaces` outlives the geometry.
+  explicit FrameGeometry(const std::vector<SurfaceTopology>& surfaces,
+                         const InsideSet& left_out = {});
   ~FrameGeometry();
   FrameGeometry(FrameGeometry&&) noexcept;
 

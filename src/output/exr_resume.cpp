@@ -49,7 +49,7 @@ struct ChannelRow {
 // A frame buffer that puts every row of the file into the same memory; empty rows when the layout
 // is none that ExrStack writes.
 Imf::FrameBuffer rowBuffer(const Imf::Header& header, std::vector<ChannelRow>& rows) {
-  const Imath::Box2i window = header.dataWindow();
+  const Imath::Box2i& window = header.dataWindow();
   Imf::FrameBuffer buffer;
   for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
     const Imf::Channel& channel = it.channel();

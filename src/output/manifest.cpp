@@ -12,26 +12,29 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// An effect's share of the stages' time: its own stage is the finest that is measured, so shares are those of
-// the stages that carry it out.
-double timeShare(const EffectDecision& effect, const Manifest& manifest) {
-  double total = 0;
-  for (const double ms : manifest.stage_ms) total += ms;
-  if (!effect.on || total <= 0) return 0;
-  const double trace = manifest.stage_ms[static_cast<std::size_t>(Stage::trace)];
-  int on = 0;
-  for (const EffectDecision& other : manifest.plan.decisions) on += other.on ? 1 : 0;
-  return trace / total / on;
-}
-
 Json effectsJson(const Manifest& manifest) {
   Json effects = Json::array();
-  for (const EffectDecision& e : manifest.plan.decisions)
+  for (const EffectDecision& e : manifest.plan.effects.decisions)
     effects.push_back({{"name", e.name},
                        {"on", e.on},
                        {"reason", e.reason},
                        {"time_share", timeShare(e, manifest)}});
   return effects;
+}
+
+Json planJson(const LoopPlan& plan) {
+  Json interfaces = Json::array();
+  for (const EffectDecision& i : plan.interfaces)
+    interfaces.push_back({{"name", i.name}, {"on", i.on}, {"reason", i.reason}});
+  return {{"tracer", plan.tracerName()},
+          {"tracer_reason", plan.tracer_reason},
+          {"interface_echo", plan.cell_echoes ? "cell" : "centre"},
+          {"interface_echo_reason", plan.echo_reason},
+          {"left_out", interfaces},
+          {"triangles", {{"given", plan.triangles_given},
+                         {"kept", plan.triangles_kept},
+                         {"met", plan.triangles_met}}},
+          {"warnings", plan.warnings}};
 }
 
 Json framesJson(const Manifest& manifest) {
@@ -59,6 +62,51 @@ Json keyframesJson(const Manifest& manifest) {
 
 }  // namespace
 
+double timeShare(const EffectDecision& effect, const Manifest& manifest) {
+  double total = 0;
+  for (const double ms : manifest.stage_ms) total += ms;
+  if (!effect.on || total <= 0) return 0;
+  const WorkCounts& w = manifest.work;
+  const auto crossings = static_cast<double>(w.crossings), rays = static_cast<double>(w.rays),
+             scattered = static_cast<double>(w.samples_backscatter),
+             attenuated = static_cast<double>(w.samples_attenuated);
+  // Relative cost of a unit of each work, from timings of the tracer with effects turned off one by one. Choices.
+  struct Part {
+    const char* name;
+    Stage stage;
+    double work;
+  };
+  const Part parts[] = {{"reflection", Stage::trace, 20 * crossings},
+                        {"lobe", Stage::trace, 5 * crossings},
+                        {"transmission_loss", Stage::trace, 10 * crossings},
+                        {"refraction", Stage::trace, manifest.plan.slice ? 0 : 200 * rays},
+                        {"attenuation", Stage::trace, 0.5 * attenuated},
+                        {"backscatter", Stage::trace, 0.3 * scattered},
+                        {"spread", Stage::trace, 0.3 * scattered},
+                        {"travel_time", Stage::trace, 2 * crossings},
+                        {"labels", Stage::trace, 0.1 * scattered},
+                        {"beam_width", Stage::signal, 0.8},
+                        {"tgc", Stage::signal, 0.05},
+                        {"log_compression", Stage::signal, 0.2}};
+  double of_stage = 0;
+  const Part* part = nullptr;
+  for (const Part& p : parts)
+    if (effect.name == p.name) part = &p;
+  const bool channel = effect.name.starts_with("channel");
+  if (!part && !channel) return 0;
+  for (const EffectDecision& other : manifest.plan.effects.decisions)
+    for (const Part& p : parts)
+      if (part && other.on && other.name == p.name && p.stage == part->stage) of_stage += p.work;
+  if (channel) {
+    double channels = 0;
+    for (const EffectDecision& other : manifest.plan.effects.decisions)
+      channels += other.on && other.name.starts_with("channel") ? 1 : 0;
+    return manifest.stage_ms[static_cast<std::size_t>(Stage::exr)] / total / channels;
+  }
+  const double stage_ms = manifest.stage_ms[static_cast<std::size_t>(part->stage)];
+  return of_stage > 0 ? stage_ms / total * part->work / of_stage : 0;
+}
+
 const char* stageName(Stage stage) {
   static constexpr const char* kNames[kStages] = {"motion", "geometry", "trace", "signal",
                                                   "scan_conversion", "exr", "avi"};
@@ -77,6 +125,7 @@ void writeManifest(const std::filesystem::path& path, const Scene& scene,
                   {"scene", sceneJson(scene)},
                   {"media", mediaJson(scene)},
                   {"effects", effectsJson(manifest)},
+                  {"plan", planJson(manifest.plan)},
                   {"reference_intensity", manifest.reference_intensity},
                   {"loop_frames", manifest.loop_frames},
                   {"frames", framesJson(manifest)},

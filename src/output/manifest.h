@@ -9,7 +9,7 @@
 
 #include "core/work_counts.h"
 #include "output/frame_record.h"
-#include "scene/effect_plan.h"
+#include "scene/loop_plan.h"
 
 namespace echocine {
 
@@ -34,7 +34,7 @@ const char* stageName(Stage stage);
 
 struct Manifest {
   std::string scene_sha256;
-  EffectPlan plan;
+  LoopPlan plan;
   double reference_intensity = 1;
   int loop_frames = 0;
   std::vector<FrameEntry> frames;
@@ -44,6 +44,10 @@ struct Manifest {
   WorkCounts work;                          // of the whole run
   std::map<std::string, std::string> files;  // path relative to the folder -> SHA-256
 };
+
+// Estimated share of an effect in the time of a frame: a stage's time goes to the effects that it carries out, in
+// proportion to the work that was counted for each. What no effect calls for (motion, encoding) is nobody's share.
+double timeShare(const EffectDecision& effect, const Manifest& manifest);
 
 // Throws JobError.
 void writeManifest(const std::filesystem::path& path, const Scene& scene, const Manifest& manifest);

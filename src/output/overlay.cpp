@@ -149,7 +149,8 @@ void forEachDrawn(const cv::Mat& canvas, Visit visit) {
 
 }  // namespace
 
-Overlay::Overlay(const Scene& scene, const PictureGeometry& geometry, std::vector<double> ecg)
+Overlay::Overlay(const Scene& scene, const PictureGeometry& geometry,
+                 const std::vector<double>& ecg)
     : width_(scene.output.width), height_(scene.output.height) {
   cv::Mat canvas(height_, width_, CV_8UC1, cv::Scalar(0));
   const double unit = sizeUnit(height_);
@@ -176,10 +177,11 @@ Overlay::Overlay(const Scene& scene, const PictureGeometry& geometry, std::vecto
   clearSector(canvas, scene.probe, geometry);
   forEachDrawn(canvas, [&](int x, int y, std::uint8_t grey) { still_.push_back({x, y, grey}); });
 
-  const int radius = std::max(2, static_cast<int>(std::lround(3 * unit)));
-  cv::Mat dot(2 * radius + 3, 2 * radius + 3, CV_8UC1, cv::Scalar(0));
-  const int centre = radius + 1;
-  cv::circle(dot, {centre, centre}, radius, kDotGrey, cv::FILLED, cv::LINE_AA);
+  const double radius = std::max(2.5, 3 * unit);
+  const int centre = static_cast<int>(std::ceil(radius)) + 1;
+  cv::Mat dot(2 * centre + 1, 2 * centre + 1, CV_8UC1, cv::Scalar(0));
+  cv::circle(dot, subpixel(cv::Point2d(centre, centre)), subpixel({radius, 0}).x, kDotGrey,
+             cv::FILLED, cv::LINE_AA, kSubpixelBits);
   forEachDrawn(dot, [&](int x, int y, std::uint8_t grey) {
     dot_.push_back({x - centre, y - centre, grey});
   });

@@ -13,7 +13,7 @@ class Overlay {
  public:
   // ecg: the lead amplitude (R wave = 1) at evenly spaced instants over the whole loop, first frame
   // to the end of the last; empty for none.
-  Overlay(const Scene& scene, const PictureGeometry& geometry, std::vector<double> ecg);
+  Overlay(const Scene& scene, const PictureGeometry& geometry, const std::vector<double>& ecg);
 
   // Draws ticks, trace and the cursor at loop_position in [0, 1]. Thread-safe.
   // Precondition: the image has the size that the scene's output settings ask for.

@@ -2,6 +2,7 @@
 // Channels of an intensity EXR.
 
 #include <array>
+#include <cstddef>
 
 namespace echocine {
 

@@ -4,11 +4,22 @@
 
 #include <algorithm>
 
+#include "core/units.h"
+
 namespace echocine {
 
 bool wants(const Scene& scene, Channel channel) {
   const std::vector<Channel>& list = scene.output.channels;
   return scene.output.exr && std::find(list.begin(), list.end(), channel) != list.end();
+}
+
+bool wantsPicture(const Scene& scene) {
+  return scene.output.cine || scene.output.png || wants(scene, Channel::display);
+}
+
+const EffectDecision& EffectPlan::decision(const std::string& name) const {
+  return *std::find_if(decisions.begin(), decisions.end(),
+                       [&](const EffectDecision& d) { return d.name == name; });
 }
 
 namespace {
@@ -18,15 +29,15 @@ struct Finding {
   std::string reason;
 };
 
-// `automatic` is only asked when the scene leaves the decision to the program.
-bool decide(EffectPlan& plan, const char* name, Switch wanted, const Finding& automatic) {
-  Finding finding = automatic;
-  if (wanted == Switch::on) finding = {true, "the scene asks for it"};
+bool decide(EffectPlan& plan, const char* name, Switch wanted, const Finding& found) {
+  Finding decided = found;
+  if (wanted == Switch::on)
+    decided = {true, found.on ? "the scene asks for it" : "the scene asks for it, although " + found.reason};
   if (wanted == Switch::off)
-    finding = {false, automatic.on ? fmt::format("the scene turns it off, although {}", automatic.reason)
-                                   : "the scene turns it off"};
-  plan.decisions.push_back({name, finding.on, finding.reason});
-  return finding.on;
+    decided = {false, found.on ? "the scene turns it off, although " + found.reason
+                               : "the scene turns it off"};
+  plan.decisions.push_back({name, decided.on, decided.reason});
+  return decided.on;
 }
 
 std::vector<const Medium*> mediaInUse(const Scene& scene) {
@@ -35,13 +46,48 @@ std::vector<const Medium*> mediaInUse(const Scene& scene) {
   return used;
 }
 
+bool sameInterface(const Medium& a, const Medium& b) {
+  return a.impedance_kg_m2_s == b.impedance_kg_m2_s && a.sound_speed_m_s == b.sound_speed_m_s;
+}
+
+bool differ(const Scene& scene) {
+  const std::vector<const Medium*> used = mediaInUse(scene);
+  return std::any_of(used.begin(), used.end(), [&](const Medium* m) {
+    return !sameInterface(*m, *used[0]) || m->attenuation_np_per_m != used[0]->attenuation_np_per_m ||
+           m->backscatter_per_m_sr != used[0]->backscatter_per_m_sr;
+  });
+}
+
+bool wantsIntensity(const Scene& scene, bool reflected) {
+  return wantsPicture(scene) || wants(scene, Channel::y) || wants(scene, Channel::unattenuated) ||
+         wants(scene, reflected ? Channel::reflection : Channel::backscatter);
+}
+
 Finding interfaces(const Scene& scene) {
   const std::vector<const Medium*> used = mediaInUse(scene);
   for (const Medium* m : used)
-    if (m->impedance_kg_m2_s != used[0]->impedance_kg_m2_s ||
-        m->sound_speed_m_s != used[0]->sound_speed_m_s)
+    if (!sameInterface(*m, *used[0]))
       return {true, fmt::format("{} and {} differ in impedance or speed", used[0]->name, m->name)};
   return {false, "all media have the same impedance and speed, so no interface reflects"};
+}
+
+Finding echoes(const Scene& scene) {
+  if (!wantsIntensity(scene, true)) return {false, "no requested output holds interface echoes"};
+  return interfaces(scene);
+}
+
+Finding lobes(const Scene& scene, bool reflection) {
+  if (!reflection) return {false, "there are no interface echoes to weigh"};
+  for (const Structure& s : scene.structures)
+    if (s.reflection_exponent != 0)
+      return {true, fmt::format("{} sends back cos^{:g} of what it reflects", s.name, s.reflection_exponent)};
+  return {false, "every structure's exponent is 0, so the lobe is the same for all angles"};
+}
+
+Finding losses(const Scene& scene) {
+  if (!wantsIntensity(scene, true) && !wantsIntensity(scene, false))
+    return {false, "no requested output holds intensities"};
+  return interfaces(scene);
 }
 
 // A membrane bends nothing, so only the media that enclose something count.
@@ -49,28 +95,72 @@ Finding bending(const Scene& scene) {
   const Medium& outside = scene.medium(scene.background);
   for (const Structure& s : scene.structures)
     if (!s.membrane && scene.medium(s.medium).sound_speed_m_s != outside.sound_speed_m_s)
-      return {true, fmt::format("{} ({} m/s) bends rays from {} ({} m/s)", s.name,
+      return {true, fmt::format("{} ({:g} m/s) bends rays from {} ({:g} m/s)", s.name,
                                 scene.medium(s.medium).sound_speed_m_s, outside.name,
                                 outside.sound_speed_m_s)};
   return {false, "every structure has the sound speed of its surroundings, so no ray bends"};
 }
 
-Finding losses(const Scene& scene) {
-  for (const Medium* m : mediaInUse(scene))
-    if (m->attenuation_np_per_m > 0) {
-      if (wants(scene, Channel::y)) return {true, "channel Y holds received intensities"};
-      if (wants(scene, Channel::attenuation)) return {true, "channel attenuation.A is asked for"};
-      if (scene.signal.tgc != Tgc::perfect) return {true, "the time gain does not undo it exactly"};
-      return {false, "perfect TGC undoes it and no received intensity was asked for"};
-    }
-  return {false, "no medium attenuates"};
+Finding attenuating(const Scene& scene) {
+  const std::vector<const Medium*> used = mediaInUse(scene);
+  if (std::none_of(used.begin(), used.end(), [](const Medium* m) { return m->attenuation_np_per_m > 0; }))
+    return {false, "no medium attenuates"};
+  for (const Channel c : {Channel::y, Channel::attenuation, Channel::reflection, Channel::backscatter})
+    if (wants(scene, c)) return {true, fmt::format("channel {} holds it", channelName(c))};
+  if (wantsPicture(scene) && scene.signal.tgc != Tgc::perfect)
+    return {true, scene.signal.tgc == Tgc::none ? "no time gain undoes it" : "a table of gains does not undo it exactly"};
+  return {false, "perfect TGC undoes it and no received intensity was asked for"};
 }
 
 Finding scattering(const Scene& scene) {
-  const std::vector<const Medium*> used = mediaInUse(scene);
-  for (const Medium* m : used)
-    if (m->backscatter_per_m_sr > 0) return {true, fmt::format("{} scatters back", m->name)};
-  return {false, "no medium scatters back"};
+  if (!wantsIntensity(scene, false)) return {false, "no requested output holds backscatter"};
+  std::string kinds;
+  for (const Medium* m : mediaInUse(scene))
+    if (m->backscatter_per_m_sr > 0 && kinds.find(m->name) == std::string::npos)
+      kinds += (kinds.empty() ? "" : ", ") + m->name;
+  if (kinds.empty()) return {false, "no medium scatters back"};
+  return {true, kinds + " scatter back"};
+}
+
+Finding spreading(const Scene& scene, bool backscatter) {
+  if (!backscatter) return {false, "nothing is scattered back"};
+  for (const Channel c : {Channel::y, Channel::unattenuated, Channel::backscatter})
+    if (wants(scene, c)) return {true, fmt::format("channel {} holds it", channelName(c))};
+  if (scene.signal.spread == Spread::keep) return {true, "signal.spread keeps it"};
+  return {false, "the display compensates it and no received intensity was asked for"};
+}
+
+Finding beamWidth(const Scene& scene) {
+  if (!wantsPicture(scene)) return {false, "no picture is asked for"};
+  const bool lateral = scene.signal.beam_width != BeamWidth::none && scene.probe.lines > 1;
+  const double pulse_m = scene.signal.pulse_cycles * 1540 / scene.probe.frequency_hz / 2;
+  if (lateral) return {true, "average over the beam at each depth (signal.beam_width) and over the pulse"};
+  if (pulse_m > scene.probe.sampleSpacing()) return {true, "average over the pulse, longer than a sample"};
+  return {false, "beam and pulse are no wider than a sample"};
+}
+
+void add(EffectPlan& plan, std::string name, bool on, std::string reason) {
+  plan.decisions.push_back({std::move(name), on, std::move(reason)});
+}
+
+void planSignal(const Scene& scene, EffectPlan& plan) {
+  const bool picture = wantsPicture(scene);
+  if (scene.signal.tgc == Tgc::table && picture)
+    add(plan, "tgc", true, "a table of gains over depth");
+  else
+    add(plan, "tgc", false, scene.signal.tgc == Tgc::perfect
+                                ? "perfect TGC is attenuation left out, not a gain to apply"
+                                : "no time gain is asked for");
+  add(plan, "log_compression", picture,
+      picture ? fmt::format("{:g} dB for the picture", scene.signal.dynamic_range_db)
+              : "no picture is asked for");
+  const bool labels = wants(scene, Channel::medium);
+  add(plan, "labels", labels, labels ? "channel medium.id is asked for" : "channel medium.id is not asked for");
+  for (const Channel c : kAllChannels) {
+    if (c == Channel::medium || (c == Channel::y && !wants(scene, c))) continue;
+    add(plan, fmt::format("channel {}", channelName(c)), wants(scene, c),
+        wants(scene, c) ? "asked for in output.channels" : "not asked for");
+  }
 }
 
 }  // namespace
@@ -78,14 +168,19 @@ Finding scattering(const Scene& scene) {
 EffectPlan planEffects(const Scene& scene) {
   EffectPlan plan;
   const EffectSwitches& wanted = scene.effects;
-  plan.reflection = decide(plan, "reflection", wanted.reflection, interfaces(scene));
-  plan.transmission_loss =
-      decide(plan, "transmission_loss", wanted.transmission_loss, interfaces(scene));
+  plan.contrast = differ(scene);
+  plan.reflection = decide(plan, "reflection", wanted.reflection, echoes(scene));
+  plan.lobe = decide(plan, "lobe", wanted.lobe, lobes(scene, plan.reflection));
+  plan.transmission_loss = decide(plan, "transmission_loss", wanted.transmission_loss, losses(scene));
   plan.refraction = decide(plan, "refraction", wanted.refraction, bending(scene));
-  plan.attenuation = decide(plan, "attenuation", wanted.attenuation, losses(scene));
+  plan.attenuation = decide(plan, "attenuation", wanted.attenuation, attenuating(scene));
   plan.backscatter = decide(plan, "backscatter", wanted.backscatter, scattering(scene));
+  plan.spread = decide(plan, "spread", wanted.spread, spreading(scene, plan.backscatter));
+  plan.beam_width = decide(plan, "beam_width", wanted.beam_width, beamWidth(scene));
+  decide(plan, "elevation", wanted.elevation, {false, "one ray per beam stays in the imaging plane"});
   plan.travel_time = decide(plan, "travel_time", wanted.travel_time,
                             {false, "echoes are placed at their path length"});
+  planSignal(scene, plan);
   return plan;
 }
 

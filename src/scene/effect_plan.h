@@ -16,17 +16,28 @@ struct EffectDecision {
 
 struct EffectPlan {
   bool reflection = true;
+  bool lobe = true;
   bool transmission_loss = true;
   bool refraction = true;
-  bool attenuation = true;   // the exponent A is computed
+  bool attenuation = true;  // the exponent A is computed
   bool backscatter = true;
+  bool spread = true;
+  bool beam_width = true;
   bool travel_time = false;
+  bool contrast = true;     // the media in use differ at all
   std::vector<EffectDecision> decisions;
+
+  const EffectDecision& decision(const std::string& name) const;
 };
 
+// What the scene file alone decides. Refraction stays on here where any ray could bend; how far rays do bend
+// takes the meshes.
 EffectPlan planEffects(const Scene& scene);
 
 // Is the channel among those that the scene asks for?
 bool wants(const Scene& scene, Channel channel);
+
+// Is there a picture to make (cine, PNG or channel display.Y)?
+bool wantsPicture(const Scene& scene);
 
 }  // namespace echocine

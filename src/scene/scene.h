@@ -49,12 +49,17 @@ struct Structure {
 
 enum class Switch { automatic, on, off };
 
+// What each effect is stands in effect_plan.cpp, beside the reasons to leave it out.
 struct EffectSwitches {
   Switch reflection = Switch::automatic;         // echoes of interfaces
+  Switch lobe = Switch::automatic;               // cos^n of the non-specular lobe
   Switch transmission_loss = Switch::automatic;  // (1-R)^2 at each interface passed
   Switch refraction = Switch::automatic;         // bent rays
   Switch attenuation = Switch::automatic;        // exp(-4 alpha l)
   Switch backscatter = Switch::automatic;        // Eqs. 4-7
+  Switch spread = Switch::automatic;             // 1/l^2 of the backscattered part
+  Switch beam_width = Switch::automatic;         // the average over the beam
+  Switch elevation = Switch::automatic;          // rays out of the imaging plane
   Switch travel_time = Switch::off;              // place echoes at 1540 m/s t/2 instead of path length
 };
 
@@ -75,8 +80,17 @@ struct SignalSettings {
   double grey_gamma = 1;                      // grey = (position in the dynamic range)^gamma
 };
 
+enum class TracerChoice { automatic, slice, embree };
+enum class InterfaceEcho { automatic, centre, cell };
+
 struct AccuracySettings {
   int rays_per_beam = 1;
+  TracerChoice tracer = TracerChoice::automatic;
+  // At the scan line, or integrated over the beam's cell (plane slice only; automatic: where it can be).
+  InterfaceEcho interface_echo = InterfaceEcho::automatic;
+  // Refraction "auto" is off while 99 % of the echoes move by less than this many line spacings. Our choice:
+  // half a line, which the image cannot show.
+  double refraction_tolerance_lines = 0.5;
 };
 
 enum class ExrCompression { none, rle, zips, zip, piz };
@@ -85,6 +99,7 @@ enum class CineCodec { mjpg, ffv1 };
 struct OutputSettings {
   bool exr = true, cine = true, png = false;
   std::vector<Channel> channels{Channel::y};
+  bool channels_given = false;  // by the scene, not by the default
   ExrCompression exr_compression = ExrCompression::none;
   CineCodec codec = CineCodec::mjpg;
   int jpeg_quality = 95;

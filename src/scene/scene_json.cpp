@@ -57,9 +57,16 @@ Json structuresJson(const Scene& scene) {
 
 Json effectsJson(const EffectSwitches& e) {
   const auto name = [](Switch s) { return nameOf(s, {"auto", "on", "off"}); };
-  return {{"reflection", name(e.reflection)},   {"transmission_loss", name(e.transmission_loss)},
-          {"refraction", name(e.refraction)},   {"attenuation", name(e.attenuation)},
-          {"backscatter", name(e.backscatter)}, {"travel_time", name(e.travel_time)}};
+  return {{"reflection", name(e.reflection)},
+          {"lobe", name(e.lobe)},
+          {"transmission_loss", name(e.transmission_loss)},
+          {"refraction", name(e.refraction)},
+          {"attenuation", name(e.attenuation)},
+          {"backscatter", name(e.backscatter)},
+          {"spread", name(e.spread)},
+          {"beam_width", name(e.beam_width)},
+          {"elevation", name(e.elevation)},
+          {"travel_time", name(e.travel_time)}};
 }
 
 Json signalJson(const SignalSettings& s) {
@@ -121,7 +128,11 @@ Json sceneJson(const Scene& scene) {
           {"structures", structuresJson(scene)},
           {"effects", effectsJson(scene.effects)},
           {"signal", signalJson(scene.signal)},
-          {"accuracy", {{"rays_per_beam", scene.accuracy.rays_per_beam}}},
+          {"accuracy",
+           {{"rays_per_beam", scene.accuracy.rays_per_beam},
+            {"tracer", nameOf(scene.accuracy.tracer, {"auto", "slice", "embree"})},
+            {"interface_echo", nameOf(scene.accuracy.interface_echo, {"auto", "centre", "cell"})},
+            {"refraction_tolerance_lines", scene.accuracy.refraction_tolerance_lines}}},
           {"output", outputJson(scene.output)}};
 }
 

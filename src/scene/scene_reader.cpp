@@ -122,10 +122,14 @@ EffectSwitches readEffects(TomlTable table) {
                         {{"auto", Switch::automatic}, {"on", Switch::on}, {"off", Switch::off}});
   };
   e.reflection = read("reflection", e.reflection);
+  e.lobe = read("lobe", e.lobe);
   e.transmission_loss = read("transmission_loss", e.transmission_loss);
   e.refraction = read("refraction", e.refraction);
   e.attenuation = read("attenuation", e.attenuation);
   e.backscatter = read("backscatter", e.backscatter);
+  e.spread = read("spread", e.spread);
+  e.beam_width = read("beam_width", e.beam_width);
+  e.elevation = read("elevation", e.elevation);
   e.travel_time = read("travel_time", e.travel_time);
   table.finish();
   return e;
@@ -190,7 +194,8 @@ OutputSettings readOutput(TomlTable table) {
   o.exr = table.boolean("exr", o.exr);
   o.cine = table.boolean("cine", o.cine);
   o.png = table.boolean("png", o.png);
-  if (table.has("channels")) o.channels = readChannels(table);
+  o.channels_given = table.has("channels");
+  if (o.channels_given) o.channels = readChannels(table);
   if (o.channels.empty()) table.fail("channels", "is empty, accepted: at least one channel");
   o.exr_compression = table.choice("exr_compression", o.exr_compression,
                                    {{"none", ExrCompression::none},
@@ -211,8 +216,38 @@ OutputSettings readOutput(TomlTable table) {
 AccuracySettings readAccuracy(TomlTable table) {
   AccuracySettings a;
   a.rays_per_beam = table.integer("rays_per_beam", a.rays_per_beam, 1, 1);
+  a.tracer = table.choice("tracer", a.tracer,
+                          {{"auto", TracerChoice::automatic},
+                           {"slice", TracerChoice::slice},
+                           {"embree", TracerChoice::embree}});
+  a.interface_echo = table.choice("interface_echo", a.interface_echo,
+                                  {{"auto", InterfaceEcho::automatic},
+                                   {"centre", InterfaceEcho::centre},
+                                   {"cell", InterfaceEcho::cell}});
+  a.refraction_tolerance_lines = table.number(
+      "refraction_tolerance_lines", a.refraction_tolerance_lines, NumberRange::notNegative());
   table.finish();
   return a;
+}
+
+// Demands that exclude each other, each named by both of its keys.
+void refuseContradictions(TomlTable& root, const Scene& scene) {
+  const AccuracySettings& a = scene.accuracy;
+  const TomlTable effects = root.table("effects"), accuracy = root.table("accuracy"),
+                  output = root.table("output");
+  if (scene.effects.refraction == Switch::on && a.tracer == TracerChoice::slice)
+    effects.fail("refraction", "\"on\" excludes accuracy.tracer = \"slice\", accepted with it: \"auto\" | \"off\"");
+  if (a.interface_echo == InterfaceEcho::cell && scene.effects.refraction == Switch::on)
+    accuracy.fail("interface_echo", "\"cell\" excludes effects.refraction = \"on\", accepted with it: \"auto\" | \"centre\"");
+  if (a.interface_echo == InterfaceEcho::cell && a.tracer == TracerChoice::embree)
+    accuracy.fail("interface_echo", "\"cell\" excludes accuracy.tracer = \"embree\", accepted with it: \"auto\" | \"centre\"");
+  if (scene.effects.elevation == Switch::on && a.rays_per_beam == 1)
+    effects.fail("elevation", "\"on\" needs accuracy.rays_per_beam over 1, accepted with one ray: \"auto\" | \"off\"");
+  if (scene.effects.attenuation == Switch::off && scene.output.channels_given)
+    for (const Channel c : scene.output.channels)
+      if (c == Channel::y || c == Channel::attenuation || c == Channel::reflection || c == Channel::backscatter)
+        output.fail("channels", fmt::format("{} holds attenuation, which effects.attenuation = \"off\" leaves out, accepted with it: "
+                                            "unattenuated.Y, medium.id, display.Y", channelName(c)));
 }
 
 // Gives each medium that the scene uses one id and its numbers at the probe's frequency.
@@ -239,6 +274,8 @@ void readStructures(TomlTable& root, const MediaTable& table, MediaInUse& media,
       if (other.name == structure.name)
         entry.fail("name", fmt::format("\"{}\" is taken, accepted: a name of its own", structure.name));
     scene.structures.push_back(std::move(structure));
+    if (scene.structures.size() > kMaxSurfaces)
+      entry.fail("name", fmt::format("is one structure too many, accepted: up to {}", kMaxSurfaces));
   }
 }
 
@@ -265,6 +302,7 @@ Scene parseScene(std::string_view text, const std::filesystem::path& file) {
   scene.accuracy = readAccuracy(root.table("accuracy"));
   scene.output = readOutput(root.table("output"));
   root.finish();
+  refuseContradictions(root, scene);
   return scene;
 }
 

@@ -5,18 +5,18 @@
 
 namespace echocine {
 
-SignalChain::SignalChain(const Scene& scene)
+SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
     : settings_(scene.signal),
-      beam_(scene.probe, scene.signal),
       geometry_(pictureGeometry(scene)),
       converter_(scene.probe, geometry_, scene.output.width, scene.output.height,
                  scene.signal.grey_gamma) {
+  if (plan.beam_width) beam_.emplace(scene.probe, scene.signal);
   if (settings_.tgc == Tgc::table) gains_ = timeGains(settings_.tgc_table, scene.probe);
 }
 
 void SignalChain::process(PolarFrame& frame, std::vector<float>& scratch) const {
   if (!gains_.empty()) applyTimeGains(gains_, frame.signal);
-  beam_.apply(frame.signal, scratch);
+  if (beam_) beam_->apply(frame.signal, scratch);
 }
 
 void SignalChain::compress(PolarFrame& frame, double reference_intensity) const {

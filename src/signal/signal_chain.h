@@ -1,19 +1,21 @@
 #pragma once
 // The scanner's signal processing, the same in every frame of a loop:
 // time gain -> beam width -> log compression -> scan conversion -> grey map.
-// Spread is the tracer's part (it knows which intensity was scattered), by signalParts of its request.
+// Spread is the tracer's part (it knows which intensity was scattered), by the signal_parts of its request.
 
+#include <optional>
 #include <vector>
 
 #include "signal/beam_width.h"
 #include "signal/scan_conversion.h"
+#include "scene/effect_plan.h"
 #include "trace/polar_frame.h"
 
 namespace echocine {
 
 class SignalChain {
  public:
-  explicit SignalChain(const Scene& scene);
+  SignalChain(const Scene& scene, const EffectPlan& plan);
 
   const PictureGeometry& geometry() const { return geometry_; }
 
@@ -31,7 +33,7 @@ class SignalChain {
  private:
   SignalSettings settings_;
   std::vector<float> gains_;  // of a table TGC; empty: none
-  BeamAverage beam_;
+  std::optional<BeamAverage> beam_;
   PictureGeometry geometry_;
   ScanConverter converter_;
 };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/ids.h"
+#include "core/vec3.h"
 
 namespace echocine {
 
@@ -24,14 +25,29 @@ struct Echo {
   double exponent = 0;   // A up to it
 };
 
+// One crossing as the walk along a line judged it; what integration over the beam's cell needs of it.
+struct InterfacePass {
+  SurfaceId surface{};
+  bool entering = false;
+  bool seen = false;  // an interface here: the media differ, or a membrane
+  MediumId before{}, after{};  // of a membrane: what is around it, and its own
+  Vec3d point;                 // probe frame
+  double path_m = 0, depth_m = 0;
+  double path_per_depth = 1;                        // of the medium before
+  double exponent = 0, exponent_per_path = 0;       // A at it, and dA/dl before it
+  double passed = 1;                                // prod (1-R)^2 before it
+};
+
 // Stretches follow each other without gap from depth 0; after the last one the ray has ended.
 struct LineTrace {
   std::vector<Stretch> stretches;
   std::vector<Echo> echoes;
+  std::vector<InterfacePass> passes;  // in order; only on request
 
   void clear() {
     stretches.clear();
     echoes.clear();
+    passes.clear();
   }
 };
 

@@ -63,7 +63,7 @@ void LineWalker::walkTo(double distance_m) {
 
 // What the interface sends to the transducer, added to what is lost before it.
 void LineWalker::addEcho(double R, double cos_i, const SurfaceTraits& surface) {
-  if (!settings_.reflection || R == 0) return;
+  if (!settings_.reflection || settings_.cell_echoes || R == 0) return;
   const double W = surface.gain * R;
   trace_.echoes.push_back(
       {depth_m_, passed_ * nonSpecularReturn(W, cos_i, surface.exponent), exponent_});
@@ -86,6 +86,30 @@ const Crossing& LineWalker::deciding(Group group) const {
     if (s.membrane != t.membrane) return s.membrane;
     return std::pair(s.priority, a.surface) < std::pair(t.priority, b.surface);
   });
+}
+
+// For integration over cells: every crossing with the media and losses of this line. Of coincident surfaces the
+// deciding one is seen.
+void LineWalker::notePasses(Group group, MediumId after) {
+  const Medium& medium = settings_.media[index(medium_)];
+  const Crossing& decided = deciding(group);
+  for (const Crossing& c : group) {
+    const SurfaceTraits& surface = settings_.surfaces[index(c.surface)];
+    const bool seen = surface.membrane || (after != medium_ && &c == &decided);
+    trace_.passes.push_back(
+        {.surface = c.surface,
+         .entering = c.entering,
+         .seen = seen,
+         .before = medium_,
+         .after = surface.membrane ? surface.medium : after,
+         .point = query_.ray.origin + walked_m_ * query_.ray.direction,
+         .path_m = path_m_,
+         .depth_m = depth_m_,
+         .path_per_depth = settings_.travel_time ? medium.sound_speed_m_s / kScannerSpeed : 1.0,
+         .exponent = exponent_,
+         .exponent_per_path = settings_.attenuation ? 4 * medium.attenuation_np_per_m : 0.0,
+         .passed = passed_});
+  }
 }
 
 void LineWalker::passInterface(Group group, MediumId after) {
@@ -145,9 +169,10 @@ void LineWalker::advance(const RayCrossings& met) {
     for (const Crossing& c : group) {
       if (!settings_.surfaces[index(c.surface)].membrane) inside[index(c.surface)] = c.entering;
     }
+    const MediumId after = mediumInside(inside);
+    if (settings_.note_passes) notePasses(group, after);
     for (const Crossing& c : group)
       if (alive_ && settings_.surfaces[index(c.surface)].membrane) passMembrane(c);
-    const MediumId after = mediumInside(inside);
     if (alive_ && after != medium_) passInterface(group, after);
     if (!alive_) return;
     if (bends_ != bends_before) {

@@ -28,6 +28,7 @@ class LineWalker {
   void walkTo(double distance_m);
   void passInterface(Group group, MediumId after);
   void passMembrane(const Crossing& crossing);
+  void notePasses(Group group, MediumId after);
   void addEcho(double R, double cos_i, const SurfaceTraits& surface);
   void loseAt(double R, bool total);
   void bend(Group group, Vec3d direction);

@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "trace/line_trace.h"
 
 namespace echocine {
 
 // Planes are line-major: the samples of line 0 from shallow to deep, then those of line 1, and so on.
 struct PolarFrame {
   int lines = 0, samples = 0;
+  std::vector<LineTrace> traces;                 // of each line, before sampling
   std::map<Channel, std::vector<float>> planes;  // the intensity channels that were asked for
   std::vector<std::uint32_t> medium;             // Channel::medium, if asked for
   std::vector<float> signal;                     // where the signal chain starts

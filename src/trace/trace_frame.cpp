@@ -1,10 +1,10 @@
 #include "trace/trace_frame.h"
 
 #include <array>
-#include <atomic>
 #include <optional>
 
 #include "core/parallel.h"
+#include "trace/cell_echoes.h"
 #include "trace/line_walker.h"
 
 namespace echocine {
@@ -13,45 +13,42 @@ namespace {
 
 constexpr std::size_t kPacket = 16;  // lines that go through the hierarchy together
 
-struct Packet {
-  std::array<LineTrace, kPacket> lines;
-  std::array<RayCrossings, kPacket> met;
-  WorkCounts work;
-};
-
 // Follows a packet of neighbouring lines, one round per straight piece.
-void walkPacket(const FrameGeometry& geometry, const Probe& probe, const TraceSettings& settings,
-                int first_line, std::size_t count, Packet& packet) {
+WorkCounts walkPacket(const FrameGeometry& geometry, const Probe& probe, const TraceSettings& settings,
+                      int first_line, std::span<LineTrace> lines) {
   std::array<std::optional<LineWalker>, kPacket> walkers;
   std::array<RayQuery, kPacket> queries;
+  thread_local std::array<RayCrossings, kPacket> met;
+  WorkCounts work;
   InsideSet inside;
   Vec3d origin{};
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
     const LineGeometry line = lineGeometry(probe, first_line + static_cast<int>(i));
     if (i == 0 || !(line.origin == origin)) inside = geometry.insideAt(line.origin);
     origin = line.origin;
-    walkers[i].emplace(settings, Ray{line.origin, line.direction}, inside, packet.lines[i]);
+    walkers[i].emplace(settings, Ray{line.origin, line.direction}, inside, lines[i]);
   }
   for (;;) {
     std::array<std::size_t, kPacket> who{};
     std::size_t alive = 0;
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < lines.size(); ++i)
       if (walkers[i]->alive()) {
         who[alive] = i;
         queries[alive++] = walkers[i]->query();
       }
-    if (alive == 0) return;
-    geometry.crossings(std::span(queries).first(alive), std::span(packet.met).first(alive));
-    packet.work.rays += alive;
+    if (alive == 0) return work;
+    geometry.crossings(std::span(queries).first(alive), std::span(met).first(alive));
+    work.rays += alive;
     for (std::size_t i = 0; i < alive; ++i) {
-      packet.work.crossings += packet.met[i].crossings.size();
-      walkers[who[i]]->advance(packet.met[i]);
+      work.crossings += met[i].crossings.size();
+      walkers[who[i]]->advance(met[i]);
     }
   }
 }
 
-IntensityParts partsOf(Channel channel, bool attenuation) {
+IntensityParts partsOf(Channel channel, bool attenuation, double spread_undone_at_m) {
   IntensityParts parts;
+  parts.spread_undone_at_m = spread_undone_at_m;
   parts.attenuation = attenuation && channel != Channel::unattenuated;
   parts.backscatter = channel != Channel::reflection;
   parts.reflection = channel != Channel::backscatter;
@@ -66,17 +63,33 @@ class LineSampler {
       : sampling_{probe.min_depth_m, probe.sampleSpacing(), probe.samples},
         settings_(settings), request_(request), frame_(frame) {}
 
-  void sample(int line, const LineTrace& trace, WorkCounts& work) const {
+  void sample(int line, const LineTrace& trace) const {
     for (const Channel channel : request_.channels) {
       if (channel == Channel::medium)
         sampleMedium(trace, sampling_, column(frame_.medium, line));
       else if (channel == Channel::attenuation)
         sampleExponent(trace, sampling_, column(frame_.planes.at(channel), line));
       else
-        intensity(trace, partsOf(channel, settings_.attenuation),
-                  column(frame_.planes.at(channel), line), work);
+        intensity(trace, partsOf(channel, settings_.attenuation, request_.spread_undone_at_m),
+                  column(frame_.planes.at(channel), line));
     }
-    if (request_.signal) intensity(trace, request_.signal_parts, column(frame_.signal, line), work);
+    if (request_.signal) intensity(trace, request_.signal_parts, column(frame_.signal, line));
+  }
+
+  // Of all lines, by what each plane takes.
+  WorkCounts work() const {
+    WorkCounts work;
+    const auto add = [&](const IntensityParts& parts) {
+      const auto size = static_cast<std::uint64_t>(frame_.lines) * static_cast<std::uint64_t>(frame_.samples);
+      if (parts.backscatter && settings_.backscatter) work.samples_backscatter += size;
+      if (parts.attenuation) work.samples_attenuated += size;
+    };
+    for (const Channel channel : request_.channels) {
+      if (channel == Channel::attenuation) add({.reflection = false, .backscatter = false});
+      else if (channel != Channel::medium) add(partsOf(channel, settings_.attenuation, request_.spread_undone_at_m));
+    }
+    if (request_.signal) add(request_.signal_parts);
+    return work;
   }
 
  private:
@@ -86,12 +99,8 @@ class LineSampler {
     return std::span(plane).subspan(static_cast<std::size_t>(line) * samples, samples);
   }
 
-  void intensity(const LineTrace& trace, const IntensityParts& parts, std::span<float> values,
-                 WorkCounts& work) const {
+  void intensity(const LineTrace& trace, const IntensityParts& parts, std::span<float> values) const {
     sampleIntensity(trace, sampling_, parts, values);
-    const bool backscatter = parts.backscatter && settings_.backscatter;
-    if (backscatter) work.samples_backscatter += values.size();
-    if (parts.attenuation) work.samples_attenuated += values.size();
   }
 
   Sampling sampling_;
@@ -103,6 +112,7 @@ class LineSampler {
 void reserve(const Probe& probe, const PlaneRequest& request, PolarFrame& frame) {
   frame.lines = probe.lines;
   frame.samples = probe.samples;
+  frame.traces.resize(static_cast<std::size_t>(probe.lines));
   const std::size_t size = static_cast<std::size_t>(probe.lines) * static_cast<std::size_t>(probe.samples);
   for (const Channel channel : request.channels) {
     if (channel == Channel::medium)
@@ -115,7 +125,7 @@ void reserve(const Probe& probe, const PlaneRequest& request, PolarFrame& frame)
 
 }  // namespace
 
-TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan)
+TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan, bool integrate_cells)
     : media(scene.media),
       background(scene.background),
       unit_volume_m3(scene.unit_volume_m3),
@@ -126,42 +136,81 @@ TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan)
       refraction(plan.refraction),
       attenuation(plan.attenuation),
       backscatter(plan.backscatter),
-      travel_time(plan.travel_time) {
+      travel_time(plan.travel_time),
+      cell_echoes(integrate_cells),
+      note_passes(integrate_cells) {
   for (const Structure& s : scene.structures)
-    surfaces.push_back({s.medium, s.priority, s.membrane, s.reflection_gain, s.reflection_exponent});
+    surfaces.push_back({s.medium, s.priority, s.membrane, s.reflection_gain,
+                        plan.lobe ? s.reflection_exponent : 0});
 }
 
 PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan) {
   PlaneRequest request;
   for (const Channel channel : scene.output.channels)
     if (scene.output.exr && channel != Channel::display) request.channels.push_back(channel);
-  request.signal = scene.output.cine || scene.output.png || wants(scene, Channel::display);
+  request.signal = wantsPicture(scene);
   request.signal_parts.attenuation = plan.attenuation && scene.signal.tgc != Tgc::perfect;
+  request.spread_undone_at_m = plan.spread ? 0 : scene.probe.middleDepth();
   request.signal_parts.spread_undone_at_m =
-      scene.signal.spread == Spread::compensate ? scene.probe.middleDepth() : 0;
+      !plan.spread || scene.signal.spread == Spread::compensate ? scene.probe.middleDepth() : 0;
   return request;
 }
 
-WorkCounts traceFrame(const FrameGeometry& geometry, const Probe& probe,
-                     const TraceSettings& settings, const PlaneRequest& request,
-                     PolarFrame& frame) {
-  reserve(probe, request, frame);
+namespace {
+
+// Samples all lines into the planes of the frame.
+void sampleLines(const Probe& probe, const TraceSettings& settings, const PlaneRequest& request,
+                 PolarFrame& frame, WorkCounts& work) {
   const LineSampler sampler(probe, settings, request, frame);
-  const std::size_t packets = (static_cast<std::size_t>(probe.lines) + kPacket - 1) / kPacket;
-  std::vector<WorkCounts> work(packets);
-  parallelBlocks(static_cast<std::size_t>(probe.lines), kPacket,
-                 [&](std::size_t begin, std::size_t end) {
-                   thread_local Packet packet;
-                   packet.work = {};
-                   const int first_line = static_cast<int>(begin);
-                   walkPacket(geometry, probe, settings, first_line, end - begin, packet);
-                   for (std::size_t i = 0; i < end - begin; ++i)
-                     sampler.sample(first_line + static_cast<int>(i), packet.lines[i], packet.work);
-                   work[begin / kPacket] = packet.work;
-                 });
-  WorkCounts sum;
-  for (const WorkCounts& w : work) sum += w;
-  return sum;
+  parallelBlocks(frame.traces.size(), kPacket, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      sampler.sample(static_cast<int>(i), frame.traces[i]);
+  });
+  work += sampler.work();
+}
+
+}  // namespace
+
+WorkCounts walkLines(const FrameGeometry& geometry, const Probe& probe,
+                     const TraceSettings& settings, std::vector<LineTrace>& traces) {
+  traces.resize(static_cast<std::size_t>(probe.lines));
+  std::vector<WorkCounts> of_packet((traces.size() + kPacket - 1) / kPacket);
+  parallelBlocks(traces.size(), kPacket, [&](std::size_t begin, std::size_t end) {
+    of_packet[begin / kPacket] = walkPacket(geometry, probe, settings, static_cast<int>(begin),
+                                            std::span(traces).subspan(begin, end - begin));
+  });
+  WorkCounts work;
+  for (const WorkCounts& w : of_packet) work += w;
+  return work;
+}
+
+WorkCounts traceFrame(const FrameGeometry& geometry, const Probe& probe,
+                      const TraceSettings& settings, const PlaneRequest& request,
+                      PolarFrame& frame) {
+  reserve(probe, request, frame);
+  WorkCounts work = walkLines(geometry, probe, settings, frame.traces);
+  work.bvh_updates = 1;  // the one that this frame's rays went through
+  sampleLines(probe, settings, request, frame, work);
+  return work;
+}
+
+WorkCounts traceFrame(const PlaneSlice& slice, const Probe& probe, const TraceSettings& settings,
+                      const PlaneRequest& request, PolarFrame& frame) {
+  reserve(probe, request, frame);
+  WorkCounts work;
+  for (int i = 0; i < probe.lines; ++i) {
+    const LineGeometry line = lineGeometry(probe, i);
+    const RayCrossings& met = slice.lines()[static_cast<std::size_t>(i)];
+    LineWalker walker(settings, Ray{line.origin, line.direction}, met.inside,
+                      frame.traces[static_cast<std::size_t>(i)]);
+    walker.advance(met);
+    work.rays += 1;
+    work.crossings += met.crossings.size();
+  }
+  work.facets_sliced = slice.pieces().size();
+  if (settings.cell_echoes) addCellEchoes(slice.pieces(), probe, settings, frame.traces);
+  sampleLines(probe, settings, request, frame, work);
+  return work;
 }
 
 }  // namespace echocine

@@ -3,6 +3,7 @@
 
 #include "core/work_counts.h"
 #include "geometry/frame_geometry.h"
+#include "geometry/plane_slice.h"
 #include "trace/line_samples.h"
 #include "trace/polar_frame.h"
 #include "trace/trace_settings.h"
@@ -12,15 +13,24 @@ namespace echocine {
 // What is sampled of each line; decided once per loop.
 struct PlaneRequest {
   std::vector<Channel> channels;  // of the intensity stack, without Channel::display
+  double spread_undone_at_m = 0;  // of the channels: 0 unless the scene turns the spread off
   bool signal = true;
   IntensityParts signal_parts;
 };
 
 PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan);
 
-// Fills `frame` (its memory is reused) and returns the work. Lines are traced in parallel; each writes only
-// its own column, so the result does not depend on the number of threads.
+// Follows all lines through the media, without sampling them.
+WorkCounts walkLines(const FrameGeometry& geometry, const Probe& probe,
+                     const TraceSettings& settings, std::vector<LineTrace>& traces);
+
+// Fills `frame` (its memory is used again) and returns the work. Lines are sampled in parallel; each writes only its
+// own column, so the result does not depend on the number of threads.
 WorkCounts traceFrame(const FrameGeometry& geometry, const Probe& probe,
-                     const TraceSettings& settings, const PlaneRequest& request, PolarFrame& frame);
+                      const TraceSettings& settings, const PlaneRequest& request, PolarFrame& frame);
+
+// The same through the plane slice. Precondition: settings.refraction is off.
+WorkCounts traceFrame(const PlaneSlice& slice, const Probe& probe, const TraceSettings& settings,
+                      const PlaneRequest& request, PolarFrame& frame);
 
 }  // namespace echocine

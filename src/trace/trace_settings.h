@@ -19,7 +19,7 @@ struct SurfaceTraits {
 };
 
 struct TraceSettings {
-  TraceSettings(const Scene& scene, const EffectPlan& plan);
+  TraceSettings(const Scene& scene, const EffectPlan& plan, bool integrate_cells = false);
 
   std::vector<Medium> media;
   std::vector<SurfaceTraits> surfaces;  // by SurfaceId
@@ -31,6 +31,9 @@ struct TraceSettings {
   double thin_layer_m = 0;
   bool reflection = true, transmission_loss = true, refraction = true, attenuation = true,
        backscatter = true, travel_time = false;
+  // Echoes of interfaces are integrated over the beam's cell instead of taken at the line (plane slice only).
+  bool cell_echoes = false;
+  bool note_passes = false;  // keep what the walk judged of each crossing; cell echoes need it
 };
 
 }  // namespace echocine

@@ -112,7 +112,7 @@ TEST(MotionHeart, UnusableScenesAreRefusedAtTheirPlace) {
 
   Scene uneven = beatingBall(folder, {2, 2, 2}, 0);
   uneven.structures[0].keyframes[1].phase = 1e-4;
-  EXPECT_EQ(errorOf([&] { HeartMotion{uneven}; }).rfind("scene.toml:3: motion.interpolation: ", 0),
+  EXPECT_EQ(errorOf([&] { HeartMotion{uneven}; }).rfind("scene.toml:7: structure.keyframes: ", 0),
             0u);
 }
 

@@ -93,7 +93,8 @@ TEST(MotionInterpolation, UnevenPhasesThatFourierWouldMagnifyAreRefused) {
   for (int k = 0; k < 12; ++k) bunched.push_back(0.06 * k);
   const std::string error = says(bunched, Interpolation::fourier);
   EXPECT_NE(
-      error.find("at most 10 is accepted: space them evenly or use interpolation = \"spline\""),
+      error.find(
+          "at most 10 is accepted: space them evenly or use motion.interpolation = \"spline\""),
       std::string::npos)
       << error;
   EXPECT_EQ(says(bunched, Interpolation::spline), "no error");
@@ -101,7 +102,7 @@ TEST(MotionInterpolation, UnevenPhasesThatFourierWouldMagnifyAreRefused) {
 }
 
 TEST(MotionInterpolation, SplineOverAVeryUnevenGapIsRefused) {
-  EXPECT_NE(says({0.0, 1e-4, 0.5}, Interpolation::spline).find("interpolation = \"linear\""),
+  EXPECT_NE(says({0.0, 1e-4, 0.5}, Interpolation::spline).find("motion.interpolation = \"linear\""),
             std::string::npos);
   EXPECT_EQ(says({0.0, 1e-4, 0.5}, Interpolation::linear), "no error");
 }

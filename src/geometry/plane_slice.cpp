@@ -1,0 +1,111 @@
+#include "geometry/plane_slice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/line_states.h"
+
+namespace echocine {
+
+PlaneSlice::PlaneSlice(const std::vector<SurfaceTopology>& surfaces, const Probe& probe,
+                       const InsideSet& left_out)
+    : surfaces_(surfaces), probe_(probe), left_out_(left_out) {
+  for (int i = 0; i < probe.lines; ++i) {
+    const LineGeometry line = lineGeometry(probe, i);
+    rays_.emplace_back(Ray{line.origin, line.direction});
+  }
+  lines_.resize(rays_.size());
+  for (std::size_t s = 0; s < surfaces.size(); ++s) membranes_[s] = surfaces[s].membrane;
+}
+
+// Heights are compared once per vertex; a facet then costs three bytes unless it is cut.
+void PlaneSlice::cutSurface(const SurfaceTopology& surface, const std::vector<Vec3f>& positions,
+                            std::vector<ContourPiece>& pieces) {
+  above_.resize(positions.size());
+  for (std::size_t v = 0; v < positions.size(); ++v) above_[v] = positions[v].y >= 0 ? 1 : 0;
+  const auto count = static_cast<std::uint32_t>(surface.triangles.size());
+  const std::uint8_t* above = above_.data();
+  for (std::uint32_t t = 0; t < count; ++t) {
+    const Triangle& corner = surface.triangles[t];
+    const int sides = above[corner[0]] + above[corner[1]] + above[corner[2]];
+    if (sides == 0 || sides == 3) continue;
+    const Vec3d p0 = toDouble(positions[corner[0]]), p1 = toDouble(positions[corner[1]]),
+                p2 = toDouble(positions[corner[2]]);
+    const std::optional<TriangleCut> cut = cutTriangle(p0, p1, p2, p0.y, p1.y, p2.y);
+    pieces.push_back({*cut, facetNormal(p0, p1, p2, *cut, {0, 1, 0}), surface.id, t});
+  }
+}
+
+// How many lines, counted from the first, have the point at u >= 0: the lines turn (or move) from left to right,
+// so that is all lines up to some index. Guessed from the point's direction and made exact by the rule itself.
+// Precondition of the guess: z >= 0, where u >= 0 changes once over a sector of up to 180 degrees.
+int PlaneSlice::linesRightOf(Vec3d point) const {
+  const int lines = probe_.lines;
+  if (lines == 1) return dot(rays_[0].u_axis, point - rays_[0].origin) >= 0 ? 1 : 0;
+  const double t =
+      probe_.kind == ProbeKind::linear
+          ? (point.x - probe_.first_offset_m) / (probe_.last_offset_m - probe_.first_offset_m)
+          : (std::atan2(point.x, point.z) - probe_.first_angle_rad) /
+                (probe_.last_angle_rad - probe_.first_angle_rad);
+  int n = static_cast<int>(std::clamp(std::floor(t * (lines - 1)) + 1, 0.0, static_cast<double>(lines)));
+  const auto right = [&](int line) {
+    const RayPlanes& ray = rays_[static_cast<std::size_t>(line)];
+    return dot(ray.u_axis, point - ray.origin) >= 0;
+  };
+  while (n < lines && right(n)) ++n;
+  while (n > 0 && !right(n - 1)) --n;
+  return n;
+}
+
+// A piece meets the lines between its ends. Where it reaches behind the plane z = 0 of the transducer every line is
+// asked, since there its ends may lie more than half a turn apart.
+void PlaneSlice::crossPiece(const ContourPiece& piece) {
+  const bool behind1 = piece.cut.from.z < 0, behind2 = piece.cut.to.z < 0;
+  if (behind1 && behind2) return;  // lines never point backwards
+  int begin = 0, end = probe_.lines;
+  if (!behind1 && !behind2) {
+    const int n1 = linesRightOf(piece.cut.from), n2 = linesRightOf(piece.cut.to);
+    begin = std::min(n1, n2);
+    end = std::max(n1, n2);
+  }
+  for (int i = begin; i < end; ++i) {
+    const auto line = static_cast<std::size_t>(i);
+    if (const std::optional<CutCrossing> c = crossCut(rays_[line], piece.cut))
+      lines_[line].crossings.push_back(
+          {c->distance_m, piece.normal, piece.surface, piece.triangle, c->entering});
+  }
+}
+
+// Contours of closed surfaces close exactly, so the crossings of a line themselves tell where it starts.
+void PlaneSlice::resolve(RayCrossings& line) const {
+  thread_local std::vector<int> depth;
+  depth.resize(surfaces_.size());
+  balances(line.crossings, depth);
+  line.inside.reset();
+  InsideSet clamped;
+  for (std::size_t s = 0; s < depth.size(); ++s) {
+    if (membranes_[s] || depth[s] == 0) continue;
+    clamped[s] = depth[s] > 0;  // cannot be: more entries than exits
+    depth[s] = std::max(-depth[s], 0);
+    line.inside[s] = depth[s] > 0;
+  }
+  std::sort(line.crossings.begin(), line.crossings.end(), nearer);
+  keepChanges(line.crossings, depth, membranes_, clamped);
+}
+
+void PlaneSlice::update(const SurfaceFrame& frame) {
+  for (RayCrossings& line : lines_) line.crossings.clear();
+  const auto cutAll = [&](bool still, std::vector<ContourPiece>& pieces) {
+    for (const SurfaceTopology& surface : surfaces_)
+      if (surface.still == still && !left_out_[index(surface.id)])
+        cutSurface(surface, frame.positions_m[index(surface.id)], pieces);
+  };
+  if (!still_cut_) cutAll(true, still_pieces_);
+  still_cut_ = true;
+  pieces_ = still_pieces_;
+  cutAll(false, pieces_);
+  for (const ContourPiece& piece : pieces_) crossPiece(piece);
+  for (RayCrossings& line : lines_) resolve(line);
+}
+
+}  // namespace echocine

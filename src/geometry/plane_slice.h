@@ -1,0 +1,54 @@
+#pragma once
+// One frame's surfaces cut by the imaging plane: their contours, and where the scan lines meet them. Needs no
+// hierarchy: the cost is a pass over the heights of the vertices, and the facets on the plane.
+
+#include <span>
+#include <vector>
+
+#include "geometry/crossing.h"
+#include "geometry/crossing_rule.h"
+#include "motion/surface_frame.h"
+#include "scene/probe.h"
+
+namespace echocine {
+
+// A piece of contour: a facet's cut by the imaging plane.
+struct ContourPiece {
+  TriangleCut cut;  // in the imaging plane, y = 0
+  Vec3d normal;     // of the facet
+  SurfaceId surface{};
+  std::uint32_t triangle = 0;
+};
+
+// What every scan line meets, as RayCrossings for each line.
+class PlaneSlice {
+ public:
+  // Surfaces in `left_out` are in no frame's slice. Precondition: `surfaces` outlives the slice.
+  PlaneSlice(const std::vector<SurfaceTopology>& surfaces, const Probe& probe,
+             const InsideSet& left_out = {});
+
+  // Cuts the frame and finds the crossings of all lines. Its memory is used again from frame to frame.
+  void update(const SurfaceFrame& frame);
+
+  const std::vector<RayCrossings>& lines() const { return lines_; }
+  const std::vector<ContourPiece>& pieces() const { return pieces_; }
+
+ private:
+  void cutSurface(const SurfaceTopology& surface, const std::vector<Vec3f>& positions,
+                  std::vector<ContourPiece>& pieces);
+  void crossPiece(const ContourPiece& piece);
+  void resolve(RayCrossings& line) const;
+  int linesRightOf(Vec3d point) const;
+
+  const std::vector<SurfaceTopology>& surfaces_;
+  Probe probe_;
+  std::vector<RayPlanes> rays_;
+  std::vector<std::uint8_t> above_;
+  std::vector<ContourPiece> still_pieces_;  // of surfaces that never move: cut once
+  bool still_cut_ = false;
+  std::vector<ContourPiece> pieces_;
+  std::vector<RayCrossings> lines_;
+  InsideSet membranes_, left_out_;
+};
+
+}  // namespace echocine

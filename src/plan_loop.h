@@ -1,0 +1,16 @@
+#pragma once
+// Decides what a loop computes and by which tracer, once, from its scene and its meshes.
+
+#include <string>
+
+#include "motion/heart_motion.h"
+#include "scene/loop_plan.h"
+
+namespace echocine {
+
+LoopPlan planLoop(const Scene& scene, const HeartMotion& motion);
+
+// One line for a person: tracer, what is on, what is off.
+std::string planSummary(const LoopPlan& plan);
+
+}  // namespace echocine

@@ -1,0 +1,115 @@
+// Only the effects that a scene calls for, each with its reason.
+
+#include "scene/effect_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/plain_scene.h"
+
+namespace echocine {
+namespace {
+
+using namespace support;
+
+Scene sceneOf(const Medium& outside, const Medium& inside) {
+  Scene scene = plainScene({outside, inside});
+  addStructure(scene, 1, 1);
+  return scene;
+}
+
+const Medium kPlain = medium("plain", 1000, 1500, 5, 0.1);
+
+EffectDecision decision(const Scene& scene, const std::string& name) {
+  for (const EffectDecision& d : planEffects(scene).decisions)
+    if (d.name == name) return d;
+  return {};
+}
+
+TEST(EffectPlan, EveryEffectIsDecidedWithAReason) {
+  const EffectPlan plan = planEffects(sceneOf(kPlain, medium("other", 1100, 1600, 5, 0.1)));
+  std::vector<std::string> names;
+  for (const EffectDecision& d : plan.decisions) {
+    names.push_back(d.name);
+    EXPECT_FALSE(d.reason.empty()) << d.name;
+  }
+  for (const char* name :
+       {"reflection", "transmission_loss", "refraction", "attenuation", "backscatter", "travel_time"})
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+}
+
+TEST(EffectPlan, EqualMediaNeedNeitherEchoesNorLossesNorBending) {
+  const EffectPlan plan = planEffects(sceneOf(kPlain, medium("twin", 1000, 1500, 9, 0.3)));
+  EXPECT_FALSE(plan.reflection || plan.transmission_loss || plan.refraction);
+  EXPECT_TRUE(plan.backscatter && plan.attenuation);
+}
+
+TEST(EffectPlan, EqualSpeedsNeedNoBending) {
+  const Scene scene = sceneOf(kPlain, medium("dense", 1100, 1500, 5, 0.1));
+  EXPECT_TRUE(decision(scene, "reflection").on);
+  EXPECT_FALSE(decision(scene, "refraction").on);
+  EXPECT_NE(decision(scene, "refraction").reason.find("speed"), std::string::npos);
+}
+
+TEST(EffectPlan, EqualImpedanceAndUnlikeSpeedsReflectAndBend) {
+  const EffectPlan plan = planEffects(sceneOf(kPlain, medium("odd", 1000 * 1500 / 1600.0, 1600)));
+  EXPECT_TRUE(plan.reflection && plan.refraction);
+}
+
+TEST(EffectPlan, AMembraneOfAnotherSpeedReflectsButBendsNothing) {
+  Scene scene = sceneOf(kPlain, kPlain);
+  scene.media[1] = medium("leaflet", 1120, 1640);
+  scene.structures[0].membrane = true;
+  EXPECT_TRUE(decision(scene, "reflection").on);
+  EXPECT_FALSE(decision(scene, "refraction").on);
+}
+
+TEST(EffectPlan, NamesTheStructureThatBends) {
+  const Scene scene = sceneOf(kPlain, medium("fast", 1000, 1700));
+  const std::string reason = decision(scene, "refraction").reason;
+  EXPECT_NE(reason.find("structure_0"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("1700"), std::string::npos) << reason;
+}
+
+TEST(EffectPlan, PerfectGainWithoutIntensitiesNeedsNoAttenuation) {
+  Scene scene = sceneOf(kPlain, kPlain);
+  scene.output.exr = false;
+  EXPECT_FALSE(decision(scene, "attenuation").on);
+  EXPECT_NE(decision(scene, "attenuation").reason.find("TGC"), std::string::npos);
+  scene.signal.tgc = Tgc::none;
+  EXPECT_TRUE(decision(scene, "attenuation").on);
+}
+
+TEST(EffectPlan, AttenuationIsOnForEveryChannelThatHoldsIt) {
+  for (const Channel channel :
+       {Channel::y, Channel::attenuation, Channel::reflection, Channel::backscatter}) {
+    Scene scene = sceneOf(kPlain, kPlain);
+    scene.output.channels = {channel};
+    EXPECT_TRUE(decision(scene, "attenuation").on) << channelName(channel);
+  }
+  for (const Channel channel : {Channel::unattenuated, Channel::medium, Channel::display}) {
+    Scene scene = sceneOf(kPlain, kPlain);
+    scene.output.channels = {channel};
+    EXPECT_FALSE(decision(scene, "attenuation").on) << channelName(channel);
+  }
+}
+
+TEST(EffectPlan, NothingToAttenuateAndNothingToScatter) {
+  const Scene scene = sceneOf(medium("a", 1000, 1500), medium("b", 1100, 1500));
+  EXPECT_FALSE(decision(scene, "attenuation").on);
+  EXPECT_FALSE(decision(scene, "backscatter").on);
+}
+
+TEST(EffectPlan, TheSceneHasTheLastWord) {
+  Scene scene = sceneOf(kPlain, medium("fast", 1000, 1700));
+  scene.effects.refraction = Switch::off;
+  scene.effects.travel_time = Switch::on;
+  EXPECT_FALSE(decision(scene, "refraction").on);
+  EXPECT_NE(decision(scene, "refraction").reason.find("although"), std::string::npos);
+  EXPECT_TRUE(planEffects(scene).travel_time);
+  EXPECT_FALSE(planEffects(sceneOf(kPlain, kPlain)).travel_time);
+}
+
+}  // namespace
+}  // namespace echocine
