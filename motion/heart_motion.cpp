@@ -69,9 +69,14 @@ std::vector<Vec3d> probePositions(const Structure& structure, const KeyframeMesh
   return positions_m;
 }
 
+// To single precision. What is within rounding of a coordinate plane, a picometre, is on it: vertices that a mesh
+// puts exactly on the imaging plane stay there after the turn into the probe frame.
 std::vector<Vec3f> narrowed(const std::vector<Vec3d>& values) {
+  const auto onPlane = [](double c) { return std::abs(c) < 1e-12 ? 0.0 : c; };
   std::vector<Vec3f> floats(values.size());
-  std::transform(values.begin(), values.end(), floats.begin(), [](Vec3d v) { return toFloat(v); });
+  std::transform(values.begin(), values.end(), floats.begin(), [&](Vec3d v) {
+    return toFloat({onPlane(v.x), onPlane(v.y), onPlane(v.z)});
+  });
   return floats;
 }
 

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <new>
 
+#include "cli/plan_command.h"
 #include "cli/render_command.h"
 #include "core/error.h"
 
@@ -30,9 +31,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough(false);
   echocine::RenderCommand render(app);
+  echocine::PlanCommand plan(app);
   try {
     app.parse(argc, argv);
-    return render.run();
+    return app.got_subcommand("plan") ? plan.run() : render.run();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     return failed(kUnusable, fmt::format("{} (--help lists what is accepted)", error.what()).c_str());

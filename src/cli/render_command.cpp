@@ -10,6 +10,7 @@
 #include "cli/progress_line.h"
 #include "core/error.h"
 #include "motion/cardiac_clock.h"
+#include "plan_loop.h"
 #include "scene/scene_reader.h"
 
 namespace echocine {
@@ -44,6 +45,7 @@ void printSummary(const RenderSummary& summary, const RenderOptions& options, co
   std::string stages;
   for (std::size_t s = 0; s < kStages; ++s)
     stages += fmt::format("{}{} {:.2f}", s ? ", " : "", stageName(static_cast<Stage>(s)), m.stage_ms[s]);
+  fmt::print("  plan: {}\n", planSummary(m.plan));
   fmt::print("  ms per frame and thread: {}\n", stages);
   std::string parts;
   const auto add = [&](const std::string& part) { parts += (parts.empty() ? "" : ", ") + part; };
@@ -85,7 +87,10 @@ int RenderCommand::run() {
   if (summary.frames_done < summary.frames_wanted)
     throw JobError(fmt::format("stopped: {} of {} frames are finished in {}; --resume goes on from there",
                                summary.frames_done, summary.frames_wanted, options_.folder.string()));
-  if (!quiet_) printSummary(summary, options_, scene);
+  if (quiet_) return 0;
+  for (const std::string& warning : summary.manifest.plan.warnings)
+    fmt::print(stderr, "echocine: warning: {}\n", warning);
+  printSummary(summary, options_, scene);
   return 0;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -53,14 +54,27 @@ void collectHit(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
+// A coordinate of the origin for Embree's ray. Along an axis that the ray does not move on, Embree takes boxes that
+// end exactly at the ray for missed, on one side. The crossing rule counts what lies exactly at the ray as above it,
+// as if the ray were the least bit lower: so must Embree's ray be, where rounding has not already put it there.
+float originForEmbree(double origin, double direction) {
+  const auto rounded = static_cast<float>(origin);
+  if (direction != 0 || static_cast<double>(rounded) < origin) return rounded;
+  // Far below any coordinate that is not 0, far above what Embree's reciprocal of 0 (1e18) loses.
+  constexpr float kBelowZero = -1e-15f;
+  return rounded == 0 ? kBelowZero
+                      : std::nextafter(rounded, -std::numeric_limits<float>::infinity());
+}
+
 RTCRayHit16 packetOf(std::span<const RayQuery> rays) {
   RTCRayHit16 packet;
   std::memset(&packet, 0, sizeof packet);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Vec3f o = toFloat(rays[i].ray.origin), d = toFloat(rays[i].ray.direction);
-    packet.ray.org_x[i] = o.x;
-    packet.ray.org_y[i] = o.y;
-    packet.ray.org_z[i] = o.z;
+    const Vec3d o = rays[i].ray.origin, direction = rays[i].ray.direction;
+    const Vec3f d = toFloat(direction);
+    packet.ray.org_x[i] = originForEmbree(o.x, direction.x);
+    packet.ray.org_y[i] = originForEmbree(o.y, direction.y);
+    packet.ray.org_z[i] = originForEmbree(o.z, direction.z);
     packet.ray.dir_x[i] = d.x;
     packet.ray.dir_y[i] = d.y;
     packet.ray.dir_z[i] = d.z;
@@ -117,6 +131,7 @@ struct FrameGeometry::State {
   void crossAll(const RayPlanes& ray, std::uint32_t surface, std::vector<Crossing>& out) const;
   void crossCandidates(const RayQuery& query, std::vector<Candidate>& found,
                        RayCrossings& out) const;
+  bool hasNeighbour(const Candidate& candidate, const std::vector<Crossing>& crossings) const;
   void recount(const RayQuery& query, std::uint32_t surface, std::vector<Crossing>& crossings) const;
   void proveStates(const RayQuery& query, RayCrossings& out) const;
 };
@@ -184,6 +199,8 @@ void FrameGeometry::State::crossCandidates(const RayQuery& query, std::vector<Ca
               found.end());
   const RayPlanes planes(query.ray);
   out.crossings.clear();
+  thread_local std::vector<Candidate> refused;
+  refused.clear();
   for (const Candidate& candidate : found) {
     const std::pair here(SurfaceId(candidate.surface), candidate.triangle);
     if (std::find(query.left_behind.begin(), query.left_behind.end(), here) !=
@@ -191,7 +208,25 @@ void FrameGeometry::State::crossCandidates(const RayQuery& query, std::vector<Ca
       continue;
     if (const std::optional<Crossing> c = cross(planes, candidate.surface, candidate.triangle))
       out.crossings.push_back(*c);
+    else
+      refused.push_back(candidate);
   }
+  for (const Candidate& candidate : refused)
+    if (!hasNeighbour(candidate, out.crossings)) recount(query, candidate.surface, out.crossings);
+}
+
+// On a shared vertex or edge Embree may report only a triangle that the rule refuses, and not the one beside it that
+// the rule takes. When that happens where a ray enters and where it leaves, the balance of proveStates still
+// holds, and a membrane has no balance: so a refused candidate must have an accepted one at a common vertex.
+bool FrameGeometry::State::hasNeighbour(const Candidate& candidate,
+                                        const std::vector<Crossing>& crossings) const {
+  const std::vector<Triangle>& triangles = surfaces[candidate.surface].triangles;
+  const Triangle& t = triangles[candidate.triangle];
+  return std::any_of(crossings.begin(), crossings.end(), [&](const Crossing& c) {
+    if (index(c.surface) != candidate.surface) return false;
+    const Triangle& other = triangles[c.triangle];
+    return std::find_first_of(t.begin(), t.end(), other.begin(), other.end()) != t.end();
+  });
 }
 
 // A closed surface's entries and exits balance with the state at the start. Where they do not, Embree has

@@ -60,7 +60,7 @@ struct EffectSwitches {
   Switch spread = Switch::automatic;             // 1/l^2 of the backscattered part
   Switch beam_width = Switch::automatic;         // the average over the beam
   Switch elevation = Switch::automatic;          // rays out of the imaging plane
-  Switch travel_time = Switch::off;              // place echoes at 1540 m/s t/2 instead of path length
+  Switch travel_time = Switch::automatic;        // place echoes at 1540 m/s t/2 instead of path length
 };
 
 enum class Tgc { perfect, table, none };

@@ -45,9 +45,11 @@ std::vector<fs::path> matchingFiles(const TomlTable& table, std::string_view key
   if (full.filename().string().find_first_of("*?[") == std::string::npos) return {full};
   std::error_code failed;
   std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(full.parent_path(), failed))
+  // A scene named without a folder has an empty one, which no system call takes for the current folder.
+  const fs::path parent = full.has_parent_path() ? full.parent_path() : fs::path(".");
+  for (const fs::directory_entry& entry : fs::directory_iterator(parent, failed))
     if (fnmatch(full.filename().c_str(), entry.path().filename().c_str(), 0) == 0)
-      files.push_back(entry.path());
+      files.push_back(full.parent_path() / entry.path().filename());
   if (failed)
     table.fail(key, fmt::format("folder {} cannot be read: {}", full.parent_path().string(),
                                 failed.message()));

@@ -1,5 +1,6 @@
 #include "signal/reference.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <vector>
@@ -28,7 +29,9 @@ void IntensityHistogram::add(std::span<const float> plane) {
   local.assign(kBins, 0);
   for (std::size_t line = 0; line < plane.size(); line += static_cast<std::size_t>(samples_))
     for (int k = first_sample_; k < samples_; ++k)
-      ++local[std::bit_cast<std::uint32_t>(plane[line + static_cast<std::size_t>(k)]) >> kShift];
+      // What is infinite or not a number is refused when it is written; here it must not leave the bins.
+      ++local[std::min<std::size_t>(
+          std::bit_cast<std::uint32_t>(plane[line + static_cast<std::size_t>(k)]) >> kShift, kBins - 1)];
   for (std::size_t bin = 0; bin < kBins; ++bin)
     if (local[bin] != 0) counts_[bin].fetch_add(local[bin], std::memory_order_relaxed);
 }
@@ -48,8 +51,10 @@ double IntensityHistogram::percentile(double percent) const {
   const double wanted = percent / 100 * static_cast<double>(total);
   std::uint64_t below = 0;
   for (std::size_t bin = 0; bin <= last; ++bin) {
-    below += counts_[bin].load(std::memory_order_relaxed);
-    if (static_cast<double>(below) >= wanted && bin > 0) return edge(bin);
+    const std::uint64_t here = counts_[bin].load(std::memory_order_relaxed);
+    below += here;
+    // Where the percentile falls on samples without any intensity, the weakest positive one stands for it.
+    if (here > 0 && static_cast<double>(below) >= wanted && bin > 0) return edge(bin);
   }
   return edge(last);
 }

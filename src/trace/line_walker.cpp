@@ -171,8 +171,12 @@ void LineWalker::advance(const RayCrossings& met) {
     }
     const MediumId after = mediumInside(inside);
     if (settings_.note_passes) notePasses(group, after);
-    for (const Crossing& c : group)
-      if (alive_ && settings_.surfaces[index(c.surface)].membrane) passMembrane(c);
+    for (auto c = group.begin(); alive_ && c != group.end(); ++c) {
+      if (!settings_.surfaces[index(c->surface)].membrane) continue;
+      // At a vertex a sheet may be met by several of its triangles: it is passed once.
+      const auto same = [&](const Crossing& other) { return other.surface == c->surface; };
+      if (std::find_if(group.begin(), c, same) == c) passMembrane(*c);
+    }
     if (alive_ && after != medium_) passInterface(group, after);
     if (!alive_) return;
     if (bends_ != bends_before) {

@@ -151,6 +151,21 @@ TEST(LineWalker, AMembraneReflectsTwiceAndEnclosesNothing) {
   }
 }
 
+// A ray through a sheet's vertex meets several of its triangles at one distance.
+TEST(LineWalker, AMembraneMetBySeveralTrianglesInAVertexReflectsAsIfMetByOne) {
+  Scene scene = heartScene();
+  addStructure(scene, kMuscle, 0, true);
+  const TraceSettings settings = straightSettings(scene);
+  const Crossing front = crossingAt(0.05, 0, true), back = crossingAt(0.05, 0, false);
+  const LineTrace once = walkStraight(settings, {front});
+  for (const std::vector<Crossing>& met : {std::vector{front, back, front}, std::vector{front, front}}) {
+    const LineTrace line = walkStraight(settings, met);
+    ASSERT_EQ(line.echoes.size(), once.echoes.size());
+    EXPECT_EQ(line.echoes[1].intensity, once.echoes[1].intensity);
+    EXPECT_EQ(line.stretches.back().strength_m2_sr, once.stretches.back().strength_m2_sr);
+  }
+}
+
 TEST(LineWalker, AMembraneInsideAStructureStandsInItsMedium) {
   Scene scene = heartScene();
   addStructure(scene, kBlood, 1);

@@ -1,0 +1,102 @@
+#include "cli/plan_command.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "estimate.h"
+#include "scene/scene_reader.h"
+
+namespace echocine {
+
+namespace {
+
+std::string duration(double seconds) {
+  if (seconds < 100) return fmt::format("{:.1f} s", seconds);
+  return fmt::format("{:.0f} min", seconds / 60);
+}
+
+void printEffects(const Manifest& manifest) {
+  fmt::print("{:<24} {:<4} {:>5}  {}\n", "effect", "", "time", "why");
+  for (const EffectDecision& e : manifest.plan.effects.decisions) {
+    const double share = timeShare(e, manifest);
+    const std::string percent = e.on ? fmt::format("{:.0f} %", 100 * share) : "";
+    fmt::print("{:<24} {:<4} {:>5}  {}\n", e.name, e.on ? "on" : "off", percent, e.reason);
+  }
+}
+
+void printRest(const Estimate& estimate) {
+  const LoopPlan& plan = estimate.measured.plan;
+  for (const EffectDecision& i : plan.interfaces)
+    fmt::print("{:<24} {:<4} {:>5}  {}\n", i.name, "off", "", i.reason);
+  fmt::print("\ntracer      {}: {}\n", plan.tracerName(), plan.tracer_reason);
+  fmt::print("echoes      {}\n", plan.echo_reason);
+  fmt::print("triangles   {} given, {} in structures that stay, {} cut by the imaging plane\n",
+             plan.triangles_given, plan.triangles_kept, plan.triangles_met);
+  std::string stages;
+  for (std::size_t s = 0; s < kStages; ++s)
+    stages += fmt::format("{}{} {:.2f}", s ? ", " : "", stageName(static_cast<Stage>(s)),
+                          estimate.measured.stage_ms[s]);
+  fmt::print("time        {} for {} frames; per frame in ms: {}\n", duration(estimate.seconds),
+             estimate.frames, stages);
+  fmt::print("memory      {:.0f} MB\n", estimate.memory_bytes * 1e-6);
+}
+
+void printJson(const Estimate& estimate) {
+  using Json = nlohmann::ordered_json;
+  const LoopPlan& plan = estimate.measured.plan;
+  Json effects = Json::array(), interfaces = Json::array(), stages = Json::object();
+  for (const EffectDecision& e : plan.effects.decisions)
+    effects.push_back({{"name", e.name},
+                       {"on", e.on},
+                       {"reason", e.reason},
+                       {"time_share", timeShare(e, estimate.measured)}});
+  for (const EffectDecision& i : plan.interfaces)
+    interfaces.push_back({{"name", i.name}, {"on", i.on}, {"reason", i.reason}});
+  for (std::size_t s = 0; s < kStages; ++s)
+    stages[stageName(static_cast<Stage>(s))] = estimate.measured.stage_ms[s];
+  const Json json{{"effects", effects},
+                  {"left_out", interfaces},
+                  {"tracer", plan.tracerName()},
+                  {"tracer_reason", plan.tracer_reason},
+                  {"interface_echo", plan.cell_echoes ? "cell" : "centre"},
+                  {"interface_echo_reason", plan.echo_reason},
+                  {"triangles", {{"given", plan.triangles_given},
+                                 {"kept", plan.triangles_kept},
+                                 {"met", plan.triangles_met}}},
+                  {"frames", estimate.frames},
+                  {"seconds", estimate.seconds},
+                  {"memory_bytes", estimate.memory_bytes},
+                  {"timings_ms_per_frame", stages},
+                  {"warnings", plan.warnings}};
+  fmt::print("{}\n", json.dump(1));
+}
+
+}  // namespace
+
+PlanCommand::PlanCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "plan", "Say which effects a scene's loop needs, why, and what it will take in s and MB");
+  command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")->required();
+  command->add_option("--threads", threads_, "Threads; 0 for one per core")->check(CLI::Range(0, 4096));
+  command->add_flag("--json", json_, "Print JSON");
+  command->add_flag("--quiet", quiet_, "Print no warnings");
+}
+
+int PlanCommand::run() {
+  const Scene scene = readScene(scene_file_);
+  const Estimate estimate = estimateLoop(scene, threads_);
+  if (!quiet_)
+    for (const std::string& warning : estimate.measured.plan.warnings)
+      fmt::print(stderr, "echocine: warning: {}\n", warning);
+  if (json_) {
+    printJson(estimate);
+  } else {
+    printEffects(estimate.measured);
+    printRest(estimate);
+  }
+  return 0;
+}
+
+}  // namespace echocine

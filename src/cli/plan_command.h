@@ -1,0 +1,23 @@
+#pragma once
+// echocine plan SCENE.toml
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace echocine {
+
+class PlanCommand {
+ public:
+  explicit PlanCommand(CLI::App& app);  // adds the sub-command
+  int run();                            // exit code
+
+ private:
+  std::string scene_file_;
+  int threads_ = 0;
+  bool json_ = false, quiet_ = false;
+};
+
+}  // namespace echocine

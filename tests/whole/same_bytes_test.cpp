@@ -1,0 +1,110 @@
+// The same scene gives the same bytes for any number of threads, and the files hold what was in memory.
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <map>
+
+#include "cine.h"
+#include "motion/cardiac_clock.h"
+#include "motion/heart_motion.h"
+#include "support/exr_planes.h"
+#include "support/loop_scene.h"
+#include "trace/trace_frame.h"
+
+namespace echocine {
+namespace {
+
+using namespace support;
+
+std::map<std::string, std::string> filesOf(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().filename() != "manifest.json")
+      files[entry.path().lexically_relative(folder).string()] = bytesOf(entry.path());
+  return files;
+}
+
+TEST(SameBytes, OneTwoAndFourThreadsWriteTheSameFiles) {
+  const TempFolder folder;
+  for (const char* refraction : {"\"off\"", "\"on\""}) {
+    SceneText text = ballScene(6);
+    text.effects["refraction"] = refraction;
+    text.output["png"] = "true";
+    text.output["channels"] = "[\"Y\", \"unattenuated.Y\", \"attenuation.A\", \"reflection.Y\", "
+                              "\"backscatter.Y\", \"medium.id\", \"display.Y\"]";
+    const Scene scene = readScene(writeBall(folder, text));
+    std::map<std::string, std::string> one;
+    for (const int threads : {1, 2, 4}) {
+      const std::filesystem::path out = folder / (refraction[1] + std::to_string(threads));
+      renderCine(scene, {.folder = out, .threads = threads, .frames = {}}, {});
+      const std::map<std::string, std::string> files = filesOf(out);
+      EXPECT_EQ(files.size(), 13u);
+      if (threads == 1) one = files;
+      for (const auto& [name, bytes] : one) {
+        ASSERT_TRUE(files.contains(name)) << name;
+        EXPECT_TRUE(files.at(name) == bytes) << name << " with " << threads << " threads";
+      }
+    }
+  }
+}
+
+TEST(SameBytes, AnotherRunWritesTheSameFiles) {
+  const TempFolder folder;
+  const Scene scene = readScene(writeBall(folder, ballScene(5)));
+  renderCine(scene, {.folder = folder / "a", .threads = 2, .frames = {}}, {});
+  renderCine(scene, {.folder = folder / "b", .threads = 2, .frames = {}}, {});
+  EXPECT_EQ(filesOf(folder / "a"), filesOf(folder / "b"));
+}
+
+// The stack is compared with a frame that is traced here, bit by bit.
+TEST(IntensityStack, HoldsTheFrameThatWasTraced) {
+  const TempFolder folder;
+  SceneText text = ballScene(3);
+  text.effects["refraction"] = "\"on\"";
+  text.output["channels"] = "[\"Y\", \"attenuation.A\", \"medium.id\"]";
+  const Scene scene = readScene(writeBall(folder, text));
+  renderCine(scene, {.folder = folder / "out", .threads = 2, .frames = {}}, {});
+
+  const HeartMotion motion(scene);
+  SurfaceFrame surfaces;
+  motion.frameAt(CardiacClock(scene.acquisition).at(1).phase, surfaces);
+  FrameGeometry geometry(motion.surfaces());
+  geometry.update(surfaces);
+  const EffectPlan plan = planEffects(scene);
+  PolarFrame frame;
+  traceFrame(geometry, scene.probe, TraceSettings(scene, plan), planeRequest(scene, plan), frame);
+  const auto same = [&](const char* channel, const auto& plane) {
+    const ExrPlane read = exrPlane(folder / "out/intensity/frame_0001.exr", channel);
+    ASSERT_EQ(read.lines, scene.probe.lines);
+    ASSERT_EQ(read.samples, scene.probe.samples);
+    for (int line = 0; line < read.lines; ++line)
+      for (int k = 0; k < read.samples; ++k)
+        ASSERT_EQ(read.bits[static_cast<std::size_t>(k * read.lines + line)],
+                  std::bit_cast<std::uint32_t>(plane[static_cast<std::size_t>(line * read.samples + k)]))
+            << channel << " line " << line << " sample " << k;
+  };
+  same("Y", frame.planes.at(Channel::y));
+  same("attenuation.A", frame.planes.at(Channel::attenuation));
+  same("medium.id", frame.medium);
+}
+
+TEST(IntensityStack, ReflectionAndBackscatterMakeYWhateverElseIsAskedFor) {
+  const TempFolder folder;
+  const auto render = [&](const std::string& name, const std::string& channels) {
+    SceneText text = ballScene(1);
+    text.output["channels"] = channels;
+    renderCine(readScene(writeBall(folder, text)), {.folder = folder / name, .threads = 1, .frames = {}}, {});
+    return folder / name / "intensity/frame_0000.exr";
+  };
+  const auto all = render("all", "[\"Y\", \"reflection.Y\", \"backscatter.Y\"]");
+  const auto alone = render("alone", "[\"reflection.Y\"]");
+  EXPECT_EQ(exrPlane(all, "reflection.Y").bits, exrPlane(alone, "reflection.Y").bits);
+  const ExrPlane whole = exrPlane(all, "Y"), echoes = exrPlane(all, "reflection.Y"), scattered = exrPlane(all, "backscatter.Y");
+  for (std::size_t i = 0; i < whole.bits.size(); ++i)
+    EXPECT_FLOAT_EQ(std::bit_cast<float>(whole.bits[i]),
+                    std::bit_cast<float>(echoes.bits[i]) + std::bit_cast<float>(scattered.bits[i]));
+}
+
+}  // namespace
+}  // namespace echocine
