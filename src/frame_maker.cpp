@@ -1,6 +1,10 @@
 #include "frame_maker.h"
 
+#include <fmt/format.h>
+
+#include "core/error.h"
 #include "core/units.h"
+#include "output/polar_plane.h"
 
 namespace echocine {
 
@@ -50,6 +54,20 @@ Volumes FrameMaker::volumes(const SurfaceFrame& surfaces) const {
   return volumes;
 }
 
+namespace {
+
+// The intensity stack refuses what cannot be shown by itself; a run without one must not draw it either.
+void refuseUnusable(double phase, const PolarFrame& polar) {
+  const std::optional<std::size_t> bad = firstUnusable(polar.signal);
+  if (!bad) return;
+  const auto per_line = static_cast<std::size_t>(polar.samples);
+  throw JobError(fmt::format(
+      "phase {}, line {}, sample {}: the intensity after time gain is {}: only finite values from 0 up are accepted",
+      phase, *bad / per_line, *bad % per_line, polar.signal[*bad]));
+}
+
+}  // namespace
+
 Volumes FrameMaker::trace(double phase, Workspace& w) {
   Volumes volumes_ml;
   clock_.time(Stage::motion, [&] {
@@ -64,7 +82,10 @@ Volumes FrameMaker::trace(double phase, Workspace& w) {
         });
       },
       w.geometry);
-  if (request_.signal) clock_.time(Stage::signal, [&] { chain_.process(w.polar, w.scratch); });
+  if (request_.signal) {
+    clock_.time(Stage::signal, [&] { chain_.process(w.polar, w.scratch); });
+    refuseUnusable(phase, w.polar);
+  }
   const std::lock_guard lock(mutex_);
   work_ += work;
   return volumes_ml;

@@ -52,10 +52,9 @@ std::optional<CutCrossing> crossCut(const RayPlanes& ray, const TriangleCut& cut
   return CutCrossing{distance, right1};
 }
 
-Vec3d facetNormal(Vec3d p0, Vec3d p1, Vec3d p2, const TriangleCut& cut, Vec3d v_axis) {
-  const Vec3d n = cross(p1 - p0, p2 - p0);
-  const double size = length(n);
-  if (size > 0) return (1 / size) * n;
+Vec3d facetNormal(Vec3d area_normal, const TriangleCut& cut, Vec3d v_axis) {
+  const double size = length(area_normal);
+  if (size > 0) return (1 / size) * area_normal;
   const Vec3d across = cross(cut.to - cut.from, v_axis);
   const double across_size = length(across);
   return across_size > 0 ? (1 / across_size) * across : v_axis;
@@ -69,7 +68,7 @@ std::optional<Crossing> crossTriangle(const RayPlanes& ray, Vec3f p0, Vec3f p1, 
   if (!cut) return std::nullopt;
   const std::optional<CutCrossing> crossing = crossCut(ray, *cut);
   if (!crossing) return std::nullopt;
-  return Crossing{crossing->distance_m, facetNormal(q0, q1, q2, *cut, ray.v_axis), surface, triangle,
+  return Crossing{crossing->distance_m, facetNormal(areaNormal(q0, q1, q2), *cut, ray.v_axis), surface, triangle,
                   crossing->entering};
 }
 

@@ -44,9 +44,11 @@ struct CutCrossing {
 };
 std::optional<CutCrossing> crossCut(const RayPlanes& ray, const TriangleCut& cut);
 
-// Unit normal on the side from which the triangle's vertices run counter-clockwise. A triangle without area takes
-// the normal of its cut within the plane with normal v_axis.
-Vec3d facetNormal(Vec3d p0, Vec3d p1, Vec3d p2, const TriangleCut& cut, Vec3d v_axis);
+// On the side from which the triangle's vertices run counter-clockwise, twice its area long.
+inline Vec3d areaNormal(Vec3d p0, Vec3d p1, Vec3d p2) { return cross(p1 - p0, p2 - p0); }
+
+// The unit normal from it. A triangle without area takes the normal of its cut within the plane with normal v_axis.
+Vec3d facetNormal(Vec3d area_normal, const TriangleCut& cut, Vec3d v_axis);
 
 // The crossing of one triangle, if any. `surface` and `triangle` are passed on.
 std::optional<Crossing> crossTriangle(const RayPlanes& ray, Vec3f p0, Vec3f p1, Vec3f p2,

@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/rough_angle.h"
 #include "geometry/line_states.h"
 
 namespace echocine {
+
+Vec3d unitNormal(const ContourPiece& piece) {
+  return facetNormal(piece.area_normal, piece.cut, {0, 1, 0});
+}
 
 PlaneSlice::PlaneSlice(const std::vector<SurfaceTopology>& surfaces, const Probe& probe,
                        const InsideSet& left_out)
@@ -15,6 +20,10 @@ PlaneSlice::PlaneSlice(const std::vector<SurfaceTopology>& surfaces, const Probe
     rays_.emplace_back(Ray{line.origin, line.direction});
   }
   lines_.resize(rays_.size());
+  const bool linear = probe.kind == ProbeKind::linear;
+  first_place_ = linear ? probe.first_offset_m : probe.first_angle_rad;
+  const double last_place = linear ? probe.last_offset_m : probe.last_angle_rad;
+  lines_per_place_ = probe.lines > 1 ? (probe.lines - 1) / (last_place - first_place_) : 0;
   for (std::size_t s = 0; s < surfaces.size(); ++s) membranes_[s] = surfaces[s].membrane;
 }
 
@@ -22,32 +31,33 @@ PlaneSlice::PlaneSlice(const std::vector<SurfaceTopology>& surfaces, const Probe
 void PlaneSlice::cutSurface(const SurfaceTopology& surface, const std::vector<Vec3f>& positions,
                             std::vector<ContourPiece>& pieces) {
   above_.resize(positions.size());
-  for (std::size_t v = 0; v < positions.size(); ++v) above_[v] = positions[v].y >= 0 ? 1 : 0;
+  // Stores of bytes may alias anything, so the loop's bounds stand in locals.
+  const std::size_t vertices = positions.size();
+  const Vec3f* position = positions.data();
+  std::uint8_t* above = above_.data();
+  for (std::size_t v = 0; v < vertices; ++v) above[v] = position[v].y >= 0 ? 1 : 0;
   const auto count = static_cast<std::uint32_t>(surface.triangles.size());
-  const std::uint8_t* above = above_.data();
+  const Triangle* triangles = surface.triangles.data();
   for (std::uint32_t t = 0; t < count; ++t) {
-    const Triangle& corner = surface.triangles[t];
+    const Triangle& corner = triangles[t];
     const int sides = above[corner[0]] + above[corner[1]] + above[corner[2]];
     if (sides == 0 || sides == 3) continue;
-    const Vec3d p0 = toDouble(positions[corner[0]]), p1 = toDouble(positions[corner[1]]),
-                p2 = toDouble(positions[corner[2]]);
+    const Vec3d p0 = toDouble(position[corner[0]]), p1 = toDouble(position[corner[1]]),
+                p2 = toDouble(position[corner[2]]);
     const std::optional<TriangleCut> cut = cutTriangle(p0, p1, p2, p0.y, p1.y, p2.y);
-    pieces.push_back({*cut, facetNormal(p0, p1, p2, *cut, {0, 1, 0}), surface.id, t});
+    pieces.push_back({*cut, areaNormal(p0, p1, p2), surface.id, t});
   }
 }
 
 // How many lines, counted from the first, have the point at u >= 0: the lines turn (or move) from left to right,
 // so that is all lines up to some index. Guessed from the point's direction and made exact by the rule itself.
-// Precondition of the guess: z >= 0, where u >= 0 changes once over a sector of up to 180 degrees.
+// Precondition: z >= 0, where u >= 0 changes once over a sector of up to 180 degrees.
 int PlaneSlice::linesRightOf(Vec3d point) const {
   const int lines = probe_.lines;
-  if (lines == 1) return dot(rays_[0].u_axis, point - rays_[0].origin) >= 0 ? 1 : 0;
-  const double t =
-      probe_.kind == ProbeKind::linear
-          ? (point.x - probe_.first_offset_m) / (probe_.last_offset_m - probe_.first_offset_m)
-          : (std::atan2(point.x, point.z) - probe_.first_angle_rad) /
-                (probe_.last_angle_rad - probe_.first_angle_rad);
-  int n = static_cast<int>(std::clamp(std::floor(t * (lines - 1)) + 1, 0.0, static_cast<double>(lines)));
+  const bool linear = probe_.kind == ProbeKind::linear;
+  const double place = linear ? point.x : roughAngle(point.x, point.z);
+  const double guess = std::floor((place - first_place_) * lines_per_place_) + 1;
+  int n = static_cast<int>(std::clamp(guess, 0.0, static_cast<double>(lines)));
   const auto right = [&](int line) {
     const RayPlanes& ray = rays_[static_cast<std::size_t>(line)];
     return dot(ray.u_axis, point - ray.origin) >= 0;
@@ -55,6 +65,13 @@ int PlaneSlice::linesRightOf(Vec3d point) const {
   while (n < lines && right(n)) ++n;
   while (n > 0 && !right(n - 1)) --n;
   return n;
+}
+
+void PlaneSlice::crossLine(const ContourPiece& piece, int line) {
+  const auto i = static_cast<std::size_t>(line);
+  if (const std::optional<CutCrossing> c = crossCut(rays_[i], piece.cut))
+    lines_[i].crossings.push_back(
+        {c->distance_m, unitNormal(piece), piece.surface, piece.triangle, c->entering});
 }
 
 // A piece meets the lines between its ends. Where it reaches behind the plane z = 0 of the transducer every line is
@@ -68,12 +85,7 @@ void PlaneSlice::crossPiece(const ContourPiece& piece) {
     begin = std::min(n1, n2);
     end = std::max(n1, n2);
   }
-  for (int i = begin; i < end; ++i) {
-    const auto line = static_cast<std::size_t>(i);
-    if (const std::optional<CutCrossing> c = crossCut(rays_[line], piece.cut))
-      lines_[line].crossings.push_back(
-          {c->distance_m, piece.normal, piece.surface, piece.triangle, c->entering});
-  }
+  for (int i = begin; i < end; ++i) crossLine(piece, i);
 }
 
 // Contours of closed surfaces close exactly, so the crossings of a line themselves tell where it starts.

@@ -15,10 +15,13 @@ namespace echocine {
 // A piece of contour: a facet's cut by the imaging plane.
 struct ContourPiece {
   TriangleCut cut;  // in the imaging plane, y = 0
-  Vec3d normal;     // of the facet
+  Vec3d area_normal;  // of the facet, outward, twice its area long
   SurfaceId surface{};
   std::uint32_t triangle = 0;
 };
+
+// Unit normal of a piece's facet, by facetNormal().
+Vec3d unitNormal(const ContourPiece& piece);
 
 // What every scan line meets, as RayCrossings for each line.
 class PlaneSlice {
@@ -37,6 +40,7 @@ class PlaneSlice {
   void cutSurface(const SurfaceTopology& surface, const std::vector<Vec3f>& positions,
                   std::vector<ContourPiece>& pieces);
   void crossPiece(const ContourPiece& piece);
+  void crossLine(const ContourPiece& piece, int line);
   void resolve(RayCrossings& line) const;
   int linesRightOf(Vec3d point) const;
 
@@ -48,6 +52,7 @@ class PlaneSlice {
   bool still_cut_ = false;
   std::vector<ContourPiece> pieces_;
   std::vector<RayCrossings> lines_;
+  double first_place_ = 0, lines_per_place_ = 0;  // of the lines: angles, or offsets of a linear probe
   InsideSet membranes_, left_out_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/rough_angle.h"
 #include "trace/interface_law.h"
 
 namespace echocine {
@@ -26,20 +27,29 @@ class CellIntegrator {
         lines_(lines),
         angular_(probe.kind != ProbeKind::linear),
         first_(angular_ ? probe.first_angle_rad : probe.first_offset_m),
-        width_(lineWidth(probe)) {}
+        width_(lineWidth(probe)) {
+    for (std::size_t i = 0; i <= lines.size(); ++i) {
+      const double at = first_ + (static_cast<double>(i) - 0.5) * width_;
+      boundaries_.push_back(angular_ ? Point{std::sin(at), std::cos(at)} : Point{at, 1});
+    }
+  }
 
   void add(const ContourPiece& piece) {
     Point a{piece.cut.from.x, piece.cut.from.z}, b{piece.cut.to.x, piece.cut.to.z};
     if (!clipToFront(a, b)) return;
-    const double qa = cell(a), qb = cell(b);
-    if (qa > qb) std::swap(a, b);
-    const double q0 = std::min(qa, qb), q1 = std::max(qa, qb);
-    const int begin = static_cast<int>(std::max(std::floor(q0), 0.0));
-    const int end = static_cast<int>(std::min(std::floor(q1), lines_.size() - 1.0));
-    for (int i = begin; i <= end; ++i) {
-      const Point from = i > q0 ? atBoundary(a, b, i) : a;
-      const Point to = i + 1 < q1 ? atBoundary(a, b, i + 1) : b;
-      addToLine(piece, from, to, lines_[static_cast<std::size_t>(i)]);
+    int begin = cellOf(a), end = cellOf(b);
+    if (begin > end) {
+      std::swap(a, b);
+      std::swap(begin, end);
+    }
+    const int last = static_cast<int>(lines_.size()) - 1;
+    if (end < 0 || begin > last) return;
+    const Vec3d normal = unitNormal(piece);
+    Point from = begin < 0 ? atBoundary(a, b, 0) : a;
+    for (int i = std::max(begin, 0); i <= std::min(end, last); ++i) {
+      const Point to = i < end ? atBoundary(a, b, i + 1) : b;
+      addToLine(piece, normal, from, to, lines_[static_cast<std::size_t>(i)]);
+      from = to;
     }
   }
 
@@ -60,30 +70,41 @@ class CellIntegrator {
     return true;
   }
 
-  // Position among the cells: line i has the cell i..i+1.
-  double cell(Point p) const {
-    return ((angular_ ? std::atan2(p.x, p.z) : p.x) - first_) / width_ + 0.5;
+  // How far a point lies to the right of a boundary between cells.
+  double rightOf(Point p, int boundary) const {
+    const Point& at = boundaries_[static_cast<std::size_t>(boundary)];
+    return angular_ ? p.x * at.z - p.z * at.x : p.x - at.x;
   }
 
-  // Where the straight line a-b passes the boundary between two cells.
+  // The cell that holds a point; -1 left of the first and the number of lines right of the last.
+  int cellOf(Point p) const {
+    const int boundaries = static_cast<int>(boundaries_.size());
+    const double place = angular_ ? roughAngle(p.x, p.z) : p.x;
+    int n = static_cast<int>(std::clamp((place - first_) / width_ + 1.5, 0.0, static_cast<double>(boundaries)));
+    while (n < boundaries && rightOf(p, n) >= 0) ++n;
+    while (n > 0 && rightOf(p, n - 1) < 0) --n;
+    return n - 1;
+  }
+
+  // Where the straight line a-b passes a boundary between two cells.
   Point atBoundary(Point a, Point b, int boundary) const {
-    const double at = first_ + (boundary - 0.5) * width_;
-    const double s = angular_ ? std::sin(at) : at, c = angular_ ? std::cos(at) : 1;
-    const double ua = angular_ ? a.x * c - a.z * s : a.x - s;
-    const double ub = angular_ ? b.x * c - b.z * s : b.x - s;
+    const double ua = rightOf(a, boundary), ub = rightOf(b, boundary);
     const double t = ua == ub ? 0.5 : std::clamp(ua / (ua - ub), 0.0, 1.0);
     return {a.x + t * (b.x - a.x), a.z + t * (b.z - a.z)};
   }
 
   double pathLength(Point p) const {
-    return angular_ ? std::hypot(p.x, p.z) - probe_.face_radius_m : p.z;
+    return angular_ ? std::sqrt(p.x * p.x + p.z * p.z) - probe_.face_radius_m : p.z;
   }
 
   // Share of a cell between two points on one straight piece.
   double share(Point a, Point b) const {
     if (!angular_) return std::abs(b.x - a.x) / width_;
     const double across = std::abs(a.x * b.z - a.z * b.x), along = a.x * b.x + a.z * b.z;
-    return std::atan2(across, along) / width_;
+    const double q = across / along, q2 = q * q;
+    // Inside a cell the angle is small: three terms of the arctangent leave under 1e-13.
+    const double angle = along > 0 && q < 0.02 ? q * (1 - q2 * (1.0 / 3 - q2 / 5)) : std::atan2(across, along);
+    return angle / width_;
   }
 
   // The same surface crossed the same way on the line itself, nearest in depth.
@@ -97,12 +118,12 @@ class CellIntegrator {
     return best;
   }
 
-  void addToLine(const ContourPiece& piece, Point from, Point to, LineTrace& line) {
+  void addToLine(const ContourPiece& piece, Vec3d normal, Point from, Point to, LineTrace& line) {
     const Point middle{(from.x + to.x) / 2, (from.z + to.z) / 2};
-    const double reach = std::hypot(middle.x, middle.z);
+    const double reach = std::sqrt(middle.x * middle.x + middle.z * middle.z);
     const Vec3d direction =
         angular_ && reach > 0 ? Vec3d{middle.x / reach, 0, middle.z / reach} : Vec3d{0, 0, 1};
-    const double along = dot(direction, piece.normal);
+    const double along = dot(direction, normal);
     const InterfacePass* pass = nearestPass(line, piece, along < 0, pathLength(middle));
     if (!pass || !pass->seen) return;
     const double echo = echoAt(*pass, std::min(std::abs(along), 1.0));
@@ -142,7 +163,7 @@ class CellIntegrator {
     const double dx = piece.b.x - piece.a.x, dz = piece.b.z - piece.a.z;
     double s = 0;
     if (angular_) {
-      const double length = std::hypot(dx, dz);
+      const double length = std::sqrt(dx * dx + dz * dz);
       const double r = path_m + probe_.face_radius_m;
       const double ta = (piece.a.x * dx + piece.a.z * dz) / length;
       const double p2 = piece.a.x * piece.a.x + piece.a.z * piece.a.z - ta * ta;
@@ -185,6 +206,7 @@ class CellIntegrator {
   std::span<LineTrace> lines_;
   bool angular_;
   double first_, width_;
+  std::vector<Point> boundaries_;  // sine and cosine, or the offset of a linear probe; one more than lines
 };
 
 }  // namespace

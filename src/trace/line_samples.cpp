@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace echocine {
 
 namespace {
 
-constexpr int kBlock = 16;
+constexpr int kBlock = 8;
+// Eight samples at once, in the vector extension that GCC and Clang share: both compilers unroll the plain loop over a
+// block before they would vectorise it.
+using Block = float __attribute__((vector_size(kBlock * sizeof(float))));
 
 // First sample whose centre is at or beyond a depth, within 0..samples.
 int sampleFrom(const Sampling& s, double depth_m) {
@@ -15,66 +19,77 @@ int sampleFrom(const Sampling& s, double depth_m) {
   return static_cast<int>(std::clamp(k, 0.0, static_cast<double>(s.samples)));
 }
 
-// One stretch's backscatter in blocks of 16 samples: the exponential is taken once per block and goes on by
-// stored powers, so the loop over a block holds no call and vectorises, and no rounding piles up along the line.
+// One stretch's backscatter in blocks of eight samples: within a block stored powers of the attenuation of one sample, from
+// block to block its eighth power, in double: no call in the loops, which vectorise, and rounding that stays under 1e-14.
 template <bool kSpread, bool kAttenuation>
 void fillStretch(const Stretch& stretch, const Sampling& s, int begin, int end, float* out) {
   const double offset_m = s.centre(begin) - stretch.begin_depth_m;
-  const double path_m = stretch.begin_path_m + stretch.path_per_depth * offset_m;
   const double path_step = stretch.path_per_depth * s.spacing_m;
-  const double exponent = stretch.begin_exponent + stretch.exponent_per_m * offset_m;
-  const double exponent_step = stretch.exponent_per_m * s.spacing_m;
-  alignas(64) float power[kBlock];
-  alignas(64) float path_offset[kBlock];
-  for (int j = 0; j < kBlock; ++j) {
-    power[j] = static_cast<float>(std::exp(-exponent_step * j));
-    path_offset[j] = static_cast<float>(path_step * j);
-  }
-  for (int k = begin; k < end; k += kBlock) {
-    const int done = k - begin;
-    const double start = kAttenuation ? std::exp(-(exponent + exponent_step * done)) : 1.0;
-    const float base = static_cast<float>(stretch.strength_m2_sr * start);
-    const float l0 = static_cast<float>(path_m + path_step * done);
-    alignas(64) float block[kBlock];
+  double path_m = stretch.begin_path_m + stretch.path_per_depth * offset_m;
+  double strength = stretch.strength_m2_sr;
+  double block_factor = 1;
+  Block power{};
+  if constexpr (kAttenuation) {
+    strength *= std::exp(-(stretch.begin_exponent + stretch.exponent_per_m * offset_m));
+    const double sample_factor = std::exp(-stretch.exponent_per_m * s.spacing_m);
     for (int j = 0; j < kBlock; ++j) {
-      const float l = l0 + path_offset[j];
-      float value = base;
-      if constexpr (kAttenuation) value *= power[j];
-      if constexpr (kSpread) value /= l * l;
-      block[j] = value;
+      power[j] = static_cast<float>(block_factor);
+      block_factor *= sample_factor;
     }
-    std::copy_n(block, std::min(kBlock, end - k), out + k);
+  }
+  Block path_offset{};
+  for (int j = 0; j < kBlock; ++j) path_offset[j] = static_cast<float>(path_step * j);
+  for (int k = begin; k < end; k += kBlock) {
+    Block value = Block{} + static_cast<float>(strength);
+    if constexpr (kAttenuation) value *= power;
+    if constexpr (kSpread) {
+      const Block l = path_offset + static_cast<float>(path_m);
+      value /= l * l;
+    }
+    if (k + kBlock <= end)
+      std::memcpy(out + k, &value, sizeof value);  // a plain store
+    else
+      std::memcpy(out + k, &value, static_cast<std::size_t>(end - k) * sizeof(float));
+    strength *= block_factor;
+    path_m += path_step * kBlock;
   }
 }
 
+void fillOne(const Stretch& stretch, const Sampling& s, const IntensityParts& parts, int begin, int end,
+             float* out) {
+  if (parts.spread_undone_at_m == 0) {
+    return parts.attenuation ? fillStretch<true, true>(stretch, s, begin, end, out)
+                             : fillStretch<true, false>(stretch, s, begin, end, out);
+  }
+  Stretch scaled = stretch;
+  scaled.strength_m2_sr /= parts.spread_undone_at_m * parts.spread_undone_at_m;
+  if (parts.attenuation) return fillStretch<false, true>(scaled, s, begin, end, out);
+  std::fill(out + begin, out + end, static_cast<float>(scaled.strength_m2_sr));
+}
+
+// Every sample once: stretches that scatter, zeros elsewhere.
 void fillBackscatter(const LineTrace& line, const Sampling& s, const IntensityParts& parts,
                      float* out) {
-  const bool spread = parts.spread_undone_at_m == 0;
+  int done = 0;
   for (const Stretch& stretch : line.stretches) {
-    const int begin = sampleFrom(s, stretch.begin_depth_m);
+    const int begin = std::max(sampleFrom(s, stretch.begin_depth_m), done);
     const int end = sampleFrom(s, stretch.end_depth_m);
     if (begin >= end || stretch.strength_m2_sr == 0) continue;
-    if (spread && parts.attenuation) {
-      fillStretch<true, true>(stretch, s, begin, end, out);
-    } else if (spread) {
-      fillStretch<true, false>(stretch, s, begin, end, out);
-    } else {
-      Stretch scaled = stretch;
-      scaled.strength_m2_sr /= parts.spread_undone_at_m * parts.spread_undone_at_m;
-      if (parts.attenuation)
-        fillStretch<false, true>(scaled, s, begin, end, out);
-      else
-        std::fill(out + begin, out + end, static_cast<float>(scaled.strength_m2_sr));
-    }
+    std::fill(out + done, out + begin, 0.0f);
+    fillOne(stretch, s, parts, begin, end, out);
+    done = end;
   }
+  std::fill(out + done, out + s.samples, 0.0f);
 }
 
 }  // namespace
 
 void sampleIntensity(const LineTrace& line, const Sampling& sampling, const IntensityParts& parts,
                      std::span<float> values) {
-  std::fill(values.begin(), values.end(), 0.0f);
-  if (parts.backscatter) fillBackscatter(line, sampling, parts, values.data());
+  if (parts.backscatter)
+    fillBackscatter(line, sampling, parts, values.data());
+  else
+    std::fill(values.begin(), values.end(), 0.0f);
   if (!parts.reflection) return;
   for (const Echo& echo : line.echoes) {
     const double k = std::floor((echo.depth_m - sampling.min_depth_m) / sampling.spacing_m);
