@@ -69,8 +69,9 @@ std::vector<Vec3d> probePositions(const Structure& structure, const KeyframeMesh
   return positions_m;
 }
 
-// To single precision. What is within rounding of a coordinate plane, a picometre, is on it: vertices that a mesh
-// puts exactly on the imaging plane stay there after the turn into the probe frame.
+// To single precision. What is within rounding of a coordinate plane, a picometre, is on it:
+// vertices that a mesh puts exactly on the imaging plane stay there after the turn into the probe
+// frame.
 std::vector<Vec3f> narrowed(const std::vector<Vec3d>& values) {
   const auto onPlane = [](double c) { return std::abs(c) < 1e-12 ? 0.0 : c; };
   std::vector<Vec3f> floats(values.size());
@@ -88,8 +89,8 @@ std::vector<Vec3d> weightedSum(std::span<const double> weights,
   return sum;
 }
 
-// With weights w that sum to 1, sum w p = c + sum w (p - c) stays within sum |w| times the keyframes' half extent of
-// their middle c.
+// With weights w that sum to 1, sum w p = c + sum w (p - c) stays within sum |w| times the
+// keyframes' half extent of their middle c.
 Box loopBox(const std::vector<std::vector<Vec3d>>& keyframes_m, double magnification) {
   Box box;
   for (const std::vector<Vec3d>& positions : keyframes_m)

@@ -21,8 +21,8 @@ class HeartMotion {
 
   const std::vector<SurfaceTopology>& surfaces() const { return surfaces_; }
 
-  // A box around each surface that no phase leaves: the keyframes' box, widened as far as the interpolation may
-  // overshoot (subdivision stays within its control points). Probe frame, m.
+  // A box around each surface that no phase leaves: the keyframes' box, widened as far as the
+  // interpolation may overshoot (subdivision stays within its control points). Probe frame, m.
   const std::vector<Box>& loopBoxes() const { return loop_boxes_m_; }
 
   // The surfaces at a phase in [0, 1); keyframe phases reproduce their keyframes. Thread-safe;

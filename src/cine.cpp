@@ -22,8 +22,9 @@ namespace {
 std::pair<int, int> frameRange(const RenderOptions& options, int loop_frames) {
   const std::pair<int, int> range = options.frames.value_or(std::pair(0, loop_frames));
   if (range.first < 0 || range.first >= range.second || range.second > loop_frames)
-    throw SceneError(fmt::format("--frames: {}:{} is not in the loop, accepted: A:B with 0 <= A < B <= {}",
-                                 range.first, range.second, loop_frames));
+    throw SceneError(
+        fmt::format("--frames: {}:{} is not in the loop, accepted: A:B with 0 <= A < B <= {}",
+                    range.first, range.second, loop_frames));
   return range;
 }
 
@@ -36,7 +37,7 @@ RenderSummary renderCine(const Scene& scene, const RenderOptions& options, const
   const LoopPlan plan = planLoop(scene, motion);  // what has to be computed at all, and how
   const auto [first, last] = frameRange(options, clock.frameCount());
   const OutputFolder folder(options.folder, scene.output, options.resume);
-  FrameMaker maker(scene, plan, motion);          // motion -> geometry -> trace -> signal of one frame
+  FrameMaker maker(scene, plan, motion);  // motion -> geometry -> trace -> signal of one frame
 
   RenderSummary summary{.frames_done = 0, .frames_wanted = last - first, .manifest = {}};
   summary.manifest.plan = plan;

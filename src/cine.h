@@ -33,8 +33,9 @@ struct RenderSummary {
   Manifest manifest;                       // written to the folder when nothing was cut short
 };
 
-// Throws SceneError (scene, meshes or range cannot be used; nothing is written) and JobError. Frames that were
-// finished before an error or a stop are whole, and the cine of a stopped run plays.
+// Throws SceneError (scene, meshes or range cannot be used; nothing is written) and JobError.
+// Frames that were finished before an error or a stop are whole, and the cine of a stopped run
+// plays.
 RenderSummary renderCine(const Scene& scene, const RenderOptions& options, const Monitor& monitor);
 
 }  // namespace echocine

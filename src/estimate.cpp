@@ -51,7 +51,8 @@ Estimate estimateLoop(const Scene& scene, int threads) {
   const RenderSummary summary = renderCine(
       few, {.folder = folder.path, .threads = threads, .frames = std::pair(0, rendered)}, {});
   estimate.measured = summary.manifest;
-  // The first pass of a percentile reference repeats what stands before compression for frames not kept.
+  // The first pass of a percentile reference repeats what stands before compression for frames not
+  // kept.
   estimate.seconds = summary.manifest.wall_ms * 1e-3 * estimate.frames;
   estimate.memory_bytes = largestResidentBytes();
   return estimate;

@@ -6,10 +6,10 @@
 namespace echocine {
 
 struct Estimate {
-  Manifest measured;       // of the frames that were rendered: plan, stage times, work
-  int frames = 0;          // of the loop
-  double seconds = 0;      // for the whole loop with the same threads
-  double memory_bytes = 0; // most resident memory while rendering
+  Manifest measured;        // of the frames that were rendered: plan, stage times, work
+  int frames = 0;           // of the loop
+  double seconds = 0;       // for the whole loop with the same threads
+  double memory_bytes = 0;  // most resident memory while rendering
 };
 
 // Renders up to six frames of the loop to a temporary folder, which is removed.

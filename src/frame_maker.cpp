@@ -56,14 +56,16 @@ Volumes FrameMaker::volumes(const SurfaceFrame& surfaces) const {
 
 namespace {
 
-// The intensity stack refuses what cannot be shown by itself; a run without one must not draw it either.
+// The intensity stack refuses what cannot be shown by itself; a run without one must not draw it
+// either.
 void refuseUnusable(double phase, const PolarFrame& polar) {
   const std::optional<std::size_t> bad = firstUnusable(polar.signal);
   if (!bad) return;
   const auto per_line = static_cast<std::size_t>(polar.samples);
-  throw JobError(fmt::format(
-      "phase {}, line {}, sample {}: the intensity after time gain is {}: only finite values from 0 up are accepted",
-      phase, *bad / per_line, *bad % per_line, polar.signal[*bad]));
+  throw JobError(
+      fmt::format("phase {}, line {}, sample {}: the intensity after time gain is {}: only finite "
+                  "values from 0 up are accepted",
+                  phase, *bad / per_line, *bad % per_line, polar.signal[*bad]));
 }
 
 }  // namespace

@@ -55,7 +55,8 @@ class FrameMaker {
   // Borrows a workspace until the pointer dies; made on first use and used again.
   std::shared_ptr<Workspace> workspace();
 
-  // motion -> geometry -> trace -> time gain and beam width: fills workspace.polar. Returns the volumes.
+  // motion -> geometry -> trace -> time gain and beam width: fills workspace.polar. Returns the
+  // volumes.
   Volumes trace(double phase, Workspace& workspace);
 
   // log compression -> scan conversion: workspace.polar.signal becomes grey.

@@ -13,7 +13,8 @@ namespace echocine {
 
 namespace {
 
-// Frames that are looked at: end-diastole, mid-systole, end-systole, early and late filling. Our choice.
+// Frames that are looked at: end-diastole, mid-systole, end-systole, early and late filling. Our
+// choice.
 constexpr double kProbePhases[] = {0.0, 0.15, 0.36, 0.5, 0.8};
 constexpr double kCountedShare = 0.99;  // of the echoes; the rest graze and are lost either way
 
@@ -35,15 +36,6 @@ bool overlap(const Box& a, const Box& b) {
          a.lo.z <= b.hi.z && b.lo.z <= a.hi.z;
 }
 
-bool sameInterface(const Medium& a, const Medium& b) {
-  return a.impedance_kg_m2_s == b.impedance_kg_m2_s && a.sound_speed_m_s == b.sound_speed_m_s;
-}
-
-bool sameMedium(const Medium& a, const Medium& b) {
-  return sameInterface(a, b) && a.attenuation_np_per_m == b.attenuation_np_per_m &&
-         a.backscatter_per_m_sr == b.backscatter_per_m_sr;
-}
-
 bool sameAsAllMedia(const Scene& scene, const Medium& medium) {
   return std::all_of(scene.media.begin(), scene.media.end(),
                      [&](const Medium& m) { return sameInterface(m, medium); });
@@ -53,11 +45,13 @@ bool sameAsAllMedia(const Scene& scene, const Medium& medium) {
 bool invisible(const Scene& scene, const Structure& structure) {
   if (structure.membrane) return sameAsAllMedia(scene, scene.medium(structure.medium));
   const Medium& medium = scene.medium(structure.medium);
-  if (wants(scene, Channel::medium) || !sameMedium(medium, scene.medium(scene.background))) return false;
-  return std::none_of(scene.structures.begin(), scene.structures.end(), [&](const Structure& other) {
-    return !other.membrane && other.priority <= structure.priority &&
-           !sameMedium(scene.medium(other.medium), medium);
-  });
+  if (wants(scene, Channel::medium) || !sameMedium(medium, scene.medium(scene.background)))
+    return false;
+  return std::none_of(scene.structures.begin(), scene.structures.end(),
+                      [&](const Structure& other) {
+                        return !other.membrane && other.priority <= structure.priority &&
+                               !sameMedium(scene.medium(other.medium), medium);
+                      });
 }
 
 void dropStructures(const Scene& scene, const HeartMotion& motion, LoopPlan& plan) {
@@ -72,8 +66,10 @@ void dropStructures(const Scene& scene, const HeartMotion& motion, LoopPlan& pla
     const std::size_t triangles = motion.surfaces()[s].triangles.size();
     plan.triangles_given += triangles;
     std::string reason;
-    if (!overlap(sector, motion.loopBoxes()[s])) reason = "outside the sector in every frame";
-    else if (invisible(scene, structure)) reason = "same impedance and speed as all around it";
+    if (!overlap(sector, motion.loopBoxes()[s]))
+      reason = "outside the sector in every frame";
+    else if (invisible(scene, structure))
+      reason = "same impedance and speed as all around it";
     if (reason.empty()) {
       plan.triangles_kept += triangles;
     } else {
@@ -84,8 +80,9 @@ void dropStructures(const Scene& scene, const HeartMotion& motion, LoopPlan& pla
   for (std::size_t a = 0; a < scene.media.size(); ++a)
     for (std::size_t b = a + 1; b < scene.media.size(); ++b)
       if (sameInterface(scene.media[a], scene.media[b]))
-        plan.interfaces.push_back({fmt::format("interface {}/{}", scene.media[a].name, scene.media[b].name),
-                                   false, "same impedance and speed"});
+        plan.interfaces.push_back(
+            {fmt::format("interface {}/{}", scene.media[a].name, scene.media[b].name), false,
+             "same impedance and speed"});
 }
 
 EffectDecision& refractionDecision(LoopPlan& plan) {
@@ -122,9 +119,10 @@ void decideRefraction(const Scene& scene, const HeartMotion& motion, LoopPlan& p
   const double tolerance = scene.accuracy.refraction_tolerance_lines;
   plan.effects.refraction = decision.on = counted.spacings >= tolerance;
   decision.reason = fmt::format(
-      "99 % of the echoes move by {} {:.2g} mm, {:.2g} of a line's distance (accepted: {:g}; farthest, grazing: {:.2g} mm)",
-      decision.on ? "up to" : "under", millimetresFromMetres(counted.metres), counted.spacings, tolerance,
-      millimetresFromMetres(shifts.back().metres));
+      "99 % of the echoes move by {} {:.2g} mm, {:.2g} of a line's distance (accepted: {:g}; "
+      "farthest, grazing: {:.2g} mm)",
+      decision.on ? "up to" : "under", millimetresFromMetres(counted.metres), counted.spacings,
+      tolerance, millimetresFromMetres(shifts.back().metres));
 }
 
 void chooseTracer(const Scene& scene, LoopPlan& plan) {
@@ -135,9 +133,12 @@ void chooseTracer(const Scene& scene, LoopPlan& plan) {
                                     : "refracted rays leave the imaging plane";
   plan.cell_echoes = plan.slice && plan.effects.reflection && scene.probe.lines > 1 &&
                      a.interface_echo != InterfaceEcho::centre;
-  plan.echo_reason = plan.cell_echoes ? "integrated over the beam's cell: the contour between lines is known"
-                     : a.interface_echo == InterfaceEcho::centre ? "at each line's centre: accuracy.interface_echo asks for it"
-                     : plan.slice ? "at each line's centre" : "at each line's centre: the contour between bent lines is not known";
+  plan.echo_reason =
+      plan.cell_echoes ? "integrated over the beam's cell: the contour between lines is known"
+      : a.interface_echo == InterfaceEcho::centre
+          ? "at each line's centre: accuracy.interface_echo asks for it"
+      : plan.slice ? "at each line's centre"
+                   : "at each line's centre: the contour between bent lines is not known";
 }
 
 void lookAtFrames(const Scene& scene, const HeartMotion& motion, LoopPlan& plan) {
@@ -152,10 +153,13 @@ void lookAtFrames(const Scene& scene, const HeartMotion& motion, LoopPlan& plan)
   }
   if (!plan.effects.contrast) {
     plan.anything_seen = false;
-    plan.warnings.push_back("nothing can be seen: all structures and their surroundings are of one medium");
+    plan.warnings.push_back(
+        "nothing can be seen: all structures and their surroundings are of one medium");
   } else if (plan.left_out.count() == scene.structures.size() || crossings == 0) {
     plan.anything_seen = crossings > 0;
-    plan.warnings.push_back("nothing can be seen: no scan line meets a structure in the frames looked at (probe.apex, probe.axis, motion.mesh_unit)");
+    plan.warnings.push_back(
+        "nothing can be seen: no scan line meets a structure in the frames looked at (probe.apex, "
+        "probe.axis, motion.mesh_unit)");
   }
 }
 

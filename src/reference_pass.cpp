@@ -11,7 +11,8 @@ namespace {
 constexpr std::size_t kKeptBytes = 128u << 20;
 
 std::size_t bytesOf(const PolarFrame& polar) {
-  std::size_t planes = polar.planes.size() + (polar.signal.empty() ? 0 : 1) + (polar.medium.empty() ? 0 : 1);
+  std::size_t planes =
+      polar.planes.size() + (polar.signal.empty() ? 0 : 1) + (polar.medium.empty() ? 0 : 1);
   return planes * sizeof(float) * static_cast<std::size_t>(polar.lines) *
          static_cast<std::size_t>(polar.samples);
 }

@@ -17,11 +17,11 @@ struct KeptFrame {
 };
 using KeptFrames = std::map<int, KeptFrame>;
 
-// The scene's absolute reference at once, or the percentile over all frames of the loop, whichever of them are
-// rendered, so that parts of a loop show the same grey as the whole. The first frames are kept, as many
-// as a fixed amount of memory holds. Nothing when the monitor stops the run.
-// Where no frame has anything to be seen the percentile would paint an even nothing white; then the reference is the
-// transmitted intensity, 1, and the loop is black.
+// The scene's absolute reference at once, or the percentile over all frames of the loop, whichever
+// of them are rendered, so that parts of a loop show the same grey as the whole. The first frames
+// are kept, as many as a fixed amount of memory holds. Nothing when the monitor stops the run.
+// Where no frame has anything to be seen the percentile would paint an even nothing white; then the
+// reference is the transmitted intensity, 1, and the loop is black.
 std::optional<double> findReference(const Scene& scene, const LoopPlan& plan, FrameMaker& maker,
                                     const CardiacClock& clock, const Monitor& monitor,
                                     KeptFrames& kept);

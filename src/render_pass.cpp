@@ -44,7 +44,8 @@ RenderPass::RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept)
     : parts_(parts),
       manifest_(manifest),
       kept_(kept),
-      exr_(parts.folder.intensity(), parts.scene, manifest.scene_sha256, manifest.reference_intensity),
+      exr_(parts.folder.intensity(), parts.scene, manifest.scene_sha256,
+           manifest.reference_intensity),
       overlay_(parts.scene, parts.maker.chain().geometry(),
                parts.scene.output.ecg ? loopEcg(parts.scene, parts.clock.frameCount())
                                       : std::vector<double>{}),

@@ -15,8 +15,8 @@
 
 namespace echocine {
 
-// SHA-256 over the resolved scene, its media, its meshes and the program's version: equal for two runs that must
-// give the same files.
+// SHA-256 over the resolved scene, its media, its meshes and the program's version: equal for two
+// runs that must give the same files.
 std::string sceneSha256(const Scene& scene, const HeartMotion& motion);
 
 class RenderPass {

@@ -1,7 +1,7 @@
 // echocine: arguments in, one call, the exit code out. The only place that catches.
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <csignal>
 #include <new>
@@ -37,13 +37,15 @@ int main(int argc, char** argv) {
     return app.got_subcommand("plan") ? plan.run() : render.run();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return failed(kUnusable, fmt::format("{} (--help lists what is accepted)", error.what()).c_str());
+    return failed(kUnusable,
+                  fmt::format("{} (--help lists what is accepted)", error.what()).c_str());
   } catch (const echocine::SceneError& error) {
     return failed(kUnusable, error.what());
   } catch (const echocine::JobError& error) {
     return failed(kJobFailed, error.what());
   } catch (const std::bad_alloc&) {
-    return failed(kJobFailed, "out of memory: fewer lines, samples, subdivision levels or threads need less");
+    return failed(kJobFailed,
+                  "out of memory: fewer lines, samples, subdivision levels or threads need less");
   } catch (const std::exception& error) {
     return failed(kJobFailed, error.what());
   }

@@ -1,7 +1,7 @@
 #include "cli/plan_command.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -62,9 +62,10 @@ void printJson(const Estimate& estimate) {
                   {"tracer_reason", plan.tracer_reason},
                   {"interface_echo", plan.cell_echoes ? "cell" : "centre"},
                   {"interface_echo_reason", plan.echo_reason},
-                  {"triangles", {{"given", plan.triangles_given},
-                                 {"kept", plan.triangles_kept},
-                                 {"met", plan.triangles_met}}},
+                  {"triangles",
+                   {{"given", plan.triangles_given},
+                    {"kept", plan.triangles_kept},
+                    {"met", plan.triangles_met}}},
                   {"frames", estimate.frames},
                   {"seconds", estimate.seconds},
                   {"memory_bytes", estimate.memory_bytes},
@@ -78,8 +79,10 @@ void printJson(const Estimate& estimate) {
 PlanCommand::PlanCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "plan", "Say which effects a scene's loop needs, why, and what it will take in s and MB");
-  command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")->required();
-  command->add_option("--threads", threads_, "Threads; 0 for one per core")->check(CLI::Range(0, 4096));
+  command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")
+      ->required();
+  command->add_option("--threads", threads_, "Threads; 0 for one per core")
+      ->check(CLI::Range(0, 4096));
   command->add_flag("--json", json_, "Print JSON");
   command->add_flag("--quiet", quiet_, "Print no warnings");
 }

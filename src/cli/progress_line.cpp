@@ -14,8 +14,9 @@ void ProgressLine::show(const Progress& progress) {
   const Clock::time_point now = Clock::now();
   if (progress.pass != pass_) {
     pass_ = progress.pass;
-    pass_start_ = now;
+    pass_start_ = last_told_;
   }
+  last_told_ = now;
   // A bar ten times a second; lines every ten seconds, for logs.
   const auto pause = terminal_ ? std::chrono::milliseconds(100) : std::chrono::milliseconds(10000);
   const bool last = progress.done == progress.total;
@@ -25,10 +26,9 @@ void ProgressLine::show(const Progress& progress) {
   const double per_second = elapsed_s > 0 ? progress.done / elapsed_s : 0;
   const double left_s = per_second > 0 ? (progress.total - progress.done) / per_second : 0;
   const char* doing = pass_ == Progress::Pass::measuring ? "measuring" : "rendering";
-  const std::string numbers =
-      fmt::format("{} {}/{} frames, {:.1f} frames/s, {}:{:02} left", doing, progress.done,
-                  progress.total, per_second, static_cast<int>(left_s) / 60,
-                  static_cast<int>(left_s) % 60);
+  const std::string numbers = fmt::format(
+      "{} {}/{} frames, {:.1f} frames/s, {}:{:02} left", doing, progress.done, progress.total,
+      per_second, static_cast<int>(left_s) / 60, static_cast<int>(left_s) % 60);
   if (!terminal_) {
     fmt::print(stderr, "{}\n", numbers);
     return;

@@ -18,7 +18,7 @@ class ProgressLine {
   bool quiet_, terminal_;
   bool open_ = false;
   Progress::Pass pass_ = Progress::Pass::measuring;
-  Clock::time_point pass_start_ = Clock::now(), last_shown_{};
+  Clock::time_point pass_start_ = Clock::now(), last_told_ = Clock::now(), last_shown_{};
 };
 
 }  // namespace echocine

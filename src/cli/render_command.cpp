@@ -1,7 +1,7 @@
 #include "cli/render_command.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <atomic>
 #include <charconv>
@@ -19,7 +19,9 @@ namespace {
 
 std::atomic<bool> stop_wanted{false};
 
-void wantStop(int) { stop_wanted = true; }
+void wantStop(int) {
+  stop_wanted = true;
+}
 
 // "A:B", either end left out for the loop's own: ":10", "10:", "3:4".
 std::pair<int, int> parseRange(const std::string& text, int loop_frames) {
@@ -34,17 +36,20 @@ std::pair<int, int> parseRange(const std::string& text, int loop_frames) {
   if (colon == std::string::npos || !read(view.substr(0, colon), range.first) ||
       !read(view.substr(colon + 1), range.second))
     throw SceneError(fmt::format(
-        "--frames: \"{}\" is not a range, accepted: A:B for the frames from A up to, without, B", text));
+        "--frames: \"{}\" is not a range, accepted: A:B for the frames from A up to, without, B",
+        text));
   return range;
 }
 
 void printSummary(const RenderSummary& summary, const RenderOptions& options, const Scene& scene) {
   const Manifest& m = summary.manifest;
-  fmt::print("{} frames in {}: {:.1f} frames/s on {} threads\n", summary.frames_done,
-             options.folder.string(), 1000 / m.wall_ms, options.threads > 0 ? std::to_string(options.threads) : "all");
+  fmt::print("{} frame{} in {}: {:.1f} frames/s on {}\n", summary.frames_done,
+             summary.frames_done == 1 ? "" : "s", options.folder.string(), 1000 / m.wall_ms,
+             options.threads > 0 ? fmt::format("{} thread(s)", options.threads) : "all cores");
   std::string stages;
   for (std::size_t s = 0; s < kStages; ++s)
-    stages += fmt::format("{}{} {:.2f}", s ? ", " : "", stageName(static_cast<Stage>(s)), m.stage_ms[s]);
+    stages +=
+        fmt::format("{}{} {:.2f}", s ? ", " : "", stageName(static_cast<Stage>(s)), m.stage_ms[s]);
   fmt::print("  plan: {}\n", planSummary(m.plan));
   fmt::print("  ms per frame and thread: {}\n", stages);
   std::string parts;
@@ -59,10 +64,13 @@ void printSummary(const RenderSummary& summary, const RenderOptions& options, co
 }  // namespace
 
 RenderCommand::RenderCommand(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "render", "Trace a scene's cine loop into EXR intensities and an AVI");
-  command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")->required();
-  command->add_option("-o,--output", options_.folder, "Folder for intensity/, cine.avi and manifest.json")
+  CLI::App* command =
+      app.add_subcommand("render", "Trace a scene's cine loop into EXR intensities and an AVI");
+  command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")
+      ->required();
+  command
+      ->add_option("-o,--output", options_.folder,
+                   "Folder for intensity/, cine.avi and manifest.json")
       ->required();
   command->add_option("--threads", options_.threads, "Threads; 0 for one per core")
       ->check(CLI::Range(0, 4096));
@@ -75,7 +83,8 @@ RenderCommand::RenderCommand(CLI::App& app) {
 
 int RenderCommand::run() {
   const Scene scene = readScene(scene_file_);
-  if (!frames_.empty()) options_.frames = parseRange(frames_, CardiacClock(scene.acquisition).frameCount());
+  if (!frames_.empty())
+    options_.frames = parseRange(frames_, CardiacClock(scene.acquisition).frameCount());
   std::signal(SIGINT, wantStop);
   std::signal(SIGTERM, wantStop);
   ProgressLine line(quiet_);
@@ -85,8 +94,9 @@ int RenderCommand::run() {
   const RenderSummary summary = renderCine(scene, options_, monitor);
   line.finish();
   if (summary.frames_done < summary.frames_wanted)
-    throw JobError(fmt::format("stopped: {} of {} frames are finished in {}; --resume goes on from there",
-                               summary.frames_done, summary.frames_wanted, options_.folder.string()));
+    throw JobError(
+        fmt::format("stopped: {} of {} frames are finished in {}; --resume goes on from there",
+                    summary.frames_done, summary.frames_wanted, options_.folder.string()));
   if (quiet_) return 0;
   for (const std::string& warning : summary.manifest.plan.warnings)
     fmt::print(stderr, "echocine: warning: {}\n", warning);

@@ -1,6 +1,6 @@
 #pragma once
-// Checks of what can only be wrong through a mistake in the program. Bad input is a SceneError instead.
-// CHECK is always on; DCHECK is on in debug builds and may stand in hot loops.
+// Checks of what can only be wrong through a mistake in the program. Bad input is a SceneError
+// instead. CHECK is always on; DCHECK is on in debug builds and may stand in hot loops.
 
 #include <fmt/format.h>
 
@@ -17,10 +17,10 @@ template <typename A, typename B>
 
 }  // namespace echocine::detail
 
-#define ECHOCINE_CHECK_OP(a, op, b)                                                      \
-  do {                                                                                   \
-    if (!((a)op(b)))                                                                     \
-      ::echocine::detail::checkFailed(__FILE__, __LINE__, #a " " #op " " #b, (a), (b));  \
+#define ECHOCINE_CHECK_OP(a, op, b)                                                     \
+  do {                                                                                  \
+    if (!((a)op(b)))                                                                    \
+      ::echocine::detail::checkFailed(__FILE__, __LINE__, #a " " #op " " #b, (a), (b)); \
   } while (false)
 
 #define CHECK_EQ(a, b) ECHOCINE_CHECK_OP(a, ==, b)

@@ -1,6 +1,7 @@
 #pragma once
-// The two ways a run can fail, each with the exit code of the command line. Thrown only while reading,
-// building or writing, never inside the parallel loops of a stage; caught once, in src/cli.
+// The two ways a run can fail, each with the exit code of the command line. Thrown only while
+// reading, building or writing, never inside the parallel loops of a stage; caught once, in
+// src/cli.
 
 #include <stdexcept>
 #include <string>

@@ -25,7 +25,8 @@ std::string readTextFile(const std::filesystem::path& path, std::size_t max_byte
     file.read(block.data(), static_cast<std::streamsize>(block.size()));
     text.append(block, 0, static_cast<std::size_t>(file.gcount()));
     if (text.size() > max_bytes)
-      throw SceneError(fmt::format("{}: larger than the {} bytes accepted", path.string(), max_bytes));
+      throw SceneError(
+          fmt::format("{}: larger than the {} bytes accepted", path.string(), max_bytes));
   }
   if (file.bad()) throw SceneError(fmt::format("{}: reading failed", path.string()));
   return text;

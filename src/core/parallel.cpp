@@ -21,9 +21,13 @@ void withThreads(int threads, const std::function<void()>& body) {
   arena.execute(body);
 }
 
-int threadCount() { return tbb::this_task_arena::max_concurrency(); }
+int threadCount() {
+  return tbb::this_task_arena::max_concurrency();
+}
 
-void isolated(const std::function<void()>& body) { tbb::this_task_arena::isolate(body); }
+void isolated(const std::function<void()>& body) {
+  tbb::this_task_arena::isolate(body);
+}
 
 void parallelBlocks(std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, std::size_t)>& body) {
@@ -53,9 +57,10 @@ std::size_t parallelOrdered(std::size_t first, std::size_t last, std::size_t in_
                                             }
                                             return next++;
                                           }) &
-          tbb::make_filter<std::size_t, Item>(
-              tbb::filter_mode::parallel,
-              [&](std::size_t i) -> Item { return {i, work(i)}; }) &
+          tbb::make_filter<std::size_t, Item>(tbb::filter_mode::parallel,
+                                              [&](std::size_t i) -> Item {
+                                                return {i, work(i)};
+                                              }) &
           tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, [&](Item item) {
             drain(item.first, std::move(item.second));
             drained = item.first + 1;

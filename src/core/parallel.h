@@ -13,19 +13,20 @@ void withThreads(int threads, const std::function<void()>& body);
 // Number of threads the enclosing withThreads() allows.
 int threadCount();
 
-// Calls body(begin, end) for disjoint blocks of `grain` indices that cover [0, count). Blocks start at
-// multiples of the grain whatever the thread count. A waiting thread takes no work from outside this
-// loop, so a caller's scratch memory is never entered twice.
+// Calls body(begin, end) for disjoint blocks of `grain` indices that cover [0, count). Blocks start
+// at multiples of the grain whatever the thread count. A waiting thread takes no work from outside
+// this loop, so a caller's scratch memory is never entered twice.
 void parallelBlocks(std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, std::size_t)>& body);
 
 // Runs body so that a thread that waits inside it takes no work from outside it.
 void isolated(const std::function<void()>& body);
 
-// Calls work(i) in parallel and drain(i, result) one at a time in order, for i = first..last-1, with at
-// most `in_flight` results alive: memory is bounded however long the range is. keep_going() is asked
-// before each work; when it says no, what was begun is still drained, and the index after the last
-// drained one is returned. The first exception of either function ends the loop and is thrown here.
+// Calls work(i) in parallel and drain(i, result) one at a time in order, for i = first..last-1,
+// with at most `in_flight` results alive: memory is bounded however long the range is. keep_going()
+// is asked before each work; when it says no, what was begun is still drained, and the index after
+// the last drained one is returned. The first exception of either function ends the loop and is
+// thrown here.
 std::size_t parallelOrdered(std::size_t first, std::size_t last, std::size_t in_flight,
                             const std::function<bool()>& keep_going,
                             const std::function<std::shared_ptr<void>(std::size_t)>& work,

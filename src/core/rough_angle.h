@@ -6,8 +6,8 @@
 
 namespace echocine {
 
-// atan2(x, z) for z >= 0, good to 1e-5 rad (Abramowitz and Stegun, 4.4.49): a first guess among directions that an
-// exact comparison then corrects. x = z = 0 gives 0.
+// atan2(x, z) for z >= 0, good to 1e-5 rad (Abramowitz and Stegun, 4.4.49): a first guess among
+// directions that an exact comparison then corrects. x = z = 0 gives 0.
 inline double roughAngle(double x, double z) {
   const double ax = std::abs(x), large = std::max(ax, z), small = std::min(ax, z);
   const double q = large > 0 ? small / large : 0;

@@ -45,7 +45,9 @@ inline bool isFinite(Vec3d a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-constexpr Vec3d toDouble(Vec3f a) { return {a.x, a.y, a.z}; }
+constexpr Vec3d toDouble(Vec3f a) {
+  return {a.x, a.y, a.z};
+}
 constexpr Vec3f toFloat(Vec3d a) {
   return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }

@@ -25,8 +25,9 @@ PieceEnds endsOf(const Triangle& t, const std::vector<Vec3f>& positions) {
   return above[k] ? PieceEnds{first, second} : PieceEnds{second, first};
 }
 
-// Chains the pieces of one surface. Its triangles run the same way round, so an edge starts at most one piece and
-// ends at most one: following a piece's end to the piece that starts there never branches.
+// Chains the pieces of one surface. Its triangles run the same way round, so an edge starts at most
+// one piece and ends at most one: following a piece's end to the piece that starts there never
+// branches.
 class Chainer {
  public:
   Chainer(std::span<const ContourPiece> pieces, std::vector<PieceEnds> ends)

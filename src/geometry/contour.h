@@ -8,8 +8,9 @@
 
 namespace echocine {
 
-// A contour in the imaging plane (y = 0), metres in the probe frame. Closed surfaces give closed contours (the last
-// point joins the first), and so may membranes; pieces are joined over the mesh's edges, not by nearness.
+// A contour in the imaging plane (y = 0), metres in the probe frame. Closed surfaces give closed
+// contours (the last point joins the first), and so may membranes; pieces are joined over the
+// mesh's edges, not by nearness.
 struct Contour {
   SurfaceId surface{};
   bool closed = false;

@@ -24,8 +24,8 @@ struct Crossing {
   bool entering = false;  // into a closed surface; through a membrane's front
 };
 
-// What a ray meets, sorted by distance (ties by surface), and the states at its start as its crossings
-// prove them: along a ray the states of a closed surface alternate and end outside.
+// What a ray meets, sorted by distance (ties by surface), and the states at its start as its
+// crossings prove them: along a ray the states of a closed surface alternate and end outside.
 struct RayCrossings {
   std::vector<Crossing> crossings;
   InsideSet inside;

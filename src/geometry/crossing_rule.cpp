@@ -9,8 +9,7 @@ RayPlanes::RayPlanes(const Ray& ray) : origin(ray.origin), direction(ray.directi
   if (ray.direction.y == 0) {
     v_axis = {0, 1, 0};
   } else {
-    const Vec3d helper =
-        std::abs(ray.direction.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
+    const Vec3d helper = std::abs(ray.direction.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
     v_axis = normalised(helper - dot(helper, direction) * direction);
   }
   u_axis = cross(v_axis, direction);
@@ -36,7 +35,8 @@ std::optional<TriangleCut> cutTriangle(Vec3d p0, Vec3d p1, Vec3d p2, double v0, 
   const int k = above1 == above2 ? 0 : above0 == above2 ? 1 : 2;
   const int i = (k + 1) % 3, j = (k + 2) % 3;
   TriangleCut cut{cutPoint(p[k], v[k], p[i], v[i]), cutPoint(p[k], v[k], p[j], v[j])};
-  // Seen along a ray a front face runs clockwise: with k above, its first cut is the one of larger u.
+  // Seen along a ray a front face runs clockwise: with k above, its first cut is the one of larger
+  // u.
   if (!(v[k] >= 0)) std::swap(cut.from, cut.to);
   return cut;
 }
@@ -64,12 +64,13 @@ std::optional<Crossing> crossTriangle(const RayPlanes& ray, Vec3f p0, Vec3f p1, 
                                       SurfaceId surface, std::uint32_t triangle) {
   const Vec3d q0 = toDouble(p0), q1 = toDouble(p1), q2 = toDouble(p2);
   const auto height = [&](Vec3d q) { return dot(ray.v_axis, q - ray.origin); };
-  const std::optional<TriangleCut> cut = cutTriangle(q0, q1, q2, height(q0), height(q1), height(q2));
+  const std::optional<TriangleCut> cut =
+      cutTriangle(q0, q1, q2, height(q0), height(q1), height(q2));
   if (!cut) return std::nullopt;
   const std::optional<CutCrossing> crossing = crossCut(ray, *cut);
   if (!crossing) return std::nullopt;
-  return Crossing{crossing->distance_m, facetNormal(areaNormal(q0, q1, q2), *cut, ray.v_axis), surface, triangle,
-                  crossing->entering};
+  return Crossing{crossing->distance_m, facetNormal(areaNormal(q0, q1, q2), *cut, ray.v_axis),
+                  surface, triangle, crossing->entering};
 }
 
 }  // namespace echocine

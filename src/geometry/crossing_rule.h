@@ -1,17 +1,18 @@
 #pragma once
-// Does a ray cross a triangle? Decided by a rule that leaves no gap and no double on shared edges and
-// vertices, in double precision, without any tolerance.
+// Does a ray cross a triangle? Decided by a rule that leaves no gap and no double on shared edges
+// and vertices, in double precision, without any tolerance.
 //
-// The ray is the intersection of two planes through it, v = 0 and u = 0. A vertex with v >= 0 is above. A
-// triangle with vertices on both sides is cut by v = 0 in two points, one per edge it shares with its
-// neighbours; both neighbours compute the same point to the last bit, because swapping the edge's ends
-// changes only signs (products and sums are rounded separately). The triangle is crossed when
-// one cut point has u >= 0 and the other has not. So the cuts of a closed mesh form closed loops,
-// and a loop changes between u >= 0 and u < 0 an even number of times: no crossing is lost or doubled, also
-// when vertices and edges lie exactly on the ray or in the plane.
+// The ray is the intersection of two planes through it, v = 0 and u = 0. A vertex with v >= 0 is
+// above. A triangle with vertices on both sides is cut by v = 0 in two points, one per edge it
+// shares with its neighbours; both neighbours compute the same point to the last bit, because
+// swapping the edge's ends changes only signs (products and sums are rounded separately). The
+// triangle is crossed when one cut point has u >= 0 and the other has not. So the cuts of a closed
+// mesh form closed loops, and a loop changes between u >= 0 and u < 0 an even number of times: no
+// crossing is lost or doubled, also when vertices and edges lie exactly on the ray or in the plane.
 //
-// Rays of the imaging plane share their plane v = y, so a triangle's cut serves all of them: the plane slice and
-// the hierarchy of frame_geometry.h decide by the same numbers and agree to the last bit.
+// Rays of the imaging plane share their plane v = y, so a triangle's cut serves all of them: the
+// plane slice and the hierarchy of frame_geometry.h decide by the same numbers and agree to the
+// last bit.
 
 #include <optional>
 
@@ -28,14 +29,15 @@ struct RayPlanes {
   Vec3d u_axis, v_axis, direction;  // right-handed, orthonormal
 };
 
-// A triangle's cut by a plane v = 0: a piece of contour, directed so that a front face seen along a ray in the
-// plane runs from u >= 0 to u < 0.
+// A triangle's cut by a plane v = 0: a piece of contour, directed so that a front face seen along a
+// ray in the plane runs from u >= 0 to u < 0.
 struct TriangleCut {
   Vec3d from, to;
 };
 
 // The cut of a triangle whose vertices have the heights v. Nothing when all lie on one side.
-std::optional<TriangleCut> cutTriangle(Vec3d p0, Vec3d p1, Vec3d p2, double v0, double v1, double v2);
+std::optional<TriangleCut> cutTriangle(Vec3d p0, Vec3d p1, Vec3d p2, double v0, double v1,
+                                       double v2);
 
 // The crossing of a ray with a cut by its plane v = 0, at a distance > 0, if any; normal as given.
 struct CutCrossing {
@@ -45,9 +47,12 @@ struct CutCrossing {
 std::optional<CutCrossing> crossCut(const RayPlanes& ray, const TriangleCut& cut);
 
 // On the side from which the triangle's vertices run counter-clockwise, twice its area long.
-inline Vec3d areaNormal(Vec3d p0, Vec3d p1, Vec3d p2) { return cross(p1 - p0, p2 - p0); }
+inline Vec3d areaNormal(Vec3d p0, Vec3d p1, Vec3d p2) {
+  return cross(p1 - p0, p2 - p0);
+}
 
-// The unit normal from it. A triangle without area takes the normal of its cut within the plane with normal v_axis.
+// The unit normal from it. A triangle without area takes the normal of its cut within the plane
+// with normal v_axis.
 Vec3d facetNormal(Vec3d area_normal, const TriangleCut& cut, Vec3d v_axis);
 
 // The crossing of one triangle, if any. `surface` and `triangle` are passed on.

@@ -54,9 +54,10 @@ void collectHit(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
-// A coordinate of the origin for Embree's ray. Along an axis that the ray does not move on, Embree takes boxes that
-// end exactly at the ray for missed, on one side. The crossing rule counts what lies exactly at the ray as above it,
-// as if the ray were the least bit lower: so must Embree's ray be, where rounding has not already put it there.
+// A coordinate of the origin for Embree's ray. Along an axis that the ray does not move on, Embree
+// takes boxes that end exactly at the ray for missed, on one side. The crossing rule counts what
+// lies exactly at the ray as above it, as if the ray were the least bit lower: so must Embree's ray
+// be, where rounding has not already put it there.
 float originForEmbree(double origin, double direction) {
   const auto rounded = static_cast<float>(origin);
   if (direction != 0 || static_cast<double>(rounded) < origin) return rounded;
@@ -101,7 +102,8 @@ RTCDevice sharedDevice() {
 void throwOnError(const char* doing) {
   const RTCError error = rtcGetDeviceError(sharedDevice());
   if (error != RTC_ERROR_NONE)
-    throw JobError(fmt::format("Embree failed while {} (error {}{})", doing, static_cast<int>(error),
+    throw JobError(fmt::format("Embree failed while {} (error {}{})", doing,
+                               static_cast<int>(error),
                                error == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory" : ""));
 }
 
@@ -132,7 +134,8 @@ struct FrameGeometry::State {
   void crossCandidates(const RayQuery& query, std::vector<Candidate>& found,
                        RayCrossings& out) const;
   bool hasNeighbour(const Candidate& candidate, const std::vector<Crossing>& crossings) const;
-  void recount(const RayQuery& query, std::uint32_t surface, std::vector<Crossing>& crossings) const;
+  void recount(const RayQuery& query, std::uint32_t surface,
+               std::vector<Crossing>& crossings) const;
   void proveStates(const RayQuery& query, RayCrossings& out) const;
 };
 
@@ -140,10 +143,11 @@ FrameGeometry::State::State(const std::vector<SurfaceTopology>& topology, const 
     : surfaces(topology), absent(left_out) {
   CHECK_LE(topology.size(), kMaxSurfaces);
   scene = rtcNewScene(sharedDevice());
-  rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST |
-                                                     RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-  // Low scene quality means one hierarchy per mesh under a small one over all meshes; only then does Embree
-  // refit the meshes' hierarchies instead of building everything anew.
+  rtcSetSceneFlags(scene,
+                   static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST |
+                                              RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  // Low scene quality means one hierarchy per mesh under a small one over all meshes; only then
+  // does Embree refit the meshes' hierarchies instead of building everything anew.
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
   for (const SurfaceTopology& surface : topology) addSurface(surface);
   boxes.resize(topology.size());
@@ -161,9 +165,8 @@ void FrameGeometry::State::addSurface(const SurfaceTopology& surface) {
   RTCGeometry geometry = rtcNewGeometry(sharedDevice(), RTC_GEOMETRY_TYPE_TRIANGLE);
   geometries.push_back(geometry);
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
-  auto* v = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                        RTC_FORMAT_FLOAT3, sizeof(Vec3f),
-                                                        surface.vertex_count));
+  auto* v = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), surface.vertex_count));
   auto* t = static_cast<Triangle*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
                                                            RTC_FORMAT_UINT3, sizeof(Triangle),
                                                            surface.triangles.size()));
@@ -188,7 +191,8 @@ void FrameGeometry::State::crossAll(const RayPlanes& ray, std::uint32_t surface,
     if (const std::optional<Crossing> c = cross(ray, surface, triangle)) out.push_back(*c);
 }
 
-// Embree's candidates, each decided by the rule: Embree reports a hit on a shared edge for both triangles.
+// Embree's candidates, each decided by the rule: Embree reports a hit on a shared edge for both
+// triangles.
 void FrameGeometry::State::crossCandidates(const RayQuery& query, std::vector<Candidate>& found,
                                            RayCrossings& out) const {
   const auto key = [](const Candidate& c) { return std::pair(c.surface, c.triangle); };
@@ -215,9 +219,10 @@ void FrameGeometry::State::crossCandidates(const RayQuery& query, std::vector<Ca
     if (!hasNeighbour(candidate, out.crossings)) recount(query, candidate.surface, out.crossings);
 }
 
-// On a shared vertex or edge Embree may report only a triangle that the rule refuses, and not the one beside it that
-// the rule takes. When that happens where a ray enters and where it leaves, the balance of proveStates still
-// holds, and a membrane has no balance: so a refused candidate must have an accepted one at a common vertex.
+// On a shared vertex or edge Embree may report only a triangle that the rule refuses, and not the
+// one beside it that the rule takes. When that happens where a ray enters and where it leaves, the
+// balance of proveStates still holds, and a membrane has no balance: so a refused candidate must
+// have an accepted one at a common vertex.
 bool FrameGeometry::State::hasNeighbour(const Candidate& candidate,
                                         const std::vector<Crossing>& crossings) const {
   const std::vector<Triangle>& triangles = surfaces[candidate.surface].triangles;
@@ -229,9 +234,10 @@ bool FrameGeometry::State::hasNeighbour(const Candidate& candidate,
   });
 }
 
-// A closed surface's entries and exits balance with the state at the start. Where they do not, Embree has
-// lost a crossing (a ray within rounding of an edge), the start lies on the surface, or a refracted ray has met
-// the neighbour of the triangle it starts from: then every triangle is asked.
+// A closed surface's entries and exits balance with the state at the start. Where they do not,
+// Embree has lost a crossing (a ray within rounding of an edge), the start lies on the surface, or
+// a refracted ray has met the neighbour of the triangle it starts from: then every triangle is
+// asked.
 void FrameGeometry::State::recount(const RayQuery& query, std::uint32_t surface,
                                    std::vector<Crossing>& crossings) const {
   std::erase_if(crossings, [&](const Crossing& c) { return index(c.surface) == surface; });
@@ -290,7 +296,8 @@ InsideSet FrameGeometry::insideAt(Vec3d point) const {
   std::vector<Crossing> met;
   const RayPlanes depthwards(Ray{point, {0, 0, 1}});
   for (std::uint32_t i = 0; i < state_->surfaces.size(); ++i) {
-    if (state_->absent[i] || state_->surfaces[i].membrane || !state_->boxes[i].contains(point)) continue;
+    if (state_->absent[i] || state_->surfaces[i].membrane || !state_->boxes[i].contains(point))
+      continue;
     met.clear();
     state_->crossAll(depthwards, i, met);
     int balance = 0;

@@ -1,5 +1,6 @@
 #pragma once
-// One frame's surfaces ready for rays: a bounding-volume hierarchy that is updated as the heart moves.
+// One frame's surfaces ready for rays: a bounding-volume hierarchy that is updated as the heart
+// moves.
 
 #include <memory>
 #include <span>

@@ -15,8 +15,29 @@ void balances(const std::vector<Crossing>& crossings, std::vector<int>& out) {
   for (const Crossing& c : crossings) out[index(c.surface)] += c.entering ? 1 : -1;
 }
 
+namespace {
+
+// A line ends outside every closed surface, so an entry that no later exit answers is rounding: a start on a vertex
+// may lie within a facet by its last bit, and the facet beside it behind the start.
+void dropUnansweredEntries(std::vector<Crossing>& crossings, std::size_t surface) {
+  int exits = 0;
+  for (std::size_t i = crossings.size(); i-- > 0;) {
+    if (index(crossings[i].surface) != surface) continue;
+    if (!crossings[i].entering)
+      ++exits;
+    else if (exits > 0)
+      --exits;
+    else
+      crossings.erase(crossings.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+}  // namespace
+
 void keepChanges(std::vector<Crossing>& crossings, std::vector<int>& depth,
                  const InsideSet& membranes, const InsideSet& clamped) {
+  for (std::size_t s = 0; clamped.any() && s < depth.size(); ++s)
+    if (clamped[s]) dropUnansweredEntries(crossings, s);
   std::erase_if(crossings, [&](const Crossing& c) {
     const std::size_t s = index(c.surface);
     if (membranes[s]) return false;

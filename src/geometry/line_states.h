@@ -13,10 +13,10 @@ bool nearer(const Crossing& a, const Crossing& b);
 // Entries less exits of every closed surface; out has an entry per surface.
 void balances(const std::vector<Crossing>& crossings, std::vector<int>& out);
 
-// Removes the crossings of closed surfaces that do not change whether the line is inside: those of a surface that
-// overlaps itself, and contacts without passage. depth[s]: how often the start is inside surface s (consumed).
-// Surfaces in `clamped` have counts that cannot be right; their states must at least alternate.
-// Precondition: sorted by nearer().
+// Removes the crossings of closed surfaces that do not change whether the line is inside: those of
+// a surface that overlaps itself, and contacts without passage. depth[s]: how often the start is
+// inside surface s (consumed). Surfaces in `clamped` have counts that cannot be right; their states
+// must at least alternate. Precondition: sorted by nearer().
 void keepChanges(std::vector<Crossing>& crossings, std::vector<int>& depth,
                  const InsideSet& membranes, const InsideSet& clamped);
 

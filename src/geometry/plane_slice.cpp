@@ -49,9 +49,10 @@ void PlaneSlice::cutSurface(const SurfaceTopology& surface, const std::vector<Ve
   }
 }
 
-// How many lines, counted from the first, have the point at u >= 0: the lines turn (or move) from left to right,
-// so that is all lines up to some index. Guessed from the point's direction and made exact by the rule itself.
-// Precondition: z >= 0, where u >= 0 changes once over a sector of up to 180 degrees.
+// How many lines, counted from the first, have the point at u >= 0: the lines turn (or move) from
+// left to right, so that is all lines up to some index. Guessed from the point's direction and made
+// exact by the rule itself. Precondition: z >= 0, where u >= 0 changes once over a sector of up to
+// 180 degrees.
 int PlaneSlice::linesRightOf(Vec3d point) const {
   const int lines = probe_.lines;
   const bool linear = probe_.kind == ProbeKind::linear;
@@ -74,8 +75,8 @@ void PlaneSlice::crossLine(const ContourPiece& piece, int line) {
         {c->distance_m, unitNormal(piece), piece.surface, piece.triangle, c->entering});
 }
 
-// A piece meets the lines between its ends. Where it reaches behind the plane z = 0 of the transducer every line is
-// asked, since there its ends may lie more than half a turn apart.
+// A piece meets the lines between its ends. Where it reaches behind the plane z = 0 of the
+// transducer every line is asked, since there its ends may lie more than half a turn apart.
 void PlaneSlice::crossPiece(const ContourPiece& piece) {
   const bool behind1 = piece.cut.from.z < 0, behind2 = piece.cut.to.z < 0;
   if (behind1 && behind2) return;  // lines never point backwards
@@ -88,7 +89,8 @@ void PlaneSlice::crossPiece(const ContourPiece& piece) {
   for (int i = begin; i < end; ++i) crossLine(piece, i);
 }
 
-// Contours of closed surfaces close exactly, so the crossings of a line themselves tell where it starts.
+// Contours of closed surfaces close exactly, so the crossings of a line themselves tell where it
+// starts.
 void PlaneSlice::resolve(RayCrossings& line) const {
   thread_local std::vector<int> depth;
   depth.resize(surfaces_.size());

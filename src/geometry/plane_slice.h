@@ -1,6 +1,7 @@
 #pragma once
-// One frame's surfaces cut by the imaging plane: their contours, and where the scan lines meet them. Needs no
-// hierarchy: the cost is a pass over the heights of the vertices, and the facets on the plane.
+// One frame's surfaces cut by the imaging plane: their contours, and where the scan lines meet
+// them. Needs no hierarchy: the cost is a pass over the heights of the vertices, and the facets on
+// the plane.
 
 #include <span>
 #include <vector>
@@ -14,7 +15,7 @@ namespace echocine {
 
 // A piece of contour: a facet's cut by the imaging plane.
 struct ContourPiece {
-  TriangleCut cut;  // in the imaging plane, y = 0
+  TriangleCut cut;    // in the imaging plane, y = 0
   Vec3d area_normal;  // of the facet, outward, twice its area long
   SurfaceId surface{};
   std::uint32_t triangle = 0;
@@ -30,7 +31,8 @@ class PlaneSlice {
   PlaneSlice(const std::vector<SurfaceTopology>& surfaces, const Probe& probe,
              const InsideSet& left_out = {});
 
-  // Cuts the frame and finds the crossings of all lines. Its memory is used again from frame to frame.
+  // Cuts the frame and finds the crossings of all lines. Its memory is used again from frame to
+  // frame.
   void update(const SurfaceFrame& frame);
 
   const std::vector<RayCrossings>& lines() const { return lines_; }
@@ -52,7 +54,8 @@ class PlaneSlice {
   bool still_cut_ = false;
   std::vector<ContourPiece> pieces_;
   std::vector<RayCrossings> lines_;
-  double first_place_ = 0, lines_per_place_ = 0;  // of the lines: angles, or offsets of a linear probe
+  double first_place_ = 0,
+         lines_per_place_ = 0;  // of the lines: angles, or offsets of a linear probe
   InsideSet membranes_, left_out_;
 };
 

@@ -31,9 +31,10 @@ Json planJson(const LoopPlan& plan) {
           {"interface_echo", plan.cell_echoes ? "cell" : "centre"},
           {"interface_echo_reason", plan.echo_reason},
           {"left_out", interfaces},
-          {"triangles", {{"given", plan.triangles_given},
-                         {"kept", plan.triangles_kept},
-                         {"met", plan.triangles_met}}},
+          {"triangles",
+           {{"given", plan.triangles_given},
+            {"kept", plan.triangles_kept},
+            {"met", plan.triangles_met}}},
           {"warnings", plan.warnings}};
 }
 
@@ -43,12 +44,13 @@ Json framesJson(const Manifest& manifest) {
     Json volumes = Json::object();
     for (const auto& [name, ml] : f.volumes_ml) volumes[name] = ml;
     const bool exr = !f.exr_sha256.empty();
-    frames.push_back({{"index", f.record.frame},
-                      {"time_s", f.record.time_s},
-                      {"phase", f.record.phase},
-                      {"volumes_ml", volumes},
-                      {"exr", exr ? Json("intensity/" + ExrStack::fileName(f.record.frame)) : Json()},
-                      {"sha256", exr ? Json(f.exr_sha256) : Json()}});
+    frames.push_back(
+        {{"index", f.record.frame},
+         {"time_s", f.record.time_s},
+         {"phase", f.record.phase},
+         {"volumes_ml", volumes},
+         {"exr", exr ? Json("intensity/" + ExrStack::fileName(f.record.frame)) : Json()},
+         {"sha256", exr ? Json(f.exr_sha256) : Json()}});
   }
   return frames;
 }
@@ -70,7 +72,8 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest) {
   const auto crossings = static_cast<double>(w.crossings), rays = static_cast<double>(w.rays),
              scattered = static_cast<double>(w.samples_backscatter),
              attenuated = static_cast<double>(w.samples_attenuated);
-  // Relative cost of a unit of each work, from timings of the tracer with effects turned off one by one. Choices.
+  // Relative cost of a unit of each work, from timings of the tracer with effects turned off one by
+  // one. Choices.
   struct Part {
     const char* name;
     Stage stage;
@@ -108,8 +111,8 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest) {
 }
 
 const char* stageName(Stage stage) {
-  static constexpr const char* kNames[kStages] = {"motion", "geometry", "trace", "signal",
-                                                  "scan_conversion", "exr", "avi"};
+  static constexpr const char* kNames[kStages] = {"motion",          "geometry", "trace", "signal",
+                                                  "scan_conversion", "exr",      "avi"};
   return kNames[static_cast<std::size_t>(stage)];
 }
 

@@ -39,14 +39,15 @@ struct Manifest {
   int loop_frames = 0;
   std::vector<FrameEntry> frames;
   std::vector<KeyframeVolume> keyframes;
-  std::array<double, kStages> stage_ms{};  // per frame, summed over threads
-  double wall_ms = 0;                      // per frame
-  WorkCounts work;                          // of the whole run
+  std::array<double, kStages> stage_ms{};    // per frame, summed over threads
+  double wall_ms = 0;                        // per frame
+  WorkCounts work;                           // of the whole run
   std::map<std::string, std::string> files;  // path relative to the folder -> SHA-256
 };
 
-// Estimated share of an effect in the time of a frame: a stage's time goes to the effects that it carries out, in
-// proportion to the work that was counted for each. What no effect calls for (motion, encoding) is nobody's share.
+// Estimated share of an effect in the time of a frame: a stage's time goes to the effects that it
+// carries out, in proportion to the work that was counted for each. What no effect calls for
+// (motion, encoding) is nobody's share.
 double timeShare(const EffectDecision& effect, const Manifest& manifest);
 
 // Throws JobError.

@@ -7,8 +7,7 @@ namespace echocine {
 
 double particleBackscatter(double k, double a, double G_e, double G, double rho_e, double rho) {
   constexpr double kCosTheta = -1;  // theta = 180 degrees: straight back
-  const double contrast =
-      (G_e - G) / G + 3 * (rho_e - rho) / (2 * rho_e + rho) * kCosTheta;
+  const double contrast = (G_e - G) / G + 3 * (rho_e - rho) / (2 * rho_e + rho) * kCosTheta;
   const double k2 = k * k;
   const double a3 = a * a * a;
   return k2 * k2 * a3 * a3 / 9 * contrast * contrast;
@@ -26,8 +25,8 @@ double tissueBackscatter(double mu, double k, double b_m) {
   const double x2 = x * x;
   double bracket = 0;
   if (x < kSeriesBelow) {
-    // sum over j >= 1 of (-1)^(j+1) 2j/(2j+1) (1 + 9^j/3) x^(2j+1), from the series of the arctangents
-    // and of the fractions; ten terms leave (3x)^22 < 1e-17.
+    // sum over j >= 1 of (-1)^(j+1) 2j/(2j+1) (1 + 9^j/3) x^(2j+1), from the series of the
+    // arctangents and of the fractions; ten terms leave (3x)^22 < 1e-17.
     double power = x;
     double nine_to_j = 1;
     for (int j = 1; j <= 10; ++j) {

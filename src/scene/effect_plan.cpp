@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "core/units.h"
-
 namespace echocine {
 
 bool wants(const Scene& scene, Channel channel) {
@@ -32,7 +30,8 @@ struct Finding {
 bool decide(EffectPlan& plan, const char* name, Switch wanted, const Finding& found) {
   Finding decided = found;
   if (wanted == Switch::on)
-    decided = {true, found.on ? "the scene asks for it" : "the scene asks for it, although " + found.reason};
+    decided = {true, found.on ? "the scene asks for it"
+                              : "the scene asks for it, although " + found.reason};
   if (wanted == Switch::off)
     decided = {false, found.on ? "the scene turns it off, although " + found.reason
                                : "the scene turns it off"};
@@ -46,16 +45,10 @@ std::vector<const Medium*> mediaInUse(const Scene& scene) {
   return used;
 }
 
-bool sameInterface(const Medium& a, const Medium& b) {
-  return a.impedance_kg_m2_s == b.impedance_kg_m2_s && a.sound_speed_m_s == b.sound_speed_m_s;
-}
-
 bool differ(const Scene& scene) {
   const std::vector<const Medium*> used = mediaInUse(scene);
-  return std::any_of(used.begin(), used.end(), [&](const Medium* m) {
-    return !sameInterface(*m, *used[0]) || m->attenuation_np_per_m != used[0]->attenuation_np_per_m ||
-           m->backscatter_per_m_sr != used[0]->backscatter_per_m_sr;
-  });
+  return std::any_of(used.begin(), used.end(),
+                     [&](const Medium* m) { return !sameMedium(*m, *used[0]); });
 }
 
 bool wantsIntensity(const Scene& scene, bool reflected) {
@@ -80,7 +73,8 @@ Finding lobes(const Scene& scene, bool reflection) {
   if (!reflection) return {false, "there are no interface echoes to weigh"};
   for (const Structure& s : scene.structures)
     if (s.reflection_exponent != 0)
-      return {true, fmt::format("{} sends back cos^{:g} of what it reflects", s.name, s.reflection_exponent)};
+      return {true, fmt::format("{} sends back cos^{:g} of what it reflects", s.name,
+                                s.reflection_exponent)};
   return {false, "every structure's exponent is 0, so the lobe is the same for all angles"};
 }
 
@@ -103,12 +97,15 @@ Finding bending(const Scene& scene) {
 
 Finding attenuating(const Scene& scene) {
   const std::vector<const Medium*> used = mediaInUse(scene);
-  if (std::none_of(used.begin(), used.end(), [](const Medium* m) { return m->attenuation_np_per_m > 0; }))
+  if (std::none_of(used.begin(), used.end(),
+                   [](const Medium* m) { return m->attenuation_np_per_m > 0; }))
     return {false, "no medium attenuates"};
-  for (const Channel c : {Channel::y, Channel::attenuation, Channel::reflection, Channel::backscatter})
+  for (const Channel c :
+       {Channel::y, Channel::attenuation, Channel::reflection, Channel::backscatter})
     if (wants(scene, c)) return {true, fmt::format("channel {} holds it", channelName(c))};
   if (wantsPicture(scene) && scene.signal.tgc != Tgc::perfect)
-    return {true, scene.signal.tgc == Tgc::none ? "no time gain undoes it" : "a table of gains does not undo it exactly"};
+    return {true, scene.signal.tgc == Tgc::none ? "no time gain undoes it"
+                                                : "a table of gains does not undo it exactly"};
   return {false, "perfect TGC undoes it and no received intensity was asked for"};
 }
 
@@ -134,8 +131,10 @@ Finding beamWidth(const Scene& scene) {
   if (!wantsPicture(scene)) return {false, "no picture is asked for"};
   const bool lateral = scene.signal.beam_width != BeamWidth::none && scene.probe.lines > 1;
   const double pulse_m = scene.signal.pulse_cycles * 1540 / scene.probe.frequency_hz / 2;
-  if (lateral) return {true, "average over the beam at each depth (signal.beam_width) and over the pulse"};
-  if (pulse_m > scene.probe.sampleSpacing()) return {true, "average over the pulse, longer than a sample"};
+  if (lateral)
+    return {true, "average over the beam at each depth (signal.beam_width) and over the pulse"};
+  if (pulse_m > scene.probe.sampleSpacing())
+    return {true, "average over the pulse, longer than a sample"};
   return {false, "beam and pulse are no wider than a sample"};
 }
 
@@ -148,14 +147,16 @@ void planSignal(const Scene& scene, EffectPlan& plan) {
   if (scene.signal.tgc == Tgc::table && picture)
     add(plan, "tgc", true, "a table of gains over depth");
   else
-    add(plan, "tgc", false, scene.signal.tgc == Tgc::perfect
-                                ? "perfect TGC is attenuation left out, not a gain to apply"
-                                : "no time gain is asked for");
+    add(plan, "tgc", false,
+        scene.signal.tgc == Tgc::perfect
+            ? "perfect TGC is attenuation left out, not a gain to apply"
+            : "no time gain is asked for");
   add(plan, "log_compression", picture,
       picture ? fmt::format("{:g} dB for the picture", scene.signal.dynamic_range_db)
               : "no picture is asked for");
   const bool labels = wants(scene, Channel::medium);
-  add(plan, "labels", labels, labels ? "channel medium.id is asked for" : "channel medium.id is not asked for");
+  add(plan, "labels", labels,
+      labels ? "channel medium.id is asked for" : "channel medium.id is not asked for");
   for (const Channel c : kAllChannels) {
     if (c == Channel::medium || (c == Channel::y && !wants(scene, c))) continue;
     add(plan, fmt::format("channel {}", channelName(c)), wants(scene, c),
@@ -171,13 +172,15 @@ EffectPlan planEffects(const Scene& scene) {
   plan.contrast = differ(scene);
   plan.reflection = decide(plan, "reflection", wanted.reflection, echoes(scene));
   plan.lobe = decide(plan, "lobe", wanted.lobe, lobes(scene, plan.reflection));
-  plan.transmission_loss = decide(plan, "transmission_loss", wanted.transmission_loss, losses(scene));
+  plan.transmission_loss =
+      decide(plan, "transmission_loss", wanted.transmission_loss, losses(scene));
   plan.refraction = decide(plan, "refraction", wanted.refraction, bending(scene));
   plan.attenuation = decide(plan, "attenuation", wanted.attenuation, attenuating(scene));
   plan.backscatter = decide(plan, "backscatter", wanted.backscatter, scattering(scene));
   plan.spread = decide(plan, "spread", wanted.spread, spreading(scene, plan.backscatter));
   plan.beam_width = decide(plan, "beam_width", wanted.beam_width, beamWidth(scene));
-  decide(plan, "elevation", wanted.elevation, {false, "one ray per beam stays in the imaging plane"});
+  decide(plan, "elevation", wanted.elevation,
+         {false, "one ray per beam stays in the imaging plane"});
   plan.travel_time = decide(plan, "travel_time", wanted.travel_time,
                             {false, "echoes are placed at their path length"});
   planSignal(scene, plan);

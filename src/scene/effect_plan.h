@@ -24,14 +24,14 @@ struct EffectPlan {
   bool spread = true;
   bool beam_width = true;
   bool travel_time = false;
-  bool contrast = true;     // the media in use differ at all
+  bool contrast = true;  // the media in use differ at all
   std::vector<EffectDecision> decisions;
 
   const EffectDecision& decision(const std::string& name) const;
 };
 
-// What the scene file alone decides. Refraction stays on here where any ray could bend; how far rays do bend
-// takes the meshes.
+// What the scene file alone decides. Refraction stays on here where any ray could bend; how far
+// rays do bend takes the meshes.
 EffectPlan planEffects(const Scene& scene);
 
 // Is the channel among those that the scene asks for?

@@ -1,5 +1,6 @@
 #pragma once
-// What a loop is going to compute and by which tracer: the record that the program acts on, prints and keeps.
+// What a loop is going to compute and by which tracer: the record that the program acts on, prints
+// and keeps.
 
 #include <string>
 #include <vector>
@@ -11,9 +12,10 @@ namespace echocine {
 
 struct LoopPlan {
   EffectPlan effects;
-  std::vector<EffectDecision> interfaces;  // structures and pairs of media that drop out, with the reason
-  SurfaceSet left_out;                     // those structures
-  bool slice = false;                      // the plane slice traces; else the hierarchy
+  std::vector<EffectDecision>
+      interfaces;       // structures and pairs of media that drop out, with the reason
+  SurfaceSet left_out;  // those structures
+  bool slice = false;   // the plane slice traces; else the hierarchy
   std::string tracer_reason;
   bool cell_echoes = false;
   std::string echo_reason;

@@ -14,8 +14,8 @@ enum class Kind { none, fixed, blood, tissue };
 BloodBackscatter readBlood(TomlTable& table, const MediumSpec& plasma) {
   BloodBackscatter blood;
   blood.hematocrit = table.number("hematocrit", std::nullopt, {.lo = 0, .hi = 1});
-  blood.cell_radius_m = metresFromMicrometres(
-      table.number("cell_radius_um", std::nullopt, NumberRange::positive()));
+  blood.cell_radius_m =
+      metresFromMicrometres(table.number("cell_radius_um", std::nullopt, NumberRange::positive()));
   blood.cell_density_kg_m3 =
       table.number("cell_density_kg_m3", std::nullopt, NumberRange::positive());
   blood.cell_compressibility_per_pa = perPascalFromSquareCentimetrePerDyne(
@@ -55,7 +55,8 @@ MediumSpec MediaTable::readMedium(const std::string& name, TomlTable& table) con
       table.number("attenuation_db_cm_mhz", std::nullopt, NumberRange::notNegative());
   spec.attenuation_exponent = table.number("attenuation_exponent", 1.0, {.lo = 0, .hi = 4});
   TomlTable backscatter = table.table("backscatter");
-  if (!backscatter.has("kind")) backscatter.fail("kind", "is missing, accepted: \"none\" | \"fixed\" | \"blood\" | \"tissue\"");
+  if (!backscatter.has("kind"))
+    backscatter.fail("kind", "is missing, accepted: \"none\" | \"fixed\" | \"blood\" | \"tissue\"");
   switch (backscatter.choice("kind", Kind::none,
                              {{"none", Kind::none},
                               {"fixed", Kind::fixed},

@@ -1,6 +1,6 @@
 #pragma once
-// A medium as the tracer sees it: plain numbers at the run's frequency. Eqs. 5-7 and the unit conversions
-// are done once, when the scene is read.
+// A medium as the tracer sees it: plain numbers at the run's frequency. Eqs. 5-7 and the unit
+// conversions are done once, when the scene is read.
 
 #include <string>
 #include <variant>
@@ -17,18 +17,18 @@ struct FixedBackscatter {
 
 // Blood: Eq. 5 for one cell, Eq. 6 for the suspension. Symbols as in the paper.
 struct BloodBackscatter {
-  double hematocrit = 0;                          // W_0, fraction
-  double cell_radius_m = 0;                       // a; the cell's volume V is that of this sphere
-  double cell_density_kg_m3 = 0;                  // rho_e
-  double cell_compressibility_per_pa = 0;         // G_e
-  double plasma_density_kg_m3 = 0;                // rho
-  double plasma_compressibility_per_pa = 0;       // G
+  double hematocrit = 0;                     // W_0, fraction
+  double cell_radius_m = 0;                  // a; the cell's volume V is that of this sphere
+  double cell_density_kg_m3 = 0;             // rho_e
+  double cell_compressibility_per_pa = 0;    // G_e
+  double plasma_density_kg_m3 = 0;           // rho
+  double plasma_compressibility_per_pa = 0;  // G
 };
 
 // Tissue: Eq. 7. Symbols as in the paper.
 struct TissueBackscatter {
-  double velocity_variation = 0;      // mu, root mean square of (Delta c / c)
-  double correlation_length_m = 0;    // b_m
+  double velocity_variation = 0;    // mu, root mean square of (Delta c / c)
+  double correlation_length_m = 0;  // b_m
 };
 
 using Backscatter =
@@ -38,20 +38,32 @@ struct MediumSpec {
   std::string name;
   double density_kg_m3 = 0;
   double sound_speed_m_s = 0;
-  double attenuation_db_cm_mhz = 0;     // a of alpha = a f^b, amplitude
-  double attenuation_exponent = 1;      // b
+  double attenuation_db_cm_mhz = 0;  // a of alpha = a f^b, amplitude
+  double attenuation_exponent = 1;   // b
   Backscatter backscatter;
 };
 
 struct Medium {
   std::string name;
-  double impedance_kg_m2_s = 0;       // Z = rho c
-  double sound_speed_m_s = 0;         // c
-  double attenuation_np_per_m = 0;    // alpha, amplitude
-  double backscatter_per_m_sr = 0;    // eta_b
+  double impedance_kg_m2_s = 0;     // Z = rho c
+  double sound_speed_m_s = 0;       // c
+  double attenuation_np_per_m = 0;  // alpha, amplitude
+  double backscatter_per_m_sr = 0;  // eta_b
 };
 
-// The medium's numbers at one frequency. Precondition: densities, speeds and frequency are positive.
+// Equal impedance and speed: an interface between them neither reflects nor bends.
+inline bool sameInterface(const Medium& a, const Medium& b) {
+  return a.impedance_kg_m2_s == b.impedance_kg_m2_s && a.sound_speed_m_s == b.sound_speed_m_s;
+}
+
+// Equal in everything but the name.
+inline bool sameMedium(const Medium& a, const Medium& b) {
+  return sameInterface(a, b) && a.attenuation_np_per_m == b.attenuation_np_per_m &&
+         a.backscatter_per_m_sr == b.backscatter_per_m_sr;
+}
+
+// The medium's numbers at one frequency. Precondition: densities, speeds and frequency are
+// positive.
 Medium resolveMedium(const MediumSpec& spec, double frequency_hz);
 
 }  // namespace echocine

@@ -14,8 +14,7 @@ double lineFraction(const Probe& probe, int line) {
 
 LineGeometry lineGeometry(const Probe& probe, int line) {
   const double t = lineFraction(probe, line);
-  const double angle =
-      probe.first_angle_rad + t * (probe.last_angle_rad - probe.first_angle_rad);
+  const double angle = probe.first_angle_rad + t * (probe.last_angle_rad - probe.first_angle_rad);
   const double offset = probe.first_offset_m + t * (probe.last_offset_m - probe.first_offset_m);
   const Vec3d direction{std::sin(angle), 0, std::cos(angle)};
   return {Vec3d{offset, 0, 0} + probe.face_radius_m * direction, direction};

@@ -1,6 +1,6 @@
 #pragma once
-// Where each scan line starts and points. Probe frame: x lateral, y elevation, z depth; the imaging plane is
-// y = 0 and the origin is the apex.
+// Where each scan line starts and points. Probe frame: x lateral, y elevation, z depth; the imaging
+// plane is y = 0 and the origin is the apex.
 
 #include "core/vec3.h"
 
@@ -10,16 +10,17 @@ enum class ProbeKind { phased, curvilinear, linear };
 
 struct Probe {
   ProbeKind kind = ProbeKind::phased;
-  // World pose. The apex is where the scan lines meet: the transducer for a phased array, the centre of
-  // curvature behind the face for a curvilinear one, the middle of the face for a linear one.
+  // World pose. The apex is where the scan lines meet: the transducer for a phased array, the
+  // centre of curvature behind the face for a curvilinear one, the middle of the face for a linear
+  // one.
   Frame pose;
   double first_angle_rad = 0, last_angle_rad = 0;  // of the outermost lines, from z towards x
   double face_radius_m = 0;                        // curvilinear: apex to face; others 0
   double first_offset_m = 0, last_offset_m = 0;    // linear: lateral start of the outermost lines
   double min_depth_m = 0, max_depth_m = 0;         // path lengths from the face
   double frequency_hz = 0;
-  double aperture_m = 0;                           // active lateral aperture of a beam
-  double focus_m = 0;                              // depth of the focus
+  double aperture_m = 0;  // active lateral aperture of a beam
+  double focus_m = 0;     // depth of the focus
   int lines = 0, samples = 0;
 
   double sampleSpacing() const { return (max_depth_m - min_depth_m) / samples; }
@@ -32,7 +33,8 @@ struct LineGeometry {
   Vec3d direction;
 };
 
-// Line i of N stands at first + i (last - first)/(N - 1), edges included; a single line in the middle.
+// Line i of N stands at first + i (last - first)/(N - 1), edges included; a single line in the
+// middle.
 LineGeometry lineGeometry(const Probe& probe, int line);
 
 // Distance between neighbouring scan lines at a path length; 0 for a single line.

@@ -1,6 +1,6 @@
 #pragma once
-// A scene as the program works with it: plain structs in SI units, no library types. Every default of the
-// scene format stands here once, as a member's initial value; scene_reader.cpp has the keys.
+// A scene as the program works with it: plain structs in SI units, no library types. Every default
+// of the scene format stands here once, as a member's initial value; scene_reader.cpp has the keys.
 
 #include <filesystem>
 #include <optional>
@@ -39,8 +39,8 @@ struct Keyframe {
 struct Structure {
   std::string name;
   MediumId medium{};
-  bool membrane = false;       // an open sheet of a thin material: reflects, encloses nothing
-  int priority = 0;            // where closed structures overlap the highest wins
+  bool membrane = false;            // an open sheet of a thin material: reflects, encloses nothing
+  int priority = 0;                 // where closed structures overlap the highest wins
   std::vector<Keyframe> keyframes;  // ascending phases
   double reflection_gain = 1;       // factor of R in W of the non-specular lobe
   double reflection_exponent = 2;   // n of the non-specular lobe
@@ -60,7 +60,7 @@ struct EffectSwitches {
   Switch spread = Switch::automatic;             // 1/l^2 of the backscattered part
   Switch beam_width = Switch::automatic;         // the average over the beam
   Switch elevation = Switch::automatic;          // rays out of the imaging plane
-  Switch travel_time = Switch::automatic;        // place echoes at 1540 m/s t/2 instead of path length
+  Switch travel_time = Switch::automatic;  // place echoes at 1540 m/s t/2 instead of path length
 };
 
 enum class Tgc { perfect, table, none };
@@ -72,8 +72,8 @@ struct SignalSettings {
   std::vector<std::pair<double, double>> tgc_table;  // (depth m, gain dB), ascending depths
   Spread spread = Spread::compensate;
   BeamWidth beam_width = BeamWidth::focused;
-  double beam_width_m = 0;           // for BeamWidth::fixed
-  double pulse_cycles = 2;           // axial averaging over the pulse, pulse_cycles * wavelength / 2
+  double beam_width_m = 0;  // for BeamWidth::fixed
+  double pulse_cycles = 2;  // axial averaging over the pulse, pulse_cycles * wavelength / 2
   double dynamic_range_db = 60;
   std::optional<double> reference_intensity;  // absolute, relative to I_S; else the percentile
   double reference_percentile = 99.5;         // of all samples of the loop, near field left out
@@ -86,10 +86,11 @@ enum class InterfaceEcho { automatic, centre, cell };
 struct AccuracySettings {
   int rays_per_beam = 1;
   TracerChoice tracer = TracerChoice::automatic;
-  // At the scan line, or integrated over the beam's cell (plane slice only; automatic: where it can be).
+  // At the scan line, or integrated over the beam's cell (plane slice only; automatic: where it can
+  // be).
   InterfaceEcho interface_echo = InterfaceEcho::automatic;
-  // Refraction "auto" is off while 99 % of the echoes move by less than this many line spacings. Our choice:
-  // half a line, which the image cannot show.
+  // Refraction "auto" is off while 99 % of the echoes move by less than this many line spacings.
+  // Our choice: half a line, which the image cannot show.
   double refraction_tolerance_lines = 0.5;
 };
 
@@ -110,7 +111,7 @@ struct OutputSettings {
 struct Scene {
   std::filesystem::path file;
   MediumId background{};
-  std::vector<Medium> media;  // resolved at the probe's frequency
+  std::vector<Medium> media;     // resolved at the probe's frequency
   double unit_volume_m3 = 1e-6;  // V of Eq. 4
   Probe probe;
   Acquisition acquisition;

@@ -13,7 +13,9 @@ const char* nameOf(E value, std::initializer_list<const char*> names) {
   return names.begin()[static_cast<std::size_t>(value)];
 }
 
-Json vectorJson(Vec3d v) { return Json::array({v.x, v.y, v.z}); }
+Json vectorJson(Vec3d v) {
+  return Json::array({v.x, v.y, v.z});
+}
 
 Json probeJson(const Probe& p) {
   return {{"kind", nameOf(p.kind, {"phased", "curvilinear", "linear"})},

@@ -25,7 +25,8 @@ double readUnit(TomlTable& table, std::string_view key, double fallback) {
   return table.choice(key, fallback, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}});
 }
 
-// The lateral axis is made perpendicular to the depth axis; the elevation axis completes a right-handed frame.
+// The lateral axis is made perpendicular to the depth axis; the elevation axis completes a
+// right-handed frame.
 Frame readPose(TomlTable& table, double mesh_unit_m) {
   Frame pose;
   const Vec3d axis = table.vector("axis");
@@ -50,8 +51,8 @@ void readFootprint(TomlTable& table, Probe& probe) {
     probe.last_offset_m = width / 2;
     return;
   }
-  const double sector =
-      radiansFromDegrees(table.number("sector_deg", std::nullopt, {.lo = 0, .hi = 180, .lo_open = true}));
+  const double sector = radiansFromDegrees(
+      table.number("sector_deg", std::nullopt, {.lo = 0, .hi = 180, .lo_open = true}));
   probe.first_angle_rad = -sector / 2;
   probe.last_angle_rad = sector / 2;
   if (probe.kind == ProbeKind::curvilinear)
@@ -82,8 +83,9 @@ Probe readProbe(TomlTable table, double mesh_unit_m) {
   probe.lines = table.integer("lines", 256, 1, 65536);
   probe.samples = table.integer("samples", 1024, 1, 65536);
   if (static_cast<double>(probe.lines) * probe.samples > kMaxPolarSamples)
-    table.fail("samples", fmt::format("lines x samples is {}, accepted: up to {}",
-                                      static_cast<double>(probe.lines) * probe.samples, kMaxPolarSamples));
+    table.fail("samples",
+               fmt::format("lines x samples is {}, accepted: up to {}",
+                           static_cast<double>(probe.lines) * probe.samples, kMaxPolarSamples));
   table.finish();
   return probe;
 }
@@ -179,7 +181,8 @@ std::vector<Channel> readChannels(TomlTable& table) {
                                     [&](Channel c) { return channelName(c) == name; });
     if (found == kAllChannels.end()) {
       std::string accepted;
-      for (const Channel c : kAllChannels) accepted += (accepted.empty() ? "" : ", ") + std::string(channelName(c));
+      for (const Channel c : kAllChannels)
+        accepted += (accepted.empty() ? "" : ", ") + std::string(channelName(c));
       table.fail("channels", fmt::format("\"{}\" is not a channel, accepted: {}", name, accepted));
     }
     channels.push_back(*found);
@@ -236,18 +239,29 @@ void refuseContradictions(TomlTable& root, const Scene& scene) {
   const TomlTable effects = root.table("effects"), accuracy = root.table("accuracy"),
                   output = root.table("output");
   if (scene.effects.refraction == Switch::on && a.tracer == TracerChoice::slice)
-    effects.fail("refraction", "\"on\" excludes accuracy.tracer = \"slice\", accepted with it: \"auto\" | \"off\"");
+    effects.fail(
+        "refraction",
+        "\"on\" excludes accuracy.tracer = \"slice\", accepted with it: \"auto\" | \"off\"");
   if (a.interface_echo == InterfaceEcho::cell && scene.effects.refraction == Switch::on)
-    accuracy.fail("interface_echo", "\"cell\" excludes effects.refraction = \"on\", accepted with it: \"auto\" | \"centre\"");
+    accuracy.fail(
+        "interface_echo",
+        "\"cell\" excludes effects.refraction = \"on\", accepted with it: \"auto\" | \"centre\"");
   if (a.interface_echo == InterfaceEcho::cell && a.tracer == TracerChoice::embree)
-    accuracy.fail("interface_echo", "\"cell\" excludes accuracy.tracer = \"embree\", accepted with it: \"auto\" | \"centre\"");
+    accuracy.fail(
+        "interface_echo",
+        "\"cell\" excludes accuracy.tracer = \"embree\", accepted with it: \"auto\" | \"centre\"");
   if (scene.effects.elevation == Switch::on && a.rays_per_beam == 1)
-    effects.fail("elevation", "\"on\" needs accuracy.rays_per_beam over 1, accepted with one ray: \"auto\" | \"off\"");
+    effects.fail(
+        "elevation",
+        "\"on\" needs accuracy.rays_per_beam over 1, accepted with one ray: \"auto\" | \"off\"");
   if (scene.effects.attenuation == Switch::off && scene.output.channels_given)
     for (const Channel c : scene.output.channels)
-      if (c == Channel::y || c == Channel::attenuation || c == Channel::reflection || c == Channel::backscatter)
-        output.fail("channels", fmt::format("{} holds attenuation, which effects.attenuation = \"off\" leaves out, accepted with it: "
-                                            "unattenuated.Y, medium.id, display.Y", channelName(c)));
+      if (c == Channel::y || c == Channel::attenuation || c == Channel::reflection ||
+          c == Channel::backscatter)
+        output.fail("channels", fmt::format("{} holds attenuation, which effects.attenuation = "
+                                            "\"off\" leaves out, accepted with it: "
+                                            "unattenuated.Y, medium.id, display.Y",
+                                            channelName(c)));
 }
 
 // Gives each medium that the scene uses one id and its numbers at the probe's frequency.
@@ -272,10 +286,12 @@ void readStructures(TomlTable& root, const MediaTable& table, MediaInUse& media,
     entry.finish();
     for (const Structure& other : scene.structures)
       if (other.name == structure.name)
-        entry.fail("name", fmt::format("\"{}\" is taken, accepted: a name of its own", structure.name));
+        entry.fail("name",
+                   fmt::format("\"{}\" is taken, accepted: a name of its own", structure.name));
     scene.structures.push_back(std::move(structure));
     if (scene.structures.size() > kMaxSurfaces)
-      entry.fail("name", fmt::format("is one structure too many, accepted: up to {}", kMaxSurfaces));
+      entry.fail("name",
+                 fmt::format("is one structure too many, accepted: up to {}", kMaxSurfaces));
   }
 }
 

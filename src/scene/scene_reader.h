@@ -12,7 +12,8 @@ namespace echocine {
 // Throws SceneError `file:line: key: what is wrong, what is accepted`; unknown keys are errors.
 Scene readScene(const std::filesystem::path& file);
 
-// The same for a text that is already in memory; `file` is its name in messages and the base of its paths.
+// The same for a text that is already in memory; `file` is its name in messages and the base of its
+// paths.
 Scene parseScene(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace echocine

@@ -45,7 +45,8 @@ std::vector<fs::path> matchingFiles(const TomlTable& table, std::string_view key
   if (full.filename().string().find_first_of("*?[") == std::string::npos) return {full};
   std::error_code failed;
   std::vector<fs::path> files;
-  // A scene named without a folder has an empty one, which no system call takes for the current folder.
+  // A scene named without a folder has an empty one, which no system call takes for the current
+  // folder.
   const fs::path parent = full.has_parent_path() ? full.parent_path() : fs::path(".");
   for (const fs::directory_entry& entry : fs::directory_iterator(parent, failed))
     if (fnmatch(full.filename().c_str(), entry.path().filename().c_str(), 0) == 0)
@@ -88,8 +89,9 @@ void addLids(TomlTable& table, const fs::path& folder, std::vector<Keyframe>& ke
   for (const std::string& pattern : table.texts("lids")) {
     const std::vector<fs::path> files = matchingFiles(table, "lids", folder, pattern);
     if (files.size() != keyframes.size())
-      table.fail("lids", fmt::format("{} names {} files, accepted: one for each of the {} keyframes",
-                                     pattern, files.size(), keyframes.size()));
+      table.fail("lids",
+                 fmt::format("{} names {} files, accepted: one for each of the {} keyframes",
+                             pattern, files.size(), keyframes.size()));
     for (std::size_t i = 0; i < files.size(); ++i) keyframes[i].files.push_back(files[i]);
   }
 }
@@ -106,13 +108,15 @@ Structure readStructure(TomlTable& table, const fs::path& folder) {
   structure.keyframes = table.isListOfTables("keyframes") ? readPhasedKeyframes(table, folder)
                                                           : readEvenKeyframes(table, folder);
   if (structure.keyframes.empty())
-    table.fail("keyframes", "is missing or empty, accepted: a file pattern, a list of files, or a list of {file, phase}");
+    table.fail("keyframes",
+               "is missing or empty, accepted: a file pattern, a list of files, or a list of "
+               "{file, phase}");
   addLids(table, folder, structure.keyframes);
   structure.place = table.place("keyframes");
   structure.reflection_gain =
       table.number("reflection_gain", structure.reflection_gain, NumberRange::notNegative());
-  structure.reflection_exponent = table.number(
-      "reflection_exponent", structure.reflection_exponent, {.lo = 0, .hi = 1000});
+  structure.reflection_exponent =
+      table.number("reflection_exponent", structure.reflection_exponent, {.lo = 0, .hi = 1000});
   return structure;
 }
 

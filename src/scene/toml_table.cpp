@@ -13,7 +13,8 @@ namespace {
 
 std::string quotedList(const std::vector<std::string_view>& names) {
   std::string text;
-  for (std::string_view name : names) text += (text.empty() ? "\"" : " | \"") + std::string(name) + "\"";
+  for (std::string_view name : names)
+    text += (text.empty() ? "\"" : " | \"") + std::string(name) + "\"";
   return text;
 }
 
@@ -36,13 +37,15 @@ bool NumberRange::contains(double value) const {
 std::string NumberRange::text() const {
   const bool has_lo = std::isfinite(lo), has_hi = std::isfinite(hi);
   if (!has_lo && !has_hi) return "a finite number";
-  if (!has_hi) return fmt::format("a number {} {}", lo_open ? "over" : "from", lo) + (lo_open ? "" : " up");
+  if (!has_hi)
+    return fmt::format("a number {} {}", lo_open ? "over" : "from", lo) + (lo_open ? "" : " up");
   if (!has_lo) return fmt::format("a number {} {}", hi_open ? "under" : "up to", hi);
   return fmt::format("a number {} {} {} {}", lo_open ? "over" : "from", lo,
                      hi_open ? "and under" : "to", hi);
 }
 
-// The parsed document is shared by all tables of one file; the public header stays free of the library.
+// The parsed document is shared by all tables of one file; the public header stays free of the
+// library.
 struct TomlTable::Node {
   std::shared_ptr<const toml::table> root;  // keeps `table` alive
   const toml::table* table = nullptr;       // null: absent in the file
@@ -86,7 +89,9 @@ TomlTable TomlTable::parse(std::string_view text, const std::string& name) {
   return TomlTable(std::move(node));
 }
 
-bool TomlTable::has(std::string_view key) { return node_->find(key) != nullptr; }
+bool TomlTable::has(std::string_view key) {
+  return node_->find(key) != nullptr;
+}
 
 SourcePlace TomlTable::place(std::string_view key) const {
   const toml::node* value = node_->table ? node_->table->get(key) : nullptr;
@@ -107,7 +112,8 @@ double TomlTable::number(std::string_view key, std::optional<double> fallback, N
   const std::optional<double> number = value->value<double>();
   if (!value->is_number() || !number)
     fail(key, fmt::format("is {}, accepted: {}", typeName(*value), range.text()));
-  if (!range.contains(*number)) fail(key, fmt::format("is {}, accepted: {}", *number, range.text()));
+  if (!range.contains(*number))
+    fail(key, fmt::format("is {}, accepted: {}", *number, range.text()));
   return *number;
 }
 
@@ -127,7 +133,8 @@ int TomlTable::integer(std::string_view key, std::optional<int> fallback, int lo
 bool TomlTable::boolean(std::string_view key, bool fallback) {
   const toml::node* value = node_->find(key);
   if (!value) return fallback;
-  if (!value->is_boolean()) fail(key, fmt::format("is {}, accepted: true | false", typeName(*value)));
+  if (!value->is_boolean())
+    fail(key, fmt::format("is {}, accepted: true | false", typeName(*value)));
   return *value->value<bool>();
 }
 
@@ -180,7 +187,8 @@ std::vector<std::string> TomlTable::texts(std::string_view key) {
   if (!value) return {};
   if (value->is_string()) return {*value->value<std::string>()};
   const toml::array* list = value->as_array();
-  if (!list) fail(key, fmt::format("is {}, accepted: a string or a list of strings", typeName(*value)));
+  if (!list)
+    fail(key, fmt::format("is {}, accepted: a string or a list of strings", typeName(*value)));
   std::vector<std::string> result;
   for (const toml::node& item : *list) {
     if (!item.is_string()) fail(key, fmt::format("holds {}, accepted: strings", typeName(item)));
@@ -209,7 +217,8 @@ std::vector<std::pair<double, double>> TomlTable::pairs(std::string_view key) {
 
 TomlTable TomlTable::table(std::string_view key) {
   const toml::node* value = node_->find(key);
-  if (value && !value->is_table()) fail(key, fmt::format("is {}, accepted: a table", typeName(*value)));
+  if (value && !value->is_table())
+    fail(key, fmt::format("is {}, accepted: a table", typeName(*value)));
   return TomlTable(node_->child(value ? value->as_table() : nullptr, node_->fullKey(key)));
 }
 
@@ -220,7 +229,8 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
   std::vector<TomlTable> result;
   if (list)
     for (const toml::node& item : *list)
-      if (item.is_table()) result.push_back(TomlTable(node_->child(item.as_table(), node_->fullKey(key))));
+      if (item.is_table())
+        result.push_back(TomlTable(node_->child(item.as_table(), node_->fullKey(key))));
   if (!list || result.size() != list->size())
     fail(key, fmt::format("is not a list of tables, accepted: [[{}]] tables", key));
   return result;
@@ -229,7 +239,8 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
 std::vector<std::pair<std::string, TomlTable>> TomlTable::namedTables(std::string_view key) {
   const toml::node* value = node_->find(key);
   if (!value) return {};
-  if (!value->is_table()) fail(key, fmt::format("is {}, accepted: [{}.name] tables", typeName(*value), key));
+  if (!value->is_table())
+    fail(key, fmt::format("is {}, accepted: [{}.name] tables", typeName(*value), key));
   std::vector<std::pair<std::string, TomlTable>> result;
   for (const auto& [name, item] : *value->as_table()) {
     const std::string path = node_->fullKey(key) + "." + std::string(name.str());

@@ -1,6 +1,6 @@
 #pragma once
-// Typed access to a TOML table. Every key that is asked for becomes a known key; finish() refuses the
-// rest. Every error is a SceneError `file:line: key: what is wrong, what is accepted`.
+// Typed access to a TOML table. Every key that is asked for becomes a known key; finish() refuses
+// the rest. Every error is a SceneError `file:line: key: what is wrong, what is accepted`.
 
 #include <limits>
 #include <memory>
@@ -56,12 +56,12 @@ class TomlTable {
   }
 
   bool isListOfTables(std::string_view key);
-  std::vector<std::string> texts(std::string_view key);              // a string or a list of strings
+  std::vector<std::string> texts(std::string_view key);  // a string or a list of strings
   std::vector<std::pair<double, double>> pairs(std::string_view key);  // [[a, b], ...]
 
   // Sub-tables; absent ones are empty, so that their defaults apply.
   TomlTable table(std::string_view key);
-  std::vector<TomlTable> tables(std::string_view key);                        // [[key]]
+  std::vector<TomlTable> tables(std::string_view key);                               // [[key]]
   std::vector<std::pair<std::string, TomlTable>> namedTables(std::string_view key);  // [key.name]
 
   // Refuses keys nobody asked for, with the nearest known one.

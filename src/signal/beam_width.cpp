@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kTile = 16;  // samples whose running sums share a pass over the lines
 
-// A box `width` samples wide around a sample's centre: whole samples inside it weigh 1, its ends their part.
+// A box `width` samples wide around a sample's centre: whole samples inside it weigh 1, its ends
+// their part.
 std::vector<float> boxTaps(double width) {
   if (width <= 1) return {};
   const int reach = static_cast<int>(std::ceil((width - 1) / 2));
@@ -24,7 +25,8 @@ std::vector<float> boxTaps(double width) {
 }  // namespace
 
 double focusedBeamWidth(double depth_m, double aperture_m, double focus_m, double wavelength_m) {
-  constexpr double kSixDecibelWidth = 1.2067;  // 2 x for sinc^2(x) = 1/4, sinc(x) = sin(pi x)/(pi x)
+  constexpr double kSixDecibelWidth =
+      1.2067;  // 2 x for sinc^2(x) = 1/4, sinc(x) = sin(pi x)/(pi x)
   const double receive = kSixDecibelWidth * wavelength_m * depth_m / aperture_m;
   const double transmit = std::hypot(receive, aperture_m * (1 - depth_m / focus_m));
   return transmit > 0 ? receive * transmit / std::hypot(receive, transmit) : 0;
@@ -67,8 +69,8 @@ void BeamAverage::averageAxially(std::span<float> line, std::vector<float>& padd
   for (std::size_t k = 0; k < line.size(); ++k) line[k] *= tap_sum_inverse_[k];
 }
 
-// Mean over the lines between i + 1/2 - h and i + 1/2 + h, from running sums over the lines. Sums are double: a
-// bright echo leaves nothing behind in the blood beside it.
+// Mean over the lines between i + 1/2 - h and i + 1/2 + h, from running sums over the lines. Sums
+// are double: a bright echo leaves nothing behind in the blood beside it.
 void BeamAverage::averageLaterally(std::span<const float> in, std::span<float> out,
                                    int first_sample) const {
   const int count = std::min(kTile, samples_ - first_sample);
@@ -85,7 +87,8 @@ void BeamAverage::averageLaterally(std::span<const float> in, std::span<float> o
     for (int s = 0; s < count; ++s) after[s] = before[s] + static_cast<double>(values[s]);
   }
   for (int s = 0; s < count; ++s) {
-    for (std::size_t i = 0; i <= lines; ++i) column[i] = sums[i * kTile + static_cast<std::size_t>(s)];
+    for (std::size_t i = 0; i <= lines; ++i)
+      column[i] = sums[i * kTile + static_cast<std::size_t>(s)];
     column[lines + 1] = column[lines];
     const double h = half_width_lines_[static_cast<std::size_t>(first_sample + s)];
     const double end = lines_;

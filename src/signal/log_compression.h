@@ -9,8 +9,9 @@ namespace echocine {
 // Zero and subnormal numbers give a value below -126.
 float log2Fast(float x);
 
-// grey = 1 + 10 log10(I / reference) / dynamic_range_db, limited to 0..1: the reference is white, everything
-// dynamic_range_db and more below it, and an intensity of 0, is black. In place is allowed.
+// grey = 1 + 10 log10(I / reference) / dynamic_range_db, limited to 0..1: the reference is white,
+// everything dynamic_range_db and more below it, and an intensity of 0, is black. In place is
+// allowed.
 void compressIntensities(std::span<const float> intensities, double reference,
                          double dynamic_range_db, std::span<float> grey);
 

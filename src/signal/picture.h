@@ -14,15 +14,25 @@ struct GreyImage {
   std::vector<std::uint8_t> pixels;
 };
 
-// Where the probe frame lies in the picture: pixel = origin + metres / metres_per_pixel, x to the right along
-// the lateral axis, y down along the depth axis.
+// Where the probe frame lies in the picture: pixel = origin + metres / metres_per_pixel, x to the
+// right along the lateral axis, y down along the depth axis.
 struct PictureGeometry {
   double origin_x_px = 0, origin_y_px = 0;  // of the apex (curvilinear: centre of curvature)
   double metres_per_pixel = 1;
   int ecg_strip_px = 0;  // rows at the foot that the sector leaves free
 };
 
-// The largest upright picture of the scan area in the middle of the output size, with room for ticks and ECG.
+// A point of the imaging plane (probe frame, m) in the picture: pixel (i, j) covers i..i+1, j..j+1.
+struct PixelPoint {
+  double x = 0, y = 0;
+};
+inline PixelPoint pixelOf(const PictureGeometry& g, Vec3d point_m) {
+  return {g.origin_x_px + point_m.x / g.metres_per_pixel,
+          g.origin_y_px + point_m.z / g.metres_per_pixel};
+}
+
+// The largest upright picture of the scan area in the middle of the output size, with room for
+// ticks and ECG.
 PictureGeometry pictureGeometry(const Scene& scene);
 
 }  // namespace echocine

@@ -9,8 +9,8 @@ namespace echocine {
 
 namespace {
 
-// The upper bits of a positive float's pattern grow with its value: sign, exponent and ten bits of mantissa
-// make bins 1/1024 of an octave's start wide.
+// The upper bits of a positive float's pattern grow with its value: sign, exponent and ten bits of
+// mantissa make bins 1/1024 of an octave's start wide.
 constexpr int kShift = 13;
 constexpr std::size_t kBins = 0x7f800000u >> kShift;  // up to infinity
 
@@ -29,9 +29,11 @@ void IntensityHistogram::add(std::span<const float> plane) {
   local.assign(kBins, 0);
   for (std::size_t line = 0; line < plane.size(); line += static_cast<std::size_t>(samples_))
     for (int k = first_sample_; k < samples_; ++k)
-      // What is infinite or not a number is refused when it is written; here it must not leave the bins.
+      // What is infinite or not a number is refused when it is written; here it must not leave the
+      // bins.
       ++local[std::min<std::size_t>(
-          std::bit_cast<std::uint32_t>(plane[line + static_cast<std::size_t>(k)]) >> kShift, kBins - 1)];
+          std::bit_cast<std::uint32_t>(plane[line + static_cast<std::size_t>(k)]) >> kShift,
+          kBins - 1)];
   for (std::size_t bin = 0; bin < kBins; ++bin)
     if (local[bin] != 0) counts_[bin].fetch_add(local[bin], std::memory_order_relaxed);
 }
@@ -45,7 +47,8 @@ double IntensityHistogram::percentile(double percent) const {
       last = bin;
     }
   const auto edge = [](std::size_t bin) {
-    return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>((bin + 1) << kShift)));
+    return static_cast<double>(
+        std::bit_cast<float>(static_cast<std::uint32_t>((bin + 1) << kShift)));
   };
   if (last == 0) return 1;
   const double wanted = percent / 100 * static_cast<double>(total);
@@ -53,7 +56,8 @@ double IntensityHistogram::percentile(double percent) const {
   for (std::size_t bin = 0; bin <= last; ++bin) {
     const std::uint64_t here = counts_[bin].load(std::memory_order_relaxed);
     below += here;
-    // Where the percentile falls on samples without any intensity, the weakest positive one stands for it.
+    // Where the percentile falls on samples without any intensity, the weakest positive one stands
+    // for it.
     if (here > 0 && static_cast<double>(below) >= wanted && bin > 0) return edge(bin);
   }
   return edge(last);

@@ -1,6 +1,6 @@
 #pragma once
-// The one reference of a loop's log compression, from all of its frames: never a frame's own maximum, so a
-// loop does not flicker.
+// The one reference of a loop's log compression, from all of its frames: never a frame's own
+// maximum, so a loop does not flicker.
 
 #include <atomic>
 #include <cstdint>
@@ -11,8 +11,9 @@
 
 namespace echocine {
 
-// Counts intensities of all frames in bins of 0.1 % and finds a percentile. Samples of the near field, the first
-// 15 % of the depth, are left out. Counts are whole numbers, so the order of frames and threads has no effect.
+// Counts intensities of all frames in bins of 0.1 % and finds a percentile. Samples of the near
+// field, the first 15 % of the depth, are left out. Counts are whole numbers, so the order of
+// frames and threads has no effect.
 class IntensityHistogram {
  public:
   explicit IntensityHistogram(const Probe& probe);

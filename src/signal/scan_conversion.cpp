@@ -61,7 +61,8 @@ PictureGeometry pictureGeometry(const Scene& scene) {
   PictureGeometry g;
   g.ecg_strip_px = o.ecg && o.cine ? o.height / 8 : 0;
   const double margin = 0.02 * o.height;
-  const double tick_room = o.depth_ticks ? 0.05 * o.width : 0;  // on both sides, so the sector stays centred
+  const double tick_room =
+      o.depth_ticks ? 0.05 * o.width : 0;  // on both sides, so the sector stays centred
   const Area area = scanArea(scene.probe);
   const double wide = o.width - 2 * margin - 2 * tick_room;
   const double high = o.height - g.ecg_strip_px - 2 * margin;
@@ -99,8 +100,8 @@ void ScanConverter::addPixel(const Probe& probe, int pixel, double x_m, double z
   Pixel p{};
   p.pixel = static_cast<std::uint32_t>(pixel);
   const std::uint32_t line = split(beam->line, probe.lines, p.across);
-  const std::uint32_t sample = split((beam->path_m - probe.min_depth_m) / probe.sampleSpacing() - 0.5,
-                                     probe.samples, p.along);
+  const std::uint32_t sample = split(
+      (beam->path_m - probe.min_depth_m) / probe.sampleSpacing() - 0.5, probe.samples, p.along);
   p.sample = line * static_cast<std::uint32_t>(probe.samples) + sample;
   table_.push_back(p);
 }

@@ -15,15 +15,15 @@ class ScanConverter {
   ScanConverter(const Probe& probe, const PictureGeometry& geometry, int width, int height,
                 double grey_gamma);
 
-  // Bilinear between lines and samples of a line-major grey plane (0..1); pixels whose centre lies outside the
-  // scan area stay exactly 0.
+  // Bilinear between lines and samples of a line-major grey plane (0..1); pixels whose centre lies
+  // outside the scan area stay exactly 0.
   void convert(std::span<const float> grey, GreyImage& image) const;
 
  private:
   struct Pixel {
-    std::uint32_t pixel;    // in the picture
-    std::uint32_t sample;   // in the plane: the shallower sample of the left line
-    float across, along;    // weights of the next line and of the next sample
+    std::uint32_t pixel;   // in the picture
+    std::uint32_t sample;  // in the plane: the shallower sample of the left line
+    float across, along;   // weights of the next line and of the next sample
   };
   void addPixel(const Probe& probe, int pixel, double x_m, double z_m);
 

@@ -1,14 +1,15 @@
 #pragma once
 // The scanner's signal processing, the same in every frame of a loop:
 // time gain -> beam width -> log compression -> scan conversion -> grey map.
-// Spread is the tracer's part (it knows which intensity was scattered), by the signal_parts of its request.
+// Spread is the tracer's part (it knows which intensity was scattered), by the signal_parts of its
+// request.
 
 #include <optional>
 #include <vector>
 
+#include "scene/effect_plan.h"
 #include "signal/beam_width.h"
 #include "signal/scan_conversion.h"
-#include "scene/effect_plan.h"
 #include "trace/polar_frame.h"
 
 namespace echocine {
@@ -22,7 +23,8 @@ class SignalChain {
   // Time gain and beam width, in place on frame.signal: intensities as they are compressed.
   void process(PolarFrame& frame, std::vector<float>& scratch) const;
 
-  // Log compression in place on frame.signal: from processed intensities to grey 0..1 in beam space.
+  // Log compression in place on frame.signal: from processed intensities to grey 0..1 in beam
+  // space.
   void compress(PolarFrame& frame, double reference_intensity) const;
 
   // Scan conversion and grey map.

@@ -9,8 +9,8 @@
 
 namespace echocine {
 
-// Intensity gain of each sample: the table's decibels, linear between its depths and constant beyond its ends.
-// Precondition: depths ascend, at least one entry.
+// Intensity gain of each sample: the table's decibels, linear between its depths and constant
+// beyond its ends. Precondition: depths ascend, at least one entry.
 std::vector<float> timeGains(const std::vector<std::pair<double, double>>& table_m_db,
                              const Probe& probe);
 

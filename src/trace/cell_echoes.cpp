@@ -58,15 +58,18 @@ class CellIntegrator {
   static double lineWidth(const Probe& p) {
     if (p.lines < 2) return 0;
     return (p.kind == ProbeKind::linear ? p.last_offset_m - p.first_offset_m
-                                        : p.last_angle_rad - p.first_angle_rad) / (p.lines - 1);
+                                        : p.last_angle_rad - p.first_angle_rad) /
+           (p.lines - 1);
   }
 
   // Lines never point backwards, so what lies behind z = 0 is in no cell.
   static bool clipToFront(Point& a, Point& b) {
     if (a.z < 0 && b.z < 0) return false;
     const auto atZero = [&] { return Point{a.x + (b.x - a.x) * (a.z / (a.z - b.z)), 0}; };
-    if (a.z < 0) a = atZero();
-    else if (b.z < 0) b = atZero();
+    if (a.z < 0)
+      a = atZero();
+    else if (b.z < 0)
+      b = atZero();
     return true;
   }
 
@@ -80,7 +83,8 @@ class CellIntegrator {
   int cellOf(Point p) const {
     const int boundaries = static_cast<int>(boundaries_.size());
     const double place = angular_ ? roughAngle(p.x, p.z) : p.x;
-    int n = static_cast<int>(std::clamp((place - first_) / width_ + 1.5, 0.0, static_cast<double>(boundaries)));
+    int n = static_cast<int>(
+        std::clamp((place - first_) / width_ + 1.5, 0.0, static_cast<double>(boundaries)));
     while (n < boundaries && rightOf(p, n) >= 0) ++n;
     while (n > 0 && rightOf(p, n - 1) < 0) --n;
     return n - 1;
@@ -103,7 +107,8 @@ class CellIntegrator {
     const double across = std::abs(a.x * b.z - a.z * b.x), along = a.x * b.x + a.z * b.z;
     const double q = across / along, q2 = q * q;
     // Inside a cell the angle is small: three terms of the arctangent leave under 1e-13.
-    const double angle = along > 0 && q < 0.02 ? q * (1 - q2 * (1.0 / 3 - q2 / 5)) : std::atan2(across, along);
+    const double angle =
+        along > 0 && q < 0.02 ? q * (1 - q2 * (1.0 / 3 - q2 / 5)) : std::atan2(across, along);
     return angle / width_;
   }
 
@@ -136,7 +141,8 @@ class CellIntegrator {
     const Medium& from = settings_.media[index(pass.before)];
     const Medium& to = settings_.media[index(pass.after)];
     const double R = interfaceLaw(from.impedance_kg_m2_s, from.sound_speed_m_s,
-                                  to.impedance_kg_m2_s, to.sound_speed_m_s, cos_i).R;
+                                  to.impedance_kg_m2_s, to.sound_speed_m_s, cos_i)
+                         .R;
     const double second =
         surface.membrane ? (settings_.transmission_loss ? (1 - R) * (1 - R) : 1) * R : 0;
     return pass.passed * nonSpecularReturn(surface.gain * (R + second), cos_i, surface.exponent);
@@ -148,8 +154,10 @@ class CellIntegrator {
     const double dx = b.x - a.x, dz = b.z - a.z, size = dx * dx + dz * dz;
     const double t = angular_ && size > 0 ? -(a.x * dx + a.z * dz) / size : 0;
     const auto ordered = [&](Point p, Point q) {
-      if (pathLength(p) <= pathLength(q)) part(CellPiece{p, q});
-      else part(CellPiece{q, p});
+      if (pathLength(p) <= pathLength(q))
+        part(CellPiece{p, q});
+      else
+        part(CellPiece{q, p});
     };
     if (!(t > 0 && t < 1)) return ordered(a, b);
     const Point foot{a.x + t * dx, a.z + t * dz};
@@ -157,8 +165,8 @@ class CellIntegrator {
     ordered(foot, b);
   }
 
-  // The point of a piece at a path length, from the one at a: along the piece the squared distance to the centre
-  // grows as p^2 + t^2 from the foot of the perpendicular.
+  // The point of a piece at a path length, from the one at a: along the piece the squared distance
+  // to the centre grows as p^2 + t^2 from the foot of the perpendicular.
   Point atPath(const CellPiece& piece, double path_m) const {
     const double dx = piece.b.x - piece.a.x, dz = piece.b.z - piece.a.z;
     double s = 0;
@@ -194,8 +202,9 @@ class CellIntegrator {
       const double depth_m = depth_end - spacing / 2;
       if (depth_m < end_depth_m && depth_m > 0) {
         const double path_m = path_end - spacing / 2 * pass.path_per_depth;
-        line.echoes.push_back({depth_m, echo * share(begin, end),
-                               std::max(pass.exponent + (path_m - pass.path_m) * pass.exponent_per_path, 0.0)});
+        line.echoes.push_back(
+            {depth_m, echo * share(begin, end),
+             std::max(pass.exponent + (path_m - pass.path_m) * pass.exponent_per_path, 0.0)});
       }
       begin = end;
     }
@@ -206,7 +215,8 @@ class CellIntegrator {
   std::span<LineTrace> lines_;
   bool angular_;
   double first_, width_;
-  std::vector<Point> boundaries_;  // sine and cosine, or the offset of a linear probe; one more than lines
+  std::vector<Point>
+      boundaries_;  // sine and cosine, or the offset of a linear probe; one more than lines
 };
 
 }  // namespace

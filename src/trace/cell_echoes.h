@@ -1,7 +1,8 @@
 #pragma once
-// The echo of an interface integrated over the beam's cell, the half-way angles (or places) to both neighbouring
-// lines, instead of sampled at the line's centre. The contour between lines is known, so this costs no ray.
-// A wall that runs along the beam then comes out as a line and not as a string of beads.
+// The echo of an interface integrated over the beam's cell, the half-way angles (or places) to both
+// neighbouring lines, instead of sampled at the line's centre. The contour between lines is known,
+// so this costs no ray. A wall that runs along the beam then comes out as a line and not as a
+// string of beads.
 
 #include <span>
 #include <vector>
@@ -12,11 +13,12 @@
 
 namespace echocine {
 
-// Appends to lines[i].echoes what the contour inside line i's cell sends back: for each piece of contour its lobe
-// at its own angle of incidence, spread over the samples it spans by the share of the cell it covers in each.
-// Media and losses before it are those of line i where it passes the same surface, nearest in depth. For a flat
-// interface the sum over lines is what sampling at the centres gives.
-// Precondition: settings.cell_echoes during the walk, which left lines[i].passes; one stretch at least per line.
+// Appends to lines[i].echoes what the contour inside line i's cell sends back: for each piece of
+// contour its lobe at its own angle of incidence, spread over the samples it spans by the share of
+// the cell it covers in each. Media and losses before it are those of line i where it passes the
+// same surface, nearest in depth. For a flat interface the sum over lines is what sampling at the
+// centres gives. Precondition: settings.cell_echoes during the walk, which left lines[i].passes;
+// one stretch at least per line.
 void addCellEchoes(std::span<const ContourPiece> pieces, const Probe& probe,
                    const TraceSettings& settings, std::span<LineTrace> lines);
 

@@ -15,7 +15,8 @@ std::optional<double> transmissionCosine(double cos_i, double c_1, double c_2) {
 
 double reflectance(double Z_1, double Z_2, double cos_i, double cos_t) {
   const double sum = Z_2 * cos_i + Z_1 * cos_t;
-  // Both cosines 0: a tangent ray between equal speeds, where the ratio is that of normal incidence.
+  // Both cosines 0: a tangent ray between equal speeds, where the ratio is that of normal
+  // incidence.
   const double ratio = sum > 0 ? (Z_2 * cos_i - Z_1 * cos_t) / sum : (Z_2 - Z_1) / (Z_2 + Z_1);
   return ratio * ratio;
 }

@@ -1,6 +1,7 @@
 #pragma once
-// Eqs. 1 and 2 of the paper, Snell's law and the non-specular lobe, as pure functions in the paper's symbols.
-// Angles appear only as cosines; cos_i and cos_t are those of incidence and transmission, 0..1.
+// Eqs. 1 and 2 of the paper, Snell's law and the non-specular lobe, as pure functions in the
+// paper's symbols. Angles appear only as cosines; cos_i and cos_t are those of incidence and
+// transmission, 0..1.
 
 #include <optional>
 
@@ -14,8 +15,8 @@ std::optional<double> transmissionCosine(double cos_i, double c_1, double c_2);
 // Eq. 1: I_r / I_i of a plane wave. R at normal incidence is ((Z_2 - Z_1) / (Z_2 + Z_1))^2.
 double reflectance(double Z_1, double Z_2, double cos_i, double cos_t);
 
-// Eq. 2: I_t / I_i. Energy is conserved as R + T cos_t / cos_i = 1, since the beam changes its width;
-// forward and back together T_12 T_21 = (1 - R)^2, so a two-way loss needs R alone.
+// Eq. 2: I_t / I_i. Energy is conserved as R + T cos_t / cos_i = 1, since the beam changes its
+// width; forward and back together T_12 T_21 = (1 - R)^2, so a two-way loss needs R alone.
 double transmittance(double Z_1, double Z_2, double cos_i, double cos_t);
 
 // Section 2.1: I_r = I_i W(theta_i) cos^n(theta_i), what a rough interface sends back.

@@ -9,8 +9,8 @@ namespace echocine {
 namespace {
 
 constexpr int kBlock = 8;
-// Eight samples at once, in the vector extension that GCC and Clang share: both compilers unroll the plain loop over a
-// block before they would vectorise it.
+// Eight samples at once, in the vector extension that GCC and Clang share: both compilers unroll
+// the plain loop over a block before they would vectorise it.
 using Block = float __attribute__((vector_size(kBlock * sizeof(float))));
 
 // First sample whose centre is at or beyond a depth, within 0..samples.
@@ -19,8 +19,9 @@ int sampleFrom(const Sampling& s, double depth_m) {
   return static_cast<int>(std::clamp(k, 0.0, static_cast<double>(s.samples)));
 }
 
-// One stretch's backscatter in blocks of eight samples: within a block stored powers of the attenuation of one sample, from
-// block to block its eighth power, in double: no call in the loops, which vectorise, and rounding that stays under 1e-14.
+// One stretch's backscatter in blocks of eight samples: within a block stored powers of the
+// attenuation of one sample, from block to block its eighth power, in double: no call in the loops,
+// which vectorise, and rounding that stays under 1e-14.
 template <bool kSpread, bool kAttenuation>
 void fillStretch(const Stretch& stretch, const Sampling& s, int begin, int end, float* out) {
   const double offset_m = s.centre(begin) - stretch.begin_depth_m;
@@ -55,8 +56,8 @@ void fillStretch(const Stretch& stretch, const Sampling& s, int begin, int end, 
   }
 }
 
-void fillOne(const Stretch& stretch, const Sampling& s, const IntensityParts& parts, int begin, int end,
-             float* out) {
+void fillOne(const Stretch& stretch, const Sampling& s, const IntensityParts& parts, int begin,
+             int end, float* out) {
   if (parts.spread_undone_at_m == 0) {
     return parts.attenuation ? fillStretch<true, true>(stretch, s, begin, end, out)
                              : fillStretch<true, false>(stretch, s, begin, end, out);
@@ -105,9 +106,9 @@ void sampleExponent(const LineTrace& line, const Sampling& sampling, std::span<f
     const int begin = sampleFrom(sampling, stretch.begin_depth_m);
     const int end = sampleFrom(sampling, stretch.end_depth_m);
     for (int k = begin; k < end; ++k)
-      values[static_cast<std::size_t>(k)] = static_cast<float>(
-          stretch.begin_exponent +
-          stretch.exponent_per_m * (sampling.centre(k) - stretch.begin_depth_m));
+      values[static_cast<std::size_t>(k)] =
+          static_cast<float>(stretch.begin_exponent +
+                             stretch.exponent_per_m * (sampling.centre(k) - stretch.begin_depth_m));
   }
 }
 

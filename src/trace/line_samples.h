@@ -20,13 +20,15 @@ struct Sampling {
 struct IntensityParts {
   bool reflection = true, backscatter = true;
   bool attenuation = true;
-  // 0: the backscattered part falls as 1/l^2. Else it stands as if every sample were at this path length.
+  // 0: the backscattered part falls as 1/l^2. Else it stands as if every sample were at this path
+  // length.
   double spread_undone_at_m = 0;
 };
 
-// I_R of section 4.1 relative to I_S: eta_b V / l^2 exp(-A) prod (1-R)^2 at each sample's centre, plus the
-// echoes of the interfaces in its depth interval. Relative error of the backscattered part under 1e-6.
-// Behind the end of the ray every sample is exactly 0. values.size() == sampling.samples.
+// I_R of section 4.1 relative to I_S: eta_b V / l^2 exp(-A) prod (1-R)^2 at each sample's centre,
+// plus the echoes of the interfaces in its depth interval. Relative error of the backscattered part
+// under 1e-6. Behind the end of the ray every sample is exactly 0. values.size() ==
+// sampling.samples.
 void sampleIntensity(const LineTrace& line, const Sampling& sampling, const IntensityParts& parts,
                      std::span<float> values);
 

@@ -1,6 +1,7 @@
 #pragma once
-// What one scan line met, before it is sampled: a few stretches of constant medium and a few echoes. `Depth` is the
-// position on the image's depth axis: the path length, or 1540 m/s times half the travel time.
+// What one scan line met, before it is sampled: a few stretches of constant medium and a few
+// echoes. `Depth` is the position on the image's depth axis: the path length, or 1540 m/s times
+// half the travel time.
 
 #include <vector>
 
@@ -9,12 +10,14 @@
 
 namespace echocine {
 
-// One medium along a scan line. Path length l and attenuation exponent A = 4 sum alpha l grow linearly.
+// One medium along a scan line. Path length l and attenuation exponent A = 4 sum alpha l grow
+// linearly.
 struct Stretch {
   double begin_depth_m = 0, end_depth_m = 0;
-  double begin_path_m = 0, path_per_depth = 1;   // l
+  double begin_path_m = 0, path_per_depth = 1;    // l
   double begin_exponent = 0, exponent_per_m = 0;  // A in nepers, and dA per metre of depth
-  double strength_m2_sr = 0;  // eta_b V times the losses prod (1-R)^2: intensity times l^2, unattenuated
+  double strength_m2_sr =
+      0;  // eta_b V times the losses prod (1-R)^2: intensity times l^2, unattenuated
   MediumId medium{};
 };
 
@@ -25,17 +28,18 @@ struct Echo {
   double exponent = 0;   // A up to it
 };
 
-// One crossing as the walk along a line judged it; what integration over the beam's cell needs of it.
+// One crossing as the walk along a line judged it; what integration over the beam's cell needs of
+// it.
 struct InterfacePass {
   SurfaceId surface{};
   bool entering = false;
-  bool seen = false;  // an interface here: the media differ, or a membrane
+  bool seen = false;           // an interface here: the media differ, or a membrane
   MediumId before{}, after{};  // of a membrane: what is around it, and its own
   Vec3d point;                 // probe frame
   double path_m = 0, depth_m = 0;
-  double path_per_depth = 1;                        // of the medium before
-  double exponent = 0, exponent_per_path = 0;       // A at it, and dA/dl before it
-  double passed = 1;                                // prod (1-R)^2 before it
+  double path_per_depth = 1;                   // of the medium before
+  double exponent = 0, exponent_per_path = 0;  // A at it, and dA/dl before it
+  double passed = 1;                           // prod (1-R)^2 before it
 };
 
 // Stretches follow each other without gap from depth 0; after the last one the ray has ended.

@@ -80,16 +80,17 @@ void LineWalker::loseAt(double R, bool total) {
 
 // The crossing whose normal and lobe stand for a group of coincident surfaces.
 const Crossing& LineWalker::deciding(Group group) const {
-  return *std::max_element(group.begin(), group.end(), [this](const Crossing& a, const Crossing& b) {
-    const SurfaceTraits& s = settings_.surfaces[index(a.surface)];
-    const SurfaceTraits& t = settings_.surfaces[index(b.surface)];
-    if (s.membrane != t.membrane) return s.membrane;
-    return std::pair(s.priority, a.surface) < std::pair(t.priority, b.surface);
-  });
+  return *std::max_element(
+      group.begin(), group.end(), [this](const Crossing& a, const Crossing& b) {
+        const SurfaceTraits& s = settings_.surfaces[index(a.surface)];
+        const SurfaceTraits& t = settings_.surfaces[index(b.surface)];
+        if (s.membrane != t.membrane) return s.membrane;
+        return std::pair(s.priority, a.surface) < std::pair(t.priority, b.surface);
+      });
 }
 
-// For integration over cells: every crossing with the media and losses of this line. Of coincident surfaces the
-// deciding one is seen.
+// For integration over cells: every crossing with the media and losses of this line. Of coincident
+// surfaces the deciding one is seen.
 void LineWalker::notePasses(Group group, MediumId after) {
   const Medium& medium = settings_.media[index(medium_)];
   const Crossing& decided = deciding(group);
@@ -116,8 +117,7 @@ void LineWalker::passInterface(Group group, MediumId after) {
   const Medium& from = settings_.media[index(medium_)];
   const Medium& to = settings_.media[index(after)];
   medium_ = after;
-  if (from.impedance_kg_m2_s == to.impedance_kg_m2_s && from.sound_speed_m_s == to.sound_speed_m_s)
-    return;
+  if (sameInterface(from, to)) return;
   const Crossing& crossing = deciding(group);
   const Vec3d direction = query_.ray.direction;
   const double cos_i = std::min(std::abs(dot(direction, crossing.normal)), 1.0);
@@ -126,7 +126,8 @@ void LineWalker::passInterface(Group group, MediumId after) {
   addEcho(law.R, cos_i, settings_.surfaces[index(crossing.surface)]);
   loseAt(law.R, law.total);
   if (!alive_ || !settings_.refraction || from.sound_speed_m_s == to.sound_speed_m_s) return;
-  if (const auto bent = refracted(direction, crossing.normal, from.sound_speed_m_s, to.sound_speed_m_s))
+  if (const auto bent =
+          refracted(direction, crossing.normal, from.sound_speed_m_s, to.sound_speed_m_s))
     bend(group, *bent);
 }
 

@@ -9,7 +9,8 @@ namespace echocine {
 
 class LineWalker {
  public:
-  // Starts at the transducer. `inside`: the closed surfaces that hold the start. `trace` is cleared.
+  // Starts at the transducer. `inside`: the closed surfaces that hold the start. `trace` is
+  // cleared.
   LineWalker(const TraceSettings& settings, const Ray& start, const InsideSet& inside,
              LineTrace& trace);
 
@@ -17,8 +18,8 @@ class LineWalker {
   const RayQuery& query() const { return query_; }
   bool alive() const { return alive_; }
 
-  // Goes along the crossings of query() to the depth of the image, to total reflection, or to the next
-  // bend, after which query() is a new ray.
+  // Goes along the crossings of query() to the depth of the image, to total reflection, or to the
+  // next bend, after which query() is a new ray.
   void advance(const RayCrossings& met);
 
  private:
@@ -38,11 +39,11 @@ class LineWalker {
   LineTrace& trace_;
   RayQuery query_;
   MediumId medium_{};
-  double walked_m_ = 0;   // along the present ray
-  double path_m_ = 0;     // l since the transducer
-  double depth_m_ = 0;    // on the image's axis
-  double exponent_ = 0;   // A since the transducer
-  double passed_ = 1;     // prod (1-R)^2
+  double walked_m_ = 0;  // along the present ray
+  double path_m_ = 0;    // l since the transducer
+  double depth_m_ = 0;   // on the image's axis
+  double exponent_ = 0;  // A since the transducer
+  double passed_ = 1;    // prod (1-R)^2
   int bends_ = 0;
   bool alive_ = true;
 };

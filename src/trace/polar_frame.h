@@ -10,7 +10,8 @@
 
 namespace echocine {
 
-// Planes are line-major: the samples of line 0 from shallow to deep, then those of line 1, and so on.
+// Planes are line-major: the samples of line 0 from shallow to deep, then those of line 1, and so
+// on.
 struct PolarFrame {
   int lines = 0, samples = 0;
   std::vector<LineTrace> traces;                 // of each line, before sampling

@@ -14,7 +14,8 @@ struct EchoShift {
   double spacings = 0;  // in distances between neighbouring lines at its depth
 };
 
-// Traces every line of one frame with refraction and appends the shifts of all interfaces that are seen.
+// Traces every line of one frame with refraction and appends the shifts of all interfaces that are
+// seen.
 void measureEchoShifts(const FrameGeometry& geometry, const Probe& probe, TraceSettings settings,
                        std::vector<EchoShift>& shifts);
 

@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t kPacket = 16;  // lines that go through the hierarchy together
 
 // Follows a packet of neighbouring lines, one round per straight piece.
-WorkCounts walkPacket(const FrameGeometry& geometry, const Probe& probe, const TraceSettings& settings,
-                      int first_line, std::span<LineTrace> lines) {
+WorkCounts walkPacket(const FrameGeometry& geometry, const Probe& probe,
+                      const TraceSettings& settings, int first_line, std::span<LineTrace> lines) {
   std::array<std::optional<LineWalker>, kPacket> walkers;
   std::array<RayQuery, kPacket> queries;
   thread_local std::array<RayCrossings, kPacket> met;
@@ -61,7 +61,9 @@ class LineSampler {
   LineSampler(const Probe& probe, const TraceSettings& settings, const PlaneRequest& request,
               PolarFrame& frame)
       : sampling_{probe.min_depth_m, probe.sampleSpacing(), probe.samples},
-        settings_(settings), request_(request), frame_(frame) {}
+        settings_(settings),
+        request_(request),
+        frame_(frame) {}
 
   void sample(int line, const LineTrace& trace) const {
     for (const Channel channel : request_.channels) {
@@ -80,13 +82,16 @@ class LineSampler {
   WorkCounts work() const {
     WorkCounts work;
     const auto add = [&](const IntensityParts& parts) {
-      const auto size = static_cast<std::uint64_t>(frame_.lines) * static_cast<std::uint64_t>(frame_.samples);
+      const auto size =
+          static_cast<std::uint64_t>(frame_.lines) * static_cast<std::uint64_t>(frame_.samples);
       if (parts.backscatter && settings_.backscatter) work.samples_backscatter += size;
       if (parts.attenuation) work.samples_attenuated += size;
     };
     for (const Channel channel : request_.channels) {
-      if (channel == Channel::attenuation) add({.reflection = false, .backscatter = false});
-      else if (channel != Channel::medium) add(partsOf(channel, settings_.attenuation, request_.spread_undone_at_m));
+      if (channel == Channel::attenuation)
+        add({.reflection = false, .backscatter = false});
+      else if (channel != Channel::medium)
+        add(partsOf(channel, settings_.attenuation, request_.spread_undone_at_m));
     }
     if (request_.signal) add(request_.signal_parts);
     return work;
@@ -99,7 +104,8 @@ class LineSampler {
     return std::span(plane).subspan(static_cast<std::size_t>(line) * samples, samples);
   }
 
-  void intensity(const LineTrace& trace, const IntensityParts& parts, std::span<float> values) const {
+  void intensity(const LineTrace& trace, const IntensityParts& parts,
+                 std::span<float> values) const {
     sampleIntensity(trace, sampling_, parts, values);
   }
 
@@ -113,7 +119,8 @@ void reserve(const Probe& probe, const PlaneRequest& request, PolarFrame& frame)
   frame.lines = probe.lines;
   frame.samples = probe.samples;
   frame.traces.resize(static_cast<std::size_t>(probe.lines));
-  const std::size_t size = static_cast<std::size_t>(probe.lines) * static_cast<std::size_t>(probe.samples);
+  const std::size_t size =
+      static_cast<std::size_t>(probe.lines) * static_cast<std::size_t>(probe.samples);
   for (const Channel channel : request.channels) {
     if (channel == Channel::medium)
       frame.medium.resize(size);
@@ -163,8 +170,7 @@ void sampleLines(const Probe& probe, const TraceSettings& settings, const PlaneR
                  PolarFrame& frame, WorkCounts& work) {
   const LineSampler sampler(probe, settings, request, frame);
   parallelBlocks(frame.traces.size(), kPacket, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      sampler.sample(static_cast<int>(i), frame.traces[i]);
+    for (std::size_t i = begin; i < end; ++i) sampler.sample(static_cast<int>(i), frame.traces[i]);
   });
   work += sampler.work();
 }

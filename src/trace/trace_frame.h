@@ -24,10 +24,11 @@ PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan);
 WorkCounts walkLines(const FrameGeometry& geometry, const Probe& probe,
                      const TraceSettings& settings, std::vector<LineTrace>& traces);
 
-// Fills `frame` (its memory is used again) and returns the work. Lines are sampled in parallel; each writes only its
-// own column, so the result does not depend on the number of threads.
+// Fills `frame` (its memory is used again) and returns the work. Lines are sampled in parallel;
+// each writes only its own column, so the result does not depend on the number of threads.
 WorkCounts traceFrame(const FrameGeometry& geometry, const Probe& probe,
-                      const TraceSettings& settings, const PlaneRequest& request, PolarFrame& frame);
+                      const TraceSettings& settings, const PlaneRequest& request,
+                      PolarFrame& frame);
 
 // The same through the plane slice. Precondition: settings.refraction is off.
 WorkCounts traceFrame(const PlaneSlice& slice, const Probe& probe, const TraceSettings& settings,

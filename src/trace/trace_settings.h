@@ -8,7 +8,8 @@
 
 namespace echocine {
 
-// The speed by which a scanner turns echo times into depths: the soft-tissue average it is built for.
+// The speed by which a scanner turns echo times into depths: the soft-tissue average it is built
+// for.
 inline constexpr double kScannerSpeed = 1540;  // m/s
 
 struct SurfaceTraits {
@@ -26,12 +27,14 @@ struct TraceSettings {
   MediumId background{};
   double unit_volume_m3 = 0;
   double max_depth_m = 0;
-  // Crossings closer than this are one interface: a thousandth of a wavelength. A layer of thickness d reflects as
-  // (k d)^2, so thinner ones send nothing back; coincident walls come out as a single interface.
+  // Crossings closer than this are one interface: a thousandth of a wavelength. A layer of
+  // thickness d reflects as (k d)^2, so thinner ones send nothing back; coincident walls come out
+  // as a single interface.
   double thin_layer_m = 0;
   bool reflection = true, transmission_loss = true, refraction = true, attenuation = true,
        backscatter = true, travel_time = false;
-  // Echoes of interfaces are integrated over the beam's cell instead of taken at the line (plane slice only).
+  // Echoes of interfaces are integrated over the beam's cell instead of taken at the line (plane
+  // slice only).
   bool cell_echoes = false;
   bool note_passes = false;  // keep what the walk judged of each crossing; cell echoes need it
 };

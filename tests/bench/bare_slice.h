@@ -1,6 +1,6 @@
 #pragma once
-// The floor of the plane slice: cut and march with nothing but what any such loop must do. No rule for ties, no
-// priorities, no media, no echoes: a measure, not a tracer.
+// The floor of the plane slice: cut and march with nothing but what any such loop must do. No rule
+// for ties, no priorities, no media, no echoes: a measure, not a tracer.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,8 @@ class BareSlice {
 
   float run(const SurfaceFrame& frame) {
     for (auto& line : lines_) line.clear();
-    for (const SurfaceTopology& surface : scene_.topology) cut(surface, frame.positions_m[index(surface.id)]);
+    for (const SurfaceTopology& surface : scene_.topology)
+      cut(surface, frame.positions_m[index(surface.id)]);
     for (std::size_t i = 0; i < lines_.size(); ++i) march(i);
     return plane_[plane_.size() / 2];
   }
@@ -37,11 +38,12 @@ class BareSlice {
       const int sides = above_[t[0]] + above_[t[1]] + above_[t[2]];
       if (sides == 0 || sides == 3) continue;
       const int k = above_[t[1]] == above_[t[2]] ? 0 : above_[t[0]] == above_[t[2]] ? 1 : 2;
-      const Vec3f a = p[t[static_cast<std::size_t>(k)]], b = p[t[static_cast<std::size_t>((k + 1) % 3)]],
+      const Vec3f a = p[t[static_cast<std::size_t>(k)]],
+                  b = p[t[static_cast<std::size_t>((k + 1) % 3)]],
                   c = p[t[static_cast<std::size_t>((k + 2) % 3)]];
       const float s = a.y / (a.y - b.y), r = a.y / (a.y - c.y);
-      spread(a.x + s * (b.x - a.x), a.z + s * (b.z - a.z), a.x + r * (c.x - a.x), a.z + r * (c.z - a.z),
-             static_cast<float>(index(surface.id)));
+      spread(a.x + s * (b.x - a.x), a.z + s * (b.z - a.z), a.x + r * (c.x - a.x),
+             a.z + r * (c.z - a.z), static_cast<float>(index(surface.id)));
     }
   }
 
@@ -84,7 +86,8 @@ class BareSlice {
       for (; k < end; k += std::min(8, end - k)) {
         const Eight l = offset + (0.002f + (static_cast<float>(k) + 0.5f) * kSpacing);
         const Eight value = passed * power / (l * l);
-        std::memcpy(out + k, &value, (end - k < 8 ? static_cast<std::size_t>(end - k) : 8) * sizeof(float));
+        std::memcpy(out + k, &value,
+                    (end - k < 8 ? static_cast<std::size_t>(end - k) : 8) * sizeof(float));
         passed *= eighth;
       }
       passed *= 0.999f;

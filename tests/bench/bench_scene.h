@@ -9,7 +9,8 @@
 
 namespace echocine::bench {
 
-// Wall, cavity and two atria: four closed surfaces, all in the sector, a few millimetres off the imaging plane.
+// Wall, cavity and two atria: four closed surfaces, all in the sector, a few millimetres off the
+// imaging plane.
 struct BenchScene {
   Scene scene;
   std::vector<SurfaceTopology> topology;
@@ -26,9 +27,13 @@ struct BenchScene {
     scene.output.cine = false;
     support::addStructure(scene, 2, 1);
     for (int i = 0; i < 3; ++i) support::addStructure(scene, 1, 2);
-    const struct { double radius; Vec3d middle; } balls[] = {
-        {0.035, {0.002, 0.0031, 0.07}}, {0.025, {0.002, 0.0031, 0.07}},
-        {0.02, {0.021, 0.0013, 0.13}}, {0.02, {-0.021, 0.0017, 0.13}}};
+    const struct {
+      double radius;
+      Vec3d middle;
+    } balls[] = {{0.035, {0.002, 0.0031, 0.07}},
+                 {0.025, {0.002, 0.0031, 0.07}},
+                 {0.02, {0.021, 0.0013, 0.13}},
+                 {0.02, {-0.021, 0.0017, 0.13}}};
     const int segments = 2 * static_cast<int>(std::lround(std::sqrt(triangles / 4.0 / 4.0)));
     frames.resize(8);
     for (const auto& ball : balls) addBall(ball.radius, ball.middle, segments);

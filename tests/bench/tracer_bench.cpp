@@ -1,5 +1,6 @@
-// Geometry and trace of one frame, 256 x 1024, one thread, meshes moving every frame: the plane slice, the hierarchy
-// without and with refraction, and the bare loop that is the slice's floor. Compare within one run.
+// Geometry and trace of one frame, 256 x 1024, one thread, meshes moving every frame: the plane
+// slice, the hierarchy without and with refraction, and the bare loop that is the slice's floor.
+// Compare within one run.
 
 #include <benchmark/benchmark.h>
 
@@ -21,7 +22,8 @@ void overFrames(benchmark::State& state, const BenchScene& scene, Body&& body) {
 void bareSlice(benchmark::State& state) {
   const BenchScene scene(static_cast<int>(state.range(0)));
   BareSlice bare(scene);
-  overFrames(state, scene, [&](const SurfaceFrame& frame) { benchmark::DoNotOptimize(bare.run(frame)); });
+  overFrames(state, scene,
+             [&](const SurfaceFrame& frame) { benchmark::DoNotOptimize(bare.run(frame)); });
 }
 
 void planeSlice(benchmark::State& state, bool cells) {

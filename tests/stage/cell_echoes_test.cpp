@@ -1,4 +1,5 @@
-// Interface echoes integrated over the beam's cell: as much energy as at the line's centre, without beads.
+// Interface echoes integrated over the beam's cell: as much energy as at the line's centre, without
+// beads.
 
 #include <gtest/gtest.h>
 
@@ -28,18 +29,20 @@ Scene wallScene(ProbeKind kind) {
   return scene;
 }
 
-// A slab whose front stands at `angle` to the z axis and passes through x = 0 at the depth `through`.
+// A slab whose front stands at `angle` to the z axis and passes through x = 0 at the depth
+// `through`.
 Mesh steepSlab(double angle_deg, double through_m) {
   const double a = radiansFromDegrees(angle_deg);
   Mesh m = support::box({0, -0.05, -0.3}, {0.5, 0.05, 0.3});
   for (Vec3d& p : m.points)
-    p = {p.x * std::cos(a) + p.z * std::sin(a), p.y, through_m - p.x * std::sin(a) + p.z * std::cos(a)};
+    p = {p.x * std::cos(a) + p.z * std::sin(a), p.y,
+         through_m - p.x * std::sin(a) + p.z * std::cos(a)};
   return m;
 }
 
 std::vector<float> echoesOf(const Scene& scene, const Mesh& mesh, bool cells) {
-  std::vector<SurfaceTopology> topology{{SurfaceId{0}, mesh.triangles,
-                                         static_cast<std::uint32_t>(mesh.points.size()), false, false}};
+  std::vector<SurfaceTopology> topology{
+      {SurfaceId{0}, mesh.triangles, static_cast<std::uint32_t>(mesh.points.size()), false, false}};
   SurfaceFrame frame{{{}}};
   for (const Vec3d& p : mesh.points) frame.positions_m[0].push_back(toFloat(p));
   PlaneSlice slice(topology, scene.probe);
@@ -72,8 +75,9 @@ Spread spreadOver(const std::vector<double>& sums, std::size_t first, std::size_
   return {10 * std::log10(lo), 10 * std::log10(hi)};
 }
 
-// What a plane at distance p from the apex sends back per metre of depth, up to a factor: the lobe cos^2 = (p/r)^2 times
-// the angle that a metre of depth takes, d theta / d r = p / (r sqrt(r^2 - p^2)). The same everywhere for parallel beams.
+// What a plane at distance p from the apex sends back per metre of depth, up to a factor: the lobe
+// cos^2 = (p/r)^2 times the angle that a metre of depth takes, d theta / d r = p / (r sqrt(r^2 -
+// p^2)). The same everywhere for parallel beams.
 double expectedAt(ProbeKind kind, double p_m, double r_m) {
   if (kind == ProbeKind::linear) return 1;
   const double cos_i = p_m / r_m;
@@ -89,14 +93,16 @@ TEST_P(SteepWall, AtTenDegreesToTheBeamIsEvenWithCellsAndBeadsWithout) {
   const auto evenness = [&](bool cells) {
     std::vector<double> sums = alongDepth(scene.probe, echoesOf(scene, slab, cells));
     for (std::size_t k = 0; k < sums.size(); ++k) {
-      const double r_m = scene.probe.min_depth_m + (static_cast<double>(k) + 0.5) * scene.probe.sampleSpacing();
+      const double r_m =
+          scene.probe.min_depth_m + (static_cast<double>(k) + 0.5) * scene.probe.sampleSpacing();
       if (r_m > p_m) sums[k] /= expectedAt(GetParam(), p_m, r_m);
     }
     return spreadOver(sums, 400, 620);
   };
   const Spread cells = evenness(true), centres = evenness(false);
-  std::printf("[          ] echo along the wall varies by %.4f dB with cells, by %.0f dB with centres\n",
-              cells.highest_db - cells.lowest_db, centres.highest_db - centres.lowest_db);
+  std::printf(
+      "[          ] echo along the wall varies by %.4f dB with cells, by %.0f dB with centres\n",
+      cells.highest_db - cells.lowest_db, centres.highest_db - centres.lowest_db);
   EXPECT_LT(cells.highest_db - cells.lowest_db, 1.0);  // the lobe is that of each piece's middle
   EXPECT_GT(centres.highest_db - centres.lowest_db, 30.0);
 }
@@ -121,9 +127,11 @@ INSTANTIATE_TEST_SUITE_P(Probes, SteepWall, testing::Values(ProbeKind::phased, P
 TEST(CellEchoes, OfAWallAcrossTheBeamAreThoseAtTheCentre) {
   Scene scene = wallScene(ProbeKind::linear);
   const Mesh slab = support::box({-0.2, -0.05, 0.08004}, {0.2, 0.05, 0.12004});
-  const std::vector<float> cells = echoesOf(scene, slab, true), centres = echoesOf(scene, slab, false);
+  const std::vector<float> cells = echoesOf(scene, slab, true),
+                           centres = echoesOf(scene, slab, false);
   for (std::size_t i = 0; i < cells.size(); ++i)
-    ASSERT_NEAR(cells[i], centres[i], 1e-6f * std::max(centres[i], 1e-12f) + 1e-12f) << "sample " << i;
+    ASSERT_NEAR(cells[i], centres[i], 1e-6f * std::max(centres[i], 1e-12f) + 1e-12f)
+        << "sample " << i;
 }
 
 // Oracle: many centre-sampled lines inside one cell.
@@ -134,7 +142,8 @@ TEST(CellEchoes, EqualTheMeanOfManyRaysInTheCell) {
   const Mesh ball = support::icosphere(5, 0.03).moved({0.003, 0.0005, 0.09});
   const std::vector<float> cells = echoesOf(scene, ball, true);
   Scene fine = scene;
-  constexpr int kRays = 400;  // per cell; line i's rays are those between its neighbours' half-way angles
+  constexpr int kRays =
+      400;  // per cell; line i's rays are those between its neighbours' half-way angles
   const double width = (scene.probe.last_angle_rad - scene.probe.first_angle_rad) / 32;
   const int line = 20;
   const double centre = scene.probe.first_angle_rad + line * width;

@@ -26,10 +26,24 @@ void expectConsistent(const RayCrossings& met, std::size_t surfaces, const Ray& 
   for (std::size_t s = 0; s < surfaces; ++s) EXPECT_FALSE(inside[s]);
 }
 
+// Changes of the first surface's state; crossings at one place, as where a vertex is folded by rounding, are one.
+int passages(const RayCrossings& met) {
+  int count = 0;
+  bool inside = met.inside[0];
+  for (std::size_t i = 0; i < met.crossings.size(); ++i) {
+    const bool last_here = i + 1 == met.crossings.size() ||
+                           met.crossings[i + 1].distance_m - met.crossings[i].distance_m > 1e-9;
+    if (!last_here || met.crossings[i].entering == inside) continue;
+    inside = met.crossings[i].entering;
+    ++count;
+  }
+  return count;
+}
+
 void expectTwoCrossings(const Surfaces& surfaces, const Ray& ray) {
   const RayCrossings met = surfaces.cross(ray);
-  ASSERT_EQ(met.crossings.size(), 2u) << ray.direction.x << ' ' << ray.direction.y << ' ' << ray.direction.z;
-  EXPECT_TRUE(met.crossings[0].entering && !met.crossings[1].entering);
+  EXPECT_EQ(passages(met), 2) << ray.direction.x << ' ' << ray.direction.y << ' ' << ray.direction.z;
+  expectConsistent(met, 1, ray);
 }
 
 TEST(FrameGeometry, FindsForRandomRaysWhatTheRuleFindsForEveryTriangle) {
@@ -88,7 +102,7 @@ TEST(FrameGeometry, RaysFromTheProbeAimedExactlyAtVerticesMissNothing) {
       expectConsistent(met, 1, ray);
       const Vec3d outward = p - centre;
       if (std::abs(dot(outward, ray.direction)) > 0.01) {
-        EXPECT_EQ(met.crossings.size(), 2u);
+        EXPECT_EQ(passages(met), 2);
       }
     }
   }

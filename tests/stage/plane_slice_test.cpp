@@ -43,7 +43,8 @@ void expectSameCrossings(const Slices& s, const Probe& probe) {
   geometry.update(s.frame);
   for (int i = 0; i < probe.lines; ++i) {
     const LineGeometry line = lineGeometry(probe, i);
-    const std::vector<RayQuery> query{{{line.origin, line.direction}, geometry.insideAt(line.origin), {}}};
+    const std::vector<RayQuery> query{
+        {{line.origin, line.direction}, geometry.insideAt(line.origin), {}}};
     std::vector<RayCrossings> met(1);
     geometry.crossings(query, met);
     const RayCrossings& sliced = slice.lines()[static_cast<std::size_t>(i)];
@@ -70,7 +71,8 @@ TEST(PlaneSlice, MeetsWhatTheHierarchyMeetsForEveryProbeKind) {
 }
 
 TEST(PlaneSlice, VerticesAndEdgesOnThePlaneAndOnScanLinesAreMetOnce) {
-  // The octahedral and the UV sphere have whole edges in y = 0 and vertices on x = 0; 255 lines include 0 degrees.
+  // The octahedral and the UV sphere have whole edges in y = 0 and vertices on x = 0; 255 lines
+  // include 0 degrees.
   Slices s;
   s.add(support::octasphere(4, 0.03).moved({0, 0, 0.08}));
   s.add(support::uvSphere(24, 32, 0.02).moved({0, 0, 0.08}));
@@ -139,7 +141,8 @@ TEST(PlaneSlice, LeftOutSurfacesAreMetByNeitherTracer) {
   const std::vector<RayQuery> query{{support::kDepthwards, {}, {}}};
   std::vector<RayCrossings> met(1);
   geometry.crossings(query, met);
-  for (const RayCrossings* line : std::initializer_list<const RayCrossings*>{&slice.lines()[16], &met[0]}) {
+  for (const RayCrossings* line :
+       std::initializer_list<const RayCrossings*>{&slice.lines()[16], &met[0]}) {
     ASSERT_EQ(line->crossings.size(), 2u);
     EXPECT_EQ(index(line->crossings[0].surface), 1u);
   }
@@ -156,12 +159,14 @@ TEST(Contours, OfASphereIsOneClosedCircle) {
   EXPECT_EQ(contours[0].points_m.size(), slice.pieces().size());
   double twice_area = 0;
   for (std::size_t i = 0; i < contours[0].points_m.size(); ++i) {
-    const Vec3d a = contours[0].points_m[i], b = contours[0].points_m[(i + 1) % contours[0].points_m.size()];
+    const Vec3d a = contours[0].points_m[i],
+                b = contours[0].points_m[(i + 1) % contours[0].points_m.size()];
     EXPECT_EQ(a.y, 0);
     twice_area += a.x * b.z - a.z * b.x;
   }
   const double radius2 = 0.03 * 0.03 - 0.0007 * 0.0007;
-  EXPECT_NEAR(std::abs(twice_area) / 2, std::numbers::pi * radius2, 0.01 * std::numbers::pi * radius2);
+  EXPECT_NEAR(std::abs(twice_area) / 2, std::numbers::pi * radius2,
+              0.01 * std::numbers::pi * radius2);
 }
 
 TEST(Contours, OfAnOpenSheetIsOneOpenChain) {

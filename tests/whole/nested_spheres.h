@@ -10,11 +10,7 @@
 
 namespace echocine::support {
 
-#if defined(__SANITIZE_ADDRESS__)
-inline constexpr int kSphereLevel = 5;
-#else
 inline constexpr int kSphereLevel = 6;
-#endif
 
 using Real = long double;
 using Vec3r = Vec3<Real>;

@@ -1,5 +1,5 @@
-// The plane slice and the hierarchy trace the same image, also where vertices and edges lie exactly on the imaging
-// plane and on scan lines.
+// The plane slice and the hierarchy trace the same image, also where vertices and edges lie exactly
+// on the imaging plane and on scan lines.
 
 #include <gtest/gtest.h>
 
@@ -80,8 +80,9 @@ TEST(TracersAgree, OnTheRealPatient) {
   text.addStructure("lv", "blood", pattern("lv_endo_closed_*.obj"), 30);
   text.addStructure("rv", "blood", pattern("rv_endo_closed_*.obj"), 20);
   text.addStructure("epi", "myocardium", pattern("epi_*.obj"), 10,
-                    "lids = [" + pattern("mitral_valve_*.obj") + ", " + pattern("aortic_valve_*.obj") + ", " +
-                        pattern("tricuspid_valve_*.obj") + ", " + pattern("pulmonary_valve_*.obj") + "]\n");
+                    "lids = [" + pattern("mitral_valve_*.obj") + ", " +
+                        pattern("aortic_valve_*.obj") + ", " + pattern("tricuspid_valve_*.obj") +
+                        ", " + pattern("pulmonary_valve_*.obj") + "]\n");
   expectAgreement(support::parsed(text));
 }
 
