@@ -69,39 +69,69 @@ void BeamAverage::averageAxially(std::span<float> line, std::vector<float>& padd
   for (std::size_t k = 0; k < line.size(); ++k) line[k] *= tap_sum_inverse_[k];
 }
 
-// Mean over the lines between i + 1/2 - h and i + 1/2 + h, from running sums over the lines. Sums
-// are double: a bright echo leaves nothing behind in the blood beside it.
+namespace {
+
+// Mean of a column of values over the lines between i + 1/2 - h and i + 1/2 + h, from its running
+// sums (sums[i] over the lines before i, one entry more at the end). Windows are cut at the first
+// and last line.
+void windowMeans(const std::vector<double>& sums, std::size_t lines, double h, float* means) {
+  const double end = static_cast<double>(lines);
+  const auto cut = [&](std::size_t i) {
+    const double x0 = std::max(static_cast<double>(i) + 0.5 - h, 0.0);
+    const double x1 = std::min(static_cast<double>(i) + 0.5 + h, end);
+    const auto i0 = static_cast<std::size_t>(x0), i1 = static_cast<std::size_t>(x1);
+    const double s0 = sums[i0] + (x0 - std::floor(x0)) * (sums[i0 + 1] - sums[i0]);
+    const double s1 = sums[i1] + (x1 - std::floor(x1)) * (sums[i1 + 1] - sums[i1]);
+    means[i] = static_cast<float>(std::max(s1 - s0, 0.0) / (x1 - x0));
+  };
+  // Whole windows lie at the same place relative to their line: no division and no index to
+  // compute.
+  const auto first = static_cast<std::size_t>(std::min(std::ceil(h - 0.5), end));
+  const std::size_t last = std::max(lines - first, first);
+  for (std::size_t i = 0; i < std::min(first, lines); ++i) cut(i);
+  const double below = std::floor(0.5 - h), above = std::floor(0.5 + h);
+  const double f0 = 0.5 - h - below, f1 = 0.5 + h - above, scale = 1 / (2 * h);
+  const std::size_t whole = std::min(last, lines) - std::min(first, lines);
+  const double from = static_cast<double>(std::min(first, lines));
+  const double* low = sums.data() + static_cast<std::ptrdiff_t>(whole > 0 ? from + below : 0);
+  const double* high = sums.data() + static_cast<std::ptrdiff_t>(whole > 0 ? from + above : 0);
+  for (std::size_t j = 0; j < whole; ++j) {
+    const double s0 = low[j] + f0 * (low[j + 1] - low[j]);
+    const double s1 = high[j] + f1 * (high[j + 1] - high[j]);
+    means[first + j] = static_cast<float>(std::max(s1 - s0, 0.0) * scale);
+  }
+  for (std::size_t i = std::max(last, std::min(first, lines)); i < lines; ++i) cut(i);
+}
+
+}  // namespace
+
+// Running sums over the lines for a few samples at once. Sums are double: a bright echo leaves
+// nothing behind in the blood beside it.
 void BeamAverage::averageLaterally(std::span<const float> in, std::span<float> out,
                                    int first_sample) const {
-  const int count = std::min(kTile, samples_ - first_sample);
+  const auto count = static_cast<std::size_t>(std::min(kTile, samples_ - first_sample));
   const auto stride = static_cast<std::size_t>(samples_);
   const auto lines = static_cast<std::size_t>(lines_);
+  const auto first = static_cast<std::size_t>(first_sample);
   thread_local std::vector<double> sums, column;
+  thread_local std::vector<float> means;
   sums.resize((lines + 1) * kTile);
   column.resize(lines + 2);
+  means.resize(lines * kTile);
   std::fill_n(sums.begin(), kTile, 0.0);
   for (std::size_t i = 0; i < lines; ++i) {
-    const float* values = in.data() + i * stride + static_cast<std::size_t>(first_sample);
+    const float* values = in.data() + i * stride + first;
     const double* before = sums.data() + i * kTile;
     double* after = sums.data() + (i + 1) * kTile;
-    for (int s = 0; s < count; ++s) after[s] = before[s] + static_cast<double>(values[s]);
+    for (std::size_t s = 0; s < count; ++s) after[s] = before[s] + static_cast<double>(values[s]);
   }
-  for (int s = 0; s < count; ++s) {
-    for (std::size_t i = 0; i <= lines; ++i)
-      column[i] = sums[i * kTile + static_cast<std::size_t>(s)];
+  for (std::size_t s = 0; s < count; ++s) {
+    for (std::size_t i = 0; i <= lines; ++i) column[i] = sums[i * kTile + s];
     column[lines + 1] = column[lines];
-    const double h = half_width_lines_[static_cast<std::size_t>(first_sample + s)];
-    const double end = lines_;
-    for (std::size_t i = 0; i < lines; ++i) {
-      const double x0 = std::max(static_cast<double>(i) + 0.5 - h, 0.0);
-      const double x1 = std::min(static_cast<double>(i) + 0.5 + h, end);
-      const auto i0 = static_cast<int>(x0), i1 = static_cast<int>(x1);
-      const double s0 = column[i0] + (x0 - i0) * (column[i0 + 1] - column[i0]);
-      const double s1 = column[i1] + (x1 - i1) * (column[i1 + 1] - column[i1]);
-      out[i * stride + static_cast<std::size_t>(first_sample + s)] =
-          static_cast<float>(std::max(s1 - s0, 0.0) / (x1 - x0));
-    }
+    windowMeans(column, lines, half_width_lines_[first + s], means.data() + s * lines);
   }
+  for (std::size_t i = 0; i < lines; ++i)
+    for (std::size_t s = 0; s < count; ++s) out[i * stride + first + s] = means[s * lines + i];
 }
 
 void BeamAverage::apply(std::span<float> plane, std::vector<float>& scratch) const {

@@ -48,7 +48,8 @@ TEST(Attenuation, OneNeperPerMetreOverOneMetreAndBackIsExpOfMinusFour) {
 
 TEST(Attenuation, ThereAndBackIsTwiceTheForwardLoss) {
   const double alpha = 0.37, forward = std::exp(-2 * alpha * 1);
-  EXPECT_NEAR(received(metreScene({medium("m", 1000, 1500, alpha, 1)}), {}), forward * forward, 1e-7);
+  EXPECT_NEAR(received(metreScene({medium("m", 1000, 1500, alpha, 1)}), {}), forward * forward,
+              1e-7);
 }
 
 TEST(Attenuation, PathsAddWhateverTheCuts) {
@@ -69,27 +70,30 @@ TEST(Attenuation, EachMediumLosesItsPart) {
 TEST(Attenuation, ExponentAndUnattenuatedIntensityMakeTheReceivedOne) {
   Scene scene = plainScene({medium("a", 1000, 1500, 5, 0.1), medium("b", 1060, 1500, 25, 0.7)});
   addStructure(scene, 1, 1);
-  const LineTrace line =
-      walkStraight(straightSettings(scene), {crossingAt(0.03, 0, true), crossingAt(0.09, 0, false)});
+  const LineTrace line = walkStraight(straightSettings(scene),
+                                      {crossingAt(0.03, 0, true), crossingAt(0.09, 0, false)});
   const Sampling sampling = samplingOf(scene.probe);
   IntensityParts without;
   without.attenuation = false;
-  const std::vector<float> received = intensityOf(line, sampling), free = intensityOf(line, sampling, without);
+  const std::vector<float> received = intensityOf(line, sampling),
+                           free = intensityOf(line, sampling, without);
   std::vector<float> exponent(received.size());
   sampleExponent(line, sampling, exponent);
   for (std::size_t k = 0; k < received.size(); ++k) {
     if (k == 30 || k == 90) continue;  // their echoes lie elsewhere in the sample than its centre
-    EXPECT_NEAR(received[k] / (free[k] * std::exp(-static_cast<double>(exponent[k]))), 1, 2e-6) << k;
+    EXPECT_NEAR(received[k] / (free[k] * std::exp(-static_cast<double>(exponent[k]))), 1, 2e-6)
+        << k;
   }
 }
 
 TEST(Attenuation, PastUnderflowThereIsNothingAndNeverNotANumber) {
   for (const double alpha : {1e2, 1e4, 1e8, 1e30, 1e300}) {
-    Scene scene = plainScene({medium("a", 1000, 1500, alpha, 1), medium("b", 1060, 1500, alpha, 1)});
+    Scene scene =
+        plainScene({medium("a", 1000, 1500, alpha, 1), medium("b", 1060, 1500, alpha, 1)});
     scene.probe.samples = 1000;
     addStructure(scene, 1, 1);
-    const LineTrace line =
-        walkStraight(straightSettings(scene), {crossingAt(0.03, 0, true), crossingAt(0.09, 0, false)});
+    const LineTrace line = walkStraight(straightSettings(scene),
+                                        {crossingAt(0.03, 0, true), crossingAt(0.09, 0, false)});
     for (const float value : intensityOf(line, samplingOf(scene.probe)))
       ASSERT_TRUE(std::isfinite(value) && value >= 0) << alpha;
     if (alpha >= 1e4) {

@@ -59,8 +59,8 @@ TEST(BloodBackscatter, IsLargestAtTheRootOfItsDerivative) {
 }
 
 TEST(BloodBackscatter, IsEqSixAtAWorkedHematocrit) {
-  EXPECT_NEAR(bloodBackscatter(3e-17, 0.45, 9e-17), 3e-17 / 9e-17 * 0.45 * std::pow(0.55, 4) / (1.9 * 1.9),
-              1e-16);
+  EXPECT_NEAR(bloodBackscatter(3e-17, 0.45, 9e-17),
+              3e-17 / 9e-17 * 0.45 * std::pow(0.55, 4) / (1.9 * 1.9), 1e-16);
 }
 
 long double closedBracket(long double x) {

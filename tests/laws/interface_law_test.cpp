@@ -16,11 +16,16 @@ struct Pair {
 };
 
 // Soft tissue pairs, lung and bone, equal impedance or equal speed, and absurdly unlike media.
-const std::vector<Pair> kPairs{
-    {1.659e6, 1580, 1.679e6, 1584}, {1.679e6, 1584, 1.738e6, 1584}, {1.355e6, 1462, 1.679e6, 1584},
-    {1.659e6, 1580, 2.6e5, 650},    {1.659e6, 1580, 5.947e6, 3194}, {1.5e6, 1480, 1.5e6, 1600},
-    {1.5e6, 1600, 1.5e6, 1480},     {1.5e6, 1500, 1.5000001e6, 1500.0001}, {1, 1, 1e6, 1e3},
-    {1e6, 1e3, 1, 1}};
+const std::vector<Pair> kPairs{{1.659e6, 1580, 1.679e6, 1584},
+                               {1.679e6, 1584, 1.738e6, 1584},
+                               {1.355e6, 1462, 1.679e6, 1584},
+                               {1.659e6, 1580, 2.6e5, 650},
+                               {1.659e6, 1580, 5.947e6, 3194},
+                               {1.5e6, 1480, 1.5e6, 1600},
+                               {1.5e6, 1600, 1.5e6, 1480},
+                               {1.5e6, 1500, 1.5000001e6, 1500.0001},
+                               {1, 1, 1e6, 1e3},
+                               {1e6, 1e3, 1, 1}};
 
 struct Exact {
   long double cos_t_squared, cos_t, R, T;
@@ -132,14 +137,15 @@ TEST(InterfaceLaw, NeverTotalIntoASlowerMediumNotEvenWhenTangent) {
       }
 }
 
-// Double precision knows cos_t^2 to a few ulps of its terms, so cos_t to that over 2 cos_t, and not at all
-// below its square root; R inherits that through its slope 4 Z_1 Z_2 cos_i / (sum)^2.
+// Double precision knows cos_t^2 to a few ulps of its terms, so cos_t to that over 2 cos_t, and not
+// at all below its square root; R inherits that through its slope 4 Z_1 Z_2 cos_i / (sum)^2.
 double tolerance(const Pair& p, double cos_i, const Exact& e) {
   const long double r = static_cast<long double>(p.c_2) / p.c_1;
   const long double square = 8 * std::numeric_limits<double>::epsilon() * std::max(1.0L, r * r);
   const long double cosine = std::min(square / std::max(e.cos_t, 1e-30L), std::sqrt(square));
   const long double sum = p.Z_2 * static_cast<long double>(cos_i) + p.Z_1 * e.cos_t;
-  const long double slope = sum > 0 ? 4 * p.Z_1 * static_cast<long double>(p.Z_2) * cos_i / (sum * sum) : 0;
+  const long double slope =
+      sum > 0 ? 4 * p.Z_1 * static_cast<long double>(p.Z_2) * cos_i / (sum * sum) : 0;
   return static_cast<double>(1e-14L + std::min(2 * slope * cosine, 1.0L));
 }
 

@@ -11,7 +11,8 @@ namespace {
 using namespace support;
 
 Scene twoLayers(double alpha_1, double alpha_2) {
-  Scene scene = plainScene({medium("outside", 1050, 1540, alpha_1, 0.1), medium("inside", 1060, 1560, alpha_2, 0.3)});
+  Scene scene = plainScene(
+      {medium("outside", 1050, 1540, alpha_1, 0.1), medium("inside", 1060, 1560, alpha_2, 0.3)});
   scene.probe.lines = 33;
   addStructure(scene, 1, 1);
   return scene;
@@ -21,7 +22,8 @@ PolarFrame traced(const Scene& scene) {
   const Surfaces surfaces({icosphere(3, 0.04).moved({0, 0, 0.07})});
   const EffectPlan plan = planEffects(scene);
   PolarFrame frame;
-  traceFrame(surfaces.geometry(), scene.probe, TraceSettings(scene, plan), planeRequest(scene, plan), frame);
+  traceFrame(surfaces.geometry(), scene.probe, TraceSettings(scene, plan),
+             planeRequest(scene, plan), frame);
   return frame;
 }
 

@@ -44,8 +44,9 @@ struct Layers {
   Layers(int media, int samples, double alpha_scale) {
     std::vector<Medium> list;
     for (int i = 0; i < media; ++i)
-      list.push_back(medium("m" + std::to_string(i), 1000 + 37 * (i * 7 % 11), 1500 + 3 * (i * 5 % 13),
-                            alpha_scale * (1 + i % 4), 0.1 + 0.03 * (i * 3 % 7)));
+      list.push_back(medium("m" + std::to_string(i), 1000 + 37 * (i * 7 % 11),
+                            1500 + 3 * (i * 5 % 13), alpha_scale * (1 + i % 4),
+                            0.1 + 0.03 * (i * 3 % 7)));
     scene = plainScene(list);
     scene.probe.samples = samples;
     for (int i = 1; i < media; ++i) {
@@ -72,8 +73,9 @@ Losses lossesAt(const Layers& layers, std::size_t i) {
   return {common * cos_i * cos_i, common * cos_t * cos_t};
 }
 
-// The paper's recursion: each sample from the one before, I_R(P') = l^2/(l + dl)^2 exp(-4 alpha dl) I_R(P) inside a
-// medium; an interface in between adds its two transmissions and the other medium's eta_b.
+// The paper's recursion: each sample from the one before, I_R(P') = l^2/(l + dl)^2 exp(-4 alpha dl)
+// I_R(P) inside a medium; an interface in between adds its two transmissions and the other medium's
+// eta_b.
 std::vector<long double> recursion(const Layers& layers) {
   const Sampling sampling = samplingOf(layers.scene.probe);
   const std::vector<Medium>& media = layers.scene.media;
@@ -90,7 +92,8 @@ std::vector<long double> recursion(const Layers& layers) {
     while (m < layers.crossings.size() && layers.crossings[m].distance_m <= sampling.centre(k)) {
       go(layers.crossings[m].distance_m);
       const Losses loss = lossesAt(layers, m);
-      value *= loss.there * loss.back * media[m + 1].backscatter_per_m_sr / media[m].backscatter_per_m_sr;
+      value *= loss.there * loss.back * media[m + 1].backscatter_per_m_sr /
+               media[m].backscatter_per_m_sr;
       ++m;
     }
     go(sampling.centre(k));
@@ -113,13 +116,17 @@ void expectRecursion(const Layers& layers) {
   std::printf("worst relative difference of product form and recursion %.2g\n", worst);
 }
 
-TEST(ProductForm, EqualsThePapersRecursionAlongFiveMedia) { expectRecursion(Layers(5, 1000, 3)); }
+TEST(ProductForm, EqualsThePapersRecursionAlongFiveMedia) {
+  expectRecursion(Layers(5, 1000, 3));
+}
 
 TEST(ProductForm, EqualsThePapersRecursionOverTenThousandSamples) {
   expectRecursion(Layers(5, 10000, 10));
 }
 
-TEST(ProductForm, EqualsThePapersRecursionOverFiftyMedia) { expectRecursion(Layers(50, 10000, 5)); }
+TEST(ProductForm, EqualsThePapersRecursionOverFiftyMedia) {
+  expectRecursion(Layers(50, 10000, 5));
+}
 
 }  // namespace
 }  // namespace echocine

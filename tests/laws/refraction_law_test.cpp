@@ -14,7 +14,9 @@ constexpr int kRays = 20000;
 constexpr std::pair<double, double> kSpeeds[] = {
     {1480, 1600}, {1600, 1480}, {1580, 1584}, {650, 1580}, {1580, 3194}};
 
-double sine(Vec3d direction, Vec3d normal) { return length(cross(direction, normal)); }
+double sine(Vec3d direction, Vec3d normal) {
+  return length(cross(direction, normal));
+}
 
 // Calls check(direction, normal, bent) for random rays that pass.
 template <typename Check>
@@ -49,7 +51,8 @@ TEST(Refraction, DirectionStaysUnitInThePlaneOfIncidenceAndOnItsSide) {
 }
 
 TEST(Refraction, EqualSpeedsLeaveTheDirectionUnchangedToTheLastBit) {
-  const int passed = forPassingRays(1540, 1540, [](Vec3d d, Vec3d, Vec3d bent) { EXPECT_EQ(d, bent); });
+  const int passed =
+      forPassingRays(1540, 1540, [](Vec3d d, Vec3d, Vec3d bent) { EXPECT_EQ(d, bent); });
   EXPECT_EQ(passed, kRays);
   EXPECT_EQ(refracted({1, 0, 0}, {0, 0, 1}, 1540, 1540), (Vec3d{1, 0, 0}));
 }
@@ -86,7 +89,8 @@ TEST(Refraction, NormalIncidenceGoesStraightOn) {
     const Vec3d d = random.direction();
     const auto bent = refracted(d, d, 1480, 3194);
     ASSERT_TRUE(bent);
-    EXPECT_LT(length(*bent - d), 3e-8);  // cos_i rounds, so the angle is known to its square root only
+    EXPECT_LT(length(*bent - d),
+              3e-8);  // cos_i rounds, so the angle is known to its square root only
   }
 }
 

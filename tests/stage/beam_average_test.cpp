@@ -21,9 +21,9 @@ Probe linearProbe() {
   p.kind = ProbeKind::linear;
   p.first_angle_rad = p.last_angle_rad = 0;
   p.first_offset_m = -0.02;
-  p.last_offset_m = 0.02;  // 1 mm from line to line
-  p.max_depth_m = 0.08;    // 1 mm from sample to sample
-  p.frequency_hz = 1.54e6; // wavelength 1 mm
+  p.last_offset_m = 0.02;   // 1 mm from line to line
+  p.max_depth_m = 0.08;     // 1 mm from sample to sample
+  p.frequency_hz = 1.54e6;  // wavelength 1 mm
   p.lines = kLines;
   p.samples = kSamples;
   return p;
@@ -37,7 +37,8 @@ SignalSettings averaging(double width_mm, double pulse_cycles) {
   return s;
 }
 
-std::vector<float> averaged(const Probe& probe, const SignalSettings& settings, std::vector<float> plane) {
+std::vector<float> averaged(const Probe& probe, const SignalSettings& settings,
+                            std::vector<float> plane) {
   std::vector<float> scratch;
   BeamAverage(probe, settings).apply(plane, scratch);
   return plane;
@@ -54,22 +55,26 @@ double at(const std::vector<float>& plane, int line, int sample) {
 }
 
 TEST(BeamAverage, AConstantStaysConstantAlsoAtTheEdges) {
-  for (const auto& [width, cycles] : {std::pair(0.0, 0.0), {3.0, 0.0}, {0.0, 7.0}, {4.7, 5.3}, {500.0, 300.0}})
-    for (const float value : averaged(linearProbe(), averaging(width, cycles), std::vector(kLines * kSamples, 0.7f)))
+  for (const auto& [width, cycles] :
+       {std::pair(0.0, 0.0), {3.0, 0.0}, {0.0, 7.0}, {4.7, 5.3}, {500.0, 300.0}})
+    for (const float value :
+         averaged(linearProbe(), averaging(width, cycles), std::vector(kLines * kSamples, 0.7f)))
       ASSERT_NEAR(value, 0.7f, 1e-6) << width << ' ' << cycles;
 }
 
 TEST(BeamAverage, FocusedWidthsKeepAConstantToo) {
   Scene scene = plainScene({medium("m", 1000, 1500)});
   scene.probe.lines = kLines;
-  for (const float value : averaged(scene.probe, scene.signal, std::vector<float>(kLines * 160, 3.0f)))
+  for (const float value :
+       averaged(scene.probe, scene.signal, std::vector<float>(kLines * 160, 3.0f)))
     ASSERT_NEAR(value, 3.0f, 3e-6);
 }
 
 TEST(BeamAverage, WithoutWidthAndPulseNothingChanges) {
   const std::vector<float> plane = impulse(20, 40);
   EXPECT_EQ(averaged(linearProbe(), averaging(0, 0), plane), plane);
-  EXPECT_EQ(averaged(linearProbe(), averaging(0.9, 1), plane), plane);  // narrower than a line and a sample
+  EXPECT_EQ(averaged(linearProbe(), averaging(0.9, 1), plane),
+            plane);  // narrower than a line and a sample
 }
 
 TEST(BeamAverage, AnImpulseSpreadsCentredAndSymmetric) {
@@ -82,7 +87,8 @@ TEST(BeamAverage, AnImpulseSpreadsCentredAndSymmetric) {
 }
 
 TEST(BeamAverage, TheBoxIsAsWideAsAskedWithFractionalEnds) {
-  // 4.6 lines: the line itself, two neighbours less 0.2 on either side; 5.3 mm of pulse: 5.3 samples.
+  // 4.6 lines: the line itself, two neighbours less 0.2 on either side; 5.3 mm of pulse: 5.3
+  // samples.
   const std::vector<float> across = averaged(linearProbe(), averaging(4.6, 0), impulse(20, 40));
   EXPECT_NEAR(at(across, 20, 40), 1 / 4.6, 1e-6);
   EXPECT_NEAR(at(across, 21, 40), 1 / 4.6, 1e-6);

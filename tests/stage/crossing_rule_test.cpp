@@ -1,5 +1,5 @@
-// The rule that decides whether a ray crosses a triangle: no crossing lost or doubled on shared vertices and
-// edges, without tolerance.
+// The rule that decides whether a ray crosses a triangle: no crossing lost or doubled on shared
+// vertices and edges, without tolerance.
 
 #include "geometry/crossing_rule.h"
 
@@ -67,12 +67,17 @@ TEST(CrossingRule, AConvexMeshSymmetricAboutTheImagingPlaneIsCrossedTwiceOrNotAt
   const Surfaces surfaces({octasphere(4, 1)});
   for (int i = -1000; i <= 1000; ++i) {
     const double angle = i * 1e-3;
-    const std::vector<Crossing> all = crossed(surfaces, {{0, 0, -2}, {std::sin(angle), 0, std::cos(angle)}});
+    const std::vector<Crossing> all =
+        crossed(surfaces, {{0, 0, -2}, {std::sin(angle), 0, std::cos(angle)}});
     const double miss = 2 * std::abs(std::sin(angle));  // of the centre
     EXPECT_EQ(all.size() % 2, 0u);
     EXPECT_LE(all.size(), 2u);
-    if (miss < 0.995) { EXPECT_EQ(all.size(), 2u); }
-    if (miss > 1) { EXPECT_EQ(all.size(), 0u); }
+    if (miss < 0.995) {
+      EXPECT_EQ(all.size(), 2u);
+    }
+    if (miss > 1) {
+      EXPECT_EQ(all.size(), 0u);
+    }
   }
 }
 
@@ -147,7 +152,8 @@ TEST(CrossingRule, NormalsOfTrianglesWithoutAreaAreUnitToo) {
   ASSERT_TRUE(c);
   const RayPlanes tilted(rayFromTo({0, -2, -2}, {0.25, -1, -1}));
   for (const Vec3f third : {Vec3f{0, -1, -1}, Vec3f{0.25f, -1, -1}, Vec3f{1, -1, -1}})
-    if (const auto flat = crossTriangle(tilted, {-1, -1, -1}, {1, -1, -1}, third, SurfaceId{0}, 0)) {
+    if (const auto flat =
+            crossTriangle(tilted, {-1, -1, -1}, {1, -1, -1}, third, SurfaceId{0}, 0)) {
       EXPECT_NEAR(length(flat->normal), 1, 1e-12);
     }
 }
@@ -159,7 +165,8 @@ TEST(CrossingRule, SliversShareTheirEdgesExactly) {
   const Surfaces surfaces({fan});
   RandomVectors random(2);
   for (int i = 0; i < 200; ++i) {
-    const Vec3d target = fan.points[static_cast<std::size_t>(random.number(0, 1) * static_cast<double>(fan.points.size()))];
+    const Vec3d target = fan.points[static_cast<std::size_t>(
+        random.number(0, 1) * static_cast<double>(fan.points.size()))];
     EXPECT_EQ(balance(crossed(surfaces, rayFromTo({0, 0, 0}, target))), -1);
     EXPECT_EQ(balance(crossed(surfaces, rayFromTo({2, 1, -3}, target))), 0);
   }

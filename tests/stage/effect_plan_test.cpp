@@ -34,8 +34,8 @@ TEST(EffectPlan, EveryEffectIsDecidedWithAReason) {
     names.push_back(d.name);
     EXPECT_FALSE(d.reason.empty()) << d.name;
   }
-  for (const char* name :
-       {"reflection", "transmission_loss", "refraction", "attenuation", "backscatter", "travel_time"})
+  for (const char* name : {"reflection", "transmission_loss", "refraction", "attenuation",
+                           "backscatter", "travel_time"})
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
 }
 

@@ -1,5 +1,5 @@
-// One frame's surfaces: the hierarchy must find what the rule finds, and the states along a ray must hold
-// together wherever it starts.
+// One frame's surfaces: the hierarchy must find what the rule finds, and the states along a ray
+// must hold together wherever it starts.
 
 #include "geometry/frame_geometry.h"
 
@@ -19,14 +19,15 @@ void expectConsistent(const RayCrossings& met, std::size_t surfaces, const Ray& 
   for (const Crossing& c : met.crossings) {
     EXPECT_GE(c.distance_m, last);
     last = c.distance_m;
-    EXPECT_NE(inside[index(c.surface)], c.entering) << "from " << ray.origin.x << ' ' << ray.origin.y
-                                                    << ' ' << ray.origin.z;
+    EXPECT_NE(inside[index(c.surface)], c.entering)
+        << "from " << ray.origin.x << ' ' << ray.origin.y << ' ' << ray.origin.z;
     inside[index(c.surface)] = c.entering;
   }
   for (std::size_t s = 0; s < surfaces; ++s) EXPECT_FALSE(inside[s]);
 }
 
-// Changes of the first surface's state; crossings at one place, as where a vertex is folded by rounding, are one.
+// Changes of the first surface's state; crossings at one place, as where a vertex is folded by
+// rounding, are one.
 int passages(const RayCrossings& met) {
   int count = 0;
   bool inside = met.inside[0];
@@ -42,7 +43,8 @@ int passages(const RayCrossings& met) {
 
 void expectTwoCrossings(const Surfaces& surfaces, const Ray& ray) {
   const RayCrossings met = surfaces.cross(ray);
-  EXPECT_EQ(passages(met), 2) << ray.direction.x << ' ' << ray.direction.y << ' ' << ray.direction.z;
+  EXPECT_EQ(passages(met), 2) << ray.direction.x << ' ' << ray.direction.y << ' '
+                              << ray.direction.z;
   expectConsistent(met, 1, ray);
 }
 
@@ -115,13 +117,18 @@ TEST(FrameGeometry, TellsInsideFromOutside) {
     const Vec3d p = 0.05 * random.number(0, 1) * random.direction();
     const InsideSet inside = surfaces.geometry().insideAt(p);
     const double outer = length(p), inner = length(p - Vec3d{0.01, 0, 0});
-    if (std::abs(outer - 0.04) > 2e-4) { EXPECT_EQ(inside[0], outer < 0.04); }
-    if (std::abs(inner - 0.02) > 3e-4) { EXPECT_EQ(inside[1], inner < 0.02); }
+    if (std::abs(outer - 0.04) > 2e-4) {
+      EXPECT_EQ(inside[0], outer < 0.04);
+    }
+    if (std::abs(inner - 0.02) > 3e-4) {
+      EXPECT_EQ(inside[1], inner < 0.02);
+    }
   }
 }
 
 TEST(FrameGeometry, AProbeExactlyOnASurfaceHasOneOfTheTwoConsistentStates) {
-  for (const Mesh& mesh : {octasphere(3, 0.04), icosphere(3, 0.04), box({-0.03, -0.03, -0.03}, {0.03, 0.03, 0.03})}) {
+  for (const Mesh& mesh :
+       {octasphere(3, 0.04), icosphere(3, 0.04), box({-0.03, -0.03, -0.03}, {0.03, 0.03, 0.03})}) {
     const Surfaces surfaces({mesh});
     RandomVectors random(6);
     for (const Vec3d p : mesh.points) {
@@ -131,8 +138,12 @@ TEST(FrameGeometry, AProbeExactlyOnASurfaceHasOneOfTheTwoConsistentStates) {
         const RayCrossings met = surfaces.cross(ray);
         expectConsistent(met, 1, ray);
         const double way = dot(ray.direction, normalised(p));
-        if (way > 0.85) { EXPECT_LE(met.crossings.size(), 1u); }
-        if (way < -0.85) { EXPECT_GE(met.crossings.size(), 1u); }
+        if (way > 0.85) {
+          EXPECT_LE(met.crossings.size(), 1u);
+        }
+        if (way < -0.85) {
+          EXPECT_GE(met.crossings.size(), 1u);
+        }
       }
     }
   }
@@ -183,7 +194,8 @@ TEST(FrameGeometry, AnOpenSheetIsNotMissedThroughItsInnerVerticesAndEdges) {
   const Surfaces surfaces({}, {sheet(16, 0.04, 0.07)});
   for (int j = 1; j < 32; ++j)
     for (int i = 1; i < 32; ++i) {
-      const Vec3d target = toDouble(toFloat(Vec3d{0.04 * (i / 16.0 - 1), 0.04 * (j / 16.0 - 1), 0.07}));
+      const Vec3d target =
+          toDouble(toFloat(Vec3d{0.04 * (i / 16.0 - 1), 0.04 * (j / 16.0 - 1), 0.07}));
       for (const Vec3d start : {Vec3d{0, 0, 0}, Vec3d{0.013, 0.002, -0.01}}) {
         const std::vector<Crossing> met = surfaces.cross(rayFromTo(start, target)).crossings;
         EXPECT_GE(met.size(), 1u) << i << ' ' << j;
@@ -193,7 +205,8 @@ TEST(FrameGeometry, AnOpenSheetIsNotMissedThroughItsInnerVerticesAndEdges) {
 }
 
 TEST(FrameGeometry, APacketOfSixteenRaysIsSixteenSingleRays) {
-  const Surfaces surfaces({icosphere(4, 0.04).moved({0, 0, 0.07}), icosphere(2, 0.02).moved({0, 0, 0.06})});
+  const Surfaces surfaces(
+      {icosphere(4, 0.04).moved({0, 0, 0.07}), icosphere(2, 0.02).moved({0, 0, 0.06})});
   std::vector<RayQuery> queries;
   for (int i = 0; i < 16; ++i) {
     const double angle = -0.7 + 0.093 * i;

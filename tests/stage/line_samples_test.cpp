@@ -14,8 +14,11 @@ const Sampling kSampling{0.01, 0.001, 100};  // 10..110 mm
 
 LineTrace oneStretch(double begin_m, double end_m) {
   LineTrace line;
-  line.stretches.push_back({.begin_depth_m = begin_m, .end_depth_m = end_m, .begin_path_m = begin_m,
-                            .strength_m2_sr = 2, .medium = MediumId{3}});
+  line.stretches.push_back({.begin_depth_m = begin_m,
+                            .end_depth_m = end_m,
+                            .begin_path_m = begin_m,
+                            .strength_m2_sr = 2,
+                            .medium = MediumId{3}});
   return line;
 }
 
@@ -28,8 +31,7 @@ std::vector<float> sampled(const LineTrace& line, const IntensityParts& parts = 
 TEST(LineSamples, AStretchFillsTheSamplesWhoseCentresItHolds) {
   // Centres at 10.5, 11.5, ... mm; the beginning belongs to it and the end does not.
   const std::vector<float> values = sampled(oneStretch(0.0202, 0.0309));
-  for (std::size_t k = 0; k < values.size(); ++k)
-    EXPECT_EQ(values[k] > 0, k >= 10 && k <= 20) << k;
+  for (std::size_t k = 0; k < values.size(); ++k) EXPECT_EQ(values[k] > 0, k >= 10 && k <= 20) << k;
 }
 
 TEST(LineSamples, NeighbouringStretchesNeitherOverlapNorLeaveAGap) {
@@ -39,17 +41,20 @@ TEST(LineSamples, NeighbouringStretchesNeitherOverlapNorLeaveAGap) {
     line.stretches[1].medium = MediumId{4};
     std::vector<std::uint32_t> ids(100);
     sampleMedium(line, kSampling, ids);
-    for (std::size_t k = 0; k < 100; ++k) EXPECT_EQ(ids[k], kSampling.centre(static_cast<double>(k)) < cut ? 3u : 4u);
+    for (std::size_t k = 0; k < 100; ++k)
+      EXPECT_EQ(ids[k], kSampling.centre(static_cast<double>(k)) < cut ? 3u : 4u);
   }
 }
 
 TEST(LineSamples, AnEchoGoesIntoTheSampleWhoseIntervalHoldsIt) {
-  for (const auto& [depth_m, k] : {std::pair(0.0101, 0), {0.01999, 9}, {0.0500001, 40}, {0.1099, 99}}) {
+  for (const auto& [depth_m, k] :
+       {std::pair(0.0101, 0), {0.01999, 9}, {0.0500001, 40}, {0.1099, 99}}) {
     LineTrace line;
     line.echoes = {{depth_m, 0.25, 2}};
     const std::vector<float> values = sampled(line);
     EXPECT_FLOAT_EQ(values[static_cast<std::size_t>(k)], static_cast<float>(0.25 * std::exp(-2)));
-    EXPECT_EQ(std::accumulate(values.begin(), values.end(), 0.0f), values[static_cast<std::size_t>(k)]);
+    EXPECT_EQ(std::accumulate(values.begin(), values.end(), 0.0f),
+              values[static_cast<std::size_t>(k)]);
   }
 }
 
@@ -71,7 +76,8 @@ TEST(LineSamples, PartsAddToTheWhole) {
   line.echoes = {{0.05, 3, 1}};
   const std::vector<float> whole = sampled(line), scattered = sampled(line, {.reflection = false}),
                            reflected = sampled(line, {.backscatter = false});
-  for (std::size_t k = 0; k < whole.size(); ++k) EXPECT_FLOAT_EQ(whole[k], scattered[k] + reflected[k]);
+  for (std::size_t k = 0; k < whole.size(); ++k)
+    EXPECT_FLOAT_EQ(whole[k], scattered[k] + reflected[k]);
 }
 
 TEST(LineSamples, ASampleAtTheTransducerIsFinite) {

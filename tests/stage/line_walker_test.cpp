@@ -1,4 +1,5 @@
-// One scan line through media: who wins where structures overlap, what vanishes, what ends the line.
+// One scan line through media: who wins where structures overlap, what vanishes, what ends the
+// line.
 
 #include "trace/line_walker.h"
 
@@ -15,9 +16,10 @@ using namespace support;
 constexpr std::size_t kOutside = 0, kMuscle = 1, kBlood = 2, kFast = 3, kTwin = 4;
 
 Scene heartScene() {
-  Scene scene = plainScene({medium("outside", 1050, 1540, 5, 0.1), medium("muscle", 1100, 1580, 8, 0.3),
-                            medium("blood", 1060, 1570, 2, 0.001), medium("fast", 1100, 1900, 8, 0.3),
-                            medium("twin", 1050, 1540, 9, 0.2)});
+  Scene scene =
+      plainScene({medium("outside", 1050, 1540, 5, 0.1), medium("muscle", 1100, 1580, 8, 0.3),
+                  medium("blood", 1060, 1570, 2, 0.001), medium("fast", 1100, 1900, 8, 0.3),
+                  medium("twin", 1050, 1540, 9, 0.2)});
   scene.output.channels = {kAllChannels.begin(), kAllChannels.end()};
   return scene;
 }
@@ -36,7 +38,8 @@ std::vector<std::size_t> mediaOf(const LineTrace& line) {
 
 using Ids = std::vector<std::size_t>;
 
-// Wall and cavity that slightly overlap, wall first: entered 30 mm, cavity 40..60 mm, left at 70 mm.
+// Wall and cavity that slightly overlap, wall first: entered 30 mm, cavity 40..60 mm, left at 70
+// mm.
 std::vector<Crossing> nested() {
   return {crossingAt(0.03, 0, true), crossingAt(0.04, 1, true), crossingAt(0.06, 1, false),
           crossingAt(0.07, 0, false)};
@@ -72,7 +75,8 @@ TEST(LineWalker, EachEchoCarriesTheLossesBeforeIt) {
   addStructure(scene, kMuscle, 1);
   addStructure(scene, kBlood, 2);
   const LineTrace line = walkStraight(straightSettings(scene), nested());
-  const double a = reflectanceOf(scene, kOutside, kMuscle), b = reflectanceOf(scene, kMuscle, kBlood);
+  const double a = reflectanceOf(scene, kOutside, kMuscle),
+               b = reflectanceOf(scene, kMuscle, kBlood);
   ASSERT_EQ(line.echoes.size(), 4u);
   EXPECT_DOUBLE_EQ(line.echoes[0].intensity, a);
   EXPECT_DOUBLE_EQ(line.echoes[1].intensity, b * std::pow(1 - a, 2));
@@ -96,8 +100,8 @@ TEST(LineWalker, GainAndExponentShapeTheEchoAndNotTheLoss) {
 TEST(LineWalker, EqualMediaHaveNoInterface) {
   Scene scene = heartScene();
   addStructure(scene, kTwin, 1);
-  const LineTrace line =
-      walkStraight(straightSettings(scene), {crossingAt(0.03, 0, true, 0.1), crossingAt(0.05, 0, false)});
+  const LineTrace line = walkStraight(straightSettings(scene),
+                                      {crossingAt(0.03, 0, true, 0.1), crossingAt(0.05, 0, false)});
   EXPECT_TRUE(line.echoes.empty());
   EXPECT_EQ(mediaOf(line), (Ids{kOutside, kTwin, kOutside}));
   EXPECT_EQ(line.stretches[1].strength_m2_sr, 0.2 * 1e-6);
@@ -109,9 +113,9 @@ TEST(LineWalker, CoincidentWallsAreOneInterfaceOfTheOuterMedia) {
   addStructure(scene, kBlood, 2);
   for (const double apart : {0.0, 1e-12, 1e-7})
     for (const bool swapped : {false, true}) {
-      const LineTrace line = walkStraight(straightSettings(scene),
-                                          {crossingAt(0.04, swapped ? 1 : 0, true),
-                                           crossingAt(0.04 + apart, swapped ? 0 : 1, true)});
+      const LineTrace line =
+          walkStraight(straightSettings(scene), {crossingAt(0.04, swapped ? 1 : 0, true),
+                                                 crossingAt(0.04 + apart, swapped ? 0 : 1, true)});
       ASSERT_EQ(line.echoes.size(), 1u) << apart;
       EXPECT_DOUBLE_EQ(line.echoes[0].intensity, reflectanceOf(scene, kOutside, kBlood));
       EXPECT_EQ(mediaOf(line), (Ids{kOutside, kBlood}));
@@ -132,8 +136,8 @@ TEST(LineWalker, TouchingStructuresPassTheRayWithoutAGap) {
 TEST(LineWalker, AThinWallThatIsThickerThanAThousandthOfAWavelengthStays) {
   Scene scene = heartScene();
   addStructure(scene, kMuscle, 1);
-  const LineTrace line =
-      walkStraight(straightSettings(scene), {crossingAt(0.04, 0, true), crossingAt(0.04 + 5e-6, 0, false)});
+  const LineTrace line = walkStraight(
+      straightSettings(scene), {crossingAt(0.04, 0, true), crossingAt(0.04 + 5e-6, 0, false)});
   EXPECT_EQ(line.echoes.size(), 2u);
 }
 
@@ -158,7 +162,8 @@ TEST(LineWalker, AMembraneMetBySeveralTrianglesInAVertexReflectsAsIfMetByOne) {
   const TraceSettings settings = straightSettings(scene);
   const Crossing front = crossingAt(0.05, 0, true), back = crossingAt(0.05, 0, false);
   const LineTrace once = walkStraight(settings, {front});
-  for (const std::vector<Crossing>& met : {std::vector{front, back, front}, std::vector{front, front}}) {
+  for (const std::vector<Crossing>& met :
+       {std::vector{front, back, front}, std::vector{front, front}}) {
     const LineTrace line = walkStraight(settings, met);
     ASSERT_EQ(line.echoes.size(), once.echoes.size());
     EXPECT_EQ(line.echoes[1].intensity, once.echoes[1].intensity);
@@ -170,9 +175,10 @@ TEST(LineWalker, AMembraneInsideAStructureStandsInItsMedium) {
   Scene scene = heartScene();
   addStructure(scene, kBlood, 1);
   addStructure(scene, kMuscle, 0, true);
-  const LineTrace line = walkStraight(straightSettings(scene),
-                                      {crossingAt(0.03, 0, true), crossingAt(0.05, 1, true)});
-  const double in = reflectanceOf(scene, kOutside, kBlood), R = reflectanceOf(scene, kBlood, kMuscle);
+  const LineTrace line =
+      walkStraight(straightSettings(scene), {crossingAt(0.03, 0, true), crossingAt(0.05, 1, true)});
+  const double in = reflectanceOf(scene, kOutside, kBlood),
+               R = reflectanceOf(scene, kBlood, kMuscle);
   ASSERT_EQ(line.echoes.size(), 3u);
   EXPECT_DOUBLE_EQ(line.echoes[1].intensity, R * (1 - in) * (1 - in));
 }
@@ -181,8 +187,8 @@ TEST(LineWalker, TotalReflectionEndsTheLineWithExactZeros) {
   Scene scene = heartScene();
   addStructure(scene, kFast, 1);
   const double beyond = std::cos(std::asin(1540.0 / 1900) + 1e-6);
-  const LineTrace line = walkStraight(straightSettings(scene), {crossingAt(0.05, 0, true, beyond),
-                                                                crossingAt(0.09, 0, false)});
+  const LineTrace line = walkStraight(
+      straightSettings(scene), {crossingAt(0.05, 0, true, beyond), crossingAt(0.09, 0, false)});
   ASSERT_EQ(line.echoes.size(), 1u);
   EXPECT_DOUBLE_EQ(line.echoes[0].intensity, beyond * beyond);
   const std::vector<float> values = intensityOf(line, samplingOf(scene.probe));
@@ -201,8 +207,8 @@ TEST(LineWalker, StartsInTheMediumThatHoldsTheProbe) {
   addStructure(scene, kBlood, 2);
   InsideSet inside;
   inside[0] = inside[1] = true;
-  const LineTrace line = walkStraight(straightSettings(scene),
-                                      {crossingAt(0.02, 1, false), crossingAt(0.04, 0, false)}, inside);
+  const LineTrace line = walkStraight(
+      straightSettings(scene), {crossingAt(0.02, 1, false), crossingAt(0.04, 0, false)}, inside);
   EXPECT_EQ(mediaOf(line), (Ids{kBlood, kMuscle, kOutside}));
   EXPECT_EQ(line.echoes.size(), 2u);
 }
@@ -214,11 +220,13 @@ TEST(LineWalker, TravelTimePlacesEchoesByTheScannersSpeed) {
   const LineTrace line = walkStraight(straightSettings(scene),
                                       {crossingAt(0.03, 0, true), crossingAt(0.068, 0, false)});
   ASSERT_EQ(line.echoes.size(), 2u);
-  EXPECT_NEAR(line.echoes[0].depth_m, 0.03, 1e-15);               // 1540 m/s up to there
+  EXPECT_NEAR(line.echoes[0].depth_m, 0.03, 1e-15);  // 1540 m/s up to there
   EXPECT_NEAR(line.echoes[1].depth_m, 0.03 + 0.038 * 1540 / 1900, 1e-15);
-  EXPECT_NEAR(line.echoes[1].exponent, 4 * (5 * 0.03 + 8 * 0.038), 1e-12);  // attenuation goes by path
+  EXPECT_NEAR(line.echoes[1].exponent, 4 * (5 * 0.03 + 8 * 0.038),
+              1e-12);  // attenuation goes by path
   const Stretch& fast = line.stretches[1];
-  EXPECT_NEAR(fast.begin_path_m + fast.path_per_depth * (fast.end_depth_m - fast.begin_depth_m), 0.068, 1e-15);
+  EXPECT_NEAR(fast.begin_path_m + fast.path_per_depth * (fast.end_depth_m - fast.begin_depth_m),
+              0.068, 1e-15);
 }
 
 TEST(LineWalker, NothingIsSeenBeyondTheImage) {

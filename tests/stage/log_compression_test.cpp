@@ -20,8 +20,9 @@ float grey(float intensity, double reference = 1, double range_db = 60) {
 TEST(LogCompression, AgreesWithLongDoubleOverTheWholeRangeOfFloats) {
   double worst = 0;
   for (float x = 1.2e-38f; x < 3e38f; x *= 1.0173f)
-    worst = std::max(worst, std::abs(static_cast<double>(log2Fast(x) - std::log2(static_cast<long double>(x)))) /
-                                std::max(1.0, std::abs(std::log2(static_cast<double>(x)))));
+    worst = std::max(
+        worst, std::abs(static_cast<double>(log2Fast(x) - std::log2(static_cast<long double>(x)))) /
+                   std::max(1.0, std::abs(std::log2(static_cast<double>(x)))));
   EXPECT_LT(worst, 3e-7);
   std::printf("log2Fast worst error %.2g\n", worst);
 }
@@ -31,8 +32,12 @@ TEST(LogCompression, GreyIsThePositionInTheDynamicRange) {
     for (const double range_db : {10.0, 60.0, 140.0})
       for (double down_db = 0.1; down_db < range_db; down_db += 0.37) {
         const auto intensity = static_cast<float>(reference * std::pow(10.0, -down_db / 10));
-        const double exact = 1 + 10 * static_cast<double>(std::log10(static_cast<long double>(intensity) / reference)) / range_db;
-        ASSERT_NEAR(grey(intensity, reference, range_db), exact, 1e-5 * std::max(1.0, 60 / range_db));
+        const double exact =
+            1 +
+            10 * static_cast<double>(std::log10(static_cast<long double>(intensity) / reference)) /
+                range_db;
+        ASSERT_NEAR(grey(intensity, reference, range_db), exact,
+                    1e-5 * std::max(1.0, 60 / range_db));
       }
 }
 
@@ -59,7 +64,8 @@ TEST(LogCompression, IsMonotone) {
     ASSERT_GE(now, last) << x;
     last = now;
   }
-  for (float x = 0.0999f; x < 0.1001f; x = std::nextafter(x, 1.0f)) ASSERT_LE(grey(x), grey(std::nextafter(x, 1.0f)));
+  for (float x = 0.0999f; x < 0.1001f; x = std::nextafter(x, 1.0f))
+    ASSERT_LE(grey(x), grey(std::nextafter(x, 1.0f)));
 }
 
 TEST(LogCompression, ExpandingGivesTheIntensityBack) {

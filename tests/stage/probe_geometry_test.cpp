@@ -17,7 +17,9 @@ Probe probeOf(const std::map<std::string, std::string>& keys) {
   return support::parsed(text).probe;
 }
 
-double angleOf(const LineGeometry& line) { return std::atan2(line.direction.x, line.direction.z); }
+double angleOf(const LineGeometry& line) {
+  return std::atan2(line.direction.x, line.direction.z);
+}
 
 TEST(PhasedProbe, LinesMeetInTheApexAndSpanTheSectorEdgesIncluded) {
   const Probe probe = probeOf({{"lines", "5"}, {"sector_deg", "80"}});
@@ -32,7 +34,8 @@ TEST(PhasedProbe, LinesMeetInTheApexAndSpanTheSectorEdgesIncluded) {
 }
 
 TEST(CurvilinearProbe, LinesStartOnTheFaceAndPointAwayFromTheCentre) {
-  const Probe probe = probeOf({{"kind", "\"curvilinear\""}, {"face_radius_mm", "50"}, {"lines", "3"}});
+  const Probe probe =
+      probeOf({{"kind", "\"curvilinear\""}, {"face_radius_mm", "50"}, {"lines", "3"}});
   for (int i = 0; i < 3; ++i) {
     const LineGeometry line = lineGeometry(probe, i);
     EXPECT_NEAR(length(line.origin), 0.05, 1e-15);
@@ -60,7 +63,8 @@ TEST(AnyProbe, ASingleLineStandsInTheMiddle) {
 }
 
 TEST(AnyProbe, TheFrameIsOrthonormalWhateverTheLateralDirection) {
-  const Probe probe = probeOf({{"axis", "[1, 2, 3]"}, {"lateral", "[5, 0.1, 7]"}, {"apex", "[1, -2, 3]"}});
+  const Probe probe =
+      probeOf({{"axis", "[1, 2, 3]"}, {"lateral", "[5, 0.1, 7]"}, {"apex", "[1, -2, 3]"}});
   const Frame& f = probe.pose;
   for (const Vec3d axis : {f.x_axis, f.y_axis, f.z_axis}) EXPECT_NEAR(length(axis), 1, 1e-15);
   EXPECT_NEAR(dot(f.x_axis, f.y_axis), 0, 1e-15);

@@ -47,7 +47,8 @@ TEST(Reference, IsThePercentileOfASortToATenthOfAPercent) {
   }
   std::sort(all.begin(), all.end());
   for (const double percent : {1.0, 50.0, 90.0, 99.0, 99.5, 99.99, 100.0}) {
-    const auto rank = static_cast<std::size_t>(std::ceil(percent / 100 * static_cast<double>(all.size()))) - 1;
+    const auto rank =
+        static_cast<std::size_t>(std::ceil(percent / 100 * static_cast<double>(all.size()))) - 1;
     const double found = histogram.percentile(percent);
     EXPECT_GE(found, all[rank]) << percent;
     EXPECT_LE(found, all[rank] * 1.001) << percent;

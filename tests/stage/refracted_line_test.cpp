@@ -13,7 +13,8 @@ using namespace support;
 
 // A wide slab between two depths, faster than its surroundings.
 struct Slab {
-  Scene scene = plainScene({medium("slow", 1000, 1450, 0, 0.1), medium("fast", 1000, 1600, 0, 0.2)});
+  Scene scene =
+      plainScene({medium("slow", 1000, 1450, 0, 0.1), medium("fast", 1000, 1600, 0, 0.2)});
   Surfaces surfaces{{box({-0.5, -0.5, 0.05}, {0.5, 0.5, 0.09})}};
 
   Slab() { addStructure(scene, 1, 1); }
@@ -62,14 +63,16 @@ TEST(RefractedLine, EndsAtTotalReflection) {
 
 // Symmetric meshes put vertices and edges into the imaging plane: bent rays start on them.
 TEST(RefractedLine, EveryLineThroughASymmetricBallPassesItExactlyOnce) {
-  Scene scene = plainScene({medium("slow", 1000, 1500, 0, 0.1), medium("fast", 1000, 1560, 0, 0.2)});
+  Scene scene =
+      plainScene({medium("slow", 1000, 1500, 0, 0.1), medium("fast", 1000, 1560, 0, 0.2)});
   addStructure(scene, 1, 1);
   scene.probe.lines = 1001;
   scene.output.channels = {Channel::medium};
   const Surfaces surfaces({octasphere(5, 0.03).moved({0, 0, 0.07})});
   const EffectPlan plan = planEffects(scene);
   PolarFrame frame;
-  traceFrame(surfaces.geometry(), scene.probe, TraceSettings(scene, plan), planeRequest(scene, plan), frame);
+  traceFrame(surfaces.geometry(), scene.probe, TraceSettings(scene, plan),
+             planeRequest(scene, plan), frame);
   for (int i = 0; i < 1001; ++i) {
     const double miss = 0.07 * std::abs(std::sin(lineGeometry(scene.probe, i).direction.x));
     int changes = 0;
@@ -77,7 +80,9 @@ TEST(RefractedLine, EveryLineThroughASymmetricBallPassesItExactlyOnce) {
       const std::size_t at = static_cast<std::size_t>(i * frame.samples + k);
       changes += frame.medium[at] != frame.medium[at - 1];
     }
-    if (miss < 0.026) { EXPECT_EQ(changes, 2) << "line " << i; }
+    if (miss < 0.026) {
+      EXPECT_EQ(changes, 2) << "line " << i;
+    }
     EXPECT_LE(changes, 2) << "line " << i;
   }
 }

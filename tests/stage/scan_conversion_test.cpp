@@ -40,7 +40,8 @@ struct Converted {
     return result;
   }
   std::vector<float> plane(float value) const {
-    return std::vector<float>(static_cast<std::size_t>(scene.probe.lines * scene.probe.samples), value);
+    return std::vector<float>(static_cast<std::size_t>(scene.probe.lines * scene.probe.samples),
+                              value);
   }
   // Where a sample's centre lies in the picture, in pixels.
   std::pair<double, double> place(int line, int sample) const {
@@ -84,7 +85,8 @@ TEST(ScanConversion, ABrightSampleLandsOnItsPixelWithinHalfAPixel) {
 bool inside(const Scene& scene, double x_m, double z_m, double margin) {
   const Probe& p = scene.probe;
   if (p.kind == ProbeKind::linear)
-    return std::abs(x_m) <= 0.03 + margin && z_m >= p.min_depth_m - margin && z_m <= p.max_depth_m + margin;
+    return std::abs(x_m) <= 0.03 + margin && z_m >= p.min_depth_m - margin &&
+           z_m <= p.max_depth_m + margin;
   const double r = std::hypot(x_m, z_m) - p.face_radius_m;
   const double side = (std::abs(std::atan2(x_m, z_m)) - p.last_angle_rad) * std::hypot(x_m, z_m);
   return r >= p.min_depth_m - margin && r <= p.max_depth_m + margin && side <= margin;
@@ -99,8 +101,12 @@ TEST(ScanConversion, InsideIsFilledAndOutsideIsExactlyBlack) {
         const double x_m = (column + 0.5 - c.geometry.origin_x_px) * c.geometry.metres_per_pixel;
         const double z_m = (row + 0.5 - c.geometry.origin_y_px) * c.geometry.metres_per_pixel;
         const int value = image.pixels[static_cast<std::size_t>(row * image.width + column)];
-        if (inside(c.scene, x_m, z_m, -1e-9)) { ASSERT_EQ(value, 255); }
-        if (!inside(c.scene, x_m, z_m, 1e-9)) { ASSERT_EQ(value, 0); }
+        if (inside(c.scene, x_m, z_m, -1e-9)) {
+          ASSERT_EQ(value, 255);
+        }
+        if (!inside(c.scene, x_m, z_m, 1e-9)) {
+          ASSERT_EQ(value, 0);
+        }
       }
   }
 }
@@ -120,11 +126,13 @@ TEST(ScanConversion, AGreyRampIsInterpolatedWithoutSteps) {
   const Converted c{sceneOf(ProbeKind::linear, 11, 3)};
   std::vector<float> grey = c.plane(0);
   for (int line = 0; line < 11; ++line)
-    for (int k = 0; k < 3; ++k) grey[static_cast<std::size_t>(line * 3 + k)] = static_cast<float>(line) / 10;
+    for (int k = 0; k < 3; ++k)
+      grey[static_cast<std::size_t>(line * 3 + k)] = static_cast<float>(line) / 10;
   const GreyImage image = c.image(grey);
   const int row = static_cast<int>(c.place(5, 1).second);
   for (int column = 0; column < image.width; ++column) {
-    const double t = ((column + 0.5 - c.geometry.origin_x_px) * c.geometry.metres_per_pixel + 0.03) / 0.06;
+    const double t =
+        ((column + 0.5 - c.geometry.origin_x_px) * c.geometry.metres_per_pixel + 0.03) / 0.06;
     if (t < 0 || t > 1) continue;
     ASSERT_NEAR(image.pixels[static_cast<std::size_t>(row * image.width + column)], 255 * t, 0.6);
   }

@@ -15,9 +15,9 @@ using namespace support;
 TEST(SceneReader, TurnsEveryUnitIntoSI) {
   SceneText text = SceneText::oneBox("blood");
   text.probe = {{"apex", "[1, 2, -6.5]"}, {"axis", "[0, 0, 2]"}, {"lateral", "[3, 0, 1]"},
-                {"sector_deg", "90"}, {"min_depth_mm", "5"}, {"depth_mm", "155"},
-                {"frequency_mhz", "3.5"}, {"lines", "7"}, {"samples", "9"},
-                {"aperture_mm", "12"}, {"focus_mm", "70"}};
+                {"sector_deg", "90"},     {"min_depth_mm", "5"}, {"depth_mm", "155"},
+                {"frequency_mhz", "3.5"}, {"lines", "7"},        {"samples", "9"},
+                {"aperture_mm", "12"},    {"focus_mm", "70"}};
   text.acquisition = {{"heart_rate_bpm", "90"}, {"frame_rate_hz", "25"}, {"beats", "2"}};
   text.extra = "";
   const Scene scene = parsed(text);
@@ -52,8 +52,9 @@ TEST(SceneReader, ResolvesAMediumAtTheProbesFrequency) {
 
 TEST(SceneReader, ASceneMayReplaceABuiltInMedium) {
   SceneText text = SceneText::oneBox("blood");
-  text.media = "[media.blood]\ndensity_kg_m3 = 999\nsound_speed_m_s = 1000\nattenuation_db_cm_mhz = 0\n"
-               "backscatter = { kind = \"none\" }\n";
+  text.media =
+      "[media.blood]\ndensity_kg_m3 = 999\nsound_speed_m_s = 1000\nattenuation_db_cm_mhz = 0\n"
+      "backscatter = { kind = \"none\" }\n";
   EXPECT_DOUBLE_EQ(parsed(text).media[1].impedance_kg_m2_s, 999000);
 }
 
@@ -69,7 +70,8 @@ TEST(SceneReader, OneMediumOfTwoStructuresIsOneMedium) {
 
 TEST(SceneReader, KeyframesOfAPatternAreSortedByTheirNumbersAndEvenlySpaced) {
   const TempFolder folder;
-  for (const char* name : {"lv_10.obj", "lv_9.obj", "lv_1.obj", "lv_2.obj", "la_1.obj"}) folder.write(name, "");
+  for (const char* name : {"lv_10.obj", "lv_9.obj", "lv_1.obj", "lv_2.obj", "la_1.obj"})
+    folder.write(name, "");
   SceneText text;
   text.addStructure("lv", "blood", "\"lv_*.obj\"");
   const Scene scene = parseScene(text.text(), folder / "scene.toml");
@@ -84,8 +86,10 @@ TEST(SceneReader, KeyframesOfAPatternAreSortedByTheirNumbersAndEvenlySpaced) {
 
 TEST(SceneReader, KeyframesWithPhasesKeepThem) {
   SceneText text;
-  text.addStructure("lv", "blood", "[{ file = \"a.obj\", phase = 0.1 }, { file = \"/b.obj\", phase = 0.7 }]");
-  const std::vector<Keyframe> k = parseScene(text.text(), "folder/scene.toml").structures[0].keyframes;
+  text.addStructure("lv", "blood",
+                    "[{ file = \"a.obj\", phase = 0.1 }, { file = \"/b.obj\", phase = 0.7 }]");
+  const std::vector<Keyframe> k =
+      parseScene(text.text(), "folder/scene.toml").structures[0].keyframes;
   ASSERT_EQ(k.size(), 2u);
   EXPECT_EQ(k[0].phase, 0.1);
   EXPECT_EQ(k[0].files[0], "folder/a.obj");

@@ -23,14 +23,23 @@ double decibelsAt(const std::vector<float>& gains, int mm) {
 }
 
 TEST(TimeGain, IsLinearInDecibelsBetweenThePointsAndConstantBeyond) {
-  const std::vector<float> gains = timeGains({{0.01, 0}, {0.02, 20}, {0.06, 28}, {0.09, -4}}, probe());
-  for (const auto& [mm, db] : {std::pair(1, 0.0), {10, 0.0}, {15, 10.0}, {20, 20.0}, {40, 24.0},
-                               {60, 28.0}, {75, 12.0}, {90, -4.0}, {100, -4.0}})
+  const std::vector<float> gains =
+      timeGains({{0.01, 0}, {0.02, 20}, {0.06, 28}, {0.09, -4}}, probe());
+  for (const auto& [mm, db] : {std::pair(1, 0.0),
+                               {10, 0.0},
+                               {15, 10.0},
+                               {20, 20.0},
+                               {40, 24.0},
+                               {60, 28.0},
+                               {75, 12.0},
+                               {90, -4.0},
+                               {100, -4.0}})
     EXPECT_NEAR(decibelsAt(gains, mm), db, 1e-5) << mm;
 }
 
 TEST(TimeGain, OnePointIsTheSameGainEverywhere) {
-  for (const float gain : timeGains({{0.05, 3}}, probe())) EXPECT_FLOAT_EQ(gain, std::pow(10.0f, 0.3f));
+  for (const float gain : timeGains({{0.05, 3}}, probe()))
+    EXPECT_FLOAT_EQ(gain, std::pow(10.0f, 0.3f));
 }
 
 TEST(TimeGain, MultipliesEveryLine) {

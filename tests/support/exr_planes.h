@@ -21,7 +21,8 @@ inline ExrPlane exrPlane(const std::filesystem::path& file, const char* channel)
   Imf::InputFile in(file.c_str());
   const Imath::Box2i window = in.header().dataWindow();
   ExrPlane plane{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, {}};
-  plane.bits.resize(static_cast<std::size_t>(plane.lines) * static_cast<std::size_t>(plane.samples));
+  plane.bits.resize(static_cast<std::size_t>(plane.lines) *
+                    static_cast<std::size_t>(plane.samples));
   const Imf::Channel* found = in.header().channels().findChannel(channel);
   if (found == nullptr) return {};
   Imf::FrameBuffer buffer;

@@ -6,7 +6,8 @@
 
 namespace echocine::support {
 
-// A ball of blood in muscle that shrinks and grows, with a membrane in it; 8 keyframes, `frames` frames.
+// A ball of blood in muscle that shrinks and grows, with a membrane in it; 8 keyframes, `frames`
+// frames.
 inline SceneText ballScene(int frames) {
   SceneText text;
   text.probe["lines"] = "32";
@@ -14,7 +15,9 @@ inline SceneText ballScene(int frames) {
   text.background = "soft_tissue";
   text.addStructure("wall", "myocardium", "\"wall_*.obj\"", 1);
   text.addStructure("cavity", "blood", "\"cavity_*.obj\"", 2);
-  text.structures += "[[structure]]\nname = \"leaflet\"\nmedium = \"valve\"\nmembrane = true\nkeyframes = \"leaflet.obj\"\n";
+  text.structures +=
+      "[[structure]]\nname = \"leaflet\"\nmedium = \"valve\"\nmembrane = true\nkeyframes = "
+      "\"leaflet.obj\"\n";
   return text;
 }
 

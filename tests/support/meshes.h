@@ -44,11 +44,21 @@ inline Mesh octahedron() {
 
 inline Mesh icosahedron() {
   const double g = std::numbers::phi;
-  Mesh m{{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-          {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}},
-         {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-          {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-          {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}}};
+  Mesh m{{{-1, g, 0},
+          {1, g, 0},
+          {-1, -g, 0},
+          {1, -g, 0},
+          {0, -1, g},
+          {0, 1, g},
+          {0, -1, -g},
+          {0, 1, -g},
+          {g, 0, -1},
+          {g, 0, 1},
+          {-g, 0, -1},
+          {-g, 0, 1}},
+         {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+          {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+          {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
   for (Vec3d& p : m.points) p = normalised(p);
   return m;
 }
@@ -58,8 +68,8 @@ inline Mesh refinedOnSphere(const Mesh& mesh) {
   Mesh fine{mesh.points, {}};
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
   const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-    const auto [place, is_new] = middles.try_emplace(
-        std::minmax(a, b), static_cast<std::uint32_t>(fine.points.size()));
+    const auto [place, is_new] =
+        middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(fine.points.size()));
     if (is_new) fine.points.push_back(normalised(mesh.points[a] + mesh.points[b]));
     return place->second;
   };
@@ -94,10 +104,13 @@ inline Mesh uvSphere(int rings, int segments, double radius) {
       const double polar = std::numbers::pi * r / rings, turn = 2 * std::numbers::pi * s / segments;
       const auto snap = [](double v) { return std::abs(v) < 1e-15 ? 0.0 : v; };
       m.points.push_back({radius * std::sin(polar) * snap(std::cos(turn)),
-                          radius * std::sin(polar) * snap(std::sin(turn)), radius * snap(std::cos(polar))});
+                          radius * std::sin(polar) * snap(std::sin(turn)),
+                          radius * snap(std::cos(polar))});
     }
   m.points.push_back({0, 0, -radius});
-  const auto at = [&](int r, int s) { return static_cast<std::uint32_t>(1 + (r - 1) * segments + s % segments); };
+  const auto at = [&](int r, int s) {
+    return static_cast<std::uint32_t>(1 + (r - 1) * segments + s % segments);
+  };
   const auto last = static_cast<std::uint32_t>(m.points.size() - 1);
   for (int s = 0; s < segments; ++s) {
     m.triangles.push_back({0, at(1, s), at(1, s + 1)});

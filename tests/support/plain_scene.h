@@ -28,7 +28,8 @@ inline Scene plainScene(const std::vector<Medium>& media) {
   return scene;
 }
 
-inline void addStructure(Scene& scene, std::size_t medium_index, int priority, bool membrane = false) {
+inline void addStructure(Scene& scene, std::size_t medium_index, int priority,
+                         bool membrane = false) {
   Structure s;
   s.name = "structure_" + std::to_string(scene.structures.size());
   s.medium = MediumId(medium_index);
@@ -38,7 +39,8 @@ inline void addStructure(Scene& scene, std::size_t medium_index, int priority, b
 }
 
 // A crossing of a ray along +z whose incidence has the given cosine.
-inline Crossing crossingAt(double distance_m, std::uint32_t surface, bool entering, double cos_i = 1) {
+inline Crossing crossingAt(double distance_m, std::uint32_t surface, bool entering,
+                           double cos_i = 1) {
   const double sin_i = std::sqrt(1 - cos_i * cos_i);
   return {distance_m, entering ? Vec3d{sin_i, 0, -cos_i} : Vec3d{sin_i, 0, cos_i},
           SurfaceId{surface}, 0, entering};

@@ -38,7 +38,8 @@ inline Outcome runShell(std::string line) {
 
 inline Outcome renderScene(const std::filesystem::path& scene, const std::filesystem::path& folder,
                            const std::string& more = "") {
-  return runShell("%B render '" + scene.string() + "' -o '" + folder.string() + "' --quiet " + more);
+  return runShell("%B render '" + scene.string() + "' -o '" + folder.string() + "' --quiet " +
+                  more);
 }
 
 // Most memory that a run held at once, bytes. 0 when the run failed.

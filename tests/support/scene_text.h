@@ -21,9 +21,9 @@ inline std::string tableText(const std::string& head, const Lines& lines) {
 
 struct SceneText {
   std::string background = "soft_tissue";
-  Lines probe{{"apex", "[0, 0, 0]"}, {"axis", "[0, 0, 1]"}, {"lateral", "[1, 0, 0]"},
-              {"sector_deg", "70"}, {"min_depth_mm", "2"}, {"depth_mm", "120"},
-              {"frequency_mhz", "2.5"}, {"lines", "16"}, {"samples", "64"}};
+  Lines probe{{"apex", "[0, 0, 0]"},    {"axis", "[0, 0, 1]"}, {"lateral", "[1, 0, 0]"},
+              {"sector_deg", "70"},     {"min_depth_mm", "2"}, {"depth_mm", "120"},
+              {"frequency_mhz", "2.5"}, {"lines", "16"},       {"samples", "64"}};
   Lines acquisition{{"heart_rate_bpm", "60"}, {"frame_rate_hz", "5"}};
   Lines motion{{"mesh_unit", "\"cm\""}};
   Lines effects, signal, accuracy, output{{"width", "160"}, {"height", "120"}};
@@ -33,17 +33,19 @@ struct SceneText {
 
   void setProbe(const std::string& key, const std::string& value) { probe[key] = value; }
 
-  void addStructure(const std::string& name, const std::string& medium, const std::string& keyframes,
-                    int priority = 1, const std::string& more = "") {
-    structures += "[[structure]]\nname = \"" + name + "\"\nmedium = \"" + medium + "\"\npriority = " +
-                  std::to_string(priority) + "\nkeyframes = " + keyframes + "\n" + more + "\n";
+  void addStructure(const std::string& name, const std::string& medium,
+                    const std::string& keyframes, int priority = 1, const std::string& more = "") {
+    structures += "[[structure]]\nname = \"" + name + "\"\nmedium = \"" + medium +
+                  "\"\npriority = " + std::to_string(priority) + "\nkeyframes = " + keyframes +
+                  "\n" + more + "\n";
   }
 
   std::string text() const {
     return "background = \"" + background + "\"\n" + tableText("[probe]", probe) +
            tableText("[acquisition]", acquisition) + tableText("[motion]", motion) +
            tableText("[effects]", effects) + tableText("[signal]", signal) +
-           tableText("[accuracy]", accuracy) + tableText("[output]", output) + structures + media + extra;
+           tableText("[accuracy]", accuracy) + tableText("[output]", output) + structures + media +
+           extra;
   }
 
   // One structure `box` of a single keyframe box.obj.
@@ -54,10 +56,13 @@ struct SceneText {
   }
 };
 
-inline Scene parsed(const SceneText& text) { return parseScene(text.text(), "scene.toml"); }
+inline Scene parsed(const SceneText& text) {
+  return parseScene(text.text(), "scene.toml");
+}
 
 // What the reader says of a scene it refuses; empty when it accepts it.
-inline std::string refusalOf(const std::string& text, const std::filesystem::path& file = "scene.toml") {
+inline std::string refusalOf(const std::string& text,
+                             const std::filesystem::path& file = "scene.toml") {
   try {
     parseScene(text, file);
   } catch (const SceneError& error) {

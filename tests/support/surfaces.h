@@ -86,6 +86,8 @@ class RandomVectors {
   std::mt19937_64 engine_;
 };
 
-inline Ray rayFromTo(Vec3d from, Vec3d to) { return {from, normalised(to - from)}; }
+inline Ray rayFromTo(Vec3d from, Vec3d to) {
+  return {from, normalised(to - from)};
+}
 
 }  // namespace echocine::support

@@ -25,7 +25,9 @@ void expectError(const Outcome& outcome, int code, const std::vector<std::string
 class CommandLine : public ::testing::Test {
  protected:
   fs::path scene() { return writeBall(folder, ballScene(5)); }
-  Outcome renderAgain(const std::string& more = "") { return renderScene(folder / "scene.toml", folder / "out", more); }
+  Outcome renderAgain(const std::string& more = "") {
+    return renderScene(folder / "scene.toml", folder / "out", more);
+  }
   // Nothing was written when the input could not be used.
   void expectUnusable(const std::vector<std::string>& parts, const std::string& more = "") {
     expectError(renderAgain(more), 2, parts);
@@ -45,8 +47,9 @@ TEST_F(CommandLine, HelpNamesCommandsAndUnits) {
 }
 
 TEST_F(CommandLine, UnusableArgumentsAreCodeTwo) {
-  for (const char* line : {"%B", "%B rendr x", "%B render", "%B render a.toml", "%B render a.toml -o b --threads -1",
-                           "%B render a.toml -o b --threads two", "%B render a.toml -o b --fast"})
+  for (const char* line :
+       {"%B", "%B rendr x", "%B render", "%B render a.toml", "%B render a.toml -o b --threads -1",
+        "%B render a.toml -o b --threads two", "%B render a.toml -o b --fast"})
     expectError(runShell(line), 2, {"--help"});
 }
 
@@ -55,24 +58,29 @@ TEST_F(CommandLine, ARunWritesItsFilesAndNothingOnStandardErrorWhenQuiet) {
   const Outcome outcome = renderAgain();
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.err + outcome.out, "");
-  for (const char* name : {"intensity/frame_0000.exr", "intensity/frame_0004.exr", "cine.avi", "manifest.json"})
+  for (const char* name :
+       {"intensity/frame_0000.exr", "intensity/frame_0004.exr", "cine.avi", "manifest.json"})
     EXPECT_GT(fs::file_size(folder / "out" / name), 100u) << name;
   EXPECT_FALSE(fs::exists(folder / "out/intensity/frame_0005.exr"));
 }
 
 TEST_F(CommandLine, ASceneIsFoundFromItsOwnFolder) {
   scene();
-  const Outcome outcome = runShell("cd '" + folder.path().string() + "' && %B render scene.toml -o out --quiet");
+  const Outcome outcome =
+      runShell("cd '" + folder.path().string() + "' && %B render scene.toml -o out --quiet");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
 }
 
-TEST_F(CommandLine, AMissingSceneIsNamed) { expectUnusable({"scene.toml", "No such file"}); }
+TEST_F(CommandLine, AMissingSceneIsNamed) {
+  expectUnusable({"scene.toml", "No such file"});
+}
 
 TEST_F(CommandLine, AnUnknownKeyIsNamedWithItsPlace) {
   SceneText text = ballScene(5);
   text.setProbe("framerate", "5");
   writeBall(folder, text);
-  expectUnusable({"scene.toml:" + std::to_string(lineOf(text.text(), "framerate")) + ": probe.framerate: "});
+  expectUnusable(
+      {"scene.toml:" + std::to_string(lineOf(text.text(), "framerate")) + ": probe.framerate: "});
 }
 
 TEST_F(CommandLine, AVertexThatIsNotANumberIsNamed) {
@@ -100,7 +108,8 @@ TEST_F(CommandLine, AnEmptyMeshIsRefused) {
 TEST_F(CommandLine, AnInsideOutMeshIsRefused) {
   scene();
   for (int i = 0; i < 8; ++i)
-    writeObj(icosphere(2, 3.5).moved({0.3, 0.2, 6}).insideOut(), folder / ("wall_" + std::to_string(i) + ".obj"));
+    writeObj(icosphere(2, 3.5).moved({0.3, 0.2, 6}).insideOut(),
+             folder / ("wall_" + std::to_string(i) + ".obj"));
   expectUnusable({"scene.toml:", "wall_0.obj", "inward"});
 }
 
@@ -115,14 +124,15 @@ TEST_F(CommandLine, AnOpenMeshThatIsNoMembraneIsRefused) {
 TEST_F(CommandLine, AFolderThatCannotBeMadeIsAFailedJob) {
   scene();
   folder.write("file", "in the way");
-  expectError(renderScene(folder / "scene.toml", folder / "file/out"), 1, {(folder / "file").string()});
+  expectError(renderScene(folder / "scene.toml", folder / "file/out"), 1,
+              {(folder / "file").string()});
   EXPECT_EQ(bytesOf(folder / "file"), "in the way");
 }
 
 TEST_F(CommandLine, AFullDiskIsAFailedJobThatLeavesNoHalfFiles) {
   scene();
-  const Outcome outcome = runShell("ulimit -f 4; %B render '" + (folder / "scene.toml").string() + "' -o '" +
-                                   (folder / "out").string() + "' --quiet");
+  const Outcome outcome = runShell("ulimit -f 4; %B render '" + (folder / "scene.toml").string() +
+                                   "' -o '" + (folder / "out").string() + "' --quiet");
   expectError(outcome, 1, {"cannot be written"});
   for (const auto& entry : fs::recursive_directory_iterator(folder / "out")) {
     EXPECT_NE(entry.path().extension(), ".part") << entry.path();
@@ -132,7 +142,8 @@ TEST_F(CommandLine, AFullDiskIsAFailedJobThatLeavesNoHalfFiles) {
 
 TEST_F(CommandLine, RangesThatAreNotInTheLoopAreRefused) {
   scene();
-  for (const char* range : {"5:6", "3:3", "4:2", "0:6", "-1:2", "x:y", "3", "1:2:3", "1:2x", "99999999999:"})
+  for (const char* range :
+       {"5:6", "3:3", "4:2", "0:6", "-1:2", "x:y", "3", "1:2:3", "1:2x", "99999999999:"})
     expectUnusable({"--frames"}, std::string("--frames=") + range);
 }
 

@@ -28,7 +28,8 @@ void expectBounded(const Lines& signal, double limit) {
   writeBallMeshes(folder);
   const auto hundred = static_cast<double>(peakOf(folder, 100, signal));
   const auto thousand = static_cast<double>(peakOf(folder, 1000, signal));
-  std::printf("peak memory of 100 frames %.1f MB, of 1000 frames %.1f MB\n", hundred / 1e6, thousand / 1e6);
+  std::printf("peak memory of 100 frames %.1f MB, of 1000 frames %.1f MB\n", hundred / 1e6,
+              thousand / 1e6);
   ASSERT_GT(hundred, 0);
   EXPECT_LT(thousand, limit * hundred);
 }
@@ -37,8 +38,11 @@ TEST(PeakMemory, OfAThousandFramesIsThatOfAHundred) {
   expectBounded({{"reference_intensity", "1e-7"}}, 1.1);
 }
 
-// A measured reference keeps traced frames, up to a fixed amount of memory: here all of them, 8 kB each.
-TEST(PeakMemory, GrowsByNoMoreThanTheFramesKeptWhenTheReferenceIsMeasured) { expectBounded({}, 1.2); }
+// A measured reference keeps traced frames, up to a fixed amount of memory: here all of them, 8 kB
+// each.
+TEST(PeakMemory, GrowsByNoMoreThanTheFramesKeptWhenTheReferenceIsMeasured) {
+  expectBounded({}, 1.2);
+}
 
 }  // namespace
 }  // namespace echocine

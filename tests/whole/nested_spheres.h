@@ -1,5 +1,6 @@
 #pragma once
-// Two nested spheres of 81,920 triangles, and what the paper's equations say of a ray through the true spheres.
+// Two nested spheres of 81,920 triangles, and what the paper's equations say of a ray through the
+// true spheres.
 
 #include <optional>
 
@@ -22,11 +23,14 @@ inline constexpr double kOuterRadius = 0.04, kInnerRadius = 0.025;
 inline SceneText nestedSpheres(const std::string& refraction) {
   SceneText text;
   text.background = "outside";
-  const auto medium = [](const char* name, const char* rho, const char* c, const char* a, const char* eta) {
-    return std::string("[media.") + name + "]\ndensity_kg_m3 = " + rho + "\nsound_speed_m_s = " + c +
-           "\nattenuation_db_cm_mhz = " + a + "\nbackscatter = { kind = \"fixed\", per_cm_sr = " + eta + " }\n";
+  const auto medium = [](const char* name, const char* rho, const char* c, const char* a,
+                         const char* eta) {
+    return std::string("[media.") + name + "]\ndensity_kg_m3 = " + rho +
+           "\nsound_speed_m_s = " + c + "\nattenuation_db_cm_mhz = " + a +
+           "\nbackscatter = { kind = \"fixed\", per_cm_sr = " + eta + " }\n";
   };
-  text.media = medium("outside", "1000", "1500", "0.3", "1e-3") + medium("wall", "1060", "1540", "0.5", "4e-3") +
+  text.media = medium("outside", "1000", "1500", "0.3", "1e-3") +
+               medium("wall", "1060", "1540", "0.5", "4e-3") +
                medium("cavity", "1030", "1520", "0.15", "2e-4");
   text.probe["lines"] = "301";
   text.probe["samples"] = "1024";
@@ -48,10 +52,10 @@ inline Scene writeNestedSpheres(const TempFolder& folder, const std::string& ref
 // One straight piece of the exact ray, and the interface at its end.
 struct ExactPiece {
   const Medium* medium;
-  Real begin_m, end_m;    // path lengths
-  Real exponent;          // A at its beginning
-  Real passed;            // prod (1-R)^2 along it
-  Real echo = 0;          // unattenuated, of the interface at its end
+  Real begin_m, end_m;  // path lengths
+  Real exponent;        // A at its beginning
+  Real passed;          // prod (1-R)^2 along it
+  Real echo = 0;        // unattenuated, of the interface at its end
   Real incidence_deg = 0;
 };
 
@@ -77,8 +81,8 @@ class ExactRay {
       const Medium& medium = mediumOf(shell);
       line.pieces.push_back({&medium, path, path + distance, exponent, passed});
       if (next < 0) break;
-      passInterface(line, medium, mediumOf(next), std::max(shell, next) == 2 ? kInnerRadius : kOuterRadius,
-                    distance, passed);
+      passInterface(line, medium, mediumOf(next),
+                    std::max(shell, next) == 2 ? kInnerRadius : kOuterRadius, distance, passed);
       path += distance;
       exponent += 4 * medium.attenuation_np_per_m * distance;
       shell = next;
@@ -88,7 +92,9 @@ class ExactRay {
 
  private:
   const Medium& mediumOf(int shell) const {
-    return scene_.medium(shell == 0 ? scene_.background : scene_.structures[static_cast<std::size_t>(shell - 1)].medium);
+    return scene_.medium(shell == 0
+                             ? scene_.background
+                             : scene_.structures[static_cast<std::size_t>(shell - 1)].medium);
   }
   Vec3r fromCentre() const { return p_ - Vec3r{kSphereCentre.x, kSphereCentre.y, kSphereCentre.z}; }
 
@@ -109,8 +115,8 @@ class ExactRay {
     return {*distanceTo(kOuterRadius, true), 0};
   }
 
-  void passInterface(ExactLine& line, const Medium& from, const Medium& to, Real radius, Real distance,
-                     Real& passed) {
+  void passInterface(ExactLine& line, const Medium& from, const Medium& to, Real radius,
+                     Real distance, Real& passed) {
     p_ = p_ + distance * d_;
     const Vec3r normal = (1 / radius) * fromCentre();
     const Real cos_i = std::abs(dot(normal, d_)), sin_i = std::sqrt(1 - cos_i * cos_i);
@@ -119,7 +125,9 @@ class ExactRay {
     piece.incidence_deg = std::acos(cos_i) * 180 / std::numbers::pi_v<Real>;
     line.worst_incidence_deg = std::max(line.worst_incidence_deg, piece.incidence_deg);
     line.ends = r * sin_i >= 1;
-    if (r > 1) line.beyond_critical_deg = piece.incidence_deg - std::asin(1 / r) * 180 / std::numbers::pi_v<Real>;
+    if (r > 1)
+      line.beyond_critical_deg =
+          piece.incidence_deg - std::asin(1 / r) * 180 / std::numbers::pi_v<Real>;
     const Real cos_t = line.ends ? 0 : std::sqrt(1 - r * r * sin_i * sin_i);
     const Real a = to.impedance_kg_m2_s * cos_i, b = from.impedance_kg_m2_s * cos_t;
     const Real R = line.ends ? 1 : (a - b) / (a + b) * ((a - b) / (a + b));

@@ -45,14 +45,16 @@ void compareBackscatter(const Traced& traced, const ExactLine& exact, int line, 
     const Real l = sampling.centre(k);
     if (nearInterface(exact, l, 2 * sampling.spacing_m)) continue;
     const double db = std::abs(decibelsFromIntensity(
-        traced.value(Channel::y, line, k) / static_cast<double>(exactBackscatter(exact, l, traced.scene.unit_volume_m3))));
+        traced.value(Channel::y, line, k) /
+        static_cast<double>(exactBackscatter(exact, l, traced.scene.unit_volume_m3))));
     ++errors.samples;
     errors.over_small += db > 0.05;
     errors.worst_db = std::max(errors.worst_db, db);
   }
 }
 
-// Echoes by the sum over the samples within two of the interface; interfaces that share samples are left out.
+// Echoes by the sum over the samples within two of the interface; interfaces that share samples are
+// left out.
 void compareEchoes(const Traced& traced, const ExactLine& exact, int line, Errors& errors) {
   const Sampling sampling = samplingOf(traced.scene.probe);
   for (std::size_t i = 0; i + 1 < exact.pieces.size(); ++i) {
@@ -64,10 +66,14 @@ void compareEchoes(const Traced& traced, const ExactLine& exact, int line, Error
       continue;
     const int centre = static_cast<int>((p.end_m - sampling.min_depth_m) / sampling.spacing_m);
     double sum = 0;
-    for (int k = centre - 2; k <= centre + 2; ++k) sum += traced.value(Channel::reflection, line, k);
-    const Real expected = p.echo * std::exp(-(p.exponent + 4 * p.medium->attenuation_np_per_m * (p.end_m - p.begin_m)));
+    for (int k = centre - 2; k <= centre + 2; ++k)
+      sum += traced.value(Channel::reflection, line, k);
+    const Real expected =
+        p.echo *
+        std::exp(-(p.exponent + 4 * p.medium->attenuation_np_per_m * (p.end_m - p.begin_m)));
     ++errors.echoes;
-    errors.worst_echo = std::max(errors.worst_echo, std::abs(static_cast<double>(sum / expected - 1)));
+    errors.worst_echo =
+        std::max(errors.worst_echo, std::abs(static_cast<double>(sum / expected - 1)));
   }
 }
 
@@ -82,8 +88,10 @@ void expectDark(const Traced& traced, const ExactLine& exact, int line, Errors& 
 }
 
 void report(const char* name, const Errors& e) {
-  std::printf("%s: %ld samples, %ld over 0.05 dB, worst %.4f dB; %ld echoes, worst %.2f %%; %ld samples dark\n",
-              name, e.samples, e.over_small, e.worst_db, e.echoes, 100 * e.worst_echo, e.checked_dark);
+  std::printf(
+      "%s: %ld samples, %ld over 0.05 dB, worst %.4f dB; %ld echoes, worst %.2f %%; %ld samples "
+      "dark\n",
+      name, e.samples, e.over_small, e.worst_db, e.echoes, 100 * e.worst_echo, e.checked_dark);
   ::testing::Test::RecordProperty("worst_db", std::to_string(e.worst_db));
   ::testing::Test::RecordProperty("worst_echo_percent", std::to_string(100 * e.worst_echo));
 }
@@ -112,9 +120,13 @@ void expectClosedForm(const std::string& refraction, const char* name) {
   EXPECT_LE(errors.worst_echo, 0.03);
 }
 
-TEST(NestedSpheres, StraightRaysMeetTheClosedForm) { expectClosedForm("off", "straight"); }
+TEST(NestedSpheres, StraightRaysMeetTheClosedForm) {
+  expectClosedForm("off", "straight");
+}
 
-TEST(NestedSpheres, RefractedRaysMeetTheClosedForm) { expectClosedForm("on", "refracted"); }
+TEST(NestedSpheres, RefractedRaysMeetTheClosedForm) {
+  expectClosedForm("on", "refracted");
+}
 
 }  // namespace
 }  // namespace echocine

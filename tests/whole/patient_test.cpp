@@ -24,12 +24,12 @@ const std::filesystem::path kMeshes =
     std::filesystem::path(ECHOCINE_SHARED_DIR) / "real/meshes/bivme_patient1_25f";
 
 // mL, as published with the meshes.
-constexpr std::array<double, 25> kLeft{174.5, 169.4, 156.2, 140.2, 121.8, 107.0, 96.8,  82.0,  79.0,
-                                       72.0,  77.5,  80.3,  88.1,  104.3, 119.2, 135.7, 144.8, 150.2,
-                                       150.1, 147.6, 146.1, 149.1, 154.6, 170.1, 179.0};
-constexpr std::array<double, 25> kRight{170.1, 165.3, 154.0, 141.8, 129.0, 114.2, 101.6, 87.7,  82.7,
-                                        76.7,  77.6,  78.2,  82.0,  99.3,  118.0, 122.2, 128.5, 133.0,
-                                        135.3, 136.2, 142.0, 146.9, 158.2, 167.0, 167.8};
+constexpr std::array<double, 25> kLeft{
+    174.5, 169.4, 156.2, 140.2, 121.8, 107.0, 96.8,  82.0,  79.0,  72.0,  77.5,  80.3, 88.1,
+    104.3, 119.2, 135.7, 144.8, 150.2, 150.1, 147.6, 146.1, 149.1, 154.6, 170.1, 179.0};
+constexpr std::array<double, 25> kRight{
+    170.1, 165.3, 154.0, 141.8, 129.0, 114.2, 101.6, 87.7,  82.7,  76.7,  77.6,  78.2, 82.0,
+    99.3,  118.0, 122.2, 128.5, 133.0, 135.3, 136.2, 142.0, 146.9, 158.2, 167.0, 167.8};
 
 std::vector<Vec3d> pointsOf(const std::string& name) {
   Sha256 digest;
@@ -46,9 +46,11 @@ std::string vectorText(Vec3d v) {
   return "[" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + "]";
 }
 
-// The probe 2 cm beyond the apex of the left ventricle, looking at the mitral valve, the left ventricle to the right.
+// The probe 2 cm beyond the apex of the left ventricle, looking at the mitral valve, the left
+// ventricle to the right.
 void poseApical(SceneText& text) {
-  const Vec3d mitral = centroid(pointsOf("mitral_valve")), tricuspid = centroid(pointsOf("tricuspid_valve"));
+  const Vec3d mitral = centroid(pointsOf("mitral_valve")),
+              tricuspid = centroid(pointsOf("tricuspid_valve"));
   const std::vector<Vec3d> left = pointsOf("lv_endo_closed");
   const Vec3d apex = *std::max_element(left.begin(), left.end(), [&](Vec3d a, Vec3d b) {
     return length(a - mitral) < length(b - mitral);
@@ -60,7 +62,9 @@ void poseApical(SceneText& text) {
 }
 
 SceneText patientScene() {
-  const auto files = [](const std::string& name) { return "\"" + (kMeshes / (name + "_*.obj")).string() + "\""; };
+  const auto files = [](const std::string& name) {
+    return "\"" + (kMeshes / (name + "_*.obj")).string() + "\"";
+  };
   SceneText text;
   poseApical(text);
   text.probe["sector_deg"] = "85";
@@ -98,7 +102,8 @@ class Patient : public ::testing::Test {
   Scene scene;
 };
 
-void expectVolumes(const nlohmann::json& list, const std::array<double, 25>& published, const char* name) {
+void expectVolumes(const nlohmann::json& list, const std::array<double, 25>& published,
+                   const char* name) {
   ASSERT_EQ(list.size(), 25u) << name;
   double worst = 0;
   for (std::size_t i = 0; i < 25; ++i) {
@@ -106,11 +111,13 @@ void expectVolumes(const nlohmann::json& list, const std::array<double, 25>& pub
     worst = std::max(worst, std::abs(list[i]["volume_ml"].get<double>() / published[i] - 1));
   }
   EXPECT_LT(worst, 0.01) << name;
-  std::printf("%s: volumes of 25 keyframes within %.3f %% of the published ones\n", name, 100 * worst);
+  std::printf("%s: volumes of 25 keyframes within %.3f %% of the published ones\n", name,
+              100 * worst);
 }
 
 TEST_F(Patient, TheLoopHoldsThePublishedVolumesAndAllThreeMedia) {
-  const RenderSummary summary = renderCine(scene, {.folder = folder / "out", .threads = 2, .frames = {}}, {});
+  const RenderSummary summary =
+      renderCine(scene, {.folder = folder / "out", .threads = 2, .frames = {}}, {});
   EXPECT_EQ(summary.frames_done, 25);
   EXPECT_EQ(cineFrames(folder / "out/cine.avi"), 25);
   const nlohmann::json manifest = nlohmann::json::parse(bytesOf(folder / "out/manifest.json"));
@@ -136,8 +143,8 @@ TEST_F(Patient, TheLeftVentricleIsOnTheRightAndItsApexNearTheProbe) {
   EXPECT_NEAR(nearest, 0.02, 1e-3);
 }
 
-// The data have a shallow dip in diastasis at keyframe 20 besides end-systole at keyframe 9; the curve between
-// keyframes must not add another.
+// The data have a shallow dip in diastasis at keyframe 20 besides end-systole at keyframe 9; the
+// curve between keyframes must not add another.
 TEST_F(Patient, InterpolationAddsNoMinimumToTheVolumeCurve) {
   const std::vector<double> ml = leftVolumes(200);
   std::vector<int> minima;
@@ -148,11 +155,13 @@ TEST_F(Patient, InterpolationAddsNoMinimumToTheVolumeCurve) {
   ASSERT_EQ(minima.size(), 2u);
   EXPECT_NEAR(minima[0] / 8.0, 9, 1);
   EXPECT_NEAR(minima[1] / 8.0, 20, 1);
-  const double low = *std::min_element(ml.begin(), ml.end()), high = *std::max_element(ml.begin(), ml.end());
+  const double low = *std::min_element(ml.begin(), ml.end()),
+               high = *std::max_element(ml.begin(), ml.end());
   EXPECT_EQ(ml[static_cast<std::size_t>(minima[0])], low);
   EXPECT_GT(low, 0.97 * 72.0);
   EXPECT_LT(high, 1.03 * 179.0);
-  std::printf("left ventricle %.1f mL to %.1f mL, smallest at phase %.3f\n", high, low, minima[0] / 200.0);
+  std::printf("left ventricle %.1f mL to %.1f mL, smallest at phase %.3f\n", high, low,
+              minima[0] / 200.0);
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 
 std::set<std::string> namesIn(const fs::path& folder) {
   std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  for (const auto& entry : fs::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
   return names;
 }
 
@@ -40,8 +41,10 @@ class PartsOfALoop : public ::testing::Test {
 TEST_F(PartsOfALoop, OnlyTheFramesAskedForAreWrittenAndTheyAreThoseOfTheWholeLoop) {
   ASSERT_EQ(render().code, 0);
   const fs::path part = folder / "part";
-  for (const auto& [range, names] : std::map<std::string, std::set<std::string>>{
-           {"2:4", {"frame_0002.exr", "frame_0003.exr"}}, {":1", {"frame_0000.exr"}}, {"5:", {"frame_0005.exr"}}}) {
+  for (const auto& [range, names] :
+       std::map<std::string, std::set<std::string>>{{"2:4", {"frame_0002.exr", "frame_0003.exr"}},
+                                                    {":1", {"frame_0000.exr"}},
+                                                    {"5:", {"frame_0005.exr"}}}) {
     fs::remove_all(part);
     ASSERT_EQ(renderScene(scene, part, "--frames=" + range).code, 0);
     EXPECT_EQ(namesIn(part / "intensity"), names) << range;
@@ -54,7 +57,8 @@ TEST_F(PartsOfALoop, OnlyTheFramesAskedForAreWrittenAndTheyAreThoseOfTheWholeLoo
 TEST_F(PartsOfALoop, AShorterRunLeavesNoFrameOfALongerOne) {
   ASSERT_EQ(render().code, 0);
   ASSERT_EQ(render("--frames=0:2").code, 0);
-  EXPECT_EQ(namesIn(out / "intensity"), (std::set<std::string>{"frame_0000.exr", "frame_0001.exr"}));
+  EXPECT_EQ(namesIn(out / "intensity"),
+            (std::set<std::string>{"frame_0000.exr", "frame_0001.exr"}));
 }
 
 TEST_F(PartsOfALoop, ResumingMendsWhatIsMissingTruncatedOrGarbageToTheSameBytes) {
@@ -108,9 +112,9 @@ TEST_F(PartsOfALoop, AnInterruptedRunLeavesAPlayableCineAndNoManifest) {
     folder.write("scene.toml", text.text());
     fs::remove_all(out);
     const Outcome outcome = runShell(
-        "%B render '" + scene.string() + "' -o '" + out.string() + "' --quiet & pid=$!; while [ ! -e '" +
-        (out / "intensity/frame_0005.exr").string() + "' ]; do sleep 0.02; done; kill -" + signal +
-        " $pid; wait $pid");
+        "%B render '" + scene.string() + "' -o '" + out.string() +
+        "' --quiet & pid=$!; while [ ! -e '" + (out / "intensity/frame_0005.exr").string() +
+        "' ]; do sleep 0.02; done; kill -" + signal + " $pid; wait $pid");
     EXPECT_EQ(outcome.code, 1) << outcome.err;
     EXPECT_NE(outcome.err.find("stopped"), std::string::npos) << outcome.err;
     EXPECT_FALSE(fs::exists(out / "manifest.json"));

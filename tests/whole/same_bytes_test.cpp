@@ -1,4 +1,5 @@
-// The same scene gives the same bytes for any number of threads, and the files hold what was in memory.
+// The same scene gives the same bytes for any number of threads, and the files hold what was in
+// memory.
 
 #include <gtest/gtest.h>
 
@@ -31,8 +32,9 @@ TEST(SameBytes, OneTwoAndFourThreadsWriteTheSameFiles) {
     SceneText text = ballScene(6);
     text.effects["refraction"] = refraction;
     text.output["png"] = "true";
-    text.output["channels"] = "[\"Y\", \"unattenuated.Y\", \"attenuation.A\", \"reflection.Y\", "
-                              "\"backscatter.Y\", \"medium.id\", \"display.Y\"]";
+    text.output["channels"] =
+        "[\"Y\", \"unattenuated.Y\", \"attenuation.A\", \"reflection.Y\", "
+        "\"backscatter.Y\", \"medium.id\", \"display.Y\"]";
     const Scene scene = readScene(writeBall(folder, text));
     std::map<std::string, std::string> one;
     for (const int threads : {1, 2, 4}) {
@@ -80,8 +82,9 @@ TEST(IntensityStack, HoldsTheFrameThatWasTraced) {
     ASSERT_EQ(read.samples, scene.probe.samples);
     for (int line = 0; line < read.lines; ++line)
       for (int k = 0; k < read.samples; ++k)
-        ASSERT_EQ(read.bits[static_cast<std::size_t>(k * read.lines + line)],
-                  std::bit_cast<std::uint32_t>(plane[static_cast<std::size_t>(line * read.samples + k)]))
+        ASSERT_EQ(
+            read.bits[static_cast<std::size_t>(k * read.lines + line)],
+            std::bit_cast<std::uint32_t>(plane[static_cast<std::size_t>(line * read.samples + k)]))
             << channel << " line " << line << " sample " << k;
   };
   same("Y", frame.planes.at(Channel::y));
@@ -94,13 +97,15 @@ TEST(IntensityStack, ReflectionAndBackscatterMakeYWhateverElseIsAskedFor) {
   const auto render = [&](const std::string& name, const std::string& channels) {
     SceneText text = ballScene(1);
     text.output["channels"] = channels;
-    renderCine(readScene(writeBall(folder, text)), {.folder = folder / name, .threads = 1, .frames = {}}, {});
+    renderCine(readScene(writeBall(folder, text)),
+               {.folder = folder / name, .threads = 1, .frames = {}}, {});
     return folder / name / "intensity/frame_0000.exr";
   };
   const auto all = render("all", "[\"Y\", \"reflection.Y\", \"backscatter.Y\"]");
   const auto alone = render("alone", "[\"reflection.Y\"]");
   EXPECT_EQ(exrPlane(all, "reflection.Y").bits, exrPlane(alone, "reflection.Y").bits);
-  const ExrPlane whole = exrPlane(all, "Y"), echoes = exrPlane(all, "reflection.Y"), scattered = exrPlane(all, "backscatter.Y");
+  const ExrPlane whole = exrPlane(all, "Y"), echoes = exrPlane(all, "reflection.Y"),
+                 scattered = exrPlane(all, "backscatter.Y");
   for (std::size_t i = 0; i < whole.bits.size(); ++i)
     EXPECT_FLOAT_EQ(std::bit_cast<float>(whole.bits[i]),
                     std::bit_cast<float>(echoes.bits[i]) + std::bit_cast<float>(scattered.bits[i]));
