@@ -4,12 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "frame_maker.h"
 #include "motion/cardiac_clock.h"
+#include "output/exr_stack.h"
 #include "output/output_folder.h"
 #include "plan_loop.h"
 #include "reference_pass.h"
@@ -28,38 +30,64 @@ std::pair<int, int> frameRange(const RenderOptions& options, int loop_frames) {
   return range;
 }
 
+// Before anything is touched: the first frames that are there must be of this scene.
+void refuseOtherScene(const Scene& scene, const std::filesystem::path& folder,
+                      const Manifest& manifest) {
+  constexpr int kLookedAt = 8;
+  const ExrStack stack(folder / "intensity", scene, manifest.scene_sha256, 1);
+  for (int i = 0, seen = 0; i < manifest.loop_frames && seen < kLookedAt; ++i)
+    if (std::filesystem::exists(folder / "intensity" / ExrStack::fileName(i))) {
+      (void)stack.existing({i, 0, 0});  // throws when the file belongs to another scene
+      ++seen;
+    }
+}
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Stage times per frame: frames of both passes share the stages up to the signal chain.
+void noteCosts(const FrameMaker& maker, RenderSummary& summary) {
+  Manifest& manifest = summary.manifest;
+  manifest.stage_ms = maker.clock().milliseconds();
+  for (std::size_t s = 0; s < kStages; ++s)
+    manifest.stage_ms[s] /= static_cast<Stage>(s) <= Stage::signal
+                                ? std::max(maker.tracedFrames(), summary.frames_done)
+                                : summary.frames_done;
+  manifest.work = maker.work();
+  manifest.keyframes = maker.keyframeVolumes();
+}
+
 }  // namespace
 
 RenderSummary renderCine(const Scene& scene, const RenderOptions& options, const Monitor& monitor) {
   const auto start = std::chrono::steady_clock::now();
-  const HeartMotion motion(scene);                // keyframes read, checked, ready to interpolate
-  const CardiacClock clock(scene.acquisition);    // when each frame is, and where in the beat
-  const LoopPlan plan = planLoop(scene, motion);  // what has to be computed at all, and how
-  const auto [first, last] = frameRange(options, clock.frameCount());
-  const OutputFolder folder(options.folder, scene.output, options.resume);
-  FrameMaker maker(scene, plan, motion);  // motion -> geometry -> trace -> signal of one frame
-
-  RenderSummary summary{.frames_done = 0, .frames_wanted = last - first, .manifest = {}};
-  summary.manifest.plan = plan;
-  summary.manifest.loop_frames = clock.frameCount();
-  summary.manifest.scene_sha256 = sceneSha256(scene, motion);
+  const HeartMotion motion(scene);              // keyframes read, checked, ready to interpolate
+  const CardiacClock clock(scene.acquisition);  // when each frame is, and where in the beat
+  const std::pair range = frameRange(options, clock.frameCount());
+  RenderSummary summary;
+  summary.frames_wanted = range.second - range.first;
+  Manifest& manifest = summary.manifest;
+  manifest.loop_frames = clock.frameCount();
+  manifest.scene_sha256 = sceneSha256(scene, motion);
+  if (options.resume) refuseOtherScene(scene, options.folder, manifest);
   withThreads(options.threads, [&] {
+    manifest.plan = planLoop(scene, motion);  // what has to be computed at all, and how
+    const OutputFolder folder(options.folder, scene.output, options.resume);
+    FrameMaker maker(scene, manifest.plan, motion);  // motion -> geometry -> trace -> signal
+    summary.setup_s = secondsSince(start);
     KeptFrames kept;  // the loop's one reference for log compression, then every frame with it
-    const auto reference = findReference(scene, plan, maker, clock, monitor, kept);
+    const auto reference = findReference(scene, manifest.plan, maker, clock, range, monitor, kept);
     if (!reference) return;
-    summary.manifest.reference_intensity = *reference;
-    RenderPass pass({scene, maker, clock, folder, monitor, options.resume}, summary.manifest, kept);
-    summary.frames_done = pass.run(first, last);
-    summary.manifest.keyframes = maker.keyframeVolumes();
+    manifest.reference_intensity = *reference;
+    RenderPass pass({scene, maker, clock, folder, monitor, options.resume}, manifest, kept);
+    summary.frames_done = pass.run(range.first, range.second);
+    summary.passes_s = secondsSince(start) - summary.setup_s;
+    if (summary.frames_done < summary.frames_wanted) return;
+    noteCosts(maker, summary);
+    manifest.wall_ms = 1e3 * secondsSince(start) / summary.frames_done;
+    writeManifest(folder.manifest(), scene, manifest);
   });
-  if (summary.frames_done < summary.frames_wanted) return summary;
-
-  summary.manifest.stage_ms = maker.clock().milliseconds();
-  for (double& ms : summary.manifest.stage_ms) ms /= summary.frames_done;
-  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
-  summary.manifest.wall_ms = wall.count() / summary.frames_done;
-  summary.manifest.work = maker.work();
-  writeManifest(folder.manifest(), scene, summary.manifest);
   return summary;
 }
 

@@ -30,6 +30,7 @@ struct Monitor {
 
 struct RenderSummary {
   int frames_done = 0, frames_wanted = 0;  // fewer when keep_going() said no
+  double setup_s = 0, passes_s = 0;        // reading and planning; measuring and rendering
   Manifest manifest;                       // written to the folder when nothing was cut short
 };
 

@@ -5,11 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <numeric>
 
 #include "core/error.h"
 #include "motion/cardiac_clock.h"
+#include "reference_pass.h"
 
 namespace echocine {
 
@@ -40,7 +42,24 @@ double largestResidentBytes() {
 
 }  // namespace
 
-Estimate estimateLoop(const Scene& scene, int threads) {
+namespace {
+
+// The first pass of a percentile reference: frames that are kept are traced there instead of later,
+// frames that are not are traced twice.
+void addFirstPass(const Scene& scene, double traced_share, double frame_s, Estimate& estimate) {
+  if (scene.signal.reference_intensity || !wantsPicture(scene)) return;
+  const double planes =
+      1 + (scene.output.exr ? static_cast<double>(scene.output.channels.size()) : 0);
+  const double frame_bytes = 4 * planes * scene.probe.lines * scene.probe.samples;
+  const double kept = std::min(static_cast<double>(estimate.frames),
+                               std::floor(static_cast<double>(kKeptBytes) / frame_bytes));
+  estimate.memory_bytes += kept * frame_bytes;
+  estimate.seconds += (estimate.frames - kept) * traced_share * frame_s;
+}
+
+}  // namespace
+
+Estimate estimateLoop(const Scene& scene, int threads, const std::function<bool()>& keep_going) {
   constexpr int kFrames = 6;
   const TemporaryFolder folder;
   Estimate estimate;
@@ -48,13 +67,18 @@ Estimate estimateLoop(const Scene& scene, int threads) {
   const int rendered = std::min(kFrames, estimate.frames);
   Scene few = scene;  // the reference's value does not change the cost of using it
   few.signal.reference_intensity = scene.signal.reference_intensity.value_or(1);
-  const RenderSummary summary = renderCine(
-      few, {.folder = folder.path, .threads = threads, .frames = std::pair(0, rendered)}, {});
+  const RenderOptions options{
+      .folder = folder.path, .threads = threads, .frames = std::pair(0, rendered), .resume = false};
+  const RenderSummary summary = renderCine(few, options, {.keep_going = keep_going});
+  if (summary.frames_done < rendered) throw JobError("stopped while the plan was measured");
   estimate.measured = summary.manifest;
-  // The first pass of a percentile reference repeats what stands before compression for frames not
-  // kept.
-  estimate.seconds = summary.manifest.wall_ms * 1e-3 * estimate.frames;
+  const double frame_s = summary.passes_s / rendered;
+  estimate.seconds = summary.setup_s + frame_s * estimate.frames;
   estimate.memory_bytes = largestResidentBytes();
+  const auto& ms = summary.manifest.stage_ms;
+  const double all = std::accumulate(ms.begin(), ms.end(), 0.0);
+  const double traced = std::accumulate(ms.begin(), ms.begin() + 4, 0.0);  // motion to signal
+  addFirstPass(scene, all > 0 ? traced / all : 0, frame_s, estimate);
   return estimate;
 }
 

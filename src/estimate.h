@@ -13,7 +13,7 @@ struct Estimate {
 };
 
 // Renders up to six frames of the loop to a temporary folder, which is removed.
-// Throws SceneError and JobError as renderCine() does.
-Estimate estimateLoop(const Scene& scene, int threads);
+// Throws SceneError and JobError as renderCine() does, and a JobError when keep_going() says no.
+Estimate estimateLoop(const Scene& scene, int threads, const std::function<bool()>& keep_going);
 
 }  // namespace echocine

@@ -90,6 +90,7 @@ Volumes FrameMaker::trace(double phase, Workspace& w) {
   }
   const std::lock_guard lock(mutex_);
   work_ += work;
+  ++traced_frames_;
   return volumes_ml;
 }
 
@@ -104,6 +105,11 @@ GreyImage FrameMaker::picture(double reference_intensity, Workspace& w, bool wan
 WorkCounts FrameMaker::work() const {
   const std::lock_guard lock(mutex_);
   return work_;
+}
+
+int FrameMaker::tracedFrames() const {
+  const std::lock_guard lock(mutex_);
+  return traced_frames_;
 }
 
 std::vector<KeyframeVolume> FrameMaker::keyframeVolumes() const {

@@ -64,7 +64,9 @@ class FrameMaker {
 
   const SignalChain& chain() const { return chain_; }
   StageClock& clock() { return clock_; }
+  const StageClock& clock() const { return clock_; }
   WorkCounts work() const;
+  int tracedFrames() const;  // calls of trace()
   std::vector<KeyframeVolume> keyframeVolumes() const;
 
  private:
@@ -80,6 +82,7 @@ class FrameMaker {
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> free_;
   WorkCounts work_;
+  int traced_frames_ = 0;
 };
 
 }  // namespace echocine

@@ -22,7 +22,7 @@ constexpr double kCountedShare = 0.99;  // of the echoes; the rest graze and are
 Box sectorBox(const Probe& probe) {
   Box box;
   Probe outline = probe;
-  outline.lines = std::max(probe.lines, 64);
+  outline.lines = std::max(probe.lines, 64) | 1;  // odd: the middle line reaches deepest
   for (int i = 0; i < outline.lines; ++i) {
     const LineGeometry line = lineGeometry(outline, i);
     box.add(line.origin);
@@ -152,11 +152,9 @@ void lookAtFrames(const Scene& scene, const HeartMotion& motion, LoopPlan& plan)
     for (const RayCrossings& line : slice.lines()) crossings += line.crossings.size();
   }
   if (!plan.effects.contrast) {
-    plan.anything_seen = false;
     plan.warnings.push_back(
         "nothing can be seen: all structures and their surroundings are of one medium");
   } else if (plan.left_out.count() == scene.structures.size() || crossings == 0) {
-    plan.anything_seen = crossings > 0;
     plan.warnings.push_back(
         "nothing can be seen: no scan line meets a structure in the frames looked at (probe.apex, "
         "probe.axis, motion.mesh_unit)");

@@ -7,9 +7,6 @@ namespace echocine {
 
 namespace {
 
-// Our choice: loops of a beat are kept whole at usual sizes, and long ones stay bounded.
-constexpr std::size_t kKeptBytes = 128u << 20;
-
 std::size_t bytesOf(const PolarFrame& polar) {
   std::size_t planes =
       polar.planes.size() + (polar.signal.empty() ? 0 : 1) + (polar.medium.empty() ? 0 : 1);
@@ -20,8 +17,8 @@ std::size_t bytesOf(const PolarFrame& polar) {
 }  // namespace
 
 std::optional<double> findReference(const Scene& scene, const LoopPlan& plan, FrameMaker& maker,
-                                    const CardiacClock& clock, const Monitor& monitor,
-                                    KeptFrames& kept) {
+                                    const CardiacClock& clock, std::pair<int, int> range,
+                                    const Monitor& monitor, KeptFrames& kept) {
   if (scene.signal.reference_intensity) return scene.signal.reference_intensity;
   if (!wantsPicture(scene) || !plan.effects.contrast) return 1;
   IntensityHistogram histogram(scene.probe);
@@ -42,8 +39,11 @@ std::optional<double> findReference(const Scene& scene, const LoopPlan& plan, Fr
       },
       [&](std::size_t i, std::shared_ptr<void> result) {
         auto& frame = *static_cast<KeptFrame*>(result.get());
-        kept_bytes += bytesOf(frame.polar);
-        if (kept_bytes <= kKeptBytes) kept.emplace(static_cast<int>(i), std::move(frame));
+        const int index = static_cast<int>(i);
+        if (index >= range.first && index < range.second) {
+          kept_bytes += bytesOf(frame.polar);
+          if (kept_bytes <= kKeptBytes) kept.emplace(index, std::move(frame));
+        }
         monitor.tell({Progress::Pass::measuring, static_cast<int>(i) + 1, frames});
       });
   if (done < static_cast<std::size_t>(frames)) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <csignal>
+#include <cstdio>
 #include <new>
 
 #include "cli/plan_command.h"
@@ -34,7 +35,10 @@ int main(int argc, char** argv) {
   echocine::PlanCommand plan(app);
   try {
     app.parse(argc, argv);
-    return app.got_subcommand("plan") ? plan.run() : render.run();
+    const int code = app.got_subcommand("plan") ? plan.run() : render.run();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      return failed(kJobFailed, "what was to be printed could not be written");
+    return code;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     return failed(kUnusable,

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/stop_signal.h"
 #include "estimate.h"
 #include "scene/scene_reader.h"
 
@@ -89,7 +90,8 @@ PlanCommand::PlanCommand(CLI::App& app) {
 
 int PlanCommand::run() {
   const Scene scene = readScene(scene_file_);
-  const Estimate estimate = estimateLoop(scene, threads_);
+  listenForStop();
+  const Estimate estimate = estimateLoop(scene, threads_, [] { return !stopWanted(); });
   if (!quiet_)
     for (const std::string& warning : estimate.measured.plan.warnings)
       fmt::print(stderr, "echocine: warning: {}\n", warning);

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <atomic>
 #include <charconv>
-#include <csignal>
 
 #include "cli/progress_line.h"
+#include "cli/stop_signal.h"
 #include "core/error.h"
 #include "motion/cardiac_clock.h"
 #include "plan_loop.h"
@@ -16,12 +15,6 @@
 namespace echocine {
 
 namespace {
-
-std::atomic<bool> stop_wanted{false};
-
-void wantStop(int) {
-  stop_wanted = true;
-}
 
 // "A:B", either end left out for the loop's own: ":10", "10:", "3:4".
 std::pair<int, int> parseRange(const std::string& text, int loop_frames) {
@@ -85,12 +78,11 @@ int RenderCommand::run() {
   const Scene scene = readScene(scene_file_);
   if (!frames_.empty())
     options_.frames = parseRange(frames_, CardiacClock(scene.acquisition).frameCount());
-  std::signal(SIGINT, wantStop);
-  std::signal(SIGTERM, wantStop);
+  listenForStop();
   ProgressLine line(quiet_);
   Monitor monitor;
   monitor.tell = [&line](const Progress& progress) { line.show(progress); };
-  monitor.keep_going = [] { return !stop_wanted.load(); };
+  monitor.keep_going = [] { return !stopWanted(); };
   const RenderSummary summary = renderCine(scene, options_, monitor);
   line.finish();
   if (summary.frames_done < summary.frames_wanted)

@@ -17,8 +17,9 @@ void balances(const std::vector<Crossing>& crossings, std::vector<int>& out) {
 
 namespace {
 
-// A line ends outside every closed surface, so an entry that no later exit answers is rounding: a start on a vertex
-// may lie within a facet by its last bit, and the facet beside it behind the start.
+// A line ends outside every closed surface, so an entry that no later exit answers is rounding: a
+// start on a vertex may lie within a facet by its last bit, and the facet beside it behind the
+// start.
 void dropUnansweredEntries(std::vector<Crossing>& crossings, std::size_t surface) {
   int exits = 0;
   for (std::size_t i = crossings.size(); i-- > 0;) {

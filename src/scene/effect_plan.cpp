@@ -130,7 +130,7 @@ Finding spreading(const Scene& scene, bool backscatter) {
 Finding beamWidth(const Scene& scene) {
   if (!wantsPicture(scene)) return {false, "no picture is asked for"};
   const bool lateral = scene.signal.beam_width != BeamWidth::none && scene.probe.lines > 1;
-  const double pulse_m = scene.signal.pulse_cycles * 1540 / scene.probe.frequency_hz / 2;
+  const double pulse_m = scene.signal.pulse_cycles * kScannerSpeed / scene.probe.frequency_hz / 2;
   if (lateral)
     return {true, "average over the beam at each depth (signal.beam_width) and over the pulse"};
   if (pulse_m > scene.probe.sampleSpacing())
@@ -150,7 +150,8 @@ void planSignal(const Scene& scene, EffectPlan& plan) {
     add(plan, "tgc", false,
         scene.signal.tgc == Tgc::perfect
             ? "perfect TGC is attenuation left out, not a gain to apply"
-            : "no time gain is asked for");
+        : picture ? "no time gain is asked for"
+                  : "no picture is asked for");
   add(plan, "log_compression", picture,
       picture ? fmt::format("{:g} dB for the picture", scene.signal.dynamic_range_db)
               : "no picture is asked for");

@@ -22,7 +22,6 @@ struct LoopPlan {
   std::size_t triangles_given = 0;  // of all structures
   std::size_t triangles_kept = 0;   // of the structures that stay
   std::size_t triangles_met = 0;    // cut by the imaging plane, the most of the frames looked at
-  bool anything_seen = true;
   std::vector<std::string> warnings;
 
   const char* tracerName() const { return slice ? "slice" : "embree"; }

@@ -6,6 +6,10 @@
 
 namespace echocine {
 
+// The speed by which a scanner turns echo times into depths: the soft-tissue average it is built
+// for.
+inline constexpr double kScannerSpeed = 1540;  // m/s
+
 enum class ProbeKind { phased, curvilinear, linear };
 
 struct Probe {

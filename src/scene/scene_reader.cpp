@@ -17,6 +17,8 @@ namespace {
 
 constexpr std::size_t kMaxSceneBytes = 4 << 20;
 constexpr double kMaxFrames = 1e6;
+constexpr double kMaxGainDb =
+    200;  // keeps intensities within floats; scanners end at 100. Our choice
 constexpr double kMaxPolarSamples = 1 << 26;
 
 const NumberRange kPositive = NumberRange::positive();
@@ -143,6 +145,9 @@ void readTgc(TomlTable& table, SignalSettings& s) {
   if (s.tgc != Tgc::table) return;
   for (const auto& [depth_mm, gain_db] : table.pairs("tgc_table_mm_db")) {
     const double depth_m = metresFromMillimetres(depth_mm);
+    if (std::abs(gain_db) > kMaxGainDb)
+      table.fail("tgc_table_mm_db", fmt::format("a gain is {} dB, accepted: {} to {} dB", gain_db,
+                                                -kMaxGainDb, kMaxGainDb));
     if (!s.tgc_table.empty() && depth_m <= s.tgc_table.back().first)
       table.fail("tgc_table_mm_db", "depths do not ascend, accepted: ascending depths");
     s.tgc_table.emplace_back(depth_m, gain_db);
@@ -319,6 +324,10 @@ Scene parseScene(std::string_view text, const std::filesystem::path& file) {
   scene.output = readOutput(root.table("output"));
   root.finish();
   refuseContradictions(root, scene);
+  // Without attenuation there is no received intensity: the default channel is the one that is
+  // true.
+  if (scene.effects.attenuation == Switch::off && !scene.output.channels_given)
+    scene.output.channels = {Channel::unattenuated};
   return scene;
 }
 

@@ -89,6 +89,20 @@ TomlTable TomlTable::parse(std::string_view text, const std::string& name) {
   return TomlTable(std::move(node));
 }
 
+void TomlTable::missing(std::string_view key, const std::string& accepted) const {
+  if (node_->table)
+    for (const auto& [name, value] : *node_->table) {
+      const std::string word(name.str());
+      const bool known =
+          std::find(node_->known.begin(), node_->known.end(), word) != node_->known.end();
+      if (known || nearestWord(word, {std::string(key)}, 3).empty()) continue;
+      throw SceneError(
+          atPlace({node_->file, static_cast<int>(name.source().begin.line), node_->fullKey(word)},
+                  fmt::format("is not a known key here, and {} is missing, {}", key, accepted)));
+    }
+  fail(key, "is missing, " + accepted);
+}
+
 bool TomlTable::has(std::string_view key) {
   return node_->find(key) != nullptr;
 }
@@ -106,7 +120,7 @@ void TomlTable::fail(std::string_view key, const std::string& what) const {
 double TomlTable::number(std::string_view key, std::optional<double> fallback, NumberRange range) {
   const toml::node* value = node_->find(key);
   if (!value) {
-    if (!fallback) fail(key, fmt::format("is missing, accepted: {}", range.text()));
+    if (!fallback) missing(key, "accepted: " + range.text());
     return *fallback;
   }
   const std::optional<double> number = value->value<double>();
@@ -121,7 +135,7 @@ int TomlTable::integer(std::string_view key, std::optional<int> fallback, int lo
   const std::string accepted = fmt::format("accepted: a whole number from {} to {}", lo, hi);
   const toml::node* value = node_->find(key);
   if (!value) {
-    if (!fallback) fail(key, "is missing, " + accepted);
+    if (!fallback) missing(key, accepted);
     return *fallback;
   }
   const std::optional<std::int64_t> number = value->value_exact<std::int64_t>();
@@ -141,7 +155,7 @@ bool TomlTable::boolean(std::string_view key, bool fallback) {
 std::string TomlTable::text(std::string_view key, std::optional<std::string> fallback) {
   const toml::node* value = node_->find(key);
   if (!value) {
-    if (!fallback) fail(key, "is missing, accepted: a string");
+    if (!fallback) missing(key, "accepted: a string");
     return *fallback;
   }
   if (!value->is_string()) fail(key, fmt::format("is {}, accepted: a string", typeName(*value)));
@@ -163,7 +177,7 @@ std::optional<std::size_t> TomlTable::choiceIndex(std::string_view key,
 Vec3d TomlTable::vector(std::string_view key) {
   const char* accepted = "accepted: three finite numbers [x, y, z]";
   const toml::node* value = node_->find(key);
-  if (!value) fail(key, fmt::format("is missing, {}", accepted));
+  if (!value) missing(key, accepted);
   const toml::array* list = value->as_array();
   if (!list || list->size() != 3) fail(key, fmt::format("is not a vector, {}", accepted));
   double xyz[3] = {};
@@ -262,14 +276,16 @@ void TomlTable::finish() const {
     for (const std::string& k : node_->known) accepted += (accepted.empty() ? "" : ", ") + k;
     throw SceneError(atPlace(
         {node_->file, static_cast<int>(key.source().begin.line), node_->fullKey(name)},
-        nearest.empty() ? fmt::format("is not a known key, accepted: {}", accepted)
-                        : fmt::format("is not a known key, the nearest known one is {}", nearest)));
+        nearest.empty()
+            ? fmt::format("is not a known key here, accepted: {}", accepted)
+            : fmt::format("is not a known key here, the nearest known one is {}", nearest)));
   }
 }
 
-std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates) {
+std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates,
+                        std::optional<std::size_t> edits) {
   std::string best;
-  std::size_t best_edits = std::max<std::size_t>(3, word.size() / 2);  // farther is no help
+  std::size_t best_edits = edits.value_or(std::max<std::size_t>(3, word.size() / 2));
   for (const std::string& candidate : candidates) {
     std::vector<std::size_t> row(candidate.size() + 1);  // Levenshtein distance, one row at a time
     for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;

@@ -72,10 +72,14 @@ class TomlTable {
   explicit TomlTable(std::unique_ptr<Node> node);
   std::optional<std::size_t> choiceIndex(std::string_view key,
                                          const std::vector<std::string_view>& names);
+  // A required key is absent: names a misspelt one where the table has it.
+  [[noreturn]] void missing(std::string_view key, const std::string& accepted) const;
   std::unique_ptr<Node> node_;
 };
 
-// The candidate with the fewest edits to `word`, empty when none is near.
-std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates);
+// The candidate with the fewest edits to `word`; empty when none is nearer than `edits`, half the word
+// or three letters if left out.
+std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates,
+                        std::optional<std::size_t> edits = std::nullopt);
 
 }  // namespace echocine

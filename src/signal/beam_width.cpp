@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "trace/trace_settings.h"
 
 namespace echocine {
 

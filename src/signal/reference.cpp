@@ -41,7 +41,7 @@ void IntensityHistogram::add(std::span<const float> plane) {
 double IntensityHistogram::percentile(double percent) const {
   std::uint64_t total = 0;
   std::size_t last = 0;
-  for (std::size_t bin = 0; bin < kBins; ++bin)
+  for (std::size_t bin = 1; bin < kBins; ++bin)  // bin 0 holds the samples without any intensity
     if (const std::uint64_t n = counts_[bin].load(std::memory_order_relaxed)) {
       total += n;
       last = bin;
@@ -53,12 +53,10 @@ double IntensityHistogram::percentile(double percent) const {
   if (last == 0) return 1;
   const double wanted = percent / 100 * static_cast<double>(total);
   std::uint64_t below = 0;
-  for (std::size_t bin = 0; bin <= last; ++bin) {
+  for (std::size_t bin = 1; bin < last; ++bin) {
     const std::uint64_t here = counts_[bin].load(std::memory_order_relaxed);
     below += here;
-    // Where the percentile falls on samples without any intensity, the weakest positive one stands
-    // for it.
-    if (here > 0 && static_cast<double>(below) >= wanted && bin > 0) return edge(bin);
+    if (here > 0 && static_cast<double>(below) >= wanted) return edge(bin);
   }
   return edge(last);
 }

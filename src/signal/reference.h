@@ -12,15 +12,16 @@
 namespace echocine {
 
 // Counts intensities of all frames in bins of 0.1 % and finds a percentile. Samples of the near
-// field, the first 15 % of the depth, are left out. Counts are whole numbers, so the order of
-// frames and threads has no effect.
+// field, the first 15 % of the depth, are left out, and so are samples without any intensity
+// (behind total reflection, in media that scatter nothing). Counts are whole numbers, so the order
+// of frames and threads has no effect.
 class IntensityHistogram {
  public:
   explicit IntensityHistogram(const Probe& probe);
 
   void add(std::span<const float> plane);  // line-major; thread-safe
 
-  // The smallest bin edge that `percent` of the samples do not exceed. 1 if no sample is positive.
+  // The smallest bin edge that `percent` of the positive samples do not exceed; 1 without any.
   double percentile(double percent) const;
 
  private:

@@ -21,7 +21,7 @@ struct Area {
 };
 
 Area scanArea(const Probe& probe) {
-  constexpr int kSteps = 256;
+  constexpr int kSteps = 257;  // odd: the middle line reaches deepest
   const LineGeometry first = lineGeometry(probe, 0);
   Area area{first.origin.x, first.origin.x, first.origin.z, first.origin.z};
   Probe outline = probe;
@@ -59,7 +59,7 @@ std::optional<BeamPosition> beamPosition(const Probe& probe, double x_m, double 
 PictureGeometry pictureGeometry(const Scene& scene) {
   const OutputSettings& o = scene.output;
   PictureGeometry g;
-  g.ecg_strip_px = o.ecg && o.cine ? o.height / 8 : 0;
+  g.ecg_strip_px = o.ecg && (o.cine || o.png) ? o.height / 8 : 0;
   const double margin = 0.02 * o.height;
   const double tick_room =
       o.depth_ticks ? 0.05 * o.width : 0;  // on both sides, so the sector stays centred

@@ -19,6 +19,8 @@ namespace echocine {
 // same surface, nearest in depth. For a flat interface the sum over lines is what sampling at the
 // centres gives. Precondition: settings.cell_echoes during the walk, which left lines[i].passes;
 // one stretch at least per line.
+// Limit: contour whose surface its own line does not cross (a tip or a structure between two lines)
+// sends nothing back, as with sampling at the centres.
 void addCellEchoes(std::span<const ContourPiece> pieces, const Probe& probe,
                    const TraceSettings& settings, std::span<LineTrace> lines);
 

@@ -21,7 +21,7 @@ int sampleFrom(const Sampling& s, double depth_m) {
 
 // One stretch's backscatter in blocks of eight samples: within a block stored powers of the
 // attenuation of one sample, from block to block its eighth power, in double: no call in the loops,
-// which vectorise, and rounding that stays under 1e-14.
+// which vectorise, and rounding of one part in 1e16 per block.
 template <bool kSpread, bool kAttenuation>
 void fillStretch(const Stretch& stretch, const Sampling& s, int begin, int end, float* out) {
   const double offset_m = s.centre(begin) - stretch.begin_depth_m;

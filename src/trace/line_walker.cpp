@@ -69,13 +69,11 @@ void LineWalker::addEcho(double R, double cos_i, const SurfaceTraits& surface) {
       {depth_m_, passed_ * nonSpecularReturn(W, cos_i, surface.exponent), exponent_});
 }
 
-// Forward times backward transmission, T_12 T_21 = (1 - R)^2.
+// Forward times backward transmission, T_12 T_21 = (1 - R)^2. Total reflection ends the ray
+// whatever effects are on: there is no direction in which it could go on.
 void LineWalker::loseAt(double R, bool total) {
-  if (!settings_.transmission_loss) return;
-  if (total)
-    alive_ = false;
-  else
-    passed_ *= (1 - R) * (1 - R);
+  if (total) alive_ = false;
+  if (settings_.transmission_loss) passed_ *= (1 - R) * (1 - R);
 }
 
 // The crossing whose normal and lobe stand for a group of coincident surfaces.

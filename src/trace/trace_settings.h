@@ -8,10 +8,6 @@
 
 namespace echocine {
 
-// The speed by which a scanner turns echo times into depths: the soft-tissue average it is built
-// for.
-inline constexpr double kScannerSpeed = 1540;  // m/s
-
 struct SurfaceTraits {
   MediumId medium{};
   int priority = 0;

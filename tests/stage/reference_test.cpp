@@ -71,9 +71,11 @@ TEST(Reference, IsOneWhenNothingIsBright) {
   EXPECT_EQ(histogram.percentile(99.5), 1);
 }
 
-TEST(Reference, IsPositiveAlsoWhenMostSamplesAreDark) {
+TEST(Reference, IsThatOfTheBrightSamplesWhenMostAreDark) {
   std::vector<float> plane(5000, 0.0f);
-  plane[99] = 0.25f;
+  plane[97] = 0.125f;
+  plane[98] = 0.25f;
+  plane[99] = 0.5f;
   IntensityHistogram histogram(probe());
   histogram.add(plane);
   EXPECT_NEAR(histogram.percentile(50), 0.25, 2.5e-4);

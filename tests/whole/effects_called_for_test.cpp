@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cine.h"
+#include "trace/line_samples.h"
 #include "support/exr_planes.h"
 #include "support/loop_scene.h"
 
@@ -192,6 +193,24 @@ TEST(EffectsCalledFor, StructuresThatNoFrameShowsAreLeftOut) {
     names += left["name"].get<std::string>() + " ";
   EXPECT_NE(names.find("aside"), std::string::npos) << names;
   EXPECT_NE(names.find("unseen"), std::string::npos) << names;
+}
+
+// Labels do not depend on which other channels are there, also behind total reflection.
+TEST(EffectsCalledFor, LabelsAloneAreLabelsBesideIntensities) {
+  const TempFolder folder;
+  writeBallMeshes(folder);
+  const auto labels = [&](const char* channels, const char* name) {
+    SceneText text = ballText();
+    text.output["channels"] = channels;
+    text.output["cine"] = "false";
+    const std::size_t at = text.media.rfind("sound_speed_m_s = 1540");
+    text.media.replace(at, 29, "sound_speed_m_s = 3000");
+    render(folder, text, name, false);
+    return exrPlane(folder / name / "intensity/frame_0001.exr", "medium.id").bits;
+  };
+  const std::vector<std::uint32_t> alone = labels("[\"medium.id\"]", "alone");
+  EXPECT_EQ(alone, labels("[\"medium.id\", \"Y\"]", "beside"));
+  EXPECT_GT(std::count(alone.begin(), alone.end(), kNoMedium), 0);
 }
 
 // Bent rays, decided by tracing: a thin contrast of speed stays within the tolerance, a strong one

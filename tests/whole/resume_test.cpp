@@ -87,6 +87,8 @@ TEST_F(PartsOfALoop, ResumingAChangedSceneIsRefusedAndHarmsNothing) {
   EXPECT_EQ(outcome.code, 2) << outcome.err;
   EXPECT_NE(outcome.err.find(".exr: belongs to another scene"), std::string::npos) << outcome.err;
   EXPECT_EQ(everythingIn(out / "intensity"), before);
+  EXPECT_TRUE(fs::exists(out / "manifest.json"));
+  EXPECT_TRUE(fs::exists(out / "cine.avi"));
 }
 
 TEST_F(PartsOfALoop, ResumingWithOtherMeshesIsRefused) {
