@@ -17,30 +17,11 @@
 #include "core/error.h"
 #include "output/cine_writer.h"
 #include "scene/scene.h"
+#include "support/temp_folder.h"
 
 namespace echocine::test {
 
-// A new folder that is deleted with everything in it at the end of the test.
-class TempFolder {
- public:
-  TempFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "echocine_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~TempFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
+using support::TempFolder;
 
 // While it lives no file grows past `bytes`: writes fail as they do on a full disk.
 class FullDisk {
