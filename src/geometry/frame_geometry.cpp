@@ -242,9 +242,9 @@ void FrameGeometry::State::recount(const RayQuery& query, std::uint32_t surface,
                                    std::vector<Crossing>& crossings) const {
   std::erase_if(crossings, [&](const Crossing& c) { return index(c.surface) == surface; });
   crossAll(RayPlanes(query.ray), surface, crossings);
-  for (const auto& [left_surface, left_triangle] : query.left_behind)
+  for (const std::pair<SurfaceId, std::uint32_t>& left : query.left_behind)
     std::erase_if(crossings, [&](const Crossing& c) {
-      return c.surface == left_surface && c.triangle == left_triangle;
+      return c.surface == left.first && c.triangle == left.second;
     });
 }
 
