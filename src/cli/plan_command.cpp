@@ -45,33 +45,12 @@ void printRest(const Estimate& estimate) {
 }
 
 void printJson(const Estimate& estimate) {
-  using Json = nlohmann::ordered_json;
-  const LoopPlan& plan = estimate.measured.plan;
-  Json effects = Json::array(), interfaces = Json::array(), stages = Json::object();
-  for (const EffectDecision& e : plan.effects.decisions)
-    effects.push_back({{"name", e.name},
-                       {"on", e.on},
-                       {"reason", e.reason},
-                       {"time_share", timeShare(e, estimate.measured)}});
-  for (const EffectDecision& i : plan.interfaces)
-    interfaces.push_back({{"name", i.name}, {"on", i.on}, {"reason", i.reason}});
-  for (std::size_t s = 0; s < kStages; ++s)
-    stages[stageName(static_cast<Stage>(s))] = estimate.measured.stage_ms[s];
-  const Json json{{"effects", effects},
-                  {"left_out", interfaces},
-                  {"tracer", plan.tracerName()},
-                  {"tracer_reason", plan.tracer_reason},
-                  {"interface_echo", plan.cell_echoes ? "cell" : "centre"},
-                  {"interface_echo_reason", plan.echo_reason},
-                  {"triangles",
-                   {{"given", plan.triangles_given},
-                    {"kept", plan.triangles_kept},
-                    {"met", plan.triangles_met}}},
-                  {"frames", estimate.frames},
-                  {"seconds", estimate.seconds},
-                  {"memory_bytes", estimate.memory_bytes},
-                  {"timings_ms_per_frame", stages},
-                  {"warnings", plan.warnings}};
+  nlohmann::ordered_json json = planJson(estimate.measured.plan);
+  json["effects"] = effectsJson(estimate.measured);
+  json["frames"] = estimate.frames;
+  json["seconds"] = estimate.seconds;
+  json["memory_bytes"] = estimate.memory_bytes;
+  json["timings_ms_per_frame"] = stageTimesJson(estimate.measured);
   fmt::print("{}\n", json.dump(1));
 }
 

@@ -12,32 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json effectsJson(const Manifest& manifest) {
-  Json effects = Json::array();
-  for (const EffectDecision& e : manifest.plan.effects.decisions)
-    effects.push_back({{"name", e.name},
-                       {"on", e.on},
-                       {"reason", e.reason},
-                       {"time_share", timeShare(e, manifest)}});
-  return effects;
-}
-
-Json planJson(const LoopPlan& plan) {
-  Json interfaces = Json::array();
-  for (const EffectDecision& i : plan.interfaces)
-    interfaces.push_back({{"name", i.name}, {"on", i.on}, {"reason", i.reason}});
-  return {{"tracer", plan.tracerName()},
-          {"tracer_reason", plan.tracer_reason},
-          {"interface_echo", plan.cell_echoes ? "cell" : "centre"},
-          {"interface_echo_reason", plan.echo_reason},
-          {"left_out", interfaces},
-          {"triangles",
-           {{"given", plan.triangles_given},
-            {"kept", plan.triangles_kept},
-            {"met", plan.triangles_met}}},
-          {"warnings", plan.warnings}};
-}
-
 Json framesJson(const Manifest& manifest) {
   Json frames = Json::array();
   for (const FrameEntry& f : manifest.frames) {
@@ -64,6 +38,39 @@ Json keyframesJson(const Manifest& manifest) {
 
 }  // namespace
 
+Json effectsJson(const Manifest& manifest) {
+  Json effects = Json::array();
+  for (const EffectDecision& e : manifest.plan.effects.decisions)
+    effects.push_back({{"name", e.name},
+                       {"on", e.on},
+                       {"reason", e.reason},
+                       {"time_share", timeShare(e, manifest)}});
+  return effects;
+}
+
+Json planJson(const LoopPlan& plan) {
+  Json interfaces = Json::array();
+  for (const EffectDecision& i : plan.interfaces)
+    interfaces.push_back({{"name", i.name}, {"on", i.on}, {"reason", i.reason}});
+  return {{"tracer", plan.tracerName()},
+          {"tracer_reason", plan.tracer_reason},
+          {"interface_echo", plan.cell_echoes ? "cell" : "centre"},
+          {"interface_echo_reason", plan.echo_reason},
+          {"left_out", interfaces},
+          {"triangles",
+           {{"given", plan.triangles_given},
+            {"kept", plan.triangles_kept},
+            {"met", plan.triangles_met}}},
+          {"warnings", plan.warnings}};
+}
+
+Json stageTimesJson(const Manifest& manifest) {
+  Json timings = Json::object();
+  for (std::size_t s = 0; s < kStages; ++s)
+    timings[stageName(static_cast<Stage>(s))] = manifest.stage_ms[s];
+  return timings;
+}
+
 double timeShare(const EffectDecision& effect, const Manifest& manifest) {
   double total = 0;
   for (const double ms : manifest.stage_ms) total += ms;
@@ -72,8 +79,7 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest) {
   const auto crossings = static_cast<double>(w.crossings), rays = static_cast<double>(w.rays),
              scattered = static_cast<double>(w.samples_backscatter),
              attenuated = static_cast<double>(w.samples_attenuated);
-  // Relative cost of a unit of each work, from timings of the tracer with effects turned off one by
-  // one. Choices.
+  // Relative cost of a unit of each work: our choice, weighed by the operations of each, not timed.
   struct Part {
     const char* name;
     Stage stage;
@@ -118,9 +124,7 @@ const char* stageName(Stage stage) {
 
 void writeManifest(const std::filesystem::path& path, const Scene& scene,
                    const Manifest& manifest) {
-  Json timings = Json::object();
-  for (std::size_t s = 0; s < kStages; ++s)
-    timings[stageName(static_cast<Stage>(s))] = manifest.stage_ms[s];
+  Json timings = stageTimesJson(manifest);
   timings["wall"] = manifest.wall_ms;
   const WorkCounts& w = manifest.work;
   const Json json{{"version", ECHOCINE_VERSION},

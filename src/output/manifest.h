@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,11 @@ struct Manifest {
 // carries out, in proportion to the work that was counted for each. What no effect calls for
 // (motion, encoding) is nobody's share.
 double timeShare(const EffectDecision& effect, const Manifest& manifest);
+
+// Parts of the manifest that are printed on their own too.
+nlohmann::ordered_json effectsJson(const Manifest& manifest);  // name, on, reason, time_share
+nlohmann::ordered_json planJson(const LoopPlan& plan);         // tracer, echoes, what is left out
+nlohmann::ordered_json stageTimesJson(const Manifest& manifest);
 
 // Throws JobError.
 void writeManifest(const std::filesystem::path& path, const Scene& scene, const Manifest& manifest);
