@@ -10,9 +10,12 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "motion/interpolation.h"
+#include "motion/limit_normals.h"
 #include "motion/mesh_check.h"
 #include "motion/mesh_io.h"
+#include "motion/repair/mesh_repair.h"
 #include "motion/subdivision.h"
+#include "motion/surface_measure.h"
 
 namespace echocine {
 
@@ -28,10 +31,12 @@ std::vector<double> phasesOf(const Structure& structure) {
 }
 
 std::vector<KeyframeMesh> readKeyframes(const Structure& structure, double mesh_unit_m,
-                                        Sha256& digest) {
+                                        Sha256& digest, std::vector<std::string>& notes) {
   std::vector<KeyframeMesh> keyframes;
   for (const Keyframe& keyframe : structure.keyframes)
-    keyframes.push_back(readKeyframe(keyframe, structure.place, digest));
+    keyframes.push_back(readKeyframe(keyframe, structure, digest));
+  const std::string note = repairKeyframes(structure, keyframes);
+  if (!note.empty()) notes.push_back(note);
   checkKeyframes(structure, keyframes, mesh_unit_m);
   return keyframes;
 }
@@ -101,73 +106,82 @@ Box loopBox(const std::vector<std::vector<Vec3d>>& keyframes_m, double magnifica
   return {box.lo - widen, box.hi + widen};
 }
 
-// target = weight * source, or target += weight * source. Plain arrays of floats, so that the
-// compiler vectorises across coordinates.
-void blend(float weight, const std::vector<Vec3f>& source, bool is_first,
-           std::vector<Vec3f>& target) {
-  const float* const from = &source.data()->x;
-  float* const to = &target.data()->x;
-  const std::size_t count = 3 * source.size();
-  if (is_first) {
-    for (std::size_t i = 0; i < count; ++i) to[i] = weight * from[i];
-  } else {
-    for (std::size_t i = 0; i < count; ++i) to[i] += weight * from[i];
-  }
+ControlMotion controlMotion(KeyframeWeights weights, const SurfaceTopology& topology,
+                            const std::vector<KeyframeMesh>& keyframes,
+                            const std::vector<std::vector<Vec3d>>& positions_m) {
+  ControlMotion control{std::move(weights), topology.triangles, {}, {}, topology.membrane};
+  for (const KeyframeMesh& keyframe : keyframes) control.parts.push_back(keyframe.parts);
+  for (const std::vector<Vec3d>& positions : positions_m)
+    control.rows_m.push_back(narrowed(positions));
+  for (std::size_t row = keyframes.size(); row < control.weights.rowCount(); ++row)
+    control.rows_m.push_back(narrowed(weightedSum(control.weights.rowWeights(row), positions_m)));
+  return control;
 }
 
 }  // namespace
 
 struct HeartMotion::MovingSurface {
-  KeyframeWeights weights;
-  std::vector<std::vector<Vec3f>>
-      rows_m;  // the rows of `weights`: keyframes, then what they derive
-  std::optional<Subdivision> subdivision;
+  ControlMotion control;
+  std::optional<Subdivision> subdivision{};
+  std::optional<LimitNormals> limit_normals{};
+  std::vector<Vec3f> still_m{};  // of a still structure that is subdivided: the refined vertices
 
-  void subdivide(SurfaceTopology& topology, const MotionSettings& motion);
-  void positionsAt(double phase, std::vector<Vec3f>& positions_m) const;
-  void controlAt(double phase, std::vector<Vec3f>& control_m) const;
+  void smooth(SurfaceTopology& topology, const MeshTags& tags, const Scene& scene);
+  void subdivide(SurfaceTopology& topology, const MeshTags& tags, const MotionSettings& motion);
+  void frameAt(double phase, std::vector<Vec3f>& positions_m, std::vector<Vec3f>* normals) const;
 };
 
-void HeartMotion::MovingSurface::controlAt(double phase, std::vector<Vec3f>& control_m) const {
-  thread_local std::vector<KeyframeWeights::Term> terms;
-  weights.termsAt(phase, terms);
-  if (terms.size() == 1) {  // a keyframe, or a still structure: exactly as read
-    control_m = rows_m[terms[0].row];
+void HeartMotion::MovingSurface::frameAt(double phase, std::vector<Vec3f>& positions_m,
+                                         std::vector<Vec3f>* normals) const {
+  if (!still_m.empty()) {
+    positions_m = still_m;
     return;
   }
-  control_m.resize(rows_m.front().size());
-  for (std::size_t i = 0; i < terms.size(); ++i)
-    blend(static_cast<float>(terms[i].weight), rows_m[terms[i].row], i == 0, control_m);
-}
-
-void HeartMotion::MovingSurface::positionsAt(double phase, std::vector<Vec3f>& positions_m) const {
-  if (!subdivision) return controlAt(phase, positions_m);
+  if (!subdivision && !limit_normals) return control.at(phase, positions_m);
   thread_local std::vector<Vec3f> control_m;
-  controlAt(phase, control_m);
+  control.at(phase, control_m);
+  if (limit_normals) {
+    normals->resize(limit_normals->normalCount());
+    limit_normals->apply(control_m, *normals);
+  }
+  if (!subdivision) {
+    positions_m = control_m;
+    return;
+  }
   positions_m.resize(subdivision->vertexCount());
   subdivision->apply(control_m, positions_m);
 }
 
-// Refines the topology now and the positions of every frame; of a still structure both now.
-void HeartMotion::MovingSurface::subdivide(SurfaceTopology& topology,
+// Normals of the limit surface at the vertices that subdivide() will make.
+void HeartMotion::MovingSurface::smooth(SurfaceTopology& topology, const MeshTags& tags,
+                                        const Scene& scene) {
+  limit_normals.emplace(topology.triangles, topology.vertex_count, tags, scene.motion.subdivision,
+                        scene.accuracy.normals_place);
+  topology.normal_corners = limit_normals->corners();
+}
+
+// Refines the topology now and the positions of every frame.
+void HeartMotion::MovingSurface::subdivide(SurfaceTopology& topology, const MeshTags& tags,
                                            const MotionSettings& motion) {
-  subdivision.emplace(topology.triangles, topology.vertex_count, motion.subdivision,
+  subdivision.emplace(topology.triangles, topology.vertex_count, tags, motion.subdivision,
                       motion.subdivision_place);
   topology.triangles = subdivision->triangles();
   topology.vertex_count = subdivision->vertexCount();
-  if (rows_m.size() > 1) return;
-  std::vector<Vec3f> refined_m(subdivision->vertexCount());
-  subdivision->apply(rows_m.front(), refined_m);
-  rows_m.front() = std::move(refined_m);
+  if (!control.still() || limit_normals) return;
+  // Of a still structure the positions too; its normals need the control vertices.
+  still_m.resize(subdivision->vertexCount());
+  subdivision->apply(control.rows_m.front(), still_m);
   subdivision.reset();
 }
 
-HeartMotion::HeartMotion(const Scene& scene) {
+HeartMotion::HeartMotion(const Scene& scene)
+    : smooth_normals_(scene.accuracy.normals == Normals::smooth) {
   Sha256 digest;
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     const Structure& structure = scene.structures[s];
     KeyframeWeights weights(phasesOf(structure), scene.motion.interpolation, structure.place);
-    const auto keyframes = readKeyframes(structure, scene.motion.mesh_unit_m, digest);
+    const auto keyframes =
+        readKeyframes(structure, scene.motion.mesh_unit_m, digest, repair_notes_);
     SurfaceTopology topology = controlTopology(structure, static_cast<SurfaceId>(s),
                                                keyframes.front().mesh, scene.probe.pose);
     std::vector<std::vector<Vec3d>> positions_m;
@@ -175,12 +189,10 @@ HeartMotion::HeartMotion(const Scene& scene) {
     for (const KeyframeMesh& keyframe : keyframes)
       positions_m.push_back(probePositions(structure, keyframe, scene));
     loop_boxes_m_.push_back(loopBox(positions_m, weights.magnification()));
-    MovingSurface moving{std::move(weights), {}, std::nullopt};
-    for (const std::vector<Vec3d>& positions : positions_m)
-      moving.rows_m.push_back(narrowed(positions));
-    for (std::size_t row = keyframes.size(); row < moving.weights.rowCount(); ++row)
-      moving.rows_m.push_back(narrowed(weightedSum(moving.weights.rowWeights(row), positions_m)));
-    if (scene.motion.subdivision > 0) moving.subdivide(topology, scene.motion);
+    MovingSurface moving{controlMotion(std::move(weights), topology, keyframes, positions_m)};
+    const MeshTags& tags = keyframes.front().mesh.tags;
+    if (smooth_normals_) moving.smooth(topology, tags, scene);
+    if (scene.motion.subdivision > 0) moving.subdivide(topology, tags, scene.motion);
     surfaces_.push_back(std::move(topology));
     moving_.push_back(std::move(moving));
   }
@@ -190,24 +202,25 @@ HeartMotion::HeartMotion(const Scene& scene) {
 HeartMotion::~HeartMotion() = default;
 HeartMotion::HeartMotion(HeartMotion&&) noexcept = default;
 
+const ControlMotion& HeartMotion::control(SurfaceId id) const {
+  return moving_[index(id)].control;
+}
+
 void HeartMotion::frameAt(double phase, SurfaceFrame& frame) const {
   frame.positions_m.resize(moving_.size());
+  frame.normals.resize(smooth_normals_ ? moving_.size() : 0);
   for (std::size_t s = 0; s < moving_.size(); ++s) {
     const bool in_place = surfaces_[s].still && !frame.positions_m[s].empty();
-    if (!in_place) moving_[s].positionsAt(phase, frame.positions_m[s]);
+    if (!in_place)
+      moving_[s].frameAt(phase, frame.positions_m[s],
+                         smooth_normals_ ? &frame.normals[s] : nullptr);
   }
 }
 
 double enclosedVolume(const SurfaceTopology& surface, const std::vector<Vec3f>& positions_m) {
   if (surface.membrane || surface.triangles.empty()) return 0;
   CHECK_EQ(positions_m.size(), surface.vertex_count);
-  const Vec3d reference = toDouble(positions_m[surface.triangles.front()[0]]);
-  double six_volumes = 0;
-  for (const Triangle& t : surface.triangles)
-    six_volumes += dot(
-        toDouble(positions_m[t[0]]) - reference,
-        cross(toDouble(positions_m[t[1]]) - reference, toDouble(positions_m[t[2]]) - reference));
-  return six_volumes / 6.0;
+  return enclosedVolume(surface.triangles, positions_m);
 }
 
 }  // namespace echocine

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/box.h"
+#include "motion/control_motion.h"
 #include "motion/surface_frame.h"
 #include "scene/scene.h"
 
@@ -29,6 +30,12 @@ class HeartMotion {
   // `frame` is reused without allocation once it has held a frame of this motion.
   void frameAt(double phase, SurfaceFrame& frame) const;
 
+  // What is interpolated, before subdivision.
+  const ControlMotion& control(SurfaceId id) const;
+
+  // What was mended in the meshes because the scene asked for it: a line for each structure.
+  const std::vector<std::string>& repairNotes() const { return repair_notes_; }
+
   // SHA-256 over everything read, in the scene's order.
   const std::string& inputSha256() const { return input_sha256_; }
 
@@ -37,6 +44,8 @@ class HeartMotion {
   std::vector<SurfaceTopology> surfaces_;
   std::vector<MovingSurface> moving_;
   std::vector<Box> loop_boxes_m_;
+  std::vector<std::string> repair_notes_;
+  bool smooth_normals_ = false;
   std::string input_sha256_;
 };
 

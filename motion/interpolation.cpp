@@ -95,6 +95,14 @@ KeyframeWeights::Interval KeyframeWeights::intervalAt(double phase) const {
   return {left, (left + 1) % n, length, std::clamp(elapsed / length, 0.0, 1.0)};
 }
 
+std::pair<std::size_t, std::size_t> KeyframeWeights::around(double phase) const {
+  const double wrapped = phase - std::floor(phase);
+  const Interval at = intervalAt(wrapped < 1 ? wrapped : 0.0);
+  if (at.fraction == 0) return {at.left, at.left};
+  if (at.fraction == 1) return {at.right, at.right};
+  return {at.left, at.right};
+}
+
 void KeyframeWeights::termsAt(double phase, std::vector<Term>& terms) const {
   terms.clear();
   const double wrapped = phase - std::floor(phase);  // may round up to 1, the same instant as 0

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -33,6 +34,10 @@ class KeyframeWeights {
                   const SourcePlace& place = {});
 
   std::size_t keyframeCount() const { return phases_.size(); }
+  std::span<const double> phases() const { return phases_; }
+
+  // The keyframes before and after a phase; at a keyframe both are that keyframe.
+  std::pair<std::size_t, std::size_t> around(double phase) const;
   std::size_t rowCount() const;
   std::span<const double> rowWeights(std::size_t row) const;  // row >= keyframeCount()
 

@@ -2,10 +2,13 @@
 // A triangle mesh as files hold it: in the file's own unit and world coordinates.
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "core/vec3.h"
+#include "motion/mesh_tags.h"
 #include "motion/surface_frame.h"
 
 namespace echocine {
@@ -17,7 +20,19 @@ inline constexpr std::size_t kMaxMeshTriangles = 40'000'000;
 struct TriangleMesh {
   std::vector<Vec3d> positions;
   std::vector<Triangle> triangles;
+  MeshTags tags{};  // OBJ files only
+  // The file's face, from 0, that each triangle is of; empty where every face is a triangle.
+  std::vector<std::uint32_t> faces{};
 };
+
+// The file's face, from 0, that a triangle is of; `faces` as above.
+inline std::size_t fileFace(const std::vector<std::uint32_t>& faces, std::size_t triangle) {
+  return faces.empty() ? triangle : faces[triangle];
+}
+
+// A face of the file as a fan of triangles. `face`: its number there, from 0. Precondition: at
+// least three corners.
+void appendFan(std::span<const std::uint32_t> corners, std::size_t face, TriangleMesh& mesh);
 
 // Where one file's triangles and vertices begin in a mesh that was joined from several. Vertices
 // that were welded to an earlier file's belong to that file.
@@ -25,6 +40,8 @@ struct MeshPart {
   std::filesystem::path file;
   std::size_t first_triangle = 0;
   std::size_t first_vertex = 0;
+  std::vector<std::uint32_t> faces{};  // as in TriangleMesh; empty: one after the other
+  bool filled = false;                 // no faces of the file but what a repair put over its holes
 };
 
 struct KeyframeMesh {

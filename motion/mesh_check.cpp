@@ -6,6 +6,8 @@
 #include <cstdint>
 
 #include "core/error.h"
+#include "motion/surface_check.h"
+#include "motion/surface_measure.h"
 
 namespace echocine {
 
@@ -15,97 +17,43 @@ namespace {
 constexpr double kMinExtentMetres = 1e-3;
 constexpr double kMaxExtentMetres = 2.0;
 
-const MeshPart& partOfTriangle(const KeyframeMesh& keyframe, std::size_t triangle) {
-  const MeshPart* found = &keyframe.parts.front();
-  for (const MeshPart& part : keyframe.parts)
-    if (part.first_triangle <= triangle) found = &part;
-  return *found;
-}
-
-// "lid.obj: face 12", numbered as in that file.
 std::string faceName(const KeyframeMesh& keyframe, std::size_t triangle) {
-  const MeshPart& part = partOfTriangle(keyframe, triangle);
-  return fmt::format("{}: face {}", part.file.string(), triangle - part.first_triangle + 1);
-}
-
-// Vertices are named by where they are: in a joined mesh their numbers belong to different files.
-std::string pointName(const TriangleMesh& mesh, std::uint32_t vertex) {
-  const Vec3d p = mesh.positions[vertex];
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
+  return echocine::faceName(keyframe.parts, triangle);
 }
 
 [[noreturn]] void fail(const Structure& structure, const std::string& what) {
   throw SceneError(atPlace(structure.place, fmt::format("{}: {}", structure.name, what)));
 }
 
-// One side of a triangle; both sides of a common edge have the same key.
-struct Side {
-  std::uint64_t key;  // lower vertex, higher vertex
-  std::uint32_t triangle;
-  bool descending;  // runs from the higher to the lower vertex
-};
-
-std::vector<Side> sortedSides(const TriangleMesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint64_t a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
-      sides.push_back(
-          {std::min(a, b) << 32 | std::max(a, b), static_cast<std::uint32_t>(t), a > b});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.key != b.key ? a.key < b.key : a.triangle < b.triangle;
-  });
-  return sides;
+// Vertices of a part that no earlier part has at the same place.
+std::size_t ownVertices(const KeyframeMesh& keyframe, std::size_t part) {
+  const std::size_t end = part + 1 < keyframe.parts.size() ? keyframe.parts[part + 1].first_vertex
+                                                           : keyframe.mesh.positions.size();
+  return end - keyframe.parts[part].first_vertex;
 }
 
-std::string edgeName(const TriangleMesh& mesh, std::uint64_t key) {
-  return fmt::format("{} - {}", pointName(mesh, static_cast<std::uint32_t>(key >> 32)),
-                     pointName(mesh, static_cast<std::uint32_t>(key)));
-}
-
-void checkEdges(const Structure& structure, const KeyframeMesh& keyframe) {
-  const std::vector<Side> sides = sortedSides(keyframe.mesh);
-  std::size_t open_count = 0;
-  const Side* first_open = nullptr;
-  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-    while (end < sides.size() && sides[end].key == sides[begin].key) ++end;
-    const Side &one = sides[begin], &other = sides[end - 1];
-    if (end - begin > 2)
-      fail(structure,
-           fmt::format("{}: edge {} belongs to {} faces, the last is {}; at most two are "
-                       "accepted: remove duplicate faces and split surfaces that meet",
-                       faceName(keyframe, one.triangle), edgeName(keyframe.mesh, one.key),
-                       end - begin, faceName(keyframe, other.triangle)));
-    if (end - begin == 2 && one.descending == other.descending)
-      fail(structure,
-           fmt::format("{} and {} run their common edge {} in the same direction; faces "
-                       "must be oriented alike: reverse one of them",
-                       faceName(keyframe, one.triangle), faceName(keyframe, other.triangle),
-                       edgeName(keyframe.mesh, one.key)));
-    if (end - begin > 1) continue;
-    if (first_open == nullptr || one.triangle < first_open->triangle) first_open = &one;
-    ++open_count;
-  }
-  if (open_count > 0 && !structure.membrane)
-    fail(structure,
-         fmt::format("{} has an open edge {}, one of {}; accepted: a closed mesh, lids which close "
-                     "it, or membrane = true for an open sheet",
-                     faceName(keyframe, first_open->triangle),
-                     edgeName(keyframe.mesh, first_open->key), open_count));
-}
-
+// The same number of vertices and the same faces in two keyframes.
 void checkSameFaces(const Structure& structure, const KeyframeMesh& first,
                     const KeyframeMesh& other) {
   const std::string first_file = first.parts.front().file.string();
   const std::string other_file = other.parts.front().file.string();
-  if (first.mesh.positions.size() != other.mesh.positions.size())
-    fail(structure,
-         fmt::format("{} has {} vertices, {} has {}{}; every keyframe must have the same",
-                     other_file, other.mesh.positions.size(), first_file,
-                     first.mesh.positions.size(), other.parts.size() > 1 ? " (lids joined)" : ""));
+  if (first.mesh.positions.size() != other.mesh.positions.size()) {
+    const std::string all_same = "every keyframe must have the same";
+    for (std::size_t p = 0; p < first.parts.size() && first.parts.size() == other.parts.size(); ++p)
+      if (ownVertices(first, p) != ownVertices(other, p))
+        fail(structure,
+             p == 0
+                 ? fmt::format("{} has {} vertices, {} has {}; {}", other_file,
+                               ownVertices(other, p), first_file, ownVertices(first, p), all_same)
+                 : fmt::format("lid {} adds {} vertices to its keyframe, {} adds {}; {}: a "
+                               "lid's vertex joins the mesh where both have exactly the same "
+                               "coordinates",
+                               other.parts[p].file.string(), ownVertices(other, p),
+                               first.parts[p].file.string(), ownVertices(first, p), all_same));
+    fail(structure, fmt::format("{} has {} vertices with its lids, {} has {}; {}", other_file,
+                                other.mesh.positions.size(), first_file,
+                                first.mesh.positions.size(), all_same));
+  }
   if (first.mesh.triangles.size() != other.mesh.triangles.size())
     fail(structure,
          fmt::format("{} has {} faces, {} has {}; every keyframe must have the same", other_file,
@@ -115,6 +63,22 @@ void checkSameFaces(const Structure& structure, const KeyframeMesh& first,
       fail(structure, fmt::format("{} differs from the same face of {}; every keyframe must have "
                                   "the same faces",
                                   faceName(other, t), first_file));
+}
+
+// Creases and corners belong to the faces: the first keyframe's hold for all. Others may leave them
+// out, all of them alike.
+void checkSameTags(const Structure& structure, std::span<const KeyframeMesh> keyframes) {
+  const KeyframeMesh* given = &keyframes.front();  // with which the others must agree
+  for (const KeyframeMesh& other : keyframes.subspan(1)) {
+    const bool leaves_out =
+        given == &keyframes.front() && &other == &keyframes[1] && other.mesh.tags.empty();
+    if (leaves_out) given = &other;
+    if (other.mesh.tags == given->mesh.tags) continue;
+    fail(structure,
+         fmt::format("{} has other creases or corners than {}; accepted: the same `t` lines in "
+                     "every keyframe, or in the first one only",
+                     other.parts.front().file.string(), given->parts.front().file.string()));
+  }
 }
 
 void checkExtent(const Structure& structure, const KeyframeMesh& keyframe, double mesh_unit_m) {
@@ -138,13 +102,14 @@ void checkVolume(const Structure& structure, const KeyframeMesh& keyframe, bool 
   fail(structure,
        fmt::format("{} encloses a volume of {:.4g} cubic mesh units: {}",
                    keyframe.parts.front().file.string(), volume,
-                   is_first ? "its faces look inward; reverse the vertex order of every face"
+                   is_first ? "its faces look inward; reverse the vertex order of every face" +
+                                  repairHint(structure.repair.orient, "orient")
                             : "this keyframe is turned inside out or mirrored; mend its vertices"));
 }
 
 }  // namespace
 
-void checkFile(const TriangleMesh& mesh, const std::filesystem::path& file) {
+void checkFile(const TriangleMesh& mesh, const std::filesystem::path& file, bool degenerate) {
   const auto fail_file = [&](const std::string& what) {
     throw SceneError(fmt::format("{}: {}", file.string(), what));
   };
@@ -153,39 +118,51 @@ void checkFile(const TriangleMesh& mesh, const std::filesystem::path& file) {
                           mesh.positions.size(), mesh.triangles.size()));
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
     if (!isFinite(mesh.positions[v]))
-      fail_file(fmt::format("vertex {} has a coordinate that is not finite", v + 1));
+      fail_file(fmt::format("vertex {} has a coordinate that is not finite; mend it", v + 1));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& corners = mesh.triangles[t];
+    const std::size_t face = fileFace(mesh.faces, t) + 1;
     for (const std::uint32_t v : corners)
       if (v >= mesh.positions.size())
-        fail_file(fmt::format("face {} uses vertex {}, the file has {} vertices", t + 1,
-                              std::uint64_t{v} + 1, mesh.positions.size()));
-    for (std::size_t k = 0; k < 3; ++k)
+        fail_file(fmt::format("face {} uses vertex {}, the file has {} vertices; mend the face",
+                              face, std::uint64_t{v} + 1, mesh.positions.size()));
+    for (std::size_t k = 0; k < 3 && !degenerate; ++k)
       if (corners[k] == corners[(k + 1) % 3])
-        fail_file(
-            fmt::format("face {} uses vertex {} twice; remove the face", t + 1, corners[k] + 1));
+        fail_file(fmt::format("face {} uses vertex {} twice; remove the face{}", face,
+                              corners[k] + 1, repairHint(false, "drop-degenerate")));
   }
+}
+
+void checkSameConnectivity(const Structure& structure, std::span<const KeyframeMesh> keyframes) {
+  for (const KeyframeMesh& keyframe : keyframes.subspan(1))
+    checkSameFaces(structure, keyframes.front(), keyframe);
 }
 
 void checkKeyframes(const Structure& structure, std::span<const KeyframeMesh> keyframes,
                     double mesh_unit_m) {
   const KeyframeMesh& first = keyframes.front();
-  for (const KeyframeMesh& keyframe : keyframes.subspan(1))
-    checkSameFaces(structure, first, keyframe);
+  checkSameConnectivity(structure, keyframes);
+  checkSameTags(structure, keyframes);
   checkEdges(structure, first);
   for (const KeyframeMesh& keyframe : keyframes) {
     checkExtent(structure, keyframe, mesh_unit_m);
     if (!structure.membrane) checkVolume(structure, keyframe, &keyframe == &first);
   }
+  if (!structure.membrane) checkPieces(structure, first);
+}
+
+std::string faceName(std::span<const MeshPart> parts, std::size_t triangle) {
+  const MeshPart* found = &parts.front();
+  for (const MeshPart& part : parts)
+    if (part.first_triangle <= triangle) found = &part;
+  const std::size_t face = triangle - found->first_triangle;
+  if (found->filled)
+    return fmt::format("{}: face {} of those that fill its holes", found->file.string(), face + 1);
+  return fmt::format("{}: face {}", found->file.string(), fileFace(found->faces, face) + 1);
 }
 
 double signedVolume(const TriangleMesh& mesh) {
-  const Vec3d reference = mesh.positions[mesh.triangles.front()[0]];
-  double six_volumes = 0;
-  for (const Triangle& t : mesh.triangles)
-    six_volumes += dot(mesh.positions[t[0]] - reference,
-                       cross(mesh.positions[t[1]] - reference, mesh.positions[t[2]] - reference));
-  return six_volumes / 6.0;
+  return enclosedVolume(mesh.triangles, [&](std::uint32_t v) { return mesh.positions[v]; });
 }
 
 }  // namespace echocine

@@ -3,6 +3,7 @@
 // vertices from 1, as OBJ files do.
 
 #include <span>
+#include <string>
 
 #include "motion/mesh.h"
 #include "scene/scene.h"
@@ -10,15 +11,24 @@
 namespace echocine {
 
 // One file by itself: not empty, coordinates finite, faces with three different vertices that
-// exist. Throws SceneError that starts with the file's name.
-void checkFile(const TriangleMesh& mesh, const std::filesystem::path& file);
+// exist; `degenerate`: two of them may be one vertex, as it will be repaired. Throws SceneError
+// that starts with the file's name.
+void checkFile(const TriangleMesh& mesh, const std::filesystem::path& file,
+               bool degenerate = false);
 
-// All keyframes of a structure: the same faces in each; edges with at most two faces, which run
-// them in opposite directions; of a plausible size; and unless it is a membrane closed and not
-// inside out. Throws SceneError that starts with the structure's place. Precondition: at least one
-// keyframe, each of files that passed checkFile.
+// The same vertices and faces in every keyframe. Throws as checkKeyframes does.
+void checkSameConnectivity(const Structure& structure, std::span<const KeyframeMesh> keyframes);
+
+// All keyframes of a structure: the same faces in each, and the same creases and corners in each or
+// in the first one only; edges with at most two faces, which run them in opposite directions; of a
+// plausible size; and unless it is a membrane closed, no bow ties, and neither it nor a separate
+// surface of it inside out. Throws SceneError that starts with the structure's place. Precondition:
+// at least one keyframe, each of files that passed checkFile.
 void checkKeyframes(const Structure& structure, std::span<const KeyframeMesh> keyframes,
                     double mesh_unit_m);
+
+// "lid.obj: face 12", numbered as in that file. Precondition: parts as in a KeyframeMesh.
+std::string faceName(std::span<const MeshPart> parts, std::size_t triangle);
 
 // Volume enclosed by a closed surface, positive when its faces look outward; cube of the mesh's
 // unit. By the divergence theorem, V = 1/6 sum a . (b x c), about a vertex of the surface so that

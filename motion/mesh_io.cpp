@@ -13,6 +13,7 @@
 #include "motion/mesh_check.h"
 #include "motion/obj_reader.h"
 #include "motion/openmesh_reader.h"
+#include "motion/tag_join.h"
 
 namespace echocine {
 
@@ -40,8 +41,9 @@ std::string extensionOf(const std::filesystem::path& file) {
   return extension.empty() ? extension : extension.substr(1);
 }
 
-void appendLid(const TriangleMesh& lid, const std::filesystem::path& file, VertexAt& vertex_at,
-               TriangleMesh& mesh) {
+// `degenerate`: faces with two corners at the same place are let pass.
+void appendLid(const TriangleMesh& lid, const std::filesystem::path& file, bool degenerate,
+               VertexAt& vertex_at, TriangleMesh& mesh) {
   std::vector<std::uint32_t> joined_from_lid;
   joined_from_lid.reserve(lid.positions.size());
   for (const Vec3d& position : lid.positions) {
@@ -53,27 +55,33 @@ void appendLid(const TriangleMesh& lid, const std::filesystem::path& file, Verte
   for (std::size_t t = 0; t < lid.triangles.size(); ++t) {
     Triangle corners = lid.triangles[t];
     for (std::uint32_t& corner : corners) corner = joined_from_lid[corner];
-    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
+    const bool collapsed =
+        corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+    if (collapsed && !degenerate)
       throw SceneError(
-          fmt::format("{}: face {} has two corners at the same place; a lid cannot be "
-                      "joined with such a face",
-                      file.string(), t + 1));
+          fmt::format("{}: face {} has two corners at the same place; a lid cannot be joined with "
+                      "such a face: remove it, or set repair = [\"drop-degenerate\"]",
+                      file.string(), fileFace(lid.faces, t) + 1));
     mesh.triangles.push_back(corners);
   }
+  joinTags(lid.tags, joined_from_lid, file, mesh.tags);
 }
 
-KeyframeMesh joinFiles(const Keyframe& keyframe, Sha256& digest) {
+KeyframeMesh joinFiles(const Keyframe& keyframe, bool degenerate, Sha256& digest) {
   KeyframeMesh joined;
   VertexAt vertex_at;
   for (const std::filesystem::path& file : keyframe.files) {
     TriangleMesh mesh = readMesh(file, digest);
-    checkFile(mesh, file);
-    joined.parts.push_back({file, joined.mesh.triangles.size(), joined.mesh.positions.size()});
+    checkFile(mesh, file, degenerate);
+    joined.parts.push_back(
+        {file, joined.mesh.triangles.size(), joined.mesh.positions.size(), std::move(mesh.faces)});
     if (joined.parts.size() > 1) {
-      appendLid(mesh, file, vertex_at, joined.mesh);
+      mesh.faces = joined.parts.back().faces;
+      appendLid(mesh, file, degenerate, vertex_at, joined.mesh);
       continue;
     }
     joined.mesh = std::move(mesh);
+    joined.mesh.faces.clear();
     if (keyframe.files.size() == 1) continue;
     for (std::size_t v = 0; v < joined.mesh.positions.size(); ++v)
       vertex_at.try_emplace(joined.mesh.positions[v], static_cast<std::uint32_t>(v));
@@ -105,11 +113,11 @@ TriangleMesh readMesh(const std::filesystem::path& file, Sha256& digest) {
   }
 }
 
-KeyframeMesh readKeyframe(const Keyframe& keyframe, const SourcePlace& place, Sha256& digest) {
+KeyframeMesh readKeyframe(const Keyframe& keyframe, const Structure& structure, Sha256& digest) {
   try {
-    return joinFiles(keyframe, digest);
+    return joinFiles(keyframe, structure.repair.drop_degenerate, digest);
   } catch (const SceneError& error) {
-    throw SceneError(atPlace(place, error.what()));
+    throw SceneError(atPlace(structure.place, fmt::format("{}: {}", structure.name, error.what())));
   }
 }
 

@@ -2,37 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdint>
 #include <vector>
 
 #include "core/error.h"
+#include "motion/obj_tags.h"
+#include "motion/obj_words.h"
 
 namespace echocine {
 
 namespace {
-
-bool isBlank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
-
-// Cuts the next blank-separated word off the front of a line; empty at its end.
-std::string_view nextWord(std::string_view& line) {
-  std::size_t begin = 0;
-  while (begin < line.size() && isBlank(line[begin])) ++begin;
-  std::size_t end = begin;
-  while (end < line.size() && !isBlank(line[end])) ++end;
-  const std::string_view word = line.substr(begin, end - begin);
-  line.remove_prefix(end);
-  return word;
-}
-
-template <typename Number>
-bool parseNumber(std::string_view word, Number& number) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return error == std::errc{} && end == word.data() + word.size();
-}
 
 class ObjParser {
  public:
@@ -53,6 +32,7 @@ class ObjParser {
         joined.clear();
       }
     }
+    tags_.joinTo(mesh_);
     return std::move(mesh_);
   }
 
@@ -62,6 +42,7 @@ class ObjParser {
     const std::string_view keyword = nextWord(line);
     if (keyword == "v") vertex(line);
     if (keyword == "f") face(line);
+    if (keyword == "t") tags_.read(line, line_number_);
   }
 
   // Further numbers (a weight, a colour) are let pass.
@@ -88,8 +69,7 @@ class ObjParser {
                        corners_.size()));
     if (mesh_.triangles.size() + corners_.size() > kMaxMeshTriangles)
       fail(fmt::format("more than {} triangles", kMaxMeshTriangles));
-    for (std::size_t i = 2; i < corners_.size(); ++i)
-      mesh_.triangles.push_back({corners_[0], corners_[i - 1], corners_[i]});
+    appendFan(corners_, face_count_ - 1, mesh_);
   }
 
   std::uint32_t corner(std::string_view word) const {
@@ -108,6 +88,7 @@ class ObjParser {
   }
 
   TriangleMesh mesh_;
+  ObjTags tags_;
   std::vector<std::uint32_t> corners_;
   std::size_t line_number_ = 0;
   std::size_t face_count_ = 0;

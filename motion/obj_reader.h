@@ -1,5 +1,5 @@
 #pragma once
-// Wavefront OBJ, the vertices and faces of it.
+// Wavefront OBJ, the vertices, faces, creases and corners of it.
 
 #include <string_view>
 
@@ -7,10 +7,11 @@
 
 namespace echocine {
 
-// Reads `v` and `f` statements; every other statement is skipped. Polygons become fans. Negative
-// indices count back from the newest vertex. Throws SceneError that starts with the line's number:
-// the library's reader works in single precision, silently skips vertices it cannot parse (which
-// shifts the numbers of all that follow) and silently drops faces that use a vertex twice.
+// Reads `v`, `f` and `t` (see obj_tags.h) statements; every other statement is skipped. Polygons
+// become fans. Negative indices count back from the newest vertex. Throws SceneError that starts
+// with the line's number: the library's reader works in single precision, silently skips vertices
+// it cannot parse (which shifts the numbers of all that follow) and silently drops faces that use a
+// vertex twice.
 TriangleMesh parseObj(std::string_view text);
 
 }  // namespace echocine

@@ -39,8 +39,9 @@ class PlainImporter final : public om::IO::BaseImporter {
                                    corners.size()));
     if (mesh.triangles.size() + corners.size() > kMaxMeshTriangles)
       throw SceneError(fmt::format("more than {} triangles", kMaxMeshTriangles));
-    for (std::size_t i = 2; i < corners.size(); ++i)
-      mesh.triangles.push_back({number(corners[0]), number(corners[i - 1]), number(corners[i])});
+    numbers_.clear();
+    for (const om::VertexHandle corner : corners) numbers_.push_back(number(corner));
+    appendFan(numbers_, face_count_ - 1, mesh);
     return om::FaceHandle(static_cast<int>(face_count_ - 1));
   }
   std::size_t n_vertices() const override { return mesh.positions.size(); }
@@ -101,6 +102,7 @@ class PlainImporter final : public om::IO::BaseImporter {
     return static_cast<std::uint32_t>(vertex.idx());
   }
 
+  std::vector<std::uint32_t> numbers_;
   std::size_t face_count_ = 0;
 };
 

@@ -20,6 +20,13 @@ struct SurfaceTopology {
   std::uint32_t vertex_count = 0;
   bool membrane = false;  // an open sheet: encloses nothing
   bool still = false;     // one keyframe: the same in every frame
+  // With smooth normals: the normal that each corner of each triangle takes. Empty where that is
+  // the normal with its vertex's number.
+  std::vector<Triangle> normal_corners{};
+
+  const std::vector<Triangle>& normalCorners() const {
+    return normal_corners.empty() ? triangles : normal_corners;
+  }
 };
 
 // One instant. positions_m[s] has vertex_count entries for the surface with index s. Probe frame:
@@ -27,6 +34,9 @@ struct SurfaceTopology {
 // wherever in the world the scene stands.
 struct SurfaceFrame {
   std::vector<std::vector<Vec3f>> positions_m;
+  // Smooth normals, by SurfaceTopology::normalCorners(): unit, outward; zero where there is none.
+  // No surface has any when the scene wants those of the facets.
+  std::vector<std::vector<Vec3f>> normals{};
 };
 
 }  // namespace echocine

@@ -42,6 +42,13 @@ void refuseOtherScene(const Scene& scene, const std::filesystem::path& folder,
     }
 }
 
+void warn(const std::vector<std::string>& warnings, const Monitor& monitor, Manifest& manifest) {
+  for (const std::string& warning : warnings) {
+    manifest.warnings.push_back(warning);
+    monitor.warn(warning);
+  }
+}
+
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -62,10 +69,11 @@ void noteCosts(const FrameMaker& maker, RenderSummary& summary) {
 
 RenderSummary renderCine(const Scene& scene, const RenderOptions& options, const Monitor& monitor) {
   const auto start = std::chrono::steady_clock::now();
-  const HeartMotion motion(scene);              // keyframes read, checked, ready to interpolate
-  const CardiacClock clock(scene.acquisition);  // when each frame is, and where in the beat
-  const std::pair range = frameRange(options, clock.frameCount());
   RenderSummary summary;
+  warn(scene.warnings, monitor, summary.manifest);
+  const HeartMotion motion(scene);  // keyframes read, checked, ready to interpolate
+  const CardiacClock clock(scene);  // when each frame is, and where in the beat
+  const std::pair range = frameRange(options, clock.frameCount());
   summary.frames_wanted = range.second - range.first;
   Manifest& manifest = summary.manifest;
   manifest.loop_frames = clock.frameCount();
@@ -73,6 +81,7 @@ RenderSummary renderCine(const Scene& scene, const RenderOptions& options, const
   if (options.resume) refuseOtherScene(scene, options.folder, manifest);
   withThreads(options.threads, [&] {
     manifest.plan = planLoop(scene, motion);  // what has to be computed at all, and how
+    warn(manifest.plan.warnings, monitor, manifest);
     const OutputFolder folder(options.folder, scene.output, options.resume);
     FrameMaker maker(scene, manifest.plan, motion);  // motion -> geometry -> trace -> signal
     summary.setup_s = secondsSince(start);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "output/manifest.h"
@@ -26,6 +27,9 @@ struct Progress {
 struct Monitor {
   std::function<void(const Progress&)> tell = [](const Progress&) {};
   std::function<bool()> keep_going = [] { return true; };
+  // What is accepted but hardly meant, each line as soon as it is known: those of the scene before
+  // a mesh is read. The manifest keeps them all.
+  std::function<void(const std::string&)> warn = [](const std::string&) {};
 };
 
 struct RenderSummary {

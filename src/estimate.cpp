@@ -59,17 +59,18 @@ void addFirstPass(const Scene& scene, double traced_share, double frame_s, Estim
 
 }  // namespace
 
-Estimate estimateLoop(const Scene& scene, int threads, const std::function<bool()>& keep_going) {
+Estimate estimateLoop(const Scene& scene, int threads, const std::function<bool()>& keep_going,
+                      const std::function<void(const std::string&)>& warn) {
   constexpr int kFrames = 6;
   const TemporaryFolder folder;
   Estimate estimate;
-  estimate.frames = CardiacClock(scene.acquisition).frameCount();
+  estimate.frames = CardiacClock(scene).frameCount();
   const int rendered = std::min(kFrames, estimate.frames);
   Scene few = scene;  // the reference's value does not change the cost of using it
   few.signal.reference_intensity = scene.signal.reference_intensity.value_or(1);
   const RenderOptions options{
       .folder = folder.path, .threads = threads, .frames = std::pair(0, rendered), .resume = false};
-  const RenderSummary summary = renderCine(few, options, {.keep_going = keep_going});
+  const RenderSummary summary = renderCine(few, options, {.keep_going = keep_going, .warn = warn});
   if (summary.frames_done < rendered) throw JobError("stopped while the plan was measured");
   estimate.measured = summary.manifest;
   const double frame_s = summary.passes_s / rendered;

@@ -14,6 +14,9 @@ struct Estimate {
 
 // Renders up to six frames of the loop to a temporary folder, which is removed.
 // Throws SceneError and JobError as renderCine() does, and a JobError when keep_going() says no.
-Estimate estimateLoop(const Scene& scene, int threads, const std::function<bool()>& keep_going);
+// `warn` is told what renderCine() warns of.
+Estimate estimateLoop(
+    const Scene& scene, int threads, const std::function<bool()>& keep_going,
+    const std::function<void(const std::string&)>& warn = [](const std::string&) {});
 
 }  // namespace echocine

@@ -7,6 +7,7 @@
 #include "core/units.h"
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
+#include "motion/motion_warnings.h"
 #include "trace/refraction_probe.h"
 
 namespace echocine {
@@ -166,6 +167,9 @@ void lookAtFrames(const Scene& scene, const HeartMotion& motion, LoopPlan& plan)
 LoopPlan planLoop(const Scene& scene, const HeartMotion& motion) {
   LoopPlan plan;
   plan.effects = planEffects(scene);
+  plan.warnings = motion.repairNotes();
+  for (std::string& warning : motionWarnings(scene, motion))
+    plan.warnings.push_back(std::move(warning));
   dropStructures(scene, motion, plan);
   decideRefraction(scene, motion, plan);
   chooseTracer(scene, plan);

@@ -8,6 +8,7 @@
 
 namespace echocine {
 
+// Throws JobError when a frame between keyframes is inside out.
 LoopPlan planLoop(const Scene& scene, const HeartMotion& motion);
 
 // One line for a person: tracer, what is on, what is off.

@@ -1,6 +1,6 @@
 #include "render_pass.h"
 
-#include <cmath>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
@@ -17,14 +17,16 @@ std::string frameName(int frame, const char* extension) {
   return std::filesystem::path(ExrStack::fileName(frame)).replace_extension(extension).string();
 }
 
-// The lead over the whole loop, finer than a picture is wide.
-std::vector<double> loopEcg(const Scene& scene, int frames) {
-  constexpr int kPoints = 4096;
-  const double loop_s = frames / scene.acquisition.frame_rate_hz;
+// The lead over the whole loop, finer than a picture is wide and than a QRS complex.
+std::vector<double> loopEcg(const CardiacClock& clock, double frame_rate_hz) {
+  constexpr double kLeastPoints = 4096, kMostPoints = 1 << 18, kPointRate_hz = 200;
+  const double loop_s = clock.frameCount() / frame_rate_hz;
+  const auto points =
+      static_cast<int>(std::clamp(loop_s * kPointRate_hz, kLeastPoints, kMostPoints));
   std::vector<double> lead;
-  for (int i = 0; i < kPoints; ++i) {
-    const double beats = loop_s * i / (kPoints - 1) * scene.acquisition.heart_rate_hz;
-    lead.push_back(ecgAmplitude(beats - std::floor(beats)));
+  for (int i = 0; i < points; ++i) {
+    const FrameTime time = clock.atTime(loop_s * i / (points - 1));
+    lead.push_back(ecgAmplitude(time.time_in_beat_s, time.beat_s));
   }
   return lead;
 }
@@ -47,7 +49,7 @@ RenderPass::RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept)
       exr_(parts.folder.intensity(), parts.scene, manifest.scene_sha256,
            manifest.reference_intensity),
       overlay_(parts.scene, parts.maker.chain().geometry(),
-               parts.scene.output.ecg ? loopEcg(parts.scene, parts.clock.frameCount())
+               parts.scene.output.ecg ? loopEcg(parts.clock, parts.scene.acquisition.frame_rate_hz)
                                       : std::vector<double>{}),
       cine_(parts.folder.cine(), parts.scene.output, parts.scene.acquisition.frame_rate_hz) {}
 
@@ -92,7 +94,7 @@ void RenderPass::writePictures(GreyImage& image, Finished& finished) {
 std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
   const FrameTime time = parts_.clock.at(frame);
   auto finished = std::make_shared<Finished>();
-  finished->entry.record = {frame, time.time_s, time.phase};
+  finished->entry.record = {frame, time.time_s, time.phase, time.beat};
   const FrameRecord& record = finished->entry.record;
   StageClock& clock = parts_.maker.clock();
   const OutputSettings& o = parts_.scene.output;

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <new>
 
+#include "cli/heart_command.h"
 #include "cli/plan_command.h"
 #include "cli/render_command.h"
 #include "core/error.h"
@@ -33,9 +34,12 @@ int main(int argc, char** argv) {
   app.fallthrough(false);
   echocine::RenderCommand render(app);
   echocine::PlanCommand plan(app);
+  echocine::HeartCommand heart(app);
   try {
     app.parse(argc, argv);
-    const int code = app.got_subcommand("plan") ? plan.run() : render.run();
+    const int code = app.got_subcommand("heart")  ? heart.run()
+                     : app.got_subcommand("plan") ? plan.run()
+                                                  : render.run();
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       return failed(kJobFailed, "what was to be printed could not be written");
     return code;

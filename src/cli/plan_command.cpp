@@ -5,7 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/interpolation_table.h"
 #include "cli/stop_signal.h"
+#include "cli/warning_printer.h"
 #include "estimate.h"
 #include "scene/scene_reader.h"
 
@@ -47,6 +49,7 @@ void printRest(const Estimate& estimate) {
 void printJson(const Estimate& estimate) {
   nlohmann::ordered_json json = planJson(estimate.measured.plan);
   json["effects"] = effectsJson(estimate.measured);
+  json["warnings"] = estimate.measured.warnings;
   json["frames"] = estimate.frames;
   json["seconds"] = estimate.seconds;
   json["memory_bytes"] = estimate.memory_bytes;
@@ -63,6 +66,10 @@ PlanCommand::PlanCommand(CLI::App& app) {
       ->required();
   command->add_option("--threads", threads_, "Threads; 0 for one per core")
       ->check(CLI::Range(0, 4096));
+  command->add_flag(
+      "--interpolation", interpolation_,
+      "Instead: how well each kind of motion.interpolation finds every other keyframe "
+      "from the rest, errors in mm and mL");
   command->add_flag("--json", json_, "Print JSON");
   command->add_flag("--quiet", quiet_, "Print no warnings");
 }
@@ -70,10 +77,12 @@ PlanCommand::PlanCommand(CLI::App& app) {
 int PlanCommand::run() {
   const Scene scene = readScene(scene_file_);
   listenForStop();
-  const Estimate estimate = estimateLoop(scene, threads_, [] { return !stopWanted(); });
-  if (!quiet_)
-    for (const std::string& warning : estimate.measured.plan.warnings)
-      fmt::print(stderr, "echocine: warning: {}\n", warning);
+  if (interpolation_) {
+    printInterpolation(scene, json_);
+    return 0;
+  }
+  const Estimate estimate = estimateLoop(
+      scene, threads_, [] { return !stopWanted(); }, warningPrinter(quiet_));
   if (json_) {
     printJson(estimate);
   } else {

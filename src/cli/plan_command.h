@@ -17,7 +17,7 @@ class PlanCommand {
  private:
   std::string scene_file_;
   int threads_ = 0;
-  bool json_ = false, quiet_ = false;
+  bool json_ = false, quiet_ = false, interpolation_ = false;
 };
 
 }  // namespace echocine

@@ -7,6 +7,7 @@
 
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
+#include "cli/warning_printer.h"
 #include "core/error.h"
 #include "motion/cardiac_clock.h"
 #include "plan_loop.h"
@@ -76,13 +77,13 @@ RenderCommand::RenderCommand(CLI::App& app) {
 
 int RenderCommand::run() {
   const Scene scene = readScene(scene_file_);
-  if (!frames_.empty())
-    options_.frames = parseRange(frames_, CardiacClock(scene.acquisition).frameCount());
+  if (!frames_.empty()) options_.frames = parseRange(frames_, CardiacClock(scene).frameCount());
   listenForStop();
   ProgressLine line(quiet_);
   Monitor monitor;
   monitor.tell = [&line](const Progress& progress) { line.show(progress); };
   monitor.keep_going = [] { return !stopWanted(); };
+  monitor.warn = warningPrinter(quiet_);
   const RenderSummary summary = renderCine(scene, options_, monitor);
   line.finish();
   if (summary.frames_done < summary.frames_wanted)
@@ -90,8 +91,6 @@ int RenderCommand::run() {
         fmt::format("stopped: {} of {} frames are finished in {}; --resume goes on from there",
                     summary.frames_done, summary.frames_wanted, options_.folder.string()));
   if (quiet_) return 0;
-  for (const std::string& warning : summary.manifest.plan.warnings)
-    fmt::print(stderr, "echocine: warning: {}\n", warning);
   printSummary(summary, options_, scene);
   return 0;
 }

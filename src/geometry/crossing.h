@@ -22,6 +22,7 @@ struct Crossing {
   SurfaceId surface{};
   std::uint32_t triangle = 0;
   bool entering = false;  // into a closed surface; through a membrane's front
+  Vec3d facet_normal{};  // with smooth normals: the facet's own; else zero, `normal` is the facet's
 };
 
 // What a ray meets, sorted by distance (ties by surface), and the states at its start as its

@@ -15,6 +15,7 @@
 #include "core/parallel.h"
 #include "geometry/crossing_rule.h"
 #include "geometry/line_states.h"
+#include "geometry/smooth_normal.h"
 
 namespace echocine {
 
@@ -30,6 +31,18 @@ Box boxOf(const std::vector<Vec3f>& positions) {
     hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
   }
   return {toDouble(lo), toDouble(hi)};
+}
+
+// Has the surface a triangle whose corners coincide, as where a cavity or an apex closes? Closer
+// than 1e-30 m counts too: Embree may take such differences for 0.
+bool hasPointTriangle(const SurfaceTopology& surface, const std::vector<Vec3f>& positions) {
+  const auto same = [](Vec3f a, Vec3f b) {
+    return std::abs(a.x - b.x) < 1e-30f && std::abs(a.y - b.y) < 1e-30f &&
+           std::abs(a.z - b.z) < 1e-30f;
+  };
+  return std::any_of(surface.triangles.begin(), surface.triangles.end(), [&](const Triangle& t) {
+    return same(positions[t[0]], positions[t[1]]) && same(positions[t[0]], positions[t[2]]);
+  });
 }
 
 struct Candidate {
@@ -112,11 +125,14 @@ void throwOnError(const char* doing) {
 struct FrameGeometry::State {
   const std::vector<SurfaceTopology>& surfaces;
   RTCScene scene = nullptr;
-  std::vector<Vec3f*> vertices;  // Embree's own buffers
+  std::vector<Vec3f*> vertices;             // Embree's own buffers
+  std::vector<std::vector<Vec3f>> normals;  // smooth ones, if the frame has any
   std::vector<RTCGeometry> geometries;
   std::vector<Box> boxes;
   InsideSet membranes, absent;
-  bool held = false;  // a frame was taken over: still surfaces are in place
+  InsideSet with_points;  // surfaces that have triangles shrunk to a point
+  bool held = false;      // a frame was taken over: still surfaces are in place
+  bool two_levels = true;
 
   State(const std::vector<SurfaceTopology>& topology, const InsideSet& left_out);
   ~State() {
@@ -128,6 +144,7 @@ struct FrameGeometry::State {
   State& operator=(const State&) = delete;
 
   void addSurface(const SurfaceTopology& surface);
+  void chooseQuality();
   std::optional<Crossing> cross(const RayPlanes& ray, std::uint32_t surface,
                                 std::uint32_t triangle) const;
   void crossAll(const RayPlanes& ray, std::uint32_t surface, std::vector<Crossing>& out) const;
@@ -137,6 +154,7 @@ struct FrameGeometry::State {
   void recount(const RayQuery& query, std::uint32_t surface,
                std::vector<Crossing>& crossings) const;
   void proveStates(const RayQuery& query, RayCrossings& out) const;
+  void smoothNormals(const Ray& ray, std::vector<Crossing>& crossings) const;
 };
 
 FrameGeometry::State::State(const std::vector<SurfaceTopology>& topology, const InsideSet& left_out)
@@ -174,6 +192,16 @@ void FrameGeometry::State::addSurface(const SurfaceTopology& surface) {
   std::copy(surface.triangles.begin(), surface.triangles.end(), t);
   vertices.push_back(v);
   rtcAttachGeometryByID(scene, geometry, id);
+}
+
+// Embree's builder of the hierarchy over the meshes divides by the common extent of what it groups.
+// Where that is 0, triangles shrunk to a point, it ends the program by an assertion. Frames with
+// such triangles get the slower hierarchy over all triangles at once.
+void FrameGeometry::State::chooseQuality() {
+  const bool wanted = with_points.none();
+  if (wanted == two_levels) return;
+  two_levels = wanted;
+  rtcSetSceneBuildQuality(scene, two_levels ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
 }
 
 std::optional<Crossing> FrameGeometry::State::cross(const RayPlanes& ray, std::uint32_t surface,
@@ -270,6 +298,23 @@ void FrameGeometry::State::proveStates(const RayQuery& query, RayCrossings& out)
   keepChanges(out.crossings, depth, membranes, clamped);
 }
 
+// What the crossings' normals are with smooth normals; nothing else of them changes.
+void FrameGeometry::State::smoothNormals(const Ray& ray, std::vector<Crossing>& crossings) const {
+  const RayPlanes planes(ray);
+  for (Crossing& c : crossings) {
+    const auto s = index(c.surface);
+    const Triangle& t = surfaces[s].triangles[c.triangle];
+    const Triangle& n = surfaces[s].normalCorners()[c.triangle];
+    const Vec3d p[3] = {toDouble(vertices[s][t[0]]), toDouble(vertices[s][t[1]]),
+                        toDouble(vertices[s][t[2]])};
+    const auto height = [&](Vec3d q) { return dot(planes.v_axis, q - planes.origin); };
+    const double v[3] = {height(p[0]), height(p[1]), height(p[2])};
+    const std::vector<Vec3f>& normal = normals[s];
+    makeSmooth(planes, *cutTriangle(p[0], p[1], p[2], v[0], v[1], v[2]),
+               cutNormals({normal[n[0]], normal[n[1]], normal[n[2]]}, v[0], v[1], v[2]), c);
+  }
+}
+
 FrameGeometry::FrameGeometry(const std::vector<SurfaceTopology>& surfaces,
                              const InsideSet& left_out)
     : state_(std::make_unique<State>(surfaces, left_out)) {}
@@ -278,14 +323,18 @@ FrameGeometry::FrameGeometry(FrameGeometry&&) noexcept = default;
 
 void FrameGeometry::update(const SurfaceFrame& frame) {
   State& s = *state_;
+  s.normals.resize(frame.normals.size());
   for (std::size_t i = 0; i < s.surfaces.size(); ++i) {
     if (s.absent[i] || (s.surfaces[i].still && s.held)) continue;
     std::copy(frame.positions_m[i].begin(), frame.positions_m[i].end(), s.vertices[i]);
     s.boxes[i] = boxOf(frame.positions_m[i]);
+    s.with_points[i] = hasPointTriangle(s.surfaces[i], frame.positions_m[i]);
+    if (!frame.normals.empty()) s.normals[i] = frame.normals[i];
     rtcUpdateGeometryBuffer(s.geometries[i], RTC_BUFFER_TYPE_VERTEX, 0);
     rtcCommitGeometry(s.geometries[i]);
   }
   s.held = true;
+  s.chooseQuality();
   // Embree waits for its own tasks here; outside work must not be taken up meanwhile.
   isolated([&] { rtcCommitScene(s.scene); });
   throwOnError("updating the hierarchy");
@@ -325,6 +374,7 @@ void FrameGeometry::crossings(std::span<const RayQuery> rays, std::span<RayCross
   for (std::size_t i = 0; i < rays.size(); ++i) {
     state_->crossCandidates(rays[i], found[i], out[i]);
     state_->proveStates(rays[i], out[i]);
+    if (!state_->normals.empty()) state_->smoothNormals(rays[i].ray, out[i].crossings);
   }
 }
 

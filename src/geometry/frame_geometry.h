@@ -27,7 +27,7 @@ class FrameGeometry {
   ~FrameGeometry();
   FrameGeometry(FrameGeometry&&) noexcept;
 
-  // Takes over the positions (copies them) and refits the hierarchy.
+  // Takes over the positions and normals (copies them) and refits the hierarchy.
   void update(const SurfaceFrame& frame);
 
   // Closed surfaces that hold the point, by the rule of crossing_rule.h.

@@ -5,6 +5,7 @@
 
 #include "core/rough_angle.h"
 #include "geometry/line_states.h"
+#include "geometry/smooth_normal.h"
 
 namespace echocine {
 
@@ -49,6 +50,20 @@ void PlaneSlice::cutSurface(const SurfaceTopology& surface, const std::vector<Ve
   }
 }
 
+// Of the surface's pieces, which start at `first`.
+void PlaneSlice::addNormals(const SurfaceTopology& surface, const SurfaceFrame& frame,
+                            std::size_t first, std::span<const ContourPiece> pieces,
+                            std::vector<PieceNormals>& normals) const {
+  const std::vector<Vec3f>& position = frame.positions_m[index(surface.id)];
+  const std::vector<Vec3f>& normal = frame.normals[index(surface.id)];
+  for (const ContourPiece& piece : pieces.subspan(first)) {
+    const Triangle& corner = surface.triangles[piece.triangle];
+    const Triangle& n = surface.normalCorners()[piece.triangle];
+    normals.push_back(cutNormals({normal[n[0]], normal[n[1]], normal[n[2]]}, position[corner[0]].y,
+                                 position[corner[1]].y, position[corner[2]].y));
+  }
+}
+
 // How many lines, counted from the first, have the point at u >= 0: the lines turn (or move) from
 // left to right, so that is all lines up to some index. Guessed from the point's direction and made
 // exact by the rule itself. Precondition: z >= 0, where u >= 0 changes once over a sector of up to
@@ -68,16 +83,21 @@ int PlaneSlice::linesRightOf(Vec3d point) const {
   return n;
 }
 
-void PlaneSlice::crossLine(const ContourPiece& piece, int line) {
+void PlaneSlice::crossLine(std::size_t number, int line) {
   const auto i = static_cast<std::size_t>(line);
-  if (const std::optional<CutCrossing> c = crossCut(rays_[i], piece.cut))
-    lines_[i].crossings.push_back(
-        {c->distance_m, unitNormal(piece), piece.surface, piece.triangle, c->entering});
+  const ContourPiece& piece = pieces_[number];
+  const std::optional<CutCrossing> c = crossCut(rays_[i], piece.cut);
+  if (!c) return;
+  lines_[i].crossings.push_back(
+      {c->distance_m, unitNormal(piece), piece.surface, piece.triangle, c->entering});
+  if (!normals_.empty())
+    makeSmooth(rays_[i], piece.cut, normals_[number], lines_[i].crossings.back());
 }
 
 // A piece meets the lines between its ends. Where it reaches behind the plane z = 0 of the
 // transducer every line is asked, since there its ends may lie more than half a turn apart.
-void PlaneSlice::crossPiece(const ContourPiece& piece) {
+void PlaneSlice::crossPiece(std::size_t number) {
+  const ContourPiece& piece = pieces_[number];
   const bool behind1 = piece.cut.from.z < 0, behind2 = piece.cut.to.z < 0;
   if (behind1 && behind2) return;  // lines never point backwards
   int begin = 0, end = probe_.lines;
@@ -86,7 +106,7 @@ void PlaneSlice::crossPiece(const ContourPiece& piece) {
     begin = std::min(n1, n2);
     end = std::max(n1, n2);
   }
-  for (int i = begin; i < end; ++i) crossLine(piece, i);
+  for (int i = begin; i < end; ++i) crossLine(number, i);
 }
 
 // Contours of closed surfaces close exactly, so the crossings of a line themselves tell where it
@@ -109,16 +129,21 @@ void PlaneSlice::resolve(RayCrossings& line) const {
 
 void PlaneSlice::update(const SurfaceFrame& frame) {
   for (RayCrossings& line : lines_) line.crossings.clear();
-  const auto cutAll = [&](bool still, std::vector<ContourPiece>& pieces) {
-    for (const SurfaceTopology& surface : surfaces_)
-      if (surface.still == still && !left_out_[index(surface.id)])
-        cutSurface(surface, frame.positions_m[index(surface.id)], pieces);
+  const auto cutAll = [&](bool still, std::vector<ContourPiece>& pieces,
+                          std::vector<PieceNormals>& normals) {
+    for (const SurfaceTopology& surface : surfaces_) {
+      if (surface.still != still || left_out_[index(surface.id)]) continue;
+      const std::size_t first = pieces.size();
+      cutSurface(surface, frame.positions_m[index(surface.id)], pieces);
+      if (!frame.normals.empty()) addNormals(surface, frame, first, pieces, normals);
+    }
   };
-  if (!still_cut_) cutAll(true, still_pieces_);
+  if (!still_cut_) cutAll(true, still_pieces_, still_normals_);
   still_cut_ = true;
   pieces_ = still_pieces_;
-  cutAll(false, pieces_);
-  for (const ContourPiece& piece : pieces_) crossPiece(piece);
+  normals_ = still_normals_;
+  cutAll(false, pieces_, normals_);
+  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) crossPiece(piece);
   for (RayCrossings& line : lines_) resolve(line);
 }
 

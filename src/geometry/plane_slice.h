@@ -21,6 +21,9 @@ struct ContourPiece {
   std::uint32_t triangle = 0;
 };
 
+// With smooth normals: their values at the ends of a piece's cut, as cutNormals() has them.
+using PieceNormals = TriangleCut;
+
 // Unit normal of a piece's facet, by facetNormal().
 Vec3d unitNormal(const ContourPiece& piece);
 
@@ -37,12 +40,16 @@ class PlaneSlice {
 
   const std::vector<RayCrossings>& lines() const { return lines_; }
   const std::vector<ContourPiece>& pieces() const { return pieces_; }
+  // One for each piece; none at all when the frame has no smooth normals.
+  const std::vector<PieceNormals>& normals() const { return normals_; }
 
  private:
   void cutSurface(const SurfaceTopology& surface, const std::vector<Vec3f>& positions,
                   std::vector<ContourPiece>& pieces);
-  void crossPiece(const ContourPiece& piece);
-  void crossLine(const ContourPiece& piece, int line);
+  void addNormals(const SurfaceTopology& surface, const SurfaceFrame& frame, std::size_t first,
+                  std::span<const ContourPiece> pieces, std::vector<PieceNormals>& normals) const;
+  void crossPiece(std::size_t piece);
+  void crossLine(std::size_t piece, int line);
   void resolve(RayCrossings& line) const;
   int linesRightOf(Vec3d point) const;
 
@@ -52,7 +59,9 @@ class PlaneSlice {
   std::vector<std::uint8_t> above_;
   std::vector<ContourPiece> still_pieces_;  // of surfaces that never move: cut once
   bool still_cut_ = false;
+  std::vector<PieceNormals> still_normals_;
   std::vector<ContourPiece> pieces_;
+  std::vector<PieceNormals> normals_;
   std::vector<RayCrossings> lines_;
   double first_place_ = 0,
          lines_per_place_ = 0;  // of the lines: angles, or offsets of a linear probe

@@ -12,6 +12,7 @@ struct FrameRecord {
   int frame = 0;
   double time_s = 0;
   double phase = 0;
+  int beat = 0;  // of the loop, from 0
 };
 
 // One plane of a polar frame: line-major (all samples of line 0, then of line 1, ...), shallow to

@@ -22,6 +22,7 @@ Json framesJson(const Manifest& manifest) {
         {{"index", f.record.frame},
          {"time_s", f.record.time_s},
          {"phase", f.record.phase},
+         {"beat", f.record.beat},
          {"volumes_ml", volumes},
          {"exr", exr ? Json("intensity/" + ExrStack::fileName(f.record.frame)) : Json()},
          {"sha256", exr ? Json(f.exr_sha256) : Json()}});
@@ -60,8 +61,7 @@ Json planJson(const LoopPlan& plan) {
           {"triangles",
            {{"given", plan.triangles_given},
             {"kept", plan.triangles_kept},
-            {"met", plan.triangles_met}}},
-          {"warnings", plan.warnings}};
+            {"met", plan.triangles_met}}}};
 }
 
 Json stageTimesJson(const Manifest& manifest) {
@@ -133,6 +133,7 @@ void writeManifest(const std::filesystem::path& path, const Scene& scene,
                   {"media", mediaJson(scene)},
                   {"effects", effectsJson(manifest)},
                   {"plan", planJson(manifest.plan)},
+                  {"warnings", manifest.warnings},
                   {"reference_intensity", manifest.reference_intensity},
                   {"loop_frames", manifest.loop_frames},
                   {"frames", framesJson(manifest)},

@@ -43,6 +43,7 @@ struct Manifest {
   std::array<double, kStages> stage_ms{};    // per frame, summed over threads
   double wall_ms = 0;                        // per frame
   WorkCounts work;                           // of the whole run
+  std::vector<std::string> warnings;         // of scene, motion and plan
   std::map<std::string, std::string> files;  // path relative to the folder -> SHA-256
 };
 

@@ -27,6 +27,18 @@ BloodBackscatter readBlood(TomlTable& table, const MediumSpec& plasma) {
   return blood;
 }
 
+// Keys of the kinds that this medium is not.
+void noteOtherKinds(TomlTable& table, Kind kind) {
+  if (kind != Kind::fixed) table.unused("per_cm_sr", "kind = \"fixed\"");
+  if (kind != Kind::tissue)
+    for (const char* key : {"velocity_variation", "correlation_length_um"})
+      table.unused(key, "kind = \"tissue\"");
+  if (kind != Kind::blood)
+    for (const char* key : {"hematocrit", "cell_radius_um", "cell_density_kg_m3",
+                            "cell_compressibility_cm2_dyn", "plasma"})
+      table.unused(key, "kind = \"blood\"");
+}
+
 }  // namespace
 
 MediaTable::MediaTable() {
@@ -57,11 +69,13 @@ MediumSpec MediaTable::readMedium(const std::string& name, TomlTable& table) con
   TomlTable backscatter = table.table("backscatter");
   if (!backscatter.has("kind"))
     backscatter.fail("kind", "is missing, accepted: \"none\" | \"fixed\" | \"blood\" | \"tissue\"");
-  switch (backscatter.choice("kind", Kind::none,
-                             {{"none", Kind::none},
-                              {"fixed", Kind::fixed},
-                              {"blood", Kind::blood},
-                              {"tissue", Kind::tissue}})) {
+  const Kind kind = backscatter.choice("kind", Kind::none,
+                                       {{"none", Kind::none},
+                                        {"fixed", Kind::fixed},
+                                        {"blood", Kind::blood},
+                                        {"tissue", Kind::tissue}});
+  noteOtherKinds(backscatter, kind);
+  switch (kind) {
     case Kind::none:
       break;
     case Kind::fixed:

@@ -16,18 +16,28 @@
 
 namespace echocine {
 
+// How keyframes of one heart rate are played at another; automatic: by systole where the keyframes'
+// rate is known.
+enum class WarpChoice { automatic, uniform, systole };
+
 struct Acquisition {
-  double heart_rate_hz = 65.0 / 60.0;
+  double heart_rate_hz = 65.0 / 60.0;  // the mean where beats vary
   double frame_rate_hz = 50;
   double beats = 1;
+  WarpChoice time_warp = WarpChoice::automatic;
+  double rr_variability = 0;  // standard deviation / mean of the beats' durations
+  int seed = 1;               // of what is random in the acquisition
 };
 
 enum class Interpolation { linear, catmull_rom, spline, fourier };
 
 struct MotionSettings {
   double mesh_unit_m = 1e-3;
-  Interpolation interpolation = Interpolation::spline;
-  int subdivision = 0;  // Loop levels
+  Interpolation interpolation = Interpolation::catmull_rom;
+  int subdivision = 0;                           // Loop levels
+  std::optional<double> keyframe_heart_rate_hz;  // of the beat that the keyframes show
+  std::optional<double> end_systole_phase;       // of the keyframes; else as published for the rate
+  std::vector<double> keyframe_phases;  // of keyframes without phases of their own; empty: even
   SourcePlace interpolation_place, subdivision_place;
 };
 
@@ -36,15 +46,26 @@ struct Keyframe {
   double phase = 0;                          // [0, 1)
 };
 
+// What is mended in a structure's meshes before they are checked, in this order.
+struct Repairs {
+  bool weld = false;             // one vertex for each point of the surface
+  bool drop_degenerate = false;  // faces without area, duplicate faces
+  bool orient = false;           // all faces look outward
+  bool fill_holes = false;       // a fan over every open rim
+  bool any() const { return weld || drop_degenerate || orient || fill_holes; }
+};
+
 struct Structure {
   std::string name;
   MediumId medium{};
   bool membrane = false;            // an open sheet of a thin material: reflects, encloses nothing
   int priority = 0;                 // where closed structures overlap the highest wins
   std::vector<Keyframe> keyframes;  // ascending phases
+  bool phases_given = false;        // by the scene; else evenly spaced
   double reflection_gain = 1;       // factor of R in W of the non-specular lobe
   double reflection_exponent = 2;   // n of the non-specular lobe
-  SourcePlace place;                // of its keyframes in the scene file
+  Repairs repair;
+  SourcePlace place;  // of its keyframes in the scene file
 };
 
 enum class Switch { automatic, on, off };
@@ -82,6 +103,7 @@ struct SignalSettings {
 
 enum class TracerChoice { automatic, slice, embree };
 enum class InterfaceEcho { automatic, centre, cell };
+enum class Normals { facet, smooth };
 
 struct AccuracySettings {
   int rays_per_beam = 1;
@@ -89,6 +111,10 @@ struct AccuracySettings {
   // At the scan line, or integrated over the beam's cell (plane slice only; automatic: where it can
   // be).
   InterfaceEcho interface_echo = InterfaceEcho::automatic;
+  // Angles of incidence from the facets, or from normals of the Loop limit surface interpolated
+  // over them.
+  Normals normals = Normals::facet;
+  SourcePlace normals_place;
   // Refraction "auto" is off while 99 % of the echoes move by less than this many line spacings.
   // Our choice: half a line, which the image cannot show.
   double refraction_tolerance_lines = 0.5;
@@ -121,6 +147,7 @@ struct Scene {
   SignalSettings signal;
   AccuracySettings accuracy;
   OutputSettings output;
+  std::vector<std::string> warnings;  // what is accepted but hardly meant, one line each
 
   const Medium& medium(MediumId id) const { return media[index(id)]; }
 };

@@ -13,6 +13,10 @@ const char* nameOf(E value, std::initializer_list<const char*> names) {
   return names.begin()[static_cast<std::size_t>(value)];
 }
 
+Json optionalJson(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+
 Json vectorJson(Vec3d v) {
   return Json::array({v.x, v.y, v.z});
 }
@@ -37,6 +41,15 @@ Json probeJson(const Probe& p) {
           {"samples", p.samples}};
 }
 
+Json repairJson(const Repairs& r) {
+  Json words = Json::array();
+  if (r.weld) words.push_back("weld");
+  if (r.drop_degenerate) words.push_back("drop-degenerate");
+  if (r.orient) words.push_back("orient");
+  if (r.fill_holes) words.push_back("fill-holes");
+  return words;
+}
+
 Json structuresJson(const Scene& scene) {
   Json list = Json::array();
   for (const Structure& s : scene.structures) {
@@ -52,6 +65,7 @@ Json structuresJson(const Scene& scene) {
                     {"priority", s.priority},
                     {"reflection_gain", s.reflection_gain},
                     {"reflection_exponent", s.reflection_exponent},
+                    {"repair", repairJson(s.repair)},
                     {"keyframes", keyframes}});
   }
   return list;
@@ -81,7 +95,7 @@ Json signalJson(const SignalSettings& s) {
           {"beam_width_m", s.beam_width_m},
           {"pulse_cycles", s.pulse_cycles},
           {"dynamic_range_db", s.dynamic_range_db},
-          {"reference_intensity", s.reference_intensity ? Json(*s.reference_intensity) : Json()},
+          {"reference_intensity", optionalJson(s.reference_intensity)},
           {"reference_percentile", s.reference_percentile},
           {"grey_gamma", s.grey_gamma}};
 }
@@ -121,12 +135,17 @@ Json sceneJson(const Scene& scene) {
           {"acquisition",
            {{"heart_rate_hz", scene.acquisition.heart_rate_hz},
             {"frame_rate_hz", scene.acquisition.frame_rate_hz},
-            {"beats", scene.acquisition.beats}}},
+            {"beats", scene.acquisition.beats},
+            {"time_warp", nameOf(scene.acquisition.time_warp, {"auto", "uniform", "systole"})},
+            {"rr_variability", scene.acquisition.rr_variability},
+            {"seed", scene.acquisition.seed}}},
           {"motion",
            {{"mesh_unit_m", scene.motion.mesh_unit_m},
             {"interpolation",
              nameOf(scene.motion.interpolation, {"linear", "catmull-rom", "spline", "fourier"})},
-            {"subdivision", scene.motion.subdivision}}},
+            {"subdivision", scene.motion.subdivision},
+            {"keyframe_heart_rate_hz", optionalJson(scene.motion.keyframe_heart_rate_hz)},
+            {"end_systole_phase", optionalJson(scene.motion.end_systole_phase)}}},
           {"structures", structuresJson(scene)},
           {"effects", effectsJson(scene.effects)},
           {"signal", signalJson(scene.signal)},
@@ -134,6 +153,7 @@ Json sceneJson(const Scene& scene) {
            {{"rays_per_beam", scene.accuracy.rays_per_beam},
             {"tracer", nameOf(scene.accuracy.tracer, {"auto", "slice", "embree"})},
             {"interface_echo", nameOf(scene.accuracy.interface_echo, {"auto", "centre", "cell"})},
+            {"normals", nameOf(scene.accuracy.normals, {"facet", "smooth"})},
             {"refraction_tolerance_lines", scene.accuracy.refraction_tolerance_lines}}},
           {"output", outputJson(scene.output)}};
 }

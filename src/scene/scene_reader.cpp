@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/file.h"
 #include "core/units.h"
+#include "scene/keyframe_warnings.h"
 #include "scene/media_reader.h"
 #include "scene/structure_reader.h"
 #include "scene/toml_table.h"
@@ -17,6 +19,9 @@ namespace {
 
 constexpr std::size_t kMaxSceneBytes = 4 << 20;
 constexpr double kMaxFrames = 1e6;
+constexpr NumberRange kHeartRates_bpm{.lo = 1, .hi = 1000};
+// Our choice: three deviations of it leave a tenth of the mean beat.
+constexpr double kMaxRrVariability = 0.3;
 constexpr double kMaxGainDb =
     200;  // keeps intensities within floats; scanners end at 100. Our choice
 constexpr double kMaxPolarSamples = 1 << 26;
@@ -47,7 +52,11 @@ Frame readPose(TomlTable& table, double mesh_unit_m) {
 }
 
 void readFootprint(TomlTable& table, Probe& probe) {
+  if (probe.kind != ProbeKind::linear) table.unused("width_mm", "kind = \"linear\"");
+  if (probe.kind != ProbeKind::curvilinear)
+    table.unused("face_radius_mm", "kind = \"curvilinear\"");
   if (probe.kind == ProbeKind::linear) {
+    table.unused("sector_deg", "kind = \"phased\" | \"curvilinear\"");
     const double width = metresFromMillimetres(table.number("width_mm", std::nullopt, kPositive));
     probe.first_offset_m = -width / 2;
     probe.last_offset_m = width / 2;
@@ -95,13 +104,46 @@ Probe readProbe(TomlTable table, double mesh_unit_m) {
 Acquisition readAcquisition(TomlTable table) {
   Acquisition a;
   a.heart_rate_hz = hertzFromBeatsPerMinute(
-      table.number("heart_rate_bpm", a.heart_rate_hz * 60, {.lo = 1, .hi = 1000}));
+      table.number("heart_rate_bpm", a.heart_rate_hz * 60, kHeartRates_bpm));
   a.frame_rate_hz = table.number("frame_rate_hz", a.frame_rate_hz, {.lo = 0.1, .hi = 100000});
   a.beats = table.number("beats", a.beats, {.lo = 0, .hi = 1e6, .lo_open = true});
   if (a.beats / a.heart_rate_hz * a.frame_rate_hz > kMaxFrames)
     table.fail("beats", fmt::format("the loop would have over {} frames", kMaxFrames));
+  a.time_warp = table.choice("time_warp", a.time_warp,
+                             {{"auto", WarpChoice::automatic},
+                              {"uniform", WarpChoice::uniform},
+                              {"systole", WarpChoice::systole}});
+  a.rr_variability =
+      table.number("rr_variability", a.rr_variability, {.lo = 0, .hi = kMaxRrVariability});
+  a.seed = table.integer("seed", a.seed, 0, std::numeric_limits<int>::max());
   table.finish();
   return a;
+}
+
+void readRecordedBeat(TomlTable& table, MotionSettings& m) {
+  constexpr std::string_view kRate = "keyframe_heart_rate_bpm", kEnd = "end_systole_phase";
+  if (table.has(kRate))
+    m.keyframe_heart_rate_hz =
+        hertzFromBeatsPerMinute(table.number(kRate, std::nullopt, kHeartRates_bpm));
+  if (!table.has(kEnd)) return;
+  // phaseDurations() has it from 0.19 at 30 bpm to 0.55 at 160; wider by our choice.
+  m.end_systole_phase = table.number(kEnd, std::nullopt, {.lo = 0.1, .hi = 0.8});
+  if (!m.keyframe_heart_rate_hz)
+    table.fail(kEnd, "says nothing alone, accepted: with keyframe_heart_rate_bpm");
+}
+
+std::vector<double> readKeyframePhases(TomlTable& table) {
+  const char* key = "keyframe_phases";
+  const std::vector<double> phases = table.numbers(key);
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    if (!(phases[i] >= 0 && phases[i] < 1))
+      table.fail(
+          key, fmt::format("phase {} is {}, accepted: from 0 up to, without, 1", i + 1, phases[i]));
+    if (i > 0 && !(phases[i] > phases[i - 1]))
+      table.fail(key, fmt::format("phase {} is {} after {}, accepted: ascending phases", i + 1,
+                                  phases[i], phases[i - 1]));
+  }
+  return phases;
 }
 
 MotionSettings readMotion(TomlTable table) {
@@ -113,6 +155,8 @@ MotionSettings readMotion(TomlTable table) {
                                   {"spline", Interpolation::spline},
                                   {"fourier", Interpolation::fourier}});
   m.subdivision = table.integer("subdivision", m.subdivision, 0, 8);
+  readRecordedBeat(table, m);
+  m.keyframe_phases = readKeyframePhases(table);
   m.interpolation_place = table.place("interpolation");
   m.subdivision_place = table.place("subdivision");
   table.finish();
@@ -142,7 +186,7 @@ EffectSwitches readEffects(TomlTable table) {
 void readTgc(TomlTable& table, SignalSettings& s) {
   s.tgc = table.choice("tgc", s.tgc,
                        {{"perfect", Tgc::perfect}, {"table", Tgc::table}, {"none", Tgc::none}});
-  if (s.tgc != Tgc::table) return;
+  if (s.tgc != Tgc::table) return table.unused("tgc_table_mm_db", "tgc = \"table\"");
   for (const auto& [depth_mm, gain_db] : table.pairs("tgc_table_mm_db")) {
     const double depth_m = metresFromMillimetres(depth_mm);
     if (std::abs(gain_db) > kMaxGainDb)
@@ -166,14 +210,18 @@ SignalSettings readSignal(TomlTable table) {
       {{"focused", BeamWidth::focused}, {"fixed", BeamWidth::fixed}, {"none", BeamWidth::none}});
   if (s.beam_width == BeamWidth::fixed)
     s.beam_width_m = metresFromMillimetres(table.number("beam_width_mm", std::nullopt, kPositive));
+  else
+    table.unused("beam_width_mm", "beam_width = \"fixed\"");
   s.pulse_cycles = table.number("pulse_cycles", s.pulse_cycles, {.lo = 0, .hi = 1000});
   s.dynamic_range_db =
       table.number("dynamic_range_db", s.dynamic_range_db, {.lo = 0, .hi = 1000, .lo_open = true});
-  if (table.has("reference_intensity"))
+  if (table.has("reference_intensity")) {
     s.reference_intensity = table.number("reference_intensity", std::nullopt, kPositive);
-  else
+    table.unused("reference_percentile", "reference_intensity left out");
+  } else {
     s.reference_percentile = table.number("reference_percentile", s.reference_percentile,
                                           {.lo = 0, .hi = 100, .lo_open = true});
+  }
   s.grey_gamma = table.number("grey_gamma", s.grey_gamma, {.lo = 0, .hi = 100, .lo_open = true});
   table.finish();
   return s;
@@ -232,6 +280,9 @@ AccuracySettings readAccuracy(TomlTable table) {
                                   {{"auto", InterfaceEcho::automatic},
                                    {"centre", InterfaceEcho::centre},
                                    {"cell", InterfaceEcho::cell}});
+  a.normals =
+      table.choice("normals", a.normals, {{"facet", Normals::facet}, {"smooth", Normals::smooth}});
+  a.normals_place = table.place("normals");
   a.refraction_tolerance_lines = table.number(
       "refraction_tolerance_lines", a.refraction_tolerance_lines, NumberRange::notNegative());
   table.finish();
@@ -242,7 +293,11 @@ AccuracySettings readAccuracy(TomlTable table) {
 void refuseContradictions(TomlTable& root, const Scene& scene) {
   const AccuracySettings& a = scene.accuracy;
   const TomlTable effects = root.table("effects"), accuracy = root.table("accuracy"),
-                  output = root.table("output");
+                  output = root.table("output"), acquisition = root.table("acquisition");
+  if (scene.acquisition.time_warp == WarpChoice::systole && !scene.motion.keyframe_heart_rate_hz)
+    acquisition.fail("time_warp",
+                     "\"systole\" needs motion.keyframe_heart_rate_bpm, accepted without it: "
+                     "\"auto\" | \"uniform\"");
   if (scene.effects.refraction == Switch::on && a.tracer == TracerChoice::slice)
     effects.fail(
         "refraction",
@@ -286,7 +341,8 @@ class MediaInUse {
 
 void readStructures(TomlTable& root, const MediaTable& table, MediaInUse& media, Scene& scene) {
   for (TomlTable& entry : root.tables("structure")) {
-    Structure structure = readStructure(entry, scene.file.parent_path());
+    Structure structure =
+        readStructure(entry, scene.file.parent_path(), scene.motion.keyframe_phases);
     structure.medium = media.idOf(table.named(entry, "medium"));
     entry.finish();
     for (const Structure& other : scene.structures)
@@ -324,6 +380,7 @@ Scene parseScene(std::string_view text, const std::filesystem::path& file) {
   scene.output = readOutput(root.table("output"));
   root.finish();
   refuseContradictions(root, scene);
+  scene.warnings = keyframeWarnings(scene);
   // Without attenuation there is no received intensity: the default channel is the one that is
   // true.
   if (scene.effects.attenuation == Switch::off && !scene.output.channels_given)

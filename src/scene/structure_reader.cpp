@@ -75,13 +75,21 @@ std::vector<Keyframe> readPhasedKeyframes(TomlTable& table, const fs::path& fold
   return keyframes;
 }
 
-std::vector<Keyframe> readEvenKeyframes(TomlTable& table, const fs::path& folder) {
+// A structure of one keyframe stands still, whatever the phases of the others.
+std::vector<Keyframe> readPlainKeyframes(TomlTable& table, const fs::path& folder,
+                                         std::span<const double> phases) {
   std::vector<Keyframe> keyframes;
   for (const std::string& pattern : table.texts("keyframes"))
     for (const fs::path& file : matchingFiles(table, "keyframes", folder, pattern))
       keyframes.push_back({{file}, 0});
+  const bool given = !phases.empty() && keyframes.size() > 1;
+  if (given && phases.size() != keyframes.size())
+    table.fail("keyframes", fmt::format("{} keyframes, accepted: as many as motion.keyframe_phases "
+                                        "has, {}, or one that stands still",
+                                        keyframes.size(), phases.size()));
   for (std::size_t i = 0; i < keyframes.size(); ++i)
-    keyframes[i].phase = static_cast<double>(i) / static_cast<double>(keyframes.size());
+    keyframes[i].phase =
+        given ? phases[i] : static_cast<double>(i) / static_cast<double>(keyframes.size());
   return keyframes;
 }
 
@@ -96,22 +104,52 @@ void addLids(TomlTable& table, const fs::path& folder, std::vector<Keyframe>& ke
   }
 }
 
+Repairs readRepairs(TomlTable& table, bool membrane) {
+  Repairs repairs;
+  const std::vector<std::pair<std::string, bool Repairs::*>> words{
+      {"weld", &Repairs::weld},
+      {"orient", &Repairs::orient},
+      {"drop-degenerate", &Repairs::drop_degenerate},
+      {"fill-holes", &Repairs::fill_holes}};
+  std::vector<std::string> names;
+  for (const auto& word : words) names.push_back(word.first);
+  for (const std::string& asked : table.texts("repair")) {
+    const auto found = std::find(names.begin(), names.end(), asked);
+    if (found == names.end()) {
+      const std::string nearest = nearestWord(asked, names);
+      table.fail("repair",
+                 fmt::format("holds \"{}\", accepted: \"{}\"{}", asked, fmt::join(names, "\" | \""),
+                             nearest.empty() ? "" : fmt::format("; nearest: {}", nearest)));
+    }
+    repairs.*words[static_cast<std::size_t>(found - names.begin())].second = true;
+  }
+  if (membrane && repairs.fill_holes)
+    table.fail("repair",
+               "holds \"fill-holes\", which would close an open sheet, accepted of a membrane: "
+               "\"weld\" | \"orient\" | \"drop-degenerate\"");
+  return repairs;
+}
+
 }  // namespace
 
-Structure readStructure(TomlTable& table, const fs::path& folder) {
+Structure readStructure(TomlTable& table, const fs::path& folder, std::span<const double> phases) {
   Structure structure;
   structure.name = table.text("name");
   if (structure.name.empty()) table.fail("name", "is empty, accepted: a name");
   structure.membrane = table.boolean("membrane", structure.membrane);
   if (!structure.membrane)
     structure.priority = table.integer("priority", structure.priority, -1000000, 1000000);
-  structure.keyframes = table.isListOfTables("keyframes") ? readPhasedKeyframes(table, folder)
-                                                          : readEvenKeyframes(table, folder);
+  else
+    table.unused("priority", "membrane = false: a membrane encloses nothing");
+  structure.phases_given = table.isListOfTables("keyframes");
+  structure.keyframes = structure.phases_given ? readPhasedKeyframes(table, folder)
+                                               : readPlainKeyframes(table, folder, phases);
   if (structure.keyframes.empty())
     table.fail("keyframes",
                "is missing or empty, accepted: a file pattern, a list of files, or a list of "
                "{file, phase}");
   addLids(table, folder, structure.keyframes);
+  structure.repair = readRepairs(table, structure.membrane);
   structure.place = table.place("keyframes");
   structure.reflection_gain =
       table.number("reflection_gain", structure.reflection_gain, NumberRange::notNegative());

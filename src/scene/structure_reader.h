@@ -2,13 +2,16 @@
 // One [[structure]] of a scene file.
 
 #include <filesystem>
+#include <span>
 
 #include "scene/scene.h"
 #include "scene/toml_table.h"
 
 namespace echocine {
 
-// Everything but the medium. `folder` is the base of the structure's paths.
-Structure readStructure(TomlTable& table, const std::filesystem::path& folder);
+// Everything but the medium. `folder` is the base of the structure's paths; `phases` are those of
+// keyframes that are given without, evenly spaced where empty.
+Structure readStructure(TomlTable& table, const std::filesystem::path& folder,
+                        std::span<const double> phases);
 
 }  // namespace echocine

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 namespace echocine {
@@ -53,6 +54,7 @@ struct TomlTable::Node {
   std::string path;  // "probe", for messages
   int line = 0;
   std::vector<std::string> known;
+  std::map<std::string, std::string, std::less<>> unused;  // key -> what it is accepted with
 
   const toml::node* find(std::string_view key) {
     if (std::find(known.begin(), known.end(), key) == known.end()) known.emplace_back(key);
@@ -211,6 +213,21 @@ std::vector<std::string> TomlTable::texts(std::string_view key) {
   return result;
 }
 
+std::vector<double> TomlTable::numbers(std::string_view key) {
+  const char* accepted = "accepted: finite numbers [a, b, ...]";
+  const toml::node* value = node_->find(key);
+  if (!value) return {};
+  const toml::array* list = value->as_array();
+  if (!list) fail(key, fmt::format("is {}, {}", typeName(*value), accepted));
+  std::vector<double> result;
+  for (const toml::node& item : *list) {
+    if (!item.is_number() || !std::isfinite(*item.value<double>()))
+      fail(key, fmt::format("entry {} is not a finite number, {}", result.size() + 1, accepted));
+    result.push_back(*item.value<double>());
+  }
+  return result;
+}
+
 std::vector<std::pair<double, double>> TomlTable::pairs(std::string_view key) {
   const char* accepted = "accepted: pairs of finite numbers [[a, b], [a, b], ...]";
   const toml::node* value = node_->find(key);
@@ -266,11 +283,17 @@ std::vector<std::pair<std::string, TomlTable>> TomlTable::namedTables(std::strin
   return result;
 }
 
+void TomlTable::unused(std::string_view key, std::string_view accepted_with) {
+  node_->unused.emplace(key, accepted_with);
+}
+
 void TomlTable::finish() const {
   if (!node_->table) return;
   for (const auto& [key, value] : *node_->table) {
     const std::string name(key.str());
     if (std::find(node_->known.begin(), node_->known.end(), name) != node_->known.end()) continue;
+    if (const auto found = node_->unused.find(name); found != node_->unused.end())
+      fail(name, "is a known key, but not used here, accepted only with " + found->second);
     const std::string nearest = nearestWord(name, node_->known);
     std::string accepted;
     for (const std::string& k : node_->known) accepted += (accepted.empty() ? "" : ", ") + k;

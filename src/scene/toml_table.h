@@ -57,12 +57,17 @@ class TomlTable {
 
   bool isListOfTables(std::string_view key);
   std::vector<std::string> texts(std::string_view key);  // a string or a list of strings
+  std::vector<double> numbers(std::string_view key);     // [a, b, ...]
   std::vector<std::pair<double, double>> pairs(std::string_view key);  // [[a, b], ...]
 
   // Sub-tables; absent ones are empty, so that their defaults apply.
   TomlTable table(std::string_view key);
   std::vector<TomlTable> tables(std::string_view key);                               // [[key]]
   std::vector<std::pair<std::string, TomlTable>> namedTables(std::string_view key);  // [key.name]
+
+  // A key of the format that the other settings leave without effect; finish() refuses it with
+  // these words: "accepted only with tgc = "table"".
+  void unused(std::string_view key, std::string_view accepted_with);
 
   // Refuses keys nobody asked for, with the nearest known one.
   void finish() const;
@@ -77,8 +82,8 @@ class TomlTable {
   std::unique_ptr<Node> node_;
 };
 
-// The candidate with the fewest edits to `word`; empty when none is nearer than `edits`, half the word
-// or three letters if left out.
+// The candidate with the fewest edits to `word`; empty when none is nearer than `edits`, half the
+// word or three letters if left out.
 std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates,
                         std::optional<std::size_t> edits = std::nullopt);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/rough_angle.h"
+#include "geometry/smooth_normal.h"
 #include "trace/interface_law.h"
 
 namespace echocine {
@@ -34,7 +35,8 @@ class CellIntegrator {
     }
   }
 
-  void add(const ContourPiece& piece) {
+  // normals: of the piece, or nothing where the facet's own counts.
+  void add(const ContourPiece& piece, const PieceNormals* normals) {
     Point a{piece.cut.from.x, piece.cut.from.z}, b{piece.cut.to.x, piece.cut.to.z};
     if (!clipToFront(a, b)) return;
     int begin = cellOf(a), end = cellOf(b);
@@ -48,7 +50,7 @@ class CellIntegrator {
     Point from = begin < 0 ? atBoundary(a, b, 0) : a;
     for (int i = std::max(begin, 0); i <= std::min(end, last); ++i) {
       const Point to = i < end ? atBoundary(a, b, i + 1) : b;
-      addToLine(piece, normal, from, to, lines_[static_cast<std::size_t>(i)]);
+      addToLine(piece, {normal, normals}, from, to, lines_[static_cast<std::size_t>(i)]);
       from = to;
     }
   }
@@ -123,14 +125,32 @@ class CellIntegrator {
     return best;
   }
 
-  void addToLine(const ContourPiece& piece, Vec3d normal, Point from, Point to, LineTrace& line) {
+  struct Normal {
+    Vec3d of_facet;
+    const PieceNormals* smooth;
+  };
+
+  // Of the point of a piece, seen along a direction; smooth normals run linearly from end to end.
+  static Vec3d normalAt(const ContourPiece& piece, const Normal& normal, Point p, Vec3d direction) {
+    if (!normal.smooth) return normal.of_facet;
+    const Vec3d along = piece.cut.to - piece.cut.from;
+    const double size = dot(along, along);
+    const double t = size > 0 ? dot(Vec3d{p.x, 0, p.z} - piece.cut.from, along) / size : 0.5;
+    const Vec3d value = normal.smooth->from + t * (normal.smooth->to - normal.smooth->from);
+    return facingNormal(value, direction, normal.of_facet);
+  }
+
+  // Which way the piece is crossed is the facet's business, the angle of incidence the normal's.
+  void addToLine(const ContourPiece& piece, const Normal& normal, Point from, Point to,
+                 LineTrace& line) {
     const Point middle{(from.x + to.x) / 2, (from.z + to.z) / 2};
     const double reach = std::sqrt(middle.x * middle.x + middle.z * middle.z);
     const Vec3d direction =
         angular_ && reach > 0 ? Vec3d{middle.x / reach, 0, middle.z / reach} : Vec3d{0, 0, 1};
-    const double along = dot(direction, normal);
-    const InterfacePass* pass = nearestPass(line, piece, along < 0, pathLength(middle));
+    const bool entering = dot(direction, normal.of_facet) < 0;
+    const InterfacePass* pass = nearestPass(line, piece, entering, pathLength(middle));
     if (!pass || !pass->seen) return;
+    const double along = dot(direction, normalAt(piece, normal, middle, direction));
     const double echo = echoAt(*pass, std::min(std::abs(along), 1.0));
     if (echo > 0) split(from, to, [&](CellPiece part) { deposit(part, *pass, echo, line); });
   }
@@ -140,12 +160,12 @@ class CellIntegrator {
     const SurfaceTraits& surface = settings_.surfaces[index(pass.surface)];
     const Medium& from = settings_.media[index(pass.before)];
     const Medium& to = settings_.media[index(pass.after)];
-    const double R = interfaceLaw(from.impedance_kg_m2_s, from.sound_speed_m_s,
-                                  to.impedance_kg_m2_s, to.sound_speed_m_s, cos_i)
-                         .R;
-    const double second =
-        surface.membrane ? (settings_.transmission_loss ? (1 - R) * (1 - R) : 1) * R : 0;
-    return pass.passed * nonSpecularReturn(surface.gain * (R + second), cos_i, surface.exponent);
+    const InterfaceLaw law = interfaceLaw(from.impedance_kg_m2_s, from.sound_speed_m_s,
+                                          to.impedance_kg_m2_s, to.sound_speed_m_s, cos_i);
+    const double lost = settings_.transmission_loss ? law.through * law.through : 1;
+    const double second = surface.membrane ? lost * law.R : 0;
+    return pass.passed *
+           nonSpecularReturn(surface.gain * (law.R + second), cos_i, surface.exponent);
   }
 
   // At the foot of the perpendicular from the centre the path length turns round.
@@ -193,15 +213,19 @@ class CellIntegrator {
     const double path_a = pathLength(piece.a), path_b = pathLength(piece.b);
     const double k_a = (depthOf(path_a) - probe_.min_depth_m) / spacing;
     const double k_b = (depthOf(path_b) - probe_.min_depth_m) / spacing;
-    Point begin = piece.a;
-    for (double k = std::floor(k_a); k <= k_b; ++k) {
-      const bool last = k + 1 >= k_b;
-      const double depth_end = probe_.min_depth_m + (k + 1) * spacing;
-      const double path_end = pass.path_m + (depth_end - pass.depth_m) * pass.path_per_depth;
-      const Point end = last ? piece.b : atPath(piece, path_end);
-      const double depth_m = depth_end - spacing / 2;
-      if (depth_m < end_depth_m && depth_m > 0) {
-        const double path_m = path_end - spacing / 2 * pass.path_per_depth;
+    const auto pathAtEnd = [&](double k) {
+      const double depth_m = probe_.min_depth_m + (k + 1) * spacing;
+      return pass.path_m + (depth_m - pass.depth_m) * pass.path_per_depth;
+    };
+    // A piece may be far longer than the image is deep.
+    const double first = std::max(std::floor(k_a), 0.0);
+    const double last = std::min(k_b, probe_.samples - 1.0);
+    Point begin = first > k_a ? atPath(piece, pathAtEnd(first - 1)) : piece.a;
+    for (double k = first; k <= last; ++k) {
+      const Point end = k + 1 >= k_b ? piece.b : atPath(piece, pathAtEnd(k));
+      const double depth_m = probe_.min_depth_m + (k + 0.5) * spacing;
+      if (depth_m < end_depth_m) {
+        const double path_m = pathAtEnd(k) - spacing / 2 * pass.path_per_depth;
         line.echoes.push_back(
             {depth_m, echo * share(begin, end),
              std::max(pass.exponent + (path_m - pass.path_m) * pass.exponent_per_path, 0.0)});
@@ -221,11 +245,12 @@ class CellIntegrator {
 
 }  // namespace
 
-void addCellEchoes(std::span<const ContourPiece> pieces, const Probe& probe,
-                   const TraceSettings& settings, std::span<LineTrace> lines) {
+void addCellEchoes(std::span<const ContourPiece> pieces, std::span<const PieceNormals> normals,
+                   const Probe& probe, const TraceSettings& settings, std::span<LineTrace> lines) {
   if (!settings.reflection) return;
   CellIntegrator integrator(probe, settings, lines);
-  for (const ContourPiece& piece : pieces) integrator.add(piece);
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    integrator.add(pieces[i], normals.empty() ? nullptr : &normals[i]);
 }
 
 }  // namespace echocine

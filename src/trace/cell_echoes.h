@@ -21,7 +21,8 @@ namespace echocine {
 // one stretch at least per line.
 // Limit: contour whose surface its own line does not cross (a tip or a structure between two lines)
 // sends nothing back, as with sampling at the centres.
-void addCellEchoes(std::span<const ContourPiece> pieces, const Probe& probe,
-                   const TraceSettings& settings, std::span<LineTrace> lines);
+// normals: of each piece, with smooth normals; else empty.
+void addCellEchoes(std::span<const ContourPiece> pieces, std::span<const PieceNormals> normals,
+                   const Probe& probe, const TraceSettings& settings, std::span<LineTrace> lines);
 
 }  // namespace echocine

@@ -22,9 +22,11 @@ double transmittance(double Z_1, double Z_2, double cos_i, double cos_t);
 // Section 2.1: I_r = I_i W(theta_i) cos^n(theta_i), what a rough interface sends back.
 double nonSpecularReturn(double W, double cos_i, double n);
 
-// R of the interface between two media at cos_i, 1 under total reflection.
+// The interface between two media at cos_i: R, 1 under total reflection, and 1 - R. Grazing rays
+// leave nothing of 1 - R but rounding if it is taken as that difference, so it has a formula.
 struct InterfaceLaw {
   double R = 0;
+  double through = 1;  // 1 - R
   bool total = false;
 };
 InterfaceLaw interfaceLaw(double Z_1, double c_1, double Z_2, double c_2, double cos_i);

@@ -25,9 +25,18 @@ int sampleFrom(const Sampling& s, double depth_m) {
 template <bool kSpread, bool kAttenuation>
 void fillStretch(const Stretch& stretch, const Sampling& s, int begin, int end, float* out) {
   const double offset_m = s.centre(begin) - stretch.begin_depth_m;
-  const double path_step = stretch.path_per_depth * s.spacing_m;
+  double path_step = stretch.path_per_depth * s.spacing_m;
   double path_m = stretch.begin_path_m + stretch.path_per_depth * offset_m;
   double strength = stretch.strength_m2_sr;
+  // Metres are taken in a unit that makes the stretch begin between 1 and 2: with l < 1 the
+  // strength would reach the floats' lower end before the intensity does. A power of two changes no
+  // digit.
+  if constexpr (kSpread) {
+    const int exponent = path_m > 0 ? -std::ilogb(path_m) : 0;
+    path_m = std::ldexp(path_m, exponent);
+    path_step = std::ldexp(path_step, exponent);
+    strength = std::ldexp(strength, 2 * exponent);
+  }
   double block_factor = 1;
   Block power{};
   if constexpr (kAttenuation) {

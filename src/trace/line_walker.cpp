@@ -3,14 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trace/interface_law.h"
-
 namespace echocine {
 
 namespace {
 
 // A ray that bends more often is caught in a wedge; what it could still send back is nothing.
 constexpr int kMaxBends = 1000;
+
+// Snell's direction behind an interface. Beyond the facet's critical angle but not the smooth
+// normal's it may point back to the side of the facet from which the ray came, while by the facets
+// it has crossed: such a ray goes on straight.
+std::optional<Vec3d> bentDirection(const Crossing& crossing, Vec3d direction, const Medium& from,
+                                   const Medium& to) {
+  const std::optional<Vec3d> bent =
+      refracted(direction, crossing.normal, from.sound_speed_m_s, to.sound_speed_m_s);
+  const Vec3d facet = crossing.facet_normal;
+  const bool back = bent && dot(facet, *bent) * dot(facet, direction) < 0;
+  return back ? std::nullopt : bent;
+}
 
 }  // namespace
 
@@ -71,9 +81,9 @@ void LineWalker::addEcho(double R, double cos_i, const SurfaceTraits& surface) {
 
 // Forward times backward transmission, T_12 T_21 = (1 - R)^2. Total reflection ends the ray
 // whatever effects are on: there is no direction in which it could go on.
-void LineWalker::loseAt(double R, bool total) {
-  if (total) alive_ = false;
-  if (settings_.transmission_loss) passed_ *= (1 - R) * (1 - R);
+void LineWalker::loseAt(const InterfaceLaw& law) {
+  if (law.total) alive_ = false;
+  if (settings_.transmission_loss) passed_ *= law.through * law.through;
 }
 
 // The crossing whose normal and lobe stand for a group of coincident surfaces.
@@ -122,11 +132,9 @@ void LineWalker::passInterface(Group group, MediumId after) {
   const InterfaceLaw law = interfaceLaw(from.impedance_kg_m2_s, from.sound_speed_m_s,
                                         to.impedance_kg_m2_s, to.sound_speed_m_s, cos_i);
   addEcho(law.R, cos_i, settings_.surfaces[index(crossing.surface)]);
-  loseAt(law.R, law.total);
+  loseAt(law);
   if (!alive_ || !settings_.refraction || from.sound_speed_m_s == to.sound_speed_m_s) return;
-  if (const auto bent =
-          refracted(direction, crossing.normal, from.sound_speed_m_s, to.sound_speed_m_s))
-    bend(group, *bent);
+  if (const auto bent = bentDirection(crossing, direction, from, to)) bend(group, *bent);
 }
 
 // Two interfaces of a sheet that is thin against a sample: both echoes arrive together.
@@ -138,10 +146,10 @@ void LineWalker::passMembrane(const Crossing& crossing) {
   const InterfaceLaw law = interfaceLaw(around.impedance_kg_m2_s, around.sound_speed_m_s,
                                         sheet.impedance_kg_m2_s, sheet.sound_speed_m_s, cos_i);
   addEcho(law.R, cos_i, surface);
-  loseAt(law.R, law.total);
+  loseAt(law);
   if (!alive_) return;
   addEcho(law.R, cos_i, surface);  // R is the same from the sheet outwards
-  loseAt(law.R, law.total);
+  loseAt(law);
 }
 
 void LineWalker::bend(Group group, Vec3d direction) {
@@ -153,12 +161,24 @@ void LineWalker::bend(Group group, Vec3d direction) {
   if (++bends_ > kMaxBends) alive_ = false;
 }
 
+// A wall in the transducer's face is no interface, as two walls in one place are one: a probe that
+// stands on a surface within rounding is in the medium behind it. Returns the first crossing
+// beyond.
+std::size_t LineWalker::crossAtFace(Group crossings, InsideSet& inside) const {
+  std::size_t first = 0;
+  for (; first < crossings.size() && crossings[first].distance_m <= settings_.thin_layer_m; ++first)
+    if (const std::size_t s = index(crossings[first].surface); !settings_.surfaces[s].membrane)
+      inside[s] = crossings[first].entering;
+  return first;
+}
+
 void LineWalker::advance(const RayCrossings& met) {
   InsideSet inside = met.inside;
-  medium_ = mediumInside(inside);
   const std::vector<Crossing>& all = met.crossings;
+  const std::size_t first = path_m_ == 0 ? crossAtFace(all, inside) : 0;
+  medium_ = mediumInside(inside);
   const int bends_before = bends_;
-  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+  for (std::size_t begin = first, end = 0; begin < all.size(); begin = end) {
     const double distance_m = all[begin].distance_m;
     end = begin + 1;
     while (end < all.size() && all[end].distance_m - distance_m <= settings_.thin_layer_m) ++end;

@@ -2,6 +2,7 @@
 // Follows one scan line through the media: which medium, which loss, which echo, where it bends.
 
 #include "geometry/frame_geometry.h"
+#include "trace/interface_law.h"
 #include "trace/line_trace.h"
 #include "trace/trace_settings.h"
 
@@ -26,12 +27,13 @@ class LineWalker {
   using Group = std::span<const Crossing>;  // crossings of one interface, nearest first
 
   MediumId mediumInside(const InsideSet& inside) const;
+  std::size_t crossAtFace(Group crossings, InsideSet& inside) const;
   void walkTo(double distance_m);
   void passInterface(Group group, MediumId after);
   void passMembrane(const Crossing& crossing);
   void notePasses(Group group, MediumId after);
   void addEcho(double R, double cos_i, const SurfaceTraits& surface);
-  void loseAt(double R, bool total);
+  void loseAt(const InterfaceLaw& law);
   void bend(Group group, Vec3d direction);
   const Crossing& deciding(Group group) const;
 

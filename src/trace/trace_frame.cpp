@@ -214,7 +214,8 @@ WorkCounts traceFrame(const PlaneSlice& slice, const Probe& probe, const TraceSe
     work.crossings += met.crossings.size();
   }
   work.facets_sliced = slice.pieces().size();
-  if (settings.cell_echoes) addCellEchoes(slice.pieces(), probe, settings, frame.traces);
+  if (settings.cell_echoes)
+    addCellEchoes(slice.pieces(), slice.normals(), probe, settings, frame.traces);
   sampleLines(probe, settings, request, frame, work);
   return work;
 }

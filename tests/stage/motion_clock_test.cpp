@@ -1,8 +1,9 @@
-// The cardiac clock and the electrocardiogram.
+// The cardiac clock.
 
 #include "motion/cardiac_clock.h"
 
-#include "motion/ecg.h"
+#include "motion/beat_duration.h"
+#include "motion/cardiac_timing.h"
 #include "tests/stage/motion_fixtures.h"
 
 namespace echocine::motion_test {
@@ -41,22 +42,115 @@ TEST(MotionClock, PhaseStaysBelowOneAndWholeBeatsAreZero) {
   for (int beat = 0; beat < 50; ++beat) EXPECT_EQ(clockOf(65, 52, 1).at(48 * beat).phase, 0.0);
 }
 
-TEST(MotionEcg, WavesStandWhereTheModelPutsThem) {
-  EXPECT_DOUBLE_EQ(ecgAmplitude(0), 1.0);
-  const double p = ecgAmplitude(1 - 1.0 / 6), q = ecgAmplitude(1 - 1.0 / 24);
-  const double s = ecgAmplitude(1.0 / 24), t = ecgAmplitude(0.25);
-  EXPECT_NEAR(p, 0.25, 0.03);  // 1.2 * 0.25^2 / (30 * 0.1^2)
-  EXPECT_NEAR(t, 0.40, 0.01);  // 0.75 * 0.4^2 / (30 * 0.1^2)
-  EXPECT_LT(q, 0.0);
-  EXPECT_LT(s, q);
-  EXPECT_NEAR(ecgAmplitude(0.6), 0.0, 0.05);  // diastole is flat
+Acquisition acquisitionOf(double heart_rate_bpm, double frame_rate_hz, double beats) {
+  return {heart_rate_bpm / 60.0, frame_rate_hz, beats};
 }
 
-TEST(MotionEcg, RIsTheHighestPointAndTheTraceIsPeriodic) {
-  for (int i = 0; i < 1000; ++i) EXPECT_LE(ecgAmplitude(i / 1000.0), 1.0 + 1e-4);
-  EXPECT_NEAR(ecgAmplitude(1 - 1e-12), ecgAmplitude(0), 1e-9);
-  for (int i = 0; i < 1000; ++i)
-    EXPECT_NEAR(ecgAmplitude(i / 1000.0), ecgAmplitude((i + 1e-6) / 1000.0), 1e-6);
+MotionSettings recordedAt(double bpm) {
+  MotionSettings motion;
+  motion.keyframe_heart_rate_hz = bpm / 60.0;
+  return motion;
+}
+
+TEST(MotionClock, AtTheKeyframesOwnRateAndOnRequestNothingIsWarpedToTheLastBit) {
+  for (const double bpm : {30.0, 65.0, 77.0, 140.0}) {
+    Acquisition acquisition = acquisitionOf(bpm, 29.97, 3);
+    const CardiacClock plain(acquisition), same(acquisition, recordedAt(bpm));
+    acquisition.time_warp = WarpChoice::uniform;
+    const CardiacClock uniform(acquisition, recordedAt(50));
+    for (int frame = 0; frame < plain.frameCount(); ++frame) {
+      ASSERT_EQ(same.at(frame).phase, plain.at(frame).phase);
+      ASSERT_EQ(uniform.at(frame).phase, plain.at(frame).phase);
+      // As it was before beats could be warped.
+      const double cycles = frame * (bpm / 60.0) / 29.97;
+      if (std::abs(cycles - std::round(cycles)) < 1e-6) continue;
+      ASSERT_EQ(plain.at(frame).phase, cycles - std::floor(cycles));
+    }
+  }
+}
+
+TEST(MotionClock, KeyframesOfAnotherRateReachEndSystoleInItsTime) {
+  const CardiacClock clock(acquisitionOf(120, 1000, 2), recordedAt(60));
+  // At 60 bpm the aortic valve closes at 311 ms = phase 0.312, at 120 it does at 262 ms = 0.523.
+  const double recorded = (0.040 * 271 / 262 + 0.271);
+  EXPECT_NEAR(clock.at(262).phase, recorded, 0.002);
+  EXPECT_NEAR(clock.at(762).phase, recorded, 0.002);
+  EXPECT_EQ(clock.at(500).phase, 0);
+  EXPECT_EQ(clock.at(500).beat, 1);
+  EXPECT_DOUBLE_EQ(clock.at(762).time_in_beat_s, 0.262);
+  EXPECT_EQ(clock.frameCount(), 1000);
+}
+
+TEST(MotionClock, BeatsAreCountedAndStartAtPhaseZero) {
+  const CardiacClock clock = clockOf(60, 50, 3);
+  for (int frame = 0; frame < 150; ++frame) {
+    EXPECT_EQ(clock.at(frame).beat, frame / 50);
+    EXPECT_NEAR(clock.at(frame).time_in_beat_s, frame % 50 / 50.0, 1e-12);
+    EXPECT_EQ(clock.at(frame).beat_s, 1);
+  }
+}
+
+TEST(MotionClock, VariedBeatsFillTheLoopOneAfterTheOther) {
+  for (const std::optional<double>& keyframes : {std::optional<double>(), std::optional(70.0)}) {
+    Acquisition acquisition = acquisitionOf(70, 200, 12.25);
+    acquisition.rr_variability = 0.2;
+    acquisition.seed = 9;
+    const CardiacClock clock(acquisition, keyframes ? recordedAt(*keyframes) : MotionSettings{});
+    double whole_s = 0;
+    for (int beat = 0; beat < 12; ++beat) whole_s += beatDuration(acquisition, beat);
+    const double loop_s = whole_s + 0.25 * beatDuration(acquisition, 12);
+    EXPECT_EQ(clock.frameCount(), std::lround(loop_s * 200));
+    FrameTime before = clock.at(0);
+    EXPECT_EQ(before.phase, 0);
+    for (int frame = 1; frame < clock.frameCount(); ++frame) {
+      const FrameTime now = clock.at(frame);
+      EXPECT_DOUBLE_EQ(now.time_s, frame / 200.0);
+      EXPECT_NEAR(now.beat_s, beatDuration(acquisition, now.beat), 1e-12);
+      if (now.beat == before.beat) {
+        EXPECT_GT(now.phase, before.phase);
+      } else {
+        EXPECT_EQ(now.beat, before.beat + 1);
+        EXPECT_LT(now.time_in_beat_s, 1 / 200.0 + 1e-9);
+        EXPECT_LT(now.phase, 0.02);
+      }
+      before = now;
+    }
+    EXPECT_EQ(before.beat, 12);
+  }
+}
+
+TEST(MotionClock, VariedBeatsWarpEachByItsOwnLength) {
+  Acquisition acquisition = acquisitionOf(70, 1000, 40);
+  acquisition.rr_variability = 0.15;
+  const CardiacClock clock(acquisition, recordedAt(70));
+  const double recorded = cycleEvents(phaseDurations(70 / 60.0)).aortic_closes;
+  int ends = 0;
+  for (int frame = 1; frame < clock.frameCount(); ++frame) {
+    const FrameTime before = clock.at(frame - 1), now = clock.at(frame);
+    if (now.beat != before.beat || before.phase >= recorded || now.phase < recorded) continue;
+    EXPECT_NEAR(now.time_in_beat_s, phaseDurations(1 / now.beat_s).endSystole(), 0.0015);
+    ++ends;
+  }
+  EXPECT_EQ(ends, 40);
+}
+
+TEST(MotionClock, ExtremeSettingsStayFiniteAndInTheBeat) {
+  for (const double bpm : {1.0, 30.0, 1000.0})
+    for (const double variability : {0.0, 0.3})
+      for (const double keyframes : {1.0, 65.0, 1000.0})
+        for (const double frame_rate : {0.1, 50.0, 100000.0}) {
+          Acquisition acquisition = acquisitionOf(bpm, frame_rate, 0.3);
+          acquisition.rr_variability = variability;
+          const CardiacClock clock(acquisition, recordedAt(keyframes));
+          ASSERT_GE(clock.frameCount(), 1);
+          for (int i = 0; i < 50; ++i) {
+            const int frame = static_cast<int>(std::int64_t{i} * clock.frameCount() / 50);
+            const FrameTime time = clock.at(frame);
+            ASSERT_TRUE(time.phase >= 0 && time.phase < 1) << time.phase;
+            ASSERT_EQ(clock.atTime(time.time_s).beat, time.beat);
+          }
+          ASSERT_GE(clock.atTime(clock.frameCount() / frame_rate).beat_s, 0);
+        }
 }
 
 }  // namespace

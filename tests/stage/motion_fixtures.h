@@ -130,6 +130,34 @@ inline Scene beatingBall(const TestFolder& folder, const std::vector<double>& ra
   return sceneOf(structureOf(files));
 }
 
+// A cake: a fan of eight triangles about vertex 0, its top, whose rim is at z = 1.
+inline TriangleMesh cake(Vec3d top) {
+  TriangleMesh mesh;
+  mesh.positions = {top, {0, 0, -1}};
+  for (int ring = 0; ring < 2; ++ring)
+    for (int i = 0; i < 8; ++i) {
+      const double angle = 2 * std::numbers::pi * i / 8;
+      mesh.positions.push_back({2 * std::cos(angle), 2 * std::sin(angle), ring == 0 ? 1.0 : -1.0});
+    }
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const std::uint32_t a = 2 + i, b = 2 + (i + 1) % 8, c = 10 + i, d = 10 + (i + 1) % 8;
+    mesh.triangles.insert(mesh.triangles.end(), {{0, a, b}, {a, c, b}, {b, c, d}, {1, d, c}});
+  }
+  return mesh;
+}
+inline constexpr Vec3d kMiddle{0, 0, 1};
+
+// A structure with these keyframes, evenly spaced, as files ball_0.obj, ... in the folder.
+inline Scene sceneWith(const TestFolder& folder, const std::vector<TriangleMesh>& keyframes,
+                       Interpolation kind) {
+  std::vector<std::filesystem::path> files;
+  for (std::size_t k = 0; k < keyframes.size(); ++k)
+    files.push_back(folder.write("ball_" + std::to_string(k) + ".obj", objText(keyframes[k])));
+  Scene scene = sceneOf(structureOf(files));
+  scene.motion.interpolation = kind;
+  return scene;
+}
+
 // Number of open, and of wrongly run, edges: each edge must occur once in each direction.
 inline std::size_t leakCount(const std::vector<Triangle>& triangles) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;

@@ -48,9 +48,10 @@ TEST(MotionMeshCheck, FirstDifferingFaceIsNamedWithBothFiles) {
 TEST(MotionMeshCheck, OpenEdgesAreCountedUnlessItIsAMembrane) {
   TriangleMesh open = octahedron(2);
   open.triangles.pop_back();
-  EXPECT_EQ(says({keyframeOf(open)}),
-            "a.obj: face 4 has an open edge (2, 0, 0) - (0, -2, 0), one of 3; accepted: a closed "
-            "mesh, lids which close it, or membrane = true for an open sheet");
+  EXPECT_EQ(
+      says({keyframeOf(open)}),
+      "a.obj: face 4 has an open edge (2, 0, 0) - (0, -2, 0), one of 3; accepted: a closed "
+      "mesh, lids which close it, repair = [\"fill-holes\"], or membrane = true for an open sheet");
   EXPECT_EQ(says({keyframeOf(open)}, true), "no error");
 }
 
@@ -60,7 +61,7 @@ TEST(MotionMeshCheck, EdgesOfThreeFacesAreRefusedInMembranesToo) {
   fin.triangles.push_back({0, 2, 6});
   const std::string error =
       "a.obj: face 1: edge (2, 0, 0) - (0, 2, 0) belongs to 3 faces, the last is a.obj: face 9; at "
-      "most two are accepted: remove duplicate faces and split surfaces that meet";
+      "most two are accepted: split surfaces that meet there";
   EXPECT_EQ(says({keyframeOf(fin)}), error);
   EXPECT_EQ(says({keyframeOf(fin)}, true), error);
 }
@@ -70,7 +71,7 @@ TEST(MotionMeshCheck, FacesOrientedAgainstEachOtherAreNamed) {
   std::swap(turned.triangles[0][1], turned.triangles[0][2]);
   const std::string error =
       "a.obj: face 1 and a.obj: face 5 run their common edge (2, 0, 0) - (0, 2, 0) in the same "
-      "direction; faces must be oriented alike: reverse one of them";
+      "direction; faces must be oriented alike: reverse one of them, or set repair = [\"orient\"]";
   EXPECT_EQ(says({keyframeOf(turned)}), error);
   EXPECT_EQ(says({keyframeOf(turned)}, true), error);
 }
@@ -81,7 +82,7 @@ TEST(MotionMeshCheck, InsideOutIsRefusedInTheFirstAndInLaterKeyframes) {
   EXPECT_EQ(
       says({keyframeOf(inward)}),
       "a.obj encloses a volume of -1.333 cubic mesh units: its faces look inward; reverse the "
-      "vertex order of every face");
+      "vertex order of every face, or set repair = [\"orient\"]");
   TriangleMesh mirrored = octahedron(1);
   for (Vec3d& p : mirrored.positions) p.x = -p.x;
   EXPECT_EQ(
@@ -116,7 +117,7 @@ struct OpenBallAndLid {
   }
   KeyframeMesh joined() const {
     Sha256 digest;
-    return readKeyframe({{bowl, lid}, 0}, {"scene.toml", 7, "structure"}, digest);
+    return readKeyframe({{bowl, lid}, 0}, structureOf({}), digest);
   }
 };
 
@@ -127,6 +128,20 @@ TEST(MotionMeshCheck, LidsAreWeldedAndClose) {
   EXPECT_EQ(leakCount(joined.mesh.triangles), 0u);
   EXPECT_NEAR(signedVolume(joined.mesh), 8.0 * 2.0 / 3.0 + 8.0 / 3.0, 1e-12);
   EXPECT_EQ(says({joined}), "no error");
+}
+
+TEST(MotionMeshCheck, ALidThatMissesTheRimInOneKeyframeIsNamed) {
+  const OpenBallAndLid files;
+  TestFolder folder;
+  const auto off = folder.write("off.obj",
+                                "v 0 -2 -0\nv 2 -0 0\nv 0 2.001 0\nv -2 0 0\nv 0 0 1\n"
+                                "f 2 3 5\nf 3 4 5\nf 4 1 5\nf 1 2 5\n");
+  Sha256 digest;
+  const KeyframeMesh missed = readKeyframe({{files.bowl, off}, 0.5}, structureOf({}), digest);
+  EXPECT_EQ(says({files.joined(), missed}),
+            "lid " + off.string() + " adds 2 vertices to its keyframe, " + files.lid.string() +
+                " adds 1; every keyframe must have the same: a lid's vertex joins the mesh where "
+                "both have exactly the same coordinates");
 }
 
 TEST(MotionMeshCheck, FacesOfLidsAreNamedInTheirOwnFile) {
@@ -145,11 +160,11 @@ TEST(MotionMeshCheck, LidFaceThatCollapsesIsNamed) {
   const auto lid = folder.write("lid.obj", "v 2 0 0\nv 2 0 0\nv 0 0 9\nf 1 2 3\n");
   Sha256 digest;
   EXPECT_EQ(errorOf([&] {
-              readKeyframe({{bowl, lid}, 0}, {}, digest);
+              readKeyframe({{bowl, lid}, 0}, structureOf({}), digest);
             }),
-            lid.string() +
+            "scene.toml:7: structure.keyframes: ball: " + lid.string() +
                 ": face 1 has two corners at the same place; a lid cannot be joined with "
-                "such a face");
+                "such a face: remove it, or set repair = [\"drop-degenerate\"]");
 }
 
 }  // namespace

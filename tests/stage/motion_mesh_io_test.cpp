@@ -1,5 +1,7 @@
 // Reading mesh files: what each format yields, and what is refused and how.
 
+#include <sys/resource.h>
+
 #include <cstring>
 #include <limits>
 #include <random>
@@ -115,6 +117,15 @@ TEST(MotionMeshIo, ObjPolygonsBecomeFansAndNegativeNumbersCountBack) {
   EXPECT_EQ(mesh.triangles[1], (Triangle{0, 2, 3}));
 }
 
+TEST(MotionMeshIo, FacesAfterAPolygonKeepTheirNumber) {
+  const TestFolder folder;
+  const auto file =
+      folder.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 2 3 4\nf 1 2 2\n");
+  EXPECT_NE(
+      errorOf([&] { checkFile(read(file), file); }).find("quad.obj: face 3 uses vertex 2 twice"),
+      std::string::npos);
+}
+
 TEST(MotionMeshIo, PolygonsOfOtherFormatsBecomeFans) {
   const TestFolder folder;
   const std::string quad = "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
@@ -135,9 +146,9 @@ TEST(MotionMeshIo, UnusableFilesAreRefusedAtTheirPlace) {
   const TestFolder folder;
   const auto says = [&](const std::filesystem::path& file) {
     Sha256 digest;
-    return errorOf([&] { readKeyframe({{file}, 0}, {"scene.toml", 7, "structure"}, digest); });
+    return errorOf([&] { readKeyframe({{file}, 0}, structureOf({}), digest); });
   };
-  const std::string place = "scene.toml:7: structure: " + folder.path("").string();
+  const std::string place = "scene.toml:7: structure.keyframes: ball: " + folder.path("").string();
   EXPECT_EQ(says(folder.write("a.vtk", "x")),
             place + "a.vtk: unknown kind of mesh file; obj, ply, off and stl are accepted");
   EXPECT_EQ(says(folder.write("empty.obj", "")), place + "empty.obj: the file is empty");
@@ -160,9 +171,12 @@ TEST(MotionMeshIo, WrongCoordinatesAndIndicesAreNumberedFromOne) {
   };
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   EXPECT_EQ(says(corners + "f 1 2 3\n"), "no error");
-  EXPECT_EQ(says(corners + "v nan 0 0\nf 1 2 3\n"), "vertex 4 has a coordinate that is not finite");
-  EXPECT_EQ(says(corners + "f 1 2 3\nf 1 2 9\n"), "face 2 uses vertex 9, the file has 3 vertices");
-  EXPECT_EQ(says(corners + "f 1 2 2\n"), "face 1 uses vertex 2 twice; remove the face");
+  EXPECT_EQ(says(corners + "v nan 0 0\nf 1 2 3\n"),
+            "vertex 4 has a coordinate that is not finite; mend it");
+  EXPECT_EQ(says(corners + "f 1 2 3\nf 1 2 9\n"),
+            "face 2 uses vertex 9, the file has 3 vertices; mend the face");
+  EXPECT_EQ(says(corners + "f 1 2 2\n"),
+            "face 1 uses vertex 2 twice; remove the face, or set repair = [\"drop-degenerate\"]");
 }
 
 TEST(MotionMeshIo, CutOffFilesAreRefused) {
@@ -173,6 +187,47 @@ TEST(MotionMeshIo, CutOffFilesAreRefused) {
   for (const auto& [name, bytes] : files) {
     const auto file = folder.write(name, bytes.substr(0, bytes.size() - 12));
     EXPECT_NE(errorOf([&] { read(file); }).find(name + ": "), std::string::npos) << name;
+  }
+}
+
+// Most memory that the program has held so far, bytes.
+std::size_t peakBytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+TEST(MotionMeshIo, CountsThatLieTakeNoMemory) {
+  const TestFolder folder;
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 19999999\nproperty float x\nproperty float "
+      "y\nproperty "
+      "float z\nelement face 39999999\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto binary = [](std::string text, std::size_t at) {
+    text.replace(at, 5, "binary_little_endian");
+    return text;
+  };
+  std::string list = ply;  // one face of four thousand million corners
+  list.replace(list.find("19999999"), 8, "1");
+  list.replace(list.find("39999999"), 8, "1");
+  list.replace(list.find("uchar"), 5, "uint");
+  list = binary(list, list.find("ascii")) + std::string(12, '\0') + "\xff\xff\xff\xff";
+  std::string stl(80, ' ');
+  stl += std::string("\xff\xff\xff\x7f", 4) + std::string(16, '\0');
+  const std::pair<std::string, std::string> files[] = {
+      {"text.ply", ply},
+      {"binary.ply", binary(ply, ply.find("ascii"))},
+      {"list.ply", list},
+      {"counts.off", "OFF\n19999999 39999999 0\n0 0 0\n"},
+      {"corners.off", "OFF\n1 1 0\n0 0 0\n2000000000 0 0 0\n"},
+      {"binary.off", std::string("OFF BINARY\n\x01\x31\x2d\x00\x01\x31\x2d\x00\0\0\0\0", 23)},
+      {"count.stl", stl}};
+  const std::size_t before = peakBytes();
+  for (const auto& [name, bytes] : files) {
+    const auto file = folder.write(name, bytes);
+    const std::string error = errorOf([&] { checkFile(read(file), file); });
+    EXPECT_NE(error.find(name + ": "), std::string::npos) << name << ": " << error;
+    EXPECT_LT(peakBytes() - before, std::size_t{64} << 20) << name;
   }
 }
 

@@ -2,24 +2,11 @@
 
 #include "motion/subdivision.h"
 
-#include <numbers>
-
 #include "motion/mesh_check.h"
-#include "tests/stage/motion_fixtures.h"
+#include "tests/stage/crease_fixtures.h"
 
 namespace echocine::motion_test {
 namespace {
-
-TriangleMesh refined(const TriangleMesh& mesh, int levels) {
-  const Subdivision loop(mesh.triangles, static_cast<std::uint32_t>(mesh.positions.size()), levels,
-                         {});
-  std::vector<Vec3f> control, fine(loop.vertexCount());
-  for (const Vec3d& p : mesh.positions) control.push_back(toFloat(p));
-  loop.apply(control, fine);
-  TriangleMesh result{{}, loop.triangles()};
-  for (const Vec3f& p : fine) result.positions.push_back(toDouble(p));
-  return result;
-}
 
 bool hasVertex(const TriangleMesh& mesh, Vec3d p) {
   for (const Vec3d& q : mesh.positions)
@@ -72,7 +59,7 @@ TEST(MotionSubdivision, BoundaryOfASheetFollowsItsOwnVerticesOnly) {
 TEST(MotionSubdivision, TooManyTrianglesAreRefusedAtTheirPlace) {
   const TriangleMesh ball = octahedron(1);
   EXPECT_EQ(errorOf([&] {
-              Subdivision(ball.triangles, 6, 12, {"scene.toml", 4, "motion.subdivision"});
+              Subdivision(ball.triangles, 6, {}, 12, {"scene.toml", 4, "motion.subdivision"});
             }),
             "scene.toml:4: motion.subdivision: 12 levels make more than 50000000 triangles of this "
             "mesh's 8; use fewer levels");

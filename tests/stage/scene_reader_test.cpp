@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "scene/scene_json.h"
 #include "support/scene_text.h"
 #include "support/temp_folder.h"
 
@@ -34,6 +37,33 @@ TEST(SceneReader, TurnsEveryUnitIntoSI) {
   EXPECT_EQ(scene.acquisition.beats, 2);
   EXPECT_EQ(scene.motion.mesh_unit_m, 0.01);
   EXPECT_DOUBLE_EQ(scene.unit_volume_m3, 1e-6);
+}
+
+TEST(SceneReader, ReadsHowBeatsDifferFromTheKeyframesAndFromEachOther) {
+  const Scene plain = parsed(SceneText::oneBox("blood"));
+  EXPECT_EQ(plain.acquisition.time_warp, WarpChoice::automatic);
+  EXPECT_EQ(plain.acquisition.rr_variability, 0);
+  EXPECT_EQ(plain.acquisition.seed, 1);
+  EXPECT_FALSE(plain.motion.keyframe_heart_rate_hz || plain.motion.end_systole_phase);
+  SceneText text = SceneText::oneBox("blood");
+  text.acquisition["time_warp"] = "\"systole\"";
+  text.acquisition["rr_variability"] = "0.3";
+  text.acquisition["seed"] = "2147483647";
+  text.motion["keyframe_heart_rate_bpm"] = "72";
+  text.motion["end_systole_phase"] = "0.36";
+  const Scene scene = parsed(text);
+  EXPECT_EQ(scene.acquisition.time_warp, WarpChoice::systole);
+  EXPECT_EQ(scene.acquisition.rr_variability, 0.3);
+  EXPECT_EQ(scene.acquisition.seed, 2147483647);
+  EXPECT_DOUBLE_EQ(*scene.motion.keyframe_heart_rate_hz, 1.2);
+  EXPECT_EQ(scene.motion.end_systole_phase, 0.36);
+  const auto json = sceneJson(scene);
+  EXPECT_EQ(json["acquisition"]["time_warp"], "systole");
+  EXPECT_EQ(json["acquisition"]["seed"], 2147483647);
+  EXPECT_EQ(json["acquisition"]["rr_variability"], 0.3);
+  EXPECT_EQ(json["motion"]["keyframe_heart_rate_hz"], 1.2);
+  EXPECT_EQ(json["motion"]["end_systole_phase"], 0.36);
+  EXPECT_TRUE(sceneJson(plain)["motion"]["end_systole_phase"].is_null());
 }
 
 TEST(SceneReader, ResolvesAMediumAtTheProbesFrequency) {

@@ -27,6 +27,12 @@ std::function<void(SceneText&)> probe(const std::string& key, const std::string&
 std::function<void(SceneText&)> without(const std::string& key) {
   return [=](SceneText& t) { t.probe.erase(key); };
 }
+std::function<void(SceneText&)> acquisition(const std::string& key, const std::string& value) {
+  return [=](SceneText& t) { t.acquisition[key] = value; };
+}
+std::function<void(SceneText&)> motion(const std::string& key, const std::string& value) {
+  return [=](SceneText& t) { t.motion[key] = value; };
+}
 std::function<void(SceneText&)> output(const std::string& key, const std::string& value) {
   return [=](SceneText& t) { t.output[key] = value; };
 }
@@ -95,12 +101,38 @@ const std::vector<Bad> kBad{
      "acquisition.heart_rate_bpm", "heart_rate_bpm", "1"},
     {"a loop of weeks", [](SceneText& t) { t.acquisition["beats"] = "1e6"; }, "acquisition.beats",
      "beats", "frames"},
+    {"beats that vary past reason", acquisition("rr_variability", "0.31"),
+     "acquisition.rr_variability", "rr_variability", "from 0 to 0.3"},
+    {"negative variability", acquisition("rr_variability", "-0.01"), "acquisition.rr_variability",
+     "rr_variability", "from 0 to 0.3"},
+    {"variability in per cent", acquisition("rr_variability", "\"5 %\""),
+     "acquisition.rr_variability", "rr_variability", "a string"},
+    {"negative seed", acquisition("seed", "-1"), "acquisition.seed", "seed", "from 0"},
+    {"fraction of a seed", acquisition("seed", "1.5"), "acquisition.seed", "seed", "whole number"},
+    {"unknown time warp", acquisition("time_warp", "\"linear\""), "acquisition.time_warp",
+     "time_warp", "systole"},
+    {"systole without the keyframes' rate", acquisition("time_warp", "\"systole\""),
+     "acquisition.time_warp", "time_warp", "keyframe_heart_rate_bpm"},
+    {"keyframes of no heart rate", motion("keyframe_heart_rate_bpm", "0"),
+     "motion.keyframe_heart_rate_bpm", "keyframe_heart_rate_bpm", "from 1 to 1000"},
+    {"keyframes' rate in text", motion("keyframe_heart_rate_bpm", "\"65 bpm\""),
+     "motion.keyframe_heart_rate_bpm", "keyframe_heart_rate_bpm", "a string"},
+    {"end-systole without a rate", motion("end_systole_phase", "0.35"), "motion.end_systole_phase",
+     "end_systole_phase", "keyframe_heart_rate_bpm"},
+    {"end-systole in per cent",
+     [](SceneText& t) {
+       t.motion["keyframe_heart_rate_bpm"] = "65";
+       t.motion["end_systole_phase"] = "35";
+     },
+     "motion.end_systole_phase", "end_systole_phase", "from 0.1 to 0.8"},
     {"subdivision past reason", [](SceneText& t) { t.motion["subdivision"] = "9"; },
      "motion.subdivision", "subdivision", "8"},
     {"mesh unit", [](SceneText& t) { t.motion["mesh_unit"] = "\"inch\""; }, "motion.mesh_unit",
      "mesh_unit", "cm"},
     {"effect switch", [](SceneText& t) { t.effects["refraction"] = "true"; }, "effects.refraction",
      "refraction", "auto"},
+    {"normals", [](SceneText& t) { t.accuracy["normals"] = "\"phong\""; }, "accuracy.normals",
+     "normals", "facet"},
     {"hematocrit over 1", blood("1.01"), "media.ink.backscatter.hematocrit", "hematocrit",
      "from 0 to 1"},
     {"hematocrit below 0", blood("-0.1"), "media.ink.backscatter.hematocrit", "hematocrit",
@@ -137,6 +169,49 @@ const std::vector<Bad> kBad{
      "signal.tgc_table_mm_db", "tgc_table_mm_db", "ascend"},
     {"time gain without a table", [](SceneText& t) { t.signal["tgc"] = "\"table\""; },
      "signal.tgc_table_mm_db", "[signal]", "missing"},
+    {"equal phases", structure("blood", "[{file=\"a.obj\",phase=0.5},{file=\"b.obj\",phase=0.5}]"),
+     "structure.keyframes.phase", "keyframes", "is 0.5 after 0.5, accepted: ascending phases"},
+    {"time gain table with perfect gain",
+     [](SceneText& t) { t.signal["tgc_table_mm_db"] = "[[0, 0], [100, 20]]"; },
+     "signal.tgc_table_mm_db", "tgc_table_mm_db",
+     "is a known key, but not used here, accepted only with tgc = \"table\""},
+    {"width of a focused beam", [](SceneText& t) { t.signal["beam_width_mm"] = "3"; },
+     "signal.beam_width_mm", "beam_width_mm", "accepted only with beam_width = \"fixed\""},
+    {"percentile beside an absolute reference",
+     [](SceneText& t) {
+       t.signal = {{"reference_intensity", "1"}, {"reference_percentile", "99"}};
+     },
+     "signal.reference_percentile", "reference_percentile",
+     "accepted only with reference_intensity left out"},
+    {"width of a sector", probe("width_mm", "40"), "probe.width_mm", "width_mm",
+     "accepted only with kind = \"linear\""},
+    {"face radius of a phased array", probe("face_radius_mm", "40"), "probe.face_radius_mm",
+     "face_radius_mm", "accepted only with kind = \"curvilinear\""},
+    {"sector of a linear array",
+     [](SceneText& t) {
+       t.probe["kind"] = "\"linear\"";
+       t.probe["width_mm"] = "40";
+     },
+     "probe.sector_deg", "sector_deg", "accepted only with kind = \"phased\" | \"curvilinear\""},
+    {"priority of a membrane", structure("valve", "\"a.obj\"", "membrane = true"),
+     "structure.priority", "priority", "accepted only with membrane = false"},
+    {"misspelt repair", structure("blood", "\"a.obj\"", "repair = [\"weld\", \"orientt\"]"),
+     "structure.repair", "repair",
+     "holds \"orientt\", accepted: \"weld\" | \"orient\" | \"drop-degenerate\" | \"fill-holes\"; "
+     "nearest: orient"},
+    {"repair far from any word", structure("blood", "\"a.obj\"", "repair = \"xyzzyplugh\""),
+     "structure.repair", "repair", "\"fill-holes\""},
+    {"switch for a repair", structure("blood", "\"a.obj\"", "repair = true"), "structure.repair",
+     "repair", "a string or a list of strings"},
+    {"number among repairs", structure("blood", "\"a.obj\"", "repair = [\"weld\", 1]"),
+     "structure.repair", "repair", "accepted: strings"},
+    {"filled membrane",
+     structure("valve", "\"a.obj\"", "membrane = true\nrepair = [\"fill-holes\"]"),
+     "structure.repair", "repair", "accepted of a membrane: \"weld\""},
+    {"hematocrit of a fixed scatterer",
+     extra("[media.ink]\ndensity_kg_m3 = 1000\nsound_speed_m_s = 1500\nattenuation_db_cm_mhz = 0\n"
+           "backscatter = { kind = \"fixed\", per_cm_sr = 1e-3, hematocrit = 0.4 }\n"),
+     "media.ink.backscatter.hematocrit", "backscatter", "accepted only with kind = \"blood\""},
     {"not TOML", extra("this is not TOML\n"), "", "this is", "not TOML"},
     {"a key twice", extra("[probe]\n"), "", "", "not TOML"},
 };

@@ -42,8 +42,9 @@ inline SceneText nestedSpheres(const std::string& refraction) {
   return text;
 }
 
-inline Scene writeNestedSpheres(const TempFolder& folder, const std::string& refraction) {
-  const Mesh unit = icosphere(kSphereLevel, 1);
+inline Scene writeNestedSpheres(const TempFolder& folder, const std::string& refraction,
+                                int sphere_level = kSphereLevel) {
+  const Mesh unit = icosphere(sphere_level, 1);
   writeObj(unit.scaled(100 * kOuterRadius).moved(100 * kSphereCentre), folder / "outer.obj");
   writeObj(unit.scaled(100 * kInnerRadius).moved(100 * kSphereCentre), folder / "inner.obj");
   return readScene(folder.write("scene.toml", nestedSpheres(refraction).text()));

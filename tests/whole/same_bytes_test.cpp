@@ -70,7 +70,7 @@ TEST(IntensityStack, HoldsTheFrameThatWasTraced) {
 
   const HeartMotion motion(scene);
   SurfaceFrame surfaces;
-  motion.frameAt(CardiacClock(scene.acquisition).at(1).phase, surfaces);
+  motion.frameAt(CardiacClock(scene).at(1).phase, surfaces);
   FrameGeometry geometry(motion.surfaces());
   geometry.update(surfaces);
   const EffectPlan plan = planEffects(scene);

@@ -47,7 +47,7 @@ void expectSameImage(const Scene& scene, const HeartMotion& motion, const Surfac
   EXPECT_EQ(different, 0u) << "of " << a.size() << " samples";
 }
 
-void expectAgreement(Scene scene) {
+void expectAgreementOf(Scene scene) {
   scene.probe.lines = 255;  // odd: the middle line is exactly depthwards
   scene.probe.samples = 512;
   const HeartMotion motion(scene);
@@ -60,6 +60,14 @@ void expectAgreement(Scene scene) {
     SurfaceFrame snapped = frame;
     snap(snapped, within_m);
     expectSameImage(scene, motion, snapped);
+  }
+}
+
+// Facet or smooth normals: the frame has them or not.
+void expectAgreement(Scene scene) {
+  for (const Normals normals : {Normals::facet, Normals::smooth}) {
+    scene.accuracy.normals = normals;
+    expectAgreementOf(scene);
   }
 }
 

@@ -1,0 +1,151 @@
+#include "motion/heart/control_mesh.h"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace echocine::heart {
+namespace {
+
+constexpr int kCorners = 12;
+// A vertex of the geodesic sphere, exactly: its weights of the icosahedron's corners.
+using Weights = std::array<int, kCorners>;
+
+std::array<Vec3d, kCorners> icosahedronCorners() {
+  std::array<Vec3d, kCorners> corners;
+  corners[0] = {0, 0, -1};
+  corners[11] = {0, 0, 1};
+  const double z = 1 / std::sqrt(5.0), r = 2 * z;
+  for (int i = 0; i < 5; ++i) {
+    const double lower_rad = 2 * std::numbers::pi * i / 5;
+    const double upper_rad = lower_rad + std::numbers::pi / 5;
+    corners[1 + i] = {r * std::cos(lower_rad), r * std::sin(lower_rad), -z};
+    corners[6 + i] = {r * std::cos(upper_rad), r * std::sin(upper_rad), z};
+  }
+  return corners;
+}
+
+std::vector<Face> icosahedronFaces() {
+  std::vector<Face> faces;
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    const std::uint32_t next = (i + 1) % 5;
+    faces.push_back({0, 1 + next, 1 + i});
+    faces.push_back({1 + i, 1 + next, 6 + i});
+    faces.push_back({6 + i, 1 + next, 6 + next});
+    faces.push_back({6 + i, 6 + next, 11});
+  }
+  return faces;
+}
+
+// What the Loop limit of a vertex is made of.
+struct Neighbourhood {
+  std::vector<std::uint32_t> ring;      // all neighbours
+  std::vector<std::uint32_t> boundary;  // neighbours along the edge of a sheet
+};
+
+std::vector<Neighbourhood> neighbourhoods(std::size_t vertex_count,
+                                          const std::vector<Face>& faces) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+  for (const Face& face : faces)
+    for (int k = 0; k < 3; ++k) ++uses[std::minmax({face[k], face[(k + 1) % 3]})];
+  std::vector<Neighbourhood> result(vertex_count);
+  for (const auto& [edge, count] : uses) {
+    const auto [a, b] = edge;
+    result[a].ring.push_back(b);
+    result[b].ring.push_back(a);
+    if (count > 1) continue;
+    result[a].boundary.push_back(b);
+    result[b].boundary.push_back(a);
+  }
+  return result;
+}
+
+// Limit position of a vertex under Loop's rules; the edge of a sheet is a cubic B-spline.
+Vec3d loopLimit(const std::vector<Vec3d>& points, std::size_t vertex, const Neighbourhood& around) {
+  const bool on_boundary = !around.boundary.empty();
+  const auto& others = on_boundary ? around.boundary : around.ring;
+  const double n = static_cast<double>(others.size());
+  const double centre = 0.375 + 0.25 * std::cos(2 * std::numbers::pi / n);
+  const double beta = (0.625 - centre * centre) / n;
+  const double weight = on_boundary ? 1.0 / 6 : 1 / (n + 0.375 / beta);
+  Vec3d limit = (1 - n * weight) * points[vertex];
+  for (const std::uint32_t other : others) limit = limit + weight * points[other];
+  return limit;
+}
+
+}  // namespace
+
+SphereMesh geodesicSphere(int frequency) {
+  const auto corners = icosahedronCorners();
+  SphereMesh sphere;
+  std::map<Weights, std::uint32_t> known;
+  for (const Face& face : icosahedronFaces()) {
+    const auto vertex = [&](int i, int j) {
+      Weights weights{};
+      weights[face[0]] += frequency - i - j;
+      weights[face[1]] += i;
+      weights[face[2]] += j;
+      const auto next = static_cast<std::uint32_t>(sphere.directions.size());
+      const auto [place, is_new] = known.try_emplace(weights, next);
+      if (is_new) {
+        Vec3d sum;
+        for (int k = 0; k < kCorners; ++k) sum = sum + double(weights[k]) * corners[k];
+        sphere.directions.push_back(normalised(sum));
+      }
+      return place->second;
+    };
+    for (int i = 0; i < frequency; ++i)
+      for (int j = 0; i + j < frequency; ++j) {
+        sphere.faces.push_back({vertex(i, j), vertex(i + 1, j), vertex(i, j + 1)});
+        if (i + j + 1 < frequency)
+          sphere.faces.push_back({vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+      }
+  }
+  return sphere;
+}
+
+std::vector<Face> sheetFaces(int rows, int columns) {
+  std::vector<Face> faces;
+  for (int row = 0; row + 1 < rows; ++row)
+    for (int column = 0; column + 1 < columns; ++column) {
+      const auto here = static_cast<std::uint32_t>(row * columns + column);
+      const auto below = static_cast<std::uint32_t>(here + columns);
+      faces.push_back({here, here + 1, below + 1});
+      faces.push_back({here, below + 1, below});
+    }
+  return faces;
+}
+
+std::array<std::uint32_t, 4> sheetCorners(int rows, int columns) {
+  const auto last_row = static_cast<std::uint32_t>((rows - 1) * columns);
+  const auto last_column = static_cast<std::uint32_t>(columns - 1);
+  return {0, last_column, last_row, last_row + last_column};
+}
+
+double volumeOf(const std::vector<Vec3d>& points, const std::vector<Face>& faces) {
+  double six_volumes = 0;
+  for (const Face& face : faces)
+    six_volumes += dot(points[face[0]], cross(points[face[1]], points[face[2]]));
+  return six_volumes / 6;
+}
+
+std::vector<Vec3d> loopControlPoints(const std::vector<Vec3d>& points,
+                                     const std::vector<Face>& faces,
+                                     std::span<const std::uint32_t> corners) {
+  // Loop's limit weights keep at least a quarter of the finest detail, so that each round takes
+  // away a quarter of what is left of it and far more of everything smooth.
+  constexpr int kRounds = 24;
+  const auto around = neighbourhoods(points.size(), faces);
+  std::vector<Vec3d> control = points;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<Vec3d> better = control;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      better[i] = control[i] + points[i] - loopLimit(control, i, around[i]);
+    for (const std::uint32_t corner : corners) better[corner] = points[corner];
+    control = std::move(better);
+  }
+  return control;
+}
+
+}  // namespace echocine::heart

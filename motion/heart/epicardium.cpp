@@ -1,0 +1,99 @@
+#include "motion/heart/epicardium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "motion/heart/smooth.h"
+
+namespace echocine::heart {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr int kSamples = 240;  // along a meridian
+
+struct Sample {
+  double phi_rad, r, z;
+};
+
+// The wall's points over one angle of the mesh, apex to base; twisted and bent, they drift in
+// angle.
+std::vector<Sample> meridianOf(const LeftVentricle& ventricle, double azimuth_rad) {
+  std::vector<Sample> samples;
+  for (int i = 1; i < kSamples; ++i) {
+    const double polar_rad = std::numbers::pi * i / kSamples;
+    const Vec3d p =
+        ventricle.wallPoint({std::sin(polar_rad) * std::cos(azimuth_rad),
+                             std::sin(polar_rad) * std::sin(azimuth_rad), std::cos(polar_rad)});
+    samples.push_back({std::atan2(p.y, p.x), std::hypot(p.x, p.y), p.z});
+  }
+  return samples;
+}
+
+// Place on the meridian where it passes a height, from the apex: the first below it.
+Sample atHeight(const std::vector<Sample>& meridian, double z) {
+  std::size_t i = 1;
+  while (i + 1 < meridian.size() && meridian[i].z > z) ++i;
+  const Sample &a = meridian[i - 1], &b = meridian[i];
+  const double t = a.z > b.z ? std::clamp((a.z - z) / (a.z - b.z), 0.0, 1.0) : 0;
+  const double turn = std::remainder(b.phi_rad - a.phi_rad, kTurn);
+  return {a.phi_rad + t * turn, std::lerp(a.r, b.r, t), z};
+}
+
+}  // namespace
+
+Epicardium::Epicardium(const LeftVentricle& ventricle) {
+  std::vector<std::vector<Sample>> meridians;
+  for (int a = 0; a < kAngles; ++a) meridians.push_back(meridianOf(ventricle, kTurn * a / kAngles));
+  // Nearer the base the wall turns inwards to the valves; its neighbours feel it no further.
+  low_z_ = ventricle.ringZ() + 0.04 * ventricle.length();
+  high_z_ = std::numeric_limits<double>::max();
+  for (const auto& meridian : meridians) high_z_ = std::min(high_z_, meridian.front().z);
+  radius_m_.resize(std::size_t{kAngles} * kHeights);
+  for (int h = 0; h < kHeights; ++h) {
+    const double z = std::lerp(low_z_, high_z_, double(h) / (kHeights - 1));
+    std::vector<Sample> ring;
+    for (const auto& meridian : meridians) ring.push_back(atHeight(meridian, z));
+    for (Sample& sample : ring) sample.phi_rad -= kTurn * std::floor(sample.phi_rad / kTurn);
+    std::sort(ring.begin(), ring.end(),
+              [](const Sample& a, const Sample& b) { return a.phi_rad < b.phi_rad; });
+    for (int a = 0; a < kAngles; ++a) {
+      const double phi_rad = kTurn * a / kAngles;
+      const auto above = std::upper_bound(
+          ring.begin(), ring.end(), phi_rad,
+          [](double value, const Sample& sample) { return value < sample.phi_rad; });
+      const Sample& right = above == ring.end() ? ring.front() : *above;
+      const Sample& left = above == ring.begin() ? ring.back() : *(above - 1);
+      const double gap = right.phi_rad - left.phi_rad;
+      const double span = gap - kTurn * std::floor(gap / kTurn);
+      const double rise = phi_rad - left.phi_rad;
+      const double t = span > 0 ? (rise - kTurn * std::floor(rise / kTurn)) / span : 0;
+      radius_m_[std::size_t(a) * kHeights + h] = std::lerp(left.r, right.r, t);
+    }
+  }
+}
+
+double Epicardium::radius(double phi_rad, double z) const {
+  const double height = std::clamp((z - low_z_) / (high_z_ - low_z_), 0.0, 1.0) * (kHeights - 1);
+  const int h = std::min(static_cast<int>(height), kHeights - 2);
+  double angle = phi_rad / kTurn;
+  angle = (angle - std::floor(angle)) * kAngles;
+  const int a = static_cast<int>(angle) % kAngles, b = (a + 1) % kAngles;
+  const auto row = [&](int index) {
+    const double* const r = &radius_m_[std::size_t(index) * kHeights + h];
+    return std::lerp(r[0], r[1], height - h);
+  };
+  return std::lerp(row(a), row(b), angle - std::floor(angle));
+}
+
+Vec3d Epicardium::pushedOut(Vec3d point, double gap_m) const {
+  if (point.z > high_z_ + gap_m) return point;
+  constexpr double kRounding_m = 4e-3;
+  const double r = std::hypot(point.x, point.y);
+  const double limit = radius(std::atan2(point.y, point.x), point.z) + gap_m;
+  const double grow = smoothMax(r, limit, kRounding_m) / std::max(r, 1e-6);
+  return {grow * point.x, grow * point.y, point.z};
+}
+
+}  // namespace echocine::heart

@@ -1,0 +1,61 @@
+#pragma once
+// The parametric beating heart: every structure at any phase.
+
+#include <string>
+#include <vector>
+
+#include "motion/heart/control_mesh.h"
+#include "motion/heart/cycle.h"
+#include "motion/heart/parameters.h"
+
+namespace echocine::heart {
+
+// What a structure is made of and how it fits among the others; the same at every phase.
+struct PartKind {
+  std::string name, medium;
+  int priority = 0;  // where closed parts overlap the highest wins
+  bool membrane = false;
+  double reflection_gain = 1;  // of what its surface sends back
+};
+
+// A structure's surface at one instant, in heart coordinates (left_ventricle.h), metres.
+struct Part {
+  PartKind kind;
+  std::vector<Vec3d> points;  // on the surface, not yet control points
+  std::vector<Face> faces;
+};
+
+// Places by which views are aimed and the truth is told, at one instant.
+struct Landmarks {
+  Vec3d apex;                                  // of the left ventricle's cavity
+  Vec3d mitral, tricuspid, aortic, pulmonary;  // centres of the valve rings
+  Vec3d aortic_flow;                           // unit, from the ventricle into the aorta
+  double mitral_radius_m = 0, tricuspid_radius_m = 0;
+  double twist_rad = 0;                              // of the apex against the base
+  std::array<double, kSegments> wall_thickness_m{};  // at the middle of each segment
+};
+
+class ParametricHeart {
+ public:
+  // Throws SceneError when no shape fulfils the parameters. Precondition: faultOf(parameters) is
+  // empty.
+  explicit ParametricHeart(const Parameters& parameters);
+
+  // Every part at a phase in [0, 1), always in the same order with the same faces. Errors: as the
+  // constructor.
+  std::vector<Part> at(double phase) const;
+  Landmarks landmarksAt(double phase) const;
+
+  const Parameters& parameters() const { return parameters_; }
+  const Cycle& cycle() const { return cycle_; }
+  double lvLength() const { return at_rest_.length(); }  // at end-diastole, m
+  // Middle of the heart, about which it is star-shaped but for the great vessels.
+  Vec3d centre() const;
+
+ private:
+  Parameters parameters_;
+  Cycle cycle_;
+  LeftVentricle at_rest_;
+};
+
+}  // namespace echocine::heart

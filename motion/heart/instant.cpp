@@ -1,0 +1,203 @@
+#include "motion/heart/instant.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "motion/heart/solve.h"
+
+// Places without a source are our choice, drawn after hearts segmented from CT and fitted to cine
+// MR. l is the length of the left ventricle at end-diastole.
+
+namespace echocine::heart {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180, kMillilitre = 1e-6, kMillimetre = 1e-3;
+constexpr double kTolerance = 1e-5;    // of volumes that are solved for
+constexpr double kClearance_m = 3e-4;  // between a chamber and the wall of its neighbour
+
+// Outlines over zeta, 0 at the ring and 1 at the far end, in squared shares of the axis' length.
+const Meridian& atriumOutline() {
+  static const Meridian table({{-0.16, 0},
+                               {-0.12, 0.032},
+                               {-0.06, 0.070},
+                               {0, 0.100},
+                               {0.10, 0.118},
+                               {0.30, 0.172},
+                               {0.55, 0.200},
+                               {0.78, 0.155},
+                               {0.92, 0.070},
+                               {1, 0}});
+  return table;
+}
+const Meridian& papillaryOutline() {
+  static const Meridian table(
+      {{-0.15, 0}, {-0.08, 0.030}, {0.2, 0.042}, {0.6, 0.034}, {0.9, 0.016}, {1, 0}});
+  return table;
+}
+
+ValveRing ringAt(Vec3d centre, Vec3d flow, double radius_m) {
+  ValveRing ring;
+  ring.centre = centre;
+  ring.flow = normalised(flow);
+  constexpr Vec3d kSide{1, 0, 0};
+  ring.side = normalised(kSide - dot(kSide, ring.flow) * ring.flow);
+  ring.up = cross(ring.flow, ring.side);
+  ring.radius_m = radius_m;
+  return ring;
+}
+
+double atrialVolume(double largest_ml, double filled) {
+  constexpr double kEmptied = 0.55;  // of the largest volume, in health
+  return largest_ml * (1 - kEmptied * (1 - filled)) * kMillilitre;
+}
+
+double atrialAxis(double largest_ml) {
+  return 0.044 * std::cbrt(largest_ml / 55);
+}
+
+// Sets the girth of a balloon, part of `pointOf`, to enclose a volume.
+template <typename PointOf>
+void inflate(Balloon& balloon, double volume_m3, const char* key, const PointOf& pointOf) {
+  const VolumeGauge gauge(Instant::kAtriumFrequency, pointOf);
+  const auto volume = [&](double girth) {
+    balloon.girth = girth;
+    return gauge(pointOf);
+  };
+  balloon.girth = solve(0.2, 4, volume_m3, kTolerance * volume_m3, volume);
+  const double reached = volume(balloon.girth);
+  if (std::abs(reached - volume_m3) > 0.01 * volume_m3)
+    throw SceneError(
+        fmt::format("{}: an atrium of {:.3g} mL does not fit beside the rest of this heart, it "
+                    "would come to {:.3g}",
+                    key, volume_m3 / kMillilitre, reached / kMillilitre));
+}
+
+}  // namespace
+
+Instant::Instant(const Parameters& parameters, const LeftVentricle& at_rest, const State& now)
+    : state_(now), left_(at_rest) {
+  left_.contract(now.left);
+  epicardium_.emplace(left_);
+  const double scale_m = kMillimetre * parameters.body_scale;
+  walls_ = {4 * scale_m * (1 + 0.25 * now.rv_ejected), 2 * scale_m, 1.8 * scale_m};
+  buildRightVentricle(parameters);
+  buildVessels();
+  buildAtria(parameters);
+  buildPapillaries();
+}
+
+void Instant::buildRightVentricle(const Parameters& parameters) {
+  right_.emplace(left_, *epicardium_, state_.rv_ejected);
+  const double stroke_ml = parameters.edv_ml * parameters.ejection_fraction;
+  const double volume_m3 = (parameters.rv_edv_ml - stroke_ml * state_.rv_ejected) * kMillilitre;
+  const double l = left_.length();
+  const auto point = [this](Vec3d d) { return right_->cavityPoint(d); };
+  right_->arch(0.3 * l);
+  const VolumeGauge gauge(RightVentricle::kFrequency, point);
+  const auto volume = [&](double height_m) {
+    right_->arch(height_m);
+    return gauge(point);
+  };
+  const double height_m = solve(0.02 * l, 1.5 * l, volume_m3, kTolerance * volume_m3, volume);
+  const double reached = volume(height_m);
+  if (std::abs(reached - volume_m3) > 0.01 * volume_m3)
+    throw SceneError(fmt::format(
+        "rv-edv: a right ventricle of {:.3g} mL does not fit round a left one of {:.3g} "
+        "mm length, it would come to {:.3g} mL",
+        volume_m3 / kMillilitre, l / kMillimetre, reached / kMillilitre));
+}
+
+// The great vessels begin within their ventricle and leave away from the apex.
+void Instant::buildVessels() {
+  const double l = left_.length();
+  const Vec3d descent{0, 0, left_.ringZ()};
+  const auto at = [l](double x, double y, double z) { return Vec3d{x * l, y * l, z * l}; };
+
+  const Vec3d aortic_flow = normalised(Vec3d{-0.44, 0.46, -0.77});
+  const Vec3d aortic = at(-0.135, 0.262, 0) + descent;
+  const double root_m = 0.122 * l;
+  aorta_.emplace(
+      std::vector<Tube::Station>{{aortic - 0.10 * l * aortic_flow, 0.95 * root_m},
+                                 {aortic, root_m},
+                                 {aortic + 0.14 * l * aortic_flow, 1.38 * root_m},  // sinuses
+                                 {aortic + 0.30 * l * aortic_flow, 1.14 * root_m},
+                                 {at(-0.36, 0.545, -0.36) + 0.5 * descent, 1.25 * root_m},
+                                 {at(-0.42, 0.66, -0.56) + 0.2 * descent, 1.28 * root_m},
+                                 {at(-0.44, 0.74, -0.80), 1.25 * root_m}});
+  constexpr double kInWall_m = 4e-4;  // leaflets are hinged within the wall
+  aortic_ = ringAt(aortic, aortic_flow, root_m + kInWall_m);
+
+  const Vec3d pulmonary_flow = normalised(Vec3d{0.10, 0.12, -0.95});
+  const Vec3d pulmonary = right_->outflow() + 0.04 * l * pulmonary_flow;
+  const Vec3d moved = pulmonary - at(-0.08, 0.58, -0.085);  // since end-diastole, about
+  const double trunk_m = 0.125 * l;
+  pulmonary_artery_.emplace(
+      std::vector<Tube::Station>{{pulmonary - 0.12 * l * pulmonary_flow, 0.95 * trunk_m},
+                                 {pulmonary, trunk_m},
+                                 {pulmonary + 0.16 * l * pulmonary_flow, 1.2 * trunk_m},
+                                 {at(-0.05, 0.60, -0.40) + 0.8 * moved, 1.1 * trunk_m},
+                                 {at(0.02, 0.57, -0.56) + 0.5 * moved, 1.05 * trunk_m},
+                                 {at(0.12, 0.50, -0.70) + 0.2 * moved, trunk_m}});
+  pulmonary_ = ringAt(pulmonary, pulmonary_flow, trunk_m + kInWall_m);
+}
+
+// The roofs of the atria stay where they are, while the rings descend and pull the atria long.
+void Instant::buildAtria(const Parameters& parameters) {
+  const double l = left_.length(), mapse_m = parameters.mapse_mm * kMillimetre;
+  constexpr double kRingZone = 0.35;
+
+  mitral_ = ringAt({0, 0, left_.ringZ()}, {0, 0, 1}, 0.185 * l);
+  la_.outline = &atriumOutline();
+  la_.ring = mitral_.centre + Vec3d{-0.005 * l, -0.01 * l, 0};
+  la_.roof = {-0.07 * l, -0.07 * l, mapse_m - atrialAxis(parameters.la_volume_ml)};
+  la_.side = {1, 0, 0};
+  la_.aspect = 1.08;
+  la_.ring_zone = kRingZone;
+  la_.bow = {-0.03 * l, -0.03 * l, 0};
+  inflate(la_, atrialVolume(parameters.la_volume_ml, state_.atria_filled), "la-volume",
+          [this](Vec3d d) { return leftAtriumPoint(d); });
+
+  tricuspid_ = ringAt(right_->ringCentre(), {0.12, 0.05, 1}, right_->ringRadius());
+  ra_.outline = &atriumOutline();
+  ra_.ring = tricuspid_.centre;
+  ra_.roof = {-0.56 * l, 0.02 * l,
+              right_->restingRingZ() + 1.15 * mapse_m - atrialAxis(parameters.ra_volume_ml)};
+  ra_.side = {1, 0, 0};
+  ra_.aspect = 0.98;
+  ra_.ring_zone = kRingZone;
+  ra_.bow = {-0.03 * l, 0, 0};
+  inflate(ra_, atrialVolume(parameters.ra_volume_ml, state_.atria_filled), "ra-volume",
+          [this](Vec3d d) { return rightAtriumPoint(d); });
+}
+
+// From the wall at mid-height towards the commissures of the mitral valve.
+void Instant::buildPapillaries() {
+  constexpr std::array<double, 2> kAngles_rad{5 * kDegree, 240 * kDegree};
+  for (std::size_t i = 0; i < papillaries_.size(); ++i) {
+    const Vec3d tip_wall = left_.cavityAt(kAngles_rad[i], 0.42);
+    const Vec3d middle{0.3 * tip_wall.x, 0.3 * tip_wall.y, tip_wall.z};
+    Balloon& muscle = papillaries_[i];
+    muscle.outline = &papillaryOutline();
+    muscle.ring = left_.cavityAt(kAngles_rad[i], 0.70);
+    muscle.roof = tip_wall + 0.42 * (middle - tip_wall);
+    muscle.side = {-std::sin(kAngles_rad[i]), std::cos(kAngles_rad[i]), 0};
+  }
+}
+
+// Walls grow along the normals of the undented chamber, which never meet.
+Vec3d Instant::leftAtriumPoint(Vec3d direction, double thickness_m) const {
+  const Vec3d p = aorta_->pushedOut(la_.point(direction), walls_.vessel_m + kClearance_m);
+  return p + thickness_m * la_.normal(direction);
+}
+
+Vec3d Instant::rightAtriumPoint(Vec3d direction, double thickness_m) const {
+  Vec3d p = aorta_->pushedOut(ra_.point(direction), walls_.vessel_m + kClearance_m);
+  p = epicardium_->pushedOut(p, kClearance_m);
+  p = la_.pushedOut(p, walls_.atrium_m + kClearance_m);
+  return p + thickness_m * ra_.normal(direction);
+}
+
+}  // namespace echocine::heart

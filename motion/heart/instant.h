@@ -1,0 +1,66 @@
+#pragma once
+// All shapes of the heart at one instant, fitted to each other.
+
+#include <array>
+#include <optional>
+
+#include "motion/heart/balloon.h"
+#include "motion/heart/cycle.h"
+#include "motion/heart/epicardium.h"
+#include "motion/heart/leaflet.h"
+#include "motion/heart/left_ventricle.h"
+#include "motion/heart/parameters.h"
+#include "motion/heart/right_ventricle.h"
+#include "motion/heart/tube.h"
+
+namespace echocine::heart {
+
+struct WallThickness {
+  double rv_m, atrium_m, vessel_m;
+};
+
+class Instant {
+ public:
+  static constexpr int kAtriumFrequency = 8;  // of the atria's sphere meshes
+
+  // `at_rest` is the left ventricle at end-diastole, which is costly to find. Throws SceneError
+  // when a chamber cannot reach its volume beside its neighbours.
+  Instant(const Parameters& parameters, const LeftVentricle& at_rest, const State& now);
+
+  Instant(const Instant&) = delete;  // its shapes point at each other
+
+  const State& state() const { return state_; }
+  const LeftVentricle& left() const { return left_; }
+  const RightVentricle& right() const { return *right_; }
+  const Tube& aorta() const { return *aorta_; }
+  const Tube& pulmonaryArtery() const { return *pulmonary_artery_; }
+  const std::array<Balloon, 2>& papillaries() const { return papillaries_; }
+  const WallThickness& walls() const { return walls_; }
+  const ValveRing& mitral() const { return mitral_; }
+  const ValveRing& tricuspid() const { return tricuspid_; }
+  const ValveRing& aortic() const { return aortic_; }
+  const ValveRing& pulmonary() const { return pulmonary_; }
+
+  // Points of the atria for a direction of the unit sphere, grown outwards by a thickness. The left
+  // one gives way to the aorta, the right one to everything of the left heart.
+  Vec3d leftAtriumPoint(Vec3d direction, double thickness_m = 0) const;
+  Vec3d rightAtriumPoint(Vec3d direction, double thickness_m = 0) const;
+
+ private:
+  void buildRightVentricle(const Parameters& parameters);
+  void buildVessels();
+  void buildAtria(const Parameters& parameters);
+  void buildPapillaries();
+
+  State state_;
+  LeftVentricle left_;
+  std::optional<Epicardium> epicardium_;
+  std::optional<RightVentricle> right_;
+  std::optional<Tube> aorta_, pulmonary_artery_;
+  Balloon la_, ra_;
+  std::array<Balloon, 2> papillaries_;
+  ValveRing mitral_, tricuspid_, aortic_, pulmonary_;
+  WallThickness walls_{};
+};
+
+}  // namespace echocine::heart

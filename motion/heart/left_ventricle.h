@@ -1,0 +1,73 @@
+#pragma once
+// The left ventricle: cavity and wall at one instant.
+//
+// Heart coordinates, metres: origin at the centre of the mitral ring at end-diastole, z along the
+// long axis towards the apex, x from the septum to the lateral wall, y towards the anterior wall.
+// About the axis phi = atan2(y, x): 0 lateral, 60 deg anterior, 120 anteroseptal, 180 inferoseptal,
+// 240 inferior, 300 inferolateral.
+
+#include <array>
+#include <optional>
+
+#include "core/vec3.h"
+#include "motion/heart/control_mesh.h"
+#include "motion/heart/parameters.h"
+#include "motion/heart/volume_gauge.h"
+
+namespace echocine::heart {
+
+// Where the left ventricle is in its beat.
+struct Contraction {
+  double ejected = 0;  // share of the stroke volume, 0 at end-diastole, 1 at end-systole
+  std::array<double, kSegments> segments{};  // inward motion, 1 a healthy one's at end-systole
+};
+
+class LeftVentricle {
+ public:
+  // Meshes of its surfaces are geodesicSphere(kFrequency).
+  static constexpr int kFrequency = 12;
+
+  // At end-diastole. Throws SceneError when no contraction reaches the end-systolic volume.
+  explicit LeftVentricle(const Parameters& parameters);
+
+  // Sets the shape: the cavity encloses edv - ejected * stroke volume, and the wall the volume it
+  // has at end-diastole. Throws SceneError when it cannot.
+  void contract(const Contraction& contraction);
+
+  double length() const { return length_; }  // at end-diastole
+  double ringZ() const { return ring_z_; }   // of the mitral ring's plane
+  double apexZ() const { return apex_z_; }
+  double twist() const { return twist_rad_; }  // of the apex against the base
+
+  // Points for a direction of the unit sphere, (0, 0, 1) being the apex.
+  Vec3d cavityPoint(Vec3d direction) const;
+  Vec3d wallPoint(Vec3d direction) const;
+
+  // A place of the cavity's surface by its angle about the axis and zeta, 0 at the mitral ring and
+  // 1 at the apex; and how thick the wall is there.
+  Vec3d cavityAt(double phi_rad, double zeta) const;
+  double wallThicknessAt(double phi_rad, double zeta) const;
+
+ private:
+  struct Material {
+    double phi_rad, zeta, rho;  // of a direction, at end-diastole
+  };
+  void moveAxis(double ejected);
+  Material materialOf(Vec3d direction) const;
+  Material materialAt(double phi_rad, double zeta) const;
+  double radialShare(const Material& at) const;  // radius now over end-diastole
+  Vec3d placed(const Material& at) const;
+  double wallThickness(const Material& at) const;
+  double cavityVolume() const;
+  double outerVolume() const;
+
+  Parameters parameters_;
+  double length_ = 0, girth_ = 1;  // of the table's radii
+  double ring_z_ = 0, apex_z_ = 0, twist_rad_ = 0;
+  double strain_ = 0, correction_ = 0, thickening_ = 1;
+  double edv_m3_ = 0, wall_m3_ = 0;
+  Contraction contraction_;
+  std::optional<VolumeGauge> cavity_gauge_, outer_gauge_;
+};
+
+}  // namespace echocine::heart

@@ -1,0 +1,39 @@
+#pragma once
+// The outline of a chamber along its axis, from which balloon-like surfaces are made.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/monotone_cubic.h"
+
+namespace echocine::heart {
+
+// A meridian: radius rho over axial coordinate zeta, both as shares of a length, closed at both
+// ends. Parametrised by arc length from its high-zeta end (0) to its low-zeta end (1), so that a
+// sphere mesh mapped on it has no starved triangles.
+class Meridian {
+ public:
+  struct Point {
+    double zeta, rho;
+  };
+
+  // Knots (zeta, rho^2), zeta ascending, rho 0 at both ends. Squares, since rho^2 is smooth where a
+  // rounded end closes and rho is not.
+  explicit Meridian(std::vector<std::pair<double, double>> squares);
+
+  Point at(double share) const;
+  double rhoAt(double zeta) const { return std::sqrt(std::max(0.0, square_(zeta))); }
+  // Enclosed by the surface of revolution, as a share of length cubed.
+  double volume() const { return volume_; }
+  double lowest() const { return points_.back().zeta; }
+  double widest() const { return widest_; }  // largest rho
+
+ private:
+  MonotoneCubic square_;
+  std::vector<Point> points_;  // evenly spaced by arc length
+  double volume_ = 0, widest_ = 0;
+};
+
+}  // namespace echocine::heart

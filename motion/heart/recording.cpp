@@ -1,0 +1,135 @@
+#include "motion/heart/recording.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+#include "core/parallel.h"
+#include "motion/heart/leaflet.h"
+#include "motion/heart/surroundings.h"
+#include "motion/heart_motion.h"
+#include "motion/subdivision.h"
+
+namespace echocine::heart {
+namespace {
+
+// How much moves at a phase, per beat: filling, and leaflets, which matter as much as half a stroke
+// volume; and a little of everything all the time. Our choice.
+double activity(const Cycle& cycle, double phase) {
+  constexpr double kStep = 1e-3, kLeaflets = 0.5, kAlways = 1.2;
+  const State a = cycle.at(phase), b = cycle.at(std::min(phase + kStep, 1 - 1e-9));
+  const double leaflets = std::max({std::abs(b.mitral - a.mitral), std::abs(b.aortic - a.aortic),
+                                    std::abs(b.tricuspid - a.tricuspid)});
+  return kAlways + (std::abs(b.left.ejected - a.left.ejected) + kLeaflets * leaflets) / kStep;
+}
+
+Vec3d toMicrometre(Vec3d p) {
+  const auto rounded = [](double metres) { return std::round(metres * 1e6) * 1e-6 + 0.0; };
+  return {rounded(p.x), rounded(p.y), rounded(p.z)};
+}
+
+std::vector<Vec3d> controlPoints(const Part& part, const MeshTags& tags) {
+  std::vector<std::uint32_t> corners;
+  for (const SharpVertex& corner : tags.vertices) corners.push_back(corner.v);
+  std::vector<Vec3d> control = loopControlPoints(part.points, part.faces, corners);
+  std::transform(control.begin(), control.end(), control.begin(), toMicrometre);
+  return control;
+}
+
+std::size_t nearest(const std::vector<double>& phases, double phase) {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < phases.size(); ++k)
+    if (std::abs(phases[k] - phase) < std::abs(phases[best] - phase)) best = k;
+  return best;
+}
+
+std::vector<double> evenPhases(int count) {
+  std::vector<double> phases;
+  for (int k = 0; k < count; ++k) phases.push_back(std::round(1e6 * k / count) * 1e-6);
+  return phases;
+}
+
+MeshTags tagsOf(const Part& part) {
+  MeshTags tags;
+  if (!part.kind.membrane) return tags;
+  for (const std::uint32_t corner : sheetCorners(kLeafletRows, kLeafletColumns))
+    tags.vertices.push_back({corner, kInfiniteSharpness});
+  return tags;
+}
+
+void measureVolumes(RecordedPart& part) {
+  if (part.kind.membrane) return;
+  const auto vertices = static_cast<std::uint32_t>(part.control_m.front().size());
+  const Subdivision subdivision(part.faces, vertices, part.tags, Recording::kLevels, {});
+  const SurfaceTopology topology{{}, subdivision.triangles(), subdivision.vertexCount()};
+  std::vector<Vec3f> control, refined(subdivision.vertexCount());
+  for (const std::vector<Vec3d>& points : part.control_m) {
+    control.clear();
+    for (const Vec3d& p : points) control.push_back(toFloat(p));
+    subdivision.apply(control, refined);
+    part.volume_m3.push_back(enclosedVolume(topology, refined));
+  }
+}
+
+void addStillParts(const std::vector<Part>& parts, Recording& recording) {
+  for (const Part& part : parts)
+    recording.parts.push_back({part.kind, part.faces, {}, {controlPoints(part, {})}, {}});
+}
+
+}  // namespace
+
+const RecordedPart& Recording::part(std::string_view name) const {
+  const auto found = std::find_if(parts.begin(), parts.end(), [name](const RecordedPart& part) {
+    return part.kind.name == name;
+  });
+  CHECK_EQ(found != parts.end(), true);
+  return *found;
+}
+
+std::vector<double> keyframePhases(const Cycle& cycle, int count) {
+  CHECK_LE(4, count);
+  constexpr int kSteps = 2000;
+  std::vector<double> sum(kSteps + 1, 0);
+  for (int i = 0; i < kSteps; ++i) sum[i + 1] = sum[i] + activity(cycle, (i + 0.5) / kSteps);
+  std::vector<double> phases;
+  std::size_t i = 0;
+  for (int k = 0; k < count; ++k) {
+    const double want = sum.back() * k / count;
+    while (sum[i + 1] < want) ++i;
+    phases.push_back((static_cast<double>(i) + (want - sum[i]) / (sum[i + 1] - sum[i])) / kSteps);
+  }
+  // The nearest keyframe moves onto end-systole.
+  const double end_systole = cycle.events().aortic_closes;
+  phases[nearest(phases, end_systole)] = end_systole;
+  for (double& phase : phases) phase = std::round(phase * 1e6) * 1e-6;  // as files hold them
+  return phases;
+}
+
+Recording record(const ParametricHeart& heart, View view, int keyframes, KeyframeSpacing spacing) {
+  Recording recording;
+  recording.pose = poseOf(view, heart);
+  recording.phases = spacing == KeyframeSpacing::even ? evenPhases(keyframes)
+                                                      : keyframePhases(heart.cycle(), keyframes);
+  recording.end_systole_phase = heart.cycle().events().aortic_closes;
+  recording.end_systole = nearest(recording.phases, recording.end_systole_phase);
+
+  for (const Part& part : heart.at(0))
+    recording.parts.push_back({part.kind, part.faces, tagsOf(part), {}, {}});
+  for (RecordedPart& part : recording.parts) part.control_m.resize(recording.phases.size());
+  recording.places.resize(recording.phases.size());
+  parallelBlocks(recording.phases.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::vector<Part> parts = heart.at(recording.phases[k]);
+      for (std::size_t p = 0; p < parts.size(); ++p)
+        recording.parts[p].control_m[k] = controlPoints(parts[p], recording.parts[p].tags);
+      recording.places[k] = heart.landmarksAt(recording.phases[k]);
+    }
+  });
+  addStillParts(surroundingsOf(view, recording.pose, heart), recording);
+  parallelBlocks(recording.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) measureVolumes(recording.parts[p]);
+  });
+  return recording;
+}
+
+}  // namespace echocine::heart

@@ -1,0 +1,42 @@
+#pragma once
+// The right ventricle: a crescent wrapped round the left one.
+
+#include "motion/heart/epicardium.h"
+#include "motion/heart/left_ventricle.h"
+
+namespace echocine::heart {
+
+// Cavity at one instant. Its septal sheet follows the left ventricle's outer surface half a
+// millimetre away, its free wall arches over that; the sheets meet along the two edges of the
+// septum, below the pulmonary valve and at the apex.
+class RightVentricle {
+ public:
+  static constexpr int kFrequency = 12;
+
+  // `left` and `epicardium` at the same instant; `ejected` of its own stroke volume. `epicardium`
+  // must outlive the ventricle.
+  RightVentricle(const LeftVentricle& left, const Epicardium& epicardium, double ejected);
+
+  // Sets the free wall's height over the septum.
+  void arch(double height_m) { arch_m_ = height_m; }
+
+  // Point for a direction of the unit sphere: z > 0 free wall, y = 1 apex.
+  Vec3d cavityPoint(Vec3d direction) const;
+  Vec3d wallPoint(Vec3d direction, double thickness_m) const;
+
+  // Of the tricuspid valve.
+  Vec3d ringCentre() const { return ring_centre_; }
+  double restingRingZ() const { return resting_ring_z_; }  // at end-diastole
+  double ringRadius() const { return ring_radius_; }
+  // Centre of the outflow's upper end, below the pulmonary valve.
+  Vec3d outflow() const;
+
+ private:
+  const Epicardium* epicardium_;
+  double arch_m_ = 0;
+  double base_z_ = 0, apex_z_ = 0, tilt_m_ = 0, resting_ring_z_ = 0;
+  Vec3d ring_centre_;
+  double ring_radius_ = 0;
+};
+
+}  // namespace echocine::heart

@@ -1,0 +1,60 @@
+#include "motion/heart/segments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace echocine::heart {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+// A ring of segments, counted in the Association's order: basal and mid rings start with the
+// anterior segment, 60 degrees apart; the apical one with its anterior segment, 90 degrees apart.
+struct Ring {
+  double zeta;  // of the segments' centres; our choice: thirds of the wall, and the cap
+  int first, count;
+  double start_rad;  // centre of the first; the count goes by the septum
+};
+constexpr std::array<Ring, 4> kRings{
+    {{0.17, 0, 6, kTurn / 6}, {0.50, 6, 6, kTurn / 6}, {0.80, 12, 4, kTurn / 6}, {0.97, 16, 1, 0}}};
+
+double smoothStep(double t) {
+  return t * t * (3 - 2 * t);
+}
+
+void addRing(const Ring& ring, double phi_rad, double share,
+             std::array<double, kSegments>& shares) {
+  double place = (phi_rad - ring.start_rad) / kTurn * ring.count;
+  place -= std::floor(place / ring.count) * ring.count;
+  const int here = static_cast<int>(place) % ring.count;
+  const double next = smoothStep(place - std::floor(place));
+  shares[ring.first + here] += share * (1 - next);
+  shares[ring.first + (here + 1) % ring.count] += share * next;
+}
+
+}  // namespace
+
+std::array<double, kSegments> segmentShares(double phi_rad, double zeta) {
+  std::array<double, kSegments> shares{};
+  std::size_t above = 0;
+  while (above < kRings.size() && kRings[above].zeta < zeta) ++above;
+  if (above == 0 || above == kRings.size()) {
+    addRing(kRings[std::min(above, kRings.size() - 1)], phi_rad, 1, shares);
+    return shares;
+  }
+  const Ring &low = kRings[above - 1], &high = kRings[above];
+  const double t = smoothStep((zeta - low.zeta) / (high.zeta - low.zeta));
+  addRing(low, phi_rad, 1 - t, shares);
+  addRing(high, phi_rad, t, shares);
+  return shares;
+}
+
+SegmentPlace segmentCentre(int segment) {
+  std::size_t r = kRings.size() - 1;
+  while (kRings[r].first > segment) --r;
+  const Ring& ring = kRings[r];
+  return {ring.start_rad + kTurn * (segment - ring.first) / ring.count, ring.zeta};
+}
+
+}  // namespace echocine::heart

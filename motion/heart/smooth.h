@@ -1,0 +1,21 @@
+#pragma once
+// Rounded maxima and steps.
+
+#include <algorithm>
+#include <cmath>
+
+namespace echocine::heart {
+
+// The larger of two lengths, the change from one to the other rounded over `rounding`; never less
+// than either, and at most rounding / 2 more.
+inline double smoothMax(double a, double b, double rounding) {
+  return 0.5 * (a + b + std::hypot(a - b, rounding));
+}
+
+// 0 below `from`, 1 above `to`, once differentiable.
+inline double smoothStep(double from, double to, double x) {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+}  // namespace echocine::heart

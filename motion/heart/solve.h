@@ -1,0 +1,35 @@
+#pragma once
+// Root finding for shapes whose volume is asked for.
+
+#include <cmath>
+#include <utility>
+
+namespace echocine::heart {
+
+// The x in [low, high] at which a continuous growing function reaches `wanted`, to `tolerance` of
+// the function; the nearer end where it does not. Regula falsi with halved ends (Illinois), so a
+// dozen calls.
+template <typename Function>
+double solve(double low, double high, double wanted, double tolerance, Function&& f) {
+  double f_low = f(low) - wanted, f_high = f(high) - wanted;
+  if (f_low >= 0) return low;
+  if (f_high <= 0) return high;
+  double middle = low;
+  for (int i = 0, side = 0; i < 60; ++i) {
+    middle = (low * f_high - high * f_low) / (f_high - f_low);
+    const double f_middle = f(middle) - wanted;
+    if (std::abs(f_middle) <= tolerance) break;
+    if (f_middle < 0) {
+      low = middle, f_low = f_middle;
+      if (side == -1) f_high /= 2;
+      side = -1;
+    } else {
+      high = middle, f_high = f_middle;
+      if (side == 1) f_low /= 2;
+      side = 1;
+    }
+  }
+  return middle;
+}
+
+}  // namespace echocine::heart

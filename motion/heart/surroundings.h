@@ -1,0 +1,14 @@
+#pragma once
+// What an echo shows around the heart: chest wall, lungs, the tissue between, the aorta that passes
+// behind.
+
+#include <vector>
+
+#include "motion/heart/views.h"
+
+namespace echocine::heart {
+
+// Still parts for one view, in heart coordinates; all of lower priority than the heart's.
+std::vector<Part> surroundingsOf(View view, const ProbePose& pose, const ParametricHeart& heart);
+
+}  // namespace echocine::heart

@@ -1,0 +1,93 @@
+#include "motion/heart/tube.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/check.h"
+#include "motion/heart/smooth.h"
+
+namespace echocine::heart {
+namespace {
+
+constexpr int kSections = 120, kFine = 40;
+
+Vec3d catmullRom(Vec3d a, Vec3d b, Vec3d c, Vec3d d, double t) {
+  return 0.5 * (2 * b + t * (c - a) + t * t * (2 * a - 5 * b + 4 * c - d) +
+                t * t * t * (3 * b - a - 3 * c + d));
+}
+
+std::vector<Tube::Station> smoothed(const std::vector<Tube::Station>& s) {
+  std::vector<Tube::Station> fine;
+  for (std::size_t i = 0; i + 1 < s.size(); ++i) {
+    const Vec3d before = i > 0 ? s[i - 1].centre : 2 * s[0].centre - s[1].centre;
+    const Vec3d after = i + 2 < s.size() ? s[i + 2].centre : 2 * s[i + 1].centre - s[i].centre;
+    for (int k = 0; k < kFine; ++k) {
+      const double t = double(k) / kFine;
+      fine.push_back({catmullRom(before, s[i].centre, s[i + 1].centre, after, t),
+                      std::lerp(s[i].radius_m, s[i + 1].radius_m, smoothStep(0, 1, t))});
+    }
+  }
+  fine.push_back(s.back());
+  return fine;
+}
+
+}  // namespace
+
+Tube::Tube(const std::vector<Station>& stations) {
+  CHECK_LE(std::size_t{3}, stations.size());
+  const std::vector<Station> fine = smoothed(stations);
+  std::vector<double> arc_m(fine.size(), 0);
+  for (std::size_t i = 1; i < fine.size(); ++i)
+    arc_m[i] = arc_m[i - 1] + length(fine[i].centre - fine[i - 1].centre);
+  length_m_ = arc_m.back();
+  Vec3d u{0.6, 0.64, 0.48};  // carried along without turning about the line; our choice
+  for (int k = 0; k <= kSections; ++k) {
+    const double want = length_m_ * k / kSections;
+    const auto above = std::upper_bound(arc_m.begin() + 1, arc_m.end() - 1, want);
+    const auto i = static_cast<std::size_t>(above - arc_m.begin());
+    const double t = std::clamp((want - arc_m[i - 1]) / (arc_m[i] - arc_m[i - 1]), 0.0, 1.0);
+    const Vec3d tangent = normalised(fine[i].centre - fine[i - 1].centre);
+    u = normalised(u - dot(u, tangent) * tangent);
+    sections_.push_back({fine[i - 1].centre + t * (fine[i].centre - fine[i - 1].centre), u,
+                         cross(tangent, u), std::lerp(fine[i - 1].radius_m, fine[i].radius_m, t)});
+  }
+}
+
+Tube::Section Tube::at(double share) const {
+  const double place = std::clamp(share, 0.0, 1.0) * kSections;
+  const int i = std::min(static_cast<int>(place), kSections - 1);
+  const Section &a = sections_[i], &b = sections_[i + 1];
+  const double t = place - i;
+  return {a.centre + t * (b.centre - a.centre), a.u + t * (b.u - a.u), a.v + t * (b.v - a.v),
+          std::lerp(a.radius_m, b.radius_m, t)};
+}
+
+Vec3d Tube::point(Vec3d direction, double thickness_m) const {
+  // The outline walked by arc length: across the first end, along, across the last end.
+  const double first_m = sections_.front().radius_m, last_m = sections_.back().radius_m;
+  const double share = 1 - std::acos(std::clamp(direction.z, -1.0, 1.0)) / std::numbers::pi;
+  const double walked_m = share * (first_m + length_m_ + last_m);
+  const double along = (walked_m - first_m) / length_m_;
+  const Section section = at(along);
+  double fill = 1;  // of the radius
+  if (along < 0) fill = walked_m / first_m;
+  if (along > 1) fill = 1 - (walked_m - first_m - length_m_) / last_m;
+  const double azimuth_rad = std::atan2(direction.y, direction.x);
+  const double radius_m = std::max(fill, 0.0) * (section.radius_m + thickness_m);
+  return section.centre + radius_m * std::cos(azimuth_rad) * section.u +
+         radius_m * std::sin(azimuth_rad) * section.v;
+}
+
+Vec3d Tube::pushedOut(Vec3d point, double gap_m) const {
+  const Section* nearest = &sections_.front();
+  for (const Section& section : sections_)
+    if (length(point - section.centre) < length(point - nearest->centre)) nearest = &section;
+  const Vec3d away = point - nearest->centre;
+  const double distance_m = length(away), limit_m = nearest->radius_m + gap_m;
+  constexpr double kRounding_m = 4e-3;
+  if (distance_m > limit_m + 10 * kRounding_m || distance_m < 1e-6) return point;
+  return nearest->centre + (smoothMax(distance_m, limit_m, kRounding_m) / distance_m) * away;
+}
+
+}  // namespace echocine::heart

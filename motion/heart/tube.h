@@ -1,0 +1,38 @@
+#pragma once
+// A vessel: a closed tube along a curved line.
+
+#include <vector>
+
+#include "core/vec3.h"
+
+namespace echocine::heart {
+
+class Tube {
+ public:
+  struct Station {
+    Vec3d centre;
+    double radius_m;
+  };
+
+  // A smooth line through the stations (Catmull-Rom), closed by rounded ends. Precondition: at
+  // least three stations.
+  explicit Tube(const std::vector<Station>& stations);
+
+  // For a direction of the unit sphere, z being the last station's end; grown outwards by
+  // `thickness_m`, the ends staying where they are.
+  Vec3d point(Vec3d direction, double thickness_m = 0) const;
+  // `point`, moved away from the line until it is at least `gap_m` outside.
+  Vec3d pushedOut(Vec3d point, double gap_m) const;
+
+ private:
+  struct Section {
+    Vec3d centre, u, v;
+    double radius_m;
+  };
+  Section at(double share) const;
+
+  std::vector<Section> sections_;  // evenly spaced by arc length
+  double length_m_ = 0;
+};
+
+}  // namespace echocine::heart

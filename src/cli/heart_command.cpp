@@ -1,0 +1,100 @@
+#include "cli/heart_command.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+
+#include "core/error.h"
+
+namespace echocine {
+
+namespace {
+
+std::string viewList() {
+  std::string list;
+  for (const heart::ViewName& name : heart::viewNames())
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", name.key);
+  return list;
+}
+
+// "N:AMPLITUDE" or "N:AMPLITUDE:DELAY_MS".
+void applySegment(const std::string& text, heart::Parameters& parameters) {
+  const auto refuse = [&] {
+    throw SceneError(fmt::format(
+        "--segment: \"{}\" is not accepted: NUMBER:AMPLITUDE or NUMBER:AMPLITUDE:DELAY_MS, the "
+        "number 1 to {}, such as 7:0 for an akinetic mid-anterior wall",
+        text, heart::kSegments));
+  };
+  std::vector<double> values;
+  for (const char *at = text.data(), *end = at + text.size();; ++at) {
+    double value = 0;
+    const auto result = std::from_chars(at, end, value);
+    if (result.ec != std::errc()) refuse();
+    values.push_back(value);
+    at = result.ptr;
+    if (at == end) break;
+    if (*at != ':') refuse();
+  }
+  if (!(values[0] >= 1 && values[0] <= heart::kSegments)) refuse();
+  const int number = static_cast<int>(values[0]);
+  if (values.size() < 2 || values.size() > 3 || values[0] != number) refuse();
+  heart::Segment& segment = parameters.segments[static_cast<std::size_t>(number - 1)];
+  segment.amplitude = values[1];
+  if (values.size() == 3) segment.delay_s = values[2] * 1e-3;
+}
+
+}  // namespace
+
+HeartCommand::HeartCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "heart", "Write a parametric beating heart: keyframe meshes, a scene, the truth");
+  command
+      ->add_option("-o,--output", folder_, "New folder for the meshes, scene.toml and truth.json")
+      ->required();
+  command->add_option("--view", view_, "Where the probe is held: " + viewList())
+      ->capture_default_str();
+  const heart::Parameters defaults;
+  for (const heart::Dial& dial : heart::dials()) {
+    const std::string unit = std::string(dial.unit) == "1" ? "" : std::string(" ") + dial.unit;
+    const auto standard = dial.get(defaults);
+    command
+        ->add_option_function<double>(
+            std::string("--") + dial.key,
+            [this, &dial](const double& value) { given_[dial.key] = value; },
+            fmt::format("{}{}; {:g} to {:g}{}{}", dial.meaning, unit.empty() ? "" : "," + unit,
+                        dial.low, dial.high, standard ? "; default " : "",
+                        standard ? fmt::format("{:g}", *standard) : ""))
+        ->type_name(unit.empty() ? "NUMBER" : dial.unit);
+  }
+  command->add_option(
+      "--segment", segments_,
+      "Wall motion of one of the 17 segments, NUMBER:AMPLITUDE[:DELAY_MS]: 1 healthy, "
+      "0 akinetic, below 0 dyskinetic; may be given often");
+  command->add_option("--keyframes", wanted_.keyframes, "Keyframes a beat")
+      ->check(CLI::Range(4, 100))
+      ->capture_default_str();
+  command->add_flag(
+      "--even", even_,
+      "Space keyframes evenly, not by how much moves; end-systole then falls between two");
+  command->add_option("--threads", wanted_.threads, "Threads; 0 for one per core")
+      ->check(CLI::Range(0, 4096));
+  command->add_flag("--quiet", quiet_, "Print nothing but errors");
+}
+
+int HeartCommand::run() {
+  const auto view = heart::viewOf(view_);
+  if (!view)
+    throw SceneError(fmt::format("--view: \"{}\" is not a view, accepted: {}", view_, viewList()));
+  wanted_.view = *view;
+  if (even_) wanted_.spacing = heart::KeyframeSpacing::even;
+  wanted_.parameters = heart::parametersFrom(given_);
+  for (const std::string& segment : segments_) applySegment(segment, wanted_.parameters);
+  writeHeart(wanted_, folder_);
+  if (!quiet_)
+    fmt::print("{0} keyframes in {1}\n  echocine render {2} -o LOOP\n", wanted_.keyframes,
+               folder_.string(), (folder_ / "scene.toml").string());
+  return 0;
+}
+
+}  // namespace echocine

@@ -1,0 +1,53 @@
+// The look for breaks between keyframes next to making the same frames' surfaces, of the shipped
+// heart on one thread: each round times one after the other, `share` is the ratio of the medians.
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/parallel.h"
+#include "motion/cardiac_clock.h"
+#include "motion/motion_warnings.h"
+#include "scene/scene_reader.h"
+
+namespace echocine::bench {
+namespace {
+
+template <typename Work>
+double secondsOf(Work&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void lookForBreaks(benchmark::State& state) {
+  const Scene scene = readScene(ECHOCINE_SOURCE_DIR "/examples/beating_heart/scene.toml");
+  const HeartMotion motion(scene);
+  const CardiacClock clock(scene);
+  SurfaceFrame frame;
+  std::vector<double> looks, frames;
+  withThreads(1, [&] {
+    for (auto _ : state) {
+      looks.push_back(secondsOf([&] { benchmark::DoNotOptimize(motionWarnings(scene, motion)); }));
+      frames.push_back(secondsOf([&] {
+        for (int i = 0; i < clock.frameCount(); ++i) motion.frameAt(clock.at(i).phase, frame);
+      }));
+      state.SetIterationTime(looks.back());
+    }
+  });
+  state.counters["look_ms_per_frame"] = 1e3 * median(looks) / clock.frameCount();
+  state.counters["motion_ms_per_frame"] = 1e3 * median(frames) / clock.frameCount();
+  state.counters["share"] = median(looks) / median(frames);
+}
+
+BENCHMARK(lookForBreaks)->UseManualTime()->Iterations(9)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace echocine::bench

@@ -1,0 +1,68 @@
+#pragma once
+// A scene with its meshes in memory, traced through either geometry.
+
+#include <optional>
+
+#include "core/parallel.h"
+#include "scene/effect_plan.h"
+#include "support/meshes.h"
+#include "trace/trace_frame.h"
+
+namespace echocine::support {
+
+// Mesh i is that of scene.structures[i], in metres in the probe frame.
+struct World {
+  Scene scene;
+  std::vector<Mesh> meshes;
+  std::vector<std::vector<Vec3f>> normals{};  // per vertex, or none
+
+  std::vector<SurfaceTopology> topology() const {
+    std::vector<SurfaceTopology> all;
+    for (std::size_t s = 0; s < meshes.size(); ++s)
+      all.push_back({SurfaceId(static_cast<std::uint32_t>(s)), meshes[s].triangles,
+                     static_cast<std::uint32_t>(meshes[s].points.size()),
+                     scene.structures[s].membrane});
+    return all;
+  }
+  SurfaceFrame frame() const {
+    SurfaceFrame frame;
+    for (const Mesh& mesh : meshes) {
+      frame.positions_m.emplace_back();
+      for (const Vec3d& p : mesh.points) frame.positions_m.back().push_back(toFloat(p));
+    }
+    frame.normals = normals;
+    return frame;
+  }
+};
+
+enum class Tracer { slice, cells, embree };
+
+inline const char* nameOf(Tracer tracer) {
+  return tracer == Tracer::slice ? "slice" : tracer == Tracer::cells ? "cells" : "embree";
+}
+
+// Every channel that the scene asks for; refraction only where the plan has it and the tracer can.
+inline PolarFrame traceWorld(const World& world, EffectPlan plan, Tracer tracer) {
+  const std::vector<SurfaceTopology> topology = world.topology();
+  const SurfaceFrame frame = world.frame();
+  if (tracer != Tracer::embree) plan.refraction = false;
+  const TraceSettings settings(world.scene, plan, tracer == Tracer::cells);
+  const PlaneRequest request = planeRequest(world.scene, plan);
+  PolarFrame polar;
+  if (tracer == Tracer::embree) {
+    FrameGeometry geometry(topology);
+    geometry.update(frame);
+    traceFrame(geometry, world.scene.probe, settings, request, polar);
+  } else {
+    PlaneSlice slice(topology, world.scene.probe);
+    slice.update(frame);
+    traceFrame(slice, world.scene.probe, settings, request, polar);
+  }
+  return polar;
+}
+
+inline PolarFrame traceWorld(const World& world, Tracer tracer) {
+  return traceWorld(world, planEffects(world.scene), tracer);
+}
+
+}  // namespace echocine::support
