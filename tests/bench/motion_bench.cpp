@@ -10,6 +10,7 @@
 #include "motion/cardiac_clock.h"
 #include "motion/motion_warnings.h"
 #include "scene/scene_reader.h"
+#include "support/paths.h"
 
 namespace echocine::bench {
 namespace {
@@ -28,7 +29,8 @@ double median(std::vector<double> values) {
 }
 
 void lookForBreaks(benchmark::State& state) {
-  const Scene scene = readScene(ECHOCINE_SOURCE_DIR "/examples/beating_heart/scene.toml");
+  const Scene scene =
+      readScene(std::filesystem::path(support::kSourceDir) / "examples/beating_heart/scene.toml");
   const HeartMotion motion(scene);
   const CardiacClock clock(scene);
   SurfaceFrame frame;

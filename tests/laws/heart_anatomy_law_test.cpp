@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "support/paths.h"
 #include "support/recorded_heart.h"
 #include "support/temp_folder.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 using namespace support;
 
-const std::filesystem::path kStatics = std::filesystem::path(ECHOCINE_SHARED_DIR) / "real/statics",
+const std::filesystem::path kStatics = std::filesystem::path(support::kSharedDir) / "real/statics",
                             kStatic = kStatics / "heartdeform_whole_heart",
                             kFourChambers = kStatics / "ghdheart_4ch";
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "support/paths.h"
 #include "support/recorded_heart.h"
 #include "support/rigid_fit.h"
 #include "support/temp_folder.h"
@@ -13,7 +14,7 @@ namespace {
 using namespace support;
 
 const std::filesystem::path kMeshes =
-    std::filesystem::path(ECHOCINE_SHARED_DIR) / "real/meshes/bivme_patient1_25f";
+    std::filesystem::path(support::kSharedDir) / "real/meshes/bivme_patient1_25f";
 constexpr std::size_t kEndSystole = 9;  // frame
 
 // mL at frames 0..24, as published with the meshes.

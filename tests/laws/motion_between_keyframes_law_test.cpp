@@ -11,6 +11,7 @@
 #include "motion/motion_warnings.h"
 #include "scene/scene_reader.h"
 #include "tests/stage/motion_fixtures.h"
+#include "tests/support/paths.h"
 #include "tests/support/temp_folder.h"
 
 namespace echocine::motion_test {
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kMeshes = fs::path(ECHOCINE_SHARED_DIR) / "real/meshes";
+const fs::path kMeshes = fs::path(support::kSharedDir) / "real/meshes";
 const fs::path kPatient = kMeshes / "bivme_patient1_25f";
 
 // Every n-th keyframe of a sequence whose files are <name>_000.obj, ...
@@ -46,7 +47,7 @@ Scene patient(int step = 1) {
 }
 
 Scene shippedHeart() {
-  return readScene(fs::path(ECHOCINE_SOURCE_DIR) / "examples/beating_heart/scene.toml");
+  return readScene(fs::path(support::kSourceDir) / "examples/beating_heart/scene.toml");
 }
 
 // About a thousand phases of one beat, hardly any of them a keyframe's; fewer where sanitizers make

@@ -10,11 +10,12 @@
 #include "motion/heart_motion.h"
 #include "motion/mesh_io.h"
 #include "tests/stage/motion_fixtures.h"
+#include "tests/support/paths.h"
 
 namespace echocine::motion_test {
 namespace {
 
-const std::filesystem::path kReal = std::filesystem::path(ECHOCINE_SHARED_DIR) / "real";
+const std::filesystem::path kReal = std::filesystem::path(support::kSharedDir) / "real";
 
 // mL at frames 0..24, as published with the meshes.
 constexpr std::array<double, 25> kLeft_ml{

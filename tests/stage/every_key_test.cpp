@@ -7,12 +7,13 @@
 #include "core/units.h"
 #include "scene/scene_json.h"
 #include "scene/scene_reader.h"
+#include "support/paths.h"
 
 namespace echocine {
 namespace {
 
 const std::filesystem::path kReference =
-    std::filesystem::path(ECHOCINE_SOURCE_DIR) / "examples/every_key/scene.toml";
+    std::filesystem::path(support::kSourceDir) / "examples/every_key/scene.toml";
 
 TEST(EveryKey, ValuesThatAreCalledDefaultsAre) {
   const Scene reference = readScene(kReference);
@@ -33,7 +34,7 @@ TEST(EveryKey, ValuesThatAreCalledDefaultsAre) {
 TEST(EveryKey, ProbeKeysThatAreLeftOutTakeTheReferencesValues) {
   const Scene reference = readScene(kReference);
   const Scene plain =
-      readScene(std::filesystem::path(ECHOCINE_SOURCE_DIR) / "examples/beating_heart/scene.toml");
+      readScene(std::filesystem::path(support::kSourceDir) / "examples/beating_heart/scene.toml");
   EXPECT_EQ(plain.probe.aperture_m, reference.probe.aperture_m);
   EXPECT_NEAR(plain.probe.focus_m, reference.probe.focus_m, 1e-12);
   EXPECT_EQ(plain.probe.min_depth_m, reference.probe.min_depth_m);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/paths.h"
 #include "support/recorded_heart.h"
 #include "support/temp_folder.h"
 
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 
 TEST(HeartFiles, TheExampleIsWhatDefaultsGive) {
   const RecordedHeart& made = recordedHeart({}, HeartFiles{}.keyframes);
-  const fs::path data = fs::path(ECHOCINE_DATA_DIR) / "beating_heart";
+  const fs::path data = fs::path(support::kDataDir) / "beating_heart";
   std::size_t meshes = 0;
   for (const heart::RecordedPart& part : made.recording.parts)
     for (std::size_t k = 0; k < part.control_m.size(); ++k, ++meshes) {
@@ -29,7 +30,7 @@ TEST(HeartFiles, TheExampleIsWhatDefaultsGive) {
             static_cast<std::ptrdiff_t>(meshes));
   HeartFiles defaults;
   defaults.parameters = made.parameters;
-  EXPECT_EQ(bytesOf(fs::path(ECHOCINE_SOURCE_DIR) / "examples/beating_heart/scene.toml"),
+  EXPECT_EQ(bytesOf(fs::path(support::kSourceDir) / "examples/beating_heart/scene.toml"),
             heartScene(defaults, made.recording, "../../data/beating_heart/"));
 }
 

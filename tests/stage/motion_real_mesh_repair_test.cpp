@@ -6,13 +6,14 @@
 #include "motion/mesh_io.h"
 #include "motion/repair/mesh_repair.h"
 #include "tests/stage/motion_fixtures.h"
+#include "tests/support/paths.h"
 
 namespace echocine::motion_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kReal = fs::path(ECHOCINE_SHARED_DIR) / "real";
+const fs::path kReal = fs::path(support::kSharedDir) / "real";
 
 struct RealCase {
   const char* file;

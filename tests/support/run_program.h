@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <string>
 
+#include "support/paths.h"
 #include "support/temp_folder.h"
 
 namespace echocine::support {
@@ -21,7 +22,7 @@ struct Outcome {
 // A shell line; %B stands for the program. Standard error is taken apart from standard output.
 inline Outcome runShell(std::string line) {
   const TempFolder folder;
-  const std::string program = "'" ECHOCINE_BINARY "'";
+  const std::string program = std::string("'") + kProgram + "'";
   for (std::size_t at = 0; (at = line.find("%B", at)) != std::string::npos; at += program.size())
     line.replace(at, 2, program);
   const std::string error_file = (folder / "stderr").string();
@@ -47,8 +48,8 @@ inline long peakMemory(const std::filesystem::path& scene, const std::filesystem
   const std::string file = scene.string(), out = folder.string();
   const pid_t child = ::fork();
   if (child == 0) {
-    ::execl(ECHOCINE_BINARY, "echocine", "render", file.c_str(), "-o", out.c_str(), "--quiet",
-            "--threads", "2", static_cast<char*>(nullptr));
+    ::execl(kProgram, "echocine", "render", file.c_str(), "-o", out.c_str(), "--quiet", "--threads",
+            "2", static_cast<char*>(nullptr));
     ::_exit(127);
   }
   int status = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "support/loop_scene.h"
+#include "support/paths.h"
 #include "support/run_program.h"
 
 namespace echocine {
@@ -43,7 +44,7 @@ TEST_F(CommandLine, HelpNamesCommandsAndUnits) {
   EXPECT_EQ(render.code, 0);
   for (const char* word : {"--threads", "--quiet", "--frames", "--resume", "unit"})
     EXPECT_NE(render.out.find(word), std::string::npos) << word;
-  EXPECT_NE(runShell("%B --version").out.find(ECHOCINE_VERSION), std::string::npos);
+  EXPECT_NE(runShell("%B --version").out.find(support::kVersion), std::string::npos);
 }
 
 TEST_F(CommandLine, UnusableArgumentsAreCodeTwo) {

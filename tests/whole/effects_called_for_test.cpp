@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cine.h"
-#include "trace/line_samples.h"
 #include "support/exr_planes.h"
 #include "support/loop_scene.h"
+#include "trace/line_samples.h"
 
 namespace echocine {
 namespace {

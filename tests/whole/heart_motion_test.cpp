@@ -5,6 +5,7 @@
 #include "motion/motion_warnings.h"
 #include "motion/surface_measure.h"
 #include "scene/scene_reader.h"
+#include "support/paths.h"
 #include "support/recorded_heart.h"
 #include "support/temp_folder.h"
 
@@ -97,7 +98,7 @@ void expectWhole(const heart::Parameters& parameters, int keyframes) {
 
 TEST(HeartMotionWhole, NoTriangleOfTheDefaultHeartInverts) {
   expectWhole(
-      sceneFrom(std::filesystem::path(ECHOCINE_SOURCE_DIR) / "examples/beating_heart/scene.toml"));
+      sceneFrom(std::filesystem::path(support::kSourceDir) / "examples/beating_heart/scene.toml"));
 }
 
 TEST(HeartMotionWhole, NorOfAnInfarctedOne) {

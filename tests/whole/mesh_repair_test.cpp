@@ -7,6 +7,7 @@
 
 #include "motion/mesh_io.h"
 #include "support/exr_planes.h"
+#include "support/paths.h"
 #include "support/run_program.h"
 #include "support/scene_text.h"
 
@@ -91,7 +92,7 @@ TEST_F(MeshRepair, AWeldedSoupGivesTheImageOfTheBall) {
 
 TEST_F(MeshRepair, ARealSoupRenders) {
   const fs::path stl =
-      fs::path(ECHOCINE_SHARED_DIR) / "real/robustness/slicerheart_AL_Papillary_Post.stl";
+      fs::path(support::kSharedDir) / "real/robustness/slicerheart_AL_Papillary_Post.stl";
   if (!fs::exists(stl)) GTEST_SKIP() << "needs " << stl;
   Sha256 digest;
   const TriangleMesh whole = readMesh(stl, digest);

@@ -12,6 +12,7 @@
 #include "motion/mesh_io.h"
 #include "support/cine_frames.h"
 #include "support/exr_planes.h"
+#include "support/paths.h"
 #include "support/scene_text.h"
 #include "support/temp_folder.h"
 
@@ -21,7 +22,7 @@ namespace {
 using namespace support;
 
 const std::filesystem::path kMeshes =
-    std::filesystem::path(ECHOCINE_SHARED_DIR) / "real/meshes/bivme_patient1_25f";
+    std::filesystem::path(support::kSharedDir) / "real/meshes/bivme_patient1_25f";
 
 // mL, as published with the meshes.
 constexpr std::array<double, 25> kLeft{

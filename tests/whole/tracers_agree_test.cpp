@@ -5,6 +5,7 @@
 
 #include "motion/heart_motion.h"
 #include "scene/scene_reader.h"
+#include "support/paths.h"
 #include "support/scene_text.h"
 #include "support/temp_folder.h"
 #include "trace/trace_frame.h"
@@ -14,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kShared = ECHOCINE_SHARED_DIR;
+const fs::path kShared = support::kSharedDir;
 
 // Puts every vertex near the plane, the middle line and the plane z = 80 mm exactly there.
 void snap(SurfaceFrame& frame, float within_m) {
@@ -72,7 +73,7 @@ void expectAgreement(Scene scene) {
 }
 
 TEST(TracersAgree, OnTheShippedHeart) {
-  expectAgreement(readScene(fs::path(ECHOCINE_SOURCE_DIR) / "examples/beating_heart/scene.toml"));
+  expectAgreement(readScene(fs::path(support::kSourceDir) / "examples/beating_heart/scene.toml"));
 }
 
 TEST(TracersAgree, OnTheRealPatient) {

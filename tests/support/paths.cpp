@@ -1,0 +1,11 @@
+#include "support/paths.h"
+
+namespace echocine::support {
+
+const char* const kSourceDir = ECHOCINE_SOURCE_DIR;
+const char* const kDataDir = ECHOCINE_SOURCE_DIR "/data";
+const char* const kSharedDir = ECHOCINE_SOURCE_DIR "/../shared";
+const char* const kProgram = ECHOCINE_PROGRAM;
+const char* const kVersion = ECHOCINE_VERSION;
+
+}  // namespace echocine::support
