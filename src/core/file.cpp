@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include "core/error.h"
 
@@ -48,26 +49,43 @@ bool writeAll(int descriptor, std::span<const std::byte> bytes) {
 
 }  // namespace
 
+WholeFile::WholeFile(std::filesystem::path path)
+    : path_(std::move(path)), part_(path_.string() + ".part") {
+  descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) fail(errno);
+}
+
+WholeFile::~WholeFile() {
+  discard();
+}
+
+void WholeFile::discard() {
+  if (descriptor_ < 0) return;
+  ::close(std::exchange(descriptor_, -1));
+  ::unlink(part_.c_str());
+}
+
+void WholeFile::fail(int reason) {
+  discard();
+  throw JobError(fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(reason)));
+}
+
+void WholeFile::write(std::span<const std::byte> bytes) {
+  if (!writeAll(descriptor_, bytes)) fail(errno);
+}
+
+void WholeFile::finish() {
+  const int closed = ::close(std::exchange(descriptor_, -1));
+  if (closed == 0 && ::rename(part_.c_str(), path_.c_str()) == 0) return;
+  const int reason = errno;
+  ::unlink(part_.c_str());
+  fail(reason);
+}
+
 void writeFileWhole(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  const std::string part = path.string() + ".part";
-  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  bool good = descriptor >= 0;
-  int reason = errno;
-  if (good) {
-    good = writeAll(descriptor, bytes);
-    reason = errno;
-    if (::close(descriptor) != 0 && good) {
-      good = false;
-      reason = errno;
-    }
-    if (good && ::rename(part.c_str(), path.c_str()) != 0) {
-      good = false;
-      reason = errno;
-    }
-    if (!good) ::unlink(part.c_str());
-  }
-  if (!good)
-    throw JobError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(reason)));
+  WholeFile file(path);
+  file.write(bytes);
+  file.finish();
 }
 
 }  // namespace echocine

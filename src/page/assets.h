@@ -1,0 +1,19 @@
+#pragma once
+// The HTML, CSS and JavaScript files of this folder, as they stand in the program.
+
+#include <cstddef>
+#include <string_view>
+
+namespace echocine {
+
+struct Asset {
+  const char* name;
+  const char *begin, *end;
+};
+extern const Asset kAssets[];
+extern const std::size_t kAssetCount;
+
+// The text of a file by its name without folders. Precondition: CMakeLists.txt lists it.
+std::string_view pageAsset(std::string_view name);
+
+}  // namespace echocine

@@ -1,0 +1,141 @@
+#include "page/page.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/base64.h"
+#include "core/check.h"
+#include "page/assets.h"
+
+namespace echocine {
+
+namespace {
+
+constexpr std::size_t kBufferBytes = 1 << 18;
+
+// Nothing may be fetched; scripts and styles are those in the file.
+constexpr std::string_view kPolicy =
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
+    "img-src data: blob:";
+
+std::string escapedHtml(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+// JSON that may stand in a <script>: without "<" neither "</script" nor "<!--" can end or change
+// it, and the two line separators that JavaScript once took for line ends are escaped. All three
+// occur within strings only. Bytes that are not UTF-8 (names of files) become U+FFFD.
+std::string scriptJson(const nlohmann::ordered_json& data) {
+  const std::string json = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string out;
+  out.reserve(json.size());
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const std::string_view rest = std::string_view(json).substr(i, 3);
+    if (json[i] == '<') {
+      out += "\\u003c";
+    } else if (rest == "\xE2\x80\xA8" || rest == "\xE2\x80\xA9") {
+      out += rest == "\xE2\x80\xA8" ? "\\u2028" : "\\u2029";
+      i += 2;
+    } else {
+      out += json[i];
+    }
+  }
+  return out;
+}
+
+std::string_view mediaType(std::span<const std::byte> image) {
+  CHECK_LT(4u, image.size());
+  const bool jpeg = image[0] == std::byte{0xFF} && image[1] == std::byte{0xD8};
+  const bool png = image[0] == std::byte{0x89} && image[1] == std::byte{'P'};
+  CHECK_EQ(jpeg || png, true);
+  return jpeg ? "image/jpeg" : "image/png";
+}
+
+}  // namespace
+
+PageLook pageLook(std::string title, std::string_view body, std::string_view script) {
+  return {std::move(title),
+          {pageAsset("page.css")},
+          pageAsset(body),
+          {pageAsset("echarts.common.min.js"), pageAsset("page.js"), pageAsset("player.js"),
+           pageAsset("curves.js"), pageAsset(script)}};
+}
+
+PageWriter::PageWriter(const std::filesystem::path& path, const PageLook& look)
+    : file_(path), scripts_(look.scripts) {
+  put("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
+  put("<meta http-equiv=\"Content-Security-Policy\" content=\"");
+  put(kPolicy);
+  put("\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<link rel=\"icon\" href=\"data:,\">\n<title>");
+  put(escapedHtml(look.title));
+  put("</title>\n");
+  for (const std::string_view style : look.styles) {
+    CHECK_EQ(style.find("</style"), std::string_view::npos);
+    put("<style>\n");
+    put(style);
+    put("</style>\n");
+  }
+  put("</head>\n<body>\n");
+  put(look.body);
+}
+
+void PageWriter::put(std::string_view text) {
+  buffer_ += text;
+  if (buffer_.size() >= kBufferBytes) flush();
+}
+
+void PageWriter::flush() {
+  file_.write(std::as_bytes(std::span(buffer_)));
+  buffer_.clear();
+}
+
+// A script of a type that no browser runs: text that is kept and not laid out.
+void PageWriter::addFrame(std::string_view loop, std::span<const std::byte> image) {
+  put("<script type=\"");
+  put(mediaType(image));
+  put("\" data-loop=\"");
+  put(escapedHtml(loop));
+  put("\">");
+  put(base64(image));
+  put("</script>\n");
+}
+
+void PageWriter::finish(const nlohmann::ordered_json& data) {
+  put("<script type=\"application/json\" id=\"data\">");
+  put(scriptJson(data));
+  put("</script>\n");
+  for (const std::string_view script : scripts_) {
+    CHECK_EQ(script.find("</script"), std::string_view::npos);
+    put("<script>\n");
+    put(script);
+    put("</script>\n");
+  }
+  put("</body>\n</html>\n");
+  flush();
+  file_.finish();
+}
+
+void writePage(const std::filesystem::path& path, const PageLook& look,
+               const nlohmann::ordered_json& data) {
+  PageWriter writer(path, look);
+  writer.finish(data);
+}
+
+std::string dataUri(std::span<const std::byte> image) {
+  return "data:" + std::string(mediaType(image)) + ";base64," + base64(image);
+}
+
+}  // namespace echocine

@@ -1,0 +1,130 @@
+// Pages: whatever the data hold, the file is one page that brings everything with it.
+
+#include "page/page.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "core/base64.h"
+#include "core/error.h"
+#include "page/assets.h"
+#include "support/temp_folder.h"
+
+namespace echocine {
+namespace {
+
+namespace fs = std::filesystem;
+using support::TempFolder;
+
+std::span<const std::byte> asBytes(std::string_view text) {
+  return std::as_bytes(std::span(text));
+}
+
+std::size_t countOf(const std::string& text, const std::string& what) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+    ++count;
+  return count;
+}
+
+// The data as the browser's JSON.parse() finds them.
+nlohmann::json dataOf(const std::string& html) {
+  const std::string opening = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t from = html.find(opening) + opening.size();
+  return nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
+}
+
+const PageLook kSmall{"a <b> & \"c\"", {"body { margin: 0 }"}, "<p>here</p>\n", {"void 0;\n"}};
+
+TEST(Base64, IsThatOfTheStandardsVectors) {
+  const std::pair<const char*, const char*> vectors[] = {{"", ""},
+                                                         {"f", "Zg=="},
+                                                         {"fo", "Zm8="},
+                                                         {"foo", "Zm9v"},
+                                                         {"foob", "Zm9vYg=="},
+                                                         {"fooba", "Zm9vYmE="},
+                                                         {"foobar", "Zm9vYmFy"}};
+  for (const auto& [plain, coded] : vectors) EXPECT_EQ(base64(asBytes(plain)), coded);
+}
+
+TEST(Page, DataCannotLeaveTheirScript) {
+  const TempFolder folder;
+  const std::string hostile =
+      "</script><script>alert(1)</script><!-- \xE2\x80\xA8 \xE2\x80\xA9 \\ \" '";
+  writePage(folder.path() / "p.html", kSmall, {{hostile, hostile}, {"n", 0.1}});
+  const std::string html = support::bytesOf(folder.path() / "p.html");
+  EXPECT_EQ(countOf(html, "</script>"), 2u);  // of data and of the one script
+  EXPECT_EQ(countOf(html, "<!--"), 0u);
+  EXPECT_EQ(countOf(html, "\xE2\x80\xA8"), 0u);
+  EXPECT_EQ(countOf(html, "\xE2\x80\xA9"), 0u);
+  EXPECT_EQ(dataOf(html)[hostile], hostile);
+  EXPECT_EQ(dataOf(html)["n"], 0.1);
+}
+
+TEST(Page, TitleIsTextAndNeverMarkup) {
+  const TempFolder folder;
+  writePage(folder.path() / "p.html", kSmall, {});
+  EXPECT_NE(support::bytesOf(folder.path() / "p.html")
+                .find("<title>a &lt;b&gt; &amp; &quot;c&quot;</title>"),
+            std::string::npos);
+}
+
+TEST(Page, NamesThatAreNotUtf8AndNumbersThatAreNoneStillMakeAPage) {
+  const TempFolder folder;
+  writePage(folder.path() / "p.html", kSmall, {{"name", "m\xFCller"}, {"x", std::nan("")}});
+  const nlohmann::json data = dataOf(support::bytesOf(folder.path() / "p.html"));
+  EXPECT_EQ(data["name"], "m\xEF\xBF\xBDller");
+  EXPECT_TRUE(data["x"].is_null());
+}
+
+TEST(Page, FramesKeepTheirOrderLoopAndBytes) {
+  const TempFolder folder;
+  const std::string jpeg = "\xFF\xD8\xFF 1 jpeg", png = "\x89PNG 2 png";
+  PageWriter writer(folder.path() / "p.html", kSmall);
+  for (const std::string& image : {jpeg, png, jpeg}) writer.addFrame("cine", asBytes(image));
+  writer.finish({});
+  const std::string html = support::bytesOf(folder.path() / "p.html");
+  const std::regex frame("<script type=\"image/(\\w+)\" data-loop=\"cine\">([^<]*)</script>");
+  std::vector<std::pair<std::string, std::string>> found;
+  for (std::sregex_iterator it(html.begin(), html.end(), frame), end; it != end; ++it)
+    found.emplace_back((*it)[1], (*it)[2]);
+  const std::vector<std::pair<std::string, std::string>> expected{{"jpeg", base64(asBytes(jpeg))},
+                                                                  {"png", base64(asBytes(png))},
+                                                                  {"jpeg", base64(asBytes(jpeg))}};
+  EXPECT_EQ(found, expected);
+}
+
+TEST(Page, HasItsNameOnlyWhenItIsWhole) {
+  const TempFolder folder;
+  {
+    PageWriter writer(folder.path() / "p.html", kSmall);
+    writer.addFrame("cine", asBytes("\xFF\xD8\xFF a frame"));
+    EXPECT_FALSE(fs::exists(folder.path() / "p.html"));
+  }
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+  EXPECT_THROW(writePage(folder.path() / "absent" / "p.html", kSmall, {}), JobError);
+}
+
+// The browser's content policy would stop these; a page that asks for them is a mistake already.
+TEST(Page, AssetsFetchNothingAndCannotEndTheirElement) {
+  const std::regex fetching(
+      "@import|url\\(|fetch\\(|XMLHttpRequest|importScripts|\\bimport |src=\"|href=\"http");
+  for (std::size_t i = 0; i < kAssetCount; ++i) {
+    const std::string name = kAssets[i].name;
+    const std::string text(pageAsset(name));
+    EXPECT_GT(text.size(), 10u) << name;
+    if (!name.ends_with(".html")) {
+      EXPECT_EQ(text.find("</script"), std::string::npos) << name;
+      EXPECT_EQ(text.find("</style"), std::string::npos) << name;
+    }
+    if (name != "echarts.common.min.js") {
+      EXPECT_FALSE(std::regex_search(text, fetching)) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace echocine
