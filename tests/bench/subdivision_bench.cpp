@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "bench/bare_product.h"
+#include "bench/floor/bare_product.h"
 #include "motion/limit_normals.h"
 #include "motion/subdivision.h"
 

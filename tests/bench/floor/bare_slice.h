@@ -13,7 +13,11 @@ namespace echocine::bench {
 
 class BareSlice {
  public:
-  explicit BareSlice(const BenchScene& scene) : scene_(scene), lines_(256), plane_(256 * 1024) {
+  explicit BareSlice(const BenchScene& scene)
+      : scene_(scene),
+        samples_(scene.scene.probe.samples),
+        lines_(static_cast<std::size_t>(scene.scene.probe.lines)),
+        plane_(lines_.size() * static_cast<std::size_t>(samples_)) {
     const Probe& p = scene.scene.probe;
     for (int i = 0; i < p.lines; ++i) {
       const LineGeometry line = lineGeometry(p, i);
@@ -22,22 +26,28 @@ class BareSlice {
     }
   }
 
-  float run(const SurfaceFrame& frame) {
+  // The crossings of every line.
+  void slice(const SurfaceFrame& frame) {
     for (auto& line : lines_) line.clear();
     for (const SurfaceTopology& surface : scene_.topology)
       cut(surface, frame.positions_m[index(surface.id)]);
+  }
+  // Their samples; after slice().
+  std::vector<float>& fill() {
     for (std::size_t i = 0; i < lines_.size(); ++i) march(i);
-    return plane_[plane_.size() / 2];
+    return plane_;
   }
 
  private:
   void cut(const SurfaceTopology& surface, const std::vector<Vec3f>& p) {
     above_.resize(p.size());
-    for (std::size_t v = 0; v < p.size(); ++v) above_[v] = p[v].y >= 0;
+    std::uint8_t* above = above_.data();
+    const std::size_t vertices = p.size();
+    for (std::size_t v = 0; v < vertices; ++v) above[v] = p[v].y >= 0;
     for (const Triangle& t : surface.triangles) {
-      const int sides = above_[t[0]] + above_[t[1]] + above_[t[2]];
+      const int sides = above[t[0]] + above[t[1]] + above[t[2]];
       if (sides == 0 || sides == 3) continue;
-      const int k = above_[t[1]] == above_[t[2]] ? 0 : above_[t[0]] == above_[t[2]] ? 1 : 2;
+      const int k = above[t[1]] == above[t[2]] ? 0 : above[t[0]] == above[t[2]] ? 1 : 2;
       const Vec3f a = p[t[static_cast<std::size_t>(k)]],
                   b = p[t[static_cast<std::size_t>((k + 1) % 3)]],
                   c = p[t[static_cast<std::size_t>((k + 2) % 3)]];
@@ -49,13 +59,14 @@ class BareSlice {
 
   void spread(float x1, float z1, float x2, float z2, float id) {
     const Probe& p = scene_.scene.probe;
+    const auto last = static_cast<float>(p.lines - 1);
     const auto place = [&](float x, float z) {
-      return (std::atan2(x, z) - static_cast<float>(p.first_angle_rad)) * 255 /
+      return (std::atan2(x, z) - static_cast<float>(p.first_angle_rad)) * last /
              static_cast<float>(p.last_angle_rad - p.first_angle_rad);
     };
     const float q1 = place(x1, z1), q2 = place(x2, z2);
     const int begin = std::max(static_cast<int>(std::ceil(std::min(q1, q2))), 0);
-    const int end = std::min(static_cast<int>(std::floor(std::max(q1, q2))), 255);
+    const int end = std::min(static_cast<int>(std::floor(std::max(q1, q2))), static_cast<int>(last));
     for (int i = begin; i <= end; ++i) {
       const auto line = static_cast<std::size_t>(i);
       const float u1 = x1 * cos_[line] - z1 * sin_[line], u2 = x2 * cos_[line] - z2 * sin_[line];
@@ -68,23 +79,23 @@ class BareSlice {
   void march(std::size_t i) {
     auto& line = lines_[i];
     std::sort(line.begin(), line.end());
-    float* out = plane_.data() + i * 1024;
-    constexpr float kSpacing = 0.158f / 1024;
+    float* out = plane_.data() + i * static_cast<std::size_t>(samples_);
+    const float spacing = 0.158f / static_cast<float>(samples_);
     int k = 0;
     float passed = 1;
     for (std::size_t c = 0; c <= line.size(); ++c) {
       const float to = c < line.size() ? line[c].first : 1;
-      const int end = std::clamp(static_cast<int>((to - 0.002f) / kSpacing), k, 1024);
-      const float factor = std::exp(-4 * (c % 2 ? 4.0f : 14.0f) * kSpacing);
+      const int end = std::clamp(static_cast<int>((to - 0.002f) / spacing), k, samples_);
+      const float factor = std::exp(-4 * (c % 2 ? 4.0f : 14.0f) * spacing);
       Eight power{}, offset{};
       float eighth = 1;
       for (int j = 0; j < 8; ++j) {
         power[j] = eighth;
-        offset[j] = static_cast<float>(j) * kSpacing;
+        offset[j] = static_cast<float>(j) * spacing;
         eighth *= factor;
       }
       for (; k < end; k += std::min(8, end - k)) {
-        const Eight l = offset + (0.002f + (static_cast<float>(k) + 0.5f) * kSpacing);
+        const Eight l = offset + (0.002f + (static_cast<float>(k) + 0.5f) * spacing);
         const Eight value = passed * power / (l * l);
         std::memcpy(out + k, &value,
                     (end - k < 8 ? static_cast<std::size_t>(end - k) : 8) * sizeof(float));
@@ -96,6 +107,7 @@ class BareSlice {
 
   using Eight = float __attribute__((vector_size(32)));
   const BenchScene& scene_;
+  int samples_;
   std::vector<std::vector<std::pair<float, float>>> lines_;
   std::vector<float> plane_, sin_, cos_;
   std::vector<std::uint8_t> above_;

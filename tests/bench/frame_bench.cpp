@@ -1,0 +1,174 @@
+// The whole frame, meshes moving, next to the sum of its stages' floors; then with its files, on
+// one core and on two. Sizes: triangles / lines / samples -> 800 x 600.
+
+#include <chrono>
+#include <memory>
+
+#include "bench/bench_loop.h"
+#include "bench/floor/bare_files.h"
+#include "bench/floor/bare_hierarchy.h"
+#include "bench/floor/bare_motion.h"
+#include "bench/floor/bare_signal.h"
+#include "bench/floor/bare_slice.h"
+#include "bench/rounds.h"
+#include "cine.h"
+#include "frame_maker.h"
+#include "plan_loop.h"
+#include "scene/scene_reader.h"
+
+namespace echocine::bench {
+namespace {
+
+constexpr float kReference = 1e-6f, kRange_db = 60;
+
+// The floors of all stages one after the other.
+class BareFrame {
+ public:
+  explicit BareFrame(const BenchScene& scene)
+      : scene_(scene),
+        motion_(scene),
+        slice_(scene),
+        average_(scene.scene),
+        converter_(scene.scene, pictureGeometry(scene.scene)),
+        files_(scene.scene) {}
+
+  void run(std::size_t i, bool with_files) {
+    motion_.blend(i);
+    benchmark::DoNotOptimize(motion_.volumes());
+    slice_.slice(scene_.frame(i));
+    std::vector<float>& plane = slice_.fill();
+    if (with_files) {  // the stack's intensities are not the picture's
+      files_.exr(plane, i);
+      slice_.fill();
+    }
+    average_.run(plane);
+    log_.run(plane, kReference, kRange_db, grey_);
+    const std::vector<std::uint8_t>& picture = converter_.run(grey_.data);
+    benchmark::DoNotOptimize(picture.data());
+    if (with_files) files_.jpeg(picture, scene_.scene.output.jpeg_quality);
+  }
+
+ private:
+  const BenchScene& scene_;
+  BareMotion motion_;
+  BareSlice slice_;
+  BareAverage average_;
+  BareLog log_;
+  cv::Mat grey_;
+  BareScanConversion converter_;
+  BareFiles files_;
+};
+
+// over_single_rays: the same over one bare pass of single rays through Embree, already refitted.
+void wholeFrame(benchmark::State& state) {
+  const BenchScene bare_scene{Size(state)};
+  const LoopOnDisk loop(bare_scene, false);
+  const Scene scene = readScene(loop.sceneFile());
+  const HeartMotion motion(scene);
+  const LoopPlan plan = planLoop(scene, motion);
+  FrameMaker maker(scene, plan, motion);
+  BareFrame bare(bare_scene);
+  BareHierarchy rays(bare_scene);
+  const std::shared_ptr<Workspace> workspace = maker.workspace();
+  std::vector<double> over_rays;
+  double ours_ms = 0;
+  overFloor(
+      state,
+      [&](std::size_t i) {
+        ours_ms = millisecondsOf([&] {
+          benchmark::DoNotOptimize(maker.trace(BenchScene::phase(i), *workspace));
+          benchmark::DoNotOptimize(maker.picture(kReference, *workspace, true).pixels.data());
+        });
+      },
+      [&](std::size_t i) { bare.run(i, false); });
+  withThreads(1, [&] {
+    for (std::size_t i = 0; i < 100; ++i) {
+      rays.refit(bare_scene.frame(i));
+      const double ms = millisecondsOf([&] { benchmark::DoNotOptimize(rays.singleRays()); });
+      ours_ms = millisecondsOf([&] {
+        benchmark::DoNotOptimize(maker.trace(BenchScene::phase(i), *workspace));
+        benchmark::DoNotOptimize(maker.picture(kReference, *workspace, true).pixels.data());
+      });
+      over_rays.push_back(ours_ms / ms);
+    }
+  });
+  state.counters["over_single_rays"] = median(over_rays);
+}
+
+struct LoopTime {
+  double cpu_ms = 0, wall_ms = 0;  // per frame, the first ones left out
+};
+
+LoopTime renderedLoop(const Scene& scene, const std::filesystem::path& folder, int threads) {
+  constexpr int kFirst = 8;
+  using Clock = std::chrono::steady_clock;
+  double cpu = 0;
+  Clock::time_point wall;
+  LoopTime time;
+  Monitor monitor;
+  monitor.tell = [&](const Progress& progress) {
+    if (progress.done == kFirst) {
+      cpu = cpuMilliseconds();
+      wall = Clock::now();
+    }
+    if (progress.done != progress.total) return;
+    time.cpu_ms = (cpuMilliseconds() - cpu) / (progress.total - kFirst);
+    time.wall_ms = std::chrono::duration<double, std::milli>(Clock::now() - wall).count() /
+                   (progress.total - kFirst);
+  };
+  RenderOptions options;
+  options.folder = folder;
+  options.threads = threads;
+  renderCine(scene, options, monitor);
+  return time;
+}
+
+// two_cores: frames per second of wall time on two cores over those on one.
+void withFiles(benchmark::State& state) {
+  const BenchScene bare_scene{Size(state)};
+  const LoopOnDisk loop(bare_scene, true);
+  const Scene scene = readScene(loop.sceneFile());
+  BareFrame bare(bare_scene);
+  std::vector<double> over_floor, ours, floors, gains;
+  for (auto _ : state) {
+    const LoopTime one = renderedLoop(scene, loop.folder() / "out", 1);
+    const LoopTime two = renderedLoop(scene, loop.folder() / "out", 2);
+    double floor_ms = 0;
+    withThreads(1, [&] {
+      floor_ms = millisecondsOf([&] {
+                   for (std::size_t i = 0; i < LoopOnDisk::kFrames; ++i) bare.run(i, true);
+                 }) /
+                 LoopOnDisk::kFrames;
+    });
+    ours.push_back(one.cpu_ms);
+    floors.push_back(floor_ms);
+    over_floor.push_back(one.cpu_ms / floor_ms);
+    gains.push_back(one.wall_ms / two.wall_ms);
+    state.SetIterationTime(1e-3 * one.wall_ms);
+  }
+  state.counters["ours_ms"] = median(ours);
+  state.counters["floor_ms"] = median(floors);
+  state.counters["over_floor"] = median(over_floor);
+  state.counters["two_cores"] = median(gains);
+}
+
+BENCHMARK(wholeFrame)
+    ->Args({5000, 256, 1024})
+    ->Args({50000, 256, 1024})
+    ->Args({500000, 256, 1024})
+    ->Args({50000, 128, 1024})
+    ->Args({50000, 512, 1024})
+    ->Args({50000, 256, 512})
+    ->Args({50000, 256, 2048})
+    ->Args({50000, 512, 2048})
+    ->UseManualTime()
+    ->Iterations(100)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(withFiles)
+    ->Args({50000, 256, 1024})
+    ->UseManualTime()
+    ->Iterations(7)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace echocine::bench

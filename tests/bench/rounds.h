@@ -1,0 +1,60 @@
+#pragma once
+// Ratios that hold on a busy machine: what is compared runs in turn, round by round, and is timed
+// by the processor time of this process, so that others only disturb by what they leave in the
+// caches.
+
+#include <benchmark/benchmark.h>
+#include <time.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "core/parallel.h"
+
+namespace echocine::bench {
+
+inline double cpuMilliseconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+template <typename Work>
+double millisecondsOf(Work&& work) {
+  const double start = cpuMilliseconds();
+  work();
+  return cpuMilliseconds() - start;
+}
+
+inline double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Runs floor(i) and ours(i) in turn on one thread; the first of them changes from round to round.
+// Counters: the medians in ms, and over_floor, the median of the rounds' ratios.
+template <typename Ours, typename Floor>
+void overFloor(benchmark::State& state, Ours&& ours, Floor&& floor) {
+  std::vector<double> ours_ms, floor_ms, ratios;
+  withThreads(1, [&] {
+    std::size_t i = 0;
+    for (auto _ : state) {
+      double a = 0, b = 0;
+      if (i % 2 == 0) a = millisecondsOf([&] { ours(i); });
+      b = millisecondsOf([&] { floor(i); });
+      if (i % 2 == 1) a = millisecondsOf([&] { ours(i); });
+      ++i;
+      state.SetIterationTime(1e-3 * (a + b));
+      ours_ms.push_back(a);
+      floor_ms.push_back(b);
+      ratios.push_back(a / b);
+    }
+  });
+  state.counters["ours_ms"] = median(ours_ms);
+  state.counters["floor_ms"] = median(floor_ms);
+  state.counters["over_floor"] = median(ratios);
+}
+
+}  // namespace echocine::bench

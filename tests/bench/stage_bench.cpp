@@ -1,0 +1,244 @@
+// Every stage of a frame next to its floor: the same work by a bare loop, without rules for ties,
+// media, partial windows or checks. Sizes: triangles / lines / samples.
+
+#include "bench/floor/bare_files.h"
+#include "bench/floor/bare_hierarchy.h"
+#include "bench/floor/bare_motion.h"
+#include "bench/floor/bare_signal.h"
+#include "bench/floor/bare_slice.h"
+#include "bench/rounds.h"
+#include "motion/heart_motion.h"
+#include "output/cine_writer.h"
+#include "output/exr_stack.h"
+#include "signal/log_compression.h"
+#include "signal/signal_chain.h"
+
+namespace echocine::bench {
+namespace {
+
+void keyframes(benchmark::State& state) {
+  const BenchScene scene{Size(state)};
+  BareMotion bare(scene);
+  SurfaceFrame frame = scene.frames[0];
+  overFloor(
+      state,
+      [&](std::size_t i) {
+        for (std::size_t s = 0; s < scene.motion.size(); ++s)
+          scene.motion[s].at(BenchScene::phase(i), frame.positions_m[s]);
+      },
+      [&](std::size_t i) { bare.blend(i); });
+}
+
+void volumes(benchmark::State& state) {
+  const BenchScene scene{Size(state)};
+  BareMotion bare(scene);
+  bare.blend(0);
+  overFloor(
+      state,
+      [&](std::size_t i) {
+        for (const SurfaceTopology& s : scene.topology)
+          benchmark::DoNotOptimize(enclosedVolume(s, scene.frame(i).positions_m[index(s.id)]));
+      },
+      [&](std::size_t) { benchmark::DoNotOptimize(bare.volumes()); });
+}
+
+void slice(benchmark::State& state) {
+  const BenchScene scene{Size(state)};
+  BareSlice bare(scene);
+  PlaneSlice ours(scene.topology, scene.scene.probe);
+  overFloor(
+      state, [&](std::size_t i) { ours.update(scene.frame(i)); },
+      [&](std::size_t i) { bare.slice(scene.frame(i)); });
+}
+
+// Walk, echoes and samples.
+void trace(benchmark::State& state, bool cells) {
+  const BenchScene scene{Size(state)};
+  BareSlice bare(scene);
+  PlaneSlice ours(scene.topology, scene.scene.probe);
+  const EffectPlan plan = planEffects(scene.scene);
+  const TraceSettings settings(scene.scene, plan, cells);
+  PlaneRequest request = planeRequest(scene.scene, plan);
+  request.signal = false;
+  PolarFrame polar;
+  overFloor(
+      state,
+      [&](std::size_t i) {
+        if (i == 0) ours.update(scene.frame(0));
+        traceFrame(ours, scene.scene.probe, settings, request, polar);
+      },
+      [&](std::size_t i) {
+        if (i == 0) bare.slice(scene.frame(0));
+        benchmark::DoNotOptimize(bare.fill().data());
+      });
+}
+
+// A plane as the tracer leaves it.
+struct Traced {
+  BenchScene scene;
+  EffectPlan plan;
+  SignalChain chain;
+  PolarFrame polar;
+
+  explicit Traced(const Size& size)
+      : scene(size), plan(planEffects(scene.scene)), chain(scene.scene, plan) {
+    PlaneSlice slice(scene.topology, scene.scene.probe);
+    slice.update(scene.frame(0));
+    const TraceSettings settings(scene.scene, plan, true);
+    traceFrame(slice, scene.scene.probe, settings, planeRequest(scene.scene, plan), polar);
+  }
+};
+constexpr float kReference = 1e-6f, kRange_db = 60;
+
+void beamAverage(benchmark::State& state) {
+  Traced t{Size(state)};
+  BareAverage bare(t.scene.scene);
+  const BeamAverage ours(t.scene.scene.probe, t.scene.scene.signal);
+  std::vector<float> plane = t.polar.signal, bare_plane = plane, scratch;
+  overFloor(
+      state, [&](std::size_t) { ours.apply(plane, scratch); },
+      [&](std::size_t) { bare.run(bare_plane); });
+}
+
+void logCompression(benchmark::State& state) {
+  const Traced t{Size(state)};
+  BareLog bare;
+  cv::Mat grey;
+  std::vector<float> out(t.polar.signal.size());
+  overFloor(
+      state,
+      [&](std::size_t) { compressIntensities(t.polar.signal, kReference, kRange_db, out); },
+      [&](std::size_t) { bare.run(t.polar.signal, kReference, kRange_db, grey); });
+}
+
+void scanConversion(benchmark::State& state) {
+  Traced t{Size(state)};
+  t.chain.compress(t.polar, kReference);
+  std::vector<std::uint8_t> grey;
+  for (const float g : t.polar.signal) grey.push_back(static_cast<std::uint8_t>(255 * g + 0.5f));
+  BareScanConversion bare(t.scene.scene, t.chain.geometry());
+  GreyImage image;
+  overFloor(
+      state, [&](std::size_t) { t.chain.picture(t.polar, image); },
+      [&](std::size_t) { benchmark::DoNotOptimize(bare.run(grey.data()).data()); });
+}
+
+void exr(benchmark::State& state) {
+  const Traced t{Size(state)};
+  const support::TempFolder folder;
+  const ExrStack stack(folder.path(), t.scene.scene, std::string(64, '0'), 1);
+  BareFiles bare(t.scene.scene);
+  overFloor(
+      state,
+      [&](std::size_t i) {
+        stack.write({static_cast<int>(i % 64), 0, 0, 0}, {{Channel::y, t.polar.signal, {}}});
+      },
+      [&](std::size_t i) { bare.exr(t.polar.signal, i); });
+}
+
+void jpeg(benchmark::State& state) {
+  Traced t{Size(state)};
+  t.chain.compress(t.polar, kReference);
+  GreyImage image;
+  t.chain.picture(t.polar, image);
+  const support::TempFolder folder;
+  const OutputSettings& o = t.scene.scene.output;
+  CineWriter writer(folder / "cine.avi", o, 50);
+  BareFiles bare(t.scene.scene);
+  overFloor(
+      state,
+      [&](std::size_t) { writer.add(encodeCineFrame(image, o.codec, o.jpeg_quality)); },
+      [&](std::size_t) { bare.jpeg(image.pixels, o.jpeg_quality); });
+}
+
+// The rays of a frame with refraction, as the walk asks for them round by round.
+std::vector<std::vector<RayQuery>> refractedRays(const BenchScene& scene,
+                                                 const TraceSettings& settings,
+                                                 const FrameGeometry& geometry) {
+  std::vector<std::vector<RayQuery>> rounds;
+  constexpr int kPacket = 16;
+  for (int first = 0; first < scene.scene.probe.lines; first += kPacket) {
+    std::vector<LineTrace> traces(kPacket);
+    std::vector<LineWalker> walkers;
+    for (int i = 0; i < kPacket && first + i < scene.scene.probe.lines; ++i) {
+      const LineGeometry line = lineGeometry(scene.scene.probe, first + i);
+      walkers.emplace_back(settings, Ray{line.origin, line.direction},
+                           geometry.insideAt(line.origin), traces[static_cast<std::size_t>(i)]);
+    }
+    for (;;) {
+      rounds.emplace_back();
+      std::vector<LineWalker*> alive;
+      for (LineWalker& w : walkers)
+        if (w.alive()) {
+          rounds.back().push_back(w.query());
+          alive.push_back(&w);
+        }
+      if (alive.empty()) break;
+      std::vector<RayCrossings> met(alive.size());
+      geometry.crossings(rounds.back(), met);
+      for (std::size_t i = 0; i < alive.size(); ++i) alive[i]->advance(met[i]);
+    }
+    rounds.pop_back();
+  }
+  return rounds;
+}
+
+// Next to a refit and the same rays.
+void hierarchy(benchmark::State& state, bool refraction) {
+  const BenchScene scene{Size(state)};
+  EffectPlan plan = planEffects(scene.scene);
+  plan.refraction = refraction;
+  TraceSettings settings(scene.scene, plan);
+  if (refraction) settings.media[1].sound_speed_m_s = 1570;
+  PlaneRequest request = planeRequest(scene.scene, plan);
+  request.signal = false;
+  FrameGeometry geometry(scene.topology);
+  BareHierarchy bare(scene);
+  geometry.update(scene.frame(0));
+  const auto rays = refractedRays(scene, settings, geometry);
+  PolarFrame polar;
+  overFloor(
+      state,
+      [&](std::size_t) {
+        geometry.update(scene.frame(0));
+        traceFrame(geometry, scene.scene.probe, settings, request, polar);
+      },
+      [&](std::size_t) {
+        bare.refit(scene.frame(0));
+        benchmark::DoNotOptimize(bare.packets(rays));
+      });
+}
+
+void rounds(benchmark::internal::Benchmark* b, int count) {
+  b->UseManualTime()->Iterations(count)->Unit(benchmark::kMillisecond);
+}
+void bySize(benchmark::internal::Benchmark* b) {
+  for (const int triangles : {5000, 50000, 500000}) b->Args({triangles, 256, 1024});
+  rounds(b, 100);
+}
+void byPlane(benchmark::internal::Benchmark* b) {
+  for (const int lines : {128, 256, 512})
+    for (const int samples : {512, 1024, 2048}) b->Args({5000, lines, samples});
+  rounds(b, 100);
+}
+void byBoth(benchmark::internal::Benchmark* b) {
+  bySize(b);
+  for (const int lines : {128, 512}) b->Args({50000, lines, 1024});
+  for (const int samples : {512, 2048}) b->Args({50000, 256, samples});
+}
+
+BENCHMARK(keyframes)->Apply(bySize);
+BENCHMARK(volumes)->Apply(bySize);
+BENCHMARK(slice)->Apply(byBoth);
+BENCHMARK_CAPTURE(trace, centres, false)->Apply(byBoth);
+BENCHMARK_CAPTURE(trace, cells, true)->Apply(byBoth);
+BENCHMARK(beamAverage)->Apply(byPlane);
+BENCHMARK(logCompression)->Apply(byPlane);
+BENCHMARK(scanConversion)->Apply(byPlane);
+BENCHMARK(exr)->Apply(byPlane);
+BENCHMARK(jpeg)->Apply(byPlane);
+BENCHMARK_CAPTURE(hierarchy, straight, false)->Apply(bySize);
+BENCHMARK_CAPTURE(hierarchy, refraction, true)->Apply(bySize);
+
+}  // namespace
+}  // namespace echocine::bench
