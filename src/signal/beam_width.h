@@ -2,7 +2,6 @@
 // The paper's arithmetic average over each point's neighbours, on intensities: as wide as the beam
 // at that depth across the lines, as long as half the pulse along them.
 
-#include <span>
 #include <vector>
 
 #include "scene/scene.h"
@@ -21,19 +20,30 @@ class BeamAverage {
  public:
   BeamAverage(const Probe& probe, const SignalSettings& settings);
 
-  // Averages a line-major plane in place. Windows end at the image's edges and keep their mean
-  // there: a constant plane stays constant. The work is shared among threads; the result does not
-  // depend on them.
-  void apply(std::span<float> plane, std::vector<float>& scratch) const;
+  // Averages a line-major plane; `scratch` is exchanged with it. Windows end at the image's edges
+  // and keep their mean there: a constant plane stays constant. The work is shared among threads;
+  // the result does not depend on them.
+  void apply(std::vector<float>& plane, std::vector<float>& scratch) const;
 
  private:
-  void averageAxially(std::span<float> line, std::vector<float>& padded) const;
-  void averageLaterally(std::span<const float> in, std::span<float> out, int first_sample) const;
+  // Samples first..last-1, neighbours in one block, whose windows reach equally many whole lines up
+  // and down: a line's window runs from sums [line + below] to [line + above], and a part further.
+  struct Run {
+    int first, last, below, above;
+  };
+  struct Workspace;
+  void prepareLateral(const std::vector<double>& half_width_lines);
+  void averageAlong(const float* line, int first, int count, Workspace& w) const;
+  void averageAcross(int line, const Run& run, int block_first, Workspace& w, float* out) const;
+  void averageBlock(const float* in, float* out, int first, int count, Workspace& w) const;
 
   int lines_ = 0, samples_ = 0;
-  std::vector<float> taps_;               // axial weights, centre in the middle; empty: none
-  std::vector<float> tap_sum_inverse_;    // per sample
-  std::vector<double> half_width_lines_;  // per sample; empty: none
+  std::vector<float> taps_;             // axial weights, centre in the middle; empty: none
+  std::vector<float> tap_sum_inverse_;  // per sample
+  std::vector<Run> runs_;               // in order of samples; empty: no lateral average
+  // Of each sample: half the window's width in lines, 1 / width, and what part of a line the window
+  // leaves out below and takes in above its whole lines.
+  std::vector<double> half_, scale_, part_below_, part_above_;
 };
 
 }  // namespace echocine

@@ -54,8 +54,8 @@ class LoopOnDisk {
     const struct {
       const char* name;
       double density, attenuation, per_cm_sr;
-    } media[] = {{"tissue", 1050, 0.486, 1e-5}, {"blood", 1060, 0.139, 3e-8},
-                 {"wall", 1097, 0.521, 1.6e-5}};
+    } media[] = {
+        {"tissue", 1050, 0.486, 1e-5}, {"blood", 1060, 0.139, 3e-8}, {"wall", 1097, 0.521, 1.6e-5}};
     for (const auto& m : media)
       out << fmt::format(
           "[media.{}]\ndensity_kg_m3 = {}\nsound_speed_m_s = 1584\nattenuation_db_cm_mhz = {}\n"

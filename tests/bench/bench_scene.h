@@ -26,7 +26,8 @@ struct Size {
 };
 
 // Four chambers with their walls in a pericardium: nine closed surfaces, all in the sector, their
-// middles a few millimetres off the imaging plane. Eight keyframes a beat; frames fall between them, so that every one is blended.
+// middles a few millimetres off the imaging plane. Eight keyframes a beat; frames fall between
+// them, so that every one is blended.
 struct BenchScene {
   Scene scene;
   std::vector<SurfaceTopology> topology;
@@ -50,12 +51,9 @@ struct BenchScene {
       int priority;
     } balls[] = {{0.068, {0.001, 0.0017, 0.086}, 1, 1},  // pericardium, with fluid
                  {0.036, {0.022, 0.0031, 0.062}, 2, 2},  // ventricles and atria: wall, cavity
-                 {0.026, {0.022, 0.0031, 0.062}, 1, 3},
-                 {0.027, {-0.028, 0.0023, 0.066}, 2, 2},
-                 {0.023, {-0.028, 0.0023, 0.066}, 1, 3},
-                 {0.025, {0.022, 0.0013, 0.122}, 2, 2},
-                 {0.022, {0.022, 0.0013, 0.122}, 1, 3},
-                 {0.024, {-0.027, 0.0019, 0.118}, 2, 2},
+                 {0.026, {0.022, 0.0031, 0.062}, 1, 3},  {0.027, {-0.028, 0.0023, 0.066}, 2, 2},
+                 {0.023, {-0.028, 0.0023, 0.066}, 1, 3}, {0.025, {0.022, 0.0013, 0.122}, 2, 2},
+                 {0.022, {0.022, 0.0013, 0.122}, 1, 3},  {0.024, {-0.027, 0.0019, 0.118}, 2, 2},
                  {0.021, {-0.027, 0.0019, 0.118}, 1, 3}};
     const auto each = static_cast<double>(size.triangles) / std::size(balls);
     const int segments = 2 * static_cast<int>(std::lround(std::sqrt(each / 4)));
@@ -87,8 +85,11 @@ struct BenchScene {
       phases.push_back(static_cast<double>(k) / kKeyframes);
     }
     keyframes_m.push_back(rows);
-    motion.push_back({KeyframeWeights(phases, scene.motion.interpolation), mesh.triangles,
-                      std::move(rows), {}, false});
+    motion.push_back({KeyframeWeights(phases, scene.motion.interpolation),
+                      mesh.triangles,
+                      std::move(rows),
+                      {},
+                      false});
   }
 };
 

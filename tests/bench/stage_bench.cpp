@@ -106,8 +106,7 @@ void logCompression(benchmark::State& state) {
   cv::Mat grey;
   std::vector<float> out(t.polar.signal.size());
   overFloor(
-      state,
-      [&](std::size_t) { compressIntensities(t.polar.signal, kReference, kRange_db, out); },
+      state, [&](std::size_t) { compressIntensities(t.polar.signal, kReference, kRange_db, out); },
       [&](std::size_t) { bare.run(t.polar.signal, kReference, kRange_db, grey); });
 }
 
@@ -146,8 +145,7 @@ void jpeg(benchmark::State& state) {
   CineWriter writer(folder / "cine.avi", o, 50);
   BareFiles bare(t.scene.scene);
   overFloor(
-      state,
-      [&](std::size_t) { writer.add(encodeCineFrame(image, o.codec, o.jpeg_quality)); },
+      state, [&](std::size_t) { writer.add(encodeCineFrame(image, o.codec, o.jpeg_quality)); },
       [&](std::size_t) { bare.jpeg(image.pixels, o.jpeg_quality); });
 }
 

@@ -38,8 +38,7 @@ class BareFiles {
     header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
     Imf::FrameBuffer buffer;
     buffer.insert("Y",
-                  Imf::Slice(Imf::FLOAT,
-                             reinterpret_cast<char*>(const_cast<float*>(plane.data())),
+                  Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(const_cast<float*>(plane.data())),
                              sizeof(float) * static_cast<std::size_t>(samples_), sizeof(float)));
     Imf::OutputFile file((folder_ / fmt::format("{:04}.exr", i % 64)).c_str(), header, 0);
     file.setFrameBuffer(buffer);

@@ -16,20 +16,18 @@ namespace echocine::bench {
 class BareHierarchy {
  public:
   explicit BareHierarchy(const BenchScene& scene) : scene_(scene) {
-    rtcSetSceneFlags(rtc_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC |
-                                                      RTC_SCENE_FLAG_ROBUST |
-                                                      RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    rtcSetSceneFlags(rtc_,
+                     static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST |
+                                                RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
     rtcSetSceneBuildQuality(rtc_, RTC_BUILD_QUALITY_LOW);
     for (const SurfaceTopology& surface : scene.topology) {
       RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
       rtcSetGeometryBuildQuality(g, RTC_BUILD_QUALITY_REFIT);
-      vertices_.push_back(static_cast<Vec3f*>(
-          rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f),
-                                  surface.vertex_count)));
-      std::memcpy(
-          rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle),
-                                  surface.triangles.size()),
-          surface.triangles.data(), surface.triangles.size() * sizeof(Triangle));
+      vertices_.push_back(static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
+          g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), surface.vertex_count)));
+      std::memcpy(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                          sizeof(Triangle), surface.triangles.size()),
+                  surface.triangles.data(), surface.triangles.size() * sizeof(Triangle));
       rtcAttachGeometry(rtc_, g);
       geometries_.push_back(g);
     }

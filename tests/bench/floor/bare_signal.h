@@ -14,71 +14,75 @@
 namespace echocine::bench {
 
 // The average over the beam and the pulse with windows of whole samples and lines, in single
-// precision: running sums along four lines at a time, then across the lines for a cache line of
-// depths at a time.
+// precision: the few taps of the pulse added up along each line, then across the lines a sum that
+// one line enters and one leaves, for 128 depths at a time.
 class BareAverage {
  public:
   explicit BareAverage(const Scene& scene)
       : lines_(static_cast<std::size_t>(scene.probe.lines)),
         samples_(static_cast<std::size_t>(scene.probe.samples)),
-        along_(samples_ + 1),
-        across_(lines_ + 1) {
+        line_(samples_),
+        out_(lines_ * samples_) {
     const Probe& p = scene.probe;
     const double wavelength_m = kScannerSpeed / p.frequency_hz;
     const double pulse_m = scene.signal.pulse_cycles * wavelength_m / 2;
-    reach_along_ = static_cast<std::size_t>(std::lround((pulse_m / p.sampleSpacing() - 1) / 2));
+    taps_ = 2 * static_cast<std::size_t>(std::lround((pulse_m / p.sampleSpacing() - 1) / 2)) + 1;
     for (int k = 0; k < p.samples; ++k) {
       const double depth_m = p.min_depth_m + (k + 0.5) * p.sampleSpacing();
       const double width_m = focusedBeamWidth(depth_m, p.aperture_m, p.focus_m, wavelength_m);
       const double reach = (width_m / lineSpacing(p, depth_m) - 1) / 2;
-      reach_across_.push_back(static_cast<std::size_t>(std::lround(std::max(reach, 0.0))));
+      reach_.push_back(static_cast<std::size_t>(std::lround(std::max(reach, 0.0))));
     }
   }
 
-  // Sizes are multiples of four lines and sixteen samples.
+  // Samples are a multiple of 128.
   void run(std::vector<float>& plane) {
-    for (std::size_t i = 0; i < lines_; i += 4) along(plane.data() + i * samples_);
-    for (std::size_t k = 0; k < samples_; k += 16) across(plane.data() + k, k);
+    for (std::size_t i = 0; i < lines_; ++i) along(plane.data() + i * samples_);
+    for (std::size_t k = 0; k < samples_; k += kBlock) across(plane.data() + k, out_.data() + k, k);
+    plane.swap(out_);
   }
 
  private:
-  using Four = float __attribute__((vector_size(16)));
-  using Sixteen = float __attribute__((vector_size(64)));
+  static constexpr std::size_t kBlock = 128;
+  using Eight = float __attribute__((vector_size(32)));
+  static Eight at(const float* from) {
+    Eight eight;
+    __builtin_memcpy(&eight, from, sizeof eight);
+    return eight;
+  }
 
-  void along(float* lines) {
-    Four sum{};
-    for (std::size_t k = 0; k < samples_; ++k)
-      along_[k + 1] = sum += Four{lines[k], lines[samples_ + k], lines[2 * samples_ + k],
-                                  lines[3 * samples_ + k]};
-    const float scale = 1 / static_cast<float>(2 * reach_along_ + 1);
-    for (std::size_t k = 0; k + 2 * reach_along_ < samples_; ++k) {
-      const Four mean = (along_[k + 2 * reach_along_ + 1] - along_[k]) * scale;
-      for (std::size_t i = 0; i < 4; ++i) lines[i * samples_ + k + reach_along_] = mean[i];
+  void along(float* line) {
+    std::copy_n(line, samples_, line_.data());
+    const float scale = 1 / static_cast<float>(taps_);
+    for (std::size_t k = 0; k + taps_ + 8 <= samples_; k += 8) {
+      Eight sum = at(line_.data() + k);
+      for (std::size_t j = 1; j < taps_; ++j) sum += at(line_.data() + k + j);
+      sum *= scale;
+      __builtin_memcpy(line + k + taps_ / 2, &sum, sizeof sum);
     }
   }
 
-  // One window for the tile, that of its first depth.
-  void across(float* tile, std::size_t depth) {
-    Sixteen sum{};
-    across_[0] = sum;
-    for (std::size_t i = 0; i < lines_; ++i) {
-      Sixteen value;
-      __builtin_memcpy(&value, tile + i * samples_, sizeof value);
-      across_[i + 1] = sum += value;
-    }
-    const std::size_t reach = reach_across_[depth];
+  // One window for the block, that of its first depth.
+  void across(const float* in, float* out, std::size_t depth) {
+    const std::size_t reach = reach_[depth];
     const float scale = 1 / static_cast<float>(2 * reach + 1);
-    for (std::size_t i = reach; i + reach < lines_; ++i) {
-      const Sixteen mean = (across_[i + reach + 1] - across_[i - reach]) * scale;
-      __builtin_memcpy(tile + i * samples_, &mean, sizeof mean);
+    float sum[kBlock] = {};
+    for (std::size_t i = 0; i < lines_ + reach; ++i) {
+      const float* enters = in + std::min(i, lines_ - 1) * samples_;
+      const float* leaves = in + (i > 2 * reach ? i - 2 * reach - 1 : 0) * samples_;
+      float* mean = out + (i > reach ? i - reach : 0) * samples_;
+      for (std::size_t s = 0; s < kBlock; s += 8) {
+        const Eight next = at(sum + s) + at(enters + s) - at(leaves + s);
+        const Eight scaled = next * scale;
+        __builtin_memcpy(sum + s, &next, sizeof next);
+        __builtin_memcpy(mean + s, &scaled, sizeof scaled);
+      }
     }
   }
 
-  std::size_t lines_, samples_;
-  std::vector<Four> along_;
-  std::vector<Sixteen> across_;
-  std::size_t reach_along_ = 0;
-  std::vector<std::size_t> reach_across_;
+  std::size_t lines_, samples_, taps_ = 1;
+  std::vector<float> line_, out_;
+  std::vector<std::size_t> reach_;
 };
 
 // cv::log and one scaling that limits to 0..1.

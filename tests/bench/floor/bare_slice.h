@@ -66,7 +66,8 @@ class BareSlice {
     };
     const float q1 = place(x1, z1), q2 = place(x2, z2);
     const int begin = std::max(static_cast<int>(std::ceil(std::min(q1, q2))), 0);
-    const int end = std::min(static_cast<int>(std::floor(std::max(q1, q2))), static_cast<int>(last));
+    const int end =
+        std::min(static_cast<int>(std::floor(std::max(q1, q2))), static_cast<int>(last));
     for (int i = begin; i <= end; ++i) {
       const auto line = static_cast<std::size_t>(i);
       const float u1 = x1 * cos_[line] - z1 * sin_[line], u2 = x2 * cos_[line] - z2 * sin_[line];
