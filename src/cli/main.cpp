@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <new>
 
+#include "cli/compare_command.h"
 #include "cli/heart_command.h"
 #include "cli/plan_command.h"
 #include "cli/render_command.h"
@@ -35,11 +36,13 @@ int main(int argc, char** argv) {
   echocine::RenderCommand render(app);
   echocine::PlanCommand plan(app);
   echocine::HeartCommand heart(app);
+  echocine::CompareCommand compare(app);
   try {
     app.parse(argc, argv);
-    const int code = app.got_subcommand("heart")  ? heart.run()
-                     : app.got_subcommand("plan") ? plan.run()
-                                                  : render.run();
+    const int code = app.got_subcommand("heart")     ? heart.run()
+                     : app.got_subcommand("plan")    ? plan.run()
+                     : app.got_subcommand("compare") ? compare.run()
+                                                     : render.run();
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       return failed(kJobFailed, "what was to be printed could not be written");
     return code;

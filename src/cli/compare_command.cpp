@@ -1,0 +1,134 @@
+#include "cli/compare_command.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+#include "cli/warning_printer.h"
+#include "compare/results.h"
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace echocine {
+
+namespace {
+
+void addSide(CLI::App& command, compare::SideOptions& side, const std::string& prefix,
+             const char* which) {
+  const auto help = [&](const char* what) { return fmt::format("{} loop: {}", which, what); };
+  const auto positive = CLI::Range(1e-6, 1e6);
+  command
+      .add_option("--" + prefix + "fps", side.fps, help("frame rate of the acquisition, frames/s"))
+      ->check(positive);
+  command
+      .add_option("--" + prefix + "scale", side.mm_per_pixel, help("length scale, mm per pixel"))
+      ->check(positive);
+  command
+      .add_option("--" + prefix + "sector", side.sector,
+                  help("sector in pixels and degrees from straight down: "
+                       "apex_x,apex_y,first_deg,last_deg,r_min,r_max"))
+      ->expected(1);
+  command
+      .add_option("--" + prefix + "pixel-aspect", side.pixel_aspect,
+                  help("height of a pixel over its width, where the picture is stretched"))
+      ->check(CLI::Range(0.2, 5.0));
+  command.add_option("--" + prefix + "heart-rate", side.heart_rate_bpm, help("beats per minute"))
+      ->check(CLI::Range(10, 400));
+}
+
+void addTimes(CLI::App& command, compare::SideOptions& side, const std::string& prefix,
+              const char* which) {
+  const auto help = [&](const char* what) { return fmt::format("{} loop: {}", which, what); };
+  command.add_option("--" + prefix + "-ed", side.ed_frame, help("frame of end-diastole, from 0"));
+  command.add_option("--" + prefix + "-es", side.es_frame, help("frame of end-systole, from 0"));
+  command
+      .add_option("--" + prefix + "-r-waves", side.r_waves_s,
+                  help("times of its R waves, s from the first frame"))
+      ->delimiter(',');
+}
+
+void checkOptions(const compare::CompareOptions& o) {
+  if (o.contours && o.scene.empty())
+    throw SceneError(
+        "--contours: needs --scene, the scene that the synthetic loop was rendered from");
+  for (std::size_t i = 1; i < o.knots.size(); ++i)
+    if (!(o.knots[i] > o.knots[i - 1]))
+      throw SceneError("--knots: must rise, such as 0,40,90,160,255");
+  if (o.knots.size() == 1)
+    throw SceneError("--knots: needs two greys or more, such as 0,40,90,160,255");
+}
+
+void print(const compare::Comparison& c, const std::filesystem::path& folder) {
+  fmt::print(
+      "discrepancy {:.4f} (0 equal, about 1 unrelated), mean of {} frames\n", c.discrepancy,
+      std::count_if(c.frames.begin(), c.frames.end(), [](const auto& f) { return f.counted(); }));
+  fmt::print("  {:<22}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}\n", "", "RMS", "PSNR", "NCC", "SSIM", "MI",
+             "GC");
+  const auto row = [](const char* name, const compare::FrameMetrics& m) {
+    fmt::print("  {:<22}{:8.2f}{:8.2f}{:8.3f}{:8.3f}{:8.3f}{:8.3f}\n", name, m.rms, m.psnr_db,
+               m.ncc, m.ssim, m.mutual_information, m.gradient_correlation);
+  };
+  row("greys as they are", c.mean_before);
+  row("greys calibrated", c.mean_after);
+  for (const auto& band : c.mean_bands)
+    if (band.metrics.weight > 0) row(("  band: " + band.structure).c_str(), band.metrics);
+  fmt::print("  time: {}, shift {:.2f} frames, pace {:.3f}, confidence {:.2f}\n", c.time.method,
+             c.time.shift_frames, c.time.rate, c.time.confidence);
+  const auto& p = c.space.placement;
+  fmt::print(
+      "  space: shift {:.2f}, {:.2f} px, scale {:.4f}, rotation {:.2f} deg{}, confidence {:.2f}\n",
+      p.shift_x_px, p.shift_y_px, p.scale, p.rotation_rad * 57.29577951308232,
+      c.space.used ? "" : " (sectors as they are)", c.space.confidence);
+  fmt::print(
+      "  {}: frames.csv, summary.json, side_by_side.avi, sector_real.png, sector_synthetic.png\n",
+      folder.string());
+}
+
+}  // namespace
+
+CompareCommand::CompareCommand(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("compare", "Compare a synthetic loop with an echo video, frame by frame");
+  command->add_option("synthetic", options_.synthetic, "Folder of a render, or any video")
+      ->required();
+  command
+      ->add_option("real", options_.real, "AVI, MP4, GIF, DICOM, or a folder of PNG or JPEG frames")
+      ->required();
+  command->add_option("-o,--output", folder_, "Folder for the results")->required();
+  addSide(*command, options_.real_side, "", "real");
+  addTimes(*command, options_.real_side, "real", "real");
+  addSide(*command, options_.synthetic_side, "synthetic-", "synthetic");
+  addTimes(*command, options_.synthetic_side, "synthetic", "synthetic");
+  command->add_flag("--sectors-only", no_space_,
+                    "Lay the sectors on one another and shift, scale and turn nothing");
+  command->add_flag("--monotone", options_.monotone, "A grey calibration that never falls");
+  command->add_option("--knot-count", options_.knot_count, "Knots of the grey calibration")
+      ->check(CLI::Range(2, 64))
+      ->capture_default_str();
+  command->add_option("--knots", options_.knots, "Synthetic greys (0 to 255) to put the knots at")
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 255.0));
+  command->add_option("--scene", options_.scene,
+                      "Scene of the render: metrics in bands about its boundaries");
+  command->add_option("--band-mm", options_.band_mm, "Full width of a band, mm")
+      ->check(CLI::Range(0.1, 100.0))
+      ->capture_default_str();
+  command->add_flag("--contours", options_.contours, "Draw the scene's contours into the pictures");
+  command->add_option("--threads", threads_, "Threads; 0 for one per core")
+      ->check(CLI::Range(0, 4096));
+  command->add_flag("--quiet", quiet_, "Print nothing but errors");
+}
+
+int CompareCommand::run() {
+  options_.align_space = !no_space_;
+  checkOptions(options_);
+  withThreads(threads_, [&] {
+    const compare::Comparison comparison = compareLoops(options_, warningPrinter(quiet_));
+    writeResults(comparison, options_, folder_);
+    if (!quiet_) print(comparison, folder_);
+  });
+  return 0;
+}
+
+}  // namespace echocine

@@ -1,0 +1,61 @@
+#pragma once
+// Beam space: both loops resampled to the same angles and depths.
+
+#include <span>
+#include <vector>
+
+#include "compare/loop.h"
+
+namespace echocine::compare {
+
+// Angles from first to last, edges included; depth k is at near + (k + 1/2) (far - near)/samples
+// from the apex. Depths are metres when both loops have a scale, otherwise parts of each loop's
+// outer radius.
+struct BeamGrid {
+  int lines = 0, samples = 0;
+  double first_rad = 0, last_rad = 0, near = 0, far = 0;
+  bool metric = false;
+
+  std::size_t size() const {
+    return static_cast<std::size_t>(lines) * static_cast<std::size_t>(samples);
+  }
+  double angle(int line) const {
+    return first_rad + (last_rad - first_rad) * line / std::max(1, lines - 1);
+  }
+  double depth(int sample) const { return near + (sample + 0.5) * (far - near) / samples; }
+};
+
+// What both sectors share, sampled as finely as the coarser picture. Throws SceneError when they
+// share under a third of the smaller one's angles or depths.
+BeamGrid commonGrid(const Loop& synthetic, const Loop& real);
+
+// Where beam space lies in a picture: apex + shift + scale R(rotation) (radius in pixels).
+struct Placement {
+  double shift_x_px = 0, shift_y_px = 0, scale = 1, rotation_rad = 0;
+};
+
+struct PicturePoint {
+  double x = 0, y = 0;
+};
+
+// Pixels of `loop` per unit of the grid's depth.
+double pixelsPerUnit(const BeamGrid& grid, const Loop& loop);
+PicturePoint pictureAt(const BeamGrid& grid, const Loop& loop, const Placement& placement,
+                       double angle_rad, double depth);
+
+// A loop in beam space, line-major. Pictures finer than the grid are smoothed to its spacing first.
+// Grey 0 to 255.
+struct BeamLoop {
+  std::vector<std::vector<float>> frames;
+  Plane valid;  // 1: within the sector, not under an overlay
+};
+BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& placement = {});
+
+// Area weights of the samples where both are valid, else 0: a sample counts as the area it covers
+// (in proportion to its depth), so sums over beam space are sums over the picture.
+std::vector<float> areaWeights(const BeamGrid& grid, const Plane& a, const Plane& b);
+
+// Bilinear grey of a picture; pixel centres at halves; the border is carried on outside.
+float greyAt(const float* picture, int width, int height, double x, double y);
+
+}  // namespace echocine::compare

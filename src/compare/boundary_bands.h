@@ -1,0 +1,37 @@
+#pragma once
+// Bands about the model's boundaries: where a comparison matters most.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compare/beam_grid.h"
+#include "geometry/contour.h"
+
+namespace echocine::compare {
+
+class BoundaryBands {
+ public:
+  // The scene that `synthetic` was rendered from; its contours are cut anew, exactly, for any
+  // phase. Throws SceneError: not its scene, or the loop is no render folder.
+  BoundaryBands(const std::filesystem::path& scene, const Loop& synthetic, const BeamGrid& grid,
+                double width_m);
+  ~BoundaryBands();
+  BoundaryBands(BoundaryBands&&) noexcept;
+
+  // For each structure that the plane cuts anywhere in the loop, and for "all" of them: the
+  // weights, 0 farther from the boundary than half the width. Thread-safe.
+  std::vector<std::pair<std::string, std::vector<float>>> weightsAt(
+      double phase, const std::vector<float>& weights) const;
+
+  // The contours at a phase, metres in the probe frame.
+  std::vector<Contour> contoursAt(double phase) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace echocine::compare

@@ -1,0 +1,304 @@
+// The page that shows the comparison: read -> common beam space -> beat -> time -> space -> greys
+// -> metrics.
+
+#include "compare/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "compare/boundary_bands.h"
+#include "compare/discrepancy.h"
+#include "compare/motion_features.h"
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace echocine::compare {
+
+namespace {
+
+// 200 beats a minute at a rate that is known; otherwise an eighth of the loop.
+double shortestBeat(const Loop& loop) {
+  constexpr double kShortest_s = 0.3;
+  return loop.video.rate.trusted && loop.video.rate.hz > 0
+             ? kShortest_s * loop.video.rate.hz
+             : static_cast<double>(loop.video.frames.size()) / 8;
+}
+
+BeatLength beatOf(const Loop& loop, const Features& features) {
+  BeatLength beat = findBeatLength(features, shortestBeat(loop));
+  const auto known = [&](double frames, const char* source) {
+    beat.frames = frames;
+    beat.confidence = 1;
+    beat.source = source;
+  };
+  const Video& v = loop.video;
+  if (loop.frames_per_beat > 0)
+    known(loop.frames_per_beat, "manifest");
+  else if (v.r_waves_s.size() > 1 && v.rate.hz > 0)
+    known((v.r_waves_s.back() - v.r_waves_s.front()) / static_cast<double>(v.r_waves_s.size() - 1) *
+              v.rate.hz,
+          "R waves");
+  else if (v.heart_rate_bpm && v.rate.trusted)
+    known(60 / *v.heart_rate_bpm * v.rate.hz, "heart rate");
+  return beat;
+}
+
+// End-diastole and end-systole of a render: the largest and smallest volume of the cavity that is
+// called the left ventricle, else of the structure that empties most.
+struct Cardinal {
+  std::optional<double> ed, es;
+};
+
+Cardinal fromVolumes(const Loop& loop) {
+  const std::vector<double>* best = nullptr;
+  double most = 0.05;
+  for (const auto& [name, ml] : loop.volumes_ml) {
+    if (ml.size() != loop.video.frames.size()) continue;
+    const auto [low, high] = std::minmax_element(ml.begin(), ml.end());
+    const double emptied = *high > 0 ? (1 - *low / *high) * (name.starts_with("lv") ? 10 : 1) : 0;
+    if (emptied > most) most = emptied, best = &ml;
+  }
+  if (best == nullptr) return {};
+  return {static_cast<double>(std::max_element(best->begin(), best->end()) - best->begin()),
+          static_cast<double>(std::min_element(best->begin(), best->end()) - best->begin())};
+}
+
+Cardinal cardinalOf(const Loop& loop, const SideOptions& side) {
+  Cardinal c = fromVolumes(loop);
+  if (side.ed_frame) c.ed = side.ed_frame;
+  if (side.es_frame) c.es = side.es_frame;
+  for (const auto& frame : {c.ed, c.es})
+    if (frame && !(*frame >= 0 && *frame < loop.video.frameCount()))
+      throw SceneError(fmt::format("{}: ED or ES frame {} is not in the loop, accepted: 0 to {}",
+                                   loop.video.name, *frame, loop.video.frameCount() - 1));
+  return c;
+}
+
+TimeAlignment timeOf(const CompareOptions& options, const TimeProblem& problem,
+                     const Comparison& c) {
+  const Cardinal s = cardinalOf(c.synthetic, options.synthetic_side);
+  std::vector<Anchor> anchors;
+  if (options.real_side.ed_frame || options.real_side.es_frame) {
+    const Cardinal r{options.real_side.ed_frame, options.real_side.es_frame};
+    cardinalOf(c.real, options.real_side);  // within the loop
+    const auto missing = [&](const char* which) {
+      throw SceneError(fmt::format("{}: its {} frame is not known; give --synthetic-{}",
+                                   c.synthetic.video.name, which, which));
+    };
+    if (r.ed && !s.ed) missing("ed");
+    if (r.es && !s.es) missing("es");
+    if (r.ed) anchors.push_back({*r.ed, *s.ed});
+    if (r.es) {
+      double place = *s.es;
+      if (r.ed && problem.synthetic_beat > 0) {  // after ED where the real one is, else before
+        while (*r.es > *r.ed && place < *s.ed) place += problem.synthetic_beat;
+        while (*r.es < *r.ed && place > *s.ed) place -= problem.synthetic_beat;
+      }
+      anchors.push_back({*r.es, place});
+    }
+    TimeAlignment t = alignByAnchors(problem, anchors);
+    t.method = "ED and ES frames as given";
+    return t;
+  }
+  const Video& v = c.real.video;
+  const bool synthetic_r = !c.synthetic.phases.empty() || !c.synthetic.video.r_waves_s.empty();
+  if (!v.r_waves_s.empty() && v.rate.hz > 0 && synthetic_r && problem.synthetic_beat > 0) {
+    const double at_r = c.synthetic.phases.empty()
+                            ? c.synthetic.video.r_waves_s.front() * c.synthetic.video.rate.hz
+                            : -c.synthetic.phases.front() * problem.synthetic_beat;
+    for (std::size_t i = 0; i < v.r_waves_s.size(); ++i)
+      anchors.push_back(
+          {v.r_waves_s[i] * v.rate.hz, at_r + static_cast<double>(i) * problem.synthetic_beat});
+    TimeAlignment t = alignByAnchors(problem, anchors);
+    t.method = "R waves";
+    return t;
+  }
+  return alignInTime(problem);
+}
+
+// The synthetic loop at each real frame's instant; frames outside it are left as they are.
+std::vector<float> pairedFrame(const Comparison& c, const BeamLoop& synthetic, std::size_t real) {
+  return frameAtPlace(synthetic.frames, std::max(0.0, c.time.place[real]), c.synthetic_beat.frames,
+                      c.time.periodic);
+}
+
+void registerLoops(const CompareOptions& options, Comparison& c) {
+  c.grid = commonGrid(c.synthetic, c.real);
+  c.synthetic_beams = resample(c.grid, c.synthetic);
+  c.real_beams = resample(c.grid, c.real);
+  c.weights = areaWeights(c.grid, c.synthetic_beams.valid, c.real_beams.valid);
+  if (std::count_if(c.weights.begin(), c.weights.end(), [](float w) { return w > 0; }) <
+      static_cast<std::ptrdiff_t>(c.weights.size() / 10))
+    throw SceneError(
+        fmt::format("{} and {} share under a tenth of their sectors; give loops of the same view",
+                    c.synthetic.video.name, c.real.video.name));
+  for (int round = 0;; ++round) {
+    const Features synthetic = motionFeatures(c.grid, c.synthetic_beams, c.weights),
+                   real = motionFeatures(c.grid, c.real_beams, c.weights);
+    c.synthetic_beat = beatOf(c.synthetic, synthetic);
+    c.real_beat = beatOf(c.real, real);
+    const FrameRate &s = c.synthetic.video.rate, &r = c.real.video.rate;
+    const TimeProblem problem{synthetic,
+                              real,
+                              c.synthetic_beat.frames,
+                              c.real_beat.frames,
+                              s.hz > 0 && r.hz > 0 ? s.hz / r.hz : 1,
+                              c.real.video.repeats};
+    c.time = timeOf(options, problem, c);
+    if (round == 1 || !options.align_space) return;
+    // A dozen frames over the loop hold all there is to learn about four numbers.
+    std::vector<int> frames;
+    std::vector<std::vector<float>> paired;
+    const std::size_t step = std::max<std::size_t>(1, c.real_beams.frames.size() / 12);
+    for (std::size_t j = 0; j < c.real_beams.frames.size(); j += step)
+      if (c.time.place[j] >= 0 && !c.real.video.isRepeat(static_cast<int>(j))) {
+        frames.push_back(static_cast<int>(j));
+        paired.push_back(pairedFrame(c, c.synthetic_beams, j));
+      }
+    if (frames.empty()) return;
+    c.space = alignInSpace(c.grid, c.real, paired, frames, c.weights);
+    if (!c.space.used) return;
+    c.real_beams = resample(c.grid, c.real, c.space.placement);
+    c.weights = areaWeights(c.grid, c.synthetic_beams.valid, c.real_beams.valid);
+  }
+}
+
+void calibrate(const CompareOptions& options, const std::vector<std::vector<float>>& paired,
+               Comparison& c) {
+  std::vector<const std::vector<float>*> used;
+  for (std::size_t j = 0; j < paired.size(); ++j)
+    if (c.frames[j].counted()) used.push_back(&paired[j]);
+  if (used.empty())
+    throw SceneError(fmt::format("{} and {} share no instant of the beat; give longer loops",
+                                 c.synthetic.video.name, c.real.video.name));
+  CalibrationFit fit(options.knots.empty() ? quantileKnots(used, c.weights, options.knot_count)
+                                           : options.knots);
+  for (std::size_t j = 0; j < paired.size(); ++j)
+    if (c.frames[j].counted()) fit.add(paired[j], c.real_beams.frames[j], c.weights);
+  c.curve = fit.solve(options.monotone);
+}
+
+FrameMetrics meanOf(const std::vector<FrameResult>& frames,
+                    const std::function<const FrameMetrics&(const FrameResult&)>& pick) {
+  FrameMetrics mean;
+  double n = 0, squares = 0, finite = 0;
+  for (const FrameResult& f : frames) {
+    if (!f.counted()) continue;
+    const FrameMetrics& m = pick(f);
+    if (!(m.weight > 0)) continue;
+    ++n;
+    squares += m.rms * m.rms;
+    mean.mean_absolute += m.mean_absolute;
+    mean.ncc += m.ncc;
+    mean.ssim += m.ssim;
+    mean.mutual_information += m.mutual_information;
+    mean.histogram_distance += m.histogram_distance;
+    mean.gradient_correlation += m.gradient_correlation;
+    mean.weight += m.weight;
+    finite += 1;
+  }
+  if (n == 0) return mean;
+  for (double* value : {&mean.mean_absolute, &mean.ncc, &mean.ssim, &mean.mutual_information,
+                        &mean.histogram_distance, &mean.gradient_correlation, &mean.weight})
+    *value /= n;
+  mean.rms = std::sqrt(squares / n);  // of all samples of all frames
+  mean.psnr_db =
+      mean.rms > 0 ? 20 * std::log10(255 / mean.rms) : std::numeric_limits<double>::infinity();
+  return mean;
+}
+
+void measureFrames(const std::vector<std::vector<float>>& paired, const BoundaryBands* bands,
+                   Comparison& c) {
+  c.real_deviation = loopDeviation(c.real_beams.frames, c.weights);
+  parallelBlocks(c.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j) {
+      FrameResult& f = c.frames[j];
+      if (f.synthetic_place < 0) continue;
+      const std::vector<float>& real = c.real_beams.frames[j];
+      std::vector<float> fitted(paired[j].size());
+      c.curve.apply(paired[j], fitted);
+      f.before = frameMetrics({paired[j], real, c.weights, c.grid.lines, c.grid.samples});
+      f.after = frameMetrics({fitted, real, c.weights, c.grid.lines, c.grid.samples});
+      f.discrepancy = discrepancyOf(f.after.rms, c.real_deviation, f.after.gradient_correlation);
+      if (bands == nullptr) continue;
+      for (const auto& [name, weights] : bands->weightsAt(f.synthetic_phase, c.weights))
+        f.bands.push_back(
+            {name, frameMetrics({fitted, real, weights, c.grid.lines, c.grid.samples})});
+    }
+  });
+}
+
+void summarise(Comparison& c) {
+  c.mean_before =
+      meanOf(c.frames, [](const FrameResult& f) -> const FrameMetrics& { return f.before; });
+  c.mean_after =
+      meanOf(c.frames, [](const FrameResult& f) -> const FrameMetrics& { return f.after; });
+  double sum = 0, n = 0;
+  for (const FrameResult& f : c.frames)
+    if (f.counted()) sum += f.discrepancy, ++n;
+  c.discrepancy = n > 0 ? sum / n : 0;
+  const auto with_bands = std::find_if(c.frames.begin(), c.frames.end(),
+                                       [](const FrameResult& f) { return !f.bands.empty(); });
+  if (with_bands == c.frames.end()) return;
+  for (std::size_t b = 0; b < with_bands->bands.size(); ++b)
+    c.mean_bands.push_back({with_bands->bands[b].structure,
+                            meanOf(c.frames, [b](const FrameResult& f) -> const FrameMetrics& {
+                              static const FrameMetrics kNone;
+                              return b < f.bands.size() ? f.bands[b].metrics : kNone;
+                            })});
+}
+
+void noteAssumptions(Comparison& c) {
+  const auto say = [&](const std::string& note) { c.notes.push_back(note); };
+  for (const Loop* loop : {&c.synthetic, &c.real})
+    for (const std::string& note : loop->video.notes) say(loop->video.name + ": " + note);
+  if (!c.grid.metric)
+    say(
+        fmt::format("{} has no length scale (--scale, in mm per pixel, gives it): both sectors are "
+                    "taken to be of "
+                    "one depth",
+                    c.real.metres_per_pixel ? c.synthetic.video.name : c.real.video.name));
+  for (const BeatLength* beat : {&c.synthetic_beat, &c.real_beat})
+    if (beat->frames == 0)
+      say(fmt::format("{}: no beat found in the loop; frames are paired by the best shift and pace",
+                      beat == &c.real_beat ? c.real.video.name : c.synthetic.video.name));
+}
+
+}  // namespace
+
+Comparison compareLoops(const CompareOptions& options,
+                        const std::function<void(const std::string&)>& warn) {
+  Comparison c;
+  c.synthetic = readLoop(options.synthetic, options.synthetic_side, false);
+  c.real = readLoop(options.real, options.real_side, true);
+  std::optional<BoundaryBands> bands;
+  registerLoops(options, c);
+  if (!options.scene.empty())
+    bands.emplace(options.scene, c.synthetic, c.grid, 1e-3 * options.band_mm);
+  noteAssumptions(c);
+  for (const std::string& note : c.notes) warn(note);
+  std::vector<std::vector<float>> paired;
+  for (std::size_t j = 0; j < c.real_beams.frames.size(); ++j) {
+    FrameResult f;
+    f.real_frame = static_cast<int>(j);
+    f.real_time_s = c.real.video.rate.hz > 0 ? static_cast<double>(j) / c.real.video.rate.hz : 0;
+    f.synthetic_place = c.time.place[j];
+    if (f.synthetic_place >= 0 && c.synthetic_beat.frames > 0) {
+      const double phase = f.synthetic_place / c.synthetic_beat.frames +
+                           (c.synthetic.phases.empty() ? 0 : c.synthetic.phases.front());
+      f.synthetic_phase = phase - std::floor(phase);
+    }
+    f.repeat = c.real.video.isRepeat(f.real_frame);
+    c.frames.push_back(f);
+    paired.push_back(pairedFrame(c, c.synthetic_beams, j));
+  }
+  calibrate(options, paired, c);
+  measureFrames(paired, bands ? &*bands : nullptr, c);
+  summarise(c);
+  return c;
+}
+
+}  // namespace echocine::compare

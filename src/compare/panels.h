@@ -1,0 +1,47 @@
+#pragma once
+// The pictures of a comparison: real, synthetic and their difference side by side, all in one
+// shape.
+
+#include <filesystem>
+#include <vector>
+
+#include "compare/compare.h"
+
+namespace echocine::compare {
+
+class BoundaryBands;
+
+enum class Panel { real, synthetic, difference };
+
+// Pictures in the common sector, scan-converted from the registered loops. The synthetic one is
+// calibrated; the difference is 128 + (synthetic - real) / 2.
+class PanelMaker {
+ public:
+  PanelMaker(const Comparison& comparison, int height_px = 480);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  GreyImage picture(Panel panel, int real_frame) const;
+  GreyImage sideBySide(int real_frame) const;  // the three from left to right
+
+  // With contours of the model drawn into the first two. Precondition: `bands` outlives the maker.
+  void drawContours(const BoundaryBands* bands) { bands_ = bands; }
+
+ private:
+  struct Pixel {
+    int at;              // in the picture
+    float line, sample;  // in beam space
+  };
+  void addContours(int real_frame, GreyImage& image) const;
+
+  const Comparison& c_;
+  int width_ = 0, height_ = 0;
+  double pixels_per_unit_ = 1, left_ = 0, top_ = 0;
+  std::vector<Pixel> pixels_;
+  const BoundaryBands* bands_ = nullptr;
+};
+
+// A frame with the found (or given) sector drawn over it, and what is masked: the picture to check.
+GreyImage sectorPicture(const Loop& loop);
+
+}  // namespace echocine::compare

@@ -1,0 +1,117 @@
+#include "compare/render_folder.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "compare/read_video.h"
+#include "compare/video_builder.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "signal/picture.h"
+
+namespace echocine::compare {
+
+namespace {
+
+using Json = nlohmann::json;
+
+void takeGeometry(const Json& scene, Loop& loop, const std::string& name) {
+  const Json &p = scene.at("probe"), &o = scene.at("output");
+  if (p.at("kind") == "linear")
+    throw SceneError(
+        fmt::format("{}: a linear probe has no sector; render the view with a phased or "
+                    "curvilinear one",
+                    name));
+  Scene s;  // what the picture's geometry depends on
+  s.probe.kind = p.at("kind") == "phased" ? ProbeKind::phased : ProbeKind::curvilinear;
+  s.probe.first_angle_rad = p.at("first_angle_rad");
+  s.probe.last_angle_rad = p.at("last_angle_rad");
+  s.probe.face_radius_m = p.at("face_radius_m");
+  s.probe.min_depth_m = p.at("min_depth_m");
+  s.probe.max_depth_m = p.at("max_depth_m");
+  s.probe.lines = p.at("lines");
+  s.probe.samples = p.at("samples");
+  s.output.width = o.at("width");
+  s.output.height = o.at("height");
+  s.output.ecg = o.at("ecg");
+  s.output.depth_ticks = o.at("depth_ticks");
+  s.output.cine = true;
+  if (s.output.width != loop.video.width || s.output.height != loop.video.height)
+    throw SceneError(
+        fmt::format("{}: its cine is {} x {} pixels, its manifest says {} x {}; render it "
+                    "again",
+                    name, loop.video.width, loop.video.height, s.output.width, s.output.height));
+  const PictureGeometry g = pictureGeometry(s);
+  if (!(g.metres_per_pixel > 0 && std::isfinite(g.metres_per_pixel)))
+    throw SceneError(
+        fmt::format("{}: manifest.json: its probe has no extent; render it again", name));
+  loop.metres_per_pixel = g.metres_per_pixel;
+  loop.scale_source = "manifest";
+  loop.find.given = true;
+  loop.find.sector = {g.origin_x_px,
+                      g.origin_y_px,
+                      s.probe.first_angle_rad,
+                      s.probe.last_angle_rad,
+                      (s.probe.face_radius_m + s.probe.min_depth_m) / g.metres_per_pixel,
+                      (s.probe.face_radius_m + s.probe.max_depth_m) / g.metres_per_pixel};
+}
+
+// Frames per beat from the phases, which count on from frame to frame.
+void takeFrames(const Json& frames, Loop& loop) {
+  std::vector<double> times;
+  for (const Json& f : frames) {
+    loop.phases.push_back(f.at("phase"));
+    times.push_back(f.at("time_s"));
+    std::size_t i = 0;
+    for (const auto& [name, ml] : f.at("volumes_ml").items()) {
+      if (loop.volumes_ml.size() <= i) loop.volumes_ml.push_back({name, {}});
+      loop.volumes_ml[i++].second.push_back(ml);
+    }
+  }
+  double turned = 0;
+  for (std::size_t i = 1; i < loop.phases.size(); ++i) {
+    const double step = loop.phases[i] - loop.phases[i - 1];
+    turned += step - std::floor(step);
+  }
+  if (turned > 0) loop.frames_per_beat = static_cast<double>(loop.phases.size() - 1) / turned;
+  if (times.size() > 1 && times.back() > times.front())
+    loop.video.rate = {static_cast<double>(times.size() - 1) / (times.back() - times.front()),
+                       "manifest", true};
+}
+
+}  // namespace
+
+bool isRenderFolder(const std::filesystem::path& path) {
+  return std::filesystem::is_regular_file(path / "manifest.json");
+}
+
+Loop readRenderFolder(const std::filesystem::path& folder) {
+  constexpr std::size_t kMaxManifest = std::size_t{1} << 28;
+  const std::string name = folder.string();
+  if (!std::filesystem::is_regular_file(folder / "cine.avi"))
+    throw SceneError(
+        fmt::format("{}: has no cine.avi; render the scene with output.cine = true", name));
+  Loop loop;
+  try {
+    const Json manifest = Json::parse(readTextFile(folder / "manifest.json", kMaxManifest));
+    loop.video = readVideo(folder / "cine.avi");
+    loop.video.name = name;
+    loop.video.format = "render folder";
+    loop.video.repeats.clear();  // frames that do not move are no repeats here
+    takeGeometry(manifest.at("scene"), loop, name);
+    takeFrames(manifest.at("frames"), loop);
+    loop.scene_sha256 = manifest.at("scene_sha256");
+  } catch (const Json::exception& error) {
+    throw SceneError(
+        fmt::format("{}: manifest.json is damaged ({}); render it again", name, error.what()));
+  }
+  if (loop.phases.size() != loop.video.frames.size())
+    throw SceneError(fmt::format("{}: cine.avi has {} frames, manifest.json {}; render it again",
+                                 name, loop.video.frames.size(), loop.phases.size()));
+  loop.overlay.assign(loop.video.frames.front().size(), 0);
+  return loop;
+}
+
+}  // namespace echocine::compare

@@ -1,0 +1,201 @@
+#include "compare/results.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "compare/boundary_bands.h"
+#include "compare/panels.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/units.h"
+#include "output/cine_writer.h"
+
+namespace echocine::compare {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json numberOrNull(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+Json loopJson(const Loop& l, const BeatLength& beat) {
+  const Sector& s = l.sector();
+  Json json{{"path", l.video.name},
+            {"format", l.video.format},
+            {"width", l.video.width},
+            {"height", l.video.height},
+            {"frames", l.video.frames.size()},
+            {"repeated_frames", l.video.repeats},
+            {"frame_rate_hz", l.video.rate.hz > 0 ? Json(l.video.rate.hz) : Json()},
+            {"frame_rate_source", l.video.rate.source},
+            {"frame_rate_trusted", l.video.rate.trusted},
+            {"mm_per_pixel", l.metres_per_pixel ? Json(1e3 * *l.metres_per_pixel) : Json()},
+            {"scale_source", l.scale_source},
+            {"sector",
+             {{"apex_px", {s.apex_x, s.apex_y}},
+              {"first_deg", degreesFromRadians(s.first_rad)},
+              {"last_deg", degreesFromRadians(s.last_rad)},
+              {"r_min_px", s.r_min},
+              {"r_max_px", s.r_max},
+              {"source", l.find.given ? "given" : "found"},
+              {"confidence", l.find.confidence()},
+              {"aspect_of_lower_edge", l.find.aspect}}},
+            {"beat",
+             {{"frames", beat.frames > 0 ? Json(beat.frames) : Json()},
+              {"source", beat.source},
+              {"confidence", beat.confidence}}},
+            {"notes", l.video.notes}};
+  return json;
+}
+
+Json metricsJson(const FrameMetrics& m) {
+  return {{"rms", m.rms},
+          {"mean_absolute", m.mean_absolute},
+          {"psnr_db", numberOrNull(m.psnr_db)},
+          {"ncc", m.ncc},
+          {"ssim", m.ssim},
+          {"mutual_information_bits", m.mutual_information},
+          {"histogram_distance", m.histogram_distance},
+          {"gradient_correlation", m.gradient_correlation}};
+}
+
+Json spaceJson(const Comparison& c) {
+  const Placement& p = c.space.placement;
+  return {{"shift_px", {p.shift_x_px, p.shift_y_px}},
+          {"scale", p.scale},
+          {"rotation_deg", degreesFromRadians(p.rotation_rad)},
+          {"used", c.space.used},
+          {"correlation_before", c.space.correlation_before},
+          {"correlation_after", c.space.correlation_after},
+          {"confidence", c.space.confidence}};
+}
+
+Json timeJson(const TimeAlignment& t) {
+  return {{"method", t.method},
+          {"shift_frames", t.shift_frames},
+          {"synthetic_frames_per_real_frame", t.rate},
+          {"largest_warp_frames", t.largest_warp_frames},
+          {"correlation", t.correlation},
+          {"confidence", t.confidence}};
+}
+
+void addMetrics(std::string& row, const FrameMetrics& m, bool measured) {
+  if (!measured) {
+    row += ",,,,,,,,";
+    return;
+  }
+  row += fmt::format(",{:.6g},{:.6g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}", m.rms, m.mean_absolute,
+                     std::isfinite(m.psnr_db) ? fmt::format("{:.6g}", m.psnr_db) : "inf", m.ncc,
+                     m.ssim, m.mutual_information, m.histogram_distance, m.gradient_correlation);
+}
+
+void writeCine(const Comparison& c, const PanelMaker& panels, const std::filesystem::path& path) {
+  OutputSettings settings;
+  settings.width = 3 * panels.width();
+  settings.height = panels.height();
+  // Players need some rate; one that is not known plays slowly enough to look.
+  CineWriter writer(path, settings,
+                    c.real.video.rate.hz > 0 ? std::min(c.real.video.rate.hz, 1e3) : 25);
+  for (const FrameResult& f : c.frames)
+    writer.add(
+        encodeCineFrame(panels.sideBySide(f.real_frame), settings.codec, settings.jpeg_quality));
+  writer.finish();
+}
+
+}  // namespace
+
+Json summaryJson(const Comparison& c) {
+  Json bands = Json::object();
+  for (const BandMetrics& b : c.mean_bands) bands[b.structure] = metricsJson(b.metrics);
+  std::size_t counted = 0;
+  for (const FrameResult& f : c.frames) counted += f.counted() ? 1 : 0;
+  return {{"version", ECHOCINE_VERSION},
+          {"discrepancy", c.discrepancy},
+          {"discrepancy_definition",
+           "mean over counted frames of 1/2 RMS(x - y) / s + 1/2 (1 - GC); x calibrated synthetic, "
+           "y real grey, s "
+           "standard deviation of y over the loop, GC gradient correlation"},
+          {"frames_counted", counted},
+          {"frames_total", c.frames.size()},
+          {"real_grey_deviation", c.real_deviation},
+          {"before_calibration", metricsJson(c.mean_before)},
+          {"after_calibration", metricsJson(c.mean_after)},
+          {"bands_after_calibration", bands},
+          {"calibration", {{"synthetic_grey", c.curve.knots}, {"real_grey", c.curve.values}}},
+          {"time", timeJson(c.time)},
+          {"space", spaceJson(c)},
+          {"beam_space",
+           {{"lines", c.grid.lines},
+            {"samples", c.grid.samples},
+            {"first_deg", degreesFromRadians(c.grid.first_rad)},
+            {"last_deg", degreesFromRadians(c.grid.last_rad)},
+            {"near", c.grid.near},
+            {"far", c.grid.far},
+            {"unit", c.grid.metric ? "m" : "outer radius"}}},
+          {"synthetic", loopJson(c.synthetic, c.synthetic_beat)},
+          {"real", loopJson(c.real, c.real_beat)},
+          {"notes", c.notes}};
+}
+
+std::string framesCsv(const Comparison& c) {
+  std::string text =
+      "real_frame,real_time_s,synthetic_frame,synthetic_phase,repeat,counted,discrepancy";
+  const char* names[] = {"rms",
+                         "mean_absolute",
+                         "psnr_db",
+                         "ncc",
+                         "ssim",
+                         "mutual_information_bits",
+                         "histogram_distance",
+                         "gradient_correlation"};
+  std::vector<std::string> groups{"before", "after"};
+  for (const BandMetrics& b : c.mean_bands) groups.push_back("band_" + b.structure);
+  for (const std::string& group : groups)
+    for (const char* name : names) text += fmt::format(",{}_{}", name, group);
+  text += "\n";
+  for (const FrameResult& f : c.frames) {
+    const bool measured = f.synthetic_place >= 0;
+    std::string row = fmt::format(
+        "{},{:.6g},{},{},{},{},{}", f.real_frame, f.real_time_s,
+        measured ? fmt::format("{:.6g}", f.synthetic_place) : "",
+        f.synthetic_phase >= 0 ? fmt::format("{:.6g}", f.synthetic_phase) : "", f.repeat ? 1 : 0,
+        f.counted() ? 1 : 0, measured ? fmt::format("{:.6g}", f.discrepancy) : "");
+    addMetrics(row, f.before, measured);
+    addMetrics(row, f.after, measured);
+    for (std::size_t b = 0; b < c.mean_bands.size(); ++b)
+      addMetrics(row, b < f.bands.size() ? f.bands[b].metrics : FrameMetrics{},
+                 b < f.bands.size() && f.bands[b].metrics.weight > 0);
+    text += row + "\n";
+  }
+  return text;
+}
+
+void writeResults(const Comparison& c, const CompareOptions& options,
+                  const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder))
+    throw JobError(
+        fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
+  std::filesystem::remove(folder / "summary.json", error);  // a folder without one is unfinished
+  PanelMaker panels(c);
+  std::optional<BoundaryBands> bands;
+  if (options.contours && !options.scene.empty()) {
+    bands.emplace(options.scene, c.synthetic, c.grid, 1e-3 * options.band_mm);
+    panels.drawContours(&*bands);
+  }
+  const auto text = [&](const char* name, const std::string& content) {
+    writeFileWhole(folder / name, std::as_bytes(std::span(content)));
+  };
+  text("frames.csv", framesCsv(c));
+  writeFileWhole(folder / "sector_real.png", encodePng(sectorPicture(c.real)));
+  writeFileWhole(folder / "sector_synthetic.png", encodePng(sectorPicture(c.synthetic)));
+  writeCine(c, panels, folder / "side_by_side.avi");
+  text("summary.json", summaryJson(c).dump(1) + "\n");
+}
+
+}  // namespace echocine::compare

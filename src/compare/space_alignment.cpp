@@ -1,0 +1,151 @@
+#include "compare/space_alignment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "core/units.h"
+
+namespace echocine::compare {
+
+namespace {
+
+constexpr int kUnknowns = 6;  // shift x, shift y, scale, rotation; contrast, brightness
+
+struct Level {
+  std::vector<cv::Mat> real;       // smoothed pictures
+  std::vector<cv::Mat> synthetic;  // smoothed frames in beam space
+};
+
+// Both smoothed by about the same length: sigma in real pixels.
+Level smoothed(const BeamGrid& grid, const Loop& real,
+               const std::vector<std::vector<float>>& paired, const std::vector<int>& frames,
+               double sigma_px) {
+  Level level;
+  const double sample_px = (grid.far - grid.near) / grid.samples * pixelsPerUnit(grid, real);
+  const double line_px = (grid.last_rad - grid.first_rad) / std::max(1, grid.lines - 1) * 0.5 *
+                         (grid.near + grid.far) * pixelsPerUnit(grid, real);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const cv::Mat bytes(
+        real.video.height, real.video.width, CV_8U,
+        const_cast<std::uint8_t*>(real.video.frames[static_cast<std::size_t>(frames[i])].data()));
+    cv::Mat picture,
+        beams =
+            cv::Mat(grid.lines, grid.samples, CV_32F, const_cast<float*>(paired[i].data())).clone();
+    bytes.convertTo(picture, CV_32F);
+    if (sigma_px > 0) {
+      cv::GaussianBlur(picture, picture, {0, 0}, sigma_px);
+      cv::GaussianBlur(beams, beams, {0, 0}, std::max(0.3, sigma_px / sample_px),
+                       std::max(0.3, sigma_px / line_px));
+    }
+    level.real.push_back(picture);
+    level.synthetic.push_back(beams);
+  }
+  return level;
+}
+
+struct Sums {
+  cv::Mat normal = cv::Mat::zeros(kUnknowns, kUnknowns, CV_64F),
+          right = cv::Mat::zeros(kUnknowns, 1, CV_64F);
+  double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+  double correlation() const {
+    const double vx = xx - x * x / n, vy = yy - y * y / n;
+    return n > 0 && vx > 0 && vy > 0 ? (xy - x * y / n) / std::sqrt(vx * vy) : 0;
+  }
+};
+
+// Sums over all samples about a placement. The real grey g at the placed point obeys
+// g + grad g . dp = contrast * synthetic + brightness, with dp linear in the first four unknowns.
+Sums sumsAt(const BeamGrid& grid, const Loop& real, const Level& level,
+            const std::vector<float>& weights, const Placement& placement) {
+  Sums s;
+  const int w = real.video.width, h = real.video.height;
+  double normal[kUnknowns][kUnknowns] = {}, right[kUnknowns] = {};
+  for (int i = 0; i < grid.lines; ++i) {
+    const double angle = grid.angle(i) + placement.rotation_rad;
+    const double sine = std::sin(angle), cosine = std::cos(angle);
+    for (int k = 0; k < grid.samples; ++k) {
+      const double weight =
+          weights[static_cast<std::size_t>(i) * static_cast<std::size_t>(grid.samples) +
+                  static_cast<std::size_t>(k)];
+      if (!(weight > 0)) continue;
+      const double r = grid.depth(k) * pixelsPerUnit(grid, real), placed = placement.scale * r;
+      const double x = real.sector().apex_x + placement.shift_x_px + placed * sine;
+      const double y = real.sector().apex_y + placement.shift_y_px + placed * cosine;
+      if (x < 1 || y < 1 || x > w - 1 || y > h - 1) continue;
+      for (std::size_t f = 0; f < level.real.size(); ++f) {
+        const float* picture = level.real[f].ptr<float>();
+        const double g = greyAt(picture, w, h, x, y);
+        const double gx = 0.5 * (greyAt(picture, w, h, x + 1, y) - greyAt(picture, w, h, x - 1, y));
+        const double gy = 0.5 * (greyAt(picture, w, h, x, y + 1) - greyAt(picture, w, h, x, y - 1));
+        const double v = level.synthetic[f].at<float>(i, k);
+        s.n += weight, s.x += weight * v, s.y += weight * g;
+        s.xx += weight * v * v, s.yy += weight * g * g, s.xy += weight * v * g;
+        const double row[kUnknowns] = {
+            -gx, -gy, -r * (gx * sine + gy * cosine), -placed * (gx * cosine - gy * sine), v, 1};
+        for (int p = 0; p < kUnknowns; ++p) {
+          right[p] += weight * row[p] * g;
+          for (int q = p; q < kUnknowns; ++q) normal[p][q] += weight * row[p] * row[q];
+        }
+      }
+    }
+  }
+  for (int p = 0; p < kUnknowns; ++p) {
+    s.right.at<double>(p) = right[p];
+    for (int q = 0; q < kUnknowns; ++q)
+      s.normal.at<double>(p, q) = normal[std::min(p, q)][std::max(p, q)];
+  }
+  return s;
+}
+
+bool withinLimits(const Placement& p, double radius_px) {
+  return std::hypot(p.shift_x_px, p.shift_y_px) <= 0.06 * radius_px &&
+         std::abs(p.scale - 1) <= 0.06 && std::abs(p.rotation_rad) <= radiansFromDegrees(6);
+}
+
+Placement improved(const Sums& sums, const Placement& from) {
+  cv::Mat step;
+  cv::solve(sums.normal, sums.right, step, cv::DECOMP_SVD);
+  return {from.shift_x_px + step.at<double>(0), from.shift_y_px + step.at<double>(1),
+          from.scale + step.at<double>(2), from.rotation_rad + step.at<double>(3)};
+}
+
+}  // namespace
+
+SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
+                            const std::vector<std::vector<float>>& paired,
+                            const std::vector<int>& real_frames,
+                            const std::vector<float>& weights) {
+  SpaceAlignment out;
+  Placement placement;
+  double final_correlation = 0;
+  const double finest =
+      std::max(0.7, (grid.far - grid.near) / grid.samples * pixelsPerUnit(grid, real) / 2);
+  for (const double sigma : {6 * finest, 3 * finest, 1.5 * finest, finest}) {
+    const Level level = smoothed(grid, real, paired, real_frames, sigma);
+    Sums sums = sumsAt(grid, real, level, weights, placement);
+    for (int i = 0; i < 12; ++i) {
+      const Placement next = improved(sums, placement);
+      if (!withinLimits(next, real.sector().r_max)) break;
+      const Sums there = sumsAt(grid, real, level, weights, next);
+      if (there.correlation() <= sums.correlation() + 1e-7) break;
+      placement = next;
+      sums = there;
+    }
+    if (sigma == finest) {
+      final_correlation = sums.correlation();
+      out.correlation_before = sumsAt(grid, real, level, weights, {}).correlation();
+    }
+  }
+  out.correlation_after = final_correlation;
+  // A gain that the freedom of four numbers cannot explain away; our choice.
+  out.used = final_correlation > out.correlation_before + 1e-4;
+  if (out.used)
+    out.placement = placement;
+  else
+    out.correlation_after = out.correlation_before;
+  out.confidence = std::clamp(out.correlation_after, 0.0, 1.0);
+  return out;
+}
+
+}  // namespace echocine::compare

@@ -1,0 +1,26 @@
+#pragma once
+// What is left between two loops in space once their sectors lie on one another: found from the
+// echoes themselves.
+
+#include <vector>
+
+#include "compare/beam_grid.h"
+
+namespace echocine::compare {
+
+struct SpaceAlignment {
+  Placement placement;  // of beam space in the real picture
+  double correlation_before = 0, correlation_after = 0;
+  bool used = false;      // false: no gain, or beyond the limits; the sectors stand as they are
+  double confidence = 0;  // the correlation it reaches, 0..1
+};
+
+// Shift, scale and rotation (about the apex) that let the synthetic frames, at any brightness and
+// contrast, explain the real ones best: Gauss-Newton on the squared grey differences from coarse to
+// fine, as Lucas and Kanade (IJCAI 1981). `paired[i]` is the synthetic frame of real frame
+// `real_frames[i]`. Limits (our choice): 6 % of the radius, 6 % of scale, 6 degrees.
+SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
+                            const std::vector<std::vector<float>>& paired,
+                            const std::vector<int>& real_frames, const std::vector<float>& weights);
+
+}  // namespace echocine::compare
