@@ -234,11 +234,6 @@ SectorFind findSector(const Video& video) {
   std::string failure;
   for (const int moving : {1, 2, 3, 5, 8, 13}) {
     const Attempt a = attempt(video, moving);
-    if (getenv("DBG"))
-      fprintf(stderr, "%d %s inl %.2f apex %.1f %.1f %.2f %.2f r %.1f %.1f asp %.3f\n", moving,
-              a.failure.c_str(), a.found.edge_inliers, a.found.sector.apex_x, a.found.sector.apex_y,
-              a.found.sector.first_rad * 57.29578, a.found.sector.last_rad * 57.29578,
-              a.found.sector.r_min, a.found.sector.r_max, a.found.aspect);
     if (a.failure.empty() && (!best || a.found.edge_inliers > best->edge_inliers)) best = a.found;
     if (!a.failure.empty()) failure = a.failure;
   }

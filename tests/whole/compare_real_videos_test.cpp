@@ -21,7 +21,8 @@ class RealVideos : public ::testing::Test {
   }
 };
 
-void expectSector(const Loop& loop, double x, double y, double first_deg, double last_deg, double radius) {
+void expectSector(const Loop& loop, double x, double y, double first_deg, double last_deg,
+                  double radius) {
   const Sector& s = loop.sector();
   EXPECT_NEAR(s.apex_x, x, 3);
   EXPECT_NEAR(s.apex_y, y, 3);
