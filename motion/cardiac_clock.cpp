@@ -85,8 +85,12 @@ FrameTime CardiacClock::inVariedBeats(double time_s) const {
 
 FrameTime CardiacClock::at(int frame) const {
   const double time_s = frame / acquisition_.frame_rate_hz;
-  if (!starts_s_.empty()) return inVariedBeats(time_s);
-  return inSteadyBeats(time_s, frame * acquisition_.heart_rate_hz / acquisition_.frame_rate_hz);
+  FrameTime t =
+      starts_s_.empty()
+          ? inSteadyBeats(time_s, frame * acquisition_.heart_rate_hz / acquisition_.frame_rate_hz)
+          : inVariedBeats(time_s);
+  t.frame = frame;
+  return t;
 }
 
 FrameTime CardiacClock::atTime(double time_s) const {

@@ -15,6 +15,7 @@ struct FrameTime {
   int beat = 0;      // of the loop, from 0
   double time_in_beat_s = 0;
   double beat_s = 0;  // from this beat's R wave to the next
+  int frame = 0;      // of the loop, from 0; atTime() leaves it
 };
 
 class CardiacClock {

@@ -20,7 +20,10 @@ FrameMaker::FrameMaker(const Scene& scene, const LoopPlan& plan, const HeartMoti
       motion_(motion),
       chain_(scene, plan.effects),
       settings_(scene, plan.effects, plan.cell_echoes),
-      request_(planeRequest(scene, plan.effects)) {}
+      request_(planeRequest(scene, plan.effects)) {
+  if (plan.effects.rays_per_beam > 1)
+    beams_.emplace(scene.probe, beamSpread(plan.effects, scene.acquisition.seed));
+}
 
 std::shared_ptr<Workspace> FrameMaker::workspace() {
   std::unique_ptr<Workspace> space;
@@ -70,23 +73,31 @@ void refuseUnusable(double phase, const PolarFrame& polar) {
 
 }  // namespace
 
-Volumes FrameMaker::trace(double phase, Workspace& w) {
+WorkCounts FrameMaker::traceRays(const PlaneSlice& slice, int /*frame*/, PolarFrame& polar) const {
+  return traceFrame(slice, scene_.probe, settings_, request_, polar);
+}
+
+WorkCounts FrameMaker::traceRays(const FrameGeometry& geometry, int frame,
+                                 PolarFrame& polar) const {
+  if (beams_) return traceBeams(geometry, scene_.probe, settings_, request_, *beams_, frame, polar);
+  return traceFrame(geometry, scene_.probe, settings_, request_, polar);
+}
+
+Volumes FrameMaker::trace(const FrameTime& time, Workspace& w) {
   Volumes volumes_ml;
   clock_.time(Stage::motion, [&] {
-    motion_.frameAt(phase, w.surfaces);
+    motion_.frameAt(time.phase, w.surfaces);
     volumes_ml = volumes(w.surfaces);
   });
   const WorkCounts work = std::visit(
       [&](auto& geometry) {
         clock_.time(Stage::geometry, [&] { geometry.update(w.surfaces); });
-        return clock_.time(Stage::trace, [&] {
-          return traceFrame(geometry, scene_.probe, settings_, request_, w.polar);
-        });
+        return clock_.time(Stage::trace, [&] { return traceRays(geometry, time.frame, w.polar); });
       },
       w.geometry);
   if (request_.signal) {
     clock_.time(Stage::signal, [&] { chain_.process(w.polar, w.scratch); });
-    refuseUnusable(phase, w.polar);
+    refuseUnusable(time.phase, w.polar);
   }
   const std::lock_guard lock(mutex_);
   work_ += work;

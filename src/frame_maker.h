@@ -6,16 +6,19 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
+#include "motion/cardiac_clock.h"
 #include "motion/heart_motion.h"
 #include "output/manifest.h"
 #include "scene/loop_plan.h"
 #include "signal/signal_chain.h"
+#include "trace/trace_beams.h"
 #include "trace/trace_frame.h"
 
 namespace echocine {
@@ -56,8 +59,8 @@ class FrameMaker {
   std::shared_ptr<Workspace> workspace();
 
   // motion -> geometry -> trace -> time gain and beam width: fills workspace.polar. Returns the
-  // volumes.
-  Volumes trace(double phase, Workspace& workspace);
+  // volumes. Frames of equal number and phase are equal.
+  Volumes trace(const FrameTime& time, Workspace& workspace);
 
   // log compression -> scan conversion: workspace.polar.signal becomes grey.
   GreyImage picture(double reference_intensity, Workspace& workspace, bool wanted);
@@ -71,6 +74,8 @@ class FrameMaker {
 
  private:
   Volumes volumes(const SurfaceFrame& surfaces) const;
+  WorkCounts traceRays(const PlaneSlice& slice, int frame, PolarFrame& polar) const;
+  WorkCounts traceRays(const FrameGeometry& geometry, int frame, PolarFrame& polar) const;
 
   const Scene& scene_;
   const LoopPlan& plan_;
@@ -78,6 +83,7 @@ class FrameMaker {
   SignalChain chain_;
   TraceSettings settings_;
   PlaneRequest request_;
+  std::optional<BeamRays> beams_;  // several rays per beam
   StageClock clock_;
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> free_;

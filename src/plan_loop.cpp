@@ -8,6 +8,7 @@
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
 #include "motion/motion_warnings.h"
+#include "trace/beam_rays.h"
 #include "trace/refraction_probe.h"
 
 namespace echocine {
@@ -19,8 +20,10 @@ namespace {
 constexpr double kProbePhases[] = {0.0, 0.15, 0.36, 0.5, 0.8};
 constexpr double kCountedShare = 0.99;  // of the echoes; the rest graze and are lost either way
 
-// The box that holds all scan lines.
-Box sectorBox(const Probe& probe) {
+// The box that holds all scan lines, and the rays of their beams.
+Box sectorBox(const Probe& probe, const EffectPlan& plan) {
+  constexpr double kFarthest = 9;  // no ray is so many deviations off
+  const BeamRays beams(probe, beamSpread(plan, 0));
   Box box;
   Probe outline = probe;
   outline.lines = std::max(probe.lines, 64) | 1;  // odd: the middle line reaches deepest
@@ -28,6 +31,12 @@ Box sectorBox(const Probe& probe) {
     const LineGeometry line = lineGeometry(outline, i);
     box.add(line.origin);
     box.add(line.origin + probe.max_depth_m * line.direction);
+    for (int side = 0; side < 8 && plan.rays_per_beam > 1; ++side) {
+      const auto far = [&](int bit) { return side & bit ? kFarthest : -kFarthest; };
+      const Ray ray = beams.through(line, far(1), far(2), far(4)).ray;
+      box.add(ray.origin);
+      box.add(ray.origin + probe.max_depth_m * ray.direction);
+    }
   }
   return box;
 }
@@ -56,7 +65,7 @@ bool invisible(const Scene& scene, const Structure& structure) {
 }
 
 void dropStructures(const Scene& scene, const HeartMotion& motion, LoopPlan& plan) {
-  Box sector = sectorBox(scene.probe);
+  Box sector = sectorBox(scene.probe, plan.effects);
   if (plan.effects.refraction) {  // rays may leave the imaging plane: as far as they are long
     const double reach = scene.probe.max_depth_m;
     sector.add(sector.lo - Vec3d{reach, reach, reach});
@@ -128,16 +137,20 @@ void decideRefraction(const Scene& scene, const HeartMotion& motion, LoopPlan& p
 
 void chooseTracer(const Scene& scene, LoopPlan& plan) {
   const AccuracySettings& a = scene.accuracy;
-  plan.slice = a.tracer != TracerChoice::embree && !plan.effects.refraction;
-  plan.tracer_reason = a.tracer != TracerChoice::automatic ? "accuracy.tracer asks for it"
-                       : plan.slice ? "straight rays in one plane meet only the facets on it"
-                                    : "refracted rays leave the imaging plane";
+  const bool beams = plan.effects.rays_per_beam > 1;
+  plan.slice = a.tracer != TracerChoice::embree && !plan.effects.refraction && !beams;
+  plan.tracer_reason =
+      a.tracer != TracerChoice::automatic ? "accuracy.tracer asks for it"
+      : beams      ? fmt::format("{} rays per beam, each by itself", plan.effects.rays_per_beam)
+      : plan.slice ? "straight rays in one plane meet only the facets on it"
+                   : "refracted rays leave the imaging plane";
   plan.cell_echoes = plan.slice && plan.effects.reflection && scene.probe.lines > 1 &&
                      a.interface_echo != InterfaceEcho::centre;
   plan.echo_reason =
       plan.cell_echoes ? "integrated over the beam's cell: the contour between lines is known"
-      : a.interface_echo == InterfaceEcho::centre
+      : a.interface_echo == InterfaceEcho::centre && !beams
           ? "at each line's centre: accuracy.interface_echo asks for it"
+      : beams      ? "at each ray, averaged over the beam"
       : plan.slice ? "at each line's centre"
                    : "at each line's centre: the contour between bent lines is not known";
 }
@@ -155,7 +168,8 @@ void lookAtFrames(const Scene& scene, const HeartMotion& motion, LoopPlan& plan)
   if (!plan.effects.contrast) {
     plan.warnings.push_back(
         "nothing can be seen: all structures and their surroundings are of one medium");
-  } else if (plan.left_out.count() == scene.structures.size() || crossings == 0) {
+  } else if (plan.left_out.count() == scene.structures.size() ||
+             (crossings == 0 && plan.effects.rays_per_beam == 1)) {
     plan.warnings.push_back(
         "nothing can be seen: no scan line meets a structure in the frames looked at (probe.apex, "
         "probe.axis, motion.mesh_unit)");

@@ -30,7 +30,7 @@ std::optional<double> findReference(const Scene& scene, const LoopPlan& plan, Fr
       [&](std::size_t i) -> std::shared_ptr<void> {
         auto frame = std::make_shared<KeptFrame>();
         const std::shared_ptr<Workspace> workspace = maker.workspace();
-        frame->volumes_ml = maker.trace(clock.at(static_cast<int>(i)).phase, *workspace);
+        frame->volumes_ml = maker.trace(clock.at(static_cast<int>(i)), *workspace);
         maker.clock().time(Stage::signal, [&] { histogram.add(workspace->polar.signal); });
         frame->polar = std::move(workspace->polar);
         workspace->polar = {};

@@ -53,17 +53,17 @@ RenderPass::RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept)
                                       : std::vector<double>{}),
       cine_(parts.folder.cine(), parts.scene.output, parts.scene.acquisition.frame_rate_hz) {}
 
-Volumes RenderPass::tracedFrame(const FrameRecord& record, Workspace& workspace) {
+Volumes RenderPass::tracedFrame(const FrameTime& time, Workspace& workspace) {
   {
     const std::lock_guard lock(kept_mutex_);
-    if (const auto found = kept_.find(record.frame); found != kept_.end()) {
+    if (const auto found = kept_.find(time.frame); found != kept_.end()) {
       workspace.polar = std::move(found->second.polar);
       Volumes volumes_ml = std::move(found->second.volumes_ml);
       kept_.erase(found);
       return volumes_ml;
     }
   }
-  return parts_.maker.trace(record.phase, workspace);
+  return parts_.maker.trace(time, workspace);
 }
 
 void RenderPass::writeExr(const FrameRecord& record, const PolarFrame& polar, Finished& finished) {
@@ -102,7 +102,7 @@ std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
     finished->entry.exr_sha256 = clock.time(Stage::exr, [&] { return exr_.existing(record); });
 
   const std::shared_ptr<Workspace> workspace = parts_.maker.workspace();
-  finished->entry.volumes_ml = tracedFrame(record, *workspace);
+  finished->entry.volumes_ml = tracedFrame(time, *workspace);
   GreyImage image =
       parts_.maker.picture(manifest_.reference_intensity, *workspace, o.cine || o.png);
   clock.time(Stage::exr, [&] { writeExr(record, workspace->polar, *finished); });

@@ -43,7 +43,7 @@ class RenderPass {
   };
 
   std::shared_ptr<Finished> make(int frame);
-  Volumes tracedFrame(const FrameRecord& record, Workspace& workspace);
+  Volumes tracedFrame(const FrameTime& time, Workspace& workspace);
   void writeExr(const FrameRecord& record, const PolarFrame& polar, Finished& finished);
   void writePictures(GreyImage& image, Finished& finished);
   void drain(Finished& finished);

@@ -55,6 +55,7 @@ Json planJson(const LoopPlan& plan) {
     interfaces.push_back({{"name", i.name}, {"on", i.on}, {"reason", i.reason}});
   return {{"tracer", plan.tracerName()},
           {"tracer_reason", plan.tracer_reason},
+          {"rays_per_beam", plan.effects.rays_per_beam},
           {"interface_echo", plan.cell_echoes ? "cell" : "centre"},
           {"interface_echo_reason", plan.echo_reason},
           {"left_out", interfaces},
@@ -92,6 +93,7 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest) {
                         {"attenuation", Stage::trace, 0.5 * attenuated},
                         {"backscatter", Stage::trace, 0.3 * scattered},
                         {"spread", Stage::trace, 0.3 * scattered},
+                        {"elevation", Stage::trace, 20 * rays},
                         {"travel_time", Stage::trace, 2 * crossings},
                         {"labels", Stage::trace, 0.1 * scattered},
                         {"beam_width", Stage::signal, 0.8},

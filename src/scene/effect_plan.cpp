@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/units.h"
+
 namespace echocine {
 
 bool wants(const Scene& scene, Channel channel) {
@@ -127,7 +129,22 @@ Finding spreading(const Scene& scene, bool backscatter) {
   return {false, "the display compensates it and no received intensity was asked for"};
 }
 
+bool severalRays(const Scene& scene) {
+  return scene.accuracy.rays_per_beam > 1 &&
+         (wantsIntensity(scene, true) || wantsIntensity(scene, false));
+}
+
+bool lateralRays(const Scene& scene) {
+  return severalRays(scene) && scene.signal.beam_width == BeamWidth::focused;
+}
+
 Finding beamWidth(const Scene& scene) {
+  if (lateralRays(scene))
+    return {true,
+            fmt::format("{} rays over the beam of {:g} mm focused at {:g} mm; the picture's "
+                        "average is over the pulse alone",
+                        scene.accuracy.rays_per_beam, millimetresFromMetres(scene.probe.aperture_m),
+                        millimetresFromMetres(scene.probe.focus_m))};
   if (!wantsPicture(scene)) return {false, "no picture is asked for"};
   const bool lateral = scene.signal.beam_width != BeamWidth::none && scene.probe.lines > 1;
   const double pulse_m = scene.signal.pulse_cycles * kScannerSpeed / scene.probe.frequency_hz / 2;
@@ -136,6 +153,16 @@ Finding beamWidth(const Scene& scene) {
   if (pulse_m > scene.probe.sampleSpacing())
     return {true, "average over the pulse, longer than a sample"};
   return {false, "beam and pulse are no wider than a sample"};
+}
+
+Finding elevation(const Scene& scene) {
+  if (scene.accuracy.rays_per_beam == 1)
+    return {false, "one ray per beam stays in the imaging plane"};
+  if (!severalRays(scene)) return {false, "no requested output holds intensities"};
+  return {true, fmt::format("{} rays over a lens of {:g} mm focused at {:g} mm",
+                            scene.accuracy.rays_per_beam,
+                            millimetresFromMetres(scene.probe.elevation_aperture_m),
+                            millimetresFromMetres(scene.probe.elevation_focus_m))};
 }
 
 void add(EffectPlan& plan, std::string name, bool on, std::string reason) {
@@ -180,8 +207,10 @@ EffectPlan planEffects(const Scene& scene) {
   plan.backscatter = decide(plan, "backscatter", wanted.backscatter, scattering(scene));
   plan.spread = decide(plan, "spread", wanted.spread, spreading(scene, plan.backscatter));
   plan.beam_width = decide(plan, "beam_width", wanted.beam_width, beamWidth(scene));
-  decide(plan, "elevation", wanted.elevation,
-         {false, "one ray per beam stays in the imaging plane"});
+  plan.elevation =
+      decide(plan, "elevation", wanted.elevation, elevation(scene)) && severalRays(scene);
+  plan.lateral_rays = plan.beam_width && lateralRays(scene);
+  if (plan.elevation || plan.lateral_rays) plan.rays_per_beam = scene.accuracy.rays_per_beam;
   plan.travel_time = decide(plan, "travel_time", wanted.travel_time,
                             {false, "echoes are placed at their path length"});
   planSignal(scene, plan);

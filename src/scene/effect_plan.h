@@ -24,7 +24,9 @@ struct EffectPlan {
   bool spread = true;
   bool beam_width = true;
   bool travel_time = false;
-  bool contrast = true;  // the media in use differ at all
+  int rays_per_beam = 1;                         // that are traced
+  bool lateral_rays = false, elevation = false;  // what several rays are spread over
+  bool contrast = true;                          // the media in use differ at all
   std::vector<EffectDecision> decisions;
 
   const EffectDecision& decision(const std::string& name) const;

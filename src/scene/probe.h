@@ -25,6 +25,9 @@ struct Probe {
   double frequency_hz = 0;
   double aperture_m = 0;  // active lateral aperture of a beam
   double focus_m = 0;     // depth of the focus
+  // Of the fixed lens across the imaging plane: our choice for an adult cardiac probe.
+  double elevation_aperture_m = 0.013;
+  double elevation_focus_m = 0.08;
   int lines = 0, samples = 0;
 
   double sampleSpacing() const { return (max_depth_m - min_depth_m) / samples; }

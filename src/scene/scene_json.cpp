@@ -37,6 +37,8 @@ Json probeJson(const Probe& p) {
           {"frequency_hz", p.frequency_hz},
           {"aperture_m", p.aperture_m},
           {"focus_m", p.focus_m},
+          {"elevation_aperture_m", p.elevation_aperture_m},
+          {"elevation_focus_m", p.elevation_focus_m},
           {"lines", p.lines},
           {"samples", p.samples}};
 }

@@ -25,6 +25,7 @@ constexpr double kMaxRrVariability = 0.3;
 constexpr double kMaxGainDb =
     200;  // keeps intensities within floats; scanners end at 100. Our choice
 constexpr double kMaxPolarSamples = 1 << 26;
+constexpr int kMaxRaysPerBeam = 4096;  // errors are then far under a picture's. Our choice
 
 const NumberRange kPositive = NumberRange::positive();
 
@@ -91,6 +92,10 @@ Probe readProbe(TomlTable table, double mesh_unit_m) {
   probe.aperture_m = metresFromMillimetres(table.number("aperture_mm", 20.0, kPositive));
   probe.focus_m = metresFromMillimetres(
       table.number("focus_mm", millimetresFromMetres(probe.max_depth_m) / 2, kPositive));
+  probe.elevation_aperture_m = metresFromMillimetres(table.number(
+      "elevation_aperture_mm", millimetresFromMetres(probe.elevation_aperture_m), kPositive));
+  probe.elevation_focus_m = metresFromMillimetres(table.number(
+      "elevation_focus_mm", millimetresFromMetres(probe.elevation_focus_m), kPositive));
   probe.lines = table.integer("lines", 256, 1, 65536);
   probe.samples = table.integer("samples", 1024, 1, 65536);
   if (static_cast<double>(probe.lines) * probe.samples > kMaxPolarSamples)
@@ -271,7 +276,7 @@ OutputSettings readOutput(TomlTable table) {
 
 AccuracySettings readAccuracy(TomlTable table) {
   AccuracySettings a;
-  a.rays_per_beam = table.integer("rays_per_beam", a.rays_per_beam, 1, 1);
+  a.rays_per_beam = table.integer("rays_per_beam", a.rays_per_beam, 1, kMaxRaysPerBeam);
   a.tracer = table.choice("tracer", a.tracer,
                           {{"auto", TracerChoice::automatic},
                            {"slice", TracerChoice::slice},
@@ -287,6 +292,35 @@ AccuracySettings readAccuracy(TomlTable table) {
       "refraction_tolerance_lines", a.refraction_tolerance_lines, NumberRange::notNegative());
   table.finish();
   return a;
+}
+
+// What several rays per beam cannot do.
+void refuseOfRays(TomlTable& root, const Scene& scene) {
+  const AccuracySettings& a = scene.accuracy;
+  const TomlTable accuracy = root.table("accuracy"), signal = root.table("signal");
+  const std::string rays = fmt::format("accuracy.rays_per_beam = {}", a.rays_per_beam);
+  if (a.tracer == TracerChoice::slice)
+    accuracy.fail("tracer", fmt::format("\"slice\" excludes {}, accepted with it: \"auto\" | "
+                                        "\"embree\"",
+                                        rays));
+  if (a.interface_echo == InterfaceEcho::cell)
+    accuracy.fail(
+        "interface_echo",
+        fmt::format("\"cell\" excludes {}, accepted with it: \"auto\" | \"centre\"", rays));
+  if (scene.signal.beam_width == BeamWidth::fixed)
+    signal.fail("beam_width", fmt::format("\"fixed\" excludes {}, whose beam follows aperture and "
+                                          "focus, accepted with it: \"focused\" | \"none\"",
+                                          rays));
+  const bool lateral =
+      scene.signal.beam_width == BeamWidth::focused && scene.effects.beam_width != Switch::off;
+  if (!lateral && scene.effects.elevation == Switch::off)
+    accuracy.fail(
+        "rays_per_beam",
+        fmt::format("is {}, which effects.elevation = \"off\" and {} leave nothing to "
+                    "spread over, accepted with them: 1",
+                    a.rays_per_beam,
+                    scene.effects.beam_width == Switch::off ? "effects.beam_width = \"off\""
+                                                            : "signal.beam_width = \"none\""));
 }
 
 // Demands that exclude each other, each named by both of its keys.
@@ -310,6 +344,7 @@ void refuseContradictions(TomlTable& root, const Scene& scene) {
     accuracy.fail(
         "interface_echo",
         "\"cell\" excludes accuracy.tracer = \"embree\", accepted with it: \"auto\" | \"centre\"");
+  if (a.rays_per_beam > 1) refuseOfRays(root, scene);
   if (scene.effects.elevation == Switch::on && a.rays_per_beam == 1)
     effects.fail(
         "elevation",

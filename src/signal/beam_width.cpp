@@ -35,14 +35,6 @@ std::vector<float> boxTaps(double width) {
 
 }  // namespace
 
-double focusedBeamWidth(double depth_m, double aperture_m, double focus_m, double wavelength_m) {
-  constexpr double kSixDecibelWidth =
-      1.2067;  // 2 x for sinc^2(x) = 1/4, sinc(x) = sin(pi x)/(pi x)
-  const double receive = kSixDecibelWidth * wavelength_m * depth_m / aperture_m;
-  const double transmit = std::hypot(receive, aperture_m * (1 - depth_m / focus_m));
-  return transmit > 0 ? receive * transmit / std::hypot(receive, transmit) : 0;
-}
-
 BeamAverage::BeamAverage(const Probe& probe, const SignalSettings& settings)
     : lines_(probe.lines), samples_(probe.samples) {
   const double wavelength_m = kScannerSpeed / probe.frequency_hz;

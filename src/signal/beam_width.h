@@ -4,17 +4,10 @@
 
 #include <vector>
 
+#include "scene/beam_profile.h"
 #include "scene/scene.h"
 
 namespace echocine {
-
-// Full two-way width of the beam at a depth, m. Each way is taken as a bell whose width is measured
-// where a uniform aperture's far field has fallen by 6 dB (sinc^2 = 1/4): 1.207 lambda z / D.
-//   Receive is focused at every depth, as scanners do: w_r = 1.207 lambda z / D.
-//   Transmit is focused at F: w_t^2 = w_r^2 + (D (1 - z/F))^2, diffraction and convergence added as
-//   squares. Two ways multiply, and the widths of bells as 1/w^2 = 1/w_t^2 + 1/w_r^2.
-// Our choice of a closed form: at the focus it is the diffraction width over sqrt 2.
-double focusedBeamWidth(double depth_m, double aperture_m, double focus_m, double wavelength_m);
 
 class BeamAverage {
  public:

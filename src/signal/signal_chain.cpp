@@ -10,7 +10,9 @@ SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
       geometry_(pictureGeometry(scene)),
       converter_(scene.probe, geometry_, scene.output.width, scene.output.height,
                  scene.signal.grey_gamma) {
-  if (plan.beam_width) beam_.emplace(scene.probe, scene.signal);
+  SignalSettings average = scene.signal;
+  if (plan.rays_per_beam > 1) average.beam_width = BeamWidth::none;  // the rays are the beam
+  if (plan.beam_width) beam_.emplace(scene.probe, average);
   if (settings_.tgc == Tgc::table) gains_ = timeGains(settings_.tgc_table, scene.probe);
 }
 

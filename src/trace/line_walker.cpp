@@ -25,8 +25,8 @@ std::optional<Vec3d> bentDirection(const Crossing& crossing, Vec3d direction, co
 }  // namespace
 
 LineWalker::LineWalker(const TraceSettings& settings, const Ray& start, const InsideSet& inside,
-                       LineTrace& trace)
-    : settings_(settings), trace_(trace), query_{start, inside, {}} {
+                       LineTrace& trace, double start_m)
+    : settings_(settings), trace_(trace), query_{start, inside, {}}, walked_m_(start_m) {
   trace_.clear();
 }
 
@@ -165,8 +165,9 @@ void LineWalker::bend(Group group, Vec3d direction) {
 // stands on a surface within rounding is in the medium behind it. Returns the first crossing
 // beyond.
 std::size_t LineWalker::crossAtFace(Group crossings, InsideSet& inside) const {
+  const double face_m = walked_m_ + settings_.thin_layer_m;
   std::size_t first = 0;
-  for (; first < crossings.size() && crossings[first].distance_m <= settings_.thin_layer_m; ++first)
+  for (; first < crossings.size() && crossings[first].distance_m <= face_m; ++first)
     if (const std::size_t s = index(crossings[first].surface); !settings_.surfaces[s].membrane)
       inside[s] = crossings[first].entering;
   return first;

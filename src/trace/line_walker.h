@@ -10,10 +10,11 @@ namespace echocine {
 
 class LineWalker {
  public:
-  // Starts at the transducer. `inside`: the closed surfaces that hold the start. `trace` is
+  // Starts at the transducer. `inside`: the closed surfaces that hold the start. Path lengths count
+  // from start_m along the ray, and what it crosses before that is no interface. `trace` is
   // cleared.
   LineWalker(const TraceSettings& settings, const Ray& start, const InsideSet& inside,
-             LineTrace& trace);
+             LineTrace& trace, double start_m = 0);
 
   // The ray to be asked next; alive() is false when the line has ended.
   const RayQuery& query() const { return query_; }

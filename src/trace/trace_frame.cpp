@@ -1,50 +1,30 @@
 #include "trace/trace_frame.h"
 
 #include <array>
-#include <optional>
 
 #include "core/parallel.h"
 #include "trace/cell_echoes.h"
 #include "trace/line_walker.h"
+#include "trace/packet_walk.h"
 
 namespace echocine {
 
 namespace {
 
-constexpr std::size_t kPacket = 16;  // lines that go through the hierarchy together
-
-// Follows a packet of neighbouring lines, one round per straight piece.
+// Neighbouring lines of one frame.
 WorkCounts walkPacket(const FrameGeometry& geometry, const Probe& probe,
                       const TraceSettings& settings, int first_line, std::span<LineTrace> lines) {
-  std::array<std::optional<LineWalker>, kPacket> walkers;
-  std::array<RayQuery, kPacket> queries;
-  thread_local std::array<RayCrossings, kPacket> met;
-  WorkCounts work;
-  InsideSet inside;
-  Vec3d origin{};
+  std::array<StartedRay, kPacket> rays;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const LineGeometry line = lineGeometry(probe, first_line + static_cast<int>(i));
-    if (i == 0 || !(line.origin == origin)) inside = geometry.insideAt(line.origin);
-    origin = line.origin;
-    walkers[i].emplace(settings, Ray{line.origin, line.direction}, inside, lines[i]);
+    const bool same = i > 0 && line.origin == rays[i - 1].ray.origin;
+    rays[i] = {{line.origin, line.direction},
+               same ? rays[i - 1].inside : geometry.insideAt(line.origin)};
   }
-  for (;;) {
-    std::array<std::size_t, kPacket> who{};
-    std::size_t alive = 0;
-    for (std::size_t i = 0; i < lines.size(); ++i)
-      if (walkers[i]->alive()) {
-        who[alive] = i;
-        queries[alive++] = walkers[i]->query();
-      }
-    if (alive == 0) return work;
-    geometry.crossings(std::span(queries).first(alive), std::span(met).first(alive));
-    work.rays += alive;
-    for (std::size_t i = 0; i < alive; ++i) {
-      work.crossings += met[i].crossings.size();
-      walkers[who[i]]->advance(met[i]);
-    }
-  }
+  return walkTogether(geometry, settings, std::span(rays).first(lines.size()), lines);
 }
+
+}  // namespace
 
 IntensityParts partsOf(Channel channel, bool attenuation, double spread_undone_at_m) {
   IntensityParts parts;
@@ -54,6 +34,8 @@ IntensityParts partsOf(Channel channel, bool attenuation, double spread_undone_a
   parts.reflection = channel != Channel::backscatter;
   return parts;
 }
+
+namespace {
 
 // Samples one line into every plane that is asked for.
 class LineSampler {
@@ -115,7 +97,9 @@ class LineSampler {
   PolarFrame& frame_;
 };
 
-void reserve(const Probe& probe, const PlaneRequest& request, PolarFrame& frame) {
+}  // namespace
+
+void reservePlanes(const Probe& probe, const PlaneRequest& request, PolarFrame& frame) {
   frame.lines = probe.lines;
   frame.samples = probe.samples;
   frame.traces.resize(static_cast<std::size_t>(probe.lines));
@@ -129,8 +113,6 @@ void reserve(const Probe& probe, const PlaneRequest& request, PolarFrame& frame)
   }
   if (request.signal) frame.signal.resize(size);
 }
-
-}  // namespace
 
 TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan, bool integrate_cells)
     : media(scene.media),
@@ -193,7 +175,7 @@ WorkCounts walkLines(const FrameGeometry& geometry, const Probe& probe,
 WorkCounts traceFrame(const FrameGeometry& geometry, const Probe& probe,
                       const TraceSettings& settings, const PlaneRequest& request,
                       PolarFrame& frame) {
-  reserve(probe, request, frame);
+  reservePlanes(probe, request, frame);
   WorkCounts work = walkLines(geometry, probe, settings, frame.traces);
   work.bvh_updates = 1;  // the one that this frame's rays went through
   sampleLines(probe, settings, request, frame, work);
@@ -202,7 +184,7 @@ WorkCounts traceFrame(const FrameGeometry& geometry, const Probe& probe,
 
 WorkCounts traceFrame(const PlaneSlice& slice, const Probe& probe, const TraceSettings& settings,
                       const PlaneRequest& request, PolarFrame& frame) {
-  reserve(probe, request, frame);
+  reservePlanes(probe, request, frame);
   WorkCounts work;
   for (int i = 0; i < probe.lines; ++i) {
     const LineGeometry line = lineGeometry(probe, i);

@@ -20,6 +20,12 @@ struct PlaneRequest {
 
 PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan);
 
+// What the samples of an intensity channel hold.
+IntensityParts partsOf(Channel channel, bool attenuation, double spread_undone_at_m);
+
+// Gives the frame its size and room for what is asked for.
+void reservePlanes(const Probe& probe, const PlaneRequest& request, PolarFrame& frame);
+
 // Follows all lines through the media, without sampling them.
 WorkCounts walkLines(const FrameGeometry& geometry, const Probe& probe,
                      const TraceSettings& settings, std::vector<LineTrace>& traces);

@@ -111,5 +111,28 @@ TEST(EffectPlan, TheSceneHasTheLastWord) {
   EXPECT_FALSE(planEffects(sceneOf(kPlain, kPlain)).travel_time);
 }
 
+TEST(EffectPlanOfBeams, SeveralRaysSpreadOverWhatIsNotTurnedOff) {
+  Scene scene = sceneOf(medium("a", 1000, 1540, 1, 1e-3), medium("b", 1100, 1540, 1, 1e-3));
+  EffectPlan plan = planEffects(scene);
+  EXPECT_EQ(plan.rays_per_beam, 1);
+  EXPECT_FALSE(plan.elevation || plan.lateral_rays);
+  scene.accuracy.rays_per_beam = 12;
+  plan = planEffects(scene);
+  EXPECT_EQ(plan.rays_per_beam, 12);
+  EXPECT_TRUE(plan.elevation && plan.lateral_rays && plan.beam_width);
+  scene.effects.elevation = Switch::off;
+  plan = planEffects(scene);
+  EXPECT_TRUE(plan.lateral_rays && !plan.elevation);
+  scene.effects.elevation = Switch::automatic;
+  scene.signal.beam_width = BeamWidth::none;
+  plan = planEffects(scene);
+  EXPECT_TRUE(plan.elevation && !plan.lateral_rays);
+  scene.output.cine = false;
+  scene.output.channels = {Channel::medium};
+  plan = planEffects(scene);
+  EXPECT_EQ(plan.rays_per_beam, 1);
+  EXPECT_EQ(plan.decision("elevation").reason, "no requested output holds intensities");
+}
+
 }  // namespace
 }  // namespace echocine

@@ -33,6 +33,9 @@ std::function<void(SceneText&)> acquisition(const std::string& key, const std::s
 std::function<void(SceneText&)> motion(const std::string& key, const std::string& value) {
   return [=](SceneText& t) { t.motion[key] = value; };
 }
+std::function<void(SceneText&)> accuracy(const std::string& key, const std::string& value) {
+  return [=](SceneText& t) { t.accuracy[key] = value; };
+}
 std::function<void(SceneText&)> output(const std::string& key, const std::string& value) {
   return [=](SceneText& t) { t.output[key] = value; };
 }
@@ -183,6 +186,28 @@ const std::vector<Bad> kBad{
      },
      "signal.reference_percentile", "reference_percentile",
      "accepted only with reference_intensity left out"},
+    {"no ray", accuracy("rays_per_beam", "0"), "accuracy.rays_per_beam", "rays_per_beam", "1"},
+    {"too many rays", accuracy("rays_per_beam", "4097"), "accuracy.rays_per_beam", "rays_per_beam",
+     "4096"},
+    {"rays that spread over nothing",
+     [](SceneText& t) {
+       t.accuracy["rays_per_beam"] = "8";
+       t.signal["beam_width"] = "\"none\"";
+       t.effects["elevation"] = "\"off\"";
+     },
+     "accuracy.rays_per_beam", "rays_per_beam",
+     "effects.elevation = \"off\" and signal.beam_width = \"none\" leave nothing to spread over, "
+     "accepted with them: 1"},
+    {"rays over nothing by effects",
+     [](SceneText& t) {
+       t.accuracy["rays_per_beam"] = "8";
+       t.effects = {{"beam_width", "\"off\""}, {"elevation", "\"off\""}};
+     },
+     "accuracy.rays_per_beam", "rays_per_beam", "effects.beam_width = \"off\""},
+    {"lens without a size", probe("elevation_aperture_mm", "0"), "probe.elevation_aperture_mm",
+     "elevation_aperture_mm", "over 0"},
+    {"lens focused at its face", probe("elevation_focus_mm", "0"), "probe.elevation_focus_mm",
+     "elevation_focus_mm", "over 0"},
     {"width of a sector", probe("width_mm", "40"), "probe.width_mm", "width_mm",
      "accepted only with kind = \"linear\""},
     {"face radius of a phased array", probe("face_radius_mm", "40"), "probe.face_radius_mm",

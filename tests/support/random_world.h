@@ -175,6 +175,16 @@ inline void randomSettings(Scene& scene, Dice& dice) {
   scene.unit_volume_m3 = dice.chance(0.8) ? 1e-6 : dice.decade(1e-12, 1);
 }
 
+// Several rays per beam, over a lens from needle to plate.
+inline void randomBeam(Scene& scene, Dice& dice) {
+  scene.accuracy.rays_per_beam = dice.chance(0.2) ? dice.whole(17, 70) : dice.whole(2, 16);
+  scene.probe.elevation_aperture_m = dice.decade(1e-4, 0.1);
+  scene.probe.elevation_focus_m = dice.decade(1e-3, 10);
+  scene.acquisition.seed = dice.whole(0, 1000000);
+  if (scene.signal.beam_width == BeamWidth::fixed) scene.signal.beam_width = BeamWidth::focused;
+  scene.effects.elevation = randomSwitch(dice);
+}
+
 inline World randomWorld(std::uint64_t number) {
   Dice dice(hashOf(std::uint64_t{0x5ce4e}, number));
   World world;

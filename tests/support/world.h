@@ -6,7 +6,7 @@
 #include "core/parallel.h"
 #include "scene/effect_plan.h"
 #include "support/meshes.h"
-#include "trace/trace_frame.h"
+#include "trace/trace_beams.h"
 
 namespace echocine::support {
 
@@ -42,7 +42,9 @@ inline const char* nameOf(Tracer tracer) {
 }
 
 // Every channel that the scene asks for; refraction only where the plan has it and the tracer can.
-inline PolarFrame traceWorld(const World& world, EffectPlan plan, Tracer tracer) {
+// The hierarchy traces as many rays per beam as the plan has, drawn for a frame's number.
+inline PolarFrame traceWorld(const World& world, EffectPlan plan, Tracer tracer,
+                             int frame_index = 0) {
   const std::vector<SurfaceTopology> topology = world.topology();
   const SurfaceFrame frame = world.frame();
   if (tracer != Tracer::embree) plan.refraction = false;
@@ -52,6 +54,11 @@ inline PolarFrame traceWorld(const World& world, EffectPlan plan, Tracer tracer)
   if (tracer == Tracer::embree) {
     FrameGeometry geometry(topology);
     geometry.update(frame);
+    if (plan.rays_per_beam > 1) {
+      const BeamRays beams(world.scene.probe, beamSpread(plan, world.scene.acquisition.seed));
+      traceBeams(geometry, world.scene.probe, settings, request, beams, frame_index, polar);
+      return polar;
+    }
     traceFrame(geometry, world.scene.probe, settings, request, polar);
   } else {
     PlaneSlice slice(topology, world.scene.probe);

@@ -43,6 +43,22 @@ TEST_F(PlanCommand, AsJson) {
   EXPECT_LE(shares, 1);
 }
 
+TEST_F(PlanCommand, SaysHowManyRaysABeamHasAndWhatTheySpreadOver) {
+  SceneText text = ballScene(2);
+  text.accuracy["rays_per_beam"] = "6";
+  const Outcome outcome = runShell("%B plan --json '" + write(text).string() + "'");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["tracer"], "embree");
+  EXPECT_EQ(json["rays_per_beam"], 6);
+  EXPECT_EQ(json["interface_echo"], "centre");
+  for (const auto& e : json["effects"])
+    if (e["name"] == "elevation" || e["name"] == "beam_width") {
+      EXPECT_TRUE(e["on"]) << e;
+      EXPECT_NE(e["reason"].get<std::string>().find("6 rays"), std::string::npos) << e;
+    }
+}
+
 struct Contradiction {
   const char *table, *key, *value, *table2, *key2, *value2;
 };
@@ -53,10 +69,17 @@ TEST_F(PlanCommand, ContradictionsAreOneLineThatNamesBothKeys) {
         Contradiction{"accuracy", "interface_echo", "\"cell\"", "effects", "refraction", "\"on\""},
         Contradiction{"accuracy", "interface_echo", "\"cell\"", "accuracy", "tracer", "\"embree\""},
         Contradiction{"output", "channels", "[\"Y\"]", "effects", "attenuation", "\"off\""},
+        Contradiction{"accuracy", "tracer", "\"slice\"", "accuracy", "rays_per_beam", "8"},
+        Contradiction{"accuracy", "interface_echo", "\"cell\"", "accuracy", "rays_per_beam", "8"},
+        Contradiction{"signal", "beam_width", "\"fixed\"\nbeam_width_mm = 2", "accuracy",
+                      "rays_per_beam", "8"},
         Contradiction{"effects", "elevation", "\"on\"", "accuracy", "rays_per_beam", "1"}}) {
     SceneText text = ballScene(2);
     const auto lines = [&](std::string_view table) -> Lines& {
-      return table == "effects" ? text.effects : table == "accuracy" ? text.accuracy : text.output;
+      return table == "effects"    ? text.effects
+             : table == "accuracy" ? text.accuracy
+             : table == "signal"   ? text.signal
+                                   : text.output;
     };
     lines(c.table)[c.key] = c.value;
     lines(c.table2)[c.key2] = c.value2;

@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <map>
+#include <tuple>
 
 #include "cine.h"
 #include "motion/cardiac_clock.h"
@@ -28,9 +29,12 @@ std::map<std::string, std::string> filesOf(const std::filesystem::path& folder) 
 
 TEST(SameBytes, OneTwoAndFourThreadsWriteTheSameFiles) {
   const TempFolder folder;
-  for (const char* refraction : {"\"off\"", "\"on\""}) {
+  for (const auto& [name, refraction, rays] :
+       {std::tuple{"straight", "\"off\"", "1"}, std::tuple{"bent", "\"on\"", "1"},
+        std::tuple{"beams", "\"on\"", "5"}}) {
     SceneText text = ballScene(6);
     text.effects["refraction"] = refraction;
+    text.accuracy["rays_per_beam"] = rays;
     text.output["png"] = "true";
     text.output["channels"] =
         "[\"Y\", \"unattenuated.Y\", \"attenuation.A\", \"reflection.Y\", "
@@ -38,14 +42,14 @@ TEST(SameBytes, OneTwoAndFourThreadsWriteTheSameFiles) {
     const Scene scene = readScene(writeBall(folder, text));
     std::map<std::string, std::string> one;
     for (const int threads : {1, 2, 4}) {
-      const std::filesystem::path out = folder / (refraction[1] + std::to_string(threads));
+      const std::filesystem::path out = folder / (name + std::to_string(threads));
       renderCine(scene, {.folder = out, .threads = threads, .frames = {}}, {});
       const std::map<std::string, std::string> files = filesOf(out);
       EXPECT_EQ(files.size(), 13u);
       if (threads == 1) one = files;
-      for (const auto& [name, bytes] : one) {
-        ASSERT_TRUE(files.contains(name)) << name;
-        EXPECT_TRUE(files.at(name) == bytes) << name << " with " << threads << " threads";
+      for (const auto& [file, bytes] : one) {
+        ASSERT_TRUE(files.contains(file)) << file;
+        EXPECT_TRUE(files.at(file) == bytes) << file << " with " << threads << " threads";
       }
     }
   }
