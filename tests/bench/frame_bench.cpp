@@ -59,6 +59,10 @@ class BareFrame {
   BareFiles files_;
 };
 
+FrameTime frameTime(std::size_t i) {
+  return {.phase = BenchScene::phase(i), .frame = static_cast<int>(i)};
+}
+
 // over_single_rays: the same over one bare pass of single rays through Embree, already refitted.
 void wholeFrame(benchmark::State& state) {
   const BenchScene bare_scene{Size(state)};
@@ -76,7 +80,7 @@ void wholeFrame(benchmark::State& state) {
       state,
       [&](std::size_t i) {
         ours_ms = millisecondsOf([&] {
-          benchmark::DoNotOptimize(maker.trace(BenchScene::phase(i), *workspace));
+          benchmark::DoNotOptimize(maker.trace(frameTime(i), *workspace));
           benchmark::DoNotOptimize(maker.picture(kReference, *workspace, true).pixels.data());
         });
       },
@@ -86,7 +90,7 @@ void wholeFrame(benchmark::State& state) {
       rays.refit(bare_scene.frame(i));
       const double ms = millisecondsOf([&] { benchmark::DoNotOptimize(rays.singleRays()); });
       ours_ms = millisecondsOf([&] {
-        benchmark::DoNotOptimize(maker.trace(BenchScene::phase(i), *workspace));
+        benchmark::DoNotOptimize(maker.trace(frameTime(i), *workspace));
         benchmark::DoNotOptimize(maker.picture(kReference, *workspace, true).pixels.data());
       });
       over_rays.push_back(ours_ms / ms);

@@ -137,7 +137,7 @@ TEST(BeamAverageLaw, AStripsLateralProfileIsTheTwoWayBeam) {
         const World world = sheetWorld(rectangle(x0, std::min(x1, 0.5), -0.5, 0.5, z));
         const double expected = below(x1, deviation) - below(x0, deviation);
         const double share = echoOf(world, beamPlan(world.scene, 4096)) / whole;
-        EXPECT_NEAR(share, expected, 2e-3) << "depth " << z << ", from " << x0;
+        EXPECT_NEAR(share, expected, 1e-3) << "depth " << z << ", from " << x0;
         worst = std::max(worst, std::abs(share - expected));
       }
   }
