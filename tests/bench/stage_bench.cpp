@@ -12,6 +12,7 @@
 #include "output/exr_stack.h"
 #include "signal/log_compression.h"
 #include "signal/signal_chain.h"
+#include "trace/trace_beams.h"
 
 namespace echocine::bench {
 namespace {
@@ -207,6 +208,34 @@ void hierarchy(benchmark::State& state, bool refraction) {
       });
 }
 
+// Several rays per beam next to as many frames of one ray per line through the hierarchy; without
+// refits.
+void beams(benchmark::State& state, bool elevation) {
+  const BenchScene scene{Size(state)};
+  constexpr int kRays = 16;
+  Scene asked = scene.scene;
+  asked.accuracy.rays_per_beam = kRays;
+  asked.effects.elevation = elevation ? Switch::on : Switch::off;
+  EffectPlan plan = planEffects(asked);
+  plan.refraction = false;
+  const TraceSettings settings(asked, plan);
+  PlaneRequest request = planeRequest(asked, plan);
+  request.signal = false;
+  const BeamRays rays(asked.probe, beamSpread(plan, 1));
+  FrameGeometry geometry(scene.topology);
+  geometry.update(scene.frame(0));
+  PolarFrame polar, single;
+  overFloor(
+      state,
+      [&](std::size_t i) {
+        traceBeams(geometry, asked.probe, settings, request, rays, static_cast<int>(i), polar);
+      },
+      [&](std::size_t) {
+        for (int i = 0; i < kRays; ++i)
+          traceFrame(geometry, asked.probe, settings, request, single);
+      });
+}
+
 void rounds(benchmark::internal::Benchmark* b, int count) {
   b->UseManualTime()->Iterations(count)->Unit(benchmark::kMillisecond);
 }
@@ -237,6 +266,8 @@ BENCHMARK(exr)->Apply(byPlane);
 BENCHMARK(jpeg)->Apply(byPlane);
 BENCHMARK_CAPTURE(hierarchy, straight, false)->Apply(bySize);
 BENCHMARK_CAPTURE(hierarchy, refraction, true)->Apply(bySize);
+BENCHMARK_CAPTURE(beams, lateral, false)->Apply(bySize);
+BENCHMARK_CAPTURE(beams, elevation, true)->Apply(bySize);
 
 }  // namespace
 }  // namespace echocine::bench

@@ -233,5 +233,31 @@ TEST(EffectsCalledFor, RefractionIsDecidedByHowFarEchoesMove) {
             std::string::npos);
 }
 
+// A pearl beside the imaging plane: one ray per line never meets it, a lens does.
+TEST(EffectsCalledFor, AStructureBesideTheImagingPlaneIsKeptForRaysThatReachIt) {
+  const TempFolder folder;
+  writeObj(icosphere(1, 0.2).moved({0, 0.5, 4}), folder / "pearl.obj");
+  const auto run = [&](const char* rays, const char* elevation) {
+    SceneText text = ballScene(1);
+    text.addStructure("pearl", "fat", "\"pearl.obj\"", 5);
+    text.accuracy["rays_per_beam"] = rays;
+    text.effects = {{"elevation", elevation}, {"refraction", "\"off\""}};
+    const Scene scene = readScene(writeBall(folder, text));
+    const std::filesystem::path out = folder / (std::string(rays) + elevation[1] + elevation[2]);
+    return renderCine(scene, {.folder = out, .threads = 2, .frames = {}}, {}).manifest;
+  };
+  const auto leftOut = [](const Manifest& manifest) {
+    const auto& list = manifest.plan.interfaces;
+    return std::any_of(list.begin(), list.end(),
+                       [](const EffectDecision& d) { return d.name == "pearl"; });
+  };
+  EXPECT_TRUE(leftOut(run("1", "\"auto\"")));
+  EXPECT_TRUE(leftOut(run("64", "\"off\"")));
+  const Manifest kept = run("64", "\"auto\"");
+  EXPECT_FALSE(leftOut(kept));
+  EXPECT_EQ(kept.plan.effects.rays_per_beam, 64);
+  EXPECT_GE(kept.work.rays, 32u * 64);
+}
+
 }  // namespace
 }  // namespace echocine

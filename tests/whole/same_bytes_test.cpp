@@ -63,6 +63,23 @@ TEST(SameBytes, AnotherRunWritesTheSameFiles) {
   EXPECT_EQ(filesOf(folder / "a"), filesOf(folder / "b"));
 }
 
+// Rays are drawn for the number of the frame in its loop, not for the order of the work.
+TEST(SameBytes, APartOfALoopHasTheBeamsOfTheWhole) {
+  const TempFolder folder;
+  SceneText text = ballScene(5);
+  text.accuracy["rays_per_beam"] = "4";
+  const Scene scene = readScene(writeBall(folder, text));
+  renderCine(scene, {.folder = folder / "whole", .threads = 2, .frames = {}}, {});
+  renderCine(scene, {.folder = folder / "part", .threads = 1, .frames = std::pair(2, 4)}, {});
+  for (const char* frame : {"intensity/frame_0002.exr", "intensity/frame_0003.exr"})
+    EXPECT_TRUE(bytesOf(folder / "whole" / frame) == bytesOf(folder / "part" / frame)) << frame;
+  text.acquisition["seed"] = "2";
+  const Scene other = readScene(writeBall(folder, text));
+  renderCine(other, {.folder = folder / "other", .threads = 1, .frames = std::pair(2, 4)}, {});
+  EXPECT_NE(exrPlane(folder / "other/intensity/frame_0002.exr", "Y").bits,
+            exrPlane(folder / "part/intensity/frame_0002.exr", "Y").bits);
+}
+
 // The stack is compared with a frame that is traced here, bit by bit.
 TEST(IntensityStack, HoldsTheFrameThatWasTraced) {
   const TempFolder folder;
