@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
-# Installs what .ci/packages.txt lists and is not there yet. Needs root or sudo only when something is missing.
+# Installs what the lists beside this file name and is not there yet: setup.sh [LIST...], packages.txt if left out.
+# Needs root or sudo only when something is missing.
 set -euo pipefail
-here=$(cd "$(dirname "$0")" && pwd)
+cd "$(dirname "$0")"
+[ $# -gt 0 ] || set -- packages.txt
 
 missing=()
 while read -r package; do
   case "$package" in '' | '#'*) continue ;; esac
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed$' ||
     missing+=("$package")
-done <"$here/packages.txt"
+done < <(cat -- "$@")
 [ ${#missing[@]} -eq 0 ] && exit 0
 
 echo "Installing: ${missing[*]}"

@@ -16,6 +16,7 @@
 #include "plan_loop.h"
 #include "reference_pass.h"
 #include "render_pass.h"
+#include "report.h"
 
 namespace echocine {
 
@@ -89,12 +90,14 @@ RenderSummary renderCine(const Scene& scene, const RenderOptions& options, const
     const auto reference = findReference(scene, manifest.plan, maker, clock, range, monitor, kept);
     if (!reference) return;
     manifest.reference_intensity = *reference;
-    RenderPass pass({scene, maker, clock, folder, monitor, options.resume}, manifest, kept);
+    ReportPage report(folder.report(), scene, clock, range);
+    RenderPass pass({scene, maker, clock, folder, monitor, report, options.resume}, manifest, kept);
     summary.frames_done = pass.run(range.first, range.second);
     summary.passes_s = secondsSince(start) - summary.setup_s;
     if (summary.frames_done < summary.frames_wanted) return;
     noteCosts(maker, summary);
     manifest.wall_ms = 1e3 * secondsSince(start) / summary.frames_done;
+    report.finish(manifest);
     writeManifest(folder.manifest(), scene, manifest);
   });
   return summary;

@@ -85,10 +85,14 @@ void RenderPass::writePictures(GreyImage& image, Finished& finished) {
   const int frame = finished.entry.record.frame;
   overlay_.draw(image, static_cast<double>(frame) / parts_.clock.frameCount());
   if (o.cine) finished.cine_frame = encodeCineFrame(image, o.codec, o.jpeg_quality);
+  const bool shown = parts_.report.shows(frame) && !(o.cine && o.codec == CineCodec::mjpg);
+  if (shown && !o.png)
+    finished.report_frame = encodeCineFrame(image, CineCodec::mjpg, o.jpeg_quality);
   if (!o.png) return;
-  const std::vector<std::byte> png = encodePng(image);
+  std::vector<std::byte> png = encodePng(image);
   writeFileWhole(parts_.folder.png() / frameName(frame, ".png"), png);
   finished.png_sha256 = sha256Hex(png);
+  if (shown) finished.report_frame = std::move(png);
 }
 
 std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
@@ -112,10 +116,15 @@ std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
 
 // One at a time, in the order of the frames.
 void RenderPass::drain(Finished& finished) {
-  if (parts_.scene.output.cine)
-    parts_.maker.clock().time(Stage::avi, [&] { cine_.add(finished.cine_frame); });
   const FrameEntry& entry = finished.entry;
   const int frame = entry.record.frame;
+  const OutputSettings& o = parts_.scene.output;
+  parts_.maker.clock().time(Stage::avi, [&] {
+    if (o.cine) cine_.add(finished.cine_frame);
+    if ((o.cine || o.png) && parts_.report.shows(frame))
+      parts_.report.addFrame(finished.report_frame.empty() ? finished.cine_frame
+                                                           : finished.report_frame);
+  });
   if (!entry.exr_sha256.empty())
     manifest_.files["intensity/" + ExrStack::fileName(frame)] = entry.exr_sha256;
   if (!finished.png_sha256.empty())

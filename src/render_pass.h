@@ -12,6 +12,7 @@
 #include "output/output_folder.h"
 #include "output/overlay.h"
 #include "reference_pass.h"
+#include "report.h"
 
 namespace echocine {
 
@@ -27,6 +28,7 @@ class RenderPass {
     const CardiacClock& clock;
     const OutputFolder& folder;
     const Monitor& monitor;
+    ReportPage& report;
     bool resume;
   };
   // Frames, file hashes and reference go through `manifest`; `kept` frames are used up.
@@ -39,6 +41,7 @@ class RenderPass {
   struct Finished {
     FrameEntry entry;
     std::vector<std::byte> cine_frame;
+    std::vector<std::byte> report_frame;  // where the cine's does not show in browsers
     std::string png_sha256;
   };
 

@@ -51,6 +51,7 @@ void printSummary(const RenderSummary& summary, const RenderOptions& options, co
   if (scene.output.exr) add("intensity/frame_*.exr");
   if (scene.output.cine) add("cine.avi");
   if (scene.output.png) add("png/frame_*.png");
+  if (scene.output.report) add("report.html");
   add("manifest.json");
   fmt::print("  {}\n", parts);
 }
@@ -64,7 +65,7 @@ RenderCommand::RenderCommand(CLI::App& app) {
       ->required();
   command
       ->add_option("-o,--output", options_.folder,
-                   "Folder for intensity/, cine.avi and manifest.json")
+                   "Folder for intensity/, cine.avi, report.html and manifest.json")
       ->required();
   command->add_option("--threads", options_.threads, "Threads; 0 for one per core")
       ->check(CLI::Range(0, 4096));

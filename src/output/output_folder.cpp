@@ -78,6 +78,8 @@ OutputFolder::OutputFolder(fs::path folder, const OutputSettings& settings, bool
     tryWriting(subfolder);
   }
   removeFile(manifest());
+  removeFile(report());
+  removeFile(report().string() + ".part");
 }
 
 void OutputFolder::removeStale(int frame_count) const {

@@ -10,7 +10,7 @@ namespace echocine {
 class OutputFolder {
  public:
   // Makes `folder` and, as far as the settings ask for them, its intensity/ and png/. Removes an
-  // earlier manifest.json at once: a folder without one is an unfinished run. Throws JobError when
+  // earlier manifest.json and its report at once: a folder without them is an unfinished run. Throws JobError when
   // the path is a file or nothing can be written there.
   OutputFolder(std::filesystem::path folder, const OutputSettings& settings, bool resume);
 
@@ -22,6 +22,7 @@ class OutputFolder {
   std::filesystem::path intensity() const { return folder_ / "intensity"; }
   std::filesystem::path png() const { return folder_ / "png"; }
   std::filesystem::path cine() const { return folder_ / "cine.avi"; }
+  std::filesystem::path report() const { return folder_ / "report.html"; }
   std::filesystem::path manifest() const { return folder_ / "manifest.json"; }
 
  private:

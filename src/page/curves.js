@@ -19,7 +19,7 @@ function makeChart(root, height_px, option) {
       axisLine: { lineStyle: { color: line } }, splitLine: { lineStyle: { color: line, opacity: 0.6 } } };
     const axes = (given) => (Array.isArray(given) ? given.map(() => axis) : given ? axis : undefined);
     chart.setOption({ textStyle: { color: text }, xAxis: axes(option.xAxis), yAxis: axes(option.yAxis),
-      ...(option.legend ? { legend: { textStyle: { color: text }, inactiveColor: line,
+      ...(option.legend ? { legend: { textStyle: { color: text }, inactiveColor: muted, inactiveBorderColor: line,
         pageTextStyle: { color: muted }, pageIconColor: muted, pageIconInactiveColor: line } } : {}),
       tooltip: { backgroundColor: page.colour("ground"), borderColor: line, textStyle: { color: text } } });
   };
@@ -63,9 +63,9 @@ function followPlayer(chart, player, frame_x) {
 }
 
 // curves(root, { x_name, y_name, frame_x, series: [{ name, values, x, hidden }], player, height_px,
-// y_log, y_from_zero }): one line per series over frame_x, or over its own x. Returns the chart.
+// y_log, y_from_zero, x_range }): one line per series over frame_x, or over its own x. Returns the chart.
 function curves(root, { x_name, y_name, frame_x, series, player, height_px = 260, y_log = false,
-  y_from_zero = false, digits = 4 }) {
+  y_from_zero = false, x_range, digits = 4 }) {
   const many = series.length > 1;
   const legend = many && { type: "scroll", top: 0, left: 0, right: 0, icon: "roundRect", itemHeight: 4,
     selected: Object.fromEntries(series.map((s) => [s.name, !s.hidden])) };
@@ -74,9 +74,9 @@ function curves(root, { x_name, y_name, frame_x, series, player, height_px = 260
     ...(legend ? { legend } : {}),
     tooltip: { trigger: "axis", axisPointer: { type: "line" }, confine: true,
       valueFormatter: (value) => page.number(value, digits) },
-    xAxis: { type: "value", name: x_name, nameLocation: "middle", nameGap: 26, min: "dataMin", max: "dataMax",
+    xAxis: { type: "value", name: x_name, nameLocation: "middle", nameGap: 26, min: x_range?.[0] ?? "dataMin", max: x_range?.[1] ?? "dataMax",
       axisLabel: { formatter: (value) => page.number(value, 3), showMaxLabel: false } },
-    yAxis: { type: y_log ? "log" : "value", name: y_name, scale: !y_from_zero, nameLocation: "end",
+    yAxis: { type: y_log ? "log" : "value", name: y_name, scale: !y_from_zero, splitNumber: Math.max(2, Math.round(height_px / 60)), nameLocation: "end",
       nameTextStyle: { align: "left" } },
     series: series.map((s) => ({ name: s.name, type: "line", showSymbol: false, lineStyle: { width: 1.8 },
       data: s.values.map((value, i) => [(s.x ?? frame_x)[i], value]) })),

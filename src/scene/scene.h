@@ -124,7 +124,7 @@ enum class ExrCompression { none, rle, zips, zip, piz };
 enum class CineCodec { mjpg, ffv1 };
 
 struct OutputSettings {
-  bool exr = true, cine = true, png = false;
+  bool exr = true, cine = true, png = false, report = true;
   std::vector<Channel> channels{Channel::y};
   bool channels_given = false;  // by the scene, not by the default
   ExrCompression exr_compression = ExrCompression::none;

@@ -108,6 +108,7 @@ Json outputJson(const OutputSettings& o) {
   return {{"exr", o.exr},
           {"cine", o.cine},
           {"png", o.png},
+          {"report", o.report},
           {"channels", channels},
           {"exr_compression", nameOf(o.exr_compression, {"none", "rle", "zips", "zip", "piz"})},
           {"codec", nameOf(o.codec, {"mjpg", "ffv1"})},

@@ -255,6 +255,7 @@ OutputSettings readOutput(TomlTable table) {
   o.exr = table.boolean("exr", o.exr);
   o.cine = table.boolean("cine", o.cine);
   o.png = table.boolean("png", o.png);
+  o.report = table.boolean("report", o.report);
   o.channels_given = table.has("channels");
   if (o.channels_given) o.channels = readChannels(table);
   if (o.channels.empty()) table.fail("channels", "is empty, accepted: at least one channel");
