@@ -13,9 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Our choice: some 30 MB of page for pictures of 800 x 600.
-constexpr int kMostFrames = 400;
-
 // The lead over the frames' time, fine enough for a QRS complex to keep its shape.
 Json ecgJson(const CardiacClock& clock, double from_s, double to_s) {
   constexpr double kPointRate_hz = 400;
@@ -65,14 +62,20 @@ Json framesJson(const Manifest& manifest, const ReportPage& page) {
   return frames;
 }
 
+// What differs from run to run stands apart, last on the page.
+Json measuredJson(const Manifest& manifest) {
+  Json timings = stageTimesJson(manifest), shares = Json::object();
+  timings["wall"] = manifest.wall_ms;
+  for (const Json& effect : effectsJson(manifest))
+    shares[effect["name"].get<std::string>()] = effect["time_share"];
+  return {{"timings_ms_per_frame", timings}, {"time_shares", shares}};
+}
+
 }  // namespace
 
 ReportPage::ReportPage(const std::filesystem::path& path, const Scene& scene,
                        const CardiacClock& clock, std::pair<int, int> range)
-    : scene_(scene),
-      clock_(clock),
-      range_(range),
-      stride_((range.second - range.first + kMostFrames - 1) / kMostFrames) {
+    : scene_(scene), clock_(clock), range_(range), stride_(pageStride(range.second - range.first)) {
   if (!scene.output.report) return;
   writer_.emplace(path, pageLook("EchoCine: " + titleOf(scene), "report.html", "report.js"));
 }
@@ -88,9 +91,9 @@ void ReportPage::addFrame(std::span<const std::byte> image) {
 void ReportPage::finish(const Manifest& manifest) {
   if (!writer_) return;
   const Json scene = sceneJson(scene_);
-  Json timings = stageTimesJson(manifest);
-  timings["wall"] = manifest.wall_ms;
   const double rate_hz = scene_.acquisition.frame_rate_hz;
+  Json effects = effectsJson(manifest);
+  for (Json& effect : effects) effect.erase("time_share");
   Json data{{"version", ECHOCINE_VERSION},
             {"title", titleOf(scene_)},
             {"scene_sha256", manifest.scene_sha256},
@@ -100,15 +103,15 @@ void ReportPage::finish(const Manifest& manifest) {
             {"frames", framesJson(manifest, *this)},
             {"ecg", ecgJson(clock_, range_.first / rate_hz, range_.second / rate_hz)},
             {"reference_intensity", manifest.reference_intensity},
-            {"effects", effectsJson(manifest)},
+            {"effects", effects},
             {"plan", planJson(manifest.plan)},
             {"warnings", manifest.warnings},
-            {"timings_ms_per_frame", timings},
             {"media", mediaJson(scene_)},
             {"background", scene["background"]},
             {"structures", structuresJson(scene_)}};
   for (const char* part : {"probe", "acquisition", "motion", "signal", "accuracy", "output"})
     data[part] = scene[part];
+  data["measured"] = measuredJson(manifest);
   writer_->finish(data);
 }
 

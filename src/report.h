@@ -17,8 +17,7 @@ class ReportPage {
   ReportPage(const std::filesystem::path& path, const Scene& scene, const CardiacClock& clock,
              std::pair<int, int> range);
 
-  // Whether the page shows this frame: of long loops every second, third, ..., so that the page
-  // stays of a size that browsers open.
+  // Whether the page shows this frame (pageStride()).
   bool shows(int frame) const;
   void addFrame(std::span<const std::byte> image);  // JPEG or PNG, in the order of frames
   void finish(const Manifest& manifest);            // with times and volumes filled in

@@ -1,5 +1,6 @@
 #include "page/page.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/base64.h"
@@ -126,6 +127,11 @@ void PageWriter::finish(const nlohmann::ordered_json& data) {
   put("</body>\n</html>\n");
   flush();
   file_.finish();
+}
+
+int pageStride(int frames) {
+  constexpr int kMostFrames = 400;
+  return std::max(1, (frames + kMostFrames - 1) / kMostFrames);
 }
 
 void writePage(const std::filesystem::path& path, const PageLook& look,

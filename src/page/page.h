@@ -46,6 +46,10 @@ class PageWriter {
   std::vector<std::string_view> scripts_;
 };
 
+// A page with frames shows each, or of long loops every second, third, ..., so that it stays of a
+// size that browsers open: 400 at most (our choice; 30 MB of pictures of 800 x 600).
+int pageStride(int frames);
+
 // A page whose images, if any, stand in its data as dataUri(). Throws JobError.
 void writePage(const std::filesystem::path& path, const PageLook& look,
                const nlohmann::ordered_json& data);

@@ -90,7 +90,7 @@
     page.table(byId("effects"), {
       columns: [{ label: "effect" }, { label: "" }, { label: "time", number: true }, { label: "why" }],
       rows: data.effects.map((e) => [e.name, element("span", { class: e.on ? "on" : "off" }, e.on ? "on" : "off"),
-        e.on ? `${fixed(100 * e.time_share, 0)} %` : "", e.reason]) });
+        e.on ? `${fixed(100 * data.measured.time_shares[e.name], 0)} %` : "", e.reason]) });
     const { plan } = data, t = plan.triangles;
     const facts = [["tracer", `${plan.tracer}: ${plan.tracer_reason}`],
       ["interface echoes", `${plan.interface_echo}: ${plan.interface_echo_reason}`],
@@ -101,7 +101,7 @@
   }
 
   function showTimes() {
-    const { wall, ...stages } = data.timings_ms_per_frame;
+    const { wall, ...stages } = data.measured.timings_ms_per_frame;
     const total = Object.values(stages).reduce((sum, ms) => sum + ms, 0);
     const bar = (ms) => {
       const drawn = element("div", { class: "bar" });

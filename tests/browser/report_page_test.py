@@ -63,8 +63,12 @@ class ReportPage(browser.PageTest):
         for name, volumes in data["frames"]["volumes_ml"].items():
             self.assertEqual(volumes, [f["volumes_ml"][name] for f in frames])
         self.assertEqual(set(data["frames"]["volumes_ml"]), set(frames[0]["volumes_ml"]))
-        for key in ("effects", "plan", "warnings", "media", "timings_ms_per_frame", "reference_intensity"):
+        for key in ("plan", "warnings", "media", "reference_intensity"):
             self.assertEqual(data[key], manifest[key])
+        measured = data["measured"]
+        self.assertEqual(measured["timings_ms_per_frame"], manifest["timings_ms_per_frame"])
+        self.assertEqual([{**e, "time_share": measured["time_shares"][e["name"]]} for e in data["effects"]],
+                         manifest["effects"])
         self.assertEqual(data["probe"], manifest["scene"]["probe"])
 
     def test_numbers_can_be_read(self):

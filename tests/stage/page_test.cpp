@@ -108,6 +108,16 @@ TEST(Page, HasItsNameOnlyWhenItIsWhole) {
   EXPECT_THROW(writePage(folder.path() / "absent" / "p.html", kSmall, {}), JobError);
 }
 
+TEST(Page, LongLoopsAreThinnedEvenlyToWhatBrowsersOpen) {
+  for (const int frames : {0, 1, 46, 400}) EXPECT_EQ(pageStride(frames), 1) << frames;
+  EXPECT_EQ(pageStride(401), 2);
+  for (int frames = 1; frames < 100000; frames += 97) {
+    const int stride = pageStride(frames), shown = (frames + stride - 1) / stride;
+    EXPECT_LE(shown, 400) << frames;
+    EXPECT_TRUE(stride == 1 || frames > 400 * (stride - 1)) << frames;
+  }
+}
+
 // The browser's content policy would stop these; a page that asks for them is a mistake already.
 TEST(Page, AssetsFetchNothingAndCannotEndTheirElement) {
   const std::regex fetching(

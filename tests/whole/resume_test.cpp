@@ -7,6 +7,7 @@
 
 #include "support/cine_frames.h"
 #include "support/loop_scene.h"
+#include "support/run_files.h"
 #include "support/run_program.h"
 
 namespace echocine {
@@ -20,14 +21,6 @@ std::set<std::string> namesIn(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder))
     names.insert(entry.path().filename().string());
   return names;
-}
-
-std::map<std::string, std::string> everythingIn(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file() && entry.path().filename() != "manifest.json")
-      files[entry.path().lexically_relative(folder).string()] = bytesOf(entry.path());
-  return files;
 }
 
 class PartsOfALoop : public ::testing::Test {
@@ -63,7 +56,7 @@ TEST_F(PartsOfALoop, AShorterRunLeavesNoFrameOfALongerOne) {
 
 TEST_F(PartsOfALoop, ResumingMendsWhatIsMissingTruncatedOrGarbageToTheSameBytes) {
   ASSERT_EQ(render().code, 0);
-  const auto whole = everythingIn(out);
+  const auto whole = lastingFiles(out);
   fs::remove(out / "intensity/frame_0001.exr");
   fs::remove(out / "intensity/frame_0004.exr");
   fs::remove(out / "cine.avi");
@@ -72,21 +65,21 @@ TEST_F(PartsOfALoop, ResumingMendsWhatIsMissingTruncatedOrGarbageToTheSameBytes)
   std::ofstream(out / "intensity/frame_0003.exr") << "not an EXR";
   const fs::file_time_type kept = fs::last_write_time(out / "intensity/frame_0000.exr");
   ASSERT_EQ(render("--resume").code, 0);
-  EXPECT_EQ(everythingIn(out), whole);
+  EXPECT_EQ(lastingFiles(out), whole);
   EXPECT_EQ(fs::last_write_time(out / "intensity/frame_0000.exr"), kept);
   EXPECT_TRUE(fs::exists(out / "manifest.json"));
 }
 
 TEST_F(PartsOfALoop, ResumingAChangedSceneIsRefusedAndHarmsNothing) {
   ASSERT_EQ(render().code, 0);
-  const auto before = everythingIn(out / "intensity");
+  const auto before = lastingFiles(out / "intensity");
   SceneText text = ballScene(6);
   text.setProbe("frequency_mhz", "2.6");
   folder.write("scene.toml", text.text());
   const Outcome outcome = render("--resume");
   EXPECT_EQ(outcome.code, 2) << outcome.err;
   EXPECT_NE(outcome.err.find(".exr: belongs to another scene"), std::string::npos) << outcome.err;
-  EXPECT_EQ(everythingIn(out / "intensity"), before);
+  EXPECT_EQ(lastingFiles(out / "intensity"), before);
   EXPECT_TRUE(fs::exists(out / "manifest.json"));
   EXPECT_TRUE(fs::exists(out / "cine.avi"));
 }
@@ -99,10 +92,10 @@ TEST_F(PartsOfALoop, ResumingWithOtherMeshesIsRefused) {
 
 TEST_F(PartsOfALoop, ResumingIntoAnEmptyFolderIsAnOrdinaryRun) {
   ASSERT_EQ(render().code, 0);
-  const auto whole = everythingIn(out);
+  const auto whole = lastingFiles(out);
   fs::remove_all(out);
   ASSERT_EQ(render("--resume").code, 0);
-  EXPECT_EQ(everythingIn(out), whole);
+  EXPECT_EQ(lastingFiles(out), whole);
 }
 
 // A loop of hours, interrupted once its fifth frame is there.

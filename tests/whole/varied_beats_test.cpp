@@ -10,6 +10,7 @@
 #include "estimate.h"
 #include "motion/cardiac_clock.h"
 #include "support/loop_scene.h"
+#include "support/run_files.h"
 
 namespace echocine {
 namespace {
@@ -26,19 +27,11 @@ SceneText variedScene() {
   return text;
 }
 
-std::map<std::string, std::string> filesOf(const std::filesystem::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.is_regular_file() && entry.path().filename() != "manifest.json")
-      files[entry.path().lexically_relative(folder).string()] = bytesOf(entry.path());
-  return files;
-}
-
 std::map<std::string, std::string> rendered(const TempFolder& folder, const SceneText& text,
                                             const std::string& name, int threads) {
   const Scene scene = readScene(writeBall(folder, text));
   renderCine(scene, {.folder = folder / name, .threads = threads, .frames = {}}, {});
-  return filesOf(folder / name);
+  return lastingFiles(folder / name);
 }
 
 TEST(VariedBeats, AnyNumberOfThreadsWritesTheSameFiles) {
