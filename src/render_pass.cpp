@@ -119,12 +119,14 @@ void RenderPass::drain(Finished& finished) {
   const FrameEntry& entry = finished.entry;
   const int frame = entry.record.frame;
   const OutputSettings& o = parts_.scene.output;
-  parts_.maker.clock().time(Stage::avi, [&] {
-    if (o.cine) cine_.add(finished.cine_frame);
-    if ((o.cine || o.png) && parts_.report.shows(frame))
-      parts_.report.addFrame(finished.report_frame.empty() ? finished.cine_frame
-                                                           : finished.report_frame);
-  });
+  if (o.cine || o.png) {
+    parts_.maker.clock().time(Stage::avi, [&] {
+      if (o.cine) cine_.add(finished.cine_frame);
+      if (parts_.report.shows(frame))
+        parts_.report.addFrame(finished.report_frame.empty() ? finished.cine_frame
+                                                             : finished.report_frame);
+    });
+  }
   if (!entry.exr_sha256.empty())
     manifest_.files["intensity/" + ExrStack::fileName(frame)] = entry.exr_sha256;
   if (!finished.png_sha256.empty())

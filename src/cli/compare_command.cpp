@@ -81,7 +81,8 @@ void print(const compare::Comparison& c, const std::filesystem::path& folder) {
       p.shift_x_px, p.shift_y_px, p.scale, p.rotation_rad * 57.29577951308232,
       c.space.used ? "" : " (sectors as they are)", c.space.confidence);
   fmt::print(
-      "  {}: frames.csv, summary.json, side_by_side.avi, sector_real.png, sector_synthetic.png\n",
+      "  {}: compare.html, frames.csv, summary.json, side_by_side.avi, sector_real.png, "
+      "sector_synthetic.png\n",
       folder.string());
 }
 

@@ -89,18 +89,15 @@ void PanelMaker::addContours(int real_frame, GreyImage& image) const {
     }
 }
 
-GreyImage PanelMaker::sideBySide(int real_frame) const {
-  GreyImage all{3 * width_, height_,
-                std::vector<std::uint8_t>(
-                    3 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0)};
-  int left = 0;
-  for (const Panel panel : {Panel::real, Panel::synthetic, Panel::difference}) {
-    const GreyImage one = picture(panel, real_frame);
-    for (int y = 0; y < height_; ++y)
-      std::copy_n(one.pixels.begin() + static_cast<std::ptrdiff_t>(y) * width_, width_,
-                  all.pixels.begin() + static_cast<std::ptrdiff_t>(y) * all.width + left);
-    left += width_;
-  }
+GreyImage PanelMaker::sideBySide(std::span<const GreyImage> pictures) {
+  const int width = pictures.front().width, height = pictures.front().height;
+  GreyImage all{width * static_cast<int>(pictures.size()), height, {}};
+  all.pixels.reserve(static_cast<std::size_t>(all.width) * static_cast<std::size_t>(height));
+  for (int y = 0; y < height; ++y)
+    for (const GreyImage& one : pictures) {
+      const auto row = one.pixels.begin() + static_cast<std::ptrdiff_t>(y) * width;
+      all.pixels.insert(all.pixels.end(), row, row + width);
+    }
   return all;
 }
 

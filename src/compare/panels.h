@@ -3,6 +3,7 @@
 // shape.
 
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "compare/compare.h"
@@ -22,7 +23,8 @@ class PanelMaker {
   int width() const { return width_; }
   int height() const { return height_; }
   GreyImage picture(Panel panel, int real_frame) const;
-  GreyImage sideBySide(int real_frame) const;  // the three from left to right
+  // From left to right. Precondition: one or more, all of one size.
+  static GreyImage sideBySide(std::span<const GreyImage> pictures);
 
   // With contours of the model drawn into the first two. Precondition: `bands` outlives the maker.
   void drawContours(const BoundaryBands* bands) { bands_ = bands; }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/boundary_bands.h"
+#include "compare/compare_page.h"
 #include "compare/panels.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -52,17 +53,6 @@ Json loopJson(const Loop& l, const BeatLength& beat) {
   return json;
 }
 
-Json metricsJson(const FrameMetrics& m) {
-  return {{"rms", m.rms},
-          {"mean_absolute", m.mean_absolute},
-          {"psnr_db", numberOrNull(m.psnr_db)},
-          {"ncc", m.ncc},
-          {"ssim", m.ssim},
-          {"mutual_information_bits", m.mutual_information},
-          {"histogram_distance", m.histogram_distance},
-          {"gradient_correlation", m.gradient_correlation}};
-}
-
 Json spaceJson(const Comparison& c) {
   const Placement& p = c.space.placement;
   return {{"shift_px", {p.shift_x_px, p.shift_y_px}},
@@ -93,20 +83,41 @@ void addMetrics(std::string& row, const FrameMetrics& m, bool measured) {
                      m.ssim, m.mutual_information, m.histogram_distance, m.gradient_correlation);
 }
 
-void writeCine(const Comparison& c, const PanelMaker& panels, const std::filesystem::path& path) {
+// The cine and the frames of the page.
+void writeFrames(const Comparison& c, const PanelMaker& panels, const std::filesystem::path& path,
+                 ComparePage& page) {
   OutputSettings settings;
   settings.width = 3 * panels.width();
   settings.height = panels.height();
   // Players need some rate; one that is not known plays slowly enough to look.
   CineWriter writer(path, settings,
                     c.real.video.rate.hz > 0 ? std::min(c.real.video.rate.hz, 1e3) : 25);
-  for (const FrameResult& f : c.frames)
+  for (const FrameResult& f : c.frames) {
+    std::vector<GreyImage> pictures;
+    for (const Panel panel : {Panel::real, Panel::synthetic, Panel::difference}) {
+      pictures.push_back(panels.picture(panel, f.real_frame));
+      if (page.shows(f.real_frame))
+        page.addFrame(panel,
+                      encodeCineFrame(pictures.back(), settings.codec, settings.jpeg_quality));
+    }
     writer.add(
-        encodeCineFrame(panels.sideBySide(f.real_frame), settings.codec, settings.jpeg_quality));
+        encodeCineFrame(PanelMaker::sideBySide(pictures), settings.codec, settings.jpeg_quality));
+  }
   writer.finish();
 }
 
 }  // namespace
+
+Json metricsJson(const FrameMetrics& m) {
+  return {{"rms", m.rms},
+          {"mean_absolute", m.mean_absolute},
+          {"psnr_db", numberOrNull(m.psnr_db)},
+          {"ncc", m.ncc},
+          {"ssim", m.ssim},
+          {"mutual_information_bits", m.mutual_information},
+          {"histogram_distance", m.histogram_distance},
+          {"gradient_correlation", m.gradient_correlation}};
+}
 
 Json summaryJson(const Comparison& c) {
   Json bands = Json::object();
@@ -181,7 +192,8 @@ void writeResults(const Comparison& c, const CompareOptions& options,
   if (!std::filesystem::is_directory(folder))
     throw JobError(
         fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
-  std::filesystem::remove(folder / "summary.json", error);  // a folder without one is unfinished
+  for (const char* name : {"summary.json", "compare.html"})  // a folder without them is unfinished
+    std::filesystem::remove(folder / name, error);
   PanelMaker panels(c);
   std::optional<BoundaryBands> bands;
   if (options.contours && !options.scene.empty()) {
@@ -192,10 +204,15 @@ void writeResults(const Comparison& c, const CompareOptions& options,
     writeFileWhole(folder / name, std::as_bytes(std::span(content)));
   };
   text("frames.csv", framesCsv(c));
-  writeFileWhole(folder / "sector_real.png", encodePng(sectorPicture(c.real)));
-  writeFileWhole(folder / "sector_synthetic.png", encodePng(sectorPicture(c.synthetic)));
-  writeCine(c, panels, folder / "side_by_side.avi");
-  text("summary.json", summaryJson(c).dump(1) + "\n");
+  const std::vector<std::byte> real = encodePng(sectorPicture(c.real)),
+                               synthetic = encodePng(sectorPicture(c.synthetic));
+  writeFileWhole(folder / "sector_real.png", real);
+  writeFileWhole(folder / "sector_synthetic.png", synthetic);
+  ComparePage page(folder / "compare.html", c);
+  writeFrames(c, panels, folder / "side_by_side.avi", page);
+  const Json summary = summaryJson(c);
+  page.finish(summary, real, synthetic);
+  text("summary.json", summary.dump(1) + "\n");
 }
 
 }  // namespace echocine::compare

@@ -8,6 +8,9 @@
 
 namespace echocine::compare {
 
+// `rms` and so on -> number; an infinite PSNR is null.
+nlohmann::ordered_json metricsJson(const FrameMetrics& metrics);
+
 // All numbers but the metrics of each frame.
 nlohmann::ordered_json summaryJson(const Comparison& comparison);
 
@@ -15,8 +18,8 @@ nlohmann::ordered_json summaryJson(const Comparison& comparison);
 // _band_NAME.
 std::string framesCsv(const Comparison& comparison);
 
-// frames.csv, summary.json, side_by_side.avi, sector_real.png and sector_synthetic.png; each is
-// whole or absent, summary.json comes last. Throws JobError.
+// frames.csv, summary.json, compare.html, side_by_side.avi, sector_real.png and
+// sector_synthetic.png; each is whole or absent, summary.json comes last. Throws JobError.
 void writeResults(const Comparison& comparison, const CompareOptions& options,
                   const std::filesystem::path& folder);
 

@@ -1,0 +1,69 @@
+#include "compare/compare_page.h"
+
+#include <nlohmann/json.hpp>
+
+#include "compare/results.h"
+
+namespace echocine::compare {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Appends each metric to its own array; null where nothing was measured.
+void addMetrics(Json& group, const FrameMetrics* metrics) {
+  const Json named = metricsJson(metrics ? *metrics : FrameMetrics{});
+  for (const auto& [key, value] : named.items()) group[key].push_back(metrics ? value : Json());
+}
+
+Json framesJson(const Comparison& c, const ComparePage& page) {
+  Json frames = Json::object();
+  for (const FrameResult& f : c.frames) {
+    if (!page.shows(f.real_frame)) continue;
+    const bool measured = f.synthetic_place >= 0;
+    frames["real_frame"].push_back(f.real_frame);
+    frames["real_time_s"].push_back(f.real_time_s);
+    frames["synthetic_frame"].push_back(measured ? Json(f.synthetic_place) : Json());
+    frames["synthetic_phase"].push_back(f.synthetic_phase >= 0 ? Json(f.synthetic_phase) : Json());
+    frames["repeat"].push_back(f.repeat);
+    frames["counted"].push_back(f.counted());
+    frames["discrepancy"].push_back(measured ? Json(f.discrepancy) : Json());
+    addMetrics(frames["before"], measured ? &f.before : nullptr);
+    addMetrics(frames["after"], measured ? &f.after : nullptr);
+    for (std::size_t b = 0; b < c.mean_bands.size(); ++b) {
+      const bool has = measured && b < f.bands.size() && f.bands[b].metrics.weight > 0;
+      addMetrics(frames["bands"][c.mean_bands[b].structure], has ? &f.bands[b].metrics : nullptr);
+    }
+  }
+  return frames;
+}
+
+std::string nameOf(const std::string& path) {
+  const std::filesystem::path p = std::filesystem::path(path).lexically_normal();
+  return (p.has_filename() ? p : p.parent_path()).filename().string();
+}
+
+}  // namespace
+
+ComparePage::ComparePage(const std::filesystem::path& path, const Comparison& comparison)
+    : c_(comparison),
+      stride_(pageStride(static_cast<int>(comparison.frames.size()))),
+      writer_(path, pageLook("EchoCine: " + nameOf(c_.synthetic.video.name) + " against " +
+                                 nameOf(c_.real.video.name),
+                             "compare.html", "compare.js")) {}
+
+void ComparePage::addFrame(Panel panel, std::span<const std::byte> image) {
+  constexpr const char* kNames[] = {"real", "synthetic", "difference"};
+  writer_.addFrame(kNames[static_cast<std::size_t>(panel)], image);
+}
+
+void ComparePage::finish(const Json& summary, std::span<const std::byte> sector_real,
+                         std::span<const std::byte> sector_synthetic) {
+  writer_.finish({{"summary", summary},
+                  {"stride", stride_},
+                  {"frames", framesJson(c_, *this)},
+                  {"sector_real", dataUri(sector_real)},
+                  {"sector_synthetic", dataUri(sector_synthetic)}});
+}
+
+}  // namespace echocine::compare
