@@ -43,8 +43,9 @@ function nearestIndex(xs, x) {
 function followPlayer(chart, player, frame_x) {
   const cursor = page.element("div", { class: "cursor" });
   chart.getDom().append(cursor);
+  const gridBox = () => chart.getModel().getComponent("grid").coordinateSystem.getRect();
   const place = () => {
-    const grid = chart.getModel().getComponent("grid").coordinateSystem.getRect();
+    const grid = gridBox();
     cursor.style.top = `${grid.y}px`;
     cursor.style.height = `${grid.height}px`;
     cursor.style.transform = `translateX(${chart.convertToPixel({ xAxisIndex: 0 }, frame_x[Math.max(0, player.index)])}px)`;
@@ -53,9 +54,11 @@ function followPlayer(chart, player, frame_x) {
   chart.on("finished", place);
   place();
   const go = (event) => {
-    const at = [event.offsetX, event.offsetY];
-    if (!chart.containPixel("grid", at)) return;
-    player.jump(nearestIndex(frame_x, chart.convertFromPixel({ xAxisIndex: 0 }, at[0])));
+    const { offsetX: x, offsetY: y } = event, grid = gridBox();
+    const kReach_px = 6; // points lie on the grid's edges too
+    if (x < grid.x - kReach_px || x > grid.x + grid.width + kReach_px) return;
+    if (y < grid.y - kReach_px || y > grid.y + grid.height + kReach_px) return;
+    player.jump(nearestIndex(frame_x, chart.convertFromPixel({ xAxisIndex: 0 }, x)));
   };
   const pad = chart.getZr();
   pad.on("click", go);
