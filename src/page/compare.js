@@ -29,7 +29,9 @@
       + (data.stride > 1 ? ` · this page shows every ${data.stride}th, frames.csv has all` : "");
     byId("definition").textContent = `Discrepancy: ${summary.discrepancy_definition}.`;
     byId("foot").textContent = `EchoCine ${summary.version}. The same numbers are in summary.json and frames.csv.`;
-    const notes = [...new Set([...summary.notes, ...summary.real.notes, ...summary.synthetic.notes])];
+    // A loop's own notes return in the comparison's with its name before them.
+    const all = [...new Set([...summary.notes, ...summary.real.notes, ...summary.synthetic.notes])];
+    const notes = all.filter((note) => !all.some((other) => other !== note && other.endsWith(note)));
     byId("notes").hidden = !notes.length;
     byId("notes").querySelector("ul").append(...notes.map((note) => element("li", {}, note)));
   }
@@ -109,11 +111,55 @@
       ["confidence", fixed(t.confidence, 3)]]);
   }
 
-  function showSpace() {
+  // The sector over its picture: edges from the apex, arcs of both radii.
+  function sectorOutline(loop) {
+    const { apex_px: [x, y], first_deg, last_deg, r_min_px, r_max_px } = loop.sector;
+    const point = (r, deg) => {
+      const angle = (deg * Math.PI) / 180;
+      return `${x + r * Math.sin(angle)} ${y + r * Math.cos(angle)}`;
+    };
+    const arc = (r) => `M ${point(r, first_deg)} A ${r} ${r} 0 ${last_deg - first_deg > 180 ? 1 : 0} 0 ${point(r, last_deg)}`;
+    const edge = (deg) => `M ${x} ${y} L ${point(r_max_px, deg)}`;
+    const drawn = (tag, attributes, ...children) => {
+      const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
+      for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+      made.append(...children);
+      return made;
+    };
+    return drawn("svg", { viewBox: `0 0 ${loop.width} ${loop.height}`, "aria-hidden": "true" },
+      drawn("path", { d: [arc(r_min_px), arc(r_max_px), edge(first_deg), edge(last_deg)].join(" ") }));
+  }
+
+  // Both loops in one picture, real in green and synthetic in magenta: white where they agree.
+  function showOverlay(player) {
+    const canvas = element("canvas", { class: "picture", role: "img", "aria-label": "Real and synthetic frame over one another" });
+    const context = canvas.getContext("2d");
+    const tinted = document.createElement("canvas"), tint = tinted.getContext("2d");
+    const draw = () => {
+      const [real, synthetic] = player.loops.map((loop) => loop.canvas);
+      for (const c of [canvas, tinted]) [c.width, c.height] = [real.width, real.height];
+      for (const [loop, colour] of [[real, "#0f0"], [synthetic, "#f0f"]]) {
+        tint.globalCompositeOperation = "source-over";
+        tint.drawImage(loop, 0, 0);
+        tint.globalCompositeOperation = "multiply";
+        tint.fillStyle = colour;
+        tint.fillRect(0, 0, tinted.width, tinted.height);
+        context.globalCompositeOperation = loop === real ? "source-over" : "lighter";
+        context.drawImage(tinted, 0, 0);
+      }
+    };
+    player.addEventListener("frame", draw);
+    byId("sectors").append(element("figure", {}, canvas,
+      element("figcaption", {}, "as registered, at the loops' frame: real green, synthetic magenta, both white")));
+  }
+
+  function showSpace(player) {
     for (const [label, picture] of [["real", data.sector_real], ["synthetic", data.sector_synthetic]])
       byId("sectors").append(element("figure", {},
-        element("img", { class: "picture", src: picture, alt: `First frame of the ${label} loop with its sector drawn in` }),
+        element("div", { class: "outlined" }, sectorOutline(summary[label]),
+          element("img", { class: "picture", src: picture, alt: `First frame of the ${label} loop with its sector drawn in` })),
         element("figcaption", {}, `${label}: sector as ${summary[label].sector.source}; flat grey is masked (colour, text)`)));
+    showOverlay(player);
     const s = summary.space, b = summary.beam_space;
     page.facts(byId("space"), [["shift", `${fixed(s.shift_px[0], 2)}, ${fixed(s.shift_px[1], 2)} px of the real picture`],
       ["scale", fixed(s.scale, 4)], ["rotation", `${fixed(s.rotation_deg, 2)}°`],
@@ -164,7 +210,7 @@
   showCurves(player);
   showCalibration();
   showTime(player);
-  showSpace();
+  showSpace(player);
   showLoops();
   showFrames(player);
 })();
