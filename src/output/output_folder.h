@@ -10,8 +10,8 @@ namespace echocine {
 class OutputFolder {
  public:
   // Makes `folder` and, as far as the settings ask for them, its intensity/ and png/. Removes an
-  // earlier manifest.json and its report at once: a folder without them is an unfinished run. Throws JobError when
-  // the path is a file or nothing can be written there.
+  // earlier manifest.json and its report at once: a folder without them is an unfinished run.
+  // Throws JobError when the path is a file or nothing can be written there.
   OutputFolder(std::filesystem::path folder, const OutputSettings& settings, bool resume);
 
   // Deletes leftovers of earlier runs. On resuming: frames past the loop's end and half-written

@@ -59,8 +59,8 @@ TEST_F(CommandLine, ARunWritesItsFilesAndNothingOnStandardErrorWhenQuiet) {
   const Outcome outcome = renderAgain();
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.err + outcome.out, "");
-  for (const char* name :
-       {"intensity/frame_0000.exr", "intensity/frame_0004.exr", "cine.avi", "report.html", "manifest.json"})
+  for (const char* name : {"intensity/frame_0000.exr", "intensity/frame_0004.exr", "cine.avi",
+                           "report.html", "manifest.json"})
     EXPECT_GT(fs::file_size(folder / "out" / name), 100u) << name;
   EXPECT_FALSE(fs::exists(folder / "out/intensity/frame_0005.exr"));
 }
