@@ -91,6 +91,24 @@ std::array<double, 3> beamPoint(std::uint64_t pattern, int i, int n) {
           unitFromBits(scrambled(secondSobol(index), seed(2)))};
 }
 
+namespace {
+
+// q at the ends of n strata of equal probability. The outermost end as far beyond their means,
+// n phi(q) from the centre, as these are from their inner ends.
+std::vector<double> strataEnds(int n) {
+  if (n == 1) return {0, 0};
+  std::vector<double> ends(static_cast<std::size_t>(n) + 1);
+  for (int i = 1; i < n; ++i)
+    ends[static_cast<std::size_t>(i)] = normalQuantile(static_cast<double>(i) / n);
+  const double inner = ends[static_cast<std::size_t>(n) - 1];
+  const double mean = n * std::exp(-inner * inner / 2) / std::sqrt(2 * std::numbers::pi);
+  ends.back() = 2 * mean - inner;
+  ends.front() = -ends.back();
+  return ends;
+}
+
+}  // namespace
+
 BeamSpread beamSpread(const EffectPlan& plan, int seed) {
   return {plan.rays_per_beam, plan.lateral_rays, plan.elevation, seed};
 }
@@ -111,6 +129,7 @@ BeamRays::BeamRays(const Probe& probe, const BeamSpread& spread) : spread_(sprea
     transmit_.push_back(static_cast<float>(ratio * ratio));
   }
   transmit_.resize(transmit_.size() + kBlock);  // read by whole blocks
+  if (spread.lateral) strata_ = strataEnds(spread.rays);
 }
 
 std::uint64_t BeamRays::pattern(int frame, int line) const {
@@ -122,15 +141,22 @@ BeamRay BeamRays::ray(const LineGeometry& line, std::uint64_t pattern, int i) co
   const std::array<double, 3> point = beamPoint(pattern, i, spread_.rays);
   std::size_t dimension = 0;
   const double q = spread_.lateral ? normalQuantile(point[dimension++]) : 0;
-  if (!spread_.elevation) return through(line, q, 0, 0);
-  const double p = normalQuantile(point[dimension++]);
-  return through(line, q, p, normalQuantile(point[dimension]));
+  const double p = spread_.elevation ? normalQuantile(point[dimension++]) : 0;
+  const double s = spread_.elevation ? normalQuantile(point[dimension]) : 0;
+  BeamRay out = through(line, q, p, s);
+  if (spread_.lateral && spread_.rays > 1) {
+    const auto stratum = static_cast<std::size_t>(i);
+    out.from_slope = lateral_slope_ * (strata_[stratum] - q);
+    out.to_slope = lateral_slope_ * (strata_[stratum + 1] - q);
+  }
+  return out;
 }
 
 BeamRay BeamRays::through(const LineGeometry& line, double q, double p, double s) const {
   const Vec3d elevation{0, 1, 0};
   const Vec3d lateral = cross(elevation, line.direction);
   BeamRay out;
+  out.lateral = lateral;
   Vec3d along = line.direction;
   if (spread_.lateral) {
     along = along + q * lateral_slope_ * lateral;

@@ -26,6 +26,10 @@ struct Echo {
   double depth_m = 0;
   double intensity = 0;  // relative to I_S: W cos^n times the losses before it, unattenuated
   double exponent = 0;   // A up to it
+  // The interface's normal over the cosine it has with the ray, at most 1e3: a ray turned by a
+  // small angle towards a unit vector e meets the interface l e.tilt earlier. Where several rays
+  // make a beam.
+  Vec3d tilt{};
 };
 
 // One crossing as the walk along a line judged it; what integration over the beam's cell needs of

@@ -72,11 +72,14 @@ void LineWalker::walkTo(double distance_m) {
 }
 
 // What the interface sends to the transducer, added to what is lost before it.
-void LineWalker::addEcho(double R, double cos_i, const SurfaceTraits& surface) {
+void LineWalker::addEcho(double R, double cos_i, const Crossing& crossing) {
   if (!settings_.reflection || settings_.cell_echoes || R == 0) return;
+  const SurfaceTraits& surface = settings_.surfaces[index(crossing.surface)];
+  const double towards = dot(query_.ray.direction, crossing.normal);
+  const double cosine = std::copysign(std::max(std::abs(towards), 1e-3), towards);
   const double W = surface.gain * R;
-  trace_.echoes.push_back(
-      {depth_m_, passed_ * nonSpecularReturn(W, cos_i, surface.exponent), exponent_});
+  trace_.echoes.push_back({depth_m_, passed_ * nonSpecularReturn(W, cos_i, surface.exponent),
+                           exponent_, (1 / cosine) * crossing.normal});
 }
 
 // Forward times backward transmission, T_12 T_21 = (1 - R)^2. Total reflection ends the ray
@@ -131,7 +134,7 @@ void LineWalker::passInterface(Group group, MediumId after) {
   const double cos_i = std::min(std::abs(dot(direction, crossing.normal)), 1.0);
   const InterfaceLaw law = interfaceLaw(from.impedance_kg_m2_s, from.sound_speed_m_s,
                                         to.impedance_kg_m2_s, to.sound_speed_m_s, cos_i);
-  addEcho(law.R, cos_i, settings_.surfaces[index(crossing.surface)]);
+  addEcho(law.R, cos_i, crossing);
   loseAt(law);
   if (!alive_ || !settings_.refraction || from.sound_speed_m_s == to.sound_speed_m_s) return;
   if (const auto bent = bentDirection(crossing, direction, from, to)) bend(group, *bent);
@@ -145,10 +148,10 @@ void LineWalker::passMembrane(const Crossing& crossing) {
   const double cos_i = std::min(std::abs(dot(query_.ray.direction, crossing.normal)), 1.0);
   const InterfaceLaw law = interfaceLaw(around.impedance_kg_m2_s, around.sound_speed_m_s,
                                         sheet.impedance_kg_m2_s, sheet.sound_speed_m_s, cos_i);
-  addEcho(law.R, cos_i, surface);
+  addEcho(law.R, cos_i, crossing);
   loseAt(law);
   if (!alive_) return;
-  addEcho(law.R, cos_i, surface);  // R is the same from the sheet outwards
+  addEcho(law.R, cos_i, crossing);  // R is the same from the sheet outwards
   loseAt(law);
 }
 

@@ -33,7 +33,7 @@ class LineWalker {
   void passInterface(Group group, MediumId after);
   void passMembrane(const Crossing& crossing);
   void notePasses(Group group, MediumId after);
-  void addEcho(double R, double cos_i, const SurfaceTraits& surface);
+  void addEcho(double R, double cos_i, const Crossing& crossing);
   void loseAt(const InterfaceLaw& law);
   void bend(Group group, Vec3d direction);
   const Crossing& deciding(Group group) const;

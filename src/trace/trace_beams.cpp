@@ -62,6 +62,32 @@ class LensStates {
   std::array<RayCrossings, 2> met_;
 };
 
+// Adds an interface's echo to weighted sums, over the depths of the ray's stratum.
+void addEcho(const Echo& echo, const BeamRay& ray, const Sampling& sampling, double intensity,
+             std::span<const float> weights, double* sums) {
+  constexpr double kSteepest = 10;  // lean of a wall: beam_rays.h
+  const double lean = std::clamp(dot(ray.lateral, echo.tilt), -kSteepest, kSteepest);
+  const auto place = [&](double slope) {  // in samples from the shallowest one's beginning
+    const double depth_m = echo.depth_m * (1 - lean * slope);
+    return (depth_m - sampling.min_depth_m) / sampling.spacing_m;
+  };
+  const double one = place(ray.from_slope), other = place(ray.to_slope);
+  const double from = std::min(one, other), to = std::max(one, other);
+  const double samples = static_cast<double>(sampling.samples);
+  if (std::floor(from) == std::floor(to)) {
+    if (from < 0 || from >= samples) return;
+    const auto k = static_cast<std::size_t>(from);
+    sums[k] += static_cast<double>(weights[k]) * intensity;
+    return;
+  }
+  const double begin = std::max(from, 0.0), end = std::min(to, samples);
+  for (double k = std::floor(begin); k < end; ++k) {
+    const double share = (std::min(k + 1, to) - std::max(k, from)) / (to - from);
+    const auto at = static_cast<std::size_t>(k);
+    sums[at] += static_cast<double>(weights[at]) * intensity * share;
+  }
+}
+
 // Weighted sums of one line's rays. In double: the average of equal values is that value, however
 // many rays there are.
 class BeamSums {
@@ -83,10 +109,20 @@ class BeamSums {
     double* of_weights = of_weights_.data();
     for (std::size_t k = 0; k < samples; ++k) of_weights[k] += static_cast<double>(weight[k]);
     for (std::size_t p = 0; p < wanted.size(); ++p) {
-      sampleIntensity(trace, sampling, wanted[p].parts, values_);
+      const IntensityParts& parts = wanted[p].parts;
       double* sums = of_planes_[p].data();
-      for (std::size_t k = 0; k < samples; ++k)
-        sums[k] += static_cast<double>(weight[k]) * static_cast<double>(value[k]);
+      if (parts.backscatter) {
+        IntensityParts scattered = parts;
+        scattered.reflection = false;
+        sampleIntensity(trace, sampling, scattered, values_);
+        for (std::size_t k = 0; k < samples; ++k)
+          sums[k] += static_cast<double>(weight[k]) * static_cast<double>(value[k]);
+      }
+      if (!parts.reflection) continue;
+      for (const Echo& echo : trace.echoes) {
+        const double lost = parts.attenuation ? std::exp(-echo.exponent) : 1.0;
+        addEcho(echo, ray, sampling, echo.intensity * lost, weights_, sums);
+      }
     }
   }
 
