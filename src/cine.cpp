@@ -31,16 +31,11 @@ std::pair<int, int> frameRange(const RenderOptions& options, int loop_frames) {
   return range;
 }
 
-// Before anything is touched: the first frames that are there must be of this scene.
+// Before anything is touched: the frames that are there must be of this scene.
 void refuseOtherScene(const Scene& scene, const std::filesystem::path& folder,
                       const Manifest& manifest) {
-  constexpr int kLookedAt = 8;
   const ExrStack stack(folder / "intensity", scene, manifest.scene_sha256, 1);
-  for (int i = 0, seen = 0; i < manifest.loop_frames && seen < kLookedAt; ++i)
-    if (std::filesystem::exists(folder / "intensity" / ExrStack::fileName(i))) {
-      (void)stack.existing({i, 0, 0});  // throws when the file belongs to another scene
-      ++seen;
-    }
+  for (int i = 0; i < manifest.loop_frames; ++i) stack.refuseOtherScene(i);
 }
 
 void warn(const std::vector<std::string>& warnings, const Monitor& monitor, Manifest& manifest) {
@@ -83,7 +78,9 @@ RenderSummary renderCine(const Scene& scene, const RenderOptions& options, const
   withThreads(options.threads, [&] {
     manifest.plan = planLoop(scene, motion);  // what has to be computed at all, and how
     warn(manifest.plan.warnings, monitor, manifest);
+    if (!monitor.keep_going()) return;
     const OutputFolder folder(options.folder, scene.output, options.resume);
+    folder.removeStale(clock.frameCount());
     FrameMaker maker(scene, manifest.plan, motion);  // motion -> geometry -> trace -> signal
     summary.setup_s = secondsSince(start);
     KeptFrames kept;  // the loop's one reference for log compression, then every frame with it
@@ -97,6 +94,7 @@ RenderSummary renderCine(const Scene& scene, const RenderOptions& options, const
     if (summary.frames_done < summary.frames_wanted) return;
     noteCosts(maker, summary);
     manifest.wall_ms = 1e3 * secondsSince(start) / summary.frames_done;
+    folder.checkStillThere();
     report.finish(manifest);
     writeManifest(folder.manifest(), scene, manifest);
   });

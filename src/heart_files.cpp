@@ -1,13 +1,14 @@
 #include "heart_files.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/folder_lock.h"
 #include "core/parallel.h"
 
 namespace echocine {
@@ -63,7 +64,8 @@ void writeText(const fs::path& file, const std::string& text) {
   writeFileWhole(file, std::as_bytes(std::span(text)));
 }
 
-// A folder beside the wanted one, gone again unless it took its place.
+// A folder beside the wanted one, gone again unless it took its place. What a killed run left of
+// it is thrown away by the next.
 class FolderInTheMaking {
  public:
   explicit FolderInTheMaking(const fs::path& folder) {
@@ -79,11 +81,15 @@ class FolderInTheMaking {
       const fs::path full = fs::absolute(folder).lexically_normal();
       folder_ = full.has_filename() ? full : full.parent_path();
     }
-    part_ = folder_.string() + fmt::format(".part{}", ::getpid());
-    fs::remove_all(part_, failed);  // of a process that was killed
-    fs::create_directories(part_, failed);
+    const fs::path part = folder_.string() + ".echocine-part";
+    fs::create_directories(part, failed);
     if (failed)
       throw JobError(fmt::format("{}: cannot be made: {}", folder.string(), failed.message()));
+    lock_.emplace(part);
+    lock_->checkStillThere();  // the run that held it before may just have finished
+    part_ = part;
+    for (fs::directory_iterator it(part_, failed), end; it != end; it.increment(failed))
+      fs::remove_all(it->path(), failed);
   }
   ~FolderInTheMaking() {
     std::error_code ignored;
@@ -92,8 +98,7 @@ class FolderInTheMaking {
   const fs::path& path() const { return part_; }
   void finish() {
     std::error_code failed;
-    fs::remove(folder_, failed);  // when it is there and empty
-    fs::rename(part_, folder_, failed);
+    fs::rename(part_, folder_, failed);  // an empty folder makes way
     if (failed)
       throw JobError(fmt::format("{}: cannot be made: {}", folder_.string(), failed.message()));
     part_.clear();
@@ -101,6 +106,7 @@ class FolderInTheMaking {
 
  private:
   fs::path folder_, part_;
+  std::optional<FolderLock> lock_;
 };
 
 }  // namespace
@@ -177,16 +183,19 @@ reference_intensity = 2e-4   # white, of the transmitted intensity: one gain for
   return text;
 }
 
-void writeHeart(const HeartFiles& wanted, const fs::path& folder) {
+void writeHeart(const HeartFiles& wanted, const fs::path& folder,
+                const std::function<bool()>& keep_going) {
   if (const std::string fault = heart::faultOf(wanted.parameters); !fault.empty())
     throw SceneError("heart: " + fault);
   FolderInTheMaking making(folder);
   withThreads(wanted.threads, [&] {
     const heart::ParametricHeart model(wanted.parameters);
-    const Recording recording = heart::record(model, wanted.view, wanted.keyframes, wanted.spacing);
+    const Recording recording = heart::record(model, wanted.view, wanted.keyframes, wanted.spacing, keep_going);
     for (const RecordedPart& part : recording.parts)
-      for (std::size_t k = 0; k < part.control_m.size(); ++k)
+      for (std::size_t k = 0; k < part.control_m.size(); ++k) {
+        if (!keep_going()) throw JobError("stopped");
         writeText(making.path() / heartMeshName(part, k), heartMesh(part, k));
+      }
     writeText(making.path() / "truth.json", heartTruth(model, recording, wanted));
     writeText(making.path() / "scene.toml", heartScene(wanted, recording, ""));
   });

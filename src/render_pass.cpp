@@ -1,8 +1,12 @@
 #include "render_pass.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <new>
 #include <nlohmann/json.hpp>
 
+#include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
 #include "core/parallel.h"
@@ -116,6 +120,7 @@ std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
 
 // One at a time, in the order of the frames.
 void RenderPass::drain(Finished& finished) {
+  parts_.folder.checkStillThere();
   const FrameEntry& entry = finished.entry;
   const int frame = entry.record.frame;
   const OutputSettings& o = parts_.scene.output;
@@ -134,23 +139,41 @@ void RenderPass::drain(Finished& finished) {
   manifest_.frames.push_back(entry);
 }
 
+// The run has failed: what of the cine is there may still play, or else is of no more use than
+// before.
+void RenderPass::endEarly() {
+  try {
+    cine_.finishEarly();
+  } catch (const std::exception&) {  // the first failure is the one to report
+  }
+}
+
 int RenderPass::run(int first, int last) {
-  parts_.folder.removeStale(parts_.clock.frameCount());
-  const auto finish = [&] {
-    if (!parts_.scene.output.cine || manifest_.frames.empty()) return;
-    parts_.maker.clock().time(Stage::avi, [&] { cine_.finish(); });
-    manifest_.files["cine.avi"] = sha256HexOfFile(parts_.folder.cine());
+  const auto work = [&](std::size_t i) -> std::shared_ptr<void> {
+    try {
+      return make(static_cast<int>(i));
+    } catch (const std::bad_alloc&) {
+      throw JobError(fmt::format("frame {}: {}", i, kOutOfMemory));
+    }
   };
-  const std::size_t done = parallelOrdered(
-      static_cast<std::size_t>(first), static_cast<std::size_t>(last),
-      2 * static_cast<std::size_t>(threadCount()), parts_.monitor.keep_going,
-      [&](std::size_t i) { return make(static_cast<int>(i)); },
-      [&](std::size_t i, std::shared_ptr<void> result) {
-        drain(*static_cast<Finished*>(result.get()));
-        parts_.monitor.tell(
-            {Progress::Pass::rendering, static_cast<int>(i) + 1 - first, last - first});
-      });
-  finish();
+  const auto collect = [&](std::size_t i, std::shared_ptr<void> result) {
+    drain(*static_cast<Finished*>(result.get()));
+    parts_.monitor.tell({Progress::Pass::rendering, static_cast<int>(i) + 1 - first, last - first});
+  };
+  std::size_t done = 0;
+  try {
+    done = parallelOrdered(static_cast<std::size_t>(first), static_cast<std::size_t>(last),
+                           2 * static_cast<std::size_t>(threadCount()), parts_.monitor.keep_going,
+                           work, collect);
+  } catch (...) {
+    endEarly();
+    throw;
+  }
+  const bool whole = done == static_cast<std::size_t>(last);
+  if (parts_.scene.output.cine && !manifest_.frames.empty()) {
+    parts_.maker.clock().time(Stage::avi, [&] { whole ? cine_.finish() : cine_.finishEarly(); });
+    if (whole) manifest_.files["cine.avi"] = sha256HexOfFile(parts_.folder.cine());
+  }
   return static_cast<int>(done) - first;
 }
 

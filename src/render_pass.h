@@ -50,6 +50,7 @@ class RenderPass {
   void writeExr(const FrameRecord& record, const PolarFrame& polar, Finished& finished);
   void writePictures(GreyImage& image, Finished& finished);
   void drain(Finished& finished);
+  void endEarly();
 
   const Parts parts_;
   Manifest& manifest_;

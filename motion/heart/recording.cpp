@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/error.h"
 #include "core/parallel.h"
 #include "motion/heart/leaflet.h"
 #include "motion/heart/surroundings.h"
@@ -105,7 +106,8 @@ std::vector<double> keyframePhases(const Cycle& cycle, int count) {
   return phases;
 }
 
-Recording record(const ParametricHeart& heart, View view, int keyframes, KeyframeSpacing spacing) {
+Recording record(const ParametricHeart& heart, View view, int keyframes, KeyframeSpacing spacing,
+                 const std::function<bool()>& keep_going) {
   Recording recording;
   recording.pose = poseOf(view, heart);
   recording.phases = spacing == KeyframeSpacing::even ? evenPhases(keyframes)
@@ -119,6 +121,7 @@ Recording record(const ParametricHeart& heart, View view, int keyframes, Keyfram
   recording.places.resize(recording.phases.size());
   parallelBlocks(recording.phases.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
+      if (!keep_going()) throw JobError("stopped");
       const std::vector<Part> parts = heart.at(recording.phases[k]);
       for (std::size_t p = 0; p < parts.size(); ++p)
         recording.parts[p].control_m[k] = controlPoints(parts[p], recording.parts[p].tags);

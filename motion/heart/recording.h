@@ -2,6 +2,7 @@
 // A beat of the parametric heart as keyframes: control meshes for Loop subdivision, and the truth
 // about them.
 
+#include <functional>
 #include <vector>
 
 #include "motion/heart/views.h"
@@ -39,8 +40,11 @@ enum class KeyframeSpacing { by_motion, even };
 // end-systole among them. Precondition: count >= 4.
 std::vector<double> keyframePhases(const Cycle& cycle, int count);
 
-// Runs in parallel. Throws SceneError when the heart has no shape at some phase.
-Recording record(const ParametricHeart& heart, View view, int keyframes,
-                 KeyframeSpacing spacing = KeyframeSpacing::by_motion);
+// Runs in parallel. Throws SceneError when the heart has no shape at some phase, JobError when
+// keep_going(), asked before each keyframe, says no.
+Recording record(
+    const ParametricHeart& heart, View view, int keyframes,
+    KeyframeSpacing spacing = KeyframeSpacing::by_motion,
+    const std::function<bool()>& keep_going = [] { return true; });
 
 }  // namespace echocine::heart

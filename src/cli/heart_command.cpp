@@ -5,6 +5,7 @@
 
 #include <charconv>
 
+#include "cli/stop_signal.h"
 #include "core/error.h"
 
 namespace echocine {
@@ -90,7 +91,8 @@ int HeartCommand::run() {
   if (even_) wanted_.spacing = heart::KeyframeSpacing::even;
   wanted_.parameters = heart::parametersFrom(given_);
   for (const std::string& segment : segments_) applySegment(segment, wanted_.parameters);
-  writeHeart(wanted_, folder_);
+  listenForStop();
+  writeHeart(wanted_, folder_, [] { return !stopWanted(); });
   if (!quiet_)
     fmt::print("{0} keyframes in {1}\n  echocine render {2} -o LOOP\n", wanted_.keyframes,
                folder_.string(), (folder_ / "scene.toml").string());

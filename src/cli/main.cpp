@@ -6,11 +6,13 @@
 #include <csignal>
 #include <cstdio>
 #include <new>
+#include <string_view>
 
 #include "cli/compare_command.h"
 #include "cli/heart_command.h"
 #include "cli/plan_command.h"
 #include "cli/render_command.h"
+#include "cli/standard_error.h"
 #include "core/error.h"
 
 namespace {
@@ -18,14 +20,22 @@ namespace {
 constexpr int kJobFailed = 1;
 constexpr int kUnusable = 2;
 
-int failed(int code, const char* what) {
-  fmt::print(stderr, "echocine: {}\n", what);
+// In one piece, so that lines of two programs do not mix, unless memory is short.
+int failed(int code, std::string_view what) {
+  try {
+    echocine::writeError(fmt::format("echocine: {}\n", what));
+  } catch (const std::bad_alloc&) {
+    for (const std::string_view part : {std::string_view("echocine: "), what, {"\n"}})
+      echocine::writeError(part);
+  }
   return code;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  echocine::keepStandardStreams();
+  echocine::endUncaughtInOneLine(kJobFailed);
   // A file-size limit must come back as an error of write(), not end the program.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
@@ -49,14 +59,13 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     return failed(kUnusable,
-                  fmt::format("{} (--help lists what is accepted)", error.what()).c_str());
+                  fmt::format("{} (--help lists what is accepted)", error.what()));
   } catch (const echocine::SceneError& error) {
     return failed(kUnusable, error.what());
   } catch (const echocine::JobError& error) {
     return failed(kJobFailed, error.what());
   } catch (const std::bad_alloc&) {
-    return failed(kJobFailed,
-                  "out of memory: fewer lines, samples, subdivision levels or threads need less");
+    return failed(kJobFailed, echocine::kOutOfMemory);
   } catch (const std::exception& error) {
     return failed(kJobFailed, error.what());
   }

@@ -75,12 +75,12 @@ PlanCommand::PlanCommand(CLI::App& app) {
 }
 
 int PlanCommand::run() {
-  const Scene scene = readScene(scene_file_);
-  listenForStop();
-  if (interpolation_) {
-    printInterpolation(scene, json_);
+  if (interpolation_) {  // writes no file: a signal may end it anywhere
+    printInterpolation(readScene(scene_file_), json_);
     return 0;
   }
+  listenForStop();
+  const Scene scene = readScene(scene_file_);
   const Estimate estimate = estimateLoop(
       scene, threads_, [] { return !stopWanted(); }, warningPrinter(quiet_));
   if (json_) {

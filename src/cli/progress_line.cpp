@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "cli/standard_error.h"
+
 namespace echocine {
 
 ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
@@ -30,17 +32,18 @@ void ProgressLine::show(const Progress& progress) {
       "{} {}/{} frames, {:.1f} frames/s, {}:{:02} left", doing, progress.done, progress.total,
       per_second, static_cast<int>(left_s) / 60, static_cast<int>(left_s) % 60);
   if (!terminal_) {
-    fmt::print(stderr, "{}\n", numbers);
+    writeError(numbers + "\n");
     return;
   }
   constexpr int kWidth = 30;
   const int full = kWidth * progress.done / progress.total;
-  fmt::print(stderr, "\r[{:#<{}}{:-<{}}] {}\x1b[K", "", full, "", kWidth - full, numbers);
+  writeError(
+      fmt::format("\r[{:#<{}}{:-<{}}] {}\x1b[K", "", full, "", kWidth - full, numbers));
   open_ = true;
 }
 
 void ProgressLine::finish() {
-  if (open_) fmt::print(stderr, "\n");
+  if (open_) writeError("\n");
   open_ = false;
 }
 

@@ -77,9 +77,9 @@ RenderCommand::RenderCommand(CLI::App& app) {
 }
 
 int RenderCommand::run() {
+  listenForStop();
   const Scene scene = readScene(scene_file_);
   if (!frames_.empty()) options_.frames = parseRange(frames_, CardiacClock(scene).frameCount());
-  listenForStop();
   ProgressLine line(quiet_);
   Monitor monitor;
   monitor.tell = [&line](const Progress& progress) { line.show(progress); };

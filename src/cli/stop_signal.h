@@ -1,9 +1,11 @@
 #pragma once
-// Ctrl-C and SIGTERM as a wish to stop, which running work asks for between frames.
+// Ctrl-C, SIGTERM and SIGHUP as a wish to stop, which running work asks for between frames.
 
 namespace echocine {
 
-void listenForStop();  // from now on the signals only note the wish
+// From now on the signals only note the wish; one that comes two seconds or more after the first
+// ends the program at once.
+void listenForStop();
 bool stopWanted();
 
 }  // namespace echocine

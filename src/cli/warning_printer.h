@@ -3,15 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <functional>
 #include <string>
+
+#include "cli/standard_error.h"
 
 namespace echocine {
 
 inline std::function<void(const std::string&)> warningPrinter(bool quiet) {
   if (quiet) return [](const std::string&) {};
-  return [](const std::string& warning) { fmt::print(stderr, "echocine: warning: {}\n", warning); };
+  return [](const std::string& warning) {
+    writeError(fmt::format("echocine: warning: {}\n", warning));
+  };
 }
 
 }  // namespace echocine

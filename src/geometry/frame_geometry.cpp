@@ -114,10 +114,10 @@ RTCDevice sharedDevice() {
 
 void throwOnError(const char* doing) {
   const RTCError error = rtcGetDeviceError(sharedDevice());
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
   if (error != RTC_ERROR_NONE)
-    throw JobError(fmt::format("Embree failed while {} (error {}{})", doing,
-                               static_cast<int>(error),
-                               error == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory" : ""));
+    throw JobError(
+        fmt::format("Embree failed while {} (error {})", doing, static_cast<int>(error)));
 }
 
 }  // namespace

@@ -44,6 +44,7 @@ std::vector<std::byte> encodeByOpenCv(const GreyImage& image, const char* format
     if (!cv::imencode(format, view, encoded, settings))
       throw JobError(fmt::format("a frame cannot be encoded as {}", format));
   } catch (const cv::Exception& error) {
+    if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
     throw JobError(fmt::format("a frame cannot be encoded as {}: {}", format, error.err));
   }
   return asBytes(encoded.data(), encoded.size());
@@ -65,9 +66,11 @@ std::vector<std::byte> encodeFfv1(const GreyImage& image) {
   frame->data[0] = const_cast<std::uint8_t*>(image.pixels.data());
   frame->linesize[0] = image.width;
   frame->pts = 0;
-  if (avcodec_send_frame(codec.get(), frame.get()) < 0 ||
-      avcodec_receive_packet(codec.get(), packet.get()) < 0)
-    throw JobError("a frame cannot be encoded as FFV1");
+  int error = avcodec_send_frame(codec.get(), frame.get());
+  if (error >= 0) error = avcodec_receive_packet(codec.get(), packet.get());
+  if (error < 0) codec.reset();  // what it holds of the frame must not come out later
+  if (error == AVERROR(ENOMEM)) throw std::bad_alloc();
+  if (error < 0) throw JobError("a frame cannot be encoded as FFV1");
   return asBytes(packet->data, static_cast<std::size_t>(packet->size));
 }
 
@@ -101,7 +104,9 @@ CodecContext openFfv1(int width, int height) {
   context->flags |= AV_CODEC_FLAG_BITEXACT;
   // The range coder takes a tenth longer than Golomb codes and a third off a smooth picture.
   av_opt_set(context->priv_data, "coder", "range_def", 0);
-  if (avcodec_open2(context.get(), codec, nullptr) < 0)
+  const int error = avcodec_open2(context.get(), codec, nullptr);
+  if (error == AVERROR(ENOMEM)) throw std::bad_alloc();
+  if (error < 0)
     throw JobError(fmt::format("cine codec ffv1: {} x {} pixels are not accepted", width, height));
   return context;
 }

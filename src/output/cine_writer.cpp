@@ -55,12 +55,14 @@ struct CineWriter::Muxer {
   AVFormatContext* format = nullptr;
   AVPacket* packet = nullptr;
   std::int64_t frames = 0;
+  bool sound = true;  // no frame was written in part
 
   ~Muxer();
   void open();
   void openContext();
   void describeStream();
-  void close();
+  void close(bool may_shorten);
+  bool isShorterThanWhatStands() const;
   [[noreturn]] void fail(int system_error) const;
   [[noreturn]] void failOf(int libav_error) const;
 
@@ -88,6 +90,7 @@ void CineWriter::Muxer::fail(int system_error) const {
 
 void CineWriter::Muxer::failOf(int libav_error) const {
   if (failure != 0) fail(failure);
+  if (libav_error == AVERROR(ENOMEM)) throw std::bad_alloc();
   char reason[AV_ERROR_MAX_STRING_SIZE] = {};
   av_strerror(libav_error, reason, sizeof(reason));
   throw JobError(fmt::format("{}: cannot be written: {}", path.string(), reason));
@@ -130,7 +133,9 @@ void CineWriter::Muxer::open() {
 void CineWriter::Muxer::openContext() {
   constexpr int kBufferBytes = 1 << 18;
   silenceLibav();
-  if (avformat_alloc_output_context2(&format, nullptr, "avi", nullptr) < 0)
+  const int error = avformat_alloc_output_context2(&format, nullptr, "avi", nullptr);
+  if (error == AVERROR(ENOMEM)) throw std::bad_alloc();
+  if (error < 0)
     throw JobError(fmt::format("{}: the installed libavformat cannot write AVI", path.string()));
   packet = av_packet_alloc();
   auto* buffer = static_cast<unsigned char*>(av_malloc(kBufferBytes));
@@ -159,9 +164,16 @@ void CineWriter::Muxer::describeStream() {
   codec.height = settings.height;
 }
 
-void CineWriter::Muxer::close() {
+bool CineWriter::Muxer::isShorterThanWhatStands() const {
+  struct stat mine {}, there {};
+  return ::fstat(descriptor, &mine) == 0 && ::stat(path.c_str(), &there) == 0 &&
+         mine.st_size < there.st_size;
+}
+
+void CineWriter::Muxer::close(bool may_shorten) {
   const int error = av_write_trailer(format);
   if (error < 0 || failure != 0) failOf(error);
+  if (!may_shorten && isShorterThanWhatStands()) return;
   const int closing = std::exchange(descriptor, -1);
   if (::close(closing) != 0 || ::rename(part.c_str(), path.c_str()) != 0) {
     const int reason = errno;
@@ -183,6 +195,7 @@ CineWriter::~CineWriter() = default;
 
 void CineWriter::add(std::span<const std::byte> encoded_frame) {
   Muxer& muxer = *muxer_;
+  muxer.sound = false;
   if (muxer.frames == 0) muxer.open();
   // The muxer only reads; the packet lends it the bytes for the time of the call.
   AVPacket& packet = *muxer.packet;
@@ -195,10 +208,15 @@ void CineWriter::add(std::span<const std::byte> encoded_frame) {
   const int error = av_write_frame(muxer.format, &packet);
   if (error < 0 || muxer.failure != 0) muxer.failOf(error);
   ++muxer.frames;
+  muxer.sound = true;
 }
 
 void CineWriter::finish() {
-  if (muxer_->frames > 0) muxer_->close();
+  if (muxer_->frames > 0) muxer_->close(true);
+}
+
+void CineWriter::finishEarly() {
+  if (muxer_->frames > 0 && muxer_->sound) muxer_->close(false);
 }
 
 }  // namespace echocine

@@ -37,6 +37,10 @@ class CineWriter {
   void add(std::span<const std::byte> encoded_frame);
   void finish();  // throws JobError; without a single frame nothing is left behind
 
+  // finish() for a run that ends early: a longer cine of an earlier run stays in place of this one.
+  // After add() has thrown it leaves everything as it is.
+  void finishEarly();
+
  private:
   struct Muxer;
   std::unique_ptr<Muxer> muxer_;

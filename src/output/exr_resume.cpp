@@ -92,24 +92,49 @@ bool isThisFrame(const Imf::Header& header, const FrameRecord& record, const Sce
          holds<Imf::StringAttribute>(header, "echocine:version", std::string(ECHOCINE_VERSION));
 }
 
+bool isOfScene(const Imf::Header& header, const std::string& scene_sha256) {
+  return holds<Imf::StringAttribute>(header, "echocine:scene_sha256", scene_sha256);
+}
+
 Found look(const std::filesystem::path& path, const FrameRecord& record, const Scene& scene,
            const std::string& scene_sha256, double reference_intensity) {
   try {
     Imf::InputFile file(path.c_str(), 0);
     const Imf::Header& header = file.header();
     if (!file.isComplete()) return Found::nothing;
-    const bool same_scene =
-        holds<Imf::StringAttribute>(header, "echocine:scene_sha256", scene_sha256);
+    const bool same_scene = isOfScene(header, scene_sha256);
     if (same_scene && !isThisFrame(header, record, scene, reference_intensity))
       return Found::nothing;
     if (!pixelsAreWhole(file)) return Found::nothing;
     return same_scene ? Found::this_frame : Found::another_scene;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {  // absent, cut short, or no OpenEXR file at all
     return Found::nothing;
   }
 }
 
+[[noreturn]] void failOfOtherScene(const std::filesystem::path& path) {
+  throw SceneError(fmt::format(
+      "{}: belongs to another scene: choose another folder or render without --resume",
+      path.string()));
+}
+
 }  // namespace
+
+void ExrStack::refuseOtherScene(int frame) const {
+  const std::filesystem::path path = folder_ / fileName(frame);
+  std::error_code absent;
+  if (!std::filesystem::is_regular_file(path, absent)) return;
+  bool another = false;
+  try {
+    another = !isOfScene(Imf::InputFile(path.c_str(), 0).header(), scene_sha256_);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {  // without a header it is of no scene
+  }
+  if (another) failOfOtherScene(path);
+}
 
 std::string ExrStack::existing(const FrameRecord& record) const {
   const std::filesystem::path path = folder_ / fileName(record.frame);
@@ -117,9 +142,7 @@ std::string ExrStack::existing(const FrameRecord& record) const {
     case Found::this_frame:
       return sha256HexOfFile(path);
     case Found::another_scene:
-      throw SceneError(fmt::format(
-          "{}: belongs to another scene: choose another folder or render without --resume",
-          path.string()));
+      failOfOtherScene(path);
     case Found::nothing:
       break;
   }

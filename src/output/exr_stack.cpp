@@ -187,6 +187,8 @@ std::string ExrStack::write(const FrameRecord& record,
     Imf::OutputFile file(stream, header, 0);
     file.setFrameBuffer(buffer);
     file.writePixels(probe.samples);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw JobError(fmt::format("{}: cannot be encoded: {}", path.string(), error.what()));
   }

@@ -26,6 +26,10 @@ class ExrStack {
   // Thread-safe. Throws SceneError when the file is whole but belongs to another scene.
   std::string existing(const FrameRecord& record) const;
 
+  // Throws SceneError when the frame's file is there and its header is of another scene, whether or
+  // not the pixels are whole.
+  void refuseOtherScene(int frame) const;
+
   static std::string fileName(int frame);  // "frame_0000.exr"
 
  private:

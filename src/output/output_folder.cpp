@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void makeFolder(const fs::path& folder) {
+fs::path madeFolder(const fs::path& folder) {
   std::error_code failed;
   if (fs::exists(folder, failed) && !fs::is_directory(folder, failed))
     throw JobError(fmt::format("{}: is a file, a folder is needed", folder.string()));
@@ -23,6 +23,14 @@ void makeFolder(const fs::path& folder) {
   if (failed)
     throw JobError(
         fmt::format("{}: cannot be made a folder: {}", folder.string(), failed.message()));
+  return folder;
+}
+
+// Found out now, not when hours later the file is to take its place.
+void refuseFolderAt(const fs::path& file) {
+  std::error_code absent;
+  if (fs::is_directory(file, absent))
+    throw JobError(fmt::format("{}: is a folder, a file has to go there", file.string()));
 }
 
 void removeFile(const fs::path& path) {
@@ -68,13 +76,14 @@ void removeFrames(const fs::path& folder, const std::string& ending, int first) 
 }  // namespace
 
 OutputFolder::OutputFolder(fs::path folder, const OutputSettings& settings, bool resume)
-    : folder_(std::move(folder)), resume_(resume) {
-  makeFolder(folder_);
+    : folder_(madeFolder(folder)), lock_(folder_), resume_(resume), exr_(settings.exr) {
+  if (settings.cine) refuseFolderAt(cine());
+  refuseFolderAt(manifest());
   tryWriting(folder_);
   for (const auto& [wanted, subfolder] :
        {std::pair(settings.exr, intensity()), {settings.png, png()}}) {
     if (!wanted) continue;
-    makeFolder(subfolder);
+    madeFolder(subfolder);
     tryWriting(subfolder);
   }
   removeFile(manifest());
@@ -85,7 +94,7 @@ OutputFolder::OutputFolder(fs::path folder, const OutputSettings& settings, bool
 void OutputFolder::removeStale(int frame_count) const {
   const int first = resume_ ? frame_count : 0;
   removeFrames(intensity(), ".exr", first);
-  removeFrames(png(), ".png", first);
+  removeFrames(png(), ".png", exr_ ? first : 0);
   if (!resume_) removeFile(cine());
   removeFile(cine().string() + ".part");
   removeFile(manifest().string() + ".part");

@@ -1,0 +1,57 @@
+#include "cli/standard_error.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <exception>
+#include <new>
+
+#include "core/error.h"
+
+namespace echocine {
+
+namespace {
+
+int exit_code = 1;
+
+[[noreturn]] void endInOneLine() {
+  writeError("echocine: ");
+  try {
+    if (const std::exception_ptr uncaught = std::current_exception())
+      std::rethrow_exception(uncaught);
+    writeError("ended for a reason unknown");
+  } catch (const std::bad_alloc&) {
+    writeError(kOutOfMemory);
+  } catch (const std::exception& error) {
+    writeError(error.what());
+  } catch (...) {
+    writeError("ended for a reason unknown");
+  }
+  writeError("\n");
+  ::_exit(exit_code);
+}
+
+}  // namespace
+
+void keepStandardStreams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+      (void)::open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY);
+}
+
+void writeError(std::string_view text) noexcept {
+  while (!text.empty()) {
+    const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void endUncaughtInOneLine(int code) {
+  exit_code = code;
+  std::set_terminate(endInOneLine);
+}
+
+}  // namespace echocine

@@ -1,0 +1,57 @@
+#pragma once
+// Runs the program in a child process that meets a fault.
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "support/paths.h"
+#include "support/run_program.h"
+
+namespace echocine::support {
+
+struct Steps {
+  long files = 0, memory = 0;  // as tests/support/fault_injector.cpp counts them
+};
+
+struct FaultyRun {
+  std::vector<std::string> arguments;
+  std::string fault;  // of the injector, KIND:STEP
+  std::function<void()> before = [] {};  // called in the child; only system calls
+  std::function<void(pid_t)> meanwhile = [](pid_t) {};  // called in the parent once it runs
+};
+
+// A run that hangs ends by SIGALRM after three minutes, a hundred times longer than any takes.
+inline Outcome outcomeOf(const FaultyRun& run, Steps* steps = nullptr) {
+  const TempFolder folder;
+  const std::string out = folder / "out", err = folder / "err", counts = folder / "steps";
+  std::vector<const char*> arguments{kProgram};
+  for (const std::string& argument : run.arguments) arguments.push_back(argument.c_str());
+  arguments.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::setenv("LD_PRELOAD", kFaultInjector, 1);
+    ::setenv("ECHOCINE_FAULT_STEPS", counts.c_str(), 1);
+    if (!run.fault.empty()) ::setenv("ECHOCINE_FAULT", run.fault.c_str(), 1);
+    if (!std::freopen(out.c_str(), "w", stdout) || !std::freopen(err.c_str(), "w", stderr))
+      ::_exit(126);
+    run.before();
+    ::alarm(180);
+    ::execv(kProgram, const_cast<char* const*>(arguments.data()));
+    ::_exit(127);
+  }
+  run.meanwhile(child);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  if (steps) std::ifstream(counts) >> steps->files >> steps->memory;
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), bytesOf(out),
+          bytesOf(err)};
+}
+
+}  // namespace echocine::support
