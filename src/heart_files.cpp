@@ -190,7 +190,8 @@ void writeHeart(const HeartFiles& wanted, const fs::path& folder,
   FolderInTheMaking making(folder);
   withThreads(wanted.threads, [&] {
     const heart::ParametricHeart model(wanted.parameters);
-    const Recording recording = heart::record(model, wanted.view, wanted.keyframes, wanted.spacing, keep_going);
+    const Recording recording =
+        heart::record(model, wanted.view, wanted.keyframes, wanted.spacing, keep_going);
     for (const RecordedPart& part : recording.parts)
       for (std::size_t k = 0; k < part.control_m.size(); ++k) {
         if (!keep_going()) throw JobError("stopped");

@@ -35,7 +35,7 @@ int failed(int code, std::string_view what) {
 
 int main(int argc, char** argv) {
   echocine::keepStandardStreams();
-  echocine::endUncaughtInOneLine(kJobFailed);
+  echocine::endCrashesInOneLine(kJobFailed);
   // A file-size limit must come back as an error of write(), not end the program.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
@@ -58,8 +58,7 @@ int main(int argc, char** argv) {
     return code;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return failed(kUnusable,
-                  fmt::format("{} (--help lists what is accepted)", error.what()));
+    return failed(kUnusable, fmt::format("{} (--help lists what is accepted)", error.what()));
   } catch (const echocine::SceneError& error) {
     return failed(kUnusable, error.what());
   } catch (const echocine::JobError& error) {

@@ -37,8 +37,7 @@ void ProgressLine::show(const Progress& progress) {
   }
   constexpr int kWidth = 30;
   const int full = kWidth * progress.done / progress.total;
-  writeError(
-      fmt::format("\r[{:#<{}}{:-<{}}] {}\x1b[K", "", full, "", kWidth - full, numbers));
+  writeError(fmt::format("\r[{:#<{}}{:-<{}}] {}\x1b[K", "", full, "", kWidth - full, numbers));
   open_ = true;
 }
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <exception>
 #include <new>
 
@@ -15,7 +16,12 @@ namespace {
 
 int exit_code = 1;
 
-[[noreturn]] void endInOneLine() {
+void endAborted(int) {
+  writeError("echocine: a library gave up (abort), most likely for want of memory\n");
+  ::_exit(exit_code);
+}
+
+[[noreturn]] void endUncaught() {
   writeError("echocine: ");
   try {
     if (const std::exception_ptr uncaught = std::current_exception())
@@ -49,9 +55,10 @@ void writeError(std::string_view text) noexcept {
   }
 }
 
-void endUncaughtInOneLine(int code) {
+void endCrashesInOneLine(int code) {
   exit_code = code;
-  std::set_terminate(endInOneLine);
+  std::set_terminate(endUncaught);
+  std::signal(SIGABRT, endAborted);
 }
 
 }  // namespace echocine

@@ -12,8 +12,8 @@ void keepStandardStreams();
 // Writes the text at once; a failure is of no consequence.
 void writeError(std::string_view text) noexcept;
 
-// An exception that nothing could catch, as where memory runs out inside a library that promises
-// not to throw, becomes one line and exit code `code` instead of a crash.
-void endUncaughtInOneLine(int code);
+// Where memory runs out inside a library that promises not to throw, or that calls abort(), the
+// program ends with one line and exit code `code` instead of a crash.
+void endCrashesInOneLine(int code);
 
 }  // namespace echocine

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <fstream>
+#include <new>
 #include <vector>
 
 #include "core/error.h"
@@ -17,8 +18,9 @@ struct Sha256::State {
 };
 
 Sha256::Sha256() : state_(std::make_unique<State>()) {
-  if (state_->context == nullptr || EVP_DigestInit_ex(state_->context, EVP_sha256(), nullptr) != 1)
-    throw JobError("SHA-256 is not available in the installed OpenSSL");
+  if (state_->context == nullptr) throw std::bad_alloc();
+  if (EVP_DigestInit_ex(state_->context, EVP_sha256(), nullptr) != 1)
+    throw JobError("SHA-256: the installed OpenSSL does not have it, or is out of memory");
 }
 Sha256::~Sha256() = default;
 Sha256::Sha256(Sha256&&) noexcept = default;

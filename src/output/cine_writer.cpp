@@ -165,7 +165,8 @@ void CineWriter::Muxer::describeStream() {
 }
 
 bool CineWriter::Muxer::isShorterThanWhatStands() const {
-  struct stat mine {}, there {};
+  struct stat mine {
+  }, there{};
   return ::fstat(descriptor, &mine) == 0 && ::stat(path.c_str(), &there) == 0 &&
          mine.st_size < there.st_size;
 }

@@ -115,9 +115,9 @@ Found look(const std::filesystem::path& path, const FrameRecord& record, const S
 }
 
 [[noreturn]] void failOfOtherScene(const std::filesystem::path& path) {
-  throw SceneError(fmt::format(
-      "{}: belongs to another scene: choose another folder or render without --resume",
-      path.string()));
+  throw SceneError(
+      fmt::format("{}: belongs to another scene: choose another folder or render without --resume",
+                  path.string()));
 }
 
 }  // namespace

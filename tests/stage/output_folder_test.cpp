@@ -39,7 +39,7 @@ std::vector<std::string> listing(const std::filesystem::path& folder) {
 
 TEST(OutputFolder, MakesWhatTheSettingsAskForAndLeavesNoTrial) {
   const TempFolder temp;
-  const OutputFolder folder(temp / "new/run", withPng(false), false);
+  { const OutputFolder folder(temp / "new/run", withPng(false), false); }
   EXPECT_TRUE(std::filesystem::is_directory(temp / "new/run/intensity"));
   EXPECT_FALSE(std::filesystem::exists(temp / "new/run/png"));
   EXPECT_TRUE(listing(temp.path()).empty());

@@ -1,9 +1,9 @@
 // Preloaded into the program, makes it meet a fault at an exact step, the same in every run:
 //   ECHOCINE_FAULT=KIND:N
 // Steps of files are calls that change them, counted from 1. At step N, before the call,
-//   kill  the program ends as by kill -9; half  as well, after half of the bytes where it is a write
-//   full  this and all later calls that need space fail with ENOSPC
-//   int, term, hup  the signal arrives
+//   kill  the program ends as by kill -9; half  as well, after half of the bytes where it is a
+//   write full  this and all later calls that need space fail with ENOSPC int, term, hup  the
+//   signal arrives
 // Steps of memory are allocations made within main():
 //   memory   allocation N fails; shortage  all of 4 KiB or more from N on fail
 // ECHOCINE_FAULT_STEPS=FILE takes the number of both kinds of steps when the program ends.
@@ -65,8 +65,8 @@ bool full(bool needs_space) {
 bool outOfMemory(size_t size) {
   if (!in_main) return false;
   const long now = ++memory_steps;
-  const bool fails = (now == step && is("memory")) ||
-                     (step > 0 && now >= step && size >= 4096 && is("shortage"));
+  const bool fails =
+      (now == step && is("memory")) || (step > 0 && now >= step && size >= 4096 && is("shortage"));
   if (fails) errno = ENOMEM;
   return fails;
 }
@@ -97,8 +97,8 @@ extern "C" {
 
 int __libc_start_main(int (*main)(int, char**, char**), int argc, char** argv, void (*init)(),
                       void (*fini)(), void (*unload)(), void* stack_end) {
-  using Start = int (*)(int (*)(int, char**, char**), int, char**, void (*)(), void (*)(),
-                        void (*)(), void*);
+  using Start =
+      int (*)(int (*)(int, char**, char**), int, char**, void (*)(), void (*)(), void (*)(), void*);
   real_main = main;
   const auto start = reinterpret_cast<Start>(::dlsym(RTLD_NEXT, "__libc_start_main"));
   return start(watchedMain, argc, argv, init, fini, unload, stack_end);

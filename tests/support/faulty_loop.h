@@ -17,8 +17,8 @@ class FaultyLoop : public ::testing::Test {
     text.output["png"] = "true";
     return text;
   }
-  FaultyLoop() {
-    writeBall(folder, sceneText());
+  explicit FaultyLoop(const SceneText& text = sceneText()) {
+    writeBall(folder, text);
     const Outcome whole = outcomeOf(rendering(undisturbed), &steps);
     EXPECT_EQ(whole.code, 0) << whole.err;
     files = leftIn(undisturbed);
@@ -45,7 +45,8 @@ class FaultyLoop : public ::testing::Test {
   }
 
   TempFolder folder;
-  const fs::path scene = folder / "scene.toml", out = folder / "out", undisturbed = folder / "whole";
+  const fs::path scene = folder / "scene.toml", out = folder / "out",
+                 undisturbed = folder / "whole";
   Steps steps;
   Files files;
 };

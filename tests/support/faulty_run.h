@@ -22,8 +22,8 @@ struct Steps {
 
 struct FaultyRun {
   std::vector<std::string> arguments;
-  std::string fault;  // of the injector, KIND:STEP
-  std::function<void()> before = [] {};  // called in the child; only system calls
+  std::string fault{};                                  // of the injector, KIND:STEP
+  std::function<void()> before = [] {};                 // called in the child; only system calls
   std::function<void(pid_t)> meanwhile = [](pid_t) {};  // called in the parent once it runs
 };
 

@@ -1,0 +1,135 @@
+// Memory that runs out anywhere in a run: one line and exit code 1, or, where a library does
+// without, the very bytes; never a crash, never a hang, and finished frames stay whole.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <sstream>
+
+#include "support/faulty_loop.h"
+
+namespace echocine {
+namespace {
+
+using namespace support;
+
+// What the program itself says: GDAL, which comes with OpenCV's image files, has lines of its own.
+std::string withoutGdal(const std::string& lines) {
+  std::istringstream in(lines);
+  std::string kept;
+  for (std::string line; std::getline(in, line);)
+    if (line.find("./port/cpl") == std::string::npos && !line.starts_with("CPL") &&
+        !line.starts_with("Out of memory attempting"))
+      kept += line + "\n";
+  return kept;
+}
+
+class ShortOfMemory : public FaultyLoop {
+ protected:
+  using FaultyLoop::FaultyLoop;
+  void SetUp() override {
+#ifdef ECHOCINE_SANITIZED
+    GTEST_SKIP() << "a sanitizer has its own allocator and needs terabytes of addresses";
+#endif
+  }
+  // Returns whether the run failed.
+  bool expectOrderlyEnd(Outcome outcome) const {
+    outcome.err = withoutGdal(outcome.err);
+    // toml++ reads numbers by a stream, which takes want of memory for a number it cannot read.
+    if (outcome.code == 2 && outcome.err.find("not TOML: Error while parsing") != std::string::npos)
+      return true;
+    EXPECT_TRUE(outcome.code == 0 || outcome.code == 1) << outcome.code << ' ' << outcome.err;
+    if (outcome.code == 0) {
+      EXPECT_EQ(outcome.err, "");
+      expectSame(leftIn(out), files);
+      return false;
+    }
+    expectOneLine(outcome, 1);
+    EXPECT_TRUE(outcome.err.find("emory") != std::string::npos ||
+                outcome.err.find("pthread_create has failed") != std::string::npos)
+        << outcome.err;
+    expectOnlyWholeFiles(out, files);
+    return true;
+  }
+  // One allocation fails, all others succeed: at seeded places, as many early as late ones.
+  void failOneAllocation(int runs) const {
+    ASSERT_GT(steps.memory, 1000);
+    std::mt19937 random(8);
+    if (const char* wanted = std::getenv("ECHOCINE_ALLOCATIONS")) runs = std::atoi(wanted);
+    const auto most = static_cast<double>(steps.memory);
+    int failed = 0;
+    for (int i = 0; i < runs; ++i) {
+      const double share = (i + std::uniform_real_distribution<double>()(random)) / runs;
+      const long step = std::lround(i % 2 ? std::pow(most, share) : std::max(1.0, share * most));
+      SCOPED_TRACE(step);
+      failed += expectOrderlyEnd(disturbed("memory:" + std::to_string(step), 1 + i % 3 % 2));
+    }
+    EXPECT_GT(failed, runs / 3);
+  }
+};
+
+// The other tracer and the other codec.
+class ShortOfMemoryWithRefraction : public ShortOfMemory {
+ protected:
+  ShortOfMemoryWithRefraction() : ShortOfMemory(text()) {}
+  static SceneText text() {
+    SceneText text = sceneText();
+    text.effects["refraction"] = "\"on\"";
+    text.output["codec"] = "\"ffv1\"";
+    return text;
+  }
+};
+
+TEST_F(ShortOfMemory, OneAllocationThatFailsEndsInOneLine) {
+  failOneAllocation(40);
+}
+
+TEST_F(ShortOfMemoryWithRefraction, OneAllocationThatFailsEndsInOneLine) {
+  failOneAllocation(30);
+}
+
+// From some allocation on, none of 4 KiB or more succeeds; the rest of the run must cope.
+TEST_F(ShortOfMemory, AShortageThatLastsEndsInOneLine) {
+  std::mt19937 random(9);
+  for (int i = 0; i < 16; ++i) {
+    const long step = std::uniform_int_distribution<long>(1, steps.memory)(random);
+    SCOPED_TRACE(step);
+    expectOrderlyEnd(disturbed("shortage:" + std::to_string(step), 1 + i % 2));
+    if (i % 4 == 0) expectResumes();
+  }
+}
+
+// A limit on the address space, from the least that lets the program start to what a run needs.
+// Below that the system's loader refuses, which is no matter of the program's.
+TEST_F(ShortOfMemory, EveryLimitOfAddressesEndsInOneLine) {
+  const auto limited = [this](std::vector<std::string> arguments, long megabytes) {
+    FaultyRun run{std::move(arguments)};
+    run.before = [megabytes] {
+      const rlimit limit{static_cast<rlim_t>(megabytes) << 20, static_cast<rlim_t>(megabytes)
+                                                                   << 20};
+      ::setrlimit(RLIMIT_AS, &limit);
+    };
+    return outcomeOf(run);
+  };
+  long refused = 0, starts = 4096;
+  while (starts - refused > 1) {
+    const long middle = (starts + refused) / 2;
+    (limited({"--version"}, middle).code == 0 ? starts : refused) = middle;
+  }
+  int failed = 0, run_at_all = 0;
+  for (long megabytes = starts + 2; run_at_all < 3 && megabytes < starts + 2000;
+       megabytes += 1 + (megabytes - starts) / 6) {
+    SCOPED_TRACE(megabytes);
+    fs::remove_all(out);
+    const bool short_of = expectOrderlyEnd(limited(rendering(out, {}, 4).arguments, megabytes));
+    failed += short_of;
+    run_at_all += !short_of;
+  }
+  EXPECT_GT(failed, 0);
+  EXPECT_EQ(run_at_all, 3);
+  expectResumes();
+}
+
+}  // namespace
+}  // namespace echocine

@@ -1,0 +1,166 @@
+// Wishes to stop, at exact steps and from outside.
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "support/faulty_loop.h"
+
+namespace echocine {
+namespace {
+
+using namespace support;
+
+#ifdef ECHOCINE_SANITIZED
+constexpr int kMoments = 4;  // a start takes seconds
+#else
+constexpr int kMoments = 16;
+#endif
+
+long drawStep(std::mt19937& random, long most) {
+  return std::uniform_int_distribution<long>(1, most)(random);
+}
+
+bool hasEnded(pid_t child) {
+  siginfo_t info{};
+  return ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         info.si_pid == child;
+}
+
+class StoppedLoop : public FaultyLoop {};
+
+// What was begun is finished, so a signal during the last frames changes nothing.
+TEST_F(StoppedLoop, AtSeededStepsLeavesACineOfTheFinishedFrames) {
+  std::mt19937 random(10);
+  int stopped = 0;
+  for (int i = 0; i < kMoments; ++i) {
+    const long step = i == 0 ? 1 : drawStep(random, steps.files);
+    const std::string signal = std::vector<std::string>{"int", "term", "hup"}[i % 3];
+    SCOPED_TRACE(signal + " at " + std::to_string(step));
+    const Outcome outcome = disturbed(signal + ":" + std::to_string(step), 1 + i % 2);
+    for (const auto& file : leftIn(out)) EXPECT_FALSE(isPart(file.first)) << file.first;
+    expectOnlyWholeFiles(out, files);
+    if (outcome.code == 0) {
+      expectSame(leftIn(out), files);
+      continue;
+    }
+    ++stopped;
+    expectOneLine(outcome, 1);
+    EXPECT_NE(outcome.err.find("stopped: "), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(out / "manifest.json"));
+    const auto frames = fs::exists(out / "intensity")
+                            ? std::distance(fs::directory_iterator(out / "intensity"), {})
+                            : 0;
+    EXPECT_EQ(std::max(cineFrames(out / "cine.avi"), 0), frames);
+    expectResumes();
+  }
+  EXPECT_GT(stopped, 0);
+}
+
+// Going on over a loop whose cine is longer, and stopped at once: the longer cine stays.
+TEST_F(StoppedLoop, AResumedRunThatIsStoppedKeepsTheLongerCine) {
+  fs::copy(undisturbed, out, fs::copy_options::recursive);
+  FaultyRun run = rendering(out, {"--resume"});
+  Steps again;
+  ASSERT_EQ(outcomeOf(run, &again).code, 0);
+  const std::string cine = bytesOf(out / "cine.avi");
+  std::mt19937 random(11);
+  for (int i = 0; i < 5; ++i) {
+    run.fault = "int:" + std::to_string(drawStep(random, again.files));
+    SCOPED_TRACE(run.fault);
+    const Outcome outcome = outcomeOf(run);
+    EXPECT_TRUE(outcome.code == 0 || outcome.code == 1) << outcome.err;
+    EXPECT_TRUE(bytesOf(out / "cine.avi") == cine);
+  }
+}
+
+TEST_F(StoppedLoop, APlanLeavesNothingInTheFolderOfTemporaryFiles) {
+  const fs::path temporary = folder / "tmp";
+  fs::create_directory(temporary);
+  FaultyRun run{{"plan", scene, "--quiet"}};
+  run.before = [&temporary] { ::setenv("TMPDIR", temporary.c_str(), 1); };
+  Steps plan;
+  ASSERT_EQ(outcomeOf(run, &plan).code, 0);
+  std::mt19937 random(12);
+  int stopped = 0;
+  for (int i = 0; i < kMoments / 2; ++i) {
+    run.fault =
+        std::string(i % 2 ? "int:" : "term:") + std::to_string(drawStep(random, plan.files));
+    SCOPED_TRACE(run.fault);
+    const Outcome outcome = outcomeOf(run);
+    EXPECT_TRUE(fs::is_empty(temporary));
+    if (outcome.code == 0) continue;
+    ++stopped;
+    expectOneLine(outcome, 1);
+    EXPECT_NE(outcome.err.find("stopped"), std::string::npos) << outcome.err;
+  }
+  EXPECT_GT(stopped, 0);
+}
+
+// The first frame of this scene takes minutes, and a stop waits for it; the second wish does not.
+TEST_F(StoppedLoop, ASecondSignalEndsAtOnce) {
+  SceneText text = sceneText();
+  text.probe["lines"] = "16000";
+  text.probe["samples"] = "16000";
+  text.signal["reference_intensity"] = "1e-7";
+  folder.write("scene.toml", text.text());
+  FaultyRun run = rendering(out);
+  run.meanwhile = [this](pid_t child) {
+    while (!fs::exists(out / "intensity") && !hasEnded(child)) ::usleep(1000);
+    while (!hasEnded(child)) {  // until two signals lie two seconds apart
+      ::kill(child, SIGINT);
+      ::usleep(100000);
+    }
+  };
+  EXPECT_EQ(outcomeOf(run).code, 128 + SIGINT);
+  expectOnlyWholeFiles(out, files);
+}
+
+class StoppedHeart : public ::testing::Test {
+ protected:
+  FaultyRun heart() const {
+    return {{"heart", "-o", folder / "heart", "--quiet", "--keyframes", "4", "--threads", "1"}};
+  }
+  TempFolder folder;
+};
+
+TEST_F(StoppedHeart, LeavesNothing) {
+  FaultyRun run = heart();
+  Steps steps;
+  ASSERT_EQ(outcomeOf(run, &steps).code, 0);
+  std::mt19937 random(13);
+  for (int i = 0; i < 4; ++i) {
+    fs::remove_all(folder / "heart");
+    run.fault = std::vector<std::string>{"int:", "term:", "hup:"}[i % 3] +
+                std::to_string(drawStep(random, steps.files * 9 / 10));
+    SCOPED_TRACE(run.fault);
+    const Outcome outcome = outcomeOf(run);
+    expectOneLine(outcome, 1);
+    EXPECT_NE(outcome.err.find("stopped"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(fs::is_empty(folder.path()));
+  }
+}
+
+// What a killed run leaves stands beside, and the next run takes it away.
+TEST_F(StoppedHeart, KilledLeavesNoFolderOfTheNameAndTheNextRunIsWhole) {
+  FaultyRun run = heart();
+  Steps steps;
+  ASSERT_EQ(outcomeOf(run, &steps).code, 0);
+  const auto whole = leftIn(folder / "heart");
+  fs::remove_all(folder / "heart");
+  std::mt19937 random(14);
+  for (int i = 0; i < 4; ++i) {
+    run.fault = "half:" + std::to_string(i == 0 ? steps.files : drawStep(random, steps.files));
+    SCOPED_TRACE(run.fault);
+    EXPECT_EQ(outcomeOf(run).code, 128 + SIGKILL);
+    EXPECT_FALSE(fs::exists(folder / "heart"));
+  }
+  folder.write("heart.echocine-part/stale.obj", "left by a killed run");
+  run.fault.clear();
+  EXPECT_EQ(outcomeOf(run).code, 0);
+  expectSame(leftIn(folder / "heart"), whole);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+}
+
+}  // namespace
+}  // namespace echocine
