@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
+#include "core/out_of_memory.h"
 #include "core/parallel.h"
 #include "motion/ecg.h"
 #include "scene/scene_json.h"

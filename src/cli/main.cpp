@@ -14,6 +14,7 @@
 #include "cli/render_command.h"
 #include "cli/standard_error.h"
 #include "core/error.h"
+#include "core/out_of_memory.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <exception>
 #include <new>
 
-#include "core/error.h"
+#include "core/out_of_memory.h"
 
 namespace echocine {
 

@@ -21,10 +21,6 @@ class JobError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What to say of std::bad_alloc, which is a failed job too.
-inline constexpr const char* kOutOfMemory =
-    "out of memory: fewer lines, samples, subdivision levels or threads need less";
-
 // Where a value of a scene stands, so that later stages can name it in their messages.
 struct SourcePlace {
   std::string file;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "support/fault_injector.h"
 #include "support/paths.h"
 #include "support/run_program.h"
 

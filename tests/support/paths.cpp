@@ -1,5 +1,7 @@
 #include "support/paths.h"
 
+#include "support/fault_injector.h"
+
 namespace echocine::support {
 
 const char* const kSourceDir = ECHOCINE_SOURCE_DIR;
