@@ -32,12 +32,15 @@ struct FaultyRun {
 inline Outcome outcomeOf(const FaultyRun& run, Steps* steps = nullptr) {
   const TempFolder folder;
   const std::string out = folder / "out", err = folder / "err", counts = folder / "steps";
+  const char* options = std::getenv("ASAN_OPTIONS");
+  const std::string asan = std::string(options ? options : "") + ":verify_asan_link_order=0";
   std::vector<const char*> arguments{kProgram};
   for (const std::string& argument : run.arguments) arguments.push_back(argument.c_str());
   arguments.push_back(nullptr);
   const pid_t child = ::fork();
   if (child == 0) {
     ::setenv("LD_PRELOAD", kFaultInjector, 1);
+    ::setenv("ASAN_OPTIONS", asan.c_str(), 1);
     ::setenv("ECHOCINE_FAULT_STEPS", counts.c_str(), 1);
     if (!run.fault.empty()) ::setenv("ECHOCINE_FAULT", run.fault.c_str(), 1);
     if (!std::freopen(out.c_str(), "w", stdout) || !std::freopen(err.c_str(), "w", stderr))

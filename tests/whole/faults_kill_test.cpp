@@ -77,11 +77,11 @@ TEST_F(KilledLoop, AtSeededMomentsResumesToTheSameBytes) {
   const std::chrono::duration<double> whole_run = std::chrono::steady_clock::now() - start;
   std::mt19937 random(7);
   int killed = 0;
-  for (int i = 0; i < kills; ++i) {
+  for (int i = 0; killed < kills && i < 4 * kills; ++i) {  // some moments come after the end
     SCOPED_TRACE(i);
     fs::remove_all(out);
     FaultyRun run = rendering(out, {}, 2);
-    const double share = (i + std::uniform_real_distribution<double>()(random)) / kills;
+    const double share = (i % kills + std::uniform_real_distribution<double>()(random)) / kills;
     run.meanwhile = [&](pid_t child) {
       const double wait_s = share * whole_run.count();
       const timespec wait{static_cast<time_t>(wait_s),
@@ -96,8 +96,7 @@ TEST_F(KilledLoop, AtSeededMomentsResumesToTheSameBytes) {
     expectResumes();
   }
   RecordProperty("killed", killed);
-  std::printf("%d of %d runs were killed before their end, all resumed to the same bytes\n", killed,
-              kills);
+  std::printf("%d runs were killed before their end and resumed\n", killed);
 }
 
 }  // namespace
