@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <ranges>
 
 #include "motion/surface_measure.h"
 
@@ -60,8 +59,8 @@ std::vector<std::uint32_t> Nesting::around(std::uint32_t piece) const {
 }
 
 double Nesting::volume(std::uint32_t piece) const {
-  const auto faces = pieces_[piece].triangles |
-                     std::views::transform([&](std::uint32_t t) { return triangles_[t]; });
+  std::vector<Triangle> faces;
+  for (const std::uint32_t t : pieces_[piece].triangles) faces.push_back(triangles_[t]);
   const double volume = enclosedVolume(faces, [&](std::uint32_t v) { return positions_[v]; });
   const double size = length(pieces_[piece].box.hi - pieces_[piece].box.lo);
   return 6 * std::abs(volume) > 1e-12 * size * size * size ? volume : 0;

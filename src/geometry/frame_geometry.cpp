@@ -102,7 +102,7 @@ RTCRayHit16 packetOf(std::span<const RayQuery> rays) {
 }
 
 struct DeviceHandle {
-  RTCDevice device = rtcNewDevice(nullptr);
+  RTCDevice device = rtcNewDevice(fmt::format("threads={}", libraryThreads()).c_str());
   ~DeviceHandle() { rtcReleaseDevice(device); }
 };
 

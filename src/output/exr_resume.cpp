@@ -13,6 +13,7 @@
 #include <set>
 
 #include "core/hash.h"
+#include "output/exr_header.h"
 #include "output/exr_stack.h"
 #include "output/polar_plane.h"
 
@@ -99,6 +100,7 @@ bool isOfScene(const Imf::Header& header, const std::string& scene_sha256) {
 Found look(const std::filesystem::path& path, const FrameRecord& record, const Scene& scene,
            const std::string& scene_sha256, double reference_intensity) {
   try {
+    if (!hasPlainExrHeader(path)) return Found::nothing;
     Imf::InputFile file(path.c_str(), 0);
     const Imf::Header& header = file.header();
     if (!file.isComplete()) return Found::nothing;

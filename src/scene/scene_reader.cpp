@@ -24,7 +24,6 @@ constexpr NumberRange kHeartRates_bpm{.lo = 1, .hi = 1000};
 constexpr double kMaxRrVariability = 0.3;
 constexpr double kMaxGainDb =
     200;  // keeps intensities within floats; scanners end at 100. Our choice
-constexpr double kMaxPolarSamples = 1 << 26;
 constexpr int kMaxRaysPerBeam = 4096;  // errors are then far under a picture's. Our choice
 
 const NumberRange kPositive = NumberRange::positive();
@@ -33,17 +32,24 @@ double readUnit(TomlTable& table, std::string_view key, double fallback) {
   return table.choice(key, fallback, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}});
 }
 
+// A vector of any length but 0 as a unit vector. A power of two brings it near 1 first, exactly:
+// the squares of 1e200 and of 1e-200 are no numbers to divide by.
+Vec3d readDirection(TomlTable& table, std::string_view key) {
+  const Vec3d v = table.vector(key);
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (largest == 0) table.fail(key, "is the zero vector, accepted: a direction");
+  const int exponent = -std::ilogb(largest);
+  return normalised(
+      Vec3d{std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)});
+}
+
 // The lateral axis is made perpendicular to the depth axis; the elevation axis completes a
 // right-handed frame.
 Frame readPose(TomlTable& table, double mesh_unit_m) {
   Frame pose;
-  const Vec3d axis = table.vector("axis");
-  const Vec3d lateral = table.vector("lateral");
+  pose.z_axis = readDirection(table, "axis");
+  const Vec3d unit_lateral = readDirection(table, "lateral");
   pose.origin = mesh_unit_m * table.vector("apex");
-  if (length(axis) == 0) table.fail("axis", "is the zero vector, accepted: a direction");
-  if (length(lateral) == 0) table.fail("lateral", "is the zero vector, accepted: a direction");
-  pose.z_axis = normalised(axis);
-  const Vec3d unit_lateral = normalised(lateral);
   const Vec3d across = unit_lateral - dot(unit_lateral, pose.z_axis) * pose.z_axis;
   if (length(across) < 1e-6)
     table.fail("lateral", "is parallel to axis, accepted: a direction across it");

@@ -1,3 +1,5 @@
+// The parallel functions on oneTBB.
+
 #include "core/parallel.h"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -27,6 +29,11 @@ int threadCount() {
 
 void isolated(const std::function<void()>& body) {
   tbb::this_task_arena::isolate(body);
+}
+
+// Its tasks are ours to share: they run on the threads of withThreads().
+int libraryThreads() {
+  return 0;
 }
 
 void parallelBlocks(std::size_t count, std::size_t grain,

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Runs the fuzzers of the preset `fuzz`, which must be built: tests/fuzz/run.sh [SECONDS [TARGET...]]
+# Without SECONDS a short run that is the same every time; with SECONDS each target gets that long,
+# begins where its last long run ended (build/fuzz/corpus), and leaves what breaks it in
+# build/fuzz/findings.
+set -euo pipefail
+cd "$(dirname "$0")"
+build=../../build/fuzz
+seconds=${1:-}
+targets=("${@:2}")
+[ ${#targets[@]} -gt 0 ] || targets=(exr lid obj off ply scene stl)
+
+# A file of a hundred bytes must not cost gigabytes: 256 MB at once or 1 GB in all is a finding.
+limits=(-malloc_limit_mb=256 -rss_limit_mb=1024 -timeout=20 -max_len=4096)
+# ASan's quarantine keeps freed memory, which would count as held.
+export ASAN_OPTIONS=quarantine_size_mb=16
+mkdir -p "$build/findings"
+
+for target in "${targets[@]}"; do
+  dictionary=()
+  case $target in
+    scene) dictionary=(-dict=toml.dict) ;;
+    lid | obj | off | ply | stl) dictionary=(-dict=mesh.dict) ;;
+  esac
+  if [ -n "$seconds" ]; then
+    mkdir -p "$build/corpus/$target"
+    folders=("$build/corpus/$target" "corpus/$target")
+    length=(-max_total_time="$seconds" -print_final_stats=1)
+  else
+    rm -rf "$build/short"
+    mkdir -p "$build/short"
+    folders=("$build/short" "corpus/$target")
+    length=(-runs=5000 -seed=1)
+  fi
+  log=$build/$target.log
+  if ! "$build/fuzz_$target" "${limits[@]}" "${dictionary[@]}" "${length[@]}" \
+    -artifact_prefix="$build/findings/$target-" "${folders[@]}" 2>"$log"; then
+    tail -n 60 "$log" >&2
+    exit 1
+  fi
+  echo "fuzz $target: $(grep -E '^#[0-9]+.*DONE' "$log" | tail -n 1)"
+done
