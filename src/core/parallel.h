@@ -1,6 +1,5 @@
 #pragma once
-// The one door to threads: everything parallel in EchoCine goes through these few functions, on
-// oneTBB or on std::thread alone (ECHOCINE_THREADS in CMake), with the same results.
+// The one door to threads: everything parallel in EchoCine goes through these few functions.
 
 #include <cstddef>
 #include <functional>
@@ -8,8 +7,7 @@
 
 namespace echocine {
 
-// Runs `body` with at most `threads` threads (0: one per core this process may use). Everything
-// below belongs inside.
+// Runs `body` with at most `threads` threads (0: one per core). Everything below must run inside.
 void withThreads(int threads, const std::function<void()>& body);
 
 // Number of threads the enclosing withThreads() allows.
@@ -17,23 +15,18 @@ int threadCount();
 
 // Calls body(begin, end) for disjoint blocks of `grain` indices that cover [0, count). Blocks start
 // at multiples of the grain whatever the thread count. A waiting thread takes no work from outside
-// this loop, so a caller's scratch memory is never entered twice. The first exception of body ends
-// the loop and is thrown here. grain: at least 1.
+// this loop, so a caller's scratch memory is never entered twice.
 void parallelBlocks(std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, std::size_t)>& body);
 
 // Runs body so that a thread that waits inside it takes no work from outside it.
 void isolated(const std::function<void()>& body);
 
-// How many threads a library may use that brings TBB tasks of its own, as Embree does: 0 for those
-// of withThreads(), or 1 where nothing else runs on TBB.
-int libraryThreads();
-
 // Calls work(i) in parallel and drain(i, result) one at a time in order, for i = first..last-1,
 // with at most `in_flight` results alive: memory is bounded however long the range is. keep_going()
 // is asked before each work; when it says no, what was begun is still drained, and the index after
 // the last drained one is returned. The first exception of either function ends the loop and is
-// thrown here; results that were not drained by then are dropped. in_flight: at least 1.
+// thrown here.
 std::size_t parallelOrdered(std::size_t first, std::size_t last, std::size_t in_flight,
                             const std::function<bool()>& keep_going,
                             const std::function<std::shared_ptr<void>(std::size_t)>& work,

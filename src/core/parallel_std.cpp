@@ -15,6 +15,7 @@
 #include <sched.h>
 #endif
 
+#include "core/library_threads.h"
 #include "core/parallel.h"
 
 namespace echocine {

@@ -1,5 +1,6 @@
 // The parallel functions on oneTBB.
 
+#include "core/library_threads.h"
 #include "core/parallel.h"
 
 #include <oneapi/tbb/blocked_range.h>

@@ -12,6 +12,7 @@
 #include "core/box.h"
 #include "core/check.h"
 #include "core/error.h"
+#include "core/library_threads.h"
 #include "core/parallel.h"
 #include "geometry/crossing_rule.h"
 #include "geometry/line_states.h"

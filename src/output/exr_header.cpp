@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "scene/channel.h"
-#include "scene/scene_reader.h"
+#include "scene/limits.h"
 
 namespace echocine {
 

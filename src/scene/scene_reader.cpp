@@ -9,6 +9,7 @@
 #include "core/file.h"
 #include "core/units.h"
 #include "scene/keyframe_warnings.h"
+#include "scene/limits.h"
 #include "scene/media_reader.h"
 #include "scene/structure_reader.h"
 #include "scene/toml_table.h"

@@ -8,9 +8,6 @@
 
 namespace echocine {
 
-// Most lines x samples that a scene may ask for.
-inline constexpr double kMaxPolarSamples = 1 << 26;
-
 // Reads a TOML scene. Paths in it are relative to its folder.
 // Throws SceneError `file:line: key: what is wrong, what is accepted`; unknown keys are errors.
 Scene readScene(const std::filesystem::path& file);

@@ -29,10 +29,9 @@ bool accepts(const Act& act) {
   return false;
 }
 
-// A folder of this process, in memory where the system offers that.
+// A folder of this process; run.sh has it in memory.
 inline const std::filesystem::path& scratchFolder() {
-  static const support::TempFolder folder(
-      std::filesystem::exists("/dev/shm") ? "/dev/shm" : std::filesystem::temp_directory_path());
+  static const support::TempFolder folder;
   return folder.path();
 }
 

@@ -13,14 +13,16 @@ void obj(std::string_view bytes);    // meshes, from the reader to the traced fr
 void ply(std::string_view bytes);
 void off(std::string_view bytes);
 void stl(std::string_view bytes);
-void lid(std::string_view bytes);  // an OBJ mesh and its lid, one after the other
-void exr(std::string_view bytes);  // a frame that an earlier run left behind
+void lid(std::string_view bytes);    // an OBJ mesh and its lid, one after the other
+void exr(std::string_view bytes);    // a frame that an earlier run left behind
+void video(std::string_view bytes);  // a loop to compare with
 
 struct Target {
   const char* name;  // of its corpus too
   void (*run)(std::string_view);
 };
-inline constexpr Target kTargets[] = {{"scene", scene}, {"obj", obj}, {"ply", ply}, {"off", off},
-                                      {"stl", stl},     {"lid", lid}, {"exr", exr}};
+inline constexpr Target kTargets[] = {{"scene", scene}, {"obj", obj},    {"ply", ply},
+                                      {"off", off},     {"stl", stl},    {"lid", lid},
+                                      {"exr", exr},     {"video", video}};
 
 }  // namespace echocine::fuzz

@@ -39,6 +39,18 @@ TEST(SceneReader, TurnsEveryUnitIntoSI) {
   EXPECT_DOUBLE_EQ(scene.unit_volume_m3, 1e-6);
 }
 
+TEST(SceneReader, ADirectionMayHaveAnyLengthButZero) {
+  SceneText text = SceneText::oneBox("blood");
+  const Frame pose = parsed(text).probe.pose;
+  for (const char* size : {"e-320", "e-200", "e-7", "e7", "e200", "e308"}) {
+    text.setProbe("axis", std::string("[0, 0, 1") + size + "]");
+    text.setProbe("lateral", std::string("[1") + size + ", 0, 0]");
+    const Frame scaled = parsed(text).probe.pose;
+    EXPECT_LT(length(scaled.z_axis - pose.z_axis), 1e-15) << size;
+    EXPECT_LT(length(scaled.x_axis - pose.x_axis), 1e-15) << size;
+  }
+}
+
 TEST(SceneReader, ReadsHowBeatsDifferFromTheKeyframesAndFromEachOther) {
   const Scene plain = parsed(SceneText::oneBox("blood"));
   EXPECT_EQ(plain.acquisition.time_warp, WarpChoice::automatic);

@@ -13,9 +13,8 @@ namespace echocine::support {
 
 class TempFolder {
  public:
-  explicit TempFolder(
-      const std::filesystem::path& parent = std::filesystem::temp_directory_path()) {
-    std::string name = (parent / "echocine_test_XXXXXX").string();
+  TempFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "echocine_test_XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
     path_ = name;
   }
