@@ -10,6 +10,7 @@
 
 #include "cli/compare_command.h"
 #include "cli/heart_command.h"
+#include "cli/one_line.h"
 #include "cli/plan_command.h"
 #include "cli/render_command.h"
 #include "cli/standard_error.h"
@@ -24,7 +25,7 @@ constexpr int kUnusable = 2;
 // In one piece, so that lines of two programs do not mix, unless memory is short.
 int failed(int code, std::string_view what) {
   try {
-    echocine::writeError(fmt::format("echocine: {}\n", what));
+    echocine::writeError(fmt::format("echocine: {}\n", echocine::oneLine(what)));
   } catch (const std::bad_alloc&) {
     for (const std::string_view part : {std::string_view("echocine: "), what, {"\n"}})
       echocine::writeError(part);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "cli/one_line.h"
 #include "cli/standard_error.h"
 
 namespace echocine {
@@ -13,7 +14,7 @@ namespace echocine {
 inline std::function<void(const std::string&)> warningPrinter(bool quiet) {
   if (quiet) return [](const std::string&) {};
   return [](const std::string& warning) {
-    writeError(fmt::format("echocine: warning: {}\n", warning));
+    writeError(fmt::format("echocine: warning: {}\n", oneLine(warning)));
   };
 }
 

@@ -28,8 +28,10 @@ Outcome planWithLittleMemory(const fs::path& scene) {
   return runShell(limit + "%B plan '" + scene.string() + "'");
 }
 
-void expectOneLineOfCodeTwo(const Outcome& outcome) {
+void expectOneLineOfCodeTwo(Outcome outcome) {
   EXPECT_EQ(outcome.code, 2) << outcome.err;
+  if (outcome.err.starts_with("echocine: warning: "))  // that one keyframe stands still
+    outcome.err.erase(0, outcome.err.find('\n') + 1);
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   for (const unsigned char c : outcome.err) EXPECT_TRUE(c >= 0x20 || c == '\n') << int{c};
 }
