@@ -27,7 +27,7 @@ TEST_P(FuzzCorpus, BreaksNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EachTarget, FuzzCorpus, ::testing::ValuesIn(fuzz::kTargets),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace
 }  // namespace echocine
