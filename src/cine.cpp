@@ -72,6 +72,7 @@ RenderSummary renderCine(const Scene& scene, const RenderOptions& options, const
   const std::pair range = frameRange(options, clock.frameCount());
   summary.frames_wanted = range.second - range.first;
   Manifest& manifest = summary.manifest;
+  manifest.accuracy = options.accuracy;
   manifest.loop_frames = clock.frameCount();
   manifest.scene_sha256 = sceneSha256(scene, motion);
   if (options.resume) refuseOtherScene(scene, options.folder, manifest);

@@ -14,6 +14,19 @@ std::array<double, kStages> StageClock::milliseconds() const {
   return ms;
 }
 
+std::vector<ChannelPlane> channelPlanes(const OutputSettings& output, const PolarFrame& polar) {
+  std::vector<ChannelPlane> planes;
+  for (const Channel channel : output.channels) {
+    if (channel == Channel::medium)
+      planes.push_back({channel, {}, polar.medium});
+    else if (channel == Channel::display)
+      planes.push_back({channel, polar.signal, {}});
+    else
+      planes.push_back({channel, polar.planes.at(channel), {}});
+  }
+  return planes;
+}
+
 FrameMaker::FrameMaker(const Scene& scene, const LoopPlan& plan, const HeartMotion& motion)
     : scene_(scene),
       plan_(plan),

@@ -51,6 +51,9 @@ struct Workspace {
   std::vector<float> scratch;
 };
 
+// The planes of a frame that go into its EXR, in the order of the scene's channels.
+std::vector<ChannelPlane> channelPlanes(const OutputSettings& output, const PolarFrame& polar);
+
 class FrameMaker {
  public:
   FrameMaker(const Scene& scene, const LoopPlan& plan, const HeartMotion& motion);

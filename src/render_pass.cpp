@@ -73,16 +73,7 @@ Volumes RenderPass::tracedFrame(const FrameTime& time, Workspace& workspace) {
 
 void RenderPass::writeExr(const FrameRecord& record, const PolarFrame& polar, Finished& finished) {
   if (!parts_.scene.output.exr || !finished.entry.exr_sha256.empty()) return;
-  std::vector<ChannelPlane> planes;
-  for (const Channel channel : parts_.scene.output.channels) {
-    if (channel == Channel::medium)
-      planes.push_back({channel, {}, polar.medium});
-    else if (channel == Channel::display)
-      planes.push_back({channel, polar.signal, {}});
-    else
-      planes.push_back({channel, polar.planes.at(channel), {}});
-  }
-  finished.entry.exr_sha256 = exr_.write(record, planes);
+  finished.entry.exr_sha256 = exr_.write(record, channelPlanes(parts_.scene.output, polar));
 }
 
 void RenderPass::writePictures(GreyImage& image, Finished& finished) {

@@ -14,6 +14,7 @@
 #include "cli/plan_command.h"
 #include "cli/render_command.h"
 #include "cli/standard_error.h"
+#include "cli/study_command.h"
 #include "core/error.h"
 #include "core/out_of_memory.h"
 
@@ -47,12 +48,14 @@ int main(int argc, char** argv) {
   app.fallthrough(false);
   echocine::RenderCommand render(app);
   echocine::PlanCommand plan(app);
+  echocine::StudyCommand study(app);
   echocine::HeartCommand heart(app);
   echocine::CompareCommand compare(app);
   try {
     app.parse(argc, argv);
     const int code = app.got_subcommand("heart")     ? heart.run()
                      : app.got_subcommand("plan")    ? plan.run()
+                     : app.got_subcommand("study")   ? study.run()
                      : app.got_subcommand("compare") ? compare.run()
                                                      : render.run();
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)

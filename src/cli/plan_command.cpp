@@ -66,6 +66,7 @@ PlanCommand::PlanCommand(CLI::App& app) {
       ->required();
   command->add_option("--threads", threads_, "Threads; 0 for one per core")
       ->check(CLI::Range(0, 4096));
+  accuracy_.addTo(*command);
   command->add_flag(
       "--interpolation", interpolation_,
       "Instead: how well each kind of motion.interpolation finds every other keyframe "
@@ -80,7 +81,8 @@ int PlanCommand::run() {
     return 0;
   }
   listenForStop();
-  const Scene scene = readScene(scene_file_);
+  Scene scene = readScene(scene_file_);
+  accuracy_.resolve(scene, threads_, quiet_);
   const Estimate estimate = estimateLoop(
       scene, threads_, [] { return !stopWanted(); }, warningPrinter(quiet_));
   if (json_) {

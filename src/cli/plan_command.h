@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "cli/accuracy_options.h"
+
 namespace CLI {
 class App;
 }
@@ -18,6 +20,7 @@ class PlanCommand {
   std::string scene_file_;
   int threads_ = 0;
   bool json_ = false, quiet_ = false, interpolation_ = false;
+  AccuracyOptions accuracy_;
 };
 
 }  // namespace echocine

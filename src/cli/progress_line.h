@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "cine.h"
+#include "cli/progress_bar.h"
 
 namespace echocine {
 
@@ -15,10 +16,9 @@ class ProgressLine {
 
  private:
   using Clock = std::chrono::steady_clock;
-  bool quiet_, terminal_;
-  bool open_ = false;
+  ProgressBar bar_;
   Progress::Pass pass_ = Progress::Pass::measuring;
-  Clock::time_point pass_start_ = Clock::now(), last_told_ = Clock::now(), last_shown_{};
+  Clock::time_point pass_start_ = Clock::now(), last_told_ = Clock::now();
 };
 
 }  // namespace echocine

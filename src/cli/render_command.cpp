@@ -71,6 +71,7 @@ RenderCommand::RenderCommand(CLI::App& app) {
       ->check(CLI::Range(0, 4096));
   command->add_option("--frames", frames_,
                       "Only frames A up to, without, B of the loop, counted from 0 (A:B, A:, :B)");
+  accuracy_.addTo(*command);
   command->add_flag("--resume", options_.resume,
                     "Keep frames whose EXR is whole and of this very scene");
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
@@ -78,8 +79,9 @@ RenderCommand::RenderCommand(CLI::App& app) {
 
 int RenderCommand::run() {
   listenForStop();
-  const Scene scene = readScene(scene_file_);
+  Scene scene = readScene(scene_file_);
   if (!frames_.empty()) options_.frames = parseRange(frames_, CardiacClock(scene).frameCount());
+  options_.accuracy = accuracy_.resolve(scene, options_.threads, quiet_);
   ProgressLine line(quiet_);
   Monitor monitor;
   monitor.tell = [&line](const Progress& progress) { line.show(progress); };

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cine.h"
+#include "cli/accuracy_options.h"
 
 namespace CLI {
 class App;
@@ -21,6 +22,7 @@ class RenderCommand {
   std::string frames_;
   bool quiet_ = false;
   RenderOptions options_;
+  AccuracyOptions accuracy_;
 };
 
 }  // namespace echocine

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/work_counts.h"
+#include "output/accuracy_record.h"
 #include "output/frame_record.h"
 #include "scene/loop_plan.h"
 
@@ -36,6 +37,7 @@ const char* stageName(Stage stage);
 struct Manifest {
   std::string scene_sha256;
   LoopPlan plan;
+  AccuracyRecord accuracy;
   double reference_intensity = 1;
   int loop_frames = 0;
   std::vector<FrameEntry> frames;

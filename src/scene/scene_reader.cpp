@@ -298,6 +298,9 @@ AccuracySettings readAccuracy(TomlTable table) {
   a.normals_place = table.place("normals");
   a.refraction_tolerance_lines = table.number(
       "refraction_tolerance_lines", a.refraction_tolerance_lines, NumberRange::notNegative());
+  a.tolerance_place = table.place("tolerance_db");
+  if (table.has("tolerance_db"))
+    a.tolerance_db = table.number("tolerance_db", std::nullopt, kPositive);
   table.finish();
   return a;
 }

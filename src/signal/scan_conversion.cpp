@@ -106,18 +106,26 @@ void ScanConverter::addPixel(const Probe& probe, int pixel, double x_m, double z
   table_.push_back(p);
 }
 
+inline float ScanConverter::valueAt(std::span<const float> grey, const Pixel& p) const {
+  const float* left = grey.data() + p.sample;
+  const float* right = left + next_line_;
+  const float a = left[0] + p.along * (left[next_sample_] - left[0]);
+  const float b = right[0] + p.along * (right[next_sample_] - right[0]);
+  return a + p.across * (b - a);
+}
+
 void ScanConverter::convert(std::span<const float> grey, GreyImage& image) const {
   image.width = width_;
   image.height = height_;
   image.pixels.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
-  for (const Pixel& p : table_) {
-    const float* left = grey.data() + p.sample;
-    const float* right = left + next_line_;
-    const float a = left[0] + p.along * (left[next_sample_] - left[0]);
-    const float b = right[0] + p.along * (right[next_sample_] - right[0]);
-    const float value = a + p.across * (b - a);
-    image.pixels[p.pixel] = grey_map_[static_cast<std::size_t>(value * kGreySteps + 0.5f)];
-  }
+  for (const Pixel& p : table_)
+    image.pixels[p.pixel] =
+        grey_map_[static_cast<std::size_t>(valueAt(grey, p) * kGreySteps + 0.5f)];
+}
+
+void ScanConverter::convert(std::span<const float> grey, std::vector<float>& picture) const {
+  picture.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), -1.0f);
+  for (const Pixel& p : table_) picture[p.pixel] = valueAt(grey, p);
 }
 
 }  // namespace echocine

@@ -19,12 +19,16 @@ class ScanConverter {
   // outside the scan area stay exactly 0.
   void convert(std::span<const float> grey, GreyImage& image) const;
 
+  // The same before the grey map and its 8 bits; pixels outside the scan area are -1.
+  void convert(std::span<const float> grey, std::vector<float>& picture) const;
+
  private:
   struct Pixel {
     std::uint32_t pixel;   // in the picture
     std::uint32_t sample;  // in the plane: the shallower sample of the left line
     float across, along;   // weights of the next line and of the next sample
   };
+  float valueAt(std::span<const float> grey, const Pixel& p) const;
   void addPixel(const Probe& probe, int pixel, double x_m, double z_m);
 
   int width_, height_;

@@ -31,6 +31,10 @@ class SignalChain {
   void picture(const PolarFrame& frame, GreyImage& image) const {
     converter_.convert(frame.signal, image);
   }
+  // Scan conversion alone: grey 0..1, -1 outside the sector.
+  void picture(const PolarFrame& frame, std::vector<float>& grey) const {
+    converter_.convert(frame.signal, grey);
+  }
 
  private:
   SignalSettings settings_;

@@ -13,15 +13,15 @@ set(libraries
   "embree3/=src/geometry"
   "OpenEXR/|Imath/|Imf=src/output"
   "opencv2/(videoio|imgcodecs)=src/output"
-  "opencv2/=src/signal,src/output,src/compare"
+  "opencv2/=src/signal,src/output,src/study,src/compare"
   "dcmtk/=src/compare"
   "(libav|libswscale)=src/output,src/compare"
   "CLI/=src/cli")
 
 # folder -> first parts of the project includes it may use. A header may use core, scene and the stage just
 # before it; a source file any earlier stage.
-# compare stands at the end and draws on several stages.
-set(order core scene motion geometry trace signal output compare)
+# study and compare stand at the end and draw on several stages.
+set(order core scene motion geometry trace signal output study compare)
 
 file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/src/*.h ${ROOT}/src/*.cpp ${ROOT}/motion/*.h ${ROOT}/motion/*.cpp)
 foreach(file IN LISTS files)

@@ -1,0 +1,78 @@
+#include "cli/accuracy_options.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/progress_bar.h"
+#include "cli/standard_error.h"
+#include "cli/stop_signal.h"
+#include "core/error.h"
+#include "study/tolerance.h"
+
+namespace echocine {
+
+namespace {
+
+Preset presetOf(const std::string& name) {
+  const auto found = std::find(kPresetNames.begin(), kPresetNames.end(), name);
+  if (found == kPresetNames.end())
+    throw SceneError(fmt::format("--preset: \"{}\" is not a preset, accepted: {}", name,
+                                 fmt::join(kPresetNames, ", ")));
+  return static_cast<Preset>(found - kPresetNames.begin());
+}
+
+AccuracyChoice choose(const Scene& scene, double tolerance_db, int threads, bool quiet) {
+  ProgressBar bar(quiet);
+  ToleranceMonitor monitor;
+  monitor.keep_going = [] { return !stopWanted(); };
+  monitor.tell = [&bar](int tried) {
+    // How many it will take is not known before.
+    if (bar.due(0, 1)) bar.draw(0, 1, fmt::format("{} settings tried for the tolerance", tried));
+  };
+  AccuracyChoice choice = chooseWithin(scene, tolerance_db, threads, monitor);
+  bar.finish();
+  return choice;
+}
+
+}  // namespace
+
+void AccuracyOptions::addTo(CLI::App& command) {
+  command.add_option(
+      "--preset", preset_,
+      fmt::format("Set the knobs of `echocine study` together: {}", fmt::join(kPresetNames, ", ")));
+  command
+      .add_option("--tolerance-db", tolerance_db_,
+                  "Set them as cheaply as the picture stays within this RMS error of the "
+                  "reference preset, dB of the displayed range (also accuracy.tolerance_db)")
+      ->type_name("DB");
+}
+
+AccuracyRecord AccuracyOptions::resolve(Scene& scene, int threads, bool quiet) const {
+  const std::optional<double> wanted_db =
+      tolerance_db_ ? tolerance_db_ : scene.accuracy.tolerance_db;
+  if (tolerance_db_ && !(*tolerance_db_ > 0 && std::isfinite(*tolerance_db_)))
+    throw SceneError(
+        fmt::format("--tolerance-db: {} is not accepted: a number over 0", *tolerance_db_));
+  if (preset_.empty() && !wanted_db) return {};
+  AccuracyChoice choice;
+  if (preset_.empty()) {
+    choice = choose(scene, *wanted_db, threads, quiet);
+  } else {
+    const Preset preset = presetOf(preset_);
+    if (tolerance_db_) throw SceneError("--preset: excludes --tolerance-db, accepted: one of them");
+    if (wanted_db)
+      throw SceneError(
+          atPlace(scene.accuracy.tolerance_place, "excludes --preset, accepted: one of them"));
+    choice = atPreset(scene, preset);
+  }
+  scene = std::move(choice.scene);
+  if (!quiet)
+    writeError(fmt::format("echocine: accuracy: {}: {}\n", choice.record.setting,
+                           choice.record.reason));
+  return std::move(choice.record);
+}
+
+}  // namespace echocine

@@ -1,0 +1,87 @@
+#include "cli/study_command.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+#include "cli/progress_bar.h"
+#include "cli/stop_signal.h"
+#include "core/error.h"
+#include "scene/scene_reader.h"
+#include "study/study_files.h"
+
+namespace echocine {
+
+namespace {
+
+void refuseUnknownKnobs(const std::vector<std::string>& wanted) {
+  const std::vector<std::string> names = knobNames();
+  for (const std::string& knob : wanted)
+    if (std::find(names.begin(), names.end(), knob) == names.end())
+      throw SceneError(
+          fmt::format("--knobs: \"{}\" is not a knob, accepted: {}", knob, fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+StudyCommand::StudyCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "study", "Measure what each accuracy knob of a scene costs in ms and leaves in dB and mm");
+  command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")
+      ->required();
+  command->add_option("-o,--output", options_.folder, "Folder for study.csv and study.json")
+      ->required();
+  command
+      ->add_option("--frames", options_.frames,
+                   "Frames that are compared and timed, evenly over the first beat")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--repeats", options_.repeats,
+                   "Rounds over all settings; times are medians over them")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--knobs", options_.knobs,
+                   fmt::format("Only these knobs, a,b,...: {}", fmt::join(knobNames(), ", ")))
+      ->delimiter(',');
+  command
+      ->add_option("--budget-s", options_.budget_s,
+                   "Begin no round that would end later than this many seconds after the start")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
+  command
+      ->add_option("--threads", options_.threads,
+                   "Frames in the making at once while they are timed; 0 for one per core")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+  command->add_flag("--quiet", quiet_, "Print nothing but errors");
+}
+
+int StudyCommand::run() {
+  refuseUnknownKnobs(options_.knobs);
+  listenForStop();
+  const Scene scene = readScene(scene_file_);
+  ProgressBar bar(quiet_);
+  StudyMonitor monitor;
+  monitor.tell = [&bar](std::size_t done, std::size_t total, double left_s) {
+    if (bar.due(done, total))
+      bar.draw(
+          done, total,
+          fmt::format("{}/{} settings measured, {} left", done, total, minutesAndSeconds(left_s)));
+  };
+  monitor.keep_going = [] { return !stopWanted(); };
+  monitor.round_done = [this](const StudyResult& r) { writeStudyFiles(r, options_.folder); };
+  const StudyResult result = runStudy(scene, options_, monitor);
+  bar.finish();
+  writeStudyFiles(result, options_.folder);
+  if (!quiet_) fmt::print("{}", studyTable(result));
+  if (!result.complete)
+    throw JobError(fmt::format("stopped: {} rows are finished in {}", result.rows.size(),
+                               options_.folder.string()));
+  if (!quiet_) fmt::print("{}: study.csv, study.json\n", options_.folder.string());
+  return 0;
+}
+
+}  // namespace echocine

@@ -1,0 +1,311 @@
+#include "study/knobs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/heart_motion.h"
+#include "motion/interpolation.h"
+#include "plan_loop.h"
+#include "scene/effect_plan.h"
+#include "signal/beam_width.h"
+
+namespace echocine {
+
+namespace {
+
+// Our choices. Walls are edges in the picture, so its error falls slowly with finer lines and
+// samples: about as the root of their distance, and as their distance.
+constexpr std::array<double, 5> kPerBeam{1, 2, 4, 8, 16};
+constexpr std::array<std::size_t, kPresets> kOfPreset{0, 2, 3, 4};
+// Of all structures at the finest level: a frame in flight takes about 200 bytes for each.
+constexpr double kMostTriangles = 2e6;
+constexpr int kRounding = 16;  // lines and samples come in multiples of it
+constexpr int kMostLines = 65536, kMostSamples = 65536;  // as the scene reader accepts
+constexpr double kMostPolarSamples = 1 << 25;            // half of it, for rounding's sake
+
+struct Table {
+  // A knob of numbers, rough to accurate; equal ones are listed once.
+  void addNumbers(const char* name, const char* key, const char* meaning,
+                  const std::vector<int>& numbers,
+                  const std::array<std::size_t, kPresets>& of_preset,
+                  const std::function<void(Scene&, int)>& apply) {
+    Knob knob{name, key, meaning, {}, {}};
+    std::vector<std::size_t> place;  // of each number among the values
+    for (const int number : numbers) {
+      const std::string label = std::to_string(number);
+      if (knob.values.empty() || knob.values.back().label != label)
+        knob.values.push_back({label, [=](Scene& scene) { apply(scene, number); }});
+      place.push_back(knob.values.size() - 1);
+    }
+    for (std::size_t p = 0; p < kPresets; ++p) knob.of_preset[p] = place[of_preset[p]];
+    for (std::size_t v = 0; v <= knob.reference(); ++v) knob.ladder.push_back(v);
+    add(std::move(knob));
+  }
+
+  void add(Knob knob) {
+    if (knob.ladder.empty())
+      for (const std::size_t v : knob.of_preset)
+        if (knob.ladder.empty() || knob.ladder.back() != v) knob.ladder.push_back(v);
+    if (knob.values.size() < 2)
+      leaveOut(knob.name, fmt::format("{} is its only value here", knob.values.at(0).label));
+    else
+      table.knobs.push_back(std::move(knob));
+  }
+  void leaveOut(const std::string& knob, const std::string& reason) {
+    table.left_out.push_back({knob, reason});
+  }
+
+  KnobTable table;
+};
+
+int rounded(double count, int most) {
+  const double whole = kRounding * std::ceil(std::max(count, 1.0) / kRounding);
+  return static_cast<int>(std::min(whole, static_cast<double>(most)));
+}
+
+double wavelength(const Probe& probe) {
+  return kScannerSpeed / probe.frequency_hz;
+}
+
+// How many beams lie side by side in the sector at the focus, and half pulses along a line.
+struct Extent {
+  double beams = 1, pulses = 1;
+};
+
+Extent extentOf(const Scene& scene) {
+  const Probe& probe = scene.probe;
+  Probe two = probe;
+  two.lines = 2;
+  const double width_m =
+      scene.signal.beam_width == BeamWidth::fixed
+          ? scene.signal.beam_width_m
+          : focusedBeamWidth(probe.focus_m, probe.aperture_m, probe.focus_m, wavelength(probe));
+  const double cycles = scene.signal.pulse_cycles > 0 ? scene.signal.pulse_cycles : 2;
+  Extent extent{lineSpacing(two, probe.focus_m) / width_m,
+                (probe.max_depth_m - probe.min_depth_m) / (cycles * wavelength(probe) / 2)};
+  if (probe.lines < 2) extent.beams = 1 / kPerBeam.back();
+  const double finest = kPerBeam.back() * extent.beams * kPerBeam.back() * extent.pulses;
+  const double shrink = std::sqrt(std::min(1.0, kMostPolarSamples / finest));
+  return {extent.beams * shrink, extent.pulses * shrink};
+}
+
+void addLines(const Scene& scene, Table& table) {
+  if (scene.probe.lines < 2) return table.leaveOut("lines", "the scene has a single line");
+  const double beams = extentOf(scene).beams;
+  std::vector<int> lines;
+  for (const double n : kPerBeam) lines.push_back(rounded(n * beams, kMostLines));
+  table.addNumbers("lines", "probe.lines", "scan lines", lines, kOfPreset,
+                   [](Scene& s, int n) { s.probe.lines = n; });
+}
+
+void addSamples(const Scene& scene, Table& table) {
+  const double pulses = extentOf(scene).pulses;
+  std::vector<int> samples;
+  for (const double n : kPerBeam) samples.push_back(rounded(n * pulses, kMostSamples));
+  table.addNumbers("samples", "probe.samples", "samples of a line", samples, kOfPreset,
+                   [written = scene.probe.samples](Scene& s, int n) {
+                     s.probe.samples = n;
+                     for (Structure& structure : s.structures)
+                       structure.reflection_gain *= static_cast<double>(n) / written;
+                   });
+}
+
+void addSubdivision(const Scene& scene, std::size_t triangles, Table& table) {
+  const int written = scene.motion.subdivision;
+  if (written == 0)
+    return table.leaveOut("subdivision",
+                          "motion.subdivision = 0 takes the meshes as the surfaces themselves");
+  const double finest = 4.0 * static_cast<double>(triangles);
+  const bool finer = finest <= kMostTriangles && written < 8;
+  if (!finer)
+    table.leaveOut(fmt::format("subdivision {}", written + 1),
+                   fmt::format("{:.0f} triangles, accepted: {:.0f}", finest, kMostTriangles));
+  table.addNumbers("subdivision", "motion.subdivision", "Loop levels of the meshes",
+                   {written - 1, written, written + (finer ? 1 : 0)}, {0, 1, 1, 2},
+                   [](Scene& s, int n) { s.motion.subdivision = n; });
+}
+
+// What speaks against reading the meshes of a scene; empty when nothing does.
+std::string refusal(const Scene& scene) {
+  try {
+    const HeartMotion motion(scene);
+    return {};
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+}
+
+void addNormals(const Scene& scene, Table& table) {
+  if (scene.motion.subdivision == 0 && scene.accuracy.normals == Normals::facet)
+    return table.leaveOut("normals",
+                          "motion.subdivision = 0 takes the meshes as the surfaces themselves");
+  Scene smooth = scene;
+  smooth.accuracy.normals = Normals::smooth;
+  const std::string refused = refusal(smooth);
+  if (!refused.empty()) return table.leaveOut("normals", refused);
+  table.add({"normals",
+             "accuracy.normals",
+             "angles of incidence from facets or the limit surface",
+             {{"facet", [](Scene& s) { s.accuracy.normals = Normals::facet; }},
+              {"smooth", [](Scene& s) { s.accuracy.normals = Normals::smooth; }}},
+             {0, 0, 1, 1}});
+}
+
+std::vector<Keyframe> everyNth(const std::vector<Keyframe>& keyframes, std::size_t n) {
+  std::vector<Keyframe> kept;
+  for (std::size_t i = 0; i < keyframes.size(); i += n) kept.push_back(keyframes[i]);
+  return kept;
+}
+
+void addKeyframes(const Scene& scene, Table& table) {
+  std::size_t most = 0;
+  for (const Structure& s : scene.structures) most = std::max(most, s.keyframes.size());
+  Knob knob{"keyframes", "structure.keyframes", "keyframes used, all or every n-th", {}, {}};
+  for (const std::size_t n : {4, 2, 1}) {
+    if (n > 1 && most < 3 * n) continue;  // fewer than three keyframes are no motion
+    knob.values.push_back({n == 1 ? "all" : fmt::format("1/{}", n), [n](Scene& s) {
+                             for (Structure& structure : s.structures)
+                               structure.keyframes = everyNth(structure.keyframes, n);
+                           }});
+  }
+  knob.of_preset.fill(knob.values.size() - 1);  // leaving some out saves no time
+  table.add(std::move(knob));
+}
+
+struct KindName {
+  Interpolation kind;
+  const char* name;
+};
+constexpr KindName kKinds[] = {{Interpolation::linear, "linear"},
+                               {Interpolation::catmull_rom, "catmull-rom"},
+                               {Interpolation::spline, "spline"},
+                               {Interpolation::fourier, "fourier"}};
+
+bool accepts(const Scene& scene, Interpolation kind) {
+  try {
+    for (const Structure& structure : scene.structures) {
+      std::vector<double> phases;
+      for (const Keyframe& keyframe : structure.keyframes) phases.push_back(keyframe.phase);
+      const KeyframeWeights weights(phases, kind);
+    }
+    return true;
+  } catch (const SceneError&) {
+    return false;
+  }
+}
+
+void addInterpolation(const Scene& scene, Table& table) {
+  if (std::all_of(scene.structures.begin(), scene.structures.end(),
+                  [](const Structure& s) { return s.keyframes.size() == 1; }))
+    return table.leaveOut("interpolation", "nothing moves");
+  Knob knob{"interpolation",
+            "motion.interpolation",
+            "between keyframes; the scene's own is the reference",
+            {},
+            {}};
+  const auto value = [](const KindName& k) {
+    return KnobValue{k.name, [kind = k.kind](Scene& s) { s.motion.interpolation = kind; }};
+  };
+  for (const KindName& k : kKinds) {
+    if (k.kind == scene.motion.interpolation) continue;
+    if (accepts(scene, k.kind))
+      knob.values.push_back(value(k));
+    else
+      table.leaveOut(fmt::format("interpolation {}", k.name),
+                     "would overshoot between keyframes this uneven");
+  }
+  for (const KindName& k : kKinds)
+    if (k.kind == scene.motion.interpolation) knob.values.push_back(value(k));
+  knob.of_preset.fill(knob.values.size() - 1);  // what is true between keyframes is the scene's say
+  table.add(std::move(knob));
+}
+
+void addRefraction(const Scene& scene, const HeartMotion& motion, Table& table) {
+  if (scene.effects.refraction != Switch::automatic)
+    return table.leaveOut("refraction", "effects.refraction is not left to the program");
+  if (scene.accuracy.tracer == TracerChoice::slice)
+    return table.leaveOut("refraction", "accuracy.tracer = \"slice\" bends no ray");
+  if (scene.accuracy.interface_echo == InterfaceEcho::cell)
+    return table.leaveOut("refraction", "accuracy.interface_echo = \"cell\" bends no ray");
+  if (!planEffects(scene).refraction)
+    return table.leaveOut("refraction", planEffects(scene).decision("refraction").reason);
+  const KnobValue off{"off", [](Scene& s) { s.effects.refraction = Switch::off; }};
+  const KnobValue on{"on", [](Scene& s) { s.effects.refraction = Switch::on; }};
+  // Bent rays know no contour between them, and echoes at the lines alone cost more accuracy than
+  // refraction brings where the plan leaves it out; so the reference does what the plan says.
+  const bool bends = planLoop(scene, motion).effects.refraction;
+  Knob knob{
+      "refraction",
+      "effects.refraction",
+      "rays bend where sound speeds differ; the plan of the scene as written is the reference",
+      {bends ? off : on, bends ? on : off},
+      {1, 1, 1, 1}};
+  if (bends) knob.of_preset[0] = 0;
+  table.add(std::move(knob));
+}
+
+void addEchoes(const Scene& scene, Table& table) {
+  if (scene.probe.lines < 2) return table.leaveOut("echoes", "the scene has a single line");
+  if (scene.accuracy.tracer == TracerChoice::embree)
+    return table.leaveOut("echoes", "accuracy.tracer = \"embree\" knows no contours");
+  if (scene.effects.refraction == Switch::on)
+    return table.leaveOut("echoes", "effects.refraction = \"on\" knows no contours");
+  const auto value = [](const char* name, InterfaceEcho echo) {
+    return KnobValue{name, [echo](Scene& s) { s.accuracy.interface_echo = echo; }};
+  };
+  // "auto" is over cells wherever rays stay straight.
+  table.add({"echoes",
+             "accuracy.interface_echo",
+             "interface echoes at the lines, or over the beam's cell where rays stay straight",
+             {value("centre", InterfaceEcho::centre), value("auto", InterfaceEcho::automatic)},
+             {0, 1, 1, 1}});
+}
+
+}  // namespace
+
+KnobTable knobsOf(const Scene& scene) {
+  std::size_t triangles = 0;
+  const HeartMotion motion(scene);
+  for (const SurfaceTopology& surface : motion.surfaces()) triangles += surface.triangles.size();
+  Table table;
+  addLines(scene, table);
+  addSamples(scene, table);
+  addSubdivision(scene, triangles, table);
+  addNormals(scene, table);
+  addKeyframes(scene, table);
+  addInterpolation(scene, table);
+  addRefraction(scene, motion, table);
+  addEchoes(scene, table);
+  return std::move(table.table);
+}
+
+std::vector<std::string> knobNames() {
+  return {"lines",     "samples",       "subdivision", "normals",
+          "keyframes", "interpolation", "refraction",  "echoes"};
+}
+
+Setting presetSetting(const KnobTable& table, Preset preset) {
+  Setting setting;
+  for (const Knob& knob : table.knobs)
+    setting.push_back(knob.of_preset[static_cast<std::size_t>(preset)]);
+  return setting;
+}
+
+Scene sceneWith(const Scene& scene, const KnobTable& table, const Setting& setting) {
+  Scene changed = scene;
+  for (std::size_t k = 0; k < table.knobs.size(); ++k)
+    table.knobs[k].values[setting[k]].apply(changed);
+  return changed;
+}
+
+std::string settingText(const KnobTable& table, const Setting& setting) {
+  std::string text;
+  for (std::size_t k = 0; k < table.knobs.size(); ++k)
+    text += fmt::format("{}{} = {}", k ? ", " : "", table.knobs[k].key,
+                        table.knobs[k].values[setting[k]].label);
+  return text;
+}
+
+}  // namespace echocine

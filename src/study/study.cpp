@@ -1,0 +1,302 @@
+#include "study/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/units.h"
+#include "motion/cardiac_clock.h"
+#include "render_pass.h"
+#include "study/thumbnail.h"
+
+namespace echocine {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// The folder for EXR files that are only timed, gone in the end.
+struct ScratchFolder {
+  explicit ScratchFolder(const std::filesystem::path& folder) : path(folder / "frames.part") {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (error)
+      throw JobError(fmt::format("{}: cannot be made: {}", path.string(), error.message()));
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  std::filesystem::path path;
+};
+
+class Study {
+ public:
+  Study(const Scene& scene, const StudyOptions& options, const StudyMonitor& monitor)
+      : scene_(showing(scene)),
+        options_(options),
+        monitor_(monitor),
+        scratch_(options.folder),
+        start_(Clock::now()) {}
+
+  StudyResult run() {
+    prepare();
+    for (int round = 0; round < options_.repeats; ++round) {
+      const Clock::time_point begin = Clock::now();
+      if (!visitAll(round)) break;
+      result_.rounds = round + 1;
+      result_.complete = round + 1 == options_.repeats;
+      const double took_s = secondsSince(begin);
+      const bool enough = secondsSince(start_) + took_s > options_.budget_s;
+      if (enough) result_.complete = true;
+      monitor_.round_done(finished());
+      if (enough) break;
+    }
+    return finished();
+  }
+
+ private:
+  void prepare();
+  void addRow(const std::string& sweep, const std::string& knob, const std::string& value,
+              Scene scene, const std::string& keys);
+  void addSweep(const Knob& knob, std::size_t k, Preset around);
+  bool visitAll(int round);
+  void visit(std::size_t point, int round);
+  void compare(std::size_t point);
+  void tell();
+  StudyResult finished() const;
+
+  Scene scene_;
+  const StudyOptions& options_;
+  const StudyMonitor& monitor_;
+  ScratchFolder scratch_;
+  Clock::time_point start_;
+  MotionShelf shelf_;
+  StudyResult result_;
+  std::vector<double> phases_;
+  std::vector<FrameProbe> probes_;  // of each point
+  std::vector<std::string> signatures_;
+  std::vector<FramePicture> reference_;
+  std::vector<double> visit_s_;  // of each point, its last visit
+  std::size_t visits_ = 0;
+};
+
+void Study::addRow(const std::string& sweep, const std::string& knob, const std::string& value,
+                   Scene scene, const std::string& keys) {
+  if (!result_.points.empty()) scene.signal.reference_intensity = result_.reference_intensity;
+  try {
+    FrameProbe probe(std::move(scene), shelf_);
+    std::string signature = probe.signature();
+    const auto found = std::find(signatures_.begin(), signatures_.end(), signature);
+    const auto point = static_cast<std::size_t>(found - signatures_.begin());
+    if (found == signatures_.end()) {
+      if (result_.points.empty()) {  // the reference: its white is everybody's
+        result_.reference_intensity = probe.referenceIntensity(phases_);
+        Scene white = probe.scene();
+        white.signal.reference_intensity = result_.reference_intensity;
+        probe = FrameProbe(std::move(white), shelf_);
+        signature = probe.signature();
+      }
+      StudyPoint fresh;
+      fresh.scene = probe.scene();
+      fresh.keys = keys;
+      fresh.tracer = probe.plan().tracerName();
+      result_.points.push_back(std::move(fresh));
+      signatures_.push_back(std::move(signature));
+      probes_.push_back(std::move(probe));
+    }
+    result_.rows.push_back({sweep, knob, value, point});
+  } catch (const SceneError& error) {
+    if (result_.points.empty()) throw;  // without its reference there is no study
+    result_.refused.push_back({knob + " " + value, error.what()});
+  }
+}
+
+void Study::addSweep(const Knob& knob, std::size_t k, Preset around) {
+  const bool draft = around == Preset::draft;
+  Setting setting = presetSetting(result_.table, around);
+  for (std::size_t v = 0; v < knob.values.size(); ++v) {
+    setting[k] = v;
+    addRow(draft ? "from draft" : "from reference", knob.name, knob.values[v].label,
+           sceneWith(scene_, result_.table, setting), settingText(result_.table, setting));
+  }
+}
+
+void Study::prepare() {
+  result_.scene_file = scene_.file.filename().string();
+  result_.dynamic_range_db = scene_.signal.dynamic_range_db;
+  result_.threads = threadCount();
+  result_.frames = probeFrames(scene_, options_.frames);
+  for (const FrameTime& frame : result_.frames) phases_.push_back(frame.phase);
+  result_.scene_sha256 = sceneSha256(scene_, *shelf_.motionOf(scene_));
+  result_.table = knobsOf(scene_);
+  for (const Preset preset : {Preset::reference, Preset::draft, Preset::standard, Preset::fine}) {
+    const Setting setting = presetSetting(result_.table, preset);
+    addRow("preset", "preset", kPresetNames[static_cast<std::size_t>(preset)],
+           sceneWith(scene_, result_.table, setting), settingText(result_.table, setting));
+  }
+  addRow("preset", "preset", "scene", scene_, "as written");
+  for (const Preset around : {Preset::draft, Preset::reference})
+    for (std::size_t k = 0; k < result_.table.knobs.size(); ++k) {
+      const Knob& knob = result_.table.knobs[k];
+      const auto& only = options_.knobs;
+      if (only.empty() || std::find(only.begin(), only.end(), knob.name) != only.end())
+        addSweep(knob, k, around);
+    }
+  visit_s_.resize(result_.points.size());
+  for (const double phase : phases_)
+    reference_.push_back(probes_[0].picture(phase, result_.reference_intensity, true));
+}
+
+void Study::tell() {
+  // What was not visited yet is taken to last as long as the mean of what was.
+  double known = 0;
+  std::size_t count = 0;
+  for (const double s : visit_s_)
+    if (s > 0) {
+      known += s;
+      ++count;
+    }
+  const std::size_t total = result_.points.size() * static_cast<std::size_t>(options_.repeats);
+  const double mean = count > 0 ? known / static_cast<double>(count) : 0;
+  monitor_.tell(visits_, total, mean * static_cast<double>(total - visits_));
+}
+
+bool Study::visitAll(int round) {
+  const std::size_t count = result_.points.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!monitor_.keep_going()) return false;
+    visit(round % 2 == 0 ? i : count - 1 - i, round);
+  }
+  return true;
+}
+
+void Study::visit(std::size_t point, int round) {
+  const Clock::time_point begin = Clock::now();
+  FrameProbe& probe = probes_[point];
+  StudyPoint& p = result_.points[point];
+  if (round == 0)
+    compare(point);
+  else  // hierarchies are built and memory is touched before the clock runs
+    probe.picture(phases_.front(), result_.reference_intensity, false);
+  const std::size_t frames =
+      std::max(phases_.size(), static_cast<std::size_t>(2 * (threadCount() - 1)));
+  p.times.push_back(probe.timeBatch(phases_, frames, result_.reference_intensity, scratch_.path));
+  probe.rest();
+  visit_s_[point] = secondsSince(begin);
+  ++visits_;
+  tell();
+}
+
+void Study::compare(std::size_t point) {
+  FrameProbe& probe = probes_[point];
+  StudyPoint& p = result_.points[point];
+  StudyErrors& e = p.errors;
+  InterfaceError interfaces;
+  double squares = 0, ssim = 0, worst = -1;
+  for (std::size_t f = 0; f < phases_.size(); ++f) {
+    const FramePicture picture = probe.picture(phases_[f], result_.reference_intensity, true);
+    const FramePicture& truth = reference_[f];
+    const PictureError error = pictureError(picture.grey, truth.grey, result_.dynamic_range_db);
+    squares += error.rms_db * error.rms_db;
+    e.worst_rms_db = std::max(e.worst_rms_db, error.rms_db);
+    e.max_db = std::max(e.max_db, error.max_db);
+    ssim += structuralSimilarity(picture.image, truth.image, truth.grey);
+    interfaces.add(picture.interfaces, truth.interfaces);
+    if (error.rms_db > worst) {
+      worst = error.rms_db;
+      p.thumbnail = thumbnail(picture.image);
+      p.difference = differenceThumbnail(picture, truth, result_.dynamic_range_db);
+    }
+  }
+  const auto frames = static_cast<double>(phases_.size());
+  e.rms_db = std::sqrt(squares / frames);
+  e.ssim = ssim / frames;
+  e.interface_rms_mm = millimetresFromMetres(interfaces.rms_m());
+  e.interface_p95_mm = millimetresFromMetres(interfaces.percentile95_m());
+  e.interface_missed = interfaces.missedShare();
+  p.work = probe.workPerFrame();
+}
+
+StudyResult Study::finished() const {
+  StudyResult result = result_;
+  std::erase_if(result.rows,
+                [&](const StudyRow& row) { return result.points[row.point].times.empty(); });
+  return result;
+}
+
+}  // namespace
+
+Quartiles StudyPoint::wall_ms() const {
+  std::vector<double> values;
+  for (const StageTimes& t : times) values.push_back(t.wall_ms);
+  return quartilesOf(values);
+}
+
+double StudyPoint::stage_ms(Stage stage) const {
+  std::vector<double> values;
+  for (const StageTimes& t : times) values.push_back(t.stage_ms[static_cast<std::size_t>(stage)]);
+  return quartilesOf(values).median;
+}
+
+std::vector<FrameTime> probeFrames(const Scene& scene, int count) {
+  const CardiacClock clock(scene);
+  int of_beat = 0;
+  while (of_beat < clock.frameCount() && clock.at(of_beat).beat == 0) ++of_beat;
+  const int wanted = std::min(count, of_beat);
+  std::vector<FrameTime> frames;
+  for (int i = 0; i < wanted; ++i) frames.push_back(clock.at((2 * i + 1) * of_beat / (2 * wanted)));
+  return frames;
+}
+
+StudyResult runStudy(const Scene& scene, const StudyOptions& options, const StudyMonitor& monitor) {
+  StudyResult result;
+  withThreads(options.threads, [&] { result = Study(scene, options, monitor).run(); });
+  return result;
+}
+
+double KnobStep::perMillisecond() const {
+  constexpr double kLeast_ms = 0.01;
+  return error_drop_db / std::max(added_ms, kLeast_ms);
+}
+
+std::vector<KnobStep> bestBuys(const StudyResult& result) {
+  std::vector<KnobStep> best;
+  for (const Knob& knob : result.table.knobs) {
+    const StudyRow* base = nullptr;
+    std::vector<const StudyRow*> others;
+    for (const StudyRow& row : result.rows) {
+      if (row.sweep != "from draft" || row.knob != knob.name) continue;
+      if (row.value == knob.values[knob.of_preset[0]].label)
+        base = &row;
+      else
+        others.push_back(&row);
+    }
+    if (base == nullptr) continue;
+    KnobStep step{knob.name, base->value, base->value, 0, 0};
+    for (const StudyRow* row : others) {
+      const StudyPoint &to = result.points[row->point], &from = result.points[base->point];
+      const KnobStep s{knob.name, base->value, row->value,
+                       to.wall_ms().median - from.wall_ms().median,
+                       from.errors.rms_db - to.errors.rms_db};
+      if (s.worth() && s.perMillisecond() > step.perMillisecond()) step = s;
+    }
+    if (step.worth()) best.push_back(step);
+  }
+  std::sort(best.begin(), best.end(), [](const KnobStep& a, const KnobStep& b) {
+    return a.perMillisecond() > b.perMillisecond();
+  });
+  return best;
+}
+
+}  // namespace echocine

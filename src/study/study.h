@@ -1,0 +1,99 @@
+#pragma once
+// What each knob of a scene costs in time and leaves in error, measured here and now.
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "motion/cardiac_clock.h"
+#include "output/manifest.h"
+#include "study/frame_probe.h"
+#include "study/knobs.h"
+#include "study/picture_error.h"
+#include "study/statistics.h"
+
+namespace echocine {
+
+struct StudyOptions {
+  std::filesystem::path folder;
+  int threads = 1;                 // frames made at once while they are timed; 0: one per core
+  int frames = 4;                  // compared and timed, evenly over the first beat
+  int repeats = 3;                 // rounds over all settings
+  std::vector<std::string> knobs;  // only these; empty: all
+  double budget_s =
+      std::numeric_limits<double>::infinity();  // no round begins that would end later
+};
+
+// Against the reference, over the probe frames.
+struct StudyErrors {
+  double rms_db = 0;        // over the pixels of all frames
+  double worst_rms_db = 0;  // of the worst frame
+  double max_db = 0;
+  double ssim = 1;  // mean over the frames
+  double interface_rms_mm = 0, interface_p95_mm = 0, interface_missed = 0;
+};
+
+// What was measured of one setting; rows that come to the same thing share it.
+struct StudyPoint {
+  Scene scene;
+  std::string keys;  // "probe.lines = 64, ...", or "as written"
+  std::string tracer;
+  StudyErrors errors;
+  WorkCounts work;                               // per frame
+  std::vector<StageTimes> times;                 // one for each round
+  std::vector<std::byte> thumbnail, difference;  // JPEG; brighter is farther from the reference
+
+  Quartiles wall_ms() const;
+  double stage_ms(Stage stage) const;  // median over the rounds
+};
+
+// One line of the study.
+struct StudyRow {
+  std::string sweep;        // "preset", "from draft", "from reference"
+  std::string knob, value;  // of a preset: "preset" and its name, or "scene"
+  std::size_t point = 0;    // index into StudyResult::points
+};
+
+struct StudyResult {
+  std::string scene_file, scene_sha256;
+  std::vector<FrameTime> frames;
+  double reference_intensity = 1, dynamic_range_db = 60;
+  KnobTable table;
+  std::vector<StudyPoint> points;  // the reference first
+  std::vector<StudyRow> rows;
+  std::vector<KnobLeftOut> refused;  // rows that could not be made, and why
+  int rounds = 0, threads = 1;
+  bool complete = false;
+};
+
+struct StudyMonitor {
+  std::function<void(std::size_t done, std::size_t total, double seconds_left)> tell =
+      [](std::size_t, std::size_t, double) {};
+  std::function<bool()> keep_going = [] { return true; };
+  std::function<void(const StudyResult&)> round_done = [](const StudyResult&) {};
+};
+
+// The probe frames: `count` of the first beat's, evenly spaced, all if there are fewer.
+std::vector<FrameTime> probeFrames(const Scene& scene, int count);
+
+// Runs the study. Each round visits every setting, forwards and backwards in turn, so that a drift
+// of the clock cancels in the medians; the first also compares pictures. Rows without a time when
+// keep_going() said no are left out. Throws SceneError and JobError.
+StudyResult runStudy(const Scene& scene, const StudyOptions& options, const StudyMonitor& monitor);
+
+// Of a sweep: a knob turned one step, in time and error.
+struct KnobStep {
+  std::string knob, from, to;
+  double added_ms = 0, error_drop_db = 0;
+  bool worth() const { return error_drop_db > 0; }
+  // dB per ms; a step that costs no time is counted as a hundredth of a millisecond.
+  double perMillisecond() const;
+};
+
+// The largest drop of the error per millisecond that each knob buys when it alone is raised from
+// draft, best first.
+std::vector<KnobStep> bestBuys(const StudyResult& result);
+
+}  // namespace echocine

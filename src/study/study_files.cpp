@@ -1,0 +1,202 @@
+#include "study/study_files.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/file.h"
+#include "study/machine.h"
+
+namespace echocine {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json knobsJson(const KnobTable& table) {
+  Json knobs = Json::array();
+  for (const Knob& knob : table.knobs) {
+    Json values = Json::array(), presets = Json::object();
+    for (const KnobValue& value : knob.values) values.push_back(value.label);
+    for (std::size_t p = 0; p < kPresets; ++p)
+      presets[kPresetNames[p]] = knob.values[knob.of_preset[p]].label;
+    knobs.push_back({{"name", knob.name},
+                     {"key", knob.key},
+                     {"meaning", knob.meaning},
+                     {"values", values},
+                     {"presets", presets}});
+  }
+  return knobs;
+}
+
+Json leftOutJson(const std::vector<KnobLeftOut>& list) {
+  Json json = Json::array();
+  for (const KnobLeftOut& l : list) json.push_back({{"knob", l.knob}, {"reason", l.reason}});
+  return json;
+}
+
+Json framesJson(const std::vector<FrameTime>& frames) {
+  Json json = Json::array();
+  for (const FrameTime& f : frames) json.push_back({{"time_s", f.time_s}, {"phase", f.phase}});
+  return json;
+}
+
+Json errorsJson(const StudyErrors& e) {
+  return {{"rms_db", e.rms_db},
+          {"worst_frame_rms_db", e.worst_rms_db},
+          {"max_db", e.max_db},
+          {"ssim", e.ssim},
+          {"interface_rms_mm", e.interface_rms_mm},
+          {"interface_p95_mm", e.interface_p95_mm},
+          {"interface_missed", e.interface_missed}};
+}
+
+Json workJson(const WorkCounts& w) {
+  return {{"bvh_updates", w.bvh_updates},
+          {"facets_sliced", w.facets_sliced},
+          {"rays", w.rays},
+          {"crossings", w.crossings},
+          {"samples_backscatter", w.samples_backscatter},
+          {"samples_attenuated", w.samples_attenuated}};
+}
+
+Json timingJson(const StudyPoint& point, bool on_front) {
+  const Quartiles wall = point.wall_ms();
+  Json stages = Json::object();
+  for (std::size_t s = 0; s < kStages; ++s)
+    stages[stageName(static_cast<Stage>(s))] = point.stage_ms(static_cast<Stage>(s));
+  return {{"ms_per_frame", wall.median},
+          {"first_quartile_ms", wall.first_quartile},
+          {"third_quartile_ms", wall.third_quartile},
+          {"rounds", point.times.size()},
+          {"stages_ms", stages},
+          {"pareto", on_front}};
+}
+
+Json buysJson(const StudyResult& result) {
+  Json buys = Json::array();
+  for (const KnobStep& step : bestBuys(result))
+    buys.push_back({{"knob", step.knob},
+                    {"from", step.from},
+                    {"to", step.to},
+                    {"added_ms", step.added_ms},
+                    {"error_drop_db", step.error_drop_db},
+                    {"db_per_ms", step.perMillisecond()}});
+  return buys;
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+}  // namespace
+
+std::vector<bool> rowsOnFront(const StudyResult& result) {
+  std::vector<CostAndError> points;
+  for (const StudyRow& row : result.rows) {
+    const StudyPoint& point = result.points[row.point];
+    points.push_back({point.wall_ms().median, point.errors.rms_db});
+  }
+  return paretoFront(points);
+}
+
+Json studyJson(const StudyResult& result) {
+  const std::vector<bool> front = rowsOnFront(result);
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
+    const StudyRow& row = result.rows[i];
+    const StudyPoint& point = result.points[row.point];
+    rows.push_back({{"sweep", row.sweep},
+                    {"knob", row.knob},
+                    {"value", row.value},
+                    {"point", row.point},
+                    {"setting", point.keys},
+                    {"tracer", point.tracer},
+                    {"errors", errorsJson(point.errors)},
+                    {"work_per_frame", workJson(point.work)},
+                    {"timing", timingJson(point, front[i])}});
+  }
+  return {{"version", ECHOCINE_VERSION},
+          {"scene", result.scene_file},
+          {"scene_sha256", result.scene_sha256},
+          {"reference_intensity", result.reference_intensity},
+          {"dynamic_range_db", result.dynamic_range_db},
+          {"frames", framesJson(result.frames)},
+          {"knobs", knobsJson(result.table)},
+          {"left_out", leftOutJson(result.table.left_out)},
+          {"refused", leftOutJson(result.refused)},
+          {"rows", rows},
+          {"machine",
+           {{"processor", processorName()},
+            {"cores", processorCores()},
+            {"threads", result.threads},
+            {"rounds", result.rounds},
+            {"complete", result.complete},
+            {"best_buys", buysJson(result)}}}};
+}
+
+std::string studyCsv(const StudyResult& result) {
+  const std::vector<bool> front = rowsOnFront(result);
+  std::string text =
+      "sweep,knob,value,rms_db,worst_frame_rms_db,max_db,ssim,interface_rms_mm,interface_p95_mm,"
+      "interface_missed,ms_per_frame,first_quartile_ms,third_quartile_ms";
+  for (std::size_t s = 0; s < kStages; ++s)
+    text += fmt::format(",{}_ms", stageName(static_cast<Stage>(s)));
+  text += ",pareto,tracer,setting\n";
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
+    const StudyRow& row = result.rows[i];
+    const StudyPoint& point = result.points[row.point];
+    const StudyErrors& e = point.errors;
+    const Quartiles wall = point.wall_ms();
+    text += fmt::format(
+        "{},{},{},{:.6g},{:.6g},{:.6g},{:.8g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}",
+        quoted(row.sweep), quoted(row.knob), quoted(row.value), e.rms_db, e.worst_rms_db, e.max_db,
+        e.ssim, e.interface_rms_mm, e.interface_p95_mm, e.interface_missed, wall.median,
+        wall.first_quartile, wall.third_quartile);
+    for (std::size_t s = 0; s < kStages; ++s)
+      text += fmt::format(",{:.6g}", point.stage_ms(static_cast<Stage>(s)));
+    text += fmt::format(",{},{},{}\n", front[i] ? 1 : 0, point.tracer, quoted(point.keys));
+  }
+  return text;
+}
+
+std::string studyTable(const StudyResult& result) {
+  const std::vector<bool> front = rowsOnFront(result);
+  std::string text =
+      fmt::format("{:<30} {:>9} {:>15} {:>8} {:>8} {:>8} {:>9} {:>9}\n", "", "ms/frame",
+                  "quartiles", "RMS dB", "max dB", "SSIM", "RMS mm", "95 % mm");
+  std::string head;
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
+    const StudyRow& row = result.rows[i];
+    const StudyPoint& point = result.points[row.point];
+    const std::string title = row.sweep == "preset" ? "presets" : row.knob + ", " + row.sweep;
+    if (title != head) text += (head = title) + "\n";
+    const Quartiles wall = point.wall_ms();
+    const StudyErrors& e = point.errors;
+    text += fmt::format(
+        "  {:<27}{} {:>9.2f} {:>7.2f}-{:<7.2f} {:>8.3f} {:>8.1f} {:>8.4f} {:>9.3f} {:>9.3f}\n",
+        row.value, front[i] ? '*' : ' ', wall.median, wall.first_quartile, wall.third_quartile,
+        e.rms_db, e.max_db, e.ssim, e.interface_rms_mm, e.interface_p95_mm);
+  }
+  text += "* no other setting here is both faster and nearer to the reference\n";
+  for (const KnobLeftOut& l : result.table.left_out)
+    text += fmt::format("left out: {}: {}\n", l.knob, l.reason);
+  for (const KnobLeftOut& l : result.refused)
+    text += fmt::format("refused: {}: {}\n", l.knob, l.reason);
+  const std::vector<KnobStep> buys = bestBuys(result);
+  if (!buys.empty()) text += "from draft, dB of RMS error for a millisecond:";
+  for (const KnobStep& b : buys)
+    text += fmt::format("{} {} {} -> {} ({:.2f} dB for {:.2f} ms)", &b == &buys.front() ? "" : ",",
+                        b.knob, b.from, b.to, b.error_drop_db, b.added_ms);
+  return text + (buys.empty() ? "" : "\n");
+}
+
+void writeStudyFiles(const StudyResult& result, const std::filesystem::path& folder) {
+  const std::string json = studyJson(result).dump(1) + "\n", csv = studyCsv(result);
+  writeFileWhole(folder / "study.json", std::as_bytes(std::span(json)));
+  writeFileWhole(folder / "study.csv", std::as_bytes(std::span(csv)));
+}
+
+}  // namespace echocine

@@ -1,0 +1,20 @@
+#pragma once
+// Small pictures of a setting for the study's page.
+
+#include <cstddef>
+#include <vector>
+
+#include "study/frame_probe.h"
+
+namespace echocine {
+
+// A JPEG of the picture, at most 320 pixels wide.
+std::vector<std::byte> thumbnail(const GreyImage& image);
+
+// A JPEG of how far the setting's grey is from the reference's: black where equal, white from 6 dB
+// (our choice) up.
+inline constexpr double kWhiteDifference_db = 6;
+std::vector<std::byte> differenceThumbnail(const FramePicture& setting,
+                                           const FramePicture& reference, double dynamic_range_db);
+
+}  // namespace echocine

@@ -1,0 +1,228 @@
+// echocine study: its files, its refusals, and what must be the same in every run.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/scene_reader.h"
+#include "study/study.h"
+#include "support/loop_scene.h"
+#include "support/run_program.h"
+
+namespace echocine {
+namespace {
+
+using namespace support;
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+// Control meshes of few faces and a wall that bends rays, so that every knob has something to do.
+SceneText studiedBall() {
+  SceneText text = ballScene(6);
+  text.structures.replace(text.structures.find("myocardium"), 10, "fat");
+  text.probe["depth_mm"] = "110";
+  text.motion["subdivision"] = "1";
+  return text;
+}
+
+class StudyCommandTest : public ::testing::Test {
+ protected:
+  StudyCommandTest() { writeBall(folder, studiedBall()); }
+  Outcome study(const std::string& more = "", const std::string& out = "out") {
+    const bool repeats = more.find("--repeats") != std::string::npos;
+    return runShell("%B study '" + (folder / "scene.toml").string() + "' -o '" +
+                    (folder / out).string() + "' --frames 2 " + (repeats ? "" : "--repeats 1 ") +
+                    more);
+  }
+  Json json(const std::string& out = "out") const {
+    return Json::parse(bytesOf(folder / out / "study.json"));
+  }
+  TempFolder folder;
+};
+
+// All that may differ from run to run.
+Json withoutTimes(Json json) {
+  json.erase("machine");
+  for (Json& row : json["rows"]) row.erase("timing");
+  return json;
+}
+
+const Json& rowOf(const Json& json, const std::string& sweep, const std::string& knob,
+                  const std::string& value) {
+  for (const Json& row : json["rows"])
+    if (row["sweep"] == sweep && row["knob"] == knob && row["value"] == value) return row;
+  throw std::runtime_error("no row " + sweep + " " + knob + " " + value);
+}
+
+double rmsOf(const Json& json, const std::string& preset) {
+  return rowOf(json, "preset", "preset", preset)["errors"]["rms_db"].get<double>();
+}
+
+TEST_F(StudyCommandTest, WritesItsFilesAndATableAndLeavesNothingElse) {
+  const Outcome outcome = study("--knobs lines,normals");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("RMS dB"), std::string::npos);
+  EXPECT_NE(outcome.out.find("lines, from reference"), std::string::npos);
+  for (const char* name : {"study.json", "study.csv"})
+    EXPECT_TRUE(fs::exists(folder / "out" / name));
+  EXPECT_FALSE(fs::exists(folder / "out/frames.part"));
+}
+
+TEST_F(StudyCommandTest, EveryKnobIsSweptFromDraftAndFromReference) {
+  ASSERT_EQ(study().code, 0);
+  const Json json = this->json();
+  for (const char* knob : {"lines", "samples", "subdivision", "normals", "keyframes",
+                           "interpolation", "refraction", "echoes"}) {
+    std::size_t values = 0;
+    for (const Json& k : json["knobs"])
+      if (k["name"] == knob) values = k["values"].size();
+    EXPECT_GE(values, 2u) << knob;
+    for (const char* sweep : {"from draft", "from reference"}) {
+      std::size_t rows = 0;
+      for (const Json& row : json["rows"]) rows += row["sweep"] == sweep && row["knob"] == knob;
+      EXPECT_EQ(rows, values) << knob << ' ' << sweep;
+    }
+  }
+}
+
+// What is asserted of the presets: the reference errs by nothing, each one errs less than the one
+// before it, and so does each finer value of lines and of samples from the reference.
+TEST_F(StudyCommandTest, FinerPresetsErrLess) {
+  ASSERT_EQ(study("--knobs lines,samples,subdivision").code, 0);
+  const Json json = this->json();
+  EXPECT_EQ(rmsOf(json, "reference"), 0);
+  EXPECT_LT(rmsOf(json, "fine"), rmsOf(json, "standard"));
+  EXPECT_LT(rmsOf(json, "standard"), rmsOf(json, "draft"));
+  EXPECT_GT(rmsOf(json, "fine"), 0);
+  for (const Json& knob : json["knobs"]) {
+    if (knob["name"] != "lines" && knob["name"] != "samples") continue;
+    double before = 1e9;
+    for (const Json& value : knob["values"]) {
+      const Json& row = rowOf(json, "from reference", knob["name"], value);
+      const double rms = row["errors"]["rms_db"].get<double>();
+      EXPECT_LT(rms, before) << knob["name"] << ' ' << value;
+      before = rms;
+    }
+  }
+}
+
+TEST_F(StudyCommandTest, AllButTimesIsTheSameWhateverTheThreads) {
+  ASSERT_EQ(study("--knobs lines,refraction --threads 1", "one").code, 0);
+  ASSERT_EQ(study("--knobs lines,refraction --threads 2 --repeats 2", "two").code, 0);
+  EXPECT_EQ(withoutTimes(json("one")).dump(), withoutTimes(json("two")).dump());
+}
+
+TEST_F(StudyCommandTest, EachRowHasItsErrorsTimesAndKeys) {
+  ASSERT_EQ(study("--knobs samples").code, 0);
+  const Json json = this->json();
+  EXPECT_EQ(json["frames"].size(), 2u);
+  EXPECT_TRUE(json["machine"]["complete"].get<bool>());
+  bool front = false;
+  for (const Json& row : json["rows"]) {
+    const Json &e = row["errors"], &t = row["timing"];
+    EXPECT_LE(e["rms_db"].get<double>(), e["worst_frame_rms_db"].get<double>() + 1e-12);
+    EXPECT_LE(e["worst_frame_rms_db"], e["max_db"]);
+    EXPECT_LE(e["ssim"].get<double>(), 1 + 1e-12);
+    EXPECT_LE(e["interface_missed"].get<double>(), 1);
+    EXPECT_GT(t["ms_per_frame"].get<double>(), 0);
+    EXPECT_LE(t["first_quartile_ms"], t["third_quartile_ms"]);
+    for (const char* stage :
+         {"motion", "geometry", "trace", "signal", "scan_conversion", "exr", "avi"})
+      EXPECT_GT(t["stages_ms"][stage].get<double>(), 0) << stage;
+    front = front || t["pareto"].get<bool>();
+  }
+  EXPECT_TRUE(front);
+  // Halves of samples stand half a sample off at most.
+  EXPECT_LT(rowOf(json, "preset", "preset", "reference")["errors"]["interface_rms_mm"],
+            rowOf(json, "preset", "preset", "draft")["errors"]["interface_rms_mm"]);
+}
+
+TEST_F(StudyCommandTest, TheCsvHasARowForEachRowAndAColumnForEachHead) {
+  ASSERT_EQ(study("--knobs lines").code, 0);
+  std::istringstream lines(bytesOf(folder / "out/study.csv"));
+  std::string head, line;
+  std::getline(lines, head);
+  const auto commas = [](const std::string& text) {
+    bool quoted = false;
+    int count = 0;
+    for (const char c : text) {
+      if (c == '"') quoted = !quoted;
+      count += c == ',' && !quoted;
+    }
+    EXPECT_FALSE(quoted) << text;
+    return count;
+  };
+  std::size_t rows = 0;
+  for (; std::getline(lines, line); ++rows) EXPECT_EQ(commas(line), commas(head)) << line;
+  EXPECT_EQ(rows, json()["rows"].size());
+}
+
+TEST_F(StudyCommandTest, KnobsThatCannotApplyAreLeftOutWithTheReason) {
+  SceneText text = studiedBall();
+  text.motion.erase("subdivision");
+  text.effects["refraction"] = "\"off\"";
+  writeBall(folder, text);
+  const Outcome outcome = study("--knobs lines");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* part : {"left out: subdivision: ", "left out: normals: ",
+                           "left out: refraction: effects.refraction"})
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in " << outcome.out;
+}
+
+TEST_F(StudyCommandTest, UnusableArgumentsAreCodeTwoAndOneLine) {
+  for (const char* more : {"--knobs colour", "--frames 0", "--repeats 0", "--budget-s -1",
+                           "--threads -1", "--frames two"}) {
+    const Outcome outcome = runShell("%B study '" + (folder / "scene.toml").string() + "' -o '" +
+                                     (folder / "out").string() + "' " + more);
+    EXPECT_EQ(outcome.code, 2) << more;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder / "out")) << more;
+  }
+  EXPECT_EQ(runShell("%B study nowhere.toml -o x").code, 2);
+  const Outcome help = runShell("%B study --help");
+  EXPECT_EQ(help.code, 0);
+  for (const char* word : {"--budget-s", "SECONDS", "ms", "dB", "--knobs", "subdivision"})
+    EXPECT_NE(help.out.find(word), std::string::npos) << word;
+}
+
+TEST_F(StudyCommandTest, AFolderThatCannotBeMadeIsAFailedJob) {
+  folder.write("file", "");
+  const Outcome outcome = study("", "file");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+// Stopped after so many settings, what is finished is what the result holds.
+TEST(StudyStop, KeepsTheRowsThatAreFinished) {
+  const TempFolder folder;
+  const Scene scene = readScene(writeBall(folder, studiedBall()));
+  StudyOptions options;
+  options.folder = folder / "out";
+  options.frames = 1;
+  options.repeats = 2;
+  options.knobs = {"lines"};
+  StudyMonitor monitor;
+  std::size_t done = 0;
+  monitor.tell = [&](std::size_t so_far, std::size_t, double) { done = so_far; };
+  monitor.keep_going = [&] { return done < 3; };
+  const StudyResult result = runStudy(scene, options, monitor);
+  EXPECT_FALSE(result.complete);
+  EXPECT_EQ(done, 3u);
+  ASSERT_FALSE(result.rows.empty());
+  for (const StudyRow& row : result.rows)
+    EXPECT_FALSE(result.points[row.point].times.empty()) << row.knob << row.value;
+  EXPECT_FALSE(fs::exists(folder / "out/frames.part"));
+}
+
+TEST_F(StudyCommandTest, CtrlCWritesTheFinishedRowsAndIsAFailedJob) {
+  const std::string line = "timeout --preserve-status -s INT 2 %B study '" +
+                           (folder / "scene.toml").string() + "' -o '" + (folder / "out").string() +
+                           "' --frames 6 --repeats 1000 --quiet";
+  const Outcome outcome = runShell(line);
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("stopped"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(json()["machine"]["complete"].get<bool>());
+}
+
+}  // namespace
+}  // namespace echocine

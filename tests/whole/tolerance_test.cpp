@@ -1,0 +1,183 @@
+// --tolerance-db and --preset: the promise, its record, its repeatability, what contradicts it.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/parallel.h"
+#include "scene/scene_reader.h"
+#include "study/frame_probe.h"
+#include "study/picture_error.h"
+#include "study/tolerance.h"
+#include "support/loop_scene.h"
+#include "support/run_program.h"
+
+namespace echocine {
+namespace {
+
+using namespace support;
+namespace fs = std::filesystem;
+
+SceneText tolerantBall() {
+  SceneText text = ballScene(9);
+  text.probe["depth_mm"] = "110";
+  text.motion["subdivision"] = "1";
+  return text;
+}
+
+class Tolerance : public ::testing::Test {
+ protected:
+  Tolerance() { writeBall(folder, tolerantBall()); }
+  Outcome render(const std::string& more, const std::string& out = "out") {
+    return renderScene(folder / "scene.toml", folder / out, more);
+  }
+  nlohmann::json manifest(const std::string& out = "out") const {
+    return nlohmann::json::parse(bytesOf(folder / out / "manifest.json"));
+  }
+  void expectUnusable(const std::string& more, const std::string& part) {
+    const Outcome outcome = render(more);
+    EXPECT_EQ(outcome.code, 2) << more;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder / "out"));
+  }
+  TempFolder folder;
+};
+
+// The worst RMS error of the chosen scene against the reference, over frames that were not looked
+// at when it was chosen.
+double errorOnOtherFrames(const Scene& scene, const AccuracyChoice& choice) {
+  MotionShelf shelf;
+  FrameProbe reference(atPreset(scene, Preset::reference).scene, shelf),
+      chosen(choice.scene, shelf);
+  const double white = reference.referenceIntensity(choice.record.probe_phases);
+  double worst = 0;
+  const CardiacClock clock(scene);
+  for (int i = 0; i < clock.frameCount(); ++i) {
+    const double phase = clock.at(i).phase;
+    const auto& probed = choice.record.probe_phases;
+    if (std::find(probed.begin(), probed.end(), phase) != probed.end()) continue;
+    worst = std::max(worst, pictureError(chosen.picture(phase, white, false).grey,
+                                         reference.picture(phase, white, false).grey,
+                                         scene.signal.dynamic_range_db)
+                                .rms_db);
+  }
+  return worst;
+}
+
+TEST_F(Tolerance, IsKeptOnFramesThatWereNotLookedAt) {
+  const Scene scene = readScene(folder / "scene.toml");
+  double cost_before = 1e9;
+  for (const double tolerance_db : {0.1, 0.5, 1.5, 4.0}) {
+    const AccuracyChoice choice = chooseWithin(scene, tolerance_db, 2, {});
+    double worst = 0;
+    withThreads(2, [&] { worst = errorOnOtherFrames(scene, choice); });
+    EXPECT_LE(worst, tolerance_db) << choice.record.setting;
+    std::printf("tolerance %.1f dB: %.3f dB on other frames: %s\n", tolerance_db, worst,
+                choice.record.setting.c_str());
+    // The choice is the cheapest of what was tried and stays within; more tolerance costs no more.
+    double chosen_ms = 0, cheapest_ms = 1e9;
+    for (const AccuracyCandidate& c : choice.record.candidates) {
+      if (c.accepted) cheapest_ms = std::min(cheapest_ms, c.cost_ms);
+      if (c.setting == choice.record.setting) chosen_ms = c.cost_ms;
+      EXPECT_EQ(c.accepted, c.error_db <= tolerance_db / kToleranceSafety);
+    }
+    EXPECT_EQ(chosen_ms, cheapest_ms);
+    EXPECT_LE(chosen_ms, cost_before);
+    cost_before = chosen_ms;
+  }
+}
+
+TEST_F(Tolerance, GivesTheSameChoiceAndBytesInEveryRun) {
+  ASSERT_EQ(render("--tolerance-db 1 --threads 1", "one").code, 0);
+  ASSERT_EQ(render("--tolerance-db 1 --threads 2", "two").code, 0);
+  nlohmann::json one = manifest("one"), two = manifest("two");
+  EXPECT_EQ(one["files"], two["files"]);
+  EXPECT_EQ(one["scene_sha256"], two["scene_sha256"]);
+  for (nlohmann::json* m : {&one, &two})
+    for (auto& c : (*m)["accuracy"]["candidates"]) c.erase("probe_ms");
+  EXPECT_EQ(one["accuracy"], two["accuracy"]);
+}
+
+TEST_F(Tolerance, IsSaidOnStandardErrorAndKeptInTheManifest) {
+  const Outcome outcome = runShell("%B render '" + (folder / "scene.toml").string() + "' -o '" +
+                                   (folder / "out").string() + "' --tolerance-db 2");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("echocine: accuracy: probe.lines = "), std::string::npos);
+  const nlohmann::json accuracy = manifest()["accuracy"];
+  EXPECT_EQ(accuracy["tolerance_db"], 2);
+  EXPECT_NE(outcome.err.find(accuracy["setting"].get<std::string>()), std::string::npos);
+  EXPECT_NE(outcome.err.find(accuracy["reason"].get<std::string>()), std::string::npos);
+  EXPECT_GT(accuracy["candidates"].size(), 2u);
+  EXPECT_EQ(accuracy["candidates"][0]["error_db"], 0);  // the reference
+  const std::string lines = std::to_string(manifest()["scene"]["probe"]["lines"].get<int>());
+  EXPECT_TRUE(accuracy["setting"].get<std::string>().starts_with("probe.lines = " + lines));
+}
+
+TEST_F(Tolerance, OfTheSceneFileIsThatOfTheCommandLine) {
+  ASSERT_EQ(render("--tolerance-db 2", "asked").code, 0);
+  SceneText text = tolerantBall();
+  text.accuracy["tolerance_db"] = "2.0";
+  writeBall(folder, text);
+  ASSERT_EQ(render("", "written").code, 0);
+  EXPECT_EQ(manifest("asked")["files"], manifest("written")["files"]);
+}
+
+TEST_F(Tolerance, ResumesAsItBegan) {
+  ASSERT_EQ(render("--tolerance-db 2 --frames=:4").code, 0);
+  const std::string before = bytesOf(folder / "out/intensity/frame_0001.exr");
+  ASSERT_EQ(render("--tolerance-db 2 --resume").code, 0);
+  EXPECT_EQ(bytesOf(folder / "out/intensity/frame_0001.exr"), before);
+  EXPECT_EQ(manifest()["frames"].size(), 9u);
+  // Another tolerance is another scene.
+  EXPECT_EQ(render("--preset reference --resume").code, 2);
+}
+
+TEST_F(Tolerance, PresetsRenderAndAreKeptInTheManifest) {
+  for (const char* preset : {"draft", "standard", "fine", "reference"}) {
+    ASSERT_EQ(render(std::string("--frames=:1 --preset ") + preset, preset).code, 0);
+    EXPECT_EQ(manifest(preset)["accuracy"]["preset"], preset);
+  }
+  EXPECT_LT(manifest("draft")["scene"]["probe"]["lines"].get<int>(),
+            manifest("reference")["scene"]["probe"]["lines"].get<int>());
+  ASSERT_EQ(render("--frames=:1", "plain").code, 0);
+  EXPECT_EQ(manifest("plain")["accuracy"]["setting"], "as written");
+}
+
+// An echo stands in one sample; whatever their length its height times length stays.
+TEST_F(Tolerance, PresetsKeepTheEnergyOfAnEcho) {
+  const Scene scene = readScene(folder / "scene.toml");
+  for (const Preset preset : {Preset::draft, Preset::reference}) {
+    const Scene changed = atPreset(scene, preset).scene;
+    for (std::size_t s = 0; s < scene.structures.size(); ++s)
+      EXPECT_NEAR(changed.structures[s].reflection_gain * changed.probe.sampleSpacing(),
+                  scene.structures[s].reflection_gain * scene.probe.sampleSpacing(), 1e-15);
+  }
+}
+
+TEST_F(Tolerance, ContradictionsAreOneLine) {
+  expectUnusable("--tolerance-db 0", "--tolerance-db: 0 is not accepted: a number over 0");
+  expectUnusable("--tolerance-db -1", "a number over 0");
+  expectUnusable("--tolerance-db nan", "a number over 0");
+  expectUnusable("--tolerance-db much", "--tolerance-db");
+  expectUnusable("--preset best", "accepted: draft, standard, fine, reference");
+  expectUnusable("--preset fine --tolerance-db 1", "excludes");
+  SceneText text = tolerantBall();
+  text.accuracy["tolerance_db"] = "1";
+  writeBall(folder, text);
+  expectUnusable("--preset fine", "tolerance_db: excludes --preset");
+  text.accuracy["tolerance_db"] = "0";
+  writeBall(folder, text);
+  expectUnusable("", "tolerance_db");
+}
+
+TEST_F(Tolerance, AStopWhileItIsChosenIsAFailedJobThatWritesNothing) {
+  const Scene scene = readScene(folder / "scene.toml");
+  ToleranceMonitor monitor;
+  int asked = 0;
+  monitor.keep_going = [&] { return ++asked < 3; };
+  EXPECT_THROW(chooseWithin(scene, 0.5, 1, monitor), JobError);
+}
+
+}  // namespace
+}  // namespace echocine
