@@ -111,11 +111,12 @@ InterfaceMap FrameProbe::interfacesOf(Workspace& workspace) const {
   return interfaceMap(probe, walked.traces);
 }
 
-FramePicture FrameProbe::picture(double phase, double reference_intensity, bool with_interfaces) {
+FramePicture FrameProbe::picture(const FrameTime& time, double reference_intensity,
+                                 bool with_interfaces) {
   FrameMaker& making = maker();
   const WorkCounts before = making.work();
   const std::shared_ptr<Workspace> workspace = making.workspace();
-  making.trace(phase, *workspace);
+  making.trace(time, *workspace);
   FramePicture picture;
   picture.image = making.picture(reference_intensity, *workspace, true);
   making.chain().picture(workspace->polar, picture.grey);
@@ -131,21 +132,21 @@ FramePicture FrameProbe::picture(double phase, double reference_intensity, bool 
   return picture;
 }
 
-double FrameProbe::referenceIntensity(const std::vector<double>& phases) {
+double FrameProbe::referenceIntensity(const std::vector<FrameTime>& times) {
   if (scene_->signal.reference_intensity) return *scene_->signal.reference_intensity;
   if (!plan_->effects.contrast) return 1;
   IntensityHistogram histogram(scene_->probe);
   FrameMaker& making = maker();
   const std::shared_ptr<Workspace> workspace = making.workspace();
-  for (const double phase : phases) {
-    making.trace(phase, *workspace);
+  for (const FrameTime& time : times) {
+    making.trace(time, *workspace);
     histogram.add(workspace->polar.signal);
   }
   return making.work().crossings == 0 ? 1
                                       : histogram.percentile(scene_->signal.reference_percentile);
 }
 
-StageTimes FrameProbe::timeBatch(const std::vector<double>& phases, std::size_t frames,
+StageTimes FrameProbe::timeBatch(const std::vector<FrameTime>& times, std::size_t frames,
                                  double reference_intensity, const std::filesystem::path& folder) {
   FrameMaker& making = maker();
   const OutputSettings& o = scene_->output;
@@ -157,12 +158,13 @@ StageTimes FrameProbe::timeBatch(const std::vector<double>& phases, std::size_t 
       0, frames, 2 * static_cast<std::size_t>(threadCount()), [] { return true; },
       [&](std::size_t i) -> std::shared_ptr<void> {
         const std::shared_ptr<Workspace> workspace = making.workspace();
-        const double phase = phases[i % phases.size()];
-        making.trace(phase, *workspace);
+        const FrameTime& time = times[i % times.size()];
+        making.trace(time, *workspace);
         GreyImage image = making.picture(reference_intensity, *workspace, true);
         if (o.exr)
           making.clock().time(Stage::exr, [&] {
-            stack.write({static_cast<int>(i), 0, phase, 0}, channelPlanes(o, workspace->polar));
+            stack.write({static_cast<int>(i), 0, time.phase, 0},
+                        channelPlanes(o, workspace->polar));
           });
         if (o.cine)
           making.clock().time(Stage::avi, [&] {
@@ -173,10 +175,10 @@ StageTimes FrameProbe::timeBatch(const std::vector<double>& phases, std::size_t 
       },
       [](std::size_t, const std::shared_ptr<void>&) {});
   const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
-  StageTimes times{making.clock().milliseconds(), wall.count() / static_cast<double>(frames)};
+  StageTimes taken{making.clock().milliseconds(), wall.count() / static_cast<double>(frames)};
   for (std::size_t s = 0; s < kStages; ++s)
-    times.stage_ms[s] = (times.stage_ms[s] - before[s]) / static_cast<double>(frames);
-  return times;
+    taken.stage_ms[s] = (taken.stage_ms[s] - before[s]) / static_cast<double>(frames);
+  return taken;
 }
 
 }  // namespace echocine

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "frame_maker.h"
+#include "motion/cardiac_clock.h"
 #include "output/cine_writer.h"
 #include "output/exr_stack.h"
 #include "output/overlay.h"
@@ -59,19 +60,19 @@ class FrameProbe {
   std::string signature() const;
 
   // Traces the frame; nothing is written.
-  FramePicture picture(double phase, double reference_intensity, bool with_interfaces);
+  FramePicture picture(const FrameTime& time, double reference_intensity, bool with_interfaces);
 
   // The loop's white from these frames alone: absolute if the scene has it, else its percentile.
-  double referenceIntensity(const std::vector<double>& phases);
+  double referenceIntensity(const std::vector<FrameTime>& times);
 
   // Work of one frame, a mean over those traced so far.
   WorkCounts workPerFrame() const;
   std::size_t vertices() const { return vertices_; }  // of the structures that stay
 
-  // Makes `frames` frames of the phases, round and round, on the threads of withThreads(), from
+  // Makes `frames` frames of the times, round and round, on the threads of withThreads(), from
   // meshes to encoded files, of which the EXR files go to `folder`. The time of a frame is the
   // batch's over its frames, so on several threads it is that of a loop.
-  StageTimes timeBatch(const std::vector<double>& phases, std::size_t frames,
+  StageTimes timeBatch(const std::vector<FrameTime>& times, std::size_t frames,
                        double reference_intensity, const std::filesystem::path& folder);
 
   // Gives back what frames need while they are made; the next frame builds it anew.

@@ -8,8 +8,8 @@
 #include "motion/heart_motion.h"
 #include "motion/interpolation.h"
 #include "plan_loop.h"
+#include "scene/beam_profile.h"
 #include "scene/effect_plan.h"
-#include "signal/beam_width.h"
 
 namespace echocine {
 
@@ -40,7 +40,7 @@ struct Table {
       place.push_back(knob.values.size() - 1);
     }
     for (std::size_t p = 0; p < kPresets; ++p) knob.of_preset[p] = place[of_preset[p]];
-    for (std::size_t v = 0; v <= knob.reference(); ++v) knob.ladder.push_back(v);
+    for (std::size_t v = knob.of_preset[0]; v <= knob.reference(); ++v) knob.ladder.push_back(v);
     add(std::move(knob));
   }
 
@@ -65,10 +65,6 @@ int rounded(double count, int most) {
   return static_cast<int>(std::min(whole, static_cast<double>(most)));
 }
 
-double wavelength(const Probe& probe) {
-  return kScannerSpeed / probe.frequency_hz;
-}
-
 // How many beams lie side by side in the sector at the focus, and half pulses along a line.
 struct Extent {
   double beams = 1, pulses = 1;
@@ -78,13 +74,13 @@ Extent extentOf(const Scene& scene) {
   const Probe& probe = scene.probe;
   Probe two = probe;
   two.lines = 2;
-  const double width_m =
-      scene.signal.beam_width == BeamWidth::fixed
-          ? scene.signal.beam_width_m
-          : focusedBeamWidth(probe.focus_m, probe.aperture_m, probe.focus_m, wavelength(probe));
+  const double width_m = scene.signal.beam_width == BeamWidth::fixed
+                             ? scene.signal.beam_width_m
+                             : focusedBeamWidth(probe.focus_m, probe.aperture_m, probe.focus_m,
+                                                scannerWavelength(probe));
   const double cycles = scene.signal.pulse_cycles > 0 ? scene.signal.pulse_cycles : 2;
   Extent extent{lineSpacing(two, probe.focus_m) / width_m,
-                (probe.max_depth_m - probe.min_depth_m) / (cycles * wavelength(probe) / 2)};
+                (probe.max_depth_m - probe.min_depth_m) / (cycles * scannerWavelength(probe) / 2)};
   if (probe.lines < 2) extent.beams = 1 / kPerBeam.back();
   const double finest = kPerBeam.back() * extent.beams * kPerBeam.back() * extent.pulses;
   const double shrink = std::sqrt(std::min(1.0, kMostPolarSamples / finest));
@@ -246,6 +242,30 @@ void addRefraction(const Scene& scene, const HeartMotion& motion, Table& table) 
   table.add(std::move(knob));
 }
 
+// One ray takes the paper's average over the beam; several trace it. That is another model of the
+// beam, so the scene's own choice is the reference.
+void addRays(const Scene& scene, Table& table) {
+  const int written = scene.accuracy.rays_per_beam;
+  if (scene.accuracy.tracer == TracerChoice::slice ||
+      scene.accuracy.interface_echo == InterfaceEcho::cell)
+    return table.leaveOut("rays", "several rays go through the hierarchy, at each ray's own echo");
+  if (scene.signal.beam_width == BeamWidth::fixed)
+    return table.leaveOut("rays",
+                          "signal.beam_width = \"fixed\" has no aperture to draw rays over");
+  Scene several_rays = scene;
+  several_rays.accuracy.rays_per_beam = 2;
+  if (planEffects(several_rays).rays_per_beam == 1)
+    return table.leaveOut("rays", "there is nothing to spread several rays over");
+  std::vector<int> counts{8, 32, 1};
+  if (written > 1) counts = {1, std::max(2, written / 16), std::max(2, written / 4), written};
+  const std::size_t last = counts.size() - 1;
+  const bool several = written > 1;
+  table.addNumbers("rays", "accuracy.rays_per_beam",
+                   "1: the average over the beam; several: traced over its profile", counts,
+                   {several ? 0 : last, several ? last - 1 : last, last, last},
+                   [](Scene& s, int n) { s.accuracy.rays_per_beam = n; });
+}
+
 void addEchoes(const Scene& scene, Table& table) {
   if (scene.probe.lines < 2) return table.leaveOut("echoes", "the scene has a single line");
   if (scene.accuracy.tracer == TracerChoice::embree)
@@ -277,13 +297,14 @@ KnobTable knobsOf(const Scene& scene) {
   addKeyframes(scene, table);
   addInterpolation(scene, table);
   addRefraction(scene, motion, table);
+  addRays(scene, table);
   addEchoes(scene, table);
   return std::move(table.table);
 }
 
 std::vector<std::string> knobNames() {
-  return {"lines",     "samples",       "subdivision", "normals",
-          "keyframes", "interpolation", "refraction",  "echoes"};
+  return {"lines",         "samples",    "subdivision", "normals", "keyframes",
+          "interpolation", "refraction", "rays",        "echoes"};
 }
 
 Setting presetSetting(const KnobTable& table, Preset preset) {

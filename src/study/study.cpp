@@ -19,6 +19,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// More rays in a frame than the scene asks for are tried up to here. Our choice: some seconds.
+constexpr double kMostRays = 4096;
+
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -83,7 +86,6 @@ class Study {
   Clock::time_point start_;
   MotionShelf shelf_;
   StudyResult result_;
-  std::vector<double> phases_;
   std::vector<FrameProbe> probes_;  // of each point
   std::vector<std::string> signatures_;
   std::vector<FramePicture> reference_;
@@ -93,6 +95,12 @@ class Study {
 
 void Study::addRow(const std::string& sweep, const std::string& knob, const std::string& value,
                    Scene scene, const std::string& keys) {
+  const double rays = static_cast<double>(scene.accuracy.rays_per_beam) * scene.probe.lines;
+  if (scene.accuracy.rays_per_beam > scene_.accuracy.rays_per_beam && rays > kMostRays) {
+    result_.refused.push_back({knob + " " + value + ", " + sweep,
+                               fmt::format("{:g} rays a frame, accepted: {:g}", rays, kMostRays)});
+    return;
+  }
   if (!result_.points.empty()) scene.signal.reference_intensity = result_.reference_intensity;
   try {
     FrameProbe probe(std::move(scene), shelf_);
@@ -101,7 +109,7 @@ void Study::addRow(const std::string& sweep, const std::string& knob, const std:
     const auto point = static_cast<std::size_t>(found - signatures_.begin());
     if (found == signatures_.end()) {
       if (result_.points.empty()) {  // the reference: its white is everybody's
-        result_.reference_intensity = probe.referenceIntensity(phases_);
+        result_.reference_intensity = probe.referenceIntensity(result_.frames);
         Scene white = probe.scene();
         white.signal.reference_intensity = result_.reference_intensity;
         probe = FrameProbe(std::move(white), shelf_);
@@ -137,7 +145,6 @@ void Study::prepare() {
   result_.dynamic_range_db = scene_.signal.dynamic_range_db;
   result_.threads = threadCount();
   result_.frames = probeFrames(scene_, options_.frames);
-  for (const FrameTime& frame : result_.frames) phases_.push_back(frame.phase);
   result_.scene_sha256 = sceneSha256(scene_, *shelf_.motionOf(scene_));
   result_.table = knobsOf(scene_);
   for (const Preset preset : {Preset::reference, Preset::draft, Preset::standard, Preset::fine}) {
@@ -154,8 +161,8 @@ void Study::prepare() {
         addSweep(knob, k, around);
     }
   visit_s_.resize(result_.points.size());
-  for (const double phase : phases_)
-    reference_.push_back(probes_[0].picture(phase, result_.reference_intensity, true));
+  for (const FrameTime& frame : result_.frames)
+    reference_.push_back(probes_[0].picture(frame, result_.reference_intensity, true));
 }
 
 void Study::tell() {
@@ -188,10 +195,11 @@ void Study::visit(std::size_t point, int round) {
   if (round == 0)
     compare(point);
   else  // hierarchies are built and memory is touched before the clock runs
-    probe.picture(phases_.front(), result_.reference_intensity, false);
+    probe.picture(result_.frames.front(), result_.reference_intensity, false);
   const std::size_t frames =
-      std::max(phases_.size(), static_cast<std::size_t>(2 * (threadCount() - 1)));
-  p.times.push_back(probe.timeBatch(phases_, frames, result_.reference_intensity, scratch_.path));
+      std::max(result_.frames.size(), static_cast<std::size_t>(2 * (threadCount() - 1)));
+  p.times.push_back(
+      probe.timeBatch(result_.frames, frames, result_.reference_intensity, scratch_.path));
   probe.rest();
   visit_s_[point] = secondsSince(begin);
   ++visits_;
@@ -204,8 +212,9 @@ void Study::compare(std::size_t point) {
   StudyErrors& e = p.errors;
   InterfaceError interfaces;
   double squares = 0, ssim = 0, worst = -1;
-  for (std::size_t f = 0; f < phases_.size(); ++f) {
-    const FramePicture picture = probe.picture(phases_[f], result_.reference_intensity, true);
+  for (std::size_t f = 0; f < result_.frames.size(); ++f) {
+    const FramePicture picture =
+        probe.picture(result_.frames[f], result_.reference_intensity, true);
     const FramePicture& truth = reference_[f];
     const PictureError error = pictureError(picture.grey, truth.grey, result_.dynamic_range_db);
     squares += error.rms_db * error.rms_db;
@@ -219,7 +228,7 @@ void Study::compare(std::size_t point) {
       p.difference = differenceThumbnail(picture, truth, result_.dynamic_range_db);
     }
   }
-  const auto frames = static_cast<double>(phases_.size());
+  const auto frames = static_cast<double>(result_.frames.size());
   e.rms_db = std::sqrt(squares / frames);
   e.ssim = ssim / frames;
   e.interface_rms_mm = millimetresFromMetres(interfaces.rms_m());

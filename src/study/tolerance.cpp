@@ -30,10 +30,10 @@ class Descent {
         limit_db_(tolerance_db / kToleranceSafety),
         monitor_(monitor),
         table_(knobsOf(scene_)),
+        frames_(probeFrames(scene_, kToleranceFrames)),
         setting_(presetSetting(table_, Preset::reference)),
         steps_(table_.knobs.size()) {
-    for (const FrameTime& frame : probeFrames(scene_, kToleranceFrames))
-      record_.probe_phases.push_back(frame.phase);
+    for (const FrameTime& frame : frames_) record_.probe_phases.push_back(frame.phase);
     record_.tolerance_db = tolerance_db;
     record_.safety = kToleranceSafety;
     for (std::size_t k = 0; k < steps_.size(); ++k)
@@ -58,6 +58,7 @@ class Descent {
   double limit_db_;
   const ToleranceMonitor& monitor_;
   KnobTable table_;
+  std::vector<FrameTime> frames_;
   Setting setting_;
   std::vector<Step> steps_;
   MotionShelf shelf_;
@@ -72,14 +73,13 @@ Tried Descent::tryOut(const Setting& setting, bool reference) {
   if (!monitor_.keep_going()) throw JobError("stopped while the accuracy was chosen");
   FrameProbe probe(sceneWith(scene_, table_, setting), shelf_);
   if (reference) {
-    scene_.signal.reference_intensity = probe.referenceIntensity(record_.probe_phases);
+    scene_.signal.reference_intensity = probe.referenceIntensity(frames_);
     probe = FrameProbe(sceneWith(scene_, table_, setting), shelf_);
   }
   const auto start = std::chrono::steady_clock::now();
   Tried tried;
-  for (std::size_t f = 0; f < record_.probe_phases.size(); ++f) {
-    FramePicture picture =
-        probe.picture(record_.probe_phases[f], *scene_.signal.reference_intensity, false);
+  for (std::size_t f = 0; f < frames_.size(); ++f) {
+    FramePicture picture = probe.picture(frames_[f], *scene_.signal.reference_intensity, false);
     if (reference)
       reference_.push_back(std::move(picture));
     else
@@ -91,7 +91,7 @@ Tried Descent::tryOut(const Setting& setting, bool reference) {
   tried.cost_ms =
       modelledCost_ms(probe.scene(), probe.plan(), probe.workPerFrame(), probe.vertices());
   record_.candidates.push_back({settingText(table_, setting), tried.error_db, tried.cost_ms,
-                                took.count() / static_cast<double>(record_.probe_phases.size()),
+                                took.count() / static_cast<double>(frames_.size()),
                                 tried.error_db <= limit_db_});
   monitor_.tell(static_cast<int>(record_.candidates.size()));
   return tried_[setting] = tried;
@@ -143,8 +143,8 @@ AccuracyChoice Descent::run(const Scene& written) {
   record_.reason = fmt::format(
       "errs by {:.3g} dB RMS in the worst of {} probe frames, accepted: {:.3g} ({:g} with a margin "
       "of {:g}); {} settings tried; {:.3g} times cheaper than the reference by counted work",
-      here_.error_db, record_.probe_phases.size(), limit_db_, *record_.tolerance_db,
-      kToleranceSafety, record_.candidates.size(), reference_ms / here_.cost_ms);
+      here_.error_db, frames_.size(), limit_db_, *record_.tolerance_db, kToleranceSafety,
+      record_.candidates.size(), reference_ms / here_.cost_ms);
   return {sceneWith(written, table_, setting_), std::move(record_)};
 }
 

@@ -8,6 +8,7 @@
 #include "scene/scene_reader.h"
 #include "study/frame_probe.h"
 #include "study/picture_error.h"
+#include "study/study.h"
 #include "study/tolerance.h"
 #include "support/loop_scene.h"
 #include "support/run_program.h"
@@ -50,15 +51,15 @@ double errorOnOtherFrames(const Scene& scene, const AccuracyChoice& choice) {
   MotionShelf shelf;
   FrameProbe reference(atPreset(scene, Preset::reference).scene, shelf),
       chosen(choice.scene, shelf);
-  const double white = reference.referenceIntensity(choice.record.probe_phases);
+  const double white = reference.referenceIntensity(probeFrames(scene, kToleranceFrames));
   double worst = 0;
   const CardiacClock clock(scene);
   for (int i = 0; i < clock.frameCount(); ++i) {
-    const double phase = clock.at(i).phase;
+    const FrameTime time = clock.at(i);
     const auto& probed = choice.record.probe_phases;
-    if (std::find(probed.begin(), probed.end(), phase) != probed.end()) continue;
-    worst = std::max(worst, pictureError(chosen.picture(phase, white, false).grey,
-                                         reference.picture(phase, white, false).grey,
+    if (std::find(probed.begin(), probed.end(), time.phase) != probed.end()) continue;
+    worst = std::max(worst, pictureError(chosen.picture(time, white, false).grey,
+                                         reference.picture(time, white, false).grey,
                                          scene.signal.dynamic_range_db)
                                 .rms_db);
   }
