@@ -10,6 +10,7 @@
 #include "cli/standard_error.h"
 #include "cli/stop_signal.h"
 #include "core/error.h"
+#include "scene/tolerance_reader.h"
 #include "study/tolerance.h"
 
 namespace echocine {
@@ -51,8 +52,9 @@ void AccuracyOptions::addTo(CLI::App& command) {
 }
 
 AccuracyRecord AccuracyOptions::resolve(Scene& scene, int threads, bool quiet) const {
-  const std::optional<double> wanted_db =
-      tolerance_db_ ? tolerance_db_ : scene.accuracy.tolerance_db;
+  const std::optional<SceneTolerance> written = readSceneTolerance(scene.file);
+  std::optional<double> wanted_db = tolerance_db_;
+  if (!wanted_db && written) wanted_db = written->db;
   if (tolerance_db_ && !(*tolerance_db_ > 0 && std::isfinite(*tolerance_db_)))
     throw SceneError(
         fmt::format("--tolerance-db: {} is not accepted: a number over 0", *tolerance_db_));
@@ -64,8 +66,7 @@ AccuracyRecord AccuracyOptions::resolve(Scene& scene, int threads, bool quiet) c
     const Preset preset = presetOf(preset_);
     if (tolerance_db_) throw SceneError("--preset: excludes --tolerance-db, accepted: one of them");
     if (wanted_db)
-      throw SceneError(
-          atPlace(scene.accuracy.tolerance_place, "excludes --preset, accepted: one of them"));
+      throw SceneError(atPlace(written->place, "excludes --preset, accepted: one of them"));
     choice = atPreset(scene, preset);
   }
   scene = std::move(choice.scene);

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "scene/scene_reader.h"
 #include "study/study_files.h"
+#include "study/study_page.h"
 
 namespace echocine {
 
@@ -23,6 +24,11 @@ void refuseUnknownKnobs(const std::vector<std::string>& wanted) {
           fmt::format("--knobs: \"{}\" is not a knob, accepted: {}", knob, fmt::join(names, ", ")));
 }
 
+void writeAll(const StudyResult& result, const std::filesystem::path& folder) {
+  writeStudyFiles(result, folder);
+  writeStudyPage(result, folder / "study.html");
+}
+
 }  // namespace
 
 StudyCommand::StudyCommand(CLI::App& app) {
@@ -30,7 +36,9 @@ StudyCommand::StudyCommand(CLI::App& app) {
       "study", "Measure what each accuracy knob of a scene costs in ms and leaves in dB and mm");
   command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")
       ->required();
-  command->add_option("-o,--output", options_.folder, "Folder for study.csv and study.json")
+  command
+      ->add_option("-o,--output", options_.folder,
+                   "Folder for study.html, study.csv and study.json")
       ->required();
   command
       ->add_option("--frames", options_.frames,
@@ -72,15 +80,17 @@ int StudyCommand::run() {
           fmt::format("{}/{} settings measured, {} left", done, total, minutesAndSeconds(left_s)));
   };
   monitor.keep_going = [] { return !stopWanted(); };
-  monitor.round_done = [this](const StudyResult& r) { writeStudyFiles(r, options_.folder); };
+  monitor.round_done = [this](const StudyResult& r) { writeAll(r, options_.folder); };
   const StudyResult result = runStudy(scene, options_, monitor);
   bar.finish();
-  writeStudyFiles(result, options_.folder);
+  if (result.rows.empty())
+    throw JobError("stopped before the first setting was measured: nothing is written");
+  writeAll(result, options_.folder);
   if (!quiet_) fmt::print("{}", studyTable(result));
   if (!result.complete)
     throw JobError(fmt::format("stopped: {} rows are finished in {}", result.rows.size(),
                                options_.folder.string()));
-  if (!quiet_) fmt::print("{}: study.csv, study.json\n", options_.folder.string());
+  if (!quiet_) fmt::print("{}: study.html, study.csv, study.json\n", options_.folder.string());
   return 0;
 }
 

@@ -118,9 +118,6 @@ struct AccuracySettings {
   // Refraction "auto" is off while 99 % of the echoes move by less than this many line spacings.
   // Our choice: half a line, which the image cannot show.
   double refraction_tolerance_lines = 0.5;
-  // Let the program pick the cheapest setting that errs by less than this, RMS dB of the picture.
-  std::optional<double> tolerance_db;
-  SourcePlace tolerance_place;
 };
 
 enum class ExrCompression { none, rle, zips, zip, piz };

@@ -12,6 +12,7 @@
 #include "scene/limits.h"
 #include "scene/media_reader.h"
 #include "scene/structure_reader.h"
+#include "scene/tolerance_reader.h"
 #include "scene/toml_table.h"
 
 namespace echocine {
@@ -282,6 +283,12 @@ OutputSettings readOutput(TomlTable table) {
   return o;
 }
 
+std::optional<SceneTolerance> readTolerance(TomlTable& table) {
+  constexpr std::string_view kKey = "tolerance_db";
+  if (!table.has(kKey)) return std::nullopt;
+  return SceneTolerance{table.number(kKey, std::nullopt, kPositive), table.place(kKey)};
+}
+
 AccuracySettings readAccuracy(TomlTable table) {
   AccuracySettings a;
   a.rays_per_beam = table.integer("rays_per_beam", a.rays_per_beam, 1, kMaxRaysPerBeam);
@@ -298,9 +305,7 @@ AccuracySettings readAccuracy(TomlTable table) {
   a.normals_place = table.place("normals");
   a.refraction_tolerance_lines = table.number(
       "refraction_tolerance_lines", a.refraction_tolerance_lines, NumberRange::notNegative());
-  a.tolerance_place = table.place("tolerance_db");
-  if (table.has("tolerance_db"))
-    a.tolerance_db = table.number("tolerance_db", std::nullopt, kPositive);
+  readTolerance(table);  // who sets the accuracy; the scene as rendered has none
   table.finish();
   return a;
 }
@@ -432,6 +437,12 @@ Scene parseScene(std::string_view text, const std::filesystem::path& file) {
   if (scene.effects.attenuation == Switch::off && !scene.output.channels_given)
     scene.output.channels = {Channel::unattenuated};
   return scene;
+}
+
+std::optional<SceneTolerance> readSceneTolerance(const std::filesystem::path& file) {
+  TomlTable root = TomlTable::parse(readTextFile(file, kMaxSceneBytes), file.string());
+  TomlTable accuracy = root.table("accuracy");
+  return readTolerance(accuracy);
 }
 
 Scene readScene(const std::filesystem::path& file) {

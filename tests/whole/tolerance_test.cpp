@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/parallel.h"
 #include "scene/scene_reader.h"
@@ -87,6 +89,24 @@ TEST_F(Tolerance, IsKeptOnFramesThatWereNotLookedAt) {
     EXPECT_LE(chosen_ms, cost_before);
     cost_before = chosen_ms;
   }
+}
+
+// Scenes of one's own, too large for every run: ECHOCINE_TOLERANCE_SCENES=a.toml:b.toml.
+TEST(TolerancePromise, IsKeptOnScenesOfOnesOwn) {
+  const char* list = std::getenv("ECHOCINE_TOLERANCE_SCENES");
+  if (list == nullptr) GTEST_SKIP() << "ECHOCINE_TOLERANCE_SCENES is not set";
+  std::istringstream files(list);
+  for (std::string file; std::getline(files, file, ':');)
+    for (const double tolerance_db : {0.1, 0.5, 1.0, 2.0, 3.0}) {
+      const Scene scene = readScene(file);
+      const AccuracyChoice choice = chooseWithin(scene, tolerance_db, 0, {});
+      double worst = 0;
+      withThreads(0, [&] { worst = errorOnOtherFrames(scene, choice); });
+      EXPECT_LE(worst, tolerance_db) << choice.record.setting;
+      std::printf("%s: tolerance %.1f dB: %.4f dB on other frames: %s: %s\n", file.c_str(),
+                  tolerance_db, worst, choice.record.setting.c_str(), choice.record.reason.c_str());
+      std::fflush(stdout);
+    }
 }
 
 TEST_F(Tolerance, GivesTheSameChoiceAndBytesInEveryRun) {

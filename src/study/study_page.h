@@ -1,0 +1,13 @@
+#pragma once
+// study.html: the study as one page that opens anywhere.
+
+#include <filesystem>
+
+#include "study/study.h"
+
+namespace echocine {
+
+// The numbers of studyJson() and the pictures of every setting. Throws JobError.
+void writeStudyPage(const StudyResult& result, const std::filesystem::path& path);
+
+}  // namespace echocine
