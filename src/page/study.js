@@ -14,7 +14,7 @@
   const { rows } = data;
   const nameOf = (row) => (row.knob === "preset" ? row.value : `${row.knob} ${row.value}, ${row.sweep}`);
   const ms = (row) => row.timing.ms_per_frame;
-  let picked = rows[0];
+  let picked = rows.find((row) => row.value === "scene") ?? rows[0];
 
   function showHead() {
     byId("title").textContent = `What accuracy costs: ${data.scene}`;
@@ -84,15 +84,15 @@
   }
 
   function showFront() {
-    const axis = { type: "log", minorTick: { show: true }, axisLabel: { formatter: (v) => number(v, 2) } };
+    const axis = { type: "log", minorTick: { show: true }, axisLabel: { formatter: (v) => number(v, 2), showMinLabel: false, showMaxLabel: false } };
     byId("measure").append(...kMeasures.map((m, i) => element("option", { value: String(i) }, m.name)));
     byId("sweep").append(...[["all", "all"], ["from draft", "up from draft"], ["from reference", "down from reference"]]
       .map(([value, text]) => element("option", { value }, text)));
-    const chart = makeChart(byId("front"), 460, {
+    const chart = makeChart(byId("front"), 560, {
       grid: { left: 8, right: 70, top: 60, bottom: 34, containLabel: true },
       tooltip: { trigger: "item", confine: true, formatter: (p) => (p.data.row
         ? echarts.format.encodeHTML(`${nameOf(p.data.row)}: ${number(ms(p.data.row), 3)} ms, ${fixed(p.data.row.errors.rms_db, 2)} dB`) : "") },
-      legend: {}, xAxis: { ...axis, name: "ms per frame", nameLocation: "middle", nameGap: 26 },
+      legend: {}, xAxis: { ...axis, min: 0.8 * Math.min(...rows.map(ms)), max: 1.6 * Math.max(...rows.map(ms)), name: "ms per frame", nameLocation: "middle", nameGap: 26 },
       yAxis: { ...axis, nameLocation: "end", nameTextStyle: { align: "left" } }, series: [] });
     const redraw = () => chart.setOption(option(), { replaceMerge: ["series"] });
     for (const id of ["measure", "sweep"]) byId(id).addEventListener("change", redraw);
