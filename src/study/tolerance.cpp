@@ -139,6 +139,12 @@ AccuracyChoice Descent::run(const Scene& written) {
   here_ = tryOut(setting_, true);
   const double reference_ms = here_.cost_ms;
   while (const std::optional<std::size_t> knob = nextKnob()) stepDown(*knob);
+  // A setting that was passed over for a step that promised more may have stayed the cheapest.
+  for (const auto& [setting, tried] : tried_)
+    if (tried.error_db <= limit_db_ && tried.cost_ms < here_.cost_ms) {
+      setting_ = setting;
+      here_ = tried;
+    }
   record_.setting = settingText(table_, setting_);
   record_.reason = fmt::format(
       "errs by {:.3g} dB RMS in the worst of {} probe frames, accepted: {:.3g} ({:g} with a margin "

@@ -27,7 +27,8 @@ struct ToleranceMonitor {
 
 // Goes down from the reference, one knob one step at a time: next is the step that saved most
 // modelled cost (cost_model.h) for the squared error it added when it was last tried; a step that
-// errs too much is never tried again. Not exhaustive, but the reference itself always qualifies.
+// errs too much is never tried again. The cheapest of all that were tried and stay within is taken:
+// not exhaustive, but the reference itself always qualifies.
 // Costs are counted, not timed, and pictures do not depend on threads, so the same scene and
 // tolerance give the same choice in every run. All frames are compressed against one white: the
 // scene's, or its percentile over the probe frames at the reference.
