@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
     const LoopPlan plan = planLoop(scene, motion);
     FrameMaker maker(scene, plan, motion);
     const auto workspace = maker.workspace();
-    maker.trace(0.0, *workspace);            // a phase of the beat
+    maker.trace({}, *workspace);             // the first frame: end-diastole
     maker.picture(1e-4, *workspace, false);  // to grey in beam space, white at this intensity
     std::printf("%.4f\n", discrepancy(0, workspace->polar.signal));  // against real frame 0
   });
