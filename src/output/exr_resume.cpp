@@ -127,7 +127,7 @@ Found look(const std::filesystem::path& path, const FrameRecord& record, const S
 void ExrStack::refuseOtherScene(int frame) const {
   const std::filesystem::path path = folder_ / fileName(frame);
   std::error_code absent;
-  if (!std::filesystem::is_regular_file(path, absent)) return;
+  if (!std::filesystem::is_regular_file(path, absent) || !hasPlainExrHeader(path)) return;
   bool another = false;
   try {
     another = !isOfScene(Imf::InputFile(path.c_str(), 0).header(), scene_sha256_);

@@ -14,6 +14,7 @@ void exr(std::string_view bytes) {
   for (const auto& channels : kResumeChannels) {
     const Scene scene = resumeScene(channels);
     const ExrStack stack(scratchFolder(), scene, kResumeHash, kResumeReference);
+    accepts([&] { stack.refuseOtherScene(kResumeFrame.frame); });
     accepts([&] {
       const std::string hash = stack.existing(kResumeFrame);
       promise(hash.empty() || hash == sha256HexOfFile(file), "the hash of another file");
