@@ -1,23 +1,26 @@
 #include "motion/control_motion.h"
 
+#include <algorithm>
+
 #include "motion/mesh_check.h"
 
 namespace echocine {
 
 namespace {
 
-// target = weight * source, or target += weight * source. Plain arrays of floats, so that the
-// compiler vectorises across coordinates.
-void blend(float weight, const std::vector<Vec3f>& source, bool is_first,
-           std::vector<Vec3f>& target) {
-  const float* const from = &source.data()->x;
-  float* const to = &target.data()->x;
-  const std::size_t count = 3 * source.size();
-  if (is_first) {
-    for (std::size_t i = 0; i < count; ++i) to[i] = weight * from[i];
-  } else {
-    for (std::size_t i = 0; i < count; ++i) to[i] += weight * from[i];
+// target = sum of weight * source in the order of the terms, four at most in one pass over memory.
+// Plain arrays of floats, so that the compiler vectorises across coordinates.
+template <std::size_t kTerms>
+void blend(const float* const* from, const float* weight, std::size_t count, float* to) {
+  for (std::size_t i = 0; i < count; ++i) {
+    float sum = weight[0] * from[0][i];
+    for (std::size_t k = 1; k < kTerms; ++k) sum += weight[k] * from[k][i];
+    to[i] = sum;
   }
+}
+
+void add(float weight, const float* from, std::size_t count, float* to) {
+  for (std::size_t i = 0; i < count; ++i) to[i] += weight * from[i];
 }
 
 }  // namespace
@@ -30,8 +33,20 @@ void ControlMotion::at(double phase, std::vector<Vec3f>& positions_m) const {
     return;
   }
   positions_m.resize(rows_m.front().size());
-  for (std::size_t i = 0; i < terms.size(); ++i)
-    blend(static_cast<float>(terms[i].weight), rows_m[terms[i].row], i == 0, positions_m);
+  const std::size_t count = 3 * positions_m.size();
+  float* const to = &positions_m.data()->x;
+  const float* from[4];
+  float weight[4];
+  for (std::size_t k = 0; k < std::min<std::size_t>(terms.size(), 4); ++k) {
+    from[k] = &rows_m[terms[k].row].data()->x;
+    weight[k] = static_cast<float>(terms[k].weight);
+  }
+  if (terms.size() == 2) return blend<2>(from, weight, count, to);
+  if (terms.size() == 3) return blend<3>(from, weight, count, to);
+  blend<4>(from, weight, count, to);
+  for (std::size_t k = 4; k < terms.size();
+       ++k)  // the trigonometric polynomial takes all keyframes
+    add(static_cast<float>(terms[k].weight), &rows_m[terms[k].row].data()->x, count, to);
 }
 
 std::string ControlMotion::fileOf(std::size_t keyframe) const {

@@ -20,8 +20,9 @@ std::vector<std::size_t> firstEntries(std::span<const int> sizes) {
 
 const PaddedPoint* padded(std::span<const Vec3f> points) {
   thread_local std::vector<PaddedPoint> lanes;
-  lanes.clear();
-  for (const Vec3f& p : points) lanes.push_back(PaddedPoint{p.x, p.y, p.z, 0});
+  lanes.resize(points.size());
+  PaddedPoint* lane = lanes.data();
+  for (const Vec3f& p : points) *lane++ = PaddedPoint{p.x, p.y, p.z, 0};
   return lanes.data();
 }
 
