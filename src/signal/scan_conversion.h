@@ -23,17 +23,24 @@ class ScanConverter {
   void convert(std::span<const float> grey, std::vector<float>& picture) const;
 
  private:
-  struct Pixel {
-    std::uint32_t pixel;   // in the picture
-    std::uint32_t sample;  // in the plane: the shallower sample of the left line
-    float across, along;   // weights of the next line and of the next sample
+  // Pixels beside each other in a row of the picture, and their first entry in the table.
+  struct Run {
+    std::size_t pixel, count, entry;
   };
-  float valueAt(std::span<const float> grey, const Pixel& p) const;
-  void addPixel(const Probe& probe, int pixel, double x_m, double z_m);
+  void addRow(const Probe& probe, const PictureGeometry& geometry, int y);
+  void addEntry(const Probe& probe, double line, double path_m);
+  template <typename Put>
+  void forRuns(std::span<const float> grey, const Put& put) const;
 
   int width_, height_;
-  std::size_t next_line_, next_sample_;  // steps in the plane; 0 when there is only one
-  std::vector<Pixel> table_;
+  std::size_t next_line_;  // step in the plane; 0 when there is only one line
+  bool single_sample_;     // per line
+  std::vector<Run> runs_;
+  // Of each entry, in the order of pixels: in the plane the shallower sample of the left line, and
+  // the weights of the next line and of the next sample in parts of 65535. Runs are filled up with
+  // copies of their last entry to whole eights.
+  std::vector<std::uint32_t> sample_;
+  std::vector<std::uint16_t> across_, along_;
   std::vector<std::uint8_t> grey_map_;
 };
 
