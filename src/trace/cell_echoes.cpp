@@ -18,6 +18,7 @@ struct Point {
 // A straight piece of contour inside one cell, on which the path length grows from a to b.
 struct CellPiece {
   Point a, b;
+  double path_a_m, path_b_m;
 };
 
 class CellIntegrator {
@@ -33,6 +34,12 @@ class CellIntegrator {
       const double at = first_ + (static_cast<double>(i) - 0.5) * width_;
       boundaries_.push_back(angular_ ? Point{std::sin(at), std::cos(at)} : Point{at, 1});
     }
+    for (const LineTrace& line : lines) {
+      first_key_.push_back(keys_.size());
+      for (const InterfacePass& pass : line.passes)
+        keys_.push_back(keyOf(pass.surface, pass.entering));
+    }
+    first_key_.push_back(keys_.size());
   }
 
   // normals: of the piece, or nothing where the facet's own counts.
@@ -48,10 +55,14 @@ class CellIntegrator {
     if (end < 0 || begin > last) return;
     const Vec3d normal = unitNormal(piece);
     Point from = begin < 0 ? atBoundary(a, b, 0) : a;
+    double path_m = pathLength(from);
     for (int i = std::max(begin, 0); i <= std::min(end, last); ++i) {
       const Point to = i < end ? atBoundary(a, b, i + 1) : b;
-      addToLine(piece, {normal, normals}, from, to, lines_[static_cast<std::size_t>(i)]);
+      const double next_path_m = pathLength(to);
+      addToLine(piece, {normal, normals}, {from, to, path_m, next_path_m},
+                static_cast<std::size_t>(i));
       from = to;
+      path_m = next_path_m;
     }
   }
 
@@ -115,13 +126,15 @@ class CellIntegrator {
   }
 
   // The same surface crossed the same way on the line itself, nearest in depth.
-  static const InterfacePass* nearestPass(const LineTrace& line, const ContourPiece& piece,
-                                          bool entering, double path_m) {
+  const InterfacePass* nearestPass(std::size_t line, const ContourPiece& piece, bool entering,
+                                   double path_m) const {
+    const std::uint32_t key = keyOf(piece.surface, entering);
     const InterfacePass* best = nullptr;
-    for (const InterfacePass& pass : line.passes)
-      if (pass.surface == piece.surface && pass.entering == entering &&
-          (!best || std::abs(pass.path_m - path_m) < std::abs(best->path_m - path_m)))
-        best = &pass;
+    for (std::size_t k = first_key_[line]; k < first_key_[line + 1]; ++k) {
+      if (keys_[k] != key) continue;
+      const InterfacePass& pass = lines_[line].passes[k - first_key_[line]];
+      if (!best || std::abs(pass.path_m - path_m) < std::abs(best->path_m - path_m)) best = &pass;
+    }
     return best;
   }
 
@@ -141,18 +154,20 @@ class CellIntegrator {
   }
 
   // Which way the piece is crossed is the facet's business, the angle of incidence the normal's.
-  void addToLine(const ContourPiece& piece, const Normal& normal, Point from, Point to,
-                 LineTrace& line) {
-    const Point middle{(from.x + to.x) / 2, (from.z + to.z) / 2};
+  void addToLine(const ContourPiece& piece, const Normal& normal, const CellPiece& part,
+                 std::size_t line) {
+    const Point middle{(part.a.x + part.b.x) / 2, (part.a.z + part.b.z) / 2};
     const double reach = std::sqrt(middle.x * middle.x + middle.z * middle.z);
     const Vec3d direction =
         angular_ && reach > 0 ? Vec3d{middle.x / reach, 0, middle.z / reach} : Vec3d{0, 0, 1};
     const bool entering = dot(direction, normal.of_facet) < 0;
-    const InterfacePass* pass = nearestPass(line, piece, entering, pathLength(middle));
+    const double path_m = angular_ ? reach - probe_.face_radius_m : middle.z;
+    const InterfacePass* pass = nearestPass(line, piece, entering, path_m);
     if (!pass || !pass->seen) return;
     const double along = dot(direction, normalAt(piece, normal, middle, direction));
     const double echo = echoAt(*pass, std::min(std::abs(along), 1.0));
-    if (echo > 0) split(from, to, [&](CellPiece part) { deposit(part, *pass, echo, line); });
+    if (echo > 0)
+      split(part, [&](const CellPiece& half) { deposit(half, *pass, echo, lines_[line]); });
   }
 
   // As the walk along a line does it: Eq. 1 and the lobe; a membrane echoes twice.
@@ -170,19 +185,18 @@ class CellIntegrator {
 
   // At the foot of the perpendicular from the centre the path length turns round.
   template <typename F>
-  void split(Point a, Point b, F&& part) const {
+  void split(const CellPiece& piece, F&& part) const {
+    const Point a = piece.a, b = piece.b;
     const double dx = b.x - a.x, dz = b.z - a.z, size = dx * dx + dz * dz;
     const double t = angular_ && size > 0 ? -(a.x * dx + a.z * dz) / size : 0;
-    const auto ordered = [&](Point p, Point q) {
-      if (pathLength(p) <= pathLength(q))
-        part(CellPiece{p, q});
-      else
-        part(CellPiece{q, p});
+    const auto ordered = [&](const CellPiece& p) {
+      part(p.path_a_m <= p.path_b_m ? p : CellPiece{p.b, p.a, p.path_b_m, p.path_a_m});
     };
-    if (!(t > 0 && t < 1)) return ordered(a, b);
+    if (!(t > 0 && t < 1)) return ordered(piece);
     const Point foot{a.x + t * dx, a.z + t * dz};
-    ordered(a, foot);
-    ordered(foot, b);
+    const double foot_path_m = pathLength(foot);
+    ordered({a, foot, piece.path_a_m, foot_path_m});
+    ordered({foot, b, foot_path_m, piece.path_b_m});
   }
 
   // The point of a piece at a path length, from the one at a: along the piece the squared distance
@@ -210,9 +224,8 @@ class CellIntegrator {
       return pass.depth_m + (path_m - pass.path_m) / pass.path_per_depth;
     };
     const double spacing = probe_.sampleSpacing();
-    const double path_a = pathLength(piece.a), path_b = pathLength(piece.b);
-    const double k_a = (depthOf(path_a) - probe_.min_depth_m) / spacing;
-    const double k_b = (depthOf(path_b) - probe_.min_depth_m) / spacing;
+    const double k_a = (depthOf(piece.path_a_m) - probe_.min_depth_m) / spacing;
+    const double k_b = (depthOf(piece.path_b_m) - probe_.min_depth_m) / spacing;
     const auto pathAtEnd = [&](double k) {
       const double depth_m = probe_.min_depth_m + (k + 1) * spacing;
       return pass.path_m + (depth_m - pass.depth_m) * pass.path_per_depth;
@@ -239,6 +252,12 @@ class CellIntegrator {
   std::span<LineTrace> lines_;
   bool angular_;
   double first_, width_;
+  // What nearestPass() compares, of the passes of all lines, close together.
+  static std::uint32_t keyOf(SurfaceId surface, bool entering) {
+    return 2 * static_cast<std::uint32_t>(surface) + (entering ? 1 : 0);
+  }
+  std::vector<std::uint32_t> keys_;
+  std::vector<std::size_t> first_key_;  // one more than lines
   std::vector<Point>
       boundaries_;  // sine and cosine, or the offset of a linear probe; one more than lines
 };

@@ -12,7 +12,7 @@ WorkCounts walkTogether(const FrameGeometry& geometry, const TraceSettings& sett
                         std::span<const StartedRay> rays, std::span<LineTrace> traces) {
   DCHECK_LE(rays.size(), kPacket);
   std::array<std::optional<LineWalker>, kPacket> walkers;
-  std::array<RayQuery, kPacket> queries;
+  thread_local std::array<RayQuery, kPacket> queries;  // their memory is used again
   thread_local std::array<RayCrossings, kPacket> met;
   WorkCounts work;
   for (std::size_t i = 0; i < rays.size(); ++i)

@@ -11,15 +11,22 @@ namespace echocine {
 
 namespace {
 
-// Neighbouring lines of one frame.
+// Where a line starts, and the closed surfaces that hold it there.
+struct Start {
+  Vec3d origin;
+  InsideSet inside;
+};
+
+// Neighbouring lines of one frame. `start`: of another line; to find the surfaces around a point
+// takes all their triangles, and most lines start in one place.
 WorkCounts walkPacket(const FrameGeometry& geometry, const Probe& probe,
-                      const TraceSettings& settings, int first_line, std::span<LineTrace> lines) {
+                      const TraceSettings& settings, Start start, int first_line,
+                      std::span<LineTrace> lines) {
   std::array<StartedRay, kPacket> rays;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const LineGeometry line = lineGeometry(probe, first_line + static_cast<int>(i));
-    const bool same = i > 0 && line.origin == rays[i - 1].ray.origin;
-    rays[i] = {{line.origin, line.direction},
-               same ? rays[i - 1].inside : geometry.insideAt(line.origin)};
+    if (!(line.origin == start.origin)) start = {line.origin, geometry.insideAt(line.origin)};
+    rays[i] = {{line.origin, line.direction}, start.inside};
   }
   return walkTogether(geometry, settings, std::span(rays).first(lines.size()), lines);
 }
@@ -163,9 +170,12 @@ WorkCounts walkLines(const FrameGeometry& geometry, const Probe& probe,
                      const TraceSettings& settings, std::vector<LineTrace>& traces) {
   traces.resize(static_cast<std::size_t>(probe.lines));
   std::vector<WorkCounts> of_packet((traces.size() + kPacket - 1) / kPacket);
+  const Vec3d origin = lineGeometry(probe, 0).origin;
+  const Start start{origin, geometry.insideAt(origin)};
   parallelBlocks(traces.size(), kPacket, [&](std::size_t begin, std::size_t end) {
-    of_packet[begin / kPacket] = walkPacket(geometry, probe, settings, static_cast<int>(begin),
-                                            std::span(traces).subspan(begin, end - begin));
+    of_packet[begin / kPacket] =
+        walkPacket(geometry, probe, settings, start, static_cast<int>(begin),
+                   std::span(traces).subspan(begin, end - begin));
   });
   WorkCounts work;
   for (const WorkCounts& w : of_packet) work += w;
