@@ -36,6 +36,11 @@ FrameMaker::FrameMaker(const Scene& scene, const LoopPlan& plan, const HeartMoti
       request_(planeRequest(scene, plan.effects)) {
   if (plan.effects.rays_per_beam > 1)
     beams_.emplace(scene.probe, beamSpread(plan.effects, scene.acquisition.seed));
+  SurfaceFrame frame;
+  motion.frameAt(0, frame);
+  for (const SurfaceTopology& surface : motion.surfaces())
+    still_volumes_m3_.push_back(
+        surface.still ? enclosedVolume(surface, frame.positions_m[index(surface.id)]) : 0);
 }
 
 std::shared_ptr<Workspace> FrameMaker::workspace() {
@@ -64,8 +69,9 @@ Volumes FrameMaker::volumes(const SurfaceFrame& surfaces) const {
   for (const SurfaceTopology& surface : motion_.surfaces()) {
     if (surface.membrane) continue;
     const std::size_t s = index(surface.id);
-    volumes.emplace_back(scene_.structures[s].name, millilitresFromCubicMetres(enclosedVolume(
-                                                        surface, surfaces.positions_m[s])));
+    const double volume_m3 =
+        surface.still ? still_volumes_m3_[s] : enclosedVolume(surface, surfaces.positions_m[s]);
+    volumes.emplace_back(scene_.structures[s].name, millilitresFromCubicMetres(volume_m3));
   }
   return volumes;
 }
@@ -118,12 +124,11 @@ Volumes FrameMaker::trace(const FrameTime& time, Workspace& w) {
   return volumes_ml;
 }
 
-GreyImage FrameMaker::picture(double reference_intensity, Workspace& w, bool wanted) {
-  GreyImage image;
-  if (!request_.signal) return image;
+GreyImage& FrameMaker::picture(double reference_intensity, Workspace& w, bool wanted) {
+  if (!request_.signal) return w.image;
   clock_.time(Stage::signal, [&] { chain_.compress(w.polar, reference_intensity); });
-  if (wanted) clock_.time(Stage::scan_conversion, [&] { chain_.picture(w.polar, image); });
-  return image;
+  if (wanted) clock_.time(Stage::scan_conversion, [&] { chain_.picture(w.polar, w.image); });
+  return w.image;
 }
 
 WorkCounts FrameMaker::work() const {

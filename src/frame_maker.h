@@ -49,6 +49,7 @@ struct Workspace {
   std::variant<PlaneSlice, FrameGeometry> geometry;  // whichever the plan's tracer needs
   PolarFrame polar;
   std::vector<float> scratch;
+  GreyImage image{};
 };
 
 // The planes of a frame that go into its EXR, in the order of the scene's channels.
@@ -65,8 +66,9 @@ class FrameMaker {
   // volumes. Frames of equal number and phase are equal.
   Volumes trace(const FrameTime& time, Workspace& workspace);
 
-  // log compression -> scan conversion: workspace.polar.signal becomes grey.
-  GreyImage picture(double reference_intensity, Workspace& workspace, bool wanted);
+  // log compression -> scan conversion: workspace.polar.signal becomes grey. The picture is the
+  // workspace's; empty or an old one where none is wanted.
+  GreyImage& picture(double reference_intensity, Workspace& workspace, bool wanted);
 
   const SignalChain& chain() const { return chain_; }
   StageClock& clock() { return clock_; }
@@ -87,6 +89,7 @@ class FrameMaker {
   TraceSettings settings_;
   PlaneRequest request_;
   std::optional<BeamRays> beams_;  // several rays per beam
+  std::vector<double> still_volumes_m3_;  // by surface; 0 for those that move
   StageClock clock_;
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> free_;

@@ -103,7 +103,7 @@ std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
 
   const std::shared_ptr<Workspace> workspace = parts_.maker.workspace();
   finished->entry.volumes_ml = tracedFrame(time, *workspace);
-  GreyImage image =
+  GreyImage& image =
       parts_.maker.picture(manifest_.reference_intensity, *workspace, o.cine || o.png);
   clock.time(Stage::exr, [&] { writeExr(record, workspace->polar, *finished); });
   if (o.cine || o.png) clock.time(Stage::avi, [&] { writePictures(image, *finished); });

@@ -54,17 +54,16 @@ Imf::FrameBuffer rowBuffer(const Imf::Header& header, std::vector<ChannelRow>& r
   Imf::FrameBuffer buffer;
   for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
     const Imf::Channel& channel = it.channel();
-    if (window.min != Imath::V2i(0, 0) || channel.type == Imf::HALF || channel.xSampling != 1 ||
-        channel.ySampling != 1) {
+    if (window.min != Imath::V2i(0, 0) || channel.xSampling != 1 || channel.ySampling != 1) {
       rows.clear();
       return {};
     }
-    rows.push_back({channel.type == Imf::FLOAT,
-                    std::vector<float>(static_cast<std::size_t>(window.max.x) + 1)});
+    const bool is_float = channel.type != Imf::UINT;  // half floats are widened on reading
+    rows.push_back({is_float, std::vector<float>(static_cast<std::size_t>(window.max.x) + 1)});
     const std::size_t row_stride = 0;
-    buffer.insert(it.name(),
-                  Imf::Slice(channel.type, reinterpret_cast<char*>(rows.back().values.data()),
-                             sizeof(float), row_stride));
+    buffer.insert(it.name(), Imf::Slice(is_float ? Imf::FLOAT : Imf::UINT,
+                                        reinterpret_cast<char*>(rows.back().values.data()),
+                                        sizeof(float), row_stride));
   }
   return buffer;
 }

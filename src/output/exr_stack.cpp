@@ -14,23 +14,25 @@
 
 #include <algorithm>
 #include <cstring>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "core/check.h"
 #include "core/file.h"
 #include "core/hash.h"
 #include "output/cine_writer.h"
+#include "output/half_plane.h"
 #include "output/polar_plane.h"
 
 namespace echocine {
 namespace {
 
-// Collects a file in memory, so that it is hashed and written in one piece.
+// Collects a file in memory, so that it is hashed and written in one piece. The memory is the
+// thread's own and used again: fresh pages cost as much as the encoding.
 class MemoryOutput : public Imf::OStream {
  public:
-  MemoryOutput(const std::string& name, std::size_t expected_size) : OStream(name.c_str()) {
-    bytes_.reserve(expected_size);
+  MemoryOutput(const std::string& name, std::vector<std::byte>& bytes)
+      : OStream(name.c_str()), bytes_(bytes) {
+    bytes_.clear();
   }
 
   void write(const char data[], int size) override {
@@ -47,10 +49,8 @@ class MemoryOutput : public Imf::OStream {
     position_ = position;
   }
 
-  const std::vector<std::byte>& bytes() const { return bytes_; }
-
  private:
-  std::vector<std::byte> bytes_;
+  std::vector<std::byte>& bytes_;
   std::size_t position_ = 0;
 };
 
@@ -67,6 +67,8 @@ Imf::Compression compressionOf(ExrCompression compression) {
       return Imf::ZIP_COMPRESSION;
     case ExrCompression::piz:
       return Imf::PIZ_COMPRESSION;
+    case ExrCompression::pxr24:
+      return Imf::PXR24_COMPRESSION;
     case ExrCompression::none:
       break;
   }
@@ -115,7 +117,7 @@ void refuseUnusable(const FrameRecord& record, const ChannelPlane& plane, int sa
 }
 
 // Stores the planes as channels of the header and of the frame buffer; image takes the pixels.
-Imf::FrameBuffer layOut(const std::vector<ChannelPlane>& planes, const Probe& probe,
+Imf::FrameBuffer layOut(const std::vector<ChannelPlane>& planes, const Probe& probe, ExrPixel pixel,
                         std::uint32_t* image, Imf::Header& header) {
   const auto lines = static_cast<std::size_t>(probe.lines);
   const auto samples = static_cast<std::size_t>(probe.samples);
@@ -126,11 +128,18 @@ Imf::FrameBuffer layOut(const std::vector<ChannelPlane>& planes, const Probe& pr
       rowsFromLines(plane.ids, lines, samples, image);
     else
       rowsFromLines(plane.values, lines, samples, image);
-    const Imf::PixelType type = ids ? Imf::UINT : Imf::FLOAT;
+    const bool half = !ids && pixel == ExrPixel::half;
+    if (half) {
+      const double scale = halfScale(plane.values);
+      narrowToHalf({image, lines * samples}, scale);
+      header.insert(std::string("echocine:scale.") + channelName(plane.channel),
+                    Imf::DoubleAttribute(scale));
+    }
+    const Imf::PixelType type = ids ? Imf::UINT : half ? Imf::HALF : Imf::FLOAT;
+    const std::size_t size = half ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
     header.channels().insert(channelName(plane.channel), Imf::Channel(type));
     buffer.insert(channelName(plane.channel),
-                  Imf::Slice(type, reinterpret_cast<char*>(image), sizeof(std::uint32_t),
-                             lines * sizeof(std::uint32_t)));
+                  Imf::Slice(type, reinterpret_cast<char*>(image), size, lines * size));
     image += lines * samples;
   }
   return buffer;
@@ -177,12 +186,16 @@ std::string ExrStack::write(const FrameRecord& record,
   const std::filesystem::path path = folder_ / fileName(record.frame);
   const std::size_t pixels =
       static_cast<std::size_t>(probe.lines) * static_cast<std::size_t>(probe.samples);
-  const auto image = std::make_unique_for_overwrite<std::uint32_t[]>(planes.size() * pixels);
-  const Imf::FrameBuffer buffer = layOut(planes, probe, image.get(), header);
+  thread_local std::vector<std::uint32_t> image;
+  thread_local std::vector<std::byte> bytes;
+  image.resize(planes.size() * pixels);
+  const Imf::FrameBuffer buffer =
+      layOut(planes, probe, scene_.output.exr_pixel, image.data(), header);
 
   // Per sample row: its place in the table of offsets, its number and its size, 16 bytes together.
   const std::size_t around = 4096 + 16 * static_cast<std::size_t>(probe.samples);
-  MemoryOutput stream(path.string(), planes.size() * pixels * sizeof(std::uint32_t) + around);
+  bytes.reserve(planes.size() * pixels * sizeof(std::uint32_t) + around);
+  MemoryOutput stream(path.string(), bytes);
   try {
     Imf::OutputFile file(stream, header, 0);
     file.setFrameBuffer(buffer);
@@ -192,8 +205,8 @@ std::string ExrStack::write(const FrameRecord& record,
   } catch (const std::exception& error) {
     throw JobError(fmt::format("{}: cannot be encoded: {}", path.string(), error.what()));
   }
-  writeFileWhole(path, stream.bytes());
-  return sha256Hex(stream.bytes());
+  writeFileWhole(path, bytes);
+  return sha256Hex(bytes);
 }
 
 }  // namespace echocine

@@ -120,7 +120,8 @@ struct AccuracySettings {
   double refraction_tolerance_lines = 0.5;
 };
 
-enum class ExrCompression { none, rle, zips, zip, piz };
+enum class ExrCompression { none, rle, zips, zip, piz, pxr24 };  // pxr24 loses: 24-bit floats
+enum class ExrPixel { whole, half };                             // 32 or 16 bits a value
 enum class CineCodec { mjpg, ffv1 };
 
 struct OutputSettings {
@@ -128,6 +129,7 @@ struct OutputSettings {
   std::vector<Channel> channels{Channel::y};
   bool channels_given = false;  // by the scene, not by the default
   ExrCompression exr_compression = ExrCompression::none;
+  ExrPixel exr_pixel = ExrPixel::whole;
   CineCodec codec = CineCodec::mjpg;
   int jpeg_quality = 95;
   int width = 800, height = 600;  // pixels

@@ -272,7 +272,10 @@ OutputSettings readOutput(TomlTable table) {
                                     {"rle", ExrCompression::rle},
                                     {"zips", ExrCompression::zips},
                                     {"zip", ExrCompression::zip},
-                                    {"piz", ExrCompression::piz}});
+                                    {"piz", ExrCompression::piz},
+                                    {"pxr24", ExrCompression::pxr24}});
+  o.exr_pixel = table.choice("exr_pixel", o.exr_pixel,
+                             {{"float", ExrPixel::whole}, {"half", ExrPixel::half}});
   o.codec = table.choice("codec", o.codec, {{"mjpg", CineCodec::mjpg}, {"ffv1", CineCodec::ffv1}});
   o.jpeg_quality = table.integer("jpeg_quality", o.jpeg_quality, 1, 100);
   o.width = table.integer("width", o.width, 16, 16384);
