@@ -32,6 +32,8 @@ class BareFrame {
         converter_(scene.scene, pictureGeometry(scene.scene)),
         files_(scene.scene) {}
 
+  void clearFiles() { files_.clear(); }
+
   void run(std::size_t i, bool with_files) {
     motion_.blend(i);
     benchmark::DoNotOptimize(motion_.volumes());
@@ -138,6 +140,7 @@ void withFiles(benchmark::State& state) {
     const LoopTime one = renderedLoop(scene, loop.folder() / "out", 1);
     const LoopTime two = renderedLoop(scene, loop.folder() / "out", 2);
     double floor_ms = 0;
+    bare.clearFiles();
     withThreads(1, [&] {
       floor_ms = millisecondsOf([&] {
                    for (std::size_t i = 0; i < LoopOnDisk::kFrames; ++i) bare.run(i, true);

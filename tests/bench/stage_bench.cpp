@@ -131,9 +131,29 @@ void exr(benchmark::State& state) {
   overFloor(
       state,
       [&](std::size_t i) {
-        stack.write({static_cast<int>(i % 64), 0, 0, 0}, {{Channel::y, t.polar.signal, {}}});
+        stack.write({static_cast<int>(i), 0, 0, 0}, {{Channel::y, t.polar.signal, {}}});
       },
       [&](std::size_t i) { bare.exr(t.polar.signal, i); });
+}
+
+// Compressions and pixels over uncompressed floats: over_floor in time, size in bytes.
+void exrKinds(benchmark::State& state) {
+  const Traced t{Size{}};
+  Scene scene = t.scene.scene;
+  scene.output.exr_compression = static_cast<ExrCompression>(state.range(0));
+  scene.output.exr_pixel = static_cast<ExrPixel>(state.range(1));
+  const support::TempFolder folder, plain_folder;
+  const ExrStack stack(folder.path(), scene, std::string(64, '0'), 1);
+  const ExrStack plain(plain_folder.path(), t.scene.scene, std::string(64, '0'), 1);
+  const auto write = [&](const ExrStack& to, std::size_t i) {
+    to.write({static_cast<int>(i), 0, 0, 0}, {{Channel::y, t.polar.planes.at(Channel::y), {}}});
+  };
+  overFloor(
+      state, [&](std::size_t i) { write(stack, i); }, [&](std::size_t i) { write(plain, i); });
+  const auto bytes = [](const support::TempFolder& of) {
+    return static_cast<double>(std::filesystem::file_size(of / ExrStack::fileName(0)));
+  };
+  state.counters["size"] = bytes(folder) / bytes(plain_folder);
 }
 
 void jpeg(benchmark::State& state) {
@@ -262,8 +282,11 @@ BENCHMARK_CAPTURE(trace, cells, true)->Apply(byBoth);
 BENCHMARK(beamAverage)->Apply(byPlane);
 BENCHMARK(logCompression)->Apply(byPlane);
 BENCHMARK(scanConversion)->Apply(byPlane);
-BENCHMARK(exr)->Apply(byPlane);
+BENCHMARK(exr)->Apply(byPlane)->Iterations(40);
 BENCHMARK(jpeg)->Apply(byPlane);
+BENCHMARK(exrKinds)->ArgsProduct({{0, 1, 2, 3, 4, 5}, {0, 1}})->Apply([](auto* b) {
+  rounds(b, 12);
+});
 BENCHMARK_CAPTURE(hierarchy, straight, false)->Apply(bySize);
 BENCHMARK_CAPTURE(hierarchy, refraction, true)->Apply(bySize);
 BENCHMARK_CAPTURE(beams, lateral, false)->Apply(bySize);

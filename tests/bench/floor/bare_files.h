@@ -31,6 +31,12 @@ class BareFiles {
   BareFiles(const BareFiles&) = delete;
   BareFiles& operator=(const BareFiles&) = delete;
 
+  // Files that are replaced cost more than new ones.
+  void clear() {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+      if (entry.path().extension() == ".exr") std::filesystem::remove(entry.path());
+  }
+
   // Rows are depths in the file, so the library gathers them from the lines.
   void exr(const std::vector<float>& plane, std::size_t i) {
     Imf::Header header(lines_, samples_);
@@ -40,7 +46,7 @@ class BareFiles {
     buffer.insert("Y",
                   Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(const_cast<float*>(plane.data())),
                              sizeof(float) * static_cast<std::size_t>(samples_), sizeof(float)));
-    Imf::OutputFile file((folder_ / fmt::format("{:04}.exr", i % 64)).c_str(), header, 0);
+    Imf::OutputFile file((folder_ / fmt::format("{:04}.exr", i)).c_str(), header, 0);
     file.setFrameBuffer(buffer);
     file.writePixels(samples_);
   }
