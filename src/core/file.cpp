@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <new>
 #include <utility>
 
 #include "core/error.h"
@@ -18,6 +19,7 @@ std::string readTextFile(const std::filesystem::path& path, std::size_t max_byte
   if (std::filesystem::is_directory(path, failed))
     throw SceneError(fmt::format("{}: is a folder, a file is needed", path.string()));
   std::ifstream file(path, std::ios::binary);
+  if (!file && errno == ENOMEM) throw std::bad_alloc();
   if (!file)
     throw SceneError(fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno)));
   std::string text;

@@ -11,10 +11,9 @@ namespace echocine {
 class OutputFolder {
  public:
   // Makes `folder` and, as far as the settings ask for them, its intensity/ and png/, and keeps
-  // other runs out of it. Removes an earlier manifest.json and its report at
-  // once: a folder without them is an unfinished run. Throws JobError when the path is a file,
-  // nothing can be written there, another run is at work there, or a folder stands in the place of
-  // a file.
+  // other runs out of it. Removes an earlier manifest.json and its report at once: a folder without
+  // them is an unfinished run. Throws JobError when the path is a file, nothing can be written
+  // there, another run is at work there, or a folder stands in the place of a file.
   OutputFolder(std::filesystem::path folder, const OutputSettings& settings, bool resume);
 
   // Deletes leftovers of earlier runs. On resuming: frames past the loop's end and half-written

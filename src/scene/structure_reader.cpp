@@ -51,6 +51,7 @@ std::vector<fs::path> matchingFiles(const TomlTable& table, std::string_view key
   for (const fs::directory_entry& entry : fs::directory_iterator(parent, failed))
     if (fnmatch(full.filename().c_str(), entry.path().filename().c_str(), 0) == 0)
       files.push_back(full.parent_path() / entry.path().filename());
+  if (failed == std::errc::not_enough_memory) throw std::bad_alloc();
   if (failed)
     table.fail(key, fmt::format("folder {} cannot be read: {}", full.parent_path().string(),
                                 failed.message()));

@@ -20,10 +20,11 @@ inline std::string timelessManifest(const fs::path& file) {
   if (json.is_discarded()) return "no JSON";
   json.erase("timings_ms_per_frame");
   for (nlohmann::json& effect : json["effects"]) effect.erase("time_share");
+  json["files"].erase("report.html");
   return json.dump();
 }
 
-// Every file by its name below the folder.
+// Every file by its name below the folder; of the report, which shows times, that it is there.
 inline std::map<std::string, std::string> leftIn(const fs::path& folder) {
   std::map<std::string, std::string> files;
   std::error_code absent;
@@ -31,7 +32,9 @@ inline std::map<std::string, std::string> leftIn(const fs::path& folder) {
     if (it->is_regular_file()) {
       const bool manifest = it->path().filename() == "manifest.json";
       files[it->path().lexically_relative(folder).string()] =
-          manifest ? timelessManifest(it->path()) : bytesOf(it->path());
+          manifest                                 ? timelessManifest(it->path())
+          : it->path().filename() == "report.html" ? "a report"
+                                                   : bytesOf(it->path());
     }
   return files;
 }

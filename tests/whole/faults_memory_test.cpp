@@ -19,7 +19,7 @@ std::string withoutGdal(const std::string& lines) {
   std::istringstream in(lines);
   std::string kept;
   for (std::string line; std::getline(in, line);)
-    if (line.find("./port/cpl") == std::string::npos && !line.starts_with("CPL") &&
+    if (!line.starts_with("ERROR 2: ./") && !line.starts_with("CPL") &&
         !line.starts_with("Out of memory attempting"))
       kept += line + "\n";
   return kept;
