@@ -166,19 +166,20 @@ void registerLoops(const CompareOptions& options, Comparison& c) {
   }
 }
 
-void calibrate(const CompareOptions& options, const std::vector<std::vector<float>>& paired,
-               Comparison& c) {
+// The curve of the whole loop, from counted frames.
+GreyCurve fitCurve(const CompareOptions& options, const std::vector<std::vector<float>>& synthetic,
+                   const std::vector<std::vector<float>>& real, const Comparison& c) {
   std::vector<const std::vector<float>*> used;
-  for (std::size_t j = 0; j < paired.size(); ++j)
-    if (c.frames[j].counted()) used.push_back(&paired[j]);
+  for (std::size_t j = 0; j < synthetic.size(); ++j)
+    if (c.frames[j].counted()) used.push_back(&synthetic[j]);
   if (used.empty())
     throw SceneError(fmt::format("{} and {} share no instant of the beat; give longer loops",
                                  c.synthetic.video.name, c.real.video.name));
   CalibrationFit fit(options.knots.empty() ? quantileKnots(used, c.weights, options.knot_count)
                                            : options.knots);
-  for (std::size_t j = 0; j < paired.size(); ++j)
-    if (c.frames[j].counted()) fit.add(paired[j], c.real_beams.frames[j], c.weights);
-  c.curve = fit.solve(options.monotone);
+  for (std::size_t j = 0; j < synthetic.size(); ++j)
+    if (c.frames[j].counted()) fit.add(synthetic[j], real[j], c.weights);
+  return fit.solve(options.monotone);
 }
 
 FrameMetrics meanOf(const std::vector<FrameResult>& frames,
@@ -210,9 +211,33 @@ FrameMetrics meanOf(const std::vector<FrameResult>& frames,
   return mean;
 }
 
+// The discrepancy of discrepancy.h: smoothed, with a calibration of its own, since smoothed greys
+// lie nearer to one another.
+void measureDiscrepancy(const CompareOptions& options,
+                        const std::vector<std::vector<float>>& paired, Comparison& c) {
+  const Smoother smoother(c.grid, c.weights);
+  std::vector<std::vector<float>> x(paired.size()), y(paired.size());
+  parallelBlocks(paired.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j) {
+      y[j] = smoother(c.real_beams.frames[j]);
+      x[j] = smoother(paired[j]);
+    }
+  });
+  c.real_deviation = loopDeviation(y, c.weights);
+  const GreyCurve curve = fitCurve(options, x, y, c);
+  parallelBlocks(paired.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j) {
+      if (c.frames[j].synthetic_place < 0) continue;
+      curve.apply(x[j], x[j]);
+      const BeamPair pair{x[j], y[j], c.weights, c.grid.lines, c.grid.samples};
+      c.frames[j].discrepancy =
+          discrepancyOf(rmsDifference(pair), c.real_deviation, gradientCorrelation(pair));
+    }
+  });
+}
+
 void measureFrames(const std::vector<std::vector<float>>& paired, const BoundaryBands* bands,
                    Comparison& c) {
-  c.real_deviation = loopDeviation(c.real_beams.frames, c.weights);
   parallelBlocks(c.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j) {
       FrameResult& f = c.frames[j];
@@ -222,7 +247,6 @@ void measureFrames(const std::vector<std::vector<float>>& paired, const Boundary
       c.curve.apply(paired[j], fitted);
       f.before = frameMetrics({paired[j], real, c.weights, c.grid.lines, c.grid.samples});
       f.after = frameMetrics({fitted, real, c.weights, c.grid.lines, c.grid.samples});
-      f.discrepancy = discrepancyOf(f.after.rms, c.real_deviation, f.after.gradient_correlation);
       if (bands == nullptr) continue;
       for (const auto& [name, weights] : bands->weightsAt(f.synthetic_phase, c.weights))
         f.bands.push_back(
@@ -295,7 +319,8 @@ Comparison compareLoops(const CompareOptions& options,
     c.frames.push_back(f);
     paired.push_back(pairedFrame(c, c.synthetic_beams, j));
   }
-  calibrate(options, paired, c);
+  c.curve = fitCurve(options, paired, c.real_beams.frames, c);
+  measureDiscrepancy(options, paired, c);
   measureFrames(paired, bands ? &*bands : nullptr, c);
   summarise(c);
   return c;

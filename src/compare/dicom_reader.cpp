@@ -143,7 +143,8 @@ void addFrames(DcmDataset& data, std::int64_t frames, VideoBuilder& builder) {
     std::vector<std::uint8_t> rgb(3 * static_cast<std::size_t>(width) *
                                   static_cast<std::size_t>(height));
     if (image.isMonochrome()) {
-      image.setMinMaxWindow(0);
+      // The file's own window, the same in every frame; a window fitted to each would flicker.
+      if (image.getWindowCount() == 0 || image.setWindow(0) == 0) image.setNoVoiTransformation();
       const std::size_t pixels = rgb.size() / 3;
       std::vector<std::uint8_t> grey(pixels);
       if (!image.getOutputData(grey.data(), grey.size(), 8))

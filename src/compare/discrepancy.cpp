@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "compare/metrics.h"
 #include "core/check.h"
@@ -25,6 +26,29 @@ double loopDeviation(const std::vector<std::vector<float>>& frames,
       n += w, sum += w * g, squares += w * g * g;
     }
   return n > 0 ? std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n))) : 0;
+}
+
+Smoother::Smoother(const BeamGrid& g, std::span<const float> weights)
+    : lines_(g.lines), samples_(g.samples) {
+  const double sigma = kSmoothingShare * g.far;
+  along_ = sigma / ((g.far - g.near) / g.samples);
+  const double line = (g.last_rad - g.first_rad) / std::max(1, g.lines - 1) * (g.near + g.far) / 2;
+  across_ = sigma / line;
+  mask_.assign(weights.size(), 0);
+  for (std::size_t i = 0; i < mask_.size(); ++i) mask_[i] = weights[i] > 0 ? 1.0f : 0.0f;
+  const std::vector<float> mask = mask_;
+  share_.assign(mask_.size(), 1);
+  share_ = (*this)(mask);
+  for (float& s : share_) s = std::max(s, 1e-6f);
+}
+
+std::vector<float> Smoother::operator()(std::span<const float> frame) const {
+  std::vector<float> out(frame.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = frame[i] * mask_[i];
+  cv::Mat m(lines_, samples_, CV_32F, out.data());
+  cv::GaussianBlur(m, m, {0, 0}, along_, across_, cv::BORDER_CONSTANT);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = mask_[i] > 0 ? out[i] / share_[i] : 0;
+  return out;
 }
 
 Discrepancy::Discrepancy(const Loop& real, const Probe& probe, const Placement& placement,
@@ -52,11 +76,13 @@ Discrepancy::Discrepancy(const Loop& real, const Probe& probe, const Placement& 
         fmt::format("{}: shows less than a fifth of the probe's sector; give a loop of the "
                     "same view",
                     real.video.name));
+  smoother_.emplace(grid_, weights_);
+  for (std::vector<float>& frame : real_.frames) frame = (*smoother_)(frame);
   deviation_ = loopDeviation(real_.frames, weights_);
 }
 
-// Means of per_sample_ samples, 0 to 255.
-std::vector<float> Discrepancy::reduced(std::span<const float> grey) const {
+// Means of per_sample_ samples, 0 to 255, smoothed.
+std::vector<float> Discrepancy::smoothed(std::span<const float> grey) const {
   CHECK_EQ(grey.size(),
            static_cast<std::size_t>(probe_.lines) * static_cast<std::size_t>(probe_.samples));
   std::vector<float> out;
@@ -70,13 +96,13 @@ std::vector<float> Discrepancy::reduced(std::span<const float> grey) const {
       out.push_back(scale * sum);
     }
   }
-  return out;
+  return (*smoother_)(out);
 }
 
 void Discrepancy::calibrate(const std::vector<std::pair<int, std::vector<float>>>& pairs) {
   std::vector<std::vector<float>> frames;
   std::vector<const std::vector<float>*> all;
-  for (const auto& pair : pairs) frames.push_back(reduced(pair.second));
+  for (const auto& pair : pairs) frames.push_back(smoothed(pair.second));
   for (const auto& frame : frames) all.push_back(&frame);
   CalibrationFit fit(quantileKnots(all, weights_, knots_));
   for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -86,7 +112,7 @@ void Discrepancy::calibrate(const std::vector<std::pair<int, std::vector<float>>
 
 double Discrepancy::operator()(int frame, std::span<const float> grey) const {
   const std::vector<float>& real = real_.frames.at(static_cast<std::size_t>(frame));
-  std::vector<float> x = reduced(grey);
+  std::vector<float> x = smoothed(grey);
   if (curve_.knots.empty()) {
     const std::vector<float>* one[] = {&x};
     CalibrationFit fit(quantileKnots(one, weights_, knots_));
@@ -95,14 +121,8 @@ double Discrepancy::operator()(int frame, std::span<const float> grey) const {
   } else {
     curve_.apply(x, x);
   }
-  double n = 0, squares = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double d = static_cast<double>(x[i]) - real[i];
-    n += weights_[i];
-    squares += weights_[i] * d * d;
-  }
-  const double correlation = gradientCorrelation({x, real, weights_, grid_.lines, grid_.samples});
-  return discrepancyOf(n > 0 ? std::sqrt(squares / n) : 0, deviation_, correlation);
+  const BeamPair pair{x, real, weights_, grid_.lines, grid_.samples};
+  return discrepancyOf(rmsDifference(pair), deviation_, gradientCorrelation(pair));
 }
 
 }  // namespace echocine::compare

@@ -25,6 +25,7 @@ struct BeamPair {
 };
 
 FrameMetrics frameMetrics(const BeamPair& pair);
+double rmsDifference(const BeamPair& pair);
 
 // Mean over the samples of SSIM(x, y) (Wang, Bovik, Sheikh and Simoncelli, IEEE Trans. Image
 // Process. 13(4), 2004, Eq. 13) with its 11 x 11 Gaussian window of standard deviation 1.5 samples,

@@ -127,7 +127,8 @@ Json summaryJson(const Comparison& c) {
   return {{"version", ECHOCINE_VERSION},
           {"discrepancy", c.discrepancy},
           {"discrepancy_definition",
-           "mean over counted frames of 1/2 RMS(x - y) / s + 1/2 (1 - GC); x calibrated synthetic, "
+           "both smoothed by 2 % of the depth; mean over counted frames of 1/2 RMS(x - y) / s + "
+           "1/2 (1 - GC); x calibrated synthetic, "
            "y real grey, s "
            "standard deviation of y over the loop, GC gradient correlation"},
           {"frames_counted", counted},

@@ -61,7 +61,7 @@ EdgeLine leastSquares(const std::vector<EdgePoint>& points, const EdgeLine& near
 // lie inside the true edge more often than outside: a point outside counts against the line.
 std::optional<EdgeLine> edgeLine(const std::vector<EdgePoint>& points, int sign, double tolerance) {
   if (points.size() < 8) return std::nullopt;
-  constexpr std::uint64_t kTries = 4000;
+  constexpr std::uint64_t kTries = 1500;
   EdgeLine best;
   double best_score = 0;
   for (std::uint64_t t = 0; t < kTries; ++t) {

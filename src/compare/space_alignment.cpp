@@ -4,6 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "core/parallel.h"
 #include "core/units.h"
 
 namespace echocine::compare {
@@ -15,6 +16,7 @@ constexpr int kUnknowns = 6;  // shift x, shift y, scale, rotation; contrast, br
 struct Level {
   std::vector<cv::Mat> real;       // smoothed pictures
   std::vector<cv::Mat> synthetic;  // smoothed frames in beam space
+  int stride = 1;                  // of lines and samples: smooth greys need not all be looked at
 };
 
 // Both smoothed by about the same length: sigma in real pixels.
@@ -54,46 +56,64 @@ struct Sums {
   }
 };
 
-// Sums over all samples about a placement. The real grey g at the placed point obeys
-// g + grad g . dp = contrast * synthetic + brightness, with dp linear in the first four unknowns.
-Sums sumsAt(const BeamGrid& grid, const Loop& real, const Level& level,
-            const std::vector<float>& weights, const Placement& placement) {
-  Sums s;
-  const int w = real.video.width, h = real.video.height;
+// What one line of beam space adds.
+struct LineSums {
   double normal[kUnknowns][kUnknowns] = {}, right[kUnknowns] = {};
-  for (int i = 0; i < grid.lines; ++i) {
-    const double angle = grid.angle(i) + placement.rotation_rad;
-    const double sine = std::sin(angle), cosine = std::cos(angle);
-    for (int k = 0; k < grid.samples; ++k) {
-      const double weight =
-          weights[static_cast<std::size_t>(i) * static_cast<std::size_t>(grid.samples) +
-                  static_cast<std::size_t>(k)];
-      if (!(weight > 0)) continue;
-      const double r = grid.depth(k) * pixelsPerUnit(grid, real), placed = placement.scale * r;
-      const double x = real.sector().apex_x + placement.shift_x_px + placed * sine;
-      const double y = real.sector().apex_y + placement.shift_y_px + placed * cosine;
-      if (x < 1 || y < 1 || x > w - 1 || y > h - 1) continue;
-      for (std::size_t f = 0; f < level.real.size(); ++f) {
-        const float* picture = level.real[f].ptr<float>();
-        const double g = greyAt(picture, w, h, x, y);
-        const double gx = 0.5 * (greyAt(picture, w, h, x + 1, y) - greyAt(picture, w, h, x - 1, y));
-        const double gy = 0.5 * (greyAt(picture, w, h, x, y + 1) - greyAt(picture, w, h, x, y - 1));
-        const double v = level.synthetic[f].at<float>(i, k);
-        s.n += weight, s.x += weight * v, s.y += weight * g;
-        s.xx += weight * v * v, s.yy += weight * g * g, s.xy += weight * v * g;
-        const double row[kUnknowns] = {
-            -gx, -gy, -r * (gx * sine + gy * cosine), -placed * (gx * cosine - gy * sine), v, 1};
-        for (int p = 0; p < kUnknowns; ++p) {
-          right[p] += weight * row[p] * g;
-          for (int q = p; q < kUnknowns; ++q) normal[p][q] += weight * row[p] * row[q];
-        }
+  double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+};
+
+// The real grey g at the placed point obeys g + grad g . dp = contrast * synthetic + brightness,
+// with dp linear in the first four unknowns.
+void addLine(const BeamGrid& grid, const Loop& real, const Level& level,
+             const std::vector<float>& weights, const Placement& placement, int line, LineSums& s) {
+  const int w = real.video.width, h = real.video.height;
+  const double angle = grid.angle(line) + placement.rotation_rad;
+  const double sine = std::sin(angle), cosine = std::cos(angle);
+  for (int k = 0; k < grid.samples; k += level.stride) {
+    const double weight =
+        weights[static_cast<std::size_t>(line) * static_cast<std::size_t>(grid.samples) +
+                static_cast<std::size_t>(k)];
+    if (!(weight > 0)) continue;
+    const double r = grid.depth(k) * pixelsPerUnit(grid, real), placed = placement.scale * r;
+    const double x = real.sector().apex_x + placement.shift_x_px + placed * sine;
+    const double y = real.sector().apex_y + placement.shift_y_px + placed * cosine;
+    if (x < 1 || y < 1 || x > w - 1 || y > h - 1) continue;
+    for (std::size_t f = 0; f < level.real.size(); ++f) {
+      const float* picture = level.real[f].ptr<float>();
+      const double g = greyAt(picture, w, h, x, y);
+      const double gx = 0.5 * (greyAt(picture, w, h, x + 1, y) - greyAt(picture, w, h, x - 1, y));
+      const double gy = 0.5 * (greyAt(picture, w, h, x, y + 1) - greyAt(picture, w, h, x, y - 1));
+      const double v = level.synthetic[f].at<float>(line, k);
+      s.n += weight, s.x += weight * v, s.y += weight * g;
+      s.xx += weight * v * v, s.yy += weight * g * g, s.xy += weight * v * g;
+      const double row[kUnknowns] = {
+          -gx, -gy, -r * (gx * sine + gy * cosine), -placed * (gx * cosine - gy * sine), v, 1};
+      for (int p = 0; p < kUnknowns; ++p) {
+        s.right[p] += weight * row[p] * g;
+        for (int q = p; q < kUnknowns; ++q) s.normal[p][q] += weight * row[p] * row[q];
       }
     }
   }
-  for (int p = 0; p < kUnknowns; ++p) {
-    s.right.at<double>(p) = right[p];
-    for (int q = 0; q < kUnknowns; ++q)
-      s.normal.at<double>(p, q) = normal[std::min(p, q)][std::max(p, q)];
+}
+
+// Sums over all lines about a placement, line by line in order whatever the threads.
+Sums sumsAt(const BeamGrid& grid, const Loop& real, const Level& level,
+            const std::vector<float>& weights, const Placement& placement) {
+  const auto lines = static_cast<std::size_t>((grid.lines + level.stride - 1) / level.stride);
+  std::vector<LineSums> of_line(lines);
+  parallelBlocks(lines, 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      addLine(grid, real, level, weights, placement, static_cast<int>(i) * level.stride,
+              of_line[i]);
+  });
+  Sums s;
+  for (const LineSums& line : of_line) {
+    s.n += line.n, s.x += line.x, s.y += line.y, s.xx += line.xx, s.yy += line.yy, s.xy += line.xy;
+    for (int p = 0; p < kUnknowns; ++p) {
+      s.right.at<double>(p) += line.right[p];
+      for (int q = 0; q < kUnknowns; ++q)
+        s.normal.at<double>(p, q) += line.normal[std::min(p, q)][std::max(p, q)];
+    }
   }
   return s;
 }
@@ -122,7 +142,8 @@ SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
   const double finest =
       std::max(0.7, (grid.far - grid.near) / grid.samples * pixelsPerUnit(grid, real) / 2);
   for (const double sigma : {6 * finest, 3 * finest, 1.5 * finest, finest}) {
-    const Level level = smoothed(grid, real, paired, real_frames, sigma);
+    Level level = smoothed(grid, real, paired, real_frames, sigma);
+    level.stride = sigma > 2 * finest ? 3 : sigma > finest ? 2 : 1;
     Sums sums = sumsAt(grid, real, level, weights, placement);
     for (int i = 0; i < 12; ++i) {
       const Placement next = improved(sums, placement);
@@ -138,12 +159,11 @@ SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
     }
   }
   out.correlation_after = final_correlation;
-  // A gain that the freedom of four numbers cannot explain away; our choice.
-  out.used = final_correlation > out.correlation_before + 1e-4;
-  if (out.used)
-    out.placement = placement;
-  else
-    out.correlation_after = out.correlation_before;
+  // Where the echoes hardly resemble one another their best fit says nothing; our choice.
+  constexpr double kLeastCorrelation = 0.5;
+  out.placement = placement;
+  out.used =
+      final_correlation > kLeastCorrelation && final_correlation > out.correlation_before + 1e-5;
   out.confidence = std::clamp(out.correlation_after, 0.0, 1.0);
   return out;
 }

@@ -11,7 +11,7 @@ namespace echocine::compare {
 struct SpaceAlignment {
   Placement placement;  // of beam space in the real picture
   double correlation_before = 0, correlation_after = 0;
-  bool used = false;      // false: no gain, or beyond the limits; the sectors stand as they are
+  bool used = false;      // false: no gain, or hardly alike; the sectors stand as they are
   double confidence = 0;  // the correlation it reaches, 0..1
 };
 

@@ -58,13 +58,18 @@ void checkLoopSize(const std::string& name, std::int64_t width, std::int64_t hei
 // picture, which is grey to us. The median over a frame tells it from markers and Doppler boxes.
 void VideoBuilder::learnTint(const std::uint8_t* rgb, std::ptrdiff_t stride) {
   std::array<std::vector<int>, 17> red, blue;
+  std::int64_t lit = 0, tinted = 0;
   for (int y = 0; y < video_.height; ++y)
     for (int x = 0; x < video_.width; x += 2) {
       const std::uint8_t* p = rgb + y * stride + 3 * x;
       const int luma = lumaOf(p[0], p[1], p[2]);
       red[static_cast<std::size_t>(luma / 16)].push_back(p[0] - luma);
       blue[static_cast<std::size_t>(luma / 16)].push_back(p[2] - luma);
+      if (luma < 24) continue;
+      ++lit;
+      tinted += std::abs(p[0] - luma) > 8 || std::abs(p[2] - luma) > 8 ? 1 : 0;
     }
+  if (10 * tinted < 6 * lit) return;  // a grey picture with some colour on it
   for (std::size_t bin = 0; bin < 16; ++bin) {
     const bool enough = red[bin].size() > 200;  // else as the next darker one
     tint_red_[bin] = enough ? medianOf(red[bin]) : bin > 0 ? tint_red_[bin - 1] : 0;

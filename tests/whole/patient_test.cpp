@@ -7,13 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cine.h"
-#include "core/hash.h"
 #include "motion/heart_motion.h"
-#include "motion/mesh_io.h"
 #include "support/cine_frames.h"
 #include "support/exr_planes.h"
-#include "support/paths.h"
-#include "support/scene_text.h"
+#include "support/patient_scene.h"
 #include "support/temp_folder.h"
 
 namespace echocine {
@@ -21,8 +18,7 @@ namespace {
 
 using namespace support;
 
-const std::filesystem::path kMeshes =
-    std::filesystem::path(support::kSharedDir) / "real/meshes/bivme_patient1_25f";
+const std::filesystem::path kMeshes = patientMeshes();
 
 // mL, as published with the meshes.
 constexpr std::array<double, 25> kLeft{
@@ -31,57 +27,6 @@ constexpr std::array<double, 25> kLeft{
 constexpr std::array<double, 25> kRight{
     170.1, 165.3, 154.0, 141.8, 129.0, 114.2, 101.6, 87.7,  82.7,  76.7,  77.6,  78.2, 82.0,
     99.3,  118.0, 122.2, 128.5, 133.0, 135.3, 136.2, 142.0, 146.9, 158.2, 167.0, 167.8};
-
-std::vector<Vec3d> pointsOf(const std::string& name) {
-  Sha256 digest;
-  return readMesh(kMeshes / (name + "_000.obj"), digest).positions;
-}
-
-Vec3d centroid(const std::vector<Vec3d>& points) {
-  Vec3d sum{};
-  for (const Vec3d p : points) sum = sum + p;
-  return (1.0 / static_cast<double>(points.size())) * sum;
-}
-
-std::string vectorText(Vec3d v) {
-  return "[" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + "]";
-}
-
-// The probe 2 cm beyond the apex of the left ventricle, looking at the mitral valve, the left
-// ventricle to the right.
-void poseApical(SceneText& text) {
-  const Vec3d mitral = centroid(pointsOf("mitral_valve")),
-              tricuspid = centroid(pointsOf("tricuspid_valve"));
-  const std::vector<Vec3d> left = pointsOf("lv_endo_closed");
-  const Vec3d apex = *std::max_element(left.begin(), left.end(), [&](Vec3d a, Vec3d b) {
-    return length(a - mitral) < length(b - mitral);
-  });
-  const Vec3d axis = normalised(mitral - apex), aside = mitral - tricuspid;
-  text.probe["apex"] = vectorText(apex - 20.0 * axis);
-  text.probe["axis"] = vectorText(axis);
-  text.probe["lateral"] = vectorText(normalised(aside - dot(aside, axis) * axis));
-}
-
-SceneText patientScene() {
-  const auto files = [](const std::string& name) {
-    return "\"" + (kMeshes / (name + "_*.obj")).string() + "\"";
-  };
-  SceneText text;
-  poseApical(text);
-  text.probe["sector_deg"] = "85";
-  text.probe["depth_mm"] = "170";
-  text.probe["lines"] = "128";
-  text.probe["samples"] = "512";
-  text.acquisition = {{"heart_rate_bpm", "72.2"}, {"frame_rate_hz", "30.0833"}};
-  text.motion = {{"mesh_unit", "\"mm\""}};
-  text.output["channels"] = "[\"Y\", \"medium.id\"]";
-  text.addStructure("wall", "myocardium", files("epi"), 1,
-                    "lids = [" + files("mitral_valve") + ", " + files("aortic_valve") + ", " +
-                        files("tricuspid_valve") + ", " + files("pulmonary_valve") + "]");
-  text.addStructure("lv", "blood", files("lv_endo_closed"), 2);
-  text.addStructure("rv", "blood", files("rv_endo_closed"), 2);
-  return text;
-}
 
 class Patient : public ::testing::Test {
  protected:

@@ -1,0 +1,251 @@
+// Metrics, calibration and time warping against closed forms.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "compare/beat_length.h"
+#include "compare/calibration.h"
+#include "compare/discrepancy.h"
+#include "compare/metrics.h"
+#include "compare/time_alignment.h"
+#include "core/hash_random.h"
+
+namespace echocine::compare {
+namespace {
+
+constexpr int kLines = 40, kSamples = 60;
+
+std::vector<float> waves(double phase, double contrast = 60, double mean = 120) {
+  std::vector<float> out;
+  for (int i = 0; i < kLines; ++i)
+    for (int k = 0; k < kSamples; ++k)
+      out.push_back(static_cast<float>(mean + contrast * std::sin(0.35 * i + phase) *
+                                                  std::cos(0.22 * k - 0.1 * i)));
+  return out;
+}
+
+std::vector<float> noise(std::uint64_t seed, double deviation) {
+  std::vector<float> out;
+  for (std::uint64_t i = 0; i < kLines * kSamples; ++i)
+    out.push_back(static_cast<float>(
+        128 + deviation * normalFromHashes(hashOf(seed, i, 1), hashOf(seed, i, 2))));
+  return out;
+}
+
+const std::vector<float> kOnes(kLines* kSamples, 1.0f);
+
+BeamPair pair(const std::vector<float>& x, const std::vector<float>& y,
+              const std::vector<float>& w = kOnes) {
+  return {x, y, w, kLines, kSamples};
+}
+
+TEST(CompareMetrics, EqualFramesArePerfect) {
+  const std::vector<float> x = waves(0);
+  const FrameMetrics m = frameMetrics(pair(x, x));
+  EXPECT_EQ(m.rms, 0);
+  EXPECT_EQ(m.mean_absolute, 0);
+  EXPECT_TRUE(std::isinf(m.psnr_db));
+  EXPECT_EQ(m.ncc, 1);
+  EXPECT_NEAR(m.ssim, 1, 1e-12);
+  EXPECT_EQ(m.histogram_distance, 0);
+  EXPECT_EQ(m.gradient_correlation, 1);
+}
+
+TEST(CompareMetrics, AConstantOffsetHasClosedForms) {
+  const std::vector<float> x = waves(0);
+  std::vector<float> y = x;
+  for (float& v : y) v += 16;
+  const FrameMetrics m = frameMetrics(pair(x, y));
+  EXPECT_NEAR(m.rms, 16, 1e-6);
+  EXPECT_NEAR(m.mean_absolute, 16, 1e-6);
+  EXPECT_NEAR(m.psnr_db, 20 * std::log10(255.0 / 16), 1e-6);
+  EXPECT_NEAR(m.ncc, 1, 1e-9);
+  EXPECT_NEAR(m.histogram_distance, 16, 1e-6);
+  EXPECT_NEAR(m.gradient_correlation, 1, 1e-9);
+}
+
+TEST(CompareMetrics, ContrastBrightnessAndTheirSignInCorrelations) {
+  const std::vector<float> x = waves(0);
+  std::vector<float> dim = x, negative = x;
+  for (float& v : dim) v = 0.4f * v + 20;
+  for (float& v : negative) v = 255 - v;
+  EXPECT_NEAR(frameMetrics(pair(x, dim)).ncc, 1, 1e-6);
+  EXPECT_NEAR(frameMetrics(pair(x, negative)).ncc, -1, 1e-6);
+  EXPECT_NEAR(frameMetrics(pair(x, negative)).gradient_correlation, -1, 1e-6);
+}
+
+// Two constant frames: SSIM is the luminance term alone.
+TEST(CompareMetrics, SsimOfConstantsIsTheLuminanceTerm) {
+  const std::vector<float> x(kOnes.size(), 100.0f), y(kOnes.size(), 140.0f);
+  const double c1 = 0.01 * 255 * 0.01 * 255;
+  EXPECT_NEAR(structuralSimilarity(pair(x, y)), (2 * 100 * 140 + c1) / (100 * 100 + 140 * 140 + c1),
+              1e-5);
+}
+
+TEST(CompareMetrics, IndependentNoiseHasNothingInCommon) {
+  const FrameMetrics m = frameMetrics(pair(noise(1, 30), noise(2, 30)));
+  EXPECT_NEAR(m.ncc, 0, 0.06);
+  EXPECT_NEAR(m.gradient_correlation, 0, 0.06);
+  EXPECT_NEAR(m.rms, 30 * std::sqrt(2.0), 1.5);
+}
+
+// Of two greys in equal shares that stand for one another: one bit.
+TEST(CompareMetrics, MutualInformationOfACoinIsOneBit) {
+  std::vector<float> x, y;
+  for (int i = 0; i < kLines * kSamples; ++i) {
+    x.push_back(i % 2 ? 200.0f : 40.0f);
+    y.push_back(i % 2 ? 10.0f : 90.0f);
+  }
+  EXPECT_NEAR(frameMetrics(pair(x, y)).mutual_information, 1, 1e-12);
+}
+
+TEST(CompareMetrics, SamplesOutsideTheAreaDoNotCount) {
+  const std::vector<float> x = waves(0);
+  std::vector<float> y = x, weights = kOnes;
+  for (std::size_t i = 0; i < y.size(); i += 1)
+    if (i % kSamples < 20) y[i] = 250, weights[i] = 0;
+  const FrameMetrics m = frameMetrics(pair(x, y, weights));
+  EXPECT_EQ(m.rms, 0);
+  EXPECT_EQ(m.ncc, 1);
+  EXPECT_EQ(m.gradient_correlation, 1);
+  EXPECT_NEAR(m.ssim, 1, 1e-6);
+  EXPECT_EQ(frameMetrics(pair(x, y, std::vector<float>(x.size(), 0))).weight, 0);
+}
+
+TEST(CompareMetrics, TheDiscrepancyRunsFromZeroToOne) {
+  EXPECT_EQ(discrepancyOf(0, 40, 1), 0);
+  EXPECT_EQ(discrepancyOf(40, 40, 0), 1);
+  EXPECT_GT(discrepancyOf(50, 40, -0.2), 1);
+}
+
+TEST(GreyCalibration, AKnownCurveIsFoundAgain) {
+  const GreyCurve truth{{0, 60, 130, 200, 255}, {12, 90, 70, 180, 240}};
+  const std::vector<float> x = noise(3, 60);
+  std::vector<float> y;
+  for (const float v : x) y.push_back(static_cast<float>(truth(v)));
+  CalibrationFit fit(truth.knots);
+  fit.add(x, y, kOnes);
+  const GreyCurve found = fit.solve(false);
+  for (std::size_t i = 1; i + 1 < 5; ++i) EXPECT_NEAR(found.values[i], truth.values[i], 1e-3) << i;
+  const GreyCurve rising = fit.solve(true);
+  for (std::size_t i = 1; i < 5; ++i) EXPECT_GE(rising.values[i], rising.values[i - 1] - 1e-9);
+}
+
+// Where the best curve rises anyway, asking for a rising one changes nothing.
+TEST(GreyCalibration, MonotoneEqualsFreeWhereItRises) {
+  const GreyCurve truth{{10, 80, 170, 250}, {5, 40, 190, 210}};
+  const std::vector<float> x = noise(4, 55), e = noise(5, 4);
+  std::vector<float> y;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    y.push_back(static_cast<float>(truth(x[i])) + e[i] - 128);
+  CalibrationFit fit(truth.knots);
+  fit.add(x, y, kOnes);
+  const GreyCurve a = fit.solve(false), b = fit.solve(true);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(a.values[i], b.values[i], 1e-4);
+  EXPECT_NEAR(a.values[2], 190, 1);
+}
+
+// The least squares of a falling line among rising ones is its mean.
+TEST(GreyCalibration, MonotoneOfAFallingLineIsItsMean) {
+  std::vector<float> x, y, w;
+  double sum = 0;
+  for (int i = 0; i <= 200; ++i) {
+    x.push_back(static_cast<float>(i));
+    y.push_back(static_cast<float>(220 - i));
+    w.push_back(1);
+    sum += 220 - i;
+  }
+  CalibrationFit fit({0, 50, 100, 150, 200});
+  fit.add(x, y, w);
+  for (const double v : fit.solve(true).values) EXPECT_NEAR(v, sum / 201, 1e-6);
+}
+
+TEST(GreyCalibration, KnotsHoldEqualShares) {
+  std::vector<float> x;
+  for (int i = 0; i < 10000; ++i)
+    x.push_back(static_cast<float>(255.0 * std::sqrt((i + 0.5) / 10000)));
+  const std::vector<float> w(x.size(), 1);
+  const std::vector<float>* frames[] = {&x};
+  const std::vector<double> knots = quantileKnots(frames, w, 5);
+  ASSERT_EQ(knots.size(), 5u);
+  for (int i = 1; i < 4; ++i)
+    EXPECT_NEAR(knots[static_cast<std::size_t>(i)], 255 * std::sqrt(i / 4.0), 1);
+}
+
+// Frames of a wheel: what moves is known at any instant.
+Features wheel(const std::vector<double>& phases) {
+  Features f;
+  for (const double p : phases) {
+    std::vector<double> v;
+    for (int h = 1; h <= 3; ++h) {
+      v.push_back(std::cos(2 * M_PI * h * p) / h);
+      v.push_back(std::sin(2 * M_PI * h * p) / h);
+    }
+    f.push_back(v);
+  }
+  return f;
+}
+
+std::vector<double> even(int n, double beat, double shift = 0) {
+  std::vector<double> p;
+  for (int i = 0; i < n; ++i) p.push_back((i + shift) / beat);
+  return p;
+}
+
+TEST(TimeAlignmentLaw, AShiftIsFoundToATenthOfAFrame) {
+  for (const double shift : {0.0, 0.5, 7.25, 19.5}) {
+    const Features s = wheel(even(24, 24)), r = wheel(even(24, 24, shift));
+    const TimeAlignment t = alignInTime({s, r, 24, 24, 1, {}});
+    EXPECT_NEAR(std::remainder(t.shift_frames - shift, 24), 0, 0.1) << shift;
+    EXPECT_GT(t.correlation, 0.98);
+    for (std::size_t j = 0; j < r.size(); ++j)
+      EXPECT_NEAR(std::remainder(t.place[j] - shift - double(j), 24), 0, 0.26) << j;
+  }
+}
+
+TEST(TimeAlignmentLaw, AnotherFrameRateIsFoundWithoutKnownBeats) {
+  const Features s = wheel(even(40, 40)), r = wheel(even(22, 30, 3));
+  const TimeAlignment t = alignInTime({s, r, 0, 0, 1.2, {}});
+  EXPECT_NEAR(t.rate, 40.0 / 30, 0.03);
+}
+
+// Systole stretched: the straight map is wrong by 2 frames, the warp finds it.
+TEST(TimeAlignmentLaw, AWarpedBeatIsFound) {
+  const int n = 40;
+  const auto warp = [](double p) { return p + 0.045 * std::sin(2 * M_PI * p); };
+  std::vector<double> phases;
+  for (int i = 0; i < n; ++i) phases.push_back(warp(double(i) / n));
+  const Features s = wheel(even(n, n)), r = wheel(phases);
+  const TimeAlignment t = alignInTime({s, r, double(n), double(n), 1, {}});
+  double worst = 0;
+  for (int j = 0; j < n; ++j)
+    worst = std::max(
+        worst, std::abs(std::remainder(t.place[std::size_t(j)] - n * phases[std::size_t(j)], n)));
+  EXPECT_LT(worst, 0.75);
+  EXPECT_GT(t.largest_warp_frames, 1);
+  for (std::size_t j = 1; j < std::size_t(n); ++j)  // never backwards
+    EXPECT_GE(std::remainder(t.place[j] - t.place[j - 1], n), -1e-9);
+}
+
+TEST(TimeAlignmentLaw, AnchorsAreMetAndStraightBetween) {
+  const Features s = wheel(even(30, 30)), r = wheel(even(20, 20));
+  TimeAlignment t = alignByAnchors({s, r, 30, 20, 1, {}}, {{2, 0}, {8, 12}});
+  EXPECT_NEAR(t.place[2], 0, 1e-9);
+  EXPECT_NEAR(t.place[5], 6, 1e-9);
+  EXPECT_NEAR(t.place[8], 12, 1e-9);
+  EXPECT_NEAR(t.place[15], 12 + 18.0 * 7 / 14, 1e-9);  // the rest of the beat, evenly
+}
+
+TEST(BeatLengthLaw, BeatsAreFoundAndTheirAbsenceToo) {
+  const BeatLength two = findBeatLength(wheel(even(50, 20.4)), 5);
+  EXPECT_NEAR(two.frames, 20.4, 0.1);
+  EXPECT_GT(two.confidence, 0.9);
+  const BeatLength one = findBeatLength(wheel(even(30, 30)), 6);
+  EXPECT_NEAR(one.frames, 30, 1e-9);
+  EXPECT_EQ(one.source, "loop closes");
+  EXPECT_EQ(findBeatLength(wheel(even(20, 60)), 5).frames, 0);  // a third of a beat
+}
+
+}  // namespace
+}  // namespace echocine::compare
