@@ -185,7 +185,7 @@ GreyCurve fitCurve(const CompareOptions& options, const std::vector<std::vector<
 FrameMetrics meanOf(const std::vector<FrameResult>& frames,
                     const std::function<const FrameMetrics&(const FrameResult&)>& pick) {
   FrameMetrics mean;
-  double n = 0, squares = 0, finite = 0;
+  double n = 0, squares = 0;
   for (const FrameResult& f : frames) {
     if (!f.counted()) continue;
     const FrameMetrics& m = pick(f);
@@ -199,7 +199,6 @@ FrameMetrics meanOf(const std::vector<FrameResult>& frames,
     mean.histogram_distance += m.histogram_distance;
     mean.gradient_correlation += m.gradient_correlation;
     mean.weight += m.weight;
-    finite += 1;
   }
   if (n == 0) return mean;
   for (double* value : {&mean.mean_absolute, &mean.ncc, &mean.ssim, &mean.mutual_information,

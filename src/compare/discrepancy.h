@@ -62,7 +62,7 @@ class Discrepancy {
   std::vector<float> weights_;
   std::optional<Smoother> smoother_;
   double deviation_ = 1;
-  int knots_, first_sample_ = 0, per_sample_ = 1, first_line_ = 0;
+  int knots_, per_sample_ = 1;
   GreyCurve curve_;
 };
 

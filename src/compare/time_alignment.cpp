@@ -41,7 +41,7 @@ double product(const std::vector<double>& a, const std::vector<double>& b) {
 // Correlations of blended synthetic frames with real ones, from inner products alone.
 class Correlations {
  public:
-  explicit Correlations(const TimeProblem& p) : p_(p) {
+  explicit Correlations(const TimeProblem& p) {
     for (const auto& s : p.synthetic) {
       std::vector<double> row, own;
       for (const auto& r : p.real) row.push_back(product(s, r));
@@ -60,7 +60,6 @@ class Correlations {
   }
 
  private:
-  const TimeProblem& p_;
   std::vector<std::vector<double>> cross_, own_;
   std::vector<double> real_;
 };
