@@ -1,6 +1,7 @@
 #include "signal/beam_width.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -12,7 +13,7 @@ namespace {
 
 // Samples that go through all lines together. A line's share is a few cache lines in one page, and
 // the sums of a usual window's lines stay in the first-level cache.
-constexpr int kBlock = 128;
+constexpr int kBlock = 256;
 // Eight of them in the vector extension that GCC and Clang share: left to itself GCC shuffles.
 constexpr int kLanes = 8;
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
@@ -21,6 +22,22 @@ Lanes lanesAt(const float* from) {
   Lanes lanes;
   std::memcpy(&lanes, from, sizeof lanes);
   return lanes;
+}
+// Taken in double, since both may hold a bright echo.
+Lanes differenceAt(const double* a, const double* b) {
+  using Sums = double __attribute__((vector_size(kLanes * sizeof(double))));
+  Sums of_a, of_b;
+  std::memcpy(&of_a, a, sizeof of_a);
+  std::memcpy(&of_b, b, sizeof of_b);
+  return __builtin_convertvector(of_a - of_b, Lanes);
+}
+
+// Whole lanes by a plain store.
+void store(Lanes lanes, int count, float* to) {
+  if (count >= kLanes)
+    std::memcpy(to, &lanes, sizeof lanes);
+  else
+    std::memcpy(to, &lanes, static_cast<std::size_t>(count) * sizeof(float));
 }
 
 // A box `width` samples wide around a sample's centre: whole samples inside it weigh 1, its ends
@@ -67,30 +84,41 @@ void BeamAverage::prepareLateral(const std::vector<double>& half_width_lines) {
   for (int k = 0; k < samples_; ++k) {
     const double half = half_[static_cast<std::size_t>(k)];
     const double below = std::floor(0.5 - half), above = std::floor(0.5 + half);
-    part_below_.push_back(0.5 - half - below);
-    part_above_.push_back(0.5 + half - above);
-    scale_.push_back(1 / (2 * half));
+    part_below_.push_back(static_cast<float>(1 - (0.5 - half - below)));
+    part_above_.push_back(static_cast<float>(0.5 + half - above));
+    scale_.push_back(static_cast<float>(1 / (2 * half)));
     const Run run{k, k + 1, static_cast<int>(below), static_cast<int>(above)};
     if (k % kBlock != 0 && runs_.back().below == run.below && runs_.back().above == run.above)
       runs_.back().last = run.last;
     else
       runs_.push_back(run);
   }
+  for (std::vector<float>* read_by_lanes : {&part_below_, &part_above_, &scale_})
+    read_by_lanes->resize(read_by_lanes->size() + kLanes);
 }
 
 struct BeamAverage::Workspace {
   std::vector<float> padded;  // a line's part of the block with what the pulse reaches beside it
-  std::vector<float> along;   // the block's averages along the present line
-  // Sums over the lines before each, for the lines that windows reach: line i stands in row i
-  // modulo rows. Double: a bright echo leaves nothing behind in the blood beside it.
+  // The block's averages along the lines that windows reach, and the sums over all lines before
+  // each of them: line i stands in row i modulo rows, a power of two. Sums in double: a bright echo
+  // leaves nothing behind in the blood beside it.
+  std::vector<float> along;
   std::vector<double> sums;
-  std::vector<double> zeros;  // the sums before the first line
   std::size_t rows = 0;
-  double* row(int line) { return sums.data() + static_cast<std::size_t>(line) % rows * kBlock; }
+  std::vector<float> no_line = std::vector<float>(kBlock + kLanes, 0.0f);
+  std::vector<double> no_sum = std::vector<double>(kBlock + kLanes, 0.0);
+
+  void reserve(int lines) {
+    rows = std::bit_ceil(static_cast<std::size_t>(lines));
+    along.resize(rows * kBlock + kLanes);
+    sums.resize(rows * kBlock + kLanes);
+  }
+  std::size_t row(int line) const { return (static_cast<std::size_t>(line) & (rows - 1)) * kBlock; }
 };
 
 // The block's samples of a line, averaged over the pulse. Beyond the line's ends there is nothing.
-void BeamAverage::averageAlong(const float* line, int first, int count, Workspace& w) const {
+void BeamAverage::averageAlong(const float* line, int first, int count, Workspace& w,
+                               float* out) const {
   const int reach = static_cast<int>(taps_.size()) / 2;
   const int begin = first - reach, end = first + kBlock + reach;
   const float* in = line + begin;
@@ -100,65 +128,64 @@ void BeamAverage::averageAlong(const float* line, int first, int count, Workspac
     std::copy(line + from, line + to, w.padded.begin() + (from - begin));
     in = w.padded.data();
   }
-  float* out = w.along.data();
   if (taps_.empty()) {
-    std::copy_n(in, count, out);
+    std::copy_n(in, kBlock, out);
     return;
   }
   const float* scale = tap_sum_inverse_.data() + first;  // filled up to whole blocks
-  for (int s = 0; s < count; s += 2 * kLanes) {
-    Lanes sum{}, next{};
-    for (std::size_t j = 0; j < taps_.size(); ++j) {
-      const float* from = in + s + j;
-      sum += taps_[j] * lanesAt(from);
-      next += taps_[j] * lanesAt(from + kLanes);
-    }
-    sum *= lanesAt(scale + s);
-    next *= lanesAt(scale + s + kLanes);
-    std::memcpy(out + s, &sum, sizeof sum);
-    std::memcpy(out + s + kLanes, &next, sizeof next);
+  const std::size_t last = taps_.size() - 1;
+  const float end_tap = taps_.front();  // of both ends; those between weigh 1
+  constexpr int kTogether = 4;
+  for (int s = 0; s < count; s += kTogether * kLanes) {
+    Lanes sum[kTogether];
+    for (int v = 0; v < kTogether; ++v)
+      sum[v] = end_tap * (lanesAt(in + s + v * kLanes) + lanesAt(in + s + v * kLanes + last));
+    for (std::size_t j = 1; j < last; ++j)
+      for (int v = 0; v < kTogether; ++v) sum[v] += lanesAt(in + s + v * kLanes + j);
+    for (int v = 0; v < kTogether; ++v)
+      store(sum[v] * lanesAt(scale + s + v * kLanes), kLanes, out + s + v * kLanes);
   }
 }
 
-// Means over the lines between i + 1/2 - h and i + 1/2 + h, cut at the first and last line, from
-// the running sums.
-void BeamAverage::averageAcross(int i, const Run& run, int block_first, Workspace& w,
+// Means over the lines between i + 1/2 - h and i + 1/2 + h, cut at the first and last line: the
+// whole lines between the two at the ends, from the running sums, and of these two their parts.
+void BeamAverage::averageAcross(int i, const Run& run, int block_first, const Workspace& w,
                                 float* out) const {
   const bool cut_below = i + run.below < 0, cut_above = i + run.above >= lines_;
   const int lane = run.first - block_first, count = run.last - run.first;
-  const double* low = (cut_below ? w.zeros.data() : w.row(i + run.below)) + lane;
-  const double* low_next = (cut_below ? w.zeros.data() : w.row(i + run.below + 1)) + lane;
-  const double* high = w.row(cut_above ? lines_ : i + run.above) + lane;
-  const double* high_next = w.row(cut_above ? lines_ : i + run.above + 1) + lane;
-  const double* f0 = part_below_.data() + run.first;
-  const double* f1 = part_above_.data() + run.first;
-  const double* scale = scale_.data() + run.first;
-  double cut_scale[kBlock];
+  const double* before = (cut_below ? w.no_sum.data() : &w.sums[w.row(i + run.below + 1)]) + lane;
+  const double* after = &w.sums[w.row(cut_above ? lines_ : i + run.above)] + lane;
+  const float* below = (cut_below ? w.no_line.data() : &w.along[w.row(i + run.below)]) + lane;
+  const float* above = (cut_above ? w.no_line.data() : &w.along[w.row(i + run.above)]) + lane;
+  const float* scale = scale_.data() + run.first;
+  float cut_scale[kBlock + kLanes];
   if (cut_below || cut_above) {
     const double* half = half_.data() + run.first;
     for (int s = 0; s < count; ++s)
-      cut_scale[s] =
-          1 / ((cut_above ? lines_ : i + 0.5 + half[s]) - (cut_below ? 0 : i + 0.5 - half[s]));
+      cut_scale[s] = static_cast<float>(
+          1 / ((cut_above ? lines_ : i + 0.5 + half[s]) - (cut_below ? 0 : i + 0.5 - half[s])));
     scale = cut_scale;
   }
-  for (int s = 0; s < count; ++s) {
-    const double s0 = low[s] + f0[s] * (low_next[s] - low[s]);
-    const double s1 = high[s] + f1[s] * (high_next[s] - high[s]);
-    out[s] = static_cast<float>(std::max(s1 - s0, 0.0) * scale[s]);
+  const float* part_below = part_below_.data() + run.first;
+  const float* part_above = part_above_.data() + run.first;
+  for (int s = 0; s < count; s += kLanes) {
+    const Lanes sum = differenceAt(after + s, before + s) +
+                      lanesAt(part_below + s) * lanesAt(below + s) +
+                      lanesAt(part_above + s) * lanesAt(above + s);
+    store(sum * lanesAt(scale + s), count - s, out + s);
   }
 }
 
 void BeamAverage::averageBlock(const float* in, float* out, int first, int count,
                                Workspace& w) const {
-  w.along.resize(kBlock);
   if (runs_.empty()) {
+    w.reserve(1);
     for (int i = 0; i < lines_; ++i, in += samples_, out += samples_) {
-      averageAlong(in, first, count, w);
+      averageAlong(in, first, count, w, w.along.data());
       std::copy_n(w.along.begin(), count, out + first);
     }
     return;
   }
-  w.zeros.assign(kBlock, 0.0);
   const auto reaches = [&](int k, const Run& run) { return k < run.first; };
   const auto begin = std::upper_bound(runs_.begin(), runs_.end(), first, reaches) - 1;
   const auto end = std::upper_bound(runs_.begin(), runs_.end(), first + count - 1, reaches);
@@ -167,16 +194,19 @@ void BeamAverage::averageBlock(const float* in, float* out, int first, int count
     below = std::min(below, run->below);
     above = std::max(above, run->above);
   }
-  w.rows = static_cast<std::size_t>(std::min(above - below, lines_) + 2);
-  w.sums.resize(w.rows * kBlock);
+  w.reserve(std::min(above - below, lines_) + 2);
   std::fill_n(w.sums.begin(), kBlock, 0.0);
   // Line i is averaged along when it comes, and across once the lines its windows reach are there.
   for (int i = 0; i < lines_ + above; ++i) {
     if (i < lines_) {
-      averageAlong(in + std::ptrdiff_t{i} * samples_, first, count, w);
-      const double* before = w.row(i);
-      double* after = w.row(i + 1);
-      for (int s = 0; s < count; ++s) after[s] = before[s] + static_cast<double>(w.along[s]);
+      float* along = &w.along[w.row(i)];
+      // Lines are pages apart, which no processor foresees.
+      const float* soon = in + std::ptrdiff_t{std::min(i + 2, lines_ - 1)} * samples_ + first;
+      for (int s = 0; s < count; s += 16) __builtin_prefetch(soon + s);
+      averageAlong(in + std::ptrdiff_t{i} * samples_, first, count, w, along);
+      const double* before = &w.sums[w.row(i)];
+      double* after = &w.sums[w.row(i + 1)];
+      for (int s = 0; s < kBlock; ++s) after[s] = before[s] + static_cast<double>(along[s]);
     }
     const int done = i - above;
     if (done < 0) continue;

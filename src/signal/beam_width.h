@@ -19,24 +19,26 @@ class BeamAverage {
   void apply(std::vector<float>& plane, std::vector<float>& scratch) const;
 
  private:
-  // Samples first..last-1, neighbours in one block, whose windows reach equally many whole lines up
-  // and down: a line's window runs from sums [line + below] to [line + above], and a part further.
+  // Samples first..last-1, neighbours in one block, whose windows end in the same lines: those of
+  // line i in lines i + below and i + above.
   struct Run {
     int first, last, below, above;
   };
   struct Workspace;
   void prepareLateral(const std::vector<double>& half_width_lines);
-  void averageAlong(const float* line, int first, int count, Workspace& w) const;
-  void averageAcross(int line, const Run& run, int block_first, Workspace& w, float* out) const;
+  void averageAlong(const float* line, int first, int count, Workspace& w, float* out) const;
+  void averageAcross(int line, const Run& run, int block_first, const Workspace& w,
+                     float* out) const;
   void averageBlock(const float* in, float* out, int first, int count, Workspace& w) const;
 
   int lines_ = 0, samples_ = 0;
   std::vector<float> taps_;             // axial weights, centre in the middle; empty: none
   std::vector<float> tap_sum_inverse_;  // per sample
   std::vector<Run> runs_;               // in order of samples; empty: no lateral average
-  // Of each sample: half the window's width in lines, 1 / width, and what part of a line the window
-  // leaves out below and takes in above its whole lines.
-  std::vector<double> half_, scale_, part_below_, part_above_;
+  // Of each sample: half the window's width in lines, 1 / width, and the parts that the window
+  // takes in of the lines at its ends.
+  std::vector<double> half_;
+  std::vector<float> scale_, part_below_, part_above_;
 };
 
 }  // namespace echocine
