@@ -188,61 +188,80 @@ class CellIntegrator {
   void split(const CellPiece& piece, F&& part) const {
     const Point a = piece.a, b = piece.b;
     const double dx = b.x - a.x, dz = b.z - a.z, size = dx * dx + dz * dz;
-    const double t = angular_ && size > 0 ? -(a.x * dx + a.z * dz) / size : 0;
+    const double towards_foot = -(a.x * dx + a.z * dz);
     const auto ordered = [&](const CellPiece& p) {
       part(p.path_a_m <= p.path_b_m ? p : CellPiece{p.b, p.a, p.path_b_m, p.path_a_m});
     };
-    if (!(t > 0 && t < 1)) return ordered(piece);
+    if (!angular_ || !(towards_foot > 0 && towards_foot < size)) return ordered(piece);
+    const double t = towards_foot / size;
     const Point foot{a.x + t * dx, a.z + t * dz};
     const double foot_path_m = pathLength(foot);
     ordered({a, foot, piece.path_a_m, foot_path_m});
     ordered({foot, b, foot_path_m, piece.path_b_m});
   }
 
-  // The point of a piece at a path length, from the one at a: along the piece the squared distance
-  // to the centre grows as p^2 + t^2 from the foot of the perpendicular.
-  Point atPath(const CellPiece& piece, double path_m) const {
-    const double dx = piece.b.x - piece.a.x, dz = piece.b.z - piece.a.z;
-    double s = 0;
-    if (angular_) {
-      const double length = std::sqrt(dx * dx + dz * dz);
-      const double r = path_m + probe_.face_radius_m;
-      const double ta = (piece.a.x * dx + piece.a.z * dz) / length;
-      const double p2 = piece.a.x * piece.a.x + piece.a.z * piece.a.z - ta * ta;
-      s = (std::sqrt(std::max(r * r - p2, 0.0)) - ta) / length;
-    } else {
-      s = (path_m - piece.a.z) / dz;
+  // Finds the points of a piece by their path length. Along the piece the squared distance to the
+  // centre grows as p^2 + |d|^2 (s - s_0)^2 from the foot of the perpendicular, at s_0.
+  class PathPoints {
+   public:
+    PathPoints(const CellPiece& piece, bool angular, double face_radius_m)
+        : a_(piece.a),
+          dx_(piece.b.x - piece.a.x),
+          dz_(piece.b.z - piece.a.z),
+          angular_(angular),
+          centre_m_(angular ? face_radius_m : -piece.a.z) {
+      if (!angular) {
+        per_size_ = 1 / dz_;
+        return;
+      }
+      per_size_ = 1 / (dx_ * dx_ + dz_ * dz_);
+      const double along = a_.x * dx_ + a_.z * dz_, across = a_.x * dz_ - a_.z * dx_;
+      foot_ = -along * per_size_;
+      p2_ = across * across * per_size_;
     }
-    s = std::clamp(s, 0.0, 1.0);
-    return {piece.a.x + s * dx, piece.a.z + s * dz};
-  }
+
+    Point at(double path_m) const {
+      const double r = path_m + centre_m_;
+      const double s =
+          angular_ ? foot_ + std::sqrt(std::max(r * r - p2_, 0.0) * per_size_) : r * per_size_;
+      const double inside = std::clamp(s, 0.0, 1.0);
+      return {a_.x + inside * dx_, a_.z + inside * dz_};
+    }
+
+   private:
+    Point a_;
+    double dx_, dz_;
+    bool angular_;
+    double centre_m_, per_size_ = 0, foot_ = 0, p2_ = 0;
+  };
 
   // Spreads a piece over the samples it spans, each with its share of the cell.
   void deposit(const CellPiece& piece, const InterfacePass& pass, double echo, LineTrace& line) {
     const double end_depth_m = line.stretches.back().end_depth_m;
-    const auto depthOf = [&](double path_m) {
-      return pass.depth_m + (path_m - pass.path_m) / pass.path_per_depth;
-    };
     const double spacing = probe_.sampleSpacing();
-    const double k_a = (depthOf(piece.path_a_m) - probe_.min_depth_m) / spacing;
-    const double k_b = (depthOf(piece.path_b_m) - probe_.min_depth_m) / spacing;
-    const auto pathAtEnd = [&](double k) {
-      const double depth_m = probe_.min_depth_m + (k + 1) * spacing;
-      return pass.path_m + (depth_m - pass.depth_m) * pass.path_per_depth;
-    };
+    // Where the line passes the interface, in samples, and samples to a metre of path before it.
+    const double k_pass = (pass.depth_m - probe_.min_depth_m) / spacing;
+    const double per_path = 1 / (spacing * pass.path_per_depth);
+    const double path_step = spacing * pass.path_per_depth;
+    const double k_a = k_pass + (piece.path_a_m - pass.path_m) * per_path;
+    const double k_b = k_pass + (piece.path_b_m - pass.path_m) * per_path;
+    const auto pathAtEnd = [&](double k) { return pass.path_m + (k + 1 - k_pass) * path_step; };
     // A piece may be far longer than the image is deep.
     const double first = std::max(std::floor(k_a), 0.0);
     const double last = std::min(k_b, probe_.samples - 1.0);
-    Point begin = first > k_a ? atPath(piece, pathAtEnd(first - 1)) : piece.a;
-    for (double k = first; k <= last; ++k) {
-      const Point end = k + 1 >= k_b ? piece.b : atPath(piece, pathAtEnd(k));
+    const auto add = [&](double k, Point begin, Point end) {
       const double depth_m = probe_.min_depth_m + (k + 0.5) * spacing;
-      if (depth_m < end_depth_m) {
-        const double path_m = pathAtEnd(k) - spacing / 2 * pass.path_per_depth;
-        line.echoes.push_back(
-            {depth_m, echo * share(begin, end),
-             std::max(pass.exponent + (path_m - pass.path_m) * pass.exponent_per_path, 0.0)});
-      }
+      if (!(depth_m < end_depth_m)) return;
+      const double beyond_m = (k + 0.5 - k_pass) * path_step;
+      line.echoes.push_back({depth_m, echo * share(begin, end),
+                             std::max(pass.exponent + beyond_m * pass.exponent_per_path, 0.0)});
+    };
+    if (first <= k_a && first + 1 >= k_b && first <= last) return add(first, piece.a, piece.b);
+    const PathPoints points(piece, angular_, probe_.face_radius_m);
+    Point begin = first > k_a ? points.at(pathAtEnd(first - 1)) : piece.a;
+    for (double k = first; k <= last; ++k) {
+      const Point end = k + 1 >= k_b ? piece.b : points.at(pathAtEnd(k));
+      add(k, begin, end);
       begin = end;
     }
   }

@@ -1,6 +1,7 @@
 #include "trace/line_samples.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -19,9 +20,16 @@ int sampleFrom(const Sampling& s, double depth_m) {
   return static_cast<int>(std::clamp(k, 0.0, static_cast<double>(s.samples)));
 }
 
+// 1 / 2^e with 2^e <= x < 2^(e + 1), of a normal number x > 0.
+double perPowerOfTwo(double x) {
+  constexpr std::uint64_t kExponent = 0x7ffULL << 52, kTwiceOne = 2046ULL << 52;
+  return std::bit_cast<double>(kTwiceOne - (std::bit_cast<std::uint64_t>(x) & kExponent));
+}
+
 // One stretch's backscatter in blocks of eight samples: within a block stored powers of the
 // attenuation of one sample, from block to block its eighth power, in double: no call in the loops,
-// which vectorise, and rounding of one part in 1e16 per block.
+// which vectorise, and rounding of one part in 1e16 per block. Up to seven samples behind the
+// stretch are written too, which what follows it overwrites.
 template <bool kSpread, bool kAttenuation>
 void fillStretch(const Stretch& stretch, const Sampling& s, int begin, int end, float* out) {
   const double offset_m = s.centre(begin) - stretch.begin_depth_m;
@@ -32,10 +40,10 @@ void fillStretch(const Stretch& stretch, const Sampling& s, int begin, int end, 
   // strength would reach the floats' lower end before the intensity does. A power of two changes no
   // digit.
   if constexpr (kSpread) {
-    const int exponent = path_m > 0 ? -std::ilogb(path_m) : 0;
-    path_m = std::ldexp(path_m, exponent);
-    path_step = std::ldexp(path_step, exponent);
-    strength = std::ldexp(strength, 2 * exponent);
+    const double unit = path_m > 0 ? perPowerOfTwo(path_m) : 1;
+    path_m *= unit;
+    path_step *= unit;
+    strength *= unit * unit;
   }
   double block_factor = 1;
   Block power{};
@@ -56,7 +64,7 @@ void fillStretch(const Stretch& stretch, const Sampling& s, int begin, int end, 
       const Block l = path_offset + static_cast<float>(path_m);
       value /= l * l;
     }
-    if (k + kBlock <= end)
+    if (k + kBlock <= s.samples)
       std::memcpy(out + k, &value, sizeof value);  // a plain store
     else
       std::memcpy(out + k, &value, static_cast<std::size_t>(end - k) * sizeof(float));
