@@ -87,7 +87,7 @@ ScanConverter::ScanConverter(const Probe& probe, const PictureGeometry& geometry
       next_line_(probe.lines > 1 ? static_cast<std::size_t>(std::max(probe.samples, 2)) : 0),
       single_sample_(probe.samples == 1) {
   for (int y = 0; y < height; ++y) addRow(probe, geometry, y);
-  for (int i = 0; i <= kGreySteps; ++i)
+  for (int i = 0; grey_gamma != 1 && i <= kGreySteps; ++i)
     grey_map_.push_back(static_cast<std::uint8_t>(
         std::lround(255 * std::pow(static_cast<double>(i) / kGreySteps, grey_gamma))));
 }
@@ -190,15 +190,26 @@ void ScanConverter::convert(std::span<const float> grey, GreyImage& image) const
   image.width = width_;
   image.height = height_;
   image.pixels.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
+  using Greys = std::uint8_t __attribute__((vector_size(kLanes)));
+  const auto put = [&](std::size_t pixel, Greys greys, std::size_t count) {
+    if (count == kLanes)
+      std::memcpy(&image.pixels[pixel], &greys, kLanes);  // a plain store
+    else
+      std::memcpy(&image.pixels[pixel], &greys, count);
+  };
   using Steps = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
+  if (grey_map_.empty()) {
+    forRuns(grey, [&](std::size_t pixel, Lanes values, std::size_t count) {
+      const auto steps = __builtin_convertvector(values * 255.0f + 0.5f, Steps);
+      put(pixel, __builtin_convertvector(steps, Greys), count);
+    });
+    return;
+  }
   forRuns(grey, [&](std::size_t pixel, Lanes values, std::size_t count) {
     const auto steps = __builtin_convertvector(values * float{kGreySteps} + 0.5f, Steps);
-    std::uint8_t greys[kLanes];
+    Greys greys{};
     for (int i = 0; i < kLanes; ++i) greys[i] = grey_map_[static_cast<std::size_t>(steps[i])];
-    if (count == kLanes)
-      std::memcpy(&image.pixels[pixel], greys, kLanes);  // a plain store
-    else
-      std::memcpy(&image.pixels[pixel], greys, count);
+    put(pixel, greys, count);
   });
 }
 

@@ -34,12 +34,7 @@ class CellIntegrator {
       const double at = first_ + (static_cast<double>(i) - 0.5) * width_;
       boundaries_.push_back(angular_ ? Point{std::sin(at), std::cos(at)} : Point{at, 1});
     }
-    for (const LineTrace& line : lines) {
-      first_key_.push_back(keys_.size());
-      for (const InterfacePass& pass : line.passes)
-        keys_.push_back(keyOf(pass.surface, pass.entering));
-    }
-    first_key_.push_back(keys_.size());
+    linkPasses();
   }
 
   // normals: of the piece, or nothing where the facet's own counts.
@@ -125,15 +120,31 @@ class CellIntegrator {
     return angle / width_;
   }
 
+  // The passes of each line by surface and way of crossing: mostly there is one.
+  void linkPasses() {
+    heads_.assign(lines_.size() * keysOfLine(), 0);
+    for (std::size_t line = 0; line < lines_.size(); ++line)
+      for (std::size_t k = lines_[line].passes.size(); k-- > 0;) {
+        const InterfacePass& pass = lines_[line].passes[k];
+        std::uint32_t& head = heads_[keyOf(line, pass.surface, pass.entering)];
+        links_.push_back({&pass, head});
+        head = static_cast<std::uint32_t>(links_.size());
+      }
+  }
+  std::size_t keysOfLine() const { return 2 * settings_.surfaces.size(); }
+  std::size_t keyOf(std::size_t line, SurfaceId surface, bool entering) const {
+    return line * keysOfLine() + 2 * index(surface) + (entering ? 1 : 0);
+  }
+
   // The same surface crossed the same way on the line itself, nearest in depth.
   const InterfacePass* nearestPass(std::size_t line, const ContourPiece& piece, bool entering,
                                    double path_m) const {
-    const std::uint32_t key = keyOf(piece.surface, entering);
-    const InterfacePass* best = nullptr;
-    for (std::size_t k = first_key_[line]; k < first_key_[line + 1]; ++k) {
-      if (keys_[k] != key) continue;
-      const InterfacePass& pass = lines_[line].passes[k - first_key_[line]];
-      if (!best || std::abs(pass.path_m - path_m) < std::abs(best->path_m - path_m)) best = &pass;
+    std::uint32_t at = heads_[keyOf(line, piece.surface, entering)];
+    if (at == 0) return nullptr;
+    const InterfacePass* best = links_[at - 1].pass;
+    while ((at = links_[at - 1].next) != 0) {
+      const InterfacePass* pass = links_[at - 1].pass;
+      if (std::abs(pass->path_m - path_m) < std::abs(best->path_m - path_m)) best = pass;
     }
     return best;
   }
@@ -248,7 +259,7 @@ class CellIntegrator {
     const auto pathAtEnd = [&](double k) { return pass.path_m + (k + 1 - k_pass) * path_step; };
     // A piece may be far longer than the image is deep.
     const double first = std::max(std::floor(k_a), 0.0);
-    const double last = std::min(k_b, probe_.samples - 1.0);
+    const double last = std::min(std::max(std::ceil(k_b) - 1, first), probe_.samples - 1.0);
     const auto add = [&](double k, Point begin, Point end) {
       const double depth_m = probe_.min_depth_m + (k + 0.5) * spacing;
       if (!(depth_m < end_depth_m)) return;
@@ -256,14 +267,17 @@ class CellIntegrator {
       line.echoes.push_back({depth_m, echo * share(begin, end),
                              std::max(pass.exponent + beyond_m * pass.exponent_per_path, 0.0)});
     };
-    if (first <= k_a && first + 1 >= k_b && first <= last) return add(first, piece.a, piece.b);
+    if (first > last) return;
+    const bool begins = first <= k_a, ends = last + 1 >= k_b;  // inside the image
+    if (begins && ends && first == last) return add(first, piece.a, piece.b);
     const PathPoints points(piece, angular_, probe_.face_radius_m);
-    Point begin = first > k_a ? points.at(pathAtEnd(first - 1)) : piece.a;
-    for (double k = first; k <= last; ++k) {
-      const Point end = k + 1 >= k_b ? piece.b : points.at(pathAtEnd(k));
+    Point begin = begins ? piece.a : points.at(pathAtEnd(first - 1));
+    for (double k = first; k < last; ++k) {
+      const Point end = points.at(pathAtEnd(k));
       add(k, begin, end);
       begin = end;
     }
+    add(last, begin, ends ? piece.b : points.at(pathAtEnd(last)));
   }
 
   const Probe& probe_;
@@ -271,12 +285,12 @@ class CellIntegrator {
   std::span<LineTrace> lines_;
   bool angular_;
   double first_, width_;
-  // What nearestPass() compares, of the passes of all lines, close together.
-  static std::uint32_t keyOf(SurfaceId surface, bool entering) {
-    return 2 * static_cast<std::uint32_t>(surface) + (entering ? 1 : 0);
-  }
-  std::vector<std::uint32_t> keys_;
-  std::vector<std::size_t> first_key_;  // one more than lines
+  struct PassLink {
+    const InterfacePass* pass;
+    std::uint32_t next;  // 1 + position in links_, or 0
+  };
+  std::vector<PassLink> links_;
+  std::vector<std::uint32_t> heads_;  // by keyOf(): as PassLink::next
   std::vector<Point>
       boundaries_;  // sine and cosine, or the offset of a linear probe; one more than lines
 };
