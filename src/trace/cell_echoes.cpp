@@ -221,11 +221,9 @@ class CellIntegrator {
           dz_(piece.b.z - piece.a.z),
           angular_(angular),
           centre_m_(angular ? face_radius_m : -piece.a.z) {
-      if (!angular) {
-        per_size_ = 1 / dz_;
-        return;
-      }
-      per_size_ = 1 / (dx_ * dx_ + dz_ * dz_);
+      const double size = angular ? dx_ * dx_ + dz_ * dz_ : dz_;
+      per_size_ = std::isnormal(size) ? 1 / size : 0;  // a point: anywhere on it
+      if (!angular) return;
       const double along = a_.x * dx_ + a_.z * dz_, across = a_.x * dz_ - a_.z * dx_;
       foot_ = -along * per_size_;
       p2_ = across * across * per_size_;
