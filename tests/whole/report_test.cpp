@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "core/base64.h"
 #include "support/loop_scene.h"
+#include "support/page_frames.h"
 #include "support/run_program.h"
 
 namespace echocine {
@@ -31,10 +31,9 @@ class Reports : public ::testing::Test {
   }
   static Report parse(const std::string& html) {
     Report report;
-    const std::regex frame("<script type=\"(image/\\w+)\" data-loop=\"cine\">([^<]*)</script>");
-    for (std::sregex_iterator it(html.begin(), html.end(), frame), end; it != end; ++it) {
-      report.types.push_back((*it)[1]);
-      report.frames.push_back((*it)[2]);
+    for (const PageFrame& frame : pageFrames(html, "cine")) {
+      report.types.push_back(frame.type);
+      report.frames.push_back(frame.base64);
     }
     const std::string opening = "id=\"data\">";
     const std::size_t from = html.find(opening) + opening.size();
