@@ -25,6 +25,7 @@ constexpr int kUnusable = 2;
 
 // In one piece, so that lines of two programs do not mix, unless memory is short.
 int failed(int code, std::string_view what) {
+  echocine::endsFirst();
   try {
     echocine::writeError(fmt::format("echocine: {}\n", echocine::oneLine(what)));
   } catch (const std::bad_alloc&) {

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <exception>
@@ -17,22 +18,25 @@ namespace {
 int exit_code = 1;
 
 void endAborted(int) {
+  endsFirst();
   writeError("echocine: a library gave up (abort), most likely for want of memory\n");
   ::_exit(exit_code);
 }
 
 [[noreturn]] void endUncaught() {
+  constexpr const char* kUnknown = "a library gave up, most likely for want of memory";
+  endsFirst();
   writeError("echocine: ");
   try {
     if (const std::exception_ptr uncaught = std::current_exception())
       std::rethrow_exception(uncaught);
-    writeError("ended for a reason unknown");
+    writeError(kUnknown);
   } catch (const std::bad_alloc&) {
     writeError(kOutOfMemory);
   } catch (const std::exception& error) {
     writeError(error.what());
   } catch (...) {
-    writeError("ended for a reason unknown");
+    writeError(kUnknown);
   }
   writeError("\n");
   ::_exit(exit_code);
@@ -53,6 +57,13 @@ void writeError(std::string_view text) noexcept {
     if (written <= 0) return;
     text.remove_prefix(static_cast<std::size_t>(written));
   }
+}
+
+void endsFirst() noexcept {
+  static std::atomic<pid_t> first{0};
+  pid_t present = 0;
+  if (first.compare_exchange_strong(present, ::gettid()) || present == ::gettid()) return;
+  for (;;) ::pause();
 }
 
 void endCrashesInOneLine(int code) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdlib>
 
 namespace echocine::detail {
@@ -12,6 +13,7 @@ template <typename A, typename B>
 [[noreturn]] void checkFailed(const char* file, int line, const char* expression, const A& a,
                               const B& b) {
   fmt::print(stderr, "{}:{}: check failed: {} (left {}, right {})\n", file, line, expression, a, b);
+  std::signal(SIGABRT, SIG_DFL);  // a mistake of the program's own is not to be taken for another's
   std::abort();
 }
 

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
+#include <png.h>
+#include <turbojpeg.h>
 
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
+#include <cstring>
+#include <new>
 
 #include "core/check.h"
 #include "output/cine_writer.h"
@@ -34,20 +36,24 @@ std::vector<std::byte> asBytes(const std::uint8_t* data, std::size_t size) {
   return {bytes, bytes + size};
 }
 
-std::vector<std::byte> encodeByOpenCv(const GreyImage& image, const char* format,
-                                      const std::vector<int>& settings) {
-  // cv::Mat has no view of constant data; imencode only reads.
-  const cv::Mat view(image.height, image.width, CV_8UC1,
-                     const_cast<std::uint8_t*>(image.pixels.data()));
-  std::vector<std::uint8_t> encoded;
-  try {
-    if (!cv::imencode(format, view, encoded, settings))
-      throw JobError(fmt::format("a frame cannot be encoded as {}", format));
-  } catch (const cv::Exception& error) {
-    if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
-    throw JobError(fmt::format("a frame cannot be encoded as {}: {}", format, error.err));
+struct CompressorFree {
+  void operator()(void* compressor) const { tjDestroy(compressor); }
+};
+
+std::vector<std::byte> encodeJpeg(const GreyImage& image, int quality) {
+  const std::unique_ptr<void, CompressorFree> compressor(tjInitCompress());
+  if (!compressor) throw std::bad_alloc();
+  unsigned long size = tjBufSize(image.width, image.height, TJSAMP_GRAY);
+  thread_local std::vector<std::uint8_t> room;  // fresh pages cost as much as the encoding
+  room.resize(size);
+  std::uint8_t* to = room.data();
+  if (tjCompress2(compressor.get(), image.pixels.data(), image.width, 0, image.height, TJPF_GRAY,
+                  &to, &size, TJSAMP_GRAY, quality, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT) != 0) {
+    const std::string reason = tjGetErrorStr2(compressor.get());
+    if (reason.find("memory") != std::string::npos) throw std::bad_alloc();
+    throw JobError(fmt::format("a frame cannot be encoded as JPEG: {}", reason));
   }
-  return asBytes(encoded.data(), encoded.size());
+  return asBytes(room.data(), size);
 }
 
 std::vector<std::byte> encodeFfv1(const GreyImage& image) {
@@ -114,12 +120,27 @@ CodecContext openFfv1(int width, int height) {
 std::vector<std::byte> encodeCineFrame(const GreyImage& image, CineCodec codec, int jpeg_quality) {
   checkSize(image);
   if (codec == CineCodec::ffv1) return encodeFfv1(image);
-  return encodeByOpenCv(image, ".jpg", {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
+  return encodeJpeg(image, jpeg_quality);
 }
 
 std::vector<std::byte> encodePng(const GreyImage& image) {
   checkSize(image);
-  return encodeByOpenCv(image, ".png", {});
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(image.width);
+  png.height = static_cast<png_uint_32>(image.height);
+  png.format = PNG_FORMAT_GRAY;
+  png.flags = PNG_IMAGE_FLAG_FAST;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  std::vector<std::byte> bytes(size);
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.pixels.data(), 0, nullptr) ==
+      0) {
+    if (std::string_view(png.message).find("memory") != std::string_view::npos)
+      throw std::bad_alloc();
+    throw JobError(fmt::format("a frame cannot be encoded as PNG: {}", png.message));
+  }
+  bytes.resize(size);
+  return bytes;
 }
 
 }  // namespace echocine
