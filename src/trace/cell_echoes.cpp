@@ -29,7 +29,10 @@ class CellIntegrator {
         lines_(lines),
         angular_(probe.kind != ProbeKind::linear),
         first_(angular_ ? probe.first_angle_rad : probe.first_offset_m),
-        width_(lineWidth(probe)) {
+        width_(lineWidth(probe)),
+        per_width_(1 / width_),
+        spacing_m_(probe.sampleSpacing()),
+        per_spacing_(1 / spacing_m_) {
     for (std::size_t i = 0; i <= lines.size(); ++i) {
       const double at = first_ + (static_cast<double>(i) - 0.5) * width_;
       boundaries_.push_back(angular_ ? Point{std::sin(at), std::cos(at)} : Point{at, 1});
@@ -111,13 +114,13 @@ class CellIntegrator {
 
   // Share of a cell between two points on one straight piece.
   double share(Point a, Point b) const {
-    if (!angular_) return std::abs(b.x - a.x) / width_;
+    if (!angular_) return std::abs(b.x - a.x) * per_width_;
     const double across = std::abs(a.x * b.z - a.z * b.x), along = a.x * b.x + a.z * b.z;
     const double q = across / along, q2 = q * q;
     // Inside a cell the angle is small: three terms of the arctangent leave under 1e-13.
     const double angle =
         along > 0 && q < 0.02 ? q * (1 - q2 * (1.0 / 3 - q2 / 5)) : std::atan2(across, along);
-    return angle / width_;
+    return angle * per_width_;
   }
 
   // The passes of each line by surface and way of crossing: mostly there is one.
@@ -169,8 +172,10 @@ class CellIntegrator {
                  std::size_t line) {
     const Point middle{(part.a.x + part.b.x) / 2, (part.a.z + part.b.z) / 2};
     const double reach = std::sqrt(middle.x * middle.x + middle.z * middle.z);
-    const Vec3d direction =
-        angular_ && reach > 0 ? Vec3d{middle.x / reach, 0, middle.z / reach} : Vec3d{0, 0, 1};
+    const double per_reach = 1 / reach;
+    const Vec3d direction = angular_ && reach > 0
+                                ? Vec3d{middle.x * per_reach, 0, middle.z * per_reach}
+                                : Vec3d{0, 0, 1};
     const bool entering = dot(direction, normal.of_facet) < 0;
     const double path_m = angular_ ? reach - probe_.face_radius_m : middle.z;
     const InterfacePass* pass = nearestPass(line, piece, entering, path_m);
@@ -247,11 +252,11 @@ class CellIntegrator {
   // Spreads a piece over the samples it spans, each with its share of the cell.
   void deposit(const CellPiece& piece, const InterfacePass& pass, double echo, LineTrace& line) {
     const double end_depth_m = line.stretches.back().end_depth_m;
-    const double spacing = probe_.sampleSpacing();
     // Where the line passes the interface, in samples, and samples to a metre of path before it.
-    const double k_pass = (pass.depth_m - probe_.min_depth_m) / spacing;
-    const double per_path = 1 / (spacing * pass.path_per_depth);
-    const double path_step = spacing * pass.path_per_depth;
+    const double k_pass = (pass.depth_m - probe_.min_depth_m) * per_spacing_;
+    const double per_path =
+        pass.path_per_depth == 1 ? per_spacing_ : per_spacing_ / pass.path_per_depth;
+    const double path_step = spacing_m_ * pass.path_per_depth;
     const double k_a = k_pass + (piece.path_a_m - pass.path_m) * per_path;
     const double k_b = k_pass + (piece.path_b_m - pass.path_m) * per_path;
     const auto pathAtEnd = [&](double k) { return pass.path_m + (k + 1 - k_pass) * path_step; };
@@ -259,7 +264,7 @@ class CellIntegrator {
     const double first = std::max(std::floor(k_a), 0.0);
     const double last = std::min(std::max(std::ceil(k_b) - 1, first), probe_.samples - 1.0);
     const auto add = [&](double k, Point begin, Point end) {
-      const double depth_m = probe_.min_depth_m + (k + 0.5) * spacing;
+      const double depth_m = probe_.min_depth_m + (k + 0.5) * spacing_m_;
       if (!(depth_m < end_depth_m)) return;
       const double beyond_m = (k + 0.5 - k_pass) * path_step;
       line.echoes.push_back({depth_m, echo * share(begin, end),
@@ -282,7 +287,7 @@ class CellIntegrator {
   const TraceSettings& settings_;
   std::span<LineTrace> lines_;
   bool angular_;
-  double first_, width_;
+  double first_, width_, per_width_, spacing_m_, per_spacing_;
   struct PassLink {
     const InterfacePass* pass;
     std::uint32_t next;  // 1 + position in links_, or 0

@@ -56,8 +56,8 @@ double amplitudeDifference(double Z_1, double c_1, double Z_2, double c_2, doubl
 
 InterfaceLaw interfaceLaw(double Z_1, double c_1, double Z_2, double c_2, double cos_i) {
   if (c_1 == c_2) {  // the same at every angle
-    const double ratio = (Z_2 - Z_1) / (Z_2 + Z_1);
-    return {ratio * ratio, 4 * (Z_2 / (Z_2 + Z_1)) * (Z_1 / (Z_2 + Z_1)), false};
+    const double per_sum = 1 / (Z_2 + Z_1), ratio = (Z_2 - Z_1) * per_sum;
+    return {ratio * ratio, 4 * (Z_2 * per_sum) * (Z_1 * per_sum), false};
   }
   const std::optional<double> cos_t = transmissionCosine(cos_i, c_1, c_2);
   if (!cos_t) return {1, 0, true};
