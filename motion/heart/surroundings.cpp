@@ -29,12 +29,20 @@ std::vector<Vec3d> ellipsoid(const SphereMesh& sphere, Vec3d centre, Vec3d semi_
   });
 }
 
-// Shells round the probe, so that they bend no ray: skin and fat, then muscle.
+// Shells round the probe, circles in the imaging plane, so that they bend no ray there, and long
+// across it, so that they lie before all of the lens: skin and fat, then muscle.
 void addChestWall(const ProbePose& pose, double scale, std::vector<Part>& parts) {
   static const SphereMesh kShell = geodesicSphere(20);  // fat is a lens: fine
+  const Vec3d elevation = cross(pose.axis, pose.lateral);
   const auto add = [&](const char* name, const char* medium, int priority, double radius_m) {
+    const double across_m = radius_m + 0.02 * scale;
     parts.push_back(closedPart(name, medium, priority,
-                               ellipsoid(kShell, pose.apex, {radius_m, radius_m, radius_m}),
+                               pointsOn(kShell,
+                                        [&](Vec3d d) {
+                                          return pose.apex +
+                                                 radius_m * (d.x * pose.lateral + d.z * pose.axis) +
+                                                 across_m * d.y * elevation;
+                                        }),
                                kShell));
   };
   add("chest_fat", "fat", 9, std::min(0.007 * scale, 0.4 * pose.chest_m));
