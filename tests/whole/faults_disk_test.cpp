@@ -209,11 +209,12 @@ class RemovedUnderWay : public FaultyLoop {
     text.signal["reference_intensity"] = "1e-7";
     folder.write("scene.toml", text.text());
   }
+  // Two threads have four frames in work at most, so the first ones are in the cine by then.
   template <typename Act>
-  Outcome onceFrameThree(Act act) const {
+  Outcome onceFrameEight(Act act) const {
     FaultyRun run = rendering(out, {}, 2);
     run.meanwhile = [&](pid_t child) {
-      while (!fs::exists(out / "intensity/frame_0003.exr") && ::kill(child, 0) == 0) ::usleep(1000);
+      while (!fs::exists(out / "intensity/frame_0008.exr") && ::kill(child, 0) == 0) ::usleep(1000);
       act();
     };
     return outcomeOf(run);
@@ -221,14 +222,14 @@ class RemovedUnderWay : public FaultyLoop {
 };
 
 TEST_F(RemovedUnderWay, TheFolderMovedAwayEndsInOneLine) {
-  const Outcome outcome = onceFrameThree([this] { fs::rename(out, folder / "elsewhere"); });
+  const Outcome outcome = onceFrameEight([this] { fs::rename(out, folder / "elsewhere"); });
   expectOneLine(outcome, 1);
   EXPECT_FALSE(fs::exists(out));
 }
 
 // Another folder of the same name is not written to.
 TEST_F(RemovedUnderWay, AnotherFolderInItsPlaceStaysAsItIs) {
-  const Outcome outcome = onceFrameThree([this] {
+  const Outcome outcome = onceFrameEight([this] {
     fs::rename(out, folder / "elsewhere");
     fs::create_directory(out);
   });
@@ -238,7 +239,7 @@ TEST_F(RemovedUnderWay, AnotherFolderInItsPlaceStaysAsItIs) {
 
 TEST_F(RemovedUnderWay, TheFramesFolderRemovedEndsInOneLine) {
   const Outcome outcome =
-      onceFrameThree([this] { fs::rename(out / "intensity", folder / "elsewhere"); });
+      onceFrameEight([this] { fs::rename(out / "intensity", folder / "elsewhere"); });
   expectOneLine(outcome, 1);
   EXPECT_NE(outcome.err.find("cannot be written: No such file"), std::string::npos) << outcome.err;
   EXPECT_GT(cineFrames(out / "cine.avi"), 0);
