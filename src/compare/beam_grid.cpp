@@ -84,13 +84,13 @@ float greyAt(const float* picture, int width, int height, double x, double y) {
   return (1 - fv) * ((1 - fu) * p[0] + fu * p[1]) + fv * ((1 - fu) * p[width] + fu * p[width + 1]);
 }
 
-BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& placement) {
+Plane validSamples(const BeamGrid& grid, const Loop& loop, const Placement& placement) {
   const Video& v = loop.video;
-  BeamLoop out;
-  std::vector<PicturePoint> points;
   Sector inner = loop.sector();
   inner.r_min += kEdgePx;
   inner.r_max -= kEdgePx;
+  Plane valid;
+  valid.reserve(grid.size());
   for (int i = 0; i < grid.lines; ++i)
     for (int k = 0; k < grid.samples; ++k) {
       const PicturePoint p = pictureAt(grid, loop, placement, grid.angle(i), grid.depth(k));
@@ -104,9 +104,20 @@ BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& place
           x >= 0 && y >= 0 && x < v.width && y < v.height && narrowed.contains(p.x, p.y) &&
           loop.overlay[static_cast<std::size_t>(y) * static_cast<std::size_t>(v.width) +
                        static_cast<std::size_t>(x)] == 0;
-      out.valid.push_back(inside ? 1 : 0);
-      points.push_back(p);
+      valid.push_back(inside ? 1 : 0);
     }
+  return valid;
+}
+
+BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& placement) {
+  const Video& v = loop.video;
+  BeamLoop out;
+  out.valid = validSamples(grid, loop, placement);
+  std::vector<PicturePoint> points;
+  points.reserve(grid.size());
+  for (int i = 0; i < grid.lines; ++i)
+    for (int k = 0; k < grid.samples; ++k)
+      points.push_back(pictureAt(grid, loop, placement, grid.angle(i), grid.depth(k)));
   const double spacing_px = (grid.far - grid.near) / grid.samples * pixelsPerUnit(grid, loop);
   const double sigma = spacing_px > 1 ? 0.5 * std::sqrt(spacing_px * spacing_px - 1) : 0;
   out.frames.resize(v.frames.size());

@@ -51,6 +51,9 @@ struct BeamLoop {
 };
 BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& placement = {});
 
+// BeamLoop::valid alone.
+Plane validSamples(const BeamGrid& grid, const Loop& loop, const Placement& placement);
+
 // Area weights of the samples where both are valid, else 0: a sample counts as the area it covers
 // (in proportion to its depth), so sums over beam space are sums over the picture.
 std::vector<float> areaWeights(const BeamGrid& grid, const Plane& a, const Plane& b);

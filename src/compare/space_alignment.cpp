@@ -118,9 +118,11 @@ Sums sumsAt(const BeamGrid& grid, const Loop& real, const Level& level,
   return s;
 }
 
-bool withinLimits(const Placement& p, double radius_px) {
-  return std::hypot(p.shift_x_px, p.shift_y_px) <= 0.06 * radius_px &&
-         std::abs(p.scale - 1) <= 0.06 && std::abs(p.rotation_rad) <= radiansFromDegrees(6);
+bool withinLimits(const Placement& p, const Placement& start, double radius_px) {
+  return std::hypot(p.shift_x_px - start.shift_x_px, p.shift_y_px - start.shift_y_px) <=
+             0.06 * radius_px &&
+         std::abs(p.scale - start.scale) <= 0.06 &&
+         std::abs(p.rotation_rad - start.rotation_rad) <= radiansFromDegrees(6);
 }
 
 Placement improved(const Sums& sums, const Placement& from) {
@@ -134,10 +136,10 @@ Placement improved(const Sums& sums, const Placement& from) {
 
 SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
                             const std::vector<std::vector<float>>& paired,
-                            const std::vector<int>& real_frames,
-                            const std::vector<float>& weights) {
+                            const std::vector<int>& real_frames, const std::vector<float>& weights,
+                            const Placement& start) {
   SpaceAlignment out;
-  Placement placement;
+  Placement placement = start;
   double final_correlation = 0;
   const double finest =
       std::max(0.7, (grid.far - grid.near) / grid.samples * pixelsPerUnit(grid, real) / 2);
@@ -147,7 +149,7 @@ SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
     Sums sums = sumsAt(grid, real, level, weights, placement);
     for (int i = 0; i < 12; ++i) {
       const Placement next = improved(sums, placement);
-      if (!withinLimits(next, real.sector().r_max)) break;
+      if (!withinLimits(next, start, real.sector().r_max)) break;
       const Sums there = sumsAt(grid, real, level, weights, next);
       if (there.correlation() <= sums.correlation() + 1e-7) break;
       placement = next;
@@ -155,16 +157,16 @@ SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
     }
     if (sigma == finest) {
       final_correlation = sums.correlation();
-      out.correlation_before = sumsAt(grid, real, level, weights, {}).correlation();
+      out.correlation_before = sumsAt(grid, real, level, weights, start).correlation();
     }
   }
   out.correlation_after = final_correlation;
-  // Where the echoes hardly resemble one another their best fit says nothing; our choice.
   constexpr double kLeastCorrelation = 0.5;
   out.placement = placement;
   out.used =
       final_correlation > kLeastCorrelation && final_correlation > out.correlation_before + 1e-5;
   out.confidence = std::clamp(out.correlation_after, 0.0, 1.0);
+  out.method = out.used ? "Lucas and Kanade" : "sectors as they are";
   return out;
 }
 
