@@ -212,7 +212,7 @@ void registerLoops(const CompareOptions& options, Comparison& c) {
   pairInTime(options, c);
   c.discrepancy_as_placed = meanCounted(c, discrepancies(c));
   c.space.method = "sectors as they are";
-  if (!options.align_space) return;
+  if (!options.align_space || c.discrepancy_as_placed == 0) return;
   c.space = alignedFrom({}, c);
   constexpr double kAlike = 0.5;  // correlation of greys above which there is no view to search for
   if (!c.space.used && c.space.correlation_after < kAlike) {

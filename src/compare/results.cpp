@@ -27,6 +27,7 @@ Json loopJson(const Loop& l, const BeatLength& beat) {
   const Sector& s = l.sector();
   Json json{{"path", l.video.name},
             {"format", l.video.format},
+            {"grey_source", l.grey_source},
             {"width", l.video.width},
             {"height", l.video.height},
             {"frames", l.video.frames.size()},

@@ -11,6 +11,7 @@ namespace echocine::compare {
 
 namespace {
 
+constexpr double kLeastCorrelation = 0.5;
 constexpr int kUnknowns = 6;  // shift x, shift y, scale, rotation; contrast, brightness
 
 struct Level {
@@ -78,11 +79,14 @@ void addLine(const BeamGrid& grid, const Loop& real, const Level& level,
     const double x = real.sector().apex_x + placement.shift_x_px + placed * sine;
     const double y = real.sector().apex_y + placement.shift_y_px + placed * cosine;
     if (x < 1 || y < 1 || x > w - 1 || y > h - 1) continue;
+    const PixelPlace here = pixelPlace(w, h, x, y), right = pixelPlace(w, h, x + 1, y),
+                     left = pixelPlace(w, h, x - 1, y), below = pixelPlace(w, h, x, y + 1),
+                     above = pixelPlace(w, h, x, y - 1);
     for (std::size_t f = 0; f < level.real.size(); ++f) {
       const float* picture = level.real[f].ptr<float>();
-      const double g = greyAt(picture, w, h, x, y);
-      const double gx = 0.5 * (greyAt(picture, w, h, x + 1, y) - greyAt(picture, w, h, x - 1, y));
-      const double gy = 0.5 * (greyAt(picture, w, h, x, y + 1) - greyAt(picture, w, h, x, y - 1));
+      const double g = greyAt(picture, w, here);
+      const double gx = 0.5 * (greyAt(picture, w, right) - greyAt(picture, w, left));
+      const double gy = 0.5 * (greyAt(picture, w, below) - greyAt(picture, w, above));
       const double v = level.synthetic[f].at<float>(line, k);
       s.n += weight, s.x += weight * v, s.y += weight * g;
       s.xx += weight * v * v, s.yy += weight * g * g, s.xy += weight * v * g;
@@ -155,13 +159,14 @@ SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
       placement = next;
       sums = there;
     }
-    if (sigma == finest) {
-      final_correlation = sums.correlation();
+    final_correlation = sums.correlation();
+    // Finer ones correlate less, not more: no use going on.
+    const bool hopeless = final_correlation < 0.5 * kLeastCorrelation;
+    if (sigma == finest || hopeless)
       out.correlation_before = sumsAt(grid, real, level, weights, start).correlation();
-    }
+    if (hopeless) break;
   }
   out.correlation_after = final_correlation;
-  constexpr double kLeastCorrelation = 0.5;
   out.placement = placement;
   out.used =
       final_correlation > kLeastCorrelation && final_correlation > out.correlation_before + 1e-5;

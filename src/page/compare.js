@@ -171,7 +171,7 @@
   }
 
   function showLoops() {
-    const rows = [["file", (l) => l.path], ["format", (l) => l.format], ["picture", (l) => `${l.width} × ${l.height}`],
+    const rows = [["file", (l) => l.path], ["format", (l) => l.format], ["greys", (l) => l.grey_source], ["picture", (l) => `${l.width} × ${l.height}`],
       ["frames", (l) => l.frames],
       ["repeated frames", (l) => (l.repeated_frames.length ? l.repeated_frames.join(", ") : "none")],
       ["frame rate", (l) => (l.frame_rate_hz ? `${number(l.frame_rate_hz, 5)} /s, ${l.frame_rate_source}` : "not known")

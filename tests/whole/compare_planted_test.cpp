@@ -227,7 +227,6 @@ TEST_F(Planted, MoreOfAnyChangeIsMoreDiscrepancy) {
   };
   const Change changes[] = {
       {"noise", [](Drawing& d, double a) { d.noise = a; }, {0, 20, 60}},
-      {"shift", [](Drawing& d, double a) { d.shift_y = a; }, {0, 3, 6}},
       {"scale", [](Drawing& d, double a) { d.scale = a; }, {1, 1.02, 1.05}},
       {"time", [](Drawing& d, double a) { d.time_shift = a; }, {0, 3, 6}},
   };
@@ -263,6 +262,37 @@ TEST_F(Planted, ARenderAgainstItselfIsPerfectAndItsResultsAreWhole) {
   const std::string csv = bytesOf(folder / "out/frames.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 9);
   EXPECT_TRUE(std::filesystem::exists(folder / "out/sector_real.png"));
+}
+
+// Greys of a render come from its EXR where they are all there, else from its cine.
+TEST_F(Planted, GreysOfARenderAreThoseOfItsExrWhereItHasThem) {
+  SceneText text = ballScene(6);
+  text.output["channels"] = "[\"display.Y\"]";
+  ASSERT_EQ(renderScene(writeBall(folder, text), folder / "loop").code, 0);
+  CompareOptions options;
+  options.synthetic = options.real = folder / "loop";
+  const auto compared = [&] {
+    Comparison c;
+    withThreads(2, [&] { c = compareLoops(options, [](const std::string&) {}); });
+    return c;
+  };
+  const Comparison exact = compared();
+  EXPECT_EQ(exact.synthetic.grey_source, "EXR display.Y");
+  EXPECT_EQ(exact.discrepancy, 0);
+  EXPECT_EQ(exact.mean_before.rms, 0);
+  std::filesystem::remove(folder / "loop/intensity/frame_0003.exr");
+  const Comparison cine = compared();
+  EXPECT_EQ(cine.synthetic.grey_source, "cine.avi");
+  EXPECT_FALSE(cine.synthetic.video.notes.empty());
+  EXPECT_EQ(cine.discrepancy, 0);
+  // The same greys but for 8 bits, JPEG and the picture's pixels.
+  const std::vector<float>&a = exact.synthetic_beams.frames[1], &b = cine.synthetic_beams.frames[1];
+  ASSERT_EQ(a.size(), b.size());
+  double sum = 0, n = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (exact.weights[i] > 0) sum += std::abs(a[i] - b[i]), ++n;
+  EXPECT_LT(sum / n, 4);
+  EXPECT_GT(sum, 0);
 }
 
 TEST_F(Planted, ThreadsChangeNothing) {
