@@ -40,7 +40,7 @@ Features ownFeatures(const Loop& loop) {
 
 BeatLength beatOf(const Loop& loop) {
   BeatLength beat = findBeatLength(ownFeatures(loop), shortestBeat(loop));
-  const auto known = [&](double frames, const char* source) {
+  const auto known = [&](double frames, const std::string& source) {
     beat.frames = frames;
     beat.confidence = 1;
     beat.source = source;
@@ -53,7 +53,7 @@ BeatLength beatOf(const Loop& loop) {
               v.rate.hz,
           "R waves");
   else if (v.heart_rate_bpm && v.rate.trusted)
-    known(60 / *v.heart_rate_bpm * v.rate.hz, "heart rate");
+    known(60 / *v.heart_rate_bpm * v.rate.hz, v.heart_rate_source);
   return beat;
 }
 
@@ -211,22 +211,18 @@ void registerLoops(const CompareOptions& options, Comparison& c) {
   c.real_beat = beatOf(c.real);
   pairInTime(options, c);
   c.discrepancy_as_placed = meanCounted(c, discrepancies(c));
-  c.space.method = "sectors as they are";
   if (!options.align_space || c.discrepancy_as_placed == 0) return;
-  c.space = alignedFrom({}, c);
-  constexpr double kAlike = 0.5;  // correlation of greys above which there is no view to search for
-  if (!c.space.used && c.space.correlation_after < kAlike) {
-    c.space = searchView(c.grid, c.synthetic_beams, c.real);
-    if (c.space.used) {
-      place(c.space.placement, c);
-      pairInTime(options, c);
-      if (const SpaceAlignment finer = alignedFrom(c.space.placement, c); finer.used)
-        c.space = finer;
-    }
-  }
+  const auto adopt = [&](const SpaceAlignment& found) {
+    c.space = found;
+    if (!found.used) return;
+    place(found.placement, c);
+    pairInTime(options, c);
+  };
+  const SpaceAlignment by_greys = alignedFrom({}, c);
+  if (by_greys.used || by_greys.correlation_after > kAlikeCorrelation) return adopt(by_greys);
+  adopt(searchView(c.grid, c.synthetic_beams, c.real));
   if (!c.space.used) return;
-  place(c.space.placement, c);
-  pairInTime(options, c);
+  if (const SpaceAlignment finer = alignedFrom(c.space.placement, c); finer.used) adopt(finer);
 }
 
 // The curve of the whole loop, from counted frames.

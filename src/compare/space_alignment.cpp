@@ -11,7 +11,6 @@ namespace echocine::compare {
 
 namespace {
 
-constexpr double kLeastCorrelation = 0.5;
 constexpr int kUnknowns = 6;  // shift x, shift y, scale, rotation; contrast, brightness
 
 struct Level {
@@ -161,7 +160,7 @@ SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
     }
     final_correlation = sums.correlation();
     // Finer ones correlate less, not more: no use going on.
-    const bool hopeless = final_correlation < 0.5 * kLeastCorrelation;
+    const bool hopeless = final_correlation < 0.5 * kAlikeCorrelation;
     if (sigma == finest || hopeless)
       out.correlation_before = sumsAt(grid, real, level, weights, start).correlation();
     if (hopeless) break;
@@ -169,9 +168,9 @@ SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
   out.correlation_after = final_correlation;
   out.placement = placement;
   out.used =
-      final_correlation > kLeastCorrelation && final_correlation > out.correlation_before + 1e-5;
+      final_correlation > kAlikeCorrelation && final_correlation > out.correlation_before + 1e-5;
   out.confidence = std::clamp(out.correlation_after, 0.0, 1.0);
-  out.method = out.used ? "Lucas and Kanade" : "sectors as they are";
+  if (out.used) out.method = "Lucas and Kanade";
   return out;
 }
 

@@ -9,9 +9,13 @@
 
 namespace echocine::compare {
 
+// Greys that correlate less hardly resemble one another, and their best fit says nothing; our
+// choice.
+inline constexpr double kAlikeCorrelation = 0.5;
+
 struct SpaceAlignment {
-  Placement placement;  // of beam space in the real picture
-  std::string method;   // "sectors as they are", "Lucas and Kanade", "search for the view"
+  Placement placement;                         // of beam space in the real picture
+  std::string method = "sectors as they are";  // or "Lucas and Kanade", "search for the view"
   // Of greys; of edges, times the share in sight, where the view was searched for.
   double correlation_before = 0, correlation_after = 0;
   bool used = false;      // false: no gain, or hardly alike; the sectors stand as they are
@@ -23,8 +27,7 @@ struct SpaceAlignment {
 // contrast, explain the real ones best: Gauss-Newton on the squared grey differences from coarse to
 // fine, as Lucas and Kanade (IJCAI 1981). `paired[i]` is the synthetic frame of real frame
 // `real_frames[i]`. Limits (our choice), from `start`: 6 % of the radius, 6 % of scale, 6 degrees.
-// Used where greys correlate above 0.5 (our choice): those that hardly resemble one another have a
-// best fit that says nothing.
+// Used where greys correlate above kAlikeCorrelation.
 SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
                             const std::vector<std::vector<float>>& paired,
                             const std::vector<int>& real_frames, const std::vector<float>& weights,

@@ -173,7 +173,7 @@ SpaceAlignment searchView(const BeamGrid& grid, const BeamLoop& synthetic, const
   constexpr double kLeastGain = 0.02;
   out.correlation_after = best.value;
   out.used = best.value > out.correlation_before + kLeastGain;
-  out.method = out.used ? "search for the view" : "sectors as they are";
+  if (out.used) out.method = "search for the view";
   out.placement = search.placement(best.pose);
   constexpr double kNearLimit = 0.99;
   out.at_limit = std::abs(best.pose.x) > kNearLimit * kSearchShift ||

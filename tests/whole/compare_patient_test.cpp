@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "support/patient_scene.h"
+#include "support/run_program.h"
 #include "support/temp_folder.h"
 
 namespace echocine::compare {
@@ -60,6 +61,22 @@ TEST_F(PatientAgainstVideos, TheViewThatTheyShowIsNearestToBoth) {
     // What moves was not asked where the view lies, and agrees.
     EXPECT_GT(apical.time.correlation, across.time.correlation) << video;
   }
+}
+
+// The heart that ships, by the program as a user runs it. Its four-chamber view lies nearer than
+// the short axis, which no probe at the apex sees.
+TEST_F(PatientAgainstVideos, TheShippedHeartsFourChamberViewIsNearestToBoth) {
+  const auto rendered = [&](const std::string& view) {
+    const std::string heart = (folder / ("heart_" + view)).string(),
+                      loop = (folder / view).string();
+    EXPECT_EQ(runShell("%B heart --quiet --view " + view + " -o '" + heart + "'").code, 0);
+    EXPECT_EQ(renderScene(heart + "/scene.toml", loop).code, 0);
+    return loop;
+  };
+  const auto right = rendered("a4c"), wrong = rendered("psax-mid");
+  for (const char* video : {"a4c_echotracker_45f.mp4", "a4c_sonosite_30f.dcm"})
+    EXPECT_LT(compareWith(right, video).discrepancy, compareWith(wrong, video).discrepancy - 0.07)
+        << video;
 }
 
 }  // namespace
