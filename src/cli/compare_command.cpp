@@ -61,8 +61,10 @@ void checkOptions(const compare::CompareOptions& o) {
 
 void print(const compare::Comparison& c, const std::filesystem::path& folder) {
   fmt::print(
-      "discrepancy {:.4f} (0 equal, about 1 unrelated), mean of {} frames\n", c.discrepancy,
-      std::count_if(c.frames.begin(), c.frames.end(), [](const auto& f) { return f.counted(); }));
+      "discrepancy {:.4f} (0 equal, about 1 unrelated), mean of {} frames; {:.4f} as placed\n",
+      c.discrepancy,
+      std::count_if(c.frames.begin(), c.frames.end(), [](const auto& f) { return f.counted(); }),
+      c.discrepancy_as_placed);
   fmt::print("  {:<22}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}\n", "", "RMS", "PSNR", "NCC", "SSIM", "MI",
              "GC");
   const auto row = [](const char* name, const compare::FrameMetrics& m) {
@@ -77,9 +79,10 @@ void print(const compare::Comparison& c, const std::filesystem::path& folder) {
              c.time.shift_frames, c.time.rate, c.time.confidence);
   const auto& p = c.space.placement;
   fmt::print(
-      "  space: shift {:.2f}, {:.2f} px, scale {:.4f}, rotation {:.2f} deg{}, confidence {:.2f}\n",
-      p.shift_x_px, p.shift_y_px, p.scale, p.rotation_rad * 57.29577951308232,
-      c.space.used ? "" : " (sectors as they are)", c.space.confidence);
+      "  space: {}, shift {:.2f}, {:.2f} px, scale {:.4f}, rotation {:.2f} deg{}, confidence "
+      "{:.2f}\n",
+      c.space.method, p.shift_x_px, p.shift_y_px, p.scale, p.rotation_rad * 57.29577951308232,
+      c.space.used ? "" : " not used", c.space.confidence);
   fmt::print(
       "  {}: compare.html, frames.csv, summary.json, side_by_side.avi, sector_real.png, "
       "sector_synthetic.png\n",

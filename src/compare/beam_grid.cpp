@@ -74,23 +74,13 @@ PicturePoint pictureAt(const BeamGrid& grid, const Loop& loop, const Placement& 
           loop.sector().apex_y + placement.shift_y_px + r * std::cos(angle)};
 }
 
-float greyAt(const float* picture, int width, int height, double x, double y) {
-  const double u = std::clamp(x - 0.5, 0.0, width - 1.0),
-               v = std::clamp(y - 0.5, 0.0, height - 1.0);
-  const int i = std::min(static_cast<int>(u), width - 2),
-            j = std::min(static_cast<int>(v), height - 2);
-  const auto fu = static_cast<float>(u - i), fv = static_cast<float>(v - j);
-  const float* p = picture + static_cast<std::ptrdiff_t>(j) * width + i;
-  return (1 - fv) * ((1 - fu) * p[0] + fu * p[1]) + fv * ((1 - fu) * p[width] + fu * p[width + 1]);
-}
-
-BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& placement) {
+Plane validSamples(const BeamGrid& grid, const Loop& loop, const Placement& placement) {
   const Video& v = loop.video;
-  BeamLoop out;
-  std::vector<PicturePoint> points;
   Sector inner = loop.sector();
   inner.r_min += kEdgePx;
   inner.r_max -= kEdgePx;
+  Plane valid;
+  valid.reserve(grid.size());
   for (int i = 0; i < grid.lines; ++i)
     for (int k = 0; k < grid.samples; ++k) {
       const PicturePoint p = pictureAt(grid, loop, placement, grid.angle(i), grid.depth(k));
@@ -104,8 +94,71 @@ BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& place
           x >= 0 && y >= 0 && x < v.width && y < v.height && narrowed.contains(p.x, p.y) &&
           loop.overlay[static_cast<std::size_t>(y) * static_cast<std::size_t>(v.width) +
                        static_cast<std::size_t>(x)] == 0;
-      out.valid.push_back(inside ? 1 : 0);
-      points.push_back(p);
+      valid.push_back(inside ? 1 : 0);
+    }
+  return valid;
+}
+
+namespace {
+
+// Greys that are in beam space already: a picture of their own, x the sample, y the line.
+void resampleTraced(const BeamGrid& grid, const Loop& loop, const Placement& placement,
+                    BeamLoop& out) {
+  const TracedGreys& t = loop.traced;
+  const double sample_m = (t.far_m - t.near_m) / t.samples,
+               line_rad = (t.last_rad - t.first_rad) / (t.lines - 1);
+  std::vector<PixelPlace> places;
+  places.reserve(grid.size());
+  for (int i = 0; i < grid.lines; ++i)
+    for (int k = 0; k < grid.samples; ++k) {
+      const PicturePoint p = pictureAt(grid, loop, placement, grid.angle(i), grid.depth(k));
+      const double dx = p.x - loop.sector().apex_x, dy = p.y - loop.sector().apex_y;
+      const double depth_m = std::hypot(dx, dy) * *loop.metres_per_pixel;
+      places.push_back(pixelPlace(t.samples, t.lines, (depth_m - t.near_m) / sample_m,
+                                  (std::atan2(dx, dy) - t.first_rad) / line_rad + 0.5));
+    }
+  // Finer than the grid: smoothed to its spacing, as pictures are.
+  const auto sigma = [](double ratio) {
+    return ratio > 1 ? 0.5 * std::sqrt(ratio * ratio - 1) : 0.0;
+  };
+  const double along = sigma((grid.far - grid.near) / grid.samples * pixelsPerUnit(grid, loop) *
+                             *loop.metres_per_pixel / sample_m),
+               across =
+                   sigma((grid.last_rad - grid.first_rad) / std::max(1, grid.lines - 1) / line_rad);
+  constexpr double kLeast = 1e-3;  // a Gaussian of no width is none
+  out.frames.resize(t.frames.size());
+  parallelBlocks(t.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      cv::Mat greys(t.lines, t.samples, CV_32F, const_cast<float*>(t.frames[f].data()));
+      if (along > kLeast || across > kLeast) {
+        cv::Mat smooth;
+        cv::GaussianBlur(greys, smooth, {0, 0}, std::max(along, kLeast), std::max(across, kLeast));
+        greys = smooth;
+      }
+      std::vector<float>& frame = out.frames[f];
+      frame.reserve(places.size());
+      for (const PixelPlace& place : places)
+        frame.push_back(greyAt(greys.ptr<float>(), t.samples, place));
+    }
+  });
+}
+
+}  // namespace
+
+BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& placement) {
+  const Video& v = loop.video;
+  BeamLoop out;
+  out.valid = validSamples(grid, loop, placement);
+  if (!loop.traced.frames.empty()) {
+    resampleTraced(grid, loop, placement, out);
+    return out;
+  }
+  std::vector<PixelPlace> places;
+  places.reserve(grid.size());
+  for (int i = 0; i < grid.lines; ++i)
+    for (int k = 0; k < grid.samples; ++k) {
+      const PicturePoint p = pictureAt(grid, loop, placement, grid.angle(i), grid.depth(k));
+      places.push_back(pixelPlace(v.width, v.height, p.x, p.y));
     }
   const double spacing_px = (grid.far - grid.near) / grid.samples * pixelsPerUnit(grid, loop);
   const double sigma = spacing_px > 1 ? 0.5 * std::sqrt(spacing_px * spacing_px - 1) : 0;
@@ -117,9 +170,9 @@ BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& place
       bytes.convertTo(grey, CV_32F);
       if (sigma > 0) cv::GaussianBlur(grey, grey, {0, 0}, sigma);
       std::vector<float>& frame = out.frames[f];
-      frame.reserve(points.size());
-      for (const PicturePoint& p : points)
-        frame.push_back(greyAt(grey.ptr<float>(), v.width, v.height, p.x, p.y));
+      frame.reserve(places.size());
+      for (const PixelPlace& place : places)
+        frame.push_back(greyAt(grey.ptr<float>(), v.width, place));
     }
   });
   return out;

@@ -1,6 +1,8 @@
 #pragma once
 // Beam space: both loops resampled to the same angles and depths.
 
+#include <algorithm>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -51,11 +53,35 @@ struct BeamLoop {
 };
 BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& placement = {});
 
+// BeamLoop::valid alone.
+Plane validSamples(const BeamGrid& grid, const Loop& loop, const Placement& placement);
+
 // Area weights of the samples where both are valid, else 0: a sample counts as the area it covers
 // (in proportion to its depth), so sums over beam space are sums over the picture.
 std::vector<float> areaWeights(const BeamGrid& grid, const Plane& a, const Plane& b);
 
-// Bilinear grey of a picture; pixel centres at halves; the border is carried on outside.
-float greyAt(const float* picture, int width, int height, double x, double y);
+// Where a point lies among the pixels of a picture: pixel centres at halves; the border is carried
+// on outside.
+struct PixelPlace {
+  std::ptrdiff_t at = 0;     // the pixel up and left of it
+  float right = 0, low = 0;  // shares of the next column and row
+};
+inline PixelPlace pixelPlace(int width, int height, double x, double y) {
+  const double u = std::clamp(x - 0.5, 0.0, width - 1.0),
+               v = std::clamp(y - 0.5, 0.0, height - 1.0);
+  const int i = std::min(static_cast<int>(u), width - 2),
+            j = std::min(static_cast<int>(v), height - 2);
+  return {static_cast<std::ptrdiff_t>(j) * width + i, static_cast<float>(u - i),
+          static_cast<float>(v - j)};
+}
+
+// Bilinear grey of a picture.
+inline float greyAt(const float* picture, int width, const PixelPlace& place) {
+  const float *p = picture + place.at, fu = place.right, fv = place.low;
+  return (1 - fv) * ((1 - fu) * p[0] + fu * p[1]) + fv * ((1 - fu) * p[width] + fu * p[width + 1]);
+}
+inline float greyAt(const float* picture, int width, int height, double x, double y) {
+  return greyAt(picture, width, pixelPlace(width, height, x, y));
+}
 
 }  // namespace echocine::compare

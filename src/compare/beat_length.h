@@ -11,7 +11,7 @@ namespace echocine::compare {
 struct BeatLength {
   double frames = 0;      // 0: not found
   double confidence = 0;  // 0..1: how far the resemblance stands out from that at other lags
-  std::string source;  // "self-similarity", "loop closes", "manifest", "heart rate tag", "R waves"
+  std::string source;  // "self-similarity", "loop closes", "manifest", "R waves", or a heart rate's
   std::vector<double> dissimilarity;  // by lag in frames, 0 for equal frames, 1 for unrelated ones
 };
 

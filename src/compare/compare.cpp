@@ -12,6 +12,7 @@
 #include "compare/boundary_bands.h"
 #include "compare/discrepancy.h"
 #include "compare/motion_features.h"
+#include "compare/view_search.h"
 #include "core/error.h"
 #include "core/parallel.h"
 
@@ -27,9 +28,19 @@ double shortestBeat(const Loop& loop) {
              : static_cast<double>(loop.video.frames.size()) / 8;
 }
 
-BeatLength beatOf(const Loop& loop, const Features& features) {
-  BeatLength beat = findBeatLength(features, shortestBeat(loop));
-  const auto known = [&](double frames, const char* source) {
+// What moves in a loop's own sector, whatever it is compared with. Features are coarse, so the grid
+// may be.
+Features ownFeatures(const Loop& loop) {
+  BeamGrid grid = commonGrid(loop, loop);
+  grid.lines = std::min(grid.lines, 128);
+  grid.samples = std::min(grid.samples, 192);
+  const BeamLoop beams = resample(grid, loop);
+  return motionFeatures(grid, beams, areaWeights(grid, beams.valid, beams.valid));
+}
+
+BeatLength beatOf(const Loop& loop) {
+  BeatLength beat = findBeatLength(ownFeatures(loop), shortestBeat(loop));
+  const auto known = [&](double frames, const std::string& source) {
     beat.frames = frames;
     beat.confidence = 1;
     beat.source = source;
@@ -42,7 +53,7 @@ BeatLength beatOf(const Loop& loop, const Features& features) {
               v.rate.hz,
           "R waves");
   else if (v.heart_rate_bpm && v.rate.trusted)
-    known(60 / *v.heart_rate_bpm * v.rate.hz, "heart rate");
+    known(60 / *v.heart_rate_bpm * v.rate.hz, v.heart_rate_source);
   return beat;
 }
 
@@ -125,45 +136,93 @@ std::vector<float> pairedFrame(const Comparison& c, const BeamLoop& synthetic, s
                       c.time.periodic);
 }
 
+void pairInTime(const CompareOptions& options, Comparison& c) {
+  const Features synthetic = motionFeatures(c.grid, c.synthetic_beams, c.weights),
+                 real = motionFeatures(c.grid, c.real_beams, c.weights);
+  const FrameRate &s = c.synthetic.video.rate, &r = c.real.video.rate;
+  const TimeProblem problem{synthetic,
+                            real,
+                            c.synthetic_beat.frames,
+                            c.real_beat.frames,
+                            s.hz > 0 && r.hz > 0 ? s.hz / r.hz : 1,
+                            c.real.video.repeats};
+  c.time = timeOf(options, problem, c);
+}
+
+bool isCounted(const Comparison& c, std::size_t real) {
+  return c.time.place[real] >= 0 && !c.real.video.isRepeat(static_cast<int>(real));
+}
+
+// Eq. 2 frame by frame, as the loops lie now; 0 where the synthetic one shows no such instant.
+std::vector<double> discrepancies(const Comparison& c) {
+  const WallEdges edges(c.grid, c.weights);
+  std::vector<double> all(c.real_beams.frames.size(), 0);
+  parallelBlocks(all.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j)
+      if (c.time.place[j] >= 0)
+        all[j] = discrepancyOf(edgeCorrelation(edges(pairedFrame(c, c.synthetic_beams, j)),
+                                               edges(c.real_beams.frames[j])),
+                               c.share_in_sight);
+  });
+  return all;
+}
+
+double meanCounted(const Comparison& c, const std::vector<double>& values) {
+  double sum = 0, n = 0;
+  for (std::size_t j = 0; j < values.size(); ++j)
+    if (isCounted(c, j)) sum += values[j], ++n;
+  return n > 0 ? sum / n : 0;
+}
+
+// Where the real loop lies now, and what of it is common.
+void place(const Placement& placement, Comparison& c) {
+  const Plane as_given = validSamples(c.grid, c.real, {});
+  c.real_beams = resample(c.grid, c.real, placement);
+  c.weights = areaWeights(c.grid, c.synthetic_beams.valid, c.real_beams.valid);
+  c.share_in_sight = shareInSight(areaWeights(c.grid, c.synthetic_beams.valid, as_given), c.weights,
+                                  placement.scale);
+}
+
+SpaceAlignment alignedFrom(const Placement& start, const Comparison& c) {
+  // A dozen frames over the loop hold all there is to learn about four numbers.
+  std::vector<int> frames;
+  std::vector<std::vector<float>> paired;
+  const std::size_t step = std::max<std::size_t>(1, c.real_beams.frames.size() / 12);
+  for (std::size_t j = 0; j < c.real_beams.frames.size(); j += step)
+    if (isCounted(c, j)) {
+      frames.push_back(static_cast<int>(j));
+      paired.push_back(pairedFrame(c, c.synthetic_beams, j));
+    }
+  if (frames.empty()) return {};
+  return alignInSpace(c.grid, c.real, paired, frames, c.weights, start);
+}
+
+// Loops that resemble one another are registered by their greys; others first by where edges run.
 void registerLoops(const CompareOptions& options, Comparison& c) {
   c.grid = commonGrid(c.synthetic, c.real);
   c.synthetic_beams = resample(c.grid, c.synthetic);
-  c.real_beams = resample(c.grid, c.real);
-  c.weights = areaWeights(c.grid, c.synthetic_beams.valid, c.real_beams.valid);
+  place({}, c);
   if (std::count_if(c.weights.begin(), c.weights.end(), [](float w) { return w > 0; }) <
       static_cast<std::ptrdiff_t>(c.weights.size() / 10))
     throw SceneError(
         fmt::format("{} and {} share under a tenth of their sectors; give loops of the same view",
                     c.synthetic.video.name, c.real.video.name));
-  for (int round = 0;; ++round) {
-    const Features synthetic = motionFeatures(c.grid, c.synthetic_beams, c.weights),
-                   real = motionFeatures(c.grid, c.real_beams, c.weights);
-    c.synthetic_beat = beatOf(c.synthetic, synthetic);
-    c.real_beat = beatOf(c.real, real);
-    const FrameRate &s = c.synthetic.video.rate, &r = c.real.video.rate;
-    const TimeProblem problem{synthetic,
-                              real,
-                              c.synthetic_beat.frames,
-                              c.real_beat.frames,
-                              s.hz > 0 && r.hz > 0 ? s.hz / r.hz : 1,
-                              c.real.video.repeats};
-    c.time = timeOf(options, problem, c);
-    if (round == 1 || !options.align_space) return;
-    // A dozen frames over the loop hold all there is to learn about four numbers.
-    std::vector<int> frames;
-    std::vector<std::vector<float>> paired;
-    const std::size_t step = std::max<std::size_t>(1, c.real_beams.frames.size() / 12);
-    for (std::size_t j = 0; j < c.real_beams.frames.size(); j += step)
-      if (c.time.place[j] >= 0 && !c.real.video.isRepeat(static_cast<int>(j))) {
-        frames.push_back(static_cast<int>(j));
-        paired.push_back(pairedFrame(c, c.synthetic_beams, j));
-      }
-    if (frames.empty()) return;
-    c.space = alignInSpace(c.grid, c.real, paired, frames, c.weights);
-    if (!c.space.used) return;
-    c.real_beams = resample(c.grid, c.real, c.space.placement);
-    c.weights = areaWeights(c.grid, c.synthetic_beams.valid, c.real_beams.valid);
-  }
+  c.synthetic_beat = beatOf(c.synthetic);
+  c.real_beat = beatOf(c.real);
+  pairInTime(options, c);
+  c.discrepancy_as_placed = meanCounted(c, discrepancies(c));
+  if (!options.align_space || c.discrepancy_as_placed == 0) return;
+  const auto adopt = [&](const SpaceAlignment& found) {
+    c.space = found;
+    if (!found.used) return;
+    place(found.placement, c);
+    pairInTime(options, c);
+  };
+  const SpaceAlignment by_greys = alignedFrom({}, c);
+  if (by_greys.used || by_greys.correlation_after > kAlikeCorrelation) return adopt(by_greys);
+  adopt(searchView(c.grid, c.synthetic_beams, c.real));
+  if (!c.space.used) return;
+  if (const SpaceAlignment finer = alignedFrom(c.space.placement, c); finer.used) adopt(finer);
 }
 
 // The curve of the whole loop, from counted frames.
@@ -210,31 +269,6 @@ FrameMetrics meanOf(const std::vector<FrameResult>& frames,
   return mean;
 }
 
-// The discrepancy of discrepancy.h: smoothed, with a calibration of its own, since smoothed greys
-// lie nearer to one another.
-void measureDiscrepancy(const CompareOptions& options,
-                        const std::vector<std::vector<float>>& paired, Comparison& c) {
-  const Smoother smoother(c.grid, c.weights);
-  std::vector<std::vector<float>> x(paired.size()), y(paired.size());
-  parallelBlocks(paired.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t j = begin; j < end; ++j) {
-      y[j] = smoother(c.real_beams.frames[j]);
-      x[j] = smoother(paired[j]);
-    }
-  });
-  c.real_deviation = loopDeviation(y, c.weights);
-  const GreyCurve curve = fitCurve(options, x, y, c);
-  parallelBlocks(paired.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t j = begin; j < end; ++j) {
-      if (c.frames[j].synthetic_place < 0) continue;
-      curve.apply(x[j], x[j]);
-      const BeamPair pair{x[j], y[j], c.weights, c.grid.lines, c.grid.samples};
-      c.frames[j].discrepancy =
-          discrepancyOf(rmsDifference(pair), c.real_deviation, gradientCorrelation(pair));
-    }
-  });
-}
-
 void measureFrames(const std::vector<std::vector<float>>& paired, const BoundaryBands* bands,
                    Comparison& c) {
   parallelBlocks(c.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -259,10 +293,6 @@ void summarise(Comparison& c) {
       meanOf(c.frames, [](const FrameResult& f) -> const FrameMetrics& { return f.before; });
   c.mean_after =
       meanOf(c.frames, [](const FrameResult& f) -> const FrameMetrics& { return f.after; });
-  double sum = 0, n = 0;
-  for (const FrameResult& f : c.frames)
-    if (f.counted()) sum += f.discrepancy, ++n;
-  c.discrepancy = n > 0 ? sum / n : 0;
   const auto with_bands = std::find_if(c.frames.begin(), c.frames.end(),
                                        [](const FrameResult& f) { return !f.bands.empty(); });
   if (with_bands == c.frames.end()) return;
@@ -288,6 +318,8 @@ void noteAssumptions(Comparison& c) {
     if (beat->frames == 0)
       say(fmt::format("{}: no beat found in the loop; frames are paired by the best shift and pace",
                       beat == &c.real_beat ? c.real.video.name : c.synthetic.video.name));
+  if (c.space.used && c.space.at_limit)
+    say("the view that fits best lies at the limit of the search: a better one may lie beyond");
 }
 
 }  // namespace
@@ -303,9 +335,12 @@ Comparison compareLoops(const CompareOptions& options,
     bands.emplace(options.scene, c.synthetic, c.grid, 1e-3 * options.band_mm);
   noteAssumptions(c);
   for (const std::string& note : c.notes) warn(note);
+  const std::vector<double> discrepancy = discrepancies(c);
+  c.discrepancy = meanCounted(c, discrepancy);
   std::vector<std::vector<float>> paired;
   for (std::size_t j = 0; j < c.real_beams.frames.size(); ++j) {
     FrameResult f;
+    f.discrepancy = discrepancy[j];
     f.real_frame = static_cast<int>(j);
     f.real_time_s = c.real.video.rate.hz > 0 ? static_cast<double>(j) / c.real.video.rate.hz : 0;
     f.synthetic_place = c.time.place[j];
@@ -319,7 +354,6 @@ Comparison compareLoops(const CompareOptions& options,
     paired.push_back(pairedFrame(c, c.synthetic_beams, j));
   }
   c.curve = fitCurve(options, paired, c.real_beams.frames, c);
-  measureDiscrepancy(options, paired, c);
   measureFrames(paired, bands ? &*bands : nullptr, c);
   summarise(c);
   return c;

@@ -65,9 +65,10 @@ struct Comparison {
   std::vector<FrameResult> frames;       // one per real frame
   FrameMetrics mean_before, mean_after;  // over counted frames
   std::vector<BandMetrics> mean_bands;
-  double real_deviation = 0;  // s of discrepancy.h
+  double share_in_sight = 1;  // c of discrepancy.h
   double discrepancy = 0;
-  std::vector<std::string> notes;  // everything that was overridden, assumed or left out
+  double discrepancy_as_placed = 0;  // before anything but the sectors was registered
+  std::vector<std::string> notes;    // everything that was overridden, assumed or left out
 
   BeamLoop synthetic_beams, real_beams;  // on the common grid, registered
   std::vector<float> weights;            // of its samples

@@ -44,6 +44,23 @@ double numberOf(DcmItem& item, const DcmTagKey& key, unsigned long position = 0)
   return end != text.c_str() && std::isfinite(value) ? value : 0;
 }
 
+// The rate, or the mean interval between R waves, ms. What no heart does is told and left out.
+void takeHeartRate(DcmDataset& data, Video& video) {
+  const auto take = [&](const DcmTagKey& key, const char* name, bool is_interval) {
+    OFString text;
+    if (video.heart_rate_bpm || data.findAndGetOFString(key, text).bad() || text.empty()) return;
+    const double value = numberOf(data, key), bpm = is_interval ? 60e3 / value : value;
+    if (bpm >= 10 && bpm <= 400) {
+      video.heart_rate_bpm = bpm;
+      video.heart_rate_source = fmt::format("DICOM {}", name);
+    } else {
+      video.notes.push_back(fmt::format("its {} tag says {}: no heart rate", name, text.c_str()));
+    }
+  };
+  take(DCM_HeartRate, "HeartRate", false);
+  take(DCM_NominalInterval, "NominalInterval", true);
+}
+
 void takeTimes(DcmDataset& data, Video& video) {
   const double frame_ms = numberOf(data, DCM_FrameTime), cine = numberOf(data, DCM_CineRate);
   double sum_ms = 0;
@@ -58,7 +75,7 @@ void takeTimes(DcmDataset& data, Video& video) {
     video.rate = {1e3 * static_cast<double>(steps) / sum_ms, "DICOM FrameTimeVector", true};
   else if (cine > 0)
     video.rate = {cine, "DICOM CineRate", true};
-  if (const double bpm = numberOf(data, DCM_HeartRate); bpm > 0) video.heart_rate_bpm = bpm;
+  takeHeartRate(data, video);
   if (data.findAndGetElement(DCM_RWaveTimeVector, vector).good())
     for (unsigned long i = 0; i < std::min(vector->getVM(), 1000UL); ++i)
       video.r_waves_s.push_back(1e-3 * numberOf(data, DCM_RWaveTimeVector, i));

@@ -32,11 +32,14 @@ cv::Mat largestPart(const cv::Mat& mask) {
 LiveArea liveArea(const Video& video, int moving) {
   LiveArea area{video.width, video.height, {}, video.frames.front(), {}};
   Plane lowest = video.frames.front();
-  for (const Plane& frame : video.frames)
-    for (std::size_t p = 0; p < frame.size(); ++p) {
-      area.highest[p] = std::max(area.highest[p], frame[p]);
-      lowest[p] = std::min(lowest[p], frame[p]);
-    }
+  const auto row = [](const Plane& p) {
+    return cv::Mat(1, static_cast<int>(p.size()), CV_8U, const_cast<std::uint8_t*>(p.data()));
+  };
+  cv::Mat high = row(area.highest), low = row(lowest);
+  for (const Plane& frame : video.frames) {
+    cv::max(high, row(frame), high);
+    cv::min(low, row(frame), low);
+  }
   area.range.resize(lowest.size());
   const int background = backgroundGrey(area.highest);
   cv::Mat mask(video.height, video.width, CV_8U);

@@ -8,13 +8,22 @@
 
 namespace echocine::compare {
 
+// Greys in beam space as they were before scan conversion: 0 to 255, line-major.
+struct TracedGreys {
+  int lines = 0, samples = 0;
+  double first_rad = 0, last_rad = 0, near_m = 0, far_m = 0;  // edges included; from the apex
+  std::vector<std::vector<float>> frames;
+};
+
 struct Loop {
   Video video;
   SectorFind find;
   Plane overlay;                           // 1 where a pixel holds no echo
   std::optional<double> metres_per_pixel;  // nothing when neither file, image nor user tells
   std::string scale_source;                // "--scale", "DICOM regions", "manifest", ...
+  std::string grey_source = "picture";     // or "EXR display.Y", "cine.avi"
   // Of a render folder; empty otherwise.
+  TracedGreys traced;  // where its EXR hold them, resample() takes them and not the picture's
   std::vector<double> phases;                                           // of the beat, per frame
   std::vector<std::pair<std::string, std::vector<double>>> volumes_ml;  // structure -> per frame
   std::string scene_sha256;

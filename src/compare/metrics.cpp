@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
+
+#include "signal/structural_similarity.h"
 
 namespace echocine::compare {
 
@@ -91,34 +92,8 @@ double gradientCorrelation(const BeamPair& p) {
 }
 
 double structuralSimilarity(const BeamPair& p) {
-  constexpr double kC1 = 0.01 * 255 * 0.01 * 255, kC2 = 0.03 * 255 * 0.03 * 255;
-  const cv::Size window(11, 11);
-  const auto plane = [&](std::span<const float> v) {
-    return cv::Mat(p.lines, p.samples, CV_32F, const_cast<float*>(v.data()));
-  };
-  const auto blurred = [&](const cv::Mat& m) {
-    cv::Mat out;
-    cv::GaussianBlur(m, out, window, 1.5, 1.5, cv::BORDER_CONSTANT);
-    return out;
-  };
-  cv::Mat mask;
-  cv::Mat(plane(p.weights) > 0).convertTo(mask, CV_32F, 1.0 / 255);
-  // Greys less 127.5: smaller numbers cancel less in the variances.
-  const cv::Mat x = (plane(p.x) - 127.5).mul(mask), y = (plane(p.y) - 127.5).mul(mask);
-  const cv::Mat n = blurred(mask), sx = blurred(x), sy = blurred(y), sxx = blurred(x.mul(x)),
-                syy = blurred(y.mul(y)), sxy = blurred(x.mul(y));
-  double sum = 0, total = 0;
-  for (std::size_t i = 0; i < p.x.size(); ++i) {
-    const double w = p.weights[i];
-    if (!(w > 0)) continue;
-    const auto at = [i](const cv::Mat& m) { return static_cast<double>(m.ptr<float>()[i]); };
-    const double k = at(n), mx = at(sx) / k, my = at(sy) / k;
-    const double vx = at(sxx) / k - mx * mx, vy = at(syy) / k - my * my, c = at(sxy) / k - mx * my;
-    const double ax = mx + 127.5, ay = my + 127.5;
-    sum += w * (2 * ax * ay + kC1) * (2 * c + kC2) / ((ax * ax + ay * ay + kC1) * (vx + vy + kC2));
-    total += w;
-  }
-  return total > 0 ? sum / total : 0;
+  return echocine::structuralSimilarity(p.x, p.y, p.weights, p.weights, p.lines, p.samples)
+      .value_or(0);
 }
 
 double rmsDifference(const BeamPair& p) {

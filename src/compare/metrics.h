@@ -27,9 +27,7 @@ struct BeamPair {
 FrameMetrics frameMetrics(const BeamPair& pair);
 double rmsDifference(const BeamPair& pair);
 
-// Mean over the samples of SSIM(x, y) (Wang, Bovik, Sheikh and Simoncelli, IEEE Trans. Image
-// Process. 13(4), 2004, Eq. 13) with its 11 x 11 Gaussian window of standard deviation 1.5 samples,
-// K1 = 0.01, K2 = 0.03, range 255. The window counts samples in the area only, weighted alike.
+// signal/structural_similarity.h over the samples, whose window counts those in the area only.
 double structuralSimilarity(const BeamPair& pair);
 
 // Mean of the correlation coefficients of the derivatives across and along the beams (Penney et

@@ -141,7 +141,10 @@ Loop readLoop(const std::filesystem::path& path, const SideOptions& side, bool i
   }
   Video& v = loop.video;
   if (side.fps) v.rate = {*side.fps, is_real ? "--fps" : "--synthetic-fps", true};
-  if (side.heart_rate_bpm) v.heart_rate_bpm = side.heart_rate_bpm;
+  if (side.heart_rate_bpm) {
+    v.heart_rate_bpm = side.heart_rate_bpm;
+    v.heart_rate_source = is_real ? "--heart-rate" : "--synthetic-heart-rate";
+  }
   if (!side.r_waves_s.empty()) v.r_waves_s = side.r_waves_s;
   if (!folder || side.sector) findWhere(loop, side, is_real);
   loop.overlay = folder ? loop.overlay : overlayMask(v, loop.sector());

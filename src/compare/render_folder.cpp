@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +11,9 @@
 #include "compare/video_builder.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/parallel.h"
+#include "output/exr_plane.h"
+#include "output/exr_stack.h"
 #include "signal/picture.h"
 
 namespace echocine::compare {
@@ -81,6 +86,48 @@ void takeFrames(const Json& frames, Loop& loop) {
                        "manifest", true};
 }
 
+// The exact greys, when every frame's EXR has them.
+void takeTracedGreys(const std::filesystem::path& folder, const Json& scene, Loop& loop) {
+  loop.grey_source = "cine.avi";
+  const Json &p = scene.at("probe"), &channels = scene.at("output").at("channels");
+  if (std::find(channels.begin(), channels.end(), channelName(Channel::display)) ==
+          channels.end() ||
+      !scene.at("output").at("exr").get<bool>())
+    return;
+  TracedGreys t;
+  t.lines = p.at("lines");
+  t.samples = p.at("samples");
+  t.first_rad = p.at("first_angle_rad");
+  t.last_rad = p.at("last_angle_rad");
+  t.near_m = p.at("face_radius_m").get<double>() + p.at("min_depth_m").get<double>();
+  t.far_m = p.at("face_radius_m").get<double>() + p.at("max_depth_m").get<double>();
+  const int frames = loop.video.frameCount();
+  if (t.lines < 2 || t.samples < 2 || t.lines > kMaxLoopPixels / t.samples / frames) return;
+  t.frames.resize(static_cast<std::size_t>(frames));
+  std::atomic<int> unread{-1};
+  parallelBlocks(t.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end && unread < 0; ++f) {
+      const int frame = static_cast<int>(f);
+      std::optional<std::vector<float>> plane =
+          readExrPlane(folder / "intensity" / ExrStack::fileName(frame),
+                       {Channel::display, loop.scene_sha256, frame, t.lines, t.samples});
+      if (!plane) {
+        unread = frame;
+        return;
+      }
+      for (float& grey : *plane) grey *= 255;
+      t.frames[f] = std::move(*plane);
+    }
+  });
+  if (unread >= 0) {
+    loop.video.notes.push_back(
+        "not all of its frames' EXR are there and whole: greys are those of cine.avi");
+    return;
+  }
+  loop.grey_source = "EXR display.Y";
+  loop.traced = std::move(t);
+}
+
 }  // namespace
 
 bool isRenderFolder(const std::filesystem::path& path) {
@@ -103,6 +150,8 @@ Loop readRenderFolder(const std::filesystem::path& folder) {
     takeGeometry(manifest.at("scene"), loop, name);
     takeFrames(manifest.at("frames"), loop);
     loop.scene_sha256 = manifest.at("scene_sha256");
+    if (loop.phases.size() == loop.video.frames.size())
+      takeTracedGreys(folder, manifest.at("scene"), loop);
   } catch (const Json::exception& error) {
     throw SceneError(
         fmt::format("{}: manifest.json is damaged ({}); render it again", name, error.what()));

@@ -27,6 +27,7 @@ Json loopJson(const Loop& l, const BeatLength& beat) {
   const Sector& s = l.sector();
   Json json{{"path", l.video.name},
             {"format", l.video.format},
+            {"grey_source", l.grey_source},
             {"width", l.video.width},
             {"height", l.video.height},
             {"frames", l.video.frames.size()},
@@ -58,7 +59,9 @@ Json spaceJson(const Comparison& c) {
   return {{"shift_px", {p.shift_x_px, p.shift_y_px}},
           {"scale", p.scale},
           {"rotation_deg", degreesFromRadians(p.rotation_rad)},
+          {"method", c.space.method},
           {"used", c.space.used},
+          {"at_limit_of_search", c.space.at_limit},
           {"correlation_before", c.space.correlation_before},
           {"correlation_after", c.space.correlation_after},
           {"confidence", c.space.confidence}};
@@ -126,14 +129,14 @@ Json summaryJson(const Comparison& c) {
   for (const FrameResult& f : c.frames) counted += f.counted() ? 1 : 0;
   return {{"version", ECHOCINE_VERSION},
           {"discrepancy", c.discrepancy},
+          {"discrepancy_as_placed", c.discrepancy_as_placed},
           {"discrepancy_definition",
-           "both smoothed by 2 % of the depth; mean over counted frames of 1/2 RMS(x - y) / s + "
-           "1/2 (1 - GC); x calibrated synthetic, "
-           "y real grey, s "
-           "standard deviation of y over the loop, GC gradient correlation"},
+           "1 - c G, mean over counted frames; G: correlation of the gradients of both frames, "
+           "smoothed by 2 % of the depth, 1 for equal edges and 0 for unrelated ones; c: share of "
+           "the common sector that registration leaves in sight"},
+          {"share_in_sight", c.share_in_sight},
           {"frames_counted", counted},
           {"frames_total", c.frames.size()},
-          {"real_grey_deviation", c.real_deviation},
           {"before_calibration", metricsJson(c.mean_before)},
           {"after_calibration", metricsJson(c.mean_after)},
           {"bands_after_calibration", bands},

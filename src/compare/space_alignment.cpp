@@ -78,11 +78,14 @@ void addLine(const BeamGrid& grid, const Loop& real, const Level& level,
     const double x = real.sector().apex_x + placement.shift_x_px + placed * sine;
     const double y = real.sector().apex_y + placement.shift_y_px + placed * cosine;
     if (x < 1 || y < 1 || x > w - 1 || y > h - 1) continue;
+    const PixelPlace here = pixelPlace(w, h, x, y), right = pixelPlace(w, h, x + 1, y),
+                     left = pixelPlace(w, h, x - 1, y), below = pixelPlace(w, h, x, y + 1),
+                     above = pixelPlace(w, h, x, y - 1);
     for (std::size_t f = 0; f < level.real.size(); ++f) {
       const float* picture = level.real[f].ptr<float>();
-      const double g = greyAt(picture, w, h, x, y);
-      const double gx = 0.5 * (greyAt(picture, w, h, x + 1, y) - greyAt(picture, w, h, x - 1, y));
-      const double gy = 0.5 * (greyAt(picture, w, h, x, y + 1) - greyAt(picture, w, h, x, y - 1));
+      const double g = greyAt(picture, w, here);
+      const double gx = 0.5 * (greyAt(picture, w, right) - greyAt(picture, w, left));
+      const double gy = 0.5 * (greyAt(picture, w, below) - greyAt(picture, w, above));
       const double v = level.synthetic[f].at<float>(line, k);
       s.n += weight, s.x += weight * v, s.y += weight * g;
       s.xx += weight * v * v, s.yy += weight * g * g, s.xy += weight * v * g;
@@ -118,9 +121,11 @@ Sums sumsAt(const BeamGrid& grid, const Loop& real, const Level& level,
   return s;
 }
 
-bool withinLimits(const Placement& p, double radius_px) {
-  return std::hypot(p.shift_x_px, p.shift_y_px) <= 0.06 * radius_px &&
-         std::abs(p.scale - 1) <= 0.06 && std::abs(p.rotation_rad) <= radiansFromDegrees(6);
+bool withinLimits(const Placement& p, const Placement& start, double radius_px) {
+  return std::hypot(p.shift_x_px - start.shift_x_px, p.shift_y_px - start.shift_y_px) <=
+             0.06 * radius_px &&
+         std::abs(p.scale - start.scale) <= 0.06 &&
+         std::abs(p.rotation_rad - start.rotation_rad) <= radiansFromDegrees(6);
 }
 
 Placement improved(const Sums& sums, const Placement& from) {
@@ -134,10 +139,10 @@ Placement improved(const Sums& sums, const Placement& from) {
 
 SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
                             const std::vector<std::vector<float>>& paired,
-                            const std::vector<int>& real_frames,
-                            const std::vector<float>& weights) {
+                            const std::vector<int>& real_frames, const std::vector<float>& weights,
+                            const Placement& start) {
   SpaceAlignment out;
-  Placement placement;
+  Placement placement = start;
   double final_correlation = 0;
   const double finest =
       std::max(0.7, (grid.far - grid.near) / grid.samples * pixelsPerUnit(grid, real) / 2);
@@ -147,24 +152,25 @@ SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
     Sums sums = sumsAt(grid, real, level, weights, placement);
     for (int i = 0; i < 12; ++i) {
       const Placement next = improved(sums, placement);
-      if (!withinLimits(next, real.sector().r_max)) break;
+      if (!withinLimits(next, start, real.sector().r_max)) break;
       const Sums there = sumsAt(grid, real, level, weights, next);
       if (there.correlation() <= sums.correlation() + 1e-7) break;
       placement = next;
       sums = there;
     }
-    if (sigma == finest) {
-      final_correlation = sums.correlation();
-      out.correlation_before = sumsAt(grid, real, level, weights, {}).correlation();
-    }
+    final_correlation = sums.correlation();
+    // Finer ones correlate less, not more: no use going on.
+    const bool hopeless = final_correlation < 0.5 * kAlikeCorrelation;
+    if (sigma == finest || hopeless)
+      out.correlation_before = sumsAt(grid, real, level, weights, start).correlation();
+    if (hopeless) break;
   }
   out.correlation_after = final_correlation;
-  // Where the echoes hardly resemble one another their best fit says nothing; our choice.
-  constexpr double kLeastCorrelation = 0.5;
   out.placement = placement;
   out.used =
-      final_correlation > kLeastCorrelation && final_correlation > out.correlation_before + 1e-5;
+      final_correlation > kAlikeCorrelation && final_correlation > out.correlation_before + 1e-5;
   out.confidence = std::clamp(out.correlation_after, 0.0, 1.0);
+  if (out.used) out.method = "Lucas and Kanade";
   return out;
 }
 

@@ -30,6 +30,7 @@ struct Video {
   Plane coloured;  // 1 where colour was laid over the grey in any frame: never compared
   FrameRate rate;
   std::optional<double> heart_rate_bpm;
+  std::string heart_rate_source;  // "--heart-rate", "DICOM HeartRate", "DICOM NominalInterval"
   std::vector<double> r_waves_s;  // from the first frame, as the file's tags say
   std::vector<UltrasoundRegion> regions;
   std::vector<int> repeats;        // frames that repeat the one before

@@ -25,7 +25,7 @@
   function showHead() {
     byId("title").textContent = `${nameOf(summary.synthetic.path)} against ${nameOf(summary.real.path)}`;
     byId("subtitle").textContent = `discrepancy ${fixed(summary.discrepancy, 4)} (0 equal, about 1 unrelated) · `
-      + `${summary.frames_counted} of ${summary.frames_total} frames counted`
+      + `${fixed(summary.discrepancy_as_placed, 4)} before registration · ${summary.frames_counted} of ${summary.frames_total} frames counted`
       + (data.stride > 1 ? ` · this page shows every ${data.stride}th, frames.csv has all` : "");
     byId("definition").textContent = `Discrepancy: ${summary.discrepancy_definition}.`;
     byId("foot").textContent = `EchoCine ${summary.version}. The same numbers are in summary.json and frames.csv.`;
@@ -161,7 +161,7 @@
         element("figcaption", {}, `${label}: sector as ${summary[label].sector.source}; flat grey is masked (colour, text)`)));
     showOverlay(player);
     const s = summary.space, b = summary.beam_space;
-    page.facts(byId("space"), [["shift", `${fixed(s.shift_px[0], 2)}, ${fixed(s.shift_px[1], 2)} px of the real picture`],
+    page.facts(byId("space"), [["method", s.method], ["shift", `${fixed(s.shift_px[0], 2)}, ${fixed(s.shift_px[1], 2)} px of the real picture`],
       ["scale", fixed(s.scale, 4)], ["rotation", `${fixed(s.rotation_deg, 2)}°`],
       ["used", s.used ? "yes" : "no: the sectors lie on one another as they are"],
       ["correlation", `${fixed(s.correlation_before, 4)} before, ${fixed(s.correlation_after, 4)} after`],
@@ -171,7 +171,7 @@
   }
 
   function showLoops() {
-    const rows = [["file", (l) => l.path], ["format", (l) => l.format], ["picture", (l) => `${l.width} × ${l.height}`],
+    const rows = [["file", (l) => l.path], ["format", (l) => l.format], ["greys", (l) => l.grey_source], ["picture", (l) => `${l.width} × ${l.height}`],
       ["frames", (l) => l.frames],
       ["repeated frames", (l) => (l.repeated_frames.length ? l.repeated_frames.join(", ") : "none")],
       ["frame rate", (l) => (l.frame_rate_hz ? `${number(l.frame_rate_hz, 5)} /s, ${l.frame_rate_source}` : "not known")

@@ -24,13 +24,8 @@ struct PictureError {
 PictureError pictureError(std::span<const float> a, std::span<const float> b,
                           double dynamic_range_db);
 
-// Mean structural similarity of two 8-bit pictures over the pixels of the sector: Wang, Bovik,
-// Sheikh and Simoncelli, "Image quality assessment: from error visibility to structural
-// similarity", IEEE Trans. Image Process. 13(4), 2004, Eq. 13,
-//   SSIM(x, y) = (2 mx my + C1) (2 sxy + C2) / ((mx^2 + my^2 + C1) (sx^2 + sy^2 + C2)),
-// with means m, variances s^2 and covariance sxy under their 11 x 11 Gaussian window of standard
-// deviation 1.5, C1 = (0.01 * 255)^2 and C2 = (0.03 * 255)^2. Beyond the picture's edge the window
-// sees it mirrored (theirs stays inside). 1 for equal pictures, symmetric, never above 1.
+// signal/structural_similarity.h over the pixels of the sector, whose window sees what lies beside
+// the sector too. 1 for an empty sector.
 // `sector`: the picture as floats, negative outside the sector. Precondition: equal sizes.
 double structuralSimilarity(const GreyImage& a, const GreyImage& b, std::span<const float> sector);
 

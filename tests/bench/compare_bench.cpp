@@ -1,5 +1,5 @@
 // One call of the discrepancy on a frame of 256 x 1024 against a frame of a real loop, as an
-// optimiser makes it, over its floor: one smoothing of the frame, which it cannot do without.
+// optimiser makes it, over its floor: the edges of the frame, which it cannot do without.
 
 #include <cmath>
 
@@ -55,12 +55,12 @@ void discrepancy(benchmark::State& state) {
                       .far = scene.probe.max_depth_m,
                       .metric = true};
   const std::vector<float> weights(grid.size(), 1.0f);
-  const Smoother smoother(grid, weights);
+  const WallEdges edges(grid, weights);
   const std::span<const float> part(grey.data(), grid.size());
   overFloor(
       state,
       [&](std::size_t i) { benchmark::DoNotOptimize(measure(static_cast<int>(i % 8), grey)); },
-      [&](std::size_t) { benchmark::DoNotOptimize(smoother(part)); });
+      [&](std::size_t) { benchmark::DoNotOptimize(edges(part)); });
 }
 
 BENCHMARK(discrepancy)->UseManualTime()->Iterations(40)->Unit(benchmark::kMillisecond);

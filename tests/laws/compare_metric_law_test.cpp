@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "compare/beat_length.h"
 #include "compare/calibration.h"
@@ -113,10 +114,95 @@ TEST(CompareMetrics, SamplesOutsideTheAreaDoNotCount) {
   EXPECT_EQ(frameMetrics(pair(x, y, std::vector<float>(x.size(), 0))).weight, 0);
 }
 
-TEST(CompareMetrics, TheDiscrepancyRunsFromZeroToOne) {
-  EXPECT_EQ(discrepancyOf(0, 40, 1), 0);
-  EXPECT_EQ(discrepancyOf(40, 40, 0), 1);
-  EXPECT_GT(discrepancyOf(50, 40, -0.2), 1);
+// Beam space of 80 degrees from 2 to 15 cm, all of it weighing its area.
+const BeamGrid kSector{
+    .lines = 90, .samples = 200, .first_rad = -0.7, .last_rad = 0.7, .near = 0.02, .far = 0.15};
+
+std::vector<float> sectorWeights() {
+  const Plane all(kSector.size(), 1);
+  return areaWeights(kSector, all, all);
+}
+
+// Greys of a function of the point (x, z) in cm.
+std::vector<float> drawn(const std::function<double(double, double)>& grey) {
+  std::vector<float> out;
+  for (int i = 0; i < kSector.lines; ++i)
+    for (int k = 0; k < kSector.samples; ++k)
+      out.push_back(static_cast<float>(grey(100 * kSector.depth(k) * std::sin(kSector.angle(i)),
+                                            100 * kSector.depth(k) * std::cos(kSector.angle(i)))));
+  return out;
+}
+
+double edgeCorrelationOf(const std::vector<float>& x, const std::vector<float>& y) {
+  const std::vector<float> weights = sectorWeights();
+  const WallEdges edges(kSector, weights);
+  return edgeCorrelation(edges(x), edges(y));
+}
+
+std::vector<float> rings(double x0, double z0) {
+  return drawn(
+      [=](double x, double z) { return 120 + 60 * std::sin(2 * std::hypot(x - x0, z - z0)); });
+}
+
+TEST(EdgeCorrelation, EqualFramesAreOneAndNegativesMinusOne) {
+  const std::vector<float> x = rings(1, 8);
+  std::vector<float> dim = x, negative = x;
+  for (float& v : dim) v = 0.4f * v + 20;
+  for (float& v : negative) v = 255 - v;
+  EXPECT_EQ(edgeCorrelationOf(x, x), 1);
+  EXPECT_NEAR(edgeCorrelationOf(x, dim), 1, 1e-6);
+  EXPECT_NEAR(edgeCorrelationOf(x, negative), -1, 1e-6);
+  EXPECT_EQ(discrepancyOf(edgeCorrelationOf(x, x), 1), 0);
+}
+
+// Plane waves across and along: their gradients stand at right angles everywhere.
+TEST(EdgeCorrelation, EdgesAtRightAnglesHaveNothingInCommon) {
+  const auto across = drawn([](double x, double) { return 128 + 50 * std::sin(1.5 * x); }),
+             along = drawn([](double, double z) { return 128 + 50 * std::sin(1.5 * z); });
+  EXPECT_NEAR(edgeCorrelationOf(across, along), 0, 0.02);
+}
+
+// sin(k x) against sin(k (x - d)): the mean of cos(k x) cos(k (x - d)) is cos(k d) times that of
+// cos^2, over many waves.
+TEST(EdgeCorrelation, AShiftedWaveFollowsTheCosine) {
+  const double k = 2.5;  // per cm
+  const auto wave = [k](double d) {
+    return drawn([=](double x, double) { return 128 + 50 * std::sin(k * (x - d)); });
+  };
+  for (const double d : {0.1, 0.3, 0.6, 1.0})
+    EXPECT_NEAR(edgeCorrelationOf(wave(0), wave(d)), std::cos(k * d), 0.05) << d;
+}
+
+// A gain that falls by half over the depth and to the sides.
+TEST(EdgeCorrelation, SlowGainsHardlyCount) {
+  std::vector<float> x = rings(1, 8), y = x;
+  for (int i = 0; i < kSector.lines; ++i)
+    for (int k = 0; k < kSector.samples; ++k)
+      y[static_cast<std::size_t>(i * kSector.samples + k)] *= static_cast<float>(
+          (1 - 0.5 * k / kSector.samples) * (1 - 0.5 * std::abs(kSector.angle(i)) / 0.7));
+  EXPECT_GT(edgeCorrelationOf(x, y), 0.9);
+}
+
+TEST(EdgeCorrelation, FramesWithoutEdges) {
+  const std::vector<float> flat(kSector.size(), 100), grey(kSector.size(), 30), x = rings(0, 8);
+  EXPECT_EQ(edgeCorrelationOf(flat, grey), 1);
+  EXPECT_EQ(edgeCorrelationOf(flat, x), 0);
+}
+
+TEST(EdgeCorrelation, SamplesOutsideTheAreaDoNotCount) {
+  const std::vector<float> x = rings(1, 8);
+  std::vector<float> y = x, weights = sectorWeights();
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (i % static_cast<std::size_t>(kSector.samples) < 60) y[i] = 250, weights[i] = 0;
+  const WallEdges edges(kSector, weights);
+  EXPECT_EQ(edgeCorrelation(edges(x), edges(y)), 1);
+}
+
+TEST(CompareMetrics, WhatRegistrationMovesOutOfSightCountsAsUnlike) {
+  EXPECT_EQ(discrepancyOf(1, 0.75), 0.25);
+  const std::vector<float> all(10, 1.0f), half{1, 1, 1, 1, 1, 0, 0, 0, 0, 0};
+  EXPECT_EQ(shareInSight(all, half, 1), 0.5);
+  EXPECT_EQ(shareInSight(all, half, 2), 1);  // twice as large: the same half fills all
 }
 
 TEST(GreyCalibration, AKnownCurveIsFoundAgain) {

@@ -10,31 +10,19 @@
 #include "core/base64.h"
 #include "core/error.h"
 #include "page/assets.h"
-#include "support/page_frames.h"
+#include "support/page_data.h"
 #include "support/temp_folder.h"
 
 namespace echocine {
 namespace {
 
 namespace fs = std::filesystem;
+using support::countOf;
+using support::dataOf;
 using support::TempFolder;
 
 std::span<const std::byte> asBytes(std::string_view text) {
   return std::as_bytes(std::span(text));
-}
-
-std::size_t countOf(const std::string& text, const std::string& what) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
-    ++count;
-  return count;
-}
-
-// The data as the browser's JSON.parse() finds them.
-nlohmann::json dataOf(const std::string& html) {
-  const std::string opening = "<script type=\"application/json\" id=\"data\">";
-  const std::size_t from = html.find(opening) + opening.size();
-  return nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
 }
 
 const PageLook kSmall{"a <b> & \"c\"", {"body { margin: 0 }"}, "<p>here</p>\n", {"void 0;\n"}};

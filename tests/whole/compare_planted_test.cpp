@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "compare/compare.h"
@@ -188,13 +189,58 @@ TEST_F(Planted, TheCallWithoutFilesIsLeastAtTheRightInstant) {
   withThreads(2, [&] {
     Discrepancy d(real, probe);
     EXPECT_EQ(d.realFrames(), 24);
-    d.calibrate({{0, beams(0)}, {6, beams(6 / 24.0)}, {12, beams(0.5)}});
     for (int j = 0; j < 24; j += 3) values.push_back(d(3, beams(j / 24.0)));
   });
   const auto least = std::min_element(values.begin(), values.end());
   EXPECT_EQ(least - values.begin(), 1);  // frame 3 of 24
   EXPECT_LT(*least, 0.05);
   EXPECT_GT(values[4], 5 * *least);
+}
+
+// Farther than greys alone can lead: edges find the view, greys then the rest.
+TEST_F(Planted, AViewFarOffIsSearchedForAndFound) {
+  Drawing d = plain;
+  d.shift_x = 16;
+  d.shift_y = 24;
+  d.noise = 4;
+  const Comparison c = against(d);
+  EXPECT_TRUE(c.space.used);
+  EXPECT_FALSE(c.space.at_limit);
+  EXPECT_NEAR(c.space.placement.shift_x_px, 16, 0.5);
+  EXPECT_NEAR(c.space.placement.shift_y_px, 24, 0.5);
+  EXPECT_LT(c.share_in_sight, 1);
+  EXPECT_LT(c.discrepancy, 1 - 0.8 * c.share_in_sight);
+  EXPECT_GT(c.discrepancy_as_placed, 2 * c.discrepancy);
+  std::printf("shift (16, 24) px found as (%.2f, %.2f), D %.3f from %.3f\n",
+              c.space.placement.shift_x_px, c.space.placement.shift_y_px, c.discrepancy,
+              c.discrepancy_as_placed);
+}
+
+TEST_F(Planted, MoreOfAnyChangeIsMoreDiscrepancy) {
+  CompareOptions options;
+  options.align_space = false;
+  options.real_side.ed_frame = options.synthetic_side.ed_frame = 0;  // as one would time it
+  struct Change {
+    const char* what;
+    std::function<void(Drawing&, double)> to;
+    std::vector<double> amounts;
+  };
+  const Change changes[] = {
+      {"noise", [](Drawing& d, double a) { d.noise = a; }, {0, 20, 60}},
+      {"scale", [](Drawing& d, double a) { d.scale = a; }, {1, 1.02, 1.05}},
+      {"time", [](Drawing& d, double a) { d.time_shift = a; }, {0, 3, 6}},
+  };
+  for (const Change& change : changes) {
+    double last = -1;
+    for (const double amount : change.amounts) {
+      Drawing d = plain;
+      change.to(d, amount);
+      const double now = against(d, true, options).discrepancy;
+      EXPECT_GT(now, last) << change.what << " " << amount;
+      EXPECT_LT(now, 2);
+      last = now;
+    }
+  }
 }
 
 TEST_F(Planted, ARenderAgainstItselfIsPerfectAndItsResultsAreWhole) {
@@ -216,6 +262,37 @@ TEST_F(Planted, ARenderAgainstItselfIsPerfectAndItsResultsAreWhole) {
   const std::string csv = bytesOf(folder / "out/frames.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 9);
   EXPECT_TRUE(std::filesystem::exists(folder / "out/sector_real.png"));
+}
+
+// Greys of a render come from its EXR where they are all there, else from its cine.
+TEST_F(Planted, GreysOfARenderAreThoseOfItsExrWhereItHasThem) {
+  SceneText text = ballScene(6);
+  text.output["channels"] = "[\"display.Y\"]";
+  ASSERT_EQ(renderScene(writeBall(folder, text), folder / "loop").code, 0);
+  CompareOptions options;
+  options.synthetic = options.real = folder / "loop";
+  const auto compared = [&] {
+    Comparison c;
+    withThreads(2, [&] { c = compareLoops(options, [](const std::string&) {}); });
+    return c;
+  };
+  const Comparison exact = compared();
+  EXPECT_EQ(exact.synthetic.grey_source, "EXR display.Y");
+  EXPECT_EQ(exact.discrepancy, 0);
+  EXPECT_EQ(exact.mean_before.rms, 0);
+  std::filesystem::remove(folder / "loop/intensity/frame_0003.exr");
+  const Comparison cine = compared();
+  EXPECT_EQ(cine.synthetic.grey_source, "cine.avi");
+  EXPECT_FALSE(cine.synthetic.video.notes.empty());
+  EXPECT_EQ(cine.discrepancy, 0);
+  // The same greys but for 8 bits, JPEG and the picture's pixels.
+  const std::vector<float>&a = exact.synthetic_beams.frames[1], &b = cine.synthetic_beams.frames[1];
+  ASSERT_EQ(a.size(), b.size());
+  double sum = 0, n = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (exact.weights[i] > 0) sum += std::abs(a[i] - b[i]), ++n;
+  EXPECT_LT(sum / n, 4);
+  EXPECT_GT(sum, 0);
 }
 
 TEST_F(Planted, ThreadsChangeNothing) {

@@ -44,7 +44,8 @@ TEST_F(RealVideos, TheDicomIsReadWithItsRepeatsAndItsWrongScaleIsCaught) {
   EXPECT_EQ(loop.video.repeats, (std::vector<int>{11, 28}));
   EXPECT_NEAR(loop.video.rate.hz, 30, 0.01);
   EXPECT_TRUE(loop.video.rate.trusted);
-  EXPECT_FALSE(loop.video.heart_rate_bpm);  // the tag says 0
+  EXPECT_FALSE(loop.video.heart_rate_bpm);
+  EXPECT_TRUE(says(loop.video.notes, "HeartRate tag says 0"));
   ASSERT_TRUE(loop.metres_per_pixel);
   EXPECT_NEAR(100 * *loop.metres_per_pixel, 0.1021, 1e-4);
   EXPECT_TRUE(says(loop.video.notes, "outside the 320 x 240 picture"));

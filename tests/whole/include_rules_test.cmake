@@ -13,7 +13,7 @@ set(libraries
   "embree3/=src/geometry"
   "OpenEXR/|Imath/|Imf=src/output"
   "opencv2/(videoio|imgcodecs)=src/output"
-  "opencv2/=src/signal,src/output,src/study,src/compare"
+  "opencv2/=src/signal,src/output,src/compare"
   "dcmtk/=src/compare"
   "(libav|libswscale)=src/output,src/compare"
   "CLI/=src/cli")

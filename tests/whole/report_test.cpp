@@ -6,7 +6,7 @@
 
 #include "core/base64.h"
 #include "support/loop_scene.h"
-#include "support/page_frames.h"
+#include "support/page_data.h"
 #include "support/run_program.h"
 
 namespace echocine {

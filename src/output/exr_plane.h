@@ -1,0 +1,24 @@
+#pragma once
+// One channel of an intensity EXR, read back.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/channel.h"
+
+namespace echocine {
+
+struct ExrPlaneWanted {
+  Channel channel = Channel::display;  // any of floats, so not medium.id
+  std::string scene_sha256;
+  int frame = 0, lines = 0, samples = 0;
+};
+
+// The values as they were before any half-float scale, line-major. Nothing when the file is absent,
+// damaged, without the channel, or of another scene, frame or size than wanted.
+std::optional<std::vector<float>> readExrPlane(const std::filesystem::path& path,
+                                               const ExrPlaneWanted& wanted);
+
+}  // namespace echocine
