@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "core/parallel.h"
 #include "core/units.h"
 #include "motion/cardiac_clock.h"
@@ -24,14 +25,6 @@ constexpr double kMostRays = 4096;
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// What cannot be written in the end must not be measured first.
-void makeFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw JobError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
 }
 
 class Study {
@@ -127,7 +120,7 @@ void Study::addSweep(const Knob& knob, std::size_t k, Preset around) {
 }
 
 void Study::prepare() {
-  makeFolder(options_.folder);
+  makeFolder(options_.folder);  // what cannot be written must not be measured first
   result_.scene_file = scene_.file.filename().string();
   result_.dynamic_range_db = scene_.signal.dynamic_range_db;
   result_.threads = threadCount();
