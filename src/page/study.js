@@ -22,8 +22,9 @@
   function showHead() {
     byId("title").textContent = `What accuracy costs: ${data.scene}`;
     const m = data.machine;
-    byId("subtitle").textContent = `${rows.length} settings, ${data.frames.length} probe frames, ${m.rounds} rounds on ${m.threads} `
-      + `thread${m.threads === 1 ? "" : "s"} of ${m.processor}` + (m.complete ? "" : "; stopped before its end");
+    const count = (n, what) => `${n} ${what}${n === 1 ? "" : "s"}`;
+    byId("subtitle").textContent = `${count(rows.length, "setting")}, ${count(data.frames.length, "probe frame")}, `
+      + `${count(m.rounds, "round")} on ${count(m.threads, "thread")} of ${m.processor}` + (m.complete ? "" : "; stopped before its end");
     byId("foot").textContent = `EchoCine ${data.version}, scene ${data.scene_sha256}. The same numbers are in study.csv and study.json.`;
     byId("difference-scale").textContent = `Difference from the reference: black is none, white ${data.white_difference_db} dB and more`;
   }
@@ -65,9 +66,20 @@
     return above.length ? Math.min(...above) / 3 : 1e-3;
   }
 
-  function pointsOf(measure, shown) {
-    const floor = floorOf(measure);
+  function pointsOf(measure, floor, shown) {
     return shown.map((row) => ({ value: [ms(row), Math.max(measure.of(row), floor)], row }));
+  }
+
+  // A colour for each knob, whatever is shown; presets stand out, with their names.
+  const kColours = [...kCurveColours, "#e8d97a", "#9fdc8c", "#f2a9c4"];
+  function lookOf(name) {
+    if (name === "presets")
+      return { symbol: "diamond", symbolSize: 16, z: 3, itemStyle: { color: page.colour("text"), borderColor: page.colour("card"), borderWidth: 1 },
+        label: { show: true, position: "top", formatter: (p) => p.data.row.value, fontWeight: "bold", fontSize: 13,
+          color: page.colour("text"), textBorderColor: page.colour("card"), textBorderWidth: 4 } };
+    const k = data.knobs.findIndex((knob) => knob.name === name);
+    return { symbol: k < kCurveColours.length ? "circle" : "triangle", symbolSize: 9,
+      itemStyle: { color: kColours[k % kColours.length], opacity: 0.9 } };
   }
 
   function shownRows() {
@@ -77,21 +89,19 @@
 
   function option() {
     const measure = kMeasures[Number(byId("measure").value)];
-    const points = pointsOf(measure, shownRows());
+    const floor = floorOf(measure), points = pointsOf(measure, floor, shownRows());
     const groups = new Map();
     for (const p of points) {
       const group = p.row.knob === "preset" ? "presets" : p.row.knob;
       groups.set(group, [...(groups.get(group) ?? []), p]);
     }
-    const series = [...groups].map(([name, list]) => ({ name, type: "scatter", data: list,
-      symbol: name === "presets" ? "diamond" : "circle", symbolSize: name === "presets" ? 15 : 9,
-      label: { show: name === "presets", position: "right", formatter: (p) => p.data.row.value,
-        color: page.colour("text") }, labelLayout: { hideOverlap: true } }));
+    const series = [...groups].map(([name, list]) => ({ name, type: "scatter", data: list, ...lookOf(name) }));
     const front = frontOf(points);
     series.unshift({ name: "Pareto front", type: "line", step: "end", data: front.map((p) => p.value), symbol: "none",
       lineStyle: { width: 1.5, type: "dashed", color: page.colour("muted") }, itemStyle: { color: page.colour("muted") },
-      silent: true });
-    return { legend: { type: "scroll", top: 0, left: 0, right: 0, textStyle: { color: page.colour("text") } }, series,
+      silent: true, markLine: { silent: true, z: 1, symbol: "none", precision: 12, data: [{ yAxis: floor }], lineStyle: { color: page.colour("line"), type: "solid" },
+        label: { position: "insideStartBottom", formatter: `no error, or under ${number(floor, 1)}`, color: page.colour("muted") } } });
+    return { legend: { type: "scroll", top: 0, left: 0, right: 0, itemWidth: 16, itemHeight: 11, textStyle: { color: page.colour("text") } }, series,
       yAxis: { name: measure.name } };
   }
 
