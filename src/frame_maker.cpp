@@ -103,6 +103,12 @@ WorkCounts FrameMaker::traceRays(const FrameGeometry& geometry, int frame,
 }
 
 Volumes FrameMaker::trace(const FrameTime& time, Workspace& w) {
+  Volumes volumes_ml = traceLines(time, w);
+  process(time, w);
+  return volumes_ml;
+}
+
+Volumes FrameMaker::traceLines(const FrameTime& time, Workspace& w) {
   Volumes volumes_ml;
   clock_.time(Stage::motion, [&] {
     motion_.frameAt(time.phase, w.surfaces);
@@ -114,14 +120,16 @@ Volumes FrameMaker::trace(const FrameTime& time, Workspace& w) {
         return clock_.time(Stage::trace, [&] { return traceRays(geometry, time.frame, w.polar); });
       },
       w.geometry);
-  if (request_.signal) {
-    clock_.time(Stage::signal, [&] { chain_.process(w.polar, w.scratch); });
-    refuseUnusable(time.phase, w.polar);
-  }
   const std::lock_guard lock(mutex_);
   work_ += work;
   ++traced_frames_;
   return volumes_ml;
+}
+
+void FrameMaker::process(const FrameTime& time, Workspace& w) {
+  if (!request_.signal) return;
+  clock_.time(Stage::signal, [&] { chain_.process(w.polar, w.scratch); });
+  refuseUnusable(time.phase, w.polar);
 }
 
 GreyImage& FrameMaker::picture(double reference_intensity, Workspace& w, bool wanted) {

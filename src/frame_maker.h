@@ -66,6 +66,11 @@ class FrameMaker {
   // volumes. Frames of equal number and phase are equal.
   Volumes trace(const FrameTime& time, Workspace& workspace);
 
+  // The two halves of trace(): up to the intensities that the lines receive, and what the signal
+  // chain makes of them in workspace.polar.signal.
+  Volumes traceLines(const FrameTime& time, Workspace& workspace);
+  void process(const FrameTime& time, Workspace& workspace);
+
   // log compression -> scan conversion: workspace.polar.signal becomes grey. The picture is the
   // workspace's; empty or an old one where none is wanted.
   GreyImage& picture(double reference_intensity, Workspace& workspace, bool wanted);
@@ -74,7 +79,7 @@ class FrameMaker {
   StageClock& clock() { return clock_; }
   const StageClock& clock() const { return clock_; }
   WorkCounts work() const;
-  int tracedFrames() const;  // calls of trace()
+  int tracedFrames() const;  // calls of traceLines()
   std::vector<KeyframeVolume> keyframeVolumes() const;
 
  private:
@@ -88,7 +93,7 @@ class FrameMaker {
   SignalChain chain_;
   TraceSettings settings_;
   PlaneRequest request_;
-  std::optional<BeamRays> beams_;  // several rays per beam
+  std::optional<BeamRays> beams_;         // several rays per beam
   std::vector<double> still_volumes_m3_;  // by surface; 0 for those that move
   StageClock clock_;
   mutable std::mutex mutex_;

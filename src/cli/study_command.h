@@ -1,5 +1,5 @@
 #pragma once
-// echocine study SCENE.toml -o DIR
+// echocine study SCENE.toml -o DIR, echocine study --sweeps FOLDER -o DIR
 
 #include <string>
 
@@ -17,7 +17,9 @@ class StudyCommand {
   int run();                             // exit code
 
  private:
-  std::string scene_file_;
+  int runSweeps() const;
+
+  std::string scene_file_, sweeps_folder_;
   bool quiet_ = false;
   StudyOptions options_;
 };

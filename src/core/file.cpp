@@ -51,6 +51,13 @@ bool writeAll(int descriptor, std::span<const std::byte> bytes) {
 
 }  // namespace
 
+void makeFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw JobError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+}
+
 WholeFile::WholeFile(std::filesystem::path path)
     : path_(std::move(path)), part_(path_.string() + ".part") {
   descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);

@@ -11,6 +11,9 @@ namespace echocine {
 // The text of a file. Throws SceneError when it cannot be read or is larger than max_bytes.
 std::string readTextFile(const std::filesystem::path& path, std::size_t max_bytes);
 
+// Makes the folder and those it lies in, if they are not there. Throws JobError.
+void makeFolder(const std::filesystem::path& folder);
+
 // A file written in pieces beside its target and renamed at the end, so that the target is either
 // as before or whole. Destroyed without finish() it leaves nothing behind.
 class WholeFile {

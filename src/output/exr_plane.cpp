@@ -4,11 +4,13 @@
 #include <ImfDoubleAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfIntAttribute.h>
 #include <ImfStringAttribute.h>
 
-#include <cmath>
+#include <cstring>
+#include <stdexcept>
 
 #include "output/exr_header.h"
 #include "output/polar_plane.h"
@@ -31,6 +33,45 @@ bool isWanted(const Imf::Header& header, const ExrPlaneWanted& wanted) {
          channel->type != Imf::UINT && channel->xSampling == 1 && channel->ySampling == 1;
 }
 
+// Widened to floats, line-major, the scale of half floats undone.
+std::vector<float> channelOf(Imf::InputFile& file, Channel channel) {
+  const Imath::Box2i window = file.header().dataWindow();
+  const auto lines = static_cast<std::size_t>(window.max.x) + 1,
+             samples = static_cast<std::size_t>(window.max.y) + 1;
+  std::vector<float> values(lines * samples);
+  const std::string name = channelName(channel);
+  Imf::FrameBuffer buffer;
+  buffer.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()),
+                                 sizeof(float) * samples, sizeof(float)));
+  file.setFrameBuffer(buffer);
+  file.readPixels(0, window.max.y);
+  const auto* scale =
+      file.header().findTypedAttribute<Imf::DoubleAttribute>("echocine:scale." + name);
+  if (scale != nullptr)
+    for (float& v : values) v = static_cast<float>(static_cast<double>(v) / scale->value());
+  return values;
+}
+
+class MemoryInput : public Imf::IStream {
+ public:
+  explicit MemoryInput(std::span<const std::byte> bytes) : IStream("memory"), bytes_(bytes) {}
+
+  bool read(char to[], int size) override {
+    const auto count = static_cast<std::size_t>(size);
+    if (position_ > bytes_.size() || count > bytes_.size() - position_)
+      throw std::runtime_error("read past the end");
+    std::memcpy(to, bytes_.data() + position_, count);
+    position_ += count;
+    return position_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return position_; }
+  void seekg(std::uint64_t position) override { position_ = position; }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::size_t position_ = 0;
+};
+
 }  // namespace
 
 std::optional<std::vector<float>> readExrPlane(const std::filesystem::path& path,
@@ -41,28 +82,20 @@ std::optional<std::vector<float>> readExrPlane(const std::filesystem::path& path
       return std::nullopt;
     Imf::InputFile file(path.c_str(), 0);
     if (!file.isComplete() || !isWanted(file.header(), wanted)) return std::nullopt;
-    const auto lines = static_cast<std::size_t>(wanted.lines),
-               samples = static_cast<std::size_t>(wanted.samples);
-    std::vector<float> values(lines * samples);
-    const std::string name = channelName(wanted.channel);
-    Imf::FrameBuffer buffer;
-    buffer.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()),
-                                   sizeof(float) * samples, sizeof(float)));
-    file.setFrameBuffer(buffer);
-    file.readPixels(0, wanted.samples - 1);
-    const auto* scale =
-        file.header().findTypedAttribute<Imf::DoubleAttribute>("echocine:scale." + name);
-    if (scale != nullptr) {
-      if (!(scale->value() > 0 && std::isfinite(scale->value()))) return std::nullopt;
-      for (float& v : values) v = static_cast<float>(v / scale->value());
-    }
-    if (firstUnusable(values)) return std::nullopt;
+    std::vector<float> values = channelOf(file, wanted.channel);
+    if (firstUnusable(values)) return std::nullopt;  // a scale that is none makes such too
     return values;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {  // cut short, or no OpenEXR file at all
     return std::nullopt;
   }
+}
+
+std::vector<float> readBack(std::span<const std::byte> file, Channel channel) {
+  MemoryInput stream(file);
+  Imf::InputFile in(stream, 0);
+  return channelOf(in, channel);
 }
 
 }  // namespace echocine

@@ -1,8 +1,10 @@
 #pragma once
 // One channel of an intensity EXR, read back.
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,5 +22,9 @@ struct ExrPlaneWanted {
 // damaged, without the channel, or of another scene, frame or size than wanted.
 std::optional<std::vector<float>> readExrPlane(const std::filesystem::path& path,
                                                const ExrPlaneWanted& wanted);
+
+// The same from bytes just written. Preconditions: they are a file by ExrStack::encode(); the channel
+// is one of its, not Channel::medium.
+std::vector<float> readBack(std::span<const std::byte> file, Channel channel);
 
 }  // namespace echocine

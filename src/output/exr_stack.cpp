@@ -164,8 +164,8 @@ std::string ExrStack::fileName(int frame) {
   return fmt::format("frame_{:04}.exr", frame);
 }
 
-std::string ExrStack::write(const FrameRecord& record,
-                            const std::vector<ChannelPlane>& planes) const {
+std::span<const std::byte> ExrStack::encode(const FrameRecord& record,
+                                            const std::vector<ChannelPlane>& planes) const {
   const Probe& probe = scene_.probe;
   for (const ChannelPlane& plane : planes) refuseUnusable(record, plane, probe.samples);
 
@@ -205,7 +205,13 @@ std::string ExrStack::write(const FrameRecord& record,
   } catch (const std::exception& error) {
     throw JobError(fmt::format("{}: cannot be encoded: {}", path.string(), error.what()));
   }
-  writeFileWhole(path, bytes);
+  return bytes;
+}
+
+std::string ExrStack::write(const FrameRecord& record,
+                            const std::vector<ChannelPlane>& planes) const {
+  const std::span<const std::byte> bytes = encode(record, planes);
+  writeFileWhole(folder_ / fileName(record.frame), bytes);
   return sha256Hex(bytes);
 }
 

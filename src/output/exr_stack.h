@@ -6,7 +6,9 @@
 // the header's echocine:scale.<channel> is what the value was multiplied by. medium.id is always
 // whole.
 
+#include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,9 +23,13 @@ class ExrStack {
   ExrStack(std::filesystem::path folder, const Scene& scene, std::string scene_sha256,
            double reference_intensity);
 
-  // Encodes in memory, writes beside and renames. Returns the SHA-256 of the file. Thread-safe.
-  // Throws JobError: a value is negative or not finite (names frame, line and sample), or the file
-  // cannot be written.
+  // The bytes of the frame's file, in memory of this thread until it encodes again. Thread-safe.
+  // Throws JobError: a value is negative or not finite (names frame, line and sample).
+  std::span<const std::byte> encode(const FrameRecord& record,
+                                    const std::vector<ChannelPlane>& planes) const;
+
+  // Encodes, writes beside and renames. Returns the SHA-256 of the file. Thread-safe. Throws
+  // JobError as encode() does, and when the file cannot be written.
   std::string write(const FrameRecord& record, const std::vector<ChannelPlane>& planes) const;
 
   // The SHA-256 of an existing whole file of this very scene and frame, or empty when there is

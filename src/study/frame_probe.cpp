@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/hash.h"
 #include "core/parallel.h"
+#include "output/exr_plane.h"
 #include "plan_loop.h"
 #include "scene/scene_json.h"
 #include "signal/reference.h"
@@ -18,6 +20,11 @@ constexpr std::size_t kShelvedTriangles = 6'000'000;
 nlohmann::ordered_json motionJson(const Scene& scene) {
   const nlohmann::ordered_json all = sceneJson(scene);
   return {all.at("motion"), all.at("structures"), all.at("accuracy").at("normals")};
+}
+
+// Nothing is written: its files need no folder, and are of no scene that could be resumed.
+ExrStack exrStack(const Scene& scene, double reference_intensity) {
+  return {{}, scene, std::string(64, '0'), reference_intensity};
 }
 
 std::size_t trianglesOf(const HeartMotion& motion) {
@@ -112,14 +119,22 @@ InterfaceMap FrameProbe::interfacesOf(Workspace& workspace) const {
 }
 
 FramePicture FrameProbe::picture(const FrameTime& time, double reference_intensity,
-                                 bool with_interfaces) {
+                                 bool with_interfaces, Intensities made_of) {
   FrameMaker& making = maker();
   const WorkCounts before = making.work();
   const std::shared_ptr<Workspace> workspace = making.workspace();
-  making.trace(time, *workspace);
+  const bool stored = made_of == Intensities::stored && scene_->output.exr;
+  const ExrStack stack = exrStack(*scene_, reference_intensity);
+  const FrameRecord record{0, 0, time.phase, 0};
+  PolarFrame& polar = workspace->polar;
+  making.traceLines(time, *workspace);
+  if (stored)
+    polar.signal = readBack(stack.encode(record, {{Channel::y, polar.signal, {}}}), Channel::y);
+  making.process(time, *workspace);
   FramePicture picture;
   picture.image = making.picture(reference_intensity, *workspace, true);
-  making.chain().picture(workspace->polar, picture.grey);
+  making.chain().picture(polar, picture.grey);
+  if (stored) picture.exr_bytes = stack.encode(record, channelPlanes(scene_->output, polar)).size();
   if (with_interfaces) picture.interfaces = interfacesOf(*workspace);
   WorkCounts after = making.work();
   work_.bvh_updates += after.bvh_updates - before.bvh_updates;
@@ -147,10 +162,10 @@ double FrameProbe::referenceIntensity(const std::vector<FrameTime>& times) {
 }
 
 StageTimes FrameProbe::timeBatch(const std::vector<FrameTime>& times, std::size_t frames,
-                                 double reference_intensity, const std::filesystem::path& folder) {
+                                 double reference_intensity) {
   FrameMaker& making = maker();
   const OutputSettings& o = scene_->output;
-  const ExrStack stack(folder, *scene_, "study", reference_intensity);
+  const ExrStack stack = exrStack(*scene_, reference_intensity);
   const Overlay overlay(*scene_, making.chain().geometry(), {});
   const std::array<double, kStages> before = making.clock().milliseconds();
   const auto start = std::chrono::steady_clock::now();
@@ -163,8 +178,8 @@ StageTimes FrameProbe::timeBatch(const std::vector<FrameTime>& times, std::size_
         GreyImage image = making.picture(reference_intensity, *workspace, true);
         if (o.exr)
           making.clock().time(Stage::exr, [&] {
-            stack.write({static_cast<int>(i), 0, time.phase, 0},
-                        channelPlanes(o, workspace->polar));
+            sha256Hex(stack.encode({static_cast<int>(i), 0, time.phase, 0},
+                                   channelPlanes(o, workspace->polar)));
           });
         if (o.cine)
           making.clock().time(Stage::avi, [&] {

@@ -1,7 +1,6 @@
 #pragma once
 // One setting of a scene at work: its frames as pictures, its interfaces, and its time by stage.
 
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -31,11 +30,17 @@ class MotionShelf {
   std::uint64_t uses_ = 0;
 };
 
+// Which intensities a picture is made of: those that were traced, or what is read back of them once
+// they are stored the way the scene stores its channels (output.exr_compression, exr_pixel; those
+// that were traced where it stores none).
+enum class Intensities { traced, stored };
+
 // A frame of one setting as it is compared.
 struct FramePicture {
   std::vector<float> grey;  // 0..1 before the grey map, -1 outside the sector
   GreyImage image;
   InterfaceMap interfaces;
+  std::size_t exr_bytes = 0;  // of its file in the intensity stack; of stored intensities alone
 };
 
 // Milliseconds of one batch of frames, per frame.
@@ -60,7 +65,8 @@ class FrameProbe {
   std::string signature() const;
 
   // Traces the frame; nothing is written.
-  FramePicture picture(const FrameTime& time, double reference_intensity, bool with_interfaces);
+  FramePicture picture(const FrameTime& time, double reference_intensity, bool with_interfaces,
+                       Intensities made_of = Intensities::traced);
 
   // The loop's white from these frames alone: absolute if the scene has it, else its percentile.
   double referenceIntensity(const std::vector<FrameTime>& times);
@@ -70,10 +76,10 @@ class FrameProbe {
   std::size_t vertices() const { return vertices_; }  // of the structures that stay
 
   // Makes `frames` frames of the times, round and round, on the threads of withThreads(), from
-  // meshes to encoded files, of which the EXR files go to `folder`. The time of a frame is the
-  // batch's over its frames, so on several threads it is that of a loop.
+  // meshes to encoded and hashed files in memory. The time of a frame is the batch's over its
+  // frames, so on several threads it is that of a loop.
   StageTimes timeBatch(const std::vector<FrameTime>& times, std::size_t frames,
-                       double reference_intensity, const std::filesystem::path& folder);
+                       double reference_intensity);
 
   // Gives back what frames need while they are made; the next frame builds it anew.
   void rest();

@@ -283,6 +283,19 @@ void addEchoes(const Scene& scene, Table& table) {
              {0, 1, 1, 1}});
 }
 
+// A knob of what the files keep of the intensities. That is the scene's say: its own value stands
+// in every preset, and the error is that of what is read back.
+template <typename Kind>
+void addStorage(const Scene& scene, Knob knob, Kind OutputSettings::*setting,
+                const std::vector<std::pair<const char*, Kind>>& kinds, Table& table) {
+  if (!scene.output.exr) return table.leaveOut(knob.name, "output.exr = false stores nothing");
+  for (const auto& [label, kind] : kinds) {
+    if (kind == scene.output.*setting) knob.of_preset.fill(knob.values.size());
+    knob.values.push_back({label, [=, kind = kind](Scene& s) { s.output.*setting = kind; }});
+  }
+  table.add(std::move(knob));
+}
+
 }  // namespace
 
 KnobTable knobsOf(const Scene& scene) {
@@ -299,12 +312,26 @@ KnobTable knobsOf(const Scene& scene) {
   addRefraction(scene, motion, table);
   addRays(scene, table);
   addEchoes(scene, table);
+  addStorage<ExrPixel>(
+      scene, {"exr_pixel", "output.exr_pixel", "stored intensities, 16 or 32 bits", {}, {}},
+      &OutputSettings::exr_pixel, {{"half", ExrPixel::half}, {"float", ExrPixel::whole}}, table);
+  addStorage<ExrCompression>(
+      scene,
+      {"exr_compression", "output.exr_compression", "stored intensities, pxr24 of 24 bits", {}, {}},
+      &OutputSettings::exr_compression,
+      {{"pxr24", ExrCompression::pxr24},
+       {"piz", ExrCompression::piz},
+       {"zips", ExrCompression::zips},
+       {"zip", ExrCompression::zip},
+       {"rle", ExrCompression::rle},
+       {"none", ExrCompression::none}},
+      table);
   return std::move(table.table);
 }
 
 std::vector<std::string> knobNames() {
-  return {"lines",         "samples",    "subdivision", "normals", "keyframes",
-          "interpolation", "refraction", "rays",        "echoes"};
+  return {"lines",      "samples", "subdivision", "normals",   "keyframes",      "interpolation",
+          "refraction", "rays",    "echoes",      "exr_pixel", "exr_compression"};
 }
 
 Setting presetSetting(const KnobTable& table, Preset preset) {

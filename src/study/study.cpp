@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "core/parallel.h"
 #include "core/units.h"
 #include "motion/cardiac_clock.h"
@@ -26,31 +27,10 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// The folder for EXR files that are only timed, gone in the end.
-struct ScratchFolder {
-  explicit ScratchFolder(const std::filesystem::path& folder) : path(folder / "frames.part") {
-    std::error_code error;
-    std::filesystem::create_directories(path, error);
-    if (error)
-      throw JobError(fmt::format("{}: cannot be made: {}", path.string(), error.message()));
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::filesystem::path path;
-};
-
 class Study {
  public:
   Study(const Scene& scene, const StudyOptions& options, const StudyMonitor& monitor)
-      : scene_(showing(scene)),
-        options_(options),
-        monitor_(monitor),
-        scratch_(options.folder),
-        start_(Clock::now()) {}
+      : scene_(showing(scene)), options_(options), monitor_(monitor), start_(Clock::now()) {}
 
   StudyResult run() {
     prepare();
@@ -82,7 +62,6 @@ class Study {
   Scene scene_;
   const StudyOptions& options_;
   const StudyMonitor& monitor_;
-  ScratchFolder scratch_;
   Clock::time_point start_;
   MotionShelf shelf_;
   StudyResult result_;
@@ -141,6 +120,7 @@ void Study::addSweep(const Knob& knob, std::size_t k, Preset around) {
 }
 
 void Study::prepare() {
+  makeFolder(options_.folder);  // what cannot be written must not be measured first
   result_.scene_file = scene_.file.filename().string();
   result_.dynamic_range_db = scene_.signal.dynamic_range_db;
   result_.threads = threadCount();
@@ -198,8 +178,7 @@ void Study::visit(std::size_t point, int round) {
     probe.picture(result_.frames.front(), result_.reference_intensity, false);
   const std::size_t frames =
       std::max(result_.frames.size(), static_cast<std::size_t>(2 * (threadCount() - 1)));
-  p.times.push_back(
-      probe.timeBatch(result_.frames, frames, result_.reference_intensity, scratch_.path));
+  p.times.push_back(probe.timeBatch(result_.frames, frames, result_.reference_intensity));
   probe.rest();
   visit_s_[point] = secondsSince(begin);
   ++visits_;
@@ -211,10 +190,10 @@ void Study::compare(std::size_t point) {
   StudyPoint& p = result_.points[point];
   StudyErrors& e = p.errors;
   InterfaceError interfaces;
-  double squares = 0, ssim = 0, worst = -1;
+  double squares = 0, ssim = 0, bytes = 0, worst = -1;
   for (std::size_t f = 0; f < result_.frames.size(); ++f) {
     const FramePicture picture =
-        probe.picture(result_.frames[f], result_.reference_intensity, true);
+        probe.picture(result_.frames[f], result_.reference_intensity, true, Intensities::stored);
     const FramePicture& truth = reference_[f];
     const PictureError error = pictureError(picture.grey, truth.grey, result_.dynamic_range_db);
     squares += error.rms_db * error.rms_db;
@@ -222,6 +201,7 @@ void Study::compare(std::size_t point) {
     e.max_db = std::max(e.max_db, error.max_db);
     ssim += structuralSimilarity(picture.image, truth.image, truth.grey);
     interfaces.add(picture.interfaces, truth.interfaces);
+    bytes += static_cast<double>(picture.exr_bytes);
     if (error.rms_db > worst) {
       worst = error.rms_db;
       p.thumbnail = thumbnail(picture.image);
@@ -234,6 +214,7 @@ void Study::compare(std::size_t point) {
   e.interface_rms_mm = millimetresFromMetres(interfaces.rms_m());
   e.interface_p95_mm = millimetresFromMetres(interfaces.percentile95_m());
   e.interface_missed = interfaces.missedShare();
+  p.exr_bytes = bytes / frames;
   p.work = probe.workPerFrame();
 }
 

@@ -26,6 +26,10 @@ struct StudyOptions {
       std::numeric_limits<double>::infinity();  // no round begins that would end later
 };
 
+// RMS errors that differ by less count as equal where settings are ranked: storing intensities
+// moves them by as much, up or down. Our choice.
+inline constexpr double kToldApart_db = 0.005;
+
 // Against the reference, over the probe frames.
 struct StudyErrors {
   double rms_db = 0;        // over the pixels of all frames
@@ -42,6 +46,7 @@ struct StudyPoint {
   std::string tracer;
   StudyErrors errors;
   WorkCounts work;                               // per frame
+  double exr_bytes = 0;                          // of the intensity stack, per frame; 0 without one
   std::vector<StageTimes> times;                 // one for each round
   std::vector<std::byte> thumbnail, difference;  // JPEG; brighter is farther from the reference
 
@@ -87,7 +92,7 @@ StudyResult runStudy(const Scene& scene, const StudyOptions& options, const Stud
 struct KnobStep {
   std::string knob, from, to;
   double added_ms = 0, error_drop_db = 0;
-  bool worth() const { return error_drop_db > 0; }
+  bool worth() const { return error_drop_db > kToldApart_db; }
   // dB per ms; a step that costs no time is counted as a hundredth of a millisecond.
   double perMillisecond() const;
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
@@ -97,7 +98,8 @@ std::vector<bool> rowsOnFront(const StudyResult& result) {
   std::vector<CostAndError> points;
   for (const StudyRow& row : result.rows) {
     const StudyPoint& point = result.points[row.point];
-    points.push_back({point.wall_ms().median, point.errors.rms_db});
+    points.push_back(
+        {point.wall_ms().median, std::round(point.errors.rms_db / kToldApart_db) * kToldApart_db});
   }
   return paretoFront(points);
 }
@@ -116,6 +118,7 @@ Json studyJson(const StudyResult& result) {
                     {"tracer", point.tracer},
                     {"errors", errorsJson(point.errors)},
                     {"work_per_frame", workJson(point.work)},
+                    {"exr_bytes_per_frame", point.exr_bytes},
                     {"timing", timingJson(point, front[i])}});
   }
   return {{"version", ECHOCINE_VERSION},
@@ -141,7 +144,7 @@ std::string studyCsv(const StudyResult& result) {
   const std::vector<bool> front = rowsOnFront(result);
   std::string text =
       "sweep,knob,value,rms_db,worst_frame_rms_db,max_db,ssim,interface_rms_mm,interface_p95_mm,"
-      "interface_missed,ms_per_frame,first_quartile_ms,third_quartile_ms";
+      "interface_missed,exr_bytes_per_frame,ms_per_frame,first_quartile_ms,third_quartile_ms";
   for (std::size_t s = 0; s < kStages; ++s)
     text += fmt::format(",{}_ms", stageName(static_cast<Stage>(s)));
   text += ",pareto,tracer,setting\n";
@@ -151,10 +154,10 @@ std::string studyCsv(const StudyResult& result) {
     const StudyErrors& e = point.errors;
     const Quartiles wall = point.wall_ms();
     text += fmt::format(
-        "{},{},{},{:.6g},{:.6g},{:.6g},{:.8g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}",
+        "{},{},{},{:.6g},{:.6g},{:.6g},{:.8g},{:.6g},{:.6g},{:.6g},{:.10g},{:.6g},{:.6g},{:.6g}",
         quoted(row.sweep), quoted(row.knob), quoted(row.value), e.rms_db, e.worst_rms_db, e.max_db,
-        e.ssim, e.interface_rms_mm, e.interface_p95_mm, e.interface_missed, wall.median,
-        wall.first_quartile, wall.third_quartile);
+        e.ssim, e.interface_rms_mm, e.interface_p95_mm, e.interface_missed, point.exr_bytes,
+        wall.median, wall.first_quartile, wall.third_quartile);
     for (std::size_t s = 0; s < kStages; ++s)
       text += fmt::format(",{:.6g}", point.stage_ms(static_cast<Stage>(s)));
     text += fmt::format(",{},{},{}\n", front[i] ? 1 : 0, point.tracer, quoted(point.keys));
@@ -165,8 +168,8 @@ std::string studyCsv(const StudyResult& result) {
 std::string studyTable(const StudyResult& result) {
   const std::vector<bool> front = rowsOnFront(result);
   std::string text =
-      fmt::format("{:<30} {:>9} {:>15} {:>8} {:>8} {:>8} {:>9} {:>9}\n", "", "ms/frame",
-                  "quartiles", "RMS dB", "max dB", "SSIM", "RMS mm", "95 % mm");
+      fmt::format("{:<30} {:>9} {:>15} {:>9} {:>8} {:>8} {:>9} {:>9} {:>9}\n", "", "ms/frame",
+                  "quartiles", "RMS dB", "max dB", "SSIM", "RMS mm", "95 % mm", "EXR kB");
   std::string head;
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const StudyRow& row = result.rows[i];
@@ -176,9 +179,10 @@ std::string studyTable(const StudyResult& result) {
     const Quartiles wall = point.wall_ms();
     const StudyErrors& e = point.errors;
     text += fmt::format(
-        "  {:<27}{} {:>9.2f} {:>7.2f}-{:<7.2f} {:>8.3f} {:>8.1f} {:>8.4f} {:>9.3f} {:>9.3f}\n",
+        "  {:<27}{} {:>9.2f} {:>7.2f}-{:<7.2f} {:>9.3g} {:>8.3g} {:>8.4f} {:>9.3f} {:>9.3f} "
+        "{:>9.0f}\n",
         row.value, front[i] ? '*' : ' ', wall.median, wall.first_quartile, wall.third_quartile,
-        e.rms_db, e.max_db, e.ssim, e.interface_rms_mm, e.interface_p95_mm);
+        e.rms_db, e.max_db, e.ssim, e.interface_rms_mm, e.interface_p95_mm, 1e-3 * point.exr_bytes);
   }
   text += "* no other setting here is both faster and nearer to the reference\n";
   for (const KnobLeftOut& l : result.table.left_out)

@@ -22,7 +22,8 @@ std::string studyTable(const StudyResult& result);
 // Writes study.json and study.csv into the folder, each whole or not at all. Throws JobError.
 void writeStudyFiles(const StudyResult& result, const std::filesystem::path& folder);
 
-// Is each row's point on the Pareto front of median time and RMS error over all points?
+// Is each row's point on the Pareto front of median time and RMS error (in steps of kToldApart_db)
+// over all points?
 std::vector<bool> rowsOnFront(const StudyResult& result);
 
 }  // namespace echocine

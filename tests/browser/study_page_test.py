@@ -76,6 +76,21 @@ class StudyPage(browser.PageTest):
             drawn = {row for _, _, row, *_ in self.points()}
             self.assertEqual(drawn, set(range(len(self.study["rows"]))), f"measure {i}")
 
+    def test_the_plot_alone_fills_a_window(self):
+        self.driver.get("about:blank")
+        self.driver.set_window_size(1200, 700)
+        self.driver.get("file://" + os.path.abspath(self.path) + "#plot")
+        self.wait(lambda: self.run_script("return page.parts.charts[0].getHeight()") < 560, "the plot keeps its height")
+        shown = self.run_script("""
+            return Array.from(document.querySelectorAll("section, footer"), (e) => [e.id, e.getClientRects().length])""")
+        self.assertEqual([name for name, boxes in shown if boxes], ["plot"])
+        box = self.run_script("""
+            const box = page.parts.charts[0].getDom().getBoundingClientRect();
+            return [box.width / innerWidth, box.height / innerHeight, box.bottom <= innerHeight];""")
+        self.assertGreater(box[0], 0.9)
+        self.assertGreater(box[1], 0.6)
+        self.assertTrue(box[2])
+
 
 def make_page(folder):
     program, source = sys.argv[1:3]

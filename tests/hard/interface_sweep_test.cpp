@@ -55,8 +55,8 @@ double criticalCosine(const Media& m) {
 }
 
 TEST(InterfaceSweep, GrazingAndTangentRaysReflectWhatTheyShould) {
-  Sweep reflected("grazing and tangent: R", "long double", 1e-5, kNothing);
-  Sweep passed("grazing and tangent: (1-R)^2", "long double", 1e-5);
+  Sweep reflected("grazing and tangent: R", "long double", "cos_i", 1e-5, kNothing);
+  Sweep passed("grazing and tangent: (1-R)^2", "long double", "cos_i", 1e-5);
   for (const Media& m : kAll) {
     std::vector<double> cosines = decades(1e-18, 1, 1500);
     for (const double x : {0.0, 5e-324, 2.3e-308, 1e-200}) cosines.push_back(x);
@@ -76,8 +76,9 @@ TEST(InterfaceSweep, GrazingAndTangentRaysReflectWhatTheyShould) {
 // Where cos_t is 0 its slope is infinite: no number can be had to better than what a change of
 // cos_i by some ulps does to it. So the loss must lie between those of cosines 4 ulps away.
 TEST(InterfaceSweep, TheCriticalAngleIsPassedUlpByUlpWithoutAJump) {
-  Sweep reflected("critical angle: R", "long double", 1e-5);
-  Sweep passed("critical angle: (1-R)^2 within 4 ulps of the angle", "long double", 1e-5);
+  Sweep reflected("critical angle: R", "long double", "cos_i / cos_c - 1", 1e-5);
+  Sweep passed("critical angle: (1-R)^2 within 4 ulps of the angle", "long double",
+               "cos_i / cos_c - 1", 1e-5);
   for (const Media& m : kAll) {
     if (m.c_2 <= m.c_1) continue;
     const double critical = criticalCosine(m);
@@ -110,8 +111,8 @@ TEST(InterfaceSweep, OneUlpDecidesTotalReflectionOnlyAtTheCriticalAngle) {
 
 // From media that differ in the last bit to a thousandfold, the other quantity equal or not.
 void sweepContrast(const char* name, Media (*media)(double), bool sign_up) {
-  Sweep reflected(std::string(name) + ": R", "long double", 1e-5, kNothing);
-  Sweep passed(std::string(name) + ": (1-R)^2", "long double", 1e-5);
+  Sweep reflected(std::string(name) + ": R", "long double", "contrast", 1e-5, kNothing);
+  Sweep passed(std::string(name) + ": (1-R)^2", "long double", "contrast", 1e-5);
   for (const double cos_i : {1.0, 0.9999, 0.8, 0.5, 0.1, 1e-3})
     for (const double contrast : decades(1e-16, 1e3, 1000)) {
       const Media m = media(sign_up ? 1 + contrast : 1 / (1 + contrast));
@@ -145,7 +146,7 @@ TEST(InterfaceSweep, AnyContrastOfBoth) {
 }
 
 TEST(InterfaceSweep, EqualMediaReflectNothingAndBendNothingAtAnyAngle) {
-  Sweep reflected("equal media: R and bend", "0", 0);
+  Sweep reflected("equal media: R and bend", "0", "cos_i", 0);
   for (const double cos_i : decades(1e-18, 1, 3000)) {
     const Vec3d direction{std::sqrt((1 - cos_i) * (1 + cos_i)), 0, cos_i};
     const auto bent = refracted(direction, {0, 0, -1}, 1540, 1540);
@@ -159,7 +160,7 @@ TEST(InterfaceSweep, EqualMediaReflectNothingAndBendNothingAtAnyAngle) {
 
 // The bent direction: its sine is Snell's, also grazing and next to the critical angle.
 TEST(InterfaceSweep, BentDirectionsAreSnells) {
-  Sweep bent("refracted direction, rad", "long double", 1e-7);
+  Sweep bent("refracted direction, rad", "long double", "cos_i", 1e-7);
   for (const Media& m : kAll) {
     std::vector<double> cosines = decades(1e-15, 1, 1000);
     if (m.c_2 > m.c_1)

@@ -85,7 +85,7 @@ const auto kSame = [](Vec3d p) { return p; };
 // Mostly to the last bit, since world coordinates are double until they are in the probe frame; a
 // vertex that comes out in another rounding of single precision (4 nm at 7 cm) may move an angle.
 void expectSameImages(const std::string& name, const World& a, const World& b) {
-  Sweep sweep(name + ": image", "the image before", 1e-5);
+  Sweep sweep(name + ": image", "the image before", kOfTracer, 1e-5);
   for (const Tracer tracer : kTracers)
     for (const Switch refraction : {Switch::off, Switch::on}) {
       if (refraction == Switch::on && tracer != Tracer::embree) continue;
@@ -153,7 +153,7 @@ TEST(Invariance, WorldAndProbeMirroredTogether) {
 
 // Only the meshes mirrored: the lines come in reverse order.
 TEST(Invariance, AMirroredHeartMirrorsTheImage) {
-  Sweep sweep("mirrored meshes: reversed lines", "the image before", 1e-5);
+  Sweep sweep("mirrored meshes: reversed lines", "the image before", kOfTracer, 1e-5);
   World world = worldOf(kSame), mirrored = world;
   for (Mesh& mesh : mirrored.meshes) {
     for (Vec3d& p : mesh.points) p.x = -p.x;
@@ -173,7 +173,7 @@ TEST(Invariance, AMirroredHeartMirrorsTheImage) {
 
 // Priorities that differ decide whatever the order: to the last bit, over many random worlds.
 TEST(Invariance, OrderOfStructures) {
-  Sweep sweep("order of structures", "the image before", 0);
+  Sweep sweep("order of structures", "the image before", "number of the random scene", 0);
   withThreads(1, [&] {
     for (std::uint64_t number = 0; number < 300; ++number) {
       World world = randomWorld(number);
@@ -196,7 +196,7 @@ TEST(Invariance, OrderOfStructures) {
 
 TEST(Invariance, OrderOfTrianglesAndOfTheirCorners) {
   // Corners in another order add up to the normal in another rounding.
-  Sweep sweep("order of triangles and corners", "the image before", 1e-5);
+  Sweep sweep("order of triangles and corners", "the image before", kOfTracer, 1e-5);
   World world = worldOf(kSame), turned = world;
   for (Mesh& mesh : turned.meshes) {
     std::reverse(mesh.triangles.begin(), mesh.triangles.end());
@@ -241,9 +241,9 @@ TEST(Invariance, AFaceCutIntoThreeOrFour) {
       {box({-0.03125, -0.0625, 0.046875}, {0.0390625, 0.03125, 0.09375})}};
   addStructure(whole.scene, 1, 1);
   whole.scene.probe.lines = 31;  // odd: the middle line meets edges and vertices of the cut
-  Sweep sweep("coplanar split 1 to 3, 1 to 4, twice", "the image before", 1e-5);
+  Sweep sweep("coplanar split 1 to 3, 1 to 4, twice", "the image before", "parts", 1e-5);
   // A cell takes each piece of contour at its middle: cutting it is a finer quadrature of the lobe.
-  Sweep cells("coplanar split, integrated over cells", "the image before", 0.1);
+  Sweep cells("coplanar split, integrated over cells", "the image before", "parts", 0.1);
   for (const int parts : {3, 4})
     for (int times = 1; times <= 2; ++times) {
       World cut = whole;

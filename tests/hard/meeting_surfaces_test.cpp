@@ -38,7 +38,7 @@ double difference(const World& a, const World& b, Tracer tracer) {
 
 void expectSame(const char* name, const char* oracle, const World& a, const World& b,
                 double bound = 1e-6) {
-  Sweep sweep(name, oracle, bound);
+  Sweep sweep(name, oracle, kOfTracer, bound);
   for (const Tracer tracer : kTracers)
     sweep.addError(static_cast<double>(tracer), difference(a, b, tracer));
 }
@@ -65,15 +65,17 @@ TEST(MeetingSurfaces, DuplicateFacesAreNotSeen) {
     const auto [a, b, c] = ball.triangles[t];
     doubled.triangles.insert(doubled.triangles.end(), {{a, b, c}, {a, c, b}});  // a closed pair
   }
-  Sweep sweep("duplicate faces: lines", "the mesh without them", 0);
+  Sweep sweep("duplicate faces: lines", "the mesh without them", kOfTracer, 0);
   for (const Tracer tracer : {Tracer::slice, Tracer::embree})
-    sweep.addError(0, difference(worldOf({ball}, {1}), worldOf({doubled}, {1}), tracer));
+    sweep.addError(static_cast<double>(tracer),
+                   difference(worldOf({ball}, {1}), worldOf({doubled}, {1}), tracer));
 }
 
 // A face cut by a point next to its edge, as close as a float can be: slivers beside large ones.
 TEST(MeetingSurfaces, SliversAreAsGoodAsTheFaceTheyArePartOf) {
   const Mesh whole = box({-0.03125, -0.0625, 0.0625}, {0.0390625, 0.03125, 0.09375});
-  Sweep sweep("slivers in a flat face: lines", "the uncut face", 1e-5);
+  Sweep sweep("slivers in a flat face: lines", "the uncut face", "distance from the edge, 2^-31 m",
+              1e-5);
   for (const double ulps : {1.0, 2.0, 16.0, 1e3, 1e5}) {
     Mesh cut = whole;
     // The front's diagonal runs from corner 1 to 2; a point beside its middle, within the face.
@@ -120,7 +122,8 @@ TEST(MeetingSurfaces, FacesInTheImagingPlaneBelongToOneSideOfIt) {
 
 // A linear probe's line in the side of a box and its float neighbours: hit or miss, never between.
 TEST(MeetingSurfaces, ALineInTheSideOfABoxHitsOrMissesIt) {
-  Sweep sweep("ray exactly tangent to a face", "box moved by 1 um", 1e-6);
+  Sweep sweep("ray exactly tangent to a face", "box moved by 1 um",
+              "distance from the face, 2^-30 m", 1e-6);
   const auto boxTo = [](double side) {
     World world = worldOf({box({-0.03, -0.02, 0.05}, {side, 0.02, 0.09})}, {1});
     Probe& probe = world.scene.probe;

@@ -34,7 +34,7 @@ World ballWorld(ProbeKind kind, int lines, int samples) {
 
 // The middle line meets the same as in an image of 65 lines, whose middle one it is.
 TEST(SmallestImages, OneLineIsTheMiddleOneOfMany) {
-  Sweep sweep("one line", "middle line of 65", 0);
+  Sweep sweep("one line", "middle line of 65", "sample", 0);
   for (const ProbeKind kind : {ProbeKind::phased, ProbeKind::curvilinear, ProbeKind::linear})
     for (const Tracer tracer : {Tracer::slice, Tracer::embree}) {
       const World one = ballWorld(kind, 1, 100), many = ballWorld(kind, 65, 100);
@@ -48,7 +48,7 @@ TEST(SmallestImages, OneLineIsTheMiddleOneOfMany) {
 
 // One sample holds every echo of its line and the backscatter of the middle depth.
 TEST(SmallestImages, OneSampleHoldsTheWholeLine) {
-  Sweep sweep("one sample", "closed form over the line", 1e-5);
+  Sweep sweep("one sample", "closed form over the line", "line", 1e-5);
   for (const ProbeKind kind : {ProbeKind::phased, ProbeKind::curvilinear, ProbeKind::linear})
     for (const int lines : {1, 2, 17})
       for (const Tracer tracer : {Tracer::slice, Tracer::embree}) {

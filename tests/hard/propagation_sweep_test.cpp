@@ -15,7 +15,7 @@ using namespace support;
 constexpr double kSmallestFloat = std::numeric_limits<float>::min();
 
 TEST(PropagationSweep, TheSpreadDownToTheFace) {
-  Sweep sweep("l -> 0: eta V / l^2", "closed form", 1e-6);
+  Sweep sweep("l -> 0: eta V / l^2", "closed form", "l, m", 1e-6);
   const Scene scene = plainScene({medium("a", 1000, 1500, 0, 1e-3)});
   const LineTrace line = walkStraight(straightSettings(scene), {});
   for (const double l : decades(1e-9, 0.15, 2000)) {
@@ -26,9 +26,9 @@ TEST(PropagationSweep, TheSpreadDownToTheFace) {
 
 // A line of samples with path length l each, alpha so that A runs from nothing past underflow.
 TEST(PropagationSweep, AttenuationPastTheSmallestFloat) {
-  Sweep received("attenuation past underflow: Y", "closed form", 1e-5, kSmallestFloat);
-  Sweep unattenuated("attenuation past underflow: perfect TGC", "closed form", 1e-6);
-  Sweep exponent("attenuation past underflow: A", "closed form", 1e-6);
+  Sweep received("attenuation past underflow: Y", "closed form", "A, Np", 1e-5, kSmallestFloat);
+  Sweep unattenuated("attenuation past underflow: perfect TGC", "closed form", "A, Np", 1e-6);
+  Sweep exponent("attenuation past underflow: A", "closed form", "A, Np", 1e-6);
   for (const double alpha : decades(1e-3, 1e6, 60)) {
     Scene scene = plainScene({medium("a", 1000, 1500, alpha, 0.1)});
     scene.probe.samples = 400;
@@ -52,7 +52,8 @@ TEST(PropagationSweep, AttenuationPastTheSmallestFloat) {
 
 // The same through 30 layers: what is begun in a medium deep under the smallest float's root.
 TEST(PropagationSweep, AttenuationPastTheSmallestFloatThroughManyMedia) {
-  Sweep received("attenuation past underflow, 30 media: Y", "closed form", 1e-5, kSmallestFloat);
+  Sweep received("attenuation past underflow, 30 media: Y", "closed form", "A, Np", 1e-5,
+                 kSmallestFloat);
   for (const double alpha : decades(10, 1e4, 20)) {
     std::vector<Medium> media;
     for (int i = 0; i < 31; ++i)
@@ -84,7 +85,7 @@ TEST(PropagationSweep, AttenuationPastTheSmallestFloatThroughManyMedia) {
 
 TEST(PropagationSweep, TheLogarithmDownToNothing) {
   // Grey is a share of the dynamic range; 1e-5 of 60 dB is a hundredth of a grey level's 1/256.
-  Sweep sweep("log of 0 and of every power of ten", "long double log10", 1e-5, 1);
+  Sweep sweep("log of 0 and of every power of ten", "long double log10", "intensity", 1e-5, 1);
   for (const double reference : {1.0, 1e-6, 1e-20, 1e10})
     for (const double range_db : {1.0, 60.0, 300.0}) {
       std::vector<float> in{0.0f};

@@ -44,7 +44,8 @@ long double exactTissue(long double mu, long double k, long double b_m) {
 }
 
 TEST(ScatteringSweep, TissueFromVanishingToHugeCorrelationLengths) {
-  Sweep sweep("Eq. 7, k b_m from 1e-9 to 1e6", "long double integral without cancellation", 1e-11);
+  Sweep sweep("Eq. 7, k b_m from 1e-9 to 1e6", "long double integral without cancellation", "k b_m",
+              1e-11);
   std::vector<double> all = decades(1e-9, 1e6, 3000);
   for (const double x : ulpsAround(0.05, 50)) all.push_back(x);  // where series and formula meet
   for (const double x : all)
@@ -52,7 +53,7 @@ TEST(ScatteringSweep, TissueFromVanishingToHugeCorrelationLengths) {
 }
 
 TEST(ScatteringSweep, TissueTendsToTheCubeOfTheCorrelationLength) {
-  Sweep sweep("Eq. 7, k b_m -> 0: (8/3) (k b_m)^3", "leading term", 1e-8);
+  Sweep sweep("Eq. 7, k b_m -> 0: (8/3) (k b_m)^3", "leading term", "k b_m", 1e-8);
   for (const double x : decades(1e-90, 1e-5, 500)) {
     const long double cube = static_cast<long double>(x) * x * x;
     sweep.add(x, tissueBackscatter(1, 1, x), 3 / (4 * kPi) * 8 / 3 * cube);
@@ -60,7 +61,7 @@ TEST(ScatteringSweep, TissueTendsToTheCubeOfTheCorrelationLength) {
 }
 
 TEST(ScatteringSweep, BloodFromNoCellsToNothingElse) {
-  Sweep sweep("Eq. 6, hematocrit 0 to 1", "long double", 1e-12);
+  Sweep sweep("Eq. 6, hematocrit 0 to 1", "long double", "hematocrit", 1e-12);
   std::vector<double> all = decades(1e-300, 1, 2000);
   for (const double x : ulpsAround(1, 1)) all.push_back(std::min(x, 1.0));
   for (const double x : decades(1e-16, 0.5, 500)) all.push_back(1 - x);
@@ -73,7 +74,7 @@ TEST(ScatteringSweep, BloodFromNoCellsToNothingElse) {
 }
 
 TEST(ScatteringSweep, AParticleThatComesNearItsFluid) {
-  Sweep sweep("Eq. 5, particle nearly its fluid", "long double", 1e-5);
+  Sweep sweep("Eq. 5, particle nearly its fluid", "long double", "contrast", 1e-5);
   for (const double part : decades(1e-10, 10, 1000)) {
     const double G = 4.1e-10, rho = 1021, G_e = G * (1 - part / 11), rho_e = rho * (1 + part / 5);
     const long double contrast =

@@ -74,8 +74,8 @@ float sumOf(const std::vector<float>& plane) {
 
 // Straight rays: the back side has the incidence of the front, from muscle into tissue.
 TEST(SlabSweep, TiltedUpToTheCriticalAngle) {
-  Sweep echoes("tilted wall, 0 to 76 degrees: echo", "closed form", 1e-5);
-  Sweep samples("tilted wall, 0 to 76 degrees: backscatter", "closed form", 1e-5);
+  Sweep echoes("tilted wall, 0 to 76 degrees: echo", "closed form", "tilt, degrees", 1e-5);
+  Sweep samples("tilted wall, 0 to 76 degrees: backscatter", "closed form", "tilt, degrees", 1e-5);
   for (int i = 0; i <= 300; ++i) {
     const double tilt = radiansFromDegrees(76.0 * i / 300);
     const World world = slabWorld(0.05, 3, tilt);
@@ -94,7 +94,7 @@ TEST(SlabSweep, TiltedUpToTheCriticalAngle) {
 
 // Beyond the critical angle, 77.1 degrees, everything deeper is 0, and the front sends back all.
 TEST(SlabSweep, BeyondTheCriticalAngleThereIsOnlyTheFront) {
-  Sweep echoes("wall beyond the critical angle: echo", "closed form", 1e-5);
+  Sweep echoes("wall beyond the critical angle: echo", "closed form", "tilt, degrees", 1e-5);
   for (int i = 0; i <= 200; ++i) {
     const double tilt = radiansFromDegrees(77.3 + 12.6 * i / 200);
     const World world = slabWorld(0.05, 3, tilt);
@@ -112,7 +112,8 @@ TEST(SlabSweep, BeyondTheCriticalAngleThereIsOnlyTheFront) {
 // The wall's depth moves over the edge between two samples, which lie 1 mm apart, ulp by ulp of
 // the mesh's floats: the echo stands whole in the one or in the other.
 TEST(SlabSweep, AWallOverTheEdgeOfASample) {
-  Sweep sweep("wall about a sample's edge: its echo in one sample", "closed form", 1e-5);
+  Sweep sweep("wall about a sample's edge: its echo in one sample", "closed form",
+              "depth behind the edge, m", 1e-5);
   const double edge = static_cast<float>(0.05);
   std::vector<double> depths;
   for (float up = 0.05f, down = 0.05f; depths.size() < 60;) {
@@ -136,8 +137,9 @@ TEST(SlabSweep, AWallOverTheEdgeOfASample) {
 // Walls of 10 cm down to a tenth of a nanometre, within one sample from 1 mm down. Below a
 // thousandth of a wavelength (0.6 um) it is no wall at all, just as its physics has it: (k d)^2.
 TEST(SlabSweep, AWallThatThinsToNothing) {
-  Sweep echoes("wall thinner than a sample: both echoes", "closed form", 1e-5);
-  Sweep behind("wall thinner than a sample: backscatter behind it", "closed form", 1e-5);
+  Sweep echoes("wall thinner than a sample: both echoes", "closed form", "thickness, m", 1e-5);
+  Sweep behind("wall thinner than a sample: backscatter behind it", "closed form", "thickness, m",
+               1e-5);
   for (const double d : decades(1e-10, 0.1, 600)) {
     World world = slabWorld(0, 1);
     const float front = 0.0301f;
@@ -164,7 +166,8 @@ TEST(SlabSweep, AWallThatThinsToNothing) {
 // The slab's front moves from before the probe, through it, to behind it: outside, on, inside. A
 // front within a thousandth of a wavelength of the face is in the face: the probe is inside.
 TEST(SlabSweep, AProbeOutsideOnAndInside) {
-  Sweep sweep("probe outside, on and inside: backscatter", "closed form", 1e-5);
+  Sweep sweep("probe outside, on and inside: backscatter", "closed form", "depth of the front, m",
+              1e-5);
   std::vector<double> fronts{0};
   for (const double d : decades(1e-12, 1e-2, 100)) {
     fronts.push_back(static_cast<float>(d));
@@ -188,7 +191,8 @@ TEST(SlabSweep, AProbeOutsideOnAndInside) {
 
 // Two equal media: the slab must vanish to the last bit, at every tilt.
 TEST(SlabSweep, AWallOfItsSurroundingsIsNotThere) {
-  Sweep sweep("equal media: image with and without the wall", "the image without it", 0);
+  Sweep sweep("equal media: image with and without the wall", "the image without it",
+              "tilt, degrees", 0);
   World without = slabWorld(0.05, 0.02);
   without.scene.media[1] = without.scene.media[0];
   without.meshes[0] = without.meshes[0].moved({0, 0, -10});

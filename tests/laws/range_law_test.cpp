@@ -110,7 +110,7 @@ void expectRecursion(const char* name, const Layers& layers) {
   ASSERT_EQ(line.stretches.size(), layers.scene.media.size());
   const std::vector<float> product = intensityOf(line, samplingOf(layers.scene.probe), parts);
   const std::vector<long double> expected = recursion(layers);
-  Sweep sweep(name, "the paper's recursion, long double", 1e-6);
+  Sweep sweep(name, "the paper's recursion, long double", "sample", 1e-6);
   for (std::size_t k = 0; k < product.size(); ++k)
     sweep.add(static_cast<double>(k), product[k], expected[k]);
 }

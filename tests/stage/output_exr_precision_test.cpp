@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "output/exr_plane.h"
 #include "output/half_plane.h"
 #include "output_exr_fixture.h"
 #include "support/exr_planes.h"
@@ -111,6 +112,27 @@ TEST_F(ExrStackTest, Pxr24KeepsSixteenDigitsOfNormalFloats) {
     for (std::size_t i = 0; i < values.size(); ++i)
       ASSERT_LE(std::abs(double{back.values[i]} - double{values[i]}), values[i] * 0x1p-16) << i;
   }
+}
+
+TEST_F(ExrStackTest, ReadsBackWhatItsFilesHold) {
+  fillDecades(values, 3e-7);
+  for (const ExrPixel pixel : {ExrPixel::whole, ExrPixel::half})
+    for (const ExrCompression compression :
+         {ExrCompression::none, ExrCompression::rle, ExrCompression::zips, ExrCompression::zip,
+          ExrCompression::piz, ExrCompression::pxr24}) {
+      scene.output.exr_pixel = pixel;
+      scene.output.exr_compression = compression;
+      stack().write(record, planes());
+      const ReadBack file_back = readBack(file(), scene.probe, "Y");
+      const std::vector<float> back =
+          echocine::readBack(stack().encode(record, planes()), Channel::y);
+      ASSERT_EQ(back.size(), values.size());
+      for (std::size_t i = 0; i < values.size(); ++i)
+        ASSERT_EQ(back[i], static_cast<float>(file_back.values[i] / file_back.scale)) << i;
+      if (pixel == ExrPixel::whole && compression != ExrCompression::pxr24) {
+        ASSERT_EQ(back, values);
+      }
+    }
 }
 
 TEST_F(ExrStackTest, MediaAreWholeUnderEveryLoss) {

@@ -3,7 +3,8 @@
 //
 // With the environment variable ECHOCINE_HARD_CASES set to a file, each sweep appends a row
 // `case | oracle | points | worst error | bound` to it (Markdown) and writes its points into a
-// folder beside it, named after the file, as CSV.
+// folder beside it, named after the file, as CSV (src/study/sweep_files.h), which `echocine study
+// --sweeps` plots.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -24,9 +25,14 @@ namespace echocine::support {
 
 class Sweep {
  public:
-  // Errors are relative to the expected value, or to `floor` where that is smaller.
-  Sweep(std::string name, std::string oracle, double bound, double floor = 0)
-      : name_(std::move(name)), oracle_(std::move(oracle)), bound_(bound), floor_(floor) {}
+  // `variable` is what add() calls `at`. Errors are relative to the expected value, or to `floor`
+  // where that is smaller.
+  Sweep(std::string name, std::string oracle, std::string variable, double bound, double floor = 0)
+      : name_(std::move(name)),
+        oracle_(std::move(oracle)),
+        variable_(std::move(variable)),
+        bound_(bound),
+        floor_(floor) {}
   Sweep(const Sweep&) = delete;
   Sweep& operator=(const Sweep&) = delete;
   ~Sweep() {
@@ -75,7 +81,8 @@ class Sweep {
       if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
     std::ofstream out(folder / (slug + ".csv"));
     out.precision(17);
-    out << "at,got,expected,error\n";
+    out << "# case: " << name_ << "\n# against: " << oracle_ << "\n# variable: " << variable_
+        << "\n# bound: " << bound_ << "\nat,got,expected,error\n";
     for (const Point& p : points_)
       out << p.at << ',' << p.got << ',' << p.expected << ',' << p.error << '\n';
   }
@@ -94,11 +101,14 @@ class Sweep {
     ::close(out);
   }
 
-  std::string name_, oracle_;
+  std::string name_, oracle_, variable_;
   double bound_, floor_;
   Point worst_;
   std::vector<Point> points_;
 };
+
+// The variable of a sweep over the tracers (support/world.h).
+inline constexpr const char* kOfTracer = "tracer: 0 slice, 1 cells, 2 hierarchy";
 
 // A double with its neighbours, `ulps` on each side.
 inline std::vector<double> ulpsAround(double x, int ulps) {

@@ -65,14 +65,15 @@ TEST_F(StudyCommandTest, WritesItsFilesAndATableAndLeavesNothingElse) {
   EXPECT_NE(outcome.out.find("lines, from reference"), std::string::npos);
   for (const char* name : {"study.json", "study.csv", "study.html"})
     EXPECT_TRUE(fs::exists(folder / "out" / name));
-  EXPECT_FALSE(fs::exists(folder / "out/frames.part"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "out"), {}), 3);
 }
 
 TEST_F(StudyCommandTest, EveryKnobIsSweptFromDraftAndFromReference) {
   ASSERT_EQ(study().code, 0);
   const Json json = this->json();
-  for (const char* knob : {"lines", "samples", "subdivision", "normals", "keyframes",
-                           "interpolation", "refraction", "echoes"}) {
+  for (const char* knob :
+       {"lines", "samples", "subdivision", "normals", "keyframes", "interpolation", "refraction",
+        "echoes", "exr_pixel", "exr_compression"}) {
     std::size_t values = 0;
     for (const Json& k : json["knobs"])
       if (k["name"] == knob) values = k["values"].size();
@@ -106,9 +107,59 @@ TEST_F(StudyCommandTest, FinerPresetsErrLess) {
   }
 }
 
+// What files keep, as the picture of what is read back: every bit without loss; with it, a relative
+// error of 2^-11 (half) or 2^-16 (pxr24) of an intensity, 4.34 times that in dB.
+TEST_F(StudyCommandTest, StoredIntensitiesErrByWhatTheirPixelsLose) {
+  ASSERT_EQ(study("--knobs exr_pixel,exr_compression").code, 0);
+  const Json json = this->json();
+  const auto stored = [&](const char* knob, const char* value) {
+    return rowOf(json, "from reference", knob, value);
+  };
+  const auto rms = [](const Json& row) { return row["errors"]["rms_db"].get<double>(); };
+  const auto bytes = [](const Json& row) { return row["exr_bytes_per_frame"].get<double>(); };
+  const Json whole = stored("exr_compression", "none");
+  for (const char* lossless : {"none", "rle", "zips", "zip", "piz"}) {
+    const Json row = stored("exr_compression", lossless);
+    EXPECT_EQ(rms(row), 0) << lossless;
+    EXPECT_EQ(row["errors"]["ssim"], whole["errors"]["ssim"]) << lossless;
+    EXPECT_GT(bytes(row), 0) << lossless;
+    EXPECT_LE(bytes(row), bytes(whole)) << lossless;
+  }
+  const double half = rms(stored("exr_pixel", "half")),
+               pxr24 = rms(stored("exr_compression", "pxr24"));
+  EXPECT_GT(pxr24, 0);
+  EXPECT_LT(pxr24, 4.35 * 0x1p-16);
+  EXPECT_GT(half, pxr24);
+  EXPECT_LT(half, 4.35 * 0x1p-11);
+  EXPECT_LT(bytes(stored("exr_pixel", "half")), 0.55 * bytes(whole));
+  EXPECT_LT(bytes(stored("exr_compression", "pxr24")), bytes(whole));
+  EXPECT_EQ(whole["errors"]["interface_rms_mm"],
+            stored("exr_pixel", "half")["errors"]["interface_rms_mm"]);
+}
+
+// Presets leave the storage alone, and a frame is as large as the one that is rendered.
+TEST_F(StudyCommandTest, FilesAreThoseOfTheRenderedScene) {
+  SceneText text = studiedBall();
+  text.output["exr_pixel"] = "\"half\"";
+  writeBall(folder, text);
+  ASSERT_EQ(study("--knobs exr_pixel").code, 0);
+  const Json json = this->json();
+  for (const Json& knob : json["knobs"]) {
+    if (!knob["name"].get<std::string>().starts_with("exr_")) continue;
+    for (const Json& value : knob["presets"])
+      EXPECT_EQ(value, knob["name"] == "exr_pixel" ? "half" : "none");
+  }
+  EXPECT_GT(rmsOf(json, "reference"), 0);  // stored halves, against the intensities themselves
+  EXPECT_EQ(rowOf(json, "from reference", "exr_pixel", "float")["errors"]["rms_db"], 0);
+  ASSERT_EQ(renderScene(folder / "scene.toml", folder / "loop", "--frames=:1").code, 0);
+  EXPECT_EQ(rowOf(json, "preset", "preset", "scene")["exr_bytes_per_frame"],
+            fs::file_size(folder / "loop/intensity/frame_0000.exr"));
+}
+
 TEST_F(StudyCommandTest, AllButTimesIsTheSameWhateverTheThreads) {
-  ASSERT_EQ(study("--knobs lines,refraction --threads 1", "one").code, 0);
-  ASSERT_EQ(study("--knobs lines,refraction --threads 2 --repeats 2", "two").code, 0);
+  ASSERT_EQ(study("--knobs lines,refraction,exr_compression --threads 1", "one").code, 0);
+  ASSERT_EQ(study("--knobs lines,refraction,exr_compression --threads 2 --repeats 2", "two").code,
+            0);
   EXPECT_EQ(withoutTimes(json("one")).dump(), withoutTimes(json("two")).dump());
 }
 
@@ -161,11 +212,14 @@ TEST_F(StudyCommandTest, KnobsThatCannotApplyAreLeftOutWithTheReason) {
   SceneText text = studiedBall();
   text.motion.erase("subdivision");
   text.effects["refraction"] = "\"off\"";
+  text.output["exr"] = "false";
   writeBall(folder, text);
   const Outcome outcome = study("--knobs lines");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* part : {"left out: subdivision: ", "left out: normals: ",
-                           "left out: refraction: effects.refraction"})
+  for (const char* part :
+       {"left out: subdivision: ", "left out: normals: ",
+        "left out: refraction: effects.refraction", "left out: exr_pixel: output.exr = false",
+        "left out: exr_compression: output.exr = false"})
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in " << outcome.out;
 }
 
@@ -211,7 +265,7 @@ TEST(StudyStop, KeepsTheRowsThatAreFinished) {
   ASSERT_FALSE(result.rows.empty());
   for (const StudyRow& row : result.rows)
     EXPECT_FALSE(result.points[row.point].times.empty()) << row.knob << row.value;
-  EXPECT_FALSE(fs::exists(folder / "out/frames.part"));
+  EXPECT_TRUE(fs::is_empty(folder / "out"));
 }
 
 TEST_F(StudyCommandTest, CtrlCWritesTheFinishedRowsAndIsAFailedJob) {
