@@ -36,7 +36,7 @@ class Planted : public ::testing::Test {
     withThreads(2, [&] { c = compareLoops(options, [](const std::string&) {}); });
     return c;
   }
-  const Drawing plain;
+  const Drawing plain{};
   TempFolder folder;
 };
 
