@@ -125,6 +125,7 @@ struct HeartMotion::MovingSurface {
   std::optional<Subdivision> subdivision{};
   std::optional<LimitNormals> limit_normals{};
   std::vector<Vec3f> still_m{};  // of a still structure that is subdivided: the refined vertices
+  double still_volume_m3 = 0;    // of a still structure
 
   void smooth(SurfaceTopology& topology, const MeshTags& tags, const Scene& scene);
   void subdivide(SurfaceTopology& topology, const MeshTags& tags, const MotionSettings& motion);
@@ -193,6 +194,11 @@ HeartMotion::HeartMotion(const Scene& scene)
     const MeshTags& tags = keyframes.front().mesh.tags;
     if (smooth_normals_) moving.smooth(topology, tags, scene);
     if (scene.motion.subdivision > 0) moving.subdivide(topology, tags, scene.motion);
+    if (topology.still) {
+      std::vector<Vec3f> still_m, normals;
+      moving.frameAt(0, still_m, &normals);
+      moving.still_volume_m3 = enclosedVolume(topology, still_m);
+    }
     surfaces_.push_back(std::move(topology));
     moving_.push_back(std::move(moving));
   }
@@ -215,6 +221,11 @@ void HeartMotion::frameAt(double phase, SurfaceFrame& frame) const {
       moving_[s].frameAt(phase, frame.positions_m[s],
                          smooth_normals_ ? &frame.normals[s] : nullptr);
   }
+}
+
+double HeartMotion::volumeIn(const SurfaceFrame& frame, const SurfaceTopology& surface) const {
+  const std::size_t s = index(surface.id);
+  return surface.still ? moving_[s].still_volume_m3 : enclosedVolume(surface, frame.positions_m[s]);
 }
 
 double enclosedVolume(const SurfaceTopology& surface, const std::vector<Vec3f>& positions_m) {

@@ -36,11 +36,6 @@ FrameMaker::FrameMaker(const Scene& scene, const LoopPlan& plan, const HeartMoti
       request_(planeRequest(scene, plan.effects)) {
   if (plan.effects.rays_per_beam > 1)
     beams_.emplace(scene.probe, beamSpread(plan.effects, scene.acquisition.seed));
-  SurfaceFrame frame;
-  motion.frameAt(0, frame);
-  for (const SurfaceTopology& surface : motion.surfaces())
-    still_volumes_m3_.push_back(
-        surface.still ? enclosedVolume(surface, frame.positions_m[index(surface.id)]) : 0);
 }
 
 std::shared_ptr<Workspace> FrameMaker::workspace() {
@@ -68,10 +63,8 @@ Volumes FrameMaker::volumes(const SurfaceFrame& surfaces) const {
   Volumes volumes;
   for (const SurfaceTopology& surface : motion_.surfaces()) {
     if (surface.membrane) continue;
-    const std::size_t s = index(surface.id);
-    const double volume_m3 =
-        surface.still ? still_volumes_m3_[s] : enclosedVolume(surface, surfaces.positions_m[s]);
-    volumes.emplace_back(scene_.structures[s].name, millilitresFromCubicMetres(volume_m3));
+    volumes.emplace_back(scene_.structures[index(surface.id)].name,
+                         millilitresFromCubicMetres(motion_.volumeIn(surfaces, surface)));
   }
   return volumes;
 }

@@ -93,8 +93,7 @@ class FrameMaker {
   SignalChain chain_;
   TraceSettings settings_;
   PlaneRequest request_;
-  std::optional<BeamRays> beams_;         // several rays per beam
-  std::vector<double> still_volumes_m3_;  // by surface; 0 for those that move
+  std::optional<BeamRays> beams_;  // several rays per beam
   StageClock clock_;
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> free_;

@@ -80,7 +80,7 @@ int StudyCommand::runSweeps() const {
   const std::vector<HardCaseSweep> sweeps = readSweeps(sweeps_folder_);
   makeFolder(options_.folder);
   writeSweepPage(sweeps, options_.folder / "sweeps.html");
-  if (!quiet_) fmt::print("{}: sweeps.html, {} sweeps\n", options_.folder.string(), sweeps.size());
+  if (!quiet_) fmt::print("{}: sweeps.html\n", options_.folder.string());
   return 0;
 }
 

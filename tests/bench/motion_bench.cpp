@@ -3,13 +3,13 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <chrono>
 
 #include "core/parallel.h"
 #include "motion/cardiac_clock.h"
 #include "motion/motion_warnings.h"
 #include "scene/scene_reader.h"
+#include "study/statistics.h"
 #include "support/paths.h"
 
 namespace echocine::bench {
@@ -20,12 +20,6 @@ double secondsOf(Work&& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 void lookForBreaks(benchmark::State& state) {
@@ -44,9 +38,9 @@ void lookForBreaks(benchmark::State& state) {
       state.SetIterationTime(looks.back());
     }
   });
-  state.counters["look_ms_per_frame"] = 1e3 * median(looks) / clock.frameCount();
-  state.counters["motion_ms_per_frame"] = 1e3 * median(frames) / clock.frameCount();
-  state.counters["share"] = median(looks) / median(frames);
+  state.counters["look_ms_per_frame"] = 1e3 * quartilesOf(looks).median / clock.frameCount();
+  state.counters["motion_ms_per_frame"] = 1e3 * quartilesOf(frames).median / clock.frameCount();
+  state.counters["share"] = quartilesOf(looks).median / quartilesOf(frames).median;
 }
 
 BENCHMARK(lookForBreaks)->UseManualTime()->Iterations(9)->Unit(benchmark::kMillisecond);

@@ -6,10 +6,10 @@
 #include <benchmark/benchmark.h>
 #include <time.h>
 
-#include <algorithm>
 #include <vector>
 
 #include "core/parallel.h"
+#include "study/statistics.h"
 
 namespace echocine::bench {
 
@@ -24,13 +24,6 @@ double millisecondsOf(Work&& work) {
   const double start = cpuMilliseconds();
   work();
   return cpuMilliseconds() - start;
-}
-
-inline double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Runs floor(i) and ours(i) in turn on one thread; the first of them changes from round to round.
@@ -52,9 +45,9 @@ void overFloor(benchmark::State& state, Ours&& ours, Floor&& floor) {
       ratios.push_back(a / b);
     }
   });
-  state.counters["ours_ms"] = median(ours_ms);
-  state.counters["floor_ms"] = median(floor_ms);
-  state.counters["over_floor"] = median(ratios);
+  state.counters["ours_ms"] = quartilesOf(ours_ms).median;
+  state.counters["floor_ms"] = quartilesOf(floor_ms).median;
+  state.counters["over_floor"] = quartilesOf(ratios).median;
 }
 
 }  // namespace echocine::bench

@@ -10,6 +10,7 @@
 #include "bench/floor/bare_product.h"
 #include "motion/limit_normals.h"
 #include "motion/subdivision.h"
+#include "study/statistics.h"
 
 namespace echocine::bench {
 namespace {
@@ -37,12 +38,6 @@ double millisecondsOf(Work&& work) {
       .count();
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
-
 enum class Row { subdivision, normals };
 
 void overBare(benchmark::State& state, Row row) {
@@ -66,9 +61,9 @@ void overBare(benchmark::State& state, Row row) {
   }
   state.counters["vertices"] = static_cast<double>(w.out.size());
   state.counters["weights"] = static_cast<double>(w.bare.weights());
-  state.counters["bare_ms"] = median(bare);
-  state.counters["ours_ms"] = median(ours);
-  state.counters["over_bare"] = median(ours) / median(bare);
+  state.counters["bare_ms"] = quartilesOf(bare).median;
+  state.counters["ours_ms"] = quartilesOf(ours).median;
+  state.counters["over_bare"] = quartilesOf(ours).median / quartilesOf(bare).median;
 }
 
 BENCHMARK_CAPTURE(overBare, subdivision, Row::subdivision)

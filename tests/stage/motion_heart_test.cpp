@@ -49,6 +49,25 @@ TEST(MotionHeart, StillStructureIsTheSameAtEveryPhase) {
   }
 }
 
+TEST(MotionHeart, VolumesAreThoseOfTheFrame) {
+  const TestFolder folder;
+  for (const std::vector<double>& radii : {std::vector<double>{2}, std::vector<double>{2, 1.8}})
+    for (const Normals normals : {Normals::facet, Normals::smooth}) {
+      Scene scene = beatingBall(folder, radii, 1);
+      scene.motion.subdivision = 1;
+      scene.accuracy.normals = normals;
+      const HeartMotion motion(scene);
+      const SurfaceTopology& surface = motion.surfaces()[0];
+      EXPECT_EQ(surface.still, radii.size() == 1);
+      SurfaceFrame frame;
+      for (const double phase : {0.0, 0.3}) {
+        motion.frameAt(phase, frame);
+        EXPECT_GT(motion.volumeIn(frame, surface), 0);
+        EXPECT_EQ(motion.volumeIn(frame, surface), enclosedVolume(surface, frame.positions_m[0]));
+      }
+    }
+}
+
 TEST(MotionHeart, FrameIsReusedWithoutAllocation) {
   const TestFolder folder;
   Scene scene = beatingBall(folder, {2, 1.8, 1.5}, 2);

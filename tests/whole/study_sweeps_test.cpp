@@ -74,7 +74,7 @@ TEST_F(StudySweeps, BecomeOnePage) {
   put("a.csv", kHead + "1,1,1,2e-8\n");
   const Outcome outcome = plot();
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("sweeps.html, 1 sweep"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("out: sweeps.html\n"), std::string::npos) << outcome.out;
   const std::string page = bytesOf(folder / "out/sweeps.html");
   EXPECT_NE(page.find("critical angle: R"), std::string::npos);
   EXPECT_NE(page.find("[1.0,2e-08]"), std::string::npos);
