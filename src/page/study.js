@@ -75,7 +75,7 @@
   function lookOf(name) {
     if (name === "presets")
       return { symbol: "diamond", symbolSize: 16, z: 3, itemStyle: { color: page.colour("text"), borderColor: page.colour("card"), borderWidth: 1 },
-        label: { show: true, position: "top", formatter: (p) => p.data.row.value, fontWeight: "bold", fontSize: 13,
+        label: { show: true, silent: true, position: "top", formatter: (p) => p.data.row.value, fontWeight: "bold", fontSize: 13,
           color: page.colour("text"), textBorderColor: page.colour("card"), textBorderWidth: 4 } };
     const k = data.knobs.findIndex((knob) => knob.name === name);
     return { symbol: k < kCurveColours.length ? "circle" : "triangle", symbolSize: 9,
@@ -100,7 +100,7 @@
     series.unshift({ name: "Pareto front", type: "line", step: "end", data: front.map((p) => p.value), symbol: "none",
       lineStyle: { width: 1.5, type: "dashed", color: page.colour("muted") }, itemStyle: { color: page.colour("muted") },
       silent: true, markLine: { silent: true, z: 1, symbol: "none", precision: 12, data: [{ yAxis: floor }], lineStyle: { color: page.colour("line"), type: "solid" },
-        label: { position: "insideStartBottom", formatter: `no error, or under ${number(floor, 1)}`, color: page.colour("muted") } } });
+        label: { position: "insideStartTop", formatter: `no error, or under ${number(floor, 1)}`, color: page.colour("muted") } } });
     return { legend: { type: "scroll", top: 0, left: 0, right: 0, itemWidth: 16, itemHeight: 11, textStyle: { color: page.colour("text") } }, series,
       yAxis: { name: measure.name } };
   }
@@ -142,7 +142,7 @@
     const stages = Object.keys(presets[0].timing.stages_ms);
     makeChart(byId("stages"), 250, {
       grid: { left: 8, right: 20, top: 50, bottom: 30, containLabel: true },
-      legend: { type: "scroll", top: 0, left: 0, right: 0 },
+      legend: { type: "scroll", top: 0, left: 0, right: 0, itemWidth: 14, itemHeight: 10, itemGap: 8 },
       tooltip: { trigger: "axis", axisPointer: { type: "shadow" }, confine: true, valueFormatter: (v) => `${fixed(100 * v, 1)} %` },
       xAxis: { type: "value", max: 1, name: "share of the frame", nameLocation: "middle", nameGap: 24,
         axisLabel: { formatter: (v) => `${100 * v} %` } },
