@@ -11,6 +11,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <utility>
+#include <vector>
 
 namespace echocine {
 
@@ -52,9 +53,11 @@ std::size_t parallelOrdered(std::size_t first, std::size_t last, std::size_t in_
                             const std::function<bool()>& keep_going,
                             const std::function<std::shared_ptr<void>(std::size_t)>& work,
                             const std::function<void(std::size_t, std::shared_ptr<void>)>& drain) {
-  using Item = std::pair<std::size_t, std::shared_ptr<void>>;
   std::size_t next = first;
   std::size_t drained = first;
+  // The pipeline carries numbers: of a token that owns memory it loses some when a stage throws.
+  // Item i is drained before item i + in_flight begins, so each has a place of its own.
+  std::vector<std::shared_ptr<void>> made(in_flight);
   tbb::parallel_pipeline(
       in_flight,
       tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order,
@@ -65,14 +68,16 @@ std::size_t parallelOrdered(std::size_t first, std::size_t last, std::size_t in_
                                             }
                                             return next++;
                                           }) &
-          tbb::make_filter<std::size_t, Item>(tbb::filter_mode::parallel,
-                                              [&](std::size_t i) -> Item {
-                                                return {i, work(i)};
-                                              }) &
-          tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, [&](Item item) {
-            drain(item.first, std::move(item.second));
-            drained = item.first + 1;
-          }));
+          tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel,
+                                                     [&](std::size_t i) {
+                                                       made[i % in_flight] = work(i);
+                                                       return i;
+                                                     }) &
+          tbb::make_filter<std::size_t, void>(
+              tbb::filter_mode::serial_in_order, [&](std::size_t i) {
+                drain(i, std::exchange(made[i % in_flight], nullptr));
+                drained = i + 1;
+              }));
   return drained;
 }
 
