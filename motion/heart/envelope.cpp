@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "motion/heart/units.h"
 
 namespace echocine::heart {
-namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-}  // namespace
 
 std::vector<Vec3d> envelopeOf(std::span<const Vec3d> points, Vec3d centre, double gap_m,
                               const SphereMesh& sphere) {

@@ -1,17 +1,15 @@
 #include "motion/heart/heart.h"
 
-#include <numbers>
 #include <string_view>
 #include <utility>
 
 #include "motion/heart/envelope.h"
 #include "motion/heart/instant.h"
 #include "motion/heart/segments.h"
+#include "motion/heart/units.h"
 
 namespace echocine::heart {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // Cavities pierce walls; of two walls or cavities that touch, the left heart's and the rounder one
 // keeps its shape. So the septum belongs to the left ventricle and the right heart is wrapped

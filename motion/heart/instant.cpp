@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "core/error.h"
 #include "motion/heart/solve.h"
+#include "motion/heart/units.h"
 
 // Places without a source are our choice, drawn after hearts segmented from CT and fitted to cine
 // MR. l is the length of the left ventricle at end-diastole.
@@ -14,7 +14,6 @@
 namespace echocine::heart {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180, kMillilitre = 1e-6, kMillimetre = 1e-3;
 constexpr double kTolerance = 1e-5;    // of volumes that are solved for
 constexpr double kClearance_m = 3e-4;  // between a chamber and the wall of its neighbour
 

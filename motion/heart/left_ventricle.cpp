@@ -10,11 +10,10 @@
 #include "motion/heart/meridian.h"
 #include "motion/heart/segments.h"
 #include "motion/heart/solve.h"
+#include "motion/heart/units.h"
 
 namespace echocine::heart {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180, kMillilitre = 1e-6, kMillimetre = 1e-3;
 
 // The tables of the shape, over zeta: shares of the length from the mitral ring (0) to the apex (1)
 // at end-diastole. Our choice, drawn after one heart fitted to cine MR; below 0 lies the

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/monotone_cubic.h"
+#include "motion/heart/units.h"
 
 namespace echocine::heart {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSeptalGap_m = 5e-4;
 
 // Over the height from base (0) to apex (1): the crescent's middle and half width about the left

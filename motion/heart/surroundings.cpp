@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "motion/heart/smooth.h"
 #include "motion/heart/tube.h"
+#include "motion/heart/units.h"
 
 // Places and thicknesses are our choice: an adult's chest in outline, not a patient's.
 
 namespace echocine::heart {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // The pleura is rough and moves, and little of its echo comes back in phase: so much that it is as
 // bright as the pericardium.

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "motion/heart/units.h"
 
 namespace echocine::heart {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 constexpr ViewName kViews[] = {
     {View::a4c, "a4c", "apical four-chamber"},

@@ -9,6 +9,7 @@
 #include "compare/results.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/units.h"
 
 namespace echocine {
 
@@ -81,7 +82,7 @@ void print(const compare::Comparison& c, const std::filesystem::path& folder) {
   fmt::print(
       "  space: {}, shift {:.2f}, {:.2f} px, scale {:.4f}, rotation {:.2f} deg{}, confidence "
       "{:.2f}\n",
-      c.space.method, p.shift_x_px, p.shift_y_px, p.scale, p.rotation_rad * 57.29577951308232,
+      c.space.method, p.shift_x_px, p.shift_y_px, p.scale, p.rotation_rad / radiansFromDegrees(1),
       c.space.used ? "" : " not used", c.space.confidence);
   fmt::print(
       "  {}: compare.html, frames.csv, summary.json, side_by_side.avi, sector_real.png, "

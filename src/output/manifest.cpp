@@ -72,6 +72,15 @@ Json stageTimesJson(const Manifest& manifest) {
   return timings;
 }
 
+Json workJson(const WorkCounts& w) {
+  return {{"bvh_updates", w.bvh_updates},
+          {"facets_sliced", w.facets_sliced},
+          {"rays", w.rays},
+          {"crossings", w.crossings},
+          {"samples_backscatter", w.samples_backscatter},
+          {"samples_attenuated", w.samples_attenuated}};
+}
+
 double timeShare(const EffectDecision& effect, const Manifest& manifest) {
   double total = 0;
   for (const double ms : manifest.stage_ms) total += ms;
@@ -128,7 +137,6 @@ void writeManifest(const std::filesystem::path& path, const Scene& scene,
                    const Manifest& manifest) {
   Json timings = stageTimesJson(manifest);
   timings["wall"] = manifest.wall_ms;
-  const WorkCounts& w = manifest.work;
   const Json json{{"version", ECHOCINE_VERSION},
                   {"scene_sha256", manifest.scene_sha256},
                   {"scene", sceneJson(scene)},
@@ -142,13 +150,7 @@ void writeManifest(const std::filesystem::path& path, const Scene& scene,
                   {"frames", framesJson(manifest)},
                   {"keyframe_volumes", keyframesJson(manifest)},
                   {"timings_ms_per_frame", timings},
-                  {"work",
-                   {{"bvh_updates", w.bvh_updates},
-                    {"facets_sliced", w.facets_sliced},
-                    {"rays", w.rays},
-                    {"crossings", w.crossings},
-                    {"samples_backscatter", w.samples_backscatter},
-                    {"samples_attenuated", w.samples_attenuated}}},
+                  {"work", workJson(manifest.work)},
                   {"files", manifest.files}};
   const std::string text = json.dump(1) + "\n";
   writeFileWhole(path, std::as_bytes(std::span(text)));

@@ -58,6 +58,7 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest);
 nlohmann::ordered_json effectsJson(const Manifest& manifest);  // name, on, reason, time_share
 nlohmann::ordered_json planJson(const LoopPlan& plan);         // tracer, echoes, what is left out
 nlohmann::ordered_json stageTimesJson(const Manifest& manifest);
+nlohmann::ordered_json workJson(const WorkCounts& work);
 
 // Throws JobError.
 void writeManifest(const std::filesystem::path& path, const Scene& scene, const Manifest& manifest);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
+#include "output/manifest.h"
 #include "study/machine.h"
 
 namespace echocine {
@@ -50,15 +51,6 @@ Json errorsJson(const StudyErrors& e) {
           {"interface_rms_mm", e.interface_rms_mm},
           {"interface_p95_mm", e.interface_p95_mm},
           {"interface_missed", e.interface_missed}};
-}
-
-Json workJson(const WorkCounts& w) {
-  return {{"bvh_updates", w.bvh_updates},
-          {"facets_sliced", w.facets_sliced},
-          {"rays", w.rays},
-          {"crossings", w.crossings},
-          {"samples_backscatter", w.samples_backscatter},
-          {"samples_attenuated", w.samples_attenuated}};
 }
 
 Json timingJson(const StudyPoint& point, bool on_front) {

@@ -1,0 +1,12 @@
+#pragma once
+// What the heart's numbers are written in.
+
+#include <numbers>
+
+namespace echocine::heart {
+
+inline constexpr double kDegree = std::numbers::pi / 180;  // rad
+inline constexpr double kMillimetre = 1e-3;                // m
+inline constexpr double kMillilitre = 1e-6;                // m^3
+
+}  // namespace echocine::heart
