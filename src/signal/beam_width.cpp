@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/lanes.h"
 #include "core/parallel.h"
 
 namespace echocine {
@@ -14,15 +15,6 @@ namespace {
 // Samples that go through all lines together. A line's share is a few cache lines in one page, and
 // the sums of a usual window's lines stay in the first-level cache.
 constexpr int kBlock = 256;
-// Eight of them in the vector extension that GCC and Clang share: left to itself GCC shuffles.
-constexpr int kLanes = 8;
-using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
-
-Lanes lanesAt(const float* from) {
-  Lanes lanes;
-  std::memcpy(&lanes, from, sizeof lanes);
-  return lanes;
-}
 // Taken in double, since both may hold a bright echo.
 Lanes differenceAt(const double* a, const double* b) {
   using Sums = double __attribute__((vector_size(kLanes * sizeof(double))));
@@ -30,14 +22,6 @@ Lanes differenceAt(const double* a, const double* b) {
   std::memcpy(&of_a, a, sizeof of_a);
   std::memcpy(&of_b, b, sizeof of_b);
   return __builtin_convertvector(of_a - of_b, Lanes);
-}
-
-// Whole lanes by a plain store.
-void store(Lanes lanes, int count, float* to) {
-  if (count >= kLanes)
-    std::memcpy(to, &lanes, sizeof lanes);
-  else
-    std::memcpy(to, &lanes, static_cast<std::size_t>(count) * sizeof(float));
 }
 
 // A box `width` samples wide around a sample's centre: whole samples inside it weigh 1, its ends
@@ -143,7 +127,7 @@ void BeamAverage::averageAlong(const float* line, int first, int count, Workspac
     for (std::size_t j = 1; j < last; ++j)
       for (int v = 0; v < kTogether; ++v) sum[v] += lanesAt(in + s + v * kLanes + j);
     for (int v = 0; v < kTogether; ++v)
-      store(sum[v] * lanesAt(scale + s + v * kLanes), kLanes, out + s + v * kLanes);
+      storeLanes(sum[v] * lanesAt(scale + s + v * kLanes), kLanes, out + s + v * kLanes);
   }
 }
 
@@ -172,7 +156,7 @@ void BeamAverage::averageAcross(int i, const Run& run, int block_first, const Wo
     const Lanes sum = differenceAt(after + s, before + s) +
                       lanesAt(part_below + s) * lanesAt(below + s) +
                       lanesAt(part_above + s) * lanesAt(above + s);
-    store(sum * lanesAt(scale + s), count - s, out + s);
+    storeLanes(sum * lanesAt(scale + s), static_cast<std::size_t>(count - s), out + s);
   }
 }
 

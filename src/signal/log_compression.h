@@ -5,7 +5,7 @@
 
 namespace echocine {
 
-// Base-2 logarithm of a positive normal float: the series errs by under 1e-8, and the result is a
+// Base-2 logarithm of a positive normal float: the series errs by under 5e-8, and the result is a
 // float, so within 1e-12..1 it is good to 2e-6, or 6e-6 dB of intensity.
 // Zero and subnormal numbers give a value below -126.
 float log2Fast(float x);

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <optional>
 
+#include "core/lanes.h"
+
 namespace echocine {
 
 namespace {
@@ -13,9 +15,7 @@ namespace {
 constexpr int kGreySteps = 4096;  // of the grey map: sixteen per grey level
 constexpr float kWhole = 65535;   // a weight of 1: the next step of 16 bits errs by under 1e-5
 
-// Pixels that are made together, in the vector extension that GCC and Clang share.
-constexpr int kLanes = 8;
-using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+using Greys = std::uint8_t __attribute__((vector_size(kLanes)));
 
 struct Area {
   double x_lo = 0, x_hi = 0, z_lo = 0, z_hi = 0;
@@ -94,46 +94,36 @@ ScanConverter::ScanConverter(const Probe& probe, const PictureGeometry& geometry
 
 void ScanConverter::addRow(const Probe& probe, const PictureGeometry& geometry, int y) {
   bool inside = false;
-  const auto endRun = [&] {
-    for (; inside && sample_.size() % kLanes != 0;) {
-      sample_.push_back(sample_.back());
-      across_.push_back(across_.back());
-      along_.push_back(along_.back());
-    }
-    inside = false;
-  };
   for (int x = 0; x < width_; ++x) {
     const std::optional<BeamPosition> beam =
         beamPosition(probe, (x + 0.5 - geometry.origin_x_px) * geometry.metres_per_pixel,
                      (y + 0.5 - geometry.origin_y_px) * geometry.metres_per_pixel);
     if (!beam || beam->path_m < probe.min_depth_m || beam->path_m > probe.max_depth_m) {
-      endRun();
+      inside = false;
       continue;
     }
     const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                        static_cast<std::size_t>(x);
-    if (!inside) runs_.push_back({pixel, 0, sample_.size()});
+    if (!inside) runs_.push_back({pixel, 0, blocks_.size()});
     inside = true;
-    ++runs_.back().count;
-    addEntry(probe, beam->line, beam->path_m);
+    const auto lane = static_cast<int>(runs_.back().count++ % kLanes);
+    if (lane == 0) blocks_.push_back({});
+    setEntry(probe, beam->line, beam->path_m, blocks_.back(), lane);
   }
-  endRun();
 }
 
-void ScanConverter::addEntry(const Probe& probe, double line, double path_m) {
+void ScanConverter::setEntry(const Probe& probe, double line, double path_m, Block& block,
+                             int lane) {
   const auto split = [](double position, int count, std::uint16_t& weight) {
     const double inside = std::clamp(position, 0.0, count - 1.0);
     const double whole = std::min(std::floor(inside), std::max(count - 2.0, 0.0));
     weight = static_cast<std::uint16_t>(std::lround(kWhole * (inside - whole)));
     return static_cast<std::uint32_t>(whole);
   };
-  std::uint16_t across = 0, along = 0;
-  const std::uint32_t left = split(line, probe.lines, across);
+  const std::uint32_t left = split(line, probe.lines, block.across[lane]);
   const double sample = (path_m - probe.min_depth_m) / probe.sampleSpacing() - 0.5;
-  const std::uint32_t above = split(sample, probe.samples, along);
-  sample_.push_back(left * static_cast<std::uint32_t>(std::max(probe.samples, 2)) + above);
-  across_.push_back(across);
-  along_.push_back(along);
+  const std::uint32_t above = split(sample, probe.samples, block.along[lane]);
+  block.sample[lane] = left * static_cast<std::uint32_t>(std::max(probe.samples, 2)) + above;
 }
 
 namespace {
@@ -160,7 +150,15 @@ Lanes weights(const std::uint16_t* parts) {
   using Parts = std::uint16_t __attribute__((vector_size(kLanes * sizeof(std::uint16_t))));
   Parts eight;
   std::memcpy(&eight, parts, sizeof eight);
-  return __builtin_convertvector(eight, Lanes) * (1 / kWhole);
+  return __builtin_convertvector(__builtin_convertvector(eight, IntLanes), Lanes) * (1 / kWhole);
+}
+
+// Steps of 0..255. A conversion would take them one by one.
+Greys greysOf(IntLanes steps) {
+  using Bytes = std::uint8_t __attribute__((vector_size(sizeof(IntLanes))));
+  const auto bytes = std::bit_cast<Bytes>(steps);
+  static_assert(std::endian::native == std::endian::little);
+  return __builtin_shufflevector(bytes, bytes, 0, 4, 8, 12, 16, 20, 24, 28);
 }
 
 }  // namespace
@@ -173,40 +171,40 @@ void ScanConverter::forRuns(std::span<const float> grey, const Put& put) const {
     for (const float g : grey) doubled.insert(doubled.end(), {g, g});
   const float* left = single_sample_ ? doubled.data() : grey.data();
   const float* right = left + next_line_;
-  for (const Run& run : runs_)
-    for (std::size_t i = 0; i < run.count; i += kLanes) {
-      const std::size_t entry = run.entry + i;
-      const Neighbours l = neighbours(left, &sample_[entry]);
-      const Neighbours r = neighbours(right, &sample_[entry]);
-      const Lanes along = weights(&along_[entry]);
+  for (const Run& run : runs_) {
+    const Block* block = &blocks_[run.block];
+    for (std::size_t i = 0; i < run.count; i += kLanes, ++block) {
+      const Neighbours l = neighbours(left, block->sample);
+      const Neighbours r = neighbours(right, block->sample);
+      const Lanes along = weights(block->along);
       const Lanes a = l.first + along * (l.second - l.first);
       const Lanes b = r.first + along * (r.second - r.first);
-      put(run.pixel + i, a + weights(&across_[entry]) * (b - a),
+      put(run.pixel + i, a + weights(block->across) * (b - a),
           std::min<std::size_t>(kLanes, run.count - i));
     }
+  }
 }
 
 void ScanConverter::convert(std::span<const float> grey, GreyImage& image) const {
   image.width = width_;
   image.height = height_;
   image.pixels.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
-  using Greys = std::uint8_t __attribute__((vector_size(kLanes)));
-  const auto put = [&](std::size_t pixel, Greys greys, std::size_t count) {
+  std::uint8_t* const pixels = image.pixels.data();
+  const auto put = [pixels](std::size_t pixel, Greys greys, std::size_t count) {
     if (count == kLanes)
-      std::memcpy(&image.pixels[pixel], &greys, kLanes);  // a plain store
+      std::memcpy(pixels + pixel, &greys, kLanes);  // a plain store
     else
-      std::memcpy(&image.pixels[pixel], &greys, count);
+      std::memcpy(pixels + pixel, &greys, count);
   };
-  using Steps = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
   if (grey_map_.empty()) {
     forRuns(grey, [&](std::size_t pixel, Lanes values, std::size_t count) {
-      const auto steps = __builtin_convertvector(values * 255.0f + 0.5f, Steps);
-      put(pixel, __builtin_convertvector(steps, Greys), count);
+      const auto steps = __builtin_convertvector(values * 255.0f + 0.5f, IntLanes);
+      put(pixel, greysOf(steps), count);
     });
     return;
   }
   forRuns(grey, [&](std::size_t pixel, Lanes values, std::size_t count) {
-    const auto steps = __builtin_convertvector(values * float{kGreySteps} + 0.5f, Steps);
+    const auto steps = __builtin_convertvector(values * float{kGreySteps} + 0.5f, IntLanes);
     Greys greys{};
     for (int i = 0; i < kLanes; ++i) greys[i] = grey_map_[static_cast<std::size_t>(steps[i])];
     put(pixel, greys, count);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/lanes.h"
 #include "signal/picture.h"
 
 namespace echocine {
@@ -23,12 +24,18 @@ class ScanConverter {
   void convert(std::span<const float> grey, std::vector<float>& picture) const;
 
  private:
-  // Pixels beside each other in a row of the picture, and their first entry in the table.
+  // Of eight pixels, in the plane the shallower sample of the left line, and the weights of the next line
+  // and of the next sample in parts of 65535. One cache line.
+  struct alignas(64) Block {
+    std::uint32_t sample[kLanes];
+    std::uint16_t across[kLanes], along[kLanes];
+  };
+  // Pixels beside each other in a row of the picture, and their first block in the table.
   struct Run {
-    std::size_t pixel, count, entry;
+    std::size_t pixel, count, block;
   };
   void addRow(const Probe& probe, const PictureGeometry& geometry, int y);
-  void addEntry(const Probe& probe, double line, double path_m);
+  static void setEntry(const Probe& probe, double line, double path_m, Block& block, int lane);
   template <typename Put>
   void forRuns(std::span<const float> grey, const Put& put) const;
 
@@ -36,11 +43,7 @@ class ScanConverter {
   std::size_t next_line_;  // step in the plane; 0 when there is only one line
   bool single_sample_;     // per line
   std::vector<Run> runs_;
-  // Of each entry, in the order of pixels: in the plane the shallower sample of the left line, and
-  // the weights of the next line and of the next sample in parts of 65535. Runs are filled up with
-  // copies of their last entry to whole eights.
-  std::vector<std::uint32_t> sample_;
-  std::vector<std::uint16_t> across_, along_;
+  std::vector<Block> blocks_;  // the last one of a run is filled up with zeros
   std::vector<std::uint8_t> grey_map_;
 };
 
