@@ -13,6 +13,7 @@
 #include "motion/limit_normals.h"
 #include "motion/mesh_check.h"
 #include "motion/mesh_io.h"
+#include "motion/near_plane.h"
 #include "motion/repair/mesh_repair.h"
 #include "motion/subdivision.h"
 #include "motion/surface_measure.h"
@@ -94,15 +95,11 @@ std::vector<Vec3d> weightedSum(std::span<const double> weights,
   return sum;
 }
 
-// With weights w that sum to 1, sum w p = c + sum w (p - c) stays within sum |w| times the
-// keyframes' half extent of their middle c.
-Box loopBox(const std::vector<std::vector<Vec3d>>& keyframes_m, double magnification) {
+Box loopBox(const std::vector<std::vector<Vec3d>>& keyframes_m, double overshoot) {
   Box box;
   for (const std::vector<Vec3d>& positions : keyframes_m)
     for (const Vec3d& p : positions) box.add(p);
-  constexpr double kSlack = 1.01;  // the magnification is known from samples
-  const double beyond = (keyframes_m.size() > 1 ? kSlack * magnification : 1) - 1;
-  const Vec3d widen = std::max(beyond, 0.0) / 2 * (box.hi - box.lo);
+  const Vec3d widen = overshoot * (box.hi - box.lo);
   return {box.lo - widen, box.hi + widen};
 }
 
@@ -126,10 +123,12 @@ struct HeartMotion::MovingSurface {
   std::optional<LimitNormals> limit_normals{};
   std::vector<Vec3f> still_m{};  // of a still structure that is subdivided: the refined vertices
   double still_volume_m3 = 0;    // of a still structure
+  VolumeSum volume{};            // of any other that encloses one
 
   void smooth(SurfaceTopology& topology, const MeshTags& tags, const Scene& scene);
   void subdivide(SurfaceTopology& topology, const MeshTags& tags, const MotionSettings& motion);
   void frameAt(double phase, std::vector<Vec3f>& positions_m, std::vector<Vec3f>* normals) const;
+  std::vector<NumberedTriangle> nearPlane(const SurfaceTopology& topology) const;
 };
 
 void HeartMotion::MovingSurface::frameAt(double phase, std::vector<Vec3f>& positions_m,
@@ -151,6 +150,17 @@ void HeartMotion::MovingSurface::frameAt(double phase, std::vector<Vec3f>& posit
   }
   positions_m.resize(subdivision->vertexCount());
   subdivision->apply(control_m, positions_m);
+}
+
+std::vector<NumberedTriangle> HeartMotion::MovingSurface::nearPlane(
+    const SurfaceTopology& topology) const {
+  HeightRanges heights;
+  std::vector<Vec3f> positions_m, normals;
+  for (const double phase : control.weights.phases()) {
+    frameAt(phase, positions_m, &normals);
+    heights.add(positions_m);
+  }
+  return heights.nearPlane(topology.triangles, control.weights.overshoot());
 }
 
 // Normals of the limit surface at the vertices that subdivide() will make.
@@ -189,7 +199,7 @@ HeartMotion::HeartMotion(const Scene& scene)
     positions_m.reserve(keyframes.size());
     for (const KeyframeMesh& keyframe : keyframes)
       positions_m.push_back(probePositions(structure, keyframe, scene));
-    loop_boxes_m_.push_back(loopBox(positions_m, weights.magnification()));
+    loop_boxes_m_.push_back(loopBox(positions_m, weights.overshoot()));
     MovingSurface moving{controlMotion(std::move(weights), topology, keyframes, positions_m)};
     const MeshTags& tags = keyframes.front().mesh.tags;
     if (smooth_normals_) moving.smooth(topology, tags, scene);
@@ -198,7 +208,10 @@ HeartMotion::HeartMotion(const Scene& scene)
       std::vector<Vec3f> still_m, normals;
       moving.frameAt(0, still_m, &normals);
       moving.still_volume_m3 = enclosedVolume(topology, still_m);
+    } else if (!topology.membrane) {
+      moving.volume = VolumeSum(topology.triangles);
     }
+    if (!topology.still) topology.near_plane = moving.nearPlane(topology);
     surfaces_.push_back(std::move(topology));
     moving_.push_back(std::move(moving));
   }
@@ -225,7 +238,7 @@ void HeartMotion::frameAt(double phase, SurfaceFrame& frame) const {
 
 double HeartMotion::volumeIn(const SurfaceFrame& frame, const SurfaceTopology& surface) const {
   const std::size_t s = index(surface.id);
-  return surface.still ? moving_[s].still_volume_m3 : enclosedVolume(surface, frame.positions_m[s]);
+  return surface.still ? moving_[s].still_volume_m3 : moving_[s].volume.of(frame.positions_m[s]);
 }
 
 double enclosedVolume(const SurfaceTopology& surface, const std::vector<Vec3f>& positions_m) {

@@ -30,8 +30,8 @@ class HeartMotion {
   // `frame` is reused without allocation once it has held a frame of this motion.
   void frameAt(double phase, SurfaceFrame& frame) const;
 
-  // Volume that a surface encloses in a frame of this motion, as enclosedVolume() has it; known
-  // beforehand where the surface stands still. Thread-safe. m^3.
+  // Volume that a surface encloses in a frame of this motion, as enclosedVolume() has it within
+  // rounding in double; known beforehand where the surface stands still. Thread-safe. m^3.
   double volumeIn(const SurfaceFrame& frame, const SurfaceTopology& surface) const;
 
   // What is interpolated, before subdivision.

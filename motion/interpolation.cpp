@@ -237,4 +237,9 @@ double KeyframeWeights::magnification() const {
   return largest;
 }
 
+double KeyframeWeights::overshoot() const {
+  constexpr double kSlack = 1.01;  // the magnification is known from samples
+  return phases_.size() < 2 ? 0 : std::max(kSlack * magnification() - 1, 0.0) / 2;
+}
+
 }  // namespace echocine

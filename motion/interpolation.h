@@ -52,6 +52,11 @@ class KeyframeWeights {
   // interval.
   double magnification() const;
 
+  // How far a point may leave the range of its keyframes, in parts of that range: with weights w
+  // that sum to 1, sum w p = c + sum w (p - c) stays within sum |w| times half the range of its
+  // middle c.
+  double overshoot() const;
+
  private:
   struct Interval {
     std::size_t left, right;  // keyframes

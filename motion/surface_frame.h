@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/ids.h"
@@ -12,6 +13,12 @@ namespace echocine {
 
 using Triangle =
     std::array<std::uint32_t, 3>;  // vertex indices, counter-clockwise seen from outside
+
+// A triangle with its number in its surface.
+struct NumberedTriangle {
+  Triangle corners;
+  std::uint32_t number = 0;
+};
 
 // What never changes over a loop.
 struct SurfaceTopology {
@@ -23,6 +30,9 @@ struct SurfaceTopology {
   // With smooth normals: the normal that each corner of each triangle takes. Empty where that is
   // the normal with its vertex's number.
   std::vector<Triangle> normal_corners{};
+  // In ascending order at least all triangles that the imaging plane cuts at any phase, where that
+  // is known.
+  std::optional<std::vector<NumberedTriangle>> near_plane{};
 
   const std::vector<Triangle>& normalCorners() const {
     return normal_corners.empty() ? triangles : normal_corners;

@@ -28,26 +28,25 @@ PlaneSlice::PlaneSlice(const std::vector<SurfaceTopology>& surfaces, const Probe
   for (std::size_t s = 0; s < surfaces.size(); ++s) membranes_[s] = surfaces[s].membrane;
 }
 
-// Heights are compared once per vertex; a facet then costs three bytes unless it is cut.
+// A facet costs three heights unless it is cut.
 void PlaneSlice::cutSurface(const SurfaceTopology& surface, const std::vector<Vec3f>& positions,
                             std::vector<ContourPiece>& pieces) {
-  above_.resize(positions.size());
-  // Stores of bytes may alias anything, so the loop's bounds stand in locals.
-  const std::size_t vertices = positions.size();
   const Vec3f* position = positions.data();
-  std::uint8_t* above = above_.data();
-  for (std::size_t v = 0; v < vertices; ++v) above[v] = position[v].y >= 0 ? 1 : 0;
-  const auto count = static_cast<std::uint32_t>(surface.triangles.size());
-  const Triangle* triangles = surface.triangles.data();
-  for (std::uint32_t t = 0; t < count; ++t) {
-    const Triangle& corner = triangles[t];
-    const int sides = above[corner[0]] + above[corner[1]] + above[corner[2]];
-    if (sides == 0 || sides == 3) continue;
+  const auto above = [&](std::uint32_t v) { return position[v].y >= 0 ? 1 : 0; };
+  const auto cut = [&](const Triangle& corner, std::uint32_t number) {
+    const int sides = above(corner[0]) + above(corner[1]) + above(corner[2]);
+    if (sides == 0 || sides == 3) return;
     const Vec3d p0 = toDouble(position[corner[0]]), p1 = toDouble(position[corner[1]]),
                 p2 = toDouble(position[corner[2]]);
-    const std::optional<TriangleCut> cut = cutTriangle(p0, p1, p2, p0.y, p1.y, p2.y);
-    pieces.push_back({*cut, areaNormal(p0, p1, p2), surface.id, t});
+    pieces.push_back(
+        {*cutTriangle(p0, p1, p2, p0.y, p1.y, p2.y), areaNormal(p0, p1, p2), surface.id, number});
+  };
+  if (surface.near_plane) {
+    for (const NumberedTriangle& t : *surface.near_plane) cut(t.corners, t.number);
+    return;
   }
+  const auto count = static_cast<std::uint32_t>(surface.triangles.size());
+  for (std::uint32_t t = 0; t < count; ++t) cut(surface.triangles[t], t);
 }
 
 // Of the surface's pieces, which start at `first`.

@@ -1,7 +1,7 @@
 #pragma once
 // One frame's surfaces cut by the imaging plane: their contours, and where the scan lines meet
-// them. Needs no hierarchy: the cost is a pass over the heights of the vertices, and the facets on
-// the plane.
+// them. Needs no hierarchy: the cost is a look at the heights of the facets that can reach the
+// plane, and the facets on it.
 
 #include <span>
 #include <vector>
@@ -56,7 +56,6 @@ class PlaneSlice {
   const std::vector<SurfaceTopology>& surfaces_;
   Probe probe_;
   std::vector<RayPlanes> rays_;
-  std::vector<std::uint8_t> above_;
   std::vector<ContourPiece> still_pieces_;  // of surfaces that never move: cut once
   bool still_cut_ = false;
   std::vector<PieceNormals> still_normals_;

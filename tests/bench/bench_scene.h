@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "motion/control_motion.h"
+#include "motion/near_plane.h"
 #include "support/meshes.h"
 #include "support/plain_scene.h"
 
@@ -78,11 +79,13 @@ struct BenchScene {
                         static_cast<std::uint32_t>(mesh.points.size()), false, false});
     std::vector<std::vector<Vec3f>> rows;
     std::vector<double> phases;
+    HeightRanges heights;
     for (int k = 0; k < kKeyframes; ++k) {
       const double beat = 1 + 0.1 * std::cos(2 * std::numbers::pi * k / kKeyframes);
       rows.emplace_back();
       for (const Vec3d& p : mesh.points) rows.back().push_back(toFloat(middle + radius * beat * p));
       phases.push_back(static_cast<double>(k) / kKeyframes);
+      heights.add(rows.back());
     }
     keyframes_m.push_back(rows);
     motion.push_back({KeyframeWeights(phases, scene.motion.interpolation),
@@ -90,6 +93,8 @@ struct BenchScene {
                       std::move(rows),
                       {},
                       false});
+    topology.back().near_plane =
+        heights.nearPlane(mesh.triangles, motion.back().weights.overshoot());
   }
 };
 

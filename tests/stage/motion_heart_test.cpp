@@ -63,7 +63,8 @@ TEST(MotionHeart, VolumesAreThoseOfTheFrame) {
       for (const double phase : {0.0, 0.3}) {
         motion.frameAt(phase, frame);
         EXPECT_GT(motion.volumeIn(frame, surface), 0);
-        EXPECT_EQ(motion.volumeIn(frame, surface), enclosedVolume(surface, frame.positions_m[0]));
+        EXPECT_NEAR(motion.volumeIn(frame, surface) / enclosedVolume(surface, frame.positions_m[0]),
+                    1, 1e-13);
       }
     }
 }

@@ -1,0 +1,39 @@
+#include "motion/near_plane.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace echocine {
+
+void HeightRanges::add(std::span<const Vec3f> positions_m) {
+  ranges_m_.resize(positions_m.size());
+  for (std::size_t v = 0; v < positions_m.size(); ++v) {
+    const float y = positions_m[v].y;
+    ranges_m_[v] = {std::min(ranges_m_[v].lo, y), std::max(ranges_m_[v].hi, y)};
+  }
+}
+
+std::vector<NumberedTriangle> HeightRanges::nearPlane(std::span<const Triangle> triangles,
+                                                      double overshoot) const {
+  // Of single precision in blends and stencils, in parts of the largest height. Our choice: ten
+  // times what a hundred roundings can add up to.
+  constexpr float kRounding = 1e-4f;
+  float largest_m = 0;
+  for (const Range& r : ranges_m_)
+    largest_m = std::max({largest_m, std::abs(r.lo), std::abs(r.hi)});
+  const auto beyond = static_cast<float>(overshoot);
+  std::vector<NumberedTriangle> near;
+  for (std::uint32_t number = 0; number < triangles.size(); ++number) {
+    bool above = false, below = false;
+    for (const std::uint32_t v : triangles[number]) {
+      const Range& r = ranges_m_[v];
+      const float widen = beyond * (r.hi - r.lo) + kRounding * largest_m;
+      above |= r.hi + widen >= 0;
+      below |= r.lo - widen <= 0;
+    }
+    if (above && below) near.push_back({triangles[number], number});
+  }
+  return near;
+}
+
+}  // namespace echocine
