@@ -20,6 +20,7 @@ namespace echocine::bench {
 namespace {
 
 constexpr float kReference = 1e-6f, kRange_db = 60;
+constexpr int kRounds = 50;
 
 // The floors of all stages one after the other.
 class BareFrame {
@@ -77,25 +78,19 @@ void wholeFrame(benchmark::State& state) {
   BareHierarchy rays(bare_scene);
   const std::shared_ptr<Workspace> workspace = maker.workspace();
   std::vector<double> over_rays;
-  double ours_ms = 0;
-  overFloor(
-      state,
-      [&](std::size_t i) {
-        ours_ms = millisecondsOf([&] {
-          benchmark::DoNotOptimize(maker.trace(frameTime(i), *workspace));
-          benchmark::DoNotOptimize(maker.picture(kReference, *workspace, true).pixels.data());
-        });
-      },
-      [&](std::size_t i) { bare.run(i, false); });
+  const auto ours = [&](std::size_t i) {
+    benchmark::DoNotOptimize(maker.trace(frameTime(i), *workspace));
+    benchmark::DoNotOptimize(maker.picture(kReference, *workspace, true).pixels.data());
+  };
+  overFloor(state, ours, [&](std::size_t i) { bare.run(i, false); });
   withThreads(1, [&] {
-    for (std::size_t i = 0; i < 100; ++i) {
-      rays.refit(bare_scene.frame(i));
-      const double ms = millisecondsOf([&] { benchmark::DoNotOptimize(rays.singleRays()); });
-      ours_ms = millisecondsOf([&] {
-        benchmark::DoNotOptimize(maker.trace(frameTime(i), *workspace));
-        benchmark::DoNotOptimize(maker.picture(kReference, *workspace, true).pixels.data());
-      });
-      over_rays.push_back(ours_ms / ms);
+    for (std::size_t round = 0; round < kRounds; ++round) {
+      double rays_ms = 0;
+      for (std::size_t i = 0; i < kTogether; ++i) {
+        rays.refit(bare_scene.frame(i));
+        rays_ms += millisecondsOf([&] { benchmark::DoNotOptimize(rays.singleRays()); });
+      }
+      over_rays.push_back(millisecondsOfEach(round, ours) * kTogether / rays_ms);
     }
   });
   state.counters["over_single_rays"] = quartilesOf(over_rays).median;
@@ -169,7 +164,7 @@ BENCHMARK(wholeFrame)
     ->Args({50000, 256, 2048})
     ->Args({50000, 512, 2048})
     ->UseManualTime()
-    ->Iterations(100)
+    ->Iterations(kRounds)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(withFiles)
     ->Args({50000, 256, 1024})
