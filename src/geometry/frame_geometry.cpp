@@ -149,13 +149,14 @@ struct FrameGeometry::State {
   std::optional<Crossing> cross(const RayPlanes& ray, std::uint32_t surface,
                                 std::uint32_t triangle) const;
   void crossAll(const RayPlanes& ray, std::uint32_t surface, std::vector<Crossing>& out) const;
-  void crossCandidates(const RayQuery& query, std::vector<Candidate>& found,
-                       RayCrossings& out) const;
+  void crossCandidates(const RayQuery& query, const RayPlanes& planes,
+                       std::span<const Candidate> found, std::vector<Crossing>& out) const;
   bool hasNeighbour(const Candidate& candidate, const std::vector<Crossing>& crossings) const;
   void recount(const RayQuery& query, std::uint32_t surface,
                std::vector<Crossing>& crossings) const;
   void proveStates(const RayQuery& query, RayCrossings& out) const;
-  void smoothNormals(const Ray& ray, std::vector<Crossing>& crossings) const;
+  void repairStates(const RayQuery& query, RayCrossings& out) const;
+  void smoothNormals(const RayPlanes& planes, std::vector<Crossing>& crossings) const;
 };
 
 FrameGeometry::State::State(const std::vector<SurfaceTopology>& topology, const InsideSet& left_out)
@@ -220,18 +221,11 @@ void FrameGeometry::State::crossAll(const RayPlanes& ray, std::uint32_t surface,
     if (const std::optional<Crossing> c = cross(ray, surface, triangle)) out.push_back(*c);
 }
 
-// Embree's candidates, each decided by the rule: Embree reports a hit on a shared edge for both
-// triangles.
-void FrameGeometry::State::crossCandidates(const RayQuery& query, std::vector<Candidate>& found,
-                                           RayCrossings& out) const {
-  const auto key = [](const Candidate& c) { return std::pair(c.surface, c.triangle); };
-  std::sort(found.begin(), found.end(),
-            [&](const Candidate& a, const Candidate& b) { return key(a) < key(b); });
-  found.erase(std::unique(found.begin(), found.end(),
-                          [&](const Candidate& a, const Candidate& b) { return key(a) == key(b); }),
-              found.end());
-  const RayPlanes planes(query.ray);
-  out.crossings.clear();
+// Embree's candidates, each decided by the rule. What is found twice stays: proveStates() drops it.
+void FrameGeometry::State::crossCandidates(const RayQuery& query, const RayPlanes& planes,
+                                           std::span<const Candidate> found,
+                                           std::vector<Crossing>& out) const {
+  out.clear();
   thread_local std::vector<Candidate> refused;
   refused.clear();
   for (const Candidate& candidate : found) {
@@ -240,12 +234,12 @@ void FrameGeometry::State::crossCandidates(const RayQuery& query, std::vector<Ca
         query.left_behind.end())
       continue;
     if (const std::optional<Crossing> c = cross(planes, candidate.surface, candidate.triangle))
-      out.crossings.push_back(*c);
+      out.push_back(*c);
     else
       refused.push_back(candidate);
   }
   for (const Candidate& candidate : refused)
-    if (!hasNeighbour(candidate, out.crossings)) recount(query, candidate.surface, out.crossings);
+    if (!hasNeighbour(candidate, out)) recount(query, candidate.surface, out);
 }
 
 // On a shared vertex or edge Embree may report only a triangle that the rule refuses, and not the
@@ -277,11 +271,11 @@ void FrameGeometry::State::recount(const RayQuery& query, std::uint32_t surface,
     });
 }
 
-void FrameGeometry::State::proveStates(const RayQuery& query, RayCrossings& out) const {
+// Where crossings do not alternate: states and crossings that hold together.
+void FrameGeometry::State::repairStates(const RayQuery& query, RayCrossings& out) const {
   thread_local std::vector<int> balance, depth;
   balance.resize(surfaces.size());
   depth.resize(surfaces.size());
-  out.inside = query.inside;
   InsideSet clamped;
   balances(out.crossings, balance);
   for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
@@ -299,9 +293,20 @@ void FrameGeometry::State::proveStates(const RayQuery& query, RayCrossings& out)
   keepChanges(out.crossings, depth, membranes, clamped);
 }
 
+void FrameGeometry::State::proveStates(const RayQuery& query, RayCrossings& out) const {
+  std::sort(out.crossings.begin(), out.crossings.end(), nearer);
+  const auto same = [](const Crossing& a, const Crossing& b) {
+    return a.surface == b.surface && a.triangle == b.triangle;
+  };
+  out.crossings.erase(std::unique(out.crossings.begin(), out.crossings.end(), same),
+                      out.crossings.end());
+  out.inside = query.inside;
+  if (!statesAlternate(out.crossings, query.inside, membranes)) repairStates(query, out);
+}
+
 // What the crossings' normals are with smooth normals; nothing else of them changes.
-void FrameGeometry::State::smoothNormals(const Ray& ray, std::vector<Crossing>& crossings) const {
-  const RayPlanes planes(ray);
+void FrameGeometry::State::smoothNormals(const RayPlanes& planes,
+                                         std::vector<Crossing>& crossings) const {
   for (Crossing& c : crossings) {
     const auto s = index(c.surface);
     const Triangle& t = surfaces[s].triangles[c.triangle];
@@ -373,9 +378,10 @@ void FrameGeometry::crossings(std::span<const RayQuery> rays, std::span<RayCross
   rtcIntersect16(valid.data(), state_->scene, &context.base, &packet);
 
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    state_->crossCandidates(rays[i], found[i], out[i]);
+    const RayPlanes planes(rays[i].ray);
+    state_->crossCandidates(rays[i], planes, found[i], out[i].crossings);
     state_->proveStates(rays[i], out[i]);
-    if (!state_->normals.empty()) state_->smoothNormals(rays[i].ray, out[i].crossings);
+    if (!state_->normals.empty()) state_->smoothNormals(planes, out[i].crossings);
   }
 }
 

@@ -15,6 +15,17 @@ void balances(const std::vector<Crossing>& crossings, std::vector<int>& out) {
   for (const Crossing& c : crossings) out[index(c.surface)] += c.entering ? 1 : -1;
 }
 
+bool statesAlternate(const std::vector<Crossing>& crossings, InsideSet inside,
+                     const InsideSet& membranes) {
+  for (const Crossing& c : crossings) {
+    const std::size_t s = index(c.surface);
+    if (membranes[s]) continue;
+    if (inside[s] == c.entering) return false;
+    inside[s] = c.entering;
+  }
+  return inside.none();
+}
+
 namespace {
 
 // A line ends outside every closed surface, so an entry that no later exit answers is rounding: a

@@ -13,6 +13,12 @@ bool nearer(const Crossing& a, const Crossing& b);
 // Entries less exits of every closed surface; out has an entry per surface.
 void balances(const std::vector<Crossing>& crossings, std::vector<int>& out);
 
+// Do the states of the closed surfaces alternate along the line, from those at its start to outside
+// of all? Then every crossing changes a state, and entries and exits balance. Precondition: sorted
+// by nearer().
+bool statesAlternate(const std::vector<Crossing>& crossings, InsideSet inside,
+                     const InsideSet& membranes);
+
 // Removes the crossings of closed surfaces that do not change whether the line is inside: those of
 // a surface that overlaps itself, and contacts without passage. depth[s]: how often the start is
 // inside surface s (consumed). Surfaces in `clamped` have counts that cannot be right; their states
