@@ -1,7 +1,6 @@
 #include "geometry/crossing_rule.h"
 
 #include <cmath>
-#include <utility>
 
 namespace echocine {
 
@@ -25,20 +24,29 @@ Vec3d cutPoint(Vec3d p, double v_p, Vec3d q, double v_q) {
 
 }  // namespace
 
+namespace {
+
+// The vertex k alone on its side, and the other ends of the edges where the cut begins and ends.
+struct Turn {
+  std::uint8_t k, from, to;
+};
+
+// By which vertices are above, vertex 0 in the lowest bit. Seen along a ray a front face runs
+// clockwise: with k above, the cut begins on the edge to the vertex that follows it. A table, since
+// no branch could be foretold.
+constexpr Turn kTurns[8] = {{},        {0, 1, 2}, {1, 2, 0}, {2, 1, 0},
+                            {2, 0, 1}, {1, 0, 2}, {0, 2, 1}, {}};
+
+}  // namespace
+
 std::optional<TriangleCut> cutTriangle(Vec3d p0, Vec3d p1, Vec3d p2, double v0, double v1,
                                        double v2) {
-  const bool above0 = v0 >= 0, above1 = v1 >= 0, above2 = v2 >= 0;
-  if (above0 == above1 && above1 == above2) return std::nullopt;
+  const unsigned above = (v0 >= 0 ? 1u : 0u) | (v1 >= 0 ? 2u : 0u) | (v2 >= 0 ? 4u : 0u);
+  if (above == 0 || above == 7) return std::nullopt;
   const Vec3d p[3] = {p0, p1, p2};
   const double v[3] = {v0, v1, v2};
-  // k is the vertex alone on its side, i and j follow it in the triangle's order.
-  const int k = above1 == above2 ? 0 : above0 == above2 ? 1 : 2;
-  const int i = (k + 1) % 3, j = (k + 2) % 3;
-  TriangleCut cut{cutPoint(p[k], v[k], p[i], v[i]), cutPoint(p[k], v[k], p[j], v[j])};
-  // Seen along a ray a front face runs clockwise: with k above, its first cut is the one of larger
-  // u.
-  if (!(v[k] >= 0)) std::swap(cut.from, cut.to);
-  return cut;
+  const auto [k, from, to] = kTurns[above];
+  return TriangleCut{cutPoint(p[k], v[k], p[from], v[from]), cutPoint(p[k], v[k], p[to], v[to])};
 }
 
 std::optional<CutCrossing> crossCut(const RayPlanes& ray, const TriangleCut& cut) {
