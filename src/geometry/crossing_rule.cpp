@@ -17,8 +17,9 @@ RayPlanes::RayPlanes(const Ray& ray) : origin(ray.origin), direction(ray.directi
 namespace {
 
 // Where the edge p-q passes v = 0. Precondition: v_p and v_q lie on different sides.
-Vec3d cutPoint(Vec3d p, double v_p, Vec3d q, double v_q) {
-  const double s = v_q - v_p;
+template <typename T>
+Vec3<T> cutPoint(Vec3<T> p, T v_p, Vec3<T> q, T v_q) {
+  const T s = v_q - v_p;
   return {(p.x * v_q - q.x * v_p) / s, (p.y * v_q - q.y * v_p) / s, (p.z * v_q - q.z * v_p) / s};
 }
 
@@ -79,6 +80,63 @@ std::optional<Crossing> crossTriangle(const RayPlanes& ray, Vec3f p0, Vec3f p1, 
   if (!crossing) return std::nullopt;
   return Crossing{crossing->distance_m, facetNormal(areaNormal(q0, q1, q2), *cut, ray.v_axis),
                   surface, triangle, crossing->entering};
+}
+
+namespace {
+
+using Point = Vec3<DoubleLanes>;
+using LaneMask = decltype(DoubleLanes{} >= DoubleLanes{});
+
+Point toLanes(const Vec3<FloatLanes>& p) {
+  return {__builtin_convertvector(p.x, DoubleLanes), __builtin_convertvector(p.y, DoubleLanes),
+          __builtin_convertvector(p.z, DoubleLanes)};
+}
+Point toLanes(Vec3d p) {
+  return {DoubleLanes{} + p.x, DoubleLanes{} + p.y, DoubleLanes{} + p.z};
+}
+Point choose(LaneMask mask, const Point& a, const Point& b) {
+  return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
+}
+DoubleLanes squareRoot(DoubleLanes a) {
+  for (std::size_t i = 0; i < kRuleLanes; ++i) a[i] = std::sqrt(a[i]);
+  return a;
+}
+LaneCrossings::Flags flags(LaneMask mask) {
+  return {mask[0] != 0, mask[1] != 0, mask[2] != 0, mask[3] != 0};
+}
+
+}  // namespace
+
+// cutTriangle(), crossCut() and facetNormal() without a branch. The cut's ends are taken as the
+// vertex order has them: to swap them negates both terms of the distance's fraction, no more.
+LaneCrossings crossTriangles(const RayPlanes& ray,
+                             const std::array<Vec3<FloatLanes>, 3>& corners) {
+  const DoubleLanes zero{};
+  const Point p[3] = {toLanes(corners[0]), toLanes(corners[1]), toLanes(corners[2])};
+  const Point origin = toLanes(ray.origin), u_axis = toLanes(ray.u_axis),
+              v_axis = toLanes(ray.v_axis), direction = toLanes(ray.direction);
+  const DoubleLanes v[3] = {dot(v_axis, p[0] - origin), dot(v_axis, p[1] - origin),
+                            dot(v_axis, p[2] - origin)};
+  const LaneMask above[3] = {v[0] >= zero, v[1] >= zero, v[2] >= zero};
+  const LaneMask alone0 = above[1] == above[2], alone1 = above[0] == above[2];
+  const LaneMask cut = ~(alone0 & alone1);
+  const Point k = choose(alone0, p[0], choose(alone1, p[1], p[2]));
+  const Point i = choose(alone0, p[1], choose(alone1, p[2], p[0]));
+  const Point j = choose(alone0, p[2], choose(alone1, p[0], p[1]));
+  const DoubleLanes v_k = alone0 ? v[0] : alone1 ? v[1] : v[2];
+  const DoubleLanes v_i = alone0 ? v[1] : alone1 ? v[2] : v[0];
+  const DoubleLanes v_j = alone0 ? v[2] : alone1 ? v[0] : v[1];
+
+  const Point one = cutPoint(k, v_k, i, v_i) - origin, other = cutPoint(k, v_k, j, v_j) - origin;
+  const DoubleLanes u1 = dot(u_axis, one), u2 = dot(u_axis, other);
+  const DoubleLanes w1 = dot(direction, one), w2 = dot(direction, other);
+  const LaneMask right1 = u1 >= zero, right2 = u2 >= zero;
+  const DoubleLanes distance = (w1 * u2 - w2 * u1) / (u2 - u1);
+  const LaneMask crossed = cut & (right1 ^ right2) & (distance > zero);
+
+  const Point area = cross(p[1] - p[0], p[2] - p[0]);
+  const DoubleLanes per_size = 1.0 / squareRoot(dot(area, area));
+  return {flags(crossed), flags(right1 == (v_k >= zero)), distance, per_size * area};
 }
 
 }  // namespace echocine

@@ -48,6 +48,8 @@ bool hasPointTriangle(const SurfaceTopology& surface, const std::vector<Vec3f>& 
 
 struct Candidate {
   std::uint32_t surface, triangle;
+
+  friend bool operator==(const Candidate&, const Candidate&) = default;
 };
 
 // Embree's context with the place where the filter puts what it is shown.
@@ -150,7 +152,9 @@ struct FrameGeometry::State {
                                 std::uint32_t triangle) const;
   void crossAll(const RayPlanes& ray, std::uint32_t surface, std::vector<Crossing>& out) const;
   void crossCandidates(const RayQuery& query, const RayPlanes& planes,
-                       std::span<const Candidate> found, std::vector<Crossing>& out) const;
+                       std::vector<Candidate>& found, std::vector<Crossing>& out) const;
+  void crossFour(const RayPlanes& ray, std::span<const Candidate> found,
+                 std::vector<Crossing>& out, std::vector<Candidate>& refused) const;
   bool hasNeighbour(const Candidate& candidate, const std::vector<Crossing>& crossings) const;
   void recount(const RayQuery& query, std::uint32_t surface,
                std::vector<Crossing>& crossings) const;
@@ -221,23 +225,46 @@ void FrameGeometry::State::crossAll(const RayPlanes& ray, std::uint32_t surface,
     if (const std::optional<Crossing> c = cross(ray, surface, triangle)) out.push_back(*c);
 }
 
+// Four candidates at once; fewer leave the last one in the rest of the lanes.
+void FrameGeometry::State::crossFour(const RayPlanes& ray, std::span<const Candidate> found,
+                                     std::vector<Crossing>& out,
+                                     std::vector<Candidate>& refused) const {
+  std::array<Vec3<FloatLanes>, 3> corners;
+  for (std::size_t lane = 0; lane < kRuleLanes; ++lane) {
+    const auto [surface, triangle] = found[std::min(lane, found.size() - 1)];
+    const Triangle& t = surfaces[surface].triangles[triangle];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3f& p = vertices[surface][t[c]];
+      corners[c].x[lane] = p.x;
+      corners[c].y[lane] = p.y;
+      corners[c].z[lane] = p.z;
+    }
+  }
+  const LaneCrossings met = crossTriangles(ray, corners);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto [surface, triangle] = found[i];
+    const Vec3d normal{met.normal.x[i], met.normal.y[i], met.normal.z[i]};
+    if (!met.crossed[i])
+      refused.push_back(found[i]);
+    else if (isFinite(normal))
+      out.push_back({met.distance_m[i], normal, SurfaceId(surface), triangle, met.entering[i]});
+    else
+      out.push_back(*cross(ray, surface, triangle));
+  }
+}
+
 // Embree's candidates, each decided by the rule. What is found twice stays: proveStates() drops it.
 void FrameGeometry::State::crossCandidates(const RayQuery& query, const RayPlanes& planes,
-                                           std::span<const Candidate> found,
+                                           std::vector<Candidate>& found,
                                            std::vector<Crossing>& out) const {
   out.clear();
   thread_local std::vector<Candidate> refused;
   refused.clear();
-  for (const Candidate& candidate : found) {
-    const std::pair here(SurfaceId(candidate.surface), candidate.triangle);
-    if (std::find(query.left_behind.begin(), query.left_behind.end(), here) !=
-        query.left_behind.end())
-      continue;
-    if (const std::optional<Crossing> c = cross(planes, candidate.surface, candidate.triangle))
-      out.push_back(*c);
-    else
-      refused.push_back(candidate);
-  }
+  for (const auto& [surface, triangle] : query.left_behind)
+    std::erase(found, Candidate{static_cast<std::uint32_t>(index(surface)), triangle});
+  for (std::size_t i = 0; i < found.size(); i += kRuleLanes)
+    crossFour(planes, std::span(found).subspan(i, std::min(kRuleLanes, found.size() - i)), out,
+              refused);
   for (const Candidate& candidate : refused)
     if (!hasNeighbour(candidate, out)) recount(query, candidate.surface, out);
 }
