@@ -85,7 +85,6 @@ std::optional<Crossing> crossTriangle(const RayPlanes& ray, Vec3f p0, Vec3f p1, 
 namespace {
 
 using Point = Vec3<DoubleLanes>;
-using LaneMask = decltype(DoubleLanes{} >= DoubleLanes{});
 
 Point toLanes(const Vec3<FloatLanes>& p) {
   return {__builtin_convertvector(p.x, DoubleLanes), __builtin_convertvector(p.y, DoubleLanes),
@@ -101,42 +100,34 @@ DoubleLanes squareRoot(DoubleLanes a) {
   for (std::size_t i = 0; i < kRuleLanes; ++i) a[i] = std::sqrt(a[i]);
   return a;
 }
-LaneCrossings::Flags flags(LaneMask mask) {
-  return {mask[0] != 0, mask[1] != 0, mask[2] != 0, mask[3] != 0};
-}
 
 }  // namespace
 
-// cutTriangle(), crossCut() and facetNormal() without a branch. The cut's ends are taken as the
-// vertex order has them: to swap them negates both terms of the distance's fraction, no more.
+// cutTriangle(), crossCut() and facetNormal() without a branch.
 LaneCrossings crossTriangles(const RayPlanes& ray,
                              const std::array<Vec3<FloatLanes>, 3>& corners) {
   const DoubleLanes zero{};
-  const Point p[3] = {toLanes(corners[0]), toLanes(corners[1]), toLanes(corners[2])};
+  const Point p0 = toLanes(corners[0]), p1 = toLanes(corners[1]), p2 = toLanes(corners[2]);
   const Point origin = toLanes(ray.origin), u_axis = toLanes(ray.u_axis),
               v_axis = toLanes(ray.v_axis), direction = toLanes(ray.direction);
-  const DoubleLanes v[3] = {dot(v_axis, p[0] - origin), dot(v_axis, p[1] - origin),
-                            dot(v_axis, p[2] - origin)};
-  const LaneMask above[3] = {v[0] >= zero, v[1] >= zero, v[2] >= zero};
-  const LaneMask alone0 = above[1] == above[2], alone1 = above[0] == above[2];
-  const LaneMask cut = ~(alone0 & alone1);
-  const Point k = choose(alone0, p[0], choose(alone1, p[1], p[2]));
-  const Point i = choose(alone0, p[1], choose(alone1, p[2], p[0]));
-  const Point j = choose(alone0, p[2], choose(alone1, p[0], p[1]));
-  const DoubleLanes v_k = alone0 ? v[0] : alone1 ? v[1] : v[2];
-  const DoubleLanes v_i = alone0 ? v[1] : alone1 ? v[2] : v[0];
-  const DoubleLanes v_j = alone0 ? v[2] : alone1 ? v[0] : v[1];
-
-  const Point one = cutPoint(k, v_k, i, v_i) - origin, other = cutPoint(k, v_k, j, v_j) - origin;
+  const DoubleLanes v0 = dot(v_axis, p0 - origin), v1 = dot(v_axis, p1 - origin),
+                    v2 = dot(v_axis, p2 - origin);
+  const LaneMask above0 = v0 >= zero, above1 = v1 >= zero, above2 = v2 >= zero;
+  const LaneMask cut01 = above0 ^ above1, cut02 = above0 ^ above2;
+  // Of the edges 0-1, 1-2 and 2-0 two are cut: one of the first two, and one of the last two.
+  const Point one =
+      cutPoint(p1, v1, choose(cut01, p0, p2), DoubleLanes(cut01 ? v0 : v2)) - origin;
+  const Point other =
+      cutPoint(p2, v2, choose(cut02, p0, p1), DoubleLanes(cut02 ? v0 : v1)) - origin;
   const DoubleLanes u1 = dot(u_axis, one), u2 = dot(u_axis, other);
   const DoubleLanes w1 = dot(direction, one), w2 = dot(direction, other);
   const LaneMask right1 = u1 >= zero, right2 = u2 >= zero;
   const DoubleLanes distance = (w1 * u2 - w2 * u1) / (u2 - u1);
-  const LaneMask crossed = cut & (right1 ^ right2) & (distance > zero);
+  const LaneMask crossed = (cut01 | cut02) & (right1 ^ right2) & (distance > zero);
 
-  const Point area = cross(p[1] - p[0], p[2] - p[0]);
+  const Point area = cross(p1 - p0, p2 - p0);
   const DoubleLanes per_size = 1.0 / squareRoot(dot(area, area));
-  return {flags(crossed), flags(right1 == (v_k >= zero)), distance, per_size * area};
+  return {crossed, above0 == right1, distance, per_size * area};
 }
 
 }  // namespace echocine

@@ -67,9 +67,10 @@ inline constexpr std::size_t kRuleLanes = 4;
 using FloatLanes = float __attribute__((vector_size(kRuleLanes * sizeof(float))));
 using DoubleLanes = double __attribute__((vector_size(kRuleLanes * sizeof(double))));
 
+using LaneMask = decltype(DoubleLanes{} >= DoubleLanes{});  // not 0 where true
+
 struct LaneCrossings {
-  using Flags = std::array<bool, kRuleLanes>;
-  Flags crossed, entering;
+  LaneMask crossed, entering;
   DoubleLanes distance_m;
   Vec3<DoubleLanes> normal;  // unit; not a number where the triangle has no area
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -59,14 +60,18 @@ struct CollectContext {
 };
 
 // Notes every triangle that Embree reports and rejects it, so that the ray goes on to the next.
+// Which rays hit cannot be foretold, so they are gathered without a branch first.
 void collectHit(const RTCFilterFunctionNArguments* arguments) {
   auto& found = *reinterpret_cast<CollectContext*>(arguments->context)->found;
-  for (unsigned i = 0; i < arguments->N; ++i) {
-    if (arguments->valid[i] != -1) continue;
-    const unsigned ray = RTCRayN_id(arguments->ray, arguments->N, i);
-    found[ray].push_back({RTCHitN_geomID(arguments->hit, arguments->N, i),
-                          RTCHitN_primID(arguments->hit, arguments->N, i)});
-    arguments->valid[i] = 0;
+  const unsigned count = arguments->N;
+  int* const valid = arguments->valid;
+  unsigned hits = 0;
+  for (unsigned i = 0; i < count; ++i) hits |= static_cast<unsigned>(valid[i] & 1) << i;
+  for (; hits != 0; hits &= hits - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(hits));
+    found[RTCRayN_id(arguments->ray, count, i)].push_back(
+        {RTCHitN_geomID(arguments->hit, count, i), RTCHitN_primID(arguments->hit, count, i)});
+    valid[i] = 0;
   }
 }
 
@@ -229,25 +234,27 @@ void FrameGeometry::State::crossAll(const RayPlanes& ray, std::uint32_t surface,
 void FrameGeometry::State::crossFour(const RayPlanes& ray, std::span<const Candidate> found,
                                      std::vector<Crossing>& out,
                                      std::vector<Candidate>& refused) const {
-  std::array<Vec3<FloatLanes>, 3> corners;
+  const Vec3f* corner[kRuleLanes][3];
   for (std::size_t lane = 0; lane < kRuleLanes; ++lane) {
     const auto [surface, triangle] = found[std::min(lane, found.size() - 1)];
     const Triangle& t = surfaces[surface].triangles[triangle];
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Vec3f& p = vertices[surface][t[c]];
-      corners[c].x[lane] = p.x;
-      corners[c].y[lane] = p.y;
-      corners[c].z[lane] = p.z;
-    }
+    for (std::size_t c = 0; c < 3; ++c) corner[lane][c] = vertices[surface] + t[c];
+  }
+  std::array<Vec3<FloatLanes>, 3> corners;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Vec3f a = *corner[0][c], b = *corner[1][c], d = *corner[2][c], e = *corner[3][c];
+    corners[c] = {FloatLanes{a.x, b.x, d.x, e.x}, FloatLanes{a.y, b.y, d.y, e.y},
+                  FloatLanes{a.z, b.z, d.z, e.z}};
   }
   const LaneCrossings met = crossTriangles(ray, corners);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto [surface, triangle] = found[i];
     const Vec3d normal{met.normal.x[i], met.normal.y[i], met.normal.z[i]};
-    if (!met.crossed[i])
+    if (met.crossed[i] == 0)
       refused.push_back(found[i]);
     else if (isFinite(normal))
-      out.push_back({met.distance_m[i], normal, SurfaceId(surface), triangle, met.entering[i]});
+      out.push_back({met.distance_m[i], normal, SurfaceId(surface), triangle,
+                     met.entering[i] != 0});
     else
       out.push_back(*cross(ray, surface, triangle));
   }
