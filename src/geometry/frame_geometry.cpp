@@ -25,14 +25,28 @@ namespace {
 
 constexpr std::size_t kPacket = 16;
 
+// Four positions at a time, which are three vectors.
 Box boxOf(const std::vector<Vec3f>& positions) {
-  constexpr float kFar = std::numeric_limits<float>::infinity();
-  Vec3f lo{kFar, kFar, kFar}, hi{-kFar, -kFar, -kFar};
-  for (const Vec3f p : positions) {
-    lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
-    hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+  Box box;
+  const std::size_t count = positions.size(), in_fours = count / 4 * 4;
+  for (std::size_t i = in_fours; i < count; ++i) box.add(toDouble(positions[i]));
+  if (in_fours == 0) return box;
+  FloatLanes lo[3], hi[3];
+  std::memcpy(lo, positions.data(), sizeof lo);
+  std::memcpy(hi, positions.data(), sizeof hi);
+  for (std::size_t i = 4; i < in_fours; i += 4) {
+    FloatLanes four[3];
+    std::memcpy(four, &positions[i], sizeof four);
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = four[k] < lo[k] ? four[k] : lo[k];
+      hi[k] = four[k] > hi[k] ? four[k] : hi[k];
+    }
   }
-  return {toDouble(lo), toDouble(hi)};
+  Vec3f corners[8];
+  std::memcpy(corners, lo, sizeof lo);
+  std::memcpy(corners + 4, hi, sizeof hi);
+  for (const Vec3f corner : corners) box.add(toDouble(corner));
+  return box;
 }
 
 // Has the surface a triangle whose corners coincide, as where a cavity or an apex closes? Closer

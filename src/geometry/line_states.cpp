@@ -4,12 +4,6 @@
 
 namespace echocine {
 
-bool nearer(const Crossing& a, const Crossing& b) {
-  if (a.distance_m != b.distance_m) return a.distance_m < b.distance_m;
-  if (a.surface != b.surface) return a.surface < b.surface;
-  return a.triangle < b.triangle;
-}
-
 void balances(const std::vector<Crossing>& crossings, std::vector<int>& out) {
   std::fill(out.begin(), out.end(), 0);
   for (const Crossing& c : crossings) out[index(c.surface)] += c.entering ? 1 : -1;

@@ -8,7 +8,11 @@
 namespace echocine {
 
 // By distance; ties by surface, then by triangle, so that the order is the same everywhere.
-bool nearer(const Crossing& a, const Crossing& b);
+inline bool nearer(const Crossing& a, const Crossing& b) {
+  if (a.distance_m != b.distance_m) return a.distance_m < b.distance_m;
+  if (a.surface != b.surface) return a.surface < b.surface;
+  return a.triangle < b.triangle;
+}
 
 // Entries less exits of every closed surface; out has an entry per surface.
 void balances(const std::vector<Crossing>& crossings, std::vector<int>& out);
