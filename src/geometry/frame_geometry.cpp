@@ -341,13 +341,20 @@ void FrameGeometry::State::repairStates(const RayQuery& query, RayCrossings& out
   keepChanges(out.crossings, depth, membranes, clamped);
 }
 
-void FrameGeometry::State::proveStates(const RayQuery& query, RayCrossings& out) const {
-  std::sort(out.crossings.begin(), out.crossings.end(), nearer);
+// Embree's order is mostly that of distance, and seldom has it a triangle twice.
+void putInOrder(std::vector<Crossing>& crossings) {
+  const auto begin = crossings.begin(), end = crossings.end();
+  const auto misplaced = [](const Crossing& a, const Crossing& b) { return !nearer(a, b); };
+  if (std::adjacent_find(begin, end, misplaced) == end) return;
+  std::sort(begin, end, nearer);
   const auto same = [](const Crossing& a, const Crossing& b) {
     return a.surface == b.surface && a.triangle == b.triangle;
   };
-  out.crossings.erase(std::unique(out.crossings.begin(), out.crossings.end(), same),
-                      out.crossings.end());
+  crossings.erase(std::unique(begin, end, same), end);
+}
+
+void FrameGeometry::State::proveStates(const RayQuery& query, RayCrossings& out) const {
+  putInOrder(out.crossings);
   out.inside = query.inside;
   if (!statesAlternate(out.crossings, query.inside, membranes)) repairStates(query, out);
 }
