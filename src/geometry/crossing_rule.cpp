@@ -104,8 +104,7 @@ DoubleLanes squareRoot(DoubleLanes a) {
 }  // namespace
 
 // cutTriangle(), crossCut() and facetNormal() without a branch.
-LaneCrossings crossTriangles(const RayPlanes& ray,
-                             const std::array<Vec3<FloatLanes>, 3>& corners) {
+LaneCrossings crossTriangles(const RayPlanes& ray, const std::array<Vec3<FloatLanes>, 3>& corners) {
   const DoubleLanes zero{};
   const Point p0 = toLanes(corners[0]), p1 = toLanes(corners[1]), p2 = toLanes(corners[2]);
   const Point origin = toLanes(ray.origin), u_axis = toLanes(ray.u_axis),
@@ -115,8 +114,7 @@ LaneCrossings crossTriangles(const RayPlanes& ray,
   const LaneMask above0 = v0 >= zero, above1 = v1 >= zero, above2 = v2 >= zero;
   const LaneMask cut01 = above0 ^ above1, cut02 = above0 ^ above2;
   // Of the edges 0-1, 1-2 and 2-0 two are cut: one of the first two, and one of the last two.
-  const Point one =
-      cutPoint(p1, v1, choose(cut01, p0, p2), DoubleLanes(cut01 ? v0 : v2)) - origin;
+  const Point one = cutPoint(p1, v1, choose(cut01, p0, p2), DoubleLanes(cut01 ? v0 : v2)) - origin;
   const Point other =
       cutPoint(p2, v2, choose(cut02, p0, p1), DoubleLanes(cut02 ? v0 : v1)) - origin;
   const DoubleLanes u1 = dot(u_axis, one), u2 = dot(u_axis, other);

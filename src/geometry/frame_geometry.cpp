@@ -172,8 +172,8 @@ struct FrameGeometry::State {
   void crossAll(const RayPlanes& ray, std::uint32_t surface, std::vector<Crossing>& out) const;
   void crossCandidates(const RayQuery& query, const RayPlanes& planes,
                        std::vector<Candidate>& found, std::vector<Crossing>& out) const;
-  void crossFour(const RayPlanes& ray, std::span<const Candidate> found,
-                 std::vector<Crossing>& out, std::vector<Candidate>& refused) const;
+  void crossFour(const RayPlanes& ray, std::span<const Candidate> found, std::vector<Crossing>& out,
+                 std::vector<Candidate>& refused) const;
   bool hasNeighbour(const Candidate& candidate, const std::vector<Crossing>& crossings) const;
   void recount(const RayQuery& query, std::uint32_t surface,
                std::vector<Crossing>& crossings) const;
@@ -186,9 +186,9 @@ FrameGeometry::State::State(const std::vector<SurfaceTopology>& topology, const 
     : surfaces(topology), absent(left_out) {
   CHECK_LE(topology.size(), kMaxSurfaces);
   scene = rtcNewScene(sharedDevice());
-  rtcSetSceneFlags(scene,
-                   static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST |
-                                              RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(
+                              RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST |
+                              RTC_SCENE_FLAG_COMPACT | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
   // Low scene quality means one hierarchy per mesh under a small one over all meshes; only then
   // does Embree refit the meshes' hierarchies instead of building everything anew.
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
@@ -267,8 +267,8 @@ void FrameGeometry::State::crossFour(const RayPlanes& ray, std::span<const Candi
     if (met.crossed[i] == 0)
       refused.push_back(found[i]);
     else if (isFinite(normal))
-      out.push_back({met.distance_m[i], normal, SurfaceId(surface), triangle,
-                     met.entering[i] != 0});
+      out.push_back(
+          {met.distance_m[i], normal, SurfaceId(surface), triangle, met.entering[i] != 0});
     else
       out.push_back(*cross(ray, surface, triangle));
   }
