@@ -4,6 +4,18 @@
 
 namespace echocine {
 
+// A hierarchy's order is mostly that of distance, and has a triangle seldom twice.
+void putInOrder(std::vector<Crossing>& crossings) {
+  const auto begin = crossings.begin(), end = crossings.end();
+  const auto misplaced = [](const Crossing& a, const Crossing& b) { return !nearer(a, b); };
+  if (std::adjacent_find(begin, end, misplaced) == end) return;
+  std::sort(begin, end, nearer);
+  const auto same = [](const Crossing& a, const Crossing& b) {
+    return a.surface == b.surface && a.triangle == b.triangle;
+  };
+  crossings.erase(std::unique(begin, end, same), end);
+}
+
 void balances(const std::vector<Crossing>& crossings, std::vector<int>& out) {
   std::fill(out.begin(), out.end(), 0);
   for (const Crossing& c : crossings) out[index(c.surface)] += c.entering ? 1 : -1;

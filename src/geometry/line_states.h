@@ -14,6 +14,9 @@ inline bool nearer(const Crossing& a, const Crossing& b) {
   return a.triangle < b.triangle;
 }
 
+// Sorts by nearer() and drops what stands there twice: a triangle is crossed once.
+void putInOrder(std::vector<Crossing>& crossings);
+
 // Entries less exits of every closed surface; out has an entry per surface.
 void balances(const std::vector<Crossing>& crossings, std::vector<int>& out);
 
