@@ -1,7 +1,6 @@
 #include "geometry/crossing_rule.h"
 
 #include <cmath>
-#include <utility>
 
 namespace echocine {
 
@@ -18,27 +17,37 @@ RayPlanes::RayPlanes(const Ray& ray) : origin(ray.origin), direction(ray.directi
 namespace {
 
 // Where the edge p-q passes v = 0. Precondition: v_p and v_q lie on different sides.
-Vec3d cutPoint(Vec3d p, double v_p, Vec3d q, double v_q) {
-  const double s = v_q - v_p;
+template <typename T>
+Vec3<T> cutPoint(Vec3<T> p, T v_p, Vec3<T> q, T v_q) {
+  const T s = v_q - v_p;
   return {(p.x * v_q - q.x * v_p) / s, (p.y * v_q - q.y * v_p) / s, (p.z * v_q - q.z * v_p) / s};
 }
 
 }  // namespace
 
+namespace {
+
+// The vertex k alone on its side, and the other ends of the edges where the cut begins and ends.
+struct Turn {
+  std::uint8_t k, from, to;
+};
+
+// By which vertices are above, vertex 0 in the lowest bit. Seen along a ray a front face runs
+// clockwise: with k above, the cut begins on the edge to the vertex that follows it. A table, since
+// no branch could be foretold.
+constexpr Turn kTurns[8] = {{},        {0, 1, 2}, {1, 2, 0}, {2, 1, 0},
+                            {2, 0, 1}, {1, 0, 2}, {0, 2, 1}, {}};
+
+}  // namespace
+
 std::optional<TriangleCut> cutTriangle(Vec3d p0, Vec3d p1, Vec3d p2, double v0, double v1,
                                        double v2) {
-  const bool above0 = v0 >= 0, above1 = v1 >= 0, above2 = v2 >= 0;
-  if (above0 == above1 && above1 == above2) return std::nullopt;
+  const unsigned above = (v0 >= 0 ? 1u : 0u) | (v1 >= 0 ? 2u : 0u) | (v2 >= 0 ? 4u : 0u);
+  if (above == 0 || above == 7) return std::nullopt;
   const Vec3d p[3] = {p0, p1, p2};
   const double v[3] = {v0, v1, v2};
-  // k is the vertex alone on its side, i and j follow it in the triangle's order.
-  const int k = above1 == above2 ? 0 : above0 == above2 ? 1 : 2;
-  const int i = (k + 1) % 3, j = (k + 2) % 3;
-  TriangleCut cut{cutPoint(p[k], v[k], p[i], v[i]), cutPoint(p[k], v[k], p[j], v[j])};
-  // Seen along a ray a front face runs clockwise: with k above, its first cut is the one of larger
-  // u.
-  if (!(v[k] >= 0)) std::swap(cut.from, cut.to);
-  return cut;
+  const auto [k, from, to] = kTurns[above];
+  return TriangleCut{cutPoint(p[k], v[k], p[from], v[from]), cutPoint(p[k], v[k], p[to], v[to])};
 }
 
 std::optional<CutCrossing> crossCut(const RayPlanes& ray, const TriangleCut& cut) {
@@ -71,6 +80,52 @@ std::optional<Crossing> crossTriangle(const RayPlanes& ray, Vec3f p0, Vec3f p1, 
   if (!crossing) return std::nullopt;
   return Crossing{crossing->distance_m, facetNormal(areaNormal(q0, q1, q2), *cut, ray.v_axis),
                   surface, triangle, crossing->entering};
+}
+
+namespace {
+
+using Point = Vec3<DoubleLanes>;
+
+Point toLanes(const Vec3<FloatLanes>& p) {
+  return {__builtin_convertvector(p.x, DoubleLanes), __builtin_convertvector(p.y, DoubleLanes),
+          __builtin_convertvector(p.z, DoubleLanes)};
+}
+Point toLanes(Vec3d p) {
+  return {DoubleLanes{} + p.x, DoubleLanes{} + p.y, DoubleLanes{} + p.z};
+}
+Point choose(LaneMask mask, const Point& a, const Point& b) {
+  return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
+}
+DoubleLanes squareRoot(DoubleLanes a) {
+  for (std::size_t i = 0; i < kRuleLanes; ++i) a[i] = std::sqrt(a[i]);
+  return a;
+}
+
+}  // namespace
+
+// cutTriangle(), crossCut() and facetNormal() without a branch.
+LaneCrossings crossTriangles(const RayPlanes& ray, const std::array<Vec3<FloatLanes>, 3>& corners) {
+  const DoubleLanes zero{};
+  const Point p0 = toLanes(corners[0]), p1 = toLanes(corners[1]), p2 = toLanes(corners[2]);
+  const Point origin = toLanes(ray.origin), u_axis = toLanes(ray.u_axis),
+              v_axis = toLanes(ray.v_axis), direction = toLanes(ray.direction);
+  const DoubleLanes v0 = dot(v_axis, p0 - origin), v1 = dot(v_axis, p1 - origin),
+                    v2 = dot(v_axis, p2 - origin);
+  const LaneMask above0 = v0 >= zero, above1 = v1 >= zero, above2 = v2 >= zero;
+  const LaneMask cut01 = above0 ^ above1, cut02 = above0 ^ above2;
+  // Of the edges 0-1, 1-2 and 2-0 two are cut: one of the first two, and one of the last two.
+  const Point one = cutPoint(p1, v1, choose(cut01, p0, p2), DoubleLanes(cut01 ? v0 : v2)) - origin;
+  const Point other =
+      cutPoint(p2, v2, choose(cut02, p0, p1), DoubleLanes(cut02 ? v0 : v1)) - origin;
+  const DoubleLanes u1 = dot(u_axis, one), u2 = dot(u_axis, other);
+  const DoubleLanes w1 = dot(direction, one), w2 = dot(direction, other);
+  const LaneMask right1 = u1 >= zero, right2 = u2 >= zero;
+  const DoubleLanes distance = (w1 * u2 - w2 * u1) / (u2 - u1);
+  const LaneMask crossed = (cut01 | cut02) & (right1 ^ right2) & (distance > zero);
+
+  const Point area = cross(p1 - p0, p2 - p0);
+  const DoubleLanes per_size = 1.0 / squareRoot(dot(area, area));
+  return {crossed, above0 == right1, distance, per_size * area};
 }
 
 }  // namespace echocine

@@ -4,15 +4,32 @@
 
 namespace echocine {
 
-bool nearer(const Crossing& a, const Crossing& b) {
-  if (a.distance_m != b.distance_m) return a.distance_m < b.distance_m;
-  if (a.surface != b.surface) return a.surface < b.surface;
-  return a.triangle < b.triangle;
+// A hierarchy's order is mostly that of distance, and has a triangle seldom twice.
+void putInOrder(std::vector<Crossing>& crossings) {
+  const auto begin = crossings.begin(), end = crossings.end();
+  const auto misplaced = [](const Crossing& a, const Crossing& b) { return !nearer(a, b); };
+  if (std::adjacent_find(begin, end, misplaced) == end) return;
+  std::sort(begin, end, nearer);
+  const auto same = [](const Crossing& a, const Crossing& b) {
+    return a.surface == b.surface && a.triangle == b.triangle;
+  };
+  crossings.erase(std::unique(begin, end, same), end);
 }
 
 void balances(const std::vector<Crossing>& crossings, std::vector<int>& out) {
   std::fill(out.begin(), out.end(), 0);
   for (const Crossing& c : crossings) out[index(c.surface)] += c.entering ? 1 : -1;
+}
+
+bool statesAlternate(const std::vector<Crossing>& crossings, InsideSet inside,
+                     const InsideSet& membranes) {
+  for (const Crossing& c : crossings) {
+    const std::size_t s = index(c.surface);
+    if (membranes[s]) continue;
+    if (inside[s] == c.entering) return false;
+    inside[s] = c.entering;
+  }
+  return inside.none();
 }
 
 namespace {

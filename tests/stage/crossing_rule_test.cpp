@@ -179,5 +179,46 @@ TEST(CrossingRule, NothingBehindOrAtTheStartIsCrossed) {
   EXPECT_EQ(crossed(surfaces, {{0.3, 0.2, 1}, {0, 0, 1}}).size(), 1u);
 }
 
+// What four lanes say of one triangle is what the rule for one says, to the last bit.
+void expectLanesAgree(const RayPlanes& ray, const std::array<std::array<Vec3f, 3>, 4>& four) {
+  std::array<Vec3<FloatLanes>, 3> corners;
+  for (std::size_t lane = 0; lane < kRuleLanes; ++lane)
+    for (std::size_t c = 0; c < 3; ++c) {
+      corners[c].x[lane] = four[lane][c].x;
+      corners[c].y[lane] = four[lane][c].y;
+      corners[c].z[lane] = four[lane][c].z;
+    }
+  const LaneCrossings met = crossTriangles(ray, corners);
+  for (std::size_t lane = 0; lane < kRuleLanes; ++lane) {
+    const auto& [p0, p1, p2] = four[lane];
+    const auto one = crossTriangle(ray, p0, p1, p2, SurfaceId{0}, 0);
+    ASSERT_EQ(met.crossed[lane] != 0, one.has_value());
+    if (!one) continue;
+    EXPECT_EQ(met.entering[lane] != 0, one->entering);
+    EXPECT_EQ(met.distance_m[lane], one->distance_m);
+    const Vec3d normal{met.normal.x[lane], met.normal.y[lane], met.normal.z[lane]};
+    if (length(areaNormal(toDouble(p0), toDouble(p1), toDouble(p2))) > 0) {
+      EXPECT_TRUE(normal == one->normal);
+    } else {
+      EXPECT_FALSE(isFinite(normal));
+    }
+  }
+}
+
+// Corners on a coarse grid lie often on each other, on the ray and in its planes.
+TEST(CrossingRule, FourTrianglesAtOnceAreFourTriangles) {
+  RandomVectors random(21);
+  for (const double cells : {1.0, 2.0, 1e6}) {
+    const auto number = [&] { return std::round(random.number(-1, 1) * cells) / cells; };
+    const auto corner = [&] { return toFloat(Vec3d{number(), number(), number()}); };
+    for (int i = 0; i < 5000; ++i) {
+      std::array<std::array<Vec3f, 3>, 4> four;
+      for (auto& triangle : four) triangle = {corner(), corner(), corner()};
+      expectLanesAgree(RayPlanes({{number(), number(), -1}, {0, 0, 1}}), four);
+      expectLanesAgree(RayPlanes({{number(), number(), number()}, random.direction()}), four);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace echocine

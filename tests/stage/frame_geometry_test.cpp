@@ -189,6 +189,37 @@ TEST(FrameGeometry, FollowsVerticesThatMove) {
   }
 }
 
+TEST(FrameGeometry, SurfacesThatShrinkToAPointAreNotMetAndComeBack) {
+  const auto ball = [](double x) { return icosphere(2, 0.02).moved({x, 0, 0.08}); };
+  const auto point = [&](double x) {
+    Mesh mesh = ball(x);
+    for (Vec3d& p : mesh.points) p = {x, 0, 0.08};
+    return mesh;
+  };
+  const auto apex = [&](double x) {  // half of its triangles are one point
+    Mesh mesh = ball(x);
+    for (Vec3d& p : mesh.points)
+      if (p.z < 0.08) p = {x, 0, 0.08};
+    return mesh;
+  };
+  for (const bool from_points : {false, true}) {
+    Surfaces surfaces({from_points ? point(0) : ball(0), from_points ? point(0.05) : ball(0.05)});
+    for (int round = 0; round < 2; ++round) {
+      surfaces.move({point(0), point(0)});
+      EXPECT_TRUE(surfaces.cross({{1e-3, 2e-3, 0}, {0, 0, 1}}).crossings.empty());
+      surfaces.move({apex(0), apex(0.05)});
+      EXPECT_EQ(surfaces.cross({{1e-3, 2e-3, 0}, {0, 0, 1}}).crossings.size(), 2u);
+      surfaces.move({ball(0), point(0.05)});
+      EXPECT_EQ(surfaces.cross({{1e-3, 2e-3, 0}, {0, 0, 1}}).crossings.size(), 2u);
+    }
+  }
+}
+
+TEST(FrameGeometry, WithoutSurfacesNothingIsMet) {
+  const Surfaces surfaces(std::vector<Mesh>{});
+  EXPECT_TRUE(surfaces.cross({{0, 0, 0}, {0, 0, 1}}).crossings.empty());
+}
+
 // On a vertex a sheet may be met by several of its triangles at one distance; never by none.
 TEST(FrameGeometry, AnOpenSheetIsNotMissedThroughItsInnerVerticesAndEdges) {
   const Surfaces surfaces({}, {sheet(16, 0.04, 0.07)});
