@@ -13,7 +13,7 @@
 
 namespace echocine {
 
-// Appends to lines[i].echoes what the contour inside line i's cell sends back: for each piece of
+// What the contour inside each line's cell sends back, as `echoes`: for each piece of
 // contour its lobe at its own angle of incidence, spread over the samples it spans by the share of
 // the cell it covers in each. Media and losses before it are those of line i where it passes the
 // same surface, nearest in depth. For a flat interface the sum over lines is what sampling at the
@@ -23,6 +23,7 @@ namespace echocine {
 // sends nothing back, as with sampling at the centres.
 // normals: of each piece, with smooth normals; else empty.
 void addCellEchoes(std::span<const ContourPiece> pieces, std::span<const PieceNormals> normals,
-                   const Probe& probe, const TraceSettings& settings, std::span<LineTrace> lines);
+                   const Probe& probe, const TraceSettings& settings,
+                   std::span<const LineTrace> lines, CellEchoes& echoes);
 
 }  // namespace echocine

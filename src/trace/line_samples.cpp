@@ -1,9 +1,13 @@
 #include "trace/line_samples.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numbers>
+
+#include "trace/lanes.h"
 
 namespace echocine {
 
@@ -114,6 +118,44 @@ void sampleIntensity(const LineTrace& line, const Sampling& sampling, const Inte
     if (k < 0 || k >= sampling.samples) continue;
     const double lost = parts.attenuation ? std::exp(-echo.exponent) : 1.0;
     values[static_cast<std::size_t>(k)] += static_cast<float>(echo.intensity * lost);
+  }
+}
+
+namespace {
+
+// e^-x of x >= 0, to 3e-13; x beyond 700 counts as 700, which leaves nothing of a float either.
+// -x is n ln 2 + r: n is rounded to a whole number by adding a number whose last digit is 1, e^r is
+// its power series up to the tenth power, by pairs, so that few steps wait for each other.
+Lanes expOfMinus(Lanes x) {
+  constexpr double kWhole = 0x1.8p52;
+  constexpr double kLog2High = 0x1.62e42feep-1, kLog2Low = 0x1.a39ef35793c76p-33;
+  const Lanes y = -smaller(x, 700);
+  const Lanes shifted = y * std::numbers::log2e + kWhole, n = shifted - kWhole;
+  const Lanes r = (y - n * kLog2High) - n * kLog2Low, r2 = r * r, r4 = r2 * r2;
+  const Lanes low = (1 + r) + r2 * (1.0 / 2 + r * (1.0 / 6));
+  const Lanes middle = (1.0 / 24 + r * (1.0 / 120)) + r2 * (1.0 / 720 + r * (1.0 / 5040));
+  const Lanes high = (1.0 / 40320 + r * (1.0 / 362880)) + r2 * (1.0 / 3628800);
+  const Lanes series = low + r4 * (middle + r4 * high);
+  return reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(series) +
+                                 (reinterpret_cast<LaneMask>(shifted) << 52));
+}
+
+}  // namespace
+
+void addToSamples(const CellEchoes& echoes, const IntensityParts& parts, std::span<float> plane) {
+  if (!parts.reflection) return;
+  constexpr std::size_t kTogether = 64;
+  static_assert(kTogether % kLanes == 0);
+  std::array<double, kTogether> values;
+  for (std::size_t first = 0; first < echoes.count; first += kTogether) {
+    const std::size_t count = std::min(kTogether, echoes.count - first);
+    for (std::size_t j = 0; j < count; j += kLanes) {
+      Lanes value = lanesAt(&echoes.intensity[first + j]);
+      if (parts.attenuation) value *= expOfMinus(lanesAt(&echoes.exponent[first + j]));
+      store(value, &values[j]);
+    }
+    for (std::size_t j = 0; j < count; ++j)
+      plane[echoes.at[first + j]] += static_cast<float>(values[j]);
   }
 }
 
