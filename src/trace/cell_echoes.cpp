@@ -1,60 +1,69 @@
 #include "trace/cell_echoes.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
-#include "trace/cell_parts.h"
 #include "trace/interface_lanes.h"
+#include "trace/part_interfaces.h"
 
 namespace echocine {
 
 namespace {
 
-// Pieces that go through all steps together, so that what lies between these stays in the
-// first-level cache.
-constexpr std::size_t kPieces = 64;
-
 constexpr double kTiny = 1e-300;  // instead of 0 in a denominator
 constexpr double kFar_m = 1e9;    // beyond every image
 
-// What four parts send back, and where. Along a part `place` grows from place_a to place_b: the
-// distance from the foot of the perpendicular from the centre; of a linear probe the depth from a.
-struct PartEchoes {
-  Lanes strength;  // of the part as if it filled the cell
-  Lanes k_a, k_b;  // its ends, in samples
-  Lanes k_pass;    // where the line passes the interface, in samples
-  Lanes pass_m;    // there the distance from the centre; of a linear probe the depth from a
-  Lanes step_m;    // path of one sample
-  Lanes exponent, exponent_step;  // A where the line passes, and of one sample before it
-  Lanes place_a, place_b;
-  Lanes p;     // distance of the foot from the centre; of a linear probe |dx / dz|
-  Lanes flat;  // of a linear probe: |dx| of a part without extent in depth
+// What parts send back, and where. Along a part `place` grows from place_a to place_b: the distance
+// from the foot of the perpendicular from the centre; of a linear probe the depth from a.
+struct EchoRows {
+  PartRow<double> strength;          // of a part as if it filled the cell, per unit of angle
+  PartRow<double> whole;             // of the part
+  PartRow<double> k_a, k_b;          // its ends, in samples; within one of the image
+  PartRow<std::int32_t> first, end;  // the samples it spans
+  PartRow<std::uint32_t> single;     // 1: that is one, and the part ends there; else 0
+  PartRow<double> zero_m, step_m;    // of sample k the nearer end is at zero + k step, as place
+  PartRow<double> exponent, exponent_step;  // A in the middle of the first sample, and of one more
+  PartRow<double> place_a, place_b;
+  PartRow<double> p;     // distance of the foot from the centre; of a linear probe |dx / dz|
+  PartRow<double> flat;  // of a linear probe: |dx| of a part without extent in depth
 };
 
-// Four intervals of a sample on a part each.
-struct IntervalGroup {
-  Lanes begin_m, end_m;  // as PartEchoes::pass_m
-  Lanes strength, place_a, place_b, p, flat;
+// Intervals of one sample on a part each.
+struct IntervalRows {
+  static constexpr std::size_t kMost = 128;
+  std::size_t count = 0;
+  std::array<double, kMost> begin_m, end_m;  // as EchoRows::zero_m
+  std::array<double, kMost> strength, place_a, place_b, p, flat;
 };
 
 // angle with 0 <= tan(angle) < 0.02 by three terms of the arctangent: to 1e-13.
 constexpr double kSmallTangent = 0.02;
 Lanes smallAngle(Lanes tangent) {
   const Lanes t2 = tangent * tangent;
-  return tangent * (1 - t2 * (1.0 / 3 - t2 / 5));
+  return tangent * (1 - t2 * (1.0 / 3 - t2 * (1.0 / 5)));
+}
+
+// Between two places on a line at the distance p from the centre, seen from there.
+Lanes anglesBetween(Lanes begin, Lanes end, Lanes p) {
+  const Lanes across = p * (end - begin), along = p * p + begin * end;
+  const Lanes tangent = across / larger(along, kTiny);
+  Lanes angle = smallAngle(tangent);
+  const LaneMask wide = tangent >= kSmallTangent;
+  if (!any(wide)) return angle;
+  for (std::size_t j = 0; j < kLanes; ++j)
+    if (wide[j]) angle[j] = std::atan2(across[j], along[j]);
+  return angle;
 }
 
 class CellEchoMaker {
  public:
   CellEchoMaker(const Probe& probe, const TraceSettings& settings, std::span<const LineTrace> lines,
-                CellEchoes& echoes)
+                double cell_width, CellEchoes& echoes)
       : settings_(settings),
         echoes_(echoes),
         angular_(probe.kind != ProbeKind::linear),
         face_radius_m_(probe.face_radius_m),
-        per_width_(1 / cellWidth(probe)),
+        per_width_(1 / cell_width),
         min_depth_m_(probe.min_depth_m),
         spacing_m_(probe.sampleSpacing()),
         per_spacing_(1 / spacing_m_),
@@ -64,14 +73,16 @@ class CellEchoMaker {
     for (const LineTrace& line : lines) samples_lit_.push_back(samplesLit(line));
   }
 
-  void add(const CellParts& parts) {
-    count_ = 0;
-    for (std::size_t first = 0; first < parts.count; first += kLanes) {
-      const PartGroup& group = parts.groups[first / kLanes];
-      const PartEchoes part = angular_ ? echoesOf<true>(group) : echoesOf<false>(group);
-      const std::size_t lanes = std::min(kLanes, parts.count - first);
-      for (std::size_t lane = 0; lane < lanes; ++lane) intoSamples(part, lane, group.line[lane]);
-    }
+  void add(const CellParts& parts, const InterfaceRows& interfaces) {
+    LaneInts most{};
+    for (std::size_t i = 0; i < parts.count; i += kLanes)
+      most +=
+          angular_ ? echoesOf<true>(parts, interfaces, i) : echoesOf<false>(parts, interfaces, i);
+    echoes_.reserve(echoes_.count + parts.count +
+                    static_cast<std::size_t>(most[0] + most[1] + most[2] + most[3]));
+    std::array<std::uint32_t, 2 * kParts> longer;
+    const std::size_t count = addSingles(parts, longer);
+    for (std::size_t i = 0; i < count; ++i) intoSamples(longer[i], parts.line[longer[i]]);
     takeShares();
   }
 
@@ -87,115 +98,151 @@ class CellEchoMaker {
     return n;
   }
 
-  // As the walk along a line does it: Eq. 1 and the lobe; a membrane echoes twice.
-  Lanes strengthOf(const PartGroup& g) const {
-    const Lanes to_square = g.to_x * g.to_x + g.to_z * g.to_z;
-    const Lanes cos_i =
-        smaller(magnitude(g.to_x * g.n_x + g.to_z * g.n_z) / squareRoot(to_square * g.n_square), 1);
-    const Lanes R = reflectedShares(g.Z_1, g.c_1, g.Z_2, g.c_2, cos_i);
-    const Lanes second = settings_.transmission_loss ? (1 - R) * (1 - R) * R : R;
-    Lanes lobe = (g.lobe == 2 ? cos_i * cos_i : g.lobe == 1 ? cos_i : Lanes{} + 1);
-    if (any_power_)
-      for (std::size_t j = 0; j < kLanes; ++j)
-        if (g.lobe[j] != 0 && g.lobe[j] != 1 && g.lobe[j] != 2)
-          lobe[j] = std::pow(cos_i[j], g.lobe[j]);
-    return g.passed * (R + g.membrane * second) * lobe;
-  }
-
-  template <bool kAngular>
-  PartEchoes echoesOf(const PartGroup& g) const {
-    PartEchoes e;
-    e.strength = strengthOf(g);
-    const Lanes per_path = per_spacing_ / g.path_per_depth;
-    e.step_m = spacing_m_ * g.path_per_depth;
-    e.k_pass = (g.pass_depth_m - min_depth_m_) * per_spacing_;
-    e.exponent = g.exponent;
-    e.exponent_step = e.step_m * g.exponent_per_path;
-    const Lanes dx = g.b_x - g.a_x, dz = g.b_z - g.a_z;
-    Lanes path_a = g.a_z, path_b = g.b_z;
-    if constexpr (kAngular) {
-      path_a = squareRoot(g.a_x * g.a_x + g.a_z * g.a_z) - face_radius_m_;
-      path_b = squareRoot(g.b_x * g.b_x + g.b_z * g.b_z) - face_radius_m_;
-      const Lanes size = squareRoot(dx * dx + dz * dz), per_size = 1 / larger(size, kTiny);
-      e.place_a = larger((g.a_x * dx + g.a_z * dz) * per_size, 0);
-      e.place_b = e.place_a + size;
-      e.p = magnitude(g.a_x * dz - g.a_z * dx) * per_size;
-      e.pass_m = g.pass_path_m + face_radius_m_;
-      e.flat = Lanes{};
-    } else {
-      e.place_a = Lanes{};
-      e.place_b = dz;
-      e.p = magnitude(dx) / larger(dz, kTiny);
-      e.flat = dz > kTiny ? Lanes{} : magnitude(dx);
-      e.pass_m = g.pass_path_m - g.a_z;
-    }
-    e.k_a = e.k_pass + (path_a - g.pass_path_m) * per_path;
-    e.k_b = e.k_pass + (path_b - g.pass_path_m) * per_path;
-    return e;
-  }
-
-  // An interval for each sample that the part spans. It may be far longer than the image is deep.
-  void intoSamples(const PartEchoes& part, std::size_t lane, std::uint32_t line) {
-    const double k_a = part.k_a[lane], k_b = part.k_b[lane];
-    const int first = static_cast<int>(std::clamp(k_a, 0.0, samples_ * 1.0));
-    const int end =
-        std::min(std::max(static_cast<int>(std::ceil(std::min(k_b, samples_ * 1.0))), first + 1),
-                 samples_lit_[line]);
-    if (first >= end) return;
-    reserve(static_cast<std::size_t>(end - first));
-    const double k_pass = part.k_pass[lane], step_m = part.step_m[lane];
-    const double zero_m = part.pass_m[lane] - k_pass * step_m;
-    for (int k = first; k < end; ++k) {
-      const std::size_t i = count_++;
-      IntervalGroup& g = intervals_[i / kLanes];
-      const std::size_t j = i % kLanes;
-      g.begin_m[j] = k <= k_a ? 0 : zero_m + k * step_m;
-      g.end_m[j] = k + 1 >= k_b ? kFar_m : zero_m + (k + 1) * step_m;
-      g.strength[j] = part.strength[lane];
-      g.place_a[j] = part.place_a[lane];
-      g.place_b[j] = part.place_b[lane];
-      g.p[j] = part.p[lane];
-      g.flat[j] = part.flat[lane];
-      echoes_.at[echoes_.count + i] =
-          line * static_cast<std::uint32_t>(samples_) + static_cast<std::uint32_t>(k);
-      echoes_.exponent[echoes_.count + i] =
-          std::max(part.exponent[lane] + (k + 0.5 - k_pass) * part.exponent_step[lane], 0.0);
-    }
-  }
-
-  void reserve(std::size_t more) {
-    const std::size_t groups = (count_ + more + kLanes - 1) / kLanes;
-    if (groups > intervals_.size()) intervals_.resize(2 * groups);
-    const std::size_t needed = echoes_.count + (groups + 1) * kLanes;
-    if (needed > echoes_.at.size()) echoes_.resize(2 * needed);
-  }
-
-  void takeShares() {
-    for (std::size_t i = 0; i * kLanes < count_; ++i) {
-      const IntervalGroup& g = intervals_[i];
-      const Lanes intensity = g.strength * ((angular_ ? anglesOf(g) : widthsOf(g)) * per_width_);
-      store(intensity, &echoes_.intensity[echoes_.count + i * kLanes]);
-    }
-    echoes_.count += count_;
-  }
-
-  // Of the intervals' ends, seen from the centre.
-  static Lanes anglesOf(const IntervalGroup& g) {
-    const auto place = [&](Lanes r) {
-      return clamped(squareRoot(larger((r - g.p) * (r + g.p), 0)), g.place_a, g.place_b);
+  // As the walk along a line does it: Eq. 1 and the lobe; a membrane echoes twice. Mostly the angle
+  // counts in the lobe cos^2 alone, which needs no root.
+  Lanes strengthOf(const CellParts& parts, const InterfaceRows& f, std::size_t i) const {
+    const Lanes to_x = lanesAt(&parts.to_x[i]), to_z = lanesAt(&parts.to_z[i]);
+    const Lanes along = to_x * lanesAt(&parts.normal_x[i]) + to_z * lanesAt(&parts.normal_z[i]);
+    const Lanes squares = (to_x * to_x + to_z * to_z) * lanesAt(&parts.normal_square[i]);
+    const Lanes cos_square = smaller(along * along / squares, 1);
+    const Lanes Z_1 = lanesAt(&f.Z_1[i]), Z_2 = lanesAt(&f.Z_2[i]), r = lanesAt(&f.r[i]);
+    const Lanes n = lanesAt(&f.lobe[i]), passed = lanesAt(&f.passed[i]),
+                membrane = lanesAt(&f.membrane[i]);
+    const auto withSecond = [&](Lanes R) {
+      return R + membrane * (settings_.transmission_loss ? (1 - R) * (1 - R) * R : R);
     };
-    const Lanes begin = place(g.begin_m), end = place(g.end_m);
-    const Lanes across = g.p * (end - begin), along = g.p * g.p + begin * end;
-    const Lanes tangent = across / larger(along, kTiny);
-    Lanes angle = smallAngle(tangent);
-    for (std::size_t j = 0; j < kLanes; ++j)
-      if (tangent[j] >= kSmallTangent) angle[j] = std::atan2(across[j], along[j]);
-    return angle;
+    if (!any((r != 1) | (n != 2)))
+      return passed * withSecond(reflectedAtEqualSpeeds(Z_1, Z_2)) * cos_square;
+    const Lanes cos_i = squareRoot(cos_square);
+    Lanes lobe = n == 2 ? cos_square : n == 1 ? cos_i : Lanes{} + 1;
+    for (std::size_t j = 0; any_power_ && j < kLanes; ++j)
+      if (n[j] != 0 && n[j] != 1 && n[j] != 2) lobe[j] = std::pow(cos_i[j], n[j]);
+    return passed * withSecond(reflectedShares(Z_1, Z_2, r, lanesAt(&f.turn[i]), cos_i)) * lobe;
   }
-  static Lanes widthsOf(const IntervalGroup& g) {
-    const Lanes begin = clamped(g.begin_m, g.place_a, g.place_b),
-                end = clamped(g.end_m, g.place_a, g.place_b);
-    return (end - begin) * g.p + g.flat;
+
+  // Fills the rows for four parts; returns how many samples each spans.
+  template <bool kAngular>
+  LaneInts echoesOf(const CellParts& parts, const InterfaceRows& f, std::size_t i) {
+    const Lanes a_x = lanesAt(&parts.a_x[i]), a_z = lanesAt(&parts.a_z[i]),
+                b_x = lanesAt(&parts.b_x[i]), b_z = lanesAt(&parts.b_z[i]);
+    const Lanes dx = b_x - a_x, dz = b_z - a_z;
+    const Lanes strength = strengthOf(parts, f, i) * per_width_;
+    Lanes path_a = a_z, path_b = b_z, place_a{}, place_b = dz, p, flat{}, whole, zero_m = -a_z;
+    if constexpr (kAngular) {
+      path_a = squareRoot(a_x * a_x + a_z * a_z) - face_radius_m_;
+      path_b = squareRoot(b_x * b_x + b_z * b_z) - face_radius_m_;
+      const Lanes size = squareRoot(dx * dx + dz * dz), per_size = 1 / larger(size, kTiny);
+      place_a = larger((a_x * dx + a_z * dz) * per_size, 0);
+      place_b = place_a + size;
+      p = magnitude(a_x * dz - a_z * dx) * per_size;
+      whole = anglesBetween(place_a, place_b, p);
+      zero_m = Lanes{} + face_radius_m_;
+    } else {
+      p = magnitude(dx) / larger(dz, kTiny);
+      flat = dz > kTiny ? Lanes{} : magnitude(dx);
+      whole = magnitude(dx);
+    }
+    const Lanes path_m = lanesAt(&f.path_m[i]), path_per_depth = lanesAt(&f.path_per_depth[i]);
+    const Lanes step_m = spacing_m_ * path_per_depth;
+    const Lanes per_path =
+        settings_.travel_time ? per_spacing_ / path_per_depth : Lanes{} + per_spacing_;
+    const Lanes k_pass = (lanesAt(&f.depth_m[i]) - min_depth_m_) * per_spacing_;
+    const Lanes samples = Lanes{} + samples_;
+    const Lanes k_a = clamped(k_pass + (path_a - path_m) * per_path, Lanes{} - 1, samples);
+    const Lanes k_b = clamped(k_pass + (path_b - path_m) * per_path, Lanes{} - 1, samples + 1);
+    const Lanes first = wholeOf(larger(k_a, 0)), below = wholeOf(larger(k_b, 0));
+    const Lanes end = larger(below < k_b ? below + 1 : below, first + 1);
+    const LaneMask seen = masksAt(&f.seen[i]);
+    const LaneMask single = seen & (end == first + 1) & (first <= k_a) & (end >= k_b);
+    const Lanes exponent_step = step_m * lanesAt(&f.exponent_per_path[i]);
+    store(strength, &rows_.strength[i]);
+    store(strength * whole, &rows_.whole[i]);
+    store(k_a, &rows_.k_a[i]);
+    store(k_b, &rows_.k_b[i]);
+    store(zero_m + path_m - k_pass * step_m, &rows_.zero_m[i]);
+    store(step_m, &rows_.step_m[i]);
+    store(lanesAt(&f.exponent[i]) + (first + 0.5 - k_pass) * exponent_step, &rows_.exponent[i]);
+    store(exponent_step, &rows_.exponent_step[i]);
+    store(place_a, &rows_.place_a[i]);
+    store(place_b, &rows_.place_b[i]);
+    store(p, &rows_.p[i]);
+    store(flat, &rows_.flat[i]);
+    const LaneInts from = __builtin_convertvector(first, LaneInts),
+                   to = __builtin_convertvector(seen ? end : first, LaneInts);
+    store(from, &rows_.first[i]);
+    store(to, &rows_.end[i]);
+    store(-__builtin_convertvector(single, LaneInts), &rows_.single[i]);
+    return to - from;
+  }
+
+  // Parts within one sample; the numbers of the others into `longer`. Without branches, which no
+  // processor would foresee.
+  std::size_t addSingles(const CellParts& parts, std::array<std::uint32_t, 2 * kParts>& longer) {
+    std::uint32_t* at = echoes_.at.data() + echoes_.count;
+    double* intensity = echoes_.intensity.data() + echoes_.count;
+    double* exponent = echoes_.exponent.data() + echoes_.count;
+    std::size_t singles = 0, others = 0;
+    for (std::size_t i = 0; i < parts.count; ++i) {
+      const std::uint32_t line = parts.line[i];
+      const int first = rows_.first[i];
+      const std::uint32_t lit = first < std::min(samples_lit_[line], rows_.end[i]) ? 1 : 0;
+      at[singles] = line * static_cast<std::uint32_t>(samples_) + static_cast<std::uint32_t>(first);
+      intensity[singles] = rows_.whole[i];
+      exponent[singles] = std::max(rows_.exponent[i], 0.0);
+      longer[others] = static_cast<std::uint32_t>(i);
+      singles += lit & rows_.single[i];
+      others += lit & ~rows_.single[i];
+    }
+    echoes_.count += singles;
+    return others;
+  }
+
+  // An interval for each sample that a part spans.
+  void intoSamples(std::size_t part, std::uint32_t line) {
+    const int first = rows_.first[part], end = std::min(rows_.end[part], samples_lit_[line]);
+    const double k_a = rows_.k_a[part], k_b = rows_.k_b[part];
+    const double zero_m = rows_.zero_m[part], step_m = rows_.step_m[part];
+    const std::uint32_t line_at = line * static_cast<std::uint32_t>(samples_);
+    for (int k = first; k < end; ++k) {
+      if (intervals_.count == IntervalRows::kMost) takeShares();
+      const std::size_t i = intervals_.count++, to = echoes_.count + i;
+      intervals_.begin_m[i] = k <= k_a ? 0 : zero_m + k * step_m;
+      intervals_.end_m[i] = k + 1 >= k_b ? kFar_m : zero_m + (k + 1) * step_m;
+      intervals_.strength[i] = rows_.strength[part];
+      intervals_.place_a[i] = rows_.place_a[part];
+      intervals_.place_b[i] = rows_.place_b[part];
+      intervals_.p[i] = rows_.p[part];
+      intervals_.flat[i] = rows_.flat[part];
+      echoes_.at[to] = line_at + static_cast<std::uint32_t>(k);
+      echoes_.exponent[to] =
+          std::max(rows_.exponent[part] + (k - first) * rows_.exponent_step[part], 0.0);
+    }
+  }
+
+  // Of the cell, by each interval.
+  void takeShares() {
+    for (std::size_t i = 0; i < intervals_.count; i += kLanes) {
+      const Lanes share = angular_ ? anglesOf(i) : widthsOf(i);
+      store(lanesAt(&intervals_.strength[i]) * share, &echoes_.intensity[echoes_.count + i]);
+    }
+    echoes_.count += intervals_.count;
+    intervals_.count = 0;
+  }
+  Lanes anglesOf(std::size_t i) const {
+    const Lanes p = lanesAt(&intervals_.p[i]), place_a = lanesAt(&intervals_.place_a[i]),
+                place_b = lanesAt(&intervals_.place_b[i]);
+    const auto place = [&](Lanes r) {
+      return clamped(squareRoot(larger((r - p) * (r + p), 0)), place_a, place_b);
+    };
+    return anglesBetween(place(lanesAt(&intervals_.begin_m[i])),
+                         place(lanesAt(&intervals_.end_m[i])), p);
+  }
+  Lanes widthsOf(std::size_t i) const {
+    const Lanes place_a = lanesAt(&intervals_.place_a[i]),
+                place_b = lanesAt(&intervals_.place_b[i]);
+    const Lanes begin = clamped(lanesAt(&intervals_.begin_m[i]), place_a, place_b),
+                end = clamped(lanesAt(&intervals_.end_m[i]), place_a, place_b);
+    return (end - begin) * lanesAt(&intervals_.p[i]) + lanesAt(&intervals_.flat[i]);
   }
 
   const TraceSettings& settings_;
@@ -205,8 +252,8 @@ class CellEchoMaker {
   int samples_;
   bool any_power_ = false;
   std::vector<int> samples_lit_;  // by line
-  std::vector<IntervalGroup> intervals_;
-  std::size_t count_ = 0;  // of intervals
+  EchoRows rows_{};
+  IntervalRows intervals_{};
 };
 
 }  // namespace
@@ -216,14 +263,14 @@ void addCellEchoes(std::span<const ContourPiece> pieces, std::span<const PieceNo
                    std::span<const LineTrace> lines, CellEchoes& echoes) {
   echoes.count = 0;
   if (!settings.reflection) return;
-  const CellCutter cutter(probe, settings, lines);
-  CellEchoMaker maker(probe, settings, lines, echoes);
-  CellParts parts;
-  for (std::size_t first = 0; first < pieces.size(); first += kPieces) {
-    parts.count = 0;
-    for (std::size_t i = first; i < std::min(first + kPieces, pieces.size()); ++i)
-      cutter.cut(pieces[i], normals.empty() ? nullptr : &normals[i], parts);
-    maker.add(parts);
+  CellCutter cutter(probe, pieces);
+  const PartInterfaces interfaces(probe, settings, lines);
+  CellEchoMaker maker(probe, settings, lines, cutter.width(), echoes);
+  CellParts parts{};
+  InterfaceRows rows{};
+  for (cutter.next(parts); parts.count > 0; cutter.next(parts)) {
+    interfaces.find(pieces, normals, parts, rows);
+    maker.add(parts, rows);
   }
 }
 

@@ -1,6 +1,5 @@
 #pragma once
-// Contours cut at the cells' boundaries: parts that lie in one cell each, with the pass of the
-// cell's own line through the same surface.
+// Contours cut at the boundaries between the lines' cells.
 
 #include <array>
 #include <span>
@@ -8,80 +7,76 @@
 
 #include "geometry/plane_slice.h"
 #include "trace/lanes.h"
-#include "trace/line_trace.h"
-#include "trace/trace_settings.h"
 
 namespace echocine {
 
-// Four parts. On each, from a to b, the path length does not fall. Points are in the imaging plane.
-struct PartGroup {
-  Lanes a_x, a_z, b_x, b_z;
-  Lanes to_x, to_z;              // the direction in which it is seen at its middle, of any length
-  Lanes n_x, n_z, n_square;      // its normal there, of any length, and the square of that
-  Lanes Z_1, c_1, Z_2, c_2;      // of the media before and behind the interface
-  Lanes passed, lobe, membrane;  // prod (1-R)^2 before it times the gain; n of cos^n; 1 or 0
-  Lanes pass_path_m, pass_depth_m, path_per_depth, exponent, exponent_per_path;  // InterfacePass
-  std::array<std::uint32_t, kLanes> line;
-};
+// So many parts go through all steps together: what lies between these stays in the first-level
+// cache.
+inline constexpr std::size_t kParts = 128;
+// A part on which the path length turns round becomes two.
+template <typename T>
+using PartRow = std::array<T, 2 * kParts>;
 
-// Parts in groups of four; the last group may be filled in part.
+// Parts of contour, each inside the cell of one line; in rows, for lanes. Points and vectors are in
+// the imaging plane.
 struct CellParts {
-  std::vector<PartGroup> groups;
   std::size_t count = 0;
+  PartRow<double> a_x, a_z, b_x, b_z;  // its ends; b is no nearer to the centre (no shallower)
+  PartRow<double> to_x, to_z;          // direction in which its middle is seen, of any length
+  PartRow<double> normal_x, normal_z;  // of the facet, of any length,
+  PartRow<double> normal_square;       // and the square of that
+  PartRow<std::int64_t> entering;      // -1: seen so, the facet's outside is in front; else 0
+  PartRow<std::int64_t> turns;         // -1: the foot of the perpendicular from the centre is on it
+  PartRow<std::uint32_t> piece, line;
 };
 
+// Cuts pieces in their order.
 class CellCutter {
  public:
-  // Preconditions: as of addCellEchoes(); all arguments outlive the cutter.
-  CellCutter(const Probe& probe, const TraceSettings& settings, std::span<const LineTrace> lines);
+  // Preconditions: the probe has two lines at least; the pieces outlive the cutter.
+  CellCutter(const Probe& probe, std::span<const ContourPiece> pieces);
 
-  // Appends the parts of one piece of contour. normals: of the piece, or nothing where the facet's
-  // own counts.
-  void cut(const ContourPiece& piece, const PieceNormals* normals, CellParts& parts) const;
+  // Width of a cell: an angle, or a length for a linear probe.
+  double width() const { return width_; }
+
+  // The next parts; none at the end.
+  void next(CellParts& parts);
 
  private:
-  struct Point {
-    double x, z;
+  struct Boundary {
+    double sine, cosine;  // of a linear probe: its offset and 1
   };
-  struct Seen {  // a piece
-    const ContourPiece& piece;
-    const PieceNormals* smooth;
-    Vec3d normal;  // of the facet, of any length
-    double normal_square;
+  // Ends of pieces, in the cells begin to end; of these the sector has those from begin on.
+  static constexpr std::size_t kPieces = 64;
+  struct Ends {
+    std::array<double, kPieces> a_x, a_z, b_x, b_z;
+    std::array<std::int32_t, kPieces> begin, end;
+    std::array<std::uint32_t, kPieces> piece;
+    std::size_t count = 0, done = 0;
   };
-  struct Sight {  // of its middle, from the line in whose cell it lies
-    Vec3d to, normal;
-    double normal_square;
-    const InterfacePass& pass;
-    std::uint32_t line;
-  };
-  struct PassLink {
-    const InterfacePass* pass;
-    std::uint32_t next;  // 1 + position in links_, or 0
+  // What parts are cut from besides the ends of their pieces.
+  struct Sides {
+    std::array<double, kParts> left_sine, left_cosine, right_sine, right_cosine;
   };
 
-  double rightOf(Point p, int boundary) const;
-  int cellOf(Point p) const;
-  Point atBoundary(Point a, Point b, int boundary) const;
-  void linkPasses();
-  std::size_t keyOf(std::size_t line, SurfaceId surface, bool entering) const;
-  const InterfacePass* nearestPass(std::size_t line, SurfaceId surface, bool entering,
-                                   Point p) const;
-  void addToLine(const Seen& seen, Point a, Point b, std::size_t line, CellParts& parts) const;
-  void addPart(const Sight& sight, Point a, Point b, CellParts& parts) const;
+  void takeEnds();
+  void findCells();
+  Lanes placeOf(Lanes x, Lanes z) const;
+  double rightOf(double x, double z, int boundary) const;
+  int cellOf(double x, double z, int guess) const;
+  void intoCells(CellParts& parts);
+  Lanes rightOf(Lanes x, Lanes z, Lanes sine, Lanes cosine) const;
+  void cutAtBoundaries(CellParts& parts) const;
 
-  const Probe& probe_;
-  const TraceSettings& settings_;
-  std::span<const LineTrace> lines_;
+  std::span<const ContourPiece> pieces_;
+  std::size_t taken_ = 0;  // of the pieces
   bool angular_;
-  double first_, per_width_;
-  std::vector<PassLink> links_;
-  std::vector<std::uint32_t> heads_;  // by keyOf(): as PassLink::next
-  std::vector<Point>
-      boundaries_;  // sine and cosine, or the offset of a linear probe; one more than lines
+  int lines_;
+  double first_, width_, per_width_;
+  double unsure_;                     // error of a place, in cells
+  std::vector<Boundary> boundaries_;  // one more than lines
+  Ends ends_;
+  Sides sides_;
 };
-
-// Width of a cell: an angle, or a length for a linear probe.
-double cellWidth(const Probe& probe);
 
 }  // namespace echocine

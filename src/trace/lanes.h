@@ -13,6 +13,8 @@ inline constexpr std::size_t kLanes = 4;
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 using LaneMask = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));
 
+using LaneInts = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
+
 inline Lanes lanesAt(const double* from) {
   Lanes lanes;
   std::memcpy(&lanes, from, sizeof lanes);
@@ -20,6 +22,20 @@ inline Lanes lanesAt(const double* from) {
 }
 inline void store(Lanes lanes, double* to) {
   std::memcpy(to, &lanes, sizeof lanes);
+}
+
+inline LaneMask masksAt(const std::int64_t* from) {
+  LaneMask mask;
+  std::memcpy(&mask, from, sizeof mask);
+  return mask;
+}
+template <typename Number>
+void store(LaneInts lanes, Number* to) {
+  static_assert(sizeof(Number) == sizeof(std::int32_t));
+  std::memcpy(to, &lanes, sizeof lanes);
+}
+inline void store(LaneMask mask, std::int64_t* to) {
+  std::memcpy(to, &mask, sizeof mask);
 }
 
 inline Lanes larger(Lanes a, Lanes b) {
@@ -43,6 +59,15 @@ inline Lanes magnitude(Lanes a) {
 }
 inline Lanes squareRoot(Lanes a) {
   return Lanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
+}
+
+// Without their fractions; magnitudes below 2^31.
+inline Lanes wholeOf(Lanes a) {
+  return __builtin_convertvector(__builtin_convertvector(a, LaneInts), Lanes);
+}
+
+inline bool any(LaneMask mask) {
+  return ((mask[0] | mask[1]) | (mask[2] | mask[3])) != 0;
 }
 
 }  // namespace echocine

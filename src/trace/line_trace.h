@@ -41,7 +41,11 @@ struct CellEchoes {
   std::vector<std::uint32_t> at;            // line * samples + sample
   std::vector<double> intensity, exponent;  // as of an Echo in the middle of its sample
 
-  void resize(std::size_t size) {
+  // Room for so many, and for whole lanes.
+  void reserve(std::size_t most) {
+    constexpr std::size_t kMoreThanLanes = 64;
+    if (at.size() >= most + kMoreThanLanes) return;
+    const std::size_t size = 2 * most + kMoreThanLanes;
     at.resize(size);
     intensity.resize(size);
     exponent.resize(size);
