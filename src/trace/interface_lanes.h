@@ -11,10 +11,9 @@ struct SpeedRatio {
   double turn = 0;  // 1 - r^2 as transmissionCosine() takes it: exact where the speeds are alike
 };
 
-inline SpeedRatio speedRatio(double c_1, double per_c_1, double c_2) {
-  if (c_1 == c_2) return {};
-  const double r = c_2 * per_c_1;
-  return {r, (c_1 - c_2) * per_c_1 * (1 + r)};
+inline SpeedRatio speedRatio(double c_1, double c_2) {
+  const double r = c_2 / c_1;
+  return {r, (c_1 - c_2) / c_1 * (1 + r)};
 }
 
 // InterfaceLaw::R of media with equal speeds, at every angle.

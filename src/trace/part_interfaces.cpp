@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "geometry/smooth_normal.h"
-#include "trace/interface_lanes.h"
 
 namespace echocine {
 
@@ -47,7 +46,9 @@ void splitAtFoot(CellParts& p, std::size_t i) {
 PartInterfaces::PartInterfaces(const Probe& probe, const TraceSettings& settings,
                                std::span<const LineTrace> lines)
     : probe_(probe), settings_(settings), table_(lines, settings.surfaces.size()) {
-  for (const Medium& medium : settings.media) per_speed_.push_back(1 / medium.sound_speed_m_s);
+  for (const Medium& from : settings.media)
+    for (const Medium& to : settings.media)
+      speeds_.push_back(speedRatio(from.sound_speed_m_s, to.sound_speed_m_s));
 }
 
 // Which way a piece is crossed is the facet's business. Of several passes the nearest in depth.
@@ -79,8 +80,8 @@ inline void PartInterfaces::takeOver(const InterfacePass* pass, InterfaceRows& r
   const SurfaceTraits& surface = settings_.surfaces[index(pass->surface)];
   const Medium& before = settings_.media[index(pass->before)];
   const Medium& after = settings_.media[index(pass->after)];
-  const SpeedRatio speeds =
-      speedRatio(before.sound_speed_m_s, per_speed_[index(pass->before)], after.sound_speed_m_s);
+  const SpeedRatio& speeds =
+      speeds_[index(pass->before) * settings_.media.size() + index(pass->after)];
   rows.Z_1[i] = before.impedance_kg_m2_s;
   rows.Z_2[i] = after.impedance_kg_m2_s;
   rows.r[i] = speeds.r;

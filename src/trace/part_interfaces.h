@@ -3,6 +3,7 @@
 // over.
 
 #include "trace/cell_parts.h"
+#include "trace/interface_lanes.h"
 #include "trace/pass_table.h"
 #include "trace/trace_settings.h"
 
@@ -35,7 +36,7 @@ class PartInterfaces {
   const Probe& probe_;
   const TraceSettings& settings_;
   PassTable table_;
-  std::vector<double> per_speed_;  // s/m, of the media
+  std::vector<SpeedRatio> speeds_;  // from each medium to each, by the first
 };
 
 }  // namespace echocine
