@@ -35,6 +35,7 @@ std::optional<double> findReference(const Scene& scene, const LoopPlan& plan, Fr
         frame->polar = std::move(workspace->polar);
         workspace->polar = {};
         frame->polar.traces.clear();
+        frame->polar.cell_echoes = {};
         return frame;
       },
       [&](std::size_t i, std::shared_ptr<void> result) {

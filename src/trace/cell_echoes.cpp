@@ -3,309 +3,275 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rough_angle.h"
-#include "geometry/smooth_normal.h"
-#include "trace/interface_law.h"
+#include "trace/interface_lanes.h"
+#include "trace/part_interfaces.h"
 
 namespace echocine {
 
 namespace {
 
-struct Point {
-  double x, z;
+constexpr double kTiny = 1e-300;  // instead of 0 in a denominator
+constexpr double kFar_m = 1e9;    // beyond every image
+
+// What parts send back, and where. Along a part `place` grows from place_a to place_b: the distance
+// from the foot of the perpendicular from the centre; of a linear probe the depth from a.
+struct EchoRows {
+  PartRow<double> strength;          // of a part as if it filled the cell, per unit of angle
+  PartRow<double> whole;             // of the part
+  PartRow<double> k_a, k_b;          // its ends, in samples; within one of the image
+  PartRow<std::int32_t> first, end;  // the samples it spans
+  PartRow<std::uint32_t> single;     // 1: that is one, and the part ends there; else 0
+  PartRow<double> zero_m, step_m;    // of sample k the nearer end is at zero + k step, as place
+  PartRow<double> exponent, exponent_step;  // A in the middle of the first sample, and of one more
+  PartRow<double> place_a, place_b;
+  PartRow<double> p;     // distance of the foot from the centre; of a linear probe |dx / dz|
+  PartRow<double> flat;  // of a linear probe: |dx| of a part without extent in depth
 };
 
-// A straight piece of contour inside one cell, on which the path length grows from a to b.
-struct CellPiece {
-  Point a, b;
-  double path_a_m, path_b_m;
+// Intervals of one sample on a part each.
+struct IntervalRows {
+  static constexpr std::size_t kMost = 128;
+  std::size_t count = 0;
+  std::array<double, kMost> begin_m, end_m;  // as EchoRows::zero_m
+  std::array<double, kMost> strength, place_a, place_b, p, flat;
 };
 
-class CellIntegrator {
+// angle with 0 <= tan(angle) < 0.02 by three terms of the arctangent: to 1e-13.
+constexpr double kSmallTangent = 0.02;
+Lanes smallAngle(Lanes tangent) {
+  const Lanes t2 = tangent * tangent;
+  return tangent * (1 - t2 * (1.0 / 3 - t2 * (1.0 / 5)));
+}
+
+// Between two places on a line at the distance p from the centre, seen from there.
+Lanes anglesBetween(Lanes begin, Lanes end, Lanes p) {
+  const Lanes across = p * (end - begin), along = p * p + begin * end;
+  const Lanes tangent = across / larger(along, kTiny);
+  Lanes angle = smallAngle(tangent);
+  const LaneMask wide = tangent >= kSmallTangent;
+  if (!any(wide)) return angle;
+  for (std::size_t j = 0; j < kLanes; ++j)
+    if (wide[j]) angle[j] = std::atan2(across[j], along[j]);
+  return angle;
+}
+
+class CellEchoMaker {
  public:
-  CellIntegrator(const Probe& probe, const TraceSettings& settings, std::span<LineTrace> lines)
-      : probe_(probe),
-        settings_(settings),
-        lines_(lines),
+  CellEchoMaker(const Probe& probe, const TraceSettings& settings, std::span<const LineTrace> lines,
+                double cell_width, CellEchoes& echoes)
+      : settings_(settings),
+        echoes_(echoes),
         angular_(probe.kind != ProbeKind::linear),
-        first_(angular_ ? probe.first_angle_rad : probe.first_offset_m),
-        width_(lineWidth(probe)),
-        per_width_(1 / width_),
+        face_radius_m_(probe.face_radius_m),
+        per_width_(1 / cell_width),
+        min_depth_m_(probe.min_depth_m),
         spacing_m_(probe.sampleSpacing()),
-        per_spacing_(1 / spacing_m_) {
-    for (std::size_t i = 0; i <= lines.size(); ++i) {
-      const double at = first_ + (static_cast<double>(i) - 0.5) * width_;
-      boundaries_.push_back(angular_ ? Point{std::sin(at), std::cos(at)} : Point{at, 1});
-    }
-    linkPasses();
+        per_spacing_(1 / spacing_m_),
+        samples_(probe.samples) {
+    for (const SurfaceTraits& surface : settings.surfaces)
+      any_power_ |= surface.exponent != 0 && surface.exponent != 1 && surface.exponent != 2;
+    for (const LineTrace& line : lines) samples_lit_.push_back(samplesLit(line));
   }
 
-  // normals: of the piece, or nothing where the facet's own counts.
-  void add(const ContourPiece& piece, const PieceNormals* normals) {
-    Point a{piece.cut.from.x, piece.cut.from.z}, b{piece.cut.to.x, piece.cut.to.z};
-    if (!clipToFront(a, b)) return;
-    int begin = cellOf(a), end = cellOf(b);
-    if (begin > end) {
-      std::swap(a, b);
-      std::swap(begin, end);
-    }
-    const int last = static_cast<int>(lines_.size()) - 1;
-    if (end < 0 || begin > last) return;
-    const Vec3d normal = unitNormal(piece);
-    Point from = begin < 0 ? atBoundary(a, b, 0) : a;
-    double path_m = pathLength(from);
-    for (int i = std::max(begin, 0); i <= std::min(end, last); ++i) {
-      const Point to = i < end ? atBoundary(a, b, i + 1) : b;
-      const double next_path_m = pathLength(to);
-      addToLine(piece, {normal, normals}, {from, to, path_m, next_path_m},
-                static_cast<std::size_t>(i));
-      from = to;
-      path_m = next_path_m;
-    }
+  void add(const CellParts& parts, const InterfaceRows& interfaces) {
+    LaneInts most{};
+    for (std::size_t i = 0; i < parts.count; i += kLanes)
+      most +=
+          angular_ ? echoesOf<true>(parts, interfaces, i) : echoesOf<false>(parts, interfaces, i);
+    echoes_.reserve(echoes_.count + parts.count +
+                    static_cast<std::size_t>(most[0] + most[1] + most[2] + most[3]));
+    std::array<std::uint32_t, 2 * kParts> longer;
+    const std::size_t count = addSingles(parts, longer);
+    for (std::size_t i = 0; i < count; ++i) intoSamples(longer[i], parts.line[longer[i]]);
+    takeShares();
   }
 
  private:
-  // Width of a cell: an angle, or a length for a linear probe.
-  static double lineWidth(const Probe& p) {
-    if (p.lines < 2) return 0;
-    return (p.kind == ProbeKind::linear ? p.last_offset_m - p.first_offset_m
-                                        : p.last_angle_rad - p.first_angle_rad) /
-           (p.lines - 1);
-  }
-
-  // Lines never point backwards, so what lies behind z = 0 is in no cell.
-  static bool clipToFront(Point& a, Point& b) {
-    if (a.z < 0 && b.z < 0) return false;
-    const auto atZero = [&] { return Point{a.x + (b.x - a.x) * (a.z / (a.z - b.z)), 0}; };
-    if (a.z < 0)
-      a = atZero();
-    else if (b.z < 0)
-      b = atZero();
-    return true;
-  }
-
-  // How far a point lies to the right of a boundary between cells.
-  double rightOf(Point p, int boundary) const {
-    const Point& at = boundaries_[static_cast<std::size_t>(boundary)];
-    return angular_ ? p.x * at.z - p.z * at.x : p.x - at.x;
-  }
-
-  // The cell that holds a point; -1 left of the first and the number of lines right of the last.
-  int cellOf(Point p) const {
-    const int boundaries = static_cast<int>(boundaries_.size());
-    const double place = angular_ ? roughAngle(p.x, p.z) : p.x;
+  // Samples whose centres lie before the line's end.
+  int samplesLit(const LineTrace& line) const {
+    const double end_m = line.stretches.back().end_depth_m;
+    const auto lit = [&](int k) { return min_depth_m_ + (k + 0.5) * spacing_m_ < end_m; };
     int n = static_cast<int>(
-        std::clamp((place - first_) / width_ + 1.5, 0.0, static_cast<double>(boundaries)));
-    while (n < boundaries && rightOf(p, n) >= 0) ++n;
-    while (n > 0 && rightOf(p, n - 1) < 0) --n;
-    return n - 1;
+        std::clamp((end_m - min_depth_m_) * per_spacing_, 0.0, static_cast<double>(samples_)));
+    while (n < samples_ && lit(n)) ++n;
+    while (n > 0 && !lit(n - 1)) --n;
+    return n;
   }
 
-  // Where the straight line a-b passes a boundary between two cells.
-  Point atBoundary(Point a, Point b, int boundary) const {
-    const double ua = rightOf(a, boundary), ub = rightOf(b, boundary);
-    const double t = ua == ub ? 0.5 : std::clamp(ua / (ua - ub), 0.0, 1.0);
-    return {a.x + t * (b.x - a.x), a.z + t * (b.z - a.z)};
-  }
-
-  double pathLength(Point p) const {
-    return angular_ ? std::sqrt(p.x * p.x + p.z * p.z) - probe_.face_radius_m : p.z;
-  }
-
-  // Share of a cell between two points on one straight piece.
-  double share(Point a, Point b) const {
-    if (!angular_) return std::abs(b.x - a.x) * per_width_;
-    const double across = std::abs(a.x * b.z - a.z * b.x), along = a.x * b.x + a.z * b.z;
-    const double q = across / along, q2 = q * q;
-    // Inside a cell the angle is small: three terms of the arctangent leave under 1e-13.
-    const double angle =
-        along > 0 && q < 0.02 ? q * (1 - q2 * (1.0 / 3 - q2 / 5)) : std::atan2(across, along);
-    return angle * per_width_;
-  }
-
-  // The passes of each line by surface and way of crossing: mostly there is one.
-  void linkPasses() {
-    heads_.assign(lines_.size() * keysOfLine(), 0);
-    for (std::size_t line = 0; line < lines_.size(); ++line)
-      for (std::size_t k = lines_[line].passes.size(); k-- > 0;) {
-        const InterfacePass& pass = lines_[line].passes[k];
-        std::uint32_t& head = heads_[keyOf(line, pass.surface, pass.entering)];
-        links_.push_back({&pass, head});
-        head = static_cast<std::uint32_t>(links_.size());
-      }
-  }
-  std::size_t keysOfLine() const { return 2 * settings_.surfaces.size(); }
-  std::size_t keyOf(std::size_t line, SurfaceId surface, bool entering) const {
-    return line * keysOfLine() + 2 * index(surface) + (entering ? 1 : 0);
-  }
-
-  // The same surface crossed the same way on the line itself, nearest in depth.
-  const InterfacePass* nearestPass(std::size_t line, const ContourPiece& piece, bool entering,
-                                   double path_m) const {
-    std::uint32_t at = heads_[keyOf(line, piece.surface, entering)];
-    if (at == 0) return nullptr;
-    const InterfacePass* best = links_[at - 1].pass;
-    while ((at = links_[at - 1].next) != 0) {
-      const InterfacePass* pass = links_[at - 1].pass;
-      if (std::abs(pass->path_m - path_m) < std::abs(best->path_m - path_m)) best = pass;
-    }
-    return best;
-  }
-
-  struct Normal {
-    Vec3d of_facet;
-    const PieceNormals* smooth;
-  };
-
-  // Of the point of a piece, seen along a direction; smooth normals run linearly from end to end.
-  static Vec3d normalAt(const ContourPiece& piece, const Normal& normal, Point p, Vec3d direction) {
-    if (!normal.smooth) return normal.of_facet;
-    const Vec3d along = piece.cut.to - piece.cut.from;
-    const double size = dot(along, along);
-    const double t = size > 0 ? dot(Vec3d{p.x, 0, p.z} - piece.cut.from, along) / size : 0.5;
-    const Vec3d value = normal.smooth->from + t * (normal.smooth->to - normal.smooth->from);
-    return facingNormal(value, direction, normal.of_facet);
-  }
-
-  // Which way the piece is crossed is the facet's business, the angle of incidence the normal's.
-  void addToLine(const ContourPiece& piece, const Normal& normal, const CellPiece& part,
-                 std::size_t line) {
-    const Point middle{(part.a.x + part.b.x) / 2, (part.a.z + part.b.z) / 2};
-    const double reach = std::sqrt(middle.x * middle.x + middle.z * middle.z);
-    const double per_reach = 1 / reach;
-    const Vec3d direction = angular_ && reach > 0
-                                ? Vec3d{middle.x * per_reach, 0, middle.z * per_reach}
-                                : Vec3d{0, 0, 1};
-    const bool entering = dot(direction, normal.of_facet) < 0;
-    const double path_m = angular_ ? reach - probe_.face_radius_m : middle.z;
-    const InterfacePass* pass = nearestPass(line, piece, entering, path_m);
-    if (!pass || !pass->seen) return;
-    const double along = dot(direction, normalAt(piece, normal, middle, direction));
-    const double echo = echoAt(*pass, std::min(std::abs(along), 1.0));
-    if (echo > 0)
-      split(part, [&](const CellPiece& half) { deposit(half, *pass, echo, lines_[line]); });
-  }
-
-  // As the walk along a line does it: Eq. 1 and the lobe; a membrane echoes twice.
-  double echoAt(const InterfacePass& pass, double cos_i) const {
-    const SurfaceTraits& surface = settings_.surfaces[index(pass.surface)];
-    const Medium& from = settings_.media[index(pass.before)];
-    const Medium& to = settings_.media[index(pass.after)];
-    const InterfaceLaw law = interfaceLaw(from.impedance_kg_m2_s, from.sound_speed_m_s,
-                                          to.impedance_kg_m2_s, to.sound_speed_m_s, cos_i);
-    const double lost = settings_.transmission_loss ? law.through * law.through : 1;
-    const double second = surface.membrane ? lost * law.R : 0;
-    return pass.passed *
-           nonSpecularReturn(surface.gain * (law.R + second), cos_i, surface.exponent);
-  }
-
-  // At the foot of the perpendicular from the centre the path length turns round.
-  template <typename F>
-  void split(const CellPiece& piece, F&& part) const {
-    const Point a = piece.a, b = piece.b;
-    const double dx = b.x - a.x, dz = b.z - a.z, size = dx * dx + dz * dz;
-    const double towards_foot = -(a.x * dx + a.z * dz);
-    const auto ordered = [&](const CellPiece& p) {
-      part(p.path_a_m <= p.path_b_m ? p : CellPiece{p.b, p.a, p.path_b_m, p.path_a_m});
+  // As the walk along a line does it: Eq. 1 and the lobe; a membrane echoes twice. Mostly the angle
+  // counts in the lobe cos^2 alone, which needs no root.
+  Lanes strengthOf(const CellParts& parts, const InterfaceRows& f, std::size_t i) const {
+    const Lanes to_x = lanesAt(&parts.to_x[i]), to_z = lanesAt(&parts.to_z[i]);
+    const Lanes along = to_x * lanesAt(&parts.normal_x[i]) + to_z * lanesAt(&parts.normal_z[i]);
+    const Lanes squares = (to_x * to_x + to_z * to_z) * lanesAt(&parts.normal_square[i]);
+    const Lanes cos_square = smaller(along * along / squares, 1);
+    const Lanes Z_1 = lanesAt(&f.Z_1[i]), Z_2 = lanesAt(&f.Z_2[i]), r = lanesAt(&f.r[i]);
+    const Lanes n = lanesAt(&f.lobe[i]), passed = lanesAt(&f.passed[i]),
+                membrane = lanesAt(&f.membrane[i]);
+    const auto withSecond = [&](Lanes R) {
+      return R + membrane * (settings_.transmission_loss ? (1 - R) * (1 - R) * R : R);
     };
-    if (!angular_ || !(towards_foot > 0 && towards_foot < size)) return ordered(piece);
-    const double t = towards_foot / size;
-    const Point foot{a.x + t * dx, a.z + t * dz};
-    const double foot_path_m = pathLength(foot);
-    ordered({a, foot, piece.path_a_m, foot_path_m});
-    ordered({foot, b, foot_path_m, piece.path_b_m});
+    if (!any((r != 1) | (n != 2)))
+      return passed * withSecond(reflectedAtEqualSpeeds(Z_1, Z_2)) * cos_square;
+    const Lanes cos_i = squareRoot(cos_square);
+    Lanes lobe = n == 2 ? cos_square : n == 1 ? cos_i : Lanes{} + 1;
+    for (std::size_t j = 0; any_power_ && j < kLanes; ++j)
+      if (n[j] != 0 && n[j] != 1 && n[j] != 2) lobe[j] = std::pow(cos_i[j], n[j]);
+    return passed * withSecond(reflectedShares(Z_1, Z_2, r, lanesAt(&f.turn[i]), cos_i)) * lobe;
   }
 
-  // Finds the points of a piece by their path length. Along the piece the squared distance to the
-  // centre grows as p^2 + |d|^2 (s - s_0)^2 from the foot of the perpendicular, at s_0.
-  class PathPoints {
-   public:
-    PathPoints(const CellPiece& piece, bool angular, double face_radius_m)
-        : a_(piece.a),
-          dx_(piece.b.x - piece.a.x),
-          dz_(piece.b.z - piece.a.z),
-          angular_(angular),
-          centre_m_(angular ? face_radius_m : -piece.a.z) {
-      const double size = angular ? dx_ * dx_ + dz_ * dz_ : dz_;
-      per_size_ = std::isnormal(size) ? 1 / size : 0;  // a point: anywhere on it
-      if (!angular) return;
-      const double along = a_.x * dx_ + a_.z * dz_, across = a_.x * dz_ - a_.z * dx_;
-      foot_ = -along * per_size_;
-      p2_ = across * across * per_size_;
+  // Fills the rows for four parts; returns how many samples each spans.
+  template <bool kAngular>
+  LaneInts echoesOf(const CellParts& parts, const InterfaceRows& f, std::size_t i) {
+    const Lanes a_x = lanesAt(&parts.a_x[i]), a_z = lanesAt(&parts.a_z[i]),
+                b_x = lanesAt(&parts.b_x[i]), b_z = lanesAt(&parts.b_z[i]);
+    const Lanes dx = b_x - a_x, dz = b_z - a_z;
+    const Lanes strength = strengthOf(parts, f, i) * per_width_;
+    Lanes path_a = a_z, path_b = b_z, place_a{}, place_b = dz, p, flat{}, whole, zero_m = -a_z;
+    if constexpr (kAngular) {
+      path_a = squareRoot(a_x * a_x + a_z * a_z) - face_radius_m_;
+      path_b = squareRoot(b_x * b_x + b_z * b_z) - face_radius_m_;
+      const Lanes size = squareRoot(dx * dx + dz * dz), per_size = 1 / larger(size, kTiny);
+      place_a = larger((a_x * dx + a_z * dz) * per_size, 0);
+      place_b = place_a + size;
+      p = magnitude(a_x * dz - a_z * dx) * per_size;
+      whole = anglesBetween(place_a, place_b, p);
+      zero_m = Lanes{} + face_radius_m_;
+    } else {
+      p = magnitude(dx) / larger(dz, kTiny);
+      flat = dz > kTiny ? Lanes{} : magnitude(dx);
+      whole = magnitude(dx);
     }
+    const Lanes path_m = lanesAt(&f.path_m[i]), path_per_depth = lanesAt(&f.path_per_depth[i]);
+    const Lanes step_m = spacing_m_ * path_per_depth;
+    const Lanes per_path =
+        settings_.travel_time ? per_spacing_ / path_per_depth : Lanes{} + per_spacing_;
+    const Lanes k_pass = (lanesAt(&f.depth_m[i]) - min_depth_m_) * per_spacing_;
+    const Lanes samples = Lanes{} + samples_;
+    const Lanes k_a = clamped(k_pass + (path_a - path_m) * per_path, Lanes{} - 1, samples);
+    const Lanes k_b = clamped(k_pass + (path_b - path_m) * per_path, Lanes{} - 1, samples + 1);
+    const Lanes first = wholeOf(larger(k_a, 0)), below = wholeOf(larger(k_b, 0));
+    const Lanes end = larger(below < k_b ? below + 1 : below, first + 1);
+    const LaneMask seen = masksAt(&f.seen[i]);
+    const LaneMask single = seen & (end == first + 1) & (first <= k_a) & (end >= k_b);
+    const Lanes exponent_step = step_m * lanesAt(&f.exponent_per_path[i]);
+    store(strength, &rows_.strength[i]);
+    store(strength * whole, &rows_.whole[i]);
+    store(k_a, &rows_.k_a[i]);
+    store(k_b, &rows_.k_b[i]);
+    store(zero_m + path_m - k_pass * step_m, &rows_.zero_m[i]);
+    store(step_m, &rows_.step_m[i]);
+    store(lanesAt(&f.exponent[i]) + (first + 0.5 - k_pass) * exponent_step, &rows_.exponent[i]);
+    store(exponent_step, &rows_.exponent_step[i]);
+    store(place_a, &rows_.place_a[i]);
+    store(place_b, &rows_.place_b[i]);
+    store(p, &rows_.p[i]);
+    store(flat, &rows_.flat[i]);
+    const LaneInts from = __builtin_convertvector(first, LaneInts),
+                   to = __builtin_convertvector(seen ? end : first, LaneInts);
+    store(from, &rows_.first[i]);
+    store(to, &rows_.end[i]);
+    store(-__builtin_convertvector(single, LaneInts), &rows_.single[i]);
+    return to - from;
+  }
 
-    Point at(double path_m) const {
-      const double r = path_m + centre_m_;
-      const double s =
-          angular_ ? foot_ + std::sqrt(std::max(r * r - p2_, 0.0) * per_size_) : r * per_size_;
-      const double inside = std::clamp(s, 0.0, 1.0);
-      return {a_.x + inside * dx_, a_.z + inside * dz_};
+  // Parts within one sample; the numbers of the others into `longer`. Without branches, which no
+  // processor would foresee.
+  std::size_t addSingles(const CellParts& parts, std::array<std::uint32_t, 2 * kParts>& longer) {
+    std::uint32_t* at = echoes_.at.data() + echoes_.count;
+    double* intensity = echoes_.intensity.data() + echoes_.count;
+    double* exponent = echoes_.exponent.data() + echoes_.count;
+    std::size_t singles = 0, others = 0;
+    for (std::size_t i = 0; i < parts.count; ++i) {
+      const std::uint32_t line = parts.line[i];
+      const int first = rows_.first[i];
+      const std::uint32_t lit = first < std::min(samples_lit_[line], rows_.end[i]) ? 1 : 0;
+      at[singles] = line * static_cast<std::uint32_t>(samples_) + static_cast<std::uint32_t>(first);
+      intensity[singles] = rows_.whole[i];
+      exponent[singles] = std::max(rows_.exponent[i], 0.0);
+      longer[others] = static_cast<std::uint32_t>(i);
+      singles += lit & rows_.single[i];
+      others += lit & ~rows_.single[i];
     }
+    echoes_.count += singles;
+    return others;
+  }
 
-   private:
-    Point a_;
-    double dx_, dz_;
-    bool angular_;
-    double centre_m_, per_size_ = 0, foot_ = 0, p2_ = 0;
-  };
+  // An interval for each sample that a part spans.
+  void intoSamples(std::size_t part, std::uint32_t line) {
+    const int first = rows_.first[part], end = std::min(rows_.end[part], samples_lit_[line]);
+    const double k_a = rows_.k_a[part], k_b = rows_.k_b[part];
+    const double zero_m = rows_.zero_m[part], step_m = rows_.step_m[part];
+    const std::uint32_t line_at = line * static_cast<std::uint32_t>(samples_);
+    for (int k = first; k < end; ++k) {
+      if (intervals_.count == IntervalRows::kMost) takeShares();
+      const std::size_t i = intervals_.count++, to = echoes_.count + i;
+      intervals_.begin_m[i] = k <= k_a ? 0 : zero_m + k * step_m;
+      intervals_.end_m[i] = k + 1 >= k_b ? kFar_m : zero_m + (k + 1) * step_m;
+      intervals_.strength[i] = rows_.strength[part];
+      intervals_.place_a[i] = rows_.place_a[part];
+      intervals_.place_b[i] = rows_.place_b[part];
+      intervals_.p[i] = rows_.p[part];
+      intervals_.flat[i] = rows_.flat[part];
+      echoes_.at[to] = line_at + static_cast<std::uint32_t>(k);
+      echoes_.exponent[to] =
+          std::max(rows_.exponent[part] + (k - first) * rows_.exponent_step[part], 0.0);
+    }
+  }
 
-  // Spreads a piece over the samples it spans, each with its share of the cell.
-  void deposit(const CellPiece& piece, const InterfacePass& pass, double echo, LineTrace& line) {
-    const double end_depth_m = line.stretches.back().end_depth_m;
-    // Where the line passes the interface, in samples, and samples to a metre of path before it.
-    const double k_pass = (pass.depth_m - probe_.min_depth_m) * per_spacing_;
-    const double per_path =
-        pass.path_per_depth == 1 ? per_spacing_ : per_spacing_ / pass.path_per_depth;
-    const double path_step = spacing_m_ * pass.path_per_depth;
-    const double k_a = k_pass + (piece.path_a_m - pass.path_m) * per_path;
-    const double k_b = k_pass + (piece.path_b_m - pass.path_m) * per_path;
-    const auto pathAtEnd = [&](double k) { return pass.path_m + (k + 1 - k_pass) * path_step; };
-    // A piece may be far longer than the image is deep.
-    const double first = std::max(std::floor(k_a), 0.0);
-    const double last = std::min(std::max(std::ceil(k_b) - 1, first), probe_.samples - 1.0);
-    const auto add = [&](double k, Point begin, Point end) {
-      const double depth_m = probe_.min_depth_m + (k + 0.5) * spacing_m_;
-      if (!(depth_m < end_depth_m)) return;
-      const double beyond_m = (k + 0.5 - k_pass) * path_step;
-      line.echoes.push_back({depth_m, echo * share(begin, end),
-                             std::max(pass.exponent + beyond_m * pass.exponent_per_path, 0.0)});
+  // Of the cell, by each interval.
+  void takeShares() {
+    for (std::size_t i = 0; i < intervals_.count; i += kLanes) {
+      const Lanes share = angular_ ? anglesOf(i) : widthsOf(i);
+      store(lanesAt(&intervals_.strength[i]) * share, &echoes_.intensity[echoes_.count + i]);
+    }
+    echoes_.count += intervals_.count;
+    intervals_.count = 0;
+  }
+  Lanes anglesOf(std::size_t i) const {
+    const Lanes p = lanesAt(&intervals_.p[i]), place_a = lanesAt(&intervals_.place_a[i]),
+                place_b = lanesAt(&intervals_.place_b[i]);
+    const auto place = [&](Lanes r) {
+      return clamped(squareRoot(larger((r - p) * (r + p), 0)), place_a, place_b);
     };
-    if (first > last) return;
-    const bool begins = first <= k_a, ends = last + 1 >= k_b;  // inside the image
-    if (begins && ends && first == last) return add(first, piece.a, piece.b);
-    const PathPoints points(piece, angular_, probe_.face_radius_m);
-    Point begin = begins ? piece.a : points.at(pathAtEnd(first - 1));
-    for (double k = first; k < last; ++k) {
-      const Point end = points.at(pathAtEnd(k));
-      add(k, begin, end);
-      begin = end;
-    }
-    add(last, begin, ends ? piece.b : points.at(pathAtEnd(last)));
+    return anglesBetween(place(lanesAt(&intervals_.begin_m[i])),
+                         place(lanesAt(&intervals_.end_m[i])), p);
+  }
+  Lanes widthsOf(std::size_t i) const {
+    const Lanes place_a = lanesAt(&intervals_.place_a[i]),
+                place_b = lanesAt(&intervals_.place_b[i]);
+    const Lanes begin = clamped(lanesAt(&intervals_.begin_m[i]), place_a, place_b),
+                end = clamped(lanesAt(&intervals_.end_m[i]), place_a, place_b);
+    return (end - begin) * lanesAt(&intervals_.p[i]) + lanesAt(&intervals_.flat[i]);
   }
 
-  const Probe& probe_;
   const TraceSettings& settings_;
-  std::span<LineTrace> lines_;
+  CellEchoes& echoes_;
   bool angular_;
-  double first_, width_, per_width_, spacing_m_, per_spacing_;
-  struct PassLink {
-    const InterfacePass* pass;
-    std::uint32_t next;  // 1 + position in links_, or 0
-  };
-  std::vector<PassLink> links_;
-  std::vector<std::uint32_t> heads_;  // by keyOf(): as PassLink::next
-  std::vector<Point>
-      boundaries_;  // sine and cosine, or the offset of a linear probe; one more than lines
+  double face_radius_m_, per_width_, min_depth_m_, spacing_m_, per_spacing_;
+  int samples_;
+  bool any_power_ = false;
+  std::vector<int> samples_lit_;  // by line
+  EchoRows rows_{};
+  IntervalRows intervals_{};
 };
 
 }  // namespace
 
 void addCellEchoes(std::span<const ContourPiece> pieces, std::span<const PieceNormals> normals,
-                   const Probe& probe, const TraceSettings& settings, std::span<LineTrace> lines) {
+                   const Probe& probe, const TraceSettings& settings,
+                   std::span<const LineTrace> lines, CellEchoes& echoes) {
+  echoes.count = 0;
   if (!settings.reflection) return;
-  CellIntegrator integrator(probe, settings, lines);
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    integrator.add(pieces[i], normals.empty() ? nullptr : &normals[i]);
+  CellCutter cutter(probe, pieces);
+  const PartInterfaces interfaces(probe, settings, lines);
+  CellEchoMaker maker(probe, settings, lines, cutter.width(), echoes);
+  CellParts parts{};
+  InterfaceRows rows{};
+  for (cutter.next(parts); parts.count > 0; cutter.next(parts)) {
+    interfaces.find(pieces, normals, parts, rows);
+    maker.add(parts, rows);
+  }
 }
 
 }  // namespace echocine

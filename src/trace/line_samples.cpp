@@ -1,9 +1,13 @@
 #include "trace/line_samples.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numbers>
+
+#include "trace/lanes.h"
 
 namespace echocine {
 
@@ -26,12 +30,45 @@ double perPowerOfTwo(double x) {
   return std::bit_cast<double>(kTwiceOne - (std::bit_cast<std::uint64_t>(x) & kExponent));
 }
 
+// Powers of what one sample's attenuation leaves: of the first samples of a block, and of all.
+struct SamplePowers {
+  double exponent_per_m = 0;
+  Block within = Block{} + 1;
+  double block = 1;
+};
+
+// Of the few media that a line goes through, each worked out once.
+class PowerTable {
+ public:
+  explicit PowerTable(double spacing_m) : spacing_m_(spacing_m) {}
+
+  const SamplePowers& of(double exponent_per_m) {
+    for (std::size_t i = 0; i < count_; ++i)
+      if (entries_[i].exponent_per_m == exponent_per_m) return entries_[i];
+    SamplePowers& powers = entries_[count_ < entries_.size() ? count_++ : 0];
+    powers.exponent_per_m = exponent_per_m;
+    powers.block = 1;
+    const double sample_factor = std::exp(-exponent_per_m * spacing_m_);
+    for (int j = 0; j < kBlock; ++j) {
+      powers.within[j] = static_cast<float>(powers.block);
+      powers.block *= sample_factor;
+    }
+    return powers;
+  }
+
+ private:
+  double spacing_m_;
+  std::size_t count_ = 0;
+  std::array<SamplePowers, 8> entries_;
+};
+
 // One stretch's backscatter in blocks of eight samples: within a block stored powers of the
 // attenuation of one sample, from block to block its eighth power, in double: no call in the loops,
 // which vectorise, and rounding of one part in 1e16 per block. Up to seven samples behind the
 // stretch are written too, which what follows it overwrites.
 template <bool kSpread, bool kAttenuation>
-void fillStretch(const Stretch& stretch, const Sampling& s, int begin, int end, float* out) {
+void fillStretch(const Stretch& stretch, const Sampling& s, PowerTable& table, int begin, int end,
+                 float* out) {
   const double offset_m = s.centre(begin) - stretch.begin_depth_m;
   double path_step = stretch.path_per_depth * s.spacing_m;
   double path_m = stretch.begin_path_m + stretch.path_per_depth * offset_m;
@@ -49,11 +86,9 @@ void fillStretch(const Stretch& stretch, const Sampling& s, int begin, int end, 
   Block power{};
   if constexpr (kAttenuation) {
     strength *= std::exp(-(stretch.begin_exponent + stretch.exponent_per_m * offset_m));
-    const double sample_factor = std::exp(-stretch.exponent_per_m * s.spacing_m);
-    for (int j = 0; j < kBlock; ++j) {
-      power[j] = static_cast<float>(block_factor);
-      block_factor *= sample_factor;
-    }
+    const SamplePowers& powers = table.of(stretch.exponent_per_m);
+    block_factor = powers.block;
+    power = powers.within;
   }
   Block path_offset{};
   for (int j = 0; j < kBlock; ++j) path_offset[j] = static_cast<float>(path_step * j);
@@ -73,28 +108,32 @@ void fillStretch(const Stretch& stretch, const Sampling& s, int begin, int end, 
   }
 }
 
-void fillOne(const Stretch& stretch, const Sampling& s, const IntensityParts& parts, int begin,
-             int end, float* out) {
+void fillOne(const Stretch& stretch, const Sampling& s, const IntensityParts& parts,
+             PowerTable& table, int begin, int end, float* out) {
   if (parts.spread_undone_at_m == 0) {
-    return parts.attenuation ? fillStretch<true, true>(stretch, s, begin, end, out)
-                             : fillStretch<true, false>(stretch, s, begin, end, out);
+    return parts.attenuation ? fillStretch<true, true>(stretch, s, table, begin, end, out)
+                             : fillStretch<true, false>(stretch, s, table, begin, end, out);
   }
   Stretch scaled = stretch;
   scaled.strength_m2_sr /= parts.spread_undone_at_m * parts.spread_undone_at_m;
-  if (parts.attenuation) return fillStretch<false, true>(scaled, s, begin, end, out);
+  if (parts.attenuation) return fillStretch<false, true>(scaled, s, table, begin, end, out);
   std::fill(out + begin, out + end, static_cast<float>(scaled.strength_m2_sr));
 }
 
 // Every sample once: stretches that scatter, zeros elsewhere.
 void fillBackscatter(const LineTrace& line, const Sampling& s, const IntensityParts& parts,
                      float* out) {
-  int done = 0;
+  PowerTable table(s.spacing_m);
+  int done = 0, begin = 0, end = 0;
+  double depth_m = s.min_depth_m;  // of `end`
   for (const Stretch& stretch : line.stretches) {
-    const int begin = std::max(sampleFrom(s, stretch.begin_depth_m), done);
-    const int end = sampleFrom(s, stretch.end_depth_m);
+    begin = stretch.begin_depth_m == depth_m ? end : sampleFrom(s, stretch.begin_depth_m);
+    begin = std::max(begin, done);
+    depth_m = stretch.end_depth_m;
+    end = sampleFrom(s, depth_m);
     if (begin >= end || stretch.strength_m2_sr == 0) continue;
     std::fill(out + done, out + begin, 0.0f);
-    fillOne(stretch, s, parts, begin, end, out);
+    fillOne(stretch, s, parts, table, begin, end, out);
     done = end;
   }
   std::fill(out + done, out + s.samples, 0.0f);
@@ -114,6 +153,44 @@ void sampleIntensity(const LineTrace& line, const Sampling& sampling, const Inte
     if (k < 0 || k >= sampling.samples) continue;
     const double lost = parts.attenuation ? std::exp(-echo.exponent) : 1.0;
     values[static_cast<std::size_t>(k)] += static_cast<float>(echo.intensity * lost);
+  }
+}
+
+namespace {
+
+// e^-x of x >= 0, to 3e-13; x beyond 700 counts as 700, which leaves nothing of a float either.
+// -x is n ln 2 + r: n is rounded to a whole number by adding a number whose last digit is 1, e^r is
+// its power series up to the tenth power, by pairs, so that few steps wait for each other.
+Lanes expOfMinus(Lanes x) {
+  constexpr double kWhole = 0x1.8p52;
+  constexpr double kLog2High = 0x1.62e42feep-1, kLog2Low = 0x1.a39ef35793c76p-33;
+  const Lanes y = -smaller(x, 700);
+  const Lanes shifted = y * std::numbers::log2e + kWhole, n = shifted - kWhole;
+  const Lanes r = (y - n * kLog2High) - n * kLog2Low, r2 = r * r, r4 = r2 * r2;
+  const Lanes low = (1 + r) + r2 * (1.0 / 2 + r * (1.0 / 6));
+  const Lanes middle = (1.0 / 24 + r * (1.0 / 120)) + r2 * (1.0 / 720 + r * (1.0 / 5040));
+  const Lanes high = (1.0 / 40320 + r * (1.0 / 362880)) + r2 * (1.0 / 3628800);
+  const Lanes series = low + r4 * (middle + r4 * high);
+  return reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(series) +
+                                 (reinterpret_cast<LaneMask>(shifted) << 52));
+}
+
+}  // namespace
+
+void addToSamples(const CellEchoes& echoes, const IntensityParts& parts, std::span<float> plane) {
+  if (!parts.reflection) return;
+  constexpr std::size_t kTogether = 64;
+  static_assert(kTogether % kLanes == 0);
+  std::array<double, kTogether> values;
+  for (std::size_t first = 0; first < echoes.count; first += kTogether) {
+    const std::size_t count = std::min(kTogether, echoes.count - first);
+    for (std::size_t j = 0; j < count; j += kLanes) {
+      Lanes value = lanesAt(&echoes.intensity[first + j]);
+      if (parts.attenuation) value *= expOfMinus(lanesAt(&echoes.exponent[first + j]));
+      store(value, &values[j]);
+    }
+    for (std::size_t j = 0; j < count; ++j)
+      plane[echoes.at[first + j]] += static_cast<float>(values[j]);
   }
 }
 

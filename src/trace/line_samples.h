@@ -32,6 +32,9 @@ struct IntensityParts {
 void sampleIntensity(const LineTrace& line, const Sampling& sampling, const IntensityParts& parts,
                      std::span<float> values);
 
+// Adds a frame's cell echoes to the samples of its lines; the attenuation to 1e-12.
+void addToSamples(const CellEchoes& echoes, const IntensityParts& parts, std::span<float> plane);
+
 // A in nepers at each sample's centre; 0 behind the end of the ray.
 void sampleExponent(const LineTrace& line, const Sampling& sampling, std::span<float> values);
 

@@ -3,6 +3,7 @@
 // echoes. `Depth` is the position on the image's depth axis: the path length, or 1540 m/s times
 // half the travel time.
 
+#include <cstdint>
 #include <vector>
 
 #include "core/ids.h"
@@ -30,6 +31,25 @@ struct Echo {
   // small angle towards a unit vector e meets the interface l e.tilt earlier. Where several rays
   // make a beam.
   Vec3d tilt{};
+};
+
+// Echoes integrated over the beams' cells, of all lines of a frame: each lies in a sample of one
+// line. The first `count` of the rows are filled, which are some whole lanes longer; their memory
+// is used again from frame to frame.
+struct CellEchoes {
+  std::size_t count = 0;
+  std::vector<std::uint32_t> at;            // line * samples + sample
+  std::vector<double> intensity, exponent;  // as of an Echo in the middle of its sample
+
+  // Room for so many, and for whole lanes.
+  void reserve(std::size_t most) {
+    constexpr std::size_t kMoreThanLanes = 64;
+    if (at.size() >= most + kMoreThanLanes) return;
+    const std::size_t size = 2 * most + kMoreThanLanes;
+    at.resize(size);
+    intensity.resize(size);
+    exponent.resize(size);
+  }
 };
 
 // One crossing as the walk along a line judged it; what integration over the beam's cell needs of

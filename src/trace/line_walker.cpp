@@ -31,16 +31,34 @@ LineWalker::LineWalker(const TraceSettings& settings, const Ray& start, const In
 }
 
 // Where closed structures overlap the highest priority wins, among equals the later in the scene.
-MediumId LineWalker::mediumInside(const InsideSet& inside) const {
-  MediumId medium = settings_.background;
-  if (inside.none()) return medium;
-  int best = std::numeric_limits<int>::min();
+bool LineWalker::rules(std::size_t surface, std::size_t over) const {
+  if (over == kNoSurface) return true;
+  const int priority = settings_.surfaces[surface].priority,
+            of_other = settings_.surfaces[over].priority;
+  return priority > of_other || (priority == of_other && surface >= over);
+}
+
+void LineWalker::findRuling(const InsideSet& inside) {
+  ruling_ = kNoSurface;
+  if (inside.none()) return;
   for (std::size_t s = 0; s < settings_.surfaces.size(); ++s)
-    if (inside[s] && settings_.surfaces[s].priority >= best) {
-      best = settings_.surfaces[s].priority;
-      medium = settings_.surfaces[s].medium;
-    }
-  return medium;
+    if (inside[s] && rules(s, ruling_)) ruling_ = s;
+}
+
+MediumId LineWalker::rulingMedium() const {
+  return ruling_ == kNoSurface ? settings_.background : settings_.surfaces[ruling_].medium;
+}
+
+// Only who leaves the surface that rules has to ask all others.
+void LineWalker::cross(const Crossing& crossing, InsideSet& inside) {
+  const std::size_t s = index(crossing.surface);
+  if (settings_.surfaces[s].membrane) return;
+  inside[s] = crossing.entering;
+  if (crossing.entering) {
+    if (rules(s, ruling_)) ruling_ = s;
+  } else if (s == ruling_) {
+    findRuling(inside);
+  }
 }
 
 // Eq. 3 along one medium, there and back: A grows by 4 alpha per metre.
@@ -50,7 +68,7 @@ void LineWalker::walkTo(double distance_m) {
       settings_.travel_time ? medium.sound_speed_m_s / kScannerSpeed : 1.0;
   const double exponent_per_path = settings_.attenuation ? 4 * medium.attenuation_np_per_m : 0.0;
   double step_m = distance_m - walked_m_;
-  const double end_depth_m = depth_m_ + step_m / path_per_depth;
+  const double end_depth_m = depth_m_ + (settings_.travel_time ? step_m / path_per_depth : step_m);
   if (end_depth_m >= settings_.max_depth_m) {
     step_m = (settings_.max_depth_m - depth_m_) * path_per_depth;
     alive_ = false;
@@ -91,6 +109,7 @@ void LineWalker::loseAt(const InterfaceLaw& law) {
 
 // The crossing whose normal and lobe stand for a group of coincident surfaces.
 const Crossing& LineWalker::deciding(Group group) const {
+  if (group.size() == 1) return group.front();
   return *std::max_element(
       group.begin(), group.end(), [this](const Crossing& a, const Crossing& b) {
         const SurfaceTraits& s = settings_.surfaces[index(a.surface)];
@@ -180,7 +199,8 @@ void LineWalker::advance(const RayCrossings& met) {
   InsideSet inside = met.inside;
   const std::vector<Crossing>& all = met.crossings;
   const std::size_t first = path_m_ == 0 ? crossAtFace(all, inside) : 0;
-  medium_ = mediumInside(inside);
+  findRuling(inside);
+  medium_ = rulingMedium();
   const int bends_before = bends_;
   for (std::size_t begin = first, end = 0; begin < all.size(); begin = end) {
     const double distance_m = all[begin].distance_m;
@@ -189,10 +209,8 @@ void LineWalker::advance(const RayCrossings& met) {
     walkTo(distance_m);
     if (!alive_) return;
     const Group group(&all[begin], end - begin);
-    for (const Crossing& c : group) {
-      if (!settings_.surfaces[index(c.surface)].membrane) inside[index(c.surface)] = c.entering;
-    }
-    const MediumId after = mediumInside(inside);
+    for (const Crossing& c : group) cross(c, inside);
+    const MediumId after = rulingMedium();
     if (settings_.note_passes) notePasses(group, after);
     for (auto c = group.begin(); alive_ && c != group.end(); ++c) {
       if (!settings_.surfaces[index(c->surface)].membrane) continue;

@@ -27,7 +27,10 @@ class LineWalker {
  private:
   using Group = std::span<const Crossing>;  // crossings of one interface, nearest first
 
-  MediumId mediumInside(const InsideSet& inside) const;
+  bool rules(std::size_t surface, std::size_t over) const;
+  void findRuling(const InsideSet& inside);
+  MediumId rulingMedium() const;
+  void cross(const Crossing& crossing, InsideSet& inside);
   std::size_t crossAtFace(Group crossings, InsideSet& inside) const;
   void walkTo(double distance_m);
   void passInterface(Group group, MediumId after);
@@ -41,6 +44,8 @@ class LineWalker {
   const TraceSettings& settings_;
   LineTrace& trace_;
   RayQuery query_;
+  static constexpr std::size_t kNoSurface = kMaxSurfaces;
+  std::size_t ruling_ = kNoSurface;  // the closed surface whose medium the line is in
   MediumId medium_{};
   double walked_m_ = 0;  // along the present ray
   double path_m_ = 0;    // l since the transducer

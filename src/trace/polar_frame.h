@@ -15,6 +15,7 @@ namespace echocine {
 struct PolarFrame {
   int lines = 0, samples = 0;
   std::vector<LineTrace> traces;                 // of each line, before sampling
+  CellEchoes cell_echoes;                        // none unless they are integrated over cells
   std::map<Channel, std::vector<float>> planes;  // the intensity channels that were asked for
   std::vector<std::uint32_t> medium;             // Channel::medium, if asked for
   std::vector<float> signal;                     // where the signal chain starts

@@ -54,6 +54,14 @@ class LineSampler {
         request_(request),
         frame_(frame) {}
 
+  // After all lines.
+  void addCellEchoes() const {
+    for (const Channel channel : request_.channels)
+      if (channel != Channel::medium && channel != Channel::attenuation)
+        addToSamples(frame_.cell_echoes, partsOfChannel(channel), frame_.planes.at(channel));
+    if (request_.signal) addToSamples(frame_.cell_echoes, request_.signal_parts, frame_.signal);
+  }
+
   void sample(int line, const LineTrace& trace) const {
     for (const Channel channel : request_.channels) {
       if (channel == Channel::medium)
@@ -61,8 +69,7 @@ class LineSampler {
       else if (channel == Channel::attenuation)
         sampleExponent(trace, sampling_, column(frame_.planes.at(channel), line));
       else
-        intensity(trace, partsOf(channel, settings_.attenuation, request_.spread_undone_at_m),
-                  column(frame_.planes.at(channel), line));
+        intensity(trace, partsOfChannel(channel), column(frame_.planes.at(channel), line));
     }
     if (request_.signal) intensity(trace, request_.signal_parts, column(frame_.signal, line));
   }
@@ -80,13 +87,16 @@ class LineSampler {
       if (channel == Channel::attenuation)
         add({.reflection = false, .backscatter = false});
       else if (channel != Channel::medium)
-        add(partsOf(channel, settings_.attenuation, request_.spread_undone_at_m));
+        add(partsOfChannel(channel));
     }
     if (request_.signal) add(request_.signal_parts);
     return work;
   }
 
  private:
+  IntensityParts partsOfChannel(Channel channel) const {
+    return partsOf(channel, settings_.attenuation, request_.spread_undone_at_m);
+  }
   template <typename T>
   std::span<T> column(std::vector<T>& plane, int line) const {
     const auto samples = static_cast<std::size_t>(sampling_.samples);
@@ -161,6 +171,7 @@ void sampleLines(const Probe& probe, const TraceSettings& settings, const PlaneR
   parallelBlocks(frame.traces.size(), kPacket, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) sampler.sample(static_cast<int>(i), frame.traces[i]);
   });
+  if (settings.cell_echoes) sampler.addCellEchoes();
   work += sampler.work();
 }
 
@@ -207,7 +218,8 @@ WorkCounts traceFrame(const PlaneSlice& slice, const Probe& probe, const TraceSe
   }
   work.facets_sliced = slice.pieces().size();
   if (settings.cell_echoes)
-    addCellEchoes(slice.pieces(), slice.normals(), probe, settings, frame.traces);
+    addCellEchoes(slice.pieces(), slice.normals(), probe, settings, frame.traces,
+                  frame.cell_echoes);
   sampleLines(probe, settings, request, frame, work);
   return work;
 }

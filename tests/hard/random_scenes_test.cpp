@@ -96,11 +96,26 @@ void expectEnergy(const World& world, const TraceSettings& settings, const LineT
   for (const Echo& echo : line.echoes) {
     ASSERT_GE(echo.intensity, 0);
     ASSERT_GE(echo.exponent, 0);
-    ASSERT_LE(echo.intensity, 2 * gain * (1 + 1e-12));  // a membrane's two within a cell
+    ASSERT_LE(echo.intensity, 2 * gain * (1 + 1e-12));
     sum += echo.intensity;
   }
-  if (settings.transmission_loss && !settings.cell_echoes) {
+  if (settings.transmission_loss) {
     ASSERT_LE(sum, gain * (1 + 1e-9));
+  }
+}
+
+// Cells hold several pieces of contour, each with an echo of its own.
+void expectCellEchoes(const World& world, const PolarFrame& polar) {
+  double gain = 0;
+  for (const Structure& s : world.scene.structures) gain = std::max(gain, s.reflection_gain);
+  const CellEchoes& echoes = polar.cell_echoes;
+  const auto samples =
+      static_cast<std::size_t>(polar.lines) * static_cast<std::size_t>(polar.samples);
+  for (std::size_t i = 0; i < echoes.count; ++i) {
+    ASSERT_GE(echoes.intensity[i], 0);
+    ASSERT_GE(echoes.exponent[i], 0);
+    ASSERT_LE(echoes.intensity[i], 2 * gain * (1 + 1e-12));  // a membrane's two within a cell
+    ASSERT_LT(echoes.at[i], samples);
   }
 }
 
@@ -127,7 +142,11 @@ void expectLawful(const World& world, const EffectPlan& plan, Tracer tracer,
     expectOrderedStretches(world, settings, line);
     expectEnergy(world, settings, line);
     if (testing::Test::HasFatalFailure()) return;
+    if (settings.cell_echoes) {
+      EXPECT_TRUE(line.echoes.empty());
+    }
   }
+  expectCellEchoes(world, polar);
 }
 
 // To the last bit: both geometries decide by the same numbers.

@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "trace/interface_lanes.h"
+
 namespace echocine {
 namespace {
 
@@ -173,6 +175,44 @@ TEST(InterfaceLaw, AgreesWithLongDoubleUlpByUlpAroundTheCriticalAngle) {
         EXPECT_EQ(law.total, e.cos_t_squared < 0) << cos_i;
       }
     }
+  }
+}
+
+// The same law for four interfaces at once, here four of one kind.
+void expectLanesAgree(const Pair& p, double cos_i) {
+  const Exact e = exactly(p, cos_i);
+  const auto four = [](double a) { return Lanes{} + a; };
+  const SpeedRatio speeds = speedRatio(p.c_1, p.c_2);
+  const Lanes R =
+      reflectedShares(four(p.Z_1), four(p.Z_2), four(speeds.r), four(speeds.turn), four(cos_i));
+  for (std::size_t j = 0; j < kLanes; ++j) {
+    EXPECT_NEAR(R[j], static_cast<double>(e.R), tolerance(p, cos_i, e)) << p.Z_2 << ' ' << cos_i;
+    EXPECT_TRUE(R[j] >= 0 && R[j] <= 1);
+  }
+  if (p.c_1 == p.c_2) {
+    EXPECT_NEAR(reflectedAtEqualSpeeds(four(p.Z_1), four(p.Z_2))[0],
+                interfaceLaw(p.Z_1, p.c_1, p.Z_2, p.c_2, cos_i).R, 1e-15);
+  }
+}
+
+TEST(InterfaceLaw, OfFourInterfacesAtOnceAgreesWithLongDouble) {
+  for (const Pair& p : kPairs) {
+    for (const double cos_i : incidences()) expectLanesAgree(p, cos_i);
+    if (p.c_2 <= p.c_1) continue;
+    for (const double cos_i : aroundCritical(p, 200)) expectLanesAgree(p, cos_i);
+  }
+}
+
+// Of media that differ by little R is the square of that little, not of rounding.
+TEST(InterfaceLaw, OfFourInterfacesOfNearlyEqualMediaKeepsItsDigits) {
+  for (const double cos_i : {0.1, 0.5, 1.0}) {
+    const double Z_1 = 1.6e6, Z_2 = Z_1 * (1 + 1e-9), c_1 = 1540, c_2 = c_1 * (1 + 1e-10);
+    const auto four = [](double a) { return Lanes{} + a; };
+    const SpeedRatio speeds = speedRatio(c_1, c_2);
+    const double R = interfaceLaw(Z_1, c_1, Z_2, c_2, cos_i).R;
+    EXPECT_NEAR(
+        reflectedShares(four(Z_1), four(Z_2), four(speeds.r), four(speeds.turn), four(cos_i))[0], R,
+        1e-12 * R);
   }
 }
 

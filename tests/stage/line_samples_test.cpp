@@ -70,6 +70,28 @@ TEST(LineSamples, EchoesOfOneSampleAdd) {
   EXPECT_EQ(sampled(line)[40], 0.75f);
 }
 
+TEST(LineSamples, CellEchoesAreAddedToTheirSamplesAttenuatedAsTheirExponentSays) {
+  std::vector<float> plane(500, 1.0f);
+  CellEchoes echoes;
+  echoes.reserve(300);
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    echoes.at[i] = 499 - i;
+    echoes.intensity[i] = 1e3 + i;
+    echoes.exponent[i] = i < 290 ? 0.05 * i : 1e9;
+  }
+  echoes.count = 299;
+  const std::vector<float> before = plane;
+  addToSamples(echoes, {.reflection = false}, plane);
+  EXPECT_EQ(plane, before);
+  addToSamples(echoes, {}, plane);
+  for (std::uint32_t i = 0; i < 299; ++i)
+    EXPECT_FLOAT_EQ(plane[499 - i],
+                    1 + static_cast<float>(echoes.intensity[i] * std::exp(-echoes.exponent[i])));
+  EXPECT_EQ(plane[499 - 299], 1.0f);
+  addToSamples(echoes, {.attenuation = false}, plane);
+  EXPECT_FLOAT_EQ(plane[499 - 298], 1 + 1298.0f);
+}
+
 TEST(LineSamples, PartsAddToTheWhole) {
   LineTrace line = oneStretch(0, 1);
   line.stretches[0].exponent_per_m = 40;

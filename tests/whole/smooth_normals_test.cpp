@@ -199,8 +199,7 @@ TEST(SmoothNormals, CellEchoesUseThemToo) {
     traceFrame(slice, scene.probe, TraceSettings(scene, plan, true), planeRequest(scene, plan),
                frame);
     double sum = 0;
-    for (const LineTrace& line : frame.traces)
-      for (const Echo& echo : line.echoes) sum += echo.intensity;
+    for (std::size_t i = 0; i < frame.cell_echoes.count; ++i) sum += frame.cell_echoes.intensity[i];
     return sum;
   };
   const double exact = total(6, Normals::smooth);

@@ -1,0 +1,203 @@
+#include "trace/cell_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace echocine {
+
+namespace {
+
+constexpr double kTiny = 1e-300;  // instead of 0 in a denominator
+
+// roughAngle() of four points, to kRough.
+constexpr double kRough = 2e-5;  // rad
+Lanes roughAngles(Lanes x, Lanes z) {
+  const Lanes ax = magnitude(x), large = larger(ax, z), small = smaller(ax, z);
+  const Lanes q = small / larger(large, kTiny), q2 = q * q;
+  const Lanes angle =
+      q * (0.9998660 + q2 * (-0.3302995 + q2 * (0.1801410 + q2 * (-0.0851330 + q2 * 0.0208351))));
+  const Lanes to_x = ax > z ? std::numbers::pi / 2 - angle : angle;
+  return x < 0 ? -to_x : to_x;
+}
+
+}  // namespace
+
+CellCutter::CellCutter(const Probe& probe, std::span<const ContourPiece> pieces)
+    : pieces_(pieces),
+      angular_(probe.kind != ProbeKind::linear),
+      lines_(probe.lines),
+      first_(angular_ ? probe.first_angle_rad : probe.first_offset_m),
+      width_(((angular_ ? probe.last_angle_rad : probe.last_offset_m) - first_) /
+             (probe.lines - 1)),
+      per_width_(1 / width_),
+      unsure_(angular_ ? kRough * per_width_ : 1e-6) {
+  for (int i = 0; i <= lines_; ++i) {
+    const double at = first_ + (i - 0.5) * width_;
+    boundaries_.push_back(angular_ ? Boundary{std::sin(at), std::cos(at)} : Boundary{at, 1});
+  }
+}
+
+void CellCutter::next(CellParts& parts) {
+  parts.count = 0;
+  while (parts.count < kParts) {
+    if (ends_.done == ends_.count) {
+      if (taken_ == pieces_.size()) break;
+      takeEnds();
+      findCells();
+    }
+    intoCells(parts);
+  }
+  cutAtBoundaries(parts);
+}
+
+// The ends of what lies in front of the transducer: lines never point backwards, so what lies
+// behind z = 0 is in no cell.
+void CellCutter::takeEnds() {
+  std::size_t n = 0;
+  for (; taken_ < pieces_.size() && n < kPieces; ++taken_) {
+    Vec3d a = pieces_[taken_].cut.from, b = pieces_[taken_].cut.to;
+    if (a.z < 0 || b.z < 0) {
+      if (a.z < 0 && b.z < 0) continue;
+      (a.z < 0 ? a : b) = {a.x + (b.x - a.x) * (a.z / (a.z - b.z)), 0, 0};
+    }
+    ends_.a_x[n] = a.x;
+    ends_.a_z[n] = a.z;
+    ends_.b_x[n] = b.x;
+    ends_.b_z[n] = b.z;
+    ends_.piece[n++] = static_cast<std::uint32_t>(taken_);
+  }
+  ends_.count = n;
+  ends_.done = 0;
+}
+
+// How many boundaries a point has on its left or on it, by and large.
+Lanes CellCutter::placeOf(Lanes x, Lanes z) const {
+  const Lanes place = angular_ ? roughAngles(x, z) : x;
+  return clamped((place - first_) * per_width_ + 1.5, Lanes{}, Lanes{} + (lines_ + 1.0));
+}
+
+// The cells that hold the ends; -1 left of the first and the number of lines right of the last.
+// Only what lies close to a boundary needs the boundary itself.
+void CellCutter::findCells() {
+  const auto cells = [&](const double* x, const double* z, std::int32_t* out) {
+    const Lanes place = placeOf(lanesAt(x), lanesAt(z));
+    const LaneInts guess = __builtin_convertvector(place, LaneInts);
+    const LaneInts cell = guess - 1;
+    store(cell, out);
+    const Lanes beyond = place - __builtin_convertvector(guess, Lanes);
+    if (!any((beyond < unsure_) | (beyond > 1 - unsure_))) return;
+    for (std::size_t j = 0; j < kLanes; ++j) out[j] = cellOf(x[j], z[j], guess[j]);
+  };
+  for (std::size_t i = 0; i < ends_.count; i += kLanes) {
+    cells(&ends_.a_x[i], &ends_.a_z[i], &ends_.begin[i]);
+    cells(&ends_.b_x[i], &ends_.b_z[i], &ends_.end[i]);
+  }
+  for (std::size_t i = 0; i < ends_.count; ++i) {
+    if (ends_.begin[i] > ends_.end[i]) {
+      std::swap(ends_.a_x[i], ends_.b_x[i]);
+      std::swap(ends_.a_z[i], ends_.b_z[i]);
+      std::swap(ends_.begin[i], ends_.end[i]);
+    }
+    ends_.begin[i] = std::max(ends_.begin[i], 0);
+    ends_.end[i] = std::min(ends_.end[i], lines_ - 1);
+  }
+}
+
+// How far a point lies to the right of a boundary between cells.
+Lanes CellCutter::rightOf(Lanes x, Lanes z, Lanes sine, Lanes cosine) const {
+  return angular_ ? x * cosine - z * sine : x - sine;
+}
+double CellCutter::rightOf(double x, double z, int boundary) const {
+  const Boundary& at = boundaries_[static_cast<std::size_t>(boundary)];
+  return angular_ ? x * at.cosine - z * at.sine : x - at.sine;
+}
+
+int CellCutter::cellOf(double x, double z, int guess) const {
+  int n = guess;
+  while (n <= lines_ && rightOf(x, z, n) >= 0) ++n;
+  while (n > 0 && rightOf(x, z, n - 1) < 0) --n;
+  return n - 1;
+}
+
+// Puts pieces into their cells, as long as there is room; they are cut later.
+void CellCutter::intoCells(CellParts& parts) {
+  std::size_t part = parts.count;
+  for (; ends_.done < ends_.count && part < kParts; ++ends_.done) {
+    const std::size_t i = ends_.done;
+    std::int32_t cell = ends_.begin[i];
+    const std::int32_t end = std::min(ends_.end[i] + 1, cell + static_cast<int>(kParts - part));
+    if (cell >= end) continue;
+    const ContourPiece& piece = pieces_[ends_.piece[i]];
+    Vec3d normal = piece.area_normal;
+    double normal_square = dot(normal, normal);
+    if (!(normal_square > 0)) {
+      normal = unitNormal(piece);
+      normal_square = 1;
+    }
+    for (; cell < end; ++cell, ++part) {
+      const Boundary* side = &boundaries_[static_cast<std::size_t>(cell)];
+      parts.a_x[part] = ends_.a_x[i];
+      parts.a_z[part] = ends_.a_z[i];
+      parts.b_x[part] = ends_.b_x[i];
+      parts.b_z[part] = ends_.b_z[i];
+      sides_.left_sine[part] = side[0].sine;
+      sides_.left_cosine[part] = side[0].cosine;
+      sides_.right_sine[part] = side[1].sine;
+      sides_.right_cosine[part] = side[1].cosine;
+      parts.normal_x[part] = normal.x;
+      parts.normal_z[part] = normal.z;
+      parts.normal_square[part] = normal_square;
+      parts.piece[part] = ends_.piece[i];
+      parts.line[part] = static_cast<std::uint32_t>(cell);
+    }
+    ends_.begin[i] = cell;
+    if (cell <= ends_.end[i]) break;  // no room for the rest
+  }
+  parts.count = part;
+}
+
+// Where a piece passes a boundary its ends lie on both sides, a left and b right or on it. Else a
+// is right of the left boundary or b left of the right one, and the clamps leave the end where it
+// is, whichever of both is the more to the right.
+void CellCutter::cutAtBoundaries(CellParts& parts) const {
+  for (std::size_t i = 0; i < parts.count; i += kLanes) {
+    const Lanes a_x = lanesAt(&parts.a_x[i]), a_z = lanesAt(&parts.a_z[i]),
+                b_x = lanesAt(&parts.b_x[i]), b_z = lanesAt(&parts.b_z[i]);
+    const Lanes dx = b_x - a_x, dz = b_z - a_z;
+    const auto at = [&](const double* sines, const double* cosines) {
+      const Lanes sine = lanesAt(sines), cosine = lanesAt(cosines);
+      const Lanes u_a = rightOf(a_x, a_z, sine, cosine), u_b = rightOf(b_x, b_z, sine, cosine);
+      return clamped(-u_a / larger(u_b - u_a, kTiny), Lanes{}, Lanes{} + 1);
+    };
+    const Lanes s = at(&sides_.left_sine[i], &sides_.left_cosine[i]),
+                t = at(&sides_.right_sine[i], &sides_.right_cosine[i]);
+    const LaneMask whole = t >= 1;
+    const Lanes from_x = a_x + s * dx, from_z = a_z + s * dz;
+    const Lanes end_x = whole ? b_x : a_x + t * dx, end_z = whole ? b_z : a_z + t * dz;
+    const Lanes part_x = end_x - from_x, part_z = end_z - from_z;
+    const Lanes outward = angular_ ? from_x * part_x + from_z * part_z : part_z;
+    const LaneMask inward = outward < 0;
+    store(inward ? end_x : from_x, &parts.a_x[i]);
+    store(inward ? end_z : from_z, &parts.a_z[i]);
+    store(inward ? from_x : end_x, &parts.b_x[i]);
+    store(inward ? from_z : end_z, &parts.b_z[i]);
+    LaneMask turns{};
+    Lanes to_x{}, to_z = Lanes{} + 1;
+    if (angular_) {
+      turns = inward & (-outward < part_x * part_x + part_z * part_z);
+      const Lanes x = (from_x + end_x) / 2, z = (from_z + end_z) / 2;
+      const LaneMask apart = (x != 0) | (z != 0);  // from the centre
+      to_x = apart ? x : to_x;
+      to_z = apart ? z : to_z;
+    }
+    store(to_x, &parts.to_x[i]);
+    store(to_z, &parts.to_z[i]);
+    const LaneMask entering =
+        to_x * lanesAt(&parts.normal_x[i]) + to_z * lanesAt(&parts.normal_z[i]) < 0;
+    store(entering, &parts.entering[i]);
+    store(turns, &parts.turns[i]);
+  }
+}
+
+}  // namespace echocine
