@@ -4,6 +4,8 @@
 #include <cstring>
 #include <optional>
 
+#include "core/lanes.h"
+
 namespace echocine {
 
 double enclosedVolume(std::span<const Triangle> triangles, std::span<const Vec3f> positions_m) {
@@ -12,10 +14,8 @@ double enclosedVolume(std::span<const Triangle> triangles, std::span<const Vec3f
 
 namespace {
 
-// A point in one vector register, an extension that GCC and Clang share. The fourth lane is nothing
-// of its own and goes nowhere.
-using WidePoint [[gnu::vector_size(32)]] = double;
-using Point [[gnu::vector_size(16)]] = float;
+// A point in one vector. The fourth lane is nothing of its own and goes nowhere.
+using WidePoint = Doubles4;
 
 // Relative to the point with the number `first`.
 void widen(std::span<const Vec3f> positions, std::uint32_t first, std::vector<WidePoint>& points) {
@@ -24,7 +24,7 @@ void widen(std::span<const Vec3f> positions, std::uint32_t first, std::vector<Wi
   const WidePoint reference = wide(positions[first]);
   const std::size_t last = positions.size() - 1;
   for (std::size_t v = 0; v < last; ++v) {
-    Point point;
+    Floats4 point;
     std::memcpy(&point, &positions[v], sizeof point);  // and the next one's x
     points[v] = __builtin_convertvector(point, WidePoint) - reference;
   }

@@ -1,29 +1,91 @@
 #pragma once
-// Eight numbers at once in the vector extension that GCC and Clang share, for loops that compilers
-// left to themselves shuffle or unroll. Each lane is rounded as a single number would be, so that
-// results do not depend on the instruction set.
+// Several numbers at once, in the vector extension that GCC and Clang share, for loops that
+// compilers left to themselves shuffle or unroll. Every lane is computed as one number would be, so
+// results depend neither on which numbers stand together nor on the instruction set.
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace echocine {
 
-inline constexpr int kLanes = 8;
-using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
-using IntLanes = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
+inline constexpr std::size_t kFloatLanes = 8, kDoubleLanes = 4;
 
-inline Lanes lanesAt(const float* from) {
-  Lanes lanes;
+using Floats8 = float __attribute__((vector_size(32)));
+using Ints8 = std::int32_t __attribute__((vector_size(32)));
+using Doubles4 = double __attribute__((vector_size(32)));
+using Mask4 = std::int64_t __attribute__((vector_size(32)));  // -1 where true, else 0
+using Ints4 = std::int32_t __attribute__((vector_size(16)));
+using Floats4 = float __attribute__((vector_size(16)));
+
+inline Floats8 lanesAt(const float* from) {
+  Floats8 lanes;
   std::memcpy(&lanes, from, sizeof lanes);
   return lanes;
 }
+inline Doubles4 lanesAt(const double* from) {
+  Doubles4 lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+inline Mask4 masksAt(const std::int64_t* from) {
+  Mask4 mask;
+  std::memcpy(&mask, from, sizeof mask);
+  return mask;
+}
 
+inline void store(Floats8 lanes, float* to) {
+  std::memcpy(to, &lanes, sizeof lanes);
+}
+inline void store(Doubles4 lanes, double* to) {
+  std::memcpy(to, &lanes, sizeof lanes);
+}
+inline void store(Mask4 mask, std::int64_t* to) {
+  std::memcpy(to, &mask, sizeof mask);
+}
+template <typename Number>
+void store(Ints4 lanes, Number* to) {
+  static_assert(sizeof(Number) == sizeof(std::int32_t));
+  std::memcpy(to, &lanes, sizeof lanes);
+}
 // The first `count` lanes; all of them by a plain store.
-inline void storeLanes(Lanes lanes, std::size_t count, float* to) {
-  if (count >= kLanes)
-    std::memcpy(to, &lanes, sizeof lanes);
+inline void storeSome(Floats8 lanes, std::size_t count, float* to) {
+  if (count >= kFloatLanes)
+    store(lanes, to);
   else
     std::memcpy(to, &lanes, count * sizeof(float));
+}
+
+inline Doubles4 larger(Doubles4 a, Doubles4 b) {
+  return a > b ? a : b;
+}
+inline Doubles4 smaller(Doubles4 a, Doubles4 b) {
+  return a < b ? a : b;
+}
+inline Doubles4 larger(Doubles4 a, double b) {
+  return larger(a, Doubles4{} + b);
+}
+inline Doubles4 smaller(Doubles4 a, double b) {
+  return smaller(a, Doubles4{} + b);
+}
+inline Doubles4 clamped(Doubles4 a, Doubles4 low, Doubles4 high) {
+  return smaller(larger(a, low), high);
+}
+inline Doubles4 magnitude(Doubles4 a) {
+  constexpr std::int64_t kAllButTheSign = std::numeric_limits<std::int64_t>::max();
+  return reinterpret_cast<Doubles4>(reinterpret_cast<Mask4>(a) & kAllButTheSign);
+}
+inline Doubles4 squareRoot(Doubles4 a) {
+  return Doubles4{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
+}
+// Without their fractions; magnitudes below 2^31.
+inline Doubles4 wholeOf(Doubles4 a) {
+  return __builtin_convertvector(__builtin_convertvector(a, Ints4), Doubles4);
+}
+
+inline bool any(Mask4 mask) {
+  return ((mask[0] | mask[1]) | (mask[2] | mask[3])) != 0;
 }
 
 }  // namespace echocine

@@ -23,10 +23,6 @@ Vec3<T> cutPoint(Vec3<T> p, T v_p, Vec3<T> q, T v_q) {
   return {(p.x * v_q - q.x * v_p) / s, (p.y * v_q - q.y * v_p) / s, (p.z * v_q - q.z * v_p) / s};
 }
 
-}  // namespace
-
-namespace {
-
 // The vertex k alone on its side, and the other ends of the edges where the cut begins and ends.
 struct Turn {
   std::uint8_t k, from, to;
@@ -84,47 +80,42 @@ std::optional<Crossing> crossTriangle(const RayPlanes& ray, Vec3f p0, Vec3f p1, 
 
 namespace {
 
-using Point = Vec3<DoubleLanes>;
+using Point = Vec3<Doubles4>;
 
-Point toLanes(const Vec3<FloatLanes>& p) {
-  return {__builtin_convertvector(p.x, DoubleLanes), __builtin_convertvector(p.y, DoubleLanes),
-          __builtin_convertvector(p.z, DoubleLanes)};
+Point toLanes(const Vec3<Floats4>& p) {
+  return {__builtin_convertvector(p.x, Doubles4), __builtin_convertvector(p.y, Doubles4),
+          __builtin_convertvector(p.z, Doubles4)};
 }
 Point toLanes(Vec3d p) {
-  return {DoubleLanes{} + p.x, DoubleLanes{} + p.y, DoubleLanes{} + p.z};
+  return {Doubles4{} + p.x, Doubles4{} + p.y, Doubles4{} + p.z};
 }
-Point choose(LaneMask mask, const Point& a, const Point& b) {
+Point choose(Mask4 mask, const Point& a, const Point& b) {
   return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
-}
-DoubleLanes squareRoot(DoubleLanes a) {
-  for (std::size_t i = 0; i < kRuleLanes; ++i) a[i] = std::sqrt(a[i]);
-  return a;
 }
 
 }  // namespace
 
 // cutTriangle(), crossCut() and facetNormal() without a branch.
-LaneCrossings crossTriangles(const RayPlanes& ray, const std::array<Vec3<FloatLanes>, 3>& corners) {
-  const DoubleLanes zero{};
+LaneCrossings crossTriangles(const RayPlanes& ray, const std::array<Vec3<Floats4>, 3>& corners) {
+  const Doubles4 zero{};
   const Point p0 = toLanes(corners[0]), p1 = toLanes(corners[1]), p2 = toLanes(corners[2]);
   const Point origin = toLanes(ray.origin), u_axis = toLanes(ray.u_axis),
               v_axis = toLanes(ray.v_axis), direction = toLanes(ray.direction);
-  const DoubleLanes v0 = dot(v_axis, p0 - origin), v1 = dot(v_axis, p1 - origin),
-                    v2 = dot(v_axis, p2 - origin);
-  const LaneMask above0 = v0 >= zero, above1 = v1 >= zero, above2 = v2 >= zero;
-  const LaneMask cut01 = above0 ^ above1, cut02 = above0 ^ above2;
+  const Doubles4 v0 = dot(v_axis, p0 - origin), v1 = dot(v_axis, p1 - origin),
+                 v2 = dot(v_axis, p2 - origin);
+  const Mask4 above0 = v0 >= zero, above1 = v1 >= zero, above2 = v2 >= zero;
+  const Mask4 cut01 = above0 ^ above1, cut02 = above0 ^ above2;
   // Of the edges 0-1, 1-2 and 2-0 two are cut: one of the first two, and one of the last two.
-  const Point one = cutPoint(p1, v1, choose(cut01, p0, p2), DoubleLanes(cut01 ? v0 : v2)) - origin;
-  const Point other =
-      cutPoint(p2, v2, choose(cut02, p0, p1), DoubleLanes(cut02 ? v0 : v1)) - origin;
-  const DoubleLanes u1 = dot(u_axis, one), u2 = dot(u_axis, other);
-  const DoubleLanes w1 = dot(direction, one), w2 = dot(direction, other);
-  const LaneMask right1 = u1 >= zero, right2 = u2 >= zero;
-  const DoubleLanes distance = (w1 * u2 - w2 * u1) / (u2 - u1);
-  const LaneMask crossed = (cut01 | cut02) & (right1 ^ right2) & (distance > zero);
+  const Point one = cutPoint(p1, v1, choose(cut01, p0, p2), Doubles4(cut01 ? v0 : v2)) - origin;
+  const Point other = cutPoint(p2, v2, choose(cut02, p0, p1), Doubles4(cut02 ? v0 : v1)) - origin;
+  const Doubles4 u1 = dot(u_axis, one), u2 = dot(u_axis, other);
+  const Doubles4 w1 = dot(direction, one), w2 = dot(direction, other);
+  const Mask4 right1 = u1 >= zero, right2 = u2 >= zero;
+  const Doubles4 distance = (w1 * u2 - w2 * u1) / (u2 - u1);
+  const Mask4 crossed = (cut01 | cut02) & (right1 ^ right2) & (distance > zero);
 
   const Point area = cross(p1 - p0, p2 - p0);
-  const DoubleLanes per_size = 1.0 / squareRoot(dot(area, area));
+  const Doubles4 per_size = 1.0 / squareRoot(dot(area, area));
   return {crossed, above0 == right1, distance, per_size * area};
 }
 

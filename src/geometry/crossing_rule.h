@@ -17,6 +17,7 @@
 #include <array>
 #include <optional>
 
+#include "core/lanes.h"
 #include "geometry/crossing.h"
 #include "motion/surface_frame.h"
 
@@ -61,19 +62,12 @@ std::optional<Crossing> crossTriangle(const RayPlanes& ray, Vec3f p0, Vec3f p1, 
                                       SurfaceId surface, std::uint32_t triangle);
 
 // The same for four triangles at once, which the processor decides in little more than the time of
-// one. In the vector extension that GCC and Clang share; every lane does what crossTriangle() does,
-// to the last bit.
-inline constexpr std::size_t kRuleLanes = 4;
-using FloatLanes = float __attribute__((vector_size(kRuleLanes * sizeof(float))));
-using DoubleLanes = double __attribute__((vector_size(kRuleLanes * sizeof(double))));
-
-using LaneMask = decltype(DoubleLanes{} >= DoubleLanes{});  // not 0 where true
-
+// one: every lane does what crossTriangle() does, to the last bit.
 struct LaneCrossings {
-  LaneMask crossed, entering;
-  DoubleLanes distance_m;
-  Vec3<DoubleLanes> normal;  // unit; not a number where the triangle has no area
+  Mask4 crossed, entering;
+  Doubles4 distance_m;
+  Vec3<Doubles4> normal;  // unit; not a number where the triangle has no area
 };
-LaneCrossings crossTriangles(const RayPlanes& ray, const std::array<Vec3<FloatLanes>, 3>& corners);
+LaneCrossings crossTriangles(const RayPlanes& ray, const std::array<Vec3<Floats4>, 3>& corners);
 
 }  // namespace echocine

@@ -31,11 +31,11 @@ Box boxOf(const std::vector<Vec3f>& positions) {
   const std::size_t count = positions.size(), in_fours = count / 4 * 4;
   for (std::size_t i = in_fours; i < count; ++i) box.add(toDouble(positions[i]));
   if (in_fours == 0) return box;
-  FloatLanes lo[3], hi[3];
+  Floats4 lo[3], hi[3];
   std::memcpy(lo, positions.data(), sizeof lo);
   std::memcpy(hi, positions.data(), sizeof hi);
   for (std::size_t i = 4; i < in_fours; i += 4) {
-    FloatLanes four[3];
+    Floats4 four[3];
     std::memcpy(four, &positions[i], sizeof four);
     for (int k = 0; k < 3; ++k) {
       lo[k] = four[k] < lo[k] ? four[k] : lo[k];
@@ -249,16 +249,16 @@ void FrameGeometry::State::crossAll(const RayPlanes& ray, std::uint32_t surface,
 void FrameGeometry::State::crossFour(const RayPlanes& ray, std::span<const std::uint32_t> found,
                                      std::vector<Crossing>& out,
                                      std::vector<std::uint32_t>& refused) const {
-  static_assert(kRuleLanes == 4);
-  const Triangle* of_lane[kRuleLanes];
-  for (std::size_t lane = 0; lane < kRuleLanes; ++lane)
+  static_assert(kDoubleLanes == 4);
+  const Triangle* of_lane[kDoubleLanes];
+  for (std::size_t lane = 0; lane < kDoubleLanes; ++lane)
     of_lane[lane] = &triangles[found[std::min(lane, found.size() - 1)]];
-  std::array<Vec3<FloatLanes>, 3> corners;
+  std::array<Vec3<Floats4>, 3> corners;
   for (std::size_t c = 0; c < 3; ++c) {
     const Vec3f &p = vertices[(*of_lane[0])[c]], &q = vertices[(*of_lane[1])[c]],
                 &r = vertices[(*of_lane[2])[c]], &s = vertices[(*of_lane[3])[c]];
-    corners[c] = {FloatLanes{p.x, q.x, r.x, s.x}, FloatLanes{p.y, q.y, r.y, s.y},
-                  FloatLanes{p.z, q.z, r.z, s.z}};
+    corners[c] = {Floats4{p.x, q.x, r.x, s.x}, Floats4{p.y, q.y, r.y, s.y},
+                  Floats4{p.z, q.z, r.z, s.z}};
   }
   const LaneCrossings met = crossTriangles(ray, corners);
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -283,8 +283,8 @@ void FrameGeometry::State::crossCandidates(const RayQuery& query, const RayPlane
   refused.clear();
   for (const auto& [surface, triangle] : query.left_behind)
     std::erase(found, first_place[index(surface)] + triangle);
-  for (std::size_t i = 0; i < found.size(); i += kRuleLanes)
-    crossFour(planes, std::span(found).subspan(i, std::min(kRuleLanes, found.size() - i)), out,
+  for (std::size_t i = 0; i < found.size(); i += kDoubleLanes)
+    crossFour(planes, std::span(found).subspan(i, std::min(kDoubleLanes, found.size() - i)), out,
               refused);
   for (const std::uint32_t place : refused)
     if (!hasNeighbour(place, out)) recount(query, surface_at[place], out);

@@ -16,12 +16,12 @@ namespace {
 // the sums of a usual window's lines stay in the first-level cache.
 constexpr int kBlock = 256;
 // Taken in double, since both may hold a bright echo.
-Lanes differenceAt(const double* a, const double* b) {
-  using Sums = double __attribute__((vector_size(kLanes * sizeof(double))));
+Floats8 differenceAt(const double* a, const double* b) {
+  using Sums = double __attribute__((vector_size(kFloatLanes * sizeof(double))));
   Sums of_a, of_b;
   std::memcpy(&of_a, a, sizeof of_a);
   std::memcpy(&of_b, b, sizeof of_b);
-  return __builtin_convertvector(of_a - of_b, Lanes);
+  return __builtin_convertvector(of_a - of_b, Floats8);
 }
 
 // A box `width` samples wide around a sample's centre: whole samples inside it weigh 1, its ends
@@ -78,7 +78,7 @@ void BeamAverage::prepareLateral(const std::vector<double>& half_width_lines) {
       runs_.push_back(run);
   }
   for (std::vector<float>* read_by_lanes : {&part_below_, &part_above_, &scale_})
-    read_by_lanes->resize(read_by_lanes->size() + kLanes);
+    read_by_lanes->resize(read_by_lanes->size() + kFloatLanes);
 }
 
 struct BeamAverage::Workspace {
@@ -89,13 +89,13 @@ struct BeamAverage::Workspace {
   std::vector<float> along;
   std::vector<double> sums;
   std::size_t rows = 0;
-  std::vector<float> no_line = std::vector<float>(kBlock + kLanes, 0.0f);
-  std::vector<double> no_sum = std::vector<double>(kBlock + kLanes, 0.0);
+  std::vector<float> no_line = std::vector<float>(kBlock + kFloatLanes, 0.0f);
+  std::vector<double> no_sum = std::vector<double>(kBlock + kFloatLanes, 0.0);
 
   void reserve(int lines) {
     rows = std::bit_ceil(static_cast<std::size_t>(lines));
-    along.resize(rows * kBlock + kLanes);
-    sums.resize(rows * kBlock + kLanes);
+    along.resize(rows * kBlock + kFloatLanes);
+    sums.resize(rows * kBlock + kFloatLanes);
   }
   std::size_t row(int line) const { return (static_cast<std::size_t>(line) & (rows - 1)) * kBlock; }
 };
@@ -120,14 +120,15 @@ void BeamAverage::averageAlong(const float* line, int first, int count, Workspac
   const std::size_t last = taps_.size() - 1;
   const float end_tap = taps_.front();  // of both ends; those between weigh 1
   constexpr int kTogether = 4;
-  for (int s = 0; s < count; s += kTogether * kLanes) {
-    Lanes sum[kTogether];
+  for (int s = 0; s < count; s += kTogether * kFloatLanes) {
+    Floats8 sum[kTogether];
     for (int v = 0; v < kTogether; ++v)
-      sum[v] = end_tap * (lanesAt(in + s + v * kLanes) + lanesAt(in + s + v * kLanes + last));
+      sum[v] =
+          end_tap * (lanesAt(in + s + v * kFloatLanes) + lanesAt(in + s + v * kFloatLanes + last));
     for (std::size_t j = 1; j < last; ++j)
-      for (int v = 0; v < kTogether; ++v) sum[v] += lanesAt(in + s + v * kLanes + j);
+      for (int v = 0; v < kTogether; ++v) sum[v] += lanesAt(in + s + v * kFloatLanes + j);
     for (int v = 0; v < kTogether; ++v)
-      storeLanes(sum[v] * lanesAt(scale + s + v * kLanes), kLanes, out + s + v * kLanes);
+      store(sum[v] * lanesAt(scale + s + v * kFloatLanes), out + s + v * kFloatLanes);
   }
 }
 
@@ -142,7 +143,7 @@ void BeamAverage::averageAcross(int i, const Run& run, int block_first, const Wo
   const float* below = (cut_below ? w.no_line.data() : &w.along[w.row(i + run.below)]) + lane;
   const float* above = (cut_above ? w.no_line.data() : &w.along[w.row(i + run.above)]) + lane;
   const float* scale = scale_.data() + run.first;
-  float cut_scale[kBlock + kLanes];
+  float cut_scale[kBlock + kFloatLanes];
   if (cut_below || cut_above) {
     const double* half = half_.data() + run.first;
     for (int s = 0; s < count; ++s)
@@ -152,11 +153,11 @@ void BeamAverage::averageAcross(int i, const Run& run, int block_first, const Wo
   }
   const float* part_below = part_below_.data() + run.first;
   const float* part_above = part_above_.data() + run.first;
-  for (int s = 0; s < count; s += kLanes) {
-    const Lanes sum = differenceAt(after + s, before + s) +
-                      lanesAt(part_below + s) * lanesAt(below + s) +
-                      lanesAt(part_above + s) * lanesAt(above + s);
-    storeLanes(sum * lanesAt(scale + s), static_cast<std::size_t>(count - s), out + s);
+  for (int s = 0; s < count; s += kFloatLanes) {
+    const Floats8 sum = differenceAt(after + s, before + s) +
+                        lanesAt(part_below + s) * lanesAt(below + s) +
+                        lanesAt(part_above + s) * lanesAt(above + s);
+    storeSome(sum * lanesAt(scale + s), static_cast<std::size_t>(count - s), out + s);
   }
 }
 

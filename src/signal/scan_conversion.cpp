@@ -15,7 +15,7 @@ namespace {
 constexpr int kGreySteps = 4096;  // of the grey map: sixteen per grey level
 constexpr float kWhole = 65535;   // a weight of 1: the next step of 16 bits errs by under 1e-5
 
-using Greys = std::uint8_t __attribute__((vector_size(kLanes)));
+using Greys = std::uint8_t __attribute__((vector_size(kFloatLanes)));
 
 struct Area {
   double x_lo = 0, x_hi = 0, z_lo = 0, z_hi = 0;
@@ -106,7 +106,7 @@ void ScanConverter::addRow(const Probe& probe, const PictureGeometry& geometry, 
                        static_cast<std::size_t>(x);
     if (!inside) runs_.push_back({pixel, 0, blocks_.size()});
     inside = true;
-    const auto lane = static_cast<int>(runs_.back().count++ % kLanes);
+    const auto lane = static_cast<int>(runs_.back().count++ % kFloatLanes);
     if (lane == 0) blocks_.push_back({});
     setEntry(probe, beam->line, beam->path_m, blocks_.back(), lane);
   }
@@ -130,32 +130,32 @@ namespace {
 
 // The values at eight places and one after each.
 struct Neighbours {
-  Lanes first, second;
+  Floats8 first, second;
 };
 
 Neighbours neighbours(const float* plane, const std::uint32_t* places) {
-  using Pairs = double __attribute__((vector_size(kLanes * sizeof(float))));  // of floats
+  using Pairs = double __attribute__((vector_size(kFloatLanes * sizeof(float))));  // of floats
   const auto pair = [&](int i) {
     double both;
     std::memcpy(&both, plane + places[i], sizeof both);
     return both;
   };
-  const auto a = std::bit_cast<Lanes>(Pairs{pair(0), pair(1), pair(4), pair(5)});
-  const auto b = std::bit_cast<Lanes>(Pairs{pair(2), pair(3), pair(6), pair(7)});
+  const auto a = std::bit_cast<Floats8>(Pairs{pair(0), pair(1), pair(4), pair(5)});
+  const auto b = std::bit_cast<Floats8>(Pairs{pair(2), pair(3), pair(6), pair(7)});
   return {__builtin_shufflevector(a, b, 0, 2, 8, 10, 4, 6, 12, 14),
           __builtin_shufflevector(a, b, 1, 3, 9, 11, 5, 7, 13, 15)};
 }
 
-Lanes weights(const std::uint16_t* parts) {
-  using Parts = std::uint16_t __attribute__((vector_size(kLanes * sizeof(std::uint16_t))));
+Floats8 weights(const std::uint16_t* parts) {
+  using Parts = std::uint16_t __attribute__((vector_size(kFloatLanes * sizeof(std::uint16_t))));
   Parts eight;
   std::memcpy(&eight, parts, sizeof eight);
-  return __builtin_convertvector(__builtin_convertvector(eight, IntLanes), Lanes) * (1 / kWhole);
+  return __builtin_convertvector(__builtin_convertvector(eight, Ints8), Floats8) * (1 / kWhole);
 }
 
 // Steps of 0..255. A conversion would take them one by one.
-Greys greysOf(IntLanes steps) {
-  using Bytes = std::uint8_t __attribute__((vector_size(sizeof(IntLanes))));
+Greys greysOf(Ints8 steps) {
+  using Bytes = std::uint8_t __attribute__((vector_size(sizeof(Ints8))));
   const auto bytes = std::bit_cast<Bytes>(steps);
   static_assert(std::endian::native == std::endian::little);
   return __builtin_shufflevector(bytes, bytes, 0, 4, 8, 12, 16, 20, 24, 28);
@@ -173,14 +173,14 @@ void ScanConverter::forRuns(std::span<const float> grey, const Put& put) const {
   const float* right = left + next_line_;
   for (const Run& run : runs_) {
     const Block* block = &blocks_[run.block];
-    for (std::size_t i = 0; i < run.count; i += kLanes, ++block) {
+    for (std::size_t i = 0; i < run.count; i += kFloatLanes, ++block) {
       const Neighbours l = neighbours(left, block->sample);
       const Neighbours r = neighbours(right, block->sample);
-      const Lanes along = weights(block->along);
-      const Lanes a = l.first + along * (l.second - l.first);
-      const Lanes b = r.first + along * (r.second - r.first);
+      const Floats8 along = weights(block->along);
+      const Floats8 a = l.first + along * (l.second - l.first);
+      const Floats8 b = r.first + along * (r.second - r.first);
       put(run.pixel + i, a + weights(block->across) * (b - a),
-          std::min<std::size_t>(kLanes, run.count - i));
+          std::min<std::size_t>(kFloatLanes, run.count - i));
     }
   }
 }
@@ -191,29 +191,30 @@ void ScanConverter::convert(std::span<const float> grey, GreyImage& image) const
   image.pixels.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
   std::uint8_t* const pixels = image.pixels.data();
   const auto put = [pixels](std::size_t pixel, Greys greys, std::size_t count) {
-    if (count == kLanes)
-      std::memcpy(pixels + pixel, &greys, kLanes);  // a plain store
+    if (count == kFloatLanes)
+      std::memcpy(pixels + pixel, &greys, kFloatLanes);  // a plain store
     else
       std::memcpy(pixels + pixel, &greys, count);
   };
   if (grey_map_.empty()) {
-    forRuns(grey, [&](std::size_t pixel, Lanes values, std::size_t count) {
-      const auto steps = __builtin_convertvector(values * 255.0f + 0.5f, IntLanes);
+    forRuns(grey, [&](std::size_t pixel, Floats8 values, std::size_t count) {
+      const auto steps = __builtin_convertvector(values * 255.0f + 0.5f, Ints8);
       put(pixel, greysOf(steps), count);
     });
     return;
   }
-  forRuns(grey, [&](std::size_t pixel, Lanes values, std::size_t count) {
-    const auto steps = __builtin_convertvector(values * float{kGreySteps} + 0.5f, IntLanes);
+  forRuns(grey, [&](std::size_t pixel, Floats8 values, std::size_t count) {
+    const auto steps = __builtin_convertvector(values * float{kGreySteps} + 0.5f, Ints8);
     Greys greys{};
-    for (int i = 0; i < kLanes; ++i) greys[i] = grey_map_[static_cast<std::size_t>(steps[i])];
+    for (std::size_t i = 0; i < kFloatLanes; ++i)
+      greys[i] = grey_map_[static_cast<std::size_t>(steps[i])];
     put(pixel, greys, count);
   });
 }
 
 void ScanConverter::convert(std::span<const float> grey, std::vector<float>& picture) const {
   picture.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), -1.0f);
-  forRuns(grey, [&](std::size_t pixel, Lanes values, std::size_t count) {
+  forRuns(grey, [&](std::size_t pixel, Floats8 values, std::size_t count) {
     std::memcpy(&picture[pixel], &values, count * sizeof(float));
   });
 }

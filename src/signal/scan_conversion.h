@@ -24,11 +24,11 @@ class ScanConverter {
   void convert(std::span<const float> grey, std::vector<float>& picture) const;
 
  private:
-  // Of eight pixels, in the plane the shallower sample of the left line, and the weights of the next line
-  // and of the next sample in parts of 65535. One cache line.
+  // Of eight pixels, in the plane the shallower sample of the left line, and the weights of the
+  // next line and of the next sample in parts of 65535. One cache line.
   struct alignas(64) Block {
-    std::uint32_t sample[kLanes];
-    std::uint16_t across[kLanes], along[kLanes];
+    std::uint32_t sample[kFloatLanes];
+    std::uint16_t across[kFloatLanes], along[kFloatLanes];
   };
   // Pixels beside each other in a row of the picture, and their first block in the table.
   struct Run {

@@ -38,19 +38,19 @@ struct IntervalRows {
 
 // angle with 0 <= tan(angle) < 0.02 by three terms of the arctangent: to 1e-13.
 constexpr double kSmallTangent = 0.02;
-Lanes smallAngle(Lanes tangent) {
-  const Lanes t2 = tangent * tangent;
+Doubles4 smallAngle(Doubles4 tangent) {
+  const Doubles4 t2 = tangent * tangent;
   return tangent * (1 - t2 * (1.0 / 3 - t2 * (1.0 / 5)));
 }
 
 // Between two places on a line at the distance p from the centre, seen from there.
-Lanes anglesBetween(Lanes begin, Lanes end, Lanes p) {
-  const Lanes across = p * (end - begin), along = p * p + begin * end;
-  const Lanes tangent = across / larger(along, kTiny);
-  Lanes angle = smallAngle(tangent);
-  const LaneMask wide = tangent >= kSmallTangent;
+Doubles4 anglesBetween(Doubles4 begin, Doubles4 end, Doubles4 p) {
+  const Doubles4 across = p * (end - begin), along = p * p + begin * end;
+  const Doubles4 tangent = across / larger(along, kTiny);
+  Doubles4 angle = smallAngle(tangent);
+  const Mask4 wide = tangent >= kSmallTangent;
   if (!any(wide)) return angle;
-  for (std::size_t j = 0; j < kLanes; ++j)
+  for (std::size_t j = 0; j < kDoubleLanes; ++j)
     if (wide[j]) angle[j] = std::atan2(across[j], along[j]);
   return angle;
 }
@@ -74,8 +74,8 @@ class CellEchoMaker {
   }
 
   void add(const CellParts& parts, const InterfaceRows& interfaces) {
-    LaneInts most{};
-    for (std::size_t i = 0; i < parts.count; i += kLanes)
+    Ints4 most{};
+    for (std::size_t i = 0; i < parts.count; i += kDoubleLanes)
       most +=
           angular_ ? echoesOf<true>(parts, interfaces, i) : echoesOf<false>(parts, interfaces, i);
     echoes_.reserve(echoes_.count + parts.count +
@@ -100,61 +100,62 @@ class CellEchoMaker {
 
   // As the walk along a line does it: Eq. 1 and the lobe; a membrane echoes twice. Mostly the angle
   // counts in the lobe cos^2 alone, which needs no root.
-  Lanes strengthOf(const CellParts& parts, const InterfaceRows& f, std::size_t i) const {
-    const Lanes to_x = lanesAt(&parts.to_x[i]), to_z = lanesAt(&parts.to_z[i]);
-    const Lanes along = to_x * lanesAt(&parts.normal_x[i]) + to_z * lanesAt(&parts.normal_z[i]);
-    const Lanes squares = (to_x * to_x + to_z * to_z) * lanesAt(&parts.normal_square[i]);
-    const Lanes cos_square = smaller(along * along / squares, 1);
-    const Lanes Z_1 = lanesAt(&f.Z_1[i]), Z_2 = lanesAt(&f.Z_2[i]), r = lanesAt(&f.r[i]);
-    const Lanes n = lanesAt(&f.lobe[i]), passed = lanesAt(&f.passed[i]),
-                membrane = lanesAt(&f.membrane[i]);
-    const auto withSecond = [&](Lanes R) {
+  Doubles4 strengthOf(const CellParts& parts, const InterfaceRows& f, std::size_t i) const {
+    const Doubles4 to_x = lanesAt(&parts.to_x[i]), to_z = lanesAt(&parts.to_z[i]);
+    const Doubles4 along = to_x * lanesAt(&parts.normal_x[i]) + to_z * lanesAt(&parts.normal_z[i]);
+    const Doubles4 squares = (to_x * to_x + to_z * to_z) * lanesAt(&parts.normal_square[i]);
+    const Doubles4 cos_square = smaller(along * along / squares, 1);
+    const Doubles4 Z_1 = lanesAt(&f.Z_1[i]), Z_2 = lanesAt(&f.Z_2[i]), r = lanesAt(&f.r[i]);
+    const Doubles4 n = lanesAt(&f.lobe[i]), passed = lanesAt(&f.passed[i]),
+                   membrane = lanesAt(&f.membrane[i]);
+    const auto withSecond = [&](Doubles4 R) {
       return R + membrane * (settings_.transmission_loss ? (1 - R) * (1 - R) * R : R);
     };
     if (!any((r != 1) | (n != 2)))
       return passed * withSecond(reflectedAtEqualSpeeds(Z_1, Z_2)) * cos_square;
-    const Lanes cos_i = squareRoot(cos_square);
-    Lanes lobe = n == 2 ? cos_square : n == 1 ? cos_i : Lanes{} + 1;
-    for (std::size_t j = 0; any_power_ && j < kLanes; ++j)
+    const Doubles4 cos_i = squareRoot(cos_square);
+    Doubles4 lobe = n == 2 ? cos_square : n == 1 ? cos_i : Doubles4{} + 1;
+    for (std::size_t j = 0; any_power_ && j < kDoubleLanes; ++j)
       if (n[j] != 0 && n[j] != 1 && n[j] != 2) lobe[j] = std::pow(cos_i[j], n[j]);
     return passed * withSecond(reflectedShares(Z_1, Z_2, r, lanesAt(&f.turn[i]), cos_i)) * lobe;
   }
 
   // Fills the rows for four parts; returns how many samples each spans.
   template <bool kAngular>
-  LaneInts echoesOf(const CellParts& parts, const InterfaceRows& f, std::size_t i) {
-    const Lanes a_x = lanesAt(&parts.a_x[i]), a_z = lanesAt(&parts.a_z[i]),
-                b_x = lanesAt(&parts.b_x[i]), b_z = lanesAt(&parts.b_z[i]);
-    const Lanes dx = b_x - a_x, dz = b_z - a_z;
-    const Lanes strength = strengthOf(parts, f, i) * per_width_;
-    Lanes path_a = a_z, path_b = b_z, place_a{}, place_b = dz, p, flat{}, whole, zero_m = -a_z;
+  Ints4 echoesOf(const CellParts& parts, const InterfaceRows& f, std::size_t i) {
+    const Doubles4 a_x = lanesAt(&parts.a_x[i]), a_z = lanesAt(&parts.a_z[i]),
+                   b_x = lanesAt(&parts.b_x[i]), b_z = lanesAt(&parts.b_z[i]);
+    const Doubles4 dx = b_x - a_x, dz = b_z - a_z;
+    const Doubles4 strength = strengthOf(parts, f, i) * per_width_;
+    Doubles4 path_a = a_z, path_b = b_z, place_a{}, place_b = dz, p, flat{}, whole, zero_m = -a_z;
     if constexpr (kAngular) {
       path_a = squareRoot(a_x * a_x + a_z * a_z) - face_radius_m_;
       path_b = squareRoot(b_x * b_x + b_z * b_z) - face_radius_m_;
-      const Lanes size = squareRoot(dx * dx + dz * dz), per_size = 1 / larger(size, kTiny);
+      const Doubles4 size = squareRoot(dx * dx + dz * dz), per_size = 1 / larger(size, kTiny);
       place_a = larger((a_x * dx + a_z * dz) * per_size, 0);
       place_b = place_a + size;
       p = magnitude(a_x * dz - a_z * dx) * per_size;
       whole = anglesBetween(place_a, place_b, p);
-      zero_m = Lanes{} + face_radius_m_;
+      zero_m = Doubles4{} + face_radius_m_;
     } else {
       p = magnitude(dx) / larger(dz, kTiny);
-      flat = dz > kTiny ? Lanes{} : magnitude(dx);
+      flat = dz > kTiny ? Doubles4{} : magnitude(dx);
       whole = magnitude(dx);
     }
-    const Lanes path_m = lanesAt(&f.path_m[i]), path_per_depth = lanesAt(&f.path_per_depth[i]);
-    const Lanes step_m = spacing_m_ * path_per_depth;
-    const Lanes per_path =
-        settings_.travel_time ? per_spacing_ / path_per_depth : Lanes{} + per_spacing_;
-    const Lanes k_pass = (lanesAt(&f.depth_m[i]) - min_depth_m_) * per_spacing_;
-    const Lanes samples = Lanes{} + samples_;
-    const Lanes k_a = clamped(k_pass + (path_a - path_m) * per_path, Lanes{} - 1, samples);
-    const Lanes k_b = clamped(k_pass + (path_b - path_m) * per_path, Lanes{} - 1, samples + 1);
-    const Lanes first = wholeOf(larger(k_a, 0)), below = wholeOf(larger(k_b, 0));
-    const Lanes end = larger(below < k_b ? below + 1 : below, first + 1);
-    const LaneMask seen = masksAt(&f.seen[i]);
-    const LaneMask single = seen & (end == first + 1) & (first <= k_a) & (end >= k_b);
-    const Lanes exponent_step = step_m * lanesAt(&f.exponent_per_path[i]);
+    const Doubles4 path_m = lanesAt(&f.path_m[i]), path_per_depth = lanesAt(&f.path_per_depth[i]);
+    const Doubles4 step_m = spacing_m_ * path_per_depth;
+    const Doubles4 per_path =
+        settings_.travel_time ? per_spacing_ / path_per_depth : Doubles4{} + per_spacing_;
+    const Doubles4 k_pass = (lanesAt(&f.depth_m[i]) - min_depth_m_) * per_spacing_;
+    const Doubles4 samples = Doubles4{} + samples_;
+    const Doubles4 k_a = clamped(k_pass + (path_a - path_m) * per_path, Doubles4{} - 1, samples);
+    const Doubles4 k_b =
+        clamped(k_pass + (path_b - path_m) * per_path, Doubles4{} - 1, samples + 1);
+    const Doubles4 first = wholeOf(larger(k_a, 0)), below = wholeOf(larger(k_b, 0));
+    const Doubles4 end = larger(below < k_b ? below + 1 : below, first + 1);
+    const Mask4 seen = masksAt(&f.seen[i]);
+    const Mask4 single = seen & (end == first + 1) & (first <= k_a) & (end >= k_b);
+    const Doubles4 exponent_step = step_m * lanesAt(&f.exponent_per_path[i]);
     store(strength, &rows_.strength[i]);
     store(strength * whole, &rows_.whole[i]);
     store(k_a, &rows_.k_a[i]);
@@ -167,11 +168,11 @@ class CellEchoMaker {
     store(place_b, &rows_.place_b[i]);
     store(p, &rows_.p[i]);
     store(flat, &rows_.flat[i]);
-    const LaneInts from = __builtin_convertvector(first, LaneInts),
-                   to = __builtin_convertvector(seen ? end : first, LaneInts);
+    const Ints4 from = __builtin_convertvector(first, Ints4),
+                to = __builtin_convertvector(seen ? end : first, Ints4);
     store(from, &rows_.first[i]);
     store(to, &rows_.end[i]);
-    store(-__builtin_convertvector(single, LaneInts), &rows_.single[i]);
+    store(-__builtin_convertvector(single, Ints4), &rows_.single[i]);
     return to - from;
   }
 
@@ -221,27 +222,27 @@ class CellEchoMaker {
 
   // Of the cell, by each interval.
   void takeShares() {
-    for (std::size_t i = 0; i < intervals_.count; i += kLanes) {
-      const Lanes share = angular_ ? anglesOf(i) : widthsOf(i);
+    for (std::size_t i = 0; i < intervals_.count; i += kDoubleLanes) {
+      const Doubles4 share = angular_ ? anglesOf(i) : widthsOf(i);
       store(lanesAt(&intervals_.strength[i]) * share, &echoes_.intensity[echoes_.count + i]);
     }
     echoes_.count += intervals_.count;
     intervals_.count = 0;
   }
-  Lanes anglesOf(std::size_t i) const {
-    const Lanes p = lanesAt(&intervals_.p[i]), place_a = lanesAt(&intervals_.place_a[i]),
-                place_b = lanesAt(&intervals_.place_b[i]);
-    const auto place = [&](Lanes r) {
+  Doubles4 anglesOf(std::size_t i) const {
+    const Doubles4 p = lanesAt(&intervals_.p[i]), place_a = lanesAt(&intervals_.place_a[i]),
+                   place_b = lanesAt(&intervals_.place_b[i]);
+    const auto place = [&](Doubles4 r) {
       return clamped(squareRoot(larger((r - p) * (r + p), 0)), place_a, place_b);
     };
     return anglesBetween(place(lanesAt(&intervals_.begin_m[i])),
                          place(lanesAt(&intervals_.end_m[i])), p);
   }
-  Lanes widthsOf(std::size_t i) const {
-    const Lanes place_a = lanesAt(&intervals_.place_a[i]),
-                place_b = lanesAt(&intervals_.place_b[i]);
-    const Lanes begin = clamped(lanesAt(&intervals_.begin_m[i]), place_a, place_b),
-                end = clamped(lanesAt(&intervals_.end_m[i]), place_a, place_b);
+  Doubles4 widthsOf(std::size_t i) const {
+    const Doubles4 place_a = lanesAt(&intervals_.place_a[i]),
+                   place_b = lanesAt(&intervals_.place_b[i]);
+    const Doubles4 begin = clamped(lanesAt(&intervals_.begin_m[i]), place_a, place_b),
+                   end = clamped(lanesAt(&intervals_.end_m[i]), place_a, place_b);
     return (end - begin) * lanesAt(&intervals_.p[i]) + lanesAt(&intervals_.flat[i]);
   }
 

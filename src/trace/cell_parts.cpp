@@ -12,12 +12,12 @@ constexpr double kTiny = 1e-300;  // instead of 0 in a denominator
 
 // roughAngle() of four points, to kRough.
 constexpr double kRough = 2e-5;  // rad
-Lanes roughAngles(Lanes x, Lanes z) {
-  const Lanes ax = magnitude(x), large = larger(ax, z), small = smaller(ax, z);
-  const Lanes q = small / larger(large, kTiny), q2 = q * q;
-  const Lanes angle =
+Doubles4 roughAngles(Doubles4 x, Doubles4 z) {
+  const Doubles4 ax = magnitude(x), large = larger(ax, z), small = smaller(ax, z);
+  const Doubles4 q = small / larger(large, kTiny), q2 = q * q;
+  const Doubles4 angle =
       q * (0.9998660 + q2 * (-0.3302995 + q2 * (0.1801410 + q2 * (-0.0851330 + q2 * 0.0208351))));
-  const Lanes to_x = ax > z ? std::numbers::pi / 2 - angle : angle;
+  const Doubles4 to_x = ax > z ? std::numbers::pi / 2 - angle : angle;
   return x < 0 ? -to_x : to_x;
 }
 
@@ -72,24 +72,24 @@ void CellCutter::takeEnds() {
 }
 
 // How many boundaries a point has on its left or on it, by and large.
-Lanes CellCutter::placeOf(Lanes x, Lanes z) const {
-  const Lanes place = angular_ ? roughAngles(x, z) : x;
-  return clamped((place - first_) * per_width_ + 1.5, Lanes{}, Lanes{} + (lines_ + 1.0));
+Doubles4 CellCutter::placeOf(Doubles4 x, Doubles4 z) const {
+  const Doubles4 place = angular_ ? roughAngles(x, z) : x;
+  return clamped((place - first_) * per_width_ + 1.5, Doubles4{}, Doubles4{} + (lines_ + 1.0));
 }
 
 // The cells that hold the ends; -1 left of the first and the number of lines right of the last.
 // Only what lies close to a boundary needs the boundary itself.
 void CellCutter::findCells() {
   const auto cells = [&](const double* x, const double* z, std::int32_t* out) {
-    const Lanes place = placeOf(lanesAt(x), lanesAt(z));
-    const LaneInts guess = __builtin_convertvector(place, LaneInts);
-    const LaneInts cell = guess - 1;
+    const Doubles4 place = placeOf(lanesAt(x), lanesAt(z));
+    const Ints4 guess = __builtin_convertvector(place, Ints4);
+    const Ints4 cell = guess - 1;
     store(cell, out);
-    const Lanes beyond = place - __builtin_convertvector(guess, Lanes);
+    const Doubles4 beyond = place - __builtin_convertvector(guess, Doubles4);
     if (!any((beyond < unsure_) | (beyond > 1 - unsure_))) return;
-    for (std::size_t j = 0; j < kLanes; ++j) out[j] = cellOf(x[j], z[j], guess[j]);
+    for (std::size_t j = 0; j < kDoubleLanes; ++j) out[j] = cellOf(x[j], z[j], guess[j]);
   };
-  for (std::size_t i = 0; i < ends_.count; i += kLanes) {
+  for (std::size_t i = 0; i < ends_.count; i += kDoubleLanes) {
     cells(&ends_.a_x[i], &ends_.a_z[i], &ends_.begin[i]);
     cells(&ends_.b_x[i], &ends_.b_z[i], &ends_.end[i]);
   }
@@ -105,7 +105,7 @@ void CellCutter::findCells() {
 }
 
 // How far a point lies to the right of a boundary between cells.
-Lanes CellCutter::rightOf(Lanes x, Lanes z, Lanes sine, Lanes cosine) const {
+Doubles4 CellCutter::rightOf(Doubles4 x, Doubles4 z, Doubles4 sine, Doubles4 cosine) const {
   return angular_ ? x * cosine - z * sine : x - sine;
 }
 double CellCutter::rightOf(double x, double z, int boundary) const {
@@ -161,39 +161,39 @@ void CellCutter::intoCells(CellParts& parts) {
 // is right of the left boundary or b left of the right one, and the clamps leave the end where it
 // is, whichever of both is the more to the right.
 void CellCutter::cutAtBoundaries(CellParts& parts) const {
-  for (std::size_t i = 0; i < parts.count; i += kLanes) {
-    const Lanes a_x = lanesAt(&parts.a_x[i]), a_z = lanesAt(&parts.a_z[i]),
-                b_x = lanesAt(&parts.b_x[i]), b_z = lanesAt(&parts.b_z[i]);
-    const Lanes dx = b_x - a_x, dz = b_z - a_z;
+  for (std::size_t i = 0; i < parts.count; i += kDoubleLanes) {
+    const Doubles4 a_x = lanesAt(&parts.a_x[i]), a_z = lanesAt(&parts.a_z[i]),
+                   b_x = lanesAt(&parts.b_x[i]), b_z = lanesAt(&parts.b_z[i]);
+    const Doubles4 dx = b_x - a_x, dz = b_z - a_z;
     const auto at = [&](const double* sines, const double* cosines) {
-      const Lanes sine = lanesAt(sines), cosine = lanesAt(cosines);
-      const Lanes u_a = rightOf(a_x, a_z, sine, cosine), u_b = rightOf(b_x, b_z, sine, cosine);
-      return clamped(-u_a / larger(u_b - u_a, kTiny), Lanes{}, Lanes{} + 1);
+      const Doubles4 sine = lanesAt(sines), cosine = lanesAt(cosines);
+      const Doubles4 u_a = rightOf(a_x, a_z, sine, cosine), u_b = rightOf(b_x, b_z, sine, cosine);
+      return clamped(-u_a / larger(u_b - u_a, kTiny), Doubles4{}, Doubles4{} + 1);
     };
-    const Lanes s = at(&sides_.left_sine[i], &sides_.left_cosine[i]),
-                t = at(&sides_.right_sine[i], &sides_.right_cosine[i]);
-    const LaneMask whole = t >= 1;
-    const Lanes from_x = a_x + s * dx, from_z = a_z + s * dz;
-    const Lanes end_x = whole ? b_x : a_x + t * dx, end_z = whole ? b_z : a_z + t * dz;
-    const Lanes part_x = end_x - from_x, part_z = end_z - from_z;
-    const Lanes outward = angular_ ? from_x * part_x + from_z * part_z : part_z;
-    const LaneMask inward = outward < 0;
+    const Doubles4 s = at(&sides_.left_sine[i], &sides_.left_cosine[i]),
+                   t = at(&sides_.right_sine[i], &sides_.right_cosine[i]);
+    const Mask4 whole = t >= 1;
+    const Doubles4 from_x = a_x + s * dx, from_z = a_z + s * dz;
+    const Doubles4 end_x = whole ? b_x : a_x + t * dx, end_z = whole ? b_z : a_z + t * dz;
+    const Doubles4 part_x = end_x - from_x, part_z = end_z - from_z;
+    const Doubles4 outward = angular_ ? from_x * part_x + from_z * part_z : part_z;
+    const Mask4 inward = outward < 0;
     store(inward ? end_x : from_x, &parts.a_x[i]);
     store(inward ? end_z : from_z, &parts.a_z[i]);
     store(inward ? from_x : end_x, &parts.b_x[i]);
     store(inward ? from_z : end_z, &parts.b_z[i]);
-    LaneMask turns{};
-    Lanes to_x{}, to_z = Lanes{} + 1;
+    Mask4 turns{};
+    Doubles4 to_x{}, to_z = Doubles4{} + 1;
     if (angular_) {
       turns = inward & (-outward < part_x * part_x + part_z * part_z);
-      const Lanes x = (from_x + end_x) / 2, z = (from_z + end_z) / 2;
-      const LaneMask apart = (x != 0) | (z != 0);  // from the centre
+      const Doubles4 x = (from_x + end_x) / 2, z = (from_z + end_z) / 2;
+      const Mask4 apart = (x != 0) | (z != 0);  // from the centre
       to_x = apart ? x : to_x;
       to_z = apart ? z : to_z;
     }
     store(to_x, &parts.to_x[i]);
     store(to_z, &parts.to_z[i]);
-    const LaneMask entering =
+    const Mask4 entering =
         to_x * lanesAt(&parts.normal_x[i]) + to_z * lanesAt(&parts.normal_z[i]) < 0;
     store(entering, &parts.entering[i]);
     store(turns, &parts.turns[i]);

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/lanes.h"
 #include "geometry/plane_slice.h"
-#include "trace/lanes.h"
 
 namespace echocine {
 
@@ -62,11 +62,11 @@ class CellCutter {
 
   void takeEnds();
   void findCells();
-  Lanes placeOf(Lanes x, Lanes z) const;
+  Doubles4 placeOf(Doubles4 x, Doubles4 z) const;
   double rightOf(double x, double z, int boundary) const;
   int cellOf(double x, double z, int guess) const;
   void intoCells(CellParts& parts);
-  Lanes rightOf(Lanes x, Lanes z, Lanes sine, Lanes cosine) const;
+  Doubles4 rightOf(Doubles4 x, Doubles4 z, Doubles4 sine, Doubles4 cosine) const;
   void cutAtBoundaries(CellParts& parts) const;
 
   std::span<const ContourPiece> pieces_;

@@ -1,7 +1,7 @@
 #pragma once
 // The laws of interface_law.h for four interfaces at once.
 
-#include "trace/lanes.h"
+#include "core/lanes.h"
 
 namespace echocine {
 
@@ -17,26 +17,28 @@ inline SpeedRatio speedRatio(double c_1, double c_2) {
 }
 
 // InterfaceLaw::R of media with equal speeds, at every angle.
-inline Lanes reflectedAtEqualSpeeds(Lanes Z_1, Lanes Z_2) {
-  const Lanes ratio = (Z_2 - Z_1) / (Z_2 + Z_1);
+inline Doubles4 reflectedAtEqualSpeeds(Doubles4 Z_1, Doubles4 Z_2) {
+  const Doubles4 ratio = (Z_2 - Z_1) / (Z_2 + Z_1);
   return ratio * ratio;
 }
 
 // InterfaceLaw::R of any media, to rounding. r, turn: their SpeedRatio; cos_i: 0..1. Both the plain
 // difference a - b and that of nearly equal media, by Z and by c as amplitudeDifference() takes it,
 // stand here times cos_i + cos_t, so that one division is enough.
-inline Lanes reflectedShares(Lanes Z_1, Lanes Z_2, Lanes r, Lanes turn, Lanes cos_i) {
-  const Lanes cos_t_squared = turn + r * r * cos_i * cos_i;
-  const Lanes cos_t = smaller(squareRoot(larger(cos_t_squared, 0)), 1);
-  const Lanes a = Z_2 * cos_i, b = Z_1 * cos_t, cosines = cos_i + cos_t;
-  const Lanes sum = (a + b) * cosines;
-  const Lanes by_Z = (Z_2 - Z_1) * cos_i * cosines, by_c = -Z_1 * turn * (1 - cos_i) * (1 + cos_i);
-  const Lanes difference =
+inline Doubles4 reflectedShares(Doubles4 Z_1, Doubles4 Z_2, Doubles4 r, Doubles4 turn,
+                                Doubles4 cos_i) {
+  const Doubles4 cos_t_squared = turn + r * r * cos_i * cos_i;
+  const Doubles4 cos_t = smaller(squareRoot(larger(cos_t_squared, 0)), 1);
+  const Doubles4 a = Z_2 * cos_i, b = Z_1 * cos_t, cosines = cos_i + cos_t;
+  const Doubles4 sum = (a + b) * cosines;
+  const Doubles4 by_Z = (Z_2 - Z_1) * cos_i * cosines,
+                 by_c = -Z_1 * turn * (1 - cos_i) * (1 + cos_i);
+  const Doubles4 difference =
       magnitude(by_Z) + magnitude(by_c) < sum ? by_Z + by_c : (a - b) * cosines;
-  const LaneMask any_angle = sum > 0;  // else both cosines are 0
-  const Lanes ratio = (any_angle ? difference : Z_2 - Z_1) / (any_angle ? sum : Z_2 + Z_1);
-  const LaneMask total = (cos_t_squared <= 0) & (r > 1);
-  return total ? Lanes{} + 1 : ratio * ratio;
+  const Mask4 any_angle = sum > 0;  // else both cosines are 0
+  const Doubles4 ratio = (any_angle ? difference : Z_2 - Z_1) / (any_angle ? sum : Z_2 + Z_1);
+  const Mask4 total = (cos_t_squared <= 0) & (r > 1);
+  return total ? Doubles4{} + 1 : ratio * ratio;
 }
 
 }  // namespace echocine

@@ -7,16 +7,13 @@
 #include <cstring>
 #include <numbers>
 
-#include "trace/lanes.h"
+#include "core/lanes.h"
 
 namespace echocine {
 
 namespace {
 
-constexpr int kBlock = 8;
-// Eight samples at once, in the vector extension that GCC and Clang share: both compilers unroll
-// the plain loop over a block before they would vectorise it.
-using Block = float __attribute__((vector_size(kBlock * sizeof(float))));
+constexpr int kBlock = kFloatLanes;  // of samples
 
 // First sample whose centre is at or beyond a depth, within 0..samples.
 int sampleFrom(const Sampling& s, double depth_m) {
@@ -33,7 +30,7 @@ double perPowerOfTwo(double x) {
 // Powers of what one sample's attenuation leaves: of the first samples of a block, and of all.
 struct SamplePowers {
   double exponent_per_m = 0;
-  Block within = Block{} + 1;
+  Floats8 within = Floats8{} + 1;
   double block = 1;
 };
 
@@ -83,20 +80,20 @@ void fillStretch(const Stretch& stretch, const Sampling& s, PowerTable& table, i
     strength *= unit * unit;
   }
   double block_factor = 1;
-  Block power{};
+  Floats8 power{};
   if constexpr (kAttenuation) {
     strength *= std::exp(-(stretch.begin_exponent + stretch.exponent_per_m * offset_m));
     const SamplePowers& powers = table.of(stretch.exponent_per_m);
     block_factor = powers.block;
     power = powers.within;
   }
-  Block path_offset{};
+  Floats8 path_offset{};
   for (int j = 0; j < kBlock; ++j) path_offset[j] = static_cast<float>(path_step * j);
   for (int k = begin; k < end; k += kBlock) {
-    Block value = Block{} + static_cast<float>(strength);
+    Floats8 value = Floats8{} + static_cast<float>(strength);
     if constexpr (kAttenuation) value *= power;
     if constexpr (kSpread) {
-      const Block l = path_offset + static_cast<float>(path_m);
+      const Floats8 l = path_offset + static_cast<float>(path_m);
       value /= l * l;
     }
     if (k + kBlock <= s.samples)
@@ -161,18 +158,18 @@ namespace {
 // e^-x of x >= 0, to 3e-13; x beyond 700 counts as 700, which leaves nothing of a float either.
 // -x is n ln 2 + r: n is rounded to a whole number by adding a number whose last digit is 1, e^r is
 // its power series up to the tenth power, by pairs, so that few steps wait for each other.
-Lanes expOfMinus(Lanes x) {
+Doubles4 expOfMinus(Doubles4 x) {
   constexpr double kWhole = 0x1.8p52;
   constexpr double kLog2High = 0x1.62e42feep-1, kLog2Low = 0x1.a39ef35793c76p-33;
-  const Lanes y = -smaller(x, 700);
-  const Lanes shifted = y * std::numbers::log2e + kWhole, n = shifted - kWhole;
-  const Lanes r = (y - n * kLog2High) - n * kLog2Low, r2 = r * r, r4 = r2 * r2;
-  const Lanes low = (1 + r) + r2 * (1.0 / 2 + r * (1.0 / 6));
-  const Lanes middle = (1.0 / 24 + r * (1.0 / 120)) + r2 * (1.0 / 720 + r * (1.0 / 5040));
-  const Lanes high = (1.0 / 40320 + r * (1.0 / 362880)) + r2 * (1.0 / 3628800);
-  const Lanes series = low + r4 * (middle + r4 * high);
-  return reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(series) +
-                                 (reinterpret_cast<LaneMask>(shifted) << 52));
+  const Doubles4 y = -smaller(x, 700);
+  const Doubles4 shifted = y * std::numbers::log2e + kWhole, n = shifted - kWhole;
+  const Doubles4 r = (y - n * kLog2High) - n * kLog2Low, r2 = r * r, r4 = r2 * r2;
+  const Doubles4 low = (1 + r) + r2 * (1.0 / 2 + r * (1.0 / 6));
+  const Doubles4 middle = (1.0 / 24 + r * (1.0 / 120)) + r2 * (1.0 / 720 + r * (1.0 / 5040));
+  const Doubles4 high = (1.0 / 40320 + r * (1.0 / 362880)) + r2 * (1.0 / 3628800);
+  const Doubles4 series = low + r4 * (middle + r4 * high);
+  return reinterpret_cast<Doubles4>(reinterpret_cast<Mask4>(series) +
+                                    (reinterpret_cast<Mask4>(shifted) << 52));
 }
 
 }  // namespace
@@ -180,12 +177,12 @@ Lanes expOfMinus(Lanes x) {
 void addToSamples(const CellEchoes& echoes, const IntensityParts& parts, std::span<float> plane) {
   if (!parts.reflection) return;
   constexpr std::size_t kTogether = 64;
-  static_assert(kTogether % kLanes == 0);
+  static_assert(kTogether % kDoubleLanes == 0);
   std::array<double, kTogether> values;
   for (std::size_t first = 0; first < echoes.count; first += kTogether) {
     const std::size_t count = std::min(kTogether, echoes.count - first);
-    for (std::size_t j = 0; j < count; j += kLanes) {
-      Lanes value = lanesAt(&echoes.intensity[first + j]);
+    for (std::size_t j = 0; j < count; j += kDoubleLanes) {
+      Doubles4 value = lanesAt(&echoes.intensity[first + j]);
       if (parts.attenuation) value *= expOfMinus(lanesAt(&echoes.exponent[first + j]));
       store(value, &values[j]);
     }

@@ -181,11 +181,11 @@ TEST(InterfaceLaw, AgreesWithLongDoubleUlpByUlpAroundTheCriticalAngle) {
 // The same law for four interfaces at once, here four of one kind.
 void expectLanesAgree(const Pair& p, double cos_i) {
   const Exact e = exactly(p, cos_i);
-  const auto four = [](double a) { return Lanes{} + a; };
+  const auto four = [](double a) { return Doubles4{} + a; };
   const SpeedRatio speeds = speedRatio(p.c_1, p.c_2);
-  const Lanes R =
+  const Doubles4 R =
       reflectedShares(four(p.Z_1), four(p.Z_2), four(speeds.r), four(speeds.turn), four(cos_i));
-  for (std::size_t j = 0; j < kLanes; ++j) {
+  for (std::size_t j = 0; j < kDoubleLanes; ++j) {
     EXPECT_NEAR(R[j], static_cast<double>(e.R), tolerance(p, cos_i, e)) << p.Z_2 << ' ' << cos_i;
     EXPECT_TRUE(R[j] >= 0 && R[j] <= 1);
   }
@@ -207,7 +207,7 @@ TEST(InterfaceLaw, OfFourInterfacesAtOnceAgreesWithLongDouble) {
 TEST(InterfaceLaw, OfFourInterfacesOfNearlyEqualMediaKeepsItsDigits) {
   for (const double cos_i : {0.1, 0.5, 1.0}) {
     const double Z_1 = 1.6e6, Z_2 = Z_1 * (1 + 1e-9), c_1 = 1540, c_2 = c_1 * (1 + 1e-10);
-    const auto four = [](double a) { return Lanes{} + a; };
+    const auto four = [](double a) { return Doubles4{} + a; };
     const SpeedRatio speeds = speedRatio(c_1, c_2);
     const double R = interfaceLaw(Z_1, c_1, Z_2, c_2, cos_i).R;
     EXPECT_NEAR(

@@ -181,15 +181,15 @@ TEST(CrossingRule, NothingBehindOrAtTheStartIsCrossed) {
 
 // What four lanes say of one triangle is what the rule for one says, to the last bit.
 void expectLanesAgree(const RayPlanes& ray, const std::array<std::array<Vec3f, 3>, 4>& four) {
-  std::array<Vec3<FloatLanes>, 3> corners;
-  for (std::size_t lane = 0; lane < kRuleLanes; ++lane)
+  std::array<Vec3<Floats4>, 3> corners;
+  for (std::size_t lane = 0; lane < kDoubleLanes; ++lane)
     for (std::size_t c = 0; c < 3; ++c) {
       corners[c].x[lane] = four[lane][c].x;
       corners[c].y[lane] = four[lane][c].y;
       corners[c].z[lane] = four[lane][c].z;
     }
   const LaneCrossings met = crossTriangles(ray, corners);
-  for (std::size_t lane = 0; lane < kRuleLanes; ++lane) {
+  for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) {
     const auto& [p0, p1, p2] = four[lane];
     const auto one = crossTriangle(ray, p0, p1, p2, SurfaceId{0}, 0);
     ASSERT_EQ(met.crossed[lane] != 0, one.has_value());
