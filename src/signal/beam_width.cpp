@@ -1,9 +1,10 @@
 #include "signal/beam_width.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
+#include <limits>
 
 #include "core/lanes.h"
 #include "core/parallel.h"
@@ -15,14 +16,10 @@ namespace {
 // Samples that go through all lines together. A line's share is a few cache lines in one page, and
 // the sums of a usual window's lines stay in the first-level cache.
 constexpr int kBlock = 256;
-// Taken in double, since both may hold a bright echo.
-Floats8 differenceAt(const double* a, const double* b) {
-  using Sums = double __attribute__((vector_size(kFloatLanes * sizeof(double))));
-  Sums of_a, of_b;
-  std::memcpy(&of_a, a, sizeof of_a);
-  std::memcpy(&of_b, b, sizeof of_b);
-  return __builtin_convertvector(of_a - of_b, Floats8);
-}
+// From row to row: rows a power of two apart would share cache sets.
+constexpr std::size_t kRow = kBlock + 16;
+// Vectors that go through a loop together: their sums do not wait for each other.
+constexpr int kTogether = 4;
 
 // A box `width` samples wide around a sample's centre: whole samples inside it weigh 1, its ends
 // their part.
@@ -83,21 +80,34 @@ void BeamAverage::prepareLateral(const std::vector<double>& half_width_lines) {
 
 struct BeamAverage::Workspace {
   std::vector<float> padded;  // a line's part of the block with what the pulse reaches beside it
-  // The block's averages along the lines that windows reach, and the sums over all lines before
-  // each of them: line i stands in row i modulo rows, a power of two. Sums in double: a bright echo
+  // Of the lines that windows reach, the sums of 2^level lines from a line on, averaged along: line
+  // i stands in row i modulo rows, a power of two. Nothing is ever taken away, so a bright echo
   // leaves nothing behind in the blood beside it.
-  std::vector<float> along;
-  std::vector<double> sums;
+  std::vector<float> sums;
   std::size_t rows = 0;
+  int levels = 0;
   std::vector<float> no_line = std::vector<float>(kBlock + kFloatLanes, 0.0f);
-  std::vector<double> no_sum = std::vector<double>(kBlock + kFloatLanes, 0.0);
 
-  void reserve(int lines) {
+  // For windows of up to `whole` whole lines that reach over `lines`.
+  void reserve(int lines, int whole) {
     rows = std::bit_ceil(static_cast<std::size_t>(lines));
-    along.resize(rows * kBlock + kFloatLanes);
-    sums.resize(rows * kBlock + kFloatLanes);
+    levels = std::max(static_cast<int>(std::bit_width(static_cast<unsigned>(whole))), 1);
+    sums.resize(static_cast<std::size_t>(levels) * rows * kRow + kFloatLanes);
   }
-  std::size_t row(int line) const { return (static_cast<std::size_t>(line) & (rows - 1)) * kBlock; }
+  float* row(int level, int line) {
+    const std::size_t of_level = static_cast<std::size_t>(line) & (rows - 1);
+    return sums.data() + (static_cast<std::size_t>(level) * rows + of_level) * kRow;
+  }
+  // When line i has come to level 0.
+  void addUp(int i) {
+    for (int level = 1, half = 1; level < levels && i + 1 >= 2 * half; ++level, half *= 2) {
+      const float* first = row(level - 1, i + 1 - 2 * half);
+      const float* second = row(level - 1, i + 1 - half);
+      float* both = row(level, i + 1 - 2 * half);
+      for (int s = 0; s < kBlock; s += kFloatLanes)
+        store(lanesAt(first + s) + lanesAt(second + s), both + s);
+    }
+  }
 };
 
 // The block's samples of a line, averaged over the pulse. Beyond the line's ends there is nothing.
@@ -119,7 +129,6 @@ void BeamAverage::averageAlong(const float* line, int first, int count, Workspac
   const float* scale = tap_sum_inverse_.data() + first;  // filled up to whole blocks
   const std::size_t last = taps_.size() - 1;
   const float end_tap = taps_.front();  // of both ends; those between weigh 1
-  constexpr int kTogether = 4;
   for (int s = 0; s < count; s += kTogether * kFloatLanes) {
     Floats8 sum[kTogether];
     for (int v = 0; v < kTogether; ++v)
@@ -132,66 +141,100 @@ void BeamAverage::averageAlong(const float* line, int first, int count, Workspac
   }
 }
 
-// Means over the lines between i + 1/2 - h and i + 1/2 + h, cut at the first and last line: the
-// whole lines between the two at the ends, from the running sums, and of these two their parts.
-void BeamAverage::averageAcross(int i, const Run& run, int block_first, const Workspace& w,
+namespace {
+
+// What a window adds up: whole lines, as sums of powers of two of them, and parts of the two at its
+// ends.
+struct Window {
+  const float *below, *part_below, *above, *part_above, *scale;
+  std::array<const float*, std::numeric_limits<int>::digits> whole;
+  int count = 0;  // of these
+
+  template <int kVectors>
+  void mean(int s, Floats8 (&sum)[kVectors]) const {
+    for (int v = 0; v < kVectors; ++v) {
+      const int at = s + v * static_cast<int>(kFloatLanes);
+      sum[v] = lanesAt(part_below + at) * lanesAt(below + at) +
+               lanesAt(part_above + at) * lanesAt(above + at);
+    }
+    for (int j = 0; j < count; ++j)
+      for (int v = 0; v < kVectors; ++v) sum[v] += lanesAt(whole[j] + s + v * kFloatLanes);
+    for (int v = 0; v < kVectors; ++v) sum[v] *= lanesAt(scale + s + v * kFloatLanes);
+  }
+
+  void means(int samples, float* out) const {
+    int s = 0;
+    for (Floats8 sum[kTogether]; s + kTogether * int{kFloatLanes} <= samples;
+         s += kTogether * kFloatLanes) {
+      mean(s, sum);
+      for (int v = 0; v < kTogether; ++v) store(sum[v], out + s + v * kFloatLanes);
+    }
+    for (Floats8 sum[1]; s < samples; s += kFloatLanes) {
+      mean(s, sum);
+      storeSome(sum[0], static_cast<std::size_t>(samples - s), out + s);
+    }
+  }
+};
+
+}  // namespace
+
+// Means over the lines between i + 1/2 - h and i + 1/2 + h, cut at the first and last line.
+void BeamAverage::averageAcross(int i, const Run& run, int block_first, Workspace& w,
                                 float* out) const {
   const bool cut_below = i + run.below < 0, cut_above = i + run.above >= lines_;
   const int lane = run.first - block_first, count = run.last - run.first;
-  const double* before = (cut_below ? w.no_sum.data() : &w.sums[w.row(i + run.below + 1)]) + lane;
-  const double* after = &w.sums[w.row(cut_above ? lines_ : i + run.above)] + lane;
-  const float* below = (cut_below ? w.no_line.data() : &w.along[w.row(i + run.below)]) + lane;
-  const float* above = (cut_above ? w.no_line.data() : &w.along[w.row(i + run.above)]) + lane;
-  const float* scale = scale_.data() + run.first;
+  Window window{(cut_below ? w.no_line.data() : w.row(0, i + run.below)) + lane,
+                part_below_.data() + run.first,
+                (cut_above ? w.no_line.data() : w.row(0, i + run.above)) + lane,
+                part_above_.data() + run.first,
+                scale_.data() + run.first,
+                {}};
+  int line = std::max(i + run.below + 1, 0);
+  for (int left = std::min(i + run.above, lines_) - line; left > 0;) {
+    const int level = std::bit_width(static_cast<unsigned>(left)) - 1;
+    window.whole[static_cast<std::size_t>(window.count++)] = w.row(level, line) + lane;
+    line += 1 << level;
+    left -= 1 << level;
+  }
   float cut_scale[kBlock + kFloatLanes];
   if (cut_below || cut_above) {
     const double* half = half_.data() + run.first;
     for (int s = 0; s < count; ++s)
       cut_scale[s] = static_cast<float>(
           1 / ((cut_above ? lines_ : i + 0.5 + half[s]) - (cut_below ? 0 : i + 0.5 - half[s])));
-    scale = cut_scale;
+    window.scale = cut_scale;
   }
-  const float* part_below = part_below_.data() + run.first;
-  const float* part_above = part_above_.data() + run.first;
-  for (int s = 0; s < count; s += kFloatLanes) {
-    const Floats8 sum = differenceAt(after + s, before + s) +
-                        lanesAt(part_below + s) * lanesAt(below + s) +
-                        lanesAt(part_above + s) * lanesAt(above + s);
-    storeSome(sum * lanesAt(scale + s), static_cast<std::size_t>(count - s), out + s);
-  }
+  window.means(count, out);
 }
 
 void BeamAverage::averageBlock(const float* in, float* out, int first, int count,
                                Workspace& w) const {
   if (runs_.empty()) {
-    w.reserve(1);
+    w.reserve(1, 1);
     for (int i = 0; i < lines_; ++i, in += samples_, out += samples_) {
-      averageAlong(in, first, count, w, w.along.data());
-      std::copy_n(w.along.begin(), count, out + first);
+      averageAlong(in, first, count, w, w.row(0, 0));
+      std::copy_n(w.row(0, 0), count, out + first);
     }
     return;
   }
   const auto reaches = [&](int k, const Run& run) { return k < run.first; };
   const auto begin = std::upper_bound(runs_.begin(), runs_.end(), first, reaches) - 1;
   const auto end = std::upper_bound(runs_.begin(), runs_.end(), first + count - 1, reaches);
-  int below = 0, above = 0;
+  int below = 0, above = 0, whole = 0;
   for (auto run = begin; run != end; ++run) {
     below = std::min(below, run->below);
     above = std::max(above, run->above);
+    whole = std::max(whole, std::min(run->above - run->below - 1, lines_));
   }
-  w.reserve(std::min(above - below, lines_) + 2);
-  std::fill_n(w.sums.begin(), kBlock, 0.0);
+  w.reserve(std::min(above - below, lines_) + 2, whole);
   // Line i is averaged along when it comes, and across once the lines its windows reach are there.
   for (int i = 0; i < lines_ + above; ++i) {
     if (i < lines_) {
-      float* along = &w.along[w.row(i)];
       // Lines are pages apart, which no processor foresees.
       const float* soon = in + std::ptrdiff_t{std::min(i + 2, lines_ - 1)} * samples_ + first;
       for (int s = 0; s < count; s += 16) __builtin_prefetch(soon + s);
-      averageAlong(in + std::ptrdiff_t{i} * samples_, first, count, w, along);
-      const double* before = &w.sums[w.row(i)];
-      double* after = &w.sums[w.row(i + 1)];
-      for (int s = 0; s < kBlock; ++s) after[s] = before[s] + static_cast<double>(along[s]);
+      averageAlong(in + std::ptrdiff_t{i} * samples_, first, count, w, w.row(0, i));
+      w.addUp(i);
     }
     const int done = i - above;
     if (done < 0) continue;

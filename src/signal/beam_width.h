@@ -27,8 +27,7 @@ class BeamAverage {
   struct Workspace;
   void prepareLateral(const std::vector<double>& half_width_lines);
   void averageAlong(const float* line, int first, int count, Workspace& w, float* out) const;
-  void averageAcross(int line, const Run& run, int block_first, const Workspace& w,
-                     float* out) const;
+  void averageAcross(int line, const Run& run, int block_first, Workspace& w, float* out) const;
   void averageBlock(const float* in, float* out, int first, int count, Workspace& w) const;
 
   int lines_ = 0, samples_ = 0;
