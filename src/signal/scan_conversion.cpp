@@ -15,6 +15,10 @@ namespace {
 constexpr int kGreySteps = 4096;  // of the grey map: sixteen per grey level
 constexpr float kWhole = 65535;   // a weight of 1: the next step of 16 bits errs by under 1e-5
 
+// Pixels of a strip that is made from top to bottom: what it reads of the lines stays in the
+// first-level cache from row to row.
+constexpr int kStrip = 64;
+
 using Greys = std::uint8_t __attribute__((vector_size(kFloatLanes)));
 
 struct Area {
@@ -86,15 +90,17 @@ ScanConverter::ScanConverter(const Probe& probe, const PictureGeometry& geometry
       height_(height),
       next_line_(probe.lines > 1 ? static_cast<std::size_t>(std::max(probe.samples, 2)) : 0),
       single_sample_(probe.samples == 1) {
-  for (int y = 0; y < height; ++y) addRow(probe, geometry, y);
+  for (int x = 0; x < width; x += kStrip)
+    for (int y = 0; y < height; ++y) addRow(probe, geometry, x, std::min(x + kStrip, width), y);
   for (int i = 0; grey_gamma != 1 && i <= kGreySteps; ++i)
     grey_map_.push_back(static_cast<std::uint8_t>(
         std::lround(255 * std::pow(static_cast<double>(i) / kGreySteps, grey_gamma))));
 }
 
-void ScanConverter::addRow(const Probe& probe, const PictureGeometry& geometry, int y) {
+void ScanConverter::addRow(const Probe& probe, const PictureGeometry& geometry, int begin, int end,
+                           int y) {
   bool inside = false;
-  for (int x = 0; x < width_; ++x) {
+  for (int x = begin; x < end; ++x) {
     const std::optional<BeamPosition> beam =
         beamPosition(probe, (x + 0.5 - geometry.origin_x_px) * geometry.metres_per_pixel,
                      (y + 0.5 - geometry.origin_y_px) * geometry.metres_per_pixel);
@@ -114,15 +120,17 @@ void ScanConverter::addRow(const Probe& probe, const PictureGeometry& geometry, 
 
 void ScanConverter::setEntry(const Probe& probe, double line, double path_m, Block& block,
                              int lane) {
-  const auto split = [](double position, int count, std::uint16_t& weight) {
+  const auto split = [](double position, int count, std::uint32_t& weight) {
     const double inside = std::clamp(position, 0.0, count - 1.0);
     const double whole = std::min(std::floor(inside), std::max(count - 2.0, 0.0));
-    weight = static_cast<std::uint16_t>(std::lround(kWhole * (inside - whole)));
+    weight = static_cast<std::uint32_t>(std::lround(kWhole * (inside - whole)));
     return static_cast<std::uint32_t>(whole);
   };
-  const std::uint32_t left = split(line, probe.lines, block.across[lane]);
+  std::uint32_t across = 0, along = 0;
+  const std::uint32_t left = split(line, probe.lines, across);
   const double sample = (path_m - probe.min_depth_m) / probe.sampleSpacing() - 0.5;
-  const std::uint32_t above = split(sample, probe.samples, block.along[lane]);
+  const std::uint32_t above = split(sample, probe.samples, along);
+  block.weights[lane] = across << 16 | along;
   block.sample[lane] = left * static_cast<std::uint32_t>(std::max(probe.samples, 2)) + above;
 }
 
@@ -146,11 +154,19 @@ Neighbours neighbours(const float* plane, const std::uint32_t* places) {
           __builtin_shufflevector(a, b, 1, 3, 9, 11, 5, 7, 13, 15)};
 }
 
-Floats8 weights(const std::uint16_t* parts) {
-  using Parts = std::uint16_t __attribute__((vector_size(kFloatLanes * sizeof(std::uint16_t))));
-  Parts eight;
-  std::memcpy(&eight, parts, sizeof eight);
-  return __builtin_convertvector(__builtin_convertvector(eight, Ints8), Floats8) * (1 / kWhole);
+// Weights of both directions, 16 bits each.
+struct Weights {
+  Floats8 across, along;
+};
+
+Weights weights(const std::uint32_t* parts) {
+  Ints8 both;
+  std::memcpy(&both, parts, sizeof both);
+  const auto share = [](Ints8 part) {
+    return __builtin_convertvector(part, Floats8) * (1 / kWhole);
+  };
+  using Unsigned = std::uint32_t __attribute__((vector_size(sizeof(Ints8))));
+  return {share(std::bit_cast<Ints8>(std::bit_cast<Unsigned>(both) >> 16)), share(both & 0xffff)};
 }
 
 // Steps of 0..255. A conversion would take them one by one.
@@ -174,13 +190,13 @@ void ScanConverter::forRuns(std::span<const float> grey, const Put& put) const {
   for (const Run& run : runs_) {
     const Block* block = &blocks_[run.block];
     for (std::size_t i = 0; i < run.count; i += kFloatLanes, ++block) {
+      __builtin_prefetch(block + 32);  // the table is read through once a picture
       const Neighbours l = neighbours(left, block->sample);
       const Neighbours r = neighbours(right, block->sample);
-      const Floats8 along = weights(block->along);
-      const Floats8 a = l.first + along * (l.second - l.first);
-      const Floats8 b = r.first + along * (r.second - r.first);
-      put(run.pixel + i, a + weights(block->across) * (b - a),
-          std::min<std::size_t>(kFloatLanes, run.count - i));
+      const Weights w = weights(block->weights);
+      const Floats8 a = l.first + w.along * (l.second - l.first);
+      const Floats8 b = r.first + w.along * (r.second - r.first);
+      put(run.pixel + i, a + w.across * (b - a), std::min<std::size_t>(kFloatLanes, run.count - i));
     }
   }
 }

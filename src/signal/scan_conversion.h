@@ -24,17 +24,18 @@ class ScanConverter {
   void convert(std::span<const float> grey, std::vector<float>& picture) const;
 
  private:
-  // Of eight pixels, in the plane the shallower sample of the left line, and the weights of the
-  // next line and of the next sample in parts of 65535. One cache line.
+  // Of eight pixels, in the plane the shallower sample of the left line, and in parts of 65535 the
+  // weight of the next line in the upper 16 bits and that of the next sample in the lower. One
+  // cache line.
   struct alignas(64) Block {
-    std::uint32_t sample[kFloatLanes];
-    std::uint16_t across[kFloatLanes], along[kFloatLanes];
+    std::uint32_t sample[kFloatLanes], weights[kFloatLanes];
   };
-  // Pixels beside each other in a row of the picture, and their first block in the table.
+  // Pixels beside each other in a row of a strip, and their first block in the table.
   struct Run {
     std::size_t pixel, count, block;
   };
-  void addRow(const Probe& probe, const PictureGeometry& geometry, int y);
+  // Row y of the strip with the columns begin to end - 1.
+  void addRow(const Probe& probe, const PictureGeometry& geometry, int begin, int end, int y);
   static void setEntry(const Probe& probe, double line, double path_m, Block& block, int lane);
   template <typename Put>
   void forRuns(std::span<const float> grey, const Put& put) const;

@@ -63,7 +63,7 @@ void discrepancy(benchmark::State& state) {
       [&](std::size_t) { benchmark::DoNotOptimize(edges(part)); });
 }
 
-BENCHMARK(discrepancy)->UseManualTime()->Iterations(8)->Unit(benchmark::kMillisecond);
+BENCHMARK(discrepancy)->UseManualTime()->Iterations(4)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace echocine::bench

@@ -20,7 +20,7 @@ namespace echocine::bench {
 namespace {
 
 constexpr float kReference = 1e-6f, kRange_db = 60;
-constexpr int kRounds = 50;
+constexpr int kRounds = 20;
 
 // The floors of all stages one after the other.
 class BareFrame {

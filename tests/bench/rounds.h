@@ -28,7 +28,7 @@ double millisecondsOf(Work&& work) {
 
 // Frames of a loop that are made together: each finds in the caches what the one before it left, as
 // in a run of the program, and not what it is compared with.
-inline constexpr std::size_t kTogether = 8;
+inline constexpr std::size_t kTogether = 24;
 
 template <typename Work>
 double millisecondsOfEach(std::size_t round, Work&& work) {

@@ -264,12 +264,12 @@ void rounds(benchmark::internal::Benchmark* b, int count) {
 }
 void bySize(benchmark::internal::Benchmark* b) {
   for (const int triangles : {5000, 50000, 500000}) b->Args({triangles, 256, 1024});
-  rounds(b, 24);
+  rounds(b, 12);
 }
 void byPlane(benchmark::internal::Benchmark* b) {
   for (const int lines : {128, 256, 512})
     for (const int samples : {512, 1024, 2048}) b->Args({5000, lines, samples});
-  rounds(b, 24);
+  rounds(b, 12);
 }
 void byBoth(benchmark::internal::Benchmark* b) {
   bySize(b);
@@ -285,10 +285,10 @@ BENCHMARK_CAPTURE(trace, cells, true)->Apply(byBoth);
 BENCHMARK(beamAverage)->Apply(byPlane);
 BENCHMARK(logCompression)->Apply(byPlane);
 BENCHMARK(scanConversion)->Apply(byPlane);
-BENCHMARK(exr)->Apply(byPlane)->Iterations(8);
+BENCHMARK(exr)->Apply(byPlane)->Iterations(3);
 BENCHMARK(jpeg)->Apply(byPlane);
 BENCHMARK(exrKinds)->ArgsProduct({{0, 1, 2, 3, 4, 5}, {0, 1}})->Apply([](auto* b) {
-  rounds(b, 2);
+  rounds(b, 1);
 });
 BENCHMARK_CAPTURE(hierarchy, straight, false)->Apply(bySize);
 BENCHMARK_CAPTURE(hierarchy, refraction, true)->Apply(bySize);
