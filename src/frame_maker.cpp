@@ -49,10 +49,10 @@ std::shared_ptr<Workspace> FrameMaker::workspace() {
   }
   if (!space && plan_.slice)
     space = std::make_unique<Workspace>(
-        Workspace{{}, PlaneSlice(motion_.surfaces(), scene_.probe, plan_.left_out), {}, {}});
+        Workspace{{}, PlaneSlice(motion_.surfaces(), scene_.probe, plan_.left_out), {}});
   if (!space)
     space = std::make_unique<Workspace>(
-        Workspace{{}, FrameGeometry(motion_.surfaces(), plan_.left_out), {}, {}});
+        Workspace{{}, FrameGeometry(motion_.surfaces(), plan_.left_out), {}});
   return {space.release(), [this](Workspace* used) {
             const std::lock_guard lock(mutex_);
             free_.emplace_back(used);
@@ -121,7 +121,7 @@ Volumes FrameMaker::traceLines(const FrameTime& time, Workspace& w) {
 
 void FrameMaker::process(const FrameTime& time, Workspace& w) {
   if (!request_.signal) return;
-  clock_.time(Stage::signal, [&] { chain_.process(w.polar, w.scratch); });
+  clock_.time(Stage::signal, [&] { chain_.process(w.polar); });
   refuseUnusable(time.phase, w.polar);
 }
 

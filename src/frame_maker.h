@@ -48,7 +48,6 @@ struct Workspace {
   SurfaceFrame surfaces;
   std::variant<PlaneSlice, FrameGeometry> geometry;  // whichever the plan's tracer needs
   PolarFrame polar;
-  std::vector<float> scratch;
   GreyImage image{};
 };
 

@@ -110,32 +110,66 @@ struct BeamAverage::Workspace {
   }
 };
 
-// The block's samples of a line, averaged over the pulse. Beyond the line's ends there is nothing.
-void BeamAverage::averageAlong(const float* line, int first, int count, Workspace& w,
-                               float* out) const {
-  const int reach = static_cast<int>(taps_.size()) / 2;
-  const int begin = first - reach, end = first + kBlock + reach;
-  const float* in = line + begin;
-  if (begin < 0 || end > samples_) {
-    w.padded.assign(static_cast<std::size_t>(end - begin), 0.0f);
-    const int from = std::max(begin, 0), to = std::min(end, samples_);
-    std::copy(line + from, line + to, w.padded.begin() + (from - begin));
-    in = w.padded.data();
+// What the pulse reaches over the borders between blocks, as it was before any block was averaged
+// in place: for each border and line `reach` samples before it and `reach` behind it, 0 beyond the
+// line's end.
+struct BeamAverage::Borders {
+  std::vector<float> samples;
+  std::size_t lines = 0, reach = 0;
+
+  const float* at(int border_sample, int line) const {
+    const auto border = static_cast<std::size_t>(border_sample / kBlock - 1);
+    return samples.data() + (border * lines + static_cast<std::size_t>(line)) * 2 * reach;
   }
+};
+
+BeamAverage::Borders BeamAverage::bordersOf(const std::vector<float>& plane) const {
+  const int reach = static_cast<int>(taps_.size()) / 2;
+  Borders borders{{}, static_cast<std::size_t>(lines_), static_cast<std::size_t>(reach)};
+  const int count = reach > 0 ? (samples_ - 1) / kBlock : 0;
+  borders.samples.resize(static_cast<std::size_t>(count) * borders.lines * 2 * borders.reach);
+  float* to = borders.samples.data();
+  for (int at = kBlock; at <= count * kBlock; at += kBlock)
+    for (int line = 0; line < lines_; ++line, to += 2 * reach) {
+      const float* of_line = plane.data() + std::ptrdiff_t{line} * samples_;
+      const int from = std::max(at - reach, 0), end = std::min(at + reach, samples_);
+      std::copy(of_line + from, of_line + end, to + (from - (at - reach)));
+    }
+  return borders;
+}
+
+// The block's samples of a line, averaged over the pulse. Beyond the line's ends there is nothing.
+void BeamAverage::averageAlong(const float* plane, int line, int first, int count,
+                               const Borders& borders, Workspace& w) const {
+  const float* own = plane + std::ptrdiff_t{line} * samples_ + first;
+  float* out = w.row(0, line);
   if (taps_.empty()) {
-    std::copy_n(in, kBlock, out);
+    std::copy_n(own, count, out);
     return;
   }
   const float* scale = tap_sum_inverse_.data() + first;  // filled up to whole blocks
+  const int reach = static_cast<int>(borders.reach), width = kTogether * int{kFloatLanes};
   const std::size_t last = taps_.size() - 1;
   const float end_tap = taps_.front();  // of both ends; those between weigh 1
-  for (int s = 0; s < count; s += kTogether * kFloatLanes) {
+  for (int s = 0; s < count; s += width) {
+    const float* in = own + s - reach;
+    if (s < reach || s + width + reach > count) {  // what this block does not hold
+      w.padded.assign(static_cast<std::size_t>(width + 2 * reach), 0.0f);
+      float* const padded = w.padded.data() - (s - reach);
+      if (s < reach && first > 0)
+        std::copy_n(borders.at(first, line) + s, reach - s, padded + s - reach);
+      std::copy(own + std::max(s - reach, 0), own + std::min(s + width + reach, count),
+                padded + std::max(s - reach, 0));
+      if (s + width + reach > count && first + count < samples_)
+        std::copy_n(borders.at(first + count, line) + reach, s + width + reach - count,
+                    padded + count);
+      in = w.padded.data();
+    }
     Floats8 sum[kTogether];
     for (int v = 0; v < kTogether; ++v)
-      sum[v] =
-          end_tap * (lanesAt(in + s + v * kFloatLanes) + lanesAt(in + s + v * kFloatLanes + last));
+      sum[v] = end_tap * (lanesAt(in + v * kFloatLanes) + lanesAt(in + v * kFloatLanes + last));
     for (std::size_t j = 1; j < last; ++j)
-      for (int v = 0; v < kTogether; ++v) sum[v] += lanesAt(in + s + v * kFloatLanes + j);
+      for (int v = 0; v < kTogether; ++v) sum[v] += lanesAt(in + v * kFloatLanes + j);
     for (int v = 0; v < kTogether; ++v)
       store(sum[v] * lanesAt(scale + s + v * kFloatLanes), out + s + v * kFloatLanes);
   }
@@ -207,13 +241,16 @@ void BeamAverage::averageAcross(int i, const Run& run, int block_first, Workspac
   window.means(count, out);
 }
 
-void BeamAverage::averageBlock(const float* in, float* out, int first, int count,
+void BeamAverage::averageBlock(float* plane, int first, int count, const Borders& borders,
                                Workspace& w) const {
+  const auto place = [&](int line, int sample) {
+    return plane + std::ptrdiff_t{line} * samples_ + sample;
+  };
   if (runs_.empty()) {
     w.reserve(1, 1);
-    for (int i = 0; i < lines_; ++i, in += samples_, out += samples_) {
-      averageAlong(in, first, count, w, w.row(0, 0));
-      std::copy_n(w.row(0, 0), count, out + first);
+    for (int i = 0; i < lines_; ++i) {
+      averageAlong(plane, i, first, count, borders, w);
+      std::copy_n(w.row(0, i), count, place(i, first));
     }
     return;
   }
@@ -227,32 +264,32 @@ void BeamAverage::averageBlock(const float* in, float* out, int first, int count
     whole = std::max(whole, std::min(run->above - run->below - 1, lines_));
   }
   w.reserve(std::min(above - below, lines_) + 2, whole);
-  // Line i is averaged along when it comes, and across once the lines its windows reach are there.
+  // Line i is averaged along when it comes, and across once the lines its windows reach are there:
+  // no other then needs it as it was.
   for (int i = 0; i < lines_ + above; ++i) {
     if (i < lines_) {
       // Lines are pages apart, which no processor foresees.
-      const float* soon = in + std::ptrdiff_t{std::min(i + 2, lines_ - 1)} * samples_ + first;
+      const float* soon = place(std::min(i + 2, lines_ - 1), first);
       for (int s = 0; s < count; s += 16) __builtin_prefetch(soon + s);
-      averageAlong(in + std::ptrdiff_t{i} * samples_, first, count, w, w.row(0, i));
+      averageAlong(plane, i, first, count, borders, w);
       w.addUp(i);
     }
     const int done = i - above;
     if (done < 0) continue;
     for (auto run = begin; run != end; ++run)
-      averageAcross(done, *run, first, w, out + std::ptrdiff_t{done} * samples_ + run->first);
+      averageAcross(done, *run, first, w, place(done, run->first));
   }
 }
 
-void BeamAverage::apply(std::vector<float>& plane, std::vector<float>& scratch) const {
+void BeamAverage::apply(std::vector<float>& plane) const {
   if (taps_.empty() && runs_.empty()) return;
-  scratch.resize(plane.size());
+  const Borders borders = bordersOf(plane);
   parallelBlocks(static_cast<std::size_t>(samples_), kBlock,
                  [&](std::size_t begin, std::size_t end) {
                    thread_local Workspace workspace;
-                   averageBlock(plane.data(), scratch.data(), static_cast<int>(begin),
-                                static_cast<int>(end - begin), workspace);
+                   averageBlock(plane.data(), static_cast<int>(begin),
+                                static_cast<int>(end - begin), borders, workspace);
                  });
-  plane.swap(scratch);
 }
 
 }  // namespace echocine

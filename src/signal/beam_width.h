@@ -13,10 +13,10 @@ class BeamAverage {
  public:
   BeamAverage(const Probe& probe, const SignalSettings& settings);
 
-  // Averages a line-major plane; `scratch` is exchanged with it. Windows end at the image's edges
-  // and keep their mean there: a constant plane stays constant. The work is shared among threads;
-  // the result does not depend on them.
-  void apply(std::vector<float>& plane, std::vector<float>& scratch) const;
+  // Averages a line-major plane in place. Windows end at the image's edges and keep their mean
+  // there: a constant plane stays constant. The work is shared among threads; the result does not
+  // depend on them.
+  void apply(std::vector<float>& plane) const;
 
  private:
   // Samples first..last-1, neighbours in one block, whose windows end in the same lines: those of
@@ -25,10 +25,13 @@ class BeamAverage {
     int first, last, below, above;
   };
   struct Workspace;
+  struct Borders;
+  Borders bordersOf(const std::vector<float>& plane) const;
   void prepareLateral(const std::vector<double>& half_width_lines);
-  void averageAlong(const float* line, int first, int count, Workspace& w, float* out) const;
+  void averageAlong(const float* plane, int line, int first, int count, const Borders& borders,
+                    Workspace& w) const;
   void averageAcross(int line, const Run& run, int block_first, Workspace& w, float* out) const;
-  void averageBlock(const float* in, float* out, int first, int count, Workspace& w) const;
+  void averageBlock(float* plane, int first, int count, const Borders& borders, Workspace& w) const;
 
   int lines_ = 0, samples_ = 0;
   std::vector<float> taps_;             // axial weights, centre in the middle; empty: none

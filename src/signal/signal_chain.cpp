@@ -16,9 +16,9 @@ SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
   if (settings_.tgc == Tgc::table) gains_ = timeGains(settings_.tgc_table, scene.probe);
 }
 
-void SignalChain::process(PolarFrame& frame, std::vector<float>& scratch) const {
+void SignalChain::process(PolarFrame& frame) const {
   if (!gains_.empty()) applyTimeGains(gains_, frame.signal);
-  if (beam_) beam_->apply(frame.signal, scratch);
+  if (beam_) beam_->apply(frame.signal);
 }
 
 void SignalChain::compress(PolarFrame& frame, double reference_intensity) const {

@@ -21,7 +21,7 @@ class SignalChain {
   const PictureGeometry& geometry() const { return geometry_; }
 
   // Time gain and beam width, in place on frame.signal: intensities as they are compressed.
-  void process(PolarFrame& frame, std::vector<float>& scratch) const;
+  void process(PolarFrame& frame) const;
 
   // Log compression in place on frame.signal: from processed intensities to grey 0..1 in beam
   // space.

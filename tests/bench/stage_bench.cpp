@@ -98,9 +98,9 @@ void beamAverage(benchmark::State& state) {
   Traced t{Size(state)};
   BareAverage bare(t.scene.scene);
   const BeamAverage ours(t.scene.scene.probe, t.scene.scene.signal);
-  std::vector<float> plane = t.polar.signal, bare_plane = plane, scratch;
+  std::vector<float> plane = t.polar.signal, bare_plane = plane;
   overFloor(
-      state, [&](std::size_t) { ours.apply(plane, scratch); },
+      state, [&](std::size_t) { ours.apply(plane); },
       [&](std::size_t) { bare.run(bare_plane); });
 }
 

@@ -80,8 +80,7 @@ TEST(SmallestImages, GoThroughTheWholeSignalChain) {
           const World world = ballWorld(kind, lines, samples);
           PolarFrame polar = traceWorld(world, tracer);
           const SignalChain chain(world.scene, planEffects(world.scene));
-          std::vector<float> scratch;
-          chain.process(polar, scratch);
+          chain.process(polar);
           chain.compress(polar, 1e-6);
           for (const float grey : polar.signal) EXPECT_TRUE(grey >= 0 && grey <= 1) << grey;
           GreyImage image;

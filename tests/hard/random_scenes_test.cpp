@@ -123,8 +123,7 @@ void expectCellEchoes(const World& world, const PolarFrame& polar) {
 // the reference: the loop's percentile has tests of its own and costs more than all the rest here.
 void expectPicture(const World& world, const EffectPlan& plan, PolarFrame& polar) {
   const SignalChain chain(world.scene, plan);
-  std::vector<float> scratch;
-  chain.process(polar, scratch);
+  chain.process(polar);
   EXPECT_EQ(unusable(polar.signal), 0u) << "after the signal chain";
   const double brightest = *std::max_element(polar.signal.begin(), polar.signal.end());
   chain.compress(polar, brightest > 0 ? brightest : 1);

@@ -300,8 +300,7 @@ TEST(BeamAverageLaw, TheFilterAgreesWithTheRaysOnASmoothWallAtTheFocus) {
   const auto shown = [&](int rays) {
     const EffectPlan plan = beamPlan(world.scene, rays, true, false);
     PolarFrame polar = traceWorld(world, plan, Tracer::embree);
-    std::vector<float> scratch;
-    SignalChain(world.scene, plan).process(polar, scratch);
+    SignalChain(world.scene, plan).process(polar);
     return polar.signal;
   };
   const std::vector<float> filtered = shown(1), rays = shown(256);

@@ -39,8 +39,7 @@ SignalSettings averaging(double width_mm, double pulse_cycles) {
 
 std::vector<float> averaged(const Probe& probe, const SignalSettings& settings,
                             std::vector<float> plane) {
-  std::vector<float> scratch;
-  BeamAverage(probe, settings).apply(plane, scratch);
+  BeamAverage(probe, settings).apply(plane);
   return plane;
 }
 
