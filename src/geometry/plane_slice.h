@@ -30,7 +30,8 @@ Vec3d unitNormal(const ContourPiece& piece);
 // What every scan line meets, as RayCrossings for each line.
 class PlaneSlice {
  public:
-  // Surfaces in `left_out` are in no frame's slice. Precondition: `surfaces` outlives the slice.
+  // Surfaces in `left_out` are in no frame's slice. Preconditions: `surfaces` outlives the slice;
+  // where they know their triangles near the plane, frames are of the motion that these are of.
   PlaneSlice(const std::vector<SurfaceTopology>& surfaces, const Probe& probe,
              const InsideSet& left_out = {});
 
