@@ -14,6 +14,7 @@ inline constexpr std::size_t kFloatLanes = 8, kDoubleLanes = 4;
 
 using Floats8 = float __attribute__((vector_size(32)));
 using Ints8 = std::int32_t __attribute__((vector_size(32)));
+using Uints8 = std::uint32_t __attribute__((vector_size(32)));
 using Doubles4 = double __attribute__((vector_size(32)));
 using Mask4 = std::int64_t __attribute__((vector_size(32)));  // -1 where true, else 0
 using Ints4 = std::int32_t __attribute__((vector_size(16)));
@@ -56,6 +57,8 @@ inline void storeSome(Floats8 lanes, std::size_t count, float* to) {
   else
     std::memcpy(to, &lanes, count * sizeof(float));
 }
+
+inline constexpr double kTiny = 1e-300;  // instead of 0 in a denominator
 
 inline Doubles4 larger(Doubles4 a, Doubles4 b) {
   return a > b ? a : b;

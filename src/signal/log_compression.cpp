@@ -27,11 +27,11 @@ class Compression {
   }
 
   Floats8 grey(Floats8 intensity) const {
-    constexpr std::int32_t kRootHalf = 0x3f3504f3;  // bits of sqrt(1/2)
+    constexpr std::uint32_t kRootHalf = 0x3f3504f3;  // bits of sqrt(1/2)
     constexpr float kSmallest = std::numeric_limits<float>::min();
-    const auto bits = std::bit_cast<Ints8>(intensity);
-    const Ints8 e = (bits - kRootHalf) >> 23;
-    const auto m = std::bit_cast<Floats8>(bits - (e << 23));
+    const auto bits = std::bit_cast<Uints8>(intensity);
+    const Ints8 e = std::bit_cast<Ints8>(bits - kRootHalf) >> 23;
+    const auto m = std::bit_cast<Floats8>(bits - (std::bit_cast<Uints8>(e) << 23));
     const Floats8 s = (m - 1) / (m + 1);
     const Floats8 s2 = s * s;
     const Floats8 value =

@@ -165,8 +165,7 @@ Weights weights(const std::uint32_t* parts) {
   const auto share = [](Ints8 part) {
     return __builtin_convertvector(part, Floats8) * (1 / kWhole);
   };
-  using Unsigned = std::uint32_t __attribute__((vector_size(sizeof(Ints8))));
-  return {share(std::bit_cast<Ints8>(std::bit_cast<Unsigned>(both) >> 16)), share(both & 0xffff)};
+  return {share(std::bit_cast<Ints8>(std::bit_cast<Uints8>(both) >> 16)), share(both & 0xffff)};
 }
 
 // Steps of 0..255. A conversion would take them one by one.

@@ -10,8 +10,7 @@ namespace echocine {
 
 namespace {
 
-constexpr double kTiny = 1e-300;  // instead of 0 in a denominator
-constexpr double kFar_m = 1e9;    // beyond every image
+constexpr double kFar_m = 1e9;  // beyond every image
 
 // What parts send back, and where. Along a part `place` grows from place_a to place_b: the distance
 // from the foot of the perpendicular from the centre; of a linear probe the depth from a.

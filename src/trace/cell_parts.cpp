@@ -8,8 +8,6 @@ namespace echocine {
 
 namespace {
 
-constexpr double kTiny = 1e-300;  // instead of 0 in a denominator
-
 // roughAngle() of four points, to kRough.
 constexpr double kRough = 2e-5;  // rad
 Doubles4 roughAngles(Doubles4 x, Doubles4 z) {
@@ -59,7 +57,9 @@ void CellCutter::takeEnds() {
     Vec3d a = pieces_[taken_].cut.from, b = pieces_[taken_].cut.to;
     if (a.z < 0 || b.z < 0) {
       if (a.z < 0 && b.z < 0) continue;
-      (a.z < 0 ? a : b) = {a.x + (b.x - a.x) * (a.z / (a.z - b.z)), 0, 0};
+      Vec3d& behind = a.z < 0 ? a : b;
+      behind.x = a.x + (b.x - a.x) * (a.z / (a.z - b.z));
+      behind.z = 0;
     }
     ends_.a_x[n] = a.x;
     ends_.a_z[n] = a.z;
