@@ -129,7 +129,7 @@ void throwOnError(const char* doing) {
 // none, while over several meshes it builds one anew for each frame, which takes longer than to
 // refit 50 000 triangles and stops the program where triangles have shrunk to a point. In return
 // surfaces that slide against each other after the first frame loosen the boxes: measured on nested
-// balls, rays take up to a fifth longer after 1 cm and up to twice as long after 3 cm. Numbers of
+// balls, rays take up to a quarter longer after 1 cm and up to twice as long after 3 cm. Numbers of
 // that mesh's triangles are called places.
 struct FrameGeometry::State {
   const std::vector<SurfaceTopology>& surfaces;

@@ -1,15 +1,17 @@
 #include "study/cost_model.h"
 
+#include <cmath>
+
 namespace echocine {
 
 double modelledCost_ms(const Scene& scene, const LoopPlan& plan, const WorkCounts& work,
                        std::size_t vertices) {
-  // Nanoseconds each. A vertex: interpolated, refined, its height taken; its normal; refitted in
-  // the hierarchy. A facet on the plane: integrated over the cell, or cut alone. A straight piece
-  // of ray through the hierarchy takes longer in finer meshes. A sample: filled, averaged,
-  // compressed, written. A pixel: scan-converted, encoded.
-  constexpr double kVertex = 30, kNormal = 15, kRefit = 90, kCell = 130, kCut = 20, kCrossing = 150,
-                   kRayPerTriangle = 1, kSample = 30, kPixel = 4;
+  // Nanoseconds each. A vertex: interpolated, refined, part of a volume; its normal; refitted in
+  // the hierarchy. A facet on the plane: cut alone, or integrated over the cell too. A straight
+  // piece of ray goes down the levels of the hierarchy. A sample: filled, averaged, compressed,
+  // written. A pixel: scan-converted, encoded.
+  constexpr double kVertex = 15, kNormal = 15, kRefit = 20, kCell = 150, kCut = 70, kCrossing = 50,
+                   kRayPerLevel = 60, kSample = 11, kPixel = 3;
   const double v = static_cast<double>(vertices);
   const double samples = static_cast<double>(scene.probe.lines) * scene.probe.samples;
   const double pixels = static_cast<double>(scene.output.width) * scene.output.height;
@@ -19,8 +21,8 @@ double modelledCost_ms(const Scene& scene, const LoopPlan& plan, const WorkCount
   if (plan.slice)
     ns += (plan.cell_echoes ? kCell : kCut) * static_cast<double>(work.facets_sliced);
   else
-    ns += kRefit * v + kRayPerTriangle * static_cast<double>(work.rays) *
-                           static_cast<double>(plan.triangles_kept);
+    ns += kRefit * v + kRayPerLevel * static_cast<double>(work.rays) *
+                           std::log2(1.0 + static_cast<double>(plan.triangles_kept));
   return 1e-6 * ns;
 }
 
