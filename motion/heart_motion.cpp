@@ -155,11 +155,8 @@ void HeartMotion::MovingSurface::frameAt(double phase, std::vector<Vec3f>& posit
 std::vector<NumberedTriangle> HeartMotion::MovingSurface::nearPlane(
     const SurfaceTopology& topology) const {
   HeightRanges heights;
-  std::vector<Vec3f> positions_m, normals;
-  for (const double phase : control.weights.phases()) {
-    frameAt(phase, positions_m, &normals);
-    heights.add(positions_m);
-  }
+  for (std::size_t k = 0; k < control.weights.keyframeCount(); ++k) heights.add(control.rows_m[k]);
+  if (subdivision) heights.refine(*subdivision);
   return heights.nearPlane(topology.triangles, control.weights.overshoot());
 }
 

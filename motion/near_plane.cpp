@@ -2,15 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace echocine {
 
 void HeightRanges::add(std::span<const Vec3f> positions_m) {
-  ranges_m_.resize(positions_m.size());
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  ranges_m_.resize(positions_m.size(), {kFar, -kFar, 0});
   for (std::size_t v = 0; v < positions_m.size(); ++v) {
     const float y = positions_m[v].y;
-    ranges_m_[v] = {std::min(ranges_m_[v].lo, y), std::max(ranges_m_[v].hi, y)};
+    ranges_m_[v] = {std::min(ranges_m_[v].x, y), std::max(ranges_m_[v].y, y), 0};
   }
+}
+
+void HeightRanges::refine(const Subdivision& subdivision) {
+  std::vector<Vec3f> refined(subdivision.vertexCount());
+  subdivision.apply(ranges_m_, refined);
+  ranges_m_ = std::move(refined);
 }
 
 std::vector<NumberedTriangle> HeightRanges::nearPlane(std::span<const Triangle> triangles,
@@ -19,17 +28,17 @@ std::vector<NumberedTriangle> HeightRanges::nearPlane(std::span<const Triangle> 
   // times what a hundred roundings can add up to.
   constexpr float kRounding = 1e-4f;
   float largest_m = 0;
-  for (const Range& r : ranges_m_)
-    largest_m = std::max({largest_m, std::abs(r.lo), std::abs(r.hi)});
+  for (const auto& [lo, hi, none] : ranges_m_)
+    largest_m = std::max({largest_m, std::abs(lo), std::abs(hi)});
   const auto beyond = static_cast<float>(overshoot);
   std::vector<NumberedTriangle> near;
   for (std::uint32_t number = 0; number < triangles.size(); ++number) {
     bool above = false, below = false;
     for (const std::uint32_t v : triangles[number]) {
-      const Range& r = ranges_m_[v];
-      const float widen = beyond * (r.hi - r.lo) + kRounding * largest_m;
-      above |= r.hi + widen >= 0;
-      below |= r.lo - widen <= 0;
+      const auto& [lo, hi, none] = ranges_m_[v];
+      const float widen = beyond * (hi - lo) + kRounding * largest_m;
+      above |= hi + widen >= 0;
+      below |= lo - widen <= 0;
     }
     if (above && below) near.push_back({triangles[number], number});
   }

@@ -1,10 +1,10 @@
 #pragma once
 // Which triangles of a moving surface the imaging plane can reach at all.
 
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "motion/subdivision.h"
 #include "motion/surface_frame.h"
 
 namespace echocine {
@@ -15,17 +15,18 @@ class HeightRanges {
   // The vertices at a keyframe, always equally many.
   void add(std::span<const Vec3f> positions_m);
 
+  // Takes the vertices for control vertices and goes on to the refined ones. These are means of
+  // control vertices, weighted by the same numbers from 0 up in every frame, and so are their
+  // bounds.
+  void refine(const Subdivision& subdivision);
+
   // In ascending order at least all triangles that have corners on both sides of the plane at any
-  // phase. overshoot: KeyframeWeights::overshoot(). What is linear in the keyframes, as subdivision
-  // is, may stand in their place.
+  // phase. overshoot: KeyframeWeights::overshoot().
   std::vector<NumberedTriangle> nearPlane(std::span<const Triangle> triangles,
                                           double overshoot) const;
 
  private:
-  struct Range {
-    float lo = std::numeric_limits<float>::infinity(), hi = -lo;
-  };
-  std::vector<Range> ranges_m_;  // by vertex
+  std::vector<Vec3f> ranges_m_;  // by vertex: x the lowest, y the highest
 };
 
 }  // namespace echocine

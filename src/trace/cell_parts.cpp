@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/rough_angle.h"
+
 namespace echocine {
 
 namespace {
@@ -12,9 +14,7 @@ namespace {
 constexpr double kRough = 2e-5;  // rad
 Doubles4 roughAngles(Doubles4 x, Doubles4 z) {
   const Doubles4 ax = magnitude(x), large = larger(ax, z), small = smaller(ax, z);
-  const Doubles4 q = small / larger(large, kTiny), q2 = q * q;
-  const Doubles4 angle =
-      q * (0.9998660 + q2 * (-0.3302995 + q2 * (0.1801410 + q2 * (-0.0851330 + q2 * 0.0208351))));
+  const Doubles4 angle = roughArctangent(small / larger(large, kTiny));
   const Doubles4 to_x = ax > z ? std::numbers::pi / 2 - angle : angle;
   return x < 0 ? -to_x : to_x;
 }
