@@ -1,29 +1,20 @@
 #include "geometry/frame_geometry.h"
 
-#include <embree3/rtcore.h>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "core/box.h"
 #include "core/check.h"
-#include "core/error.h"
-#include "core/library_threads.h"
-#include "core/parallel.h"
 #include "geometry/crossing_rule.h"
+#include "geometry/embree_mesh.h"
 #include "geometry/line_states.h"
 #include "geometry/smooth_normal.h"
 
 namespace echocine {
 
 namespace {
-
-constexpr std::size_t kPacket = 16;
 
 // Four positions at a time, which are three vectors.
 Box boxOf(const std::vector<Vec3f>& positions) {
@@ -49,80 +40,6 @@ Box boxOf(const std::vector<Vec3f>& positions) {
   return box;
 }
 
-// Embree's context with the place where the filter puts what it is shown.
-struct CollectContext {
-  RTCIntersectContext base;  // first member: Embree hands a pointer to it back
-  std::array<std::vector<std::uint32_t>, kPacket>* found = nullptr;  // triangles of Embree's mesh
-};
-
-// Notes every triangle that Embree reports and rejects it, so that the ray goes on to the next.
-// Which rays hit cannot be foretold, so they are gathered without a branch first.
-void collectHit(const RTCFilterFunctionNArguments* arguments) {
-  auto& found = *reinterpret_cast<CollectContext*>(arguments->context)->found;
-  const unsigned count = arguments->N;
-  int* const valid = arguments->valid;
-  unsigned hits = 0;
-  for (unsigned i = 0; i < count; ++i) hits |= static_cast<unsigned>(valid[i] & 1) << i;
-  for (; hits != 0; hits &= hits - 1) {
-    const auto i = static_cast<unsigned>(std::countr_zero(hits));
-    found[RTCRayN_id(arguments->ray, count, i)].push_back(RTCHitN_primID(arguments->hit, count, i));
-    valid[i] = 0;
-  }
-}
-
-// A coordinate of the origin for Embree's ray. Along an axis that the ray does not move on, Embree
-// takes boxes that end exactly at the ray for missed, on one side. The crossing rule counts what
-// lies exactly at the ray as above it, as if the ray were the least bit lower: so must Embree's ray
-// be, where rounding has not already put it there.
-float originForEmbree(double origin, double direction) {
-  const auto rounded = static_cast<float>(origin);
-  if (direction != 0 || static_cast<double>(rounded) < origin) return rounded;
-  // Far below any coordinate that is not 0, far above what Embree's reciprocal of 0 (1e18) loses.
-  constexpr float kBelowZero = -1e-15f;
-  return rounded == 0 ? kBelowZero
-                      : std::nextafter(rounded, -std::numeric_limits<float>::infinity());
-}
-
-RTCRayHit16 packetOf(std::span<const RayQuery> rays) {
-  RTCRayHit16 packet;
-  std::memset(&packet, 0, sizeof packet);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Vec3d o = rays[i].ray.origin, direction = rays[i].ray.direction;
-    const Vec3f d = toFloat(direction);
-    packet.ray.org_x[i] = originForEmbree(o.x, direction.x);
-    packet.ray.org_y[i] = originForEmbree(o.y, direction.y);
-    packet.ray.org_z[i] = originForEmbree(o.z, direction.z);
-    packet.ray.dir_x[i] = d.x;
-    packet.ray.dir_y[i] = d.y;
-    packet.ray.dir_z[i] = d.z;
-    packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
-    packet.ray.mask[i] = 0xffffffffu;
-    packet.ray.id[i] = static_cast<unsigned>(i);
-    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-  }
-  return packet;
-}
-
-struct DeviceHandle {
-  RTCDevice device = rtcNewDevice(fmt::format("threads={}", libraryThreads()).c_str());
-  ~DeviceHandle() { rtcReleaseDevice(device); }
-};
-
-// One device for the program: it holds no state of a frame.
-RTCDevice sharedDevice() {
-  static const DeviceHandle handle;
-  return handle.device;
-}
-
-void throwOnError(const char* doing) {
-  const RTCError error = rtcGetDeviceError(sharedDevice());
-  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-  if (error != RTC_ERROR_NONE)
-    throw JobError(
-        fmt::format("Embree failed while {} (error {})", doing, static_cast<int>(error)));
-}
-
 }  // namespace
 
 // All surfaces stand one after the other in one mesh: Embree then refits one hierarchy and builds
@@ -133,25 +50,17 @@ void throwOnError(const char* doing) {
 // that mesh's triangles are called places.
 struct FrameGeometry::State {
   const std::vector<SurfaceTopology>& surfaces;
-  RTCScene scene = nullptr;
-  RTCGeometry mesh = nullptr;
-  Vec3f* vertices = nullptr;                             // Embree's own buffers
-  Triangle* triangles = nullptr;                         // by place
   std::vector<std::uint32_t> first_vertex, first_place;  // by surface; absent ones have none
   std::vector<std::uint8_t> surface_at;                  // by place
   std::vector<std::vector<Vec3f>> normals;               // smooth ones, if the frame has any
   std::vector<Box> boxes;
   InsideSet membranes, absent;
-  bool held = false;  // a frame was taken over: still surfaces are in place
+  EmbreeMesh mesh;
+  Vec3f* vertices = nullptr;      // the mesh's own
+  Triangle* triangles = nullptr;  // by place
+  bool held = false;              // a frame was taken over: still surfaces are in place
 
   State(const std::vector<SurfaceTopology>& topology, const InsideSet& left_out);
-  ~State() {
-    rtcReleaseGeometry(mesh);
-    rtcReleaseScene(scene);
-  }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-
   std::uint32_t countPlaces();
   void fillTriangles();
   Crossing crossingAt(std::uint32_t place) const;
@@ -172,25 +81,11 @@ struct FrameGeometry::State {
 FrameGeometry::State::State(const std::vector<SurfaceTopology>& topology, const InsideSet& left_out)
     : surfaces(topology), boxes(topology.size()), absent(left_out) {
   CHECK_LE(topology.size(), kMaxSurfaces);
-  scene = rtcNewScene(sharedDevice());
-  rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(
-                              RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST |
-                              RTC_SCENE_FLAG_COMPACT | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-  // Only in scenes of low quality does Embree refit instead of building everything anew.
-  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
-  mesh = rtcNewGeometry(sharedDevice(), RTC_GEOMETRY_TYPE_TRIANGLE);
-  rtcSetGeometryBuildQuality(mesh, RTC_BUILD_QUALITY_REFIT);
   const std::uint32_t vertex_count = countPlaces();
-  if (!surface_at.empty()) {
-    vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
-        mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), vertex_count));
-    triangles = static_cast<Triangle*>(rtcSetNewGeometryBuffer(
-        mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), surface_at.size()));
-    throwOnError("reserving memory for the meshes");
-    fillTriangles();
-    rtcAttachGeometry(scene, mesh);
-  }
-  throwOnError("building the scene");
+  mesh.reserve(vertex_count, surface_at.size());
+  vertices = mesh.vertices();
+  triangles = mesh.triangles();
+  fillTriangles();
 }
 
 // Where each surface starts in the mesh; returns how many vertices it has.
@@ -379,13 +274,7 @@ void FrameGeometry::update(const SurfaceFrame& frame) {
     if (!frame.normals.empty()) s.normals[i] = frame.normals[i];
   }
   s.held = true;
-  if (s.vertices) {
-    rtcUpdateGeometryBuffer(s.mesh, RTC_BUFFER_TYPE_VERTEX, 0);
-    rtcCommitGeometry(s.mesh);
-  }
-  // Embree waits for its own tasks here; outside work must not be taken up meanwhile.
-  isolated([&] { rtcCommitScene(s.scene); });
-  throwOnError("updating the hierarchy");
+  s.mesh.refit();
 }
 
 InsideSet FrameGeometry::insideAt(Vec3d point) const {
@@ -405,20 +294,8 @@ InsideSet FrameGeometry::insideAt(Vec3d point) const {
 }
 
 void FrameGeometry::crossings(std::span<const RayQuery> rays, std::span<RayCrossings> out) const {
-  DCHECK_LE(rays.size(), kPacket);
-  thread_local std::array<std::vector<std::uint32_t>, kPacket> found;
-  for (std::size_t i = 0; i < rays.size(); ++i) found[i].clear();
-
-  CollectContext context;
-  rtcInitIntersectContext(&context.base);
-  context.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  context.base.filter = collectHit;
-  context.found = &found;
-  alignas(64) std::array<int, kPacket> valid{};
-  std::fill_n(valid.begin(), rays.size(), -1);
-  alignas(64) RTCRayHit16 packet = packetOf(rays);
-  rtcIntersect16(valid.data(), state_->scene, &context.base, &packet);
-
+  thread_local EmbreeMesh::Candidates found;
+  state_->mesh.candidates(rays, found);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const RayPlanes planes(rays[i].ray);
     state_->crossCandidates(rays[i], planes, found[i], out[i].crossings);
