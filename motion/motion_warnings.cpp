@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/units.h"
-#include "motion/cardiac_clock.h"
-#include "motion/motion_check.h"
+#include "motion/cycle/cardiac_clock.h"
+#include "motion/keyframes/motion_check.h"
 
 namespace echocine {
 
@@ -81,7 +81,7 @@ std::string advice(const SurfaceBreaks& breaks, Interpolation kind) {
 
 }  // namespace
 
-std::vector<std::string> motionWarnings(const Scene& scene, const HeartMotion& motion) {
+std::vector<std::string> motionWarnings(const Scene& scene, const MeshMotion& motion) {
   const std::vector<FramePhase> frames = differentFrames(scene.acquisition);
   const Interpolation kind = scene.motion.interpolation;
   std::vector<std::string> warnings;

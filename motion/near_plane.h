@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "motion/subdivision.h"
+#include "motion/subdivision/subdivision.h"
 #include "motion/surface_frame.h"
 
 namespace echocine {

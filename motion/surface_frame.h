@@ -1,18 +1,15 @@
 #pragma once
 // What the motion stage hands on: the surfaces of one instant, in the probe frame and in metres.
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "core/ids.h"
 #include "core/vec3.h"
+#include "scene/triangle_mesh.h"
 
 namespace echocine {
-
-using Triangle =
-    std::array<std::uint32_t, 3>;  // vertex indices, counter-clockwise seen from outside
 
 // A triangle with its number in its surface.
 struct NumberedTriangle {

@@ -6,9 +6,9 @@
 #include "compare/compare.h"
 #include "compare/discrepancy.h"
 #include "core/parallel.h"
-#include "frame_maker.h"
-#include "plan_loop.h"
 #include "scene/scene_reader.h"
+#include "simulate/frame_maker.h"
+#include "simulate/plan_loop.h"
 
 using namespace echocine;
 
@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
     const Scene scene = readScene(argv[2]);
     const compare::Discrepancy discrepancy(real,
                                            scene.probe);  // once: the loop on the probe's lines
-    const HeartMotion motion(scene);                      // the model, again when it changes
+    const MeshMotion motion(scene);                       // the model, again when it changes
     const LoopPlan plan = planLoop(scene, motion);
     FrameMaker maker(scene, plan, motion);
     const auto workspace = maker.workspace();

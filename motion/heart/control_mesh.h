@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/vec3.h"
-#include "motion/surface_frame.h"
+#include "scene/triangle_mesh.h"
 
 namespace echocine::heart {
 

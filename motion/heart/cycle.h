@@ -1,10 +1,10 @@
 #pragma once
 // What the heart does when.
 
-#include "motion/cardiac_timing.h"
+#include "motion/cycle/cardiac_timing.h"
+#include "motion/cycle/volume_curve.h"
 #include "motion/heart/left_ventricle.h"
 #include "motion/heart/parameters.h"
-#include "motion/volume_curve.h"
 
 namespace echocine::heart {
 

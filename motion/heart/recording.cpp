@@ -8,8 +8,8 @@
 #include "core/parallel.h"
 #include "motion/heart/leaflet.h"
 #include "motion/heart/surroundings.h"
-#include "motion/heart_motion.h"
-#include "motion/subdivision.h"
+#include "motion/mesh/surface_measure.h"
+#include "motion/subdivision/subdivision.h"
 
 namespace echocine::heart {
 namespace {
@@ -62,13 +62,12 @@ void measureVolumes(RecordedPart& part) {
   if (part.kind.membrane) return;
   const auto vertices = static_cast<std::uint32_t>(part.control_m.front().size());
   const Subdivision subdivision(part.faces, vertices, part.tags, Recording::kLevels, {});
-  const SurfaceTopology topology{{}, subdivision.triangles(), subdivision.vertexCount()};
   std::vector<Vec3f> control, refined(subdivision.vertexCount());
   for (const std::vector<Vec3d>& points : part.control_m) {
     control.clear();
     for (const Vec3d& p : points) control.push_back(toFloat(p));
     subdivision.apply(control, refined);
-    part.volume_m3.push_back(enclosedVolume(topology, refined));
+    part.volume_m3.push_back(enclosedVolume(subdivision.triangles(), refined));
   }
 }
 

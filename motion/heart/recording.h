@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "motion/heart/views.h"
-#include "motion/mesh_tags.h"
+#include "scene/mesh_tags.h"
 
 namespace echocine::heart {
 

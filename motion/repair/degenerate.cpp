@@ -1,5 +1,7 @@
 #include "motion/repair/degenerate.h"
 
+#include "motion/mesh/coincidence.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -24,7 +26,7 @@ std::size_t dropCollapsed(RepairMesh& mesh) {
   };
   for (const Triangle& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!coincide(mesh, t[k], t[(k + 1) % 3])) continue;
+      if (!coincide(mesh.positions, mesh.tolerance, t[k], t[(k + 1) % 3])) continue;
       const auto [low, high] = std::minmax({lowest(t[k]), lowest(t[(k + 1) % 3])});
       joined[high] = low;
     }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "motion/repair/edge_sides.h"
+#include "motion/mesh/edge_sides.h"
 
 namespace echocine {
 

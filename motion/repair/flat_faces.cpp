@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "motion/repair/edge_sides.h"
+#include "motion/mesh/edge_sides.h"
 
 namespace echocine {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "motion/repair/edge_sides.h"
+#include "motion/mesh/edge_sides.h"
 #include "motion/repair/repair_mesh.h"
 
 namespace echocine {

@@ -6,7 +6,8 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "motion/mesh_check.h"
+#include "motion/mesh/coincidence.h"
+#include "motion/mesh/mesh_check.h"
 #include "motion/repair/degenerate.h"
 #include "motion/repair/holes.h"
 #include "motion/repair/orientation.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "motion/mesh.h"
+#include "motion/mesh/mesh.h"
 #include "scene/scene.h"
 
 namespace echocine {

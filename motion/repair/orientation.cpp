@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/error.h"
+#include "motion/mesh/nesting.h"
 #include "motion/repair/holes.h"
-#include "motion/repair/nesting.h"
 
 namespace echocine {
 

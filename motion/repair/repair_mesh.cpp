@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <limits>
 #include <unordered_map>
 
 #include "core/error.h"
-#include "motion/mesh_check.h"
-#include "motion/repair/edge_sides.h"
-#include "motion/settle_tags.h"
+#include "motion/mesh/edge_sides.h"
+#include "motion/mesh/mesh_check.h"
+#include "motion/mesh/settle_tags.h"
 
 namespace echocine {
 
@@ -69,21 +67,6 @@ MeshTags movedTags(const MeshTags& tags, const Successors& edges, const Successo
 
 std::string RepairMesh::faceName(std::size_t triangle) const {
   return echocine::faceName(parts, source[triangle]);
-}
-
-double coincidenceTolerance(const std::vector<std::vector<Vec3d>>& positions) {
-  double largest = 0;
-  for (const std::vector<Vec3d>& keyframe : positions)
-    for (const Vec3d& p : keyframe)
-      largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  return 4 * double{std::numeric_limits<float>::epsilon()} * largest;
-}
-
-bool coincide(const RepairMesh& mesh, std::uint32_t a, std::uint32_t b) {
-  return std::all_of(mesh.positions.begin(), mesh.positions.end(), [&](const auto& places) {
-    const Vec3d d = places[a] - places[b];
-    return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= mesh.tolerance;
-  });
 }
 
 void replaceTriangles(RepairMesh& mesh, std::vector<Triangle> now,

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "motion/mesh.h"
+#include "motion/mesh/mesh.h"
 
 namespace echocine {
 
@@ -21,15 +21,6 @@ struct RepairMesh {
   std::size_t vertexCount() const { return positions.front().size(); }
   std::string faceName(std::size_t triangle) const;  // as the file numbers it
 };
-
-// STL and most PLY files hold single precision, and the tracer works in it: a point computed in two
-// ways differs by a few units in the last place of its largest coordinate. Our choice: four. Closer
-// points are one point to all that follows.
-double coincidenceTolerance(const std::vector<std::vector<Vec3d>>& positions);
-
-// Whether two vertices are at the same place in every keyframe: what parts later, as leaflets do,
-// is not one point.
-bool coincide(const RepairMesh& mesh, std::uint32_t a, std::uint32_t b);
 
 // Replaces the triangles: now[i] takes the place of the old triangle kept[i], corner by corner.
 // Creases and corners follow; one that loses its edge is refused. Throws SceneError.

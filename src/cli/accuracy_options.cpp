@@ -71,8 +71,8 @@ AccuracyRecord AccuracyOptions::resolve(Scene& scene, int threads, bool quiet) c
   }
   scene = std::move(choice.scene);
   if (!quiet)
-    writeError(fmt::format("echocine: accuracy: {}: {}\n", choice.record.setting,
-                           choice.record.reason));
+    writeError(
+        fmt::format("echocine: accuracy: {}: {}\n", choice.record.setting, choice.record.reason));
   return std::move(choice.record);
 }
 

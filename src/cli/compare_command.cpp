@@ -68,7 +68,7 @@ void print(const compare::Comparison& c, const std::filesystem::path& folder) {
       c.discrepancy_as_placed);
   fmt::print("  {:<22}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}\n", "", "RMS", "PSNR", "NCC", "SSIM", "MI",
              "GC");
-  const auto row = [](const char* name, const compare::FrameMetrics& m) {
+  const auto row = [](const char* name, const FrameMetrics& m) {
     fmt::print("  {:<22}{:8.2f}{:8.2f}{:8.3f}{:8.3f}{:8.3f}{:8.3f}\n", name, m.rms, m.psnr_db,
                m.ncc, m.ssim, m.mutual_information, m.gradient_correlation);
   };

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "heart_files.h"
+#include "output/heart_files.h"
 
 namespace CLI {
 class App;

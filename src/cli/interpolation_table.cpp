@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
-#include "motion/heart_motion.h"
-#include "motion/interpolation_judge.h"
+#include "motion/keyframes/interpolation_judge.h"
+#include "motion/mesh_motion.h"
 
 namespace echocine {
 
@@ -21,7 +21,7 @@ struct Row {
 
 // One row per structure with keyframes to leave out, the last over all of them.
 std::vector<Row> judged(const Scene& scene) {
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   std::vector<Row> rows;
   std::array<std::vector<InterpolationError>, kInterpolationKinds> of_kind;
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {

@@ -8,7 +8,7 @@
 #include "cli/interpolation_table.h"
 #include "cli/stop_signal.h"
 #include "cli/warning_printer.h"
-#include "estimate.h"
+#include "render/estimate.h"
 #include "scene/scene_reader.h"
 
 namespace echocine {

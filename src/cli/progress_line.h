@@ -3,8 +3,8 @@
 
 #include <chrono>
 
-#include "cine.h"
 #include "cli/progress_bar.h"
+#include "render/render.h"
 
 namespace echocine {
 

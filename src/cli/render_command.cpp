@@ -9,9 +9,9 @@
 #include "cli/stop_signal.h"
 #include "cli/warning_printer.h"
 #include "core/error.h"
-#include "motion/cardiac_clock.h"
-#include "plan_loop.h"
+#include "motion/cycle/cardiac_clock.h"
 #include "scene/scene_reader.h"
+#include "simulate/plan_loop.h"
 
 namespace echocine {
 
@@ -87,7 +87,7 @@ int RenderCommand::run() {
   monitor.tell = [&line](const Progress& progress) { line.show(progress); };
   monitor.keep_going = [] { return !stopWanted(); };
   monitor.warn = warningPrinter(quiet_);
-  const RenderSummary summary = renderCine(scene, options_, monitor);
+  const RenderSummary summary = renderLoop(scene, options_, monitor);
   line.finish();
   if (summary.frames_done < summary.frames_wanted)
     throw JobError(

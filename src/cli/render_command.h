@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "cine.h"
 #include "cli/accuracy_options.h"
+#include "render/render.h"
 
 namespace CLI {
 class App;

@@ -8,11 +8,9 @@
 #include "cli/progress_bar.h"
 #include "cli/stop_signal.h"
 #include "core/error.h"
-#include "core/file.h"
 #include "scene/scene_reader.h"
 #include "study/study_files.h"
 #include "study/study_page.h"
-#include "study/sweep_page.h"
 
 namespace echocine {
 
@@ -36,19 +34,12 @@ void writeAll(const StudyResult& result, const std::filesystem::path& folder) {
 StudyCommand::StudyCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "study", "Measure what each accuracy knob of a scene costs in ms and leaves in dB and mm");
-  CLI::Option* scene =
-      command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)");
-  command
-      ->add_option("-o,--output", options_.folder,
-                   "Folder for study.html, study.csv and study.json, or for sweeps.html")
+  command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")
       ->required();
   command
-      ->add_option(
-          "--sweeps", sweeps_folder_,
-          "Instead of a scene: plot the sweeps across hard cases that the tests wrote into "
-          "this folder as CSV (ECHOCINE_HARD_CASES)")
-      ->type_name("FOLDER")
-      ->excludes(scene);
+      ->add_option("-o,--output", options_.folder,
+                   "Folder for study.html, study.csv and study.json")
+      ->required();
   command
       ->add_option("--frames", options_.frames,
                    "Frames that are compared and timed, evenly over the first beat")
@@ -76,17 +67,7 @@ StudyCommand::StudyCommand(CLI::App& app) {
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
 }
 
-int StudyCommand::runSweeps() const {
-  const std::vector<HardCaseSweep> sweeps = readSweeps(sweeps_folder_);
-  makeFolder(options_.folder);
-  writeSweepPage(sweeps, options_.folder / "sweeps.html");
-  if (!quiet_) fmt::print("{}: sweeps.html\n", options_.folder.string());
-  return 0;
-}
-
 int StudyCommand::run() {
-  if (!sweeps_folder_.empty()) return runSweeps();
-  if (scene_file_.empty()) throw SceneError("study: a scene file is required, or --sweeps FOLDER");
   refuseUnknownKnobs(options_.knobs);
   listenForStop();
   const Scene scene = readScene(scene_file_);

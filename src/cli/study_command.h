@@ -1,5 +1,5 @@
 #pragma once
-// echocine study SCENE.toml -o DIR, echocine study --sweeps FOLDER -o DIR
+// echocine study SCENE.toml -o DIR
 
 #include <string>
 
@@ -17,9 +17,7 @@ class StudyCommand {
   int run();                             // exit code
 
  private:
-  int runSweeps() const;
-
-  std::string scene_file_, sweeps_folder_;
+  std::string scene_file_;
   bool quiet_ = false;
   StudyOptions options_;
 };

@@ -74,12 +74,12 @@ PicturePoint pictureAt(const BeamGrid& grid, const Loop& loop, const Placement& 
           loop.sector().apex_y + placement.shift_y_px + r * std::cos(angle)};
 }
 
-Plane validSamples(const BeamGrid& grid, const Loop& loop, const Placement& placement) {
+PixelPlane validSamples(const BeamGrid& grid, const Loop& loop, const Placement& placement) {
   const Video& v = loop.video;
   Sector inner = loop.sector();
   inner.r_min += kEdgePx;
   inner.r_max -= kEdgePx;
-  Plane valid;
+  PixelPlane valid;
   valid.reserve(grid.size());
   for (int i = 0; i < grid.lines; ++i)
     for (int k = 0; k < grid.samples; ++k) {
@@ -178,7 +178,7 @@ BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& place
   return out;
 }
 
-std::vector<float> areaWeights(const BeamGrid& grid, const Plane& a, const Plane& b) {
+std::vector<float> areaWeights(const BeamGrid& grid, const PixelPlane& a, const PixelPlane& b) {
   std::vector<float> weights(grid.size(), 0);
   for (int i = 0; i < grid.lines; ++i)
     for (int k = 0; k < grid.samples; ++k) {

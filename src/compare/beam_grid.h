@@ -49,16 +49,16 @@ PicturePoint pictureAt(const BeamGrid& grid, const Loop& loop, const Placement& 
 // Grey 0 to 255.
 struct BeamLoop {
   std::vector<std::vector<float>> frames;
-  Plane valid;  // 1: within the sector, not under an overlay
+  PixelPlane valid;  // 1: within the sector, not under an overlay
 };
 BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& placement = {});
 
 // BeamLoop::valid alone.
-Plane validSamples(const BeamGrid& grid, const Loop& loop, const Placement& placement);
+PixelPlane validSamples(const BeamGrid& grid, const Loop& loop, const Placement& placement);
 
 // Area weights of the samples where both are valid, else 0: a sample counts as the area it covers
 // (in proportion to its depth), so sums over beam space are sums over the picture.
-std::vector<float> areaWeights(const BeamGrid& grid, const Plane& a, const Plane& b);
+std::vector<float> areaWeights(const BeamGrid& grid, const PixelPlane& a, const PixelPlane& b);
 
 // Where a point lies among the pixels of a picture: pixel centres at halves; the border is carried
 // on outside.

@@ -6,14 +6,14 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "motion/heart_motion.h"
+#include "motion/mesh_motion.h"
 #include "scene/scene_reader.h"
 
 namespace echocine::compare {
 
 struct BoundaryBands::State {
   Scene scene;
-  HeartMotion motion;
+  MeshMotion motion;
   BeamGrid grid;
   double half_width_m;
 
@@ -50,25 +50,25 @@ std::vector<Contour> BoundaryBands::contoursAt(double phase) const {
   state_->motion.frameAt(phase - std::floor(phase), frame);
   PlaneSlice slice(state_->motion.surfaces(), state_->scene.probe);
   slice.update(frame);
-  return chainContours(slice.pieces(), state_->motion.surfaces(), frame);
+  return chainContours(slice.edges(), state_->motion.surfaces(), frame);
 }
 
 namespace {
 
-double distanceToPiece(double x, double z, Vec3d a, Vec3d b) {
+double distanceToEdge(double x, double z, Vec3d a, Vec3d b) {
   const double ux = b.x - a.x, uz = b.z - a.z, length2 = ux * ux + uz * uz;
   const double t =
       length2 > 0 ? std::clamp(((x - a.x) * ux + (z - a.z) * uz) / length2, 0.0, 1.0) : 0;
   return std::hypot(x - a.x - t * ux, z - a.z - t * uz);
 }
 
-// Marks the samples nearer to a piece than the half width. Only those in its box are looked at.
-void markPiece(const BeamGrid& g, Vec3d a, Vec3d b, double half, std::vector<char>& near) {
+// Marks the samples nearer to an edge than the half width. Only those in its box are looked at.
+void markEdge(const BeamGrid& g, Vec3d a, Vec3d b, double half, std::vector<char>& near) {
   const double reach_a = std::hypot(a.x, a.z), reach_b = std::hypot(b.x, b.z),
-               piece = std::hypot(b.x - a.x, b.z - a.z);
-  const double r_lo = std::max(1e-6, std::min(reach_a, reach_b) - piece - half),
+               edge = std::hypot(b.x - a.x, b.z - a.z);
+  const double r_lo = std::max(1e-6, std::min(reach_a, reach_b) - edge - half),
                r_hi = std::max(reach_a, reach_b) + half;
-  const double margin = std::asin(std::min(1.0, (half + piece) / std::max(r_lo, half + piece)));
+  const double margin = std::asin(std::min(1.0, (half + edge) / std::max(r_lo, half + edge)));
   const double angle_a = std::atan2(a.x, a.z), angle_b = std::atan2(b.x, b.z);
   const double per_line = (g.last_rad - g.first_rad) / std::max(1, g.lines - 1),
                per_sample = (g.far - g.near) / g.samples;
@@ -85,7 +85,7 @@ void markPiece(const BeamGrid& g, Vec3d a, Vec3d b, double half, std::vector<cha
                         static_cast<std::size_t>(k)];
       if (mark != 0) continue;
       const double r = g.depth(k), angle = g.angle(i);
-      if (distanceToPiece(r * std::sin(angle), r * std::cos(angle), a, b) <= half) mark = 1;
+      if (distanceToEdge(r * std::sin(angle), r * std::cos(angle), a, b) <= half) mark = 1;
     }
 }
 
@@ -98,7 +98,7 @@ std::vector<std::pair<std::string, std::vector<float>>> BoundaryBands::weightsAt
   for (const Contour& c : contoursAt(phase))
     for (std::size_t i = c.closed ? 0 : 1; i < c.points_m.size(); ++i) {
       const Vec3d a = c.points_m[i == 0 ? c.points_m.size() - 1 : i - 1], b = c.points_m[i];
-      markPiece(state_->grid, a, b, state_->half_width_m, near[index(c.surface)]);
+      markEdge(state_->grid, a, b, state_->half_width_m, near[index(c.surface)]);
     }
   for (std::size_t s = 0; s < structures.size(); ++s)
     for (std::size_t i = 0; i < weights.size(); ++i) near.back()[i] |= near[s][i];

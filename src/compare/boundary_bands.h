@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "compare/beam_grid.h"
-#include "geometry/contour.h"
+#include "truth/contour.h"
 
 namespace echocine::compare {
 

@@ -176,7 +176,7 @@ double meanCounted(const Comparison& c, const std::vector<double>& values) {
 
 // Where the real loop lies now, and what of it is common.
 void place(const Placement& placement, Comparison& c) {
-  const Plane as_given = validSamples(c.grid, c.real, {});
+  const PixelPlane as_given = validSamples(c.grid, c.real, {});
   c.real_beams = resample(c.grid, c.real, placement);
   c.weights = areaWeights(c.grid, c.synthetic_beams.valid, c.real_beams.valid);
   c.share_in_sight = shareInSight(areaWeights(c.grid, c.synthetic_beams.valid, as_given), c.weights,

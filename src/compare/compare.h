@@ -10,9 +10,9 @@
 #include "compare/beat_length.h"
 #include "compare/calibration.h"
 #include "compare/loop.h"
-#include "compare/metrics.h"
 #include "compare/space_alignment.h"
 #include "compare/time_alignment.h"
+#include "metrics/frame_metrics.h"
 #include "signal/picture.h"
 
 namespace echocine::compare {

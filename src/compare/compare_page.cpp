@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/results.h"
+#include "page/assets.h"
 
 namespace echocine::compare {
 
@@ -50,7 +51,7 @@ ComparePage::ComparePage(const std::filesystem::path& path, const Comparison& co
       stride_(pageStride(static_cast<int>(comparison.frames.size()))),
       writer_(path, pageLook("EchoCine: " + nameOf(c_.synthetic.video.name) + " against " +
                                  nameOf(c_.real.video.name),
-                             "compare.html", "compare.js")) {}
+                             pageAsset("compare.html"), pageAsset("compare.js"))) {}
 
 void ComparePage::addFrame(Panel panel, std::span<const std::byte> image) {
   constexpr const char* kNames[] = {"real", "synthetic", "difference"};

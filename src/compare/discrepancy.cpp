@@ -42,7 +42,7 @@ Discrepancy::Discrepancy(const Loop& real, const Probe& probe, const Placement& 
         fmt::format("{}: shows less than a fifth of the probe's sector; give a loop of the "
                     "same view",
                     real.video.name));
-  const Plane as_given = validSamples(grid_, real, {});
+  const PixelPlane as_given = validSamples(grid_, real, {});
   share_in_sight_ =
       compare::shareInSight(areaWeights(grid_, as_given, as_given), weights, placement.scale);
   edges_.emplace(grid_, weights);

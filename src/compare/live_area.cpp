@@ -8,7 +8,7 @@ namespace echocine::compare {
 
 namespace {
 
-int backgroundGrey(const Plane& highest) {
+int backgroundGrey(const PixelPlane& highest) {
   std::array<int, 256> counts{};
   for (const std::uint8_t g : highest) ++counts[g];
   // The background is dark: the most frequent of the darker greys.
@@ -31,12 +31,12 @@ cv::Mat largestPart(const cv::Mat& mask) {
 
 LiveArea liveArea(const Video& video, int moving) {
   LiveArea area{video.width, video.height, {}, video.frames.front(), {}};
-  Plane lowest = video.frames.front();
-  const auto row = [](const Plane& p) {
+  PixelPlane lowest = video.frames.front();
+  const auto row = [](const PixelPlane& p) {
     return cv::Mat(1, static_cast<int>(p.size()), CV_8U, const_cast<std::uint8_t*>(p.data()));
   };
   cv::Mat high = row(area.highest), low = row(lowest);
-  for (const Plane& frame : video.frames) {
+  for (const PixelPlane& frame : video.frames) {
     cv::max(high, row(frame), high);
     cv::min(low, row(frame), low);
   }

@@ -1,15 +1,15 @@
 #pragma once
 // The pixels of a loop that show echoes: those that are ever brighter than the background.
 
-#include "compare/video.h"
+#include "video/video.h"
 
 namespace echocine::compare {
 
 struct LiveArea {
   int width = 0, height = 0;
-  Plane live;     // 1 inside
-  Plane highest;  // largest grey over the loop
-  Plane range;    // largest minus smallest
+  PixelPlane live;     // 1 inside
+  PixelPlane highest;  // largest grey over the loop
+  PixelPlane range;    // largest minus smallest
 
   bool at(int x, int y) const {
     return x >= 0 && y >= 0 && x < width && y < height &&

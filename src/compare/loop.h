@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "compare/sector.h"
-#include "compare/video.h"
+#include "video/video.h"
 
 namespace echocine::compare {
 
@@ -18,7 +18,7 @@ struct TracedGreys {
 struct Loop {
   Video video;
   SectorFind find;
-  Plane overlay;                           // 1 where a pixel holds no echo
+  PixelPlane overlay;                      // 1 where a pixel holds no echo
   std::optional<double> metres_per_pixel;  // nothing when neither file, image nor user tells
   std::string scale_source;                // "--scale", "DICOM regions", "manifest", ...
   std::string grey_source = "picture";     // or "EXR display.Y", "cine.avi"

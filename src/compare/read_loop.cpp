@@ -8,9 +8,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "compare/compare.h"
-#include "compare/read_video.h"
 #include "compare/render_folder.h"
 #include "core/error.h"
+#include "video/read_video.h"
 
 namespace echocine::compare {
 
@@ -21,13 +21,13 @@ constexpr double kAspectNoted = 0.03, kAspectRefused = 0.12;  // our choice
 // Pictures with pixels that are not square, stretched in height.
 void makeSquare(Video& video, double aspect) {
   const int height = static_cast<int>(std::lround(video.height * aspect));
-  const auto stretch = [&](Plane& plane, int how) {
+  const auto stretch = [&](PixelPlane& plane, int how) {
     const cv::Mat in(video.height, video.width, CV_8U, plane.data());
     cv::Mat out;
     cv::resize(in, out, {video.width, height}, 0, 0, how);
     plane.assign(out.datastart, out.dataend);
   };
-  for (Plane& frame : video.frames) stretch(frame, cv::INTER_LINEAR);
+  for (PixelPlane& frame : video.frames) stretch(frame, cv::INTER_LINEAR);
   stretch(video.coloured, cv::INTER_NEAREST);
   video.height = height;
   video.notes.push_back(

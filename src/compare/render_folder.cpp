@@ -7,14 +7,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "compare/read_video.h"
-#include "compare/video_builder.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
 #include "output/exr_plane.h"
 #include "output/exr_stack.h"
 #include "signal/picture.h"
+#include "video/read_video.h"
+#include "video/video_builder.h"
 
 namespace echocine::compare {
 

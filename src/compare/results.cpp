@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/units.h"
-#include "output/cine_writer.h"
+#include "video/cine_writer.h"
 
 namespace echocine::compare {
 

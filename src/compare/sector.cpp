@@ -270,9 +270,9 @@ Sector parseSector(const std::string& option, const std::string& text) {
           values[4], values[5]};
 }
 
-Plane overlayMask(const Video& video, const Sector& sector) {
+PixelPlane overlayMask(const Video& video, const Sector& sector) {
   const LiveArea area = liveArea(video, 6);
-  Plane mask = video.coloured;
+  PixelPlane mask = video.coloured;
   double coloured = 0, inside = 0;
   for (int y = 0; y < video.height; ++y)
     for (int x = 0; x < video.width; ++x) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/video.h"
+#include "video/video.h"
 
 namespace echocine::compare {
 
@@ -37,6 +37,6 @@ Sector parseSector(const std::string& option, const std::string& text);
 
 // Pixels of the sector that hold no echo: colour and text that stands still over the picture.
 // Throws SceneError when colour covers more than 3 % of the sector (a Doppler box).
-Plane overlayMask(const Video& video, const Sector& sector);
+PixelPlane overlayMask(const Video& video, const Sector& sector);
 
 }  // namespace echocine::compare

@@ -67,7 +67,7 @@ class ViewSearch {
   void smoothMean(double sigma_px) {
     const Video& v = real_.video;
     cv::Mat sum = cv::Mat::zeros(v.height, v.width, CV_32F), mask(v.height, v.width, CV_32F);
-    for (const Plane& frame : v.frames)
+    for (const PixelPlane& frame : v.frames)
       cv::accumulate(cv::Mat(v.height, v.width, CV_8U, const_cast<std::uint8_t*>(frame.data())),
                      sum);
     inside_.resize(real_.overlay.size());
@@ -112,7 +112,7 @@ class ViewSearch {
   WallEdges edges_;
   EdgeField synthetic_;
   cv::Mat mean_;
-  Plane inside_;
+  PixelPlane inside_;
   double as_given_ = 0;
 };
 

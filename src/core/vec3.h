@@ -53,7 +53,7 @@ constexpr Vec3f toFloat(Vec3d a) {
 }
 
 // An orthonormal, right- or left-handed frame: its three axes and its origin in world coordinates.
-struct Frame {
+struct Pose {
   Vec3d origin;
   Vec3d x_axis{1, 0, 0}, y_axis{0, 1, 0}, z_axis{0, 0, 1};
 

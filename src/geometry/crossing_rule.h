@@ -31,7 +31,7 @@ struct RayPlanes {
   Vec3d u_axis, v_axis, direction;  // right-handed, orthonormal
 };
 
-// A triangle's cut by a plane v = 0: a piece of contour, directed so that a front face seen along a
+// A triangle's cut by a plane v = 0: an edge of contour, directed so that a front face seen along a
 // ray in the plane runs from u >= 0 to u < 0.
 struct TriangleCut {
   Vec3d from, to;

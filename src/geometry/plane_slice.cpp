@@ -9,8 +9,8 @@
 
 namespace echocine {
 
-Vec3d unitNormal(const ContourPiece& piece) {
-  return facetNormal(piece.area_normal, piece.cut, {0, 1, 0});
+Vec3d unitNormal(const ContourEdge& edge) {
+  return facetNormal(edge.area_normal, edge.cut, {0, 1, 0});
 }
 
 PlaneSlice::PlaneSlice(const std::vector<SurfaceTopology>& surfaces, const Probe& probe,
@@ -30,7 +30,7 @@ PlaneSlice::PlaneSlice(const std::vector<SurfaceTopology>& surfaces, const Probe
 
 // A facet costs three heights unless it is cut.
 void PlaneSlice::cutSurface(const SurfaceTopology& surface, const std::vector<Vec3f>& positions,
-                            std::vector<ContourPiece>& pieces) {
+                            std::vector<ContourEdge>& edges) {
   const Vec3f* position = positions.data();
   const auto above = [&](std::uint32_t v) { return position[v].y >= 0 ? 1 : 0; };
   const auto cut = [&](const Triangle& corner, std::uint32_t number) {
@@ -38,7 +38,7 @@ void PlaneSlice::cutSurface(const SurfaceTopology& surface, const std::vector<Ve
     if (sides == 0 || sides == 3) return;
     const Vec3d p0 = toDouble(position[corner[0]]), p1 = toDouble(position[corner[1]]),
                 p2 = toDouble(position[corner[2]]);
-    pieces.push_back(
+    edges.push_back(
         {*cutTriangle(p0, p1, p2, p0.y, p1.y, p2.y), areaNormal(p0, p1, p2), surface.id, number});
   };
   if (surface.near_plane) {
@@ -49,15 +49,15 @@ void PlaneSlice::cutSurface(const SurfaceTopology& surface, const std::vector<Ve
   for (std::uint32_t t = 0; t < count; ++t) cut(surface.triangles[t], t);
 }
 
-// Of the surface's pieces, which start at `first`.
+// Of the surface's edges, which start at `first`.
 void PlaneSlice::addNormals(const SurfaceTopology& surface, const SurfaceFrame& frame,
-                            std::size_t first, std::span<const ContourPiece> pieces,
-                            std::vector<PieceNormals>& normals) const {
+                            std::size_t first, std::span<const ContourEdge> edges,
+                            std::vector<EdgeNormals>& normals) const {
   const std::vector<Vec3f>& position = frame.positions_m[index(surface.id)];
   const std::vector<Vec3f>& normal = frame.normals[index(surface.id)];
-  for (const ContourPiece& piece : pieces.subspan(first)) {
-    const Triangle& corner = surface.triangles[piece.triangle];
-    const Triangle& n = surface.normalCorners()[piece.triangle];
+  for (const ContourEdge& edge : edges.subspan(first)) {
+    const Triangle& corner = surface.triangles[edge.triangle];
+    const Triangle& n = surface.normalCorners()[edge.triangle];
     normals.push_back(cutNormals({normal[n[0]], normal[n[1]], normal[n[2]]}, position[corner[0]].y,
                                  position[corner[1]].y, position[corner[2]].y));
   }
@@ -84,24 +84,24 @@ int PlaneSlice::linesRightOf(Vec3d point) const {
 
 void PlaneSlice::crossLine(std::size_t number, int line) {
   const auto i = static_cast<std::size_t>(line);
-  const ContourPiece& piece = pieces_[number];
-  const std::optional<CutCrossing> c = crossCut(rays_[i], piece.cut);
+  const ContourEdge& edge = edges_[number];
+  const std::optional<CutCrossing> c = crossCut(rays_[i], edge.cut);
   if (!c) return;
   lines_[i].crossings.push_back(
-      {c->distance_m, unitNormal(piece), piece.surface, piece.triangle, c->entering});
+      {c->distance_m, unitNormal(edge), edge.surface, edge.triangle, c->entering});
   if (!normals_.empty())
-    makeSmooth(rays_[i], piece.cut, normals_[number], lines_[i].crossings.back());
+    makeSmooth(rays_[i], edge.cut, normals_[number], lines_[i].crossings.back());
 }
 
-// A piece meets the lines between its ends. Where it reaches behind the plane z = 0 of the
+// A edge meets the lines between its ends. Where it reaches behind the plane z = 0 of the
 // transducer every line is asked, since there its ends may lie more than half a turn apart.
-void PlaneSlice::crossPiece(std::size_t number) {
-  const ContourPiece& piece = pieces_[number];
-  const bool behind1 = piece.cut.from.z < 0, behind2 = piece.cut.to.z < 0;
+void PlaneSlice::crossEdge(std::size_t number) {
+  const ContourEdge& edge = edges_[number];
+  const bool behind1 = edge.cut.from.z < 0, behind2 = edge.cut.to.z < 0;
   if (behind1 && behind2) return;  // lines never point backwards
   int begin = 0, end = probe_.lines;
   if (!behind1 && !behind2) {
-    const int n1 = linesRightOf(piece.cut.from), n2 = linesRightOf(piece.cut.to);
+    const int n1 = linesRightOf(edge.cut.from), n2 = linesRightOf(edge.cut.to);
     begin = std::min(n1, n2);
     end = std::max(n1, n2);
   }
@@ -128,21 +128,21 @@ void PlaneSlice::resolve(RayCrossings& line) const {
 
 void PlaneSlice::update(const SurfaceFrame& frame) {
   for (RayCrossings& line : lines_) line.crossings.clear();
-  const auto cutAll = [&](bool still, std::vector<ContourPiece>& pieces,
-                          std::vector<PieceNormals>& normals) {
+  const auto cutAll = [&](bool still, std::vector<ContourEdge>& edges,
+                          std::vector<EdgeNormals>& normals) {
     for (const SurfaceTopology& surface : surfaces_) {
       if (surface.still != still || left_out_[index(surface.id)]) continue;
-      const std::size_t first = pieces.size();
-      cutSurface(surface, frame.positions_m[index(surface.id)], pieces);
-      if (!frame.normals.empty()) addNormals(surface, frame, first, pieces, normals);
+      const std::size_t first = edges.size();
+      cutSurface(surface, frame.positions_m[index(surface.id)], edges);
+      if (!frame.normals.empty()) addNormals(surface, frame, first, edges, normals);
     }
   };
-  if (!still_cut_) cutAll(true, still_pieces_, still_normals_);
+  if (!still_cut_) cutAll(true, still_edges_, still_normals_);
   still_cut_ = true;
-  pieces_ = still_pieces_;
+  edges_ = still_edges_;
   normals_ = still_normals_;
-  cutAll(false, pieces_, normals_);
-  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) crossPiece(piece);
+  cutAll(false, edges_, normals_);
+  for (std::size_t edge = 0; edge < edges_.size(); ++edge) crossEdge(edge);
   for (RayCrossings& line : lines_) resolve(line);
 }
 

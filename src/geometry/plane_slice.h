@@ -13,19 +13,19 @@
 
 namespace echocine {
 
-// A piece of contour: a facet's cut by the imaging plane.
-struct ContourPiece {
+// An edge of contour: a facet's cut by the imaging plane.
+struct ContourEdge {
   TriangleCut cut;    // in the imaging plane, y = 0
   Vec3d area_normal;  // of the facet, outward, twice its area long
   SurfaceId surface{};
   std::uint32_t triangle = 0;
 };
 
-// With smooth normals: their values at the ends of a piece's cut, as cutNormals() has them.
-using PieceNormals = TriangleCut;
+// With smooth normals: their values at the ends of an edge's cut, as cutNormals() has them.
+using EdgeNormals = TriangleCut;
 
-// Unit normal of a piece's facet, by facetNormal().
-Vec3d unitNormal(const ContourPiece& piece);
+// Unit normal of an edge's facet, by facetNormal().
+Vec3d unitNormal(const ContourEdge& edge);
 
 // What every scan line meets, as RayCrossings for each line.
 class PlaneSlice {
@@ -40,28 +40,28 @@ class PlaneSlice {
   void update(const SurfaceFrame& frame);
 
   const std::vector<RayCrossings>& lines() const { return lines_; }
-  const std::vector<ContourPiece>& pieces() const { return pieces_; }
-  // One for each piece; none at all when the frame has no smooth normals.
-  const std::vector<PieceNormals>& normals() const { return normals_; }
+  const std::vector<ContourEdge>& edges() const { return edges_; }
+  // One for each edge; none at all when the frame has no smooth normals.
+  const std::vector<EdgeNormals>& normals() const { return normals_; }
 
  private:
   void cutSurface(const SurfaceTopology& surface, const std::vector<Vec3f>& positions,
-                  std::vector<ContourPiece>& pieces);
+                  std::vector<ContourEdge>& edges);
   void addNormals(const SurfaceTopology& surface, const SurfaceFrame& frame, std::size_t first,
-                  std::span<const ContourPiece> pieces, std::vector<PieceNormals>& normals) const;
-  void crossPiece(std::size_t piece);
-  void crossLine(std::size_t piece, int line);
+                  std::span<const ContourEdge> edges, std::vector<EdgeNormals>& normals) const;
+  void crossEdge(std::size_t edge);
+  void crossLine(std::size_t edge, int line);
   void resolve(RayCrossings& line) const;
   int linesRightOf(Vec3d point) const;
 
   const std::vector<SurfaceTopology>& surfaces_;
   Probe probe_;
   std::vector<RayPlanes> rays_;
-  std::vector<ContourPiece> still_pieces_;  // of surfaces that never move: cut once
+  std::vector<ContourEdge> still_edges_;  // of surfaces that never move: cut once
   bool still_cut_ = false;
-  std::vector<PieceNormals> still_normals_;
-  std::vector<ContourPiece> pieces_;
-  std::vector<PieceNormals> normals_;
+  std::vector<EdgeNormals> still_normals_;
+  std::vector<ContourEdge> edges_;
+  std::vector<EdgeNormals> normals_;
   std::vector<RayCrossings> lines_;
   double first_place_ = 0,
          lines_per_place_ = 0;  // of the lines: angles, or offsets of a linear probe

@@ -23,8 +23,8 @@ struct ExrPlaneWanted {
 std::optional<std::vector<float>> readExrPlane(const std::filesystem::path& path,
                                                const ExrPlaneWanted& wanted);
 
-// The same from bytes just written. Preconditions: they are a file by ExrStack::encode(); the channel
-// is one of its, not Channel::medium.
+// The same from bytes just written. Preconditions: they are a file by ExrStack::encode(); the
+// channel is one of its, not Channel::medium.
 std::vector<float> readBack(std::span<const std::byte> file, Channel channel);
 
 }  // namespace echocine

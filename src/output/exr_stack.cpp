@@ -19,9 +19,9 @@
 #include "core/check.h"
 #include "core/file.h"
 #include "core/hash.h"
-#include "output/cine_writer.h"
 #include "output/half_plane.h"
 #include "output/polar_plane.h"
+#include "video/cine_writer.h"
 
 namespace echocine {
 namespace {

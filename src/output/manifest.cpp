@@ -127,12 +127,6 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest) {
   return of_stage > 0 ? stage_ms / total * part->work / of_stage : 0;
 }
 
-const char* stageName(Stage stage) {
-  static constexpr const char* kNames[kStages] = {"motion",          "geometry", "trace", "signal",
-                                                  "scan_conversion", "exr",      "avi"};
-  return kNames[static_cast<std::size_t>(stage)];
-}
-
 void writeManifest(const std::filesystem::path& path, const Scene& scene,
                    const Manifest& manifest) {
   Json timings = stageTimesJson(manifest);

@@ -1,38 +1,26 @@
 #pragma once
 // manifest.json: what a finished run was made of and what it consists of.
 
-#include <array>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "core/stage_clock.h"
 #include "core/work_counts.h"
+#include "motion/volumes.h"
 #include "output/accuracy_record.h"
 #include "output/frame_record.h"
 #include "scene/loop_plan.h"
 
 namespace echocine {
 
-// Closed structures' volumes in the order of the scene; membranes are left out.
-using Volumes = std::vector<std::pair<std::string, double>>;  // mL
-
 struct FrameEntry {
   FrameRecord record;
   Volumes volumes_ml;
   std::string exr_sha256;  // empty without an intensity stack
 };
-
-struct KeyframeVolume {
-  std::string structure;
-  double phase = 0, volume_ml = 0;
-};
-
-// The stages that are timed, in the manifest's order.
-enum class Stage { motion, geometry, trace, signal, scan_conversion, exr, avi };
-inline constexpr std::size_t kStages = 7;
-const char* stageName(Stage stage);
 
 struct Manifest {
   std::string scene_sha256;

@@ -69,9 +69,9 @@ std::string_view mediaType(std::span<const std::byte> image) {
 PageLook pageLook(std::string title, std::string_view body, std::string_view script) {
   return {std::move(title),
           {pageAsset("page.css")},
-          pageAsset(body),
+          body,
           {pageAsset("echarts.common.min.js"), pageAsset("page.js"), pageAsset("player.js"),
-           pageAsset("curves.js"), pageAsset(script)}};
+           pageAsset("curves.js"), script}};
 }
 
 PageWriter::PageWriter(const std::filesystem::path& path, const PageLook& look)

@@ -22,7 +22,7 @@ struct PageLook {
 };
 
 // The look of all pages: common style, chart library, helpers (page.js), player and curves, then
-// `script` of the page itself. Both names are those of assets.
+// `script` of the page itself. Both are texts that outlive the look.
 PageLook pageLook(std::string title, std::string_view body, std::string_view script);
 
 // Writes a page in one go through memory that does not grow with its images. Until finish() the

@@ -17,7 +17,7 @@ struct Probe {
   // World pose. The apex is where the scan lines meet: the transducer for a phased array, the
   // centre of curvature behind the face for a curvilinear one, the middle of the face for a linear
   // one.
-  Frame pose;
+  Pose pose;
   double first_angle_rad = 0, last_angle_rad = 0;  // of the outermost lines, from z towards x
   double face_radius_m = 0;                        // curvilinear: apex to face; others 0
   double first_offset_m = 0, last_offset_m = 0;    // linear: lateral start of the outermost lines

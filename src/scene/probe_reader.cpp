@@ -27,8 +27,8 @@ Vec3d readDirection(TomlTable& table, std::string_view key) {
 
 // The lateral axis is made perpendicular to the depth axis; the elevation axis completes a
 // right-handed frame.
-Frame readPose(TomlTable& table, double mesh_unit_m) {
-  Frame pose;
+Pose readPose(TomlTable& table, double mesh_unit_m) {
+  Pose pose;
   pose.z_axis = readDirection(table, "axis");
   const Vec3d unit_lateral = readDirection(table, "lateral");
   pose.origin = mesh_unit_m * table.vector("apex");

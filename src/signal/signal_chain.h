@@ -1,7 +1,7 @@
 #pragma once
 // The scanner's signal processing, the same in every frame of a loop:
 // time gain -> beam width -> log compression -> scan conversion -> grey map.
-// Spread is the tracer's part (it knows which intensity was scattered), by the signal_parts of its
+// Spread is the tracer's part (it knows which intensity was scattered), by the signal_terms of its
 // request.
 
 #include <optional>

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/heart_motion.h"
-#include "motion/interpolation.h"
-#include "plan_loop.h"
+#include "motion/keyframes/interpolation.h"
+#include "motion/mesh_motion.h"
 #include "scene/beam_profile.h"
 #include "scene/effect_plan.h"
+#include "simulate/plan_loop.h"
 
 namespace echocine {
 
@@ -126,7 +126,7 @@ void addSubdivision(const Scene& scene, std::size_t triangles, Table& table) {
 // What speaks against reading the meshes of a scene; empty when nothing does.
 std::string refusal(const Scene& scene) {
   try {
-    const HeartMotion motion(scene);
+    const MeshMotion motion(scene);
     return {};
   } catch (const SceneError& error) {
     return error.what();
@@ -218,7 +218,7 @@ void addInterpolation(const Scene& scene, Table& table) {
   table.add(std::move(knob));
 }
 
-void addRefraction(const Scene& scene, const HeartMotion& motion, Table& table) {
+void addRefraction(const Scene& scene, const MeshMotion& motion, Table& table) {
   if (scene.effects.refraction != Switch::automatic)
     return table.leaveOut("refraction", "effects.refraction is not left to the program");
   if (scene.accuracy.tracer == TracerChoice::slice)
@@ -300,7 +300,7 @@ void addStorage(const Scene& scene, Knob knob, Kind OutputSettings::*setting,
 
 KnobTable knobsOf(const Scene& scene) {
   std::size_t triangles = 0;
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   for (const SurfaceTopology& surface : motion.surfaces()) triangles += surface.triangles.size();
   Table table;
   addLines(scene, table);

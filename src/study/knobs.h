@@ -51,7 +51,7 @@ using Setting = std::vector<std::size_t>;
 // The knobs of a scene. Lines are counted by the beam (1 to 16 to its two-way width at the focus),
 // samples by the pulse (1 to 16 to half its length), which are what the picture can resolve.
 // Values and presets follow from the scene file and its meshes' sizes alone, never from a clock.
-// Reads the meshes once or twice. Throws SceneError as HeartMotion does.
+// Reads the meshes once or twice. Throws SceneError as MeshMotion does.
 KnobTable knobsOf(const Scene& scene);
 
 // All names that --knobs accepts.

@@ -10,8 +10,8 @@
 #include "core/file.h"
 #include "core/parallel.h"
 #include "core/units.h"
-#include "motion/cardiac_clock.h"
-#include "render_pass.h"
+#include "motion/cycle/cardiac_clock.h"
+#include "render/render_pass.h"
 #include "study/thumbnail.h"
 
 namespace echocine {
@@ -65,7 +65,7 @@ class Study {
   Clock::time_point start_;
   MotionShelf shelf_;
   StudyResult result_;
-  std::vector<FrameProbe> probes_;  // of each point
+  std::vector<SettingRun> probes_;  // of each point
   std::vector<std::string> signatures_;
   std::vector<FramePicture> reference_;
   std::vector<double> visit_s_;  // of each point, its last visit
@@ -82,7 +82,7 @@ void Study::addRow(const std::string& sweep, const std::string& knob, const std:
   }
   if (!result_.points.empty()) scene.signal.reference_intensity = result_.reference_intensity;
   try {
-    FrameProbe probe(std::move(scene), shelf_);
+    SettingRun probe(std::move(scene), shelf_);
     std::string signature = probe.signature();
     const auto found = std::find(signatures_.begin(), signatures_.end(), signature);
     const auto point = static_cast<std::size_t>(found - signatures_.begin());
@@ -91,7 +91,7 @@ void Study::addRow(const std::string& sweep, const std::string& knob, const std:
         result_.reference_intensity = probe.referenceIntensity(result_.frames);
         Scene white = probe.scene();
         white.signal.reference_intensity = result_.reference_intensity;
-        probe = FrameProbe(std::move(white), shelf_);
+        probe = SettingRun(std::move(white), shelf_);
         signature = probe.signature();
       }
       StudyPoint fresh;
@@ -172,7 +172,7 @@ bool Study::visitAll(int round) {
 
 void Study::visit(std::size_t point, int round) {
   const Clock::time_point begin = Clock::now();
-  FrameProbe& probe = probes_[point];
+  SettingRun& probe = probes_[point];
   StudyPoint& p = result_.points[point];
   if (round == 0)
     compare(point);
@@ -188,7 +188,7 @@ void Study::visit(std::size_t point, int round) {
 }
 
 void Study::compare(std::size_t point) {
-  FrameProbe& probe = probes_[point];
+  SettingRun& probe = probes_[point];
   StudyPoint& p = result_.points[point];
   StudyErrors& e = p.errors;
   InterfaceError interfaces;

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "motion/cardiac_clock.h"
+#include "metrics/picture_error.h"
+#include "metrics/statistics.h"
+#include "motion/cycle/cardiac_clock.h"
 #include "output/manifest.h"
-#include "study/frame_probe.h"
 #include "study/knobs.h"
-#include "study/picture_error.h"
-#include "study/statistics.h"
+#include "study/setting_run.h"
 
 namespace echocine {
 

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "page/assets.h"
 #include "page/page.h"
 #include "study/study_files.h"
 #include "study/thumbnail.h"
@@ -17,7 +18,10 @@ void writeStudyPage(const StudyResult& result, const std::filesystem::path& path
   }
   data["images"] = std::move(images);
   data["white_difference_db"] = kWhiteDifference_db;
-  writePage(path, pageLook("EchoCine study: " + result.scene_file, "study.html", "study.js"), data);
+  writePage(path,
+            pageLook("EchoCine study: " + result.scene_file, pageAsset("study.html"),
+                     pageAsset("study.js")),
+            data);
 }
 
 }  // namespace echocine

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "output/cine_writer.h"
+#include "video/cine_writer.h"
 
 namespace echocine {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "study/frame_probe.h"
+#include "study/setting_run.h"
 
 namespace echocine {
 

@@ -10,9 +10,9 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "metrics/picture_error.h"
 #include "study/cost_model.h"
-#include "study/frame_probe.h"
-#include "study/picture_error.h"
+#include "study/setting_run.h"
 #include "study/study.h"
 
 namespace echocine {
@@ -71,10 +71,10 @@ class Descent {
 Tried Descent::tryOut(const Setting& setting, bool reference) {
   if (const auto known = tried_.find(setting); known != tried_.end()) return known->second;
   if (!monitor_.keep_going()) throw JobError("stopped while the accuracy was chosen");
-  FrameProbe probe(sceneWith(scene_, table_, setting), shelf_);
+  SettingRun probe(sceneWith(scene_, table_, setting), shelf_);
   if (reference) {
     scene_.signal.reference_intensity = probe.referenceIntensity(frames_);
-    probe = FrameProbe(sceneWith(scene_, table_, setting), shelf_);
+    probe = SettingRun(sceneWith(scene_, table_, setting), shelf_);
   }
   const auto start = std::chrono::steady_clock::now();
   Tried tried;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "trace/interface_lanes.h"
-#include "trace/part_interfaces.h"
+#include "trace/clip_interfaces.h"
 
 namespace echocine {
 
@@ -12,22 +12,22 @@ namespace {
 
 constexpr double kFar_m = 1e9;  // beyond every image
 
-// What parts send back, and where. Along a part `place` grows from place_a to place_b: the distance
+// What clips send back, and where. Along a clip `place` grows from place_a to place_b: the distance
 // from the foot of the perpendicular from the centre; of a linear probe the depth from a.
 struct EchoRows {
-  PartRow<double> strength;          // of a part as if it filled the cell, per unit of angle
-  PartRow<double> whole;             // of the part
-  PartRow<double> k_a, k_b;          // its ends, in samples; within one of the image
-  PartRow<std::int32_t> first, end;  // the samples it spans
-  PartRow<std::uint32_t> single;     // 1: that is one, and the part ends there; else 0
-  PartRow<double> zero_m, step_m;    // of sample k the nearer end is at zero + k step, as place
-  PartRow<double> exponent, exponent_step;  // A in the middle of the first sample, and of one more
-  PartRow<double> place_a, place_b;
-  PartRow<double> p;     // distance of the foot from the centre; of a linear probe |dx / dz|
-  PartRow<double> flat;  // of a linear probe: |dx| of a part without extent in depth
+  ClipRow<double> strength;          // of a clip as if it filled the cell, per unit of angle
+  ClipRow<double> whole;             // of the clip
+  ClipRow<double> k_a, k_b;          // its ends, in samples; within one of the image
+  ClipRow<std::int32_t> first, end;  // the samples it spans
+  ClipRow<std::uint32_t> single;     // 1: that is one, and the clip ends there; else 0
+  ClipRow<double> zero_m, step_m;    // of sample k the nearer end is at zero + k step, as place
+  ClipRow<double> exponent, exponent_step;  // A in the middle of the first sample, and of one more
+  ClipRow<double> place_a, place_b;
+  ClipRow<double> p;     // distance of the foot from the centre; of a linear probe |dx / dz|
+  ClipRow<double> flat;  // of a linear probe: |dx| of a clip without extent in depth
 };
 
-// Intervals of one sample on a part each.
+// Intervals of one sample on a clip each.
 struct IntervalRows {
   static constexpr std::size_t kMost = 128;
   std::size_t count = 0;
@@ -72,23 +72,23 @@ class CellEchoMaker {
     for (const LineTrace& line : lines) samples_lit_.push_back(samplesLit(line));
   }
 
-  void add(const CellParts& parts, const InterfaceRows& interfaces) {
+  void add(const EdgeClips& clips, const InterfaceRows& interfaces) {
     Ints4 most{};
-    for (std::size_t i = 0; i < parts.count; i += kDoubleLanes)
+    for (std::size_t i = 0; i < clips.count; i += kDoubleLanes)
       most +=
-          angular_ ? echoesOf<true>(parts, interfaces, i) : echoesOf<false>(parts, interfaces, i);
-    echoes_.reserve(echoes_.count + parts.count +
+          angular_ ? echoesOf<true>(clips, interfaces, i) : echoesOf<false>(clips, interfaces, i);
+    echoes_.reserve(echoes_.count + clips.count +
                     static_cast<std::size_t>(most[0] + most[1] + most[2] + most[3]));
-    std::array<std::uint32_t, 2 * kParts> longer;
-    const std::size_t count = addSingles(parts, longer);
-    for (std::size_t i = 0; i < count; ++i) intoSamples(longer[i], parts.line[longer[i]]);
+    std::array<std::uint32_t, 2 * kClips> longer;
+    const std::size_t count = addSingles(clips, longer);
+    for (std::size_t i = 0; i < count; ++i) intoSamples(longer[i], clips.line[longer[i]]);
     takeShares();
   }
 
  private:
   // Samples whose centres lie before the line's end.
   int samplesLit(const LineTrace& line) const {
-    const double end_m = line.stretches.back().end_depth_m;
+    const double end_m = line.segments.back().end_depth_m;
     const auto lit = [&](int k) { return min_depth_m_ + (k + 0.5) * spacing_m_ < end_m; };
     int n = static_cast<int>(
         std::clamp((end_m - min_depth_m_) * per_spacing_, 0.0, static_cast<double>(samples_)));
@@ -99,10 +99,10 @@ class CellEchoMaker {
 
   // As the walk along a line does it: Eq. 1 and the lobe; a membrane echoes twice. Mostly the angle
   // counts in the lobe cos^2 alone, which needs no root.
-  Doubles4 strengthOf(const CellParts& parts, const InterfaceRows& f, std::size_t i) const {
-    const Doubles4 to_x = lanesAt(&parts.to_x[i]), to_z = lanesAt(&parts.to_z[i]);
-    const Doubles4 along = to_x * lanesAt(&parts.normal_x[i]) + to_z * lanesAt(&parts.normal_z[i]);
-    const Doubles4 squares = (to_x * to_x + to_z * to_z) * lanesAt(&parts.normal_square[i]);
+  Doubles4 strengthOf(const EdgeClips& clips, const InterfaceRows& f, std::size_t i) const {
+    const Doubles4 to_x = lanesAt(&clips.to_x[i]), to_z = lanesAt(&clips.to_z[i]);
+    const Doubles4 along = to_x * lanesAt(&clips.normal_x[i]) + to_z * lanesAt(&clips.normal_z[i]);
+    const Doubles4 squares = (to_x * to_x + to_z * to_z) * lanesAt(&clips.normal_square[i]);
     const Doubles4 cos_square = smaller(along * along / squares, 1);
     const Doubles4 Z_1 = lanesAt(&f.Z_1[i]), Z_2 = lanesAt(&f.Z_2[i]), r = lanesAt(&f.r[i]);
     const Doubles4 n = lanesAt(&f.lobe[i]), passed = lanesAt(&f.passed[i]),
@@ -119,13 +119,13 @@ class CellEchoMaker {
     return passed * withSecond(reflectedShares(Z_1, Z_2, r, lanesAt(&f.turn[i]), cos_i)) * lobe;
   }
 
-  // Fills the rows for four parts; returns how many samples each spans.
+  // Fills the rows for four clips; returns how many samples each spans.
   template <bool kAngular>
-  Ints4 echoesOf(const CellParts& parts, const InterfaceRows& f, std::size_t i) {
-    const Doubles4 a_x = lanesAt(&parts.a_x[i]), a_z = lanesAt(&parts.a_z[i]),
-                   b_x = lanesAt(&parts.b_x[i]), b_z = lanesAt(&parts.b_z[i]);
+  Ints4 echoesOf(const EdgeClips& clips, const InterfaceRows& f, std::size_t i) {
+    const Doubles4 a_x = lanesAt(&clips.a_x[i]), a_z = lanesAt(&clips.a_z[i]),
+                   b_x = lanesAt(&clips.b_x[i]), b_z = lanesAt(&clips.b_z[i]);
     const Doubles4 dx = b_x - a_x, dz = b_z - a_z;
-    const Doubles4 strength = strengthOf(parts, f, i) * per_width_;
+    const Doubles4 strength = strengthOf(clips, f, i) * per_width_;
     Doubles4 path_a = a_z, path_b = b_z, place_a{}, place_b = dz, p, flat{}, whole, zero_m = -a_z;
     if constexpr (kAngular) {
       path_a = squareRoot(a_x * a_x + a_z * a_z) - face_radius_m_;
@@ -145,11 +145,11 @@ class CellEchoMaker {
     const Doubles4 step_m = spacing_m_ * path_per_depth;
     const Doubles4 per_path =
         settings_.travel_time ? per_spacing_ / path_per_depth : Doubles4{} + per_spacing_;
-    const Doubles4 k_pass = (lanesAt(&f.depth_m[i]) - min_depth_m_) * per_spacing_;
+    const Doubles4 k_hit = (lanesAt(&f.depth_m[i]) - min_depth_m_) * per_spacing_;
     const Doubles4 samples = Doubles4{} + samples_;
-    const Doubles4 k_a = clamped(k_pass + (path_a - path_m) * per_path, Doubles4{} - 1, samples);
+    const Doubles4 k_a = clamped(k_hit + (path_a - path_m) * per_path, Doubles4{} - 1, samples);
     const Doubles4 k_b =
-        clamped(k_pass + (path_b - path_m) * per_path, Doubles4{} - 1, samples + 1);
+        clamped(k_hit + (path_b - path_m) * per_path, Doubles4{} - 1, samples + 1);
     const Doubles4 first = wholeOf(larger(k_a, 0)), below = wholeOf(larger(k_b, 0));
     const Doubles4 end = larger(below < k_b ? below + 1 : below, first + 1);
     const Mask4 seen = masksAt(&f.seen[i]);
@@ -159,9 +159,9 @@ class CellEchoMaker {
     store(strength * whole, &rows_.whole[i]);
     store(k_a, &rows_.k_a[i]);
     store(k_b, &rows_.k_b[i]);
-    store(zero_m + path_m - k_pass * step_m, &rows_.zero_m[i]);
+    store(zero_m + path_m - k_hit * step_m, &rows_.zero_m[i]);
     store(step_m, &rows_.step_m[i]);
-    store(lanesAt(&f.exponent[i]) + (first + 0.5 - k_pass) * exponent_step, &rows_.exponent[i]);
+    store(lanesAt(&f.exponent[i]) + (first + 0.5 - k_hit) * exponent_step, &rows_.exponent[i]);
     store(exponent_step, &rows_.exponent_step[i]);
     store(place_a, &rows_.place_a[i]);
     store(place_b, &rows_.place_b[i]);
@@ -177,13 +177,13 @@ class CellEchoMaker {
 
   // Parts within one sample; the numbers of the others into `longer`. Without branches, which no
   // processor would foresee.
-  std::size_t addSingles(const CellParts& parts, std::array<std::uint32_t, 2 * kParts>& longer) {
+  std::size_t addSingles(const EdgeClips& clips, std::array<std::uint32_t, 2 * kClips>& longer) {
     std::uint32_t* at = echoes_.at.data() + echoes_.count;
     double* intensity = echoes_.intensity.data() + echoes_.count;
     double* exponent = echoes_.exponent.data() + echoes_.count;
     std::size_t singles = 0, others = 0;
-    for (std::size_t i = 0; i < parts.count; ++i) {
-      const std::uint32_t line = parts.line[i];
+    for (std::size_t i = 0; i < clips.count; ++i) {
+      const std::uint32_t line = clips.line[i];
       const int first = rows_.first[i];
       const std::uint32_t lit = first < std::min(samples_lit_[line], rows_.end[i]) ? 1 : 0;
       at[singles] = line * static_cast<std::uint32_t>(samples_) + static_cast<std::uint32_t>(first);
@@ -197,25 +197,25 @@ class CellEchoMaker {
     return others;
   }
 
-  // An interval for each sample that a part spans.
-  void intoSamples(std::size_t part, std::uint32_t line) {
-    const int first = rows_.first[part], end = std::min(rows_.end[part], samples_lit_[line]);
-    const double k_a = rows_.k_a[part], k_b = rows_.k_b[part];
-    const double zero_m = rows_.zero_m[part], step_m = rows_.step_m[part];
+  // An interval for each sample that a clip spans.
+  void intoSamples(std::size_t clip, std::uint32_t line) {
+    const int first = rows_.first[clip], end = std::min(rows_.end[clip], samples_lit_[line]);
+    const double k_a = rows_.k_a[clip], k_b = rows_.k_b[clip];
+    const double zero_m = rows_.zero_m[clip], step_m = rows_.step_m[clip];
     const std::uint32_t line_at = line * static_cast<std::uint32_t>(samples_);
     for (int k = first; k < end; ++k) {
       if (intervals_.count == IntervalRows::kMost) takeShares();
       const std::size_t i = intervals_.count++, to = echoes_.count + i;
       intervals_.begin_m[i] = k <= k_a ? 0 : zero_m + k * step_m;
       intervals_.end_m[i] = k + 1 >= k_b ? kFar_m : zero_m + (k + 1) * step_m;
-      intervals_.strength[i] = rows_.strength[part];
-      intervals_.place_a[i] = rows_.place_a[part];
-      intervals_.place_b[i] = rows_.place_b[part];
-      intervals_.p[i] = rows_.p[part];
-      intervals_.flat[i] = rows_.flat[part];
+      intervals_.strength[i] = rows_.strength[clip];
+      intervals_.place_a[i] = rows_.place_a[clip];
+      intervals_.place_b[i] = rows_.place_b[clip];
+      intervals_.p[i] = rows_.p[clip];
+      intervals_.flat[i] = rows_.flat[clip];
       echoes_.at[to] = line_at + static_cast<std::uint32_t>(k);
       echoes_.exponent[to] =
-          std::max(rows_.exponent[part] + (k - first) * rows_.exponent_step[part], 0.0);
+          std::max(rows_.exponent[clip] + (k - first) * rows_.exponent_step[clip], 0.0);
     }
   }
 
@@ -258,19 +258,19 @@ class CellEchoMaker {
 
 }  // namespace
 
-void addCellEchoes(std::span<const ContourPiece> pieces, std::span<const PieceNormals> normals,
+void addCellEchoes(std::span<const ContourEdge> edges, std::span<const EdgeNormals> normals,
                    const Probe& probe, const TraceSettings& settings,
                    std::span<const LineTrace> lines, CellEchoes& echoes) {
   echoes.count = 0;
   if (!settings.reflection) return;
-  CellCutter cutter(probe, pieces);
-  const PartInterfaces interfaces(probe, settings, lines);
+  EdgeClipper cutter(probe, edges);
+  const ClipInterfaces interfaces(probe, settings, lines);
   CellEchoMaker maker(probe, settings, lines, cutter.width(), echoes);
-  CellParts parts{};
+  EdgeClips clips{};
   InterfaceRows rows{};
-  for (cutter.next(parts); parts.count > 0; cutter.next(parts)) {
-    interfaces.find(pieces, normals, parts, rows);
-    maker.add(parts, rows);
+  for (cutter.next(clips); clips.count > 0; cutter.next(clips)) {
+    interfaces.find(edges, normals, clips, rows);
+    maker.add(clips, rows);
   }
 }
 

@@ -13,15 +13,15 @@
 
 namespace echocine {
 
-// Fills `echoes` with what the contour inside each line's cell sends back: for each piece of
+// Fills `echoes` with what the contour inside each line's cell sends back: for each edge of
 // contour its lobe at its own angle of incidence, spread over the samples it spans by the share of
 // the cell it covers in each. Media and losses before it are those of the cell's line where it
-// passes the same surface, nearest in depth. For a flat interface the sum over lines is what
+// hits the same surface, nearest in depth. For a flat interface the sum over lines is what
 // sampling at the centres gives. Preconditions: settings.cell_echoes during the walk, which left
-// lines[i].passes; two lines at least, and one stretch at least per line. Limit: contour whose
+// lines[i].hits; two lines at least, and one segment at least per line. Limit: contour whose
 // surface its own line does not cross (a tip or a structure between two lines) sends nothing back,
-// as with sampling at the centres. normals: of each piece, with smooth normals; else empty.
-void addCellEchoes(std::span<const ContourPiece> pieces, std::span<const PieceNormals> normals,
+// as with sampling at the centres. normals: of each edge, with smooth normals; else empty.
+void addCellEchoes(std::span<const ContourEdge> edges, std::span<const EdgeNormals> normals,
                    const Probe& probe, const TraceSettings& settings,
                    std::span<const LineTrace> lines, CellEchoes& echoes);
 

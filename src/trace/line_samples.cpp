@@ -59,18 +59,18 @@ class PowerTable {
   std::array<SamplePowers, 8> entries_;
 };
 
-// One stretch's backscatter in blocks of eight samples: within a block stored powers of the
+// One segment's backscatter in blocks of eight samples: within a block stored powers of the
 // attenuation of one sample, from block to block its eighth power, in double: no call in the loops,
 // which vectorise, and rounding of one part in 1e16 per block. Up to seven samples behind the
-// stretch are written too, which what follows it overwrites.
+// segment are written too, which what follows it overwrites.
 template <bool kSpread, bool kAttenuation>
-void fillStretch(const Stretch& stretch, const Sampling& s, PowerTable& table, int begin, int end,
+void fillSegment(const MediumSegment& segment, const Sampling& s, PowerTable& table, int begin, int end,
                  float* out) {
-  const double offset_m = s.centre(begin) - stretch.begin_depth_m;
-  double path_step = stretch.path_per_depth * s.spacing_m;
-  double path_m = stretch.begin_path_m + stretch.path_per_depth * offset_m;
-  double strength = stretch.strength_m2_sr;
-  // Metres are taken in a unit that makes the stretch begin between 1 and 2: with l < 1 the
+  const double offset_m = s.centre(begin) - segment.begin_depth_m;
+  double path_step = segment.path_per_depth * s.spacing_m;
+  double path_m = segment.begin_path_m + segment.path_per_depth * offset_m;
+  double strength = segment.strength_m2_sr;
+  // Metres are taken in a unit that makes the segment begin between 1 and 2: with l < 1 the
   // strength would reach the floats' lower end before the intensity does. A power of two changes no
   // digit.
   if constexpr (kSpread) {
@@ -82,8 +82,8 @@ void fillStretch(const Stretch& stretch, const Sampling& s, PowerTable& table, i
   double block_factor = 1;
   Floats8 power{};
   if constexpr (kAttenuation) {
-    strength *= std::exp(-(stretch.begin_exponent + stretch.exponent_per_m * offset_m));
-    const SamplePowers& powers = table.of(stretch.exponent_per_m);
+    strength *= std::exp(-(segment.begin_exponent + segment.exponent_per_m * offset_m));
+    const SamplePowers& powers = table.of(segment.exponent_per_m);
     block_factor = powers.block;
     power = powers.within;
   }
@@ -105,32 +105,32 @@ void fillStretch(const Stretch& stretch, const Sampling& s, PowerTable& table, i
   }
 }
 
-void fillOne(const Stretch& stretch, const Sampling& s, const IntensityParts& parts,
+void fillOne(const MediumSegment& segment, const Sampling& s, const IntensityTerms& parts,
              PowerTable& table, int begin, int end, float* out) {
   if (parts.spread_undone_at_m == 0) {
-    return parts.attenuation ? fillStretch<true, true>(stretch, s, table, begin, end, out)
-                             : fillStretch<true, false>(stretch, s, table, begin, end, out);
+    return parts.attenuation ? fillSegment<true, true>(segment, s, table, begin, end, out)
+                             : fillSegment<true, false>(segment, s, table, begin, end, out);
   }
-  Stretch scaled = stretch;
+  MediumSegment scaled = segment;
   scaled.strength_m2_sr /= parts.spread_undone_at_m * parts.spread_undone_at_m;
-  if (parts.attenuation) return fillStretch<false, true>(scaled, s, table, begin, end, out);
+  if (parts.attenuation) return fillSegment<false, true>(scaled, s, table, begin, end, out);
   std::fill(out + begin, out + end, static_cast<float>(scaled.strength_m2_sr));
 }
 
-// Every sample once: stretches that scatter, zeros elsewhere.
-void fillBackscatter(const LineTrace& line, const Sampling& s, const IntensityParts& parts,
+// Every sample once: segments that scatter, zeros elsewhere.
+void fillBackscatter(const LineTrace& line, const Sampling& s, const IntensityTerms& parts,
                      float* out) {
   PowerTable table(s.spacing_m);
   int done = 0, begin = 0, end = 0;
   double depth_m = s.min_depth_m;  // of `end`
-  for (const Stretch& stretch : line.stretches) {
-    begin = stretch.begin_depth_m == depth_m ? end : sampleFrom(s, stretch.begin_depth_m);
+  for (const MediumSegment& segment : line.segments) {
+    begin = segment.begin_depth_m == depth_m ? end : sampleFrom(s, segment.begin_depth_m);
     begin = std::max(begin, done);
-    depth_m = stretch.end_depth_m;
+    depth_m = segment.end_depth_m;
     end = sampleFrom(s, depth_m);
-    if (begin >= end || stretch.strength_m2_sr == 0) continue;
+    if (begin >= end || segment.strength_m2_sr == 0) continue;
     std::fill(out + done, out + begin, 0.0f);
-    fillOne(stretch, s, parts, table, begin, end, out);
+    fillOne(segment, s, parts, table, begin, end, out);
     done = end;
   }
   std::fill(out + done, out + s.samples, 0.0f);
@@ -138,7 +138,7 @@ void fillBackscatter(const LineTrace& line, const Sampling& s, const IntensityPa
 
 }  // namespace
 
-void sampleIntensity(const LineTrace& line, const Sampling& sampling, const IntensityParts& parts,
+void sampleIntensity(const LineTrace& line, const Sampling& sampling, const IntensityTerms& parts,
                      std::span<float> values) {
   if (parts.backscatter)
     fillBackscatter(line, sampling, parts, values.data());
@@ -174,7 +174,7 @@ Doubles4 expOfMinus(Doubles4 x) {
 
 }  // namespace
 
-void addToSamples(const CellEchoes& echoes, const IntensityParts& parts, std::span<float> plane) {
+void addToSamples(const CellEchoes& echoes, const IntensityTerms& parts, std::span<float> plane) {
   if (!parts.reflection) return;
   constexpr std::size_t kTogether = 64;
   static_assert(kTogether % kDoubleLanes == 0);
@@ -193,24 +193,24 @@ void addToSamples(const CellEchoes& echoes, const IntensityParts& parts, std::sp
 
 void sampleExponent(const LineTrace& line, const Sampling& sampling, std::span<float> values) {
   std::fill(values.begin(), values.end(), 0.0f);
-  for (const Stretch& stretch : line.stretches) {
-    const int begin = sampleFrom(sampling, stretch.begin_depth_m);
-    const int end = sampleFrom(sampling, stretch.end_depth_m);
+  for (const MediumSegment& segment : line.segments) {
+    const int begin = sampleFrom(sampling, segment.begin_depth_m);
+    const int end = sampleFrom(sampling, segment.end_depth_m);
     for (int k = begin; k < end; ++k)
       values[static_cast<std::size_t>(k)] =
-          static_cast<float>(stretch.begin_exponent +
-                             stretch.exponent_per_m * (sampling.centre(k) - stretch.begin_depth_m));
+          static_cast<float>(segment.begin_exponent +
+                             segment.exponent_per_m * (sampling.centre(k) - segment.begin_depth_m));
   }
 }
 
 void sampleMedium(const LineTrace& line, const Sampling& sampling, std::span<std::uint32_t> ids) {
   std::fill(ids.begin(), ids.end(), kNoMedium);
-  for (const Stretch& stretch : line.stretches) {
-    const int begin = sampleFrom(sampling, stretch.begin_depth_m);
-    const int end = sampleFrom(sampling, stretch.end_depth_m);
+  for (const MediumSegment& segment : line.segments) {
+    const int begin = sampleFrom(sampling, segment.begin_depth_m);
+    const int end = sampleFrom(sampling, segment.end_depth_m);
     if (begin < end)
       std::fill(ids.begin() + begin, ids.begin() + end,
-                static_cast<std::uint32_t>(index(stretch.medium)));
+                static_cast<std::uint32_t>(index(segment.medium)));
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Samples of a scan line from its stretches and echoes.
+// Samples of a scan line from its segments and echoes.
 
 #include <cstdint>
 #include <span>
@@ -17,7 +17,7 @@ struct Sampling {
 };
 
 // Which of the paper's factors the intensity of a sample holds.
-struct IntensityParts {
+struct IntensityTerms {
   bool reflection = true, backscatter = true;
   bool attenuation = true;
   // 0: the backscattered part falls as 1/l^2. Else it stands as if every sample were at this path
@@ -29,11 +29,11 @@ struct IntensityParts {
 // plus the echoes of the interfaces in its depth interval. Relative error of the backscattered part
 // under 1e-6. Behind the end of the ray every sample is exactly 0. values.size() ==
 // sampling.samples.
-void sampleIntensity(const LineTrace& line, const Sampling& sampling, const IntensityParts& parts,
+void sampleIntensity(const LineTrace& line, const Sampling& sampling, const IntensityTerms& parts,
                      std::span<float> values);
 
 // Adds a frame's cell echoes to the samples of its lines; the attenuation to 1e-12.
-void addToSamples(const CellEchoes& echoes, const IntensityParts& parts, std::span<float> plane);
+void addToSamples(const CellEchoes& echoes, const IntensityTerms& parts, std::span<float> plane);
 
 // A in nepers at each sample's centre; 0 behind the end of the ray.
 void sampleExponent(const LineTrace& line, const Sampling& sampling, std::span<float> values);

@@ -1,5 +1,5 @@
 #pragma once
-// What one scan line met, before it is sampled: a few stretches of constant medium and a few
+// What one scan line met, before it is sampled: a few segments of constant medium and a few
 // echoes. `Depth` is the position on the image's depth axis: the path length, or 1540 m/s times
 // half the travel time.
 
@@ -13,7 +13,7 @@ namespace echocine {
 
 // One medium along a scan line. Path length l and attenuation exponent A = 4 sum alpha l grow
 // linearly.
-struct Stretch {
+struct MediumSegment {
   double begin_depth_m = 0, end_depth_m = 0;
   double begin_path_m = 0, path_per_depth = 1;    // l
   double begin_exponent = 0, exponent_per_m = 0;  // A in nepers, and dA per metre of depth
@@ -54,7 +54,7 @@ struct CellEchoes {
 
 // One crossing as the walk along a line judged it; what integration over the beam's cell needs of
 // it.
-struct InterfacePass {
+struct InterfaceHit {
   SurfaceId surface{};
   bool entering = false;
   bool seen = false;           // an interface here: the media differ, or a membrane
@@ -66,16 +66,16 @@ struct InterfacePass {
   double passed = 1;                           // prod (1-R)^2 before it
 };
 
-// Stretches follow each other without gap from depth 0; after the last one the ray has ended.
+// Segments follow each other without gap from depth 0; after the last one the ray has ended.
 struct LineTrace {
-  std::vector<Stretch> stretches;
+  std::vector<MediumSegment> segments;
   std::vector<Echo> echoes;
-  std::vector<InterfacePass> passes;  // in order; only on request
+  std::vector<InterfaceHit> hits;  // in order; only on request
 
   void clear() {
-    stretches.clear();
+    segments.clear();
     echoes.clear();
-    passes.clear();
+    hits.clear();
   }
 };
 

@@ -75,7 +75,7 @@ void LineWalker::walkTo(double distance_m) {
   }
   const double next_depth_m = alive_ ? end_depth_m : settings_.max_depth_m;
   const double eta_b = settings_.backscatter ? medium.backscatter_per_m_sr : 0.0;
-  trace_.stretches.push_back({.begin_depth_m = depth_m_,
+  trace_.segments.push_back({.begin_depth_m = depth_m_,
                               .end_depth_m = next_depth_m,
                               .begin_path_m = path_m_,
                               .path_per_depth = path_per_depth,
@@ -121,13 +121,13 @@ const Crossing& LineWalker::deciding(Group group) const {
 
 // For integration over cells: every crossing with the media and losses of this line. Of coincident
 // surfaces the deciding one is seen.
-void LineWalker::notePasses(Group group, MediumId after) {
+void LineWalker::noteHits(Group group, MediumId after) {
   const Medium& medium = settings_.media[index(medium_)];
   const Crossing& decided = deciding(group);
   for (const Crossing& c : group) {
     const SurfaceTraits& surface = settings_.surfaces[index(c.surface)];
     const bool seen = surface.membrane || (after != medium_ && &c == &decided);
-    trace_.passes.push_back(
+    trace_.hits.push_back(
         {.surface = c.surface,
          .entering = c.entering,
          .seen = seen,
@@ -211,7 +211,7 @@ void LineWalker::advance(const RayCrossings& met) {
     const Group group(&all[begin], end - begin);
     for (const Crossing& c : group) cross(c, inside);
     const MediumId after = rulingMedium();
-    if (settings_.note_passes) notePasses(group, after);
+    if (settings_.note_hits) noteHits(group, after);
     for (auto c = group.begin(); alive_ && c != group.end(); ++c) {
       if (!settings_.surfaces[index(c->surface)].membrane) continue;
       // At a vertex a sheet may be met by several of its triangles: it is passed once.

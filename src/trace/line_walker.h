@@ -35,7 +35,7 @@ class LineWalker {
   void walkTo(double distance_m);
   void passInterface(Group group, MediumId after);
   void passMembrane(const Crossing& crossing);
-  void notePasses(Group group, MediumId after);
+  void noteHits(Group group, MediumId after);
   void addEcho(double R, double cos_i, const Crossing& crossing);
   void loseAt(const InterfaceLaw& law);
   void bend(Group group, Vec3d direction);

@@ -20,7 +20,7 @@ struct StartedRay {
   double start_m = 0;
 };
 
-// Follows up to kPacket rays through the media, one round per straight piece; traces[i] is that of
+// Follows up to kPacket rays through the media, one round per straight edge; traces[i] is that of
 // rays[i]. Neighbouring rays cost least.
 WorkCounts walkTogether(const FrameGeometry& geometry, const TraceSettings& settings,
                         std::span<const StartedRay> rays, std::span<LineTrace> traces);

@@ -16,7 +16,7 @@ constexpr std::size_t kRaysOfBlock = 64;  // shared among threads at least so ma
 
 // A plane of intensities and where it goes.
 struct Wanted {
-  IntensityParts parts;
+  IntensityTerms parts;
   std::vector<float>* plane;
 };
 
@@ -27,7 +27,7 @@ std::vector<Wanted> intensityPlanes(const TraceSettings& settings, const PlaneRe
     if (channel != Channel::medium && channel != Channel::attenuation)
       wanted.push_back({partsOf(channel, settings.attenuation, request.spread_undone_at_m),
                         &frame.planes.at(channel)});
-  if (request.signal) wanted.push_back({request.signal_parts, &frame.signal});
+  if (request.signal) wanted.push_back({request.signal_terms, &frame.signal});
   return wanted;
 }
 
@@ -109,10 +109,10 @@ class BeamSums {
     double* of_weights = of_weights_.data();
     for (std::size_t k = 0; k < samples; ++k) of_weights[k] += static_cast<double>(weight[k]);
     for (std::size_t p = 0; p < wanted.size(); ++p) {
-      const IntensityParts& parts = wanted[p].parts;
+      const IntensityTerms& parts = wanted[p].parts;
       double* sums = of_planes_[p].data();
       if (parts.backscatter) {
-        IntensityParts scattered = parts;
+        IntensityTerms scattered = parts;
         scattered.reflection = false;
         sampleIntensity(trace, sampling, scattered, values_);
         for (std::size_t k = 0; k < samples; ++k)

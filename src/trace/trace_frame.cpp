@@ -33,8 +33,8 @@ WorkCounts walkPacket(const FrameGeometry& geometry, const Probe& probe,
 
 }  // namespace
 
-IntensityParts partsOf(Channel channel, bool attenuation, double spread_undone_at_m) {
-  IntensityParts parts;
+IntensityTerms partsOf(Channel channel, bool attenuation, double spread_undone_at_m) {
+  IntensityTerms parts;
   parts.spread_undone_at_m = spread_undone_at_m;
   parts.attenuation = attenuation && channel != Channel::unattenuated;
   parts.backscatter = channel != Channel::reflection;
@@ -58,8 +58,8 @@ class LineSampler {
   void addCellEchoes() const {
     for (const Channel channel : request_.channels)
       if (channel != Channel::medium && channel != Channel::attenuation)
-        addToSamples(frame_.cell_echoes, partsOfChannel(channel), frame_.planes.at(channel));
-    if (request_.signal) addToSamples(frame_.cell_echoes, request_.signal_parts, frame_.signal);
+        addToSamples(frame_.cell_echoes, termsOfChannel(channel), frame_.planes.at(channel));
+    if (request_.signal) addToSamples(frame_.cell_echoes, request_.signal_terms, frame_.signal);
   }
 
   void sample(int line, const LineTrace& trace) const {
@@ -69,15 +69,15 @@ class LineSampler {
       else if (channel == Channel::attenuation)
         sampleExponent(trace, sampling_, column(frame_.planes.at(channel), line));
       else
-        intensity(trace, partsOfChannel(channel), column(frame_.planes.at(channel), line));
+        intensity(trace, termsOfChannel(channel), column(frame_.planes.at(channel), line));
     }
-    if (request_.signal) intensity(trace, request_.signal_parts, column(frame_.signal, line));
+    if (request_.signal) intensity(trace, request_.signal_terms, column(frame_.signal, line));
   }
 
   // Of all lines, by what each plane takes.
   WorkCounts work() const {
     WorkCounts work;
-    const auto add = [&](const IntensityParts& parts) {
+    const auto add = [&](const IntensityTerms& parts) {
       const auto size =
           static_cast<std::uint64_t>(frame_.lines) * static_cast<std::uint64_t>(frame_.samples);
       if (parts.backscatter && settings_.backscatter) work.samples_backscatter += size;
@@ -87,14 +87,14 @@ class LineSampler {
       if (channel == Channel::attenuation)
         add({.reflection = false, .backscatter = false});
       else if (channel != Channel::medium)
-        add(partsOfChannel(channel));
+        add(termsOfChannel(channel));
     }
-    if (request_.signal) add(request_.signal_parts);
+    if (request_.signal) add(request_.signal_terms);
     return work;
   }
 
  private:
-  IntensityParts partsOfChannel(Channel channel) const {
+  IntensityTerms termsOfChannel(Channel channel) const {
     return partsOf(channel, settings_.attenuation, request_.spread_undone_at_m);
   }
   template <typename T>
@@ -103,7 +103,7 @@ class LineSampler {
     return std::span(plane).subspan(static_cast<std::size_t>(line) * samples, samples);
   }
 
-  void intensity(const LineTrace& trace, const IntensityParts& parts,
+  void intensity(const LineTrace& trace, const IntensityTerms& parts,
                  std::span<float> values) const {
     sampleIntensity(trace, sampling_, parts, values);
   }
@@ -144,7 +144,7 @@ TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan, bool in
       backscatter(plan.backscatter),
       travel_time(plan.travel_time),
       cell_echoes(integrate_cells),
-      note_passes(integrate_cells) {
+      note_hits(integrate_cells) {
   for (const Structure& s : scene.structures)
     surfaces.push_back({s.medium, s.priority, s.membrane, s.reflection_gain,
                         plan.lobe ? s.reflection_exponent : 0});
@@ -155,9 +155,9 @@ PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan) {
   for (const Channel channel : scene.output.channels)
     if (scene.output.exr && channel != Channel::display) request.channels.push_back(channel);
   request.signal = wantsPicture(scene);
-  request.signal_parts.attenuation = plan.attenuation && scene.signal.tgc != Tgc::perfect;
+  request.signal_terms.attenuation = plan.attenuation && scene.signal.tgc != Tgc::perfect;
   request.spread_undone_at_m = plan.spread ? 0 : scene.probe.middleDepth();
-  request.signal_parts.spread_undone_at_m =
+  request.signal_terms.spread_undone_at_m =
       !plan.spread || scene.signal.spread == Spread::compensate ? scene.probe.middleDepth() : 0;
   return request;
 }
@@ -216,9 +216,9 @@ WorkCounts traceFrame(const PlaneSlice& slice, const Probe& probe, const TraceSe
     work.rays += 1;
     work.crossings += met.crossings.size();
   }
-  work.facets_sliced = slice.pieces().size();
+  work.facets_sliced = slice.edges().size();
   if (settings.cell_echoes)
-    addCellEchoes(slice.pieces(), slice.normals(), probe, settings, frame.traces,
+    addCellEchoes(slice.edges(), slice.normals(), probe, settings, frame.traces,
                   frame.cell_echoes);
   sampleLines(probe, settings, request, frame, work);
   return work;

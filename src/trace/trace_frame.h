@@ -15,13 +15,13 @@ struct PlaneRequest {
   std::vector<Channel> channels;  // of the intensity stack, without Channel::display
   double spread_undone_at_m = 0;  // of the channels: 0 unless the scene turns the spread off
   bool signal = true;
-  IntensityParts signal_parts;
+  IntensityTerms signal_terms;
 };
 
 PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan);
 
 // What the samples of an intensity channel hold.
-IntensityParts partsOf(Channel channel, bool attenuation, double spread_undone_at_m);
+IntensityTerms partsOf(Channel channel, bool attenuation, double spread_undone_at_m);
 
 // Gives the frame its size and room for what is asked for.
 void reservePlanes(const Probe& probe, const PlaneRequest& request, PolarFrame& frame);

@@ -32,7 +32,7 @@ struct TraceSettings {
   // Echoes of interfaces are integrated over the beam's cell instead of taken at the line (plane
   // slice only).
   bool cell_echoes = false;
-  bool note_passes = false;  // keep what the walk judged of each crossing; cell echoes need it
+  bool note_hits = false;  // keep what the walk judged of each crossing; cell echoes need it
 };
 
 }  // namespace echocine

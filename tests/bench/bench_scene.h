@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "motion/control_motion.h"
+#include "motion/keyframes/control_motion.h"
 #include "motion/near_plane.h"
 #include "support/meshes.h"
 #include "support/plain_scene.h"

@@ -22,7 +22,7 @@ Loop ringLoop(const Probe& probe) {
   loop.metres_per_pixel = probe.max_depth_m / 470;
   loop.find.sector = {320, 4, probe.first_angle_rad, probe.last_angle_rad, 8, 470};
   for (int f = 0; f < 8; ++f) {
-    Plane picture(640 * 480);
+    PixelPlane picture(640 * 480);
     for (int y = 0; y < 480; ++y)
       for (int x = 0; x < 640; ++x)
         if (loop.sector().contains(x + 0.5, y + 0.5)) {

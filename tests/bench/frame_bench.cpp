@@ -11,10 +11,10 @@
 #include "bench/floor/bare_signal.h"
 #include "bench/floor/bare_slice.h"
 #include "bench/rounds.h"
-#include "cine.h"
-#include "frame_maker.h"
-#include "plan_loop.h"
+#include "render/render.h"
 #include "scene/scene_reader.h"
+#include "simulate/frame_maker.h"
+#include "simulate/plan_loop.h"
 
 namespace echocine::bench {
 namespace {
@@ -71,7 +71,7 @@ void wholeFrame(benchmark::State& state) {
   const BenchScene bare_scene{Size(state)};
   const LoopOnDisk loop(bare_scene, false);
   const Scene scene = readScene(loop.sceneFile());
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   const LoopPlan plan = planLoop(scene, motion);
   FrameMaker maker(scene, plan, motion);
   BareFrame bare(bare_scene);
@@ -120,7 +120,7 @@ LoopTime renderedLoop(const Scene& scene, const std::filesystem::path& folder, i
   RenderOptions options;
   options.folder = folder;
   options.threads = threads;
-  renderCine(scene, options, monitor);
+  renderLoop(scene, options, monitor);
   return time;
 }
 

@@ -6,10 +6,10 @@
 #include <chrono>
 
 #include "core/parallel.h"
-#include "motion/cardiac_clock.h"
+#include "metrics/statistics.h"
+#include "motion/cycle/cardiac_clock.h"
 #include "motion/motion_warnings.h"
 #include "scene/scene_reader.h"
-#include "study/statistics.h"
 #include "support/paths.h"
 
 namespace echocine::bench {
@@ -25,7 +25,7 @@ double secondsOf(Work&& work) {
 void lookForBreaks(benchmark::State& state) {
   const Scene scene =
       readScene(std::filesystem::path(support::kSourceDir) / "examples/beating_heart/scene.toml");
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   const CardiacClock clock(scene);
   SurfaceFrame frame;
   std::vector<double> looks, frames;

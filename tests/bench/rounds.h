@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "study/statistics.h"
+#include "metrics/statistics.h"
 
 namespace echocine::bench {
 

@@ -7,13 +7,13 @@
 #include "bench/floor/bare_signal.h"
 #include "bench/floor/bare_slice.h"
 #include "bench/rounds.h"
-#include "motion/heart_motion.h"
-#include "motion/surface_measure.h"
-#include "output/cine_writer.h"
+#include "motion/mesh/surface_measure.h"
+#include "motion/mesh_motion.h"
 #include "output/exr_stack.h"
 #include "signal/log_compression.h"
 #include "signal/signal_chain.h"
 #include "trace/trace_beams.h"
+#include "video/cine_writer.h"
 
 namespace echocine::bench {
 namespace {
@@ -100,8 +100,7 @@ void beamAverage(benchmark::State& state) {
   const BeamAverage ours(t.scene.scene.probe, t.scene.scene.signal);
   std::vector<float> plane = t.polar.signal, bare_plane = plane;
   overFloor(
-      state, [&](std::size_t) { ours.apply(plane); },
-      [&](std::size_t) { bare.run(bare_plane); });
+      state, [&](std::size_t) { ours.apply(plane); }, [&](std::size_t) { bare.run(bare_plane); });
 }
 
 void logCompression(benchmark::State& state) {

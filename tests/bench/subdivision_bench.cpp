@@ -8,9 +8,9 @@
 #include <chrono>
 
 #include "bench/floor/bare_product.h"
-#include "motion/limit_normals.h"
-#include "motion/subdivision.h"
-#include "study/statistics.h"
+#include "metrics/statistics.h"
+#include "motion/subdivision/limit_normals.h"
+#include "motion/subdivision/subdivision.h"
 
 namespace echocine::bench {
 namespace {

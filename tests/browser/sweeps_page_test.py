@@ -1,4 +1,4 @@
-"""sweeps.html of hand-written sweeps: sweeps_page_test.py ECHOCINE SOURCE_FOLDER"""
+"""sweeps.html of hand-written sweeps: sweeps_page_test.py SWEEP_PLOTS SOURCE_FOLDER"""
 
 import os
 import subprocess
@@ -70,7 +70,7 @@ def make_page(folder):
             file.write(f"# case: {name} </script>\n# against: <i>nothing</i>\n# variable: {variable}\n# bound: {bound}\n")
             file.write("at,got,expected,error\n")
             file.writelines(f"{at!r},0,0,{error}\n" for at, error in points)
-    subprocess.run([program, "study", "--sweeps", sweeps, "-o", out, "--quiet"], check=True)
+    subprocess.run([program, sweeps, out], check=True)
     return os.path.join(out, "sweeps.html")
 
 

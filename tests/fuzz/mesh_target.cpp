@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "motion/heart_motion.h"
+#include "motion/mesh_motion.h"
 #include "promises.h"
 #include "support/plain_scene.h"
 #include "targets.h"
@@ -32,7 +32,7 @@ void promisePhysical(const PolarFrame& frame) {
       promise(std::isfinite(value) && value >= 0, "an intensity that is none");
 }
 
-void trace(const Scene& scene, const HeartMotion& motion) {
+void trace(const Scene& scene, const MeshMotion& motion) {
   SurfaceFrame surfaces;
   motion.frameAt(0.3, surfaces);
   for (const auto& positions : surfaces.positions_m)
@@ -53,7 +53,7 @@ void trace(const Scene& scene, const HeartMotion& motion) {
 }
 
 void run(const Scene& scene) {
-  accepts([&] { trace(scene, HeartMotion(scene)); });
+  accepts([&] { trace(scene, MeshMotion(scene)); });
 }
 
 // As it is; mended, subdivided and smooth; and as a membrane.

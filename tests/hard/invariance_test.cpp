@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "motion/heart_motion.h"
+#include "motion/mesh_motion.h"
 #include "support/random_world.h"
 #include "support/scene_text.h"
 #include "support/sweep.h"
@@ -69,7 +69,7 @@ World worldOf(Map&& map, double unit_m = 0.01, bool flip_faces = false) {
       "[[structure]]\nname = \"leaflet\"\nmedium = \"valve\"\nmembrane = true\nkeyframes = " +
       write(parts.leaflet, "leaflet.obj") + "\n";
   World world{parsed(text), {}};
-  const HeartMotion motion(world.scene);
+  const MeshMotion motion(world.scene);
   SurfaceFrame frame;
   motion.frameAt(0, frame);
   for (std::size_t s = 0; s < frame.positions_m.size(); ++s) {

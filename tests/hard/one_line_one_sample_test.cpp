@@ -62,7 +62,7 @@ TEST(SmallestImages, OneSampleHoldsTheWholeLine) {
           for (const Echo& e : trace.echoes)
             sum += e.intensity * std::exp(-static_cast<long double>(e.exponent));
           const long double l = world.scene.probe.middleDepth();
-          for (const Stretch& s : trace.stretches)
+          for (const MediumSegment& s : trace.segments)
             if (l >= s.begin_depth_m && l < s.end_depth_m)
               sum += s.strength_m2_sr / (l * l) *
                      std::exp(-(s.begin_exponent + s.exponent_per_m * (l - s.begin_depth_m)));

@@ -34,7 +34,7 @@ TEST(PropagationSweep, AttenuationPastTheSmallestFloat) {
     scene.probe.samples = 400;
     const LineTrace line = walkStraight(straightSettings(scene), {});
     const Sampling sampling = samplingOf(scene.probe);
-    IntensityParts perfect;
+    IntensityTerms perfect;
     perfect.attenuation = false;
     const std::vector<float> y = intensityOf(line, sampling),
                              free = intensityOf(line, sampling, perfect);

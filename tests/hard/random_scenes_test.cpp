@@ -65,12 +65,12 @@ void expectIntensities(const World& world, const PolarFrame& polar) {
     ASSERT_TRUE(id == kNoMedium || id < world.scene.media.size()) << id;
 }
 
-// Stretches follow each other without a gap to the end, their lengths and exponents grow, and what
+// Segments follow each other without a gap to the end, their lengths and exponents grow, and what
 // is left of the pulse (prod (1-R)^2, the strength over eta_b V) only falls and never exceeds 1.
 void expectOrderedStretches(const World& world, const TraceSettings& settings,
                             const LineTrace& line) {
   double depth = 0, path = 0, exponent = 0, left = 1;
-  for (const Stretch& s : line.stretches) {
+  for (const MediumSegment& s : line.segments) {
     ASSERT_EQ(s.begin_depth_m, depth);
     ASSERT_GE(s.end_depth_m, s.begin_depth_m);
     ASSERT_GE(s.begin_path_m, path);
@@ -104,7 +104,7 @@ void expectEnergy(const World& world, const TraceSettings& settings, const LineT
   }
 }
 
-// Cells hold several pieces of contour, each with an echo of its own.
+// Cells hold several edges of contour, each with an echo of its own.
 void expectCellEchoes(const World& world, const PolarFrame& polar) {
   double gain = 0;
   for (const Structure& s : world.scene.structures) gain = std::max(gain, s.reflection_gain);
@@ -240,8 +240,8 @@ World withDeeperBox(const World& world, double z_m, Dice& dice) {
 }
 
 // What is added deeper reaches no shallower sample: every straight or bent path to it is longer.
-// Integration over the beam's cell is left out: it takes the losses of a piece from where the
-// line's centre passes the same surface, which for a steep wall may be deeper than the piece.
+// Integration over the beam's cell is left out: it takes the losses of an edge from where the
+// line's centre passes the same surface, which for a steep wall may be deeper than the edge.
 TEST(RandomScenes, ADeeperInterfaceChangesNothingShallower) {
   forRandomWorlds(sceneCount() / 4, [](const World& world, std::uint64_t number) {
     Dice dice(hashOf(std::uint64_t{0xdee9}, number));

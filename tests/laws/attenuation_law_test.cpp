@@ -28,7 +28,7 @@ TEST(AttenuationUnits, HalfADecibelPerCentimetreAndMegahertzAtTwoMegahertz) {
 // Relative intensity of the backscatter at one depth, spread left out.
 double received(const Scene& scene, const std::vector<Crossing>& crossings) {
   const LineTrace line = walkStraight(straightSettings(scene), crossings);
-  IntensityParts parts;
+  IntensityTerms parts;
   parts.spread_undone_at_m = 1;
   return intensityOf(line, samplingOf(scene.probe), parts).back();
 }
@@ -73,7 +73,7 @@ TEST(Attenuation, ExponentAndUnattenuatedIntensityMakeTheReceivedOne) {
   const LineTrace line = walkStraight(straightSettings(scene),
                                       {crossingAt(0.03, 0, true), crossingAt(0.09, 0, false)});
   const Sampling sampling = samplingOf(scene.probe);
-  IntensityParts without;
+  IntensityTerms without;
   without.attenuation = false;
   const std::vector<float> received = intensityOf(line, sampling),
                            free = intensityOf(line, sampling, without);

@@ -1,13 +1,13 @@
 // The parts of a heartbeat at every heart rate: published durations, and what must hold of any.
 
-#include "motion/cardiac_timing.h"
+#include "motion/cycle/cardiac_timing.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "motion/volume_curve.h"
+#include "motion/cycle/volume_curve.h"
 
 namespace echocine {
 namespace {

@@ -8,9 +8,9 @@
 #include "compare/beat_length.h"
 #include "compare/calibration.h"
 #include "compare/discrepancy.h"
-#include "compare/metrics.h"
 #include "compare/time_alignment.h"
 #include "core/hash_random.h"
+#include "metrics/frame_metrics.h"
 
 namespace echocine::compare {
 namespace {
@@ -119,7 +119,7 @@ const BeamGrid kSector{
     .lines = 90, .samples = 200, .first_rad = -0.7, .last_rad = 0.7, .near = 0.02, .far = 0.15};
 
 std::vector<float> sectorWeights() {
-  const Plane all(kSector.size(), 1);
+  const PixelPlane all(kSector.size(), 1);
   return areaWeights(kSector, all, all);
 }
 
@@ -155,7 +155,7 @@ TEST(EdgeCorrelation, EqualFramesAreOneAndNegativesMinusOne) {
   EXPECT_EQ(discrepancyOf(edgeCorrelationOf(x, x), 1), 0);
 }
 
-// Plane waves across and along: their gradients stand at right angles everywhere.
+// PixelPlane waves across and along: their gradients stand at right angles everywhere.
 TEST(EdgeCorrelation, EdgesAtRightAnglesHaveNothingInCommon) {
   const auto across = drawn([](double x, double) { return 128 + 50 * std::sin(1.5 * x); }),
              along = drawn([](double, double z) { return 128 + 50 * std::sin(1.5 * z); });

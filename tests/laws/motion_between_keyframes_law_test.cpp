@@ -4,11 +4,11 @@
 
 #include "core/parallel.h"
 #include "core/units.h"
-#include "heart_files.h"
-#include "motion/cardiac_clock.h"
-#include "motion/interpolation_judge.h"
-#include "motion/mesh_io.h"
+#include "motion/cycle/cardiac_clock.h"
+#include "motion/keyframes/interpolation_judge.h"
+#include "motion/mesh/mesh_io.h"
 #include "motion/motion_warnings.h"
+#include "output/heart_files.h"
 #include "scene/scene_reader.h"
 #include "tests/stage/motion_fixtures.h"
 #include "tests/support/paths.h"
@@ -63,7 +63,7 @@ void expectWhole(Scene scene) {
     // Trigonometric polynomials do not go through keyframes as uneven as the shipped heart's.
     if (kind == Interpolation::fourier && !scene.motion.keyframe_phases.empty()) continue;
     scene.motion.interpolation = kind;
-    EXPECT_EQ(motionWarnings(scene, HeartMotion(scene)), std::vector<std::string>{})
+    EXPECT_EQ(motionWarnings(scene, MeshMotion(scene)), std::vector<std::string>{})
         << "kind " << static_cast<int>(kind);
   }
 }
@@ -73,7 +73,7 @@ struct Judged {
 };
 
 Judged judgedOverall(const Scene& scene) {
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   Judged judged;
   for (std::size_t k = 0; k < kInterpolationKinds; ++k) {
     std::vector<InterpolationError> errors;

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "motion/interpolation.h"
+#include "motion/keyframes/interpolation.h"
 #include "tests/stage/motion_fixtures.h"
 
 namespace echocine::motion_test {

@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "core/units.h"
-#include "motion/heart_motion.h"
-#include "motion/mesh_io.h"
+#include "motion/mesh/mesh_io.h"
+#include "motion/mesh_motion.h"
 #include "tests/stage/motion_fixtures.h"
 #include "tests/support/paths.h"
 
@@ -45,7 +45,7 @@ Scene patientScene(const Structure& structure) {
   return scene;
 }
 
-std::vector<double> volumes_ml(const HeartMotion& motion, int count) {
+std::vector<double> volumes_ml(const MeshMotion& motion, int count) {
   std::vector<double> volumes;
   SurfaceFrame frame;
   for (int i = 0; i < count; ++i) {
@@ -73,9 +73,8 @@ class MotionPatientLaw : public testing::Test {
 };
 
 TEST_F(MotionPatientLaw, CavityVolumesAreThePublishedOnes) {
-  const auto left = volumes_ml(HeartMotion(patientScene(patientStructure({"lv_endo_closed"}))), 25);
-  const auto right =
-      volumes_ml(HeartMotion(patientScene(patientStructure({"rv_endo_closed"}))), 25);
+  const auto left = volumes_ml(MeshMotion(patientScene(patientStructure({"lv_endo_closed"}))), 25);
+  const auto right = volumes_ml(MeshMotion(patientScene(patientStructure({"rv_endo_closed"}))), 25);
   for (std::size_t k = 0; k < 25; ++k) {
     EXPECT_NEAR(left[k], kLeft_ml[k], 0.01 * kLeft_ml[k]) << k;
     EXPECT_NEAR(right[k], kRight_ml[k], 0.01 * kRight_ml[k]) << k;
@@ -84,7 +83,7 @@ TEST_F(MotionPatientLaw, CavityVolumesAreThePublishedOnes) {
 
 // The outer surface holds both cavities and 145 to 178 mL of wall.
 TEST_F(MotionPatientLaw, FourLidsCloseTheEpicardium) {
-  const HeartMotion motion(patientScene(patientStructure(
+  const MeshMotion motion(patientScene(patientStructure(
       {"epi", "mitral_valve", "aortic_valve", "tricuspid_valve", "pulmonary_valve"})));
   EXPECT_EQ(leakCount(motion.surfaces()[0].triangles), 0u);
   const std::vector<double> outer = volumes_ml(motion, 25);
@@ -96,7 +95,7 @@ TEST_F(MotionPatientLaw, FourLidsCloseTheEpicardium) {
 }
 
 TEST_F(MotionPatientLaw, WithoutItsLidsTheEpicardiumIsRefused) {
-  const std::string error = errorOf([] { HeartMotion{patientScene(patientStructure({"epi"}))}; });
+  const std::string error = errorOf([] { MeshMotion{patientScene(patientStructure({"epi"}))}; });
   EXPECT_NE(error.find("epi_000.obj: face "), std::string::npos) << error;
   EXPECT_NE(error.find("lids which close it"), std::string::npos) << error;
 }
@@ -107,7 +106,7 @@ TEST_F(MotionPatientLaw, LeftVolumeGainsNoExtremumBetweenKeyframes) {
   for (const Interpolation kind : {MotionSettings{}.interpolation, Interpolation::catmull_rom}) {
     Scene scene = patientScene(patientStructure({"lv_endo_closed"}));
     scene.motion.interpolation = kind;
-    const HeartMotion motion(scene);
+    const MeshMotion motion(scene);
     EXPECT_EQ(extremumCount(volumes_ml(motion, 1000)), extremumCount(volumes_ml(motion, 25)));
   }
 }
@@ -121,7 +120,7 @@ TEST_F(MotionPatientLaw, VolumeOvershootsKeyframesByLessThanAMillilitre) {
                                      Interpolation::spline, Interpolation::fourier}) {
       Scene scene = patientScene(patientStructure({name}));
       scene.motion.interpolation = kind;
-      const std::vector<double> curve = volumes_ml(HeartMotion(scene), 25 * kSteps);
+      const std::vector<double> curve = volumes_ml(MeshMotion(scene), 25 * kSteps);
       for (std::size_t i = 0; i < curve.size(); ++i) {
         const std::size_t left = i - i % kSteps, right = (left + kSteps) % curve.size();
         EXPECT_GT(curve[i], std::min(curve[left], curve[right]) - 1.0) << name << ' ' << i;
@@ -133,7 +132,7 @@ TEST_F(MotionPatientLaw, VolumeOvershootsKeyframesByLessThanAMillilitre) {
 TEST_F(MotionPatientLaw, SubdivisionKeepsTheVolume) {
   Scene scene = patientScene(patientStructure({"lv_endo_closed"}));
   scene.motion.subdivision = 2;
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   EXPECT_EQ(motion.surfaces()[0].triangles.size(), 16u * 3144u);
   EXPECT_NEAR(volumes_ml(motion, 1)[0], kLeft_ml[0], 0.01 * kLeft_ml[0]);
 }
@@ -141,12 +140,12 @@ TEST_F(MotionPatientLaw, SubdivisionKeepsTheVolume) {
 TEST_F(MotionPatientLaw, AnotherUnitIsNoticedWhenItIsImplausible) {
   Scene scene = patientScene(patientStructure({"lv_endo_closed"}));
   scene.motion.mesh_unit_m = 1;
-  EXPECT_NE(errorOf([&] { HeartMotion{scene}; }).find("mend motion.mesh_unit"), std::string::npos);
+  EXPECT_NE(errorOf([&] { MeshMotion{scene}; }).find("mend motion.mesh_unit"), std::string::npos);
 }
 
 TEST_F(MotionPatientLaw, NastyMeshesAreRefusedAndCleanOnesRead) {
   const auto says = [](const std::string& file) {
-    return errorOf([&] { HeartMotion{patientScene(structureOf({kReal / file}))}; });
+    return errorOf([&] { MeshMotion{patientScene(structureOf({kReal / file}))}; });
   };
   const std::string soup = says("robustness/cardiomesh_LV4396_nonmanifold.obj");
   EXPECT_NE(soup.find("belongs to"), std::string::npos) << soup;

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "motion/heart_motion.h"
+#include "motion/mesh_motion.h"
 #include "tests/stage/motion_fixtures.h"
 
 namespace echocine::motion_test {
@@ -19,7 +19,7 @@ std::vector<double> beat(int keyframes) {
   return radii_cm;
 }
 
-double volumeAt(const HeartMotion& motion, double phase) {
+double volumeAt(const MeshMotion& motion, double phase) {
   SurfaceFrame frame;
   motion.frameAt(phase, frame);
   return enclosedVolume(motion.surfaces()[0], frame.positions_m[0]);
@@ -30,7 +30,7 @@ TEST(MotionSurfaceLaw, KeyframePhasesReproduceTheirKeyframes) {
   for (const Interpolation kind : kKinds) {
     Scene scene = beatingBall(folder, beat(7), 1);
     scene.motion.interpolation = kind;
-    const HeartMotion motion(scene);
+    const MeshMotion motion(scene);
     SurfaceFrame frame;
     for (int k = 0; k < 7; ++k) {
       motion.frameAt(scene.structures[0].keyframes[static_cast<std::size_t>(k)].phase, frame);
@@ -46,7 +46,7 @@ TEST(MotionSurfaceLaw, TheCycleClosesWithoutAJump) {
   for (const Interpolation kind : kKinds) {
     Scene scene = beatingBall(folder, beat(6), 1);
     scene.motion.interpolation = kind;
-    const HeartMotion motion(scene);
+    const MeshMotion motion(scene);
     SurfaceFrame first, last;
     motion.frameAt(0, first);
     motion.frameAt(std::nextafter(1.0, 0.0), last);
@@ -60,7 +60,7 @@ TEST(MotionSurfaceLaw, FacesNeverChangeAndSurfacesStayClosed) {
   for (int levels = 0; levels <= 2; ++levels) {
     Scene scene = beatingBall(folder, beat(5), 1);
     scene.motion.subdivision = levels;
-    const HeartMotion motion(scene);
+    const MeshMotion motion(scene);
     const SurfaceTopology& surface = motion.surfaces()[0];
     EXPECT_EQ(surface.triangles.size(), 32u << (2 * levels));
     EXPECT_EQ(leakCount(surface.triangles), 0u);
@@ -78,7 +78,7 @@ TEST(MotionSurfaceLaw, VolumeIsTheCubeOfTheInterpolatedRadius) {
   const TestFolder folder;
   Scene scene = beatingBall(folder, beat(9), 2);
   scene.motion.interpolation = Interpolation::fourier;  // exact for this motion
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   const double unit_volume = volumeAt(motion, 0) / std::pow(0.03, 3);
   for (double phase = 0; phase < 1; phase += 0.0173) {
     const double radius_m = 0.025 + 0.005 * std::cos(2 * std::numbers::pi * phase);
@@ -90,7 +90,7 @@ TEST(MotionSurfaceLaw, VolumeOfARefinedSphereTendsToTheBall) {
   const TestFolder folder;
   double error = 1;
   for (int level = 1; level <= 5; ++level) {
-    const HeartMotion motion(beatingBall(folder, {3}, level));
+    const MeshMotion motion(beatingBall(folder, {3}, level));
     const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(0.03, 3);
     const double next = 1 - volumeAt(motion, 0) / ball;
     EXPECT_GT(next, 0);
@@ -118,9 +118,9 @@ TEST(MotionSurfaceLaw, UnitAndPlaceOfTheWorldDoNotMatter) {
         folder.write("far" + number + ".obj", objText(moved))};
   }
   SurfaceFrame a, b, c;
-  HeartMotion(centimetres).frameAt(0.3, a);
-  HeartMotion(millimetres).frameAt(0.3, b);
-  HeartMotion(shifted).frameAt(0.3, c);
+  MeshMotion(centimetres).frameAt(0.3, a);
+  MeshMotion(millimetres).frameAt(0.3, b);
+  MeshMotion(shifted).frameAt(0.3, c);
   for (std::size_t v = 0; v < a.positions_m[0].size(); ++v) {
     EXPECT_LT(length(a.positions_m[0][v] - b.positions_m[0][v]), 1e-8f);
     EXPECT_LT(length(a.positions_m[0][v] - c.positions_m[0][v]), 1e-8f);

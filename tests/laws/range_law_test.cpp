@@ -30,7 +30,7 @@ TEST(RangeLaw, BackscatterIsEtaTimesVolumeOverSquaredDistance) {
 
 TEST(RangeLaw, TheCompensatedSpreadIsThatOfItsReferenceDistanceEverywhere) {
   Scene scene = plainScene({medium("a", 1000, 1500, 0, 0.25)});
-  IntensityParts parts;
+  IntensityTerms parts;
   parts.spread_undone_at_m = 0.08;
   const LineTrace line = walkStraight(straightSettings(scene), {});
   for (const float value : intensityOf(line, samplingOf(scene.probe), parts))
@@ -104,10 +104,10 @@ std::vector<long double> recursion(const Layers& layers) {
 }
 
 void expectRecursion(const char* name, const Layers& layers) {
-  IntensityParts parts;
+  IntensityTerms parts;
   parts.reflection = false;
   const LineTrace line = walkStraight(straightSettings(layers.scene), layers.crossings);
-  ASSERT_EQ(line.stretches.size(), layers.scene.media.size());
+  ASSERT_EQ(line.segments.size(), layers.scene.media.size());
   const std::vector<float> product = intensityOf(line, samplingOf(layers.scene.probe), parts);
   const std::vector<long double> expected = recursion(layers);
   Sweep sweep(name, "the paper's recursion, long double", "sample", 1e-6);

@@ -1,13 +1,13 @@
 // Keyframes of one heart rate at another.
 
-#include "motion/time_warp.h"
+#include "motion/cycle/time_warp.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "motion/volume_curve.h"
+#include "motion/cycle/volume_curve.h"
 
 namespace echocine {
 namespace {

@@ -1,6 +1,6 @@
 // The filled share of a ventricle over the beat.
 
-#include "motion/volume_curve.h"
+#include "motion/cycle/volume_curve.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Beats that vary, and the random numbers behind them.
 
-#include "motion/beat_duration.h"
+#include "motion/cycle/beat_duration.h"
 
 #include <gtest/gtest.h>
 

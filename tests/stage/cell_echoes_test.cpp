@@ -103,7 +103,7 @@ TEST_P(SteepWall, AtTenDegreesToTheBeamIsEvenWithCellsAndBeadsWithout) {
   std::printf(
       "[          ] echo along the wall varies by %.4f dB with cells, by %.0f dB with centres\n",
       cells.highest_db - cells.lowest_db, centres.highest_db - centres.lowest_db);
-  EXPECT_LT(cells.highest_db - cells.lowest_db, 1.0);  // the lobe is that of each piece's middle
+  EXPECT_LT(cells.highest_db - cells.lowest_db, 1.0);  // the lobe is that of each edge's middle
   EXPECT_GT(centres.highest_db - centres.lowest_db, 30.0);
 }
 

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "compare/compare.h"
-#include "compare/read_video.h"
 #include "core/error.h"
 #include "support/echo_video.h"
 #include "support/run_program.h"
 #include "support/temp_folder.h"
+#include "video/read_video.h"
 
 namespace echocine::compare {
 namespace {
@@ -21,7 +21,7 @@ Drawing small() {
   return d;
 }
 
-double worstDifference(const std::vector<Plane>& a, const std::vector<Plane>& b) {
+double worstDifference(const std::vector<PixelPlane>& a, const std::vector<PixelPlane>& b) {
   if (a.size() != b.size()) return 1e9;
   double worst = 0, sum = 0, n = 0;
   for (std::size_t f = 0; f < a.size(); ++f)
@@ -50,7 +50,7 @@ void expectRefusal(const std::filesystem::path& path, const std::string& part) {
 class Reading : public ::testing::Test {
  protected:
   const Drawing drawing = small();
-  const std::vector<Plane> frames = drawnLoop(drawing);
+  const std::vector<PixelPlane> frames = drawnLoop(drawing);
   TempFolder folder;
 };
 
@@ -100,13 +100,13 @@ TEST_F(Reading, FilmsOfFfmpegAreRead) {
 TEST_F(Reading, NumbersInNamesCountByValue) {
   Drawing d = drawing;
   d.frames = 12;
-  const std::vector<Plane> dozen = drawnLoop(d);
+  const std::vector<PixelPlane> dozen = drawnLoop(d);
   writePictures(folder / "png", coloured(dozen, 320, 240), ".png");  // frame_10 after frame_9
   EXPECT_EQ(worstDifference(readVideo(folder / "png").frames, dozen), 0);
 }
 
 TEST_F(Reading, RepeatsAreNamed) {
-  std::vector<Plane> repeated = frames;
+  std::vector<PixelPlane> repeated = frames;
   repeated.insert(repeated.begin() + 2, repeated[1]);
   repeated.push_back(repeated.back());
   writeLossless(folder / "loop.avi", repeated, 320, 240);
@@ -236,9 +236,9 @@ TEST_F(Reading, AColourDopplerBoxIsRefused) {
 }
 
 TEST_F(Reading, AnUnseenSectorIsRefused) {
-  std::vector<Plane> noise;
+  std::vector<PixelPlane> noise;
   for (int f = 0; f < 4; ++f) {
-    Plane p;
+    PixelPlane p;
     for (std::uint64_t i = 0; i < 320 * 240; ++i)
       p.push_back(static_cast<std::uint8_t>(hashOf(f, i) % 200));
     noise.push_back(p);

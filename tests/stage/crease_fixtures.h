@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "motion/subdivision.h"
+#include "motion/subdivision/subdivision.h"
 #include "tests/stage/motion_fixtures.h"
 
 namespace echocine::motion_test {

@@ -1,6 +1,6 @@
 // The heart that comes with the project is the one that the program makes.
 
-#include "heart_files.h"
+#include "output/heart_files.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "study/interface_error.h"
+#include "metrics/interface_error.h"
 #include "support/plain_scene.h"
 
 namespace echocine {

@@ -1,7 +1,7 @@
 // Normals of the limit surface against shapes that have closed forms, and against facets of
 // surfaces refined so far that they are the limit.
 
-#include "motion/limit_normals.h"
+#include "motion/subdivision/limit_normals.h"
 
 #include <random>
 
@@ -175,7 +175,7 @@ TEST(LimitNormals, OfASceneLookOutwardAlsoInAMirroredProbeFrame) {
         scene.accuracy.normals = echocine::Normals::smooth;
         scene.motion.subdivision = levels;
         scene.probe.pose.y_axis = {0, y, 0};
-        const HeartMotion motion(scene);
+        const MeshMotion motion(scene);
         SurfaceFrame frame;
         motion.frameAt(0.2, frame);
         ASSERT_EQ(frame.normals.size(), 1u);
@@ -203,7 +203,7 @@ TEST(LimitNormals, WhatTheirSetUpCannotBearIsRefused) {
 TEST(LimitNormals, AreNotMadeForFacets) {
   const TestFolder folder;
   const Scene scene = beatingBall(folder, {2, 1.5}, 1);
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   SurfaceFrame frame;
   motion.frameAt(0.2, frame);
   EXPECT_TRUE(frame.normals.empty());

@@ -1,4 +1,4 @@
-// From stretches and echoes to samples.
+// From segments and echoes to samples.
 
 #include "trace/line_samples.h"
 
@@ -14,7 +14,7 @@ const Sampling kSampling{0.01, 0.001, 100};  // 10..110 mm
 
 LineTrace oneStretch(double begin_m, double end_m) {
   LineTrace line;
-  line.stretches.push_back({.begin_depth_m = begin_m,
+  line.segments.push_back({.begin_depth_m = begin_m,
                             .end_depth_m = end_m,
                             .begin_path_m = begin_m,
                             .strength_m2_sr = 2,
@@ -22,7 +22,7 @@ LineTrace oneStretch(double begin_m, double end_m) {
   return line;
 }
 
-std::vector<float> sampled(const LineTrace& line, const IntensityParts& parts = {}) {
+std::vector<float> sampled(const LineTrace& line, const IntensityTerms& parts = {}) {
   std::vector<float> values(100, -1.0f);
   sampleIntensity(line, kSampling, parts, values);
   return values;
@@ -37,8 +37,8 @@ TEST(LineSamples, AStretchFillsTheSamplesWhoseCentresItHolds) {
 TEST(LineSamples, NeighbouringStretchesNeitherOverlapNorLeaveAGap) {
   for (const double cut : {0.0305, 0.03049, 0.0310, 0.0300}) {
     LineTrace line = oneStretch(0, cut);
-    line.stretches.push_back(oneStretch(cut, 1).stretches[0]);
-    line.stretches[1].medium = MediumId{4};
+    line.segments.push_back(oneStretch(cut, 1).segments[0]);
+    line.segments[1].medium = MediumId{4};
     std::vector<std::uint32_t> ids(100);
     sampleMedium(line, kSampling, ids);
     for (std::size_t k = 0; k < 100; ++k)
@@ -94,7 +94,7 @@ TEST(LineSamples, CellEchoesAreAddedToTheirSamplesAttenuatedAsTheirExponentSays)
 
 TEST(LineSamples, PartsAddToTheWhole) {
   LineTrace line = oneStretch(0, 1);
-  line.stretches[0].exponent_per_m = 40;
+  line.segments[0].exponent_per_m = 40;
   line.echoes = {{0.05, 3, 1}};
   const std::vector<float> whole = sampled(line), scattered = sampled(line, {.reflection = false}),
                            reflected = sampled(line, {.backscatter = false});

@@ -32,7 +32,7 @@ double reflectanceOf(const Scene& s, std::size_t from, std::size_t to, double co
 
 std::vector<std::size_t> mediaOf(const LineTrace& line) {
   std::vector<std::size_t> ids;
-  for (const Stretch& s : line.stretches) ids.push_back(index(s.medium));
+  for (const MediumSegment& s : line.segments) ids.push_back(index(s.medium));
   return ids;
 }
 
@@ -58,7 +58,7 @@ TEST(LineWalker, TheLowerPriorityIsNotSeenInsideAnother) {
   addStructure(scene, kMuscle, 2);
   addStructure(scene, kBlood, 1);
   const LineTrace line = walkStraight(straightSettings(scene), nested());
-  for (const Stretch& s : line.stretches) EXPECT_NE(index(s.medium), kBlood);
+  for (const MediumSegment& s : line.segments) EXPECT_NE(index(s.medium), kBlood);
   EXPECT_EQ(line.echoes.size(), 2u);
 }
 
@@ -94,7 +94,7 @@ TEST(LineWalker, GainAndExponentShapeTheEchoAndNotTheLoss) {
   const LineTrace line = walkStraight(straightSettings(scene), {crossingAt(0.03, 0, true, 0.8)});
   const double R = reflectanceOf(scene, kOutside, kMuscle, 0.8);
   EXPECT_NEAR(line.echoes[0].intensity, 7 * R * 0.8 * 0.8 * 0.8, 1e-15);
-  EXPECT_NEAR(line.stretches[1].strength_m2_sr, 0.3 * 1e-6 * (1 - R) * (1 - R), 1e-20);
+  EXPECT_NEAR(line.segments[1].strength_m2_sr, 0.3 * 1e-6 * (1 - R) * (1 - R), 1e-20);
 }
 
 TEST(LineWalker, EqualMediaHaveNoInterface) {
@@ -104,7 +104,7 @@ TEST(LineWalker, EqualMediaHaveNoInterface) {
                                       {crossingAt(0.03, 0, true, 0.1), crossingAt(0.05, 0, false)});
   EXPECT_TRUE(line.echoes.empty());
   EXPECT_EQ(mediaOf(line), (Ids{kOutside, kTwin, kOutside}));
-  EXPECT_EQ(line.stretches[1].strength_m2_sr, 0.2 * 1e-6);
+  EXPECT_EQ(line.segments[1].strength_m2_sr, 0.2 * 1e-6);
 }
 
 TEST(LineWalker, CoincidentWallsAreOneInterfaceOfTheOuterMedia) {
@@ -151,7 +151,7 @@ TEST(LineWalker, AMembraneReflectsTwiceAndEnclosesNothing) {
     EXPECT_DOUBLE_EQ(line.echoes[0].intensity, R * 0.81);
     EXPECT_DOUBLE_EQ(line.echoes[1].intensity, R * 0.81 * (1 - R) * (1 - R));
     EXPECT_EQ(mediaOf(line), (Ids{kOutside, kOutside}));
-    EXPECT_NEAR(line.stretches[1].strength_m2_sr, 0.1 * 1e-6 * std::pow(1 - R, 4), 1e-20);
+    EXPECT_NEAR(line.segments[1].strength_m2_sr, 0.1 * 1e-6 * std::pow(1 - R, 4), 1e-20);
   }
 }
 
@@ -167,7 +167,7 @@ TEST(LineWalker, AMembraneMetBySeveralTrianglesInAVertexReflectsAsIfMetByOne) {
     const LineTrace line = walkStraight(settings, met);
     ASSERT_EQ(line.echoes.size(), once.echoes.size());
     EXPECT_EQ(line.echoes[1].intensity, once.echoes[1].intensity);
-    EXPECT_EQ(line.stretches.back().strength_m2_sr, once.stretches.back().strength_m2_sr);
+    EXPECT_EQ(line.segments.back().strength_m2_sr, once.segments.back().strength_m2_sr);
   }
 }
 
@@ -224,7 +224,7 @@ TEST(LineWalker, TravelTimePlacesEchoesByTheScannersSpeed) {
   EXPECT_NEAR(line.echoes[1].depth_m, 0.03 + 0.038 * 1540 / 1900, 1e-15);
   EXPECT_NEAR(line.echoes[1].exponent, 4 * (5 * 0.03 + 8 * 0.038),
               1e-12);  // attenuation goes by path
-  const Stretch& fast = line.stretches[1];
+  const MediumSegment& fast = line.segments[1];
   EXPECT_NEAR(fast.begin_path_m + fast.path_per_depth * (fast.end_depth_m - fast.begin_depth_m),
               0.068, 1e-15);
 }
@@ -235,7 +235,7 @@ TEST(LineWalker, NothingIsSeenBeyondTheImage) {
   const LineTrace line = walkStraight(straightSettings(scene),
                                       {crossingAt(0.159, 0, true), crossingAt(0.161, 0, false)});
   EXPECT_EQ(line.echoes.size(), 1u);
-  EXPECT_EQ(line.stretches.back().end_depth_m, scene.probe.max_depth_m);
+  EXPECT_EQ(line.segments.back().end_depth_m, scene.probe.max_depth_m);
 }
 
 TEST(LineWalker, SwitchedOffReflectionAndLossLeaveTheBackscatter) {
@@ -244,7 +244,7 @@ TEST(LineWalker, SwitchedOffReflectionAndLossLeaveTheBackscatter) {
   scene.effects.reflection = scene.effects.transmission_loss = Switch::off;
   const LineTrace line = walkStraight(straightSettings(scene), {crossingAt(0.05, 0, true)});
   EXPECT_TRUE(line.echoes.empty());
-  EXPECT_EQ(line.stretches[1].strength_m2_sr, 0.3 * 1e-6);
+  EXPECT_EQ(line.segments[1].strength_m2_sr, 0.3 * 1e-6);
 }
 
 }  // namespace

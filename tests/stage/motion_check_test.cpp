@@ -1,12 +1,12 @@
 // Triangles and surfaces that break between keyframes, and motions that must raise no alarm.
 
-#include "motion/motion_check.h"
+#include "motion/keyframes/motion_check.h"
 
 #include <numbers>
 
 #include "core/parallel.h"
-#include "motion/heart_motion.h"
-#include "motion/keyframe_pair.h"
+#include "motion/keyframes/keyframe_pair.h"
+#include "motion/mesh_motion.h"
 #include "tests/stage/motion_fixtures.h"
 
 namespace echocine::motion_test {
@@ -26,7 +26,7 @@ SurfaceBreaks breaksOf(const std::vector<TriangleMesh>& keyframes, Interpolation
   const TestFolder folder;
   Scene scene = sceneWith(folder, keyframes, kind);
   scene.structures[0].membrane = membrane;
-  return findBreaks(HeartMotion(scene).control(SurfaceId{}), frames);
+  return findBreaks(MeshMotion(scene).control(SurfaceId{}), frames);
 }
 
 TriangleMesh tetrahedron() {

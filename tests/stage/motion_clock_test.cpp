@@ -1,9 +1,9 @@
 // The cardiac clock.
 
-#include "motion/cardiac_clock.h"
+#include "motion/cycle/cardiac_clock.h"
 
-#include "motion/beat_duration.h"
-#include "motion/cardiac_timing.h"
+#include "motion/cycle/beat_duration.h"
+#include "motion/cycle/cardiac_timing.h"
 #include "tests/stage/motion_fixtures.h"
 
 namespace echocine::motion_test {

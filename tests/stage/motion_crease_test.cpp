@@ -1,6 +1,6 @@
 // Creases and corners against the curves and shapes they must keep.
 
-#include "motion/mesh_check.h"
+#include "motion/mesh/mesh_check.h"
 #include "tests/stage/crease_fixtures.h"
 
 namespace echocine::motion_test {
@@ -126,7 +126,7 @@ TEST(MotionCrease, MirroredProbeFrameMirrorsThePositions) {
   scene.motion.subdivision = 2;
   Scene mirrored = scene;
   mirrored.probe.pose.y_axis = {0, -1, 0};
-  const HeartMotion motion(scene), turned(mirrored);
+  const MeshMotion motion(scene), turned(mirrored);
   SurfaceFrame frame, other;
   motion.frameAt(0, frame);
   turned.frameAt(0, other);

@@ -1,12 +1,12 @@
 // The electrocardiogram: where its waves stand, at every rate.
 
-#include "motion/ecg.h"
+#include "motion/cycle/ecg.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "motion/cardiac_timing.h"
+#include "motion/cycle/cardiac_timing.h"
 
 namespace echocine {
 namespace {

@@ -15,8 +15,8 @@
 
 #include "core/error.h"
 #include "core/hash.h"
-#include "motion/heart_motion.h"
-#include "motion/mesh.h"
+#include "motion/mesh/mesh.h"
+#include "motion/mesh_motion.h"
 #include "scene/scene.h"
 
 namespace echocine::motion_test {

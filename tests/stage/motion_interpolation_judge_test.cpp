@@ -1,10 +1,10 @@
 // Left-out keyframes of balls whose radius is a cosine, against closed forms.
 
-#include "motion/interpolation_judge.h"
+#include "motion/keyframes/interpolation_judge.h"
 
 #include <numbers>
 
-#include "motion/heart_motion.h"
+#include "motion/mesh_motion.h"
 #include "tests/stage/motion_fixtures.h"
 
 namespace echocine::motion_test {
@@ -12,11 +12,11 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-HeartMotion ballOf(const TestFolder& folder, const std::vector<double>& radii_cm,
-                   bool membrane = false) {
+MeshMotion ballOf(const TestFolder& folder, const std::vector<double>& radii_cm,
+                  bool membrane = false) {
   Scene scene = beatingBall(folder, radii_cm, 0);
   scene.structures[0].membrane = membrane;
-  return HeartMotion(scene);
+  return MeshMotion(scene);
 }
 
 std::vector<double> cosineRadii(int keyframes) {
@@ -26,7 +26,7 @@ std::vector<double> cosineRadii(int keyframes) {
   return radii_cm;
 }
 
-InterpolationError errorOf(const HeartMotion& motion, Interpolation kind) {
+InterpolationError errorOf(const MeshMotion& motion, Interpolation kind) {
   const auto error = judgeInterpolation(motion.control(SurfaceId{}), kind);
   EXPECT_TRUE(error.has_value());
   return error.value_or(InterpolationError{});
@@ -51,7 +51,7 @@ double halfwayFactor(Interpolation kind, double step) {
 // Every vertex of the octahedron is at the radius, which is 2 cm + 0.5 cm cos.
 TEST(MotionInterpolationJudge, CosineRadiusHasTheClosedFormErrors) {
   const TestFolder folder;
-  const HeartMotion motion = ballOf(folder, cosineRadii(16));
+  const MeshMotion motion = ballOf(folder, cosineRadii(16));
   for (const Interpolation kind : kInterpolations) {
     const double lost_m = 0.005 * (1 - halfwayFactor(kind, kPi / 4));
     const InterpolationError e = errorOf(motion, kind);
@@ -75,7 +75,7 @@ TEST(MotionInterpolationJudge, CosineRadiusHasTheClosedFormErrors) {
 // Keyframes 0, 2 and 4 of five stay at 0, 0.4 and 0.8: the last gap is 0.2. Left out are 1 and 3.
 TEST(MotionInterpolationJudge, OddNumberKeepsBothEndsAndItsUnevenGap) {
   const TestFolder folder;
-  const HeartMotion motion = ballOf(folder, {2.0, 2.5, 2.2, 1.5, 1.6});
+  const MeshMotion motion = ballOf(folder, {2.0, 2.5, 2.2, 1.5, 1.6});
   const InterpolationError e = errorOf(motion, Interpolation::linear);
   EXPECT_EQ(e.kept, 3u);
   EXPECT_EQ(e.left_out, 2u);
@@ -91,7 +91,7 @@ TEST(MotionInterpolationJudge, OddNumberKeepsBothEndsAndItsUnevenGap) {
 
 TEST(MotionInterpolationJudge, WhatDoesNotMoveIsFoundByEveryKind) {
   const TestFolder folder;
-  const HeartMotion motion = ballOf(folder, {2, 2, 2, 2, 2});
+  const MeshMotion motion = ballOf(folder, {2, 2, 2, 2, 2});
   for (const Interpolation kind : kInterpolations) {
     EXPECT_LT(errorOf(motion, kind).vertex_max_m, 1e-8);
     EXPECT_LT(errorOf(motion, kind).volume_max_share, 1e-6);
@@ -114,7 +114,7 @@ TEST(MotionInterpolationJudge, ThreeKeyframesAndRefusedSpacingsAreNotJudged) {
   bunched.motion.interpolation = Interpolation::linear;
   for (std::size_t k = 0; k < 24; ++k)
     bunched.structures[0].keyframes[k].phase = 0.03 * static_cast<double>(k);
-  const HeartMotion motion(bunched);
+  const MeshMotion motion(bunched);
   EXPECT_TRUE(judgeInterpolation(motion.control(SurfaceId{}), Interpolation::spline));
   EXPECT_FALSE(judgeInterpolation(motion.control(SurfaceId{}), Interpolation::fourier));
 }

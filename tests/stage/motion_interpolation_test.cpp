@@ -1,6 +1,6 @@
 // Weights of the four kinds of interpolation in hand-made cases, and what is refused.
 
-#include "motion/interpolation.h"
+#include "motion/keyframes/interpolation.h"
 
 #include <numbers>
 #include <numeric>

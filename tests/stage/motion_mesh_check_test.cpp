@@ -1,8 +1,8 @@
 // Every way a sequence of meshes can be unfit, and the words that say so.
 
-#include "motion/mesh_check.h"
+#include "motion/mesh/mesh_check.h"
 
-#include "motion/mesh_io.h"
+#include "motion/mesh/mesh_io.h"
 #include "tests/stage/motion_fixtures.h"
 
 namespace echocine::motion_test {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
-#include "motion/mesh_check.h"
-#include "motion/mesh_io.h"
-#include "motion/obj_reader.h"
+#include "motion/mesh/mesh_check.h"
+#include "motion/mesh/mesh_io.h"
+#include "motion/mesh/obj_reader.h"
 #include "tests/stage/motion_fixtures.h"
 
 namespace echocine::motion_test {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-#include "motion/mesh_check.h"
+#include "motion/mesh/mesh_check.h"
 #include "tests/stage/motion_fixtures.h"
 
 namespace echocine::motion_test {
@@ -279,7 +279,7 @@ Structure named(const Repairs& repair, bool membrane = false) {
   return structure;
 }
 
-// Reads nothing: the same checks and repairs as HeartMotion's, on meshes in memory.
+// Reads nothing: the same checks and repairs as MeshMotion's, on meshes in memory.
 std::string mend(const Structure& structure, std::vector<KeyframeMesh>& keyframes) {
   for (const KeyframeMesh& keyframe : keyframes)
     checkFile(keyframe.mesh, keyframe.parts.front().file, structure.repair.drop_degenerate);

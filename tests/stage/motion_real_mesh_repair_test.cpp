@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "motion/mesh_check.h"
-#include "motion/mesh_io.h"
+#include "motion/mesh/mesh_check.h"
+#include "motion/mesh/mesh_io.h"
 #include "motion/repair/mesh_repair.h"
 #include "tests/stage/motion_fixtures.h"
 #include "tests/support/paths.h"

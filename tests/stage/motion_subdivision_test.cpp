@@ -1,8 +1,8 @@
 // Loop subdivision against its masks, worked by hand.
 
-#include "motion/subdivision.h"
+#include "motion/subdivision/subdivision.h"
 
-#include "motion/mesh_check.h"
+#include "motion/mesh/mesh_check.h"
 #include "tests/stage/crease_fixtures.h"
 
 namespace echocine::motion_test {

@@ -16,7 +16,7 @@ Scene slipScene(const TestFolder& folder, const std::vector<double>& slips, Inte
 }
 
 std::string onlyWarning(const Scene& scene) {
-  const std::vector<std::string> warnings = motionWarnings(scene, HeartMotion(scene));
+  const std::vector<std::string> warnings = motionWarnings(scene, MeshMotion(scene));
   EXPECT_EQ(warnings.size(), 1u);
   return warnings.empty() ? "" : warnings.front();
 }
@@ -24,7 +24,7 @@ std::string onlyWarning(const Scene& scene) {
 TEST(MotionWarnings, WholeMotionIsSilent) {
   const TestFolder folder;
   const Scene scene = beatingBall(folder, {2, 1.6, 1.5, 1.8}, 2);
-  EXPECT_TRUE(motionWarnings(scene, HeartMotion(scene)).empty());
+  EXPECT_TRUE(motionWarnings(scene, MeshMotion(scene)).empty());
 }
 
 TEST(MotionWarnings, MirroredTriangleIsNamedWithStructureFrameFaceAndFiles) {
@@ -54,7 +54,7 @@ TEST(MotionWarnings, OvershootOffersTheLinearKind) {
       warning.ends_with(": keyframes closer in time or motion.interpolation = \"linear\" avoid it"))
       << warning;
   scene.motion.interpolation = Interpolation::linear;
-  EXPECT_TRUE(motionWarnings(scene, HeartMotion(scene)).empty());
+  EXPECT_TRUE(motionWarnings(scene, MeshMotion(scene)).empty());
 }
 
 TEST(MotionWarnings, CollapseIsNamedWithItsShare) {
@@ -77,7 +77,7 @@ TEST(MotionWarnings, InsideOutIsAFailedJob) {
   Scene scene = sceneWith(folder, keyframes, Interpolation::catmull_rom);
   scene.acquisition = {.heart_rate_hz = 1, .frame_rate_hz = 16, .beats = 3};
   try {
-    motionWarnings(scene, HeartMotion(scene));
+    motionWarnings(scene, MeshMotion(scene));
     FAIL() << "accepted";
   } catch (const JobError& error) {
     EXPECT_EQ(std::string(error.what()),

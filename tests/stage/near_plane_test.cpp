@@ -23,27 +23,27 @@ Scene risingBall(const TestFolder& folder, const std::vector<double>& heights_cm
 }
 
 // Slices of all triangles and of those near the plane, at many phases. Returns the number of
-// pieces, and the share of the triangles that is near.
+// edges, and the share of the triangles that is near.
 std::pair<std::size_t, double> compareSlices(const Scene& scene) {
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   std::vector<SurfaceTopology> any = motion.surfaces();
   any[0].near_plane.reset();
   PlaneSlice of_near(motion.surfaces(), scene.probe), of_any(any, scene.probe);
   SurfaceFrame frame;
-  std::size_t pieces = 0;
+  std::size_t edges = 0;
   for (int i = 0; i < 128; ++i) {
     motion.frameAt(i / 128.0, frame);
     of_near.update(frame);
     of_any.update(frame);
-    EXPECT_EQ(of_near.pieces().size(), of_any.pieces().size()) << "phase " << i / 128.0;
-    if (of_near.pieces().size() != of_any.pieces().size()) break;
-    for (std::size_t p = 0; p < of_any.pieces().size(); ++p) {
-      EXPECT_EQ(of_near.pieces()[p].triangle, of_any.pieces()[p].triangle);
-      EXPECT_TRUE(of_near.pieces()[p].cut.from == of_any.pieces()[p].cut.from);
+    EXPECT_EQ(of_near.edges().size(), of_any.edges().size()) << "phase " << i / 128.0;
+    if (of_near.edges().size() != of_any.edges().size()) break;
+    for (std::size_t p = 0; p < of_any.edges().size(); ++p) {
+      EXPECT_EQ(of_near.edges()[p].triangle, of_any.edges()[p].triangle);
+      EXPECT_TRUE(of_near.edges()[p].cut.from == of_any.edges()[p].cut.from);
     }
-    pieces += of_any.pieces().size();
+    edges += of_any.edges().size();
   }
-  return {pieces, static_cast<double>(motion.surfaces()[0].near_plane->size()) /
+  return {edges, static_cast<double>(motion.surfaces()[0].near_plane->size()) /
                       static_cast<double>(any[0].triangles.size())};
 }
 
@@ -53,8 +53,8 @@ TEST(NearPlane, NoCutTriangleIsMissedAtAnyPhase) {
     for (const int subdivision : {0, 1}) {
       Scene scene = risingBall(folder, {0.2, 0.5, 0.35, -0.1}, kind);
       scene.motion.subdivision = subdivision;
-      const auto [pieces, share] = compareSlices(scene);
-      EXPECT_GT(pieces, 128U * 20);
+      const auto [edges, share] = compareSlices(scene);
+      EXPECT_GT(edges, 128U * 20);
       EXPECT_LT(share, 0.75);
     }
 }
@@ -63,15 +63,15 @@ TEST(NearPlane, NoCutTriangleIsMissedAtAnyPhase) {
 TEST(NearPlane, OvershootIsCounted) {
   const TestFolder folder;
   for (const Interpolation kind : kKinds) {
-    const std::size_t pieces = compareSlices(risingBall(folder, {3, 1.08, 1.09, 3.1}, kind)).first;
-    EXPECT_EQ(pieces > 0, kind != Interpolation::linear) << static_cast<int>(kind);
+    const std::size_t edges = compareSlices(risingBall(folder, {3, 1.08, 1.09, 3.1}, kind)).first;
+    EXPECT_EQ(edges > 0, kind != Interpolation::linear) << static_cast<int>(kind);
   }
 }
 
 TEST(NearPlane, SurfaceClearOfThePlaneHasNone) {
   const TestFolder folder;
   for (const Interpolation kind : kKinds) {
-    const HeartMotion motion(risingBall(folder, {5, 5.5, 6}, kind));
+    const MeshMotion motion(risingBall(folder, {5, 5.5, 6}, kind));
     EXPECT_TRUE(motion.surfaces()[0].near_plane->empty());
   }
 }

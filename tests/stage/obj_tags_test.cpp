@@ -1,8 +1,8 @@
 // The tag lines of an OBJ file: what they become, and every way they can be wrong.
 
-#include "motion/mesh_check.h"
-#include "motion/mesh_io.h"
-#include "motion/obj_reader.h"
+#include "motion/mesh/mesh_check.h"
+#include "motion/mesh/mesh_io.h"
+#include "motion/mesh/obj_reader.h"
 #include "tests/stage/crease_fixtures.h"
 
 namespace echocine::motion_test {
@@ -66,11 +66,11 @@ TEST(ObjTags, BadOnesAreNamedWithTheirLine) {
 TEST(ObjTags, AreCheckedWithoutSubdivisionAndHaveNoEffectThen) {
   const TestFolder folder;
   Scene scene = sceneOf(structureOf({folder.write("a.obj", kBall + "t corner 1/1/0 9 1\n")}));
-  EXPECT_EQ(errorOf([&] { HeartMotion{scene}; }),
+  EXPECT_EQ(errorOf([&] { MeshMotion{scene}; }),
             "scene.toml:7: structure.keyframes: ball: " + folder.path("a.obj").string() +
                 ":15: the tag names vertex 9; the file's 6 vertices count from 0 in tags");
   scene.structures[0].keyframes[0].files = {folder.write("b.obj", kBall + "t corner 1/1/0 4 9\n")};
-  const HeartMotion tagged(scene);
+  const MeshMotion tagged(scene);
   SurfaceFrame frame;
   tagged.frameAt(0, frame);
   for (std::size_t v = 0; v < 6; ++v)
@@ -126,7 +126,7 @@ TEST(ObjTags, StandInEveryKeyframeOrInTheFirstOnly) {
     for (std::size_t k = 0; k < tags.size(); ++k)
       files.push_back(
           folder.write(std::string(1, static_cast<char>('a' + k)) + ".obj", kBall + tags[k]));
-    return errorOf([&] { HeartMotion{sceneOf(structureOf(files))}; });
+    return errorOf([&] { MeshMotion{sceneOf(structureOf(files))}; });
   };
   const auto refusal = [&](const char* file, const char* given) {
     return "scene.toml:7: structure.keyframes: ball: " + folder.path(file).string() +

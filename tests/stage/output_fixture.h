@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "core/error.h"
-#include "output/cine_writer.h"
 #include "scene/scene.h"
 #include "support/temp_folder.h"
+#include "video/cine_writer.h"
 
 namespace echocine::test {
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "output/cine_writer.h"
+#include "video/cine_writer.h"
 
 namespace echocine {
 namespace {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/hash_random.h"
-#include "study/picture_error.h"
+#include "metrics/picture_error.h"
 
 namespace echocine {
 namespace {

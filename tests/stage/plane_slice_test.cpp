@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/contour.h"
 #include "support/plain_scene.h"
 #include "support/surfaces.h"
+#include "truth/contour.h"
 
 namespace echocine {
 namespace {
@@ -121,9 +121,9 @@ TEST(PlaneSlice, StillSurfacesAreCutOnceAndStayMet) {
   s.topology[0].still = true;
   PlaneSlice slice(s.topology, probeOf(ProbeKind::phased, 33));
   slice.update(s.frame);
-  const std::size_t pieces = slice.pieces().size();
+  const std::size_t edges = slice.edges().size();
   slice.update(s.frame);
-  EXPECT_EQ(slice.pieces().size(), pieces);
+  EXPECT_EQ(slice.edges().size(), edges);
   EXPECT_EQ(slice.lines()[16].crossings.size(), 2u);
 }
 
@@ -153,10 +153,10 @@ TEST(Contours, OfASphereIsOneClosedCircle) {
   s.add(support::icosphere(4, 0.03).moved({0.001, 0.0007, 0.08}));
   PlaneSlice slice(s.topology, probeOf(ProbeKind::phased, 8));
   slice.update(s.frame);
-  const std::vector<Contour> contours = chainContours(slice.pieces(), s.topology, s.frame);
+  const std::vector<Contour> contours = chainContours(slice.edges(), s.topology, s.frame);
   ASSERT_EQ(contours.size(), 1u);
   EXPECT_TRUE(contours[0].closed);
-  EXPECT_EQ(contours[0].points_m.size(), slice.pieces().size());
+  EXPECT_EQ(contours[0].points_m.size(), slice.edges().size());
   double twice_area = 0;
   for (std::size_t i = 0; i < contours[0].points_m.size(); ++i) {
     const Vec3d a = contours[0].points_m[i],
@@ -174,10 +174,10 @@ TEST(Contours, OfAnOpenSheetIsOneOpenChain) {
   s.add(support::sheet(8, 0.02, 0.1), true);
   PlaneSlice slice(s.topology, probeOf(ProbeKind::phased, 8));
   slice.update(s.frame);
-  const std::vector<Contour> contours = chainContours(slice.pieces(), s.topology, s.frame);
+  const std::vector<Contour> contours = chainContours(slice.edges(), s.topology, s.frame);
   ASSERT_EQ(contours.size(), 1u);
   EXPECT_FALSE(contours[0].closed);
-  EXPECT_EQ(contours[0].points_m.size(), slice.pieces().size() + 1);
+  EXPECT_EQ(contours[0].points_m.size(), slice.edges().size() + 1);
 }
 
 }  // namespace

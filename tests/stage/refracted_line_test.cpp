@@ -35,10 +35,10 @@ TEST(RefractedLine, ASlabIsCrossedBySnellsLaw) {
   const Slab slab;
   for (const double angle : {0.0, 0.1, 0.3, 0.5, 0.7, 0.9}) {
     const LineTrace line = slab.line(angle);
-    ASSERT_EQ(line.stretches.size(), 3u) << angle;
+    ASSERT_EQ(line.segments.size(), 3u) << angle;
     const double inside = std::asin(std::sin(angle) * 1600 / 1450);
-    EXPECT_NEAR(line.stretches[0].end_depth_m, 0.05 / std::cos(angle), 1e-8);
-    EXPECT_NEAR(line.stretches[1].end_depth_m,
+    EXPECT_NEAR(line.segments[0].end_depth_m, 0.05 / std::cos(angle), 1e-8);
+    EXPECT_NEAR(line.segments[1].end_depth_m,
                 std::min(0.16, 0.05 / std::cos(angle) + 0.04 / std::cos(inside)), 1e-7);
   }
 }
@@ -56,9 +56,9 @@ TEST(RefractedLine, LosesTheSameOnTheWayInAndOut) {
 TEST(RefractedLine, EndsAtTotalReflection) {
   const Slab slab;
   const LineTrace line = slab.line(std::asin(1450.0 / 1600) + 1e-4);
-  EXPECT_EQ(line.stretches.size(), 1u);
+  EXPECT_EQ(line.segments.size(), 1u);
   EXPECT_EQ(line.echoes.size(), 1u);
-  EXPECT_LT(line.stretches.back().end_depth_m, slab.scene.probe.max_depth_m);
+  EXPECT_LT(line.segments.back().end_depth_m, slab.scene.probe.max_depth_m);
 }
 
 // Symmetric meshes put vertices and edges into the imaging plane: bent rays start on them.

@@ -76,7 +76,7 @@ TEST(SmoothNormal, ABentRayStaysOnTheSideOfTheFacetToWhichItCrossed) {
       const auto plain = refracted({0, 0, 1}, crossing.normal, 1500, 1560);
       if (!plain) continue;  // total reflection
       const bool back = dot(*plain, facet) > 0;
-      EXPECT_EQ(trace.stretches.size(), back ? 2u : 1u);  // straight to the end, or up to the bend
+      EXPECT_EQ(trace.segments.size(), back ? 2u : 1u);  // straight to the end, or up to the bend
       EXPECT_EQ(walker.query().ray.direction, back ? (Vec3d{0, 0, 1}) : *plain);
       mended += back;
     }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/hash_random.h"
-#include "study/statistics.h"
+#include "metrics/statistics.h"
 
 namespace echocine {
 namespace {

@@ -1,6 +1,6 @@
 // Volumes by pairs of triangles next to the plain sum.
 
-#include "motion/surface_measure.h"
+#include "motion/mesh/surface_measure.h"
 
 #include <gtest/gtest.h>
 

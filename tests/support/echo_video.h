@@ -19,7 +19,7 @@
 
 #include "compare/loop.h"
 #include "core/hash_random.h"
-#include "output/cine_writer.h"
+#include "video/cine_writer.h"
 
 namespace echocine::support {
 
@@ -46,8 +46,8 @@ inline double ringGrey(const Drawing& d, double x, double y, double phase) {
   return std::clamp(0.12 + 0.75 * ring + 0.55 * wall + 0.6 * spot + texture, 0.0, 1.0);
 }
 
-inline compare::Plane drawnFrame(const Drawing& d, int frame) {
-  compare::Plane out;
+inline PixelPlane drawnFrame(const Drawing& d, int frame) {
+  PixelPlane out;
   const double phase = (frame + d.time_shift) / d.frames_per_beat;
   for (int y = 0; y < d.height; ++y)
     for (int x = 0; x < d.width; ++x) {
@@ -69,8 +69,8 @@ inline compare::Plane drawnFrame(const Drawing& d, int frame) {
   return out;
 }
 
-inline std::vector<compare::Plane> drawnLoop(const Drawing& d) {
-  std::vector<compare::Plane> frames;
+inline std::vector<PixelPlane> drawnLoop(const Drawing& d) {
+  std::vector<PixelPlane> frames;
   for (int i = 0; i < d.frames; ++i) frames.push_back(drawnFrame(d, i));
   return frames;
 }
@@ -86,14 +86,14 @@ inline compare::Sector placedSector(const Drawing& d) {
 
 // FFV1 in AVI: every grey comes back as it was.
 inline std::filesystem::path writeLossless(const std::filesystem::path& path,
-                                           const std::vector<compare::Plane>& frames, int width,
+                                           const std::vector<PixelPlane>& frames, int width,
                                            int height, double rate_hz = 25) {
   OutputSettings settings;
   settings.codec = CineCodec::ffv1;
   settings.width = width;
   settings.height = height;
   CineWriter writer(path, settings, rate_hz);
-  for (const compare::Plane& f : frames)
+  for (const PixelPlane& f : frames)
     writer.add(encodeCineFrame({width, height, f}, settings.codec, 95));
   writer.finish();
   return path;
@@ -105,10 +105,9 @@ inline std::filesystem::path writeLossless(const std::filesystem::path& path, co
 }
 
 // Frames of three bytes a pixel, blue, green, red.
-inline std::vector<cv::Mat> coloured(const std::vector<compare::Plane>& frames, int width,
-                                     int height) {
+inline std::vector<cv::Mat> coloured(const std::vector<PixelPlane>& frames, int width, int height) {
   std::vector<cv::Mat> out;
-  for (const compare::Plane& f : frames) {
+  for (const PixelPlane& f : frames) {
     cv::Mat bgr;
     cv::cvtColor(cv::Mat(height, width, CV_8U, const_cast<std::uint8_t*>(f.data())), bgr,
                  cv::COLOR_GRAY2BGR);
@@ -128,8 +127,8 @@ enum class DicomKind { grey, rgb, palette, rle, jpeg_baseline, jpeg_lossless, yb
 
 // An ultrasound multi-frame file. `more` adds or changes tags before it is written.
 inline void writeDicom(
-    const std::filesystem::path& path, const std::vector<compare::Plane>& frames, int width,
-    int height, DicomKind kind, const std::function<void(DcmDataset&)>& more = [](DcmDataset&) {}) {
+    const std::filesystem::path& path, const std::vector<PixelPlane>& frames, int width, int height,
+    DicomKind kind, const std::function<void(DcmDataset&)>& more = [](DcmDataset&) {}) {
   DJEncoderRegistration::registerCodecs();
   DJDecoderRegistration::registerCodecs();
   DcmRLEEncoderRegistration::registerCodecs();
@@ -167,7 +166,7 @@ inline void writeDicom(
       data.putAndInsertUint16Array(key, table.data(), 256);
   }
   std::vector<Uint8> bytes;
-  for (const compare::Plane& f : frames)
+  for (const PixelPlane& f : frames)
     for (std::size_t p = 0; p < f.size(); ++p) {
       if (kind == DicomKind::ybr_422) {  // two pixels: Y Y Cb Cr
         bytes.push_back(f[p]);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/hash.h"
-#include "motion/mesh_io.h"
+#include "motion/mesh/mesh_io.h"
 #include "support/paths.h"
 #include "support/scene_text.h"
 

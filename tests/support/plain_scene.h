@@ -68,7 +68,7 @@ inline Sampling samplingOf(const Probe& probe) {
 }
 
 inline std::vector<float> intensityOf(const LineTrace& line, const Sampling& sampling,
-                                      const IntensityParts& parts = {}) {
+                                      const IntensityTerms& parts = {}) {
   std::vector<float> values(static_cast<std::size_t>(sampling.samples), -1.0f);
   sampleIntensity(line, sampling, parts, values);
   return values;

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
-#include "heart_files.h"
 #include "motion/heart/leaflet.h"
-#include "motion/subdivision.h"
+#include "motion/subdivision/subdivision.h"
+#include "output/heart_files.h"
 #include "support/meshes.h"
 
 namespace echocine::support {

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "cine.h"
 #include "compare/compare.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "render/render.h"
 #include "support/patient_scene.h"
 #include "support/run_program.h"
 #include "support/temp_folder.h"
@@ -29,7 +29,7 @@ class PatientAgainstVideos : public ::testing::Test {
     pose(text);
     text.output = {{"width", "640"}, {"height", "480"}};
     const Scene scene = parseScene(text.text(), folder / "scene.toml");
-    renderCine(scene, {.folder = folder / name, .threads = 2, .frames = {}}, {});
+    renderLoop(scene, {.folder = folder / name, .threads = 2, .frames = {}}, {});
     return folder / name;
   }
   static Comparison compareWith(const std::filesystem::path& synthetic, const char* video,

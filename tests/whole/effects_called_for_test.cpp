@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cine.h"
+#include "render/render.h"
 #include "support/exr_planes.h"
 #include "support/loop_scene.h"
 #include "trace/line_samples.h"
@@ -54,7 +54,7 @@ struct Rendered {
 
 Rendered render(const TempFolder& folder, const SceneText& text, const char* name, bool exr) {
   const std::filesystem::path file = folder.write(std::string(name) + ".toml", text.text());
-  renderCine(readScene(file),
+  renderLoop(readScene(file),
              {.folder = folder / name, .threads = 2, .frames = {}, .resume = false}, {});
   Rendered run;
   run.manifest = nlohmann::json::parse(bytesOf(folder / name / "manifest.json"));
@@ -244,7 +244,7 @@ TEST(EffectsCalledFor, AStructureBesideTheImagingPlaneIsKeptForRaysThatReachIt) 
     text.effects = {{"elevation", elevation}, {"refraction", "\"off\""}};
     const Scene scene = readScene(writeBall(folder, text));
     const std::filesystem::path out = folder / (std::string(rays) + elevation[1] + elevation[2]);
-    return renderCine(scene, {.folder = out, .threads = 2, .frames = {}}, {}).manifest;
+    return renderLoop(scene, {.folder = out, .threads = 2, .frames = {}}, {}).manifest;
   };
   const auto leftOut = [](const Manifest& manifest) {
     const auto& list = manifest.plan.interfaces;

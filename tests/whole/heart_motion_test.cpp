@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "motion/mesh/surface_measure.h"
 #include "motion/motion_warnings.h"
-#include "motion/surface_measure.h"
 #include "scene/scene_reader.h"
 #include "support/paths.h"
 #include "support/recorded_heart.h"
@@ -47,7 +47,7 @@ double sizeOf(const std::vector<Vec3d>& double_areas) {
 }
 
 void expectWhole(const Scene& scene) {
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   EXPECT_EQ(motionWarnings(scene, motion), std::vector<std::string>());
 
   const std::span<const double> phases = motion.control(SurfaceId{0}).weights.phases();

@@ -1,58 +1,130 @@
-# Each third-party library is included in its own folder only, and project headers point one way.
+# Which room may use which, and which room is the door to which library. A room or a library that is not
+# listed here fails.
 #   cmake -DROOT=<source folder> -P include_rules_test.cmake
 
+cmake_minimum_required(VERSION 3.24)
 set(failures "")
 
-# library pattern -> folders that may include it
+# library pattern = rooms that may include it. Of OpenCV the pixel kernels (core, imgproc) serve whoever works
+# on pictures; its files and windows serve nobody.
 set(libraries
-  "tbb/=src/core"
-  "openssl/=src/core"
-  "toml\\+\\+/=src/scene"
-  "OpenMesh/=motion"
-  "opensubdiv/=motion"
-  "embree3/=src/geometry"
-  "OpenEXR/|Imath/|Imf=src/output"
-  "opencv2/(videoio|imgcodecs)=src/output"
-  "opencv2/=src/signal,src/output,src/compare"
-  "dcmtk/=src/compare"
-  "(libav|libswscale)=src/output,src/compare"
-  "CLI/=src/cli")
+  "(oneapi/)?tbb/=core"
+  "openssl/=core"
+  "toml\\+\\+/=scene"
+  "OpenMesh/=mesh"
+  "opensubdiv/=subdivision"
+  "embree3/=geometry"
+  "(OpenEXR/|Imath/|Imf.*\\.h$|half\\.h$)=output"
+  "opencv2/(core|imgproc)=signal,metrics,video,output,compare"
+  "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
+  "CLI/=cli"
+  "nlohmann/=scene,heart,output,page,simulate,compare,render,study,cli"
+  "fmt/=*"
+  "[a-z_0-9]+(\\.h)?$=*"
+  "sys/=core,video,render"
+  "cxxabi\\.h$=core")
 
-# folder -> first parts of the project includes it may use. A header may use core, scene and the stage just
-# before it; a source file any earlier stage.
-# study and compare stand at the end and draw on several stages.
-set(order core scene motion geometry trace signal output study compare)
+# room = rooms that all of it may use | and its sources alone. Everybody may use core, and all but page and
+# core scene. Arrows run from right to left only: a room stands below those that it uses.
+set(rooms
+  "core="
+  "scene="
+  "page="
+  "mesh="
+  "repair=mesh"
+  "subdivision="
+  "keyframes=mesh"
+  "cycle="
+  "heart=cycle|mesh,subdivision"
+  "motion=keyframes,subdivision|mesh,repair,cycle"
+  "geometry=motion"
+  "truth=geometry"
+  "trace=geometry"
+  "signal=trace"
+  "metrics=signal,trace"
+  "video=signal"
+  "output=signal,motion,heart|video"
+  "simulate=output,motion,cycle,geometry,trace,signal"
+  "compare=simulate,video,metrics,signal,truth,page|motion,output"
+  "render=simulate,cycle,output,page,video|signal"
+  "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
+  "cli=render,compare,study,output|simulate,motion,keyframes,cycle,heart")
+
+function(room_of path out)
+  string(REGEX REPLACE "^src/" "" path "${path}")
+  if(path MATCHES "^motion/[^/]+/")
+    string(REGEX REPLACE "^motion/([^/]+)/.*$" "\\1" path "${path}")
+  else()
+    string(REGEX REPLACE "/.*$" "" path "${path}")
+  endif()
+  set(${out} "${path}" PARENT_SCOPE)
+endfunction()
+
+# Earlier rooms only, so that no arrow in the table itself runs back.
+set(known "")
+foreach(entry IN LISTS rooms)
+  string(REGEX REPLACE "=.*$" "" room "${entry}")
+  string(REGEX REPLACE "^[^=]*=" "" uses "${entry}")
+  string(REGEX REPLACE "\\|.*$" "" everywhere "${uses}")
+  string(REPLACE "|" "," uses "${uses}")
+  string(REPLACE "," ";" uses_${room} "${uses}")
+  string(REPLACE "," ";" header_uses_${room} "${everywhere}")
+  if(NOT room STREQUAL "core")
+    list(APPEND uses_${room} core)
+    list(APPEND header_uses_${room} core)
+  endif()
+  if(NOT room MATCHES "^(core|scene|page)$")
+    list(APPEND uses_${room} scene)
+    list(APPEND header_uses_${room} scene)
+  endif()
+  foreach(used IN LISTS uses_${room})
+    if(NOT used IN_LIST known)
+      string(APPEND failures "the table lets ${room} use ${used}, which does not stand before it\n")
+    endif()
+  endforeach()
+  list(APPEND known ${room})
+endforeach()
+
+file(GLOB loose RELATIVE ${ROOT} ${ROOT}/src/*.h ${ROOT}/src/*.cpp)
+foreach(file IN LISTS loose)
+  string(APPEND failures "${file}: of which room is it?\n")
+endforeach()
 
 file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/src/*.h ${ROOT}/src/*.cpp ${ROOT}/motion/*.h ${ROOT}/motion/*.cpp)
 foreach(file IN LISTS files)
-  string(REGEX REPLACE "^src/" "" stage ${file})
-  string(REGEX REPLACE "/.*$" "" stage ${stage})
-  list(FIND order "${stage}" position)
+  room_of(${file} room)
+  if(NOT room IN_LIST known)
+    string(APPEND failures "${file}: room ${room} is not in the table\n")
+    continue()
+  endif()
   file(STRINGS ${ROOT}/${file} includes REGEX "^#include ")
   foreach(include IN LISTS includes)
     string(REGEX REPLACE "^#include [<\"]([^>\"]+)[>\"].*$" "\\1" path "${include}")
-    foreach(rule IN LISTS libraries)
-      string(REGEX REPLACE "=.*$" "" pattern "${rule}")
-      string(REGEX REPLACE "^.*=" "" folders "${rule}")
-      string(REPLACE "," "|" folders "${folders}")
-      if("${path}" MATCHES "^(oneapi/)?(${pattern})" AND NOT "${file}" MATCHES "^(${folders})/")
-        string(APPEND failures "${file}: includes ${path}, which belongs to ${folders}\n")
-      endif()
-    endforeach()
-    string(REGEX REPLACE "/.*$" "" target "${path}")
-    list(FIND order "${target}" target_position)
-    if(stage STREQUAL "page" AND target_position GREATER 0)
-      string(APPEND failures "${file}: includes ${path}, but pages stand on core alone\n")
-    endif()
-    if(position GREATER -1 AND target_position GREATER -1)
-      if(target_position GREATER position)
-        string(APPEND failures "${file}: includes ${path}, which stands to the right of it\n")
-      elseif(file MATCHES "\\.h$" AND target_position GREATER 1 AND NOT stage MATCHES "^(study|compare)$")
-        math(EXPR before "${position} - 1")
-        if(target_position LESS before)
-          string(APPEND failures "${file}: a header that includes ${path}, not of the stage just before it\n")
+    if(include MATCHES "^#include <")
+      set(doors "")
+      foreach(rule IN LISTS libraries)
+        string(REGEX REPLACE "=[^=]*$" "" pattern "${rule}")
+        if(NOT doors AND "${path}" MATCHES "^${pattern}")
+          string(REGEX REPLACE "^.*=" "" doors "${rule}")
         endif()
+      endforeach()
+      string(REPLACE "," ";" door_list "${doors}")
+      if(NOT doors)
+        string(APPEND failures "${file}: includes <${path}>, a library that has no door\n")
+      elseif(NOT doors STREQUAL "*" AND NOT room IN_LIST door_list)
+        string(APPEND failures "${file}: includes <${path}>, which belongs to ${doors}\n")
       endif()
+      continue()
+    endif()
+    room_of("${path}" target)
+    if(target STREQUAL room)
+      continue()
+    elseif(NOT target IN_LIST known)
+      string(APPEND failures "${file}: includes ${path}, of no known room\n")
+    elseif(NOT target IN_LIST uses_${room})
+      string(APPEND failures "${file}: includes ${path}, but ${room} does not stand on ${target}\n")
+    elseif(file MATCHES "\\.h$" AND NOT target IN_LIST header_uses_${room})
+      string(APPEND failures "${file}: a header that includes ${path}; in ${room} only sources use ${target}\n")
     endif()
   endforeach()
 endforeach()

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "motion/mesh_io.h"
+#include "motion/mesh/mesh_io.h"
 #include "support/exr_planes.h"
 #include "support/paths.h"
 #include "support/run_program.h"

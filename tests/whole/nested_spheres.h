@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "motion/heart_motion.h"
+#include "motion/mesh_motion.h"
 #include "support/plain_scene.h"
 #include "support/scene_text.h"
 #include "support/temp_folder.h"
@@ -51,7 +51,7 @@ inline Scene writeNestedSpheres(const TempFolder& folder, const std::string& ref
 }
 
 // One straight piece of the exact ray, and the interface at its end.
-struct ExactPiece {
+struct ExactEdge {
   const Medium* medium;
   Real begin_m, end_m;  // path lengths
   Real exponent;        // A at its beginning
@@ -61,7 +61,7 @@ struct ExactPiece {
 };
 
 struct ExactLine {
-  std::vector<ExactPiece> pieces;
+  std::vector<ExactEdge> pieces;
   Real worst_incidence_deg = 0;
   bool ends = false;             // by total reflection
   Real beyond_critical_deg = 0;  // by how much
@@ -122,7 +122,7 @@ class ExactRay {
     const Vec3r normal = (1 / radius) * fromCentre();
     const Real cos_i = std::abs(dot(normal, d_)), sin_i = std::sqrt(1 - cos_i * cos_i);
     const Real r = static_cast<Real>(to.sound_speed_m_s) / from.sound_speed_m_s;
-    ExactPiece& piece = line.pieces.back();
+    ExactEdge& piece = line.pieces.back();
     piece.incidence_deg = std::acos(cos_i) * 180 / std::numbers::pi_v<Real>;
     line.worst_incidence_deg = std::max(line.worst_incidence_deg, piece.incidence_deg);
     line.ends = r * sin_i >= 1;
@@ -146,7 +146,7 @@ class ExactRay {
 
 // I_R of section 4.1 at a path length.
 inline Real exactBackscatter(const ExactLine& line, Real l, double unit_volume_m3) {
-  for (const ExactPiece& p : line.pieces)
+  for (const ExactEdge& p : line.pieces)
     if (l < p.end_m)
       return p.medium->backscatter_per_m_sr * unit_volume_m3 / (l * l) * p.passed *
              std::exp(-(p.exponent + 4 * p.medium->attenuation_np_per_m * (l - p.begin_m)));

@@ -15,7 +15,7 @@ struct Traced {
   PolarFrame frame;
 
   explicit Traced(const std::string& refraction) : scene(writeNestedSpheres(folder, refraction)) {
-    const HeartMotion motion(scene);
+    const MeshMotion motion(scene);
     SurfaceFrame surfaces;
     motion.frameAt(0, surfaces);
     FrameGeometry geometry(motion.surfaces());
@@ -58,7 +58,7 @@ void compareBackscatter(const Traced& traced, const ExactLine& exact, int line, 
 void compareEchoes(const Traced& traced, const ExactLine& exact, int line, Errors& errors) {
   const Sampling sampling = samplingOf(traced.scene.probe);
   for (std::size_t i = 0; i + 1 < exact.pieces.size(); ++i) {
-    const ExactPiece& p = exact.pieces[i];
+    const ExactEdge& p = exact.pieces[i];
     const Real reach = 6 * sampling.spacing_m;
     if (p.incidence_deg >= 60 || p.end_m > traced.scene.probe.max_depth_m - reach) continue;
     if ((i > 0 && p.end_m - p.begin_m < reach) ||

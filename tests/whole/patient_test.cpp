@@ -6,8 +6,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "cine.h"
-#include "motion/heart_motion.h"
+#include "motion/mesh_motion.h"
+#include "render/render.h"
 #include "support/cine_frames.h"
 #include "support/exr_planes.h"
 #include "support/patient_scene.h"
@@ -35,7 +35,7 @@ class Patient : public ::testing::Test {
     scene = readScene(folder.write("scene.toml", patientScene().text()));
   }
   std::vector<double> leftVolumes(int phases) const {
-    const HeartMotion motion(scene);
+    const MeshMotion motion(scene);
     SurfaceFrame frame;
     std::vector<double> ml;
     for (int i = 0; i < phases; ++i) {
@@ -63,7 +63,7 @@ void expectVolumes(const nlohmann::json& list, const std::array<double, 25>& pub
 
 TEST_F(Patient, TheLoopHoldsThePublishedVolumesAndAllThreeMedia) {
   const RenderSummary summary =
-      renderCine(scene, {.folder = folder / "out", .threads = 2, .frames = {}}, {});
+      renderLoop(scene, {.folder = folder / "out", .threads = 2, .frames = {}}, {});
   EXPECT_EQ(summary.frames_done, 25);
   EXPECT_EQ(cineFrames(folder / "out/cine.avi"), 25);
   const nlohmann::json manifest = nlohmann::json::parse(bytesOf(folder / "out/manifest.json"));
@@ -75,7 +75,7 @@ TEST_F(Patient, TheLoopHoldsThePublishedVolumesAndAllThreeMedia) {
 }
 
 TEST_F(Patient, TheLeftVentricleIsOnTheRightAndItsApexNearTheProbe) {
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   SurfaceFrame frame;
   motion.frameAt(0, frame);
   const auto mean = [&](std::size_t s) {

@@ -7,9 +7,9 @@
 #include <map>
 #include <tuple>
 
-#include "cine.h"
-#include "motion/cardiac_clock.h"
-#include "motion/heart_motion.h"
+#include "motion/cycle/cardiac_clock.h"
+#include "motion/mesh_motion.h"
+#include "render/render.h"
 #include "support/exr_planes.h"
 #include "support/loop_scene.h"
 #include "support/run_files.h"
@@ -36,7 +36,7 @@ TEST(SameBytes, OneTwoAndFourThreadsWriteTheSameFiles) {
     std::map<std::string, std::string> one;
     for (const int threads : {1, 2, 4}) {
       const std::filesystem::path out = folder / (name + std::to_string(threads));
-      renderCine(scene, {.folder = out, .threads = threads, .frames = {}}, {});
+      renderLoop(scene, {.folder = out, .threads = threads, .frames = {}}, {});
       const std::map<std::string, std::string> files = lastingFiles(out);
       EXPECT_EQ(files.size(), 14u);
       if (threads == 1) one = files;
@@ -51,8 +51,8 @@ TEST(SameBytes, OneTwoAndFourThreadsWriteTheSameFiles) {
 TEST(SameBytes, AnotherRunWritesTheSameFiles) {
   const TempFolder folder;
   const Scene scene = readScene(writeBall(folder, ballScene(5)));
-  renderCine(scene, {.folder = folder / "a", .threads = 2, .frames = {}}, {});
-  renderCine(scene, {.folder = folder / "b", .threads = 2, .frames = {}}, {});
+  renderLoop(scene, {.folder = folder / "a", .threads = 2, .frames = {}}, {});
+  renderLoop(scene, {.folder = folder / "b", .threads = 2, .frames = {}}, {});
   EXPECT_EQ(lastingFiles(folder / "a"), lastingFiles(folder / "b"));
 }
 
@@ -62,13 +62,13 @@ TEST(SameBytes, APartOfALoopHasTheBeamsOfTheWhole) {
   SceneText text = ballScene(5);
   text.accuracy["rays_per_beam"] = "4";
   const Scene scene = readScene(writeBall(folder, text));
-  renderCine(scene, {.folder = folder / "whole", .threads = 2, .frames = {}}, {});
-  renderCine(scene, {.folder = folder / "part", .threads = 1, .frames = std::pair(2, 4)}, {});
+  renderLoop(scene, {.folder = folder / "whole", .threads = 2, .frames = {}}, {});
+  renderLoop(scene, {.folder = folder / "part", .threads = 1, .frames = std::pair(2, 4)}, {});
   for (const char* frame : {"intensity/frame_0002.exr", "intensity/frame_0003.exr"})
     EXPECT_TRUE(bytesOf(folder / "whole" / frame) == bytesOf(folder / "part" / frame)) << frame;
   text.acquisition["seed"] = "2";
   const Scene other = readScene(writeBall(folder, text));
-  renderCine(other, {.folder = folder / "other", .threads = 1, .frames = std::pair(2, 4)}, {});
+  renderLoop(other, {.folder = folder / "other", .threads = 1, .frames = std::pair(2, 4)}, {});
   EXPECT_NE(exrPlane(folder / "other/intensity/frame_0002.exr", "Y").bits,
             exrPlane(folder / "part/intensity/frame_0002.exr", "Y").bits);
 }
@@ -80,9 +80,9 @@ TEST(IntensityStack, HoldsTheFrameThatWasTraced) {
   text.effects["refraction"] = "\"on\"";
   text.output["channels"] = "[\"Y\", \"attenuation.A\", \"medium.id\"]";
   const Scene scene = readScene(writeBall(folder, text));
-  renderCine(scene, {.folder = folder / "out", .threads = 2, .frames = {}}, {});
+  renderLoop(scene, {.folder = folder / "out", .threads = 2, .frames = {}}, {});
 
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   SurfaceFrame surfaces;
   motion.frameAt(CardiacClock(scene).at(1).phase, surfaces);
   FrameGeometry geometry(motion.surfaces());
@@ -111,7 +111,7 @@ TEST(IntensityStack, ReflectionAndBackscatterMakeYWhateverElseIsAskedFor) {
   const auto render = [&](const std::string& name, const std::string& channels) {
     SceneText text = ballScene(1);
     text.output["channels"] = channels;
-    renderCine(readScene(writeBall(folder, text)),
+    renderLoop(readScene(writeBall(folder, text)),
                {.folder = folder / name, .threads = 1, .frames = {}}, {});
     return folder / name / "intensity/frame_0000.exr";
   };

@@ -12,7 +12,7 @@ namespace {
 using namespace support;
 
 RayCrossings crossingsOf(const Scene& scene, int line) {
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   SurfaceFrame surfaces;
   motion.frameAt(0, surfaces);
   PlaneSlice slice(motion.surfaces(), scene.probe);
@@ -22,7 +22,7 @@ RayCrossings crossingsOf(const Scene& scene, int line) {
 
 // Largest angle between a crossing's normal and the radius through it, degrees, over all lines.
 double worstNormal(const Scene& scene) {
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   SurfaceFrame surfaces;
   motion.frameAt(0, surfaces);
   PlaneSlice slice(motion.surfaces(), scene.probe);
@@ -59,7 +59,7 @@ std::vector<RayCrossings> subdivided(const TempFolder& folder, int levels, Norma
   Scene scene = writeNestedSpheres(folder, "off", 1);
   scene.motion.subdivision = levels;
   scene.accuracy.normals = normals;
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   SurfaceFrame surfaces;
   motion.frameAt(0, surfaces);
   PlaneSlice slice(motion.surfaces(), scene.probe);
@@ -107,7 +107,7 @@ TEST(SmoothNormals, OfASubdividedBallConvergeInSecondOrder) {
 // Echoes of one frame against the closed form: root of the mean squared relative error, and the
 // largest, over all interfaces met at under 60 degrees.
 std::array<double, 2> echoErrors(const Scene& scene) {
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   SurfaceFrame surfaces;
   motion.frameAt(0, surfaces);
   PlaneSlice slice(motion.surfaces(), scene.probe);
@@ -122,9 +122,9 @@ std::array<double, 2> echoErrors(const Scene& scene) {
   for (int i = 0; i < scene.probe.lines; ++i) {
     const ExactLine exact = ray.trace(lineGeometry(scene.probe, i));
     const std::vector<Echo>& echoes = frame.traces[static_cast<std::size_t>(i)].echoes;
-    if (exact.worst_incidence_deg > 60 || echoes.size() + 1 != exact.pieces.size()) continue;
+    if (exact.worst_incidence_deg > 60 || echoes.size() + 1 != exact.edges.size()) continue;
     for (std::size_t k = 0; k < echoes.size(); ++k) {
-      const double error = std::abs(echoes[k].intensity / double(exact.pieces[k].echo) - 1);
+      const double error = std::abs(echoes[k].intensity / double(exact.edges[k].echo) - 1);
       sum += error * error;
       worst = std::max(worst, error);
       ++count;
@@ -188,7 +188,7 @@ TEST(SmoothNormals, CellEchoesUseThemToo) {
     scene.accuracy.normals = normals;
     scene.probe.first_angle_rad = radiansFromDegrees(-15);
     scene.probe.last_angle_rad = radiansFromDegrees(20);
-    const HeartMotion motion(scene);
+    const MeshMotion motion(scene);
     SurfaceFrame surfaces;
     motion.frameAt(0, surfaces);
     PlaneSlice slice(motion.surfaces(), scene.probe);

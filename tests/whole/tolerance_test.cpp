@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "core/parallel.h"
+#include "metrics/picture_error.h"
 #include "scene/scene_reader.h"
-#include "study/frame_probe.h"
-#include "study/picture_error.h"
+#include "study/setting_run.h"
 #include "study/study.h"
 #include "study/tolerance.h"
 #include "support/loop_scene.h"
@@ -51,7 +51,7 @@ class Tolerance : public ::testing::Test {
 // at when it was chosen.
 double errorOnOtherFrames(const Scene& scene, const AccuracyChoice& choice) {
   MotionShelf shelf;
-  FrameProbe reference(atPreset(scene, Preset::reference).scene, shelf),
+  SettingRun reference(atPreset(scene, Preset::reference).scene, shelf),
       chosen(choice.scene, shelf);
   const double white = reference.referenceIntensity(probeFrames(scene, kToleranceFrames));
   double worst = 0;

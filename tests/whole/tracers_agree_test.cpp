@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "motion/heart_motion.h"
+#include "motion/mesh_motion.h"
 #include "scene/scene_reader.h"
 #include "support/paths.h"
 #include "support/scene_text.h"
@@ -52,7 +52,7 @@ void expectSameImage(const Scene& scene, const std::vector<SurfaceTopology>& sur
 void expectAgreementOf(Scene scene) {
   scene.probe.lines = 255;  // odd: the middle line is exactly depthwards
   scene.probe.samples = 512;
-  const HeartMotion motion(scene);
+  const MeshMotion motion(scene);
   SurfaceFrame frame;
   for (const double phase : {0.0, 0.31, 0.55}) {
     motion.frameAt(phase, frame);

@@ -6,9 +6,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "cine.h"
-#include "estimate.h"
-#include "motion/cardiac_clock.h"
+#include "motion/cycle/cardiac_clock.h"
+#include "render/estimate.h"
+#include "render/render.h"
 #include "support/loop_scene.h"
 #include "support/run_files.h"
 
@@ -30,7 +30,7 @@ SceneText variedScene() {
 std::map<std::string, std::string> rendered(const TempFolder& folder, const SceneText& text,
                                             const std::string& name, int threads) {
   const Scene scene = readScene(writeBall(folder, text));
-  renderCine(scene, {.folder = folder / name, .threads = threads, .frames = {}}, {});
+  renderLoop(scene, {.folder = folder / name, .threads = threads, .frames = {}}, {});
   return lastingFiles(folder / name);
 }
 

@@ -1,0 +1,44 @@
+#pragma once
+// When each frame is taken, and where in the cardiac cycle that is.
+
+#include <optional>
+#include <vector>
+
+#include "motion/cycle/time_warp.h"
+#include "scene/scene.h"
+
+namespace echocine {
+
+struct FrameTime {
+  double time_s = 0;
+  double phase = 0;  // of the keyframes, [0, 1), 0 at end-diastole (the R wave)
+  int beat = 0;      // of the loop, from 0
+  double time_in_beat_s = 0;
+  double beat_s = 0;  // from this beat's R wave to the next
+  int frame = 0;      // of the loop, from 0; atTime() leaves it
+};
+
+class CardiacClock {
+ public:
+  explicit CardiacClock(const Scene& scene) : CardiacClock(scene.acquisition, scene.motion) {}
+  explicit CardiacClock(const Acquisition& acquisition, const MotionSettings& motion = {});
+
+  // Frames of the loop: the beats' duration in frame intervals, rounded to whole frames, at
+  // least 1.
+  int frameCount() const;
+  FrameTime at(int frame) const;
+  // Any instant from the loop's first frame to the end of its last. Precondition: in that range.
+  FrameTime atTime(double time_s) const;
+
+ private:
+  double duration() const;  // of the loop's beats, s
+  FrameTime inSteadyBeats(double time_s, double cycles) const;
+  FrameTime inVariedBeats(double time_s) const;
+
+  Acquisition acquisition_;
+  std::optional<RecordedBeat> recorded_;  // set where keyframes have to be warped
+  std::optional<TimeWarp> steady_warp_;   // of every beat where all are alike
+  std::vector<double> starts_s_;          // of each beat; empty where all are alike
+};
+
+}  // namespace echocine

@@ -1,0 +1,59 @@
+#include "motion/keyframes/motion_check.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "core/parallel.h"
+#include "motion/keyframes/keyframe_pair.h"
+
+namespace echocine {
+
+namespace {
+
+// One gap's findings into the surface's.
+void merge(const SurfaceBreaks& from, SurfaceBreaks& into) {
+  if (from.first && (!into.first || from.first->frame < into.first->frame)) into.first = from.first;
+  if (from.collapsed && (!into.collapsed || from.collapsed->share < into.collapsed->share))
+    into.collapsed = from.collapsed;
+  if (from.inside_out && (!into.inside_out || from.inside_out->frame < into.inside_out->frame))
+    into.inside_out = from.inside_out;
+}
+
+// Frames by the keyframe before them; those at a keyframe are left out.
+std::vector<std::vector<FramePhase>> framesAfter(const KeyframeWeights& weights,
+                                                 std::span<const FramePhase> frames) {
+  std::vector<std::vector<FramePhase>> after(weights.keyframeCount());
+  for (const FramePhase& frame : frames) {
+    const std::pair<std::size_t, std::size_t> around = weights.around(frame.phase);
+    if (around.first != around.second) after[around.first].push_back(frame);
+  }
+  return after;
+}
+
+}  // namespace
+
+SurfaceBreaks findBreaks(const ControlMotion& motion, std::span<const FramePhase> frames) {
+  SurfaceBreaks all;
+  if (motion.still()) return all;
+  const std::vector<std::vector<FramePhase>> after = framesAfter(motion.weights, frames);
+  const std::vector<Neighbours> neighbours = neighboursOf(motion.triangles);
+  std::vector<SurfaceBreaks> found(after.size());
+  std::vector<std::vector<bool>> is_broken(after.size());
+  parallelBlocks(after.size(), 1, [&](std::size_t gap, std::size_t) {
+    if (after[gap].empty()) return;
+    KeyframePair pair(motion, neighbours, gap, (gap + 1) % after.size());
+    for (const FramePhase& frame : after[gap]) pair.look(frame, found[gap]);
+    if (found[gap].first) is_broken[gap] = pair.isBroken();
+  });
+  std::vector<bool> anywhere(motion.triangles.size(), false);
+  for (std::size_t gap = 0; gap < after.size(); ++gap) {
+    merge(found[gap], all);
+    for (std::size_t t = 0; t < is_broken[gap].size(); ++t)
+      if (is_broken[gap][t]) anywhere[t] = true;
+  }
+  all.triangles = static_cast<std::size_t>(std::count(anywhere.begin(), anywhere.end(), true));
+  return all;
+}
+
+}  // namespace echocine

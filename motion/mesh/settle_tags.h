@@ -1,0 +1,34 @@
+#pragma once
+// Creases or corners that come from several places, brought to the order MeshTags has.
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "scene/mesh_tags.h"
+
+namespace echocine {
+
+inline std::uint64_t tagKey(const SharpEdge& edge) {
+  return edgeKey(edge.v0, edge.v1);
+}
+inline std::uint64_t tagKey(const SharpVertex& vertex) {
+  return vertex.v;
+}
+
+// Ascending by key, each once. `tag` gives a Named's SharpEdge or SharpVertex; `refuse`, which must
+// throw, is called with two that share a key but not a sharpness, in the order they had.
+template <typename Named, typename Tag, typename Refuse>
+void settleTags(std::vector<Named>& named, const Tag& tag, const Refuse& refuse) {
+  const auto sameKey = [&](const Named& a, const Named& b) {
+    return tagKey(tag(a)) == tagKey(tag(b));
+  };
+  std::stable_sort(named.begin(), named.end(),
+                   [&](const Named& a, const Named& b) { return tagKey(tag(a)) < tagKey(tag(b)); });
+  for (std::size_t i = 1; i < named.size(); ++i)
+    if (sameKey(named[i - 1], named[i]) && tag(named[i - 1]).sharpness != tag(named[i]).sharpness)
+      refuse(named[i - 1], named[i]);
+  named.erase(std::unique(named.begin(), named.end(), sameKey), named.end());
+}
+
+}  // namespace echocine

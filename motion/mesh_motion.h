@@ -1,0 +1,59 @@
+#pragma once
+// The beating heart: keyframe meshes in, the surfaces of any phase out.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/box.h"
+#include "motion/keyframes/control_motion.h"
+#include "motion/surface_frame.h"
+#include "scene/scene.h"
+
+namespace echocine {
+
+class MeshMotion {
+ public:
+  // Reads and checks every keyframe of every structure and prepares interpolation and subdivision.
+  // Errors: SceneError naming the scene's place, the file and the face or vertex.
+  explicit MeshMotion(const Scene& scene);
+  ~MeshMotion();
+  MeshMotion(MeshMotion&&) noexcept;
+
+  const std::vector<SurfaceTopology>& surfaces() const { return surfaces_; }
+
+  // A box around each surface that no phase leaves: the keyframes' box, widened as far as the
+  // interpolation may overshoot (subdivision stays within its control points). Probe frame, m.
+  const std::vector<Box>& loopBoxes() const { return loop_boxes_m_; }
+
+  // The surfaces at a phase in [0, 1); keyframe phases reproduce their keyframes. Thread-safe;
+  // `frame` is reused without allocation once it has held a frame of this motion.
+  void frameAt(double phase, SurfaceFrame& frame) const;
+
+  // Volume that a surface encloses in a frame of this motion, as enclosedVolume() has it within
+  // rounding in double; known beforehand where the surface stands still. Thread-safe. m^3.
+  double volumeIn(const SurfaceFrame& frame, const SurfaceTopology& surface) const;
+
+  // What is interpolated, before subdivision.
+  const ControlMotion& control(SurfaceId id) const;
+
+  // What was mended in the meshes because the scene asked for it: a line for each structure.
+  const std::vector<std::string>& repairNotes() const { return repair_notes_; }
+
+  // SHA-256 over everything read, in the scene's order.
+  const std::string& inputSha256() const { return input_sha256_; }
+
+ private:
+  struct MovingSurface;
+  std::vector<SurfaceTopology> surfaces_;
+  std::vector<MovingSurface> moving_;
+  std::vector<Box> loop_boxes_m_;
+  std::vector<std::string> repair_notes_;
+  bool smooth_normals_ = false;
+  std::string input_sha256_;
+};
+
+// Volume enclosed by a closed surface, positive when its faces look outward; 0 for a membrane. m^3.
+double enclosedVolume(const SurfaceTopology& surface, const std::vector<Vec3f>& positions_m);
+
+}  // namespace echocine

@@ -1,0 +1,38 @@
+#pragma once
+// Loop subdivision: the refined vertices as fixed weighted sums of control vertices.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/error.h"
+#include "motion/subdivision/stencil_rows.h"
+#include "scene/mesh_tags.h"
+#include "scene/triangle_mesh.h"
+
+namespace echocine {
+
+class Subdivision {
+ public:
+  // Loop's scheme, `levels` times, keeping creases and corners as sharp as they are tagged. Open
+  // boundaries and infinitely sharp creases follow their own vertices (a cubic B-spline curve), so
+  // surfaces that share such a curve still meet. Throws SceneError that starts with the place when
+  // more than 50 million triangles or 400 million weights would result. Preconditions: levels >= 1;
+  // edges have at most two faces; tags name edges and vertices of the triangles.
+  Subdivision(std::span<const Triangle> triangles, std::uint32_t vertex_count, const MeshTags& tags,
+              int levels, const SourcePlace& place);
+
+  const std::vector<Triangle>& triangles() const { return triangles_; }  // oriented as the input
+  std::uint32_t vertexCount() const { return static_cast<std::uint32_t>(rows_.rows().size()); }
+
+  // Preconditions: as many control vertices as the input had, refined.size() == vertexCount().
+  void apply(std::span<const Vec3f> control, std::span<Vec3f> refined) const;
+
+ private:
+  std::vector<Triangle> triangles_;
+  StencilRows rows_;
+  std::vector<float> weights_;  // one per source
+  std::uint32_t control_count_ = 0;
+};
+
+}  // namespace echocine

@@ -1,0 +1,42 @@
+#pragma once
+// Where the time of a run goes.
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+namespace echocine {
+
+// The stages that are timed, in the manifest's order.
+enum class Stage { motion, geometry, trace, signal, scan_conversion, exr, avi };
+inline constexpr std::size_t kStages = 7;
+
+constexpr const char* stageName(Stage stage) {
+  constexpr std::array<const char*, kStages> kNames{
+      "motion", "geometry", "trace", "signal", "scan_conversion", "exr", "avi"};
+  return kNames[static_cast<std::size_t>(stage)];
+}
+
+// Time spent in each stage, summed over threads.
+class StageClock {
+ public:
+  template <typename F>
+  auto time(Stage stage, F&& work) {
+    const Timer timer(ns_[static_cast<std::size_t>(stage)]);
+    return work();
+  }
+  std::array<double, kStages> milliseconds() const;
+
+ private:
+  struct Timer {
+    explicit Timer(std::atomic<std::int64_t>& ns) : sum(ns) {}
+    ~Timer() { sum += (std::chrono::steady_clock::now() - start).count(); }
+    std::atomic<std::int64_t>& sum;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  };
+  std::array<std::atomic<std::int64_t>, kStages> ns_{};
+};
+
+}  // namespace echocine

@@ -1,0 +1,36 @@
+#pragma once
+// The parametric heart as files: keyframes, a scene that renders them, the truth.
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "motion/heart/recording.h"
+
+namespace echocine {
+
+struct HeartFiles {
+  heart::Parameters parameters;
+  heart::View view = heart::View::a4c;
+  int keyframes = 24;
+  heart::KeyframeSpacing spacing = heart::KeyframeSpacing::by_motion;
+  int threads = 0;
+};
+
+// The scene that renders a recording, its meshes found under `mesh_folder` ("" for the scene's own,
+// else with a slash at its end).
+std::string heartScene(const HeartFiles& wanted, const heart::Recording& recording,
+                       const std::string& mesh_folder);
+
+// The text of a part's keyframe: OBJ in mm, with the tags that subdivision needs.
+std::string heartMesh(const heart::RecordedPart& part, std::size_t keyframe);
+std::string heartMeshName(const heart::RecordedPart& part, std::size_t keyframe);
+
+// Writes NAME_00.obj ... of every part, scene.toml and truth.json into `folder`, which must be
+// absent or empty and is there whole or not at all. Throws SceneError for parameters that no heart
+// fulfils, JobError when the folder cannot be written or keep_going() says no.
+void writeHeart(
+    const HeartFiles& wanted, const std::filesystem::path& folder,
+    const std::function<bool()>& keep_going = [] { return true; });
+
+}  // namespace echocine

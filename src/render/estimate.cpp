@@ -1,0 +1,86 @@
+#include "render/estimate.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+#include "core/error.h"
+#include "motion/cycle/cardiac_clock.h"
+#include "render/reference_pass.h"
+
+namespace echocine {
+
+namespace {
+
+struct TemporaryFolder {
+  std::filesystem::path path;
+
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "echocine-plan-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+      throw JobError(fmt::format("{}: no temporary folder can be made", name));
+    path = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+};
+
+double largestResidentBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+}  // namespace
+
+namespace {
+
+// The first pass of a percentile reference: frames that are kept are traced there instead of later,
+// frames that are not are traced twice.
+void addFirstPass(const Scene& scene, double traced_share, double frame_s, Estimate& estimate) {
+  if (scene.signal.reference_intensity || !wantsPicture(scene)) return;
+  const double planes =
+      1 + (scene.output.exr ? static_cast<double>(scene.output.channels.size()) : 0);
+  const double frame_bytes = 4 * planes * scene.probe.lines * scene.probe.samples;
+  const double kept = std::min(static_cast<double>(estimate.frames),
+                               std::floor(static_cast<double>(kKeptBytes) / frame_bytes));
+  estimate.memory_bytes += kept * frame_bytes;
+  estimate.seconds += (estimate.frames - kept) * traced_share * frame_s;
+}
+
+}  // namespace
+
+Estimate estimateLoop(const Scene& scene, int threads, const std::function<bool()>& keep_going,
+                      const std::function<void(const std::string&)>& warn) {
+  constexpr int kFrames = 6;
+  const TemporaryFolder folder;
+  Estimate estimate;
+  estimate.frames = CardiacClock(scene).frameCount();
+  const int rendered = std::min(kFrames, estimate.frames);
+  Scene few = scene;  // the reference's value does not change the cost of using it
+  few.signal.reference_intensity = scene.signal.reference_intensity.value_or(1);
+  const RenderOptions options{
+      .folder = folder.path, .threads = threads, .frames = std::pair(0, rendered), .resume = false};
+  const RenderSummary summary = renderLoop(few, options, {.keep_going = keep_going, .warn = warn});
+  if (summary.frames_done < rendered) throw JobError("stopped while the plan was measured");
+  estimate.measured = summary.manifest;
+  const double frame_s = summary.passes_s / rendered;
+  estimate.seconds = summary.setup_s + frame_s * estimate.frames;
+  estimate.memory_bytes = largestResidentBytes();
+  const auto& ms = summary.manifest.stage_ms;
+  const double all = std::accumulate(ms.begin(), ms.end(), 0.0);
+  const double traced = std::accumulate(ms.begin(), ms.begin() + 4, 0.0);  // motion to signal
+  addFirstPass(scene, all > 0 ? traced / all : 0, frame_s, estimate);
+  return estimate;
+}
+
+}  // namespace echocine

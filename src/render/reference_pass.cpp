@@ -1,0 +1,55 @@
+#include "render/reference_pass.h"
+
+#include "core/parallel.h"
+#include "signal/reference.h"
+
+namespace echocine {
+
+namespace {
+
+std::size_t bytesOf(const PolarFrame& polar) {
+  std::size_t planes =
+      polar.planes.size() + (polar.signal.empty() ? 0 : 1) + (polar.medium.empty() ? 0 : 1);
+  return planes * sizeof(float) * static_cast<std::size_t>(polar.lines) *
+         static_cast<std::size_t>(polar.samples);
+}
+
+}  // namespace
+
+std::optional<double> findReference(const Scene& scene, const LoopPlan& plan, FrameMaker& maker,
+                                    const CardiacClock& clock, std::pair<int, int> range,
+                                    const Monitor& monitor, KeptFrames& kept) {
+  if (scene.signal.reference_intensity) return scene.signal.reference_intensity;
+  if (!wantsPicture(scene) || !plan.effects.contrast) return 1;
+  IntensityHistogram histogram(scene.probe);
+  const int frames = clock.frameCount();
+  std::size_t kept_bytes = 0;
+  const std::size_t done = parallelOrdered(
+      0, static_cast<std::size_t>(frames), 2 * static_cast<std::size_t>(threadCount()),
+      monitor.keep_going,
+      [&](std::size_t i) -> std::shared_ptr<void> {
+        auto frame = std::make_shared<KeptFrame>();
+        const std::shared_ptr<Workspace> workspace = maker.workspace();
+        frame->volumes_ml = maker.trace(clock.at(static_cast<int>(i)), *workspace);
+        maker.clock().time(Stage::signal, [&] { histogram.add(workspace->polar.signal); });
+        frame->polar = std::move(workspace->polar);
+        workspace->polar = {};
+        frame->polar.traces.clear();
+        frame->polar.cell_echoes = {};
+        return frame;
+      },
+      [&](std::size_t i, std::shared_ptr<void> result) {
+        auto& frame = *static_cast<KeptFrame*>(result.get());
+        const int index = static_cast<int>(i);
+        if (index >= range.first && index < range.second) {
+          kept_bytes += bytesOf(frame.polar);
+          if (kept_bytes <= kKeptBytes) kept.emplace(index, std::move(frame));
+        }
+        monitor.tell({Progress::Pass::measuring, static_cast<int>(i) + 1, frames});
+      });
+  if (done < static_cast<std::size_t>(frames)) return std::nullopt;
+  if (maker.work().crossings == 0) return 1;
+  return histogram.percentile(scene.signal.reference_percentile);
+}
+
+}  // namespace echocine

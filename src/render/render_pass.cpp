@@ -1,0 +1,172 @@
+#include "render/render_pass.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/hash.h"
+#include "core/out_of_memory.h"
+#include "core/parallel.h"
+#include "motion/cycle/ecg.h"
+#include "scene/scene_json.h"
+
+namespace echocine {
+
+namespace {
+
+std::string frameName(int frame, const char* extension) {
+  return std::filesystem::path(ExrStack::fileName(frame)).replace_extension(extension).string();
+}
+
+// The lead over the whole loop, finer than a picture is wide and than a QRS complex.
+std::vector<double> loopEcg(const CardiacClock& clock, double frame_rate_hz) {
+  constexpr double kLeastPoints = 4096, kMostPoints = 1 << 18, kPointRate_hz = 200;
+  const double loop_s = clock.frameCount() / frame_rate_hz;
+  const auto points =
+      static_cast<int>(std::clamp(loop_s * kPointRate_hz, kLeastPoints, kMostPoints));
+  std::vector<double> lead;
+  for (int i = 0; i < points; ++i) {
+    const FrameTime time = clock.atTime(loop_s * i / (points - 1));
+    lead.push_back(ecgAmplitude(time.time_in_beat_s, time.beat_s));
+  }
+  return lead;
+}
+
+}  // namespace
+
+std::string sceneSha256(const Scene& scene, const MeshMotion& motion) {
+  Sha256 hash;
+  hash.update(ECHOCINE_VERSION);
+  hash.update(sceneJson(scene).dump());
+  hash.update(mediaJson(scene).dump());
+  hash.update(motion.inputSha256());
+  return hash.hex();
+}
+
+RenderPass::RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept)
+    : parts_(parts),
+      manifest_(manifest),
+      kept_(kept),
+      exr_(parts.folder.intensity(), parts.scene, manifest.scene_sha256,
+           manifest.reference_intensity),
+      overlay_(parts.scene, parts.maker.chain().geometry(),
+               parts.scene.output.ecg ? loopEcg(parts.clock, parts.scene.acquisition.frame_rate_hz)
+                                      : std::vector<double>{}),
+      cine_(parts.folder.cine(), parts.scene.output, parts.scene.acquisition.frame_rate_hz) {}
+
+Volumes RenderPass::tracedFrame(const FrameTime& time, Workspace& workspace) {
+  {
+    const std::lock_guard lock(kept_mutex_);
+    if (const auto found = kept_.find(time.frame); found != kept_.end()) {
+      workspace.polar = std::move(found->second.polar);
+      Volumes volumes_ml = std::move(found->second.volumes_ml);
+      kept_.erase(found);
+      return volumes_ml;
+    }
+  }
+  return parts_.maker.trace(time, workspace);
+}
+
+void RenderPass::writeExr(const FrameRecord& record, const PolarFrame& polar, Finished& finished) {
+  if (!parts_.scene.output.exr || !finished.entry.exr_sha256.empty()) return;
+  finished.entry.exr_sha256 = exr_.write(record, channelPlanes(parts_.scene.output, polar));
+}
+
+void RenderPass::writePictures(GreyImage& image, Finished& finished) {
+  const OutputSettings& o = parts_.scene.output;
+  const int frame = finished.entry.record.frame;
+  overlay_.draw(image, static_cast<double>(frame) / parts_.clock.frameCount());
+  if (o.cine) finished.cine_frame = encodeCineFrame(image, o.codec, o.jpeg_quality);
+  const bool shown = parts_.report.shows(frame) && !(o.cine && o.codec == CineCodec::mjpg);
+  if (shown && !o.png)
+    finished.report_frame = encodeCineFrame(image, CineCodec::mjpg, o.jpeg_quality);
+  if (!o.png) return;
+  std::vector<std::byte> png = encodePng(image);
+  writeFileWhole(parts_.folder.png() / frameName(frame, ".png"), png);
+  finished.png_sha256 = sha256Hex(png);
+  if (shown) finished.report_frame = std::move(png);
+}
+
+std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
+  const FrameTime time = parts_.clock.at(frame);
+  auto finished = std::make_shared<Finished>();
+  finished->entry.record = {frame, time.time_s, time.phase, time.beat};
+  const FrameRecord& record = finished->entry.record;
+  StageClock& clock = parts_.maker.clock();
+  const OutputSettings& o = parts_.scene.output;
+  if (parts_.resume && o.exr)
+    finished->entry.exr_sha256 = clock.time(Stage::exr, [&] { return exr_.existing(record); });
+
+  const std::shared_ptr<Workspace> workspace = parts_.maker.workspace();
+  finished->entry.volumes_ml = tracedFrame(time, *workspace);
+  GreyImage& image =
+      parts_.maker.picture(manifest_.reference_intensity, *workspace, o.cine || o.png);
+  clock.time(Stage::exr, [&] { writeExr(record, workspace->polar, *finished); });
+  if (o.cine || o.png) clock.time(Stage::avi, [&] { writePictures(image, *finished); });
+  return finished;
+}
+
+// One at a time, in the order of the frames.
+void RenderPass::drain(Finished& finished) {
+  parts_.folder.checkStillThere();
+  const FrameEntry& entry = finished.entry;
+  const int frame = entry.record.frame;
+  const OutputSettings& o = parts_.scene.output;
+  if (o.cine || o.png) {
+    parts_.maker.clock().time(Stage::avi, [&] {
+      if (o.cine) cine_.add(finished.cine_frame);
+      if (parts_.report.shows(frame))
+        parts_.report.addFrame(finished.report_frame.empty() ? finished.cine_frame
+                                                             : finished.report_frame);
+    });
+  }
+  if (!entry.exr_sha256.empty())
+    manifest_.files["intensity/" + ExrStack::fileName(frame)] = entry.exr_sha256;
+  if (!finished.png_sha256.empty())
+    manifest_.files["png/" + frameName(frame, ".png")] = finished.png_sha256;
+  manifest_.frames.push_back(entry);
+}
+
+// The run has failed: what of the cine is there may still play, or else is of no more use than
+// before.
+void RenderPass::endEarly() {
+  try {
+    cine_.finishEarly();
+  } catch (const std::exception&) {  // the first failure is the one to report
+  }
+}
+
+int RenderPass::run(int first, int last) {
+  const auto work = [&](std::size_t i) -> std::shared_ptr<void> {
+    try {
+      return make(static_cast<int>(i));
+    } catch (const std::bad_alloc&) {
+      throw JobError(fmt::format("frame {}: {}", i, kOutOfMemory));
+    }
+  };
+  const auto collect = [&](std::size_t i, std::shared_ptr<void> result) {
+    drain(*static_cast<Finished*>(result.get()));
+    parts_.monitor.tell({Progress::Pass::rendering, static_cast<int>(i) + 1 - first, last - first});
+  };
+  std::size_t done = 0;
+  try {
+    done = parallelOrdered(static_cast<std::size_t>(first), static_cast<std::size_t>(last),
+                           2 * static_cast<std::size_t>(threadCount()), parts_.monitor.keep_going,
+                           work, collect);
+  } catch (...) {
+    endEarly();
+    throw;
+  }
+  const bool whole = done == static_cast<std::size_t>(last);
+  if (parts_.scene.output.cine && !manifest_.frames.empty()) {
+    parts_.maker.clock().time(Stage::avi, [&] { whole ? cine_.finish() : cine_.finishEarly(); });
+    if (whole) manifest_.files["cine.avi"] = sha256HexOfFile(parts_.folder.cine());
+  }
+  return static_cast<int>(done) - first;
+}
+
+}  // namespace echocine

@@ -1,0 +1,64 @@
+#pragma once
+// The second pass of a loop: every frame to its files.
+
+#include <memory>
+#include <string>
+
+#include "motion/cycle/cardiac_clock.h"
+#include "output/exr_stack.h"
+#include "output/output_folder.h"
+#include "output/overlay.h"
+#include "render/reference_pass.h"
+#include "render/render.h"
+#include "render/report.h"
+#include "simulate/frame_maker.h"
+#include "video/cine_writer.h"
+
+namespace echocine {
+
+// SHA-256 over the resolved scene, its media, its meshes and the program's version: equal for two
+// runs that must give the same files.
+std::string sceneSha256(const Scene& scene, const MeshMotion& motion);
+
+class RenderPass {
+ public:
+  struct Parts {
+    const Scene& scene;
+    FrameMaker& maker;
+    const CardiacClock& clock;
+    const OutputFolder& folder;
+    const Monitor& monitor;
+    ReportPage& report;
+    bool resume;
+  };
+  // Frames, file hashes and reference go through `manifest`; `kept` frames are used up.
+  RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept);
+
+  // Renders frames first..last-1; returns how many were finished.
+  int run(int first, int last);
+
+ private:
+  struct Finished {
+    FrameEntry entry;
+    std::vector<std::byte> cine_frame;
+    std::vector<std::byte> report_frame;  // where the cine's does not show in browsers
+    std::string png_sha256;
+  };
+
+  std::shared_ptr<Finished> make(int frame);
+  Volumes tracedFrame(const FrameTime& time, Workspace& workspace);
+  void writeExr(const FrameRecord& record, const PolarFrame& polar, Finished& finished);
+  void writePictures(GreyImage& image, Finished& finished);
+  void drain(Finished& finished);
+  void endEarly();
+
+  const Parts parts_;
+  Manifest& manifest_;
+  KeptFrames& kept_;
+  std::mutex kept_mutex_;
+  ExrStack exr_;
+  Overlay overlay_;
+  CineWriter cine_;
+};
+
+}  // namespace echocine

@@ -1,0 +1,120 @@
+#include "render/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "motion/cycle/ecg.h"
+#include "page/assets.h"
+#include "scene/scene_json.h"
+
+namespace echocine {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The lead over the frames' time, fine enough for a QRS complex to keep its shape.
+Json ecgJson(const CardiacClock& clock, double from_s, double to_s) {
+  constexpr double kPointRate_hz = 400;
+  constexpr int kMostPoints = 20000;
+  const int points = std::clamp(static_cast<int>((to_s - from_s) * kPointRate_hz), 2, kMostPoints);
+  Json times = Json::array(), lead = Json::array();
+  for (int i = 0; i < points; ++i) {
+    const double time_s = from_s + (to_s - from_s) * i / (points - 1);
+    const FrameTime time = clock.atTime(time_s);
+    times.push_back(time_s);
+    lead.push_back(ecgAmplitude(time.time_in_beat_s, time.beat_s));
+  }
+  return {{"time_s", times}, {"lead", lead}};
+}
+
+// "beating_heart/scene.toml": most scene files are called the same.
+std::string titleOf(const Scene& scene) {
+  const std::filesystem::path file = std::filesystem::absolute(scene.file).lexically_normal();
+  return (file.parent_path().filename() / file.filename()).string();
+}
+
+Json structuresJson(const Scene& scene) {
+  Json list = Json::array();
+  for (const Structure& s : scene.structures)
+    list.push_back({{"name", s.name},
+                    {"medium", scene.medium(s.medium).name},
+                    {"membrane", s.membrane},
+                    {"keyframes", s.keyframes.size()}});
+  return list;
+}
+
+// One array per quantity over the frames that are shown.
+Json framesJson(const Manifest& manifest, const ReportPage& page) {
+  Json frames{{"index", Json::array()},
+              {"time_s", Json::array()},
+              {"phase", Json::array()},
+              {"beat", Json::array()},
+              {"volumes_ml", Json::object()}};
+  for (const FrameEntry& entry : manifest.frames) {
+    if (!page.shows(entry.record.frame)) continue;
+    frames["index"].push_back(entry.record.frame);
+    frames["time_s"].push_back(entry.record.time_s);
+    frames["phase"].push_back(entry.record.phase);
+    frames["beat"].push_back(entry.record.beat);
+    for (const auto& [name, ml] : entry.volumes_ml) frames["volumes_ml"][name].push_back(ml);
+  }
+  return frames;
+}
+
+// What differs from run to run stands apart, last on the page.
+Json measuredJson(const Manifest& manifest) {
+  Json timings = stageTimesJson(manifest), shares = Json::object();
+  timings["wall"] = manifest.wall_ms;
+  for (const Json& effect : effectsJson(manifest))
+    shares[effect["name"].get<std::string>()] = effect["time_share"];
+  return {{"timings_ms_per_frame", timings}, {"time_shares", shares}};
+}
+
+}  // namespace
+
+ReportPage::ReportPage(const std::filesystem::path& path, const Scene& scene,
+                       const CardiacClock& clock, std::pair<int, int> range)
+    : scene_(scene), clock_(clock), range_(range), stride_(pageStride(range.second - range.first)) {
+  if (!scene.output.report) return;
+  writer_.emplace(path, pageLook("EchoCine: " + titleOf(scene), pageAsset("report.html"),
+                                 pageAsset("report.js")));
+}
+
+bool ReportPage::shows(int frame) const {
+  return writer_ && (frame - range_.first) % stride_ == 0;
+}
+
+void ReportPage::addFrame(std::span<const std::byte> image) {
+  if (writer_) writer_->addFrame("cine", image);
+}
+
+void ReportPage::finish(const Manifest& manifest) {
+  if (!writer_) return;
+  const Json scene = sceneJson(scene_);
+  const double rate_hz = scene_.acquisition.frame_rate_hz;
+  Json effects = effectsJson(manifest);
+  for (Json& effect : effects) effect.erase("time_share");
+  Json data{{"version", ECHOCINE_VERSION},
+            {"title", titleOf(scene_)},
+            {"scene_sha256", manifest.scene_sha256},
+            {"loop_frames", manifest.loop_frames},
+            {"frames_done", manifest.frames.size()},
+            {"stride", stride_},
+            {"frames", framesJson(manifest, *this)},
+            {"ecg", ecgJson(clock_, range_.first / rate_hz, range_.second / rate_hz)},
+            {"reference_intensity", manifest.reference_intensity},
+            {"effects", effects},
+            {"plan", planJson(manifest.plan)},
+            {"warnings", manifest.warnings},
+            {"media", mediaJson(scene_)},
+            {"background", scene["background"]},
+            {"structures", structuresJson(scene_)}};
+  for (const char* part : {"probe", "acquisition", "motion", "signal", "accuracy", "output"})
+    data[part] = scene[part];
+  data["measured"] = measuredJson(manifest);
+  writer_->finish(data);
+}
+
+}  // namespace echocine

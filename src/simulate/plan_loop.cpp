@@ -1,0 +1,205 @@
+#include "simulate/plan_loop.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/units.h"
+#include "geometry/frame_geometry.h"
+#include "geometry/plane_slice.h"
+#include "motion/motion_warnings.h"
+#include "simulate/echo_shift.h"
+#include "trace/beam_rays.h"
+
+namespace echocine {
+
+namespace {
+
+// Frames that are looked at: end-diastole, mid-systole, end-systole, early and late filling. Our
+// choice.
+constexpr double kProbePhases[] = {0.0, 0.15, 0.36, 0.5, 0.8};
+constexpr double kCountedShare = 0.99;  // of the echoes; the rest graze and are lost either way
+
+// The box that holds all scan lines, and the rays of their beams.
+Box sectorBox(const Probe& probe, const EffectPlan& plan) {
+  constexpr double kFarthest = 9;  // no ray is so many deviations off
+  const BeamRays beams(probe, beamSpread(plan, 0));
+  Box box;
+  Probe outline = probe;
+  outline.lines = std::max(probe.lines, 64) | 1;  // odd: the middle line reaches deepest
+  for (int i = 0; i < outline.lines; ++i) {
+    const LineGeometry line = lineGeometry(outline, i);
+    box.add(line.origin);
+    box.add(line.origin + probe.max_depth_m * line.direction);
+    for (int side = 0; side < 8 && plan.rays_per_beam > 1; ++side) {
+      const auto far = [&](int bit) { return side & bit ? kFarthest : -kFarthest; };
+      const Ray ray = beams.through(line, far(1), far(2), far(4)).ray;
+      box.add(ray.origin);
+      box.add(ray.origin + probe.max_depth_m * ray.direction);
+    }
+  }
+  return box;
+}
+
+bool overlap(const Box& a, const Box& b) {
+  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y &&
+         a.lo.z <= b.hi.z && b.lo.z <= a.hi.z;
+}
+
+bool sameAsAllMedia(const Scene& scene, const Medium& medium) {
+  return std::all_of(scene.media.begin(), scene.media.end(),
+                     [&](const Medium& m) { return sameInterface(m, medium); });
+}
+
+// A closed structure of the background's medium shows only where it hides another one.
+bool invisible(const Scene& scene, const Structure& structure) {
+  if (structure.membrane) return sameAsAllMedia(scene, scene.medium(structure.medium));
+  const Medium& medium = scene.medium(structure.medium);
+  if (wants(scene, Channel::medium) || !sameMedium(medium, scene.medium(scene.background)))
+    return false;
+  return std::none_of(scene.structures.begin(), scene.structures.end(),
+                      [&](const Structure& other) {
+                        return !other.membrane && other.priority <= structure.priority &&
+                               !sameMedium(scene.medium(other.medium), medium);
+                      });
+}
+
+void dropStructures(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) {
+  Box sector = sectorBox(scene.probe, plan.effects);
+  if (plan.effects.refraction) {  // rays may leave the imaging plane: as far as they are long
+    const double reach = scene.probe.max_depth_m;
+    sector.add(sector.lo - Vec3d{reach, reach, reach});
+    sector.add(sector.hi + Vec3d{reach, reach, reach});
+  }
+  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    const Structure& structure = scene.structures[s];
+    const std::size_t triangles = motion.surfaces()[s].triangles.size();
+    plan.triangles_given += triangles;
+    std::string reason;
+    if (!overlap(sector, motion.loopBoxes()[s]))
+      reason = "outside the sector in every frame";
+    else if (invisible(scene, structure))
+      reason = "same impedance and speed as all around it";
+    if (reason.empty()) {
+      plan.triangles_kept += triangles;
+    } else {
+      plan.left_out[s] = true;
+      plan.interfaces.push_back({structure.name, false, reason});
+    }
+  }
+  for (std::size_t a = 0; a < scene.media.size(); ++a)
+    for (std::size_t b = a + 1; b < scene.media.size(); ++b)
+      if (sameInterface(scene.media[a], scene.media[b]))
+        plan.interfaces.push_back(
+            {fmt::format("interface {}/{}", scene.media[a].name, scene.media[b].name), false,
+             "same impedance and speed"});
+}
+
+EffectDecision& refractionDecision(LoopPlan& plan) {
+  return *std::find_if(plan.effects.decisions.begin(), plan.effects.decisions.end(),
+                       [](const EffectDecision& d) { return d.name == "refraction"; });
+}
+
+// Traces a few frames with refraction and leaves it out when the image could hardly show it.
+void decideRefraction(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) {
+  if (!plan.effects.refraction || scene.effects.refraction != Switch::automatic) return;
+  EffectDecision& decision = refractionDecision(plan);
+  if (scene.accuracy.tracer == TracerChoice::slice) {
+    plan.effects.refraction = decision.on = false;
+    decision.reason = "accuracy.tracer asks for the plane slice, whose rays are straight";
+    return;
+  }
+  std::vector<EchoShift> shifts;
+  FrameGeometry geometry(motion.surfaces(), plan.left_out);
+  SurfaceFrame frame;
+  for (const double phase : kProbePhases) {
+    motion.frameAt(phase, frame);
+    geometry.update(frame);
+    measureEchoShifts(geometry, scene.probe, TraceSettings(scene, plan.effects), shifts);
+  }
+  if (shifts.empty()) {
+    plan.effects.refraction = decision.on = false;
+    decision.reason = "no interface is met";
+    return;
+  }
+  std::sort(shifts.begin(), shifts.end(),
+            [](const EchoShift& a, const EchoShift& b) { return a.spacings < b.spacings; });
+  const EchoShift& counted =
+      shifts[static_cast<std::size_t>(kCountedShare * static_cast<double>(shifts.size() - 1))];
+  const double tolerance = scene.accuracy.refraction_tolerance_lines;
+  plan.effects.refraction = decision.on = counted.spacings >= tolerance;
+  decision.reason = fmt::format(
+      "99 % of the echoes move by {} {:.2g} mm, {:.2g} of a line's distance (accepted: {:g}; "
+      "farthest, grazing: {:.2g} mm)",
+      decision.on ? "up to" : "under", millimetresFromMetres(counted.metres), counted.spacings,
+      tolerance, millimetresFromMetres(shifts.back().metres));
+}
+
+void chooseTracer(const Scene& scene, LoopPlan& plan) {
+  const AccuracySettings& a = scene.accuracy;
+  const bool beams = plan.effects.rays_per_beam > 1;
+  plan.slice = a.tracer != TracerChoice::embree && !plan.effects.refraction && !beams;
+  plan.tracer_reason =
+      a.tracer != TracerChoice::automatic ? "accuracy.tracer asks for it"
+      : beams      ? fmt::format("{} rays per beam, each by itself", plan.effects.rays_per_beam)
+      : plan.slice ? "straight rays in one plane meet only the facets on it"
+                   : "refracted rays leave the imaging plane";
+  plan.cell_echoes = plan.slice && plan.effects.reflection && scene.probe.lines > 1 &&
+                     a.interface_echo != InterfaceEcho::centre;
+  plan.echo_reason =
+      plan.cell_echoes ? "integrated over the beam's cell: the contour between lines is known"
+      : a.interface_echo == InterfaceEcho::centre && !beams
+          ? "at each line's centre: accuracy.interface_echo asks for it"
+      : beams      ? "at each ray, averaged over the beam"
+      : plan.slice ? "at each line's centre"
+                   : "at each line's centre: the contour between bent lines is not known";
+}
+
+void lookAtFrames(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) {
+  PlaneSlice slice(motion.surfaces(), scene.probe, plan.left_out);
+  SurfaceFrame frame;
+  std::size_t crossings = 0;
+  for (const double phase : kProbePhases) {
+    motion.frameAt(phase, frame);
+    slice.update(frame);
+    plan.triangles_met = std::max(plan.triangles_met, slice.edges().size());
+    for (const RayCrossings& line : slice.lines()) crossings += line.crossings.size();
+  }
+  if (!plan.effects.contrast) {
+    plan.warnings.push_back(
+        "nothing can be seen: all structures and their surroundings are of one medium");
+  } else if (plan.left_out.count() == scene.structures.size() ||
+             (crossings == 0 && plan.effects.rays_per_beam == 1)) {
+    plan.warnings.push_back(
+        "nothing can be seen: no scan line meets a structure in the frames looked at (probe.apex, "
+        "probe.axis, motion.mesh_unit)");
+  }
+}
+
+}  // namespace
+
+LoopPlan planLoop(const Scene& scene, const MeshMotion& motion) {
+  LoopPlan plan;
+  plan.effects = planEffects(scene);
+  plan.warnings = motion.repairNotes();
+  for (std::string& warning : motionWarnings(scene, motion))
+    plan.warnings.push_back(std::move(warning));
+  dropStructures(scene, motion, plan);
+  decideRefraction(scene, motion, plan);
+  chooseTracer(scene, plan);
+  lookAtFrames(scene, motion, plan);
+  return plan;
+}
+
+std::string planSummary(const LoopPlan& plan) {
+  std::string on, off;
+  for (const EffectDecision& d : plan.effects.decisions) {
+    if (d.name.starts_with("channel")) continue;
+    std::string& list = d.on ? on : off;
+    list += (list.empty() ? "" : ", ") + d.name;
+  }
+  return fmt::format("{} tracer, {} of {} triangles met; on: {}; off: {}", plan.tracerName(),
+                     plan.triangles_met, plan.triangles_given, on, off);
+}
+
+}  // namespace echocine

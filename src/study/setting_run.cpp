@@ -1,0 +1,199 @@
+#include "study/setting_run.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/hash.h"
+#include "core/parallel.h"
+#include "output/exr_plane.h"
+#include "scene/scene_json.h"
+#include "signal/reference.h"
+#include "simulate/plan_loop.h"
+
+namespace echocine {
+
+namespace {
+
+// Our choice: a gigabyte or so of refined meshes stays in memory for settings to come.
+constexpr std::size_t kShelvedTriangles = 6'000'000;
+
+nlohmann::ordered_json motionJson(const Scene& scene) {
+  const nlohmann::ordered_json all = sceneJson(scene);
+  return {all.at("motion"), all.at("structures"), all.at("accuracy").at("normals")};
+}
+
+// Nothing is written: its files need no folder, and are of no scene that could be resumed.
+ExrStack exrStack(const Scene& scene, double reference_intensity) {
+  return {{}, scene, std::string(64, '0'), reference_intensity};
+}
+
+std::size_t trianglesOf(const MeshMotion& motion) {
+  std::size_t count = 0;
+  for (const SurfaceTopology& surface : motion.surfaces()) count += surface.triangles.size();
+  return count;
+}
+
+}  // namespace
+
+std::shared_ptr<const MeshMotion> MotionShelf::motionOf(const Scene& scene) {
+  // What a structure sends back does not move it.
+  Scene moving = scene;
+  for (Structure& s : moving.structures) s.reflection_gain = 1;
+  const std::string key = motionJson(moving).dump();
+  Entry& entry = shelf_[key];
+  entry.last_used = ++uses_;
+  if (entry.motion) return entry.motion;
+  try {
+    entry.motion = std::make_shared<const MeshMotion>(moving);
+  } catch (...) {
+    shelf_.erase(key);
+    throw;
+  }
+  entry.triangles = trianglesOf(*entry.motion);
+  const std::shared_ptr<const MeshMotion> made = entry.motion;
+  const auto total = [this] {
+    std::size_t sum = 0;
+    for (const auto& [name, e] : shelf_) sum += e.triangles;
+    return sum;
+  };
+  while (shelf_.size() > 1 && total() > kShelvedTriangles)
+    shelf_.erase(std::min_element(shelf_.begin(), shelf_.end(), [](const auto& a, const auto& b) {
+      return a.second.last_used < b.second.last_used;
+    }));
+  return made;
+}
+
+Scene showing(Scene scene) {
+  if (!wantsPicture(scene)) scene.output.cine = true;
+  return scene;
+}
+
+SettingRun::SettingRun(Scene scene, MotionShelf& shelf)
+    : scene_(std::make_unique<Scene>(std::move(scene))), shelf_(&shelf) {
+  const std::shared_ptr<const MeshMotion> motion = shelf_->motionOf(*scene_);
+  plan_ = std::make_unique<LoopPlan>(planLoop(*scene_, *motion));
+  for (const SurfaceTopology& surface : motion->surfaces())
+    if (!plan_->left_out[index(surface.id)]) vertices_ += surface.vertex_count;
+}
+
+std::string SettingRun::signature() const {
+  nlohmann::ordered_json json = sceneJson(*scene_);
+  json["accuracy"]["interface_echo"] = plan_->cell_echoes;
+  json["effects"]["refraction"] = plan_->effects.refraction;
+  return json.dump();
+}
+
+FrameMaker& SettingRun::maker() {
+  if (!maker_) {
+    motion_ = shelf_->motionOf(*scene_);
+    maker_ = std::make_unique<FrameMaker>(*scene_, *plan_, *motion_);
+  }
+  return *maker_;
+}
+
+void SettingRun::rest() {
+  maker_.reset();
+  motion_.reset();
+}
+
+WorkCounts SettingRun::workPerFrame() const {
+  WorkCounts mean = work_;
+  const auto frames = static_cast<std::uint64_t>(std::max(worked_frames_, 1));
+  for (std::uint64_t* count : {&mean.bvh_updates, &mean.facets_sliced, &mean.rays, &mean.crossings,
+                               &mean.samples_backscatter, &mean.samples_attenuated})
+    *count = (*count + frames / 2) / frames;
+  return mean;
+}
+
+// A second walk that keeps what it judged of each crossing, and samples nothing.
+InterfaceMap SettingRun::interfacesOf(Workspace& workspace) const {
+  const Probe& probe = scene_->probe;
+  TraceSettings settings(*scene_, plan_->effects);
+  settings.note_hits = true;
+  PlaneRequest nothing;
+  nothing.signal = false;
+  PolarFrame walked;
+  std::visit([&](const auto& geometry) { traceFrame(geometry, probe, settings, nothing, walked); },
+             workspace.geometry);
+  return interfaceMap(probe, walked.traces);
+}
+
+FramePicture SettingRun::picture(const FrameTime& time, double reference_intensity,
+                                 bool with_interfaces, Intensities made_of) {
+  FrameMaker& making = maker();
+  const WorkCounts before = making.work();
+  const std::shared_ptr<Workspace> workspace = making.workspace();
+  const bool stored = made_of == Intensities::stored && scene_->output.exr;
+  const ExrStack stack = exrStack(*scene_, reference_intensity);
+  const FrameRecord record{0, 0, time.phase, 0};
+  PolarFrame& polar = workspace->polar;
+  making.traceLines(time, *workspace);
+  if (stored)
+    polar.signal = readBack(stack.encode(record, {{Channel::y, polar.signal, {}}}), Channel::y);
+  making.process(time, *workspace);
+  FramePicture picture;
+  picture.image = making.picture(reference_intensity, *workspace, true);
+  making.chain().picture(polar, picture.grey);
+  if (stored) picture.exr_bytes = stack.encode(record, channelPlanes(scene_->output, polar)).size();
+  if (with_interfaces) picture.interfaces = interfacesOf(*workspace);
+  WorkCounts after = making.work();
+  work_.bvh_updates += after.bvh_updates - before.bvh_updates;
+  work_.facets_sliced += after.facets_sliced - before.facets_sliced;
+  work_.rays += after.rays - before.rays;
+  work_.crossings += after.crossings - before.crossings;
+  work_.samples_backscatter += after.samples_backscatter - before.samples_backscatter;
+  work_.samples_attenuated += after.samples_attenuated - before.samples_attenuated;
+  ++worked_frames_;
+  return picture;
+}
+
+double SettingRun::referenceIntensity(const std::vector<FrameTime>& times) {
+  if (scene_->signal.reference_intensity) return *scene_->signal.reference_intensity;
+  if (!plan_->effects.contrast) return 1;
+  IntensityHistogram histogram(scene_->probe);
+  FrameMaker& making = maker();
+  const std::shared_ptr<Workspace> workspace = making.workspace();
+  for (const FrameTime& time : times) {
+    making.trace(time, *workspace);
+    histogram.add(workspace->polar.signal);
+  }
+  return making.work().crossings == 0 ? 1
+                                      : histogram.percentile(scene_->signal.reference_percentile);
+}
+
+StageTimes SettingRun::timeBatch(const std::vector<FrameTime>& times, std::size_t frames,
+                                 double reference_intensity) {
+  FrameMaker& making = maker();
+  const OutputSettings& o = scene_->output;
+  const ExrStack stack = exrStack(*scene_, reference_intensity);
+  const Overlay overlay(*scene_, making.chain().geometry(), {});
+  const std::array<double, kStages> before = making.clock().milliseconds();
+  const auto start = std::chrono::steady_clock::now();
+  parallelOrdered(
+      0, frames, 2 * static_cast<std::size_t>(threadCount()), [] { return true; },
+      [&](std::size_t i) -> std::shared_ptr<void> {
+        const std::shared_ptr<Workspace> workspace = making.workspace();
+        const FrameTime& time = times[i % times.size()];
+        making.trace(time, *workspace);
+        GreyImage image = making.picture(reference_intensity, *workspace, true);
+        if (o.exr)
+          making.clock().time(Stage::exr, [&] {
+            sha256Hex(stack.encode({static_cast<int>(i), 0, time.phase, 0},
+                                   channelPlanes(o, workspace->polar)));
+          });
+        if (o.cine)
+          making.clock().time(Stage::avi, [&] {
+            overlay.draw(image, 0);
+            encodeCineFrame(image, o.codec, o.jpeg_quality);
+          });
+        return nullptr;
+      },
+      [](std::size_t, const std::shared_ptr<void>&) {});
+  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+  StageTimes taken{making.clock().milliseconds(), wall.count() / static_cast<double>(frames)};
+  for (std::size_t s = 0; s < kStages; ++s)
+    taken.stage_ms[s] = (taken.stage_ms[s] - before[s]) / static_cast<double>(frames);
+  return taken;
+}
+
+}  // namespace echocine

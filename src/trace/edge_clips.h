@@ -1,0 +1,83 @@
+#pragma once
+// Contours cut at the boundaries between the lines' cells.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/lanes.h"
+#include "geometry/plane_slice.h"
+
+namespace echocine {
+
+// So many clips go through all steps together: what lies between these stays in the first-level
+// cache.
+inline constexpr std::size_t kClips = 128;
+// A clip on which the path length turns round becomes two. One cache line more, lest the rows'
+// equal places share a set of the cache: without it 256 clips take twice the time.
+template <typename T>
+using ClipRow = std::array<T, 2 * kClips + 64 / sizeof(T)>;
+
+// Clips of contour, each inside the cell of one line; in rows, for lanes. Points and vectors are in
+// the imaging plane.
+struct EdgeClips {
+  std::size_t count = 0;
+  ClipRow<double> a_x, a_z, b_x, b_z;  // its ends; b is no nearer to the centre (no shallower)
+  ClipRow<double> to_x, to_z;          // direction in which its middle is seen, of any length
+  ClipRow<double> normal_x, normal_z;  // of the facet, of any length,
+  ClipRow<double> normal_square;       // and the square of that
+  ClipRow<std::int64_t> entering;      // -1: seen so, the facet's outside is in front; else 0
+  ClipRow<std::int64_t> turns;         // -1: the foot of the perpendicular from the centre is on it
+  ClipRow<std::uint32_t> edge, line;
+};
+
+// Cuts edges in their order.
+class EdgeClipper {
+ public:
+  // Preconditions: the probe has two lines at least; the edges outlive the clipper.
+  EdgeClipper(const Probe& probe, std::span<const ContourEdge> edges);
+
+  // Width of a cell: an angle, or a length for a linear probe.
+  double width() const { return width_; }
+
+  // The next clips; none at the end.
+  void next(EdgeClips& clips);
+
+ private:
+  struct Boundary {
+    double sine, cosine;  // of a linear probe: its offset and 1
+  };
+  // Ends of edges, in the cells begin to end; of these the sector has those from begin on.
+  static constexpr std::size_t kEdges = 64;
+  struct Ends {
+    std::array<double, kEdges> a_x, a_z, b_x, b_z;
+    std::array<std::int32_t, kEdges> begin, end;
+    std::array<std::uint32_t, kEdges> edge;
+    std::size_t count = 0, done = 0;
+  };
+  // What clips are cut from besides the ends of their edges.
+  struct Sides {
+    std::array<double, kClips> left_sine, left_cosine, right_sine, right_cosine;
+  };
+
+  void takeEnds();
+  void findCells();
+  Doubles4 placeOf(Doubles4 x, Doubles4 z) const;
+  double rightOf(double x, double z, int boundary) const;
+  int cellOf(double x, double z, int guess) const;
+  void intoCells(EdgeClips& clips);
+  Doubles4 rightOf(Doubles4 x, Doubles4 z, Doubles4 sine, Doubles4 cosine) const;
+  void cutAtBoundaries(EdgeClips& clips) const;
+
+  std::span<const ContourEdge> edges_;
+  std::size_t taken_ = 0;  // of the edges
+  bool angular_;
+  int lines_;
+  double first_, width_, per_width_;
+  double unsure_;                     // error of a place, in cells
+  std::vector<Boundary> boundaries_;  // one more than lines
+  Ends ends_;
+  Sides sides_;
+};
+
+}  // namespace echocine

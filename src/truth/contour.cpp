@@ -1,0 +1,86 @@
+#include "truth/contour.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace echocine {
+
+namespace {
+
+using EdgeKey = std::uint64_t;
+
+EdgeKey edgeKey(std::uint32_t a, std::uint32_t b) {
+  return (static_cast<EdgeKey>(std::min(a, b)) << 32) | std::max(a, b);
+}
+
+struct EdgeEnds {
+  EdgeKey from, to;
+};
+
+// The edges that a triangle's cut runs between, in the cut's direction.
+EdgeEnds endsOf(const Triangle& t, const std::vector<Vec3f>& positions) {
+  const bool above[3] = {positions[t[0]].y >= 0, positions[t[1]].y >= 0, positions[t[2]].y >= 0};
+  const std::size_t k = above[1] == above[2] ? 0 : above[0] == above[2] ? 1 : 2;
+  const EdgeKey first = edgeKey(t[k], t[(k + 1) % 3]), second = edgeKey(t[k], t[(k + 2) % 3]);
+  return above[k] ? EdgeEnds{first, second} : EdgeEnds{second, first};
+}
+
+// Chains the edges of one surface. Its triangles run the same way round, so an edge starts at most
+// one edge and ends at most one: following an edge's end to the edge that starts there never
+// branches.
+class Chainer {
+ public:
+  Chainer(std::span<const ContourEdge> edges, std::vector<EdgeEnds> ends)
+      : edges_(edges), ends_(std::move(ends)), used_(ends_.size(), false) {
+    for (std::size_t i = 0; i < ends_.size(); ++i) {
+      starts_.emplace(ends_[i].from, i);
+      ended_.emplace(ends_[i].to, i);
+    }
+  }
+
+  void run(std::vector<Contour>& out) {
+    for (std::size_t i = 0; i < ends_.size(); ++i)
+      if (!ended_.contains(ends_[i].from)) follow(i, out);  // open chains first, from their ends
+    for (std::size_t i = 0; i < ends_.size(); ++i)
+      if (!used_[i]) follow(i, out);
+  }
+
+ private:
+  void follow(std::size_t first, std::vector<Contour>& out) {
+    Contour contour{edges_[first].surface, false, {edges_[first].cut.from}};
+    for (std::size_t i = first;;) {
+      used_[i] = true;
+      const auto next = starts_.find(ends_[i].to);
+      contour.closed = next != starts_.end() && next->second == first;
+      if (contour.closed) break;
+      contour.points_m.push_back(edges_[i].cut.to);
+      if (next == starts_.end() || used_[next->second]) break;
+      i = next->second;
+    }
+    out.push_back(std::move(contour));
+  }
+
+  std::span<const ContourEdge> edges_;
+  std::vector<EdgeEnds> ends_;
+  std::vector<bool> used_;
+  std::unordered_map<EdgeKey, std::size_t> starts_, ended_;
+};
+
+}  // namespace
+
+std::vector<Contour> chainContours(std::span<const ContourEdge> edges,
+                                   const std::vector<SurfaceTopology>& surfaces,
+                                   const SurfaceFrame& frame) {
+  std::vector<Contour> contours;
+  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    const std::size_t surface = index(edges[begin].surface);
+    std::vector<EdgeEnds> ends;
+    for (end = begin; end < edges.size() && index(edges[end].surface) == surface; ++end)
+      ends.push_back(
+          endsOf(surfaces[surface].triangles[edges[end].triangle], frame.positions_m[surface]));
+    Chainer(edges.subspan(begin, end - begin), std::move(ends)).run(contours);
+  }
+  return contours;
+}
+
+}  // namespace echocine

@@ -1,0 +1,25 @@
+#pragma once
+// The plane slice as ground truth: chains of points per structure.
+
+#include <span>
+#include <vector>
+
+#include "geometry/plane_slice.h"
+
+namespace echocine {
+
+// A contour in the imaging plane (y = 0), metres in the probe frame. Closed surfaces give closed
+// contours (the last point joins the first), and so may membranes; edges are joined over the
+// mesh's edges, not by nearness.
+struct Contour {
+  SurfaceId surface{};
+  bool closed = false;
+  std::vector<Vec3d> points_m;
+};
+
+// All contours of the frame that `edges` were cut from, surface by surface.
+std::vector<Contour> chainContours(std::span<const ContourEdge> edges,
+                                   const std::vector<SurfaceTopology>& surfaces,
+                                   const SurfaceFrame& frame);
+
+}  // namespace echocine

@@ -1,0 +1,205 @@
+// DICOM ultrasound: multi-frame pixels of any transfer syntax that DCMTK decodes, and the tags that
+// speak of time and scale.
+
+#include <dcmtk/config/osconfig.h>
+// DCMTK's own order of includes: osconfig.h first.
+#include <dcmtk/dcmdata/dcistrmb.h>
+#include <dcmtk/dcmdata/dcrledrg.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmimage/diregist.h>
+#include <dcmtk/dcmimgle/dcmimage.h>
+#include <dcmtk/dcmjpeg/djdecode.h>
+#include <dcmtk/oflog/oflog.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <mutex>
+
+#include "core/error.h"
+#include "video/read_video.h"
+#include "video/video_builder.h"
+
+namespace echocine {
+
+namespace {
+
+void setUpOnce() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    OFLog::configure(OFLogger::OFF_LOG_LEVEL);  // errors come back as values
+    DJDecoderRegistration::registerCodecs();
+    DcmRLEDecoderRegistration::registerCodecs();
+  });
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::string& what) {
+  throw SceneError(fmt::format("{}: {}", name, what));
+}
+
+double numberOf(DcmItem& item, const DcmTagKey& key, unsigned long position = 0) {
+  OFString text;
+  if (item.findAndGetOFString(key, text, position).bad()) return 0;
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && std::isfinite(value) ? value : 0;
+}
+
+// The rate, or the mean interval between R waves, ms. What no heart does is told and left out.
+void takeHeartRate(DcmDataset& data, Video& video) {
+  const auto take = [&](const DcmTagKey& key, const char* name, bool is_interval) {
+    OFString text;
+    if (video.heart_rate_bpm || data.findAndGetOFString(key, text).bad() || text.empty()) return;
+    const double value = numberOf(data, key), bpm = is_interval ? 60e3 / value : value;
+    if (bpm >= 10 && bpm <= 400) {
+      video.heart_rate_bpm = bpm;
+      video.heart_rate_source = fmt::format("DICOM {}", name);
+    } else {
+      video.notes.push_back(fmt::format("its {} tag says {}: no heart rate", name, text.c_str()));
+    }
+  };
+  take(DCM_HeartRate, "HeartRate", false);
+  take(DCM_NominalInterval, "NominalInterval", true);
+}
+
+void takeTimes(DcmDataset& data, Video& video) {
+  const double frame_ms = numberOf(data, DCM_FrameTime), cine = numberOf(data, DCM_CineRate);
+  double sum_ms = 0;
+  unsigned long steps = 0;
+  DcmElement* vector = nullptr;
+  if (data.findAndGetElement(DCM_FrameTimeVector, vector).good())
+    for (unsigned long i = 1; i < std::min(vector->getVM(), 100000UL); ++i, ++steps)
+      sum_ms += numberOf(data, DCM_FrameTimeVector, i);
+  if (frame_ms > 0)
+    video.rate = {1e3 / frame_ms, "DICOM FrameTime", true};
+  else if (steps > 0 && sum_ms > 0)
+    video.rate = {1e3 * static_cast<double>(steps) / sum_ms, "DICOM FrameTimeVector", true};
+  else if (cine > 0)
+    video.rate = {cine, "DICOM CineRate", true};
+  takeHeartRate(data, video);
+  if (data.findAndGetElement(DCM_RWaveTimeVector, vector).good())
+    for (unsigned long i = 0; i < std::min(vector->getVM(), 1000UL); ++i)
+      video.r_waves_s.push_back(1e-3 * numberOf(data, DCM_RWaveTimeVector, i));
+}
+
+void takeRegions(DcmDataset& data, Video& video) {
+  DcmSequenceOfItems* regions = nullptr;
+  if (data.findAndGetSequence(DCM_SequenceOfUltrasoundRegions, regions).bad()) return;
+  for (unsigned long i = 0; i < std::min(regions->card(), 64UL); ++i) {
+    DcmItem& item = *regions->getItem(i);
+    const auto whole = [&](const DcmTagKey& key) {
+      Uint32 value = 0;
+      item.findAndGetUint32(key, value);
+      return static_cast<int>(std::min<Uint32>(value, 1u << 24));
+    };
+    Uint16 units_x = 0, units_y = 0;
+    Float64 dx = 0, dy = 0;
+    item.findAndGetUint16(DCM_PhysicalUnitsXDirection, units_x);
+    item.findAndGetUint16(DCM_PhysicalUnitsYDirection, units_y);
+    item.findAndGetFloat64(DCM_PhysicalDeltaX, dx);
+    item.findAndGetFloat64(DCM_PhysicalDeltaY, dy);
+    UltrasoundRegion r{whole(DCM_RegionLocationMinX0),
+                       whole(DCM_RegionLocationMinY0),
+                       whole(DCM_RegionLocationMaxX1),
+                       whole(DCM_RegionLocationMaxY1),
+                       0,
+                       0};
+    constexpr Uint16 kCentimetres = 3;  // PS3.3 C.8.5.5.1.15
+    if (units_x == kCentimetres && units_y == kCentimetres && std::isfinite(dx) &&
+        std::isfinite(dy)) {
+      r.cm_per_pixel_x = std::abs(dx);
+      r.cm_per_pixel_y = std::abs(dy);
+    }
+    video.regions.push_back(r);
+  }
+}
+
+// What pixel data must at least hold before anything is made of it.
+void checkPixels(const std::string& name, DcmDataset& data, std::int64_t frames) {
+  Uint16 rows = 0, columns = 0, samples = 1, bits = 8;
+  data.findAndGetUint16(DCM_Rows, rows);
+  data.findAndGetUint16(DCM_Columns, columns);
+  data.findAndGetUint16(DCM_SamplesPerPixel, samples);
+  data.findAndGetUint16(DCM_BitsAllocated, bits);
+  DcmElement* element = nullptr;
+  if (data.findAndGetElement(DCM_PixelData, element).bad() || rows == 0 || columns == 0)
+    refuse(name, "a DICOM file without pictures; give an ultrasound multi-frame file");
+  checkLoopSize(name, columns, rows, frames);
+  const DcmXfer syntax(data.getOriginalXfer());
+  if (syntax.isEncapsulated()) return;
+  OFString colours;
+  data.findAndGetOFString(DCM_PhotometricInterpretation, colours);
+  const double bytes_per_pixel =
+      colours == "YBR_FULL_422" ? 2.0 : static_cast<double>(samples) * ((bits + 7) / 8);
+  const double wanted = bytes_per_pixel * rows * columns * static_cast<double>(frames);
+  if (element->getLength() < wanted)
+    refuse(name,
+           fmt::format("a truncated DICOM file: {} bytes of pixels where {} frames of {} x {} "
+                       "need {:.0f}; copy the file again",
+                       element->getLength(), frames, columns, rows, wanted));
+}
+
+void addFrames(DcmDataset& data, std::int64_t frames, VideoBuilder& builder) {
+  const std::string& name = builder.video().name;
+  const DcmXfer syntax(data.getOriginalXfer());
+  for (std::int64_t i = 0; i < frames; ++i) {
+    DicomImage image(&data, data.getOriginalXfer(), CIF_UsePartialAccessToPixelData,
+                     static_cast<unsigned long>(i), 1);
+    if (image.getStatus() != EIS_Normal) {
+      if (i == 0)
+        refuse(name, fmt::format("pixels of transfer syntax \"{}\" cannot be decoded ({}); give it "
+                                 "uncompressed, RLE, or JPEG baseline or lossless",
+                                 syntax.getXferName(), DicomImage::getString(image.getStatus())));
+      refuse(name,
+             fmt::format("a truncated or damaged DICOM file: frame {} of {} cannot be decoded; "
+                         "copy the file again",
+                         i, frames));
+    }
+    const auto width = static_cast<int>(image.getWidth()),
+               height = static_cast<int>(image.getHeight());
+    checkLoopSize(name, width, height, frames);
+    std::vector<std::uint8_t> rgb(3 * static_cast<std::size_t>(width) *
+                                  static_cast<std::size_t>(height));
+    if (image.isMonochrome()) {
+      // The file's own window, the same in every frame; a window fitted to each would flicker.
+      if (image.getWindowCount() == 0 || image.setWindow(0) == 0) image.setNoVoiTransformation();
+      const std::size_t pixels = rgb.size() / 3;
+      std::vector<std::uint8_t> grey(pixels);
+      if (!image.getOutputData(grey.data(), grey.size(), 8))
+        refuse(name, "its greys cannot be read");
+      for (std::size_t p = 0; p < pixels; ++p)
+        rgb[3 * p] = rgb[3 * p + 1] = rgb[3 * p + 2] = grey[p];
+    } else if (!image.getOutputData(rgb.data(), rgb.size(), 8)) {
+      refuse(name, "its colours cannot be read");
+    }
+    builder.add(rgb.data(), width, height, std::ptrdiff_t{3} * width);
+  }
+}
+
+}  // namespace
+
+Video readDicom(const std::string& name, std::span<const std::byte> bytes) {
+  setUpOnce();
+  DcmInputBufferStream stream;
+  stream.setBuffer(bytes.data(), static_cast<offile_off_t>(bytes.size()));
+  stream.setEos();
+  DcmFileFormat file;
+  file.transferInit();
+  const OFCondition read = file.read(stream);
+  file.transferEnd();
+  if (read.bad() && read != EC_EndOfStream)
+    refuse(name,
+           fmt::format("a truncated or damaged DICOM file ({}); copy the file again", read.text()));
+  DcmDataset& data = *file.getDataset();
+  const double stated = numberOf(data, DCM_NumberOfFrames);
+  if (stated > 1e6) refuse(name, fmt::format("{} frames are stated; give a few beats", stated));
+  const auto frames = static_cast<std::int64_t>(std::max(1.0, stated));
+  checkPixels(name, data, frames);
+  VideoBuilder builder(name);
+  builder.video().format = fmt::format("DICOM, {}", DcmXfer(data.getOriginalXfer()).getXferName());
+  takeTimes(data, builder.video());
+  takeRegions(data, builder.video());
+  addFrames(data, frames, builder);
+  return builder.finish();
+}
+
+}  // namespace echocine

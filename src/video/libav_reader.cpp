@@ -1,0 +1,219 @@
+#include "video/libav_reader.h"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/imgutils.h>
+#include <libswscale/swscale.h>
+}
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+#include "core/error.h"
+
+namespace echocine {
+
+namespace {
+
+// Containers that hold one loop and nothing that points elsewhere (no play lists).
+constexpr const char* kFormats =
+    "avi,mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,gif,apng,mpeg,mpegts,asf,ogg,flv,nut,wmv,"
+    "png_pipe,jpeg_pipe,bmp_pipe,tiff_pipe,webp_pipe,image2pipe";
+
+struct Bytes {
+  std::span<const std::byte> all;
+  std::int64_t at = 0;
+};
+
+int readBytes(void* opaque, std::uint8_t* out, int size) {
+  auto* bytes = static_cast<Bytes*>(opaque);
+  const std::int64_t left = static_cast<std::int64_t>(bytes->all.size()) - bytes->at;
+  if (left <= 0) return AVERROR_EOF;
+  const auto n = static_cast<std::size_t>(std::min<std::int64_t>(left, size));
+  std::memcpy(out, bytes->all.data() + bytes->at, n);
+  bytes->at += static_cast<std::int64_t>(n);
+  return static_cast<int>(n);
+}
+
+std::int64_t seekBytes(void* opaque, std::int64_t offset, int whence) {
+  auto* bytes = static_cast<Bytes*>(opaque);
+  const auto size = static_cast<std::int64_t>(bytes->all.size());
+  if (whence & AVSEEK_SIZE) return size;
+  const std::int64_t from = whence == SEEK_CUR ? bytes->at : whence == SEEK_END ? size : 0;
+  if (offset < -from || offset > size - from) return AVERROR(EINVAL);
+  return bytes->at = from + offset;
+}
+
+std::string reasonOf(int error) {
+  char text[AV_ERROR_MAX_STRING_SIZE] = {};
+  av_strerror(error, text, sizeof text);
+  return text;
+}
+
+struct Decoder {
+  Bytes bytes;
+  std::string name;
+  AVIOContext* io = nullptr;
+  AVFormatContext* format = nullptr;
+  AVCodecContext* codec = nullptr;
+  AVFrame* frame = nullptr;
+  AVPacket* packet = nullptr;
+  SwsContext* scaler = nullptr;
+  int stream = -1;
+  std::vector<std::uint8_t> rgb;
+
+  ~Decoder() {
+    sws_freeContext(scaler);
+    av_packet_free(&packet);
+    av_frame_free(&frame);
+    avcodec_free_context(&codec);
+    avformat_close_input(&format);
+    if (io != nullptr) av_freep(&io->buffer);
+    avio_context_free(&io);
+  }
+
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw SceneError(fmt::format("{}: {}", name, what));
+  }
+  void open();
+  void openCodec();
+  void readAll(VideoBuilder& builder);
+  void takeFrames(VideoBuilder& builder);
+  void addFrame(VideoBuilder& builder);
+};
+
+void Decoder::open() {
+  av_log_set_level(AV_LOG_QUIET);  // what goes wrong comes back as a value and is reported once
+  constexpr int kBuffer = 1 << 16;
+  auto* buffer = static_cast<unsigned char*>(av_malloc(kBuffer));
+  io = avio_alloc_context(buffer, kBuffer, 0, &bytes, readBytes, nullptr, seekBytes);
+  format = avformat_alloc_context();
+  if (buffer == nullptr || io == nullptr || format == nullptr) throw std::bad_alloc();
+  format->pb = io;
+  AVDictionary* options = nullptr;
+  av_dict_set(&options, "format_whitelist", kFormats, 0);
+  av_dict_set(&options, "protocol_whitelist", "", 0);
+  const int opened = avformat_open_input(&format, nullptr, nullptr, &options);
+  av_dict_free(&options);
+  if (opened < 0)
+    refuse(
+        "is no video or picture that can be read; give an AVI, MP4, GIF, DICOM, or a folder of PNG "
+        "or JPEG frames");
+  stream = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  if (stream >= 0) {
+    const AVCodecParameters& p = *format->streams[stream]->codecpar;
+    if (p.width > 0 && p.height > 0) checkLoopSize(name, p.width, p.height, 1);
+  }
+  // Frame sizes are probed within this limit too.
+  const std::string limit = std::to_string(kMaxFramePixels);
+  std::vector<AVDictionary*> probing(format->nb_streams, nullptr);
+  for (AVDictionary*& each : probing) av_dict_set(&each, "max_pixels", limit.c_str(), 0);
+  const int probed = avformat_find_stream_info(format, probing.data());
+  for (AVDictionary*& each : probing) av_dict_free(&each);
+  stream = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  if (stream < 0 || probed < 0)
+    refuse("holds no video stream; give an AVI, MP4, GIF or DICOM loop");
+}
+
+void Decoder::openCodec() {
+  const AVCodecParameters& p = *format->streams[stream]->codecpar;
+  const AVCodec* decoder = avcodec_find_decoder(p.codec_id);
+  if (decoder == nullptr)
+    refuse(
+        fmt::format("codec {} cannot be decoded here; convert the loop to AVI (MJPEG, FFV1) or "
+                    "MP4 (H.264)",
+                    p.codec_id == AV_CODEC_ID_NONE ? "unknown" : avcodec_get_name(p.codec_id)));
+  codec = avcodec_alloc_context3(decoder);
+  frame = av_frame_alloc();
+  packet = av_packet_alloc();
+  if (codec == nullptr || frame == nullptr || packet == nullptr) throw std::bad_alloc();
+  if (avcodec_parameters_to_context(codec, &p) < 0) refuse("its stream has no usable header");
+  codec->max_pixels = kMaxFramePixels;
+  codec->thread_count = 1;
+  if (avcodec_open2(codec, decoder, nullptr) < 0)
+    refuse(
+        fmt::format("codec {} refuses the stream; convert the loop to AVI (MJPEG, FFV1) or MP4 "
+                    "(H.264)",
+                    avcodec_get_name(p.codec_id)));
+}
+
+// Colours as red, green, blue in square pixels.
+void Decoder::addFrame(VideoBuilder& builder) {
+  const AVRational shape = av_guess_sample_aspect_ratio(format, format->streams[stream], frame);
+  double aspect = shape.num > 0 && shape.den > 0 ? av_q2d(shape) : 1;
+  if (!(aspect > 0.2 && aspect < 5)) aspect = 1;
+  const auto width = static_cast<int>(std::lround(frame->width * aspect));
+  checkLoopSize(name, width, frame->height, builder.video().frameCount() + 1);
+  if (width != frame->width && builder.video().frames.empty())
+    builder.video().notes.push_back(
+        fmt::format("pixels are {} times as wide as high by its header; stretched to {} x {}",
+                    aspect, width, frame->height));
+  const auto source = static_cast<AVPixelFormat>(frame->format);
+  scaler = sws_getCachedContext(
+      scaler, frame->width, frame->height, source, width, frame->height, AV_PIX_FMT_RGB24,
+      SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT, nullptr, nullptr, nullptr);
+  if (scaler == nullptr) refuse("its pixel format cannot be turned into colours");
+  int *inverse = nullptr, *table = nullptr, from_full = 0, to_full = 0, b = 0, c = 0, s = 0;
+  if (frame->color_range == AVCOL_RANGE_JPEG &&
+      sws_getColorspaceDetails(scaler, &inverse, &from_full, &table, &to_full, &b, &c, &s) >= 0)
+    sws_setColorspaceDetails(scaler, inverse, 1, table, to_full, b, c, s);
+  const int stride = 3 * width;
+  rgb.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(frame->height) + 64);
+  std::uint8_t* const planes[4] = {rgb.data()};
+  const int strides[4] = {stride};
+  if (sws_scale(scaler, frame->data, frame->linesize, 0, frame->height, planes, strides) <= 0)
+    refuse("a frame cannot be turned into colours");
+  builder.add(rgb.data(), width, frame->height, stride);
+}
+
+void Decoder::takeFrames(VideoBuilder& builder) {
+  for (;;) {
+    const int got = avcodec_receive_frame(codec, frame);
+    if (got == AVERROR(EAGAIN) || got == AVERROR_EOF) return;
+    if (got < 0 || frame->flags & AV_FRAME_FLAG_CORRUPT || frame->decode_error_flags != 0)
+      refuse(fmt::format("frame {} is damaged or cut off{}; give the whole file again",
+                         builder.video().frameCount(), got < 0 ? " (" + reasonOf(got) + ")" : ""));
+    addFrame(builder);
+    av_frame_unref(frame);
+  }
+}
+
+void Decoder::readAll(VideoBuilder& builder) {
+  for (;;) {
+    const int read = av_read_frame(format, packet);
+    if (read < 0) break;
+    if (packet->stream_index == stream) {
+      const int sent = avcodec_send_packet(codec, packet);
+      if (sent < 0 && sent != AVERROR(EAGAIN) && sent != AVERROR_EOF)
+        refuse(fmt::format("frame {} is damaged or cut off ({}); give the whole file again",
+                           builder.video().frameCount(), reasonOf(sent)));
+      takeFrames(builder);
+    }
+    av_packet_unref(packet);
+  }
+  avcodec_send_packet(codec, nullptr);
+  takeFrames(builder);
+}
+
+}  // namespace
+
+void readByLibav(std::span<const std::byte> bytes, VideoBuilder& builder) {
+  Decoder decoder;
+  decoder.bytes.all = bytes;
+  decoder.name = builder.video().name;
+  decoder.open();
+  decoder.openCodec();
+  const AVStream& stream = *decoder.format->streams[decoder.stream];
+  builder.video().format = decoder.format->iformat->name;
+  const AVRational rate =
+      stream.avg_frame_rate.num > 0 ? stream.avg_frame_rate : stream.r_frame_rate;
+  if (rate.num > 0 && rate.den > 0) builder.video().rate = {av_q2d(rate), "container", false};
+  decoder.readAll(builder);
+}
+
+}  // namespace echocine

@@ -1,0 +1,47 @@
+#pragma once
+// A loop as it was read: grey frames, and what its file says or shows about them.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace echocine {
+
+using PixelPlane = std::vector<std::uint8_t>;  // rows from the top, one byte a pixel
+
+// A region of a DICOM file (Sequence of Ultrasound Regions, PS3.3 C.8.5.5), pixels, ends included.
+struct UltrasoundRegion {
+  int min_x = 0, min_y = 0, max_x = 0, max_y = 0;
+  double cm_per_pixel_x = 0, cm_per_pixel_y = 0;  // 0: the file has no length scale for it
+};
+
+struct FrameRate {
+  double hz = 0;
+  std::string source;    // "--fps", "DICOM FrameTime", "manifest", "container"
+  bool trusted = false;  // a container's rate is that of playing, not of acquisition
+};
+
+struct Video {
+  std::string name;    // the path as given, for messages
+  std::string format;  // "DICOM", "mov,mp4", ...
+  int width = 0, height = 0;
+  std::vector<PixelPlane> frames;
+  PixelPlane coloured;  // 1 where colour was laid over the grey in any frame: never compared
+  FrameRate rate;
+  std::optional<double> heart_rate_bpm;
+  std::string heart_rate_source;  // "--heart-rate", "DICOM HeartRate", "DICOM NominalInterval"
+  std::vector<double> r_waves_s;  // from the first frame, as the file's tags say
+  std::vector<UltrasoundRegion> regions;
+  std::vector<int> repeats;        // frames that repeat the one before
+  std::vector<std::string> notes;  // what was found odd while reading, a line each
+
+  int frameCount() const { return static_cast<int>(frames.size()); }
+  bool isRepeat(int frame) const {
+    for (const int r : repeats)
+      if (r == frame) return true;
+    return false;
+  }
+};
+
+}  // namespace echocine

@@ -1,0 +1,23 @@
+// Plots the sweeps across hard cases that the tests wrote (ECHOCINE_HARD_CASES) on one page:
+//   sweep_plots FOLDER OUTPUT_FOLDER
+
+#include <cstdio>
+#include <exception>
+
+#include "core/file.h"
+#include "sweep_page.h"
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fputs("sweep_plots: accepted: FOLDER OUTPUT_FOLDER\n", stderr);
+    return 2;
+  }
+  try {
+    const std::vector<echocine::HardCaseSweep> sweeps = echocine::readSweeps(argv[1]);
+    echocine::makeFolder(argv[2]);
+    echocine::writeSweepPage(sweeps, std::filesystem::path(argv[2]) / "sweeps.html");
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 2;
+  }
+}
