@@ -21,7 +21,7 @@ void ProgressLine::show(const Progress& progress) {
   const double elapsed_s = std::chrono::duration<double>(now - pass_start_).count();
   const double per_second = elapsed_s > 0 ? progress.done / elapsed_s : 0;
   const double left_s = per_second > 0 ? (progress.total - progress.done) / per_second : 0;
-  const char* doing = pass_ == Progress::Pass::measuring ? "measuring" : "rendering";
+  const char* doing = pass_ == Progress::Pass::measuring ? "measuring the loop's reference," : "rendering";
   bar_.draw(done, total,
             fmt::format("{} {}/{} frames, {:.1f} frames/s, {} left", doing, progress.done,
                         progress.total, per_second, minutesAndSeconds(left_s)));

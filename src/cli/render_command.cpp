@@ -74,6 +74,8 @@ RenderCommand::RenderCommand(CLI::App& app) {
   accuracy_.addTo(*command);
   command->add_flag("--resume", options_.resume,
                     "Keep frames whose EXR is whole and of this very scene");
+  command->add_flag("--overwrite", options_.overwrite,
+                    "Replace the loop of another scene in the folder; without it that is refused");
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "cli/number_check.h"
 #include "cli/progress_bar.h"
 #include "cli/stop_signal.h"
 #include "core/error.h"
@@ -56,8 +57,9 @@ StudyCommand::StudyCommand(CLI::App& app) {
       ->delimiter(',');
   command
       ->add_option("--budget-s", options_.budget_s,
-                   "Begin no round that would end later than this many seconds after the start")
-      ->check(CLI::PositiveNumber)
+                   "Begin nothing later than this many seconds after the start: the run ends within "
+                   "one setting of it")
+      ->check(within(1e-3, 1e9))
       ->type_name("SECONDS");
   command
       ->add_option("--threads", options_.threads,

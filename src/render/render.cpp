@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "motion/cycle/cardiac_clock.h"
+#include "output/earlier_hashes.h"
 #include "output/exr_stack.h"
 #include "output/output_folder.h"
 #include "render/reference_pass.h"
@@ -31,11 +32,25 @@ std::pair<int, int> frameRange(const RenderOptions& options, int loop_frames) {
   return range;
 }
 
-// Before anything is touched: the frames that are there must be of this scene.
-void refuseOtherScene(const Scene& scene, const std::filesystem::path& folder,
-                      const Manifest& manifest) {
-  const ExrStack stack(folder / "intensity", scene, manifest.scene_sha256, 1);
-  for (int i = 0; i < manifest.loop_frames; ++i) stack.refuseOtherScene(i);
+[[noreturn]] void failOfOtherLoop(const std::filesystem::path& folder) {
+  throw SceneError(
+      fmt::format("{}: holds the loop of another scene or program version: choose another folder, "
+                  "or give --overwrite",
+                  folder.string()));
+}
+
+// Before anything is touched: what is there must be of this scene.
+void refuseOtherScene(const Scene& scene, const RenderOptions& options, const Manifest& manifest) {
+  if (options.overwrite && !options.resume) return;
+  const ExrStack stack(options.folder / "intensity", scene, manifest.scene_sha256, 1);
+  for (int i = 0; i < manifest.loop_frames; ++i) {
+    if (options.resume)
+      stack.refuseOtherScene(i);
+    else if (stack.isOfAnotherScene(i))
+      failOfOtherLoop(options.folder);
+  }
+  if (!options.resume && isOfAnotherScene(options.folder / "manifest.json", manifest.scene_sha256))
+    failOfOtherLoop(options.folder);
 }
 
 void warn(const std::vector<std::string>& warnings, const Monitor& monitor, Manifest& manifest) {
@@ -75,7 +90,10 @@ RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const
   manifest.accuracy = options.accuracy;
   manifest.loop_frames = clock.frameCount();
   manifest.scene_sha256 = sceneSha256(scene, motion);
-  if (options.resume) refuseOtherScene(scene, options.folder, manifest);
+  refuseOtherScene(scene, options, manifest);
+  std::map<std::string, std::string> earlier;
+  if (options.resume)
+    earlier = earlierHashes(options.folder / "manifest.json", manifest.scene_sha256);
   withThreads(options.threads, [&] {
     manifest.plan = planLoop(scene, motion);  // what has to be computed at all, and how
     warn(manifest.plan.warnings, monitor, manifest);
@@ -89,7 +107,8 @@ RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const
     if (!reference) return;
     manifest.reference_intensity = *reference;
     ReportPage report(folder.report(), scene, clock, range);
-    RenderPass pass({scene, maker, clock, folder, monitor, report, options.resume}, manifest, kept);
+    RenderPass pass({scene, maker, clock, folder, monitor, report, options.resume, earlier},
+                    manifest, kept);
     summary.frames_done = pass.run(range.first, range.second);
     summary.passes_s = secondsSince(start) - summary.setup_s;
     if (summary.frames_done < summary.frames_wanted) return;

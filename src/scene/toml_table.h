@@ -21,10 +21,8 @@ struct NumberRange {
   double hi = std::numeric_limits<double>::infinity();
   bool lo_open = false, hi_open = false;
 
-  static NumberRange positive() { return {.lo = 0, .lo_open = true}; }
-  static NumberRange notNegative() { return {.lo = 0}; }
   bool contains(double value) const;
-  std::string text() const;  // "a number over 0"
+  std::string text() const;  // "a number from 1 to 2"
 };
 
 class TomlTable {
@@ -73,6 +71,7 @@ class TomlTable {
   void finish() const;
 
  private:
+  std::string withoutNul(std::string_view key, std::string text) const;
   struct Node;
   explicit TomlTable(std::unique_ptr<Node> node);
   std::optional<std::size_t> choiceIndex(std::string_view key,

@@ -36,12 +36,13 @@ class Study {
     prepare();
     for (int round = 0; round < options_.repeats; ++round) {
       const Clock::time_point begin = Clock::now();
-      if (!visitAll(round)) break;
-      result_.rounds = round + 1;
-      result_.complete = round + 1 == options_.repeats;
+      const bool whole = visitAll(round);
+      if (whole) result_.rounds = round + 1;
+      const bool spent = !whole && budgetSpent();
       const double took_s = secondsSince(begin);
-      const bool enough = secondsSince(start_) + took_s > options_.budget_s;
-      if (enough) result_.complete = true;
+      const bool enough = spent || secondsSince(start_) + took_s > options_.budget_s;
+      result_.complete = whole ? enough || round + 1 == options_.repeats : spent;
+      if (!whole && !spent) break;  // stopped
       monitor_.round_done(finished());
       if (enough) break;
     }
@@ -49,6 +50,7 @@ class Study {
   }
 
  private:
+  bool budgetSpent() const { return secondsSince(start_) >= options_.budget_s; }
   void prepare();
   void addRow(const std::string& sweep, const std::string& knob, const std::string& value,
               Scene scene, const std::string& keys);
@@ -164,7 +166,7 @@ void Study::tell() {
 bool Study::visitAll(int round) {
   const std::size_t count = result_.points.size();
   for (std::size_t i = 0; i < count; ++i) {
-    if (!monitor_.keep_going()) return false;
+    if (!monitor_.keep_going() || (visits_ > 0 && budgetSpent())) return false;
     visit(round % 2 == 0 ? i : count - 1 - i, round);
   }
   return true;

@@ -187,6 +187,7 @@ void Decoder::readAll(VideoBuilder& builder) {
   for (;;) {
     const int read = av_read_frame(format, packet);
     if (read < 0) break;
+    builder.checkTime();
     if (packet->stream_index == stream) {
       const int sent = avcodec_send_packet(codec, packet);
       if (sent < 0 && sent != AVERROR(EAGAIN) && sent != AVERROR_EOF)
@@ -204,6 +205,7 @@ void Decoder::readAll(VideoBuilder& builder) {
 
 void readByLibav(std::span<const std::byte> bytes, VideoBuilder& builder) {
   Decoder decoder;
+  builder.expectBytes(bytes.size());
   decoder.bytes.all = bytes;
   decoder.name = builder.video().name;
   decoder.open();

@@ -1,6 +1,7 @@
 #include "video/video_builder.h"
 
 #include <fmt/format.h>
+#include <time.h>
 
 #include <algorithm>
 #include <array>
@@ -44,7 +45,14 @@ void checkLoopSize(const std::string& name, std::int64_t width, std::int64_t hei
     throw SceneError(
         fmt::format("{}: frames of {} x {} pixels show no sector, accepted: 16 x 16 and more", name,
                     width, height));
-  if (width > kMaxFramePixels || height > kMaxFramePixels || width * height > kMaxFramePixels)
+  if (width > kMaxFrameSide || height > kMaxFrameSide)
+    throw SceneError(fmt::format(
+        "{}: frames of {} x {} pixels, accepted: up to {} a side; give a smaller picture", name,
+        width, height, kMaxFrameSide));
+  if (frames > kMaxLoopFrames)
+    throw SceneError(fmt::format("{}: more than {} frames; give a few beats cut out of it", name,
+                                 kMaxLoopFrames));
+  if (width * height > kMaxFramePixels)
     throw SceneError(fmt::format(
         "{}: frames of {} x {} pixels are beyond the limit of {} pixels; give a smaller picture",
         name, width, height, kMaxFramePixels));
@@ -52,6 +60,31 @@ void checkLoopSize(const std::string& name, std::int64_t width, std::int64_t hei
     throw SceneError(
         fmt::format("{}: more than {} frames of {} x {} pixels; give a few beats cut out of it",
                     name, kMaxLoopPixels / (width * height), width, height));
+}
+
+namespace {
+
+double threadSeconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+VideoBuilder::VideoBuilder(std::string name) : from_s_(threadSeconds()), allowed_s_(kDecodeSeconds) {
+  video_.name = std::move(name);
+}
+
+void VideoBuilder::expectBytes(std::size_t bytes) {
+  allowed_s_ += kDecodeSecondsPerByte * static_cast<double>(bytes);
+}
+
+void VideoBuilder::checkTime() const {
+  if (threadSeconds() - from_s_ <= allowed_s_) return;
+  throw SceneError(fmt::format(
+      "{}: takes longer than {:.0f} s to decode, {} frames so far; give a few beats cut out of it",
+      video_.name, allowed_s_, video_.frames.size()));
 }
 
 // Some scanners tint their grey scale: each luma then has one colour, the same all over the
@@ -79,6 +112,7 @@ void VideoBuilder::learnTint(const std::uint8_t* rgb, std::ptrdiff_t stride) {
 
 void VideoBuilder::add(const std::uint8_t* rgb, int width, int height, std::ptrdiff_t stride) {
   Video& v = video_;
+  checkTime();
   checkLoopSize(v.name, width, height, v.frameCount() + 1);
   if (v.frames.empty()) {
     v.width = width;
