@@ -30,7 +30,7 @@ Pose readPose(TomlTable& table, double mesh_unit_m) {
   Pose pose;
   pose.z_axis = readDirection(table, "axis");
   const Vec3d unit_lateral = readDirection(table, "lateral");
-  pose.origin = mesh_unit_m * table.vector("apex");
+  pose.origin = mesh_unit_m * table.vector("apex", ranges::kMostCoordinate);
   const Vec3d across = unit_lateral - dot(unit_lateral, pose.z_axis) * pose.z_axis;
   if (length(across) < 1e-6)
     table.fail("lateral", "is parallel to axis, accepted: a direction across it");

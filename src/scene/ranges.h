@@ -26,6 +26,9 @@ inline constexpr NumberRange kToleranceLines{.lo = 0, .hi = 1e6};
 inline constexpr NumberRange kTolerance_db{.lo = 1e-6, .hi = 1000};
 inline constexpr NumberRange kBeats{.lo = 1e-6, .hi = 1e6};
 
+// Of a place in mesh units: its cube is still a float.
+inline constexpr double kMostCoordinate = 1e9;
+
 // Keyframes nearer to one another than this have no motion between them.
 inline constexpr double kLeastPhaseStep = 1e-6;
 

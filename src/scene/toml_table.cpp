@@ -190,10 +190,11 @@ std::optional<std::size_t> TomlTable::choiceIndex(std::string_view key,
   return static_cast<std::size_t>(found - names.begin());
 }
 
-Vec3d TomlTable::vector(std::string_view key) {
-  // Our choice: cubes of it are still floats.
-  constexpr double kMost = 1e9;
-  const char* accepted = "accepted: three finite numbers [x, y, z] of up to 1e9";
+Vec3d TomlTable::vector(std::string_view key, double most) {
+  const std::string accepted =
+      most < std::numeric_limits<double>::max()
+          ? fmt::format("accepted: three numbers [x, y, z] from {} to {}", -most, most)
+          : "accepted: three finite numbers [x, y, z]";
   const toml::node* value = node_->find(key);
   if (!value) missing(key, accepted);
   const toml::array* list = value->as_array();
@@ -201,8 +202,8 @@ Vec3d TomlTable::vector(std::string_view key) {
   double xyz[3] = {};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::optional<double> number = (*list)[i].value<double>();
-    if (!(*list)[i].is_number() || !number || !(std::abs(*number) <= kMost))
-      fail(key, fmt::format("component {} is not such a number, {}", i + 1, accepted));
+    if (!(*list)[i].is_number() || !number || !(std::abs(*number) <= most))
+      fail(key, fmt::format("component {} is not a finite number within bounds, {}", i + 1, accepted));
     xyz[i] = *number;
   }
   return {xyz[0], xyz[1], xyz[2]};

@@ -41,7 +41,7 @@ class TomlTable {
   int integer(std::string_view key, std::optional<int> fallback, int lo, int hi);
   bool boolean(std::string_view key, bool fallback);
   std::string text(std::string_view key, std::optional<std::string> fallback = std::nullopt);
-  Vec3d vector(std::string_view key);
+  Vec3d vector(std::string_view key, double most = std::numeric_limits<double>::max());
 
   // The value that belongs to one of the names.
   template <typename T>
