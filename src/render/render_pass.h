@@ -5,14 +5,13 @@
 #include <memory>
 #include <string>
 
-#include "motion/cycle/cardiac_clock.h"
 #include "output/exr_stack.h"
 #include "output/output_folder.h"
 #include "output/overlay.h"
 #include "render/reference_pass.h"
 #include "render/render.h"
 #include "render/report.h"
-#include "simulate/frame_maker.h"
+#include "simulate/simulator.h"
 #include "video/cine_writer.h"
 
 namespace echocine {
@@ -24,9 +23,7 @@ std::string sceneSha256(const Scene& scene, const MeshMotion& motion);
 class RenderPass {
  public:
   struct Parts {
-    const Scene& scene;
-    FrameMaker& maker;
-    const CardiacClock& clock;
+    const Simulator& simulator;
     const OutputFolder& folder;
     const Monitor& monitor;
     ReportPage& report;
@@ -51,7 +48,7 @@ class RenderPass {
   std::shared_ptr<Finished> make(int frame);
   void takeEarlier(const FrameRecord& record, Finished& finished) const;
   Volumes tracedFrame(const FrameTime& time, Workspace& workspace);
-  void writeExr(const FrameRecord& record, const PolarFrame& polar, Finished& finished);
+  void writeExr(const FrameRecord& record, const Workspace& workspace, Finished& finished);
   void writePictures(GreyImage& image, Finished& finished);
   void drain(Finished& finished);
   void endEarly();

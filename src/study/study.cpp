@@ -29,8 +29,14 @@ double secondsSince(Clock::time_point start) {
 
 class Study {
  public:
-  Study(const Scene& scene, const StudyOptions& options, const StudyMonitor& monitor)
-      : scene_(showing(scene)), options_(options), monitor_(monitor), start_(Clock::now()) {}
+  using RoundDone = std::function<void(const StudyResult&)>;
+  Study(const Scene& scene, const StudyOptions& options, const Monitor& monitor,
+        const RoundDone& round_done)
+      : scene_(showing(scene)),
+        options_(options),
+        monitor_(monitor),
+        round_done_(round_done),
+        start_(Clock::now()) {}
 
   StudyResult run() {
     prepare();
@@ -43,7 +49,7 @@ class Study {
       const bool enough = spent || secondsSince(start_) + took_s > options_.budget_s;
       result_.complete = whole ? enough || round + 1 == options_.repeats : spent;
       if (!whole && !spent) break;  // stopped
-      monitor_.round_done(finished());
+      round_done_(finished());
       if (enough) break;
     }
     return finished();
@@ -63,7 +69,8 @@ class Study {
 
   Scene scene_;
   const StudyOptions& options_;
-  const StudyMonitor& monitor_;
+  const Monitor& monitor_;
+  const RoundDone& round_done_;
   Clock::time_point start_;
   MotionShelf shelf_;
   StudyResult result_;
@@ -160,7 +167,7 @@ void Study::tell() {
     }
   const std::size_t total = result_.points.size() * static_cast<std::size_t>(options_.repeats);
   const double mean = count > 0 ? known / static_cast<double>(count) : 0;
-  monitor_.tell(visits_, total, mean * static_cast<double>(total - visits_));
+  monitor_.tell({Task::settings, visits_, total, mean * static_cast<double>(total - visits_)});
 }
 
 bool Study::visitAll(int round) {
@@ -197,7 +204,7 @@ void Study::compare(std::size_t point) {
   double squares = 0, ssim = 0, bytes = 0, worst = -1;
   for (std::size_t f = 0; f < result_.frames.size(); ++f) {
     const FramePicture picture =
-        probe.picture(result_.frames[f], result_.reference_intensity, true, Intensities::stored);
+        probe.picture(result_.frames[f], result_.reference_intensity, true, MadeOf::stored);
     const FramePicture& truth = reference_[f];
     const PictureError error = pictureError(picture.grey, truth.grey, result_.dynamic_range_db);
     squares += error.rms_db * error.rms_db;
@@ -253,9 +260,10 @@ std::vector<FrameTime> probeFrames(const Scene& scene, int count) {
   return frames;
 }
 
-StudyResult runStudy(const Scene& scene, const StudyOptions& options, const StudyMonitor& monitor) {
+StudyResult runStudy(const Scene& scene, const StudyOptions& options, const Monitor& monitor,
+                     const std::function<void(const StudyResult&)>& round_done) {
   StudyResult result;
-  withThreads(options.threads, [&] { result = Study(scene, options, monitor).run(); });
+  withThreads(options.threads, [&] { result = Study(scene, options, monitor, round_done).run(); });
   return result;
 }
 
