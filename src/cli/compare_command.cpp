@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "cli/documents.h"
 #include "cli/number_check.h"
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
@@ -144,9 +145,10 @@ CompareCommand::CompareCommand(CLI::App& app) {
       ->type_name("NUMBER")
       ->capture_default_str();
   command->add_flag("--contours", options_.contours, "Draw the scene's contours into the pictures");
-  command->add_option("--threads", threads_, "Threads; 0 for one per core")
+  command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
+  command->footer("Example: echocine compare loop patient.dcm -o comparison --heart-rate 62.5\n" + std::string(kDocuments));
 }
 
 int CompareCommand::run() {

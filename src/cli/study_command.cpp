@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "cli/documents.h"
 #include "cli/number_check.h"
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
@@ -67,6 +68,7 @@ StudyCommand::StudyCommand(CLI::App& app) {
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
+  command->footer("Example: echocine study scene.toml -o study --knobs lines,samples --budget-s 60\n" + std::string(kDocuments));
 }
 
 int StudyCommand::run() {

@@ -10,6 +10,7 @@
 #include "compare/panels.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/shown_path.h"
 #include "core/units.h"
 #include "video/cine_writer.h"
 
@@ -25,7 +26,7 @@ Json numberOrNull(double value) {
 
 Json loopJson(const Loop& l, const BeatLength& beat) {
   const Sector& s = l.sector();
-  Json json{{"path", l.video.name},
+  Json json{{"path", shownName(l.video.name)},
             {"format", l.video.format},
             {"grey_source", l.grey_source},
             {"width", l.video.width},
@@ -107,6 +108,11 @@ void writeFrames(const Comparison& c, const PanelMaker& panels, const std::files
 }  // namespace
 
 Json metricsJson(const FrameMetrics& m) {
+  if (!(m.weight > 0)) {  // nothing was in sight: no score is not a score of 0
+    Json none = Json::object();
+    for (const Metric& metric : kMetrics) none[metric.key] = nullptr;
+    return none;
+  }
   Json json = Json::object();
   for (const Metric& metric : kMetrics) json[metric.key] = numberOrNull(m.*metric.value);
   return json;

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/shown_path.h"
 #include "output/earlier_hashes.h"
 #include "output/exr_stack.h"
 #include "output/output_folder.h"
@@ -51,9 +52,11 @@ void refuseOtherScene(const Scene& scene, const RenderOptions& options, const Ma
     failOfOtherLoop(options.folder);
 }
 
-void warn(const std::vector<std::string>& warnings, const Monitor& monitor, Manifest& manifest) {
+// The terminal has whole paths, the manifest and its page none.
+void warn(const std::vector<std::string>& warnings, const Scene& scene, const Monitor& monitor,
+          Manifest& manifest) {
   for (const std::string& warning : warnings) {
-    manifest.warnings.push_back(warning);
+    manifest.warnings.push_back(withoutFolders(warning, scene.file.parent_path()));
     monitor.warn(warning);
   }
 }
@@ -79,7 +82,7 @@ void noteCosts(const Simulator& simulator, RenderSummary& summary) {
 RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const Monitor& monitor) {
   const auto start = std::chrono::steady_clock::now();
   RenderSummary summary;
-  warn(scene.warnings, monitor, summary.manifest);
+  warn(scene.warnings, scene, monitor, summary.manifest);
   const auto motion = std::make_shared<const MeshMotion>(scene);  // keyframes, ready to interpolate
   const std::pair range = frameRange(options, CardiacClock(scene).frameCount());
   summary.frames_wanted = range.second - range.first;
@@ -96,7 +99,7 @@ RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const
     // frame.
     const Simulator simulator(scene, motion);
     manifest.plan = simulator.plan();
-    warn(manifest.plan.warnings, monitor, manifest);
+    warn(manifest.plan.warnings, scene, monitor, manifest);
     if (!monitor.keep_going()) return;
     const OutputFolder folder(options.folder, scene.output, options.resume);
     folder.removeStale(manifest.loop_frames);

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
+#include "core/shown_path.h"
 #include "core/units.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "render/render_pass.h"
@@ -114,7 +115,8 @@ void Study::addRow(const std::string& sweep, const std::string& knob, const std:
     result_.rows.push_back({sweep, knob, value, point});
   } catch (const SceneError& error) {
     if (result_.points.empty()) throw;  // without its reference there is no study
-    result_.refused.push_back({knob + " " + value, error.what()});
+    result_.refused.push_back(
+        {knob + " " + value, withoutFolders(error.what(), scene_.file.parent_path())});
   }
 }
 

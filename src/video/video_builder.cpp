@@ -17,6 +17,9 @@ namespace {
 // codecs stay well under it, markers and Doppler colours well above. Our choice.
 constexpr int kColourStep = 28;
 
+// The same of the mean over a few pixels, which dithering leaves near grey. Our choice.
+constexpr int kDitheredStep = 12;
+
 int medianOf(std::vector<int>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -35,6 +38,21 @@ PixelPlane widened(const PixelPlane& mask, int width, int height) {
           out[static_cast<std::size_t>(v * width + u)] = 1;
     }
   return out;
+}
+
+// A palette's greys are dithered: neighbours of opposite colours, whose mean is grey. Markers and
+// Doppler boxes keep theirs. Over 5 x 5 pixels a line of one pixel keeps a fifth of its colour.
+bool isColouredAround(const std::vector<std::int16_t>& colour, std::size_t at, int width,
+                      int height) {
+  constexpr int kReach = 2;
+  const int x = static_cast<int>(at % static_cast<std::size_t>(width)),
+            y = static_cast<int>(at / static_cast<std::size_t>(width));
+  int sum = 0, count = 0;
+  for (int v = std::max(0, y - kReach); v <= std::min(height - 1, y + kReach); ++v)
+    for (int u = std::max(0, x - kReach); u <= std::min(width - 1, x + kReach); ++u, ++count)
+      sum += colour[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
+                    static_cast<std::size_t>(u)];
+  return std::abs(sum) > kDitheredStep * count;
 }
 
 }  // namespace
@@ -126,17 +144,23 @@ void VideoBuilder::add(const std::uint8_t* rgb, int width, int height, std::ptrd
                     "size",
                     v.name, v.frameCount(), width, height, v.width, v.height));
   PixelPlane grey(v.coloured.size());
+  std::vector<std::size_t> coloured;
+  std::vector<std::int16_t> red(grey.size()), blue(grey.size());  // beyond what a grey has
   for (int y = 0; y < height; ++y) {
     const std::uint8_t* p = rgb + y * stride;
     for (int x = 0; x < width; ++x, p += 3) {
       const int luma = lumaOf(p[0], p[1], p[2]);
       const auto at = static_cast<std::size_t>(y * width + x);
       grey[at] = static_cast<std::uint8_t>(luma);
-      if (std::abs(p[0] - luma - tint_red_[luma / 16]) > kColourStep ||
-          std::abs(p[2] - luma - tint_blue_[luma / 16]) > kColourStep)
-        v.coloured[at] = 1;
+      red[at] = static_cast<std::int16_t>(p[0] - luma - tint_red_[luma / 16]);
+      blue[at] = static_cast<std::int16_t>(p[2] - luma - tint_blue_[luma / 16]);
+      if (std::abs(red[at]) > kColourStep || std::abs(blue[at]) > kColourStep)
+        coloured.push_back(at);
     }
   }
+  for (const std::size_t at : coloured)
+    if (isColouredAround(red, at, width, height) || isColouredAround(blue, at, width, height))
+      v.coloured[at] = 1;
   v.frames.push_back(std::move(grey));
 }
 
