@@ -9,6 +9,7 @@
 #include "cli/progress_line.h"
 #include "cli/standard_error.h"
 #include "core/error.h"
+#include "scene/ranges.h"
 #include "scene/tolerance_reader.h"
 #include "study/tolerance.h"
 
@@ -48,9 +49,9 @@ AccuracyRecord AccuracyOptions::resolve(Scene& scene, int threads, bool quiet) c
   const std::optional<SceneTolerance> written = readSceneTolerance(scene.file);
   std::optional<double> wanted_db = tolerance_db_;
   if (!wanted_db && written) wanted_db = written->db;
-  if (tolerance_db_ && !(*tolerance_db_ > 0 && std::isfinite(*tolerance_db_)))
-    throw SceneError(
-        fmt::format("--tolerance-db: {} is not accepted: a number over 0", *tolerance_db_));
+  if (tolerance_db_ && !ranges::kTolerance_db.contains(*tolerance_db_))
+    throw SceneError(fmt::format("--tolerance-db: {} is not accepted: {}", *tolerance_db_,
+                                 ranges::kTolerance_db.text()));
   if (preset_.empty() && !wanted_db) return {};
   AccuracyChoice choice;
   if (preset_.empty()) {

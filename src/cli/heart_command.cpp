@@ -5,6 +5,7 @@
 
 #include <charconv>
 
+#include "cli/documents.h"
 #include "cli/stop_signal.h"
 #include "core/error.h"
 
@@ -72,15 +73,22 @@ HeartCommand::HeartCommand(CLI::App& app) {
       "--segment", segments_,
       "Wall motion of one of the 17 segments, NUMBER:AMPLITUDE[:DELAY_MS]: 1 healthy, "
       "0 akinetic, below 0 dyskinetic; may be given often");
+  command
+      ->add_option("--rule", rule_,
+                   "What gives way where --segment says that walls are still: segments (the "
+                   "ejection fraction falls) or volumes (it stays as dialled)")
+      ->check(CLI::IsMember({"segments", "volumes"}))
+      ->capture_default_str();
   command->add_option("--keyframes", wanted_.keyframes, "Keyframes a beat")
       ->check(CLI::Range(4, 100))
       ->capture_default_str();
   command->add_flag(
       "--even", even_,
       "Space keyframes evenly, not by how much moves; end-systole then falls between two");
-  command->add_option("--threads", wanted_.threads, "Threads; 0 for one per core")
+  command->add_option("--threads", wanted_.threads, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
+  command->footer("Example: echocine heart --ef 0.35 --view a2c -o failing_heart\n" + std::string(kDocuments));
 }
 
 int HeartCommand::run() {
@@ -91,6 +99,7 @@ int HeartCommand::run() {
   if (even_) wanted_.spacing = heart::KeyframeSpacing::even;
   wanted_.parameters = heart::parametersFrom(given_);
   for (const std::string& segment : segments_) applySegment(segment, wanted_.parameters);
+  wanted_.parameters.volumes_rule = rule_ == "volumes";
   listenForStop();
   writeHeart(wanted_, folder_, {.keep_going = [] { return !stopWanted(); }});
   if (!quiet_)

@@ -23,7 +23,7 @@ class HeartCommand {
   HeartFiles wanted_;
   std::filesystem::path folder_;
   std::map<std::string, double> given_;
-  std::string view_ = "a4c";
+  std::string view_ = "a4c", rule_ = "segments";
   std::vector<std::string> segments_;
   bool even_ = false, quiet_ = false;
 };

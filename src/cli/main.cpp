@@ -1,6 +1,7 @@
 // echocine: arguments in, one call, the exit code out. The only place that catches.
 
 #include <fmt/format.h>
+#include <pthread.h>
 #include <CLI/CLI.hpp>
 
 #include <csignal>
@@ -69,14 +70,7 @@ int failed(int code, std::string_view what) {
   return code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  echocine::keepStandardStreams();
-  echocine::endCrashesInOneLine(kJobFailed);
-  // A file-size limit must come back as an error of write(), not end the program.
-  std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGPIPE, SIG_IGN);
+int run(int argc, char** argv) {
   CLI::App app{"EchoCine: ultrasound cine loops ray-traced from a beating-heart mesh sequence"};
   app.set_version_flag("--version", std::string("echocine ") + ECHOCINE_VERSION);
   app.require_subcommand(1);
@@ -110,4 +104,41 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return failed(kJobFailed, error.what());
   }
+}
+
+struct Call {
+  int argc;
+  char** argv;
+  int code = kJobFailed;
+};
+
+void* runCall(void* call) {
+  auto& c = *static_cast<Call*>(call);
+  c.code = run(c.argc, c.argv);
+  return nullptr;
+}
+
+// On a stack of our own: the one that the system gives may be of any size (ulimit -s), and the
+// readers of hostile files recurse.
+int runOnStack(Call call) {
+  constexpr std::size_t kStackBytes = std::size_t{64} << 20;  // taken from memory only as used
+  pthread_attr_t attributes;
+  pthread_t thread;
+  const bool begun = ::pthread_attr_init(&attributes) == 0 &&
+                     ::pthread_attr_setstacksize(&attributes, kStackBytes) == 0 &&
+                     ::pthread_create(&thread, &attributes, runCall, &call) == 0;
+  if (!begun) return run(call.argc, call.argv);
+  ::pthread_join(thread, nullptr);
+  return call.code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  echocine::keepStandardStreams();
+  echocine::endCrashesInOneLine(kJobFailed);
+  // A file-size limit must come back as an error of write(), not end the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+  return runOnStack({argc, argv});
 }

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/documents.h"
 #include "cli/interpolation_table.h"
 #include "cli/stop_signal.h"
 #include "cli/warning_printer.h"
@@ -64,7 +65,7 @@ PlanCommand::PlanCommand(CLI::App& app) {
       "plan", "Say which effects a scene's loop needs, why, and what it will take in s and MB");
   command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")
       ->required();
-  command->add_option("--threads", threads_, "Threads; 0 for one per core")
+  command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   accuracy_.addTo(*command);
   command->add_flag(
@@ -73,6 +74,7 @@ PlanCommand::PlanCommand(CLI::App& app) {
       "from the rest, errors in mm and mL");
   command->add_flag("--json", json_, "Print JSON");
   command->add_flag("--quiet", quiet_, "Print no warnings");
+  command->footer("Example: echocine plan scene.toml\n" + std::string(kDocuments));
 }
 
 int PlanCommand::run() {

@@ -5,6 +5,7 @@
 
 #include <charconv>
 
+#include "cli/documents.h"
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
 #include "core/error.h"
@@ -66,14 +67,17 @@ RenderCommand::RenderCommand(CLI::App& app) {
       ->add_option("-o,--output", options_.folder,
                    "Folder for intensity/, cine.avi, report.html and manifest.json")
       ->required();
-  command->add_option("--threads", options_.threads, "Threads; 0 for one per core")
+  command->add_option("--threads", options_.threads, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   command->add_option("--frames", frames_,
                       "Only frames A up to, without, B of the loop, counted from 0 (A:B, A:, :B)");
   accuracy_.addTo(*command);
   command->add_flag("--resume", options_.resume,
                     "Keep frames whose EXR is whole and of this very scene");
+  command->add_flag("--overwrite", options_.overwrite,
+                    "Replace the loop of another scene in the folder; without it that is refused");
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
+  command->footer("Example: echocine render scene.toml -o loop --frames 0:50\n" + std::string(kDocuments));
 }
 
 int RenderCommand::run() {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "cli/documents.h"
+#include "cli/number_check.h"
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
 #include "core/error.h"
@@ -56,8 +58,9 @@ StudyCommand::StudyCommand(CLI::App& app) {
       ->delimiter(',');
   command
       ->add_option("--budget-s", options_.budget_s,
-                   "Begin no round that would end later than this many seconds after the start")
-      ->check(CLI::PositiveNumber)
+                   "Begin nothing later than this many seconds after the start: the run ends within "
+                   "one setting of it")
+      ->check(within(1e-3, 1e9))
       ->type_name("SECONDS");
   command
       ->add_option("--threads", options_.threads,
@@ -65,6 +68,7 @@ StudyCommand::StudyCommand(CLI::App& app) {
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
+  command->footer("Example: echocine study scene.toml -o study --knobs lines,samples --budget-s 60\n" + std::string(kDocuments));
 }
 
 int StudyCommand::run() {

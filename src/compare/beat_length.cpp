@@ -19,6 +19,9 @@ double parabolaOffset(double left, double middle, double right) {
   return bend > 0 ? std::clamp(0.5 * (left - right) / bend, -0.5, 0.5) : 0;
 }
 
+// Our choice.
+constexpr double kClearlyBetter = 1.15, kMuchBetter = 1.6;
+
 }  // namespace
 
 BeatLength findBeatLength(const Features& features, double shortest) {
@@ -43,7 +46,11 @@ BeatLength findBeatLength(const Features& features, double shortest) {
     const auto at = static_cast<std::size_t>(lag);
     if (lag >= first && d[at] < d[at - 1] && d[at] <= d[at + 1]) {
       const double drop = away > 0 ? (away - d[at]) / away : 0;
-      if (drop > 1.15 * best_drop && drop > 0.25) {  // a later beat must be clearly better
+      // A later beat must be clearly better, and a whole number of earlier ones much: two beats are
+      // more alike than one where breathing, or every other beat, differs.
+      const double times = beat.frames > 0 ? lag / beat.frames : 0.5;
+      const bool multiple = times > 1.5 && std::abs(times - std::round(times)) < 0.1;
+      if (drop > (multiple ? kMuchBetter : kClearlyBetter) * best_drop && drop > 0.25) {
         best_drop = drop;
         beat.frames = lag + parabolaOffset(d[at - 1], d[at], d[at + 1]);
       }

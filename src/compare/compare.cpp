@@ -15,6 +15,7 @@
 #include "compare/view_search.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/shown_path.h"
 
 namespace echocine::compare {
 
@@ -301,20 +302,27 @@ class Steps {
   std::size_t done_ = 0;
 };
 
+// Loops of the same beat reach 0.3 and more. Our choice.
+constexpr double kDoubtfulConfidence = 0.1;
+
 void noteAssumptions(Comparison& c) {
   const auto say = [&](const std::string& note) { c.notes.push_back(note); };
   for (const Loop* loop : {&c.synthetic, &c.real})
-    for (const std::string& note : loop->video.notes) say(loop->video.name + ": " + note);
+    for (const std::string& note : loop->video.notes) say(shownName(loop->video.name) + ": " + note);
   if (!c.grid.metric)
     say(
         fmt::format("{} has no length scale (--scale, in mm per pixel, gives it): both sectors are "
                     "taken to be of "
                     "one depth",
-                    c.real.metres_per_pixel ? c.synthetic.video.name : c.real.video.name));
+                    shownName(c.real.metres_per_pixel ? c.synthetic.video.name : c.real.video.name)));
   for (const BeatLength* beat : {&c.synthetic_beat, &c.real_beat})
     if (beat->frames == 0)
       say(fmt::format("{}: no beat found in the loop; frames are paired by the best shift and pace",
-                      beat == &c.real_beat ? c.real.video.name : c.synthetic.video.name));
+                      shownName(beat == &c.real_beat ? c.real.video.name : c.synthetic.video.name)));
+  if (c.time.confidence < kDoubtfulConfidence)
+    say(fmt::format("the alignment in time is hardly better than any other (confidence {:.2f}): "
+                    "--real-ed and --real-es, or R waves, say which frames belong together",
+                    c.time.confidence));
   if (c.space.used && c.space.at_limit)
     say("the view that fits best lies at the limit of the search: a better one may lie beyond");
 }

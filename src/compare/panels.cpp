@@ -9,17 +9,21 @@ namespace echocine::compare {
 
 namespace {
 
-void plot(GreyImage& image, double x, double y, std::uint8_t grey) {
+void plot(GreyImage& image, double x, double y, std::uint8_t grey,
+          const std::vector<std::uint8_t>& within = {}) {
   const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
   if (i < 0 || j < 0 || i >= image.width || j >= image.height) return;
-  image.pixels[static_cast<std::size_t>(j) * static_cast<std::size_t>(image.width) +
-               static_cast<std::size_t>(i)] = grey;
+  const std::size_t at = static_cast<std::size_t>(j) * static_cast<std::size_t>(image.width) +
+                         static_cast<std::size_t>(i);
+  if (within.empty() || within[at] != 0) image.pixels[at] = grey;
 }
 
-void drawLine(GreyImage& image, double x0, double y0, double x1, double y1, std::uint8_t grey) {
+// `within`: pixels that may be drawn on; empty: all.
+void drawLine(GreyImage& image, double x0, double y0, double x1, double y1, std::uint8_t grey,
+              const std::vector<std::uint8_t>& within = {}) {
   const int steps = std::max(1, static_cast<int>(2 * std::hypot(x1 - x0, y1 - y0)));
   for (int i = 0; i <= std::min(steps, 20000); ++i)
-    plot(image, x0 + (x1 - x0) * i / steps, y0 + (y1 - y0) * i / steps, grey);
+    plot(image, x0 + (x1 - x0) * i / steps, y0 + (y1 - y0) * i / steps, grey, within);
 }
 
 }  // namespace
@@ -79,13 +83,17 @@ GreyImage PanelMaker::picture(Panel panel, int real_frame) const {
   return image;
 }
 
+// Contours end where the sector does.
 void PanelMaker::addContours(int real_frame, GreyImage& image) const {
+  std::vector<std::uint8_t> within(image.pixels.size(), 0);
+  for (const Pixel& p : pixels_) within[static_cast<std::size_t>(p.at)] = 1;
   for (const Contour& c :
        bands_->contoursAt(c_.frames[static_cast<std::size_t>(real_frame)].synthetic_phase))
     for (std::size_t i = c.closed ? 0 : 1; i < c.points_m.size(); ++i) {
       const Vec3d a = c.points_m[i == 0 ? c.points_m.size() - 1 : i - 1], b = c.points_m[i];
       drawLine(image, left_ + a.x * pixels_per_unit_, top_ + a.z * pixels_per_unit_,
-               left_ + b.x * pixels_per_unit_, top_ + b.z * pixels_per_unit_, 255);
+               left_ + b.x * pixels_per_unit_, top_ + b.z * pixels_per_unit_, 255,
+               within);
     }
 }
 

@@ -67,6 +67,42 @@ void findWhere(Loop& loop, const SideOptions& side, bool is_real) {
         loop.find.aspect, is_real ? "" : "synthetic-"));
 }
 
+// Share of the sector that colour was laid over: masked, and the rest is compared.
+void noteColour(Loop& loop) {
+  constexpr double kNoted = 0.03;
+  double coloured = 0, inside = 0;
+  for (int y = 0; y < loop.video.height; ++y)
+    for (int x = 0; x < loop.video.width; ++x) {
+      if (!loop.sector().contains(x + 0.5, y + 0.5)) continue;
+      ++inside;
+      coloured += loop.video.coloured[static_cast<std::size_t>(y * loop.video.width + x)];
+    }
+  if (coloured > kNoted * inside)
+    loop.video.notes.push_back(fmt::format("colour covers {:.0f} % of its sector: masked, the rest is "
+                                           "compared",
+                                           100 * coloured / inside));
+}
+
+// What is burnt in around the sector is a patient's name as likely as a scale: no output has it.
+void blankOutside(Loop& loop) {
+  constexpr double kMargin_px = 1.5;  // the edge's own pixels
+  Sector kept = loop.sector();
+  kept.r_min = std::max(0.0, kept.r_min - kMargin_px);
+  kept.r_max += kMargin_px;
+  const double margin_rad = kMargin_px / kept.r_max;
+  kept.first_rad -= margin_rad;
+  kept.last_rad += margin_rad;
+  for (int y = 0; y < loop.video.height; ++y)
+    for (int x = 0; x < loop.video.width; ++x) {
+      if (kept.contains(x + 0.5, y + 0.5)) continue;
+      const auto p = static_cast<std::size_t>(y) * static_cast<std::size_t>(loop.video.width) +
+                     static_cast<std::size_t>(x);
+      for (PixelPlane& frame : loop.video.frames) frame[p] = 0;
+      loop.overlay[p] = 0;
+      loop.video.coloured[p] = 0;
+    }
+}
+
 bool insidePicture(const UltrasoundRegion& r, const Video& v) {
   return r.max_x < v.width && r.max_y < v.height && r.min_x <= r.max_x && r.min_y <= r.max_y;
 }
@@ -147,7 +183,11 @@ Loop readLoop(const std::filesystem::path& path, const SideOptions& side, bool i
   }
   if (!side.r_waves_s.empty()) v.r_waves_s = side.r_waves_s;
   if (!folder || side.sector) findWhere(loop, side, is_real);
-  loop.overlay = folder ? loop.overlay : overlayMask(v, loop.sector());
+  if (!folder) {
+    loop.overlay = overlayMask(v, loop.sector());
+    noteColour(loop);
+    blankOutside(loop);
+  }
   if (side.mm_per_pixel) {
     loop.metres_per_pixel = 1e-3 * *side.mm_per_pixel;
     loop.scale_source = is_real ? "--scale" : "--synthetic-scale";

@@ -144,13 +144,15 @@ void takeTracedGreys(const std::filesystem::path& folder, const Json& scene, Loo
 }  // namespace
 
 bool isRenderFolder(const std::filesystem::path& path) {
-  return std::filesystem::is_regular_file(path / "manifest.json");
+  std::error_code failed;
+  return std::filesystem::is_regular_file(path / "manifest.json", failed);
 }
 
 Loop readRenderFolder(const std::filesystem::path& folder) {
   constexpr std::size_t kMaxManifest = std::size_t{1} << 28;
   const std::string name = folder.string();
-  if (!std::filesystem::is_regular_file(folder / "cine.avi"))
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(folder / "cine.avi", failed))
     throw SceneError(
         fmt::format("{}: has no cine.avi; render the scene with output.cine = true", name));
   Loop loop;

@@ -10,6 +10,7 @@
 #include "compare/panels.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/shown_path.h"
 #include "core/units.h"
 #include "video/cine_writer.h"
 
@@ -25,7 +26,7 @@ Json numberOrNull(double value) {
 
 Json loopJson(const Loop& l, const BeatLength& beat) {
   const Sector& s = l.sector();
-  Json json{{"path", l.video.name},
+  Json json{{"path", shownName(l.video.name)},
             {"format", l.video.format},
             {"grey_source", l.grey_source},
             {"width", l.video.width},
@@ -107,6 +108,11 @@ void writeFrames(const Comparison& c, const PanelMaker& panels, const std::files
 }  // namespace
 
 Json metricsJson(const FrameMetrics& m) {
+  if (!(m.weight > 0)) {  // nothing was in sight: no score is not a score of 0
+    Json none = Json::object();
+    for (const Metric& metric : kMetrics) none[metric.key] = nullptr;
+    return none;
+  }
   Json json = Json::object();
   for (const Metric& metric : kMetrics) json[metric.key] = numberOrNull(m.*metric.value);
   return json;
@@ -175,9 +181,10 @@ void writeResults(const Comparison& c, const CompareOptions& options,
                   const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder))
+  if (error || !std::filesystem::is_directory(folder, error))
     throw JobError(
-        fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
+        fmt::format("{}: the folder cannot be made: {}", folder.string(),
+                    error ? error.message() : "a file stands there"));
   for (const char* name : {"summary.json", "compare.html"})  // a folder without them is unfinished
     std::filesystem::remove(folder / name, error);
   PanelMaker panels(c);

@@ -284,11 +284,11 @@ PixelPlane overlayMask(const Video& video, const Sector& sector) {
       // Text and marks are bright and do not move; echoes flicker.
       if (area.highest[p] > 120 && area.range[p] <= 2) mask[p] = 1;
     }
-  if (coloured > 0.03 * inside)
+  constexpr double kMostColoured = 0.6;
+  if (coloured > kMostColoured * inside)
     throw SceneError(
-        fmt::format("{}: colour covers {:.0f} % of its sector (a colour Doppler box?); give a "
-                    "grey-scale loop of "
-                    "the same view",
+        fmt::format("{}: colour covers {:.0f} % of its sector (a colour Doppler box?), too little "
+                    "is left to compare; give a grey-scale loop of the same view",
                     video.name, 100 * coloured / inside));
   return mask;
 }

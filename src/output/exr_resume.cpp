@@ -13,6 +13,7 @@
 #include <set>
 
 #include "core/hash.h"
+#include "output/exr_digest.h"
 #include "output/exr_header.h"
 #include "output/exr_stack.h"
 #include "output/polar_plane.h"
@@ -92,22 +93,46 @@ bool isThisFrame(const Imf::Header& header, const FrameRecord& record, const Sce
          holds<Imf::StringAttribute>(header, "echocine:version", std::string(ECHOCINE_VERSION));
 }
 
-bool isOfScene(const Imf::Header& header, const std::string& scene_sha256) {
-  return holds<Imf::StringAttribute>(header, "echocine:scene_sha256", scene_sha256);
+// Whose scene a header is of. Two scenes differ in some 60 of the 64 digits; one that differs in a
+// few is this one, damaged. A file without any attribute of ours is somebody else's.
+enum class Owner { this_scene, damaged, another_scene };
+
+Owner ownerOf(const Imf::Header& header, const std::string& scene_sha256) {
+  constexpr std::ptrdiff_t kDamagedDigits = 8;
+  const auto* attribute = header.findTypedAttribute<Imf::StringAttribute>("echocine:scene_sha256");
+  if (attribute == nullptr) {
+    const bool ours = header.find(kExrDigestName) != header.end() ||
+                      header.find("echocine:frame") != header.end();
+    return ours ? Owner::damaged : Owner::another_scene;
+  }
+  const std::string& found = attribute->value();
+  if (found == scene_sha256) return Owner::this_scene;
+  if (found.size() != scene_sha256.size()) return Owner::damaged;
+  std::ptrdiff_t differ = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) differ += found[i] != scene_sha256[i] ? 1 : 0;
+  return differ <= kDamagedDigits ? Owner::damaged : Owner::another_scene;
 }
 
 Found look(const std::filesystem::path& path, const FrameRecord& record, const Scene& scene,
            const std::string& scene_sha256, double reference_intensity) {
   try {
-    if (!hasPlainExrHeader(path)) return Found::nothing;
+    std::error_code absent;
+    if (!std::filesystem::is_regular_file(path, absent) || !hasPlainExrHeader(path))
+      return Found::nothing;
     Imf::InputFile file(path.c_str(), 0);
     const Imf::Header& header = file.header();
     if (!file.isComplete()) return Found::nothing;
-    const bool same_scene = isOfScene(header, scene_sha256);
-    if (same_scene && !isThisFrame(header, record, scene, reference_intensity))
-      return Found::nothing;
-    if (!pixelsAreWhole(file)) return Found::nothing;
-    return same_scene ? Found::this_frame : Found::another_scene;
+    switch (ownerOf(header, scene_sha256)) {
+      case Owner::damaged:
+        return Found::nothing;
+      case Owner::another_scene:
+        return pixelsAreWhole(file) ? Found::another_scene : Found::nothing;
+      case Owner::this_scene:
+        break;
+    }
+    const bool this_frame =
+        isThisFrame(header, record, scene, reference_intensity) && isSealedExr(path);
+    return this_frame ? Found::this_frame : Found::nothing;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {  // absent, cut short, or no OpenEXR file at all
@@ -123,18 +148,21 @@ Found look(const std::filesystem::path& path, const FrameRecord& record, const S
 
 }  // namespace
 
-void ExrStack::refuseOtherScene(int frame) const {
+bool ExrStack::isOfAnotherScene(int frame) const {
   const std::filesystem::path path = folder_ / fileName(frame);
   std::error_code absent;
-  if (!std::filesystem::is_regular_file(path, absent) || !hasPlainExrHeader(path)) return;
-  bool another = false;
+  if (!std::filesystem::is_regular_file(path, absent) || !hasPlainExrHeader(path)) return false;
   try {
-    another = !isOfScene(Imf::InputFile(path.c_str(), 0).header(), scene_sha256_);
+    return ownerOf(Imf::InputFile(path.c_str(), 0).header(), scene_sha256_) == Owner::another_scene;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {  // without a header it is of no scene
+    return false;
   }
-  if (another) failOfOtherScene(path);
+}
+
+void ExrStack::refuseOtherScene(int frame) const {
+  if (isOfAnotherScene(frame)) failOfOtherScene(folder_ / fileName(frame));
 }
 
 std::string ExrStack::existing(const FrameRecord& record) const {

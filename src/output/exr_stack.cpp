@@ -19,6 +19,7 @@
 #include "core/check.h"
 #include "core/file.h"
 #include "core/hash.h"
+#include "output/exr_digest.h"
 #include "output/half_plane.h"
 #include "output/polar_plane.h"
 #include "scene/names.h"
@@ -119,10 +120,13 @@ Imf::FrameBuffer layOut(const std::vector<ChannelPlane>& planes, const Probe& pr
       rowsFromLines(plane.values, lines, samples, image);
     const bool half = !ids && pixel == ExrPixel::half;
     if (half) {
-      const double scale = halfScale(plane.values);
+      // Greys of 0 to 1 need no scale, and whoever knows of none reads them as they are.
+      const bool scaled = plane.channel != Channel::display;
+      const double scale = scaled ? halfScale(plane.values) : 1;
       narrowToHalf({image, lines * samples}, scale);
-      header.insert(std::string("echocine:scale.") + channelName(plane.channel),
-                    Imf::DoubleAttribute(scale));
+      if (scaled)
+        header.insert(std::string("echocine:scale.") + channelName(plane.channel),
+                      Imf::DoubleAttribute(scale));
     }
     const Imf::PixelType type = ids ? Imf::UINT : half ? Imf::HALF : Imf::FLOAT;
     const std::size_t size = half ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
@@ -171,6 +175,7 @@ std::span<const std::byte> ExrStack::encode(const FrameRecord& record,
   header.insert("echocine:scene_sha256", Imf::StringAttribute(scene_sha256_));
   header.insert("echocine:reference_intensity", Imf::DoubleAttribute(reference_intensity_));
   header.insert("echocine:version", Imf::StringAttribute(ECHOCINE_VERSION));
+  header.insert(kExrDigestName, Imf::StringAttribute(emptyExrDigest()));
 
   const std::filesystem::path path = folder_ / fileName(record.frame);
   const std::size_t pixels =
@@ -194,6 +199,7 @@ std::span<const std::byte> ExrStack::encode(const FrameRecord& record,
   } catch (const std::exception& error) {
     throw JobError(fmt::format("{}: cannot be encoded: {}", path.string(), error.what()));
   }
+  sealExr(bytes);
   return bytes;
 }
 

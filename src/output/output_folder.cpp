@@ -49,6 +49,7 @@ void tryWriting(const fs::path& folder) {
 
 // The number in "frame_0012.exr" for the ending ".exr"; nothing for any other name.
 std::optional<int> frameNumber(std::string_view name, std::string_view ending) {
+  const std::string whole(name);
   constexpr std::string_view kStem = "frame_";
   if (!name.starts_with(kStem) || !name.ends_with(ending)) return std::nullopt;
   if (name.size() <= kStem.size() + ending.size()) return std::nullopt;
@@ -57,6 +58,8 @@ std::optional<int> frameNumber(std::string_view name, std::string_view ending) {
   int number = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
   if (error != std::errc{} || end != name.data() + name.size() || number < 0) return std::nullopt;
+  // Only names that a run writes: "frame_12.exr" is somebody's own.
+  if (fmt::format("{}{:04}{}", kStem, number, ending) != whole) return std::nullopt;
   return number;
 }
 

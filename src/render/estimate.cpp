@@ -51,10 +51,10 @@ void addFirstPass(const Scene& scene, double traced_share, double frame_s, Estim
   const double planes =
       1 + (scene.output.exr ? static_cast<double>(scene.output.channels.size()) : 0);
   const double frame_bytes = 4 * planes * scene.probe.lines * scene.probe.samples;
-  const double kept = std::min(static_cast<double>(estimate.frames),
-                               std::floor(static_cast<double>(kKeptBytes) / frame_bytes));
+  const double measured = std::min(estimate.frames, kReferenceFrames);
+  const double kept = std::min(measured, std::floor(static_cast<double>(kKeptBytes) / frame_bytes));
   estimate.memory_bytes += kept * frame_bytes;
-  estimate.seconds += (estimate.frames - kept) * traced_share * frame_s;
+  estimate.seconds += (measured - kept) * traced_share * frame_s;
 }
 
 }  // namespace

@@ -96,6 +96,23 @@ void RenderPass::writePictures(GreyImage& image, Finished& finished) {
   if (shown) finished.report_frame = std::move(png);
 }
 
+// A frame of an earlier run, when it is the very one: by its own digest and by that run's manifest.
+void RenderPass::takeEarlier(const FrameRecord& record, Finished& finished) const {
+  const std::string name = "intensity/" + ExrStack::fileName(record.frame);
+  std::error_code absent;
+  if (!std::filesystem::exists(parts_.folder.intensity() / ExrStack::fileName(record.frame), absent))
+    return;
+  std::string sha256 = exr_.existing(record);
+  const auto noted = parts_.earlier_hashes.find(name);
+  const bool as_noted = noted == parts_.earlier_hashes.end() || noted->second == sha256;
+  if (!sha256.empty() && as_noted)
+    finished.entry.exr_sha256 = std::move(sha256);
+  else
+    finished.mended = fmt::format("{}: {}, it is made again", name,
+                                  sha256.empty() ? "damaged, or not as this run would write it"
+                                                 : "not the file that the manifest tells of");
+}
+
 std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
   const FrameTime time = parts_.simulator.cardiacClock().at(frame);
   auto finished = std::make_shared<Finished>();
@@ -103,8 +120,7 @@ std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
   const FrameRecord& record = finished->entry.record;
   StageClock& clock = parts_.simulator.clock();
   const OutputSettings& o = parts_.simulator.scene().output;
-  if (parts_.resume && o.exr)
-    finished->entry.exr_sha256 = clock.time(Stage::exr, [&] { return exr_.existing(record); });
+  if (parts_.resume && o.exr) clock.time(Stage::exr, [&] { takeEarlier(record, *finished); });
 
   const std::shared_ptr<Workspace> workspace = parts_.simulator.workspace();
   finished->entry.volumes_ml = tracedFrame(time, *workspace);
@@ -121,6 +137,7 @@ void RenderPass::drain(Finished& finished) {
   const FrameEntry& entry = finished.entry;
   const int frame = entry.record.frame;
   const OutputSettings& o = parts_.simulator.scene().output;
+  if (!finished.mended.empty()) parts_.monitor.warn(finished.mended);
   if (o.cine || o.png) {
     parts_.simulator.clock().time(Stage::avi, [&] {
       if (o.cine) cine_.add(finished.cine_frame);

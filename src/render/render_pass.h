@@ -1,6 +1,7 @@
 #pragma once
 // The second pass of a loop: every frame to its files.
 
+#include <map>
 #include <memory>
 #include <string>
 
@@ -27,6 +28,7 @@ class RenderPass {
     const Monitor& monitor;
     ReportPage& report;
     bool resume;
+    std::map<std::string, std::string> earlier_hashes;  // on resuming, of an earlier manifest
   };
   // Frames, file hashes and reference go through `manifest`; `kept` frames are used up.
   RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept);
@@ -40,9 +42,11 @@ class RenderPass {
     std::vector<std::byte> cine_frame;
     std::vector<std::byte> report_frame;  // where the cine's does not show in browsers
     std::string png_sha256;
+    std::string mended;  // why a frame that was there is made again; empty: it is not
   };
 
   std::shared_ptr<Finished> make(int frame);
+  void takeEarlier(const FrameRecord& record, Finished& finished) const;
   Volumes tracedFrame(const FrameTime& time, Workspace& workspace);
   void writeExr(const FrameRecord& record, const Workspace& workspace, Finished& finished);
   void writePictures(GreyImage& image, Finished& finished);

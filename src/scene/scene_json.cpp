@@ -49,13 +49,19 @@ Json repairJson(const Repairs& r) {
   return words;
 }
 
+// As a scene names it, from the scene's folder; an absolute path is nobody's business but its name.
+std::string fileFrom(const std::filesystem::path& scene, const std::filesystem::path& file) {
+  const std::filesystem::path from = file.lexically_relative(scene.parent_path());
+  return from.empty() ? file.filename().string() : from.generic_string();
+}
+
 Json structuresJson(const Scene& scene) {
   Json list = Json::array();
   for (const Structure& s : scene.structures) {
     Json keyframes = Json::array();
     for (const Keyframe& k : s.keyframes) {
       Json files = Json::array();
-      for (const auto& file : k.files) files.push_back(file.filename().string());
+      for (const auto& file : k.files) files.push_back(fileFrom(scene.file, file));
       keyframes.push_back({{"files", files}, {"phase", k.phase}});
     }
     list.push_back({{"name", s.name},

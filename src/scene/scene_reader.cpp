@@ -11,6 +11,7 @@
 #include "scene/keyframe_warnings.h"
 #include "scene/media_reader.h"
 #include "scene/probe_reader.h"
+#include "scene/ranges.h"
 #include "scene/structure_reader.h"
 #include "scene/tolerance_reader.h"
 #include "scene/toml_table.h"
@@ -28,8 +29,6 @@ constexpr double kMaxGainDb =
     200;  // keeps intensities within floats; scanners end at 100. Our choice
 constexpr int kMaxRaysPerBeam = 4096;  // errors are then far under a picture's. Our choice
 
-const NumberRange kPositive = NumberRange::positive();
-
 double readUnit(TomlTable& table, std::string_view key, double fallback) {
   return table.choice(key, fallback, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}});
 }
@@ -39,7 +38,7 @@ Acquisition readAcquisition(TomlTable table) {
   a.heart_rate_hz = hertzFromBeatsPerMinute(
       table.number("heart_rate_bpm", a.heart_rate_hz * 60, kHeartRates_bpm));
   a.frame_rate_hz = table.number("frame_rate_hz", a.frame_rate_hz, {.lo = 0.1, .hi = 100000});
-  a.beats = table.number("beats", a.beats, {.lo = 0, .hi = 1e6, .lo_open = true});
+  a.beats = table.number("beats", a.beats, ranges::kBeats);
   if (a.beats / a.heart_rate_hz * a.frame_rate_hz > kMaxFrames)
     table.fail("beats", fmt::format("the loop would have over {} frames", kMaxFrames));
   a.time_warp = table.choice("time_warp", a.time_warp);
@@ -69,9 +68,10 @@ std::vector<double> readKeyframePhases(TomlTable& table) {
     if (!(phases[i] >= 0 && phases[i] < 1))
       table.fail(
           key, fmt::format("phase {} is {}, accepted: from 0 up to, without, 1", i + 1, phases[i]));
-    if (i > 0 && !(phases[i] > phases[i - 1]))
-      table.fail(key, fmt::format("phase {} is {} after {}, accepted: ascending phases", i + 1,
-                                  phases[i], phases[i - 1]));
+    if (i > 0 && !(phases[i] - phases[i - 1] >= ranges::kLeastPhaseStep))
+      table.fail(key, fmt::format("phase {} is {} after {}, accepted: ascending phases, {} apart or "
+                                  "more",
+                                  i + 1, phases[i], phases[i - 1], ranges::kLeastPhaseStep));
   }
   return phases;
 }
@@ -102,6 +102,9 @@ void readTgc(TomlTable& table, SignalSettings& s) {
   if (s.tgc != Tgc::table) return table.unused("tgc_table_mm_db", "tgc = \"table\"");
   for (const auto& [depth_mm, gain_db] : table.pairs("tgc_table_mm_db")) {
     const double depth_m = metresFromMillimetres(depth_mm);
+    if (!(depth_mm >= 0 && depth_mm <= ranges::kExtent_mm.hi))
+      table.fail("tgc_table_mm_db", fmt::format("a depth is {} mm, accepted: 0 to {} mm", depth_mm,
+                                                ranges::kExtent_mm.hi));
     if (std::abs(gain_db) > kMaxGainDb)
       table.fail("tgc_table_mm_db", fmt::format("a gain is {} dB, accepted: {} to {} dB", gain_db,
                                                 -kMaxGainDb, kMaxGainDb));
@@ -119,20 +122,20 @@ SignalSettings readSignal(TomlTable table) {
   s.spread = table.choice("spread", s.spread);
   s.beam_width = table.choice("beam_width", s.beam_width);
   if (s.beam_width == BeamWidth::fixed)
-    s.beam_width_m = metresFromMillimetres(table.number("beam_width_mm", std::nullopt, kPositive));
+    s.beam_width_m = metresFromMillimetres(table.number("beam_width_mm", std::nullopt, ranges::kExtent_mm));
   else
     table.unused("beam_width_mm", "beam_width = \"fixed\"");
   s.pulse_cycles = table.number("pulse_cycles", s.pulse_cycles, {.lo = 0, .hi = 1000});
   s.dynamic_range_db =
-      table.number("dynamic_range_db", s.dynamic_range_db, {.lo = 0, .hi = 1000, .lo_open = true});
+      table.number("dynamic_range_db", s.dynamic_range_db, ranges::kDynamicRange_db);
   if (table.has("reference_intensity")) {
-    s.reference_intensity = table.number("reference_intensity", std::nullopt, kPositive);
+    s.reference_intensity = table.number("reference_intensity", std::nullopt, ranges::kReferenceIntensity);
     table.unused("reference_percentile", "reference_intensity left out");
   } else {
     s.reference_percentile = table.number("reference_percentile", s.reference_percentile,
                                           {.lo = 0, .hi = 100, .lo_open = true});
   }
-  s.grey_gamma = table.number("grey_gamma", s.grey_gamma, {.lo = 0, .hi = 100, .lo_open = true});
+  s.grey_gamma = table.number("grey_gamma", s.grey_gamma, ranges::kGamma);
   table.finish();
   return s;
 }
@@ -179,7 +182,7 @@ OutputSettings readOutput(TomlTable table) {
 std::optional<SceneTolerance> readTolerance(TomlTable& table) {
   constexpr std::string_view kKey = "tolerance_db";
   if (!table.has(kKey)) return std::nullopt;
-  return SceneTolerance{table.number(kKey, std::nullopt, kPositive), table.place(kKey)};
+  return SceneTolerance{table.number(kKey, std::nullopt, ranges::kTolerance_db), table.place(kKey)};
 }
 
 AccuracySettings readAccuracy(TomlTable table) {
@@ -190,7 +193,7 @@ AccuracySettings readAccuracy(TomlTable table) {
   a.normals = table.choice("normals", a.normals);
   a.normals_place = table.place("normals");
   a.refraction_tolerance_lines = table.number(
-      "refraction_tolerance_lines", a.refraction_tolerance_lines, NumberRange::notNegative());
+      "refraction_tolerance_lines", a.refraction_tolerance_lines, ranges::kToleranceLines);
   readTolerance(table);  // who sets the accuracy; the scene as rendered has none
   table.finish();
   return a;
@@ -309,7 +312,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file, const Name
   if (scene.structures.empty())
     root.fail("structure", "is missing, accepted: at least one [[structure]]");
   scene.unit_volume_m3 =
-      cubicMetresFromCubicCentimetres(root.number("unit_volume_cm3", 1.0, kPositive));
+      cubicMetresFromCubicCentimetres(root.number("unit_volume_cm3", 1.0, ranges::kUnitVolume_cm3));
   scene.effects = readEffects(root.table("effects"));
   scene.signal = readSignal(root.table("signal"));
   scene.accuracy = readAccuracy(root.table("accuracy"));

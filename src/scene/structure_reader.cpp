@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "scene/ranges.h"
+
 namespace echocine {
 
 namespace {
@@ -93,9 +95,9 @@ std::vector<Keyframe> readPhasedKeyframes(TomlTable& table, const MeshSource& so
                           : fs::path(named).is_absolute() ? fs::path(named)
                                                           : source.folder / named;
     const double phase = entry.number("phase", std::nullopt, {.lo = 0, .hi = 1, .hi_open = true});
-    if (!keyframes.empty() && phase <= keyframes.back().phase)
-      entry.fail("phase", fmt::format("is {} after {}, accepted: ascending phases", phase,
-                                      keyframes.back().phase));
+    if (!keyframes.empty() && !(phase - keyframes.back().phase >= ranges::kLeastPhaseStep))
+      entry.fail("phase", fmt::format("is {} after {}, accepted: ascending phases, {} apart or more",
+                                      phase, keyframes.back().phase, ranges::kLeastPhaseStep));
     entry.finish();
     keyframes.push_back({{file}, phase});
   }
@@ -180,6 +182,9 @@ Structure readStructure(TomlTable& table, const fs::path& folder, std::span<cons
   structure.phases_given = table.isListOfTables("keyframes");
   structure.keyframes = structure.phases_given ? readPhasedKeyframes(table, source)
                                                : readPlainKeyframes(table, source, phases);
+  if (structure.keyframes.size() > ranges::kMostKeyframes)
+    table.fail("keyframes", fmt::format("are {}, accepted: up to {}", structure.keyframes.size(),
+                                        ranges::kMostKeyframes));
   if (structure.keyframes.empty())
     table.fail("keyframes",
                "is missing or empty, accepted: a file pattern, a list of files, or a list of "
@@ -189,7 +194,7 @@ Structure readStructure(TomlTable& table, const fs::path& folder, std::span<cons
   structure.repair = readRepairs(table, structure.membrane);
   structure.place = table.place("keyframes");
   structure.reflection_gain =
-      table.number("reflection_gain", structure.reflection_gain, NumberRange::notNegative());
+      table.number("reflection_gain", structure.reflection_gain, ranges::kReflectionGain);
   structure.reflection_exponent =
       table.number("reflection_exponent", structure.reflection_exponent, {.lo = 0, .hi = 1000});
   return structure;

@@ -8,6 +8,8 @@
 #include <map>
 #include <sstream>
 
+#include "scene/toml_nesting.h"
+
 namespace echocine {
 
 namespace {
@@ -81,6 +83,11 @@ TomlTable::TomlTable(TomlTable&&) noexcept = default;
 TomlTable TomlTable::parse(std::string_view text, const std::string& name) {
   auto node = std::make_unique<Node>();
   node->file = name;
+  if (const int line = lineNestedTooDeep(text); line > 0)
+    throw SceneError(atPlace({name, line, ""},
+                             fmt::format("keys, lists or tables are nested deeper than {}, which no "
+                                         "scene needs",
+                                         kMaxTomlNesting)));
   try {
     node->root = std::make_shared<const toml::table>(toml::parse(text, name));
   } catch (const toml::parse_error& error) {
@@ -161,7 +168,14 @@ std::string TomlTable::text(std::string_view key, std::optional<std::string> fal
     return *fallback;
   }
   if (!value->is_string()) fail(key, fmt::format("is {}, accepted: a string", typeName(*value)));
-  return *value->value<std::string>();
+  return withoutNul(key, *value->value<std::string>());
+}
+
+// Names of files end at a NUL for the system, so that another file would be read than is named.
+std::string TomlTable::withoutNul(std::string_view key, std::string text) const {
+  if (text.find('\0') != std::string::npos)
+    fail(key, "holds the character U+0000, accepted: text without it");
+  return text;
 }
 
 std::optional<std::size_t> TomlTable::choiceIndex(std::string_view key,
@@ -176,8 +190,11 @@ std::optional<std::size_t> TomlTable::choiceIndex(std::string_view key,
   return static_cast<std::size_t>(found - names.begin());
 }
 
-Vec3d TomlTable::vector(std::string_view key) {
-  const char* accepted = "accepted: three finite numbers [x, y, z]";
+Vec3d TomlTable::vector(std::string_view key, double most) {
+  const std::string accepted =
+      most < std::numeric_limits<double>::max()
+          ? fmt::format("accepted: three numbers [x, y, z] from {} to {}", -most, most)
+          : "accepted: three finite numbers [x, y, z]";
   const toml::node* value = node_->find(key);
   if (!value) missing(key, accepted);
   const toml::array* list = value->as_array();
@@ -185,8 +202,8 @@ Vec3d TomlTable::vector(std::string_view key) {
   double xyz[3] = {};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::optional<double> number = (*list)[i].value<double>();
-    if (!(*list)[i].is_number() || !number || !std::isfinite(*number))
-      fail(key, fmt::format("component {} is not a finite number, {}", i + 1, accepted));
+    if (!(*list)[i].is_number() || !number || !(std::abs(*number) <= most))
+      fail(key, fmt::format("component {} is not a finite number within bounds, {}", i + 1, accepted));
     xyz[i] = *number;
   }
   return {xyz[0], xyz[1], xyz[2]};
@@ -201,14 +218,14 @@ bool TomlTable::isListOfTables(std::string_view key) {
 std::vector<std::string> TomlTable::texts(std::string_view key) {
   const toml::node* value = node_->find(key);
   if (!value) return {};
-  if (value->is_string()) return {*value->value<std::string>()};
+  if (value->is_string()) return {withoutNul(key, *value->value<std::string>())};
   const toml::array* list = value->as_array();
   if (!list)
     fail(key, fmt::format("is {}, accepted: a string or a list of strings", typeName(*value)));
   std::vector<std::string> result;
   for (const toml::node& item : *list) {
     if (!item.is_string()) fail(key, fmt::format("holds {}, accepted: strings", typeName(item)));
-    result.push_back(*item.value<std::string>());
+    result.push_back(withoutNul(key, *item.value<std::string>()));
   }
   return result;
 }

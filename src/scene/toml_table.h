@@ -23,10 +23,8 @@ struct NumberRange {
   double hi = std::numeric_limits<double>::infinity();
   bool lo_open = false, hi_open = false;
 
-  static NumberRange positive() { return {.lo = 0, .lo_open = true}; }
-  static NumberRange notNegative() { return {.lo = 0}; }
   bool contains(double value) const;
-  std::string text() const;  // "a number over 0"
+  std::string text() const;  // "a number from 1 to 2"
 };
 
 class TomlTable {
@@ -45,7 +43,7 @@ class TomlTable {
   int integer(std::string_view key, std::optional<int> fallback, int lo, int hi);
   bool boolean(std::string_view key, bool fallback);
   std::string text(std::string_view key, std::optional<std::string> fallback = std::nullopt);
-  Vec3d vector(std::string_view key);
+  Vec3d vector(std::string_view key, double most = std::numeric_limits<double>::max());
 
   // The value that belongs to one of the names.
   template <typename T>
@@ -84,6 +82,7 @@ class TomlTable {
   void finish() const;
 
  private:
+  std::string withoutNul(std::string_view key, std::string text) const;
   struct Node;
   explicit TomlTable(std::unique_ptr<Node> node);
   std::optional<std::size_t> choiceIndex(std::string_view key,

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
+#include "core/shown_path.h"
 #include "core/units.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "render/render_pass.h"
@@ -42,12 +43,13 @@ class Study {
     prepare();
     for (int round = 0; round < options_.repeats; ++round) {
       const Clock::time_point begin = Clock::now();
-      if (!visitAll(round)) break;
-      result_.rounds = round + 1;
-      result_.complete = round + 1 == options_.repeats;
+      const bool whole = visitAll(round);
+      if (whole) result_.rounds = round + 1;
+      const bool spent = !whole && budgetSpent();
       const double took_s = secondsSince(begin);
-      const bool enough = secondsSince(start_) + took_s > options_.budget_s;
-      if (enough) result_.complete = true;
+      const bool enough = spent || secondsSince(start_) + took_s > options_.budget_s;
+      result_.complete = whole ? enough || round + 1 == options_.repeats : spent;
+      if (!whole && !spent) break;  // stopped
       round_done_(finished());
       if (enough) break;
     }
@@ -55,6 +57,7 @@ class Study {
   }
 
  private:
+  bool budgetSpent() const { return secondsSince(start_) >= options_.budget_s; }
   void prepare();
   void addRow(const std::string& sweep, const std::string& knob, const std::string& value,
               Scene scene, const std::string& keys);
@@ -112,7 +115,8 @@ void Study::addRow(const std::string& sweep, const std::string& knob, const std:
     result_.rows.push_back({sweep, knob, value, point});
   } catch (const SceneError& error) {
     if (result_.points.empty()) throw;  // without its reference there is no study
-    result_.refused.push_back({knob + " " + value, error.what()});
+    result_.refused.push_back(
+        {knob + " " + value, withoutFolders(error.what(), scene_.file.parent_path())});
   }
 }
 
@@ -171,7 +175,7 @@ void Study::tell() {
 bool Study::visitAll(int round) {
   const std::size_t count = result_.points.size();
   for (std::size_t i = 0; i < count; ++i) {
-    if (!monitor_.keep_going()) return false;
+    if (!monitor_.keep_going() || (visits_ > 0 && budgetSpent())) return false;
     visit(round % 2 == 0 ? i : count - 1 - i, round);
   }
   return true;

@@ -12,6 +12,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/file.h"
 #include "video/ffv1_encoder.h"
 
 extern "C" {
@@ -175,12 +176,14 @@ void CineWriter::Muxer::close(bool may_shorten) {
   const int error = av_write_trailer(format);
   if (error < 0 || failure != 0) failOf(error);
   if (!may_shorten && isShorterThanWhatStands()) return;
+  if (!syncFile(descriptor)) fail(errno);
   const int closing = std::exchange(descriptor, -1);
   if (::close(closing) != 0 || ::rename(part.c_str(), path.c_str()) != 0) {
     const int reason = errno;
     ::unlink(part.c_str());
     fail(reason);
   }
+  syncFolderOf(path);
 }
 
 CineWriter::CineWriter(std::filesystem::path path, const OutputSettings& settings,

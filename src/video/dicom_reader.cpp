@@ -13,9 +13,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstring>
 #include <mutex>
+#include <vector>
 
 #include "core/error.h"
+#include "video/dicom_check.h"
 #include "video/read_video.h"
 #include "video/video_builder.h"
 
@@ -44,6 +47,23 @@ double numberOf(DcmItem& item, const DcmTagKey& key, unsigned long position = 0)
   return end != text.c_str() && std::isfinite(value) ? value : 0;
 }
 
+// All values of a list. One by one the library would walk the list again for each.
+std::vector<double> numbersOf(DcmItem& item, const DcmTagKey& key, std::size_t most) {
+  OFString text;
+  std::vector<double> values;
+  if (item.findAndGetOFStringArray(key, text).bad()) return values;
+  const char* at = text.c_str();
+  while (values.size() < most) {
+    char* end = nullptr;
+    const double value = std::strtod(at, &end);
+    values.push_back(end != at && std::isfinite(value) ? value : 0);
+    at = std::strchr(end, '\\');
+    if (at == nullptr) break;
+    ++at;
+  }
+  return values;
+}
+
 // The rate, or the mean interval between R waves, ms. What no heart does is told and left out.
 void takeHeartRate(DcmDataset& data, Video& video) {
   const auto take = [&](const DcmTagKey& key, const char* name, bool is_interval) {
@@ -61,24 +81,28 @@ void takeHeartRate(DcmDataset& data, Video& video) {
   take(DCM_NominalInterval, "NominalInterval", true);
 }
 
+// What no scanner does is told and left out.
+void takeRate(double hz, const char* source, Video& video) {
+  if (video.rate.hz > 0 || !(hz > 0)) return;
+  if (hz >= kLeastFrameRate_hz && hz <= kMostFrameRate_hz)
+    video.rate = {hz, source, true};
+  else
+    video.notes.push_back(fmt::format("its {} tag means {:.3g} frames/s: not used", source, hz));
+}
+
 void takeTimes(DcmDataset& data, Video& video) {
-  const double frame_ms = numberOf(data, DCM_FrameTime), cine = numberOf(data, DCM_CineRate);
+  constexpr std::size_t kMostSteps = 100000, kMostBeats = 1000;
+  takeRate(1e3 / numberOf(data, DCM_FrameTime), "DICOM FrameTime", video);
+  const std::vector<double> steps_ms = numbersOf(data, DCM_FrameTimeVector, kMostSteps);
   double sum_ms = 0;
-  unsigned long steps = 0;
-  DcmElement* vector = nullptr;
-  if (data.findAndGetElement(DCM_FrameTimeVector, vector).good())
-    for (unsigned long i = 1; i < std::min(vector->getVM(), 100000UL); ++i, ++steps)
-      sum_ms += numberOf(data, DCM_FrameTimeVector, i);
-  if (frame_ms > 0)
-    video.rate = {1e3 / frame_ms, "DICOM FrameTime", true};
-  else if (steps > 0 && sum_ms > 0)
-    video.rate = {1e3 * static_cast<double>(steps) / sum_ms, "DICOM FrameTimeVector", true};
-  else if (cine > 0)
-    video.rate = {cine, "DICOM CineRate", true};
+  for (std::size_t i = 1; i < steps_ms.size(); ++i) sum_ms += steps_ms[i];
+  if (steps_ms.size() > 1)
+    takeRate(1e3 * static_cast<double>(steps_ms.size() - 1) / sum_ms, "DICOM FrameTimeVector",
+             video);
+  takeRate(numberOf(data, DCM_CineRate), "DICOM CineRate", video);
   takeHeartRate(data, video);
-  if (data.findAndGetElement(DCM_RWaveTimeVector, vector).good())
-    for (unsigned long i = 0; i < std::min(vector->getVM(), 1000UL); ++i)
-      video.r_waves_s.push_back(1e-3 * numberOf(data, DCM_RWaveTimeVector, i));
+  for (const double ms : numbersOf(data, DCM_RWaveTimeVector, kMostBeats))
+    video.r_waves_s.push_back(1e-3 * ms);
 }
 
 void takeRegions(DcmDataset& data, Video& video) {
@@ -178,6 +202,7 @@ void addFrames(DcmDataset& data, std::int64_t frames, VideoBuilder& builder) {
 }  // namespace
 
 Video readDicom(const std::string& name, std::span<const std::byte> bytes) {
+  checkDicomStructure(name, bytes);
   setUpOnce();
   DcmInputBufferStream stream;
   stream.setBuffer(bytes.data(), static_cast<offile_off_t>(bytes.size()));
@@ -195,6 +220,7 @@ Video readDicom(const std::string& name, std::span<const std::byte> bytes) {
   const auto frames = static_cast<std::int64_t>(std::max(1.0, stated));
   checkPixels(name, data, frames);
   VideoBuilder builder(name);
+  builder.expectBytes(bytes.size());
   builder.video().format = fmt::format("DICOM, {}", DcmXfer(data.getOriginalXfer()).getXferName());
   takeTimes(data, builder.video());
   takeRegions(data, builder.video());

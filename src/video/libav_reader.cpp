@@ -13,6 +13,7 @@ extern "C" {
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <string_view>
 
 #include "core/error.h"
 
@@ -187,6 +188,7 @@ void Decoder::readAll(VideoBuilder& builder) {
   for (;;) {
     const int read = av_read_frame(format, packet);
     if (read < 0) break;
+    builder.checkTime();
     if (packet->stream_index == stream) {
       const int sent = avcodec_send_packet(codec, packet);
       if (sent < 0 && sent != AVERROR(EAGAIN) && sent != AVERROR_EOF)
@@ -204,6 +206,7 @@ void Decoder::readAll(VideoBuilder& builder) {
 
 void readByLibav(std::span<const std::byte> bytes, VideoBuilder& builder) {
   Decoder decoder;
+  builder.expectBytes(bytes.size());
   decoder.bytes.all = bytes;
   decoder.name = builder.video().name;
   decoder.open();
@@ -214,6 +217,16 @@ void readByLibav(std::span<const std::byte> bytes, VideoBuilder& builder) {
       stream.avg_frame_rate.num > 0 ? stream.avg_frame_rate : stream.r_frame_rate;
   if (rate.num > 0 && rate.den > 0) builder.video().rate = {av_q2d(rate), "container", false};
   decoder.readAll(builder);
+  // GIF ends with a trailer of its own; others say in their headers how many frames there are.
+  const bool gif = std::string_view(decoder.format->iformat->name) == "gif";
+  const auto frames = static_cast<std::int64_t>(builder.video().frames.size());
+  if (gif && !bytes.empty() && bytes.back() != std::byte{0x3b})
+    builder.video().notes.push_back(
+        fmt::format("it is cut off after {} frames: its end is missing", frames));
+  else if (stream.nb_frames > frames)
+    builder.video().notes.push_back(fmt::format(
+        "it is cut off: {} of the {} frames that its header tells of are there", frames,
+        stream.nb_frames));
 }
 
 }  // namespace echocine

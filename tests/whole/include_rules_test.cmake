@@ -16,7 +16,7 @@ set(libraries
   "embree3/=geometry"
   "(OpenEXR/|Imath/|Imf.*\\.h$|half\\.h$)=output"
   "opencv2/(core|imgproc)=signal,metrics,video,output,compare"
-  "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
+  "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$|zlib\\.h$)=video"
   "CLI/=cli"
   "nlohmann/=scene,heart,output,page,simulate,compare,render,study,cli"
   "fmt/=*"
