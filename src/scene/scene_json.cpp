@@ -79,6 +79,9 @@ Json effectsJson(const EffectSwitches& e) {
           {"lobe", name(e.lobe)},
           {"transmission_loss", name(e.transmission_loss)},
           {"refraction", name(e.refraction)},
+          {"snell_angles", name(e.snell_angles)},
+          {"reflection_cap", name(e.reflection_cap)},
+          {"thin_layers", name(e.thin_layers)},
           {"attenuation", name(e.attenuation)},
           {"backscatter", name(e.backscatter)},
           {"spread", name(e.spread)},
@@ -90,7 +93,7 @@ Json effectsJson(const EffectSwitches& e) {
 Json signalJson(const SignalSettings& s) {
   Json tgc_table = Json::array();
   for (const auto& [depth_m, gain_db] : s.tgc_table) tgc_table.push_back({depth_m, gain_db});
-  return {{"tgc", nameOf(s.tgc, {"perfect", "table", "none"})},
+  return {{"tgc", nameOf(s.tgc, {"perfect", "mean", "table", "none"})},
           {"tgc_table_m_db", tgc_table},
           {"spread", nameOf(s.spread, {"compensate", "keep"})},
           {"beam_width", nameOf(s.beam_width, {"focused", "fixed", "none"})},
@@ -158,8 +161,8 @@ Json sceneJson(const Scene& scene) {
            {{"rays_per_beam", scene.accuracy.rays_per_beam},
             {"tracer", nameOf(scene.accuracy.tracer, {"auto", "slice", "embree"})},
             {"interface_echo", nameOf(scene.accuracy.interface_echo, {"auto", "centre", "cell"})},
-            {"normals", nameOf(scene.accuracy.normals, {"facet", "smooth"})},
-            {"refraction_tolerance_lines", scene.accuracy.refraction_tolerance_lines}}},
+            {"normals", nameOf(scene.accuracy.normals, {"auto", "facet", "smooth"})},
+            {"refraction_tolerance_beam_widths", scene.accuracy.refraction_tolerance_beam_widths}}},
           {"output", outputJson(scene.output)}};
 }
 

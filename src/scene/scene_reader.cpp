@@ -106,6 +106,9 @@ EffectSwitches readEffects(TomlTable table) {
   e.lobe = read("lobe", e.lobe);
   e.transmission_loss = read("transmission_loss", e.transmission_loss);
   e.refraction = read("refraction", e.refraction);
+  e.snell_angles = read("snell_angles", e.snell_angles);
+  e.reflection_cap = read("reflection_cap", e.reflection_cap);
+  e.thin_layers = read("thin_layers", e.thin_layers);
   e.attenuation = read("attenuation", e.attenuation);
   e.backscatter = read("backscatter", e.backscatter);
   e.spread = read("spread", e.spread);
@@ -117,8 +120,9 @@ EffectSwitches readEffects(TomlTable table) {
 }
 
 void readTgc(TomlTable& table, SignalSettings& s) {
-  s.tgc = table.choice("tgc", s.tgc,
-                       {{"perfect", Tgc::perfect}, {"table", Tgc::table}, {"none", Tgc::none}});
+  s.tgc = table.choice(
+      "tgc", s.tgc,
+      {{"perfect", Tgc::perfect}, {"mean", Tgc::mean}, {"table", Tgc::table}, {"none", Tgc::none}});
   if (s.tgc != Tgc::table) return table.unused("tgc_table_mm_db", "tgc = \"table\"");
   for (const auto& [depth_mm, gain_db] : table.pairs("tgc_table_mm_db")) {
     const double depth_m = metresFromMillimetres(depth_mm);
@@ -223,11 +227,13 @@ AccuracySettings readAccuracy(TomlTable table) {
                                   {{"auto", InterfaceEcho::automatic},
                                    {"centre", InterfaceEcho::centre},
                                    {"cell", InterfaceEcho::cell}});
-  a.normals =
-      table.choice("normals", a.normals, {{"facet", Normals::facet}, {"smooth", Normals::smooth}});
+  a.normals = table.choice(
+      "normals", a.normals,
+      {{"auto", Normals::automatic}, {"facet", Normals::facet}, {"smooth", Normals::smooth}});
   a.normals_place = table.place("normals");
-  a.refraction_tolerance_lines = table.number(
-      "refraction_tolerance_lines", a.refraction_tolerance_lines, NumberRange::notNegative());
+  a.refraction_tolerance_beam_widths =
+      table.number("refraction_tolerance_beam_widths", a.refraction_tolerance_beam_widths,
+                   NumberRange::notNegative());
   readTolerance(table);  // who sets the accuracy; the scene as rendered has none
   table.finish();
   return a;

@@ -98,7 +98,7 @@ Volumes FrameMaker::trace(const FrameTime& time, Workspace& w) {
 Volumes FrameMaker::traceLines(const FrameTime& time, Workspace& w) {
   Volumes volumes_ml;
   clock_.time(Stage::motion, [&] {
-    motion_.frameAt(time.phase, w.surfaces);
+    motion_.frameAt(time.phase, w.surfaces, plan_.smooth_normals);
     volumes_ml = volumes(w.surfaces);
   });
   const WorkCounts work = std::visit(
