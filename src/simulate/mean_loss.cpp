@@ -17,7 +17,7 @@ std::vector<double> meanLoss(const Scene& scene, const MeshMotion& motion, const
   const TraceSettings settings(scene, effects);
   PlaneRequest request;
   request.channels = {Channel::attenuation, Channel::medium};
-  request.signal = false;
+  request.intensities = false;
   const auto samples = static_cast<std::size_t>(scene.probe.samples);
   std::vector<double> sums(samples), counts(samples);
   PlaneSlice slice(motion.surfaces(), scene.probe, plan.left_out);

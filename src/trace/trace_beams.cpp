@@ -28,7 +28,7 @@ std::vector<Wanted> intensityPlanes(const TraceSettings& settings, const PlaneRe
       wanted.push_back({partsOf(channel, settings.attenuation, request.spread_undone_at_m),
                         &frame.planes.at(channel)});
   for (Wanted& plane : wanted) plane.parts.echo_samples = request.echo_samples;
-  if (request.signal) wanted.push_back({request.signal_terms, &frame.signal});
+  if (request.intensities) wanted.push_back({request.intensity_terms, &frame.intensities.values});
   return wanted;
 }
 
@@ -226,7 +226,7 @@ WorkCounts traceCentres(const FrameGeometry& geometry, const Probe& probe,
                         const TraceSettings& settings, const PlaneRequest& request,
                         PolarFrame& frame) {
   PlaneRequest centres = request;
-  centres.signal = false;
+  centres.intensities = false;
   std::erase_if(centres.channels,
                 [](Channel c) { return c != Channel::medium && c != Channel::attenuation; });
   if (!centres.channels.empty()) return traceFrame(geometry, probe, settings, centres, frame);

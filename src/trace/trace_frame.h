@@ -15,8 +15,8 @@ struct PlaneRequest {
   std::vector<Channel> channels;  // of the intensity stack, without Channel::display
   double spread_undone_at_m = 0;  // of the channels: 0 unless the scene turns the spread off
   double echo_samples = 1;        // of the channels: IntensityTerms
-  bool signal = true;
-  IntensityTerms signal_terms;
+  bool intensities = true;        // for the signal chain
+  IntensityTerms intensity_terms;
 };
 
 PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan);

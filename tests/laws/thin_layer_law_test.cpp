@@ -152,7 +152,7 @@ TEST(EchoLength, WallAgainstTissueIsTheSameAtAnySpacing) {
     const EffectPlan plan = planEffects(scene);
     const PlaneRequest request = planeRequest(scene, plan);
     const LineTrace line = walkStraight(straightSettings(scene), {crossingAt(0.0801, 0, true)});
-    std::vector<float> values = intensityOf(line, samplingOf(scene.probe), request.signal_terms);
+    std::vector<float> values = intensityOf(line, samplingOf(scene.probe), request.intensity_terms);
     const BeamAverage average(scene.probe, scene.signal);
     average.apply(values);
     const float wall = *std::max_element(values.begin(), values.end());
