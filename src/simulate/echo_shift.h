@@ -6,7 +6,8 @@
 // field's shift is the one that a quarter of its lines exceeds. So a few rays that graze are no
 // reason to bend all, echoes that stay do not hide others that move, and neither the number of
 // lines nor that of layers has a part in it. A line that ends elsewhere when it bends is shifted by
-// that distance in between. The frame's shift is the largest field's, that of a loop the largest
+// that distance in between. What attenuation has taken 120 dB from does not count: no scanner
+// receives it. The frame's shift is the largest field's, that of a loop the largest
 // of its frames. Fields, quarter and tolerance are our choice.
 
 #include "geometry/frame_geometry.h"
