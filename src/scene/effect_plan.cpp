@@ -109,6 +109,37 @@ Finding bending(const Scene& scene) {
   return {false, "every structure has the sound speed of its surroundings, so no ray bends"};
 }
 
+bool speedsDiffer(const Scene& scene) {
+  const std::vector<const Medium*> used = mediaInUse(scene);
+  return std::any_of(used.begin(), used.end(), [&](const Medium* m) {
+    return m->sound_speed_m_s != used[0]->sound_speed_m_s;
+  });
+}
+
+// Of what the interface law depends on the angle for.
+Finding snellAngles(const Scene& scene, const EffectPlan& plan) {
+  if (!plan.reflection && !plan.transmission_loss)
+    return {false, "no angle of incidence is asked for"};
+  const Finding bends = bending(scene);
+  if (!bends.on) return bends;
+  return {true, "straight rays meet interfaces at the angles of bent ones"};
+}
+
+Finding reflectionCap(const Scene& scene, const EffectPlan& plan) {
+  if (!plan.reflection) return {false, "there are no interface echoes to cap"};
+  if (!speedsDiffer(scene))
+    return {false, "all media have one sound speed, so R is that of normal incidence"};
+  return {true, "no wall sends back more than it would at normal incidence"};
+}
+
+Finding thinLayers(const Scene& scene, const EffectPlan& plan) {
+  if (!plan.reflection && !plan.transmission_loss)
+    return {false, "no echo or loss of an interface is asked for"};
+  return {true, fmt::format("interfaces less than {:.2g} mm apart echo as one pulse",
+                            millimetresFromMetres(scene.signal.pulse_cycles * kScannerSpeed /
+                                                  scene.probe.frequency_hz / 2))};
+}
+
 Finding attenuating(const Scene& scene) {
   const std::vector<const Medium*> used = mediaInUse(scene);
   if (std::none_of(used.begin(), used.end(),
@@ -119,7 +150,9 @@ Finding attenuating(const Scene& scene) {
     if (wants(scene, c)) return {true, fmt::format("channel {} holds it", channelName(c))};
   if (wantsPicture(scene) && scene.signal.tgc != Tgc::perfect)
     return {true, scene.signal.tgc == Tgc::none ? "no time gain undoes it"
-                                                : "a table of gains does not undo it exactly"};
+                  : scene.signal.tgc == Tgc::mean
+                      ? "the mean time gain undoes only what all lines share"
+                      : "a table of gains does not undo it exactly"};
   return {false, "perfect TGC undoes it and no received intensity was asked for"};
 }
 
@@ -185,12 +218,15 @@ void planSignal(const Scene& scene, EffectPlan& plan) {
   const bool picture = wantsPicture(scene);
   if (scene.signal.tgc == Tgc::table && picture)
     add(plan, Effect::tgc, true, "a table of gains over depth");
+  else if (scene.signal.tgc == Tgc::mean && picture && plan.attenuation)
+    add(plan, Effect::tgc, true, "one curve of depth that undoes the loop's mean attenuation");
   else
     add(plan, Effect::tgc, false,
         scene.signal.tgc == Tgc::perfect
             ? "perfect TGC is attenuation left out, not a gain to apply"
-        : picture ? "no time gain is asked for"
-                  : "no picture is asked for");
+        : scene.signal.tgc == Tgc::mean && picture ? "there is no attenuation to undo"
+        : picture                                  ? "no time gain is asked for"
+                                                   : "no picture is asked for");
   add(plan, Effect::log_compression, picture,
       picture ? fmt::format("{:g} dB for the picture", scene.signal.dynamic_range_db)
               : "no picture is asked for");
@@ -215,6 +251,15 @@ EffectPlan planEffects(const Scene& scene) {
   plan.transmission_loss =
       decide(plan, Effect::transmission_loss, wanted.transmission_loss, losses(scene));
   plan.refraction = decide(plan, Effect::refraction, wanted.refraction, bending(scene));
+  // Where no speed differs bent rays are straight ones; those know the contour between lines.
+  if (plan.refraction && !bending(scene).on) {
+    plan.refraction = plan.decisions.back().on = false;
+    plan.decisions.back().reason = "the scene asks for it, but " + bending(scene).reason;
+  }
+  plan.snell_angles = decide(plan, Effect::snell_angles, wanted.snell_angles, snellAngles(scene, plan));
+  plan.reflection_cap =
+      decide(plan, Effect::reflection_cap, wanted.reflection_cap, reflectionCap(scene, plan));
+  plan.thin_layers = decide(plan, Effect::thin_layers, wanted.thin_layers, thinLayers(scene, plan));
   plan.attenuation = decide(plan, Effect::attenuation, wanted.attenuation, attenuating(scene));
   plan.backscatter = decide(plan, Effect::backscatter, wanted.backscatter, scattering(scene));
   plan.spread = decide(plan, Effect::spread, wanted.spread, spreading(scene, plan.backscatter));

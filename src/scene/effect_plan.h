@@ -22,6 +22,9 @@ struct EffectPlan {
   bool lobe = true;
   bool transmission_loss = true;
   bool refraction = true;
+  bool snell_angles = true;
+  bool reflection_cap = true;
+  bool thin_layers = true;
   bool attenuation = true;  // the exponent A is computed
   bool backscatter = true;
   bool spread = true;
@@ -29,7 +32,9 @@ struct EffectPlan {
   bool travel_time = false;
   int rays_per_beam = 1;                         // that are traced
   bool lateral_rays = false, elevation = false;  // what several rays are spread over
-  bool contrast = true;                          // the media in use differ at all
+  // Of signal.tgc = "mean": what the loop's mean attenuation takes at each sample's depth, 0..1.
+  std::vector<double> mean_loss;
+  bool contrast = true;  // the media in use differ at all
   std::vector<EffectDecision> decisions;
 
   // Precondition: not Effect::channel.

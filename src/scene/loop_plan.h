@@ -22,6 +22,7 @@ struct LoopPlan {
   bool slice = false;   // the plane slice traces; else the hierarchy
   std::string tracer_reason;
   bool cell_echoes = false;
+  bool smooth_normals = false;  // angles of incidence by the limit surfaces' normals
   std::string echo_reason;
   std::size_t triangles_given = 0;  // of all structures
   std::size_t triangles_kept = 0;   // of the structures that stay

@@ -54,7 +54,7 @@ struct NamesOf<Switch> {
 template <>
 struct NamesOf<Tgc> {
   static constexpr Named<Tgc> kAll[] = {
-      {Tgc::perfect, "perfect"}, {Tgc::table, "table"}, {Tgc::none, "none"}};
+      {Tgc::perfect, "perfect"}, {Tgc::mean, "mean"}, {Tgc::table, "table"}, {Tgc::none, "none"}};
 };
 
 template <>
@@ -85,7 +85,7 @@ struct NamesOf<InterfaceEcho> {
 
 template <>
 struct NamesOf<Normals> {
-  static constexpr Named<Normals> kAll[] = {{Normals::facet, "facet"}, {Normals::smooth, "smooth"}};
+  static constexpr Named<Normals> kAll[] = {{Normals::automatic, "auto"}, {Normals::facet, "facet"}, {Normals::smooth, "smooth"}};
 };
 
 template <>
@@ -137,6 +137,9 @@ struct NamesOf<Effect> {
                                            {Effect::lobe, "lobe"},
                                            {Effect::transmission_loss, "transmission_loss"},
                                            {Effect::refraction, "refraction"},
+                                           {Effect::snell_angles, "snell_angles"},
+                                           {Effect::reflection_cap, "reflection_cap"},
+                                           {Effect::thin_layers, "thin_layers"},
                                            {Effect::attenuation, "attenuation"},
                                            {Effect::backscatter, "backscatter"},
                                            {Effect::spread, "spread"},

@@ -85,6 +85,9 @@ enum class Effect {
   lobe,
   transmission_loss,
   refraction,
+  snell_angles,
+  reflection_cap,
+  thin_layers,
   attenuation,
   backscatter,
   spread,
@@ -102,6 +105,9 @@ struct EffectSwitches {
   Switch lobe = Switch::automatic;               // cos^n of the non-specular lobe
   Switch transmission_loss = Switch::automatic;  // (1-R)^2 at each interface passed
   Switch refraction = Switch::automatic;         // bent rays
+  Switch snell_angles = Switch::automatic;       // straight rays carry Snell's direction for angles
+  Switch reflection_cap = Switch::automatic;     // W is at most R at normal incidence
+  Switch thin_layers = Switch::automatic;        // one coherent echo of interfaces in one pulse
   Switch attenuation = Switch::automatic;        // exp(-4 alpha l)
   Switch backscatter = Switch::automatic;        // Eqs. 4-7
   Switch spread = Switch::automatic;             // 1/l^2 of the backscattered part
@@ -120,6 +126,9 @@ inline constexpr EffectSwitch kEffectSwitches[] = {
     {Effect::lobe, &EffectSwitches::lobe},
     {Effect::transmission_loss, &EffectSwitches::transmission_loss},
     {Effect::refraction, &EffectSwitches::refraction},
+    {Effect::snell_angles, &EffectSwitches::snell_angles},
+    {Effect::reflection_cap, &EffectSwitches::reflection_cap},
+    {Effect::thin_layers, &EffectSwitches::thin_layers},
     {Effect::attenuation, &EffectSwitches::attenuation},
     {Effect::backscatter, &EffectSwitches::backscatter},
     {Effect::spread, &EffectSwitches::spread},
@@ -127,7 +136,7 @@ inline constexpr EffectSwitch kEffectSwitches[] = {
     {Effect::elevation, &EffectSwitches::elevation},
     {Effect::travel_time, &EffectSwitches::travel_time}};
 
-enum class Tgc { perfect, table, none };
+enum class Tgc { perfect, mean, table, none };
 enum class Spread { compensate, keep };
 enum class BeamWidth { focused, fixed, none };
 
@@ -146,7 +155,7 @@ struct SignalSettings {
 
 enum class TracerChoice { automatic, slice, embree };
 enum class InterfaceEcho { automatic, centre, cell };
-enum class Normals { facet, smooth };
+enum class Normals { automatic, facet, smooth };
 
 struct AccuracySettings {
   int rays_per_beam = 1;
@@ -155,12 +164,12 @@ struct AccuracySettings {
   // be).
   InterfaceEcho interface_echo = InterfaceEcho::automatic;
   // Angles of incidence from the facets, or from normals of the Loop limit surface interpolated
-  // over them.
-  Normals normals = Normals::facet;
+  // over them; automatic: smooth where rays bend and the surfaces can give them.
+  Normals normals = Normals::automatic;
   SourcePlace normals_place;
-  // Refraction "auto" is off while 99 % of the echoes move by less than this many line spacings.
-  // Our choice: half a line, which the image cannot show.
-  double refraction_tolerance_lines = 0.5;
+  // Refraction "auto" is off while echoes move by less than this many beam widths, by the rule of
+  // simulate/echo_shift.h. Our choice.
+  double refraction_tolerance_beam_widths = 0.25;
 };
 
 enum class ExrCompression { none, rle, zips, zip, piz, pxr24 };  // pxr24 loses: 24-bit floats

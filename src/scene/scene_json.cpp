@@ -153,7 +153,7 @@ Json sceneJson(const Scene& scene) {
             {"tracer", nameOf(scene.accuracy.tracer)},
             {"interface_echo", nameOf(scene.accuracy.interface_echo)},
             {"normals", nameOf(scene.accuracy.normals)},
-            {"refraction_tolerance_lines", scene.accuracy.refraction_tolerance_lines}}},
+            {"refraction_tolerance_beam_widths", scene.accuracy.refraction_tolerance_beam_widths}}},
           {"output", outputJson(scene.output)}};
 }
 

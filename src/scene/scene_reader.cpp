@@ -192,8 +192,9 @@ AccuracySettings readAccuracy(TomlTable table) {
   a.interface_echo = table.choice("interface_echo", a.interface_echo);
   a.normals = table.choice("normals", a.normals);
   a.normals_place = table.place("normals");
-  a.refraction_tolerance_lines = table.number(
-      "refraction_tolerance_lines", a.refraction_tolerance_lines, ranges::kToleranceLines);
+  a.refraction_tolerance_beam_widths =
+      table.number("refraction_tolerance_beam_widths", a.refraction_tolerance_beam_widths,
+                   ranges::kToleranceLines);
   readTolerance(table);  // who sets the accuracy; the scene as rendered has none
   table.finish();
   return a;

@@ -110,7 +110,7 @@ Volumes Simulator::traceLines(const FrameTime& time, Workspace& w) const {
   Volumes volumes_ml;
   if (w.polar.intensities.empty()) w.polar.intensities = Intensities(w.greys.release());
   clock_.time(Stage::motion, [&] {
-    motion_->frameAt(time.phase, w.surfaces);
+    motion_->frameAt(time.phase, w.surfaces, plan_.smooth_normals);
     volumes_ml = volumes(w.surfaces);
   });
   const WorkCounts work = std::visit(

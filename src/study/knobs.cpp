@@ -104,11 +104,7 @@ void addSamples(const Scene& scene, Table& table) {
   std::vector<int> samples;
   for (const double n : kPerBeam) samples.push_back(rounded(n * pulses, kMostSamples));
   table.addNumbers("samples", "probe.samples", "samples of a line", samples, kOfPreset,
-                   [written = scene.probe.samples](Scene& s, int n) {
-                     s.probe.samples = n;
-                     for (Structure& structure : s.structures)
-                       structure.reflection_gain *= static_cast<double>(n) / written;
-                   });
+                   [](Scene& s, int n) { s.probe.samples = n; });
 }
 
 void addSubdivision(const Scene& scene, std::size_t triangles, Table& table) {
@@ -137,7 +133,7 @@ std::string refusal(const Scene& scene) {
 }
 
 void addNormals(const Scene& scene, Table& table) {
-  if (scene.motion.subdivision == 0 && scene.accuracy.normals == Normals::facet)
+  if (scene.motion.subdivision == 0 && scene.accuracy.normals != Normals::smooth)
     return table.leaveOut("normals",
                           "motion.subdivision = 0 takes the meshes as the surfaces themselves");
   Scene smooth = scene;

@@ -36,15 +36,12 @@ std::size_t trianglesOf(const MeshMotion& motion) {
 }  // namespace
 
 std::shared_ptr<const MeshMotion> MotionShelf::motionOf(const Scene& scene) {
-  // What a structure sends back does not move it.
-  Scene moving = scene;
-  for (Structure& s : moving.structures) s.reflection_gain = 1;
-  const std::string key = motionJson(moving).dump();
+  const std::string key = motionJson(scene).dump();
   Entry& entry = shelf_[key];
   entry.last_used = ++uses_;
   if (entry.motion) return entry.motion;
   try {
-    entry.motion = std::make_shared<const MeshMotion>(moving);
+    entry.motion = std::make_shared<const MeshMotion>(scene);
   } catch (...) {
     shelf_.erase(key);
     throw;

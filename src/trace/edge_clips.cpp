@@ -147,6 +147,7 @@ void EdgeClipper::intoCells(EdgeClips& clips) {
       sides_.right_sine[clip] = side[1].sine;
       sides_.right_cosine[clip] = side[1].cosine;
       clips.normal_x[clip] = normal.x;
+      clips.normal_y[clip] = normal.y;
       clips.normal_z[clip] = normal.z;
       clips.normal_square[clip] = normal_square;
       clips.edge[clip] = ends_.edge[i];
