@@ -36,7 +36,7 @@ set(rooms
   "keyframes=mesh"
   "cycle="
   "heart=cycle|mesh,subdivision"
-  "motion=keyframes,subdivision|mesh,repair,cycle"
+  "motion=mesh,keyframes,subdivision|repair,cycle"
   "geometry=motion"
   "truth=geometry"
   "trace=geometry"
