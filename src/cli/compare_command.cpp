@@ -16,9 +16,12 @@ namespace echocine {
 
 namespace {
 
+// The same options for both loops: those of the real one, which files say least about, have the
+// short names.
 void addSide(CLI::App& command, compare::SideOptions& side, const std::string& prefix,
              const char* which) {
   const auto help = [&](const char* what) { return fmt::format("{} loop: {}", which, what); };
+  // Over 0, and within what a computer's numbers bear; the limits are no physics.
   const auto positive = CLI::Range(1e-6, 1e6);
   command
       .add_option("--" + prefix + "fps", side.fps, help("frame rate of the acquisition, frames/s"))
@@ -50,6 +53,7 @@ void addTimes(CLI::App& command, compare::SideOptions& side, const std::string& 
       ->delimiter(',');
 }
 
+// What one option says of another: the parser looks at each alone.
 void checkOptions(const compare::CompareOptions& o) {
   if (o.contours && o.scene.empty())
     throw SceneError(
@@ -61,6 +65,7 @@ void checkOptions(const compare::CompareOptions& o) {
     throw SceneError("--knots: needs two greys or more, such as 0,40,90,160,255");
 }
 
+// The one number first: it is what optimisers and impatient readers want.
 void print(const compare::Comparison& c, const std::filesystem::path& folder) {
   fmt::print(
       "discrepancy {:.4f} (0 equal, about 1 unrelated), mean of {} frames; {:.4f} as placed\n",
@@ -131,6 +136,7 @@ CompareCommand::CompareCommand(CLI::App& app) {
 }
 
 int CompareCommand::run() {
+  // A flag that leaves out reads better than one that turns on what is on.
   options_.align_space = !no_space_;
   checkOptions(options_);
   listenForStop();

@@ -20,6 +20,8 @@
 
 namespace {
 
+// 1: try again elsewhere (disk, memory, a signal). 2: change the arguments, the scene or a mesh.
+// Scripts rely on the difference.
 constexpr int kJobFailed = 1;
 constexpr int kUnusable = 2;
 
@@ -37,6 +39,7 @@ int failed(int code, std::string_view what) {
 
 }  // namespace
 
+// What must hold before anything is opened comes first.
 int main(int argc, char** argv) {
   echocine::keepStandardStreams();
   echocine::endCrashesInOneLine(kJobFailed);
@@ -59,6 +62,7 @@ int main(int argc, char** argv) {
                      : app.got_subcommand("study")   ? study.run()
                      : app.got_subcommand("compare") ? compare.run()
                                                      : render.run();
+    // A plan piped into a full disk has failed, though all was computed.
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       return failed(kJobFailed, "what was to be printed could not be written");
     return code;

@@ -36,6 +36,7 @@ void refuseOtherScene(const Scene& scene, const std::filesystem::path& folder,
   for (int i = 0; i < manifest.loop_frames; ++i) stack.refuseOtherScene(i);
 }
 
+// Told at once and kept: a terminal scrolls away, the manifest stays.
 void warn(const std::vector<std::string>& warnings, const Monitor& monitor, Manifest& manifest) {
   for (const std::string& warning : warnings) {
     manifest.warnings.push_back(warning);
@@ -64,6 +65,7 @@ void noteCosts(const Simulator& simulator, RenderSummary& summary) {
 RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const Monitor& monitor) {
   const auto start = std::chrono::steady_clock::now();
   RenderSummary summary;
+  // Before a mesh is read, for what the scene warns of may be why a mesh is refused.
   warn(scene.warnings, monitor, summary.manifest);
   const auto motion = std::make_shared<const MeshMotion>(scene);  // keyframes, ready to interpolate
   const std::pair range = frameRange(options, CardiacClock(scene).frameCount());
@@ -72,6 +74,7 @@ RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const
   manifest.accuracy = options.accuracy;
   manifest.loop_frames = CardiacClock(scene).frameCount();
   manifest.scene_sha256 = sceneSha256(scene, *motion);
+  // Nothing in the folder is touched before this has passed.
   if (options.resume) refuseOtherScene(scene, options.folder, manifest);
   withThreads(options.threads, [&] {
     // What has to be computed at all, and how; then motion -> geometry -> trace -> signal of a
@@ -91,6 +94,7 @@ RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const
     RenderPass pass({simulator, folder, monitor, report, options.resume}, manifest, kept);
     summary.frames_done = pass.run(range.first, range.second);
     summary.passes_s = secondsSince(start) - summary.setup_s;
+    // No manifest: a folder without one is an unfinished run.
     if (summary.frames_done < summary.frames_wanted) return;
     noteCosts(simulator, summary);
     manifest.wall_ms = 1e3 * secondsSince(start) / summary.frames_done;

@@ -23,6 +23,7 @@ namespace echocine {
 
 namespace {
 
+// DCMTK keeps its decoders in global tables, which must not be filled twice.
 void setUpOnce() {
   static std::once_flag once;
   std::call_once(once, [] {
@@ -36,6 +37,7 @@ void setUpOnce() {
   throw SceneError(fmt::format("{}: {}", name, what));
 }
 
+// 0 where the tag is absent or no number: none of the tags read here can be 0.
 double numberOf(DcmItem& item, const DcmTagKey& key, unsigned long position = 0) {
   OFString text;
   if (item.findAndGetOFString(key, text, position).bad()) return 0;
@@ -61,6 +63,8 @@ void takeHeartRate(DcmDataset& data, Video& video) {
   take(DCM_NominalInterval, "NominalInterval", true);
 }
 
+// FrameTime (ms) before FrameTimeVector before CineRate: the first two are of acquisition, the last
+// may be of playing.
 void takeTimes(DcmDataset& data, Video& video) {
   const double frame_ms = numberOf(data, DCM_FrameTime), cine = numberOf(data, DCM_CineRate);
   double sum_ms = 0;

@@ -186,8 +186,10 @@ void expectKnownOptions(const fs::path& file, const std::vector<std::string>& wo
       EXPECT_TRUE(names(helpOf(command), word)) << file << ": echocine " << command << " " << word;
 }
 
+// The changes alone name what is gone.
 TEST(Documents, EveryOptionShownIsOneOfItsCommand) {
   for (const fs::path& file : documents()) {
+    if (file.filename() == "CHANGELOG.md") continue;
     const Document document = read(file);
     std::vector<std::string> shown = document.code;
     for (const std::string& span : spansOf(document)) shown.push_back(span);
@@ -248,7 +250,7 @@ TEST(Documents, SceneKeysNamedAreInTheReferenceScene) {
   const std::string reference = support::bytesOf(kRoot / "examples/every_key/scene.toml");
   for (const fs::path& file : documents())
     for (const std::string& span : spansOf(read(file)))
-      if (std::smatch key; std::regex_match(span, key, kKey)) {
+      if (std::smatch key; std::regex_match(span, key, kKey) && key[1] != "json") {
         EXPECT_TRUE(hasWord(reference, key[1])) << file << ": " << span;
       }
 }
