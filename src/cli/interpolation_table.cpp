@@ -14,6 +14,7 @@ namespace {
 
 constexpr const char* kKindNames[kInterpolationKinds] = {"linear", "catmull-rom", "spline",
                                                          "fourier"};
+// No error where a kind refuses the phases that are left.
 struct Row {
   std::string name;
   std::array<std::optional<InterpolationError>, kInterpolationKinds> errors;
@@ -69,6 +70,8 @@ void printCells(const Row& row, double (*cell)(const InterpolationError&), bool 
   fmt::print("\n");
 }
 
+// A block a quantity: kinds are compared along a line. Membranes enclose nothing and have no volume
+// to err in.
 void printBlock(const std::vector<Row>& rows, const char* title,
                 double (*cell)(const InterpolationError&), bool volume) {
   fmt::print("{:<28}", title);

@@ -87,6 +87,7 @@ const char* kindName(ProbeKind kind) {
   return "phased";
 }
 
+// JSON in one attribute: readers need one name, and new kinds of probes need no new ones.
 std::string probeJson(const Probe& probe) {
   const auto triple = [](Vec3d v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
   nlohmann::ordered_json json;

@@ -21,6 +21,7 @@ using heart::RecordedPart;
 using heart::Recording;
 
 // Micrometres, in any locale. Never "-0.000".
+// Rounded before it is printed, and + 0.0 turns -0 into 0: the same heart gives the same bytes.
 void appendMillimetres(std::string& text, double metres) {
   char digits[32];
   const double mm = std::round(metres * 1e6) / 1e3 + 0.0;
@@ -34,6 +35,7 @@ std::string vectorText(Vec3d v, double unit) {
                      v.z / unit + 0.0);
 }
 
+// Ten to a line: people read these files.
 std::string listText(const std::vector<double>& values) {
   std::string text = "[";
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -97,6 +99,7 @@ class FolderInTheMaking {
     if (!part_.empty()) fs::remove_all(part_, ignored);
   }
   const fs::path& path() const { return part_; }
+  // A rename is all or nothing: no other run ever sees half a heart.
   void finish() {
     std::error_code failed;
     fs::rename(part_, folder_, failed);  // an empty folder makes way

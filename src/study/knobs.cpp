@@ -25,6 +25,8 @@ constexpr int kRounding = 16;  // lines and samples come in multiples of it
 constexpr int kMostLines = 65536, kMostSamples = 65536;  // as the scene reader accepts
 constexpr double kMostPolarSamples = 1 << 25;            // half of it, for rounding's sake
 
+// Collects knobs, and why others do not apply: a row that is missing without a word looks like a
+// result.
 struct Table {
   // A knob of numbers, rough to accurate; equal ones are listed once.
   void addNumbers(const char* name, const char* key, const char* meaning,
@@ -44,6 +46,7 @@ struct Table {
     add(std::move(knob));
   }
 
+  // The ladder is the presets' own values unless said otherwise. One value is no knob.
   void add(Knob knob) {
     if (knob.ladder.empty())
       for (const std::size_t v : knob.of_preset)
@@ -60,6 +63,7 @@ struct Table {
   KnobTable table;
 };
 
+// Upwards, so that a preset is never rougher than its name.
 int rounded(double count, int most) {
   const double whole = kRounding * std::ceil(std::max(count, 1.0) / kRounding);
   return static_cast<int>(std::min(whole, static_cast<double>(most)));
@@ -82,6 +86,7 @@ Extent extentOf(const Scene& scene) {
   Extent extent{lineSpacing(two, probe.focus_m) / width_m,
                 (probe.max_depth_m - probe.min_depth_m) / (cycles * scannerWavelength(probe) / 2)};
   if (probe.lines < 2) extent.beams = 1 / kPerBeam.back();
+  // The finest frame is kept within the limit by fewer lines and fewer samples alike.
   const double finest = kPerBeam.back() * extent.beams * kPerBeam.back() * extent.pulses;
   const double shrink = std::sqrt(std::min(1.0, kMostPolarSamples / finest));
   return {extent.beams * shrink, extent.pulses * shrink};
@@ -108,6 +113,7 @@ void addSamples(const Scene& scene, Table& table) {
                    });
 }
 
+// Each level has four times the triangles.
 void addSubdivision(const Scene& scene, std::size_t triangles, Table& table) {
   const int written = scene.motion.subdivision;
   if (written == 0)
@@ -149,6 +155,7 @@ void addNormals(const Scene& scene, Table& table) {
              {0, 0, 1, 1}});
 }
 
+// The first stays: it is end-diastole.
 std::vector<Keyframe> everyNth(const std::vector<Keyframe>& keyframes, std::size_t n) {
   std::vector<Keyframe> kept;
   for (std::size_t i = 0; i < keyframes.size(); i += n) kept.push_back(keyframes[i]);
@@ -179,6 +186,7 @@ constexpr KindName kKinds[] = {{Interpolation::linear, "linear"},
                                {Interpolation::spline, "spline"},
                                {Interpolation::fourier, "fourier"}};
 
+// The weights judge the phases themselves; their refusal is the answer.
 bool accepts(const Scene& scene, Interpolation kind) {
   try {
     for (const Structure& structure : scene.structures) {

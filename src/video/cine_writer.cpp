@@ -127,6 +127,7 @@ std::int64_t CineWriter::Muxer::seekTo(void* self, std::int64_t offset, int when
 }
 
 void CineWriter::Muxer::open() {
+  // Read and write: the muxer reads back what it fills in at the end.
   descriptor = ::open(part.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor < 0) fail(errno);
   openContext();

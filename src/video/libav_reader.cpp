@@ -25,11 +25,13 @@ constexpr const char* kFormats =
     "avi,mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,gif,apng,mpeg,mpegts,asf,ogg,flv,nut,wmv,"
     "png_pipe,jpeg_pipe,bmp_pipe,tiff_pipe,webp_pipe,image2pipe";
 
+// A file in memory: nothing that a container points to is opened.
 struct Bytes {
   std::span<const std::byte> all;
   std::int64_t at = 0;
 };
 
+// As libav wants it: at the end an error, not 0.
 int readBytes(void* opaque, std::uint8_t* out, int size) {
   auto* bytes = static_cast<Bytes*>(opaque);
   const std::int64_t left = static_cast<std::int64_t>(bytes->all.size()) - bytes->at;
@@ -55,6 +57,7 @@ std::string reasonOf(int error) {
   return text;
 }
 
+// Owns what the C libraries hand out. A name goes into every message.
 struct Decoder {
   Bytes bytes;
   std::string name;
