@@ -1,5 +1,6 @@
 #include "simulate/echo_shift.h"
 
+#include "scene/scan_geometry.h"
 #include "trace/trace_frame.h"
 
 namespace echocine {

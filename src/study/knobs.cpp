@@ -9,6 +9,8 @@
 #include "motion/mesh_motion.h"
 #include "scene/beam_profile.h"
 #include "scene/effect_plan.h"
+#include "scene/names.h"
+#include "scene/scan_geometry.h"
 #include "simulate/plan_loop.h"
 
 namespace echocine {
@@ -25,8 +27,6 @@ constexpr int kRounding = 16;  // lines and samples come in multiples of it
 constexpr int kMostLines = 65536, kMostSamples = 65536;  // as the scene reader accepts
 constexpr double kMostPolarSamples = 1 << 25;            // half of it, for rounding's sake
 
-// Collects knobs, and why others do not apply: a row that is missing without a word looks like a
-// result.
 struct Table {
   // A knob of numbers, rough to accurate; equal ones are listed once.
   void addNumbers(const char* name, const char* key, const char* meaning,
@@ -46,7 +46,6 @@ struct Table {
     add(std::move(knob));
   }
 
-  // The ladder is the presets' own values unless said otherwise. One value is no knob.
   void add(Knob knob) {
     if (knob.ladder.empty())
       for (const std::size_t v : knob.of_preset)
@@ -63,7 +62,6 @@ struct Table {
   KnobTable table;
 };
 
-// Upwards, so that a preset is never rougher than its name.
 int rounded(double count, int most) {
   const double whole = kRounding * std::ceil(std::max(count, 1.0) / kRounding);
   return static_cast<int>(std::min(whole, static_cast<double>(most)));
@@ -81,12 +79,12 @@ Extent extentOf(const Scene& scene) {
   const double width_m = scene.signal.beam_width == BeamWidth::fixed
                              ? scene.signal.beam_width_m
                              : focusedBeamWidth(probe.focus_m, probe.aperture_m, probe.focus_m,
-                                                scannerWavelength(probe));
+                                                ScanGeometry(probe).wavelength());
   const double cycles = scene.signal.pulse_cycles > 0 ? scene.signal.pulse_cycles : 2;
-  Extent extent{lineSpacing(two, probe.focus_m) / width_m,
-                (probe.max_depth_m - probe.min_depth_m) / (cycles * scannerWavelength(probe) / 2)};
+  Extent extent{
+      lineSpacing(two, probe.focus_m) / width_m,
+      (probe.max_depth_m - probe.min_depth_m) / (cycles * ScanGeometry(probe).wavelength() / 2)};
   if (probe.lines < 2) extent.beams = 1 / kPerBeam.back();
-  // The finest frame is kept within the limit by fewer lines and fewer samples alike.
   const double finest = kPerBeam.back() * extent.beams * kPerBeam.back() * extent.pulses;
   const double shrink = std::sqrt(std::min(1.0, kMostPolarSamples / finest));
   return {extent.beams * shrink, extent.pulses * shrink};
@@ -113,7 +111,6 @@ void addSamples(const Scene& scene, Table& table) {
                    });
 }
 
-// Each level has four times the triangles.
 void addSubdivision(const Scene& scene, std::size_t triangles, Table& table) {
   const int written = scene.motion.subdivision;
   if (written == 0)
@@ -155,7 +152,6 @@ void addNormals(const Scene& scene, Table& table) {
              {0, 0, 1, 1}});
 }
 
-// The first stays: it is end-diastole.
 std::vector<Keyframe> everyNth(const std::vector<Keyframe>& keyframes, std::size_t n) {
   std::vector<Keyframe> kept;
   for (std::size_t i = 0; i < keyframes.size(); i += n) kept.push_back(keyframes[i]);
@@ -177,16 +173,6 @@ void addKeyframes(const Scene& scene, Table& table) {
   table.add(std::move(knob));
 }
 
-struct KindName {
-  Interpolation kind;
-  const char* name;
-};
-constexpr KindName kKinds[] = {{Interpolation::linear, "linear"},
-                               {Interpolation::catmull_rom, "catmull-rom"},
-                               {Interpolation::spline, "spline"},
-                               {Interpolation::fourier, "fourier"}};
-
-// The weights judge the phases themselves; their refusal is the answer.
 bool accepts(const Scene& scene, Interpolation kind) {
   try {
     for (const Structure& structure : scene.structures) {
@@ -209,19 +195,20 @@ void addInterpolation(const Scene& scene, Table& table) {
             "between keyframes; the scene's own is the reference",
             {},
             {}};
-  const auto value = [](const KindName& k) {
-    return KnobValue{k.name, [kind = k.kind](Scene& s) { s.motion.interpolation = kind; }};
+  using Kind = Named<Interpolation>;
+  const auto value = [](const Kind& k) {
+    return KnobValue{k.name, [kind = k.value](Scene& s) { s.motion.interpolation = kind; }};
   };
-  for (const KindName& k : kKinds) {
-    if (k.kind == scene.motion.interpolation) continue;
-    if (accepts(scene, k.kind))
+  for (const Kind& k : NamesOf<Interpolation>::kAll) {
+    if (k.value == scene.motion.interpolation) continue;
+    if (accepts(scene, k.value))
       knob.values.push_back(value(k));
     else
       table.leaveOut(fmt::format("interpolation {}", k.name),
                      "would overshoot between keyframes this uneven");
   }
-  for (const KindName& k : kKinds)
-    if (k.kind == scene.motion.interpolation) knob.values.push_back(value(k));
+  for (const Kind& k : NamesOf<Interpolation>::kAll)
+    if (k.value == scene.motion.interpolation) knob.values.push_back(value(k));
   knob.of_preset.fill(knob.values.size() - 1);  // what is true between keyframes is the scene's say
   table.add(std::move(knob));
 }
@@ -234,7 +221,7 @@ void addRefraction(const Scene& scene, const MeshMotion& motion, Table& table) {
   if (scene.accuracy.interface_echo == InterfaceEcho::cell)
     return table.leaveOut("refraction", "accuracy.interface_echo = \"cell\" bends no ray");
   if (!planEffects(scene).refraction)
-    return table.leaveOut("refraction", planEffects(scene).decision("refraction").reason);
+    return table.leaveOut("refraction", planEffects(scene).decision(Effect::refraction).reason);
   const KnobValue off{"off", [](Scene& s) { s.effects.refraction = Switch::off; }};
   const KnobValue on{"on", [](Scene& s) { s.effects.refraction = Switch::on; }};
   // Bent rays know no contour between them, and echoes at the lines alone cost more accuracy than

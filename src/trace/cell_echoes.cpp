@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trace/interface_lanes.h"
 #include "trace/clip_interfaces.h"
+#include "trace/interface_lanes.h"
+
+#include "scene/scan_geometry.h"
 
 namespace echocine {
 
@@ -60,7 +62,7 @@ class CellEchoMaker {
                 double cell_width, CellEchoes& echoes)
       : settings_(settings),
         echoes_(echoes),
-        angular_(probe.kind != ProbeKind::linear),
+        angular_(ScanGeometry(probe).angular()),
         face_radius_m_(probe.face_radius_m),
         per_width_(1 / cell_width),
         min_depth_m_(probe.min_depth_m),
@@ -148,8 +150,7 @@ class CellEchoMaker {
     const Doubles4 k_hit = (lanesAt(&f.depth_m[i]) - min_depth_m_) * per_spacing_;
     const Doubles4 samples = Doubles4{} + samples_;
     const Doubles4 k_a = clamped(k_hit + (path_a - path_m) * per_path, Doubles4{} - 1, samples);
-    const Doubles4 k_b =
-        clamped(k_hit + (path_b - path_m) * per_path, Doubles4{} - 1, samples + 1);
+    const Doubles4 k_b = clamped(k_hit + (path_b - path_m) * per_path, Doubles4{} - 1, samples + 1);
     const Doubles4 first = wholeOf(larger(k_a, 0)), below = wholeOf(larger(k_b, 0));
     const Doubles4 end = larger(below < k_b ? below + 1 : below, first + 1);
     const Mask4 seen = masksAt(&f.seen[i]);

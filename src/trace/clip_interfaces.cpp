@@ -45,25 +45,20 @@ void splitAtFoot(EdgeClips& p, std::size_t i) {
 
 ClipInterfaces::ClipInterfaces(const Probe& probe, const TraceSettings& settings,
                                std::span<const LineTrace> lines)
-    : probe_(probe), settings_(settings), table_(lines, settings.surfaces.size()) {
+    : geometry_(probe), settings_(settings), table_(lines, settings.surfaces.size()) {
   for (const Medium& from : settings.media)
     for (const Medium& to : settings.media)
       speeds_.push_back(speedRatio(from.sound_speed_m_s, to.sound_speed_m_s));
 }
 
 // Which way an edge is crossed is the facet's business. Of several hits the nearest in depth.
-void ClipInterfaces::find(std::span<const ContourEdge> edges,
-                          std::span<const EdgeNormals> normals, EdgeClips& clips,
-                          InterfaceRows& rows) const {
+void ClipInterfaces::find(std::span<const ContourEdge> edges, std::span<const EdgeNormals> normals,
+                          EdgeClips& clips, InterfaceRows& rows) const {
   const std::size_t count = clips.count;
   for (std::size_t i = 0; i < count; ++i) {
     const ContourEdge& edge = edges[clips.edge[i]];
-    const InterfaceHit* hit =
-        table_.nearest(clips.line[i], edge.surface, clips.entering[i] != 0, [&] {
-          const Vec3d middle = middleOf(clips, i);
-          return probe_.kind == ProbeKind::linear ? middle.z
-                                                  : length(middle) - probe_.face_radius_m;
-        });
+    const InterfaceHit* hit = table_.nearest(clips.line[i], edge.surface, clips.entering[i] != 0,
+                                             [&] { return geometry_.pathOf(middleOf(clips, i)); });
     takeOver(hit, rows, i);
     if (!normals.empty()) takeSmoothNormal(edge, normals[clips.edge[i]], clips, i);
     if (clips.turns[i] == 0) continue;

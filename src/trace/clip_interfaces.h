@@ -2,9 +2,10 @@
 // What the lines themselves met where a clip of contour is: the media and losses that it takes
 // over.
 
+#include "scene/scan_geometry.h"
 #include "trace/edge_clips.h"
-#include "trace/interface_lanes.h"
 #include "trace/hit_table.h"
+#include "trace/interface_lanes.h"
 #include "trace/trace_settings.h"
 
 namespace echocine {
@@ -33,7 +34,7 @@ class ClipInterfaces {
  private:
   void takeOver(const InterfaceHit* hit, InterfaceRows& rows, std::size_t clip) const;
 
-  const Probe& probe_;
+  const ScanGeometry geometry_;
   const TraceSettings& settings_;
   HitTable table_;
   std::vector<SpeedRatio> speeds_;  // from each medium to each, by the first

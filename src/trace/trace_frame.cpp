@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/parallel.h"
+#include "scene/scan_geometry.h"
 #include "trace/cell_echoes.h"
 #include "trace/line_walker.h"
 #include "trace/packet_walk.h"
@@ -138,7 +139,7 @@ TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan, bool in
       background(scene.background),
       unit_volume_m3(scene.unit_volume_m3),
       max_depth_m(scene.probe.max_depth_m),
-      thin_layer_m(1e-3 * kScannerSpeed / scene.probe.frequency_hz),
+      thin_layer_m(1e-3 * ScanGeometry(scene.probe).wavelength()),
       reflection(plan.reflection),
       transmission_loss(plan.transmission_loss),
       refraction(plan.refraction),
