@@ -152,7 +152,7 @@ TEST(Documents, TopReadmeIsShort) {
 // The words of a shell line after `echocine`; empty where the line calls something else. A comment
 // ends it.
 std::vector<std::string> argumentsOf(const std::string& line) {
-  static const std::regex kCall(R"((?:^|[\s/])echocine ([a-z-][^#&;<>|]*))");
+  static const std::regex kCall(R"((?:^\s*|/|&& )echocine ((?:[a-z]|--)[^#&;<>|]*))");
   std::smatch call;
   std::vector<std::string> words;
   if (!std::regex_search(line, call, kCall)) return words;
@@ -182,8 +182,9 @@ void expectKnownOptions(const fs::path& file, const std::vector<std::string>& wo
   std::string command;
   if (!words[0].starts_with("-")) command = words[0];
   for (const std::string& word : words)
-    if (word.starts_with("-"))
+    if (word.starts_with("-")) {
       EXPECT_TRUE(names(helpOf(command), word)) << file << ": echocine " << command << " " << word;
+    }
 }
 
 // The changes alone name what is gone.
