@@ -128,7 +128,7 @@ TEST(BeamAverageLaw, APlaneAcrossTheBeamSendsBackItsLobesMeanOverTheProfile) {
 
 // Edges and strips (wires) at several places: the share of the beam that meets them.
 TEST(BeamAverageLaw, AStripsLateralProfileIsTheTwoWayBeam) {
-  const double lambda = scannerWavelength(sheetWorld(sheet(1, 1, 1)).scene.probe);
+  const double lambda = ScanGeometry(sheetWorld(sheet(1, 1, 1)).scene.probe).wavelength();
   const double whole = wholeEcho(sheetWorld(sheet(1, 1, 1)));
   double worst = 0;
   for (const double z : {0.03, 0.08, 0.14}) {

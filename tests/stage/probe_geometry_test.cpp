@@ -66,7 +66,7 @@ TEST(AnyProbe, ASingleLineStandsInTheMiddle) {
 TEST(AnyProbe, TheFrameIsOrthonormalWhateverTheLateralDirection) {
   const Probe probe =
       probeOf({{"axis", "[1, 2, 3]"}, {"lateral", "[5, 0.1, 7]"}, {"apex", "[1, -2, 3]"}});
-  const Frame& f = probe.pose;
+  const Pose& f = probe.pose;
   for (const Vec3d axis : {f.x_axis, f.y_axis, f.z_axis}) EXPECT_NEAR(length(axis), 1, 1e-15);
   EXPECT_NEAR(dot(f.x_axis, f.y_axis), 0, 1e-15);
   EXPECT_NEAR(dot(f.x_axis, f.z_axis), 0, 1e-15);

@@ -42,11 +42,11 @@ TEST(SceneReader, TurnsEveryUnitIntoSI) {
 
 TEST(SceneReader, ADirectionMayHaveAnyLengthButZero) {
   SceneText text = SceneText::oneBox("blood");
-  const Frame pose = parsed(text).probe.pose;
+  const Pose pose = parsed(text).probe.pose;
   for (const char* size : {"e-320", "e-200", "e-7", "e7", "e200", "e308"}) {
     text.setProbe("axis", std::string("[0, 0, 1") + size + "]");
     text.setProbe("lateral", std::string("[1") + size + ", 0, 0]");
-    const Frame scaled = parsed(text).probe.pose;
+    const Pose scaled = parsed(text).probe.pose;
     EXPECT_LT(length(scaled.z_axis - pose.z_axis), 1e-15) << size;
     EXPECT_LT(length(scaled.x_axis - pose.x_axis), 1e-15) << size;
   }

@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "motion/heart/heart_scene.h"
 #include "output/exr_plane.h"
+#include "output/exr_stack.h"
 #include "output/heart_files.h"
 #include "render/render.h"
 #include "scene/scene_reader.h"

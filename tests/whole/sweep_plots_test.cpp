@@ -27,7 +27,7 @@ class StudySweeps : public ::testing::Test {
     return folder.write("sweeps/" + name, text);
   }
   Outcome plot() {
-    return runShell(kSweepPlots + (" '" + (folder / "sweeps").string() + "' '" +
+    return runShell(kSweepPlots + (" '" + (folder / "sweeps").string()) + "' '" +
                     (folder / "out").string() + "'");
   }
   TempFolder folder;
