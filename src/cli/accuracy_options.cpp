@@ -17,6 +17,7 @@ namespace echocine {
 
 namespace {
 
+// The message names all, in the order from rough to fine.
 Preset presetOf(const std::string& name) {
   const auto found = std::find(kPresetNames.begin(), kPresetNames.end(), name);
   if (found == kPresetNames.end())
@@ -45,6 +46,8 @@ void AccuracyOptions::addTo(CLI::App& command) {
       ->type_name("DB");
 }
 
+// The command line goes before the scene's wish; two demands on the line, or a preset over a
+// scene's tolerance, contradict each other and are refused.
 AccuracyRecord AccuracyOptions::resolve(Scene& scene, int threads, bool quiet) const {
   const std::optional<SceneTolerance> written = readSceneTolerance(scene.file);
   std::optional<double> wanted_db = tolerance_db_;

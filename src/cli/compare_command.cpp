@@ -68,6 +68,7 @@ void addTimes(CLI::App& command, compare::SideOptions& side, const std::string& 
       ->delimiter(',');
 }
 
+// What one option says of another: the parser looks at each alone.
 void checkOptions(const compare::CompareOptions& o) {
   if (o.contours && o.scene.empty())
     throw SceneError(
@@ -79,6 +80,7 @@ void checkOptions(const compare::CompareOptions& o) {
     throw SceneError("--knots: needs two greys or more, such as 0,40,90,160,255");
 }
 
+// The one number first: it is what optimisers and impatient readers want.
 void print(const compare::Comparison& c, const std::filesystem::path& folder) {
   fmt::print(
       "discrepancy {:.4f} (0 equal, about 1 unrelated), mean of {} frames; {:.4f} as placed\n",
@@ -152,6 +154,7 @@ CompareCommand::CompareCommand(CLI::App& app) {
 }
 
 int CompareCommand::run() {
+  // A flag that leaves out reads better than one that turns on what is on.
   options_.align_space = !no_space_;
   checkOptions(options_);
   listenForStop();

@@ -13,6 +13,7 @@ namespace echocine {
 
 namespace {
 
+// From the heart's own table: a new view needs no change here.
 std::string viewList() {
   std::string list;
   for (const heart::ViewName& name : heart::viewNames())
@@ -28,6 +29,7 @@ void applySegment(const std::string& text, heart::Parameters& parameters) {
         "number 1 to {}, such as 7:0 for an akinetic mid-anterior wall",
         text, heart::kSegments));
   };
+  // from_chars and not stod: it knows no locale, in which 0.5 might end at the point.
   std::vector<double> values;
   for (const char *at = text.data(), *end = at + text.size();; ++at) {
     double value = 0;
@@ -40,6 +42,7 @@ void applySegment(const std::string& text, heart::Parameters& parameters) {
   }
   if (!(values[0] >= 1 && values[0] <= heart::kSegments)) refuse();
   const int number = static_cast<int>(values[0]);
+  // A segment number with a fraction is a mistake, not the segment below.
   if (values.size() < 2 || values.size() > 3 || values[0] != number) refuse();
   heart::Segment& segment = parameters.segments[static_cast<std::size_t>(number - 1)];
   segment.amplitude = values[1];
@@ -57,6 +60,7 @@ HeartCommand::HeartCommand(CLI::App& app) {
   command->add_option("--view", view_, "Where the probe is held: " + viewList())
       ->capture_default_str();
   const heart::Parameters defaults;
+  // One option per dial, with unit, range and default from the heart's own table.
   for (const heart::Dial& dial : heart::dials()) {
     const std::string unit = std::string(dial.unit) == "1" ? "" : std::string(" ") + dial.unit;
     const auto standard = dial.get(defaults);
@@ -91,6 +95,7 @@ HeartCommand::HeartCommand(CLI::App& app) {
   command->footer("Example: echocine heart --ef 0.35 --view a2c -o failing_heart\n" + std::string(kDocuments));
 }
 
+// Ranges and contradictions are the heart's to judge: this only reads.
 int HeartCommand::run() {
   const auto view = heart::viewOf(view_);
   if (!view)

@@ -22,6 +22,7 @@ class HeartCommand {
  private:
   HeartFiles wanted_;
   std::filesystem::path folder_;
+  // By the dial's key; what is not given follows what is.
   std::map<std::string, double> given_;
   std::string view_ = "a4c", rule_ = "segments";
   std::vector<std::string> segments_;

@@ -22,6 +22,8 @@
 
 namespace {
 
+// 1: try again elsewhere (disk, memory, a signal). 2: change the arguments, the scene or a mesh.
+// Scripts rely on the difference.
 constexpr int kJobFailed = 1;
 constexpr int kUnusable = 2;
 
@@ -87,6 +89,7 @@ int run(int argc, char** argv) {
                      : app.got_subcommand("study")   ? study.run()
                      : app.got_subcommand("compare") ? compare.run()
                                                      : render.run();
+    // A plan piped into a full disk has failed, though all was computed.
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       return failed(kJobFailed, "what was to be printed could not be written");
     return code;

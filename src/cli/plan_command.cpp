@@ -16,11 +16,13 @@ namespace echocine {
 
 namespace {
 
+// Seconds as long as one would wait for them.
 std::string duration(double seconds) {
   if (seconds < 100) return fmt::format("{:.1f} s", seconds);
   return fmt::format("{:.0f} min", seconds / 60);
 }
 
+// A share of time only of what runs: "0 %" of what is off would say nothing.
 void printEffects(const Manifest& manifest) {
   fmt::print("{:<24} {:<4} {:>5}  {}\n", "effect", "", "time", "why");
   for (const EffectDecision& e : manifest.plan.effects.decisions) {
@@ -47,6 +49,7 @@ void printRest(const Estimate& estimate) {
   fmt::print("memory      {:.0f} MB\n", estimate.memory_bytes * 1e-6);
 }
 
+// The manifest's own parts, so that scripts read plan and manifest alike.
 void printJson(const Estimate& estimate) {
   nlohmann::ordered_json json = planJson(estimate.measured.plan);
   json["effects"] = effectsJson(estimate.measured);

@@ -35,6 +35,7 @@ std::pair<int, int> parseRange(const std::string& text, int loop_frames) {
   return range;
 }
 
+// Times are summed over threads, so that settings compare whatever the number of cores.
 void printSummary(const RenderSummary& summary, const RenderOptions& options, const Scene& scene) {
   const Manifest& m = summary.manifest;
   fmt::print("{} frame{} in {}: {:.1f} frames/s on {}\n", summary.frames_done,
@@ -80,6 +81,7 @@ RenderCommand::RenderCommand(CLI::App& app) {
   command->footer("Example: echocine render scene.toml -o loop --frames 0:50\n" + std::string(kDocuments));
 }
 
+// Signals first: a run that is stopped while it reads must end cleanly too.
 int RenderCommand::run() {
   listenForStop();
   Scene scene = readScene(scene_file_);
@@ -88,6 +90,7 @@ int RenderCommand::run() {
   ProgressLine line(quiet_);
   const RenderSummary summary = renderLoop(scene, options_, line.monitor());
   line.finish();
+  // A stopped run is a failed job: scripts must not go on with half a loop.
   if (summary.frames_done < summary.frames_wanted)
     throw JobError(
         fmt::format("stopped: {} of {} frames are finished in {}; --resume goes on from there",

@@ -12,6 +12,7 @@ class App;
 
 namespace echocine {
 
+// The main job; what is asked of a run, as opposed to a scene, stands here.
 class RenderCommand {
  public:
   explicit RenderCommand(CLI::App& app);  // adds the sub-command

@@ -18,6 +18,8 @@ namespace echocine {
 
 namespace {
 
+// Here and not in the parser, so that the message names the knobs in the same form as a scene's
+// errors.
 void refuseUnknownKnobs(const std::vector<std::string>& wanted) {
   const std::vector<std::string> names = knobNames();
   for (const std::string& knob : wanted)
@@ -26,6 +28,7 @@ void refuseUnknownKnobs(const std::vector<std::string>& wanted) {
           fmt::format("--knobs: \"{}\" is not a knob, accepted: {}", knob, fmt::join(names, ", ")));
 }
 
+// Written anew after every round: what a stopped study leaves is whole as far as it goes.
 void writeAll(const StudyResult& result, const std::filesystem::path& folder) {
   writeStudyFiles(result, folder);
   writeStudyPage(result, folder / "study.html");

@@ -30,6 +30,7 @@ void drawLine(GreyImage& image, double x0, double y0, double x1, double y1, std:
 
 PanelMaker::PanelMaker(const Comparison& comparison, int height_px) : c_(comparison) {
   const BeamGrid& g = c_.grid;
+  // The sector's box: its corners, and its lowest point where it looks straight down.
   const double x_lo = std::min({g.far * std::sin(g.first_rad), g.near * std::sin(g.first_rad)}),
                x_hi = std::max({g.far * std::sin(g.last_rad), g.near * std::sin(g.last_rad)});
   const double y_lo = g.near * std::min(std::cos(g.first_rad), std::cos(g.last_rad)),
@@ -37,6 +38,7 @@ PanelMaker::PanelMaker(const Comparison& comparison, int height_px) : c_(compari
                           ? g.far
                           : g.far * std::max(std::cos(g.first_rad), std::cos(g.last_rad));
   pixels_per_unit_ = (height_px - 8) / (y_hi - y_lo);
+  // Even sides: codecs that halve colour need them. Four pixels are left free all round.
   height_ = height_px & ~1;
   width_ =
       std::clamp(static_cast<int>((x_hi - x_lo) * pixels_per_unit_) + 8, 16, 4 * height_px) & ~1;
@@ -67,6 +69,7 @@ GreyImage PanelMaker::picture(Panel panel, int real_frame) const {
     c_.curve.apply(grey, grey);
     if (panel == Panel::difference)
       for (std::size_t i = 0; i < grey.size(); ++i)
+        // Middle grey is no difference; half the difference, so that both signs fit into a byte.
         grey[i] = c_.weights[i] > 0 ? 128 + (grey[i] - c_.real_beams.frames[frame][i]) / 2 : 0;
   } else {
     grey.assign(g.size(), 0);
@@ -97,6 +100,7 @@ void PanelMaker::addContours(int real_frame, GreyImage& image) const {
     }
 }
 
+// Precondition: all pictures have one size.
 GreyImage PanelMaker::sideBySide(std::span<const GreyImage> pictures) {
   const int width = pictures.front().width, height = pictures.front().height;
   GreyImage all{width * static_cast<int>(pictures.size()), height, {}};
@@ -113,6 +117,7 @@ GreyImage sectorPicture(const Loop& loop) {
   const Video& v = loop.video;
   GreyImage image{v.width, v.height, v.frames.front()};
   for (std::size_t p = 0; p < image.pixels.size(); ++p)
+    // What is masked shows as an even grey, so that a user sees what is not compared.
     if (loop.overlay[p] != 0) image.pixels[p] = 160;
   const Sector& s = loop.sector();
   const auto at = [&](double r, double angle) {

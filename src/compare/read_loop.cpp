@@ -34,6 +34,8 @@ void makeSquare(Video& video, double aspect) {
       fmt::format("pixels {} times as high as wide, as given: stretched", aspect));
 }
 
+// A sector that was given is taken as it is, but has to lie in the picture; one that is found must
+// not be stretched.
 void findWhere(Loop& loop, const SideOptions& side, bool is_real) {
   const char* option = is_real ? "--sector" : "--synthetic-sector";
   if (side.sector) {
@@ -41,6 +43,7 @@ void findWhere(Loop& loop, const SideOptions& side, bool is_real) {
     loop.find.sector = parseSector(option, *side.sector);
     loop.find.given = true;
     const Sector& s = loop.find.sector;
+    // Every fourth pixel each way: its area to some percent is enough.
     double inside = 0;
     for (int y = 0; y < loop.video.height; y += 4)
       for (int x = 0; x < loop.video.width; x += 4) inside += s.contains(x + 0.5, y + 0.5) ? 16 : 0;
@@ -121,6 +124,7 @@ void scaleFromRegions(Loop& loop) {
     double shrink = 1;
     if (!insidePicture(r, v)) {
       // Sizes come in whole ratios: try those that put the region around the sector.
+      // In outer radii, our choice; factors are those between usual screen and picture sizes.
       double best_misfit = 0.25;
       shrink = 0;
       for (const double factor : {2.0, 1.5, 4.0 / 3, 1.25, 1.6, 1.875, 2.5, 3.0, 4.0}) {
@@ -150,6 +154,7 @@ void scaleFromRegions(Loop& loop) {
     if (shrink == 0) continue;
     const double cm = std::sqrt(r.cm_per_pixel_x * r.cm_per_pixel_y) * shrink,
                  depth_cm = cm * s.r_max;
+    // From a mouse's heart to more than a body.
     if (depth_cm < 2 || depth_cm > 40) {
       v.notes.push_back(
           fmt::format("its scale of {:.5f} cm per pixel makes the sector {:.1f} cm deep, which no "
@@ -166,6 +171,8 @@ void scaleFromRegions(Loop& loop) {
 
 }  // namespace
 
+// Order matters: pixels are made square before the sector is looked for, and the scale needs the
+// sector.
 Loop readLoop(const std::filesystem::path& path, const SideOptions& side, bool is_real) {
   const bool folder = isRenderFolder(path);
   Loop loop;

@@ -20,10 +20,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// JSON has no infinity: the PSNR of equal frames is null.
 Json numberOrNull(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
 
+// What was taken of each loop, and from where: a number whose source a reader cannot see is no
+// result.
 Json loopJson(const Loop& l, const BeatLength& beat) {
   const Sector& s = l.sector();
   Json json{{"path", shownName(l.video.name)},
@@ -152,6 +155,7 @@ Json summaryJson(const Comparison& c) {
           {"notes", c.notes}};
 }
 
+// An empty cell is what was not measured, never 0.
 std::string framesCsv(const Comparison& c) {
   std::string text =
       "real_frame,real_time_s,synthetic_frame,synthetic_phase,repeat,counted,discrepancy";
@@ -201,6 +205,7 @@ void writeResults(const Comparison& c, const CompareOptions& options,
                                synthetic = encodePng(sectorPicture(c.synthetic));
   writeFileWhole(folder / "sector_real.png", real);
   writeFileWhole(folder / "sector_synthetic.png", synthetic);
+  // Last of all summary.json: a folder that has it is finished.
   ComparePage page(folder / "compare.html", c);
   writeFrames(c, panels, folder / "side_by_side.avi", page);
   const Json summary = summaryJson(c);

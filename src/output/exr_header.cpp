@@ -100,6 +100,8 @@ bool isShortChannelList(std::string_view value) {
   return false;
 }
 
+// No flag is set: no tiles, no long names, no deep data, one part. A header that does not end
+// within the bytes is none.
 bool isPlain(std::string_view bytes) {
   Cursor header(bytes);
   if (header.number<std::uint32_t>() != kMagic || header.number<std::uint32_t>() != kVersion)

@@ -21,8 +21,11 @@
 namespace echocine {
 namespace {
 
+// What stands in a frame's place. Another scene's whole frame is a user's mistake and not to be
+// overwritten; damage is not.
 enum class Found { nothing, another_scene, this_frame };
 
+// An attribute of the same name but another type is not the one.
 template <typename Attribute, typename Value>
 bool holds(const Imf::Header& header, const char* name, const Value& value) {
   const auto* attribute = header.findTypedAttribute<Attribute>(name);
@@ -33,6 +36,7 @@ bool hasSize(const Imf::Header& header, const Probe& probe) {
   return header.dataWindow() == Imath::Box2i({0, 0}, {probe.lines - 1, probe.samples - 1});
 }
 
+// Exactly those: a frame with more or fewer was rendered for other settings.
 bool hasChannels(const Imf::Header& header, const std::vector<Channel>& wanted) {
   std::set<std::string> names;
   for (const Channel channel : wanted) names.insert(channelName(channel));
@@ -61,6 +65,7 @@ Imf::FrameBuffer rowBuffer(const Imf::Header& header, std::vector<ChannelRow>& r
     }
     const bool is_float = channel.type != Imf::UINT;  // half floats are widened on reading
     rows.push_back({is_float, std::vector<float>(static_cast<std::size_t>(window.max.x) + 1)});
+    // Every row lands in the same memory: the values are looked at and thrown away.
     const std::size_t row_stride = 0;
     buffer.insert(it.name(), Imf::Slice(is_float ? Imf::FLOAT : Imf::UINT,
                                         reinterpret_cast<char*>(rows.back().values.data()),
@@ -113,6 +118,7 @@ Owner ownerOf(const Imf::Header& header, const std::string& scene_sha256) {
   return differ <= kDamagedDigits ? Owner::damaged : Owner::another_scene;
 }
 
+// Cheap checks first: the pixels, which take longest, are read last.
 Found look(const std::filesystem::path& path, const FrameRecord& record, const Scene& scene,
            const std::string& scene_sha256, double reference_intensity) {
   try {

@@ -14,6 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// null where a run writes no EXR: the keys are the same in every manifest.
 Json framesJson(const Manifest& manifest) {
   Json frames = Json::array();
   for (const FrameEntry& f : manifest.frames) {
@@ -32,6 +33,7 @@ Json framesJson(const Manifest& manifest) {
   return frames;
 }
 
+// Grouped by structure, as curves are drawn.
 Json keyframesJson(const Manifest& manifest) {
   Json keyframes = Json::object();
   for (const KeyframeVolume& k : manifest.keyframes)
@@ -126,6 +128,7 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest) {
   return of_stage > 0 ? stage_ms / total * part->work / of_stage : 0;
 }
 
+// Written last and whole: its presence says that the run is finished.
 void writeManifest(const std::filesystem::path& path, const Scene& scene,
                    const Manifest& manifest) {
   Json timings = stageTimesJson(manifest);

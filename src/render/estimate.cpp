@@ -17,6 +17,7 @@ namespace echocine {
 
 namespace {
 
+// The plan measures what a render does, files included.
 struct TemporaryFolder {
   std::filesystem::path path;
 
@@ -59,6 +60,7 @@ void addFirstPass(const Scene& scene, double traced_share, double frame_s, Estim
 
 }  // namespace
 
+// Six frames: enough to warm the caches, and a second or two of waiting.
 Estimate estimateLoop(const Scene& scene, int threads, const Monitor& monitor) {
   constexpr int kFrames = 6;
   const TemporaryFolder folder;

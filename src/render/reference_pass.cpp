@@ -12,6 +12,7 @@ namespace echocine {
 
 namespace {
 
+// What a kept frame holds: its planes, by far the most of it.
 std::size_t bytesOf(const PolarFrame& polar) {
   std::size_t planes =
       polar.planes.size() + (polar.intensities.empty() ? 0 : 1) + (polar.medium.empty() ? 0 : 1);
@@ -40,6 +41,7 @@ std::optional<double> findReference(const Simulator& simulator, std::pair<int, i
   const CardiacClock& clock = simulator.cardiacClock();
   if (scene.signal.reference_intensity) return scene.signal.reference_intensity;
   if (!wantsPicture(scene) || !simulator.plan().effects.contrast) return 1;
+  // All frames of the loop, also when a part is rendered: parts then have the grey of the whole.
   IntensityHistogram histogram(scene.probe);
   const std::vector<int> sampled = sampledFrames(clock.frameCount());
   const auto frames = static_cast<int>(sampled.size());
@@ -54,6 +56,7 @@ std::optional<double> findReference(const Simulator& simulator, std::pair<int, i
         simulator.clock().time(Stage::signal, [&] { histogram.add(workspace->polar.intensities); });
         frame->polar = std::move(workspace->polar);
         workspace->polar = {};
+        // Only what the signal chain still needs is kept.
         frame->polar.traces.clear();
         frame->polar.cell_echoes = {};
         return frame;

@@ -112,6 +112,7 @@ RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const
     RenderPass pass({simulator, folder, monitor, report, options.resume, earlier}, manifest, kept);
     summary.frames_done = pass.run(range.first, range.second);
     summary.passes_s = secondsSince(start) - summary.setup_s;
+    // No manifest: a folder without one is an unfinished run.
     if (summary.frames_done < summary.frames_wanted) return;
     noteCosts(simulator, summary);
     manifest.wall_ms = 1e3 * secondsSince(start) / summary.frames_done;

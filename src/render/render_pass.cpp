@@ -18,6 +18,7 @@ namespace echocine {
 
 namespace {
 
+// "frame_0012.png" beside "frame_0012.exr".
 std::string frameName(int frame, const char* extension) {
   return std::filesystem::path(ExrStack::fileName(frame)).replace_extension(extension).string();
 }
@@ -38,6 +39,7 @@ std::vector<double> loopEcg(const CardiacClock& clock, double frame_rate_hz) {
 
 }  // namespace
 
+// The version counts, for two versions may differ in a last digit; where files lie does not.
 std::string sceneSha256(const Scene& scene, const MeshMotion& motion) {
   Sha256 hash;
   hash.update(ECHOCINE_VERSION);
@@ -63,6 +65,7 @@ RenderPass::RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept)
 
 Volumes RenderPass::tracedFrame(const FrameTime& time, Workspace& workspace) {
   {
+    // Frames are made in parallel; each kept one is taken once and its memory freed.
     const std::lock_guard lock(kept_mutex_);
     if (const auto found = kept_.find(time.frame); found != kept_.end()) {
       workspace.polar = std::move(found->second.polar);
@@ -81,6 +84,7 @@ void RenderPass::writeExr(const FrameRecord& record, const Workspace& workspace,
       exr_.write(record, channelPlanes(parts_.simulator.scene().output, workspace));
 }
 
+// Browsers show JPEG and PNG, but no FFV1: then the report needs pictures of its own.
 void RenderPass::writePictures(GreyImage& image, Finished& finished) {
   const OutputSettings& o = parts_.simulator.scene().output;
   const int frame = finished.entry.record.frame;
@@ -133,6 +137,7 @@ std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
 
 // One at a time, in the order of the frames.
 void RenderPass::drain(Finished& finished) {
+  // A folder that was moved away would otherwise be made anew, file by file.
   parts_.folder.checkStillThere();
   const FrameEntry& entry = finished.entry;
   const int frame = entry.record.frame;
@@ -184,6 +189,7 @@ int RenderPass::run(int first, int last) {
     endEarly();
     throw;
   }
+  // A part of a loop may not take the place of a longer cine that stands there.
   const bool whole = done == static_cast<std::size_t>(last);
   if (parts_.simulator.scene().output.cine && !manifest_.frames.empty()) {
     parts_.simulator.clock().time(Stage::avi,

@@ -24,6 +24,7 @@ struct PacketFree {
   void operator()(AVPacket* packet) const { av_packet_free(&packet); }
 };
 
+// Precondition of all encoders, which read width * height bytes.
 void checkSize(const GreyImage& image) {
   CHECK_LT(0, image.width);
   CHECK_LT(0, image.height);
@@ -40,6 +41,8 @@ struct CompressorFree {
   void operator()(void* compressor) const { tjDestroy(compressor); }
 };
 
+// The accurate transform: the fast one differs between processors, and the same scene must give the
+// same bytes.
 std::vector<std::byte> encodeJpeg(const GreyImage& image, int quality) {
   const std::unique_ptr<void, CompressorFree> compressor(tjInitCompress());
   if (!compressor) throw std::bad_alloc();
@@ -50,6 +53,7 @@ std::vector<std::byte> encodeJpeg(const GreyImage& image, int quality) {
   if (tjCompress2(compressor.get(), image.pixels.data(), image.width, 0, image.height, TJPF_GRAY,
                   &to, &size, TJSAMP_GRAY, quality, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT) != 0) {
     const std::string reason = tjGetErrorStr2(compressor.get());
+    // The library has one code for all errors; what is short of memory must end as such.
     if (reason.find("memory") != std::string::npos) throw std::bad_alloc();
     throw JobError(fmt::format("a frame cannot be encoded as JPEG: {}", reason));
   }
@@ -123,6 +127,7 @@ std::vector<std::byte> encodeCineFrame(const GreyImage& image, CineCodec codec, 
   return encodeJpeg(image, jpeg_quality);
 }
 
+// The fast flag takes the least compression: PNGs are for looking at, not for keeping.
 std::vector<std::byte> encodePng(const GreyImage& image) {
   checkSize(image);
   png_image png{};

@@ -26,6 +26,7 @@ namespace echocine {
 
 namespace {
 
+// DCMTK keeps its decoders in global tables, which must not be filled twice.
 void setUpOnce() {
   static std::once_flag once;
   std::call_once(once, [] {
@@ -39,6 +40,7 @@ void setUpOnce() {
   throw SceneError(fmt::format("{}: {}", name, what));
 }
 
+// 0 where the tag is absent or no number: none of the tags read here can be 0.
 double numberOf(DcmItem& item, const DcmTagKey& key, unsigned long position = 0) {
   OFString text;
   if (item.findAndGetOFString(key, text, position).bad()) return 0;
@@ -105,6 +107,7 @@ void takeTimes(DcmDataset& data, Video& video) {
     video.r_waves_s.push_back(1e-3 * ms);
 }
 
+// At most 64 regions: a file may state any number of them.
 void takeRegions(DcmDataset& data, Video& video) {
   DcmSequenceOfItems* regions = nullptr;
   if (data.findAndGetSequence(DCM_SequenceOfUltrasoundRegions, regions).bad()) return;
@@ -147,6 +150,7 @@ void checkPixels(const std::string& name, DcmDataset& data, std::int64_t frames)
   DcmElement* element = nullptr;
   if (data.findAndGetElement(DCM_PixelData, element).bad() || rows == 0 || columns == 0)
     refuse(name, "a DICOM file without pictures; give an ultrasound multi-frame file");
+  // Before the decoder sees a byte: it reserves what a header says.
   checkLoopSize(name, columns, rows, frames);
   const DcmXfer syntax(data.getOriginalXfer());
   if (syntax.isEncapsulated()) return;
@@ -166,6 +170,7 @@ void addFrames(DcmDataset& data, std::int64_t frames, VideoBuilder& builder) {
   const std::string& name = builder.video().name;
   const DcmXfer syntax(data.getOriginalXfer());
   for (std::int64_t i = 0; i < frames; ++i) {
+    // One frame at a time: decoding all of a loop at once takes gigabytes.
     DicomImage image(&data, data.getOriginalXfer(), CIF_UsePartialAccessToPixelData,
                      static_cast<unsigned long>(i), 1);
     if (image.getStatus() != EIS_Normal) {
@@ -211,11 +216,13 @@ Video readDicom(const std::string& name, std::span<const std::byte> bytes) {
   file.transferInit();
   const OFCondition read = file.read(stream);
   file.transferEnd();
+  // A stream that ends within the pixels is found by their length, with a better message.
   if (read.bad() && read != EC_EndOfStream)
     refuse(name,
            fmt::format("a truncated or damaged DICOM file ({}); copy the file again", read.text()));
   DcmDataset& data = *file.getDataset();
   const double stated = numberOf(data, DCM_NumberOfFrames);
+  // Over five hours at 50 frames/s.
   if (stated > 1e6) refuse(name, fmt::format("{} frames are stated; give a few beats", stated));
   const auto frames = static_cast<std::int64_t>(std::max(1.0, stated));
   checkPixels(name, data, frames);

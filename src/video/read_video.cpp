@@ -15,6 +15,7 @@ namespace echocine {
 
 namespace {
 
+// A file of any size is refused before it is read.
 std::vector<std::byte> fileBytes(const std::filesystem::path& path) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
@@ -34,6 +35,7 @@ std::vector<std::byte> fileBytes(const std::filesystem::path& path) {
   return bytes;
 }
 
+// Lower case, for cameras write .JPG.
 std::string extensionOf(const std::filesystem::path& path) {
   std::string text = path.extension().string();
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -96,6 +98,7 @@ Video readSequence(const std::filesystem::path& folder) {
 
 }  // namespace
 
+// The mark of PS3.10: files without it, from before 1993, are not read.
 bool looksLikeDicom(std::span<const std::byte> bytes) {
   return bytes.size() > 132 && std::memcmp(bytes.data() + 128, "DICM", 4) == 0;
 }

@@ -57,6 +57,7 @@ bool isColouredAround(const std::vector<std::int16_t>& colour, std::size_t at, i
 
 }  // namespace
 
+// Multiplications cannot overflow: each side is within the limit before their product is taken.
 void checkLoopSize(const std::string& name, std::int64_t width, std::int64_t height,
                    std::int64_t frames) {
   if (width < 16 || height < 16)
@@ -120,6 +121,7 @@ void VideoBuilder::learnTint(const std::uint8_t* rgb, std::ptrdiff_t stride) {
       ++lit;
       tinted += std::abs(p[0] - luma) > 8 || std::abs(p[2] - luma) > 8 ? 1 : 0;
     }
+  // Tinted scanners colour all of their greys; our choice of 60 % leaves room for black text.
   if (10 * tinted < 6 * lit) return;  // a grey picture with some colour on it
   for (std::size_t bin = 0; bin < 16; ++bin) {
     const bool enough = red[bin].size() > 200;  // else as the next darker one
@@ -194,6 +196,7 @@ Video VideoBuilder::finish() {
     throw SceneError(fmt::format(
         "{}: holds one frame; give a loop of at least two frames, better a whole beat", v.name));
   v.repeats = findRepeats(v.frames);
+  // Not one frame differs from the one before.
   if (v.repeats.size() + 1 == v.frames.size())
     throw SceneError(fmt::format(
         "{}: is a still image, its {} frames are all alike; give a loop that moves, better a whole "

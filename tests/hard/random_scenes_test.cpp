@@ -156,6 +156,8 @@ void expectSameImage(const PolarFrame& sliced, const PolarFrame& traced) {
   EXPECT_EQ(sliced.intensities, traced.intensities);
 }
 
+// Energy: a line's echoes and backscatter cannot bring back more than was sent, whatever stands in
+// its way.
 TEST(RandomScenes, AreFiniteWithinTheEnergyOfThePulseAndTheSameThroughBothTracers) {
   forRandomWorlds(sceneCount(), [](const World& world, std::uint64_t number) {
     const EffectPlan plan = planEffects(world.scene);
@@ -242,6 +244,7 @@ World withDeeperBox(const World& world, double z_m, Dice& dice) {
 // What is added deeper reaches no shallower sample: every straight or bent path to it is longer.
 // Integration over the beam's cell is left out: it takes the losses of an edge from where the
 // line's centre passes the same surface, which for a steep wall may be deeper than the edge.
+// Causality: what comes back sooner cannot know of it.
 TEST(RandomScenes, ADeeperInterfaceChangesNothingShallower) {
   forRandomWorlds(sceneCount() / 4, [](const World& world, std::uint64_t number) {
     Dice dice(hashOf(std::uint64_t{0xdee9}, number));

@@ -65,6 +65,7 @@ Mesh rectangle(double x0, double x1, double y0, double y1, double z) {
   return mesh;
 }
 
+// Law: weights sum to 1 at every depth, so an even medium keeps its brightness.
 TEST(BeamAverageLaw, InAUniformMediumManyRaysAreOneRay) {
   World world{plainScene({medium("a", 1000, 1540, 8, 1e-3), medium("b", 1000, 1540, 8, 1e-3)}),
               {icosphere(2, 0.03).moved({0.002, 0.003, 0.05})}};
@@ -169,6 +170,7 @@ TEST(BeamAverageLaw, AStripsElevationProfileIsTheTwoWayBeam) {
 
 // Half of the lens stands in another medium: what scatters back is what the beam's profile holds of
 // each, whichever kind of probe.
+// The probe's face may stand across a boundary: each ray starts in its own medium.
 TEST(BeamAverageLaw, RaysOfOneBeamStartInDifferentMedia) {
   for (const ProbeKind kind : {ProbeKind::phased, ProbeKind::curvilinear, ProbeKind::linear}) {
     World world{plainScene({medium("a", 1000, 1540, 0, 1e-3), medium("b", 1000, 1540, 0, 3e-3)}),
@@ -209,6 +211,7 @@ double rmsError(const World& world, int rays, double reference) {
   return std::sqrt(sum / kPatterns);
 }
 
+// Plain random points would gain a factor of 2 from four times as many.
 TEST(BeamAverageLaw, ErrorsOfASmoothSceneFallFasterThanTheNumberOfRays) {
   const World world = sheetWorld(
       rotated(sheet(1, 0.5, 0), {0, 1, 0}, radiansFromDegrees(20)).moved({0, 0, 0.1}), 40);
@@ -252,6 +255,8 @@ double steepVariation(int rays) {
   return std::sqrt(squares / (kTo - kFrom) / (mean * mean) - 1);
 }
 
+// Spread over its stratum each ray covers the depths between its neighbours, so gaps close long
+// before rays are dense.
 TEST(BeamAverageLaw, ASteepWallsEchoVariesLessTheMoreRaysThereAre) {
   const double one = steepVariation(1), few = steepVariation(8), many = steepVariation(128);
   std::printf("variation with 1, 8, 128 rays: %.2f, %.3f, %.4f\n", one, few, many);
@@ -292,6 +297,7 @@ TEST(BeamAverageLaw, ASteepWallShowsTheBeamsProfileAlongTheDepth) {
 }
 
 // On walls that are smooth over a beam both ways of taking its average mean the same.
+// Where walls run across the beam, the paper's average and the traced beam must say the same.
 TEST(BeamAverageLaw, TheFilterAgreesWithTheRaysOnASmoothWallAtTheFocus) {
   World world{plainScene({medium("water", 1000, 1540), medium("wall", 1100, 1540)}),
               {icosphere(5, 0.1).moved({0.02, 0, 0.18})}};
@@ -319,6 +325,7 @@ TEST(BeamAverageLaw, TheFilterAgreesWithTheRaysOnASmoothWallAtTheFocus) {
   EXPECT_LT(worst_db, 0.2);
 }
 
+// What is random is hashed from frame and line, never drawn in the order of the work.
 TEST(BeamAverageLaw, ThreadsChangeNoBitAndFramesChangeThePattern) {
   World world = randomWorld(7);
   world.scene.probe.lines = 37;

@@ -33,6 +33,7 @@ std::size_t sampleAt(double depth_m) {
   return static_cast<std::size_t>(std::lround(depth_m * 1e3) - 1);
 }
 
+// Law: Q(q(u)) = u, with Q from erfc.
 TEST(BeamRaysLaw, QuantileIsTheInverseOfTheNormalDistribution) {
   for (int e = -330; e < 0; ++e) {
     const double u = std::pow(10.0, e / 10.0) / 2;
@@ -48,6 +49,7 @@ TEST(BeamRaysLaw, QuantileIsTheInverseOfTheNormalDistribution) {
   EXPECT_NEAR(normalQuantile(0.975), 1.959963984540054, 1e-9);
 }
 
+// One point in each nth of the unit interval, whatever n: no number of rays wastes any.
 TEST(BeamRaysLaw, AnyNumberOfPointsIsStratifiedInTheFirstDimension) {
   for (int n = 1; n <= 100; ++n) {
     std::set<int> strata;
@@ -61,6 +63,7 @@ TEST(BeamRaysLaw, AnyNumberOfPointsIsStratifiedInTheFirstDimension) {
 }
 
 // Every box of sides 2^-a, 2^-b, 2^-c with a + b + c = m holds one of 2^m points.
+// A (0, m, 3)-net: one point in every box of volume 1/n that halves the sides in any way.
 TEST(BeamRaysLaw, APowerOfTwoOfPointsIsANetInThreeDimensions) {
   constexpr int m = 6, n = 1 << m;
   for (std::uint64_t pattern = 0; pattern < 20; ++pattern)
@@ -78,6 +81,7 @@ TEST(BeamRaysLaw, APowerOfTwoOfPointsIsANetInThreeDimensions) {
       }
 }
 
+// Equal patterns would stand in the loop as a texture that does not move.
 TEST(BeamRaysLaw, PatternsDifferBetweenFramesLinesAndSeeds) {
   std::set<std::uint64_t> patterns;
   for (const int seed : {1, 2})
@@ -144,6 +148,7 @@ Moments momentsAt(double z, const Probe& p, const BeamRays& beams, double width_
   return m;
 }
 
+// Law: 1/w^2 = 1/w_t^2 + 1/w_r^2 at every depth, though rays are drawn once.
 TEST(BeamRaysLaw, TheWeightedBundleIsAsWideAsTheTwoWayBeamAtEveryDepth) {
   const Probe p = probe();
   const double wavelength = ScanGeometry(p).wavelength();
@@ -166,6 +171,7 @@ TEST(BeamRaysLaw, TheWeightedBundleIsAsWideAsTheTwoWayBeamAtEveryDepth) {
 }
 
 // Paths from the lens to its focus are equal, so the focus is at one depth for all of it.
+// What makes a lens: all its paths to the focus are of one length.
 TEST(BeamRaysLaw, ThePathsOfTheLensToItsFocusAreEqual) {
   const Probe p = probe();
   const BeamRays beams(p, {.rays = 1});

@@ -72,6 +72,7 @@ class Ventricle17 {
   std::vector<Vec3d> at_rest_;
 };
 
+// The others take over its part: the ejection fraction is a dial of its own.
 TEST(HeartSegments, AnAkineticOneStandsStillAndTheOthersKeepTheEjectionFraction) {
   Ventricle17 ill(withSegment(kMidAnterior, 0)), well(withSegment(kMidAnterior, 1));
   const double healthy_m = well.inwardAtEndSystole(kMidAnterior);
@@ -100,6 +101,7 @@ TEST(HeartSegments, ADelayShiftsItsPeakByAsMuch) {
   EXPECT_NEAR(late.ejectionFraction(), kEjectionFraction, 0.01);
 }
 
+// A partition of unity: moving all segments alike is moving the wall.
 TEST(HeartSegments, SharesSumToOneAndAreSmooth) {
   constexpr double kStep = 1e-4;
   for (double zeta = -0.1; zeta < 1.05; zeta += 0.0137)

@@ -27,6 +27,7 @@ PolarFrame traced(const Scene& scene) {
   return frame;
 }
 
+// Law: perfect TGC equals a run with every alpha 0. It undoes attenuation alone; the 1/l^2 stays.
 TEST(PerfectGain, EqualsARunWithoutAnyAttenuationToTheLastBit) {
   const PolarFrame lossy = traced(twoLayers(10, 60)), free = traced(twoLayers(0, 0));
   EXPECT_EQ(lossy.intensities, free.intensities);

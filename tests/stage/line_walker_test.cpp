@@ -70,6 +70,7 @@ TEST(LineWalker, AmongEqualPrioritiesTheLaterStructureWins) {
             (Ids{kOutside, kMuscle, kBlood, kMuscle, kOutside}));
 }
 
+// prod (1-R)^2 over those before it, and A up to it.
 TEST(LineWalker, EachEchoCarriesTheLossesBeforeIt) {
   Scene scene = heartScene();
   addStructure(scene, kMuscle, 1);
@@ -86,6 +87,7 @@ TEST(LineWalker, EachEchoCarriesTheLossesBeforeIt) {
   EXPECT_DOUBLE_EQ(line.echoes[3].depth_m, 0.07);
 }
 
+// W and n shape what comes back; what goes on is (1-R) whatever they are.
 TEST(LineWalker, GainAndExponentShapeTheEchoAndNotTheLoss) {
   Scene scene = heartScene();
   addStructure(scene, kMuscle, 1);
@@ -107,6 +109,7 @@ TEST(LineWalker, EqualMediaHaveNoInterface) {
   EXPECT_EQ(line.segments[1].strength_m2_sr, 0.2 * 1e-6);
 }
 
+// A thousandth of a wavelength: no layer that thin sends anything back.
 TEST(LineWalker, CoincidentWallsAreOneInterfaceOfTheOuterMedia) {
   Scene scene = heartScene();
   addStructure(scene, kMuscle, 1);
@@ -156,6 +159,7 @@ TEST(LineWalker, AMembraneReflectsTwiceAndEnclosesNothing) {
 }
 
 // A ray through a sheet's vertex meets several of its triangles at one distance.
+// A vertex belongs to several triangles, and the sheet is still passed once.
 TEST(LineWalker, AMembraneMetBySeveralTrianglesInAVertexReflectsAsIfMetByOne) {
   Scene scene = heartScene();
   addStructure(scene, kMuscle, 0, true);
@@ -213,6 +217,8 @@ TEST(LineWalker, StartsInTheMediumThatHoldsTheProbe) {
   EXPECT_EQ(line.echoes.size(), 2u);
 }
 
+// A scanner takes 1540 m/s for all of the path, so what lies behind a faster medium stands too
+// near.
 TEST(LineWalker, TravelTimePlacesEchoesByTheScannersSpeed) {
   Scene scene = heartScene();
   addStructure(scene, kFast, 1);

@@ -135,6 +135,7 @@ TEST_F(ExrStackTest, ReadsBackWhatItsFilesHold) {
     }
 }
 
+// A medium's number that is rounded is another medium.
 TEST_F(ExrStackTest, MediaAreWholeUnderEveryLoss) {
   scene.output.exr_pixel = ExrPixel::half;
   scene.output.exr_compression = ExrCompression::pxr24;

@@ -35,6 +35,7 @@ TEST_F(ExrStackTest, ResumeFindsNothingWhereNothingOrNonsenseStands) {
   EXPECT_EQ(stack().existing(record), "");
 }
 
+// At lengths all over the file, and one byte short: a run may be killed at any byte.
 TEST_F(ExrStackTest, ResumeTakesNoFileThatIsCutShortAnywhere) {
   stack().write(record, planes());
   const std::string whole = test::bytesOf(file());
@@ -46,6 +47,7 @@ TEST_F(ExrStackTest, ResumeTakesNoFileThatIsCutShortAnywhere) {
   EXPECT_EQ(stack().existing(record), "");
 }
 
+// Each byte of header and first rows changed in turn.
 TEST_F(ExrStackTest, DamagedHeaderNeverCrashes) {
   stack().write(record, planes());
   const std::string whole = test::bytesOf(file());

@@ -62,6 +62,7 @@ TEST(AnyProbe, ASingleLineStandsInTheMiddle) {
   EXPECT_NEAR(lineGeometry(linear, 0).origin.x, 0, 1e-15);
 }
 
+// Users' axes are rarely at right angles to the last digit: depth is kept, lateral made to fit.
 TEST(AnyProbe, TheFrameIsOrthonormalWhateverTheLateralDirection) {
   const Probe probe =
       probeOf({{"axis", "[1, 2, 3]"}, {"lateral", "[5, 0.1, 7]"}, {"apex", "[1, -2, 3]"}});

@@ -15,6 +15,7 @@ namespace {
 
 using namespace support;
 
+// The one place where other units than SI exist.
 TEST(SceneReader, TurnsEveryUnitIntoSI) {
   SceneText text = SceneText::oneBox("blood");
   text.probe = {{"apex", "[1, 2, -6.5]"}, {"axis", "[0, 0, 2]"}, {"lateral", "[3, 0, 1]"},
@@ -110,6 +111,7 @@ TEST(SceneReader, OneMediumOfTwoStructuresIsOneMedium) {
   EXPECT_EQ(scene.structures[2].medium, scene.background);
 }
 
+// lv_10 comes after lv_9, though not by letters.
 TEST(SceneReader, KeyframesOfAPatternAreSortedByTheirNumbersAndEvenlySpaced) {
   const TempFolder folder;
   for (const char* name : {"lv_10.obj", "lv_9.obj", "lv_1.obj", "lv_2.obj", "la_1.obj"})

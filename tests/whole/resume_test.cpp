@@ -54,6 +54,7 @@ TEST_F(PartsOfALoop, AShorterRunLeavesNoFrameOfALongerOne) {
             (std::set<std::string>{"frame_0000.exr", "frame_0001.exr"}));
 }
 
+// The bytes of an undisturbed run, whatever was there before.
 TEST_F(PartsOfALoop, ResumingMendsWhatIsMissingTruncatedOrGarbageToTheSameBytes) {
   ASSERT_EQ(render().code, 0);
   const auto whole = lastingFiles(out);
