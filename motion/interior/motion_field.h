@@ -32,7 +32,7 @@ struct InteriorSurface {
   KeyframeWeights weights;                      // one keyframe: stands still
   std::vector<std::vector<Vec3f>> keyframes_m;  // vertices at each keyframe, as they are drawn
   bool membrane = false;
-  int priority = 0;  // where closed surfaces overlap the highest wins, the first among equals
+  int priority = 0;  // where closed surfaces overlap the highest wins, among equals the later
   // Surfaces with the same number of 0 or more move as one group; below 0: by itself.
   int group = -1;
 };
