@@ -8,13 +8,9 @@
 
 #include "core/check.h"
 #include "core/error.h"
-#include "core/hash.h"
 #include "motion/keyframes/interpolation.h"
-#include "motion/mesh/mesh_check.h"
-#include "motion/mesh/mesh_io.h"
 #include "motion/mesh/surface_measure.h"
 #include "motion/near_plane.h"
-#include "motion/repair/mesh_repair.h"
 #include "motion/subdivision/limit_normals.h"
 #include "motion/subdivision/subdivision.h"
 
@@ -29,17 +25,6 @@ std::vector<double> phasesOf(const Structure& structure) {
   std::vector<double> phases;
   for (const Keyframe& keyframe : structure.keyframes) phases.push_back(keyframe.phase);
   return phases;
-}
-
-std::vector<KeyframeMesh> readKeyframes(const Structure& structure, double mesh_unit_m,
-                                        Sha256& digest, std::vector<std::string>& notes) {
-  std::vector<KeyframeMesh> keyframes;
-  for (const Keyframe& keyframe : structure.keyframes)
-    keyframes.push_back(readKeyframe(keyframe, structure, digest));
-  const std::string note = repairKeyframes(structure, keyframes);
-  if (!note.empty()) notes.push_back(note);
-  checkKeyframes(structure, keyframes, mesh_unit_m);
-  return keyframes;
 }
 
 // A frame whose axes are left-handed mirrors space, which turns every face around.
@@ -182,14 +167,17 @@ void MeshMotion::MovingSurface::subdivide(SurfaceTopology& topology, const MeshT
   subdivision.reset();
 }
 
-MeshMotion::MeshMotion(const Scene& scene)
-    : smooth_normals_(scene.accuracy.normals == Normals::smooth) {
-  Sha256 digest;
+MeshMotion::MeshMotion(const Scene& scene) : MeshMotion(readKeyframes(scene), scene) {}
+
+MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
+    : repair_notes_(set.repair_notes),
+      smooth_normals_(scene.accuracy.normals == Normals::smooth),
+      input_sha256_(set.sha256) {
+  CHECK_EQ(set.structures.size(), scene.structures.size());
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     const Structure& structure = scene.structures[s];
     KeyframeWeights weights(phasesOf(structure), scene.motion.interpolation, structure.place);
-    const auto keyframes =
-        readKeyframes(structure, scene.motion.mesh_unit_m, digest, repair_notes_);
+    const std::vector<KeyframeMesh>& keyframes = set.structures[s];
     SurfaceTopology topology = controlTopology(structure, static_cast<SurfaceId>(s),
                                                keyframes.front().mesh, scene.probe.pose);
     std::vector<std::vector<Vec3d>> positions_m;
@@ -212,7 +200,6 @@ MeshMotion::MeshMotion(const Scene& scene)
     surfaces_.push_back(std::move(topology));
     moving_.push_back(std::move(moving));
   }
-  input_sha256_ = digest.hex();
 }
 
 MeshMotion::~MeshMotion() = default;

@@ -1,11 +1,12 @@
 #pragma once
-// The beating heart: keyframe meshes in, the surfaces of any phase out.
+// The moving surfaces of a scene: keyframe meshes in, the surfaces of any phase out.
 
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/box.h"
+#include "motion/keyframe_set.h"
 #include "motion/keyframes/control_motion.h"
 #include "motion/surface_frame.h"
 #include "scene/scene.h"
@@ -14,9 +15,10 @@ namespace echocine {
 
 class MeshMotion {
  public:
-  // Reads and checks every keyframe of every structure and prepares interpolation and subdivision.
+  // Prepares interpolation and subdivision of keyframes by the scene's motion, probe and accuracy.
   // Errors: SceneError naming the scene's place, the file and the face or vertex.
-  explicit MeshMotion(const Scene& scene);
+  MeshMotion(const KeyframeSet& keyframes, const Scene& scene);
+  explicit MeshMotion(const Scene& scene);  // of readKeyframes(scene)
   ~MeshMotion();
   MeshMotion(MeshMotion&&) noexcept;
 

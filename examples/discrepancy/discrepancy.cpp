@@ -2,29 +2,27 @@
 // and again. Build it with the project; run it as `discrepancy_example LOOP SCENE.toml`.
 
 #include <cstdio>
+#include <exception>
 
 #include "compare/compare.h"
 #include "compare/discrepancy.h"
 #include "core/parallel.h"
 #include "scene/scene_reader.h"
-#include "simulate/frame_maker.h"
-#include "simulate/plan_loop.h"
+#include "simulate/simulator.h"
 
 using namespace echocine;
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   if (argc != 3) return 2;
   withThreads(0, [&] {
     const compare::Loop real = compare::readLoop(argv[1], {}, true);  // once
     const Scene scene = readScene(argv[2]);
-    const compare::Discrepancy discrepancy(real,
-                                           scene.probe);  // once: the loop on the probe's lines
-    const MeshMotion motion(scene);                       // the model, again when it changes
-    const LoopPlan plan = planLoop(scene, motion);
-    FrameMaker maker(scene, plan, motion);
-    const auto workspace = maker.workspace();
-    maker.trace({}, *workspace);             // the first frame: end-diastole
-    maker.picture(1e-4, *workspace, false);  // to grey in beam space, white at this intensity
-    std::printf("%.4f\n", discrepancy(0, workspace->polar.signal));  // against real frame 0
+    const compare::Discrepancy discrepancy(real, scene.probe);  // once: the loop on the probe's lines
+    const Simulator simulator(scene);                           // the model, again when it changes
+    const Frame frame = simulator.frame(0);                     // end-diastole
+    std::printf("%.4f\n", discrepancy(0, frame.greys));        // against real frame 0
   });
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

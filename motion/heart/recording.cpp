@@ -106,7 +106,7 @@ std::vector<double> keyframePhases(const Cycle& cycle, int count) {
 }
 
 Recording record(const ParametricHeart& heart, View view, int keyframes, KeyframeSpacing spacing,
-                 const std::function<bool()>& keep_going) {
+                 const Monitor& monitor) {
   Recording recording;
   recording.pose = poseOf(view, heart);
   recording.phases = spacing == KeyframeSpacing::even ? evenPhases(keyframes)
@@ -120,7 +120,7 @@ Recording record(const ParametricHeart& heart, View view, int keyframes, Keyfram
   recording.places.resize(recording.phases.size());
   parallelBlocks(recording.phases.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      if (!keep_going()) throw JobError("stopped");
+      if (!monitor.keep_going()) throw JobError("stopped");
       const std::vector<Part> parts = heart.at(recording.phases[k]);
       for (std::size_t p = 0; p < parts.size(); ++p)
         recording.parts[p].control_m[k] = controlPoints(parts[p], recording.parts[p].tags);

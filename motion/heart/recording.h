@@ -2,9 +2,9 @@
 // A beat of the parametric heart as keyframes: control meshes for Loop subdivision, and the truth
 // about them.
 
-#include <functional>
 #include <vector>
 
+#include "core/monitor.h"
 #include "motion/heart/views.h"
 #include "scene/mesh_tags.h"
 
@@ -41,10 +41,8 @@ enum class KeyframeSpacing { by_motion, even };
 std::vector<double> keyframePhases(const Cycle& cycle, int count);
 
 // Runs in parallel. Throws SceneError when the heart has no shape at some phase, JobError when
-// keep_going(), asked before each keyframe, says no.
-Recording record(
-    const ParametricHeart& heart, View view, int keyframes,
-    KeyframeSpacing spacing = KeyframeSpacing::by_motion,
-    const std::function<bool()>& keep_going = [] { return true; });
+// the monitor, asked before each keyframe, wants to stop.
+Recording record(const ParametricHeart& heart, View view, int keyframes,
+                 KeyframeSpacing spacing = KeyframeSpacing::by_motion, const Monitor& monitor = {});
 
 }  // namespace echocine::heart

@@ -67,11 +67,26 @@ void appendLid(const TriangleMesh& lid, const std::filesystem::path& file, bool 
   joinTags(lid.tags, joined_from_lid, file, mesh.tags);
 }
 
+template <typename T>
+void addBytes(const std::vector<T>& values, Sha256& digest) {
+  digest.update(std::as_bytes(std::span(values)));
+}
+
+TriangleMesh digested(const TriangleMesh& mesh, Sha256& digest) {
+  addBytes(mesh.positions, digest);
+  addBytes(mesh.triangles, digest);
+  addBytes(mesh.tags.edges, digest);
+  addBytes(mesh.tags.vertices, digest);
+  return mesh;
+}
+
 KeyframeMesh joinFiles(const Keyframe& keyframe, bool degenerate, Sha256& digest) {
   KeyframeMesh joined;
   VertexAt vertex_at;
-  for (const std::filesystem::path& file : keyframe.files) {
-    TriangleMesh mesh = readMesh(file, digest);
+  for (std::size_t i = 0; i < keyframe.files.size(); ++i) {
+    const std::filesystem::path& file = keyframe.files[i];
+    const bool in_memory = i < keyframe.meshes.size() && keyframe.meshes[i];
+    TriangleMesh mesh = in_memory ? digested(*keyframe.meshes[i], digest) : readMesh(file, digest);
     checkFile(mesh, file, degenerate);
     joined.parts.push_back(
         {file, joined.mesh.triangles.size(), joined.mesh.positions.size(), std::move(mesh.faces)});

@@ -1,5 +1,5 @@
 #pragma once
-// Mesh files of one keyframe -> one triangle mesh.
+// Mesh files of one keyframe, or meshes in memory -> one triangle mesh.
 
 #include "core/hash.h"
 #include "motion/mesh/mesh.h"

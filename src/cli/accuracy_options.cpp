@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/progress_bar.h"
+#include "cli/progress_line.h"
 #include "cli/standard_error.h"
-#include "cli/stop_signal.h"
 #include "core/error.h"
 #include "scene/tolerance_reader.h"
 #include "study/tolerance.h"
@@ -26,15 +25,9 @@ Preset presetOf(const std::string& name) {
 }
 
 AccuracyChoice choose(const Scene& scene, double tolerance_db, int threads, bool quiet) {
-  ProgressBar bar(quiet);
-  ToleranceMonitor monitor;
-  monitor.keep_going = [] { return !stopWanted(); };
-  monitor.tell = [&bar](int tried) {
-    // How many it will take is not known before.
-    if (bar.due(0, 1)) bar.draw(0, 1, fmt::format("{} settings tried for the tolerance", tried));
-  };
-  AccuracyChoice choice = chooseWithin(scene, tolerance_db, threads, monitor);
-  bar.finish();
+  ProgressLine line(quiet);
+  AccuracyChoice choice = chooseWithin(scene, tolerance_db, threads, line.monitor());
+  line.finish();
   return choice;
 }
 

@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-#include "cli/warning_printer.h"
+#include "cli/progress_line.h"
+#include "cli/stop_signal.h"
 #include "compare/results.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -66,16 +67,20 @@ void print(const compare::Comparison& c, const std::filesystem::path& folder) {
       c.discrepancy,
       std::count_if(c.frames.begin(), c.frames.end(), [](const auto& f) { return f.counted(); }),
       c.discrepancy_as_placed);
-  fmt::print("  {:<22}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}\n", "", "RMS", "PSNR", "NCC", "SSIM", "MI",
-             "GC");
-  const auto row = [](const char* name, const FrameMetrics& m) {
-    fmt::print("  {:<22}{:8.2f}{:8.2f}{:8.3f}{:8.3f}{:8.3f}{:8.3f}\n", name, m.rms, m.psnr_db,
-               m.ncc, m.ssim, m.mutual_information, m.gradient_correlation);
+  std::string head = fmt::format("  {:<22}", "");
+  for (const Metric& metric : kMetrics)
+    if (*metric.column) head += fmt::format("{:>8}", metric.column);
+  fmt::print("{}\n", head);
+  const auto row = [](const std::string& name, const FrameMetrics& m) {
+    std::string line = fmt::format("  {:<22}", name);
+    for (const Metric& metric : kMetrics)
+      if (*metric.column) line += fmt::format("{:8.{}f}", m.*metric.value, metric.decimals);
+    fmt::print("{}\n", line);
   };
   row("greys as they are", c.mean_before);
   row("greys calibrated", c.mean_after);
   for (const auto& band : c.mean_bands)
-    if (band.metrics.weight > 0) row(("  band: " + band.structure).c_str(), band.metrics);
+    if (band.metrics.weight > 0) row("  band: " + band.structure, band.metrics);
   fmt::print("  time: {}, shift {:.2f} frames, pace {:.3f}, confidence {:.2f}\n", c.time.method,
              c.time.shift_frames, c.time.rate, c.time.confidence);
   const auto& p = c.space.placement;
@@ -128,8 +133,11 @@ CompareCommand::CompareCommand(CLI::App& app) {
 int CompareCommand::run() {
   options_.align_space = !no_space_;
   checkOptions(options_);
+  listenForStop();
+  ProgressLine line(quiet_);
   withThreads(threads_, [&] {
-    const compare::Comparison comparison = compareLoops(options_, warningPrinter(quiet_));
+    const compare::Comparison comparison = compareLoops(options_, line.monitor());
+    line.finish();
     writeResults(comparison, options_, folder_);
     if (!quiet_) print(comparison, folder_);
   });

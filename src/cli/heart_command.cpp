@@ -92,7 +92,7 @@ int HeartCommand::run() {
   wanted_.parameters = heart::parametersFrom(given_);
   for (const std::string& segment : segments_) applySegment(segment, wanted_.parameters);
   listenForStop();
-  writeHeart(wanted_, folder_, [] { return !stopWanted(); });
+  writeHeart(wanted_, folder_, {.keep_going = [] { return !stopWanted(); }});
   if (!quiet_)
     fmt::print("{0} keyframes in {1}\n  echocine render {2} -o LOOP\n", wanted_.keyframes,
                folder_.string(), (folder_ / "scene.toml").string());

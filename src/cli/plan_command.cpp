@@ -83,8 +83,8 @@ int PlanCommand::run() {
   listenForStop();
   Scene scene = readScene(scene_file_);
   accuracy_.resolve(scene, threads_, quiet_);
-  const Estimate estimate = estimateLoop(
-      scene, threads_, [] { return !stopWanted(); }, warningPrinter(quiet_));
+  const Monitor monitor{.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)};
+  const Estimate estimate = estimateLoop(scene, threads_, monitor);
   if (json_) {
     printJson(estimate);
   } else {

@@ -1,10 +1,10 @@
 #pragma once
-// How far a run is: a bar that redraws itself on a terminal, a line now and then elsewhere.
+// How far a job is: a bar that redraws itself on a terminal, a line now and then elsewhere.
 
 #include <chrono>
 
 #include "cli/progress_bar.h"
-#include "render/render.h"
+#include "core/monitor.h"
 
 namespace echocine {
 
@@ -14,11 +14,15 @@ class ProgressLine {
   void show(const Progress& progress);  // from one thread at a time
   void finish();                        // ends an open bar
 
+  // Shows progress here, stops on a signal and prints warnings. Precondition: the line outlives it.
+  Monitor monitor();
+
  private:
   using Clock = std::chrono::steady_clock;
+  bool quiet_;
   ProgressBar bar_;
-  Progress::Pass pass_ = Progress::Pass::measuring;
-  Clock::time_point pass_start_ = Clock::now(), last_told_ = Clock::now();
+  Task task_ = Task::reference;
+  Clock::time_point task_start_ = Clock::now(), last_told_ = Clock::now();
 };
 
 }  // namespace echocine

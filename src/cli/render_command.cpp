@@ -7,7 +7,6 @@
 
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
-#include "cli/warning_printer.h"
 #include "core/error.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "scene/scene_reader.h"
@@ -83,11 +82,7 @@ int RenderCommand::run() {
   if (!frames_.empty()) options_.frames = parseRange(frames_, CardiacClock(scene).frameCount());
   options_.accuracy = accuracy_.resolve(scene, options_.threads, quiet_);
   ProgressLine line(quiet_);
-  Monitor monitor;
-  monitor.tell = [&line](const Progress& progress) { line.show(progress); };
-  monitor.keep_going = [] { return !stopWanted(); };
-  monitor.warn = warningPrinter(quiet_);
-  const RenderSummary summary = renderLoop(scene, options_, monitor);
+  const RenderSummary summary = renderLoop(scene, options_, line.monitor());
   line.finish();
   if (summary.frames_done < summary.frames_wanted)
     throw JobError(

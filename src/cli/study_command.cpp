@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "cli/progress_bar.h"
+#include "cli/progress_line.h"
 #include "cli/stop_signal.h"
 #include "core/error.h"
 #include "scene/scene_reader.h"
@@ -71,18 +71,11 @@ int StudyCommand::run() {
   refuseUnknownKnobs(options_.knobs);
   listenForStop();
   const Scene scene = readScene(scene_file_);
-  ProgressBar bar(quiet_);
-  StudyMonitor monitor;
-  monitor.tell = [&bar](std::size_t done, std::size_t total, double left_s) {
-    if (bar.due(done, total))
-      bar.draw(
-          done, total,
-          fmt::format("{}/{} settings measured, {} left", done, total, minutesAndSeconds(left_s)));
-  };
-  monitor.keep_going = [] { return !stopWanted(); };
-  monitor.round_done = [this](const StudyResult& r) { writeAll(r, options_.folder); };
-  const StudyResult result = runStudy(scene, options_, monitor);
-  bar.finish();
+  ProgressLine line(quiet_);
+  const StudyResult result =
+      runStudy(scene, options_, line.monitor(),
+               [this](const StudyResult& r) { writeAll(r, options_.folder); });
+  line.finish();
   if (result.rows.empty())
     throw JobError("stopped before the first setting was measured: nothing is written");
   writeAll(result, options_.folder);

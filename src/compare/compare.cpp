@@ -241,32 +241,13 @@ GreyCurve fitCurve(const CompareOptions& options, const std::vector<std::vector<
   return fit.solve(options.monotone);
 }
 
+// Over counted frames.
 FrameMetrics meanOf(const std::vector<FrameResult>& frames,
                     const std::function<const FrameMetrics&(const FrameResult&)>& pick) {
-  FrameMetrics mean;
-  double n = 0, squares = 0;
-  for (const FrameResult& f : frames) {
-    if (!f.counted()) continue;
-    const FrameMetrics& m = pick(f);
-    if (!(m.weight > 0)) continue;
-    ++n;
-    squares += m.rms * m.rms;
-    mean.mean_absolute += m.mean_absolute;
-    mean.ncc += m.ncc;
-    mean.ssim += m.ssim;
-    mean.mutual_information += m.mutual_information;
-    mean.histogram_distance += m.histogram_distance;
-    mean.gradient_correlation += m.gradient_correlation;
-    mean.weight += m.weight;
-  }
-  if (n == 0) return mean;
-  for (double* value : {&mean.mean_absolute, &mean.ncc, &mean.ssim, &mean.mutual_information,
-                        &mean.histogram_distance, &mean.gradient_correlation, &mean.weight})
-    *value /= n;
-  mean.rms = std::sqrt(squares / n);  // of all samples of all frames
-  mean.psnr_db =
-      mean.rms > 0 ? 20 * std::log10(255 / mean.rms) : std::numeric_limits<double>::infinity();
-  return mean;
+  std::vector<FrameMetrics> counted;
+  for (const FrameResult& f : frames)
+    if (f.counted()) counted.push_back(pick(f));
+  return loopMetrics(counted);
 }
 
 void measureFrames(const std::vector<std::vector<float>>& paired, const BoundaryBands* bands,
@@ -304,6 +285,22 @@ void summarise(Comparison& c) {
                             })});
 }
 
+// Reading each loop, laying them on one another, calibrating, measuring.
+class Steps {
+ public:
+  explicit Steps(const Monitor& monitor) : monitor_(monitor) {}
+  // Throws JobError when the monitor wants to stop.
+  void next() {
+    if (!monitor_.keep_going()) throw JobError("stopped while loops were compared");
+    monitor_.tell({Task::comparing, ++done_, kSteps});
+  }
+
+ private:
+  static constexpr std::size_t kSteps = 5;
+  const Monitor& monitor_;
+  std::size_t done_ = 0;
+};
+
 void noteAssumptions(Comparison& c) {
   const auto say = [&](const std::string& note) { c.notes.push_back(note); };
   for (const Loop* loop : {&c.synthetic, &c.real})
@@ -324,17 +321,20 @@ void noteAssumptions(Comparison& c) {
 
 }  // namespace
 
-Comparison compareLoops(const CompareOptions& options,
-                        const std::function<void(const std::string&)>& warn) {
+Comparison compareLoops(const CompareOptions& options, const Monitor& monitor) {
+  Steps steps(monitor);
   Comparison c;
   c.synthetic = readLoop(options.synthetic, options.synthetic_side, false);
+  steps.next();
   c.real = readLoop(options.real, options.real_side, true);
+  steps.next();
   std::optional<BoundaryBands> bands;
   registerLoops(options, c);
+  steps.next();
   if (!options.scene.empty())
     bands.emplace(options.scene, c.synthetic, c.grid, 1e-3 * options.band_mm);
   noteAssumptions(c);
-  for (const std::string& note : c.notes) warn(note);
+  for (const std::string& note : c.notes) monitor.warn(note);
   const std::vector<double> discrepancy = discrepancies(c);
   c.discrepancy = meanCounted(c, discrepancy);
   std::vector<std::vector<float>> paired;
@@ -354,7 +354,9 @@ Comparison compareLoops(const CompareOptions& options,
     paired.push_back(pairedFrame(c, c.synthetic_beams, j));
   }
   c.curve = fitCurve(options, paired, c.real_beams.frames, c);
+  steps.next();
   measureFrames(paired, bands ? &*bands : nullptr, c);
+  steps.next();
   summarise(c);
   return c;
 }

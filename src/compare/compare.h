@@ -2,7 +2,6 @@
 // The comparison in one call: two loops in, every estimate and metric out.
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "compare/loop.h"
 #include "compare/space_alignment.h"
 #include "compare/time_alignment.h"
+#include "core/monitor.h"
 #include "metrics/frame_metrics.h"
 #include "signal/picture.h"
 
@@ -74,9 +74,9 @@ struct Comparison {
   std::vector<float> weights;            // of its samples
 };
 
-// Throws SceneError (unusable input or option) and JobError. `keep_going` is asked between stages.
-Comparison compareLoops(const CompareOptions& options,
-                        const std::function<void(const std::string&)>& warn);
+// Throws SceneError (unusable input or option) and JobError, also when the monitor, which is asked
+// between stages, wants to stop.
+Comparison compareLoops(const CompareOptions& options, const Monitor& monitor = {});
 
 // A loop with its sector, scale and rate, from a render folder or any video.
 Loop readLoop(const std::filesystem::path& path, const SideOptions& side, bool is_real);

@@ -60,7 +60,10 @@ void ComparePage::addFrame(Panel panel, std::span<const std::byte> image) {
 
 void ComparePage::finish(const Json& summary, std::span<const std::byte> sector_real,
                          std::span<const std::byte> sector_synthetic) {
+  Json metrics = Json::array();
+  for (const Metric& metric : kMetrics) metrics.push_back({metric.key, metric.title});
   writer_.finish({{"summary", summary},
+                  {"metrics", metrics},
                   {"stride", stride_},
                   {"frames", framesJson(c_, *this)},
                   {"sector_real", dataUri(sector_real)},

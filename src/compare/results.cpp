@@ -77,13 +77,8 @@ Json timeJson(const TimeAlignment& t) {
 }
 
 void addMetrics(std::string& row, const FrameMetrics& m, bool measured) {
-  if (!measured) {
-    row += ",,,,,,,,";
-    return;
-  }
-  row += fmt::format(",{:.6g},{:.6g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}", m.rms, m.mean_absolute,
-                     std::isfinite(m.psnr_db) ? fmt::format("{:.6g}", m.psnr_db) : "inf", m.ncc,
-                     m.ssim, m.mutual_information, m.histogram_distance, m.gradient_correlation);
+  for (const Metric& metric : kMetrics)
+    row += measured ? fmt::format(",{:.6g}", m.*metric.value) : ",";
 }
 
 // The cine and the frames of the page.
@@ -112,14 +107,9 @@ void writeFrames(const Comparison& c, const PanelMaker& panels, const std::files
 }  // namespace
 
 Json metricsJson(const FrameMetrics& m) {
-  return {{"rms", m.rms},
-          {"mean_absolute", m.mean_absolute},
-          {"psnr_db", numberOrNull(m.psnr_db)},
-          {"ncc", m.ncc},
-          {"ssim", m.ssim},
-          {"mutual_information_bits", m.mutual_information},
-          {"histogram_distance", m.histogram_distance},
-          {"gradient_correlation", m.gradient_correlation}};
+  Json json = Json::object();
+  for (const Metric& metric : kMetrics) json[metric.key] = numberOrNull(m.*metric.value);
+  return json;
 }
 
 Json summaryJson(const Comparison& c) {
@@ -159,18 +149,10 @@ Json summaryJson(const Comparison& c) {
 std::string framesCsv(const Comparison& c) {
   std::string text =
       "real_frame,real_time_s,synthetic_frame,synthetic_phase,repeat,counted,discrepancy";
-  const char* names[] = {"rms",
-                         "mean_absolute",
-                         "psnr_db",
-                         "ncc",
-                         "ssim",
-                         "mutual_information_bits",
-                         "histogram_distance",
-                         "gradient_correlation"};
   std::vector<std::string> groups{"before", "after"};
   for (const BandMetrics& b : c.mean_bands) groups.push_back("band_" + b.structure);
   for (const std::string& group : groups)
-    for (const char* name : names) text += fmt::format(",{}_{}", name, group);
+    for (const Metric& metric : kMetrics) text += fmt::format(",{}_{}", metric.key, group);
   text += "\n";
   for (const FrameResult& f : c.frames) {
     const bool measured = f.synthetic_place >= 0;

@@ -10,6 +10,10 @@ namespace echocine {
 // Runs `body` with at most `threads` threads (0: one per core). Everything below must run inside.
 void withThreads(int threads, const std::function<void()>& body);
 
+// Runs `body` with this thread alone. Unlike withThreads() it leaves other threads of the process
+// as they are, so any thread may call it at any time, also from inside a loop.
+void inThisThread(const std::function<void()>& body);
+
 // Number of threads the enclosing withThreads() allows.
 int threadCount();
 

@@ -268,6 +268,10 @@ void withThreads(int threads, const std::function<void()>& body) {
   body();
 }
 
+void inThisThread(const std::function<void()>& body) {
+  withThreads(1, body);
+}
+
 int threadCount() {
   return this_pool ? this_pool->size() : 1;
 }

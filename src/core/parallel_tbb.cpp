@@ -25,6 +25,11 @@ void withThreads(int threads, const std::function<void()>& body) {
   arena.execute(body);
 }
 
+void inThisThread(const std::function<void()>& body) {
+  tbb::task_arena arena(1);
+  arena.execute(body);
+}
+
 int threadCount() {
   return tbb::this_task_arena::max_concurrency();
 }

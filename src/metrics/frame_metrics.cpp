@@ -73,6 +73,10 @@ double histogramDistance(const BeamPair& p) {
   return n > 0 ? area / n : 0;
 }
 
+double psnrOf(double rms) {
+  return rms > 0 ? 20 * std::log10(255 / rms) : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 double gradientCorrelation(const BeamPair& p) {
@@ -122,13 +126,37 @@ FrameMetrics frameMetrics(const BeamPair& p) {
   if (!(m.weight > 0)) return m;
   m.rms = std::sqrt(squares / m.weight);
   m.mean_absolute = absolutes / m.weight;
-  m.psnr_db = m.rms > 0 ? 20 * std::log10(255 / m.rms) : std::numeric_limits<double>::infinity();
+  m.psnr_db = psnrOf(m.rms);
   m.ncc = sums.coefficient();
   m.ssim = structuralSimilarity(p);
   m.mutual_information = mutualInformation(p);
   m.histogram_distance = histogramDistance(p);
   m.gradient_correlation = gradientCorrelation(p);
   return m;
+}
+
+FrameMetrics loopMetrics(std::span<const FrameMetrics> frames) {
+  FrameMetrics mean;
+  double n = 0;
+  for (const FrameMetrics& m : frames) {
+    if (!(m.weight > 0)) continue;
+    ++n;
+    mean.weight += m.weight;
+    for (const Metric& metric : kMetrics) {
+      const double value = m.*metric.value;
+      if (metric.mean == LoopMean::arithmetic) mean.*metric.value += value;
+      if (metric.mean == LoopMean::root_mean_square) mean.*metric.value += value * value;
+    }
+  }
+  if (n == 0) return mean;
+  mean.weight /= n;
+  for (const Metric& metric : kMetrics) {
+    double& value = mean.*metric.value;
+    if (metric.mean == LoopMean::arithmetic) value /= n;
+    if (metric.mean == LoopMean::root_mean_square) value = std::sqrt(value / n);
+    if (metric.mean == LoopMean::psnr) value = psnrOf(mean.rms);
+  }
+  return mean;
 }
 
 }  // namespace echocine

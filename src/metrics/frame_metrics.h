@@ -1,6 +1,7 @@
 #pragma once
 // How unlike two frames in beam space are.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,41 @@ struct FrameMetrics {
   double gradient_correlation = 0;  // gradientCorrelation()
   double weight = 0;                // N; all others are 0 when this is
 };
+
+// How frames' values become that of a loop.
+enum class LoopMean {
+  arithmetic,
+  root_mean_square,  // of all samples of all frames
+  psnr               // of the loop's root mean square
+};
+
+// Every metric once: means, tables, files and pages follow these rows.
+struct Metric {
+  const char* key;     // in CSV and JSON
+  const char* title;   // with its unit
+  const char* column;  // on the terminal; empty: not shown there
+  int decimals;
+  double FrameMetrics::*value;
+  LoopMean mean = LoopMean::arithmetic;
+};
+
+inline constexpr std::array kMetrics{
+    Metric{"rms", "RMS difference, grey levels", "RMS", 2, &FrameMetrics::rms,
+           LoopMean::root_mean_square},
+    Metric{"mean_absolute", "Mean absolute difference, grey levels", "", 2,
+           &FrameMetrics::mean_absolute},
+    Metric{"psnr_db", "PSNR, dB", "PSNR", 2, &FrameMetrics::psnr_db, LoopMean::psnr},
+    Metric{"ncc", "Normalised cross-correlation", "NCC", 3, &FrameMetrics::ncc},
+    Metric{"ssim", "SSIM", "SSIM", 3, &FrameMetrics::ssim},
+    Metric{"mutual_information_bits", "Mutual information, bits", "MI", 3,
+           &FrameMetrics::mutual_information},
+    Metric{"histogram_distance", "Histogram distance, grey levels", "", 2,
+           &FrameMetrics::histogram_distance},
+    Metric{"gradient_correlation", "Gradient correlation", "GC", 3,
+           &FrameMetrics::gradient_correlation}};
+
+// Of those frames that have any weight; all 0 without one.
+FrameMetrics loopMetrics(std::span<const FrameMetrics> frames);
 
 struct BeamPair {
   std::span<const float> x, y, weights;  // line-major, lines * samples

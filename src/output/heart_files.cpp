@@ -184,18 +184,17 @@ reference_intensity = 2e-4   # white, of the transmitted intensity: one gain for
   return text;
 }
 
-void writeHeart(const HeartFiles& wanted, const fs::path& folder,
-                const std::function<bool()>& keep_going) {
+void writeHeart(const HeartFiles& wanted, const fs::path& folder, const Monitor& monitor) {
   if (const std::string fault = heart::faultOf(wanted.parameters); !fault.empty())
     throw SceneError("heart: " + fault);
   FolderInTheMaking making(folder);
   withThreads(wanted.threads, [&] {
     const heart::ParametricHeart model(wanted.parameters);
     const Recording recording =
-        heart::record(model, wanted.view, wanted.keyframes, wanted.spacing, keep_going);
+        heart::record(model, wanted.view, wanted.keyframes, wanted.spacing, monitor);
     for (const RecordedPart& part : recording.parts)
       for (std::size_t k = 0; k < part.control_m.size(); ++k) {
-        if (!keep_going()) throw JobError("stopped");
+        if (!monitor.keep_going()) throw JobError("stopped");
         writeText(making.path() / heartMeshName(part, k), heartMesh(part, k));
       }
     writeText(making.path() / "truth.json", heart::truthText(model, recording));

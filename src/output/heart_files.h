@@ -2,7 +2,6 @@
 // The parametric heart as files: keyframes, a scene that renders them, the truth.
 
 #include <filesystem>
-#include <functional>
 #include <string>
 
 #include "motion/heart/recording.h"
@@ -28,9 +27,8 @@ std::string heartMeshName(const heart::RecordedPart& part, std::size_t keyframe)
 
 // Writes NAME_00.obj ... of every part, scene.toml and truth.json into `folder`, which must be
 // absent or empty and is there whole or not at all. Throws SceneError for parameters that no heart
-// fulfils, JobError when the folder cannot be written or keep_going() says no.
-void writeHeart(
-    const HeartFiles& wanted, const std::filesystem::path& folder,
-    const std::function<bool()>& keep_going = [] { return true; });
+// fulfils, JobError when the folder cannot be written or the monitor wants to stop.
+void writeHeart(const HeartFiles& wanted, const std::filesystem::path& folder,
+                const Monitor& monitor = {});
 
 }  // namespace echocine

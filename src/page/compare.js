@@ -4,11 +4,7 @@
 (() => {
   const { data, byId, element, number, fixed } = page;
   const { summary, frames } = data;
-  const kMetrics = [
-    ["rms", "RMS difference, grey levels"], ["mean_absolute", "Mean absolute difference, grey levels"],
-    ["psnr_db", "PSNR, dB"], ["ncc", "Normalised cross-correlation"], ["ssim", "SSIM"],
-    ["mutual_information_bits", "Mutual information, bits"], ["histogram_distance", "Histogram distance, grey levels"],
-    ["gradient_correlation", "Gradient correlation"]];
+  const kMetrics = data.metrics;  // [key, title] of each
   const bands = Object.keys(summary.bands_after_calibration);
   const rate_hz = summary.real.frame_rate_hz;
   const frame_x = rate_hz ? frames.real_time_s : frames.real_frame;

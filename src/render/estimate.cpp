@@ -59,8 +59,7 @@ void addFirstPass(const Scene& scene, double traced_share, double frame_s, Estim
 
 }  // namespace
 
-Estimate estimateLoop(const Scene& scene, int threads, const std::function<bool()>& keep_going,
-                      const std::function<void(const std::string&)>& warn) {
+Estimate estimateLoop(const Scene& scene, int threads, const Monitor& monitor) {
   constexpr int kFrames = 6;
   const TemporaryFolder folder;
   Estimate estimate;
@@ -70,7 +69,7 @@ Estimate estimateLoop(const Scene& scene, int threads, const std::function<bool(
   few.signal.reference_intensity = scene.signal.reference_intensity.value_or(1);
   const RenderOptions options{
       .folder = folder.path, .threads = threads, .frames = std::pair(0, rendered), .resume = false};
-  const RenderSummary summary = renderLoop(few, options, {.keep_going = keep_going, .warn = warn});
+  const RenderSummary summary = renderLoop(few, options, monitor);
   if (summary.frames_done < rendered) throw JobError("stopped while the plan was measured");
   estimate.measured = summary.manifest;
   const double frame_s = summary.passes_s / rendered;

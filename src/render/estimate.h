@@ -14,9 +14,6 @@ struct Estimate {
 
 // Renders up to six frames of the loop to a temporary folder, which is removed.
 // Throws SceneError and JobError as renderLoop() does, and a JobError when keep_going() says no.
-// `warn` is told what renderLoop() warns of.
-Estimate estimateLoop(
-    const Scene& scene, int threads, const std::function<bool()>& keep_going,
-    const std::function<void(const std::string&)>& warn = [](const std::string&) {});
+Estimate estimateLoop(const Scene& scene, int threads, const Monitor& monitor = {});
 
 }  // namespace echocine

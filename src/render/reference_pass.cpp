@@ -9,18 +9,19 @@ namespace {
 
 std::size_t bytesOf(const PolarFrame& polar) {
   std::size_t planes =
-      polar.planes.size() + (polar.signal.empty() ? 0 : 1) + (polar.medium.empty() ? 0 : 1);
+      polar.planes.size() + (polar.intensities.empty() ? 0 : 1) + (polar.medium.empty() ? 0 : 1);
   return planes * sizeof(float) * static_cast<std::size_t>(polar.lines) *
          static_cast<std::size_t>(polar.samples);
 }
 
 }  // namespace
 
-std::optional<double> findReference(const Scene& scene, const LoopPlan& plan, FrameMaker& maker,
-                                    const CardiacClock& clock, std::pair<int, int> range,
+std::optional<double> findReference(const Simulator& simulator, std::pair<int, int> range,
                                     const Monitor& monitor, KeptFrames& kept) {
+  const Scene& scene = simulator.scene();
+  const CardiacClock& clock = simulator.cardiacClock();
   if (scene.signal.reference_intensity) return scene.signal.reference_intensity;
-  if (!wantsPicture(scene) || !plan.effects.contrast) return 1;
+  if (!wantsPicture(scene) || !simulator.plan().effects.contrast) return 1;
   IntensityHistogram histogram(scene.probe);
   const int frames = clock.frameCount();
   std::size_t kept_bytes = 0;
@@ -29,9 +30,9 @@ std::optional<double> findReference(const Scene& scene, const LoopPlan& plan, Fr
       monitor.keep_going,
       [&](std::size_t i) -> std::shared_ptr<void> {
         auto frame = std::make_shared<KeptFrame>();
-        const std::shared_ptr<Workspace> workspace = maker.workspace();
-        frame->volumes_ml = maker.trace(clock.at(static_cast<int>(i)), *workspace);
-        maker.clock().time(Stage::signal, [&] { histogram.add(workspace->polar.signal); });
+        const std::shared_ptr<Workspace> workspace = simulator.workspace();
+        frame->volumes_ml = simulator.trace(clock.at(static_cast<int>(i)), *workspace);
+        simulator.clock().time(Stage::signal, [&] { histogram.add(workspace->polar.intensities); });
         frame->polar = std::move(workspace->polar);
         workspace->polar = {};
         frame->polar.traces.clear();
@@ -45,10 +46,10 @@ std::optional<double> findReference(const Scene& scene, const LoopPlan& plan, Fr
           kept_bytes += bytesOf(frame.polar);
           if (kept_bytes <= kKeptBytes) kept.emplace(index, std::move(frame));
         }
-        monitor.tell({Progress::Pass::measuring, static_cast<int>(i) + 1, frames});
+        monitor.tell({Task::reference, i + 1, static_cast<std::size_t>(frames)});
       });
   if (done < static_cast<std::size_t>(frames)) return std::nullopt;
-  if (maker.work().crossings == 0) return 1;
+  if (simulator.work().crossings == 0) return 1;
   return histogram.percentile(scene.signal.reference_percentile);
 }
 

@@ -4,9 +4,8 @@
 #include <map>
 #include <optional>
 
-#include "motion/cycle/cardiac_clock.h"
 #include "render/render.h"
-#include "simulate/frame_maker.h"
+#include "simulate/simulator.h"
 
 namespace echocine {
 
@@ -25,8 +24,7 @@ using KeptFrames = std::map<int, KeptFrame>;
 // of `range` are kept, as many as kKeptBytes hold. Nothing when the monitor stops the run.
 // Where no frame has anything to be seen the percentile would paint an even nothing white; then the
 // reference is the transmitted intensity, 1, and the loop is black.
-std::optional<double> findReference(const Scene& scene, const LoopPlan& plan, FrameMaker& maker,
-                                    const CardiacClock& clock, std::pair<int, int> range,
+std::optional<double> findReference(const Simulator& simulator, std::pair<int, int> range,
                                     const Monitor& monitor, KeptFrames& kept);
 
 }  // namespace echocine

@@ -9,14 +9,12 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "motion/cycle/cardiac_clock.h"
 #include "output/exr_stack.h"
 #include "output/output_folder.h"
 #include "render/reference_pass.h"
 #include "render/render_pass.h"
 #include "render/report.h"
-#include "simulate/frame_maker.h"
-#include "simulate/plan_loop.h"
+#include "simulate/simulator.h"
 
 namespace echocine {
 
@@ -50,15 +48,15 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 }
 
 // Stage times per frame: frames of both passes share the stages up to the signal chain.
-void noteCosts(const FrameMaker& maker, RenderSummary& summary) {
+void noteCosts(const Simulator& simulator, RenderSummary& summary) {
   Manifest& manifest = summary.manifest;
-  manifest.stage_ms = maker.clock().milliseconds();
+  manifest.stage_ms = simulator.clock().milliseconds();
   for (std::size_t s = 0; s < kStages; ++s)
     manifest.stage_ms[s] /= static_cast<Stage>(s) <= Stage::signal
-                                ? std::max(maker.tracedFrames(), summary.frames_done)
+                                ? std::max(simulator.tracedFrames(), summary.frames_done)
                                 : summary.frames_done;
-  manifest.work = maker.work();
-  manifest.keyframes = maker.keyframeVolumes();
+  manifest.work = simulator.work();
+  manifest.keyframes = simulator.keyframeVolumes();
 }
 
 }  // namespace
@@ -67,33 +65,34 @@ RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const
   const auto start = std::chrono::steady_clock::now();
   RenderSummary summary;
   warn(scene.warnings, monitor, summary.manifest);
-  const MeshMotion motion(scene);   // keyframes read, checked, ready to interpolate
-  const CardiacClock clock(scene);  // when each frame is, and where in the beat
-  const std::pair range = frameRange(options, clock.frameCount());
+  const auto motion = std::make_shared<const MeshMotion>(scene);  // keyframes, ready to interpolate
+  const std::pair range = frameRange(options, CardiacClock(scene).frameCount());
   summary.frames_wanted = range.second - range.first;
   Manifest& manifest = summary.manifest;
   manifest.accuracy = options.accuracy;
-  manifest.loop_frames = clock.frameCount();
-  manifest.scene_sha256 = sceneSha256(scene, motion);
+  manifest.loop_frames = CardiacClock(scene).frameCount();
+  manifest.scene_sha256 = sceneSha256(scene, *motion);
   if (options.resume) refuseOtherScene(scene, options.folder, manifest);
   withThreads(options.threads, [&] {
-    manifest.plan = planLoop(scene, motion);  // what has to be computed at all, and how
+    // What has to be computed at all, and how; then motion -> geometry -> trace -> signal of a
+    // frame.
+    const Simulator simulator(scene, motion);
+    manifest.plan = simulator.plan();
     warn(manifest.plan.warnings, monitor, manifest);
     if (!monitor.keep_going()) return;
     const OutputFolder folder(options.folder, scene.output, options.resume);
-    folder.removeStale(clock.frameCount());
-    FrameMaker maker(scene, manifest.plan, motion);  // motion -> geometry -> trace -> signal
+    folder.removeStale(manifest.loop_frames);
     summary.setup_s = secondsSince(start);
     KeptFrames kept;  // the loop's one reference for log compression, then every frame with it
-    const auto reference = findReference(scene, manifest.plan, maker, clock, range, monitor, kept);
+    const auto reference = findReference(simulator, range, monitor, kept);
     if (!reference) return;
     manifest.reference_intensity = *reference;
-    ReportPage report(folder.report(), scene, clock, range);
-    RenderPass pass({scene, maker, clock, folder, monitor, report, options.resume}, manifest, kept);
+    ReportPage report(folder.report(), scene, simulator.cardiacClock(), range);
+    RenderPass pass({simulator, folder, monitor, report, options.resume}, manifest, kept);
     summary.frames_done = pass.run(range.first, range.second);
     summary.passes_s = secondsSince(start) - summary.setup_s;
     if (summary.frames_done < summary.frames_wanted) return;
-    noteCosts(maker, summary);
+    noteCosts(simulator, summary);
     manifest.wall_ms = 1e3 * secondsSince(start) / summary.frames_done;
     folder.checkStillThere();
     report.finish(manifest);

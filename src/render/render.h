@@ -2,11 +2,11 @@
 // The whole program in one call: a scene in, a folder with its cine loop out.
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "core/monitor.h"
 #include "output/manifest.h"
 
 namespace echocine {
@@ -17,20 +17,6 @@ struct RenderOptions {
   std::optional<std::pair<int, int>> frames;  // first and one past the last; absent: the whole loop
   bool resume = false;                        // keep frames whose EXR is whole
   AccuracyRecord accuracy{};                  // how the scene's was chosen, for the manifest
-};
-
-// How far a run is, told after each finished frame from one thread at a time.
-struct Progress {
-  enum class Pass { measuring, rendering } pass = Pass::rendering;
-  int done = 0, total = 0;
-};
-
-struct Monitor {
-  std::function<void(const Progress&)> tell = [](const Progress&) {};
-  std::function<bool()> keep_going = [] { return true; };
-  // What is accepted but hardly meant, each line as soon as it is known: those of the scene before
-  // a mesh is read. The manifest keeps them all.
-  std::function<void(const std::string&)> warn = [](const std::string&) {};
 };
 
 struct RenderSummary {

@@ -51,12 +51,15 @@ RenderPass::RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept)
     : parts_(parts),
       manifest_(manifest),
       kept_(kept),
-      exr_(parts.folder.intensity(), parts.scene, manifest.scene_sha256,
+      exr_(parts.folder.intensity(), parts.simulator.scene(), manifest.scene_sha256,
            manifest.reference_intensity),
-      overlay_(parts.scene, parts.maker.chain().geometry(),
-               parts.scene.output.ecg ? loopEcg(parts.clock, parts.scene.acquisition.frame_rate_hz)
-                                      : std::vector<double>{}),
-      cine_(parts.folder.cine(), parts.scene.output, parts.scene.acquisition.frame_rate_hz) {}
+      overlay_(parts.simulator.scene(), parts.simulator.chain().geometry(),
+               parts.simulator.scene().output.ecg
+                   ? loopEcg(parts.simulator.cardiacClock(),
+                             parts.simulator.scene().acquisition.frame_rate_hz)
+                   : std::vector<double>{}),
+      cine_(parts.folder.cine(), parts.simulator.scene().output,
+            parts.simulator.scene().acquisition.frame_rate_hz) {}
 
 Volumes RenderPass::tracedFrame(const FrameTime& time, Workspace& workspace) {
   {
@@ -68,18 +71,20 @@ Volumes RenderPass::tracedFrame(const FrameTime& time, Workspace& workspace) {
       return volumes_ml;
     }
   }
-  return parts_.maker.trace(time, workspace);
+  return parts_.simulator.trace(time, workspace);
 }
 
-void RenderPass::writeExr(const FrameRecord& record, const PolarFrame& polar, Finished& finished) {
-  if (!parts_.scene.output.exr || !finished.entry.exr_sha256.empty()) return;
-  finished.entry.exr_sha256 = exr_.write(record, channelPlanes(parts_.scene.output, polar));
+void RenderPass::writeExr(const FrameRecord& record, const Workspace& workspace,
+                          Finished& finished) {
+  if (!parts_.simulator.scene().output.exr || !finished.entry.exr_sha256.empty()) return;
+  finished.entry.exr_sha256 =
+      exr_.write(record, channelPlanes(parts_.simulator.scene().output, workspace));
 }
 
 void RenderPass::writePictures(GreyImage& image, Finished& finished) {
-  const OutputSettings& o = parts_.scene.output;
+  const OutputSettings& o = parts_.simulator.scene().output;
   const int frame = finished.entry.record.frame;
-  overlay_.draw(image, static_cast<double>(frame) / parts_.clock.frameCount());
+  overlay_.draw(image, static_cast<double>(frame) / parts_.simulator.cardiacClock().frameCount());
   if (o.cine) finished.cine_frame = encodeCineFrame(image, o.codec, o.jpeg_quality);
   const bool shown = parts_.report.shows(frame) && !(o.cine && o.codec == CineCodec::mjpg);
   if (shown && !o.png)
@@ -92,20 +97,20 @@ void RenderPass::writePictures(GreyImage& image, Finished& finished) {
 }
 
 std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
-  const FrameTime time = parts_.clock.at(frame);
+  const FrameTime time = parts_.simulator.cardiacClock().at(frame);
   auto finished = std::make_shared<Finished>();
   finished->entry.record = {frame, time.time_s, time.phase, time.beat};
   const FrameRecord& record = finished->entry.record;
-  StageClock& clock = parts_.maker.clock();
-  const OutputSettings& o = parts_.scene.output;
+  StageClock& clock = parts_.simulator.clock();
+  const OutputSettings& o = parts_.simulator.scene().output;
   if (parts_.resume && o.exr)
     finished->entry.exr_sha256 = clock.time(Stage::exr, [&] { return exr_.existing(record); });
 
-  const std::shared_ptr<Workspace> workspace = parts_.maker.workspace();
+  const std::shared_ptr<Workspace> workspace = parts_.simulator.workspace();
   finished->entry.volumes_ml = tracedFrame(time, *workspace);
   GreyImage& image =
-      parts_.maker.picture(manifest_.reference_intensity, *workspace, o.cine || o.png);
-  clock.time(Stage::exr, [&] { writeExr(record, workspace->polar, *finished); });
+      parts_.simulator.picture(manifest_.reference_intensity, *workspace, o.cine || o.png);
+  clock.time(Stage::exr, [&] { writeExr(record, *workspace, *finished); });
   if (o.cine || o.png) clock.time(Stage::avi, [&] { writePictures(image, *finished); });
   return finished;
 }
@@ -115,9 +120,9 @@ void RenderPass::drain(Finished& finished) {
   parts_.folder.checkStillThere();
   const FrameEntry& entry = finished.entry;
   const int frame = entry.record.frame;
-  const OutputSettings& o = parts_.scene.output;
+  const OutputSettings& o = parts_.simulator.scene().output;
   if (o.cine || o.png) {
-    parts_.maker.clock().time(Stage::avi, [&] {
+    parts_.simulator.clock().time(Stage::avi, [&] {
       if (o.cine) cine_.add(finished.cine_frame);
       if (parts_.report.shows(frame))
         parts_.report.addFrame(finished.report_frame.empty() ? finished.cine_frame
@@ -150,7 +155,8 @@ int RenderPass::run(int first, int last) {
   };
   const auto collect = [&](std::size_t i, std::shared_ptr<void> result) {
     drain(*static_cast<Finished*>(result.get()));
-    parts_.monitor.tell({Progress::Pass::rendering, static_cast<int>(i) + 1 - first, last - first});
+    parts_.monitor.tell({Task::rendering, i + 1 - static_cast<std::size_t>(first),
+                         static_cast<std::size_t>(last - first)});
   };
   std::size_t done = 0;
   try {
@@ -162,8 +168,9 @@ int RenderPass::run(int first, int last) {
     throw;
   }
   const bool whole = done == static_cast<std::size_t>(last);
-  if (parts_.scene.output.cine && !manifest_.frames.empty()) {
-    parts_.maker.clock().time(Stage::avi, [&] { whole ? cine_.finish() : cine_.finishEarly(); });
+  if (parts_.simulator.scene().output.cine && !manifest_.frames.empty()) {
+    parts_.simulator.clock().time(Stage::avi,
+                                  [&] { whole ? cine_.finish() : cine_.finishEarly(); });
     if (whole) manifest_.files["cine.avi"] = sha256HexOfFile(parts_.folder.cine());
   }
   return static_cast<int>(done) - first;

@@ -4,14 +4,13 @@
 #include <memory>
 #include <string>
 
-#include "motion/cycle/cardiac_clock.h"
 #include "output/exr_stack.h"
 #include "output/output_folder.h"
 #include "output/overlay.h"
 #include "render/reference_pass.h"
 #include "render/render.h"
 #include "render/report.h"
-#include "simulate/frame_maker.h"
+#include "simulate/simulator.h"
 #include "video/cine_writer.h"
 
 namespace echocine {
@@ -23,9 +22,7 @@ std::string sceneSha256(const Scene& scene, const MeshMotion& motion);
 class RenderPass {
  public:
   struct Parts {
-    const Scene& scene;
-    FrameMaker& maker;
-    const CardiacClock& clock;
+    const Simulator& simulator;
     const OutputFolder& folder;
     const Monitor& monitor;
     ReportPage& report;
@@ -47,7 +44,7 @@ class RenderPass {
 
   std::shared_ptr<Finished> make(int frame);
   Volumes tracedFrame(const FrameTime& time, Workspace& workspace);
-  void writeExr(const FrameRecord& record, const PolarFrame& polar, Finished& finished);
+  void writeExr(const FrameRecord& record, const Workspace& workspace, Finished& finished);
   void writePictures(GreyImage& image, Finished& finished);
   void drain(Finished& finished);
   void endEarly();

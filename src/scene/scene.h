@@ -3,6 +3,7 @@
 // of the scene format stands here once, as a member's initial value; scene_reader.cpp has the keys.
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "scene/channel.h"
 #include "scene/medium.h"
 #include "scene/probe.h"
+#include "scene/triangle_mesh.h"
 
 namespace echocine {
 
@@ -44,6 +46,9 @@ struct MotionSettings {
 struct Keyframe {
   std::vector<std::filesystem::path> files;  // the mesh, then its lids
   double phase = 0;                          // [0, 1)
+  // Meshes that are in memory, in the order of `files`, which then are only what messages call
+  // them; empty: all are read.
+  std::vector<std::shared_ptr<const TriangleMesh>> meshes{};
 };
 
 // What is mended in a structure's meshes before they are checked, in this order.

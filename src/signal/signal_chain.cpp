@@ -16,13 +16,15 @@ SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
   if (settings_.tgc == Tgc::table) gains_ = timeGains(settings_.tgc_table, scene.probe);
 }
 
-void SignalChain::process(PolarFrame& frame) const {
-  if (!gains_.empty()) applyTimeGains(gains_, frame.signal);
-  if (beam_) beam_->apply(frame.signal);
+void SignalChain::process(Intensities& intensities) const {
+  if (!gains_.empty()) applyTimeGains(gains_, intensities);
+  if (beam_) beam_->apply(intensities.values);
 }
 
-void SignalChain::compress(PolarFrame& frame, double reference_intensity) const {
-  compressIntensities(frame.signal, reference_intensity, settings_.dynamic_range_db, frame.signal);
+Greys SignalChain::compress(Intensities&& intensities, double reference_intensity) const {
+  Greys greys(intensities.release());
+  compressIntensities(greys, reference_intensity, settings_.dynamic_range_db, greys);
+  return greys;
 }
 
 }  // namespace echocine

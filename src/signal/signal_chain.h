@@ -1,16 +1,16 @@
 #pragma once
 // The scanner's signal processing, the same in every frame of a loop:
 // time gain -> beam width -> log compression -> scan conversion -> grey map.
-// Spread is the tracer's part (it knows which intensity was scattered), by the signal_terms of its
-// request.
+// Spread is the tracer's part (it knows which intensity was scattered), by the intensity_terms of
+// its request.
 
 #include <optional>
 #include <vector>
 
+#include "core/beam_plane.h"
 #include "scene/effect_plan.h"
 #include "signal/beam_width.h"
 #include "signal/scan_conversion.h"
-#include "trace/polar_frame.h"
 
 namespace echocine {
 
@@ -20,20 +20,17 @@ class SignalChain {
 
   const PictureGeometry& geometry() const { return geometry_; }
 
-  // Time gain and beam width, in place on frame.signal: intensities as they are compressed.
-  void process(PolarFrame& frame) const;
+  // Time gain and beam width, in place: intensities as they are compressed.
+  void process(Intensities& intensities) const;
 
-  // Log compression in place on frame.signal: from processed intensities to grey 0..1 in beam
-  // space.
-  void compress(PolarFrame& frame, double reference_intensity) const;
+  // Log compression against the loop's one reference. The greys take over the intensities' memory.
+  Greys compress(Intensities&& intensities, double reference_intensity) const;
 
   // Scan conversion and grey map.
-  void picture(const PolarFrame& frame, GreyImage& image) const {
-    converter_.convert(frame.signal, image);
-  }
+  void picture(const Greys& greys, GreyImage& image) const { converter_.convert(greys, image); }
   // Scan conversion alone: grey 0..1, -1 outside the sector.
-  void picture(const PolarFrame& frame, std::vector<float>& grey) const {
-    converter_.convert(frame.signal, grey);
+  void picture(const Greys& greys, std::vector<float>& picture) const {
+    converter_.convert(greys, picture);
   }
 
  private:

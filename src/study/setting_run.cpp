@@ -68,32 +68,28 @@ Scene showing(Scene scene) {
   return scene;
 }
 
-SettingRun::SettingRun(Scene scene, MotionShelf& shelf)
-    : scene_(std::make_unique<Scene>(std::move(scene))), shelf_(&shelf) {
-  const std::shared_ptr<const MeshMotion> motion = shelf_->motionOf(*scene_);
-  plan_ = std::make_unique<LoopPlan>(planLoop(*scene_, *motion));
+SettingRun::SettingRun(Scene scene, MotionShelf& shelf) : scene_(std::move(scene)), shelf_(&shelf) {
+  const std::shared_ptr<const MeshMotion> motion = shelf_->motionOf(scene_);
+  plan_ = planLoop(scene_, *motion);
   for (const SurfaceTopology& surface : motion->surfaces())
-    if (!plan_->left_out[index(surface.id)]) vertices_ += surface.vertex_count;
+    if (!plan_.left_out[index(surface.id)]) vertices_ += surface.vertex_count;
 }
 
 std::string SettingRun::signature() const {
-  nlohmann::ordered_json json = sceneJson(*scene_);
-  json["accuracy"]["interface_echo"] = plan_->cell_echoes;
-  json["effects"]["refraction"] = plan_->effects.refraction;
+  nlohmann::ordered_json json = sceneJson(scene_);
+  json["accuracy"]["interface_echo"] = plan_.cell_echoes;
+  json["effects"]["refraction"] = plan_.effects.refraction;
   return json.dump();
 }
 
-FrameMaker& SettingRun::maker() {
-  if (!maker_) {
-    motion_ = shelf_->motionOf(*scene_);
-    maker_ = std::make_unique<FrameMaker>(*scene_, *plan_, *motion_);
-  }
-  return *maker_;
+const Simulator& SettingRun::simulator() {
+  if (!simulator_)
+    simulator_ = std::make_unique<const Simulator>(scene_, shelf_->motionOf(scene_), plan_);
+  return *simulator_;
 }
 
 void SettingRun::rest() {
-  maker_.reset();
-  motion_.reset();
+  simulator_.reset();
 }
 
 WorkCounts SettingRun::workPerFrame() const {
@@ -107,11 +103,11 @@ WorkCounts SettingRun::workPerFrame() const {
 
 // A second walk that keeps what it judged of each crossing, and samples nothing.
 InterfaceMap SettingRun::interfacesOf(Workspace& workspace) const {
-  const Probe& probe = scene_->probe;
-  TraceSettings settings(*scene_, plan_->effects);
+  const Probe& probe = scene_.probe;
+  TraceSettings settings(scene_, plan_.effects);
   settings.note_hits = true;
   PlaneRequest nothing;
-  nothing.signal = false;
+  nothing.intensities = false;
   PolarFrame walked;
   std::visit([&](const auto& geometry) { traceFrame(geometry, probe, settings, nothing, walked); },
              workspace.geometry);
@@ -119,22 +115,24 @@ InterfaceMap SettingRun::interfacesOf(Workspace& workspace) const {
 }
 
 FramePicture SettingRun::picture(const FrameTime& time, double reference_intensity,
-                                 bool with_interfaces, Intensities made_of) {
-  FrameMaker& making = maker();
+                                 bool with_interfaces, MadeOf made_of) {
+  const Simulator& making = simulator();
   const WorkCounts before = making.work();
   const std::shared_ptr<Workspace> workspace = making.workspace();
-  const bool stored = made_of == Intensities::stored && scene_->output.exr;
-  const ExrStack stack = exrStack(*scene_, reference_intensity);
+  const bool stored = made_of == MadeOf::stored && scene_.output.exr;
+  const ExrStack stack = exrStack(scene_, reference_intensity);
   const FrameRecord record{0, 0, time.phase, 0};
   PolarFrame& polar = workspace->polar;
   making.traceLines(time, *workspace);
   if (stored)
-    polar.signal = readBack(stack.encode(record, {{Channel::y, polar.signal, {}}}), Channel::y);
+    polar.intensities.values =
+        readBack(stack.encode(record, {{Channel::y, polar.intensities, {}}}), Channel::y);
   making.process(time, *workspace);
   FramePicture picture;
   picture.image = making.picture(reference_intensity, *workspace, true);
-  making.chain().picture(polar, picture.grey);
-  if (stored) picture.exr_bytes = stack.encode(record, channelPlanes(scene_->output, polar)).size();
+  making.chain().picture(workspace->greys, picture.grey);
+  if (stored)
+    picture.exr_bytes = stack.encode(record, channelPlanes(scene_.output, *workspace)).size();
   if (with_interfaces) picture.interfaces = interfacesOf(*workspace);
   WorkCounts after = making.work();
   work_.bvh_updates += after.bvh_updates - before.bvh_updates;
@@ -148,25 +146,25 @@ FramePicture SettingRun::picture(const FrameTime& time, double reference_intensi
 }
 
 double SettingRun::referenceIntensity(const std::vector<FrameTime>& times) {
-  if (scene_->signal.reference_intensity) return *scene_->signal.reference_intensity;
-  if (!plan_->effects.contrast) return 1;
-  IntensityHistogram histogram(scene_->probe);
-  FrameMaker& making = maker();
+  if (scene_.signal.reference_intensity) return *scene_.signal.reference_intensity;
+  if (!plan_.effects.contrast) return 1;
+  IntensityHistogram histogram(scene_.probe);
+  const Simulator& making = simulator();
   const std::shared_ptr<Workspace> workspace = making.workspace();
   for (const FrameTime& time : times) {
     making.trace(time, *workspace);
-    histogram.add(workspace->polar.signal);
+    histogram.add(workspace->polar.intensities);
   }
   return making.work().crossings == 0 ? 1
-                                      : histogram.percentile(scene_->signal.reference_percentile);
+                                      : histogram.percentile(scene_.signal.reference_percentile);
 }
 
 StageTimes SettingRun::timeBatch(const std::vector<FrameTime>& times, std::size_t frames,
                                  double reference_intensity) {
-  FrameMaker& making = maker();
-  const OutputSettings& o = scene_->output;
-  const ExrStack stack = exrStack(*scene_, reference_intensity);
-  const Overlay overlay(*scene_, making.chain().geometry(), {});
+  const Simulator& making = simulator();
+  const OutputSettings& o = scene_.output;
+  const ExrStack stack = exrStack(scene_, reference_intensity);
+  const Overlay overlay(scene_, making.chain().geometry(), {});
   const std::array<double, kStages> before = making.clock().milliseconds();
   const auto start = std::chrono::steady_clock::now();
   parallelOrdered(
@@ -179,7 +177,7 @@ StageTimes SettingRun::timeBatch(const std::vector<FrameTime>& times, std::size_
         if (o.exr)
           making.clock().time(Stage::exr, [&] {
             sha256Hex(stack.encode({static_cast<int>(i), 0, time.phase, 0},
-                                   channelPlanes(o, workspace->polar)));
+                                   channelPlanes(o, *workspace)));
           });
         if (o.cine)
           making.clock().time(Stage::avi, [&] {

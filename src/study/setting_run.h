@@ -10,7 +10,7 @@
 #include "motion/cycle/cardiac_clock.h"
 #include "output/exr_stack.h"
 #include "output/overlay.h"
-#include "simulate/frame_maker.h"
+#include "simulate/simulator.h"
 #include "video/cine_writer.h"
 
 namespace echocine {
@@ -33,7 +33,7 @@ class MotionShelf {
 // Which intensities a picture is made of: those that were traced, or what is read back of them once
 // they are stored the way the scene stores its channels (output.exr_compression, exr_pixel; those
 // that were traced where it stores none).
-enum class Intensities { traced, stored };
+enum class MadeOf { traced, stored };
 
 // A frame of one setting as it is compared.
 struct FramePicture {
@@ -58,15 +58,15 @@ class SettingRun {
   // Precondition: the shelf outlives the probe.
   SettingRun(Scene scene, MotionShelf& shelf);
 
-  const Scene& scene() const { return *scene_; }
-  const LoopPlan& plan() const { return *plan_; }
+  const Scene& scene() const { return scene_; }
+  const LoopPlan& plan() const { return plan_; }
 
   // Equal for two settings that compute the same: what "auto" became takes its place.
   std::string signature() const;
 
   // Traces the frame; nothing is written.
   FramePicture picture(const FrameTime& time, double reference_intensity, bool with_interfaces,
-                       Intensities made_of = Intensities::traced);
+                       MadeOf made_of = MadeOf::traced);
 
   // The loop's white from these frames alone: absolute if the scene has it, else its percentile.
   double referenceIntensity(const std::vector<FrameTime>& times);
@@ -85,14 +85,13 @@ class SettingRun {
   void rest();
 
  private:
-  FrameMaker& maker();
+  const Simulator& simulator();
   InterfaceMap interfacesOf(Workspace& workspace) const;
 
-  std::unique_ptr<Scene> scene_;
+  Scene scene_;
   MotionShelf* shelf_;
-  std::unique_ptr<LoopPlan> plan_;
-  std::shared_ptr<const MeshMotion> motion_;  // while there is a maker
-  std::unique_ptr<FrameMaker> maker_;
+  LoopPlan plan_;
+  std::unique_ptr<const Simulator> simulator_;
   WorkCounts work_;
   int worked_frames_ = 0;
   std::size_t vertices_ = 0;

@@ -29,8 +29,14 @@ double secondsSince(Clock::time_point start) {
 
 class Study {
  public:
-  Study(const Scene& scene, const StudyOptions& options, const StudyMonitor& monitor)
-      : scene_(showing(scene)), options_(options), monitor_(monitor), start_(Clock::now()) {}
+  using RoundDone = std::function<void(const StudyResult&)>;
+  Study(const Scene& scene, const StudyOptions& options, const Monitor& monitor,
+        const RoundDone& round_done)
+      : scene_(showing(scene)),
+        options_(options),
+        monitor_(monitor),
+        round_done_(round_done),
+        start_(Clock::now()) {}
 
   StudyResult run() {
     prepare();
@@ -42,7 +48,7 @@ class Study {
       const double took_s = secondsSince(begin);
       const bool enough = secondsSince(start_) + took_s > options_.budget_s;
       if (enough) result_.complete = true;
-      monitor_.round_done(finished());
+      round_done_(finished());
       if (enough) break;
     }
     return finished();
@@ -61,7 +67,8 @@ class Study {
 
   Scene scene_;
   const StudyOptions& options_;
-  const StudyMonitor& monitor_;
+  const Monitor& monitor_;
+  const RoundDone& round_done_;
   Clock::time_point start_;
   MotionShelf shelf_;
   StudyResult result_;
@@ -158,7 +165,7 @@ void Study::tell() {
     }
   const std::size_t total = result_.points.size() * static_cast<std::size_t>(options_.repeats);
   const double mean = count > 0 ? known / static_cast<double>(count) : 0;
-  monitor_.tell(visits_, total, mean * static_cast<double>(total - visits_));
+  monitor_.tell({Task::settings, visits_, total, mean * static_cast<double>(total - visits_)});
 }
 
 bool Study::visitAll(int round) {
@@ -195,7 +202,7 @@ void Study::compare(std::size_t point) {
   double squares = 0, ssim = 0, bytes = 0, worst = -1;
   for (std::size_t f = 0; f < result_.frames.size(); ++f) {
     const FramePicture picture =
-        probe.picture(result_.frames[f], result_.reference_intensity, true, Intensities::stored);
+        probe.picture(result_.frames[f], result_.reference_intensity, true, MadeOf::stored);
     const FramePicture& truth = reference_[f];
     const PictureError error = pictureError(picture.grey, truth.grey, result_.dynamic_range_db);
     squares += error.rms_db * error.rms_db;
@@ -251,9 +258,10 @@ std::vector<FrameTime> probeFrames(const Scene& scene, int count) {
   return frames;
 }
 
-StudyResult runStudy(const Scene& scene, const StudyOptions& options, const StudyMonitor& monitor) {
+StudyResult runStudy(const Scene& scene, const StudyOptions& options, const Monitor& monitor,
+                     const std::function<void(const StudyResult&)>& round_done) {
   StudyResult result;
-  withThreads(options.threads, [&] { result = Study(scene, options, monitor).run(); });
+  withThreads(options.threads, [&] { result = Study(scene, options, monitor, round_done).run(); });
   return result;
 }
 

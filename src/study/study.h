@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/monitor.h"
 #include "metrics/picture_error.h"
 #include "metrics/statistics.h"
 #include "motion/cycle/cardiac_clock.h"
@@ -73,20 +74,16 @@ struct StudyResult {
   bool complete = false;
 };
 
-struct StudyMonitor {
-  std::function<void(std::size_t done, std::size_t total, double seconds_left)> tell =
-      [](std::size_t, std::size_t, double) {};
-  std::function<bool()> keep_going = [] { return true; };
-  std::function<void(const StudyResult&)> round_done = [](const StudyResult&) {};
-};
-
 // The probe frames: `count` of the first beat's, evenly spaced, all if there are fewer.
 std::vector<FrameTime> probeFrames(const Scene& scene, int count);
 
 // Runs the study. Each round visits every setting, forwards and backwards in turn, so that a drift
 // of the clock cancels in the medians; the first also compares pictures. Rows without a time when
-// keep_going() said no are left out. Throws SceneError and JobError.
-StudyResult runStudy(const Scene& scene, const StudyOptions& options, const StudyMonitor& monitor);
+// keep_going() said no are left out; `round_done` gets what there is after each. Throws SceneError
+// and JobError.
+StudyResult runStudy(
+    const Scene& scene, const StudyOptions& options, const Monitor& monitor,
+    const std::function<void(const StudyResult&)>& round_done = [](const StudyResult&) {});
 
 // Of a sweep: a knob turned one step, in time and error.
 struct KnobStep {

@@ -25,7 +25,7 @@ struct Tried {
 
 class Descent {
  public:
-  Descent(const Scene& scene, double tolerance_db, const ToleranceMonitor& monitor)
+  Descent(const Scene& scene, double tolerance_db, const Monitor& monitor)
       : scene_(showing(scene)),
         limit_db_(tolerance_db / kToleranceSafety),
         monitor_(monitor),
@@ -56,7 +56,7 @@ class Descent {
 
   Scene scene_;
   double limit_db_;
-  const ToleranceMonitor& monitor_;
+  const Monitor& monitor_;
   KnobTable table_;
   std::vector<FrameTime> frames_;
   Setting setting_;
@@ -93,7 +93,7 @@ Tried Descent::tryOut(const Setting& setting, bool reference) {
   record_.candidates.push_back({settingText(table_, setting), tried.error_db, tried.cost_ms,
                                 took.count() / static_cast<double>(frames_.size()),
                                 tried.error_db <= limit_db_});
-  monitor_.tell(static_cast<int>(record_.candidates.size()));
+  monitor_.tell({Task::accuracy, record_.candidates.size(), 0});
   return tried_[setting] = tried;
 }
 
@@ -157,7 +157,7 @@ AccuracyChoice Descent::run(const Scene& written) {
 }  // namespace
 
 AccuracyChoice chooseWithin(const Scene& scene, double tolerance_db, int threads,
-                            const ToleranceMonitor& monitor) {
+                            const Monitor& monitor) {
   AccuracyChoice choice;
   withThreads(threads, [&] { choice = Descent(scene, tolerance_db, monitor).run(scene); });
   return choice;

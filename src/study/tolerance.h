@@ -1,8 +1,7 @@
 #pragma once
 // The cheapest setting of a scene's knobs whose picture stays within a tolerance.
 
-#include <functional>
-
+#include "core/monitor.h"
 #include "output/accuracy_record.h"
 #include "scene/scene.h"
 #include "study/knobs.h"
@@ -20,11 +19,6 @@ struct AccuracyChoice {
 inline constexpr double kToleranceSafety = 1.25;
 inline constexpr int kToleranceFrames = 4;
 
-struct ToleranceMonitor {
-  std::function<void(int settings_tried)> tell = [](int) {};
-  std::function<bool()> keep_going = [] { return true; };
-};
-
 // Goes down from the reference, one knob one step at a time: next is the step that saved most
 // modelled cost (cost_model.h) for the squared error it added when it was last tried; a step that
 // errs too much is never tried again. The cheapest of all that were tried and stay within is taken:
@@ -34,7 +28,7 @@ struct ToleranceMonitor {
 // scene's, or its percentile over the probe frames at the reference.
 // Throws SceneError, and a JobError when keep_going() says no.
 AccuracyChoice chooseWithin(const Scene& scene, double tolerance_db, int threads,
-                            const ToleranceMonitor& monitor);
+                            const Monitor& monitor);
 
 // The scene at a preset.
 AccuracyChoice atPreset(const Scene& scene, Preset preset);

@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "core/beam_plane.h"
 #include "scene/scene.h"
 #include "trace/line_trace.h"
 
@@ -18,7 +19,7 @@ struct PolarFrame {
   CellEchoes cell_echoes;                        // none unless they are integrated over cells
   std::map<Channel, std::vector<float>> planes;  // the intensity channels that were asked for
   std::vector<std::uint32_t> medium;             // Channel::medium, if asked for
-  std::vector<float> signal;                     // where the signal chain starts
+  Intensities intensities;                       // where the signal chain starts
 };
 
 }  // namespace echocine

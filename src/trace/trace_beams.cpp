@@ -27,7 +27,7 @@ std::vector<Wanted> intensityPlanes(const TraceSettings& settings, const PlaneRe
     if (channel != Channel::medium && channel != Channel::attenuation)
       wanted.push_back({partsOf(channel, settings.attenuation, request.spread_undone_at_m),
                         &frame.planes.at(channel)});
-  if (request.signal) wanted.push_back({request.signal_terms, &frame.signal});
+  if (request.intensities) wanted.push_back({request.intensity_terms, &frame.intensities.values});
   return wanted;
 }
 
@@ -225,7 +225,7 @@ WorkCounts traceCentres(const FrameGeometry& geometry, const Probe& probe,
                         const TraceSettings& settings, const PlaneRequest& request,
                         PolarFrame& frame) {
   PlaneRequest centres = request;
-  centres.signal = false;
+  centres.intensities = false;
   std::erase_if(centres.channels,
                 [](Channel c) { return c != Channel::medium && c != Channel::attenuation; });
   if (!centres.channels.empty()) return traceFrame(geometry, probe, settings, centres, frame);

@@ -59,7 +59,8 @@ class LineSampler {
     for (const Channel channel : request_.channels)
       if (channel != Channel::medium && channel != Channel::attenuation)
         addToSamples(frame_.cell_echoes, termsOfChannel(channel), frame_.planes.at(channel));
-    if (request_.signal) addToSamples(frame_.cell_echoes, request_.signal_terms, frame_.signal);
+    if (request_.intensities)
+      addToSamples(frame_.cell_echoes, request_.intensity_terms, frame_.intensities);
   }
 
   void sample(int line, const LineTrace& trace) const {
@@ -71,7 +72,8 @@ class LineSampler {
       else
         intensity(trace, termsOfChannel(channel), column(frame_.planes.at(channel), line));
     }
-    if (request_.signal) intensity(trace, request_.signal_terms, column(frame_.signal, line));
+    if (request_.intensities)
+      intensity(trace, request_.intensity_terms, column(frame_.intensities.values, line));
   }
 
   // Of all lines, by what each plane takes.
@@ -89,7 +91,7 @@ class LineSampler {
       else if (channel != Channel::medium)
         add(termsOfChannel(channel));
     }
-    if (request_.signal) add(request_.signal_terms);
+    if (request_.intensities) add(request_.intensity_terms);
     return work;
   }
 
@@ -128,7 +130,7 @@ void reservePlanes(const Probe& probe, const PlaneRequest& request, PolarFrame& 
     else
       frame.planes[channel].resize(size);
   }
-  if (request.signal) frame.signal.resize(size);
+  if (request.intensities) frame.intensities.resize(size);
 }
 
 TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan, bool integrate_cells)
@@ -154,10 +156,10 @@ PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan) {
   PlaneRequest request;
   for (const Channel channel : scene.output.channels)
     if (scene.output.exr && channel != Channel::display) request.channels.push_back(channel);
-  request.signal = wantsPicture(scene);
-  request.signal_terms.attenuation = plan.attenuation && scene.signal.tgc != Tgc::perfect;
+  request.intensities = wantsPicture(scene);
+  request.intensity_terms.attenuation = plan.attenuation && scene.signal.tgc != Tgc::perfect;
   request.spread_undone_at_m = plan.spread ? 0 : scene.probe.middleDepth();
-  request.signal_terms.spread_undone_at_m =
+  request.intensity_terms.spread_undone_at_m =
       !plan.spread || scene.signal.spread == Spread::compensate ? scene.probe.middleDepth() : 0;
   return request;
 }
@@ -218,8 +220,7 @@ WorkCounts traceFrame(const PlaneSlice& slice, const Probe& probe, const TraceSe
   }
   work.facets_sliced = slice.edges().size();
   if (settings.cell_echoes)
-    addCellEchoes(slice.edges(), slice.normals(), probe, settings, frame.traces,
-                  frame.cell_echoes);
+    addCellEchoes(slice.edges(), slice.normals(), probe, settings, frame.traces, frame.cell_echoes);
   sampleLines(probe, settings, request, frame, work);
   return work;
 }

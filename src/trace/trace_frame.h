@@ -14,8 +14,8 @@ namespace echocine {
 struct PlaneRequest {
   std::vector<Channel> channels;  // of the intensity stack, without Channel::display
   double spread_undone_at_m = 0;  // of the channels: 0 unless the scene turns the spread off
-  bool signal = true;
-  IntensityTerms signal_terms;
+  bool intensities = true;        // for the signal chain
+  IntensityTerms intensity_terms;
 };
 
 PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan);

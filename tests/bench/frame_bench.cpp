@@ -13,8 +13,7 @@
 #include "bench/rounds.h"
 #include "render/render.h"
 #include "scene/scene_reader.h"
-#include "simulate/frame_maker.h"
-#include "simulate/plan_loop.h"
+#include "simulate/frame_simulator.h"
 
 namespace echocine::bench {
 namespace {
@@ -71,16 +70,14 @@ void wholeFrame(benchmark::State& state) {
   const BenchScene bare_scene{Size(state)};
   const LoopOnDisk loop(bare_scene, false);
   const Scene scene = readScene(loop.sceneFile());
-  const MeshMotion motion(scene);
-  const LoopPlan plan = planLoop(scene, motion);
-  FrameMaker maker(scene, plan, motion);
+  const Simulator simulator(scene);
   BareFrame bare(bare_scene);
   BareHierarchy rays(bare_scene);
-  const std::shared_ptr<Workspace> workspace = maker.workspace();
+  const std::shared_ptr<Workspace> workspace = simulator.workspace();
   std::vector<double> over_rays;
   const auto ours = [&](std::size_t i) {
-    benchmark::DoNotOptimize(maker.trace(frameTime(i), *workspace));
-    benchmark::DoNotOptimize(maker.picture(kReference, *workspace, true).pixels.data());
+    benchmark::DoNotOptimize(simulator.trace(frameTime(i), *workspace));
+    benchmark::DoNotOptimize(simulator.picture(kReference, *workspace, true).pixels.data());
   };
   overFloor(state, ours, [&](std::size_t i) { bare.run(i, false); });
   withThreads(1, [&] {
@@ -108,14 +105,14 @@ LoopTime renderedLoop(const Scene& scene, const std::filesystem::path& folder, i
   LoopTime time;
   Monitor monitor;
   monitor.tell = [&](const Progress& progress) {
-    if (progress.done == kFirst) {
+    if (progress.done == std::size_t{kFirst}) {
       cpu = cpuMilliseconds();
       wall = Clock::now();
     }
     if (progress.done != progress.total) return;
-    time.cpu_ms = (cpuMilliseconds() - cpu) / (progress.total - kFirst);
+    time.cpu_ms = (cpuMilliseconds() - cpu) / static_cast<double>(progress.total - kFirst);
     time.wall_ms = std::chrono::duration<double, std::milli>(Clock::now() - wall).count() /
-                   (progress.total - kFirst);
+                   static_cast<double>(progress.total - kFirst);
   };
   RenderOptions options;
   options.folder = folder;

@@ -63,7 +63,7 @@ void trace(benchmark::State& state, bool cells) {
   const EffectPlan plan = planEffects(scene.scene);
   const TraceSettings settings(scene.scene, plan, cells);
   PlaneRequest request = planeRequest(scene.scene, plan);
-  request.signal = false;
+  request.intensities = false;
   PolarFrame polar;
   overFloor(
       state,
@@ -98,7 +98,7 @@ void beamAverage(benchmark::State& state) {
   Traced t{Size(state)};
   BareAverage bare(t.scene.scene);
   const BeamAverage ours(t.scene.scene.probe, t.scene.scene.signal);
-  std::vector<float> plane = t.polar.signal, bare_plane = plane;
+  std::vector<float> plane = t.polar.intensities, bare_plane = plane;
   overFloor(
       state, [&](std::size_t) { ours.apply(plane); }, [&](std::size_t) { bare.run(bare_plane); });
 }
@@ -107,17 +107,19 @@ void logCompression(benchmark::State& state) {
   const Traced t{Size(state)};
   BareLog bare;
   cv::Mat grey;
-  std::vector<float> out(t.polar.signal.size());
+  std::vector<float> out(t.polar.intensities.size());
   overFloor(
-      state, [&](std::size_t) { compressIntensities(t.polar.signal, kReference, kRange_db, out); },
-      [&](std::size_t) { bare.run(t.polar.signal, kReference, kRange_db, grey); });
+      state,
+      [&](std::size_t) { compressIntensities(t.polar.intensities, kReference, kRange_db, out); },
+      [&](std::size_t) { bare.run(t.polar.intensities, kReference, kRange_db, grey); });
 }
 
 void scanConversion(benchmark::State& state) {
   Traced t{Size(state)};
   t.chain.compress(t.polar, kReference);
   std::vector<std::uint8_t> grey;
-  for (const float g : t.polar.signal) grey.push_back(static_cast<std::uint8_t>(255 * g + 0.5f));
+  for (const float g : t.polar.intensities)
+    grey.push_back(static_cast<std::uint8_t>(255 * g + 0.5f));
   BareScanConversion bare(t.scene.scene, t.chain.geometry());
   GreyImage image;
   overFloor(
@@ -133,9 +135,9 @@ void exr(benchmark::State& state) {
   overFloor(
       state,
       [&](std::size_t i) {
-        stack.write({static_cast<int>(i), 0, 0, 0}, {{Channel::y, t.polar.signal, {}}});
+        stack.write({static_cast<int>(i), 0, 0, 0}, {{Channel::y, t.polar.intensities, {}}});
       },
-      [&](std::size_t i) { bare.exr(t.polar.signal, i); });
+      [&](std::size_t i) { bare.exr(t.polar.intensities, i); });
 }
 
 // Compressions and pixels over uncompressed floats: over_floor in time, size in bytes.
@@ -212,7 +214,7 @@ void hierarchy(benchmark::State& state, bool refraction) {
   TraceSettings settings(scene.scene, plan);
   if (refraction) settings.media[1].sound_speed_m_s = 1570;
   PlaneRequest request = planeRequest(scene.scene, plan);
-  request.signal = false;
+  request.intensities = false;
   FrameGeometry geometry(scene.topology);
   BareHierarchy bare(scene);
   geometry.update(scene.frame(0));
@@ -242,7 +244,7 @@ void beams(benchmark::State& state, bool elevation) {
   plan.refraction = false;
   const TraceSettings settings(asked, plan);
   PlaneRequest request = planeRequest(asked, plan);
-  request.signal = false;
+  request.intensities = false;
   const BeamRays rays(asked.probe, beamSpread(plan, 1));
   FrameGeometry geometry(scene.topology);
   geometry.update(scene.frame(0));

@@ -82,7 +82,7 @@ TEST(SmallestImages, GoThroughTheWholeSignalChain) {
           const SignalChain chain(world.scene, planEffects(world.scene));
           chain.process(polar);
           chain.compress(polar, 1e-6);
-          for (const float grey : polar.signal) EXPECT_TRUE(grey >= 0 && grey <= 1) << grey;
+          for (const float grey : polar.intensities) EXPECT_TRUE(grey >= 0 && grey <= 1) << grey;
           GreyImage image;
           chain.picture(polar, image);
           EXPECT_EQ(image.pixels.size(), 64u * 64u);

@@ -60,7 +60,7 @@ std::size_t unusable(const std::vector<float>& values) {
 void expectIntensities(const World& world, const PolarFrame& polar) {
   for (const auto& [channel, plane] : polar.planes)
     EXPECT_EQ(unusable(plane), 0u) << channelName(channel);
-  EXPECT_EQ(unusable(polar.signal), 0u) << "signal";
+  EXPECT_EQ(unusable(polar.intensities), 0u) << "signal";
   for (const std::uint32_t id : polar.medium)
     ASSERT_TRUE(id == kNoMedium || id < world.scene.media.size()) << id;
 }
@@ -124,10 +124,10 @@ void expectCellEchoes(const World& world, const PolarFrame& polar) {
 void expectPicture(const World& world, const EffectPlan& plan, PolarFrame& polar) {
   const SignalChain chain(world.scene, plan);
   chain.process(polar);
-  EXPECT_EQ(unusable(polar.signal), 0u) << "after the signal chain";
-  const double brightest = *std::max_element(polar.signal.begin(), polar.signal.end());
+  EXPECT_EQ(unusable(polar.intensities), 0u) << "after the signal chain";
+  const double brightest = *std::max_element(polar.intensities.begin(), polar.intensities.end());
   chain.compress(polar, brightest > 0 ? brightest : 1);
-  for (const float grey : polar.signal) ASSERT_TRUE(grey >= 0 && grey <= 1) << grey;
+  for (const float grey : polar.intensities) ASSERT_TRUE(grey >= 0 && grey <= 1) << grey;
   GreyImage image;
   chain.picture(polar, image);
   EXPECT_EQ(image.pixels.size(), 24u * 20u);
@@ -153,7 +153,7 @@ void expectSameImage(const PolarFrame& sliced, const PolarFrame& traced) {
   for (const auto& [channel, plane] : sliced.planes)
     EXPECT_EQ(plane, traced.planes.at(channel)) << channelName(channel);
   EXPECT_EQ(sliced.medium, traced.medium);
-  EXPECT_EQ(sliced.signal, traced.signal);
+  EXPECT_EQ(sliced.intensities, traced.intensities);
 }
 
 TEST(RandomScenes, AreFiniteWithinTheEnergyOfThePulseAndTheSameThroughBothTracers) {

@@ -301,7 +301,7 @@ TEST(BeamAverageLaw, TheFilterAgreesWithTheRaysOnASmoothWallAtTheFocus) {
     const EffectPlan plan = beamPlan(world.scene, rays, true, false);
     PolarFrame polar = traceWorld(world, plan, Tracer::embree);
     SignalChain(world.scene, plan).process(polar);
-    return polar.signal;
+    return polar.intensities;
   };
   const std::vector<float> filtered = shown(1), rays = shown(256);
   double worst_db = 0;
@@ -326,7 +326,7 @@ TEST(BeamAverageLaw, ThreadsChangeNoBitAndFramesChangeThePattern) {
       const PolarFrame polar = traceWorld(world, plan, Tracer::embree, 3);
       if (threads == 1) one = polar;
       EXPECT_EQ(polar.planes, one.planes);
-      EXPECT_EQ(polar.signal, one.signal);
+      EXPECT_EQ(polar.intensities, one.intensities);
       EXPECT_EQ(polar.medium, one.medium);
     });
   const World edge = sheetWorld(rectangle(0, 0.5, -0.5, 0.5, 0.08));

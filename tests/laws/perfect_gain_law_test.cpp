@@ -29,13 +29,13 @@ PolarFrame traced(const Scene& scene) {
 
 TEST(PerfectGain, EqualsARunWithoutAnyAttenuationToTheLastBit) {
   const PolarFrame lossy = traced(twoLayers(10, 60)), free = traced(twoLayers(0, 0));
-  EXPECT_EQ(lossy.signal, free.signal);
+  EXPECT_EQ(lossy.intensities, free.intensities);
   EXPECT_NE(lossy.planes.at(Channel::y), free.planes.at(Channel::y));
 }
 
 TEST(PerfectGain, SurvivesAttenuationPastUnderflow) {
   const PolarFrame dead = traced(twoLayers(1e5, 1e5)), free = traced(twoLayers(0, 0));
-  EXPECT_EQ(dead.signal, free.signal);
+  EXPECT_EQ(dead.intensities, free.intensities);
   EXPECT_EQ(dead.planes.at(Channel::y)[150], 0.0f);
 }
 
@@ -44,7 +44,7 @@ TEST(PerfectGain, KeepsTheSpreadWhenAskedTo) {
   scene.signal.spread = Spread::keep;
   scene.output.channels = {Channel::y, Channel::unattenuated};
   const PolarFrame frame = traced(scene);
-  EXPECT_EQ(frame.signal, frame.planes.at(Channel::unattenuated));
+  EXPECT_EQ(frame.intensities, frame.planes.at(Channel::unattenuated));
 }
 
 TEST(NoGain, LeavesTheReceivedIntensity) {
@@ -52,7 +52,7 @@ TEST(NoGain, LeavesTheReceivedIntensity) {
   scene.signal.spread = Spread::keep;
   scene.signal.tgc = Tgc::none;
   const PolarFrame frame = traced(scene);
-  EXPECT_EQ(frame.signal, frame.planes.at(Channel::y));
+  EXPECT_EQ(frame.intensities, frame.planes.at(Channel::y));
 }
 
 TEST(Attenuation, IsNotComputedWhenNobodyCanSeeIt) {

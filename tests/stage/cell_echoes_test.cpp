@@ -50,7 +50,7 @@ std::vector<float> echoesOf(const Scene& scene, const Mesh& mesh, bool cells) {
   EffectPlan plan = planEffects(scene);
   PolarFrame polar;
   PlaneRequest request = planeRequest(scene, plan);
-  request.signal = false;
+  request.intensities = false;
   traceFrame(slice, scene.probe, TraceSettings(scene, plan, cells), request, polar);
   return polar.planes.at(Channel::unattenuated);
 }

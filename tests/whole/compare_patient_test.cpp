@@ -39,7 +39,7 @@ class PatientAgainstVideos : public ::testing::Test {
     options.synthetic = synthetic;
     options.real = kVideos / video;
     options.real_side = std::move(side);
-    withThreads(2, [&] { c = compareLoops(options, [](const std::string&) {}); });
+    withThreads(2, [&] { c = compareLoops(options); });
     std::printf(
         "%s, %s: D %.4f (%.4f as placed), shift %.1f, %.1f px, turn %.1f deg, NCC %.3f, MI %.3f, "
         "time %.3f\n",

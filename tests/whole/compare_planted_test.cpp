@@ -33,7 +33,7 @@ class Planted : public ::testing::Test {
       options.synthetic_side.sector = options.real_side.sector = "160,5,-40,40,12,225";
     }
     Comparison c;
-    withThreads(2, [&] { c = compareLoops(options, [](const std::string&) {}); });
+    withThreads(2, [&] { c = compareLoops(options); });
     return c;
   }
   const Drawing plain{};
@@ -273,7 +273,7 @@ TEST_F(Planted, GreysOfARenderAreThoseOfItsExrWhereItHasThem) {
   options.synthetic = options.real = folder / "loop";
   const auto compared = [&] {
     Comparison c;
-    withThreads(2, [&] { c = compareLoops(options, [](const std::string&) {}); });
+    withThreads(2, [&] { c = compareLoops(options); });
     return c;
   };
   const Comparison exact = compared();
@@ -305,9 +305,7 @@ TEST_F(Planted, ThreadsChangeNothing) {
   options.real = folder / "changed.avi";
   std::vector<std::string> csv;
   for (const int threads : {1, 4})
-    withThreads(threads, [&] {
-      csv.push_back(framesCsv(compareLoops(options, [](const std::string&) {})));
-    });
+    withThreads(threads, [&] { csv.push_back(framesCsv(compareLoops(options))); });
   EXPECT_EQ(csv[0], csv[1]);
 }
 

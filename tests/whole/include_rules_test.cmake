@@ -37,7 +37,7 @@ set(rooms
   "interior=keyframes"
   "cycle="
   "heart=cycle|mesh,subdivision"
-  "motion=keyframes,interior,subdivision|mesh,repair,cycle"
+  "motion=mesh,keyframes,interior,subdivision|repair,cycle"
   "geometry=motion"
   "truth=geometry"
   "trace=geometry"

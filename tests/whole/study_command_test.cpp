@@ -255,9 +255,9 @@ TEST(StudyStop, KeepsTheRowsThatAreFinished) {
   options.frames = 1;
   options.repeats = 2;
   options.knobs = {"lines"};
-  StudyMonitor monitor;
+  Monitor monitor;
   std::size_t done = 0;
-  monitor.tell = [&](std::size_t so_far, std::size_t, double) { done = so_far; };
+  monitor.tell = [&](const Progress& progress) { done = progress.done; };
   monitor.keep_going = [&] { return done < 3; };
   const StudyResult result = runStudy(scene, options, monitor);
   EXPECT_FALSE(result.complete);

@@ -191,7 +191,7 @@ TEST_F(Tolerance, ContradictionsAreOneLine) {
 
 TEST_F(Tolerance, AStopWhileItIsChosenIsAFailedJobThatWritesNothing) {
   const Scene scene = readScene(folder / "scene.toml");
-  ToleranceMonitor monitor;
+  Monitor monitor;
   int asked = 0;
   monitor.keep_going = [&] { return ++asked < 3; };
   EXPECT_THROW(chooseWithin(scene, 0.5, 1, monitor), JobError);

@@ -55,7 +55,7 @@ TEST(VariedBeats, TheManifestSaysBeatAndPhaseOfEachFrameAndThePlanCountsTheSame)
   }
   EXPECT_EQ(manifest["frames"].back()["beat"], 2);
   EXPECT_EQ(manifest["scene"]["acquisition"]["seed"], 3);
-  EXPECT_EQ(estimateLoop(scene, 1, [] { return true; }).frames, clock.frameCount());
+  EXPECT_EQ(estimateLoop(scene, 1).frames, clock.frameCount());
 }
 
 TEST(VariedBeats, SeedWarpAndVariabilityEachChangeThePictures) {

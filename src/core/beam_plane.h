@@ -1,0 +1,44 @@
+#pragma once
+// One number for each sample of a frame in beam space, line-major: the samples of line 0 from
+// shallow to deep, then those of line 1, and so on. What the number is belongs to the type, so that
+// a plane of intensities can never pass for one of greys; the memory goes from one to the other by
+// release().
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace echocine {
+
+template <typename Quantity>
+class BeamPlane {
+ public:
+  BeamPlane() = default;
+  explicit BeamPlane(std::vector<float> line_major) : values(std::move(line_major)) {}
+
+  std::vector<float> values;
+
+  std::size_t size() const { return values.size(); }
+  bool empty() const { return values.empty(); }
+  void resize(std::size_t count) { values.resize(count); }
+  float& operator[](std::size_t i) { return values[i]; }
+  float operator[](std::size_t i) const { return values[i]; }
+  auto begin() const { return values.begin(); }
+  auto end() const { return values.end(); }
+  operator std::span<const float>() const { return values; }
+  operator std::span<float>() { return values; }
+
+  // Gives the memory away; the plane is empty then.
+  std::vector<float> release() { return std::exchange(values, {}); }
+
+  friend bool operator==(const BeamPlane&, const BeamPlane&) = default;
+};
+
+// Received intensities relative to the transmitted I_S, as the trace stage or the signal chain up
+// to the average over the beam leaves them.
+using Intensities = BeamPlane<struct IntensityQuantity>;
+// After log compression: 0 black, 1 white.
+using Greys = BeamPlane<struct GreyQuantity>;
+
+}  // namespace echocine

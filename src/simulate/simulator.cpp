@@ -1,0 +1,226 @@
+#include "simulate/simulator.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/units.h"
+#include "output/polar_plane.h"
+#include "signal/reference.h"
+#include "simulate/plan_loop.h"
+
+namespace echocine {
+
+std::vector<ChannelPlane> channelPlanes(const OutputSettings& output, const Workspace& w) {
+  const PolarFrame& polar = w.polar;
+  std::vector<ChannelPlane> planes;
+  for (const Channel channel : output.channels) {
+    if (channel == Channel::medium)
+      planes.push_back({channel, {}, polar.medium});
+    else if (channel == Channel::display)
+      planes.push_back({channel, w.greys, {}});
+    else
+      planes.push_back({channel, polar.planes.at(channel), {}});
+  }
+  return planes;
+}
+
+Simulator::Simulator(Scene scene) : Simulator(scene, std::make_shared<const MeshMotion>(scene)) {}
+
+Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion)
+    : Simulator(scene, motion, planLoop(scene, *motion)) {}
+
+Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan)
+    : scene_(std::move(scene)),
+      motion_(std::move(motion)),
+      plan_(std::move(plan)),
+      cardiac_clock_(scene_),
+      chain_(scene_, plan_.effects),
+      settings_(scene_, plan_.effects, plan_.cell_echoes),
+      request_(planeRequest(scene_, plan_.effects)) {
+  if (plan_.effects.rays_per_beam > 1)
+    beams_.emplace(scene_.probe, beamSpread(plan_.effects, scene_.acquisition.seed));
+}
+
+std::shared_ptr<Workspace> Simulator::workspace() const {
+  std::unique_ptr<Workspace> space;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!free_.empty()) {
+      space = std::move(free_.back());
+      free_.pop_back();
+    }
+  }
+  if (!space && plan_.slice)
+    space = std::make_unique<Workspace>(
+        Workspace{{}, PlaneSlice(motion_->surfaces(), scene_.probe, plan_.left_out), {}});
+  if (!space)
+    space = std::make_unique<Workspace>(
+        Workspace{{}, FrameGeometry(motion_->surfaces(), plan_.left_out), {}});
+  return {space.release(), [this](Workspace* used) {
+            const std::lock_guard lock(mutex_);
+            free_.emplace_back(used);
+          }};
+}
+
+Volumes Simulator::volumes(const SurfaceFrame& surfaces) const {
+  Volumes volumes;
+  for (const SurfaceTopology& surface : motion_->surfaces()) {
+    if (surface.membrane) continue;
+    volumes.emplace_back(scene_.structures[index(surface.id)].name,
+                         millilitresFromCubicMetres(motion_->volumeIn(surfaces, surface)));
+  }
+  return volumes;
+}
+
+namespace {
+
+// The intensity stack refuses what cannot be shown by itself; a run without one must not draw it
+// either.
+void refuseUnusable(double phase, const PolarFrame& polar) {
+  const std::optional<std::size_t> bad = firstUnusable(polar.intensities);
+  if (!bad) return;
+  const auto per_line = static_cast<std::size_t>(polar.samples);
+  throw JobError(
+      fmt::format("phase {}, line {}, sample {}: the intensity after time gain is {}: only finite "
+                  "values from 0 up are accepted",
+                  phase, *bad / per_line, *bad % per_line, polar.intensities[*bad]));
+}
+
+}  // namespace
+
+WorkCounts Simulator::traceRays(const PlaneSlice& slice, int /*frame*/, PolarFrame& polar) const {
+  return traceFrame(slice, scene_.probe, settings_, request_, polar);
+}
+
+WorkCounts Simulator::traceRays(const FrameGeometry& geometry, int frame, PolarFrame& polar) const {
+  if (beams_) return traceBeams(geometry, scene_.probe, settings_, request_, *beams_, frame, polar);
+  return traceFrame(geometry, scene_.probe, settings_, request_, polar);
+}
+
+Volumes Simulator::trace(const FrameTime& time, Workspace& w) const {
+  Volumes volumes_ml = traceLines(time, w);
+  process(time, w);
+  return volumes_ml;
+}
+
+Volumes Simulator::traceLines(const FrameTime& time, Workspace& w) const {
+  Volumes volumes_ml;
+  if (w.polar.intensities.empty()) w.polar.intensities = Intensities(w.greys.release());
+  clock_.time(Stage::motion, [&] {
+    motion_->frameAt(time.phase, w.surfaces);
+    volumes_ml = volumes(w.surfaces);
+  });
+  const WorkCounts work = std::visit(
+      [&](auto& geometry) {
+        clock_.time(Stage::geometry, [&] { geometry.update(w.surfaces); });
+        return clock_.time(Stage::trace, [&] { return traceRays(geometry, time.frame, w.polar); });
+      },
+      w.geometry);
+  const std::lock_guard lock(mutex_);
+  work_ += work;
+  ++traced_frames_;
+  return volumes_ml;
+}
+
+void Simulator::process(const FrameTime& time, Workspace& w) const {
+  if (!request_.intensities) return;
+  clock_.time(Stage::signal, [&] { chain_.process(w.polar.intensities); });
+  refuseUnusable(time.phase, w.polar);
+}
+
+GreyImage& Simulator::picture(double reference_intensity, Workspace& w, bool wanted) const {
+  if (!request_.intensities) return w.image;
+  clock_.time(Stage::signal, [&] {
+    w.greys = chain_.compress(std::move(w.polar.intensities), reference_intensity);
+  });
+  if (wanted) clock_.time(Stage::scan_conversion, [&] { chain_.picture(w.greys, w.image); });
+  return w.image;
+}
+
+WorkCounts Simulator::work() const {
+  const std::lock_guard lock(mutex_);
+  return work_;
+}
+
+int Simulator::tracedFrames() const {
+  const std::lock_guard lock(mutex_);
+  return traced_frames_;
+}
+
+std::vector<KeyframeVolume> Simulator::keyframeVolumes() const {
+  std::vector<KeyframeVolume> list;
+  std::map<double, Volumes> by_phase;  // structures mostly share their phases
+  SurfaceFrame surfaces;
+  for (const Structure& structure : scene_.structures) {
+    if (structure.membrane) continue;
+    for (const Keyframe& keyframe : structure.keyframes) {
+      Volumes& all = by_phase[keyframe.phase];
+      if (all.empty()) {
+        motion_->frameAt(keyframe.phase, surfaces);
+        all = volumes(surfaces);
+      }
+      for (const auto& [name, ml] : all)
+        if (name == structure.name) list.push_back({name, keyframe.phase, ml});
+    }
+  }
+  return list;
+}
+
+double Simulator::measureReference() const {
+  if (scene_.signal.reference_intensity) return *scene_.signal.reference_intensity;
+  if (!wantsPicture(scene_) || !plan_.effects.contrast) return 1;
+  IntensityHistogram histogram(scene_.probe);
+  const std::shared_ptr<Workspace> w = workspace();
+  for (int i = 0; i < cardiac_clock_.frameCount(); ++i) {
+    trace(cardiac_clock_.at(i), *w);
+    histogram.add(w->polar.intensities);
+  }
+  // Where no frame has anything to be seen the percentile would paint an even nothing white.
+  return work().crossings == 0 ? 1 : histogram.percentile(scene_.signal.reference_percentile);
+}
+
+double Simulator::referenceIntensity() const {
+  std::call_once(reference_once_,
+                 [this] { inThisThread([this] { reference_intensity_ = measureReference(); }); });
+  return reference_intensity_;
+}
+
+Frame Simulator::frame(double time_s) const {
+  Frame made;
+  frame(time_s, made);
+  return made;
+}
+
+void Simulator::frame(double time_s, Frame& made) const {
+  const double rate_hz = scene_.acquisition.frame_rate_hz;
+  const double end_s = cardiac_clock_.frameCount() / rate_hz;
+  if (!(time_s >= 0 && time_s <= end_s))
+    throw SceneError(
+        fmt::format("the frame at {} s is not in the loop, accepted: 0 to {:g} s "
+                    "(acquisition.beats, acquisition.frame_rate_hz)",
+                    time_s, end_s));
+  // A frame of the loop has its very time, whatever rounding the caller's seconds have.
+  const double number = std::round(time_s * rate_hz);
+  const bool of_loop =
+      number < cardiac_clock_.frameCount() && std::abs(time_s * rate_hz - number) < 1e-6;
+  made.time = of_loop ? cardiac_clock_.at(static_cast<int>(number)) : cardiac_clock_.atTime(time_s);
+  if (!of_loop) made.time.frame = static_cast<int>(std::floor(time_s * rate_hz));
+  const double reference = referenceIntensity();
+  const std::shared_ptr<Workspace> w = workspace();
+  inThisThread([&] {
+    made.volumes_ml = trace(made.time, *w);
+    made.intensities.values.assign(w->polar.intensities.begin(), w->polar.intensities.end());
+    picture(reference, *w, wantsPicture(scene_));
+  });
+  made.lines = scene_.probe.lines;
+  made.samples = scene_.probe.samples;
+  std::swap(made.greys, w->greys);
+  std::swap(made.image, w->image);
+  std::swap(made.channels, w->polar.planes);
+  std::swap(made.medium, w->polar.medium);
+}
+
+}  // namespace echocine

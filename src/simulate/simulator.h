@@ -1,0 +1,126 @@
+#pragma once
+// One frame of a scene, from its instant to its pictures. Nobody else puts the stages together.
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/beam_plane.h"
+#include "core/stage_clock.h"
+#include "core/work_counts.h"
+#include "geometry/frame_geometry.h"
+#include "geometry/plane_slice.h"
+#include "motion/cycle/cardiac_clock.h"
+#include "motion/mesh_motion.h"
+#include "motion/volumes.h"
+#include "output/frame_record.h"
+#include "scene/loop_plan.h"
+#include "signal/signal_chain.h"
+#include "trace/trace_beams.h"
+#include "trace/trace_frame.h"
+
+namespace echocine {
+
+// A frame as a caller gets it. Planes are line-major: sample k of line i stands at
+// i * samples + k, line i and sample k where scene().probe has them.
+struct Frame {
+  FrameTime time;  // instant (s), phase of the beat, beat
+  int lines = 0, samples = 0;
+  Volumes volumes_ml;       // of closed structures, by name
+  Intensities intensities;  // after time gain and the average over the beam, relative to I_S
+  Greys greys;              // log-compressed, 0 black to 1 white
+  GreyImage image;          // the scan-converted picture, without ECG and depth ticks
+  std::map<Channel, std::vector<float>> channels;  // intensity channels of scene.output.channels
+  std::vector<std::uint32_t> medium;               // channel medium.id, if the scene asks for it
+};
+
+// What one frame needs while it is made; there are as many as frames in flight.
+struct Workspace {
+  SurfaceFrame surfaces;
+  std::variant<PlaneSlice, FrameGeometry> geometry;  // whichever the plan's tracer needs
+  PolarFrame polar;
+  Greys greys{};
+  GreyImage image{};
+};
+
+// The planes of a frame that go into its EXR, in the order of the scene's channels.
+std::vector<ChannelPlane> channelPlanes(const OutputSettings& output, const Workspace& workspace);
+
+class Simulator {
+ public:
+  // Reads the scene's meshes, or takes those that it holds in memory, and plans the loop.
+  // Throws SceneError that names the scene's key, file and face; JobError when frames between
+  // keyframes are inside out.
+  explicit Simulator(Scene scene);
+  // Of a motion that several simulators share. Precondition: it is that of the scene.
+  Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion);
+  Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan);
+
+  const Scene& scene() const { return scene_; }
+  const MeshMotion& motion() const { return *motion_; }
+  const std::shared_ptr<const MeshMotion>& sharedMotion() const { return motion_; }
+  const LoopPlan& plan() const { return plan_; }
+  const CardiacClock& cardiacClock() const { return cardiac_clock_; }
+
+  // The frame at an instant of the loop, from 0 s to its end; instants beyond it are refused with a
+  // SceneError. The same bytes as `render` gives that instant. Thread-safe from any thread; memory
+  // of `frame` and of earlier calls is used again.
+  Frame frame(double time_s) const;
+  void frame(double time_s, Frame& frame) const;
+
+  // White of the loop's log compression, relative to I_S: signal.reference_intensity, or else the
+  // percentile over all frames of the loop, which the first call traces. Thread-safe.
+  double referenceIntensity() const;
+
+  // The stages one by one, for those who write files or measure. All thread-safe.
+
+  // Borrows a workspace until the pointer dies; made on first use and used again.
+  std::shared_ptr<Workspace> workspace() const;
+
+  // motion -> geometry -> trace -> time gain and beam width: fills workspace.polar. Returns the
+  // volumes. Frames of equal number and phase are equal.
+  Volumes trace(const FrameTime& time, Workspace& workspace) const;
+
+  // The two halves of trace(): up to the intensities that the lines receive, and what the signal
+  // chain makes of them in place.
+  Volumes traceLines(const FrameTime& time, Workspace& workspace) const;
+  void process(const FrameTime& time, Workspace& workspace) const;
+
+  // log compression -> scan conversion: workspace.polar.intensities become workspace.greys. The
+  // picture is the workspace's; empty or an old one where none is wanted.
+  GreyImage& picture(double reference_intensity, Workspace& workspace, bool wanted) const;
+
+  const SignalChain& chain() const { return chain_; }
+  StageClock& clock() const { return clock_; }
+  WorkCounts work() const;
+  int tracedFrames() const;  // calls of traceLines()
+  std::vector<KeyframeVolume> keyframeVolumes() const;
+
+ private:
+  Volumes volumes(const SurfaceFrame& surfaces) const;
+  WorkCounts traceRays(const PlaneSlice& slice, int frame, PolarFrame& polar) const;
+  WorkCounts traceRays(const FrameGeometry& geometry, int frame, PolarFrame& polar) const;
+  double measureReference() const;
+
+  const Scene scene_;
+  const std::shared_ptr<const MeshMotion> motion_;
+  const LoopPlan plan_;
+  const CardiacClock cardiac_clock_;
+  const SignalChain chain_;
+  const TraceSettings settings_;
+  const PlaneRequest request_;
+  std::optional<BeamRays> beams_;  // several rays per beam
+  mutable StageClock clock_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<Workspace>> free_;
+  mutable WorkCounts work_;
+  mutable int traced_frames_ = 0;
+  mutable std::once_flag reference_once_;
+  mutable double reference_intensity_ = 1;
+};
+
+}  // namespace echocine
