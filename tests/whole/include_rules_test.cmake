@@ -39,15 +39,15 @@ set(rooms
   "heart=cycle|mesh,subdivision"
   "motion=mesh,keyframes,interior,subdivision|repair,cycle"
   "geometry=motion"
-  "truth=geometry"
+  "truth=geometry,motion,interior"
   "trace=geometry"
   "signal=trace"
   "metrics=signal,trace"
   "video=signal"
-  "output=signal,motion,heart|video"
+  "output=signal,motion,heart,truth|video"
   "simulate=output,motion,cycle,geometry,trace,signal"
   "compare=simulate,video,metrics,signal,truth,page|motion,output"
-  "render=simulate,cycle,output,page,video|signal"
+  "render=simulate,cycle,output,page,video,truth|signal"
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
   "cli=render,compare,study,output|simulate,motion,keyframes,cycle,heart")
 
