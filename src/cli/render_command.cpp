@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "scene/scene_reader.h"
+#include "scene/truth_reader.h"
 #include "simulate/plan_loop.h"
 
 namespace echocine {
@@ -35,6 +36,18 @@ std::pair<int, int> parseRange(const std::string& text, int loop_frames) {
   return range;
 }
 
+void askForTruth(const std::string& list, Scene& scene) {
+  std::vector<std::string> kinds;
+  for (std::size_t begin = 0, end = 0; begin < list.size(); begin = end + 1) {
+    end = std::min(list.find(',', begin), list.size());
+    kinds.push_back(list.substr(begin, end - begin));
+  }
+  const std::string unknown = switchOn(kinds, scene.truth);
+  if (!unknown.empty())
+    throw SceneError(
+        fmt::format("--truth: \"{}\" is no kind of truth, accepted: {}", unknown, kTruthKinds));
+}
+
 // Times are summed over threads, so that settings compare whatever the number of cores.
 void printSummary(const RenderSummary& summary, const RenderOptions& options, const Scene& scene) {
   const Manifest& m = summary.manifest;
@@ -52,6 +65,7 @@ void printSummary(const RenderSummary& summary, const RenderOptions& options, co
   if (scene.output.exr) add("intensity/frame_*.exr");
   if (scene.output.cine) add("cine.avi");
   if (scene.output.png) add("png/frame_*.png");
+  if (scene.truth.any()) add("truth/");
   if (scene.output.report) add("report.html");
   add("manifest.json");
   fmt::print("  {}\n", parts);
@@ -72,6 +86,9 @@ RenderCommand::RenderCommand(CLI::App& app) {
       ->check(CLI::Range(0, 4096));
   command->add_option("--frames", frames_,
                       "Only frames A up to, without, B of the loop, counted from 0 (A:B, A:, :B)");
+  command->add_option("--truth", truth_,
+                      "Write truth too, beside what the scene asks for: all, or some of labels, "
+                      "contours, tracks, function with commas between");
   accuracy_.addTo(*command);
   command->add_flag("--resume", options_.resume,
                     "Keep frames whose EXR is whole and of this very scene");
@@ -85,6 +102,7 @@ RenderCommand::RenderCommand(CLI::App& app) {
 int RenderCommand::run() {
   listenForStop();
   Scene scene = readScene(scene_file_);
+  askForTruth(truth_, scene);
   if (!frames_.empty()) options_.frames = parseRange(frames_, CardiacClock(scene).frameCount());
   options_.accuracy = accuracy_.resolve(scene, options_.threads, quiet_);
   ProgressLine line(quiet_);

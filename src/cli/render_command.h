@@ -20,6 +20,7 @@ class RenderCommand {
 
  private:
   std::string scene_file_;
+  std::string truth_;  // kinds, between commas
   std::string frames_;
   bool quiet_ = false;
   RenderOptions options_;

@@ -91,7 +91,7 @@ bool isSmallWindow(std::string_view value) {
 // No more channels than there are to write; each has a name and 16 bytes.
 bool isShortChannelList(std::string_view value) {
   Cursor list(value);
-  for (std::size_t count = 0; count <= kAllChannels.size(); ++count) {
+  for (std::size_t count = 0; count <= kAllChannels.size() + kTruthChannels.size(); ++count) {
     const std::optional<std::string_view> name = list.text();
     if (!name) return false;
     if (name->empty()) return list.atEnd();

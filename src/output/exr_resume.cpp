@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 #include "core/hash.h"
 #include "output/exr_digest.h"
@@ -49,6 +50,7 @@ bool hasChannels(const Imf::Header& header, const std::vector<Channel>& wanted) 
 // One row of one channel.
 struct ChannelRow {
   bool is_float = true;
+  bool is_motion = false;     // may be negative, or unknown
   std::vector<float> values;  // of an integer channel: its bit patterns
 };
 
@@ -64,7 +66,11 @@ Imf::FrameBuffer rowBuffer(const Imf::Header& header, std::vector<ChannelRow>& r
       return {};
     }
     const bool is_float = channel.type != Imf::UINT;  // half floats are widened on reading
-    rows.push_back({is_float, std::vector<float>(static_cast<std::size_t>(window.max.x) + 1)});
+    const bool is_motion = std::any_of(
+        kTruthChannels.begin(), kTruthChannels.end(),
+        [&](Channel c) { return isMotion(c) && it.name() == std::string_view(channelName(c)); });
+    rows.push_back(
+        {is_float, is_motion, std::vector<float>(static_cast<std::size_t>(window.max.x) + 1)});
     // Every row lands in the same memory: the values are looked at and thrown away.
     const std::size_t row_stride = 0;
     buffer.insert(it.name(), Imf::Slice(is_float ? Imf::FLOAT : Imf::UINT,
@@ -84,7 +90,7 @@ bool pixelsAreWhole(Imf::InputFile& file) {
   for (int y = 0; y <= file.header().dataWindow().max.y; ++y) {
     file.readPixels(y);
     for (const ChannelRow& row : rows)
-      if (row.is_float && firstUnusable(row.values)) return false;
+      if (row.is_float && !row.is_motion && firstUnusable(row.values)) return false;
   }
   return true;
 }

@@ -97,6 +97,7 @@ std::string probeJson(const Probe& probe) {
 
 // Refused here, a bad value names its place; in the file it would only spoil whatever reads it.
 void refuseUnusable(const FrameRecord& record, const ChannelPlane& plane, int samples) {
+  if (isMotion(plane.channel)) return;  // may be negative, or unknown
   const std::optional<std::size_t> bad = firstUnusable(plane.values);
   if (!bad) return;
   const auto per_line = static_cast<std::size_t>(samples);
@@ -113,12 +114,12 @@ Imf::FrameBuffer layOut(const std::vector<ChannelPlane>& planes, const Probe& pr
   const auto samples = static_cast<std::size_t>(probe.samples);
   Imf::FrameBuffer buffer;
   for (const ChannelPlane& plane : planes) {
-    const bool ids = plane.channel == Channel::medium;
+    const bool ids = isLabel(plane.channel);
     if (ids)
       rowsFromLines(plane.ids, lines, samples, image);
     else
       rowsFromLines(plane.values, lines, samples, image);
-    const bool half = !ids && pixel == ExrPixel::half;
+    const bool half = !ids && !isMotion(plane.channel) && pixel == ExrPixel::half;
     if (half) {
       // Greys of 0 to 1 need no scale, and whoever knows of none reads them as they are.
       const bool scaled = plane.channel != Channel::display;

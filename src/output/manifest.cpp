@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <iterator>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
+#include "core/units.h"
 #include "output/exr_stack.h"
+#include "scene/role.h"
 #include "scene/scene_json.h"
+#include "signal/picture.h"
 
 namespace echocine {
 
@@ -34,6 +38,57 @@ Json framesJson(const Manifest& manifest) {
 }
 
 // Grouped by structure, as curves are drawn.
+// Where the probe frame lies in the picture. Pixel (i, j) covers i..i+1, j..j+1.
+Json pictureJson(const Scene& scene) {
+  const PictureGeometry g = pictureGeometry(scene);
+  const double mm_per_pixel = millimetresFromMetres(g.metres_per_pixel);
+  Json edges = Json::array();
+  Probe outer = scene.probe;
+  outer.lines = 2;
+  for (int i = 0; i < outer.lines; ++i) {
+    const LineGeometry line = lineGeometry(outer, i);
+    const auto px = [&](double path_m) {
+      const PixelPoint at = pixelOf(g, line.origin + path_m * line.direction);
+      return Json{at.x, at.y};
+    };
+    edges.push_back(
+        {{"from_px", px(scene.probe.min_depth_m)},
+         {"to_px", px(scene.probe.max_depth_m)},
+         {"angle_deg", degreesFromRadians(std::atan2(line.direction.x, line.direction.z))}});
+  }
+  return {
+      {"width_px", scene.output.width},
+      {"height_px", scene.output.height},
+      {"mm_per_pixel", mm_per_pixel},
+      {"apex_px", {g.origin_x_px, g.origin_y_px}},
+      {"px_from_mm", {{1 / mm_per_pixel, 0, g.origin_x_px}, {0, 1 / mm_per_pixel, g.origin_y_px}}},
+      {"sector_edges", edges}};
+}
+
+// The frames of the largest and the smallest left ventricle; null without one.
+Json eventsJson(const Scene& scene, const Manifest& manifest) {
+  const auto ventricle = structureOf(scene, Role::lv_cavity);
+  if (!ventricle || manifest.frames.empty()) return {};
+  const std::string& name = scene.structures[index(*ventricle)].name;
+  const auto volume = [&](const FrameEntry& frame) {
+    for (const auto& [structure, ml] : frame.volumes_ml)
+      if (structure == name) return ml;
+    return 0.0;
+  };
+  const auto by_volume = [&](const FrameEntry& a, const FrameEntry& b) {
+    return volume(a) < volume(b);
+  };
+  const auto [least, most] =
+      std::minmax_element(manifest.frames.begin(), manifest.frames.end(), by_volume);
+  const double full_ml = volume(*most), empty_ml = volume(*least);
+  return {{"structure", name},
+          {"end_diastole_frame", most->record.frame},
+          {"end_systole_frame", least->record.frame},
+          {"end_diastolic_volume_ml", full_ml},
+          {"end_systolic_volume_ml", empty_ml},
+          {"ejection_fraction", full_ml > 0 ? 1 - empty_ml / full_ml : 0}};
+}
+
 Json keyframesJson(const Manifest& manifest) {
   Json keyframes = Json::object();
   for (const KeyframeVolume& k : manifest.keyframes)
@@ -143,6 +198,8 @@ void writeManifest(const std::filesystem::path& path, const Scene& scene,
                   {"warnings", manifest.warnings},
                   {"reference_intensity", manifest.reference_intensity},
                   {"loop_frames", manifest.loop_frames},
+                  {"picture", pictureJson(scene)},
+                  {"left_ventricle", eventsJson(scene, manifest)},
                   {"frames", framesJson(manifest)},
                   {"keyframe_volumes", keyframesJson(manifest)},
                   {"timings_ms_per_frame", timings},

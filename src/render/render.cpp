@@ -109,7 +109,12 @@ RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const
     if (!reference) return;
     manifest.reference_intensity = *reference;
     ReportPage report(folder.report(), scene, simulator.cardiacClock(), range);
-    RenderPass pass({simulator, folder, monitor, report, options.resume, earlier}, manifest, kept);
+    std::optional<TruthMaker> truth;  // labels, contours and motion, as far as asked for
+    if (TruthMaker::wanted(scene))
+      truth.emplace(simulator.scene(), simulator.motion(), pictureGrid(scene),
+                    simulator.cardiacClock().at(0).phase);
+    RenderPass pass({simulator, folder, monitor, report, options.resume, earlier, truth ? &*truth : nullptr},
+                    manifest, kept);
     summary.frames_done = pass.run(range.first, range.second);
     summary.passes_s = secondsSince(start) - summary.setup_s;
     // No manifest: a folder without one is an unfinished run.

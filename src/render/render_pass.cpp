@@ -61,7 +61,23 @@ RenderPass::RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept)
                              parts.simulator.scene().acquisition.frame_rate_hz)
                    : std::vector<double>{}),
       cine_(parts.folder.cine(), parts.simulator.scene().output,
-            parts.simulator.scene().acquisition.frame_rate_hz) {}
+            parts.simulator.scene().acquisition.frame_rate_hz) {
+  if (!parts.truth) return;
+  truth_files_.emplace(parts.folder.truth(), parts.simulator.scene(), parts.truth->labels());
+  manifest_.files.merge(truth_files_->writeTables());
+}
+
+// Velocity is taken from a millisecond before to one after, within the loop.
+void RenderPass::makeTruth(const FrameTime& time, Finished& finished) {
+  constexpr double kStep_s = 1e-3;
+  const CardiacClock& clock = parts_.simulator.cardiacClock();
+  const double end_s = clock.frameCount() / parts_.simulator.scene().acquisition.frame_rate_hz;
+  const double before_s = std::max(time.time_s - kStep_s, 0.0),
+               after_s = std::min(time.time_s + kStep_s, end_s);
+  finished.truth = parts_.truth->at(
+      {time.phase, clock.atTime(before_s).phase, clock.atTime(after_s).phase, after_s - before_s});
+  finished.truth_files = truth_files_->write(finished.entry.record, *finished.truth);
+}
 
 Volumes RenderPass::tracedFrame(const FrameTime& time, Workspace& workspace) {
   {
@@ -80,8 +96,14 @@ Volumes RenderPass::tracedFrame(const FrameTime& time, Workspace& workspace) {
 void RenderPass::writeExr(const FrameRecord& record, const Workspace& workspace,
                           Finished& finished) {
   if (!parts_.simulator.scene().output.exr || !finished.entry.exr_sha256.empty()) return;
-  finished.entry.exr_sha256 =
-      exr_.write(record, channelPlanes(parts_.simulator.scene().output, workspace));
+  const OutputSettings& output = parts_.simulator.scene().output;
+  std::vector<ChannelPlane> planes = channelPlanes(output, workspace);
+  for (const Channel channel : output.channels)
+    if (channel == Channel::structure)
+      planes.push_back({channel, {}, finished.truth->sample_ids});
+    else if (isMotion(channel))
+      planes.push_back({channel, finished.truth->values(channel), {}});
+  finished.entry.exr_sha256 = exr_.write(record, planes);
 }
 
 // Browsers show JPEG and PNG, but no FFV1: then the report needs pictures of its own.
@@ -130,7 +152,9 @@ std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
   finished->entry.volumes_ml = tracedFrame(time, *workspace);
   GreyImage& image =
       parts_.simulator.picture(manifest_.reference_intensity, *workspace, o.cine || o.png);
+  if (parts_.truth) makeTruth(time, *finished);
   clock.time(Stage::exr, [&] { writeExr(record, *workspace, *finished); });
+  finished->truth.reset();
   if (o.cine || o.png) clock.time(Stage::avi, [&] { writePictures(image, *finished); });
   return finished;
 }
@@ -155,6 +179,7 @@ void RenderPass::drain(Finished& finished) {
     manifest_.files["intensity/" + ExrStack::fileName(frame)] = entry.exr_sha256;
   if (!finished.png_sha256.empty())
     manifest_.files["png/" + frameName(frame, ".png")] = finished.png_sha256;
+  manifest_.files.merge(finished.truth_files);
   manifest_.frames.push_back(entry);
 }
 

@@ -214,6 +214,18 @@ void add(EffectPlan& plan, Effect effect, bool on, std::string reason, Channel c
   plan.decisions.push_back({effect, on, std::move(reason), channel});
 }
 
+// A row for each kind of truth, and for each of its channels that is asked for.
+void planTruth(const Scene& scene, EffectPlan& plan) {
+  const TruthSettings& t = scene.truth;
+  for (const auto& [name, on] :
+       {std::pair("truth labels", t.labels), std::pair("truth contours", t.contours),
+        std::pair("truth tracks", t.tracks), std::pair("truth function", t.function)})
+    add(plan, name, on, on ? "asked for in truth.write" : "not asked for");
+  for (const Channel c : kTruthChannels)
+    if (wants(scene, c))
+      add(plan, fmt::format("channel {}", channelName(c)), true, "asked for in output.channels");
+}
+
 void planSignal(const Scene& scene, EffectPlan& plan) {
   const bool picture = wantsPicture(scene);
   if (scene.signal.tgc == Tgc::table && picture)
@@ -238,6 +250,7 @@ void planSignal(const Scene& scene, EffectPlan& plan) {
     add(plan, Effect::channel, wants(scene, c),
         wants(scene, c) ? "asked for in output.channels" : "not asked for", c);
   }
+  planTruth(scene, plan);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <initializer_list>
 #include <string>
 
+#include "scene/scene.h"
+
 namespace echocine {
 
 namespace {
@@ -56,12 +58,22 @@ Role guessRole(std::string_view name) {
     return chamber(w, Role::rv_cavity, Role::rv_wall);
   if (has(w, {"_la_"}) || (left && has(w, {"atri"}))) return chamber(w, Role::la, Role::la_wall);
   if (has(w, {"_ra_"}) || (right && has(w, {"atri"}))) return chamber(w, Role::ra, Role::ra_wall);
-  if (has(w, {"_epi"})) return Role::epicardium;
-  if (has(w, {"myocardium"})) return Role::lv_wall;
+  // An outer surface, filled, is the wall.
+  if (has(w, {"_epi", "myocardium"}) || w == "_wall_") return Role::lv_wall;
   if (has(w,
           {"lung", "chest", "abdomen", "diaphragm", "mediastin", "rib", "grooves", "_fat", "skin"}))
     return Role::surroundings;
   return Role::none;
+}
+
+Role roleOf(const Structure& structure) {
+  return structure.role != Role::none ? structure.role : guessRole(structure.name);
+}
+
+std::optional<SurfaceId> structureOf(const Scene& scene, Role role) {
+  for (std::size_t s = 0; s < scene.structures.size(); ++s)
+    if (roleOf(scene.structures[s]) == role) return static_cast<SurfaceId>(s);
+  return std::nullopt;
 }
 
 }  // namespace echocine

@@ -188,6 +188,22 @@ struct OutputSettings {
   bool ecg = true, depth_ticks = true;
 };
 
+// What is true of every frame, written beside its picture; nothing that is not asked for is made.
+struct TruthSettings {
+  bool labels = false;    // truth/labels_0000.png: the picture's pixels
+  bool contours = false;  // truth/contours.json: per structure and frame
+  bool tracks = false;    // truth/tracks.npz: material points over the loop
+  bool function = false;  // truth/function.json: volumes, strain, thickness, excursions
+  // Structures or roles and their numbers in the label pictures; empty: closed structures from 1 in
+  // the scene's order.
+  std::vector<std::pair<std::string, int>> label_numbers;
+  bool papillary_in_cavity = false;  // papillary muscles count as cavity in the label pictures
+  int track_count = 1000;            // material points
+  SourcePlace labels_place, tracks_place, function_place;
+
+  bool any() const { return labels || contours || tracks || function; }
+};
+
 struct Scene {
   std::filesystem::path file;
   MediumId background{};
@@ -201,6 +217,7 @@ struct Scene {
   SignalSettings signal;
   AccuracySettings accuracy;
   OutputSettings output;
+  TruthSettings truth;
   std::vector<std::string> warnings;  // what is accepted but hardly meant, one line each
 
   const Medium& medium(MediumId id) const { return media[index(id)]; }

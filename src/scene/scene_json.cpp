@@ -116,6 +116,18 @@ Json outputJson(const OutputSettings& o) {
           {"depth_ticks", o.depth_ticks}};
 }
 
+Json truthJson(const TruthSettings& t) {
+  Json numbers = Json::object();
+  for (const auto& [name, number] : t.label_numbers) numbers[name] = number;
+  return {{"labels", t.labels},
+          {"contours", t.contours},
+          {"tracks", t.tracks},
+          {"function", t.function},
+          {"label_numbers", numbers},
+          {"papillary_in_cavity", t.papillary_in_cavity},
+          {"track_count", t.track_count}};
+}
+
 }  // namespace
 
 Json mediaJson(const Scene& scene) {
@@ -154,7 +166,8 @@ Json sceneJson(const Scene& scene) {
             {"interface_echo", nameOf(scene.accuracy.interface_echo)},
             {"normals", nameOf(scene.accuracy.normals)},
             {"refraction_tolerance_beam_widths", scene.accuracy.refraction_tolerance_beam_widths}}},
-          {"output", outputJson(scene.output)}};
+          {"output", outputJson(scene.output)},
+          {"truth", truthJson(scene.truth)}};
 }
 
 }  // namespace echocine

@@ -15,6 +15,7 @@
 #include "scene/structure_reader.h"
 #include "scene/tolerance_reader.h"
 #include "scene/toml_table.h"
+#include "scene/truth_reader.h"
 
 namespace echocine {
 
@@ -143,11 +144,13 @@ SignalSettings readSignal(TomlTable table) {
 std::vector<Channel> readChannels(TomlTable& table) {
   std::vector<Channel> channels;
   for (const std::string& name : table.texts("channels")) {
-    const auto found = std::find_if(kAllChannels.begin(), kAllChannels.end(),
+    std::vector<Channel> known(kAllChannels.begin(), kAllChannels.end());
+    known.insert(known.end(), kTruthChannels.begin(), kTruthChannels.end());
+    const auto found = std::find_if(known.begin(), known.end(),
                                     [&](Channel c) { return channelName(c) == name; });
-    if (found == kAllChannels.end()) {
+    if (found == known.end()) {
       std::string accepted;
-      for (const Channel c : kAllChannels)
+      for (const Channel c : known)
         accepted += (accepted.empty() ? "" : ", ") + std::string(channelName(c));
       table.fail("channels", fmt::format("\"{}\" is not a channel, accepted: {}", name, accepted));
     }
@@ -318,6 +321,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file, const Name
   scene.signal = readSignal(root.table("signal"));
   scene.accuracy = readAccuracy(root.table("accuracy"));
   scene.output = readOutput(root.table("output"));
+  if (root.has("truth")) scene.truth = readTruth(root.table("truth"), scene);
   root.finish();
   refuseContradictions(root, scene);
   scene.warnings = keyframeWarnings(scene);

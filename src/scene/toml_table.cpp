@@ -300,6 +300,16 @@ std::vector<std::pair<std::string, TomlTable>> TomlTable::namedTables(std::strin
   return result;
 }
 
+std::vector<std::pair<std::string, int>> TomlTable::namedIntegers(std::string_view key, int lo,
+                                                                  int hi) {
+  TomlTable names = table(key);
+  std::vector<std::pair<std::string, int>> result;
+  if (!names.node_->table) return result;
+  for (const auto& [name, item] : *names.node_->table)
+    result.emplace_back(std::string(name.str()), names.integer(name.str(), std::nullopt, lo, hi));
+  return result;
+}
+
 void TomlTable::unused(std::string_view key, std::string_view accepted_with) {
   node_->unused.emplace(key, accepted_with);
 }

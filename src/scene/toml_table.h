@@ -69,6 +69,9 @@ class TomlTable {
   std::vector<double> numbers(std::string_view key);     // [a, b, ...]
   std::vector<std::pair<double, double>> pairs(std::string_view key);  // [[a, b], ...]
 
+  // name = whole number, in the table's order of names: { a = 1, b = 2 }.
+  std::vector<std::pair<std::string, int>> namedIntegers(std::string_view key, int lo, int hi);
+
   // Sub-tables; absent ones are empty, so that their defaults apply.
   TomlTable table(std::string_view key);
   std::vector<TomlTable> tables(std::string_view key);                               // [[key]]

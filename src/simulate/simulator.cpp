@@ -17,6 +17,7 @@ std::vector<ChannelPlane> channelPlanes(const OutputSettings& output, const Work
   const PolarFrame& polar = w.polar;
   std::vector<ChannelPlane> planes;
   for (const Channel channel : output.channels) {
+    if (isTruth(channel)) continue;  // of another origin
     if (channel == Channel::medium)
       planes.push_back({channel, {}, polar.medium});
     else if (channel == Channel::display)

@@ -177,7 +177,8 @@ TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan, bool in
 PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan) {
   PlaneRequest request;
   for (const Channel channel : scene.output.channels)
-    if (scene.output.exr && channel != Channel::display) request.channels.push_back(channel);
+    if (scene.output.exr && channel != Channel::display && !isTruth(channel))
+      request.channels.push_back(channel);
   request.intensities = wantsPicture(scene);
   request.intensity_terms.attenuation = plan.attenuation && scene.signal.tgc != Tgc::perfect;
   request.echo_samples = echoSamples(scene);

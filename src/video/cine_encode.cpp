@@ -127,25 +127,37 @@ std::vector<std::byte> encodeCineFrame(const GreyImage& image, CineCodec codec, 
   return encodeJpeg(image, jpeg_quality);
 }
 
-// The fast flag takes the least compression: PNGs are for looking at, not for keeping.
-std::vector<std::byte> encodePng(const GreyImage& image) {
+namespace {
+
+std::vector<std::byte> pngOf(const GreyImage& image, std::span<const PaletteColour> palette) {
   checkSize(image);
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
-  png.format = PNG_FORMAT_GRAY;
+  png.format = palette.empty() ? PNG_FORMAT_GRAY : PNG_FORMAT_RGB_COLORMAP;
+  png.colormap_entries = static_cast<png_uint_32>(palette.size());
   png.flags = PNG_IMAGE_FLAG_FAST;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::vector<std::byte> bytes(size);
-  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.pixels.data(), 0, nullptr) ==
-      0) {
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.pixels.data(), 0,
+                                palette.empty() ? nullptr : palette.data()) == 0) {
     if (std::string_view(png.message).find("memory") != std::string_view::npos)
       throw std::bad_alloc();
     throw JobError(fmt::format("a frame cannot be encoded as PNG: {}", png.message));
   }
   bytes.resize(size);
   return bytes;
+}
+
+}  // namespace
+
+std::vector<std::byte> encodePng(const GreyImage& image) {
+  return pngOf(image, {});
+}
+
+std::vector<std::byte> encodePng(const GreyImage& image, std::span<const PaletteColour> palette) {
+  return pngOf(image, palette);
 }
 
 }  // namespace echocine

@@ -68,7 +68,7 @@ TEST(Roles, AreGuessedFromTheNamesThatLabsUse) {
                                                 {"pulmonary_artery", Role::pulmonary_artery},
                                                 {"mitral_posterior", Role::mitral_valve},
                                                 {"papillary_anterolateral", Role::papillary_muscle},
-                                                {"epi", Role::epicardium},
+                                                {"epi", Role::lv_wall},
                                                 {"pericardium", Role::pericardium},
                                                 {"lung_left", Role::surroundings},
                                                 {"ball", Role::none},

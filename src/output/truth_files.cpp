@@ -1,0 +1,154 @@
+#include "output/truth_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/hash.h"
+#include "core/units.h"
+#include "scene/names.h"
+#include "truth/sector_clip.h"
+#include "video/cine_writer.h"
+
+namespace echocine {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Colours that neighbours tell apart: hues by the golden angle, black for 0. Our choice.
+std::vector<PaletteColour> palette() {
+  std::vector<PaletteColour> colours(256);
+  for (std::size_t i = 1; i < colours.size(); ++i) {
+    const double hue = std::fmod(static_cast<double>(i) * 0.618034, 1.0) * 6;
+    const auto channel = [&](double shift) {
+      const double d = std::abs(std::fmod(hue + shift, 6.0) - 3) - 1;
+      return static_cast<std::uint8_t>(60 + 180 * std::clamp(d, 0.0, 1.0));
+    };
+    colours[i] = {channel(0), channel(4), channel(2)};
+  }
+  return colours;
+}
+
+// [x, z] pairs in the unit that `scale` makes of metres, to a micrometre or a thousandth pixel.
+template <typename Place>
+Json pointsJson(const std::vector<Vec3d>& points_m, const Place& place) {
+  const auto rounded = [](double v) { return std::round(v * 1e3) / 1e3; };
+  Json list = Json::array();
+  for (const Vec3d p : points_m) {
+    const std::pair<double, double> at = place(p);
+    list.push_back({rounded(at.first), rounded(at.second)});
+  }
+  return list;
+}
+
+std::span<const std::byte> bytesOf(const std::string& text) {
+  return std::as_bytes(std::span(text));
+}
+
+}  // namespace
+
+PictureGrid pictureGrid(const Scene& scene) {
+  const PictureGeometry g = pictureGeometry(scene);
+  return {scene.output.width, scene.output.height, g.origin_x_px, g.origin_y_px,
+          g.metres_per_pixel};
+}
+
+TruthFiles::TruthFiles(std::filesystem::path folder, const Scene& scene, const LabelTable& labels)
+    : folder_(std::move(folder)),
+      scene_(scene),
+      labels_(labels),
+      geometry_(pictureGeometry(scene)),
+      outline_(sectorOutline(scene.probe)) {
+  if (!scene.truth.any()) return;
+  std::error_code failed;
+  std::filesystem::create_directories(folder_, failed);
+  if (failed)
+    throw JobError(
+        fmt::format("{}: cannot be made a folder: {}", folder_.string(), failed.message()));
+  std::vector<std::filesystem::path> stale;
+  for (const auto& file : std::filesystem::directory_iterator(folder_, failed)) {
+    const std::string name = file.path().filename().string();
+    const bool ours = name.starts_with("labels") || name.starts_with("contours_") ||
+                      name.starts_with("tracks.") || name.starts_with("function.");
+    if (ours && file.is_regular_file()) stale.push_back(file.path());
+  }
+  for (const auto& path : stale) std::filesystem::remove(path, failed);
+}
+
+std::string TruthFiles::put(const std::string& name, std::span<const std::byte> bytes) const {
+  writeFileWhole(folder_ / name, bytes);
+  return sha256Hex(bytes);
+}
+
+std::vector<std::byte> TruthFiles::labelPicture(const FrameTruth& truth) const {
+  static const std::vector<PaletteColour> kColours = palette();
+  return encodePng(GreyImage{scene_.output.width, scene_.output.height, truth.labels}, kColours);
+}
+
+// Places in the imaging plane: x lateral and z depth in mm from the apex, and in the picture's
+// pixels. `in_sector`: the part that the sector shows, closed where its edges cut.
+std::string TruthFiles::contoursText(const FrameRecord& record, const FrameTruth& truth) const {
+  const auto mm = [](Vec3d p) { return std::pair(1e3 * p.x, 1e3 * p.z); };
+  const auto px = [&](Vec3d p) {
+    const PixelPoint at = pixelOf(geometry_, p);
+    return std::pair(at.x, at.y);
+  };
+  Json list = Json::array();
+  for (const Contour& contour : truth.contours) {
+    const Structure& structure = scene_.structures[index(contour.surface)];
+    Json entry{{"structure", structure.name},
+               {"role", nameOf(roleOf(structure))},
+               {"closed", contour.closed},
+               {"points_mm", pointsJson(contour.points_m, mm)},
+               {"points_px", pointsJson(contour.points_m, px)}};
+    if (contour.closed) {
+      const std::vector<Vec3d> shown = clipped(contour.points_m, outline_);
+      entry["in_sector_mm"] = pointsJson(shown, mm);
+      entry["in_sector_px"] = pointsJson(shown, px);
+    }
+    list.push_back(std::move(entry));
+  }
+  const Json json{{"index", record.frame},
+                  {"time_s", record.time_s},
+                  {"phase", record.phase},
+                  {"contours", list}};
+  return json.dump() + "\n";
+}
+
+std::map<std::string, std::string> TruthFiles::write(const FrameRecord& record,
+                                                     const FrameTruth& truth) const {
+  std::map<std::string, std::string> files;
+  if (scene_.truth.labels) {
+    const std::string name = fmt::format("labels_{:04}.png", record.frame);
+    files["truth/" + name] = put(name, labelPicture(truth));
+  }
+  if (scene_.truth.contours) {
+    const std::string name = fmt::format("contours_{:04}.json", record.frame);
+    files["truth/" + name] = put(name, bytesOf(contoursText(record, truth)));
+  }
+  return files;
+}
+
+std::map<std::string, std::string> TruthFiles::writeTables() const {
+  std::map<std::string, std::string> files;
+  if (!scene_.truth.labels) return files;
+  Json names = Json::object(), structures = Json::array();
+  for (const LabelTable::Entry& entry : labels_.entries)
+    names[std::to_string(entry.number)] = entry.name;
+  for (std::size_t s = 0; s < scene_.structures.size(); ++s)
+    structures.push_back({{"name", scene_.structures[s].name},
+                          {"role", nameOf(roleOf(scene_.structures[s]))},
+                          {"structure_id", s + 1},
+                          {"label", labels_.numbers[s]}});
+  const Json json{
+      {"0", "background, or outside the sector"}, {"labels", names}, {"structures", structures}};
+  files["truth/labels.json"] = put("labels.json", bytesOf(json.dump(1) + "\n"));
+  return files;
+}
+
+}  // namespace echocine
