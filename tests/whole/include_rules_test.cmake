@@ -50,7 +50,7 @@ set(rooms
   "render=simulate,cycle,output,page,video,truth|signal"
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
   "echocine=render,simulate,heart"
-  "cli=render,compare,study,output|simulate,motion,keyframes,cycle,heart")
+  "cli=render,compare,study,output|video,simulate,motion,keyframes,cycle,heart")
 
 function(room_of path out)
   string(REGEX REPLACE "^src/" "" path "${path}")
