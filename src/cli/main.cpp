@@ -16,12 +16,46 @@
 #include "cli/standard_error.h"
 #include "cli/study_command.h"
 #include "core/error.h"
+#include "core/nearest_word.h"
 #include "core/out_of_memory.h"
 
 namespace {
 
 constexpr int kJobFailed = 1;
 constexpr int kUnusable = 2;
+
+// What a misspelt word was hardly meant to be: the nearest command, or option of the command.
+std::string nearestTo(const std::string& word, const CLI::App& app) {
+  std::vector<std::string> known;
+  if (word.starts_with("-")) {
+    for (const CLI::Option* option : app.get_options())
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  } else {
+    for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  }
+  return echocine::nearestWord(word.substr(0, word.find('=')), known);
+}
+
+// Of the first word that the parser did not take.
+std::string misspelt(int argc, char** argv, const CLI::App& app) {
+  const CLI::App* command = nullptr;
+  for (const CLI::App* one : app.get_subcommands({}))
+    if (argc > 1 && one->get_name() == argv[1]) command = one;
+  if (command == nullptr) {
+    if (argc < 2 || argv[1][0] == '-') return {};
+    const std::string nearest = nearestTo(argv[1], app);
+    return fmt::format("\"{}\" is not a command{}", argv[1],
+                       nearest.empty() ? "" : fmt::format(", nearest: {}", nearest));
+  }
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = argv[i], name = word.substr(0, word.find('='));
+    if (!word.starts_with("--") || command->get_option_no_throw(name)) continue;
+    const std::string nearest = nearestTo(word, *command);
+    return fmt::format("{}: {} is not an option{}", argv[1], name,
+                       nearest.empty() ? "" : fmt::format(", nearest: {}", nearest));
+  }
+  return {};
+}
 
 // In one piece, so that lines of two programs do not mix, unless memory is short.
 int failed(int code, std::string_view what) {
@@ -64,7 +98,9 @@ int main(int argc, char** argv) {
     return code;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return failed(kUnusable, fmt::format("{} (--help lists what is accepted)", error.what()));
+    const std::string wrong = misspelt(argc, argv, app);
+    return failed(kUnusable, fmt::format("{} (--help lists what is accepted)",
+                                         wrong.empty() ? error.what() : wrong));
   } catch (const echocine::SceneError& error) {
     return failed(kUnusable, error.what());
   } catch (const echocine::JobError& error) {

@@ -25,13 +25,13 @@ void printEffects(const Manifest& manifest) {
   for (const EffectDecision& e : manifest.plan.effects.decisions) {
     const double share = timeShare(e, manifest);
     const std::string percent = e.on ? fmt::format("{:.0f} %", 100 * share) : "";
-    fmt::print("{:<24} {:<4} {:>5}  {}\n", e.name, e.on ? "on" : "off", percent, e.reason);
+    fmt::print("{:<24} {:<4} {:>5}  {}\n", e.name(), e.on ? "on" : "off", percent, e.reason);
   }
 }
 
 void printRest(const Estimate& estimate) {
   const LoopPlan& plan = estimate.measured.plan;
-  for (const EffectDecision& i : plan.interfaces)
+  for (const Omission& i : plan.interfaces)
     fmt::print("{:<24} {:<4} {:>5}  {}\n", i.name, "off", "", i.reason);
   fmt::print("\ntracer      {}: {}\n", plan.tracerName(), plan.tracer_reason);
   fmt::print("echoes      {}\n", plan.echo_reason);

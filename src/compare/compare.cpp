@@ -57,8 +57,8 @@ BeatLength beatOf(const Loop& loop) {
   return beat;
 }
 
-// End-diastole and end-systole of a render: the largest and smallest volume of the cavity that is
-// called the left ventricle, else of the structure that empties most.
+// End-diastole and end-systole of a render: the largest and smallest volume of the left ventricle's
+// cavity, else of the structure that empties most.
 struct Cardinal {
   std::optional<double> ed, es;
 };
@@ -69,7 +69,7 @@ Cardinal fromVolumes(const Loop& loop) {
   for (const auto& [name, ml] : loop.volumes_ml) {
     if (ml.size() != loop.video.frames.size()) continue;
     const auto [low, high] = std::minmax_element(ml.begin(), ml.end());
-    const double emptied = *high > 0 ? (1 - *low / *high) * (name.starts_with("lv") ? 10 : 1) : 0;
+    const double emptied = *high > 0 ? (1 - *low / *high) * (name == loop.lv_cavity ? 10 : 1) : 0;
     if (emptied > most) most = emptied, best = &ml;
   }
   if (best == nullptr) return {};

@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "output/exr_plane.h"
 #include "output/exr_stack.h"
+#include "scene/names.h"
 #include "signal/picture.h"
 #include "video/read_video.h"
 #include "video/video_builder.h"
@@ -64,6 +65,18 @@ void takeGeometry(const Json& scene, Loop& loop, const std::string& name) {
 }
 
 // Frames per beat from the phases, which count on from frame to frame.
+// By the role that the manifest has, else by the name.
+std::string leftVentricle(const Json& structures) {
+  for (const Json& structure : structures) {
+    const std::string name = structure.at("name");
+    const Role role = structure.contains("role")
+                          ? valueOf<Role>(structure["role"].get<std::string>()).value_or(Role::none)
+                          : guessRole(name);
+    if (role == Role::lv_cavity) return name;
+  }
+  return "";
+}
+
 void takeFrames(const Json& frames, Loop& loop) {
   std::vector<double> times;
   for (const Json& f : frames) {
@@ -149,6 +162,7 @@ Loop readRenderFolder(const std::filesystem::path& folder) {
     loop.video.repeats.clear();  // frames that do not move are no repeats here
     takeGeometry(manifest.at("scene"), loop, name);
     takeFrames(manifest.at("frames"), loop);
+    loop.lv_cavity = leftVentricle(manifest.at("scene").at("structures"));
     loop.scene_sha256 = manifest.at("scene_sha256");
     if (loop.phases.size() == loop.video.frames.size())
       takeTracedGreys(folder, manifest.at("scene"), loop);

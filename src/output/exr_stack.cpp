@@ -21,6 +21,7 @@
 #include "core/hash.h"
 #include "output/half_plane.h"
 #include "output/polar_plane.h"
+#include "scene/names.h"
 #include "video/cine_writer.h"
 
 namespace echocine {
@@ -75,22 +76,10 @@ Imf::Compression compressionOf(ExrCompression compression) {
   return Imf::NO_COMPRESSION;
 }
 
-const char* kindName(ProbeKind kind) {
-  switch (kind) {
-    case ProbeKind::curvilinear:
-      return "curvilinear";
-    case ProbeKind::linear:
-      return "linear";
-    case ProbeKind::phased:
-      break;
-  }
-  return "phased";
-}
-
 std::string probeJson(const Probe& probe) {
   const auto triple = [](Vec3d v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
   nlohmann::ordered_json json;
-  json["kind"] = kindName(probe.kind);
+  json["kind"] = nameOf(probe.kind);
   json["apex_m"] = triple(probe.pose.origin);
   json["lateral"] = triple(probe.pose.x_axis);
   json["elevation"] = triple(probe.pose.y_axis);

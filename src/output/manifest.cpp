@@ -1,5 +1,7 @@
 #include "output/manifest.h"
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
@@ -42,7 +44,7 @@ Json keyframesJson(const Manifest& manifest) {
 Json effectsJson(const Manifest& manifest) {
   Json effects = Json::array();
   for (const EffectDecision& e : manifest.plan.effects.decisions)
-    effects.push_back({{"name", e.name},
+    effects.push_back({{"name", e.name()},
                        {"on", e.on},
                        {"reason", e.reason},
                        {"time_share", timeShare(e, manifest)}});
@@ -51,8 +53,8 @@ Json effectsJson(const Manifest& manifest) {
 
 Json planJson(const LoopPlan& plan) {
   Json interfaces = Json::array();
-  for (const EffectDecision& i : plan.interfaces)
-    interfaces.push_back({{"name", i.name}, {"on", i.on}, {"reason", i.reason}});
+  for (const Omission& i : plan.interfaces)
+    interfaces.push_back({{"name", i.name}, {"on", false}, {"reason", i.reason}});
   return {{"tracer", plan.tracerName()},
           {"tracer_reason", plan.tracer_reason},
           {"rays_per_beam", plan.effects.rays_per_beam},
@@ -91,37 +93,34 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest) {
              attenuated = static_cast<double>(w.samples_attenuated);
   // Relative cost of a unit of each work: our choice, weighed by the operations of each, not timed.
   struct Part {
-    const char* name;
+    Effect effect;
     Stage stage;
     double work;
   };
-  const Part parts[] = {{"reflection", Stage::trace, 20 * crossings},
-                        {"lobe", Stage::trace, 5 * crossings},
-                        {"transmission_loss", Stage::trace, 10 * crossings},
-                        {"refraction", Stage::trace, manifest.plan.slice ? 0 : 200 * rays},
-                        {"attenuation", Stage::trace, 0.5 * attenuated},
-                        {"backscatter", Stage::trace, 0.3 * scattered},
-                        {"spread", Stage::trace, 0.3 * scattered},
-                        {"elevation", Stage::trace, 20 * rays},
-                        {"travel_time", Stage::trace, 2 * crossings},
-                        {"labels", Stage::trace, 0.1 * scattered},
-                        {"beam_width", Stage::signal, 0.8},
-                        {"tgc", Stage::signal, 0.05},
-                        {"log_compression", Stage::signal, 0.2}};
+  const Part parts[] = {{Effect::reflection, Stage::trace, 20 * crossings},
+                        {Effect::lobe, Stage::trace, 5 * crossings},
+                        {Effect::transmission_loss, Stage::trace, 10 * crossings},
+                        {Effect::refraction, Stage::trace, manifest.plan.slice ? 0 : 200 * rays},
+                        {Effect::attenuation, Stage::trace, 0.5 * attenuated},
+                        {Effect::backscatter, Stage::trace, 0.3 * scattered},
+                        {Effect::spread, Stage::trace, 0.3 * scattered},
+                        {Effect::elevation, Stage::trace, 20 * rays},
+                        {Effect::travel_time, Stage::trace, 2 * crossings},
+                        {Effect::labels, Stage::trace, 0.1 * scattered},
+                        {Effect::beam_width, Stage::signal, 0.8},
+                        {Effect::tgc, Stage::signal, 0.05},
+                        {Effect::log_compression, Stage::signal, 0.2},
+                        {Effect::channel, Stage::exr, 1}};
+  const auto partOf = [&](const EffectDecision& decision) {
+    return std::find_if(std::begin(parts), std::end(parts),
+                        [&](const Part& p) { return p.effect == decision.effect; });
+  };
+  const Part* part = partOf(effect);
+  if (part == std::end(parts)) return 0;
   double of_stage = 0;
-  const Part* part = nullptr;
-  for (const Part& p : parts)
-    if (effect.name == p.name) part = &p;
-  const bool channel = effect.name.starts_with("channel");
-  if (!part && !channel) return 0;
-  for (const EffectDecision& other : manifest.plan.effects.decisions)
-    for (const Part& p : parts)
-      if (part && other.on && other.name == p.name && p.stage == part->stage) of_stage += p.work;
-  if (channel) {
-    double channels = 0;
-    for (const EffectDecision& other : manifest.plan.effects.decisions)
-      channels += other.on && other.name.starts_with("channel") ? 1 : 0;
-    return manifest.stage_ms[static_cast<std::size_t>(Stage::exr)] / total / channels;
+  for (const EffectDecision& other : manifest.plan.effects.decisions) {
+    const Part* p = partOf(other);
+    if (other.on && p != std::end(parts) && p->stage == part->stage) of_stage += p->work;
   }
   const double stage_ms = manifest.stage_ms[static_cast<std::size_t>(part->stage)];
   return of_stage > 0 ? stage_ms / total * part->work / of_stage : 0;

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/check.h"
+#include "scene/scan_geometry.h"
 
 namespace echocine {
 namespace {

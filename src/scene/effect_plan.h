@@ -9,9 +9,12 @@
 namespace echocine {
 
 struct EffectDecision {
-  std::string name;
+  Effect effect{};
   bool on = false;
   std::string reason;
+  Channel channel{};  // of Effect::channel
+
+  std::string name() const;  // "refraction", "channel Y"
 };
 
 struct EffectPlan {
@@ -34,7 +37,9 @@ struct EffectPlan {
   bool contrast = true;  // the media in use differ at all
   std::vector<EffectDecision> decisions;
 
-  const EffectDecision& decision(const std::string& name) const;
+  // Precondition: not Effect::channel.
+  const EffectDecision& decision(Effect effect) const;
+  EffectDecision& decision(Effect effect);
 };
 
 // What the scene file alone decides. Refraction stays on here where any ray could bend; how far

@@ -10,10 +10,14 @@
 
 namespace echocine {
 
+// A structure, or "interface A/B" of two media, that drops out.
+struct Omission {
+  std::string name, reason;
+};
+
 struct LoopPlan {
   EffectPlan effects;
-  std::vector<EffectDecision>
-      interfaces;       // structures and pairs of media that drop out, with the reason
+  std::vector<Omission> interfaces;
   SurfaceSet left_out;  // those structures
   bool slice = false;   // the plane slice traces; else the hierarchy
   std::string tracer_reason;

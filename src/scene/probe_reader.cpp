@@ -64,10 +64,7 @@ void readFootprint(TomlTable& table, Probe& probe) {
 
 Probe readProbe(TomlTable table, double mesh_unit_m) {
   Probe probe;
-  probe.kind = table.choice("kind", ProbeKind::phased,
-                            {{"phased", ProbeKind::phased},
-                             {"curvilinear", ProbeKind::curvilinear},
-                             {"linear", ProbeKind::linear}});
+  probe.kind = table.choice("kind", ProbeKind::phased);
   probe.pose = readPose(table, mesh_unit_m);
   readFootprint(table, probe);
   probe.min_depth_m =

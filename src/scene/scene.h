@@ -14,6 +14,7 @@
 #include "scene/channel.h"
 #include "scene/medium.h"
 #include "scene/probe.h"
+#include "scene/role.h"
 #include "scene/triangle_mesh.h"
 
 namespace echocine {
@@ -63,6 +64,8 @@ struct Repairs {
 struct Structure {
   std::string name;
   MediumId medium{};
+  Role role = Role::none;           // in the heart
+  bool role_given = false;          // by the scene; else guessed from the name
   bool membrane = false;            // an open sheet of a thin material: reflects, encloses nothing
   int priority = 0;                 // where closed structures overlap the highest wins
   std::vector<Keyframe> keyframes;  // ascending phases
@@ -75,7 +78,28 @@ struct Structure {
 
 enum class Switch { automatic, on, off };
 
-// What each effect is stands in effect_plan.cpp, beside the reasons to leave it out.
+// What a loop may compute or leave out. What each is stands in effect_plan.cpp, beside the reasons
+// to leave it out.
+enum class Effect {
+  reflection,
+  lobe,
+  transmission_loss,
+  refraction,
+  snell_angles,
+  reflection_cap,
+  thin_layers,
+  attenuation,
+  backscatter,
+  spread,
+  beam_width,
+  elevation,
+  travel_time,
+  tgc,
+  log_compression,
+  labels,
+  channel  // of the intensity stack, one decision each
+};
+
 struct EffectSwitches {
   Switch reflection = Switch::automatic;         // echoes of interfaces
   Switch lobe = Switch::automatic;               // cos^n of the non-specular lobe
@@ -91,6 +115,26 @@ struct EffectSwitches {
   Switch elevation = Switch::automatic;          // rays out of the imaging plane
   Switch travel_time = Switch::automatic;  // place echoes at 1540 m/s t/2 instead of path length
 };
+
+// The effects that a scene can switch, by their names.
+struct EffectSwitch {
+  Effect effect;
+  Switch EffectSwitches::*wanted;
+};
+inline constexpr EffectSwitch kEffectSwitches[] = {
+    {Effect::reflection, &EffectSwitches::reflection},
+    {Effect::lobe, &EffectSwitches::lobe},
+    {Effect::transmission_loss, &EffectSwitches::transmission_loss},
+    {Effect::refraction, &EffectSwitches::refraction},
+    {Effect::snell_angles, &EffectSwitches::snell_angles},
+    {Effect::reflection_cap, &EffectSwitches::reflection_cap},
+    {Effect::thin_layers, &EffectSwitches::thin_layers},
+    {Effect::attenuation, &EffectSwitches::attenuation},
+    {Effect::backscatter, &EffectSwitches::backscatter},
+    {Effect::spread, &EffectSwitches::spread},
+    {Effect::beam_width, &EffectSwitches::beam_width},
+    {Effect::elevation, &EffectSwitches::elevation},
+    {Effect::travel_time, &EffectSwitches::travel_time}};
 
 enum class Tgc { perfect, mean, table, none };
 enum class Spread { compensate, keep };

@@ -42,10 +42,7 @@ Acquisition readAcquisition(TomlTable table) {
   a.beats = table.number("beats", a.beats, {.lo = 0, .hi = 1e6, .lo_open = true});
   if (a.beats / a.heart_rate_hz * a.frame_rate_hz > kMaxFrames)
     table.fail("beats", fmt::format("the loop would have over {} frames", kMaxFrames));
-  a.time_warp = table.choice("time_warp", a.time_warp,
-                             {{"auto", WarpChoice::automatic},
-                              {"uniform", WarpChoice::uniform},
-                              {"systole", WarpChoice::systole}});
+  a.time_warp = table.choice("time_warp", a.time_warp);
   a.rr_variability =
       table.number("rr_variability", a.rr_variability, {.lo = 0, .hi = kMaxRrVariability});
   a.seed = table.integer("seed", a.seed, 0, std::numeric_limits<int>::max());
@@ -82,11 +79,7 @@ std::vector<double> readKeyframePhases(TomlTable& table) {
 MotionSettings readMotion(TomlTable table) {
   MotionSettings m;
   m.mesh_unit_m = readUnit(table, "mesh_unit", m.mesh_unit_m);
-  m.interpolation = table.choice("interpolation", m.interpolation,
-                                 {{"linear", Interpolation::linear},
-                                  {"catmull-rom", Interpolation::catmull_rom},
-                                  {"spline", Interpolation::spline},
-                                  {"fourier", Interpolation::fourier}});
+  m.interpolation = table.choice("interpolation", m.interpolation);
   m.subdivision = table.integer("subdivision", m.subdivision, 0, 8);
   readRecordedBeat(table, m);
   m.keyframe_phases = readKeyframePhases(table);
@@ -97,32 +90,15 @@ MotionSettings readMotion(TomlTable table) {
 }
 
 EffectSwitches readEffects(TomlTable table) {
-  EffectSwitches e;
-  const auto read = [&table](std::string_view key, Switch fallback) {
-    return table.choice(key, fallback,
-                        {{"auto", Switch::automatic}, {"on", Switch::on}, {"off", Switch::off}});
-  };
-  e.reflection = read("reflection", e.reflection);
-  e.lobe = read("lobe", e.lobe);
-  e.transmission_loss = read("transmission_loss", e.transmission_loss);
-  e.refraction = read("refraction", e.refraction);
-  e.snell_angles = read("snell_angles", e.snell_angles);
-  e.reflection_cap = read("reflection_cap", e.reflection_cap);
-  e.thin_layers = read("thin_layers", e.thin_layers);
-  e.attenuation = read("attenuation", e.attenuation);
-  e.backscatter = read("backscatter", e.backscatter);
-  e.spread = read("spread", e.spread);
-  e.beam_width = read("beam_width", e.beam_width);
-  e.elevation = read("elevation", e.elevation);
-  e.travel_time = read("travel_time", e.travel_time);
+  EffectSwitches switches;
+  for (const EffectSwitch& s : kEffectSwitches)
+    switches.*s.wanted = table.choice(nameOf(s.effect), switches.*s.wanted);
   table.finish();
-  return e;
+  return switches;
 }
 
 void readTgc(TomlTable& table, SignalSettings& s) {
-  s.tgc = table.choice(
-      "tgc", s.tgc,
-      {{"perfect", Tgc::perfect}, {"mean", Tgc::mean}, {"table", Tgc::table}, {"none", Tgc::none}});
+  s.tgc = table.choice("tgc", s.tgc);
   if (s.tgc != Tgc::table) return table.unused("tgc_table_mm_db", "tgc = \"table\"");
   for (const auto& [depth_mm, gain_db] : table.pairs("tgc_table_mm_db")) {
     const double depth_m = metresFromMillimetres(depth_mm);
@@ -140,11 +116,8 @@ void readTgc(TomlTable& table, SignalSettings& s) {
 SignalSettings readSignal(TomlTable table) {
   SignalSettings s;
   readTgc(table, s);
-  s.spread = table.choice("spread", s.spread,
-                          {{"compensate", Spread::compensate}, {"keep", Spread::keep}});
-  s.beam_width = table.choice(
-      "beam_width", s.beam_width,
-      {{"focused", BeamWidth::focused}, {"fixed", BeamWidth::fixed}, {"none", BeamWidth::none}});
+  s.spread = table.choice("spread", s.spread);
+  s.beam_width = table.choice("beam_width", s.beam_width);
   if (s.beam_width == BeamWidth::fixed)
     s.beam_width_m = metresFromMillimetres(table.number("beam_width_mm", std::nullopt, kPositive));
   else
@@ -191,16 +164,9 @@ OutputSettings readOutput(TomlTable table) {
   o.channels_given = table.has("channels");
   if (o.channels_given) o.channels = readChannels(table);
   if (o.channels.empty()) table.fail("channels", "is empty, accepted: at least one channel");
-  o.exr_compression = table.choice("exr_compression", o.exr_compression,
-                                   {{"none", ExrCompression::none},
-                                    {"rle", ExrCompression::rle},
-                                    {"zips", ExrCompression::zips},
-                                    {"zip", ExrCompression::zip},
-                                    {"piz", ExrCompression::piz},
-                                    {"pxr24", ExrCompression::pxr24}});
-  o.exr_pixel = table.choice("exr_pixel", o.exr_pixel,
-                             {{"float", ExrPixel::whole}, {"half", ExrPixel::half}});
-  o.codec = table.choice("codec", o.codec, {{"mjpg", CineCodec::mjpg}, {"ffv1", CineCodec::ffv1}});
+  o.exr_compression = table.choice("exr_compression", o.exr_compression);
+  o.exr_pixel = table.choice("exr_pixel", o.exr_pixel);
+  o.codec = table.choice("codec", o.codec);
   o.jpeg_quality = table.integer("jpeg_quality", o.jpeg_quality, 1, 100);
   o.width = table.integer("width", o.width, 16, 16384);
   o.height = table.integer("height", o.height, 16, 16384);
@@ -219,17 +185,9 @@ std::optional<SceneTolerance> readTolerance(TomlTable& table) {
 AccuracySettings readAccuracy(TomlTable table) {
   AccuracySettings a;
   a.rays_per_beam = table.integer("rays_per_beam", a.rays_per_beam, 1, kMaxRaysPerBeam);
-  a.tracer = table.choice("tracer", a.tracer,
-                          {{"auto", TracerChoice::automatic},
-                           {"slice", TracerChoice::slice},
-                           {"embree", TracerChoice::embree}});
-  a.interface_echo = table.choice("interface_echo", a.interface_echo,
-                                  {{"auto", InterfaceEcho::automatic},
-                                   {"centre", InterfaceEcho::centre},
-                                   {"cell", InterfaceEcho::cell}});
-  a.normals = table.choice(
-      "normals", a.normals,
-      {{"auto", Normals::automatic}, {"facet", Normals::facet}, {"smooth", Normals::smooth}});
+  a.tracer = table.choice("tracer", a.tracer);
+  a.interface_echo = table.choice("interface_echo", a.interface_echo);
+  a.normals = table.choice("normals", a.normals);
   a.normals_place = table.place("normals");
   a.refraction_tolerance_beam_widths =
       table.number("refraction_tolerance_beam_widths", a.refraction_tolerance_beam_widths,
@@ -319,10 +277,11 @@ class MediaInUse {
   Scene& scene_;
 };
 
-void readStructures(TomlTable& root, const MediaTable& table, MediaInUse& media, Scene& scene) {
+void readStructures(TomlTable& root, const MediaTable& table, MediaInUse& media,
+                    const NamedMeshes* meshes, Scene& scene) {
   for (TomlTable& entry : root.tables("structure")) {
     Structure structure =
-        readStructure(entry, scene.file.parent_path(), scene.motion.keyframe_phases);
+        readStructure(entry, scene.file.parent_path(), scene.motion.keyframe_phases, meshes);
     structure.medium = media.idOf(table.named(entry, "medium"));
     entry.finish();
     for (const Structure& other : scene.structures)
@@ -336,9 +295,7 @@ void readStructures(TomlTable& root, const MediaTable& table, MediaInUse& media,
   }
 }
 
-}  // namespace
-
-Scene parseScene(std::string_view text, const std::filesystem::path& file) {
+Scene parse(std::string_view text, const std::filesystem::path& file, const NamedMeshes* meshes) {
   TomlTable root = TomlTable::parse(text, file.string());
   Scene scene;
   scene.file = file;
@@ -349,7 +306,7 @@ Scene parseScene(std::string_view text, const std::filesystem::path& file) {
   media_table.read(root);
   MediaInUse media(scene);
   scene.background = media.idOf(media_table.named(root, "background", "soft_tissue"));
-  readStructures(root, media_table, media, scene);
+  readStructures(root, media_table, media, meshes, scene);
   if (scene.structures.empty())
     root.fail("structure", "is missing, accepted: at least one [[structure]]");
   scene.unit_volume_m3 =
@@ -366,6 +323,17 @@ Scene parseScene(std::string_view text, const std::filesystem::path& file) {
   if (scene.effects.attenuation == Switch::off && !scene.output.channels_given)
     scene.output.channels = {Channel::unattenuated};
   return scene;
+}
+
+}  // namespace
+
+Scene parseScene(std::string_view text, const std::filesystem::path& file) {
+  return parse(text, file, nullptr);
+}
+
+Scene parseScene(std::string_view text, const std::filesystem::path& file,
+                 const NamedMeshes& meshes) {
+  return parse(text, file, &meshes);
 }
 
 std::optional<SceneTolerance> readSceneTolerance(const std::filesystem::path& file) {

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/nearest_word.h"
 #include "core/vec3.h"
+#include "scene/names.h"
 
 namespace echocine {
 
@@ -55,6 +57,15 @@ class TomlTable {
     return found ? choices[*found].second : fallback;
   }
 
+  // The same by the names that the enum has in names.h.
+  template <typename T>
+  T choice(std::string_view key, T fallback) {
+    std::vector<std::string_view> names;
+    for (const auto& entry : NamesOf<T>::kAll) names.emplace_back(entry.name);
+    const std::optional<std::size_t> found = choiceIndex(key, names);
+    return found ? NamesOf<T>::kAll[*found].value : fallback;
+  }
+
   bool isListOfTables(std::string_view key);
   std::vector<std::string> texts(std::string_view key);  // a string or a list of strings
   std::vector<double> numbers(std::string_view key);     // [a, b, ...]
@@ -81,10 +92,5 @@ class TomlTable {
   [[noreturn]] void missing(std::string_view key, const std::string& accepted) const;
   std::unique_ptr<Node> node_;
 };
-
-// The candidate with the fewest edits to `word`; empty when none is nearer than `edits`, half the
-// word or three letters if left out.
-std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates,
-                        std::optional<std::size_t> edits = std::nullopt);
 
 }  // namespace echocine

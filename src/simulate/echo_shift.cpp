@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/beam_profile.h"
+#include "scene/scan_geometry.h"
 #include "trace/beam_rays.h"
 #include "trace/packet_walk.h"
 
@@ -81,7 +82,7 @@ EchoShiftMeter::EchoShiftMeter(const Scene& scene, const EffectPlan& plan)
 // less than a wavelength, in which the formula loses its sense near the transducer.
 double EchoShiftMeter::resolution(double depth_m) const {
   const Probe& probe = scene_.probe;
-  const double wavelength_m = scannerWavelength(probe);
+  const double wavelength_m = ScanGeometry(probe).wavelength();
   const double width_m =
       scene_.signal.beam_width == BeamWidth::fixed
           ? scene_.signal.beam_width_m
@@ -91,7 +92,7 @@ double EchoShiftMeter::resolution(double depth_m) const {
 
 double EchoShiftMeter::elevationResolution(double depth_m) const {
   const Probe& probe = scene_.probe;
-  const double wavelength_m = scannerWavelength(probe);
+  const double wavelength_m = ScanGeometry(probe).wavelength();
   return std::max(elevationBeamWidth(depth_m, probe.elevation_aperture_m, probe.elevation_focus_m,
                                      wavelength_m),
                   wavelength_m);

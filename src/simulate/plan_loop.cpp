@@ -9,6 +9,7 @@
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
 #include "motion/motion_warnings.h"
+#include "scene/scan_geometry.h"
 #include "simulate/echo_shift.h"
 #include "simulate/mean_loss.h"
 #include "trace/beam_rays.h"
@@ -85,20 +86,15 @@ void dropStructures(const Scene& scene, const MeshMotion& motion, LoopPlan& plan
       plan.triangles_kept += triangles;
     } else {
       plan.left_out[s] = true;
-      plan.interfaces.push_back({structure.name, false, reason});
+      plan.interfaces.push_back({structure.name, reason});
     }
   }
   for (std::size_t a = 0; a < scene.media.size(); ++a)
     for (std::size_t b = a + 1; b < scene.media.size(); ++b)
       if (sameInterface(scene.media[a], scene.media[b]))
         plan.interfaces.push_back(
-            {fmt::format("interface {}/{}", scene.media[a].name, scene.media[b].name), false,
+            {fmt::format("interface {}/{}", scene.media[a].name, scene.media[b].name),
              "same impedance and speed"});
-}
-
-EffectDecision& refractionDecision(LoopPlan& plan) {
-  return *std::find_if(plan.effects.decisions.begin(), plan.effects.decisions.end(),
-                       [](const EffectDecision& d) { return d.name == "refraction"; });
 }
 
 // And every keyframe's own phase: what is in view nowhere else would be missed.
@@ -112,7 +108,7 @@ std::set<double> lookedAt(const Scene& scene) {
 // Traces some frames with refraction and leaves it out when the image could hardly show it.
 void decideRefraction(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) {
   if (!plan.effects.refraction || scene.effects.refraction != Switch::automatic) return;
-  EffectDecision& decision = refractionDecision(plan);
+  EffectDecision& decision = plan.effects.decision(Effect::refraction);
   if (scene.accuracy.tracer == TracerChoice::slice) {
     plan.effects.refraction = decision.on = false;
     decision.reason = "accuracy.tracer asks for the plane slice, whose rays are straight";
@@ -202,9 +198,9 @@ LoopPlan planLoop(const Scene& scene, const MeshMotion& motion) {
 std::string planSummary(const LoopPlan& plan) {
   std::string on, off;
   for (const EffectDecision& d : plan.effects.decisions) {
-    if (d.name.starts_with("channel")) continue;
+    if (d.effect == Effect::channel) continue;
     std::string& list = d.on ? on : off;
-    list += (list.empty() ? "" : ", ") + d.name;
+    list += (list.empty() ? "" : ", ") + d.name();
   }
   return fmt::format("{} tracer, {} of {} triangles met; on: {}; off: {}", plan.tracerName(),
                      plan.triangles_met, plan.triangles_given, on, off);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/scan_geometry.h"
 #include "trace/clip_interfaces.h"
 #include "trace/interface_lanes.h"
 
@@ -60,7 +61,7 @@ class CellEchoMaker {
                 double cell_width, CellEchoes& echoes)
       : settings_(settings),
         echoes_(echoes),
-        angular_(probe.kind != ProbeKind::linear),
+        angular_(ScanGeometry(probe).angular()),
         face_radius_m_(probe.face_radius_m),
         per_width_(1 / cell_width),
         min_depth_m_(probe.min_depth_m),

@@ -2,6 +2,7 @@
 // What the lines themselves met where a clip of contour is: the media and losses that it takes
 // over.
 
+#include "scene/scan_geometry.h"
 #include "trace/edge_clips.h"
 #include "trace/hit_table.h"
 #include "trace/interface_lanes.h"
@@ -36,7 +37,8 @@ class ClipInterfaces {
                                     std::size_t i) const;
   void takeOver(const InterfaceHit* hit, InterfaceRows& rows, std::size_t clip) const;
 
-  const Probe& probe_;
+  const ScanGeometry geometry_;
+  int lines_;
   const TraceSettings& settings_;
   HitTable table_;
   std::vector<SpeedRatio> speeds_;  // from each medium to each, by the first

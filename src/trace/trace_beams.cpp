@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "core/parallel.h"
+#include "scene/scan_geometry.h"
 #include "trace/packet_walk.h"
 
 namespace echocine {

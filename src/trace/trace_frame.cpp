@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/parallel.h"
-#include "scene/beam_profile.h"
+#include "scene/scan_geometry.h"
 #include "trace/cell_echoes.h"
 #include "trace/line_walker.h"
 #include "trace/packet_walk.h"
@@ -50,7 +50,7 @@ IntensityTerms partsOf(Channel channel, bool attenuation, double spread_undone_a
 
 // An echo is as long as the pulse, L = N wavelengths / 2, and no shorter than a sample.
 double echoSamples(const Scene& scene) {
-  const double pulse_m = scene.signal.pulse_cycles * scannerWavelength(scene.probe) / 2;
+  const double pulse_m = scene.signal.pulse_cycles * ScanGeometry(scene.probe).wavelength() / 2;
   return std::max(pulse_m / scene.probe.sampleSpacing(), 1.0);
 }
 
@@ -152,10 +152,10 @@ TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan, bool in
       background(scene.background),
       unit_volume_m3(scene.unit_volume_m3),
       max_depth_m(scene.probe.max_depth_m),
-      thin_layer_m(1e-4 * kScannerSpeed / scene.probe.frequency_hz),
-      face_m(1e-3 * kScannerSpeed / scene.probe.frequency_hz),
+      thin_layer_m(1e-4 * ScanGeometry(scene.probe).wavelength()),
+      face_m(1e-3 * ScanGeometry(scene.probe).wavelength()),
       frequency_hz(scene.probe.frequency_hz),
-      wavelength_m(kScannerSpeed / scene.probe.frequency_hz),
+      wavelength_m(ScanGeometry(scene.probe).wavelength()),
       pulse_cycles(std::max(scene.signal.pulse_cycles, 1.0)),  // no pulse is shorter than a cycle
       reflection(plan.reflection),
       transmission_loss(plan.transmission_loss),

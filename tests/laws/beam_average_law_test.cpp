@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "scene/beam_profile.h"
+#include "scene/scan_geometry.h"
 #include "signal/signal_chain.h"
 #include "support/random_world.h"
 
@@ -87,7 +88,7 @@ TEST(BeamAverageLaw, InAUniformMediumManyRaysAreOneRay) {
 // The mean of cos^n over the bundle's slopes at a depth, in long double: laterally the weights
 // narrow their variance by 1 + rho, in elevation both ways of the lens have one each.
 double meanLobe(const Probe& p, double z, int n) {
-  const long double lambda = scannerWavelength(p);
+  const long double lambda = ScanGeometry(p).wavelength();
   const long double w_r = followedWidth(z, p.aperture_m, static_cast<double>(lambda));
   const long double w_t = focusedWidth(z, p.aperture_m, p.focus_m, static_cast<double>(lambda));
   const long double a = w_r / z / kWidthPerDeviation / std::sqrt(1 + w_r * w_r / (w_t * w_t));
@@ -149,9 +150,10 @@ TEST(BeamAverageLaw, AStripsElevationProfileIsTheTwoWayBeam) {
   const double whole = wholeEcho(sheetWorld(sheet(1, 1, 1)));
   double worst = 0;
   for (const double z : {0.02, 0.07, 0.14}) {
-    const double deviation = elevationBeamWidth(z, probe.elevation_aperture_m,
-                                                probe.elevation_focus_m, scannerWavelength(probe)) /
-                             kWidthPerDeviation;
+    const double deviation =
+        elevationBeamWidth(z, probe.elevation_aperture_m, probe.elevation_focus_m,
+                           ScanGeometry(probe).wavelength()) /
+        kWidthPerDeviation;
     for (const double at : {-2.0, -0.7, 0.0, 0.4, 1.5})
       for (const double wide : {0.2, 1e3}) {
         const double y0 = at * deviation, y1 = (at + wide) * deviation;
@@ -187,9 +189,9 @@ TEST(BeamAverageLaw, RaysOfOneBeamStartInDifferentMedia) {
     const Sampling sampling = samplingOf(p);
     for (std::size_t k = 0; k < polar.planes.at(Channel::backscatter).size(); ++k) {
       const double l = sampling.centre(static_cast<double>(k % 160));
-      const double deviation =
-          elevationBeamWidth(l, p.elevation_aperture_m, p.elevation_focus_m, scannerWavelength(p)) /
-          kWidthPerDeviation;
+      const double deviation = elevationBeamWidth(l, p.elevation_aperture_m, p.elevation_focus_m,
+                                                  ScanGeometry(p).wavelength()) /
+                               kWidthPerDeviation;
       const double in_b = 1 - below(0.001, deviation);
       const double eta = polar.planes.at(Channel::backscatter)[k] * l * l / 1e-6;
       ASSERT_NEAR(eta, 1e-3 + 2e-3 * in_b, 2e-5) << "sample " << k;
@@ -275,7 +277,8 @@ TEST(BeamAverageLaw, ASteepWallShowsTheBeamsProfileAlongTheDepth) {
   for (std::size_t k = 400; k < 1200; ++k) {  // 40 to 120 mm
     const double z = sampling.centre(static_cast<double>(k));
     const double sigma =
-        focusedBeamWidth(z, p.aperture_m, p.focus_m, scannerWavelength(p)) / kWidthPerDeviation / z;
+        focusedBeamWidth(z, p.aperture_m, p.focus_m, ScanGeometry(p).wavelength()) /
+        kWidthPerDeviation / z;
     const double slope = (z - z_0) / (z * tan_80), per_depth = z_0 / (z * z * tan_80);
     const double bell =
         std::exp(-slope * slope / (2 * sigma * sigma)) / (sigma * std::sqrt(2 * std::numbers::pi));
@@ -300,8 +303,8 @@ TEST(BeamAverageLaw, TheFilterAgreesWithTheRaysOnASmoothWallAtTheFocus) {
   const auto shown = [&](int rays) {
     const EffectPlan plan = beamPlan(world.scene, rays, true, false);
     PolarFrame polar = traceWorld(world, plan, Tracer::embree);
-    SignalChain(world.scene, plan).process(polar);
-    return polar.intensities;
+    SignalChain(world.scene, plan).process(polar.intensities);
+    return polar.intensities.values;
   };
   const std::vector<float> filtered = shown(1), rays = shown(256);
   double worst_db = 0;

@@ -1,5 +1,6 @@
 // The bundle of rays that stands for a beam: its points, its weights, and its width at every depth.
 
+#include "scene/scan_geometry.h"
 #include "trace/beam_rays.h"
 
 #include <gtest/gtest.h>
@@ -95,8 +96,8 @@ TEST(BeamRaysLaw, WeightsAreTransmitsBellAtThePlaceOfTheRay) {
     beams.weights(beams.through(line, q, 0, 0), weights);
     for (const double z : kDepths_m) {
       const double x =
-          q * followedWidth(z, p.aperture_m, scannerWavelength(p)) / kWidthPerDeviation;
-      const double w_t = focusedWidth(z, p.aperture_m, p.focus_m, scannerWavelength(p));
+          q * followedWidth(z, p.aperture_m, ScanGeometry(p).wavelength()) / kWidthPerDeviation;
+      const double w_t = focusedWidth(z, p.aperture_m, p.focus_m, ScanGeometry(p).wavelength());
       const long double bell = std::exp(-4 * std::log(4.0L) * x * x / (w_t * w_t));
       EXPECT_NEAR(weights[sampleAt(z)], static_cast<double>(bell), 1e-5 * static_cast<double>(bell))
           << "q " << q << ", depth " << z;
@@ -145,7 +146,7 @@ Moments momentsAt(double z, const Probe& p, const BeamRays& beams, double width_
 
 TEST(BeamRaysLaw, TheWeightedBundleIsAsWideAsTheTwoWayBeamAtEveryDepth) {
   const Probe p = probe();
-  const double wavelength = scannerWavelength(p);
+  const double wavelength = ScanGeometry(p).wavelength();
   const BeamRays beams(p, {.rays = 4096});
   const double within = std::erf(std::sqrt(std::log(4.0)));  // of a bell within its -6 dB width
   for (const double z : kDepths_m) {

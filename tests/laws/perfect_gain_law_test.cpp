@@ -44,7 +44,7 @@ TEST(PerfectGain, KeepsTheSpreadWhenAskedTo) {
   scene.signal.spread = Spread::keep;
   scene.output.channels = {Channel::y, Channel::unattenuated};
   const PolarFrame frame = traced(scene);
-  EXPECT_EQ(frame.intensities, frame.planes.at(Channel::unattenuated));
+  EXPECT_EQ(frame.intensities.values, frame.planes.at(Channel::unattenuated));
 }
 
 TEST(NoGain, LeavesTheReceivedIntensity) {
@@ -52,7 +52,7 @@ TEST(NoGain, LeavesTheReceivedIntensity) {
   scene.signal.spread = Spread::keep;
   scene.signal.tgc = Tgc::none;
   const PolarFrame frame = traced(scene);
-  EXPECT_EQ(frame.intensities, frame.planes.at(Channel::y));
+  EXPECT_EQ(frame.intensities.values, frame.planes.at(Channel::y));
 }
 
 TEST(Attenuation, IsNotComputedWhenNobodyCanSeeIt) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/scan_geometry.h"
 #include "support/plain_scene.h"
 #include "support/surfaces.h"
 #include "truth/contour.h"

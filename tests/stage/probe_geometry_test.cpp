@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/probe.h"
+#include "scene/scan_geometry.h"
 #include "support/scene_text.h"
 
 namespace echocine {

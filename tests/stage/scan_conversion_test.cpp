@@ -1,6 +1,7 @@
 // From beam space to pixels.
 
 #include "signal/scan_conversion.h"
+#include "scene/scan_geometry.h"
 
 #include <gtest/gtest.h>
 

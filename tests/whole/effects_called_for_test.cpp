@@ -249,7 +249,7 @@ TEST(EffectsCalledFor, AStructureBesideTheImagingPlaneIsKeptForRaysThatReachIt) 
   const auto leftOut = [](const Manifest& manifest) {
     const auto& list = manifest.plan.interfaces;
     return std::any_of(list.begin(), list.end(),
-                       [](const EffectDecision& d) { return d.name == "pearl"; });
+                       [](const Omission& o) { return o.name == "pearl"; });
   };
   EXPECT_TRUE(leftOut(run("1", "\"auto\"")));
   EXPECT_TRUE(leftOut(run("64", "\"off\"")));

@@ -48,6 +48,7 @@ set(rooms
   "compare=simulate,video,metrics,signal,truth,page|motion,output"
   "render=simulate,cycle,output,page,video|signal"
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
+  "echocine=render,simulate,heart"
   "cli=render,compare,study,output|simulate,motion,keyframes,cycle,heart")
 
 function(room_of path out)

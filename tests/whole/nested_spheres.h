@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "motion/mesh_motion.h"
+#include "scene/scan_geometry.h"
 #include "support/plain_scene.h"
 #include "support/scene_text.h"
 #include "support/temp_folder.h"

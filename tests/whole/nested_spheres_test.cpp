@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/scan_geometry.h"
 #include "whole/nested_spheres.h"
 
 namespace echocine {

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "scene/scan_geometry.h"
 #include "whole/nested_spheres.h"
 
 namespace echocine {
