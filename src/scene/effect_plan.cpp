@@ -269,7 +269,8 @@ EffectPlan planEffects(const Scene& scene) {
     plan.refraction = plan.decisions.back().on = false;
     plan.decisions.back().reason = "the scene asks for it, but " + bending(scene).reason;
   }
-  plan.snell_angles = decide(plan, Effect::snell_angles, wanted.snell_angles, snellAngles(scene, plan));
+  plan.snell_angles =
+      decide(plan, Effect::snell_angles, wanted.snell_angles, snellAngles(scene, plan));
   plan.reflection_cap =
       decide(plan, Effect::reflection_cap, wanted.reflection_cap, reflectionCap(scene, plan));
   plan.thin_layers = decide(plan, Effect::thin_layers, wanted.thin_layers, thinLayers(scene, plan));

@@ -85,7 +85,8 @@ struct NamesOf<InterfaceEcho> {
 
 template <>
 struct NamesOf<Normals> {
-  static constexpr Named<Normals> kAll[] = {{Normals::automatic, "auto"}, {Normals::facet, "facet"}, {Normals::smooth, "smooth"}};
+  static constexpr Named<Normals> kAll[] = {
+      {Normals::automatic, "auto"}, {Normals::facet, "facet"}, {Normals::smooth, "smooth"}};
 };
 
 template <>

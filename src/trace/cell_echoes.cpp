@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/scan_geometry.h"
 #include "trace/clip_interfaces.h"
 #include "trace/interface_lanes.h"
-
-#include "scene/scan_geometry.h"
 
 namespace echocine {
 

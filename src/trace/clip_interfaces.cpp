@@ -46,7 +46,10 @@ void splitAtFoot(EdgeClips& p, std::size_t i) {
 
 ClipInterfaces::ClipInterfaces(const Probe& probe, const TraceSettings& settings,
                                std::span<const LineTrace> lines)
-    : geometry_(probe), lines_(lines.size()), settings_(settings), table_(lines, settings.surfaces.size()) {
+    : geometry_(probe),
+      lines_(probe.lines),
+      settings_(settings),
+      table_(lines, settings.surfaces.size()) {
   for (const Medium& from : settings.media)
     for (const Medium& to : settings.media)
       speeds_.push_back(speedRatio(from.sound_speed_m_s, to.sound_speed_m_s));
@@ -72,13 +75,11 @@ void ClipInterfaces::find(std::span<const ContourEdge> edges, std::span<const Ed
 // The tip of a contour may lie between two lines: then it takes over what a neighbour met.
 const InterfaceHit* ClipInterfaces::besideTheLine(const ContourEdge& edge, const EdgeClips& clips,
                                                   std::size_t i) const {
-  const Vec3d middle = middleOf(clips, i);
-  const double path_m =
-      geometry_.pathOf(middle);
+  const double path_m = geometry_.pathOf(middleOf(clips, i));
   const InterfaceHit* best = nullptr;
   for (const int side : {-1, 1}) {
     const int line = static_cast<int>(clips.line[i]) + side;
-    if (line < 0 || line >= static_cast<int>(lines_)) continue;
+    if (line < 0 || line >= lines_) continue;
     const InterfaceHit* hit = table_.nearest(static_cast<std::size_t>(line), edge.surface,
                                              clips.entering[i] != 0, [&] { return path_m; });
     if (hit && (!best || std::abs(hit->path_m - path_m) < std::abs(best->path_m - path_m)))

@@ -38,7 +38,7 @@ class ClipInterfaces {
   void takeOver(const InterfaceHit* hit, InterfaceRows& rows, std::size_t clip) const;
 
   const ScanGeometry geometry_;
-  const std::size_t lines_;
+  int lines_;
   const TraceSettings& settings_;
   HitTable table_;
   std::vector<SpeedRatio> speeds_;  // from each medium to each, by the first

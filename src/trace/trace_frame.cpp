@@ -4,7 +4,6 @@
 #include <array>
 
 #include "core/parallel.h"
-#include "scene/beam_profile.h"
 #include "scene/scan_geometry.h"
 #include "trace/cell_echoes.h"
 #include "trace/line_walker.h"

@@ -54,16 +54,16 @@ TEST(RefractionRule, FindsALensThatIsInViewAtOneKeyframeAlone) {
   text.motion["interpolation"] = "\"linear\"";
   const LoopPlan plan = planOf(folder, text);
   EXPECT_TRUE(plan.effects.refraction);
-  EXPECT_NE(plan.effects.decision("refraction").reason.find("phase 0.65"), std::string::npos)
-      << plan.effects.decision("refraction").reason;
+  EXPECT_NE(plan.effects.decision(Effect::refraction).reason.find("phase 0.65"), std::string::npos)
+      << plan.effects.decision(Effect::refraction).reason;
 }
 
 TEST(RefractionRule, DoesNotDependOnTheNumberOfLines) {
   const TempFolder folder;
   SceneText text = ballAndWall(folder, "lens");
-  const std::string reason = planOf(folder, text).effects.decision("refraction").reason;
+  const std::string reason = planOf(folder, text).effects.decision(Effect::refraction).reason;
   text.probe["lines"] = "560";
-  EXPECT_EQ(planOf(folder, text).effects.decision("refraction").reason, reason);
+  EXPECT_EQ(planOf(folder, text).effects.decision(Effect::refraction).reason, reason);
 }
 
 // Many echoes that stay where they are do not hide those that move.
