@@ -198,9 +198,23 @@ SpaceAlignment alignedFrom(const Placement& start, const Comparison& c) {
   return alignInSpace(c.grid, c.real, paired, frames, c.weights, start);
 }
 
+// Both loops stand in memory, resampled. Our choice: 2 GB, some 1300 frames of each.
+void refuseTooLong(const Comparison& c) {
+  constexpr double kMostBytes = 2e9;
+  const auto frames =
+      static_cast<double>(c.synthetic.video.frames.size() + c.real.video.frames.size());
+  const double bytes = frames * static_cast<double>(c.grid.size()) * sizeof(float);
+  if (bytes > kMostBytes)
+    throw SceneError(fmt::format("{} and {} have {} frames, which take {:.1f} GB in common beam "
+                                 "space, accepted: {:.0f} GB; give a few beats of each",
+                                 c.synthetic.video.name, c.real.video.name, frames, bytes * 1e-9,
+                                 kMostBytes * 1e-9));
+}
+
 // Loops that resemble one another are registered by their greys; others first by where edges run.
 void registerLoops(const CompareOptions& options, Comparison& c) {
   c.grid = commonGrid(c.synthetic, c.real);
+  refuseTooLong(c);
   c.synthetic_beams = resample(c.grid, c.synthetic);
   place({}, c);
   if (std::count_if(c.weights.begin(), c.weights.end(), [](float w) { return w > 0; }) <
