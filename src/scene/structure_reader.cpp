@@ -70,8 +70,9 @@ std::vector<Keyframe> readPhasedKeyframes(TomlTable& table, const fs::path& fold
     const fs::path file = entry.text("file");
     const double phase = entry.number("phase", std::nullopt, {.lo = 0, .hi = 1, .hi_open = true});
     if (!keyframes.empty() && !(phase - keyframes.back().phase >= ranges::kLeastPhaseStep))
-      entry.fail("phase", fmt::format("is {} after {}, accepted: ascending phases, {} apart or more",
-                                      phase, keyframes.back().phase, ranges::kLeastPhaseStep));
+      entry.fail("phase",
+                 fmt::format("is {} after {}, accepted: ascending phases, {} apart or more", phase,
+                             keyframes.back().phase, ranges::kLeastPhaseStep));
     entry.finish();
     keyframes.push_back({{file.is_absolute() ? file : folder / file}, phase});
   }

@@ -50,7 +50,7 @@ TEST_F(HostileArguments, EveryNumberOfTheCommandLineHasFiniteBounds) {
 TEST_F(HostileArguments, AFractionOfABeatAMinuteIsAHeartRate) {
   const Outcome outcome = runShell("%B compare a b -o" + in("out") + " --heart-rate 62.5");
   EXPECT_EQ(outcome.err.find("heart-rate"), std::string::npos) << outcome.err;
-  EXPECT_EQ(runShell("%B compare --help").out.find("INT:"), std::string::npos);
+  EXPECT_EQ(runShell("%B compare --help").out.find("FLOAT:INT"), std::string::npos);
 }
 
 TEST_F(HostileArguments, PipesLinksToThemselvesAndFoldersAreNoFiles) {
