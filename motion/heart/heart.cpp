@@ -108,16 +108,16 @@ namespace {
 // Still segments eject less. A ventricle that ejects next to nothing is refused: the circulation
 // would have stopped.
 Parameters withSegmentsRuling(Parameters parameters) {
-  const bool healthy =
-      std::all_of(parameters.segments.begin(), parameters.segments.end(),
-                  [](const Segment& segment) { return segment.amplitude == 1; });
+  const bool healthy = std::all_of(parameters.segments.begin(), parameters.segments.end(),
+                                   [](const Segment& segment) { return segment.amplitude == 1; });
   if (parameters.volumes_rule || healthy) return parameters;
   constexpr double kLeast = 0.03;
   const double left = LeftVentricle::ejectionFractionOf(parameters);
   if (!(left >= kLeast))
-    throw SceneError(fmt::format("segment: with these the left ventricle ejects {:.3f} of its "
-                                 "volume, accepted: {} or more",
-                                 left, kLeast));
+    throw SceneError(
+        fmt::format("segment: with these the left ventricle ejects {:.3f} of its "
+                    "volume, accepted: {} or more",
+                    left, kLeast));
   parameters.ejection_fraction = left;
   return parameters;
 }

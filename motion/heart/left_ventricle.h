@@ -35,7 +35,6 @@ class LeftVentricle {
   // as the constructor.
   static double ejectionFractionOf(const Parameters& parameters);
 
-
   // Sets the shape: the cavity encloses edv - ejected * stroke volume, and the wall the volume it
   // has at end-diastole. Throws SceneError when it cannot.
   void contract(const Contraction& contraction);

@@ -150,7 +150,8 @@ CompareCommand::CompareCommand(CLI::App& app) {
   command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
-  command->footer("Example: echocine compare loop patient.dcm -o comparison --heart-rate 62.5\n" + std::string(kDocuments));
+  command->footer("Example: echocine compare loop patient.dcm -o comparison --heart-rate 62.5\n" +
+                  std::string(kDocuments));
 }
 
 int CompareCommand::run() {

@@ -92,7 +92,8 @@ HeartCommand::HeartCommand(CLI::App& app) {
   command->add_option("--threads", wanted_.threads, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
-  command->footer("Example: echocine heart --ef 0.35 --view a2c -o failing_heart\n" + std::string(kDocuments));
+  command->footer("Example: echocine heart --ef 0.35 --view a2c -o failing_heart\n" +
+                  std::string(kDocuments));
 }
 
 // Ranges and contradictions are the heart's to judge: this only reads.

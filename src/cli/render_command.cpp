@@ -95,7 +95,8 @@ RenderCommand::RenderCommand(CLI::App& app) {
   command->add_flag("--overwrite", options_.overwrite,
                     "Replace the loop of another scene in the folder; without it that is refused");
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
-  command->footer("Example: echocine render scene.toml -o loop --frames 0:50\n" + std::string(kDocuments));
+  command->footer("Example: echocine render scene.toml -o loop --frames 0:50\n" +
+                  std::string(kDocuments));
 }
 
 // Signals first: a run that is stopped while it reads must end cleanly too.

@@ -60,9 +60,10 @@ StudyCommand::StudyCommand(CLI::App& app) {
                    fmt::format("Only these knobs, a,b,...: {}", fmt::join(knobNames(), ", ")))
       ->delimiter(',');
   command
-      ->add_option("--budget-s", options_.budget_s,
-                   "Begin nothing later than this many seconds after the start: the run ends within "
-                   "one setting of it")
+      ->add_option(
+          "--budget-s", options_.budget_s,
+          "Begin nothing later than this many seconds after the start: the run ends within "
+          "one setting of it")
       ->check(within(1e-3, 1e9))
       ->type_name("SECONDS");
   command
@@ -71,7 +72,9 @@ StudyCommand::StudyCommand(CLI::App& app) {
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
-  command->footer("Example: echocine study scene.toml -o study --knobs lines,samples --budget-s 60\n" + std::string(kDocuments));
+  command->footer(
+      "Example: echocine study scene.toml -o study --knobs lines,samples --budget-s 60\n" +
+      std::string(kDocuments));
 }
 
 int StudyCommand::run() {

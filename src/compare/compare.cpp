@@ -198,9 +198,23 @@ SpaceAlignment alignedFrom(const Placement& start, const Comparison& c) {
   return alignInSpace(c.grid, c.real, paired, frames, c.weights, start);
 }
 
+// Both loops stand in memory, resampled. Our choice: 2 GB, some 1300 frames of each.
+void refuseTooLong(const Comparison& c) {
+  constexpr double kMostBytes = 2e9;
+  const auto frames =
+      static_cast<double>(c.synthetic.video.frames.size() + c.real.video.frames.size());
+  const double bytes = frames * static_cast<double>(c.grid.size()) * sizeof(float);
+  if (bytes > kMostBytes)
+    throw SceneError(fmt::format(
+        "{} and {} have {} frames, which take {:.1f} GB in common beam "
+        "space, accepted: {:.0f} GB; give a few beats of each",
+        c.synthetic.video.name, c.real.video.name, frames, bytes * 1e-9, kMostBytes * 1e-9));
+}
+
 // Loops that resemble one another are registered by their greys; others first by where edges run.
 void registerLoops(const CompareOptions& options, Comparison& c) {
   c.grid = commonGrid(c.synthetic, c.real);
+  refuseTooLong(c);
   c.synthetic_beams = resample(c.grid, c.synthetic);
   place({}, c);
   if (std::count_if(c.weights.begin(), c.weights.end(), [](float w) { return w > 0; }) <
@@ -308,19 +322,22 @@ constexpr double kDoubtfulConfidence = 0.1;
 void noteAssumptions(Comparison& c) {
   const auto say = [&](const std::string& note) { c.notes.push_back(note); };
   for (const Loop* loop : {&c.synthetic, &c.real})
-    for (const std::string& note : loop->video.notes) say(shownName(loop->video.name) + ": " + note);
+    for (const std::string& note : loop->video.notes)
+      say(shownName(loop->video.name) + ": " + note);
   if (!c.grid.metric)
-    say(
-        fmt::format("{} has no length scale (--scale, in mm per pixel, gives it): both sectors are "
-                    "taken to be of "
-                    "one depth",
-                    shownName(c.real.metres_per_pixel ? c.synthetic.video.name : c.real.video.name)));
+    say(fmt::format(
+        "{} has no length scale (--scale, in mm per pixel, gives it): both sectors are "
+        "taken to be of "
+        "one depth",
+        shownName(c.real.metres_per_pixel ? c.synthetic.video.name : c.real.video.name)));
   for (const BeatLength* beat : {&c.synthetic_beat, &c.real_beat})
     if (beat->frames == 0)
-      say(fmt::format("{}: no beat found in the loop; frames are paired by the best shift and pace",
-                      shownName(beat == &c.real_beat ? c.real.video.name : c.synthetic.video.name)));
+      say(fmt::format(
+          "{}: no beat found in the loop; frames are paired by the best shift and pace",
+          shownName(beat == &c.real_beat ? c.real.video.name : c.synthetic.video.name)));
   if (c.time.confidence < kDoubtfulConfidence)
-    say(fmt::format("the alignment in time is hardly better than any other (confidence {:.2f}): "
+    say(
+        fmt::format("the alignment in time is hardly better than any other (confidence {:.2f}): "
                     "--real-ed and --real-es, or R waves, say which frames belong together",
                     c.time.confidence));
   if (c.space.used && c.space.at_limit)

@@ -95,8 +95,7 @@ void PanelMaker::addContours(int real_frame, GreyImage& image) const {
     for (std::size_t i = c.closed ? 0 : 1; i < c.points_m.size(); ++i) {
       const Vec3d a = c.points_m[i == 0 ? c.points_m.size() - 1 : i - 1], b = c.points_m[i];
       drawLine(image, left_ + a.x * pixels_per_unit_, top_ + a.z * pixels_per_unit_,
-               left_ + b.x * pixels_per_unit_, top_ + b.z * pixels_per_unit_, 255,
-               within);
+               left_ + b.x * pixels_per_unit_, top_ + b.z * pixels_per_unit_, 255, within);
     }
 }
 

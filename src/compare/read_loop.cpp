@@ -81,9 +81,10 @@ void noteColour(Loop& loop) {
       coloured += loop.video.coloured[static_cast<std::size_t>(y * loop.video.width + x)];
     }
   if (coloured > kNoted * inside)
-    loop.video.notes.push_back(fmt::format("colour covers {:.0f} % of its sector: masked, the rest is "
-                                           "compared",
-                                           100 * coloured / inside));
+    loop.video.notes.push_back(
+        fmt::format("colour covers {:.0f} % of its sector: masked, the rest is "
+                    "compared",
+                    100 * coloured / inside));
 }
 
 // What is burnt in around the sector is a patient's name as likely as a scale: no output has it.

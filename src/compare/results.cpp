@@ -186,9 +186,8 @@ void writeResults(const Comparison& c, const CompareOptions& options,
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder, error))
-    throw JobError(
-        fmt::format("{}: the folder cannot be made: {}", folder.string(),
-                    error ? error.message() : "a file stands there"));
+    throw JobError(fmt::format("{}: the folder cannot be made: {}", folder.string(),
+                               error ? error.message() : "a file stands there"));
   for (const char* name : {"summary.json", "compare.html"})  // a folder without them is unfinished
     std::filesystem::remove(folder / name, error);
   PanelMaker panels(c);

@@ -122,7 +122,8 @@ StraightMap bestShift(const Search& search, const TimeProblem& p, double rate) {
   const double to = search.periodic() ? p.synthetic_beat : n;
   double sum = 0, squares = 0;
   int count = 0;
-  // Past this pace no shift has half of the real frames inside; trying them all would take for ever.
+  // Past this pace no shift has half of the real frames inside; trying them all would take for
+  // ever.
   constexpr double kMostLoops = 8;
   if (!search.periodic() && rate * static_cast<double>(p.real.size()) > kMostLoops * n) return best;
   for (double shift = from; shift < to; shift += 0.25) {

@@ -33,9 +33,9 @@ class ExrStack {
   std::string write(const FrameRecord& record, const std::vector<ChannelPlane>& planes) const;
 
   // The SHA-256 of an existing whole file of this very scene and frame, or empty when there is
-  // none: absent, truncated, with a byte other than was written, of another size, frame, channel list,
-  // reference or program version.
-  // Thread-safe. Throws SceneError when the file is whole but belongs to another scene.
+  // none: absent, truncated, with a byte other than was written, of another size, frame, channel
+  // list, reference or program version. Thread-safe. Throws SceneError when the file is whole but
+  // belongs to another scene.
   std::string existing(const FrameRecord& record) const;
 
   // Whether the frame's file is there and its header is of another scene, whether or not the pixels

@@ -126,7 +126,8 @@ void RenderPass::writePictures(GreyImage& image, Finished& finished) {
 void RenderPass::takeEarlier(const FrameRecord& record, Finished& finished) const {
   const std::string name = "intensity/" + ExrStack::fileName(record.frame);
   std::error_code absent;
-  if (!std::filesystem::exists(parts_.folder.intensity() / ExrStack::fileName(record.frame), absent))
+  if (!std::filesystem::exists(parts_.folder.intensity() / ExrStack::fileName(record.frame),
+                               absent))
     return;
   std::string sha256 = exr_.existing(record);
   const auto noted = parts_.earlier_hashes.find(name);

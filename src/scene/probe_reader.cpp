@@ -45,13 +45,14 @@ void readFootprint(TomlTable& table, Probe& probe) {
     table.unused("face_radius_mm", "kind = \"curvilinear\"");
   if (probe.kind == ProbeKind::linear) {
     table.unused("sector_deg", "kind = \"phased\" | \"curvilinear\"");
-    const double width = metresFromMillimetres(table.number("width_mm", std::nullopt, ranges::kExtent_mm));
+    const double width =
+        metresFromMillimetres(table.number("width_mm", std::nullopt, ranges::kExtent_mm));
     probe.first_offset_m = -width / 2;
     probe.last_offset_m = width / 2;
     return;
   }
-  const double sector = radiansFromDegrees(
-      table.number("sector_deg", std::nullopt, ranges::kSector_deg));
+  const double sector =
+      radiansFromDegrees(table.number("sector_deg", std::nullopt, ranges::kSector_deg));
   probe.first_angle_rad = -sector / 2;
   probe.last_angle_rad = sector / 2;
   if (probe.kind == ProbeKind::curvilinear)
@@ -66,9 +67,9 @@ Probe readProbe(TomlTable table, double mesh_unit_m) {
   probe.kind = table.choice("kind", ProbeKind::phased);
   probe.pose = readPose(table, mesh_unit_m);
   readFootprint(table, probe);
-  probe.min_depth_m =
-      metresFromMillimetres(table.number("min_depth_mm", 2.0, ranges::kNearEnd_mm));
-  probe.max_depth_m = metresFromMillimetres(table.number("depth_mm", std::nullopt, ranges::kExtent_mm));
+  probe.min_depth_m = metresFromMillimetres(table.number("min_depth_mm", 2.0, ranges::kNearEnd_mm));
+  probe.max_depth_m =
+      metresFromMillimetres(table.number("depth_mm", std::nullopt, ranges::kExtent_mm));
   if (probe.max_depth_m <= probe.min_depth_m)
     table.fail("depth_mm", fmt::format("is not over min_depth_mm = {}",
                                        millimetresFromMetres(probe.min_depth_m)));
@@ -78,8 +79,9 @@ Probe readProbe(TomlTable table, double mesh_unit_m) {
   probe.aperture_m = metresFromMillimetres(table.number("aperture_mm", 20.0, ranges::kExtent_mm));
   probe.focus_m = metresFromMillimetres(
       table.number("focus_mm", millimetresFromMetres(probe.max_depth_m) / 2, ranges::kRadius_mm));
-  probe.elevation_aperture_m = metresFromMillimetres(table.number(
-      "elevation_aperture_mm", millimetresFromMetres(probe.elevation_aperture_m), ranges::kExtent_mm));
+  probe.elevation_aperture_m = metresFromMillimetres(
+      table.number("elevation_aperture_mm", millimetresFromMetres(probe.elevation_aperture_m),
+                   ranges::kExtent_mm));
   probe.elevation_focus_m = metresFromMillimetres(table.number(
       "elevation_focus_mm", millimetresFromMetres(probe.elevation_focus_m), ranges::kRadius_mm));
   probe.lines = table.integer("lines", 256, 1, 65536);

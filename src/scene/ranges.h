@@ -12,8 +12,8 @@ inline constexpr NumberRange kNearEnd_mm{.lo = 0, .hi = 1e4};
 inline constexpr NumberRange kRadius_mm{.lo = 0.001, .hi = 1e6};  // of a face; of a focus
 inline constexpr NumberRange kUnitVolume_cm3{.lo = 1e-12, .hi = 1e12};
 inline constexpr NumberRange kReflectionGain{.lo = 0, .hi = 1e6};
-inline constexpr NumberRange kDensity_kg_m3{.lo = 1e-3, .hi = 1e5};   // air 1.2, osmium 22590
-inline constexpr NumberRange kSoundSpeed_m_s{.lo = 1, .hi = 1e5};     // rubber 40, diamond 18000
+inline constexpr NumberRange kDensity_kg_m3{.lo = 1e-3, .hi = 1e5};  // air 1.2, osmium 22590
+inline constexpr NumberRange kSoundSpeed_m_s{.lo = 1, .hi = 1e5};    // rubber 40, diamond 18000
 inline constexpr NumberRange kAttenuation_db_cm_mhz{.lo = 0, .hi = 1e6};
 inline constexpr NumberRange kBackscatter_per_cm_sr{.lo = 0, .hi = 1e9};
 inline constexpr NumberRange kCellRadius_um{.lo = 1e-6, .hi = 1e6};

@@ -70,9 +70,10 @@ std::vector<double> readKeyframePhases(TomlTable& table) {
       table.fail(
           key, fmt::format("phase {} is {}, accepted: from 0 up to, without, 1", i + 1, phases[i]));
     if (i > 0 && !(phases[i] - phases[i - 1] >= ranges::kLeastPhaseStep))
-      table.fail(key, fmt::format("phase {} is {} after {}, accepted: ascending phases, {} apart or "
-                                  "more",
-                                  i + 1, phases[i], phases[i - 1], ranges::kLeastPhaseStep));
+      table.fail(key,
+                 fmt::format("phase {} is {} after {}, accepted: ascending phases, {} apart or "
+                             "more",
+                             i + 1, phases[i], phases[i - 1], ranges::kLeastPhaseStep));
   }
   return phases;
 }
@@ -123,14 +124,16 @@ SignalSettings readSignal(TomlTable table) {
   s.spread = table.choice("spread", s.spread);
   s.beam_width = table.choice("beam_width", s.beam_width);
   if (s.beam_width == BeamWidth::fixed)
-    s.beam_width_m = metresFromMillimetres(table.number("beam_width_mm", std::nullopt, ranges::kExtent_mm));
+    s.beam_width_m =
+        metresFromMillimetres(table.number("beam_width_mm", std::nullopt, ranges::kExtent_mm));
   else
     table.unused("beam_width_mm", "beam_width = \"fixed\"");
   s.pulse_cycles = table.number("pulse_cycles", s.pulse_cycles, {.lo = 0, .hi = 1000});
   s.dynamic_range_db =
       table.number("dynamic_range_db", s.dynamic_range_db, ranges::kDynamicRange_db);
   if (table.has("reference_intensity")) {
-    s.reference_intensity = table.number("reference_intensity", std::nullopt, ranges::kReferenceIntensity);
+    s.reference_intensity =
+        table.number("reference_intensity", std::nullopt, ranges::kReferenceIntensity);
     table.unused("reference_percentile", "reference_intensity left out");
   } else {
     s.reference_percentile = table.number("reference_percentile", s.reference_percentile,

@@ -96,8 +96,9 @@ std::vector<Keyframe> readPhasedKeyframes(TomlTable& table, const MeshSource& so
                                                           : source.folder / named;
     const double phase = entry.number("phase", std::nullopt, {.lo = 0, .hi = 1, .hi_open = true});
     if (!keyframes.empty() && !(phase - keyframes.back().phase >= ranges::kLeastPhaseStep))
-      entry.fail("phase", fmt::format("is {} after {}, accepted: ascending phases, {} apart or more",
-                                      phase, keyframes.back().phase, ranges::kLeastPhaseStep));
+      entry.fail("phase",
+                 fmt::format("is {} after {}, accepted: ascending phases, {} apart or more", phase,
+                             keyframes.back().phase, ranges::kLeastPhaseStep));
     entry.finish();
     keyframes.push_back({{file}, phase});
   }

@@ -84,10 +84,10 @@ TomlTable TomlTable::parse(std::string_view text, const std::string& name) {
   auto node = std::make_unique<Node>();
   node->file = name;
   if (const int line = lineNestedTooDeep(text); line > 0)
-    throw SceneError(atPlace({name, line, ""},
-                             fmt::format("keys, lists or tables are nested deeper than {}, which no "
-                                         "scene needs",
-                                         kMaxTomlNesting)));
+    throw SceneError(atPlace(
+        {name, line, ""}, fmt::format("keys, lists or tables are nested deeper than {}, which no "
+                                      "scene needs",
+                                      kMaxTomlNesting)));
   try {
     node->root = std::make_shared<const toml::table>(toml::parse(text, name));
   } catch (const toml::parse_error& error) {
@@ -203,7 +203,8 @@ Vec3d TomlTable::vector(std::string_view key, double most) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::optional<double> number = (*list)[i].value<double>();
     if (!(*list)[i].is_number() || !number || !(std::abs(*number) <= most))
-      fail(key, fmt::format("component {} is not a finite number within bounds, {}", i + 1, accepted));
+      fail(key,
+           fmt::format("component {} is not a finite number within bounds, {}", i + 1, accepted));
     xyz[i] = *number;
   }
   return {xyz[0], xyz[1], xyz[2]};

@@ -19,7 +19,8 @@ namespace echocine {
 namespace {
 
 constexpr std::size_t kMaxInflatedBytes = std::size_t{1} << 28;
-// An RLE segment packs 128 bytes in 2, a block of baseline JPEG 64 pixels in a few bits. Our choice.
+// An RLE segment packs 128 bytes in 2, a block of baseline JPEG 64 pixels in a few bits. Our
+// choice.
 constexpr double kMostSamplesPerByte = 512;
 
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {
@@ -41,9 +42,10 @@ std::vector<std::byte> inflated(const std::string& name, std::span<const std::by
     state = inflate(&stream, Z_NO_FLUSH);
     const std::size_t made = block.size() - stream.avail_out;
     if (out.size() + made > kMaxInflatedBytes)
-      refuse(name, fmt::format("its deflated data set is over {} MB; give it uncompressed, or a few "
-                               "beats cut out of it",
-                               kMaxInflatedBytes >> 20));
+      refuse(name,
+             fmt::format("its deflated data set is over {} MB; give it uncompressed, or a few "
+                         "beats cut out of it",
+                         kMaxInflatedBytes >> 20));
     out.insert(out.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(made));
     if (made == 0 && stream.avail_in == 0) break;
   }
@@ -59,7 +61,8 @@ bool isSoundRle(std::span<const std::byte> frame) {
   std::memcpy(header.data(), frame.data(), sizeof header);  // little-endian, as we are
   if (header[0] < 1 || header[0] > 15 || header[1] != sizeof header) return false;
   for (std::uint32_t s = 1; s <= header[0]; ++s) {
-    const std::uint32_t end = s < header[0] ? header[s + 1] : static_cast<std::uint32_t>(frame.size());
+    const std::uint32_t end =
+        s < header[0] ? header[s + 1] : static_cast<std::uint32_t>(frame.size());
     if (header[s] > end || end > frame.size()) return false;
   }
   return true;
@@ -76,9 +79,10 @@ void takeFragment(const std::string& name, const DicomElement& e, bool rle, Pixe
   if (e.fragment == 0) return;  // the table of offsets
   pixels.compressed_bytes += e.value.size();
   if (rle && !isSoundRle(e.value))
-    refuse(name, fmt::format("a damaged DICOM file: the RLE header of fragment {} points outside its "
-                             "{} bytes; copy the file again",
-                             e.fragment, e.value.size()));
+    refuse(name,
+           fmt::format("a damaged DICOM file: the RLE header of fragment {} points outside its "
+                       "{} bytes; copy the file again",
+                       e.fragment, e.value.size()));
 }
 
 void takeNumber(const DicomElement& e, Pixels& pixels) {
@@ -95,13 +99,14 @@ void checkRatio(const std::string& name, const Pixels& p) {
   if (!p.encapsulated) return;
   const double wanted = p.rows * p.columns * p.samples * p.frames;
   if (wanted > kMostSamplesPerByte * static_cast<double>(p.compressed_bytes) + (1 << 20))
-    refuse(name, fmt::format("a truncated or damaged DICOM file: {:.0f} pixel values are stated, its "
-                             "{} bytes of pixels cannot hold them; copy the file again",
-                             wanted, p.compressed_bytes));
+    refuse(name,
+           fmt::format("a truncated or damaged DICOM file: {:.0f} pixel values are stated, its "
+                       "{} bytes of pixels cannot hold them; copy the file again",
+                       wanted, p.compressed_bytes));
 }
 
-void checkDataSet(const std::string& name, std::span<const std::byte> data, const DicomSyntax& syntax,
-                  bool rle) {
+void checkDataSet(const std::string& name, std::span<const std::byte> data,
+                  const DicomSyntax& syntax, bool rle) {
   DicomElements elements(data, syntax);
   Pixels pixels;
   while (const std::optional<DicomElement> e = elements.next()) {
@@ -112,11 +117,11 @@ void checkDataSet(const std::string& name, std::span<const std::byte> data, cons
       takeNumber(*e, pixels);
   }
   if (elements.tooDeep())
-    refuse(name, fmt::format("its sequences are nested deeper than {}; give an ultrasound loop as a "
-                             "scanner writes it",
-                             kMaxDicomDepth));
-  if (elements.lost())
-    refuse(name, "a truncated or damaged DICOM file; copy the file again");
+    refuse(name,
+           fmt::format("its sequences are nested deeper than {}; give an ultrasound loop as a "
+                       "scanner writes it",
+                       kMaxDicomDepth));
+  if (elements.lost()) refuse(name, "a truncated or damaged DICOM file; copy the file again");
   checkRatio(name, pixels);
 }
 

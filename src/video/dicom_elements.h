@@ -52,7 +52,9 @@ class DicomElements {
 
   std::uint32_t number(std::size_t at, std::size_t size) const;
   std::uint32_t tagAt(std::size_t at) const;
-  bool explicitHere() const { return open_.empty() ? syntax_.explicit_vr : open_.back().explicit_vr; }
+  bool explicitHere() const {
+    return open_.empty() ? syntax_.explicit_vr : open_.back().explicit_vr;
+  }
   void closeEnded();
   bool readLength(DicomElement& e, std::uint32_t& length, bool& sequence, bool& unknown);
   bool startsWithItem(std::uint32_t length) const;

@@ -91,7 +91,8 @@ double threadSeconds() {
 
 }  // namespace
 
-VideoBuilder::VideoBuilder(std::string name) : from_s_(threadSeconds()), allowed_s_(kDecodeSeconds) {
+VideoBuilder::VideoBuilder(std::string name)
+    : from_s_(threadSeconds()), allowed_s_(kDecodeSeconds) {
   video_.name = std::move(name);
 }
 

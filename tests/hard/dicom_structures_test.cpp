@@ -29,8 +29,8 @@ std::string refusal(const std::string& bytes) {
 }
 
 std::string rleFile(const std::vector<std::string>& frames, int rows = kSide, int columns = kSide) {
-  return dicomFile(kRle, dicomPicture(rows, columns, static_cast<int>(frames.size())) +
-                             dicomFragments(frames));
+  return dicomFile(
+      kRle, dicomPicture(rows, columns, static_cast<int>(frames.size())) + dicomFragments(frames));
 }
 
 std::vector<std::string> soundFrames(int frames) {
@@ -55,8 +55,9 @@ TEST(DicomStructures, WildRleHeadersAreNeverFollowed) {
     for (std::uint64_t k = 0; k <= c % 4; ++k) {
       const std::uint64_t hash = hashOf(c, k);
       const std::size_t at = 4 * (hash % 16);
-      const std::uint32_t wild[] = {static_cast<std::uint32_t>(hash >> 32), 0xffffffff, 0x7fffffff,
-                                    static_cast<std::uint32_t>(hash >> 40) % 200, 16, 0};
+      const std::uint32_t wild[] = {
+          static_cast<std::uint32_t>(hash >> 32),       0xffffffff, 0x7fffffff,
+          static_cast<std::uint32_t>(hash >> 40) % 200, 16,         0};
       frame.replace(at, 4, littleEndian(wild[hash / 16 % 6], 4));
     }
     if (hashOf(c, 9) % 4 == 0) frame.resize(hashOf(c, 10) % frame.size());
@@ -69,10 +70,12 @@ std::string nested(int depth, bool explicit_vr, bool lengths) {
   std::string inside;
   if (lengths) {
     for (int i = 0; i < depth; ++i) {
-      inside = dicomTag(0xfffee000) + littleEndian(static_cast<std::uint32_t>(inside.size()), 4) + inside;
-      inside = explicit_vr ? dicomElement(0x00186011, "SQ", inside)
-                           : dicomTag(0x00186011) +
-                                 littleEndian(static_cast<std::uint32_t>(inside.size()), 4) + inside;
+      inside = dicomTag(0xfffee000) + littleEndian(static_cast<std::uint32_t>(inside.size()), 4) +
+               inside;
+      inside = explicit_vr
+                   ? dicomElement(0x00186011, "SQ", inside)
+                   : dicomTag(0x00186011) +
+                         littleEndian(static_cast<std::uint32_t>(inside.size()), 4) + inside;
     }
     return inside;
   }

@@ -112,9 +112,24 @@ tgc_table_mm_db = [[1, 0], [160, 40]]
 reference_intensity = 1e-6
 )";
 
-const std::vector<std::string> kValues{
-    "5e-324", "1e-300", "-0.0", "0.0",  "-1.0", "1e-7", "0.001", "1000.0", "1e5",
-    "1e6",    "1e9",    "1e60", "1e308", "nan",  "inf",  "-inf",  "9223372036854775807", "-1"};
+const std::vector<std::string> kValues{"5e-324",
+                                       "1e-300",
+                                       "-0.0",
+                                       "0.0",
+                                       "-1.0",
+                                       "1e-7",
+                                       "0.001",
+                                       "1000.0",
+                                       "1e5",
+                                       "1e6",
+                                       "1e9",
+                                       "1e60",
+                                       "1e308",
+                                       "nan",
+                                       "inf",
+                                       "-inf",
+                                       "9223372036854775807",
+                                       "-1"};
 
 class NumberSweep : public ::testing::Test {
  protected:

@@ -149,5 +149,29 @@ TEST(HeartSegments, EachRulesAloneAtItsCentreWhereTheAssociationPutsIt) {
   EXPECT_EQ(ruler(200, 1), 17);
 }
 
+double measuredEjection(const heart::ParametricHeart& model) {
+  const auto cavity = [&](double phase) {
+    for (const heart::Part& part : model.at(phase))
+      if (part.kind.name == "lv_cavity") return fluxVolume({part.points, part.faces});
+    return 0.0;
+  };
+  return 1 - cavity(model.cycle().events().aortic_closes) / cavity(0);
+}
+
+// Three still segments of an infarct: the others do no more than before.
+TEST(HeartSegments, StillSegmentsLowerTheEjectionFractionUnlessVolumesRule) {
+  heart::Parameters parameters = heart::parametersFrom({{"ef", 0.6}});
+  EXPECT_NEAR(heart::ParametricHeart(parameters).parameters().ejection_fraction, 0.6, 1e-12);
+  for (const int number : {7, 13, 17}) parameters.segments[number - 1].amplitude = 0;
+  const heart::ParametricHeart infarct(parameters);
+  EXPECT_LT(infarct.parameters().ejection_fraction, 0.57);
+  EXPECT_GT(infarct.parameters().ejection_fraction, 0.40);
+  EXPECT_NEAR(measuredEjection(infarct), infarct.parameters().ejection_fraction, 0.01);
+  parameters.volumes_rule = true;
+  const heart::ParametricHeart helped(parameters);
+  EXPECT_EQ(helped.parameters().ejection_fraction, 0.6);
+  EXPECT_NEAR(measuredEjection(helped), 0.6, 0.01);
+}
+
 }  // namespace
 }  // namespace echocine

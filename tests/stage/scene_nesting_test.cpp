@@ -38,8 +38,8 @@ TEST(SceneNesting, DotsAndBracketsInTextAndCommentsAreNone) {
   for (const std::string& text :
        {"# " + dots + "\n", "x = \"" + dots + "\"\n", "x = '" + dots + "'\n",
         "x = \"\"\"" + dots + "\n\" " + dots + "\"\"\"\n", "x = '''" + dots + "'' '''\n",
-        "x = \"\\\"" + dots + "\"\n",
-        "x = [" + repeated("0.5, ", 90) + "]\n", repeated("a.b = 0.5\n", 90)})
+        "x = \"\\\"" + dots + "\"\n", "x = [" + repeated("0.5, ", 90) + "]\n",
+        repeated("a.b = 0.5\n", 90)})
     EXPECT_EQ(lineNestedTooDeep(text), 0) << text;
 }
 

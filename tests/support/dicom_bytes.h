@@ -34,7 +34,8 @@ inline std::string dicomFile(const std::string& transfer_syntax, const std::stri
          meta + data;
 }
 
-inline const std::string kExplicitLittle = "1.2.840.10008.1.2.1", kImplicitLittle = "1.2.840.10008.1.2",
+inline const std::string kExplicitLittle = "1.2.840.10008.1.2.1",
+                         kImplicitLittle = "1.2.840.10008.1.2",
                          kDeflated = "1.2.840.10008.1.2.1.99", kRle = "1.2.840.10008.1.2.5";
 
 // Grey pictures of 8 bits; the pixel data follows.

@@ -18,7 +18,8 @@
 namespace echocine::support {
 
 struct Steps {
-  long files = 0, memory = 0, unsynced_renames = 0;  // as tests/support/fault_injector.cpp counts them
+  long files = 0, memory = 0,
+       unsynced_renames = 0;  // as tests/support/fault_injector.cpp counts them
 };
 
 struct FaultyRun {

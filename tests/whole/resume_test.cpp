@@ -84,8 +84,8 @@ TEST_F(PartsOfALoop, ResumingMendsAFlippedByteToTheSameBytesAndSaysSo) {
     std::string bytes = bytesOf(damaged);
     bytes[bytes.size() - 40] = static_cast<char>(bytes[bytes.size() - 40] ^ 0x10);
     std::ofstream(damaged, std::ios::binary) << bytes;
-    const Outcome outcome = runShell("%B render '" + scene.string() + "' -o '" + out.string() +
-                                     "' --resume 2>&1");
+    const Outcome outcome =
+        runShell("%B render '" + scene.string() + "' -o '" + out.string() + "' --resume 2>&1");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("frame_0002.exr: damaged"), std::string::npos) << outcome.out;
     EXPECT_EQ(lastingFiles(out), whole) << compression;

@@ -174,7 +174,8 @@ TEST_F(Tolerance, PresetsLeaveReflectionGainsAlone) {
 }
 
 TEST_F(Tolerance, ContradictionsAreOneLine) {
-  expectUnusable("--tolerance-db 0", "--tolerance-db: 0 is not accepted: a number from 1e-06 to 1000");
+  expectUnusable("--tolerance-db 0",
+                 "--tolerance-db: 0 is not accepted: a number from 1e-06 to 1000");
   expectUnusable("--tolerance-db -1", "a number from 1e-06 to 1000");
   expectUnusable("--tolerance-db nan", "a number from 1e-06 to 1000");
   expectUnusable("--tolerance-db much", "--tolerance-db");
