@@ -1,0 +1,253 @@
+#include "motion/interior/motion_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+#include "core/parallel.h"
+#include "motion/interior/group_lattice.h"
+
+namespace echocine {
+
+namespace {
+
+// Our choices, measured in tests/laws: the spacing in parts of the moving surfaces' diagonal, the
+// margin in spacings, and the modes' tolerance in parts of the diagonal.
+constexpr double kSpacings = 48, kMarginSpacings = 10, kModeTolerance = 1e-7;
+
+// The surface's vertices at a phase; exactly those of a keyframe where it is one.
+std::vector<Vec3f> positionsAt(const InteriorSurface& surface, double phase) {
+  std::vector<double> weights(surface.weights.keyframeCount());
+  surface.weights.at(phase, weights);
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    if (weights[k] == 1) return surface.keyframes_m[k];
+  std::vector<Vec3f> positions(surface.keyframes_m.front().size());
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    Vec3d sum;
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      sum = sum + weights[k] * toDouble(surface.keyframes_m[k][v]);
+    positions[v] = toFloat(sum);
+  }
+  return positions;
+}
+
+bool samePhases(const KeyframeWeights& a, const KeyframeWeights& b) {
+  return std::equal(a.phases().begin(), a.phases().end(), b.phases().begin(), b.phases().end());
+}
+
+}  // namespace
+
+struct MotionField::State {
+  struct Group {
+    GroupMembers members;
+    GroupLattice lattice;
+  };
+  FieldSettings settings;
+  FieldSpace space{};
+  std::unique_ptr<Winners> winners;
+  std::vector<std::uint32_t> group_of;  // by surface
+  std::vector<Group> groups;
+  std::vector<PhaseClass> classes;
+  double reach_across_m = 0;
+
+  void number(const std::vector<InteriorSurface>& surfaces);
+  std::vector<std::int32_t> classify(const std::vector<InteriorSurface>& surfaces);
+  bool measure(const std::vector<InteriorSurface>& surfaces,
+               std::span<const std::vector<Vec3f>> reference_m);
+  void findModes(const std::vector<InteriorSurface>& surfaces,
+                 std::span<const std::int32_t> class_of, std::span<const BorderPoint> points);
+  void fit(std::span<const BorderPoint> points);
+};
+
+// Groups in the order of their first surface; the background is the last.
+void MotionField::State::number(const std::vector<InteriorSurface>& surfaces) {
+  const auto background = static_cast<std::uint32_t>(surfaces.size());
+  group_of.assign(surfaces.size(), background);
+  for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
+    if (surfaces[s].membrane) continue;
+    const auto same = [&](const Group& group) {
+      return surfaces[s].group >= 0 &&
+             surfaces[group.members.surfaces.front()].group == surfaces[s].group;
+    };
+    auto found = std::find_if(groups.begin(), groups.end(), same);
+    if (found == groups.end()) found = groups.insert(found, Group{{{}, true}, {}});
+    found->members.surfaces.push_back(s);
+    found->members.open &= surfaces[s].weights.keyframeCount() == 1;
+    group_of[s] = static_cast<std::uint32_t>(found - groups.begin());
+  }
+  groups.push_back({{{background}, true}, {}});
+  for (std::uint32_t& group : group_of)
+    group = std::min(group, static_cast<std::uint32_t>(groups.size() - 1));
+}
+
+// The class of each closed surface that moves, else -1.
+std::vector<std::int32_t> MotionField::State::classify(
+    const std::vector<InteriorSurface>& surfaces) {
+  std::vector<std::int32_t> class_of;
+  for (const InteriorSurface& surface : surfaces) {
+    class_of.push_back(-1);
+    if (surface.membrane || surface.weights.keyframeCount() == 1) continue;
+    auto found = std::find_if(classes.begin(), classes.end(), [&](const PhaseClass& c) {
+      return samePhases(c.weights, surface.weights);
+    });
+    if (found == classes.end()) found = classes.insert(found, {surface.weights, {}, {}});
+    class_of.back() = static_cast<std::int32_t>(found - classes.begin());
+  }
+  return class_of;
+}
+
+// The space about what moves; false when nothing does.
+bool MotionField::State::measure(const std::vector<InteriorSurface>& surfaces,
+                                 std::span<const std::vector<Vec3f>> reference_m) {
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+    if (!surfaces[s].membrane && surfaces[s].weights.keyframeCount() > 1)
+      for (const Vec3f p : reference_m[s]) space.moving.add(toDouble(p));
+  if (!(space.moving.hi.x >= space.moving.lo.x)) return false;
+  const double diagonal_m = length(space.moving.hi - space.moving.lo);
+  space.spacing_m = settings.spacing_m > 0 ? settings.spacing_m : diagonal_m / kSpacings;
+  space.margin_m = kMarginSpacings * space.spacing_m;
+  return space.spacing_m > 0;
+}
+
+void MotionField::State::findModes(const std::vector<InteriorSurface>& surfaces,
+                                   std::span<const std::int32_t> class_of,
+                                   std::span<const BorderPoint> points) {
+  const double tolerance_m = kModeTolerance * length(space.moving.hi - space.moving.lo);
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    const std::size_t keyframes = classes[c].weights.keyframeCount();
+    std::vector<Vec3f> displacement_m;
+    std::int32_t count = 0;
+    for (const BorderPoint& point : points) {
+      const std::size_t s = index(point.surface);
+      const bool mine = class_of[s] == static_cast<std::int32_t>(c);
+      classes[c].order.push_back(mine ? count++ : -1);
+      if (!mine) continue;
+      for (std::size_t k = 0; k < keyframes; ++k)
+        displacement_m.push_back(placeOf(point, surfaces[s].keyframes_m[k]) - point.reference_m);
+    }
+    classes[c].modes = motionModes(displacement_m, keyframes, tolerance_m);
+  }
+}
+
+void MotionField::State::fit(std::span<const BorderPoint> points) {
+  parallelBlocks(groups.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g)
+      groups[g].lattice = fitGroup(space, groups[g].members, *winners, points, classes);
+  });
+  for (const Group& group : groups)
+    for (const auto& rows : group.lattice.rows_m)
+      for (const auto& row : rows)
+        for (const Vec3f d : row)
+          reach_across_m = std::max(reach_across_m, std::abs(static_cast<double>(d.y)));
+}
+
+MotionField::MotionField(std::vector<InteriorSurface> surfaces, const FieldSettings& settings)
+    : state_(std::make_unique<State>()) {
+  State& state = *state_;
+  state.settings = settings;
+  state.number(surfaces);
+  std::vector<std::vector<Vec3f>> reference_m;
+  std::vector<Winners::Closed> closed;
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    reference_m.push_back(positionsAt(surfaces[s], settings.reference_phase));
+    if (!surfaces[s].membrane)
+      closed.push_back({static_cast<SurfaceId>(s), surfaces[s].priority,
+                        Columns(surfaces[s].triangles, reference_m[s])});
+  }
+  state.winners = std::make_unique<Winners>(std::move(closed));
+  const std::vector<std::int32_t> class_of = state.classify(surfaces);
+  if (!state.measure(surfaces, reference_m)) return;
+  const double margin_m = state.space.margin_m;
+  const Vec3d margin{margin_m, margin_m, margin_m};
+  const Box region{state.space.moving.lo - margin, state.space.moving.hi + margin};
+  const std::vector<BorderPoint> points =
+      borderPoints(surfaces, reference_m, *state.winners, region, state.space.spacing_m);
+  state.findModes(surfaces, class_of, points);
+  state.fit(points);
+}
+
+MotionField::~MotionField() = default;
+MotionField::MotionField(MotionField&&) noexcept = default;
+
+std::size_t MotionField::groupCount() const {
+  return state_->groups.size();
+}
+GroupId MotionField::background() const {
+  return static_cast<GroupId>(state_->groups.size() - 1);
+}
+GroupId MotionField::groupOf(SurfaceId surface) const {
+  return static_cast<GroupId>(state_->group_of[index(surface)]);
+}
+bool MotionField::moves(GroupId group) const {
+  return !state_->groups[index(group)].lattice.grid.empty();
+}
+double MotionField::referencePhase() const {
+  return state_->settings.reference_phase;
+}
+double MotionField::spacing() const {
+  return state_->space.spacing_m;
+}
+double MotionField::reachAcrossPlane() const {
+  return state_->reach_across_m;
+}
+
+std::optional<SurfaceId> MotionField::surfaceAt(Vec3f reference_m) const {
+  return state_->winners->at(toDouble(reference_m));
+}
+
+GroupId MotionField::groupAt(Vec3f reference_m) const {
+  const auto surface = surfaceAt(reference_m);
+  return surface ? groupOf(*surface) : background();
+}
+
+void MotionField::groupsAt(std::span<const Vec3f> reference_m, std::span<GroupId> groups) const {
+  CHECK_EQ(reference_m.size(), groups.size());
+  parallelBlocks(reference_m.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) groups[i] = groupAt(reference_m[i]);
+  });
+}
+
+namespace {
+
+// The active nodes of the slabs about a range of y.
+std::pair<std::uint32_t, std::uint32_t> nodesWithin(
+    const GroupLattice& lattice, const std::optional<std::pair<float, float>>& y_range_m) {
+  if (!y_range_m) return {0, lattice.slab_starts.back()};
+  const LatticeGrid& grid = lattice.grid;
+  const auto slabOf = [&](float y, int beyond) {
+    const float slab = std::floor((y - grid.origin_m.y) / grid.spacing_m);
+    return std::clamp(static_cast<int>(slab) + beyond, 0, grid.ny);
+  };
+  const int first = slabOf(y_range_m->first, 0), end = slabOf(y_range_m->second, 2);
+  return {lattice.slab_starts[static_cast<std::size_t>(first)],
+          lattice.slab_starts[static_cast<std::size_t>(std::max(first, end))]};
+}
+
+}  // namespace
+
+void MotionField::at(double phase, FieldFrame& frame,
+                     std::optional<std::pair<float, float>> y_range_m) const {
+  frame.phase = phase;
+  frame.groups.resize(state_->groups.size());
+  thread_local std::vector<std::vector<KeyframeWeights::Term>> terms;
+  terms.resize(state_->classes.size());
+  for (std::size_t c = 0; c < terms.size(); ++c)
+    state_->classes[c].weights.termsAt(phase, terms[c]);
+  for (std::size_t g = 0; g < frame.groups.size(); ++g) {
+    const GroupLattice& lattice = state_->groups[g].lattice;
+    GroupFrame& out = frame.groups[g];
+    out.grid = lattice.grid;
+    out.displacement_m.resize(lattice.grid.empty() ? 0 : lattice.grid.count());
+    if (lattice.grid.empty()) continue;
+    const auto [begin, end] = nodesWithin(lattice, y_range_m);
+    for (std::uint32_t n = begin; n < end; ++n) {
+      Vec3f sum;
+      for (std::size_t c = 0; c < terms.size(); ++c)
+        for (const KeyframeWeights::Term& term : terms[c])
+          sum = sum + static_cast<float>(term.weight) * lattice.rows_m[c][term.row][n];
+      out.displacement_m[lattice.nodes.nodes[n]] = sum;
+    }
+  }
+}
+
+}  // namespace echocine

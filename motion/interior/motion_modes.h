@@ -1,0 +1,23 @@
+#pragma once
+// The displacements of all keyframes as a few modes: the fit is linear, so fitting the modes and
+// mixing them again is the fit of every keyframe.
+
+#include <span>
+#include <vector>
+
+#include "core/vec3.h"
+
+namespace echocine {
+
+struct MotionModes {
+  std::size_t count = 0;
+  std::vector<std::vector<double>> keyframe_from_mode;  // [keyframe][mode]
+  std::vector<Vec3f> shapes_m;                          // [point][mode]: count per point
+};
+
+// displacement_m: [point][keyframe], keyframes values per point. Modes whose share is less than
+// `tolerance_m`, as a root mean square over points, are left out: principal components.
+MotionModes motionModes(std::span<const Vec3f> displacement_m, std::size_t keyframes,
+                        double tolerance_m);
+
+}  // namespace echocine

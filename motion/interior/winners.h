@@ -1,0 +1,40 @@
+#pragma once
+// Which closed surface wins at a place: the rule of the scene, at the reference phase.
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/ids.h"
+#include "motion/interior/columns.h"
+
+namespace echocine {
+
+class Winners {
+ public:
+  struct Closed {
+    SurfaceId id;
+    int priority;
+    Columns columns;
+  };
+
+  // Any order. Among equal priorities the later surface wins.
+  explicit Winners(std::vector<Closed> closed);
+
+  // The winner at a place, as if `without` were not there.
+  std::optional<SurfaceId> at(Vec3d place_m, std::optional<SurfaceId> without = {}) const;
+
+  // Does a surface other than `surface`, and stronger than it, hold the place?
+  bool hides(Vec3d place_m, SurfaceId surface) const;
+
+  // The winners of a row of places x = start + i step, by index; kNone in the background.
+  static constexpr std::int16_t kNone = -1;
+  void alongX(double start, double step, double y, double z, std::span<std::int16_t> row) const;
+
+ private:
+  std::vector<Closed> closed_;     // strongest first
+  std::vector<std::size_t> rank_;  // by SurfaceId; beyond the last for a membrane
+};
+
+}  // namespace echocine
