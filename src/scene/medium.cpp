@@ -39,6 +39,7 @@ Medium resolveMedium(const MediumSpec& spec, double frequency_hz) {
       .attenuation_np_per_m =
           nepersPerMetre(spec.attenuation_db_cm_mhz, spec.attenuation_exponent, frequency_hz),
       .backscatter_per_m_sr = std::visit(BackscatterCoefficient{k}, spec.backscatter),
+      .blood = std::holds_alternative<BloodBackscatter>(spec.backscatter),
   };
 }
 

@@ -106,6 +106,16 @@ struct SignalSettings {
   double grey_gamma = 1;                      // grey = (position in the dynamic range)^gamma
 };
 
+// Coherent echoes of material scatterers (src/speckle).
+struct SpeckleSettings {
+  bool on = false;
+  int seed = 1;
+  double per_cell = 3;          // scatterers per resolution cell
+  double smoothing_m = 0.7e-3;  // full width at half maximum, along the lines; 0: none
+  double tissue_time_s = 0;     // after which tissue's scatterers are new ones; 0: never
+  double blood_time_s = 0.01;   // the same of blood; our choice: well under a frame
+};
+
 enum class TracerChoice { automatic, slice, embree };
 enum class InterfaceEcho { automatic, centre, cell };
 enum class Normals { facet, smooth };
@@ -151,6 +161,7 @@ struct Scene {
   MotionSettings motion;
   std::vector<Structure> structures;
   EffectSwitches effects;
+  SpeckleSettings speckle;
   SignalSettings signal;
   AccuracySettings accuracy;
   OutputSettings output;

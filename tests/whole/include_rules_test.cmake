@@ -41,6 +41,7 @@ set(rooms
   "geometry=motion"
   "truth=geometry"
   "trace=geometry"
+  "speckle=trace,interior,motion"
   "signal=trace"
   "metrics=signal,trace"
   "video=signal"
