@@ -105,6 +105,7 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest) {
                         {"elevation", Stage::trace, 20 * rays},
                         {"travel_time", Stage::trace, 2 * crossings},
                         {"labels", Stage::trace, 0.1 * scattered},
+                        {"speckle", Stage::speckle, 1},
                         {"beam_width", Stage::signal, 0.8},
                         {"tgc", Stage::signal, 0.05},
                         {"log_compression", Stage::signal, 0.2}};

@@ -169,6 +169,16 @@ void add(EffectPlan& plan, std::string name, bool on, std::string reason) {
   plan.decisions.push_back({std::move(name), on, std::move(reason)});
 }
 
+void planSpeckle(const Scene& scene, EffectPlan& plan) {
+  plan.speckle = scene.speckle.on && wantsPicture(scene) && plan.contrast;
+  add(plan, "speckle", plan.speckle,
+      !scene.speckle.on      ? "speckle.on asks for none"
+      : !wantsPicture(scene) ? "no picture is asked for"
+      : !plan.contrast       ? "nothing can be seen"
+                       : fmt::format("{:g} scatterers per resolution cell move with the tissue",
+                                     scene.speckle.per_cell));
+}
+
 void planSignal(const Scene& scene, EffectPlan& plan) {
   const bool picture = wantsPicture(scene);
   if (scene.signal.tgc == Tgc::table && picture)
@@ -213,6 +223,7 @@ EffectPlan planEffects(const Scene& scene) {
   if (plan.elevation || plan.lateral_rays) plan.rays_per_beam = scene.accuracy.rays_per_beam;
   plan.travel_time = decide(plan, "travel_time", wanted.travel_time,
                             {false, "echoes are placed at their path length"});
+  planSpeckle(scene, plan);
   planSignal(scene, plan);
   return plan;
 }

@@ -24,6 +24,7 @@ struct EffectPlan {
   bool spread = true;
   bool beam_width = true;
   bool travel_time = false;
+  bool speckle = false;
   int rays_per_beam = 1;                         // that are traced
   bool lateral_rays = false, elevation = false;  // what several rays are spread over
   bool contrast = true;                          // the media in use differ at all

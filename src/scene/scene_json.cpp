@@ -102,6 +102,15 @@ Json signalJson(const SignalSettings& s) {
           {"grey_gamma", s.grey_gamma}};
 }
 
+Json speckleJson(const SpeckleSettings& s) {
+  return {{"on", s.on},
+          {"seed", s.seed},
+          {"per_cell", s.per_cell},
+          {"smoothing_m", s.smoothing_m},
+          {"tissue_time_s", s.tissue_time_s},
+          {"blood_time_s", s.blood_time_s}};
+}
+
 Json outputJson(const OutputSettings& o) {
   Json channels = Json::array();
   for (const Channel c : o.channels) channels.push_back(channelName(c));
@@ -134,33 +143,37 @@ Json mediaJson(const Scene& scene) {
 }
 
 Json sceneJson(const Scene& scene) {
-  return {{"background", scene.medium(scene.background).name},
-          {"unit_volume_m3", scene.unit_volume_m3},
-          {"probe", probeJson(scene.probe)},
-          {"acquisition",
-           {{"heart_rate_hz", scene.acquisition.heart_rate_hz},
-            {"frame_rate_hz", scene.acquisition.frame_rate_hz},
-            {"beats", scene.acquisition.beats},
-            {"time_warp", nameOf(scene.acquisition.time_warp, {"auto", "uniform", "systole"})},
-            {"rr_variability", scene.acquisition.rr_variability},
-            {"seed", scene.acquisition.seed}}},
-          {"motion",
-           {{"mesh_unit_m", scene.motion.mesh_unit_m},
-            {"interpolation",
-             nameOf(scene.motion.interpolation, {"linear", "catmull-rom", "spline", "fourier"})},
-            {"subdivision", scene.motion.subdivision},
-            {"keyframe_heart_rate_hz", optionalJson(scene.motion.keyframe_heart_rate_hz)},
-            {"end_systole_phase", optionalJson(scene.motion.end_systole_phase)}}},
-          {"structures", structuresJson(scene)},
-          {"effects", effectsJson(scene.effects)},
-          {"signal", signalJson(scene.signal)},
-          {"accuracy",
-           {{"rays_per_beam", scene.accuracy.rays_per_beam},
-            {"tracer", nameOf(scene.accuracy.tracer, {"auto", "slice", "embree"})},
-            {"interface_echo", nameOf(scene.accuracy.interface_echo, {"auto", "centre", "cell"})},
-            {"normals", nameOf(scene.accuracy.normals, {"facet", "smooth"})},
-            {"refraction_tolerance_lines", scene.accuracy.refraction_tolerance_lines}}},
-          {"output", outputJson(scene.output)}};
+  Json json = {
+      {"background", scene.medium(scene.background).name},
+      {"unit_volume_m3", scene.unit_volume_m3},
+      {"probe", probeJson(scene.probe)},
+      {"acquisition",
+       {{"heart_rate_hz", scene.acquisition.heart_rate_hz},
+        {"frame_rate_hz", scene.acquisition.frame_rate_hz},
+        {"beats", scene.acquisition.beats},
+        {"time_warp", nameOf(scene.acquisition.time_warp, {"auto", "uniform", "systole"})},
+        {"rr_variability", scene.acquisition.rr_variability},
+        {"seed", scene.acquisition.seed}}},
+      {"motion",
+       {{"mesh_unit_m", scene.motion.mesh_unit_m},
+        {"interpolation",
+         nameOf(scene.motion.interpolation, {"linear", "catmull-rom", "spline", "fourier"})},
+        {"subdivision", scene.motion.subdivision},
+        {"keyframe_heart_rate_hz", optionalJson(scene.motion.keyframe_heart_rate_hz)},
+        {"end_systole_phase", optionalJson(scene.motion.end_systole_phase)}}},
+      {"structures", structuresJson(scene)},
+      {"effects", effectsJson(scene.effects)},
+      {"signal", signalJson(scene.signal)},
+      {"accuracy",
+       {{"rays_per_beam", scene.accuracy.rays_per_beam},
+        {"tracer", nameOf(scene.accuracy.tracer, {"auto", "slice", "embree"})},
+        {"interface_echo", nameOf(scene.accuracy.interface_echo, {"auto", "centre", "cell"})},
+        {"normals", nameOf(scene.accuracy.normals, {"facet", "smooth"})},
+        {"refraction_tolerance_lines", scene.accuracy.refraction_tolerance_lines}}},
+      {"output", outputJson(scene.output)}};
+  // A picture without speckle is the same file as before there was any.
+  if (scene.speckle.on) json["speckle"] = speckleJson(scene.speckle);
+  return json;
 }
 
 }  // namespace echocine

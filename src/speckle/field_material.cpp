@@ -35,11 +35,14 @@ FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion)
   const float fine_m = static_cast<float>(field_.spacing());
   lattice_.block_m = fine_m > 0 ? 2 * fine_m : kStillBlock_m;
   half_.assign(groups, false);
+  bool coarse = false;
   for (std::size_t g = 0; g < groups; ++g) {
     const LatticeGrid& grid = frame.groups[g].grid;
     if (grid.empty()) continue;
     half_[g] = grid.spacing_m < 1.5f * fine_m;
-    if (!half_[g] || lattice_.origin_m == Vec3f{}) lattice_.origin_m = grid.origin_m;
+    // Blocks are the cells of the coarse lattice where there is one, else pairs of the fine one's.
+    if (!half_[g] || !coarse) lattice_.origin_m = grid.origin_m;
+    coarse |= !half_[g];
   }
 }
 

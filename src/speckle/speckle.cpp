@@ -16,6 +16,14 @@ Speckle::Speckle(const Probe& probe, double pulse_cycles, const SpeckleSettings&
       splatter_(probe, spread_, view_),
       ratio_(probe, spread_, view_, settings.smoothing_m) {}
 
+double Speckle::farthestAcross_m() const {
+  double farthest_m = 0;
+  for (const ScattererBatch& batch : scatterers_.batches())
+    farthest_m = std::max({farthest_m, static_cast<double>(-batch.low_m.y),
+                           static_cast<double>(batch.low_m.y + batch.edge_m)});
+  return farthest_m;
+}
+
 void Speckle::addUp(const MaterialFrame& tissue, double time_s, EchoSums& sums) const {
   for (const ScattererBatch& batch : scatterers_.batches()) {
     const CubeCorners corners = tissue.corners(batch.group, batch.low_m, batch.edge_m);

@@ -18,6 +18,8 @@ class Speckle {
 
   const PointSpread& spread() const { return spread_; }
   std::size_t scatterers() const { return scatterers_.count(); }
+  // Reference places of scatterers lie within this of the imaging plane.
+  double farthestAcross_m() const;
 
   // Intensities after the average over the beam, in place. A function of the instant alone: any
   // frame by itself has the bytes that it has in its loop. Thread-safe.

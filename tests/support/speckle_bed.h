@@ -49,7 +49,7 @@ inline Affine stretched(double strain, double about_m) {
 
 struct OneGroup : Material {
   bool flows = false;
-  double reach_m = 0.01;
+  double reach_m = 0.006;
   bool blood(std::uint16_t) const override { return flows; }
   double reachAcross_m() const override { return reach_m; }
   double reachAlong_m() const override { return reach_m; }
