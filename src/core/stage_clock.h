@@ -10,12 +10,12 @@
 namespace echocine {
 
 // The stages that are timed, in the manifest's order.
-enum class Stage { motion, geometry, trace, signal, scan_conversion, exr, avi };
-inline constexpr std::size_t kStages = 7;
+enum class Stage { motion, geometry, trace, speckle, signal, scan_conversion, exr, avi };
+inline constexpr std::size_t kStages = 8;
 
 constexpr const char* stageName(Stage stage) {
   constexpr std::array<const char*, kStages> kNames{
-      "motion", "geometry", "trace", "signal", "scan_conversion", "exr", "avi"};
+      "motion", "geometry", "trace", "speckle", "signal", "scan_conversion", "exr", "avi"};
   return kNames[static_cast<std::size_t>(stage)];
 }
 

@@ -164,6 +164,7 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest) {
                         {Effect::elevation, Stage::trace, 20 * rays},
                         {Effect::travel_time, Stage::trace, 2 * crossings},
                         {Effect::labels, Stage::trace, 0.1 * scattered},
+                        {Effect::speckle, Stage::speckle, 1},
                         {Effect::beam_width, Stage::signal, 0.8},
                         {Effect::tgc, Stage::signal, 0.05},
                         {Effect::log_compression, Stage::signal, 0.2},

@@ -226,6 +226,16 @@ void planTruth(const Scene& scene, EffectPlan& plan) {
       add(plan, fmt::format("channel {}", channelName(c)), true, "asked for in output.channels");
 }
 
+void planSpeckle(const Scene& scene, EffectPlan& plan) {
+  plan.speckle = scene.speckle.on && wantsPicture(scene) && plan.contrast;
+  add(plan, Effect::speckle, plan.speckle,
+      !scene.speckle.on      ? "speckle.on asks for none"
+      : !wantsPicture(scene) ? "no picture is asked for"
+      : !plan.contrast       ? "nothing can be seen"
+                       : fmt::format("{:g} scatterers per resolution cell move with the tissue",
+                                     scene.speckle.per_cell));
+}
+
 void planSignal(const Scene& scene, EffectPlan& plan) {
   const bool picture = wantsPicture(scene);
   if (scene.signal.tgc == Tgc::table && picture)
@@ -284,6 +294,7 @@ EffectPlan planEffects(const Scene& scene) {
   if (plan.elevation || plan.lateral_rays) plan.rays_per_beam = scene.accuracy.rays_per_beam;
   plan.travel_time = decide(plan, Effect::travel_time, wanted.travel_time,
                             {false, "echoes are placed at their path length"});
+  planSpeckle(scene, plan);
   planSignal(scene, plan);
   return plan;
 }

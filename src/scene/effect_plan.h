@@ -30,6 +30,7 @@ struct EffectPlan {
   bool spread = true;
   bool beam_width = true;
   bool travel_time = false;
+  bool speckle = false;
   int rays_per_beam = 1;                         // that are traced
   bool lateral_rays = false, elevation = false;  // what several rays are spread over
   // Of signal.tgc = "mean": what the loop's mean attenuation takes at each sample's depth, 0..1.

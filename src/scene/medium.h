@@ -49,6 +49,7 @@ struct Medium {
   double sound_speed_m_s = 0;       // c
   double attenuation_np_per_m = 0;  // alpha, amplitude
   double backscatter_per_m_sr = 0;  // eta_b
+  bool blood = false;               // flows: its scatterers are not tied to walls
 };
 
 // Equal impedance and speed: an interface between them neither reflects nor bends.

@@ -147,6 +147,7 @@ struct NamesOf<Effect> {
                                            {Effect::beam_width, "beam_width"},
                                            {Effect::elevation, "elevation"},
                                            {Effect::travel_time, "travel_time"},
+                                           {Effect::speckle, "speckle"},
                                            {Effect::tgc, "tgc"},
                                            {Effect::log_compression, "log_compression"},
                                            {Effect::labels, "labels"},

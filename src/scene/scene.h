@@ -94,6 +94,7 @@ enum class Effect {
   beam_width,
   elevation,
   travel_time,
+  speckle,
   tgc,
   log_compression,
   labels,
@@ -151,6 +152,16 @@ struct SignalSettings {
   std::optional<double> reference_intensity;  // absolute, relative to I_S; else the percentile
   double reference_percentile = 99.5;         // of all samples of the loop, near field left out
   double grey_gamma = 1;                      // grey = (position in the dynamic range)^gamma
+};
+
+// Coherent echoes of material scatterers (src/speckle).
+struct SpeckleSettings {
+  bool on = false;
+  int seed = 1;
+  double per_cell = 3;          // scatterers per resolution cell
+  double smoothing_m = 0.7e-3;  // full width at half maximum, along the lines; 0: none
+  double tissue_time_s = 0;     // after which tissue's scatterers are new ones; 0: never
+  double blood_time_s = 0.01;   // the same of blood; our choice: well under a frame
 };
 
 enum class TracerChoice { automatic, slice, embree };
@@ -214,6 +225,7 @@ struct Scene {
   MotionSettings motion;
   std::vector<Structure> structures;
   EffectSwitches effects;
+  SpeckleSettings speckle;
   SignalSettings signal;
   AccuracySettings accuracy;
   OutputSettings output;

@@ -98,6 +98,15 @@ Json signalJson(const SignalSettings& s) {
           {"grey_gamma", s.grey_gamma}};
 }
 
+Json speckleJson(const SpeckleSettings& s) {
+  return {{"on", s.on},
+          {"seed", s.seed},
+          {"per_cell", s.per_cell},
+          {"smoothing_m", s.smoothing_m},
+          {"tissue_time_s", s.tissue_time_s},
+          {"blood_time_s", s.blood_time_s}};
+}
+
 Json outputJson(const OutputSettings& o) {
   Json channels = Json::array();
   for (const Channel c : o.channels) channels.push_back(channelName(c));
@@ -141,7 +150,7 @@ Json mediaJson(const Scene& scene) {
 }
 
 Json sceneJson(const Scene& scene) {
-  return {{"background", scene.medium(scene.background).name},
+  Json json = {{"background", scene.medium(scene.background).name},
           {"unit_volume_m3", scene.unit_volume_m3},
           {"probe", probeJson(scene.probe)},
           {"acquisition",
@@ -168,6 +177,9 @@ Json sceneJson(const Scene& scene) {
             {"refraction_tolerance_beam_widths", scene.accuracy.refraction_tolerance_beam_widths}}},
           {"output", outputJson(scene.output)},
           {"truth", truthJson(scene.truth)}};
+  // A picture without speckle is the same file as before there was any.
+  if (scene.speckle.on) json["speckle"] = speckleJson(scene.speckle);
+  return json;
 }
 
 }  // namespace echocine

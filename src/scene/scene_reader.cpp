@@ -8,6 +8,7 @@
 
 #include "core/file.h"
 #include "core/units.h"
+#include "scene/beam_profile.h"
 #include "scene/keyframe_warnings.h"
 #include "scene/media_reader.h"
 #include "scene/probe_reader.h"
@@ -116,6 +117,21 @@ void readTgc(TomlTable& table, SignalSettings& s) {
   }
   if (s.tgc_table.empty())
     table.fail("tgc_table_mm_db", "is missing or empty, accepted: [[depth_mm, gain_db], ...]");
+}
+
+SpeckleSettings readSpeckle(TomlTable table) {
+  constexpr double kMostPerCell = 1000;  // statistics are final from 3 on; our choice
+  const NumberRange times_ms{.lo = 0, .hi = 1e9};
+  SpeckleSettings s;
+  s.on = table.boolean("on", s.on);
+  s.seed = table.integer("seed", s.seed, 0, std::numeric_limits<int>::max());
+  s.per_cell = table.number("per_cell", s.per_cell, {.lo = 0.1, .hi = kMostPerCell});
+  s.smoothing_m = metresFromMillimetres(
+      table.number("smoothing_mm", millimetresFromMetres(s.smoothing_m), {.lo = 0, .hi = 100}));
+  s.tissue_time_s = 1e-3 * table.number("tissue_time_ms", 1e3 * s.tissue_time_s, times_ms);
+  s.blood_time_s = 1e-3 * table.number("blood_time_ms", 1e3 * s.blood_time_s, times_ms);
+  table.finish();
+  return s;
 }
 
 SignalSettings readSignal(TomlTable table) {
@@ -256,6 +272,15 @@ void refuseContradictions(TomlTable& root, const Scene& scene) {
     accuracy.fail(
         "interface_echo",
         "\"cell\" excludes accuracy.tracer = \"embree\", accepted with it: \"auto\" | \"centre\"");
+  const double pulse_m = scene.signal.pulse_cycles * scannerWavelength(scene.probe) / 2;
+  if (scene.speckle.on && !(pulse_m > 0))
+    root.table("signal").fail("pulse_cycles",
+                              "0 excludes speckle.on = true, accepted with it: a number over 0");
+  if (scene.speckle.on && pulse_m > scene.probe.max_depth_m - scene.probe.min_depth_m)
+    root.table("signal").fail(
+        "pulse_cycles", fmt::format("makes a pulse of {:.3g} mm, longer than the depth that "
+                                    "speckle.on = true would fill, accepted with it: a shorter one",
+                                    millimetresFromMetres(pulse_m)));
   if (a.rays_per_beam > 1) refuseOfRays(root, scene);
   if (scene.effects.elevation == Switch::on && a.rays_per_beam == 1)
     effects.fail(
@@ -321,6 +346,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file, const Name
   scene.unit_volume_m3 =
       cubicMetresFromCubicCentimetres(root.number("unit_volume_cm3", 1.0, ranges::kUnitVolume_cm3));
   scene.effects = readEffects(root.table("effects"));
+  scene.speckle = readSpeckle(root.table("speckle"));
   scene.signal = readSignal(root.table("signal"));
   scene.accuracy = readAccuracy(root.table("accuracy"));
   scene.output = readOutput(root.table("output"));

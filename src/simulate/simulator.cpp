@@ -43,6 +43,7 @@ Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, Loop
       request_(planeRequest(scene_, plan_.effects)) {
   if (plan_.effects.rays_per_beam > 1)
     beams_.emplace(scene_.probe, beamSpread(plan_.effects, scene_.acquisition.seed));
+  if (plan_.effects.speckle) speckle_ = std::make_unique<const SceneSpeckle>(scene_, *motion_);
 }
 
 std::shared_ptr<Workspace> Simulator::workspace() const {
@@ -129,6 +130,7 @@ Volumes Simulator::traceLines(const FrameTime& time, Workspace& w) const {
 void Simulator::process(const FrameTime& time, Workspace& w) const {
   if (!request_.intensities) return;
   clock_.time(Stage::signal, [&] { chain_.process(w.polar.intensities); });
+  if (speckle_) clock_.time(Stage::speckle, [&] { speckle_->apply(time, w.polar.intensities); });
   refuseUnusable(time.phase, w.polar);
 }
 

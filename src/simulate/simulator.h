@@ -20,6 +20,7 @@
 #include "output/frame_record.h"
 #include "scene/loop_plan.h"
 #include "signal/signal_chain.h"
+#include "simulate/scene_speckle.h"
 #include "trace/trace_beams.h"
 #include "trace/trace_frame.h"
 
@@ -114,6 +115,7 @@ class Simulator {
   const TraceSettings settings_;
   const PlaneRequest request_;
   std::optional<BeamRays> beams_;  // several rays per beam
+  std::unique_ptr<const SceneSpeckle> speckle_;
   mutable StageClock clock_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<Workspace>> free_;

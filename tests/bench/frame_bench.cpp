@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include "bench/bench_loop.h"
 #include "bench/floor/bare_files.h"
@@ -93,6 +94,24 @@ void wholeFrame(benchmark::State& state) {
   state.counters["over_single_rays"] = quartilesOf(over_rays).median;
 }
 
+// The whole frame with speckle next to the same frame without it.
+void speckleFrame(benchmark::State& state) {
+  const BenchScene bare_scene{Size(state)};
+  const LoopOnDisk loop(bare_scene, false);
+  Scene scene = readScene(loop.sceneFile());
+  const Simulator without(scene);
+  scene.speckle.on = true;
+  std::optional<Simulator> with;
+  withThreads(1, [&] { with.emplace(scene, without.sharedMotion()); });
+  const auto made = [](const Simulator& simulator) {
+    return [&simulator, w = simulator.workspace()](std::size_t i) {
+      benchmark::DoNotOptimize(simulator.trace(frameTime(i), *w));
+      benchmark::DoNotOptimize(simulator.picture(kReference, *w, true).pixels.data());
+    };
+  };
+  overFloor(state, made(*with), made(without));
+}
+
 struct LoopTime {
   double cpu_ms = 0, wall_ms = 0;  // per frame, the first ones left out
 };
@@ -160,6 +179,12 @@ BENCHMARK(wholeFrame)
     ->Args({50000, 256, 512})
     ->Args({50000, 256, 2048})
     ->Args({50000, 512, 2048})
+    ->UseManualTime()
+    ->Iterations(kRounds)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(speckleFrame)
+    ->Args({50000, 256, 1024})
+    ->Args({50000, 128, 1024})
     ->UseManualTime()
     ->Iterations(kRounds)
     ->Unit(benchmark::kMillisecond);

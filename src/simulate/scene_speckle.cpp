@@ -1,0 +1,20 @@
+#include "simulate/scene_speckle.h"
+
+#include <algorithm>
+
+namespace echocine {
+
+SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion)
+    : material_(scene, motion),
+      speckle_(scene.probe, scene.signal.pulse_cycles, scene.speckle, material_) {
+  const double half_m = speckle_.farthestAcross_m();
+  y_range_m_ = {static_cast<float>(-half_m), static_cast<float>(half_m)};
+}
+
+void SceneSpeckle::apply(const FrameTime& time, Intensities& intensities) const {
+  thread_local FieldFrame frame;
+  material_.field().at(time.phase, frame, y_range_m_);
+  speckle_.apply(FieldMaterialFrame(frame), time.time_s, intensities);
+}
+
+}  // namespace echocine

@@ -1,0 +1,44 @@
+#pragma once
+// From echo sums and the deterministic picture to the picture with speckle:
+//   I = Ibar smooth(|g|^2 / w),  g = h * (sqrt(Ibar) U),  w = h^2 * (Ibar P),
+// with U, P the echo sums, h the separable point spread function over samples and lines. g and w
+// take in the very same samples, so that E|g|^2 = w exactly and the mean over seeds is Ibar.
+
+#include <span>
+#include <vector>
+
+#include "speckle/splat.h"
+
+namespace echocine {
+
+class CoherentRatio {
+ public:
+  CoherentRatio(const Probe& probe, const PointSpread& spread, const BeamView& view,
+                double smoothing_m);
+
+  // Memory of one frame in the making.
+  struct Rows {
+    std::vector<float> raw;    // one line's real, imaginary, squares, with zeros about them
+    std::vector<float> lines;  // lines that have been smeared along, used round
+    std::vector<float> ratio;  // one line's, with its ends repeated
+  };
+
+  // In place. Where no scatterer is in reach the picture stays as it is.
+  void apply(EchoSums& sums, Rows& rows, std::span<float> intensities) const;
+
+ private:
+  void alongLine(const EchoSum* sums, const float* intensities, Rows& rows, float* smeared) const;
+  void acrossLines(int line, Rows& rows) const;
+  void finish(Rows& rows, float* intensities) const;
+  float* smeared(Rows& rows, int line) const;
+
+  int lines_, samples_;
+  std::size_t stride_;                            // of a row, whole lanes
+  std::vector<float> axial_;                      // h of distance 0, 1, ...
+  std::vector<float> smoothing_;                  // of the ratio
+  std::size_t lateral_taps_ = 0;                  // beside the middle one
+  bool even_ = false;                             // the same at all depths
+  std::vector<float> lateral_, lateral_squares_;  // by distance, then sample
+};
+
+}  // namespace echocine

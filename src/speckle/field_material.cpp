@@ -1,0 +1,77 @@
+#include "speckle/field_material.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace echocine {
+
+namespace {
+
+constexpr float kStillBlock_m = 8e-3f;  // where nothing moves
+constexpr int kPhasesLookedAt = 24;
+constexpr double kBetweenPhases = 1.1;  // tissue may move farther between them
+
+}  // namespace
+
+FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion)
+    : field_(interiorMotion(scene, motion)) {
+  const std::size_t groups = field_.groupCount();
+  blood_.assign(groups, false);
+  blood_.back() = scene.medium(scene.background).blood;
+  for (const SurfaceTopology& surface : motion.surfaces())
+    if (!surface.membrane)
+      blood_[index(field_.groupOf(surface.id))] =
+          scene.medium(scene.structures[index(surface.id)].medium).blood;
+  FieldFrame frame;
+  for (int i = 0; i < kPhasesLookedAt; ++i) {
+    field_.at(static_cast<double>(i) / kPhasesLookedAt, frame);
+    for (const GroupFrame& group : frame.groups)
+      for (const Vec3f d : group.displacement_m)
+        along_m_ =
+            std::max(along_m_, std::hypot(static_cast<double>(d.x), static_cast<double>(d.z)));
+  }
+  along_m_ *= kBetweenPhases;
+  across_m_ = kBetweenPhases * field_.reachAcrossPlane();
+  const float fine_m = static_cast<float>(field_.spacing());
+  lattice_.block_m = fine_m > 0 ? 2 * fine_m : kStillBlock_m;
+  half_.assign(groups, false);
+  bool coarse = false;
+  for (std::size_t g = 0; g < groups; ++g) {
+    const LatticeGrid& grid = frame.groups[g].grid;
+    if (grid.empty()) continue;
+    half_[g] = grid.spacing_m < 1.5f * fine_m;
+    // Blocks are the cells of the coarse lattice where there is one, else pairs of the fine one's.
+    if (!half_[g] || !coarse) lattice_.origin_m = grid.origin_m;
+    coarse |= !half_[g];
+  }
+}
+
+void FieldMaterial::groupsAt(std::span<const Vec3f> reference_m,
+                             std::span<std::uint16_t> groups) const {
+  for (std::size_t i = 0; i < reference_m.size(); ++i)
+    groups[i] = static_cast<std::uint16_t>(index(field_.groupAt(reference_m[i])));
+}
+
+CubeCorners FieldMaterialFrame::corners(std::uint16_t group, Vec3f low_m, float edge_m) const {
+  const GroupFrame& frame = frame_.groups[group];
+  CubeCorners corners;
+  for (std::size_t c = 0; c < corners.size(); ++c)
+    corners[c] = low_m + edge_m * Vec3f{c & 1 ? 1.0f : 0, c & 2 ? 1.0f : 0, c & 4 ? 1.0f : 0};
+  if (frame.displacement_m.empty()) return corners;
+  const LatticeGrid& grid = frame.grid;
+  const auto node = [&](float at, float origin) {
+    return static_cast<int>(std::lround((at - origin) / grid.spacing_m));
+  };
+  const int ix = node(low_m.x, grid.origin_m.x), iy = node(low_m.y, grid.origin_m.y),
+            iz = node(low_m.z, grid.origin_m.z);
+  const bool inside =
+      ix >= 0 && iy >= 0 && iz >= 0 && ix + 1 < grid.nx && iy + 1 < grid.ny && iz + 1 < grid.nz;
+  for (std::size_t c = 0; c < corners.size(); ++c)
+    corners[c] =
+        inside ? corners[c] + frame.displacement_m[grid.at(
+                                  ix + (c & 1 ? 1 : 0), iy + (c & 2 ? 1 : 0), iz + (c & 4 ? 1 : 0))]
+               : frame.place(corners[c]);
+  return corners;
+}
+
+}  // namespace echocine

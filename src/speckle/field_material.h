@@ -1,0 +1,39 @@
+#pragma once
+// Tissue as the motion field carries it: speckle and truth move by one field.
+
+#include "motion/interior_motion.h"
+#include "speckle/material.h"
+
+namespace echocine {
+
+class FieldMaterial : public Material {
+ public:
+  FieldMaterial(const Scene& scene, const MeshMotion& motion);
+
+  CubeLattice lattice() const override { return lattice_; }
+  bool halfBlocks(std::uint16_t group) const override { return half_[group]; }
+  bool blood(std::uint16_t group) const override { return blood_[group]; }
+  void groupsAt(std::span<const Vec3f> reference_m, std::span<std::uint16_t> groups) const override;
+  double reachAcross_m() const override { return across_m_; }
+  double reachAlong_m() const override { return along_m_; }
+
+  const MotionField& field() const { return field_; }
+
+ private:
+  MotionField field_;
+  CubeLattice lattice_;
+  std::vector<bool> half_, blood_;  // by group
+  double across_m_ = 0, along_m_ = 0;
+};
+
+class FieldMaterialFrame : public MaterialFrame {
+ public:
+  // Precondition: `frame` is the field's at the instant, and outlives this.
+  explicit FieldMaterialFrame(const FieldFrame& frame) : frame_(frame) {}
+  CubeCorners corners(std::uint16_t group, Vec3f low_m, float edge_m) const override;
+
+ private:
+  const FieldFrame& frame_;
+};
+
+}  // namespace echocine

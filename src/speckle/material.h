@@ -1,0 +1,45 @@
+#pragma once
+// What the scatterers ask of the tissue that carries them: in what groups it moves, and where the
+// corners of a small cube of it are at an instant. Within a cube places are trilinear, which any
+// affine motion and the lattice of the motion field are exactly.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "core/vec3.h"
+
+namespace echocine {
+
+// Corner c of a cube: x, y, z at the high end where bits 0, 1, 2 of c are set.
+using CubeCorners = std::array<Vec3f, 8>;
+
+// Cubes of tissue at the reference phase. A group's cubes have the blocks' edge, or half of it.
+struct CubeLattice {
+  Vec3f origin_m;
+  float block_m = 8e-3f;
+};
+
+// Tissue at one instant.
+class MaterialFrame {
+ public:
+  virtual ~MaterialFrame() = default;
+  virtual CubeCorners corners(std::uint16_t group, Vec3f low_m, float edge_m) const = 0;
+};
+
+class Material {
+ public:
+  virtual ~Material() = default;
+  virtual CubeLattice lattice() const { return {}; }
+  virtual bool halfBlocks(std::uint16_t /*group*/) const { return false; }
+  virtual bool blood(std::uint16_t /*group*/) const { return false; }
+  virtual void groupsAt(std::span<const Vec3f> reference_m, std::span<std::uint16_t> groups) const {
+    for (std::size_t i = 0; i < reference_m.size(); ++i) groups[i] = 0;
+  }
+  // The most that any tissue moves, from the reference: across the imaging plane and in it.
+  virtual double reachAcross_m() const { return 0; }
+  virtual double reachAlong_m() const { return 0; }
+};
+
+}  // namespace echocine

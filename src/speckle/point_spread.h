@@ -1,0 +1,31 @@
+#pragma once
+// How far one scatterer's echo reaches in beam space, by the model of this room's README.
+//
+// Symbols: lambda wavelength, D aperture, z path length, w full width at -6 dB of the two-way
+// intensity profile, sigma standard deviation of the amplitude's bell. Lateral: a constant angle at
+// every depth, sigma = 0.3625 lambda z / D; defocus widens the beam, but not the speckle.
+
+#include "scene/probe.h"
+
+namespace echocine {
+
+struct PointSpread {
+  // pulse_cycles: of the signal's pulse.
+  PointSpread(const Probe& probe, double pulse_cycles);
+
+  double wavelength_m = 0;
+  double axial_m = 0;                  // sigma
+  double axial_width_m = 0;            // w: 0.55 mm at 2.5 MHz and 2 cycles, as real loops show
+  double angle_rad = 0;                // lateral sigma over path length
+  double aperture_m = 0, focus_m = 0;  // of the lens across the imaging plane
+
+  double lateralWidth(double path_m) const;    // w
+  double elevationWidth(double path_m) const;  // w_e
+  // Volume of a resolution cell; held at 3 mm of path nearer to the probe, where it would vanish.
+  double cellVolume(double path_m) const;
+};
+
+// The amplitude of the elevation's bell is left out beyond this part of w_e, where it is a tenth.
+inline constexpr double kElevationCut = 0.9;
+
+}  // namespace echocine

@@ -1,0 +1,170 @@
+#include "speckle/scatterers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "core/error.h"
+#include "core/hash_random.h"
+#include "core/parallel.h"
+
+namespace echocine {
+
+namespace {
+
+constexpr double kMostScatterers = 5e7;  // 0.6 GB. Our choice
+
+// Purposes of hashed numbers.
+enum : std::uint64_t { kPlaces = 1, kCount = 2, kGauss = 3, kBatch = 4 };
+
+// Point j of an additive sequence in a cube, shifted by a hash: even at any count (Roberts' R3).
+Vec3f pointIn(std::uint64_t hash, std::uint32_t j) {
+  constexpr double kSteps[] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+  const auto along = [&](int axis) {
+    const double start = uniformFromHash(hashOf(hash, axis));
+    // The jitter keeps neighbours from the sequence's lattice: a grating would show.
+    const double jitter = 0.35 * uniformFromHash(hashOf(hash, j, axis + 3)) / std::cbrt(j + 1.0);
+    const double at = start + kSteps[axis] * (j + 1.0) + jitter;
+    return static_cast<float>(at - std::floor(at));
+  };
+  return {along(0), along(1), along(2)};
+}
+
+// From a path length back to numbers of blocks about the sector.
+struct BlockRange {
+  int begin, end;
+};
+BlockRange blocksOver(double lo_m, double hi_m, float origin_m, float edge_m) {
+  const double origin = static_cast<double>(origin_m), edge = static_cast<double>(edge_m);
+  return {static_cast<int>(std::floor((lo_m - origin) / edge)),
+          static_cast<int>(std::ceil((hi_m - origin) / edge))};
+}
+
+double pathOf(const Probe& probe, Vec3d p) {
+  return probe.kind == ProbeKind::linear ? p.z : std::hypot(p.x, p.z) - probe.face_radius_m;
+}
+
+}  // namespace
+
+GaussianTable::GaussianTable(int seed)
+    : real_(kStarts + kMostOfBatch + kFloatLanes), imaginary_(real_.size()) {
+  for (std::vector<float>* part : {&real_, &imaginary_}) {
+    const std::uint64_t purpose = kGauss + (part == &real_ ? 16 : 32);
+    double sum = 0, squares = 0;
+    std::vector<double> drawn(kStarts);
+    for (std::uint32_t i = 0; i < kStarts; ++i) {
+      drawn[i] = normalFromHashes(hashOf(seed, purpose, i, 0), hashOf(seed, purpose, i, 1));
+      sum += drawn[i];
+      squares += drawn[i] * drawn[i];
+    }
+    const double mean = sum / kStarts;
+    const double scale = 1 / std::sqrt(2 * (squares / kStarts - mean * mean));
+    for (std::size_t i = 0; i < part->size(); ++i)
+      (*part)[i] = static_cast<float>((drawn[i % kStarts] - mean) * scale);
+  }
+}
+
+struct Scatterers::Block {
+  Vec3f low_m;
+  float edge_m = 0;
+  std::uint64_t pattern = 0;
+  std::vector<Vec3f> places_m;
+  std::vector<std::uint16_t> groups;
+};
+
+Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const BeamView& view,
+                       const SpeckleSettings& settings, const Material& material) {
+  const CubeLattice lattice = material.lattice();
+  const double edge_m = static_cast<double>(lattice.block_m);
+  const double along_m = material.reachAlong_m(), across_m = material.reachAcross_m();
+  const double reach_m = probe.face_radius_m + probe.max_depth_m;
+  const double half_x_m =
+      along_m + (probe.kind == ProbeKind::linear
+                     ? std::max(std::abs(probe.first_offset_m), std::abs(probe.last_offset_m)) +
+                           reach_m * std::abs(std::tan(probe.first_angle_rad)) + edge_m
+                     : reach_m + edge_m);
+  const double half_y_m =
+      across_m + kElevationCut * std::max(spread.elevationWidth(0), spread.elevationWidth(reach_m));
+  const BlockRange xs = blocksOver(-half_x_m, half_x_m, lattice.origin_m.x, lattice.block_m);
+  const BlockRange ys = blocksOver(-half_y_m, half_y_m, lattice.origin_m.y, lattice.block_m);
+  const BlockRange zs =
+      blocksOver(-along_m, reach_m + along_m, lattice.origin_m.z, lattice.block_m);
+  const double ball_m = edge_m * 0.866 + std::max(along_m, across_m);
+  std::vector<Block> blocks;
+  double planned = 0;
+  for (int iz = zs.begin; iz < zs.end; ++iz)
+    for (int iy = ys.begin; iy < ys.end; ++iy)
+      for (int ix = xs.begin; ix < xs.end; ++ix) {
+        const Vec3f low = lattice.origin_m + lattice.block_m * Vec3f{static_cast<float>(ix),
+                                                                     static_cast<float>(iy),
+                                                                     static_cast<float>(iz)};
+        const Vec3d middle = toDouble(low) + 0.5 * edge_m * Vec3d{1, 1, 1};
+        if (!view.sees(middle, ball_m)) continue;
+        Block block{low, lattice.block_m, hashOf(settings.seed, kPlaces, ix, iy, iz), {}, {}};
+        const double wanted =
+            settings.per_cell * edge_m * edge_m * edge_m / spread.cellVolume(pathOf(probe, middle));
+        planned += wanted;
+        if (planned > kMostScatterers)
+          throw SceneError(fmt::format(
+              "speckle.per_cell = {:g} takes over {:g} scatterers, more than memory is meant for: "
+              "fewer are accepted",
+              settings.per_cell, kMostScatterers));
+        block.places_m.resize(
+            static_cast<std::size_t>(wanted + uniformFromHash(hashOf(block.pattern, kCount))));
+        blocks.push_back(std::move(block));
+      }
+  parallelBlocks(blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      Block& block = blocks[b];
+      for (std::uint32_t j = 0; j < block.places_m.size(); ++j)
+        block.places_m[j] = block.low_m + block.edge_m * pointIn(block.pattern, j);
+      block.groups.resize(block.places_m.size());
+      material.groupsAt(block.places_m, block.groups);
+    }
+  });
+  for (const Block& block : blocks) addBlock(block, material);
+}
+
+// By group and half block, in the order of their points.
+void Scatterers::addBlock(const Block& block, const Material& material) {
+  std::map<std::uint32_t, std::vector<Vec3f>> parts;
+  const float half_m = 0.5f * block.edge_m;
+  for (std::size_t i = 0; i < block.places_m.size(); ++i) {
+    const Vec3f in = block.places_m[i] - block.low_m;
+    const std::uint32_t half =
+        !material.halfBlocks(block.groups[i])
+            ? 0u
+            : (in.x >= half_m) + 2u * (in.y >= half_m) + 4u * (in.z >= half_m);
+    parts[8u * block.groups[i] + half].push_back(block.places_m[i]);
+  }
+  for (const auto& [key, places_m] : parts) {
+    const auto group = static_cast<std::uint16_t>(key / 8);
+    const bool halved = material.halfBlocks(group);
+    const auto offset = [&](std::uint32_t bit) { return key & bit ? half_m : 0.0f; };
+    for (std::size_t first = 0; first < places_m.size(); first += kMostOfBatch)
+      addBatch(std::span(places_m).subspan(
+                   first, std::min<std::size_t>(kMostOfBatch, places_m.size() - first)),
+               block.low_m + Vec3f{offset(1), offset(2), offset(4)}, halved ? half_m : block.edge_m,
+               group, material.blood(group), hashOf(block.pattern, kBatch, key, first));
+  }
+}
+
+void Scatterers::addBatch(std::span<const Vec3f> places_m, Vec3f low_m, float edge_m,
+                          std::uint16_t group, bool blood, std::uint64_t pattern) {
+  batches_.push_back({low_m, edge_m, static_cast<std::uint32_t>(u_.size()),
+                      static_cast<std::uint32_t>(places_m.size()), group, blood, pattern});
+  count_ += places_m.size();
+  for (const Vec3f p : places_m) {
+    u_.push_back((p.x - low_m.x) / edge_m);
+    v_.push_back((p.y - low_m.y) / edge_m);
+    w_.push_back((p.z - low_m.z) / edge_m);
+  }
+  while (u_.size() % kFloatLanes != 0)
+    for (std::vector<float>* list : {&u_, &v_, &w_})
+      list->push_back(std::numeric_limits<float>::quiet_NaN());
+}
+
+}  // namespace echocine

@@ -1,0 +1,55 @@
+#include "speckle/speckle.h"
+
+#include <algorithm>
+
+namespace echocine {
+
+Speckle::Speckle(const Probe& probe, double pulse_cycles, const SpeckleSettings& settings,
+                 const Material& material)
+    : settings_(settings),
+      lines_(probe.lines),
+      samples_(probe.samples),
+      spread_(probe, pulse_cycles),
+      view_(probe, spread_),
+      gaussian_(settings.seed),
+      scatterers_(probe, spread_, view_, settings, material),
+      splatter_(probe, spread_, view_),
+      ratio_(probe, spread_, view_, settings.smoothing_m) {}
+
+double Speckle::farthestAcross_m() const {
+  double farthest_m = 0;
+  for (const ScattererBatch& batch : scatterers_.batches())
+    farthest_m = std::max({farthest_m, static_cast<double>(-batch.low_m.y),
+                           static_cast<double>(batch.low_m.y + batch.edge_m)});
+  return farthest_m;
+}
+
+void Speckle::addUp(const MaterialFrame& tissue, double time_s, EchoSums& sums) const {
+  for (const ScattererBatch& batch : scatterers_.batches()) {
+    const CubeCorners corners = tissue.corners(batch.group, batch.low_m, batch.edge_m);
+    Vec3f low = corners[0], high = corners[0];
+    for (const Vec3f c : corners) {
+      low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
+      high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
+    }
+    // Trilinear places lie within the hull of the corners.
+    if (!view_.sees(toDouble(0.5f * (low + high)), 0.5 * length(toDouble(high - low)))) continue;
+    splatter_.add(corners, scatterers_, batch,
+                  mixAt(gaussian_, batch.pattern, time_s,
+                        batch.blood ? settings_.blood_time_s : settings_.tissue_time_s),
+                  sums);
+  }
+}
+
+void Speckle::apply(const MaterialFrame& tissue, double time_s,
+                    std::span<float> intensities) const {
+  thread_local EchoSums sums;
+  thread_local CoherentRatio::Rows rows;
+  sums.lines = lines_;
+  sums.samples = samples_;
+  sums.sums.assign(intensities.size(), {});
+  addUp(tissue, time_s, sums);
+  ratio_.apply(sums, rows, intensities);
+}
+
+}  // namespace echocine

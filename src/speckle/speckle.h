@@ -1,0 +1,41 @@
+#pragma once
+// The coherent stage: the tracer decides how bright a place is, material scatterers decide the
+// phase. The mean over seeds is the picture without speckle, for any beam model.
+
+#include <memory>
+#include <span>
+
+#include "speckle/coherent_ratio.h"
+
+namespace echocine {
+
+class Speckle {
+ public:
+  // Draws the scatterers. Uses the threads of the enclosing withThreads(); the same for any number.
+  Speckle(const Probe& probe, double pulse_cycles, const SpeckleSettings& settings,
+          const Material& material);
+  Speckle(Speckle&&) = delete;
+
+  const PointSpread& spread() const { return spread_; }
+  std::size_t scatterers() const { return scatterers_.count(); }
+  // Reference places of scatterers lie within this of the imaging plane.
+  double farthestAcross_m() const;
+
+  // Intensities after the average over the beam, in place. A function of the instant alone: any
+  // frame by itself has the bytes that it has in its loop. Thread-safe.
+  void apply(const MaterialFrame& tissue, double time_s, std::span<float> intensities) const;
+
+ private:
+  void addUp(const MaterialFrame& tissue, double time_s, EchoSums& sums) const;
+
+  SpeckleSettings settings_;
+  int lines_, samples_;
+  PointSpread spread_;
+  BeamView view_;
+  GaussianTable gaussian_;
+  Scatterers scatterers_;
+  Splatter splatter_;
+  CoherentRatio ratio_;
+};
+
+}  // namespace echocine

@@ -1,0 +1,203 @@
+// The laws of the coherent stage, on beds of scatterers that move by affine maps.
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <numeric>
+
+#include "core/parallel.h"
+#include "scene/beam_profile.h"
+#include "support/speckle_bed.h"
+
+namespace echocine {
+namespace {
+
+using namespace support;
+
+constexpr ProbeKind kAllKinds[] = {ProbeKind::phased, ProbeKind::curvilinear, ProbeKind::linear};
+
+TEST(SpeckleLaw, TheMeanOverSeedsIsThePictureWithout) {
+  constexpr int kSeeds = 200;
+  for (const ProbeKind kind : kAllKinds) {
+    SpeckleBed bed(kind, 20, 96, 0.07, 0.085);
+    // A bright block that moves with the tissue's shift, a dark one, a step at the picture's edge.
+    std::vector<float> without = bed.even();
+    for (std::size_t i = 0; i < without.size(); ++i)
+      without[i] = i % 96 < 30 ? 1e-4f : i % 96 < 60 ? 100.0f : i / 96 < 7 ? 0 : 0.3f;
+    std::vector<double> sum(without.size());
+    for (bed.settings.seed = 1; bed.settings.seed <= kSeeds; ++bed.settings.seed) {
+      std::vector<float> with = without;
+      bed.speckle().apply(shifted({1e-3, 5e-4, 2e-3}), 0.2, with);
+      for (std::size_t i = 0; i < with.size(); ++i) sum[i] += with[i];
+    }
+    double mean = 0, squares = 0, n = 0;
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      if (without[i] == 0) {
+        EXPECT_EQ(sum[i], 0);
+        continue;
+      }
+      const double ratio = sum[i] / kSeeds / static_cast<double>(without[i]);
+      n += 1;
+      mean += ratio;
+      squares += (ratio - 1) * (ratio - 1);
+    }
+    EXPECT_NEAR(mean / n, 1, 0.01) << static_cast<int>(kind);
+    EXPECT_NEAR(std::sqrt(squares / n), 1 / std::sqrt(kSeeds), 0.1 / std::sqrt(kSeeds));
+  }
+}
+
+TEST(SpeckleLaw, TheEnvelopeIsRayleighAtAnyDensity) {
+  for (const double per_cell : {3.0, 10.0}) {
+    SpeckleBed bed(ProbeKind::phased, 250, 512, 0.04, 0.15);
+    bed.settings.per_cell = per_cell;
+    double n = 0, a = 0, aa = 0, i2 = 0, db = 0, db2 = 0;
+    for (bed.settings.seed = 1; bed.settings.seed <= 4; ++bed.settings.seed)
+      for (const float v : bed.picture(bed.speckle())) {
+        const double intensity = v, level = 10 * std::log10(intensity);
+        n += 1;
+        a += std::sqrt(intensity);
+        aa += intensity;
+        i2 += intensity * intensity;
+        db += level;
+        db2 += level * level;
+      }
+    const double mean_a = a / n, mean_i = aa / n;
+    EXPECT_NEAR(mean_a / std::sqrt(mean_i - mean_a * mean_a), 1.913, 0.019) << per_cell;
+    EXPECT_NEAR(mean_i / std::sqrt(i2 / n - mean_i * mean_i), 1, 0.02);
+    EXPECT_NEAR(std::sqrt(db2 / n - db / n * (db / n)), 5.57, 0.06);
+  }
+}
+
+// Full width at half maximum of the intensity's autocorrelation, in samples (or lines), over seeds.
+double widthOf(SpeckleBed bed, bool along) {
+  constexpr int kSeeds = 8, kLags = 12;
+  double mean[kLags] = {};
+  const Window w{8, bed.probe.lines - 8 - kLags, 8, bed.probe.samples - 8 - kLags};
+  for (bed.settings.seed = 1; bed.settings.seed <= kSeeds; ++bed.settings.seed) {
+    const std::vector<float> p = bed.picture(bed.speckle());
+    for (int lag = 0; lag < kLags; ++lag)
+      mean[lag] +=
+          correlation(p, p, bed.probe.samples, w, along ? 0 : lag, along ? lag : 0) / kSeeds;
+  }
+  int lag = 1;
+  while (lag + 1 < kLags && mean[lag] > 0.5) ++lag;
+  // Between two lags as a Gaussian falls: linear in lag^2 and the logarithm.
+  const double x0 = (lag - 1.0) * (lag - 1.0), x1 = 1.0 * lag * lag;
+  const double y0 = std::log(mean[lag - 1]), y1 = std::log(mean[lag]);
+  return 2 * std::sqrt(x0 + (x1 - x0) * (y0 - std::log(0.5)) / (y0 - y1));
+}
+
+TEST(SpeckleLaw, CellsAreAsWideAsThePointSpreadAtEveryDepth) {
+  for (const ProbeKind kind : kAllKinds)
+    for (const double z : {0.05, 0.1, 0.15}) {
+      const SpeckleBed bed(kind, 240, 160, z - 0.01, z + 0.01);
+      const PointSpread spread(bed.probe, 2);
+      EXPECT_NEAR(widthOf(bed, true) * bed.probe.sampleSpacing() / spread.axial_width_m, 1, 0.05)
+          << z << " " << static_cast<int>(kind);
+      EXPECT_NEAR(widthOf(bed, false) * lineSpacing(bed.probe, z) / spread.lateralWidth(z), 1, 0.05)
+          << z << " " << static_cast<int>(kind);
+    }
+}
+
+TEST(SpeckleLaw, RigidMotionByWholeLinesAndSamplesCarriesTheSpeckle) {
+  SpeckleBed sector(ProbeKind::phased, 120, 400, 0.06, 0.12);
+  const Speckle turns = sector.speckle();
+  EXPECT_GT(
+      correlation(sector.picture(turns), sector.picture(turns, turned(3 * radiansFromDegrees(0.3))),
+                  400, {10, 105, 10, 390}, 3),
+      0.998);
+  SpeckleBed straight(ProbeKind::linear, 60, 400, 0.06, 0.1);
+  const Speckle shifts = straight.speckle();
+  const double pitch_m = lineSpacing(straight.probe, 0.08);
+  EXPECT_GT(
+      correlation(straight.picture(shifts), straight.picture(shifts, shifted({4 * pitch_m, 0, 0})),
+                  400, {10, 45, 10, 390}, 4),
+      0.998);
+  const double five_m = 5 * straight.probe.sampleSpacing();
+  EXPECT_GT(correlation(straight.picture(shifts), straight.picture(shifts, shifted({0, 0, five_m})),
+                        400, {10, 50, 10, 380}, 0, 5),
+            0.998);
+}
+
+TEST(SpeckleLaw, TissueThatRestsKeepsItsBytesAndBloodRenewsItself) {
+  SpeckleBed bed(ProbeKind::phased, 100, 400, 0.06, 0.12);
+  const Speckle tissue = bed.speckle();
+  EXPECT_EQ(bed.picture(tissue, Affine{}, 0), bed.picture(tissue, Affine{}, 7.3));
+  bed.material.flows = true;
+  const Speckle blood = bed.speckle();
+  const Window w{0, 100, 0, 400};
+  const std::vector<float> now = bed.picture(blood, Affine{}, 1);
+  EXPECT_NEAR(correlation(now, bed.picture(blood, Affine{}, 1.021), 400, w), 0, 0.05);
+  EXPECT_GT(correlation(now, bed.picture(blood, Affine{}, 1.001), 400, w), 0.9);
+}
+
+TEST(SpeckleLaw, AcrossThePlaneItFadesByDiffractionAloneAtEveryDepth) {
+  for (const double z : {0.05, 0.08, 0.14}) {
+    SpeckleBed bed(ProbeKind::phased, 160, 400, z - 0.01, z + 0.01);
+    const double s0 =
+        followedWidth(z, bed.probe.elevation_aperture_m, scannerWavelength(bed.probe)) /
+        std::sqrt(2.0) / std::sqrt(8 * std::log(2.0));
+    const Speckle speckle = bed.speckle();
+    const std::vector<float> here = bed.picture(speckle);
+    for (const double part : {0.5, 1.0, 2.0})
+      EXPECT_NEAR(correlation(here, bed.picture(speckle, shifted({0, part * s0, 0})), 400,
+                              {0, 160, 0, 400}),
+                  std::exp(-part * part / 2), 0.05)
+          << z << " " << part;
+  }
+}
+
+// Scatterers at a distance d from what rests have moved by s d, and those within one cell have
+// turned their phases against each other: exp(-(s d)^2 / 2 sigma^2) exp(-(2 k s sigma)^2 / 2).
+TEST(SpeckleLaw, StrainAlongTheBeamTakesItsCorrelationAway) {
+  SpeckleBed bed(ProbeKind::linear, 600, 200, 0.07, 0.09);
+  const Speckle speckle = bed.speckle();
+  const double sigma_m = speckle.spread().axial_m;
+  const int half = static_cast<int>(1.5e-3 / bed.probe.sampleSpacing());
+  const Window w{0, 600, 100 - half, 100 + half};
+  const std::vector<float> before = bed.picture(speckle);
+  for (const double strain : {0.05, 0.1}) {
+    const double turned = 4 * std::numbers::pi / speckle.spread().wavelength_m * strain * sigma_m;
+    double moved = 0;
+    for (int k = 0; k < half; ++k) {
+      const double away = strain * (k + 0.5) * bed.probe.sampleSpacing() / sigma_m;
+      moved += std::exp(-away * away / 2) / half;
+    }
+    const double after = correlation(before, bed.picture(speckle, stretched(strain, 0.08)), 200, w);
+    EXPECT_NEAR(after, moved * std::exp(-turned * turned / 2), 0.03) << strain;
+  }
+}
+
+TEST(SpeckleLaw, TheIntensityScalesThroughAndOrderAndThreadsLeaveTheBytes) {
+  SpeckleBed bed(ProbeKind::curvilinear, 60, 300, 0.02, 0.1);
+  bed.settings.smoothing_m = 0.7e-3;
+  const Speckle speckle = bed.speckle();
+  const std::vector<float> one = bed.picture(speckle);
+  std::vector<float> more = bed.even(64);
+  speckle.apply(Affine{}, 0, more);
+  for (std::size_t i = 0; i < one.size(); ++i) ASSERT_FLOAT_EQ(more[i], 64 * one[i]);
+  (void)bed.picture(speckle, shifted({2e-3, 0, 0}), 0.3);
+  EXPECT_EQ(bed.picture(speckle), one);
+  for (const int threads : {1, 2})
+    withThreads(threads, [&] { EXPECT_EQ(bed.picture(bed.speckle()), one) << threads; });
+}
+
+TEST(SpeckleLaw, SmoothingKeepsTheMean) {
+  SpeckleBed bed(ProbeKind::phased, 60, 300, 0.05, 0.09);
+  const std::vector<float> raw = bed.picture(bed.speckle());
+  bed.settings.smoothing_m = 0.7e-3;
+  const std::vector<float> smooth = bed.picture(bed.speckle());
+  const auto mean = [](const std::vector<float>& p) {
+    return std::accumulate(p.begin(), p.end(), 0.0) / static_cast<double>(p.size());
+  };
+  EXPECT_NEAR(mean(smooth) / mean(raw), 1, 1e-5);
+}
+
+TEST(SpeckleLaw, WithoutAScattererInReachThePictureStaysAsItIs) {
+  SpeckleBed bed(ProbeKind::phased, 40, 200, 0.05, 0.09);
+  const Speckle speckle = bed.speckle();
+  EXPECT_EQ(bed.picture(speckle, shifted({0, 0.5, 0})), bed.even());
+}
+
+}  // namespace
+}  // namespace echocine

@@ -1,0 +1,92 @@
+// Speckle in a whole scene: a heart of spheres that beats, by the field that moves its material.
+
+#include <gtest/gtest.h>
+
+#include "core/parallel.h"
+#include "scene/scene_reader.h"
+#include "simulate/simulator.h"
+#include "support/paths.h"
+
+namespace echocine {
+namespace {
+
+Scene beatingScene() {
+  Scene scene =
+      readScene(std::filesystem::path(support::kSourceDir) / "examples/beating_heart/scene.toml");
+  scene.probe.lines = 64;
+  scene.probe.samples = 256;
+  scene.motion.subdivision = 0;
+  scene.output.exr = false;
+  scene.speckle.on = true;
+  return scene;
+}
+
+TEST(SpeckleScene, AnyFrameAloneHasTheBytesOfTheLoopForAnyThreads) {
+  const Simulator simulator(beatingScene());
+  ASSERT_TRUE(simulator.plan().effects.speckle);
+  const Intensities first = simulator.frame(0.1).intensities;
+  const Intensities other = simulator.frame(0.3).intensities;
+  EXPECT_NE(first, other);
+  EXPECT_EQ(simulator.frame(0.1).intensities, first);
+  const Simulator again(beatingScene());
+  withThreads(2, [&] { EXPECT_EQ(again.frame(0.3).intensities, other); });
+}
+
+TEST(SpeckleScene, TheMeanOverSeedsIsTheFrameWithout) {
+  constexpr int kSeeds = 12;
+  constexpr double kTime_s = 0.3;
+  Scene scene = beatingScene();
+  scene.speckle.on = false;
+  const Simulator without(scene);
+  const Intensities expected = without.frame(kTime_s).intensities;
+  const FieldMaterial material(scene, without.motion());
+  FieldFrame field;
+  material.field().at(without.cardiacClock().atTime(kTime_s).phase, field);
+  scene.speckle.smoothing_m = 0;
+  std::vector<double> sum(expected.size());
+  for (scene.speckle.seed = 1; scene.speckle.seed <= kSeeds; ++scene.speckle.seed) {
+    const Speckle speckle(scene.probe, scene.signal.pulse_cycles, scene.speckle, material);
+    Intensities speckled = expected;
+    speckle.apply(FieldMaterialFrame(field), kTime_s, speckled);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += static_cast<double>(speckled[i]);
+  }
+  double ratios = 0, squares = 0, n = 0;
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    if (expected[i] == 0) continue;
+    const double ratio = sum[i] / kSeeds / static_cast<double>(expected[i]);
+    n += 1;
+    ratios += ratio;
+    squares += (ratio - 1) * (ratio - 1);
+  }
+  EXPECT_NEAR(ratios / n, 1, 0.02);
+  EXPECT_NEAR(std::sqrt(squares / n), 1 / std::sqrt(kSeeds), 0.1 / std::sqrt(kSeeds));
+}
+
+// The cubes that carry scatterers are the field's own cells: what a tracker should find.
+TEST(SpeckleScene, ScatterersMoveByTheVeryFieldOfTheTruth) {
+  const Scene scene = beatingScene();
+  const MeshMotion motion(scene);
+  const FieldMaterial material(scene, motion);
+  FieldFrame frame;
+  material.field().at(0.3, frame);
+  const FieldMaterialFrame tissue(frame);
+  const CubeLattice lattice = material.lattice();
+  int moved = 0;
+  for (std::uint16_t group = 0; group < frame.groups.size(); ++group) {
+    const float edge_m = lattice.block_m * (material.halfBlocks(group) ? 0.5f : 1);
+    for (int cube = 0; cube < 400; ++cube) {
+      const Vec3f low = lattice.origin_m + edge_m * Vec3f{static_cast<float>(cube % 20), 8,
+                                                          static_cast<float>(cube / 20)};
+      const CubeCorners corners = tissue.corners(group, low, edge_m);
+      Vec3f middle{};
+      for (const Vec3f c : corners) middle = middle + 0.125f * c;
+      const Vec3f by_field = frame.groups[group].place(low + 0.5f * edge_m * Vec3f{1, 1, 1});
+      ASSERT_LT(length(middle - by_field), 1e-6f) << group << " " << cube;
+      moved += length(by_field - (low + 0.5f * edge_m * Vec3f{1, 1, 1})) > 1e-3f;
+    }
+  }
+  EXPECT_GT(moved, 100);
+}
+
+}  // namespace
+}  // namespace echocine
