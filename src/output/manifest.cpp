@@ -1,8 +1,8 @@
 #include "output/manifest.h"
 
 #include <algorithm>
-#include <iterator>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"

@@ -113,8 +113,9 @@ RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const
     if (TruthMaker::wanted(scene))
       truth.emplace(simulator.scene(), simulator.motion(), pictureGrid(scene),
                     simulator.cardiacClock().at(0).phase);
-    RenderPass pass({simulator, folder, monitor, report, options.resume, earlier, truth ? &*truth : nullptr},
-                    manifest, kept);
+    RenderPass pass(
+        {simulator, folder, monitor, report, options.resume, earlier, truth ? &*truth : nullptr},
+        manifest, kept);
     summary.frames_done = pass.run(range.first, range.second);
     summary.passes_s = secondsSince(start) - summary.setup_s;
     // No manifest: a folder without one is an unfinished run.

@@ -30,7 +30,7 @@ class RenderPass {
     ReportPage& report;
     bool resume;
     std::map<std::string, std::string> earlier_hashes;  // on resuming, of an earlier manifest
-    const TruthMaker* truth = nullptr;  // none is wanted
+    const TruthMaker* truth = nullptr;                  // none is wanted
   };
   // Frames, file hashes and reference go through `manifest`; `kept` frames are used up.
   RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept);
@@ -44,8 +44,8 @@ class RenderPass {
     std::vector<std::byte> cine_frame;
     std::vector<std::byte> report_frame;  // where the cine's does not show in browsers
     std::string png_sha256;
-    std::string mended;  // why a frame that was there is made again; empty: it is not
-    std::optional<FrameTruth> truth;                 // until it is written
+    std::string mended;               // why a frame that was there is made again; empty: it is not
+    std::optional<FrameTruth> truth;  // until it is written
     std::map<std::string, std::string> truth_files;  // name -> SHA-256
   };
 

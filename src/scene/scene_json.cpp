@@ -128,12 +128,9 @@ Json outputJson(const OutputSettings& o) {
 Json truthJson(const TruthSettings& t) {
   Json numbers = Json::object();
   for (const auto& [name, number] : t.label_numbers) numbers[name] = number;
-  return {{"labels", t.labels},
-          {"contours", t.contours},
-          {"tracks", t.tracks},
-          {"function", t.function},
-          {"label_numbers", numbers},
-          {"papillary_in_cavity", t.papillary_in_cavity},
+  return {{"labels", t.labels},          {"contours", t.contours},
+          {"tracks", t.tracks},          {"function", t.function},
+          {"label_numbers", numbers},    {"papillary_in_cavity", t.papillary_in_cavity},
           {"track_count", t.track_count}};
 }
 
@@ -150,33 +147,34 @@ Json mediaJson(const Scene& scene) {
 }
 
 Json sceneJson(const Scene& scene) {
-  Json json = {{"background", scene.medium(scene.background).name},
-          {"unit_volume_m3", scene.unit_volume_m3},
-          {"probe", probeJson(scene.probe)},
-          {"acquisition",
-           {{"heart_rate_hz", scene.acquisition.heart_rate_hz},
-            {"frame_rate_hz", scene.acquisition.frame_rate_hz},
-            {"beats", scene.acquisition.beats},
-            {"time_warp", nameOf(scene.acquisition.time_warp)},
-            {"rr_variability", scene.acquisition.rr_variability},
-            {"seed", scene.acquisition.seed}}},
-          {"motion",
-           {{"mesh_unit_m", scene.motion.mesh_unit_m},
-            {"interpolation", nameOf(scene.motion.interpolation)},
-            {"subdivision", scene.motion.subdivision},
-            {"keyframe_heart_rate_hz", optionalJson(scene.motion.keyframe_heart_rate_hz)},
-            {"end_systole_phase", optionalJson(scene.motion.end_systole_phase)}}},
-          {"structures", structuresJson(scene)},
-          {"effects", effectsJson(scene.effects)},
-          {"signal", signalJson(scene.signal)},
-          {"accuracy",
-           {{"rays_per_beam", scene.accuracy.rays_per_beam},
-            {"tracer", nameOf(scene.accuracy.tracer)},
-            {"interface_echo", nameOf(scene.accuracy.interface_echo)},
-            {"normals", nameOf(scene.accuracy.normals)},
-            {"refraction_tolerance_beam_widths", scene.accuracy.refraction_tolerance_beam_widths}}},
-          {"output", outputJson(scene.output)},
-          {"truth", truthJson(scene.truth)}};
+  Json json = {
+      {"background", scene.medium(scene.background).name},
+      {"unit_volume_m3", scene.unit_volume_m3},
+      {"probe", probeJson(scene.probe)},
+      {"acquisition",
+       {{"heart_rate_hz", scene.acquisition.heart_rate_hz},
+        {"frame_rate_hz", scene.acquisition.frame_rate_hz},
+        {"beats", scene.acquisition.beats},
+        {"time_warp", nameOf(scene.acquisition.time_warp)},
+        {"rr_variability", scene.acquisition.rr_variability},
+        {"seed", scene.acquisition.seed}}},
+      {"motion",
+       {{"mesh_unit_m", scene.motion.mesh_unit_m},
+        {"interpolation", nameOf(scene.motion.interpolation)},
+        {"subdivision", scene.motion.subdivision},
+        {"keyframe_heart_rate_hz", optionalJson(scene.motion.keyframe_heart_rate_hz)},
+        {"end_systole_phase", optionalJson(scene.motion.end_systole_phase)}}},
+      {"structures", structuresJson(scene)},
+      {"effects", effectsJson(scene.effects)},
+      {"signal", signalJson(scene.signal)},
+      {"accuracy",
+       {{"rays_per_beam", scene.accuracy.rays_per_beam},
+        {"tracer", nameOf(scene.accuracy.tracer)},
+        {"interface_echo", nameOf(scene.accuracy.interface_echo)},
+        {"normals", nameOf(scene.accuracy.normals)},
+        {"refraction_tolerance_beam_widths", scene.accuracy.refraction_tolerance_beam_widths}}},
+      {"output", outputJson(scene.output)},
+      {"truth", truthJson(scene.truth)}};
   // A picture without speckle is the same file as before there was any.
   if (scene.speckle.on) json["speckle"] = speckleJson(scene.speckle);
   return json;

@@ -165,8 +165,8 @@ std::vector<Channel> readChannels(TomlTable& table) {
   for (const std::string& name : table.texts("channels")) {
     std::vector<Channel> known(kAllChannels.begin(), kAllChannels.end());
     known.insert(known.end(), kTruthChannels.begin(), kTruthChannels.end());
-    const auto found = std::find_if(known.begin(), known.end(),
-                                    [&](Channel c) { return channelName(c) == name; });
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](Channel c) { return channelName(c) == name; });
     if (found == known.end()) {
       std::string accepted;
       for (const Channel c : known)

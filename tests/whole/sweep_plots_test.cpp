@@ -130,8 +130,7 @@ TEST_F(StudySweeps, ThatAreNoneAreRefusedByFileAndLine) {
 }
 
 TEST_F(StudySweeps, NeedAFolderOfThem) {
-  for (const char* arguments :
-       {"", "nowhere", "nowhere x", "nowhere x y"}) {
+  for (const char* arguments : {"", "nowhere", "nowhere x", "nowhere x y"}) {
     const Outcome outcome =
         runShell("cd '" + folder.path().string() + "' && " + kSweepPlots + " " + arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;
