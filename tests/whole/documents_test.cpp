@@ -249,11 +249,13 @@ TEST(Documents, SceneKeysNamedAreInTheReferenceScene) {
   static const std::regex kKey(
       R"(^(?:probe|acquisition|motion|effects|signal|accuracy|output|truth|speckle)\.([a-z_0-9]+)(?: = .*)?$)");
   const std::string reference = support::bytesOf(kRoot / "examples/every_key/scene.toml");
-  for (const fs::path& file : documents())
+  for (const fs::path& file : documents()) {
+    if (file.filename() == "CHANGELOG.md") continue;
     for (const std::string& span : spansOf(read(file)))
       if (std::smatch key; std::regex_match(span, key, kKey) && key[1] != "json") {
         EXPECT_TRUE(hasWord(reference, key[1])) << file << ": " << span;
       }
+  }
 }
 
 }  // namespace
