@@ -17,15 +17,15 @@ static_assert(std::endian::native == std::endian::little);
 
 using Bytes = std::vector<std::byte>;
 
-template <typename T>
-void append(Bytes& to, const T& value) {
-  const auto* from = reinterpret_cast<const std::byte*>(&value);
-  to.insert(to.end(), from, from + sizeof value);
+void append(Bytes& to, std::string_view text) {
+  const std::size_t begin = to.size();
+  to.resize(begin + text.size());
+  std::memcpy(to.data() + begin, text.data(), text.size());
 }
 
-void append(Bytes& to, std::string_view text) {
-  const auto* from = reinterpret_cast<const std::byte*>(text.data());
-  to.insert(to.end(), from, from + text.size());
+template <typename T>
+void append(Bytes& to, const T& value) {
+  append(to, std::string_view(reinterpret_cast<const char*>(&value), sizeof value));
 }
 
 // numpy.lib.format, version 1.0: the header ends with a line feed on a multiple of 64 bytes.
