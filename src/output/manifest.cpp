@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "output/exr_stack.h"
 #include "scene/role.h"
+#include "scene/scan_geometry.h"
 #include "scene/scene_json.h"
 #include "signal/picture.h"
 

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/box.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
 #include "core/units.h"
+#include "output/npy.h"
 #include "scene/names.h"
 #include "truth/sector_clip.h"
 #include "video/cine_writer.h"
@@ -131,6 +133,119 @@ std::map<std::string, std::string> TruthFiles::write(const FrameRecord& record,
     const std::string name = fmt::format("contours_{:04}.json", record.frame);
     files["truth/" + name] = put(name, bytesOf(contoursText(record, truth)));
   }
+  return files;
+}
+
+void TruthFiles::add(const FrameRecord& record, const FrameTruth& truth) {
+  records_.push_back(record);
+  if (truth.function) functions_.push_back(*truth.function);
+  for (const Vec3f p : truth.tracks_m) {
+    const PixelPoint at = pixelOf(geometry_, toDouble(p));
+    tracks_mm_.insert(tracks_mm_.end(), {1e3f * p.x, 1e3f * p.y, 1e3f * p.z});
+    tracks_px_.insert(tracks_px_.end(), {static_cast<float>(at.x), static_cast<float>(at.y)});
+    out_of_plane_mm_.push_back(1e3f * p.y);
+    tracks_visible_.push_back(
+        inScanArea(scene_.probe, static_cast<double>(p.x), static_cast<double>(p.z)));
+  }
+}
+
+// T frames, N points: places_mm [T, N, 3] (lateral, elevation, depth), places_px [T, N, 2],
+// out_of_plane_mm [T, N], visible [T, N], layer [N], segment [N], time_s [T].
+std::vector<std::byte> TruthFiles::tracksFile(std::span<const TruthMaker::Tracked> tracked) const {
+  const std::size_t frames = records_.size(), points = tracked.size();
+  std::vector<std::uint8_t> layers, segments;
+  std::vector<float> times_s;
+  for (const TruthMaker::Tracked& t : tracked) {
+    layers.push_back(t.layer);
+    segments.push_back(t.segment);
+  }
+  for (const FrameRecord& r : records_) times_s.push_back(static_cast<float>(r.time_s));
+  const NamedArray arrays[] = {{"places_mm", npyBytes(tracks_mm_, {frames, points, 3})},
+                               {"places_px", npyBytes(tracks_px_, {frames, points, 2})},
+                               {"out_of_plane_mm", npyBytes(out_of_plane_mm_, {frames, points})},
+                               {"visible", npyBytes(tracks_visible_, {frames, points})},
+                               {"layer", npyBytes(layers, {points})},
+                               {"segment", npyBytes(segments, {points})},
+                               {"time_s", npyBytes(times_s, {frames})}};
+  return npzBytes(arrays);
+}
+
+namespace {
+
+// Null where there is nothing to be measured.
+Json numberJson(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+Json segmentsJson(const FunctionFrame& f) {
+  Json list = Json::array();
+  for (const SegmentStrain& s : f.segments)
+    list.push_back({{"longitudinal", numberJson(s.longitudinal)},
+                    {"radial", numberJson(s.radial)},
+                    {"circumferential", numberJson(s.circumferential)},
+                    {"thickness_mm", numberJson(s.thickness_mm)}});
+  return list;
+}
+
+Json volumesJson(const std::vector<FunctionFrame>& frames) {
+  const auto kind = [&](const auto& volume) {
+    double most = 0, least = Box::kFar;
+    for (const FunctionFrame& f : frames) {
+      most = std::max(most, volume(f));
+      least = std::min(least, volume(f));
+    }
+    return Json{{"end_diastolic_ml", numberJson(most)},
+                {"end_systolic_ml", numberJson(least)},
+                {"ejection_fraction", most > 0 ? numberJson(1 - least / most) : Json()}};
+  };
+  Json json{{"exact", kind([](const FunctionFrame& f) { return f.volume_ml; })},
+            {"biplane", kind([](const FunctionFrame& f) { return f.biplane_ml; })}};
+  if (std::all_of(frames.begin(), frames.end(),
+                  [](const FunctionFrame& f) { return f.single_plane_ml.has_value(); }))
+    json["single_plane"] = kind([](const FunctionFrame& f) { return *f.single_plane_ml; });
+  return json;
+}
+
+}  // namespace
+
+std::string TruthFiles::functionText() const {
+  Json frames = Json::array();
+  double descent_mm = 0;
+  for (std::size_t i = 0; i < functions_.size(); ++i) {
+    const FunctionFrame& f = functions_[i];
+    descent_mm = std::max(descent_mm, f.base_descent_mm);
+    const auto place = [&](Vec3d p) {
+      const PixelPoint at = pixelOf(geometry_, p);
+      return Json{{"mm", {1e3 * p.x, 1e3 * p.y, 1e3 * p.z}}, {"px", {at.x, at.y}}};
+    };
+    frames.push_back({{"index", records_[i].frame},
+                      {"time_s", records_[i].time_s},
+                      {"global_longitudinal_strain", f.global_longitudinal_strain},
+                      {"volume_ml", f.volume_ml},
+                      {"biplane_ml", f.biplane_ml},
+                      {"single_plane_ml", f.single_plane_ml ? Json(*f.single_plane_ml) : Json()},
+                      {"length_mm", f.length_mm},
+                      {"base_descent_mm", f.base_descent_mm},
+                      {"sphericity", f.sphericity},
+                      {"base", place(f.base_m)},
+                      {"apex", place(f.apex_m)},
+                      {"segments", segmentsJson(f)}});
+  }
+  const Json json{{"strain",
+                   "parts of the first frame's length, Lagrangian, in the middle of the "
+                   "wall; segments 1 to 17 of the American Heart Association"},
+                  {"volumes", volumesJson(functions_)},
+                  {"mapse_mm", descent_mm},
+                  {"frames", frames}};
+  return json.dump(1) + "\n";
+}
+
+std::map<std::string, std::string> TruthFiles::finish(
+    std::span<const TruthMaker::Tracked> tracked) const {
+  std::map<std::string, std::string> files;
+  if (scene_.truth.tracks) files["truth/tracks.npz"] = put("tracks.npz", tracksFile(tracked));
+  if (scene_.truth.function)
+    files["truth/function.json"] = put("function.json", bytesOf(functionText()));
   return files;
 }
 

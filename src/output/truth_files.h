@@ -27,10 +27,19 @@ class TruthFiles {
   std::map<std::string, std::string> write(const FrameRecord& record,
                                            const FrameTruth& truth) const;
 
+  // Keeps what goes into one file of the whole loop. One call at a time, in the order of the
+  // frames.
+  void add(const FrameRecord& record, const FrameTruth& truth);
+
+  // tracks.npz and function.json of the frames that were added.
+  std::map<std::string, std::string> finish(std::span<const TruthMaker::Tracked> tracked) const;
+
   // What holds for all frames: labels.json.
   std::map<std::string, std::string> writeTables() const;
 
  private:
+  std::string functionText() const;
+  std::vector<std::byte> tracksFile(std::span<const TruthMaker::Tracked> tracked) const;
   std::vector<std::byte> labelPicture(const FrameTruth& truth) const;
   std::string contoursText(const FrameRecord& record, const FrameTruth& truth) const;
   std::string put(const std::string& name, std::span<const std::byte> bytes) const;
@@ -40,6 +49,10 @@ class TruthFiles {
   const LabelTable& labels_;
   PictureGeometry geometry_;
   std::vector<Vec3d> outline_;
+  std::vector<FrameRecord> records_;
+  std::vector<FunctionFrame> functions_;
+  std::vector<float> tracks_mm_, tracks_px_, out_of_plane_mm_;
+  std::vector<std::uint8_t> tracks_visible_;
 };
 
 }  // namespace echocine

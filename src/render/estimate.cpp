@@ -79,7 +79,8 @@ Estimate estimateLoop(const Scene& scene, int threads, const Monitor& monitor) {
   estimate.memory_bytes = largestResidentBytes();
   const auto& ms = summary.manifest.stage_ms;
   const double all = std::accumulate(ms.begin(), ms.end(), 0.0);
-  const double traced = std::accumulate(ms.begin(), ms.begin() + 4, 0.0);  // motion to signal
+  const double traced =
+      std::accumulate(ms.begin(), ms.begin() + static_cast<int>(Stage::signal) + 1, 0.0);
   addFirstPass(scene, all > 0 ? traced / all : 0, frame_s, estimate);
   return estimate;
 }

@@ -155,7 +155,7 @@ std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
       parts_.simulator.picture(manifest_.reference_intensity, *workspace, o.cine || o.png);
   if (parts_.truth) makeTruth(time, *finished);
   clock.time(Stage::exr, [&] { writeExr(record, *workspace, *finished); });
-  finished->truth.reset();
+  if (finished->truth) finished->truth->forgetPlanes();
   if (o.cine || o.png) clock.time(Stage::avi, [&] { writePictures(image, *finished); });
   return finished;
 }
@@ -180,6 +180,7 @@ void RenderPass::drain(Finished& finished) {
     manifest_.files["intensity/" + ExrStack::fileName(frame)] = entry.exr_sha256;
   if (!finished.png_sha256.empty())
     manifest_.files["png/" + frameName(frame, ".png")] = finished.png_sha256;
+  if (truth_files_) truth_files_->add(entry.record, *finished.truth);
   manifest_.files.merge(finished.truth_files);
   manifest_.frames.push_back(entry);
 }
@@ -222,6 +223,7 @@ int RenderPass::run(int first, int last) {
                                   [&] { whole ? cine_.finish() : cine_.finishEarly(); });
     if (whole) manifest_.files["cine.avi"] = sha256HexOfFile(parts_.folder.cine());
   }
+  if (whole && truth_files_) manifest_.files.merge(truth_files_->finish(parts_.truth->tracked()));
   return static_cast<int>(done) - first;
 }
 

@@ -217,13 +217,12 @@ void add(EffectPlan& plan, Effect effect, bool on, std::string reason, Channel c
 // A row for each kind of truth, and for each of its channels that is asked for.
 void planTruth(const Scene& scene, EffectPlan& plan) {
   const TruthSettings& t = scene.truth;
-  for (const auto& [name, on] :
-       {std::pair("truth labels", t.labels), std::pair("truth contours", t.contours),
-        std::pair("truth tracks", t.tracks), std::pair("truth function", t.function)})
-    add(plan, name, on, on ? "asked for in truth.write" : "not asked for");
+  for (const auto& [effect, on] :
+       {std::pair(Effect::truth_labels, t.labels), std::pair(Effect::truth_contours, t.contours),
+        std::pair(Effect::truth_tracks, t.tracks), std::pair(Effect::truth_function, t.function)})
+    add(plan, effect, on, on ? "asked for in truth.write" : "not asked for");
   for (const Channel c : kTruthChannels)
-    if (wants(scene, c))
-      add(plan, fmt::format("channel {}", channelName(c)), true, "asked for in output.channels");
+    if (wants(scene, c)) add(plan, Effect::channel, true, "asked for in output.channels", c);
 }
 
 void planSpeckle(const Scene& scene, EffectPlan& plan) {

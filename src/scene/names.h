@@ -151,6 +151,10 @@ struct NamesOf<Effect> {
                                            {Effect::tgc, "tgc"},
                                            {Effect::log_compression, "log_compression"},
                                            {Effect::labels, "labels"},
+                                           {Effect::truth_labels, "truth labels"},
+                                           {Effect::truth_contours, "truth contours"},
+                                           {Effect::truth_tracks, "truth tracks"},
+                                           {Effect::truth_function, "truth function"},
                                            {Effect::channel, "channel"}};
 };
 

@@ -98,6 +98,10 @@ enum class Effect {
   tgc,
   log_compression,
   labels,
+  truth_labels,
+  truth_contours,
+  truth_tracks,
+  truth_function,
   channel  // of the intensity stack, one decision each
 };
 

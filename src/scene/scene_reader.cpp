@@ -13,6 +13,7 @@
 #include "scene/media_reader.h"
 #include "scene/probe_reader.h"
 #include "scene/ranges.h"
+#include "scene/scan_geometry.h"
 #include "scene/structure_reader.h"
 #include "scene/tolerance_reader.h"
 #include "scene/toml_table.h"
@@ -272,7 +273,7 @@ void refuseContradictions(TomlTable& root, const Scene& scene) {
     accuracy.fail(
         "interface_echo",
         "\"cell\" excludes accuracy.tracer = \"embree\", accepted with it: \"auto\" | \"centre\"");
-  const double pulse_m = scene.signal.pulse_cycles * scannerWavelength(scene.probe) / 2;
+  const double pulse_m = scene.signal.pulse_cycles * ScanGeometry(scene.probe).wavelength() / 2;
   if (scene.speckle.on && !(pulse_m > 0))
     root.table("signal").fail("pulse_cycles",
                               "0 excludes speckle.on = true, accepted with it: a number over 0");

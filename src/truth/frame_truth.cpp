@@ -1,6 +1,7 @@
 #include "truth/frame_truth.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "motion/interior_motion.h"
 #include "scene/effect_plan.h"
@@ -51,6 +52,34 @@ TruthMaker::TruthMaker(const Scene& scene, const MeshMotion& motion, const Pictu
   if (!motion_wanted_ && !scene.truth.tracks && !scene.truth.function) return;
   field_.emplace(interiorMotion(scene, motion));
   field_->at(first_phase, first_);
+  if (!scene.truth.tracks && !scene.truth.function) return;
+  function_.emplace(scene, motion, *field_, first_phase);
+  if (scene.truth.tracks) chooseTracks();
+}
+
+TruthMaker::~TruthMaker() = default;
+
+void TruthMaker::chooseTracks() {
+  const std::vector<WallColumn>& columns = function_->columns();
+  std::vector<std::uint32_t> nearest(columns.size());
+  for (std::uint32_t i = 0; i < nearest.size(); ++i) nearest[i] = i;
+  std::stable_sort(nearest.begin(), nearest.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::abs(columns[a].mid_m.y) < std::abs(columns[b].mid_m.y);
+  });
+  const auto wanted = static_cast<std::size_t>(scene_.truth.track_count);
+  for (const std::uint32_t i : nearest)
+    for (std::uint8_t layer = 0; layer < 3 && tracked_.size() < wanted; ++layer)
+      tracked_.push_back({layer, static_cast<std::uint8_t>(columns[i].segment), i});
+}
+
+void TruthMaker::addTracks(const Space& space, FrameTruth& truth) const {
+  const GroupFrame& wall = space.now[field_->groupOf(function_->wall())];
+  for (const Tracked& point : tracked_) {
+    const WallColumn& column = function_->columns()[point.column];
+    truth.tracks_m.push_back(
+        point.layer == 0 ? space.surfaces.positions_m[index(function_->cavity())][column.vertex]
+                         : wall.place(point.layer == 1 ? column.mid_m : column.epi_m));
+  }
 }
 
 std::shared_ptr<TruthMaker::Space> TruthMaker::space() const {
@@ -97,6 +126,9 @@ FrameTruth TruthMaker::at(const TruthTime& time) const {
   if (samples_) plane_.samples(s->slice.lines(), truth.sample_ids);
   if (scene_.truth.contours)
     truth.contours = chainContours(s->slice.edges(), motion_.surfaces(), s->surfaces);
+  if (function_) field_->at(time.phase, s->now);
+  if (scene_.truth.function) truth.function = function_->at(s->surfaces, s->now);
+  if (scene_.truth.tracks) addTracks(*s, truth);
   if (motion_wanted_) addMotion(time, *s, truth);
   return truth;
 }

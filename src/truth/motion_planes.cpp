@@ -1,4 +1,5 @@
 #include "truth/motion_planes.h"
+#include "scene/scan_geometry.h"
 
 #include <algorithm>
 #include <cmath>

@@ -121,7 +121,7 @@ keyframes = "tent"
     const Simulator simulator(scene);
     ADD_FAILURE();
   } catch (const SceneError& error) {
-    EXPECT_NE(std::string(error.what()).find("tent: face 2 has an open edge"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("tent: face 1 has an open edge"), std::string::npos)
         << error.what();
   }
   EXPECT_THROW(parseScene(text, "in memory", NamedMeshes{}), SceneError);
