@@ -76,17 +76,24 @@ HeartFunction::HeartFunction(const Scene& scene, const MeshMotion& motion, const
   for (const WallColumn& column : columns_) first_.push_back(lengths(column, surfaces, first));
 }
 
-// The base is where the cavity's surface ends at something else than the wall. Where it nowhere
+// The base is where the cavity's surface meets the left atrium; without one, where it ends at
+// something else than wall and papillary muscles. Where it nowhere
 // does, the end that is farthest along the first guess of an axis.
 void HeartFunction::findAxis(const SurfaceFrame& surfaces) {
   const std::vector<Vec3f>& p = surfaces.positions_m[index(cavity_)];
   const std::vector<Vec3d> normals = vertexNormals(motion_.surfaces()[index(cavity_)], p);
+  const auto atrium = structureOf(scene_, "la");
+  std::vector<std::uint32_t> at_atrium;
   for (std::uint32_t v = 0; v < p.size(); ++v) {
     if (!(length(normals[v]) > 0)) continue;
     const Vec3f outside = p[v] + 2 * kStep_m * toFloat(normalised(normals[v]));
-    if (field_.surfaceAt(outside) != wall_ && field_.surfaceAt(outside) != cavity_)
-      base_.push_back(v);
+    const auto beyond = field_.surfaceAt(outside);
+    if (beyond && atrium && *beyond == *atrium) at_atrium.push_back(v);
+    const bool papillary =
+        beyond && roleNameOf(scene_.structures[index(*beyond)]) == "papillary_muscle";
+    if (!papillary && beyond != wall_ && beyond != cavity_) base_.push_back(v);
   }
+  if (!at_atrium.empty()) base_ = at_atrium;
   if (base_.empty()) {
     const Vec3d middle = middleOf(p);
     const auto far = std::max_element(p.begin(), p.end(), [&](Vec3f a, Vec3f b) {

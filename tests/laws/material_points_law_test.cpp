@@ -167,7 +167,7 @@ double rootMeanSquare(const std::vector<float>& values) {
 }
 
 void expectAgreement(const Agreement& a, double rms_m) {
-  RecordProperty("rms_um", static_cast<int>(1e6 * rootMeanSquare(a.miss_m)));
+  ::testing::Test::RecordProperty("rms_um", static_cast<int>(1e6 * rootMeanSquare(a.miss_m)));
   EXPECT_LT(rootMeanSquare(a.miss_m), rms_m);
   EXPECT_LT(a.miss_m[a.miss_m.size() * 99 / 100], 1e-3f);
   EXPECT_GT(a.least_volume, 0);
