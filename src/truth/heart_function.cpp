@@ -82,7 +82,7 @@ HeartFunction::HeartFunction(const Scene& scene, const MeshMotion& motion, const
 void HeartFunction::findAxis(const SurfaceFrame& surfaces) {
   const std::vector<Vec3f>& p = surfaces.positions_m[index(cavity_)];
   const std::vector<Vec3d> normals = vertexNormals(motion_.surfaces()[index(cavity_)], p);
-  const auto atrium = structureOf(scene_, "la");
+  const auto atrium = structureOf(scene_, Role::la);
   std::vector<std::uint32_t> at_atrium;
   for (std::uint32_t v = 0; v < p.size(); ++v) {
     if (!(length(normals[v]) > 0)) continue;
@@ -90,7 +90,7 @@ void HeartFunction::findAxis(const SurfaceFrame& surfaces) {
     const auto beyond = field_.surfaceAt(outside);
     if (beyond && atrium && *beyond == *atrium) at_atrium.push_back(v);
     const bool papillary =
-        beyond && roleNameOf(scene_.structures[index(*beyond)]) == "papillary_muscle";
+        beyond && roleOf(scene_.structures[index(*beyond)]) == Role::papillary_muscle;
     if (!papillary && beyond != wall_ && beyond != cavity_) base_.push_back(v);
   }
   if (!at_atrium.empty()) base_ = at_atrium;

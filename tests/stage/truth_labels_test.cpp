@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/hash_random.h"
+#include "scene/scan_geometry.h"
 #include "support/meshes.h"
 #include "support/plain_scene.h"
 #include "truth/plane_labels.h"
