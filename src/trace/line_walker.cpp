@@ -225,8 +225,11 @@ void LineWalker::passInterface(Group group, MediumId after, std::size_t first_hi
   const InterfaceLaw law = lawAt(crossing, from, to);
   const std::size_t first_echo = trace_.echoes.size();
   const double phase = layer_.empty() ? 0 : phaseSinceFace(crossing);
-  const double reach = 2 * std::numbers::pi * settings_.pulse_cycles;
-  if (law.total || layer_.full() || !(phase < reach)) layer_.clear(passed_);
+  // Faces are together while one pulse holds them, by their phase and on the line.
+  const double pulse_m = settings_.pulse_cycles * settings_.wavelength_m / 2;
+  const bool held =
+      phase < 2 * std::numbers::pi * settings_.pulse_cycles && path_m_ - face_path_m_ < pulse_m;
+  if (law.total || layer_.full() || !held) layer_.clear(passed_);
   addEcho(sentBack(law, from, to), std::min(std::abs(dot(incident, crossing.normal)), 1.0),
           crossing);
   medium_ = after;

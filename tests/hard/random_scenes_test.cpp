@@ -67,6 +67,8 @@ void expectIntensities(const World& world, const PolarFrame& polar) {
 
 // Segments follow each other without a gap to the end, their lengths and exponents grow, and what
 // is left of the pulse (prod (1-R)^2, the strength over eta_b V) only falls and never exceeds 1.
+// Behind a thin layer there may be more than inside it: what its first face sends back its second
+// takes up again.
 void expectOrderedSegments(const World& world, const TraceSettings& settings,
                            const LineTrace& line) {
   double depth = 0, path = 0, exponent = 0, left = 1;
@@ -83,7 +85,7 @@ void expectOrderedSegments(const World& world, const TraceSettings& settings,
     if (full == 0 || !settings.backscatter) continue;
     ASSERT_LE(s.strength_m2_sr / full, left * (1 + 1e-12));
     ASSERT_GE(s.strength_m2_sr, 0);
-    left = s.strength_m2_sr / full;
+    if (!settings.thin_layers) left = s.strength_m2_sr / full;
   }
   ASSERT_LE(depth, world.scene.probe.max_depth_m);
 }
@@ -254,8 +256,10 @@ TEST(RandomScenes, ADeeperInterfaceChangesNothingShallower) {
     EffectPlan plan = planEffects(more.scene);  // of both: it decides for the same media
     plan.travel_time = false;                   // depth is path length
     const TraceSettings settings(world.scene, plan);
-    // One interface with those just before it, and one rounding of the mesh to float.
-    const double safe_m = z_m - settings.thin_layer_m - 1e-7;
+    // One pulse holds it together with up to seven before it; and one rounding of the mesh to
+    // float.
+    const double pulse_m = settings.pulse_cycles * settings.wavelength_m / 2;
+    const double safe_m = z_m - 7 * pulse_m - settings.thin_layer_m - 1e-7;
     const double shallow = (safe_m - probe.min_depth_m) / probe.sampleSpacing();
     const auto same = static_cast<std::size_t>(
         std::clamp(std::floor(shallow), 0.0, static_cast<double>(probe.samples)));

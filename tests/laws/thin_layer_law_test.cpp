@@ -52,9 +52,10 @@ double exactLayer(const Medium& around, const Medium& layer, double thickness_m,
 double walkedLayer(const Scene& scene, double thickness_m, double cos_i) {
   TraceSettings settings = straightSettings(scene);
   settings.reflection_cap = false;  // the exact layer is a mirror
-  const LineTrace line = walkStraight(
-      settings,
-      {crossingAt(0.05, 0, true, cos_i), crossingAt(0.05 + thickness_m / cos_i, 0, false, cos_i)});
+  const Crossing front = crossingAt(0.05, 0, true, cos_i);
+  Crossing back = crossingAt(0.05 + thickness_m / cos_i, 0, false, cos_i);
+  back.normal = -front.normal;  // faces in parallel
+  const LineTrace line = walkStraight(settings, {front, back});
   double sum = 0;
   for (const Echo& echo : line.echoes) sum += echo.intensity;
   return sum;
