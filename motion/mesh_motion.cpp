@@ -175,6 +175,7 @@ namespace {
 bool smoothNormalsOf(const Scene& scene) {
   if (scene.accuracy.normals != Normals::automatic)
     return scene.accuracy.normals == Normals::smooth;
+  if (scene.media.empty()) return false;  // meshes alone, nothing to bend rays
   return scene.motion.subdivision > 0 && scene.accuracy.tracer != TracerChoice::slice &&
          planEffects(scene).refraction;
 }

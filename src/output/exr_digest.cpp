@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <new>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -57,6 +59,7 @@ void sealExr(std::span<std::byte> file) {
 
 bool isSealedExr(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
+  if (!file && errno == ENOMEM) throw std::bad_alloc();
   std::vector<std::byte> block(kBlock);
   Digest digest;
   std::string digits;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -123,6 +125,7 @@ bool isPlain(std::string_view bytes) {
 
 bool hasPlainExrHeader(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
+  if (!file && errno == ENOMEM) throw std::bad_alloc();
   std::string bytes(kMaxHeaderBytes, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   return isPlain(std::string_view(bytes).substr(0, static_cast<std::size_t>(file.gcount())));

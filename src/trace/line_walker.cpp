@@ -185,8 +185,8 @@ double LineWalker::phaseSinceFace(const Crossing& crossing) const {
 
 // An interface that the pulse holds together with those before it: all their echoes and the loss
 // behind them are worked out anew.
-void LineWalker::joinLayer(const InterfaceLaw& law, const Crossing& crossing, double phase,
-                           std::size_t first_hit, std::size_t first_echo) {
+void LineWalker::joinLayer(const InterfaceLaw& law, double phase, std::size_t first_hit,
+                           std::size_t first_echo) {
   const bool alone = layer_.empty();
   const double passed = layer_.passed();
   double base = 0;
@@ -234,7 +234,7 @@ void LineWalker::passInterface(Group group, MediumId after, std::size_t first_hi
           crossing);
   medium_ = after;
   if (settings_.thin_layers && !law.total)
-    joinLayer(law, crossing, layer_.empty() ? 0 : phase, first_hit, first_echo);
+    joinLayer(law, layer_.empty() ? 0 : phase, first_hit, first_echo);
   else
     loseAt(law);
   if (!alive_ || from.sound_speed_m_s == to.sound_speed_m_s) return;

@@ -44,8 +44,8 @@ class LineWalker {
   double sentBack(const InterfaceLaw& law, const Medium& from, const Medium& to) const;
   void loseAt(const InterfaceLaw& law);
   double phaseSinceFace(const Crossing& crossing) const;
-  void joinLayer(const InterfaceLaw& law, const Crossing& crossing, double phase,
-                 std::size_t first_hit, std::size_t first_echo);
+  void joinLayer(const InterfaceLaw& law, double phase, std::size_t first_hit,
+                 std::size_t first_echo);
   void bend(Group group, Vec3d direction);
   const Crossing& deciding(Group group) const;
 
