@@ -35,7 +35,9 @@ Scene smallHeart() {
 
 TEST(SimulatorFrame, OfAHeartInMemoryIsThatOfItsFiles) {
   const TempFolder folder;
-  writeHeart({.keyframes = 6}, folder / "heart");
+  HeartFiles wanted;
+  wanted.keyframes = 6;
+  writeHeart(wanted, folder / "heart");
   Scene written = readScene(folder / "heart" / "scene.toml");
   const Scene in_memory = smallHeart();
   written.probe.lines = in_memory.probe.lines;
@@ -56,7 +58,8 @@ TEST(SimulatorFrame, HasTheIntensitiesThatARenderWrites) {
   Scene scene = smallHeart();
   scene.signal.reference_intensity.reset();  // found over the loop, by both
   scene.output.channels = {Channel::y, Channel::display};
-  const RenderSummary summary = renderLoop(scene, {.folder = folder / "out", .threads = 2}, {});
+  const RenderSummary summary =
+      renderLoop(scene, {.folder = folder / "out", .threads = 2, .frames = {}}, {});
   const Simulator simulator(scene);
   EXPECT_EQ(simulator.referenceIntensity(), summary.manifest.reference_intensity);
   for (const int f : {0, 7, summary.frames_done - 1}) {
