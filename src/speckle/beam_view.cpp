@@ -16,6 +16,8 @@ BeamView::BeamView(const Probe& probe, const PointSpread& spread)
     first += 0.5 * span;
     pitch_ = spread.angle_rad * (linear_ ? probe.middleDepth() : 1);
   }
+  widest_m_ =
+      kElevationCut * std::max(spread.elevationWidth(0), spread.elevationWidth(probe.max_depth_m));
   first_ = static_cast<float>(first);
   per_pitch_ = static_cast<float>(1 / pitch_);
   face_radius_m_ = static_cast<float>(probe.face_radius_m);
@@ -28,7 +30,19 @@ double BeamView::lateralLines(double path_m) const {
   return at_m > 0 ? spread_.angle_rad * path_m / (pitch_ * at_m) : 0;
 }
 
-bool BeamView::sees(Vec3d p, double radius_m) const {
+Ball ballAbout(const CubeCorners& corners, double margin_m) {
+  Vec3f low = corners[0], high = corners[0];
+  for (const Vec3f c : corners) {
+    low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
+    high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
+  }
+  return {toDouble(0.5f * (low + high)), 0.5 * length(toDouble(high - low)) + margin_m};
+}
+
+bool BeamView::sees(const Ball& ball) const {
+  const Vec3d p = ball.centre_m;
+  const double radius_m = ball.radius_m;
+  if (std::abs(p.y) - radius_m > widest_m_) return false;
   const double r = std::hypot(p.x, p.z);
   const double path_m = linear_ ? p.z * static_cast<double>(per_cosine_) : r - probe_.face_radius_m;
   const double reach_m = linear_ ? radius_m * static_cast<double>(per_cosine_) : radius_m;

@@ -6,9 +6,18 @@
 #include "core/lanes.h"
 #include "core/rough_angle.h"
 #include "scene/probe.h"
+#include "speckle/material.h"
 #include "speckle/point_spread.h"
 
 namespace echocine {
+
+struct Ball {
+  Vec3d centre_m;
+  double radius_m = 0;
+};
+
+// Holds what is trilinear within a cube: the hull of its corners.
+Ball ballAbout(const CubeCorners& corners, double margin_m = 0);
 
 class BeamView {
  public:
@@ -25,7 +34,7 @@ class BeamView {
   }
 
   // May a beam's elevation reach into a ball? True where in doubt.
-  bool sees(Vec3d centre_m, double radius_m) const;
+  bool sees(const Ball& ball) const;
 
   // Lateral sigma of the amplitude's bell at a path length, in lines.
   double lateralLines(double path_m) const;
@@ -50,7 +59,8 @@ class BeamView {
   Probe probe_;
   PointSpread spread_;
   bool linear_ = false;
-  double pitch_ = 0;  // between lines: rad, or m of a linear probe
+  double widest_m_ = 0;  // half of the widest elevation, where it is cut
+  double pitch_ = 0;     // between lines: rad, or m of a linear probe
   float first_ = 0, per_pitch_ = 0, face_radius_m_ = 0, tangent_ = 0, per_cosine_ = 1;
 };
 

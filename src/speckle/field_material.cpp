@@ -8,7 +8,7 @@ namespace echocine {
 namespace {
 
 constexpr float kStillBlock_m = 8e-3f;  // where nothing moves
-constexpr int kPhasesLookedAt = 24;
+constexpr int kPhasesLookedAt = 32;
 constexpr double kBetweenPhases = 1.1;  // tissue may move farther between them
 
 }  // namespace
@@ -43,6 +43,14 @@ FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion)
     // Blocks are the cells of the coarse lattice where there is one, else pairs of the fine one's.
     if (!half_[g] || !coarse) lattice_.origin_m = grid.origin_m;
     coarse |= !half_[g];
+  }
+}
+
+void FieldMaterial::overTheBeat(const std::function<void(const MaterialFrame&)>& look) const {
+  FieldFrame frame;
+  for (int i = 0; i < kPhasesLookedAt; ++i) {
+    field_.at(static_cast<double>(i) / kPhasesLookedAt, frame);
+    look(FieldMaterialFrame(frame));
   }
 }
 

@@ -14,6 +14,7 @@ class FieldMaterial : public Material {
   bool halfBlocks(std::uint16_t group) const override { return half_[group]; }
   bool blood(std::uint16_t group) const override { return blood_[group]; }
   void groupsAt(std::span<const Vec3f> reference_m, std::span<std::uint16_t> groups) const override;
+  void overTheBeat(const std::function<void(const MaterialFrame&)>& look) const override;
   double reachAcross_m() const override { return across_m_; }
   double reachAlong_m() const override { return along_m_; }
 

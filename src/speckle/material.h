@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -37,6 +38,9 @@ class Material {
   virtual void groupsAt(std::span<const Vec3f> reference_m, std::span<std::uint16_t> groups) const {
     for (std::size_t i = 0; i < reference_m.size(); ++i) groups[i] = 0;
   }
+  // Calls look() for instants all over the beat, close enough that tissue moves under 2 mm to the
+  // nearest. Never called: whatever may be seen is kept.
+  virtual void overTheBeat(const std::function<void(const MaterialFrame&)>& /*look*/) const {}
   // The most that any tissue moves, from the reference: across the imaging plane and in it.
   virtual double reachAcross_m() const { return 0; }
   virtual double reachAlong_m() const { return 0; }

@@ -102,7 +102,7 @@ Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const Beam
                                                                      static_cast<float>(iy),
                                                                      static_cast<float>(iz)};
         const Vec3d middle = toDouble(low) + 0.5 * edge_m * Vec3d{1, 1, 1};
-        if (!view.sees(middle, ball_m)) continue;
+        if (!view.sees({middle, ball_m})) continue;
         Block block{low, lattice.block_m, hashOf(settings.seed, kPlaces, ix, iy, iz), {}, {}};
         const double wanted =
             settings.per_cell * edge_m * edge_m * edge_m / spread.cellVolume(pathOf(probe, middle));
@@ -126,6 +126,40 @@ Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const Beam
     }
   });
   for (const Block& block : blocks) addBlock(block, material);
+  dropUnseen(view, material);
+}
+
+// Leaves out what no beam reaches at any instant: most tissue beside the plane does not move far.
+void Scatterers::dropUnseen(const BeamView& view, const Material& material) {
+  constexpr double kBetweenInstants_m = 2e-3;
+  bool looked = false;
+  std::vector<bool> seen(batches_.size());
+  material.overTheBeat([&](const MaterialFrame& tissue) {
+    looked = true;
+    for (std::size_t b = 0; b < batches_.size(); ++b)
+      seen[b] = seen[b] || view.sees(ballAbout(tissue.corners(batches_[b].group, batches_[b].low_m,
+                                                              batches_[b].edge_m),
+                                               kBetweenInstants_m));
+  });
+  if (!looked) return;
+  std::vector<ScattererBatch> all;
+  std::vector<float> u, v, w;
+  std::swap(all, batches_);
+  count_ = 0;
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    if (!seen[b]) continue;
+    const std::size_t whole = (all[b].count + kFloatLanes - 1) / kFloatLanes * kFloatLanes;
+    const std::uint32_t first = all[b].first;
+    for (auto [to, from] : {std::pair(&u, &u_), std::pair(&v, &v_), std::pair(&w, &w_)})
+      to->insert(to->end(), from->begin() + first, from->begin() + first + whole);
+    all[b].first = static_cast<std::uint32_t>(u.size() - whole);
+    count_ += all[b].count;
+    batches_.push_back(all[b]);
+  }
+  for (auto [to, from] : {std::pair(&u_, &u), std::pair(&v_, &v), std::pair(&w_, &w)}) {
+    from->shrink_to_fit();
+    std::swap(*to, *from);
+  }
 }
 
 // By group and half block, in the order of their points.
