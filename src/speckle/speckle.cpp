@@ -27,7 +27,7 @@ double Speckle::farthestAcross_m() const {
 void Speckle::addUp(const MaterialFrame& tissue, double time_s, EchoSums& sums) const {
   for (const ScattererBatch& batch : scatterers_.batches()) {
     const CubeCorners corners = tissue.corners(batch.group, batch.low_m, batch.edge_m);
-    if (!view_.sees(ballAbout(corners))) continue;
+    if (!view_.sees(extentOf(corners))) continue;
     splatter_.add(corners, scatterers_, batch,
                   mixAt(gaussian_, batch.pattern, time_s,
                         batch.blood ? settings_.blood_time_s : settings_.tissue_time_s),
