@@ -62,10 +62,10 @@ bool BeamView::sees(const Extent& e) const {
     const double at_m = e.x_m - e.z_m * static_cast<double>(tangent_);
     return at_m + reach_m >= low && at_m - reach_m <= high;
   }
-  if (r <= e.radius_m || e.z_m <= 0) return true;
+  if (r <= e.radius_m) return true;
   // The disc's half angle: asin q <= q / sqrt(1 - q^2).
   const double q = e.radius_m / r, half = q / std::sqrt(1 - q * q) + 1e-4;
-  const double at = roughAngle(e.x_m, e.z_m);
+  const double at = e.z_m > 0 ? roughAngle(e.x_m, e.z_m) : std::atan2(e.x_m, e.z_m);
   return at + half >= low && at - half <= high;
 }
 

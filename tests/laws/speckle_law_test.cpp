@@ -19,11 +19,12 @@ constexpr ProbeKind kAllKinds[] = {ProbeKind::phased, ProbeKind::curvilinear, Pr
 TEST(SpeckleLaw, TheMeanOverSeedsIsThePictureWithout) {
   constexpr int kSeeds = 200;
   for (const ProbeKind kind : kAllKinds) {
-    SpeckleBed bed(kind, 20, 96, 0.07, 0.085);
+    SpeckleBed bed(kind, 40, 192, 0.06, 0.09);
+    bed.material.reach_m = 0.003;
     // A bright block that moves with the tissue's shift, a dark one, a step at the picture's edge.
     std::vector<float> without = bed.even();
     for (std::size_t i = 0; i < without.size(); ++i)
-      without[i] = i % 96 < 30 ? 1e-4f : i % 96 < 60 ? 100.0f : i / 96 < 7 ? 0 : 0.3f;
+      without[i] = i % 192 < 60 ? 1e-4f : i % 192 < 120 ? 100.0f : i / 192 < 14 ? 0 : 0.3f;
     std::vector<double> sum(without.size());
     for (bed.settings.seed = 1; bed.settings.seed <= kSeeds; ++bed.settings.seed) {
       std::vector<float> with = without;
@@ -131,19 +132,27 @@ TEST(SpeckleLaw, TissueThatRestsKeepsItsBytesAndBloodRenewsItself) {
   EXPECT_GT(correlation(now, bed.picture(blood, Affine{}, 1.001), 400, w), 0.9);
 }
 
+// Few scatterers share phases by chance: 3 per cell leave 0.07 more where the form has 0.14.
 TEST(SpeckleLaw, AcrossThePlaneItFadesByDiffractionAloneAtEveryDepth) {
   for (const double z : {0.05, 0.08, 0.14}) {
     SpeckleBed bed(ProbeKind::phased, 160, 400, z - 0.01, z + 0.01);
     const double s0 =
         followedWidth(z, bed.probe.elevation_aperture_m, scannerWavelength(bed.probe)) /
         std::sqrt(2.0) / std::sqrt(8 * std::log(2.0));
-    const Speckle speckle = bed.speckle();
-    const std::vector<float> here = bed.picture(speckle);
-    for (const double part : {0.5, 1.0, 2.0})
-      EXPECT_NEAR(correlation(here, bed.picture(speckle, shifted({0, part * s0, 0})), 400,
-                              {0, 160, 0, 400}),
-                  std::exp(-part * part / 2), 0.05)
-          << z << " " << part;
+    bed.settings.per_cell = 12;
+    constexpr int kSeeds = 4;
+    const double parts[] = {0.5, 1.0, 2.0};
+    double mean[3] = {};
+    for (bed.settings.seed = 1; bed.settings.seed <= kSeeds; ++bed.settings.seed) {
+      const Speckle speckle = bed.speckle();
+      const std::vector<float> here = bed.picture(speckle);
+      for (int i = 0; i < 3; ++i)
+        mean[i] += correlation(here, bed.picture(speckle, shifted({0, parts[i] * s0, 0})), 400,
+                               {0, 160, 0, 400}) /
+                   kSeeds;
+    }
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(mean[i], std::exp(-parts[i] * parts[i] / 2), 0.05) << z << " " << parts[i];
   }
 }
 

@@ -5,23 +5,26 @@
 #include "core/parallel.h"
 #include "scene/scene_reader.h"
 #include "simulate/simulator.h"
-#include "support/paths.h"
+#include "support/loop_scene.h"
 
 namespace echocine {
 namespace {
 
-Scene beatingScene() {
-  Scene scene =
-      readScene(std::filesystem::path(support::kSourceDir) / "examples/beating_heart/scene.toml");
-  scene.probe.lines = 64;
-  scene.probe.samples = 256;
-  scene.motion.subdivision = 0;
-  scene.output.exr = false;
-  scene.speckle.on = true;
-  return scene;
-}
+class SpeckleScene : public testing::Test {
+ protected:
+  Scene beatingScene() const {
+    support::SceneText text = support::ballScene(10);
+    text.output["exr"] = "false";
+    text.probe["samples"] = "256";
+    text.extra = "[speckle]\non = true\n";
+    return readScene(support::writeBall(folder_, text));
+  }
 
-TEST(SpeckleScene, AnyFrameAloneHasTheBytesOfTheLoopForAnyThreads) {
+ private:
+  support::TempFolder folder_;
+};
+
+TEST_F(SpeckleScene, AnyFrameAloneHasTheBytesOfTheLoopForAnyThreads) {
   const Simulator simulator(beatingScene());
   ASSERT_TRUE(simulator.plan().effects.speckle);
   const Intensities first = simulator.frame(0.1).intensities;
@@ -32,7 +35,7 @@ TEST(SpeckleScene, AnyFrameAloneHasTheBytesOfTheLoopForAnyThreads) {
   withThreads(2, [&] { EXPECT_EQ(again.frame(0.3).intensities, other); });
 }
 
-TEST(SpeckleScene, TheMeanOverSeedsIsTheFrameWithout) {
+TEST_F(SpeckleScene, TheMeanOverSeedsIsTheFrameWithout) {
   constexpr int kSeeds = 8;
   constexpr double kTime_s = 0.3;
   Scene scene = beatingScene();
@@ -63,7 +66,7 @@ TEST(SpeckleScene, TheMeanOverSeedsIsTheFrameWithout) {
 }
 
 // The cubes that carry scatterers are the field's own cells: what a tracker should find.
-TEST(SpeckleScene, ScatterersMoveByTheVeryFieldOfTheTruth) {
+TEST_F(SpeckleScene, ScatterersMoveByTheVeryFieldOfTheTruth) {
   const Scene scene = beatingScene();
   const MeshMotion motion(scene);
   const FieldMaterial material(scene, motion);
@@ -74,9 +77,10 @@ TEST(SpeckleScene, ScatterersMoveByTheVeryFieldOfTheTruth) {
   int moved = 0;
   for (std::uint16_t group = 0; group < frame.groups.size(); ++group) {
     const float edge_m = 0.5f * lattice.block_m;
-    for (int cube = 0; cube < 400; ++cube) {
-      const Vec3f low = lattice.origin_m + edge_m * Vec3f{static_cast<float>(cube % 20), 8,
-                                                          static_cast<float>(cube / 20)};
+    const float middle_y = std::round(-lattice.origin_m.y / edge_m);
+    for (int cube = 0; cube < 3600; ++cube) {
+      const Vec3f low = lattice.origin_m + edge_m * Vec3f{static_cast<float>(cube % 60), middle_y,
+                                                          static_cast<float>(cube / 60)};
       const CubeCorners corners = tissue.corners(group, low, edge_m);
       Vec3f middle{};
       for (const Vec3f c : corners) middle = middle + 0.125f * c;
