@@ -13,6 +13,7 @@
 #include "motion/near_plane.h"
 #include "motion/subdivision/limit_normals.h"
 #include "motion/subdivision/subdivision.h"
+#include "scene/effect_plan.h"
 
 namespace echocine {
 
@@ -125,7 +126,7 @@ void MeshMotion::MovingSurface::frameAt(double phase, std::vector<Vec3f>& positi
   if (!subdivision && !limit_normals) return control.at(phase, positions_m);
   thread_local std::vector<Vec3f> control_m;
   control.at(phase, control_m);
-  if (limit_normals) {
+  if (limit_normals && normals) {
     normals->resize(limit_normals->normalCount());
     limit_normals->apply(control_m, *normals);
   }
@@ -167,11 +168,36 @@ void MeshMotion::MovingSurface::subdivide(SurfaceTopology& topology, const MeshT
   subdivision.reset();
 }
 
+namespace {
+
+// Facets scatter bent rays, so these take smooth normals unless told otherwise. Meshes that are
+// the surfaces themselves have none.
+bool smoothNormalsOf(const Scene& scene) {
+  if (scene.accuracy.normals != Normals::automatic)
+    return scene.accuracy.normals == Normals::smooth;
+  if (scene.media.empty()) return false;  // meshes alone, nothing to bend rays
+  return scene.motion.subdivision > 0 && scene.accuracy.tracer != TracerChoice::slice &&
+         planEffects(scene).refraction;
+}
+
+}  // namespace
+
+// Where nobody asked for them, a surface that has none leaves all with their facets.
+void MeshMotion::offerNormals(MovingSurface& moving, SurfaceTopology& topology,
+                              const MeshTags& tags, const Scene& scene) {
+  try {
+    moving.smooth(topology, tags, scene);
+  } catch (const SceneError&) {
+    if (scene.accuracy.normals == Normals::smooth) throw;
+    smooth_normals_ = false;
+  }
+}
+
 MeshMotion::MeshMotion(const Scene& scene) : MeshMotion(readKeyframes(scene), scene) {}
 
 MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
     : repair_notes_(set.repair_notes),
-      smooth_normals_(scene.accuracy.normals == Normals::smooth),
+      smooth_normals_(smoothNormalsOf(scene)),
       input_sha256_(set.sha256) {
   CHECK_EQ(set.structures.size(), scene.structures.size());
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
@@ -187,7 +213,7 @@ MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
     loop_boxes_m_.push_back(loopBox(positions_m, weights.overshoot()));
     MovingSurface moving{controlMotion(std::move(weights), topology, keyframes, positions_m)};
     const MeshTags& tags = keyframes.front().mesh.tags;
-    if (smooth_normals_) moving.smooth(topology, tags, scene);
+    if (smooth_normals_) offerNormals(moving, topology, tags, scene);
     if (scene.motion.subdivision > 0) moving.subdivide(topology, tags, scene.motion);
     if (topology.still) {
       std::vector<Vec3f> still_m, normals;
@@ -209,14 +235,15 @@ const ControlMotion& MeshMotion::control(SurfaceId id) const {
   return moving_[index(id)].control;
 }
 
-void MeshMotion::frameAt(double phase, SurfaceFrame& frame) const {
+void MeshMotion::frameAt(double phase, SurfaceFrame& frame, bool normals) const {
+  normals = normals && smooth_normals_;
   frame.positions_m.resize(moving_.size());
-  frame.normals.resize(smooth_normals_ ? moving_.size() : 0);
+  frame.normals.resize(normals ? moving_.size() : 0);
   for (std::size_t s = 0; s < moving_.size(); ++s) {
-    const bool in_place = surfaces_[s].still && !frame.positions_m[s].empty();
+    const bool in_place = surfaces_[s].still && !frame.positions_m[s].empty() &&
+                          (!normals || !frame.normals[s].empty());
     if (!in_place)
-      moving_[s].frameAt(phase, frame.positions_m[s],
-                         smooth_normals_ ? &frame.normals[s] : nullptr);
+      moving_[s].frameAt(phase, frame.positions_m[s], normals ? &frame.normals[s] : nullptr);
   }
 }
 

@@ -30,7 +30,11 @@ class MeshMotion {
 
   // The surfaces at a phase in [0, 1); keyframe phases reproduce their keyframes. Thread-safe;
   // `frame` is reused without allocation once it has held a frame of this motion.
-  void frameAt(double phase, SurfaceFrame& frame) const;
+  // normals: with smooth normals where hasNormals().
+  void frameAt(double phase, SurfaceFrame& frame, bool normals = true) const;
+
+  // The surfaces can give smooth normals: the scene asks for them, or its rays may bend.
+  bool hasNormals() const { return smooth_normals_; }
 
   // Volume that a surface encloses in a frame of this motion, as enclosedVolume() has it within
   // rounding in double; known beforehand where the surface stands still. Thread-safe. m^3.
@@ -47,6 +51,8 @@ class MeshMotion {
 
  private:
   struct MovingSurface;
+  void offerNormals(MovingSurface& moving, SurfaceTopology& topology, const MeshTags& tags,
+                    const Scene& scene);
   std::vector<SurfaceTopology> surfaces_;
   std::vector<MovingSurface> moving_;
   std::vector<Box> loop_boxes_m_;

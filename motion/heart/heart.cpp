@@ -1,8 +1,12 @@
 #include "motion/heart/heart.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
+#include "core/error.h"
 #include "motion/heart/envelope.h"
 #include "motion/heart/instant.h"
 #include "motion/heart/segments.h"
@@ -99,8 +103,29 @@ void addLeaflets(const Instant& now, std::vector<Part>& parts) {
 
 }  // namespace
 
+namespace {
+
+// Still segments eject less. A ventricle that ejects next to nothing is refused: the circulation
+// would have stopped.
+Parameters withSegmentsRuling(Parameters parameters) {
+  const bool healthy = std::all_of(parameters.segments.begin(), parameters.segments.end(),
+                                   [](const Segment& segment) { return segment.amplitude == 1; });
+  if (parameters.volumes_rule || healthy) return parameters;
+  constexpr double kLeast = 0.03;
+  const double left = LeftVentricle::ejectionFractionOf(parameters);
+  if (!(left >= kLeast))
+    throw SceneError(
+        fmt::format("segment: with these the left ventricle ejects {:.3f} of its "
+                    "volume, accepted: {} or more",
+                    left, kLeast));
+  parameters.ejection_fraction = left;
+  return parameters;
+}
+
+}  // namespace
+
 ParametricHeart::ParametricHeart(const Parameters& parameters)
-    : parameters_(parameters), cycle_(parameters), at_rest_(parameters) {}
+    : parameters_(withSegmentsRuling(parameters)), cycle_(parameters_), at_rest_(parameters_) {}
 
 Vec3d ParametricHeart::centre() const {
   return lvLength() * Vec3d{-0.25, 0.1, 0.25};

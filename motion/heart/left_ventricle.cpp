@@ -152,6 +152,17 @@ LeftVentricle::LeftVentricle(const Parameters& parameters) : parameters_(paramet
   contract({});
 }
 
+double LeftVentricle::ejectionFractionOf(const Parameters& parameters) {
+  Parameters healthy = parameters;
+  for (Segment& segment : healthy.segments) segment = {};
+  LeftVentricle ventricle(healthy);  // finds the strain
+  for (int s = 0; s < kSegments; ++s)
+    ventricle.contraction_.segments[s] = parameters.segments[s].amplitude;
+  ventricle.moveAxis(1);
+  ventricle.correction_ = 0;
+  return 1 - ventricle.cavityVolume() / ventricle.edv_m3_;
+}
+
 void LeftVentricle::moveAxis(double ejected) {
   ring_z_ = parameters_.mapse_mm * kMillimetre * ejected;
   apex_z_ = length_ * (1 - kApexRise * ejected);

@@ -30,6 +30,11 @@ class LeftVentricle {
   // At end-diastole. Throws SceneError when no contraction reaches the end-systolic volume.
   explicit LeftVentricle(const Parameters& parameters);
 
+  // What a ventricle ejects whose healthy segments contract as they would for the dialled ejection
+  // fraction, and whose others do their own share: the dialled one where all are healthy. Throws
+  // as the constructor.
+  static double ejectionFractionOf(const Parameters& parameters);
+
   // Sets the shape: the cavity encloses edv - ejected * stroke volume, and the wall the volume it
   // has at end-diastole. Throws SceneError when it cannot.
   void contract(const Contraction& contraction);

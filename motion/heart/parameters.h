@@ -34,6 +34,9 @@ struct Parameters {
   double mitral_opening = 1, tricuspid_opening = 1, aortic_opening = 1;  // 1: healthy
   double body_scale = 1;
   std::array<Segment, kSegments> segments{};
+  // The ejection fraction stays as dialled, and healthy segments do the work of still ones. Else
+  // each does its own, and the ventricle ejects what comes of it.
+  bool volumes_rule = false;
 };
 
 // One dial: its name on the command line and in files, and what is accepted.

@@ -12,10 +12,6 @@
 namespace echocine::heart {
 namespace {
 
-// The pleura is rough and moves, and little of its echo comes back in phase: so much that it is as
-// bright as the pericardium.
-constexpr double kPleuraGain = 0.004;
-
 Part closedPart(const char* name, const char* medium, int priority, std::vector<Vec3d> points,
                 const SphereMesh& sphere) {
   return {{name, medium, priority, false}, std::move(points), sphere.faces};
@@ -80,7 +76,6 @@ void addLungs(const ParametricHeart& heart, std::vector<Part>& parts) {
   const auto add = [&](const char* name, Vec3d centre, Vec3d semi_axes) {
     parts.push_back(
         closedPart(name, "lung", 2, ellipsoid(kLung, l * centre, l * semi_axes), kLung));
-    parts.back().kind.reflection_gain = kPleuraGain;
   };
   add("lung_left", {1.35, -0.25, 0.1}, {1.25, 1.9, 2.2});
   add("lung_right", {-2.05, -0.1, -0.1}, {1.25, 1.6, 2.2});

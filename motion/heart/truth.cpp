@@ -38,6 +38,7 @@ Json parametersJson(const Parameters& parameters) {
   for (const Segment& segment : parameters.segments)
     segments.push_back({{"amplitude", segment.amplitude}, {"delay_ms", segment.delay_s * 1e3}});
   json["segments"] = segments;
+  json["rule"] = parameters.volumes_rule ? "volumes" : "segments";
   return json;
 }
 

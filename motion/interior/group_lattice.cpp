@@ -8,9 +8,19 @@ namespace echocine {
 namespace {
 
 // Of second differences against a cell's samples. Our choice: tried from 0.001 to 0.1.
-constexpr double kStiffness = 0.01;
+constexpr float kStiffness = 0.01f;
+// Steps of conjugate gradients; more change the fit by less than a hundredth of a millimetre.
+constexpr int kFirstSteps = 24, kMoreSteps = 12;
+// A cell that keeps less than this part of its volume at a keyframe is about to fold: its
+// surroundings are made this much stiffer, so many times at most. Our choices.
+constexpr float kLeastVolume = 0.05f, kStiffer = 4;
+constexpr int kUnfoldings = 4;
+// A neighbour's surface that moves otherwise than the group's own, by this root mean square over
+// the keyframes, slides on it: its samples lose three quarters of their weight at twice of it. Our
+// choice.
+constexpr double kSlides_m = 0.2e-3;
 // The background's nodes stand this many times as far apart.
-constexpr int kOpenStride = 2;
+constexpr int kOpenStride = 3;
 
 // Data of all classes' modes, three columns (x, y, z) per mode.
 struct FitData {
@@ -19,6 +29,12 @@ struct FitData {
   std::size_t columns = 0;
   std::vector<float> values;  // columns per point
 };
+
+std::vector<float> sum(const std::vector<float>& a, const std::vector<float>& b) {
+  std::vector<float> total(a);
+  for (std::size_t i = 0; i < total.size(); ++i) total[i] += b[i];
+  return total;
+}
 
 class GroupFitter {
  public:
@@ -33,10 +49,15 @@ class GroupFitter {
     makeSamples();
     const std::vector<float> smooth = affinePart();
     subtract(smooth);
-    std::vector<float> nodes = fitLattice(lattice_.nodes, data_.samples, data_.values,
-                                          data_.columns, kStiffness, restingNodes());
-    for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] += smooth[i];
-    fillRows(nodes);
+    resting_ = restingNodes();
+    stiffness_.assign(lattice_.nodes.nodes.size(), kStiffness);
+    std::vector<float> rest = solve({}, kFirstSteps);
+    if (letSlide(rest)) rest = solve(std::move(rest), kMoreSteps);
+    fillRows(sum(smooth, rest));
+    for (int i = 0; i < kUnfoldings && stiffenFolds(); ++i) {
+      rest = solve(std::move(rest), kMoreSteps);
+      fillRows(sum(smooth, rest));
+    }
     return std::move(lattice_);
   }
 
@@ -44,12 +65,16 @@ class GroupFitter {
   bool gather();
   void layGrid();
   void activate();
-  void activateInside(std::vector<bool>& active) const;
+  void activateInside(std::vector<bool>& active);
   void makeSamples();
   void shareWeights();
   std::vector<float> affinePart() const;
   void subtract(const std::vector<float>& nodes);
   std::vector<std::uint32_t> restingNodes() const;
+  std::vector<float> solve(std::vector<float> start, int steps) const;
+  bool stiffenFolds();
+  bool folds(const std::uint32_t (&corners)[8]) const;
+  bool letSlide(const std::vector<float>& nodes);
   void fillRows(const std::vector<float>& nodes);
   Vec3d nodePlace(std::size_t node) const;
   double fadeAt(Vec3d place_m) const;
@@ -62,6 +87,10 @@ class GroupFitter {
   std::span<const PhaseClass> classes_;
   GroupLattice lattice_;
   FitData data_;
+  std::vector<std::uint32_t> resting_;
+  std::vector<float> stiffness_;  // by active node
+  std::vector<bool> inside_;      // cells with a node that the group wins, by node of the box
+  std::vector<bool> used_;        // cells that hold something of the group, by their first node
 };
 
 // The points of this group and what each mode does to them; false when none of them moves.
@@ -139,7 +168,7 @@ void GroupFitter::inCell(Vec3f p, int (&cell)[3], float (&fraction)[3]) const {
 }
 
 // Nodes at which the group wins, and all about them.
-void GroupFitter::activateInside(std::vector<bool>& active) const {
+void GroupFitter::activateInside(std::vector<bool>& active) {
   const LatticeGrid& grid = lattice_.grid;
   const Vec3d origin = toDouble(grid.origin_m);
   const auto spacing = static_cast<double>(grid.spacing_m);
@@ -150,6 +179,9 @@ void GroupFitter::activateInside(std::vector<bool>& active) const {
       for (int x = 0; x < grid.nx; ++x) {
         const std::int16_t winner = row[static_cast<std::size_t>(x)];
         if (winner < 0 || !members_.owns(static_cast<std::uint32_t>(winner))) continue;
+        for (int corner = 0; corner < 8; ++corner)
+          inside_[grid.at(std::max(x - (corner & 1), 0), std::max(y - (corner >> 2), 0),
+                          std::max(z - (corner >> 1 & 1), 0))] = true;
         for (int dy = std::max(y - 1, 0); dy <= std::min(y + 1, grid.ny - 1); ++dy)
           for (int dz = std::max(z - 1, 0); dz <= std::min(z + 1, grid.nz - 1); ++dz)
             for (int dx = std::max(x - 1, 0); dx <= std::min(x + 1, grid.nx - 1); ++dx)
@@ -161,6 +193,7 @@ void GroupFitter::activateInside(std::vector<bool>& active) const {
 void GroupFitter::activate() {
   const LatticeGrid& grid = lattice_.grid;
   std::vector<bool> active(grid.count(), members_.open);
+  inside_.assign(grid.count(), members_.open);
   if (!members_.open) {
     activateInside(active);
     for (const std::uint32_t i : data_.points) {  // the cell of a point and one more all round
@@ -206,6 +239,9 @@ void GroupFitter::makeSamples() {
 
 // A cell's samples weigh 1 together, however finely the surface is meshed.
 void GroupFitter::shareWeights() {
+  used_.assign(lattice_.nodes.nodes.size(), false);
+  for (std::size_t i = 0; i < used_.size(); ++i) used_[i] = inside_[lattice_.nodes.nodes[i]];
+  for (const LatticeSample& sample : data_.samples) used_[sample.node[0]] = true;
   std::vector<std::uint32_t> in_cell(lattice_.nodes.nodes.size(), 0);
   for (const LatticeSample& sample : data_.samples) ++in_cell[sample.node[0]];
   for (LatticeSample& sample : data_.samples)
@@ -301,10 +337,87 @@ std::vector<std::uint32_t> GroupFitter::restingNodes() const {
   return resting;
 }
 
+// Where a neighbour's surface and the group's own cannot both be met, they slide on one another:
+// the neighbour gives way. Modes are orthonormal over the keyframes, so the sum of squares over
+// modes is that over keyframes. False when nothing changes.
+bool GroupFitter::letSlide(const std::vector<float>& nodes) {
+  std::size_t keyframes = 0;
+  for (const PhaseClass& c : classes_) keyframes = std::max(keyframes, c.weights.keyframeCount());
+  bool slides = false;
+  const std::size_t columns = data_.columns;
+  std::vector<double> miss(columns);
+  for (std::size_t j = 0; j < data_.samples.size(); ++j) {
+    const BorderPoint& point = points_[data_.points[j]];
+    if (members_.owns(static_cast<std::uint32_t>(index(point.surface)))) continue;
+    LatticeSample& sample = data_.samples[j];
+    for (std::size_t c = 0; c < columns; ++c)
+      miss[c] = static_cast<double>(data_.values[j * columns + c]);
+    for (std::size_t i = 0; i < 8; ++i)
+      for (std::size_t c = 0; c < columns; ++c)
+        miss[c] -= static_cast<double>(sample.share[i] * nodes[sample.node[i] * columns + c]);
+    double square_m2 = 0;
+    for (const double m : miss) square_m2 += m * m / static_cast<double>(keyframes);
+    const double factor = 1 / (1 + square_m2 / (kSlides_m * kSlides_m));
+    slides |= factor < 0.5;
+    sample.weight *= static_cast<float>(factor);
+  }
+  return slides;
+}
+
+std::vector<float> GroupFitter::solve(std::vector<float> start, int steps) const {
+  return fitLattice(lattice_.nodes, data_.samples, data_.values, data_.columns, stiffness_,
+                    resting_, std::move(start), steps);
+}
+
+// Does the map turn over, or nearly, at a corner of the cell at any keyframe? Corner numbers have
+// bit 0 for x, 1 for z, 2 for y.
+bool GroupFitter::folds(const std::uint32_t (&corners)[8]) const {
+  const float h = lattice_.grid.spacing_m;
+  for (std::size_t c = 0; c < classes_.size(); ++c)
+    for (std::size_t k = 0; k < classes_[c].weights.keyframeCount(); ++k) {
+      const std::vector<Vec3f>& row = lattice_.rows_m[c][k];
+      Vec3f d[8];
+      for (std::size_t i = 0; i < 8; ++i) d[i] = row[corners[i]];
+      for (std::size_t i = 0; i < 8; ++i) {
+        const Vec3f x = Vec3f{h, 0, 0} + d[i | 1] - d[i & 6],
+                    z = Vec3f{0, 0, h} + d[i | 2] - d[i & 5],
+                    y = Vec3f{0, h, 0} + d[i | 4] - d[i & 3];
+        if (dot(x, cross(y, z)) < kLeastVolume * h * h * h) return true;
+      }
+    }
+  return false;
+}
+
+// False when no cell folds.
+bool GroupFitter::stiffenFolds() {
+  const LatticeGrid& grid = lattice_.grid;
+  std::vector<bool> stiffer(stiffness_.size(), false);
+  bool found = false;
+  for (int y = 0; y + 1 < grid.ny; ++y)
+    for (int z = 0; z + 1 < grid.nz; ++z)
+      for (int x = 0; x + 1 < grid.nx; ++x) {
+        std::uint32_t corners[8];
+        bool whole = true;
+        for (int i = 0; i < 8; ++i) {
+          const std::int32_t n =
+              lattice_.nodes.numberAt(x + (i & 1), y + (i >> 2), z + (i >> 1 & 1));
+          whole &= n >= 0;
+          corners[i] = static_cast<std::uint32_t>(n);
+        }
+        if (!whole || !used_[corners[0]] || !folds(corners)) continue;
+        found = true;
+        for (const std::uint32_t n : corners) stiffer[n] = true;
+      }
+  for (std::size_t n = 0; n < stiffer.size(); ++n)
+    if (stiffer[n]) stiffness_[n] *= kStiffer;
+  return found;
+}
+
 // Back from modes to the rows that the weights ask for.
 void GroupFitter::fillRows(const std::vector<float>& nodes) {
   const std::size_t columns = data_.columns, count = lattice_.nodes.nodes.size();
   std::size_t first = 0;
+  lattice_.rows_m.clear();
   for (const PhaseClass& c : classes_) {
     auto& rows = lattice_.rows_m.emplace_back();
     for (std::size_t r = 0; r < c.weights.rowCount(); ++r) {

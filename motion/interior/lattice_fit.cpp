@@ -10,9 +10,8 @@ namespace echocine {
 
 namespace {
 
-// Our choices: the residual falls to this part of the right-hand side, which leaves micrometres.
+// Our choice: the residual falls to this part of the right-hand side, which leaves micrometres.
 constexpr double kTolerance = 1e-4;
-constexpr int kMostSteps = 80;
 // Holds what no sample reaches; far below any sample's weight.
 constexpr double kRidge = 1e-6;
 
@@ -44,8 +43,8 @@ std::size_t slotOf(int x, int y, int z) {
 // The normal equations: a stencil per node.
 class Equations {
  public:
-  Equations(const ActiveNodes& nodes, std::span<const LatticeSample> samples, double stiffness,
-            std::span<const std::uint32_t> fixed);
+  Equations(const ActiveNodes& nodes, std::span<const LatticeSample> samples,
+            std::span<const float> stiffness, std::span<const std::uint32_t> fixed);
 
   std::size_t size() const { return starts_.size() - 1; }
   const std::vector<float>& diagonal() const { return diagonal_; }
@@ -62,7 +61,7 @@ class Equations {
   void addProduct(std::span<const std::uint32_t> numbers, std::span<const double> factors,
                   double weight);
   void addSamples(std::span<const LatticeSample> samples);
-  void addBending(double stiffness);
+  void addBending(std::span<const float> stiffness);
   void addDifference(Place at, std::span<const Offset> offsets, std::span<const double> factors,
                      double weight);
   void compress(std::span<const std::uint32_t> fixed);
@@ -74,7 +73,7 @@ class Equations {
 };
 
 Equations::Equations(const ActiveNodes& nodes, std::span<const LatticeSample> samples,
-                     double stiffness, std::span<const std::uint32_t> fixed)
+                     std::span<const float> stiffness, std::span<const std::uint32_t> fixed)
     : nodes_(nodes), rows_(nodes.nodes.size(), Row{}) {
   addSamples(samples);
   addBending(stiffness);
@@ -122,7 +121,7 @@ void Equations::addDifference(Place at, std::span<const Offset> offsets,
 }
 
 // |D^2 u|^2 = u_xx^2 + u_yy^2 + u_zz^2 + 2 (u_xy^2 + u_yz^2 + u_zx^2).
-void Equations::addBending(double stiffness) {
+void Equations::addBending(std::span<const float> stiffness) {
   constexpr Offset kAxes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   constexpr double kStraight[3] = {1, -2, 1}, kMixed[4] = {1, -1, -1, 1};
   for (std::uint32_t n = 0; n < rows_.size(); ++n) {
@@ -130,9 +129,9 @@ void Equations::addBending(double stiffness) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Offset a = kAxes[i], b = kAxes[(i + 1) % 3];
       const Offset straight[3] = {{-a.x, -a.y, -a.z}, {0, 0, 0}, a};
-      addDifference(at, straight, kStraight, stiffness);
+      addDifference(at, straight, kStraight, stiffness[n]);
       const Offset mixed[4] = {{0, 0, 0}, a, b, {a.x + b.x, a.y + b.y, a.z + b.z}};
-      addDifference(at, mixed, kMixed, 2 * stiffness);
+      addDifference(at, mixed, kMixed, 2 * stiffness[n]);
     }
   }
 }
@@ -184,19 +183,27 @@ Sums dots(const std::vector<float>& a, const std::vector<float>& b, std::size_t 
 // Conjugate gradients with the diagonal as preconditioner, every column with its own steps.
 class Solver {
  public:
-  Solver(const Equations& equations, std::vector<float> right_side, std::size_t columns)
-      : equations_(equations), columns_(columns), r_(std::move(right_side)) {
-    x_.assign(r_.size(), 0.0f);
+  Solver(const Equations& equations, std::vector<float> right_side, std::vector<float> start,
+         std::size_t columns)
+      : equations_(equations), columns_(columns), x_(std::move(start)), r_(std::move(right_side)) {
     z_.resize(r_.size());
     product_.resize(r_.size());
     precondition();
+    for (const double rho : dots(r_, z_, columns_))
+      target_.push_back(kTolerance * kTolerance * rho);
+    if (x_.empty()) {
+      x_.assign(r_.size(), 0.0f);
+    } else {
+      equations_.apply(x_, columns_, product_);
+      for (std::size_t i = 0; i < r_.size(); ++i) r_[i] -= product_[i];
+      precondition();
+    }
     p_ = z_;
     rho_ = dots(r_, z_, columns_);
-    for (const double rho : rho_) target_.push_back(kTolerance * kTolerance * rho);
   }
 
-  std::vector<float> solve() {
-    for (int i = 0; i < kMostSteps && !settled(); ++i) step();
+  std::vector<float> solve(int steps) {
+    for (int i = 0; i < steps && !settled(); ++i) step();
     return std::move(x_);
   }
 
@@ -250,8 +257,10 @@ class Solver {
 }  // namespace
 
 std::vector<float> fitLattice(const ActiveNodes& nodes, std::span<const LatticeSample> samples,
-                              std::span<const float> data, std::size_t columns, double stiffness,
-                              std::span<const std::uint32_t> fixed) {
+                              std::span<const float> data, std::size_t columns,
+                              std::span<const float> stiffness,
+                              std::span<const std::uint32_t> fixed, std::vector<float> start,
+                              int steps) {
   CHECK_EQ(data.size(), samples.size() * columns);
   const Equations equations(nodes, samples, stiffness, fixed);
   std::vector<float> right_side(nodes.nodes.size() * columns, 0.0f);
@@ -262,7 +271,7 @@ std::vector<float> fitLattice(const ActiveNodes& nodes, std::span<const LatticeS
       for (std::size_t c = 0; c < columns; ++c) to[c] += factor * data[j * columns + c];
     }
   for (const std::uint32_t n : fixed) std::fill_n(&right_side[n * columns], columns, 0.0f);
-  return Solver(equations, std::move(right_side), columns).solve();
+  return Solver(equations, std::move(right_side), std::move(start), columns).solve(steps);
 }
 
 }  // namespace echocine

@@ -36,11 +36,15 @@ struct LatticeSample {
 };
 
 // Minimises for each of `columns` fields u separately
-//   sum_j weight_j (N_j u - data_j)^2 + stiffness sum |D^2 u|^2,   D^2 in units of the lattice,
-// by conjugate gradients on all of them together. data: columns values per sample; fixed nodes keep
-// 0. Returns columns values per active node.
+//   sum_j weight_j (N_j u - data_j)^2 + sum_i stiffness_i |D^2 u|_i^2,   D^2 in units of the
+//   lattice,
+// by at most `steps` of conjugate gradients on all of them together, from `start` (columns values
+// per active node, or none: 0). data: columns values per sample; fixed nodes keep 0. Returns
+// columns values per active node.
 std::vector<float> fitLattice(const ActiveNodes& nodes, std::span<const LatticeSample> samples,
-                              std::span<const float> data, std::size_t columns, double stiffness,
-                              std::span<const std::uint32_t> fixed);
+                              std::span<const float> data, std::size_t columns,
+                              std::span<const float> stiffness,
+                              std::span<const std::uint32_t> fixed, std::vector<float> start,
+                              int steps);
 
 }  // namespace echocine

@@ -10,13 +10,17 @@
 #include <span>
 
 #include "motion/keyframes/control_motion.h"
+#include "scene/names.h"
 
 namespace echocine {
 
-inline constexpr Interpolation kInterpolations[] = {Interpolation::linear,
-                                                    Interpolation::catmull_rom,
-                                                    Interpolation::spline, Interpolation::fourier};
-inline constexpr std::size_t kInterpolationKinds = std::size(kInterpolations);
+// All kinds there are.
+inline constexpr std::size_t kInterpolationKinds = std::size(NamesOf<Interpolation>::kAll);
+inline constexpr auto kInterpolations = [] {
+  std::array<Interpolation, kInterpolationKinds> kinds{};
+  for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] = NamesOf<Interpolation>::kAll[k].value;
+  return kinds;
+}();
 
 // Over all left-out keyframes.
 struct InterpolationError {

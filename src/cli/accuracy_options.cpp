@@ -9,6 +9,7 @@
 #include "cli/progress_line.h"
 #include "cli/standard_error.h"
 #include "core/error.h"
+#include "scene/ranges.h"
 #include "scene/tolerance_reader.h"
 #include "study/tolerance.h"
 
@@ -16,6 +17,7 @@ namespace echocine {
 
 namespace {
 
+// The message names all, in the order from rough to fine.
 Preset presetOf(const std::string& name) {
   const auto found = std::find(kPresetNames.begin(), kPresetNames.end(), name);
   if (found == kPresetNames.end())
@@ -44,13 +46,15 @@ void AccuracyOptions::addTo(CLI::App& command) {
       ->type_name("DB");
 }
 
+// The command line goes before the scene's wish; two demands on the line, or a preset over a
+// scene's tolerance, contradict each other and are refused.
 AccuracyRecord AccuracyOptions::resolve(Scene& scene, int threads, bool quiet) const {
   const std::optional<SceneTolerance> written = readSceneTolerance(scene.file);
   std::optional<double> wanted_db = tolerance_db_;
   if (!wanted_db && written) wanted_db = written->db;
-  if (tolerance_db_ && !(*tolerance_db_ > 0 && std::isfinite(*tolerance_db_)))
-    throw SceneError(
-        fmt::format("--tolerance-db: {} is not accepted: a number over 0", *tolerance_db_));
+  if (tolerance_db_ && !ranges::kTolerance_db.contains(*tolerance_db_))
+    throw SceneError(fmt::format("--tolerance-db: {} is not accepted: {}", *tolerance_db_,
+                                 ranges::kTolerance_db.text()));
   if (preset_.empty() && !wanted_db) return {};
   AccuracyChoice choice;
   if (preset_.empty()) {

@@ -5,27 +5,35 @@
 
 #include <algorithm>
 
+#include "cli/documents.h"
+#include "cli/number_check.h"
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
 #include "compare/results.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "video/video.h"
 
 namespace echocine {
 
 namespace {
 
+constexpr double kMostFrame = 1e6;
+
 void addSide(CLI::App& command, compare::SideOptions& side, const std::string& prefix,
              const char* which) {
   const auto help = [&](const char* what) { return fmt::format("{} loop: {}", which, what); };
-  const auto positive = CLI::Range(1e-6, 1e6);
   command
-      .add_option("--" + prefix + "fps", side.fps, help("frame rate of the acquisition, frames/s"))
-      ->check(positive);
+      .add_option("--" + prefix + "fps", side.fps,
+                  help("frame rate of the acquisition, frames/s, 0.5 to 10000"))
+      ->check(within(kLeastFrameRate_hz, kMostFrameRate_hz))
+      ->type_name("NUMBER");
   command
-      .add_option("--" + prefix + "scale", side.mm_per_pixel, help("length scale, mm per pixel"))
-      ->check(positive);
+      .add_option("--" + prefix + "scale", side.mm_per_pixel,
+                  help("length scale, mm per pixel, 0.001 to 100"))
+      ->check(within(1e-3, 100))
+      ->type_name("NUMBER");
   command
       .add_option("--" + prefix + "sector", side.sector,
                   help("sector in pixels and degrees from straight down: "
@@ -34,22 +42,33 @@ void addSide(CLI::App& command, compare::SideOptions& side, const std::string& p
   command
       .add_option("--" + prefix + "pixel-aspect", side.pixel_aspect,
                   help("height of a pixel over its width, where the picture is stretched"))
-      ->check(CLI::Range(0.2, 5.0));
-  command.add_option("--" + prefix + "heart-rate", side.heart_rate_bpm, help("beats per minute"))
-      ->check(CLI::Range(10, 400));
+      ->check(within(0.2, 5))
+      ->type_name("NUMBER");
+  command
+      .add_option("--" + prefix + "heart-rate", side.heart_rate_bpm,
+                  help("beats per minute, 10 to 400"))
+      ->check(within(10, 400))
+      ->type_name("NUMBER");
 }
 
 void addTimes(CLI::App& command, compare::SideOptions& side, const std::string& prefix,
               const char* which) {
   const auto help = [&](const char* what) { return fmt::format("{} loop: {}", which, what); };
-  command.add_option("--" + prefix + "-ed", side.ed_frame, help("frame of end-diastole, from 0"));
-  command.add_option("--" + prefix + "-es", side.es_frame, help("frame of end-systole, from 0"));
+  command.add_option("--" + prefix + "-ed", side.ed_frame, help("frame of end-diastole, from 0"))
+      ->check(within(0, kMostFrame))
+      ->type_name("NUMBER");
+  command.add_option("--" + prefix + "-es", side.es_frame, help("frame of end-systole, from 0"))
+      ->check(within(0, kMostFrame))
+      ->type_name("NUMBER");
   command
       .add_option("--" + prefix + "-r-waves", side.r_waves_s,
-                  help("times of its R waves, s from the first frame"))
+                  help("times of its R waves, s from the first frame: a,b,..."))
+      ->check(within(0, 3600))
+      ->type_name("NUMBER")
       ->delimiter(',');
 }
 
+// What one option says of another: the parser looks at each alone.
 void checkOptions(const compare::CompareOptions& o) {
   if (o.contours && o.scene.empty())
     throw SceneError(
@@ -61,6 +80,7 @@ void checkOptions(const compare::CompareOptions& o) {
     throw SceneError("--knots: needs two greys or more, such as 0,40,90,160,255");
 }
 
+// The one number first: it is what optimisers and impatient readers want.
 void print(const compare::Comparison& c, const std::filesystem::path& folder) {
   fmt::print(
       "discrepancy {:.4f} (0 equal, about 1 unrelated), mean of {} frames; {:.4f} as placed\n",
@@ -118,19 +138,24 @@ CompareCommand::CompareCommand(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--knots", options_.knots, "Synthetic greys (0 to 255) to put the knots at")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 255.0));
+      ->check(within(0, 255))
+      ->type_name("NUMBER");
   command->add_option("--scene", options_.scene,
                       "Scene of the render: metrics in bands about its boundaries");
   command->add_option("--band-mm", options_.band_mm, "Full width of a band, mm")
-      ->check(CLI::Range(0.1, 100.0))
+      ->check(within(0.1, 100))
+      ->type_name("NUMBER")
       ->capture_default_str();
   command->add_flag("--contours", options_.contours, "Draw the scene's contours into the pictures");
-  command->add_option("--threads", threads_, "Threads; 0 for one per core")
+  command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
+  command->footer("Example: echocine compare loop patient.dcm -o comparison --heart-rate 62.5\n" +
+                  std::string(kDocuments));
 }
 
 int CompareCommand::run() {
+  // A flag that leaves out reads better than one that turns on what is on.
   options_.align_space = !no_space_;
   checkOptions(options_);
   listenForStop();

@@ -11,6 +11,7 @@ class App;
 
 namespace echocine {
 
+// Options as given; compareLoops() judges what files can tell.
 class CompareCommand {
  public:
   explicit CompareCommand(CLI::App& app);  // adds the sub-command

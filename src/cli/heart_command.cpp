@@ -5,6 +5,7 @@
 
 #include <charconv>
 
+#include "cli/documents.h"
 #include "cli/stop_signal.h"
 #include "core/error.h"
 
@@ -12,6 +13,7 @@ namespace echocine {
 
 namespace {
 
+// From the heart's own table: a new view needs no change here.
 std::string viewList() {
   std::string list;
   for (const heart::ViewName& name : heart::viewNames())
@@ -27,6 +29,7 @@ void applySegment(const std::string& text, heart::Parameters& parameters) {
         "number 1 to {}, such as 7:0 for an akinetic mid-anterior wall",
         text, heart::kSegments));
   };
+  // from_chars and not stod: it knows no locale, in which 0.5 might end at the point.
   std::vector<double> values;
   for (const char *at = text.data(), *end = at + text.size();; ++at) {
     double value = 0;
@@ -39,6 +42,7 @@ void applySegment(const std::string& text, heart::Parameters& parameters) {
   }
   if (!(values[0] >= 1 && values[0] <= heart::kSegments)) refuse();
   const int number = static_cast<int>(values[0]);
+  // A segment number with a fraction is a mistake, not the segment below.
   if (values.size() < 2 || values.size() > 3 || values[0] != number) refuse();
   heart::Segment& segment = parameters.segments[static_cast<std::size_t>(number - 1)];
   segment.amplitude = values[1];
@@ -56,6 +60,7 @@ HeartCommand::HeartCommand(CLI::App& app) {
   command->add_option("--view", view_, "Where the probe is held: " + viewList())
       ->capture_default_str();
   const heart::Parameters defaults;
+  // One option per dial, with unit, range and default from the heart's own table.
   for (const heart::Dial& dial : heart::dials()) {
     const std::string unit = std::string(dial.unit) == "1" ? "" : std::string(" ") + dial.unit;
     const auto standard = dial.get(defaults);
@@ -72,17 +77,26 @@ HeartCommand::HeartCommand(CLI::App& app) {
       "--segment", segments_,
       "Wall motion of one of the 17 segments, NUMBER:AMPLITUDE[:DELAY_MS]: 1 healthy, "
       "0 akinetic, below 0 dyskinetic; may be given often");
+  command
+      ->add_option("--rule", rule_,
+                   "What gives way where --segment says that walls are still: segments (the "
+                   "ejection fraction falls) or volumes (it stays as dialled)")
+      ->check(CLI::IsMember({"segments", "volumes"}))
+      ->capture_default_str();
   command->add_option("--keyframes", wanted_.keyframes, "Keyframes a beat")
       ->check(CLI::Range(4, 100))
       ->capture_default_str();
   command->add_flag(
       "--even", even_,
       "Space keyframes evenly, not by how much moves; end-systole then falls between two");
-  command->add_option("--threads", wanted_.threads, "Threads; 0 for one per core")
+  command->add_option("--threads", wanted_.threads, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
+  command->footer("Example: echocine heart --ef 0.35 --view a2c -o failing_heart\n" +
+                  std::string(kDocuments));
 }
 
+// Ranges and contradictions are the heart's to judge: this only reads.
 int HeartCommand::run() {
   const auto view = heart::viewOf(view_);
   if (!view)
@@ -91,6 +105,7 @@ int HeartCommand::run() {
   if (even_) wanted_.spacing = heart::KeyframeSpacing::even;
   wanted_.parameters = heart::parametersFrom(given_);
   for (const std::string& segment : segments_) applySegment(segment, wanted_.parameters);
+  wanted_.parameters.volumes_rule = rule_ == "volumes";
   listenForStop();
   writeHeart(wanted_, folder_, {.keep_going = [] { return !stopWanted(); }});
   if (!quiet_)

@@ -22,8 +22,9 @@ class HeartCommand {
  private:
   HeartFiles wanted_;
   std::filesystem::path folder_;
+  // By the dial's key; what is not given follows what is.
   std::map<std::string, double> given_;
-  std::string view_ = "a4c";
+  std::string view_ = "a4c", rule_ = "segments";
   std::vector<std::string> segments_;
   bool even_ = false, quiet_ = false;
 };

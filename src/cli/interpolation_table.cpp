@@ -7,13 +7,12 @@
 #include "core/units.h"
 #include "motion/keyframes/interpolation_judge.h"
 #include "motion/mesh_motion.h"
+#include "scene/names.h"
 
 namespace echocine {
 
 namespace {
 
-constexpr const char* kKindNames[kInterpolationKinds] = {"linear", "catmull-rom", "spline",
-                                                         "fourier"};
 struct Row {
   std::string name;
   std::array<std::optional<InterpolationError>, kInterpolationKinds> errors;
@@ -50,7 +49,7 @@ nlohmann::ordered_json rowJson(const Row& row) {
   for (std::size_t k = 0; k < kInterpolationKinds; ++k) {
     const std::optional<InterpolationError>& e = row.errors[k];
     if (!e) continue;
-    auto& json = kinds[kKindNames[k]];
+    auto& json = kinds[nameOf(kInterpolations[k])];
     json = {{"vertex_rms_mm", millimetresFromMetres(e->vertex_rms_m)},
             {"vertex_max_mm", millimetresFromMetres(e->vertex_max_m)}};
     if (e->volumes == 0) continue;
@@ -72,7 +71,7 @@ void printCells(const Row& row, double (*cell)(const InterpolationError&), bool 
 void printBlock(const std::vector<Row>& rows, const char* title,
                 double (*cell)(const InterpolationError&), bool volume) {
   fmt::print("{:<28}", title);
-  for (const char* kind : kKindNames) fmt::print(" {:>11}", kind);
+  for (const Interpolation kind : kInterpolations) fmt::print(" {:>11}", nameOf(kind));
   fmt::print("\n");
   for (const Row& row : rows) {
     if (volume && row.errors[0] && row.errors[0]->volumes == 0) continue;

@@ -3,15 +3,42 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 
 namespace echocine {
 
-// Control characters, such as line breaks within a quoted key, spelled out: \x0a.
+// Longest word or quotation that a message repeats, and longest message; our choice.
+inline constexpr std::size_t kLongestQuote = 200, kLongestLine = 2000;
+
+// The ends tell most: of a path its root and its file.
+inline std::string shortened(std::string_view text, std::size_t longest) {
+  if (text.size() <= longest) return std::string(text);
+  const std::size_t half = (longest - 5) / 2;
+  return fmt::format("{} ... {}", text.substr(0, half), text.substr(text.size() - half));
+}
+
+// Words of over kLongestQuote characters, and quotations, with their middle left out.
+inline std::string withShortWords(std::string_view text) {
+  std::string line;
+  while (!text.empty()) {
+    const bool quoted = text.front() == '"' && text.find('"', 1) != std::string_view::npos;
+    const std::size_t end = quoted ? text.find('"', 1) + 1
+                            : text.front() == ' ' || text.front() == '"'
+                                ? 1
+                                : std::min(text.find_first_of(" \""), text.size());
+    line += shortened(text.substr(0, end), kLongestQuote);
+    text.remove_prefix(end);
+  }
+  return line;
+}
+
+// Control characters, such as line breaks within a quoted key, spelled out: \x0a. What is longer
+// than anybody reads is cut.
 inline std::string oneLine(std::string_view text) {
   std::string line;
-  for (const char c : text) {
+  for (const char c : shortened(withShortWords(text), kLongestLine)) {
     const auto byte = static_cast<unsigned char>(c);
     line += byte < 0x20 || byte == 0x7f ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
   }

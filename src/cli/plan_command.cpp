@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/documents.h"
 #include "cli/interpolation_table.h"
 #include "cli/stop_signal.h"
 #include "cli/warning_printer.h"
@@ -15,23 +16,25 @@ namespace echocine {
 
 namespace {
 
+// Seconds as long as one would wait for them.
 std::string duration(double seconds) {
   if (seconds < 100) return fmt::format("{:.1f} s", seconds);
   return fmt::format("{:.0f} min", seconds / 60);
 }
 
+// A share of time only of what runs: "0 %" of what is off would say nothing.
 void printEffects(const Manifest& manifest) {
   fmt::print("{:<24} {:<4} {:>5}  {}\n", "effect", "", "time", "why");
   for (const EffectDecision& e : manifest.plan.effects.decisions) {
     const double share = timeShare(e, manifest);
     const std::string percent = e.on ? fmt::format("{:.0f} %", 100 * share) : "";
-    fmt::print("{:<24} {:<4} {:>5}  {}\n", e.name, e.on ? "on" : "off", percent, e.reason);
+    fmt::print("{:<24} {:<4} {:>5}  {}\n", e.name(), e.on ? "on" : "off", percent, e.reason);
   }
 }
 
 void printRest(const Estimate& estimate) {
   const LoopPlan& plan = estimate.measured.plan;
-  for (const EffectDecision& i : plan.interfaces)
+  for (const Omission& i : plan.interfaces)
     fmt::print("{:<24} {:<4} {:>5}  {}\n", i.name, "off", "", i.reason);
   fmt::print("\ntracer      {}: {}\n", plan.tracerName(), plan.tracer_reason);
   fmt::print("echoes      {}\n", plan.echo_reason);
@@ -46,6 +49,7 @@ void printRest(const Estimate& estimate) {
   fmt::print("memory      {:.0f} MB\n", estimate.memory_bytes * 1e-6);
 }
 
+// The manifest's own parts, so that scripts read plan and manifest alike.
 void printJson(const Estimate& estimate) {
   nlohmann::ordered_json json = planJson(estimate.measured.plan);
   json["effects"] = effectsJson(estimate.measured);
@@ -64,7 +68,7 @@ PlanCommand::PlanCommand(CLI::App& app) {
       "plan", "Say which effects a scene's loop needs, why, and what it will take in s and MB");
   command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")
       ->required();
-  command->add_option("--threads", threads_, "Threads; 0 for one per core")
+  command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   accuracy_.addTo(*command);
   command->add_flag(
@@ -73,6 +77,7 @@ PlanCommand::PlanCommand(CLI::App& app) {
       "from the rest, errors in mm and mL");
   command->add_flag("--json", json_, "Print JSON");
   command->add_flag("--quiet", quiet_, "Print no warnings");
+  command->footer("Example: echocine plan scene.toml\n" + std::string(kDocuments));
 }
 
 int PlanCommand::run() {

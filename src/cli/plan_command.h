@@ -11,6 +11,7 @@ class App;
 
 namespace echocine {
 
+// Renders a few frames into a temporary folder to measure what the loop will take.
 class PlanCommand {
  public:
   explicit PlanCommand(CLI::App& app);  // adds the sub-command

@@ -11,6 +11,7 @@ ProgressBar::ProgressBar(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FI
 
 bool ProgressBar::due(std::size_t done, std::size_t total) {
   if (quiet_) return false;
+  // Ten a second is as fast as one reads; a log wants a line now and then.
   const auto pause = terminal_ ? std::chrono::milliseconds(100) : std::chrono::milliseconds(10000);
   const Clock::time_point now = Clock::now();
   if (now - last_shown_ < pause && done != total) return false;
@@ -25,6 +26,7 @@ void ProgressBar::draw(std::size_t done, std::size_t total, const std::string& t
   }
   constexpr std::size_t kWidth = 30;
   const std::size_t full = total > 0 ? kWidth * done / total : kWidth;
+  // Back to the line's start, and the rest of an older, longer line erased.
   writeError(fmt::format("\r[{:#<{}}{:-<{}}] {}\x1b[K", "", full, "", kWidth - full, text));
   open_ = true;
 }
@@ -34,6 +36,7 @@ void ProgressBar::finish() {
   open_ = false;
 }
 
+// Hours come out as minutes over 60: long runs are told apart at a glance.
 std::string minutesAndSeconds(double seconds) {
   const auto whole = static_cast<int>(seconds);
   return fmt::format("{}:{:02}", whole / 60, whole % 60);

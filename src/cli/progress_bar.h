@@ -6,6 +6,7 @@
 
 namespace echocine {
 
+// On standard error, so that a pipe of the output stays clean.
 class ProgressBar {
  public:
   explicit ProgressBar(bool quiet);

@@ -13,6 +13,7 @@ void ProgressLine::show(const Progress& progress) {
   const Clock::time_point now = Clock::now();
   if (progress.task != task_) {
     task_ = progress.task;
+    // A task's clock begins where the last one's ended: set-up is nobody's rate.
     task_start_ = last_told_;
   }
   last_told_ = now;
@@ -23,6 +24,8 @@ void ProgressLine::show(const Progress& progress) {
   const double elapsed_s = std::chrono::duration<double>(now - task_start_).count();
   const double per_second = elapsed_s > 0 ? static_cast<double>(progress.done) / elapsed_s : 0;
   const auto left = static_cast<double>(progress.total - progress.done);
+  // What the job says itself goes first: it knows that settings differ in cost. A rate of 0 says
+  // nothing yet.
   const double left_s = progress.seconds_left >= 0 ? progress.seconds_left
                         : per_second > 0           ? left / per_second
                                                    : 0;

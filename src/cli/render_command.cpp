@@ -5,11 +5,13 @@
 
 #include <charconv>
 
+#include "cli/documents.h"
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
 #include "core/error.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "scene/scene_reader.h"
+#include "scene/truth_reader.h"
 #include "simulate/plan_loop.h"
 
 namespace echocine {
@@ -34,6 +36,19 @@ std::pair<int, int> parseRange(const std::string& text, int loop_frames) {
   return range;
 }
 
+void askForTruth(const std::string& list, Scene& scene) {
+  std::vector<std::string> kinds;
+  for (std::size_t begin = 0, end = 0; begin < list.size(); begin = end + 1) {
+    end = std::min(list.find(',', begin), list.size());
+    kinds.push_back(list.substr(begin, end - begin));
+  }
+  const std::string unknown = switchOn(kinds, scene.truth);
+  if (!unknown.empty())
+    throw SceneError(
+        fmt::format("--truth: \"{}\" is no kind of truth, accepted: {}", unknown, kTruthKinds));
+}
+
+// Times are summed over threads, so that settings compare whatever the number of cores.
 void printSummary(const RenderSummary& summary, const RenderOptions& options, const Scene& scene) {
   const Manifest& m = summary.manifest;
   fmt::print("{} frame{} in {}: {:.1f} frames/s on {}\n", summary.frames_done,
@@ -50,6 +65,7 @@ void printSummary(const RenderSummary& summary, const RenderOptions& options, co
   if (scene.output.exr) add("intensity/frame_*.exr");
   if (scene.output.cine) add("cine.avi");
   if (scene.output.png) add("png/frame_*.png");
+  if (scene.truth.any()) add("truth/");
   if (scene.output.report) add("report.html");
   add("manifest.json");
   fmt::print("  {}\n", parts);
@@ -66,24 +82,34 @@ RenderCommand::RenderCommand(CLI::App& app) {
       ->add_option("-o,--output", options_.folder,
                    "Folder for intensity/, cine.avi, report.html and manifest.json")
       ->required();
-  command->add_option("--threads", options_.threads, "Threads; 0 for one per core")
+  command->add_option("--threads", options_.threads, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   command->add_option("--frames", frames_,
                       "Only frames A up to, without, B of the loop, counted from 0 (A:B, A:, :B)");
+  command->add_option("--truth", truth_,
+                      "Write truth too, beside what the scene asks for: all, or some of labels, "
+                      "contours, tracks, function with commas between");
   accuracy_.addTo(*command);
   command->add_flag("--resume", options_.resume,
                     "Keep frames whose EXR is whole and of this very scene");
+  command->add_flag("--overwrite", options_.overwrite,
+                    "Replace the loop of another scene in the folder; without it that is refused");
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
+  command->footer("Example: echocine render scene.toml -o loop --frames 0:50\n" +
+                  std::string(kDocuments));
 }
 
+// Signals first: a run that is stopped while it reads must end cleanly too.
 int RenderCommand::run() {
   listenForStop();
   Scene scene = readScene(scene_file_);
+  askForTruth(truth_, scene);
   if (!frames_.empty()) options_.frames = parseRange(frames_, CardiacClock(scene).frameCount());
   options_.accuracy = accuracy_.resolve(scene, options_.threads, quiet_);
   ProgressLine line(quiet_);
   const RenderSummary summary = renderLoop(scene, options_, line.monitor());
   line.finish();
+  // A stopped run is a failed job: scripts must not go on with half a loop.
   if (summary.frames_done < summary.frames_wanted)
     throw JobError(
         fmt::format("stopped: {} of {} frames are finished in {}; --resume goes on from there",

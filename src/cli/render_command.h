@@ -12,6 +12,7 @@ class App;
 
 namespace echocine {
 
+// The main job; what is asked of a run, as opposed to a scene, stands here.
 class RenderCommand {
  public:
   explicit RenderCommand(CLI::App& app);  // adds the sub-command
@@ -19,6 +20,7 @@ class RenderCommand {
 
  private:
   std::string scene_file_;
+  std::string truth_;  // kinds, between commas
   std::string frames_;
   bool quiet_ = false;
   RenderOptions options_;

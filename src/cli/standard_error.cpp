@@ -15,14 +15,17 @@ namespace echocine {
 
 namespace {
 
+// A plain number: handlers read it when nothing else may be relied on.
 int exit_code = 1;
 
+// Only what is allowed in a signal handler: write() and _exit(), no formatting.
 void endAborted(int) {
   endsFirst();
   writeError("echocine: a library gave up (abort), most likely for want of memory\n");
   ::_exit(exit_code);
 }
 
+// An exception that left a thread of a library, or was thrown while another was on its way.
 [[noreturn]] void endUncaught() {
   constexpr const char* kUnknown = "a library gave up, most likely for want of memory";
   endsFirst();
@@ -44,6 +47,7 @@ void endAborted(int) {
 
 }  // namespace
 
+// A closed stream's number would go to the next file that is opened, and messages into that file.
 void keepStandardStreams() {
   for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
     if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
@@ -63,6 +67,7 @@ void endsFirst() noexcept {
   static std::atomic<pid_t> first{0};
   pid_t present = 0;
   if (first.compare_exchange_strong(present, ::gettid()) || present == ::gettid()) return;
+  // Another thread is ending the program: this one must say nothing and wait for the end.
   for (;;) ::pause();
 }
 

@@ -9,8 +9,10 @@ namespace echocine {
 
 namespace {
 
+// Lock-free, so it may be written from a signal handler.
 std::atomic<long> first_wish_s{0};  // 0: none yet
 
+// Monotonic seconds, from 1: 0 is taken. clock_gettime() is safe in a handler.
 long now_s() {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC, &now);
@@ -30,6 +32,7 @@ void noteStop(int signal) {
 
 }  // namespace
 
+// Who is started by nohup keeps running when the terminal goes.
 void listenForStop() {
   std::signal(SIGINT, noteStop);
   std::signal(SIGTERM, noteStop);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "cli/documents.h"
+#include "cli/number_check.h"
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
 #include "core/error.h"
@@ -16,6 +18,8 @@ namespace echocine {
 
 namespace {
 
+// Here and not in the parser, so that the message names the knobs in the same form as a scene's
+// errors.
 void refuseUnknownKnobs(const std::vector<std::string>& wanted) {
   const std::vector<std::string> names = knobNames();
   for (const std::string& knob : wanted)
@@ -24,6 +28,7 @@ void refuseUnknownKnobs(const std::vector<std::string>& wanted) {
           fmt::format("--knobs: \"{}\" is not a knob, accepted: {}", knob, fmt::join(names, ", ")));
 }
 
+// Written anew after every round: what a stopped study leaves is whole as far as it goes.
 void writeAll(const StudyResult& result, const std::filesystem::path& folder) {
   writeStudyFiles(result, folder);
   writeStudyPage(result, folder / "study.html");
@@ -55,9 +60,11 @@ StudyCommand::StudyCommand(CLI::App& app) {
                    fmt::format("Only these knobs, a,b,...: {}", fmt::join(knobNames(), ", ")))
       ->delimiter(',');
   command
-      ->add_option("--budget-s", options_.budget_s,
-                   "Begin no round that would end later than this many seconds after the start")
-      ->check(CLI::PositiveNumber)
+      ->add_option(
+          "--budget-s", options_.budget_s,
+          "Begin nothing later than this many seconds after the start: the run ends within "
+          "one setting of it")
+      ->check(within(1e-3, 1e9))
       ->type_name("SECONDS");
   command
       ->add_option("--threads", options_.threads,
@@ -65,6 +72,9 @@ StudyCommand::StudyCommand(CLI::App& app) {
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
+  command->footer(
+      "Example: echocine study scene.toml -o study --knobs lines,samples --budget-s 60\n" +
+      std::string(kDocuments));
 }
 
 int StudyCommand::run() {

@@ -11,6 +11,7 @@ class App;
 
 namespace echocine {
 
+// One thread unless asked: times of a single frame are what settings are compared by.
 class StudyCommand {
  public:
   explicit StudyCommand(CLI::App& app);  // adds the sub-command

@@ -14,6 +14,7 @@ namespace echocine::compare {
 
 namespace {
 
+// An interval of angles (rad) or of depths (m, or parts of the outer radius).
 struct Span {
   double lo, hi;
   double length() const { return hi - lo; }
@@ -33,6 +34,8 @@ constexpr double kEdgePx = 1.5;
 
 }  // namespace
 
+// Without a length scale on both sides depths can only be compared as parts of each sector's own
+// radius.
 BeamGrid commonGrid(const Loop& synthetic, const Loop& real) {
   BeamGrid grid;
   grid.metric = synthetic.metres_per_pixel && real.metres_per_pixel;
@@ -46,12 +49,14 @@ BeamGrid commonGrid(const Loop& synthetic, const Loop& real) {
   grid.last_rad = std::min(a.hi, b.hi);
   grid.near = std::max(p.lo, q.lo);
   grid.far = std::min(p.hi, q.hi);
+  // A third: less than that cannot be a view of the same thing. Our choice.
   if (grid.last_rad - grid.first_rad < std::min(a.length(), b.length()) / 3)
     noOverlap(synthetic, real, "angles", {degreesFromRadians(a.lo), degreesFromRadians(a.hi)},
               {degreesFromRadians(b.lo), degreesFromRadians(b.hi)}, "degrees");
   if (grid.far - grid.near < std::min(p.length(), q.length()) / 3)
     noOverlap(synthetic, real, "depths", {1e3 * p.lo, 1e3 * p.hi}, {1e3 * q.lo, 1e3 * q.hi},
               grid.metric ? "mm" : "thousandths");
+  // As many samples as the coarser picture has pixels along a line: more would only repeat it.
   const double pixels =
       (grid.far - grid.near) * std::min(pixelsPerUnit(grid, synthetic), pixelsPerUnit(grid, real));
   grid.samples = static_cast<int>(std::clamp(pixels, 64.0, 384.0));
@@ -66,6 +71,7 @@ double pixelsPerUnit(const BeamGrid& grid, const Loop& loop) {
   return grid.metric ? 1 / *loop.metres_per_pixel : loop.sector().r_max;
 }
 
+// Angles count from straight down, towards +x; y runs downwards.
 PicturePoint pictureAt(const BeamGrid& grid, const Loop& loop, const Placement& placement,
                        double angle_rad, double depth) {
   const double r = placement.scale * depth * pixelsPerUnit(grid, loop);
@@ -74,6 +80,8 @@ PicturePoint pictureAt(const BeamGrid& grid, const Loop& loop, const Placement& 
           loop.sector().apex_y + placement.shift_y_px + r * std::cos(angle)};
 }
 
+// The sector is narrowed by the same length at its arcs and at its sides, where that is an angle
+// that grows towards the apex.
 PixelPlane validSamples(const BeamGrid& grid, const Loop& loop, const Placement& placement) {
   const Video& v = loop.video;
   Sector inner = loop.sector();
@@ -105,6 +113,7 @@ namespace {
 void resampleTraced(const BeamGrid& grid, const Loop& loop, const Placement& placement,
                     BeamLoop& out) {
   const TracedGreys& t = loop.traced;
+  // Pixels of that picture: lines stand at whole numbers, samples at halves, as in an EXR.
   const double sample_m = (t.far_m - t.near_m) / t.samples,
                line_rad = (t.last_rad - t.first_rad) / (t.lines - 1);
   std::vector<PixelPlace> places;
@@ -160,6 +169,8 @@ BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& place
       const PicturePoint p = pictureAt(grid, loop, placement, grid.angle(i), grid.depth(k));
       places.push_back(pixelPlace(v.width, v.height, p.x, p.y));
     }
+  // A Gaussian of half the spacing is what the coarser raster can hold; the pixel itself has half a
+  // pixel of it already, and variances subtract.
   const double spacing_px = (grid.far - grid.near) / grid.samples * pixelsPerUnit(grid, loop);
   const double sigma = spacing_px > 1 ? 0.5 * std::sqrt(spacing_px * spacing_px - 1) : 0;
   out.frames.resize(v.frames.size());
@@ -178,6 +189,7 @@ BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& place
   return out;
 }
 
+// A sample's area in the picture grows with its depth; over the outer depth it is 1 at most.
 std::vector<float> areaWeights(const BeamGrid& grid, const PixelPlane& a, const PixelPlane& b) {
   std::vector<float> weights(grid.size(), 0);
   for (int i = 0; i < grid.lines; ++i)

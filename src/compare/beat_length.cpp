@@ -19,8 +19,13 @@ double parabolaOffset(double left, double middle, double right) {
   return bend > 0 ? std::clamp(0.5 * (left - right) / bend, -0.5, 0.5) : 0;
 }
 
+// Our choice.
+constexpr double kClearlyBetter = 1.15, kMuchBetter = 1.6;
+
 }  // namespace
 
+// d is 0 for equal frames and 1 for unrelated ones, since |a - b|^2 averages to 2 |a|^2 where a and
+// b have nothing in common.
 BeatLength findBeatLength(const Features& features, double shortest) {
   const auto n = static_cast<int>(features.size());
   BeatLength beat;
@@ -35,6 +40,7 @@ BeatLength findBeatLength(const Features& features, double shortest) {
                              features[static_cast<std::size_t>(j + lag)]);
     d.push_back(energy > 0 ? sum / (n - lag) / (2 * energy) : 0);
   }
+  // The last lag has one pair of frames alone: too few to be a minimum. Three frames are no beat.
   const int last = n - 2, first = std::max(3, static_cast<int>(std::ceil(shortest)));
   if (last <= first) return beat;
   // The greatest rise before a lag says how far the loop went away before it came back.
@@ -43,7 +49,11 @@ BeatLength findBeatLength(const Features& features, double shortest) {
     const auto at = static_cast<std::size_t>(lag);
     if (lag >= first && d[at] < d[at - 1] && d[at] <= d[at + 1]) {
       const double drop = away > 0 ? (away - d[at]) / away : 0;
-      if (drop > 1.15 * best_drop && drop > 0.25) {  // a later beat must be clearly better
+      // A later beat must be clearly better, and a whole number of earlier ones much: two beats are
+      // more alike than one where breathing, or every other beat, differs.
+      const double times = beat.frames > 0 ? lag / beat.frames : 0.5;
+      const bool multiple = times > 1.5 && std::abs(times - std::round(times)) < 0.1;
+      if (drop > (multiple ? kMuchBetter : kClearlyBetter) * best_drop && drop > 0.25) {
         best_drop = drop;
         beat.frames = lag + parabolaOffset(d[at - 1], d[at], d[at + 1]);
       }
@@ -58,6 +68,7 @@ BeatLength findBeatLength(const Features& features, double shortest) {
   // One beat: still falling at the end. The step from the last frame to the first of the next beat
   // is as long as the others.
   const double drop = away > 0 ? (away - d[static_cast<std::size_t>(n) - 1]) / away : 0;
+  // Our choice: higher than above, for nothing behind the end confirms it.
   if (drop > 0.4) {
     beat.frames = n;
     beat.confidence = std::clamp(drop, 0.0, 1.0);

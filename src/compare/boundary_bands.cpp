@@ -23,6 +23,7 @@ struct BoundaryBands::State {
 
 BoundaryBands::BoundaryBands(const std::filesystem::path& scene, const Loop& synthetic,
                              const BeamGrid& grid, double width_m) {
+  // Contours are cut anew from the scene, so the loop must be one that was rendered.
   if (synthetic.scene_sha256.empty())
     throw SceneError(
         fmt::format("--scene: {} is no render folder; bands need one", synthetic.video.name));
@@ -31,6 +32,8 @@ BoundaryBands::BoundaryBands(const std::filesystem::path& scene, const Loop& syn
         "--scene: bands are in mm, and the real loop has no length scale; give --scale");
   state_ = std::make_unique<State>(scene, grid, width_m);
   const Probe& p = state_->scene.probe;
+  // The sum of all that two sectors can differ in, in rad and in parts of the radius: 1e-6 is what
+  // the manifest's decimals lose.
   const double off = std::abs(p.first_angle_rad - synthetic.sector().first_rad) +
                      std::abs(p.last_angle_rad - synthetic.sector().last_rad) +
                      std::abs((p.face_radius_m + p.max_depth_m) / *synthetic.metres_per_pixel /
@@ -55,6 +58,7 @@ std::vector<Contour> BoundaryBands::contoursAt(double phase) const {
 
 namespace {
 
+// In the imaging plane, x and z; to the nearer end where the foot lies outside the edge.
 double distanceToEdge(double x, double z, Vec3d a, Vec3d b) {
   const double ux = b.x - a.x, uz = b.z - a.z, length2 = ux * ux + uz * uz;
   const double t =
@@ -68,6 +72,7 @@ void markEdge(const BeamGrid& g, Vec3d a, Vec3d b, double half, std::vector<char
                edge = std::hypot(b.x - a.x, b.z - a.z);
   const double r_lo = std::max(1e-6, std::min(reach_a, reach_b) - edge - half),
                r_hi = std::max(reach_a, reach_b) + half;
+  // The angle under which half a band shows at the nearest depth; a quarter turn at the apex.
   const double margin = std::asin(std::min(1.0, (half + edge) / std::max(r_lo, half + edge)));
   const double angle_a = std::atan2(a.x, a.z), angle_b = std::atan2(b.x, b.z);
   const double per_line = (g.last_rad - g.first_rad) / std::max(1, g.lines - 1),

@@ -12,6 +12,7 @@ namespace echocine::compare {
 namespace {
 
 // Which two hats a grey lies under, and the weight of the right one.
+// Hats: the linear functions that are 1 on their own knot and 0 on all others.
 struct Place {
   std::size_t left;
   double right_share;
@@ -50,6 +51,8 @@ std::vector<double> nonNegative(const cv::Mat& a, const cv::Mat& b) {
   std::vector<double> x = solveFor(a, b, free);
   const double scale = cv::norm(b, cv::NORM_INF);
   for (int round = 0; round < 3 * n; ++round) {
+    // The unknown at 0 whose release lowers the error fastest; none left to gain from ends the
+    // search.
     int enter = -1;
     double steepest = 1e-12 * scale;
     for (int i = 1; i < n; ++i) {
@@ -119,6 +122,7 @@ void CalibrationFit::add(std::span<const float> synthetic, std::span<const float
     if (!(w > 0)) continue;
     const Place p = placeOf(knots_, synthetic[i]);
     const double r = p.right_share, l = 1 - r, y = real[i];
+    // A sample lies under two hats, so it fills four places of the normal equations.
     double* row = normal_.data() + p.left * n + p.left;
     row[0] += w * l * l;
     row[1] += w * l * r;
@@ -160,6 +164,7 @@ GreyCurve CalibrationFit::solve(bool monotone) const {
   return curve;
 }
 
+// Knots where greys are: a curve cannot be told where no sample lies.
 std::vector<double> quantileKnots(std::span<const std::vector<float>* const> frames,
                                   std::span<const float> weights, int count) {
   constexpr int kBins = 1024;
@@ -182,6 +187,7 @@ std::vector<double> quantileKnots(std::span<const std::vector<float>* const> fra
     sum += bins[static_cast<std::size_t>(i)];
     while (next < count - 1 && sum >= total * next / (count - 1)) {
       const double grey = 255.0 * i / (kBins - 1);
+      // Knots under a grey apart would fit noise.
       if (grey > knots.back() + 1 && grey < highest - 1) knots.push_back(grey);
       ++next;
     }

@@ -15,6 +15,7 @@
 #include "compare/view_search.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/shown_path.h"
 
 namespace echocine::compare {
 
@@ -57,8 +58,8 @@ BeatLength beatOf(const Loop& loop) {
   return beat;
 }
 
-// End-diastole and end-systole of a render: the largest and smallest volume of the cavity that is
-// called the left ventricle, else of the structure that empties most.
+// End-diastole and end-systole of a render: the largest and smallest volume of the left ventricle's
+// cavity, else of the structure that empties most.
 struct Cardinal {
   std::optional<double> ed, es;
 };
@@ -69,7 +70,7 @@ Cardinal fromVolumes(const Loop& loop) {
   for (const auto& [name, ml] : loop.volumes_ml) {
     if (ml.size() != loop.video.frames.size()) continue;
     const auto [low, high] = std::minmax_element(ml.begin(), ml.end());
-    const double emptied = *high > 0 ? (1 - *low / *high) * (name.starts_with("lv") ? 10 : 1) : 0;
+    const double emptied = *high > 0 ? (1 - *low / *high) * (name == loop.lv_cavity ? 10 : 1) : 0;
     if (emptied > most) most = emptied, best = &ml;
   }
   if (best == nullptr) return {};
@@ -197,9 +198,23 @@ SpaceAlignment alignedFrom(const Placement& start, const Comparison& c) {
   return alignInSpace(c.grid, c.real, paired, frames, c.weights, start);
 }
 
+// Both loops stand in memory, resampled. Our choice: 2 GB, some 1300 frames of each.
+void refuseTooLong(const Comparison& c) {
+  constexpr double kMostBytes = 2e9;
+  const auto frames =
+      static_cast<double>(c.synthetic.video.frames.size() + c.real.video.frames.size());
+  const double bytes = frames * static_cast<double>(c.grid.size()) * sizeof(float);
+  if (bytes > kMostBytes)
+    throw SceneError(fmt::format(
+        "{} and {} have {} frames, which take {:.1f} GB in common beam "
+        "space, accepted: {:.0f} GB; give a few beats of each",
+        c.synthetic.video.name, c.real.video.name, frames, bytes * 1e-9, kMostBytes * 1e-9));
+}
+
 // Loops that resemble one another are registered by their greys; others first by where edges run.
 void registerLoops(const CompareOptions& options, Comparison& c) {
   c.grid = commonGrid(c.synthetic, c.real);
+  refuseTooLong(c);
   c.synthetic_beams = resample(c.grid, c.synthetic);
   place({}, c);
   if (std::count_if(c.weights.begin(), c.weights.end(), [](float w) { return w > 0; }) <
@@ -301,20 +316,30 @@ class Steps {
   std::size_t done_ = 0;
 };
 
+// Loops of the same beat reach 0.3 and more. Our choice.
+constexpr double kDoubtfulConfidence = 0.1;
+
 void noteAssumptions(Comparison& c) {
   const auto say = [&](const std::string& note) { c.notes.push_back(note); };
   for (const Loop* loop : {&c.synthetic, &c.real})
-    for (const std::string& note : loop->video.notes) say(loop->video.name + ": " + note);
+    for (const std::string& note : loop->video.notes)
+      say(shownName(loop->video.name) + ": " + note);
   if (!c.grid.metric)
-    say(
-        fmt::format("{} has no length scale (--scale, in mm per pixel, gives it): both sectors are "
-                    "taken to be of "
-                    "one depth",
-                    c.real.metres_per_pixel ? c.synthetic.video.name : c.real.video.name));
+    say(fmt::format(
+        "{} has no length scale (--scale, in mm per pixel, gives it): both sectors are "
+        "taken to be of "
+        "one depth",
+        shownName(c.real.metres_per_pixel ? c.synthetic.video.name : c.real.video.name)));
   for (const BeatLength* beat : {&c.synthetic_beat, &c.real_beat})
     if (beat->frames == 0)
-      say(fmt::format("{}: no beat found in the loop; frames are paired by the best shift and pace",
-                      beat == &c.real_beat ? c.real.video.name : c.synthetic.video.name));
+      say(fmt::format(
+          "{}: no beat found in the loop; frames are paired by the best shift and pace",
+          shownName(beat == &c.real_beat ? c.real.video.name : c.synthetic.video.name)));
+  if (c.time.confidence < kDoubtfulConfidence)
+    say(
+        fmt::format("the alignment in time is hardly better than any other (confidence {:.2f}): "
+                    "--real-ed and --real-es, or R waves, say which frames belong together",
+                    c.time.confidence));
   if (c.space.used && c.space.at_limit)
     say("the view that fits best lies at the limit of the search: a better one may lie beyond");
 }

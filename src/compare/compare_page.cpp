@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/results.h"
+#include "core/shown_path.h"
 #include "page/assets.h"
 
 namespace echocine::compare {
@@ -39,18 +40,13 @@ Json framesJson(const Comparison& c, const ComparePage& page) {
   return frames;
 }
 
-std::string nameOf(const std::string& path) {
-  const std::filesystem::path p = std::filesystem::path(path).lexically_normal();
-  return (p.has_filename() ? p : p.parent_path()).filename().string();
-}
-
 }  // namespace
 
 ComparePage::ComparePage(const std::filesystem::path& path, const Comparison& comparison)
     : c_(comparison),
       stride_(pageStride(static_cast<int>(comparison.frames.size()))),
-      writer_(path, pageLook("EchoCine: " + nameOf(c_.synthetic.video.name) + " against " +
-                                 nameOf(c_.real.video.name),
+      writer_(path, pageLook("EchoCine: " + shownName(c_.synthetic.video.name) + " against " +
+                                 shownName(c_.real.video.name),
                              pageAsset("compare.html"), pageAsset("compare.js"))) {}
 
 void ComparePage::addFrame(Panel panel, std::span<const std::byte> image) {

@@ -15,6 +15,7 @@ int backgroundGrey(const PixelPlane& highest) {
   return static_cast<int>(std::max_element(counts.begin(), counts.begin() + 64) - counts.begin());
 }
 
+// Of 8-connected parts: a scanner's logo, its scale bars and the ECG are smaller than its sector.
 cv::Mat largestPart(const cv::Mat& mask) {
   cv::Mat labels, stats, centroids;
   const int parts = cv::connectedComponentsWithStats(mask, labels, stats, centroids, 8);
@@ -29,6 +30,8 @@ cv::Mat largestPart(const cv::Mat& mask) {
 
 }  // namespace
 
+// Bright pixels count too, for a wall that stands still never moves; the margin of 4 greys is a
+// codec's noise.
 LiveArea liveArea(const Video& video, int moving) {
   LiveArea area{video.width, video.height, {}, video.frames.front(), {}};
   PixelPlane lowest = video.frames.front();
@@ -50,6 +53,7 @@ LiveArea liveArea(const Video& video, int moving) {
   }
   const cv::Mat three = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
   cv::Mat opened;
+  // Single pixels, text and thin lines go.
   cv::morphologyEx(mask, opened, cv::MORPH_OPEN, three);
   // Dark cavities and speckle gaps must not cut the part in pieces.
   const int reach = std::max(3, video.width / 100) | 1;

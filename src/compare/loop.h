@@ -26,6 +26,7 @@ struct Loop {
   TracedGreys traced;  // where its EXR hold them, resample() takes them and not the picture's
   std::vector<double> phases;                                           // of the beat, per frame
   std::vector<std::pair<std::string, std::vector<double>>> volumes_ml;  // structure -> per frame
+  std::string lv_cavity;  // of them, the left ventricle's cavity; empty: not known
   std::string scene_sha256;
   double frames_per_beat = 0;  // 0: not known
 

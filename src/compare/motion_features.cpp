@@ -27,11 +27,13 @@ Features motionFeatures(const BeamGrid& grid, const BeamLoop& loop,
     for (std::size_t at = 0; at < frame.size(); ++at)
       f[block_of[at]] += static_cast<double>(weights[at]) * frame[at];
     for (std::size_t b = 0; b < blocks; ++b) {
+      // A block's mean times the root of its area: squared distances then are area integrals.
       f[b] = weight[b] > 0 ? f[b] / std::sqrt(weight[b]) : 0;
       mean[b] += f[b] / static_cast<double>(loop.frames.size());
     }
     features.push_back(std::move(f));
   }
+  // What stands still says nothing of the time, and would drown what moves.
   for (std::vector<double>& f : features)
     for (std::size_t b = 0; b < blocks; ++b) f[b] -= mean[b];
   return features;

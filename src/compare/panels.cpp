@@ -9,23 +9,28 @@ namespace echocine::compare {
 
 namespace {
 
-void plot(GreyImage& image, double x, double y, std::uint8_t grey) {
+void plot(GreyImage& image, double x, double y, std::uint8_t grey,
+          const std::vector<std::uint8_t>& within = {}) {
   const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
   if (i < 0 || j < 0 || i >= image.width || j >= image.height) return;
-  image.pixels[static_cast<std::size_t>(j) * static_cast<std::size_t>(image.width) +
-               static_cast<std::size_t>(i)] = grey;
+  const std::size_t at = static_cast<std::size_t>(j) * static_cast<std::size_t>(image.width) +
+                         static_cast<std::size_t>(i);
+  if (within.empty() || within[at] != 0) image.pixels[at] = grey;
 }
 
-void drawLine(GreyImage& image, double x0, double y0, double x1, double y1, std::uint8_t grey) {
+// `within`: pixels that may be drawn on; empty: all.
+void drawLine(GreyImage& image, double x0, double y0, double x1, double y1, std::uint8_t grey,
+              const std::vector<std::uint8_t>& within = {}) {
   const int steps = std::max(1, static_cast<int>(2 * std::hypot(x1 - x0, y1 - y0)));
   for (int i = 0; i <= std::min(steps, 20000); ++i)
-    plot(image, x0 + (x1 - x0) * i / steps, y0 + (y1 - y0) * i / steps, grey);
+    plot(image, x0 + (x1 - x0) * i / steps, y0 + (y1 - y0) * i / steps, grey, within);
 }
 
 }  // namespace
 
 PanelMaker::PanelMaker(const Comparison& comparison, int height_px) : c_(comparison) {
   const BeamGrid& g = c_.grid;
+  // The sector's box: its corners, and its lowest point where it looks straight down.
   const double x_lo = std::min({g.far * std::sin(g.first_rad), g.near * std::sin(g.first_rad)}),
                x_hi = std::max({g.far * std::sin(g.last_rad), g.near * std::sin(g.last_rad)});
   const double y_lo = g.near * std::min(std::cos(g.first_rad), std::cos(g.last_rad)),
@@ -33,6 +38,7 @@ PanelMaker::PanelMaker(const Comparison& comparison, int height_px) : c_(compari
                           ? g.far
                           : g.far * std::max(std::cos(g.first_rad), std::cos(g.last_rad));
   pixels_per_unit_ = (height_px - 8) / (y_hi - y_lo);
+  // Even sides: codecs that halve colour need them. Four pixels are left free all round.
   height_ = height_px & ~1;
   width_ =
       std::clamp(static_cast<int>((x_hi - x_lo) * pixels_per_unit_) + 8, 16, 4 * height_px) & ~1;
@@ -63,6 +69,7 @@ GreyImage PanelMaker::picture(Panel panel, int real_frame) const {
     c_.curve.apply(grey, grey);
     if (panel == Panel::difference)
       for (std::size_t i = 0; i < grey.size(); ++i)
+        // Middle grey is no difference; half the difference, so that both signs fit into a byte.
         grey[i] = c_.weights[i] > 0 ? 128 + (grey[i] - c_.real_beams.frames[frame][i]) / 2 : 0;
   } else {
     grey.assign(g.size(), 0);
@@ -79,16 +86,20 @@ GreyImage PanelMaker::picture(Panel panel, int real_frame) const {
   return image;
 }
 
+// Contours end where the sector does.
 void PanelMaker::addContours(int real_frame, GreyImage& image) const {
+  std::vector<std::uint8_t> within(image.pixels.size(), 0);
+  for (const Pixel& p : pixels_) within[static_cast<std::size_t>(p.at)] = 1;
   for (const Contour& c :
        bands_->contoursAt(c_.frames[static_cast<std::size_t>(real_frame)].synthetic_phase))
     for (std::size_t i = c.closed ? 0 : 1; i < c.points_m.size(); ++i) {
       const Vec3d a = c.points_m[i == 0 ? c.points_m.size() - 1 : i - 1], b = c.points_m[i];
       drawLine(image, left_ + a.x * pixels_per_unit_, top_ + a.z * pixels_per_unit_,
-               left_ + b.x * pixels_per_unit_, top_ + b.z * pixels_per_unit_, 255);
+               left_ + b.x * pixels_per_unit_, top_ + b.z * pixels_per_unit_, 255, within);
     }
 }
 
+// Precondition: all pictures have one size.
 GreyImage PanelMaker::sideBySide(std::span<const GreyImage> pictures) {
   const int width = pictures.front().width, height = pictures.front().height;
   GreyImage all{width * static_cast<int>(pictures.size()), height, {}};
@@ -105,6 +116,7 @@ GreyImage sectorPicture(const Loop& loop) {
   const Video& v = loop.video;
   GreyImage image{v.width, v.height, v.frames.front()};
   for (std::size_t p = 0; p < image.pixels.size(); ++p)
+    // What is masked shows as an even grey, so that a user sees what is not compared.
     if (loop.overlay[p] != 0) image.pixels[p] = 160;
   const Sector& s = loop.sector();
   const auto at = [&](double r, double angle) {

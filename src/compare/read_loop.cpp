@@ -34,6 +34,8 @@ void makeSquare(Video& video, double aspect) {
       fmt::format("pixels {} times as high as wide, as given: stretched", aspect));
 }
 
+// A sector that was given is taken as it is, but has to lie in the picture; one that is found must
+// not be stretched.
 void findWhere(Loop& loop, const SideOptions& side, bool is_real) {
   const char* option = is_real ? "--sector" : "--synthetic-sector";
   if (side.sector) {
@@ -41,6 +43,7 @@ void findWhere(Loop& loop, const SideOptions& side, bool is_real) {
     loop.find.sector = parseSector(option, *side.sector);
     loop.find.given = true;
     const Sector& s = loop.find.sector;
+    // Every fourth pixel each way: its area to some percent is enough.
     double inside = 0;
     for (int y = 0; y < loop.video.height; y += 4)
       for (int x = 0; x < loop.video.width; x += 4) inside += s.contains(x + 0.5, y + 0.5) ? 16 : 0;
@@ -67,6 +70,43 @@ void findWhere(Loop& loop, const SideOptions& side, bool is_real) {
         loop.find.aspect, is_real ? "" : "synthetic-"));
 }
 
+// Share of the sector that colour was laid over: masked, and the rest is compared.
+void noteColour(Loop& loop) {
+  constexpr double kNoted = 0.03;
+  double coloured = 0, inside = 0;
+  for (int y = 0; y < loop.video.height; ++y)
+    for (int x = 0; x < loop.video.width; ++x) {
+      if (!loop.sector().contains(x + 0.5, y + 0.5)) continue;
+      ++inside;
+      coloured += loop.video.coloured[static_cast<std::size_t>(y * loop.video.width + x)];
+    }
+  if (coloured > kNoted * inside)
+    loop.video.notes.push_back(
+        fmt::format("colour covers {:.0f} % of its sector: masked, the rest is "
+                    "compared",
+                    100 * coloured / inside));
+}
+
+// What is burnt in around the sector is a patient's name as likely as a scale: no output has it.
+void blankOutside(Loop& loop) {
+  constexpr double kMargin_px = 1.5;  // the edge's own pixels
+  Sector kept = loop.sector();
+  kept.r_min = std::max(0.0, kept.r_min - kMargin_px);
+  kept.r_max += kMargin_px;
+  const double margin_rad = kMargin_px / kept.r_max;
+  kept.first_rad -= margin_rad;
+  kept.last_rad += margin_rad;
+  for (int y = 0; y < loop.video.height; ++y)
+    for (int x = 0; x < loop.video.width; ++x) {
+      if (kept.contains(x + 0.5, y + 0.5)) continue;
+      const auto p = static_cast<std::size_t>(y) * static_cast<std::size_t>(loop.video.width) +
+                     static_cast<std::size_t>(x);
+      for (PixelPlane& frame : loop.video.frames) frame[p] = 0;
+      loop.overlay[p] = 0;
+      loop.video.coloured[p] = 0;
+    }
+}
+
 bool insidePicture(const UltrasoundRegion& r, const Video& v) {
   return r.max_x < v.width && r.max_y < v.height && r.min_x <= r.max_x && r.min_y <= r.max_y;
 }
@@ -85,6 +125,7 @@ void scaleFromRegions(Loop& loop) {
     double shrink = 1;
     if (!insidePicture(r, v)) {
       // Sizes come in whole ratios: try those that put the region around the sector.
+      // In outer radii, our choice; factors are those between usual screen and picture sizes.
       double best_misfit = 0.25;
       shrink = 0;
       for (const double factor : {2.0, 1.5, 4.0 / 3, 1.25, 1.6, 1.875, 2.5, 3.0, 4.0}) {
@@ -114,6 +155,7 @@ void scaleFromRegions(Loop& loop) {
     if (shrink == 0) continue;
     const double cm = std::sqrt(r.cm_per_pixel_x * r.cm_per_pixel_y) * shrink,
                  depth_cm = cm * s.r_max;
+    // From a mouse's heart to more than a body.
     if (depth_cm < 2 || depth_cm > 40) {
       v.notes.push_back(
           fmt::format("its scale of {:.5f} cm per pixel makes the sector {:.1f} cm deep, which no "
@@ -130,6 +172,8 @@ void scaleFromRegions(Loop& loop) {
 
 }  // namespace
 
+// Order matters: pixels are made square before the sector is looked for, and the scale needs the
+// sector.
 Loop readLoop(const std::filesystem::path& path, const SideOptions& side, bool is_real) {
   const bool folder = isRenderFolder(path);
   Loop loop;
@@ -147,7 +191,11 @@ Loop readLoop(const std::filesystem::path& path, const SideOptions& side, bool i
   }
   if (!side.r_waves_s.empty()) v.r_waves_s = side.r_waves_s;
   if (!folder || side.sector) findWhere(loop, side, is_real);
-  loop.overlay = folder ? loop.overlay : overlayMask(v, loop.sector());
+  if (!folder) {
+    loop.overlay = overlayMask(v, loop.sector());
+    noteColour(loop);
+    blankOutside(loop);
+  }
   if (side.mm_per_pixel) {
     loop.metres_per_pixel = 1e-3 * *side.mm_per_pixel;
     loop.scale_source = is_real ? "--scale" : "--synthetic-scale";

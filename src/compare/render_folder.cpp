@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "output/exr_plane.h"
 #include "output/exr_stack.h"
+#include "scene/names.h"
 #include "signal/picture.h"
 #include "video/read_video.h"
 #include "video/video_builder.h"
@@ -22,6 +23,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+// The picture's geometry is worked out by the very function that rendered it, not read off the
+// pixels.
 void takeGeometry(const Json& scene, Loop& loop, const std::string& name) {
   const Json &p = scene.at("probe"), &o = scene.at("output");
   if (p.at("kind") == "linear")
@@ -64,6 +67,18 @@ void takeGeometry(const Json& scene, Loop& loop, const std::string& name) {
 }
 
 // Frames per beat from the phases, which count on from frame to frame.
+// By the role that the manifest has, else by the name.
+std::string leftVentricle(const Json& structures) {
+  for (const Json& structure : structures) {
+    const std::string name = structure.at("name");
+    const Role role = structure.contains("role")
+                          ? valueOf<Role>(structure["role"].get<std::string>()).value_or(Role::none)
+                          : guessRole(name);
+    if (role == Role::lv_cavity) return name;
+  }
+  return "";
+}
+
 void takeFrames(const Json& frames, Loop& loop) {
   std::vector<double> times;
   for (const Json& f : frames) {
@@ -75,6 +90,7 @@ void takeFrames(const Json& frames, Loop& loop) {
       loop.volumes_ml[i++].second.push_back(ml);
     }
   }
+  // Beats gone by: each step forwards, modulo 1. Preconditions: under one beat from frame to frame.
   double turned = 0;
   for (std::size_t i = 1; i < loop.phases.size(); ++i) {
     const double step = loop.phases[i] - loop.phases[i - 1];
@@ -102,8 +118,10 @@ void takeTracedGreys(const std::filesystem::path& folder, const Json& scene, Loo
   t.near_m = p.at("face_radius_m").get<double>() + p.at("min_depth_m").get<double>();
   t.far_m = p.at("face_radius_m").get<double>() + p.at("max_depth_m").get<double>();
   const int frames = loop.video.frameCount();
+  // The manifest may be damaged; memory stays within what a video of its length may take.
   if (t.lines < 2 || t.samples < 2 || t.lines > kMaxLoopPixels / t.samples / frames) return;
   t.frames.resize(static_cast<std::size_t>(frames));
+  // One bad frame is enough: a mix of exact and decoded greys would step in brightness.
   std::atomic<int> unread{-1};
   parallelBlocks(t.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end && unread < 0; ++f) {
@@ -131,13 +149,17 @@ void takeTracedGreys(const std::filesystem::path& folder, const Json& scene, Loo
 }  // namespace
 
 bool isRenderFolder(const std::filesystem::path& path) {
-  return std::filesystem::is_regular_file(path / "manifest.json");
+  std::error_code failed;
+  return std::filesystem::is_regular_file(path / "manifest.json", failed);
 }
 
+// The manifest is written last, so a folder that has one is whole unless files were taken away
+// since.
 Loop readRenderFolder(const std::filesystem::path& folder) {
   constexpr std::size_t kMaxManifest = std::size_t{1} << 28;
   const std::string name = folder.string();
-  if (!std::filesystem::is_regular_file(folder / "cine.avi"))
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(folder / "cine.avi", failed))
     throw SceneError(
         fmt::format("{}: has no cine.avi; render the scene with output.cine = true", name));
   Loop loop;
@@ -149,6 +171,7 @@ Loop readRenderFolder(const std::filesystem::path& folder) {
     loop.video.repeats.clear();  // frames that do not move are no repeats here
     takeGeometry(manifest.at("scene"), loop, name);
     takeFrames(manifest.at("frames"), loop);
+    loop.lv_cavity = leftVentricle(manifest.at("scene").at("structures"));
     loop.scene_sha256 = manifest.at("scene_sha256");
     if (loop.phases.size() == loop.video.frames.size())
       takeTracedGreys(folder, manifest.at("scene"), loop);

@@ -10,6 +10,7 @@
 #include "compare/panels.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/shown_path.h"
 #include "core/units.h"
 #include "video/cine_writer.h"
 
@@ -19,13 +20,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// JSON has no infinity: the PSNR of equal frames is null.
 Json numberOrNull(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
 
+// What was taken of each loop, and from where: a number whose source a reader cannot see is no
+// result.
 Json loopJson(const Loop& l, const BeatLength& beat) {
   const Sector& s = l.sector();
-  Json json{{"path", l.video.name},
+  Json json{{"path", shownName(l.video.name)},
             {"format", l.video.format},
             {"grey_source", l.grey_source},
             {"width", l.video.width},
@@ -107,6 +111,11 @@ void writeFrames(const Comparison& c, const PanelMaker& panels, const std::files
 }  // namespace
 
 Json metricsJson(const FrameMetrics& m) {
+  if (!(m.weight > 0)) {  // nothing was in sight: no score is not a score of 0
+    Json none = Json::object();
+    for (const Metric& metric : kMetrics) none[metric.key] = nullptr;
+    return none;
+  }
   Json json = Json::object();
   for (const Metric& metric : kMetrics) json[metric.key] = numberOrNull(m.*metric.value);
   return json;
@@ -146,6 +155,7 @@ Json summaryJson(const Comparison& c) {
           {"notes", c.notes}};
 }
 
+// An empty cell is what was not measured, never 0.
 std::string framesCsv(const Comparison& c) {
   std::string text =
       "real_frame,real_time_s,synthetic_frame,synthetic_phase,repeat,counted,discrepancy";
@@ -175,9 +185,9 @@ void writeResults(const Comparison& c, const CompareOptions& options,
                   const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder))
-    throw JobError(
-        fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
+  if (error || !std::filesystem::is_directory(folder, error))
+    throw JobError(fmt::format("{}: the folder cannot be made: {}", folder.string(),
+                               error ? error.message() : "a file stands there"));
   for (const char* name : {"summary.json", "compare.html"})  // a folder without them is unfinished
     std::filesystem::remove(folder / name, error);
   PanelMaker panels(c);
@@ -194,6 +204,7 @@ void writeResults(const Comparison& c, const CompareOptions& options,
                                synthetic = encodePng(sectorPicture(c.synthetic));
   writeFileWhole(folder / "sector_real.png", real);
   writeFileWhole(folder / "sector_synthetic.png", synthetic);
+  // Last of all summary.json: a folder that has it is finished.
   ComparePage page(folder / "compare.html", c);
   writeFrames(c, panels, folder / "side_by_side.avi", page);
   const Json summary = summaryJson(c);

@@ -17,6 +17,7 @@ namespace echocine::compare {
 
 namespace {
 
+// In pixels; x at the pixel's outer side, y at its middle.
 struct EdgePoint {
   double x, y;
 };
@@ -44,6 +45,8 @@ std::vector<EdgePoint> outermost(const LiveArea& area, int sign) {
   return points;
 }
 
+// Of the points within the tolerance of a line that is nearly right. The regression runs from y to
+// x, since edges are steep.
 EdgeLine leastSquares(const std::vector<EdgePoint>& points, const EdgeLine& near,
                       double tolerance) {
   double n = 0, sx = 0, sy = 0, syy = 0, sxy = 0;
@@ -61,6 +64,8 @@ EdgeLine leastSquares(const std::vector<EdgePoint>& points, const EdgeLine& near
 // lie inside the true edge more often than outside: a point outside counts against the line.
 std::optional<EdgeLine> edgeLine(const std::vector<EdgePoint>& points, int sign, double tolerance) {
   if (points.size() < 8) return std::nullopt;
+  // Pairs of points. With half of them on the edge every fourth pair hits it, so 1500 find it for
+  // certain; hashed, so the same loop always gives the same sector.
   constexpr std::uint64_t kTries = 1500;
   EdgeLine best;
   double best_score = 0;
@@ -71,6 +76,7 @@ std::optional<EdgeLine> edgeLine(const std::vector<EdgePoint>& points, int sign,
           static_cast<double>(points.size()))];
     };
     const EdgePoint a = pick(0), b = pick(1);
+    // Points close together say little of the slope.
     if (std::abs(a.y - b.y) < 0.05 * static_cast<double>(points.size())) continue;
     EdgeLine line;
     line.slope = (b.x - a.x) / (b.y - a.y);
@@ -99,6 +105,7 @@ std::vector<double> liveByRadius(const LiveArea& area, const Sector& s) {
   const int largest = static_cast<int>(std::hypot(area.width, area.height + std::abs(s.apex_y)));
   std::vector<double> share;
   for (int r = 0; r < largest; ++r) {
+    // A step per pixel of the arc.
     const int steps = std::max(9, static_cast<int>(r * (s.last_rad - s.first_rad)));
     int live = 0, seen = 0;
     for (int i = 0; i <= steps; ++i) {
@@ -119,6 +126,8 @@ void findRadii(const LiveArea& area, Sector& s) {
   const std::vector<double> share = liveByRadius(area, s);
   double most = 0;
   for (const double v : share) most = std::max(most, v);
+  // Below the sector a few pixels may live by chance: a tenth of the arc, or less where the loop is
+  // dark.
   const double floor_share = std::min(0.1, 0.25 * most);
   std::size_t last = share.size();
   while (last > 0 && share[last - 1] < floor_share) --last;
@@ -134,9 +143,12 @@ std::vector<EdgePoint> lowerArc(const LiveArea& area, const Sector& s) {
   constexpr int kAngles = 400;
   for (int i = 1; i < kAngles; ++i) {
     const double angle = s.first_rad + (s.last_rad - s.first_rad) * i / kAngles;
+    // The arc is looked for 30 % about the radius that was found: as far as pixels may be
+    // stretched.
     for (double r = 1.3 * s.r_max; r > 0.7 * s.r_max; r -= 0.5) {
       const double x = s.apex_x + r * std::sin(angle), y = s.apex_y + r * std::cos(angle);
       if (!area.at(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)))) continue;
+      // An arc cut off by the picture's foot is no arc.
       if (y < area.height - 1.5) points.push_back({x, y});
       break;
     }
@@ -160,6 +172,7 @@ double aspectOfArc(const std::vector<EdgePoint>& arc, const Sector& s) {
       narrowest = std::min(narrowest, x2 / (s.r_max * s.r_max));
     }
     const double d = n * syy - sy * sy;
+    // Our choices: fewer points, or an arc so short that X and Y do not tell apart.
     if (n < 40 || widest - narrowest < 0.1 || d <= 0) return 1;
     q2 = -(n * sxy - sx * sy) / d;
     const double r2 = (sx + q2 * sy) / n;
@@ -185,19 +198,23 @@ struct Attempt {
 Attempt attempt(const Video& video, int moving) {
   const LiveArea area = liveArea(video, moving);
   const auto lit = std::count_if(area.live.begin(), area.live.end(), [](auto v) { return v != 0; });
+  // Two per cent of the picture: less is a still, or a dark loop.
   if (static_cast<double>(lit) < 0.02 * static_cast<double>(area.live.size()))
     return {{}, "hardly a pixel moves or is lit"};
   const std::vector<EdgePoint> left = outermost(area, -1), right = outermost(area, 1);
+  // Two pixels at a thousand across: what scan conversion and codecs smear.
   const double tolerance = std::max(1.0, 0.002 * video.width);
   const auto left_line = edgeLine(left, -1, tolerance), right_line = edgeLine(right, 1, tolerance);
   if (!left_line || !right_line) return {{}, "what moves has no two straight sides"};
   SectorFind found;
   Sector& s = found.sector;
+  // Where both edges meet: the apex, which for a curvilinear probe lies above the picture.
   s.apex_y = (right_line->at_zero - left_line->at_zero) / (left_line->slope - right_line->slope);
   s.apex_x = left_line->at_zero + left_line->slope * s.apex_y;
   s.first_rad = std::atan(left_line->slope);
   s.last_rad = std::atan(right_line->slope);
   findRadii(area, s);
+  // Our choices: a fifth of the picture, 15 degrees.
   if (s.r_max < 0.2 * video.height || s.last_rad - s.first_rad < radiansFromDegrees(15))
     return {{}, "the lines through its sides enclose no sector"};
   // Rows that the edges can span: from the near end to where the lower arc begins.
@@ -211,6 +228,7 @@ Attempt attempt(const Video& video, int moving) {
   for (int y = 0; y < video.height; ++y)
     for (int x = 0; x < video.width; ++x)
       if (area.at(x, y)) ++all, inside += s.contains(x + 0.5, y + 0.5) ? 1 : 0;
+  // What moves elsewhere (an ECG, a second sector) is allowed 15 %.
   if (inside < 0.85 * all)
     return {{},
             fmt::format("{:.0f} % of what moves lies outside the one that fits best",
@@ -256,6 +274,7 @@ Sector parseSector(const std::string& option, const std::string& text) {
     at = result.ptr;
     if (at == end || *at != ',') break;
   }
+  // Six numbers and nothing behind them; edges within 90 degrees of straight down, in their order.
   const auto sound = [&] {
     return at == end && values.size() == 6 && values[2] < values[3] && values[2] > -90 &&
            values[3] < 90 && values[4] >= 0 && values[4] < values[5] && values[5] < 1e5 &&
@@ -284,11 +303,11 @@ PixelPlane overlayMask(const Video& video, const Sector& sector) {
       // Text and marks are bright and do not move; echoes flicker.
       if (area.highest[p] > 120 && area.range[p] <= 2) mask[p] = 1;
     }
-  if (coloured > 0.03 * inside)
+  constexpr double kMostColoured = 0.6;
+  if (coloured > kMostColoured * inside)
     throw SceneError(
-        fmt::format("{}: colour covers {:.0f} % of its sector (a colour Doppler box?); give a "
-                    "grey-scale loop of "
-                    "the same view",
+        fmt::format("{}: colour covers {:.0f} % of its sector (a colour Doppler box?), too little "
+                    "is left to compare; give a grey-scale loop of the same view",
                     video.name, 100 * coloured / inside));
   return mask;
 }

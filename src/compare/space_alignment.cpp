@@ -46,6 +46,7 @@ Level smoothed(const BeamGrid& grid, const Loop& real,
   return level;
 }
 
+// Normal equations of the six unknowns, and the moments of which the correlation is made.
 struct Sums {
   cv::Mat normal = cv::Mat::zeros(kUnknowns, kUnknowns, CV_64F),
           right = cv::Mat::zeros(kUnknowns, 1, CV_64F);
@@ -77,6 +78,7 @@ void addLine(const BeamGrid& grid, const Loop& real, const Level& level,
     const double r = grid.depth(k) * pixelsPerUnit(grid, real), placed = placement.scale * r;
     const double x = real.sector().apex_x + placement.shift_x_px + placed * sine;
     const double y = real.sector().apex_y + placement.shift_y_px + placed * cosine;
+    // Gradients need a pixel on each side.
     if (x < 1 || y < 1 || x > w - 1 || y > h - 1) continue;
     const PixelPlace here = pixelPlace(w, h, x, y), right = pixelPlace(w, h, x + 1, y),
                      left = pixelPlace(w, h, x - 1, y), below = pixelPlace(w, h, x, y + 1),
@@ -89,6 +91,8 @@ void addLine(const BeamGrid& grid, const Loop& real, const Level& level,
       const double v = level.synthetic[f].at<float>(line, k);
       s.n += weight, s.x += weight * v, s.y += weight * g;
       s.xx += weight * v * v, s.yy += weight * g * g, s.xy += weight * v * g;
+      // d(g)/d(unknown): shifts move the point by 1 px, scale by r along the line, rotation by the
+      // placed radius across it.
       const double row[kUnknowns] = {
           -gx, -gy, -r * (gx * sine + gy * cosine), -placed * (gx * cosine - gy * sine), v, 1};
       for (int p = 0; p < kUnknowns; ++p) {
@@ -121,6 +125,7 @@ Sums sumsAt(const BeamGrid& grid, const Loop& real, const Level& level,
   return s;
 }
 
+// 6 % of the radius, 6 % of scale, 6 degrees: what is left between loops of one view. Our choice.
 bool withinLimits(const Placement& p, const Placement& start, double radius_px) {
   return std::hypot(p.shift_x_px - start.shift_x_px, p.shift_y_px - start.shift_y_px) <=
              0.06 * radius_px &&
@@ -130,6 +135,7 @@ bool withinLimits(const Placement& p, const Placement& start, double radius_px) 
 
 Placement improved(const Sums& sums, const Placement& from) {
   cv::Mat step;
+  // SVD: a picture without edges in some direction leaves that unknown at 0 instead of failing.
   cv::solve(sums.normal, sums.right, step, cv::DECOMP_SVD);
   return {from.shift_x_px + step.at<double>(0), from.shift_y_px + step.at<double>(1),
           from.scale + step.at<double>(2), from.rotation_rad + step.at<double>(3)};
@@ -146,6 +152,7 @@ SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
   double final_correlation = 0;
   const double finest =
       std::max(0.7, (grid.far - grid.near) / grid.samples * pixelsPerUnit(grid, real) / 2);
+  // From coarse to fine: smooth greys catch large shifts, sharp ones are exact.
   for (const double sigma : {6 * finest, 3 * finest, 1.5 * finest, finest}) {
     Level level = smoothed(grid, real, paired, real_frames, sigma);
     level.stride = sigma > 2 * finest ? 3 : sigma > finest ? 2 : 1;
@@ -154,6 +161,7 @@ SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
       const Placement next = improved(sums, placement);
       if (!withinLimits(next, start, real.sector().r_max)) break;
       const Sums there = sumsAt(grid, real, level, weights, next);
+      // A step that gains nothing is the end of this level; 1e-7 is rounding of the sums.
       if (there.correlation() <= sums.correlation() + 1e-7) break;
       placement = next;
       sums = there;

@@ -68,6 +68,7 @@ class Search {
  public:
   explicit Search(const TimeProblem& p)
       : p_(p), correlations_(p), n_(static_cast<int>(p.synthetic.size())) {
+    // A loop that ends up to a frame and a half before its beat still closes.
     periodic_ = p.synthetic_beat > 0 && p.synthetic_beat <= n_ + 1.5;
     used_.assign(p.real.size(), true);
     for (const int r : p.repeats) used_[static_cast<std::size_t>(r)] = false;
@@ -104,6 +105,8 @@ class Search {
   std::vector<bool> used_;
 };
 
+// synthetic place = shift + rate * real frame, both in frames; mean and spread over the shifts that
+// were tried.
 struct StraightMap {
   double shift = 0, rate = 1, correlation = -2, mean = 0, spread = 0;
 };
@@ -113,10 +116,16 @@ StraightMap bestShift(const Search& search, const TimeProblem& p, double rate) {
   StraightMap best;
   best.rate = rate;
   const double n = static_cast<double>(p.synthetic.size());
+  // A beat of shifts says all of a periodic loop; another may begin half its length before the real
+  // one.
   const double from = search.periodic() ? 0 : -0.5 * rate * static_cast<double>(p.real.size());
   const double to = search.periodic() ? p.synthetic_beat : n;
   double sum = 0, squares = 0;
   int count = 0;
+  // Past this pace no shift has half of the real frames inside; trying them all would take for
+  // ever.
+  constexpr double kMostLoops = 8;
+  if (!search.periodic() && rate * static_cast<double>(p.real.size()) > kMostLoops * n) return best;
   for (double shift = from; shift < to; shift += 0.25) {
     const double c = search.straight(shift, rate);
     if (c <= -1) continue;
@@ -155,6 +164,7 @@ std::vector<double> warpOffsets(const Search& search, const TimeProblem& p,
   constexpr double kPaceCost = 0.05;  // of correlation, for a doubled or stopped pace; our choice
   const double beat =
       p.synthetic_beat > 0 ? p.synthetic_beat : static_cast<double>(p.synthetic.size());
+  // An eighth of a beat either way, our choice: beats of one heart differ by less.
   const int reach = std::max(1, static_cast<int>(0.12 * beat / kStep));
   const int states = 2 * reach + 1, most = std::max(1, static_cast<int>(map.rate / kStep));
   const std::size_t m = p.real.size();
@@ -190,6 +200,7 @@ std::vector<double> warpOffsets(const Search& search, const TimeProblem& p,
   return offsets;
 }
 
+// The mean correlation over the frames that count, as summary.json has it.
 void measure(const Search& search, TimeAlignment& out) {
   double sum = 0;
   int count = 0;
@@ -256,6 +267,8 @@ TimeAlignment alignByAnchors(const TimeProblem& p, std::vector<Anchor> anchors) 
   TimeAlignment out;
   out.periodic = search.periodic();
   double pace = p.nominal_rate;
+  // The anchors repeat a beat later and a beat earlier, so that frames outside them are between two
+  // as well.
   if (p.synthetic_beat > 0 && p.real_beat > 0) {
     pace = p.synthetic_beat / p.real_beat;
     const Anchor first = anchors.front();
@@ -281,6 +294,8 @@ TimeAlignment alignByAnchors(const TimeProblem& p, std::vector<Anchor> anchors) 
   return out;
 }
 
+// A blend of two frames smears what moves by less than a frame; the error is that of the frame rate
+// itself.
 std::vector<float> frameAtPlace(const std::vector<std::vector<float>>& frames, double place,
                                 double beat, bool periodic) {
   const Blend blend = blendAt(place, static_cast<int>(frames.size()), beat, periodic);

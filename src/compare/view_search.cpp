@@ -20,12 +20,15 @@ struct Pose {
 
 const double kMostRotation_rad = radiansFromDegrees(kSearchRotation_deg);
 
+// The lattice's outermost poses lie on the limits within rounding, and are allowed.
 bool withinLimits(const Pose& p) {
   constexpr double kRounding = 1e-9;
   return std::abs(p.x) <= kSearchShift + kRounding && std::abs(p.y) <= kSearchShift + kRounding &&
          std::abs(p.rotation_rad) <= kMostRotation_rad + kRounding;
 }
 
+// The mean over the loop: where walls run on the whole, without what moves, so time need not be
+// known yet.
 std::vector<float> meanOf(const std::vector<std::vector<float>>& frames) {
   std::vector<float> mean(frames.front().size(), 0);
   const float share = 1 / static_cast<float>(frames.size());
@@ -57,6 +60,7 @@ class ViewSearch {
     double in_sight = 0;
     for (const float w : weights) in_sight += w;
     const double share = as_given_ > 0 ? std::min(1.0, in_sight / as_given_) : 0;
+    // Half of the sector must stay: a pose that shows a corner alone may fit it by chance.
     if (share < 0.5) return -1;
     return share *
            edgeCorrelation(synthetic_, edgesOf(edges_.lattice(), greys, weights, edges_.depth()));
@@ -79,6 +83,7 @@ class ViewSearch {
         mask.at<float>(y, x) = inside_[at];
       }
     sum = sum.mul(mask, 1.0 / static_cast<double>(v.frames.size()));
+    // Greys and mask are smoothed alike and divided: the sector's own edge makes no edge.
     for (cv::Mat* m : {&sum, &mask})
       cv::GaussianBlur(*m, *m, {0, 0}, sigma_px, sigma_px, cv::BORDER_CONSTANT);
     mean_ = sum / cv::max(mask, 1e-6);
@@ -136,6 +141,8 @@ std::vector<Candidate> wholeLattice(const ViewSearch& search) {
   return all;
 }
 
+// Steps that halve, each taken as long as any direction gains: down to 0.2 % of the radius, a
+// pixel.
 void climb(const ViewSearch& search, Candidate& best) {
   for (double step = kSearchShift / 10; step > 0.002; step /= 2)
     for (bool better = true; better;) {
@@ -160,6 +167,7 @@ SpaceAlignment searchView(const BeamGrid& grid, const BeamLoop& synthetic, const
   std::vector<Candidate> all = wholeLattice(search);
   SpaceAlignment out;
   out.correlation_before = search({});
+  // Several hills are climbed, for the highest point of the lattice need not stand on the highest.
   constexpr std::size_t kBest = 6;
   std::stable_sort(all.begin(), all.end(),
                    [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
@@ -170,6 +178,7 @@ SpaceAlignment searchView(const BeamGrid& grid, const BeamLoop& synthetic, const
   const Candidate best =
       *std::max_element(all.begin(), all.end(),
                         [](const Candidate& a, const Candidate& b) { return a.value < b.value; });
+  // Our choice: a search always gains a little by chance.
   constexpr double kLeastGain = 0.02;
   out.correlation_after = best.value;
   out.used = best.value > out.correlation_before + kLeastGain;

@@ -8,6 +8,7 @@
 
 namespace echocine::compare {
 
+// Central differences, per hundredth of the depth, so that loops of any scale compare.
 EdgeField edgesOf(const BeamGrid& lattice, std::span<const float> smooth,
                   std::span<const float> weights, double depth) {
   EdgeField out;
@@ -34,6 +35,7 @@ EdgeField edgesOf(const BeamGrid& lattice, std::span<const float> smooth,
   return out;
 }
 
+// Eq. 1 of wall_edges.h, of samples that both fields have.
 double edgeCorrelation(const EdgeField& x, const EdgeField& y) {
   CHECK_EQ(x.weight.size(), y.weight.size());
   double n = 0, xx = 0, yy = 0, xy = 0;
@@ -52,6 +54,8 @@ double edgeCorrelation(const EdgeField& x, const EdgeField& y) {
 
 WallEdges::WallEdges(const BeamGrid& g, std::span<const float> weights)
     : grid_(g), lattice_(g), depth_(g.far), weights_(weights.begin(), weights.end()) {
+  // Smoothed by sigma, greys are the same within sigma / 2: the lattice is as coarse as that
+  // allows, and a call as quick.
   const double sigma = kSmoothingShare * g.far, sample = (g.far - g.near) / g.samples;
   const double line_rad = (g.last_rad - g.first_rad) / std::max(1, g.lines - 1),
                line = line_rad * 0.5 * (g.near + g.far);
@@ -83,6 +87,8 @@ WallEdges::WallEdges(const BeamGrid& g, std::span<const float> weights)
   share_.resize(lattice_.size());
   for (std::size_t b = 0; b < share_.size(); ++b) share_[b] = block_weights_[b] > 0 ? 1.0f : 0.0f;
   smooth(share_);
+  // What a block got from outside the sector is nothing; divided by the share inside, no edge
+  // arises at the border.
   for (float& s : share_) s = std::max(s, 1e-6f);
 }
 

@@ -18,6 +18,9 @@ std::string readTextFile(const std::filesystem::path& path, std::size_t max_byte
   std::error_code failed;
   if (std::filesystem::is_directory(path, failed))
     throw SceneError(fmt::format("{}: is a folder, a file is needed", path.string()));
+  // A pipe that nobody fills would have us wait for ever.
+  if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed))
+    throw SceneError(fmt::format("{}: is no ordinary file, such as is needed", path.string()));
   std::ifstream file(path, std::ios::binary);
   if (!file && errno == ENOMEM) throw std::bad_alloc();
   if (!file)
@@ -58,6 +61,21 @@ void makeFolder(const std::filesystem::path& folder) {
     throw JobError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
 }
 
+bool syncFile(int descriptor) {
+  int failed = 0;
+  do failed = ::fsync(descriptor);
+  while (failed != 0 && errno == EINTR);
+  return failed == 0 || errno == EINVAL || errno == EROFS;  // pipes and the like have no disk
+}
+
+void syncFolderOf(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
 WholeFile::WholeFile(std::filesystem::path path)
     : path_(std::move(path)), part_(path_.string() + ".part") {
   descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
@@ -84,8 +102,9 @@ void WholeFile::write(std::span<const std::byte> bytes) {
 }
 
 void WholeFile::finish() {
+  if (!syncFile(descriptor_)) fail(errno);
   const int closed = ::close(std::exchange(descriptor_, -1));
-  if (closed == 0 && ::rename(part_.c_str(), path_.c_str()) == 0) return;
+  if (closed == 0 && ::rename(part_.c_str(), path_.c_str()) == 0) return syncFolderOf(path_);
   const int reason = errno;
   ::unlink(part_.c_str());
   fail(reason);

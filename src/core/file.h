@@ -14,6 +14,12 @@ std::string readTextFile(const std::filesystem::path& path, std::size_t max_byte
 // Makes the folder and those it lies in, if they are not there. Throws JobError.
 void makeFolder(const std::filesystem::path& folder);
 
+// Has the disk hold what was written to a descriptor. False, with errno, when it cannot.
+bool syncFile(int descriptor);
+
+// Has the disk hold the names in a file's folder, as far as the file system can; after a rename.
+void syncFolderOf(const std::filesystem::path& path);
+
 // A file written in pieces beside its target and renamed at the end, so that the target is either
 // as before or whole. Destroyed without finish() it leaves nothing behind.
 class WholeFile {

@@ -4,6 +4,7 @@
 #include <openssl/evp.h>
 
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <new>
 #include <vector>
@@ -51,6 +52,7 @@ std::string sha256Hex(std::span<const std::byte> bytes) {
 
 std::string sha256HexOfFile(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
+  if (!file && errno == ENOMEM) throw std::bad_alloc();
   if (!file) throw JobError(fmt::format("{}: cannot be read", path.string()));
   Sha256 hash;
   std::vector<char> block(1 << 20);

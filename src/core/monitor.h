@@ -16,7 +16,7 @@ struct TaskWords {
   const char *doing, *unit;
 };
 constexpr TaskWords wordsOf(Task task) {
-  constexpr std::array<TaskWords, 6> kWords{{{"measuring", "frames"},
+  constexpr std::array<TaskWords, 6> kWords{{{"measuring the loop's reference,", "frames"},
                                              {"rendering", "frames"},
                                              {"measuring", "settings"},
                                              {"trying", "settings"},

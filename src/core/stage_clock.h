@@ -14,8 +14,8 @@ enum class Stage { motion, geometry, trace, speckle, signal, scan_conversion, ex
 inline constexpr std::size_t kStages = 8;
 
 constexpr const char* stageName(Stage stage) {
-  constexpr std::array<const char*, kStages> kNames{
-      "motion", "geometry", "trace", "speckle", "signal", "scan_conversion", "exr", "avi"};
+  constexpr std::array<const char*, kStages> kNames{"motion", "geometry",        "trace", "speckle",
+                                                    "signal", "scan_conversion", "exr",   "avi"};
   return kNames[static_cast<std::size_t>(stage)];
 }
 

@@ -6,6 +6,7 @@
 #include "core/rough_angle.h"
 #include "geometry/line_states.h"
 #include "geometry/smooth_normal.h"
+#include "scene/scan_geometry.h"
 
 namespace echocine {
 
@@ -21,10 +22,11 @@ PlaneSlice::PlaneSlice(const std::vector<SurfaceTopology>& surfaces, const Probe
     rays_.emplace_back(Ray{line.origin, line.direction});
   }
   lines_.resize(rays_.size());
-  const bool linear = probe.kind == ProbeKind::linear;
-  first_place_ = linear ? probe.first_offset_m : probe.first_angle_rad;
-  const double last_place = linear ? probe.last_offset_m : probe.last_angle_rad;
-  lines_per_place_ = probe.lines > 1 ? (probe.lines - 1) / (last_place - first_place_) : 0;
+  const ScanGeometry geometry(probe);
+  angular_ = geometry.angular();
+  first_place_ = geometry.firstPlace();
+  lines_per_place_ =
+      probe.lines > 1 ? (probe.lines - 1) / (geometry.lastPlace() - first_place_) : 0;
   for (std::size_t s = 0; s < surfaces.size(); ++s) membranes_[s] = surfaces[s].membrane;
 }
 
@@ -69,8 +71,7 @@ void PlaneSlice::addNormals(const SurfaceTopology& surface, const SurfaceFrame& 
 // 180 degrees.
 int PlaneSlice::linesRightOf(Vec3d point) const {
   const int lines = probe_.lines;
-  const bool linear = probe_.kind == ProbeKind::linear;
-  const double place = linear ? point.x : roughAngle(point.x, point.z);
+  const double place = angular_ ? roughAngle(point.x, point.z) : point.x;
   const double guess = std::floor((place - first_place_) * lines_per_place_) + 1;
   int n = static_cast<int>(std::clamp(guess, 0.0, static_cast<double>(lines)));
   const auto right = [&](int line) {

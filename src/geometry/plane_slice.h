@@ -63,6 +63,7 @@ class PlaneSlice {
   std::vector<ContourEdge> edges_;
   std::vector<EdgeNormals> normals_;
   std::vector<RayCrossings> lines_;
+  bool angular_ = true;
   double first_place_ = 0,
          lines_per_place_ = 0;  // of the lines: angles, or offsets of a linear probe
   InsideSet membranes_, left_out_;

@@ -1,4 +1,5 @@
 #include "metrics/interface_error.h"
+#include "scene/scan_geometry.h"
 
 #include <algorithm>
 #include <cmath>

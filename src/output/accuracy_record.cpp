@@ -7,6 +7,7 @@ namespace echocine {
 using Json = nlohmann::ordered_json;
 
 Json accuracyJson(const AccuracyRecord& record) {
+  // Neither preset nor tolerance: the scene says all.
   if (record.setting.empty()) return {{"setting", "as written"}};
   Json json{{"setting", record.setting}, {"reason", record.reason}};
   if (!record.preset.empty()) json["preset"] = record.preset;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -91,7 +93,7 @@ bool isSmallWindow(std::string_view value) {
 // No more channels than there are to write; each has a name and 16 bytes.
 bool isShortChannelList(std::string_view value) {
   Cursor list(value);
-  for (std::size_t count = 0; count <= kAllChannels.size(); ++count) {
+  for (std::size_t count = 0; count <= kAllChannels.size() + kTruthChannels.size(); ++count) {
     const std::optional<std::string_view> name = list.text();
     if (!name) return false;
     if (name->empty()) return list.atEnd();
@@ -100,6 +102,8 @@ bool isShortChannelList(std::string_view value) {
   return false;
 }
 
+// No flag is set: no tiles, no long names, no deep data, one part. A header that does not end
+// within the bytes is none.
 bool isPlain(std::string_view bytes) {
   Cursor header(bytes);
   if (header.number<std::uint32_t>() != kMagic || header.number<std::uint32_t>() != kVersion)
@@ -121,6 +125,7 @@ bool isPlain(std::string_view bytes) {
 
 bool hasPlainExrHeader(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
+  if (!file && errno == ENOMEM) throw std::bad_alloc();
   std::string bytes(kMaxHeaderBytes, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   return isPlain(std::string_view(bytes).substr(0, static_cast<std::size_t>(file.gcount())));

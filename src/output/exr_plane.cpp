@@ -47,11 +47,13 @@ std::vector<float> channelOf(Imf::InputFile& file, Channel channel) {
   file.readPixels(0, window.max.y);
   const auto* scale =
       file.header().findTypedAttribute<Imf::DoubleAttribute>("echocine:scale." + name);
+  // In double: the scale is a power of two and may lie beyond a float's range.
   if (scale != nullptr)
     for (float& v : values) v = static_cast<float>(static_cast<double>(v) / scale->value());
   return values;
 }
 
+// The library reads through this what was just encoded, without a file.
 class MemoryInput : public Imf::IStream {
  public:
   explicit MemoryInput(std::span<const std::byte> bytes) : IStream("memory"), bytes_(bytes) {}

@@ -11,8 +11,10 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 #include "core/hash.h"
+#include "output/exr_digest.h"
 #include "output/exr_header.h"
 #include "output/exr_stack.h"
 #include "output/polar_plane.h"
@@ -20,8 +22,11 @@
 namespace echocine {
 namespace {
 
+// What stands in a frame's place. Another scene's whole frame is a user's mistake and not to be
+// overwritten; damage is not.
 enum class Found { nothing, another_scene, this_frame };
 
+// An attribute of the same name but another type is not the one.
 template <typename Attribute, typename Value>
 bool holds(const Imf::Header& header, const char* name, const Value& value) {
   const auto* attribute = header.findTypedAttribute<Attribute>(name);
@@ -32,6 +37,7 @@ bool hasSize(const Imf::Header& header, const Probe& probe) {
   return header.dataWindow() == Imath::Box2i({0, 0}, {probe.lines - 1, probe.samples - 1});
 }
 
+// Exactly those: a frame with more or fewer was rendered for other settings.
 bool hasChannels(const Imf::Header& header, const std::vector<Channel>& wanted) {
   std::set<std::string> names;
   for (const Channel channel : wanted) names.insert(channelName(channel));
@@ -44,6 +50,7 @@ bool hasChannels(const Imf::Header& header, const std::vector<Channel>& wanted) 
 // One row of one channel.
 struct ChannelRow {
   bool is_float = true;
+  bool is_motion = false;     // may be negative, or unknown
   std::vector<float> values;  // of an integer channel: its bit patterns
 };
 
@@ -59,7 +66,12 @@ Imf::FrameBuffer rowBuffer(const Imf::Header& header, std::vector<ChannelRow>& r
       return {};
     }
     const bool is_float = channel.type != Imf::UINT;  // half floats are widened on reading
-    rows.push_back({is_float, std::vector<float>(static_cast<std::size_t>(window.max.x) + 1)});
+    const bool is_motion = std::any_of(
+        kTruthChannels.begin(), kTruthChannels.end(),
+        [&](Channel c) { return isMotion(c) && it.name() == std::string_view(channelName(c)); });
+    rows.push_back(
+        {is_float, is_motion, std::vector<float>(static_cast<std::size_t>(window.max.x) + 1)});
+    // Every row lands in the same memory: the values are looked at and thrown away.
     const std::size_t row_stride = 0;
     buffer.insert(it.name(), Imf::Slice(is_float ? Imf::FLOAT : Imf::UINT,
                                         reinterpret_cast<char*>(rows.back().values.data()),
@@ -78,7 +90,7 @@ bool pixelsAreWhole(Imf::InputFile& file) {
   for (int y = 0; y <= file.header().dataWindow().max.y; ++y) {
     file.readPixels(y);
     for (const ChannelRow& row : rows)
-      if (row.is_float && firstUnusable(row.values)) return false;
+      if (row.is_float && !row.is_motion && firstUnusable(row.values)) return false;
   }
   return true;
 }
@@ -92,22 +104,47 @@ bool isThisFrame(const Imf::Header& header, const FrameRecord& record, const Sce
          holds<Imf::StringAttribute>(header, "echocine:version", std::string(ECHOCINE_VERSION));
 }
 
-bool isOfScene(const Imf::Header& header, const std::string& scene_sha256) {
-  return holds<Imf::StringAttribute>(header, "echocine:scene_sha256", scene_sha256);
+// Whose scene a header is of. Two scenes differ in some 60 of the 64 digits; one that differs in a
+// few is this one, damaged. A file without any attribute of ours is somebody else's.
+enum class Owner { this_scene, damaged, another_scene };
+
+Owner ownerOf(const Imf::Header& header, const std::string& scene_sha256) {
+  constexpr std::ptrdiff_t kDamagedDigits = 8;
+  const auto* attribute = header.findTypedAttribute<Imf::StringAttribute>("echocine:scene_sha256");
+  if (attribute == nullptr) {
+    const bool ours = header.find(kExrDigestName) != header.end() ||
+                      header.find("echocine:frame") != header.end();
+    return ours ? Owner::damaged : Owner::another_scene;
+  }
+  const std::string& found = attribute->value();
+  if (found == scene_sha256) return Owner::this_scene;
+  if (found.size() != scene_sha256.size()) return Owner::damaged;
+  std::ptrdiff_t differ = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) differ += found[i] != scene_sha256[i] ? 1 : 0;
+  return differ <= kDamagedDigits ? Owner::damaged : Owner::another_scene;
 }
 
+// Cheap checks first: the pixels, which take longest, are read last.
 Found look(const std::filesystem::path& path, const FrameRecord& record, const Scene& scene,
            const std::string& scene_sha256, double reference_intensity) {
   try {
-    if (!hasPlainExrHeader(path)) return Found::nothing;
+    std::error_code absent;
+    if (!std::filesystem::is_regular_file(path, absent) || !hasPlainExrHeader(path))
+      return Found::nothing;
     Imf::InputFile file(path.c_str(), 0);
     const Imf::Header& header = file.header();
     if (!file.isComplete()) return Found::nothing;
-    const bool same_scene = isOfScene(header, scene_sha256);
-    if (same_scene && !isThisFrame(header, record, scene, reference_intensity))
-      return Found::nothing;
-    if (!pixelsAreWhole(file)) return Found::nothing;
-    return same_scene ? Found::this_frame : Found::another_scene;
+    switch (ownerOf(header, scene_sha256)) {
+      case Owner::damaged:
+        return Found::nothing;
+      case Owner::another_scene:
+        return pixelsAreWhole(file) ? Found::another_scene : Found::nothing;
+      case Owner::this_scene:
+        break;
+    }
+    const bool this_frame =
+        isThisFrame(header, record, scene, reference_intensity) && isSealedExr(path);
+    return this_frame ? Found::this_frame : Found::nothing;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {  // absent, cut short, or no OpenEXR file at all
@@ -123,18 +160,21 @@ Found look(const std::filesystem::path& path, const FrameRecord& record, const S
 
 }  // namespace
 
-void ExrStack::refuseOtherScene(int frame) const {
+bool ExrStack::isOfAnotherScene(int frame) const {
   const std::filesystem::path path = folder_ / fileName(frame);
   std::error_code absent;
-  if (!std::filesystem::is_regular_file(path, absent) || !hasPlainExrHeader(path)) return;
-  bool another = false;
+  if (!std::filesystem::is_regular_file(path, absent) || !hasPlainExrHeader(path)) return false;
   try {
-    another = !isOfScene(Imf::InputFile(path.c_str(), 0).header(), scene_sha256_);
+    return ownerOf(Imf::InputFile(path.c_str(), 0).header(), scene_sha256_) == Owner::another_scene;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {  // without a header it is of no scene
+    return false;
   }
-  if (another) failOfOtherScene(path);
+}
+
+void ExrStack::refuseOtherScene(int frame) const {
+  if (isOfAnotherScene(frame)) failOfOtherScene(folder_ / fileName(frame));
 }
 
 std::string ExrStack::existing(const FrameRecord& record) const {

@@ -19,8 +19,10 @@
 #include "core/check.h"
 #include "core/file.h"
 #include "core/hash.h"
+#include "output/exr_digest.h"
 #include "output/half_plane.h"
 #include "output/polar_plane.h"
+#include "scene/names.h"
 #include "video/cine_writer.h"
 
 namespace echocine {
@@ -75,22 +77,10 @@ Imf::Compression compressionOf(ExrCompression compression) {
   return Imf::NO_COMPRESSION;
 }
 
-const char* kindName(ProbeKind kind) {
-  switch (kind) {
-    case ProbeKind::curvilinear:
-      return "curvilinear";
-    case ProbeKind::linear:
-      return "linear";
-    case ProbeKind::phased:
-      break;
-  }
-  return "phased";
-}
-
 std::string probeJson(const Probe& probe) {
   const auto triple = [](Vec3d v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
   nlohmann::ordered_json json;
-  json["kind"] = kindName(probe.kind);
+  json["kind"] = nameOf(probe.kind);
   json["apex_m"] = triple(probe.pose.origin);
   json["lateral"] = triple(probe.pose.x_axis);
   json["elevation"] = triple(probe.pose.y_axis);
@@ -107,6 +97,7 @@ std::string probeJson(const Probe& probe) {
 
 // Refused here, a bad value names its place; in the file it would only spoil whatever reads it.
 void refuseUnusable(const FrameRecord& record, const ChannelPlane& plane, int samples) {
+  if (isMotion(plane.channel)) return;  // may be negative, or unknown
   const std::optional<std::size_t> bad = firstUnusable(plane.values);
   if (!bad) return;
   const auto per_line = static_cast<std::size_t>(samples);
@@ -123,17 +114,20 @@ Imf::FrameBuffer layOut(const std::vector<ChannelPlane>& planes, const Probe& pr
   const auto samples = static_cast<std::size_t>(probe.samples);
   Imf::FrameBuffer buffer;
   for (const ChannelPlane& plane : planes) {
-    const bool ids = plane.channel == Channel::medium;
+    const bool ids = isLabel(plane.channel);
     if (ids)
       rowsFromLines(plane.ids, lines, samples, image);
     else
       rowsFromLines(plane.values, lines, samples, image);
-    const bool half = !ids && pixel == ExrPixel::half;
+    const bool half = !ids && !isMotion(plane.channel) && pixel == ExrPixel::half;
     if (half) {
-      const double scale = halfScale(plane.values);
+      // Greys of 0 to 1 need no scale, and whoever knows of none reads them as they are.
+      const bool scaled = plane.channel != Channel::display;
+      const double scale = scaled ? halfScale(plane.values) : 1;
       narrowToHalf({image, lines * samples}, scale);
-      header.insert(std::string("echocine:scale.") + channelName(plane.channel),
-                    Imf::DoubleAttribute(scale));
+      if (scaled)
+        header.insert(std::string("echocine:scale.") + channelName(plane.channel),
+                      Imf::DoubleAttribute(scale));
     }
     const Imf::PixelType type = ids ? Imf::UINT : half ? Imf::HALF : Imf::FLOAT;
     const std::size_t size = half ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
@@ -182,6 +176,7 @@ std::span<const std::byte> ExrStack::encode(const FrameRecord& record,
   header.insert("echocine:scene_sha256", Imf::StringAttribute(scene_sha256_));
   header.insert("echocine:reference_intensity", Imf::DoubleAttribute(reference_intensity_));
   header.insert("echocine:version", Imf::StringAttribute(ECHOCINE_VERSION));
+  header.insert(kExrDigestName, Imf::StringAttribute(emptyExrDigest()));
 
   const std::filesystem::path path = folder_ / fileName(record.frame);
   const std::size_t pixels =
@@ -205,6 +200,7 @@ std::span<const std::byte> ExrStack::encode(const FrameRecord& record,
   } catch (const std::exception& error) {
     throw JobError(fmt::format("{}: cannot be encoded: {}", path.string(), error.what()));
   }
+  sealExr(bytes);
   return bytes;
 }
 

@@ -3,8 +3,8 @@
 //
 // What a pixel keeps of its value: 32-bit floats every bit; with compression pxr24 15 binary digits
 // behind the point, a relative error of 2^-16 at most; half floats as half_plane.h has it, where
-// the header's echocine:scale.<channel> is what the value was multiplied by. medium.id is always
-// whole.
+// the header's echocine:scale.<channel> is what the value was multiplied by; display.Y has none.
+// medium.id is always whole. Each file holds a digest of itself, exr_digest.h.
 
 #include <cstddef>
 #include <filesystem>
@@ -33,12 +33,16 @@ class ExrStack {
   std::string write(const FrameRecord& record, const std::vector<ChannelPlane>& planes) const;
 
   // The SHA-256 of an existing whole file of this very scene and frame, or empty when there is
-  // none: absent, truncated, of another size, frame, channel list, reference or program version.
-  // Thread-safe. Throws SceneError when the file is whole but belongs to another scene.
+  // none: absent, truncated, with a byte other than was written, of another size, frame, channel
+  // list, reference or program version. Thread-safe. Throws SceneError when the file is whole but
+  // belongs to another scene.
   std::string existing(const FrameRecord& record) const;
 
-  // Throws SceneError when the frame's file is there and its header is of another scene, whether or
-  // not the pixels are whole.
+  // Whether the frame's file is there and its header is of another scene, whether or not the pixels
+  // are whole.
+  bool isOfAnotherScene(int frame) const;
+
+  // Throws SceneError where isOfAnotherScene().
   void refuseOtherScene(int frame) const;
 
   static std::string fileName(int frame);  // "frame_0000.exr"

@@ -20,7 +20,7 @@ struct FrameRecord {
 struct ChannelPlane {
   Channel channel;
   std::span<const float> values;
-  std::span<const std::uint32_t> ids;  // Channel::medium
+  std::span<const std::uint32_t> ids;  // whole numbers: isLabel(channel)
 };
 
 }  // namespace echocine

@@ -12,6 +12,7 @@ namespace echocine {
 double halfScale(std::span<const float> values) {
   const auto largest = std::max_element(values.begin(), values.end());
   if (largest == values.end() || !(*largest > 0)) return 1;
+  // One below the largest exponent of a half, 15: rounding up cannot overflow.
   constexpr int kTop = 14;
   return std::ldexp(1.0, kTop - std::ilogb(*largest));
 }

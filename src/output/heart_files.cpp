@@ -10,6 +10,7 @@
 #include "core/file.h"
 #include "core/folder_lock.h"
 #include "core/parallel.h"
+#include "motion/heart/heart_scene.h"
 #include "motion/heart/truth.h"
 
 namespace echocine {
@@ -27,38 +28,6 @@ void appendMillimetres(std::string& text, double metres) {
   const auto end = std::to_chars(digits, digits + sizeof digits, mm, std::chars_format::fixed, 3);
   text += ' ';
   text.append(digits, end.ptr);
-}
-
-std::string vectorText(Vec3d v, double unit) {
-  return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x / unit + 0.0, v.y / unit + 0.0,
-                     v.z / unit + 0.0);
-}
-
-std::string listText(const std::vector<double>& values) {
-  std::string text = "[";
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (i > 0) text += i % 10 == 0 ? ",\n  " : ", ";
-    text += fmt::format("{:.6f}", values[i]);
-  }
-  return text + "]";
-}
-
-const char* meaningOf(heart::View view) {
-  for (const heart::ViewName& name : heart::viewNames())
-    if (name.view == view) return name.meaning;
-  return "";
-}
-
-std::string structureText(const RecordedPart& part, const std::string& mesh_folder) {
-  std::string text = fmt::format("\n[[structure]]\nname = \"{}\"\nmedium = \"{}\"\n",
-                                 part.kind.name, part.kind.medium);
-  text +=
-      part.kind.membrane ? "membrane = true\n" : fmt::format("priority = {}\n", part.kind.priority);
-  if (part.kind.reflection_gain != 1)
-    text += fmt::format("reflection_gain = {:g}\n", part.kind.reflection_gain);
-  const bool still = part.control_m.size() == 1;
-  return text + fmt::format("keyframes = \"{}{}{}.obj\"\n", mesh_folder, part.kind.name,
-                            still ? "" : "_??");
 }
 
 void writeText(const fs::path& file, const std::string& text) {
@@ -112,11 +81,6 @@ class FolderInTheMaking {
 
 }  // namespace
 
-std::string heartMeshName(const RecordedPart& part, std::size_t keyframe) {
-  return part.control_m.size() == 1 ? part.kind.name + ".obj"
-                                    : fmt::format("{}_{:02d}.obj", part.kind.name, keyframe);
-}
-
 std::string heartMesh(const RecordedPart& part, std::size_t keyframe) {
   std::string text;
   for (const Vec3d point : part.control_m[keyframe]) {
@@ -134,56 +98,6 @@ std::string heartMesh(const RecordedPart& part, std::size_t keyframe) {
   return text;
 }
 
-std::string heartScene(const HeartFiles& wanted, const Recording& recording,
-                       const std::string& mesh_folder) {
-  const heart::ProbePose& pose = recording.pose;
-  const double hr_bpm = wanted.parameters.heart_rate_bpm;
-  constexpr double kMillimetre = 1e-3;
-  std::string text = fmt::format(
-      R"(# A parametric heart, {}, {:g} beats per minute.
-# World axes in mm: origin at the mitral ring at end-diastole, z to the apex of the left ventricle,
-# x from the septum to its lateral wall, y to its anterior wall.
-
-background = "soft_tissue"
-
-[probe]
-kind = "phased"
-apex = {}
-axis = {}
-lateral = {}
-sector_deg = {:g}
-min_depth_mm = 2
-depth_mm = {:g}
-frequency_mhz = 2.5
-lines = 256
-samples = 1024
-
-[acquisition]
-heart_rate_bpm = {:g}
-frame_rate_hz = 50
-beats = 1
-
-[motion]
-mesh_unit = "mm"
-subdivision = {}   # the meshes are control meshes of Loop surfaces
-keyframe_heart_rate_bpm = {:g}   # another heart_rate_bpm above plays them with a diastole of other length
-end_systole_phase = {:.6f}
-keyframe_phases = {}
-
-[signal]
-dynamic_range_db = 55
-reference_intensity = 2e-4   # white, of the transmitted intensity: one gain for all hearts and views
-
-# Where structures overlap the highest priority wins. Cavities pierce walls; the septum belongs to the
-# left ventricle and the right heart is wrapped round it.
-)",
-      meaningOf(wanted.view), hr_bpm, vectorText(pose.apex, kMillimetre), vectorText(pose.axis, 1),
-      vectorText(pose.lateral, 1), pose.sector_deg, std::round(pose.depth_m / kMillimetre), hr_bpm,
-      Recording::kLevels, hr_bpm, recording.end_systole_phase, listText(recording.phases));
-  for (const RecordedPart& part : recording.parts) text += structureText(part, mesh_folder);
-  return text;
-}
-
 void writeHeart(const HeartFiles& wanted, const fs::path& folder, const Monitor& monitor) {
   if (const std::string fault = heart::faultOf(wanted.parameters); !fault.empty())
     throw SceneError("heart: " + fault);
@@ -195,10 +109,11 @@ void writeHeart(const HeartFiles& wanted, const fs::path& folder, const Monitor&
     for (const RecordedPart& part : recording.parts)
       for (std::size_t k = 0; k < part.control_m.size(); ++k) {
         if (!monitor.keep_going()) throw JobError("stopped");
-        writeText(making.path() / heartMeshName(part, k), heartMesh(part, k));
+        writeText(making.path() / heart::meshName(part, k), heartMesh(part, k));
       }
     writeText(making.path() / "truth.json", heart::truthText(model, recording));
-    writeText(making.path() / "scene.toml", heartScene(wanted, recording, ""));
+    writeText(making.path() / "scene.toml",
+              heart::sceneText(wanted.view, wanted.parameters, recording, ""));
   });
   making.finish();
 }

@@ -16,14 +16,8 @@ struct HeartFiles {
   int threads = 0;
 };
 
-// The scene that renders a recording, its meshes found under `mesh_folder` ("" for the scene's own,
-// else with a slash at its end).
-std::string heartScene(const HeartFiles& wanted, const heart::Recording& recording,
-                       const std::string& mesh_folder);
-
 // The text of a part's keyframe: OBJ in mm, with the tags that subdivision needs.
 std::string heartMesh(const heart::RecordedPart& part, std::size_t keyframe);
-std::string heartMeshName(const heart::RecordedPart& part, std::size_t keyframe);
 
 // Writes NAME_00.obj ... of every part, scene.toml and truth.json into `folder`, which must be
 // absent or empty and is there whole or not at all. Throws SceneError for parameters that no heart

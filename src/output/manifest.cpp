@@ -1,10 +1,17 @@
 #include "output/manifest.h"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
+#include "core/units.h"
 #include "output/exr_stack.h"
+#include "scene/role.h"
+#include "scene/scan_geometry.h"
 #include "scene/scene_json.h"
+#include "signal/picture.h"
 
 namespace echocine {
 
@@ -12,6 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// null where a run writes no EXR: the keys are the same in every manifest.
 Json framesJson(const Manifest& manifest) {
   Json frames = Json::array();
   for (const FrameEntry& f : manifest.frames) {
@@ -30,6 +38,58 @@ Json framesJson(const Manifest& manifest) {
   return frames;
 }
 
+// Grouped by structure, as curves are drawn.
+// Where the probe frame lies in the picture. Pixel (i, j) covers i..i+1, j..j+1.
+Json pictureJson(const Scene& scene) {
+  const PictureGeometry g = pictureGeometry(scene);
+  const double mm_per_pixel = millimetresFromMetres(g.metres_per_pixel);
+  Json edges = Json::array();
+  Probe outer = scene.probe;
+  outer.lines = 2;
+  for (int i = 0; i < outer.lines; ++i) {
+    const LineGeometry line = lineGeometry(outer, i);
+    const auto px = [&](double path_m) {
+      const PixelPoint at = pixelOf(g, line.origin + path_m * line.direction);
+      return Json{at.x, at.y};
+    };
+    edges.push_back(
+        {{"from_px", px(scene.probe.min_depth_m)},
+         {"to_px", px(scene.probe.max_depth_m)},
+         {"angle_deg", degreesFromRadians(std::atan2(line.direction.x, line.direction.z))}});
+  }
+  return {
+      {"width_px", scene.output.width},
+      {"height_px", scene.output.height},
+      {"mm_per_pixel", mm_per_pixel},
+      {"apex_px", {g.origin_x_px, g.origin_y_px}},
+      {"px_from_mm", {{1 / mm_per_pixel, 0, g.origin_x_px}, {0, 1 / mm_per_pixel, g.origin_y_px}}},
+      {"sector_edges", edges}};
+}
+
+// The frames of the largest and the smallest left ventricle; null without one.
+Json eventsJson(const Scene& scene, const Manifest& manifest) {
+  const auto ventricle = structureOf(scene, Role::lv_cavity);
+  if (!ventricle || manifest.frames.empty()) return {};
+  const std::string& name = scene.structures[index(*ventricle)].name;
+  const auto volume = [&](const FrameEntry& frame) {
+    for (const auto& [structure, ml] : frame.volumes_ml)
+      if (structure == name) return ml;
+    return 0.0;
+  };
+  const auto by_volume = [&](const FrameEntry& a, const FrameEntry& b) {
+    return volume(a) < volume(b);
+  };
+  const auto [least, most] =
+      std::minmax_element(manifest.frames.begin(), manifest.frames.end(), by_volume);
+  const double full_ml = volume(*most), empty_ml = volume(*least);
+  return {{"structure", name},
+          {"end_diastole_frame", most->record.frame},
+          {"end_systole_frame", least->record.frame},
+          {"end_diastolic_volume_ml", full_ml},
+          {"end_systolic_volume_ml", empty_ml},
+          {"ejection_fraction", full_ml > 0 ? 1 - empty_ml / full_ml : 0}};
+}
+
 Json keyframesJson(const Manifest& manifest) {
   Json keyframes = Json::object();
   for (const KeyframeVolume& k : manifest.keyframes)
@@ -42,7 +102,7 @@ Json keyframesJson(const Manifest& manifest) {
 Json effectsJson(const Manifest& manifest) {
   Json effects = Json::array();
   for (const EffectDecision& e : manifest.plan.effects.decisions)
-    effects.push_back({{"name", e.name},
+    effects.push_back({{"name", e.name()},
                        {"on", e.on},
                        {"reason", e.reason},
                        {"time_share", timeShare(e, manifest)}});
@@ -51,8 +111,8 @@ Json effectsJson(const Manifest& manifest) {
 
 Json planJson(const LoopPlan& plan) {
   Json interfaces = Json::array();
-  for (const EffectDecision& i : plan.interfaces)
-    interfaces.push_back({{"name", i.name}, {"on", i.on}, {"reason", i.reason}});
+  for (const Omission& i : plan.interfaces)
+    interfaces.push_back({{"name", i.name}, {"on", false}, {"reason", i.reason}});
   return {{"tracer", plan.tracerName()},
           {"tracer_reason", plan.tracer_reason},
           {"rays_per_beam", plan.effects.rays_per_beam},
@@ -91,43 +151,41 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest) {
              attenuated = static_cast<double>(w.samples_attenuated);
   // Relative cost of a unit of each work: our choice, weighed by the operations of each, not timed.
   struct Part {
-    const char* name;
+    Effect effect;
     Stage stage;
     double work;
   };
-  const Part parts[] = {{"reflection", Stage::trace, 20 * crossings},
-                        {"lobe", Stage::trace, 5 * crossings},
-                        {"transmission_loss", Stage::trace, 10 * crossings},
-                        {"refraction", Stage::trace, manifest.plan.slice ? 0 : 200 * rays},
-                        {"attenuation", Stage::trace, 0.5 * attenuated},
-                        {"backscatter", Stage::trace, 0.3 * scattered},
-                        {"spread", Stage::trace, 0.3 * scattered},
-                        {"elevation", Stage::trace, 20 * rays},
-                        {"travel_time", Stage::trace, 2 * crossings},
-                        {"labels", Stage::trace, 0.1 * scattered},
-                        {"speckle", Stage::speckle, 1},
-                        {"beam_width", Stage::signal, 0.8},
-                        {"tgc", Stage::signal, 0.05},
-                        {"log_compression", Stage::signal, 0.2}};
+  const Part parts[] = {{Effect::reflection, Stage::trace, 20 * crossings},
+                        {Effect::lobe, Stage::trace, 5 * crossings},
+                        {Effect::transmission_loss, Stage::trace, 10 * crossings},
+                        {Effect::refraction, Stage::trace, manifest.plan.slice ? 0 : 200 * rays},
+                        {Effect::attenuation, Stage::trace, 0.5 * attenuated},
+                        {Effect::backscatter, Stage::trace, 0.3 * scattered},
+                        {Effect::spread, Stage::trace, 0.3 * scattered},
+                        {Effect::elevation, Stage::trace, 20 * rays},
+                        {Effect::travel_time, Stage::trace, 2 * crossings},
+                        {Effect::labels, Stage::trace, 0.1 * scattered},
+                        {Effect::speckle, Stage::speckle, 1},
+                        {Effect::beam_width, Stage::signal, 0.8},
+                        {Effect::tgc, Stage::signal, 0.05},
+                        {Effect::log_compression, Stage::signal, 0.2},
+                        {Effect::channel, Stage::exr, 1}};
+  const auto partOf = [&](const EffectDecision& decision) {
+    return std::find_if(std::begin(parts), std::end(parts),
+                        [&](const Part& p) { return p.effect == decision.effect; });
+  };
+  const Part* part = partOf(effect);
+  if (part == std::end(parts)) return 0;
   double of_stage = 0;
-  const Part* part = nullptr;
-  for (const Part& p : parts)
-    if (effect.name == p.name) part = &p;
-  const bool channel = effect.name.starts_with("channel");
-  if (!part && !channel) return 0;
-  for (const EffectDecision& other : manifest.plan.effects.decisions)
-    for (const Part& p : parts)
-      if (part && other.on && other.name == p.name && p.stage == part->stage) of_stage += p.work;
-  if (channel) {
-    double channels = 0;
-    for (const EffectDecision& other : manifest.plan.effects.decisions)
-      channels += other.on && other.name.starts_with("channel") ? 1 : 0;
-    return manifest.stage_ms[static_cast<std::size_t>(Stage::exr)] / total / channels;
+  for (const EffectDecision& other : manifest.plan.effects.decisions) {
+    const Part* p = partOf(other);
+    if (other.on && p != std::end(parts) && p->stage == part->stage) of_stage += p->work;
   }
   const double stage_ms = manifest.stage_ms[static_cast<std::size_t>(part->stage)];
   return of_stage > 0 ? stage_ms / total * part->work / of_stage : 0;
 }
 
+// Written last and whole: its presence says that the run is finished.
 void writeManifest(const std::filesystem::path& path, const Scene& scene,
                    const Manifest& manifest) {
   Json timings = stageTimesJson(manifest);
@@ -142,6 +200,8 @@ void writeManifest(const std::filesystem::path& path, const Scene& scene,
                   {"warnings", manifest.warnings},
                   {"reference_intensity", manifest.reference_intensity},
                   {"loop_frames", manifest.loop_frames},
+                  {"picture", pictureJson(scene)},
+                  {"left_ventricle", eventsJson(scene, manifest)},
                   {"frames", framesJson(manifest)},
                   {"keyframe_volumes", keyframesJson(manifest)},
                   {"timings_ms_per_frame", timings},

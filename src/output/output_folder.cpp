@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The folder and those above it, as a user who names a new path means it.
 fs::path madeFolder(const fs::path& folder) {
   std::error_code failed;
   if (fs::exists(folder, failed) && !fs::is_directory(folder, failed))
@@ -33,6 +34,7 @@ void refuseFolderAt(const fs::path& file) {
     throw JobError(fmt::format("{}: is a folder, a file has to go there", file.string()));
 }
 
+// A file that is not there is removed already.
 void removeFile(const fs::path& path) {
   std::error_code failed;
   fs::remove(path, failed);
@@ -49,6 +51,7 @@ void tryWriting(const fs::path& folder) {
 
 // The number in "frame_0012.exr" for the ending ".exr"; nothing for any other name.
 std::optional<int> frameNumber(std::string_view name, std::string_view ending) {
+  const std::string whole(name);
   constexpr std::string_view kStem = "frame_";
   if (!name.starts_with(kStem) || !name.ends_with(ending)) return std::nullopt;
   if (name.size() <= kStem.size() + ending.size()) return std::nullopt;
@@ -57,10 +60,13 @@ std::optional<int> frameNumber(std::string_view name, std::string_view ending) {
   int number = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
   if (error != std::errc{} || end != name.data() + name.size() || number < 0) return std::nullopt;
+  // Only names that a run writes: "frame_12.exr" is somebody's own.
+  if (fmt::format("{}{:04}{}", kStem, number, ending) != whole) return std::nullopt;
   return number;
 }
 
 // Deletes numbered frames from `first` on, and their half-written forms whatever the number.
+// Listed first and removed then: what a directory iterator sees while files vanish is not defined.
 void removeFrames(const fs::path& folder, const std::string& ending, int first) {
   std::vector<fs::path> stale;
   std::error_code absent;
@@ -80,6 +86,7 @@ OutputFolder::OutputFolder(fs::path folder, const OutputSettings& settings, bool
   if (settings.cine) refuseFolderAt(cine());
   refuseFolderAt(manifest());
   tryWriting(folder_);
+  // Only folders that this run fills: others may be links to places that take no files.
   for (const auto& [wanted, subfolder] :
        {std::pair(settings.exr, intensity()), {settings.png, png()}}) {
     if (!wanted) continue;
@@ -91,6 +98,7 @@ OutputFolder::OutputFolder(fs::path folder, const OutputSettings& settings, bool
   removeFile(report().string() + ".part");
 }
 
+// Pictures without an EXR beside them bear no scene's name, so on resuming they are not trusted.
 void OutputFolder::removeStale(int frame_count) const {
   const int first = resume_ ? frame_count : 0;
   removeFrames(intensity(), ".exr", first);

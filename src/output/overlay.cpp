@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/check.h"
+#include "scene/scan_geometry.h"
 
 namespace echocine {
 namespace {
@@ -68,6 +69,7 @@ void drawDepthTicks(cv::Mat& canvas, const Probe& probe, const PictureGeometry& 
 
   const int deepest = static_cast<int>(std::floor(probe.max_depth_m / kCentimetre + kTolerance));
   const int long_step = deepest >= 5 ? 5 : 1;
+  // Ticks nearer than 4 pixels run together; then only those with numbers are drawn.
   const bool crowded = kCentimetre / geometry.metres_per_pixel < kLeastPixelsApart * unit;
   const int step = crowded ? long_step : 1;
   for (int cm = step; cm <= deepest; cm += step) {
@@ -111,6 +113,7 @@ struct TraceArea {
   }
 };
 
+// The trace always holds the range from 0 to 1, so that a flat lead is drawn flat and not blown up.
 TraceArea traceArea(const std::vector<double>& ecg, cv::Rect strip, const Label& rate,
                     double unit) {
   const double margin = 10 * unit;

@@ -26,7 +26,8 @@ function makeChart(root, height_px, option) {
   tint();
   new ResizeObserver(() => chart.resize()).observe(box);
   // Print media are told by a query, since beforeprint comes before the style is.
-  window.matchMedia("print").addEventListener("change", tint);
+  for (const media of ["print", "(prefers-color-scheme: light)"])
+    window.matchMedia(media).addEventListener("change", tint);
   page.parts.charts.push(chart);
   return chart;
 }
@@ -70,7 +71,8 @@ function followPlayer(chart, player, frame_x) {
 function curves(root, { x_name, y_name, frame_x, series, player, height_px = 260, y_log = false,
   y_from_zero = false, x_range, digits = 4 }) {
   const many = series.length > 1;
-  const legend = many && { type: "scroll", top: 0, left: 0, right: 0, icon: "roundRect", itemHeight: 4,
+  const legend = many && { type: "scroll", top: 0, left: 8, right: 8, padding: [5, 10], itemGap: 14, icon: "roundRect",
+    itemHeight: 4, itemWidth: 18, textStyle: { padding: [0, 4] },
     selected: Object.fromEntries(series.map((s) => [s.name, !s.hidden])) };
   const chart = makeChart(root, height_px, {
     grid: { left: 8, right: 16, top: many ? 44 : 26, bottom: 26, containLabel: true },

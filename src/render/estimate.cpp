@@ -17,6 +17,7 @@ namespace echocine {
 
 namespace {
 
+// The plan measures what a render does, files included.
 struct TemporaryFolder {
   std::filesystem::path path;
 
@@ -51,14 +52,15 @@ void addFirstPass(const Scene& scene, double traced_share, double frame_s, Estim
   const double planes =
       1 + (scene.output.exr ? static_cast<double>(scene.output.channels.size()) : 0);
   const double frame_bytes = 4 * planes * scene.probe.lines * scene.probe.samples;
-  const double kept = std::min(static_cast<double>(estimate.frames),
-                               std::floor(static_cast<double>(kKeptBytes) / frame_bytes));
+  const double measured = std::min(estimate.frames, kReferenceFrames);
+  const double kept = std::min(measured, std::floor(static_cast<double>(kKeptBytes) / frame_bytes));
   estimate.memory_bytes += kept * frame_bytes;
-  estimate.seconds += (estimate.frames - kept) * traced_share * frame_s;
+  estimate.seconds += (measured - kept) * traced_share * frame_s;
 }
 
 }  // namespace
 
+// Six frames: enough to warm the caches, and a second or two of waiting.
 Estimate estimateLoop(const Scene& scene, int threads, const Monitor& monitor) {
   constexpr int kFrames = 6;
   const TemporaryFolder folder;
@@ -77,7 +79,8 @@ Estimate estimateLoop(const Scene& scene, int threads, const Monitor& monitor) {
   estimate.memory_bytes = largestResidentBytes();
   const auto& ms = summary.manifest.stage_ms;
   const double all = std::accumulate(ms.begin(), ms.end(), 0.0);
-  const double traced = std::accumulate(ms.begin(), ms.begin() + 4, 0.0);  // motion to signal
+  const double traced =
+      std::accumulate(ms.begin(), ms.begin() + static_cast<int>(Stage::signal) + 1, 0.0);
   addFirstPass(scene, all > 0 ? traced / all : 0, frame_s, estimate);
   return estimate;
 }

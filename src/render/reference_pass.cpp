@@ -1,5 +1,10 @@
 #include "render/reference_pass.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
 #include "core/parallel.h"
 #include "signal/reference.h"
 
@@ -7,11 +12,25 @@ namespace echocine {
 
 namespace {
 
+// What a kept frame holds: its planes, by far the most of it.
 std::size_t bytesOf(const PolarFrame& polar) {
   std::size_t planes =
       polar.planes.size() + (polar.intensities.empty() ? 0 : 1) + (polar.medium.empty() ? 0 : 1);
   return planes * sizeof(float) * static_cast<std::size_t>(polar.lines) *
          static_cast<std::size_t>(polar.samples);
+}
+
+// One frame of each of kReferenceFrames equal parts of the loop, at a place that moves on by the
+// golden section, so that beats as long as a part are not met at one phase alone.
+std::vector<int> sampledFrames(int frames) {
+  std::vector<int> sampled;
+  const int parts = std::min(frames, kReferenceFrames);
+  for (int k = 0; k < parts; ++k) {
+    double whole = 0;
+    const double within = frames == parts ? 0 : std::modf(k * std::numbers::phi, &whole);
+    sampled.push_back(static_cast<int>((k + within) * frames / parts));
+  }
+  return sampled;
 }
 
 }  // namespace
@@ -22,8 +41,10 @@ std::optional<double> findReference(const Simulator& simulator, std::pair<int, i
   const CardiacClock& clock = simulator.cardiacClock();
   if (scene.signal.reference_intensity) return scene.signal.reference_intensity;
   if (!wantsPicture(scene) || !simulator.plan().effects.contrast) return 1;
+  // All frames of the loop, also when a part is rendered: parts then have the grey of the whole.
   IntensityHistogram histogram(scene.probe);
-  const int frames = clock.frameCount();
+  const std::vector<int> sampled = sampledFrames(clock.frameCount());
+  const auto frames = static_cast<int>(sampled.size());
   std::size_t kept_bytes = 0;
   const std::size_t done = parallelOrdered(
       0, static_cast<std::size_t>(frames), 2 * static_cast<std::size_t>(threadCount()),
@@ -31,17 +52,18 @@ std::optional<double> findReference(const Simulator& simulator, std::pair<int, i
       [&](std::size_t i) -> std::shared_ptr<void> {
         auto frame = std::make_shared<KeptFrame>();
         const std::shared_ptr<Workspace> workspace = simulator.workspace();
-        frame->volumes_ml = simulator.trace(clock.at(static_cast<int>(i)), *workspace);
+        frame->volumes_ml = simulator.trace(clock.at(sampled[i]), *workspace);
         simulator.clock().time(Stage::signal, [&] { histogram.add(workspace->polar.intensities); });
         frame->polar = std::move(workspace->polar);
         workspace->polar = {};
+        // Only what the signal chain still needs is kept.
         frame->polar.traces.clear();
         frame->polar.cell_echoes = {};
         return frame;
       },
       [&](std::size_t i, std::shared_ptr<void> result) {
         auto& frame = *static_cast<KeptFrame*>(result.get());
-        const int index = static_cast<int>(i);
+        const int index = sampled[i];
         if (index >= range.first && index < range.second) {
           kept_bytes += bytesOf(frame.polar);
           if (kept_bytes <= kKeptBytes) kept.emplace(index, std::move(frame));

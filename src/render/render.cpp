@@ -9,6 +9,8 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/shown_path.h"
+#include "output/earlier_hashes.h"
 #include "output/exr_stack.h"
 #include "output/output_folder.h"
 #include "render/reference_pass.h"
@@ -29,16 +31,32 @@ std::pair<int, int> frameRange(const RenderOptions& options, int loop_frames) {
   return range;
 }
 
-// Before anything is touched: the frames that are there must be of this scene.
-void refuseOtherScene(const Scene& scene, const std::filesystem::path& folder,
-                      const Manifest& manifest) {
-  const ExrStack stack(folder / "intensity", scene, manifest.scene_sha256, 1);
-  for (int i = 0; i < manifest.loop_frames; ++i) stack.refuseOtherScene(i);
+[[noreturn]] void failOfOtherLoop(const std::filesystem::path& folder) {
+  throw SceneError(
+      fmt::format("{}: holds the loop of another scene or program version: choose another folder, "
+                  "or give --overwrite",
+                  folder.string()));
 }
 
-void warn(const std::vector<std::string>& warnings, const Monitor& monitor, Manifest& manifest) {
+// Before anything is touched: what is there must be of this scene.
+void refuseOtherScene(const Scene& scene, const RenderOptions& options, const Manifest& manifest) {
+  if (options.overwrite && !options.resume) return;
+  const ExrStack stack(options.folder / "intensity", scene, manifest.scene_sha256, 1);
+  for (int i = 0; i < manifest.loop_frames; ++i) {
+    if (options.resume)
+      stack.refuseOtherScene(i);
+    else if (stack.isOfAnotherScene(i))
+      failOfOtherLoop(options.folder);
+  }
+  if (!options.resume && isOfAnotherScene(options.folder / "manifest.json", manifest.scene_sha256))
+    failOfOtherLoop(options.folder);
+}
+
+// The terminal has whole paths, the manifest and its page none.
+void warn(const std::vector<std::string>& warnings, const Scene& scene, const Monitor& monitor,
+          Manifest& manifest) {
   for (const std::string& warning : warnings) {
-    manifest.warnings.push_back(warning);
+    manifest.warnings.push_back(withoutFolders(warning, scene.file.parent_path()));
     monitor.warn(warning);
   }
 }
@@ -64,7 +82,7 @@ void noteCosts(const Simulator& simulator, RenderSummary& summary) {
 RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const Monitor& monitor) {
   const auto start = std::chrono::steady_clock::now();
   RenderSummary summary;
-  warn(scene.warnings, monitor, summary.manifest);
+  warn(scene.warnings, scene, monitor, summary.manifest);
   const auto motion = std::make_shared<const MeshMotion>(scene);  // keyframes, ready to interpolate
   const std::pair range = frameRange(options, CardiacClock(scene).frameCount());
   summary.frames_wanted = range.second - range.first;
@@ -72,13 +90,16 @@ RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const
   manifest.accuracy = options.accuracy;
   manifest.loop_frames = CardiacClock(scene).frameCount();
   manifest.scene_sha256 = sceneSha256(scene, *motion);
-  if (options.resume) refuseOtherScene(scene, options.folder, manifest);
+  refuseOtherScene(scene, options, manifest);
+  std::map<std::string, std::string> earlier;
+  if (options.resume)
+    earlier = earlierHashes(options.folder / "manifest.json", manifest.scene_sha256);
   withThreads(options.threads, [&] {
     // What has to be computed at all, and how; then motion -> geometry -> trace -> signal of a
     // frame.
     const Simulator simulator(scene, motion);
     manifest.plan = simulator.plan();
-    warn(manifest.plan.warnings, monitor, manifest);
+    warn(manifest.plan.warnings, scene, monitor, manifest);
     if (!monitor.keep_going()) return;
     const OutputFolder folder(options.folder, scene.output, options.resume);
     folder.removeStale(manifest.loop_frames);
@@ -88,9 +109,16 @@ RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const
     if (!reference) return;
     manifest.reference_intensity = *reference;
     ReportPage report(folder.report(), scene, simulator.cardiacClock(), range);
-    RenderPass pass({simulator, folder, monitor, report, options.resume}, manifest, kept);
+    std::optional<TruthMaker> truth;  // labels, contours and motion, as far as asked for
+    if (TruthMaker::wanted(scene))
+      truth.emplace(simulator.scene(), simulator.motion(), pictureGrid(scene),
+                    simulator.cardiacClock().at(0).phase);
+    RenderPass pass(
+        {simulator, folder, monitor, report, options.resume, earlier, truth ? &*truth : nullptr},
+        manifest, kept);
     summary.frames_done = pass.run(range.first, range.second);
     summary.passes_s = secondsSince(start) - summary.setup_s;
+    // No manifest: a folder without one is an unfinished run.
     if (summary.frames_done < summary.frames_wanted) return;
     noteCosts(simulator, summary);
     manifest.wall_ms = 1e3 * secondsSince(start) / summary.frames_done;

@@ -16,6 +16,7 @@ struct RenderOptions {
   int threads = 0;                            // 0: one per core
   std::optional<std::pair<int, int>> frames;  // first and one past the last; absent: the whole loop
   bool resume = false;                        // keep frames whose EXR is whole
+  bool overwrite = false;                     // also what another scene left in the folder
   AccuracyRecord accuracy{};                  // how the scene's was chosen, for the manifest
 };
 

@@ -18,6 +18,7 @@ namespace echocine {
 
 namespace {
 
+// "frame_0012.png" beside "frame_0012.exr".
 std::string frameName(int frame, const char* extension) {
   return std::filesystem::path(ExrStack::fileName(frame)).replace_extension(extension).string();
 }
@@ -38,6 +39,7 @@ std::vector<double> loopEcg(const CardiacClock& clock, double frame_rate_hz) {
 
 }  // namespace
 
+// The version counts, for two versions may differ in a last digit; where files lie does not.
 std::string sceneSha256(const Scene& scene, const MeshMotion& motion) {
   Sha256 hash;
   hash.update(ECHOCINE_VERSION);
@@ -59,10 +61,27 @@ RenderPass::RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept)
                              parts.simulator.scene().acquisition.frame_rate_hz)
                    : std::vector<double>{}),
       cine_(parts.folder.cine(), parts.simulator.scene().output,
-            parts.simulator.scene().acquisition.frame_rate_hz) {}
+            parts.simulator.scene().acquisition.frame_rate_hz) {
+  if (!parts.truth) return;
+  truth_files_.emplace(parts.folder.truth(), parts.simulator.scene(), parts.truth->labels());
+  manifest_.files.merge(truth_files_->writeTables());
+}
+
+// Velocity is taken from a millisecond before to one after, within the loop.
+void RenderPass::makeTruth(const FrameTime& time, Finished& finished) {
+  constexpr double kStep_s = 1e-3;
+  const CardiacClock& clock = parts_.simulator.cardiacClock();
+  const double end_s = clock.frameCount() / parts_.simulator.scene().acquisition.frame_rate_hz;
+  const double before_s = std::max(time.time_s - kStep_s, 0.0),
+               after_s = std::min(time.time_s + kStep_s, end_s);
+  finished.truth = parts_.truth->at(
+      {time.phase, clock.atTime(before_s).phase, clock.atTime(after_s).phase, after_s - before_s});
+  finished.truth_files = truth_files_->write(finished.entry.record, *finished.truth);
+}
 
 Volumes RenderPass::tracedFrame(const FrameTime& time, Workspace& workspace) {
   {
+    // Frames are made in parallel; each kept one is taken once and its memory freed.
     const std::lock_guard lock(kept_mutex_);
     if (const auto found = kept_.find(time.frame); found != kept_.end()) {
       workspace.polar = std::move(found->second.polar);
@@ -77,10 +96,17 @@ Volumes RenderPass::tracedFrame(const FrameTime& time, Workspace& workspace) {
 void RenderPass::writeExr(const FrameRecord& record, const Workspace& workspace,
                           Finished& finished) {
   if (!parts_.simulator.scene().output.exr || !finished.entry.exr_sha256.empty()) return;
-  finished.entry.exr_sha256 =
-      exr_.write(record, channelPlanes(parts_.simulator.scene().output, workspace));
+  const OutputSettings& output = parts_.simulator.scene().output;
+  std::vector<ChannelPlane> planes = channelPlanes(output, workspace);
+  for (const Channel channel : output.channels)
+    if (channel == Channel::structure)
+      planes.push_back({channel, {}, finished.truth->sample_ids});
+    else if (isMotion(channel))
+      planes.push_back({channel, finished.truth->values(channel), {}});
+  finished.entry.exr_sha256 = exr_.write(record, planes);
 }
 
+// Browsers show JPEG and PNG, but no FFV1: then the report needs pictures of its own.
 void RenderPass::writePictures(GreyImage& image, Finished& finished) {
   const OutputSettings& o = parts_.simulator.scene().output;
   const int frame = finished.entry.record.frame;
@@ -96,6 +122,24 @@ void RenderPass::writePictures(GreyImage& image, Finished& finished) {
   if (shown) finished.report_frame = std::move(png);
 }
 
+// A frame of an earlier run, when it is the very one: by its own digest and by that run's manifest.
+void RenderPass::takeEarlier(const FrameRecord& record, Finished& finished) const {
+  const std::string name = "intensity/" + ExrStack::fileName(record.frame);
+  std::error_code absent;
+  if (!std::filesystem::exists(parts_.folder.intensity() / ExrStack::fileName(record.frame),
+                               absent))
+    return;
+  std::string sha256 = exr_.existing(record);
+  const auto noted = parts_.earlier_hashes.find(name);
+  const bool as_noted = noted == parts_.earlier_hashes.end() || noted->second == sha256;
+  if (!sha256.empty() && as_noted)
+    finished.entry.exr_sha256 = std::move(sha256);
+  else
+    finished.mended = fmt::format("{}: {}, it is made again", name,
+                                  sha256.empty() ? "damaged, or not as this run would write it"
+                                                 : "not the file that the manifest tells of");
+}
+
 std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
   const FrameTime time = parts_.simulator.cardiacClock().at(frame);
   auto finished = std::make_shared<Finished>();
@@ -103,24 +147,27 @@ std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
   const FrameRecord& record = finished->entry.record;
   StageClock& clock = parts_.simulator.clock();
   const OutputSettings& o = parts_.simulator.scene().output;
-  if (parts_.resume && o.exr)
-    finished->entry.exr_sha256 = clock.time(Stage::exr, [&] { return exr_.existing(record); });
+  if (parts_.resume && o.exr) clock.time(Stage::exr, [&] { takeEarlier(record, *finished); });
 
   const std::shared_ptr<Workspace> workspace = parts_.simulator.workspace();
   finished->entry.volumes_ml = tracedFrame(time, *workspace);
   GreyImage& image =
       parts_.simulator.picture(manifest_.reference_intensity, *workspace, o.cine || o.png);
+  if (parts_.truth) makeTruth(time, *finished);
   clock.time(Stage::exr, [&] { writeExr(record, *workspace, *finished); });
+  if (finished->truth) finished->truth->forgetPlanes();
   if (o.cine || o.png) clock.time(Stage::avi, [&] { writePictures(image, *finished); });
   return finished;
 }
 
 // One at a time, in the order of the frames.
 void RenderPass::drain(Finished& finished) {
+  // A folder that was moved away would otherwise be made anew, file by file.
   parts_.folder.checkStillThere();
   const FrameEntry& entry = finished.entry;
   const int frame = entry.record.frame;
   const OutputSettings& o = parts_.simulator.scene().output;
+  if (!finished.mended.empty()) parts_.monitor.warn(finished.mended);
   if (o.cine || o.png) {
     parts_.simulator.clock().time(Stage::avi, [&] {
       if (o.cine) cine_.add(finished.cine_frame);
@@ -133,6 +180,8 @@ void RenderPass::drain(Finished& finished) {
     manifest_.files["intensity/" + ExrStack::fileName(frame)] = entry.exr_sha256;
   if (!finished.png_sha256.empty())
     manifest_.files["png/" + frameName(frame, ".png")] = finished.png_sha256;
+  if (truth_files_) truth_files_->add(entry.record, *finished.truth);
+  manifest_.files.merge(finished.truth_files);
   manifest_.frames.push_back(entry);
 }
 
@@ -167,12 +216,14 @@ int RenderPass::run(int first, int last) {
     endEarly();
     throw;
   }
+  // A part of a loop may not take the place of a longer cine that stands there.
   const bool whole = done == static_cast<std::size_t>(last);
   if (parts_.simulator.scene().output.cine && !manifest_.frames.empty()) {
     parts_.simulator.clock().time(Stage::avi,
                                   [&] { whole ? cine_.finish() : cine_.finishEarly(); });
     if (whole) manifest_.files["cine.avi"] = sha256HexOfFile(parts_.folder.cine());
   }
+  if (whole && truth_files_) manifest_.files.merge(truth_files_->finish(parts_.truth->tracked()));
   return static_cast<int>(done) - first;
 }
 

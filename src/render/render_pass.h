@@ -1,12 +1,14 @@
 #pragma once
 // The second pass of a loop: every frame to its files.
 
+#include <map>
 #include <memory>
 #include <string>
 
 #include "output/exr_stack.h"
 #include "output/output_folder.h"
 #include "output/overlay.h"
+#include "output/truth_files.h"
 #include "render/reference_pass.h"
 #include "render/render.h"
 #include "render/report.h"
@@ -27,6 +29,8 @@ class RenderPass {
     const Monitor& monitor;
     ReportPage& report;
     bool resume;
+    std::map<std::string, std::string> earlier_hashes;  // on resuming, of an earlier manifest
+    const TruthMaker* truth = nullptr;                  // none is wanted
   };
   // Frames, file hashes and reference go through `manifest`; `kept` frames are used up.
   RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept);
@@ -40,11 +44,16 @@ class RenderPass {
     std::vector<std::byte> cine_frame;
     std::vector<std::byte> report_frame;  // where the cine's does not show in browsers
     std::string png_sha256;
+    std::string mended;               // why a frame that was there is made again; empty: it is not
+    std::optional<FrameTruth> truth;  // until it is written
+    std::map<std::string, std::string> truth_files;  // name -> SHA-256
   };
 
   std::shared_ptr<Finished> make(int frame);
+  void takeEarlier(const FrameRecord& record, Finished& finished) const;
   Volumes tracedFrame(const FrameTime& time, Workspace& workspace);
   void writeExr(const FrameRecord& record, const Workspace& workspace, Finished& finished);
+  void makeTruth(const FrameTime& time, Finished& finished);
   void writePictures(GreyImage& image, Finished& finished);
   void drain(Finished& finished);
   void endEarly();
@@ -56,6 +65,7 @@ class RenderPass {
   ExrStack exr_;
   Overlay overlay_;
   CineWriter cine_;
+  std::optional<TruthFiles> truth_files_;
 };
 
 }  // namespace echocine

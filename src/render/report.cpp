@@ -35,6 +35,7 @@ std::string titleOf(const Scene& scene) {
   return (file.parent_path().filename() / file.filename()).string();
 }
 
+// What a reader asks of a structure; the rest is in the manifest.
 Json structuresJson(const Scene& scene) {
   Json list = Json::array();
   for (const Structure& s : scene.structures)
@@ -92,9 +93,11 @@ void ReportPage::addFrame(std::span<const std::byte> image) {
 
 void ReportPage::finish(const Manifest& manifest) {
   if (!writer_) return;
+  // The page gets the manifest's own JSON, so that both say the same.
   const Json scene = sceneJson(scene_);
   const double rate_hz = scene_.acquisition.frame_rate_hz;
   Json effects = effectsJson(manifest);
+  // Shares of time differ from run to run, and go to the page's end.
   for (Json& effect : effects) effect.erase("time_share");
   Json data{{"version", ECHOCINE_VERSION},
             {"title", titleOf(scene_)},

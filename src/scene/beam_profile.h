@@ -28,9 +28,4 @@ double focusedBeamWidth(double depth_m, double aperture_m, double focus_m, doubl
 // Across the imaging plane, two ways through one fixed lens: w_e / sqrt 2.
 double elevationBeamWidth(double depth_m, double aperture_m, double focus_m, double wavelength_m);
 
-// By which a beam is focused and its width reckoned.
-inline double scannerWavelength(const Probe& probe) {
-  return kScannerSpeed / probe.frequency_hz;
-}
-
 }  // namespace echocine

@@ -6,17 +6,62 @@
 
 namespace echocine {
 
-enum class Channel { y, unattenuated, attenuation, reflection, backscatter, medium, display };
+enum class Channel {
+  y,
+  unattenuated,
+  attenuation,
+  reflection,
+  backscatter,
+  medium,
+  display,
+  // Truth of the sample's centre, which no ray is traced for.
+  structure,             // 0 in the background, else the structure's place in the scene, from 1
+  displacement_lateral,  // of the material there, since the reference frame, mm
+  displacement_axial,
+  displacement_elevation,
+  velocity_lateral,  // mm/s
+  velocity_axial,
+  velocity_elevation,
+};
 
 inline constexpr std::array kAllChannels{
     Channel::y,           Channel::unattenuated, Channel::attenuation, Channel::reflection,
     Channel::backscatter, Channel::medium,       Channel::display};
 
+inline constexpr std::array kTruthChannels{
+    Channel::structure,          Channel::displacement_lateral,
+    Channel::displacement_axial, Channel::displacement_elevation,
+    Channel::velocity_lateral,   Channel::velocity_axial,
+    Channel::velocity_elevation};
+
+constexpr bool isTruth(Channel channel) {
+  return channel >= Channel::structure;
+}
+// Of the material's motion: not a number where nothing is known to move.
+constexpr bool isMotion(Channel channel) {
+  return channel > Channel::structure;
+}
+// Whole numbers.
+constexpr bool isLabel(Channel channel) {
+  return channel == Channel::medium || channel == Channel::structure;
+}
+
 // The channel's name in scene files and EXR headers: "unattenuated.Y".
 constexpr const char* channelName(Channel channel) {
-  constexpr std::array kNames{
-      "Y",         "unattenuated.Y", "attenuation.A", "reflection.Y", "backscatter.Y",
-      "medium.id", "display.Y"};
+  constexpr std::array kNames{"Y",
+                              "unattenuated.Y",
+                              "attenuation.A",
+                              "reflection.Y",
+                              "backscatter.Y",
+                              "medium.id",
+                              "display.Y",
+                              "structure.id",
+                              "displacement.lateral",
+                              "displacement.axial",
+                              "displacement.elevation",
+                              "velocity.lateral",
+                              "velocity.axial",
+                              "velocity.elevation"};
   return kNames[static_cast<std::size_t>(channel)];
 }
 

@@ -6,6 +6,9 @@
 
 #include "core/units.h"
 
+#include "scene/names.h"
+#include "scene/scan_geometry.h"
+
 namespace echocine {
 
 bool wants(const Scene& scene, Channel channel) {
@@ -17,9 +20,18 @@ bool wantsPicture(const Scene& scene) {
   return scene.output.cine || scene.output.png || wants(scene, Channel::display);
 }
 
-const EffectDecision& EffectPlan::decision(const std::string& name) const {
+std::string EffectDecision::name() const {
+  return effect == Effect::channel ? fmt::format("channel {}", channelName(channel))
+                                   : std::string(nameOf(effect));
+}
+
+EffectDecision& EffectPlan::decision(Effect effect) {
   return *std::find_if(decisions.begin(), decisions.end(),
-                       [&](const EffectDecision& d) { return d.name == name; });
+                       [&](const EffectDecision& d) { return d.effect == effect; });
+}
+
+const EffectDecision& EffectPlan::decision(Effect effect) const {
+  return const_cast<EffectPlan*>(this)->decision(effect);
 }
 
 namespace {
@@ -29,7 +41,7 @@ struct Finding {
   std::string reason;
 };
 
-bool decide(EffectPlan& plan, const char* name, Switch wanted, const Finding& found) {
+bool decide(EffectPlan& plan, Effect effect, Switch wanted, const Finding& found) {
   Finding decided = found;
   if (wanted == Switch::on)
     decided = {true, found.on ? "the scene asks for it"
@@ -37,7 +49,7 @@ bool decide(EffectPlan& plan, const char* name, Switch wanted, const Finding& fo
   if (wanted == Switch::off)
     decided = {false, found.on ? "the scene turns it off, although " + found.reason
                                : "the scene turns it off"};
-  plan.decisions.push_back({name, decided.on, decided.reason});
+  plan.decisions.push_back({effect, decided.on, decided.reason});
   return decided.on;
 }
 
@@ -97,6 +109,37 @@ Finding bending(const Scene& scene) {
   return {false, "every structure has the sound speed of its surroundings, so no ray bends"};
 }
 
+bool speedsDiffer(const Scene& scene) {
+  const std::vector<const Medium*> used = mediaInUse(scene);
+  return std::any_of(used.begin(), used.end(), [&](const Medium* m) {
+    return m->sound_speed_m_s != used[0]->sound_speed_m_s;
+  });
+}
+
+// Of what the interface law depends on the angle for.
+Finding snellAngles(const Scene& scene, const EffectPlan& plan) {
+  if (!plan.reflection && !plan.transmission_loss)
+    return {false, "no angle of incidence is asked for"};
+  const Finding bends = bending(scene);
+  if (!bends.on) return bends;
+  return {true, "straight rays meet interfaces at the angles of bent ones"};
+}
+
+Finding reflectionCap(const Scene& scene, const EffectPlan& plan) {
+  if (!plan.reflection) return {false, "there are no interface echoes to cap"};
+  if (!speedsDiffer(scene))
+    return {false, "all media have one sound speed, so R is that of normal incidence"};
+  return {true, "no wall sends back more than it would at normal incidence"};
+}
+
+Finding thinLayers(const Scene& scene, const EffectPlan& plan) {
+  if (!plan.reflection && !plan.transmission_loss)
+    return {false, "no echo or loss of an interface is asked for"};
+  return {true, fmt::format("interfaces less than {:.2g} mm apart echo as one pulse",
+                            millimetresFromMetres(scene.signal.pulse_cycles * kScannerSpeed /
+                                                  scene.probe.frequency_hz / 2))};
+}
+
 Finding attenuating(const Scene& scene) {
   const std::vector<const Medium*> used = mediaInUse(scene);
   if (std::none_of(used.begin(), used.end(),
@@ -107,7 +150,9 @@ Finding attenuating(const Scene& scene) {
     if (wants(scene, c)) return {true, fmt::format("channel {} holds it", channelName(c))};
   if (wantsPicture(scene) && scene.signal.tgc != Tgc::perfect)
     return {true, scene.signal.tgc == Tgc::none ? "no time gain undoes it"
-                                                : "a table of gains does not undo it exactly"};
+                  : scene.signal.tgc == Tgc::mean
+                      ? "the mean time gain undoes only what all lines share"
+                      : "a table of gains does not undo it exactly"};
   return {false, "perfect TGC undoes it and no received intensity was asked for"};
 }
 
@@ -147,7 +192,7 @@ Finding beamWidth(const Scene& scene) {
                         millimetresFromMetres(scene.probe.focus_m))};
   if (!wantsPicture(scene)) return {false, "no picture is asked for"};
   const bool lateral = scene.signal.beam_width != BeamWidth::none && scene.probe.lines > 1;
-  const double pulse_m = scene.signal.pulse_cycles * kScannerSpeed / scene.probe.frequency_hz / 2;
+  const double pulse_m = scene.signal.pulse_cycles * ScanGeometry(scene.probe).wavelength() / 2;
   if (lateral)
     return {true, "average over the beam at each depth (signal.beam_width) and over the pulse"};
   if (pulse_m > scene.probe.sampleSpacing())
@@ -165,13 +210,24 @@ Finding elevation(const Scene& scene) {
                             millimetresFromMetres(scene.probe.elevation_focus_m))};
 }
 
-void add(EffectPlan& plan, std::string name, bool on, std::string reason) {
-  plan.decisions.push_back({std::move(name), on, std::move(reason)});
+void add(EffectPlan& plan, Effect effect, bool on, std::string reason, Channel channel = {}) {
+  plan.decisions.push_back({effect, on, std::move(reason), channel});
+}
+
+// A row for each kind of truth, and for each of its channels that is asked for.
+void planTruth(const Scene& scene, EffectPlan& plan) {
+  const TruthSettings& t = scene.truth;
+  for (const auto& [effect, on] :
+       {std::pair(Effect::truth_labels, t.labels), std::pair(Effect::truth_contours, t.contours),
+        std::pair(Effect::truth_tracks, t.tracks), std::pair(Effect::truth_function, t.function)})
+    add(plan, effect, on, on ? "asked for in truth.write" : "not asked for");
+  for (const Channel c : kTruthChannels)
+    if (wants(scene, c)) add(plan, Effect::channel, true, "asked for in output.channels", c);
 }
 
 void planSpeckle(const Scene& scene, EffectPlan& plan) {
   plan.speckle = scene.speckle.on && wantsPicture(scene) && plan.contrast;
-  add(plan, "speckle", plan.speckle,
+  add(plan, Effect::speckle, plan.speckle,
       !scene.speckle.on      ? "speckle.on asks for none"
       : !wantsPicture(scene) ? "no picture is asked for"
       : !plan.contrast       ? "nothing can be seen"
@@ -182,24 +238,28 @@ void planSpeckle(const Scene& scene, EffectPlan& plan) {
 void planSignal(const Scene& scene, EffectPlan& plan) {
   const bool picture = wantsPicture(scene);
   if (scene.signal.tgc == Tgc::table && picture)
-    add(plan, "tgc", true, "a table of gains over depth");
+    add(plan, Effect::tgc, true, "a table of gains over depth");
+  else if (scene.signal.tgc == Tgc::mean && picture && plan.attenuation)
+    add(plan, Effect::tgc, true, "one curve of depth that undoes the loop's mean attenuation");
   else
-    add(plan, "tgc", false,
+    add(plan, Effect::tgc, false,
         scene.signal.tgc == Tgc::perfect
             ? "perfect TGC is attenuation left out, not a gain to apply"
-        : picture ? "no time gain is asked for"
-                  : "no picture is asked for");
-  add(plan, "log_compression", picture,
+        : scene.signal.tgc == Tgc::mean && picture ? "there is no attenuation to undo"
+        : picture                                  ? "no time gain is asked for"
+                                                   : "no picture is asked for");
+  add(plan, Effect::log_compression, picture,
       picture ? fmt::format("{:g} dB for the picture", scene.signal.dynamic_range_db)
               : "no picture is asked for");
   const bool labels = wants(scene, Channel::medium);
-  add(plan, "labels", labels,
+  add(plan, Effect::labels, labels,
       labels ? "channel medium.id is asked for" : "channel medium.id is not asked for");
   for (const Channel c : kAllChannels) {
     if (c == Channel::medium || (c == Channel::y && !wants(scene, c))) continue;
-    add(plan, fmt::format("channel {}", channelName(c)), wants(scene, c),
-        wants(scene, c) ? "asked for in output.channels" : "not asked for");
+    add(plan, Effect::channel, wants(scene, c),
+        wants(scene, c) ? "asked for in output.channels" : "not asked for", c);
   }
+  planTruth(scene, plan);
 }
 
 }  // namespace
@@ -208,20 +268,30 @@ EffectPlan planEffects(const Scene& scene) {
   EffectPlan plan;
   const EffectSwitches& wanted = scene.effects;
   plan.contrast = differ(scene);
-  plan.reflection = decide(plan, "reflection", wanted.reflection, echoes(scene));
-  plan.lobe = decide(plan, "lobe", wanted.lobe, lobes(scene, plan.reflection));
+  plan.reflection = decide(plan, Effect::reflection, wanted.reflection, echoes(scene));
+  plan.lobe = decide(plan, Effect::lobe, wanted.lobe, lobes(scene, plan.reflection));
   plan.transmission_loss =
-      decide(plan, "transmission_loss", wanted.transmission_loss, losses(scene));
-  plan.refraction = decide(plan, "refraction", wanted.refraction, bending(scene));
-  plan.attenuation = decide(plan, "attenuation", wanted.attenuation, attenuating(scene));
-  plan.backscatter = decide(plan, "backscatter", wanted.backscatter, scattering(scene));
-  plan.spread = decide(plan, "spread", wanted.spread, spreading(scene, plan.backscatter));
-  plan.beam_width = decide(plan, "beam_width", wanted.beam_width, beamWidth(scene));
+      decide(plan, Effect::transmission_loss, wanted.transmission_loss, losses(scene));
+  plan.refraction = decide(plan, Effect::refraction, wanted.refraction, bending(scene));
+  // Where no speed differs bent rays are straight ones; those know the contour between lines.
+  if (plan.refraction && !bending(scene).on) {
+    plan.refraction = plan.decisions.back().on = false;
+    plan.decisions.back().reason = "the scene asks for it, but " + bending(scene).reason;
+  }
+  plan.snell_angles =
+      decide(plan, Effect::snell_angles, wanted.snell_angles, snellAngles(scene, plan));
+  plan.reflection_cap =
+      decide(plan, Effect::reflection_cap, wanted.reflection_cap, reflectionCap(scene, plan));
+  plan.thin_layers = decide(plan, Effect::thin_layers, wanted.thin_layers, thinLayers(scene, plan));
+  plan.attenuation = decide(plan, Effect::attenuation, wanted.attenuation, attenuating(scene));
+  plan.backscatter = decide(plan, Effect::backscatter, wanted.backscatter, scattering(scene));
+  plan.spread = decide(plan, Effect::spread, wanted.spread, spreading(scene, plan.backscatter));
+  plan.beam_width = decide(plan, Effect::beam_width, wanted.beam_width, beamWidth(scene));
   plan.elevation =
-      decide(plan, "elevation", wanted.elevation, elevation(scene)) && severalRays(scene);
+      decide(plan, Effect::elevation, wanted.elevation, elevation(scene)) && severalRays(scene);
   plan.lateral_rays = plan.beam_width && lateralRays(scene);
   if (plan.elevation || plan.lateral_rays) plan.rays_per_beam = scene.accuracy.rays_per_beam;
-  plan.travel_time = decide(plan, "travel_time", wanted.travel_time,
+  plan.travel_time = decide(plan, Effect::travel_time, wanted.travel_time,
                             {false, "echoes are placed at their path length"});
   planSpeckle(scene, plan);
   planSignal(scene, plan);

@@ -9,9 +9,12 @@
 namespace echocine {
 
 struct EffectDecision {
-  std::string name;
+  Effect effect{};
   bool on = false;
   std::string reason;
+  Channel channel{};  // of Effect::channel
+
+  std::string name() const;  // "refraction", "channel Y"
 };
 
 struct EffectPlan {
@@ -19,6 +22,9 @@ struct EffectPlan {
   bool lobe = true;
   bool transmission_loss = true;
   bool refraction = true;
+  bool snell_angles = true;
+  bool reflection_cap = true;
+  bool thin_layers = true;
   bool attenuation = true;  // the exponent A is computed
   bool backscatter = true;
   bool spread = true;
@@ -27,10 +33,14 @@ struct EffectPlan {
   bool speckle = false;
   int rays_per_beam = 1;                         // that are traced
   bool lateral_rays = false, elevation = false;  // what several rays are spread over
-  bool contrast = true;                          // the media in use differ at all
+  // Of signal.tgc = "mean": what the loop's mean attenuation takes at each sample's depth, 0..1.
+  std::vector<double> mean_loss;
+  bool contrast = true;  // the media in use differ at all
   std::vector<EffectDecision> decisions;
 
-  const EffectDecision& decision(const std::string& name) const;
+  // Precondition: not Effect::channel.
+  const EffectDecision& decision(Effect effect) const;
+  EffectDecision& decision(Effect effect);
 };
 
 // What the scene file alone decides. Refraction stays on here where any ray could bend; how far

@@ -10,14 +10,19 @@
 
 namespace echocine {
 
+// A structure, or "interface A/B" of two media, that drops out.
+struct Omission {
+  std::string name, reason;
+};
+
 struct LoopPlan {
   EffectPlan effects;
-  std::vector<EffectDecision>
-      interfaces;       // structures and pairs of media that drop out, with the reason
+  std::vector<Omission> interfaces;
   SurfaceSet left_out;  // those structures
   bool slice = false;   // the plane slice traces; else the hierarchy
   std::string tracer_reason;
   bool cell_echoes = false;
+  bool smooth_normals = false;  // angles of incidence by the limit surfaces' normals
   std::string echo_reason;
   std::size_t triangles_given = 0;  // of all structures
   std::size_t triangles_kept = 0;   // of the structures that stay

@@ -4,6 +4,7 @@
 
 #include "core/units.h"
 #include "scene/built_in_media.h"
+#include "scene/ranges.h"
 
 namespace echocine {
 
@@ -15,11 +16,11 @@ BloodBackscatter readBlood(TomlTable& table, const MediumSpec& plasma) {
   BloodBackscatter blood;
   blood.hematocrit = table.number("hematocrit", std::nullopt, {.lo = 0, .hi = 1});
   blood.cell_radius_m =
-      metresFromMicrometres(table.number("cell_radius_um", std::nullopt, NumberRange::positive()));
+      metresFromMicrometres(table.number("cell_radius_um", std::nullopt, ranges::kCellRadius_um));
   blood.cell_density_kg_m3 =
-      table.number("cell_density_kg_m3", std::nullopt, NumberRange::positive());
+      table.number("cell_density_kg_m3", std::nullopt, ranges::kDensity_kg_m3);
   blood.cell_compressibility_per_pa = perPascalFromSquareCentimetrePerDyne(
-      table.number("cell_compressibility_cm2_dyn", std::nullopt, NumberRange::positive()));
+      table.number("cell_compressibility_cm2_dyn", std::nullopt, ranges::kCompressibility_cm2_dyn));
   blood.plasma_density_kg_m3 = plasma.density_kg_m3;
   // A fluid's compressibility is G = 1 / (rho c^2).
   blood.plasma_compressibility_per_pa =
@@ -61,10 +62,10 @@ void MediaTable::read(TomlTable& file) {
 MediumSpec MediaTable::readMedium(const std::string& name, TomlTable& table) const {
   MediumSpec spec;
   spec.name = name;
-  spec.density_kg_m3 = table.number("density_kg_m3", std::nullopt, NumberRange::positive());
-  spec.sound_speed_m_s = table.number("sound_speed_m_s", std::nullopt, NumberRange::positive());
+  spec.density_kg_m3 = table.number("density_kg_m3", std::nullopt, ranges::kDensity_kg_m3);
+  spec.sound_speed_m_s = table.number("sound_speed_m_s", std::nullopt, ranges::kSoundSpeed_m_s);
   spec.attenuation_db_cm_mhz =
-      table.number("attenuation_db_cm_mhz", std::nullopt, NumberRange::notNegative());
+      table.number("attenuation_db_cm_mhz", std::nullopt, ranges::kAttenuation_db_cm_mhz);
   spec.attenuation_exponent = table.number("attenuation_exponent", 1.0, {.lo = 0, .hi = 4});
   TomlTable backscatter = table.table("backscatter");
   if (!backscatter.has("kind"))
@@ -80,7 +81,7 @@ MediumSpec MediaTable::readMedium(const std::string& name, TomlTable& table) con
       break;
     case Kind::fixed:
       spec.backscatter = FixedBackscatter{perMetreFromPerCentimetre(
-          backscatter.number("per_cm_sr", std::nullopt, NumberRange::notNegative()))};
+          backscatter.number("per_cm_sr", std::nullopt, ranges::kBackscatter_per_cm_sr))};
       break;
     case Kind::blood:
       spec.backscatter = readBlood(backscatter, named(backscatter, "plasma", "plasma"));
@@ -89,7 +90,7 @@ MediumSpec MediaTable::readMedium(const std::string& name, TomlTable& table) con
       spec.backscatter = TissueBackscatter{
           backscatter.number("velocity_variation", std::nullopt, {.lo = 0, .hi = 1}),
           metresFromMicrometres(backscatter.number("correlation_length_um", std::nullopt,
-                                                   NumberRange::notNegative()))};
+                                                   ranges::kCorrelationLength_um))};
       break;
   }
   backscatter.finish();

@@ -1,5 +1,6 @@
 #include "scene/medium.h"
 
+#include <cmath>
 #include <numbers>
 
 #include "core/units.h"
@@ -9,9 +10,9 @@ namespace echocine {
 
 namespace {
 
-// eta_b of each kind; k is the wave number in the medium.
+// eta_b of each kind; omega is 2 pi f and k the wave number in the medium.
 struct BackscatterCoefficient {
-  double k;
+  double omega, k;
 
   double operator()(const NoBackscatter&) const { return 0; }
   double operator()(const FixedBackscatter& fixed) const { return fixed.per_m_sr; }
@@ -19,7 +20,9 @@ struct BackscatterCoefficient {
     const double a = blood.cell_radius_m;
     const double V = 4.0 / 3.0 * std::numbers::pi * a * a * a;
     const double sigma_b = particleBackscatter(
-        k, a, blood.cell_compressibility_per_pa, blood.plasma_compressibility_per_pa,
+        // Eq. 5 is of a cell in its fluid, so its wave number is the fluid's: c = 1/sqrt(G rho).
+        omega * std::sqrt(blood.plasma_compressibility_per_pa * blood.plasma_density_kg_m3), a,
+        blood.cell_compressibility_per_pa, blood.plasma_compressibility_per_pa,
         blood.cell_density_kg_m3, blood.plasma_density_kg_m3);
     return bloodBackscatter(sigma_b, blood.hematocrit, V);
   }
@@ -31,14 +34,15 @@ struct BackscatterCoefficient {
 }  // namespace
 
 Medium resolveMedium(const MediumSpec& spec, double frequency_hz) {
-  const double k = 2 * std::numbers::pi * frequency_hz / spec.sound_speed_m_s;
+  const double omega = 2 * std::numbers::pi * frequency_hz;
   return {
       .name = spec.name,
       .impedance_kg_m2_s = spec.density_kg_m3 * spec.sound_speed_m_s,
       .sound_speed_m_s = spec.sound_speed_m_s,
       .attenuation_np_per_m =
           nepersPerMetre(spec.attenuation_db_cm_mhz, spec.attenuation_exponent, frequency_hz),
-      .backscatter_per_m_sr = std::visit(BackscatterCoefficient{k}, spec.backscatter),
+      .backscatter_per_m_sr =
+          std::visit(BackscatterCoefficient{omega, omega / spec.sound_speed_m_s}, spec.backscatter),
       .blood = std::holds_alternative<BloodBackscatter>(spec.backscatter),
   };
 }

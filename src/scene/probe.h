@@ -1,5 +1,5 @@
 #pragma once
-// Where each scan line starts and points. Probe frame: x lateral, y elevation, z depth; the imaging
+// A scanner's probe. Probe frame: x lateral, y elevation, z depth; the imaging
 // plane is y = 0 and the origin is the apex.
 
 #include "core/vec3.h"
@@ -33,18 +33,5 @@ struct Probe {
   double sampleSpacing() const { return (max_depth_m - min_depth_m) / samples; }
   double middleDepth() const { return 0.5 * (min_depth_m + max_depth_m); }
 };
-
-// Start and unit direction of a scan line in the probe frame; path lengths count from `origin`.
-struct LineGeometry {
-  Vec3d origin;
-  Vec3d direction;
-};
-
-// Line i of N stands at first + i (last - first)/(N - 1), edges included; a single line in the
-// middle.
-LineGeometry lineGeometry(const Probe& probe, int line);
-
-// Distance between neighbouring scan lines at a path length; 0 for a single line.
-double lineSpacing(const Probe& probe, double depth_m);
 
 }  // namespace echocine

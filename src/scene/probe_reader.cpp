@@ -7,12 +7,11 @@
 
 #include "core/units.h"
 #include "scene/limits.h"
+#include "scene/ranges.h"
 
 namespace echocine {
 
 namespace {
-
-const NumberRange kPositive = NumberRange::positive();
 
 // A vector of any length but 0 as a unit vector. A power of two brings it near 1 first, exactly:
 // the squares of 1e200 and of 1e-200 are no numbers to divide by.
@@ -31,7 +30,7 @@ Pose readPose(TomlTable& table, double mesh_unit_m) {
   Pose pose;
   pose.z_axis = readDirection(table, "axis");
   const Vec3d unit_lateral = readDirection(table, "lateral");
-  pose.origin = mesh_unit_m * table.vector("apex");
+  pose.origin = mesh_unit_m * table.vector("apex", ranges::kMostCoordinate);
   const Vec3d across = unit_lateral - dot(unit_lateral, pose.z_axis) * pose.z_axis;
   if (length(across) < 1e-6)
     table.fail("lateral", "is parallel to axis, accepted: a direction across it");
@@ -46,46 +45,45 @@ void readFootprint(TomlTable& table, Probe& probe) {
     table.unused("face_radius_mm", "kind = \"curvilinear\"");
   if (probe.kind == ProbeKind::linear) {
     table.unused("sector_deg", "kind = \"phased\" | \"curvilinear\"");
-    const double width = metresFromMillimetres(table.number("width_mm", std::nullopt, kPositive));
+    const double width =
+        metresFromMillimetres(table.number("width_mm", std::nullopt, ranges::kExtent_mm));
     probe.first_offset_m = -width / 2;
     probe.last_offset_m = width / 2;
     return;
   }
-  const double sector = radiansFromDegrees(
-      table.number("sector_deg", std::nullopt, {.lo = 0, .hi = 180, .lo_open = true}));
+  const double sector =
+      radiansFromDegrees(table.number("sector_deg", std::nullopt, ranges::kSector_deg));
   probe.first_angle_rad = -sector / 2;
   probe.last_angle_rad = sector / 2;
   if (probe.kind == ProbeKind::curvilinear)
     probe.face_radius_m =
-        metresFromMillimetres(table.number("face_radius_mm", std::nullopt, kPositive));
+        metresFromMillimetres(table.number("face_radius_mm", std::nullopt, ranges::kRadius_mm));
 }
 
 }  // namespace
 
 Probe readProbe(TomlTable table, double mesh_unit_m) {
   Probe probe;
-  probe.kind = table.choice("kind", ProbeKind::phased,
-                            {{"phased", ProbeKind::phased},
-                             {"curvilinear", ProbeKind::curvilinear},
-                             {"linear", ProbeKind::linear}});
+  probe.kind = table.choice("kind", ProbeKind::phased);
   probe.pose = readPose(table, mesh_unit_m);
   readFootprint(table, probe);
-  probe.min_depth_m =
-      metresFromMillimetres(table.number("min_depth_mm", 2.0, NumberRange::notNegative()));
-  probe.max_depth_m = metresFromMillimetres(table.number("depth_mm", std::nullopt, kPositive));
+  probe.min_depth_m = metresFromMillimetres(table.number("min_depth_mm", 2.0, ranges::kNearEnd_mm));
+  probe.max_depth_m =
+      metresFromMillimetres(table.number("depth_mm", std::nullopt, ranges::kExtent_mm));
   if (probe.max_depth_m <= probe.min_depth_m)
     table.fail("depth_mm", fmt::format("is not over min_depth_mm = {}",
                                        millimetresFromMetres(probe.min_depth_m)));
   probe.frequency_hz =
       hertzFromMegahertz(table.number("frequency_mhz", std::nullopt, {.lo = 0.1, .hi = 100}));
   // Choices of ours: the 20 mm footprint of an adult cardiac probe, focused at half the depth.
-  probe.aperture_m = metresFromMillimetres(table.number("aperture_mm", 20.0, kPositive));
+  probe.aperture_m = metresFromMillimetres(table.number("aperture_mm", 20.0, ranges::kExtent_mm));
   probe.focus_m = metresFromMillimetres(
-      table.number("focus_mm", millimetresFromMetres(probe.max_depth_m) / 2, kPositive));
-  probe.elevation_aperture_m = metresFromMillimetres(table.number(
-      "elevation_aperture_mm", millimetresFromMetres(probe.elevation_aperture_m), kPositive));
+      table.number("focus_mm", millimetresFromMetres(probe.max_depth_m) / 2, ranges::kRadius_mm));
+  probe.elevation_aperture_m = metresFromMillimetres(
+      table.number("elevation_aperture_mm", millimetresFromMetres(probe.elevation_aperture_m),
+                   ranges::kExtent_mm));
   probe.elevation_focus_m = metresFromMillimetres(table.number(
-      "elevation_focus_mm", millimetresFromMetres(probe.elevation_focus_m), kPositive));
+      "elevation_focus_mm", millimetresFromMetres(probe.elevation_focus_m), ranges::kRadius_mm));
   probe.lines = table.integer("lines", 256, 1, 65536);
   probe.samples = table.integer("samples", 1024, 1, 65536);
   if (static_cast<double>(probe.lines) * probe.samples > kMaxPolarSamples)

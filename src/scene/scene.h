@@ -14,6 +14,7 @@
 #include "scene/channel.h"
 #include "scene/medium.h"
 #include "scene/probe.h"
+#include "scene/role.h"
 #include "scene/triangle_mesh.h"
 
 namespace echocine {
@@ -63,6 +64,8 @@ struct Repairs {
 struct Structure {
   std::string name;
   MediumId medium{};
+  Role role = Role::none;           // in the heart
+  bool role_given = false;          // by the scene; else guessed from the name
   bool membrane = false;            // an open sheet of a thin material: reflects, encloses nothing
   int priority = 0;                 // where closed structures overlap the highest wins
   std::vector<Keyframe> keyframes;  // ascending phases
@@ -75,12 +78,41 @@ struct Structure {
 
 enum class Switch { automatic, on, off };
 
-// What each effect is stands in effect_plan.cpp, beside the reasons to leave it out.
+// What a loop may compute or leave out. What each is stands in effect_plan.cpp, beside the reasons
+// to leave it out.
+enum class Effect {
+  reflection,
+  lobe,
+  transmission_loss,
+  refraction,
+  snell_angles,
+  reflection_cap,
+  thin_layers,
+  attenuation,
+  backscatter,
+  spread,
+  beam_width,
+  elevation,
+  travel_time,
+  speckle,
+  tgc,
+  log_compression,
+  labels,
+  truth_labels,
+  truth_contours,
+  truth_tracks,
+  truth_function,
+  channel  // of the intensity stack, one decision each
+};
+
 struct EffectSwitches {
   Switch reflection = Switch::automatic;         // echoes of interfaces
   Switch lobe = Switch::automatic;               // cos^n of the non-specular lobe
   Switch transmission_loss = Switch::automatic;  // (1-R)^2 at each interface passed
   Switch refraction = Switch::automatic;         // bent rays
+  Switch snell_angles = Switch::automatic;       // straight rays carry Snell's direction for angles
+  Switch reflection_cap = Switch::automatic;     // W is at most R at normal incidence
+  Switch thin_layers = Switch::automatic;        // one coherent echo of interfaces in one pulse
   Switch attenuation = Switch::automatic;        // exp(-4 alpha l)
   Switch backscatter = Switch::automatic;        // Eqs. 4-7
   Switch spread = Switch::automatic;             // 1/l^2 of the backscattered part
@@ -89,7 +121,27 @@ struct EffectSwitches {
   Switch travel_time = Switch::automatic;  // place echoes at 1540 m/s t/2 instead of path length
 };
 
-enum class Tgc { perfect, table, none };
+// The effects that a scene can switch, by their names.
+struct EffectSwitch {
+  Effect effect;
+  Switch EffectSwitches::*wanted;
+};
+inline constexpr EffectSwitch kEffectSwitches[] = {
+    {Effect::reflection, &EffectSwitches::reflection},
+    {Effect::lobe, &EffectSwitches::lobe},
+    {Effect::transmission_loss, &EffectSwitches::transmission_loss},
+    {Effect::refraction, &EffectSwitches::refraction},
+    {Effect::snell_angles, &EffectSwitches::snell_angles},
+    {Effect::reflection_cap, &EffectSwitches::reflection_cap},
+    {Effect::thin_layers, &EffectSwitches::thin_layers},
+    {Effect::attenuation, &EffectSwitches::attenuation},
+    {Effect::backscatter, &EffectSwitches::backscatter},
+    {Effect::spread, &EffectSwitches::spread},
+    {Effect::beam_width, &EffectSwitches::beam_width},
+    {Effect::elevation, &EffectSwitches::elevation},
+    {Effect::travel_time, &EffectSwitches::travel_time}};
+
+enum class Tgc { perfect, mean, table, none };
 enum class Spread { compensate, keep };
 enum class BeamWidth { focused, fixed, none };
 
@@ -118,7 +170,7 @@ struct SpeckleSettings {
 
 enum class TracerChoice { automatic, slice, embree };
 enum class InterfaceEcho { automatic, centre, cell };
-enum class Normals { facet, smooth };
+enum class Normals { automatic, facet, smooth };
 
 struct AccuracySettings {
   int rays_per_beam = 1;
@@ -127,12 +179,12 @@ struct AccuracySettings {
   // be).
   InterfaceEcho interface_echo = InterfaceEcho::automatic;
   // Angles of incidence from the facets, or from normals of the Loop limit surface interpolated
-  // over them.
-  Normals normals = Normals::facet;
+  // over them; automatic: smooth where rays bend and the surfaces can give them.
+  Normals normals = Normals::automatic;
   SourcePlace normals_place;
-  // Refraction "auto" is off while 99 % of the echoes move by less than this many line spacings.
-  // Our choice: half a line, which the image cannot show.
-  double refraction_tolerance_lines = 0.5;
+  // Refraction "auto" is off while echoes move by less than this many beam widths, by the rule of
+  // simulate/echo_shift.h. Our choice.
+  double refraction_tolerance_beam_widths = 0.25;
 };
 
 enum class ExrCompression { none, rle, zips, zip, piz, pxr24 };  // pxr24 loses: 24-bit floats
@@ -151,6 +203,22 @@ struct OutputSettings {
   bool ecg = true, depth_ticks = true;
 };
 
+// What is true of every frame, written beside its picture; nothing that is not asked for is made.
+struct TruthSettings {
+  bool labels = false;    // truth/labels_0000.png: the picture's pixels
+  bool contours = false;  // truth/contours.json: per structure and frame
+  bool tracks = false;    // truth/tracks.npz: material points over the loop
+  bool function = false;  // truth/function.json: volumes, strain, thickness, excursions
+  // Structures or roles and their numbers in the label pictures; empty: closed structures from 1 in
+  // the scene's order.
+  std::vector<std::pair<std::string, int>> label_numbers;
+  bool papillary_in_cavity = false;  // papillary muscles count as cavity in the label pictures
+  int track_count = 1000;            // material points
+  SourcePlace labels_place, tracks_place, function_place;
+
+  bool any() const { return labels || contours || tracks || function; }
+};
+
 struct Scene {
   std::filesystem::path file;
   MediumId background{};
@@ -165,6 +233,7 @@ struct Scene {
   SignalSettings signal;
   AccuracySettings accuracy;
   OutputSettings output;
+  TruthSettings truth;
   std::vector<std::string> warnings;  // what is accepted but hardly meant, one line each
 
   const Medium& medium(MediumId id) const { return media[index(id)]; }

@@ -2,16 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene/names.h"
+
 namespace echocine {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <typename E>
-const char* nameOf(E value, std::initializer_list<const char*> names) {
-  return names.begin()[static_cast<std::size_t>(value)];
-}
 
 Json optionalJson(const std::optional<double>& value) {
   return value ? Json(*value) : Json();
@@ -22,7 +19,7 @@ Json vectorJson(Vec3d v) {
 }
 
 Json probeJson(const Probe& p) {
-  return {{"kind", nameOf(p.kind, {"phased", "curvilinear", "linear"})},
+  return {{"kind", nameOf(p.kind)},
           {"apex_m", vectorJson(p.pose.origin)},
           {"lateral", vectorJson(p.pose.x_axis)},
           {"elevation", vectorJson(p.pose.y_axis)},
@@ -52,16 +49,23 @@ Json repairJson(const Repairs& r) {
   return words;
 }
 
+// As a scene names it, from the scene's folder; an absolute path is nobody's business but its name.
+std::string fileFrom(const std::filesystem::path& scene, const std::filesystem::path& file) {
+  const std::filesystem::path from = file.lexically_relative(scene.parent_path());
+  return from.empty() ? file.filename().string() : from.generic_string();
+}
+
 Json structuresJson(const Scene& scene) {
   Json list = Json::array();
   for (const Structure& s : scene.structures) {
     Json keyframes = Json::array();
     for (const Keyframe& k : s.keyframes) {
       Json files = Json::array();
-      for (const auto& file : k.files) files.push_back(file.filename().string());
+      for (const auto& file : k.files) files.push_back(fileFrom(scene.file, file));
       keyframes.push_back({{"files", files}, {"phase", k.phase}});
     }
     list.push_back({{"name", s.name},
+                    {"role", nameOf(s.role)},
                     {"medium", scene.medium(s.medium).name},
                     {"membrane", s.membrane},
                     {"priority", s.priority},
@@ -73,27 +77,19 @@ Json structuresJson(const Scene& scene) {
   return list;
 }
 
-Json effectsJson(const EffectSwitches& e) {
-  const auto name = [](Switch s) { return nameOf(s, {"auto", "on", "off"}); };
-  return {{"reflection", name(e.reflection)},
-          {"lobe", name(e.lobe)},
-          {"transmission_loss", name(e.transmission_loss)},
-          {"refraction", name(e.refraction)},
-          {"attenuation", name(e.attenuation)},
-          {"backscatter", name(e.backscatter)},
-          {"spread", name(e.spread)},
-          {"beam_width", name(e.beam_width)},
-          {"elevation", name(e.elevation)},
-          {"travel_time", name(e.travel_time)}};
+Json effectsJson(const EffectSwitches& switches) {
+  Json json = Json::object();
+  for (const EffectSwitch& s : kEffectSwitches) json[nameOf(s.effect)] = nameOf(switches.*s.wanted);
+  return json;
 }
 
 Json signalJson(const SignalSettings& s) {
   Json tgc_table = Json::array();
   for (const auto& [depth_m, gain_db] : s.tgc_table) tgc_table.push_back({depth_m, gain_db});
-  return {{"tgc", nameOf(s.tgc, {"perfect", "table", "none"})},
+  return {{"tgc", nameOf(s.tgc)},
           {"tgc_table_m_db", tgc_table},
-          {"spread", nameOf(s.spread, {"compensate", "keep"})},
-          {"beam_width", nameOf(s.beam_width, {"focused", "fixed", "none"})},
+          {"spread", nameOf(s.spread)},
+          {"beam_width", nameOf(s.beam_width)},
           {"beam_width_m", s.beam_width_m},
           {"pulse_cycles", s.pulse_cycles},
           {"dynamic_range_db", s.dynamic_range_db},
@@ -119,15 +115,23 @@ Json outputJson(const OutputSettings& o) {
           {"png", o.png},
           {"report", o.report},
           {"channels", channels},
-          {"exr_compression",
-           nameOf(o.exr_compression, {"none", "rle", "zips", "zip", "piz", "pxr24"})},
-          {"exr_pixel", nameOf(o.exr_pixel, {"float", "half"})},
-          {"codec", nameOf(o.codec, {"mjpg", "ffv1"})},
+          {"exr_compression", nameOf(o.exr_compression)},
+          {"exr_pixel", nameOf(o.exr_pixel)},
+          {"codec", nameOf(o.codec)},
           {"jpeg_quality", o.jpeg_quality},
           {"width", o.width},
           {"height", o.height},
           {"ecg", o.ecg},
           {"depth_ticks", o.depth_ticks}};
+}
+
+Json truthJson(const TruthSettings& t) {
+  Json numbers = Json::object();
+  for (const auto& [name, number] : t.label_numbers) numbers[name] = number;
+  return {{"labels", t.labels},          {"contours", t.contours},
+          {"tracks", t.tracks},          {"function", t.function},
+          {"label_numbers", numbers},    {"papillary_in_cavity", t.papillary_in_cavity},
+          {"track_count", t.track_count}};
 }
 
 }  // namespace
@@ -151,13 +155,12 @@ Json sceneJson(const Scene& scene) {
        {{"heart_rate_hz", scene.acquisition.heart_rate_hz},
         {"frame_rate_hz", scene.acquisition.frame_rate_hz},
         {"beats", scene.acquisition.beats},
-        {"time_warp", nameOf(scene.acquisition.time_warp, {"auto", "uniform", "systole"})},
+        {"time_warp", nameOf(scene.acquisition.time_warp)},
         {"rr_variability", scene.acquisition.rr_variability},
         {"seed", scene.acquisition.seed}}},
       {"motion",
        {{"mesh_unit_m", scene.motion.mesh_unit_m},
-        {"interpolation",
-         nameOf(scene.motion.interpolation, {"linear", "catmull-rom", "spline", "fourier"})},
+        {"interpolation", nameOf(scene.motion.interpolation)},
         {"subdivision", scene.motion.subdivision},
         {"keyframe_heart_rate_hz", optionalJson(scene.motion.keyframe_heart_rate_hz)},
         {"end_systole_phase", optionalJson(scene.motion.end_systole_phase)}}},
@@ -166,11 +169,12 @@ Json sceneJson(const Scene& scene) {
       {"signal", signalJson(scene.signal)},
       {"accuracy",
        {{"rays_per_beam", scene.accuracy.rays_per_beam},
-        {"tracer", nameOf(scene.accuracy.tracer, {"auto", "slice", "embree"})},
-        {"interface_echo", nameOf(scene.accuracy.interface_echo, {"auto", "centre", "cell"})},
-        {"normals", nameOf(scene.accuracy.normals, {"facet", "smooth"})},
-        {"refraction_tolerance_lines", scene.accuracy.refraction_tolerance_lines}}},
-      {"output", outputJson(scene.output)}};
+        {"tracer", nameOf(scene.accuracy.tracer)},
+        {"interface_echo", nameOf(scene.accuracy.interface_echo)},
+        {"normals", nameOf(scene.accuracy.normals)},
+        {"refraction_tolerance_beam_widths", scene.accuracy.refraction_tolerance_beam_widths}}},
+      {"output", outputJson(scene.output)},
+      {"truth", truthJson(scene.truth)}};
   // A picture without speckle is the same file as before there was any.
   if (scene.speckle.on) json["speckle"] = speckleJson(scene.speckle);
   return json;

@@ -12,9 +12,12 @@
 #include "scene/keyframe_warnings.h"
 #include "scene/media_reader.h"
 #include "scene/probe_reader.h"
+#include "scene/ranges.h"
+#include "scene/scan_geometry.h"
 #include "scene/structure_reader.h"
 #include "scene/tolerance_reader.h"
 #include "scene/toml_table.h"
+#include "scene/truth_reader.h"
 
 namespace echocine {
 
@@ -29,8 +32,6 @@ constexpr double kMaxGainDb =
     200;  // keeps intensities within floats; scanners end at 100. Our choice
 constexpr int kMaxRaysPerBeam = 4096;  // errors are then far under a picture's. Our choice
 
-const NumberRange kPositive = NumberRange::positive();
-
 double readUnit(TomlTable& table, std::string_view key, double fallback) {
   return table.choice(key, fallback, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}});
 }
@@ -40,13 +41,10 @@ Acquisition readAcquisition(TomlTable table) {
   a.heart_rate_hz = hertzFromBeatsPerMinute(
       table.number("heart_rate_bpm", a.heart_rate_hz * 60, kHeartRates_bpm));
   a.frame_rate_hz = table.number("frame_rate_hz", a.frame_rate_hz, {.lo = 0.1, .hi = 100000});
-  a.beats = table.number("beats", a.beats, {.lo = 0, .hi = 1e6, .lo_open = true});
+  a.beats = table.number("beats", a.beats, ranges::kBeats);
   if (a.beats / a.heart_rate_hz * a.frame_rate_hz > kMaxFrames)
     table.fail("beats", fmt::format("the loop would have over {} frames", kMaxFrames));
-  a.time_warp = table.choice("time_warp", a.time_warp,
-                             {{"auto", WarpChoice::automatic},
-                              {"uniform", WarpChoice::uniform},
-                              {"systole", WarpChoice::systole}});
+  a.time_warp = table.choice("time_warp", a.time_warp);
   a.rr_variability =
       table.number("rr_variability", a.rr_variability, {.lo = 0, .hi = kMaxRrVariability});
   a.seed = table.integer("seed", a.seed, 0, std::numeric_limits<int>::max());
@@ -73,9 +71,11 @@ std::vector<double> readKeyframePhases(TomlTable& table) {
     if (!(phases[i] >= 0 && phases[i] < 1))
       table.fail(
           key, fmt::format("phase {} is {}, accepted: from 0 up to, without, 1", i + 1, phases[i]));
-    if (i > 0 && !(phases[i] > phases[i - 1]))
-      table.fail(key, fmt::format("phase {} is {} after {}, accepted: ascending phases", i + 1,
-                                  phases[i], phases[i - 1]));
+    if (i > 0 && !(phases[i] - phases[i - 1] >= ranges::kLeastPhaseStep))
+      table.fail(key,
+                 fmt::format("phase {} is {} after {}, accepted: ascending phases, {} apart or "
+                             "more",
+                             i + 1, phases[i], phases[i - 1], ranges::kLeastPhaseStep));
   }
   return phases;
 }
@@ -83,11 +83,7 @@ std::vector<double> readKeyframePhases(TomlTable& table) {
 MotionSettings readMotion(TomlTable table) {
   MotionSettings m;
   m.mesh_unit_m = readUnit(table, "mesh_unit", m.mesh_unit_m);
-  m.interpolation = table.choice("interpolation", m.interpolation,
-                                 {{"linear", Interpolation::linear},
-                                  {"catmull-rom", Interpolation::catmull_rom},
-                                  {"spline", Interpolation::spline},
-                                  {"fourier", Interpolation::fourier}});
+  m.interpolation = table.choice("interpolation", m.interpolation);
   m.subdivision = table.integer("subdivision", m.subdivision, 0, 8);
   readRecordedBeat(table, m);
   m.keyframe_phases = readKeyframePhases(table);
@@ -98,31 +94,21 @@ MotionSettings readMotion(TomlTable table) {
 }
 
 EffectSwitches readEffects(TomlTable table) {
-  EffectSwitches e;
-  const auto read = [&table](std::string_view key, Switch fallback) {
-    return table.choice(key, fallback,
-                        {{"auto", Switch::automatic}, {"on", Switch::on}, {"off", Switch::off}});
-  };
-  e.reflection = read("reflection", e.reflection);
-  e.lobe = read("lobe", e.lobe);
-  e.transmission_loss = read("transmission_loss", e.transmission_loss);
-  e.refraction = read("refraction", e.refraction);
-  e.attenuation = read("attenuation", e.attenuation);
-  e.backscatter = read("backscatter", e.backscatter);
-  e.spread = read("spread", e.spread);
-  e.beam_width = read("beam_width", e.beam_width);
-  e.elevation = read("elevation", e.elevation);
-  e.travel_time = read("travel_time", e.travel_time);
+  EffectSwitches switches;
+  for (const EffectSwitch& s : kEffectSwitches)
+    switches.*s.wanted = table.choice(nameOf(s.effect), switches.*s.wanted);
   table.finish();
-  return e;
+  return switches;
 }
 
 void readTgc(TomlTable& table, SignalSettings& s) {
-  s.tgc = table.choice("tgc", s.tgc,
-                       {{"perfect", Tgc::perfect}, {"table", Tgc::table}, {"none", Tgc::none}});
+  s.tgc = table.choice("tgc", s.tgc);
   if (s.tgc != Tgc::table) return table.unused("tgc_table_mm_db", "tgc = \"table\"");
   for (const auto& [depth_mm, gain_db] : table.pairs("tgc_table_mm_db")) {
     const double depth_m = metresFromMillimetres(depth_mm);
+    if (!(depth_mm >= 0 && depth_mm <= ranges::kExtent_mm.hi))
+      table.fail("tgc_table_mm_db", fmt::format("a depth is {} mm, accepted: 0 to {} mm", depth_mm,
+                                                ranges::kExtent_mm.hi));
     if (std::abs(gain_db) > kMaxGainDb)
       table.fail("tgc_table_mm_db", fmt::format("a gain is {} dB, accepted: {} to {} dB", gain_db,
                                                 -kMaxGainDb, kMaxGainDb));
@@ -152,26 +138,25 @@ SpeckleSettings readSpeckle(TomlTable table) {
 SignalSettings readSignal(TomlTable table) {
   SignalSettings s;
   readTgc(table, s);
-  s.spread = table.choice("spread", s.spread,
-                          {{"compensate", Spread::compensate}, {"keep", Spread::keep}});
-  s.beam_width = table.choice(
-      "beam_width", s.beam_width,
-      {{"focused", BeamWidth::focused}, {"fixed", BeamWidth::fixed}, {"none", BeamWidth::none}});
+  s.spread = table.choice("spread", s.spread);
+  s.beam_width = table.choice("beam_width", s.beam_width);
   if (s.beam_width == BeamWidth::fixed)
-    s.beam_width_m = metresFromMillimetres(table.number("beam_width_mm", std::nullopt, kPositive));
+    s.beam_width_m =
+        metresFromMillimetres(table.number("beam_width_mm", std::nullopt, ranges::kExtent_mm));
   else
     table.unused("beam_width_mm", "beam_width = \"fixed\"");
   s.pulse_cycles = table.number("pulse_cycles", s.pulse_cycles, {.lo = 0, .hi = 1000});
   s.dynamic_range_db =
-      table.number("dynamic_range_db", s.dynamic_range_db, {.lo = 0, .hi = 1000, .lo_open = true});
+      table.number("dynamic_range_db", s.dynamic_range_db, ranges::kDynamicRange_db);
   if (table.has("reference_intensity")) {
-    s.reference_intensity = table.number("reference_intensity", std::nullopt, kPositive);
+    s.reference_intensity =
+        table.number("reference_intensity", std::nullopt, ranges::kReferenceIntensity);
     table.unused("reference_percentile", "reference_intensity left out");
   } else {
     s.reference_percentile = table.number("reference_percentile", s.reference_percentile,
                                           {.lo = 0, .hi = 100, .lo_open = true});
   }
-  s.grey_gamma = table.number("grey_gamma", s.grey_gamma, {.lo = 0, .hi = 100, .lo_open = true});
+  s.grey_gamma = table.number("grey_gamma", s.grey_gamma, ranges::kGamma);
   table.finish();
   return s;
 }
@@ -179,11 +164,13 @@ SignalSettings readSignal(TomlTable table) {
 std::vector<Channel> readChannels(TomlTable& table) {
   std::vector<Channel> channels;
   for (const std::string& name : table.texts("channels")) {
-    const auto found = std::find_if(kAllChannels.begin(), kAllChannels.end(),
-                                    [&](Channel c) { return channelName(c) == name; });
-    if (found == kAllChannels.end()) {
+    std::vector<Channel> known(kAllChannels.begin(), kAllChannels.end());
+    known.insert(known.end(), kTruthChannels.begin(), kTruthChannels.end());
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](Channel c) { return channelName(c) == name; });
+    if (found == known.end()) {
       std::string accepted;
-      for (const Channel c : kAllChannels)
+      for (const Channel c : known)
         accepted += (accepted.empty() ? "" : ", ") + std::string(channelName(c));
       table.fail("channels", fmt::format("\"{}\" is not a channel, accepted: {}", name, accepted));
     }
@@ -203,16 +190,9 @@ OutputSettings readOutput(TomlTable table) {
   o.channels_given = table.has("channels");
   if (o.channels_given) o.channels = readChannels(table);
   if (o.channels.empty()) table.fail("channels", "is empty, accepted: at least one channel");
-  o.exr_compression = table.choice("exr_compression", o.exr_compression,
-                                   {{"none", ExrCompression::none},
-                                    {"rle", ExrCompression::rle},
-                                    {"zips", ExrCompression::zips},
-                                    {"zip", ExrCompression::zip},
-                                    {"piz", ExrCompression::piz},
-                                    {"pxr24", ExrCompression::pxr24}});
-  o.exr_pixel = table.choice("exr_pixel", o.exr_pixel,
-                             {{"float", ExrPixel::whole}, {"half", ExrPixel::half}});
-  o.codec = table.choice("codec", o.codec, {{"mjpg", CineCodec::mjpg}, {"ffv1", CineCodec::ffv1}});
+  o.exr_compression = table.choice("exr_compression", o.exr_compression);
+  o.exr_pixel = table.choice("exr_pixel", o.exr_pixel);
+  o.codec = table.choice("codec", o.codec);
   o.jpeg_quality = table.integer("jpeg_quality", o.jpeg_quality, 1, 100);
   o.width = table.integer("width", o.width, 16, 16384);
   o.height = table.integer("height", o.height, 16, 16384);
@@ -225,25 +205,19 @@ OutputSettings readOutput(TomlTable table) {
 std::optional<SceneTolerance> readTolerance(TomlTable& table) {
   constexpr std::string_view kKey = "tolerance_db";
   if (!table.has(kKey)) return std::nullopt;
-  return SceneTolerance{table.number(kKey, std::nullopt, kPositive), table.place(kKey)};
+  return SceneTolerance{table.number(kKey, std::nullopt, ranges::kTolerance_db), table.place(kKey)};
 }
 
 AccuracySettings readAccuracy(TomlTable table) {
   AccuracySettings a;
   a.rays_per_beam = table.integer("rays_per_beam", a.rays_per_beam, 1, kMaxRaysPerBeam);
-  a.tracer = table.choice("tracer", a.tracer,
-                          {{"auto", TracerChoice::automatic},
-                           {"slice", TracerChoice::slice},
-                           {"embree", TracerChoice::embree}});
-  a.interface_echo = table.choice("interface_echo", a.interface_echo,
-                                  {{"auto", InterfaceEcho::automatic},
-                                   {"centre", InterfaceEcho::centre},
-                                   {"cell", InterfaceEcho::cell}});
-  a.normals =
-      table.choice("normals", a.normals, {{"facet", Normals::facet}, {"smooth", Normals::smooth}});
+  a.tracer = table.choice("tracer", a.tracer);
+  a.interface_echo = table.choice("interface_echo", a.interface_echo);
+  a.normals = table.choice("normals", a.normals);
   a.normals_place = table.place("normals");
-  a.refraction_tolerance_lines = table.number(
-      "refraction_tolerance_lines", a.refraction_tolerance_lines, NumberRange::notNegative());
+  a.refraction_tolerance_beam_widths =
+      table.number("refraction_tolerance_beam_widths", a.refraction_tolerance_beam_widths,
+                   ranges::kToleranceLines);
   readTolerance(table);  // who sets the accuracy; the scene as rendered has none
   table.finish();
   return a;
@@ -299,7 +273,7 @@ void refuseContradictions(TomlTable& root, const Scene& scene) {
     accuracy.fail(
         "interface_echo",
         "\"cell\" excludes accuracy.tracer = \"embree\", accepted with it: \"auto\" | \"centre\"");
-  const double pulse_m = scene.signal.pulse_cycles * scannerWavelength(scene.probe) / 2;
+  const double pulse_m = scene.signal.pulse_cycles * ScanGeometry(scene.probe).wavelength() / 2;
   if (scene.speckle.on && !(pulse_m > 0))
     root.table("signal").fail("pulse_cycles",
                               "0 excludes speckle.on = true, accepted with it: a number over 0");
@@ -338,10 +312,11 @@ class MediaInUse {
   Scene& scene_;
 };
 
-void readStructures(TomlTable& root, const MediaTable& table, MediaInUse& media, Scene& scene) {
+void readStructures(TomlTable& root, const MediaTable& table, MediaInUse& media,
+                    const NamedMeshes* meshes, Scene& scene) {
   for (TomlTable& entry : root.tables("structure")) {
     Structure structure =
-        readStructure(entry, scene.file.parent_path(), scene.motion.keyframe_phases);
+        readStructure(entry, scene.file.parent_path(), scene.motion.keyframe_phases, meshes);
     structure.medium = media.idOf(table.named(entry, "medium"));
     entry.finish();
     for (const Structure& other : scene.structures)
@@ -355,9 +330,7 @@ void readStructures(TomlTable& root, const MediaTable& table, MediaInUse& media,
   }
 }
 
-}  // namespace
-
-Scene parseScene(std::string_view text, const std::filesystem::path& file) {
+Scene parse(std::string_view text, const std::filesystem::path& file, const NamedMeshes* meshes) {
   TomlTable root = TomlTable::parse(text, file.string());
   Scene scene;
   scene.file = file;
@@ -368,16 +341,17 @@ Scene parseScene(std::string_view text, const std::filesystem::path& file) {
   media_table.read(root);
   MediaInUse media(scene);
   scene.background = media.idOf(media_table.named(root, "background", "soft_tissue"));
-  readStructures(root, media_table, media, scene);
+  readStructures(root, media_table, media, meshes, scene);
   if (scene.structures.empty())
     root.fail("structure", "is missing, accepted: at least one [[structure]]");
   scene.unit_volume_m3 =
-      cubicMetresFromCubicCentimetres(root.number("unit_volume_cm3", 1.0, kPositive));
+      cubicMetresFromCubicCentimetres(root.number("unit_volume_cm3", 1.0, ranges::kUnitVolume_cm3));
   scene.effects = readEffects(root.table("effects"));
   scene.speckle = readSpeckle(root.table("speckle"));
   scene.signal = readSignal(root.table("signal"));
   scene.accuracy = readAccuracy(root.table("accuracy"));
   scene.output = readOutput(root.table("output"));
+  if (root.has("truth")) scene.truth = readTruth(root.table("truth"), scene);
   root.finish();
   refuseContradictions(root, scene);
   scene.warnings = keyframeWarnings(scene);
@@ -386,6 +360,17 @@ Scene parseScene(std::string_view text, const std::filesystem::path& file) {
   if (scene.effects.attenuation == Switch::off && !scene.output.channels_given)
     scene.output.channels = {Channel::unattenuated};
   return scene;
+}
+
+}  // namespace
+
+Scene parseScene(std::string_view text, const std::filesystem::path& file) {
+  return parse(text, file, nullptr);
+}
+
+Scene parseScene(std::string_view text, const std::filesystem::path& file,
+                 const NamedMeshes& meshes) {
+  return parse(text, file, &meshes);
 }
 
 std::optional<SceneTolerance> readSceneTolerance(const std::filesystem::path& file) {

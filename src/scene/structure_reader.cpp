@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "scene/ranges.h"
+
 namespace echocine {
 
 namespace {
@@ -38,9 +40,33 @@ bool naturalLess(const std::string& a, const std::string& b) {
   return a < b;
 }
 
+// Where keyframes are looked for.
+struct MeshSource {
+  const fs::path& folder;
+  const NamedMeshes* in_memory;  // nullptr: in the folder
+};
+
+void sortNaturally(std::vector<fs::path>& files) {
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return naturalLess(a.filename().string(), b.filename().string());
+  });
+}
+
+std::vector<fs::path> matchingMeshes(const TomlTable& table, std::string_view key,
+                                     const NamedMeshes& meshes, const std::string& pattern) {
+  std::vector<fs::path> names;
+  for (const auto& [name, mesh] : meshes)
+    if (fnmatch(pattern.c_str(), name.c_str(), 0) == 0) names.emplace_back(name);
+  if (names.empty()) table.fail(key, fmt::format("no mesh in memory matches {}", pattern));
+  sortNaturally(names);
+  return names;
+}
+
 // The files that a pattern names, sorted; wild cards stand in the file name only.
 std::vector<fs::path> matchingFiles(const TomlTable& table, std::string_view key,
-                                    const fs::path& folder, const std::string& pattern) {
+                                    const MeshSource& source, const std::string& pattern) {
+  if (source.in_memory) return matchingMeshes(table, key, *source.in_memory, pattern);
+  const fs::path& folder = source.folder;
   const fs::path full = fs::path(pattern).is_absolute() ? fs::path(pattern) : folder / pattern;
   if (full.filename().string().find_first_of("*?[") == std::string::npos) return {full};
   std::error_code failed;
@@ -56,32 +82,35 @@ std::vector<fs::path> matchingFiles(const TomlTable& table, std::string_view key
     table.fail(key, fmt::format("folder {} cannot be read: {}", full.parent_path().string(),
                                 failed.message()));
   if (files.empty()) table.fail(key, fmt::format("no file matches {}", full.string()));
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return naturalLess(a.filename().string(), b.filename().string());
-  });
+  sortNaturally(files);
   return files;
 }
 
-std::vector<Keyframe> readPhasedKeyframes(TomlTable& table, const fs::path& folder) {
+std::vector<Keyframe> readPhasedKeyframes(TomlTable& table, const MeshSource& source) {
   std::vector<Keyframe> keyframes;
   for (TomlTable& entry : table.tables("keyframes")) {
-    const fs::path file = entry.text("file");
+    const std::string named = entry.text("file");
+    const fs::path file = source.in_memory
+                              ? matchingMeshes(entry, "file", *source.in_memory, named)[0]
+                          : fs::path(named).is_absolute() ? fs::path(named)
+                                                          : source.folder / named;
     const double phase = entry.number("phase", std::nullopt, {.lo = 0, .hi = 1, .hi_open = true});
-    if (!keyframes.empty() && phase <= keyframes.back().phase)
-      entry.fail("phase", fmt::format("is {} after {}, accepted: ascending phases", phase,
-                                      keyframes.back().phase));
+    if (!keyframes.empty() && !(phase - keyframes.back().phase >= ranges::kLeastPhaseStep))
+      entry.fail("phase",
+                 fmt::format("is {} after {}, accepted: ascending phases, {} apart or more", phase,
+                             keyframes.back().phase, ranges::kLeastPhaseStep));
     entry.finish();
-    keyframes.push_back({{file.is_absolute() ? file : folder / file}, phase});
+    keyframes.push_back({{file}, phase});
   }
   return keyframes;
 }
 
 // A structure of one keyframe stands still, whatever the phases of the others.
-std::vector<Keyframe> readPlainKeyframes(TomlTable& table, const fs::path& folder,
+std::vector<Keyframe> readPlainKeyframes(TomlTable& table, const MeshSource& source,
                                          std::span<const double> phases) {
   std::vector<Keyframe> keyframes;
   for (const std::string& pattern : table.texts("keyframes"))
-    for (const fs::path& file : matchingFiles(table, "keyframes", folder, pattern))
+    for (const fs::path& file : matchingFiles(table, "keyframes", source, pattern))
       keyframes.push_back({{file}, 0});
   const bool given = !phases.empty() && keyframes.size() > 1;
   if (given && phases.size() != keyframes.size())
@@ -94,15 +123,20 @@ std::vector<Keyframe> readPlainKeyframes(TomlTable& table, const fs::path& folde
   return keyframes;
 }
 
-void addLids(TomlTable& table, const fs::path& folder, std::vector<Keyframe>& keyframes) {
+void addLids(TomlTable& table, const MeshSource& source, std::vector<Keyframe>& keyframes) {
   for (const std::string& pattern : table.texts("lids")) {
-    const std::vector<fs::path> files = matchingFiles(table, "lids", folder, pattern);
+    const std::vector<fs::path> files = matchingFiles(table, "lids", source, pattern);
     if (files.size() != keyframes.size())
       table.fail("lids",
                  fmt::format("{} names {} files, accepted: one for each of the {} keyframes",
                              pattern, files.size(), keyframes.size()));
     for (std::size_t i = 0; i < files.size(); ++i) keyframes[i].files.push_back(files[i]);
   }
+}
+
+void takeMeshes(const NamedMeshes& meshes, std::vector<Keyframe>& keyframes) {
+  for (Keyframe& keyframe : keyframes)
+    for (const fs::path& name : keyframe.files) keyframe.meshes.push_back(meshes.at(name.string()));
 }
 
 Repairs readRepairs(TomlTable& table, bool membrane) {
@@ -133,27 +167,35 @@ Repairs readRepairs(TomlTable& table, bool membrane) {
 
 }  // namespace
 
-Structure readStructure(TomlTable& table, const fs::path& folder, std::span<const double> phases) {
+Structure readStructure(TomlTable& table, const fs::path& folder, std::span<const double> phases,
+                        const NamedMeshes* meshes) {
+  const MeshSource source{folder, meshes};
   Structure structure;
   structure.name = table.text("name");
   if (structure.name.empty()) table.fail("name", "is empty, accepted: a name");
+  structure.role_given = table.has("role");
+  structure.role = table.choice("role", guessRole(structure.name));
   structure.membrane = table.boolean("membrane", structure.membrane);
   if (!structure.membrane)
     structure.priority = table.integer("priority", structure.priority, -1000000, 1000000);
   else
     table.unused("priority", "membrane = false: a membrane encloses nothing");
   structure.phases_given = table.isListOfTables("keyframes");
-  structure.keyframes = structure.phases_given ? readPhasedKeyframes(table, folder)
-                                               : readPlainKeyframes(table, folder, phases);
+  structure.keyframes = structure.phases_given ? readPhasedKeyframes(table, source)
+                                               : readPlainKeyframes(table, source, phases);
+  if (structure.keyframes.size() > ranges::kMostKeyframes)
+    table.fail("keyframes", fmt::format("are {}, accepted: up to {}", structure.keyframes.size(),
+                                        ranges::kMostKeyframes));
   if (structure.keyframes.empty())
     table.fail("keyframes",
                "is missing or empty, accepted: a file pattern, a list of files, or a list of "
                "{file, phase}");
-  addLids(table, folder, structure.keyframes);
+  addLids(table, source, structure.keyframes);
+  if (meshes) takeMeshes(*meshes, structure.keyframes);
   structure.repair = readRepairs(table, structure.membrane);
   structure.place = table.place("keyframes");
   structure.reflection_gain =
-      table.number("reflection_gain", structure.reflection_gain, NumberRange::notNegative());
+      table.number("reflection_gain", structure.reflection_gain, ranges::kReflectionGain);
   structure.reflection_exponent =
       table.number("reflection_exponent", structure.reflection_exponent, {.lo = 0, .hi = 1000});
   return structure;

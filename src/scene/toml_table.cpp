@@ -8,6 +8,8 @@
 #include <map>
 #include <sstream>
 
+#include "scene/toml_nesting.h"
+
 namespace echocine {
 
 namespace {
@@ -81,6 +83,11 @@ TomlTable::TomlTable(TomlTable&&) noexcept = default;
 TomlTable TomlTable::parse(std::string_view text, const std::string& name) {
   auto node = std::make_unique<Node>();
   node->file = name;
+  if (const int line = lineNestedTooDeep(text); line > 0)
+    throw SceneError(atPlace(
+        {name, line, ""}, fmt::format("keys, lists or tables are nested deeper than {}, which no "
+                                      "scene needs",
+                                      kMaxTomlNesting)));
   try {
     node->root = std::make_shared<const toml::table>(toml::parse(text, name));
   } catch (const toml::parse_error& error) {
@@ -161,7 +168,14 @@ std::string TomlTable::text(std::string_view key, std::optional<std::string> fal
     return *fallback;
   }
   if (!value->is_string()) fail(key, fmt::format("is {}, accepted: a string", typeName(*value)));
-  return *value->value<std::string>();
+  return withoutNul(key, *value->value<std::string>());
+}
+
+// Names of files end at a NUL for the system, so that another file would be read than is named.
+std::string TomlTable::withoutNul(std::string_view key, std::string text) const {
+  if (text.find('\0') != std::string::npos)
+    fail(key, "holds the character U+0000, accepted: text without it");
+  return text;
 }
 
 std::optional<std::size_t> TomlTable::choiceIndex(std::string_view key,
@@ -176,8 +190,11 @@ std::optional<std::size_t> TomlTable::choiceIndex(std::string_view key,
   return static_cast<std::size_t>(found - names.begin());
 }
 
-Vec3d TomlTable::vector(std::string_view key) {
-  const char* accepted = "accepted: three finite numbers [x, y, z]";
+Vec3d TomlTable::vector(std::string_view key, double most) {
+  const std::string accepted =
+      most < std::numeric_limits<double>::max()
+          ? fmt::format("accepted: three numbers [x, y, z] from {} to {}", -most, most)
+          : "accepted: three finite numbers [x, y, z]";
   const toml::node* value = node_->find(key);
   if (!value) missing(key, accepted);
   const toml::array* list = value->as_array();
@@ -185,8 +202,9 @@ Vec3d TomlTable::vector(std::string_view key) {
   double xyz[3] = {};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::optional<double> number = (*list)[i].value<double>();
-    if (!(*list)[i].is_number() || !number || !std::isfinite(*number))
-      fail(key, fmt::format("component {} is not a finite number, {}", i + 1, accepted));
+    if (!(*list)[i].is_number() || !number || !(std::abs(*number) <= most))
+      fail(key,
+           fmt::format("component {} is not a finite number within bounds, {}", i + 1, accepted));
     xyz[i] = *number;
   }
   return {xyz[0], xyz[1], xyz[2]};
@@ -201,14 +219,14 @@ bool TomlTable::isListOfTables(std::string_view key) {
 std::vector<std::string> TomlTable::texts(std::string_view key) {
   const toml::node* value = node_->find(key);
   if (!value) return {};
-  if (value->is_string()) return {*value->value<std::string>()};
+  if (value->is_string()) return {withoutNul(key, *value->value<std::string>())};
   const toml::array* list = value->as_array();
   if (!list)
     fail(key, fmt::format("is {}, accepted: a string or a list of strings", typeName(*value)));
   std::vector<std::string> result;
   for (const toml::node& item : *list) {
     if (!item.is_string()) fail(key, fmt::format("holds {}, accepted: strings", typeName(item)));
-    result.push_back(*item.value<std::string>());
+    result.push_back(withoutNul(key, *item.value<std::string>()));
   }
   return result;
 }
@@ -283,6 +301,16 @@ std::vector<std::pair<std::string, TomlTable>> TomlTable::namedTables(std::strin
   return result;
 }
 
+std::vector<std::pair<std::string, int>> TomlTable::namedIntegers(std::string_view key, int lo,
+                                                                  int hi) {
+  TomlTable names = table(key);
+  std::vector<std::pair<std::string, int>> result;
+  if (!names.node_->table) return result;
+  for (const auto& [name, item] : *names.node_->table)
+    result.emplace_back(std::string(name.str()), names.integer(name.str(), std::nullopt, lo, hi));
+  return result;
+}
+
 void TomlTable::unused(std::string_view key, std::string_view accepted_with) {
   node_->unused.emplace(key, accepted_with);
 }
@@ -303,30 +331,6 @@ void TomlTable::finish() const {
             ? fmt::format("is not a known key here, accepted: {}", accepted)
             : fmt::format("is not a known key here, the nearest known one is {}", nearest)));
   }
-}
-
-std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates,
-                        std::optional<std::size_t> edits) {
-  std::string best;
-  std::size_t best_edits = edits.value_or(std::max<std::size_t>(3, word.size() / 2));
-  for (const std::string& candidate : candidates) {
-    std::vector<std::size_t> row(candidate.size() + 1);  // Levenshtein distance, one row at a time
-    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= word.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i;
-      for (std::size_t j = 1; j < row.size(); ++j) {
-        const std::size_t substituted = diagonal + (word[i - 1] != candidate[j - 1] ? 1 : 0);
-        diagonal = row[j];
-        row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-      }
-    }
-    if (row.back() < best_edits) {
-      best_edits = row.back();
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 }  // namespace echocine

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/nearest_word.h"
 #include "core/vec3.h"
+#include "scene/names.h"
 
 namespace echocine {
 
@@ -21,10 +23,8 @@ struct NumberRange {
   double hi = std::numeric_limits<double>::infinity();
   bool lo_open = false, hi_open = false;
 
-  static NumberRange positive() { return {.lo = 0, .lo_open = true}; }
-  static NumberRange notNegative() { return {.lo = 0}; }
   bool contains(double value) const;
-  std::string text() const;  // "a number over 0"
+  std::string text() const;  // "a number from 1 to 2"
 };
 
 class TomlTable {
@@ -43,7 +43,7 @@ class TomlTable {
   int integer(std::string_view key, std::optional<int> fallback, int lo, int hi);
   bool boolean(std::string_view key, bool fallback);
   std::string text(std::string_view key, std::optional<std::string> fallback = std::nullopt);
-  Vec3d vector(std::string_view key);
+  Vec3d vector(std::string_view key, double most = std::numeric_limits<double>::max());
 
   // The value that belongs to one of the names.
   template <typename T>
@@ -55,10 +55,22 @@ class TomlTable {
     return found ? choices[*found].second : fallback;
   }
 
+  // The same by the names that the enum has in names.h.
+  template <typename T>
+  T choice(std::string_view key, T fallback) {
+    std::vector<std::string_view> names;
+    for (const auto& entry : NamesOf<T>::kAll) names.emplace_back(entry.name);
+    const std::optional<std::size_t> found = choiceIndex(key, names);
+    return found ? NamesOf<T>::kAll[*found].value : fallback;
+  }
+
   bool isListOfTables(std::string_view key);
   std::vector<std::string> texts(std::string_view key);  // a string or a list of strings
   std::vector<double> numbers(std::string_view key);     // [a, b, ...]
   std::vector<std::pair<double, double>> pairs(std::string_view key);  // [[a, b], ...]
+
+  // name = whole number, in the table's order of names: { a = 1, b = 2 }.
+  std::vector<std::pair<std::string, int>> namedIntegers(std::string_view key, int lo, int hi);
 
   // Sub-tables; absent ones are empty, so that their defaults apply.
   TomlTable table(std::string_view key);
@@ -73,6 +85,7 @@ class TomlTable {
   void finish() const;
 
  private:
+  std::string withoutNul(std::string_view key, std::string text) const;
   struct Node;
   explicit TomlTable(std::unique_ptr<Node> node);
   std::optional<std::size_t> choiceIndex(std::string_view key,
@@ -81,10 +94,5 @@ class TomlTable {
   [[noreturn]] void missing(std::string_view key, const std::string& accepted) const;
   std::unique_ptr<Node> node_;
 };
-
-// The candidate with the fewest edits to `word`; empty when none is nearer than `edits`, half the
-// word or three letters if left out.
-std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates,
-                        std::optional<std::size_t> edits = std::nullopt);
 
 }  // namespace echocine

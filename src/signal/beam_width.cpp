@@ -8,6 +8,7 @@
 
 #include "core/lanes.h"
 #include "core/parallel.h"
+#include "scene/scan_geometry.h"
 
 namespace echocine {
 
@@ -35,7 +36,7 @@ std::vector<float> boxTaps(double width) {
 
 BeamAverage::BeamAverage(const Probe& probe, const SignalSettings& settings)
     : lines_(probe.lines), samples_(probe.samples) {
-  const double wavelength_m = kScannerSpeed / probe.frequency_hz;
+  const double wavelength_m = ScanGeometry(probe).wavelength();
   taps_ = boxTaps(settings.pulse_cycles * wavelength_m / 2 / probe.sampleSpacing());
   const int reach = static_cast<int>(taps_.size()) / 2;
   for (int k = 0; k < samples_ && !taps_.empty(); ++k) {

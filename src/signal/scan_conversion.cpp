@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/lanes.h"
+#include "scene/scan_geometry.h"
 
 namespace echocine {
 
@@ -45,26 +46,6 @@ Area scanArea(const Probe& probe) {
   return area;
 }
 
-// Position of a point among the lines (0..lines-1) and its path length; nothing outside the lines.
-struct BeamPosition {
-  double line, path_m;
-};
-
-std::optional<BeamPosition> beamPosition(const Probe& probe, double x_m, double z_m) {
-  const double last = probe.lines - 1;
-  double t = 0, path_m = 0;
-  if (probe.kind == ProbeKind::linear) {
-    t = (x_m - probe.first_offset_m) / (probe.last_offset_m - probe.first_offset_m);
-    path_m = z_m;
-  } else {
-    const double angle = std::atan2(x_m, z_m);
-    t = (angle - probe.first_angle_rad) / (probe.last_angle_rad - probe.first_angle_rad);
-    path_m = std::hypot(x_m, z_m) - probe.face_radius_m;
-  }
-  if (!(t >= 0 && t <= 1)) return std::nullopt;
-  return BeamPosition{t * last, path_m};
-}
-
 }  // namespace
 
 PictureGeometry pictureGeometry(const Scene& scene) {
@@ -101,9 +82,9 @@ void ScanConverter::addRow(const Probe& probe, const PictureGeometry& geometry, 
                            int y) {
   bool inside = false;
   for (int x = begin; x < end; ++x) {
-    const std::optional<BeamPosition> beam =
-        beamPosition(probe, (x + 0.5 - geometry.origin_x_px) * geometry.metres_per_pixel,
-                     (y + 0.5 - geometry.origin_y_px) * geometry.metres_per_pixel);
+    const std::optional<ScanGeometry::BeamPosition> beam = ScanGeometry(probe).beamPosition(
+        (x + 0.5 - geometry.origin_x_px) * geometry.metres_per_pixel,
+        (y + 0.5 - geometry.origin_y_px) * geometry.metres_per_pixel);
     if (!beam || beam->path_m < probe.min_depth_m || beam->path_m > probe.max_depth_m) {
       inside = false;
       continue;

@@ -13,6 +13,7 @@ SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
   SignalSettings average = scene.signal;
   if (plan.rays_per_beam > 1) average.beam_width = BeamWidth::none;  // the rays are the beam
   if (plan.beam_width) beam_.emplace(scene.probe, average);
+  if (settings_.tgc == Tgc::mean) gains_ = gainsAgainst(plan.mean_loss);
   if (settings_.tgc == Tgc::table) gains_ = timeGains(settings_.tgc_table, scene.probe);
 }
 

@@ -35,7 +35,7 @@ class SignalChain {
 
  private:
   SignalSettings settings_;
-  std::vector<float> gains_;  // of a table TGC; empty: none
+  std::vector<float> gains_;  // of a table or the mean; empty: none
   std::optional<BeamAverage> beam_;
   PictureGeometry geometry_;
   ScanConverter converter_;

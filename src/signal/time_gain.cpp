@@ -30,6 +30,12 @@ std::vector<float> timeGains(const std::vector<std::pair<double, double>>& table
   return gains;
 }
 
+std::vector<float> gainsAgainst(std::span<const double> losses) {
+  std::vector<float> gains;
+  for (const double loss : losses) gains.push_back(static_cast<float>(1 / loss));
+  return gains;
+}
+
 void applyTimeGains(std::span<const float> gains, std::span<float> plane) {
   for (std::size_t line = 0; line + gains.size() <= plane.size(); line += gains.size())
     for (std::size_t k = 0; k < gains.size(); ++k) plane[line + k] *= gains[k];

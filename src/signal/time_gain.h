@@ -14,6 +14,9 @@ namespace echocine {
 std::vector<float> timeGains(const std::vector<std::pair<double, double>>& table_m_db,
                              const Probe& probe);
 
+// What undoes a loss at each sample; none of no losses. Precondition: losses are over 0.
+std::vector<float> gainsAgainst(std::span<const double> losses);
+
 // Multiplies every line by the gains. plane.size() is a multiple of gains.size().
 void applyTimeGains(std::span<const float> gains, std::span<float> plane);
 

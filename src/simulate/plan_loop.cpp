@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/units.h"
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
 #include "motion/motion_warnings.h"
+#include "scene/scan_geometry.h"
 #include "simulate/echo_shift.h"
+#include "simulate/mean_loss.h"
 #include "trace/beam_rays.h"
 
 namespace echocine {
@@ -18,7 +21,6 @@ namespace {
 // Frames that are looked at: end-diastole, mid-systole, end-systole, early and late filling. Our
 // choice.
 constexpr double kProbePhases[] = {0.0, 0.15, 0.36, 0.5, 0.8};
-constexpr double kCountedShare = 0.99;  // of the echoes; the rest graze and are lost either way
 
 // The box that holds all scan lines, and the rays of their beams.
 Box sectorBox(const Probe& probe, const EffectPlan& plan) {
@@ -84,55 +86,53 @@ void dropStructures(const Scene& scene, const MeshMotion& motion, LoopPlan& plan
       plan.triangles_kept += triangles;
     } else {
       plan.left_out[s] = true;
-      plan.interfaces.push_back({structure.name, false, reason});
+      plan.interfaces.push_back({structure.name, reason});
     }
   }
   for (std::size_t a = 0; a < scene.media.size(); ++a)
     for (std::size_t b = a + 1; b < scene.media.size(); ++b)
       if (sameInterface(scene.media[a], scene.media[b]))
         plan.interfaces.push_back(
-            {fmt::format("interface {}/{}", scene.media[a].name, scene.media[b].name), false,
+            {fmt::format("interface {}/{}", scene.media[a].name, scene.media[b].name),
              "same impedance and speed"});
 }
 
-EffectDecision& refractionDecision(LoopPlan& plan) {
-  return *std::find_if(plan.effects.decisions.begin(), plan.effects.decisions.end(),
-                       [](const EffectDecision& d) { return d.name == "refraction"; });
+// And every keyframe's own phase: what is in view nowhere else would be missed.
+std::set<double> lookedAt(const Scene& scene) {
+  std::set<double> phases(std::begin(kProbePhases), std::end(kProbePhases));
+  for (const Structure& structure : scene.structures)
+    for (const Keyframe& keyframe : structure.keyframes) phases.insert(keyframe.phase);
+  return phases;
 }
 
-// Traces a few frames with refraction and leaves it out when the image could hardly show it.
+// Traces some frames with refraction and leaves it out when the image could hardly show it.
 void decideRefraction(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) {
   if (!plan.effects.refraction || scene.effects.refraction != Switch::automatic) return;
-  EffectDecision& decision = refractionDecision(plan);
+  EffectDecision& decision = plan.effects.decision(Effect::refraction);
   if (scene.accuracy.tracer == TracerChoice::slice) {
     plan.effects.refraction = decision.on = false;
     decision.reason = "accuracy.tracer asks for the plane slice, whose rays are straight";
     return;
   }
-  std::vector<EchoShift> shifts;
   FrameGeometry geometry(motion.surfaces(), plan.left_out);
+  const EchoShiftMeter meter(scene, plan.effects);
+  EchoShift worst;
   SurfaceFrame frame;
-  for (const double phase : kProbePhases) {
+  for (const double phase : lookedAt(scene)) {
     motion.frameAt(phase, frame);
     geometry.update(frame);
-    measureEchoShifts(geometry, scene.probe, TraceSettings(scene, plan.effects), shifts);
+    worst = std::max(worst, meter.measure(geometry, phase));
   }
-  if (shifts.empty()) {
-    plan.effects.refraction = decision.on = false;
-    decision.reason = "no interface is met";
-    return;
-  }
-  std::sort(shifts.begin(), shifts.end(),
-            [](const EchoShift& a, const EchoShift& b) { return a.spacings < b.spacings; });
-  const EchoShift& counted =
-      shifts[static_cast<std::size_t>(kCountedShare * static_cast<double>(shifts.size() - 1))];
-  const double tolerance = scene.accuracy.refraction_tolerance_lines;
-  plan.effects.refraction = decision.on = counted.spacings >= tolerance;
-  decision.reason = fmt::format(
-      "99 % of the echoes move by {} {:.2g} mm, {:.2g} of a line's distance (accepted: {:g}; "
-      "farthest, grazing: {:.2g} mm)",
-      decision.on ? "up to" : "under", millimetresFromMetres(counted.metres), counted.spacings,
-      tolerance, millimetresFromMetres(shifts.back().metres));
+  const double tolerance = scene.accuracy.refraction_tolerance_beam_widths;
+  plan.effects.refraction = decision.on = worst.beam_widths >= tolerance && worst.metres > 0;
+  decision.reason =
+      worst.metres > 0
+          ? fmt::format(
+                "echoes move by up to {:.2g} mm, {:.2g} of the beam's width, {:.0f} mm deep "
+                "at phase {:.2f} (accepted: {:g})",
+                millimetresFromMetres(worst.metres), worst.beam_widths,
+                millimetresFromMetres(worst.depth_m), worst.phase, tolerance)
+          : "no echo moves";
 }
 
 void chooseTracer(const Scene& scene, LoopPlan& plan) {
@@ -186,7 +186,11 @@ LoopPlan planLoop(const Scene& scene, const MeshMotion& motion) {
     plan.warnings.push_back(std::move(warning));
   dropStructures(scene, motion, plan);
   decideRefraction(scene, motion, plan);
+  plan.smooth_normals =
+      motion.hasNormals() && (scene.accuracy.normals == Normals::smooth || plan.effects.refraction);
   chooseTracer(scene, plan);
+  if (scene.signal.tgc == Tgc::mean && plan.effects.attenuation && wantsPicture(scene))
+    plan.effects.mean_loss = meanLoss(scene, motion, plan);
   lookAtFrames(scene, motion, plan);
   return plan;
 }
@@ -194,9 +198,9 @@ LoopPlan planLoop(const Scene& scene, const MeshMotion& motion) {
 std::string planSummary(const LoopPlan& plan) {
   std::string on, off;
   for (const EffectDecision& d : plan.effects.decisions) {
-    if (d.name.starts_with("channel")) continue;
+    if (d.effect == Effect::channel) continue;
     std::string& list = d.on ? on : off;
-    list += (list.empty() ? "" : ", ") + d.name;
+    list += (list.empty() ? "" : ", ") + d.name();
   }
   return fmt::format("{} tracer, {} of {} triangles met; on: {}; off: {}", plan.tracerName(),
                      plan.triangles_met, plan.triangles_given, on, off);

@@ -17,6 +17,7 @@ std::vector<ChannelPlane> channelPlanes(const OutputSettings& output, const Work
   const PolarFrame& polar = w.polar;
   std::vector<ChannelPlane> planes;
   for (const Channel channel : output.channels) {
+    if (isTruth(channel)) continue;  // of another origin
     if (channel == Channel::medium)
       planes.push_back({channel, {}, polar.medium});
     else if (channel == Channel::display)
@@ -111,7 +112,7 @@ Volumes Simulator::traceLines(const FrameTime& time, Workspace& w) const {
   Volumes volumes_ml;
   if (w.polar.intensities.empty()) w.polar.intensities = Intensities(w.greys.release());
   clock_.time(Stage::motion, [&] {
-    motion_->frameAt(time.phase, w.surfaces);
+    motion_->frameAt(time.phase, w.surfaces, plan_.smooth_normals);
     volumes_ml = volumes(w.surfaces);
   });
   const WorkCounts work = std::visit(

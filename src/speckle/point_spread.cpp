@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "scene/beam_profile.h"
+#include "scene/scan_geometry.h"
 
 namespace echocine {
 
@@ -17,7 +18,7 @@ constexpr double kNearest_m = 3e-3;
 
 // A bell in intensity of full width w at -6 dB has in amplitude sigma = sqrt 2 w / sqrt(8 ln 4).
 PointSpread::PointSpread(const Probe& probe, double pulse_cycles)
-    : wavelength_m(scannerWavelength(probe)),
+    : wavelength_m(ScanGeometry(probe).wavelength()),
       axial_width_m(kWidthPerPulse * pulse_cycles * wavelength_m / 2),
       aperture_m(probe.elevation_aperture_m),
       focus_m(probe.elevation_focus_m) {

@@ -9,6 +9,8 @@
 #include "motion/mesh_motion.h"
 #include "scene/beam_profile.h"
 #include "scene/effect_plan.h"
+#include "scene/names.h"
+#include "scene/scan_geometry.h"
 #include "simulate/plan_loop.h"
 
 namespace echocine {
@@ -77,10 +79,11 @@ Extent extentOf(const Scene& scene) {
   const double width_m = scene.signal.beam_width == BeamWidth::fixed
                              ? scene.signal.beam_width_m
                              : focusedBeamWidth(probe.focus_m, probe.aperture_m, probe.focus_m,
-                                                scannerWavelength(probe));
+                                                ScanGeometry(probe).wavelength());
   const double cycles = scene.signal.pulse_cycles > 0 ? scene.signal.pulse_cycles : 2;
-  Extent extent{lineSpacing(two, probe.focus_m) / width_m,
-                (probe.max_depth_m - probe.min_depth_m) / (cycles * scannerWavelength(probe) / 2)};
+  Extent extent{
+      lineSpacing(two, probe.focus_m) / width_m,
+      (probe.max_depth_m - probe.min_depth_m) / (cycles * ScanGeometry(probe).wavelength() / 2)};
   if (probe.lines < 2) extent.beams = 1 / kPerBeam.back();
   const double finest = kPerBeam.back() * extent.beams * kPerBeam.back() * extent.pulses;
   const double shrink = std::sqrt(std::min(1.0, kMostPolarSamples / finest));
@@ -101,11 +104,7 @@ void addSamples(const Scene& scene, Table& table) {
   std::vector<int> samples;
   for (const double n : kPerBeam) samples.push_back(rounded(n * pulses, kMostSamples));
   table.addNumbers("samples", "probe.samples", "samples of a line", samples, kOfPreset,
-                   [written = scene.probe.samples](Scene& s, int n) {
-                     s.probe.samples = n;
-                     for (Structure& structure : s.structures)
-                       structure.reflection_gain *= static_cast<double>(n) / written;
-                   });
+                   [](Scene& s, int n) { s.probe.samples = n; });
 }
 
 void addSubdivision(const Scene& scene, std::size_t triangles, Table& table) {
@@ -134,7 +133,7 @@ std::string refusal(const Scene& scene) {
 }
 
 void addNormals(const Scene& scene, Table& table) {
-  if (scene.motion.subdivision == 0 && scene.accuracy.normals == Normals::facet)
+  if (scene.motion.subdivision == 0 && scene.accuracy.normals != Normals::smooth)
     return table.leaveOut("normals",
                           "motion.subdivision = 0 takes the meshes as the surfaces themselves");
   Scene smooth = scene;
@@ -170,15 +169,6 @@ void addKeyframes(const Scene& scene, Table& table) {
   table.add(std::move(knob));
 }
 
-struct KindName {
-  Interpolation kind;
-  const char* name;
-};
-constexpr KindName kKinds[] = {{Interpolation::linear, "linear"},
-                               {Interpolation::catmull_rom, "catmull-rom"},
-                               {Interpolation::spline, "spline"},
-                               {Interpolation::fourier, "fourier"}};
-
 bool accepts(const Scene& scene, Interpolation kind) {
   try {
     for (const Structure& structure : scene.structures) {
@@ -201,19 +191,20 @@ void addInterpolation(const Scene& scene, Table& table) {
             "between keyframes; the scene's own is the reference",
             {},
             {}};
-  const auto value = [](const KindName& k) {
-    return KnobValue{k.name, [kind = k.kind](Scene& s) { s.motion.interpolation = kind; }};
+  using Kind = Named<Interpolation>;
+  const auto value = [](const Kind& k) {
+    return KnobValue{k.name, [kind = k.value](Scene& s) { s.motion.interpolation = kind; }};
   };
-  for (const KindName& k : kKinds) {
-    if (k.kind == scene.motion.interpolation) continue;
-    if (accepts(scene, k.kind))
+  for (const Kind& k : NamesOf<Interpolation>::kAll) {
+    if (k.value == scene.motion.interpolation) continue;
+    if (accepts(scene, k.value))
       knob.values.push_back(value(k));
     else
       table.leaveOut(fmt::format("interpolation {}", k.name),
                      "would overshoot between keyframes this uneven");
   }
-  for (const KindName& k : kKinds)
-    if (k.kind == scene.motion.interpolation) knob.values.push_back(value(k));
+  for (const Kind& k : NamesOf<Interpolation>::kAll)
+    if (k.value == scene.motion.interpolation) knob.values.push_back(value(k));
   knob.of_preset.fill(knob.values.size() - 1);  // what is true between keyframes is the scene's say
   table.add(std::move(knob));
 }
@@ -226,7 +217,7 @@ void addRefraction(const Scene& scene, const MeshMotion& motion, Table& table) {
   if (scene.accuracy.interface_echo == InterfaceEcho::cell)
     return table.leaveOut("refraction", "accuracy.interface_echo = \"cell\" bends no ray");
   if (!planEffects(scene).refraction)
-    return table.leaveOut("refraction", planEffects(scene).decision("refraction").reason);
+    return table.leaveOut("refraction", planEffects(scene).decision(Effect::refraction).reason);
   const KnobValue off{"off", [](Scene& s) { s.effects.refraction = Switch::off; }};
   const KnobValue on{"on", [](Scene& s) { s.effects.refraction = Switch::on; }};
   // Bent rays know no contour between them, and echoes at the lines alone cost more accuracy than

@@ -59,10 +59,7 @@ std::vector<std::string> knobNames();
 
 Setting presetSetting(const KnobTable& table, Preset preset);
 
-// The scene with the setting's values. An interface's echo stands in one sample, and the average
-// over the pulse makes it the weaker the shorter samples are; so reflection gains are multiplied by
-// samples / samples as written, which keeps the echo's height times length, and with it the
-// picture, that of the scene as written.
+// The scene with the setting's values.
 Scene sceneWith(const Scene& scene, const KnobTable& table, const Setting& setting);
 
 // "probe.lines = 224, probe.samples = 544, ...": as a scene file has it.

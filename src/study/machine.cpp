@@ -5,6 +5,7 @@
 
 namespace echocine {
 
+// Times mean little without the machine they were taken on: the name goes into study.json.
 std::string processorName() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);)

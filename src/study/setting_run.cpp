@@ -17,6 +17,7 @@ namespace {
 // Our choice: a gigabyte or so of refined meshes stays in memory for settings to come.
 constexpr std::size_t kShelvedTriangles = 6'000'000;
 
+// All that a motion depends on; what it does not depend on would only make the shelf miss.
 nlohmann::ordered_json motionJson(const Scene& scene) {
   const nlohmann::ordered_json all = sceneJson(scene);
   return {all.at("motion"), all.at("structures"), all.at("accuracy").at("normals")};
@@ -27,6 +28,7 @@ ExrStack exrStack(const Scene& scene, double reference_intensity) {
   return {{}, scene, std::string(64, '0'), reference_intensity};
 }
 
+// Memory goes with triangles: positions, normals and topology of each.
 std::size_t trianglesOf(const MeshMotion& motion) {
   std::size_t count = 0;
   for (const SurfaceTopology& surface : motion.surfaces()) count += surface.triangles.size();
@@ -36,15 +38,12 @@ std::size_t trianglesOf(const MeshMotion& motion) {
 }  // namespace
 
 std::shared_ptr<const MeshMotion> MotionShelf::motionOf(const Scene& scene) {
-  // What a structure sends back does not move it.
-  Scene moving = scene;
-  for (Structure& s : moving.structures) s.reflection_gain = 1;
-  const std::string key = motionJson(moving).dump();
+  const std::string key = motionJson(scene).dump();
   Entry& entry = shelf_[key];
   entry.last_used = ++uses_;
   if (entry.motion) return entry.motion;
   try {
-    entry.motion = std::make_shared<const MeshMotion>(moving);
+    entry.motion = std::make_shared<const MeshMotion>(scene);
   } catch (...) {
     shelf_.erase(key);
     throw;
@@ -56,6 +55,7 @@ std::shared_ptr<const MeshMotion> MotionShelf::motionOf(const Scene& scene) {
     for (const auto& [name, e] : shelf_) sum += e.triangles;
     return sum;
   };
+  // The least recently used goes first. Who still uses it holds its own pointer.
   while (shelf_.size() > 1 && total() > kShelvedTriangles)
     shelf_.erase(std::min_element(shelf_.begin(), shelf_.end(), [](const auto& a, const auto& b) {
       return a.second.last_used < b.second.last_used;
@@ -68,6 +68,7 @@ Scene showing(Scene scene) {
   return scene;
 }
 
+// The motion is let go again: hundreds of settings wait, and one is at work at a time.
 SettingRun::SettingRun(Scene scene, MotionShelf& shelf) : scene_(std::move(scene)), shelf_(&shelf) {
   const std::shared_ptr<const MeshMotion> motion = shelf_->motionOf(scene_);
   plan_ = planLoop(scene_, *motion);
@@ -76,6 +77,7 @@ SettingRun::SettingRun(Scene scene, MotionShelf& shelf) : scene_(std::move(scene
 }
 
 std::string SettingRun::signature() const {
+  // Where "auto" came to the same as a stated value, two scenes are one setting.
   nlohmann::ordered_json json = sceneJson(scene_);
   json["accuracy"]["interface_echo"] = plan_.cell_echoes;
   json["effects"]["refraction"] = plan_.effects.refraction;
@@ -97,6 +99,7 @@ WorkCounts SettingRun::workPerFrame() const {
   const auto frames = static_cast<std::uint64_t>(std::max(worked_frames_, 1));
   for (std::uint64_t* count : {&mean.bvh_updates, &mean.facets_sliced, &mean.rays, &mean.crossings,
                                &mean.samples_backscatter, &mean.samples_attenuated})
+    // To the nearest whole; counts are of whole things.
     *count = (*count + frames / 2) / frames;
   return mean;
 }
@@ -147,6 +150,7 @@ FramePicture SettingRun::picture(const FrameTime& time, double reference_intensi
 
 double SettingRun::referenceIntensity(const std::vector<FrameTime>& times) {
   if (scene_.signal.reference_intensity) return *scene_.signal.reference_intensity;
+  // Nothing to be seen: white is the transmitted intensity, as in a render.
   if (!plan_.effects.contrast) return 1;
   IntensityHistogram histogram(scene_.probe);
   const Simulator& making = simulator();
@@ -167,6 +171,7 @@ StageTimes SettingRun::timeBatch(const std::vector<FrameTime>& times, std::size_
   const Overlay overlay(scene_, making.chain().geometry(), {});
   const std::array<double, kStages> before = making.clock().milliseconds();
   const auto start = std::chrono::steady_clock::now();
+  // The same loop as a render's, but for the disk: a study times the program, not the drive.
   parallelOrdered(
       0, frames, 2 * static_cast<std::size_t>(threadCount()), [] { return true; },
       [&](std::size_t i) -> std::shared_ptr<void> {

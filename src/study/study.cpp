@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
+#include "core/shown_path.h"
 #include "core/units.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "render/render_pass.h"
@@ -42,12 +43,13 @@ class Study {
     prepare();
     for (int round = 0; round < options_.repeats; ++round) {
       const Clock::time_point begin = Clock::now();
-      if (!visitAll(round)) break;
-      result_.rounds = round + 1;
-      result_.complete = round + 1 == options_.repeats;
+      const bool whole = visitAll(round);
+      if (whole) result_.rounds = round + 1;
+      const bool spent = !whole && budgetSpent();
       const double took_s = secondsSince(begin);
-      const bool enough = secondsSince(start_) + took_s > options_.budget_s;
-      if (enough) result_.complete = true;
+      const bool enough = spent || secondsSince(start_) + took_s > options_.budget_s;
+      result_.complete = whole ? enough || round + 1 == options_.repeats : spent;
+      if (!whole && !spent) break;  // stopped
       round_done_(finished());
       if (enough) break;
     }
@@ -55,6 +57,7 @@ class Study {
   }
 
  private:
+  bool budgetSpent() const { return secondsSince(start_) >= options_.budget_s; }
   void prepare();
   void addRow(const std::string& sweep, const std::string& knob, const std::string& value,
               Scene scene, const std::string& keys);
@@ -81,6 +84,7 @@ class Study {
 
 void Study::addRow(const std::string& sweep, const std::string& knob, const std::string& value,
                    Scene scene, const std::string& keys) {
+  // A row that would take minutes a frame is named and left out, so that a study ends.
   const double rays = static_cast<double>(scene.accuracy.rays_per_beam) * scene.probe.lines;
   if (scene.accuracy.rays_per_beam > scene_.accuracy.rays_per_beam && rays > kMostRays) {
     result_.refused.push_back({knob + " " + value + ", " + sweep,
@@ -91,6 +95,7 @@ void Study::addRow(const std::string& sweep, const std::string& knob, const std:
   try {
     SettingRun probe(std::move(scene), shelf_);
     std::string signature = probe.signature();
+    // Rows that come to the same thing are measured once.
     const auto found = std::find(signatures_.begin(), signatures_.end(), signature);
     const auto point = static_cast<std::size_t>(found - signatures_.begin());
     if (found == signatures_.end()) {
@@ -112,7 +117,8 @@ void Study::addRow(const std::string& sweep, const std::string& knob, const std:
     result_.rows.push_back({sweep, knob, value, point});
   } catch (const SceneError& error) {
     if (result_.points.empty()) throw;  // without its reference there is no study
-    result_.refused.push_back({knob + " " + value, error.what()});
+    result_.refused.push_back(
+        {knob + " " + value, withoutFolders(error.what(), scene_.file.parent_path())});
   }
 }
 
@@ -136,6 +142,7 @@ void Study::prepare() {
   result_.frames = probeFrames(scene_, options_.frames);
   result_.scene_sha256 = sceneSha256(scene_, *shelf_.motionOf(scene_));
   result_.table = knobsOf(scene_);
+  // The reference must be the first point: its white and its pictures are everybody's measure.
   for (const Preset preset : {Preset::reference, Preset::draft, Preset::standard, Preset::fine}) {
     const Setting setting = presetSetting(result_.table, preset);
     addRow("preset", "preset", kPresetNames[static_cast<std::size_t>(preset)],
@@ -168,10 +175,11 @@ void Study::tell() {
   monitor_.tell({Task::settings, visits_, total, mean * static_cast<double>(total - visits_)});
 }
 
+// Forwards and backwards in turn: a processor that warms up and slows down cancels in the medians.
 bool Study::visitAll(int round) {
   const std::size_t count = result_.points.size();
   for (std::size_t i = 0; i < count; ++i) {
-    if (!monitor_.keep_going()) return false;
+    if (!monitor_.keep_going() || (visits_ > 0 && budgetSpent())) return false;
     visit(round % 2 == 0 ? i : count - 1 - i, round);
   }
   return true;
@@ -185,6 +193,7 @@ void Study::visit(std::size_t point, int round) {
     compare(point);
   else  // hierarchies are built and memory is touched before the clock runs
     probe.picture(result_.frames.front(), result_.reference_intensity, false);
+  // Enough frames to keep all threads busy; with one thread each probe frame once.
   const std::size_t frames =
       std::max(result_.frames.size(), static_cast<std::size_t>(2 * (threadCount() - 1)));
   p.times.push_back(probe.timeBatch(result_.frames, frames, result_.reference_intensity));
@@ -218,6 +227,8 @@ void Study::compare(std::size_t point) {
     }
   }
   const auto frames = static_cast<double>(result_.frames.size());
+  // Frames have equally many pixels in the sector, so the mean of their squares is that of all
+  // pixels.
   e.rms_db = std::sqrt(squares / frames);
   e.ssim = ssim / frames;
   e.interface_rms_mm = millimetresFromMetres(interfaces.rms_m());
@@ -248,6 +259,7 @@ double StudyPoint::stage_ms(Stage stage) const {
   return quartilesOf(values).median;
 }
 
+// In the middle of equal parts of the beat: neither all at rest nor all in motion.
 std::vector<FrameTime> probeFrames(const Scene& scene, int count) {
   const CardiacClock clock(scene);
   int of_beat = 0;
@@ -270,6 +282,7 @@ double KnobStep::perMillisecond() const {
   return error_drop_db / std::max(added_ms, kLeast_ms);
 }
 
+// From draft, where a step shows most; per knob the step with the best return.
 std::vector<KnobStep> bestBuys(const StudyResult& result) {
   std::vector<KnobStep> best;
   for (const Knob& knob : result.table.knobs) {

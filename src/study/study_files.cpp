@@ -86,6 +86,7 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
+// Errors are rounded to what can be told apart: storing intensities alone moves them by as much.
 std::vector<bool> rowsOnFront(const StudyResult& result) {
   std::vector<CostAndError> points;
   for (const StudyRow& row : result.rows) {
@@ -96,6 +97,8 @@ std::vector<bool> rowsOnFront(const StudyResult& result) {
   return paretoFront(points);
 }
 
+// What a clock has touched stands under "machine" and "timing" alone, so that two studies of a
+// scene can be compared as text.
 Json studyJson(const StudyResult& result) {
   const std::vector<bool> front = rowsOnFront(result);
   Json rows = Json::array();
@@ -132,6 +135,7 @@ Json studyJson(const StudyResult& result) {
             {"best_buys", buysJson(result)}}}};
 }
 
+// Times in ms with their quartiles, lengths in mm: units stand in the names of the columns.
 std::string studyCsv(const StudyResult& result) {
   const std::vector<bool> front = rowsOnFront(result);
   std::string text =

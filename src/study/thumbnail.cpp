@@ -5,6 +5,7 @@
 
 #include "video/cine_writer.h"
 
+// Thumbnails are looked at, never measured: the errors come from the full pictures.
 namespace echocine {
 
 namespace {

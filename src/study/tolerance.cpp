@@ -19,6 +19,7 @@ namespace echocine {
 
 namespace {
 
+// Error of the worst probe frame, and cost by the model.
 struct Tried {
   double error_db = 0, cost_ms = 0;
 };
@@ -109,10 +110,12 @@ void Descent::stepDown(std::size_t knob) {
     return;
   }
   const double saved_ms = here_.cost_ms - tried.cost_ms;
+  // Errors nearly always grow on the way down, so a rung that fails now would fail later too.
   if (tried.error_db > limit_db_ || saved_ms <= 0) {
     step.closed = true;
     return;
   }
+  // A step without error is worth taking, but not infinitely: its cost still counts.
   constexpr double kLeast_db2 = 1e-6;
   const double added_db2 = tried.error_db * tried.error_db - here_.error_db * here_.error_db;
   const double worth = saved_ms / std::max(added_db2, kLeast_db2);
@@ -127,6 +130,7 @@ void Descent::stepDown(std::size_t knob) {
   --step.rung;
 }
 
+// Knobs never tried are worth infinity, so each is tried once before any is tried again.
 std::optional<std::size_t> Descent::nextKnob() const {
   std::optional<std::size_t> next;
   for (std::size_t k = 0; k < steps_.size(); ++k)

@@ -8,6 +8,7 @@
 #include "core/check.h"
 #include "core/hash_random.h"
 #include "scene/beam_profile.h"
+#include "scene/scan_geometry.h"
 
 namespace echocine {
 
@@ -115,7 +116,7 @@ BeamSpread beamSpread(const EffectPlan& plan, int seed) {
 
 BeamRays::BeamRays(const Probe& probe, const BeamSpread& spread) : spread_(spread) {
   CHECK_LE(1, spread.rays);
-  const double wavelength_m = scannerWavelength(probe);
+  const double wavelength_m = ScanGeometry(probe).wavelength();
   // Widths of diffraction at 1 m are widths per metre.
   lateral_slope_ = followedWidth(1, probe.aperture_m, wavelength_m) / kWidthPerDeviation;
   const double one_way = 1 / (kWidthPerDeviation * std::numbers::sqrt2);  // of the lens, of two

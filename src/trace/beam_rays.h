@@ -39,7 +39,7 @@
 
 #include "geometry/crossing.h"
 #include "scene/effect_plan.h"
-#include "scene/probe.h"
+#include "scene/scan_geometry.h"
 
 namespace echocine {
 

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trace/interface_lanes.h"
+#include "scene/scan_geometry.h"
 #include "trace/clip_interfaces.h"
+#include "trace/interface_lanes.h"
 
 namespace echocine {
 
@@ -60,7 +61,7 @@ class CellEchoMaker {
                 double cell_width, CellEchoes& echoes)
       : settings_(settings),
         echoes_(echoes),
-        angular_(probe.kind != ProbeKind::linear),
+        angular_(ScanGeometry(probe).angular()),
         face_radius_m_(probe.face_radius_m),
         per_width_(1 / cell_width),
         min_depth_m_(probe.min_depth_m),
@@ -97,26 +98,53 @@ class CellEchoMaker {
     return n;
   }
 
-  // As the walk along a line does it: Eq. 1 and the lobe; a membrane echoes twice. Mostly the angle
-  // counts in the lobe cos^2 alone, which needs no root.
-  Doubles4 strengthOf(const EdgeClips& clips, const InterfaceRows& f, std::size_t i) const {
+  // cos^2 of the angle of incidence. Straight rays carry Snell's direction: what the cell's line
+  // has of it turns with the direction in which the clip is seen, and where it would not meet this
+  // side the line's own counts, as in the walk.
+  Doubles4 incidence(const EdgeClips& clips, const InterfaceRows& f, std::size_t i) const {
     const Doubles4 to_x = lanesAt(&clips.to_x[i]), to_z = lanesAt(&clips.to_z[i]);
-    const Doubles4 along = to_x * lanesAt(&clips.normal_x[i]) + to_z * lanesAt(&clips.normal_z[i]);
-    const Doubles4 squares = (to_x * to_x + to_z * to_z) * lanesAt(&clips.normal_square[i]);
-    const Doubles4 cos_square = smaller(along * along / squares, 1);
-    const Doubles4 Z_1 = lanesAt(&f.Z_1[i]), Z_2 = lanesAt(&f.Z_2[i]), r = lanesAt(&f.r[i]);
-    const Doubles4 n = lanesAt(&f.lobe[i]), passed = lanesAt(&f.passed[i]),
-                   membrane = lanesAt(&f.membrane[i]);
-    const auto withSecond = [&](Doubles4 R) {
-      return R + membrane * (settings_.transmission_loss ? (1 - R) * (1 - R) * R : R);
-    };
-    if (!any((r != 1) | (n != 2)))
-      return passed * withSecond(reflectedAtEqualSpeeds(Z_1, Z_2)) * cos_square;
+    const Doubles4 n_x = lanesAt(&clips.normal_x[i]), n_z = lanesAt(&clips.normal_z[i]);
+    const Doubles4 along = to_x * n_x + to_z * n_z, to_square = to_x * to_x + to_z * to_z;
+    const Doubles4 squares = to_square * lanesAt(&clips.normal_square[i]);
+    const Doubles4 straight = smaller(along * along / squares, 1);
+    if (!settings_.snell_angles) return straight;
+    const Doubles4 across = lanesAt(&f.wave_across[i]), out = lanesAt(&f.wave_out[i]);
+    if (!any((across != 0) | (out != 0))) return straight;
+    const Doubles4 turned = along * lanesAt(&f.wave_along[i]) + (to_z * n_x - to_x * n_z) * across +
+                            squareRoot(to_square) * out * lanesAt(&clips.normal_y[i]);
+    return turned * along > 0 ? smaller(turned * turned / squares, 1) : straight;
+  }
+
+  Doubles4 lobeOf(Doubles4 n, Doubles4 cos_square) const {
     const Doubles4 cos_i = squareRoot(cos_square);
     Doubles4 lobe = n == 2 ? cos_square : n == 1 ? cos_i : Doubles4{} + 1;
     for (std::size_t j = 0; any_power_ && j < kDoubleLanes; ++j)
       if (n[j] != 0 && n[j] != 1 && n[j] != 2) lobe[j] = std::pow(cos_i[j], n[j]);
-    return passed * withSecond(reflectedShares(Z_1, Z_2, r, lanesAt(&f.turn[i]), cos_i)) * lobe;
+    return lobe;
+  }
+
+  // As the walk along a line does it: Eq. 1 and the lobe; a membrane echoes twice, each time by its
+  // own angle. Mostly the angle counts in the lobe cos^2 alone, which needs no root.
+  Doubles4 strengthOf(const EdgeClips& clips, const InterfaceRows& f, std::size_t i) const {
+    const Doubles4 cos_square = incidence(clips, f, i);
+    const Doubles4 Z_1 = lanesAt(&f.Z_1[i]), Z_2 = lanesAt(&f.Z_2[i]), r = lanesAt(&f.r[i]);
+    const Doubles4 n = lanesAt(&f.lobe[i]), passed = lanesAt(&f.passed[i]),
+                   membrane = lanesAt(&f.membrane[i]);
+    const Doubles4 upright = reflectedAtEqualSpeeds(Z_1, Z_2);
+    const auto throughOnce = [&](Doubles4 R) {
+      return settings_.transmission_loss ? (1 - R) * (1 - R) : Doubles4{} + 1;
+    };
+    if (!any((r != 1) | (n != 2)))
+      return passed * upright * (1 + membrane * throughOnce(upright)) * cos_square;
+    const Doubles4 turn = lanesAt(&f.turn[i]);
+    const Doubles4 R = reflectedShares(Z_1, Z_2, r, turn, squareRoot(cos_square));
+    const Doubles4 back = settings_.reflection_cap ? smaller(R, upright) : R;
+    Doubles4 lobes = lobeOf(n, cos_square);
+    if (any(membrane != 0)) {
+      const Doubles4 cos_t_square = clamped(turn + r * r * cos_square, Doubles4{}, Doubles4{} + 1);
+      lobes += membrane * throughOnce(R) * lobeOf(n, cos_t_square);
+    }
+    return passed * back * lobes;
   }
 
   // Fills the rows for four clips; returns how many samples each spans.
@@ -148,8 +176,7 @@ class CellEchoMaker {
     const Doubles4 k_hit = (lanesAt(&f.depth_m[i]) - min_depth_m_) * per_spacing_;
     const Doubles4 samples = Doubles4{} + samples_;
     const Doubles4 k_a = clamped(k_hit + (path_a - path_m) * per_path, Doubles4{} - 1, samples);
-    const Doubles4 k_b =
-        clamped(k_hit + (path_b - path_m) * per_path, Doubles4{} - 1, samples + 1);
+    const Doubles4 k_b = clamped(k_hit + (path_b - path_m) * per_path, Doubles4{} - 1, samples + 1);
     const Doubles4 first = wholeOf(larger(k_a, 0)), below = wholeOf(larger(k_b, 0));
     const Doubles4 end = larger(below < k_b ? below + 1 : below, first + 1);
     const Mask4 seen = masksAt(&f.seen[i]);

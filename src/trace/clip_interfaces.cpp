@@ -21,6 +21,7 @@ void takeSmoothNormal(const ContourEdge& edge, const EdgeNormals& normals, EdgeC
   const Vec3d value = normals.from + t * (normals.to - normals.from);
   const Vec3d normal = facingNormal(value, {p.to_x[i], 0, p.to_z[i]}, unitNormal(edge));
   p.normal_x[i] = normal.x;
+  p.normal_y[i] = normal.y;
   p.normal_z[i] = normal.z;
   p.normal_square[i] = dot(normal, normal);
 }
@@ -36,7 +37,7 @@ void splitAtFoot(EdgeClips& p, std::size_t i) {
   p.a_x[j] = p.a_x[i] = foot_x;
   p.a_z[j] = p.a_z[i] = foot_z;
   for (const auto row : {&EdgeClips::to_x, &EdgeClips::to_z, &EdgeClips::normal_x,
-                         &EdgeClips::normal_z, &EdgeClips::normal_square})
+                         &EdgeClips::normal_y, &EdgeClips::normal_z, &EdgeClips::normal_square})
     (p.*row)[j] = (p.*row)[i];
   p.line[j] = p.line[i];
 }
@@ -45,31 +46,46 @@ void splitAtFoot(EdgeClips& p, std::size_t i) {
 
 ClipInterfaces::ClipInterfaces(const Probe& probe, const TraceSettings& settings,
                                std::span<const LineTrace> lines)
-    : probe_(probe), settings_(settings), table_(lines, settings.surfaces.size()) {
+    : geometry_(probe),
+      lines_(probe.lines),
+      settings_(settings),
+      table_(lines, settings.surfaces.size()) {
   for (const Medium& from : settings.media)
     for (const Medium& to : settings.media)
       speeds_.push_back(speedRatio(from.sound_speed_m_s, to.sound_speed_m_s));
 }
 
 // Which way an edge is crossed is the facet's business. Of several hits the nearest in depth.
-void ClipInterfaces::find(std::span<const ContourEdge> edges,
-                          std::span<const EdgeNormals> normals, EdgeClips& clips,
-                          InterfaceRows& rows) const {
+void ClipInterfaces::find(std::span<const ContourEdge> edges, std::span<const EdgeNormals> normals,
+                          EdgeClips& clips, InterfaceRows& rows) const {
   const std::size_t count = clips.count;
   for (std::size_t i = 0; i < count; ++i) {
     const ContourEdge& edge = edges[clips.edge[i]];
-    const InterfaceHit* hit =
-        table_.nearest(clips.line[i], edge.surface, clips.entering[i] != 0, [&] {
-          const Vec3d middle = middleOf(clips, i);
-          return probe_.kind == ProbeKind::linear ? middle.z
-                                                  : length(middle) - probe_.face_radius_m;
-        });
+    const InterfaceHit* hit = table_.nearest(clips.line[i], edge.surface, clips.entering[i] != 0,
+                                             [&] { return geometry_.pathOf(middleOf(clips, i)); });
+    if (!hit) hit = besideTheLine(edge, clips, i);
     takeOver(hit, rows, i);
     if (!normals.empty()) takeSmoothNormal(edge, normals[clips.edge[i]], clips, i);
     if (clips.turns[i] == 0) continue;
     takeOver(hit, rows, clips.count);
     splitAtFoot(clips, i);
   }
+}
+
+// The tip of a contour may lie between two lines: then it takes over what a neighbour met.
+const InterfaceHit* ClipInterfaces::besideTheLine(const ContourEdge& edge, const EdgeClips& clips,
+                                                  std::size_t i) const {
+  const double path_m = geometry_.pathOf(middleOf(clips, i));
+  const InterfaceHit* best = nullptr;
+  for (const int side : {-1, 1}) {
+    const int line = static_cast<int>(clips.line[i]) + side;
+    if (line < 0 || line >= lines_) continue;
+    const InterfaceHit* hit = table_.nearest(static_cast<std::size_t>(line), edge.surface,
+                                             clips.entering[i] != 0, [&] { return path_m; });
+    if (hit && (!best || std::abs(hit->path_m - path_m) < std::abs(best->path_m - path_m)))
+      best = hit;
+  }
+  return best;
 }
 
 inline void ClipInterfaces::takeOver(const InterfaceHit* hit, InterfaceRows& rows,
@@ -89,6 +105,9 @@ inline void ClipInterfaces::takeOver(const InterfaceHit* hit, InterfaceRows& row
   rows.passed[i] = hit->passed * surface.gain;
   rows.lobe[i] = surface.exponent;
   rows.membrane[i] = surface.membrane ? 1 : 0;
+  rows.wave_along[i] = hit->wave.x;
+  rows.wave_across[i] = hit->wave.y;
+  rows.wave_out[i] = hit->wave.z;
   rows.path_m[i] = hit->path_m;
   rows.depth_m[i] = hit->depth_m;
   rows.path_per_depth[i] = hit->path_per_depth;

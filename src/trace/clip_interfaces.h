@@ -2,9 +2,10 @@
 // What the lines themselves met where a clip of contour is: the media and losses that it takes
 // over.
 
+#include "scene/scan_geometry.h"
 #include "trace/edge_clips.h"
-#include "trace/interface_lanes.h"
 #include "trace/hit_table.h"
+#include "trace/interface_lanes.h"
 #include "trace/trace_settings.h"
 
 namespace echocine {
@@ -15,6 +16,7 @@ struct InterfaceRows {
   ClipRow<double> Z_1, Z_2, r, turn;  // of the media before and behind; r and turn: SpeedRatio
   ClipRow<double> passed;             // prod (1-R)^2 before it times the gain
   ClipRow<double> lobe, membrane;     // n of cos^n; 1 or 0
+  ClipRow<double> wave_along, wave_across, wave_out;  // InterfaceHit::wave
   ClipRow<double> path_m, depth_m, path_per_depth, exponent, exponent_per_path;  // InterfaceHit
 };
 
@@ -31,9 +33,12 @@ class ClipInterfaces {
             EdgeClips& clips, InterfaceRows& rows) const;
 
  private:
+  const InterfaceHit* besideTheLine(const ContourEdge& edge, const EdgeClips& clips,
+                                    std::size_t i) const;
   void takeOver(const InterfaceHit* hit, InterfaceRows& rows, std::size_t clip) const;
 
-  const Probe& probe_;
+  const ScanGeometry geometry_;
+  int lines_;
   const TraceSettings& settings_;
   HitTable table_;
   std::vector<SpeedRatio> speeds_;  // from each medium to each, by the first

@@ -6,6 +6,8 @@
 
 #include "core/rough_angle.h"
 
+#include "scene/scan_geometry.h"
+
 namespace echocine {
 
 namespace {
@@ -23,15 +25,14 @@ Doubles4 roughAngles(Doubles4 x, Doubles4 z) {
 
 EdgeClipper::EdgeClipper(const Probe& probe, std::span<const ContourEdge> edges)
     : edges_(edges),
-      angular_(probe.kind != ProbeKind::linear),
+      angular_(ScanGeometry(probe).angular()),
       lines_(probe.lines),
-      first_(angular_ ? probe.first_angle_rad : probe.first_offset_m),
-      width_(((angular_ ? probe.last_angle_rad : probe.last_offset_m) - first_) /
-             (probe.lines - 1)),
+      first_(ScanGeometry(probe).firstPlace()),
+      width_(ScanGeometry(probe).cellWidth()),
       per_width_(1 / width_),
       unsure_(angular_ ? kRough * per_width_ : 1e-6) {
   for (int i = 0; i <= lines_; ++i) {
-    const double at = first_ + (i - 0.5) * width_;
+    const double at = ScanGeometry(probe).cellBorder(i);
     boundaries_.push_back(angular_ ? Boundary{std::sin(at), std::cos(at)} : Boundary{at, 1});
   }
 }
@@ -146,6 +147,7 @@ void EdgeClipper::intoCells(EdgeClips& clips) {
       sides_.right_sine[clip] = side[1].sine;
       sides_.right_cosine[clip] = side[1].cosine;
       clips.normal_x[clip] = normal.x;
+      clips.normal_y[clip] = normal.y;
       clips.normal_z[clip] = normal.z;
       clips.normal_square[clip] = normal_square;
       clips.edge[clip] = ends_.edge[i];

@@ -24,10 +24,10 @@ struct EdgeClips {
   std::size_t count = 0;
   ClipRow<double> a_x, a_z, b_x, b_z;  // its ends; b is no nearer to the centre (no shallower)
   ClipRow<double> to_x, to_z;          // direction in which its middle is seen, of any length
-  ClipRow<double> normal_x, normal_z;  // of the facet, of any length,
-  ClipRow<double> normal_square;       // and the square of that
-  ClipRow<std::int64_t> entering;      // -1: seen so, the facet's outside is in front; else 0
-  ClipRow<std::int64_t> turns;         // -1: the foot of the perpendicular from the centre is on it
+  ClipRow<double> normal_x, normal_y, normal_z;  // of the facet, of any length,
+  ClipRow<double> normal_square;                 // and the square of that
+  ClipRow<std::int64_t> entering;  // -1: seen so, the facet's outside is in front; else 0
+  ClipRow<std::int64_t> turns;     // -1: the foot of the perpendicular from the centre is on it
   ClipRow<std::uint32_t> edge, line;
 };
 

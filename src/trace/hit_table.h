@@ -17,7 +17,7 @@ class HitTable {
   // path_m: a function that gives it; only asked when there are several.
   template <typename PathLength>
   const InterfaceHit* nearest(std::size_t line, SurfaceId surface, bool entering,
-                               PathLength&& path_m) const {
+                              PathLength&& path_m) const {
     const std::uint32_t at = heads_[keyOf(line, surface, entering)];
     if (at == 0) return nullptr;
     const Link& link = links_[at - 1];

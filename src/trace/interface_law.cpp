@@ -57,18 +57,23 @@ double amplitudeDifference(double Z_1, double c_1, double Z_2, double c_2, doubl
 InterfaceLaw interfaceLaw(double Z_1, double c_1, double Z_2, double c_2, double cos_i) {
   if (c_1 == c_2) {  // the same at every angle
     const double per_sum = 1 / (Z_2 + Z_1), ratio = (Z_2 - Z_1) * per_sum;
-    return {ratio * ratio, 4 * (Z_2 * per_sum) * (Z_1 * per_sum), false};
+    return {ratio * ratio, 4 * (Z_2 * per_sum) * (Z_1 * per_sum), false, ratio};
   }
   const std::optional<double> cos_t = transmissionCosine(cos_i, c_1, c_2);
-  if (!cos_t) return {1, 0, true};
+  if (!cos_t) return {1, 0, true, 1};
   const double a = Z_2 * cos_i, b = Z_1 * *cos_t, sum = a + b;
   if (!(sum > 0)) {
     const double R = reflectance(Z_1, Z_2, cos_i, *cos_t);
-    return {R, 1 - R, false};
+    return {R, 1 - R, false, (Z_2 - Z_1) / (Z_2 + Z_1)};
   }
   const double ratio = amplitudeDifference(Z_1, c_1, Z_2, c_2, cos_i, *cos_t) / sum;
   // 1 - ((a - b) / (a + b))^2 = 4 a b / (a + b)^2
-  return {ratio * ratio, 4 * (a / sum) * (b / sum), false};
+  return {ratio * ratio, 4 * (a / sum) * (b / sum), false, ratio};
+}
+
+double cappedReflectance(double R, double Z_1, double Z_2) {
+  const double per_sum = 1 / (Z_2 + Z_1), ratio = (Z_2 - Z_1) * per_sum;
+  return std::min(R, ratio * ratio);
 }
 
 std::optional<Vec3d> refracted(Vec3d direction, Vec3d normal, double c_1, double c_2) {

@@ -28,8 +28,13 @@ struct InterfaceLaw {
   double R = 0;
   double through = 1;  // 1 - R
   bool total = false;
+  double amplitude = 0;  // of the reflected pressure: R with its sign; of a total reflection 1
 };
 InterfaceLaw interfaceLaw(double Z_1, double c_1, double Z_2, double c_2, double cos_i);
+
+// What of R a rough wall sends back towards the transducer: no more than at normal incidence. What
+// a mirror throws elsewhere near the critical angle does not come back.
+double cappedReflectance(double R, double Z_1, double Z_2);
 
 // The transmitted direction in space. normal: unit, either way; direction: unit.
 // Nothing under total reflection. c_1 = c_2 leaves the direction unchanged to the last bit.

@@ -64,8 +64,8 @@ class PowerTable {
 // which vectorise, and rounding of one part in 1e16 per block. Up to seven samples behind the
 // segment are written too, which what follows it overwrites.
 template <bool kSpread, bool kAttenuation>
-void fillSegment(const MediumSegment& segment, const Sampling& s, PowerTable& table, int begin, int end,
-                 float* out) {
+void fillSegment(const MediumSegment& segment, const Sampling& s, PowerTable& table, int begin,
+                 int end, float* out) {
   const double offset_m = s.centre(begin) - segment.begin_depth_m;
   double path_step = segment.path_per_depth * s.spacing_m;
   double path_m = segment.begin_path_m + segment.path_per_depth * offset_m;
@@ -108,6 +108,19 @@ void fillSegment(const MediumSegment& segment, const Sampling& s, PowerTable& ta
 void fillOne(const MediumSegment& segment, const Sampling& s, const IntensityTerms& parts,
              PowerTable& table, int begin, int end, float* out) {
   if (parts.spread_undone_at_m == 0) {
+    const double near_m = s.spread_from_m - segment.begin_path_m;
+    const int near =
+        near_m > 0
+            ? std::clamp(sampleFrom(s, segment.begin_depth_m + near_m / segment.path_per_depth),
+                         begin, end)
+            : begin;
+    if (near > begin) {
+      IntensityTerms constant = parts;
+      constant.spread_undone_at_m = s.spread_from_m;
+      fillOne(segment, s, constant, table, begin, near, out);
+      begin = near;
+      if (begin == end) return;
+    }
     return parts.attenuation ? fillSegment<true, true>(segment, s, table, begin, end, out)
                              : fillSegment<true, false>(segment, s, table, begin, end, out);
   }
@@ -149,7 +162,8 @@ void sampleIntensity(const LineTrace& line, const Sampling& sampling, const Inte
     const double k = std::floor((echo.depth_m - sampling.min_depth_m) / sampling.spacing_m);
     if (k < 0 || k >= sampling.samples) continue;
     const double lost = parts.attenuation ? std::exp(-echo.exponent) : 1.0;
-    values[static_cast<std::size_t>(k)] += static_cast<float>(echo.intensity * lost);
+    values[static_cast<std::size_t>(k)] +=
+        static_cast<float>(parts.echo_samples * echo.intensity * lost);
   }
 }
 
@@ -182,7 +196,7 @@ void addToSamples(const CellEchoes& echoes, const IntensityTerms& parts, std::sp
   for (std::size_t first = 0; first < echoes.count; first += kTogether) {
     const std::size_t count = std::min(kTogether, echoes.count - first);
     for (std::size_t j = 0; j < count; j += kDoubleLanes) {
-      Doubles4 value = lanesAt(&echoes.intensity[first + j]);
+      Doubles4 value = lanesAt(&echoes.intensity[first + j]) * parts.echo_samples;
       if (parts.attenuation) value *= expOfMinus(lanesAt(&echoes.exponent[first + j]));
       store(value, &values[j]);
     }

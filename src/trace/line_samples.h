@@ -12,6 +12,9 @@ namespace echocine {
 struct Sampling {
   double min_depth_m = 0, spacing_m = 0;
   int samples = 0;
+  // Nearer than this 1/l^2 stays as it is there: a wavelength. Closer to the transducer there is no
+  // spherical wave, and the law's own value would only tell where the first sample happens to lie.
+  double spread_from_m = 0;
 
   double centre(double k) const { return min_depth_m + (k + 0.5) * spacing_m; }
 };
@@ -23,12 +26,16 @@ struct IntensityTerms {
   // 0: the backscattered part falls as 1/l^2. Else it stands as if every sample were at this path
   // length.
   double spread_undone_at_m = 0;
+  // An interface's echo is as long as the pulse: its sample holds so many times its intensity, the
+  // pulse's half length over the spacing, so that the average over the pulse is the intensity
+  // itself whatever the spacing. At least 1.
+  double echo_samples = 1;
 };
 
 // I_R of section 4.1 relative to I_S: eta_b V / l^2 exp(-A) prod (1-R)^2 at each sample's centre,
-// plus the echoes of the interfaces in its depth interval. Relative error of the backscattered part
-// under 1e-6. Behind the end of the ray every sample is exactly 0. values.size() ==
-// sampling.samples.
+// plus echo_samples times the echoes of the interfaces in its depth interval. Relative error of the
+// backscattered part under 1e-6. Behind the end of the ray every sample is exactly 0. values.size()
+// == sampling.samples.
 void sampleIntensity(const LineTrace& line, const Sampling& sampling, const IntensityTerms& parts,
                      std::span<float> values);
 

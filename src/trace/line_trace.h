@@ -63,7 +63,10 @@ struct InterfaceHit {
   double path_m = 0, depth_m = 0;
   double path_per_depth = 1;                   // of the medium before
   double exponent = 0, exponent_per_path = 0;  // A at it, and dA/dl before it
-  double passed = 1;                           // prod (1-R)^2 before it
+  double passed = 1;  // prod (1-R)^2 before it, times what a thin layer makes of its echo
+  // Snell's direction at it by its parts along the line, across it in the imaging plane and out of
+  // that plane: {1, 0, 0} until a speed differs.
+  Vec3d wave{1, 0, 0};
 };
 
 // Segments follow each other without gap from depth 0; after the last one the ray has ended.

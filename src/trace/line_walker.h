@@ -3,6 +3,7 @@
 
 #include "geometry/frame_geometry.h"
 #include "trace/interface_law.h"
+#include "trace/layer_echoes.h"
 #include "trace/line_trace.h"
 #include "trace/trace_settings.h"
 
@@ -33,11 +34,18 @@ class LineWalker {
   void cross(const Crossing& crossing, InsideSet& inside);
   std::size_t crossAtFace(Group crossings, InsideSet& inside) const;
   void walkTo(double distance_m);
-  void passInterface(Group group, MediumId after);
+  void passInterface(Group group, MediumId after, std::size_t first_hit);
   void passMembrane(const Crossing& crossing);
   void noteHits(Group group, MediumId after);
-  void addEcho(double R, double cos_i, const Crossing& crossing);
+  // Of a crossing: Snell's direction there, and the law by it.
+  Vec3d incidentAt(const Crossing& crossing);
+  InterfaceLaw lawAt(const Crossing& crossing, const Medium& from, const Medium& to);
+  void addEcho(double reflected, double cos_i, const Crossing& crossing);
+  double sentBack(const InterfaceLaw& law, const Medium& from, const Medium& to) const;
   void loseAt(const InterfaceLaw& law);
+  double phaseSinceFace(const Crossing& crossing) const;
+  void joinLayer(const InterfaceLaw& law, double phase, std::size_t first_hit,
+                 std::size_t first_echo);
   void bend(Group group, Vec3d direction);
   const Crossing& deciding(Group group) const;
 
@@ -47,11 +55,14 @@ class LineWalker {
   static constexpr std::size_t kNoSurface = kMaxSurfaces;
   std::size_t ruling_ = kNoSurface;  // the closed surface whose medium the line is in
   MediumId medium_{};
-  double walked_m_ = 0;  // along the present ray
-  double path_m_ = 0;    // l since the transducer
-  double depth_m_ = 0;   // on the image's axis
-  double exponent_ = 0;  // A since the transducer
-  double passed_ = 1;    // prod (1-R)^2
+  Vec3d wave_;              // unit: by which angles of incidence are taken
+  LayerEchoes layer_;       // the faces that the pulse still holds
+  double face_path_m_ = 0;  // l of the last of them
+  double walked_m_ = 0;     // along the present ray
+  double path_m_ = 0;       // l since the transducer
+  double depth_m_ = 0;      // on the image's axis
+  double exponent_ = 0;     // A since the transducer
+  double passed_ = 1;       // prod (1-R)^2
   int bends_ = 0;
   bool alive_ = true;
 };

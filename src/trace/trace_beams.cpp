@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "core/parallel.h"
+#include "scene/scan_geometry.h"
 #include "trace/packet_walk.h"
 
 namespace echocine {
@@ -27,6 +28,7 @@ std::vector<Wanted> intensityPlanes(const TraceSettings& settings, const PlaneRe
     if (channel != Channel::medium && channel != Channel::attenuation)
       wanted.push_back({partsOf(channel, settings.attenuation, request.spread_undone_at_m),
                         &frame.planes.at(channel)});
+  for (Wanted& plane : wanted) plane.parts.echo_samples = request.echo_samples;
   if (request.intensities) wanted.push_back({request.intensity_terms, &frame.intensities.values});
   return wanted;
 }
@@ -121,7 +123,7 @@ class BeamSums {
       if (!parts.reflection) continue;
       for (const Echo& echo : trace.echoes) {
         const double lost = parts.attenuation ? std::exp(-echo.exponent) : 1.0;
-        addEcho(echo, ray, sampling, echo.intensity * lost, weights_, sums);
+        addEcho(echo, ray, sampling, parts.echo_samples * echo.intensity * lost, weights_, sums);
       }
     }
   }
@@ -152,7 +154,7 @@ class BeamFrame {
         beams_(beams),
         frame_index_(frame_index),
         wanted_(std::move(wanted)),
-        sampling_{probe.min_depth_m, probe.sampleSpacing(), probe.samples} {
+        sampling_(samplingOf(probe, settings)) {
     // A phased array's lines all start in one place.
     if (lineGeometry(probe, 0).origin == lineGeometry(probe, probe.lines - 1).origin)
       common_.emplace(geometry, settings, lineGeometry(probe, 0).origin, beams.elevation());

@@ -1,8 +1,10 @@
 #include "trace/trace_frame.h"
 
+#include <algorithm>
 #include <array>
 
 #include "core/parallel.h"
+#include "scene/scan_geometry.h"
 #include "trace/cell_echoes.h"
 #include "trace/line_walker.h"
 #include "trace/packet_walk.h"
@@ -33,6 +35,10 @@ WorkCounts walkPacket(const FrameGeometry& geometry, const Probe& probe,
 
 }  // namespace
 
+Sampling samplingOf(const Probe& probe, const TraceSettings& settings) {
+  return {probe.min_depth_m, probe.sampleSpacing(), probe.samples, settings.wavelength_m};
+}
+
 IntensityTerms partsOf(Channel channel, bool attenuation, double spread_undone_at_m) {
   IntensityTerms parts;
   parts.spread_undone_at_m = spread_undone_at_m;
@@ -42,6 +48,12 @@ IntensityTerms partsOf(Channel channel, bool attenuation, double spread_undone_a
   return parts;
 }
 
+// An echo is as long as the pulse, L = N wavelengths / 2, and no shorter than a sample.
+double echoSamples(const Scene& scene) {
+  const double pulse_m = scene.signal.pulse_cycles * ScanGeometry(scene.probe).wavelength() / 2;
+  return std::max(pulse_m / scene.probe.sampleSpacing(), 1.0);
+}
+
 namespace {
 
 // Samples one line into every plane that is asked for.
@@ -49,7 +61,7 @@ class LineSampler {
  public:
   LineSampler(const Probe& probe, const TraceSettings& settings, const PlaneRequest& request,
               PolarFrame& frame)
-      : sampling_{probe.min_depth_m, probe.sampleSpacing(), probe.samples},
+      : sampling_(samplingOf(probe, settings)),
         settings_(settings),
         request_(request),
         frame_(frame) {}
@@ -97,7 +109,9 @@ class LineSampler {
 
  private:
   IntensityTerms termsOfChannel(Channel channel) const {
-    return partsOf(channel, settings_.attenuation, request_.spread_undone_at_m);
+    IntensityTerms parts = partsOf(channel, settings_.attenuation, request_.spread_undone_at_m);
+    parts.echo_samples = request_.echo_samples;
+    return parts;
   }
   template <typename T>
   std::span<T> column(std::vector<T>& plane, int line) const {
@@ -138,13 +152,20 @@ TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan, bool in
       background(scene.background),
       unit_volume_m3(scene.unit_volume_m3),
       max_depth_m(scene.probe.max_depth_m),
-      thin_layer_m(1e-3 * kScannerSpeed / scene.probe.frequency_hz),
+      thin_layer_m(1e-4 * ScanGeometry(scene.probe).wavelength()),
+      face_m(1e-3 * ScanGeometry(scene.probe).wavelength()),
+      frequency_hz(scene.probe.frequency_hz),
+      wavelength_m(ScanGeometry(scene.probe).wavelength()),
+      pulse_cycles(std::max(scene.signal.pulse_cycles, 1.0)),  // no pulse is shorter than a cycle
       reflection(plan.reflection),
       transmission_loss(plan.transmission_loss),
       refraction(plan.refraction),
       attenuation(plan.attenuation),
       backscatter(plan.backscatter),
       travel_time(plan.travel_time),
+      snell_angles(plan.snell_angles),
+      reflection_cap(plan.reflection_cap),
+      thin_layers(plan.thin_layers),
       cell_echoes(integrate_cells),
       note_hits(integrate_cells) {
   for (const Structure& s : scene.structures)
@@ -155,9 +176,13 @@ TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan, bool in
 PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan) {
   PlaneRequest request;
   for (const Channel channel : scene.output.channels)
-    if (scene.output.exr && channel != Channel::display) request.channels.push_back(channel);
+    if (scene.output.exr && channel != Channel::display && !isTruth(channel))
+      request.channels.push_back(channel);
   request.intensities = wantsPicture(scene);
   request.intensity_terms.attenuation = plan.attenuation && scene.signal.tgc != Tgc::perfect;
+  request.echo_samples = echoSamples(scene);
+  // Without the average over the pulse a sample of the picture shows the echo's peak.
+  if (plan.beam_width) request.intensity_terms.echo_samples = request.echo_samples;
   request.spread_undone_at_m = plan.spread ? 0 : scene.probe.middleDepth();
   request.intensity_terms.spread_undone_at_m =
       !plan.spread || scene.signal.spread == Spread::compensate ? scene.probe.middleDepth() : 0;

@@ -14,11 +14,14 @@ namespace echocine {
 struct PlaneRequest {
   std::vector<Channel> channels;  // of the intensity stack, without Channel::display
   double spread_undone_at_m = 0;  // of the channels: 0 unless the scene turns the spread off
+  double echo_samples = 1;        // of the channels: IntensityTerms
   bool intensities = true;        // for the signal chain
   IntensityTerms intensity_terms;
 };
 
 PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan);
+
+Sampling samplingOf(const Probe& probe, const TraceSettings& settings);
 
 // What the samples of an intensity channel hold.
 IntensityTerms partsOf(Channel channel, bool attenuation, double spread_undone_at_m);

@@ -23,12 +23,19 @@ struct TraceSettings {
   MediumId background{};
   double unit_volume_m3 = 0;
   double max_depth_m = 0;
-  // Crossings closer than this are one interface: a thousandth of a wavelength. A layer of
-  // thickness d reflects as (k d)^2, so thinner ones send nothing back; coincident walls come out
+  // Crossings closer than this are one interface: a ten-thousandth of a wavelength. A layer of
+  // thickness h reflects as (k h)^2, so thinner ones send nothing back; coincident walls come out
   // as a single interface.
   double thin_layer_m = 0;
+  double face_m = 0;  // nearer than this to the transducer's face a wall is in it
+  double frequency_hz = 0;
+  double wavelength_m = 0;  // the scanner's
+  double pulse_cycles = 0;  // N; the pulse's half length is N wavelengths / 2
   bool reflection = true, transmission_loss = true, refraction = true, attenuation = true,
        backscatter = true, travel_time = false;
+  bool snell_angles = true;    // straight rays carry Snell's direction for angles of incidence
+  bool reflection_cap = true;  // W is at most R at normal incidence
+  bool thin_layers = true;     // interfaces closer than the pulse send back one coherent echo
   // Echoes of interfaces are integrated over the beam's cell instead of taken at the line (plane
   // slice only).
   bool cell_echoes = false;

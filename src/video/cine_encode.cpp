@@ -24,6 +24,7 @@ struct PacketFree {
   void operator()(AVPacket* packet) const { av_packet_free(&packet); }
 };
 
+// Precondition of all encoders, which read width * height bytes.
 void checkSize(const GreyImage& image) {
   CHECK_LT(0, image.width);
   CHECK_LT(0, image.height);
@@ -40,6 +41,8 @@ struct CompressorFree {
   void operator()(void* compressor) const { tjDestroy(compressor); }
 };
 
+// The accurate transform: the fast one differs between processors, and the same scene must give the
+// same bytes.
 std::vector<std::byte> encodeJpeg(const GreyImage& image, int quality) {
   const std::unique_ptr<void, CompressorFree> compressor(tjInitCompress());
   if (!compressor) throw std::bad_alloc();
@@ -50,6 +53,7 @@ std::vector<std::byte> encodeJpeg(const GreyImage& image, int quality) {
   if (tjCompress2(compressor.get(), image.pixels.data(), image.width, 0, image.height, TJPF_GRAY,
                   &to, &size, TJSAMP_GRAY, quality, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT) != 0) {
     const std::string reason = tjGetErrorStr2(compressor.get());
+    // The library has one code for all errors; what is short of memory must end as such.
     if (reason.find("memory") != std::string::npos) throw std::bad_alloc();
     throw JobError(fmt::format("a frame cannot be encoded as JPEG: {}", reason));
   }
@@ -123,24 +127,37 @@ std::vector<std::byte> encodeCineFrame(const GreyImage& image, CineCodec codec, 
   return encodeJpeg(image, jpeg_quality);
 }
 
-std::vector<std::byte> encodePng(const GreyImage& image) {
+namespace {
+
+std::vector<std::byte> pngOf(const GreyImage& image, std::span<const PaletteColour> palette) {
   checkSize(image);
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
-  png.format = PNG_FORMAT_GRAY;
+  png.format = palette.empty() ? PNG_FORMAT_GRAY : PNG_FORMAT_RGB_COLORMAP;
+  png.colormap_entries = static_cast<png_uint_32>(palette.size());
   png.flags = PNG_IMAGE_FLAG_FAST;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::vector<std::byte> bytes(size);
-  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.pixels.data(), 0, nullptr) ==
-      0) {
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.pixels.data(), 0,
+                                palette.empty() ? nullptr : palette.data()) == 0) {
     if (std::string_view(png.message).find("memory") != std::string_view::npos)
       throw std::bad_alloc();
     throw JobError(fmt::format("a frame cannot be encoded as PNG: {}", png.message));
   }
   bytes.resize(size);
   return bytes;
+}
+
+}  // namespace
+
+std::vector<std::byte> encodePng(const GreyImage& image) {
+  return pngOf(image, {});
+}
+
+std::vector<std::byte> encodePng(const GreyImage& image, std::span<const PaletteColour> palette) {
+  return pngOf(image, palette);
 }
 
 }  // namespace echocine

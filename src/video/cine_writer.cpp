@@ -12,6 +12,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/file.h"
 #include "video/ffv1_encoder.h"
 
 extern "C" {
@@ -29,6 +30,7 @@ Rational rationalFrameRate(double frame_rate_hz) {
     const double exact = nominal * 1000.0 / 1001.0;
     if (std::abs(frame_rate_hz - exact) <= kRounding * exact) return {nominal * 1000, 1001};
   }
+  // The smallest denominator that is near enough: files keep it exactly, and players understand it.
   Rational best;
   double least_error = std::numeric_limits<double>::infinity();
   for (int denominator = 1; denominator <= kLargestDenominator; ++denominator) {
@@ -70,6 +72,7 @@ struct CineWriter::Muxer {
   static std::int64_t seekTo(void* self, std::int64_t offset, int whence);
 };
 
+// A file that was not finished has no name yet: it goes with the muxer.
 CineWriter::Muxer::~Muxer() {
   av_packet_free(&packet);
   if (format != nullptr) {
@@ -96,6 +99,8 @@ void CineWriter::Muxer::failOf(int libav_error) const {
   throw JobError(fmt::format("{}: cannot be written: {}", path.string(), reason));
 }
 
+// May write in part or be interrupted; goes on until all is out. The first error's errno is kept
+// for the message.
 int CineWriter::Muxer::writeBytes(void* self, std::uint8_t* data, int size) {
   auto& muxer = *static_cast<Muxer*>(self);
   for (int done = 0; done < size;) {
@@ -111,6 +116,7 @@ int CineWriter::Muxer::writeBytes(void* self, std::uint8_t* data, int size) {
   return size;
 }
 
+// The muxer goes back to fill in the number of frames and the index.
 std::int64_t CineWriter::Muxer::seekTo(void* self, std::int64_t offset, int whence) {
   auto& muxer = *static_cast<Muxer*>(self);
   if ((whence & AVSEEK_SIZE) != 0) {
@@ -122,6 +128,7 @@ std::int64_t CineWriter::Muxer::seekTo(void* self, std::int64_t offset, int when
 }
 
 void CineWriter::Muxer::open() {
+  // Read and write: the muxer reads back what it fills in at the end.
   descriptor = ::open(part.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor < 0) fail(errno);
   openContext();
@@ -146,6 +153,7 @@ void CineWriter::Muxer::openContext() {
   format->flags |= AVFMT_FLAG_CUSTOM_IO | AVFMT_FLAG_BITEXACT;
 }
 
+// A frame lasts one unit of the time base.
 void CineWriter::Muxer::describeStream() {
   AVStream* stream = avformat_new_stream(format, nullptr);
   if (stream == nullptr) throw std::bad_alloc();
@@ -164,6 +172,7 @@ void CineWriter::Muxer::describeStream() {
   codec.height = settings.height;
 }
 
+// In bytes: frames of one scene take nearly the same room, and nothing has to be read.
 bool CineWriter::Muxer::isShorterThanWhatStands() const {
   struct stat mine {
   }, there{};
@@ -171,16 +180,19 @@ bool CineWriter::Muxer::isShorterThanWhatStands() const {
          mine.st_size < there.st_size;
 }
 
+// The trailer has the index, without which players cannot seek.
 void CineWriter::Muxer::close(bool may_shorten) {
   const int error = av_write_trailer(format);
   if (error < 0 || failure != 0) failOf(error);
   if (!may_shorten && isShorterThanWhatStands()) return;
+  if (!syncFile(descriptor)) fail(errno);
   const int closing = std::exchange(descriptor, -1);
   if (::close(closing) != 0 || ::rename(part.c_str(), path.c_str()) != 0) {
     const int reason = errno;
     ::unlink(part.c_str());
     fail(reason);
   }
+  syncFolderOf(path);
 }
 
 CineWriter::CineWriter(std::filesystem::path path, const OutputSettings& settings,
@@ -196,6 +208,7 @@ CineWriter::~CineWriter() = default;
 
 void CineWriter::add(std::span<const std::byte> encoded_frame) {
   Muxer& muxer = *muxer_;
+  // Until this frame is in whole: an exception on the way leaves the file unfit to be finished.
   muxer.sound = false;
   if (muxer.frames == 0) muxer.open();
   // The muxer only reads; the packet lends it the bytes for the time of the call.
@@ -216,6 +229,7 @@ void CineWriter::finish() {
   if (muxer_->frames > 0) muxer_->close(true);
 }
 
+// A frame written in part would end the cine in garbage: then it is not kept.
 void CineWriter::finishEarly() {
   if (muxer_->frames > 0 && muxer_->sound) muxer_->close(false);
 }

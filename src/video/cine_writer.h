@@ -25,6 +25,12 @@ std::vector<std::byte> encodeCineFrame(const GreyImage& image, CineCodec codec, 
 // The image as PNG. Thread-safe. Throws JobError.
 std::vector<std::byte> encodePng(const GreyImage& image);
 
+// The same with pixels that are numbers of a palette, which has an entry for each of them.
+struct PaletteColour {
+  std::uint8_t red = 0, green = 0, blue = 0;
+};
+std::vector<std::byte> encodePng(const GreyImage& image, std::span<const PaletteColour> palette);
+
 // Muxes encoded frames into `path`. Until finish() the data stand in `path`.part; a writer
 // destroyed without finish() removes them. The frames are of settings.codec, width and height.
 class CineWriter {

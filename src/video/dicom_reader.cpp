@@ -13,9 +13,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstring>
 #include <mutex>
+#include <vector>
 
 #include "core/error.h"
+#include "video/dicom_check.h"
 #include "video/read_video.h"
 #include "video/video_builder.h"
 
@@ -23,6 +26,7 @@ namespace echocine {
 
 namespace {
 
+// DCMTK keeps its decoders in global tables, which must not be filled twice.
 void setUpOnce() {
   static std::once_flag once;
   std::call_once(once, [] {
@@ -36,12 +40,30 @@ void setUpOnce() {
   throw SceneError(fmt::format("{}: {}", name, what));
 }
 
+// 0 where the tag is absent or no number: none of the tags read here can be 0.
 double numberOf(DcmItem& item, const DcmTagKey& key, unsigned long position = 0) {
   OFString text;
   if (item.findAndGetOFString(key, text, position).bad()) return 0;
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   return end != text.c_str() && std::isfinite(value) ? value : 0;
+}
+
+// All values of a list. One by one the library would walk the list again for each.
+std::vector<double> numbersOf(DcmItem& item, const DcmTagKey& key, std::size_t most) {
+  OFString text;
+  std::vector<double> values;
+  if (item.findAndGetOFStringArray(key, text).bad()) return values;
+  const char* at = text.c_str();
+  while (values.size() < most) {
+    char* end = nullptr;
+    const double value = std::strtod(at, &end);
+    values.push_back(end != at && std::isfinite(value) ? value : 0);
+    at = std::strchr(end, '\\');
+    if (at == nullptr) break;
+    ++at;
+  }
+  return values;
 }
 
 // The rate, or the mean interval between R waves, ms. What no heart does is told and left out.
@@ -61,26 +83,31 @@ void takeHeartRate(DcmDataset& data, Video& video) {
   take(DCM_NominalInterval, "NominalInterval", true);
 }
 
-void takeTimes(DcmDataset& data, Video& video) {
-  const double frame_ms = numberOf(data, DCM_FrameTime), cine = numberOf(data, DCM_CineRate);
-  double sum_ms = 0;
-  unsigned long steps = 0;
-  DcmElement* vector = nullptr;
-  if (data.findAndGetElement(DCM_FrameTimeVector, vector).good())
-    for (unsigned long i = 1; i < std::min(vector->getVM(), 100000UL); ++i, ++steps)
-      sum_ms += numberOf(data, DCM_FrameTimeVector, i);
-  if (frame_ms > 0)
-    video.rate = {1e3 / frame_ms, "DICOM FrameTime", true};
-  else if (steps > 0 && sum_ms > 0)
-    video.rate = {1e3 * static_cast<double>(steps) / sum_ms, "DICOM FrameTimeVector", true};
-  else if (cine > 0)
-    video.rate = {cine, "DICOM CineRate", true};
-  takeHeartRate(data, video);
-  if (data.findAndGetElement(DCM_RWaveTimeVector, vector).good())
-    for (unsigned long i = 0; i < std::min(vector->getVM(), 1000UL); ++i)
-      video.r_waves_s.push_back(1e-3 * numberOf(data, DCM_RWaveTimeVector, i));
+// What no scanner does is told and left out.
+void takeRate(double hz, const char* source, Video& video) {
+  if (video.rate.hz > 0 || !(hz > 0)) return;
+  if (hz >= kLeastFrameRate_hz && hz <= kMostFrameRate_hz)
+    video.rate = {hz, source, true};
+  else
+    video.notes.push_back(fmt::format("its {} tag means {:.3g} frames/s: not used", source, hz));
 }
 
+void takeTimes(DcmDataset& data, Video& video) {
+  constexpr std::size_t kMostSteps = 100000, kMostBeats = 1000;
+  takeRate(1e3 / numberOf(data, DCM_FrameTime), "DICOM FrameTime", video);
+  const std::vector<double> steps_ms = numbersOf(data, DCM_FrameTimeVector, kMostSteps);
+  double sum_ms = 0;
+  for (std::size_t i = 1; i < steps_ms.size(); ++i) sum_ms += steps_ms[i];
+  if (steps_ms.size() > 1)
+    takeRate(1e3 * static_cast<double>(steps_ms.size() - 1) / sum_ms, "DICOM FrameTimeVector",
+             video);
+  takeRate(numberOf(data, DCM_CineRate), "DICOM CineRate", video);
+  takeHeartRate(data, video);
+  for (const double ms : numbersOf(data, DCM_RWaveTimeVector, kMostBeats))
+    video.r_waves_s.push_back(1e-3 * ms);
+}
+
+// At most 64 regions: a file may state any number of them.
 void takeRegions(DcmDataset& data, Video& video) {
   DcmSequenceOfItems* regions = nullptr;
   if (data.findAndGetSequence(DCM_SequenceOfUltrasoundRegions, regions).bad()) return;
@@ -123,6 +150,7 @@ void checkPixels(const std::string& name, DcmDataset& data, std::int64_t frames)
   DcmElement* element = nullptr;
   if (data.findAndGetElement(DCM_PixelData, element).bad() || rows == 0 || columns == 0)
     refuse(name, "a DICOM file without pictures; give an ultrasound multi-frame file");
+  // Before the decoder sees a byte: it reserves what a header says.
   checkLoopSize(name, columns, rows, frames);
   const DcmXfer syntax(data.getOriginalXfer());
   if (syntax.isEncapsulated()) return;
@@ -142,6 +170,7 @@ void addFrames(DcmDataset& data, std::int64_t frames, VideoBuilder& builder) {
   const std::string& name = builder.video().name;
   const DcmXfer syntax(data.getOriginalXfer());
   for (std::int64_t i = 0; i < frames; ++i) {
+    // One frame at a time: decoding all of a loop at once takes gigabytes.
     DicomImage image(&data, data.getOriginalXfer(), CIF_UsePartialAccessToPixelData,
                      static_cast<unsigned long>(i), 1);
     if (image.getStatus() != EIS_Normal) {
@@ -178,6 +207,7 @@ void addFrames(DcmDataset& data, std::int64_t frames, VideoBuilder& builder) {
 }  // namespace
 
 Video readDicom(const std::string& name, std::span<const std::byte> bytes) {
+  checkDicomStructure(name, bytes);
   setUpOnce();
   DcmInputBufferStream stream;
   stream.setBuffer(bytes.data(), static_cast<offile_off_t>(bytes.size()));
@@ -186,15 +216,18 @@ Video readDicom(const std::string& name, std::span<const std::byte> bytes) {
   file.transferInit();
   const OFCondition read = file.read(stream);
   file.transferEnd();
+  // A stream that ends within the pixels is found by their length, with a better message.
   if (read.bad() && read != EC_EndOfStream)
     refuse(name,
            fmt::format("a truncated or damaged DICOM file ({}); copy the file again", read.text()));
   DcmDataset& data = *file.getDataset();
   const double stated = numberOf(data, DCM_NumberOfFrames);
+  // Over five hours at 50 frames/s.
   if (stated > 1e6) refuse(name, fmt::format("{} frames are stated; give a few beats", stated));
   const auto frames = static_cast<std::int64_t>(std::max(1.0, stated));
   checkPixels(name, data, frames);
   VideoBuilder builder(name);
+  builder.expectBytes(bytes.size());
   builder.video().format = fmt::format("DICOM, {}", DcmXfer(data.getOriginalXfer()).getXferName());
   takeTimes(data, builder.video());
   takeRegions(data, builder.video());

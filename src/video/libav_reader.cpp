@@ -13,6 +13,7 @@ extern "C" {
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <string_view>
 
 #include "core/error.h"
 
@@ -25,11 +26,13 @@ constexpr const char* kFormats =
     "avi,mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,gif,apng,mpeg,mpegts,asf,ogg,flv,nut,wmv,"
     "png_pipe,jpeg_pipe,bmp_pipe,tiff_pipe,webp_pipe,image2pipe";
 
+// A file in memory: nothing that a container points to is opened.
 struct Bytes {
   std::span<const std::byte> all;
   std::int64_t at = 0;
 };
 
+// As libav wants it: at the end an error, not 0.
 int readBytes(void* opaque, std::uint8_t* out, int size) {
   auto* bytes = static_cast<Bytes*>(opaque);
   const std::int64_t left = static_cast<std::int64_t>(bytes->all.size()) - bytes->at;
@@ -55,6 +58,7 @@ std::string reasonOf(int error) {
   return text;
 }
 
+// Owns what the C libraries hand out. A name goes into every message.
 struct Decoder {
   Bytes bytes;
   std::string name;
@@ -134,6 +138,7 @@ void Decoder::openCodec() {
   if (codec == nullptr || frame == nullptr || packet == nullptr) throw std::bad_alloc();
   if (avcodec_parameters_to_context(codec, &p) < 0) refuse("its stream has no usable header");
   codec->max_pixels = kMaxFramePixels;
+  // Frames in order and errors where they occur: threads would deliver both late.
   codec->thread_count = 1;
   if (avcodec_open2(codec, decoder, nullptr) < 0)
     refuse(
@@ -146,6 +151,7 @@ void Decoder::openCodec() {
 void Decoder::addFrame(VideoBuilder& builder) {
   const AVRational shape = av_guess_sample_aspect_ratio(format, format->streams[stream], frame);
   double aspect = shape.num > 0 && shape.den > 0 ? av_q2d(shape) : 1;
+  // A header that says more is wrong.
   if (!(aspect > 0.2 && aspect < 5)) aspect = 1;
   const auto width = static_cast<int>(std::lround(frame->width * aspect));
   checkLoopSize(name, width, frame->height, builder.video().frameCount() + 1);
@@ -158,11 +164,13 @@ void Decoder::addFrame(VideoBuilder& builder) {
       scaler, frame->width, frame->height, source, width, frame->height, AV_PIX_FMT_RGB24,
       SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT, nullptr, nullptr, nullptr);
   if (scaler == nullptr) refuse("its pixel format cannot be turned into colours");
+  // Full-range sources (JPEG) keep their range; without this black would come out as 16.
   int *inverse = nullptr, *table = nullptr, from_full = 0, to_full = 0, b = 0, c = 0, s = 0;
   if (frame->color_range == AVCOL_RANGE_JPEG &&
       sws_getColorspaceDetails(scaler, &inverse, &from_full, &table, &to_full, &b, &c, &s) >= 0)
     sws_setColorspaceDetails(scaler, inverse, 1, table, to_full, b, c, s);
   const int stride = 3 * width;
+  // The scaler may write some bytes past the last row.
   rgb.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(frame->height) + 64);
   std::uint8_t* const planes[4] = {rgb.data()};
   const int strides[4] = {stride};
@@ -187,6 +195,7 @@ void Decoder::readAll(VideoBuilder& builder) {
   for (;;) {
     const int read = av_read_frame(format, packet);
     if (read < 0) break;
+    builder.checkTime();
     if (packet->stream_index == stream) {
       const int sent = avcodec_send_packet(codec, packet);
       if (sent < 0 && sent != AVERROR(EAGAIN) && sent != AVERROR_EOF)
@@ -196,6 +205,7 @@ void Decoder::readAll(VideoBuilder& builder) {
     }
     av_packet_unref(packet);
   }
+  // The end: the decoder gives out what it held back for reordering.
   avcodec_send_packet(codec, nullptr);
   takeFrames(builder);
 }
@@ -204,16 +214,28 @@ void Decoder::readAll(VideoBuilder& builder) {
 
 void readByLibav(std::span<const std::byte> bytes, VideoBuilder& builder) {
   Decoder decoder;
+  builder.expectBytes(bytes.size());
   decoder.bytes.all = bytes;
   decoder.name = builder.video().name;
   decoder.open();
   decoder.openCodec();
   const AVStream& stream = *decoder.format->streams[decoder.stream];
   builder.video().format = decoder.format->iformat->name;
+  // The mean rate where the container has one; the other is a guess from its clock.
   const AVRational rate =
       stream.avg_frame_rate.num > 0 ? stream.avg_frame_rate : stream.r_frame_rate;
   if (rate.num > 0 && rate.den > 0) builder.video().rate = {av_q2d(rate), "container", false};
   decoder.readAll(builder);
+  // GIF ends with a trailer of its own; others say in their headers how many frames there are.
+  const bool gif = std::string_view(decoder.format->iformat->name) == "gif";
+  const auto frames = static_cast<std::int64_t>(builder.video().frames.size());
+  if (gif && !bytes.empty() && bytes.back() != std::byte{0x3b})
+    builder.video().notes.push_back(
+        fmt::format("it is cut off after {} frames: its end is missing", frames));
+  else if (stream.nb_frames > frames)
+    builder.video().notes.push_back(
+        fmt::format("it is cut off: {} of the {} frames that its header tells of are there", frames,
+                    stream.nb_frames));
 }
 
 }  // namespace echocine

@@ -15,6 +15,7 @@ namespace echocine {
 
 namespace {
 
+// A file of any size is refused before it is read.
 std::vector<std::byte> fileBytes(const std::filesystem::path& path) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
@@ -34,6 +35,7 @@ std::vector<std::byte> fileBytes(const std::filesystem::path& path) {
   return bytes;
 }
 
+// Lower case, for cameras write .JPG.
 std::string extensionOf(const std::filesystem::path& path) {
   std::string text = path.extension().string();
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -65,12 +67,16 @@ bool namesInOrder(const std::string& a, const std::string& b) {
 
 Video readSequence(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
     const std::string extension = extensionOf(entry.path());
-    if (entry.is_regular_file() &&
+    std::error_code dangling;
+    if (entry.is_regular_file(dangling) &&
         (extension == ".png" || extension == ".jpg" || extension == ".jpeg"))
       files.push_back(entry.path());
   }
+  if (failed)
+    throw SceneError(fmt::format("{}: cannot be read: {}", folder.string(), failed.message()));
   if (files.empty())
     throw SceneError(
         fmt::format("{}: holds neither a render's manifest.json nor PNG or JPEG "
@@ -92,6 +98,7 @@ Video readSequence(const std::filesystem::path& folder) {
 
 }  // namespace
 
+// The mark of PS3.10: files without it, from before 1993, are not read.
 bool looksLikeDicom(std::span<const std::byte> bytes) {
   return bytes.size() > 132 && std::memcmp(bytes.data() + 128, "DICM", 4) == 0;
 }
@@ -109,8 +116,9 @@ Video readVideoBytes(const std::string& name, std::span<const std::byte> bytes) 
 }
 
 Video readVideo(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) return readSequence(path);
-  if (!std::filesystem::is_regular_file(path))
+  std::error_code failed;  // such as a link to itself
+  if (std::filesystem::is_directory(path, failed)) return readSequence(path);
+  if (!std::filesystem::is_regular_file(path, failed))
     throw SceneError(
         fmt::format("{}: there is no such file; give a video file, a DICOM file, or a "
                     "folder of PNG or JPEG frames",

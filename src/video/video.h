@@ -16,6 +16,9 @@ struct UltrasoundRegion {
   double cm_per_pixel_x = 0, cm_per_pixel_y = 0;  // 0: the file has no length scale for it
 };
 
+// Rates that an acquisition may have; our choice.
+inline constexpr double kLeastFrameRate_hz = 0.5, kMostFrameRate_hz = 10000;
+
 struct FrameRate {
   double hz = 0;
   std::string source;    // "--fps", "DICOM FrameTime", "manifest", "container"

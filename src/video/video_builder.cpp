@@ -1,6 +1,7 @@
 #include "video/video_builder.h"
 
 #include <fmt/format.h>
+#include <time.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,9 @@ namespace {
 // A pixel is coloured when red or blue stands this far from what a grey of its luma has: lossy
 // codecs stay well under it, markers and Doppler colours well above. Our choice.
 constexpr int kColourStep = 28;
+
+// The same of the mean over a few pixels, which dithering leaves near grey. Our choice.
+constexpr int kDitheredStep = 12;
 
 int medianOf(std::vector<int>& values) {
   if (values.empty()) return 0;
@@ -36,15 +40,38 @@ PixelPlane widened(const PixelPlane& mask, int width, int height) {
   return out;
 }
 
+// A palette's greys are dithered: neighbours of opposite colours, whose mean is grey. Markers and
+// Doppler boxes keep theirs. Over 5 x 5 pixels a line of one pixel keeps a fifth of its colour.
+bool isColouredAround(const std::vector<std::int16_t>& colour, std::size_t at, int width,
+                      int height) {
+  constexpr int kReach = 2;
+  const int x = static_cast<int>(at % static_cast<std::size_t>(width)),
+            y = static_cast<int>(at / static_cast<std::size_t>(width));
+  int sum = 0, count = 0;
+  for (int v = std::max(0, y - kReach); v <= std::min(height - 1, y + kReach); ++v)
+    for (int u = std::max(0, x - kReach); u <= std::min(width - 1, x + kReach); ++u, ++count)
+      sum += colour[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
+                    static_cast<std::size_t>(u)];
+  return std::abs(sum) > kDitheredStep * count;
+}
+
 }  // namespace
 
+// Multiplications cannot overflow: each side is within the limit before their product is taken.
 void checkLoopSize(const std::string& name, std::int64_t width, std::int64_t height,
                    std::int64_t frames) {
   if (width < 16 || height < 16)
     throw SceneError(
         fmt::format("{}: frames of {} x {} pixels show no sector, accepted: 16 x 16 and more", name,
                     width, height));
-  if (width > kMaxFramePixels || height > kMaxFramePixels || width * height > kMaxFramePixels)
+  if (width > kMaxFrameSide || height > kMaxFrameSide)
+    throw SceneError(fmt::format(
+        "{}: frames of {} x {} pixels, accepted: up to {} a side; give a smaller picture", name,
+        width, height, kMaxFrameSide));
+  if (frames > kMaxLoopFrames)
+    throw SceneError(fmt::format("{}: more than {} frames; give a few beats cut out of it", name,
+                                 kMaxLoopFrames));
+  if (width * height > kMaxFramePixels)
     throw SceneError(fmt::format(
         "{}: frames of {} x {} pixels are beyond the limit of {} pixels; give a smaller picture",
         name, width, height, kMaxFramePixels));
@@ -52,6 +79,32 @@ void checkLoopSize(const std::string& name, std::int64_t width, std::int64_t hei
     throw SceneError(
         fmt::format("{}: more than {} frames of {} x {} pixels; give a few beats cut out of it",
                     name, kMaxLoopPixels / (width * height), width, height));
+}
+
+namespace {
+
+double threadSeconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+VideoBuilder::VideoBuilder(std::string name)
+    : from_s_(threadSeconds()), allowed_s_(kDecodeSeconds) {
+  video_.name = std::move(name);
+}
+
+void VideoBuilder::expectBytes(std::size_t bytes) {
+  allowed_s_ += kDecodeSecondsPerByte * static_cast<double>(bytes);
+}
+
+void VideoBuilder::checkTime() const {
+  if (threadSeconds() - from_s_ <= allowed_s_) return;
+  throw SceneError(fmt::format(
+      "{}: takes longer than {:.0f} s to decode, {} frames so far; give a few beats cut out of it",
+      video_.name, allowed_s_, video_.frames.size()));
 }
 
 // Some scanners tint their grey scale: each luma then has one colour, the same all over the
@@ -69,6 +122,7 @@ void VideoBuilder::learnTint(const std::uint8_t* rgb, std::ptrdiff_t stride) {
       ++lit;
       tinted += std::abs(p[0] - luma) > 8 || std::abs(p[2] - luma) > 8 ? 1 : 0;
     }
+  // Tinted scanners colour all of their greys; our choice of 60 % leaves room for black text.
   if (10 * tinted < 6 * lit) return;  // a grey picture with some colour on it
   for (std::size_t bin = 0; bin < 16; ++bin) {
     const bool enough = red[bin].size() > 200;  // else as the next darker one
@@ -79,6 +133,7 @@ void VideoBuilder::learnTint(const std::uint8_t* rgb, std::ptrdiff_t stride) {
 
 void VideoBuilder::add(const std::uint8_t* rgb, int width, int height, std::ptrdiff_t stride) {
   Video& v = video_;
+  checkTime();
   checkLoopSize(v.name, width, height, v.frameCount() + 1);
   if (v.frames.empty()) {
     v.width = width;
@@ -92,17 +147,23 @@ void VideoBuilder::add(const std::uint8_t* rgb, int width, int height, std::ptrd
                     "size",
                     v.name, v.frameCount(), width, height, v.width, v.height));
   PixelPlane grey(v.coloured.size());
+  std::vector<std::size_t> coloured;
+  std::vector<std::int16_t> red(grey.size()), blue(grey.size());  // beyond what a grey has
   for (int y = 0; y < height; ++y) {
     const std::uint8_t* p = rgb + y * stride;
     for (int x = 0; x < width; ++x, p += 3) {
       const int luma = lumaOf(p[0], p[1], p[2]);
       const auto at = static_cast<std::size_t>(y * width + x);
       grey[at] = static_cast<std::uint8_t>(luma);
-      if (std::abs(p[0] - luma - tint_red_[luma / 16]) > kColourStep ||
-          std::abs(p[2] - luma - tint_blue_[luma / 16]) > kColourStep)
-        v.coloured[at] = 1;
+      red[at] = static_cast<std::int16_t>(p[0] - luma - tint_red_[luma / 16]);
+      blue[at] = static_cast<std::int16_t>(p[2] - luma - tint_blue_[luma / 16]);
+      if (std::abs(red[at]) > kColourStep || std::abs(blue[at]) > kColourStep)
+        coloured.push_back(at);
     }
   }
+  for (const std::size_t at : coloured)
+    if (isColouredAround(red, at, width, height) || isColouredAround(blue, at, width, height))
+      v.coloured[at] = 1;
   v.frames.push_back(std::move(grey));
 }
 
@@ -136,6 +197,7 @@ Video VideoBuilder::finish() {
     throw SceneError(fmt::format(
         "{}: holds one frame; give a loop of at least two frames, better a whole beat", v.name));
   v.repeats = findRepeats(v.frames);
+  // Not one frame differs from the one before.
   if (v.repeats.size() + 1 == v.frames.size())
     throw SceneError(fmt::format(
         "{}: is a still image, its {} frames are all alike; give a loop that moves, better a whole "

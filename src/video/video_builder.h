@@ -10,8 +10,14 @@ namespace echocine {
 
 // Limits of what is read; our choice. A file that promises more is refused before it is decoded.
 inline constexpr std::int64_t kMaxFramePixels = std::int64_t{1} << 24;  // 4096 x 4096
-inline constexpr std::int64_t kMaxLoopPixels = std::int64_t{3} << 28;   // 1000 frames of 1024 x 768
-inline constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 30;
+inline constexpr std::int64_t kMaxLoopPixels = std::int64_t{1} << 29;   // 680 frames of 1024 x 768
+inline constexpr std::int64_t kMaxFrameSide = 8192;  // the widest scanner's screen has 3840
+inline constexpr std::int64_t kMaxLoopFrames = 4096;
+inline constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 29;
+
+// CPU time that decoding may take, s: what a loop of the largest size takes, and longer for large
+// files. Past it a small file is one made to be slow.
+inline constexpr double kDecodeSeconds = 8, kDecodeSecondsPerByte = 1 / 4e6;
 
 // Throws SceneError when a loop of this size is beyond the limits or no picture at all.
 void checkLoopSize(const std::string& name, std::int64_t width, std::int64_t height,
@@ -19,7 +25,13 @@ void checkLoopSize(const std::string& name, std::int64_t width, std::int64_t hei
 
 class VideoBuilder {
  public:
-  explicit VideoBuilder(std::string name) { video_.name = std::move(name); }
+  explicit VideoBuilder(std::string name);
+
+  // How large the file is, from which its time to decode follows.
+  void expectBytes(std::size_t bytes);
+
+  // Throws SceneError once this thread has worked longer on the loop than its file allows.
+  void checkTime() const;
 
   // A frame of 3 bytes (red, green, blue) per pixel, rows `stride` bytes apart.
   // Throws SceneError: another size than the frames before, or beyond the limits.
@@ -34,6 +46,7 @@ class VideoBuilder {
   void learnTint(const std::uint8_t* rgb, std::ptrdiff_t stride);
 
   Video video_;
+  double from_s_, allowed_s_;  // CPU time of this thread
   // Colour of a grey scale that is shown tinted: red - luma and blue - luma by luma / 16.
   int tint_red_[17] = {}, tint_blue_[17] = {};
 };

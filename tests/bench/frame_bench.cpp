@@ -14,7 +14,7 @@
 #include "bench/rounds.h"
 #include "render/render.h"
 #include "scene/scene_reader.h"
-#include "simulate/frame_simulator.h"
+#include "simulate/simulator.h"
 
 namespace echocine::bench {
 namespace {

@@ -10,6 +10,7 @@
 #include "motion/mesh/surface_measure.h"
 #include "motion/mesh_motion.h"
 #include "output/exr_stack.h"
+#include "scene/scan_geometry.h"
 #include "signal/log_compression.h"
 #include "signal/signal_chain.h"
 #include "trace/trace_beams.h"
@@ -98,7 +99,7 @@ void beamAverage(benchmark::State& state) {
   Traced t{Size(state)};
   BareAverage bare(t.scene.scene);
   const BeamAverage ours(t.scene.scene.probe, t.scene.scene.signal);
-  std::vector<float> plane = t.polar.intensities, bare_plane = plane;
+  std::vector<float> plane = t.polar.intensities.values, bare_plane = plane;
   overFloor(
       state, [&](std::size_t) { ours.apply(plane); }, [&](std::size_t) { bare.run(bare_plane); });
 }
@@ -111,19 +112,18 @@ void logCompression(benchmark::State& state) {
   overFloor(
       state,
       [&](std::size_t) { compressIntensities(t.polar.intensities, kReference, kRange_db, out); },
-      [&](std::size_t) { bare.run(t.polar.intensities, kReference, kRange_db, grey); });
+      [&](std::size_t) { bare.run(t.polar.intensities.values, kReference, kRange_db, grey); });
 }
 
 void scanConversion(benchmark::State& state) {
   Traced t{Size(state)};
-  t.chain.compress(t.polar, kReference);
+  const Greys greys = t.chain.compress(std::move(t.polar.intensities), kReference);
   std::vector<std::uint8_t> grey;
-  for (const float g : t.polar.intensities)
-    grey.push_back(static_cast<std::uint8_t>(255 * g + 0.5f));
+  for (const float g : greys) grey.push_back(static_cast<std::uint8_t>(255 * g + 0.5f));
   BareScanConversion bare(t.scene.scene, t.chain.geometry());
   GreyImage image;
   overFloor(
-      state, [&](std::size_t) { t.chain.picture(t.polar, image); },
+      state, [&](std::size_t) { t.chain.picture(greys, image); },
       [&](std::size_t) { benchmark::DoNotOptimize(bare.run(grey.data()).data()); });
 }
 
@@ -137,7 +137,7 @@ void exr(benchmark::State& state) {
       [&](std::size_t i) {
         stack.write({static_cast<int>(i), 0, 0, 0}, {{Channel::y, t.polar.intensities, {}}});
       },
-      [&](std::size_t i) { bare.exr(t.polar.intensities, i); });
+      [&](std::size_t i) { bare.exr(t.polar.intensities.values, i); });
 }
 
 // Compressions and pixels over uncompressed floats: over_floor in time, size in bytes.
@@ -162,9 +162,8 @@ void exrKinds(benchmark::State& state) {
 
 void jpeg(benchmark::State& state) {
   Traced t{Size(state)};
-  t.chain.compress(t.polar, kReference);
   GreyImage image;
-  t.chain.picture(t.polar, image);
+  t.chain.picture(t.chain.compress(std::move(t.polar.intensities), kReference), image);
   const support::TempFolder folder;
   const OutputSettings& o = t.scene.scene.output;
   CineWriter writer(folder / "cine.avi", o, 50);

@@ -16,7 +16,7 @@ bool isDirection(Vec3d d) {
 }
 
 void promiseUsable(const Scene& scene) {
-  const Frame& pose = scene.probe.pose;
+  const Pose& pose = scene.probe.pose;
   promise(isDirection(pose.x_axis) && isDirection(pose.y_axis) && isDirection(pose.z_axis),
           "the probe's axes are no directions");
   promise(std::isfinite(length(pose.origin)), "the probe is nowhere");

@@ -20,7 +20,7 @@ void promiseWhole(const Video& video) {
 }  // namespace
 
 void video(std::string_view bytes) {
-  accepts([&] { promiseWhole(compare::readVideoBytes("loop", std::as_bytes(std::span(bytes)))); });
+  accepts([&] { promiseWhole(readVideoBytes("loop", std::as_bytes(std::span(bytes)))); });
 }
 
 }  // namespace echocine::fuzz

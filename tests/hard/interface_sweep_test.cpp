@@ -54,6 +54,7 @@ double criticalCosine(const Media& m) {
   return static_cast<double>(std::sqrt((1 - s) * (1 + s)));
 }
 
+// 1 - R is lost to rounding where R comes near 1, if it is taken as that difference.
 TEST(InterfaceSweep, GrazingAndTangentRaysReflectWhatTheyShould) {
   Sweep reflected("grazing and tangent: R", "long double", "cos_i", 1e-5, kNothing);
   Sweep passed("grazing and tangent: (1-R)^2", "long double", "cos_i", 1e-5);
@@ -75,6 +76,7 @@ TEST(InterfaceSweep, GrazingAndTangentRaysReflectWhatTheyShould) {
 
 // Where cos_t is 0 its slope is infinite: no number can be had to better than what a change of
 // cos_i by some ulps does to it. So the loss must lie between those of cosines 4 ulps away.
+// cos_t is a square root that ends at 0: its slope is infinite there.
 TEST(InterfaceSweep, TheCriticalAngleIsPassedUlpByUlpWithoutAJump) {
   Sweep reflected("critical angle: R", "long double", "cos_i / cos_c - 1", 1e-5);
   Sweep passed("critical angle: (1-R)^2 within 4 ulps of the angle", "long double",
@@ -100,6 +102,7 @@ TEST(InterfaceSweep, TheCriticalAngleIsPassedUlpByUlpWithoutAJump) {
   }
 }
 
+// To one side there is a transmitted ray, to the other there is none, and R joins without a jump.
 TEST(InterfaceSweep, OneUlpDecidesTotalReflectionOnlyAtTheCriticalAngle) {
   for (const Media& m : kAll)
     for (const double part : {0.5, 0.9, 0.999999, 1.000001, 1.1}) {
@@ -137,6 +140,7 @@ TEST(InterfaceSweep, EqualSpeedAndAnyRatioOfImpedances) {
   sweepContrast("equal c, lighter", media, false);
 }
 
+// From media equal to the last digits to absurdly unlike ones.
 TEST(InterfaceSweep, AnyContrastOfBoth) {
   const auto media = [](double ratio) {
     return Media{1.6e6, 1540, 1.6e6 * ratio, 1540 * std::sqrt(ratio)};

@@ -99,12 +99,14 @@ void expectSameImages(const std::string& name, const World& a, const World& b) {
     }
 }
 
+// The unit is a scene key: the same heart in another unit is the same picture.
 TEST(Invariance, MillimetresCentimetresAndMetres) {
   const World cm = worldOf(kSame);
   expectSameImages("mm for cm", cm, worldOf([](Vec3d p) { return 10.0 * p; }, 0.001));
   expectSameImages("m for cm", cm, worldOf([](Vec3d p) { return 0.01 * p; }, 1));
 }
 
+// Coordinates of a scanner's or a patient's table: floats must not see them.
 TEST(Invariance, AThousandUnitsAway) {
   for (const double unit_m : {0.001, 0.01, 1.0}) {
     const double scale = 0.01 / unit_m;
@@ -194,6 +196,7 @@ TEST(Invariance, OrderOfStructures) {
   });
 }
 
+// Sums and ties may depend on the order only by rounding.
 TEST(Invariance, OrderOfTrianglesAndOfTheirCorners) {
   // Corners in another order add up to the normal in another rounding.
   Sweep sweep("order of triangles and corners", "the image before", kOfTracer, 1e-5);

@@ -51,6 +51,7 @@ TEST(MeetingSurfaces, CoincidentWallsAreTheWallOfTheHigherPriority) {
 }
 
 // Two overlapping slabs are three that touch: overlap belongs to the higher priority.
+// The oracle is the mesh cut by hand.
 TEST(MeetingSurfaces, InterpenetratingWallsAreCutByPriority) {
   const Mesh first = box({-1, -1, 0.04}, {1, 1, 0.08}), second = box({-1, -1, 0.0625}, {1, 1, 0.1});
   const World overlapping = worldOf({first, second}, {1, 2});
@@ -72,6 +73,7 @@ TEST(MeetingSurfaces, DuplicateFacesAreNotSeen) {
 }
 
 // A face cut by a point next to its edge, as close as a float can be: slivers beside large ones.
+// Normals of slivers are the first thing that single precision loses.
 TEST(MeetingSurfaces, SliversAreAsGoodAsTheFaceTheyArePartOf) {
   const Mesh whole = box({-0.03125, -0.0625, 0.0625}, {0.0390625, 0.03125, 0.09375});
   Sweep sweep("slivers in a flat face: lines", "the uncut face", "distance from the edge, 2^-31 m",

@@ -80,11 +80,11 @@ TEST(SmallestImages, GoThroughTheWholeSignalChain) {
           const World world = ballWorld(kind, lines, samples);
           PolarFrame polar = traceWorld(world, tracer);
           const SignalChain chain(world.scene, planEffects(world.scene));
-          chain.process(polar);
-          chain.compress(polar, 1e-6);
-          for (const float grey : polar.intensities) EXPECT_TRUE(grey >= 0 && grey <= 1) << grey;
+          chain.process(polar.intensities);
+          const Greys greys = chain.compress(std::move(polar.intensities), 1e-6);
+          for (const float grey : greys) EXPECT_TRUE(grey >= 0 && grey <= 1) << grey;
           GreyImage image;
-          chain.picture(polar, image);
+          chain.picture(greys, image);
           EXPECT_EQ(image.pixels.size(), 64u * 64u);
         }
 }

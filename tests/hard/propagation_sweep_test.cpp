@@ -14,6 +14,7 @@ using namespace support;
 
 constexpr double kSmallestFloat = std::numeric_limits<float>::min();
 
+// 1/l^2 from the face on, where the last sample above 0 is still finite.
 TEST(PropagationSweep, TheSpreadDownToTheFace) {
   Sweep sweep("l -> 0: eta V / l^2", "closed form", "l, m", 1e-6);
   const Scene scene = plainScene({medium("a", 1000, 1500, 0, 1e-3)});
@@ -83,6 +84,7 @@ TEST(PropagationSweep, AttenuationPastTheSmallestFloatThroughManyMedia) {
   }
 }
 
+// From the largest float to the smallest denormal, and 0.
 TEST(PropagationSweep, TheLogarithmDownToNothing) {
   // Grey is a share of the dynamic range; 1e-5 of 60 dB is a hundredth of a grey level's 1/256.
   Sweep sweep("log of 0 and of every power of ten", "long double log10", "intensity", 1e-5, 1);

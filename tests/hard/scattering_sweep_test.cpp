@@ -52,6 +52,7 @@ TEST(ScatteringSweep, TissueFromVanishingToHugeCorrelationLengths) {
     sweep.add(x, tissueBackscatter(0.004, 1, x), exactTissue(0.004L, 1, x));
 }
 
+// For k b_m -> 0 the bracket is (8/3) (k b_m)^3: the leading term is the second oracle.
 TEST(ScatteringSweep, TissueTendsToTheCubeOfTheCorrelationLength) {
   Sweep sweep("Eq. 7, k b_m -> 0: (8/3) (k b_m)^3", "leading term", "k b_m", 1e-8);
   for (const double x : decades(1e-90, 1e-5, 500)) {
@@ -73,6 +74,7 @@ TEST(ScatteringSweep, BloodFromNoCellsToNothingElse) {
   }
 }
 
+// Contrasts that are differences of nearly equal numbers.
 TEST(ScatteringSweep, AParticleThatComesNearItsFluid) {
   Sweep sweep("Eq. 5, particle nearly its fluid", "long double", "contrast", 1e-5);
   for (const double part : decades(1e-10, 10, 1000)) {

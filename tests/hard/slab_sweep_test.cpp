@@ -111,6 +111,7 @@ TEST(SlabSweep, BeyondTheCriticalAngleThereIsOnlyTheFront) {
 
 // The wall's depth moves over the edge between two samples, which lie 1 mm apart, ulp by ulp of
 // the mesh's floats: the echo stands whole in the one or in the other.
+// An echo leaves one sample and enters the next from one float to the neighbouring one.
 TEST(SlabSweep, AWallOverTheEdgeOfASample) {
   Sweep sweep("wall about a sample's edge: its echo in one sample", "closed form",
               "depth behind the edge, m", 1e-5);
@@ -136,6 +137,7 @@ TEST(SlabSweep, AWallOverTheEdgeOfASample) {
 
 // Walls of 10 cm down to a tenth of a nanometre, within one sample from 1 mm down. Below a
 // thousandth of a wavelength (0.6 um) it is no wall at all, just as its physics has it: (k d)^2.
+// Two interfaces, then one interface of the outer media, and nothing between that is neither.
 TEST(SlabSweep, AWallThatThinsToNothing) {
   Sweep echoes("wall thinner than a sample: both echoes", "closed form", "thickness, m", 1e-5);
   Sweep behind("wall thinner than a sample: backscatter behind it", "closed form", "thickness, m",
@@ -165,6 +167,7 @@ TEST(SlabSweep, AWallThatThinsToNothing) {
 
 // The slab's front moves from before the probe, through it, to behind it: outside, on, inside. A
 // front within a thousandth of a wavelength of the face is in the face: the probe is inside.
+// On the wall itself it stands in the medium behind it.
 TEST(SlabSweep, AProbeOutsideOnAndInside) {
   Sweep sweep("probe outside, on and inside: backscatter", "closed form", "depth of the front, m",
               1e-5);

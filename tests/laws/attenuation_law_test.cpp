@@ -9,6 +9,7 @@ namespace {
 
 using namespace support;
 
+// dB of amplitude: 20 log10. The literature mixes this up with 10 log10 of intensity.
 TEST(AttenuationUnits, OneNeperIsTwentyLogEDecibelsOfAmplitude) {
   EXPECT_DOUBLE_EQ(decibelsFromNepers(1), 20 * std::log10(std::exp(1.0)));
   EXPECT_NEAR(nepersFromDecibels(8.685889638065037), 1, 1e-15);
@@ -19,6 +20,7 @@ TEST(AttenuationUnits, DecibelsAndNepersConvertBothWays) {
     EXPECT_DOUBLE_EQ(decibelsFromNepers(nepersFromDecibels(db)), db);
 }
 
+// alpha = a f^b, from dB/(cm MHz^b) to Np/m: exponents 1, 2 and 0.
 TEST(AttenuationUnits, HalfADecibelPerCentimetreAndMegahertzAtTwoMegahertz) {
   EXPECT_NEAR(nepersPerMetre(0.5, 1, 2e6), 100 / 8.685889638065037, 1e-12);
   EXPECT_NEAR(nepersPerMetre(0.5, 2, 2e6), 200 / 8.685889638065037, 1e-12);
@@ -42,16 +44,19 @@ Scene metreScene(const std::vector<Medium>& media) {
   return scene;
 }
 
+// Eq. 3 both ways: exp(-2 alpha l) squared.
 TEST(Attenuation, OneNeperPerMetreOverOneMetreAndBackIsExpOfMinusFour) {
   EXPECT_NEAR(received(metreScene({medium("m", 1000, 1500, 1, 1)}), {}), std::exp(-4.0), 1e-8);
 }
 
+// A = 4 alpha l, not 2 alpha l: the mistake that is made most easily.
 TEST(Attenuation, ThereAndBackIsTwiceTheForwardLoss) {
   const double alpha = 0.37, forward = std::exp(-2 * alpha * 1);
   EXPECT_NEAR(received(metreScene({medium("m", 1000, 1500, alpha, 1)}), {}), forward * forward,
               1e-7);
 }
 
+// Law: A(0, l) = A(0, c) + A(c, l), wherever a line is cut in two of the same medium.
 TEST(Attenuation, PathsAddWhateverTheCuts) {
   Scene scene = metreScene({medium("a", 1000, 1500, 1.3, 1), medium("b", 1000, 1500, 1.3, 1)});
   addStructure(scene, 1, 1);
@@ -60,6 +65,7 @@ TEST(Attenuation, PathsAddWhateverTheCuts) {
     EXPECT_NEAR(received(scene, {crossingAt(cut, 0, true)}), whole, 1e-7 * whole) << cut;
 }
 
+// A = 4 sum(alpha_m l_m).
 TEST(Attenuation, EachMediumLosesItsPart) {
   Scene scene = metreScene({medium("a", 1000, 1500, 0.5, 1), medium("b", 1000, 1500, 2, 1)});
   addStructure(scene, 1, 1);
@@ -67,6 +73,8 @@ TEST(Attenuation, EachMediumLosesItsPart) {
               std::exp(-4 * (0.5 * 0.5 + 2 * 0.5)), 1e-8);
 }
 
+// Law: Y = unattenuated.Y exp(-A) at every sample's centre, so any two of the channels give the
+// third.
 TEST(Attenuation, ExponentAndUnattenuatedIntensityMakeTheReceivedOne) {
   Scene scene = plainScene({medium("a", 1000, 1500, 5, 0.1), medium("b", 1060, 1500, 25, 0.7)});
   addStructure(scene, 1, 1);
@@ -86,6 +94,8 @@ TEST(Attenuation, ExponentAndUnattenuatedIntensityMakeTheReceivedOne) {
   }
 }
 
+// exp(-A) leaves the range of floats at A = 103; up to 1e300 Np/m it must be 0, not a NaN of 0
+// times infinity.
 TEST(Attenuation, PastUnderflowThereIsNothingAndNeverNotANumber) {
   for (const double alpha : {1e2, 1e4, 1e8, 1e30, 1e300}) {
     Scene scene =

@@ -16,10 +16,12 @@ namespace {
 
 constexpr long double kPi = std::numbers::pi_v<long double>;
 
+// Eq. 5: both contrasts are 0.
 TEST(ParticleBackscatter, AParticleEqualToItsFluidSendsNothingBack) {
   EXPECT_EQ(particleBackscatter(1e4, 3e-6, 4e-10, 4e-10, 1030, 1030), 0);
 }
 
+// Rayleigh: k^4 a^6.
 TEST(ParticleBackscatter, GrowsWithTheFourthPowerOfFrequencyAndTheSixthOfTheRadius) {
   const double one = particleBackscatter(1e4, 3e-6, 3.4e-10, 4.1e-10, 1092, 1021);
   EXPECT_GT(one, 0);
@@ -27,6 +29,8 @@ TEST(ParticleBackscatter, GrowsWithTheFourthPowerOfFrequencyAndTheSixthOfTheRadi
   EXPECT_NEAR(particleBackscatter(1e4, 6e-6, 3.4e-10, 4.1e-10, 1092, 1021) / one, 64, 1e-12);
 }
 
+// Eq. 5 at 180 degrees, where the cosine is -1, for softer and harder, lighter and heavier
+// particles.
 TEST(ParticleBackscatter, AgreesWithLongDouble) {
   for (const double G_e : {1e-12, 3.4e-10, 5e-10})
     for (const double rho_e : {1.0, 1092.0, 8000.0}) {
@@ -39,6 +43,7 @@ TEST(ParticleBackscatter, AgreesWithLongDouble) {
     }
 }
 
+// Eq. 6: W (1-W)^4 is 0 at both ends. Packed cells do not scatter, for nothing varies any more.
 TEST(BloodBackscatter, NoCellsAndNothingButCellsSendNothingBack) {
   EXPECT_EQ(bloodBackscatter(1e-16, 0, 1e-16), 0);
   EXPECT_EQ(bloodBackscatter(1e-16, 1, 1e-16), 0);
@@ -58,6 +63,7 @@ TEST(BloodBackscatter, IsLargestAtTheRootOfItsDerivative) {
   EXPECT_LT(bloodBackscatter(1, best + 1e-3, 1), top);
 }
 
+// A number worked out by hand.
 TEST(BloodBackscatter, IsEqSixAtAWorkedHematocrit) {
   EXPECT_NEAR(bloodBackscatter(3e-17, 0.45, 9e-17),
               3e-17 / 9e-17 * 0.45 * std::pow(0.55, 4) / (1.9 * 1.9), 1e-16);
@@ -86,12 +92,15 @@ long double exactTissue(long double mu, long double k, long double b_m) {
   return 3 * mu * mu * k / (4 * kPi) * (x < 0.1L ? seriesBracket(x) : closedBracket(x));
 }
 
+// The oracle itself is tested: its series below x = 0.1 and its closed form above.
 TEST(TissueBackscatter, TheOraclesTwoFormsMeet) {
   for (const long double x : {0.08L, 0.1L, 0.15L})
     EXPECT_NEAR(static_cast<double>(seriesBracket(x) / closedBracket(x)), 1, 1e-15);
   EXPECT_NEAR(static_cast<double>(seriesBracket(1e-9L) / (8.0L / 3 * 1e-27L)), 1, 1e-15);
 }
 
+// Over 15 decades. The bracket of Eq. 7 cancels to (8/3) x^3, so a plain double evaluation has no
+// digit left at x = 1e-6.
 TEST(TissueBackscatter, AgreesWithLongDoubleFromVanishingToHugeCorrelationLengths) {
   double worst = 0;
   for (int i = 0; i <= 15000; ++i) {
@@ -105,6 +114,7 @@ TEST(TissueBackscatter, AgreesWithLongDoubleFromVanishingToHugeCorrelationLength
   std::printf("Eq. 7 worst relative error %.2g\n", worst);
 }
 
+// The program's series and its closed form take turns at k b_m = 0.05.
 TEST(TissueBackscatter, ClosesThePointWhereTheTwoFormsTakeTurns) {
   for (double x = 0.05 - 1e-12; x < 0.05 + 1e-12; x += 1e-13)
     EXPECT_NEAR(static_cast<double>(tissueBackscatter(1, 1, x) / exactTissue(1, 1, x)), 1, 1e-12);

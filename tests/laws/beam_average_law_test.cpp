@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "scene/beam_profile.h"
+#include "scene/scan_geometry.h"
 #include "signal/signal_chain.h"
 #include "support/random_world.h"
 
@@ -64,6 +65,7 @@ Mesh rectangle(double x0, double x1, double y0, double y1, double z) {
   return mesh;
 }
 
+// Law: weights sum to 1 at every depth, so an even medium keeps its brightness.
 TEST(BeamAverageLaw, InAUniformMediumManyRaysAreOneRay) {
   World world{plainScene({medium("a", 1000, 1540, 8, 1e-3), medium("b", 1000, 1540, 8, 1e-3)}),
               {icosphere(2, 0.03).moved({0.002, 0.003, 0.05})}};
@@ -87,7 +89,7 @@ TEST(BeamAverageLaw, InAUniformMediumManyRaysAreOneRay) {
 // The mean of cos^n over the bundle's slopes at a depth, in long double: laterally the weights
 // narrow their variance by 1 + rho, in elevation both ways of the lens have one each.
 double meanLobe(const Probe& p, double z, int n) {
-  const long double lambda = scannerWavelength(p);
+  const long double lambda = ScanGeometry(p).wavelength();
   const long double w_r = followedWidth(z, p.aperture_m, static_cast<double>(lambda));
   const long double w_t = focusedWidth(z, p.aperture_m, p.focus_m, static_cast<double>(lambda));
   const long double a = w_r / z / kWidthPerDeviation / std::sqrt(1 + w_r * w_r / (w_t * w_t));
@@ -126,7 +128,7 @@ TEST(BeamAverageLaw, APlaneAcrossTheBeamSendsBackItsLobesMeanOverTheProfile) {
 
 // Edges and strips (wires) at several places: the share of the beam that meets them.
 TEST(BeamAverageLaw, AStripsLateralProfileIsTheTwoWayBeam) {
-  const double lambda = scannerWavelength(sheetWorld(sheet(1, 1, 1)).scene.probe);
+  const double lambda = ScanGeometry(sheetWorld(sheet(1, 1, 1)).scene.probe).wavelength();
   const double whole = wholeEcho(sheetWorld(sheet(1, 1, 1)));
   double worst = 0;
   for (const double z : {0.03, 0.08, 0.14}) {
@@ -149,9 +151,10 @@ TEST(BeamAverageLaw, AStripsElevationProfileIsTheTwoWayBeam) {
   const double whole = wholeEcho(sheetWorld(sheet(1, 1, 1)));
   double worst = 0;
   for (const double z : {0.02, 0.07, 0.14}) {
-    const double deviation = elevationBeamWidth(z, probe.elevation_aperture_m,
-                                                probe.elevation_focus_m, scannerWavelength(probe)) /
-                             kWidthPerDeviation;
+    const double deviation =
+        elevationBeamWidth(z, probe.elevation_aperture_m, probe.elevation_focus_m,
+                           ScanGeometry(probe).wavelength()) /
+        kWidthPerDeviation;
     for (const double at : {-2.0, -0.7, 0.0, 0.4, 1.5})
       for (const double wide : {0.2, 1e3}) {
         const double y0 = at * deviation, y1 = (at + wide) * deviation;
@@ -167,6 +170,7 @@ TEST(BeamAverageLaw, AStripsElevationProfileIsTheTwoWayBeam) {
 
 // Half of the lens stands in another medium: what scatters back is what the beam's profile holds of
 // each, whichever kind of probe.
+// The probe's face may stand across a boundary: each ray starts in its own medium.
 TEST(BeamAverageLaw, RaysOfOneBeamStartInDifferentMedia) {
   for (const ProbeKind kind : {ProbeKind::phased, ProbeKind::curvilinear, ProbeKind::linear}) {
     World world{plainScene({medium("a", 1000, 1540, 0, 1e-3), medium("b", 1000, 1540, 0, 3e-3)}),
@@ -187,9 +191,9 @@ TEST(BeamAverageLaw, RaysOfOneBeamStartInDifferentMedia) {
     const Sampling sampling = samplingOf(p);
     for (std::size_t k = 0; k < polar.planes.at(Channel::backscatter).size(); ++k) {
       const double l = sampling.centre(static_cast<double>(k % 160));
-      const double deviation =
-          elevationBeamWidth(l, p.elevation_aperture_m, p.elevation_focus_m, scannerWavelength(p)) /
-          kWidthPerDeviation;
+      const double deviation = elevationBeamWidth(l, p.elevation_aperture_m, p.elevation_focus_m,
+                                                  ScanGeometry(p).wavelength()) /
+                               kWidthPerDeviation;
       const double in_b = 1 - below(0.001, deviation);
       const double eta = polar.planes.at(Channel::backscatter)[k] * l * l / 1e-6;
       ASSERT_NEAR(eta, 1e-3 + 2e-3 * in_b, 2e-5) << "sample " << k;
@@ -207,6 +211,7 @@ double rmsError(const World& world, int rays, double reference) {
   return std::sqrt(sum / kPatterns);
 }
 
+// Plain random points would gain a factor of 2 from four times as many.
 TEST(BeamAverageLaw, ErrorsOfASmoothSceneFallFasterThanTheNumberOfRays) {
   const World world = sheetWorld(
       rotated(sheet(1, 0.5, 0), {0, 1, 0}, radiansFromDegrees(20)).moved({0, 0, 0.1}), 40);
@@ -250,6 +255,8 @@ double steepVariation(int rays) {
   return std::sqrt(squares / (kTo - kFrom) / (mean * mean) - 1);
 }
 
+// Spread over its stratum each ray covers the depths between its neighbours, so gaps close long
+// before rays are dense.
 TEST(BeamAverageLaw, ASteepWallsEchoVariesLessTheMoreRaysThereAre) {
   const double one = steepVariation(1), few = steepVariation(8), many = steepVariation(128);
   std::printf("variation with 1, 8, 128 rays: %.2f, %.3f, %.4f\n", one, few, many);
@@ -275,7 +282,8 @@ TEST(BeamAverageLaw, ASteepWallShowsTheBeamsProfileAlongTheDepth) {
   for (std::size_t k = 400; k < 1200; ++k) {  // 40 to 120 mm
     const double z = sampling.centre(static_cast<double>(k));
     const double sigma =
-        focusedBeamWidth(z, p.aperture_m, p.focus_m, scannerWavelength(p)) / kWidthPerDeviation / z;
+        focusedBeamWidth(z, p.aperture_m, p.focus_m, ScanGeometry(p).wavelength()) /
+        kWidthPerDeviation / z;
     const double slope = (z - z_0) / (z * tan_80), per_depth = z_0 / (z * z * tan_80);
     const double bell =
         std::exp(-slope * slope / (2 * sigma * sigma)) / (sigma * std::sqrt(2 * std::numbers::pi));
@@ -289,6 +297,7 @@ TEST(BeamAverageLaw, ASteepWallShowsTheBeamsProfileAlongTheDepth) {
 }
 
 // On walls that are smooth over a beam both ways of taking its average mean the same.
+// Where walls run across the beam, the paper's average and the traced beam must say the same.
 TEST(BeamAverageLaw, TheFilterAgreesWithTheRaysOnASmoothWallAtTheFocus) {
   World world{plainScene({medium("water", 1000, 1540), medium("wall", 1100, 1540)}),
               {icosphere(5, 0.1).moved({0.02, 0, 0.18})}};
@@ -300,8 +309,8 @@ TEST(BeamAverageLaw, TheFilterAgreesWithTheRaysOnASmoothWallAtTheFocus) {
   const auto shown = [&](int rays) {
     const EffectPlan plan = beamPlan(world.scene, rays, true, false);
     PolarFrame polar = traceWorld(world, plan, Tracer::embree);
-    SignalChain(world.scene, plan).process(polar);
-    return polar.intensities;
+    SignalChain(world.scene, plan).process(polar.intensities);
+    return polar.intensities.values;
   };
   const std::vector<float> filtered = shown(1), rays = shown(256);
   double worst_db = 0;
@@ -316,6 +325,7 @@ TEST(BeamAverageLaw, TheFilterAgreesWithTheRaysOnASmoothWallAtTheFocus) {
   EXPECT_LT(worst_db, 0.2);
 }
 
+// What is random is hashed from frame and line, never drawn in the order of the work.
 TEST(BeamAverageLaw, ThreadsChangeNoBitAndFramesChangeThePattern) {
   World world = randomWorld(7);
   world.scene.probe.lines = 37;

@@ -1,5 +1,6 @@
 // The bundle of rays that stands for a beam: its points, its weights, and its width at every depth.
 
+#include "scene/scan_geometry.h"
 #include "trace/beam_rays.h"
 
 #include <gtest/gtest.h>
@@ -32,6 +33,7 @@ std::size_t sampleAt(double depth_m) {
   return static_cast<std::size_t>(std::lround(depth_m * 1e3) - 1);
 }
 
+// Law: Q(q(u)) = u, with Q from erfc.
 TEST(BeamRaysLaw, QuantileIsTheInverseOfTheNormalDistribution) {
   for (int e = -330; e < 0; ++e) {
     const double u = std::pow(10.0, e / 10.0) / 2;
@@ -47,6 +49,7 @@ TEST(BeamRaysLaw, QuantileIsTheInverseOfTheNormalDistribution) {
   EXPECT_NEAR(normalQuantile(0.975), 1.959963984540054, 1e-9);
 }
 
+// One point in each nth of the unit interval, whatever n: no number of rays wastes any.
 TEST(BeamRaysLaw, AnyNumberOfPointsIsStratifiedInTheFirstDimension) {
   for (int n = 1; n <= 100; ++n) {
     std::set<int> strata;
@@ -60,6 +63,7 @@ TEST(BeamRaysLaw, AnyNumberOfPointsIsStratifiedInTheFirstDimension) {
 }
 
 // Every box of sides 2^-a, 2^-b, 2^-c with a + b + c = m holds one of 2^m points.
+// A (0, m, 3)-net: one point in every box of volume 1/n that halves the sides in any way.
 TEST(BeamRaysLaw, APowerOfTwoOfPointsIsANetInThreeDimensions) {
   constexpr int m = 6, n = 1 << m;
   for (std::uint64_t pattern = 0; pattern < 20; ++pattern)
@@ -77,6 +81,7 @@ TEST(BeamRaysLaw, APowerOfTwoOfPointsIsANetInThreeDimensions) {
       }
 }
 
+// Equal patterns would stand in the loop as a texture that does not move.
 TEST(BeamRaysLaw, PatternsDifferBetweenFramesLinesAndSeeds) {
   std::set<std::uint64_t> patterns;
   for (const int seed : {1, 2})
@@ -95,8 +100,8 @@ TEST(BeamRaysLaw, WeightsAreTransmitsBellAtThePlaceOfTheRay) {
     beams.weights(beams.through(line, q, 0, 0), weights);
     for (const double z : kDepths_m) {
       const double x =
-          q * followedWidth(z, p.aperture_m, scannerWavelength(p)) / kWidthPerDeviation;
-      const double w_t = focusedWidth(z, p.aperture_m, p.focus_m, scannerWavelength(p));
+          q * followedWidth(z, p.aperture_m, ScanGeometry(p).wavelength()) / kWidthPerDeviation;
+      const double w_t = focusedWidth(z, p.aperture_m, p.focus_m, ScanGeometry(p).wavelength());
       const long double bell = std::exp(-4 * std::log(4.0L) * x * x / (w_t * w_t));
       EXPECT_NEAR(weights[sampleAt(z)], static_cast<double>(bell), 1e-5 * static_cast<double>(bell))
           << "q " << q << ", depth " << z;
@@ -143,9 +148,10 @@ Moments momentsAt(double z, const Probe& p, const BeamRays& beams, double width_
   return m;
 }
 
+// Law: 1/w^2 = 1/w_t^2 + 1/w_r^2 at every depth, though rays are drawn once.
 TEST(BeamRaysLaw, TheWeightedBundleIsAsWideAsTheTwoWayBeamAtEveryDepth) {
   const Probe p = probe();
-  const double wavelength = scannerWavelength(p);
+  const double wavelength = ScanGeometry(p).wavelength();
   const BeamRays beams(p, {.rays = 4096});
   const double within = std::erf(std::sqrt(std::log(4.0)));  // of a bell within its -6 dB width
   for (const double z : kDepths_m) {
@@ -165,6 +171,7 @@ TEST(BeamRaysLaw, TheWeightedBundleIsAsWideAsTheTwoWayBeamAtEveryDepth) {
 }
 
 // Paths from the lens to its focus are equal, so the focus is at one depth for all of it.
+// What makes a lens: all its paths to the focus are of one length.
 TEST(BeamRaysLaw, ThePathsOfTheLensToItsFocusAreEqual) {
   const Probe p = probe();
   const BeamRays beams(p, {.rays = 1});

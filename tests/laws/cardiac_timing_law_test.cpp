@@ -54,6 +54,7 @@ TEST(CardiacTiming, PartsAreTheBeatAndNoneIsNegativeNorGrowsWithTheRate) {
   }
 }
 
+// A jump would show as a loop that changes its shape from 104.9 to 105 beats per minute.
 TEST(CardiacTiming, NoPartJumpsAtAnyRate) {
   for (const Ventricle ventricle : {Ventricle::left, Ventricle::right})
     for (double bpm = 30; bpm <= 220; bpm += 0.25) {
@@ -62,6 +63,7 @@ TEST(CardiacTiming, NoPartJumpsAtAnyRate) {
     }
 }
 
+// However fast it beats, a ventricle needs time to empty and to fill.
 TEST(CardiacTiming, EjectionKeepsTheTimeThatTheHeartNeeds) {
   for (double bpm = 30; bpm <= 220; bpm += 1) {
     EXPECT_GE(at(bpm).ejection_s, 0.120) << bpm;
@@ -69,6 +71,7 @@ TEST(CardiacTiming, EjectionKeepsTheTimeThatTheHeartNeeds) {
   }
 }
 
+// What everybody sees on an echo: fast hearts have no rest.
 TEST(CardiacTiming, DiastasisShortensMostAndIsGoneFromAbout105) {
   const std::vector<double> slow = parts(at(50)), fast = parts(at(90));
   const double lost = slow[4] - fast[4];
@@ -79,6 +82,7 @@ TEST(CardiacTiming, DiastasisShortensMostAndIsGoneFromAbout105) {
   EXPECT_EQ(at(220).diastasis_s, 0);
 }
 
+// The lung's pressure is a fifth of the body's, so the right valve opens earlier and closes later.
 TEST(CardiacTiming, TheRightVentricleEjectsForLongerBetweenShorterIsovolumicPhases) {
   for (double bpm = 30; bpm <= 220; bpm += 10) {
     const PhaseDurations left = at(bpm), right = at(bpm, Ventricle::right);

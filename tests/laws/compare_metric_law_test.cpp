@@ -41,6 +41,7 @@ BeamPair pair(const std::vector<float>& x, const std::vector<float>& y,
   return {x, y, w, kLines, kSamples};
 }
 
+// RMS 0, PSNR infinite, NCC, SSIM and gradient correlation 1.
 TEST(CompareMetrics, EqualFramesArePerfect) {
   const std::vector<float> x = waves(0);
   const FrameMetrics m = frameMetrics(pair(x, x));
@@ -53,6 +54,7 @@ TEST(CompareMetrics, EqualFramesArePerfect) {
   EXPECT_EQ(m.gradient_correlation, 1);
 }
 
+// RMS and mean difference are the offset, NCC does not see it.
 TEST(CompareMetrics, AConstantOffsetHasClosedForms) {
   const std::vector<float> x = waves(0);
   std::vector<float> y = x;
@@ -84,6 +86,7 @@ TEST(CompareMetrics, SsimOfConstantsIsTheLuminanceTerm) {
               1e-5);
 }
 
+// NCC and mutual information tend to 0 with the number of samples.
 TEST(CompareMetrics, IndependentNoiseHasNothingInCommon) {
   const FrameMetrics m = frameMetrics(pair(noise(1, 30), noise(2, 30)));
   EXPECT_NEAR(m.ncc, 0, 0.06);
@@ -92,6 +95,7 @@ TEST(CompareMetrics, IndependentNoiseHasNothingInCommon) {
 }
 
 // Of two greys in equal shares that stand for one another: one bit.
+// H(coin) = 1 bit: what a picture of two greys tells of itself.
 TEST(CompareMetrics, MutualInformationOfACoinIsOneBit) {
   std::vector<float> x, y;
   for (int i = 0; i < kLines * kSamples; ++i) {
@@ -144,6 +148,7 @@ std::vector<float> rings(double x0, double z0) {
       [=](double x, double z) { return 120 + 60 * std::sin(2 * std::hypot(x - x0, z - z0)); });
 }
 
+// G is a cosine between gradient fields: 1, and -1 where bright and dark change places.
 TEST(EdgeCorrelation, EqualFramesAreOneAndNegativesMinusOne) {
   const std::vector<float> x = rings(1, 8);
   std::vector<float> dim = x, negative = x;
@@ -156,6 +161,7 @@ TEST(EdgeCorrelation, EqualFramesAreOneAndNegativesMinusOne) {
 }
 
 // PixelPlane waves across and along: their gradients stand at right angles everywhere.
+// g_x . g_y = 0 everywhere.
 TEST(EdgeCorrelation, EdgesAtRightAnglesHaveNothingInCommon) {
   const auto across = drawn([](double x, double) { return 128 + 50 * std::sin(1.5 * x); }),
              along = drawn([](double, double z) { return 128 + 50 * std::sin(1.5 * z); });
@@ -164,6 +170,7 @@ TEST(EdgeCorrelation, EdgesAtRightAnglesHaveNothingInCommon) {
 
 // sin(k x) against sin(k (x - d)): the mean of cos(k x) cos(k (x - d)) is cos(k d) times that of
 // cos^2, over many waves.
+// A wave against itself shifted by s correlates as cos(2 pi s / wavelength).
 TEST(EdgeCorrelation, AShiftedWaveFollowsTheCosine) {
   const double k = 2.5;  // per cm
   const auto wave = [k](double d) {
@@ -174,6 +181,7 @@ TEST(EdgeCorrelation, AShiftedWaveFollowsTheCosine) {
 }
 
 // A gain that falls by half over the depth and to the sides.
+// A gain that changes over the whole depth has small gradients against a wall's.
 TEST(EdgeCorrelation, SlowGainsHardlyCount) {
   std::vector<float> x = rings(1, 8), y = x;
   for (int i = 0; i < kSector.lines; ++i)
@@ -183,6 +191,7 @@ TEST(EdgeCorrelation, SlowGainsHardlyCount) {
   EXPECT_GT(edgeCorrelationOf(x, y), 0.9);
 }
 
+// Two even frames are equal, 1; an even one says nothing of one with walls, 0.
 TEST(EdgeCorrelation, FramesWithoutEdges) {
   const std::vector<float> flat(kSector.size(), 100), grey(kSector.size(), 30), x = rings(0, 8);
   EXPECT_EQ(edgeCorrelationOf(flat, grey), 1);
@@ -205,6 +214,7 @@ TEST(CompareMetrics, WhatRegistrationMovesOutOfSightCountsAsUnlike) {
   EXPECT_EQ(shareInSight(all, half, 2), 1);  // twice as large: the same half fills all
 }
 
+// Least squares without noise give back the curve itself.
 TEST(GreyCalibration, AKnownCurveIsFoundAgain) {
   const GreyCurve truth{{0, 60, 130, 200, 255}, {12, 90, 70, 180, 240}};
   const std::vector<float> x = noise(3, 60);
@@ -219,6 +229,7 @@ TEST(GreyCalibration, AKnownCurveIsFoundAgain) {
 }
 
 // Where the best curve rises anyway, asking for a rising one changes nothing.
+// The constraint is not active, so both minima are one.
 TEST(GreyCalibration, MonotoneEqualsFreeWhereItRises) {
   const GreyCurve truth{{10, 80, 170, 250}, {5, 40, 190, 210}};
   const std::vector<float> x = noise(4, 55), e = noise(5, 4);
@@ -233,6 +244,7 @@ TEST(GreyCalibration, MonotoneEqualsFreeWhereItRises) {
 }
 
 // The least squares of a falling line among rising ones is its mean.
+// The best curve that never falls, of data that only fall, is flat.
 TEST(GreyCalibration, MonotoneOfAFallingLineIsItsMean) {
   std::vector<float> x, y, w;
   double sum = 0;
@@ -279,6 +291,7 @@ std::vector<double> even(int n, double beat, double shift = 0) {
   return p;
 }
 
+// Planted shifts, also between frames.
 TEST(TimeAlignmentLaw, AShiftIsFoundToATenthOfAFrame) {
   for (const double shift : {0.0, 0.5, 7.25, 19.5}) {
     const Features s = wheel(even(24, 24)), r = wheel(even(24, 24, shift));
@@ -323,6 +336,7 @@ TEST(TimeAlignmentLaw, AnchorsAreMetAndStraightBetween) {
   EXPECT_NEAR(t.place[15], 12 + 18.0 * 7 / 14, 1e-9);  // the rest of the beat, evenly
 }
 
+// One that is not there must not be found: a false beat pairs all frames wrongly.
 TEST(BeatLengthLaw, BeatsAreFoundAndTheirAbsenceToo) {
   const BeatLength two = findBeatLength(wheel(even(50, 20.4)), 5);
   EXPECT_NEAR(two.frames, 20.4, 0.1);

@@ -72,6 +72,7 @@ class Ventricle17 {
   std::vector<Vec3d> at_rest_;
 };
 
+// The others take over its part: the ejection fraction is a dial of its own.
 TEST(HeartSegments, AnAkineticOneStandsStillAndTheOthersKeepTheEjectionFraction) {
   Ventricle17 ill(withSegment(kMidAnterior, 0)), well(withSegment(kMidAnterior, 1));
   const double healthy_m = well.inwardAtEndSystole(kMidAnterior);
@@ -100,6 +101,7 @@ TEST(HeartSegments, ADelayShiftsItsPeakByAsMuch) {
   EXPECT_NEAR(late.ejectionFraction(), kEjectionFraction, 0.01);
 }
 
+// A partition of unity: moving all segments alike is moving the wall.
 TEST(HeartSegments, SharesSumToOneAndAreSmooth) {
   constexpr double kStep = 1e-4;
   for (double zeta = -0.1; zeta < 1.05; zeta += 0.0137)
@@ -145,6 +147,30 @@ TEST(HeartSegments, EachRulesAloneAtItsCentreWhereTheAssociationPutsIt) {
   EXPECT_EQ(ruler(kSeptal, 0.8), 14);
   EXPECT_EQ(ruler(0, 0.5), 12);
   EXPECT_EQ(ruler(200, 1), 17);
+}
+
+double measuredEjection(const heart::ParametricHeart& model) {
+  const auto cavity = [&](double phase) {
+    for (const heart::Part& part : model.at(phase))
+      if (part.kind.name == "lv_cavity") return fluxVolume({part.points, part.faces});
+    return 0.0;
+  };
+  return 1 - cavity(model.cycle().events().aortic_closes) / cavity(0);
+}
+
+// Three still segments of an infarct: the others do no more than before.
+TEST(HeartSegments, StillSegmentsLowerTheEjectionFractionUnlessVolumesRule) {
+  heart::Parameters parameters = heart::parametersFrom({{"ef", 0.6}});
+  EXPECT_NEAR(heart::ParametricHeart(parameters).parameters().ejection_fraction, 0.6, 1e-12);
+  for (const int number : {7, 13, 17}) parameters.segments[number - 1].amplitude = 0;
+  const heart::ParametricHeart infarct(parameters);
+  EXPECT_LT(infarct.parameters().ejection_fraction, 0.57);
+  EXPECT_GT(infarct.parameters().ejection_fraction, 0.40);
+  EXPECT_NEAR(measuredEjection(infarct), infarct.parameters().ejection_fraction, 0.01);
+  parameters.volumes_rule = true;
+  const heart::ParametricHeart helped(parameters);
+  EXPECT_EQ(helped.parameters().ejection_fraction, 0.6);
+  EXPECT_NEAR(measuredEjection(helped), 0.6, 0.01);
 }
 
 }  // namespace

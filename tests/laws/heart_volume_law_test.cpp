@@ -81,6 +81,8 @@ void expectDialled(const heart::Parameters& dials) {
 
 class HeartVolumeLaw : public testing::TestWithParam<double> {};
 
+// Measured on the written meshes after subdivision, as a user's own tools would; not on the shapes
+// they came from.
 TEST_P(HeartVolumeLaw, DialsAreWhatTheFilesEnclose) {
   for (const double ef : {0.25, 0.40, 0.55, 0.70}) {
     SCOPED_TRACE(testing::Message() << "edv " << GetParam() << " ef " << ef);

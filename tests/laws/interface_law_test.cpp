@@ -64,6 +64,7 @@ std::vector<double> aroundCritical(const Pair& p, int ulps) {
   return all;
 }
 
+// Law: R + T cos_t / cos_i = 1. Not R + T = 1: the beam changes its width.
 TEST(InterfaceLaw, ReflectedAndTransmittedPowerAddToOneBelowTheCriticalAngle) {
   for (const Pair& p : kPairs)
     for (const double cos_i : incidences()) {
@@ -75,6 +76,7 @@ TEST(InterfaceLaw, ReflectedAndTransmittedPowerAddToOneBelowTheCriticalAngle) {
     }
 }
 
+// Law: T_12 T_21 = (1 - R)^2, on which "forward ray tracing only" rests.
 TEST(InterfaceLaw, ForwardTimesBackwardTransmissionIsOneMinusRSquared) {
   for (const Pair& p : kPairs)
     for (const double cos_i : incidences()) {
@@ -87,6 +89,7 @@ TEST(InterfaceLaw, ForwardTimesBackwardTransmissionIsOneMinusRSquared) {
     }
 }
 
+// Law: R_12(theta_i) = R_21(theta_t), to the last bit, since swapping media changes only a sign.
 TEST(InterfaceLaw, ReflectionIsTheSameFromBothSidesAlongTheSameRay) {
   for (const Pair& p : kPairs)
     for (const double cos_i : incidences()) {
@@ -96,6 +99,7 @@ TEST(InterfaceLaw, ReflectionIsTheSameFromBothSidesAlongTheSameRay) {
     }
 }
 
+// An interface between equal media must vanish: splitting a structure in two may not draw a line.
 TEST(InterfaceLaw, EqualMediaReflectNothingAtAnyAngle) {
   for (const double cos_i : incidences()) {
     const InterfaceLaw law = interfaceLaw(1.6e6, 1540, 1.6e6, 1540, cos_i);
@@ -105,11 +109,13 @@ TEST(InterfaceLaw, EqualMediaReflectNothingAtAnyAngle) {
   EXPECT_EQ(interfaceLaw(1.6e6, 1540, 1.6e6, 1540, 0).R, 0);
 }
 
+// Z_1 = Z_2 leaves (cos_i - cos_t)^2, which is 0 straight on and grows aside.
 TEST(InterfaceLaw, EqualImpedanceReflectsNothingAtNormalIncidenceAndSomethingAside) {
   EXPECT_EQ(interfaceLaw(1.5e6, 1480, 1.5e6, 1600, 1).R, 0);
   EXPECT_GT(interfaceLaw(1.5e6, 1480, 1.5e6, 1600, 0.7).R, 1e-4);
 }
 
+// R = ((Z_2 - Z_1) / (Z_2 + Z_1))^2 whatever the speeds.
 TEST(InterfaceLaw, NormalIncidenceDependsOnImpedanceAlone) {
   for (const Pair& p : kPairs) {
     const double ratio = (p.Z_2 - p.Z_1) / (p.Z_2 + p.Z_1);
@@ -117,6 +123,7 @@ TEST(InterfaceLaw, NormalIncidenceDependsOnImpedanceAlone) {
   }
 }
 
+// cos_crit^2 = 1 - (c_1 / c_2)^2: at it, and down to a tangent ray, R is exactly 1.
 TEST(InterfaceLaw, BeyondTheCriticalAngleEverythingIsReflected) {
   for (const Pair& p : kPairs) {
     if (p.c_2 <= p.c_1) continue;
@@ -130,6 +137,7 @@ TEST(InterfaceLaw, BeyondTheCriticalAngleEverythingIsReflected) {
   }
 }
 
+// Into a slower medium rays bend towards the normal: no angle is critical.
 TEST(InterfaceLaw, NeverTotalIntoASlowerMediumNotEvenWhenTangent) {
   for (const double cos_i : {0.0, 5e-324, 1e-17, 1e-8})
     for (const Pair& p : kPairs)

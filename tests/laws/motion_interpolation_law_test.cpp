@@ -40,6 +40,7 @@ std::vector<double> sampled(const std::vector<double>& phases, Function f) {
   return values;
 }
 
+// Law: w_j(phase_k) is 1 for j = k and 0 else, exactly, so that a keyframe comes out as its file.
 TEST(MotionInterpolationLaw, KeyframesAreReproducedExactly) {
   for (const Interpolation kind : kKinds)
     for (const std::vector<double>& phases : kPhaseSets) {
@@ -52,6 +53,7 @@ TEST(MotionInterpolationLaw, KeyframesAreReproducedExactly) {
     }
 }
 
+// Law: sum w = 1, so that what stands still in all keyframes stands still between them.
 TEST(MotionInterpolationLaw, WeightsSumToOne) {
   for (const Interpolation kind : kKinds)
     for (const std::vector<double>& phases : kPhaseSets) {
@@ -61,6 +63,7 @@ TEST(MotionInterpolationLaw, WeightsSumToOne) {
     }
 }
 
+// Law: f(t + 1) = f(t) for any t a caller may give, and continuous around every keyframe.
 TEST(MotionInterpolationLaw, PhaseHasPeriodOneAndNoJumpAnywhere) {
   for (const Interpolation kind : kKinds)
     for (const std::vector<double>& phases : kPhaseSets) {
@@ -95,6 +98,8 @@ double curvatureJump(const KeyframeWeights& weights, const std::vector<double>& 
   return std::fabs(bend(kStep) - bend(-kStep));
 }
 
+// C1 for Catmull-Rom and Fourier, C2 for the spline: bounds are what one-sided differences of these
+// steps leave.
 TEST(MotionInterpolationLaw, AllButLinearAreSmoothAndTheSplineBendsSmoothlyToo) {
   for (const std::vector<double>& phases : kPhaseSets) {
     const std::vector<double> values = sampled(
@@ -120,6 +125,8 @@ TEST(MotionInterpolationLaw, LocalKindsReproduceStraightLines) {
   }
 }
 
+// Slopes at a keyframe are those of the parabola through it and its neighbours, also where they are
+// uneven.
 TEST(MotionInterpolationLaw, CatmullRomReproducesParabolasBetweenTheirSlopes) {
   const std::vector<double> phases{0.0, 0.1, 0.25, 0.3, 0.5, 0.7, 0.8};
   const KeyframeWeights weights(phases, Interpolation::catmull_rom);
@@ -140,6 +147,8 @@ double largestError(std::size_t n, Interpolation kind) {
   return largest;
 }
 
+// Halving the spacing divides the error by 2^order; e^sin is smooth and periodic, Fourier has it to
+// rounding.
 TEST(MotionInterpolationLaw, ErrorsFallWithTheOrderOfTheKind) {
   const auto order = [](Interpolation kind) {
     return std::log2(largestError(32, kind) / largestError(64, kind));

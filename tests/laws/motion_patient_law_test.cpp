@@ -72,6 +72,8 @@ class MotionPatientLaw : public testing::Test {
   }
 };
 
+// The publishers' numbers of the same meshes: units, orientation and lids are right or these are
+// not.
 TEST_F(MotionPatientLaw, CavityVolumesAreThePublishedOnes) {
   const auto left = volumes_ml(MeshMotion(patientScene(patientStructure({"lv_endo_closed"}))), 25);
   const auto right = volumes_ml(MeshMotion(patientScene(patientStructure({"rv_endo_closed"}))), 25);
@@ -113,6 +115,7 @@ TEST_F(MotionPatientLaw, LeftVolumeGainsNoExtremumBetweenKeyframes) {
 
 // Between two frames a smooth curve may leave the span of their volumes, where the beat turns
 // sharply, but by less than 1 % of the stroke volume of about 100 mL.
+// Smooth interpolation overshoots; by how much is what a user of volumes must know.
 TEST_F(MotionPatientLaw, VolumeOvershootsKeyframesByLessThanAMillilitre) {
   constexpr std::size_t kSteps = 20;
   for (const char* name : {"lv_endo_closed", "rv_endo_closed"})

@@ -54,6 +54,7 @@ std::vector<std::pair<std::size_t, std::size_t>> blocksOf(std::size_t count, std
   return blocks;
 }
 
+// Blocks must not depend on threads, for sums over blocks would round differently.
 TEST(ParallelLaw, BlocksCoverTheRangeOnceAndAreTheSameForAnyThreadCount) {
   for (const std::size_t count : {0u, 1u, 7u, 8u, 1000u})
     for (const std::size_t grain : {1u, 3u, 8u, 5000u}) {
@@ -118,6 +119,7 @@ TEST(ParallelLaw, TwoThreadsDoWorkAtOnce) {
   });
 }
 
+// Frames are made in any order and written in theirs: a cine is a stream.
 TEST(ParallelLaw, DrainsEveryResultInOrderOneAtATime) {
   for (const int threads : kThreadCounts)
     for (const std::size_t in_flight : {1u, 2u, 5u, 1000u}) {
@@ -152,6 +154,7 @@ TEST(ParallelLaw, AnEmptyRangeAsksAndCallsNothing) {
     });
 }
 
+// Bounds the memory of a run whatever its length.
 TEST(ParallelLaw, NoMoreResultsAreAliveThanAllowed) {
   struct Counted {
     explicit Counted(Peak& p) : peak(p) { peak.enter(); }
@@ -171,6 +174,7 @@ TEST(ParallelLaw, NoMoreResultsAreAliveThanAllowed) {
     }
 }
 
+// Ctrl-C: no frame begins, and those begun reach the cine.
 TEST(ParallelLaw, ANoStopsTheLoopAndDrainsWhatWasBegun) {
   for (const int threads : kThreadCounts)
     for (const int yes : {0, 1, 5, 40}) {
@@ -210,6 +214,7 @@ std::string thrownBy(int threads, const Loop& loop) {
   return what;
 }
 
+// And nothing of the loop runs on after the caller has caught it.
 TEST(ParallelLaw, AnExceptionOfAnyFunctionEndsTheLoopAndReachesTheCaller) {
   for (const int threads : kThreadCounts) {
     std::atomic<int> calls = 0;
@@ -257,6 +262,8 @@ TEST(ParallelLaw, AnExceptionOfAnyFunctionEndsTheLoopAndReachesTheCaller) {
 }
 
 // A waiting thread that took another frame up would enter its own scratch memory twice.
+// A thread that waits for its inner loop may be given other work; another frame would need memory
+// that nobody counted.
 TEST(ParallelLaw, AFrameThatWaitsForItsLinesTakesUpNoOtherFrame) {
   for (const int threads : kThreadCounts) {
     std::atomic<int> entered_twice = 0;
@@ -308,6 +315,7 @@ TEST(ParallelLaw, AnExceptionWithinANestedLoopPassesThroughTheOuterOne) {
               "line 17");
 }
 
+// A library's callers bring threads of their own.
 TEST(ParallelLaw, TwoCallersAtOnceDoNotMeet) {
   std::vector<std::size_t> sums(2);
   const auto caller = [&](std::size_t which) {

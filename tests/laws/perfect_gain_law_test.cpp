@@ -27,6 +27,7 @@ PolarFrame traced(const Scene& scene) {
   return frame;
 }
 
+// Law: perfect TGC equals a run with every alpha 0. It undoes attenuation alone; the 1/l^2 stays.
 TEST(PerfectGain, EqualsARunWithoutAnyAttenuationToTheLastBit) {
   const PolarFrame lossy = traced(twoLayers(10, 60)), free = traced(twoLayers(0, 0));
   EXPECT_EQ(lossy.intensities, free.intensities);
@@ -44,7 +45,7 @@ TEST(PerfectGain, KeepsTheSpreadWhenAskedTo) {
   scene.signal.spread = Spread::keep;
   scene.output.channels = {Channel::y, Channel::unattenuated};
   const PolarFrame frame = traced(scene);
-  EXPECT_EQ(frame.intensities, frame.planes.at(Channel::unattenuated));
+  EXPECT_EQ(frame.intensities.values, frame.planes.at(Channel::unattenuated));
 }
 
 TEST(NoGain, LeavesTheReceivedIntensity) {
@@ -52,7 +53,7 @@ TEST(NoGain, LeavesTheReceivedIntensity) {
   scene.signal.spread = Spread::keep;
   scene.signal.tgc = Tgc::none;
   const PolarFrame frame = traced(scene);
-  EXPECT_EQ(frame.intensities, frame.planes.at(Channel::y));
+  EXPECT_EQ(frame.intensities.values, frame.planes.at(Channel::y));
 }
 
 TEST(Attenuation, IsNotComputedWhenNobodyCanSeeIt) {

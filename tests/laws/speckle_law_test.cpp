@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/parallel.h"
+#include "scene/scan_geometry.h"
 #include "scene/beam_profile.h"
 #include "support/speckle_bed.h"
 
@@ -137,7 +138,7 @@ TEST(SpeckleLaw, AcrossThePlaneItFadesByDiffractionAloneAtEveryDepth) {
   for (const double z : {0.05, 0.08, 0.14}) {
     SpeckleBed bed(ProbeKind::phased, 160, 400, z - 0.01, z + 0.01);
     const double s0 =
-        followedWidth(z, bed.probe.elevation_aperture_m, scannerWavelength(bed.probe)) /
+        followedWidth(z, bed.probe.elevation_aperture_m, ScanGeometry(bed.probe).wavelength()) /
         std::sqrt(2.0) / std::sqrt(8 * std::log(2.0));
     bed.settings.per_cell = 12;
     constexpr int kSeeds = 4;

@@ -71,6 +71,7 @@ TEST(TimeWarp, RunsForwardAlsoAtTheEndsOfWhatIsAccepted) {
       }
 }
 
+// A kink is a jump of all velocities at once, which strain shows.
 TEST(TimeWarp, HasNoKink) {
   forEachPair([](const RecordedBeat& recorded, double beat_s) {
     const TimeWarp warp(recorded, beat_s);
@@ -90,6 +91,7 @@ TEST(TimeWarp, HasNoKink) {
   });
 }
 
+// To the last bit: loops at the recorded rate must not change because warping exists.
 TEST(TimeWarp, IsTheIdentityAtTheKeyframesOwnRate) {
   for (const double bpm : kKeyframes_bpm)
     for (const std::optional<double>& anchor : {std::optional<double>(), std::optional(0.45)}) {
@@ -151,6 +153,7 @@ TEST(TimeWarp, AVolumeCurveEjectsForThePublishedTime) {
     }
 }
 
+// Slope 1 at the R wave on both sides: beats of different lengths join without a jump of speed.
 TEST(TimeWarp, KeyframesRunInRealTimeAtTheRWaveSoThatBeatsOfAnyLengthJoin) {
   for (const double keyframes : {50.0, 65.0, 75.0, 100.0})
     for (double bpm = 40; bpm <= 140; bpm += 5) {

@@ -42,6 +42,8 @@ TEST(VolumeCurve, DurationsMeasuredBackFromTheCurveAreTheOnesItWasMadeOf) {
     }
 }
 
+// A volume has two isovolumic rests and no wiggle: the law by which every kind of interpolation is
+// judged.
 TEST(VolumeCurve, FallsOnceRestsAndRisesOnceBetweenOneAndZero) {
   for (const Ventricle ventricle : {Ventricle::left, Ventricle::right})
     for (const double bpm : kRates_bpm) {
@@ -87,6 +89,7 @@ TEST(VolumeCurve, HasNoKinkAlsoBetweenBeats) {
   }
 }
 
+// Published flow curves peak within the first third of ejection.
 TEST(VolumeCurve, EjectionIsFastestInItsFirstThird) {
   for (const double bpm : kRates_bpm) {
     const PhaseDurations d = durations(bpm);
@@ -102,6 +105,7 @@ TEST(VolumeCurve, EjectionIsFastestInItsFirstThird) {
   }
 }
 
+// Early filling 70 %, diastasis 20 %, atrial kick 10 % at rest; at high rates the kick takes over.
 TEST(VolumeCurve, SharesAtRestAreSeventyTwentyTenAndTheKickTakesOverFromDiastasis) {
   for (const double bpm : {60.0, 65.0, 70.0}) {
     const CycleEvents e = cycleEvents(durations(bpm));
@@ -118,6 +122,8 @@ TEST(VolumeCurve, SharesAtRestAreSeventyTwentyTenAndTheKickTakesOverFromDiastasi
   EXPECT_NEAR(before, 0.30, 1e-12);
 }
 
+// Of two rates a hundredth apart no phase may differ by more than a thousandth of the stroke
+// volume.
 TEST(VolumeCurve, ChangesSmoothlyWithTheRateWhereDiastasisVanishes) {
   for (double bpm = 95; bpm < 110; bpm += 0.01) {
     const VolumeCurve a(durations(bpm)), b(durations(bpm + 0.01));

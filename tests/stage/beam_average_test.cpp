@@ -53,6 +53,7 @@ double at(const std::vector<float>& plane, int line, int sample) {
   return plane[static_cast<std::size_t>(line * kSamples + sample)];
 }
 
+// Weights sum to 1, also where the window is cut by the picture's edge.
 TEST(BeamAverage, AConstantStaysConstantAlsoAtTheEdges) {
   for (const auto& [width, cycles] :
        {std::pair(0.0, 0.0), {3.0, 0.0}, {0.0, 7.0}, {4.7, 5.3}, {500.0, 300.0}})
@@ -76,6 +77,7 @@ TEST(BeamAverage, WithoutWidthAndPulseNothingChanges) {
             plane);  // narrower than a line and a sample
 }
 
+// A window that is not centred shifts walls, in proportion to its width.
 TEST(BeamAverage, AnImpulseSpreadsCentredAndSymmetric) {
   const std::vector<float> plane = averaged(linearProbe(), averaging(4.7, 10.6), impulse(20, 40));
   for (int d = 1; d < 10; ++d) {
@@ -105,6 +107,8 @@ TEST(BeamAverage, KeepsTheSumOfWhatLiesInside) {
   EXPECT_NEAR(std::accumulate(plane.begin(), plane.end(), 0.0), 1, 1e-5);
 }
 
+// Running sums that are added and taken away leave rounding of bright echoes behind, 100 dB below
+// and visible.
 TEST(BeamAverage, LeavesNothingOfABrightEchoOutsideItsWindow) {
   std::vector<float> plane(kLines * kSamples, 1e-9f);
   plane[3 * kSamples + 40] = 1e6f;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "compare/compare.h"
 #include "core/error.h"
 #include "support/echo_video.h"
@@ -224,15 +226,77 @@ TEST_F(Reading, ACodecThatIsNotKnownIsNamed) {
   expectRefusal(folder.write("odd.avi", bytes), "codec");
 }
 
-TEST_F(Reading, AColourDopplerBoxIsRefused) {
+// A box of colours that move, of the loop's frames.
+std::vector<cv::Mat> withDoppler(const std::vector<PixelPlane>& frames, const cv::Rect& box) {
   std::vector<cv::Mat> pictures = coloured(frames, 320, 240);
   for (std::size_t f = 0; f < pictures.size(); ++f)
-    for (int y = 80; y < 150; ++y)
-      for (int x = 120; x < 200; ++x)
+    for (int y = box.y; y < box.y + box.height; ++y)
+      for (int x = box.x; x < box.x + box.width; ++x)
         pictures[f].at<cv::Vec3b>(y, x) =
             (x / 10 + y / 10 + int(f)) % 2 ? cv::Vec3b(200, 40, 10) : cv::Vec3b(10, 40, 220);
-  writePictures(folder / "doppler", pictures, ".png");
-  expectRefusal(folder / "doppler", "Doppler");
+  return pictures;
+}
+
+TEST_F(Reading, AColourDopplerBoxIsMaskedAndSaysHowMuch) {
+  writePictures(folder / "doppler", withDoppler(frames, {120, 80, 80, 70}), ".png");
+  const Loop loop = readLoop(folder / "doppler", {}, true);
+  EXPECT_EQ(loop.overlay[115 * 320 + 160], 1);
+  EXPECT_EQ(loop.overlay[200 * 320 + 160], 0);
+  const auto& notes = loop.video.notes;
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.starts_with("colour covers 1");  // 16 %, and its edges
+  }));
+}
+
+TEST_F(Reading, ColourOverMostOfTheSectorIsRefused) {
+  writeLossless(folder / "loop.avi", drawing);
+  Video video = readVideo(folder / "loop.avi");
+  const Sector sector = parseSector("--sector", "160,5,-40,40,12,225");
+  EXPECT_NO_THROW(overlayMask(video, sector));
+  std::fill(video.coloured.begin() + 90 * 320, video.coloured.end(), std::uint8_t{1});
+  try {
+    overlayMask(video, sector);
+    ADD_FAILURE() << "taken";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("Doppler"), std::string::npos) << error.what();
+  }
+}
+
+// A palette's greys, made of neighbours of opposite colours.
+TEST_F(Reading, DitheredGreysAreGrey) {
+  std::vector<cv::Mat> pictures = coloured(frames, 320, 240);
+  for (cv::Mat& p : pictures)
+    for (int y = 0; y < 240; ++y)
+      for (int x = 0; x < 320; ++x) {
+        cv::Vec3b& pixel = p.at<cv::Vec3b>(y, x);
+        const int step = (x + y) % 2 ? 40 : -40, grey = pixel[0];
+        if (grey < 60 || grey > 190) continue;
+        pixel = {static_cast<std::uint8_t>(grey + step), static_cast<std::uint8_t>(grey),
+                 static_cast<std::uint8_t>(grey - step)};
+      }
+  writePictures(folder / "dithered", pictures, ".png");
+  const Video video = readVideo(folder / "dithered");
+  const auto masked = std::count(video.coloured.begin(), video.coloured.end(), 1);
+  EXPECT_LT(masked, 320 * 240 / 50);  // edges between dithered and plain greys
+}
+
+TEST_F(Reading, WhatIsBurntInAroundTheSectorIsBlanked) {
+  std::vector<cv::Mat> pictures = coloured(frames, 320, 240);
+  for (cv::Mat& p : pictures) {
+    cv::putText(p, "DOE JANE", {2, 14}, cv::FONT_HERSHEY_SIMPLEX, 0.45, {255, 255, 255});
+    cv::putText(p, "1950", {270, 30}, cv::FONT_HERSHEY_SIMPLEX, 0.45, {0, 220, 0});
+  }
+  writePictures(folder / "png", pictures, ".png");
+  SideOptions side;
+  side.sector = "160,5,-40,40,12,225";
+  const Loop loop = readLoop(folder / "png", side, true);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 320; ++x) {
+      const auto at = static_cast<std::size_t>(y * 320 + x);
+      if (std::abs(x - 160) < 60) continue;
+      for (const PixelPlane& frame : loop.video.frames) ASSERT_EQ(frame[at], 0) << x << "," << y;
+      ASSERT_EQ(loop.overlay[at], 0) << x << "," << y;
+    }
 }
 
 TEST_F(Reading, AnUnseenSectorIsRefused) {

@@ -23,7 +23,7 @@ const Medium kPlain = medium("plain", 1000, 1500, 5, 0.1);
 
 EffectDecision decision(const Scene& scene, const std::string& name) {
   for (const EffectDecision& d : planEffects(scene).decisions)
-    if (d.name == name) return d;
+    if (d.name() == name) return d;
   return {};
 }
 
@@ -31,8 +31,8 @@ TEST(EffectPlan, EveryEffectIsDecidedWithAReason) {
   const EffectPlan plan = planEffects(sceneOf(kPlain, medium("other", 1100, 1600, 5, 0.1)));
   std::vector<std::string> names;
   for (const EffectDecision& d : plan.decisions) {
-    names.push_back(d.name);
-    EXPECT_FALSE(d.reason.empty()) << d.name;
+    names.push_back(d.name());
+    EXPECT_FALSE(d.reason.empty()) << d.name();
   }
   for (const char* name : {"reflection", "transmission_loss", "refraction", "attenuation",
                            "backscatter", "travel_time"})
@@ -131,7 +131,7 @@ TEST(EffectPlanOfBeams, SeveralRaysSpreadOverWhatIsNotTurnedOff) {
   scene.output.channels = {Channel::medium};
   plan = planEffects(scene);
   EXPECT_EQ(plan.rays_per_beam, 1);
-  EXPECT_EQ(plan.decision("elevation").reason, "no requested output holds intensities");
+  EXPECT_EQ(plan.decision(Effect::elevation).reason, "no requested output holds intensities");
 }
 
 }  // namespace

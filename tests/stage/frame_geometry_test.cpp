@@ -48,6 +48,7 @@ void expectTwoCrossings(const Surfaces& surfaces, const Ray& ray) {
   expectConsistent(met, 1, ray);
 }
 
+// The oracle is the rule itself, asked for every triangle: the hierarchy may only be faster.
 TEST(FrameGeometry, FindsForRandomRaysWhatTheRuleFindsForEveryTriangle) {
   const Surfaces surfaces({icosphere(4, 0.04)});
   RandomVectors random(1);
@@ -78,6 +79,7 @@ TEST(FrameGeometry, RaysFromInsideASphereLeaveItOnce) {
 }
 
 // Where antipodal points are hit at once, a crossing lost on both sides would keep the balance.
+// Six triangles share a vertex; counting it six times or not at all are the usual failures.
 TEST(FrameGeometry, RaysThroughTheCentreAimedExactlyAtVerticesCrossTwice) {
   for (const Mesh& mesh : {icosphere(3, 0.04), octasphere(4, 0.04), uvSphere(24, 32, 0.04)}) {
     const Surfaces surfaces({mesh});
@@ -126,6 +128,7 @@ TEST(FrameGeometry, TellsInsideFromOutside) {
   }
 }
 
+// On a surface inside and outside are both true; that states and crossings agree is what counts.
 TEST(FrameGeometry, AProbeExactlyOnASurfaceHasOneOfTheTwoConsistentStates) {
   for (const Mesh& mesh :
        {octasphere(3, 0.04), icosphere(3, 0.04), box({-0.03, -0.03, -0.03}, {0.03, 0.03, 0.03})}) {
@@ -189,6 +192,7 @@ TEST(FrameGeometry, FollowsVerticesThatMove) {
   }
 }
 
+// A cavity that empties: its triangles have no area for a while, and must not be lost.
 TEST(FrameGeometry, SurfacesThatShrinkToAPointAreNotMetAndComeBack) {
   const auto ball = [](double x) { return icosphere(2, 0.02).moved({x, 0, 0.08}); };
   const auto point = [&](double x) {
@@ -235,6 +239,7 @@ TEST(FrameGeometry, AnOpenSheetIsNotMissedThroughItsInnerVerticesAndEdges) {
     }
 }
 
+// To the last bit, so that how rays are bundled is no matter of the picture.
 TEST(FrameGeometry, APacketOfSixteenRaysIsSixteenSingleRays) {
   const Surfaces surfaces(
       {icosphere(4, 0.04).moved({0, 0, 0.07}), icosphere(2, 0.02).moved({0, 0, 0.06})});

@@ -1,6 +1,7 @@
 // The heart that comes with the project is the one that the program makes.
 
 #include "output/heart_files.h"
+#include "motion/heart/heart_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ TEST(HeartFiles, TheExampleIsWhatDefaultsGive) {
   std::size_t meshes = 0;
   for (const heart::RecordedPart& part : made.recording.parts)
     for (std::size_t k = 0; k < part.control_m.size(); ++k, ++meshes) {
-      const std::string name = heartMeshName(part, k);
+      const std::string name = heart::meshName(part, k);
       ASSERT_TRUE(bytesOf(data / name) == heartMesh(part, k)) << data / name;
     }
   const auto is_mesh = [](const fs::directory_entry& entry) {
@@ -31,7 +32,8 @@ TEST(HeartFiles, TheExampleIsWhatDefaultsGive) {
   HeartFiles defaults;
   defaults.parameters = made.parameters;
   EXPECT_EQ(bytesOf(fs::path(support::kSourceDir) / "examples/beating_heart/scene.toml"),
-            heartScene(defaults, made.recording, "../../data/beating_heart/"));
+            heart::sceneText(defaults.view, defaults.parameters, made.recording,
+                             "../../data/beating_heart/"));
 }
 
 }  // namespace

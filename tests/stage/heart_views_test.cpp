@@ -36,7 +36,7 @@ struct Image {
   explicit Image(View view) : pose(poseOnce(view)) {}
 
   Vec3d of(Vec3d point) const {
-    const Frame frame{pose.apex, pose.lateral, cross(pose.axis, pose.lateral), pose.axis};
+    const Pose frame{pose.apex, pose.lateral, cross(pose.axis, pose.lateral), pose.axis};
     return frame.fromWorld(point);
   }
   // The middle of what the imaging plane cuts of a part, within 3 mm.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "metrics/interface_error.h"
+#include "scene/scan_geometry.h"
 #include "support/plain_scene.h"
 
 namespace echocine {

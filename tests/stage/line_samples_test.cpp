@@ -15,10 +15,10 @@ const Sampling kSampling{0.01, 0.001, 100};  // 10..110 mm
 LineTrace oneStretch(double begin_m, double end_m) {
   LineTrace line;
   line.segments.push_back({.begin_depth_m = begin_m,
-                            .end_depth_m = end_m,
-                            .begin_path_m = begin_m,
-                            .strength_m2_sr = 2,
-                            .medium = MediumId{3}});
+                           .end_depth_m = end_m,
+                           .begin_path_m = begin_m,
+                           .strength_m2_sr = 2,
+                           .medium = MediumId{3}});
   return line;
 }
 
@@ -28,6 +28,8 @@ std::vector<float> sampled(const LineTrace& line, const IntensityTerms& parts = 
   return values;
 }
 
+// Sample k is centred at min_depth + (k + 1/2) spacing: half a sample off would shift every
+// picture.
 TEST(LineSamples, AStretchFillsTheSamplesWhoseCentresItHolds) {
   // Centres at 10.5, 11.5, ... mm; the beginning belongs to it and the end does not.
   const std::vector<float> values = sampled(oneStretch(0.0202, 0.0309));
@@ -46,6 +48,7 @@ TEST(LineSamples, NeighbouringStretchesNeitherOverlapNorLeaveAGap) {
   }
 }
 
+// Law: intervals cover the depth once, so an echo falls into one sample, never two or none.
 TEST(LineSamples, AnEchoGoesIntoTheSampleWhoseIntervalHoldsIt) {
   for (const auto& [depth_m, k] :
        {std::pair(0.0101, 0), {0.01999, 9}, {0.0500001, 40}, {0.1099, 99}}) {
@@ -92,6 +95,7 @@ TEST(LineSamples, CellEchoesAreAddedToTheirSamplesAttenuatedAsTheirExponentSays)
   EXPECT_FLOAT_EQ(plane[499 - 298], 1 + 1298.0f);
 }
 
+// Law: reflection.Y + backscatter.Y = Y.
 TEST(LineSamples, PartsAddToTheWhole) {
   LineTrace line = oneStretch(0, 1);
   line.segments[0].exponent_per_m = 40;
@@ -102,6 +106,7 @@ TEST(LineSamples, PartsAddToTheWhole) {
     EXPECT_FLOAT_EQ(whole[k], scattered[k] + reflected[k]);
 }
 
+// l = 0 would divide by 0: the first sample of a probe without a near limit.
 TEST(LineSamples, ASampleAtTheTransducerIsFinite) {
   std::vector<float> values(1);
   sampleIntensity(oneStretch(0, 1), {0, 1e-6, 1}, {}, values);

@@ -18,6 +18,7 @@ float grey(float intensity, double reference = 1, double range_db = 60) {
 }
 
 // Black is below the smallest normal float and white above the largest.
+// The program's own logarithm takes floats apart, so all of their exponents are looked at.
 TEST(LogCompression, AgreesWithLongDoubleOverTheWholeRangeOfFloats) {
   constexpr double kRange_db = 800;
   const double reference = 1e40;
@@ -52,6 +53,7 @@ TEST(LogCompression, EndsAreBlackAndWhite) {
   EXPECT_EQ(grey(1e-30f), 0.0f);
 }
 
+// log 0 is minus infinity, which a dynamic range cuts off to black.
 TEST(LogCompression, NoIntensityIsBlackInEveryDynamicRange) {
   for (const double range_db : {1e-3, 60.0, 1000.0}) {
     EXPECT_EQ(grey(0, 1, range_db), 0.0f);
@@ -60,6 +62,7 @@ TEST(LogCompression, NoIntensityIsBlackInEveryDynamicRange) {
   }
 }
 
+// Brighter tissue may never come out darker, not even by a rounding.
 TEST(LogCompression, IsMonotone) {
   float last = 0;
   for (float x = 1e-7f; x < 2; x = std::nextafter(x * 1.00002f, 10.0f)) {

@@ -14,6 +14,7 @@ bool hasVertex(const TriangleMesh& mesh, Vec3d p) {
   return false;
 }
 
+// Loop's masks by hand: 3/8 and 1/8 for an edge, beta of each neighbour for a vertex.
 TEST(MotionSubdivision, OctahedronFollowsLoopsMasks) {
   const TriangleMesh fine = refined(octahedron(1), 1);
   EXPECT_EQ(fine.positions.size(), 18u);
@@ -35,6 +36,7 @@ TEST(MotionSubdivision, KeepsSurfacesClosedAndLookingOutward) {
   }
 }
 
+// Affine invariance: moving the control mesh moves the surface alike.
 TEST(MotionSubdivision, RowsSumToOneSoShapesMoveWithTheirControlVertices) {
   const Vec3d shift{3, -2, 5};
   TriangleMesh moved = sphere(1, 1);

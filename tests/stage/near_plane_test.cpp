@@ -44,7 +44,7 @@ std::pair<std::size_t, double> compareSlices(const Scene& scene) {
     edges += of_any.edges().size();
   }
   return {edges, static_cast<double>(motion.surfaces()[0].near_plane->size()) /
-                      static_cast<double>(any[0].triangles.size())};
+                     static_cast<double>(any[0].triangles.size())};
 }
 
 TEST(NearPlane, NoCutTriangleIsMissedAtAnyPhase) {

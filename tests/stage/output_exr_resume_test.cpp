@@ -1,6 +1,12 @@
 // Resuming takes the very frame it would write, renders again what is absent, damaged or different,
 // and stops at another scene.
 
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+
+#include <array>
+
 #include "output_exr_fixture.h"
 
 namespace echocine {
@@ -29,6 +35,7 @@ TEST_F(ExrStackTest, ResumeFindsNothingWhereNothingOrNonsenseStands) {
   EXPECT_EQ(stack().existing(record), "");
 }
 
+// At lengths all over the file, and one byte short: a run may be killed at any byte.
 TEST_F(ExrStackTest, ResumeTakesNoFileThatIsCutShortAnywhere) {
   stack().write(record, planes());
   const std::string whole = test::bytesOf(file());
@@ -40,6 +47,7 @@ TEST_F(ExrStackTest, ResumeTakesNoFileThatIsCutShortAnywhere) {
   EXPECT_EQ(stack().existing(record), "");
 }
 
+// Each byte of header and first rows changed in turn.
 TEST_F(ExrStackTest, DamagedHeaderNeverCrashes) {
   stack().write(record, planes());
   const std::string whole = test::bytesOf(file());
@@ -51,6 +59,59 @@ TEST_F(ExrStackTest, DamagedHeaderNeverCrashes) {
     try {
       stack().existing(record);
     } catch (const SceneError&) {  // the damage may lie in the scene's hash
+    }
+  }
+}
+
+// One byte flipped anywhere: magic number, attributes, table of offsets, chunks, pixels, the digest
+// itself. The frame is made again, and damage to the scene's hash is not taken for another scene.
+TEST_F(ExrStackTest, ResumeTakesNoFileWithAnyByteFlippedWhateverTheCompression) {
+  constexpr std::array kAll{ExrCompression::none, ExrCompression::rle, ExrCompression::zips,
+                            ExrCompression::zip,  ExrCompression::piz, ExrCompression::pxr24};
+  scene.output.channels = {Channel::y, Channel::medium};
+  for (const ExrCompression compression : kAll)
+    for (const ExrPixel pixel : {ExrPixel::whole, ExrPixel::half}) {
+      scene.output.exr_compression = compression;
+      scene.output.exr_pixel = pixel;
+      const std::string sha256 = stack().write(record, planes());
+      ASSERT_EQ(stack().existing(record), sha256);
+      const std::string whole = test::bytesOf(file());
+      // All of the header and of the table of offsets, then a sample of the chunks.
+      for (std::size_t at = 0; at < whole.size(); at += at < 2400 ? 1 : 29) {
+        std::string damaged = whole;
+        const char flips[] = {'\x01', '\x20', '\x80', '\xff'};
+        damaged[at] = static_cast<char>(damaged[at] ^ flips[at % 4]);
+        test::putBytes(file(), damaged);
+        ASSERT_EQ(stack().existing(record), "") << "byte " << at << " of " << whole.size();
+        ASSERT_NO_THROW(stack().refuseOtherScene(record.frame)) << "byte " << at;
+      }
+      test::putBytes(file(), whole);
+    }
+}
+
+TEST_F(ExrStackTest, TheDigestIsOfTheBytesAlone) {
+  const std::string first = stack().write(record, planes());
+  EXPECT_EQ(stack().write(record, planes()), first);
+  values[7] = std::nextafter(values[7], 2.0f);
+  EXPECT_NE(stack().write(record, planes()), first);
+}
+
+TEST_F(ExrStackTest, GreysAreStoredUnscaledAsHalfFloatsToo) {
+  for (float& v : values) v = std::min(v, 1.0f);
+  scene.output.channels = {Channel::display};
+  scene.output.exr_pixel = ExrPixel::half;
+  stack().write(record, planes());
+  Imf::InputFile in(file().c_str());
+  EXPECT_EQ(in.header().find("echocine:scale.display.Y"), in.header().end());
+  std::vector<float> row(static_cast<std::size_t>(scene.probe.lines));
+  Imf::FrameBuffer buffer;
+  buffer.insert("display.Y", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(row.data()), 4, 0));
+  in.setFrameBuffer(buffer);
+  for (int y = 0; y < scene.probe.samples; ++y) {
+    in.readPixels(y);
+    for (int x = 0; x < scene.probe.lines; ++x) {
+      const float v = values[static_cast<std::size_t>(x * scene.probe.samples + y)];
+      ASSERT_NEAR(row[static_cast<std::size_t>(x)], v, 0x1p-11f * v + 0x1p-24f) << x << "," << y;
     }
   }
 }

@@ -81,6 +81,7 @@ TEST_F(ExrStackTest, ChannelsHaveTheNamesAndTypesOfTheContract) {
   EXPECT_EQ(found, wanted);
 }
 
+// Names of attributes are a contract: other people's scripts read them.
 TEST_F(ExrStackTest, HeaderTellsTimeProbeAndScene) {
   stack().write(record, planes());
   Imf::InputFile exr(file().c_str());
@@ -134,6 +135,7 @@ TEST_F(ExrStackTest, ThreadsWriteTheBytesOfOne) {
   EXPECT_EQ(together, alone);
 }
 
+// Lines are turned into rows by blocks: sizes that are no multiples are where such code goes wrong.
 TEST_F(ExrStackTest, SizesAroundTheTransposesBlocksKeepEveryValue) {
   for (const int lines : {1, 7, 8, 9, 16})
     for (const int samples : {1, 63, 64, 65}) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/scan_geometry.h"
 #include "support/plain_scene.h"
 #include "support/surfaces.h"
 #include "truth/contour.h"
@@ -70,6 +71,7 @@ TEST(PlaneSlice, MeetsWhatTheHierarchyMeetsForEveryProbeKind) {
     expectSameCrossings(s, probeOf(kind, 255));
 }
 
+// A heart meshed symmetrically about the imaging plane has this everywhere.
 TEST(PlaneSlice, VerticesAndEdgesOnThePlaneAndOnScanLinesAreMetOnce) {
   // The octahedral and the UV sphere have whole edges in y = 0 and vertices on x = 0; 255 lines
   // include 0 degrees.
@@ -86,6 +88,7 @@ TEST(PlaneSlice, VerticesAndEdgesOnThePlaneAndOnScanLinesAreMetOnce) {
   }
 }
 
+// Decided by rule (y >= 0 is above), never by a tolerance.
 TEST(PlaneSlice, WholeFacetsInThePlaneLeaveAClosedContour) {
   Slices s;
   s.add(support::box({-0.02, 0, 0.05}, {0.02, 0.02, 0.09}));   // a face in y = 0, seen from above
@@ -115,6 +118,7 @@ TEST(PlaneSlice, SectorOfHalfATurnAndPiecesBehindTheProbe) {
   expectSameCrossings(s, probe);
 }
 
+// What does not move is not cut again: the cut must be that of the first frame.
 TEST(PlaneSlice, StillSurfacesAreCutOnceAndStayMet) {
   Slices s;
   s.add(support::icosphere(3, 0.03).moved({0, 0.001, 0.08}));

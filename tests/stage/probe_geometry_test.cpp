@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/probe.h"
+#include "scene/scan_geometry.h"
 #include "support/scene_text.h"
 
 namespace echocine {
@@ -62,10 +62,11 @@ TEST(AnyProbe, ASingleLineStandsInTheMiddle) {
   EXPECT_NEAR(lineGeometry(linear, 0).origin.x, 0, 1e-15);
 }
 
+// Users' axes are rarely at right angles to the last digit: depth is kept, lateral made to fit.
 TEST(AnyProbe, TheFrameIsOrthonormalWhateverTheLateralDirection) {
   const Probe probe =
       probeOf({{"axis", "[1, 2, 3]"}, {"lateral", "[5, 0.1, 7]"}, {"apex", "[1, -2, 3]"}});
-  const Frame& f = probe.pose;
+  const Pose& f = probe.pose;
   for (const Vec3d axis : {f.x_axis, f.y_axis, f.z_axis}) EXPECT_NEAR(length(axis), 1, 1e-15);
   EXPECT_NEAR(dot(f.x_axis, f.y_axis), 0, 1e-15);
   EXPECT_NEAR(dot(f.x_axis, f.z_axis), 0, 1e-15);

@@ -55,6 +55,7 @@ TEST(Reference, IsThePercentileOfASortToATenthOfAPercent) {
   }
 }
 
+// The first 15 % of depth is bright for the probe's sake, not the heart's.
 TEST(Reference, LeavesTheNearFieldOut) {
   std::vector<float> plane(5000, 1.0f);
   for (std::size_t i = 0; i < plane.size(); ++i)
@@ -81,6 +82,7 @@ TEST(Reference, IsThatOfTheBrightSamplesWhenMostAreDark) {
   EXPECT_NEAR(histogram.percentile(50), 0.25, 2.5e-4);
 }
 
+// Frames are measured in parallel; the same loop must have the same white.
 TEST(Reference, DoesNotDependOnTheOrderOfFrames) {
   IntensityHistogram forwards(probe()), backwards(probe());
   for (unsigned i = 0; i < 9; ++i) {

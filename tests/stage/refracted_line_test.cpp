@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/scan_geometry.h"
 #include "support/plain_scene.h"
 #include "support/surfaces.h"
 #include "trace/interface_law.h"
@@ -31,6 +32,7 @@ struct Slab {
   }
 };
 
+// A plane slab shifts a ray sideways and gives it its direction back.
 TEST(RefractedLine, ASlabIsCrossedBySnellsLaw) {
   const Slab slab;
   for (const double angle : {0.0, 0.1, 0.3, 0.5, 0.7, 0.9}) {
@@ -43,6 +45,7 @@ TEST(RefractedLine, ASlabIsCrossedBySnellsLaw) {
   }
 }
 
+// R is the same from both sides along one ray.
 TEST(RefractedLine, LosesTheSameOnTheWayInAndOut) {
   const Slab slab;
   const LineTrace line = slab.line(0.6);

@@ -1,6 +1,7 @@
 // From beam space to pixels.
 
 #include "signal/scan_conversion.h"
+#include "scene/scan_geometry.h"
 
 #include <gtest/gtest.h>
 
@@ -68,6 +69,7 @@ std::pair<double, double> centroid(const GreyImage& image) {
 
 constexpr ProbeKind kKinds[] = {ProbeKind::phased, ProbeKind::curvilinear, ProbeKind::linear};
 
+// Against the geometry by hand, for all kinds of probes.
 TEST(ScanConversion, ABrightSampleLandsOnItsPixelWithinHalfAPixel) {
   for (const ProbeKind kind : kKinds) {
     const Converted c{sceneOf(kind, 161, 201)};
@@ -92,6 +94,7 @@ bool inside(const Scene& scene, double x_m, double z_m, double margin) {
   return r >= p.min_depth_m - margin && r <= p.max_depth_m + margin && side <= margin;
 }
 
+// Exactly 0 outside: readers find the sector by it.
 TEST(ScanConversion, InsideIsFilledAndOutsideIsExactlyBlack) {
   for (const ProbeKind kind : kKinds) {
     const Converted c{sceneOf(kind, 33, 50)};

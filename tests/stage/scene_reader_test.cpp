@@ -15,6 +15,7 @@ namespace {
 
 using namespace support;
 
+// The one place where other units than SI exist.
 TEST(SceneReader, TurnsEveryUnitIntoSI) {
   SceneText text = SceneText::oneBox("blood");
   text.probe = {{"apex", "[1, 2, -6.5]"}, {"axis", "[0, 0, 2]"}, {"lateral", "[3, 0, 1]"},
@@ -41,11 +42,11 @@ TEST(SceneReader, TurnsEveryUnitIntoSI) {
 
 TEST(SceneReader, ADirectionMayHaveAnyLengthButZero) {
   SceneText text = SceneText::oneBox("blood");
-  const Frame pose = parsed(text).probe.pose;
+  const Pose pose = parsed(text).probe.pose;
   for (const char* size : {"e-320", "e-200", "e-7", "e7", "e200", "e308"}) {
     text.setProbe("axis", std::string("[0, 0, 1") + size + "]");
     text.setProbe("lateral", std::string("[1") + size + ", 0, 0]");
-    const Frame scaled = parsed(text).probe.pose;
+    const Pose scaled = parsed(text).probe.pose;
     EXPECT_LT(length(scaled.z_axis - pose.z_axis), 1e-15) << size;
     EXPECT_LT(length(scaled.x_axis - pose.x_axis), 1e-15) << size;
   }
@@ -110,6 +111,7 @@ TEST(SceneReader, OneMediumOfTwoStructuresIsOneMedium) {
   EXPECT_EQ(scene.structures[2].medium, scene.background);
 }
 
+// lv_10 comes after lv_9, though not by letters.
 TEST(SceneReader, KeyframesOfAPatternAreSortedByTheirNumbersAndEvenlySpaced) {
   const TempFolder folder;
   for (const char* name : {"lv_10.obj", "lv_9.obj", "lv_1.obj", "lv_2.obj", "la_1.obj"})

@@ -22,6 +22,7 @@ double decibelsAt(const std::vector<float>& gains, int mm) {
   return 10 * std::log10(gains[static_cast<std::size_t>(mm - 1)]);
 }
 
+// As sliders do: straight in dB between them, held beyond the ends.
 TEST(TimeGain, IsLinearInDecibelsBetweenThePointsAndConstantBeyond) {
   const std::vector<float> gains =
       timeGains({{0.01, 0}, {0.02, 20}, {0.06, 28}, {0.09, -4}}, probe());

@@ -6,7 +6,8 @@
 //   signal arrives
 // Steps of memory are allocations made within main():
 //   memory   allocation N fails; shortage  all of 4 KiB or more from N on fail
-// ECHOCINE_FAULT_STEPS=FILE takes the number of both kinds of steps when the program ends.
+// ECHOCINE_FAULT_STEPS=FILE takes the number of both kinds of steps when the program ends, and of
+// files renamed by a thread that had not synced what it wrote last.
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -29,7 +30,8 @@ void* __libc_memalign(size_t, size_t);
 
 namespace {
 
-std::atomic<long> file_steps{0}, memory_steps{0};
+std::atomic<long> file_steps{0}, memory_steps{0}, unsynced_renames{0};
+thread_local bool unsynced = false;
 std::atomic<bool> in_main{false};
 char kind[16] = "";
 long step = 0;
@@ -85,7 +87,8 @@ int watchedMain(int argc, char** argv, char** environment) {
   in_main = false;
   if (const char* file = std::getenv("ECHOCINE_FAULT_STEPS"))
     if (std::FILE* out = std::fopen(file, "w")) {
-      std::fprintf(out, "%ld %ld\n", file_steps.load(), memory_steps.load());
+      std::fprintf(out, "%ld %ld %ld\n", file_steps.load(), memory_steps.load(),
+                   unsynced_renames.load());
       std::fclose(out);
     }
   return code;
@@ -120,12 +123,20 @@ int open(const char* path, int flags, ...) {
 ssize_t write(int file, const void* bytes, size_t size) {
   static const auto real = REAL(write);
   if (file <= STDERR_FILENO) return real(file, bytes, size);
+  unsynced = true;
   if (in_main && is("half") && file_steps + 1 == step) (void)!real(file, bytes, size / 2);
   return full(true) ? -1 : real(file, bytes, size);
 }
 
+int fsync(int file) {
+  static const auto real = REAL(fsync);
+  unsynced = false;
+  return real(file);
+}
+
 int rename(const char* from, const char* to) noexcept {
   static const auto real = REAL(rename);
+  if (in_main && unsynced) ++unsynced_renames;
   return full(false) ? -1 : real(from, to);
 }
 

@@ -18,7 +18,8 @@
 namespace echocine::support {
 
 struct Steps {
-  long files = 0, memory = 0;  // as tests/support/fault_injector.cpp counts them
+  long files = 0, memory = 0,
+       unsynced_renames = 0;  // as tests/support/fault_injector.cpp counts them
 };
 
 struct FaultyRun {
@@ -53,7 +54,7 @@ inline Outcome outcomeOf(const FaultyRun& run, Steps* steps = nullptr) {
   run.meanwhile(child);
   int status = 0;
   ::waitpid(child, &status, 0);
-  if (steps) std::ifstream(counts) >> steps->files >> steps->memory;
+  if (steps) std::ifstream(counts) >> steps->files >> steps->memory >> steps->unsynced_renames;
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), bytesOf(out),
           bytesOf(err)};
 }

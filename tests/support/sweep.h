@@ -3,8 +3,8 @@
 //
 // With the environment variable ECHOCINE_HARD_CASES set to a file, each sweep appends a row
 // `case | oracle | points | worst error | bound` to it (Markdown) and writes its points into a
-// folder beside it, named after the file, as CSV (src/study/sweep_files.h), which `echocine study
-// --sweeps` plots.
+// folder beside it, named after the file, as CSV (hard/plot/sweep_files.h), which `sweep_plots`
+// plots.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -47,6 +47,7 @@ TEST_F(CommandLine, HelpNamesCommandsAndUnits) {
   EXPECT_NE(runShell("%B --version").out.find(support::kVersion), std::string::npos);
 }
 
+// 2 and not 1: scripts try a failed job again, but not unusable arguments.
 TEST_F(CommandLine, UnusableArgumentsAreCodeTwo) {
   for (const char* line :
        {"%B", "%B rendr x", "%B render", "%B render a.toml", "%B render a.toml -o b --threads -1",
@@ -72,6 +73,7 @@ TEST_F(CommandLine, ASceneIsFoundFromItsOwnFolder) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
 }
 
+// One line, with what is accepted.
 TEST_F(CommandLine, AMissingSceneIsNamed) {
   expectUnusable({"scene.toml", "No such file"});
 }

@@ -49,6 +49,14 @@ TEST_F(FullDiskLoop, AtEachFileIsOneLineAndLeavesWholeFrames) {
 #endif
 }
 
+// Bytes reach the disk before their name does: lost power leaves no whole name on half a file.
+TEST_F(FullDiskLoop, NoFileIsRenamedBeforeItIsSynced) {
+  Steps counted;
+  ASSERT_EQ(outcomeOf(rendering(folder / "synced", {}, 2), &counted).code, 0);
+  EXPECT_GT(counted.files, 0);
+  EXPECT_EQ(counted.unsynced_renames, 0);
+}
+
 // What comes after the frames that were finished fails; their pictures play.
 TEST_F(FullDiskLoop, ALimitOfFileSizesLeavesWholeFramesOnly) {
   for (const long bytes : {0, 1, 512, 3000, 5000, 9000, 20000}) {

@@ -159,7 +159,7 @@ TEST_F(HeartCommand, WhatItWritesRendersWithoutAWarning) {
 }
 
 TEST_F(HeartCommand, TruthIsWhatTheMeshesHold) {
-  ASSERT_EQ(heart("--keyframes 4 --edv 150 --ef 0.5 --hr 80 --segment 4:0").code, 0);
+  ASSERT_EQ(heart("--keyframes 4 --edv 150 --ef 0.5 --hr 80 --segment 4:0 --rule volumes").code, 0);
   const nlohmann::json truth = nlohmann::json::parse(bytesOf(folder / "heart/truth.json"));
   const auto measured = [&](const char* part, std::size_t keyframe) {
     const std::string name = part + std::string("_0") + std::to_string(keyframe) + ".obj";

@@ -16,7 +16,7 @@ set(libraries
   "embree3/=geometry"
   "(OpenEXR/|Imath/|Imf.*\\.h$|half\\.h$)=output"
   "opencv2/(core|imgproc)=signal,metrics,video,output,compare"
-  "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
+  "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$|zlib\\.h$)=video"
   "CLI/=cli"
   "nlohmann/=scene,heart,output,page,simulate,compare,render,study,cli"
   "fmt/=*"
@@ -39,18 +39,19 @@ set(rooms
   "heart=cycle|mesh,subdivision"
   "motion=mesh,keyframes,interior,subdivision|repair,cycle"
   "geometry=motion"
-  "truth=geometry"
+  "truth=geometry,motion,interior"
   "trace=geometry"
   "speckle=trace,interior,motion"
   "signal=trace"
   "metrics=signal,trace"
   "video=signal"
-  "output=signal,motion,heart|video"
+  "output=signal,motion,heart,truth|video"
   "simulate=output,motion,cycle,geometry,trace,speckle,signal"
   "compare=simulate,video,metrics,signal,truth,page|motion,output"
-  "render=simulate,cycle,output,page,video|signal"
+  "render=simulate,cycle,output,page,video,truth|signal"
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
-  "cli=render,compare,study,output|simulate,motion,keyframes,cycle,heart")
+  "echocine=render,simulate,heart"
+  "cli=render,compare,study,output|video,simulate,motion,keyframes,cycle,heart")
 
 function(room_of path out)
   string(REGEX REPLACE "^src/" "" path "${path}")

@@ -34,6 +34,7 @@ void expectBounded(const Lines& signal, double limit) {
   EXPECT_LT(thousand, limit * hundred);
 }
 
+// Nothing may be kept per frame: loops are long.
 TEST(PeakMemory, OfAThousandFramesIsThatOfAHundred) {
   expectBounded({{"reference_intensity", "1e-7"}}, 1.1);
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "motion/mesh_motion.h"
+#include "scene/scan_geometry.h"
 #include "support/plain_scene.h"
 #include "support/scene_text.h"
 #include "support/temp_folder.h"
@@ -74,7 +75,7 @@ class ExactRay {
 
   ExactLine trace(const LineGeometry& start) {
     p_ = {start.origin.x, start.origin.y, start.origin.z};
-    d_ = {start.direction.x, start.direction.y, start.direction.z};
+    wave_ = d_ = {start.direction.x, start.direction.y, start.direction.z};
     ExactLine line;
     Real path = 0, exponent = 0, passed = 1;
     for (int shell = 0; !line.ends;) {  // 0 outside, 1 wall, 2 cavity
@@ -120,7 +121,7 @@ class ExactRay {
                      Real distance, Real& passed) {
     p_ = p_ + distance * d_;
     const Vec3r normal = (1 / radius) * fromCentre();
-    const Real cos_i = std::abs(dot(normal, d_)), sin_i = std::sqrt(1 - cos_i * cos_i);
+    const Real cos_i = std::abs(dot(normal, wave_)), sin_i = std::sqrt(1 - cos_i * cos_i);
     const Real r = static_cast<Real>(to.sound_speed_m_s) / from.sound_speed_m_s;
     ExactEdge& piece = line.pieces.back();
     piece.incidence_deg = std::acos(cos_i) * 180 / std::numbers::pi_v<Real>;
@@ -132,16 +133,20 @@ class ExactRay {
     const Real cos_t = line.ends ? 0 : std::sqrt(1 - r * r * sin_i * sin_i);
     const Real a = to.impedance_kg_m2_s * cos_i, b = from.impedance_kg_m2_s * cos_t;
     const Real R = line.ends ? 1 : (a - b) / (a + b) * ((a - b) / (a + b));
-    piece.echo = passed * R * cos_i * cos_i;
+    const Real Z_1 = from.impedance_kg_m2_s, Z_2 = to.impedance_kg_m2_s;
+    const Real upright = (Z_2 - Z_1) / (Z_2 + Z_1);
+    piece.echo = passed * std::min(R, upright * upright) * cos_i * cos_i;
     passed *= (1 - R) * (1 - R);
-    if (line.ends || !refraction_) return;
+    if (line.ends) return;
     const Vec3r forward = dot(normal, d_) < 0 ? -normal : normal;
-    d_ = normalised(r * d_ + (cos_t - r * cos_i) * forward);
+    wave_ = normalised(r * wave_ + (cos_t - r * cos_i) * forward);
+    if (refraction_) d_ = wave_;
   }
 
   const Scene& scene_;
   bool refraction_;
   Vec3r p_{}, d_{};
+  Vec3r wave_{};  // Snell's direction, which straight rays carry for their angles
 };
 
 // I_R of section 4.1 at a path length.

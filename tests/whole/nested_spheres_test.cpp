@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/scan_geometry.h"
 #include "whole/nested_spheres.h"
 
 namespace echocine {
@@ -57,9 +58,13 @@ void compareBackscatter(const Traced& traced, const ExactLine& exact, int line, 
 // left out.
 void compareEchoes(const Traced& traced, const ExactLine& exact, int line, Errors& errors) {
   const Sampling sampling = samplingOf(traced.scene.probe);
+  const Real pulse_m = static_cast<Real>(traced.scene.signal.pulse_cycles) *
+                       ScanGeometry(traced.scene.probe).wavelength() / 2;
+  const Real echo_samples = std::max<Real>(pulse_m / sampling.spacing_m, 1);
   for (std::size_t i = 0; i + 1 < exact.pieces.size(); ++i) {
     const ExactEdge& p = exact.pieces[i];
-    const Real reach = 6 * sampling.spacing_m;
+    // Interfaces that one pulse holds are left out too.
+    const Real reach = std::max<Real>(6 * sampling.spacing_m, pulse_m);
     if (p.incidence_deg >= 60 || p.end_m > traced.scene.probe.max_depth_m - reach) continue;
     if ((i > 0 && p.end_m - p.begin_m < reach) ||
         (i + 2 < exact.pieces.size() && exact.pieces[i + 1].end_m - p.end_m < reach))
@@ -69,7 +74,7 @@ void compareEchoes(const Traced& traced, const ExactLine& exact, int line, Error
     for (int k = centre - 2; k <= centre + 2; ++k)
       sum += traced.value(Channel::reflection, line, k);
     const Real expected =
-        p.echo *
+        echo_samples * p.echo *
         std::exp(-(p.exponent + 4 * p.medium->attenuation_np_per_m * (p.end_m - p.begin_m)));
     ++errors.echoes;
     errors.worst_echo =

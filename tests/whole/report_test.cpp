@@ -25,7 +25,7 @@ class Reports : public ::testing::Test {
   std::string render(const Lines& output, const std::string& more = "") {
     SceneText text = ballScene(5);
     for (const auto& [key, value] : output) text.output[key] = value;
-    const Outcome outcome = renderScene(writeBall(folder, text), out, more);
+    const Outcome outcome = renderScene(writeBall(folder, text), out, more + " --overwrite");
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return fs::exists(out / "report.html") ? bytesOf(out / "report.html") : "";
   }

@@ -54,6 +54,7 @@ TEST_F(PartsOfALoop, AShorterRunLeavesNoFrameOfALongerOne) {
             (std::set<std::string>{"frame_0000.exr", "frame_0001.exr"}));
 }
 
+// The bytes of an undisturbed run, whatever was there before.
 TEST_F(PartsOfALoop, ResumingMendsWhatIsMissingTruncatedOrGarbageToTheSameBytes) {
   ASSERT_EQ(render().code, 0);
   const auto whole = lastingFiles(out);
@@ -68,6 +69,87 @@ TEST_F(PartsOfALoop, ResumingMendsWhatIsMissingTruncatedOrGarbageToTheSameBytes)
   EXPECT_EQ(lastingFiles(out), whole);
   EXPECT_EQ(fs::last_write_time(out / "intensity/frame_0000.exr"), kept);
   EXPECT_TRUE(fs::exists(out / "manifest.json"));
+}
+
+// What a disk or a copy does to a file whose size stays; the manifest of the earlier run is there.
+TEST_F(PartsOfALoop, ResumingMendsAFlippedByteToTheSameBytesAndSaysSo) {
+  for (const char* compression : {"none", "rle", "zips", "zip", "piz", "pxr24"}) {
+    SceneText text = ballScene(6);
+    text.output["exr_compression"] = std::string("\"") + compression + "\"";
+    folder.write("scene.toml", text.text());
+    fs::remove_all(out);
+    ASSERT_EQ(render().code, 0);
+    const auto whole = lastingFiles(out);
+    const fs::path damaged = out / "intensity/frame_0002.exr";
+    std::string bytes = bytesOf(damaged);
+    bytes[bytes.size() - 40] = static_cast<char>(bytes[bytes.size() - 40] ^ 0x10);
+    std::ofstream(damaged, std::ios::binary) << bytes;
+    const Outcome outcome =
+        runShell("%B render '" + scene.string() + "' -o '" + out.string() + "' --resume 2>&1");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("frame_0002.exr: damaged"), std::string::npos) << outcome.out;
+    EXPECT_EQ(lastingFiles(out), whole) << compression;
+  }
+}
+
+// A frame that is sound in itself, but another one than the manifest tells of.
+TEST_F(PartsOfALoop, ResumingMakesFramesAgainThatTheManifestDoesNotKnow) {
+  ASSERT_EQ(render().code, 0);
+  const auto whole = lastingFiles(out);
+  std::string manifest = bytesOf(out / "manifest.json");
+  const std::string hash = [&] {
+    const std::size_t at = manifest.find("\"intensity/frame_0001.exr\": \"");
+    return manifest.substr(at + 29, 64);
+  }();
+  for (std::size_t at = 0; (at = manifest.find(hash)) != std::string::npos;)
+    manifest.replace(at, 64, std::string(64, 'e'));
+  std::ofstream(out / "manifest.json") << manifest;
+  const Outcome outcome =
+      runShell("%B render '" + scene.string() + "' -o '" + out.string() + "' --resume 2>&1");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("frame_0001.exr: not the file"), std::string::npos) << outcome.out;
+  EXPECT_EQ(lastingFiles(out), whole);
+}
+
+TEST_F(PartsOfALoop, AFolderOfAnotherSceneIsReplacedOnlyWhenAsked) {
+  ASSERT_EQ(render().code, 0);
+  ASSERT_EQ(render().code, 0) << "the same scene again";
+  const auto before = lastingFiles(out);
+  SceneText text = ballScene(6);
+  text.setProbe("frequency_mhz", "2.6");
+  folder.write("scene.toml", text.text());
+  const Outcome outcome = render();
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("--overwrite"), std::string::npos) << outcome.err;
+  EXPECT_EQ(lastingFiles(out), before);
+  EXPECT_TRUE(fs::exists(out / "manifest.json"));
+  fs::remove_all(out / "intensity");
+  EXPECT_EQ(render().code, 2) << "the manifest alone tells";
+  EXPECT_EQ(render("--overwrite").code, 0);
+}
+
+TEST_F(PartsOfALoop, AFreshRunRemovesNoNameThatItNeverWrites) {
+  ASSERT_EQ(render().code, 0);
+  const std::set<std::string> own{"frame_1.exr", "frame_00000.exr", "frame_+001.exr"};
+  for (const std::string& name : own) std::ofstream(out / "intensity" / name) << "mine";
+  ASSERT_EQ(render("--frames=0:1").code, 0);
+  for (const std::string& name : own) EXPECT_TRUE(fs::exists(out / "intensity" / name)) << name;
+  EXPECT_FALSE(fs::exists(out / "intensity/frame_0001.exr"));
+}
+
+// The reference of a long loop is of frames spread over it; parts show the grey of the whole.
+TEST_F(PartsOfALoop, APartOfALongLoopIsThatOfTheWholeAndMeasuresFewFrames) {
+  SceneText text = ballScene(200);
+  text.output["report"] = "false";
+  folder.write("scene.toml", text.text());
+  ASSERT_EQ(render().code, 0);
+  const fs::path part = folder / "part";
+  const Outcome outcome = runShell("%B render '" + scene.string() + "' -o '" + part.string() +
+                                   "' --frames=150:152 2>&1");
+  ASSERT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("/64 frames"), std::string::npos) << outcome.out;
+  for (const char* name : {"frame_0150.exr", "frame_0151.exr"})
+    EXPECT_EQ(bytesOf(part / "intensity" / name), bytesOf(out / "intensity" / name)) << name;
 }
 
 TEST_F(PartsOfALoop, ResumingAChangedSceneIsRefusedAndHarmsNothing) {

@@ -20,6 +20,7 @@ namespace {
 
 using namespace support;
 
+// The contract: same scene, same bytes, whatever the number of threads.
 TEST(SameBytes, OneTwoAndFourThreadsWriteTheSameFiles) {
   const TempFolder folder;
   for (const auto& [name, refraction, rays] :
@@ -57,6 +58,7 @@ TEST(SameBytes, AnotherRunWritesTheSameFiles) {
 }
 
 // Rays are drawn for the number of the frame in its loop, not for the order of the work.
+// Its reference is that of the whole loop, so parts can be rendered on many machines.
 TEST(SameBytes, APartOfALoopHasTheBeamsOfTheWhole) {
   const TempFolder folder;
   SceneText text = ballScene(5);

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "scene/scan_geometry.h"
 #include "whole/nested_spheres.h"
 
 namespace echocine {
@@ -122,9 +123,9 @@ std::array<double, 2> echoErrors(const Scene& scene) {
   for (int i = 0; i < scene.probe.lines; ++i) {
     const ExactLine exact = ray.trace(lineGeometry(scene.probe, i));
     const std::vector<Echo>& echoes = frame.traces[static_cast<std::size_t>(i)].echoes;
-    if (exact.worst_incidence_deg > 60 || echoes.size() + 1 != exact.edges.size()) continue;
+    if (exact.worst_incidence_deg > 60 || echoes.size() + 1 != exact.pieces.size()) continue;
     for (std::size_t k = 0; k < echoes.size(); ++k) {
-      const double error = std::abs(echoes[k].intensity / double(exact.edges[k].echo) - 1);
+      const double error = std::abs(echoes[k].intensity / double(exact.pieces[k].echo) - 1);
       sum += error * error;
       worst = std::max(worst, error);
       ++count;

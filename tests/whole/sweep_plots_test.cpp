@@ -27,7 +27,7 @@ class StudySweeps : public ::testing::Test {
     return folder.write("sweeps/" + name, text);
   }
   Outcome plot() {
-    return runShell(kSweepPlots + (" '" + (folder / "sweeps").string() + "' '" +
+    return runShell(kSweepPlots + (" '" + (folder / "sweeps").string()) + "' '" +
                     (folder / "out").string() + "'");
   }
   TempFolder folder;
@@ -130,8 +130,7 @@ TEST_F(StudySweeps, ThatAreNoneAreRefusedByFileAndLine) {
 }
 
 TEST_F(StudySweeps, NeedAFolderOfThem) {
-  for (const char* arguments :
-       {"", "nowhere", "nowhere x", "nowhere x y"}) {
+  for (const char* arguments : {"", "nowhere", "nowhere x", "nowhere x y"}) {
     const Outcome outcome =
         runShell("cd '" + folder.path().string() + "' && " + kSweepPlots + " " + arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;

@@ -80,6 +80,7 @@ TEST(TracersAgree, OnTheShippedHeart) {
   expectAgreement(readScene(fs::path(support::kSourceDir) / "examples/beating_heart/scene.toml"));
 }
 
+// Meshes that nobody made for this program.
 TEST(TracersAgree, OnTheRealPatient) {
   const fs::path meshes = kShared / "real/meshes/bivme_patient1_25f";
   if (!fs::exists(meshes)) GTEST_SKIP() << "no real patient at " << meshes;

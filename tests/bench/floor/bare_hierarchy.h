@@ -10,6 +10,7 @@
 
 #include "bench/bench_scene.h"
 #include "geometry/frame_geometry.h"
+#include "scene/scan_geometry.h"
 
 namespace echocine::bench {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/bench_scene.h"
+#include "scene/scan_geometry.h"
 #include "signal/beam_width.h"
 #include "signal/scan_conversion.h"
 

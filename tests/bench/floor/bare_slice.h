@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/bench_scene.h"
+#include "scene/scan_geometry.h"
 
 namespace echocine::bench {
 

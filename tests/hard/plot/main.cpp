@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "core/error.h"
 #include "core/file.h"
 #include "sweep_page.h"
 
@@ -16,8 +17,11 @@ int main(int argc, char** argv) {
     const std::vector<echocine::HardCaseSweep> sweeps = echocine::readSweeps(argv[1]);
     echocine::makeFolder(argv[2]);
     echocine::writeSweepPage(sweeps, std::filesystem::path(argv[2]) / "sweeps.html");
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "%s\n", e.what());
+  } catch (const echocine::SceneError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
     return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
   }
 }

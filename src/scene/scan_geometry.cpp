@@ -1,4 +1,4 @@
-#include "scene/probe.h"
+#include "scene/scan_geometry.h"
 
 #include <cmath>
 
@@ -25,6 +25,27 @@ double lineSpacing(const Probe& probe, double depth_m) {
   const double angle = (probe.last_angle_rad - probe.first_angle_rad) / (probe.lines - 1);
   const double offset = (probe.last_offset_m - probe.first_offset_m) / (probe.lines - 1);
   return angle * (probe.face_radius_m + depth_m) + offset;
+}
+
+ScanGeometry::ScanGeometry(const Probe& probe)
+    : probe_(probe),
+      angular_(probe.kind != ProbeKind::linear),
+      first_place_(angular_ ? probe.first_angle_rad : probe.first_offset_m),
+      last_place_(angular_ ? probe.last_angle_rad : probe.last_offset_m) {}
+
+double ScanGeometry::placeOf(Vec3d p) const {
+  return angular_ ? std::atan2(p.x, p.z) : p.x;
+}
+
+double ScanGeometry::pathOf(Vec3d p) const {
+  return angular_ ? length(p) - probe_.face_radius_m : p.z;
+}
+
+std::optional<ScanGeometry::BeamPosition> ScanGeometry::beamPosition(double x_m, double z_m) const {
+  const double t = (placeOf({x_m, 0, z_m}) - first_place_) / (last_place_ - first_place_);
+  if (!(t >= 0 && t <= 1)) return std::nullopt;
+  const double last = probe_.lines - 1;
+  return BeamPosition{t * last, angular_ ? std::hypot(x_m, z_m) - probe_.face_radius_m : z_m};
 }
 
 }  // namespace echocine

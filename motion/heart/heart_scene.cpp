@@ -1,0 +1,133 @@
+#include "motion/heart/heart_scene.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "scene/names.h"
+#include "scene/role.h"
+#include "scene/scene_reader.h"
+
+namespace echocine::heart {
+
+namespace {
+
+std::string vectorText(Vec3d v, double unit) {
+  return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x / unit + 0.0, v.y / unit + 0.0,
+                     v.z / unit + 0.0);
+}
+
+std::string listText(const std::vector<double>& values) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0) text += i % 10 == 0 ? ",\n  " : ", ";
+    text += fmt::format("{:.6f}", values[i]);
+  }
+  return text + "]";
+}
+
+const char* meaningOf(View view) {
+  for (const ViewName& name : viewNames())
+    if (name.view == view) return name.meaning;
+  return "";
+}
+
+std::string structureText(const RecordedPart& part, const std::string& mesh_folder) {
+  std::string text = fmt::format("\n[[structure]]\nname = \"{}\"\nmedium = \"{}\"\n",
+                                 part.kind.name, part.kind.medium);
+  text +=
+      part.kind.membrane ? "membrane = true\n" : fmt::format("priority = {}\n", part.kind.priority);
+  if (const Role role = guessRole(part.kind.name); role != Role::none)
+    text += fmt::format("role = \"{}\"\n", nameOf(role));
+  if (part.kind.reflection_gain != 1)
+    text += fmt::format("reflection_gain = {:g}\n", part.kind.reflection_gain);
+  const bool still = part.control_m.size() == 1;
+  return text + fmt::format("keyframes = \"{}{}{}.obj\"\n", mesh_folder, part.kind.name,
+                            still ? "" : "_??");
+}
+
+// In millimetres, to a micrometre, as the files have it.
+std::shared_ptr<const TriangleMesh> meshInMemory(const RecordedPart& part, std::size_t keyframe) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  const auto millimetres = [](double metres) { return std::round(metres * 1e6) / 1e3 + 0.0; };
+  for (const Vec3d p : part.control_m[keyframe])
+    mesh->positions.push_back({millimetres(p.x), millimetres(p.y), millimetres(p.z)});
+  mesh->triangles = part.faces;
+  mesh->tags = part.tags;
+  return mesh;
+}
+
+}  // namespace
+
+std::string meshName(const RecordedPart& part, std::size_t keyframe) {
+  return part.control_m.size() == 1 ? part.kind.name + ".obj"
+                                    : fmt::format("{}_{:02d}.obj", part.kind.name, keyframe);
+}
+
+std::string sceneText(View view, const Parameters& parameters, const Recording& recording,
+                      const std::string& mesh_folder) {
+  const ProbePose& pose = recording.pose;
+  const double hr_bpm = parameters.heart_rate_bpm;
+  constexpr double kMillimetre = 1e-3;
+  std::string text = fmt::format(
+      R"(# A parametric heart, {}, {:g} beats per minute.
+# World axes in mm: origin at the mitral ring at end-diastole, z to the apex of the left ventricle,
+# x from the septum to its lateral wall, y to its anterior wall.
+
+background = "soft_tissue"
+
+[probe]
+kind = "phased"
+apex = {}
+axis = {}
+lateral = {}
+sector_deg = {:g}
+min_depth_mm = 2
+depth_mm = {:g}
+frequency_mhz = 2.5
+lines = 256
+samples = 1024
+
+[acquisition]
+heart_rate_bpm = {:g}
+frame_rate_hz = 50
+beats = 1
+
+[motion]
+mesh_unit = "mm"
+subdivision = {}   # the meshes are control meshes of Loop surfaces
+keyframe_heart_rate_bpm = {:g}   # another heart_rate_bpm above plays them with a diastole of other length
+end_systole_phase = {:.6f}
+keyframe_phases = {}
+
+[signal]
+dynamic_range_db = 55
+reference_intensity = 2e-4   # white, of the transmitted intensity: one gain for all hearts and views
+
+# Where structures overlap the highest priority wins. Cavities pierce walls; the septum belongs to the
+# left ventricle and the right heart is wrapped round it.
+)",
+      meaningOf(view), hr_bpm, vectorText(pose.apex, kMillimetre), vectorText(pose.axis, 1),
+      vectorText(pose.lateral, 1), pose.sector_deg, std::round(pose.depth_m / kMillimetre), hr_bpm,
+      Recording::kLevels, hr_bpm, recording.end_systole_phase, listText(recording.phases));
+  for (const RecordedPart& part : recording.parts) text += structureText(part, mesh_folder);
+  return text;
+}
+
+Scene sceneOf(View view, const Parameters& parameters, const Recording& recording) {
+  NamedMeshes meshes;
+  for (const RecordedPart& part : recording.parts)
+    for (std::size_t k = 0; k < part.control_m.size(); ++k)
+      meshes.emplace(meshName(part, k), meshInMemory(part, k));
+  return parseScene(sceneText(view, parameters, recording, ""), "heart", meshes);
+}
+
+Scene heartScene(const Parameters& parameters, View view, int keyframes) {
+  if (const std::string fault = faultOf(parameters); !fault.empty())
+    throw SceneError("heart: " + fault);
+  const ParametricHeart model(parameters);
+  return sceneOf(view, parameters, record(model, view, keyframes));
+}
+
+}  // namespace echocine::heart

@@ -1,0 +1,29 @@
+#pragma once
+// A fast digest of bytes, to tell damage from what was written; not against forgers, for whom the
+// SHA-256 in the manifest is.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace echocine {
+
+// Four lanes of 64 bits, each fed every fourth word by a step that is one to one in both the word
+// and the lane: bytes that differ within one word of eight always differ in their digest.
+class Digest {
+ public:
+  // Precondition: all pieces but the last are multiples of 32 bytes.
+  void update(std::span<const std::byte> bytes);
+  std::string hex();  // kDigits digits; call once, at the end
+
+  static constexpr std::size_t kDigits = 64;
+
+ private:
+  std::array<std::uint64_t, 4> lanes_{0x9e3779b97f4a7c15ULL, 0xbf58476d1ce4e5b9ULL,
+                                      0x94d049bb133111ebULL, 0xd6e8feb86659fd93ULL};
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace echocine

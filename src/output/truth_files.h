@@ -1,0 +1,58 @@
+#pragma once
+// The truth of frames as files: label pictures and contours.
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "output/frame_record.h"
+#include "signal/picture.h"
+#include "truth/frame_truth.h"
+
+namespace echocine {
+
+// The picture's pixels as truth has them.
+PictureGrid pictureGrid(const Scene& scene);
+
+class TruthFiles {
+ public:
+  // Makes `folder` where the scene asks for truth files, rid of those of earlier runs. References
+  // are kept.
+  TruthFiles(std::filesystem::path folder, const Scene& scene, const LabelTable& labels);
+
+  // Writes a frame's files; returns their names, relative to the run's folder, and SHA-256.
+  // Thread-safe. Throws JobError.
+  std::map<std::string, std::string> write(const FrameRecord& record,
+                                           const FrameTruth& truth) const;
+
+  // Keeps what goes into one file of the whole loop. One call at a time, in the order of the
+  // frames.
+  void add(const FrameRecord& record, const FrameTruth& truth);
+
+  // tracks.npz and function.json of the frames that were added.
+  std::map<std::string, std::string> finish(std::span<const TruthMaker::Tracked> tracked) const;
+
+  // What holds for all frames: labels.json.
+  std::map<std::string, std::string> writeTables() const;
+
+ private:
+  std::string functionText() const;
+  std::vector<std::byte> tracksFile(std::span<const TruthMaker::Tracked> tracked) const;
+  std::vector<std::byte> labelPicture(const FrameTruth& truth) const;
+  std::string contoursText(const FrameRecord& record, const FrameTruth& truth) const;
+  std::string put(const std::string& name, std::span<const std::byte> bytes) const;
+
+  std::filesystem::path folder_;
+  const Scene& scene_;
+  const LabelTable& labels_;
+  PictureGeometry geometry_;
+  std::vector<Vec3d> outline_;
+  std::vector<FrameRecord> records_;
+  std::vector<FunctionFrame> functions_;
+  std::vector<float> tracks_mm_, tracks_px_, out_of_plane_mm_;
+  std::vector<std::uint8_t> tracks_visible_;
+};
+
+}  // namespace echocine

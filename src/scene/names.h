@@ -1,0 +1,176 @@
+#pragma once
+// What every choice of a scene is called, once: the reader, the JSON of results, the study and
+// messages all look here. A new value of an enum needs its line here and nothing else to be
+// readable.
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+#include "core/check.h"
+#include "scene/channel.h"
+#include "scene/scene.h"
+
+namespace echocine {
+
+template <typename E>
+struct Named {
+  E value;
+  const char* name;
+};
+
+template <typename E>
+struct NamesOf;
+
+template <>
+struct NamesOf<ProbeKind> {
+  static constexpr Named<ProbeKind> kAll[] = {{ProbeKind::phased, "phased"},
+                                              {ProbeKind::curvilinear, "curvilinear"},
+                                              {ProbeKind::linear, "linear"}};
+};
+
+template <>
+struct NamesOf<WarpChoice> {
+  static constexpr Named<WarpChoice> kAll[] = {{WarpChoice::automatic, "auto"},
+                                               {WarpChoice::uniform, "uniform"},
+                                               {WarpChoice::systole, "systole"}};
+};
+
+template <>
+struct NamesOf<Interpolation> {
+  static constexpr Named<Interpolation> kAll[] = {{Interpolation::linear, "linear"},
+                                                  {Interpolation::catmull_rom, "catmull-rom"},
+                                                  {Interpolation::spline, "spline"},
+                                                  {Interpolation::fourier, "fourier"}};
+};
+
+template <>
+struct NamesOf<Switch> {
+  static constexpr Named<Switch> kAll[] = {
+      {Switch::automatic, "auto"}, {Switch::on, "on"}, {Switch::off, "off"}};
+};
+
+template <>
+struct NamesOf<Tgc> {
+  static constexpr Named<Tgc> kAll[] = {
+      {Tgc::perfect, "perfect"}, {Tgc::mean, "mean"}, {Tgc::table, "table"}, {Tgc::none, "none"}};
+};
+
+template <>
+struct NamesOf<Spread> {
+  static constexpr Named<Spread> kAll[] = {{Spread::compensate, "compensate"},
+                                           {Spread::keep, "keep"}};
+};
+
+template <>
+struct NamesOf<BeamWidth> {
+  static constexpr Named<BeamWidth> kAll[] = {
+      {BeamWidth::focused, "focused"}, {BeamWidth::fixed, "fixed"}, {BeamWidth::none, "none"}};
+};
+
+template <>
+struct NamesOf<TracerChoice> {
+  static constexpr Named<TracerChoice> kAll[] = {{TracerChoice::automatic, "auto"},
+                                                 {TracerChoice::slice, "slice"},
+                                                 {TracerChoice::embree, "embree"}};
+};
+
+template <>
+struct NamesOf<InterfaceEcho> {
+  static constexpr Named<InterfaceEcho> kAll[] = {{InterfaceEcho::automatic, "auto"},
+                                                  {InterfaceEcho::centre, "centre"},
+                                                  {InterfaceEcho::cell, "cell"}};
+};
+
+template <>
+struct NamesOf<Normals> {
+  static constexpr Named<Normals> kAll[] = {
+      {Normals::automatic, "auto"}, {Normals::facet, "facet"}, {Normals::smooth, "smooth"}};
+};
+
+template <>
+struct NamesOf<ExrCompression> {
+  static constexpr Named<ExrCompression> kAll[] = {
+      {ExrCompression::none, "none"}, {ExrCompression::rle, "rle"},
+      {ExrCompression::zips, "zips"}, {ExrCompression::zip, "zip"},
+      {ExrCompression::piz, "piz"},   {ExrCompression::pxr24, "pxr24"}};
+};
+
+template <>
+struct NamesOf<ExrPixel> {
+  static constexpr Named<ExrPixel> kAll[] = {{ExrPixel::whole, "float"}, {ExrPixel::half, "half"}};
+};
+
+template <>
+struct NamesOf<CineCodec> {
+  static constexpr Named<CineCodec> kAll[] = {{CineCodec::mjpg, "mjpg"}, {CineCodec::ffv1, "ffv1"}};
+};
+
+template <>
+struct NamesOf<Role> {
+  static constexpr Named<Role> kAll[] = {{Role::none, "none"},
+                                         {Role::lv_cavity, "lv_cavity"},
+                                         {Role::lv_wall, "lv_wall"},
+                                         {Role::rv_cavity, "rv_cavity"},
+                                         {Role::rv_wall, "rv_wall"},
+                                         {Role::la, "la"},
+                                         {Role::la_wall, "la_wall"},
+                                         {Role::ra, "ra"},
+                                         {Role::ra_wall, "ra_wall"},
+                                         {Role::aorta, "aorta"},
+                                         {Role::aortic_wall, "aortic_wall"},
+                                         {Role::pulmonary_artery, "pulmonary_artery"},
+                                         {Role::pulmonary_wall, "pulmonary_wall"},
+                                         {Role::mitral_valve, "mitral_valve"},
+                                         {Role::aortic_valve, "aortic_valve"},
+                                         {Role::tricuspid_valve, "tricuspid_valve"},
+                                         {Role::pulmonary_valve, "pulmonary_valve"},
+                                         {Role::papillary_muscle, "papillary_muscle"},
+                                         {Role::epicardium, "epicardium"},
+                                         {Role::pericardium, "pericardium"},
+                                         {Role::surroundings, "surroundings"}};
+};
+
+template <>
+struct NamesOf<Effect> {
+  static constexpr Named<Effect> kAll[] = {{Effect::reflection, "reflection"},
+                                           {Effect::lobe, "lobe"},
+                                           {Effect::transmission_loss, "transmission_loss"},
+                                           {Effect::refraction, "refraction"},
+                                           {Effect::snell_angles, "snell_angles"},
+                                           {Effect::reflection_cap, "reflection_cap"},
+                                           {Effect::thin_layers, "thin_layers"},
+                                           {Effect::attenuation, "attenuation"},
+                                           {Effect::backscatter, "backscatter"},
+                                           {Effect::spread, "spread"},
+                                           {Effect::beam_width, "beam_width"},
+                                           {Effect::elevation, "elevation"},
+                                           {Effect::travel_time, "travel_time"},
+                                           {Effect::speckle, "speckle"},
+                                           {Effect::tgc, "tgc"},
+                                           {Effect::log_compression, "log_compression"},
+                                           {Effect::labels, "labels"},
+                                           {Effect::truth_labels, "truth labels"},
+                                           {Effect::truth_contours, "truth contours"},
+                                           {Effect::truth_tracks, "truth tracks"},
+                                           {Effect::truth_function, "truth function"},
+                                           {Effect::channel, "channel"}};
+};
+
+template <typename E>
+const char* nameOf(E value) {
+  for (const Named<E>& entry : NamesOf<E>::kAll)
+    if (entry.value == value) return entry.name;
+  CHECK_EQ(static_cast<int>(value), -1);  // a value without a line above
+  return "";
+}
+
+template <typename E>
+std::optional<E> valueOf(std::string_view name) {
+  for (const Named<E>& entry : NamesOf<E>::kAll)
+    if (entry.name == name) return entry.value;
+  return std::nullopt;
+}
+
+}  // namespace echocine

@@ -1,0 +1,38 @@
+#pragma once
+// What each number of a scene may be: wider than anything physical, and narrow enough that products
+// of a few of them are still numbers. Our choice throughout.
+
+#include "scene/toml_table.h"
+
+namespace echocine::ranges {
+
+inline constexpr NumberRange kSector_deg{.lo = 0.001, .hi = 180};
+inline constexpr NumberRange kExtent_mm{.lo = 0.001, .hi = 1e4};  // width, depth, apertures, beam
+inline constexpr NumberRange kNearEnd_mm{.lo = 0, .hi = 1e4};
+inline constexpr NumberRange kRadius_mm{.lo = 0.001, .hi = 1e6};  // of a face; of a focus
+inline constexpr NumberRange kUnitVolume_cm3{.lo = 1e-12, .hi = 1e12};
+inline constexpr NumberRange kReflectionGain{.lo = 0, .hi = 1e6};
+inline constexpr NumberRange kDensity_kg_m3{.lo = 1e-3, .hi = 1e5};  // air 1.2, osmium 22590
+inline constexpr NumberRange kSoundSpeed_m_s{.lo = 1, .hi = 1e5};    // rubber 40, diamond 18000
+inline constexpr NumberRange kAttenuation_db_cm_mhz{.lo = 0, .hi = 1e6};
+inline constexpr NumberRange kBackscatter_per_cm_sr{.lo = 0, .hi = 1e9};
+inline constexpr NumberRange kCellRadius_um{.lo = 1e-6, .hi = 1e6};
+inline constexpr NumberRange kCompressibility_cm2_dyn{.lo = 1e-18, .hi = 1e-3};  // water 5e-11
+inline constexpr NumberRange kCorrelationLength_um{.lo = 0, .hi = 1e9};
+inline constexpr NumberRange kDynamicRange_db{.lo = 0.01, .hi = 1000};
+inline constexpr NumberRange kReferenceIntensity{.lo = 1e-37, .hi = 1e37};  // floats
+inline constexpr NumberRange kGamma{.lo = 0.01, .hi = 100};
+inline constexpr NumberRange kToleranceLines{.lo = 0, .hi = 1e6};
+inline constexpr NumberRange kTolerance_db{.lo = 1e-6, .hi = 1000};
+inline constexpr NumberRange kBeats{.lo = 1e-6, .hi = 1e6};
+
+// Of a place in mesh units: its cube is still a float.
+inline constexpr double kMostCoordinate = 1e9;
+
+// Keyframes nearer to one another than this have no motion between them.
+inline constexpr double kLeastPhaseStep = 1e-6;
+
+// Most keyframes of a structure; a beat at 1000 frames per second has as many at 15 bpm.
+inline constexpr int kMostKeyframes = 4096;
+
+}  // namespace echocine::ranges

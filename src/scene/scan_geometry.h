@@ -1,0 +1,64 @@
+#pragma once
+// Where lines and samples of a probe lie, and back: the one place that knows what kinds of probes
+// there are. All kinds lay their lines evenly along one coordinate, their `place`: an angle where
+// lines meet in the apex, an offset (m) where they run side by side.
+
+#include <optional>
+
+#include "core/vec3.h"
+#include "scene/probe.h"
+
+namespace echocine {
+
+// Start and unit direction of a scan line in the probe frame; path lengths count from `origin`.
+struct LineGeometry {
+  Vec3d origin;
+  Vec3d direction;
+};
+
+// Line i of N stands at first + i (last - first)/(N - 1), edges included; a single line in the
+// middle.
+LineGeometry lineGeometry(const Probe& probe, int line);
+
+// Distance between neighbouring scan lines at a path length; 0 for a single line.
+double lineSpacing(const Probe& probe, double depth_m);
+
+class ScanGeometry {
+ public:
+  explicit ScanGeometry(const Probe& probe);
+
+  bool angular() const { return angular_; }  // lines meet in the apex
+
+  // Of the outermost lines: rad, or m.
+  double firstPlace() const { return first_place_; }
+  double lastPlace() const { return last_place_; }
+  double placeOf(Vec3d point_m) const;  // of a point of the imaging plane
+  // Path length of a point from the start of the line through it.
+  double pathOf(Vec3d point_m) const;
+
+  // From line to line: the width of a beam's cell. Precondition: two lines at least.
+  double cellWidth() const { return (last_place_ - first_place_) / (probe_.lines - 1); }
+  // Where the cell of line i begins, half a width before it; that of `lines` ends the last cell.
+  double cellBorder(int line) const { return first_place_ + (line - 0.5) * cellWidth(); }
+
+  // Fractional line (0 to lines - 1) and path length of a point; nothing outside the lines.
+  struct BeamPosition {
+    double line = 0, path_m = 0;
+  };
+  std::optional<BeamPosition> beamPosition(double x_m, double z_m) const;
+
+  // The depth of a sample's centre: min_depth + (k + 1/2) spacing.
+  double sampleDepth(int sample) const {
+    return probe_.min_depth_m + (sample + 0.5) * probe_.sampleSpacing();
+  }
+
+  // By which a beam is focused and its width reckoned, m.
+  double wavelength() const { return kScannerSpeed / probe_.frequency_hz; }
+
+ private:
+  Probe probe_;
+  bool angular_;
+  double first_place_, last_place_;
+};
+
+}  // namespace echocine

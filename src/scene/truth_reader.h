@@ -1,0 +1,21 @@
+#pragma once
+// The [truth] table of a scene.
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "scene/toml_table.h"
+
+namespace echocine {
+
+// Kinds of truth by name, as in truth.write and render --truth.
+inline constexpr const char* kTruthKinds = "all, labels, contours, tracks, function";
+
+// Turns them on. Returns a name that is none of them, or an empty text.
+std::string switchOn(const std::vector<std::string>& kinds, TruthSettings& truth);
+
+// Checks numbers and names against the scene's structures.
+TruthSettings readTruth(TomlTable table, const Scene& scene);
+
+}  // namespace echocine

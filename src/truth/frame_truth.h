@@ -1,0 +1,89 @@
+#pragma once
+// The truth of one frame, as far as the scene asks for it.
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "motion/interior/motion_field.h"
+#include "motion/mesh_motion.h"
+#include "truth/contour.h"
+#include "truth/heart_function.h"
+#include "truth/label_table.h"
+#include "truth/motion_planes.h"
+#include "truth/plane_labels.h"
+
+namespace echocine {
+
+struct FrameTruth {
+  PlaneLabels::Ids picture_ids;           // structures at the picture's pixels, from 1
+  std::vector<std::uint8_t> labels;       // the same by the scene's numbers
+  std::vector<std::uint32_t> sample_ids;  // structures at the samples
+  std::vector<Contour> contours;          // whole, before the sector cuts them
+  MotionPlanes motion;
+  std::optional<FunctionFrame> function;
+  std::vector<Vec3f> tracks_m;  // material points, in the order of TruthMaker::tracked()
+  // All but what a loop's own files collect.
+  void forgetPlanes() {
+    picture_ids = {};
+    labels = {};
+    sample_ids = {};
+    contours = {};
+    motion = {};
+  }
+  // A channel's plane; one of the two is empty.
+  std::span<const float> values(Channel channel) const;
+};
+
+// An instant and its neighbours, from which velocity is taken.
+struct TruthTime {
+  double phase = 0, before = 0, after = 0;
+  double seconds = 0;  // from before to after
+};
+
+class TruthMaker {
+ public:
+  // References are kept. The field is fitted at once where motion is asked for.
+  TruthMaker(const Scene& scene, const MeshMotion& motion, const PictureGrid& grid,
+             double first_phase);
+  ~TruthMaker();
+
+  const LabelTable& labels() const { return labels_; }
+  const std::optional<MotionField>& field() const { return field_; }
+
+  // The material points that are tracked: endocardium, middle and epicardium of so many columns
+  // through the wall, those nearest to the imaging plane at the reference phase.
+  struct Tracked {
+    std::uint8_t layer;    // 0 endocardium, 1 middle, 2 epicardium
+    std::uint8_t segment;  // 1 to 17
+    std::uint32_t column;  // of HeartFunction::columns()
+  };
+  const std::vector<Tracked>& tracked() const { return tracked_; }
+
+  // Thread-safe.
+  FrameTruth at(const TruthTime& time) const;
+
+  static bool wanted(const Scene& scene);
+
+ private:
+  struct Space;
+  std::shared_ptr<Space> space() const;
+  void chooseTracks();
+  void addTracks(const Space& space, FrameTruth& truth) const;
+  void addMotion(const TruthTime& time, Space& space, FrameTruth& truth) const;
+
+  const Scene& scene_;
+  const MeshMotion& motion_;
+  LabelTable labels_;
+  PlaneLabels plane_;
+  bool samples_, motion_wanted_, velocity_;
+  std::optional<MotionField> field_;
+  std::optional<HeartFunction> function_;
+  std::vector<Tracked> tracked_;
+  FieldFrame first_;  // the loop's first frame
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<Space>> free_;
+};
+
+}  // namespace echocine

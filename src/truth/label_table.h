@@ -1,0 +1,25 @@
+#pragma once
+// Which number a structure has in the label pictures.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace echocine {
+
+struct LabelTable {
+  std::vector<std::uint8_t> numbers;  // by structure; 0: none of its own
+  struct Entry {
+    std::uint8_t number;
+    std::string name;
+  };
+  std::vector<Entry> entries;  // ascending numbers; 0 is the background and outside the sector
+};
+
+// By truth.labels; without it closed structures from 1 in the scene's order. Throws SceneError
+// where that takes more than 8 bits have.
+LabelTable labelTable(const Scene& scene);
+
+}  // namespace echocine

@@ -1,0 +1,102 @@
+#include "truth/motion_planes.h"
+#include "scene/scan_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace echocine {
+
+namespace {
+
+// Along a line the motion is found at every so many samples of one structure, and linear between:
+// finer than the field's own lattice. Our choice.
+constexpr std::size_t kStride = 8;
+
+// Displacement and velocity of the material at a place, mm and mm/s.
+struct Motion {
+  Vec3f displacement_mm, velocity_mm_s;
+};
+
+class LineMotion {
+ public:
+  LineMotion(const Scene& scene, const MotionField& field, const FieldTimes& times)
+      : field_(field), times_(times) {
+    for (const Structure& s : scene.structures)
+      tissue_.push_back(!s.membrane &&
+                        scene.medium(s.medium).name.find("blood") == std::string::npos);
+  }
+
+  bool isTissue(std::uint32_t id) const { return id > 0 && tissue_[id - 1]; }
+
+  // The guess is the last place's, which is near.
+  std::optional<Motion> at(std::uint32_t id, Vec3f place_m) {
+    const GroupId group = field_.groupOf(static_cast<SurfaceId>(id - 1));
+    if (group_ != group) offset_m_ = {};
+    group_ = group;
+    auto reference = times_.now[group].reference(place_m, place_m + offset_m_);
+    if (!reference) reference = times_.now[group].reference(place_m, place_m);
+    if (!reference) return std::nullopt;
+    offset_m_ = *reference - place_m;
+    const Vec3f moved = place_m - times_.reference[group].place(*reference);
+    const Vec3f run =
+        times_.after[group].place(*reference) - times_.before[group].place(*reference);
+    return Motion{1e3f * moved, static_cast<float>(1e3 / times_.seconds) * run};
+  }
+
+ private:
+  const MotionField& field_;
+  const FieldTimes& times_;
+  std::vector<bool> tissue_;
+  std::optional<GroupId> group_;
+  Vec3f offset_m_;
+};
+
+void put(std::array<std::vector<float>, 3>& planes, std::size_t at, Vec3f value) {
+  planes[0][at] = value.x;
+  planes[1][at] = value.z;
+  planes[2][at] = value.y;
+}
+
+}  // namespace
+
+void motionPlanes(const Scene& scene, const MotionField& field, const FieldTimes& times,
+                  std::span<const std::uint32_t> ids, bool velocity, MotionPlanes& planes) {
+  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+  for (auto& plane : planes.displacement_mm) plane.assign(ids.size(), kUnknown);
+  for (auto& plane : planes.velocity_mm_s) plane.assign(velocity ? ids.size() : 0, kUnknown);
+  const auto samples = static_cast<std::size_t>(scene.probe.samples);
+  LineMotion motion(scene, field, times);
+  for (std::size_t first = 0; first < ids.size(); first += samples) {
+    const LineGeometry line = lineGeometry(scene.probe, static_cast<int>(first / samples));
+    const auto placeOf = [&](std::size_t k) {
+      const double path_m =
+          scene.probe.min_depth_m + (static_cast<double>(k) + 0.5) * scene.probe.sampleSpacing();
+      return toFloat(line.origin + path_m * line.direction);
+    };
+    for (std::size_t begin = 0, end = 0; begin < samples; begin = end) {
+      const std::uint32_t id = ids[first + begin];
+      for (end = begin + 1; end < samples && ids[first + end] == id;) ++end;
+      if (!motion.isTissue(id)) continue;
+      std::optional<Motion> left = motion.at(id, placeOf(begin));
+      for (std::size_t k = begin; k < end;) {
+        const std::size_t next = std::min(k + kStride, end - 1);
+        const std::optional<Motion> right = next > k ? motion.at(id, placeOf(next)) : left;
+        const std::size_t stop = next > k ? next : end;  // the last sample by itself
+        for (std::size_t i = k; left && right && i < std::max(stop, k + 1); ++i) {
+          const float t = next > k ? static_cast<float>(i - k) / static_cast<float>(next - k) : 0;
+          put(planes.displacement_mm, first + i,
+              left->displacement_mm + t * (right->displacement_mm - left->displacement_mm));
+          if (velocity)
+            put(planes.velocity_mm_s, first + i,
+                left->velocity_mm_s + t * (right->velocity_mm_s - left->velocity_mm_s));
+        }
+        if (next == k) break;
+        k = next;
+        left = right;
+      }
+    }
+  }
+}
+
+}  // namespace echocine

@@ -1,0 +1,31 @@
+#pragma once
+// How the material at every sample has moved since the reference frame, and how fast it moves.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "motion/interior/motion_field.h"
+#include "scene/scene.h"
+
+namespace echocine {
+
+struct MotionPlanes {
+  // Line-major, lateral, axial (depth) and elevation of the probe frame; not a number outside
+  // tissue.
+  std::array<std::vector<float>, 3> displacement_mm, velocity_mm_s;
+};
+
+// The field at the reference frame, at this one and a little before and after it.
+struct FieldTimes {
+  const FieldFrame &reference, &now, &before, &after;
+  double seconds = 0;  // from before to after
+};
+
+// ids: every sample's structure, from 1. Blood and the background have no motion of their own: the
+// one is renewed, the other unknown.
+void motionPlanes(const Scene& scene, const MotionField& field, const FieldTimes& times,
+                  std::span<const std::uint32_t> ids, bool velocity, MotionPlanes& planes);
+
+}  // namespace echocine

@@ -1,0 +1,55 @@
+#pragma once
+// Which structure is where in the imaging plane: at the picture's pixels and at the samples of the
+// scan lines, each exactly at its centre, by the tracer's rule of priorities.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/plane_slice.h"
+#include "scene/scene.h"
+
+namespace echocine {
+
+// The picture's pixels in the imaging plane: pixel (i, j) has its centre at
+// ((i + 1/2 - origin_x_px), (j + 1/2 - origin_y_px)) metres_per_pixel.
+struct PictureGrid {
+  int width = 0, height = 0;
+  double origin_x_px = 0, origin_y_px = 0, metres_per_pixel = 1;
+
+  double xOf(int column) const { return (column + 0.5 - origin_x_px) * metres_per_pixel; }
+  double zOf(int row) const { return (row + 0.5 - origin_y_px) * metres_per_pixel; }
+};
+
+// Is a place of the imaging plane between the outermost lines and within their depths?
+bool inScanArea(const Probe& probe, double x_m, double z_m);
+
+class PlaneLabels {
+ public:
+  // 0 in the background, else a structure's place in the scene, from 1.
+  using Ids = std::vector<std::uint16_t>;
+
+  PlaneLabels(const Scene& scene, const PictureGrid& grid);
+
+  // Every pixel's structure, rows from the top; 0 outside the scan area. Edges are those of all
+  // surfaces of a frame. Thread-safe.
+  void picture(std::span<const ContourEdge> edges, Ids& ids) const;
+
+  // Every sample's structure, line-major. Crossings are those of all surfaces. Thread-safe.
+  void samples(std::span<const RayCrossings> lines, std::vector<std::uint32_t>& ids) const;
+
+ private:
+  struct RowCrossing {
+    double x_m;
+    int change;
+  };
+  void crossRows(const ContourEdge& edge, std::vector<std::vector<RowCrossing>>& rows) const;
+  void fillRow(std::vector<RowCrossing>& crossings, std::uint16_t id, int row, Ids& ids) const;
+
+  Probe probe_;
+  PictureGrid grid_;
+  std::vector<std::uint16_t> weakest_first_;  // closed structures, from 1
+  std::vector<bool> shown_;                   // pixels within the scan area
+};
+
+}  // namespace echocine

@@ -1,0 +1,73 @@
+#pragma once
+// The elements of a DICOM data set one after another (PS3.5, 7), without recursion and without
+// copies.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace echocine {
+
+// Ultrasound files nest a handful of sequences; the library's parser takes a kilobyte of stack for
+// each. Our choice.
+inline constexpr std::size_t kMaxDicomDepth = 32;
+
+struct DicomSyntax {
+  bool explicit_vr = true, big_endian = false;
+};
+
+struct DicomElement {
+  std::uint32_t tag = 0;  // group in the upper half
+  std::size_t depth = 0;  // sequences around it
+  int fragment = -1;      // of encapsulated pixels, from 0, the table of offsets; else -1
+  bool big_endian = false;
+  std::span<const std::byte> value;  // of sequences and items: empty
+
+  unsigned shortNumber() const;                 // the first two bytes; 0 without them
+  std::string text(std::size_t longest) const;  // without padding
+};
+
+class DicomElements {
+ public:
+  DicomElements(std::span<const std::byte> data, DicomSyntax syntax)
+      : data_(data), syntax_(syntax) {}
+
+  // Nothing at the end, or where the structure is broken off.
+  std::optional<DicomElement> next();
+
+  std::size_t position() const { return at_; }
+  bool tooDeep() const { return too_deep_; }
+  bool lost() const { return lost_; }  // an element reaches outside what it lies in
+
+ private:
+  enum class Kind { sequence, item, fragments };
+  struct Level {
+    Kind kind;
+    std::size_t end;  // of the data, when the length is not given
+    bool explicit_vr;
+  };
+
+  std::uint32_t number(std::size_t at, std::size_t size) const;
+  std::uint32_t tagAt(std::size_t at) const;
+  bool explicitHere() const {
+    return open_.empty() ? syntax_.explicit_vr : open_.back().explicit_vr;
+  }
+  void closeEnded();
+  bool readLength(DicomElement& e, std::uint32_t& length, bool& sequence, bool& unknown);
+  bool startsWithItem(std::uint32_t length) const;
+  bool open(Kind kind, std::uint32_t length, bool explicit_vr);
+  std::optional<DicomElement> delimiter(DicomElement e, std::uint32_t length);
+  std::optional<DicomElement> giveUp();
+
+  std::span<const std::byte> data_;
+  DicomSyntax syntax_;
+  std::size_t at_ = 0;
+  std::vector<Level> open_;
+  int fragment_ = 0;
+  bool too_deep_ = false, lost_ = false;
+};
+
+}  // namespace echocine

@@ -1,0 +1,211 @@
+// Every number of a scene at values that no physics has: a finite picture, or a refusal that names
+// the key and leaves no folder.
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "core/error.h"
+#include "render/render.h"
+#include "scene/scene_reader.h"
+#include "support/meshes.h"
+#include "support/temp_folder.h"
+
+namespace echocine {
+namespace {
+
+using namespace support;
+
+const std::string kCommon = R"(
+background = "soft_tissue"
+unit_volume_cm3 = 1.0
+[acquisition]
+heart_rate_bpm = 65.0
+frame_rate_hz = 5.0
+beats = 1.0
+rr_variability = 0.1
+seed = 1
+[motion]
+mesh_unit = "cm"
+subdivision = 0
+keyframe_heart_rate_bpm = 65.0
+end_systole_phase = 0.33
+keyframe_phases = [0.0, 0.4]
+[[structure]]
+name = "ball"
+medium = "MEDIUM"
+priority = 3
+keyframes = ["ball_0.obj", "ball_1.obj"]
+reflection_gain = 1.0
+reflection_exponent = 2.0
+[media.one]
+density_kg_m3 = 1097
+sound_speed_m_s = 1584
+attenuation_db_cm_mhz = 0.52
+attenuation_exponent = 1.0
+[media.one.backscatter]
+kind = "fixed"
+per_cm_sr = 1.6e-5
+[media.two]
+density_kg_m3 = 1060
+sound_speed_m_s = 1570
+attenuation_db_cm_mhz = 0.2
+[media.two.backscatter]
+kind = "blood"
+hematocrit = 0.45
+cell_radius_um = 2.75
+cell_density_kg_m3 = 1092
+cell_compressibility_cm2_dyn = 3.41e-11
+[media.three]
+density_kg_m3 = 1060
+sound_speed_m_s = 1570
+attenuation_db_cm_mhz = 0.2
+[media.three.backscatter]
+kind = "tissue"
+velocity_variation = 0.02
+correlation_length_um = 40
+[output]
+channels = ["Y", "unattenuated.Y", "attenuation.A", "reflection.Y", "backscatter.Y", "display.Y"]
+report = false
+width = 64
+height = 48
+jpeg_quality = 90
+[probe]
+apex = [0.1, 0, 0]
+axis = [0, 0, 1]
+lateral = [1, 0, 0]
+min_depth_mm = 2
+depth_mm = 120
+frequency_mhz = 2.5
+lines = 8
+samples = 48
+)";
+
+const std::string kFocused = R"(
+aperture_mm = 20
+focus_mm = 60
+[signal]
+pulse_cycles = 2.0
+dynamic_range_db = 60.0
+reference_percentile = 99.5
+grey_gamma = 1.0
+[accuracy]
+rays_per_beam = 1
+refraction_tolerance_lines = 0.5
+)";
+const std::string kRays = R"(
+aperture_mm = 20
+focus_mm = 60
+elevation_aperture_mm = 13
+elevation_focus_mm = 80
+[signal]
+reference_intensity = 1e-6
+[accuracy]
+rays_per_beam = 4
+)";
+const std::string kFixed = R"(
+[signal]
+beam_width = "fixed"
+beam_width_mm = 2.0
+tgc = "table"
+tgc_table_mm_db = [[1, 0], [160, 40]]
+reference_intensity = 1e-6
+)";
+
+const std::vector<std::string> kValues{"5e-324",
+                                       "1e-300",
+                                       "-0.0",
+                                       "0.0",
+                                       "-1.0",
+                                       "1e-7",
+                                       "0.001",
+                                       "1000.0",
+                                       "1e5",
+                                       "1e6",
+                                       "1e9",
+                                       "1e60",
+                                       "1e308",
+                                       "nan",
+                                       "inf",
+                                       "-inf",
+                                       "9223372036854775807",
+                                       "-1"};
+
+class NumberSweep : public ::testing::Test {
+ protected:
+  NumberSweep() {
+    writeObj(icosphere(1, 2.5).moved({0.3, 0.2, 6}), folder / "ball_0.obj");
+    writeObj(icosphere(1, 2.0).moved({0.3, 0.2, 6}), folder / "ball_1.obj");
+  }
+
+  // What a run with the text says; empty: it ended well.
+  std::string outcome(const std::string& text, bool& folder_left) {
+    const std::filesystem::path out = folder / "out";
+    std::filesystem::remove_all(out);
+    std::string said;
+    try {
+      RenderOptions options;
+      options.folder = out;
+      options.threads = 1;
+      options.frames = std::pair(0, 1);
+      renderLoop(parseScene(text, folder / "scene.toml"), options, {});
+    } catch (const SceneError& error) {
+      said = error.what();
+    }
+    folder_left = std::filesystem::exists(out);
+    return said;
+  }
+
+  // Each number of the text in turn, the first of a list.
+  void sweep(const std::string& text) {
+    bool left = false;
+    ASSERT_EQ(outcome(text, left), "");
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t equals = line.find(" = ");
+      if (equals == std::string::npos) continue;
+      const std::size_t from = line.find_first_not_of("[", equals + 3);
+      if (line.find_first_of("0123456789", from) != from) continue;
+      const std::size_t to = std::min(line.find_first_of(",]", from), line.size());
+      const std::string key = line.substr(0, equals);
+      for (const std::string& value : kValues) {
+        std::string changed = line;
+        changed.replace(from, to - from, value);
+        std::string whole = text;
+        whole.replace(whole.find("\n" + line + "\n") + 1, line.size(), changed);
+        SCOPED_TRACE(changed);
+        std::string said;
+        ASSERT_NO_THROW(said = outcome(whole, left)) << changed;
+        ++runs;
+        if (said.empty()) {
+          ++accepted;
+          continue;
+        }
+        EXPECT_NE(said.find(key), std::string::npos) << said;
+        EXPECT_FALSE(left) << said;
+      }
+    }
+  }
+
+  static std::string with(std::string text, const std::string& medium) {
+    return text.replace(text.find("MEDIUM"), 6, medium);
+  }
+
+  TempFolder folder;
+  int runs = 0, accepted = 0;
+};
+
+TEST_F(NumberSweep, EveryKeyAtEveryValueIsAPictureOrARefusalThatNamesIt) {
+  sweep(with(kCommon, "one") + "sector_deg = 70\n" + kFocused);
+  sweep(with(kCommon, "two") + "sector_deg = 70\n" + kRays);
+  sweep(with(kCommon, "three") + "kind = \"curvilinear\"\nsector_deg = 60\nface_radius_mm = 40\n" +
+        kFixed);
+  sweep(with(kCommon, "two") + "kind = \"linear\"\nwidth_mm = 40\n" + kFocused);
+  RecordProperty("runs", runs);
+  RecordProperty("accepted", accepted);
+  EXPECT_GT(runs, 2000);
+  EXPECT_GT(accepted, 300);
+}
+
+}  // namespace
+}  // namespace echocine

@@ -1,0 +1,193 @@
+// Material points: what moves by one map moves everywhere by it, and elsewhere the field goes with
+// the surfaces that can be seen, never turns over and keeps walls in walls.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/hash_random.h"
+#include "motion/interior/bound_point.h"
+#include "motion/interior/winners.h"
+#include "motion/interior_motion.h"
+#include "scene/scene_reader.h"
+#include "support/meshes.h"
+#include "support/paths.h"
+#include "support/patient_scene.h"
+#include "support/temp_folder.h"
+
+namespace echocine {
+namespace {
+
+// Rows of a linear map and a shift, m.
+struct Affine {
+  Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, shift;
+  Vec3d operator()(Vec3d p) const { return Vec3d{dot(x, p), dot(y, p), dot(z, p)} + shift; }
+};
+
+std::vector<Vec3f> floats(const std::vector<Vec3d>& points, const Affine& map) {
+  std::vector<Vec3f> moved;
+  for (const Vec3d p : points) moved.push_back(toFloat(map(p)));
+  return moved;
+}
+
+// A ball in a ball at 8 cm depth, both moved by one map half-way through the beat.
+std::vector<InteriorSurface> nestedBalls(const Affine& map) {
+  std::vector<InteriorSurface> surfaces;
+  const double phases[] = {0.0, 0.5};
+  for (const double radius : {0.04, 0.03}) {
+    const support::Mesh ball = support::icosphere(3, radius).moved({0, 0, 0.08});
+    surfaces.push_back({"ball",
+                        ball.triangles,
+                        KeyframeWeights(phases, Interpolation::catmull_rom),
+                        {floats(ball.points, {}), floats(ball.points, map)},
+                        false,
+                        radius < 0.035 ? 2 : 1});
+  }
+  return surfaces;
+}
+
+TEST(MaterialPointsLaw, OneAffineMapMovesEveryPoint) {
+  const Affine map{{0.8, 0.1, 0}, {-0.05, 0.9, 0.1}, {0, 0.05, 1.15}, {0.002, -0.004, 0.003}};
+  const MotionField field(nestedBalls(map));
+  FieldFrame frame;
+  field.at(0.5, frame);
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    const Vec3d p{0.05 * (2 * uniformFromHash(hashOf(i, 1)) - 1),
+                  0.05 * (2 * uniformFromHash(hashOf(i, 2)) - 1),
+                  0.08 + 0.05 * (2 * uniformFromHash(hashOf(i, 3)) - 1)};
+    if (length(p - Vec3d{0, 0, 0.08}) > 0.039) continue;
+    const Vec3d placed = toDouble(frame[field.groupAt(toFloat(p))].place(toFloat(p)));
+    EXPECT_LT(length(placed - map(p)), 1e-5 * 0.08) << "point " << i;
+  }
+}
+
+TEST(MaterialPointsLaw, FarFromWhatMovesNothingDoes) {
+  const MotionField field(nestedBalls({{0.8, 0, 0}, {0, 0.8, 0}, {0, 0, 0.8}, {0, 0, 0.016}}));
+  FieldFrame frame;
+  field.at(0.5, frame);
+  const Vec3f far{0.2f, 0, 0.08f};
+  EXPECT_EQ(field.groupAt(far), field.background());
+  EXPECT_EQ(frame[field.background()].place(far), far);
+}
+
+TEST(MaterialPointsLaw, APlaceIsFoundBackAndASlabIsTheWhole) {
+  const MotionField field(
+      nestedBalls({{0.9, 0.1, 0}, {0, 0.8, 0}, {0.1, 0, 1.1}, {0.003, 0.002, 0}}));
+  FieldFrame frame, slab;
+  field.at(0.3, frame);
+  field.at(0.3, slab, std::pair(-0.005f, 0.005f));
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    const Vec3f p = toFloat({0.02 * uniformFromHash(hashOf(i, 1)),
+                             0.005 * (2 * uniformFromHash(hashOf(i, 2)) - 1),
+                             0.08 + 0.02 * uniformFromHash(hashOf(i, 3))});
+    const GroupFrame& group = frame[field.groupAt(p)];
+    const Vec3f placed = group.place(p);
+    EXPECT_EQ(slab[field.groupAt(p)].place(p), placed);
+    const auto back = group.reference(placed, placed);
+    ASSERT_TRUE(back);
+    EXPECT_LT(length(*back - p), 5e-6f);
+  }
+}
+
+TEST(MaterialPointsLaw, PointsBoundToASurfaceStayOnIt) {
+  const support::Mesh ball = support::icosphere(3, 0.04);
+  const std::vector<Vec3f> rest = floats(ball.points, {}),
+                           grown = floats(ball.points, {{1.2, 0, 0}, {0, 1.2, 0}, {0, 0, 1.2}, {}});
+  std::vector<Vec3f> points;
+  for (const Triangle& t : ball.triangles)
+    points.push_back(0.2f * rest[t[0]] + 0.3f * rest[t[1]] + 0.5f * rest[t[2]]);
+  const auto bound = bindToSurface(SurfaceId{0}, ball.triangles, rest, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_LT(length(place(bound[i], ball.triangles, rest) - points[i]), 1e-7f);
+    EXPECT_LT(length(place(bound[i], ball.triangles, grown) - 1.2f * points[i]), 1e-7f);
+  }
+}
+
+// What the field leaves on a scene over 20 phases between the keyframes.
+struct Agreement {
+  std::vector<float> miss_m;  // of vertices that could be seen at the reference phase
+  double least_volume = 1;
+  double staying = 0, points = 0;
+};
+
+Winners winnersOf(const Scene& scene, const MeshMotion& motion, const SurfaceFrame& frame) {
+  std::vector<Winners::Closed> closed;
+  for (const SurfaceTopology& s : motion.surfaces())
+    if (!s.membrane)
+      closed.push_back({s.id, scene.structures[index(s.id)].priority,
+                        Columns(s.triangles, frame.positions_m[index(s.id)])});
+  return Winners(std::move(closed));
+}
+
+Agreement agreementOf(const Scene& scene, const std::string& wall) {
+  const MeshMotion motion(scene);
+  const MotionField field = interiorMotion(scene, motion);
+  SurfaceFrame at_reference, now;
+  motion.frameAt(0, at_reference);
+  const Winners reference = winnersOf(scene, motion, at_reference);
+  Agreement result;
+  FieldFrame frame;
+  for (int i = 0; i < 20; ++i) {
+    const double phase = (i + 0.37) / 20;
+    field.at(phase, frame);
+    motion.frameAt(phase, now);
+    const Winners winners = winnersOf(scene, motion, now);
+    for (const SurfaceTopology& s : motion.surfaces()) {
+      if (s.membrane || s.still) continue;
+      const GroupFrame& group = frame[field.groupOf(s.id)];
+      Box box;
+      const auto& positions_m = at_reference.positions_m[index(s.id)];
+      for (std::size_t v = 0; v < positions_m.size(); v += 3) {
+        box.add(toDouble(positions_m[v]));
+        if (reference.hides(toDouble(positions_m[v]), s.id)) continue;
+        result.miss_m.push_back(
+            length(group.place(positions_m[v]) - now.positions_m[index(s.id)][v]));
+      }
+      for (std::uint64_t j = 0; j < 3000; ++j) {
+        const Vec3d p{box.lo.x + uniformFromHash(hashOf(j, 1)) * (box.hi.x - box.lo.x),
+                      box.lo.y + uniformFromHash(hashOf(j, 2)) * (box.hi.y - box.lo.y),
+                      box.lo.z + uniformFromHash(hashOf(j, 3)) * (box.hi.z - box.lo.z)};
+        if (reference.at(p) != s.id) continue;
+        result.least_volume = std::min(result.least_volume, group.volumeRatio(toFloat(p)));
+        if (scene.structures[index(s.id)].name != wall) continue;
+        ++result.points;
+        result.staying += winners.at(toDouble(group.place(toFloat(p)))) == s.id;
+      }
+    }
+  }
+  std::sort(result.miss_m.begin(), result.miss_m.end());
+  return result;
+}
+
+double rootMeanSquare(const std::vector<float>& values) {
+  double sum = 0;
+  for (const float v : values) sum += static_cast<double>(v) * static_cast<double>(v);
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+void expectAgreement(const Agreement& a, double rms_m) {
+  ::testing::Test::RecordProperty("rms_um", static_cast<int>(1e6 * rootMeanSquare(a.miss_m)));
+  EXPECT_LT(rootMeanSquare(a.miss_m), rms_m);
+  EXPECT_LT(a.miss_m[a.miss_m.size() * 99 / 100], 1e-3f);
+  EXPECT_GT(a.least_volume, 0);
+  EXPECT_GT(a.staying, 0.98 * a.points);
+}
+
+TEST(MaterialPointsLaw, TheShippedHeartCarriesThem) {
+  expectAgreement(agreementOf(readScene(std::filesystem::path(support::kSourceDir) /
+                                        "examples/beating_heart/scene.toml"),
+                              "lv_wall"),
+                  0.3e-3);
+}
+
+TEST(MaterialPointsLaw, ARealHeartCarriesThem) {
+  if (!std::filesystem::exists(support::patientMeshes())) GTEST_SKIP() << "no real meshes here";
+  const support::TempFolder folder;
+  expectAgreement(
+      agreementOf(parseScene(support::patientScene().text(), folder.path() / "scene.toml"), "wall"),
+      0.15e-3);
+}
+
+}  // namespace
+}  // namespace echocine

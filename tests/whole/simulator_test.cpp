@@ -1,0 +1,131 @@
+// One frame as a caller gets it: the bytes of a render, from any thread, with or without files.
+
+#include "simulate/simulator.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "motion/heart/heart_scene.h"
+#include "output/exr_plane.h"
+#include "output/exr_stack.h"
+#include "output/heart_files.h"
+#include "render/render.h"
+#include "scene/scene_reader.h"
+#include "support/loop_scene.h"
+#include "support/scene_text.h"
+#include "support/temp_folder.h"
+
+namespace echocine {
+namespace {
+
+using namespace support;
+
+Scene smallHeart() {
+  Scene scene;
+  withThreads(2, [&] { scene = heart::heartScene({}, heart::View::a4c, 6); });
+  scene.probe.lines = 48;
+  scene.probe.samples = 96;
+  scene.output.width = 96;
+  scene.output.height = 72;
+  return scene;
+}
+
+TEST(SimulatorFrame, OfAHeartInMemoryIsThatOfItsFiles) {
+  const TempFolder folder;
+  writeHeart({.keyframes = 6}, folder / "heart");
+  Scene written = readScene(folder / "heart" / "scene.toml");
+  const Scene in_memory = smallHeart();
+  written.probe.lines = in_memory.probe.lines;
+  written.probe.samples = in_memory.probe.samples;
+  written.output = in_memory.output;
+  const Simulator files(written), memory(in_memory);
+  for (const double time_s : {0.0, 0.14, 0.6171}) {
+    const Frame a = files.frame(time_s), b = memory.frame(time_s);
+    EXPECT_EQ(a.intensities, b.intensities) << time_s;
+    EXPECT_EQ(a.greys, b.greys) << time_s;
+    EXPECT_EQ(a.image.pixels, b.image.pixels) << time_s;
+    EXPECT_EQ(a.volumes_ml, b.volumes_ml) << time_s;
+  }
+}
+
+TEST(SimulatorFrame, HasTheIntensitiesThatARenderWrites) {
+  const TempFolder folder;
+  Scene scene = smallHeart();
+  scene.signal.reference_intensity.reset();  // found over the loop, by both
+  scene.output.channels = {Channel::y, Channel::display};
+  const RenderSummary summary = renderLoop(scene, {.folder = folder / "out", .threads = 2}, {});
+  const Simulator simulator(scene);
+  EXPECT_EQ(simulator.referenceIntensity(), summary.manifest.reference_intensity);
+  for (const int f : {0, 7, summary.frames_done - 1}) {
+    const Frame frame = simulator.frame(f / scene.acquisition.frame_rate_hz);
+    EXPECT_EQ(frame.time.frame, f);
+    const auto stored = [&](Channel channel) {
+      return readExrPlane(folder / "out" / "intensity" / ExrStack::fileName(f),
+                          {channel, summary.manifest.scene_sha256, f, 48, 96})
+          .value();
+    };
+    EXPECT_EQ(stored(Channel::y), frame.channels.at(Channel::y));
+    EXPECT_EQ(stored(Channel::display), frame.greys.values);
+  }
+}
+
+TEST(SimulatorFrame, FromTwoThreadsAtOnceIsThatOfOne) {
+  const Simulator simulator(smallHeart());
+  constexpr int kFrames = 24;
+  std::vector<Frame> alone(kFrames), together(kFrames);
+  for (int i = 0; i < kFrames; ++i) alone[static_cast<std::size_t>(i)] = simulator.frame(0.03 * i);
+  const auto work = [&](int first) {
+    for (int i = first; i < kFrames; i += 2)
+      simulator.frame(0.03 * i, together[static_cast<std::size_t>(i)]);
+  };
+  std::thread other(work, 1);
+  work(0);
+  other.join();
+  for (std::size_t i = 0; i < kFrames; ++i) {
+    EXPECT_EQ(alone[i].intensities, together[i].intensities) << i;
+    EXPECT_EQ(alone[i].image.pixels, together[i].image.pixels) << i;
+  }
+}
+
+TEST(SimulatorFrame, OutsideTheLoopIsRefusedByItsKeys) {
+  const Simulator simulator(smallHeart());
+  for (const double time_s : {-0.01, 1e9, std::numeric_limits<double>::quiet_NaN()}) {
+    try {
+      simulator.frame(time_s);
+      ADD_FAILURE() << time_s;
+    } catch (const SceneError& error) {
+      EXPECT_NE(std::string(error.what()).find("acquisition.beats"), std::string::npos);
+    }
+  }
+}
+
+TEST(SimulatorMeshes, InMemoryAreNamedInMessages) {
+  NamedMeshes meshes;
+  auto open = std::make_shared<TriangleMesh>();
+  open->positions = {{0, 0, 0}, {30, 0, 0}, {0, 30, 0}, {0, 0, 30}};
+  open->triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}};  // without its fourth side
+  meshes["tent"] = open;
+  const std::string text = R"(
+background = "soft_tissue"
+probe = {apex = [0, 0, -20], axis = [0, 0, 1], lateral = [1, 0, 0], sector_deg = 60, depth_mm = 100, frequency_mhz = 2.5}
+[[structure]]
+name = "tent"
+medium = "blood"
+keyframes = "tent"
+)";
+  const Scene scene = parseScene(text, "in memory", meshes);
+  try {
+    const Simulator simulator(scene);
+    ADD_FAILURE();
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("tent: face 1 has an open edge"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_THROW(parseScene(text, "in memory", NamedMeshes{}), SceneError);
+}
+
+}  // namespace
+}  // namespace echocine
