@@ -41,7 +41,7 @@ void Speckle::apply(const MaterialFrame& tissue, double time_s,
   thread_local CoherentRatio::Rows rows;
   sums.lines = lines_;
   sums.samples = samples_;
-  sums.sums.assign(intensities.size(), {});
+  sums.sums.assign(intensities.size() + kFloatLanes, {});  // and places that nobody reads
   addUp(tissue, time_s, sums);
   ratio_.apply(sums, rows, intensities);
 }
