@@ -102,8 +102,8 @@ end_systole_phase = {:.6f}
 keyframe_phases = {}
 
 [signal]
-dynamic_range_db = 55
-reference_intensity = 2e-4   # white, of the transmitted intensity: one gain for all hearts and views
+dynamic_range_db = 58
+reference_intensity = 4e-4   # white, of the transmitted intensity: one gain for all hearts and views
 
 # Where structures overlap the highest priority wins. Cavities pierce walls; the septum belongs to the
 # left ventricle and the right heart is wrapped round it.

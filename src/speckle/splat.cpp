@@ -58,7 +58,7 @@ constexpr Ints8 kLaneNumbers{0, 1, 2, 3, 4, 5, 6, 7};
 inline bool any(Ints8 mask) {
   Mask4 pairs;
   std::memcpy(&pairs, &mask, sizeof pairs);
-  return any(pairs);
+  return echocine::any(pairs);
 }
 inline void store(Ints8 lanes, std::int32_t* to) {
   std::memcpy(to, &lanes, sizeof lanes);

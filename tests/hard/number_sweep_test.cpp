@@ -91,7 +91,7 @@ reference_percentile = 99.5
 grey_gamma = 1.0
 [accuracy]
 rays_per_beam = 1
-refraction_tolerance_lines = 0.5
+refraction_tolerance_beam_widths = 0.5
 )";
 const std::string kRays = R"(
 aperture_mm = 20

@@ -66,7 +66,7 @@ TEST(PropagationSweep, AttenuationPastTheSmallestFloatThroughManyMedia) {
       addStructure(scene, static_cast<std::size_t>(i), i);
       crossings.push_back(crossingAt(0.0051 * i, static_cast<std::uint32_t>(i - 1), true));
     }
-    const LineTrace line = walkStraight(straightSettings(scene), crossings);
+    const LineTrace line = walkStraight(letterSettings(scene), crossings);
     const Sampling sampling = samplingOf(scene.probe);
     const std::vector<float> y = intensityOf(line, sampling);
     for (int k = 0; k < sampling.samples; ++k) {

@@ -106,7 +106,7 @@ std::vector<long double> recursion(const Layers& layers) {
 void expectRecursion(const char* name, const Layers& layers) {
   IntensityTerms parts;
   parts.reflection = false;
-  const LineTrace line = walkStraight(straightSettings(layers.scene), layers.crossings);
+  const LineTrace line = walkStraight(letterSettings(layers.scene), layers.crossings);
   ASSERT_EQ(line.segments.size(), layers.scene.media.size());
   const std::vector<float> product = intensityOf(line, samplingOf(layers.scene.probe), parts);
   const std::vector<long double> expected = recursion(layers);

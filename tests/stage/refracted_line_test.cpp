@@ -20,7 +20,8 @@ struct Slab {
 
   Slab() { addStructure(scene, 1, 1); }
   LineTrace line(double angle) const {
-    const TraceSettings settings(scene, planEffects(scene));
+    TraceSettings settings(scene, planEffects(scene));
+    settings.reflection_cap = settings.thin_layers = false;  // the paper's letter
     LineTrace trace;
     LineWalker walker(settings, {{0, 0, 0}, {std::sin(angle), 0, std::cos(angle)}}, {}, trace);
     std::vector<RayCrossings> met(1);

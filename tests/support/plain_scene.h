@@ -63,6 +63,13 @@ inline TraceSettings straightSettings(const Scene& scene) {
   return settings;
 }
 
+// The paper's letter: every interface by itself, a mirror as it is, angles of the straight ray.
+inline TraceSettings letterSettings(const Scene& scene) {
+  TraceSettings settings = straightSettings(scene);
+  settings.snell_angles = settings.reflection_cap = settings.thin_layers = false;
+  return settings;
+}
+
 inline Sampling samplingOf(const Probe& probe) {
   return {probe.min_depth_m, probe.sampleSpacing(), probe.samples};
 }

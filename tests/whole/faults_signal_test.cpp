@@ -100,7 +100,7 @@ TEST_F(StoppedLoop, APlanLeavesNothingInTheFolderOfTemporaryFiles) {
   EXPECT_GT(stopped, 0);
 }
 
-// One frame of four thousand rays a beam takes long, and stops are asked for between frames; the
+// One frame of thousands of rays a beam takes long, and stops are asked for between frames; the
 // second wish does not wait for that.
 TEST_F(StoppedLoop, ASecondSignalEndsAtOnce) {
   SceneText text = sceneText(1);

@@ -122,7 +122,8 @@ void expectClosedForm(const std::string& refraction, const char* name) {
   EXPECT_GT(errors.checked_dark, 1000);
   EXPECT_LE(static_cast<double>(errors.over_small), 1e-3 * static_cast<double>(errors.samples));
   EXPECT_LE(errors.worst_db, 0.5);
-  EXPECT_LE(errors.worst_echo, 0.03);
+  // cos^2 at 60 degrees and a facet's normal half a degree off make 3 %.
+  EXPECT_LE(errors.worst_echo, 0.04);
 }
 
 TEST(NestedSpheres, StraightRaysMeetTheClosedForm) {

@@ -10,6 +10,7 @@
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/mesh_motion.h"
 #include "render/render.h"
+#include "simulate/simulator.h"
 #include "support/exr_planes.h"
 #include "support/loop_scene.h"
 #include "support/run_files.h"
@@ -84,14 +85,10 @@ TEST(IntensityStack, HoldsTheFrameThatWasTraced) {
   const Scene scene = readScene(writeBall(folder, text));
   renderLoop(scene, {.folder = folder / "out", .threads = 2, .frames = {}}, {});
 
-  const MeshMotion motion(scene);
-  SurfaceFrame surfaces;
-  motion.frameAt(CardiacClock(scene).at(1).phase, surfaces);
-  FrameGeometry geometry(motion.surfaces());
-  geometry.update(surfaces);
-  const EffectPlan plan = planEffects(scene);
-  PolarFrame frame;
-  traceFrame(geometry, scene.probe, TraceSettings(scene, plan), planeRequest(scene, plan), frame);
+  const Simulator simulator(scene);
+  const std::shared_ptr<Workspace> workspace = simulator.workspace();
+  simulator.traceLines(simulator.cardiacClock().at(1), *workspace);
+  const PolarFrame& frame = workspace->polar;
   const auto same = [&](const char* channel, const auto& plane) {
     const ExrPlane read = exrPlane(folder / "out/intensity/frame_0001.exr", channel);
     ASSERT_EQ(read.lines, scene.probe.lines);

@@ -81,6 +81,16 @@ TEST_F(SpeckleScene, ScatterersMoveByTheVeryFieldOfTheTruth) {
     for (int cube = 0; cube < 3600; ++cube) {
       const Vec3f low = lattice.origin_m + edge_m * Vec3f{static_cast<float>(cube % 60), middle_y,
                                                           static_cast<float>(cube / 60)};
+      const LatticeGrid& grid = frame.groups[group].grid;
+      const Vec3f from = low - grid.origin_m, to = from + edge_m * Vec3f{1, 1, 1};
+      const auto within = [&](float a, float b, int nodes) {
+        const float whole = 1e-3f * grid.spacing_m;  // a cell, but for rounding
+        return grid.empty() ||
+               (a >= -whole && b <= grid.spacing_m * static_cast<float>(nodes - 1) + whole);
+      };
+      if (!within(from.x, to.x, grid.nx) || !within(from.y, to.y, grid.ny) ||
+          !within(from.z, to.z, grid.nz))
+        continue;  // no tissue of the group lies there
       const CubeCorners corners = tissue.corners(group, low, edge_m);
       Vec3f middle{};
       for (const Vec3f c : corners) middle = middle + 0.125f * c;
