@@ -20,7 +20,7 @@ constexpr int kUnfoldings = 4;
 // choice.
 constexpr double kSlides_m = 0.2e-3;
 // The background's nodes stand this many times as far apart.
-constexpr int kOpenStride = 3;
+constexpr int kOpenStride = 2;
 
 // Data of all classes' modes, three columns (x, y, z) per mode.
 struct FitData {

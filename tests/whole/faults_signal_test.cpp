@@ -113,6 +113,7 @@ TEST_F(StoppedLoop, ASecondSignalEndsAtOnce) {
   run.meanwhile = [&](pid_t child) {
     while (!fs::exists(out / "intensity"))  // made just before the first frame
       if (hasEnded(child)) return;
+    ::usleep(400000);                      // the frame has begun
     for (; !hasEnded(child); ++signals) {  // until two signals lie two seconds apart
       ::kill(child, SIGINT);
       ::usleep(100000);
