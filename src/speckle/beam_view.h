@@ -6,9 +6,19 @@
 #include "core/lanes.h"
 #include "core/rough_angle.h"
 #include "scene/probe.h"
+#include "speckle/material.h"
 #include "speckle/point_spread.h"
 
 namespace echocine {
+
+// What holds tissue: a disc in the imaging plane, and how near and far across it.
+struct Extent {
+  double x_m = 0, z_m = 0, radius_m = 0;
+  double low_y_m = 0, high_y_m = 0;
+};
+
+// Of what is trilinear within a cube: it lies in the hull of its corners.
+Extent extentOf(const CubeCorners& corners, double margin_m = 0);
 
 class BeamView {
  public:
@@ -24,13 +34,14 @@ class BeamView {
     return {(angleOf(x, z) - first_) * per_pitch_, r - face_radius_m_};
   }
 
-  // May a beam's elevation reach into a ball? True where in doubt.
-  bool sees(Vec3d centre_m, double radius_m) const;
+  // May a beam reach some of it? True where in doubt.
+  bool sees(const Extent& extent) const;
 
   // Lateral sigma of the amplitude's bell at a path length, in lines.
   double lateralLines(double path_m) const;
 
  private:
+  double cutSquared(double path_m) const;
   static Floats8 root(Floats8 a) {
     Floats8 out;
     for (std::size_t i = 0; i < kFloatLanes; ++i) out[i] = std::sqrt(a[i]);
@@ -50,7 +61,8 @@ class BeamView {
   Probe probe_;
   PointSpread spread_;
   bool linear_ = false;
-  double pitch_ = 0;  // between lines: rad, or m of a linear probe
+  double diffraction_ = 0;  // part of w_e over the path length
+  double pitch_ = 0;        // between lines: rad, or m of a linear probe
   float first_ = 0, per_pitch_ = 0, face_radius_m_ = 0, tangent_ = 0, per_cosine_ = 1;
 };
 

@@ -8,7 +8,7 @@ namespace echocine {
 namespace {
 
 constexpr float kStillBlock_m = 8e-3f;  // where nothing moves
-constexpr int kPhasesLookedAt = 24;
+constexpr int kPhasesLookedAt = 32;
 constexpr double kBetweenPhases = 1.1;  // tissue may move farther between them
 
 }  // namespace
@@ -34,15 +34,20 @@ FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion)
   across_m_ = kBetweenPhases * field_.reachAcrossPlane();
   const float fine_m = static_cast<float>(field_.spacing());
   lattice_.block_m = fine_m > 0 ? 2 * fine_m : kStillBlock_m;
-  half_.assign(groups, false);
-  bool coarse = false;
-  for (std::size_t g = 0; g < groups; ++g) {
-    const LatticeGrid& grid = frame.groups[g].grid;
-    if (grid.empty()) continue;
-    half_[g] = grid.spacing_m < 1.5f * fine_m;
-    // Blocks are the cells of the coarse lattice where there is one, else pairs of the fine one's.
-    if (!half_[g] || !coarse) lattice_.origin_m = grid.origin_m;
-    coarse |= !half_[g];
+  // Blocks are the cells of the coarse lattice where there is one, else pairs of the fine one's.
+  float coarsest_m = 0;
+  for (const GroupFrame& group : frame.groups)
+    if (!group.grid.empty() && group.grid.spacing_m > coarsest_m) {
+      coarsest_m = group.grid.spacing_m;
+      lattice_.origin_m = group.grid.origin_m;
+    }
+}
+
+void FieldMaterial::overTheBeat(const std::function<void(const MaterialFrame&)>& look) const {
+  FieldFrame frame;
+  for (int i = 0; i < kPhasesLookedAt; ++i) {
+    field_.at(static_cast<double>(i) / kPhasesLookedAt, frame);
+    look(FieldMaterialFrame(frame));
   }
 }
 

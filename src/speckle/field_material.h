@@ -11,9 +11,9 @@ class FieldMaterial : public Material {
   FieldMaterial(const Scene& scene, const MeshMotion& motion);
 
   CubeLattice lattice() const override { return lattice_; }
-  bool halfBlocks(std::uint16_t group) const override { return half_[group]; }
   bool blood(std::uint16_t group) const override { return blood_[group]; }
   void groupsAt(std::span<const Vec3f> reference_m, std::span<std::uint16_t> groups) const override;
+  void overTheBeat(const std::function<void(const MaterialFrame&)>& look) const override;
   double reachAcross_m() const override { return across_m_; }
   double reachAlong_m() const override { return along_m_; }
 
@@ -22,7 +22,7 @@ class FieldMaterial : public Material {
  private:
   MotionField field_;
   CubeLattice lattice_;
-  std::vector<bool> half_, blood_;  // by group
+  std::vector<bool> blood_;  // by group
   double across_m_ = 0, along_m_ = 0;
 };
 

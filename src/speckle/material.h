@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -15,7 +16,8 @@ namespace echocine {
 // Corner c of a cube: x, y, z at the high end where bits 0, 1, 2 of c are set.
 using CubeCorners = std::array<Vec3f, 8>;
 
-// Cubes of tissue at the reference phase. A group's cubes have the blocks' edge, or half of it.
+// Blocks of tissue at the reference phase. Scatterers stand in their halves' cubes, within each of
+// which every group's places are trilinear.
 struct CubeLattice {
   Vec3f origin_m;
   float block_m = 8e-3f;
@@ -32,11 +34,13 @@ class Material {
  public:
   virtual ~Material() = default;
   virtual CubeLattice lattice() const { return {}; }
-  virtual bool halfBlocks(std::uint16_t /*group*/) const { return false; }
   virtual bool blood(std::uint16_t /*group*/) const { return false; }
   virtual void groupsAt(std::span<const Vec3f> reference_m, std::span<std::uint16_t> groups) const {
     for (std::size_t i = 0; i < reference_m.size(); ++i) groups[i] = 0;
   }
+  // Calls look() for instants all over the beat, close enough that tissue moves under 2 mm to the
+  // nearest. Never called: whatever may be seen is kept.
+  virtual void overTheBeat(const std::function<void(const MaterialFrame&)>& /*look*/) const {}
   // The most that any tissue moves, from the reference: across the imaging plane and in it.
   virtual double reachAcross_m() const { return 0; }
   virtual double reachAlong_m() const { return 0; }

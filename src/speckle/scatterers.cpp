@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include "core/error.h"
 #include "core/hash_random.h"
@@ -92,7 +93,7 @@ Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const Beam
   const BlockRange ys = blocksOver(-half_y_m, half_y_m, lattice.origin_m.y, lattice.block_m);
   const BlockRange zs =
       blocksOver(-along_m, reach_m + along_m, lattice.origin_m.z, lattice.block_m);
-  const double ball_m = edge_m * 0.866 + std::max(along_m, across_m);
+  const double ball_m = edge_m * std::numbers::sqrt2 / 2 + along_m;
   std::vector<Block> blocks;
   double planned = 0;
   for (int iz = zs.begin; iz < zs.end; ++iz)
@@ -102,7 +103,9 @@ Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const Beam
                                                                      static_cast<float>(iy),
                                                                      static_cast<float>(iz)};
         const Vec3d middle = toDouble(low) + 0.5 * edge_m * Vec3d{1, 1, 1};
-        if (!view.sees(middle, ball_m)) continue;
+        if (!view.sees({middle.x, middle.z, ball_m, middle.y - 0.5 * edge_m - across_m,
+                        middle.y + 0.5 * edge_m + across_m}))
+          continue;
         Block block{low, lattice.block_m, hashOf(settings.seed, kPlaces, ix, iy, iz), {}, {}};
         const double wanted =
             settings.per_cell * edge_m * edge_m * edge_m / spread.cellVolume(pathOf(probe, middle));
@@ -126,29 +129,59 @@ Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const Beam
     }
   });
   for (const Block& block : blocks) addBlock(block, material);
+  dropUnseen(view, material);
 }
 
-// By group and half block, in the order of their points.
+// Leaves out what no beam reaches at any instant: most tissue beside the plane does not move far.
+void Scatterers::dropUnseen(const BeamView& view, const Material& material) {
+  constexpr double kBetweenInstants_m = 2e-3;
+  bool looked = false;
+  std::vector<bool> seen(batches_.size());
+  material.overTheBeat([&](const MaterialFrame& tissue) {
+    looked = true;
+    for (std::size_t b = 0; b < batches_.size(); ++b)
+      seen[b] = seen[b] || view.sees(extentOf(tissue.corners(batches_[b].group, batches_[b].low_m,
+                                                             batches_[b].edge_m),
+                                              kBetweenInstants_m));
+  });
+  if (!looked) return;
+  std::vector<ScattererBatch> all;
+  std::vector<float> u, v, w;
+  std::swap(all, batches_);
+  count_ = 0;
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    if (!seen[b]) continue;
+    const std::size_t whole = (all[b].count + kFloatLanes - 1) / kFloatLanes * kFloatLanes;
+    const std::uint32_t first = all[b].first;
+    for (auto [to, from] : {std::pair(&u, &u_), std::pair(&v, &v_), std::pair(&w, &w_)})
+      to->insert(to->end(), from->begin() + first, from->begin() + first + whole);
+    all[b].first = static_cast<std::uint32_t>(u.size() - whole);
+    count_ += all[b].count;
+    batches_.push_back(all[b]);
+  }
+  for (auto [to, from] : {std::pair(&u_, &u), std::pair(&v_, &v), std::pair(&w_, &w)}) {
+    from->shrink_to_fit();
+    std::swap(*to, *from);
+  }
+}
+
+// By group and half block, in the order of their points: small cubes are left out sooner.
 void Scatterers::addBlock(const Block& block, const Material& material) {
   std::map<std::uint32_t, std::vector<Vec3f>> parts;
   const float half_m = 0.5f * block.edge_m;
   for (std::size_t i = 0; i < block.places_m.size(); ++i) {
     const Vec3f in = block.places_m[i] - block.low_m;
-    const std::uint32_t half =
-        !material.halfBlocks(block.groups[i])
-            ? 0u
-            : (in.x >= half_m) + 2u * (in.y >= half_m) + 4u * (in.z >= half_m);
+    const std::uint32_t half = (in.x >= half_m) + 2u * (in.y >= half_m) + 4u * (in.z >= half_m);
     parts[8u * block.groups[i] + half].push_back(block.places_m[i]);
   }
   for (const auto& [key, places_m] : parts) {
     const auto group = static_cast<std::uint16_t>(key / 8);
-    const bool halved = material.halfBlocks(group);
     const auto offset = [&](std::uint32_t bit) { return key & bit ? half_m : 0.0f; };
     for (std::size_t first = 0; first < places_m.size(); first += kMostOfBatch)
       addBatch(std::span(places_m).subspan(
                    first, std::min<std::size_t>(kMostOfBatch, places_m.size() - first)),
-               block.low_m + Vec3f{offset(1), offset(2), offset(4)}, halved ? half_m : block.edge_m,
-               group, material.blood(group), hashOf(block.pattern, kBatch, key, first));
+               block.low_m + Vec3f{offset(1), offset(2), offset(4)}, half_m, group,
+               material.blood(group), hashOf(block.pattern, kBatch, key, first));
   }
 }
 

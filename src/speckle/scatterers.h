@@ -52,6 +52,7 @@ class Scatterers {
  private:
   struct Block;
   void addBlock(const Block& block, const Material& material);
+  void dropUnseen(const BeamView& view, const Material& material);
   void addBatch(std::span<const Vec3f> places_m, Vec3f low_m, float edge_m, std::uint16_t group,
                 bool blood, std::uint64_t pattern);
 

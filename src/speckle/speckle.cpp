@@ -27,13 +27,7 @@ double Speckle::farthestAcross_m() const {
 void Speckle::addUp(const MaterialFrame& tissue, double time_s, EchoSums& sums) const {
   for (const ScattererBatch& batch : scatterers_.batches()) {
     const CubeCorners corners = tissue.corners(batch.group, batch.low_m, batch.edge_m);
-    Vec3f low = corners[0], high = corners[0];
-    for (const Vec3f c : corners) {
-      low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
-      high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
-    }
-    // Trilinear places lie within the hull of the corners.
-    if (!view_.sees(toDouble(0.5f * (low + high)), 0.5 * length(toDouble(high - low)))) continue;
+    if (!view_.sees(extentOf(corners))) continue;
     splatter_.add(corners, scatterers_, batch,
                   mixAt(gaussian_, batch.pattern, time_s,
                         batch.blood ? settings_.blood_time_s : settings_.tissue_time_s),
@@ -47,7 +41,7 @@ void Speckle::apply(const MaterialFrame& tissue, double time_s,
   thread_local CoherentRatio::Rows rows;
   sums.lines = lines_;
   sums.samples = samples_;
-  sums.sums.assign(intensities.size(), {});
+  sums.sums.assign(intensities.size() + kFloatLanes, {});  // and places that nobody reads
   addUp(tissue, time_s, sums);
   ratio_.apply(sums, rows, intensities);
 }

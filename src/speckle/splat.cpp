@@ -53,6 +53,44 @@ struct Trilinear {
   }
 };
 
+constexpr Ints8 kLaneNumbers{0, 1, 2, 3, 4, 5, 6, 7};
+
+inline bool any(Ints8 mask) {
+  Mask4 pairs;
+  std::memcpy(&pairs, &mask, sizeof pairs);
+  return echocine::any(pairs);
+}
+inline void store(Ints8 lanes, std::int32_t* to) {
+  std::memcpy(to, &lanes, sizeof lanes);
+}
+
+// Adds each lane's three numbers to its place, without a branch: half of the lanes are unseen,
+// which no processor foresees.
+inline void addLanes(Floats8 real, Floats8 imaginary, Floats8 squares, const std::int32_t* places,
+                     EchoSum* sums) {
+  const Floats8 none{};
+  const Floats8 a = __builtin_shufflevector(real, imaginary, 0, 8, 1, 9, 4, 12, 5, 13),
+                b = __builtin_shufflevector(real, imaginary, 2, 10, 3, 11, 6, 14, 7, 15),
+                c = __builtin_shufflevector(squares, none, 0, 8, 1, 9, 4, 12, 5, 13),
+                d = __builtin_shufflevector(squares, none, 2, 10, 3, 11, 6, 14, 7, 15);
+  // Lanes 0 and 4, 1 and 5, 2 and 6, 3 and 7.
+  const Floats8 pairs[4] = {__builtin_shufflevector(a, c, 0, 1, 8, 9, 4, 5, 12, 13),
+                            __builtin_shufflevector(a, c, 2, 3, 10, 11, 6, 7, 14, 15),
+                            __builtin_shufflevector(b, d, 0, 1, 8, 9, 4, 5, 12, 13),
+                            __builtin_shufflevector(b, d, 2, 3, 10, 11, 6, 7, 14, 15)};
+  const auto add = [sums](std::int32_t place, Floats4 numbers) {
+    float* to = &sums[place].real;
+    Floats4 sum;
+    std::memcpy(&sum, to, sizeof sum);
+    sum += numbers;
+    std::memcpy(to, &sum, sizeof sum);
+  };
+  for (int i = 0; i < 4; ++i) {
+    add(places[i], __builtin_shufflevector(pairs[i], pairs[i], 0, 1, 2, 3));
+    add(places[i + 4], __builtin_shufflevector(pairs[i], pairs[i], 4, 5, 6, 7));
+  }
+}
+
 struct Monomials {
   Floats8 u, v, w, uv, uw, vw, uvw;
   Floats8 sum(const float* c) const {
@@ -97,6 +135,7 @@ void Splatter::add(const CubeCorners& corners, const Scatterers& scatterers,
                    const ScattererBatch& batch, const GaussianMix& mix, EchoSums& sums) const {
   constexpr float kFourLn2 = 2.7725887f, kCurvature = 0.44127125f;  // 8 ln2 / (4 pi)
   const Trilinear map(corners);
+  std::int32_t places[kFloatLanes];
   const float *us = scatterers.u(batch), *vs = scatterers.v(batch), *ws = scatterers.w(batch);
   for (std::uint32_t j = 0; j < batch.count; j += kFloatLanes) {
     Monomials m{lanesAt(us + j), lanesAt(vs + j), lanesAt(ws + j), {}, {}, {}, {}};
@@ -113,6 +152,7 @@ void Splatter::add(const CubeCorners& corners, const Scatterers& scatterers,
     const Ints8 seen = (q <= static_cast<float>(kElevationCut * kElevationCut)) & (z > 0) &
                        (sample >= 0) & (sample < static_cast<float>(samples_)) & (line >= 0) &
                        (line < static_cast<float>(lines_));
+    if (!any(seen)) continue;
     const Floats8 e = fallingExp(kFourLn2 * q);
     // exp(-2 pi j turns); folded to a quarter turn either side of 0.
     const Floats8 turns = at.path_m * turns_per_m_ + (c / d) * (kCurvature * q);
@@ -126,15 +166,9 @@ void Splatter::add(const CubeCorners& corners, const Scatterers& scatterers,
                   squares = e * e;
     const Ints8 at_line = __builtin_convertvector(line, Ints8) & seen,
                 at_sample = __builtin_convertvector(sample, Ints8) & seen;
-    const Ints8 place = at_line * samples_ + at_sample;
-    for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
-      if (seen[lane] == 0) continue;
-      float* to = &sums.sums[static_cast<std::size_t>(place[lane])].real;
-      Floats4 sum;
-      std::memcpy(&sum, to, sizeof sum);
-      sum += Floats4{real[lane], imaginary[lane], squares[lane], 0};
-      std::memcpy(to, &sum, sizeof sum);
-    }
+    const Ints8 unseen = kLaneNumbers + lines_ * samples_;  // a place that nobody reads
+    store(seen ? at_line * samples_ + at_sample : unseen, places);
+    addLanes(real, imaginary, squares, places, sums.sums.data());
   }
 }
 

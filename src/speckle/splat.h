@@ -14,7 +14,7 @@ struct EchoSum {
   float real = 0, imaginary = 0, squares = 0, unused = 0;
 };
 
-// Line-major sums of a frame.
+// Line-major sums of a frame, and a place for each lane that nobody reads.
 struct EchoSums {
   int lines = 0, samples = 0;
   std::vector<EchoSum> sums;
