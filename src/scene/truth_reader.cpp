@@ -26,7 +26,8 @@ namespace {
 // Each number once, each name a closed structure or the role of one.
 void checkNumbers(const TomlTable& table, const TruthSettings& truth, const Scene& scene) {
   for (std::size_t i = 0; i < truth.label_numbers.size(); ++i) {
-    const auto& [name, number] = truth.label_numbers[i];
+    const std::string& name = truth.label_numbers[i].first;
+    const int number = truth.label_numbers[i].second;
     const bool known =
         std::any_of(scene.structures.begin(), scene.structures.end(), [&](const Structure& s) {
           return !s.membrane && (s.name == name || nameOf(roleOf(s)) == name);

@@ -174,7 +174,9 @@ void Scatterers::addBlock(const Block& block, const Material& material) {
     const std::uint32_t half = (in.x >= half_m) + 2u * (in.y >= half_m) + 4u * (in.z >= half_m);
     parts[8u * block.groups[i] + half].push_back(block.places_m[i]);
   }
-  for (const auto& [key, places_m] : parts) {
+  for (const auto& part : parts) {
+    const std::uint32_t key = part.first;
+    const std::vector<Vec3f>& places_m = part.second;
     const auto group = static_cast<std::uint16_t>(key / 8);
     const auto offset = [&](std::uint32_t bit) { return key & bit ? half_m : 0.0f; };
     for (std::size_t first = 0; first < places_m.size(); first += kMostOfBatch)
