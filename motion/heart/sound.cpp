@@ -32,9 +32,10 @@ std::vector<double> volumesOf(const RecordedPart& part) {
 
 // What is wrong with a part after its folds were smoothed out; empty: nothing.
 std::string mend(RecordedPart& part, const std::vector<double>& phases) {
-  if (!foldIn(part.control_m, part.faces)) return {};
+  const SurfaceBeat beat{phases, part.control_m};
+  if (!foldIn(beat, part.faces)) return {};
   const std::vector<double> before_m3 = volumesOf(part);
-  const std::optional<Fold> left = unfold(part.control_m, part.faces);
+  const std::optional<Fold> left = unfold(beat, part.faces);
   for (std::vector<Vec3d>& points : part.control_m)
     for (Vec3d& point : points) point = toMicrometre(point);
   const char* const dial = dialOf(part.kind.name);
@@ -60,8 +61,7 @@ void makeSound(Recording& recording) {
   std::vector<std::string> faults(recording.parts.size());
   parallelBlocks(recording.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
-      if (!recording.parts[p].kind.membrane)
-        faults[p] = mend(recording.parts[p], recording.phases);
+      if (!recording.parts[p].kind.membrane) faults[p] = mend(recording.parts[p], recording.phases);
   });
   for (const std::string& fault : faults)  // the first, whichever thread was faster
     if (!fault.empty()) throw SceneError(fault);

@@ -1,13 +1,16 @@
 #include "motion/heart/unfold.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+
+#include "motion/keyframes/interpolation.h"
 
 namespace echocine::heart {
 namespace {
 
 constexpr double kFoldedCosine = -0.766, kTurnedCosine = 0.342;  // of 140 and of 70 degrees
-constexpr int kBetween = 4;               // instants looked at from one keyframe to the next
+constexpr int kBetween = 8;  // instants looked at from one keyframe to the next
 
 using Ring = std::vector<std::uint32_t>;
 
@@ -51,14 +54,19 @@ class FoldFinder {
   // Calls found(keyframe, face) for every face in a fold until it returns false.
   template <typename Found>
   void look(const SurfaceBeat& beat, Found&& found) {
-    std::vector<Vec3d> left, right = normalsOf(beat.front());
-    for (std::size_t k = 0; k < beat.size(); ++k) {
-      const std::vector<Vec3d>& next = beat[(k + 1) % beat.size()];
+    const std::size_t count = beat.points.size();
+    // A scene's own choice where it makes none.
+    std::optional<KeyframeWeights> weights;
+    if (count > 1) weights.emplace(beat.phases, Interpolation::catmull_rom);
+    std::vector<Vec3d> left, right = normalsOf(beat.points.front());
+    for (std::size_t k = 0; k < count; ++k) {
       left = std::move(right);
-      right = normalsOf(next);
-      for (int i = 0; i < (beat.size() > 1 ? kBetween : 1); ++i) {
-        const double share = static_cast<double>(i) / kBetween;
-        const std::vector<Vec3d> now = i == 0 ? left : normalsOf(blended(beat[k], next, share));
+      right = normalsOf(beat.points[(k + 1) % count]);
+      for (int i = 0; i < (count > 1 ? kBetween : 1); ++i) {
+        const double end = k + 1 < count ? beat.phases[k + 1] : 1;
+        const double phase = std::lerp(beat.phases[k], end, static_cast<double>(i) / kBetween);
+        const std::vector<Vec3d> now =
+            i == 0 ? left : normalsOf(pointsAt(phase, *weights, beat.points));
         for (const Hinge& hinge : hinges_)
           if (dot(now[hinge.a], now[hinge.b]) < kFoldedCosine &&
               !(found(k, hinge.a) && found(k, hinge.b)))
@@ -72,11 +80,14 @@ class FoldFinder {
   }
 
  private:
-  static std::vector<Vec3d> blended(const std::vector<Vec3d>& from, const std::vector<Vec3d>& to,
-                                    double share) {
-    std::vector<Vec3d> points(from.size());
-    for (std::size_t v = 0; v < from.size(); ++v)
-      points[v] = (1 - share) * from[v] + share * to[v];
+  static std::vector<Vec3d> pointsAt(double phase, const KeyframeWeights& weights,
+                                     const std::vector<std::vector<Vec3d>>& keyframes) {
+    std::vector<KeyframeWeights::Term> terms;
+    weights.termsAt(phase, terms);
+    std::vector<Vec3d> points(keyframes.front().size());
+    for (const KeyframeWeights::Term& term : terms)
+      for (std::size_t v = 0; v < points.size(); ++v)
+        points[v] = points[v] + term.weight * keyframes[term.row][v];
     return points;
   }
   std::vector<Vec3d> normalsOf(const std::vector<Vec3d>& points) const {
@@ -128,11 +139,11 @@ std::optional<Fold> foldIn(const SurfaceBeat& beat, const std::vector<Face>& fac
   return first;
 }
 
-std::optional<Fold> unfold(SurfaceBeat& beat, const std::vector<Face>& faces) {
+std::optional<Fold> unfold(const SurfaceBeat& beat, const std::vector<Face>& faces) {
   constexpr int kRounds = 60, kSteps = 3;  // a round that smooths too little is followed by another
   FoldFinder finder(faces);
-  const std::vector<Ring> rings = ringsOf(beat.front().size(), faces);
-  std::vector<double> share(beat.front().size(), 0);
+  const std::vector<Ring> rings = ringsOf(beat.points.front().size(), faces);
+  std::vector<double> share(beat.points.front().size(), 0);
   for (int round = 0; round < kRounds; ++round) {
     bool sound = true;
     finder.look(beat, [&](std::size_t, std::size_t face) {
@@ -142,7 +153,7 @@ std::optional<Fold> unfold(SurfaceBeat& beat, const std::vector<Face>& faces) {
     });
     if (sound) return std::nullopt;
     spread(rings, share);
-    for (std::vector<Vec3d>& points : beat)
+    for (std::vector<Vec3d>& points : beat.points)
       for (int step = 0; step < kSteps; ++step) smoothOnce(rings, share, points);
   }
   return foldIn(beat, faces);

@@ -29,9 +29,9 @@ Extent extent() {
   if (const char* asked = std::getenv("ECHOCINE_RANDOM_HEARTS"))
     return {std::strtoull(asked, nullptr, 10), 12, 200};
 #ifdef ECHOCINE_SANITIZED
-  return {5, 4, 16};
+  return {4, 4, 16};
 #else
-  return {20, 6, 24};
+  return {12, 6, 24};
 #endif
 }
 
