@@ -56,14 +56,20 @@ std::string roff(const std::string& text) {
   return safe.starts_with('.') || safe.starts_with('\'') ? "\\&" + safe : safe;
 }
 
+// What an option takes: of "INT:INT in [0 - 9]", its kind and what is accepted, the latter.
+std::string valueOf(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  return type.substr(type.find(':') + 1);
+}
+
 std::string optionEntry(const CLI::Option& option) {
   std::string names;
   for (const std::string& name : namesOf(option))
     names += fmt::format("{}\\fB{}\\fR", names.empty() ? "" : ", ", roff(name));
   if (names.empty()) names = fmt::format("\\fI{}\\fR", roff(option.get_name()));
   if (!isFlag(option) && !namesOf(option).empty())
-    names += fmt::format(" \\fI{}\\fR", roff(option.get_type_name()));
-  std::string meaning = roff(option.get_description());
+    names += fmt::format(" \\fI{}\\fR", roff(valueOf(option)));
+  std::string meaning = roff(option.get_description()) + ".";
   if (!option.get_default_str().empty())
     meaning += fmt::format(" Default: {}.", roff(option.get_default_str()));
   if (option.get_required()) meaning += " Required.";

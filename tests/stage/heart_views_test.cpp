@@ -176,8 +176,10 @@ TEST(HeartViews, TheDepthFollowsTheEjectionFractionWithoutSteps) {
   for (int i = 0; i <= 6; ++i) {
     const heart::ParametricHeart model(heart::parametersFrom({{"ef", 0.60 - 0.01 * i}}));
     const double depth_m = heart::poseOf(View::a4c, model).depth_m;
-    if (i > 0) EXPECT_NEAR(depth_m, last_m, 1e-3) << i;
-    if (i > 0) EXPECT_NE(depth_m, last_m) << i;
+    if (i > 0) {
+      EXPECT_NEAR(depth_m, last_m, 1e-3) << i;
+      EXPECT_NE(depth_m, last_m) << i;
+    }
     last_m = depth_m;
   }
 }

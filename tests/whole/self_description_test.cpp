@@ -94,8 +94,7 @@ TEST(Help, OfEveryCommandHasAnExampleTheDocumentsAndTheThreadsThatItTakes) {
     const std::string help = helpOf(command);
     EXPECT_TRUE(names(help, "Example: echocine " + command)) << command;
     EXPECT_NE(help.find("Documents: "), std::string::npos) << command;
-    EXPECT_TRUE(std::regex_search(help, std::regex("--threads[^-]*one per core")))
-        << command;
+    EXPECT_TRUE(std::regex_search(help, std::regex("--threads[^-]*one per core"))) << command;
     EXPECT_NE(help.find("--quiet"), std::string::npos) << command;
   }
 }
