@@ -158,6 +158,22 @@ class PageTest(unittest.TestCase):
             inner, content = self.run_script("return [innerWidth, document.documentElement.scrollWidth]")
             self.assertLessEqual(content, inner, f"at {width} pixels")
 
+    def test_no_legend_cuts_its_words(self):
+        """Above or below; beside, a legend scrolls. A tenth of its height is spare."""
+        cut = self.run_script("""
+            const placed = (element) => {
+              const box = element.getBoundingRect().clone();
+              if (element.transform) box.applyTransform(element.transform);
+              return box;
+            };
+            return page.parts.charts.flatMap((chart) => chart.getZr().storage.getDisplayList(true)
+              .filter((e) => e.type === "tspan" && e.__clipPaths?.length)
+              .filter((e) => {
+                const text = placed(e), clip = placed(e.__clipPaths[0]), spare = 0.1 * text.height;
+                return text.y - spare < clip.y || text.y + text.height + spare > clip.y + clip.height;
+              }).map((e) => e.style.text));""")
+        self.assertEqual(cut, [])
+
     def test_fits_a_phone(self):
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                                     {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
