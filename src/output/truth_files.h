@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "output/frame_record.h"
+#include "output/function_json.h"
 #include "signal/picture.h"
 #include "truth/frame_truth.h"
 
@@ -32,13 +33,15 @@ class TruthFiles {
   void add(const FrameRecord& record, const FrameTruth& truth);
 
   // tracks.npz and function.json of the frames that were added.
-  std::map<std::string, std::string> finish(std::span<const TruthMaker::Tracked> tracked) const;
+  std::map<std::string, std::string> finish(const LoopTruth& loop) const;
+
+  // The function of the frames that were added, one by one.
+  std::span<const FunctionFrame> functions() const { return functions_; }
 
   // What holds for all frames: labels.json.
   std::map<std::string, std::string> writeTables() const;
 
  private:
-  std::string functionText() const;
   std::vector<std::byte> tracksFile(std::span<const TruthMaker::Tracked> tracked) const;
   std::vector<std::byte> labelPicture(const FrameTruth& truth) const;
   std::string contoursText(const FrameRecord& record, const FrameTruth& truth) const;

@@ -30,7 +30,6 @@ class RenderPass {
     ReportPage& report;
     bool resume;
     std::map<std::string, std::string> earlier_hashes;  // on resuming, of an earlier manifest
-    const TruthMaker* truth = nullptr;                  // none is wanted
   };
   // Frames, file hashes and reference go through `manifest`; `kept` frames are used up.
   RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept);
@@ -55,6 +54,7 @@ class RenderPass {
   void writeExr(const FrameRecord& record, const Workspace& workspace, Finished& finished);
   void makeTruth(const FrameTime& time, Finished& finished);
   void writePictures(GreyImage& image, Finished& finished);
+  void finishTruth();
   void drain(Finished& finished);
   void endEarly();
 

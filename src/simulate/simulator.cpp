@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
 #include "output/polar_plane.h"
+#include "output/truth_files.h"
 #include "signal/reference.h"
 #include "simulate/plan_loop.h"
 
@@ -172,6 +174,25 @@ std::vector<KeyframeVolume> Simulator::keyframeVolumes() const {
   return list;
 }
 
+const TruthMaker* Simulator::truth() const {
+  std::call_once(truth_once_, [this] {
+    if (TruthMaker::wanted(scene_))
+      truth_ = std::make_unique<const TruthMaker>(scene_, *motion_, pictureGrid(scene_),
+                                                  cardiac_clock_.at(0).phase);
+  });
+  return truth_.get();
+}
+
+// Velocity is taken from a millisecond before to one after, within the loop.
+FrameTruth Simulator::truthAt(const FrameTime& time) const {
+  constexpr double kStep_s = 1e-3;
+  const double end_s = cardiac_clock_.frameCount() / scene_.acquisition.frame_rate_hz;
+  const double before_s = std::max(time.time_s - kStep_s, 0.0),
+               after_s = std::min(time.time_s + kStep_s, end_s);
+  return truth()->at({time.phase, cardiac_clock_.atTime(before_s).phase,
+                      cardiac_clock_.atTime(after_s).phase, after_s - before_s});
+}
+
 double Simulator::measureReference() const {
   if (scene_.signal.reference_intensity) return *scene_.signal.reference_intensity;
   if (!wantsPicture(scene_) || !plan_.effects.contrast) return 1;
@@ -217,6 +238,8 @@ void Simulator::frame(double time_s, Frame& made) const {
     made.volumes_ml = trace(made.time, *w);
     made.intensities.values.assign(w->polar.intensities.begin(), w->polar.intensities.end());
     picture(reference, *w, wantsPicture(scene_));
+    made.truth.reset();
+    if (truth() != nullptr) made.truth = truthAt(made.time);
   });
   made.lines = scene_.probe.lines;
   made.samples = scene_.probe.samples;

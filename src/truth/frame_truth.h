@@ -13,6 +13,8 @@
 #include "truth/label_table.h"
 #include "truth/motion_planes.h"
 #include "truth/plane_labels.h"
+#include "truth/valve_times.h"
+#include "truth/view_offset.h"
 
 namespace echocine {
 
@@ -61,6 +63,11 @@ class TruthMaker {
   };
   const std::vector<Tracked>& tracked() const { return tracked_; }
 
+  // Of the whole loop, where function is asked for: the left ventricle's valves, none where its
+  // volume does not change, and the view at the reference phase.
+  const std::optional<ValveTimes>& valves() const { return valves_; }
+  const std::optional<ViewOffset>& view() const { return view_; }
+
   // Thread-safe.
   FrameTruth at(const TruthTime& time) const;
 
@@ -70,6 +77,7 @@ class TruthMaker {
   struct Space;
   std::shared_ptr<Space> space() const;
   void chooseTracks();
+  void lookAtBeat();
   void addTracks(const Space& space, FrameTruth& truth) const;
   void addMotion(const TruthTime& time, Space& space, FrameTruth& truth) const;
 
@@ -81,6 +89,8 @@ class TruthMaker {
   std::optional<MotionField> field_;
   std::optional<HeartFunction> function_;
   std::vector<Tracked> tracked_;
+  std::optional<ValveTimes> valves_;
+  std::optional<ViewOffset> view_;
   FieldFrame first_;  // the loop's first frame
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<Space>> free_;
