@@ -120,16 +120,16 @@ std::string TruthFiles::contoursText(const FrameRecord& record, const FrameTruth
   return json.dump() + "\n";
 }
 
-std::map<std::string, std::string> TruthFiles::write(const FrameRecord& record,
-                                                     const FrameTruth& truth) const {
-  std::map<std::string, std::string> files;
+TruthFrameFiles TruthFiles::write(const FrameRecord& record, const FrameTruth& truth) const {
+  TruthFrameFiles files;
   if (scene_.truth.labels) {
     const std::string name = fmt::format("labels_{:04}.png", record.frame);
-    files["truth/" + name] = put(name, labelPicture(truth));
+    files.labels = labelPicture(truth);
+    files.sha256["truth/" + name] = put(name, files.labels);
   }
   if (scene_.truth.contours) {
     const std::string name = fmt::format("contours_{:04}.json", record.frame);
-    files["truth/" + name] = put(name, bytesOf(contoursText(record, truth)));
+    files.sha256["truth/" + name] = put(name, bytesOf(contoursText(record, truth)));
   }
   return files;
 }

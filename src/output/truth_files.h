@@ -17,16 +17,20 @@ namespace echocine {
 // The picture's pixels as truth has them.
 PictureGrid pictureGrid(const Scene& scene);
 
+// What was written for a frame.
+struct TruthFrameFiles {
+  std::map<std::string, std::string> sha256;  // by name, relative to the run's folder
+  std::vector<std::byte> labels;              // the label picture; empty where none is asked for
+};
+
 class TruthFiles {
  public:
   // Makes `folder` where the scene asks for truth files, rid of those of earlier runs. References
   // are kept.
   TruthFiles(std::filesystem::path folder, const Scene& scene, const LabelTable& labels);
 
-  // Writes a frame's files; returns their names, relative to the run's folder, and SHA-256.
-  // Thread-safe. Throws JobError.
-  std::map<std::string, std::string> write(const FrameRecord& record,
-                                           const FrameTruth& truth) const;
+  // Writes a frame's files. Thread-safe. Throws JobError.
+  TruthFrameFiles write(const FrameRecord& record, const FrameTruth& truth) const;
 
   // Keeps what goes into one file of the whole loop. One call at a time, in the order of the
   // frames.

@@ -70,7 +70,11 @@ RenderPass::RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept)
 
 void RenderPass::makeTruth(const FrameTime& time, Finished& finished) {
   finished.truth = parts_.simulator.truthAt(time);
-  finished.truth_files = truth_files_->write(finished.entry.record, *finished.truth);
+  TruthFrameFiles files = truth_files_->write(finished.entry.record, *finished.truth);
+  finished.truth_files = std::move(files.sha256);
+  if (!parts_.report.shows(time.frame)) return;
+  finished.page_truth = {pageOutlines(*finished.truth, parts_.simulator.scene()),
+                         std::move(files.labels)};
 }
 
 Volumes RenderPass::tracedFrame(const FrameTime& time, Workspace& workspace) {
@@ -174,7 +178,10 @@ void RenderPass::drain(Finished& finished) {
     manifest_.files["intensity/" + ExrStack::fileName(frame)] = entry.exr_sha256;
   if (!finished.png_sha256.empty())
     manifest_.files["png/" + frameName(frame, ".png")] = finished.png_sha256;
-  if (truth_files_) truth_files_->add(entry.record, *finished.truth);
+  if (truth_files_) {
+    truth_files_->add(entry.record, *finished.truth);
+    if (parts_.report.shows(frame)) parts_.report.addTruth(finished.page_truth, finished.truth->tracks_m);
+  }
   manifest_.files.merge(finished.truth_files);
   manifest_.frames.push_back(entry);
 }

@@ -46,6 +46,7 @@ class RenderPass {
     std::string mended;               // why a frame that was there is made again; empty: it is not
     std::optional<FrameTruth> truth;  // until it is written
     std::map<std::string, std::string> truth_files;  // name -> SHA-256
+    PageTruth page_truth;
   };
 
   std::shared_ptr<Finished> make(int frame);

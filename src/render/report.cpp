@@ -64,6 +64,36 @@ Json framesJson(const Manifest& manifest, const ReportPage& page) {
   return frames;
 }
 
+// Numbers to a tenth of a pixel take a third of the page's bytes.
+Json tenths(const std::vector<float>& values) {
+  Json list = Json::array();
+  for (const float v : values) list.push_back(std::round(10 * static_cast<double>(v)) / 10);
+  return list;
+}
+
+Json outlinesJson(const std::vector<std::vector<PageTruth::Outline>>& frames) {
+  Json list = Json::array();
+  for (const auto& outlines : frames) {
+    Json of_frame = Json::array();
+    for (const PageTruth::Outline& o : outlines)
+      of_frame.push_back({o.structure, o.closed, tenths(o.px)});
+    list.push_back(std::move(of_frame));
+  }
+  return list;
+}
+
+// Values of the frames that the page shows.
+Json curvesJson(const Manifest& manifest, const ReportPage& page) {
+  Json curves = Json::object();
+  for (const auto& [name, values] : manifest.curves) {
+    Json shown = Json::array();
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (page.shows(manifest.frames[i].record.frame)) shown.push_back(values[i]);
+    curves[name] = std::move(shown);
+  }
+  return curves;
+}
+
 // What differs from run to run stands apart, last on the page.
 Json measuredJson(const Manifest& manifest) {
   Json timings = stageTimesJson(manifest), shares = Json::object();
@@ -75,9 +105,31 @@ Json measuredJson(const Manifest& manifest) {
 
 }  // namespace
 
+std::vector<PageTruth::Outline> pageOutlines(const FrameTruth& truth, const Scene& scene) {
+  constexpr float kApart_px = 1.5f, kBeyond_px = 50;  // our choices
+  const PictureGeometry picture = pictureGeometry(scene);
+  const auto width = static_cast<float>(scene.output.width),
+             height = static_cast<float>(scene.output.height);
+  std::vector<PageTruth::Outline> outlines;
+  for (const Contour& contour : truth.contours) {
+    PageTruth::Outline outline{index(contour.surface), contour.closed, {}};
+    bool seen = false;
+    for (const Vec3d p : contour.points_m) {
+      const PixelPoint at = pixelOf(picture, p);
+      const auto x = static_cast<float>(at.x), y = static_cast<float>(at.y);
+      seen |= x > -kBeyond_px && y > -kBeyond_px && x < width + kBeyond_px && y < height + kBeyond_px;
+      const std::size_t n = outline.px.size();
+      if (n == 0 || std::hypot(x - outline.px[n - 2], y - outline.px[n - 1]) > kApart_px)
+        outline.px.insert(outline.px.end(), {x, y});
+    }
+    if (seen) outlines.push_back(std::move(outline));
+  }
+  return outlines;
+}
+
 ReportPage::ReportPage(const std::filesystem::path& path, const Scene& scene,
                        const CardiacClock& clock, std::pair<int, int> range)
-    : scene_(scene), clock_(clock), range_(range), stride_(pageStride(range.second - range.first)) {
+    : scene_(scene), clock_(clock), range_(range), stride_(pageStride(range.second - range.first)), picture_(pictureGeometry(scene)) {
   if (!scene.output.report) return;
   writer_.emplace(path, pageLook("EchoCine: " + titleOf(scene), pageAsset("report.html"),
                                  pageAsset("report.js")));
@@ -89,6 +141,20 @@ bool ReportPage::shows(int frame) const {
 
 void ReportPage::addFrame(std::span<const std::byte> image) {
   if (writer_) writer_->addFrame("cine", image);
+}
+
+// A few hundred points show the motion.
+void ReportPage::addTruth(const PageTruth& truth, std::span<const Vec3f> tracks_m) {
+  constexpr std::size_t kMostPoints = 300;
+  if (!writer_) return;
+  if (!truth.labels.empty()) writer_->addFrame("labels", truth.labels);
+  outlines_.push_back(truth.outlines);
+  std::vector<float>& px = tracks_px_.emplace_back();
+  const std::size_t every = tracks_m.size() / kMostPoints + 1;
+  for (std::size_t i = 0; i < tracks_m.size(); i += every) {
+    const PixelPoint at = pixelOf(picture_, toDouble(tracks_m[i]));
+    px.insert(px.end(), {static_cast<float>(at.x), static_cast<float>(at.y)});
+  }
 }
 
 void ReportPage::finish(const Manifest& manifest) {
@@ -116,6 +182,13 @@ void ReportPage::finish(const Manifest& manifest) {
             {"structures", structuresJson(scene_)}};
   for (const char* part : {"probe", "acquisition", "motion", "signal", "accuracy", "output"})
     data[part] = scene[part];
+  if (!outlines_.empty()) {
+    Json tracks = Json::array();
+    for (const auto& px : tracks_px_) tracks.push_back(tenths(px));
+    data["truth"] = {{"outlines", outlinesJson(outlines_)},
+                     {"tracks_px", tracks},
+                     {"curves", curvesJson(manifest, *this)}};
+  }
   data["measured"] = measuredJson(manifest);
   writer_->finish(data);
 }

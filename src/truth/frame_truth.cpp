@@ -85,6 +85,8 @@ void TruthMaker::lookAtBeat() {
     volume_ml.push_back(millilitresFromCubicMetres(motion_.volumeIn(surfaces, cavity)));
   }
   valves_ = valveTimes(volume_ml);
+  if (valves_ && scene_.motion.end_systole_phase)
+    valves_->aortic_closes = *scene_.motion.end_systole_phase;
   motion_.frameAt(field_->referencePhase(), surfaces, false);
   view_ = viewOffset(function_->landmarks(surfaces), cavity,
                      surfaces.positions_m[index(function_->cavity())]);

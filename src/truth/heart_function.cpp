@@ -184,7 +184,7 @@ HeartFunction::Lengths HeartFunction::lengths(const WallColumn& c, const Surface
                                       group.place(c.mid_m - kReach_m * direction)));
   };
   const Vec3f endo_m = surfaces.positions_m[index(cavity_)][c.vertex];
-  return {across(c.longitudinal), across(c.radial), across(c.circumferential),
+  return {across(c.longitudinal), across(c.circumferential),
           static_cast<double>(length(group.place(c.epi_m) - endo_m))};
 }
 
@@ -228,7 +228,7 @@ void HeartFunction::Means::add(const WallColumn& column, const Lengths& now,
   ++count;
   ++counts[s];
   sums[s].longitudinal += strain;
-  sums[s].radial += now.radial / first.radial - 1;
+  sums[s].radial += now.thickness / first.thickness - 1;
   sums[s].circumferential += now.circumferential / first.circumferential - 1;
   sums[s].thickness_mm += millimetresFromMetres(now.thickness);
 }

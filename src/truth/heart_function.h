@@ -24,7 +24,8 @@ struct WallColumn {
   int segment = 0;                              // 1 to 17, as the American Heart Association counts
 };
 
-// Parts of the first frame's lengths; not a number for a segment without wall.
+// Parts of the first frame's lengths, radial that of the wall's thickness; not a number for a
+// segment without wall.
 struct SegmentStrain {
   double longitudinal = 0, radial = 0, circumferential = 0, thickness_mm = 0;
 };
@@ -71,7 +72,7 @@ class HeartFunction {
 
  private:
   struct Lengths {
-    double longitudinal, radial, circumferential, thickness;
+    double longitudinal, circumferential, thickness;
   };
   // Sums over columns, by segment.
   struct Means {

@@ -7,14 +7,17 @@ namespace echocine {
 
 namespace {
 
-// Of the stroke volume. Our choice: beyond the wobble that interpolation leaves on plateaus.
-constexpr double kOfStroke = 0.01;
+// Of the stroke volume. Our choices: ejection begins fast, with wobbles of interpolation before it,
+// while it fades out slowly.
+constexpr double kFull = 0.01, kEmpty = 0.002;
 
 // From step `from` forwards or backwards, round the beat: where the volume first is on the other
 // side of `level_ml`, linear between steps.
 double crossing(std::span<const double> volume_ml, std::size_t from, int way, double level_ml) {
   const auto count = static_cast<int>(volume_ml.size());
-  const auto at = [&](int i) { return volume_ml[static_cast<std::size_t>((i % count + count) % count)]; };
+  const auto at = [&](int i) {
+    return volume_ml[static_cast<std::size_t>((i % count + count) % count)];
+  };
   const auto start = static_cast<int>(from);
   const bool above = at(start) >= level_ml;
   for (int i = 1; i <= count; ++i) {
@@ -36,7 +39,7 @@ std::optional<ValveTimes> valveTimes(std::span<const double> volume_ml) {
   if (!(stroke_ml > 1e-3 * *most)) return std::nullopt;
   const auto full = static_cast<std::size_t>(most - volume_ml.begin()),
              empty = static_cast<std::size_t>(least - volume_ml.begin());
-  const double full_ml = *most - kOfStroke * stroke_ml, empty_ml = *least + kOfStroke * stroke_ml;
+  const double full_ml = *most - kFull * stroke_ml, empty_ml = *least + kEmpty * stroke_ml;
   return ValveTimes{crossing(volume_ml, full, -1, full_ml), crossing(volume_ml, full, 1, full_ml),
                     crossing(volume_ml, empty, -1, empty_ml),
                     crossing(volume_ml, empty, 1, empty_ml)};

@@ -13,7 +13,7 @@ struct ValveTimes {
 
 // volume_ml: of the cavity at even steps over one beat from phase 0. A valve is open while volume
 // passes it: the ventricle is full, and both are closed, within 1 % of the stroke volume of its
-// largest volume; empty within as much of its smallest. Nothing where the volume does not change.
+// largest volume; empty within 0.2 % of its smallest. Nothing where the volume does not change.
 std::optional<ValveTimes> valveTimes(std::span<const double> volume_ml);
 
 }  // namespace echocine
