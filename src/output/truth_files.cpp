@@ -70,14 +70,6 @@ TruthFiles::TruthFiles(std::filesystem::path folder, const Scene& scene, const L
   if (failed)
     throw JobError(
         fmt::format("{}: cannot be made a folder: {}", folder_.string(), failed.message()));
-  std::vector<std::filesystem::path> stale;
-  for (const auto& file : std::filesystem::directory_iterator(folder_, failed)) {
-    const std::string name = file.path().filename().string();
-    const bool ours = name.starts_with("labels") || name.starts_with("contours_") ||
-                      name.starts_with("tracks.") || name.starts_with("function.");
-    if (ours && file.is_regular_file()) stale.push_back(file.path());
-  }
-  for (const auto& path : stale) std::filesystem::remove(path, failed);
 }
 
 std::string TruthFiles::put(const std::string& name, std::span<const std::byte> bytes) const {

@@ -25,8 +25,7 @@ struct TruthFrameFiles {
 
 class TruthFiles {
  public:
-  // Makes `folder` where the scene asks for truth files, rid of those of earlier runs. References
-  // are kept.
+  // Makes `folder` where the scene asks for truth files. References are kept.
   TruthFiles(std::filesystem::path folder, const Scene& scene, const LabelTable& labels);
 
   // Writes a frame's files. Thread-safe. Throws JobError.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/units.h"
+#include "truth/surface_normals.h"
 
 namespace echocine {
 
@@ -13,10 +14,6 @@ namespace {
 // Beyond these a plane is none of the standard ones. Our choices.
 constexpr double kMostTilt_deg = 30, kMostTurn_deg = 30;
 constexpr double kApical = 0.7;  // cosine between the beam's axis and the long axis
-
-Vec3d across(Vec3d v, Vec3d axis) {
-  return v - dot(v, axis) * axis;
-}
 
 // Planes have no front: turns by half a circle are the same. In (-90, 90].
 double planeTurn(double degrees) {
@@ -31,7 +28,7 @@ class Turns {
     const HeartAxes& a = marks.axes;
     Vec3d septal = a.septal;
     if (marks.tricuspid_m)
-      if (const Vec3d s = across(*marks.tricuspid_m - a.base_m, a.axis); length(s) > 0)
+      if (const Vec3d s = acrossAxis(*marks.tricuspid_m - a.base_m, a.axis); length(s) > 0)
         septal = normalised(s);
     lateral_ = -septal;
     anterior_ = cross(septal, a.axis);
@@ -84,7 +81,7 @@ ViewOffset viewOffset(const ViewLandmarks& marks, const SurfaceTopology& cavity,
   const Turns turns(marks);
   const double turn_deg = turns.of(cross(Vec3d{0, 1, 0}, axes.axis));
   double aortic_deg = -60;
-  if (marks.aortic_m) aortic_deg = turns.of(across(*marks.aortic_m - axes.base_m, axes.axis));
+  if (marks.aortic_m) aortic_deg = turns.of(acrossAxis(*marks.aortic_m - axes.base_m, axes.axis));
   const bool apical = -axes.axis.z > kApical;  // the beam enters at the apex
   struct Standard {
     double turn_deg;
