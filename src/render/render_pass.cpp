@@ -68,13 +68,13 @@ RenderPass::RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept)
   manifest_.files.merge(truth_files_->writeTables());
 }
 
-void RenderPass::makeTruth(const FrameTime& time, Finished& finished) {
-  finished.truth = parts_.simulator.truthAt(time);
+void RenderPass::makeTruth(const FrameTime& time, const Workspace& workspace, Finished& finished) {
+  finished.truth = parts_.simulator.truthAt(time, &workspace);
   TruthFrameFiles files = truth_files_->write(finished.entry.record, *finished.truth);
   finished.truth_files = std::move(files.sha256);
   if (!parts_.report.shows(time.frame)) return;
-  finished.page_truth = {pageOutlines(*finished.truth, parts_.simulator.scene()),
-                         std::move(files.labels)};
+  finished.page_truth =
+      pageTruth(*finished.truth, parts_.simulator.scene(), std::move(files.labels));
 }
 
 Volumes RenderPass::tracedFrame(const FrameTime& time, Workspace& workspace) {
@@ -151,7 +151,7 @@ std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
   finished->entry.volumes_ml = tracedFrame(time, *workspace);
   GreyImage& image =
       parts_.simulator.picture(manifest_.reference_intensity, *workspace, o.cine || o.png);
-  if (truth_files_) makeTruth(time, *finished);
+  if (truth_files_) makeTruth(time, *workspace, *finished);
   clock.time(Stage::exr, [&] { writeExr(record, *workspace, *finished); });
   if (finished->truth) finished->truth->forgetPlanes();
   if (o.cine || o.png) clock.time(Stage::avi, [&] { writePictures(image, *finished); });
@@ -180,7 +180,7 @@ void RenderPass::drain(Finished& finished) {
     manifest_.files["png/" + frameName(frame, ".png")] = finished.png_sha256;
   if (truth_files_) {
     truth_files_->add(entry.record, *finished.truth);
-    if (parts_.report.shows(frame)) parts_.report.addTruth(finished.page_truth, finished.truth->tracks_m);
+    if (parts_.report.shows(frame)) parts_.report.addTruth(std::move(finished.page_truth));
   }
   manifest_.files.merge(finished.truth_files);
   manifest_.frames.push_back(entry);

@@ -53,7 +53,7 @@ class RenderPass {
   void takeEarlier(const FrameRecord& record, Finished& finished) const;
   Volumes tracedFrame(const FrameTime& time, Workspace& workspace);
   void writeExr(const FrameRecord& record, const Workspace& workspace, Finished& finished);
-  void makeTruth(const FrameTime& time, Finished& finished);
+  void makeTruth(const FrameTime& time, const Workspace& workspace, Finished& finished);
   void writePictures(GreyImage& image, Finished& finished);
   void finishTruth();
   void drain(Finished& finished);

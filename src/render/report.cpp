@@ -7,6 +7,7 @@
 #include "motion/cycle/ecg.h"
 #include "page/assets.h"
 #include "scene/scene_json.h"
+#include "signal/picture.h"
 
 namespace echocine {
 
@@ -71,11 +72,11 @@ Json tenths(const std::vector<float>& values) {
   return list;
 }
 
-Json outlinesJson(const std::vector<std::vector<PageTruth::Outline>>& frames) {
+Json outlinesJson(const std::vector<PageTruth>& frames) {
   Json list = Json::array();
-  for (const auto& outlines : frames) {
+  for (const PageTruth& frame : frames) {
     Json of_frame = Json::array();
-    for (const PageTruth::Outline& o : outlines)
+    for (const PageTruth::Outline& o : frame.outlines)
       of_frame.push_back({o.structure, o.closed, tenths(o.px)});
     list.push_back(std::move(of_frame));
   }
@@ -105,9 +106,11 @@ Json measuredJson(const Manifest& manifest) {
 
 }  // namespace
 
-std::vector<PageTruth::Outline> pageOutlines(const FrameTruth& truth, const Scene& scene) {
+namespace {
+
+std::vector<PageTruth::Outline> outlinesOf(const FrameTruth& truth, const Scene& scene,
+                                           const PictureGeometry& picture) {
   constexpr float kApart_px = 1.5f, kBeyond_px = 50;  // our choices
-  const PictureGeometry picture = pictureGeometry(scene);
   const auto width = static_cast<float>(scene.output.width),
              height = static_cast<float>(scene.output.height);
   std::vector<PageTruth::Outline> outlines;
@@ -127,9 +130,24 @@ std::vector<PageTruth::Outline> pageOutlines(const FrameTruth& truth, const Scen
   return outlines;
 }
 
+}  // namespace
+
+PageTruth pageTruth(const FrameTruth& truth, const Scene& scene, std::vector<std::byte> labels) {
+  constexpr std::size_t kMostPoints = 300;  // enough to see the motion by
+  const PictureGeometry picture = pictureGeometry(scene);
+  PageTruth page{outlinesOf(truth, scene, picture), {}, std::move(labels)};
+  const std::size_t every = truth.tracks_m.size() / kMostPoints + 1;
+  for (std::size_t i = 0; i < truth.tracks_m.size(); i += every) {
+    const PixelPoint at = pixelOf(picture, toDouble(truth.tracks_m[i]));
+    page.tracks_px.insert(page.tracks_px.end(),
+                          {static_cast<float>(at.x), static_cast<float>(at.y)});
+  }
+  return page;
+}
+
 ReportPage::ReportPage(const std::filesystem::path& path, const Scene& scene,
                        const CardiacClock& clock, std::pair<int, int> range)
-    : scene_(scene), clock_(clock), range_(range), stride_(pageStride(range.second - range.first)), picture_(pictureGeometry(scene)) {
+    : scene_(scene), clock_(clock), range_(range), stride_(pageStride(range.second - range.first)) {
   if (!scene.output.report) return;
   writer_.emplace(path, pageLook("EchoCine: " + titleOf(scene), pageAsset("report.html"),
                                  pageAsset("report.js")));
@@ -143,18 +161,11 @@ void ReportPage::addFrame(std::span<const std::byte> image) {
   if (writer_) writer_->addFrame("cine", image);
 }
 
-// A few hundred points show the motion.
-void ReportPage::addTruth(const PageTruth& truth, std::span<const Vec3f> tracks_m) {
-  constexpr std::size_t kMostPoints = 300;
+void ReportPage::addTruth(PageTruth truth) {
   if (!writer_) return;
   if (!truth.labels.empty()) writer_->addFrame("labels", truth.labels);
-  outlines_.push_back(truth.outlines);
-  std::vector<float>& px = tracks_px_.emplace_back();
-  const std::size_t every = tracks_m.size() / kMostPoints + 1;
-  for (std::size_t i = 0; i < tracks_m.size(); i += every) {
-    const PixelPoint at = pixelOf(picture_, toDouble(tracks_m[i]));
-    px.insert(px.end(), {static_cast<float>(at.x), static_cast<float>(at.y)});
-  }
+  truth.labels = {};
+  truths_.push_back(std::move(truth));
 }
 
 void ReportPage::finish(const Manifest& manifest) {
@@ -182,10 +193,10 @@ void ReportPage::finish(const Manifest& manifest) {
             {"structures", structuresJson(scene_)}};
   for (const char* part : {"probe", "acquisition", "motion", "signal", "accuracy", "output"})
     data[part] = scene[part];
-  if (!outlines_.empty()) {
+  if (!truths_.empty()) {
     Json tracks = Json::array();
-    for (const auto& px : tracks_px_) tracks.push_back(tenths(px));
-    data["truth"] = {{"outlines", outlinesJson(outlines_)},
+    for (const PageTruth& t : truths_) tracks.push_back(tenths(t.tracks_px));
+    data["truth"] = {{"outlines", outlinesJson(truths_)},
                      {"tracks_px", tracks},
                      {"curves", curvesJson(manifest, *this)}};
   }

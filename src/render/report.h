@@ -7,7 +7,6 @@
 #include "motion/cycle/cardiac_clock.h"
 #include "output/manifest.h"
 #include "page/page.h"
-#include "signal/picture.h"
 #include "truth/frame_truth.h"
 
 namespace echocine {
@@ -20,11 +19,13 @@ struct PageTruth {
     std::vector<float> px;  // x, y, x, y, ...
   };
   std::vector<Outline> outlines;
+  std::vector<float> tracks_px;   // x, y, x, y, ...
   std::vector<std::byte> labels;  // PNG; empty where none are asked for
 };
 
-// Contours within the picture, without points that lie within a pixel and a half of the last.
-std::vector<PageTruth::Outline> pageOutlines(const FrameTruth& truth, const Scene& scene);
+// Contours within the picture, without points that lie within a pixel and a half of the last, and
+// some hundred material points.
+PageTruth pageTruth(const FrameTruth& truth, const Scene& scene, std::vector<std::byte> labels);
 
 class ReportPage {
  public:
@@ -36,8 +37,7 @@ class ReportPage {
   // Whether the page shows this frame (pageStride()).
   bool shows(int frame) const;
   void addFrame(std::span<const std::byte> image);  // JPEG or PNG, in the order of frames
-  // Of the frame that was added last. tracks_m: material points, the same in every frame.
-  void addTruth(const PageTruth& truth, std::span<const Vec3f> tracks_m);
+  void addTruth(PageTruth truth);  // of the frame that was added last
   void finish(const Manifest& manifest);  // with times and volumes filled in
 
  private:
@@ -46,9 +46,7 @@ class ReportPage {
   std::pair<int, int> range_;
   int stride_;
   std::optional<PageWriter> writer_;
-  PictureGeometry picture_;
-  std::vector<std::vector<PageTruth::Outline>> outlines_;  // by shown frame
-  std::vector<std::vector<float>> tracks_px_;
+  std::vector<PageTruth> truths_;  // by shown frame, without their labels
 };
 
 }  // namespace echocine

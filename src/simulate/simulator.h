@@ -43,6 +43,7 @@ struct Frame {
 
 // What one frame needs while it is made; there are as many as frames in flight.
 struct Workspace {
+  double phase = -1;  // that surfaces and geometry stand at
   SurfaceFrame surfaces;
   std::variant<PlaneSlice, FrameGeometry> geometry;  // whichever the plan's tracer needs
   PolarFrame polar;
@@ -100,8 +101,9 @@ class Simulator {
   // What makes truth, fitted by the first call; nullptr where the scene asks for none. Errors: those
   // of TruthMaker. Thread-safe.
   const TruthMaker* truth() const;
+  // Takes surfaces and their slice from `traced` where it stands at this very phase.
   // Precondition: truth() is not nullptr.
-  FrameTruth truthAt(const FrameTime& time) const;
+  FrameTruth truthAt(const FrameTime& time, const Workspace* traced = nullptr) const;
 
   const SignalChain& chain() const { return chain_; }
   StageClock& clock() const { return clock_; }

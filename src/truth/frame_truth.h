@@ -44,6 +44,12 @@ struct TruthTime {
   double seconds = 0;  // from before to after
 };
 
+// What the tracer has made of the same phase already; null where it has not.
+struct TruthShared {
+  const SurfaceFrame* surfaces = nullptr;
+  const PlaneSlice* slice = nullptr;  // of all surfaces
+};
+
 class TruthMaker {
  public:
   // References are kept. The field is fitted at once where motion is asked for.
@@ -69,7 +75,7 @@ class TruthMaker {
   const std::optional<ViewOffset>& view() const { return view_; }
 
   // Thread-safe.
-  FrameTruth at(const TruthTime& time) const;
+  FrameTruth at(const TruthTime& time, const TruthShared& shared = {}) const;
 
   static bool wanted(const Scene& scene);
 
@@ -78,7 +84,10 @@ class TruthMaker {
   std::shared_ptr<Space> space() const;
   void chooseTracks();
   void lookAtBeat();
-  void addTracks(const Space& space, FrameTruth& truth) const;
+  void addTracks(const SurfaceFrame& surfaces, const Space& space, FrameTruth& truth) const;
+  void addLabels(const PlaneSlice& slice, FrameTruth& truth) const;
+  const PlaneSlice& sliceOf(const SurfaceFrame& surfaces, const TruthShared& shared,
+                            Space& space) const;
   void addMotion(const TruthTime& time, Space& space, FrameTruth& truth) const;
 
   const Scene& scene_;
@@ -89,6 +98,7 @@ class TruthMaker {
   std::optional<MotionField> field_;
   std::optional<HeartFunction> function_;
   std::vector<Tracked> tracked_;
+  std::pair<float, float> tracked_y_m_{};  // lowest and highest at the reference phase
   std::optional<ValveTimes> valves_;
   std::optional<ViewOffset> view_;
   FieldFrame first_;  // the loop's first frame
