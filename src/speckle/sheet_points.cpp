@@ -38,21 +38,22 @@ SheetPoints::SheetPoints(const Scene& scene, const MeshMotion& motion, double re
   motion.frameAt(reference_phase, frame, false);
   for (const SurfaceTopology& surface : surfaces)
     if (surface.membrane)
-      draw(surface, frame.positions_m[index(surface.id)], per_m2, scene.speckle.seed);
+      draw(surface, frame.positions_m[index(surface.id)], per_m2, scene.speckle);
   const double widest_m = std::max(spread.elevationWidth(scene.probe.min_depth_m),
                                    spread.elevationWidth(scene.probe.max_depth_m));
   dropUnseen(motion, kElevationCut * widest_m + kBetweenPhases_m);
 }
 
 void SheetPoints::draw(const SurfaceTopology& sheet, const std::vector<Vec3f>& positions_m,
-                       double per_m2, int seed) {
+                       double per_m2, const SpeckleSettings& settings) {
   double planned = static_cast<double>(points_.size());
   for (const Triangle& t : sheet.triangles) planned += per_m2 * areaOf(t, positions_m);
   if (!(planned <= kMostPoints))
     throw SceneError(fmt::format(
-        "speckle.per_cell puts over {:g} scatterers on membranes, more than memory is meant for: "
-        "fewer are accepted",
-        kMostPoints));
+        "speckle.per_cell = {:g} puts over {:g} scatterers on membranes, more than memory is meant "
+        "for: fewer are accepted",
+        settings.per_cell, kMostPoints));
+  const int seed = settings.seed;
   const std::uint64_t surface = index(sheet.id);
   for (std::uint32_t t = 0; t < sheet.triangles.size(); ++t) {
     const double wanted = per_m2 * areaOf(sheet.triangles[t], positions_m);

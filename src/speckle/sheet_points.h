@@ -23,7 +23,7 @@ class SheetPoints {
 
  private:
   void draw(const SurfaceTopology& sheet, const std::vector<Vec3f>& positions_m, double per_m2,
-            int seed);
+            const SpeckleSettings& settings);
   void dropUnseen(const MeshMotion& motion, double reach_m);
 
   const MeshMotion& motion_;
