@@ -265,14 +265,6 @@ void refuseContradictions(TomlTable& root, const Scene& scene) {
     effects.fail(
         "refraction",
         "\"on\" excludes accuracy.tracer = \"slice\", accepted with it: \"auto\" | \"off\"");
-  if (a.interface_echo == InterfaceEcho::cell && scene.effects.refraction == Switch::on)
-    accuracy.fail(
-        "interface_echo",
-        "\"cell\" excludes effects.refraction = \"on\", accepted with it: \"auto\" | \"centre\"");
-  if (a.interface_echo == InterfaceEcho::cell && a.tracer == TracerChoice::embree)
-    accuracy.fail(
-        "interface_echo",
-        "\"cell\" excludes accuracy.tracer = \"embree\", accepted with it: \"auto\" | \"centre\"");
   const double pulse_m = scene.signal.pulse_cycles * ScanGeometry(scene.probe).wavelength() / 2;
   if (scene.speckle.on && !(pulse_m > 0))
     root.table("signal").fail("pulse_cycles",

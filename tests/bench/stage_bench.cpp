@@ -62,7 +62,7 @@ void trace(benchmark::State& state, bool cells) {
   BareSlice bare(scene);
   PlaneSlice ours(scene.topology, scene.scene.probe);
   const EffectPlan plan = planEffects(scene.scene);
-  const TraceSettings settings(scene.scene, plan, cells);
+  const TraceSettings settings(scene.scene, plan, cells ? EchoCells::contours : EchoCells::none);
   PlaneRequest request = planeRequest(scene.scene, plan);
   request.intensities = false;
   PolarFrame polar;
@@ -89,7 +89,7 @@ struct Traced {
       : scene(size), plan(planEffects(scene.scene)), chain(scene.scene, plan) {
     PlaneSlice slice(scene.topology, scene.scene.probe);
     slice.update(scene.frame(0));
-    const TraceSettings settings(scene.scene, plan, true);
+    const TraceSettings settings(scene.scene, plan, EchoCells::contours);
     traceFrame(slice, scene.scene.probe, settings, planeRequest(scene.scene, plan), polar);
   }
 };

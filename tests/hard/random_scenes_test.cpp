@@ -138,12 +138,13 @@ void expectPicture(const World& world, const EffectPlan& plan, PolarFrame& polar
 void expectLawful(const World& world, const EffectPlan& plan, Tracer tracer,
                   const PolarFrame& polar) {
   expectIntensities(world, polar);
-  const TraceSettings settings(world.scene, plan, tracer == Tracer::cells);
+  const TraceSettings settings(world.scene, plan,
+                               tracer == Tracer::cells ? EchoCells::contours : EchoCells::none);
   for (const LineTrace& line : polar.traces) {
     expectOrderedSegments(world, settings, line);
     expectEnergy(world, settings, line);
     if (testing::Test::HasFatalFailure()) return;
-    if (settings.cell_echoes) {
+    if (settings.cells != EchoCells::none) {
       EXPECT_TRUE(line.echoes.empty());
     }
   }

@@ -51,7 +51,7 @@ std::vector<float> echoesOf(const Scene& scene, const Mesh& mesh, bool cells) {
   PolarFrame polar;
   PlaneRequest request = planeRequest(scene, plan);
   request.intensities = false;
-  traceFrame(slice, scene.probe, TraceSettings(scene, plan, cells), request, polar);
+  traceFrame(slice, scene.probe, TraceSettings(scene, plan, cells ? EchoCells::contours : EchoCells::none), request, polar);
   return polar.planes.at(Channel::unattenuated);
 }
 
