@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/units.h"
-
+#include "scene/media_in_use.h"
 #include "scene/names.h"
 #include "scene/scan_geometry.h"
 
@@ -53,18 +53,6 @@ bool decide(EffectPlan& plan, Effect effect, Switch wanted, const Finding& found
   return decided.on;
 }
 
-std::vector<const Medium*> mediaInUse(const Scene& scene) {
-  std::vector<const Medium*> used{&scene.medium(scene.background)};
-  for (const Structure& s : scene.structures) used.push_back(&scene.medium(s.medium));
-  return used;
-}
-
-bool differ(const Scene& scene) {
-  const std::vector<const Medium*> used = mediaInUse(scene);
-  return std::any_of(used.begin(), used.end(),
-                     [&](const Medium* m) { return !sameMedium(*m, *used[0]); });
-}
-
 bool wantsIntensity(const Scene& scene, bool reflected) {
   return wantsPicture(scene) || wants(scene, Channel::y) || wants(scene, Channel::unattenuated) ||
          wants(scene, reflected ? Channel::reflection : Channel::backscatter);
@@ -107,13 +95,6 @@ Finding bending(const Scene& scene) {
                                 scene.medium(s.medium).sound_speed_m_s, outside.name,
                                 outside.sound_speed_m_s)};
   return {false, "every structure has the sound speed of its surroundings, so no ray bends"};
-}
-
-bool speedsDiffer(const Scene& scene) {
-  const std::vector<const Medium*> used = mediaInUse(scene);
-  return std::any_of(used.begin(), used.end(), [&](const Medium* m) {
-    return m->sound_speed_m_s != used[0]->sound_speed_m_s;
-  });
 }
 
 // Of what the interface law depends on the angle for.
@@ -267,7 +248,7 @@ void planSignal(const Scene& scene, EffectPlan& plan) {
 EffectPlan planEffects(const Scene& scene) {
   EffectPlan plan;
   const EffectSwitches& wanted = scene.effects;
-  plan.contrast = differ(scene);
+  plan.contrast = mediaDiffer(scene);
   plan.reflection = decide(plan, Effect::reflection, wanted.reflection, echoes(scene));
   plan.lobe = decide(plan, Effect::lobe, wanted.lobe, lobes(scene, plan.reflection));
   plan.transmission_loss =
