@@ -161,7 +161,8 @@ class ChordSampler {
   }
   double sampleAt(const Chord& chord, double s) const {
     const double place = chord.place + s * chord.place_per_s;
-    return sampleOf(angular_ ? -1 / place - to_centre_m_ : place);
+    if (!angular_) return sampleOf(place);
+    return place < 0 ? sampleOf(-1 / place - to_centre_m_) : samples_;  // else it is never met
   }
   double sampleOf(double depth_m) const {
     return std::floor((depth_m - min_depth_m_) / spacing_m_);
