@@ -12,6 +12,7 @@ class FieldMaterial : public Material {
 
   CubeLattice lattice() const override { return lattice_; }
   bool blood(std::uint16_t group) const override { return blood_[group]; }
+  bool coarse(std::uint16_t group) const override { return coarse_[group]; }
   void groupsAt(std::span<const Vec3f> reference_m, std::span<std::uint16_t> groups) const override;
   void overTheBeat(const std::function<void(const MaterialFrame&)>& look) const override;
   double reachAcross_m() const override { return across_m_; }
@@ -22,7 +23,7 @@ class FieldMaterial : public Material {
  private:
   MotionField field_;
   CubeLattice lattice_;
-  std::vector<bool> blood_;  // by group
+  std::vector<bool> blood_, coarse_;  // by group
   double across_m_ = 0, along_m_ = 0;
 };
 
