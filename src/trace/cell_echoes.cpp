@@ -181,7 +181,8 @@ class CellEchoMaker {
     for (std::size_t i = 0; i < clips.count; ++i) {
       const std::uint32_t line = clips.line[i];
       const int first = rows_.first[i];
-      const std::uint32_t lit = first < std::min(samples_lit_[line][interfaces.ends[i]], rows_.end[i]) ? 1 : 0;
+      const std::uint32_t lit =
+          first < std::min(samples_lit_[line][interfaces.ends[i]], rows_.end[i]) ? 1 : 0;
       at[singles] = line * static_cast<std::uint32_t>(samples_) + static_cast<std::uint32_t>(first);
       intensity[singles] = rows_.whole[i];
       exponent[singles] = std::max(rows_.exponent[i], 0.0);

@@ -47,8 +47,7 @@ double LineWalker::sentBack(const InterfaceLaw& law, const Medium& from, const M
 }
 
 // What the interface sends to the transducer, added to what is lost before it.
-void LineWalker::addEcho(double reflected, double cos_i, const Crossing& crossing,
-                         MediumId after) {
+void LineWalker::addEcho(double reflected, double cos_i, const Crossing& crossing, MediumId after) {
   if (!settings_.reflection || settings_.cells == EchoCells::contours || reflected == 0) return;
   const SurfaceTraits& surface = settings_.surfaces[index(crossing.surface)];
   const double towards = dot(query_.ray.direction, crossing.normal);

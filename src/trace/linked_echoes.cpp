@@ -106,7 +106,7 @@ class ChordSampler {
 
   Chord between(const Echo& a, const Echo& b) const {
     const double place = placeOf(a.depth_m);
-    return {place,       placeOf(b.depth_m) - place, a.intensity, b.intensity - a.intensity,
+    return {place,      placeOf(b.depth_m) - place, a.intensity, b.intensity - a.intensity,
             a.exponent, b.exponent - a.exponent};
   }
 
@@ -131,8 +131,7 @@ class ChordSampler {
     overSamples(first, last, [&](double k) {
       const double begin = k == first ? near : reach(k), end = k == last ? far : reach(k + 1);
       const double middle = (begin + end) / 2;
-      put(line, k,
-          std::abs(end - begin) * (chord.intensity + middle * chord.intensity_per_s),
+      put(line, k, std::abs(end - begin) * (chord.intensity + middle * chord.intensity_per_s),
           chord.exponent + middle * chord.exponent_per_s);
     });
   }
@@ -195,8 +194,8 @@ class ChordSampler {
 bool turnsRound(const Echo& a, const Echo& b) {
   const bool through = a.after == b.before || (a.before == b.before && a.after == b.after);
   const Vec3d chord = b.point - a.point;
-  return a.surface == b.surface && a.depth_m < b.depth_m && through &&
-         inTangentPlane(chord, a) && inTangentPlane(chord, b);
+  return a.surface == b.surface && a.depth_m < b.depth_m && through && inTangentPlane(chord, a) &&
+         inTangentPlane(chord, b);
 }
 
 // What the echoes of a line have on one side.

@@ -44,8 +44,7 @@ Mesh steepSlab(double angle_deg) {
   const double a = radiansFromDegrees(angle_deg);
   Mesh m = box({0, -0.05, -0.5}, {0.5, 0.05, 0.5});
   for (Vec3d& p : m.points)
-    p = {p.x * std::cos(a) + p.z * std::sin(a), p.y,
-         0.08 - p.x * std::sin(a) + p.z * std::cos(a)};
+    p = {p.x * std::cos(a) + p.z * std::sin(a), p.y, 0.08 - p.x * std::sin(a) + p.z * std::cos(a)};
   return m;
 }
 
