@@ -80,12 +80,18 @@ class Splatter {
   void add(const BeamCube& cube, const Scatterers& scatterers, const ScattererBatch& batch,
            const GaussianMix& mix, SplatQueue& queue, EchoSums& sums) const;
 
+  // Eight scatterers at their own places, with the mix's numbers from `j` on.
+  void addPlaces(const BeamCube& at, const GaussianMix& mix, std::uint32_t j, SplatQueue& queue,
+                 EchoSums& sums) const;
+
  private:
   // Turns that the lens adds at the cut, over a cube's samples.
   struct Bend {
     float first, slope;
   };
   Bend bendOf(Floats8 sample) const;
+  void addLanes(const BeamCube& at, const Bend& bend, const GaussianMix& mix, std::uint32_t j,
+                SplatQueue& queue, EchoSums& sums) const;
 
   int lines_, samples_, stride_;
   float turns_per_sample_, turns_before_;

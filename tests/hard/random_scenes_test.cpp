@@ -276,5 +276,24 @@ TEST(RandomScenes, ADeeperInterfaceChangesNothingShallower) {
   });
 }
 
+// What the plan leaves out of a picture nobody can see: forced on, it gives the same bytes.
+// Refraction and travel time are other pictures.
+TEST(RandomScenes, EverythingForcedOnIsThePictureOfThePlan) {
+  forRandomWorlds(8, [](World world, std::uint64_t) {
+    world.scene.output.channels.clear();
+    world.scene.output.cine = true;
+    EffectSwitches& switches = world.scene.effects;
+    switches = {};
+    switches.refraction = Switch::off;
+    const PolarFrame planned = traceWorld(world, Tracer::slice);
+    for (Switch* s : {&switches.reflection, &switches.lobe, &switches.transmission_loss,
+                      &switches.attenuation, &switches.backscatter, &switches.spread,
+                      &switches.snell_angles, &switches.reflection_cap, &switches.thin_layers})
+      *s = Switch::on;
+    const PolarFrame forced = traceWorld(world, Tracer::slice);
+    EXPECT_EQ(planned.intensities, forced.intensities);
+  });
+}
+
 }  // namespace
 }  // namespace echocine

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/hash_random.h"
 #include "core/parallel.h"
 #include "metrics/block_match.h"
 #include "metrics/statistics.h"
@@ -235,6 +236,25 @@ TEST(SpeckleLaw, BlockMatchingFindsASmoothMotion) {
     }
   EXPECT_LT(quartilesOf(errors_mm).median, 0.07);
   EXPECT_LT(quartilesOf(errors_mm).third_quartile, 0.12);
+}
+
+// A sheet across the beam 8 cm deep, in blood that renews itself.
+TEST(SpeckleLaw, ASheetKeepsItsSpeckleInBloodAndTakesItAlong) {
+  SpeckleBed bed(ProbeKind::linear, 60, 200, 0.07, 0.09);
+  bed.material.flows = true;
+  const Speckle blood = bed.speckle();
+  Affine now;
+  for (int i = 0; i < 20000; ++i)
+    now.on_sheets_m.push_back({static_cast<float>(0.04 * (uniformFromHash(hashOf(i, 1)) - 0.5)),
+                               static_cast<float>(0.02 * (uniformFromHash(hashOf(i, 2)) - 0.5)),
+                               0.08f});
+  const double five_m = 5 * bed.probe.sampleSpacing();
+  Affine later = shifted({0, 0, five_m});
+  for (const Vec3f p : now.on_sheets_m)
+    later.on_sheets_m.push_back(p + Vec3f{0, 0, static_cast<float>(five_m)});
+  const std::vector<float> one = bed.picture(blood, now, 0.1), two = bed.picture(blood, later, 0.2);
+  EXPECT_GT(correlation(one, two, 200, {5, 55, 98, 102}, 0, 5), 0.9);  // the sheet
+  EXPECT_LT(correlation(one, two, 200, {5, 55, 20, 80}, 0, 5), 0.15);  // blood before it
 }
 
 TEST(SpeckleLaw, TheIntensityScalesThroughAndOrderAndThreadsLeaveTheBytes) {
