@@ -12,6 +12,7 @@ class FieldMaterial : public Material {
 
   CubeLattice lattice() const override { return lattice_; }
   bool blood(std::uint16_t group) const override { return blood_[group]; }
+  bool coarse(std::uint16_t group) const override { return coarse_[group]; }
   void groupsAt(std::span<const Vec3f> reference_m, std::span<std::uint16_t> groups) const override;
   void overTheBeat(const std::function<void(const MaterialFrame&)>& look) const override;
   double reachAcross_m() const override { return across_m_; }
@@ -22,18 +23,22 @@ class FieldMaterial : public Material {
  private:
   MotionField field_;
   CubeLattice lattice_;
-  std::vector<bool> blood_;  // by group
+  std::vector<bool> blood_, coarse_;  // by group
   double across_m_ = 0, along_m_ = 0;
 };
 
 class FieldMaterialFrame : public MaterialFrame {
  public:
-  // Precondition: `frame` is the field's at the instant, and outlives this.
-  explicit FieldMaterialFrame(const FieldFrame& frame) : frame_(frame) {}
+  // Precondition: `frame` is the field's at the instant, `on_sheets_m` the sheets' points then;
+  // both outlive this.
+  explicit FieldMaterialFrame(const FieldFrame& frame, std::span<const Vec3f> on_sheets_m = {})
+      : frame_(frame), on_sheets_m_(on_sheets_m) {}
+  std::span<const Vec3f> onSheets() const override { return on_sheets_m_; }
   CubeCorners corners(std::uint16_t group, Vec3f low_m, float edge_m) const override;
 
  private:
   const FieldFrame& frame_;
+  std::span<const Vec3f> on_sheets_m_;
 };
 
 }  // namespace echocine

@@ -1,6 +1,9 @@
 #include "speckle/speckle.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "core/hash_random.h"
 
 namespace echocine {
 
@@ -13,7 +16,7 @@ Speckle::Speckle(const Probe& probe, double pulse_cycles, const SpeckleSettings&
       view_(probe, spread_),
       gaussian_(settings.seed),
       scatterers_(probe, spread_, view_, settings, material),
-      splatter_(probe, spread_, view_),
+      splatter_(probe, spread_),
       ratio_(probe, spread_, view_, settings.smoothing_m) {}
 
 double Speckle::farthestAcross_m() const {
@@ -25,13 +28,34 @@ double Speckle::farthestAcross_m() const {
 }
 
 void Speckle::addUp(const MaterialFrame& tissue, double time_s, EchoSums& sums) const {
+  SplatQueue queue;
   for (const ScattererBatch& batch : scatterers_.batches()) {
-    const CubeCorners corners = tissue.corners(batch.group, batch.low_m, batch.edge_m);
-    if (!view_.sees(extentOf(corners))) continue;
-    splatter_.add(corners, scatterers_, batch,
+    const BeamCube cube = view_.cubeOf(tissue.corners(batch.group, batch.low_m, batch.edge_m));
+    if (!view_.sees(cube)) continue;
+    splatter_.add(cube, scatterers_, batch,
                   mixAt(gaussian_, batch.pattern, time_s,
                         batch.blood ? settings_.blood_time_s : settings_.tissue_time_s),
-                  sums);
+                  queue, sums);
+  }
+  addSheets(tissue.onSheets(), time_s, queue, sums);
+  queue.flush(sums);
+}
+
+// Eight places in a cube's stead, by runs of the table that belong to the seed.
+void Speckle::addSheets(std::span<const Vec3f> places_m, double time_s, SplatQueue& queue,
+                        EchoSums& sums) const {
+  constexpr std::uint64_t kSheets = 5;
+  const float beyond = std::numeric_limits<float>::infinity();
+  for (std::size_t first = 0; first < places_m.size(); first += kMostOfBatch) {
+    const GaussianMix mix =
+        mixAt(gaussian_, hashOf(settings_.seed, kSheets, first), time_s, settings_.tissue_time_s);
+    const std::size_t count = std::min<std::size_t>(kMostOfBatch, places_m.size() - first);
+    for (std::size_t j = 0; j < count; j += kFloatLanes) {
+      CubeCorners eight;
+      for (std::size_t i = 0; i < kFloatLanes; ++i)
+        eight[i] = j + i < count ? places_m[first + j + i] : Vec3f{0, beyond, 1};
+      splatter_.addPlaces(view_.cubeOf(eight), mix, static_cast<std::uint32_t>(j), queue, sums);
+    }
   }
 }
 
@@ -39,9 +63,7 @@ void Speckle::apply(const MaterialFrame& tissue, double time_s,
                     std::span<float> intensities) const {
   thread_local EchoSums sums;
   thread_local CoherentRatio::Rows rows;
-  sums.lines = lines_;
-  sums.samples = samples_;
-  sums.sums.assign(intensities.size() + kFloatLanes, {});  // and places that nobody reads
+  sums.resize(lines_, samples_);
   addUp(tissue, time_s, sums);
   ratio_.apply(sums, rows, intensities);
 }

@@ -73,7 +73,8 @@ TEST_F(StudyCommandTest, EveryKnobIsSweptFromDraftAndFromReference) {
   const Json json = this->json();
   for (const char* knob :
        {"lines", "samples", "subdivision", "normals", "keyframes", "interpolation", "refraction",
-        "echoes", "exr_pixel", "exr_compression"}) {
+        "echoes", "snell_angles", "reflection_cap", "thin_layers", "tgc", "exr_pixel",
+        "exr_compression"}) {
     std::size_t values = 0;
     for (const Json& k : json["knobs"])
       if (k["name"] == knob) values = k["values"].size();
