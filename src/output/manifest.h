@@ -27,7 +27,7 @@ struct Manifest {
   std::string scene_sha256;
   LoopPlan plan;
   AccuracyRecord accuracy;
-  double reference_intensity = 1;
+  double reference_intensity = 1;  // white, relative to I_S
   int loop_frames = 0;
   std::vector<FrameEntry> frames;
   std::vector<KeyframeVolume> keyframes;

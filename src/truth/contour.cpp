@@ -1,6 +1,7 @@
 #include "truth/contour.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace echocine {
@@ -92,6 +93,14 @@ std::vector<Contour> chainContours(std::span<const ContourEdge> edges,
     Chainer(edges.subspan(begin, end - begin), std::move(ends)).run(contours);
   }
   return contours;
+}
+
+std::vector<Contour> contoursAt(const MeshMotion& motion, const Probe& probe, double phase) {
+  SurfaceFrame frame;
+  motion.frameAt(phase - std::floor(phase), frame);
+  PlaneSlice slice(motion.surfaces(), probe);
+  slice.update(frame);
+  return chainContours(slice.edges(), motion.surfaces(), frame);
 }
 
 }  // namespace echocine

@@ -40,8 +40,8 @@ struct FrameTruth {
 
 // An instant and its neighbours, from which velocity is taken.
 struct TruthTime {
-  double phase = 0, before = 0, after = 0;
-  double seconds = 0;  // from before to after
+  double phase = 0, before = 0, after = 0;  // phases of the keyframes, [0, 1)
+  double seconds = 0;                       // from before to after
 };
 
 // What the tracer has made of the same phase already; null where it has not.

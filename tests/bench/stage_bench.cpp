@@ -1,5 +1,4 @@
-// Every stage of a frame next to its floor: the same work by a bare loop, without rules for ties,
-// media, partial windows or checks. Sizes: triangles / lines / samples.
+// Stages next to their floors, bare loops without rules. Sizes: triangles / lines / samples.
 
 #include "bench/floor/bare_files.h"
 #include "bench/floor/bare_hierarchy.h"

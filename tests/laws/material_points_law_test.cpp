@@ -48,6 +48,7 @@ std::vector<InteriorSurface> nestedBalls(const Affine& map) {
   return surfaces;
 }
 
+// What is affine on the surfaces is met exactly inside, at any distance.
 TEST(MaterialPointsLaw, OneAffineMapMovesEveryPoint) {
   const Affine map{{0.8, 0.1, 0}, {-0.05, 0.9, 0.1}, {0, 0.05, 1.15}, {0.002, -0.004, 0.003}};
   const MotionField field(nestedBalls(map));

@@ -20,6 +20,7 @@ using namespace support;
 
 constexpr ProbeKind kAllKinds[] = {ProbeKind::phased, ProbeKind::curvilinear, ProbeKind::linear};
 
+// Speckle scales each intensity by a random factor of mean 1.
 TEST(SpeckleLaw, TheMeanOverSeedsIsThePictureWithout) {
   constexpr int kSeeds = 200;
   for (const ProbeKind kind : kAllKinds) {
@@ -51,6 +52,7 @@ TEST(SpeckleLaw, TheMeanOverSeedsIsThePictureWithout) {
   }
 }
 
+// A sum of complex Gaussian numbers is one however many they are; its modulus is Rayleigh's.
 TEST(SpeckleLaw, TheEnvelopeIsRayleighAtAnyDensity) {
   for (const double per_cell : {3.0, 10.0}) {
     SpeckleBed bed(ProbeKind::phased, 250, 512, 0.04, 0.15);
