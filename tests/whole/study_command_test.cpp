@@ -224,6 +224,16 @@ TEST_F(StudyCommandTest, KnobsThatCannotApplyAreLeftOutWithTheReason) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in " << outcome.out;
 }
 
+// Preparing every setting of a large scene takes longer than a short budget.
+TEST_F(StudyCommandTest, ABudgetBoundsThePreparationToo) {
+  writeBall(folder, studiedBall());
+  const Outcome outcome = study("--budget-s 0.001");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(json()["rows"].size(), 1u);
+  EXPECT_NE(outcome.out.find("more rows: --budget-s 0.001 leaves no time"), std::string::npos)
+      << outcome.out;
+}
+
 TEST_F(StudyCommandTest, UnusableArgumentsAreCodeTwoAndOneLine) {
   for (const char* more : {"--knobs colour", "--frames 0", "--repeats 0", "--budget-s -1",
                            "--threads -1", "--frames two"}) {
