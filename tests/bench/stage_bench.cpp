@@ -210,7 +210,6 @@ void hierarchy(benchmark::State& state, bool refraction) {
   const BenchScene scene{Size(state)};
   EffectPlan plan = planEffects(scene.scene);
   plan.refraction = refraction;
-  // Bent lines as the program traces them: with their echoes linked over the cells.
   TraceSettings settings(scene.scene, plan, refraction ? EchoCells::links : EchoCells::none);
   if (refraction) settings.media[1].sound_speed_m_s = 1570;
   PlaneRequest request = planeRequest(scene.scene, plan);
