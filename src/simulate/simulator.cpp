@@ -31,6 +31,15 @@ std::vector<ChannelPlane> channelPlanes(const OutputSettings& output, const Work
   return planes;
 }
 
+namespace {
+
+EchoCells echoCells(const LoopPlan& plan) {
+  if (!plan.cell_echoes) return EchoCells::none;
+  return plan.slice ? EchoCells::contours : EchoCells::links;
+}
+
+}  // namespace
+
 Simulator::Simulator(Scene scene) : Simulator(scene, std::make_shared<const MeshMotion>(scene)) {}
 
 Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion)
@@ -42,7 +51,7 @@ Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, Loop
       plan_(std::move(plan)),
       cardiac_clock_(scene_),
       chain_(scene_, plan_.effects),
-      settings_(scene_, plan_.effects, plan_.cell_echoes),
+      settings_(scene_, plan_.effects, echoCells(plan_)),
       request_(planeRequest(scene_, plan_.effects)) {
   if (plan_.effects.rays_per_beam > 1)
     beams_.emplace(scene_.probe, beamSpread(plan_.effects, scene_.acquisition.seed));
