@@ -103,8 +103,8 @@ Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const Beam
                                                                      static_cast<float>(iy),
                                                                      static_cast<float>(iz)};
         const Vec3d middle = toDouble(low) + 0.5 * edge_m * Vec3d{1, 1, 1};
-        if (!view.sees({middle.x, middle.z, ball_m, middle.y - 0.5 * edge_m - across_m,
-                        middle.y + 0.5 * edge_m + across_m}))
+        if (!view.sees(Extent{middle.x, middle.z, ball_m, middle.y - 0.5 * edge_m - across_m,
+                              middle.y + 0.5 * edge_m + across_m}))
           continue;
         Block block{low, lattice.block_m, hashOf(settings.seed, kPlaces, ix, iy, iz), {}, {}};
         const double wanted =
