@@ -149,10 +149,11 @@ Finding attenuating(const Scene& scene) {
        {Channel::y, Channel::attenuation, Channel::reflection, Channel::backscatter})
     if (wants(scene, c)) return {true, fmt::format("channel {} holds it", channelName(c))};
   if (wantsPicture(scene) && scene.signal.tgc != Tgc::perfect)
-    return {true, scene.signal.tgc == Tgc::none ? "no time gain undoes it"
-                  : scene.signal.tgc == Tgc::mean
-                      ? "the mean time gain undoes only what all lines share"
-                      : "a table of gains does not undo it exactly"};
+    return {true,
+            scene.signal.tgc == Tgc::none   ? "no time gain undoes it"
+            : scene.signal.tgc == Tgc::mean ? "the mean time gain undoes only what all lines share"
+            : scene.signal.tgc == Tgc::nominal ? "the nominal gain undoes the same on all lines"
+                                               : "a table of gains does not undo it exactly"};
   return {false, "perfect TGC undoes it and no received intensity was asked for"};
 }
 
@@ -235,19 +236,77 @@ void planSpeckle(const Scene& scene, EffectPlan& plan) {
                                      scene.speckle.per_cell));
 }
 
+// What changes nothing but the picture.
+bool decidePicture(const Scene& scene, EffectPlan& plan, Effect effect, bool asked, bool possible,
+                   const std::string& off, const std::string& on) {
+  const bool decided = asked && possible && wantsPicture(scene);
+  add(plan, effect, decided,
+      !asked                 ? "not asked for"
+      : !wantsPicture(scene) ? "no picture is asked for"
+      : decided              ? on
+                             : off);
+  return decided;
+}
+
+void planTissue(const Scene& scene, EffectPlan& plan) {
+  const SpeckleSettings& s = scene.speckle;
+  const std::string off = "there are no scatterers to carry it";
+  plan.heterogeneity =
+      decidePicture(scene, plan, Effect::heterogeneity, s.heterogeneity_db > 0, plan.speckle, off,
+                    fmt::format("{:g} dB from place to place of the tissue", s.heterogeneity_db));
+  plan.anisotropy = decidePicture(
+      scene, plan, Effect::anisotropy, s.anisotropy_db > 0, plan.speckle, off,
+      fmt::format("muscle sends back {:g} dB less along its fibres", s.anisotropy_db));
+}
+
+void planArtefacts(const Scene& scene, EffectPlan& plan) {
+  const ArtefactSettings& a = scene.artefacts;
+  const bool lines = scene.probe.lines > 1;
+  const std::string one = "there is one line alone";
+  plan.dropout = decidePicture(scene, plan, Effect::dropout, a.dropout, lines, one,
+                               fmt::format("outermost lines lose {:g} dB", a.dropout_db));
+  plan.acoustic_window = decidePicture(
+      scene, plan, Effect::acoustic_window, a.acoustic_window, true, "",
+      fmt::format("ribs leave {:g} mm open", millimetresFromMetres(a.window_width_m)));
+  plan.haze = decidePicture(scene, plan, Effect::haze, a.haze, lines, one,
+                            fmt::format("side lobes at {:g} dB", a.haze_db));
+  plan.reverberation =
+      decidePicture(scene, plan, Effect::reverberation, a.reverberation, scene.probe.samples > 1,
+                    "there is one sample alone",
+                    fmt::format("a tail of {:g} dB behind every echo", a.reverberation_db));
+  plan.clutter = decidePicture(scene, plan, Effect::clutter, a.clutter, true, "",
+                               fmt::format("{:g} dB of white at the face", a.clutter_db));
+  plan.noise = decidePicture(scene, plan, Effect::noise, a.noise, true, "",
+                             fmt::format("{:g} dB of white at the largest gain", a.noise_db));
+  plan.persistence =
+      decidePicture(scene, plan, Effect::persistence, a.persistence > 0, true, "",
+                    fmt::format("each frame holds {:g} of the one before", a.persistence));
+}
+
+// A curve of depth that is applied to every line, and what asks for it.
+Finding timeGain(const Scene& scene, const EffectPlan& plan) {
+  if (!wantsPicture(scene)) return {false, "no picture is asked for"};
+  switch (scene.signal.tgc) {
+    case Tgc::perfect:
+      return {false, "perfect TGC is attenuation left out, not a gain to apply"};
+    case Tgc::none:
+      return {false, "no time gain is asked for"};
+    case Tgc::table:
+      return {true, "a table of gains over depth"};
+    case Tgc::nominal:
+    case Tgc::mean:
+      break;
+  }
+  if (!plan.attenuation) return {false, "there is no attenuation to undo"};
+  if (scene.signal.tgc == Tgc::nominal)
+    return {true, "one curve of depth, by a nominal attenuation"};
+  return {true, "one curve of depth that undoes the loop's mean attenuation"};
+}
+
 void planSignal(const Scene& scene, EffectPlan& plan) {
   const bool picture = wantsPicture(scene);
-  if (scene.signal.tgc == Tgc::table && picture)
-    add(plan, Effect::tgc, true, "a table of gains over depth");
-  else if (scene.signal.tgc == Tgc::mean && picture && plan.attenuation)
-    add(plan, Effect::tgc, true, "one curve of depth that undoes the loop's mean attenuation");
-  else
-    add(plan, Effect::tgc, false,
-        scene.signal.tgc == Tgc::perfect
-            ? "perfect TGC is attenuation left out, not a gain to apply"
-        : scene.signal.tgc == Tgc::mean && picture ? "there is no attenuation to undo"
-        : picture                                  ? "no time gain is asked for"
-                                                   : "no picture is asked for");
+  const Finding gain = timeGain(scene, plan);
+  add(plan, Effect::tgc, gain.on, gain.reason);
   add(plan, Effect::log_compression, picture,
       picture ? fmt::format("{:g} dB for the picture", scene.signal.dynamic_range_db)
               : "no picture is asked for");
@@ -294,6 +353,8 @@ EffectPlan planEffects(const Scene& scene) {
   plan.travel_time = decide(plan, Effect::travel_time, wanted.travel_time,
                             {false, "echoes are placed at their path length"});
   planSpeckle(scene, plan);
+  planTissue(scene, plan);
+  planArtefacts(scene, plan);
   planSignal(scene, plan);
   return plan;
 }

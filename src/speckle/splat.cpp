@@ -136,6 +136,7 @@ void Splatter::add(const CubeCorners& corners, const Scatterers& scatterers,
   constexpr float kFourLn2 = 2.7725887f, kCurvature = 0.44127125f;  // 8 ln2 / (4 pi)
   const Trilinear map(corners);
   std::int32_t places[kFloatLanes];
+  const float* strength = scatterers.strength(batch);
   const float *us = scatterers.u(batch), *vs = scatterers.v(batch), *ws = scatterers.w(batch);
   for (std::uint32_t j = 0; j < batch.count; j += kFloatLanes) {
     Monomials m{lanesAt(us + j), lanesAt(vs + j), lanesAt(ws + j), {}, {}, {}, {}};
@@ -162,8 +163,10 @@ void Splatter::add(const CubeCorners& corners, const Scatterers& scatterers,
     const Floats8 cosine = sineOfQuarters(1 - 4 * part);
     const Floats8 cr = mix.a * lanesAt(mix.real_a + j) + mix.b * lanesAt(mix.real_b + j),
                   ci = mix.a * lanesAt(mix.imaginary_a + j) + mix.b * lanesAt(mix.imaginary_b + j);
-    const Floats8 real = e * (cr * cosine + ci * sine), imaginary = e * (ci * cosine - cr * sine),
-                  squares = e * e;
+    // What the ratio is normalised by knows nothing of the tissue's own strength.
+    const Floats8 held_e = strength ? e * lanesAt(strength + j) : e;
+    const Floats8 real = held_e * (cr * cosine + ci * sine),
+                  imaginary = held_e * (ci * cosine - cr * sine), squares = e * e;
     const Ints8 at_line = __builtin_convertvector(line, Ints8) & seen,
                 at_sample = __builtin_convertvector(sample, Ints8) & seen;
     const Ints8 unseen = kLaneNumbers + lines_ * samples_;  // a place that nobody reads

@@ -28,7 +28,7 @@ struct IntensityTerms {
   double spread_undone_at_m = 0;
   // An interface's echo is as long as the pulse: its sample holds so many times its intensity, the
   // pulse's half length over the spacing, so that the average over the pulse is the intensity
-  // itself whatever the spacing. At least 1.
+  // itself whatever the spacing. The picture's also holds signal.interface_gain_db.
   double echo_samples = 1;
 };
 

@@ -100,6 +100,33 @@ elevation_aperture_mm = 13
 elevation_focus_mm = 80
 [signal]
 reference_intensity = 1e-6
+tgc = "nominal"
+tgc_nominal_db_cm_mhz = 0.41
+gain_db = 0.0
+interface_gain_db = 0.0
+[artefacts]
+dropout = true
+dropout_db = 12.0
+acoustic_window = true
+window_width_mm = 24.0
+window_offset_mm = 0.0
+window_depth_mm = 12.0
+window_shadow_db = 30.0
+haze = true
+haze_db = -24.0
+haze_width_deg = 7.0
+reverberation = true
+reverberation_db = -27.0
+reverberation_length_mm = 6.0
+clutter = true
+clutter_db = -12.0
+clutter_length_mm = 6.0
+clutter_width_deg = 9.0
+clutter_seed = 1
+noise = true
+noise_db = -55.0
+noise_seed = 1
+persistence = 0.3
 [accuracy]
 rays_per_beam = 4
 )";
