@@ -75,9 +75,9 @@ TEST(Fibres, TurnEvenlyFromARightHandedHelixToALeftHandedOne) {
 }
 
 TEST(NearestVertex, IsThatOfASearchThroughAll) {
-  const TriangleMesh ball = icosphere(3, 4).moved({1, -2, 7});
+  const Mesh ball = icosphere(3, 4).moved({1, -2, 7});
   std::vector<Vec3f> points_m;
-  for (const Vec3d p : ball.positions) points_m.push_back(toFloat(0.01 * p));
+  for (const Vec3d p : ball.points) points_m.push_back(toFloat(0.01 * p));
   const NearestVertex nearest(points_m);
   for (int i = 0; i < 500; ++i) {
     const Vec3f p = 1.5f * placeOf(i);
