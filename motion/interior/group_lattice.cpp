@@ -1,7 +1,8 @@
 #include "motion/interior/group_lattice.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "motion/interior/affine_fit.h"
 
 namespace echocine {
 
@@ -19,12 +20,11 @@ constexpr int kUnfoldings = 4;
 // the keyframes, slides on it: its samples lose three quarters of their weight at twice of it. Our
 // choice.
 constexpr double kSlides_m = 0.2e-3;
-// The background's nodes stand this many times as far apart.
-constexpr int kOpenStride = 2;
 
 // Data of all classes' modes, three columns (x, y, z) per mode.
 struct FitData {
   std::vector<std::uint32_t> points;  // border points that take part
+  std::vector<Vec3f> places_m;        // of these
   std::vector<LatticeSample> samples;
   std::size_t columns = 0;
   std::vector<float> values;  // columns per point
@@ -44,9 +44,7 @@ class GroupFitter {
 
   GroupLattice fit() {
     if (!gather()) return {};
-    layGrid();
-    activate();
-    makeSamples();
+    takeCells(layCells(space_, members_, winners_, data_.places_m));
     const std::vector<float> smooth = affinePart();
     subtract(smooth);
     resting_ = restingNodes();
@@ -63,11 +61,7 @@ class GroupFitter {
 
  private:
   bool gather();
-  void layGrid();
-  void activate();
-  void activateInside(std::vector<bool>& active);
-  void makeSamples();
-  void shareWeights();
+  void takeCells(GroupCells cells);
   std::vector<float> affinePart() const;
   void subtract(const std::vector<float>& nodes);
   std::vector<std::uint32_t> restingNodes() const;
@@ -76,9 +70,7 @@ class GroupFitter {
   bool folds(const std::uint32_t (&corners)[8]) const;
   bool letSlide(const std::vector<float>& nodes);
   void fillRows(const std::vector<float>& nodes);
-  Vec3d nodePlace(std::size_t node) const;
   double fadeAt(Vec3d place_m) const;
-  void inCell(Vec3f place_m, int (&cell)[3], float (&fraction)[3]) const;
 
   const FieldSpace& space_;
   const GroupMembers& members_;
@@ -88,9 +80,9 @@ class GroupFitter {
   GroupLattice lattice_;
   FitData data_;
   std::vector<std::uint32_t> resting_;
-  std::vector<float> stiffness_;  // by active node
-  std::vector<bool> inside_;      // cells with a node that the group wins, by node of the box
-  std::vector<bool> used_;        // cells that hold something of the group, by their first node
+  std::vector<float> stiffness_;      // by active node
+  std::vector<bool> used_;            // GroupCells::used
+  std::vector<Vec3d> node_places_m_;  // by active node
 };
 
 // The points of this group and what each mode does to them; false when none of them moves.
@@ -104,6 +96,7 @@ bool GroupFitter::gather() {
         !members_.owns(points_[i].beyond))
       continue;
     data_.points.push_back(i);
+    data_.places_m.push_back(points_[i].reference_m);
     for (const PhaseClass& c : classes_) {
       const std::int32_t order = c.order[i];
       moves |= order >= 0;
@@ -118,134 +111,14 @@ bool GroupFitter::gather() {
   return moves && data_.columns > 0;
 }
 
-// Whole cells of the common lattice about the group's points; all of it for an open group.
-void GroupFitter::layGrid() {
-  const int stride = members_.open ? kOpenStride : 1;
-  const double spacing = stride * space_.spacing_m;
-  const Vec3d origin = space_.origin();
-  Box box;
-  if (members_.open) {
-    box.add(origin);
-    box.add(space_.moving.hi + (space_.moving.lo - origin));
-  } else {
-    for (const std::uint32_t i : data_.points) box.add(toDouble(points_[i].reference_m));
-  }
-  const auto first = [&](double lo, double from) {
-    return static_cast<int>(std::floor((lo - from) / spacing)) - (members_.open ? 0 : 2);
-  };
-  const auto count = [&](double hi, double from, int start) {
-    return static_cast<int>(std::ceil((hi - from) / spacing)) - start + (members_.open ? 1 : 3);
-  };
-  const int x = first(box.lo.x, origin.x), y = first(box.lo.y, origin.y),
-            z = first(box.lo.z, origin.z);
-  LatticeGrid& grid = lattice_.grid;
-  grid.spacing_m = static_cast<float>(spacing);
-  grid.origin_m = toFloat(origin + spacing * Vec3d{static_cast<double>(x), static_cast<double>(y),
-                                                   static_cast<double>(z)});
-  grid.nx = count(box.hi.x, origin.x, x);
-  grid.ny = count(box.hi.y, origin.y, y);
-  grid.nz = count(box.hi.z, origin.z, z);
-}
-
-Vec3d GroupFitter::nodePlace(std::size_t node) const {
-  const LatticeGrid& grid = lattice_.grid;
-  const auto nx = static_cast<std::size_t>(grid.nx), nz = static_cast<std::size_t>(grid.nz);
-  const Vec3d at{static_cast<double>(node % nx), static_cast<double>(node / (nx * nz)),
-                 static_cast<double>(node / nx % nz)};
-  return toDouble(grid.origin_m) + static_cast<double>(grid.spacing_m) * at;
-}
-
-void GroupFitter::inCell(Vec3f p, int (&cell)[3], float (&fraction)[3]) const {
-  const LatticeGrid& grid = lattice_.grid;
-  const Vec3f d = p - grid.origin_m;
-  const float at[3] = {d.x, d.y, d.z};
-  const int counts[3] = {grid.nx, grid.ny, grid.nz};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const float nodes = at[i] / grid.spacing_m;
-    cell[i] = std::clamp(static_cast<int>(std::floor(nodes)), 0, counts[i] - 2);
-    fraction[i] = std::clamp(nodes - static_cast<float>(cell[i]), 0.0f, 1.0f);
-  }
-}
-
-// Nodes at which the group wins, and all about them.
-void GroupFitter::activateInside(std::vector<bool>& active) {
-  const LatticeGrid& grid = lattice_.grid;
-  const Vec3d origin = toDouble(grid.origin_m);
-  const auto spacing = static_cast<double>(grid.spacing_m);
-  std::vector<std::int16_t> row(static_cast<std::size_t>(grid.nx));
-  for (int y = 0; y < grid.ny; ++y)
-    for (int z = 0; z < grid.nz; ++z) {
-      winners_.alongX(origin.x, spacing, origin.y + y * spacing, origin.z + z * spacing, row);
-      for (int x = 0; x < grid.nx; ++x) {
-        const std::int16_t winner = row[static_cast<std::size_t>(x)];
-        if (winner < 0 || !members_.owns(static_cast<std::uint32_t>(winner))) continue;
-        for (int corner = 0; corner < 8; ++corner)
-          inside_[grid.at(std::max(x - (corner & 1), 0), std::max(y - (corner >> 2), 0),
-                          std::max(z - (corner >> 1 & 1), 0))] = true;
-        for (int dy = std::max(y - 1, 0); dy <= std::min(y + 1, grid.ny - 1); ++dy)
-          for (int dz = std::max(z - 1, 0); dz <= std::min(z + 1, grid.nz - 1); ++dz)
-            for (int dx = std::max(x - 1, 0); dx <= std::min(x + 1, grid.nx - 1); ++dx)
-              active[grid.at(dx, dy, dz)] = true;
-      }
-    }
-}
-
-void GroupFitter::activate() {
-  const LatticeGrid& grid = lattice_.grid;
-  std::vector<bool> active(grid.count(), members_.open);
-  inside_.assign(grid.count(), members_.open);
-  if (!members_.open) {
-    activateInside(active);
-    for (const std::uint32_t i : data_.points) {  // the cell of a point and one more all round
-      int cell[3];
-      float fraction[3];
-      inCell(points_[i].reference_m, cell, fraction);
-      for (int y = std::max(cell[1] - 1, 0); y <= std::min(cell[1] + 2, grid.ny - 1); ++y)
-        for (int z = std::max(cell[2] - 1, 0); z <= std::min(cell[2] + 2, grid.nz - 1); ++z)
-          for (int x = std::max(cell[0] - 1, 0); x <= std::min(cell[0] + 2, grid.nx - 1); ++x)
-            active[grid.at(x, y, z)] = true;
-    }
-  }
-  ActiveNodes& nodes = lattice_.nodes;
-  nodes = {grid.nx, grid.ny, grid.nz, std::vector<std::int32_t>(grid.count(), -1), {}};
-  const auto slab = static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.nz);
-  for (std::size_t i = 0; i < active.size(); ++i) {
-    if (i % slab == 0)
-      lattice_.slab_starts.push_back(static_cast<std::uint32_t>(nodes.nodes.size()));
-    if (!active[i]) continue;
-    nodes.number[i] = static_cast<std::int32_t>(nodes.nodes.size());
-    nodes.nodes.push_back(static_cast<std::uint32_t>(i));
-  }
-  lattice_.slab_starts.push_back(static_cast<std::uint32_t>(nodes.nodes.size()));
-}
-
-void GroupFitter::makeSamples() {
-  for (const std::uint32_t i : data_.points) {
-    int cell[3];
-    float f[3];
-    inCell(points_[i].reference_m, cell, f);
-    LatticeSample sample{};
-    for (int corner = 0; corner < 8; ++corner) {
-      const int dx = corner & 1, dz = corner >> 1 & 1, dy = corner >> 2;
-      sample.node[corner] = static_cast<std::uint32_t>(
-          lattice_.nodes.numberAt(cell[0] + dx, cell[1] + dy, cell[2] + dz));
-      sample.share[corner] =
-          (dx ? f[0] : 1 - f[0]) * (dy ? f[1] : 1 - f[1]) * (dz ? f[2] : 1 - f[2]);
-    }
-    data_.samples.push_back(sample);
-  }
-  shareWeights();
-}
-
-// A cell's samples weigh 1 together, however finely the surface is meshed.
-void GroupFitter::shareWeights() {
-  used_.assign(lattice_.nodes.nodes.size(), false);
-  for (std::size_t i = 0; i < used_.size(); ++i) used_[i] = inside_[lattice_.nodes.nodes[i]];
-  for (const LatticeSample& sample : data_.samples) used_[sample.node[0]] = true;
-  std::vector<std::uint32_t> in_cell(lattice_.nodes.nodes.size(), 0);
-  for (const LatticeSample& sample : data_.samples) ++in_cell[sample.node[0]];
-  for (LatticeSample& sample : data_.samples)
-    sample.weight = 1 / static_cast<float>(in_cell[sample.node[0]]);
+void GroupFitter::takeCells(GroupCells cells) {
+  node_places_m_.reserve(cells.nodes.nodes.size());
+  for (const std::uint32_t node : cells.nodes.nodes) node_places_m_.push_back(cells.placeOf(node));
+  data_.samples = std::move(cells.samples);
+  used_ = std::move(cells.used);
+  lattice_.grid = cells.grid;
+  lattice_.nodes = std::move(cells.nodes);
+  lattice_.slab_starts = std::move(cells.slab_starts);
 }
 
 // 1 within the box of the moving surfaces, 0 from the margin on, smooth between.
@@ -258,56 +131,16 @@ double GroupFitter::fadeAt(Vec3d p) const {
   return 1 - t * t * (3 - 2 * t);
 }
 
-using Matrix3 = double[3][3];
-
-// Solves m x = b for symmetric positive m, by cofactors.
-Vec3d solved(const Matrix3& m, Vec3d b) {
-  const Vec3d r0{m[0][0], m[0][1], m[0][2]}, r1{m[1][0], m[1][1], m[1][2]},
-      r2{m[2][0], m[2][1], m[2][2]};
-  const double det = dot(r0, cross(r1, r2));
-  return (1 / det) * (b.x * cross(r1, r2) + b.y * cross(r2, r0) + b.z * cross(r0, r1));
-}
-
 // The best affine function of place for every column, at the nodes. What is affine is met exactly
 // and at any distance; the lattice is fitted to what remains.
 std::vector<float> GroupFitter::affinePart() const {
-  const std::size_t columns = data_.columns;
-  double total = 0;
-  Vec3d middle;
-  std::vector<double> mean(columns, 0.0);
-  for (std::size_t j = 0; j < data_.points.size(); ++j) {
-    const auto w = static_cast<double>(data_.samples[j].weight);
-    total += w;
-    middle = middle + w * toDouble(points_[data_.points[j]].reference_m);
-    for (std::size_t c = 0; c < columns; ++c)
-      mean[c] += w * static_cast<double>(data_.values[j * columns + c]);
-  }
-  middle = (1 / total) * middle;
-  for (double& m : mean) m /= total;
-  Matrix3 spread{};
-  std::vector<Vec3d> moment(columns);
-  for (std::size_t j = 0; j < data_.points.size(); ++j) {
-    const auto w = static_cast<double>(data_.samples[j].weight);
-    const Vec3d p = toDouble(points_[data_.points[j]].reference_m) - middle;
-    const double at[3] = {p.x, p.y, p.z};
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; b < 3; ++b) spread[a][b] += w * at[a] * at[b];
-    for (std::size_t c = 0; c < columns; ++c)
-      moment[c] =
-          moment[c] + (w * (static_cast<double>(data_.values[j * columns + c]) - mean[c])) * p;
-  }
-  // Holds the slopes that flat or few points leave open at 0.
-  const double ridge = 1e-9 * (spread[0][0] + spread[1][1] + spread[2][2]) + 1e-30;
-  for (std::size_t a = 0; a < 3; ++a) spread[a][a] += ridge;
-  std::vector<Vec3d> slope(columns);
-  for (std::size_t c = 0; c < columns; ++c) slope[c] = solved(spread, moment[c]);
+  const AffineFit fit = affineFit(data_.places_m, data_.samples, data_.values, data_.columns);
   std::vector<float> nodes;
-  nodes.reserve(lattice_.nodes.nodes.size() * columns);
-  for (const std::uint32_t node : lattice_.nodes.nodes) {
-    const Vec3d at = nodePlace(node);
+  nodes.reserve(node_places_m_.size() * data_.columns);
+  for (const Vec3d at : node_places_m_) {
     const double fade = fadeAt(at);
-    for (std::size_t c = 0; c < columns; ++c)
-      nodes.push_back(static_cast<float>(fade * (mean[c] + dot(slope[c], at - middle))));
+    for (std::size_t c = 0; c < data_.columns; ++c)
+      nodes.push_back(static_cast<float>(fade * fit.at(c, at)));
   }
   return nodes;
 }
@@ -443,10 +276,6 @@ void GroupFitter::fillRows(const std::vector<float>& nodes) {
 }
 
 }  // namespace
-
-bool GroupMembers::owns(std::uint32_t surface) const {
-  return std::find(surfaces.begin(), surfaces.end(), surface) != surfaces.end();
-}
 
 GroupLattice fitGroup(const FieldSpace& space, const GroupMembers& members, const Winners& winners,
                       std::span<const BorderPoint> points, std::span<const PhaseClass> classes) {

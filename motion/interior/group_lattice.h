@@ -1,24 +1,15 @@
 #pragma once
-// One group's lattice: which nodes take part, what is fitted to them, and their rows of
-// displacements by keyframe.
+// One group's lattice: what is fitted to its nodes, and their rows of displacements by keyframe.
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "motion/interior/border_points.h"
-#include "motion/interior/lattice_fit.h"
+#include "motion/interior/group_cells.h"
 #include "motion/interior/motion_modes.h"
 
 namespace echocine {
-
-// The lattice that all groups share, over the moving surfaces and what is near them.
-struct FieldSpace {
-  Box moving;        // the moving surfaces at the reference phase
-  double margin_m;   // beyond it the background and still surroundings come to rest
-  double spacing_m;  // between nodes
-  Vec3d origin() const { return moving.lo - Vec3d{margin_m, margin_m, margin_m}; }
-};
 
 // Surfaces that share their phases share a list of keyframes and the modes of its displacements.
 struct PhaseClass {
@@ -34,12 +25,6 @@ struct GroupLattice {
   std::vector<std::uint32_t> slab_starts;
   // By phase class, by row of its weights, by active node; empty where no keyframe moves the group.
   std::vector<std::vector<std::vector<Vec3f>>> rows_m;
-};
-
-struct GroupMembers {
-  std::vector<std::uint32_t> surfaces;  // numbers; the count of surfaces for the background
-  bool open = false;  // the background, or still surroundings: rests beyond the margin
-  bool owns(std::uint32_t surface) const;
 };
 
 // Fits a group to the border points on either side of which it stands. Empty without one that

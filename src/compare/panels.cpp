@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compare/boundary_bands.h"
+#include "compare/frame_blend.h"
 
 namespace echocine::compare {
 

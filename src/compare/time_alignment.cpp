@@ -4,106 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/time_search.h"
+
 namespace echocine::compare {
 
 namespace {
-
-// Two neighbouring frames and the share of the second.
-struct Blend {
-  std::size_t a = 0, b = 0;
-  double share = 0;
-  bool inside = false;
-};
-
-// A periodic loop closes from the last frame before the beat's end to frame 0; that step may be
-// shorter or longer than one frame.
-Blend blendAt(double place, int frames, double beat, bool periodic) {
-  if (periodic) {
-    place -= beat * std::floor(place / beat);
-    const int last = std::min(frames - 1, static_cast<int>(std::ceil(beat)) - 1);
-    if (place >= last) {
-      const double share = (place - last) / std::max(1e-9, beat - last);
-      return {static_cast<std::size_t>(last), 0, std::clamp(share, 0.0, 1.0), true};
-    }
-  }
-  if (place < -1e-9 || place > frames - 1 + 1e-9) return {};
-  const int a = std::clamp(static_cast<int>(std::floor(place)), 0, std::max(0, frames - 2));
-  return {static_cast<std::size_t>(a), static_cast<std::size_t>(std::min(a + 1, frames - 1)),
-          std::clamp(place - a, 0.0, 1.0), true};
-}
-
-double product(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-// Correlations of blended synthetic frames with real ones, from inner products alone.
-class Correlations {
- public:
-  explicit Correlations(const TimeProblem& p) {
-    for (const auto& s : p.synthetic) {
-      std::vector<double> row, own;
-      for (const auto& r : p.real) row.push_back(product(s, r));
-      for (const auto& t : p.synthetic) own.push_back(product(s, t));
-      cross_.push_back(std::move(row));
-      own_.push_back(std::move(own));
-    }
-    for (const auto& r : p.real) real_.push_back(std::sqrt(product(r, r)));
-  }
-  double of(const Blend& blend, std::size_t real) const {
-    const double u = 1 - blend.share, v = blend.share;
-    const double norm = u * u * own_[blend.a][blend.a] + 2 * u * v * own_[blend.a][blend.b] +
-                        v * v * own_[blend.b][blend.b];
-    const double length = std::sqrt(std::max(0.0, norm)) * real_[real];
-    return length > 0 ? (u * cross_[blend.a][real] + v * cross_[blend.b][real]) / length : 0;
-  }
-
- private:
-  std::vector<std::vector<double>> cross_, own_;
-  std::vector<double> real_;
-};
-
-class Search {
- public:
-  explicit Search(const TimeProblem& p)
-      : p_(p), correlations_(p), n_(static_cast<int>(p.synthetic.size())) {
-    // A loop that ends up to a frame and a half before its beat still closes.
-    periodic_ = p.synthetic_beat > 0 && p.synthetic_beat <= n_ + 1.5;
-    used_.assign(p.real.size(), true);
-    for (const int r : p.repeats) used_[static_cast<std::size_t>(r)] = false;
-  }
-  bool periodic() const { return periodic_; }
-  double at(double place, std::size_t j) const {
-    const Blend blend = blendAt(place, n_, p_.synthetic_beat, periodic_);
-    return blend.inside ? correlations_.of(blend, j) : -1;
-  }
-  bool used(std::size_t j) const { return used_[j]; }
-
-  // Mean correlation of a straight map; places outside the synthetic loop are left out, but half of
-  // the real frames must be inside.
-  double straight(double shift, double rate) const {
-    double sum = 0;
-    int count = 0, wanted = 0;
-    for (std::size_t j = 0; j < p_.real.size(); ++j) {
-      if (!used_[j]) continue;
-      ++wanted;
-      const Blend blend =
-          blendAt(shift + rate * static_cast<double>(j), n_, p_.synthetic_beat, periodic_);
-      if (!blend.inside) continue;
-      sum += correlations_.of(blend, j);
-      ++count;
-    }
-    return 2 * count >= wanted && count > 0 ? sum / count : -1;
-  }
-
- private:
-  const TimeProblem& p_;
-  Correlations correlations_;
-  int n_;
-  bool periodic_ = false;
-  std::vector<bool> used_;
-};
 
 // synthetic place = shift + rate * real frame, both in frames; mean and spread over the shifts that
 // were tried.
@@ -112,7 +17,7 @@ struct StraightMap {
 };
 
 // All shifts at one rate, a quarter of a frame apart.
-StraightMap bestShift(const Search& search, const TimeProblem& p, double rate) {
+StraightMap bestShift(const TimeSearch& search, const TimeProblem& p, double rate) {
   StraightMap best;
   best.rate = rate;
   const double n = static_cast<double>(p.synthetic.size());
@@ -140,7 +45,7 @@ StraightMap bestShift(const Search& search, const TimeProblem& p, double rate) {
 }
 
 // Shift and rate to a hundredth of a frame by ever smaller steps about the best so far.
-void refine(const Search& search, bool rate_known, double frames, StraightMap& map) {
+void refine(const TimeSearch& search, bool rate_known, double frames, StraightMap& map) {
   for (double step = 0.125; step > 0.004; step /= 2)
     for (bool better = true; better;) {
       better = false;
@@ -158,7 +63,7 @@ void refine(const Search& search, bool rate_known, double frames, StraightMap& m
 }
 
 // Offsets from the straight map, real frame by real frame (Viterbi over eighths of a frame).
-std::vector<double> warpOffsets(const Search& search, const TimeProblem& p,
+std::vector<double> warpOffsets(const TimeSearch& search, const TimeProblem& p,
                                 const StraightMap& map) {
   constexpr double kStep = 0.125;
   constexpr double kPaceCost = 0.05;  // of correlation, for a doubled or stopped pace; our choice
@@ -201,7 +106,7 @@ std::vector<double> warpOffsets(const Search& search, const TimeProblem& p,
 }
 
 // The mean correlation over the frames that count, as summary.json has it.
-void measure(const Search& search, TimeAlignment& out) {
+void measure(const TimeSearch& search, TimeAlignment& out) {
   double sum = 0;
   int count = 0;
   for (std::size_t j = 0; j < out.place.size(); ++j)
@@ -225,7 +130,7 @@ void settlePlaces(const TimeProblem& p, TimeAlignment& out) {
 }  // namespace
 
 TimeAlignment alignInTime(const TimeProblem& p) {
-  const Search search(p);
+  const TimeSearch search(p);
   const bool rate_known = p.synthetic_beat > 0 && p.real_beat > 0;
   StraightMap best;
   if (rate_known) {
@@ -262,7 +167,7 @@ TimeAlignment alignInTime(const TimeProblem& p) {
 }
 
 TimeAlignment alignByAnchors(const TimeProblem& p, std::vector<Anchor> anchors) {
-  const Search search(p);
+  const TimeSearch search(p);
   std::sort(anchors.begin(), anchors.end(), [](Anchor a, Anchor b) { return a.real < b.real; });
   TimeAlignment out;
   out.periodic = search.periodic();
@@ -291,18 +196,6 @@ TimeAlignment alignByAnchors(const TimeProblem& p, std::vector<Anchor> anchors) 
   settlePlaces(p, out);
   measure(search, out);
   out.confidence = 1;
-  return out;
-}
-
-// A blend of two frames smears what moves by less than a frame; the error is that of the frame rate
-// itself.
-std::vector<float> frameAtPlace(const std::vector<std::vector<float>>& frames, double place,
-                                double beat, bool periodic) {
-  const Blend blend = blendAt(place, static_cast<int>(frames.size()), beat, periodic);
-  const auto share = static_cast<float>(blend.share);
-  std::vector<float> out(frames[blend.a].size());
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = (1 - share) * frames[blend.a][i] + share * frames[blend.b][i];
   return out;
 }
 

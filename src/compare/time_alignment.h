@@ -42,8 +42,4 @@ struct Anchor {
 };
 TimeAlignment alignByAnchors(const TimeProblem& problem, std::vector<Anchor> anchors);
 
-// Frames blended at a place, for loops in beam space.
-std::vector<float> frameAtPlace(const std::vector<std::vector<float>>& frames, double place,
-                                double beat, bool periodic);
-
 }  // namespace echocine::compare

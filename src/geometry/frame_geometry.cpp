@@ -3,44 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
-#include "core/box.h"
 #include "core/check.h"
 #include "geometry/crossing_rule.h"
 #include "geometry/embree_mesh.h"
 #include "geometry/line_states.h"
+#include "geometry/positions_box.h"
 #include "geometry/smooth_normal.h"
 
 namespace echocine {
-
-namespace {
-
-// Four positions at a time, which are three vectors.
-Box boxOf(const std::vector<Vec3f>& positions) {
-  Box box;
-  const std::size_t count = positions.size(), in_fours = count / 4 * 4;
-  for (std::size_t i = in_fours; i < count; ++i) box.add(toDouble(positions[i]));
-  if (in_fours == 0) return box;
-  Floats4 lo[3], hi[3];
-  std::memcpy(lo, positions.data(), sizeof lo);
-  std::memcpy(hi, positions.data(), sizeof hi);
-  for (std::size_t i = 4; i < in_fours; i += 4) {
-    Floats4 four[3];
-    std::memcpy(four, &positions[i], sizeof four);
-    for (int k = 0; k < 3; ++k) {
-      lo[k] = four[k] < lo[k] ? four[k] : lo[k];
-      hi[k] = four[k] > hi[k] ? four[k] : hi[k];
-    }
-  }
-  Vec3f corners[8];
-  std::memcpy(corners, lo, sizeof lo);
-  std::memcpy(corners + 4, hi, sizeof hi);
-  for (const Vec3f corner : corners) box.add(toDouble(corner));
-  return box;
-}
-
-}  // namespace
 
 // All surfaces stand one after the other in one mesh: Embree then refits one hierarchy and builds
 // none, while over several meshes it builds one anew for each frame, which takes longer than to

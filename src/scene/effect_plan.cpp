@@ -5,8 +5,9 @@
 #include <algorithm>
 
 #include "core/units.h"
-
+#include "scene/media_in_use.h"
 #include "scene/names.h"
+#include "scene/picture_plan.h"
 #include "scene/scan_geometry.h"
 
 namespace echocine {
@@ -53,18 +54,6 @@ bool decide(EffectPlan& plan, Effect effect, Switch wanted, const Finding& found
   return decided.on;
 }
 
-std::vector<const Medium*> mediaInUse(const Scene& scene) {
-  std::vector<const Medium*> used{&scene.medium(scene.background)};
-  for (const Structure& s : scene.structures) used.push_back(&scene.medium(s.medium));
-  return used;
-}
-
-bool differ(const Scene& scene) {
-  const std::vector<const Medium*> used = mediaInUse(scene);
-  return std::any_of(used.begin(), used.end(),
-                     [&](const Medium* m) { return !sameMedium(*m, *used[0]); });
-}
-
 bool wantsIntensity(const Scene& scene, bool reflected) {
   return wantsPicture(scene) || wants(scene, Channel::y) || wants(scene, Channel::unattenuated) ||
          wants(scene, reflected ? Channel::reflection : Channel::backscatter);
@@ -107,13 +96,6 @@ Finding bending(const Scene& scene) {
                                 scene.medium(s.medium).sound_speed_m_s, outside.name,
                                 outside.sound_speed_m_s)};
   return {false, "every structure has the sound speed of its surroundings, so no ray bends"};
-}
-
-bool speedsDiffer(const Scene& scene) {
-  const std::vector<const Medium*> used = mediaInUse(scene);
-  return std::any_of(used.begin(), used.end(), [&](const Medium* m) {
-    return m->sound_speed_m_s != used[0]->sound_speed_m_s;
-  });
 }
 
 // Of what the interface law depends on the angle for.
@@ -226,63 +208,6 @@ void planTruth(const Scene& scene, EffectPlan& plan) {
     if (wants(scene, c)) add(plan, Effect::channel, true, "asked for in output.channels", c);
 }
 
-void planSpeckle(const Scene& scene, EffectPlan& plan) {
-  plan.speckle = scene.speckle.on && wantsPicture(scene) && plan.contrast;
-  add(plan, Effect::speckle, plan.speckle,
-      !scene.speckle.on      ? "speckle.on asks for none"
-      : !wantsPicture(scene) ? "no picture is asked for"
-      : !plan.contrast       ? "nothing can be seen"
-                       : fmt::format("{:g} scatterers per resolution cell move with the tissue",
-                                     scene.speckle.per_cell));
-}
-
-// What changes nothing but the picture.
-bool decidePicture(const Scene& scene, EffectPlan& plan, Effect effect, bool asked, bool possible,
-                   const std::string& off, const std::string& on) {
-  const bool decided = asked && possible && wantsPicture(scene);
-  add(plan, effect, decided,
-      !asked                 ? "not asked for"
-      : !wantsPicture(scene) ? "no picture is asked for"
-      : decided              ? on
-                             : off);
-  return decided;
-}
-
-void planTissue(const Scene& scene, EffectPlan& plan) {
-  const SpeckleSettings& s = scene.speckle;
-  const std::string off = "there are no scatterers to carry it";
-  plan.heterogeneity =
-      decidePicture(scene, plan, Effect::heterogeneity, s.heterogeneity_db > 0, plan.speckle, off,
-                    fmt::format("{:g} dB from place to place of the tissue", s.heterogeneity_db));
-  plan.anisotropy = decidePicture(
-      scene, plan, Effect::anisotropy, s.anisotropy_db > 0, plan.speckle, off,
-      fmt::format("muscle sends back {:g} dB less along its fibres", s.anisotropy_db));
-}
-
-void planArtefacts(const Scene& scene, EffectPlan& plan) {
-  const ArtefactSettings& a = scene.artefacts;
-  const bool lines = scene.probe.lines > 1;
-  const std::string one = "there is one line alone";
-  plan.dropout = decidePicture(scene, plan, Effect::dropout, a.dropout, lines, one,
-                               fmt::format("outermost lines lose {:g} dB", a.dropout_db));
-  plan.acoustic_window = decidePicture(
-      scene, plan, Effect::acoustic_window, a.acoustic_window, true, "",
-      fmt::format("ribs leave {:g} mm open", millimetresFromMetres(a.window_width_m)));
-  plan.haze = decidePicture(scene, plan, Effect::haze, a.haze, lines, one,
-                            fmt::format("side lobes at {:g} dB", a.haze_db));
-  plan.reverberation =
-      decidePicture(scene, plan, Effect::reverberation, a.reverberation, scene.probe.samples > 1,
-                    "there is one sample alone",
-                    fmt::format("a tail of {:g} dB behind every echo", a.reverberation_db));
-  plan.clutter = decidePicture(scene, plan, Effect::clutter, a.clutter, true, "",
-                               fmt::format("{:g} dB of white at the face", a.clutter_db));
-  plan.noise = decidePicture(scene, plan, Effect::noise, a.noise, true, "",
-                             fmt::format("{:g} dB of white at the largest gain", a.noise_db));
-  plan.persistence =
-      decidePicture(scene, plan, Effect::persistence, a.persistence > 0, true, "",
-                    fmt::format("each frame holds {:g} of the one before", a.persistence));
-}
-
 // A curve of depth that is applied to every line, and what asks for it.
 Finding timeGain(const Scene& scene, const EffectPlan& plan) {
   if (!wantsPicture(scene)) return {false, "no picture is asked for"};
@@ -326,7 +251,7 @@ void planSignal(const Scene& scene, EffectPlan& plan) {
 EffectPlan planEffects(const Scene& scene) {
   EffectPlan plan;
   const EffectSwitches& wanted = scene.effects;
-  plan.contrast = differ(scene);
+  plan.contrast = mediaDiffer(scene);
   plan.reflection = decide(plan, Effect::reflection, wanted.reflection, echoes(scene));
   plan.lobe = decide(plan, Effect::lobe, wanted.lobe, lobes(scene, plan.reflection));
   plan.transmission_loss =
@@ -353,7 +278,6 @@ EffectPlan planEffects(const Scene& scene) {
   plan.travel_time = decide(plan, Effect::travel_time, wanted.travel_time,
                             {false, "echoes are placed at their path length"});
   planSpeckle(scene, plan);
-  planTissue(scene, plan);
   planArtefacts(scene, plan);
   planSignal(scene, plan);
   return plan;

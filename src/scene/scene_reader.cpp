@@ -3,17 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/file.h"
 #include "core/units.h"
-#include "scene/beam_profile.h"
+#include "scene/contradictions.h"
 #include "scene/keyframe_warnings.h"
 #include "scene/media_reader.h"
 #include "scene/probe_reader.h"
 #include "scene/ranges.h"
-#include "scene/scan_geometry.h"
 #include "scene/signal_reader.h"
 #include "scene/structure_reader.h"
 #include "scene/tolerance_reader.h"
@@ -160,80 +158,6 @@ AccuracySettings readAccuracy(TomlTable table) {
   readTolerance(table);  // who sets the accuracy; the scene as rendered has none
   table.finish();
   return a;
-}
-
-// What several rays per beam cannot do.
-void refuseOfRays(TomlTable& root, const Scene& scene) {
-  const AccuracySettings& a = scene.accuracy;
-  const TomlTable accuracy = root.table("accuracy"), signal = root.table("signal");
-  const std::string rays = fmt::format("accuracy.rays_per_beam = {}", a.rays_per_beam);
-  if (a.tracer == TracerChoice::slice)
-    accuracy.fail("tracer", fmt::format("\"slice\" excludes {}, accepted with it: \"auto\" | "
-                                        "\"embree\"",
-                                        rays));
-  if (a.interface_echo == InterfaceEcho::cell)
-    accuracy.fail(
-        "interface_echo",
-        fmt::format("\"cell\" excludes {}, accepted with it: \"auto\" | \"centre\"", rays));
-  if (scene.signal.beam_width == BeamWidth::fixed)
-    signal.fail("beam_width", fmt::format("\"fixed\" excludes {}, whose beam follows aperture and "
-                                          "focus, accepted with it: \"focused\" | \"none\"",
-                                          rays));
-  const bool lateral =
-      scene.signal.beam_width == BeamWidth::focused && scene.effects.beam_width != Switch::off;
-  if (!lateral && scene.effects.elevation == Switch::off)
-    accuracy.fail(
-        "rays_per_beam",
-        fmt::format("is {}, which effects.elevation = \"off\" and {} leave nothing to "
-                    "spread over, accepted with them: 1",
-                    a.rays_per_beam,
-                    scene.effects.beam_width == Switch::off ? "effects.beam_width = \"off\""
-                                                            : "signal.beam_width = \"none\""));
-}
-
-// Demands that exclude each other, each named by both of its keys.
-void refuseContradictions(TomlTable& root, const Scene& scene) {
-  const AccuracySettings& a = scene.accuracy;
-  const TomlTable effects = root.table("effects"), accuracy = root.table("accuracy"),
-                  output = root.table("output"), acquisition = root.table("acquisition");
-  if (scene.acquisition.time_warp == WarpChoice::systole && !scene.motion.keyframe_heart_rate_hz)
-    acquisition.fail("time_warp",
-                     "\"systole\" needs motion.keyframe_heart_rate_bpm, accepted without it: "
-                     "\"auto\" | \"uniform\"");
-  if (scene.effects.refraction == Switch::on && a.tracer == TracerChoice::slice)
-    effects.fail(
-        "refraction",
-        "\"on\" excludes accuracy.tracer = \"slice\", accepted with it: \"auto\" | \"off\"");
-  if (a.interface_echo == InterfaceEcho::cell && scene.effects.refraction == Switch::on)
-    accuracy.fail(
-        "interface_echo",
-        "\"cell\" excludes effects.refraction = \"on\", accepted with it: \"auto\" | \"centre\"");
-  if (a.interface_echo == InterfaceEcho::cell && a.tracer == TracerChoice::embree)
-    accuracy.fail(
-        "interface_echo",
-        "\"cell\" excludes accuracy.tracer = \"embree\", accepted with it: \"auto\" | \"centre\"");
-  const double pulse_m = scene.signal.pulse_cycles * ScanGeometry(scene.probe).wavelength() / 2;
-  if (scene.speckle.on && !(pulse_m > 0))
-    root.table("signal").fail("pulse_cycles",
-                              "0 excludes speckle.on = true, accepted with it: a number over 0");
-  if (scene.speckle.on && pulse_m > scene.probe.max_depth_m - scene.probe.min_depth_m)
-    root.table("signal").fail(
-        "pulse_cycles", fmt::format("makes a pulse of {:.3g} mm, longer than the depth that "
-                                    "speckle.on = true would fill, accepted with it: a shorter one",
-                                    millimetresFromMetres(pulse_m)));
-  if (a.rays_per_beam > 1) refuseOfRays(root, scene);
-  if (scene.effects.elevation == Switch::on && a.rays_per_beam == 1)
-    effects.fail(
-        "elevation",
-        "\"on\" needs accuracy.rays_per_beam over 1, accepted with one ray: \"auto\" | \"off\"");
-  if (scene.effects.attenuation == Switch::off && scene.output.channels_given)
-    for (const Channel c : scene.output.channels)
-      if (c == Channel::y || c == Channel::attenuation || c == Channel::reflection ||
-          c == Channel::backscatter)
-        output.fail("channels", fmt::format("{} holds attenuation, which effects.attenuation = "
-                                            "\"off\" leaves out, accepted with it: "
-                                            "unattenuated.Y, medium.id, display.Y",
-                                            channelName(c)));
 }
 
 // Gives each medium that the scene uses one id and its numbers at the probe's frequency.

@@ -1,14 +1,11 @@
 #include "scene/toml_table.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <sstream>
 
 #include "scene/toml_nesting.h"
+#include "scene/toml_node.h"
 
 namespace echocine {
 
@@ -21,6 +18,8 @@ std::string quotedList(const std::vector<std::string_view>& names) {
   return text;
 }
 
+}  // namespace
+
 const char* typeName(const toml::node& node) {
   if (node.is_string()) return "a string";
   if (node.is_boolean()) return "a boolean";
@@ -29,52 +28,6 @@ const char* typeName(const toml::node& node) {
   if (node.is_table()) return "a table";
   return "a date or time";
 }
-
-}  // namespace
-
-bool NumberRange::contains(double value) const {
-  return std::isfinite(value) && (lo_open ? value > lo : value >= lo) &&
-         (hi_open ? value < hi : value <= hi);
-}
-
-std::string NumberRange::text() const {
-  const bool has_lo = std::isfinite(lo), has_hi = std::isfinite(hi);
-  if (!has_lo && !has_hi) return "a finite number";
-  if (!has_hi)
-    return fmt::format("a number {} {}", lo_open ? "over" : "from", lo) + (lo_open ? "" : " up");
-  if (!has_lo) return fmt::format("a number {} {}", hi_open ? "under" : "up to", hi);
-  return fmt::format("a number {} {} {} {}", lo_open ? "over" : "from", lo,
-                     hi_open ? "and under" : "to", hi);
-}
-
-// The parsed document is shared by all tables of one file; the public header stays free of the
-// library.
-struct TomlTable::Node {
-  std::shared_ptr<const toml::table> root;  // keeps `table` alive
-  const toml::table* table = nullptr;       // null: absent in the file
-  std::string file;
-  std::string path;  // "probe", for messages
-  int line = 0;
-  std::vector<std::string> known;
-  std::map<std::string, std::string, std::less<>> unused;  // key -> what it is accepted with
-
-  const toml::node* find(std::string_view key) {
-    if (std::find(known.begin(), known.end(), key) == known.end()) known.emplace_back(key);
-    return table ? table->get(key) : nullptr;
-  }
-  std::string fullKey(std::string_view key) const {
-    return path.empty() ? std::string(key) : path + "." + std::string(key);
-  }
-  std::unique_ptr<Node> child(const toml::table* t, std::string child_path) const {
-    auto node = std::make_unique<Node>();
-    node->root = root;
-    node->table = t;
-    node->file = file;
-    node->path = std::move(child_path);
-    node->line = t ? static_cast<int>(t->source().begin.line) : line;
-    return node;
-  }
-};
 
 TomlTable::TomlTable(std::unique_ptr<Node> node) : node_(std::move(node)) {}
 TomlTable::~TomlTable() = default;
@@ -190,125 +143,11 @@ std::optional<std::size_t> TomlTable::choiceIndex(std::string_view key,
   return static_cast<std::size_t>(found - names.begin());
 }
 
-Vec3d TomlTable::vector(std::string_view key, double most) {
-  const std::string accepted =
-      most < std::numeric_limits<double>::max()
-          ? fmt::format("accepted: three numbers [x, y, z] from {} to {}", -most, most)
-          : "accepted: three finite numbers [x, y, z]";
-  const toml::node* value = node_->find(key);
-  if (!value) missing(key, accepted);
-  const toml::array* list = value->as_array();
-  if (!list || list->size() != 3) fail(key, fmt::format("is not a vector, {}", accepted));
-  double xyz[3] = {};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::optional<double> number = (*list)[i].value<double>();
-    if (!(*list)[i].is_number() || !number || !(std::abs(*number) <= most))
-      fail(key,
-           fmt::format("component {} is not a finite number within bounds, {}", i + 1, accepted));
-    xyz[i] = *number;
-  }
-  return {xyz[0], xyz[1], xyz[2]};
-}
-
-bool TomlTable::isListOfTables(std::string_view key) {
-  const toml::node* value = node_->find(key);
-  return value && value->is_array() && !value->as_array()->empty() &&
-         value->as_array()->front().is_table();
-}
-
-std::vector<std::string> TomlTable::texts(std::string_view key) {
-  const toml::node* value = node_->find(key);
-  if (!value) return {};
-  if (value->is_string()) return {withoutNul(key, *value->value<std::string>())};
-  const toml::array* list = value->as_array();
-  if (!list)
-    fail(key, fmt::format("is {}, accepted: a string or a list of strings", typeName(*value)));
-  std::vector<std::string> result;
-  for (const toml::node& item : *list) {
-    if (!item.is_string()) fail(key, fmt::format("holds {}, accepted: strings", typeName(item)));
-    result.push_back(withoutNul(key, *item.value<std::string>()));
-  }
-  return result;
-}
-
-std::vector<double> TomlTable::numbers(std::string_view key) {
-  const char* accepted = "accepted: finite numbers [a, b, ...]";
-  const toml::node* value = node_->find(key);
-  if (!value) return {};
-  const toml::array* list = value->as_array();
-  if (!list) fail(key, fmt::format("is {}, {}", typeName(*value), accepted));
-  std::vector<double> result;
-  for (const toml::node& item : *list) {
-    if (!item.is_number() || !std::isfinite(*item.value<double>()))
-      fail(key, fmt::format("entry {} is not a finite number, {}", result.size() + 1, accepted));
-    result.push_back(*item.value<double>());
-  }
-  return result;
-}
-
-std::vector<std::pair<double, double>> TomlTable::pairs(std::string_view key) {
-  const char* accepted = "accepted: pairs of finite numbers [[a, b], [a, b], ...]";
-  const toml::node* value = node_->find(key);
-  if (!value) return {};
-  const toml::array* list = value->as_array();
-  if (!list) fail(key, fmt::format("is {}, {}", typeName(*value), accepted));
-  std::vector<std::pair<double, double>> result;
-  for (const toml::node& item : *list) {
-    const toml::array* pair = item.as_array();
-    if (!pair || pair->size() != 2 || !(*pair)[0].is_number() || !(*pair)[1].is_number())
-      fail(key, fmt::format("entry {} is not a pair, {}", result.size() + 1, accepted));
-    result.emplace_back(*(*pair)[0].value<double>(), *(*pair)[1].value<double>());
-    if (!std::isfinite(result.back().first) || !std::isfinite(result.back().second))
-      fail(key, fmt::format("entry {} is not finite, {}", result.size(), accepted));
-  }
-  return result;
-}
-
 TomlTable TomlTable::table(std::string_view key) {
   const toml::node* value = node_->find(key);
   if (value && !value->is_table())
     fail(key, fmt::format("is {}, accepted: a table", typeName(*value)));
   return TomlTable(node_->child(value ? value->as_table() : nullptr, node_->fullKey(key)));
-}
-
-std::vector<TomlTable> TomlTable::tables(std::string_view key) {
-  const toml::node* value = node_->find(key);
-  if (!value) return {};
-  const toml::array* list = value->as_array();
-  std::vector<TomlTable> result;
-  if (list)
-    for (const toml::node& item : *list)
-      if (item.is_table())
-        result.push_back(TomlTable(node_->child(item.as_table(), node_->fullKey(key))));
-  if (!list || result.size() != list->size())
-    fail(key, fmt::format("is not a list of tables, accepted: [[{}]] tables", key));
-  return result;
-}
-
-std::vector<std::pair<std::string, TomlTable>> TomlTable::namedTables(std::string_view key) {
-  const toml::node* value = node_->find(key);
-  if (!value) return {};
-  if (!value->is_table())
-    fail(key, fmt::format("is {}, accepted: [{}.name] tables", typeName(*value), key));
-  std::vector<std::pair<std::string, TomlTable>> result;
-  for (const auto& [name, item] : *value->as_table()) {
-    const std::string path = node_->fullKey(key) + "." + std::string(name.str());
-    if (!item.is_table())
-      throw SceneError(atPlace({node_->file, static_cast<int>(item.source().begin.line), path},
-                               fmt::format("is {}, accepted: a table", typeName(item))));
-    result.emplace_back(std::string(name.str()), TomlTable(node_->child(item.as_table(), path)));
-  }
-  return result;
-}
-
-std::vector<std::pair<std::string, int>> TomlTable::namedIntegers(std::string_view key, int lo,
-                                                                  int hi) {
-  TomlTable names = table(key);
-  std::vector<std::pair<std::string, int>> result;
-  if (!names.node_->table) return result;
-  for (const auto& [name, item] : *names.node_->table)
-    result.emplace_back(std::string(name.str()), names.integer(name.str(), std::nullopt, lo, hi));
-  return result;
 }
 
 void TomlTable::unused(std::string_view key, std::string_view accepted_with) {

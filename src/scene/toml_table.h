@@ -14,18 +14,9 @@
 #include "core/nearest_word.h"
 #include "core/vec3.h"
 #include "scene/names.h"
+#include "scene/number_range.h"
 
 namespace echocine {
-
-// Accepted numbers: lo..hi, an end left out when open.
-struct NumberRange {
-  double lo = -std::numeric_limits<double>::infinity();
-  double hi = std::numeric_limits<double>::infinity();
-  bool lo_open = false, hi_open = false;
-
-  bool contains(double value) const;
-  std::string text() const;  // "a number from 1 to 2"
-};
 
 class TomlTable {
  public:

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/keyframes/interpolation.h"
 #include "motion/mesh_motion.h"
 #include "scene/beam_profile.h"
 #include "scene/effect_plan.h"
-#include "scene/names.h"
 #include "scene/scan_geometry.h"
 #include "simulate/plan_loop.h"
+#include "study/knob_builder.h"
 
 namespace echocine {
 
@@ -21,46 +20,9 @@ namespace {
 // samples: about as the root of their distance, and as their distance.
 constexpr std::array<double, 5> kPerBeam{1, 2, 4, 8, 16};
 constexpr std::array<std::size_t, kPresets> kOfPreset{0, 2, 3, 4};
-// Of all structures at the finest level: a frame in flight takes about 200 bytes for each.
-constexpr double kMostTriangles = 2e6;
 constexpr int kRounding = 16;  // lines and samples come in multiples of it
 constexpr int kMostLines = 65536, kMostSamples = 65536;  // as the scene reader accepts
 constexpr double kMostPolarSamples = 1 << 25;            // half of it, for rounding's sake
-
-struct Table {
-  // A knob of numbers, rough to accurate; equal ones are listed once.
-  void addNumbers(const char* name, const char* key, const char* meaning,
-                  const std::vector<int>& numbers,
-                  const std::array<std::size_t, kPresets>& of_preset,
-                  const std::function<void(Scene&, int)>& apply) {
-    Knob knob{name, key, meaning, {}, {}};
-    std::vector<std::size_t> place;  // of each number among the values
-    for (const int number : numbers) {
-      const std::string label = std::to_string(number);
-      if (knob.values.empty() || knob.values.back().label != label)
-        knob.values.push_back({label, [=](Scene& scene) { apply(scene, number); }});
-      place.push_back(knob.values.size() - 1);
-    }
-    for (std::size_t p = 0; p < kPresets; ++p) knob.of_preset[p] = place[of_preset[p]];
-    for (std::size_t v = knob.of_preset[0]; v <= knob.reference(); ++v) knob.ladder.push_back(v);
-    add(std::move(knob));
-  }
-
-  void add(Knob knob) {
-    if (knob.ladder.empty())
-      for (const std::size_t v : knob.of_preset)
-        if (knob.ladder.empty() || knob.ladder.back() != v) knob.ladder.push_back(v);
-    if (knob.values.size() < 2)
-      leaveOut(knob.name, fmt::format("{} is its only value here", knob.values.at(0).label));
-    else
-      table.knobs.push_back(std::move(knob));
-  }
-  void leaveOut(const std::string& knob, const std::string& reason) {
-    table.left_out.push_back({knob, reason});
-  }
-
-  KnobTable table;
-};
 
 int rounded(double count, int most) {
   const double whole = kRounding * std::ceil(std::max(count, 1.0) / kRounding);
@@ -90,7 +52,7 @@ Extent extentOf(const Scene& scene) {
   return {extent.beams * shrink, extent.pulses * shrink};
 }
 
-void addLines(const Scene& scene, Table& table) {
+void addLines(const Scene& scene, KnobBuilder& table) {
   if (scene.probe.lines < 2) return table.leaveOut("lines", "the scene has a single line");
   const double beams = extentOf(scene).beams;
   std::vector<int> lines;
@@ -99,7 +61,7 @@ void addLines(const Scene& scene, Table& table) {
                    [](Scene& s, int n) { s.probe.lines = n; });
 }
 
-void addSamples(const Scene& scene, Table& table) {
+void addSamples(const Scene& scene, KnobBuilder& table) {
   const double pulses = extentOf(scene).pulses;
   std::vector<int> samples;
   for (const double n : kPerBeam) samples.push_back(rounded(n * pulses, kMostSamples));
@@ -107,109 +69,7 @@ void addSamples(const Scene& scene, Table& table) {
                    [](Scene& s, int n) { s.probe.samples = n; });
 }
 
-void addSubdivision(const Scene& scene, std::size_t triangles, Table& table) {
-  const int written = scene.motion.subdivision;
-  if (written == 0)
-    return table.leaveOut("subdivision",
-                          "motion.subdivision = 0 takes the meshes as the surfaces themselves");
-  const double finest = 4.0 * static_cast<double>(triangles);
-  const bool finer = finest <= kMostTriangles && written < 8;
-  if (!finer)
-    table.leaveOut(fmt::format("subdivision {}", written + 1),
-                   fmt::format("{:.0f} triangles, accepted: {:.0f}", finest, kMostTriangles));
-  table.addNumbers("subdivision", "motion.subdivision", "Loop levels of the meshes",
-                   {written - 1, written, written + (finer ? 1 : 0)}, {0, 1, 1, 2},
-                   [](Scene& s, int n) { s.motion.subdivision = n; });
-}
-
-// What speaks against reading the meshes of a scene; empty when nothing does.
-std::string refusal(const Scene& scene) {
-  try {
-    const MeshMotion motion(scene);
-    return {};
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-}
-
-void addNormals(const Scene& scene, Table& table) {
-  if (scene.motion.subdivision == 0 && scene.accuracy.normals != Normals::smooth)
-    return table.leaveOut("normals",
-                          "motion.subdivision = 0 takes the meshes as the surfaces themselves");
-  Scene smooth = scene;
-  smooth.accuracy.normals = Normals::smooth;
-  const std::string refused = refusal(smooth);
-  if (!refused.empty()) return table.leaveOut("normals", refused);
-  table.add({"normals",
-             "accuracy.normals",
-             "angles of incidence from facets or the limit surface",
-             {{"facet", [](Scene& s) { s.accuracy.normals = Normals::facet; }},
-              {"smooth", [](Scene& s) { s.accuracy.normals = Normals::smooth; }}},
-             {0, 0, 1, 1}});
-}
-
-std::vector<Keyframe> everyNth(const std::vector<Keyframe>& keyframes, std::size_t n) {
-  std::vector<Keyframe> kept;
-  for (std::size_t i = 0; i < keyframes.size(); i += n) kept.push_back(keyframes[i]);
-  return kept;
-}
-
-void addKeyframes(const Scene& scene, Table& table) {
-  std::size_t most = 0;
-  for (const Structure& s : scene.structures) most = std::max(most, s.keyframes.size());
-  Knob knob{"keyframes", "structure.keyframes", "keyframes used, all or every n-th", {}, {}};
-  for (const std::size_t n : {4, 2, 1}) {
-    if (n > 1 && most < 3 * n) continue;  // fewer than three keyframes are no motion
-    knob.values.push_back({n == 1 ? "all" : fmt::format("1/{}", n), [n](Scene& s) {
-                             for (Structure& structure : s.structures)
-                               structure.keyframes = everyNth(structure.keyframes, n);
-                           }});
-  }
-  knob.of_preset.fill(knob.values.size() - 1);  // leaving some out saves no time
-  table.add(std::move(knob));
-}
-
-bool accepts(const Scene& scene, Interpolation kind) {
-  try {
-    for (const Structure& structure : scene.structures) {
-      std::vector<double> phases;
-      for (const Keyframe& keyframe : structure.keyframes) phases.push_back(keyframe.phase);
-      const KeyframeWeights weights(phases, kind);
-    }
-    return true;
-  } catch (const SceneError&) {
-    return false;
-  }
-}
-
-void addInterpolation(const Scene& scene, Table& table) {
-  if (std::all_of(scene.structures.begin(), scene.structures.end(),
-                  [](const Structure& s) { return s.keyframes.size() == 1; }))
-    return table.leaveOut("interpolation", "nothing moves");
-  Knob knob{"interpolation",
-            "motion.interpolation",
-            "between keyframes; the scene's own is the reference",
-            {},
-            {}};
-  using Kind = Named<Interpolation>;
-  const auto value = [](const Kind& k) {
-    return KnobValue{k.name, [kind = k.value](Scene& s) { s.motion.interpolation = kind; }};
-  };
-  for (const Kind& k : NamesOf<Interpolation>::kAll) {
-    if (k.value == scene.motion.interpolation) continue;
-    if (accepts(scene, k.value))
-      knob.values.push_back(value(k));
-    else
-      table.leaveOut(fmt::format("interpolation {}", k.name),
-                     "would overshoot between keyframes this uneven");
-  }
-  for (const Kind& k : NamesOf<Interpolation>::kAll)
-    if (k.value == scene.motion.interpolation) knob.values.push_back(value(k));
-  knob.of_preset.fill(knob.values.size() - 1);  // what is true between keyframes is the scene's say
-  table.add(std::move(knob));
-}
-
-void addRefraction(const Scene& scene, const MeshMotion& motion, Table& table) {
+void addRefraction(const Scene& scene, const MeshMotion& motion, KnobBuilder& table) {
   if (scene.effects.refraction != Switch::automatic)
     return table.leaveOut("refraction", "effects.refraction is not left to the program");
   if (scene.accuracy.tracer == TracerChoice::slice)
@@ -235,7 +95,7 @@ void addRefraction(const Scene& scene, const MeshMotion& motion, Table& table) {
 
 // One ray takes the paper's average over the beam; several trace it. That is another model of the
 // beam, so the scene's own choice is the reference.
-void addRays(const Scene& scene, Table& table) {
+void addRays(const Scene& scene, KnobBuilder& table) {
   const int written = scene.accuracy.rays_per_beam;
   if (scene.accuracy.tracer == TracerChoice::slice ||
       scene.accuracy.interface_echo == InterfaceEcho::cell)
@@ -257,7 +117,7 @@ void addRays(const Scene& scene, Table& table) {
                    [](Scene& s, int n) { s.accuracy.rays_per_beam = n; });
 }
 
-void addEchoes(const Scene& scene, Table& table) {
+void addEchoes(const Scene& scene, KnobBuilder& table) {
   if (scene.probe.lines < 2) return table.leaveOut("echoes", "the scene has a single line");
   if (scene.accuracy.tracer == TracerChoice::embree)
     return table.leaveOut("echoes", "accuracy.tracer = \"embree\" knows no contours");
@@ -278,7 +138,7 @@ void addEchoes(const Scene& scene, Table& table) {
 // in every preset, and the error is that of what is read back.
 template <typename Kind>
 void addStorage(const Scene& scene, Knob knob, Kind OutputSettings::*setting,
-                const std::vector<std::pair<const char*, Kind>>& kinds, Table& table) {
+                const std::vector<std::pair<const char*, Kind>>& kinds, KnobBuilder& table) {
   if (!scene.output.exr) return table.leaveOut(knob.name, "output.exr = false stores nothing");
   for (const auto& [label, kind] : kinds) {
     if (kind == scene.output.*setting) knob.of_preset.fill(knob.values.size());
@@ -293,13 +153,10 @@ KnobTable knobsOf(const Scene& scene) {
   std::size_t triangles = 0;
   const MeshMotion motion(scene);
   for (const SurfaceTopology& surface : motion.surfaces()) triangles += surface.triangles.size();
-  Table table;
+  KnobBuilder table;
   addLines(scene, table);
   addSamples(scene, table);
-  addSubdivision(scene, triangles, table);
-  addNormals(scene, table);
-  addKeyframes(scene, table);
-  addInterpolation(scene, table);
+  addMotionKnobs(scene, triangles, table);
   addRefraction(scene, motion, table);
   addRays(scene, table);
   addEchoes(scene, table);

@@ -1,135 +1,13 @@
 // Nasty meshes: what each is refused with, and what its repair makes of it.
 
-#include "motion/repair/mesh_repair.h"
-
-#include <algorithm>
+#include <cmath>
 #include <functional>
-#include <random>
+#include <numbers>
 
-#include "motion/mesh/mesh_check.h"
-#include "tests/stage/motion_fixtures.h"
+#include "tests/stage/nasty_meshes.h"
 
 namespace echocine::motion_test {
 namespace {
-
-// --- makers of nastiness, all from a ball of 512 faces -------------------------------------------
-
-TriangleMesh ball() {
-  return sphere(2, 3);
-}
-
-TriangleMesh flipped(TriangleMesh mesh, std::size_t every) {
-  for (std::size_t t = 0; t < mesh.triangles.size(); t += every)
-    std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
-  return mesh;
-}
-
-TriangleMesh soup(const TriangleMesh& mesh) {
-  TriangleMesh out;
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t) out.positions.push_back(mesh.positions[v]);
-    const auto last = static_cast<std::uint32_t>(out.positions.size());
-    out.triangles.push_back({last - 3, last - 2, last - 1});
-  }
-  return out;
-}
-
-// Every place computed a little differently, as single precision does.
-TriangleMesh shaken(TriangleMesh mesh) {
-  std::mt19937 random(3);
-  for (Vec3d& p : mesh.positions)
-    for (double* c : {&p.x, &p.y, &p.z})
-      *c += (static_cast<double>(random() % 3) - 1) * 2.0 / (1 << 23);
-  return mesh;
-}
-
-TriangleMesh without(TriangleMesh mesh, std::size_t first, std::size_t count) {
-  const auto begin = mesh.triangles.begin() + static_cast<std::ptrdiff_t>(first);
-  mesh.triangles.erase(begin, begin + static_cast<std::ptrdiff_t>(count));
-  return mesh;
-}
-
-TriangleMesh withFaces(TriangleMesh mesh, const std::vector<Triangle>& faces) {
-  mesh.triangles.insert(mesh.triangles.end(), faces.begin(), faces.end());
-  return mesh;
-}
-
-TriangleMesh both(const TriangleMesh& a, const TriangleMesh& b) {
-  TriangleMesh out = a;
-  const auto offset = static_cast<std::uint32_t>(a.positions.size());
-  out.positions.insert(out.positions.end(), b.positions.begin(), b.positions.end());
-  for (const Triangle& t : b.triangles)
-    out.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
-  return out;
-}
-
-TriangleMesh moved(TriangleMesh mesh, Vec3d by) {
-  for (Vec3d& p : mesh.positions) p = p + by;
-  return mesh;
-}
-
-// A fin on edge (a, b) of the first face: one triangle with both its sides.
-TriangleMesh finned(TriangleMesh mesh) {
-  const auto tip = static_cast<std::uint32_t>(mesh.positions.size());
-  const Triangle t = mesh.triangles[0];
-  mesh.positions.push_back(1.5 * mesh.positions[t[0]]);
-  return withFaces(mesh, {{t[0], t[1], tip}, {t[1], t[0], tip}});
-}
-
-// Edge (a, b) of the first face is cut at its middle, in that face only: the other side keeps it,
-// and a face without area stands between both.
-TriangleMesh withFlatFace(TriangleMesh mesh) {
-  const auto middle = static_cast<std::uint32_t>(mesh.positions.size());
-  const Triangle t = mesh.triangles[0];
-  mesh.positions.push_back(0.5 * (mesh.positions[t[0]] + mesh.positions[t[1]]));
-  mesh.triangles[0] = {t[0], middle, t[2]};
-  return withFaces(mesh, {{middle, t[1], t[2]}, {t[0], t[1], middle}});
-}
-
-// Vertex a of the first face is doubled: its fan is cut open there and the slit filled with faces
-// without area.
-TriangleMesh withNeedles(TriangleMesh mesh) {
-  const std::uint32_t a = mesh.triangles[0][0];
-  const auto twin = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.positions.push_back(Vec3d{mesh.positions[a]});
-  Triangle& t = mesh.triangles[0];
-  const std::uint32_t b = t[1], c = t[2];
-  t = {twin, b, c};
-  return withFaces(mesh, {{a, b, twin}, {twin, c, a}});
-}
-
-// Two balls that share one vertex.
-TriangleMesh bowTie() {
-  TriangleMesh two = both(octahedron(2), octahedron(2, {4, 0, 0}));
-  for (Triangle& t : two.triangles)
-    for (std::uint32_t& v : t)
-      if (v == 7) v = 0;  // (2, 0, 0) of both
-  return two;
-}
-
-TriangleMesh moebius() {
-  TriangleMesh strip;
-  constexpr std::uint32_t n = 12;
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const double turn = 2 * std::numbers::pi * i / n;
-    for (const double side : {-0.5, 0.5})
-      strip.positions.push_back({(2 + side * std::cos(turn / 2)) * std::cos(turn),
-                                 (2 + side * std::cos(turn / 2)) * std::sin(turn),
-                                 side * std::sin(turn / 2)});
-  }
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t a = 2 * i, b = a + 1;
-    const std::uint32_t c = i + 1 < n ? a + 2 : 1, d = i + 1 < n ? a + 3 : 0;
-    strip.triangles.insert(strip.triangles.end(), {{a, b, c}, {b, d, c}});
-  }
-  return strip;
-}
-
-// --- the table -----------------------------------------------------------------------------------
-
-constexpr Repairs kWeld{.weld = true}, kDrop{.drop_degenerate = true}, kOrient{.orient = true},
-    kFill{.fill_holes = true},
-    kAll{.weld = true, .drop_degenerate = true, .orient = true, .fill_holes = true};
 
 struct Case {
   std::string name;
@@ -140,10 +18,6 @@ struct Case {
   double volume_of_balls;  // of the repaired mesh, in volumes of ball()
   double within = 1e-6;
 };
-
-std::string objPlace() {
-  return "scene.toml:7: structure.keyframes: ball: ";
-}
 
 std::vector<Case> cases() {
   const double octa = 4.0 / 3.0 / signedVolume(ball());  // of radius 1
@@ -272,30 +146,6 @@ std::vector<Case> cases() {
   };
 }
 
-Structure named(const Repairs& repair, bool membrane = false) {
-  Structure structure = structureOf({});
-  structure.repair = repair;
-  structure.membrane = membrane;
-  return structure;
-}
-
-// Reads nothing: the same checks and repairs as MeshMotion's, on meshes in memory.
-std::string mend(const Structure& structure, std::vector<KeyframeMesh>& keyframes) {
-  for (const KeyframeMesh& keyframe : keyframes)
-    checkFile(keyframe.mesh, keyframe.parts.front().file, structure.repair.drop_degenerate);
-  const std::string note = repairKeyframes(structure, keyframes);
-  checkKeyframes(structure, keyframes, 0.01);
-  return note;
-}
-
-std::vector<KeyframeMesh> keyframesOf(const std::vector<TriangleMesh>& meshes) {
-  std::vector<KeyframeMesh> keyframes;
-  for (const TriangleMesh& mesh : meshes)
-    keyframes.push_back(
-        {mesh, {{std::string(1, static_cast<char>('a' + keyframes.size())) + ".obj"}}});
-  return keyframes;
-}
-
 TEST(MotionMeshRepair, EveryNastyMeshIsRefusedWithWhatToDoOrRepaired) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
@@ -317,167 +167,6 @@ TEST(MotionMeshRepair, EveryNastyMeshIsRefusedWithWhatToDoOrRepaired) {
     EXPECT_EQ(leakCount(mesh.triangles), 0u);
     EXPECT_NEAR(signedVolume(mesh) / signedVolume(ball()), c.volume_of_balls, c.within);
   }
-}
-
-TEST(MotionMeshRepair, ACleanMeshStaysToTheLastBit) {
-  std::vector<KeyframeMesh> keyframes = keyframesOf({ball(), sphere(1.5, 3)});
-  const std::vector<KeyframeMesh> before = keyframes;
-  EXPECT_EQ(mend(named(kAll), keyframes), "");
-  for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_EQ(keyframes[k].mesh.positions, before[k].mesh.positions);
-    EXPECT_EQ(keyframes[k].mesh.triangles, before[k].mesh.triangles);
-  }
-}
-
-TEST(MotionMeshRepair, ATurnedBallIsTheBallItself) {
-  std::vector<KeyframeMesh> keyframes = keyframesOf({flipped(ball(), 1)});
-  mend(named(kAll), keyframes);
-  EXPECT_EQ(keyframes.front().mesh.triangles, ball().triangles);
-}
-
-TEST(MotionMeshRepair, KeyframesAreRepairedAlike) {
-  TriangleMesh larger = soup(sphere(2.5, 3));
-  std::vector<KeyframeMesh> keyframes =
-      keyframesOf({without(flipped(soup(ball()), 3), 0, 64), without(flipped(larger, 3), 0, 64)});
-  EXPECT_EQ(mend(named(kAll), keyframes),
-            objPlace() +
-                "repaired: 1107 vertices welded, 192 unused vertices dropped, 149 faces turned, 1 "
-                "hole filled (24 faces)");
-  EXPECT_EQ(keyframes[0].mesh.triangles, keyframes[1].mesh.triangles);
-  EXPECT_NEAR(signedVolume(keyframes[1].mesh) / signedVolume(keyframes[0].mesh),
-              std::pow(2.5 / 2, 3), 1e-9);
-}
-
-TEST(MotionMeshRepair, WhatPartsLaterIsNotWelded) {
-  // Two balls that touch in a point in the first keyframe only, as soups.
-  const TriangleMesh touching = soup(both(octahedron(2), octahedron(2, {4, 0, 0})));
-  const TriangleMesh apart = soup(both(octahedron(2), octahedron(2, {4.5, 0, 0})));
-  std::vector<KeyframeMesh> keyframes = keyframesOf({touching, apart});
-  EXPECT_EQ(mend(named(kWeld), keyframes), objPlace() + "repaired: 36 vertices welded");
-  EXPECT_EQ(keyframes[1].mesh.positions.size(), 12u);
-}
-
-TEST(MotionMeshRepair, OtherFacesInALaterKeyframeAreRefusedBeforeAnythingIsDone) {
-  std::vector<KeyframeMesh> keyframes = keyframesOf({soup(ball()), without(soup(ball()), 0, 1)});
-  EXPECT_EQ(errorOf([&] { mend(named(kWeld), keyframes); }),
-            objPlace() + "b.obj has 511 faces, a.obj has 512; every keyframe must have the same");
-}
-
-TEST(MotionMeshRepair, ALaterKeyframeInsideOutIsStillRefused) {
-  TriangleMesh mirrored = ball();
-  for (Vec3d& p : mirrored.positions) p.x = -p.x;
-  std::vector<KeyframeMesh> keyframes = keyframesOf({ball(), mirrored});
-  EXPECT_NE(errorOf([&] { mend(named(kAll), keyframes); }).find("b.obj encloses a volume of -"),
-            std::string::npos);
-}
-
-TEST(MotionMeshRepair, TheOrderOfVerticesAndFacesChangesNothingButRounding) {
-  TriangleMesh nasty = without(flipped(soup(ball()), 3), 0, 64);
-  std::vector<KeyframeMesh> plain = keyframesOf({nasty});
-  const std::string note = mend(named(kAll), plain);
-  std::mt19937 random(7);
-  std::vector<std::uint32_t> place(nasty.positions.size());
-  for (std::uint32_t v = 0; v < place.size(); ++v) place[v] = v;
-  std::shuffle(place.begin(), place.end(), random);
-  TriangleMesh mixed = nasty;
-  for (std::size_t v = 0; v < place.size(); ++v) mixed.positions[place[v]] = nasty.positions[v];
-  for (Triangle& t : mixed.triangles)
-    for (std::uint32_t& v : t) v = place[v];
-  std::shuffle(mixed.triangles.begin(), mixed.triangles.end(), random);
-  std::vector<KeyframeMesh> other = keyframesOf({mixed});
-  EXPECT_EQ(mend(named(kAll), other), note);
-  EXPECT_NEAR(signedVolume(other.front().mesh), signedVolume(plain.front().mesh), 1e-9);
-  EXPECT_EQ(other.front().mesh.positions.size(), plain.front().mesh.positions.size());
-}
-
-TEST(MotionMeshRepair, MembranesAreWeldedAndOrientedButStayOpen) {
-  const TriangleMesh sheet = without(ball(), 0, 256);
-  std::vector<KeyframeMesh> keyframes = keyframesOf({flipped(soup(sheet), 3)});
-  EXPECT_EQ(mend(named({.weld = true, .drop_degenerate = true, .orient = true}, true), keyframes),
-            objPlace() + "repaired: 623 vertices welded, 86 faces turned");
-  EXPECT_EQ(leakCount(keyframes.front().mesh.triangles), 32u);
-}
-
-TEST(MotionMeshRepair, FacesKeepTheNumbersOfTheirFile) {
-  // The first face collapsed: what is wrong with the file's face 4 is said of face 4.
-  TriangleMesh mesh = withFaces({}, {{1, 1, 2}});
-  const TriangleMesh octa = octahedron(2);
-  mesh.positions = octa.positions;
-  mesh = withFaces(mesh, octa.triangles);
-  std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
-  std::vector<KeyframeMesh> keyframes = keyframesOf({mesh});
-  const std::string error = errorOf([&] { mend(named(kDrop), keyframes); });
-  EXPECT_NE(error.find("a.obj: face 4 and a.obj: face 8 run"), std::string::npos) << error;
-}
-
-TEST(MotionMeshRepair, CreasesFollowTheirEdges) {
-  TriangleMesh nasty = soup(octahedron(2));
-  nasty.tags.edges = {{0, 1, 3}};  // of the first face
-  nasty.tags.vertices = {{2, 5}};  // its last corner
-  std::vector<KeyframeMesh> keyframes = keyframesOf({nasty, nasty});
-  mend(named(kAll), keyframes);
-  const TriangleMesh& mesh = keyframes[1].mesh;
-  ASSERT_EQ(mesh.tags.edges.size(), 1u);
-  EXPECT_EQ(mesh.positions[mesh.tags.edges[0].v0], (Vec3d{2, 0, 0}));
-  EXPECT_EQ(mesh.positions[mesh.tags.edges[0].v1], (Vec3d{0, 2, 0}));
-  ASSERT_EQ(mesh.tags.vertices.size(), 1u);
-  EXPECT_EQ(mesh.positions[mesh.tags.vertices[0].v], (Vec3d{0, 0, 2}));
-}
-
-TEST(MotionMeshRepair, CreasesThatCannotFollowAreNamed) {
-  TriangleMesh lost = finned(octahedron(2));
-  lost.tags.edges = {{0, 6, 3}};  // of the fin
-  std::vector<KeyframeMesh> keyframes = keyframesOf({lost});
-  EXPECT_EQ(errorOf([&] { mend(named(kDrop), keyframes); }),
-            objPlace() +
-                "crease 0 - 6 (vertices count from 0 in tags) loses its edge in the repair: remove "
-                "the tag or the repair");
-  TriangleMesh unequal = soup(octahedron(2));
-  unequal.tags.vertices = {{0, 3}, {10, 4}};  // (2, 0, 0) in faces 1 and 4
-  keyframes = keyframesOf({unequal});
-  EXPECT_NE(errorOf([&] { mend(named(kWeld), keyframes); }).find("another sharpness"),
-            std::string::npos);
-}
-
-// Damage of every kind at once ends as a whole surface or in one line, never in a crash.
-TEST(MotionMeshRepair, RandomDamageIsRepairedOrRefused) {
-  std::mt19937 random(11);
-  int repaired = 0;
-  for (int round = 0; round < 200; ++round) {
-    TriangleMesh mesh = round % 2 ? soup(sphere(2, 2)) : sphere(2, 2);
-    for (int damage = 0; damage < 6; ++damage) {
-      const std::size_t t = random() % mesh.triangles.size();
-      const auto v = static_cast<std::uint32_t>(random() % mesh.positions.size());
-      switch (random() % 6) {
-        case 0:
-          mesh = without(mesh, t, 1);
-          break;
-        case 1:
-          mesh.triangles.push_back(Triangle{mesh.triangles[t]});
-          break;
-        case 2:
-          std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
-          break;
-        case 3:
-          mesh.triangles.push_back({v, v, mesh.triangles[t][0]});
-          break;
-        case 4:
-          mesh.triangles[t][random() % 3] = v;
-          break;
-        default:
-          mesh.positions[v] = Vec3d{mesh.positions[mesh.triangles[t][0]]};
-          break;
-      }
-    }
-    std::vector<KeyframeMesh> keyframes = keyframesOf({mesh});
-    const std::string error = errorOf([&] { mend(named(kAll), keyframes); });
-    EXPECT_EQ(error.find('\n'), std::string::npos);
-    if (error != "no error") continue;
-    ++repaired;
-    EXPECT_EQ(leakCount(keyframes.front().mesh.triangles), 0u);
-    EXPECT_GT(signedVolume(keyframes.front().mesh), 0);
-  }
-  EXPECT_GT(repaired, 40);
 }
 
 }  // namespace

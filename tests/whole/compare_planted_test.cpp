@@ -243,58 +243,6 @@ TEST_F(Planted, MoreOfAnyChangeIsMoreDiscrepancy) {
   }
 }
 
-TEST_F(Planted, ARenderAgainstItselfIsPerfectAndItsResultsAreWhole) {
-  SceneText text = ballScene(8);
-  const std::filesystem::path scene = writeBall(folder, text);
-  ASSERT_EQ(renderScene(scene, folder / "loop").code, 0);
-  const auto quoted = [&](const char* name) { return " '" + (folder / name).string() + "'"; };
-  const Outcome o = runShell("%B compare" + quoted("loop") + quoted("loop") + " -o" +
-                             quoted("out") + " --contours --scene" + quoted("scene.toml"));
-  ASSERT_EQ(o.code, 0) << o.err;
-  const nlohmann::json summary = nlohmann::json::parse(bytesOf(folder / "out/summary.json"));
-  EXPECT_LT(summary.at("discrepancy").get<double>(), 1e-4);
-  EXPECT_EQ(summary.at("before_calibration").at("rms").get<double>(), 0);
-  EXPECT_EQ(summary.at("before_calibration").at("ncc").get<double>(), 1);
-  EXPECT_TRUE(summary.at("before_calibration").at("psnr_db").is_null());
-  EXPECT_EQ(summary.at("time").at("shift_frames").get<double>(), 0);
-  EXPECT_TRUE(summary.at("bands_after_calibration").contains("cavity"));
-  EXPECT_EQ(cineFrames(folder / "out/side_by_side.avi"), 8);
-  const std::string csv = bytesOf(folder / "out/frames.csv");
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 9);
-  EXPECT_TRUE(std::filesystem::exists(folder / "out/sector_real.png"));
-}
-
-// Greys of a render come from its EXR where they are all there, else from its cine.
-TEST_F(Planted, GreysOfARenderAreThoseOfItsExrWhereItHasThem) {
-  SceneText text = ballScene(6);
-  text.output["channels"] = "[\"display.Y\"]";
-  ASSERT_EQ(renderScene(writeBall(folder, text), folder / "loop").code, 0);
-  CompareOptions options;
-  options.synthetic = options.real = folder / "loop";
-  const auto compared = [&] {
-    Comparison c;
-    withThreads(2, [&] { c = compareLoops(options); });
-    return c;
-  };
-  const Comparison exact = compared();
-  EXPECT_EQ(exact.synthetic.grey_source, "EXR display.Y");
-  EXPECT_EQ(exact.discrepancy, 0);
-  EXPECT_EQ(exact.mean_before.rms, 0);
-  std::filesystem::remove(folder / "loop/intensity/frame_0003.exr");
-  const Comparison cine = compared();
-  EXPECT_EQ(cine.synthetic.grey_source, "cine.avi");
-  EXPECT_FALSE(cine.synthetic.video.notes.empty());
-  EXPECT_EQ(cine.discrepancy, 0);
-  // The same greys but for 8 bits, JPEG and the picture's pixels.
-  const std::vector<float>&a = exact.synthetic_beams.frames[1], &b = cine.synthetic_beams.frames[1];
-  ASSERT_EQ(a.size(), b.size());
-  double sum = 0, n = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if (exact.weights[i] > 0) sum += std::abs(a[i] - b[i]), ++n;
-  EXPECT_LT(sum / n, 4);
-  EXPECT_GT(sum, 0);
-}
-
 TEST_F(Planted, ThreadsChangeNothing) {
   Drawing d = plain;
   d.shift_x = 1;

@@ -1,0 +1,46 @@
+#pragma once
+// Which nodes of the common lattice take part in one group, and where its border points lie among
+// them. All places are those of the reference phase.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/box.h"
+#include "motion/interior/lattice_fit.h"
+#include "motion/interior/motion_field.h"
+#include "motion/interior/winners.h"
+
+namespace echocine {
+
+// The lattice that all groups share, over the moving surfaces and what is near them.
+struct FieldSpace {
+  Box moving;        // the moving surfaces at the reference phase
+  double margin_m;   // beyond it the background and still surroundings come to rest
+  double spacing_m;  // between nodes
+  Vec3d origin() const { return moving.lo - Vec3d{margin_m, margin_m, margin_m}; }
+};
+
+struct GroupMembers {
+  std::vector<std::uint32_t> surfaces;  // numbers; the count of surfaces for the background
+  bool open = false;  // the background, or still surroundings: rests beyond the margin
+  bool owns(std::uint32_t surface) const;
+};
+
+struct GroupCells {
+  LatticeGrid grid;
+  ActiveNodes nodes;
+  // First active node of each slab iy, and the end.
+  std::vector<std::uint32_t> slab_starts;
+  std::vector<LatticeSample> samples;  // of each point
+  std::vector<bool> used;              // cells that hold something of the group, by first node
+
+  Vec3d placeOf(std::size_t node) const;  // of a node of the box, metres
+};
+
+// points_m: the border points on either side of which the group stands, at least one. Nodes take
+// part where the group wins, about its points, and everywhere of an open group.
+GroupCells layCells(const FieldSpace& space, const GroupMembers& members, const Winners& winners,
+                    std::span<const Vec3f> points_m);
+
+}  // namespace echocine

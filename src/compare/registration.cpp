@@ -1,0 +1,164 @@
+#include "compare/registration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compare/discrepancy.h"
+#include "compare/frame_blend.h"
+#include "compare/motion_features.h"
+#include "compare/time_anchors.h"
+#include "compare/view_search.h"
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace echocine::compare {
+
+namespace {
+
+// 200 beats a minute at a rate that is known; otherwise an eighth of the loop.
+double shortestBeat(const Loop& loop) {
+  constexpr double kShortest_s = 0.3;
+  return loop.video.rate.trusted && loop.video.rate.hz > 0
+             ? kShortest_s * loop.video.rate.hz
+             : static_cast<double>(loop.video.frames.size()) / 8;
+}
+
+// What moves in a loop's own sector, whatever it is compared with. Features are coarse, so the grid
+// may be.
+Features ownFeatures(const Loop& loop) {
+  BeamGrid grid = commonGrid(loop, loop);
+  grid.lines = std::min(grid.lines, 128);
+  grid.samples = std::min(grid.samples, 192);
+  const BeamLoop beams = resample(grid, loop);
+  return motionFeatures(grid, beams, areaWeights(grid, beams.valid, beams.valid));
+}
+
+BeatLength beatOf(const Loop& loop) {
+  BeatLength beat = findBeatLength(ownFeatures(loop), shortestBeat(loop));
+  const auto known = [&](double frames, const std::string& source) {
+    beat.frames = frames;
+    beat.confidence = 1;
+    beat.source = source;
+  };
+  const Video& v = loop.video;
+  if (loop.frames_per_beat > 0)
+    known(loop.frames_per_beat, "manifest");
+  else if (v.r_waves_s.size() > 1 && v.rate.hz > 0)
+    known((v.r_waves_s.back() - v.r_waves_s.front()) / static_cast<double>(v.r_waves_s.size() - 1) *
+              v.rate.hz,
+          "R waves");
+  else if (v.heart_rate_bpm && v.rate.trusted)
+    known(60 / *v.heart_rate_bpm * v.rate.hz, v.heart_rate_source);
+  return beat;
+}
+
+void pairInTime(const CompareOptions& options, Comparison& c) {
+  const Features synthetic = motionFeatures(c.grid, c.synthetic_beams, c.weights),
+                 real = motionFeatures(c.grid, c.real_beams, c.weights);
+  const FrameRate &s = c.synthetic.video.rate, &r = c.real.video.rate;
+  const TimeProblem problem{synthetic,
+                            real,
+                            c.synthetic_beat.frames,
+                            c.real_beat.frames,
+                            s.hz > 0 && r.hz > 0 ? s.hz / r.hz : 1,
+                            c.real.video.repeats};
+  c.time = alignByWhatIsKnown(options, problem, c.synthetic, c.real);
+}
+
+bool isCounted(const Comparison& c, std::size_t real) {
+  return c.time.place[real] >= 0 && !c.real.video.isRepeat(static_cast<int>(real));
+}
+
+// Where the real loop lies now, and what of it is common.
+void place(const Placement& placement, Comparison& c) {
+  const PixelPlane as_given = validSamples(c.grid, c.real, {});
+  c.real_beams = resample(c.grid, c.real, placement);
+  c.weights = areaWeights(c.grid, c.synthetic_beams.valid, c.real_beams.valid);
+  c.share_in_sight = shareInSight(areaWeights(c.grid, c.synthetic_beams.valid, as_given), c.weights,
+                                  placement.scale);
+}
+
+SpaceAlignment alignedFrom(const Placement& start, const Comparison& c) {
+  // A dozen frames over the loop hold all there is to learn about four numbers.
+  std::vector<int> frames;
+  std::vector<std::vector<float>> paired;
+  const std::size_t step = std::max<std::size_t>(1, c.real_beams.frames.size() / 12);
+  for (std::size_t j = 0; j < c.real_beams.frames.size(); j += step)
+    if (isCounted(c, j)) {
+      frames.push_back(static_cast<int>(j));
+      paired.push_back(pairedFrame(c, j));
+    }
+  if (frames.empty()) return {};
+  return alignInSpace(c.grid, c.real, paired, frames, c.weights, start);
+}
+
+// Both loops stand in memory, resampled. Our choice: 2 GB, some 1300 frames of each.
+void refuseTooLong(const Comparison& c) {
+  constexpr double kMostBytes = 2e9;
+  const auto frames =
+      static_cast<double>(c.synthetic.video.frames.size() + c.real.video.frames.size());
+  const double bytes = frames * static_cast<double>(c.grid.size()) * sizeof(float);
+  if (bytes > kMostBytes)
+    throw SceneError(fmt::format(
+        "{} and {} have {} frames, which take {:.1f} GB in common beam "
+        "space, accepted: {:.0f} GB; give a few beats of each",
+        c.synthetic.video.name, c.real.video.name, frames, bytes * 1e-9, kMostBytes * 1e-9));
+}
+
+}  // namespace
+
+std::vector<float> pairedFrame(const Comparison& c, std::size_t real) {
+  return frameAtPlace(c.synthetic_beams.frames, std::max(0.0, c.time.place[real]),
+                      c.synthetic_beat.frames, c.time.periodic);
+}
+
+std::vector<double> discrepancies(const Comparison& c) {
+  const WallEdges edges(c.grid, c.weights);
+  std::vector<double> all(c.real_beams.frames.size(), 0);
+  parallelBlocks(all.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j)
+      if (c.time.place[j] >= 0)
+        all[j] =
+            discrepancyOf(edgeCorrelation(edges(pairedFrame(c, j)), edges(c.real_beams.frames[j])),
+                          c.share_in_sight);
+  });
+  return all;
+}
+
+double meanCounted(const Comparison& c, const std::vector<double>& values) {
+  double sum = 0, n = 0;
+  for (std::size_t j = 0; j < values.size(); ++j)
+    if (isCounted(c, j)) sum += values[j], ++n;
+  return n > 0 ? sum / n : 0;
+}
+
+void registerLoops(const CompareOptions& options, Comparison& c) {
+  c.grid = commonGrid(c.synthetic, c.real);
+  refuseTooLong(c);
+  c.synthetic_beams = resample(c.grid, c.synthetic);
+  place({}, c);
+  if (std::count_if(c.weights.begin(), c.weights.end(), [](float w) { return w > 0; }) <
+      static_cast<std::ptrdiff_t>(c.weights.size() / 10))
+    throw SceneError(
+        fmt::format("{} and {} share under a tenth of their sectors; give loops of the same view",
+                    c.synthetic.video.name, c.real.video.name));
+  c.synthetic_beat = beatOf(c.synthetic);
+  c.real_beat = beatOf(c.real);
+  pairInTime(options, c);
+  c.discrepancy_as_placed = meanCounted(c, discrepancies(c));
+  if (!options.align_space || c.discrepancy_as_placed == 0) return;
+  const auto adopt = [&](const SpaceAlignment& found) {
+    c.space = found;
+    if (!found.used) return;
+    place(found.placement, c);
+    pairInTime(options, c);
+  };
+  const SpaceAlignment by_greys = alignedFrom({}, c);
+  if (by_greys.used || by_greys.correlation_after > kAlikeCorrelation) return adopt(by_greys);
+  adopt(searchView(c.grid, c.synthetic_beams, c.real));
+  if (!c.space.used) return;
+  if (const SpaceAlignment finer = alignedFrom(c.space.placement, c); finer.used) adopt(finer);
+}
+
+}  // namespace echocine::compare
