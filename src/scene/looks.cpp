@@ -15,6 +15,7 @@ void applyClean(Scene& scene) {
   scene.signal.grey_gamma = 1.9;
   scene.signal.gain_db = 12;
   scene.signal.interface_gain_db = -17;
+  scene.signal.interface_limit_db = -54;
 }
 
 struct Grade {

@@ -176,7 +176,10 @@ struct SignalSettings {
   double reference_percentile = 99.5;         // of all samples of the loop, near field left out
   double gain_db = 0;                         // of the picture: white is so far below the reference
   double interface_gain_db = 0;  // of interface echoes against tissue, in the picture alone
-  double grey_gamma = 1;         // grey = (position in the dynamic range)^gamma
+  // Interface echoes E of the picture become E / (1 + E / limit): limit in dB of the transmitted
+  // intensity. None: they stay as they are.
+  std::optional<double> interface_limit_db;
+  double grey_gamma = 1;  // grey = (position in the dynamic range)^gamma
 };
 
 // Coherent echoes of material scatterers (src/speckle).

@@ -100,6 +100,7 @@ Json signalJson(const SignalSettings& s) {
           {"reference_percentile", s.reference_percentile},
           {"gain_db", s.gain_db},
           {"interface_gain_db", s.interface_gain_db},
+          {"interface_limit_db", optionalJson(s.interface_limit_db)},
           {"grey_gamma", s.grey_gamma}};
 }
 

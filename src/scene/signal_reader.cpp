@@ -104,6 +104,9 @@ SignalSettings readSignal(TomlTable table, const SignalSettings& defaults) {
   s.gain_db = table.number("gain_db", s.gain_db, ranges::kPictureGain_db);
   s.interface_gain_db =
       table.number("interface_gain_db", s.interface_gain_db, ranges::kPictureGain_db);
+  constexpr std::string_view kLimit = "interface_limit_db";
+  if (table.has(kLimit))
+    s.interface_limit_db = table.number(kLimit, std::nullopt, ranges::kLevel_db);
   s.grey_gamma = table.number("grey_gamma", s.grey_gamma, ranges::kGamma);
   table.finish();
   return s;
