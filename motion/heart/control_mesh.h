@@ -49,6 +49,12 @@ Vec3d normalOf(const PointOf& pointOf, Vec3d direction) {
 std::vector<Face> sheetFaces(int rows, int columns);
 std::array<std::uint32_t, 4> sheetCorners(int rows, int columns);
 
+// As files hold them. Never minus zero.
+inline Vec3d toMicrometre(Vec3d p) {
+  const auto rounded = [](double metres) { return std::round(metres * 1e6) * 1e-6 + 0.0; };
+  return {rounded(p.x), rounded(p.y), rounded(p.z)};
+}
+
 // Volume within a closed mesh.
 double volumeOf(const std::vector<Vec3d>& points, const std::vector<Face>& faces);
 

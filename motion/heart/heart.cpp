@@ -122,26 +122,15 @@ Parameters withSegmentsRuling(Parameters parameters) {
   return parameters;
 }
 
-}  // namespace
-
-ParametricHeart::ParametricHeart(const Parameters& parameters)
-    : parameters_(withSegmentsRuling(parameters)), cycle_(parameters_), at_rest_(parameters_) {}
-
-Vec3d ParametricHeart::centre() const {
-  return lvLength() * Vec3d{-0.25, 0.1, 0.25};
-}
-
-std::vector<Part> ParametricHeart::at(double phase) const {
-  const Instant now(parameters_, at_rest_, cycle_.at(phase));
+std::vector<Part> partsOf(const Instant& now, const ParametricHeart& heart) {
   std::vector<Part> parts;
   addChambers(now, parts);
-  addSac(centre(), parameters_.body_scale, parts);
+  addSac(heart.centre(), heart.parameters().body_scale, parts);
   addLeaflets(now, parts);
   return parts;
 }
 
-Landmarks ParametricHeart::landmarksAt(double phase) const {
-  const Instant now(parameters_, at_rest_, cycle_.at(phase));
+Landmarks landmarksOf(const Instant& now) {
   Landmarks marks;
   marks.apex = {0, 0, now.left().apexZ()};
   marks.mitral = now.mitral().centre;
@@ -157,6 +146,28 @@ Landmarks ParametricHeart::landmarksAt(double phase) const {
     marks.wall_thickness_m[s] = now.left().wallThicknessAt(place.phi_rad, place.zeta);
   }
   return marks;
+}
+
+}  // namespace
+
+ParametricHeart::ParametricHeart(const Parameters& parameters)
+    : parameters_(withSegmentsRuling(parameters)), cycle_(parameters_), at_rest_(parameters_) {}
+
+Vec3d ParametricHeart::centre() const {
+  return lvLength() * Vec3d{-0.25, 0.1, 0.25};
+}
+
+std::vector<Part> ParametricHeart::at(double phase) const {
+  return partsOf(Instant(parameters_, at_rest_, cycle_.at(phase)), *this);
+}
+
+Landmarks ParametricHeart::landmarksAt(double phase) const {
+  return landmarksOf(Instant(parameters_, at_rest_, cycle_.at(phase)));
+}
+
+Shape ParametricHeart::shapeAt(double phase) const {
+  const Instant now(parameters_, at_rest_, cycle_.at(phase));
+  return {partsOf(now, *this), landmarksOf(now)};
 }
 
 }  // namespace echocine::heart

@@ -35,6 +35,12 @@ struct Landmarks {
   std::array<double, kSegments> wall_thickness_m{};  // at the middle of each segment
 };
 
+// Both at one instant.
+struct Shape {
+  std::vector<Part> parts;
+  Landmarks places;
+};
+
 class ParametricHeart {
  public:
   // Throws SceneError when no shape fulfils the parameters. Precondition: faultOf(parameters) is
@@ -45,6 +51,7 @@ class ParametricHeart {
   // constructor.
   std::vector<Part> at(double phase) const;
   Landmarks landmarksAt(double phase) const;
+  Shape shapeAt(double phase) const;  // at half the cost of asking for one after the other
 
   const Parameters& parameters() const { return parameters_; }
   const Cycle& cycle() const { return cycle_; }

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "motion/heart/leaflet.h"
+#include "motion/heart/sound.h"
 #include "motion/heart/surroundings.h"
 #include "motion/mesh/surface_measure.h"
 #include "motion/subdivision/subdivision.h"
@@ -22,11 +23,6 @@ double activity(const Cycle& cycle, double phase) {
   const double leaflets = std::max({std::abs(b.mitral - a.mitral), std::abs(b.aortic - a.aortic),
                                     std::abs(b.tricuspid - a.tricuspid)});
   return kAlways + (std::abs(b.left.ejected - a.left.ejected) + kLeaflets * leaflets) / kStep;
-}
-
-Vec3d toMicrometre(Vec3d p) {
-  const auto rounded = [](double metres) { return std::round(metres * 1e6) * 1e-6 + 0.0; };
-  return {rounded(p.x), rounded(p.y), rounded(p.z)};
 }
 
 std::vector<Vec3d> controlPoints(const Part& part, const MeshTags& tags) {
@@ -121,13 +117,14 @@ Recording record(const ParametricHeart& heart, View view, int keyframes, Keyfram
   parallelBlocks(recording.phases.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       if (!monitor.keep_going()) throw JobError("stopped");
-      const std::vector<Part> parts = heart.at(recording.phases[k]);
-      for (std::size_t p = 0; p < parts.size(); ++p)
-        recording.parts[p].control_m[k] = controlPoints(parts[p], recording.parts[p].tags);
-      recording.places[k] = heart.landmarksAt(recording.phases[k]);
+      const Shape now = heart.shapeAt(recording.phases[k]);
+      for (std::size_t p = 0; p < now.parts.size(); ++p)
+        recording.parts[p].control_m[k] = controlPoints(now.parts[p], recording.parts[p].tags);
+      recording.places[k] = now.places;
     }
   });
   addStillParts(surroundingsOf(view, recording.pose, heart), recording);
+  makeSound(recording);
   parallelBlocks(recording.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) measureVolumes(recording.parts[p]);
   });

@@ -40,7 +40,8 @@ enum class KeyframeSpacing { by_motion, even };
 // end-systole among them. Precondition: count >= 4.
 std::vector<double> keyframePhases(const Cycle& cycle, int count);
 
-// Runs in parallel. Throws SceneError when the heart has no shape at some phase, JobError when
+// No surface folds (sound.h). Runs in parallel. Throws SceneError when the heart has no shape at
+// some phase or none without folds, JobError when
 // the monitor, asked before each keyframe, wants to stop.
 Recording record(const ParametricHeart& heart, View view, int keyframes,
                  KeyframeSpacing spacing = KeyframeSpacing::by_motion, const Monitor& monitor = {});

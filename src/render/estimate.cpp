@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "render/reference_pass.h"
+#include "simulate/reference_frames.h"
 
 namespace echocine {
 

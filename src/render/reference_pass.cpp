@@ -1,12 +1,10 @@
 #include "render/reference_pass.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "core/parallel.h"
 #include "signal/reference.h"
+#include "simulate/reference_frames.h"
 
 namespace echocine {
 
@@ -20,19 +18,6 @@ std::size_t bytesOf(const PolarFrame& polar) {
          static_cast<std::size_t>(polar.samples);
 }
 
-// One frame of each of kReferenceFrames equal parts of the loop, at a place that moves on by the
-// golden section, so that beats as long as a part are not met at one phase alone.
-std::vector<int> sampledFrames(int frames) {
-  std::vector<int> sampled;
-  const int parts = std::min(frames, kReferenceFrames);
-  for (int k = 0; k < parts; ++k) {
-    double whole = 0;
-    const double within = frames == parts ? 0 : std::modf(k * std::numbers::phi, &whole);
-    sampled.push_back(static_cast<int>((k + within) * frames / parts));
-  }
-  return sampled;
-}
-
 }  // namespace
 
 std::optional<double> findReference(const Simulator& simulator, std::pair<int, int> range,
@@ -41,9 +26,9 @@ std::optional<double> findReference(const Simulator& simulator, std::pair<int, i
   const CardiacClock& clock = simulator.cardiacClock();
   if (scene.signal.reference_intensity) return scene.signal.reference_intensity;
   if (!wantsPicture(scene) || !simulator.plan().effects.contrast) return 1;
-  // All frames of the loop, also when a part is rendered: parts then have the grey of the whole.
+  // Of the whole loop, also when a part is rendered: parts then have the grey of the whole.
   IntensityHistogram histogram(scene.probe);
-  const std::vector<int> sampled = sampledFrames(clock.frameCount());
+  const std::vector<int> sampled = referenceFrames(clock.frameCount());
   const auto frames = static_cast<int>(sampled.size());
   std::size_t kept_bytes = 0;
   const std::size_t done = parallelOrdered(

@@ -12,10 +12,6 @@ namespace echocine {
 // Our choice: loops of a beat are kept whole at usual sizes, and long ones stay bounded.
 inline constexpr std::size_t kKeptBytes = 128u << 20;
 
-// Our choice: the percentile of a beat's frames hardly moves with more, and `--frames` of a long
-// loop need not trace the whole of it.
-inline constexpr int kReferenceFrames = 64;
-
 // Frames that were traced while the reference was sought and need not be traced again.
 struct KeptFrame {
   PolarFrame polar;
@@ -23,9 +19,8 @@ struct KeptFrame {
 };
 using KeptFrames = std::map<int, KeptFrame>;
 
-// The scene's absolute reference at once, or the percentile over the frames of the loop, in loops
-// longer than kReferenceFrames over as many spread over it: the same whichever are rendered, so
-// that parts of a loop show the same grey as the whole. Frames of `range` met on the way are kept,
+// The scene's absolute reference at once, or the percentile over referenceFrames() of the loop: the
+// same whichever are rendered, so that parts of a loop show the same grey as the whole. Frames of `range` met on the way are kept,
 // as many as kKeptBytes hold. Nothing when the monitor stops the run. Where no frame has anything
 // to be seen the percentile would paint an even nothing white; then the reference is the
 // transmitted intensity, 1, and the loop is black.

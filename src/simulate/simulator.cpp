@@ -10,6 +10,7 @@
 #include "output/polar_plane.h"
 #include "signal/reference.h"
 #include "simulate/plan_loop.h"
+#include "simulate/reference_frames.h"
 
 namespace echocine {
 
@@ -202,7 +203,7 @@ double Simulator::measureReference() const {
   if (!wantsPicture(scene_) || !plan_.effects.contrast) return 1;
   IntensityHistogram histogram(scene_.probe);
   const std::shared_ptr<Workspace> w = workspace();
-  for (int i = 0; i < cardiac_clock_.frameCount(); ++i) {
+  for (const int i : referenceFrames(cardiac_clock_.frameCount())) {
     trace(cardiac_clock_.at(i), *w);
     histogram.add(w->polar.intensities);
   }

@@ -75,7 +75,7 @@ class Simulator {
   void frame(double time_s, Frame& frame) const;
 
   // White of the loop's log compression, relative to I_S: signal.reference_intensity, or else the
-  // percentile over all frames of the loop, which the first call traces. Thread-safe.
+  // percentile over its referenceFrames(), which the first call traces. Thread-safe.
   double referenceIntensity() const;
 
   // The stages one by one, for those who write files or measure. All thread-safe.

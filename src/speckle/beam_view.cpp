@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "core/rough_angle.h"
 #include "scene/beam_profile.h"
 
 namespace echocine {
@@ -24,6 +26,67 @@ BeamView::BeamView(const Probe& probe, const PointSpread& spread)
   face_radius_m_ = static_cast<float>(probe.face_radius_m);
   tangent_ = static_cast<float>(std::tan(probe.first_angle_rad));
   per_cosine_ = static_cast<float>(1 / std::cos(probe.first_angle_rad));
+  lines_ = static_cast<float>(probe.lines);
+  samples_ = static_cast<float>(probe.samples);
+  min_depth_m_ = static_cast<float>(probe.min_depth_m);
+  per_spacing_ = static_cast<float>(1 / probe.sampleSpacing());
+  across_ = static_cast<float>(std::sqrt(0.5) * kElevationCut * diffraction_);
+  lens_ = static_cast<float>(std::sqrt(0.5) * kElevationCut * spread.aperture_m);
+  per_focus_ = static_cast<float>(1 / spread.focus_m);
+}
+
+namespace {
+
+Floats8 root(Floats8 a) {
+  Floats8 out;
+  for (std::size_t i = 0; i < kFloatLanes; ++i) out[i] = std::sqrt(a[i]);
+  return out;
+}
+
+// atan2(x, z) for z >= 0, to 1e-5 rad; about +-pi / 2 behind the probe.
+Floats8 angleOf(Floats8 x, Floats8 z) {
+  const Floats8 ax = x < 0 ? -x : x, ahead = z > 0 ? z : Floats8{};
+  const Floats8 large = ax > ahead ? ax : ahead, small = ax > ahead ? ahead : ax;
+  const Floats8 q = small / (large + 1e-30f), q2 = q * q;
+  const Floats8 near =  // roughArctangent() in single precision
+      q *
+      (0.9998660f + q2 * (-0.3302995f + q2 * (0.1801410f + q2 * (-0.0851330f + q2 * 0.0208351f))));
+  const Floats8 angle = ax > ahead ? static_cast<float>(std::numbers::pi / 2) - near : near;
+  return x < 0 ? -angle : angle;
+}
+
+// The bits that all lanes have.
+std::int32_t shared(Ints8 bits) {
+  bits &= __builtin_shufflevector(bits, bits, 4, 5, 6, 7, 0, 1, 2, 3);
+  bits &= __builtin_shufflevector(bits, bits, 2, 3, 0, 1, 6, 7, 4, 5);
+  return bits[0] & bits[1];
+}
+
+}  // namespace
+
+BeamCube BeamView::cubeOf(const CubeCorners& c) const {
+  const Floats8 x{c[0].x, c[1].x, c[2].x, c[3].x, c[4].x, c[5].x, c[6].x, c[7].x},
+      y{c[0].y, c[1].y, c[2].y, c[3].y, c[4].y, c[5].y, c[6].y, c[7].y},
+      z{c[0].z, c[1].z, c[2].z, c[3].z, c[4].z, c[5].z, c[6].z, c[7].z};
+  Floats8 line, path_m;
+  if (linear_) {
+    line = (x - z * tangent_ - first_) * per_pitch_;
+    path_m = z * per_cosine_;
+  } else {
+    line = (angleOf(x, z) - first_) * per_pitch_;
+    path_m = root(x * x + z * z) - face_radius_m_;
+  }
+  const Floats8 held = path_m > 1e-4f ? path_m : Floats8{} + 1e-4f;
+  const Floats8 d = across_ * held, b = lens_ * (1 - held * per_focus_);
+  return {line + 0.5f, (path_m - min_depth_m_) * per_spacing_, y / root(d * d + b * b)};
+}
+
+// Cohen and Sutherland's codes: one bit for each side that a corner lies beyond.
+bool BeamView::sees(const BeamCube& c) const {
+  const Ints8 beyond = ((c.line < 0) & 1) | ((c.line >= lines_) & 2) | ((c.sample < 0) & 4) |
+                       ((c.sample >= samples_) & 8) | ((c.across < -1) & 16) |
+                       ((c.across > 1) & 32);
+  return shared(beyond) == 0;
 }
 
 double BeamView::lateralLines(double path_m) const {

@@ -1,10 +1,7 @@
 #pragma once
 // Where a place of the probe frame lies among the scan lines, and what a beam can see of a ball.
 
-#include <numbers>
-
 #include "core/lanes.h"
-#include "core/rough_angle.h"
 #include "scene/probe.h"
 #include "speckle/material.h"
 #include "speckle/point_spread.h"
@@ -20,19 +17,22 @@ struct Extent {
 // Of what is trilinear within a cube: it lies in the hull of its corners.
 Extent extentOf(const CubeCorners& corners, double margin_m = 0);
 
+// Corners of a cube: lines and samples by the number of the one whose share begins there, and
+// places across the imaging plane in parts of the distance at which the elevation is cut.
+struct BeamCube {
+  Floats8 line, sample, across;
+};
+
 class BeamView {
  public:
   BeamView(const Probe& probe, const PointSpread& spread);
 
-  // Lines lie at whole numbers; depths are path lengths. Directions to 1e-5 rad.
-  struct Place8 {
-    Floats8 line, path_m;
-  };
-  Place8 placeOf(Floats8 x, Floats8 z) const {
-    if (linear_) return {(x - z * tangent_ - first_) * per_pitch_, z * per_cosine_};
-    const Floats8 r = root(x * x + z * z);
-    return {(angleOf(x, z) - first_) * per_pitch_, r - face_radius_m_};
-  }
+  // A cube's corners in beam space. Between them places are taken as trilinear there: off by
+  // edge^2 / 8 r, which stays with a scatterer as it moves and so never shows in its motion.
+  BeamCube cubeOf(const CubeCorners& corners) const;
+
+  // May a beam reach some of it? Exact, since what is trilinear lies between its corners.
+  bool sees(const BeamCube& cube) const;
 
   // May a beam reach some of it? True where in doubt.
   bool sees(const Extent& extent) const;
@@ -42,28 +42,14 @@ class BeamView {
 
  private:
   double cutSquared(double path_m) const;
-  static Floats8 root(Floats8 a) {
-    Floats8 out;
-    for (std::size_t i = 0; i < kFloatLanes; ++i) out[i] = std::sqrt(a[i]);
-    return out;
-  }
-  // atan2(x, z) for z >= 0.
-  static Floats8 angleOf(Floats8 x, Floats8 z) {
-    const Floats8 ax = x < 0 ? -x : x, large = ax > z ? ax : z, small = ax > z ? z : ax;
-    const Floats8 q = small / (large + 1e-30f), q2 = q * q;
-    const Floats8 near =  // roughArctangent() in single precision
-        q * (0.9998660f +
-             q2 * (-0.3302995f + q2 * (0.1801410f + q2 * (-0.0851330f + q2 * 0.0208351f))));
-    const Floats8 angle = ax > z ? static_cast<float>(std::numbers::pi / 2) - near : near;
-    return x < 0 ? -angle : angle;
-  }
-
   Probe probe_;
   PointSpread spread_;
   bool linear_ = false;
   double diffraction_ = 0;  // part of w_e over the path length
   double pitch_ = 0;        // between lines: rad, or m of a linear probe
   float first_ = 0, per_pitch_ = 0, face_radius_m_ = 0, tangent_ = 0, per_cosine_ = 1;
+  float lines_ = 0, samples_ = 0, min_depth_m_ = 0, per_spacing_ = 0;
+  float across_ = 0, lens_ = 0, per_focus_ = 0;  // what is cut: sqrt of the squares' sum
 };
 
 }  // namespace echocine

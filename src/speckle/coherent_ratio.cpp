@@ -10,11 +10,25 @@ namespace {
 // Where bells are cut: 4 % of the amplitude. Both sums are cut alike, so no law depends on it.
 constexpr double kCutDeviations = 2.5;
 constexpr std::size_t kMostTaps = 64;
-constexpr std::size_t kPad = kMostTaps + kFloatLanes;  // of a row, either end
-constexpr double kWidthAtHalf = 2.3548200450309493;    // full, of a bell, in deviations
+constexpr std::size_t kPad = kMostTaps + 2 * kFloatLanes;  // of a row, either end
+constexpr double kWidthAtHalf = 2.3548200450309493;        // full, of a bell, in deviations
 
 std::size_t tapsOf(double deviation) {
   return std::min(static_cast<std::size_t>(std::ceil(kCutDeviations * deviation)), kMostTaps);
+}
+
+// Whole cache lines, an odd number of them: rows a power of two apart would share few sets of it.
+std::size_t strideOf(int samples) {
+  constexpr std::size_t kLine = sizeof(CacheLine) / sizeof(float);
+  return ((static_cast<std::size_t>(samples) + kLine - 1) / kLine | 1) * kLine;
+}
+
+// The first place of a row in memory that begins with a cache line.
+float* floatsOf(std::vector<CacheLine>& lines) {
+  return lines.front().floats;
+}
+void setFloats(std::vector<CacheLine>& lines, std::size_t count) {
+  lines.assign((count + std::size(CacheLine{}.floats) - 1) / std::size(CacheLine{}.floats), {});
 }
 
 double bell(double distance, double deviation) {
@@ -43,10 +57,10 @@ CoherentRatio::CoherentRatio(const Probe& probe, const PointSpread& spread, cons
                              double smoothing_m)
     : lines_(probe.lines),
       samples_(probe.samples),
-      stride_((static_cast<std::size_t>(probe.samples) + 2 * kFloatLanes) / kFloatLanes *
-              kFloatLanes),
+      stride_(strideOf(probe.samples)),
       axial_(bellTaps(spread.axial_m / probe.sampleSpacing())),
       smoothing_(normalisedTaps(smoothing_m / kWidthAtHalf / probe.sampleSpacing())) {
+  for (const float h : axial_) axial_squares_.push_back(h * h);
   std::vector<double> deviations;
   for (int k = 0; k < samples_; ++k)
     deviations.push_back(view.lateralLines(probe.min_depth_m + (k + 0.5) * probe.sampleSpacing()));
@@ -63,90 +77,155 @@ CoherentRatio::CoherentRatio(const Probe& probe, const PointSpread& spread, cons
 
 float* CoherentRatio::smeared(Rows& rows, int line) const {
   const std::size_t slots = 2 * lateral_taps_ + 1;
-  return rows.lines.data() + static_cast<std::size_t>(line) % slots * 3 * stride_;
+  return floatsOf(rows.lines) + static_cast<std::size_t>(line) % slots * 3 * stride_;
 }
 
+namespace {
+
+// Eight samples' sums, read side by side and cleared.
+struct Sums8 {
+  Floats8 real, imaginary, squares;
+  explicit Sums8(EchoSum* from) {
+    const float* f = &from->real;
+    const Floats8 a = lanesAt(f), b = lanesAt(f + 8), c = lanesAt(f + 16), d = lanesAt(f + 24);
+    // Samples 0, 2, 4, 6 then 1, 3, 5, 7 of two numbers each.
+    const Floats8 ri0 = __builtin_shufflevector(a, b, 0, 4, 1, 5, 8, 12, 9, 13),
+                  ri1 = __builtin_shufflevector(c, d, 0, 4, 1, 5, 8, 12, 9, 13),
+                  s0 = __builtin_shufflevector(a, b, 2, 6, 2, 6, 10, 14, 10, 14),
+                  s1 = __builtin_shufflevector(c, d, 2, 6, 2, 6, 10, 14, 10, 14);
+    real = __builtin_shufflevector(ri0, ri1, 0, 1, 4, 5, 8, 9, 12, 13);
+    imaginary = __builtin_shufflevector(ri0, ri1, 2, 3, 6, 7, 10, 11, 14, 15);
+    squares = __builtin_shufflevector(s0, s1, 0, 1, 4, 5, 8, 9, 12, 13);
+    for (std::size_t i = 0; i < kFloatLanes; ++i) from[i] = {};
+  }
+};
+
+Floats8 roots(Floats8 a) {
+  Floats8 out;
+  for (std::size_t i = 0; i < kFloatLanes; ++i) out[i] = std::sqrt(a[i]);
+  return out;
+}
+
+Floats8 someLanesAt(const float* from, int count) {
+  if (count >= static_cast<int>(kFloatLanes)) return lanesAt(from);
+  Floats8 lanes{};
+  std::memcpy(&lanes, from, static_cast<std::size_t>(count) * sizeof(float));
+  return lanes;
+}
+
+// A row with its neighbours either side, by taps of distance 0, 1, ...; sixteen at a time, two
+// chains of sums that do not wait for each other.
+template <typename Take>
+void smear(const float* row, std::size_t length, const std::vector<float>& by, const Take& take) {
+  float taps[kMostTaps + 1];
+  const std::size_t count = by.size();
+  std::copy(by.begin(), by.end(), taps);
+  for (std::size_t k = 0; k < length; k += 2 * kFloatLanes) {
+    const float *one = row + k, *two = one + kFloatLanes;
+    Floats8 a = taps[0] * lanesAt(one), b = taps[0] * lanesAt(two);
+    for (std::size_t t = 1; t < count; ++t) {
+      a += taps[t] * (lanesAt(one - t) + lanesAt(one + t));
+      b += taps[t] * (lanesAt(two - t) + lanesAt(two + t));
+    }
+    take(a, k);
+    take(b, k + kFloatLanes);
+  }
+}
+
+}  // namespace
+
 // One line's sums, weighted by the picture, and smeared along it.
-void CoherentRatio::alongLine(const EchoSum* sums, const float* intensities, Rows& rows,
+void CoherentRatio::alongLine(EchoSum* sums, const float* intensities, Rows& rows,
                               float* out) const {
   const std::size_t length = stride_ + 2 * kPad;
-  float *real = rows.raw.data() + kPad, *imaginary = real + length, *squares = imaginary + length;
-  for (int k = 0; k < samples_; ++k) {
-    const float amplitude = std::sqrt(intensities[k]);
-    real[k] = amplitude * sums[k].real;
-    imaginary[k] = amplitude * sums[k].imaginary;
-    squares[k] = intensities[k] * sums[k].squares;
+  float *real = floatsOf(rows.raw) + kPad, *imaginary = real + length,
+        *squares = imaginary + length;
+  for (int k = 0; k < samples_; k += kFloatLanes) {
+    const Sums8 sum(sums + k);
+    const Floats8 intensity = someLanesAt(intensities + k, samples_ - k);
+    const Floats8 amplitude = roots(intensity);
+    store(amplitude * sum.real, real + k);
+    store(amplitude * sum.imaginary, imaginary + k);
+    store(intensity * sum.squares, squares + k);
   }
-  for (std::size_t k = 0; k < stride_; k += kFloatLanes) {
-    Floats8 r = axial_[0] * lanesAt(real + k), i = axial_[0] * lanesAt(imaginary + k),
-            s = (axial_[0] * axial_[0]) * lanesAt(squares + k);
-    for (std::size_t t = 1; t < axial_.size(); ++t) {
-      const float h = axial_[t];
-      r += h * (lanesAt(real + k - t) + lanesAt(real + k + t));
-      i += h * (lanesAt(imaginary + k - t) + lanesAt(imaginary + k + t));
-      s += (h * h) * (lanesAt(squares + k - t) + lanesAt(squares + k + t));
-    }
-    store(r, out + k);
-    store(i, out + stride_ + k);
-    store(s, out + 2 * stride_ + k);
-  }
+  const auto to = [](float* plane) {
+    return [plane](Floats8 lanes, std::size_t k) { store(lanes, plane + k); };
+  };
+  smear(real, stride_, axial_, to(out));
+  smear(imaginary, stride_, axial_, to(out + stride_));
+  smear(squares, stride_, axial_squares_, to(out + 2 * stride_));
 }
 
 // |g|^2 / w of one line, 1 where no scatterer is in reach.
+template <bool even>
 void CoherentRatio::acrossLines(int line, Rows& rows) const {
   constexpr float kNothing = 1e-35f;
-  float* ratio = rows.ratio.data() + kPad;
+  float* ratio = floatsOf(rows.ratio) + kPad;
   const float* middle = smeared(rows, line);
-  const float* from[2 * kMostTaps];
-  std::size_t taps = 0, distance[2 * kMostTaps];
-  for (std::size_t t = 1; t <= lateral_taps_; ++t)
-    for (const int sign : {-1, 1}) {
-      const int other = line + sign * static_cast<int>(t);
-      if (other < 0 || other >= lines_) continue;
-      distance[taps] = t;
-      from[taps++] = smeared(rows, other);
+  const float *below[kMostTaps + 1], *above[kMostTaps + 1];
+  for (std::size_t t = 1; t <= lateral_taps_; ++t) {
+    const int low = line - static_cast<int>(t), high = line + static_cast<int>(t);
+    below[t] = low >= 0 ? smeared(rows, low) : floatsOf(rows.nothing);
+    above[t] = high < lines_ ? smeared(rows, high) : floatsOf(rows.nothing);
+  }
+  const float *taps = lateral_.data(), *squares = lateral_squares_.data();
+  const std::size_t stride = stride_, count = lateral_taps_;
+  const auto tap = [&](const float* from, std::size_t t, std::size_t k) {
+    return even ? Floats8{} + from[t * stride] : lanesAt(from + t * stride + k);
+  };
+  struct Sum {
+    Floats8 r, i, s;
+    void add(const float* a, const float* b, std::size_t next, Floats8 h, Floats8 hh) {
+      r += h * (lanesAt(a) + lanesAt(b));
+      i += h * (lanesAt(a + next) + lanesAt(b + next));
+      s += hh * (lanesAt(a + 2 * next) + lanesAt(b + 2 * next));
     }
-  for (std::size_t k = 0; k < stride_; k += kFloatLanes) {
-    Floats8 r = lanesAt(&lateral_[k]) * lanesAt(middle + k),
-            i = lanesAt(&lateral_[k]) * lanesAt(middle + stride_ + k),
-            s = lanesAt(&lateral_squares_[k]) * lanesAt(middle + 2 * stride_ + k);
-    for (std::size_t n = 0; n < taps; ++n) {
-      const std::size_t at = distance[n] * stride_ + k;
-      const Floats8 h = lanesAt(&lateral_[at]);
-      r += h * lanesAt(from[n] + k);
-      i += h * lanesAt(from[n] + stride_ + k);
-      s += lanesAt(&lateral_squares_[at]) * lanesAt(from[n] + 2 * stride_ + k);
+    Floats8 ratio() const {
+      const Floats8 one = Floats8{} + 1;
+      return s > kNothing ? (r * r + i * i) / (s > kNothing ? s : one) : one;
     }
-    const Floats8 quotient = (r * r + i * i) / (s > kNothing ? s : Floats8{} + 1);
-    store(s > kNothing ? quotient : Floats8{} + 1, ratio + k);
+  };
+  const auto start = [&](std::size_t k) {
+    const Floats8 h = tap(taps, 0, k), hh = tap(squares, 0, k);
+    const float* at = middle + k;
+    return Sum{h * lanesAt(at), h * lanesAt(at + stride), hh * lanesAt(at + 2 * stride)};
+  };
+  for (std::size_t k = 0; k < stride; k += 2 * kFloatLanes) {
+    const std::size_t next = k + kFloatLanes;
+    Sum one = start(k), two = start(next);
+    for (std::size_t t = 1; t <= count; ++t) {
+      const float *a = below[t], *b = above[t];
+      one.add(a + k, b + k, stride, tap(taps, t, k), tap(squares, t, k));
+      two.add(a + next, b + next, stride, tap(taps, t, next), tap(squares, t, next));
+    }
+    store(one.ratio(), ratio + k);
+    store(two.ratio(), ratio + next);
   }
 }
 
 void CoherentRatio::finish(Rows& rows, float* intensities) const {
-  float* ratio = rows.ratio.data() + kPad;
+  float* ratio = floatsOf(rows.ratio) + kPad;
   for (std::size_t t = 1; t < smoothing_.size(); ++t) {  // ends are mirrored: the mean stays
     ratio[-static_cast<std::ptrdiff_t>(t)] =
         ratio[std::min<int>(static_cast<int>(t), samples_) - 1];
     ratio[samples_ + static_cast<int>(t) - 1] = ratio[std::max(samples_ - static_cast<int>(t), 0)];
   }
-  for (int k = 0; k < samples_; k += kFloatLanes) {
-    Floats8 sum = smoothing_[0] * lanesAt(ratio + k);
-    for (std::size_t t = 1; t < smoothing_.size(); ++t)
-      sum += smoothing_[t] * (lanesAt(ratio + k - t) + lanesAt(ratio + k + t));
-    const auto left = static_cast<std::size_t>(samples_ - k);
-    Floats8 i{};
-    std::memcpy(&i, intensities + k, std::min(left, kFloatLanes) * sizeof(float));
-    storeSome(i * sum, left, intensities + k);
-  }
+  smear(ratio, stride_, smoothing_, [&](Floats8 smooth, std::size_t k) {
+    const int left = samples_ - static_cast<int>(k);
+    if (left > 0)
+      storeSome(someLanesAt(intensities + k, left) * smooth, static_cast<std::size_t>(left),
+                intensities + k);
+  });
 }
 
 void CoherentRatio::apply(EchoSums& sums, Rows& rows, std::span<float> intensities) const {
   const auto plane = [&](int line) {
     return intensities.data() + static_cast<std::ptrdiff_t>(line) * samples_;
   };
-  rows.raw.assign(3 * (stride_ + 2 * kPad), 0);
-  rows.lines.resize((2 * lateral_taps_ + 1) * 3 * stride_);
-  rows.ratio.assign(stride_ + 2 * kPad, 0);
+  setFloats(rows.raw, 3 * (stride_ + 2 * kPad));
+  setFloats(rows.lines, (2 * lateral_taps_ + 1) * 3 * stride_);
+  setFloats(rows.ratio, stride_ + 2 * kPad);
+  setFloats(rows.nothing, 3 * stride_);
   const int ahead = static_cast<int>(lateral_taps_);
   // A line is smeared along as soon as it comes, and across once the lines its bell reaches are
   // there; its intensities have then been read by all who need them.
@@ -154,7 +233,10 @@ void CoherentRatio::apply(EchoSums& sums, Rows& rows, std::span<float> intensiti
     if (i < lines_) alongLine(sums.line(i), plane(i), rows, smeared(rows, i));
     const int done = i - ahead;
     if (done < 0) continue;
-    acrossLines(done, rows);
+    if (even_)
+      acrossLines<true>(done, rows);
+    else
+      acrossLines<false>(done, rows);
     finish(rows, plane(done));
   }
 }

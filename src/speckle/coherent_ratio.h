@@ -11,6 +11,11 @@
 
 namespace echocine {
 
+// Rows stand on whole ones.
+struct alignas(64) CacheLine {
+  float floats[16];
+};
+
 class CoherentRatio {
  public:
   CoherentRatio(const Probe& probe, const PointSpread& spread, const BeamView& view,
@@ -18,23 +23,25 @@ class CoherentRatio {
 
   // Memory of one frame in the making.
   struct Rows {
-    std::vector<float> raw;    // one line's real, imaginary, squares, with zeros about them
-    std::vector<float> lines;  // lines that have been smeared along, used round
-    std::vector<float> ratio;  // one line's, with its ends repeated
+    std::vector<CacheLine> raw;      // one line's real, imaginary, squares, with zeros about them
+    std::vector<CacheLine> lines;    // lines that have been smeared along, used round
+    std::vector<CacheLine> ratio;    // one line's, with its ends repeated
+    std::vector<CacheLine> nothing;  // a line beyond the sector
   };
 
-  // In place. Where no scatterer is in reach the picture stays as it is.
+  // In place; clears the sums. Where no scatterer is in reach the picture stays as it is.
   void apply(EchoSums& sums, Rows& rows, std::span<float> intensities) const;
 
  private:
-  void alongLine(const EchoSum* sums, const float* intensities, Rows& rows, float* smeared) const;
+  void alongLine(EchoSum* sums, const float* intensities, Rows& rows, float* smeared) const;
+  template <bool even>
   void acrossLines(int line, Rows& rows) const;
   void finish(Rows& rows, float* intensities) const;
   float* smeared(Rows& rows, int line) const;
 
   int lines_, samples_;
   std::size_t stride_;                            // of a row, whole lanes
-  std::vector<float> axial_;                      // h of distance 0, 1, ...
+  std::vector<float> axial_, axial_squares_;      // h and h^2 of distance 0, 1, ...
   std::vector<float> smoothing_;                  // of the ratio
   std::size_t lateral_taps_ = 0;                  // beside the middle one
   bool even_ = false;                             // the same at all depths

@@ -43,6 +43,8 @@ FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion, const
       coarsest_m = group.grid.spacing_m;
       lattice_.origin_m = group.grid.origin_m;
     }
+  for (const GroupFrame& group : frame.groups)
+    coarse_.push_back(group.grid.empty() || group.grid.spacing_m > 0.99f * lattice_.block_m);
 }
 
 void FieldMaterial::overTheBeat(const std::function<void(const MaterialFrame&)>& look) const {
@@ -66,18 +68,23 @@ CubeCorners FieldMaterialFrame::corners(std::uint16_t group, Vec3f low_m, float 
     corners[c] = low_m + edge_m * Vec3f{c & 1 ? 1.0f : 0, c & 2 ? 1.0f : 0, c & 4 ? 1.0f : 0};
   if (frame.displacement_m.empty()) return corners;
   const LatticeGrid& grid = frame.grid;
-  const auto node = [&](float at, float origin) {
-    return static_cast<int>(std::lround((at - origin) / grid.spacing_m));
-  };
-  const int ix = node(low_m.x, grid.origin_m.x), iy = node(low_m.y, grid.origin_m.y),
-            iz = node(low_m.z, grid.origin_m.z);
-  const bool inside =
-      ix >= 0 && iy >= 0 && iz >= 0 && ix + 1 < grid.nx && iy + 1 < grid.ny && iz + 1 < grid.nz;
-  for (std::size_t c = 0; c < corners.size(); ++c)
-    corners[c] =
-        inside ? corners[c] + frame.displacement_m[grid.at(
-                                  ix + (c & 1 ? 1 : 0), iy + (c & 2 ? 1 : 0), iz + (c & 4 ? 1 : 0))]
-               : frame.place(corners[c]);
+  const float per_m = 1 / grid.spacing_m;
+  const auto node = [&](float at_m) { return static_cast<int>(at_m * per_m + 0.5f); };
+  const Vec3f from = low_m - grid.origin_m;
+  const int ix = node(from.x), iy = node(from.y), iz = node(from.z);
+  const bool cell = edge_m > 0.99f * grid.spacing_m && from.x > -0.1f * edge_m &&
+                    from.y > -0.1f * edge_m && from.z > -0.1f * edge_m && ix + 1 < grid.nx &&
+                    iy + 1 < grid.ny && iz + 1 < grid.nz;
+  if (!cell) {
+    for (Vec3f& corner : corners) corner = frame.place(corner);
+    return corners;
+  }
+  const std::size_t first = grid.at(ix, iy, iz), row = static_cast<std::size_t>(grid.nx),
+                    slab = row * static_cast<std::size_t>(grid.nz);
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    const std::size_t at = first + (c & 1) + (c & 2 ? slab : 0) + (c & 4 ? row : 0);
+    corners[c] = corners[c] + frame.displacement_m[at];
+  }
   return corners;
 }
 

@@ -15,6 +15,7 @@ class FieldMaterial : public Material {
 
   CubeLattice lattice() const override { return lattice_; }
   bool blood(std::uint16_t group) const override { return blood_[group]; }
+  bool coarse(std::uint16_t group) const override { return coarse_[group]; }
   void groupsAt(std::span<const Vec3f> reference_m, std::span<std::uint16_t> groups) const override;
   void overTheBeat(const std::function<void(const MaterialFrame&)>& look) const override;
   bool differs() const override { return strength_ != nullptr; }
@@ -30,7 +31,7 @@ class FieldMaterial : public Material {
  private:
   MotionField field_;
   CubeLattice lattice_;
-  std::vector<bool> blood_;  // by group
+  std::vector<bool> blood_, coarse_;  // by group
   std::unique_ptr<const TissueStrength> strength_;
   double across_m_ = 0, along_m_ = 0;
 };

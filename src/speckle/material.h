@@ -16,8 +16,8 @@ namespace echocine {
 // Corner c of a cube: x, y, z at the high end where bits 0, 1, 2 of c are set.
 using CubeCorners = std::array<Vec3f, 8>;
 
-// Blocks of tissue at the reference phase. Scatterers stand in their halves' cubes, within each of
-// which every group's places are trilinear.
+// Blocks of tissue at the reference phase. Within the cubes of their halves every group's places
+// are trilinear, and some groups' within whole blocks.
 struct CubeLattice {
   Vec3f origin_m;
   float block_m = 8e-3f;
@@ -35,6 +35,8 @@ class Material {
   virtual ~Material() = default;
   virtual CubeLattice lattice() const { return {}; }
   virtual bool blood(std::uint16_t /*group*/) const { return false; }
+  // Is the group trilinear within whole blocks?
+  virtual bool coarse(std::uint16_t /*group*/) const { return false; }
   virtual void groupsAt(std::span<const Vec3f> reference_m, std::span<std::uint16_t> groups) const {
     for (std::size_t i = 0; i < reference_m.size(); ++i) groups[i] = 0;
   }

@@ -181,24 +181,30 @@ void Scatterers::dropUnseen(const BeamView& view, const Material& material) {
   }
 }
 
-// By group and half block, in the order of their points: small cubes are left out sooner.
+// By group and half block: small cubes are left out sooner. Points of a cube ascend across the
+// imaging plane, so that those beyond the beam stand together.
 void Scatterers::addBlock(const Block& block, const Material& material) {
   std::map<std::uint32_t, std::vector<Vec3f>> parts;
   const float half_m = 0.5f * block.edge_m;
   for (std::size_t i = 0; i < block.places_m.size(); ++i) {
     const Vec3f in = block.places_m[i] - block.low_m;
-    const std::uint32_t half = (in.x >= half_m) + 2u * (in.y >= half_m) + 4u * (in.z >= half_m);
+    const std::uint32_t half =
+        material.coarse(block.groups[i])
+            ? 0
+            : (in.x >= half_m) + 2u * (in.y >= half_m) + 4u * (in.z >= half_m);
     parts[8u * block.groups[i] + half].push_back(block.places_m[i]);
   }
-  for (const auto& part : parts) {
+  for (auto& part : parts) {
     const std::uint32_t key = part.first;
-    const std::vector<Vec3f>& places_m = part.second;
+    std::vector<Vec3f>& places_m = part.second;
+    std::sort(places_m.begin(), places_m.end(), [](Vec3f a, Vec3f b) { return a.y < b.y; });
     const auto group = static_cast<std::uint16_t>(key / 8);
+    const float edge_m = material.coarse(group) ? block.edge_m : half_m;
     const auto offset = [&](std::uint32_t bit) { return key & bit ? half_m : 0.0f; };
     for (std::size_t first = 0; first < places_m.size(); first += kMostOfBatch)
-      addBatch(std::span(places_m).subspan(
+      addBatch(std::span<const Vec3f>(places_m).subspan(
                    first, std::min<std::size_t>(kMostOfBatch, places_m.size() - first)),
-               block.low_m + Vec3f{offset(1), offset(2), offset(4)}, half_m, group,
+               block.low_m + Vec3f{offset(1), offset(2), offset(4)}, edge_m, group,
                material.blood(group), hashOf(block.pattern, kBatch, key, first));
   }
 }

@@ -13,7 +13,7 @@ Speckle::Speckle(const Probe& probe, double pulse_cycles, const SpeckleSettings&
       view_(probe, spread_),
       gaussian_(settings.seed),
       scatterers_(probe, spread_, view_, settings, material),
-      splatter_(probe, spread_, view_),
+      splatter_(probe, spread_),
       ratio_(probe, spread_, view_, settings.smoothing_m) {}
 
 double Speckle::farthestAcross_m() const {
@@ -25,23 +25,23 @@ double Speckle::farthestAcross_m() const {
 }
 
 void Speckle::addUp(const MaterialFrame& tissue, double time_s, EchoSums& sums) const {
+  SplatQueue queue;
   for (const ScattererBatch& batch : scatterers_.batches()) {
-    const CubeCorners corners = tissue.corners(batch.group, batch.low_m, batch.edge_m);
-    if (!view_.sees(extentOf(corners))) continue;
-    splatter_.add(corners, scatterers_, batch,
+    const BeamCube cube = view_.cubeOf(tissue.corners(batch.group, batch.low_m, batch.edge_m));
+    if (!view_.sees(cube)) continue;
+    splatter_.add(cube, scatterers_, batch,
                   mixAt(gaussian_, batch.pattern, time_s,
                         batch.blood ? settings_.blood_time_s : settings_.tissue_time_s),
-                  sums);
+                  queue, sums);
   }
+  queue.flush(sums);
 }
 
 void Speckle::apply(const MaterialFrame& tissue, double time_s,
                     std::span<float> intensities) const {
   thread_local EchoSums sums;
   thread_local CoherentRatio::Rows rows;
-  sums.lines = lines_;
-  sums.samples = samples_;
-  sums.sums.assign(intensities.size() + kFloatLanes, {});  // and places that nobody reads
+  sums.resize(lines_, samples_);
   addUp(tissue, time_s, sums);
   ratio_.apply(sums, rows, intensities);
 }

@@ -1,5 +1,6 @@
 #include "speckle/splat.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -31,29 +32,20 @@ inline Floats8 fallingExp(Floats8 u) {
   return e * e;
 }
 
-// A cube's trilinear map as sums over 1, u, v, w, uv, uw, vw, uvw.
+// What is trilinear in a cube, as sums over 1, u, v, uv, w, uw, vw, uvw.
 struct Trilinear {
-  float x[8], y[8], z[8];
-  explicit Trilinear(const CubeCorners& c) {
-    const auto fill = [&](float* out, auto part) {
-      const float p[8] = {part(c[0]), part(c[1]), part(c[2]), part(c[3]),
-                          part(c[4]), part(c[5]), part(c[6]), part(c[7])};
-      out[0] = p[0];
-      out[1] = p[1] - p[0];
-      out[2] = p[2] - p[0];
-      out[3] = p[4] - p[0];
-      out[4] = (p[3] - p[2]) - out[1];
-      out[5] = (p[5] - p[4]) - out[1];
-      out[6] = (p[6] - p[4]) - out[2];
-      out[7] = ((p[7] - p[6]) - (p[5] - p[4])) - out[4];
-    };
-    fill(x, [](Vec3f p) { return p.x; });
-    fill(y, [](Vec3f p) { return p.y; });
-    fill(z, [](Vec3f p) { return p.z; });
+  float c[8];
+  // From the values at the corners: along each axis in turn the upper end less the lower.
+  explicit Trilinear(Floats8 at) {
+    const Floats8 none{};
+    Floats8 low = __builtin_shufflevector(at, none, 8, 0, 8, 2, 8, 4, 8, 6);
+    at -= low;
+    low = __builtin_shufflevector(at, none, 8, 8, 0, 1, 8, 8, 4, 5);
+    at -= low;
+    low = __builtin_shufflevector(at, none, 8, 8, 8, 8, 0, 1, 2, 3);
+    store(at - low, c);
   }
 };
-
-constexpr Ints8 kLaneNumbers{0, 1, 2, 3, 4, 5, 6, 7};
 
 inline bool any(Ints8 mask) {
   Mask4 pairs;
@@ -64,38 +56,35 @@ inline void store(Ints8 lanes, std::int32_t* to) {
   std::memcpy(to, &lanes, sizeof lanes);
 }
 
-// Adds each lane's three numbers to its place, without a branch: half of the lanes are unseen,
-// which no processor foresees.
-inline void addLanes(Floats8 real, Floats8 imaginary, Floats8 squares, const std::int32_t* places,
-                     EchoSum* sums) {
-  const Floats8 none{};
-  const Floats8 a = __builtin_shufflevector(real, imaginary, 0, 8, 1, 9, 4, 12, 5, 13),
-                b = __builtin_shufflevector(real, imaginary, 2, 10, 3, 11, 6, 14, 7, 15),
-                c = __builtin_shufflevector(squares, none, 0, 8, 1, 9, 4, 12, 5, 13),
-                d = __builtin_shufflevector(squares, none, 2, 10, 3, 11, 6, 14, 7, 15);
-  // Lanes 0 and 4, 1 and 5, 2 and 6, 3 and 7.
-  const Floats8 pairs[4] = {__builtin_shufflevector(a, c, 0, 1, 8, 9, 4, 5, 12, 13),
-                            __builtin_shufflevector(a, c, 2, 3, 10, 11, 6, 7, 14, 15),
-                            __builtin_shufflevector(b, d, 0, 1, 8, 9, 4, 5, 12, 13),
-                            __builtin_shufflevector(b, d, 2, 3, 10, 11, 6, 7, 14, 15)};
-  const auto add = [sums](std::int32_t place, Floats4 numbers) {
-    float* to = &sums[place].real;
-    Floats4 sum;
-    std::memcpy(&sum, to, sizeof sum);
-    sum += numbers;
-    std::memcpy(to, &sum, sizeof sum);
-  };
-  for (int i = 0; i < 4; ++i) {
-    add(places[i], __builtin_shufflevector(pairs[i], pairs[i], 0, 1, 2, 3));
-    add(places[i + 4], __builtin_shufflevector(pairs[i], pairs[i], 4, 5, 6, 7));
+// By lane: its three numbers side by side.
+struct LaneSums {
+  Floats4 lane[kFloatLanes];
+  LaneSums(Floats8 real, Floats8 imaginary, Floats8 squares) {
+    const Floats8 none{};
+    const Floats8 a = __builtin_shufflevector(real, imaginary, 0, 8, 1, 9, 4, 12, 5, 13),
+                  b = __builtin_shufflevector(real, imaginary, 2, 10, 3, 11, 6, 14, 7, 15),
+                  c = __builtin_shufflevector(squares, none, 0, 8, 1, 9, 4, 12, 5, 13),
+                  d = __builtin_shufflevector(squares, none, 2, 10, 3, 11, 6, 14, 7, 15);
+    // Lanes 0 and 4, 1 and 5, 2 and 6, 3 and 7.
+    const Floats8 pairs[4] = {__builtin_shufflevector(a, c, 0, 1, 8, 9, 4, 5, 12, 13),
+                              __builtin_shufflevector(a, c, 2, 3, 10, 11, 6, 7, 14, 15),
+                              __builtin_shufflevector(b, d, 0, 1, 8, 9, 4, 5, 12, 13),
+                              __builtin_shufflevector(b, d, 2, 3, 10, 11, 6, 7, 14, 15)};
+    for (int i = 0; i < 4; ++i) {
+      lane[i] = __builtin_shufflevector(pairs[i], pairs[i], 0, 1, 2, 3);
+      lane[i + 4] = __builtin_shufflevector(pairs[i], pairs[i], 4, 5, 6, 7);
+    }
   }
-}
+};
 
 struct Monomials {
   Floats8 u, v, w, uv, uw, vw, uvw;
-  Floats8 sum(const float* c) const {
-    return c[0] + u * c[1] + (v * c[2] + w * c[3]) + (uv * c[4] + uw * c[5]) +
-           (vw * c[6] + uvw * c[7]);
+  Monomials(Floats8 u1, Floats8 v1, Floats8 w1)
+      : u(u1), v(v1), w(w1), uv(u * v), uw(u * w), vw(v * w), uvw(uv * w) {}
+  Floats8 sum(const Trilinear& t) const {
+    const float* c = t.c;
+    return (c[0] + u * c[1]) + (v * c[2] + uv * c[3]) +
+           ((w * c[4] + uw * c[5]) + (vw * c[6] + uvw * c[7]));
   }
 };
 
@@ -118,61 +107,95 @@ GaussianMix mixAt(const GaussianTable& table, std::uint64_t pattern, double time
           static_cast<float>(std::sin(std::numbers::pi / 2 * f))};
 }
 
-Splatter::Splatter(const Probe& probe, const PointSpread& spread, const BeamView& view)
-    : view_(view),
-      lines_(probe.lines),
+Splatter::Splatter(const Probe& probe, const PointSpread& spread)
+    : lines_(probe.lines),
       samples_(probe.samples),
-      min_depth_m_(static_cast<float>(probe.min_depth_m)),
-      per_spacing_(static_cast<float>(1 / probe.sampleSpacing())),
-      turns_per_m_(static_cast<float>(2 / spread.wavelength_m)),
-      diffraction_(static_cast<float>(followedWidth(1, spread.aperture_m, spread.wavelength_m))),
-      lens_m_(static_cast<float>(spread.aperture_m)),
-      per_focus_(static_cast<float>(1 / spread.focus_m)) {}
+      stride_(static_cast<int>(EchoSums::strideOf(probe.samples))),
+      turns_per_sample_(static_cast<float>(2 * probe.sampleSpacing() / spread.wavelength_m)),
+      turns_before_(
+          static_cast<float>(std::fmod(2 * probe.min_depth_m / spread.wavelength_m, 1.0))),
+      min_depth_m_(probe.min_depth_m),
+      spacing_m_(probe.sampleSpacing()),
+      lens_(spread.aperture_m / followedWidth(1, spread.aperture_m, spread.wavelength_m)),
+      focus_m_(spread.focus_m) {}
 
-// Elevation: 2 w_e^2 = d^2 + c^2 with d by diffraction and c by the lens's convergence. With
-// q = y^2 / w_e^2 the bell is exp(-4 ln2 q), and the wave's curvature (c / d) 8 ln2 q / 4 pi turns.
-void Splatter::add(const CubeCorners& corners, const Scatterers& scatterers,
-                   const ScattererBatch& batch, const GaussianMix& mix, EchoSums& sums) const {
-  constexpr float kFourLn2 = 2.7725887f, kCurvature = 0.44127125f;  // 8 ln2 / (4 pi)
-  const Trilinear map(corners);
-  std::int32_t places[kFloatLanes];
+// With d the part of w_e by diffraction and c by the lens's convergence (2 w_e^2 = d^2 + c^2) and
+// q = y^2 / w_e^2, the wave's curvature adds (c / d) 8 ln2 q / 4 pi turns. c / d as a line between
+// the cube's ends, which is off by under a per cent over its depth.
+Splatter::Bend Splatter::bendOf(Floats8 sample) const {
+  constexpr double kTurns = 0.44127125 * kElevationCut * kElevationCut;  // 8 ln2 / (4 pi) q
+  float low = sample[0], high = sample[0];
+  for (std::size_t i = 1; i < kFloatLanes; ++i) {
+    low = std::min(low, sample[i]);
+    high = std::max(high, sample[i]);
+  }
+  const auto at = [&](float k) {
+    const double path_m = std::max(min_depth_m_ + static_cast<double>(k) * spacing_m_, 1e-4);
+    return kTurns * lens_ * (1 / path_m - 1 / focus_m_);
+  };
+  const double first = at(low), last = at(high);
+  const double slope = high > low ? (last - first) / static_cast<double>(high - low) : 0;
+  return {static_cast<float>(first - slope * static_cast<double>(low)), static_cast<float>(slope)};
+}
+
+// Elevation: with s the place across in parts of the cut the bell is exp(-4 ln2 cut^2 s^2).
+void Splatter::add(const BeamCube& cube, const Scatterers& scatterers, const ScattererBatch& batch,
+                   const GaussianMix& mix, SplatQueue& queue, EchoSums& sums) const {
+  constexpr float kBell = static_cast<float>(2.7725887222397811 * kElevationCut * kElevationCut);
+  const Trilinear lines(cube.line), samples(cube.sample), acrosses(cube.across);
+  const Bend bend = bendOf(cube.sample);
+  const auto line_count = static_cast<float>(lines_), sample_count = static_cast<float>(samples_);
   const float* strength = scatterers.strength(batch);
   const float *us = scatterers.u(batch), *vs = scatterers.v(batch), *ws = scatterers.w(batch);
   for (std::uint32_t j = 0; j < batch.count; j += kFloatLanes) {
-    Monomials m{lanesAt(us + j), lanesAt(vs + j), lanesAt(ws + j), {}, {}, {}, {}};
-    m.uv = m.u * m.v;
-    m.uw = m.u * m.w;
-    m.vw = m.v * m.w;
-    m.uvw = m.uv * m.w;
-    const Floats8 x = m.sum(map.x), y = m.sum(map.y), z = m.sum(map.z);
-    const BeamView::Place8 at = view_.placeOf(x, z);
-    const Floats8 held = at.path_m > 1e-4f ? at.path_m : 1e-4f;
-    const Floats8 d = diffraction_ * held, c = lens_m_ * (1 - held * per_focus_);
-    const Floats8 q = 2 * (y * y) / (d * d + c * c);
-    const Floats8 sample = (at.path_m - min_depth_m_) * per_spacing_, line = at.line + 0.5f;
-    const Ints8 seen = (q <= static_cast<float>(kElevationCut * kElevationCut)) & (z > 0) &
-                       (sample >= 0) & (sample < static_cast<float>(samples_)) & (line >= 0) &
-                       (line < static_cast<float>(lines_));
+    const Monomials m(lanesAt(us + j), lanesAt(vs + j), lanesAt(ws + j));
+    const Floats8 across = m.sum(acrosses), q = across * across;
+    Ints8 seen = q <= 1;
     if (!any(seen)) continue;
-    const Floats8 e = fallingExp(kFourLn2 * q);
+    const Floats8 line = m.sum(lines), sample = m.sum(samples);
+    seen &= (sample >= 0) & (sample < sample_count) & (line >= 0) & (line < line_count);
+    const Floats8 e = fallingExp(kBell * q);
     // exp(-2 pi j turns); folded to a quarter turn either side of 0.
-    const Floats8 turns = at.path_m * turns_per_m_ + (c / d) * (kCurvature * q);
+    const Floats8 turns =
+        (turns_before_ + sample * turns_per_sample_) + q * (bend.first + sample * bend.slope);
     const Floats8 f = turns - nearest(turns), part = f < 0 ? -f : f;
     const Floats8 half = f < 0 ? Floats8{} - 0.5f : Floats8{} + 0.5f;
     const Floats8 sine = sineOfQuarters(4 * (part > 0.25f ? half - f : f));
     const Floats8 cosine = sineOfQuarters(1 - 4 * part);
-    const Floats8 cr = mix.a * lanesAt(mix.real_a + j) + mix.b * lanesAt(mix.real_b + j),
-                  ci = mix.a * lanesAt(mix.imaginary_a + j) + mix.b * lanesAt(mix.imaginary_b + j);
+    const Floats8 cr = mix.real(j), ci = mix.imaginary(j);
     // What the ratio is normalised by knows nothing of the tissue's own strength.
-    const Floats8 held_e = strength ? e * lanesAt(strength + j) : e;
-    const Floats8 real = held_e * (cr * cosine + ci * sine),
-                  imaginary = held_e * (ci * cosine - cr * sine), squares = e * e;
+    const Floats8 weight = strength ? e * lanesAt(strength + j) : e;
+    const Floats8 real = weight * (cr * cosine + ci * sine),
+                  imaginary = weight * (ci * cosine - cr * sine), squares = e * e;
     const Ints8 at_line = __builtin_convertvector(line, Ints8) & seen,
                 at_sample = __builtin_convertvector(sample, Ints8) & seen;
-    const Ints8 unseen = kLaneNumbers + lines_ * samples_;  // a place that nobody reads
-    store(seen ? at_line * samples_ + at_sample : unseen, places);
-    addLanes(real, imaginary, squares, places, sums.sums.data());
+    queue.add(LaneSums(real, imaginary, squares).lane, at_line * stride_ + at_sample, seen, sums);
   }
+}
+
+// Without a branch: half of the lanes are unseen, which no processor foresees.
+void SplatQueue::add(const Floats4* numbers, Ints8 places, Ints8 seen, EchoSums& sums) {
+  if (count_ > kMost - kFloatLanes) flush(sums);
+  std::int32_t at[kFloatLanes], taken[kFloatLanes];
+  store(places, at);
+  store(seen, taken);
+  for (std::size_t i = 0; i < kFloatLanes; ++i) {
+    __builtin_prefetch(sums.data() + at[i], 1);
+    places_[count_] = at[i];
+    numbers_[count_] = numbers[i];
+    count_ -= static_cast<std::size_t>(static_cast<std::ptrdiff_t>(taken[i]));
+  }
+}
+
+void SplatQueue::flush(EchoSums& sums) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    float* to = &sums.data()[places_[i]].real;
+    Floats4 sum;
+    std::memcpy(&sum, to, sizeof sum);
+    sum += numbers_[i];
+    std::memcpy(to, &sum, sizeof sum);
+  }
+  count_ = 0;
 }
 
 }  // namespace echocine

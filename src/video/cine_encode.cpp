@@ -41,17 +41,26 @@ struct CompressorFree {
   void operator()(void* compressor) const { tjDestroy(compressor); }
 };
 
-// The accurate transform: the fast one differs between processors, and the same scene must give the
-// same bytes.
+// Brightness in full and two colours of nothing: of a colour JPEG players know that black is 0 and
+// white 255, of a grey one FFmpeg says that the range is unknown. The accurate transform: the fast
+// one differs between processors, and the same scene must give the same bytes.
 std::vector<std::byte> encodeJpeg(const GreyImage& image, int quality) {
   const std::unique_ptr<void, CompressorFree> compressor(tjInitCompress());
   if (!compressor) throw std::bad_alloc();
-  unsigned long size = tjBufSize(image.width, image.height, TJSAMP_GRAY);
-  thread_local std::vector<std::uint8_t> room;  // fresh pages cost as much as the encoding
+  constexpr int kLayout = TJSAMP_420;
+  constexpr std::uint8_t kNoColour = 128;
+  unsigned long size = tjBufSize(image.width, image.height, kLayout);
+  thread_local std::vector<std::uint8_t> room, colour;  // fresh pages cost as much as the encoding
   room.resize(size);
+  const int colour_width = tjPlaneWidth(1, image.width, kLayout);
+  colour.resize(static_cast<std::size_t>(colour_width) *
+                    static_cast<std::size_t>(tjPlaneHeight(1, image.height, kLayout)),
+                kNoColour);
+  const std::uint8_t* planes[3] = {image.pixels.data(), colour.data(), colour.data()};
+  const int strides[3] = {image.width, colour_width, colour_width};
   std::uint8_t* to = room.data();
-  if (tjCompress2(compressor.get(), image.pixels.data(), image.width, 0, image.height, TJPF_GRAY,
-                  &to, &size, TJSAMP_GRAY, quality, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT) != 0) {
+  if (tjCompressFromYUVPlanes(compressor.get(), planes, image.width, strides, image.height, kLayout,
+                              &to, &size, quality, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT) != 0) {
     const std::string reason = tjGetErrorStr2(compressor.get());
     // The library has one code for all errors; what is short of memory must end as such.
     if (reason.find("memory") != std::string::npos) throw std::bad_alloc();

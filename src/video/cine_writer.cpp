@@ -167,7 +167,8 @@ void CineWriter::Muxer::describeStream() {
   }
   codec.codec_type = AVMEDIA_TYPE_VIDEO;
   codec.codec_id = AV_CODEC_ID_MJPEG;
-  codec.format = AV_PIX_FMT_GRAY8;
+  codec.format = AV_PIX_FMT_YUVJ420P;
+  codec.color_range = AVCOL_RANGE_JPEG;  // 0 to 255
   codec.width = settings.width;
   codec.height = settings.height;
 }

@@ -6,6 +6,8 @@
 #include <numeric>
 
 #include "core/parallel.h"
+#include "metrics/block_match.h"
+#include "metrics/statistics.h"
 #include "scene/beam_profile.h"
 #include "scene/scan_geometry.h"
 #include "support/speckle_bed.h"
@@ -198,6 +200,41 @@ TEST(SpeckleLaw, StrainAlongTheBeamTakesItsCorrelationAway) {
     const double after = correlation(before, bed.picture(speckle, stretched(strain, 0.08)), 200, w);
     EXPECT_NEAR(after, moved * std::exp(-turned * turned / 2), 0.03) << strain;
   }
+}
+
+// What a tracker finds is how the material moved: a turn, a stretch and a shift at once, up to
+// 1.5 mm a frame, as tissue moves.
+TEST(SpeckleLaw, BlockMatchingFindsASmoothMotion) {
+  SpeckleBed bed(ProbeKind::phased, 200, 640, 0.04, 0.14);
+  bed.settings.smoothing_m = 0.7e-3;
+  const Speckle speckle = bed.speckle();
+  Affine moved = turned(radiansFromDegrees(0.4));
+  moved.x = 0.99 * moved.x;
+  moved.z = 1.008 * moved.z;
+  moved.shift = {6e-4, 1e-4, -7e-4};
+  std::vector<float> before = bed.picture(speckle), after = bed.picture(speckle, moved);
+  for (std::vector<float>* plane : {&before, &after})
+    for (float& v : *plane) v = std::log(v);  // as pictures show it
+  const auto plane = [&](const std::vector<float>& values) {
+    return BlockPlane{.values = values, .lines = bed.probe.lines, .samples = bed.probe.samples};
+  };
+  const auto placeOf = [&](double line, double sample) {
+    const double angle = bed.probe.first_angle_rad + line * radiansFromDegrees(0.3);
+    const double r = bed.probe.min_depth_m + (sample + 0.5) * bed.probe.sampleSpacing();
+    return Vec3d{r * std::sin(angle), 0, r * std::cos(angle)};
+  };
+  std::vector<double> errors_mm;
+  for (int line = 16; line < 184; line += 8)
+    for (int sample = 40; sample < 600; sample += 28) {
+      const auto match = matchBlock(plane(before), plane(after), line, sample);
+      ASSERT_TRUE(match) << line << " " << sample;
+      const Vec3d from = placeOf(line, sample);
+      const Vec3d true_place = from.x * moved.x + from.z * moved.z + moved.shift;
+      const Vec3d found = placeOf(line + match->lines, sample + match->samples);
+      errors_mm.push_back(1e3 * std::hypot(found.x - true_place.x, found.z - true_place.z));
+    }
+  EXPECT_LT(quartilesOf(errors_mm).median, 0.07);
+  EXPECT_LT(quartilesOf(errors_mm).third_quartile, 0.12);
 }
 
 TEST(SpeckleLaw, TheIntensityScalesThroughAndOrderAndThreadsLeaveTheBytes) {

@@ -24,6 +24,8 @@ struct Loop {
   AVCodecID codec = AV_CODEC_ID_NONE;
   AVRational rate{};
   double duration_s = 0;
+  AVColorRange range = AVCOL_RANGE_UNSPECIFIED;
+  std::size_t coloured = 0;  // colour samples that are not neutral
   std::vector<GreyImage> frames;
 };
 
@@ -34,6 +36,17 @@ GreyImage asImage(const AVFrame& frame) {
     image.pixels.insert(image.pixels.end(), row, row + frame.width);
   }
   return image;
+}
+
+std::size_t countColoured(const AVFrame& frame) {
+  std::size_t count = 0;
+  for (const int plane : {1, 2})
+    for (int y = 0; y < (frame.height + 1) / 2; ++y) {
+      const std::uint8_t* row = frame.data[plane] + std::ptrdiff_t{y} * frame.linesize[plane];
+      count += static_cast<std::size_t>(
+          std::count_if(row, row + (frame.width + 1) / 2, [](int c) { return c != 128; }));
+    }
+  return count;
 }
 
 Loop readLoop(const std::filesystem::path& path) {
@@ -54,7 +67,10 @@ Loop readLoop(const std::filesystem::path& path) {
   AVFrame* frame = av_frame_alloc();
   const auto drain = [&] {
     while (avcodec_receive_frame(codec, frame) == 0) {
-      EXPECT_EQ(frame->format, AV_PIX_FMT_GRAY8);
+      const bool lossless = loop.codec == AV_CODEC_ID_FFV1;
+      EXPECT_EQ(frame->format, lossless ? AV_PIX_FMT_GRAY8 : AV_PIX_FMT_YUVJ420P);
+      loop.range = frame->color_range;
+      if (!lossless) loop.coloured += countColoured(*frame);
       loop.frames.push_back(asImage(*frame));
     }
   };
@@ -123,6 +139,17 @@ TEST(Cine, JpegLoopReadsBackWithinASmallError) {
       EXPECT_EQ(frame.height, height);
       EXPECT_LE(greatestDifference(frame, picture(width, height, i)), 25);
     }
+  }
+}
+
+// What ffprobe shows as color_range=pc; without it players may stretch 16..235 to black and white.
+TEST(Cine, JpegLoopSaysThatItsGreysRunFromZeroTo255) {
+  const TempFolder folder;
+  for (const auto& [width, height] : {std::pair{320, 240}, {33, 17}}) {
+    writeLoop(folder / "cine.avi", settingsOf(CineCodec::mjpg, width, height), 50, 3);
+    const Loop loop = readLoop(folder / "cine.avi");
+    EXPECT_EQ(loop.range, AVCOL_RANGE_JPEG);
+    EXPECT_EQ(loop.coloured, 0u);
   }
 }
 

@@ -36,7 +36,7 @@ set(rooms
   "keyframes=mesh"
   "interior=keyframes"
   "cycle="
-  "heart=cycle|mesh,subdivision"
+  "heart=cycle|mesh,keyframes,subdivision"
   "motion=mesh,keyframes,interior,subdivision|repair,cycle"
   "geometry=motion"
   "truth=geometry,motion,interior"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "core/error.h"
@@ -12,8 +13,10 @@
 #include "output/exr_plane.h"
 #include "output/exr_stack.h"
 #include "output/heart_files.h"
+#include "render/reference_pass.h"
 #include "render/render.h"
 #include "scene/scene_reader.h"
+#include "simulate/reference_frames.h"
 #include "support/loop_scene.h"
 #include "support/scene_text.h"
 #include "support/temp_folder.h"
@@ -72,6 +75,38 @@ TEST(SimulatorFrame, HasTheIntensitiesThatARenderWrites) {
     };
     EXPECT_EQ(stored(Channel::y), frame.channels.at(Channel::y));
     EXPECT_EQ(stored(Channel::display), frame.greys.values);
+  }
+}
+
+// Law: white belongs to the loop, not to who asks for it, also where not every frame is measured.
+TEST(SimulatorFrame, OfALongLoopHasTheWhiteOfItsRender) {
+  Scene scene = smallHeart();
+  scene.acquisition.frame_rate_hz = 160;
+  scene.signal.reference_intensity.reset();
+  const auto motion = std::make_shared<const MeshMotion>(scene);
+  for (const double percentile : {40.0, 60.0, 80.0, 90.0}) {
+    scene.signal.reference_percentile = percentile;
+    const Simulator simulator(scene, motion);
+    ASSERT_GT(simulator.cardiacClock().frameCount(), 2 * kReferenceFrames);
+    KeptFrames kept;
+    EXPECT_EQ(simulator.referenceIntensity(), findReference(simulator, {5, 6}, {}, kept));
+  }
+}
+
+// Every part of the loop is met once, and short loops whole.
+TEST(ReferenceFrames, LieOneInEachEqualPartOfTheLoop) {
+  for (const int count : {0, 1, 63, 64, 65, 100, 127, 128, 1000, 999'999}) {
+    const std::vector<int> frames = referenceFrames(count);
+    const auto parts = static_cast<std::size_t>(std::min(count, kReferenceFrames));
+    ASSERT_EQ(frames.size(), parts) << count;
+    for (std::size_t k = 0; k < parts; ++k) {
+      const double part = static_cast<double>(count) / static_cast<double>(parts);
+      EXPECT_GE(frames[k] + 1, part * static_cast<double>(k)) << count;
+      EXPECT_LT(frames[k], part * static_cast<double>(k + 1)) << count;
+      if (k > 0) {
+        EXPECT_GE(frames[k], frames[k - 1]) << count;
+      }
+    }
   }
 }
 

@@ -1,0 +1,162 @@
+#include "motion/heart/unfold.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "motion/keyframes/interpolation.h"
+
+namespace echocine::heart {
+namespace {
+
+constexpr double kFoldedCosine = -0.766, kTurnedCosine = 0.342;  // of 140 and of 70 degrees
+constexpr int kBetween = 8;  // instants looked at from one keyframe to the next
+
+using Ring = std::vector<std::uint32_t>;
+
+// Two faces with a common edge.
+struct Hinge {
+  std::size_t a, b;
+};
+
+std::vector<Hinge> hingesOf(const std::vector<Face>& faces) {
+  struct Side {
+    std::uint64_t key;
+    std::size_t face;
+  };
+  std::vector<Side> sides;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint64_t u = faces[f][k], v = faces[f][(k + 1) % 3];
+      sides.push_back({std::min(u, v) << 32 | std::max(u, v), f});
+    }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return a.key != b.key ? a.key < b.key : a.face < b.face;
+  });
+  std::vector<Hinge> hinges;
+  for (std::size_t i = 0; i + 1 < sides.size(); ++i)
+    if (sides[i].key == sides[i + 1].key) hinges.push_back({sides[i].face, sides[i + 1].face});
+  return hinges;
+}
+
+std::vector<Ring> ringsOf(std::size_t count, const std::vector<Face>& faces) {
+  std::vector<Ring> rings(count);
+  for (const Face& face : faces)  // each edge of a closed surface runs once in either direction
+    for (std::size_t k = 0; k < 3; ++k) rings[face[k]].push_back(face[(k + 1) % 3]);
+  return rings;
+}
+
+// Looks for folds in a surface.
+class FoldFinder {
+ public:
+  explicit FoldFinder(const std::vector<Face>& faces) : faces_(faces), hinges_(hingesOf(faces)) {}
+
+  // Calls found(keyframe, face) for every face in a fold until it returns false.
+  template <typename Found>
+  void look(const SurfaceBeat& beat, Found&& found) {
+    const std::size_t count = beat.points.size();
+    // A scene's own choice where it makes none.
+    std::optional<KeyframeWeights> weights;
+    if (count > 1) weights.emplace(beat.phases, Interpolation::catmull_rom);
+    std::vector<Vec3d> left, right = normalsOf(beat.points.front());
+    for (std::size_t k = 0; k < count; ++k) {
+      left = std::move(right);
+      right = normalsOf(beat.points[(k + 1) % count]);
+      for (int i = 0; i < (count > 1 ? kBetween : 1); ++i) {
+        const double end = k + 1 < count ? beat.phases[k + 1] : 1;
+        const double phase = std::lerp(beat.phases[k], end, static_cast<double>(i) / kBetween);
+        const std::vector<Vec3d> now =
+            i == 0 ? left : normalsOf(pointsAt(phase, *weights, beat.points));
+        for (const Hinge& hinge : hinges_)
+          if (dot(now[hinge.a], now[hinge.b]) < kFoldedCosine &&
+              !(found(k, hinge.a) && found(k, hinge.b)))
+            return;
+        for (std::size_t f = 0; f < now.size(); ++f)
+          if (dot(now[f], left[f]) < kTurnedCosine && dot(now[f], right[f]) < kTurnedCosine &&
+              !found(k, f))
+            return;
+      }
+    }
+  }
+
+ private:
+  static std::vector<Vec3d> pointsAt(double phase, const KeyframeWeights& weights,
+                                     const std::vector<std::vector<Vec3d>>& keyframes) {
+    std::vector<KeyframeWeights::Term> terms;
+    weights.termsAt(phase, terms);
+    std::vector<Vec3d> points(keyframes.front().size());
+    for (const KeyframeWeights::Term& term : terms)
+      for (std::size_t v = 0; v < points.size(); ++v)
+        points[v] = points[v] + term.weight * keyframes[term.row][v];
+    return points;
+  }
+  std::vector<Vec3d> normalsOf(const std::vector<Vec3d>& points) const {
+    std::vector<Vec3d> normals(faces_.size());
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      const Vec3d a = points[faces_[f][0]];
+      const Vec3d area = cross(points[faces_[f][1]] - a, points[faces_[f][2]] - a);
+      const double size = length(area);
+      if (size > 0) normals[f] = (1 / size) * area;
+    }
+    return normals;
+  }
+
+  const std::vector<Face>& faces_;
+  std::vector<Hinge> hinges_;
+};
+
+// Spreads shares to neighbours, each ring of vertices half as much as the last.
+void spread(const std::vector<Ring>& rings, std::vector<double>& share) {
+  constexpr int kRings = 3;
+  for (int i = 0; i < kRings; ++i) {
+    const std::vector<double> before = share;
+    for (std::size_t v = 0; v < share.size(); ++v)
+      for (const std::uint32_t other : rings[v]) share[v] = std::max(share[v], 0.5 * before[other]);
+  }
+}
+
+// Each vertex goes towards the middle of its neighbours by its share.
+void smoothOnce(const std::vector<Ring>& rings, const std::vector<double>& share,
+                std::vector<Vec3d>& points) {
+  const std::vector<Vec3d> before = points;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (share[v] == 0) continue;
+    Vec3d sum;
+    for (const std::uint32_t other : rings[v]) sum = sum + before[other];
+    const Vec3d middle = (1.0 / static_cast<double>(rings[v].size())) * sum;
+    points[v] = before[v] + 0.5 * share[v] * (middle - before[v]);
+  }
+}
+
+}  // namespace
+
+std::optional<Fold> foldIn(const SurfaceBeat& beat, const std::vector<Face>& faces) {
+  std::optional<Fold> first;
+  FoldFinder(faces).look(beat, [&](std::size_t keyframe, std::size_t face) {
+    first = {keyframe, face};
+    return false;
+  });
+  return first;
+}
+
+std::optional<Fold> unfold(const SurfaceBeat& beat, const std::vector<Face>& faces) {
+  constexpr int kRounds = 60, kSteps = 3;  // a round that smooths too little is followed by another
+  FoldFinder finder(faces);
+  const std::vector<Ring> rings = ringsOf(beat.points.front().size(), faces);
+  std::vector<double> share(beat.points.front().size(), 0);
+  for (int round = 0; round < kRounds; ++round) {
+    bool sound = true;
+    finder.look(beat, [&](std::size_t, std::size_t face) {
+      for (const std::uint32_t vertex : faces[face]) share[vertex] = 1;
+      sound = false;
+      return true;
+    });
+    if (sound) return std::nullopt;
+    spread(rings, share);
+    for (std::vector<Vec3d>& points : beat.points)
+      for (int step = 0; step < kSteps; ++step) smoothOnce(rings, share, points);
+  }
+  return foldIn(beat, faces);
+}
+
+}  // namespace echocine::heart

@@ -1,0 +1,135 @@
+// Random hearts over the full ranges of all dials: what is written folds nowhere in the beat, and
+// what has no such shape is refused in one line.
+//
+// ECHOCINE_RANDOM_HEARTS sets how many; each is then looked at 200 times a beat.
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "core/error.h"
+#include "motion/heart/heart_scene.h"
+#include "motion/mesh/surface_measure.h"
+#include "motion/mesh_motion.h"
+#include "motion/motion_warnings.h"
+#include "support/random_world.h"
+
+namespace echocine {
+namespace {
+
+// Between the normals of neighbours: 150 degrees, as findBreaks() has it.
+constexpr double kFoldedCosine = -0.8660254;
+
+struct Extent {
+  std::uint64_t hearts;
+  int keyframes, frames;
+};
+
+Extent extent() {
+  if (const char* asked = std::getenv("ECHOCINE_RANDOM_HEARTS"))
+    return {std::strtoull(asked, nullptr, 10), 12, 200};
+#ifdef ECHOCINE_SANITIZED
+  return {4, 4, 16};
+#else
+  return {12, 6, 24};
+#endif
+}
+
+// Every fourth has all dials given, the others half of them; a third have segments of their own.
+heart::Parameters randomHeart(std::uint64_t number) {
+  support::Dice dice(number);
+  std::map<std::string, double> given;
+  for (const heart::Dial& dial : heart::dials()) {
+    const bool is_given = dice.chance(number % 4 == 3 ? 1.0 : 0.5);
+    const double value = dice.number(dial.low, dial.high);
+    if (is_given) given[dial.key] = value;
+  }
+  heart::Parameters parameters = heart::parametersFrom(given);
+  if (dice.chance(1.0 / 3))
+    for (heart::Segment& segment : parameters.segments)
+      if (dice.chance(0.4)) {
+        segment.amplitude = dice.number(-0.5, 1.5);
+        segment.delay_s = std::max(0.0, dice.number(-0.2, 0.2));
+      }
+  parameters.volumes_rule = dice.chance(0.3);
+  return parameters;
+}
+
+// Pairs of triangles with a common edge.
+std::vector<std::array<std::size_t, 2>> hingesOf(const std::vector<Triangle>& triangles) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> sides;
+  std::vector<std::array<std::size_t, 2>> hinges;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t u = triangles[t][k], v = triangles[t][(k + 1) % 3];
+      if (const auto other = sides.find({v, u}); other != sides.end())
+        hinges.push_back({t, other->second});
+      else
+        sides[{u, v}] = t;
+    }
+  return hinges;
+}
+
+// What no frame of a beat may show.
+void expectNoFold(const heart::Parameters& parameters, const Extent& wanted) {
+  Scene scene = heart::heartScene(parameters, heart::View::a4c, wanted.keyframes);
+  scene.acquisition.frame_rate_hz = wanted.frames * scene.acquisition.heart_rate_hz;
+  const MeshMotion motion(scene);
+  EXPECT_EQ(motionWarnings(scene, motion), std::vector<std::string>());
+  std::vector<std::vector<std::array<std::size_t, 2>>> hinges;
+  for (const SurfaceTopology& surface : motion.surfaces())
+    hinges.push_back(hingesOf(surface.triangles));
+  SurfaceFrame frame;
+  for (int i = 0; i < wanted.frames; ++i) {
+    motion.frameAt(static_cast<double>(i) / wanted.frames, frame, false);
+    for (const SurfaceTopology& surface : motion.surfaces()) {
+      if (surface.membrane || (surface.still && i > 0)) continue;
+      const std::vector<Vec3f>& points = frame.positions_m[index(surface.id)];
+      std::vector<Vec3d> normals;
+      for (const Triangle& t : surface.triangles) {
+        const Vec3d area = doubleArea(t, points);
+        normals.push_back((1 / length(area)) * area);
+      }
+      const std::string& name = scene.structures[index(surface.id)].name;
+      for (const auto& [a, b] : hinges[index(surface.id)])
+        ASSERT_GT(dot(normals[a], normals[b]), kFoldedCosine)
+            << name << ", frame " << i << ", face " << a;
+      ASSERT_GT(enclosedVolume(surface, points), 0) << name << ", frame " << i;
+    }
+  }
+}
+
+void expectOneLine(const std::string& refusal) {
+  EXPECT_EQ(refusal.find('\n'), std::string::npos) << refusal;
+  const std::string key = refusal.substr(0, refusal.find(':'));
+  bool known = key == "segment" || key == "segments" || key == "heart";
+  for (const heart::Dial& dial : heart::dials()) known |= key == dial.key;
+  EXPECT_TRUE(known) << refusal;
+}
+
+TEST(HeartFolds, NoRandomHeartFoldsAnywhereInItsBeat) {
+  const Extent wanted = extent();
+  std::uint64_t sound = 0;
+  for (std::uint64_t number = 0; number < wanted.hearts; ++number) {
+    SCOPED_TRACE("random heart " + std::to_string(number));
+    try {
+      expectNoFold(randomHeart(number), wanted);
+      ++sound;
+    } catch (const SceneError& refusal) {
+      expectOneLine(refusal.what());
+    }
+  }
+  std::printf("%llu of %llu random hearts have a shape\n", static_cast<unsigned long long>(sound),
+              static_cast<unsigned long long>(wanted.hearts));
+  EXPECT_GE(3 * sound, wanted.hearts);  // refusing them all would be easy
+}
+
+// The right atrium is dented by the aorta, the left ventricle and the left atrium at once.
+TEST(HeartFolds, ARightAtriumAmongLargeNeighboursIsSound) {
+  const auto dials = heart::parametersFrom(
+      {{"ef", 0.69}, {"edv", 178}, {"hr", 60}, {"wall-thickness", 13}, {"twist", 12}});
+  expectNoFold(dials, {1, 12, 200});
+}
+
+}  // namespace
+}  // namespace echocine
