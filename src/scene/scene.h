@@ -164,8 +164,7 @@ struct SignalSettings {
   Quality quality = Quality::medium;  // of the look "scanner"
   Tgc tgc = Tgc::perfect;
   std::vector<std::pair<double, double>> tgc_table;  // (depth m, gain dB), ascending depths
-  // Of Tgc::nominal: the attenuation of amplitude that a scanner's gain undoes, alike on all lines.
-  // 0.76 of soft tissue's 0.54 dB/(cm MHz): our choice, so that lung and shadows stay dark.
+  // Of Tgc::nominal: 0.76 of soft tissue's 0.54 dB/(cm MHz), so that lung stays dark. Our choice.
   double nominal_gain_np_per_m_hz = 4.72e-6;
   Spread spread = Spread::compensate;
   BeamWidth beam_width = BeamWidth::focused;
@@ -176,8 +175,7 @@ struct SignalSettings {
   double reference_percentile = 99.5;         // of all samples of the loop, near field left out
   double gain_db = 0;                         // of the picture: white is so far below the reference
   double interface_gain_db = 0;  // of interface echoes against tissue, in the picture alone
-  // Interface echoes E of the picture become E / (1 + E / limit): limit in dB of the transmitted
-  // intensity. None: they stay as they are.
+  // Interface echoes E become E / (1 + E / limit), in dB of the transmitted intensity. None: as is.
   std::optional<double> interface_limit_db;
   double grey_gamma = 1;  // grey = (position in the dynamic range)^gamma
 };
@@ -197,8 +195,7 @@ struct SpeckleSettings {
   int heterogeneity_seed = 1;
   // What muscle fibres send back along themselves, below what they do across; 0: none.
   double anisotropy_db = 0;
-  double helix_angle_rad =
-      1.0471975511965976;  // of fibres at the endocardium, minus at the epicardium
+  double helix_angle_rad = 1.0471975511965976;  // at the endocardium, minus at the epicardium
 };
 
 // What a scanner adds to the echoes, each by itself. Levels are intensities.
