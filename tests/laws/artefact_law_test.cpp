@@ -163,7 +163,9 @@ TEST(Noise, HasItsLevelUnderTheGainAndBoils) {
     plane.assign(kSize, 0);
     noise.add(5e-4, 0.02 * t, plane);
     if (t == 0) first = plane;
-    if (t > 0 && t < 6) EXPECT_NEAR(correlation(first, plane, 0), 0, 0.2) << t;
+    if (t > 0 && t < 6) {
+      EXPECT_NEAR(correlation(first, plane, 0), 0, 0.2) << t;
+    }
     for (std::size_t i = 0; i < kSize; ++i) mean[i % kSamples] += plane[i];
   }
   for (std::size_t k = 5; k < kSamples; k += 39)

@@ -106,7 +106,9 @@ TEST(Strength, ScalesTheMeanOfTheSpeckleAndNothingElse) {
     const std::vector<float> picture = bed.picture(with), plain = bed.picture(bed.speckle());
     for (std::size_t i = 0; i < picture.size(); ++i) {
       const std::size_t k = i % 400;
-      if (k < 180) EXPECT_EQ(picture[i], plain[i]);
+      if (k < 180) {
+        EXPECT_EQ(picture[i], plain[i]);
+      }
       if (k < 180) whole += static_cast<double>(picture[i]) / (180 * 48 * kSeeds);
       if (k >= 220) half += static_cast<double>(picture[i]) / (180 * 48 * kSeeds);
     }
