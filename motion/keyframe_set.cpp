@@ -1,5 +1,10 @@
 #include "motion/keyframe_set.h"
 
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "core/error.h"
 #include "core/hash.h"
 #include "motion/mesh/mesh_check.h"
 #include "motion/mesh/mesh_io.h"
@@ -7,7 +12,34 @@
 
 namespace echocine {
 
+namespace {
+
+// Before any is read, which may take minutes: a file that is missing is a typing error.
+void checkFilesAreThere(const Scene& scene) {
+  std::string first;
+  std::size_t missing = 0;
+  for (const Structure& structure : scene.structures)
+    for (const Keyframe& keyframe : structure.keyframes)
+      for (std::size_t i = 0; i < keyframe.files.size(); ++i) {
+        if (i < keyframe.meshes.size() && keyframe.meshes[i]) continue;
+        std::error_code failed;
+        if (std::filesystem::status(keyframe.files[i], failed).type() !=
+            std::filesystem::file_type::not_found)
+          continue;
+        if (missing++ == 0)
+          first = atPlace(structure.place,
+                          fmt::format("{}: {}: cannot be opened: No such file or directory",
+                                      structure.name, keyframe.files[i].string()));
+      }
+  if (missing > 1)
+    first += fmt::format("; {} more file{} missing", missing - 1, missing > 2 ? "s are" : " is");
+  if (missing > 0) throw SceneError(first);
+}
+
+}  // namespace
+
 KeyframeSet readKeyframes(const Scene& scene) {
+  checkFilesAreThere(scene);
   KeyframeSet set;
   Sha256 digest;
   for (const Structure& structure : scene.structures) {

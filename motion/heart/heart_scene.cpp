@@ -109,7 +109,7 @@ reference_intensity = 4e-4   # white, of the transmitted intensity: one gain for
 # left ventricle and the right heart is wrapped round it.
 )",
       meaningOf(view), hr_bpm, vectorText(pose.apex, kMillimetre), vectorText(pose.axis, 1),
-      vectorText(pose.lateral, 1), pose.sector_deg, std::round(pose.depth_m / kMillimetre), hr_bpm,
+      vectorText(pose.lateral, 1), pose.sector_deg, std::round(pose.depth_m * 1e4) * 0.1, hr_bpm,
       Recording::kLevels, hr_bpm, recording.end_systole_phase, listText(recording.phases));
   for (const RecordedPart& part : recording.parts) text += structureText(part, mesh_folder);
   return text;

@@ -21,7 +21,7 @@ struct Segment {
 // Defaults: a healthy adult, within the reference values of large cohorts.
 struct Parameters {
   double heart_rate_bpm = 65;
-  double edv_ml = 120, ejection_fraction = 0.60;
+  double edv_ml = 120, ejection_fraction = 0.60;  // of the left ventricle; 0..1
   double rv_edv_ml = 125;
   double la_volume_ml = 55, ra_volume_ml = 52;  // largest, at end-systole
   std::optional<double> lv_length_mm;  // mitral ring to apex at end-diastole; else from sphericity
@@ -32,7 +32,7 @@ struct Parameters {
   std::optional<double>
       atrial_share;  // of the stroke volume, filled by the kick; else by heart rate
   double mitral_opening = 1, tricuspid_opening = 1, aortic_opening = 1;  // 1: healthy
-  double body_scale = 1;
+  double body_scale = 1;                                                 // of lengths
   std::array<Segment, kSegments> segments{};
   // The ejection fraction stays as dialled, and healthy segments do the work of still ones. Else
   // each does its own, and the ventricle ejects what comes of it.

@@ -119,8 +119,9 @@ ProbePose poseOf(View view, const ParametricHeart& heart) {
     if (std::abs(dot(from, up)) < beam_m && std::abs(angle_rad) < half_rad)
       deepest_m = std::max(deepest_m, length(from));
   }
-  constexpr double kBehind_m = 0.014, kStep_m = 0.005;
-  pose.depth_m = kStep_m * std::ceil((deepest_m + kBehind_m * scale) / kStep_m);
+  // Not in steps, as a scanner's: hearts that are nearly alike have pictures that are.
+  constexpr double kBehind_m = 0.0144;  // our choice
+  pose.depth_m = deepest_m + kBehind_m * scale;
   return pose;
 }
 

@@ -4,7 +4,7 @@
 namespace echocine {
 
 inline constexpr const char* kDocuments =
-    "Documents: README.md of the source; every scene key with its default: "
-    "examples/every_key/scene.toml";
+    "Documents: man echocine; README.md of the source or in share/doc/echocine; every scene key with "
+    "its default: examples/every_key/scene.toml there";
 
 }  // namespace echocine

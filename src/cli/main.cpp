@@ -14,6 +14,7 @@
 #include "cli/one_line.h"
 #include "cli/plan_command.h"
 #include "cli/render_command.h"
+#include "cli/self_description.h"
 #include "cli/standard_error.h"
 #include "cli/study_command.h"
 #include "core/error.h"
@@ -83,6 +84,11 @@ int run(int argc, char** argv) {
   echocine::HeartCommand heart(app);
   echocine::CompareCommand compare(app);
   try {
+    // For the build alone, so not among what help lists: man pages and completions.
+    if (argc == 3 && std::string_view(argv[1]) == "--describe-into") {
+      echocine::describeInto(argv[2], app);
+      return 0;
+    }
     app.parse(argc, argv);
     const int code = app.got_subcommand("heart")     ? heart.run()
                      : app.got_subcommand("plan")    ? plan.run()

@@ -15,8 +15,8 @@ namespace echocine::compare {
 // outer radius.
 struct BeamGrid {
   int lines = 0, samples = 0;
-  double first_rad = 0, last_rad = 0, near = 0, far = 0;
-  bool metric = false;
+  double first_rad = 0, last_rad = 0, near = 0, far = 0;  // rad; metres or parts
+  bool metric = false;                                    // depths are metres
 
   std::size_t size() const {
     return static_cast<std::size_t>(lines) * static_cast<std::size_t>(samples);
@@ -33,11 +33,11 @@ BeamGrid commonGrid(const Loop& synthetic, const Loop& real);
 
 // Where beam space lies in a picture: apex + shift + scale R(rotation) (radius in pixels).
 struct Placement {
-  double shift_x_px = 0, shift_y_px = 0, scale = 1, rotation_rad = 0;
+  double shift_x_px = 0, shift_y_px = 0, scale = 1, rotation_rad = 0;  // scale: a factor
 };
 
 struct PicturePoint {
-  double x = 0, y = 0;
+  double x = 0, y = 0;  // pixels
 };
 
 // Pixels of `loop` per unit of the grid's depth.

@@ -49,11 +49,7 @@ BoundaryBands::~BoundaryBands() = default;
 BoundaryBands::BoundaryBands(BoundaryBands&&) noexcept = default;
 
 std::vector<Contour> BoundaryBands::contoursAt(double phase) const {
-  SurfaceFrame frame;
-  state_->motion.frameAt(phase - std::floor(phase), frame);
-  PlaneSlice slice(state_->motion.surfaces(), state_->scene.probe);
-  slice.update(frame);
-  return chainContours(slice.edges(), state_->motion.surfaces(), frame);
+  return echocine::contoursAt(state_->motion, state_->scene.probe, phase);
 }
 
 namespace {

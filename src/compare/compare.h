@@ -19,10 +19,10 @@ namespace echocine::compare {
 
 // What a user may know better than the files. Frames count from 0.
 struct SideOptions {
-  std::optional<double> fps, mm_per_pixel, pixel_aspect, heart_rate_bpm;
+  std::optional<double> fps, mm_per_pixel, pixel_aspect, heart_rate_bpm;  // aspect: height / width
   std::optional<std::string> sector;
-  std::optional<double> ed_frame, es_frame;
-  std::vector<double> r_waves_s;
+  std::optional<double> ed_frame, es_frame;  // may lie between two
+  std::vector<double> r_waves_s;             // from the first frame
 };
 
 struct CompareOptions {

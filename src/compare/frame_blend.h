@@ -9,7 +9,7 @@ namespace echocine::compare {
 // Two neighbouring frames and the share of the second.
 struct Blend {
   std::size_t a = 0, b = 0;
-  double share = 0;
+  double share = 0;     // 0..1
   bool inside = false;  // false: the loop shows no such instant
 };
 

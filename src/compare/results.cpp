@@ -207,7 +207,10 @@ void writeResults(const Comparison& c, const CompareOptions& options,
   // Last of all summary.json: a folder that has it is finished.
   ComparePage page(folder / "compare.html", c);
   writeFrames(c, panels, folder / "side_by_side.avi", page);
-  const Json summary = summaryJson(c);
+  Json summary = summaryJson(c);
+  if (bands)  // whose lines the pictures have
+    for (const BandMetrics& b : c.mean_bands)
+      if (b.structure != "all") summary["contours"].push_back(b.structure);
   page.finish(summary, real, synthetic);
   text("summary.json", summary.dump(1) + "\n");
 }

@@ -10,13 +10,13 @@ namespace echocine::compare {
 
 // In pixels; x at the pixel's outer side, y at its middle.
 struct EdgePoint {
-  double x, y;
+  double x, y;  // pixels
 };
 
 // x = at_zero + slope y: the edges of a sector are steep enough to be written so.
 struct EdgeLine {
-  double at_zero = 0, slope = 0;
-  int inliers = 0;  // rows whose outermost pixel lies on it
+  double at_zero = 0, slope = 0;  // pixels; pixels per row
+  int inliers = 0;                // rows whose outermost pixel lies on it
 };
 
 // The outermost live pixel of every row, on the side of `sign` (-1 left, 1 right). A row that

@@ -38,7 +38,7 @@ TimeAlignment alignInTime(const TimeProblem& problem);
 // Straight between anchors (real frame -> synthetic place), which must rise; one beat further the
 // same again. Precondition: at least one anchor.
 struct Anchor {
-  double real = 0, synthetic = 0;
+  double real = 0, synthetic = 0;  // frames
 };
 TimeAlignment alignByAnchors(const TimeProblem& problem, std::vector<Anchor> anchors);
 

@@ -90,6 +90,12 @@ Json eventsJson(const Scene& scene, const Manifest& manifest) {
           {"ejection_fraction", full_ml > 0 ? 1 - empty_ml / full_ml : 0}};
 }
 
+Json curvesJson(const Manifest& manifest) {
+  Json curves = Json::object();
+  for (const auto& [name, values] : manifest.curves) curves[name] = values;
+  return curves;
+}
+
 Json keyframesJson(const Manifest& manifest) {
   Json keyframes = Json::object();
   for (const KeyframeVolume& k : manifest.keyframes)
@@ -211,6 +217,7 @@ void writeManifest(const std::filesystem::path& path, const Scene& scene,
                   {"picture", pictureJson(scene)},
                   {"left_ventricle", eventsJson(scene, manifest)},
                   {"frames", framesJson(manifest)},
+                  {"curves", curvesJson(manifest)},
                   {"keyframe_volumes", keyframesJson(manifest)},
                   {"timings_ms_per_frame", timings},
                   {"work", workJson(manifest.work)},

@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/stage_clock.h"
@@ -26,13 +27,15 @@ struct Manifest {
   std::string scene_sha256;
   LoopPlan plan;
   AccuracyRecord accuracy;
-  double reference_intensity = 1;
+  double reference_intensity = 1;  // white, relative to I_S
   int loop_frames = 0;
   std::vector<FrameEntry> frames;
   std::vector<KeyframeVolume> keyframes;
   std::array<double, kStages> stage_ms{};    // per frame, summed over threads
   double wall_ms = 0;                        // per frame
   WorkCounts work;                           // of the whole run
+  // What truth tells of the heart's function, a value per frame; names have units.
+  std::vector<std::pair<std::string, std::vector<double>>> curves;
   std::vector<std::string> warnings;         // of scene, motion and plan
   std::map<std::string, std::string> files;  // path relative to the folder -> SHA-256
 };

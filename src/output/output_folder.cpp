@@ -49,31 +49,37 @@ void tryWriting(const fs::path& folder) {
   removeFile(trial);
 }
 
-// The number in "frame_0012.exr" for the ending ".exr"; nothing for any other name.
-std::optional<int> frameNumber(std::string_view name, std::string_view ending) {
+// How the files of frames are called: stem, number, ending.
+struct FrameNames {
+  std::string_view stem, ending;
+};
+
+// The number in "frame_0012.exr" for "frame_" and ".exr"; nothing for any other name.
+std::optional<int> frameNumber(std::string_view name, const FrameNames& names) {
   const std::string whole(name);
-  constexpr std::string_view kStem = "frame_";
-  if (!name.starts_with(kStem) || !name.ends_with(ending)) return std::nullopt;
-  if (name.size() <= kStem.size() + ending.size()) return std::nullopt;
-  name.remove_prefix(kStem.size());
+  const auto [stem, ending] = names;
+  if (!name.starts_with(stem) || !name.ends_with(ending)) return std::nullopt;
+  if (name.size() <= stem.size() + ending.size()) return std::nullopt;
+  name.remove_prefix(stem.size());
   name.remove_suffix(ending.size());
   int number = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
   if (error != std::errc{} || end != name.data() + name.size() || number < 0) return std::nullopt;
   // Only names that a run writes: "frame_12.exr" is somebody's own.
-  if (fmt::format("{}{:04}{}", kStem, number, ending) != whole) return std::nullopt;
+  if (fmt::format("{}{:04}{}", stem, number, ending) != whole) return std::nullopt;
   return number;
 }
 
 // Deletes numbered frames from `first` on, and their half-written forms whatever the number.
 // Listed first and removed then: what a directory iterator sees while files vanish is not defined.
-void removeFrames(const fs::path& folder, const std::string& ending, int first) {
+void removeFrames(const fs::path& folder, const FrameNames& names, int first) {
+  const std::string part = std::string(names.ending) + ".part";
   std::vector<fs::path> stale;
   std::error_code absent;
   for (fs::directory_iterator it(folder, absent), end; it != end; it.increment(absent)) {
     const std::string name = it->path().filename().string();
-    const std::optional<int> number = frameNumber(name, ending);
-    if ((number && *number >= first) || frameNumber(name, ending + ".part"))
+    const std::optional<int> number = frameNumber(name, names);
+    if ((number && *number >= first) || frameNumber(name, {names.stem, part}))
       stale.push_back(it->path());
   }
   for (const fs::path& path : stale) removeFile(path);
@@ -98,11 +104,23 @@ OutputFolder::OutputFolder(fs::path folder, const OutputSettings& settings, bool
   removeFile(report().string() + ".part");
 }
 
+// Files of the whole loop are made anew by every run that wants them.
+void OutputFolder::removeTruth(int first) const {
+  std::error_code failed;
+  if (!fs::is_directory(truth(), failed)) return;
+  removeFrames(truth(), {"labels_", ".png"}, first);
+  removeFrames(truth(), {"contours_", ".json"}, first);
+  for (const char* name : {"labels.json", "tracks.npz", "function.json"})
+    removeFile(truth() / name);
+  fs::remove(truth(), failed);  // only an empty one goes
+}
+
 // Pictures without an EXR beside them bear no scene's name, so on resuming they are not trusted.
 void OutputFolder::removeStale(int frame_count) const {
   const int first = resume_ ? frame_count : 0;
-  removeFrames(intensity(), ".exr", first);
-  removeFrames(png(), ".png", exr_ ? first : 0);
+  removeFrames(intensity(), {"frame_", ".exr"}, first);
+  removeFrames(png(), {"frame_", ".png"}, exr_ ? first : 0);
+  removeTruth(exr_ ? first : 0);
   if (!resume_) removeFile(cine());
   removeFile(cine().string() + ".part");
   removeFile(manifest().string() + ".part");

@@ -33,6 +33,7 @@ class OutputFolder {
   std::filesystem::path manifest() const { return folder_ / "manifest.json"; }
 
  private:
+  void removeTruth(int first) const;
   std::filesystem::path folder_;
   FolderLock lock_;
   bool resume_, exr_;

@@ -6,11 +6,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/box.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
-#include "core/units.h"
 #include "output/npy.h"
 #include "scene/names.h"
 #include "truth/sector_clip.h"
@@ -72,14 +70,6 @@ TruthFiles::TruthFiles(std::filesystem::path folder, const Scene& scene, const L
   if (failed)
     throw JobError(
         fmt::format("{}: cannot be made a folder: {}", folder_.string(), failed.message()));
-  std::vector<std::filesystem::path> stale;
-  for (const auto& file : std::filesystem::directory_iterator(folder_, failed)) {
-    const std::string name = file.path().filename().string();
-    const bool ours = name.starts_with("labels") || name.starts_with("contours_") ||
-                      name.starts_with("tracks.") || name.starts_with("function.");
-    if (ours && file.is_regular_file()) stale.push_back(file.path());
-  }
-  for (const auto& path : stale) std::filesystem::remove(path, failed);
 }
 
 std::string TruthFiles::put(const std::string& name, std::span<const std::byte> bytes) const {
@@ -122,16 +112,16 @@ std::string TruthFiles::contoursText(const FrameRecord& record, const FrameTruth
   return json.dump() + "\n";
 }
 
-std::map<std::string, std::string> TruthFiles::write(const FrameRecord& record,
-                                                     const FrameTruth& truth) const {
-  std::map<std::string, std::string> files;
+TruthFrameFiles TruthFiles::write(const FrameRecord& record, const FrameTruth& truth) const {
+  TruthFrameFiles files;
   if (scene_.truth.labels) {
     const std::string name = fmt::format("labels_{:04}.png", record.frame);
-    files["truth/" + name] = put(name, labelPicture(truth));
+    files.labels = labelPicture(truth);
+    files.sha256["truth/" + name] = put(name, files.labels);
   }
   if (scene_.truth.contours) {
     const std::string name = fmt::format("contours_{:04}.json", record.frame);
-    files["truth/" + name] = put(name, bytesOf(contoursText(record, truth)));
+    files.sha256["truth/" + name] = put(name, bytesOf(contoursText(record, truth)));
   }
   return files;
 }
@@ -170,82 +160,13 @@ std::vector<std::byte> TruthFiles::tracksFile(std::span<const TruthMaker::Tracke
   return npzBytes(arrays);
 }
 
-namespace {
-
-// Null where there is nothing to be measured.
-Json numberJson(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
-Json segmentsJson(const FunctionFrame& f) {
-  Json list = Json::array();
-  for (const SegmentStrain& s : f.segments)
-    list.push_back({{"longitudinal", numberJson(s.longitudinal)},
-                    {"radial", numberJson(s.radial)},
-                    {"circumferential", numberJson(s.circumferential)},
-                    {"thickness_mm", numberJson(s.thickness_mm)}});
-  return list;
-}
-
-Json volumesJson(const std::vector<FunctionFrame>& frames) {
-  const auto kind = [&](const auto& volume) {
-    double most = 0, least = Box::kFar;
-    for (const FunctionFrame& f : frames) {
-      most = std::max(most, volume(f));
-      least = std::min(least, volume(f));
-    }
-    return Json{{"end_diastolic_ml", numberJson(most)},
-                {"end_systolic_ml", numberJson(least)},
-                {"ejection_fraction", most > 0 ? numberJson(1 - least / most) : Json()}};
-  };
-  Json json{{"exact", kind([](const FunctionFrame& f) { return f.volume_ml; })},
-            {"biplane", kind([](const FunctionFrame& f) { return f.biplane_ml; })}};
-  if (std::all_of(frames.begin(), frames.end(),
-                  [](const FunctionFrame& f) { return f.single_plane_ml.has_value(); }))
-    json["single_plane"] = kind([](const FunctionFrame& f) { return *f.single_plane_ml; });
-  return json;
-}
-
-}  // namespace
-
-std::string TruthFiles::functionText() const {
-  Json frames = Json::array();
-  double descent_mm = 0;
-  for (std::size_t i = 0; i < functions_.size(); ++i) {
-    const FunctionFrame& f = functions_[i];
-    descent_mm = std::max(descent_mm, f.base_descent_mm);
-    const auto place = [&](Vec3d p) {
-      const PixelPoint at = pixelOf(geometry_, p);
-      return Json{{"mm", {1e3 * p.x, 1e3 * p.y, 1e3 * p.z}}, {"px", {at.x, at.y}}};
-    };
-    frames.push_back({{"index", records_[i].frame},
-                      {"time_s", records_[i].time_s},
-                      {"global_longitudinal_strain", f.global_longitudinal_strain},
-                      {"volume_ml", f.volume_ml},
-                      {"biplane_ml", f.biplane_ml},
-                      {"single_plane_ml", f.single_plane_ml ? Json(*f.single_plane_ml) : Json()},
-                      {"length_mm", f.length_mm},
-                      {"base_descent_mm", f.base_descent_mm},
-                      {"sphericity", f.sphericity},
-                      {"base", place(f.base_m)},
-                      {"apex", place(f.apex_m)},
-                      {"segments", segmentsJson(f)}});
-  }
-  const Json json{{"strain",
-                   "parts of the first frame's length, Lagrangian, in the middle of the "
-                   "wall; segments 1 to 17 of the American Heart Association"},
-                  {"volumes", volumesJson(functions_)},
-                  {"mapse_mm", descent_mm},
-                  {"frames", frames}};
-  return json.dump(1) + "\n";
-}
-
-std::map<std::string, std::string> TruthFiles::finish(
-    std::span<const TruthMaker::Tracked> tracked) const {
+std::map<std::string, std::string> TruthFiles::finish(const LoopTruth& loop) const {
   std::map<std::string, std::string> files;
-  if (scene_.truth.tracks) files["truth/tracks.npz"] = put("tracks.npz", tracksFile(tracked));
-  if (scene_.truth.function)
-    files["truth/function.json"] = put("function.json", bytesOf(functionText()));
+  if (scene_.truth.tracks) files["truth/tracks.npz"] = put("tracks.npz", tracksFile(loop.tracked));
+  if (scene_.truth.function) {
+    const Json json = functionJson(records_, functions_, loop, geometry_);
+    files["truth/function.json"] = put("function.json", bytesOf(json.dump(1) + "\n"));
+  }
   return files;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "output/frame_record.h"
+#include "output/function_json.h"
 #include "signal/picture.h"
 #include "truth/frame_truth.h"
 
@@ -16,29 +17,34 @@ namespace echocine {
 // The picture's pixels as truth has them.
 PictureGrid pictureGrid(const Scene& scene);
 
+// What was written for a frame.
+struct TruthFrameFiles {
+  std::map<std::string, std::string> sha256;  // by name, relative to the run's folder
+  std::vector<std::byte> labels;              // the label picture; empty where none is asked for
+};
+
 class TruthFiles {
  public:
-  // Makes `folder` where the scene asks for truth files, rid of those of earlier runs. References
-  // are kept.
+  // Makes `folder` where the scene asks for truth files. References are kept.
   TruthFiles(std::filesystem::path folder, const Scene& scene, const LabelTable& labels);
 
-  // Writes a frame's files; returns their names, relative to the run's folder, and SHA-256.
-  // Thread-safe. Throws JobError.
-  std::map<std::string, std::string> write(const FrameRecord& record,
-                                           const FrameTruth& truth) const;
+  // Writes a frame's files. Thread-safe. Throws JobError.
+  TruthFrameFiles write(const FrameRecord& record, const FrameTruth& truth) const;
 
   // Keeps what goes into one file of the whole loop. One call at a time, in the order of the
   // frames.
   void add(const FrameRecord& record, const FrameTruth& truth);
 
   // tracks.npz and function.json of the frames that were added.
-  std::map<std::string, std::string> finish(std::span<const TruthMaker::Tracked> tracked) const;
+  std::map<std::string, std::string> finish(const LoopTruth& loop) const;
+
+  // The function of the frames that were added, one by one.
+  std::span<const FunctionFrame> functions() const { return functions_; }
 
   // What holds for all frames: labels.json.
   std::map<std::string, std::string> writeTables() const;
 
  private:
-  std::string functionText() const;
   std::vector<std::byte> tracksFile(std::span<const TruthMaker::Tracked> tracked) const;
   std::vector<std::byte> labelPicture(const FrameTruth& truth) const;
   std::string contoursText(const FrameRecord& record, const FrameTruth& truth) const;

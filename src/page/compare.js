@@ -44,8 +44,10 @@
       return parts.join(" · ");
     };
     const loop = (name, label) => ({ label, images: page.frames(name) });
+    // The lines in the first two pictures, by name.
+    const lines = summary.contours?.length ? ` · white lines: ${summary.contours.join(", ")}` : "";
     return new Player(byId("player"), { rate_hz: (rate_hz ? Math.min(rate_hz, 1000) : 25) / data.stride, describe,
-      loops: [loop("real", "real"), loop("synthetic", "synthetic, registered and calibrated"),
+      loops: [loop("real", `real${lines}`), loop("synthetic", `synthetic, registered and calibrated${lines}`),
         loop("difference", "synthetic − real: grey where equal, bright where the synthetic is brighter")] });
   }
 

@@ -72,10 +72,10 @@ function curves(root, { x_name, y_name, frame_x, series, player, height_px = 260
   y_from_zero = false, x_range, digits = 4 }) {
   const many = series.length > 1;
   const legend = many && { type: "scroll", top: 0, left: 8, right: 8, padding: [5, 10], itemGap: 14, icon: "roundRect",
-    itemHeight: 4, itemWidth: 18, textStyle: { padding: [0, 4] },
+    itemHeight: 4, itemWidth: 18, textStyle: { padding: [4, 4, 4, 4], lineHeight: 18 },
     selected: Object.fromEntries(series.map((s) => [s.name, !s.hidden])) };
   const chart = makeChart(root, height_px, {
-    grid: { left: 8, right: 16, top: many ? 44 : 26, bottom: 26, containLabel: true },
+    grid: { left: 8, right: 16, top: many ? 52 : 26, bottom: 26, containLabel: true },
     ...(legend ? { legend } : {}),
     tooltip: { trigger: "axis", axisPointer: { type: "line" }, confine: true,
       valueFormatter: (value) => page.number(value, digits) },

@@ -31,6 +31,7 @@ class FrameStore {
   }
 }
 
+// A loop may have over: { images, draw(context, bitmap, k) }, which draws on top of its frames.
 // new Player(root, { loops: [{ label, images }], rate_hz, describe }): images as page.frames() gives
 // them, as many in each loop; rate_hz: images shown per second at speed 1; describe(k): text beside
 // the scrubber. Events: "frame" whenever another frame is on the canvases; detail.index is it.
@@ -53,11 +54,12 @@ class Player extends EventTarget {
     if (this.count) this.seek(0);
   }
 
-  addLoop({ label, images }, loops) {
+  addLoop({ label, images, over }, loops) {
     const canvas = page.element("canvas", { role: "img", "aria-label": label, width: 4, height: 3 });
     // 4 bytes a pixel; frames are taken for a megapixel until the first is seen.
     const store = new FrameStore(images, Player.kMemory_bytes / (4 << 20) / loops);
-    (this.loops ??= []).push({ canvas, store, context: canvas.getContext("2d") });
+    const top = over && { draw: over.draw, store: new FrameStore(over.images, store.kept) };
+    (this.loops ??= []).push({ canvas, store, top, context: canvas.getContext("2d") });
     return page.element("figure", { class: "loop" }, canvas, label && page.element("figcaption", {}, label));
   }
 
@@ -149,9 +151,13 @@ class Player extends EventTarget {
     const wanted = this.wanted;
     this.busy = true;
     try {
-      const bitmaps = await Promise.all(this.loops.map((loop) => loop.store.get(wanted)));
+      const bitmaps = await Promise.all(this.loops.map((loop) =>
+        Promise.all([loop.store.get(wanted), loop.top?.store.get(wanted)])));
       if (wanted !== this.wanted) return;
-      this.loops.forEach((loop, i) => Player.draw(loop, bitmaps[i], wanted));
+      this.loops.forEach((loop, i) => {
+        Player.draw(loop, bitmaps[i][0], wanted);
+        if (bitmaps[i][0]) loop.top?.draw(loop.context, bitmaps[i][1], wanted);
+      });
       this.show(wanted);
     } catch (error) {
       this.readout.textContent = `Frame ${wanted} cannot be decoded: ${error.message}`;

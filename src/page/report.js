@@ -22,6 +22,60 @@
     byId("warnings").querySelector("ul").append(...data.warnings.map((w) => element("li", {}, w)));
   }
 
+  const shown = { labels: false, contours: false, tracks: false };
+
+  // Truth over the picture, as far as it was asked for and is switched on.
+  function drawTruth(context, labels, k) {
+    context.save();
+    if (shown.labels && labels) {
+      context.globalCompositeOperation = "screen";  // outside is black, which changes nothing
+      context.globalAlpha = 0.5;
+      context.drawImage(labels, 0, 0);
+      context.globalCompositeOperation = "source-over";
+      context.globalAlpha = 1;
+    }
+    if (shown.contours)
+      for (const [structure, closed, px] of data.truth.outlines[k]) {
+        context.strokeStyle = kCurveColours[structure % kCurveColours.length];
+        context.lineWidth = 1.2;
+        context.beginPath();
+        for (let i = 0; i < px.length; i += 2) context.lineTo(px[i], px[i + 1]);
+        if (closed) context.closePath();
+        context.stroke();
+      }
+    if (shown.tracks) {
+      context.fillStyle = "#ffe14d";
+      const px = data.truth.tracks_px[k];
+      for (let i = 0; i < px.length; i += 2) context.fillRect(px[i] - 1, px[i + 1] - 1, 2, 2);
+    }
+    context.restore();
+  }
+
+  // A box to tick for each kind of truth that the page has.
+  function showToggles(player) {
+    if (!data.truth) return;
+    const has = { labels: page.frames("labels").length > 0, contours: data.truth.outlines.some((o) => o.length),
+      tracks: data.truth.tracks_px.some((px) => px.length) };
+    const boxes = Object.keys(shown).filter((kind) => has[kind]).map((kind) =>
+      element("label", {}, element("input", { type: "checkbox", id: `show-${kind}`, change: (event) => {
+        shown[kind] = event.target.checked;
+        player.seek(Math.max(0, player.index));
+      } }), ` ${kind} `));
+    if (boxes.length) byId("player").append(element("p", { class: "keys no-print" }, "Truth: ", ...boxes));
+  }
+
+  function showFunction(player) {
+    const given = data.truth?.curves ?? {};
+    const strains = Object.keys(given).filter((name) => !/_(mm|deg|ml)$/.test(name));
+    if (!strains.length) return;
+    byId("truth").hidden = false;
+    const draw = (root, names, y_name, factor, height_px) => curves(byId(root), { x_name: "time, s", y_name,
+      frame_x: frames.time_s, x_range, player, height_px, series: names.map((name) =>
+        ({ name: name.replaceAll("_", " "), values: given[name].map((v) => (v === null ? null : factor * v)) })) });
+    draw("strain", strains, "%", 100, 280);
+    draw("thickness", ["wall_thickness_mm", "base_descent_mm"], "mm", 1, 200);
+  }
+
   // Also without pictures there is a frame that curves and tables speak of.
   function makePlayer() {
     const images = page.frames("cine");
@@ -29,7 +83,8 @@
       + (data.acquisition.beats > 1 ? ` · beat ${frames.beat[k] + 1}` : "");
     const player = new Player(byId("player"), {
       loops: [{ label: images.length ? "" : "No pictures were asked for (output.cine, output.png).", images:
-        images.length ? images : frames.index.map(() => null) }],
+        images.length ? images : frames.index.map(() => null),
+        over: data.truth && { images: page.frames("labels"), draw: drawTruth } }],
       rate_hz: data.acquisition.frame_rate_hz / data.stride, describe });
     if (!images.length) byId("player").querySelector("canvas").hidden = true;
     return player;
@@ -160,6 +215,8 @@
   page.parts.player = player;
   showEcg(player);
   showVolumes(player);
+  showToggles(player);
+  showFunction(player);
   showEffects();
   showTimes();
   showProbe();

@@ -101,6 +101,7 @@ RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const
     manifest.plan = simulator.plan();
     warn(manifest.plan.warnings, scene, monitor, manifest);
     if (!monitor.keep_going()) return;
+    simulator.truth();  // refuses what it cannot tell before anything is written
     const OutputFolder folder(options.folder, scene.output, options.resume);
     folder.removeStale(manifest.loop_frames);
     summary.setup_s = secondsSince(start);
@@ -109,13 +110,7 @@ RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const
     if (!reference) return;
     manifest.reference_intensity = *reference;
     ReportPage report(folder.report(), scene, simulator.cardiacClock(), range);
-    std::optional<TruthMaker> truth;  // labels, contours and motion, as far as asked for
-    if (TruthMaker::wanted(scene))
-      truth.emplace(simulator.scene(), simulator.motion(), pictureGrid(scene),
-                    simulator.cardiacClock().at(0).phase);
-    RenderPass pass(
-        {simulator, folder, monitor, report, options.resume, earlier, truth ? &*truth : nullptr},
-        manifest, kept);
+    RenderPass pass({simulator, folder, monitor, report, options.resume, earlier}, manifest, kept);
     summary.frames_done = pass.run(range.first, range.second);
     summary.passes_s = secondsSince(start) - summary.setup_s;
     // No manifest: a folder without one is an unfinished run.

@@ -62,21 +62,19 @@ RenderPass::RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept)
                    : std::vector<double>{}),
       cine_(parts.folder.cine(), parts.simulator.scene().output,
             parts.simulator.scene().acquisition.frame_rate_hz) {
-  if (!parts.truth) return;
-  truth_files_.emplace(parts.folder.truth(), parts.simulator.scene(), parts.truth->labels());
+  const TruthMaker* const truth = parts.simulator.truth();
+  if (truth == nullptr) return;
+  truth_files_.emplace(parts.folder.truth(), parts.simulator.scene(), truth->labels());
   manifest_.files.merge(truth_files_->writeTables());
 }
 
-// Velocity is taken from a millisecond before to one after, within the loop.
-void RenderPass::makeTruth(const FrameTime& time, Finished& finished) {
-  constexpr double kStep_s = 1e-3;
-  const CardiacClock& clock = parts_.simulator.cardiacClock();
-  const double end_s = clock.frameCount() / parts_.simulator.scene().acquisition.frame_rate_hz;
-  const double before_s = std::max(time.time_s - kStep_s, 0.0),
-               after_s = std::min(time.time_s + kStep_s, end_s);
-  finished.truth = parts_.truth->at(
-      {time.phase, clock.atTime(before_s).phase, clock.atTime(after_s).phase, after_s - before_s});
-  finished.truth_files = truth_files_->write(finished.entry.record, *finished.truth);
+void RenderPass::makeTruth(const FrameTime& time, const Workspace& workspace, Finished& finished) {
+  finished.truth = parts_.simulator.truthAt(time, &workspace);
+  TruthFrameFiles files = truth_files_->write(finished.entry.record, *finished.truth);
+  finished.truth_files = std::move(files.sha256);
+  if (!parts_.report.shows(time.frame)) return;
+  finished.page_truth =
+      pageTruth(*finished.truth, parts_.simulator.scene(), std::move(files.labels));
 }
 
 Volumes RenderPass::tracedFrame(const FrameTime& time, Workspace& workspace) {
@@ -153,7 +151,7 @@ std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
   finished->entry.volumes_ml = tracedFrame(time, *workspace);
   GreyImage& image =
       parts_.simulator.picture(manifest_.reference_intensity, time, *workspace, o.cine || o.png);
-  if (parts_.truth) makeTruth(time, *finished);
+  if (truth_files_) makeTruth(time, *workspace, *finished);
   clock.time(Stage::exr, [&] { writeExr(record, *workspace, *finished); });
   if (finished->truth) finished->truth->forgetPlanes();
   if (o.cine || o.png) clock.time(Stage::avi, [&] { writePictures(image, *finished); });
@@ -180,7 +178,10 @@ void RenderPass::drain(Finished& finished) {
     manifest_.files["intensity/" + ExrStack::fileName(frame)] = entry.exr_sha256;
   if (!finished.png_sha256.empty())
     manifest_.files["png/" + frameName(frame, ".png")] = finished.png_sha256;
-  if (truth_files_) truth_files_->add(entry.record, *finished.truth);
+  if (truth_files_) {
+    truth_files_->add(entry.record, *finished.truth);
+    if (parts_.report.shows(frame)) parts_.report.addTruth(std::move(finished.page_truth));
+  }
   manifest_.files.merge(finished.truth_files);
   manifest_.frames.push_back(entry);
 }
@@ -192,6 +193,38 @@ void RenderPass::endEarly() {
     cine_.finishEarly();
   } catch (const std::exception&) {  // the first failure is the one to report
   }
+}
+
+namespace {
+
+// The instant of the loop's first beat at which it has a phase; phases ascend within a beat.
+double timeOfPhase(const CardiacClock& clock, double phase, double loop_s) {
+  double low_s = 0, high_s = std::min(clock.at(0).beat_s, loop_s);
+  for (int i = 0; i < 60; ++i) {
+    const double middle_s = 0.5 * (low_s + high_s);
+    const FrameTime time = clock.atTime(middle_s);
+    (time.beat == 0 && time.phase < phase ? low_s : high_s) = middle_s;
+  }
+  return high_s;
+}
+
+}  // namespace
+
+void RenderPass::finishTruth() {
+  const TruthMaker& truth = *parts_.simulator.truth();
+  LoopTruth loop{truth.tracked(), truth.view(), {}};
+  if (const auto& valves = truth.valves()) {
+    const CardiacClock& clock = parts_.simulator.cardiacClock();
+    const double loop_s =
+        clock.frameCount() / parts_.simulator.scene().acquisition.frame_rate_hz;
+    for (const auto& [name, phase] : {std::pair("mitral_closes", valves->mitral_closes),
+                                      std::pair("aortic_opens", valves->aortic_opens),
+                                      std::pair("aortic_closes", valves->aortic_closes),
+                                      std::pair("mitral_opens", valves->mitral_opens)})
+      loop.events.push_back({name, phase, timeOfPhase(clock, phase, loop_s)});
+  }
+  manifest_.files.merge(truth_files_->finish(loop));
+  manifest_.curves = functionCurves(truth_files_->functions());
 }
 
 int RenderPass::run(int first, int last) {
@@ -223,7 +256,7 @@ int RenderPass::run(int first, int last) {
                                   [&] { whole ? cine_.finish() : cine_.finishEarly(); });
     if (whole) manifest_.files["cine.avi"] = sha256HexOfFile(parts_.folder.cine());
   }
-  if (whole && truth_files_) manifest_.files.merge(truth_files_->finish(parts_.truth->tracked()));
+  if (whole && truth_files_) finishTruth();
   return static_cast<int>(done) - first;
 }
 

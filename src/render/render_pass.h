@@ -30,7 +30,6 @@ class RenderPass {
     ReportPage& report;
     bool resume;
     std::map<std::string, std::string> earlier_hashes;  // on resuming, of an earlier manifest
-    const TruthMaker* truth = nullptr;                  // none is wanted
   };
   // Frames, file hashes and reference go through `manifest`; `kept` frames are used up.
   RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept);
@@ -47,14 +46,16 @@ class RenderPass {
     std::string mended;               // why a frame that was there is made again; empty: it is not
     std::optional<FrameTruth> truth;  // until it is written
     std::map<std::string, std::string> truth_files;  // name -> SHA-256
+    PageTruth page_truth;
   };
 
   std::shared_ptr<Finished> make(int frame);
   void takeEarlier(const FrameRecord& record, Finished& finished) const;
   Volumes tracedFrame(const FrameTime& time, Workspace& workspace);
   void writeExr(const FrameRecord& record, const Workspace& workspace, Finished& finished);
-  void makeTruth(const FrameTime& time, Finished& finished);
+  void makeTruth(const FrameTime& time, const Workspace& workspace, Finished& finished);
   void writePictures(GreyImage& image, Finished& finished);
+  void finishTruth();
   void drain(Finished& finished);
   void endEarly();
 

@@ -7,6 +7,7 @@
 #include "motion/cycle/ecg.h"
 #include "page/assets.h"
 #include "scene/scene_json.h"
+#include "signal/picture.h"
 
 namespace echocine {
 
@@ -64,6 +65,36 @@ Json framesJson(const Manifest& manifest, const ReportPage& page) {
   return frames;
 }
 
+// Numbers to a tenth of a pixel take a third of the page's bytes.
+Json tenths(const std::vector<float>& values) {
+  Json list = Json::array();
+  for (const float v : values) list.push_back(std::round(10 * static_cast<double>(v)) / 10);
+  return list;
+}
+
+Json outlinesJson(const std::vector<PageTruth>& frames) {
+  Json list = Json::array();
+  for (const PageTruth& frame : frames) {
+    Json of_frame = Json::array();
+    for (const PageTruth::Outline& o : frame.outlines)
+      of_frame.push_back({o.structure, o.closed, tenths(o.px)});
+    list.push_back(std::move(of_frame));
+  }
+  return list;
+}
+
+// Values of the frames that the page shows.
+Json curvesJson(const Manifest& manifest, const ReportPage& page) {
+  Json curves = Json::object();
+  for (const auto& [name, values] : manifest.curves) {
+    Json shown = Json::array();
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (page.shows(manifest.frames[i].record.frame)) shown.push_back(values[i]);
+    curves[name] = std::move(shown);
+  }
+  return curves;
+}
+
 // What differs from run to run stands apart, last on the page.
 Json measuredJson(const Manifest& manifest) {
   Json timings = stageTimesJson(manifest), shares = Json::object();
@@ -74,6 +105,45 @@ Json measuredJson(const Manifest& manifest) {
 }
 
 }  // namespace
+
+namespace {
+
+std::vector<PageTruth::Outline> outlinesOf(const FrameTruth& truth, const Scene& scene,
+                                           const PictureGeometry& picture) {
+  constexpr float kApart_px = 1.5f, kBeyond_px = 50;  // our choices
+  const auto width = static_cast<float>(scene.output.width),
+             height = static_cast<float>(scene.output.height);
+  std::vector<PageTruth::Outline> outlines;
+  for (const Contour& contour : truth.contours) {
+    PageTruth::Outline outline{index(contour.surface), contour.closed, {}};
+    bool seen = false;
+    for (const Vec3d p : contour.points_m) {
+      const PixelPoint at = pixelOf(picture, p);
+      const auto x = static_cast<float>(at.x), y = static_cast<float>(at.y);
+      seen |= x > -kBeyond_px && y > -kBeyond_px && x < width + kBeyond_px && y < height + kBeyond_px;
+      const std::size_t n = outline.px.size();
+      if (n == 0 || std::hypot(x - outline.px[n - 2], y - outline.px[n - 1]) > kApart_px)
+        outline.px.insert(outline.px.end(), {x, y});
+    }
+    if (seen) outlines.push_back(std::move(outline));
+  }
+  return outlines;
+}
+
+}  // namespace
+
+PageTruth pageTruth(const FrameTruth& truth, const Scene& scene, std::vector<std::byte> labels) {
+  constexpr std::size_t kMostPoints = 300;  // enough to see the motion by
+  const PictureGeometry picture = pictureGeometry(scene);
+  PageTruth page{outlinesOf(truth, scene, picture), {}, std::move(labels)};
+  const std::size_t every = truth.tracks_m.size() / kMostPoints + 1;
+  for (std::size_t i = 0; i < truth.tracks_m.size(); i += every) {
+    const PixelPoint at = pixelOf(picture, toDouble(truth.tracks_m[i]));
+    page.tracks_px.insert(page.tracks_px.end(),
+                          {static_cast<float>(at.x), static_cast<float>(at.y)});
+  }
+  return page;
+}
 
 ReportPage::ReportPage(const std::filesystem::path& path, const Scene& scene,
                        const CardiacClock& clock, std::pair<int, int> range)
@@ -89,6 +159,13 @@ bool ReportPage::shows(int frame) const {
 
 void ReportPage::addFrame(std::span<const std::byte> image) {
   if (writer_) writer_->addFrame("cine", image);
+}
+
+void ReportPage::addTruth(PageTruth truth) {
+  if (!writer_) return;
+  if (!truth.labels.empty()) writer_->addFrame("labels", truth.labels);
+  truth.labels = {};
+  truths_.push_back(std::move(truth));
 }
 
 void ReportPage::finish(const Manifest& manifest) {
@@ -116,6 +193,13 @@ void ReportPage::finish(const Manifest& manifest) {
             {"structures", structuresJson(scene_)}};
   for (const char* part : {"probe", "acquisition", "motion", "signal", "accuracy", "output"})
     data[part] = scene[part];
+  if (!truths_.empty()) {
+    Json tracks = Json::array();
+    for (const PageTruth& t : truths_) tracks.push_back(tenths(t.tracks_px));
+    data["truth"] = {{"outlines", outlinesJson(truths_)},
+                     {"tracks_px", tracks},
+                     {"curves", curvesJson(manifest, *this)}};
+  }
   data["measured"] = measuredJson(manifest);
   writer_->finish(data);
 }

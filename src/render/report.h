@@ -7,8 +7,25 @@
 #include "motion/cycle/cardiac_clock.h"
 #include "output/manifest.h"
 #include "page/page.h"
+#include "truth/frame_truth.h"
 
 namespace echocine {
+
+// A frame's truth as the page draws it over the picture.
+struct PageTruth {
+  struct Outline {
+    std::size_t structure;
+    bool closed;
+    std::vector<float> px;  // x, y, x, y, ...
+  };
+  std::vector<Outline> outlines;
+  std::vector<float> tracks_px;   // x, y, x, y, ...
+  std::vector<std::byte> labels;  // PNG; empty where none are asked for
+};
+
+// Contours within the picture, without points that lie within a pixel and a half of the last, and
+// some hundred material points.
+PageTruth pageTruth(const FrameTruth& truth, const Scene& scene, std::vector<std::byte> labels);
 
 class ReportPage {
  public:
@@ -20,7 +37,8 @@ class ReportPage {
   // Whether the page shows this frame (pageStride()).
   bool shows(int frame) const;
   void addFrame(std::span<const std::byte> image);  // JPEG or PNG, in the order of frames
-  void finish(const Manifest& manifest);            // with times and volumes filled in
+  void addTruth(PageTruth truth);  // of the frame that was added last
+  void finish(const Manifest& manifest);  // with times and volumes filled in
 
  private:
   const Scene& scene_;
@@ -28,6 +46,7 @@ class ReportPage {
   std::pair<int, int> range_;
   int stride_;
   std::optional<PageWriter> writer_;
+  std::vector<PageTruth> truths_;  // by shown frame, without their labels
 };
 
 }  // namespace echocine

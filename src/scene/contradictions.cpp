@@ -65,14 +65,6 @@ void refuseContradictions(TomlTable& root, const Scene& scene) {
     effects.fail(
         "refraction",
         "\"on\" excludes accuracy.tracer = \"slice\", accepted with it: \"auto\" | \"off\"");
-  if (a.interface_echo == InterfaceEcho::cell && scene.effects.refraction == Switch::on)
-    accuracy.fail(
-        "interface_echo",
-        "\"cell\" excludes effects.refraction = \"on\", accepted with it: \"auto\" | \"centre\"");
-  if (a.interface_echo == InterfaceEcho::cell && a.tracer == TracerChoice::embree)
-    accuracy.fail(
-        "interface_echo",
-        "\"cell\" excludes accuracy.tracer = \"embree\", accepted with it: \"auto\" | \"centre\"");
   if (scene.speckle.on) refuseOfSpeckle(root, scene);
   if (a.rays_per_beam > 1) refuseOfRays(root, scene);
   if (scene.effects.elevation == Switch::on && a.rays_per_beam == 1)

@@ -43,7 +43,7 @@ class ScanGeometry {
 
   // Fractional line (0 to lines - 1) and path length of a point; nothing outside the lines.
   struct BeamPosition {
-    double line = 0, path_m = 0;
+    double line = 0, path_m = 0;  // line: lines from the first
   };
   std::optional<BeamPosition> beamPosition(double x_m, double z_m) const;
 

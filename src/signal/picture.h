@@ -24,7 +24,7 @@ struct PictureGeometry {
 
 // A point of the imaging plane (probe frame, m) in the picture: pixel (i, j) covers i..i+1, j..j+1.
 struct PixelPoint {
-  double x = 0, y = 0;
+  double x = 0, y = 0;  // pixels
 };
 inline PixelPoint pixelOf(const PictureGeometry& g, Vec3d point_m) {
   return {g.origin_x_px + point_m.x / g.metres_per_pixel,

@@ -18,9 +18,9 @@ namespace echocine {
 
 struct EchoShift {
   double metres = 0;
-  double beam_widths = 0;
-  double depth_m = 0;  // of the field's middle
-  double phase = 0;
+  double beam_widths = 0;  // the same in widths of the beam
+  double depth_m = 0;      // of the field's middle
+  double phase = 0;        // of the beat, [0, 1)
 };
 
 inline bool operator<(const EchoShift& a, const EchoShift& b) {

@@ -144,15 +144,17 @@ void chooseTracer(const Scene& scene, LoopPlan& plan) {
       : beams      ? fmt::format("{} rays per beam, each by itself", plan.effects.rays_per_beam)
       : plan.slice ? "straight rays in one plane meet only the facets on it"
                    : "refracted rays leave the imaging plane";
-  plan.cell_echoes = plan.slice && plan.effects.reflection && scene.probe.lines > 1 &&
+  plan.cell_echoes = !beams && plan.effects.reflection && scene.probe.lines > 1 &&
                      a.interface_echo != InterfaceEcho::centre;
   plan.echo_reason =
-      plan.cell_echoes ? "integrated over the beam's cell: the contour between lines is known"
+      plan.cell_echoes && plan.slice
+          ? "integrated over the beam's cell: the contour between lines is known"
+      : plan.cell_echoes
+          ? "integrated over the beam's cell: neighbouring lines' crossings of one wall are linked"
       : a.interface_echo == InterfaceEcho::centre && !beams
           ? "at each line's centre: accuracy.interface_echo asks for it"
-      : beams      ? "at each ray, averaged over the beam"
-      : plan.slice ? "at each line's centre"
-                   : "at each line's centre: the contour between bent lines is not known";
+      : beams ? "at each ray, averaged over the beam"
+              : "at each line's centre";
 }
 
 void lookAtFrames(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) {

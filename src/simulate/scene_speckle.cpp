@@ -6,15 +6,19 @@ namespace echocine {
 
 SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion, const EffectPlan& plan)
     : material_(scene, motion, &plan),
+      sheets_(scene, motion, material_.field().referencePhase()),
       speckle_(scene.probe, scene.signal.pulse_cycles, scene.speckle, material_) {
   const double half_m = speckle_.farthestAcross_m();
   y_range_m_ = {static_cast<float>(-half_m), static_cast<float>(half_m)};
 }
 
-void SceneSpeckle::apply(const FrameTime& time, Intensities& intensities) const {
+void SceneSpeckle::apply(const FrameTime& time, const SurfaceFrame& surfaces,
+                         Intensities& intensities) const {
+  thread_local std::vector<Vec3f> on_sheets_m;
+  sheets_.at(surfaces, on_sheets_m);
   thread_local FieldFrame frame;
   material_.field().at(time.phase, frame, y_range_m_);
-  speckle_.apply(FieldMaterialFrame(frame), time.time_s, intensities);
+  speckle_.apply(FieldMaterialFrame(frame, on_sheets_m), time.time_s, intensities);
 }
 
 }  // namespace echocine

@@ -5,6 +5,7 @@
 #include "motion/cycle/cardiac_clock.h"
 #include "scene/effect_plan.h"
 #include "speckle/field_material.h"
+#include "speckle/sheet_points.h"
 #include "speckle/speckle.h"
 
 namespace echocine {
@@ -13,14 +14,15 @@ class SceneSpeckle {
  public:
   SceneSpeckle(const Scene& scene, const MeshMotion& motion, const EffectPlan& plan);
 
-  // Intensities after the average over the beam, in place. Thread-safe; frames of equal time are
-  // equal.
-  void apply(const FrameTime& time, Intensities& intensities) const;
+  // Intensities after the average over the beam, in place. `surfaces` are those of the instant.
+  // Thread-safe; frames of equal time are equal.
+  void apply(const FrameTime& time, const SurfaceFrame& surfaces, Intensities& intensities) const;
 
-  std::size_t scatterers() const { return speckle_.scatterers(); }
+  std::size_t scatterers() const { return speckle_.scatterers() + sheets_.count(); }
 
  private:
   FieldMaterial material_;
+  SheetPoints sheets_;
   Speckle speckle_;
   std::pair<float, float> y_range_m_;  // of the tissue that beams may see
 };

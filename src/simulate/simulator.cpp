@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
 #include "output/polar_plane.h"
+#include "output/truth_files.h"
 #include "signal/reference.h"
 #include "simulate/plan_loop.h"
 #include "simulate/reference_frames.h"
@@ -29,6 +31,15 @@ std::vector<ChannelPlane> channelPlanes(const OutputSettings& output, const Work
   return planes;
 }
 
+namespace {
+
+EchoCells echoCells(const LoopPlan& plan) {
+  if (!plan.cell_echoes) return EchoCells::none;
+  return plan.slice ? EchoCells::contours : EchoCells::links;
+}
+
+}  // namespace
+
 Simulator::Simulator(Scene scene) : Simulator(scene, std::make_shared<const MeshMotion>(scene)) {}
 
 Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion)
@@ -40,7 +51,7 @@ Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, Loop
       plan_(std::move(plan)),
       cardiac_clock_(scene_),
       chain_(scene_, plan_.effects),
-      settings_(scene_, plan_.effects, plan_.cell_echoes),
+      settings_(scene_, plan_.effects, echoCells(plan_)),
       request_(planeRequest(scene_, plan_.effects)) {
   if (plan_.effects.rays_per_beam > 1)
     beams_.emplace(scene_.probe, beamSpread(plan_.effects, scene_.acquisition.seed));
@@ -62,10 +73,10 @@ std::shared_ptr<Workspace> Simulator::workspace() const {
   }
   if (!space && plan_.slice)
     space = std::make_unique<Workspace>(
-        Workspace{{}, PlaneSlice(motion_->surfaces(), scene_.probe, plan_.left_out), {}});
+        Workspace{-1, {}, PlaneSlice(motion_->surfaces(), scene_.probe, plan_.left_out), {}});
   if (!space)
     space = std::make_unique<Workspace>(
-        Workspace{{}, FrameGeometry(motion_->surfaces(), plan_.left_out), {}});
+        Workspace{-1, {}, FrameGeometry(motion_->surfaces(), plan_.left_out), {}});
   return {space.release(), [this](Workspace* used) {
             const std::lock_guard lock(mutex_);
             free_.emplace_back(used);
@@ -115,6 +126,7 @@ Volumes Simulator::trace(const FrameTime& time, Workspace& w) const {
 
 Volumes Simulator::traceUncounted(const FrameTime& time, Workspace& w, WorkCounts& work) const {
   Volumes volumes_ml;
+  w.phase = -1;
   if (w.polar.intensities.empty()) w.polar.intensities = Intensities(w.greys.release());
   clock_.time(Stage::motion, [&] {
     motion_->frameAt(time.phase, w.surfaces, plan_.smooth_normals);
@@ -126,6 +138,7 @@ Volumes Simulator::traceUncounted(const FrameTime& time, Workspace& w, WorkCount
         return clock_.time(Stage::trace, [&] { return traceRays(geometry, time.frame, w.polar); });
       },
       w.geometry);
+  w.phase = time.phase;
   return volumes_ml;
 }
 
@@ -141,7 +154,7 @@ Volumes Simulator::traceLines(const FrameTime& time, Workspace& w) const {
 void Simulator::process(const FrameTime& time, Workspace& w) const {
   if (!request_.intensities) return;
   clock_.time(Stage::signal, [&] { chain_.process(w.polar.intensities); });
-  if (speckle_) clock_.time(Stage::speckle, [&] { speckle_->apply(time, w.polar.intensities); });
+  if (speckle_) clock_.time(Stage::speckle, [&] { speckle_->apply(time, w.surfaces, w.polar.intensities); });
   refuseUnusable(time.phase, w.polar);
 }
 
@@ -198,6 +211,31 @@ std::vector<KeyframeVolume> Simulator::keyframeVolumes() const {
   return list;
 }
 
+const TruthMaker* Simulator::truth() const {
+  std::call_once(truth_once_, [this] {
+    if (TruthMaker::wanted(scene_))
+      truth_ = std::make_unique<const TruthMaker>(scene_, *motion_, pictureGrid(scene_),
+                                                  cardiac_clock_.at(0).phase);
+  });
+  return truth_.get();
+}
+
+// Velocity is taken from a millisecond before to one after, within the loop.
+FrameTruth Simulator::truthAt(const FrameTime& time, const Workspace* traced) const {
+  constexpr double kStep_s = 1e-3;
+  const double end_s = cardiac_clock_.frameCount() / scene_.acquisition.frame_rate_hz;
+  const double before_s = std::max(time.time_s - kStep_s, 0.0),
+               after_s = std::min(time.time_s + kStep_s, end_s);
+  TruthShared shared;
+  if (traced != nullptr && traced->phase == time.phase) {
+    shared.surfaces = &traced->surfaces;
+    if (plan_.left_out.none()) shared.slice = std::get_if<PlaneSlice>(&traced->geometry);
+  }
+  return truth()->at({time.phase, cardiac_clock_.atTime(before_s).phase,
+                      cardiac_clock_.atTime(after_s).phase, after_s - before_s},
+                     shared);
+}
+
 double Simulator::measureReference() const {
   if (scene_.signal.reference_intensity) return *scene_.signal.reference_intensity;
   if (!wantsPicture(scene_) || !plan_.effects.contrast) return 1;
@@ -243,6 +281,8 @@ void Simulator::frame(double time_s, Frame& made) const {
     made.volumes_ml = trace(made.time, *w);
     made.intensities.values.assign(w->polar.intensities.begin(), w->polar.intensities.end());
     picture(reference, made.time, *w, wantsPicture(scene_));
+    made.truth.reset();
+    if (truth() != nullptr) made.truth = truthAt(made.time, w.get());
   });
   made.lines = scene_.probe.lines;
   made.samples = scene_.probe.samples;

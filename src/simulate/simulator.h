@@ -24,6 +24,7 @@
 #include "simulate/scene_speckle.h"
 #include "trace/trace_beams.h"
 #include "trace/trace_frame.h"
+#include "truth/frame_truth.h"
 
 namespace echocine {
 
@@ -38,10 +39,12 @@ struct Frame {
   GreyImage image;          // the scan-converted picture, without ECG and depth ticks
   std::map<Channel, std::vector<float>> channels;  // intensity channels of scene.output.channels
   std::vector<std::uint32_t> medium;               // channel medium.id, if the scene asks for it
+  std::optional<FrameTruth> truth;                 // as far as scene.truth and its channels ask
 };
 
 // What one frame needs while it is made; there are as many as frames in flight.
 struct Workspace {
+  double phase = -1;  // that surfaces and geometry stand at
   SurfaceFrame surfaces;
   std::variant<PlaneSlice, FrameGeometry> geometry;  // whichever the plan's tracer needs
   PolarFrame polar;
@@ -99,6 +102,13 @@ class Simulator {
   GreyImage& picture(double reference_intensity, const FrameTime& time, Workspace& workspace,
                      bool wanted) const;
 
+  // What makes truth, fitted by the first call; nullptr where the scene asks for none. Errors: those
+  // of TruthMaker. Thread-safe.
+  const TruthMaker* truth() const;
+  // Takes surfaces and their slice from `traced` where it stands at this very phase.
+  // Precondition: truth() is not nullptr.
+  FrameTruth truthAt(const FrameTime& time, const Workspace* traced = nullptr) const;
+
   const SignalChain& chain() const { return chain_; }
   StageClock& clock() const { return clock_; }
   WorkCounts work() const;
@@ -128,7 +138,8 @@ class Simulator {
   mutable std::vector<std::unique_ptr<Workspace>> free_;
   mutable WorkCounts work_;
   mutable int traced_frames_ = 0;
-  mutable std::once_flag reference_once_;
+  mutable std::once_flag reference_once_, truth_once_;
+  mutable std::unique_ptr<const TruthMaker> truth_;
   mutable double reference_intensity_ = 1;
 };
 

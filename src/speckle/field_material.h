@@ -38,12 +38,16 @@ class FieldMaterial : public Material {
 
 class FieldMaterialFrame : public MaterialFrame {
  public:
-  // Precondition: `frame` is the field's at the instant, and outlives this.
-  explicit FieldMaterialFrame(const FieldFrame& frame) : frame_(frame) {}
+  // Precondition: `frame` is the field's at the instant, `on_sheets_m` the sheets' points then;
+  // both outlive this.
+  explicit FieldMaterialFrame(const FieldFrame& frame, std::span<const Vec3f> on_sheets_m = {})
+      : frame_(frame), on_sheets_m_(on_sheets_m) {}
+  std::span<const Vec3f> onSheets() const override { return on_sheets_m_; }
   CubeCorners corners(std::uint16_t group, Vec3f low_m, float edge_m) const override;
 
  private:
   const FieldFrame& frame_;
+  std::span<const Vec3f> on_sheets_m_;
 };
 
 }  // namespace echocine

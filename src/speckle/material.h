@@ -28,6 +28,8 @@ class MaterialFrame {
  public:
   virtual ~MaterialFrame() = default;
   virtual CubeCorners corners(std::uint16_t group, Vec3f low_m, float edge_m) const = 0;
+  // Places of scatterers that stand on sheets, in the same order at every instant.
+  virtual std::span<const Vec3f> onSheets() const { return {}; }
 };
 
 class Material {

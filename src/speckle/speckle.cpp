@@ -1,6 +1,9 @@
 #include "speckle/speckle.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "core/hash_random.h"
 
 namespace echocine {
 
@@ -29,12 +32,31 @@ void Speckle::addUp(const MaterialFrame& tissue, double time_s, EchoSums& sums) 
   for (const ScattererBatch& batch : scatterers_.batches()) {
     const BeamCube cube = view_.cubeOf(tissue.corners(batch.group, batch.low_m, batch.edge_m));
     if (!view_.sees(cube)) continue;
-    splatter_.add(cube, scatterers_, batch,
-                  mixAt(gaussian_, batch.pattern, time_s,
-                        batch.blood ? settings_.blood_time_s : settings_.tissue_time_s),
-                  queue, sums);
+    GaussianMix mix = mixAt(gaussian_, batch.pattern, time_s,
+                            batch.blood ? settings_.blood_time_s : settings_.tissue_time_s);
+    mix.strength = scatterers_.strength(batch);
+    splatter_.add(cube, scatterers_, batch, mix, queue, sums);
   }
+  addSheets(tissue.onSheets(), time_s, queue, sums);
   queue.flush(sums);
+}
+
+// Eight places in a cube's stead, by runs of the table that belong to the seed.
+void Speckle::addSheets(std::span<const Vec3f> places_m, double time_s, SplatQueue& queue,
+                        EchoSums& sums) const {
+  constexpr std::uint64_t kSheets = 5;
+  const float beyond = std::numeric_limits<float>::infinity();
+  for (std::size_t first = 0; first < places_m.size(); first += kMostOfBatch) {
+    const GaussianMix mix =
+        mixAt(gaussian_, hashOf(settings_.seed, kSheets, first), time_s, settings_.tissue_time_s);
+    const std::size_t count = std::min<std::size_t>(kMostOfBatch, places_m.size() - first);
+    for (std::size_t j = 0; j < count; j += kFloatLanes) {
+      CubeCorners eight;
+      for (std::size_t i = 0; i < kFloatLanes; ++i)
+        eight[i] = j + i < count ? places_m[first + j + i] : Vec3f{0, beyond, 1};
+      splatter_.addPlaces(view_.cubeOf(eight), mix, static_cast<std::uint32_t>(j), queue, sums);
+    }
+  }
 }
 
 void Speckle::apply(const MaterialFrame& tissue, double time_s,

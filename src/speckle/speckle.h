@@ -28,6 +28,8 @@ class Speckle {
 
  private:
   void addUp(const MaterialFrame& tissue, double time_s, EchoSums& sums) const;
+  void addSheets(std::span<const Vec3f> places_m, double time_s, SplatQueue& queue,
+                 EchoSums& sums) const;
 
   SpeckleSettings settings_;
   int lines_, samples_;

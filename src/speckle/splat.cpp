@@ -139,38 +139,44 @@ Splatter::Bend Splatter::bendOf(Floats8 sample) const {
 }
 
 // Elevation: with s the place across in parts of the cut the bell is exp(-4 ln2 cut^2 s^2).
+inline void Splatter::addLanes(const BeamCube& at, const Bend& bend, const GaussianMix& mix,
+                               std::uint32_t j, SplatQueue& queue, EchoSums& sums) const {
+  constexpr float kBell = static_cast<float>(2.7725887222397811 * kElevationCut * kElevationCut);
+  const Floats8 q = at.across * at.across;
+  const Ints8 seen = (q <= 1) & (at.sample >= 0) & (at.sample < static_cast<float>(samples_)) &
+                     (at.line >= 0) & (at.line < static_cast<float>(lines_));
+  const Floats8 e = fallingExp(kBell * q);
+  // exp(-2 pi j turns); folded to a quarter turn either side of 0.
+  const Floats8 turns =
+      (turns_before_ + at.sample * turns_per_sample_) + q * (bend.first + at.sample * bend.slope);
+  const Floats8 f = turns - nearest(turns), part = f < 0 ? -f : f;
+  const Floats8 half = f < 0 ? Floats8{} - 0.5f : Floats8{} + 0.5f;
+  const Floats8 sine = sineOfQuarters(4 * (part > 0.25f ? half - f : f));
+  const Floats8 cosine = sineOfQuarters(1 - 4 * part);
+  const Floats8 cr = mix.real(j), ci = mix.imaginary(j);
+  const Floats8 real = e * (cr * cosine + ci * sine), imaginary = e * (ci * cosine - cr * sine),
+                squares = e * e;
+  const Ints8 at_line = __builtin_convertvector(at.line, Ints8) & seen,
+              at_sample = __builtin_convertvector(at.sample, Ints8) & seen;
+  queue.add(LaneSums(real, imaginary, squares).lane, at_line * stride_ + at_sample, seen, sums);
+}
+
 void Splatter::add(const BeamCube& cube, const Scatterers& scatterers, const ScattererBatch& batch,
                    const GaussianMix& mix, SplatQueue& queue, EchoSums& sums) const {
-  constexpr float kBell = static_cast<float>(2.7725887222397811 * kElevationCut * kElevationCut);
   const Trilinear lines(cube.line), samples(cube.sample), acrosses(cube.across);
   const Bend bend = bendOf(cube.sample);
-  const auto line_count = static_cast<float>(lines_), sample_count = static_cast<float>(samples_);
-  const float* strength = scatterers.strength(batch);
   const float *us = scatterers.u(batch), *vs = scatterers.v(batch), *ws = scatterers.w(batch);
   for (std::uint32_t j = 0; j < batch.count; j += kFloatLanes) {
     const Monomials m(lanesAt(us + j), lanesAt(vs + j), lanesAt(ws + j));
-    const Floats8 across = m.sum(acrosses), q = across * across;
-    Ints8 seen = q <= 1;
-    if (!any(seen)) continue;
-    const Floats8 line = m.sum(lines), sample = m.sum(samples);
-    seen &= (sample >= 0) & (sample < sample_count) & (line >= 0) & (line < line_count);
-    const Floats8 e = fallingExp(kBell * q);
-    // exp(-2 pi j turns); folded to a quarter turn either side of 0.
-    const Floats8 turns =
-        (turns_before_ + sample * turns_per_sample_) + q * (bend.first + sample * bend.slope);
-    const Floats8 f = turns - nearest(turns), part = f < 0 ? -f : f;
-    const Floats8 half = f < 0 ? Floats8{} - 0.5f : Floats8{} + 0.5f;
-    const Floats8 sine = sineOfQuarters(4 * (part > 0.25f ? half - f : f));
-    const Floats8 cosine = sineOfQuarters(1 - 4 * part);
-    const Floats8 cr = mix.real(j), ci = mix.imaginary(j);
-    // What the ratio is normalised by knows nothing of the tissue's own strength.
-    const Floats8 weight = strength ? e * lanesAt(strength + j) : e;
-    const Floats8 real = weight * (cr * cosine + ci * sine),
-                  imaginary = weight * (ci * cosine - cr * sine), squares = e * e;
-    const Ints8 at_line = __builtin_convertvector(line, Ints8) & seen,
-                at_sample = __builtin_convertvector(sample, Ints8) & seen;
-    queue.add(LaneSums(real, imaginary, squares).lane, at_line * stride_ + at_sample, seen, sums);
+    const Floats8 across = m.sum(acrosses);
+    if (any(across * across <= 1))
+      addLanes({m.sum(lines), m.sum(samples), across}, bend, mix, j, queue, sums);
   }
+}
+
+void Splatter::addPlaces(const BeamCube& at, const GaussianMix& mix, std::uint32_t j,
+                         SplatQueue& queue, EchoSums& sums) const {
+  addLanes(at, bendOf(at.sample), mix, j, queue, sums);
 }
 
 // Without a branch: half of the lanes are unseen, which no processor foresees.

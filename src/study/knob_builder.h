@@ -24,4 +24,7 @@ struct KnobBuilder {
 // structures as the scene is written.
 void addMotionKnobs(const Scene& scene, std::size_t triangles, KnobBuilder& table);
 
+// What the model decides where the paper leaves it open: effects and time gain.
+void addModelKnobs(const Scene& scene, KnobBuilder& table);
+
 }  // namespace echocine

@@ -74,14 +74,13 @@ void addRefraction(const Scene& scene, const MeshMotion& motion, KnobBuilder& ta
     return table.leaveOut("refraction", "effects.refraction is not left to the program");
   if (scene.accuracy.tracer == TracerChoice::slice)
     return table.leaveOut("refraction", "accuracy.tracer = \"slice\" bends no ray");
-  if (scene.accuracy.interface_echo == InterfaceEcho::cell)
-    return table.leaveOut("refraction", "accuracy.interface_echo = \"cell\" bends no ray");
   if (!planEffects(scene).refraction)
     return table.leaveOut("refraction", planEffects(scene).decision(Effect::refraction).reason);
   const KnobValue off{"off", [](Scene& s) { s.effects.refraction = Switch::off; }};
   const KnobValue on{"on", [](Scene& s) { s.effects.refraction = Switch::on; }};
-  // Bent rays know no contour between them, and echoes at the lines alone cost more accuracy than
-  // refraction brings where the plan leaves it out; so the reference does what the plan says.
+  // Where the plan leaves refraction out it moves echoes by less than the picture shows, while
+  // links between bent lines know a little less of the walls than contours do; so the reference
+  // does what the plan says.
   const bool bends = planLoop(scene, motion).effects.refraction;
   Knob knob{
       "refraction",
@@ -119,17 +118,13 @@ void addRays(const Scene& scene, KnobBuilder& table) {
 
 void addEchoes(const Scene& scene, KnobBuilder& table) {
   if (scene.probe.lines < 2) return table.leaveOut("echoes", "the scene has a single line");
-  if (scene.accuracy.tracer == TracerChoice::embree)
-    return table.leaveOut("echoes", "accuracy.tracer = \"embree\" knows no contours");
-  if (scene.effects.refraction == Switch::on)
-    return table.leaveOut("echoes", "effects.refraction = \"on\" knows no contours");
   const auto value = [](const char* name, InterfaceEcho echo) {
     return KnobValue{name, [echo](Scene& s) { s.accuracy.interface_echo = echo; }};
   };
-  // "auto" is over cells wherever rays stay straight.
+  // "auto" is over cells wherever a beam has one ray.
   table.add({"echoes",
              "accuracy.interface_echo",
-             "interface echoes at the lines, or over the beam's cell where rays stay straight",
+             "interface echoes at the lines, or over the beam's cell where it has one ray",
              {value("centre", InterfaceEcho::centre), value("auto", InterfaceEcho::automatic)},
              {0, 1, 1, 1}});
 }
@@ -160,6 +155,7 @@ KnobTable knobsOf(const Scene& scene) {
   addRefraction(scene, motion, table);
   addRays(scene, table);
   addEchoes(scene, table);
+  addModelKnobs(scene, table);
   addStorage<ExrPixel>(
       scene, {"exr_pixel", "output.exr_pixel", "stored intensities, 16 or 32 bits", {}, {}},
       &OutputSettings::exr_pixel, {{"half", ExrPixel::half}, {"float", ExrPixel::whole}}, table);
@@ -178,8 +174,9 @@ KnobTable knobsOf(const Scene& scene) {
 }
 
 std::vector<std::string> knobNames() {
-  return {"lines",      "samples", "subdivision", "normals",   "keyframes",      "interpolation",
-          "refraction", "rays",    "echoes",      "exr_pixel", "exr_compression"};
+  return {"lines",          "samples",     "subdivision", "normals",   "keyframes",
+          "interpolation",  "refraction",  "rays",        "echoes",    "snell_angles",
+          "reflection_cap", "thin_layers", "tgc",         "exr_pixel", "exr_compression"};
 }
 
 Setting presetSetting(const KnobTable& table, Preset preset) {

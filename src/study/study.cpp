@@ -58,6 +58,8 @@ class Study {
 
  private:
   bool budgetSpent() const { return secondsSince(start_) >= options_.budget_s; }
+  // Half of the budget is left to measure in; our choice.
+  bool preparedLongEnough() const { return secondsSince(start_) >= 0.5 * options_.budget_s; }
   void prepare();
   void addRow(const std::string& sweep, const std::string& knob, const std::string& value,
               Scene scene, const std::string& keys);
@@ -79,11 +81,16 @@ class Study {
   std::vector<std::string> signatures_;
   std::vector<FramePicture> reference_;
   std::vector<double> visit_s_;  // of each point, its last visit
-  std::size_t visits_ = 0;
+  std::size_t visits_ = 0, unprepared_ = 0;
 };
 
 void Study::addRow(const std::string& sweep, const std::string& knob, const std::string& value,
                    Scene scene, const std::string& keys) {
+  // Settings that a short budget leaves no time to prepare are left out, but for the reference.
+  if (!result_.points.empty() && preparedLongEnough()) {
+    ++unprepared_;
+    return;
+  }
   // A row that would take minutes a frame is named and left out, so that a study ends.
   const double rays = static_cast<double>(scene.accuracy.rays_per_beam) * scene.probe.lines;
   if (scene.accuracy.rays_per_beam > scene_.accuracy.rays_per_beam && rays > kMostRays) {
@@ -156,6 +163,10 @@ void Study::prepare() {
       if (only.empty() || std::find(only.begin(), only.end(), knob.name) != only.end())
         addSweep(knob, k, around);
     }
+  if (unprepared_ > 0)
+    result_.refused.push_back(
+        {fmt::format("{} more rows", unprepared_),
+         fmt::format("--budget-s {:g} leaves no time to prepare them", options_.budget_s)});
   visit_s_.resize(result_.points.size());
   for (const FrameTime& frame : result_.frames)
     reference_.push_back(probes_[0].picture(frame, result_.reference_intensity, true));

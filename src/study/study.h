@@ -35,8 +35,8 @@ inline constexpr double kToldApart_db = 0.005;
 struct StudyErrors {
   double rms_db = 0;        // over the pixels of all frames
   double worst_rms_db = 0;  // of the worst frame
-  double max_db = 0;
-  double ssim = 1;  // mean over the frames
+  double max_db = 0;        // of a single pixel
+  double ssim = 1;          // mean over the frames
   double interface_rms_mm = 0, interface_p95_mm = 0, interface_missed = 0;
 };
 

@@ -14,6 +14,11 @@ namespace {
 
 constexpr double kFar_m = 1e9;  // beyond every image
 
+// A wall that ends its line by total reflection still fills the line's cell, on one side deeper
+// than the line goes: as deep as a lean of tan = 10 (84 degrees) makes it. Our choice; of what
+// leans more the lobe cos^2 leaves under a hundredth.
+constexpr double kSteepest = 10;
+
 class CellEchoMaker {
  public:
   CellEchoMaker(const Probe& probe, const TraceSettings& settings, std::span<const LineTrace> lines,
@@ -29,7 +34,11 @@ class CellEchoMaker {
         samples_(probe.samples) {
     for (const SurfaceTraits& surface : settings.surfaces)
       any_power_ |= surface.exponent != 0 && surface.exponent != 1 && surface.exponent != 2;
-    for (const LineTrace& line : lines) samples_lit_.push_back(samplesLit(line));
+    for (const LineTrace& line : lines) {
+      const double end_m = line.segments.back().end_depth_m;
+      const double half_m = cell_width / 2 * (angular_ ? end_m + face_radius_m_ : 1.0);
+      samples_lit_.push_back({samplesBefore(end_m), samplesBefore(end_m + kSteepest * half_m)});
+    }
   }
 
   void add(const EdgeClips& clips, const InterfaceRows& interfaces) {
@@ -40,15 +49,15 @@ class CellEchoMaker {
     echoes_.reserve(echoes_.count + clips.count +
                     static_cast<std::size_t>(most[0] + most[1] + most[2] + most[3]));
     std::array<std::uint32_t, 2 * kClips> longer;
-    const std::size_t count = addSingles(clips, longer);
-    for (std::size_t i = 0; i < count; ++i) intoSamples(longer[i], clips.line[longer[i]]);
+    const std::size_t count = addSingles(clips, interfaces, longer);
+    for (std::size_t i = 0; i < count; ++i)
+      intoSamples(longer[i], clips.line[longer[i]], interfaces.ends[longer[i]]);
     takeShares();
   }
 
  private:
-  // Samples whose centres lie before the line's end.
-  int samplesLit(const LineTrace& line) const {
-    const double end_m = line.segments.back().end_depth_m;
+  // Samples whose centres lie before a depth.
+  int samplesBefore(double end_m) const {
     const auto lit = [&](int k) { return min_depth_m_ + (k + 0.5) * spacing_m_ < end_m; };
     int n = static_cast<int>(
         std::clamp((end_m - min_depth_m_) * per_spacing_, 0.0, static_cast<double>(samples_)));
@@ -163,7 +172,8 @@ class CellEchoMaker {
 
   // Parts within one sample; the numbers of the others into `longer`. Without branches, which no
   // processor would foresee.
-  std::size_t addSingles(const EdgeClips& clips, std::array<std::uint32_t, 2 * kClips>& longer) {
+  std::size_t addSingles(const EdgeClips& clips, const InterfaceRows& interfaces,
+                         std::array<std::uint32_t, 2 * kClips>& longer) {
     std::uint32_t* at = echoes_.at.data() + echoes_.count;
     double* intensity = echoes_.intensity.data() + echoes_.count;
     double* exponent = echoes_.exponent.data() + echoes_.count;
@@ -171,7 +181,8 @@ class CellEchoMaker {
     for (std::size_t i = 0; i < clips.count; ++i) {
       const std::uint32_t line = clips.line[i];
       const int first = rows_.first[i];
-      const std::uint32_t lit = first < std::min(samples_lit_[line], rows_.end[i]) ? 1 : 0;
+      const std::uint32_t lit =
+          first < std::min(samples_lit_[line][interfaces.ends[i]], rows_.end[i]) ? 1 : 0;
       at[singles] = line * static_cast<std::uint32_t>(samples_) + static_cast<std::uint32_t>(first);
       intensity[singles] = rows_.whole[i];
       exponent[singles] = std::max(rows_.exponent[i], 0.0);
@@ -184,8 +195,8 @@ class CellEchoMaker {
   }
 
   // An interval for each sample that a clip spans.
-  void intoSamples(std::size_t clip, std::uint32_t line) {
-    const int first = rows_.first[clip], end = std::min(rows_.end[clip], samples_lit_[line]);
+  void intoSamples(std::size_t clip, std::uint32_t line, std::uint32_t ends) {
+    const int first = rows_.first[clip], end = std::min(rows_.end[clip], samples_lit_[line][ends]);
     const double k_a = rows_.k_a[clip], k_b = rows_.k_b[clip];
     const double zero_m = rows_.zero_m[clip], step_m = rows_.step_m[clip];
     const std::uint32_t line_at = line * static_cast<std::uint32_t>(samples_);
@@ -237,7 +248,8 @@ class CellEchoMaker {
   double face_radius_m_, per_width_, min_depth_m_, spacing_m_, per_spacing_;
   int samples_;
   bool any_power_ = false;
-  std::vector<int> samples_lit_;  // by line
+  // By line: samples before its end; and before what the wall that ended it fills of its cell.
+  std::vector<std::array<int, 2>> samples_lit_;
   EchoRows rows_{};
   IntervalRows intervals_{};
 };

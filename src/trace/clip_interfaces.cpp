@@ -92,6 +92,7 @@ inline void ClipInterfaces::takeOver(const InterfaceHit* hit, InterfaceRows& row
                                      std::size_t i) const {
   const bool seen = hit && hit->seen;
   rows.seen[i] = seen ? -1 : 0;
+  rows.ends[i] = seen && hit->ends ? 1 : 0;
   if (!seen) return;
   const SurfaceTraits& surface = settings_.surfaces[index(hit->surface)];
   const Medium& before = settings_.media[index(hit->before)];

@@ -13,6 +13,7 @@ namespace echocine {
 // Of each clip, in the same places of the rows.
 struct InterfaceRows {
   ClipRow<std::int64_t> seen;         // -1; or 0, with nothing in the others
+  ClipRow<std::uint32_t> ends;        // 1: total reflection ended the line there; else 0
   ClipRow<double> Z_1, Z_2, r, turn;  // of the media before and behind; r and turn: SpeedRatio
   ClipRow<double> passed;             // prod (1-R)^2 before it times the gain
   ClipRow<double> lobe, membrane;     // n of cos^n; 1 or 0

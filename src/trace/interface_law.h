@@ -25,9 +25,9 @@ double nonSpecularReturn(double W, double cos_i, double n);
 // The interface between two media at cos_i: R, 1 under total reflection, and 1 - R. Grazing rays
 // leave nothing of 1 - R but rounding if it is taken as that difference, so it has a formula.
 struct InterfaceLaw {
-  double R = 0;
-  double through = 1;  // 1 - R
-  bool total = false;
+  double R = 0;          // share of intensity
+  double through = 1;    // 1 - R
+  bool total = false;    // no ray goes on
   double amplitude = 0;  // of the reflected pressure: R with its sign; of a total reflection 1
 };
 InterfaceLaw interfaceLaw(double Z_1, double c_1, double Z_2, double c_2, double cos_i);

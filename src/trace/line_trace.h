@@ -31,6 +31,10 @@ struct Echo {
   // small angle towards a unit vector e meets the interface l e.tilt earlier. Where several rays
   // make a beam.
   Vec3d tilt{};
+  // Which wall it is, and where: by these the echoes of neighbouring lines are linked.
+  SurfaceId surface{};
+  MediumId before{}, after{};  // of a membrane: what is around it, and its own
+  Vec3d point{};               // probe frame
 };
 
 // Echoes integrated over the beams' cells, of all lines of a frame: each lies in a sample of one
@@ -58,6 +62,7 @@ struct InterfaceHit {
   SurfaceId surface{};
   bool entering = false;
   bool seen = false;           // an interface here: the media differ, or a membrane
+  bool ends = false;           // total reflection ended the line here
   MediumId before{}, after{};  // of a membrane: what is around it, and its own
   Vec3d point;                 // probe frame
   double path_m = 0, depth_m = 0;

@@ -40,7 +40,7 @@ class LineWalker {
   // Of a crossing: Snell's direction there, and the law by it.
   Vec3d incidentAt(const Crossing& crossing);
   InterfaceLaw lawAt(const Crossing& crossing, const Medium& from, const Medium& to);
-  void addEcho(double reflected, double cos_i, const Crossing& crossing);
+  void addEcho(double reflected, double cos_i, const Crossing& crossing, MediumId after);
   double sentBack(const InterfaceLaw& law, const Medium& from, const Medium& to) const;
   void loseAt(const InterfaceLaw& law);
   double phaseSinceFace(const Crossing& crossing) const;

@@ -47,20 +47,25 @@ double LineWalker::sentBack(const InterfaceLaw& law, const Medium& from, const M
 }
 
 // What the interface sends to the transducer, added to what is lost before it.
-void LineWalker::addEcho(double reflected, double cos_i, const Crossing& crossing) {
-  if (!settings_.reflection || settings_.cell_echoes || reflected == 0) return;
+void LineWalker::addEcho(double reflected, double cos_i, const Crossing& crossing, MediumId after) {
+  if (!settings_.reflection || settings_.cells == EchoCells::contours || reflected == 0) return;
   const SurfaceTraits& surface = settings_.surfaces[index(crossing.surface)];
   const double towards = dot(query_.ray.direction, crossing.normal);
   const double cosine = std::copysign(std::max(std::abs(towards), 1e-3), towards);
   const double W = surface.gain * reflected;
   trace_.echoes.push_back({depth_m_, passed_ * nonSpecularReturn(W, cos_i, surface.exponent),
-                           exponent_, (1 / cosine) * crossing.normal});
+                           exponent_, (1 / cosine) * crossing.normal, crossing.surface, medium_,
+                           after, query_.ray.origin + walked_m_ * query_.ray.direction});
 }
 
 // Forward times backward transmission, T_12 T_21 = (1 - R)^2. Total reflection ends the ray
 // whatever effects are on: there is no direction in which it could go on.
 void LineWalker::loseAt(const InterfaceLaw& law) {
-  if (law.total) alive_ = false;
+  if (law.total) {
+    alive_ = false;
+    for (std::size_t h = trace_.hits.size(); h-- > 0 && trace_.hits[h].path_m == path_m_;)
+      trace_.hits[h].ends = true;
+  }
   if (settings_.transmission_loss) passed_ *= law.through * law.through;
 }
 
@@ -121,7 +126,7 @@ void LineWalker::passInterface(Group group, MediumId after, std::size_t first_hi
       phase < 2 * std::numbers::pi * settings_.pulse_cycles && path_m_ - face_path_m_ < pulse_m;
   if (law.total || layer_.full() || !held) layer_.clear(passed_);
   addEcho(sentBack(law, from, to), std::min(std::abs(dot(incident, crossing.normal)), 1.0),
-          crossing);
+          crossing, after);
   medium_ = after;
   if (settings_.thin_layers && !law.total)
     joinLayer(law, layer_.empty() ? 0 : phase, first_hit, first_echo);
@@ -143,12 +148,12 @@ void LineWalker::passMembrane(const Crossing& crossing) {
   const Medium& sheet = settings_.media[index(surface.medium)];
   const double cos_i = std::min(std::abs(dot(incidentAt(crossing), crossing.normal)), 1.0);
   const InterfaceLaw law = lawAt(crossing, around, sheet);
-  addEcho(sentBack(law, around, sheet), cos_i, crossing);
+  addEcho(sentBack(law, around, sheet), cos_i, crossing, surface.medium);
   loseAt(law);
   if (!alive_) return;
   const double cos_t =
       transmissionCosine(cos_i, around.sound_speed_m_s, sheet.sound_speed_m_s).value_or(0);
-  addEcho(sentBack(law, around, sheet), cos_t, crossing);
+  addEcho(sentBack(law, around, sheet), cos_t, crossing, surface.medium);
   loseAt(law);
   layer_.clear(passed_);  // the sheet's loss lies between what is before it and behind
 }

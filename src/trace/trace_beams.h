@@ -11,7 +11,7 @@ namespace echocine {
 // the line itself, which is traced only for them. Patterns of rays differ from frame to frame and
 // line to line. Lines are worked on in parallel; the result does not depend on the number of
 // threads. frame.traces are those along the lines, or empty.
-// Precondition: settings.cell_echoes is off.
+// Precondition: settings.cells is none.
 WorkCounts traceBeams(const FrameGeometry& geometry, const Probe& probe,
                       const TraceSettings& settings, const PlaneRequest& request,
                       const BeamRays& beams, int frame_index, PolarFrame& frame);

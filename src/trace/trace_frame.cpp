@@ -8,6 +8,7 @@
 #include "scene/scan_geometry.h"
 #include "trace/cell_echoes.h"
 #include "trace/line_walker.h"
+#include "trace/linked_echoes.h"
 #include "trace/packet_walk.h"
 
 namespace echocine {
@@ -148,7 +149,7 @@ void reservePlanes(const Probe& probe, const PlaneRequest& request, PolarFrame& 
   if (request.intensities) frame.intensities.resize(size);
 }
 
-TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan, bool integrate_cells)
+TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan, EchoCells integrated)
     : media(scene.media),
       background(scene.background),
       unit_volume_m3(scene.unit_volume_m3),
@@ -167,8 +168,8 @@ TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan, bool in
       snell_angles(plan.snell_angles),
       reflection_cap(plan.reflection_cap),
       thin_layers(plan.thin_layers),
-      cell_echoes(integrate_cells),
-      note_hits(integrate_cells) {
+      cells(integrated),
+      note_hits(integrated == EchoCells::contours) {
   for (const Structure& s : scene.structures)
     surfaces.push_back({s.medium, s.priority, s.membrane, s.reflection_gain,
                         plan.lobe ? s.reflection_exponent : 0});
@@ -202,7 +203,7 @@ void sampleLines(const Probe& probe, const TraceSettings& settings, const PlaneR
   parallelBlocks(frame.traces.size(), kPacket, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) sampler.sample(static_cast<int>(i), frame.traces[i]);
   });
-  if (settings.cell_echoes) sampler.addCellEchoes();
+  if (settings.cells != EchoCells::none) sampler.addCellEchoes();
   work += sampler.work();
 }
 
@@ -230,6 +231,7 @@ WorkCounts traceFrame(const FrameGeometry& geometry, const Probe& probe,
   reservePlanes(probe, request, frame);
   WorkCounts work = walkLines(geometry, probe, settings, frame.traces);
   work.bvh_updates = 1;  // the one that this frame's rays went through
+  if (settings.cells == EchoCells::links) linkEchoes(probe, frame.traces, frame.cell_echoes);
   sampleLines(probe, settings, request, frame, work);
   return work;
 }
@@ -248,7 +250,7 @@ WorkCounts traceFrame(const PlaneSlice& slice, const Probe& probe, const TraceSe
     work.crossings += met.crossings.size();
   }
   work.facets_sliced = slice.edges().size();
-  if (settings.cell_echoes)
+  if (settings.cells == EchoCells::contours)
     addCellEchoes(slice.edges(), slice.normals(), probe, settings, frame.traces, frame.cell_echoes);
   sampleLines(probe, settings, request, frame, work);
   return work;

@@ -33,6 +33,8 @@ void reservePlanes(const Probe& probe, const PlaneRequest& request, PolarFrame& 
 WorkCounts walkLines(const FrameGeometry& geometry, const Probe& probe,
                      const TraceSettings& settings, std::vector<LineTrace>& traces);
 
+// Precondition of both: settings.cells is none, or what the tracer knows of walls between lines:
+// links through the hierarchy, contours through the slice; and then two lines at least.
 // Fills `frame` (its memory is used again) and returns the work. Lines are sampled in parallel;
 // each writes only its own column, so the result does not depend on the number of threads.
 WorkCounts traceFrame(const FrameGeometry& geometry, const Probe& probe,

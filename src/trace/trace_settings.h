@@ -15,8 +15,12 @@ struct SurfaceTraits {
   double gain = 1, exponent = 2;  // of the non-specular lobe
 };
 
+// Echoes of interfaces at the lines; or integrated over the beams' cells, by what the plane slice
+// knows of the contours, or by links between the crossings of neighbouring lines.
+enum class EchoCells { none, contours, links };
+
 struct TraceSettings {
-  TraceSettings(const Scene& scene, const EffectPlan& plan, bool integrate_cells = false);
+  TraceSettings(const Scene& scene, const EffectPlan& plan, EchoCells cells = EchoCells::none);
 
   std::vector<Medium> media;
   std::vector<SurfaceTraits> surfaces;  // by SurfaceId
@@ -36,10 +40,8 @@ struct TraceSettings {
   bool snell_angles = true;    // straight rays carry Snell's direction for angles of incidence
   bool reflection_cap = true;  // W is at most R at normal incidence
   bool thin_layers = true;     // interfaces closer than the pulse send back one coherent echo
-  // Echoes of interfaces are integrated over the beam's cell instead of taken at the line (plane
-  // slice only).
-  bool cell_echoes = false;
-  bool note_hits = false;  // keep what the walk judged of each crossing; cell echoes need it
+  EchoCells cells = EchoCells::none;
+  bool note_hits = false;  // keep what the walk judged of each crossing; contours need it
 };
 
 }  // namespace echocine

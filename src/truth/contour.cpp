@@ -1,7 +1,8 @@
 #include "truth/contour.h"
 
 #include <algorithm>
-#include <unordered_map>
+#include <cmath>
+#include <utility>
 
 namespace echocine {
 
@@ -29,18 +30,28 @@ EdgeEnds endsOf(const Triangle& t, const std::vector<Vec3f>& positions) {
 // one edge and ends at most one: following an edge's end to the edge that starts there never
 // branches.
 class Chainer {
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
  public:
   Chainer(std::span<const ContourEdge> edges, std::vector<EdgeEnds> ends)
-      : edges_(edges), ends_(std::move(ends)), used_(ends_.size(), false) {
-    for (std::size_t i = 0; i < ends_.size(); ++i) {
-      starts_.emplace(ends_[i].from, i);
-      ended_.emplace(ends_[i].to, i);
+      : edges_(edges),
+        ends_(std::move(ends)),
+        used_(ends_.size(), false),
+        follows_(ends_.size(), false) {
+    std::vector<std::pair<EdgeKey, std::size_t>> starts;
+    for (std::size_t i = 0; i < ends_.size(); ++i) starts.emplace_back(ends_[i].from, i);
+    std::sort(starts.begin(), starts.end());
+    for (const EdgeEnds& edge : ends_) {
+      const auto found = std::lower_bound(starts.begin(), starts.end(), std::pair(edge.to, std::size_t{0}));
+      const bool there = found != starts.end() && found->first == edge.to;
+      next_.push_back(there ? found->second : kNone);
+      if (there) follows_[found->second] = true;
     }
   }
 
   void run(std::vector<Contour>& out) {
     for (std::size_t i = 0; i < ends_.size(); ++i)
-      if (!ended_.contains(ends_[i].from)) follow(i, out);  // open chains first, from their ends
+      if (!follows_[i]) follow(i, out);  // open chains first, from their ends
     for (std::size_t i = 0; i < ends_.size(); ++i)
       if (!used_[i]) follow(i, out);
   }
@@ -50,12 +61,12 @@ class Chainer {
     Contour contour{edges_[first].surface, false, {edges_[first].cut.from}};
     for (std::size_t i = first;;) {
       used_[i] = true;
-      const auto next = starts_.find(ends_[i].to);
-      contour.closed = next != starts_.end() && next->second == first;
+      const std::size_t next = next_[i];
+      contour.closed = next == first;
       if (contour.closed) break;
       contour.points_m.push_back(edges_[i].cut.to);
-      if (next == starts_.end() || used_[next->second]) break;
-      i = next->second;
+      if (next == kNone || used_[next]) break;
+      i = next;
     }
     out.push_back(std::move(contour));
   }
@@ -63,7 +74,8 @@ class Chainer {
   std::span<const ContourEdge> edges_;
   std::vector<EdgeEnds> ends_;
   std::vector<bool> used_;
-  std::unordered_map<EdgeKey, std::size_t> starts_, ended_;
+  std::vector<bool> follows_;      // an edge ends where this one starts
+  std::vector<std::size_t> next_;  // the edge that starts where this one ends
 };
 
 }  // namespace
@@ -81,6 +93,14 @@ std::vector<Contour> chainContours(std::span<const ContourEdge> edges,
     Chainer(edges.subspan(begin, end - begin), std::move(ends)).run(contours);
   }
   return contours;
+}
+
+std::vector<Contour> contoursAt(const MeshMotion& motion, const Probe& probe, double phase) {
+  SurfaceFrame frame;
+  motion.frameAt(phase - std::floor(phase), frame);
+  PlaneSlice slice(motion.surfaces(), probe);
+  slice.update(frame);
+  return chainContours(slice.edges(), motion.surfaces(), frame);
 }
 
 }  // namespace echocine

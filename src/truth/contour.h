@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/plane_slice.h"
+#include "motion/mesh_motion.h"
 
 namespace echocine {
 
@@ -21,5 +22,9 @@ struct Contour {
 std::vector<Contour> chainContours(std::span<const ContourEdge> edges,
                                    const std::vector<SurfaceTopology>& surfaces,
                                    const SurfaceFrame& frame);
+
+// All contours in the probe's plane at a phase, which may be any number of beats. Allocates all it
+// needs: for a few frames, where TruthMaker is for a loop. Thread-safe.
+std::vector<Contour> contoursAt(const MeshMotion& motion, const Probe& probe, double phase);
 
 }  // namespace echocine

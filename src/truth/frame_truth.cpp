@@ -1,8 +1,12 @@
 #include "truth/frame_truth.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
+#include "core/units.h"
 #include "motion/interior_motion.h"
 #include "scene/effect_plan.h"
 
@@ -14,6 +18,8 @@ bool wantsAny(const Scene& scene, bool (*kind)(Channel)) {
   return std::any_of(kTruthChannels.begin(), kTruthChannels.end(),
                      [&](Channel c) { return kind(c) && wants(scene, c); });
 }
+
+constexpr float kFarAway = 1e9f;
 
 bool isVelocity(Channel channel) {
   return channel >= Channel::velocity_lateral;
@@ -55,6 +61,7 @@ TruthMaker::TruthMaker(const Scene& scene, const MeshMotion& motion, const Pictu
   if (!scene.truth.tracks && !scene.truth.function) return;
   function_.emplace(scene, motion, *field_, first_phase);
   if (scene.truth.tracks) chooseTracks();
+  if (scene.truth.function) lookAtBeat();
 }
 
 TruthMaker::~TruthMaker() = default;
@@ -70,14 +77,47 @@ void TruthMaker::chooseTracks() {
   for (const std::uint32_t i : nearest)
     for (std::uint8_t layer = 0; layer < 3 && tracked_.size() < wanted; ++layer)
       tracked_.push_back({layer, static_cast<std::uint8_t>(columns[i].segment), i});
+  tracked_y_m_ = {kFarAway, -kFarAway};
+  for (const Tracked& point : tracked_)
+    for (const Vec3f p : {columns[point.column].mid_m, columns[point.column].epi_m})
+      tracked_y_m_ = {std::min(tracked_y_m_.first, p.y), std::max(tracked_y_m_.second, p.y)};
+  const auto seen = [&](const Tracked& point) {
+    const Vec3d p = toDouble(columns[point.column].mid_m);
+    return inScanArea(scene_.probe, p.x, p.z);
+  };
+  if (!std::any_of(tracked_.begin(), tracked_.end(), seen))
+    throw SceneError(atPlace(
+        scene_.truth.tracks_place,
+        fmt::format("no material point of {} is within the sector: aim the probe at it, or leave "
+                    "tracks out of truth.write",
+                    scene_.structures[index(function_->wall())].name)));
 }
 
-void TruthMaker::addTracks(const Space& space, FrameTruth& truth) const {
+// Volumes at 256 phases: 4 ms at 60 beats a minute, less between them.
+void TruthMaker::lookAtBeat() {
+  constexpr int kSteps = 256;
+  const SurfaceTopology& cavity = motion_.surfaces()[index(function_->cavity())];
+  SurfaceFrame surfaces;
+  std::vector<double> volume_ml;
+  for (int i = 0; i < kSteps; ++i) {
+    motion_.frameAt(static_cast<double>(i) / kSteps, surfaces, false);
+    volume_ml.push_back(millilitresFromCubicMetres(motion_.volumeIn(surfaces, cavity)));
+  }
+  valves_ = valveTimes(volume_ml);
+  if (valves_ && scene_.motion.end_systole_phase)
+    valves_->aortic_closes = *scene_.motion.end_systole_phase;
+  motion_.frameAt(field_->referencePhase(), surfaces, false);
+  view_ = viewOffset(function_->landmarks(surfaces), cavity,
+                     surfaces.positions_m[index(function_->cavity())]);
+}
+
+void TruthMaker::addTracks(const SurfaceFrame& surfaces, const Space& space,
+                           FrameTruth& truth) const {
   const GroupFrame& wall = space.now[field_->groupOf(function_->wall())];
   for (const Tracked& point : tracked_) {
     const WallColumn& column = function_->columns()[point.column];
     truth.tracks_m.push_back(
-        point.layer == 0 ? space.surfaces.positions_m[index(function_->cavity())][column.vertex]
+        point.layer == 0 ? surfaces.positions_m[index(function_->cavity())][column.vertex]
                          : wall.place(point.layer == 1 ? column.mid_m : column.epi_m));
   }
 }
@@ -112,25 +152,44 @@ void TruthMaker::addMotion(const TruthTime& time, Space& space, FrameTruth& trut
   motionPlanes(scene_, *field_, times, truth.sample_ids, velocity_, truth.motion);
 }
 
-FrameTruth TruthMaker::at(const TruthTime& time) const {
+const PlaneSlice& TruthMaker::sliceOf(const SurfaceFrame& surfaces, const TruthShared& shared,
+                                      Space& space) const {
+  if (shared.slice != nullptr) return *shared.slice;
+  space.slice.update(surfaces);
+  return space.slice;
+}
+
+FrameTruth TruthMaker::at(const TruthTime& time, const TruthShared& shared) const {
   FrameTruth truth;
+  const TruthSettings& wanted = scene_.truth;
   const std::shared_ptr<Space> s = space();
-  motion_.frameAt(time.phase, s->surfaces);
-  s->slice.update(s->surfaces);
-  if (scene_.truth.labels) {
-    plane_.picture(s->slice.edges(), truth.picture_ids);
-    truth.labels.reserve(truth.picture_ids.size());
-    for (const std::uint16_t id : truth.picture_ids)
-      truth.labels.push_back(id == 0 ? std::uint8_t{0} : labels_.numbers[id - 1u]);
+  if (shared.surfaces == nullptr) motion_.frameAt(time.phase, s->surfaces, false);
+  const SurfaceFrame& surfaces = shared.surfaces != nullptr ? *shared.surfaces : s->surfaces;
+  if (wanted.labels || wanted.contours || samples_) {
+    const PlaneSlice& slice = sliceOf(surfaces, shared, *s);
+    if (wanted.labels) addLabels(slice, truth);
+    if (samples_) plane_.samples(slice.lines(), truth.sample_ids);
+    if (wanted.contours)
+      truth.contours = chainContours(slice.edges(), motion_.surfaces(), surfaces);
   }
-  if (samples_) plane_.samples(s->slice.lines(), truth.sample_ids);
-  if (scene_.truth.contours)
-    truth.contours = chainContours(s->slice.edges(), motion_.surfaces(), s->surfaces);
-  if (function_) field_->at(time.phase, s->now);
-  if (scene_.truth.function) truth.function = function_->at(s->surfaces, s->now);
-  if (scene_.truth.tracks) addTracks(*s, truth);
+  if (wanted.function) {
+    field_->at(time.phase, s->now);
+    truth.function = function_->at(surfaces, s->now);
+  } else if (wanted.tracks) {
+    field_->at(time.phase, s->now, tracked_y_m_);
+  }
+  if (wanted.tracks) addTracks(surfaces, *s, truth);
   if (motion_wanted_) addMotion(time, *s, truth);
   return truth;
+}
+
+void TruthMaker::addLabels(const PlaneSlice& slice, FrameTruth& truth) const {
+  plane_.picture(slice.edges(), truth.picture_ids);
+  std::vector<std::uint8_t> number_of{0};
+  number_of.insert(number_of.end(), labels_.numbers.begin(), labels_.numbers.end());
+  truth.labels.resize(truth.picture_ids.size());
+  std::transform(truth.picture_ids.begin(), truth.picture_ids.end(), truth.labels.begin(),
+                 [&](std::uint16_t id) { return number_of[id]; });
 }
 
 }  // namespace echocine

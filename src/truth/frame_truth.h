@@ -13,6 +13,8 @@
 #include "truth/label_table.h"
 #include "truth/motion_planes.h"
 #include "truth/plane_labels.h"
+#include "truth/valve_times.h"
+#include "truth/view_offset.h"
 
 namespace echocine {
 
@@ -38,8 +40,14 @@ struct FrameTruth {
 
 // An instant and its neighbours, from which velocity is taken.
 struct TruthTime {
-  double phase = 0, before = 0, after = 0;
-  double seconds = 0;  // from before to after
+  double phase = 0, before = 0, after = 0;  // phases of the keyframes, [0, 1)
+  double seconds = 0;                       // from before to after
+};
+
+// What the tracer has made of the same phase already; null where it has not.
+struct TruthShared {
+  const SurfaceFrame* surfaces = nullptr;
+  const PlaneSlice* slice = nullptr;  // of all surfaces
 };
 
 class TruthMaker {
@@ -61,8 +69,13 @@ class TruthMaker {
   };
   const std::vector<Tracked>& tracked() const { return tracked_; }
 
+  // Of the whole loop, where function is asked for: the left ventricle's valves, none where its
+  // volume does not change, and the view at the reference phase.
+  const std::optional<ValveTimes>& valves() const { return valves_; }
+  const std::optional<ViewOffset>& view() const { return view_; }
+
   // Thread-safe.
-  FrameTruth at(const TruthTime& time) const;
+  FrameTruth at(const TruthTime& time, const TruthShared& shared = {}) const;
 
   static bool wanted(const Scene& scene);
 
@@ -70,7 +83,11 @@ class TruthMaker {
   struct Space;
   std::shared_ptr<Space> space() const;
   void chooseTracks();
-  void addTracks(const Space& space, FrameTruth& truth) const;
+  void lookAtBeat();
+  void addTracks(const SurfaceFrame& surfaces, const Space& space, FrameTruth& truth) const;
+  void addLabels(const PlaneSlice& slice, FrameTruth& truth) const;
+  const PlaneSlice& sliceOf(const SurfaceFrame& surfaces, const TruthShared& shared,
+                            Space& space) const;
   void addMotion(const TruthTime& time, Space& space, FrameTruth& truth) const;
 
   const Scene& scene_;
@@ -81,6 +98,9 @@ class TruthMaker {
   std::optional<MotionField> field_;
   std::optional<HeartFunction> function_;
   std::vector<Tracked> tracked_;
+  std::pair<float, float> tracked_y_m_{};  // lowest and highest at the reference phase
+  std::optional<ValveTimes> valves_;
+  std::optional<ViewOffset> view_;
   FieldFrame first_;  // the loop's first frame
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<Space>> free_;

@@ -4,21 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/error.h"
 #include "core/units.h"
 #include "scene/names.h"
+#include "truth/surface_normals.h"
 
 namespace echocine {
 
 namespace {
-
-constexpr int kDiscs = 20;
-// Half the base over which strain is measured, and the steps in which the wall is felt. Our
-// choices.
-constexpr float kReach_m = 1e-3f, kStep_m = 0.25e-3f, kThickest_m = 30e-3f;
 
 SurfaceId required(const Scene& scene, Role role) {
   const auto found = structureOf(scene, role);
@@ -37,17 +32,17 @@ Vec3d middleOf(const std::vector<Vec3f>& points) {
   return (1.0 / static_cast<double>(points.size())) * sum;
 }
 
-std::vector<Vec3d> vertexNormals(const SurfaceTopology& surface, const std::vector<Vec3f>& p) {
-  std::vector<Vec3d> normals(p.size());
-  for (const Triangle& t : surface.triangles) {
-    const Vec3d n = cross(toDouble(p[t[1]] - p[t[0]]), toDouble(p[t[2]] - p[t[0]]));
-    for (const std::uint32_t v : t) normals[v] = normals[v] + n;
-  }
-  return normals;
-}
+// So far from a surface its neighbour is looked for. Our choice.
+constexpr float kBeyond_m = 0.5e-3f;
 
-Vec3d acrossAxis(Vec3d v, Vec3d axis) {
-  return v - dot(v, axis) * axis;
+// Just outside each vertex; nothing where faces have no area.
+std::vector<std::optional<Vec3f>> outsideOf(const SurfaceTopology& surface,
+                                            const std::vector<Vec3f>& p) {
+  std::vector<std::optional<Vec3f>> outside(p.size());
+  const std::vector<Vec3d> normals = vertexNormals(surface.triangles, p);
+  for (std::size_t v = 0; v < p.size(); ++v)
+    if (length(normals[v]) > 0) outside[v] = p[v] + kBeyond_m * toFloat(normalised(normals[v]));
+  return outside;
 }
 
 }  // namespace
@@ -58,10 +53,12 @@ HeartFunction::HeartFunction(const Scene& scene, const MeshMotion& motion, const
       motion_(motion),
       field_(field),
       cavity_(required(scene, Role::lv_cavity)),
-      wall_(required(scene, Role::lv_wall)) {
+      wall_(required(scene, Role::lv_wall)),
+      right_(structureOf(scene, Role::rv_cavity)) {
   SurfaceFrame surfaces;
   motion.frameAt(field.referencePhase(), surfaces);
-  findAxis(surfaces);
+  findBase(surfaces);
+  findAxes(surfaces);
   findColumns(surfaces);
   if (columns_.empty())
     throw SceneError(atPlace(
@@ -71,29 +68,43 @@ HeartFunction::HeartFunction(const Scene& scene, const MeshMotion& motion, const
   FieldFrame first;
   field.at(first_phase, first);
   motion.frameAt(first_phase, surfaces);
-  first_base_m_ = baseIn(surfaces);
-  first_axis_ = normalised(apexIn(surfaces, first_base_m_) - first_base_m_);
-  for (const WallColumn& column : columns_) first_.push_back(lengths(column, surfaces, first));
+  first_ = axisIn(surfaces);
+  if (hasRightHeart()) first_lateral_m_ = toDouble(surfaces.positions_m[index(*right_)][lateral_]);
+  for (const WallColumn& column : columns_)
+    first_lengths_.push_back(lengths(column, surfaces, first));
+  first_rotations_ = rotations(surfaces);
+}
+
+Orifice HeartFunction::orificeOf(SurfaceId cavity, Role beyond,
+                                 const SurfaceFrame& surfaces) const {
+  const auto other = structureOf(scene_, beyond);
+  if (!other) return {};
+  const SurfaceTopology& surface = motion_.surfaces()[index(cavity)];
+  const auto outside = outsideOf(surface, surfaces.positions_m[index(cavity)]);
+  std::vector<std::uint32_t> bordering;
+  for (std::uint32_t v = 0; v < outside.size(); ++v)
+    if (outside[v] && field_.surfaceAt(*outside[v]) == other) bordering.push_back(v);
+  return {surface.triangles, bordering};
 }
 
 // The base is where the cavity's surface meets the left atrium; without one, where it ends at
-// something else than wall and papillary muscles. Where it nowhere
-// does, the end that is farthest along the first guess of an axis.
-void HeartFunction::findAxis(const SurfaceFrame& surfaces) {
+// something else than wall and papillary muscles. Where it nowhere does, the end that is farthest
+// from the middle.
+void HeartFunction::findBase(const SurfaceFrame& surfaces) {
+  const SurfaceTopology& surface = motion_.surfaces()[index(cavity_)];
   const std::vector<Vec3f>& p = surfaces.positions_m[index(cavity_)];
-  const std::vector<Vec3d> normals = vertexNormals(motion_.surfaces()[index(cavity_)], p);
-  const auto atrium = structureOf(scene_, Role::la);
-  std::vector<std::uint32_t> at_atrium;
+  mitral_ = orificeOf(cavity_, Role::la, surfaces);
+  aortic_ = orificeOf(cavity_, Role::aorta, surfaces);
+  if (right_) tricuspid_ = orificeOf(*right_, Role::ra, surfaces);
+  if (!mitral_.empty()) return;
+  const auto outside = outsideOf(surface, p);
   for (std::uint32_t v = 0; v < p.size(); ++v) {
-    if (!(length(normals[v]) > 0)) continue;
-    const Vec3f outside = p[v] + 2 * kStep_m * toFloat(normalised(normals[v]));
-    const auto beyond = field_.surfaceAt(outside);
-    if (beyond && atrium && *beyond == *atrium) at_atrium.push_back(v);
+    if (!outside[v]) continue;
+    const auto beyond = field_.surfaceAt(*outside[v]);
     const bool papillary =
         beyond && roleOf(scene_.structures[index(*beyond)]) == Role::papillary_muscle;
     if (!papillary && beyond != wall_ && beyond != cavity_) base_.push_back(v);
   }
-  if (!at_atrium.empty()) base_ = at_atrium;
   if (base_.empty()) {
     const Vec3d middle = middleOf(p);
     const auto far = std::max_element(p.begin(), p.end(), [&](Vec3f a, Vec3f b) {
@@ -101,173 +112,89 @@ void HeartFunction::findAxis(const SurfaceFrame& surfaces) {
     });
     base_.push_back(static_cast<std::uint32_t>(far - p.begin()));
   }
-  base_m_ = baseIn(surfaces);
-  const Vec3d apex_m = apexIn(surfaces, base_m_);
-  length_m_ = length(apex_m - base_m_);
-  axis_ = normalised(apex_m - base_m_);
+  mitral_ = Orifice(surface.triangles, base_);
+}
+
+void HeartFunction::findAxes(const SurfaceFrame& surfaces) {
+  const LongAxis axis = axisIn(surfaces);
+  axes_.base_m = axis.base_m;
+  axes_.length_m = length(axis.apex_m - axis.base_m);
+  axes_.axis = normalised(axis.apex_m - axis.base_m);
   // The septum looks to the right ventricle; without one, to the left of the picture.
-  Vec3d septal = acrossAxis({-1, 0, 0}, axis_);
-  if (const auto right = structureOf(scene_, Role::rv_cavity))
-    septal = acrossAxis(middleOf(surfaces.positions_m[index(*right)]) - middleOf(p), axis_);
-  septal_ = length(septal) > 0 ? normalised(septal) : Vec3d{0, 1, 0};
-  anterior_ = cross(septal_, axis_);
+  Vec3d septal = acrossAxis({-1, 0, 0}, axes_.axis);
+  if (right_)
+    septal = acrossAxis(middleOf(surfaces.positions_m[index(*right_)]) -
+                            middleOf(surfaces.positions_m[index(cavity_)]),
+                        axes_.axis);
+  axes_.septal = length(septal) > 0 ? normalised(septal) : Vec3d{0, 1, 0};
+  axes_.anterior = cross(axes_.septal, axes_.axis);
+  if (hasRightHeart())
+    lateral_ = tricuspid_.farthest(surfaces.positions_m[index(*right_)], axes_.septal);
 }
 
-// From every vertex of the endocardium outwards, until the wall ends.
-void HeartFunction::findColumns(const SurfaceFrame& surfaces) {
+// From the middle of the mitral ring to the farthest place of the cavity.
+LongAxis HeartFunction::axisIn(const SurfaceFrame& surfaces) const {
   const std::vector<Vec3f>& p = surfaces.positions_m[index(cavity_)];
-  const std::vector<Vec3d> normals = vertexNormals(motion_.surfaces()[index(cavity_)], p);
-  for (std::uint32_t v = 0; v < p.size(); ++v) {
-    if (!(length(normals[v]) > 0)) continue;
-    const Vec3d radial = normalised(normals[v]);
-    const Vec3f n = toFloat(radial);
-    float thickness_m = kStep_m;
-    while (thickness_m < kThickest_m && field_.surfaceAt(p[v] + thickness_m * n) == wall_)
-      thickness_m += kStep_m;
-    const Vec3d along = acrossAxis(axis_, radial);
-    if (thickness_m < 4 * kStep_m || thickness_m >= kThickest_m || length(along) < 0.2) continue;
-    const Vec3d longitudinal = normalised(along);
-    WallColumn column{v,
-                      p[v],
-                      p[v] + 0.5f * thickness_m * n,
-                      p[v] + (thickness_m - 0.5f * kStep_m) * n,
-                      n,
-                      toFloat(longitudinal),
-                      toFloat(cross(radial, longitudinal)),
-                      segmentOf(toDouble(p[v]))};
-    columns_.push_back(column);
-  }
-}
-
-// Cerqueira et al., Circulation 105, 539-542, 2002: thirds of the length, six sectors, four at the
-// apex, and a cap, here the last tenth.
-int HeartFunction::segmentOf(Vec3d place_m) const {
-  const Vec3d d = place_m - base_m_;
-  const double zeta = dot(d, axis_) / length_m_;
-  if (zeta > 0.9) return 17;
-  const double degrees = degreesFromRadians(std::atan2(dot(d, anterior_), dot(d, septal_)));
-  if (zeta > 2.0 / 3) {  // 13 anterior, 14 septal, 15 inferior, 16 lateral
-    if (degrees > 45 && degrees <= 135) return 13;
-    if (degrees > -45 && degrees <= 45) return 14;
-    return degrees > -135 && degrees <= -45 ? 15 : 16;
-  }
-  // Anterior, anteroseptal, inferoseptal, inferior, inferolateral, anterolateral.
-  const int ring = zeta > 1.0 / 3 ? 6 : 0;
-  if (degrees > 60 && degrees <= 120) return ring + 1;
-  if (degrees > 0 && degrees <= 60) return ring + 2;
-  if (degrees > -60 && degrees <= 0) return ring + 3;
-  if (degrees > -120 && degrees <= -60) return ring + 4;
-  return ring + (degrees <= -120 ? 5 : 6);
-}
-
-HeartFunction::Lengths HeartFunction::lengths(const WallColumn& c, const SurfaceFrame& surfaces,
-                                              const FieldFrame& field) const {
-  const GroupFrame& group = field[field_.groupOf(wall_)];
-  const auto across = [&](Vec3f direction) {
-    return static_cast<double>(length(group.place(c.mid_m + kReach_m * direction) -
-                                      group.place(c.mid_m - kReach_m * direction)));
-  };
-  const Vec3f endo_m = surfaces.positions_m[index(cavity_)][c.vertex];
-  return {across(c.longitudinal), across(c.radial), across(c.circumferential),
-          static_cast<double>(length(group.place(c.epi_m) - endo_m))};
-}
-
-Vec3d HeartFunction::baseIn(const SurfaceFrame& surfaces) const {
-  Vec3d sum;
-  for (const std::uint32_t v : base_) sum = sum + toDouble(surfaces.positions_m[index(cavity_)][v]);
-  return (1.0 / static_cast<double>(base_.size())) * sum;
-}
-
-Vec3d HeartFunction::apexIn(const SurfaceFrame& surfaces, Vec3d base_m) const {
-  const std::vector<Vec3f>& p = surfaces.positions_m[index(cavity_)];
-  return toDouble(*std::max_element(p.begin(), p.end(), [&](Vec3f a, Vec3f b) {
+  const Vec3d base_m =
+      mitral_.empty() ? toDouble(p[base_.front()]) : mitral_.middle(p);
+  const auto apex = std::max_element(p.begin(), p.end(), [&](Vec3f a, Vec3f b) {
     return length(toDouble(a) - base_m) < length(toDouble(b) - base_m);
-  }));
+  });
+  return {base_m, toDouble(*apex)};
 }
 
-// Widths of the cavity at the discs' middles, in the plane through the axis and `across`.
-std::vector<double> HeartFunction::diameters(const SurfaceFrame& surfaces, Vec3d base_m,
-                                             Vec3d apex_m, Vec3d across) const {
-  const Vec3d axis = normalised(apex_m - base_m), wide = normalised(acrossAxis(across, axis)),
-              normal = cross(axis, wide);
-  const double length_m = length(apex_m - base_m);
-  std::vector<std::vector<double>> ends(kDiscs);
+ViewLandmarks HeartFunction::landmarks(const SurfaceFrame& at_reference) const {
+  ViewLandmarks marks{axes_, {}, {}};
+  if (hasRightHeart())
+    marks.tricuspid_m = tricuspid_.middle(at_reference.positions_m[index(*right_)]);
+  if (!aortic_.empty()) marks.aortic_m = aortic_.middle(at_reference.positions_m[index(cavity_)]);
+  return marks;
+}
+
+void HeartFunction::addRings(const SurfaceFrame& surfaces, FunctionFrame& f) const {
+  const auto ring = [&](const Orifice& orifice, SurfaceId cavity) -> std::optional<RingFrame> {
+    if (orifice.empty()) return std::nullopt;
+    const std::vector<Vec3f>& p = surfaces.positions_m[index(cavity)];
+    return RingFrame{orifice.middle(p), orifice.hinges(p)};
+  };
+  f.mitral = ring(mitral_, cavity_);
+  f.aortic = ring(aortic_, cavity_);
+  if (right_) f.tricuspid = ring(tricuspid_, *right_);
+  const Vec3d along = normalised(first_.apex_m - first_.base_m);
+  f.base_descent_mm = millimetresFromMetres(dot(f.axis.base_m - first_.base_m, along));
+  if (hasRightHeart()) {
+    const Vec3d lateral_m = toDouble(surfaces.positions_m[index(*right_)][lateral_]);
+    f.tricuspid_descent_mm = millimetresFromMetres(dot(lateral_m - first_lateral_m_, along));
+  }
+}
+
+void HeartFunction::addVolumes(const SurfaceFrame& surfaces, FunctionFrame& f) const {
   const std::vector<Vec3f>& p = surfaces.positions_m[index(cavity_)];
-  for (const Triangle& t : motion_.surfaces()[index(cavity_)].triangles) {
-    Vec3d cut[2];
-    int count = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t lower = std::min(t[i], t[(i + 1) % 3]),
-                          upper = std::max(t[i], t[(i + 1) % 3]);
-      const Vec3d a = toDouble(p[lower]) - base_m, b = toDouble(p[upper]) - base_m;
-      const double ha = dot(a, normal), hb = dot(b, normal);
-      if ((ha >= 0) != (hb >= 0) && count < 2) cut[count++] = a + (ha / (ha - hb)) * (b - a);
-    }
-    if (count < 2) continue;
-    const double z0 = dot(cut[0], axis), z1 = dot(cut[1], axis);
-    for (int i = 0; i < kDiscs; ++i) {
-      const double z = (i + 0.5) * length_m / kDiscs;
-      if ((z0 >= z) == (z1 >= z)) continue;
-      const Vec3d at = cut[0] + ((z - z0) / (z1 - z0)) * (cut[1] - cut[0]);
-      ends[static_cast<std::size_t>(i)].push_back(dot(at, wide));
-    }
-  }
-  std::vector<double> widths;
-  for (std::vector<double>& list : ends) {
-    std::sort(list.begin(), list.end());
-    double width = 0;
-    for (std::size_t i = 0; i + 1 < list.size(); i += 2) width += list[i + 1] - list[i];
-    widths.push_back(width);
-  }
-  return widths;
+  const SurfaceTopology& surface = motion_.surfaces()[index(cavity_)];
+  const double length_m = length(f.axis.apex_m - f.axis.base_m);
+  const double volume_m3 = motion_.volumeIn(surfaces, surface);
+  f.volume_ml = millilitresFromCubicMetres(volume_m3);
+  f.sphericity = volume_m3 / (std::numbers::pi / 6 * length_m * length_m * length_m);
+  f.biplane_ml = millilitresFromCubicMetres(
+      discVolume(length_m, discWidths(surface.triangles, p, f.axis, axes_.septal),
+                 discWidths(surface.triangles, p, f.axis, axes_.anterior)));
+  // The imaging plane's own normal is y; an axis that leaves it by more than 30 degrees is not
+  // shown.
+  if (std::abs(normalised(f.axis.apex_m - f.axis.base_m).y) >= 0.5) return;
+  const LongAxis shown{{f.axis.base_m.x, 0, f.axis.base_m.z}, {f.axis.apex_m.x, 0, f.axis.apex_m.z}};
+  const Vec3d span = shown.apex_m - shown.base_m;
+  const std::vector<double> widths =
+      discWidths(surface.triangles, p, shown, cross(Vec3d{0, 1, 0}, normalised(span)));
+  f.single_plane_ml = millilitresFromCubicMetres(discVolume(length(span), widths, widths));
 }
 
 FunctionFrame HeartFunction::at(const SurfaceFrame& surfaces, const FieldFrame& field) const {
   FunctionFrame f;
-  std::array<int, kAhaSegments> counts{};
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
-    const Lengths now = lengths(columns_[i], surfaces, field);
-    const double longitudinal = now.longitudinal / first_[i].longitudinal - 1;
-    f.global_longitudinal_strain += longitudinal / static_cast<double>(columns_.size());
-    const auto s = static_cast<std::size_t>(columns_[i].segment - 1);
-    ++counts[s];
-    f.segments[s].longitudinal += longitudinal;
-    f.segments[s].radial += now.radial / first_[i].radial - 1;
-    f.segments[s].circumferential += now.circumferential / first_[i].circumferential - 1;
-    f.segments[s].thickness_mm += millimetresFromMetres(now.thickness);
-  }
-  for (std::size_t s = 0; s < kAhaSegments; ++s) {
-    const double share = counts[s] > 0 ? 1.0 / counts[s] : std::numeric_limits<double>::quiet_NaN();
-    SegmentStrain& segment = f.segments[s];
-    segment = {share * segment.longitudinal, share * segment.radial,
-               share * segment.circumferential, share * segment.thickness_mm};
-  }
-  f.base_m = baseIn(surfaces);
-  f.apex_m = apexIn(surfaces, f.base_m);
-  const double length_m = length(f.apex_m - f.base_m);
-  f.length_mm = millimetresFromMetres(length_m);
-  f.base_descent_mm = millimetresFromMetres(dot(f.base_m - first_base_m_, first_axis_));
-  const double volume_m3 = motion_.volumeIn(surfaces, motion_.surfaces()[index(cavity_)]);
-  f.volume_ml = millilitresFromCubicMetres(volume_m3);
-  f.sphericity = volume_m3 / (std::numbers::pi / 6 * length_m * length_m * length_m);
-  const double disc = std::numbers::pi / 4 * length_m / kDiscs;
-  const auto simpson = [&](const std::vector<double>& a, const std::vector<double>& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-    return millilitresFromCubicMetres(disc * sum);
-  };
-  f.biplane_ml = simpson(diameters(surfaces, f.base_m, f.apex_m, septal_),
-                         diameters(surfaces, f.base_m, f.apex_m, anterior_));
-  // The imaging plane's own normal is y; an axis that leaves it by more than 30 degrees is not
-  // shown.
-  const Vec3d axis = normalised(f.apex_m - f.base_m);
-  if (std::abs(axis.y) < 0.5) {
-    const Vec3d base_m{f.base_m.x, 0, f.base_m.z}, apex_m{f.apex_m.x, 0, f.apex_m.z};
-    const Vec3d across = cross(Vec3d{0, 1, 0}, normalised(apex_m - base_m));
-    const std::vector<double> widths = diameters(surfaces, base_m, apex_m, across);
-    const double shown = length(apex_m - base_m) / length_m;
-    f.single_plane_ml = shown * simpson(widths, widths);
-  }
+  f.axis = axisIn(surfaces);
+  f.length_mm = millimetresFromMetres(length(f.axis.apex_m - f.axis.base_m));
+  addStrain(surfaces, field, f);
+  addRings(surfaces, f);
+  addVolumes(surfaces, f);
   return f;
 }
 

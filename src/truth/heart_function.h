@@ -1,17 +1,20 @@
 #pragma once
-// How the left ventricle works, from its meshes and its material: strain, thickness, length, and
-// volumes as an echo laboratory would measure them.
+// How the left ventricle works, from its meshes and its material: strain, thickness, length,
+// excursion of the valve rings, and volumes as an echo laboratory would measure them.
 
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "motion/interior/motion_field.h"
 #include "motion/mesh_motion.h"
+#include "truth/aha_segments.h"
+#include "truth/orifice.h"
+#include "truth/simpson.h"
+#include "truth/view_offset.h"
 
 namespace echocine {
-
-constexpr std::size_t kAhaSegments = 17;
 
 // A place through the wall of the left ventricle: three material points in the reference phase.
 struct WallColumn {
@@ -21,21 +24,34 @@ struct WallColumn {
   int segment = 0;                              // 1 to 17, as the American Heart Association counts
 };
 
-// Parts of the reference frame's lengths; not a number for a segment without wall.
+// Parts of the first frame's lengths, radial that of the wall's thickness; not a number for a
+// segment without wall.
 struct SegmentStrain {
   double longitudinal = 0, radial = 0, circumferential = 0, thickness_mm = 0;
+};
+using SegmentStrains = std::array<SegmentStrain, kAhaSegments>;
+
+// A valve's ring at one frame.
+struct RingFrame {
+  Vec3d middle_m;
+  std::optional<std::pair<Vec3d, Vec3d>> hinges_m;  // in the imaging plane, the left one first
 };
 
 struct FunctionFrame {
   double global_longitudinal_strain = 0;  // mean over the middle of the wall
-  std::array<SegmentStrain, kAhaSegments> segments{};
-  double length_mm = 0;        // from the middle of the base to the apex of the cavity
-  double base_descent_mm = 0;  // of the middle of the base towards the apex, along the first axis
-  double sphericity = 0;       // cavity's volume over that of a ball as long
-  double volume_ml = 0;        // exact
-  double biplane_ml = 0;       // Simpson's rule, 20 discs, two apical planes across each other
+  SegmentStrains segments{};
+  double view_longitudinal_strain = 0;  // the same of the wall in the imaging plane
+  SegmentStrains view_segments{};
+  double length_mm = 0;             // from the middle of the mitral ring to the cavity's apex
+  double base_descent_mm = 0;       // of that middle towards the apex, along the first axis
+  double tricuspid_descent_mm = 0;  // of that ring's lateral end, along the same axis
+  double twist_deg = 0;    // of the apex against the base, counterclockwise seen from the apex
+  double sphericity = 0;   // cavity's volume over that of a ball as long
+  double volume_ml = 0;    // exact
+  double biplane_ml = 0;   // Simpson's rule, 20 discs, two apical planes across each other
   std::optional<double> single_plane_ml;  // in the imaging plane, where it shows the long axis
-  Vec3d base_m, apex_m;
+  LongAxis axis;
+  std::optional<RingFrame> mitral, tricuspid, aortic;
 };
 
 class HeartFunction {
@@ -48,33 +64,52 @@ class HeartFunction {
   const std::vector<WallColumn>& columns() const { return columns_; }
   SurfaceId cavity() const { return cavity_; }
   SurfaceId wall() const { return wall_; }
+  const HeartAxes& axes() const { return axes_; }           // at the reference phase
+  bool hasRightHeart() const { return !tricuspid_.empty(); }  // and a ring between its cavities
+  ViewLandmarks landmarks(const SurfaceFrame& at_reference) const;
 
   FunctionFrame at(const SurfaceFrame& surfaces, const FieldFrame& field) const;
 
  private:
   struct Lengths {
-    double longitudinal, radial, circumferential, thickness;
+    double longitudinal, circumferential, thickness;
   };
-  void findAxis(const SurfaceFrame& surfaces);
+  // Sums over columns, by segment.
+  struct Means {
+    SegmentStrains sums{};
+    std::array<int, kAhaSegments> counts{};
+    double longitudinal = 0;
+    int count = 0;
+    void add(const WallColumn& column, const Lengths& now, const Lengths& first);
+    SegmentStrains segments() const;
+    double global() const;
+  };
+  void findBase(const SurfaceFrame& surfaces);
+  Orifice orificeOf(SurfaceId cavity, Role beyond, const SurfaceFrame& surfaces) const;
+  void findAxes(const SurfaceFrame& surfaces);
   void findColumns(const SurfaceFrame& surfaces);
-  int segmentOf(Vec3d place_m) const;
   Lengths lengths(const WallColumn& column, const SurfaceFrame& surfaces,
                   const FieldFrame& field) const;
-  Vec3d baseIn(const SurfaceFrame& surfaces) const;
-  Vec3d apexIn(const SurfaceFrame& surfaces, Vec3d base_m) const;
-  std::vector<double> diameters(const SurfaceFrame& surfaces, Vec3d base_m, Vec3d apex_m,
-                                Vec3d across) const;
+  LongAxis axisIn(const SurfaceFrame& surfaces) const;
+  void addStrain(const SurfaceFrame& surfaces, const FieldFrame& field, FunctionFrame& f) const;
+  void addRings(const SurfaceFrame& surfaces, FunctionFrame& f) const;
+  void addVolumes(const SurfaceFrame& surfaces, FunctionFrame& f) const;
+  std::vector<double> rotations(const SurfaceFrame& surfaces) const;
 
   const Scene& scene_;
   const MeshMotion& motion_;
   const MotionField& field_;
   SurfaceId cavity_{}, wall_{};
-  std::vector<std::uint32_t> base_;          // vertices of the cavity that border on no wall
-  Vec3d base_m_, axis_, septal_, anterior_;  // at the reference phase
-  Vec3d first_base_m_, first_axis_;
-  double length_m_ = 0;
+  std::optional<SurfaceId> right_;   // the right ventricle's cavity
+  std::vector<std::uint32_t> base_;  // vertices of the cavity that border on no wall
+  Orifice mitral_, tricuspid_, aortic_;
+  std::uint32_t lateral_ = 0;  // end of the tricuspid ring, a vertex of the right ventricle
+  HeartAxes axes_;             // at the reference phase
+  LongAxis first_;             // at the first frame, as all that follows
+  Vec3d first_lateral_m_;
   std::vector<WallColumn> columns_;
-  std::vector<Lengths> first_;  // at the first frame
+  std::vector<Lengths> first_lengths_;
+  std::vector<double> first_rotations_;
 };
 
 }  // namespace echocine

@@ -11,7 +11,7 @@ namespace {
 
 // Along a line the motion is found at every so many samples of one structure, and linear between:
 // finer than the field's own lattice. Our choice.
-constexpr std::size_t kStride = 8;
+constexpr std::size_t kStride = 12;
 
 // Displacement and velocity of the material at a place, mm and mm/s.
 struct Motion {
@@ -20,8 +20,8 @@ struct Motion {
 
 class LineMotion {
  public:
-  LineMotion(const Scene& scene, const MotionField& field, const FieldTimes& times)
-      : field_(field), times_(times) {
+  LineMotion(const Scene& scene, const MotionField& field, const FieldTimes& times, bool velocity)
+      : field_(field), times_(times), velocity_(velocity) {
     for (const Structure& s : scene.structures)
       tissue_.push_back(!s.membrane &&
                         scene.medium(s.medium).name.find("blood") == std::string::npos);
@@ -39,14 +39,16 @@ class LineMotion {
     if (!reference) return std::nullopt;
     offset_m_ = *reference - place_m;
     const Vec3f moved = place_m - times_.reference[group].place(*reference);
-    const Vec3f run =
-        times_.after[group].place(*reference) - times_.before[group].place(*reference);
+    Vec3f run;
+    if (velocity_)
+      run = times_.after[group].place(*reference) - times_.before[group].place(*reference);
     return Motion{1e3f * moved, static_cast<float>(1e3 / times_.seconds) * run};
   }
 
  private:
   const MotionField& field_;
   const FieldTimes& times_;
+  bool velocity_;
   std::vector<bool> tissue_;
   std::optional<GroupId> group_;
   Vec3f offset_m_;
@@ -66,7 +68,7 @@ void motionPlanes(const Scene& scene, const MotionField& field, const FieldTimes
   for (auto& plane : planes.displacement_mm) plane.assign(ids.size(), kUnknown);
   for (auto& plane : planes.velocity_mm_s) plane.assign(velocity ? ids.size() : 0, kUnknown);
   const auto samples = static_cast<std::size_t>(scene.probe.samples);
-  LineMotion motion(scene, field, times);
+  LineMotion motion(scene, field, times, velocity);
   for (std::size_t first = 0; first < ids.size(); first += samples) {
     const LineGeometry line = lineGeometry(scene.probe, static_cast<int>(first / samples));
     const auto placeOf = [&](std::size_t k) {

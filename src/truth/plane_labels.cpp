@@ -22,9 +22,18 @@ PlaneLabels::PlaneLabels(const Scene& scene, const PictureGrid& grid)
                    [&](std::uint16_t a, std::uint16_t b) {
                      return scene.structures[a - 1u].priority < scene.structures[b - 1u].priority;
                    });
-  for (int row = 0; row < grid.height; ++row)
-    for (int column = 0; column < grid.width; ++column)
-      shown_.push_back(inScanArea(probe_, grid.xOf(column), grid.zOf(row)));
+  for (int row = 0; row < grid.height; ++row) {
+    row_spans_.push_back(spans_.size());
+    bool before = false;
+    for (int column = 0; column < grid.width; ++column) {
+      const bool shown = inScanArea(probe_, grid.xOf(column), grid.zOf(row));
+      const auto c = static_cast<std::uint32_t>(column);
+      if (shown && !before) spans_.emplace_back(c, c);
+      if (shown) spans_.back().second = c + 1;
+      before = shown;
+    }
+  }
+  row_spans_.push_back(spans_.size());
 }
 
 // Half-open at the edge's ends, so that a contour crosses a row an even number of times.
@@ -53,20 +62,27 @@ void PlaneLabels::fillRow(std::vector<RowCrossing>& crossings, std::uint16_t id,
   const auto first = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.width);
   const auto columnFrom = [&](double x_m) {
     const double column = std::ceil(x_m / grid_.metres_per_pixel + grid_.origin_x_px - 0.5);
-    return static_cast<std::size_t>(std::clamp(column, 0.0, static_cast<double>(grid_.width)));
+    return static_cast<std::uint32_t>(std::clamp(column, 0.0, static_cast<double>(grid_.width)));
+  };
+  const auto r = static_cast<std::size_t>(row);
+  const auto paint = [&](std::uint32_t from, std::uint32_t to) {
+    for (std::size_t s = row_spans_[r]; s < row_spans_[r + 1]; ++s) {
+      const std::uint32_t begin = std::max(from, spans_[s].first),
+                          end = std::min(to, spans_[s].second);
+      if (begin < end) std::fill(ids.begin() + static_cast<std::ptrdiff_t>(first + begin),
+                                 ids.begin() + static_cast<std::ptrdiff_t>(first + end), id);
+    }
   };
   int winding = 0;
   for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
     winding += crossings[i].change;
     if (winding == 0) continue;
-    const std::size_t end = columnFrom(crossings[i + 1].x_m);
-    for (std::size_t c = columnFrom(crossings[i].x_m); c < end; ++c)
-      if (shown_[first + c]) ids[first + c] = id;
+    paint(columnFrom(crossings[i].x_m), columnFrom(crossings[i + 1].x_m));
   }
 }
 
 void PlaneLabels::picture(std::span<const ContourEdge> edges, Ids& ids) const {
-  ids.assign(shown_.size(), 0);
+  ids.assign(static_cast<std::size_t>(grid_.width) * static_cast<std::size_t>(grid_.height), 0);
   thread_local std::vector<std::vector<RowCrossing>> rows;
   thread_local std::vector<std::vector<std::size_t>> of_surface;
   rows.resize(static_cast<std::size_t>(grid_.height));
@@ -78,7 +94,8 @@ void PlaneLabels::picture(std::span<const ContourEdge> edges, Ids& ids) const {
     for (auto& row : rows) row.clear();
     for (const std::size_t i : mine) crossRows(edges[i], rows);
     for (int row = 0; row < grid_.height; ++row)
-      fillRow(rows[static_cast<std::size_t>(row)], id, row, ids);
+      if (auto& crossings = rows[static_cast<std::size_t>(row)]; !crossings.empty())
+        fillRow(crossings, id, row, ids);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geometry/plane_slice.h"
@@ -49,7 +50,9 @@ class PlaneLabels {
   Probe probe_;
   PictureGrid grid_;
   std::vector<std::uint16_t> weakest_first_;  // closed structures, from 1
-  std::vector<bool> shown_;                   // pixels within the scan area
+  // Columns [from, to) of each row that lie in the scan area, and the first span of each row.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> spans_;
+  std::vector<std::size_t> row_spans_;
 };
 
 }  // namespace echocine

@@ -1,5 +1,4 @@
-// Every stage of a frame next to its floor: the same work by a bare loop, without rules for ties,
-// media, partial windows or checks. Sizes: triangles / lines / samples.
+// Stages next to their floors, bare loops without rules. Sizes: triangles / lines / samples.
 
 #include "bench/floor/bare_files.h"
 #include "bench/floor/bare_hierarchy.h"
@@ -62,7 +61,7 @@ void trace(benchmark::State& state, bool cells) {
   BareSlice bare(scene);
   PlaneSlice ours(scene.topology, scene.scene.probe);
   const EffectPlan plan = planEffects(scene.scene);
-  const TraceSettings settings(scene.scene, plan, cells);
+  const TraceSettings settings(scene.scene, plan, cells ? EchoCells::contours : EchoCells::none);
   PlaneRequest request = planeRequest(scene.scene, plan);
   request.intensities = false;
   PolarFrame polar;
@@ -89,7 +88,7 @@ struct Traced {
       : scene(size), plan(planEffects(scene.scene)), chain(scene.scene, plan) {
     PlaneSlice slice(scene.topology, scene.scene.probe);
     slice.update(scene.frame(0));
-    const TraceSettings settings(scene.scene, plan, true);
+    const TraceSettings settings(scene.scene, plan, EchoCells::contours);
     traceFrame(slice, scene.scene.probe, settings, planeRequest(scene.scene, plan), polar);
   }
 };
@@ -210,7 +209,8 @@ void hierarchy(benchmark::State& state, bool refraction) {
   const BenchScene scene{Size(state)};
   EffectPlan plan = planEffects(scene.scene);
   plan.refraction = refraction;
-  TraceSettings settings(scene.scene, plan);
+  // Bent lines as the program traces them: with their echoes linked over the cells.
+  TraceSettings settings(scene.scene, plan, refraction ? EchoCells::links : EchoCells::none);
   if (refraction) settings.media[1].sound_speed_m_s = 1570;
   PlaneRequest request = planeRequest(scene.scene, plan);
   request.intensities = false;

@@ -49,6 +49,16 @@ image.src = `data:${type};base64,${text}`;
 """
 
 
+def brightness(colour):
+    """Relative luminance of #rgb or #rrggbb, as WCAG 2.1 has it."""
+    digits = colour.lstrip("#")
+    if len(digits) == 3:
+        digits = "".join(2 * d for d in digits)
+    linear = [(c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4)
+              for c in (int(digits[i:i + 2], 16) / 255 for i in (0, 2, 4))]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
 class Browser:
     """One Chromium for all tests of a file; use with `with`."""
 
@@ -147,6 +157,54 @@ class PageTest(unittest.TestCase):
             self.browser.open(self.path, width)
             inner, content = self.run_script("return [innerWidth, document.documentElement.scrollWidth]")
             self.assertLessEqual(content, inner, f"at {width} pixels")
+
+    def test_no_legend_cuts_its_words(self):
+        """Above or below; beside, a legend scrolls. A tenth of its height is spare."""
+        cut = self.run_script("""
+            const placed = (element) => {
+              const box = element.getBoundingRect().clone();
+              if (element.transform) box.applyTransform(element.transform);
+              return box;
+            };
+            return page.parts.charts.flatMap((chart) => chart.getZr().storage.getDisplayList(true)
+              .filter((e) => e.type === "tspan" && e.__clipPaths?.length)
+              .filter((e) => {
+                const text = placed(e), clip = placed(e.__clipPaths[0]), spare = 0.1 * text.height;
+                return text.y - spare < clip.y || text.y + text.height + spare > clip.y + clip.height;
+              }).map((e) => e.style.text));""")
+        self.assertEqual(cut, [])
+
+    def test_fits_a_phone(self):
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                    {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        try:
+            self.browser.open(self.path)
+            self.assertLessEqual(self.run_script("return document.documentElement.scrollWidth"), 390)
+        finally:
+            self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+    def test_can_be_read_in_the_dark_in_light_and_on_paper(self):
+        grounds = {}
+        for media, scheme in (("screen", "dark"), ("screen", "light"), ("print", "light"), ("print", "dark")):
+            self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+                "media": media, "features": [{"name": "prefers-color-scheme", "value": scheme}]})
+            try:
+                colours = {name: brightness(self.run_script("return page.colour(arguments[0])", name))
+                           for name in ("ground", "card", "text", "muted", "accent")}
+                frames = self.run_script("""return Array.from(document.querySelectorAll(".loop canvas"),
+                    (canvas) => getComputedStyle(canvas).backgroundColor)""")
+            finally:
+                self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": []})
+            grounds[media, scheme] = colours["ground"]
+            for name in ("text", "muted", "accent"):
+                light, dark = sorted((colours[name], colours["card"]), reverse=True)
+                # Of the Web Content Accessibility Guidelines 2.1, 1.4.3.
+                self.assertGreaterEqual((light + 0.05) / (dark + 0.05), 4.5, f"{name}, {media}, {scheme}")
+            if media == "print":  # frames that are not decoded yet are white paper
+                self.assertEqual([f for f in frames if f != "rgba(0, 0, 0, 0)"], [])
+        self.assertLess(grounds["screen", "dark"], 0.1)
+        self.assertGreater(grounds["screen", "light"], 0.8)
+        self.assertEqual({grounds["print", "light"], grounds["print", "dark"]}, {1.0})
 
     def test_every_control_has_a_name_and_every_chart_a_description(self):
         nameless = self.run_script("""

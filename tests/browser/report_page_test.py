@@ -44,6 +44,22 @@ class ReportPage(browser.PageTest):
     def test_curves_move_the_player(self):
         self.check_curves_move_the_player([1])  # volumes; the ECG has points of its own
 
+    def test_strain_moves_the_player(self):
+        self.check_curves_move_the_player([2, 3])
+
+    def test_truth_is_drawn_over_the_loop_when_ticked(self):
+        pixels = """
+            const canvas = document.querySelector("#player canvas");
+            return Array.from(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data)
+              .reduce((sum, v) => sum + v, 0)"""
+        plain = self.run_script(pixels)
+        for kind in ("labels", "contours", "tracks"):
+            tick = f"document.getElementById('show-{kind}').click()"
+            self.run_script(tick)
+            self.wait(lambda: self.run_script(pixels) > plain + 1000, f"{kind} are not drawn")
+            self.run_script(tick)
+            self.wait(lambda: self.run_script(pixels) == plain, f"{kind} stay")
+
     def test_ecg_moves_the_player(self):
         for share in (0.25, 0.75):
             points = self.run_script("return page.parts.charts[0].getOption().series[0].data.length")
@@ -111,7 +127,8 @@ def make_page(folder):
     program, source = sys.argv[1:3]
     ReportPage.folder = os.path.join(folder, "loop")
     scene = os.path.join(source, "examples", "beating_heart", "scene.toml")
-    subprocess.run([program, "render", scene, "-o", ReportPage.folder, "--frames", f"{FIRST}:{LAST}", "--quiet"],
+    subprocess.run([program, "render", scene, "-o", ReportPage.folder, "--frames", f"{FIRST}:{LAST}",
+                    "--truth", "all", "--quiet"],
                    check=True)
     return os.path.join(ReportPage.folder, "report.html")
 

@@ -138,12 +138,13 @@ void expectPicture(const World& world, const EffectPlan& plan, PolarFrame& polar
 void expectLawful(const World& world, const EffectPlan& plan, Tracer tracer,
                   const PolarFrame& polar) {
   expectIntensities(world, polar);
-  const TraceSettings settings(world.scene, plan, tracer == Tracer::cells);
+  const TraceSettings settings(world.scene, plan,
+                               tracer == Tracer::cells ? EchoCells::contours : EchoCells::none);
   for (const LineTrace& line : polar.traces) {
     expectOrderedSegments(world, settings, line);
     expectEnergy(world, settings, line);
     if (testing::Test::HasFatalFailure()) return;
-    if (settings.cell_echoes) {
+    if (settings.cells != EchoCells::none) {
       EXPECT_TRUE(line.echoes.empty());
     }
   }
@@ -272,6 +273,25 @@ TEST(RandomScenes, ADeeperInterfaceChangesNothingShallower) {
         for (std::size_t k = begin; k < begin + same; ++k)
           ASSERT_EQ(before[k], after[k]) << "line " << begin / samples << ", sample " << k - begin;
     }
+  });
+}
+
+// What the plan leaves out of a picture nobody can see: forced on, it gives the same bytes.
+// Refraction and travel time are other pictures.
+TEST(RandomScenes, EverythingForcedOnIsThePictureOfThePlan) {
+  forRandomWorlds(8, [](World world, std::uint64_t) {
+    world.scene.output.channels.clear();
+    world.scene.output.cine = true;
+    EffectSwitches& switches = world.scene.effects;
+    switches = {};
+    switches.refraction = Switch::off;
+    const PolarFrame planned = traceWorld(world, Tracer::slice);
+    for (Switch* s : {&switches.reflection, &switches.lobe, &switches.transmission_loss,
+                      &switches.attenuation, &switches.backscatter, &switches.spread,
+                      &switches.snell_angles, &switches.reflection_cap, &switches.thin_layers})
+      *s = Switch::on;
+    const PolarFrame forced = traceWorld(world, Tracer::slice);
+    EXPECT_EQ(planned.intensities, forced.intensities);
   });
 }
 

@@ -15,6 +15,7 @@ TEST(AttenuationUnits, OneNeperIsTwentyLogEDecibelsOfAmplitude) {
   EXPECT_NEAR(nepersFromDecibels(8.685889638065037), 1, 1e-15);
 }
 
+// One number taken there and back is itself.
 TEST(AttenuationUnits, DecibelsAndNepersConvertBothWays) {
   for (const double db : {-120.0, 0.0, 1e-6, 0.52, 3.0, 60.0})
     EXPECT_DOUBLE_EQ(decibelsFromNepers(nepersFromDecibels(db)), db);

@@ -120,6 +120,7 @@ TEST(TissueBackscatter, ClosesThePointWhereTheTwoFormsTakeTurns) {
     EXPECT_NEAR(static_cast<double>(tissueBackscatter(1, 1, x) / exactTissue(1, 1, x)), 1, 1e-12);
 }
 
+// Eq. 7 with mu = 0 or b_m = 0 leaves nothing to scatter.
 TEST(TissueBackscatter, VanishesWithoutCorrelationOrVariation) {
   EXPECT_EQ(tissueBackscatter(0.004, 1e4, 0), 0);
   EXPECT_EQ(tissueBackscatter(0, 1e4, 3e-5), 0);

@@ -66,6 +66,7 @@ double meanLobe(const Probe& p, double z, int n) {
   return static_cast<double>(sum / weight);
 }
 
+// Law: an endless plane is met by all of the beam, each ray at its own angle.
 TEST(BeamAverageLaw, APlaneAcrossTheBeamSendsBackItsLobesMeanOverTheProfile) {
   constexpr int n = 50;
   for (const ProbeKind kind : {ProbeKind::phased, ProbeKind::curvilinear, ProbeKind::linear})
@@ -106,6 +107,7 @@ TEST(BeamAverageLaw, AStripsLateralProfileIsTheTwoWayBeam) {
   std::printf("worst share of the beam: %.2g\n", worst);
 }
 
+// Law: what a strip sends back is its share of the two-way profile.
 TEST(BeamAverageLaw, AStripsElevationProfileIsTheTwoWayBeam) {
   const Probe probe = sheetWorld(sheet(1, 1, 1)).scene.probe;
   const double whole = wholeEcho(sheetWorld(sheet(1, 1, 1)));

@@ -66,6 +66,7 @@ TEST(CompareMetrics, AConstantOffsetHasClosedForms) {
   EXPECT_NEAR(m.gradient_correlation, 1, 1e-9);
 }
 
+// Correlations are blind to gain and offset, and turn their sign with a negative.
 TEST(CompareMetrics, ContrastBrightnessAndTheirSignInCorrelations) {
   const std::vector<float> x = waves(0);
   std::vector<float> dim = x, negative = x;
@@ -103,6 +104,7 @@ TEST(CompareMetrics, MutualInformationOfACoinIsOneBit) {
   EXPECT_NEAR(frameMetrics(pair(x, y)).mutual_information, 1, 1e-12);
 }
 
+// What weighs nothing may hold anything.
 TEST(CompareMetrics, SamplesOutsideTheAreaDoNotCount) {
   const std::vector<float> x = waves(0);
   std::vector<float> y = x, weights = kOnes;
@@ -196,6 +198,7 @@ TEST(EdgeCorrelation, FramesWithoutEdges) {
   EXPECT_EQ(edgeCorrelationOf(flat, x), 0);
 }
 
+// What weighs nothing may hold anything.
 TEST(EdgeCorrelation, SamplesOutsideTheAreaDoNotCount) {
   const std::vector<float> x = rings(1, 8);
   std::vector<float> y = x, weights = sectorWeights();
@@ -205,6 +208,7 @@ TEST(EdgeCorrelation, SamplesOutsideTheAreaDoNotCount) {
   EXPECT_EQ(edgeCorrelation(edges(x), edges(y)), 1);
 }
 
+// Else two loops that were pushed apart would be the most alike.
 TEST(CompareMetrics, WhatRegistrationMovesOutOfSightCountsAsUnlike) {
   EXPECT_EQ(discrepancyOf(1, 0.75), 0.25);
   const std::vector<float> all(10, 1.0f), half{1, 1, 1, 1, 1, 0, 0, 0, 0, 0};
@@ -257,6 +261,7 @@ TEST(GreyCalibration, MonotoneOfAFallingLineIsItsMean) {
   for (const double v : fit.solve(true).values) EXPECT_NEAR(v, sum / 201, 1e-6);
 }
 
+// Greys 255 sqrt(u) of even u have their quantiles at 255 sqrt(share).
 TEST(GreyCalibration, KnotsHoldEqualShares) {
   std::vector<float> x;
   for (int i = 0; i < 10000; ++i)

@@ -43,6 +43,7 @@ TEST(TimeAlignmentLaw, AShiftIsFoundToATenthOfAFrame) {
   }
 }
 
+// Places advance by the ratio of the rates, which nobody tells here.
 TEST(TimeAlignmentLaw, AnotherFrameRateIsFoundWithoutKnownBeats) {
   const Features s = wheel(even(40, 40)), r = wheel(even(22, 30, 3));
   const TimeAlignment t = alignInTime({s, r, 0, 0, 1.2, {}});
@@ -67,6 +68,7 @@ TEST(TimeAlignmentLaw, AWarpedBeatIsFound) {
     EXPECT_GE(std::remainder(t.place[j] - t.place[j - 1], n), -1e-9);
 }
 
+// What is known is met, and nothing is invented between.
 TEST(TimeAlignmentLaw, AnchorsAreMetAndStraightBetween) {
   const Features s = wheel(even(30, 30)), r = wheel(even(20, 20));
   TimeAlignment t = alignByAnchors({s, r, 30, 20, 1, {}}, {{2, 0}, {8, 12}});

@@ -159,6 +159,7 @@ double tolerance(const Pair& p, double cos_i, const Exact& e) {
   return static_cast<double>(1e-14L + std::min(2 * slope * cosine, 1.0L));
 }
 
+// Eq. 1 in long double is the oracle.
 TEST(InterfaceLaw, AgreesWithLongDoubleOverAllAngles) {
   for (const Pair& p : kPairs)
     for (const double cos_i : incidences()) {
@@ -169,6 +170,7 @@ TEST(InterfaceLaw, AgreesWithLongDoubleOverAllAngles) {
     }
 }
 
+// There the root of cos theta_t is steepest: each step of the angle counts.
 TEST(InterfaceLaw, AgreesWithLongDoubleUlpByUlpAroundTheCriticalAngle) {
   for (const Pair& p : kPairs) {
     if (p.c_2 <= p.c_1) continue;
@@ -203,6 +205,7 @@ void expectLanesAgree(const Pair& p, double cos_i) {
   }
 }
 
+// Lanes hold the same law as the single interface.
 TEST(InterfaceLaw, OfFourInterfacesAtOnceAgreesWithLongDouble) {
   for (const Pair& p : kPairs) {
     for (const double cos_i : incidences()) expectLanesAgree(p, cos_i);
@@ -224,6 +227,7 @@ TEST(InterfaceLaw, OfFourInterfacesOfNearlyEqualMediaKeepsItsDigits) {
   }
 }
 
+// Section 2.1: W cos^n theta_i.
 TEST(InterfaceLaw, LobeIsWAtNormalIncidenceAndFollowsItsExponent) {
   for (const double n : {0.0, 0.5, 1.0, 2.0, 7.3}) {
     EXPECT_DOUBLE_EQ(nonSpecularReturn(0.3, 1, n), 0.3);

@@ -220,6 +220,7 @@ std::vector<long double> denseCurvatures(const std::vector<double>& t,
   return m;
 }
 
+// The periodic spline solved in long double is the oracle.
 TEST(MotionInterpolationLaw, SplineMatchesALongDoubleSolution) {
   for (const std::vector<double>& t : kPhaseSets) {
     const std::size_t n = t.size();

@@ -25,6 +25,7 @@ double volumeAt(const MeshMotion& motion, double phase) {
   return enclosedVolume(motion.surfaces()[0], frame.positions_m[0]);
 }
 
+// Interpolation passes through what was recorded.
 TEST(MotionSurfaceLaw, KeyframePhasesReproduceTheirKeyframes) {
   const TestFolder folder;
   for (const Interpolation kind : kKinds) {
@@ -41,6 +42,7 @@ TEST(MotionSurfaceLaw, KeyframePhasesReproduceTheirKeyframes) {
   }
 }
 
+// Phase 1 is phase 0 of the next beat.
 TEST(MotionSurfaceLaw, TheCycleClosesWithoutAJump) {
   const TestFolder folder;
   for (const Interpolation kind : kKinds) {
@@ -55,6 +57,7 @@ TEST(MotionSurfaceLaw, TheCycleClosesWithoutAJump) {
   }
 }
 
+// Hits and material points are named by faces, and inside is told by closed surfaces.
 TEST(MotionSurfaceLaw, FacesNeverChangeAndSurfacesStayClosed) {
   const TestFolder folder;
   for (int levels = 0; levels <= 2; ++levels) {

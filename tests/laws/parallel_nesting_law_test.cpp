@@ -122,6 +122,7 @@ TEST(ParallelLaw, AFrameThatWaitsForItsLinesTakesUpNoOtherFrame) {
   }
 }
 
+// Nobody is left waiting for a loop that has thrown.
 TEST(ParallelLaw, AnExceptionWithinANestedLoopPassesThroughTheOuterOne) {
   for (const int threads : kThreadCounts)
     EXPECT_EQ(thrownBy(threads,

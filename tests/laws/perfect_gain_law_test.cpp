@@ -34,12 +34,14 @@ TEST(PerfectGain, EqualsARunWithoutAnyAttenuationToTheLastBit) {
   EXPECT_NE(lossy.planes.at(Channel::y), free.planes.at(Channel::y));
 }
 
+// exp(-A) is 0 in floats long before A ends; a gain that undid it would be 0 times infinity.
 TEST(PerfectGain, SurvivesAttenuationPastUnderflow) {
   const PolarFrame dead = traced(twoLayers(1e5, 1e5)), free = traced(twoLayers(0, 0));
   EXPECT_EQ(dead.intensities, free.intensities);
   EXPECT_EQ(dead.planes.at(Channel::y)[150], 0.0f);
 }
 
+// The paper's perfect gain undoes attenuation alone: 1/l^2 is another choice.
 TEST(PerfectGain, KeepsTheSpreadWhenAskedTo) {
   Scene scene = twoLayers(10, 60);
   scene.signal.spread = Spread::keep;
@@ -56,6 +58,7 @@ TEST(NoGain, LeavesTheReceivedIntensity) {
   EXPECT_EQ(frame.intensities.values, frame.planes.at(Channel::y));
 }
 
+// Only effects run that can change an output.
 TEST(Attenuation, IsNotComputedWhenNobodyCanSeeIt) {
   Scene scene = twoLayers(10, 60);
   scene.output.exr = false;

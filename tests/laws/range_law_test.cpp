@@ -11,6 +11,7 @@ namespace {
 
 using namespace support;
 
+// Eq. 4: 1/l^2.
 TEST(RangeLaw, DoublingTheDistanceQuartersTheIntensity) {
   Scene scene = plainScene({medium("a", 1000, 1500, 0, 1)});
   const LineTrace line = walkStraight(straightSettings(scene), {});
@@ -21,6 +22,7 @@ TEST(RangeLaw, DoublingTheDistanceQuartersTheIntensity) {
   }
 }
 
+// Eq. 4 with all its factors.
 TEST(RangeLaw, BackscatterIsEtaTimesVolumeOverSquaredDistance) {
   Scene scene = plainScene({medium("a", 1000, 1500, 0, 0.25)});
   scene.unit_volume_m3 = 1e-6;
@@ -115,14 +117,17 @@ void expectRecursion(const char* name, const Layers& layers) {
     sweep.add(static_cast<double>(k), product[k], expected[k]);
 }
 
+// Section 4.1's recursion from sample to sample is the oracle of the product.
 TEST(ProductForm, EqualsThePapersRecursionAlongFiveMedia) {
   expectRecursion("recursion, 5 media", Layers(5, 1000, 3));
 }
 
+// Rounding of either form must not grow with the samples.
 TEST(ProductForm, EqualsThePapersRecursionOverTenThousandSamples) {
   expectRecursion("recursion, 1e4 samples", Layers(5, 10000, 10));
 }
 
+// Nor with the interfaces.
 TEST(ProductForm, EqualsThePapersRecursionOverFiftyMedia) {
   expectRecursion("recursion, 1e4 samples and 50 media", Layers(50, 10000, 5));
 }

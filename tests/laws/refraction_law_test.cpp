@@ -33,6 +33,7 @@ int forPassingRays(double c_1, double c_2, Check&& check) {
   return passed;
 }
 
+// Snell: sin(theta_t) / c_2 = sin(theta_i) / c_1.
 TEST(Refraction, SinesAreInTheRatioOfTheSpeeds) {
   for (const auto& [c_1, c_2] : kSpeeds)
     forPassingRays(c_1, c_2, [&, c1 = c_1, c2 = c_2](Vec3d d, Vec3d n, Vec3d bent) {
@@ -50,6 +51,7 @@ TEST(Refraction, DirectionStaysUnitInThePlaneOfIncidenceAndOnItsSide) {
     });
 }
 
+// Else straight rays would drift with every interface.
 TEST(Refraction, EqualSpeedsLeaveTheDirectionUnchangedToTheLastBit) {
   const int passed =
       forPassingRays(1540, 1540, [](Vec3d d, Vec3d, Vec3d bent) { EXPECT_EQ(d, bent); });
@@ -57,6 +59,7 @@ TEST(Refraction, EqualSpeedsLeaveTheDirectionUnchangedToTheLastBit) {
   EXPECT_EQ(refracted({1, 0, 0}, {0, 0, 1}, 1540, 1540), (Vec3d{1, 0, 0}));
 }
 
+// Reciprocity: echoes come back the way they went.
 TEST(Refraction, TheWayBackIsTheWayThere) {
   for (const auto& [c_1, c_2] : kSpeeds)
     forPassingRays(c_1, c_2, [&, c1 = c_1, c2 = c_2](Vec3d d, Vec3d n, Vec3d bent) {
@@ -68,12 +71,14 @@ TEST(Refraction, TheWayBackIsTheWayThere) {
     });
 }
 
+// A facet has two sides, and which is outward is the mesh's say.
 TEST(Refraction, TheSideOfTheNormalDoesNotMatter) {
   forPassingRays(1480, 1600, [](Vec3d d, Vec3d n, Vec3d bent) {
     EXPECT_EQ(refracted(d, -n, 1480, 1600), bent);
   });
 }
 
+// sin(theta_t) would exceed 1: total reflection.
 TEST(Refraction, NothingPassesBeyondTheCriticalAngle) {
   const double critical = std::asin(1480.0 / 1600.0);
   for (const double turn : {-1e-9, 1e-9, 1e-3}) {

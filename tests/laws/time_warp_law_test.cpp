@@ -38,6 +38,7 @@ double timeOf(const TimeWarp& warp, double beat_s, double phase) {
   return lo;
 }
 
+// A warp maps the beat onto itself and never runs backwards.
 TEST(TimeWarp, RunsThroughTheWholeBeatForwardAtEveryRate) {
   forEachPair([](const RecordedBeat& recorded, double beat_s) {
     const TimeWarp warp(recorded, beat_s);

@@ -48,10 +48,13 @@ std::vector<float> echoesOf(const Scene& scene, const Mesh& mesh, bool cells) {
   PlaneSlice slice(topology, scene.probe);
   slice.update(frame);
   EffectPlan plan = planEffects(scene);
+  plan.refraction = false;
   PolarFrame polar;
   PlaneRequest request = planeRequest(scene, plan);
   request.intensities = false;
-  traceFrame(slice, scene.probe, TraceSettings(scene, plan, cells), request, polar);
+  traceFrame(slice, scene.probe,
+             TraceSettings(scene, plan, cells ? EchoCells::contours : EchoCells::none), request,
+             polar);
   return polar.planes.at(Channel::unattenuated);
 }
 
@@ -159,6 +162,63 @@ TEST(CellEchoes, EqualTheMeanOfManyRaysInTheCell) {
   }
   ASSERT_GT(total, 0);
   EXPECT_LT(difference / total, 0.02);
+}
+
+// The mean of `kRays` lines in the cell of one line, each with its echoes where it meets a wall.
+std::vector<double> meanInCell(const Scene& scene, const Mesh& mesh, int line) {
+  constexpr int kRays = 400;
+  const double width =
+      (scene.probe.last_angle_rad - scene.probe.first_angle_rad) / (scene.probe.lines - 1);
+  const double centre = scene.probe.first_angle_rad + line * width;
+  Scene fine = scene;
+  fine.probe.lines = kRays;
+  fine.probe.first_angle_rad = centre - width / 2 * (1 - 1.0 / kRays);
+  fine.probe.last_angle_rad = centre + width / 2 * (1 - 1.0 / kRays);
+  std::vector<double> mean = alongDepth(fine.probe, echoesOf(fine, mesh, false));
+  for (double& value : mean) value /= kRays;
+  return mean;
+}
+
+// Of one line: what stands elsewhere than in the cell's mean, over the mean.
+double misplaced(const Scene& scene, const Mesh& mesh, int line) {
+  const std::vector<double> expected = meanInCell(scene, mesh, line);
+  const std::vector<float> cells = echoesOf(scene, mesh, true);
+  double total = 0, difference = 0;
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    total += expected[k];
+    difference +=
+        std::abs(cells[static_cast<std::size_t>(line) * expected.size() + k] - expected[k]);
+  }
+  EXPECT_GT(total, 0);
+  return difference / total;
+}
+
+// The wall ends every line, so each cell's far half lies deeper than its line goes. The lobe is
+// that of each edge's middle, which in cells this long takes 4 %.
+TEST(CellEchoes, OfAWallBeyondTheCriticalAngleFillTheWholeCell) {
+  Scene scene = wallScene(ProbeKind::phased);
+  scene.media[0].sound_speed_m_s = 1800;  // the probe is in the slab: critical angle 60.7 degrees
+  const Mesh slab = steepSlab(15, 0.08);  // met at 70 degrees and more
+  for (const int line : {60, 64, 70}) EXPECT_LT(misplaced(scene, slab, line), 0.05) << line;
+}
+
+// The ball's edge stands in the cell of a line that misses it.
+TEST(CellEchoes, OfATipThatNoCentreCrossesAreItsShare) {
+  Scene scene = wallScene(ProbeKind::phased);
+  scene.probe.lines = 33;
+  scene.probe.samples = 256;
+  const double width = (scene.probe.last_angle_rad - scene.probe.first_angle_rad) / 32;
+  const int line = 20;
+  // Its limb is seen 0.3 cells from the line's centre, on the side of lower numbers.
+  const double limb = scene.probe.first_angle_rad + (line - 0.3) * width;
+  const double radius = 0.03, depth = 0.09;
+  const double middle = limb - std::asin(radius / depth);
+  const Mesh ball =
+      support::icosphere(6, radius).moved({depth * std::sin(middle), 0, depth * std::cos(middle)});
+  const std::vector<float> centres = echoesOf(scene, ball, false);
+  for (std::size_t k = 0; k < 256; ++k)
+    ASSERT_EQ(centres[static_cast<std::size_t>(line) * 256 + k], 0);
+  EXPECT_LT(misplaced(scene, ball, line), 0.1);
 }
 
 }  // namespace

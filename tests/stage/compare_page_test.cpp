@@ -85,6 +85,19 @@ TEST(ComparePage, HoldsEveryFramesNumbersAndNullWhereNothingWasMeasured) {
   for (const auto& [key, values] : frames.at("after").items()) EXPECT_EQ(values.size(), 3u) << key;
 }
 
+// A structure that the view does not show.
+TEST(ComparePage, WhatIsNotInSightHasNoScoreInSummaryAndPage) {
+  Comparison c = threeFrames();
+  c.mean_bands.push_back({"elsewhere", {}});
+  c.frames[0].bands.push_back({"elsewhere", {}});
+  const json data = support::dataOf(pageOf(c)), summary = data.at("summary");
+  for (const auto& [key, value] : summary.at("bands_after_calibration").at("elsewhere").items())
+    EXPECT_TRUE(value.is_null()) << key;
+  for (const auto& [key, values] : data.at("frames").at("bands").at("elsewhere").items())
+    EXPECT_EQ(values, json({nullptr, nullptr, nullptr})) << key;
+  EXPECT_EQ(summary.at("bands_after_calibration").at("lv").at("rms"), 3);
+}
+
 TEST(ComparePage, HoldsThePicturesOfAllPanelsAndTheSummary) {
   const Comparison c = threeFrames();
   const std::string html = pageOf(c);

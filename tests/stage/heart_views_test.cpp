@@ -170,6 +170,20 @@ TEST(HeartViews, WhatDefinesAViewLiesInItsPlane) {
     EXPECT_LT(std::abs(Image(View::psax_mid).sliceOf(muscle).y), 3e-3);
 }
 
+// A tenth of a millimetre is less than a pixel; a step of five would be a jump of the picture.
+TEST(HeartViews, TheDepthFollowsTheEjectionFractionWithoutSteps) {
+  double last_m = 0;
+  for (int i = 0; i <= 6; ++i) {
+    const heart::ParametricHeart model(heart::parametersFrom({{"ef", 0.60 - 0.01 * i}}));
+    const double depth_m = heart::poseOf(View::a4c, model).depth_m;
+    if (i > 0) {
+      EXPECT_NEAR(depth_m, last_m, 1e-3) << i;
+      EXPECT_NE(depth_m, last_m) << i;
+    }
+    last_m = depth_m;
+  }
+}
+
 TEST(HeartViews, AreAimedAtAnyHeart) {
   const heart::ParametricHeart small(heart::parametersFrom({{"body-scale", 0.6}}));
   const heart::Landmarks marks = small.landmarksAt(0);

@@ -161,6 +161,16 @@ TEST(MotionMeshIo, UnusableFilesAreRefusedAtTheirPlace) {
   EXPECT_NE(says(folder.write("no.ply", "hello")).find(place + "no.ply: "), std::string::npos);
 }
 
+// The first file is damaged, which is found out only by reading.
+TEST(MotionMeshIo, MissingFilesAreToldBeforeAnyIsRead) {
+  const TestFolder folder;
+  const Scene scene = sceneOf(structureOf(
+      {folder.write("bad.obj", "v 1\n"), folder.path("gone.obj"), folder.path("gone_2.obj")}));
+  const std::string error = errorOf([&] { readKeyframes(scene); });
+  EXPECT_NE(error.find("gone.obj: cannot be opened: "), std::string::npos) << error;
+  EXPECT_NE(error.find("; 1 more file is missing"), std::string::npos) << error;
+}
+
 TEST(MotionMeshIo, WrongCoordinatesAndIndicesAreNumberedFromOne) {
   const TestFolder folder;
   const auto says = [&](const std::string& text) {

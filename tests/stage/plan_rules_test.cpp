@@ -78,6 +78,21 @@ TEST(RefractionRule, LayersRoundTheTransducerHideNoLens) {
   EXPECT_TRUE(planOf(folder, text).effects.refraction);
 }
 
+// A cylinder along the lines: what stays in the imaging plane meets it head-on.
+TEST(RefractionRule, AsksRaysOutOfTheImagingPlaneToo) {
+  const TempFolder folder;
+  SceneText text = ballAndWall(folder, "lens");
+  Mesh cylinder = icosphere(4, 0.8);
+  for (Vec3d& p : cylinder.points) p.x *= 20;
+  writeObj(cylinder.moved({0, 0, 5}), folder / "ball.obj");
+  text.probe["sector_deg"] = "6";
+  EXPECT_FALSE(planOf(folder, text).effects.refraction);
+  text.accuracy["rays_per_beam"] = "64";
+  EXPECT_TRUE(planOf(folder, text).effects.refraction);
+  text.effects["elevation"] = "\"off\"";
+  EXPECT_FALSE(planOf(folder, text).effects.refraction);
+}
+
 TEST(RefractionRule, AskedForWhereNoSpeedDiffersItChangesNothing) {
   const TempFolder folder;
   SceneText text = ballAndWall(folder, "plaque");

@@ -12,6 +12,8 @@ namespace echocine::support {
 
 struct Affine : MaterialFrame {
   Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, shift{};  // columns
+  std::vector<Vec3f> on_sheets_m;
+  std::span<const Vec3f> onSheets() const override { return on_sheets_m; }
 
   CubeCorners corners(std::uint16_t, Vec3f low_m, float edge_m) const override {
     CubeCorners out;

@@ -48,7 +48,8 @@ inline PolarFrame traceWorld(const World& world, EffectPlan plan, Tracer tracer,
   const std::vector<SurfaceTopology> topology = world.topology();
   const SurfaceFrame frame = world.frame();
   if (tracer != Tracer::embree) plan.refraction = false;
-  const TraceSettings settings(world.scene, plan, tracer == Tracer::cells);
+  const TraceSettings settings(world.scene, plan,
+                               tracer == Tracer::cells ? EchoCells::contours : EchoCells::none);
   const PlaneRequest request = planeRequest(world.scene, plan);
   PolarFrame polar;
   if (tracer == Tracer::embree) {

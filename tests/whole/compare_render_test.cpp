@@ -32,6 +32,8 @@ TEST(ComparedRender, ARenderAgainstItselfIsPerfectAndItsResultsAreWhole) {
   EXPECT_TRUE(summary.at("before_calibration").at("psnr_db").is_null());
   EXPECT_EQ(summary.at("time").at("shift_frames").get<double>(), 0);
   EXPECT_TRUE(summary.at("bands_after_calibration").contains("cavity"));
+  const auto& lines = summary.at("contours");
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), "cavity"), 1);  // whose lines are drawn
   EXPECT_EQ(cineFrames(folder / "out/side_by_side.avi"), 8);
   const std::string csv = bytesOf(folder / "out/frames.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 9);

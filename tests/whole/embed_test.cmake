@@ -23,6 +23,13 @@ file(COPY ${ROOT}/tests/embed/main.cpp ${ROOT}/tests/embed/CMakeLists.txt DESTIN
 set(common -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=${TYPE} -G Ninja "-DCMAKE_CXX_FLAGS=${SANITIZE}")
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${folder}/prefix)
+foreach(file man/man1/echocine.1 man/man1/echocine-render.1 bash-completion/completions/echocine
+        zsh/site-functions/_echocine doc/echocine/echarts/LICENSE doc/echocine/echarts/NOTICE doc/echocine/LICENSE
+        doc/echocine/README.md doc/echocine/examples/every_key/scene.toml)
+  if(NOT EXISTS ${folder}/prefix/share/${file})
+    message(FATAL_ERROR "share/${file} is not installed")
+  endif()
+endforeach()
 run(${CMAKE_COMMAND} -S ${folder}/program -B ${folder}/found ${common} -DCMAKE_PREFIX_PATH=${folder}/prefix)
 run(${CMAKE_COMMAND} --build ${folder}/found)
 run(${folder}/found/embed)

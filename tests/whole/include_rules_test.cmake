@@ -46,7 +46,7 @@ set(rooms
   "metrics=signal,trace"
   "video=signal"
   "output=signal,motion,heart,truth|video"
-  "simulate=output,motion,cycle,geometry,trace,speckle,signal"
+  "simulate=output,motion,cycle,geometry,trace,speckle,signal,truth"
   "compare=simulate,video,metrics,signal,truth,page|motion,output"
   "render=simulate,cycle,output,page,video,truth|signal"
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"

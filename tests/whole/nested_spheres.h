@@ -135,7 +135,8 @@ class ExactRay {
     const Real R = line.ends ? 1 : (a - b) / (a + b) * ((a - b) / (a + b));
     const Real Z_1 = from.impedance_kg_m2_s, Z_2 = to.impedance_kg_m2_s;
     const Real upright = (Z_2 - Z_1) / (Z_2 + Z_1);
-    piece.echo = passed * std::min(R, upright * upright) * cos_i * cos_i;
+    const bool capped = scene_.effects.reflection_cap != Switch::off;
+    piece.echo = passed * (capped ? std::min(R, upright * upright) : R) * cos_i * cos_i;
     passed *= (1 - R) * (1 - R);
     if (line.ends) return;
     const Vec3r forward = dot(normal, d_) < 0 ? -normal : normal;

@@ -66,8 +66,6 @@ struct Contradiction {
 TEST_F(PlanCommand, ContradictionsAreOneLineThatNamesBothKeys) {
   for (const Contradiction& c :
        {Contradiction{"effects", "refraction", "\"on\"", "accuracy", "tracer", "\"slice\""},
-        Contradiction{"accuracy", "interface_echo", "\"cell\"", "effects", "refraction", "\"on\""},
-        Contradiction{"accuracy", "interface_echo", "\"cell\"", "accuracy", "tracer", "\"embree\""},
         Contradiction{"output", "channels", "[\"Y\"]", "effects", "attenuation", "\"off\""},
         Contradiction{"accuracy", "tracer", "\"slice\"", "accuracy", "rays_per_beam", "8"},
         Contradiction{"accuracy", "interface_echo", "\"cell\"", "accuracy", "rays_per_beam", "8"},

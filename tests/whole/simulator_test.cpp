@@ -128,6 +128,19 @@ TEST(SimulatorFrame, FromTwoThreadsAtOnceIsThatOfOne) {
   }
 }
 
+TEST(SimulatorFrame, CarriesTruthWhereTheSceneAsksForIt) {
+  Scene scene = smallHeart();
+  EXPECT_FALSE(Simulator(scene).frame(0.1).truth);
+  scene.truth.labels = scene.truth.contours = true;
+  const Simulator simulator(scene);
+  const Frame frame = simulator.frame(0.1);
+  ASSERT_TRUE(frame.truth);
+  EXPECT_EQ(frame.truth->labels.size(), frame.image.pixels.size());
+  EXPECT_GT(frame.truth->contours.size(), 5u);
+  EXPECT_FALSE(frame.truth->function);
+  EXPECT_EQ(simulator.truthAt(frame.time).labels, frame.truth->labels);
+}
+
 TEST(SimulatorFrame, OutsideTheLoopIsRefusedByItsKeys) {
   const Simulator simulator(smallHeart());
   for (const double time_s : {-0.01, 1e9, std::numeric_limits<double>::quiet_NaN()}) {

@@ -5,6 +5,7 @@
 #include "core/parallel.h"
 #include "scene/scene_reader.h"
 #include "simulate/simulator.h"
+#include "speckle/sheet_points.h"
 #include "support/loop_scene.h"
 
 namespace echocine {
@@ -63,6 +64,36 @@ TEST_F(SpeckleScene, TheMeanOverSeedsIsTheFrameWithout) {
   }
   EXPECT_NEAR(ratios / n, 1, 0.02);
   EXPECT_NEAR(std::sqrt(squares / n), 1 / std::sqrt(kSeeds), 0.1 / std::sqrt(kSeeds));
+}
+
+TEST_F(SpeckleScene, PointsOfAMembraneStandOnItsTriangles) {
+  const Scene scene = beatingScene();
+  const MeshMotion motion(scene);
+  const SheetPoints sheets(scene, motion, 0);
+  ASSERT_GT(sheets.count(), 100u);
+  SurfaceFrame surfaces;
+  motion.frameAt(0.3, surfaces);
+  std::size_t leaflet = 0;
+  while (!motion.surfaces()[leaflet].membrane) ++leaflet;
+  std::vector<Vec3f>& corners = surfaces.positions_m[leaflet];
+  for (Vec3f& p : corners) p = p + Vec3f{0, 0, 0.001f};  // wherever the sheet goes
+  Box box;
+  for (const Vec3f p : corners) box.add(toDouble(p));
+  std::vector<Vec3f> places_m;
+  sheets.at(surfaces, places_m);
+  ASSERT_EQ(places_m.size(), sheets.count());
+  constexpr double kRounding_m = 1e-7;
+  Vec3d sum;
+  for (const Vec3f p : places_m) {
+    ASSERT_NEAR(static_cast<double>(p.z), 0.5 * (box.lo.z + box.hi.z), kRounding_m);  // it is even
+    ASSERT_TRUE(box.lo.x - kRounding_m <= static_cast<double>(p.x) &&
+                static_cast<double>(p.x) <= box.hi.x + kRounding_m);
+    sum = sum + toDouble(p);
+  }
+  const double middle = 0.5 * (box.lo.x + box.hi.x), width = box.hi.x - box.lo.x;
+  EXPECT_NEAR(sum.x / static_cast<double>(sheets.count()), middle, 0.05 * width);  // even by area
+  sheets.at({}, places_m);
+  EXPECT_TRUE(places_m.empty());
 }
 
 // The cubes that carry scatterers are the field's own cells: what a tracker should find.

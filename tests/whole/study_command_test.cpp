@@ -73,7 +73,8 @@ TEST_F(StudyCommandTest, EveryKnobIsSweptFromDraftAndFromReference) {
   const Json json = this->json();
   for (const char* knob :
        {"lines", "samples", "subdivision", "normals", "keyframes", "interpolation", "refraction",
-        "echoes", "exr_pixel", "exr_compression"}) {
+        "echoes", "snell_angles", "reflection_cap", "thin_layers", "tgc", "exr_pixel",
+        "exr_compression"}) {
     std::size_t values = 0;
     for (const Json& k : json["knobs"])
       if (k["name"] == knob) values = k["values"].size();
@@ -221,6 +222,16 @@ TEST_F(StudyCommandTest, KnobsThatCannotApplyAreLeftOutWithTheReason) {
         "left out: refraction: effects.refraction", "left out: exr_pixel: output.exr = false",
         "left out: exr_compression: output.exr = false"})
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in " << outcome.out;
+}
+
+// Preparing every setting of a large scene takes longer than a short budget.
+TEST_F(StudyCommandTest, ABudgetBoundsThePreparationToo) {
+  writeBall(folder, studiedBall());
+  const Outcome outcome = study("--budget-s 0.001");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(json()["rows"].size(), 1u);
+  EXPECT_NE(outcome.out.find("more rows: --budget-s 0.001 leaves no time"), std::string::npos)
+      << outcome.out;
 }
 
 TEST_F(StudyCommandTest, UnusableArgumentsAreCodeTwoAndOneLine) {

@@ -1,0 +1,100 @@
+#include "speckle/sheet_points.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/hash_random.h"
+
+namespace echocine {
+
+namespace {
+
+constexpr double kApartPerWidth = 0.5, kOrdinaryPerCell = 3;
+constexpr double kMostPoints = 1e7;  // 0.2 GB. Our choice
+constexpr int kPhasesLookedAt = 32;
+constexpr double kBetweenPhases_m = 2e-3;
+
+// Purposes of hashed numbers.
+enum : std::uint64_t { kSheetCount = 11, kSheetPlace = 12 };
+
+double areaOf(const Triangle& t, const std::vector<Vec3f>& at) {
+  return 0.5 * static_cast<double>(length(cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]])));
+}
+
+}  // namespace
+
+SheetPoints::SheetPoints(const Scene& scene, const MeshMotion& motion, double reference_phase)
+    : motion_(motion) {
+  const auto& surfaces = motion.surfaces();
+  if (std::none_of(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.membrane; }))
+    return;
+  const PointSpread spread(scene.probe, scene.signal.pulse_cycles);
+  const double apart_m = kApartPerWidth * spread.axial_width_m;
+  const double per_m2 = scene.speckle.per_cell / kOrdinaryPerCell / (apart_m * apart_m);
+  SurfaceFrame frame;
+  motion.frameAt(reference_phase, frame, false);
+  for (const SurfaceTopology& surface : surfaces)
+    if (surface.membrane)
+      draw(surface, frame.positions_m[index(surface.id)], per_m2, scene.speckle);
+  const double widest_m = std::max(spread.elevationWidth(scene.probe.min_depth_m),
+                                   spread.elevationWidth(scene.probe.max_depth_m));
+  dropUnseen(motion, kElevationCut * widest_m + kBetweenPhases_m);
+}
+
+void SheetPoints::draw(const SurfaceTopology& sheet, const std::vector<Vec3f>& positions_m,
+                       double per_m2, const SpeckleSettings& settings) {
+  double planned = static_cast<double>(points_.size());
+  for (const Triangle& t : sheet.triangles) planned += per_m2 * areaOf(t, positions_m);
+  if (!(planned <= kMostPoints))
+    throw SceneError(fmt::format(
+        "speckle.per_cell = {:g} puts over {:g} scatterers on membranes, more than memory is meant "
+        "for: fewer are accepted",
+        settings.per_cell, kMostPoints));
+  const int seed = settings.seed;
+  const std::uint64_t surface = index(sheet.id);
+  for (std::uint32_t t = 0; t < sheet.triangles.size(); ++t) {
+    const double wanted = per_m2 * areaOf(sheet.triangles[t], positions_m);
+    const auto count =
+        static_cast<std::uint32_t>(wanted + uniformFromHash(hashOf(seed, kSheetCount, surface, t)));
+    for (std::uint32_t j = 0; j < count; ++j) {
+      const auto drawn = [&](int axis) {
+        return static_cast<float>(uniformFromHash(hashOf(seed, kSheetPlace, surface, t, j, axis)));
+      };
+      float b1 = drawn(0), b2 = drawn(1);
+      if (b1 + b2 > 1) {  // the square's other half, folded back
+        b1 = 1 - b1;
+        b2 = 1 - b2;
+      }
+      points_.push_back({.surface = sheet.id, .triangle = t, .b1 = b1, .b2 = b2});
+    }
+  }
+}
+
+void SheetPoints::dropUnseen(const MeshMotion& motion, double reach_m) {
+  std::vector<bool> seen(points_.size());
+  std::vector<Vec3f> places_m;
+  SurfaceFrame frame;
+  for (int i = 0; i < kPhasesLookedAt; ++i) {
+    motion.frameAt(static_cast<double>(i) / kPhasesLookedAt, frame, false);
+    at(frame, places_m);
+    for (std::size_t p = 0; p < seen.size(); ++p)
+      seen[p] = seen[p] || std::abs(static_cast<double>(places_m[p].y)) < reach_m;
+  }
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < seen.size(); ++p)
+    if (seen[p]) points_[kept++] = points_[p];
+  points_.resize(kept);
+}
+
+void SheetPoints::at(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m) const {
+  places_m.clear();
+  if (surfaces.positions_m.empty()) return;
+  for (const BoundPoint& point : points_)
+    places_m.push_back(place(point, motion_.surfaces()[index(point.surface)].triangles,
+                             surfaces.positions_m[index(point.surface)]));
+}
+
+}  // namespace echocine

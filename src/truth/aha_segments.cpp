@@ -1,0 +1,28 @@
+#include "truth/aha_segments.h"
+
+#include <cmath>
+
+#include "core/units.h"
+
+namespace echocine {
+
+int ahaSegment(const HeartAxes& axes, Vec3d place_m) {
+  const Vec3d d = place_m - axes.base_m;
+  const double zeta = axes.zeta(place_m);
+  if (zeta > 0.9) return 17;
+  const double degrees = degreesFromRadians(std::atan2(dot(d, axes.anterior), dot(d, axes.septal)));
+  if (zeta > 2.0 / 3) {  // 13 anterior, 14 septal, 15 inferior, 16 lateral
+    if (degrees > 45 && degrees <= 135) return 13;
+    if (degrees > -45 && degrees <= 45) return 14;
+    return degrees > -135 && degrees <= -45 ? 15 : 16;
+  }
+  // Anterior, anteroseptal, inferoseptal, inferior, inferolateral, anterolateral.
+  const int ring = zeta > 1.0 / 3 ? 6 : 0;
+  if (degrees > 60 && degrees <= 120) return ring + 1;
+  if (degrees > 0 && degrees <= 60) return ring + 2;
+  if (degrees > -60 && degrees <= 0) return ring + 3;
+  if (degrees > -120 && degrees <= -60) return ring + 4;
+  return ring + (degrees <= -120 ? 5 : 6);
+}
+
+}  // namespace echocine

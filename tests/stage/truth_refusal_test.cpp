@@ -1,0 +1,77 @@
+// What truth cannot be told of: one line that names the key and what would do.
+
+#include <gtest/gtest.h>
+
+#include "simulate/simulator.h"
+#include "support/scene_text.h"
+
+namespace echocine {
+namespace {
+
+using support::SceneText;
+
+std::shared_ptr<const TriangleMesh> ball(double radius_mm, Vec3d middle_mm) {
+  const support::Mesh mesh = support::icosphere(3, radius_mm).moved(middle_mm);
+  return std::make_shared<TriangleMesh>(TriangleMesh{mesh.points, mesh.triangles, {}, {}});
+}
+
+// A ventricle in its wall; `roles` are those of the outer and the inner ball.
+SceneText ventricle(const std::string& truth, const std::string& outer = "lv_wall",
+                    const std::string& inner = "lv_cavity") {
+  SceneText text;
+  text.motion = {{"mesh_unit", "\"mm\""}};
+  text.addStructure("outer", "myocardium", "\"outer\"", 1, "role = \"" + outer + "\"");
+  text.addStructure("inner", "blood", "\"inner\"", 2, "role = \"" + inner + "\"");
+  text.extra = "[truth]\n" + truth + "\n";
+  return text;
+}
+
+// What is said on the way to the first frame's truth; empty when it is there.
+std::string refusalOf(const SceneText& text, Vec3d middle_mm = {0, 0, 60}, double inner_mm = 20) {
+  const NamedMeshes meshes{{"outer", ball(30, middle_mm)}, {"inner", ball(inner_mm, middle_mm)}};
+  try {
+    const Simulator simulator(parseScene(text.text(), "scene.toml", meshes));
+    return simulator.truth() != nullptr ? "" : "none was asked for";
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+}
+
+void expectNames(const std::string& refusal, const std::vector<std::string>& words) {
+  for (const std::string& word : words)
+    EXPECT_NE(refusal.find(word), std::string::npos) << word << " in: " << refusal;
+  EXPECT_EQ(refusal.find('\n'), std::string::npos);
+}
+
+TEST(TruthRefusal, WhatCanBeToldIs) {
+  EXPECT_EQ(refusalOf(ventricle("write = [\"all\"]\nlabels = {lv_cavity = 1, lv_wall = 2}")), "");
+  EXPECT_EQ(refusalOf(ventricle("")), "none was asked for");
+}
+
+TEST(TruthRefusal, LabelsOfARoleThatNothingHas) {
+  expectNames(refusalOf(ventricle("write = [\"labels\"]\nlabels = {la = 1}")),
+              {"scene.toml", "labels", "la is no closed structure"});
+}
+
+TEST(TruthRefusal, ANumberTwice) {
+  expectNames(refusalOf(ventricle("write = [\"labels\"]\nlabels = {lv_cavity = 3, lv_wall = 3}")),
+              {"labels", "lv_cavity", "lv_wall", "number 3"});
+}
+
+TEST(TruthRefusal, FunctionWithoutAVentricleOrItsWall) {
+  expectNames(refusalOf(ventricle("write = [\"function\"]", "lv_wall", "rv_cavity")),
+              {"write", "lv_cavity", "truth.write"});
+  expectNames(refusalOf(ventricle("write = [\"tracks\"]", "rv_wall")), {"write", "lv_wall"});
+}
+
+// The cavity fills the wall: there is nothing between them.
+TEST(TruthRefusal, PointsInAWallThatIsEmpty) {
+  expectNames(refusalOf(ventricle("write = [\"tracks\"]"), {0, 0, 60}, 30), {"write", "outer"});
+}
+
+TEST(TruthRefusal, PointsOutsideTheSector) {
+  expectNames(refusalOf(ventricle("write = [\"tracks\"]"), {0, 0, -60}), {"tracks", "outer", "sector"});
+}
+
+}  // namespace
+}  // namespace echocine
