@@ -2,8 +2,8 @@
 // and 800 x 600: `over_floor` less 1 is its time over the frame's.
 
 #include "bench/rounds.h"
-#include "scene/scene_reader.h"
 #include "motion/interior_motion.h"
+#include "scene/scene_reader.h"
 #include "simulate/simulator.h"
 #include "support/paths.h"
 
@@ -29,12 +29,12 @@ void truthOf(benchmark::State& state, void (*ask)(Scene&)) {
       state,
       [&](std::size_t i) {
         benchmark::DoNotOptimize(asked.trace(time(i), *traced));
-        benchmark::DoNotOptimize(asked.picture(1e-6f, *traced, true).pixels.data());
+        benchmark::DoNotOptimize(asked.picture(1e-6f, time(i), *traced, true).pixels.data());
         benchmark::DoNotOptimize(asked.truthAt(time(i), traced.get()));
       },
       [&](std::size_t i) {
         benchmark::DoNotOptimize(plain.trace(time(i), *workspace));
-        benchmark::DoNotOptimize(plain.picture(1e-6f, *workspace, true).pixels.data());
+        benchmark::DoNotOptimize(plain.picture(1e-6f, time(i), *workspace, true).pixels.data());
       });
 }
 
@@ -52,8 +52,8 @@ void truthFunction(benchmark::State& state) {
 }
 void truthDisplacement(benchmark::State& state) {
   truthOf(state, [](Scene& scene) {
-    scene.output.channels = {Channel::y, Channel::displacement_lateral,
-                             Channel::displacement_axial, Channel::displacement_elevation};
+    scene.output.channels = {Channel::y, Channel::displacement_lateral, Channel::displacement_axial,
+                             Channel::displacement_elevation};
   });
 }
 
