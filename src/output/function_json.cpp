@@ -155,11 +155,11 @@ std::vector<Curve> functionCurves(std::span<const FunctionFrame> frames) {
   };
   add("global_longitudinal_strain",
       [](const FunctionFrame& f) { return f.global_longitudinal_strain; });
-  add("view_longitudinal_strain", [](const FunctionFrame& f) { return f.view_longitudinal_strain; });
+  add("view_longitudinal_strain",
+      [](const FunctionFrame& f) { return f.view_longitudinal_strain; });
   for (std::size_t s = 0; s < kAhaSegments; ++s) {
     const auto strain = [s](const FunctionFrame& f) { return f.view_segments[s].longitudinal; };
-    if (!frames.empty() && std::isfinite(strain(frames.front())))
-      add(kAhaNames[s], strain);
+    if (!frames.empty() && std::isfinite(strain(frames.front()))) add(kAhaNames[s], strain);
   }
   add("wall_thickness_mm", meanThickness);
   add("length_mm", [](const FunctionFrame& f) { return f.length_mm; });

@@ -31,9 +31,9 @@ struct Manifest {
   int loop_frames = 0;
   std::vector<FrameEntry> frames;
   std::vector<KeyframeVolume> keyframes;
-  std::array<double, kStages> stage_ms{};    // per frame, summed over threads
-  double wall_ms = 0;                        // per frame
-  WorkCounts work;                           // of the whole run
+  std::array<double, kStages> stage_ms{};  // per frame, summed over threads
+  double wall_ms = 0;                      // per frame
+  WorkCounts work;                         // of the whole run
   // What truth tells of the heart's function, a value per frame; names have units.
   std::vector<std::pair<std::string, std::vector<double>>> curves;
   std::vector<std::string> warnings;         // of scene, motion and plan

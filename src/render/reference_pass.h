@@ -20,10 +20,10 @@ struct KeptFrame {
 using KeptFrames = std::map<int, KeptFrame>;
 
 // The scene's absolute reference at once, or the percentile over referenceFrames() of the loop: the
-// same whichever are rendered, so that parts of a loop show the same grey as the whole. Frames of `range` met on the way are kept,
-// as many as kKeptBytes hold. Nothing when the monitor stops the run. Where no frame has anything
-// to be seen the percentile would paint an even nothing white; then the reference is the
-// transmitted intensity, 1, and the loop is black.
+// same whichever are rendered, so that parts of a loop show the same grey as the whole. Frames of
+// `range` met on the way are kept, as many as kKeptBytes hold. Nothing when the monitor stops the
+// run. Where no frame has anything to be seen the percentile would paint an even nothing white;
+// then the reference is the transmitted intensity, 1, and the loop is black.
 std::optional<double> findReference(const Simulator& simulator, std::pair<int, int> range,
                                     const Monitor& monitor, KeptFrames& kept);
 

@@ -215,8 +215,7 @@ void RenderPass::finishTruth() {
   LoopTruth loop{truth.tracked(), truth.view(), {}};
   if (const auto& valves = truth.valves()) {
     const CardiacClock& clock = parts_.simulator.cardiacClock();
-    const double loop_s =
-        clock.frameCount() / parts_.simulator.scene().acquisition.frame_rate_hz;
+    const double loop_s = clock.frameCount() / parts_.simulator.scene().acquisition.frame_rate_hz;
     for (const auto& [name, phase] : {std::pair("mitral_closes", valves->mitral_closes),
                                       std::pair("aortic_opens", valves->aortic_opens),
                                       std::pair("aortic_closes", valves->aortic_closes),

@@ -120,7 +120,8 @@ std::vector<PageTruth::Outline> outlinesOf(const FrameTruth& truth, const Scene&
     for (const Vec3d p : contour.points_m) {
       const PixelPoint at = pixelOf(picture, p);
       const auto x = static_cast<float>(at.x), y = static_cast<float>(at.y);
-      seen |= x > -kBeyond_px && y > -kBeyond_px && x < width + kBeyond_px && y < height + kBeyond_px;
+      seen |=
+          x > -kBeyond_px && y > -kBeyond_px && x < width + kBeyond_px && y < height + kBeyond_px;
       const std::size_t n = outline.px.size();
       if (n == 0 || std::hypot(x - outline.px[n - 2], y - outline.px[n - 1]) > kApart_px)
         outline.px.insert(outline.px.end(), {x, y});

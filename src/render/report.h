@@ -37,8 +37,8 @@ class ReportPage {
   // Whether the page shows this frame (pageStride()).
   bool shows(int frame) const;
   void addFrame(std::span<const std::byte> image);  // JPEG or PNG, in the order of frames
-  void addTruth(PageTruth truth);  // of the frame that was added last
-  void finish(const Manifest& manifest);  // with times and volumes filled in
+  void addTruth(PageTruth truth);                   // of the frame that was added last
+  void finish(const Manifest& manifest);            // with times and volumes filled in
 
  private:
   const Scene& scene_;

@@ -154,7 +154,8 @@ Volumes Simulator::traceLines(const FrameTime& time, Workspace& w) const {
 void Simulator::process(const FrameTime& time, Workspace& w) const {
   if (!request_.intensities) return;
   clock_.time(Stage::signal, [&] { chain_.process(w.polar.intensities); });
-  if (speckle_) clock_.time(Stage::speckle, [&] { speckle_->apply(time, w.surfaces, w.polar.intensities); });
+  if (speckle_)
+    clock_.time(Stage::speckle, [&] { speckle_->apply(time, w.surfaces, w.polar.intensities); });
   refuseUnusable(time.phase, w.polar);
 }
 

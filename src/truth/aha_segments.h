@@ -10,12 +10,23 @@ namespace echocine {
 
 constexpr std::size_t kAhaSegments = 17;
 
-inline constexpr std::array<const char*, kAhaSegments> kAhaNames{
-    "basal anterior",     "basal anteroseptal", "basal inferoseptal",  "basal inferior",
-    "basal inferolateral", "basal anterolateral", "mid anterior",       "mid anteroseptal",
-    "mid inferoseptal",   "mid inferior",       "mid inferolateral",   "mid anterolateral",
-    "apical anterior",    "apical septal",      "apical inferior",     "apical lateral",
-    "apex"};
+inline constexpr std::array<const char*, kAhaSegments> kAhaNames{"basal anterior",
+                                                                 "basal anteroseptal",
+                                                                 "basal inferoseptal",
+                                                                 "basal inferior",
+                                                                 "basal inferolateral",
+                                                                 "basal anterolateral",
+                                                                 "mid anterior",
+                                                                 "mid anteroseptal",
+                                                                 "mid inferoseptal",
+                                                                 "mid inferior",
+                                                                 "mid inferolateral",
+                                                                 "mid anterolateral",
+                                                                 "apical anterior",
+                                                                 "apical septal",
+                                                                 "apical inferior",
+                                                                 "apical lateral",
+                                                                 "apex"};
 
 // The left ventricle's own directions: units, the axis from base to apex, the others across it.
 struct HeartAxes {

@@ -42,7 +42,8 @@ class Chainer {
     for (std::size_t i = 0; i < ends_.size(); ++i) starts.emplace_back(ends_[i].from, i);
     std::sort(starts.begin(), starts.end());
     for (const EdgeEnds& edge : ends_) {
-      const auto found = std::lower_bound(starts.begin(), starts.end(), std::pair(edge.to, std::size_t{0}));
+      const auto found =
+          std::lower_bound(starts.begin(), starts.end(), std::pair(edge.to, std::size_t{0}));
       const bool there = found != starts.end() && found->first == edge.to;
       next_.push_back(there ? found->second : kNone);
       if (there) follows_[found->second] = true;

@@ -116,9 +116,9 @@ void TruthMaker::addTracks(const SurfaceFrame& surfaces, const Space& space,
   const GroupFrame& wall = space.now[field_->groupOf(function_->wall())];
   for (const Tracked& point : tracked_) {
     const WallColumn& column = function_->columns()[point.column];
-    truth.tracks_m.push_back(
-        point.layer == 0 ? surfaces.positions_m[index(function_->cavity())][column.vertex]
-                         : wall.place(point.layer == 1 ? column.mid_m : column.epi_m));
+    truth.tracks_m.push_back(point.layer == 0
+                                 ? surfaces.positions_m[index(function_->cavity())][column.vertex]
+                                 : wall.place(point.layer == 1 ? column.mid_m : column.epi_m));
   }
 }
 

@@ -135,8 +135,7 @@ void HeartFunction::findAxes(const SurfaceFrame& surfaces) {
 // From the middle of the mitral ring to the farthest place of the cavity.
 LongAxis HeartFunction::axisIn(const SurfaceFrame& surfaces) const {
   const std::vector<Vec3f>& p = surfaces.positions_m[index(cavity_)];
-  const Vec3d base_m =
-      mitral_.empty() ? toDouble(p[base_.front()]) : mitral_.middle(p);
+  const Vec3d base_m = mitral_.empty() ? toDouble(p[base_.front()]) : mitral_.middle(p);
   const auto apex = std::max_element(p.begin(), p.end(), [&](Vec3f a, Vec3f b) {
     return length(toDouble(a) - base_m) < length(toDouble(b) - base_m);
   });
@@ -181,7 +180,8 @@ void HeartFunction::addVolumes(const SurfaceFrame& surfaces, FunctionFrame& f) c
   // The imaging plane's own normal is y; an axis that leaves it by more than 30 degrees is not
   // shown.
   if (std::abs(normalised(f.axis.apex_m - f.axis.base_m).y) >= 0.5) return;
-  const LongAxis shown{{f.axis.base_m.x, 0, f.axis.base_m.z}, {f.axis.apex_m.x, 0, f.axis.apex_m.z}};
+  const LongAxis shown{{f.axis.base_m.x, 0, f.axis.base_m.z},
+                       {f.axis.apex_m.x, 0, f.axis.apex_m.z}};
   const Vec3d span = shown.apex_m - shown.base_m;
   const std::vector<double> widths =
       discWidths(surface.triangles, p, shown, cross(Vec3d{0, 1, 0}, normalised(span)));

@@ -45,10 +45,10 @@ struct FunctionFrame {
   double length_mm = 0;             // from the middle of the mitral ring to the cavity's apex
   double base_descent_mm = 0;       // of that middle towards the apex, along the first axis
   double tricuspid_descent_mm = 0;  // of that ring's lateral end, along the same axis
-  double twist_deg = 0;    // of the apex against the base, counterclockwise seen from the apex
-  double sphericity = 0;   // cavity's volume over that of a ball as long
-  double volume_ml = 0;    // exact
-  double biplane_ml = 0;   // Simpson's rule, 20 discs, two apical planes across each other
+  double twist_deg = 0;   // of the apex against the base, counterclockwise seen from the apex
+  double sphericity = 0;  // cavity's volume over that of a ball as long
+  double volume_ml = 0;   // exact
+  double biplane_ml = 0;  // Simpson's rule, 20 discs, two apical planes across each other
   std::optional<double> single_plane_ml;  // in the imaging plane, where it shows the long axis
   LongAxis axis;
   std::optional<RingFrame> mitral, tricuspid, aortic;
@@ -64,7 +64,7 @@ class HeartFunction {
   const std::vector<WallColumn>& columns() const { return columns_; }
   SurfaceId cavity() const { return cavity_; }
   SurfaceId wall() const { return wall_; }
-  const HeartAxes& axes() const { return axes_; }           // at the reference phase
+  const HeartAxes& axes() const { return axes_; }             // at the reference phase
   bool hasRightHeart() const { return !tricuspid_.empty(); }  // and a ring between its cavities
   ViewLandmarks landmarks(const SurfaceFrame& at_reference) const;
 

@@ -39,14 +39,9 @@ void HeartFunction::findColumns(const SurfaceFrame& surfaces) {
     const Vec3d along = acrossAxis(axes_.axis, radial);
     if (thickness_m < 4 * kStep_m || thickness_m >= kThickest_m || length(along) < 0.2) continue;
     const Vec3d longitudinal = normalised(along);
-    columns_.push_back({v,
-                        p[v],
-                        p[v] + 0.5f * thickness_m * n,
-                        p[v] + (thickness_m - 0.5f * kStep_m) * n,
-                        n,
-                        toFloat(longitudinal),
-                        toFloat(cross(radial, longitudinal)),
-                        ahaSegment(axes_, toDouble(p[v]))});
+    columns_.push_back({v, p[v], p[v] + 0.5f * thickness_m * n,
+                        p[v] + (thickness_m - 0.5f * kStep_m) * n, n, toFloat(longitudinal),
+                        toFloat(cross(radial, longitudinal)), ahaSegment(axes_, toDouble(p[v]))});
   }
 }
 
@@ -75,8 +70,7 @@ std::vector<double> HeartFunction::rotations(const SurfaceFrame& surfaces) const
   return rotations;
 }
 
-void HeartFunction::Means::add(const WallColumn& column, const Lengths& now,
-                               const Lengths& first) {
+void HeartFunction::Means::add(const WallColumn& column, const Lengths& now, const Lengths& first) {
   const auto s = static_cast<std::size_t>(column.segment - 1);
   const double strain = now.longitudinal / first.longitudinal - 1;
   longitudinal += strain;
@@ -115,8 +109,7 @@ void HeartFunction::addStrain(const SurfaceFrame& surfaces, const FieldFrame& fi
     if (std::abs(column.mid_m.y) <= kInView_m) view.add(column, now, first_lengths_[i]);
     const double zeta = axes_.zeta(toDouble(column.endo_m));
     if (zeta > kTwistZeta) continue;
-    const double turn =
-        std::remainder(turned[i] - first_rotations_[i], 2 * std::numbers::pi);
+    const double turn = std::remainder(turned[i] - first_rotations_[i], 2 * std::numbers::pi);
     n += 1;
     sum_z += zeta;
     sum_zz += zeta * zeta;

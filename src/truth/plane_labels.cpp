@@ -69,8 +69,9 @@ void PlaneLabels::fillRow(std::vector<RowCrossing>& crossings, std::uint16_t id,
     for (std::size_t s = row_spans_[r]; s < row_spans_[r + 1]; ++s) {
       const std::uint32_t begin = std::max(from, spans_[s].first),
                           end = std::min(to, spans_[s].second);
-      if (begin < end) std::fill(ids.begin() + static_cast<std::ptrdiff_t>(first + begin),
-                                 ids.begin() + static_cast<std::ptrdiff_t>(first + end), id);
+      if (begin < end)
+        std::fill(ids.begin() + static_cast<std::ptrdiff_t>(first + begin),
+                  ids.begin() + static_cast<std::ptrdiff_t>(first + end), id);
     }
   };
   int winding = 0;

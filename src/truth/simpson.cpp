@@ -25,7 +25,8 @@ bool cutTriangle(const Triangle& t, std::span<const Vec3f> p, Vec3d base_m, Vec3
 double widthOf(std::vector<double>& crossings) {
   std::sort(crossings.begin(), crossings.end());
   double width = 0;
-  for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) width += crossings[i + 1] - crossings[i];
+  for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
+    width += crossings[i + 1] - crossings[i];
   return width;
 }
 

@@ -31,9 +31,9 @@ struct ViewLandmarks {
 };
 
 // Standard planes hold the long axis. The four-chamber plane holds the middle of the tricuspid ring
-// too, or else the middle of the right ventricle; the two-chamber plane is turned by 60 degrees from
-// it; the long axis holds the middle of the aortic ring, or else is turned by -60 degrees. Turns are
-// from the lateral towards the anterior wall. `cavity` at `positions_m`, probe frame.
+// too, or else the middle of the right ventricle; the two-chamber plane is turned by 60 degrees
+// from it; the long axis holds the middle of the aortic ring, or else is turned by -60 degrees.
+// Turns are from the lateral towards the anterior wall. `cavity` at `positions_m`, probe frame.
 ViewOffset viewOffset(const ViewLandmarks& marks, const SurfaceTopology& cavity,
                       std::span<const Vec3f> positions_m);
 

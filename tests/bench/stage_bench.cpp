@@ -204,12 +204,11 @@ std::vector<std::vector<RayQuery>> refractedRays(const BenchScene& scene,
   return rounds;
 }
 
-// Next to a refit and the same rays.
+// Next to a refit and the same rays; bent lines with their echoes linked over the cells.
 void hierarchy(benchmark::State& state, bool refraction) {
   const BenchScene scene{Size(state)};
   EffectPlan plan = planEffects(scene.scene);
   plan.refraction = refraction;
-  // Bent lines as the program traces them: with their echoes linked over the cells.
   TraceSettings settings(scene.scene, plan, refraction ? EchoCells::links : EchoCells::none);
   if (refraction) settings.media[1].sound_speed_m_s = 1570;
   PlaneRequest request = planeRequest(scene.scene, plan);

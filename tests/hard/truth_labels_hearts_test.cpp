@@ -107,8 +107,8 @@ void expectLabels(Scene scene, double phase) {
     for (int k = 0; k < scene.probe.samples; ++k) {
       const double path_m = scene.probe.min_depth_m + (k + 0.5) * scene.probe.sampleSpacing();
       const Vec3d p = g.origin + path_m * g.direction;
-      beam_wrong += !isNear(ids, p.x, p.z,
-                            samples[static_cast<std::size_t>(line * scene.probe.samples + k)]);
+      beam_wrong +=
+          !isNear(ids, p.x, p.z, samples[static_cast<std::size_t>(line * scene.probe.samples + k)]);
     }
   }
   // What is thinner than a pixel may pass between pixels' centres.
@@ -116,8 +116,8 @@ void expectLabels(Scene scene, double phase) {
 }
 
 TEST(TruthLabelsOfHearts, TheShippedOne) {
-  Scene scene = readScene(std::filesystem::path(support::kSourceDir) /
-                          "examples/beating_heart/scene.toml");
+  Scene scene =
+      readScene(std::filesystem::path(support::kSourceDir) / "examples/beating_heart/scene.toml");
   scene.probe.lines = 65;
   for (const double phase : {0.0, 0.31}) expectLabels(scene, phase);
 }
@@ -131,7 +131,8 @@ TEST(TruthLabelsOfHearts, APatients) {
 
 // Meshes of any unit, put 13 cm wide in the middle of the sector.
 void expectLabelsOf(const std::string& set, const std::vector<std::string>& names) {
-  const std::filesystem::path meshes = std::filesystem::path(support::kSharedDir) / "real/statics" / set;
+  const std::filesystem::path meshes =
+      std::filesystem::path(support::kSharedDir) / "real/statics" / set;
   if (!std::filesystem::exists(meshes)) GTEST_SKIP() << "no real meshes at " << meshes;
   std::vector<TriangleMesh> read;
   Box box;
@@ -152,7 +153,8 @@ void expectLabelsOf(const std::string& set, const std::vector<std::string>& name
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (Vec3d& p : read[i].positions) p = mm * (p - middle) + Vec3d{0, 0, 80};
     named[names[i]] = std::make_shared<TriangleMesh>(read[i]);
-    text.addStructure(names[i], i == 0 ? "myocardium" : "blood", "\"" + names[i] + "\"", priority++);
+    text.addStructure(names[i], i == 0 ? "myocardium" : "blood", "\"" + names[i] + "\"",
+                      priority++);
   }
   expectLabels(parseScene(text.text(), "in memory", named), 0);
 }

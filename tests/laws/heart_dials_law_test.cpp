@@ -43,8 +43,8 @@ TEST(HeartFunctionLaw, AnInfarctStrainsLessThanTheRest) {
 
 // Of the heart that is shipped: its dials and its timing, as data/beating_heart has them.
 TEST(HeartFunctionLaw, TheShippedHeartHasWhatWasDialled) {
-  Scene scene = readScene(std::filesystem::path(support::kSourceDir) /
-                          "examples/beating_heart/scene.toml");
+  Scene scene =
+      readScene(std::filesystem::path(support::kSourceDir) / "examples/beating_heart/scene.toml");
   scene.truth.function = true;
   const MeshMotion motion(scene);
   const TruthMaker maker(scene, motion, {}, 0);

@@ -50,7 +50,7 @@ Scene sceneOf(const TwoPhases& heart) {
 // The heart half-way through its beat against the map: what every column's lengths become.
 struct Measured {
   FunctionFrame now;
-  double strain = 0;         // mean over the columns, longitudinal, by the map
+  double strain = 0;                           // mean over the columns, longitudinal, by the map
   double worst_place_m = 0, mean_place_m = 0;  // of tracks off the map
 };
 
@@ -119,7 +119,9 @@ Mesh pointedTube(double radius, double base, double end, double tip) {
     }
   m.points.push_back({0, 0, base});
   m.points.push_back({0, 0, tip});
-  const auto at = [](int ring, int i) { return static_cast<std::uint32_t>(ring * kTurns + i % kTurns); };
+  const auto at = [](int ring, int i) {
+    return static_cast<std::uint32_t>(ring * kTurns + i % kTurns);
+  };
   const std::uint32_t middle = at(kRings, 0), apex = middle + 1;
   for (int i = 0; i < kTurns; ++i) {
     m.triangles.push_back({middle, at(0, i + 1), at(0, i)});
@@ -138,7 +140,8 @@ Vec3d toProbe(Vec3d p) {
 }
 
 TwoPhases tubeHeart(const Map& in_heart) {
-  return {mapped(pointedTube(20, -2, 80, 90), toProbe), mapped(pointedTube(30, 0, 88, 104), toProbe),
+  return {mapped(pointedTube(20, -2, 80, 90), toProbe),
+          mapped(pointedTube(30, 0, 88, 104), toProbe),
           [in_heart](Vec3d p) { return toProbe(in_heart(toProbe(p))); }};
 }
 
@@ -164,8 +167,8 @@ TEST(HeartFunctionLaw, AHeartThatIsMovedAsAWholeHasNoStrain) {
   const Vec3d axis = normalised(Vec3d{1, 2, -1});
   const TwoPhases heart = tubeHeart([axis](Vec3d p) {  // Rodrigues' rotation by 20 degrees
     const double a = 20 * std::numbers::pi / 180;
-    return std::cos(a) * p + std::sin(a) * cross(axis, p) + (1 - std::cos(a)) * dot(axis, p) * axis +
-           Vec3d{3, -4, 5};
+    return std::cos(a) * p + std::sin(a) * cross(axis, p) +
+           (1 - std::cos(a)) * dot(axis, p) * axis + Vec3d{3, -4, 5};
   });
   const Measured m = measured(heart);
   for (const SegmentStrain& s : m.now.segments)
@@ -174,14 +177,16 @@ TEST(HeartFunctionLaw, AHeartThatIsMovedAsAWholeHasNoStrain) {
   EXPECT_LT(std::abs(m.now.global_longitudinal_strain), 1e-5);
   EXPECT_LT(std::abs(m.now.twist_deg), 0.01);
   EXPECT_LT(m.worst_place_m, 1e-6);
-  EXPECT_NEAR(m.now.sphericity, m.now.volume_ml / (std::numbers::pi / 6 * 92 * 92 * 92 * 1e-3), 1e-4);
+  EXPECT_NEAR(m.now.sphericity, m.now.volume_ml / (std::numbers::pi / 6 * 92 * 92 * 92 * 1e-3),
+              1e-4);
 }
 
 // Rows of a linear map that moves and turns, about the middle of the ball, mm.
 Vec3d moved(Vec3d p, double part) {
   const Vec3d d = p - kMiddle;
-  return p + part * (Vec3d{-0.1 * d.x + 0.05 * d.y, 0.08 * d.y - 0.04 * d.z, 0.06 * d.x + 0.1 * d.z} +
-                     Vec3d{2, -1, 3});
+  return p +
+         part * (Vec3d{-0.1 * d.x + 0.05 * d.y, 0.08 * d.y - 0.04 * d.z, 0.06 * d.x + 0.1 * d.z} +
+                 Vec3d{2, -1, 3});
 }
 
 // The inverse of `moved`, by its fixed point: the map is near to the identity.
@@ -192,16 +197,16 @@ Vec3d cameFrom(Vec3d p, double part) {
 }
 
 TEST(HeartFunctionLaw, ChannelsOfAnAffineMotionAreItsOwn) {
-  Scene scene = sceneOf({support::icosphere(3, 25).moved(kMiddle),
-                         support::icosphere(3, 35).moved(kMiddle),
-                         [](Vec3d p) { return moved(p, 1); }});
+  Scene scene =
+      sceneOf({support::icosphere(3, 25).moved(kMiddle), support::icosphere(3, 35).moved(kMiddle),
+               [](Vec3d p) { return moved(p, 1); }});
   scene.truth = {};
   scene.output.channels = {Channel::displacement_lateral, Channel::velocity_lateral};
   const MeshMotion motion(scene);
   const TruthMaker maker(scene, motion, {}, 0);
-  constexpr double kPhase = 0.3, kStep = 0.01, kBeat_s = 0.8;  // linear: the part is twice the phase
-  const FrameTruth truth =
-      maker.at({kPhase, kPhase - kStep, kPhase + kStep, 2 * kStep * kBeat_s});
+  constexpr double kPhase = 0.3, kStep = 0.01,
+                   kBeat_s = 0.8;  // linear: the part is twice the phase
+  const FrameTruth truth = maker.at({kPhase, kPhase - kStep, kPhase + kStep, 2 * kStep * kBeat_s});
   int seen = 0;
   for (int line = 0; line < scene.probe.lines; ++line) {
     const LineGeometry g = lineGeometry(scene.probe, line);

@@ -21,13 +21,28 @@ void fillFolder(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder / "intensity");
   std::filesystem::create_directories(folder / "png");
   std::filesystem::create_directories(folder / "truth");
-  for (const char* name :
-       {"cine.avi", "cine.avi.part", "manifest.json", "notes.txt", "intensity/frame_0000.exr",
-        "intensity/frame_0001.exr", "intensity/frame_0002.exr", "intensity/frame_0001.exr.part",
-        "intensity/frame_12345.exr", "intensity/frame_mine.exr", "intensity/frame_0000.exr.bak",
-        "intensity/other.exr", "png/frame_0000.png", "png/frame_0002.png",
-        "png/frame_0000.png.part", "png/figure.png", "truth/labels_0001.png", "truth/labels_0002.png",
-        "truth/contours_0002.json", "truth/labels.json", "truth/function.json", "truth/mine.json"})
+  for (const char* name : {"cine.avi",
+                           "cine.avi.part",
+                           "manifest.json",
+                           "notes.txt",
+                           "intensity/frame_0000.exr",
+                           "intensity/frame_0001.exr",
+                           "intensity/frame_0002.exr",
+                           "intensity/frame_0001.exr.part",
+                           "intensity/frame_12345.exr",
+                           "intensity/frame_mine.exr",
+                           "intensity/frame_0000.exr.bak",
+                           "intensity/other.exr",
+                           "png/frame_0000.png",
+                           "png/frame_0002.png",
+                           "png/frame_0000.png.part",
+                           "png/figure.png",
+                           "truth/labels_0001.png",
+                           "truth/labels_0002.png",
+                           "truth/contours_0002.json",
+                           "truth/labels.json",
+                           "truth/function.json",
+                           "truth/mine.json"})
     test::putBytes(folder / name, "x");
 }
 
@@ -62,8 +77,11 @@ TEST(OutputFolder, NewRunRemovesEveryFrameAndCineOfEarlierRuns) {
   const TempFolder temp;
   fillFolder(temp.path());
   OutputFolder(temp.path(), withPng(false), false).removeStale(2);
-  const std::vector<std::string> left{"intensity/frame_0000.exr.bak", "intensity/frame_mine.exr",
-                                      "intensity/other.exr", "notes.txt", "png/figure.png",
+  const std::vector<std::string> left{"intensity/frame_0000.exr.bak",
+                                      "intensity/frame_mine.exr",
+                                      "intensity/other.exr",
+                                      "notes.txt",
+                                      "png/figure.png",
                                       "truth/mine.json"};
   EXPECT_EQ(listing(temp.path()), left);
 }

@@ -70,7 +70,8 @@ TEST(TruthRefusal, PointsInAWallThatIsEmpty) {
 }
 
 TEST(TruthRefusal, PointsOutsideTheSector) {
-  expectNames(refusalOf(ventricle("write = [\"tracks\"]"), {0, 0, -60}), {"tracks", "outer", "sector"});
+  expectNames(refusalOf(ventricle("write = [\"tracks\"]"), {0, 0, -60}),
+              {"tracks", "outer", "sector"});
 }
 
 }  // namespace
