@@ -150,7 +150,7 @@ std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
   const std::shared_ptr<Workspace> workspace = parts_.simulator.workspace();
   finished->entry.volumes_ml = tracedFrame(time, *workspace);
   GreyImage& image =
-      parts_.simulator.picture(manifest_.reference_intensity, *workspace, o.cine || o.png);
+      parts_.simulator.picture(manifest_.reference_intensity, time, *workspace, o.cine || o.png);
   if (truth_files_) makeTruth(time, *workspace, *finished);
   clock.time(Stage::exr, [&] { writeExr(record, *workspace, *finished); });
   if (finished->truth) finished->truth->forgetPlanes();

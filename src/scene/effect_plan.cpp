@@ -7,6 +7,7 @@
 #include "core/units.h"
 #include "scene/media_in_use.h"
 #include "scene/names.h"
+#include "scene/picture_plan.h"
 #include "scene/scan_geometry.h"
 
 namespace echocine {
@@ -130,10 +131,11 @@ Finding attenuating(const Scene& scene) {
        {Channel::y, Channel::attenuation, Channel::reflection, Channel::backscatter})
     if (wants(scene, c)) return {true, fmt::format("channel {} holds it", channelName(c))};
   if (wantsPicture(scene) && scene.signal.tgc != Tgc::perfect)
-    return {true, scene.signal.tgc == Tgc::none ? "no time gain undoes it"
-                  : scene.signal.tgc == Tgc::mean
-                      ? "the mean time gain undoes only what all lines share"
-                      : "a table of gains does not undo it exactly"};
+    return {true,
+            scene.signal.tgc == Tgc::none   ? "no time gain undoes it"
+            : scene.signal.tgc == Tgc::mean ? "the mean time gain undoes only what all lines share"
+            : scene.signal.tgc == Tgc::nominal ? "the nominal gain undoes the same on all lines"
+                                               : "a table of gains does not undo it exactly"};
   return {false, "perfect TGC undoes it and no received intensity was asked for"};
 }
 
@@ -206,29 +208,30 @@ void planTruth(const Scene& scene, EffectPlan& plan) {
     if (wants(scene, c)) add(plan, Effect::channel, true, "asked for in output.channels", c);
 }
 
-void planSpeckle(const Scene& scene, EffectPlan& plan) {
-  plan.speckle = scene.speckle.on && wantsPicture(scene) && plan.contrast;
-  add(plan, Effect::speckle, plan.speckle,
-      !scene.speckle.on      ? "speckle.on asks for none"
-      : !wantsPicture(scene) ? "no picture is asked for"
-      : !plan.contrast       ? "nothing can be seen"
-                       : fmt::format("{:g} scatterers per resolution cell move with the tissue",
-                                     scene.speckle.per_cell));
+// A curve of depth that is applied to every line, and what asks for it.
+Finding timeGain(const Scene& scene, const EffectPlan& plan) {
+  if (!wantsPicture(scene)) return {false, "no picture is asked for"};
+  switch (scene.signal.tgc) {
+    case Tgc::perfect:
+      return {false, "perfect TGC is attenuation left out, not a gain to apply"};
+    case Tgc::none:
+      return {false, "no time gain is asked for"};
+    case Tgc::table:
+      return {true, "a table of gains over depth"};
+    case Tgc::nominal:
+    case Tgc::mean:
+      break;
+  }
+  if (!plan.attenuation) return {false, "there is no attenuation to undo"};
+  if (scene.signal.tgc == Tgc::nominal)
+    return {true, "one curve of depth, by a nominal attenuation"};
+  return {true, "one curve of depth that undoes the loop's mean attenuation"};
 }
 
 void planSignal(const Scene& scene, EffectPlan& plan) {
   const bool picture = wantsPicture(scene);
-  if (scene.signal.tgc == Tgc::table && picture)
-    add(plan, Effect::tgc, true, "a table of gains over depth");
-  else if (scene.signal.tgc == Tgc::mean && picture && plan.attenuation)
-    add(plan, Effect::tgc, true, "one curve of depth that undoes the loop's mean attenuation");
-  else
-    add(plan, Effect::tgc, false,
-        scene.signal.tgc == Tgc::perfect
-            ? "perfect TGC is attenuation left out, not a gain to apply"
-        : scene.signal.tgc == Tgc::mean && picture ? "there is no attenuation to undo"
-        : picture                                  ? "no time gain is asked for"
-                                                   : "no picture is asked for");
+  const Finding gain = timeGain(scene, plan);
+  add(plan, Effect::tgc, gain.on, gain.reason);
   add(plan, Effect::log_compression, picture,
       picture ? fmt::format("{:g} dB for the picture", scene.signal.dynamic_range_db)
               : "no picture is asked for");
@@ -275,6 +278,7 @@ EffectPlan planEffects(const Scene& scene) {
   plan.travel_time = decide(plan, Effect::travel_time, wanted.travel_time,
                             {false, "echoes are placed at their path length"});
   planSpeckle(scene, plan);
+  planArtefacts(scene, plan);
   planSignal(scene, plan);
   return plan;
 }

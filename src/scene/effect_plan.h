@@ -31,6 +31,9 @@ struct EffectPlan {
   bool beam_width = true;
   bool travel_time = false;
   bool speckle = false;
+  bool heterogeneity = false, anisotropy = false;  // of the scatterers
+  bool dropout = false, acoustic_window = false, haze = false, reverberation = false;
+  bool clutter = false, noise = false, persistence = false;
   int rays_per_beam = 1;                         // that are traced
   bool lateral_rays = false, elevation = false;  // what several rays are spread over
   // Of signal.tgc = "mean": what the loop's mean attenuation takes at each sample's depth, 0..1.

@@ -53,8 +53,23 @@ struct NamesOf<Switch> {
 
 template <>
 struct NamesOf<Tgc> {
-  static constexpr Named<Tgc> kAll[] = {
-      {Tgc::perfect, "perfect"}, {Tgc::mean, "mean"}, {Tgc::table, "table"}, {Tgc::none, "none"}};
+  static constexpr Named<Tgc> kAll[] = {{Tgc::perfect, "perfect"},
+                                        {Tgc::mean, "mean"},
+                                        {Tgc::table, "table"},
+                                        {Tgc::none, "none"},
+                                        {Tgc::nominal, "nominal"}};
+};
+
+template <>
+struct NamesOf<Look> {
+  static constexpr Named<Look> kAll[] = {
+      {Look::paper, "paper"}, {Look::clean, "clean"}, {Look::scanner, "scanner"}};
+};
+
+template <>
+struct NamesOf<Quality> {
+  static constexpr Named<Quality> kAll[] = {
+      {Quality::good, "good"}, {Quality::medium, "medium"}, {Quality::poor, "poor"}};
 };
 
 template <>
@@ -148,6 +163,15 @@ struct NamesOf<Effect> {
                                            {Effect::elevation, "elevation"},
                                            {Effect::travel_time, "travel_time"},
                                            {Effect::speckle, "speckle"},
+                                           {Effect::heterogeneity, "heterogeneity"},
+                                           {Effect::anisotropy, "anisotropy"},
+                                           {Effect::dropout, "dropout"},
+                                           {Effect::acoustic_window, "acoustic_window"},
+                                           {Effect::haze, "haze"},
+                                           {Effect::reverberation, "reverberation"},
+                                           {Effect::clutter, "clutter"},
+                                           {Effect::noise, "noise"},
+                                           {Effect::persistence, "persistence"},
                                            {Effect::tgc, "tgc"},
                                            {Effect::log_compression, "log_compression"},
                                            {Effect::labels, "labels"},

@@ -24,6 +24,16 @@ inline constexpr NumberRange kReferenceIntensity{.lo = 1e-37, .hi = 1e37};  // f
 inline constexpr NumberRange kGamma{.lo = 0.01, .hi = 100};
 inline constexpr NumberRange kToleranceLines{.lo = 0, .hi = 1e6};
 inline constexpr NumberRange kTolerance_db{.lo = 1e-6, .hi = 1000};
+inline constexpr NumberRange kLevel_db{.lo = -200, .hi = 60};  // of an artefact
+inline constexpr NumberRange kLoss_db{.lo = 0, .hi = 200};
+inline constexpr NumberRange kPictureGain_db{.lo = -100, .hi = 100};
+inline constexpr NumberRange kArtefactLength_mm{.lo = 0.01, .hi = 1e4};
+inline constexpr NumberRange kArtefactWidth_deg{.lo = 0.01, .hi = 180};
+inline constexpr NumberRange kWindowOffset_mm{.lo = -1e4, .hi = 1e4};
+inline constexpr NumberRange kHeterogeneity_db{.lo = 0, .hi = 20};
+inline constexpr NumberRange kHelix_deg{.lo = 0, .hi = 90};
+inline constexpr NumberRange kNominalGain_db_cm_mhz{.lo = 0, .hi = 5};
+inline constexpr NumberRange kPersistence{.lo = 0, .hi = 0.8};
 inline constexpr NumberRange kBeats{.lo = 1e-6, .hi = 1e6};
 
 // Of a place in mesh units: its cube is still a float.

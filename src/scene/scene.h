@@ -95,6 +95,15 @@ enum class Effect {
   elevation,
   travel_time,
   speckle,
+  heterogeneity,
+  anisotropy,
+  dropout,
+  acoustic_window,
+  haze,
+  reverberation,
+  clutter,
+  noise,
+  persistence,
   tgc,
   log_compression,
   labels,
@@ -141,13 +150,22 @@ inline constexpr EffectSwitch kEffectSwitches[] = {
     {Effect::elevation, &EffectSwitches::elevation},
     {Effect::travel_time, &EffectSwitches::travel_time}};
 
-enum class Tgc { perfect, mean, table, none };
+enum class Tgc { perfect, mean, table, none, nominal };
 enum class Spread { compensate, keep };
 enum class BeamWidth { focused, fixed, none };
 
+// What a picture is to look like: the paper's; with speckle and a scanner's grey map; with its
+// artefacts too. A look is nothing but other defaults (looks.h).
+enum class Look { paper, clean, scanner };
+enum class Quality { good, medium, poor };
+
 struct SignalSettings {
+  Look look = Look::paper;
+  Quality quality = Quality::medium;  // of the look "scanner"
   Tgc tgc = Tgc::perfect;
   std::vector<std::pair<double, double>> tgc_table;  // (depth m, gain dB), ascending depths
+  // Of Tgc::nominal: 0.76 of soft tissue's 0.54 dB/(cm MHz), so that lung stays dark. Our choice.
+  double nominal_gain_np_per_m_hz = 4.72e-6;
   Spread spread = Spread::compensate;
   BeamWidth beam_width = BeamWidth::focused;
   double beam_width_m = 0;  // for BeamWidth::fixed
@@ -155,7 +173,11 @@ struct SignalSettings {
   double dynamic_range_db = 60;
   std::optional<double> reference_intensity;  // absolute, relative to I_S; else the percentile
   double reference_percentile = 99.5;         // of all samples of the loop, near field left out
-  double grey_gamma = 1;                      // grey = (position in the dynamic range)^gamma
+  double gain_db = 0;                         // of the picture: white is so far below the reference
+  double interface_gain_db = 0;  // of interface echoes against tissue, in the picture alone
+  // Interface echoes E become E / (1 + E / limit), in dB of the transmitted intensity. None: as is.
+  std::optional<double> interface_limit_db;
+  double grey_gamma = 1;  // grey = (position in the dynamic range)^gamma
 };
 
 // Coherent echoes of material scatterers (src/speckle).
@@ -166,6 +188,40 @@ struct SpeckleSettings {
   double smoothing_m = 0.7e-3;  // full width at half maximum, along the lines; 0: none
   double tissue_time_s = 0;     // after which tissue's scatterers are new ones; 0: never
   double blood_time_s = 0.01;   // the same of blood; our choice: well under a frame
+  // Backscatter that differs from place to place and stays with the tissue: log-normal with mean 1,
+  // a sum of two fields of equal variance with these scales. Standard deviation; 0: none.
+  double heterogeneity_db = 0;
+  double heterogeneity_fine_m = 1.2e-3, heterogeneity_coarse_m = 4e-3;
+  int heterogeneity_seed = 1;
+  // What muscle fibres send back along themselves, below what they do across; 0: none.
+  double anisotropy_db = 0;
+  double helix_angle_rad = 1.0471975511965976;  // at the endocardium, minus at the epicardium
+};
+
+// What a scanner adds to the echoes, each by itself. Levels are intensities.
+struct ArtefactSettings {
+  bool dropout = false;                            // lines at the sector's edges lose contact
+  double dropout_db = 12;                          // on the outermost lines
+  bool acoustic_window = false;                    // ribs shade part of the aperture
+  double window_width_m = 24e-3;                   // between them
+  double window_offset_m = 0;                      // of its middle, along the lateral axis
+  double window_depth_m = 12e-3;                   // of the ribs, from the probe's face
+  double window_shadow_db = 30;                    // what a whole shadow takes, both ways
+  bool haze = false;                               // side lobes: across the lines
+  double haze_db = -24;                            // of what all its sources send
+  double haze_width_rad = 0.12217304763960307;     // where it has fallen to 1/e
+  bool reverberation = false;                      // a tail behind every echo
+  double reverberation_db = -27;                   // of the echo
+  double reverberation_length_m = 6e-3;            // where it has fallen to 1/e
+  bool clutter = false;                            // of the near field, standing still
+  double clutter_db = -12;                         // of white, at the face
+  double clutter_length_m = 6e-3;                  // where it has fallen to 1/e
+  double clutter_width_rad = 0.15707963267948966;  // of its speckle, full at half maximum
+  int clutter_seed = 1;
+  bool noise = false;     // of the receiver, under the time gain
+  double noise_db = -55;  // of white, at the depth of the largest gain
+  int noise_seed = 1;
+  double persistence = 0;  // weight of each frame over that of the next one; 0: none
 };
 
 enum class TracerChoice { automatic, slice, embree };
@@ -230,6 +286,7 @@ struct Scene {
   std::vector<Structure> structures;
   EffectSwitches effects;
   SpeckleSettings speckle;
+  ArtefactSettings artefacts;
   SignalSettings signal;
   AccuracySettings accuracy;
   OutputSettings output;

@@ -86,8 +86,11 @@ Json effectsJson(const EffectSwitches& switches) {
 Json signalJson(const SignalSettings& s) {
   Json tgc_table = Json::array();
   for (const auto& [depth_m, gain_db] : s.tgc_table) tgc_table.push_back({depth_m, gain_db});
-  return {{"tgc", nameOf(s.tgc)},
+  return {{"look", nameOf(s.look)},
+          {"quality", nameOf(s.quality)},
+          {"tgc", nameOf(s.tgc)},
           {"tgc_table_m_db", tgc_table},
+          {"nominal_gain_np_per_m_hz", s.nominal_gain_np_per_m_hz},
           {"spread", nameOf(s.spread)},
           {"beam_width", nameOf(s.beam_width)},
           {"beam_width_m", s.beam_width_m},
@@ -95,6 +98,9 @@ Json signalJson(const SignalSettings& s) {
           {"dynamic_range_db", s.dynamic_range_db},
           {"reference_intensity", optionalJson(s.reference_intensity)},
           {"reference_percentile", s.reference_percentile},
+          {"gain_db", s.gain_db},
+          {"interface_gain_db", s.interface_gain_db},
+          {"interface_limit_db", optionalJson(s.interface_limit_db)},
           {"grey_gamma", s.grey_gamma}};
 }
 
@@ -104,7 +110,38 @@ Json speckleJson(const SpeckleSettings& s) {
           {"per_cell", s.per_cell},
           {"smoothing_m", s.smoothing_m},
           {"tissue_time_s", s.tissue_time_s},
-          {"blood_time_s", s.blood_time_s}};
+          {"blood_time_s", s.blood_time_s},
+          {"heterogeneity_db", s.heterogeneity_db},
+          {"heterogeneity_fine_m", s.heterogeneity_fine_m},
+          {"heterogeneity_coarse_m", s.heterogeneity_coarse_m},
+          {"heterogeneity_seed", s.heterogeneity_seed},
+          {"anisotropy_db", s.anisotropy_db},
+          {"helix_angle_rad", s.helix_angle_rad}};
+}
+
+Json artefactsJson(const ArtefactSettings& a) {
+  return {{"dropout", a.dropout},
+          {"dropout_db", a.dropout_db},
+          {"acoustic_window", a.acoustic_window},
+          {"window_width_m", a.window_width_m},
+          {"window_offset_m", a.window_offset_m},
+          {"window_depth_m", a.window_depth_m},
+          {"window_shadow_db", a.window_shadow_db},
+          {"haze", a.haze},
+          {"haze_db", a.haze_db},
+          {"haze_width_rad", a.haze_width_rad},
+          {"reverberation", a.reverberation},
+          {"reverberation_db", a.reverberation_db},
+          {"reverberation_length_m", a.reverberation_length_m},
+          {"clutter", a.clutter},
+          {"clutter_db", a.clutter_db},
+          {"clutter_length_m", a.clutter_length_m},
+          {"clutter_width_rad", a.clutter_width_rad},
+          {"clutter_seed", a.clutter_seed},
+          {"noise", a.noise},
+          {"noise_db", a.noise_db},
+          {"noise_seed", a.noise_seed},
+          {"persistence", a.persistence}};
 }
 
 Json outputJson(const OutputSettings& o) {
@@ -177,6 +214,7 @@ Json sceneJson(const Scene& scene) {
       {"truth", truthJson(scene.truth)}};
   // A picture without speckle is the same file as before there was any.
   if (scene.speckle.on) json["speckle"] = speckleJson(scene.speckle);
+  json["artefacts"] = artefactsJson(scene.artefacts);
   return json;
 }
 

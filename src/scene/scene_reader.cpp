@@ -210,8 +210,10 @@ Scene parse(std::string_view text, const std::filesystem::path& file, const Name
   scene.unit_volume_m3 =
       cubicMetresFromCubicCentimetres(root.number("unit_volume_cm3", 1.0, ranges::kUnitVolume_cm3));
   scene.effects = readEffects(root.table("effects"));
-  scene.speckle = readSpeckle(root.table("speckle"));
-  scene.signal = readSignal(root.table("signal"));
+  takeLook(root.table("signal"), scene);
+  scene.speckle = readSpeckle(root.table("speckle"), scene.speckle);
+  scene.artefacts = readArtefacts(root.table("artefacts"), scene.artefacts);
+  scene.signal = readSignal(root.table("signal"), scene.signal);
   scene.accuracy = readAccuracy(root.table("accuracy"));
   scene.output = readOutput(root.table("output"));
   if (root.has("truth")) scene.truth = readTruth(root.table("truth"), scene);

@@ -1,13 +1,18 @@
 #pragma once
-// [signal] and [speckle] of a scene file: from received intensities to the picture's grey.
+// The tables [signal], [speckle] and [artefacts] of a scene.
 
 #include "scene/scene.h"
 #include "scene/toml_table.h"
 
 namespace echocine {
 
-// Both throw SceneError.
-SignalSettings readSignal(TomlTable table);
-SpeckleSettings readSpeckle(TomlTable table);
+// Reads signal.look and signal.quality and gives the scene their values, as defaults of the keys
+// that are read after it.
+void takeLook(TomlTable signal, Scene& scene);
+
+// Each with the defaults that it is given.
+SignalSettings readSignal(TomlTable table, const SignalSettings& defaults);
+SpeckleSettings readSpeckle(TomlTable table, const SpeckleSettings& defaults);
+ArtefactSettings readArtefacts(TomlTable table, const ArtefactSettings& defaults);
 
 }  // namespace echocine

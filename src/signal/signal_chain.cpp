@@ -1,6 +1,8 @@
 #include "signal/signal_chain.h"
 
+#include "core/units.h"
 #include "signal/log_compression.h"
+#include "signal/sector_loss.h"
 #include "signal/time_gain.h"
 
 namespace echocine {
@@ -15,16 +17,32 @@ SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
   if (plan.beam_width) beam_.emplace(scene.probe, average);
   if (settings_.tgc == Tgc::mean) gains_ = gainsAgainst(plan.mean_loss);
   if (settings_.tgc == Tgc::table) gains_ = timeGains(settings_.tgc_table, scene.probe);
+  if (settings_.tgc == Tgc::nominal && plan.attenuation)
+    gains_ =
+        nominalGains(settings_.nominal_gain_np_per_m_hz * scene.probe.frequency_hz, scene.probe);
+  const ArtefactSettings& a = scene.artefacts;
+  losses_ = sectorLosses(scene.probe, a, plan);
+  if (plan.haze) haze_.emplace(scene.probe, a.haze_db, a.haze_width_rad);
+  if (plan.reverberation) tail_.emplace(scene.probe, a.reverberation_db, a.reverberation_length_m);
+  if (plan.clutter) clutter_.emplace(scene);
+  if (plan.noise) noise_.emplace(scene, gains_);
 }
 
 void SignalChain::process(Intensities& intensities) const {
   if (!gains_.empty()) applyTimeGains(gains_, intensities);
   if (beam_) beam_->apply(intensities.values);
+  if (!losses_.empty()) applySectorLosses(losses_, intensities);
+  if (haze_) haze_->add(intensities);
+  if (tail_) tail_->add(intensities);
 }
 
-Greys SignalChain::compress(Intensities&& intensities, double reference_intensity) const {
+Greys SignalChain::compress(Intensities&& intensities, double reference_intensity,
+                            double time_s) const {
+  const double white = reference_intensity * intensityFromDecibels(-settings_.gain_db);
   Greys greys(intensities.release());
-  compressIntensities(greys, reference_intensity, settings_.dynamic_range_db, greys);
+  if (clutter_) clutter_->add(white, greys);
+  if (noise_) noise_->add(white, time_s, greys);
+  compressIntensities(greys, white, settings_.dynamic_range_db, greys);
   return greys;
 }
 

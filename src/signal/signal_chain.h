@@ -1,6 +1,7 @@
 #pragma once
 // The scanner's signal processing, the same in every frame of a loop:
-// time gain -> beam width -> log compression -> scan conversion -> grey map.
+// time gain -> beam width -> drop-out, ribs, haze, reverberation -> (speckle) -> clutter, noise ->
+// log compression -> scan conversion -> grey map.
 // Spread is the tracer's part (it knows which intensity was scattered), by the intensity_terms of
 // its request.
 
@@ -10,6 +11,8 @@
 #include "core/beam_plane.h"
 #include "scene/effect_plan.h"
 #include "signal/beam_width.h"
+#include "signal/haze.h"
+#include "signal/noise.h"
 #include "signal/scan_conversion.h"
 
 namespace echocine {
@@ -20,11 +23,12 @@ class SignalChain {
 
   const PictureGeometry& geometry() const { return geometry_; }
 
-  // Time gain and beam width, in place: intensities as they are compressed.
+  // Time gain, beam width and what the chest does to echoes, in place.
   void process(Intensities& intensities) const;
 
-  // Log compression against the loop's one reference. The greys take over the intensities' memory.
-  Greys compress(Intensities&& intensities, double reference_intensity) const;
+  // Clutter, noise and log compression against the loop's one reference; noise is that of an
+  // instant. The greys take over the intensities' memory.
+  Greys compress(Intensities&& intensities, double reference_intensity, double time_s = 0) const;
 
   // Scan conversion and grey map.
   void picture(const Greys& greys, GreyImage& image) const { converter_.convert(greys, image); }
@@ -37,6 +41,11 @@ class SignalChain {
   SignalSettings settings_;
   std::vector<float> gains_;  // of a table or the mean; empty: none
   std::optional<BeamAverage> beam_;
+  std::vector<float> losses_;  // of drop-out and ribs; empty: none
+  std::optional<SideLobeHaze> haze_;
+  std::optional<ReverberationTail> tail_;
+  std::optional<NearFieldClutter> clutter_;
+  std::optional<ReceiverNoise> noise_;
   PictureGeometry geometry_;
   ScanConverter converter_;
 };

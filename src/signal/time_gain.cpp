@@ -1,6 +1,7 @@
 #include "signal/time_gain.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/units.h"
 
@@ -33,6 +34,17 @@ std::vector<float> timeGains(const std::vector<std::pair<double, double>>& table
 std::vector<float> gainsAgainst(std::span<const double> losses) {
   std::vector<float> gains;
   for (const double loss : losses) gains.push_back(static_cast<float>(1 / loss));
+  return gains;
+}
+
+std::vector<float> nominalGains(double attenuation_np_per_m, const Probe& probe) {
+  constexpr double kMost = 1e20;  // of intensity: within floats
+  std::vector<float> gains;
+  for (int k = 0; k < probe.samples; ++k) {
+    const double path_m = probe.min_depth_m + (k + 0.5) * probe.sampleSpacing();
+    gains.push_back(
+        static_cast<float>(std::min(std::exp(4 * attenuation_np_per_m * path_m), kMost)));
+  }
   return gains;
 }
 

@@ -4,8 +4,8 @@
 
 namespace echocine {
 
-SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion)
-    : material_(scene, motion),
+SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion, const EffectPlan& plan)
+    : material_(scene, motion, &plan),
       sheets_(scene, motion, material_.field().referencePhase()),
       speckle_(scene.probe, scene.signal.pulse_cycles, scene.speckle, material_) {
   const double half_m = speckle_.farthestAcross_m();

@@ -3,6 +3,7 @@
 
 #include "core/beam_plane.h"
 #include "motion/cycle/cardiac_clock.h"
+#include "scene/effect_plan.h"
 #include "speckle/field_material.h"
 #include "speckle/sheet_points.h"
 #include "speckle/speckle.h"
@@ -11,7 +12,7 @@ namespace echocine {
 
 class SceneSpeckle {
  public:
-  SceneSpeckle(const Scene& scene, const MeshMotion& motion);
+  SceneSpeckle(const Scene& scene, const MeshMotion& motion, const EffectPlan& plan);
 
   // Intensities after the average over the beam, in place. `surfaces` are those of the instant.
   // Thread-safe; frames of equal time are equal.

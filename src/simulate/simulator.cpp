@@ -55,7 +55,11 @@ Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, Loop
       request_(planeRequest(scene_, plan_.effects)) {
   if (plan_.effects.rays_per_beam > 1)
     beams_.emplace(scene_.probe, beamSpread(plan_.effects, scene_.acquisition.seed));
-  if (plan_.effects.speckle) speckle_ = std::make_unique<const SceneSpeckle>(scene_, *motion_);
+  if (plan_.effects.speckle)
+    speckle_ = std::make_unique<const SceneSpeckle>(scene_, *motion_, plan_.effects);
+  if (plan_.effects.persistence)
+    persistence_ = std::make_unique<const Persistence>(scene_.artefacts.persistence, cardiac_clock_,
+                                                       scene_.acquisition.frame_rate_hz);
 }
 
 std::shared_ptr<Workspace> Simulator::workspace() const {
@@ -120,7 +124,7 @@ Volumes Simulator::trace(const FrameTime& time, Workspace& w) const {
   return volumes_ml;
 }
 
-Volumes Simulator::traceLines(const FrameTime& time, Workspace& w) const {
+Volumes Simulator::traceUncounted(const FrameTime& time, Workspace& w, WorkCounts& work) const {
   Volumes volumes_ml;
   w.phase = -1;
   if (w.polar.intensities.empty()) w.polar.intensities = Intensities(w.greys.release());
@@ -128,13 +132,19 @@ Volumes Simulator::traceLines(const FrameTime& time, Workspace& w) const {
     motion_->frameAt(time.phase, w.surfaces, plan_.smooth_normals);
     volumes_ml = volumes(w.surfaces);
   });
-  const WorkCounts work = std::visit(
+  work = std::visit(
       [&](auto& geometry) {
         clock_.time(Stage::geometry, [&] { geometry.update(w.surfaces); });
         return clock_.time(Stage::trace, [&] { return traceRays(geometry, time.frame, w.polar); });
       },
       w.geometry);
   w.phase = time.phase;
+  return volumes_ml;
+}
+
+Volumes Simulator::traceLines(const FrameTime& time, Workspace& w) const {
+  WorkCounts work;
+  Volumes volumes_ml = traceUncounted(time, w, work);
   const std::lock_guard lock(mutex_);
   work_ += work;
   ++traced_frames_;
@@ -149,11 +159,26 @@ void Simulator::process(const FrameTime& time, Workspace& w) const {
   refuseUnusable(time.phase, w.polar);
 }
 
-GreyImage& Simulator::picture(double reference_intensity, Workspace& w, bool wanted) const {
+// A frame that persists in a later one. It counts as no work of its own: how often it is made
+// depends on what is still known.
+Greys Simulator::greysAlone(double reference_intensity, const FrameTime& time) const {
+  const std::shared_ptr<Workspace> w = workspace();
+  WorkCounts uncounted;
+  traceUncounted(time, *w, uncounted);
+  process(time, *w);
+  return chain_.compress(std::move(w->polar.intensities), reference_intensity, time.time_s);
+}
+
+GreyImage& Simulator::picture(double reference_intensity, const FrameTime& time, Workspace& w,
+                              bool wanted) const {
   if (!request_.intensities) return w.image;
   clock_.time(Stage::signal, [&] {
-    w.greys = chain_.compress(std::move(w.polar.intensities), reference_intensity);
+    w.greys = chain_.compress(std::move(w.polar.intensities), reference_intensity, time.time_s);
   });
+  if (persistence_)
+    persistence_->apply(reference_intensity, time, w.greys, [&](const FrameTime& earlier) {
+      return greysAlone(reference_intensity, earlier);
+    });
   if (wanted) clock_.time(Stage::scan_conversion, [&] { chain_.picture(w.greys, w.image); });
   return w.image;
 }
@@ -256,7 +281,7 @@ void Simulator::frame(double time_s, Frame& made) const {
   inThisThread([&] {
     made.volumes_ml = trace(made.time, *w);
     made.intensities.values.assign(w->polar.intensities.begin(), w->polar.intensities.end());
-    picture(reference, *w, wantsPicture(scene_));
+    picture(reference, made.time, *w, wantsPicture(scene_));
     made.truth.reset();
     if (truth() != nullptr) made.truth = truthAt(made.time, w.get());
   });

@@ -20,6 +20,7 @@
 #include "output/frame_record.h"
 #include "scene/loop_plan.h"
 #include "signal/signal_chain.h"
+#include "simulate/persistence.h"
 #include "simulate/scene_speckle.h"
 #include "trace/trace_beams.h"
 #include "trace/trace_frame.h"
@@ -95,8 +96,11 @@ class Simulator {
   void process(const FrameTime& time, Workspace& workspace) const;
 
   // log compression -> scan conversion: workspace.polar.intensities become workspace.greys. The
-  // picture is the workspace's; empty or an old one where none is wanted.
-  GreyImage& picture(double reference_intensity, Workspace& workspace, bool wanted) const;
+  // picture is the workspace's; empty or an old one where none is wanted. `time` is what the
+  // intensities were traced for; with persistence earlier frames are made too, unless they are
+  // still known.
+  GreyImage& picture(double reference_intensity, const FrameTime& time, Workspace& workspace,
+                     bool wanted) const;
 
   // What makes truth, fitted by the first call; nullptr where the scene asks for none. Errors: those
   // of TruthMaker. Thread-safe.
@@ -116,6 +120,8 @@ class Simulator {
   WorkCounts traceRays(const PlaneSlice& slice, int frame, PolarFrame& polar) const;
   WorkCounts traceRays(const FrameGeometry& geometry, int frame, PolarFrame& polar) const;
   double measureReference() const;
+  Volumes traceUncounted(const FrameTime& time, Workspace& workspace, WorkCounts& work) const;
+  Greys greysAlone(double reference_intensity, const FrameTime& time) const;
 
   const Scene scene_;
   const std::shared_ptr<const MeshMotion> motion_;
@@ -126,6 +132,7 @@ class Simulator {
   const PlaneRequest request_;
   std::optional<BeamRays> beams_;  // several rays per beam
   std::unique_ptr<const SceneSpeckle> speckle_;
+  std::unique_ptr<const Persistence> persistence_;
   mutable StageClock clock_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<Workspace>> free_;

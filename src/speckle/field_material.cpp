@@ -13,8 +13,10 @@ constexpr double kBetweenPhases = 1.1;  // tissue may move farther between them
 
 }  // namespace
 
-FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion)
+FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion, const EffectPlan* plan)
     : field_(interiorMotion(scene, motion)) {
+  if (plan && (plan->heterogeneity || plan->anisotropy))
+    strength_ = std::make_unique<const TissueStrength>(scene, *plan, motion, field_);
   const std::size_t groups = field_.groupCount();
   blood_.assign(groups, false);
   blood_.back() = scene.medium(scene.background).blood;

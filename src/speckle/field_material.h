@@ -3,18 +3,26 @@
 
 #include "motion/interior_motion.h"
 #include "speckle/material.h"
+#include "speckle/tissue_strength.h"
 
 namespace echocine {
 
 class FieldMaterial : public Material {
  public:
-  FieldMaterial(const Scene& scene, const MeshMotion& motion);
+  // Tissue is alike everywhere but where the plan has heterogeneity or anisotropy; no plan:
+  // neither.
+  FieldMaterial(const Scene& scene, const MeshMotion& motion, const EffectPlan* plan = nullptr);
 
   CubeLattice lattice() const override { return lattice_; }
   bool blood(std::uint16_t group) const override { return blood_[group]; }
   bool coarse(std::uint16_t group) const override { return coarse_[group]; }
   void groupsAt(std::span<const Vec3f> reference_m, std::span<std::uint16_t> groups) const override;
   void overTheBeat(const std::function<void(const MaterialFrame&)>& look) const override;
+  bool differs() const override { return strength_ != nullptr; }
+  void amplitudes(std::span<const Vec3f> reference_m, std::uint16_t group,
+                  std::span<float> out) const override {
+    strength_->amplitudes(reference_m, group, blood_[group], out);
+  }
   double reachAcross_m() const override { return across_m_; }
   double reachAlong_m() const override { return along_m_; }
 
@@ -24,6 +32,7 @@ class FieldMaterial : public Material {
   MotionField field_;
   CubeLattice lattice_;
   std::vector<bool> blood_, coarse_;  // by group
+  std::unique_ptr<const TissueStrength> strength_;
   double across_m_ = 0, along_m_ = 0;
 };
 

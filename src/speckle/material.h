@@ -42,6 +42,11 @@ class Material {
   virtual void groupsAt(std::span<const Vec3f> reference_m, std::span<std::uint16_t> groups) const {
     for (std::size_t i = 0; i < reference_m.size(); ++i) groups[i] = 0;
   }
+  // How strongly tissue scatters back, as factors of amplitude at reference places of one group;
+  // asked for only where they differ.
+  virtual bool differs() const { return false; }
+  virtual void amplitudes(std::span<const Vec3f> /*reference_m*/, std::uint16_t /*group*/,
+                          std::span<float> /*out*/) const {}
   // Calls look() for instants all over the beat, close enough that tissue moves under 2 mm to the
   // nearest. Never called: whatever may be seen is kept.
   virtual void overTheBeat(const std::function<void(const MaterialFrame&)>& /*look*/) const {}

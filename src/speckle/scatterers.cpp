@@ -130,6 +130,22 @@ Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const Beam
   });
   for (const Block& block : blocks) addBlock(block, material);
   dropUnseen(view, material);
+  weigh(material);
+}
+
+void Scatterers::weigh(const Material& material) {
+  if (!material.differs()) return;
+  strength_.assign(u_.size(), 1);
+  parallelBlocks(batches_.size(), 16, [&](std::size_t begin, std::size_t end) {
+    std::vector<Vec3f> places_m;
+    for (std::size_t n = begin; n < end; ++n) {
+      const ScattererBatch& b = batches_[n];
+      places_m.clear();
+      for (std::uint32_t i = b.first; i < b.first + b.count; ++i)
+        places_m.push_back(b.low_m + b.edge_m * Vec3f{u_[i], v_[i], w_[i]});
+      material.amplitudes(places_m, b.group, std::span(strength_).subspan(b.first, b.count));
+    }
+  });
 }
 
 // Leaves out what no beam reaches at any instant: most tissue beside the plane does not move far.

@@ -49,15 +49,21 @@ class Scatterers {
   const float* v(const ScattererBatch& b) const { return v_.data() + b.first; }
   const float* w(const ScattererBatch& b) const { return w_.data() + b.first; }
 
+  // Factors of amplitude; none where all are 1.
+  const float* strength(const ScattererBatch& b) const {
+    return strength_.empty() ? nullptr : strength_.data() + b.first;
+  }
+
  private:
   struct Block;
+  void weigh(const Material& material);
   void addBlock(const Block& block, const Material& material);
   void dropUnseen(const BeamView& view, const Material& material);
   void addBatch(std::span<const Vec3f> places_m, Vec3f low_m, float edge_m, std::uint16_t group,
                 bool blood, std::uint64_t pattern);
 
   std::vector<ScattererBatch> batches_;
-  std::vector<float> u_, v_, w_;
+  std::vector<float> u_, v_, w_, strength_;
   std::size_t count_ = 0;
 };
 

@@ -32,10 +32,10 @@ void Speckle::addUp(const MaterialFrame& tissue, double time_s, EchoSums& sums) 
   for (const ScattererBatch& batch : scatterers_.batches()) {
     const BeamCube cube = view_.cubeOf(tissue.corners(batch.group, batch.low_m, batch.edge_m));
     if (!view_.sees(cube)) continue;
-    splatter_.add(cube, scatterers_, batch,
-                  mixAt(gaussian_, batch.pattern, time_s,
-                        batch.blood ? settings_.blood_time_s : settings_.tissue_time_s),
-                  queue, sums);
+    GaussianMix mix = mixAt(gaussian_, batch.pattern, time_s,
+                            batch.blood ? settings_.blood_time_s : settings_.tissue_time_s);
+    mix.strength = scatterers_.strength(batch);
+    splatter_.add(cube, scatterers_, batch, mix, queue, sums);
   }
   addSheets(tissue.onSheets(), time_s, queue, sums);
   queue.flush(sums);

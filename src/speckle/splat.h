@@ -56,11 +56,18 @@ class SplatQueue {
 struct GaussianMix {
   const float *real_a, *imaginary_a, *real_b, *imaginary_b;
   float a = 1, b = 0;
+  // Factors of amplitude by scatterer, or none. What the ratio is normalised by is without them.
+  const float* strength = nullptr;
 
-  Floats8 real(std::uint32_t j) const { return mixed(real_a + j, real_b + j); }
-  Floats8 imaginary(std::uint32_t j) const { return mixed(imaginary_a + j, imaginary_b + j); }
+  Floats8 real(std::uint32_t j) const { return weighed(j, mixed(real_a + j, real_b + j)); }
+  Floats8 imaginary(std::uint32_t j) const {
+    return weighed(j, mixed(imaginary_a + j, imaginary_b + j));
+  }
 
  private:
+  Floats8 weighed(std::uint32_t j, Floats8 c) const {
+    return strength ? lanesAt(strength + j) * c : c;
+  }
   Floats8 mixed(const float* one, const float* two) const {
     return b == 0 ? lanesAt(one) : a * lanesAt(one) + b * lanesAt(two);
   }

@@ -132,7 +132,7 @@ FramePicture SettingRun::picture(const FrameTime& time, double reference_intensi
         readBack(stack.encode(record, {{Channel::y, polar.intensities, {}}}), Channel::y);
   making.process(time, *workspace);
   FramePicture picture;
-  picture.image = making.picture(reference_intensity, *workspace, true);
+  picture.image = making.picture(reference_intensity, time, *workspace, true);
   making.chain().picture(workspace->greys, picture.grey);
   if (stored)
     picture.exr_bytes = stack.encode(record, channelPlanes(scene_.output, *workspace)).size();
@@ -178,7 +178,7 @@ StageTimes SettingRun::timeBatch(const std::vector<FrameTime>& times, std::size_
         const std::shared_ptr<Workspace> workspace = making.workspace();
         const FrameTime& time = times[i % times.size()];
         making.trace(time, *workspace);
-        GreyImage image = making.picture(reference_intensity, *workspace, true);
+        GreyImage image = making.picture(reference_intensity, time, *workspace, true);
         if (o.exr)
           making.clock().time(Stage::exr, [&] {
             sha256Hex(stack.encode({static_cast<int>(i), 0, time.phase, 0},

@@ -30,6 +30,14 @@ struct IntensityTerms {
   // pulse's half length over the spacing, so that the average over the pulse is the intensity
   // itself whatever the spacing. At least 1.
   double echo_samples = 1;
+  // Of interface echoes in the picture: a factor, and what it tends to; 0: no limit.
+  double echo_gain = 1, echo_limit = 0;
+
+  template <typename Number>
+  Number shown(Number echo) const {
+    const Number gained = echo * echo_gain;
+    return echo_limit > 0 ? gained / (1 + gained / echo_limit) : gained;
+  }
 };
 
 // I_R of section 4.1 relative to I_S: eta_b V / l^2 exp(-A) prod (1-R)^2 at each sample's centre,

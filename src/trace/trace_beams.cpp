@@ -123,7 +123,8 @@ class BeamSums {
       if (!parts.reflection) continue;
       for (const Echo& echo : trace.echoes) {
         const double lost = parts.attenuation ? std::exp(-echo.exponent) : 1.0;
-        addEcho(echo, ray, sampling, parts.echo_samples * echo.intensity * lost, weights_, sums);
+        addEcho(echo, ray, sampling, parts.echo_samples * parts.shown(echo.intensity) * lost,
+                weights_, sums);
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/parallel.h"
+#include "core/units.h"
 #include "scene/scan_geometry.h"
 #include "trace/cell_echoes.h"
 #include "trace/line_walker.h"
@@ -184,6 +185,9 @@ PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan) {
   request.echo_samples = echoSamples(scene);
   // Without the average over the pulse a sample of the picture shows the echo's peak.
   if (plan.beam_width) request.intensity_terms.echo_samples = request.echo_samples;
+  request.intensity_terms.echo_gain = intensityFromDecibels(scene.signal.interface_gain_db);
+  if (scene.signal.interface_limit_db)
+    request.intensity_terms.echo_limit = intensityFromDecibels(*scene.signal.interface_limit_db);
   request.spread_undone_at_m = plan.spread ? 0 : scene.probe.middleDepth();
   request.intensity_terms.spread_undone_at_m =
       !plan.spread || scene.signal.spread == Spread::compensate ? scene.probe.middleDepth() : 0;

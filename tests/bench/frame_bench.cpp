@@ -78,7 +78,8 @@ void wholeFrame(benchmark::State& state) {
   std::vector<double> over_rays;
   const auto ours = [&](std::size_t i) {
     benchmark::DoNotOptimize(simulator.trace(frameTime(i), *workspace));
-    benchmark::DoNotOptimize(simulator.picture(kReference, *workspace, true).pixels.data());
+    benchmark::DoNotOptimize(
+        simulator.picture(kReference, frameTime(i), *workspace, true).pixels.data());
   };
   overFloor(state, ours, [&](std::size_t i) { bare.run(i, false); });
   withThreads(1, [&] {
@@ -106,7 +107,7 @@ void speckleFrame(benchmark::State& state) {
   const auto made = [](const Simulator& simulator) {
     return [&simulator, w = simulator.workspace()](std::size_t i) {
       benchmark::DoNotOptimize(simulator.trace(frameTime(i), *w));
-      benchmark::DoNotOptimize(simulator.picture(kReference, *w, true).pixels.data());
+      benchmark::DoNotOptimize(simulator.picture(kReference, frameTime(i), *w, true).pixels.data());
     };
   };
   overFloor(state, made(*with), made(without));

@@ -29,12 +29,12 @@ void truthOf(benchmark::State& state, void (*ask)(Scene&)) {
       state,
       [&](std::size_t i) {
         benchmark::DoNotOptimize(asked.trace(time(i), *traced));
-        benchmark::DoNotOptimize(asked.picture(1e-6f, *traced, true).pixels.data());
+        benchmark::DoNotOptimize(asked.picture(1e-6f, time(i), *traced, true).pixels.data());
         benchmark::DoNotOptimize(asked.truthAt(time(i), traced.get()));
       },
       [&](std::size_t i) {
         benchmark::DoNotOptimize(plain.trace(time(i), *workspace));
-        benchmark::DoNotOptimize(plain.picture(1e-6f, *workspace, true).pixels.data());
+        benchmark::DoNotOptimize(plain.picture(1e-6f, time(i), *workspace, true).pixels.data());
       });
 }
 

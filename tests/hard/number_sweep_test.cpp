@@ -104,8 +104,50 @@ elevation_aperture_mm = 13
 elevation_focus_mm = 80
 [signal]
 reference_intensity = 1e-6
+tgc = "nominal"
+tgc_nominal_db_cm_mhz = 0.41
+gain_db = 0.0
+interface_gain_db = 0.0
+interface_limit_db = -55.0
 [accuracy]
 rays_per_beam = 4
+)";
+const std::string kPicture = R"(
+[speckle]
+on = true
+seed = 1
+smoothing_mm = 0.7
+tissue_time_ms = 0.0
+blood_time_ms = 10.0
+heterogeneity_db = 4.0
+heterogeneity_fine_mm = 1.2
+heterogeneity_coarse_mm = 4.0
+heterogeneity_seed = 1
+anisotropy_db = 10.0
+helix_angle_deg = 60.0
+[artefacts]
+dropout = true
+dropout_db = 12.0
+acoustic_window = true
+window_width_mm = 24.0
+window_offset_mm = 0.0
+window_depth_mm = 12.0
+window_shadow_db = 30.0
+haze = true
+haze_db = -24.0
+haze_width_deg = 7.0
+reverberation = true
+reverberation_db = -27.0
+reverberation_length_mm = 6.0
+clutter = true
+clutter_db = -12.0
+clutter_length_mm = 6.0
+clutter_width_deg = 9.0
+clutter_seed = 1
+noise = true
+noise_db = -55.0
+noise_seed = 1
+persistence = 0.3
 )";
 const std::string kFixed = R"(
 [signal]
@@ -215,6 +257,11 @@ TEST_F(NumberSweep, EveryKeyOfALoopIsAPictureOrARefusalThatNamesIt) {
 TEST_F(NumberSweep, EveryKeyOfBloodAndSeveralRays) {
   sweep(with(kLoop, "two"), kMediaAndProbe + "sector_deg = 70\n" + kRays);
   expectBothEnds(400, 50);
+}
+
+TEST_F(NumberSweep, EveryKeyOfSpeckleAndArtefacts) {
+  sweep(with(kLoop, "one") + kMediaAndProbe + "sector_deg = 70\n" + kFocused, kPicture);
+  expectBothEnds(400, 100);
 }
 
 TEST_F(NumberSweep, EveryKeyOfTissueAndACurvilinearProbe) {

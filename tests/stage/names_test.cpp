@@ -31,6 +31,8 @@ TEST(Names, AreWhole) {
   expectWhole<Switch>();
   expectWhole<Effect>();
   expectWhole<Tgc>();
+  expectWhole<Look>();
+  expectWhole<Quality>();
   expectWhole<Spread>();
   expectWhole<BeamWidth>();
   expectWhole<TracerChoice>();

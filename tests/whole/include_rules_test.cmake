@@ -42,7 +42,7 @@ set(rooms
   "truth=geometry,motion,interior"
   "trace=geometry"
   "speckle=trace,interior,motion"
-  "signal=trace"
+  "signal=trace|speckle"
   "metrics=signal,trace"
   "video=signal"
   "output=signal,motion,heart,truth|video"

@@ -1,0 +1,15 @@
+#pragma once
+// The part of the plan that the picture alone knows: speckle, what tissue it shows, and what the
+// scanner adds.
+
+#include "scene/effect_plan.h"
+
+namespace echocine {
+
+// Speckle, heterogeneity and anisotropy. Precondition: plan.contrast is decided.
+void planSpeckle(const Scene& scene, EffectPlan& plan);
+
+// Drop-out, ribs, haze, reverberation, clutter, noise and persistence.
+void planArtefacts(const Scene& scene, EffectPlan& plan);
+
+}  // namespace echocine

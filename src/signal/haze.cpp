@@ -1,0 +1,87 @@
+#include "signal/haze.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/parallel.h"
+#include "core/units.h"
+#include "scene/scan_geometry.h"
+
+namespace echocine {
+
+namespace {
+
+constexpr int kTogether = 32;  // samples, or lines, that go through a recursion side by side
+
+// A width across the lines in lines. Parallel lines take it as an arc at the middle depth.
+double linesOf(const Probe& probe, double width_rad) {
+  const ScanGeometry geometry(probe);
+  return (geometry.angular() ? width_rad : width_rad * probe.middleDepth()) / geometry.cellWidth();
+}
+
+}  // namespace
+
+SideLobeHaze::SideLobeHaze(const Probe& probe, double level_db, double width_rad)
+    : lines_(probe.lines), samples_(probe.samples) {
+  const double a = std::exp(-1 / linesOf(probe, width_rad));
+  decay_ = static_cast<float>(a);
+  level_ = static_cast<float>(intensityFromDecibels(level_db) * (1 - a) / (1 + a));
+}
+
+void SideLobeHaze::add(std::span<float> plane) const {
+  const auto blocks = static_cast<std::size_t>((samples_ + kTogether - 1) / kTogether);
+  parallelBlocks(blocks, 8, [&](std::size_t begin, std::size_t end) {
+    thread_local std::vector<std::array<float, kTogether>> before;
+    before.resize(static_cast<std::size_t>(lines_));
+    for (std::size_t b = begin; b < end; ++b) {
+      const int first = static_cast<int>(b) * kTogether,
+                count = std::min(kTogether, samples_ - first);
+      const auto row = [&](int line) {
+        return plane.data() + static_cast<std::ptrdiff_t>(line) * samples_ + first;
+      };
+      std::array<float, kTogether> sum{};
+      for (int i = 0; i < lines_; ++i) {
+        for (int k = 0; k < count; ++k) sum[k] = row(i)[k] + decay_ * sum[k];
+        before[static_cast<std::size_t>(i)] = sum;
+      }
+      sum = {};
+      for (int i = lines_ - 1; i >= 0; --i)
+        for (int k = 0; k < count; ++k) {
+          const float own = row(i)[k];
+          row(i)[k] += level_ * (before[static_cast<std::size_t>(i)][k] + sum[k]);
+          sum[k] = decay_ * (own + sum[k]);
+        }
+    }
+  });
+}
+
+ReverberationTail::ReverberationTail(const Probe& probe, double level_db, double length_m)
+    : lines_(probe.lines), samples_(probe.samples) {
+  const double a = std::exp(-probe.sampleSpacing() / length_m);
+  decay_ = static_cast<float>(a);
+  level_ = static_cast<float>(intensityFromDecibels(level_db) * (1 - a));
+}
+
+// Lines side by side: each sum waits for its own last one alone.
+void ReverberationTail::add(std::span<float> plane) const {
+  constexpr int kLines = 8;
+  const auto blocks = static_cast<std::size_t>((lines_ + kLines - 1) / kLines);
+  parallelBlocks(blocks, 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const int first = static_cast<int>(b) * kLines, count = std::min(kLines, lines_ - first);
+      float* at = plane.data() + static_cast<std::ptrdiff_t>(first) * samples_;
+      std::array<float, kLines> tail{};
+      for (int k = 0; k < samples_; ++k)
+        for (int j = 0; j < count; ++j) {
+          float& value = at[static_cast<std::ptrdiff_t>(j) * samples_ + k];
+          const float own = value;
+          value += level_ * tail[static_cast<std::size_t>(j)];
+          tail[static_cast<std::size_t>(j)] = own + decay_ * tail[static_cast<std::size_t>(j)];
+        }
+    }
+  });
+}
+
+}  // namespace echocine

@@ -1,0 +1,34 @@
+#pragma once
+// What a patient's chest takes from a scan line before anything is received: contact that is lost
+// towards the sector's edges, and ribs that shade part of the aperture.
+
+#include <span>
+#include <vector>
+
+#include "scene/effect_plan.h"
+#include "scene/scene.h"
+
+namespace echocine {
+
+// Intensity factor of drop-out at s = -1 (first line) to 1 (last): 10^(-L s^4 / 10), L in dB at the
+// edges. The fourth power keeps the middle half within L / 16. Our choice.
+double dropoutFactor(double s, double loss_db);
+
+// Ribs lie at one depth d beside a gap of width w. Of an aperture D about the start of a line, the
+// part f whose straight paths to a point pass the gap is open; what passes ribs keeps the amplitude
+// tau. Both ways: (f + (1 - f) tau)^4, with tau^4 the whole shadow in intensity. In front of the
+// ribs 1. Points in the probe frame, from the middle of the face.
+struct RibGap {
+  double aperture_m = 0, width_m = 0, offset_m = 0, depth_m = 0, shadow_db = 0;
+  double openPart(double start_x_m, double x_m, double z_m) const;
+  double factor(double start_x_m, double x_m, double z_m) const;
+};
+
+// Of every sample of every line, line-major; empty where the plan has neither effect.
+std::vector<float> sectorLosses(const Probe& probe, const ArtefactSettings& settings,
+                                const EffectPlan& plan);
+
+// plane[i] *= factors[i]. Precondition: equal sizes.
+void applySectorLosses(std::span<const float> factors, std::span<float> plane);
+
+}  // namespace echocine

@@ -1,0 +1,89 @@
+#include "speckle/nearest_vertex.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/box.h"
+#include "core/check.h"
+
+namespace echocine {
+
+namespace {
+
+constexpr int kMostBins = 64;  // along the longest side
+
+}  // namespace
+
+NearestVertex::NearestVertex(std::span<const Vec3f> points_m) {
+  CHECK_LT(std::size_t{0}, points_m.size());
+  Box box;
+  for (const Vec3f p : points_m) box.add(toDouble(p));
+  const Vec3d size = box.hi - box.lo;
+  low_m_ = toFloat(box.lo);
+  edge_m_ = static_cast<float>(std::max({size.x, size.y, size.z, 1e-9}) / kMostBins);
+  const auto bins = [&](double length) {
+    return static_cast<int>(length / static_cast<double>(edge_m_)) + 1;
+  };
+  nx_ = bins(size.x);
+  ny_ = bins(size.y);
+  nz_ = bins(size.z);
+  starts_.assign(bin(0, 0, nz_) + 1, 0);
+  std::vector<std::size_t> of(points_m.size());
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const Vec3f p = points_m[i];
+    of[i] = bin(binOf(p.x, low_m_.x, nx_), binOf(p.y, low_m_.y, ny_), binOf(p.z, low_m_.z, nz_));
+    ++starts_[of[i] + 1];
+  }
+  for (std::size_t b = 1; b < starts_.size(); ++b) starts_[b] += starts_[b - 1];
+  points_m_.resize(of.size());
+  std::vector<std::uint32_t> next = starts_;
+  for (std::size_t i = 0; i < of.size(); ++i) points_m_[next[of[i]]++] = points_m[i];
+}
+
+std::size_t NearestVertex::bin(int x, int y, int z) const {
+  return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny_) +
+          static_cast<std::size_t>(y)) *
+             static_cast<std::size_t>(nx_) +
+         static_cast<std::size_t>(x);
+}
+
+int NearestVertex::binOf(float at, float low, int count) const {
+  return std::clamp(static_cast<int>((at - low) / edge_m_), 0, count - 1);
+}
+
+// Shells of bins about the place's own, until none that is left can be nearer.
+Vec3f NearestVertex::to(Vec3f place_m) const {
+  const Vec3f held{std::clamp(place_m.x, low_m_.x, low_m_.x + edge_m_ * static_cast<float>(nx_)),
+                   std::clamp(place_m.y, low_m_.y, low_m_.y + edge_m_ * static_cast<float>(ny_)),
+                   std::clamp(place_m.z, low_m_.z, low_m_.z + edge_m_ * static_cast<float>(nz_))};
+  const int cx = binOf(held.x, low_m_.x, nx_), cy = binOf(held.y, low_m_.y, ny_),
+            cz = binOf(held.z, low_m_.z, nz_);
+  const Vec3f off = place_m - held;
+  const float outside = std::sqrt(off.x * off.x + off.y * off.y + off.z * off.z);
+  float best2 = std::numeric_limits<float>::infinity();
+  Vec3f best = points_m_.front();
+  for (int shell = 0; shell <= std::max({nx_, ny_, nz_}); ++shell) {
+    const float least = std::max(static_cast<float>(shell - 1) * edge_m_ - outside, 0.0f);
+    if (best2 < least * least) break;
+    for (int z = std::max(cz - shell, 0); z <= std::min(cz + shell, nz_ - 1); ++z)
+      for (int y = std::max(cy - shell, 0); y <= std::min(cy + shell, ny_ - 1); ++y) {
+        const bool face = std::abs(z - cz) == shell || std::abs(y - cy) == shell;
+        for (int x = cx - shell; x <= cx + shell; x += face || shell == 0 ? 1 : 2 * shell) {
+          if (x < 0 || x >= nx_) continue;
+          const std::size_t b = bin(x, y, z);
+          for (std::uint32_t i = starts_[b]; i < starts_[b + 1]; ++i) {
+            const Vec3f d = points_m_[i] - place_m;
+            const float d2 = d.x * d.x + d.y * d.y + d.z * d.z;
+            if (d2 < best2) {
+              best2 = d2;
+              best = points_m_[i];
+            }
+          }
+        }
+      }
+  }
+  return best;
+}
+
+}  // namespace echocine

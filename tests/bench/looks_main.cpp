@@ -1,0 +1,225 @@
+// echo_looks: texture of simulated apical stills beside that of clinical ones.
+//   echo_looks [--hearts N] [--quality good|medium|poor] [--with TOML] [--save FOLDER]
+//   echo_looks --measure FILE MILLIMETRES_PER_PIXEL     frame 0 of a real loop
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "core/file.h"
+#include "core/parallel.h"
+#include "metrics/statistics.h"
+#include "motion/heart/heart_scene.h"
+#include "motion/heart/parameters.h"
+#include "scene/names.h"
+#include "scene/role.h"
+#include "scene/signal_reader.h"
+#include "simulate/simulator.h"
+#include "texture_table.h"
+#include "truth/frame_truth.h"
+#include "video/read_video.h"
+
+namespace echocine::bench {
+namespace {
+
+struct Options {
+  int hearts = 12;
+  Quality quality = Quality::medium;
+  std::string save, measure, with;  // with: a scene file's [signal], [speckle], [artefacts]
+  double mm_per_pixel = 0;
+};
+
+// Dials spread evenly over healthy and ill adults: an additive sequence.
+heart::Parameters parametersOf(int number) {
+  const auto between = [&](double low, double high, double step) {
+    const double at = 0.5 + step * number;
+    return low + (high - low) * (at - std::floor(at));
+  };
+  return heart::parametersFrom({{"edv", between(90, 180, 0.7549)},
+                                {"ef", between(0.35, 0.68, 0.5698)},
+                                {"wall-thickness", between(8, 12, 0.4302)},
+                                {"hr", between(55, 90, 0.3247)}});
+}
+
+void savePgm(const std::string& path, const GreyImage& image) {
+  std::ofstream out(path, std::ios::binary);
+  out << "P5\n" << image.width << " " << image.height << "\n255\n";
+  out.write(reinterpret_cast<const char*>(image.pixels.data()),
+            static_cast<std::streamsize>(image.pixels.size()));
+}
+
+// Papillary muscles count as cavity, as those who trace ventricles have them.
+std::vector<std::uint8_t> labelsOf(const Simulator& simulator, double phase) {
+  Scene scene = simulator.scene();
+  scene.truth.labels = true;
+  const PictureGeometry g = simulator.chain().geometry();
+  const PictureGrid grid{scene.output.width, scene.output.height, g.origin_x_px, g.origin_y_px,
+                         g.metres_per_pixel};
+  const TruthMaker truth(scene, simulator.motion(), grid, phase);
+  const FrameTruth at = truth.at({phase, phase, phase, 1});
+  std::vector<std::uint8_t> labels;
+  for (const std::uint16_t id : at.picture_ids) {
+    const Role role = id == 0 ? Role::none : roleOf(scene.structures[id - 1u]);
+    labels.push_back(role == Role::lv_cavity || role == Role::papillary_muscle ? 1
+                     : role == Role::lv_wall                                   ? 2
+                     : role == Role::la                                        ? 3
+                                                                               : 0);
+  }
+  return labels;
+}
+
+struct Measured {
+  SectorTexture sector;
+  RegionTexture region;
+};
+
+Measured measure(const Simulator& simulator, double time_s, const std::string& save) {
+  Frame frame = simulator.frame(time_s);
+  if (!save.empty()) savePgm(save, frame.image);
+  EchoPicture picture;
+  picture.width = frame.image.width;
+  picture.height = frame.image.height;
+  picture.pixel_x_m = picture.pixel_y_m = simulator.chain().geometry().metres_per_pixel;
+  picture.grey.assign(frame.image.pixels.begin(), frame.image.pixels.end());
+  picture.labels = labelsOf(simulator, frame.time.phase);
+  return {sectorTexture(picture), regionTexture(picture)};
+}
+
+// The look "scanner", or what a file says instead.
+void takeTables(const Options& options, Scene& scene) {
+  const SignalSettings before = scene.signal;
+  scene.signal = {};
+  scene.speckle = {};
+  scene.artefacts = {};
+  scene.signal.look = Look::scanner;
+  scene.signal.quality = options.quality;
+  const std::string text =
+      options.with.empty() ? "" : readTextFile(options.with, std::size_t{1} << 20);
+  TomlTable root = TomlTable::parse(text, options.with);
+  takeLook(root.table("signal"), scene);
+  scene.signal = readSignal(root.table("signal"), scene.signal);
+  scene.speckle = readSpeckle(root.table("speckle"), scene.speckle);
+  scene.artefacts = readArtefacts(root.table("artefacts"), scene.artefacts);
+  if (!scene.signal.reference_intensity)
+    scene.signal.reference_intensity = before.reference_intensity;
+}
+
+using Column = std::vector<Measured>;
+
+void addHeart(int number, const Options& options, std::map<int, Column>& columns) {
+  for (const heart::View view : {heart::View::a4c, heart::View::a2c}) {
+    Scene scene = heart::heartScene(parametersOf(number), view, 12);
+    takeTables(options, scene);
+    scene.speckle.seed = number + 1;
+    scene.artefacts.noise_seed = scene.artefacts.clutter_seed = number + 1;
+    scene.speckle.heterogeneity_seed = number + 1;
+    const double es_s =
+        scene.motion.end_systole_phase.value_or(0.35) / scene.acquisition.heart_rate_hz;
+    const Simulator simulator(std::move(scene));
+    for (const int instant : {0, 1}) {
+      const int column = (view == heart::View::a2c ? 2 : 0) + instant;
+      const std::string file =
+          options.save.empty() ? "" : fmt::format("{}/{}_{}.pgm", options.save, number, column);
+      columns[column].push_back(measure(simulator, instant == 0 ? 0 : es_s, file));
+    }
+  }
+}
+
+void printTable(const std::map<int, Column>& columns) {
+  const char* kNames[] = {"4CH-ED", "4CH-ES", "2CH-ED", "2CH-ES"};
+  int wide_all = 0, narrow_all = 0, wide[4] = {}, narrow[4] = {};
+  fmt::print(
+      "| statistic | 4CH-ED | 4CH-ES | 2CH-ED | 2CH-ES | all | p10-p90 | quartiles |\n"
+      "|---|---|---|---|---|---|---|---|\n");
+  for (const Statistic& statistic : textureStatistics()) {
+    std::vector<double> every;
+    Population mean{};
+    fmt::print("| {} ", statistic.name);
+    for (const auto& [c, column] : columns) {
+      std::vector<double> values;
+      for (const Measured& m : column) values.push_back(statistic.of(m.sector, m.region));
+      every.insert(every.end(), values.begin(), values.end());
+      const double median = quartilesOf(values).median;
+      const Population& p = statistic.columns[c];
+      wide[c] += median >= p.p10 && median <= p.p90;
+      narrow[c] += median >= p.p25 && median <= p.p75;
+      mean.p10 += p.p10 / 4, mean.p25 += p.p25 / 4, mean.p75 += p.p75 / 4, mean.p90 += p.p90 / 4;
+      fmt::print("| {:.3g} ", median);
+    }
+    const double median = quartilesOf(every).median;
+    const bool in_wide = median >= mean.p10 && median <= mean.p90,
+               in_narrow = median >= mean.p25 && median <= mean.p75;
+    wide_all += in_wide;
+    narrow_all += in_narrow;
+    fmt::print("| {:.3g} | {}{:.3g}..{:.3g} | {}{:.3g}..{:.3g} |\n", median, in_wide ? "" : "NOT ",
+               mean.p10, mean.p90, in_narrow ? "" : "not ", mean.p25, mean.p75);
+  }
+  fmt::print("\ninside p10-p90: {} of 15, inside quartiles: {} of 15\n", wide_all, narrow_all);
+  for (const auto& [c, column] : columns)
+    fmt::print("{}: {} and {} of 15, {} hearts\n", kNames[c], wide[c], narrow[c], column.size());
+  std::vector<double> cavity, muscle, p5, p50, p95, dark;
+  for (const auto& [c, column] : columns)
+    for (const Measured& m : column) {
+      cavity.push_back(m.region.cavity_grey);
+      muscle.push_back(m.region.myocardium_grey);
+      p5.push_back(m.sector.grey_p5);
+      p50.push_back(m.sector.grey_p50);
+      p95.push_back(m.sector.grey_p95);
+      dark.push_back(m.sector.dark_fraction);
+    }
+  fmt::print(
+      "greys: cavity {:.0f}, myocardium {:.0f}, sector p5 {:.0f} p50 {:.0f} p95 {:.0f}, dark "
+      "{:.3f}\n",
+      quartilesOf(cavity).median, quartilesOf(muscle).median, quartilesOf(p5).median,
+      quartilesOf(p50).median, quartilesOf(p95).median, quartilesOf(dark).median);
+}
+
+void measureFile(const Options& options) {
+  const Video video = readVideo(options.measure);
+  EchoPicture picture;
+  picture.width = video.width;
+  picture.height = video.height;
+  picture.pixel_x_m = picture.pixel_y_m = 1e-3 * options.mm_per_pixel;
+  picture.grey.assign(video.frames[0].begin(), video.frames[0].end());
+  const SectorTexture s = sectorTexture(picture);
+  for (const Statistic& statistic : textureStatistics())
+    fmt::print("{} {:.3g}\n", statistic.name, statistic.of(s, regionTexture(picture)));
+  fmt::print("dark {:.3f}, p5 {:.0f} p50 {:.0f} p95 {:.0f}\n", s.dark_fraction, s.grey_p5,
+             s.grey_p50, s.grey_p95);
+}
+
+int run(int count, char** words) {
+  Options options;
+  for (int i = 1; i + 1 < count; i += 2) {
+    const std::string key = words[i];
+    if (key == "--hearts") options.hearts = std::atoi(words[i + 1]);
+    if (key == "--quality")
+      options.quality = valueOf<Quality>(words[i + 1]).value_or(options.quality);
+    if (key == "--with") options.with = words[i + 1];
+    if (key == "--save") options.save = words[i + 1];
+    if (key == "--measure") {
+      options.measure = words[i + 1];
+      options.mm_per_pixel = i + 2 < count ? std::atof(words[i + 2]) : 0;
+    }
+  }
+  if (!options.measure.empty()) {
+    measureFile(options);
+    return 0;
+  }
+  std::map<int, Column> columns;
+  for (int h = 0; h < options.hearts; ++h) addHeart(h, options, columns);
+  printTable(columns);
+  return 0;
+}
+
+}  // namespace
+}  // namespace echocine::bench
+
+int main(int count, char** words) {
+  return echocine::bench::run(count, words);
+}
