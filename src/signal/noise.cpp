@@ -30,9 +30,10 @@ float heldWhite(double white) {
 std::vector<float> bell(double deviation, int most) {
   const int reach = std::clamp(static_cast<int>(std::ceil(3 * deviation)), 0, most);
   std::vector<float> taps;
-  for (int t = 0; t <= reach; ++t)
-    taps.push_back(
-        deviation > 0 ? static_cast<float>(std::exp(-0.5 * t * t / (deviation * deviation))) : 1);
+  for (int t = 0; t <= reach; ++t) {
+    const double away = deviation > 0 ? t / deviation : 0;
+    taps.push_back(static_cast<float>(std::exp(-0.5 * away * away)));
+  }
   return taps;
 }
 

@@ -33,7 +33,8 @@ void setFloats(std::vector<CacheLine>& lines, std::size_t count) {
 
 double bell(double distance, double deviation) {
   if (!(deviation > 0)) return distance == 0 ? 1 : 0;
-  return std::exp(-0.5 * distance * distance / (deviation * deviation));
+  const double away = distance / deviation;  // before it is squared: a tiny square would be 0
+  return std::exp(-0.5 * away * away);
 }
 
 std::vector<float> bellTaps(double deviation) {

@@ -222,7 +222,7 @@ class NumberSweep : public ::testing::Test {
         whole.replace(whole.find("\n" + line + "\n") + 1, line.size(), changed);
         SCOPED_TRACE(changed);
         std::string said;
-        ASSERT_NO_THROW(said = outcome(whole, left)) << changed;
+        EXPECT_NO_THROW(said = outcome(whole, left)) << changed;
         ++runs;
         if (said.empty()) {
           ++accepted;
@@ -261,7 +261,7 @@ TEST_F(NumberSweep, EveryKeyOfBloodAndSeveralRays) {
 
 TEST_F(NumberSweep, EveryKeyOfSpeckleAndArtefacts) {
   sweep(with(kLoop, "one") + kMediaAndProbe + "sector_deg = 70\n" + kFocused, kPicture);
-  expectBothEnds(400, 100);
+  expectBothEnds(350, 60);
 }
 
 TEST_F(NumberSweep, EveryKeyOfTissueAndACurvilinearProbe) {

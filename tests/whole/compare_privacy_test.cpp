@@ -26,7 +26,7 @@ class Privacy : public ::testing::Test {
     writeDicom(folder / where / "real.dcm", frames, drawing.width, drawing.height, DicomKind::grey,
                [&](DcmDataset& data) {
                  if (!named) return;
-                 data.putAndInsertString(DCM_PatientName, "DOE^JANE");
+                 data.putAndInsertString(DCM_PatientName, "QUILLFEATHER^JANE");
                  data.putAndInsertString(DCM_PatientID, "HOSPITAL-4711");
                });
     return folder / where / "real.dcm";
@@ -57,12 +57,13 @@ TEST_F(Privacy, PicturesAndNumbersDoNotDependOnWhatIsBurntInAroundTheSector) {
         << name;
 }
 
+// The words are too long to stand in a picture's base64 by chance.
 TEST_F(Privacy, NoTagAndNoFolderIsInAnyOutput) {
   compare(loop("named", true), "out");
   for (const auto& entry : fs::directory_iterator(folder / "out")) {
     const std::string bytes = bytesOf(entry.path());
     for (const std::string& word :
-         {std::string("DOE"), std::string("HOSPITAL-4711"), folder.path().string()})
+         {std::string("QUILLFEATHER"), std::string("HOSPITAL-4711"), folder.path().string()})
       EXPECT_EQ(bytes.find(word), std::string::npos) << word << " in " << entry.path();
   }
 }
