@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "motion/keyframes/interpolation.h"
+#include "motion/keyframes/keyframe_pair.h"
 
 namespace echocine::heart {
 namespace {
@@ -13,31 +14,6 @@ constexpr double kFoldedCosine = -0.766, kTurnedCosine = 0.342;  // of 140 and o
 constexpr int kBetween = 8;  // instants looked at from one keyframe to the next
 
 using Ring = std::vector<std::uint32_t>;
-
-// Two faces with a common edge.
-struct Hinge {
-  std::size_t a, b;
-};
-
-std::vector<Hinge> hingesOf(const std::vector<Face>& faces) {
-  struct Side {
-    std::uint64_t key;
-    std::size_t face;
-  };
-  std::vector<Side> sides;
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint64_t u = faces[f][k], v = faces[f][(k + 1) % 3];
-      sides.push_back({std::min(u, v) << 32 | std::max(u, v), f});
-    }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.key != b.key ? a.key < b.key : a.face < b.face;
-  });
-  std::vector<Hinge> hinges;
-  for (std::size_t i = 0; i + 1 < sides.size(); ++i)
-    if (sides[i].key == sides[i + 1].key) hinges.push_back({sides[i].face, sides[i + 1].face});
-  return hinges;
-}
 
 std::vector<Ring> ringsOf(std::size_t count, const std::vector<Face>& faces) {
   std::vector<Ring> rings(count);
@@ -49,7 +25,8 @@ std::vector<Ring> ringsOf(std::size_t count, const std::vector<Face>& faces) {
 // Looks for folds in a surface.
 class FoldFinder {
  public:
-  explicit FoldFinder(const std::vector<Face>& faces) : faces_(faces), hinges_(hingesOf(faces)) {}
+  explicit FoldFinder(const std::vector<Face>& faces)
+      : faces_(faces), hinges_(neighboursOf(faces)) {}
 
   // Calls found(keyframe, face) for every face in a fold until it returns false.
   template <typename Found>
@@ -67,7 +44,7 @@ class FoldFinder {
         const double phase = std::lerp(beat.phases[k], end, static_cast<double>(i) / kBetween);
         const std::vector<Vec3d> now =
             i == 0 ? left : normalsOf(pointsAt(phase, *weights, beat.points));
-        for (const Hinge& hinge : hinges_)
+        for (const Neighbours& hinge : hinges_)
           if (dot(now[hinge.a], now[hinge.b]) < kFoldedCosine &&
               !(found(k, hinge.a) && found(k, hinge.b)))
             return;
@@ -102,7 +79,7 @@ class FoldFinder {
   }
 
   const std::vector<Face>& faces_;
-  std::vector<Hinge> hinges_;
+  std::vector<Neighbours> hinges_;
 };
 
 // Spreads shares to neighbours, each ring of vertices half as much as the last.

@@ -38,6 +38,11 @@ class ScanGeometry {
 
   // From line to line: the width of a beam's cell. Precondition: two lines at least.
   double cellWidth() const { return (last_place_ - first_place_) / (probe_.lines - 1); }
+  // An angle across the lines, in lines: parallel lines take it as an arc at the middle depth.
+  // Precondition: two lines at least.
+  double linesAcross(double angle_rad) const {
+    return (angular_ ? angle_rad : angle_rad * probe_.middleDepth()) / cellWidth();
+  }
   // Where the cell of line i begins, half a width before it; that of `lines` ends the last cell.
   double cellBorder(int line) const { return first_place_ + (line - 0.5) * cellWidth(); }
 

@@ -36,7 +36,8 @@ std::vector<float> boxTaps(double width) {
 
 BeamAverage::BeamAverage(const Probe& probe, const SignalSettings& settings)
     : lines_(probe.lines), samples_(probe.samples) {
-  const double wavelength_m = ScanGeometry(probe).wavelength();
+  const ScanGeometry geometry(probe);
+  const double wavelength_m = geometry.wavelength();
   taps_ = boxTaps(settings.pulse_cycles * wavelength_m / 2 / probe.sampleSpacing());
   const int reach = static_cast<int>(taps_.size()) / 2;
   for (int k = 0; k < samples_ && !taps_.empty(); ++k) {
@@ -49,7 +50,7 @@ BeamAverage::BeamAverage(const Probe& probe, const SignalSettings& settings)
   if (settings.beam_width == BeamWidth::none || lines_ < 2) return;
   std::vector<double> half_width_lines;
   for (int k = 0; k < samples_; ++k) {
-    const double depth_m = probe.min_depth_m + (k + 0.5) * probe.sampleSpacing();
+    const double depth_m = geometry.sampleDepth(k);
     const double width_m =
         settings.beam_width == BeamWidth::fixed
             ? settings.beam_width_m

@@ -15,17 +15,11 @@ namespace {
 
 constexpr int kTogether = 32;  // samples, or lines, that go through a recursion side by side
 
-// A width across the lines in lines. Parallel lines take it as an arc at the middle depth.
-double linesOf(const Probe& probe, double width_rad) {
-  const ScanGeometry geometry(probe);
-  return (geometry.angular() ? width_rad : width_rad * probe.middleDepth()) / geometry.cellWidth();
-}
-
 }  // namespace
 
 SideLobeHaze::SideLobeHaze(const Probe& probe, double level_db, double width_rad)
     : lines_(probe.lines), samples_(probe.samples) {
-  const double a = std::exp(-1 / linesOf(probe, width_rad));
+  const double a = std::exp(-1 / ScanGeometry(probe).linesAcross(width_rad));
   decay_ = static_cast<float>(a);
   level_ = static_cast<float>(intensityFromDecibels(level_db) * (1 - a) / (1 + a));
 }

@@ -17,7 +17,6 @@ namespace {
 
 // A random plane is no smaller: shifted parts of it then hardly ever meet. Our choice.
 constexpr int kLeastLines = 128, kLeastSamples = 512;
-constexpr double kWidthAtHalf = 2.3548200450309493;  // full, of a bell, in deviations
 
 // Purposes of hashed numbers.
 enum : std::uint64_t { kReal = 1, kImaginary = 2, kLineShift = 3, kSampleShift = 4, kClutter = 5 };
@@ -27,13 +26,10 @@ float heldWhite(double white) {
   return static_cast<float>(std::min(white, 1e30));
 }
 
-std::vector<float> bell(double deviation, int most) {
+std::vector<float> bellTaps(double deviation, int most) {
   const int reach = std::clamp(static_cast<int>(std::ceil(3 * deviation)), 0, most);
   std::vector<float> taps;
-  for (int t = 0; t <= reach; ++t) {
-    const double away = deviation > 0 ? t / deviation : 0;
-    taps.push_back(static_cast<float>(std::exp(-0.5 * away * away)));
-  }
+  for (int t = 0; t <= reach; ++t) taps.push_back(static_cast<float>(bell(t, deviation)));
   return taps;
 }
 
@@ -62,9 +58,9 @@ void smear(std::vector<float>& plane, int lines, int samples, const std::vector<
 
 RandomPlane::RandomPlane(int lines, int samples, const Grain& grain, std::uint64_t seed)
     : lines_(lines), samples_(samples) {
-  const std::vector<float> across = bell(grain.lateral_lines, lines / 2 - 1),
-                           along = bell(grain.axial_samples, samples / 2 - 1),
-                           smoothing = bell(grain.smoothing_samples, samples / 2 - 1);
+  const std::vector<float> across = bellTaps(grain.lateral_lines, lines / 2 - 1),
+                           along = bellTaps(grain.axial_samples, samples / 2 - 1),
+                           smoothing = bellTaps(grain.smoothing_samples, samples / 2 - 1);
   values_.resize(static_cast<std::size_t>(lines) * static_cast<std::size_t>(samples));
   for (const std::uint64_t part : {kReal, kImaginary}) {
     std::vector<float> field(values_.size());
@@ -88,11 +84,7 @@ Grain grainOf(const Scene& scene, double width_rad) {
   // A bell of amplitude with deviation s leaves intensities that correlate by exp(-d^2 / 2 s^2).
   const double angle_rad = std::max(spread.angle_rad, width_rad / kWidthAtHalf);
   Grain grain;
-  if (probe.lines > 1) {
-    const ScanGeometry geometry(probe);
-    grain.lateral_lines =
-        (geometry.angular() ? angle_rad : angle_rad * probe.middleDepth()) / geometry.cellWidth();
-  }
+  if (probe.lines > 1) grain.lateral_lines = ScanGeometry(probe).linesAcross(angle_rad);
   grain.axial_samples = spread.axial_m / probe.sampleSpacing();
   grain.smoothing_samples = scene.speckle.smoothing_m / kWidthAtHalf / probe.sampleSpacing();
   return grain;
@@ -138,9 +130,9 @@ NearFieldClutter::NearFieldClutter(const Scene& scene)
               hashOf(scene.artefacts.clutter_seed, kClutter)) {
   constexpr double kLeast = 1e-6;
   const double level = intensityFromDecibels(scene.artefacts.clutter_db);
+  const ScanGeometry geometry(scene.probe);
   for (int k = 0; k < samples_; ++k) {
-    const double r_m = scene.probe.min_depth_m + (k + 0.5) * scene.probe.sampleSpacing();
-    const double falls = std::exp(-r_m / scene.artefacts.clutter_length_m);
+    const double falls = std::exp(-geometry.sampleDepth(k) / scene.artefacts.clutter_length_m);
     if (falls < kLeast) break;
     levels_.push_back(static_cast<float>(level * falls));
   }

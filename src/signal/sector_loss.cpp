@@ -34,14 +34,14 @@ std::vector<float> sectorLosses(const Probe& probe, const ArtefactSettings& sett
   if (!plan.dropout && !plan.acoustic_window) return {};
   const RibGap gap{probe.aperture_m, settings.window_width_m, settings.window_offset_m,
                    settings.window_depth_m, settings.window_shadow_db};
+  const ScanGeometry geometry(probe);
   std::vector<float> factors;
   for (int i = 0; i < probe.lines; ++i) {
     const LineGeometry line = lineGeometry(probe, i);
     const double s = probe.lines > 1 ? 2.0 * i / (probe.lines - 1) - 1 : 0;
     const double edge = plan.dropout ? dropoutFactor(s, settings.dropout_db) : 1;
     for (int k = 0; k < probe.samples; ++k) {
-      const double path_m = probe.min_depth_m + (k + 0.5) * probe.sampleSpacing();
-      const Vec3d at = line.origin + path_m * line.direction;
+      const Vec3d at = line.origin + geometry.sampleDepth(k) * line.direction;
       const double ribs =
           plan.acoustic_window ? gap.factor(line.origin.x, at.x, at.z - probe.face_radius_m) : 1;
       factors.push_back(static_cast<float>(edge * ribs));

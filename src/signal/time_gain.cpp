@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "scene/scan_geometry.h"
 
 namespace echocine {
 
@@ -23,11 +24,11 @@ double gainAt(const std::vector<std::pair<double, double>>& table, double depth_
 
 std::vector<float> timeGains(const std::vector<std::pair<double, double>>& table_m_db,
                              const Probe& probe) {
+  const ScanGeometry geometry(probe);
   std::vector<float> gains;
-  for (int k = 0; k < probe.samples; ++k) {
-    const double depth_m = probe.min_depth_m + (k + 0.5) * probe.sampleSpacing();
-    gains.push_back(static_cast<float>(intensityFromDecibels(gainAt(table_m_db, depth_m))));
-  }
+  for (int k = 0; k < probe.samples; ++k)
+    gains.push_back(
+        static_cast<float>(intensityFromDecibels(gainAt(table_m_db, geometry.sampleDepth(k)))));
   return gains;
 }
 
@@ -39,11 +40,11 @@ std::vector<float> gainsAgainst(std::span<const double> losses) {
 
 std::vector<float> nominalGains(double attenuation_np_per_m, const Probe& probe) {
   constexpr double kMost = 1e20;  // of intensity: within floats
+  const ScanGeometry geometry(probe);
   std::vector<float> gains;
   for (int k = 0; k < probe.samples; ++k) {
-    const double path_m = probe.min_depth_m + (k + 0.5) * probe.sampleSpacing();
-    gains.push_back(
-        static_cast<float>(std::min(std::exp(4 * attenuation_np_per_m * path_m), kMost)));
+    const double gain = std::exp(4 * attenuation_np_per_m * geometry.sampleDepth(k));
+    gains.push_back(static_cast<float>(std::min(gain, kMost)));
   }
   return gains;
 }

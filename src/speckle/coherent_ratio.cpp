@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/scan_geometry.h"
+#include "speckle/point_spread.h"
+
 namespace echocine {
 
 namespace {
@@ -11,7 +14,6 @@ namespace {
 constexpr double kCutDeviations = 2.5;
 constexpr std::size_t kMostTaps = 64;
 constexpr std::size_t kPad = kMostTaps + 2 * kFloatLanes;  // of a row, either end
-constexpr double kWidthAtHalf = 2.3548200450309493;        // full, of a bell, in deviations
 
 std::size_t tapsOf(double deviation) {
   return std::min(static_cast<std::size_t>(std::ceil(kCutDeviations * deviation)), kMostTaps);
@@ -29,12 +31,6 @@ float* floatsOf(std::vector<CacheLine>& lines) {
 }
 void setFloats(std::vector<CacheLine>& lines, std::size_t count) {
   lines.assign((count + std::size(CacheLine{}.floats) - 1) / std::size(CacheLine{}.floats), {});
-}
-
-double bell(double distance, double deviation) {
-  if (!(deviation > 0)) return distance == 0 ? 1 : 0;
-  const double away = distance / deviation;  // before it is squared: a tiny square would be 0
-  return std::exp(-0.5 * away * away);
 }
 
 std::vector<float> bellTaps(double deviation) {
@@ -62,9 +58,10 @@ CoherentRatio::CoherentRatio(const Probe& probe, const PointSpread& spread, cons
       axial_(bellTaps(spread.axial_m / probe.sampleSpacing())),
       smoothing_(normalisedTaps(smoothing_m / kWidthAtHalf / probe.sampleSpacing())) {
   for (const float h : axial_) axial_squares_.push_back(h * h);
+  const ScanGeometry geometry(probe);
   std::vector<double> deviations;
   for (int k = 0; k < samples_; ++k)
-    deviations.push_back(view.lateralLines(probe.min_depth_m + (k + 0.5) * probe.sampleSpacing()));
+    deviations.push_back(view.lateralLines(geometry.sampleDepth(k)));
   const auto [least, most] = std::minmax_element(deviations.begin(), deviations.end());
   even_ = *most - *least < 1e-6 * *most;
   lateral_taps_ = std::min(tapsOf(*most), static_cast<std::size_t>(lines_ - 1));

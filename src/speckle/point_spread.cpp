@@ -1,6 +1,7 @@
 #include "speckle/point_spread.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "scene/beam_profile.h"
@@ -17,6 +18,12 @@ constexpr double kNearest_m = 3e-3;
 }  // namespace
 
 // A bell in intensity of full width w at -6 dB has in amplitude sigma = sqrt 2 w / sqrt(8 ln 4).
+double bell(double distance, double deviation) {
+  if (!(deviation > 0)) return distance == 0 ? 1 : 0;
+  const double away = distance / deviation;  // before it is squared: a tiny square would be 0
+  return std::exp(-0.5 * away * away);
+}
+
 PointSpread::PointSpread(const Probe& probe, double pulse_cycles)
     : wavelength_m(ScanGeometry(probe).wavelength()),
       axial_width_m(kWidthPerPulse * pulse_cycles * wavelength_m / 2),

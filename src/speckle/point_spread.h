@@ -9,6 +9,12 @@
 
 namespace echocine {
 
+// Full width at half maximum of a bell, in deviations: sqrt(8 ln 2).
+inline constexpr double kWidthAtHalf = 2.3548200450309493;
+
+// exp(-(distance / deviation)^2 / 2); without a deviation 1 at its middle and 0 beside it.
+double bell(double distance, double deviation);
+
 struct PointSpread {
   // pulse_cycles: of the signal's pulse.
   PointSpread(const Probe& probe, double pulse_cycles);

@@ -116,7 +116,8 @@ BeamSpread beamSpread(const EffectPlan& plan, int seed) {
 
 BeamRays::BeamRays(const Probe& probe, const BeamSpread& spread) : spread_(spread) {
   CHECK_LE(1, spread.rays);
-  const double wavelength_m = ScanGeometry(probe).wavelength();
+  const ScanGeometry geometry(probe);
+  const double wavelength_m = geometry.wavelength();
   // Widths of diffraction at 1 m are widths per metre.
   lateral_slope_ = followedWidth(1, probe.aperture_m, wavelength_m) / kWidthPerDeviation;
   const double one_way = 1 / (kWidthPerDeviation * std::numbers::sqrt2);  // of the lens, of two
@@ -124,7 +125,7 @@ BeamRays::BeamRays(const Probe& probe, const BeamSpread& spread) : spread_(sprea
   tilt_ = followedWidth(1, probe.elevation_aperture_m, wavelength_m) * one_way;
   focus_m_ = probe.elevation_focus_m;
   for (int k = 0; k < probe.samples; ++k) {
-    const double z = probe.min_depth_m + (k + 0.5) * probe.sampleSpacing();
+    const double z = geometry.sampleDepth(k);
     const double ratio = followedWidth(z, probe.aperture_m, wavelength_m) /
                          focusedWidth(z, probe.aperture_m, probe.focus_m, wavelength_m);
     transmit_.push_back(static_cast<float>(ratio * ratio));
