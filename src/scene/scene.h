@@ -32,11 +32,14 @@ struct Acquisition {
   int seed = 1;               // of what is random in the acquisition
 };
 
-enum class Interpolation { linear, catmull_rom, spline, fourier };
+// cycle: from one keyframe to the next as the published volume curve goes, for hearts of which a few
+// instants are known.
+enum class Interpolation { linear, catmull_rom, spline, fourier, cycle };
 
 struct MotionSettings {
   double mesh_unit_m = 1e-3;
   Interpolation interpolation = Interpolation::catmull_rom;
+  bool interpolation_given = false;              // by the scene; else by the number of keyframes
   int subdivision = 0;                           // Loop levels
   std::optional<double> keyframe_heart_rate_hz;  // of the beat that the keyframes show
   std::optional<double> end_systole_phase;       // of the keyframes; else as published for the rate
