@@ -28,6 +28,17 @@ std::vector<double> phasesOf(const Structure& structure) {
   return phases;
 }
 
+// The beat that the keyframes show. Of two keyframes, one at the R wave, the other is end-systole,
+// which is what segmentations of two phases give.
+HeartPace paceOf(const Scene& scene, const Structure& structure) {
+  RecordedBeat beat{scene.motion.keyframe_heart_rate_hz.value_or(scene.acquisition.heart_rate_hz),
+                    scene.motion.end_systole_phase};
+  const std::vector<Keyframe>& keyframes = structure.keyframes;
+  if (!beat.end_systole_phase && keyframes.size() == 2 && keyframes[0].phase == 0)
+    beat.end_systole_phase = keyframes[1].phase;
+  return HeartPace(beat);
+}
+
 // A frame whose axes are left-handed mirrors space, which turns every face around.
 bool mirrors(const Pose& pose) {
   return dot(cross(pose.x_axis, pose.y_axis), pose.z_axis) < 0;
@@ -202,7 +213,8 @@ MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
   CHECK_EQ(set.structures.size(), scene.structures.size());
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     const Structure& structure = scene.structures[s];
-    KeyframeWeights weights(phasesOf(structure), scene.motion.interpolation, structure.place);
+    KeyframeWeights weights(phasesOf(structure), scene.motion.interpolation, structure.place,
+                            paceOf(scene, structure));
     const std::vector<KeyframeMesh>& keyframes = set.structures[s];
     SurfaceTopology topology = controlTopology(structure, static_cast<SurfaceId>(s),
                                                keyframes.front().mesh, scene.probe.pose);

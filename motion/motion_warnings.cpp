@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/units.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/keyframes/motion_check.h"
+#include "motion/mesh/surface_measure.h"
 
 namespace echocine {
 
@@ -61,6 +63,32 @@ std::string collapseWords(const ControlMotion& motion, const SurfaceBreaks::Size
                      motion.fileOf(size.left), motion.fileOf(size.right));
 }
 
+// Told from this share of the largest keyframe's volume on, which of a ventricle is end-diastole's.
+// Our choice.
+constexpr double kToldOvershoot = 0.01;
+
+std::string overshootWords(const ControlMotion& motion, const SurfaceBreaks::Overshoot& found) {
+  double largest_m3 = 0;
+  for (std::size_t k = 0; k < motion.weights.keyframeCount(); ++k)
+    largest_m3 = std::max(largest_m3, enclosedVolume(motion.triangles, motion.rows_m[k]));
+  if (!(std::abs(found.beyond_m3) > kToldOvershoot * largest_m3)) return "";
+  return fmt::format(
+      "frame {}, phase {:.2f}: {:.2g} mL {} both keyframes beside it, {} and {}: "
+      "motion.interpolation = \"cycle\" or \"linear\" stays between them",
+      found.frame, found.phase, millilitresFromCubicMetres(std::abs(found.beyond_m3)),
+      found.beyond_m3 > 0 ? "over" : "under", motion.fileOf(found.left), motion.fileOf(found.right));
+}
+
+// A beat whose last keyframe is its first again stands still on the way between the two.
+std::string closingWords(const ControlMotion& motion) {
+  const std::size_t last = motion.weights.keyframeCount() - 1;
+  const auto same = [&](std::size_t k) { return motion.rows_m[k] == motion.rows_m.front(); };
+  if (last < 2 || !same(last) || same(last / 2)) return "";
+  return fmt::format("{} has the shape of the first keyframe: drop the frame that closes the beat, "
+                     "the first follows the last by itself",
+                     motion.fileOf(last));
+}
+
 std::string advice(const SurfaceBreaks& breaks, Interpolation kind) {
   if (breaks.first && breaks.first->kind == TriangleBreak::mirrored)
     return "mend one of the two files";
@@ -94,9 +122,11 @@ std::vector<std::string> motionWarnings(const Scene& scene, const MeshMotion& mo
     if (breaks.first) words = triangleWords(control, breaks);
     if (breaks.collapsed)
       words += (words.empty() ? "" : "; ") + collapseWords(control, *breaks.collapsed);
-    if (!words.empty())
-      warnings.push_back(atPlace(
-          structure.place, fmt::format("{}: {}: {}", structure.name, words, advice(breaks, kind))));
+    if (!words.empty()) words += ": " + advice(breaks, kind);
+    const std::string beyond = breaks.overshoot ? overshootWords(control, *breaks.overshoot) : "";
+    for (const std::string& told : {words, beyond, closingWords(control)})
+      if (!told.empty())
+        warnings.push_back(atPlace(structure.place, fmt::format("{}: {}", structure.name, told)));
   }
   return warnings;
 }

@@ -6,10 +6,11 @@
 #include <string_view>
 
 #include "motion/heart/heart.h"
+#include "scene/view_placement.h"
 
 namespace echocine::heart {
 
-enum class View { a4c, a2c, a3c, plax, psax_base, psax_mid, psax_apex, subcostal };
+using View = echocine::View;
 
 struct ViewName {
   View view;

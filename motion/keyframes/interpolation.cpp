@@ -54,8 +54,8 @@ void solveDense(std::vector<double>& a, std::vector<double>& b, std::size_t n) {
 }  // namespace
 
 KeyframeWeights::KeyframeWeights(std::span<const double> phases, Interpolation kind,
-                                 const SourcePlace& place)
-    : phases_(phases.begin(), phases.end()), kind_(kind) {
+                                 const SourcePlace& place, const HeartPace& pace)
+    : phases_(phases.begin(), phases.end()), kind_(kind), pace_(pace) {
   checkPhases(phases, place);
   if (phases_.size() == 1) return;
   if (kind == Interpolation::spline) prepareSpline();
@@ -118,9 +118,18 @@ void KeyframeWeights::termsAt(double phase, std::vector<Term>& terms) const {
   } else if (kind_ == Interpolation::catmull_rom) {
     addCatmullRom(at, terms);
   } else {
-    terms.push_back({at.left, 1 - at.fraction});
-    terms.push_back({at.right, at.fraction});
+    const double share = kind_ == Interpolation::cycle ? shareOfWay(at) : at.fraction;
+    terms.push_back({at.left, 1 - share});
+    terms.push_back({at.right, share});
   }
+}
+
+// Of the heart's way from the left keyframe to the right one, in [0, 1]: no weight is negative, so
+// no point leaves the line between its two keyframes.
+double KeyframeWeights::shareOfWay(const Interval& at) const {
+  const double from = phases_[at.left];
+  const double begin = pace_.travelled(from), end = pace_.travelled(from + at.length);
+  return (pace_.travelled(from + at.fraction * at.length) - begin) / (end - begin);
 }
 
 void KeyframeWeights::at(double phase, std::span<double> weights) const {

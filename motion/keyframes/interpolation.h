@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "motion/cycle/heart_pace.h"
 #include "scene/scene.h"
 
 namespace echocine {
@@ -29,12 +30,13 @@ class KeyframeWeights {
 
   // Phases in cycles. Throws SceneError that starts with the place unless they ascend within [0,
   // 1), at least 1e-6 apart (also around the end), and the interpolation stays below
-  // kMaxMagnification.
+  // kMaxMagnification. `pace` is the heart's that Interpolation::cycle follows.
   KeyframeWeights(std::span<const double> phases, Interpolation kind,
-                  const SourcePlace& place = {});
+                  const SourcePlace& place = {}, const HeartPace& pace = {});
 
   std::size_t keyframeCount() const { return phases_.size(); }
   std::span<const double> phases() const { return phases_; }
+  const HeartPace& pace() const { return pace_; }
 
   // The keyframes before and after a phase; at a keyframe both are that keyframe.
   std::pair<std::size_t, std::size_t> around(double phase) const;
@@ -64,6 +66,7 @@ class KeyframeWeights {
   };
   Interval intervalAt(double phase) const;
   double gapAfter(std::size_t keyframe) const;
+  double shareOfWay(const Interval& at) const;
   void addCatmullRom(const Interval& at, std::vector<Term>& terms) const;
   void addSpline(const Interval& at, std::vector<Term>& terms) const;
   void addFourier(double phase, std::vector<Term>& terms) const;
@@ -72,6 +75,7 @@ class KeyframeWeights {
 
   std::vector<double> phases_;
   Interpolation kind_;
+  HeartPace pace_;
   std::vector<double>
       curvature_;  // spline: second derivatives at keyframes, row-major from keyframes
   std::vector<double> barycentric_;  // fourier: weight of each keyframe, largest magnitude 1

@@ -11,11 +11,12 @@ namespace echocine {
 namespace {
 
 // Weights of keyframes 0, 2, 4, ...; nothing when the kind refuses their spacing.
-std::optional<KeyframeWeights> halfOf(std::span<const double> phases, Interpolation kind) {
+std::optional<KeyframeWeights> halfOf(const KeyframeWeights& all, Interpolation kind) {
+  const std::span<const double> phases = all.phases();
   std::vector<double> kept;
   for (std::size_t k = 0; k < phases.size(); k += 2) kept.push_back(phases[k]);
   try {
-    return KeyframeWeights(kept, kind);
+    return KeyframeWeights(kept, kind, {}, all.pace());
   } catch (const SceneError&) {
     return std::nullopt;
   }
@@ -64,7 +65,7 @@ std::optional<InterpolationError> judgeInterpolation(const ControlMotion& motion
                                                      Interpolation kind) {
   const std::span<const double> phases = motion.weights.phases();
   if (phases.size() < 4) return std::nullopt;
-  const std::optional<KeyframeWeights> half = halfOf(phases, kind);
+  const std::optional<KeyframeWeights> half = halfOf(motion.weights, kind);
   if (!half) return std::nullopt;
   InterpolationError e;
   e.kept = half->keyframeCount();

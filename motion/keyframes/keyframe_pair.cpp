@@ -153,6 +153,16 @@ void KeyframePair::lookAtSize(const FramePhase& at, double size, SurfaceBreaks& 
     breaks.inside_out = found;
   if (found.share < (breaks.collapsed ? breaks.collapsed->share : kCollapsedShare))
     breaks.collapsed = found;
+  if (!motion_.membrane) lookAtRange(at, size, breaks);
+}
+
+void KeyframePair::lookAtRange(const FramePhase& at, double volume_m3,
+                               SurfaceBreaks& breaks) const {
+  const auto [least, most] = std::minmax(left_sides_.size, right_sides_.size);
+  const double beyond_m3 = volume_m3 - std::clamp(volume_m3, least, most);
+  if (beyond_m3 == 0) return;
+  if (!breaks.overshoot || std::abs(beyond_m3) > std::abs(breaks.overshoot->beyond_m3))
+    breaks.overshoot = {{at.frame, left_, right_}, at.phase, beyond_m3};
 }
 
 }  // namespace echocine

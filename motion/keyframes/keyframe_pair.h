@@ -43,6 +43,7 @@ class KeyframePair {
   void lookAtTriangles(const FramePhase& at, const Sides& sides, SurfaceBreaks& breaks);
   void lookAtEdges(const FramePhase& at, const Sides& sides, SurfaceBreaks& breaks);
   void lookAtSize(const FramePhase& at, double size, SurfaceBreaks& breaks) const;
+  void lookAtRange(const FramePhase& at, double volume_m3, SurfaceBreaks& breaks) const;
   void note(const FramePhase& at, std::uint32_t triangle, TriangleBreak kind,
             SurfaceBreaks& breaks);
 

@@ -1,6 +1,7 @@
 #include "motion/keyframes/motion_check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,9 @@ void merge(const SurfaceBreaks& from, SurfaceBreaks& into) {
     into.collapsed = from.collapsed;
   if (from.inside_out && (!into.inside_out || from.inside_out->frame < into.inside_out->frame))
     into.inside_out = from.inside_out;
+  if (from.overshoot && (!into.overshoot || std::abs(from.overshoot->beyond_m3) >
+                                                std::abs(into.overshoot->beyond_m3)))
+    into.overshoot = from.overshoot;
 }
 
 // Frames by the keyframe before them; those at a keyframe are left out.

@@ -46,10 +46,15 @@ struct SurfaceBreaks {
     double share = 1;      // of what the smaller of both keyframes has
     double volume_m3 = 0;  // 0 for a membrane
   };
+  struct Overshoot : BreakPlace {
+    double phase = 0;
+    double beyond_m3 = 0;  // over the larger (positive) or below the smaller volume of the two
+  };
   std::optional<First> first;      // the lowest triangle of the earliest frame
   std::size_t triangles = 0;       // that break in any of the frames
   std::optional<Size> collapsed;   // the smallest of the frames, when it is hardly there any more
   std::optional<Size> inside_out;  // the earliest frame whose volume is not over 0
+  std::optional<Overshoot> overshoot;  // the furthest of the frames; of closed surfaces alone
 };
 
 // A triangle has vanished below this share of its smaller keyframe's area. Our choice.

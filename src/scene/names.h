@@ -42,7 +42,8 @@ struct NamesOf<Interpolation> {
   static constexpr Named<Interpolation> kAll[] = {{Interpolation::linear, "linear"},
                                                   {Interpolation::catmull_rom, "catmull-rom"},
                                                   {Interpolation::spline, "spline"},
-                                                  {Interpolation::fourier, "fourier"}};
+                                                  {Interpolation::fourier, "fourier"},
+                                                  {Interpolation::cycle, "cycle"}};
 };
 
 template <>

@@ -13,9 +13,10 @@
 #include "core/ids.h"
 #include "scene/channel.h"
 #include "scene/medium.h"
+#include "scene/motion_settings.h"
 #include "scene/probe.h"
 #include "scene/role.h"
-#include "scene/triangle_mesh.h"
+#include "scene/view_placement.h"
 
 namespace echocine {
 
@@ -30,35 +31,6 @@ struct Acquisition {
   WarpChoice time_warp = WarpChoice::automatic;
   double rr_variability = 0;  // standard deviation / mean of the beats' durations
   int seed = 1;               // of what is random in the acquisition
-};
-
-enum class Interpolation { linear, catmull_rom, spline, fourier };
-
-struct MotionSettings {
-  double mesh_unit_m = 1e-3;
-  Interpolation interpolation = Interpolation::catmull_rom;
-  int subdivision = 0;                           // Loop levels
-  std::optional<double> keyframe_heart_rate_hz;  // of the beat that the keyframes show
-  std::optional<double> end_systole_phase;       // of the keyframes; else as published for the rate
-  std::vector<double> keyframe_phases;  // of keyframes without phases of their own; empty: even
-  SourcePlace interpolation_place, subdivision_place;
-};
-
-struct Keyframe {
-  std::vector<std::filesystem::path> files;  // the mesh, then its lids
-  double phase = 0;                          // [0, 1)
-  // Meshes that are in memory, in the order of `files`, which then are only what messages call
-  // them; empty: all are read.
-  std::vector<std::shared_ptr<const TriangleMesh>> meshes{};
-};
-
-// What is mended in a structure's meshes before they are checked, in this order.
-struct Repairs {
-  bool weld = false;             // one vertex for each point of the surface
-  bool drop_degenerate = false;  // faces without area, duplicate faces
-  bool orient = false;           // all faces look outward
-  bool fill_holes = false;       // a fan over every open rim
-  bool any() const { return weld || drop_degenerate || orient || fill_holes; }
 };
 
 struct Structure {
@@ -281,6 +253,7 @@ struct Scene {
   std::vector<Medium> media;     // resolved at the probe's frequency
   double unit_volume_m3 = 1e-6;  // V of Eq. 4
   Probe probe;
+  std::optional<ViewPlacement> view;  // where the pose is still to be found from the structures
   Acquisition acquisition;
   MotionSettings motion;
   std::vector<Structure> structures;

@@ -65,6 +65,10 @@ std::vector<double> readKeyframePhases(TomlTable& table) {
   const char* key = "keyframe_phases";
   const std::vector<double> phases = table.numbers(key);
   for (std::size_t i = 0; i < phases.size(); ++i) {
+    if (phases[i] == 1 && i > 0)
+      table.fail(key, fmt::format("phase {} is 1, the beat's start again: drop the frame that closes "
+                                  "the beat, the first follows the last by itself",
+                                  i + 1));
     if (!(phases[i] >= 0 && phases[i] < 1))
       table.fail(
           key, fmt::format("phase {} is {}, accepted: from 0 up to, without, 1", i + 1, phases[i]));
@@ -80,6 +84,7 @@ std::vector<double> readKeyframePhases(TomlTable& table) {
 MotionSettings readMotion(TomlTable table) {
   MotionSettings m;
   m.mesh_unit_m = readUnit(table, "mesh_unit", m.mesh_unit_m);
+  m.interpolation_given = table.has("interpolation");
   m.interpolation = table.choice("interpolation", m.interpolation);
   m.subdivision = table.integer("subdivision", m.subdivision, 0, 8);
   readRecordedBeat(table, m);
@@ -193,6 +198,15 @@ void readStructures(TomlTable& root, const MediaTable& table, MediaInUse& media,
   }
 }
 
+// Smooth kinds guess the way between keyframes from their neighbours, which takes several: below
+// kSmoothKeyframes of the structure that has most, the volume curve knows better. Our choice.
+constexpr std::size_t kSmoothKeyframes = 5;
+Interpolation interpolationFor(const std::vector<Structure>& structures, Interpolation smooth) {
+  std::size_t most = 0;
+  for (const Structure& s : structures) most = std::max(most, s.keyframes.size());
+  return most < kSmoothKeyframes ? Interpolation::cycle : smooth;
+}
+
 Scene parse(std::string_view text, const std::filesystem::path& file, const NamedMeshes* meshes) {
   TomlTable root = TomlTable::parse(text, file.string());
   Scene scene;
@@ -207,6 +221,8 @@ Scene parse(std::string_view text, const std::filesystem::path& file, const Name
   readStructures(root, media_table, media, meshes, scene);
   if (scene.structures.empty())
     root.fail("structure", "is missing, accepted: at least one [[structure]]");
+  if (!scene.motion.interpolation_given)
+    scene.motion.interpolation = interpolationFor(scene.structures, scene.motion.interpolation);
   scene.unit_volume_m3 =
       cubicMetresFromCubicCentimetres(root.number("unit_volume_cm3", 1.0, ranges::kUnitVolume_cm3));
   scene.effects = readEffects(root.table("effects"));

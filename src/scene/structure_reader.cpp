@@ -94,7 +94,11 @@ std::vector<Keyframe> readPhasedKeyframes(TomlTable& table, const MeshSource& so
                               ? matchingMeshes(entry, "file", *source.in_memory, named)[0]
                           : fs::path(named).is_absolute() ? fs::path(named)
                                                           : source.folder / named;
-    const double phase = entry.number("phase", std::nullopt, {.lo = 0, .hi = 1, .hi_open = true});
+    const double phase = entry.number("phase", std::nullopt, {.lo = 0, .hi = 1});
+    if (phase == 1)
+      entry.fail("phase", keyframes.empty() ? "is 1, accepted: from 0 up to, without, 1"
+                                            : "is 1, the beat's start again: drop the frame that "
+                                              "closes the beat, the first follows the last by itself");
     if (!keyframes.empty() && !(phase - keyframes.back().phase >= ranges::kLeastPhaseStep))
       entry.fail("phase",
                  fmt::format("is {} after {}, accepted: ascending phases, {} apart or more", phase,

@@ -9,7 +9,8 @@ namespace echocine::motion_test {
 namespace {
 
 constexpr Interpolation kKinds[] = {Interpolation::linear, Interpolation::catmull_rom,
-                                    Interpolation::spline, Interpolation::fourier};
+                                    Interpolation::spline, Interpolation::fourier,
+                                    Interpolation::cycle};
 
 // Radii of a ball that contracts by a third, cm.
 std::vector<double> beat(int keyframes) {

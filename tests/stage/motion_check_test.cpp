@@ -13,7 +13,8 @@ namespace echocine::motion_test {
 namespace {
 
 constexpr Interpolation kKinds[] = {Interpolation::linear, Interpolation::catmull_rom,
-                                    Interpolation::spline, Interpolation::fourier};
+                                    Interpolation::spline, Interpolation::fourier,
+                                    Interpolation::cycle};
 
 std::vector<FramePhase> evenFrames(int count) {
   std::vector<FramePhase> frames;

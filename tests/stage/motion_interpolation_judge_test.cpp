@@ -44,6 +44,8 @@ double halfwayFactor(Interpolation kind, double step) {
       return half * (1 + 0.75 * (1 - c) / (2 + c));
     case Interpolation::fourier:
       return 1;
+    case Interpolation::cycle:
+      break;  // no heart's beat is a cosine
   }
   return 0;
 }
@@ -53,6 +55,7 @@ TEST(MotionInterpolationJudge, CosineRadiusHasTheClosedFormErrors) {
   const TestFolder folder;
   const MeshMotion motion = ballOf(folder, cosineRadii(16));
   for (const Interpolation kind : kInterpolations) {
+    if (kind == Interpolation::cycle) continue;
     const double lost_m = 0.005 * (1 - halfwayFactor(kind, kPi / 4));
     const InterpolationError e = errorOf(motion, kind);
     EXPECT_EQ(e.kept, 8u);

@@ -11,7 +11,8 @@ namespace echocine::motion_test {
 namespace {
 
 constexpr Interpolation kKinds[] = {Interpolation::linear, Interpolation::catmull_rom,
-                                    Interpolation::spline, Interpolation::fourier};
+                                    Interpolation::spline, Interpolation::fourier,
+                                    Interpolation::cycle};
 
 std::vector<double> weightsAt(const KeyframeWeights& weights, double phase) {
   std::vector<double> values(weights.keyframeCount());
@@ -29,8 +30,9 @@ TEST(MotionInterpolation, OneKeyframeHasWeightOne) {
       EXPECT_EQ(weightsAt(KeyframeWeights(std::vector{0.25}, kind), phase)[0], 1.0);
 }
 
-TEST(MotionInterpolation, TwoEvenKeyframesMeetHalfwayInEveryKind) {
+TEST(MotionInterpolation, TwoEvenKeyframesMeetHalfwayInEveryKindButTheHearts) {
   for (const Interpolation kind : kKinds) {
+    if (kind == Interpolation::cycle) continue;
     const KeyframeWeights weights(std::vector{0.0, 0.5}, kind);
     for (const double phase : {0.25, 0.75})
       for (const double weight : weightsAt(weights, phase)) EXPECT_NEAR(weight, 0.5, 1e-15);

@@ -9,7 +9,8 @@ namespace echocine::motion_test {
 namespace {
 
 constexpr Interpolation kKinds[] = {Interpolation::linear, Interpolation::catmull_rom,
-                                    Interpolation::spline, Interpolation::fourier};
+                                    Interpolation::spline, Interpolation::fourier,
+                                    Interpolation::cycle};
 
 // A ball of 1 cm that stands at these heights over the imaging plane, in cm, and breathes.
 Scene risingBall(const TestFolder& folder, const std::vector<double>& heights_cm,

@@ -1,0 +1,50 @@
+#pragma once
+// The keyframes of a scene's structures, how they are mended and how they move over the beat.
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/error.h"
+#include "core/vec3.h"
+#include "scene/triangle_mesh.h"
+
+namespace echocine {
+
+// cycle: from one keyframe to the next as the published volume curve goes, for hearts of which a
+// few instants are known.
+enum class Interpolation { linear, catmull_rom, spline, fourier, cycle };
+
+struct MotionSettings {
+  double mesh_unit_m = 1e-3;
+  double mesh_scale = 1;  // all positions of all meshes, before the offset
+  Vec3d mesh_offset_m{};  // added to all positions
+  Interpolation interpolation = Interpolation::catmull_rom;
+  bool interpolation_given = false;              // by the scene; else by the number of keyframes
+  int subdivision = 0;                           // Loop levels
+  std::optional<double> keyframe_heart_rate_hz;  // of the beat that the keyframes show
+  std::optional<double> end_systole_phase;       // of the keyframes; else as published for the rate
+  std::vector<double> keyframe_phases;  // of keyframes without phases of their own; empty: even
+  SourcePlace interpolation_place, subdivision_place;
+};
+
+struct Keyframe {
+  std::vector<std::filesystem::path> files;  // the mesh, then its lids
+  double phase = 0;                          // [0, 1)
+  // Meshes that are in memory, in the order of `files`, which then are only what messages call
+  // them; empty: all are read.
+  std::vector<std::shared_ptr<const TriangleMesh>> meshes{};
+};
+
+// What is mended in a structure's meshes before they are checked, in this order.
+struct Repairs {
+  bool weld = false;             // one vertex for each point of the surface
+  bool drop_degenerate = false;  // faces without area, duplicate faces
+  bool orient = false;           // all faces look outward
+  bool split = false;            // sheets that close, parted where an edge has more than two faces
+  bool fill_holes = false;       // a fan over every open rim
+  bool any() const { return weld || drop_degenerate || orient || split || fill_holes; }
+};
+
+}  // namespace echocine

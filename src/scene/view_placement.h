@@ -1,0 +1,22 @@
+#pragma once
+// A probe placed by the heart's anatomy.
+
+#include "core/error.h"
+#include "core/vec3.h"
+
+namespace echocine {
+
+// The standard views of echocardiography.
+enum class View { a4c, a2c, a3c, plax, psax_base, psax_mid, psax_apex, subcostal };
+
+// The pose of a standard view, found from structures with roles, and what is changed about it: the
+// shift along the probe's lateral, elevation and depth axes, then the turns about its apex.
+struct ViewPlacement {
+  View view = View::a4c;
+  Vec3d shift_m{};
+  double tilt_rad = 0;    // of the imaging plane, about the lateral axis
+  double rotate_rad = 0;  // of the imaging plane, about the depth axis
+  SourcePlace place;
+};
+
+}  // namespace echocine
