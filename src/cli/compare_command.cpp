@@ -115,16 +115,47 @@ void print(const compare::Comparison& c, const std::filesystem::path& folder) {
       folder.string());
 }
 
+void print(const compare::DialScan& scan, const std::filesystem::path& folder) {
+  const compare::ScanPoint& best = scan.points[scan.best];
+  std::string where, between;
+  for (std::size_t a = 0; a < best.values.size(); ++a) {
+    const std::string& key = scan.options.axes[a].range.key;
+    where += fmt::format("{}{} {:g}", a > 0 ? ", " : "", key, best.values[a]);
+    if (!scan.minimum.empty())
+      between += fmt::format("{}{} {:.4g}", a > 0 ? ", " : "", key, scan.minimum[a]);
+  }
+  const compare::FitTerms& t = best.found.terms;
+  fmt::print("discrepancy {:.4f} at {}{}\n", best.found.discrepancy, where,
+             between.empty() ? "" : "; between the steps least at " + between);
+  fmt::print("  region {:.3f}, boundary {:.3f}, motion {:.3f}, {:.0f} % in sight\n", t.region,
+             t.boundary, t.motion, 100 * t.in_sight);
+  const compare::FitPose& p = best.found.pose;
+  fmt::print("  pose: shift {:.1f}, {:.1f} mm, turn {:.1f} deg, scale {:.3f}, confidence {:.2f}\n",
+             1e3 * p.shift_x_m, 1e3 * p.shift_z_m, p.turn_rad / radiansFromDegrees(1), p.scale,
+             scan.centre.confidence);
+  fmt::print("  {} evaluations of {:.0f} ms of a core, hearts recorded in {:.1f} s of a core\n",
+             scan.points.size(), scan.evaluation_ms, 1e-3 * scan.family_ms);
+  fmt::print("  {}: scan.csv, scan.json, scan.html\n", folder.string());
+}
+
+std::string viewList() {
+  std::string list;
+  for (const heart::ViewName& name : heart::viewNames())
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", name.key);
+  return list;
+}
+
 }  // namespace
 
 CompareCommand::CompareCommand(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("compare", "Compare a synthetic loop with an echo video, frame by frame");
-  command->add_option("synthetic", options_.synthetic, "Folder of a render, or any video")
-      ->required();
   command
-      ->add_option("real", options_.real, "AVI, MP4, GIF, DICOM, or a folder of PNG or JPEG frames")
+      ->add_option("synthetic", options_.synthetic,
+                   "Folder of a render, or any video; left out with --scan")
       ->required();
+  command->add_option("real", options_.real,
+                      "AVI, MP4, GIF, DICOM, or a folder of PNG or JPEG frames");
   command->add_option("-o,--output", folder_, "Folder for the results")->required();
   addSide(*command, options_.real_side, "", "real");
   addTimes(*command, options_.real_side, "real", "real");
@@ -147,6 +178,16 @@ CompareCommand::CompareCommand(CLI::App& app) {
       ->type_name("NUMBER")
       ->capture_default_str();
   command->add_flag("--contours", options_.contours, "Draw the scene's contours into the pictures");
+  command->add_option(
+      "--scan", scan_text_,
+      "Instead of a synthetic loop: a parametric heart whose dials are changed, up to "
+      "three, such as ef=0.3:0.75:0.05,edv=120:230:20");
+  command->add_option("--dials", dials_text_,
+                      "Dials of that heart that stay, such as hr=72,wall-thickness=11");
+  command->add_option("--view", view_text_, "View of that heart, as `echocine heart` has them")
+      ->capture_default_str();
+  command->add_flag("--yes", scan_.yes,
+                    fmt::format("Scan also at more than {} places", compare::kMostUnasked));
   command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
@@ -155,6 +196,12 @@ CompareCommand::CompareCommand(CLI::App& app) {
 }
 
 int CompareCommand::run() {
+  if (!scan_text_.empty()) return runScan();
+  if (options_.real.empty())
+    throw SceneError(
+        "compare: needs two loops, SYNTHETIC and REAL; with --scan the real one alone");
+  for (const bool given : {!dials_text_.empty(), scan_.yes, view_text_ != "a4c"})
+    if (given) throw SceneError("--dials, --view and --yes: belong to --scan");
   // A flag that leaves out reads better than one that turns on what is on.
   options_.align_space = !no_space_;
   checkOptions(options_);
@@ -165,6 +212,30 @@ int CompareCommand::run() {
     line.finish();
     writeResults(comparison, options_, folder_);
     if (!quiet_) print(comparison, folder_);
+  });
+  return 0;
+}
+
+// One loop stands first, whatever the position is called.
+int CompareCommand::runScan() {
+  if (!options_.real.empty())
+    throw SceneError("--scan: takes the real loop alone; leave the synthetic one out");
+  const auto view = heart::viewOf(view_text_);
+  if (!view)
+    throw SceneError(
+        fmt::format("--view: \"{}\" is not a view, accepted: {}", view_text_, viewList()));
+  scan_.view = *view;
+  scan_.axes = compare::parseScan(scan_text_);
+  scan_.dials = compare::parseDials(dials_text_);
+  scan_.real = options_.synthetic;
+  scan_.side = options_.real_side;
+  listenForStop();
+  ProgressLine line(quiet_);
+  withThreads(threads_, [&] {
+    const compare::DialScan scan = scanDials(scan_, line.monitor());
+    line.finish();
+    writeScan(scan, folder_);
+    if (!quiet_) print(scan, folder_);
   });
   return 0;
 }

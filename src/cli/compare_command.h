@@ -1,9 +1,10 @@
 #pragma once
-// echocine compare SYNTHETIC REAL -o DIR
+// echocine compare SYNTHETIC REAL -o DIR, or echocine compare REAL --scan DIALS -o DIR
 
 #include <string>
 
 #include "compare/compare.h"
+#include "compare/dial_scan.h"
 
 namespace CLI {
 class App;
@@ -18,7 +19,11 @@ class CompareCommand {
   int run();                               // exit code
 
  private:
+  int runScan();
+
   compare::CompareOptions options_;
+  compare::ScanOptions scan_;
+  std::string scan_text_, dials_text_, view_text_ = "a4c";
   std::filesystem::path folder_;
   int threads_ = 0;
   bool quiet_ = false, no_space_ = false;

@@ -34,6 +34,8 @@ Features ownFeatures(const Loop& loop) {
   return motionFeatures(grid, beams, areaWeights(grid, beams.valid, beams.valid));
 }
 
+}  // namespace
+
 BeatLength beatOf(const Loop& loop) {
   BeatLength beat = findBeatLength(ownFeatures(loop), shortestBeat(loop));
   const auto known = [&](double frames, const std::string& source) {
@@ -52,6 +54,8 @@ BeatLength beatOf(const Loop& loop) {
     known(60 / *v.heart_rate_bpm * v.rate.hz, v.heart_rate_source);
   return beat;
 }
+
+namespace {
 
 void pairInTime(const CompareOptions& options, Comparison& c) {
   const Features synthetic = motionFeatures(c.grid, c.synthetic_beams, c.weights),

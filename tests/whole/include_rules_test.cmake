@@ -47,7 +47,7 @@ set(rooms
   "video=signal"
   "output=signal,motion,heart,truth|video"
   "simulate=output,motion,cycle,geometry,trace,speckle,signal,truth"
-  "compare=simulate,video,metrics,signal,truth,page|motion,output"
+  "compare=simulate,video,metrics,signal,truth,page,motion,geometry,heart|output,cycle"
   "render=simulate,cycle,output,page,video,truth|signal"
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
   "echocine=render,simulate,heart"

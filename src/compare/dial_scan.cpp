@@ -1,0 +1,270 @@
+#include "compare/dial_scan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <cmath>
+#include <ctime>
+#include <mutex>
+#include <opencv2/core.hpp>
+
+#include "core/error.h"
+#include "core/nearest_word.h"
+#include "core/parallel.h"
+#include "motion/heart/parameters.h"
+
+namespace echocine::compare {
+
+namespace {
+
+constexpr std::size_t kMostAxes = 3;
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts{""};
+  for (const char c : text)
+    if (c == at)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+// from_chars knows no locale, in which 0.5 might end at the point.
+double numberOf(const std::string& option, const std::string& text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value))
+    throw SceneError(fmt::format("{}: \"{}\" is not a number", option, text));
+  return value;
+}
+
+const heart::Dial& dialOf(const std::string& option, const std::string& key) {
+  std::vector<std::string> known;
+  for (const heart::Dial& dial : heart::dials()) {
+    if (key == dial.key) return dial;
+    known.emplace_back(dial.key);
+  }
+  std::string list;
+  for (const std::string& k : known) list += (list.empty() ? "" : ", ") + k;
+  const std::string nearest = nearestWord(key, known);
+  throw SceneError(fmt::format("{}: \"{}\" is not a dial of the heart{}, accepted: {}", option, key,
+                               nearest.empty() ? "" : fmt::format(" (nearest: {})", nearest),
+                               list));
+}
+
+void checkRange(const std::string& option, const heart::Dial& dial, double value) {
+  if (!(value >= dial.low && value <= dial.high))
+    throw SceneError(fmt::format(
+        "{}: {} is {:g}, accepted: {:g} to {:g}{}{}", option, dial.key, value, dial.low, dial.high,
+        std::string(dial.unit) == "1" ? "" : " ", std::string(dial.unit) == "1" ? "" : dial.unit));
+}
+
+double cpuSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+std::vector<double> ScanAxis::values() const {
+  std::vector<double> out;
+  const int steps = static_cast<int>(std::floor((range.high - range.low) / step + 1e-6));
+  for (int i = 0; i <= steps; ++i) out.push_back(range.low + step * i);
+  return out;
+}
+
+std::vector<ScanAxis> parseScan(const std::string& text) {
+  std::vector<ScanAxis> axes;
+  for (const std::string& part : split(text, ',')) {
+    const std::vector<std::string> sides = split(part, '=');
+    const std::vector<std::string> numbers = split(sides.back(), ':');
+    if (sides.size() != 2 || numbers.size() != 3)
+      throw SceneError(fmt::format(
+          "--scan: \"{}\" is not accepted: DIAL=LOW:HIGH:STEP, such as ef=0.3:0.75:0.05", part));
+    const heart::Dial& dial = dialOf("--scan", sides[0]);
+    ScanAxis axis{{sides[0], numberOf("--scan", numbers[0]), numberOf("--scan", numbers[1])},
+                  numberOf("--scan", numbers[2])};
+    checkRange("--scan", dial, axis.range.low);
+    checkRange("--scan", dial, axis.range.high);
+    if (!(axis.step > 0 && axis.range.low + axis.step <= axis.range.high * (1 + 1e-9)))
+      throw SceneError(fmt::format(
+          "--scan: {} must go up by a step of at most its range, such as ef=0.3:0.75:0.05", part));
+    for (const ScanAxis& other : axes)
+      if (other.range.key == axis.range.key)
+        throw SceneError(fmt::format("--scan: {} stands there twice", axis.range.key));
+    axes.push_back(axis);
+  }
+  if (axes.size() > kMostAxes)
+    throw SceneError(fmt::format("--scan: {} dials, accepted: 1 to {}", axes.size(), kMostAxes));
+  return axes;
+}
+
+std::map<std::string, double> parseDials(const std::string& text) {
+  std::map<std::string, double> out;
+  if (text.empty()) return out;
+  for (const std::string& part : split(text, ',')) {
+    const std::vector<std::string> sides = split(part, '=');
+    if (sides.size() != 2)
+      throw SceneError(fmt::format(
+          "--dials: \"{}\" is not accepted: DIAL=VALUE, such as hr=72,wall-thickness=11", part));
+    const double value = numberOf("--dials", sides[1]);
+    checkRange("--dials", dialOf("--dials", sides[0]), value);
+    out[sides[0]] = value;
+  }
+  return out;
+}
+
+namespace {
+
+std::vector<ScanPoint> pointsOf(const std::vector<ScanAxis>& axes) {
+  std::vector<ScanPoint> points{{}};
+  for (const ScanAxis& axis : axes) {
+    std::vector<ScanPoint> next;
+    for (const ScanPoint& point : points)
+      for (const double value : axis.values()) {
+        next.push_back(point);
+        next.back().values.push_back(value);
+      }
+    points = std::move(next);
+  }
+  return points;
+}
+
+void refuseUnusable(const ScanOptions& o) {
+  double count = 1;
+  for (const ScanAxis& axis : o.axes) {
+    count *= std::floor((axis.range.high - axis.range.low) / axis.step + 1e-6) + 1;
+    if (o.dials.contains(axis.range.key))
+      throw SceneError(fmt::format("--dials: {} is scanned; leave it out", axis.range.key));
+  }
+  if (count > static_cast<double>(kMostUnasked) && !o.yes)
+    throw SceneError(
+        fmt::format("--scan: {:.0f} evaluations are more than {}: --yes makes them all the same, "
+                    "or take larger "
+                    "steps",
+                    count, kMostUnasked));
+  constexpr double kMost = 1e5;
+  if (count > kMost)
+    throw SceneError(
+        fmt::format("--scan: {:.0f} evaluations, accepted: {:g}; take larger steps", count, kMost));
+}
+
+// Nodes of each dial: two dials need 16 hearts, three 27. Our choice: with four the surfaces lie
+// within 0.1 mm over half of a dial's range.
+int nodesFor(std::size_t axes) {
+  return axes >= kMostAxes ? 3 : 4;
+}
+
+// Least squares of a paraboloid in steps about the best point.
+void fitParaboloid(DialScan& scan) {
+  const std::size_t n = scan.options.axes.size(), unknowns = 1 + n + n * (n + 1) / 2;
+  const auto steps = [&](const ScanPoint& p, std::size_t a) {
+    return (p.values[a] - scan.points[scan.best].values[a]) / scan.options.axes[a].step;
+  };
+  cv::Mat rows(0, static_cast<int>(unknowns), CV_64F), right(0, 1, CV_64F);
+  for (const ScanPoint& p : scan.points) {
+    cv::Mat row(1, static_cast<int>(unknowns), CV_64F);
+    int at = 0;
+    bool near = true;
+    row.at<double>(at++) = 1;
+    for (std::size_t a = 0; a < n; ++a) {
+      near = near && std::abs(steps(p, a)) < 2.5;
+      row.at<double>(at++) = steps(p, a);
+    }
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = 0; b <= a; ++b) row.at<double>(at++) = steps(p, a) * steps(p, b);
+    if (!near) continue;
+    rows.push_back(row);
+    right.push_back(p.found.discrepancy);
+  }
+  if (rows.rows <= static_cast<int>(unknowns)) return;
+  cv::Mat x, hessian(static_cast<int>(n), static_cast<int>(n), CV_64F), values, move;
+  cv::solve(rows, right, x, cv::DECOMP_SVD);
+  int at = 1 + static_cast<int>(n);
+  for (int a = 0; a < static_cast<int>(n); ++a)
+    for (int b = 0; b <= a; ++b, ++at)
+      hessian.at<double>(a, b) = hessian.at<double>(b, a) = x.at<double>(at) * (a == b ? 2 : 1);
+  for (int a = 0; a < static_cast<int>(n); ++a) scan.curvature.push_back(hessian.at<double>(a, a));
+  cv::eigen(hessian, values);
+  if (!(values.at<double>(values.rows - 1) > 0)) return;
+  // Of the inverse: how errors of two dials go together.
+  const cv::Mat inverse = hessian.inv();
+  for (int a = 0; a < static_cast<int>(n); ++a) {
+    scan.confounding.emplace_back();
+    for (int b = 0; b < static_cast<int>(n); ++b)
+      scan.confounding.back().push_back(
+          inverse.at<double>(a, b) /
+          std::sqrt(inverse.at<double>(a, a) * inverse.at<double>(b, b)));
+  }
+  move = -inverse * x.rowRange(1, 1 + static_cast<int>(n));
+  for (std::size_t a = 0; a < n; ++a) {
+    const ScanAxis& axis = scan.options.axes[a];
+    scan.minimum.push_back(std::clamp(
+        scan.points[scan.best].values[a] + move.at<double>(static_cast<int>(a)) * axis.step,
+        axis.range.low, axis.range.high));
+  }
+}
+
+}  // namespace
+
+DialScan scanDials(const ScanOptions& options, const Monitor& monitor) {
+  refuseUnusable(options);
+  DialScan scan;
+  scan.options = options;
+  for (const heart::ViewName& name : heart::viewNames())
+    if (name.view == options.view) scan.view = name.key;
+  const Loop real = readLoop(options.real, options.side, true);
+  std::vector<DialRange> ranges;
+  std::vector<double> middle;
+  for (const ScanAxis& axis : options.axes) {
+    ranges.push_back(axis.range);
+    middle.push_back(0.5 * (axis.range.low + axis.range.high));
+  }
+  double since = cpuSeconds();
+  const HeartFamily family(options.dials, ranges, options.view, kFitFrames, nodesFor(ranges.size()),
+                           monitor);
+  scan.family_ms = 1e3 * (cpuSeconds() - since);
+  const ModelLoop first = family.at(middle);
+  const ModelDiscrepancy discrepancy(real, options.side, first);
+  scan.beat = discrepancy.beat();
+  scan.centre = discrepancy.search(first);
+  std::vector<FitPose> starts{scan.centre.pose};
+  if (!scan.centre.rivals.empty()) starts.push_back(scan.centre.rivals.front().first);
+  scan.points = pointsOf(options.axes);
+  since = cpuSeconds();
+  std::atomic<std::size_t> done = 0;
+  std::mutex telling;
+  parallelBlocks(scan.points.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!monitor.keep_going()) throw JobError("stopped while dials were scanned");
+      scan.points[i].found = discrepancy.refine(family.at(scan.points[i].values), starts);
+      const std::lock_guard lock(telling);
+      monitor.tell({Task::settings, ++done, scan.points.size()});
+    }
+  });
+  scan.evaluation_ms = 1e3 * (cpuSeconds() - since) / static_cast<double>(scan.points.size());
+  for (std::size_t i = 0; i < scan.points.size(); ++i)
+    if (scan.points[i].found.discrepancy < scan.points[scan.best].found.discrepancy) scan.best = i;
+  fitParaboloid(scan);
+  for (const std::string& note : real.video.notes) scan.notes.push_back(note);
+  if (scan.beat.confidence < 0.1)
+    scan.notes.push_back(
+        "the start of the beat is hardly better than any other: --real-ed gives it");
+  if (scan.centre.at_limit)
+    scan.notes.push_back("the pose lies at the limit of its search: a better one may lie beyond");
+  for (std::size_t a = 0; a < options.axes.size(); ++a) {
+    const std::vector<double> values = options.axes[a].values();
+    const double best = scan.points[scan.best].values[a];
+    if (best <= values.front() || best >= values.back())
+      scan.notes.push_back(fmt::format("the least discrepancy lies at the end of {}: scan farther",
+                                       options.axes[a].range.key));
+  }
+  for (const std::string& note : scan.notes) monitor.warn(note);
+  return scan;
+}
+
+}  // namespace echocine::compare

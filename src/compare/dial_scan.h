@@ -1,0 +1,67 @@
+#pragma once
+// The discrepancy over a heart's dials: how sharp its minimum is, how smooth, which dials stand in
+// for one another.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "compare/heart_family.h"
+#include "compare/model_discrepancy.h"
+
+namespace echocine::compare {
+
+// low, low + step, ... up to high.
+struct ScanAxis {
+  DialRange range;
+  double step = 0;
+  std::vector<double> values() const;
+};
+
+// "ef=0.3:0.75:0.05,edv=120:230:20". Throws SceneError naming --scan: no dial of the heart, beyond
+// its range, no step upwards, more than three dials.
+std::vector<ScanAxis> parseScan(const std::string& text);
+// "hr=72,wall-thickness=11". Throws SceneError naming --dials.
+std::map<std::string, double> parseDials(const std::string& text);
+
+struct ScanOptions {
+  std::filesystem::path real;
+  SideOptions side;
+  std::vector<ScanAxis> axes;
+  std::map<std::string, double> dials;  // that stay; the rest follows them
+  heart::View view = heart::View::a4c;
+  bool yes = false;  // more than kMostUnasked evaluations
+};
+inline constexpr std::size_t kMostUnasked = 500;  // some three minutes of one core; our choice
+
+struct ScanPoint {
+  std::vector<double> values;  // by axis
+  PoseFound found;
+};
+
+struct DialScan {
+  ScanOptions options;
+  std::string view;
+  BeatFound beat;
+  PoseFound centre;               // in the middle of all ranges, searched from everywhere
+  std::vector<ScanPoint> points;  // the last axis fastest
+  std::size_t best = 0;
+  // Of the paraboloid through the points within two steps of the best; empty where there are too
+  // few of them, or it has no least value.
+  std::vector<double> minimum;
+  std::vector<double> curvature;                 // D per square of a step, by axis
+  std::vector<std::vector<double>> confounding;  // -1..1 between axes: at 1 or -1 a change of one
+                                                 // is made good by the other
+  double family_ms = 0, evaluation_ms = 0;  // CPU time: of recording, of one evaluation in the mean
+  std::vector<std::string> notes;
+};
+
+// Throws SceneError and JobError as compareLoops() does, and where too many evaluations are asked
+// for.
+DialScan scanDials(const ScanOptions& options, const Monitor& monitor = {});
+
+// scan.csv, scan.json and scan.html. Throws JobError.
+void writeScan(const DialScan& scan, const std::filesystem::path& folder);
+
+}  // namespace echocine::compare

@@ -1,0 +1,72 @@
+#pragma once
+// One beat of a real loop as smoothed pictures in millimetres, ready to be looked up under any
+// pose.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/loop.h"
+
+namespace echocine::compare {
+
+// Standard deviation of the smoothing: above speckle, below the thickness of a wall; our choice.
+inline constexpr double kEchoSmoothing_m = 2e-3;
+inline constexpr double kEchoPixel_m = 1e-3;
+
+// Which frames of a loop are a beat.
+struct BeatSpan {
+  double end_diastole = 0;  // frame, may lie between two
+  double frames = 0;        // length of the beat
+};
+
+// Motion of the echoes at a place, from one picture to the next.
+struct EchoMotion {
+  float dx_m = 0, dz_m = 0;
+  float weight = 0;  // 0..1: the correlation of the blocks; 0: nothing was found
+};
+
+class EchoStack {
+ public:
+  // `pictures` pictures at equal steps through the beat, the first at end-diastole. Where the loop
+  // has no scale its sector is taken to be `depth_m` deep. Throws SceneError: less than half a
+  // beat. Runs in parallel.
+  EchoStack(const Loop& real, const BeatSpan& beat, int pictures, double depth_m);
+
+  // Grey 0 to 255; gradient in greys per mm. in_sight: 0 outside the sector and under overlays,
+  // rising to 1 within two standard deviations of the smoothing, so that sums change evenly as
+  // places cross the border.
+  struct Sample {
+    float grey = 0, gx = 0, gz = 0, in_sight = 0;
+  };
+
+  // A loop shorter than its beat does not show all of it.
+  bool seen(int picture) const { return !planes_[static_cast<std::size_t>(picture)].empty(); }
+  int pictures() const { return static_cast<int>(planes_.size()); }
+  double metresPerPixel() const { return metres_per_pixel_; }  // of the real loop
+  double edgeScale() const { return edge_scale_; }             // root mean square of the gradient
+  double far() const { return far_m_; }
+
+  // At a place, lateral and depth from the apex; in_sight is 0 outside the picture.
+  // Precondition: seen(picture).
+  Sample at(int picture, double x_m, double z_m) const;
+  // Nothing (weight 0) outside.
+  EchoMotion motionAt(int picture, double x_m, double z_m) const;
+
+ private:
+  void makePictures(const Loop& real, const BeatSpan& beat);
+  void markInside(const Loop& real);
+  void trackOne(std::size_t picture);
+  void measureEdges();
+
+  double metres_per_pixel_ = 0, far_m_ = 0, edge_scale_ = 1;
+  int width_ = 0, height_ = 0;
+  double origin_x_ = 0, origin_z_ = 0;  // of the apex, in pixels of the stack
+  PixelPlane inside_;
+  std::vector<std::vector<Sample>> planes_;
+  std::vector<std::vector<float>> sharp_;  // for block matching alone
+  int blocks_across_ = 0, blocks_down_ = 0;
+  std::vector<std::vector<EchoMotion>> motion_;
+};
+
+}  // namespace echocine::compare

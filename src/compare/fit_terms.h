@@ -1,0 +1,79 @@
+#pragma once
+// How far a model is from a real loop, term by term.
+
+#include <array>
+#include <vector>
+
+#include "compare/echo_stack.h"
+#include "compare/model_plane.h"
+
+namespace echocine::compare {
+
+// Where the model's plane lies in the real one: a point p of the model is seen at
+//   middle + shift + scale R(turn) (p - middle),
+// the middle being half the model's depth below its apex, so that a turn hardly shifts.
+// Frame n of the model is held against picture n + lag of the real beat.
+struct FitPose {
+  double shift_x_m = 0, shift_z_m = 0, turn_rad = 0, scale = 1;
+  int lag = 0;  // pictures
+};
+
+// What is looked at: every `picture`-th frame, every `cell`-th cell each way, every `piece`-th
+// piece of boundary.
+struct FitStride {
+  int picture = 1, cell = 1, piece = 1;
+};
+
+// The terms; each 0 for a perfect model, about 1 for one that says nothing.
+struct FitTerms {
+  double region = 1, boundary = 1, motion = 1;
+  double in_sight = 0;  // share of the model's plane that the real sector shows
+};
+
+// Weights of the terms in D. Calibrated on synthetic pairs of known truth (README.md), never on
+// real videos.
+struct FitWeights {
+  double region = 0.5, boundary = 0.3, motion = 0.2;
+};
+
+// (6)  D = c (w_R R + w_B B + w_M M) / (w_R + w_B + w_M) + 1 - c,   c: share in sight.
+double fitDiscrepancy(const FitTerms& terms, const FitWeights& weights = {});
+
+// (3)  R = residual / total sum of squares,
+// both of the real greys over all cells of the beat, by area: the total one after the best gain
+// over depth, the residual one after the best gain over depth and grey for each tissue together
+// (analysis of covariance; 1 - R is the correlation ratio of Pearson and of Roche et al., MICCAI
+// 1998, for cells that two tissues share). Gain is continuous, linear between four depths. Blood
+// is given no brighter grey than any other tissue: it scatters 20 to 30 dB less, and no display
+// turns that round.
+//
+// (4)  B = < sum_s p(s) (s/S)^2 > / < (s/S)^2 >,   p(s) = exp(2 e(s)/E) / sum exp(2 e(s)/E),
+// mean over pieces of boundary by length; e(s): gradient of the real grey along the normal at s
+// from the boundary, out of blood, its magnitude where no blood is; E: root mean square of the
+// gradient over the loop; S: 8 mm, in 9 steps. 1 where the loop shows no edge, near 0 where all
+// edges lie on the boundary, up to 2.4 where they lie elsewhere.
+//
+// (5)  M = sum w |u - v|^2 / sum w (|u|^2 + |v|^2),
+// u the model's displacement from frame to frame, v what block matching finds 2 mm outside the
+// blood there, w the length of the piece times the correlation of the blocks. Of boundaries of
+// blood. 0 for equal, 1 for unrelated, 2 for opposite motion.
+FitTerms fitTerms(const ModelLoop& model, const EchoStack& real, const FitPose& pose,
+                  const FitStride& stride = {});
+
+// Where the model disagrees: the same as the terms, place by place.
+struct BoundaryOffset {
+  float x_m = 0, z_m = 0;  // in the real plane
+  float offset_mm = 0;     // of the edges about the boundary, along its normal: sum p(s) s
+  float certainty = 0;     // 0 no edge to be seen, 1 a single one
+  float motion_mm = 0;     // |u - v|; negative where nothing was tracked
+  std::uint16_t surface = 0;
+};
+struct FitMap {
+  std::vector<std::vector<BoundaryOffset>> boundary;  // by frame
+  std::vector<std::vector<float>> region;  // by frame and cell: what the tissues leave of the grey,
+                                           // in standard deviations; not a number out of sight
+  std::vector<double> tissue_grey;         // by tissue
+};
+FitMap fitMap(const ModelLoop& model, const EchoStack& real, const FitPose& pose);
+
+}  // namespace echocine::compare

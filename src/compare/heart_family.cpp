@@ -1,0 +1,173 @@
+#include "compare/heart_family.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/check.h"
+#include "core/error.h"
+#include "motion/heart/heart_scene.h"
+
+namespace echocine::compare {
+
+namespace {
+
+// Chebyshev-Lobatto: ends included, dense towards them, so the polynomial stays tame.
+double nodeOf(const DialRange& range, int node, int nodes) {
+  const double t = std::cos(std::numbers::pi * (nodes - 1 - node) / (nodes - 1));
+  return 0.5 * (range.low + range.high) + 0.5 * (range.high - range.low) * t;
+}
+
+// Lagrange's polynomials of the nodes at x.
+std::vector<double> lagrange(const DialRange& range, int nodes, double x) {
+  std::vector<double> out;
+  for (int i = 0; i < nodes; ++i) {
+    double product = 1;
+    for (int j = 0; j < nodes; ++j)
+      if (j != i)
+        product *=
+            (x - nodeOf(range, j, nodes)) / (nodeOf(range, i, nodes) - nodeOf(range, j, nodes));
+    out.push_back(product);
+  }
+  return out;
+}
+
+// The scene of a heart recorded at the very phases of the frames.
+Scene recordedScene(const std::map<std::string, double>& dials, heart::View view, int frames) {
+  const heart::Parameters parameters = heart::parametersFrom(dials);
+  if (const std::string fault = heart::faultOf(parameters); !fault.empty())
+    throw SceneError("heart: " + fault);
+  const heart::ParametricHeart model(parameters);
+  return heart::sceneOf(view, parameters,
+                        heart::record(model, view, frames, heart::KeyframeSpacing::even));
+}
+
+// Marks the triangles that the plane may cut, and their neighbours.
+void markNear(const std::vector<SurfaceTopology>& surfaces, std::vector<std::vector<char>>& near) {
+  near.resize(surfaces.size());
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    const SurfaceTopology& surface = surfaces[s];
+    near[s].resize(surface.triangles.size(), 0);
+    if (!surface.near_plane) {
+      std::fill(near[s].begin(), near[s].end(), 1);
+      continue;
+    }
+    std::vector<char> touched(surface.vertex_count, 0);
+    for (const NumberedTriangle& t : *surface.near_plane)
+      for (const std::uint32_t v : t.corners) touched[v] = 1;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+      for (const std::uint32_t v : surface.triangles[t])
+        if (touched[v] != 0) near[s][t] = 1;
+  }
+}
+
+}  // namespace
+
+HeartFamily::HeartFamily(const std::map<std::string, double>& given,
+                         const std::vector<DialRange>& ranges, heart::View view, int frames,
+                         int nodes, const Monitor& monitor)
+    : ranges_(ranges), nodes_(nodes) {
+  std::size_t count = 1;
+  for (std::size_t r = 0; r < ranges.size(); ++r) count *= static_cast<std::size_t>(nodes);
+  std::vector<std::vector<char>> near;
+  std::vector<SurfaceTopology> all;
+  for (std::size_t n = 0; n < count; ++n) {
+    if (!monitor.keep_going()) throw JobError("stopped while hearts were recorded");
+    std::map<std::string, double> dials = given;
+    std::size_t rest = n;
+    for (const DialRange& range : ranges) {
+      dials[range.key] =
+          nodeOf(range, static_cast<int>(rest % static_cast<std::size_t>(nodes)), nodes);
+      rest /= static_cast<std::size_t>(nodes);
+    }
+    const Scene scene = recordedScene(dials, view, frames);
+    const MeshMotion motion(scene);
+    markNear(motion.surfaces(), near);
+    if (n == 0) {
+      scene_ = scene;
+      all = motion.surfaces();
+    }
+    CHECK_EQ(motion.surfaces().size(), all.size());
+    Node node;
+    node.frames.resize(static_cast<std::size_t>(frames));
+    for (int i = 0; i < frames; ++i)
+      motion.frameAt(static_cast<double>(i) / frames, node.frames[static_cast<std::size_t>(i)],
+                     false);
+    recorded_.push_back(std::move(node));
+  }
+  for (Structure& structure : scene_.structures) structure.keyframes.clear();
+  keepNearPlane(all, near);
+  for (Node& node : recorded_) compact(node);
+}
+
+// Hearts far from the plane are no business of its slice.
+void HeartFamily::keepNearPlane(const std::vector<SurfaceTopology>& all,
+                                const std::vector<std::vector<char>>& near) {
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    constexpr std::uint32_t kNone = 0xffffffff;
+    std::vector<std::uint32_t> number(all[s].vertex_count, kNone), kept;
+    SurfaceTopology surface{all[s].id, {}, 0, all[s].membrane, false};
+    for (std::size_t t = 0; t < all[s].triangles.size(); ++t) {
+      if (near[s][t] == 0) continue;
+      Triangle triangle = all[s].triangles[t];
+      for (std::uint32_t& v : triangle) {
+        if (number[v] == kNone) {
+          number[v] = static_cast<std::uint32_t>(kept.size());
+          kept.push_back(v);
+        }
+        v = number[v];
+      }
+      surface.triangles.push_back(triangle);
+    }
+    surface.vertex_count = static_cast<std::uint32_t>(kept.size());
+    surfaces_.push_back(std::move(surface));
+    kept_.push_back(std::move(kept));
+  }
+}
+
+void HeartFamily::compact(Node& node) const {
+  for (SurfaceFrame& frame : node.frames)
+    for (std::size_t s = 0; s < kept_.size(); ++s) {
+      std::vector<Vec3f> some;
+      some.reserve(kept_[s].size());
+      for (const std::uint32_t v : kept_[s]) some.push_back(frame.positions_m[s][v]);
+      frame.positions_m[s] = std::move(some);
+    }
+}
+
+// Products of the polynomials of each dial, node by node.
+std::vector<double> HeartFamily::shares(const std::vector<double>& values) const {
+  std::vector<double> out{1};
+  for (std::size_t r = 0; r < ranges_.size(); ++r) {
+    std::vector<double> next;
+    for (const double own : lagrange(ranges_[r], nodes_, values[r]))
+      for (const double before : out) next.push_back(own * before);
+    out = std::move(next);
+  }
+  return out;
+}
+
+ModelLoop HeartFamily::at(const std::vector<double>& values) const {
+  CHECK_EQ(values.size(), ranges_.size());
+  const std::vector<double> share = shares(values);
+  std::vector<SurfaceFrame> frames(recorded_.front().frames.size());
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    frames[f].positions_m.resize(surfaces_.size());
+    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+      std::vector<Vec3f>& sum = frames[f].positions_m[s];
+      sum.assign(kept_[s].size(), Vec3f{});
+      for (std::size_t n = 0; n < recorded_.size(); ++n) {
+        const auto w = static_cast<float>(share[n]);
+        const std::vector<Vec3f>& own = recorded_[n].frames[f].positions_m[s];
+        for (std::size_t v = 0; v < sum.size(); ++v) {
+          sum[v].x += w * own[v].x;
+          sum[v].y += w * own[v].y;
+          sum[v].z += w * own[v].z;
+        }
+      }
+    }
+  }
+  return ModelPlane(scene_, surfaces_).cut(frames);
+}
+
+}  // namespace echocine::compare

@@ -1,0 +1,55 @@
+#pragma once
+// Parametric hearts between recorded ones: a dial's change in milliseconds instead of seconds.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "compare/model_plane.h"
+#include "core/monitor.h"
+#include "motion/heart/views.h"
+
+namespace echocine::compare {
+
+// A dial and the values between which it may be asked for.
+struct DialRange {
+  std::string key;  // of heart::dials()
+  double low = 0, high = 0;
+};
+
+// Hearts recorded at Chebyshev-Lobatto nodes of each dial; between them every point of a surface
+// is the polynomial through its nodes, in the probe's frame. Views are aimed by each heart, so the
+// plane moves with the dials as `echocine heart` would move it.
+class HeartFamily {
+ public:
+  // `given`: dials that stay. Records nodes^(number of ranges) hearts, 3 s of one core each. Runs
+  // in parallel. Throws SceneError for hearts that cannot be, JobError when the monitor wants to
+  // stop.
+  HeartFamily(const std::map<std::string, double>& given, const std::vector<DialRange>& ranges,
+              heart::View view, int frames, int nodes, const Monitor& monitor = {});
+
+  // A beat of the heart at one value for each range, in its order. Thread-safe.
+  ModelLoop at(const std::vector<double>& values) const;
+
+  const Scene& scene() const { return scene_; }
+  const std::vector<DialRange>& ranges() const { return ranges_; }
+  int nodes() const { return nodes_; }
+
+ private:
+  struct Node {
+    std::vector<SurfaceFrame> frames;
+  };
+  std::vector<double> shares(const std::vector<double>& values) const;
+  void keepNearPlane(const std::vector<SurfaceTopology>& all,
+                     const std::vector<std::vector<char>>& near);
+  void compact(Node& node) const;
+
+  std::vector<DialRange> ranges_;
+  int nodes_;
+  Scene scene_;  // of the first node, without meshes
+  std::vector<SurfaceTopology> surfaces_;
+  std::vector<std::vector<std::uint32_t>> kept_;  // vertices, by surface
+  std::vector<Node> recorded_;
+};
+
+}  // namespace echocine::compare

@@ -1,0 +1,86 @@
+#pragma once
+// What a model says of its imaging plane over a beat: which tissue is where, where boundaries run
+// and how they move. From the truth of the scene; nothing is traced.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/plane_slice.h"
+#include "motion/mesh_motion.h"
+#include "scene/scene.h"
+#include "truth/plane_labels.h"
+
+namespace echocine::compare {
+
+// A cell of the plane: the two tissues that fill most of it.
+struct TissueCell {
+  float x_m = 0, z_m = 0;  // its centre
+  float area = 0;  // relative to a cell at the largest depth, less far from blood (kNearBlood_m)
+  std::uint8_t first = 0, second = 0;  // tissues
+  float share = 1;                     // of the first, of both
+};
+
+// A piece of a boundary that shows: other tissues lie on its two sides.
+struct BoundaryPoint {
+  float x_m = 0, z_m = 0;     // its middle
+  float nx = 0, nz = 0;       // unit normal; out of blood where blood is on one side
+  float length_m = 0;         // of the piece
+  float dx_m = 0, dz_m = 0;   // of the material, from this frame to the next
+  std::uint16_t surface = 0;  // structure
+  bool of_blood = false;      // blood on one side, something else on the other
+};
+
+struct ModelFrame {
+  std::vector<TissueCell> cells;
+  std::vector<BoundaryPoint> boundary;
+};
+
+// A beat in frames at equal steps of phase, from end-diastole.
+struct ModelLoop {
+  std::vector<std::string> tissues;  // media by name; the background's is the first
+  std::vector<bool> blood;           // by tissue
+  std::vector<std::string> structures;
+  double far_m = 0;  // depth of the sector from its apex
+  int cells_across = 0, cells_along = 0;
+  std::vector<ModelFrame> frames;
+};
+
+// Resolution of the plane, our choice: cells of 2.5 mm at two thirds of a 15 cm depth, each of
+// eight samples.
+inline constexpr int kCellLines = 64, kCellsAlong = 60, kSamplesPerCell = 8;
+inline constexpr double kBoundaryPiece_m = 2.5e-3;  // between looks along a boundary; our choice
+
+// Cells count in full up to about so far from blood, and not at all from twice as far on: what lies
+// around a heart is no model's claim. Our choice: a wall's thickness.
+inline constexpr double kNearBlood_m = 10e-3;
+void weighByBlood(const ModelLoop& loop, ModelFrame& frame);
+
+// Cuts surfaces of one topology, whatever made them.
+class ModelPlane {
+ public:
+  // Surfaces that a scene has, in the probe frame of the scene. References are kept. Throws
+  // SceneError for a linear probe.
+  ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& surfaces);
+
+  // Frames that follow one another at equal steps through a whole beat. Runs in parallel.
+  ModelLoop cut(const std::vector<SurfaceFrame>& frames) const;
+
+ private:
+  ModelFrame cutOne(const SurfaceFrame& now, const SurfaceFrame& next, PlaneSlice& slice) const;
+  template <typename TissueAtPlace>
+  void addPiece(const ContourEdge& cut, Vec3d at, double length_m, const TissueAtPlace& tissueAt,
+                const SurfaceFrame& now, const SurfaceFrame& next,
+                std::vector<BoundaryPoint>& pieces) const;
+
+  const std::vector<SurfaceTopology>& surfaces_;
+  Scene coarse_;  // the scene with as many lines as the plane has
+  PlaneLabels labels_;
+  std::vector<std::uint8_t> tissue_of_;  // by structure from 1; 0 the background
+  ModelLoop empty_;
+};
+
+// A beat of a scene's motion in `frames` steps.
+ModelLoop modelLoop(const Scene& scene, const MeshMotion& motion, int frames);
+
+}  // namespace echocine::compare
