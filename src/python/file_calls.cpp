@@ -22,14 +22,14 @@ Channel channelFrom(const std::string& name) {
   std::string accepted;
   const auto look = [&](const auto& channels) -> std::optional<Channel> {
     for (const Channel c : channels) {
-      if (channelName(c) == name && !isLabel(c)) return c;
-      if (!isLabel(c)) accepted += fmt::format("{}{}", accepted.empty() ? "" : ", ", channelName(c));
+      if (channelName(c) == name) return c;
+      accepted += fmt::format("{}{}", accepted.empty() ? "" : ", ", channelName(c));
     }
     return std::nullopt;
   };
   if (const auto found = look(kAllChannels)) return *found;
   if (const auto found = look(kTruthChannels)) return *found;
-  throw SceneError(fmt::format("channel: \"{}\" is no channel of floats, accepted: {}", name, accepted));
+  throw SceneError(fmt::format("channel: \"{}\" is no channel, accepted: {}", name, accepted));
 }
 
 // Moves a vector into an array of its own.
@@ -40,20 +40,31 @@ py::array arrayOf(std::vector<T> values, const std::vector<py::ssize_t>& shape) 
   return viewOf(kept->data(), shape, owner);
 }
 
-// (depth, line), any scale undone.
+// (depth, line)
+template <typename T>
+py::array planeOf(std::optional<std::vector<T>> values, const ExrPlaneWanted& wanted, const Path& file) {
+  if (!values)
+    throw JobError(fmt::format("{}: is absent, damaged, of another scene, or has no channel {}", file.string(),
+                               channelName(wanted.channel)));
+  return arrayOf(std::move(*values), {wanted.lines, wanted.samples}).attr("T");
+}
+
+// Any scale of half floats undone.
 py::array readExr(const Path& folder, int frame, const std::string& channel, const std::string& sha256,
                   int lines, int samples) {
   const ExrPlaneWanted wanted{channelFrom(channel), sha256, frame, lines, samples};
   const Path file = folder / ExrStack::fileName(frame);
   std::optional<std::vector<float>> values;
+  std::optional<std::vector<std::uint32_t>> ids;
   {
     const py::gil_scoped_release released;
-    values = readExrPlane(file, wanted);
+    if (isLabel(wanted.channel))
+      ids = readExrIds(file, wanted);
+    else
+      values = readExrPlane(file, wanted);
   }
-  if (!values)
-    throw JobError(fmt::format("{}: is absent, damaged, of another scene, or has no channel {}", file.string(),
-                               channel));
-  return arrayOf(std::move(*values), {lines, samples}).attr("T");
+  return isLabel(wanted.channel) ? planeOf(std::move(ids), wanted, file)
+                                 : planeOf(std::move(values), wanted, file);
 }
 
 py::array readFrames(const Path& path) {
@@ -69,7 +80,7 @@ py::array readFrames(const Path& path) {
 void bindFiles(py::module_& module) {
   module.def("read_exr", &readExr, py::arg("folder"), py::arg("frame"), py::arg("channel"),
              py::arg("scene_sha256"), py::arg("lines"), py::arg("samples"),
-             "One channel of an intensity EXR, (depth, line) float32.");
+             "One channel of an intensity EXR, (depth, line) float32 or uint32.");
   module.def("read_video", &readFrames, py::arg("path"), "(T, H, W) uint8 greys of a video.");
 }
 

@@ -107,11 +107,12 @@ std::optional<py::error_already_set> attend(Job& job, const py::object& progress
   return raised;
 }
 
+// At the line that called the package's function.
 void issueWarnings(const std::vector<std::string>& lines) {
   if (lines.empty()) return;
   const py::object type = py::module_::import("echocine._errors").attr("SceneWarning");
   for (const std::string& line : lines)
-    if (PyErr_WarnEx(type.ptr(), line.c_str(), 1) != 0) throw py::error_already_set();
+    if (PyErr_WarnEx(type.ptr(), line.c_str(), 2) != 0) throw py::error_already_set();
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ class Loop:
             raise ValueError(f"{path}: is absent, accepted: {remedy}")
         return path
 
-    def _read_channel(self, name: str) -> NDArray[np.float32]:
+    def _read_channel(self, name: str) -> NDArray[Any]:
         """(T, depth, line), any scale of half floats undone."""
         assert self._folder is not None
         m = self._manifest
@@ -365,7 +365,7 @@ def _asking_for(scene: Scene, truth: Union[None, str, Sequence[str]]) -> Scene:
     changes: Dict[str, Any] = {}
     files = [k for k in kinds if k not in ("displacement", "velocity")]
     if files:
-        was = scene["truth.write"] if "truth.write" in scene and scene["truth.write"] else []
+        was = scene["truth.write"] or []
         changes["truth.write"] = sorted({*([was] if isinstance(was, str) else was), *files})
     planes = [f"{k}.{side}" for k in ("displacement", "velocity") if k in kinds for side in _SIDES]
     if planes:

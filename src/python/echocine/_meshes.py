@@ -72,7 +72,7 @@ def _one(name: str, mesh: Any) -> Tuple[Any, Any]:
             raise ValueError(f"{name}: has no \"{missing[0]}\", {_ACCEPTED}")
         return mesh["points"], mesh["faces"]
     if isinstance(mesh, tuple) and len(mesh) == 2:
-        return mesh
+        return mesh[0], mesh[1]
     points = getattr(mesh, "points", None)
     if points is None:
         points = getattr(mesh, "vertices", None)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from typing import Any, Callable, Optional, Union
 
-Report = Callable[[int, int, str], None]
+Report = Callable[[int, int, str], Any]
 Progress = Union[None, bool, Callable[[int, int], Any], Any]
 
 
@@ -22,20 +22,22 @@ def report_to(progress: Progress) -> Optional[Report]:
     if progress is True:
         return _line
     if hasattr(progress, "update"):
+        bar: Any = progress
         shown = [0]
 
         def update(done: int, total: int, what: str) -> None:
             if done < shown[0]:  # another pass begins
                 shown[0] = 0
-                if hasattr(progress, "reset"):
-                    progress.reset(total)
+                if hasattr(bar, "reset"):
+                    bar.reset(total)
             if total:
-                progress.total = total
-            progress.update(done - shown[0])
+                bar.total = total
+            bar.update(done - shown[0])
             shown[0] = done
 
         return update
     if not callable(progress):
         raise TypeError(f"progress: is {type(progress).__name__}, accepted: None, True, a function (done, total) "
                         "or a bar with update() as tqdm has it")
-    return lambda done, total, what: progress(done, total) and None
+    call: Callable[[int, int], Any] = progress
+    return lambda done, total, what: call(done, total)

@@ -7,7 +7,7 @@ import difflib
 import os
 import tomllib
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple, Union
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Set, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,8 @@ from ._progress import Progress, report_to
 
 _TABLES = ("probe", "acquisition", "motion", "effects", "speckle", "artefacts", "signal", "accuracy", "output", "truth")
 _PLAIN = ("background", "unit_volume_cm3")
+# Of a table that a scene without truth does not have at all.
+_TRUTH_KEYS = ("write", "labels", "papillary", "tracks")
 
 
 class Table:
@@ -162,7 +164,7 @@ class Scene:
 
     def keys(self) -> List[str]:
         """Every key that this scene gives or could give."""
-        found = set()
+        found: Set[str] = set()
         document = self._document()
         for name, value in document.items():
             if name == "structure":
@@ -179,6 +181,8 @@ class Scene:
                 found.add(key)
             elif rest and table == "structure":
                 found.update(f"structure.{e['name']}.{rest}" for e in self._native.structures)
+        if "truth" not in document:
+            found.update(f"truth.{key}" for key in _TRUTH_KEYS)
         return sorted(found)
 
     def __getitem__(self, key: str) -> Any:
