@@ -3,7 +3,7 @@
 import echocine
 
 scene = echocine.heart(view="plax", keyframes=8)
-scene.update({"probe.lines": 64, "probe.samples": 256, "output.width": 320, "output.height": 240})
+scene.update({"probe.lines": 48, "probe.samples": 160, "output.width": 320, "output.height": 240})
 for look in ("paper", "clean", "scanner"):
     scene.signal.look = look
     image = echocine.Simulator(scene).frame(0.1).image

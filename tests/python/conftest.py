@@ -49,7 +49,7 @@ def scene():
 
 @pytest.fixture(scope="session")
 def recorded():
-    made = echocine.heart(ef=0.5, keyframes=6)
+    made = echocine.heart(ef=0.5, keyframes=6, look="paper")
     made.update(SMALL)
     return made
 

@@ -404,7 +404,7 @@ def _rebuild(text: str, file: str, meshes: Optional[_echocine.Meshes], changed: 
 
 
 def heart(view: str = "a4c", *, segments: Optional[Mapping[int, Any]] = None, keep_volumes: bool = False, keyframes: int = 24,
-          even: bool = False, threads: int = 0, progress: Progress = None, **dials: float) -> Scene:
+          look: str = "scanner", even: bool = False, threads: int = 0, progress: Progress = None, **dials: float) -> Scene:
     """A beating heart from its dials, as a scene with its meshes in memory.
 
     Args:
@@ -413,6 +413,7 @@ def heart(view: str = "a4c", *, segments: Optional[Mapping[int, Any]] = None, ke
             (amplitude, delay in ms).
         keep_volumes: the ejection fraction stays as dialled, and healthy segments do the work of still ones.
         keyframes: keyframes a beat, 4 to 100.
+        look: how its pictures look: "paper", "clean" or "scanner"; the key signal.look.
         even: keyframes evenly spaced, not by how much moves.
         threads: 0: one per core.
         progress: None, True, a function (done, total), or a bar as tqdm makes them.
@@ -431,7 +432,10 @@ def heart(view: str = "a4c", *, segments: Optional[Mapping[int, Any]] = None, ke
         amplitude, delay_ms = wall if isinstance(wall, (tuple, list)) else (wall, 0.0)
         walls[int(number)] = (float(amplitude), float(delay_ms) * 1e-3)
     text, meshes = _echocine.heart(view, given, walls, keep_volumes, keyframes, even, threads, report_to(progress))
-    return Scene._of(text, "heart", meshes)
+    scene = Scene._of(text, "heart", meshes)
+    if look != "scanner":  # which the heart's text has
+        scene["signal.look"] = look
+    return scene
 
 
 def dials() -> Dict[str, Dict[str, Any]]:
