@@ -33,7 +33,7 @@ struct FitTerms {
 // Weights of the terms in D. Calibrated on synthetic pairs of known truth (README.md), never on
 // real videos.
 struct FitWeights {
-  double region = 0.5, boundary = 0.3, motion = 0.2;
+  double region = 0.4, boundary = 0.2, motion = 0.4;
 };
 
 // (6)  D = c (w_R R + w_B B + w_M M) / (w_R + w_B + w_M) + 1 - c,   c: share in sight.
