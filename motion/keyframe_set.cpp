@@ -8,6 +8,7 @@
 #include "core/hash.h"
 #include "motion/mesh/mesh_check.h"
 #include "motion/mesh/mesh_io.h"
+#include "motion/mesh/world_place.h"
 #include "motion/repair/mesh_repair.h"
 
 namespace echocine {
@@ -48,7 +49,7 @@ KeyframeSet readKeyframes(const Scene& scene) {
       keyframes.push_back(readKeyframe(keyframe, structure, digest));
     const std::string note = repairKeyframes(structure, keyframes);
     if (!note.empty()) set.repair_notes.push_back(note);
-    checkKeyframes(structure, keyframes, scene.motion.mesh_unit_m);
+    checkKeyframes(structure, keyframes, metresPerMeshUnit(scene.motion));
     set.structures.push_back(std::move(keyframes));
   }
   set.sha256 = digest.hex();

@@ -4,12 +4,16 @@
 #include <CLI/CLI.hpp>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
 
 #include "cli/documents.h"
 #include "cli/interpolation_table.h"
 #include "cli/stop_signal.h"
 #include "cli/warning_printer.h"
+#include "motion/probe_placement.h"
 #include "render/estimate.h"
+#include "scene/probe_pose.h"
 #include "scene/scene_reader.h"
 
 namespace echocine {
@@ -32,6 +36,14 @@ void printEffects(const Manifest& manifest) {
   }
 }
 
+// As a scene says it, to be pasted and edited.
+void printPose(const Scene& scene) {
+  std::string head = "probe       ";
+  std::istringstream lines(poseToml(scene));
+  for (std::string line; std::getline(lines, line); head = std::string(head.size(), ' '))
+    fmt::print("{}{}\n", head, line);
+}
+
 void printRest(const Estimate& estimate) {
   const LoopPlan& plan = estimate.measured.plan;
   for (const Omission& i : plan.interfaces)
@@ -50,8 +62,9 @@ void printRest(const Estimate& estimate) {
 }
 
 // The manifest's own parts, so that scripts read plan and manifest alike.
-void printJson(const Estimate& estimate) {
+void printJson(const Scene& scene, const Estimate& estimate) {
   nlohmann::ordered_json json = planJson(estimate.measured.plan);
+  json["probe_toml"] = poseToml(scene);
   json["effects"] = effectsJson(estimate.measured);
   json["warnings"] = estimate.measured.warnings;
   json["frames"] = estimate.frames;
@@ -82,19 +95,20 @@ PlanCommand::PlanCommand(CLI::App& app) {
 
 int PlanCommand::run() {
   if (interpolation_) {  // writes no file: a signal may end it anywhere
-    printInterpolation(readScene(scene_file_), json_);
+    printInterpolation(placed(readScene(scene_file_)), json_);
     return 0;
   }
   listenForStop();
-  Scene scene = readScene(scene_file_);
+  Scene scene = placed(readScene(scene_file_));
   accuracy_.resolve(scene, threads_, quiet_);
   const Monitor monitor{.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)};
   const Estimate estimate = estimateLoop(scene, threads_, monitor);
   if (json_) {
-    printJson(estimate);
+    printJson(scene, estimate);
   } else {
     printEffects(estimate.measured);
     printRest(estimate);
+    printPose(scene);
   }
   return 0;
 }
