@@ -212,4 +212,10 @@ Scene placed(Scene scene) {
   return scene;
 }
 
+std::pair<Scene, std::shared_ptr<const MeshMotion>> placedWithMotion(Scene given) {
+  Scene scene = placed(std::move(given));
+  auto motion = std::make_shared<const MeshMotion>(scene);
+  return {std::move(scene), std::move(motion)};
+}
+
 }  // namespace echocine

@@ -1,6 +1,10 @@
 #pragma once
 // A probe placed by the heart's anatomy.
 
+#include <memory>
+#include <utility>
+
+#include "motion/mesh_motion.h"
 #include "scene/scene.h"
 
 namespace echocine {
@@ -12,5 +16,8 @@ namespace echocine {
 // Reads those meshes. Throws SceneError naming the scene's place: no role to find the view by, roles
 // that contradict one another, a sector that cuts no mesh; and as readKeyframes().
 Scene placed(Scene scene);
+
+// The same, and the motion of its meshes in that probe's frame.
+std::pair<Scene, std::shared_ptr<const MeshMotion>> placedWithMotion(Scene scene);
 
 }  // namespace echocine

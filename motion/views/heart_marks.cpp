@@ -9,14 +9,13 @@
 #include "core/units.h"
 #include "motion/views/long_axis.h"
 #include "motion/views/point_cloud.h"
+#include "motion/views/role_points.h"
 #include "scene/names.h"
 
 namespace echocine {
 
 namespace {
 
-// Enough for a millimetre, few enough for every pair's distance.
-constexpr std::size_t kMostPoints = 2000;
 // Of the long axis: surfaces nearer than that touch, and what is so near belongs to the contact.
 constexpr double kTouching = 0.12, kContact = 0.04;
 // A wall whose middle is so far off the long axis, in its lengths, holds the right ventricle too.
@@ -52,28 +51,20 @@ class Finder {
     refuseMixedSides();
     findSides();
     findAorta();
-    findOutside();
+    marks_.outside_m = outsideOf(surfaces_);
+    if (!hasWall(surfaces_)) marks_.wall_m = kWall * marks_.frame.length_m;
     return marks_;
   }
 
  private:
   [[noreturn]] void fail(const std::string& what) const { throw SceneError(atPlace(place_, what)); }
 
-  std::vector<Vec3d> points(Role role) const {
-    std::vector<Vec3d> all;
-    for (const RoleSurface& s : surfaces_)
-      if (s.role == role) all.insert(all.end(), s.points_m.begin(), s.points_m.end());
-    return thinned(std::move(all), kMostPoints);
-  }
+  std::vector<Vec3d> points(Role role) const { return pointsOf(surfaces_, role); }
   std::optional<Vec3d> middle(Role role) const {
     const std::vector<Vec3d> all = points(role);
     return all.empty() ? std::nullopt : std::optional(middleOf(all));
   }
-  std::string nameOfRole(Role role) const {
-    for (const RoleSurface& s : surfaces_)
-      if (s.role == role) return fmt::format("{} (role {})", s.name, nameOf(role));
-    return nameOf(role);
-  }
+  std::string nameOfRole(Role role) const { return namedRole(surfaces_, role); }
 
   void ventricle();
   Vec3d towardsBase() const;
@@ -86,24 +77,12 @@ class Finder {
   void findSides();
   void findAorta();
   void lookFromBelow();
-  void findOutside();
 
   const std::vector<RoleSurface>& surfaces_;
   const SourcePlace& place_;
   std::vector<Vec3d> cavity_;
   HeartMarks marks_;
 };
-
-std::string rolesThere(const std::vector<RoleSurface>& surfaces) {
-  std::string roles;
-  for (const RoleSurface& s : surfaces) {
-    const std::string role = nameOf(s.role);
-    if (s.role == Role::none || (", " + roles + ",").find(", " + role + ",") != std::string::npos)
-      continue;
-    roles += (roles.empty() ? "" : ", ") + role;
-  }
-  return roles.empty() ? "no structure has one" : "there are " + roles;
-}
 
 void Finder::ventricle() {
   cavity_ = points(Role::lv_cavity);
@@ -296,30 +275,6 @@ void Finder::lookFromBelow() {
     if (along < kFlat * aside) f.aortic_flow = dot(flow, f.apical) < 0 ? flow : -flow;
   }
   f.aortic = f.aortic - kBelowRing * f.length_m * f.aortic_flow;
-}
-
-void Finder::findOutside() {
-  bool walled = false;
-  for (const RoleSurface& s : surfaces_) {
-    switch (s.role) {
-      case Role::none:
-      case Role::surroundings:
-      case Role::aorta:
-      case Role::aortic_wall:
-      case Role::pulmonary_artery:
-      case Role::pulmonary_wall:
-        continue;
-      case Role::lv_wall:
-      case Role::epicardium:
-      case Role::pericardium:
-        walled = true;
-        break;
-      default:
-        break;
-    }
-    marks_.outside_m.insert(marks_.outside_m.end(), s.points_m.begin(), s.points_m.end());
-  }
-  if (!walled) marks_.wall_m = kWall * marks_.frame.length_m;
 }
 
 }  // namespace

@@ -7,17 +7,10 @@
 
 #include "core/error.h"
 #include "core/vec3.h"
+#include "motion/views/role_points.h"
 #include "motion/views/standard_pose.h"
-#include "scene/role.h"
 
 namespace echocine {
-
-// A structure with a role, at one instant.
-struct RoleSurface {
-  Role role = Role::none;
-  std::string name;
-  std::vector<Vec3d> points_m;  // vertices, world
-};
 
 struct HeartMarks {
   HeartFrame frame;

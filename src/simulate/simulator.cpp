@@ -41,21 +41,7 @@ EchoCells echoCells(const LoopPlan& plan) {
 
 }  // namespace
 
-namespace {
-
-// With its probe placed, so that the motion is in the right frame.
-std::pair<Scene, std::shared_ptr<const MeshMotion>> withMotion(Scene given) {
-  Scene scene = placed(std::move(given));
-  auto motion = std::make_shared<const MeshMotion>(scene);
-  return {std::move(scene), std::move(motion)};
-}
-
-}  // namespace
-
-Simulator::Simulator(Scene scene) : Simulator(withMotion(std::move(scene))) {}
-
-Simulator::Simulator(std::pair<Scene, std::shared_ptr<const MeshMotion>> read)
-    : Simulator(std::move(read.first), read.second) {}
+Simulator::Simulator(Scene scene) : Simulator(placedWithMotion(std::move(scene))) {}
 
 Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion)
     : Simulator(scene, motion, planLoop(scene, *motion)) {}

@@ -118,7 +118,8 @@ class Simulator {
   std::vector<KeyframeVolume> keyframeVolumes() const;
 
  private:
-  explicit Simulator(std::pair<Scene, std::shared_ptr<const MeshMotion>> read);
+  explicit Simulator(std::pair<Scene, std::shared_ptr<const MeshMotion>> read)
+      : Simulator(std::move(read.first), std::move(read.second)) {}
   Volumes volumes(const SurfaceFrame& surfaces) const;
   WorkCounts traceRays(const PlaneSlice& slice, int frame, PolarFrame& polar) const;
   WorkCounts traceRays(const FrameGeometry& geometry, int frame, PolarFrame& polar) const;
