@@ -10,6 +10,7 @@
 #include "motion/mesh/mesh_io.h"
 #include "motion/mesh/world_place.h"
 #include "motion/repair/mesh_repair.h"
+#include "motion/repair/repair_advice.h"
 
 namespace echocine {
 
@@ -37,6 +38,17 @@ void checkFilesAreThere(const Scene& scene) {
   if (missing > 0) throw SceneError(first);
 }
 
+std::vector<KeyframeMesh> soundKeyframes(const Structure& structure, double mesh_unit_m,
+                                         Sha256& digest, KeyframeSet& set) {
+  std::vector<KeyframeMesh> keyframes;
+  for (const Keyframe& keyframe : structure.keyframes)
+    keyframes.push_back(readKeyframe(keyframe, structure, digest));
+  const std::string note = repairKeyframes(structure, keyframes);
+  if (!note.empty()) set.repair_notes.push_back(note);
+  checkKeyframes(structure, keyframes, mesh_unit_m);
+  return keyframes;
+}
+
 }  // namespace
 
 KeyframeSet readKeyframes(const Scene& scene) {
@@ -44,13 +56,12 @@ KeyframeSet readKeyframes(const Scene& scene) {
   KeyframeSet set;
   Sha256 digest;
   for (const Structure& structure : scene.structures) {
-    std::vector<KeyframeMesh> keyframes;
-    for (const Keyframe& keyframe : structure.keyframes)
-      keyframes.push_back(readKeyframe(keyframe, structure, digest));
-    const std::string note = repairKeyframes(structure, keyframes);
-    if (!note.empty()) set.repair_notes.push_back(note);
-    checkKeyframes(structure, keyframes, metresPerMeshUnit(scene.motion));
-    set.structures.push_back(std::move(keyframes));
+    const double unit_m = metresPerMeshUnit(scene.motion);
+    try {
+      set.structures.push_back(soundKeyframes(structure, unit_m, digest, set));
+    } catch (const SceneError& refusal) {
+      throw SceneError(advised(refusal, structure, unit_m));
+    }
   }
   set.sha256 = digest.hex();
   return set;
