@@ -11,6 +11,7 @@
 #include "cli/warning_printer.h"
 #include "render/estimate.h"
 #include "scene/scene_reader.h"
+#include "view/view_page.h"
 
 namespace echocine {
 
@@ -75,6 +76,9 @@ PlanCommand::PlanCommand(CLI::App& app) {
       "--interpolation", interpolation_,
       "Instead: how well each kind of motion.interpolation finds every other keyframe "
       "from the rest, errors in mm and mL");
+  command->add_option(
+      "--page", page_,
+      "Also write the page of `echocine view` to this file: meshes and sector in 3-D");
   command->add_flag("--json", json_, "Print JSON");
   command->add_flag("--quiet", quiet_, "Print no warnings");
   command->footer("Example: echocine plan scene.toml\n" + std::string(kDocuments));
@@ -90,6 +94,7 @@ int PlanCommand::run() {
   accuracy_.resolve(scene, threads_, quiet_);
   const Monitor monitor{.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)};
   const Estimate estimate = estimateLoop(scene, threads_, monitor);
+  if (!page_.empty()) writeViewPage(scene, page_, threads_, [](const std::string&) {});
   if (json_) {
     printJson(estimate);
   } else {

@@ -8,6 +8,20 @@
   const x_range = [data.ecg.time_s[0], data.ecg.time_s.at(-1)];  // from the first frame to the end of the last
   const kDegrees = 180 / Math.PI, kDecibelPerNeper = 20 / Math.LN10;
 
+  // In step with the player, whose picture it carries on the imaging plane.
+  function showSpace(player) {
+    const space = new HeartView(byId("space"), data.view);
+    page.parts.space = space;
+    const has_pictures = page.frames("cine").length > 0;
+    const show = () => {
+      space.showPhase(frames.phase[Math.max(0, player.index)]);
+      if (has_pictures) space.setPicture(player.loops[0].canvas);
+    };
+    player.addEventListener("frame", show);
+    if (player.index >= 0) show();
+    else space.showPhase(frames.phase[0]);
+  }
+
   function percent(share) { return `${fixed(100 * share, 1)} %`; }
 
   function showHead() {
@@ -217,6 +231,7 @@
   showVolumes(player);
   showToggles(player);
   showFunction(player);
+  showSpace(player);
   showEffects();
   showTimes();
   showProbe();

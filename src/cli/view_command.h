@@ -1,0 +1,25 @@
+#pragma once
+// echocine view SCENE.toml -o page.html
+
+#include <filesystem>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace echocine {
+
+class ViewCommand {
+ public:
+  explicit ViewCommand(CLI::App& app);  // adds the sub-command
+  int run();                            // exit code
+
+ private:
+  std::string scene_file_;
+  std::filesystem::path page_;
+  int threads_ = 0;
+  bool quiet_ = false;
+};
+
+}  // namespace echocine
