@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "view/scene_view.h"
+
 namespace CLI {
 class App;
 }
@@ -18,6 +20,7 @@ class ViewCommand {
  private:
   std::string scene_file_;
   std::filesystem::path page_;
+  ViewBudget budget_;
   int threads_ = 0;
   bool quiet_ = false;
 };

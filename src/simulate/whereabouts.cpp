@@ -34,9 +34,12 @@ Box sectorBox(const Probe& probe) {
 
 Box meshesBox(const MeshMotion& motion) {
   Box box;
-  for (const Box& surface : motion.loopBoxes()) {
-    box.add(surface.lo);
-    box.add(surface.hi);
+  constexpr int kPhases = 8;
+  SurfaceFrame frame;
+  for (int i = 0; i < kPhases; ++i) {
+    motion.frameAt(static_cast<double>(i) / kPhases, frame, false);
+    for (const std::vector<Vec3f>& surface : frame.positions_m)
+      for (const Vec3f p : surface) box.add(toDouble(p));
   }
   return box;
 }

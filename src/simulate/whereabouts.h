@@ -9,7 +9,7 @@
 
 namespace echocine {
 
-// Around all surfaces and all phases, probe frame, m. Empty without surfaces.
+// Around all surfaces at eight phases of the beat, probe frame, m. Empty without surfaces.
 Box meshesBox(const MeshMotion& motion);
 
 // One sentence part without a full stop: the box in mm of the probe's axes, what the sector

@@ -77,17 +77,18 @@ ViewSummary summaryOf(const SceneView& view) {
 }  // namespace
 
 ViewSummary writeViewPage(const Scene& given, const std::filesystem::path& path, int threads,
-                          const std::function<void(const std::string&)>& warn) {
+                          const std::function<void(const std::string&)>& warn,
+                          const ViewBudget& budget) {
   for (const std::string& warning : given.warnings) warn(warning);
   ViewSummary summary;
   withThreads(threads, [&] {
     const Simulator simulator(withPicture(given));
     for (const std::string& warning : simulator.plan().warnings) warn(warning);
     const Scene& scene = simulator.scene();
-    PageWriter writer(path, lookOf(scene));
     const Frame frame = simulator.frame(0);
+    const SceneView view = viewScene(simulator, budget);
+    PageWriter writer(path, lookOf(scene));  // last: a signal before leaves nothing behind
     writer.addFrame("slice", encodePng(frame.image));
-    const SceneView view = viewScene(simulator);
     writer.finish({{"version", ECHOCINE_VERSION},
                    {"title", titleOf(scene)},
                    {"background", scene.medium(scene.background).name},

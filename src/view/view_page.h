@@ -6,6 +6,7 @@
 #include <string>
 
 #include "scene/scene.h"
+#include "view/scene_view.h"
 
 namespace echocine {
 
@@ -18,6 +19,7 @@ struct ViewSummary {
 // media, roles and extents. `warn` gets the scene's and the plan's warnings. Throws SceneError and
 // JobError as Simulator does, and JobError where the page cannot be written; then nothing is.
 ViewSummary writeViewPage(const Scene& scene, const std::filesystem::path& path, int threads,
-                          const std::function<void(const std::string&)>& warn);
+                          const std::function<void(const std::string&)>& warn,
+                          const ViewBudget& budget = {});
 
 }  // namespace echocine

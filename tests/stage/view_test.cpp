@@ -85,7 +85,7 @@ TEST_F(View, SmallMeshesLeaveTheirShareToLargeOnes) {
   EXPECT_GE(all, 490u);
 }
 
-Probe probeOf(const std::string& kind) {
+Probe probeOf(const std::string& kind, const TempFolder& folder) {
   SceneText text = ballScene(4);
   text.probe["kind"] = "\"" + kind + "\"";
   if (kind == "linear") {
@@ -93,12 +93,12 @@ Probe probeOf(const std::string& kind) {
     text.probe["width_mm"] = "40";
   }
   if (kind == "curvilinear") text.probe["face_radius_mm"] = "60";
-  return parsed(text).probe;
+  return parseScene(text.text(), folder / "scene.toml").probe;
 }
 
-TEST(ScanAreaOutline, GoesAlongFaceAndDepthFromLineToLine) {
+TEST_F(View, OutlineGoesAlongFaceAndDepthFromLineToLine) {
   for (const char* kind : {"phased", "curvilinear", "linear"}) {
-    const Probe probe = probeOf(kind);
+    const Probe probe = probeOf(kind, folder);
     const ScanGeometry geometry(probe);
     const std::vector<Vec3d> outline = scanAreaOutline(probe);
     EXPECT_EQ(outline.front(), outline.back());
@@ -163,7 +163,8 @@ std::vector<std::uint16_t> words(const std::string& base64) {
 
 TEST_F(View, ItsJsonHoldsPositionsToHalfAStep) {
   const Simulator s = simulator(ballScene(4));
-  const SceneView view = viewScene(s, {.phases = 3});
+  const SceneView view =
+      viewScene(s, {.triangles_per_structure = 3000, .triangles = 36000, .phases = 3});
   const nlohmann::ordered_json json = viewJson(view, s.scene());
   for (std::size_t i = 0; i < view.structures.size(); ++i) {
     const ViewStructure& given = view.structures[i];
