@@ -41,8 +41,10 @@ ViewCommand::ViewCommand(CLI::App& app) {
 int ViewCommand::run() {
   const Scene scene = readScene(scene_file_);
   // The default of one structure is for the default of all.
-  budget_.triangles_per_structure = std::max(budget_.triangles_per_structure, budget_.triangles / 12);
-  const ViewSummary summary = writeViewPage(scene, page_, threads_, warningPrinter(quiet_), budget_);
+  budget_.triangles_per_structure =
+      std::max(budget_.triangles_per_structure, budget_.triangles / 12);
+  const ViewSummary summary =
+      writeViewPage(scene, page_, threads_, warningPrinter(quiet_), budget_);
   if (quiet_) return 0;
   fmt::print("{}\n{}: {} structures, {} of {} triangles drawn\n", summary.sight, page_.string(),
              summary.structures, summary.triangles_shown, summary.triangles_given);

@@ -39,22 +39,24 @@ TEST_F(View, CoarseMeshesFollowTheSurfacesThroughTheBeat) {
   for (const int subdivision : {0, 1}) {
     const Simulator s = simulator(ball(subdivision));
     const SceneView view =
-        viewScene(s, {.triangles_per_structure = 200, .triangles = 500, .phases = 7});
+        viewScene(s, {.triangles_per_structure = 280, .triangles = 900, .phases = 7});
     SurfaceFrame frame;
     for (int i = 0; i < 7; ++i) {
       s.motion().frameAt(i / 7.0, frame, false);
       for (const SurfaceTopology& surface : s.motion().surfaces()) {
         const ViewStructure& shown = view.structures[index(surface.id)];
         EXPECT_EQ(shown.triangles_given, surface.triangles.size());
-        EXPECT_LE(shown.mesh.triangles.size(), 200u);
+        EXPECT_LE(shown.mesh.triangles.size(), 280u);
         ASSERT_EQ(shown.positions_m.size(), surface.still ? 1u : 7u);
         const std::vector<Vec3f>& at =
             shown.positions_m[surface.still ? 0 : static_cast<std::size_t>(i)];
         for (std::size_t v = 0; v < at.size(); ++v)
           EXPECT_EQ(at[v], frame.positions_m[index(surface.id)][shown.mesh.vertices[v]]);
         if (surface.membrane) continue;
+        // The best polyhedron of F = 280 faces lacks 4 pi / (sqrt(3) F) of a ball, 2.6 %; some
+        // three times that, since vertices are chosen and not placed.
         const double whole = enclosedVolume(surface, frame.positions_m[index(surface.id)]);
-        EXPECT_NEAR(enclosedVolume(shown.mesh.triangles, at), whole, 0.06 * whole) << i;
+        EXPECT_NEAR(enclosedVolume(shown.mesh.triangles, at), whole, 0.08 * whole) << i;
       }
     }
   }

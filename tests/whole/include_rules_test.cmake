@@ -52,7 +52,7 @@ set(rooms
   "render=simulate,cycle,output,page,video,truth|signal,view"
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
   "echocine=render,simulate,heart"
-  "cli=render,compare,study,output|view,video,simulate,motion,keyframes,cycle,heart")
+  "cli=render,compare,study,output,view|video,simulate,motion,keyframes,cycle,heart")
 
 function(room_of path out)
   string(REGEX REPLACE "^src/" "" path "${path}")
