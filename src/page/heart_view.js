@@ -207,7 +207,6 @@ class HeartView {
     this.addSector();
     this.addProbe();
     this.addAxes();
-    this.measure();
     this.setOpacity(0.3);
     this.picture_wanted = true;
     this.orbit = new THREE.OrbitControls(this.camera, this.canvas);
@@ -292,7 +291,7 @@ class HeartView {
     return [0, 1, 2].map((i) => pose.origin_mm[i] + v.x * pose.lateral[i] - v.y * pose.depth[i] + v.z * pose.elevation[i]);
   }
 
-  // The ball around all that is to be seen.
+  // The ball around all that is shown.
   measure() {
     const box = { lo: [Infinity, Infinity, Infinity], hi: [-Infinity, -Infinity, -Infinity] };
     const add = (p) => p.forEach((x, i) => { box.lo[i] = Math.min(box.lo[i], x); box.hi[i] = Math.max(box.hi[i], x); });
@@ -306,6 +305,7 @@ class HeartView {
 
   // "aside", "picture": as the picture shows it, "probe": from where the probe is.
   look(name) {
+    this.measure();
     const { camera, orbit } = this;
     const from = { aside: [0.75, 0.35, 1], picture: [0, 0, 1], probe: [0, 1, 1e-3] }[name];
     const half = 0.5 * camera.fov * Math.PI / 180;

@@ -10,16 +10,20 @@
 
   // In step with the player, whose picture it carries on the imaging plane.
   function showSpace(player) {
-    const space = new HeartView(byId("space"), data.view);
-    page.parts.space = space;
-    const has_pictures = page.frames("cine").length > 0;
+    const root = byId("space"), has_pictures = page.frames("cine").length > 0;
+    let space = null, in_sight = false;
     const show = () => {
+      if (!space || !in_sight) return;
       space.showPhase(frames.phase[Math.max(0, player.index)]);
-      if (has_pictures) space.setPicture(player.loops[0].canvas);
+      if (has_pictures && player.index >= 0) space.setPicture(player.loops[0].canvas);
     };
     player.addEventListener("frame", show);
-    if (player.index >= 0) show();
-    else space.showPhase(frames.phase[0]);
+    // Made when it is first scrolled to, and drawn while it can be seen: the page opens as fast.
+    new IntersectionObserver((entries) => {
+      in_sight = entries.at(-1).isIntersecting;
+      if (in_sight && !space) page.parts.space = space = new HeartView(root, data.view);
+      show();
+    }).observe(root);
   }
 
   function percent(share) { return `${fixed(100 * share, 1)} %`; }

@@ -114,7 +114,7 @@ def make_page(folder):
     program, source = sys.argv[1:3]
     page = os.path.join(folder, "view.html")
     scene = os.path.join(source, "examples", "beating_heart", "scene.toml")
-    subprocess.run([program, "view", scene, "-o", page, "--quiet"], check=True)
+    subprocess.run([program, "view", scene, "-o", page, "--quiet", "--triangles", "6000", "--phases", "8"], check=True)
     return page
 
 
