@@ -15,6 +15,7 @@
 #include "render/estimate.h"
 #include "scene/probe_pose.h"
 #include "scene/scene_reader.h"
+#include "view/view_page.h"
 
 namespace echocine {
 
@@ -88,6 +89,9 @@ PlanCommand::PlanCommand(CLI::App& app) {
       "--interpolation", interpolation_,
       "Instead: how well each kind of motion.interpolation finds every other keyframe "
       "from the rest, errors in mm and mL");
+  command->add_option(
+      "--page", page_,
+      "Also write the page of `echocine view` to this file: meshes and sector in 3-D");
   command->add_flag("--json", json_, "Print JSON");
   command->add_flag("--quiet", quiet_, "Print no warnings");
   command->footer("Example: echocine plan scene.toml\n" + std::string(kDocuments));
@@ -103,6 +107,7 @@ int PlanCommand::run() {
   accuracy_.resolve(scene, threads_, quiet_);
   const Monitor monitor{.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)};
   const Estimate estimate = estimateLoop(scene, threads_, monitor);
+  if (!page_.empty()) writeViewPage(scene, page_, threads_, [](const std::string&) {});
   if (json_) {
     printJson(scene, estimate);
   } else {

@@ -120,7 +120,7 @@ RenderSummary renderLoop(const Scene& given, const RenderOptions& options, const
     noteCosts(simulator, summary);
     manifest.wall_ms = 1e3 * secondsSince(start) / summary.frames_done;
     folder.checkStillThere();
-    report.finish(manifest);
+    report.finish(manifest, simulator);
     writeManifest(folder.manifest(), scene, manifest);
   });
   return summary;

@@ -13,6 +13,7 @@
 #include "scene/scan_geometry.h"
 #include "simulate/echo_shift.h"
 #include "simulate/mean_loss.h"
+#include "simulate/whereabouts.h"
 #include "trace/beam_rays.h"
 
 namespace echocine {
@@ -173,9 +174,10 @@ void lookAtFrames(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) 
         "nothing can be seen: all structures and their surroundings are of one medium");
   } else if (plan.left_out.count() == scene.structures.size() ||
              (crossings == 0 && plan.effects.rays_per_beam == 1)) {
-    plan.warnings.push_back(
-        "nothing can be seen: no scan line meets a structure in the frames looked at (probe.apex, "
-        "probe.axis, motion.mesh_unit)");
+    plan.warnings.push_back(fmt::format(
+        "nothing can be seen: no scan line meets a structure in the frames looked at; {} "
+        "(probe.apex, probe.axis, motion.mesh_unit)",
+        whereabouts(scene, meshesBox(motion))));
   }
 }
 

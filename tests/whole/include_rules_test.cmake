@@ -18,7 +18,7 @@ set(libraries
   "opencv2/(core|imgproc)=signal,metrics,video,output,compare"
   "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$|zlib\\.h$)=video"
   "CLI/=cli"
-  "nlohmann/=scene,heart,output,page,simulate,compare,render,study,cli,python"
+  "nlohmann/=scene,heart,output,page,simulate,view,compare,render,study,cli,python"
   "(pybind11/|Python\\.h$)=python"
   "fmt/=*"
   "[a-z_0-9]+(\\.h)?$=*"
@@ -49,12 +49,13 @@ set(rooms
   "video=signal"
   "output=signal,motion,heart,truth|video"
   "simulate=output,motion,cycle,geometry,trace,speckle,signal,truth"
+  "view=simulate,mesh|cycle,geometry,signal,video,page"
   "compare=simulate,video,metrics,signal,truth,page|motion,output"
-  "render=simulate,cycle,output,page,video,truth|signal,motion"
+  "render=simulate,cycle,output,page,video,truth|signal,motion,view"
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
   "echocine=render,simulate,heart"
   "python=render,compare,study,simulate,heart,cycle|output,video,motion,cycle,truth,signal,geometry"
-  "cli=render,compare,study,output|video,simulate,motion,keyframes,cycle,heart")
+  "cli=render,compare,study,output,view|video,simulate,motion,keyframes,cycle,heart")
 
 function(room_of path out)
   string(REGEX REPLACE "^src/" "" path "${path}")
