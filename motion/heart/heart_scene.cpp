@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "scene/names.h"
 #include "scene/role.h"
-#include "scene/scene_reader.h"
 
 namespace echocine::heart {
 
@@ -115,12 +114,16 @@ reference_intensity = 4e-4   # white, of the transmitted intensity: one gain for
   return text;
 }
 
-Scene sceneOf(View view, const Parameters& parameters, const Recording& recording) {
+NamedMeshes meshesOf(const Recording& recording) {
   NamedMeshes meshes;
   for (const RecordedPart& part : recording.parts)
     for (std::size_t k = 0; k < part.control_m.size(); ++k)
       meshes.emplace(meshName(part, k), meshInMemory(part, k));
-  return parseScene(sceneText(view, parameters, recording, ""), "heart", meshes);
+  return meshes;
+}
+
+Scene sceneOf(View view, const Parameters& parameters, const Recording& recording) {
+  return parseScene(sceneText(view, parameters, recording, ""), "heart", meshesOf(recording));
 }
 
 Scene heartScene(const Parameters& parameters, View view, int keyframes) {

@@ -15,6 +15,7 @@
 #include "core/vec3.h"
 #include "scene/names.h"
 #include "scene/number_range.h"
+#include "scene/toml_value.h"
 
 namespace echocine {
 
@@ -54,6 +55,12 @@ class TomlTable {
     const std::optional<std::size_t> found = choiceIndex(key, names);
     return found ? NamesOf<T>::kAll[*found].value : fallback;
   }
+
+  // For tables whose keys are the writer's own names.
+  std::vector<std::string> keys() const;  // in ascending order
+  bool isTable(std::string_view key);
+  TomlValue value(std::string_view key);                // one bool, number or string; required
+  std::vector<TomlValue> values(std::string_view key);  // a list of them; required
 
   bool isListOfTables(std::string_view key);
   std::vector<std::string> texts(std::string_view key);  // a string or a list of strings

@@ -16,9 +16,10 @@ set(libraries
   "embree3/=geometry"
   "(OpenEXR/|Imath/|Imf.*\\.h$|half\\.h$)=output"
   "opencv2/(core|imgproc)=signal,metrics,video,output,compare"
-  "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$|zlib\\.h$)=video"
+  "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
+  "zlib\\.h$=video,dataset"
   "CLI/=cli"
-  "nlohmann/=scene,heart,output,page,simulate,compare,render,study,cli"
+  "nlohmann/=scene,heart,output,page,simulate,compare,render,study,dataset,cli"
   "fmt/=*"
   "[a-z_0-9]+(\\.h)?$=*"
   "sys/=core,video,render"
@@ -51,7 +52,8 @@ set(rooms
   "render=simulate,cycle,output,page,video,truth|signal"
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
   "echocine=render,simulate,heart"
-  "cli=render,compare,study,output|video,simulate,motion,keyframes,cycle,heart")
+  "dataset=simulate,cycle,heart,truth,signal|motion,output,video,page"
+  "cli=render,compare,study,dataset,output|video,simulate,motion,keyframes,cycle,heart")
 
 function(room_of path out)
   string(REGEX REPLACE "^src/" "" path "${path}")
