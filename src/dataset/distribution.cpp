@@ -44,7 +44,7 @@ double normalCumulative(double z) {
 double normalQuantile(double p) {
   double low = -40, high = 40;
   if (p > 0.5) return -normalQuantile(1 - p);  // where the function has its digits
-  for (int i = 0; i < 80; ++i) {
+  for (int i = 0; i < 62; ++i) {
     const double middle = 0.5 * (low + high);
     (normalCumulative(middle) < p ? low : high) = middle;
   }

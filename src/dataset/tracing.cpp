@@ -49,25 +49,29 @@ std::span<const Vec3d> longestContour(std::span<const Contour> contours, Surface
 std::optional<PlaneTracing> traceCavity(std::span<const Vec3d> outline, Vec3d mitral) {
   if (outline.size() < 3) return std::nullopt;
   PlaneTracing tracing;
-  tracing.base = {mitral.x, 0, mitral.z};
-  const auto farther = [&](Vec3d a, Vec3d b) {
-    return length(a - tracing.base) < length(b - tracing.base);
-  };
+  const Vec3d ring{mitral.x, 0, mitral.z};
+  const auto farther = [&](Vec3d a, Vec3d b) { return length(a - ring) < length(b - ring); };
   tracing.apex = *std::max_element(outline.begin(), outline.end(), farther);
-  const Vec3d span = tracing.base - tracing.apex;
-  tracing.length_m = length(span);
-  const Vec3d along = normalised(span), across = cross(along, Vec3d{0, 1, 0});
+  const Vec3d along = normalised(ring - tracing.apex), across = cross(along, Vec3d{0, 1, 0});
+  const auto along_axis = crossed(outline, tracing.apex, across, along);
+  if (!along_axis) return std::nullopt;
+  tracing.length_m = along_axis->second;
+  const Vec3d span = tracing.length_m * along;
+  tracing.base = tracing.apex + span;
   for (int i = 0; i < kDiscs; ++i) {
     const auto ends = crossed(outline, tracing.apex + ((i + 0.5) / kDiscs) * span, along, across);
     if (!ends) return std::nullopt;
     tracing.disc_widths_m.push_back(ends->second - ends->first);
   }
-  // The ends themselves only touch the outline: they are taken just inside it.
-  constexpr double kInside = 0.995;
-  for (int i = 0; i < kChords; ++i) {
-    const Vec3d at = tracing.apex + (kInside * i / (kChords - 1)) * span;
-    const auto ends = i == 0 ? std::optional(std::pair(0.0, 0.0)) : crossed(outline, at, along, across);
+  // The ends themselves only touch the outline; an oblique mitral plane is met a little before its
+  // middle.
+  constexpr double kInside = 0.985;
+  tracing.chords.emplace_back(tracing.apex, tracing.apex);
+  for (int i = 1; i < kChords; ++i) {
+    const double share = std::min(kInside, 1.0 * i / (kChords - 1));
+    const auto ends = crossed(outline, tracing.apex + share * span, along, across);
     if (!ends) return std::nullopt;
+    const Vec3d at = tracing.apex + (1.0 * i / (kChords - 1)) * span;
     tracing.chords.emplace_back(at + ends->first * across, at + ends->second * across);
   }
   return tracing;

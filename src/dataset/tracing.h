@@ -12,7 +12,7 @@ namespace echocine::dataset {
 
 // A cavity in the imaging plane, metres in the probe frame (y = 0).
 struct PlaneTracing {
-  Vec3d apex, base;  // the place farthest from the middle of the mitral ring, and that middle
+  Vec3d apex, base;  // farthest from the mitral ring's middle; where the axis leaves
   // Across the axis at the ends of kChords - 1 equal parts, from the apex to the base, the side of
   // -cross(axis, y) first.
   std::vector<std::pair<Vec3d, Vec3d>> chords;

@@ -52,7 +52,7 @@ set(rooms
   "render=simulate,cycle,output,page,video,truth|signal"
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
   "echocine=render,simulate,heart"
-  "dataset=simulate,cycle,heart,truth,signal|motion,output,video,page"
+  "dataset=simulate,output,cycle,heart,truth,signal|motion,video,page"
   "cli=render,compare,study,dataset,output|video,simulate,motion,keyframes,cycle,heart")
 
 function(room_of path out)
