@@ -9,6 +9,7 @@
 #include "motion/mesh/mesh_check.h"
 #include "motion/mesh/mesh_io.h"
 #include "motion/repair/mesh_repair.h"
+#include "motion/repair/repair_advice.h"
 
 namespace echocine {
 
@@ -36,6 +37,17 @@ void checkFilesAreThere(const Scene& scene) {
   if (missing > 0) throw SceneError(first);
 }
 
+std::vector<KeyframeMesh> soundKeyframes(const Structure& structure, double mesh_unit_m,
+                                         Sha256& digest, KeyframeSet& set) {
+  std::vector<KeyframeMesh> keyframes;
+  for (const Keyframe& keyframe : structure.keyframes)
+    keyframes.push_back(readKeyframe(keyframe, structure, digest));
+  const std::string note = repairKeyframes(structure, keyframes);
+  if (!note.empty()) set.repair_notes.push_back(note);
+  checkKeyframes(structure, keyframes, mesh_unit_m);
+  return keyframes;
+}
+
 }  // namespace
 
 KeyframeSet readKeyframes(const Scene& scene) {
@@ -43,13 +55,11 @@ KeyframeSet readKeyframes(const Scene& scene) {
   KeyframeSet set;
   Sha256 digest;
   for (const Structure& structure : scene.structures) {
-    std::vector<KeyframeMesh> keyframes;
-    for (const Keyframe& keyframe : structure.keyframes)
-      keyframes.push_back(readKeyframe(keyframe, structure, digest));
-    const std::string note = repairKeyframes(structure, keyframes);
-    if (!note.empty()) set.repair_notes.push_back(note);
-    checkKeyframes(structure, keyframes, scene.motion.mesh_unit_m);
-    set.structures.push_back(std::move(keyframes));
+    try {
+      set.structures.push_back(soundKeyframes(structure, scene.motion.mesh_unit_m, digest, set));
+    } catch (const SceneError& refusal) {
+      throw SceneError(advised(refusal, structure, scene.motion.mesh_unit_m));
+    }
   }
   set.sha256 = digest.hex();
   return set;

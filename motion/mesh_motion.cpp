@@ -28,14 +28,14 @@ std::vector<double> phasesOf(const Structure& structure) {
   return phases;
 }
 
-// The beat that the keyframes show. Of two keyframes, one at the R wave, the other is end-systole,
-// which is what segmentations of two phases give.
+// The beat that the keyframes show. Of two keyframes, one at the R wave, the other has the smallest
+// volume, which is what segmentations of two phases give.
 HeartPace paceOf(const Scene& scene, const Structure& structure) {
   RecordedBeat beat{scene.motion.keyframe_heart_rate_hz.value_or(scene.acquisition.heart_rate_hz),
                     scene.motion.end_systole_phase};
   const std::vector<Keyframe>& keyframes = structure.keyframes;
   if (!beat.end_systole_phase && keyframes.size() == 2 && keyframes[0].phase == 0)
-    beat.end_systole_phase = keyframes[1].phase;
+    beat.end_systole_phase = endSystoleAround(keyframes[1].phase, beat.heart_rate_hz);
   return HeartPace(beat);
 }
 

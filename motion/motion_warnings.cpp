@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/units.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/keyframes/motion_check.h"
 #include "motion/mesh/surface_measure.h"
+#include "scene/role.h"
 
 namespace echocine {
 
@@ -63,20 +65,54 @@ std::string collapseWords(const ControlMotion& motion, const SurfaceBreaks::Size
                      motion.fileOf(size.left), motion.fileOf(size.right));
 }
 
-// Told from this share of the largest keyframe's volume on, which of a ventricle is end-diastole's.
-// Our choice.
+// Told from this share of the end-diastolic volume on. Our choice.
 constexpr double kToldOvershoot = 0.01;
 
-std::string overshootWords(const ControlMotion& motion, const SurfaceBreaks::Overshoot& found) {
+double largestVolume(const ControlMotion& motion) {
   double largest_m3 = 0;
   for (std::size_t k = 0; k < motion.weights.keyframeCount(); ++k)
     largest_m3 = std::max(largest_m3, enclosedVolume(motion.triangles, motion.rows_m[k]));
-  if (!(std::abs(found.beyond_m3) > kToldOvershoot * largest_m3)) return "";
+  return largest_m3;
+}
+
+// The end-diastolic volume of the scene's left ventricle, m^3; of a scene without one that of each
+// structure itself, its largest keyframe.
+double endDiastolicVolume(const Scene& scene, const MeshMotion& motion, SurfaceId structure) {
+  const std::optional<SurfaceId> ventricle = structureOf(scene, Role::lv_cavity);
+  return largestVolume(motion.control(ventricle.value_or(structure)));
+}
+
+// How far a straight blend of two keyframes leaves the range of their volumes, m^3: bodies that
+// turn lose some on the way, whatever the kind. From three instants between them.
+double straightBeyond(const ControlMotion& motion, std::size_t left, std::size_t right) {
+  const std::vector<Vec3f>&a = motion.rows_m[left], &b = motion.rows_m[right];
+  const auto at = [&](float share) {
+    return enclosedVolume(motion.triangles, [&](std::uint32_t v) {
+      return toDouble((1 - share) * a[v] + share * b[v]);
+    });
+  };
+  const double first = at(0), last = at(1);
+  double furthest = 0;
+  for (const float share : {0.25f, 0.5f, 0.75f}) {
+    const double volume = at(share);
+    const double beyond =
+        std::abs(volume - std::clamp(volume, std::min(first, last), std::max(first, last)));
+    furthest = std::max(furthest, beyond);
+  }
+  return furthest;
+}
+
+std::string overshootWords(const ControlMotion& motion, const SurfaceBreaks::Overshoot& found,
+                           double end_diastolic_m3) {
+  const double told_m3 = kToldOvershoot * end_diastolic_m3;
+  if (!(std::abs(found.beyond_m3) > told_m3)) return "";
+  const bool straight_stays = straightBeyond(motion, found.left, found.right) <= told_m3;
   return fmt::format(
-      "frame {}, phase {:.2f}: {:.2g} mL {} both keyframes beside it, {} and {}: "
-      "motion.interpolation = \"cycle\" or \"linear\" stays between them",
-      found.frame, found.phase, millilitresFromCubicMetres(std::abs(found.beyond_m3)),
-      found.beyond_m3 > 0 ? "over" : "under", motion.fileOf(found.left), motion.fileOf(found.right));
+      "frame {}, phase {:.2f}: {:.2g} mL {} both keyframes beside it, {} and {}: {}", found.frame,
+      found.phase, millilitresFromCubicMetres(std::abs(found.beyond_m3)),
+      found.beyond_m3 > 0 ? "over" : "under", motion.fileOf(found.left), motion.fileOf(found.right),
+      straight_stays ? "motion.interpolation = \"cycle\" or \"linear\" stays between them"
+                     : "keyframes closer in time are needed");
 }
 
 // A beat whose last keyframe is its first again stands still on the way between the two.
@@ -123,7 +159,10 @@ std::vector<std::string> motionWarnings(const Scene& scene, const MeshMotion& mo
     if (breaks.collapsed)
       words += (words.empty() ? "" : "; ") + collapseWords(control, *breaks.collapsed);
     if (!words.empty()) words += ": " + advice(breaks, kind);
-    const std::string beyond = breaks.overshoot ? overshootWords(control, *breaks.overshoot) : "";
+    std::string beyond;
+    if (breaks.overshoot && !breaks.collapsed)  // a collapse says it all
+      beyond = overshootWords(control, *breaks.overshoot,
+                              endDiastolicVolume(scene, motion, static_cast<SurfaceId>(s)));
     for (const std::string& told : {words, beyond, closingWords(control)})
       if (!told.empty())
         warnings.push_back(atPlace(structure.place, fmt::format("{}: {}", structure.name, told)));

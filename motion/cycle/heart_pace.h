@@ -7,6 +7,12 @@
 
 namespace echocine {
 
+// Where the aortic valve closes in a beat whose smallest volume was seen at `phase`, in (0, 1). A
+// segmentation's end-systole is its smallest picture, which may stem from any instant of isovolumic
+// relaxation: timing stays as published for the rate while that phase lies within it, and moves as
+// little as puts the phase at its nearer end otherwise. Our choice.
+double endSystoleAround(double phase, double heart_rate_hz);
+
 class HeartPace {
  public:
   // A heart at rest, 65 beats per minute.

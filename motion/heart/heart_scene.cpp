@@ -57,6 +57,15 @@ std::shared_ptr<const TriangleMesh> meshInMemory(const RecordedPart& part, std::
   return mesh;
 }
 
+// The paper's picture has a dynamic range of its own; looks bring theirs.
+std::string signalText(Look look) {
+  return fmt::format(
+      "look = \"{}\"\n{}reference_intensity = 4e-4   # white, of the transmitted intensity: one "
+      "gain "
+      "for all hearts and views\n",
+      nameOf(look), look == Look::paper ? "dynamic_range_db = 58\n" : "");
+}
+
 }  // namespace
 
 std::string meshName(const RecordedPart& part, std::size_t keyframe) {
@@ -65,7 +74,7 @@ std::string meshName(const RecordedPart& part, std::size_t keyframe) {
 }
 
 std::string sceneText(View view, const Parameters& parameters, const Recording& recording,
-                      const std::string& mesh_folder) {
+                      const std::string& mesh_folder, Look look) {
   const ProbePose& pose = recording.pose;
   const double hr_bpm = parameters.heart_rate_bpm;
   constexpr double kMillimetre = 1e-3;
@@ -101,15 +110,14 @@ end_systole_phase = {:.6f}
 keyframe_phases = {}
 
 [signal]
-dynamic_range_db = 58
-reference_intensity = 4e-4   # white, of the transmitted intensity: one gain for all hearts and views
-
+{}
 # Where structures overlap the highest priority wins. Cavities pierce walls; the septum belongs to the
 # left ventricle and the right heart is wrapped round it.
 )",
       meaningOf(view), hr_bpm, vectorText(pose.apex, kMillimetre), vectorText(pose.axis, 1),
       vectorText(pose.lateral, 1), pose.sector_deg, std::round(pose.depth_m * 1e4) * 0.1, hr_bpm,
-      Recording::kLevels, hr_bpm, recording.end_systole_phase, listText(recording.phases));
+      Recording::kLevels, hr_bpm, recording.end_systole_phase, listText(recording.phases),
+      signalText(look));
   for (const RecordedPart& part : recording.parts) text += structureText(part, mesh_folder);
   return text;
 }
@@ -122,15 +130,16 @@ NamedMeshes meshesOf(const Recording& recording) {
   return meshes;
 }
 
-Scene sceneOf(View view, const Parameters& parameters, const Recording& recording) {
-  return parseScene(sceneText(view, parameters, recording, ""), "heart", meshesOf(recording));
+Scene sceneOf(View view, const Parameters& parameters, const Recording& recording, Look look) {
+  return parseScene(sceneText(view, parameters, recording, "", look), "heart",
+                    meshesOf(recording));
 }
 
-Scene heartScene(const Parameters& parameters, View view, int keyframes) {
+Scene heartScene(const Parameters& parameters, View view, int keyframes, Look look) {
   if (const std::string fault = faultOf(parameters); !fault.empty())
     throw SceneError("heart: " + fault);
   const ParametricHeart model(parameters);
-  return sceneOf(view, parameters, record(model, view, keyframes));
+  return sceneOf(view, parameters, record(model, view, keyframes), look);
 }
 
 }  // namespace echocine::heart

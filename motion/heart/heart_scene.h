@@ -12,19 +12,21 @@ namespace echocine::heart {
 std::string meshName(const RecordedPart& part, std::size_t keyframe);
 
 // The scene that renders a recording, as TOML, its meshes found under `mesh_folder` ("" for the
-// scene's own, else with a slash at its end).
+// scene's own, else with a slash at its end), its pictures with a look.
 std::string sceneText(View view, const Parameters& parameters, const Recording& recording,
-                      const std::string& mesh_folder);
+                      const std::string& mesh_folder, Look look = Look::scanner);
 
 // The keyframes of a recording by the names that sceneText() has for them.
 NamedMeshes meshesOf(const Recording& recording);
 
 // The same scene with its keyframes in memory: what writing and reading files would give, without
 // them. `view`, `parameters`: those of the recording.
-Scene sceneOf(View view, const Parameters& parameters, const Recording& recording);
+Scene sceneOf(View view, const Parameters& parameters, const Recording& recording,
+              Look look = Look::scanner);
 
 // A heart from its dials, recorded at `keyframes` instants: all of the above in one call. Runs in
 // parallel inside withThreads(). Throws SceneError for parameters that no heart fulfils.
-Scene heartScene(const Parameters& parameters, View view, int keyframes = 24);
+Scene heartScene(const Parameters& parameters, View view, int keyframes = 24,
+                 Look look = Look::scanner);
 
 }  // namespace echocine::heart

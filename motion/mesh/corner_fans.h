@@ -11,4 +11,9 @@ namespace echocine {
 std::vector<std::uint32_t> cornerFans(std::span<const Triangle> triangles,
                                       const std::vector<Side>& sides);
 
+// The same where not edges but `opposite` says what hangs together: for each side the one it is
+// joined to, or kNoSide.
+std::vector<std::uint32_t> cornerFans(std::span<const Triangle> triangles,
+                                      const std::vector<std::uint32_t>& opposite);
+
 }  // namespace echocine

@@ -99,12 +99,17 @@ void checkExtent(const Structure& structure, const KeyframeMesh& keyframe, doubl
 void checkVolume(const Structure& structure, const KeyframeMesh& keyframe, bool is_first) {
   const double volume = signedVolume(keyframe.mesh);
   if (volume > 0) return;
-  fail(structure,
-       fmt::format("{} encloses a volume of {:.4g} cubic mesh units: {}",
-                   keyframe.parts.front().file.string(), volume,
-                   is_first ? "its faces look inward; reverse the vertex order of every face" +
-                                  repairHint(structure.repair.orient, "orient")
-                            : "this keyframe is turned inside out or mirrored; mend its vertices"));
+  const std::string encloses =
+      fmt::format("{} encloses a volume of {:.4g} cubic mesh units: ",
+                  keyframe.parts.front().file.string(), volume);
+  if (!is_first)
+    fail(structure,
+         encloses + "this keyframe is turned inside out or mirrored; mend its vertices");
+  throw MeshFault(
+      atPlace(structure.place,
+              fmt::format("{}: {}its faces look inward; reverse the vertex order of every face",
+                          structure.name, encloses)),
+      offerOf(structure.repair.orient, "orient"));
 }
 
 }  // namespace
@@ -128,8 +133,9 @@ void checkFile(const TriangleMesh& mesh, const std::filesystem::path& file, bool
                               face, std::uint64_t{v} + 1, mesh.positions.size()));
     for (std::size_t k = 0; k < 3 && !degenerate; ++k)
       if (corners[k] == corners[(k + 1) % 3])
-        fail_file(fmt::format("face {} uses vertex {} twice; remove the face{}", face,
-                              corners[k] + 1, repairHint(false, "drop-degenerate")));
+        throw MeshFault(fmt::format("{}: face {} uses vertex {} twice; remove the face",
+                                    file.string(), face, corners[k] + 1),
+                        offerOf(false, "drop-degenerate"));
   }
 }
 

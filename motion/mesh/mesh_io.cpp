@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "motion/mesh/mesh_check.h"
+#include "motion/mesh/mesh_fault.h"
 #include "motion/mesh/obj_reader.h"
 #include "motion/mesh/openmesh_reader.h"
 #include "motion/mesh/tag_join.h"
@@ -58,10 +59,11 @@ void appendLid(const TriangleMesh& lid, const std::filesystem::path& file, bool 
     const bool collapsed =
         corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
     if (collapsed && !degenerate)
-      throw SceneError(
+      throw MeshFault(
           fmt::format("{}: face {} has two corners at the same place; a lid cannot be joined with "
-                      "such a face: remove it, or set repair = [\"drop-degenerate\"]",
-                      file.string(), fileFace(lid.faces, t) + 1));
+                      "such a face: remove it",
+                      file.string(), fileFace(lid.faces, t) + 1),
+          {"repair = [\"drop-degenerate\"]"});
     mesh.triangles.push_back(corners);
   }
   joinTags(lid.tags, joined_from_lid, file, mesh.tags);
@@ -131,6 +133,8 @@ TriangleMesh readMesh(const std::filesystem::path& file, Sha256& digest) {
 KeyframeMesh readKeyframe(const Keyframe& keyframe, const Structure& structure, Sha256& digest) {
   try {
     return joinFiles(keyframe, structure.repair.drop_degenerate, digest);
+  } catch (const MeshFault& fault) {
+    throw fault.at(atPlace(structure.place, structure.name + ": "));
   } catch (const SceneError& error) {
     throw SceneError(atPlace(structure.place, fmt::format("{}: {}", structure.name, error.what())));
   }

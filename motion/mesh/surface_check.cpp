@@ -29,8 +29,10 @@ std::string edgeName(const TriangleMesh& mesh, std::uint64_t key) {
                      pointName(mesh, static_cast<std::uint32_t>(key)));
 }
 
-[[noreturn]] void fail(const Structure& structure, const std::string& what) {
-  throw SceneError(atPlace(structure.place, fmt::format("{}: {}", structure.name, what)));
+[[noreturn]] void fail(const Structure& structure, const std::string& what, RepairOffer offer,
+                       std::string after = {}) {
+  throw MeshFault(atPlace(structure.place, fmt::format("{}: {}", structure.name, what)),
+                  std::move(offer), std::move(after));
 }
 
 bool sameCorners(Triangle a, Triangle b) {
@@ -42,19 +44,34 @@ bool sameCorners(Triangle a, Triangle b) {
 [[noreturn]] void failCrowded(const Structure& structure, const KeyframeMesh& keyframe,
                               std::span<const Side> edge) {
   const auto corners = [&](const Side& side) { return keyframe.mesh.triangles[side.triangle()]; };
-  std::string advice = "split surfaces that meet there";
+  std::string advice = "part the surfaces that meet there";
+  RepairOffer offer = offerOf(structure.repair.split, "split");
   for (const Side& one : edge)
     for (const Side& other : edge)
-      if (one.side < other.side && sameCorners(corners(one), corners(other)))
+      if (one.side < other.side && sameCorners(corners(one), corners(other))) {
         advice =
-            fmt::format("{} has the same corners as {}: remove it{}",
-                        faceName(keyframe, other.triangle()), faceName(keyframe, one.triangle()),
-                        repairHint(structure.repair.drop_degenerate, "drop-degenerate"));
+            fmt::format("{} has the same corners as {}: remove it",
+                        faceName(keyframe, other.triangle()), faceName(keyframe, one.triangle()));
+        offer = offerOf(structure.repair.drop_degenerate, "drop-degenerate");
+      }
   fail(structure, fmt::format("{}: edge {} belongs to {} faces, the last is {}; at most two are "
                               "accepted: {}",
                               faceName(keyframe, edge.front().triangle()),
                               edgeName(keyframe.mesh, edge.front().key), edge.size(),
-                              faceName(keyframe, edge.back().triangle()), advice));
+                              faceName(keyframe, edge.back().triangle()), advice),
+       offer);
+}
+
+// A weld brings corners together that were two vertices of a face.
+void checkCorners(const Structure& structure, const KeyframeMesh& keyframe) {
+  const std::vector<Triangle>& triangles = keyframe.mesh.triangles;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Triangle& c = triangles[t];
+    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0])
+      fail(structure,
+           fmt::format("{} has two corners in one vertex: remove it", faceName(keyframe, t)),
+           offerOf(structure.repair.drop_degenerate, "drop-degenerate"));
+  }
 }
 
 // Would welding join anything?
@@ -69,16 +86,16 @@ bool isWeldable(const KeyframeMesh& keyframe) {
 
 [[noreturn]] void failOpen(const Structure& structure, const KeyframeMesh& keyframe,
                            const Side& first, std::size_t count) {
-  std::string mended;
-  if (!structure.repair.weld && isWeldable(keyframe))
-    mended = "repair = [\"weld\"], as vertices lie at the same places, ";
-  else if (!structure.repair.fill_holes)
-    mended = "repair = [\"fill-holes\"], ";
+  const bool weldable = !structure.repair.weld && isWeldable(keyframe);
+  RepairOffer offer = weldable ? offerOf(false, "weld")
+                               : offerOf(structure.repair.fill_holes, "fill-holes");
+  offer.prefix = "";
+  offer.suffix = ", ";
   fail(structure,
        fmt::format("{} has an open edge {}, one of {}; accepted: a closed mesh, lids which close "
-                   "it, {}or membrane = true for an open sheet",
-                   faceName(keyframe, first.triangle()), edgeName(keyframe.mesh, first.key), count,
-                   mended));
+                   "it, ",
+                   faceName(keyframe, first.triangle()), edgeName(keyframe.mesh, first.key), count),
+       std::move(offer), "or membrane = true for an open sheet");
 }
 
 void checkBowTies(const Structure& structure, const KeyframeMesh& keyframe,
@@ -92,32 +109,34 @@ void checkBowTies(const Structure& structure, const KeyframeMesh& keyframe,
     if (first_fan[v] == fans[corner]) continue;
     fail(structure,
          fmt::format("{} and {} belong to surfaces that meet in the point {} only; accepted: a "
-                     "vertex of its own for each: split it{}",
+                     "vertex of its own for each: part them",
                      faceName(keyframe, first_fan[v] / 3), faceName(keyframe, corner / 3),
-                     pointName(mesh, v), repairHint(structure.repair.weld, "weld")));
+                     pointName(mesh, v)),
+         offerOf(structure.repair.weld, "weld"));
   }
 }
 
 }  // namespace
 
-std::string repairHint(bool has_it, const char* word) {
-  return has_it ? "" : fmt::format(", or set repair = [\"{}\"]", word);
+RepairOffer offerOf(bool has_it, const char* word) {
+  return {has_it ? "" : fmt::format("repair = [\"{}\"]", word)};
 }
 
 void checkEdges(const Structure& structure, const KeyframeMesh& keyframe) {
+  checkCorners(structure, keyframe);
   const std::vector<Side> sides = sortedSides(keyframe.mesh.triangles);
   std::size_t open_count = 0;
   const Side* first_open = nullptr;
   forEachEdge(sides, [&](std::span<const Side> edge) {
     const Side &one = edge.front(), &other = edge.back();
     if (edge.size() > 2) failCrowded(structure, keyframe, edge);
-    if (edge.size() == 2 && one.descending == other.descending)
+    if (edge.size() == 2 && one.descending == other.descending && !structure.membrane)
       fail(structure,
            fmt::format("{} and {} run their common edge {} in the same direction; faces must be "
-                       "oriented alike: reverse one of them{}",
+                       "oriented alike: reverse one of them",
                        faceName(keyframe, one.triangle()), faceName(keyframe, other.triangle()),
-                       edgeName(keyframe.mesh, one.key),
-                       repairHint(structure.repair.orient, "orient")));
+                       edgeName(keyframe.mesh, one.key)),
+           offerOf(structure.repair.orient, "orient"));
     if (edge.size() > 1) return;
     if (first_open == nullptr || one.triangle() < first_open->triangle()) first_open = &one;
     ++open_count;
@@ -142,9 +161,9 @@ void checkPieces(const Structure& structure, const KeyframeMesh& keyframe) {
     if (depth >= 0) continue;
     const std::vector<std::uint32_t>& faces = nesting.trianglesOf(piece);
     fail(structure, fmt::format("{} and the {} others of its separate surface look inward, and it "
-                                "is no cavity of another; accepted: outward: reverse them{}",
-                                faceName(keyframe, faces.front()), faces.size() - 1,
-                                repairHint(structure.repair.orient, "orient")));
+                                "is no cavity of another; accepted: outward: reverse them",
+                                faceName(keyframe, faces.front()), faces.size() - 1),
+         offerOf(structure.repair.orient, "orient"));
   }
 }
 

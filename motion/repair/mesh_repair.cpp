@@ -11,6 +11,7 @@
 #include "motion/repair/degenerate.h"
 #include "motion/repair/holes.h"
 #include "motion/repair/orientation.h"
+#include "motion/repair/split.h"
 #include "motion/repair/weld.h"
 
 namespace echocine {
@@ -19,6 +20,7 @@ namespace {
 
 struct RepairCounts {
   std::size_t welded = 0, split = 0, unused = 0;
+  PartedSheets parted;
   DroppedFaces dropped;
   std::size_t turned = 0;
   FilledHoles filled;
@@ -49,11 +51,14 @@ RepairCounts repair(const Repairs& asked, bool membrane, RepairMesh& mesh) {
                     mesh.parts.front().file.string()));
   // Dropped faces may leave a bow tie, so this part of welding comes after them.
   if (asked.weld) counts.split = splitBowTies(mesh);
-  if (asked.weld || asked.drop_degenerate) {
+  if (asked.orient) counts.turned = orientFaces(mesh, membrane);
+  if (asked.split) counts.parted = partSheets(mesh, membrane);
+  // Sheets that were parted hang together otherwise than before.
+  if (asked.split && asked.orient) counts.turned += orientFaces(mesh, membrane);
+  if (asked.weld || asked.drop_degenerate || asked.split) {
     const std::size_t gone = dropUnusedVertices(mesh);
     counts.unused = gone - std::min(gone, counts.welded);
   }
-  if (asked.orient) counts.turned = orientFaces(mesh, membrane);
   if (asked.fill_holes) counts.filled = fillHoles(mesh);
   return counts;
 }
@@ -88,6 +93,15 @@ void giveBack(RepairMesh& mesh, std::vector<KeyframeMesh>& keyframes) {
   }
 }
 
+// Whether two faces anywhere run their common edge in the same direction.
+bool windsBothWays(std::span<const Triangle> triangles) {
+  bool both = false;
+  forEachEdge(sortedSides(triangles), [&](std::span<const Side> edge) {
+    both = both || (edge.size() == 2 && edge.front().descending == edge.back().descending);
+  });
+  return both;
+}
+
 std::string words(const RepairCounts& counts) {
   std::string text;
   const auto add = [&](std::size_t count, const char* one, const char* many, const char* done) {
@@ -100,6 +114,9 @@ std::string words(const RepairCounts& counts) {
   add(counts.dropped.duplicates, "duplicate face", "duplicate faces", "dropped");
   add(counts.dropped.flipped, "flat face", "flat faces", "mended by turning an edge");
   add(counts.split, "vertex", "vertices", "added where surfaces met in a point");
+  add(counts.parted.dropped, "face", "faces", "dropped that enclosed nothing");
+  add(counts.parted.edges, "edge of more than two faces", "edges of more than two faces", "parted");
+  add(counts.parted.vertices, "vertex", "vertices", "added where sheets were parted");
   add(counts.unused, "unused vertex", "unused vertices", "dropped");
   add(counts.turned, "face", "faces", "turned");
   add(counts.filled.holes, "hole", "holes", "filled");
@@ -111,12 +128,15 @@ std::string words(const RepairCounts& counts) {
 }  // namespace
 
 std::string repairKeyframes(const Structure& structure, std::vector<KeyframeMesh>& keyframes) {
-  if (!structure.repair.any()) return "";
+  const bool winds = structure.membrane && windsBothWays(keyframes.front().mesh.triangles);
+  if (!structure.repair.any() && !winds) return "";
   checkSameConnectivity(structure, keyframes);
   RepairMesh mesh = takenFrom(keyframes);
   RepairCounts counts;
   try {
     counts = repair(structure.repair, structure.membrane, mesh);
+    // A membrane has no side that could be wrong, but normals and smoothing want one: not told.
+    if (winds && !structure.repair.orient) orientFaces(mesh, true);
   } catch (const SceneError& error) {
     throw SceneError(atPlace(structure.place, fmt::format("{}: {}", structure.name, error.what())));
   }

@@ -24,7 +24,10 @@ std::size_t weldOpenEdges(RepairMesh& mesh) {
 }
 
 std::size_t splitBowTies(RepairMesh& mesh) {
-  const auto fans = cornerFans(mesh.triangles, sortedSides(mesh.triangles));
+  return splitFans(mesh, cornerFans(mesh.triangles, sortedSides(mesh.triangles)));
+}
+
+std::size_t splitFans(RepairMesh& mesh, const std::vector<std::uint32_t>& fans) {
   std::vector<std::uint32_t> first_fan(mesh.vertexCount(), kNoSide);
   std::unordered_map<std::uint32_t, std::uint32_t> vertex_of_fan;  // of all but a vertex's first
   std::vector<Triangle> now = mesh.triangles;

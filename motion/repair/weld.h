@@ -13,5 +13,7 @@ std::size_t weldOpenEdges(RepairMesh& mesh);
 // Gives every fan of triangles a vertex of its own where several meet in a point only; returns how
 // many vertices came.
 std::size_t splitBowTies(RepairMesh& mesh);
+// The same with the fans given: for each corner the lowest of its fan (corner_fans.h).
+std::size_t splitFans(RepairMesh& mesh, const std::vector<std::uint32_t>& fans);
 
 }  // namespace echocine

@@ -8,6 +8,7 @@
 #include "cli/documents.h"
 #include "cli/stop_signal.h"
 #include "core/error.h"
+#include "scene/names.h"
 
 namespace echocine {
 
@@ -83,6 +84,12 @@ HeartCommand::HeartCommand(CLI::App& app) {
                    "ejection fraction falls) or volumes (it stays as dialled)")
       ->check(CLI::IsMember({"segments", "volumes"}))
       ->capture_default_str();
+  command
+      ->add_option("--look", look_,
+                   "How the scene's pictures look: paper (the paper's, without speckle), clean "
+                   "(speckle and a grey map), scanner (with its artefacts too)")
+      ->check(CLI::IsMember({"paper", "clean", "scanner"}))
+      ->capture_default_str();
   command->add_option("--keyframes", wanted_.keyframes, "Keyframes a beat")
       ->check(CLI::Range(4, 100))
       ->capture_default_str();
@@ -106,6 +113,8 @@ int HeartCommand::run() {
   wanted_.parameters = heart::parametersFrom(given_);
   for (const std::string& segment : segments_) applySegment(segment, wanted_.parameters);
   wanted_.parameters.volumes_rule = rule_ == "volumes";
+  for (const auto& [look, name] : NamesOf<Look>::kAll)
+    if (look_ == name) wanted_.look = look;
   listenForStop();
   writeHeart(wanted_, folder_, {.keep_going = [] { return !stopWanted(); }});
   if (!quiet_)

@@ -24,7 +24,7 @@ class HeartCommand {
   std::filesystem::path folder_;
   // By the dial's key; what is not given follows what is.
   std::map<std::string, double> given_;
-  std::string view_ = "a4c", rule_ = "segments";
+  std::string view_ = "a4c", rule_ = "segments", look_ = "scanner";
   std::vector<std::string> segments_;
   bool even_ = false, quiet_ = false;
 };

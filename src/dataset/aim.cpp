@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "dataset/loop.h"
 #include "motion/heart/heart_scene.h"
+#include "scene/names.h"
 #include "scene/scene_reader.h"
 
 namespace echocine::dataset {
@@ -131,8 +132,12 @@ Scene sceneOf(const Spec& spec, const Draw& draw, std::size_t view,
   for (const auto& [name, value] : all)
     if (name.starts_with(kScene)) keys.emplace_back(name.substr(kScene.size()), value);
   const std::string name = loopId(draw.heart + 1, spec.views[view]);
-  const std::string text =
-      withValues(heart::sceneText(spec.views[view], parameters, recording, ""), name, keys);
+  const auto look = all.find("scene.signal.look");
+  const Look wanted = look == all.end()
+                          ? Look::scanner
+                          : valueOf<Look>(std::get<std::string>(look->second)).value_or(Look::paper);
+  const std::string text = withValues(
+      heart::sceneText(spec.views[view], parameters, recording, "", wanted), name, keys);
   Scene scene = parseScene(text, name, heart::meshesOf(recording));
   // To find by tracing that a heart's rays hardly bend takes as long as tracing its loop: they are
   // straight unless the spec says otherwise.

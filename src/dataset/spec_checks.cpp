@@ -25,6 +25,7 @@ samples = 1024
 [motion]
 mesh_unit = "mm"
 [signal]
+look = "scanner"
 reference_intensity = 4e-4
 [[structure]]
 name = "lv_cavity"

@@ -113,7 +113,7 @@ void writeHeart(const HeartFiles& wanted, const fs::path& folder, const Monitor&
       }
     writeText(making.path() / "truth.json", heart::truthText(model, recording));
     writeText(making.path() / "scene.toml",
-              heart::sceneText(wanted.view, wanted.parameters, recording, ""));
+              heart::sceneText(wanted.view, wanted.parameters, recording, "", wanted.look));
   });
   making.finish();
 }

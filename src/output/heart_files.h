@@ -5,6 +5,7 @@
 #include <string>
 
 #include "motion/heart/recording.h"
+#include "scene/scene.h"
 
 namespace echocine {
 
@@ -13,6 +14,7 @@ struct HeartFiles {
   heart::View view = heart::View::a4c;
   int keyframes = 24;
   heart::KeyframeSpacing spacing = heart::KeyframeSpacing::by_motion;
+  Look look = Look::scanner;  // of the scene's pictures
   int threads = 0;
 };
 

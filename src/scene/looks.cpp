@@ -12,9 +12,9 @@ void applyClean(Scene& scene) {
   scene.speckle.smoothing_m = 0.6e-3;
   scene.speckle.heterogeneity_db = 5;
   scene.speckle.anisotropy_db = 10;  // 14.5 dB ex vivo, 15.9 dB between walls in vivo
-  scene.signal.dynamic_range_db = 90;
+  scene.signal.dynamic_range_db = 78;
   scene.signal.grey_gamma = 1.35;
-  scene.signal.gain_db = 6;
+  scene.signal.gain_db = 2;
   scene.signal.interface_gain_db = -24;
   scene.signal.interface_limit_db = -64;
 }

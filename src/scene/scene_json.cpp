@@ -45,6 +45,7 @@ Json repairJson(const Repairs& r) {
   if (r.weld) words.push_back("weld");
   if (r.drop_degenerate) words.push_back("drop-degenerate");
   if (r.orient) words.push_back("orient");
+  if (r.split) words.push_back("split");
   if (r.fill_holes) words.push_back("fill-holes");
   return words;
 }

@@ -149,6 +149,7 @@ Repairs readRepairs(TomlTable& table, bool membrane) {
       {"weld", &Repairs::weld},
       {"orient", &Repairs::orient},
       {"drop-degenerate", &Repairs::drop_degenerate},
+      {"split", &Repairs::split},
       {"fill-holes", &Repairs::fill_holes}};
   std::vector<std::string> names;
   for (const auto& word : words) names.push_back(word.first);
@@ -165,7 +166,7 @@ Repairs readRepairs(TomlTable& table, bool membrane) {
   if (membrane && repairs.fill_holes)
     table.fail("repair",
                "holds \"fill-holes\", which would close an open sheet, accepted of a membrane: "
-               "\"weld\" | \"orient\" | \"drop-degenerate\"");
+               "\"weld\" | \"orient\" | \"drop-degenerate\" | \"split\"");
   return repairs;
 }
 

@@ -72,6 +72,7 @@ struct Scatterers::Block {
   Vec3f low_m;
   float edge_m = 0;
   std::uint64_t pattern = 0;
+  double wanted = 0;  // scatterers, before they are whole
   std::vector<Vec3f> places_m;
   std::vector<std::uint16_t> groups;
 };
@@ -106,7 +107,6 @@ Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const Beam
         if (!view.sees(Extent{middle.x, middle.z, ball_m, middle.y - 0.5 * edge_m - across_m,
                               middle.y + 0.5 * edge_m + across_m}))
           continue;
-        Block block{low, lattice.block_m, hashOf(settings.seed, kPlaces, ix, iy, iz), {}, {}};
         const double wanted =
             settings.per_cell * edge_m * edge_m * edge_m / spread.cellVolume(pathOf(probe, middle));
         planned += wanted;
@@ -115,13 +115,14 @@ Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const Beam
               "speckle.per_cell = {:g} takes over {:g} scatterers, more than memory is meant for: "
               "fewer are accepted",
               settings.per_cell, kMostScatterers));
-        block.places_m.resize(
-            static_cast<std::size_t>(wanted + uniformFromHash(hashOf(block.pattern, kCount))));
-        blocks.push_back(std::move(block));
+        blocks.push_back(
+            {low, lattice.block_m, hashOf(settings.seed, kPlaces, ix, iy, iz), wanted, {}, {}});
       }
   parallelBlocks(blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       Block& block = blocks[b];
+      block.places_m.resize(
+          static_cast<std::size_t>(block.wanted + uniformFromHash(hashOf(block.pattern, kCount))));
       for (std::uint32_t j = 0; j < block.places_m.size(); ++j)
         block.places_m[j] = block.low_m + block.edge_m * pointIn(block.pattern, j);
       block.groups.resize(block.places_m.size());

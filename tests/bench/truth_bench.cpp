@@ -6,6 +6,7 @@
 #include "scene/scene_reader.h"
 #include "simulate/simulator.h"
 #include "support/paths.h"
+#include "support/shipped_heart.h"
 
 namespace echocine::bench {
 namespace {
@@ -13,8 +14,7 @@ namespace {
 constexpr int kRounds = 15;
 
 void truthOf(benchmark::State& state, void (*ask)(Scene&)) {
-  Scene scene =
-      readScene(std::filesystem::path(support::kSourceDir) / "examples/beating_heart/scene.toml");
+  Scene scene = support::shippedPaperHeart();
   scene.output.channels = {Channel::y};
   const Simulator plain(scene);
   ask(scene);

@@ -22,7 +22,7 @@ TEST(HeartFunctionLaw, AnInfarctStrainsLessThanTheRest) {
   heart::Parameters parameters;
   parameters.segments[kInfarct].amplitude = 0;
   Scene scene;
-  withThreads(1, [&] { scene = heart::heartScene(parameters, heart::View::a4c, 6); });
+  withThreads(1, [&] { scene = heart::heartScene(parameters, heart::View::a4c, 6, Look::paper); });
   scene.truth.function = true;
   const MeshMotion motion(scene);
   const MotionField field = interiorMotion(scene, motion);

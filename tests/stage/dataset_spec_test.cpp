@@ -48,7 +48,8 @@ TEST(DatasetSpec, SceneKeysAreTriedAtTheirEnds) {
   expectRefused(kStart + "[scene.signal]\ngain_db = { uniform = [0, 500] }\n",
                 {"spec.toml:4", "signal.gain_db", "500", "accepted"});
   expectRefused(kStart + "[scene.signal]\ngain = 3\n", {"signal.gain"});
-  expectRefused(kStart + "[scene.signal]\nquality = \"good\"\n", {"signal.quality"});
+  expectRefused(kStart + "[scene.signal]\nlook = \"paper\"\nquality = \"good\"\n",
+                {"signal.quality"});
   expectRefused(kStart + "[scene.structure]\nname = \"x\"\n", {"scene.structure"});
 }
 

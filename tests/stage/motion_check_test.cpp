@@ -104,20 +104,21 @@ TEST(MotionCheck, CollapseOfAMembraneIsToldByItsArea) {
   EXPECT_EQ(breaks.collapsed->volume_m3, 0);
 }
 
-// The middle of the fan goes over the rim's side 0, at x = 2 cos(22.5 degrees) = 1.85.
+// The middle of the fan goes over the rim's side 0, at x = 2 cos(22.5 degrees) = 1.85; with a
+// heart's pace it does so at 0.48 to 0.5 of the beat, in rapid filling.
 TEST(MotionCheck, ATriangleThatMirrorsIsNamed) {
   const Vec3d beyond = kMiddle + 2.2 * kOutward;
   const std::vector<TriangleMesh> keyframes{cake(kMiddle), cake(kMiddle), cake(beyond),
                                             cake(beyond)};
   for (const Interpolation kind : kKinds) {
-    const SurfaceBreaks breaks = breaksOf(keyframes, kind, evenFrames(80));
+    const SurfaceBreaks breaks = breaksOf(keyframes, kind, evenFrames(320));
     ASSERT_TRUE(breaks.first);
     EXPECT_EQ(breaks.first->triangle, 0u);
     EXPECT_EQ(breaks.first->kind, TriangleBreak::mirrored);
     EXPECT_EQ(breaks.first->left, 1u);
     EXPECT_EQ(breaks.first->right, 2u);
-    EXPECT_GT(breaks.first->frame, 20);
-    EXPECT_LT(breaks.first->frame, 40);
+    EXPECT_GT(breaks.first->frame, 80);
+    EXPECT_LT(breaks.first->frame, 160);
     EXPECT_FALSE(breaks.inside_out);
   }
 }

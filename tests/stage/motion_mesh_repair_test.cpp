@@ -32,7 +32,7 @@ std::vector<Case> cases() {
       {"mostly flipped", [] { return flipped(flipped(ball(), 5), 1); }, "repair = [\"orient\"]",
        kOrient, "409 faces turned", 1},
       {"soup", [] { return soup(ball()); },
-       "repair = [\"weld\"], as vertices lie at the same places", kWeld, "1278 vertices welded", 1},
+       "lids which close it, repair = [\"weld\"], or membrane = true", kWeld, "1278 vertices welded", 1},
       {"soup in single precision", [] { return shaken(soup(ball())); }, "repair = [\"weld\"]",
        kWeld, "1278 vertices welded", 1, 1e-5},
       {"flipped soup",
@@ -86,7 +86,8 @@ std::vector<Case> cases() {
          const Triangle t = mesh.triangles[0];
          return withFaces(mesh, {{t[0], t[1], 258}});
        },
-       "belongs to 3 faces, the last is a.obj: face 513; at most two are accepted: split surfaces",
+       "belongs to 3 faces, the last is a.obj: face 513; at most two are accepted: part the "
+       "surfaces that meet there, or set repair = [\"split\"]",
        kAll, "!belongs to 3 faces", 0},
       {"bow tie", bowTie, "meet in the point (2, 0, 0) only", kWeld,
        "1 vertex added where surfaces met in a point, 1 unused vertex dropped", 2 * 8 * octa},

@@ -153,7 +153,10 @@ const std::vector<Bad> kBad{
      structure("blood", "[{file=\"a.obj\",phase=0.5},{file=\"b.obj\",phase=0.25}]"),
      "structure.keyframes.phase", "keyframes", "ascending"},
     {"phase of 1", structure("blood", "[{file=\"a.obj\",phase=1.0}]"), "structure.keyframes.phase",
-     "keyframes", "under 1"},
+     "keyframes", "from 0 up to, without, 1"},
+    {"beat closed by a frame at 1",
+     structure("blood", "[{file=\"a.obj\",phase=0.5},{file=\"b.obj\",phase=1.0}]"),
+     "structure.keyframes.phase", "keyframes", "drop the frame that closes the beat"},
     {"lids too few", structure("blood", "[\"a.obj\",\"b.obj\"]", "lids = \"lid.obj\""),
      "structure.lids", "lids", "2 keyframes"},
     {"name taken", [](SceneText& t) { t.addStructure("box", "blood", "\"b.obj\""); },
@@ -222,7 +225,8 @@ const std::vector<Bad> kBad{
      "structure.priority", "priority", "accepted only with membrane = false"},
     {"misspelt repair", structure("blood", "\"a.obj\"", "repair = [\"weld\", \"orientt\"]"),
      "structure.repair", "repair",
-     "holds \"orientt\", accepted: \"weld\" | \"orient\" | \"drop-degenerate\" | \"fill-holes\"; "
+     "holds \"orientt\", accepted: \"weld\" | \"orient\" | \"drop-degenerate\" | \"split\" | "
+     "\"fill-holes\"; "
      "nearest: orient"},
     {"repair far from any word", structure("blood", "\"a.obj\"", "repair = \"xyzzyplugh\""),
      "structure.repair", "repair", "\"fill-holes\""},

@@ -29,6 +29,8 @@ lines = 48
 samples = 128
 [scene.acquisition]
 frame_rate_hz = 10
+[scene.signal]
+look = "paper"
 )";
 
 // Every file but the book-keeping of tasks, which differs by how a run was cut into parts.

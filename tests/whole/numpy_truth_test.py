@@ -80,7 +80,9 @@ if __name__ == "__main__":
     program, source = sys.argv[1:3]
     with tempfile.TemporaryDirectory() as folder:
         Truth.folder = os.path.join(folder, "loop")
-        scene = os.path.join(source, "examples", "beating_heart", "scene.toml")
+        heart = os.path.join(folder, "heart")
+        subprocess.run([program, "heart", "--look", "paper", "-o", heart, "--quiet"], check=True)
+        scene = os.path.join(heart, "scene.toml")
         subprocess.run([program, "render", scene, "-o", Truth.folder, "--truth", "all", "--frames", f"0:{FRAMES}",
                         "--quiet"], check=True)
         unittest.main(argv=sys.argv[:1])

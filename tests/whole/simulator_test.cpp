@@ -28,7 +28,7 @@ using namespace support;
 
 Scene smallHeart() {
   Scene scene;
-  withThreads(2, [&] { scene = heart::heartScene({}, heart::View::a4c, 6); });
+  withThreads(2, [&] { scene = heart::heartScene({}, heart::View::a4c, 6, Look::paper); });
   scene.probe.lines = 48;
   scene.probe.samples = 96;
   scene.output.width = 96;
@@ -40,6 +40,7 @@ TEST(SimulatorFrame, OfAHeartInMemoryIsThatOfItsFiles) {
   const TempFolder folder;
   HeartFiles wanted;
   wanted.keyframes = 6;
+  wanted.look = Look::paper;
   writeHeart(wanted, folder / "heart");
   Scene written = readScene(folder / "heart" / "scene.toml");
   const Scene in_memory = smallHeart();

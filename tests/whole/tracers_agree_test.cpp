@@ -7,6 +7,7 @@
 #include "scene/scene_reader.h"
 #include "support/paths.h"
 #include "support/scene_text.h"
+#include "support/shipped_heart.h"
 #include "support/temp_folder.h"
 #include "trace/trace_frame.h"
 
@@ -77,7 +78,7 @@ void expectAgreement(Scene scene) {
 }
 
 TEST(TracersAgree, OnTheShippedHeart) {
-  expectAgreement(readScene(fs::path(support::kSourceDir) / "examples/beating_heart/scene.toml"));
+  expectAgreement(support::shippedPaperHeart());
 }
 
 // Meshes that nobody made for this program.

@@ -1,0 +1,45 @@
+#pragma once
+// What is wrong with a mesh, in words that leave a place for the repair that mends it.
+
+#include <string>
+
+#include "core/error.h"
+
+namespace echocine {
+
+// The word of `repair` that mends this fault where it is the only one, and what stands around it:
+// before + prefix + words + suffix + after, all but `before` and `after` left out without words.
+struct RepairOffer {
+  std::string words;  // "repair = ["weld"]"; empty: none
+  std::string prefix = ", or set ";
+  std::string suffix = {};
+};
+
+class MeshFault : public SceneError {
+ public:
+  MeshFault(std::string before, RepairOffer offer, std::string after = {})
+      : SceneError(joined(before, offer, after)),
+        before_(std::move(before)),
+        after_(std::move(after)),
+        offer_(std::move(offer)) {}
+
+  // With other words of repair in the offer's place; none where they are empty.
+  std::string withRepair(const std::string& words) const {
+    return joined(before_, {words, offer_.prefix, offer_.suffix}, after_);
+  }
+
+  // The same fault with `place` before it.
+  MeshFault at(const std::string& place) const { return {place + before_, offer_, after_}; }
+
+ private:
+  static std::string joined(const std::string& before, const RepairOffer& offer,
+                            const std::string& after) {
+    if (offer.words.empty()) return before + after;
+    return before + offer.prefix + offer.words + offer.suffix + after;
+  }
+
+  std::string before_, after_;
+  RepairOffer offer_;
+};
+
+}  // namespace echocine

@@ -1,0 +1,109 @@
+#include "motion/repair/edge_pairing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace echocine {
+
+namespace {
+
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+struct Leaf {
+  double angle;
+  std::uint32_t side;
+  bool up;  // the face runs the edge from its lower vertex to the higher one
+};
+
+// Ascending by angle about the edge, from the first side's face.
+std::vector<Leaf> leavesAround(std::span<const Side> edge, std::span<const Triangle> triangles,
+                               std::span<const Vec3d> positions) {
+  const Vec3d a = positions[edge.front().key >> 32];
+  const Vec3d along = normalised(positions[edge.front().key & 0xFFFFFFFFu] - a);
+  const auto across = [&](const Side& side) {
+    const Vec3d third = positions[triangles[side.triangle()][(side.side % 3 + 2) % 3]] - a;
+    return third - dot(third, along) * along;
+  };
+  const Vec3d u = across(edge.front()), v = cross(along, u);
+  std::vector<Leaf> leaves;
+  for (const Side& side : edge) {
+    const Vec3d w = across(side);
+    const double angle = std::atan2(dot(w, v), dot(w, u));
+    leaves.push_back({angle < 0 ? angle + 2 * std::numbers::pi : angle, side.side, !side.descending});
+  }
+  std::sort(leaves.begin(), leaves.end(), [](const Leaf& l, const Leaf& r) {
+    return l.angle != r.angle ? l.angle < r.angle : l.side < r.side;
+  });
+  return leaves;
+}
+
+// The outer normal of a face that runs the edge up points to larger angles: the inside lies between
+// a face that runs down and the next one up, as between brackets.
+Pairs pairsByInside(const std::vector<Leaf>& leaves) {
+  const std::size_t n = leaves.size();
+  std::size_t start = 0;
+  int depth = 0, least = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    depth += leaves[i].up ? -1 : 1;
+    if (depth >= least) continue;
+    least = depth;
+    start = i + 1;  // from behind the deepest point on, no bracket closes before it opens
+  }
+  Pairs pairs;
+  std::vector<std::uint32_t> open;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Leaf& leaf = leaves[(start + i) % n];
+    if (!leaf.up) {
+      open.push_back(leaf.side);
+      continue;
+    }
+    pairs.emplace_back(open.back(), leaf.side);
+    open.pop_back();
+  }
+  return pairs;
+}
+
+// Neighbours in pairs from one of them on; a last one is left over.
+Pairs pairsFrom(const std::vector<Leaf>& leaves, std::size_t start, double& angles) {
+  const std::size_t n = leaves.size();
+  Pairs pairs;
+  angles = 0;
+  for (std::size_t i = 0; i + 1 < n; i += 2) {
+    const Leaf &one = leaves[(start + i) % n], &next = leaves[(start + i + 1) % n];
+    const double between = next.angle - one.angle;
+    angles += between < 0 ? between + 2 * std::numbers::pi : between;
+    pairs.emplace_back(one.side, next.side);
+  }
+  return pairs;
+}
+
+Pairs pairsByAngle(const std::vector<Leaf>& leaves) {
+  // With an even number there are two ways; with an odd one as many as faces, of which the first
+  // few do for what no scanner makes.
+  constexpr std::size_t kMostTried = 16;
+  const std::size_t tried = leaves.size() % 2 == 0 ? 2 : std::min(leaves.size(), kMostTried);
+  double least = 0;
+  Pairs best = pairsFrom(leaves, 0, least);
+  for (std::size_t start = 1; start < tried; ++start) {
+    double angles = 0;
+    Pairs pairs = pairsFrom(leaves, start, angles);
+    if (angles >= least) continue;
+    least = angles;
+    best = std::move(pairs);
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> pairsAround(
+    std::span<const Side> edge, std::span<const Triangle> triangles,
+    std::span<const Vec3d> positions) {
+  const std::vector<Leaf> leaves = leavesAround(edge, triangles, positions);
+  const auto up = static_cast<std::size_t>(
+      std::count_if(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return leaf.up; }));
+  return 2 * up == leaves.size() ? pairsByInside(leaves) : pairsByAngle(leaves);
+}
+
+}  // namespace echocine

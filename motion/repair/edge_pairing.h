@@ -1,0 +1,21 @@
+#pragma once
+// The faces around one edge, in pairs.
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/vec3.h"
+#include "motion/mesh/edge_sides.h"
+
+namespace echocine {
+
+// The sides of one edge in pairs of neighbours by angle about it. Where as many faces run the edge
+// up as down, each pair has the inside of the surface between its two, as in two bodies that touch
+// along the edge. Else, faces not being oriented alike, the pairs with the smallest angles between
+// them; of an odd number one is left over. Depends on the places alone, not on the order of faces.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> pairsAround(
+    std::span<const Side> edge, std::span<const Triangle> triangles,
+    std::span<const Vec3d> positions);
+
+}  // namespace echocine

@@ -1,0 +1,79 @@
+// Speckle and artefacts that cannot be made are refused with one line.
+
+#include <gtest/gtest.h>
+
+#include "support/scene_text.h"
+#include "support/speckle_bed.h"
+
+namespace echocine {
+namespace {
+
+using support::refusalOf;
+using support::SceneText;
+
+struct Wrong {
+  std::string table, line, key, says;
+};
+
+const std::vector<Wrong> kWrong{
+    {"speckle", "per_cell = 0", "speckle.per_cell", "0.1"},
+    {"speckle", "per_cell = nan", "speckle.per_cell", "0.1"},
+    {"speckle", "per_cell = 1e9", "speckle.per_cell", "accepted: "},
+    {"speckle", "smoothing_mm = -1", "speckle.smoothing_mm", "accepted: "},
+    {"speckle", "heterogeneity_db = -1", "speckle.heterogeneity_db", "accepted: "},
+    {"speckle", "anisotropy_db = inf", "speckle.anisotropy_db", "accepted: "},
+    {"speckle", "coherence = 1", "speckle.coherence", "accepted: "},
+    {"artefacts", "persistence = 1", "artefacts.persistence", "accepted: "},
+    {"artefacts", "haze = \"thick\"", "artefacts.haze", "accepted: "},
+    {"artefacts", "haze_width_deg = 0", "artefacts.haze_width_deg", "accepted: "},
+    {"artefacts", "reverberation_length_mm = 0", "artefacts.reverberation_length_mm", "accepted: "},
+    {"artefacts", "clutter_length_mm = nan", "artefacts.clutter_length_mm", "accepted: "},
+    {"artefacts", "window_width_mm = -3", "artefacts.window_width_mm", "accepted: "},
+    {"artefacts", "dropout_db = -1", "artefacts.dropout_db", "accepted: "},
+};
+
+TEST(SpeckleRefusal, NumbersOutOfRangeNameTheirKeyInOneLine) {
+  for (const Wrong& wrong : kWrong) {
+    SCOPED_TRACE(wrong.table + ": " + wrong.line);
+    SceneText scene = SceneText::oneBox("blood");
+    scene.extra = "[" + wrong.table + "]\n" + (wrong.table == "speckle" ? "on = true\n" : "") +
+                  wrong.line + "\n";
+    const std::string message = refusalOf(scene.text(), "heart.toml");
+    EXPECT_TRUE(message.starts_with("heart.toml:")) << message;
+    EXPECT_NE(message.find(": " + wrong.key + ": "), std::string::npos) << message;
+    EXPECT_NE(message.find(wrong.says), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+TEST(SpeckleRefusal, APulseThatSpeckleCannotBeMadeOf) {
+  SceneText scene = SceneText::oneBox("blood");
+  scene.extra = "[speckle]\non = true\n";
+  scene.probe["depth_mm"] = "8";
+  EXPECT_EQ(refusalOf(scene.text()), "");
+  scene.signal["pulse_cycles"] = "20";  // 6.2 mm in a picture of 6 mm
+  EXPECT_NE(refusalOf(scene.text()).find("signal.pulse_cycles: makes a pulse of 6."),
+            std::string::npos);
+  scene.signal["pulse_cycles"] = "0";
+  EXPECT_NE(refusalOf(scene.text()).find("signal.pulse_cycles: 0 excludes"), std::string::npos);
+  scene.extra = "";  // what speckle alone needs
+  EXPECT_EQ(refusalOf(scene.text()), "");
+}
+
+TEST(SpeckleRefusal, MoreScatterersThanMemoryIsMeantFor) {
+  const Probe probe = support::speckleProbe(ProbeKind::phased, 128, 512, 0.005, 0.15);
+  SpeckleSettings settings;
+  settings.on = true;
+  settings.per_cell = 100000;
+  try {
+    const Speckle speckle(probe, 2, settings, support::OneGroup{});
+    FAIL() << speckle.scatterers();
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("speckle.per_cell = 100000 takes over"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace echocine
