@@ -19,7 +19,8 @@ set(libraries
   "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
   "zlib\\.h$=video,dataset"
   "CLI/=cli"
-  "nlohmann/=scene,heart,output,page,simulate,compare,render,study,dataset,cli"
+  "nlohmann/=scene,heart,output,page,simulate,compare,render,study,dataset,cli,python"
+  "(pybind11/|Python\\.h$)=python"
   "fmt/=*"
   "[a-z_0-9]+(\\.h)?$=*"
   "sys/=core,video,render"
@@ -53,6 +54,7 @@ set(rooms
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
   "echocine=render,simulate,heart"
   "dataset=simulate,output,cycle,heart,truth,signal|motion,video,page"
+  "python=render,compare,study,simulate,heart,cycle|output,video,motion,cycle,truth,signal,geometry"
   "cli=render,compare,study,dataset,output|video,simulate,motion,keyframes,cycle,heart")
 
 function(room_of path out)
