@@ -11,6 +11,7 @@
 #include "cli/warning_printer.h"
 #include "render/estimate.h"
 #include "scene/scene_reader.h"
+#include "scene/white_rule.h"
 
 namespace echocine {
 
@@ -32,12 +33,13 @@ void printEffects(const Manifest& manifest) {
   }
 }
 
-void printRest(const Estimate& estimate) {
+void printRest(const Estimate& estimate, const Scene& scene) {
   const LoopPlan& plan = estimate.measured.plan;
   for (const Omission& i : plan.interfaces)
     fmt::print("{:<24} {:<4} {:>5}  {}\n", i.name, "off", "", i.reason);
   fmt::print("\ntracer      {}: {}\n", plan.tracerName(), plan.tracer_reason);
   fmt::print("echoes      {}\n", plan.echo_reason);
+  fmt::print("white       {}\n", whiteWords(scene));
   fmt::print("triangles   {} given, {} in structures that stay, {} cut by the imaging plane\n",
              plan.triangles_given, plan.triangles_kept, plan.triangles_met);
   std::string stages;
@@ -50,9 +52,10 @@ void printRest(const Estimate& estimate) {
 }
 
 // The manifest's own parts, so that scripts read plan and manifest alike.
-void printJson(const Estimate& estimate) {
+void printJson(const Estimate& estimate, const Scene& scene) {
   nlohmann::ordered_json json = planJson(estimate.measured.plan);
   json["effects"] = effectsJson(estimate.measured);
+  json["white"] = whiteWords(scene);
   json["warnings"] = estimate.measured.warnings;
   json["frames"] = estimate.frames;
   json["seconds"] = estimate.seconds;
@@ -91,10 +94,10 @@ int PlanCommand::run() {
   const Monitor monitor{.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)};
   const Estimate estimate = estimateLoop(scene, threads_, monitor);
   if (json_) {
-    printJson(estimate);
+    printJson(estimate, scene);
   } else {
     printEffects(estimate.measured);
-    printRest(estimate);
+    printRest(estimate, scene);
   }
   return 0;
 }
