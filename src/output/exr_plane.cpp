@@ -30,26 +30,27 @@ bool isWanted(const Imf::Header& header, const ExrPlaneWanted& wanted) {
   return header.dataWindow() == Imath::Box2i({0, 0}, {wanted.lines - 1, wanted.samples - 1}) &&
          holds<Imf::StringAttribute>(header, "echocine:scene_sha256", wanted.scene_sha256) &&
          holds<Imf::IntAttribute>(header, "echocine:frame", wanted.frame) && channel != nullptr &&
-         channel->type != Imf::UINT && channel->xSampling == 1 && channel->ySampling == 1;
+         (channel->type == Imf::UINT) == isLabel(wanted.channel) && channel->xSampling == 1 && channel->ySampling == 1;
 }
 
-// Widened to floats, line-major, the scale of half floats undone.
-std::vector<float> channelOf(Imf::InputFile& file, Channel channel) {
+// Line-major; floats widened and the scale of half floats undone.
+template <typename Value>
+std::vector<Value> channelOf(Imf::InputFile& file, Channel channel, Imf::PixelType type) {
   const Imath::Box2i window = file.header().dataWindow();
   const auto lines = static_cast<std::size_t>(window.max.x) + 1,
              samples = static_cast<std::size_t>(window.max.y) + 1;
-  std::vector<float> values(lines * samples);
+  std::vector<Value> values(lines * samples);
   const std::string name = channelName(channel);
   Imf::FrameBuffer buffer;
-  buffer.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()),
-                                 sizeof(float) * samples, sizeof(float)));
+  buffer.insert(name, Imf::Slice(type, reinterpret_cast<char*>(values.data()),
+                                 sizeof(Value) * samples, sizeof(Value)));
   file.setFrameBuffer(buffer);
   file.readPixels(0, window.max.y);
   const auto* scale =
       file.header().findTypedAttribute<Imf::DoubleAttribute>("echocine:scale." + name);
   // In double: the scale is a power of two and may lie beyond a float's range.
   if (scale != nullptr)
-    for (float& v : values) v = static_cast<float>(static_cast<double>(v) / scale->value());
+    for (Value& v : values) v = static_cast<Value>(static_cast<double>(v) / scale->value());
   return values;
 }
 
@@ -76,17 +77,19 @@ class MemoryInput : public Imf::IStream {
 
 }  // namespace
 
-std::optional<std::vector<float>> readExrPlane(const std::filesystem::path& path,
-                                               const ExrPlaneWanted& wanted) {
+namespace {
+
+// What `take` makes of the file, if it is the one that is wanted.
+template <typename Value, typename Take>
+std::optional<std::vector<Value>> readWanted(const std::filesystem::path& path,
+                                             const ExrPlaneWanted& wanted, const Take& take) {
   try {
     std::error_code absent;
     if (!std::filesystem::is_regular_file(path, absent) || !hasPlainExrHeader(path))
       return std::nullopt;
     Imf::InputFile file(path.c_str(), 0);
     if (!file.isComplete() || !isWanted(file.header(), wanted)) return std::nullopt;
-    std::vector<float> values = channelOf(file, wanted.channel);
-    if (firstUnusable(values)) return std::nullopt;  // a scale that is none makes such too
-    return values;
+    return take(file);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {  // cut short, or no OpenEXR file at all
@@ -94,10 +97,31 @@ std::optional<std::vector<float>> readExrPlane(const std::filesystem::path& path
   }
 }
 
+}  // namespace
+
+std::optional<std::vector<float>> readExrPlane(const std::filesystem::path& path,
+                                               const ExrPlaneWanted& wanted) {
+  using Plane = std::optional<std::vector<float>>;
+  return readWanted<float>(path, wanted, [&](Imf::InputFile& file) -> Plane {
+    std::vector<float> values = channelOf<float>(file, wanted.channel, Imf::FLOAT);
+    // A scale that is none makes such too. Motion has a sign, and is not a number where it is unknown.
+    if (!isMotion(wanted.channel) && firstUnusable(values)) return std::nullopt;
+    return values;
+  });
+}
+
+std::optional<std::vector<std::uint32_t>> readExrIds(const std::filesystem::path& path,
+                                                     const ExrPlaneWanted& wanted) {
+  using Plane = std::optional<std::vector<std::uint32_t>>;
+  return readWanted<std::uint32_t>(path, wanted, [&](Imf::InputFile& file) -> Plane {
+    return channelOf<std::uint32_t>(file, wanted.channel, Imf::UINT);
+  });
+}
+
 std::vector<float> readBack(std::span<const std::byte> file, Channel channel) {
   MemoryInput stream(file);
   Imf::InputFile in(stream, 0);
-  return channelOf(in, channel);
+  return channelOf<float>(in, channel, Imf::FLOAT);
 }
 
 }  // namespace echocine

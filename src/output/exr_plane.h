@@ -2,6 +2,7 @@
 // One channel of an intensity EXR, read back.
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -13,7 +14,7 @@
 namespace echocine {
 
 struct ExrPlaneWanted {
-  Channel channel = Channel::display;  // any of floats, so not medium.id
+  Channel channel = Channel::display;  // not isLabel(): floats
   std::string scene_sha256;
   int frame = 0, lines = 0, samples = 0;
 };
@@ -23,7 +24,11 @@ struct ExrPlaneWanted {
 std::optional<std::vector<float>> readExrPlane(const std::filesystem::path& path,
                                                const ExrPlaneWanted& wanted);
 
-// The same from bytes just written. Preconditions: they are a file by ExrStack::encode(); the
+// The same of whole numbers. Precondition: isLabel(wanted.channel).
+std::optional<std::vector<std::uint32_t>> readExrIds(const std::filesystem::path& path,
+                                                     const ExrPlaneWanted& wanted);
+
+// As readExrPlane() from bytes just written. Preconditions: they are a file by ExrStack::encode(); the
 // channel is one of its, not Channel::medium.
 std::vector<float> readBack(std::span<const std::byte> file, Channel channel);
 

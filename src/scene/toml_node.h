@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/key_log.h"
 #include "scene/toml_table.h"
 
 namespace echocine {
@@ -25,7 +26,9 @@ struct TomlTable::Node {
 
   const toml::node* find(std::string_view key) {
     if (std::find(known.begin(), known.end(), key) == known.end()) known.emplace_back(key);
-    return table ? table->get(key) : nullptr;
+    const toml::node* value = table ? table->get(key) : nullptr;
+    if (!value && KeyLog::wanted()) KeyLog::note(fullKey(key), {});
+    return value;
   }
   std::string fullKey(std::string_view key) const {
     return path.empty() ? std::string(key) : path + "." + std::string(key);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scene/key_log.h"
 #include "scene/toml_nesting.h"
 #include "scene/toml_node.h"
 
@@ -69,6 +70,14 @@ bool TomlTable::has(std::string_view key) {
   return node_->find(key) != nullptr;
 }
 
+void TomlTable::noteDefault(std::string_view key, KeyDefault value) const {
+  if (KeyLog::wanted()) KeyLog::note(node_->fullKey(key), std::move(value));
+}
+
+void TomlTable::noteChoice(std::string_view key, std::string_view name) const {
+  noteDefault(key, std::string(name));
+}
+
 SourcePlace TomlTable::place(std::string_view key) const {
   const toml::node* value = node_->table ? node_->table->get(key) : nullptr;
   const int line = value ? static_cast<int>(value->source().begin.line) : node_->line;
@@ -83,6 +92,7 @@ double TomlTable::number(std::string_view key, std::optional<double> fallback, N
   const toml::node* value = node_->find(key);
   if (!value) {
     if (!fallback) missing(key, "accepted: " + range.text());
+    noteDefault(key, *fallback);
     return *fallback;
   }
   const std::optional<double> number = value->value<double>();
@@ -98,6 +108,7 @@ int TomlTable::integer(std::string_view key, std::optional<int> fallback, int lo
   const toml::node* value = node_->find(key);
   if (!value) {
     if (!fallback) missing(key, accepted);
+    noteDefault(key, std::int64_t{*fallback});
     return *fallback;
   }
   const std::optional<std::int64_t> number = value->value_exact<std::int64_t>();
@@ -108,7 +119,10 @@ int TomlTable::integer(std::string_view key, std::optional<int> fallback, int lo
 
 bool TomlTable::boolean(std::string_view key, bool fallback) {
   const toml::node* value = node_->find(key);
-  if (!value) return fallback;
+  if (!value) {
+    noteDefault(key, fallback);
+    return fallback;
+  }
   if (!value->is_boolean())
     fail(key, fmt::format("is {}, accepted: true | false", typeName(*value)));
   return *value->value<bool>();
@@ -118,6 +132,7 @@ std::string TomlTable::text(std::string_view key, std::optional<std::string> fal
   const toml::node* value = node_->find(key);
   if (!value) {
     if (!fallback) missing(key, "accepted: a string");
+    noteDefault(key, *fallback);
     return *fallback;
   }
   if (!value->is_string()) fail(key, fmt::format("is {}, accepted: a string", typeName(*value)));

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/nearest_word.h"
 #include "core/vec3.h"
+#include "scene/key_log.h"
 #include "scene/names.h"
 #include "scene/number_range.h"
 
@@ -43,6 +44,8 @@ class TomlTable {
     std::vector<std::string_view> names;
     for (const auto& c : choices) names.push_back(c.first);
     const std::optional<std::size_t> found = choiceIndex(key, names);
+    for (const auto& c : choices)
+      if (!found && c.second == fallback) noteChoice(key, c.first);
     return found ? choices[*found].second : fallback;
   }
 
@@ -52,6 +55,8 @@ class TomlTable {
     std::vector<std::string_view> names;
     for (const auto& entry : NamesOf<T>::kAll) names.emplace_back(entry.name);
     const std::optional<std::size_t> found = choiceIndex(key, names);
+    for (const auto& entry : NamesOf<T>::kAll)
+      if (!found && entry.value == fallback) noteChoice(key, entry.name);
     return found ? NamesOf<T>::kAll[*found].value : fallback;
   }
 
@@ -76,6 +81,8 @@ class TomlTable {
   void finish() const;
 
  private:
+  void noteDefault(std::string_view key, KeyDefault value) const;
+  void noteChoice(std::string_view key, std::string_view name) const;
   std::string withoutNul(std::string_view key, std::string text) const;
   struct Node;
   explicit TomlTable(std::unique_ptr<Node> node);

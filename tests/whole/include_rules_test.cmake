@@ -18,7 +18,8 @@ set(libraries
   "opencv2/(core|imgproc)=signal,metrics,video,output,compare"
   "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$|zlib\\.h$)=video"
   "CLI/=cli"
-  "nlohmann/=scene,heart,output,page,simulate,compare,render,study,cli"
+  "nlohmann/=scene,heart,output,page,simulate,compare,render,study,cli,python"
+  "(pybind11/|Python\\.h$)=python"
   "fmt/=*"
   "[a-z_0-9]+(\\.h)?$=*"
   "sys/=core,video,render"
@@ -51,6 +52,7 @@ set(rooms
   "render=simulate,cycle,output,page,video,truth|signal"
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
   "echocine=render,simulate,heart"
+  "python=render,compare,study,simulate,heart,cycle|output,video,motion,cycle,truth,signal,geometry"
   "cli=render,compare,study,output|video,simulate,motion,keyframes,cycle,heart")
 
 function(room_of path out)

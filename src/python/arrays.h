@@ -1,0 +1,46 @@
+#pragma once
+// Our memory as NumPy arrays without copies, and arrays that come in.
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace echocine::python {
+
+namespace py = pybind11;
+
+// C order; `owner` lives as long as the array. An array without values has the shape all the same.
+template <typename T>
+py::array viewOf(const T* data, const std::vector<py::ssize_t>& shape, const py::handle& owner) {
+  return py::array(py::dtype::of<T>(), shape, data, owner);
+}
+
+// Line-major planes, `frames` of them one after the other, as (frames, depth, line); (depth, line)
+// where frames is below 0.
+template <typename T>
+py::array planesView(const T* data, py::ssize_t frames, py::ssize_t lines, py::ssize_t samples,
+                     const py::handle& owner) {
+  constexpr auto kItem = static_cast<py::ssize_t>(sizeof(T));
+  std::vector<py::ssize_t> shape{samples, lines}, strides{kItem, samples * kItem};
+  if (frames >= 0) {
+    shape.insert(shape.begin(), frames);
+    strides.insert(strides.begin(), lines * samples * kItem);
+  }
+  return py::array(py::dtype::of<T>(), shape, strides, data, owner);
+}
+
+// Of its own memory.
+py::array copyOf(const std::vector<double>& values);
+
+// "(24, 3), float64"
+std::string shown(const py::array& array);
+
+// An array to be filled: writeable, of that type and shape, any strides. Throws TypeError or
+// ValueError that name `argument`.
+py::array checkedOut(const std::string& argument, const py::object& given, const py::dtype& type,
+                     const std::vector<py::ssize_t>& shape);
+
+}  // namespace echocine::python

@@ -1,0 +1,22 @@
+#pragma once
+// The parts of the compiled module; each source binds what its name says. The package of plain
+// Python beside them (echocine/) is what users see.
+
+#include <pybind11/pybind11.h>
+
+namespace echocine::python {
+
+namespace py = pybind11;
+
+void bindErrors(py::module_& module);
+void bindMeshes(py::module_& module);
+void bindScene(py::module_& module);
+void bindFrame(py::module_& module);
+void bindSimulator(py::module_& module);
+void bindLoop(py::module_& module);
+void bindRender(py::module_& module);
+void bindPlan(py::module_& module);
+void bindCompare(py::module_& module);
+void bindFiles(py::module_& module);
+
+}  // namespace echocine::python

@@ -1,0 +1,122 @@
+// Loops against real ones.
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "compare/compare.h"
+#include "compare/discrepancy.h"
+#include "compare/results.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "python/arrays.h"
+#include "python/bindings.h"
+#include "python/fork_guard.h"
+#include "python/job.h"
+#include "python/scene.h"
+
+namespace echocine::python {
+
+namespace {
+
+using Path = std::filesystem::path;
+
+// As the command's options have them; None leaves one out.
+compare::SideOptions sideOf(const py::dict& given, const char* argument) {
+  compare::SideOptions side;
+  for (const auto& [key, value] : given) {
+    const auto name = py::str(key).cast<std::string>();
+    if (name == "fps") side.fps = value.cast<double>();
+    else if (name == "mm_per_pixel") side.mm_per_pixel = value.cast<double>();
+    else if (name == "pixel_aspect") side.pixel_aspect = value.cast<double>();
+    else if (name == "heart_rate_bpm") side.heart_rate_bpm = value.cast<double>();
+    else if (name == "sector") side.sector = value.cast<std::string>();
+    else if (name == "ed_frame") side.ed_frame = value.cast<double>();
+    else if (name == "es_frame") side.es_frame = value.cast<double>();
+    else if (name == "r_waves_s") side.r_waves_s = value.cast<std::vector<double>>();
+    else
+      throw py::value_error(fmt::format("{}: \"{}\" is not known, accepted: fps, mm_per_pixel, pixel_aspect, "
+                                        "heart_rate_bpm, sector, ed_frame, es_frame, r_waves_s",
+                                        argument, name));
+  }
+  return side;
+}
+
+py::tuple compareFiles(const Path& synthetic, const Path& real, const std::optional<Path>& folder,
+                       const py::dict& real_side, const py::dict& synthetic_side, bool align_space,
+                       const std::optional<Path>& scene, int threads, const py::object& progress) {
+  compare::CompareOptions options;
+  options.synthetic = synthetic;
+  options.real = real;
+  options.real_side = sideOf(real_side, "real");
+  options.synthetic_side = sideOf(synthetic_side, "synthetic");
+  options.align_space = align_space;
+  if (scene) options.scene = *scene;
+  std::string summary, frames;
+  runJob(progress, [&](const Monitor& monitor) {
+    withThreads(threads, [&] {
+      const compare::Comparison comparison = compare::compareLoops(options, monitor);
+      if (folder) compare::writeResults(comparison, options, *folder);
+      summary = compare::summaryJson(comparison).dump();
+      frames = compare::framesCsv(comparison);
+    });
+  });
+  return py::make_tuple(summary, frames);
+}
+
+struct Distance {
+  Distance(const compare::Loop& real, const Probe& probe) : discrepancy(real, probe), lines(probe.lines), samples(probe.samples) {}
+  compare::Discrepancy discrepancy;
+  int lines, samples;
+};
+
+std::shared_ptr<Distance> makeDistance(const Path& real, const NativeScene& scene, const py::dict& side) {
+  const compare::SideOptions options = sideOf(side, "real");
+  std::shared_ptr<Distance> made;
+  runJob(py::none(), [&](const Monitor&) {
+    withThreads(0, [&] {
+      made = std::make_shared<Distance>(compare::readLoop(real, options, true), scene.scene.probe);
+    });
+  });
+  return made;
+}
+
+// Greys (depth, line); views of frames lie in memory as the tracer made them and are not copied.
+double distance(const Distance& d, int frame, const py::array_t<float>& greys) {
+  beginWork();
+  if (frame < 0 || frame >= d.discrepancy.realFrames())
+    throw py::index_error(fmt::format("frame: is {}, accepted: 0 to {}", frame, d.discrepancy.realFrames() - 1));
+  if (greys.ndim() != 2 || greys.shape(0) != d.samples || greys.shape(1) != d.lines)
+    throw py::value_error(fmt::format("greys: is {}, accepted: ({}, {}), float32: depth, line of the probe",
+                                      shown(greys), d.samples, d.lines));
+  const auto lines_first = py::array_t<float, py::array::c_style | py::array::forcecast>(greys.attr("T"));
+  const std::span<const float> values(lines_first.data(), static_cast<std::size_t>(lines_first.size()));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      throw py::value_error(fmt::format("greys: holds {} at line {}, sample {}, accepted: 0 to 1", values[i],
+                                        i / static_cast<std::size_t>(d.samples),
+                                        i % static_cast<std::size_t>(d.samples)));
+  const py::gil_scoped_release released;
+  return d.discrepancy(frame, values);
+}
+
+}  // namespace
+
+void bindCompare(py::module_& module) {
+  module.def("compare", &compareFiles, py::arg("synthetic"), py::arg("real"), py::arg("folder").none(true),
+             py::arg("real_side"), py::arg("synthetic_side"), py::arg("align_space"), py::arg("scene").none(true),
+             py::arg("threads"), py::arg("progress").none(true), "summary.json and frames.csv as texts.");
+  py::class_<Distance, std::shared_ptr<Distance>>(module, "Discrepancy", "Distance of frames to a real loop.")
+      .def(py::init(&makeDistance), py::arg("real"), py::arg("scene"), py::arg("side"))
+      .def("__call__", &distance, py::arg("frame"), py::arg("greys"),
+           "0 equal, about 1 unrelated: greys (depth, line) float32, 0 to 1.")
+      .def_property_readonly("real_frames", [](const Distance& d) { return d.discrepancy.realFrames(); },
+                             "Frames of the real loop.")
+      .def_property_readonly("share_in_sight", [](const Distance& d) { return d.discrepancy.shareInSight(); },
+                             "Share of the sector that both loops show, 0 to 1.");
+}
+
+}  // namespace echocine::python

@@ -1,0 +1,25 @@
+"""Ultrasound cine loops of a beating heart, ray-traced, as NumPy arrays.
+
+    import echocine
+    scene = echocine.heart(ef=0.45, view="a4c")
+    scene.probe.lines = 128
+    loop = echocine.render(scene, truth="labels")
+    loop.images                     # (T, H, W) uint8
+    loop.labels                     # (T, H, W) uint8
+    loop.intensities                # (T, depth, line) float32
+    loop.volumes["lv_cavity"]       # (T,) float64, mL
+    loop.times_s                    # (T,) float64, s
+
+Scenes have the keys of scene files; `Scene.keys()` lists them. Errors are SceneError (what was given cannot be used)
+and JobError (the work failed).
+"""
+
+from ._echocine import Frame, __version__
+from ._errors import JobError, SceneError, SceneWarning
+from ._jobs import Comparison, Discrepancy, Plan, compare, plan, study
+from ._loop import Loop, open, render
+from ._scene import Scene, Table, dials, heart
+from ._simulator import Simulator
+
+__all__ = ["Comparison", "Discrepancy", "Frame", "JobError", "Loop", "Plan", "Scene", "SceneError", "SceneWarning", "Simulator",
+           "Table", "__version__", "compare", "dials", "heart", "open", "plan", "render", "study"]

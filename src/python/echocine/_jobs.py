@@ -1,0 +1,184 @@
+"""Plans, studies and comparisons, as the commands make them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import tempfile
+from pathlib import Path
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _echocine
+from ._loop import Loop, render
+from ._progress import Progress, report_to
+from ._scene import Scene
+
+PathLike = Union[str, "os.PathLike[str]"]
+
+
+def _scene(scene: Any) -> _echocine.Scene:
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene: is {type(scene).__name__}, accepted: an echocine.Scene")
+    return scene._native
+
+
+class Plan:
+    """What a loop needs, why, and what it takes.
+
+    Attributes:
+        effects: one dict per effect: name, on, reason, and time_share, its part of a frame's time, 0 to 1.
+        seconds: estimated for the whole loop, s.
+        memory_bytes: most memory while rendering, bytes.
+        frames: of the loop.
+        details: all of it, as ``echocine plan --json`` prints it.
+    """
+
+    def __init__(self, details: Dict[str, Any]) -> None:
+        self.details = details
+        self.effects: List[Dict[str, Any]] = details["effects"]
+        self.seconds: float = details["seconds"]
+        self.memory_bytes: float = details["memory_bytes"]
+        self.frames: int = details["frames"]
+
+    def _rows(self) -> List[List[str]]:
+        rows = []
+        for e in self.effects:
+            share = f"{100 * e.get('time_share', 0):.0f} %" if e["on"] else ""
+            rows.append([str(e["name"]), "on" if e["on"] else "off", share, str(e["reason"])])
+        return rows
+
+    def __repr__(self) -> str:
+        lines = [f"{name:<24} {on:<4} {share:>5}  {why}" for name, on, share, why in self._rows()]
+        lines.append(f"{self.seconds:.1f} s for {self.frames} frames, {self.memory_bytes * 1e-6:.0f} MB")
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        from ._notebook import table_html
+        caption = f"{self.seconds:.1f} s for {self.frames} frames, {self.memory_bytes * 1e-6:.0f} MB"
+        return table_html(["effect", "", "time", "why"], self._rows(), caption)
+
+
+def plan(scene: Scene, *, threads: int = 0, progress: Progress = None) -> Plan:
+    """Which effects a scene's loop needs and why, and how long it takes, from rendering a few frames."""
+    return Plan(json.loads(_echocine.plan(_scene(scene), threads, report_to(progress))))
+
+
+def study(scene: Scene, folder: Optional[PathLike] = None, *, frames: int = 4, repeats: int = 3, knobs: Sequence[str] = (),
+          budget_s: Optional[float] = None, threads: int = 1, progress: Progress = None) -> Dict[str, Any]:
+    """What each accuracy knob costs in ms and leaves in dB and mm, as ``echocine study`` measures it.
+
+    Args:
+        scene: what is measured.
+        folder: for study.html, study.csv and study.json; None: no files.
+        frames: frames that are compared and timed, 1 to 1000.
+        repeats: rounds over all settings; times are medians over them.
+        knobs: only these; all if left out.
+        budget_s: begin nothing later than this many seconds after the start.
+        threads: frames in the making at once while they are timed; 0: one per core.
+        progress: None, True, a function (done, total), or a bar as tqdm makes them.
+
+    Returns study.json as a dict; "rows" has the measurements.
+    """
+    for name, value in (("frames", frames), ("repeats", repeats)):
+        if not 1 <= value <= 1000:
+            raise ValueError(f"{name}: is {value}, accepted: 1 to 1000")
+    path = None if folder is None else Path(folder)
+    result: Dict[str, Any] = json.loads(
+        _echocine.study(_scene(scene), path, frames, repeats, list(knobs), budget_s, threads, report_to(progress)))
+    return result
+
+
+class Comparison:
+    """A synthetic loop against a real one.
+
+    Attributes:
+        discrepancy: 0 equal, about 1 unrelated; the mean over the frames that count.
+        summary: every estimate and mean, as in summary.json.
+        frames: one dict per real frame, as in frames.csv, numbers as floats.
+    """
+
+    def __init__(self, summary: Dict[str, Any], frames: List[Dict[str, Any]]) -> None:
+        self.summary, self.frames = summary, frames
+        self.discrepancy: float = summary["discrepancy"]
+
+    def __repr__(self) -> str:
+        return f"<echocine.Comparison: discrepancy {self.discrepancy:.4f} over {len(self.frames)} frames>"
+
+
+def _number(text: str) -> Any:
+    try:
+        return float(text)
+    except ValueError:
+        return text or None
+
+
+def compare(synthetic: Union[Loop, PathLike], real: PathLike, folder: Optional[PathLike] = None, *,
+            real_side: Optional[Mapping[str, Any]] = None, synthetic_side: Optional[Mapping[str, Any]] = None,
+            align_space: bool = True, scene: Optional[PathLike] = None, threads: int = 0, progress: Progress = None) -> Comparison:
+    """Compares a loop with an echo video, frame by frame, as ``echocine compare`` does.
+
+    Args:
+        synthetic: a loop, a render's folder, or a video. A loop in memory is rendered into a folder that is removed.
+        real: AVI, MP4, GIF, DICOM, or a folder of PNG or JPEG frames.
+        folder: for compare.html, frames.csv and pictures; None: no files.
+        real_side, synthetic_side: what is known better than the files tell: fps (1/s), mm_per_pixel, pixel_aspect,
+            heart_rate_bpm, sector, ed_frame, es_frame, r_waves_s.
+        align_space: shift, scale and turn one sector onto the other.
+        scene: file of the scene of the render: metrics in bands about its boundaries.
+        threads: 0: one per core.
+        progress: None, True, a function (done, total), or a bar as tqdm makes them.
+    """
+    with tempfile.TemporaryDirectory(prefix="echocine-") as spare:
+        source = _as_files(synthetic, Path(spare) / "loop", threads)
+        summary, frames = _echocine.compare(source, Path(real), None if folder is None else Path(folder), dict(real_side or {}),
+                                            dict(synthetic_side or {}), align_space, None if scene is None else Path(scene),
+                                            threads, report_to(progress))
+    rows = [{k: _number(v) for k, v in row.items()} for row in csv.DictReader(io.StringIO(frames))]
+    return Comparison(json.loads(summary), rows)
+
+
+def _as_files(loop: Union[Loop, PathLike], spare: Path, threads: int) -> Path:
+    if not isinstance(loop, Loop):
+        return Path(loop)
+    if loop.folder is not None:
+        return loop.folder
+    if loop.scene is None:
+        raise ValueError("synthetic: the loop has no scene, accepted: a loop of render or a folder")
+    lossless = loop.scene.copy()
+    lossless.update({"output.codec": "ffv1", "output.exr": True, "output.report": False,
+                     "output.channels": sorted({*lossless["output.channels"], "display.Y"} if lossless["output.channels"] else
+                                               {"Y", "display.Y"})})
+    render(lossless, spare, threads=threads)
+    return spare
+
+
+class Discrepancy:
+    """One number for optimisers: how far a frame's greys are from a real frame. Built once from the real loop.
+
+    Args:
+        real: AVI, MP4, GIF, DICOM, or a folder of frames.
+        scene: its probe says which lines and depths greys have.
+        side: what is known better than the file tells, as for `compare`.
+    """
+
+    def __init__(self, real: PathLike, scene: Scene, side: Optional[Mapping[str, Any]] = None) -> None:
+        self._native = _echocine.Discrepancy(Path(real), _scene(scene), dict(side or {}))
+
+    def __call__(self, frame: int, greys: NDArray[np.float32]) -> float:
+        """0 equal, about 1 unrelated, up to 2: greys (depth, line), 0 to 1, against a real frame, from 0. Thread-safe."""
+        return self._native(frame, greys)
+
+    @property
+    def real_frames(self) -> int:
+        """Frames of the real loop."""
+        return self._native.real_frames
+
+    @property
+    def share_in_sight(self) -> float:
+        """Share of the sector that both show, 0 to 1."""
+        return self._native.share_in_sight

@@ -1,0 +1,87 @@
+// Files of a render's folder as arrays.
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "core/error.h"
+#include "output/exr_plane.h"
+#include "output/exr_stack.h"
+#include "python/arrays.h"
+#include "python/bindings.h"
+#include "python/job.h"
+#include "video/read_video.h"
+
+namespace echocine::python {
+
+namespace {
+
+using Path = std::filesystem::path;
+
+Channel channelFrom(const std::string& name) {
+  std::string accepted;
+  const auto look = [&](const auto& channels) -> std::optional<Channel> {
+    for (const Channel c : channels) {
+      if (channelName(c) == name) return c;
+      accepted += fmt::format("{}{}", accepted.empty() ? "" : ", ", channelName(c));
+    }
+    return std::nullopt;
+  };
+  if (const auto found = look(kAllChannels)) return *found;
+  if (const auto found = look(kTruthChannels)) return *found;
+  throw SceneError(fmt::format("channel: \"{}\" is no channel, accepted: {}", name, accepted));
+}
+
+// Moves a vector into an array of its own.
+template <typename T>
+py::array arrayOf(std::vector<T> values, const std::vector<py::ssize_t>& shape) {
+  auto* kept = new std::vector<T>(std::move(values));
+  const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<T>*>(p); });
+  return viewOf(kept->data(), shape, owner);
+}
+
+// (depth, line)
+template <typename T>
+py::array planeOf(std::optional<std::vector<T>> values, const ExrPlaneWanted& wanted, const Path& file) {
+  if (!values)
+    throw JobError(fmt::format("{}: is absent, damaged, of another scene, or has no channel {}", file.string(),
+                               channelName(wanted.channel)));
+  return arrayOf(std::move(*values), {wanted.lines, wanted.samples}).attr("T");
+}
+
+// Any scale of half floats undone.
+py::array readExr(const Path& folder, int frame, const std::string& channel, const std::string& sha256,
+                  int lines, int samples) {
+  const ExrPlaneWanted wanted{channelFrom(channel), sha256, frame, lines, samples};
+  const Path file = folder / ExrStack::fileName(frame);
+  std::optional<std::vector<float>> values;
+  std::optional<std::vector<std::uint32_t>> ids;
+  {
+    const py::gil_scoped_release released;
+    if (isLabel(wanted.channel))
+      ids = readExrIds(file, wanted);
+    else
+      values = readExrPlane(file, wanted);
+  }
+  return isLabel(wanted.channel) ? planeOf(std::move(ids), wanted, file)
+                                 : planeOf(std::move(values), wanted, file);
+}
+
+py::array readFrames(const Path& path) {
+  Video video;
+  runJob(py::none(), [&](const Monitor&) { video = readVideo(path); });
+  std::vector<std::uint8_t> pixels;
+  for (const PixelPlane& frame : video.frames) pixels.insert(pixels.end(), frame.begin(), frame.end());
+  return arrayOf(std::move(pixels), {video.frameCount(), video.height, video.width});
+}
+
+}  // namespace
+
+void bindFiles(py::module_& module) {
+  module.def("read_exr", &readExr, py::arg("folder"), py::arg("frame"), py::arg("channel"),
+             py::arg("scene_sha256"), py::arg("lines"), py::arg("samples"),
+             "One channel of an intensity EXR, (depth, line) float32 or uint32.");
+  module.def("read_video", &readFrames, py::arg("path"), "(T, H, W) uint8 greys of a video.");
+}
+
+}  // namespace echocine::python

@@ -1,0 +1,37 @@
+#pragma once
+// A frame as Python holds it.
+
+#include <pybind11/numpy.h>
+
+#include <atomic>
+#include <vector>
+
+#include "python/bindings.h"
+#include "simulate/simulator.h"
+
+namespace echocine::python {
+
+// Its memory stays where it is while it lives: arrays are views of it, also after it was filled
+// again.
+struct NativeFrame {
+  Frame frame;
+  int width = 0, height = 0;  // of its picture and labels, pixels
+  std::atomic<bool> busy{false};  // being filled
+};
+
+// Into `to`'s own memory, which has the same planes: both are of one simulator. Contours are new.
+void copyInPlace(const Frame& from, Frame& to);
+
+// Into arrays by name: "intensities", "greys", "image", "labels". Throws as checkedOut() does, and
+// ValueError for other names and for what the scene does not make.
+struct OutArray {
+  std::string name;
+  py::array array;
+};
+std::vector<OutArray> checkedOutArrays(const py::dict& given, const Scene& scene);
+void copyInto(const Frame& frame, const std::vector<OutArray>& out);
+
+// Contours of a frame as a list of dicts: structure, closed, points_mm (n, 2): lateral and depth.
+py::list contoursOf(const std::vector<Contour>& contours, const Scene& scene);
+
+}  // namespace echocine::python

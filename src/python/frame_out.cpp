@@ -1,0 +1,126 @@
+// Frames into memory that is there already.
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "python/arrays.h"
+#include "python/frame.h"
+
+namespace echocine::python {
+
+namespace {
+
+// Memory that arrays may be views of stays where it is.
+template <typename T>
+void copyPlane(const std::vector<T>& from, std::vector<T>& to) {
+  if (from.size() == to.size())
+    std::copy(from.begin(), from.end(), to.begin());
+  else
+    throw JobError("out: the frame is of another scene, accepted: a frame of this simulator");
+}
+
+void copyTruth(const FrameTruth& from, FrameTruth& to) {
+  copyPlane(from.labels, to.labels);
+  copyPlane(from.sample_ids, to.sample_ids);
+  for (std::size_t i = 0; i < 3; ++i) {
+    copyPlane(from.motion.displacement_mm[i], to.motion.displacement_mm[i]);
+    copyPlane(from.motion.velocity_mm_s[i], to.motion.velocity_mm_s[i]);
+  }
+  copyPlane(from.tracks_m, to.tracks_m);
+  to.contours = from.contours;
+  to.function = from.function;
+}
+
+template <typename T>
+void copyTransposed(const std::vector<T>& line_major, const py::array& to) {
+  auto* const base = static_cast<char*>(const_cast<void*>(to.data()));
+  const py::ssize_t samples = to.shape(0), lines = to.shape(1);
+  for (py::ssize_t i = 0; i < lines; ++i)
+    for (py::ssize_t k = 0; k < samples; ++k)
+      std::memcpy(base + k * to.strides(0) + i * to.strides(1),
+                  &line_major[static_cast<std::size_t>(i * samples + k)], sizeof(T));
+}
+
+void copyPicture(const std::vector<std::uint8_t>& pixels, const py::array& to) {
+  auto* const base = static_cast<char*>(const_cast<void*>(to.data()));
+  for (py::ssize_t y = 0; y < to.shape(0); ++y)
+    for (py::ssize_t x = 0; x < to.shape(1); ++x)
+      std::memcpy(base + y * to.strides(0) + x * to.strides(1),
+                  &pixels[static_cast<std::size_t>(y * to.shape(1) + x)], 1);
+}
+
+bool isMade(const std::string& name, const Scene& scene) {
+  if (name == "intensities")
+    return std::count(scene.output.channels.begin(), scene.output.channels.end(), Channel::y) > 0;
+  if (name == "labels") return scene.truth.labels;
+  return wantsPicture(scene) && (name == "greys" || scene.output.cine || scene.output.png);
+}
+
+}  // namespace
+
+void copyInPlace(const Frame& from, Frame& to) {
+  if (from.channels.size() != to.channels.size() || from.truth.has_value() != to.truth.has_value())
+    throw JobError("out: the frame is of another scene, accepted: a frame of this simulator");
+  to.time = from.time;
+  to.volumes_ml = from.volumes_ml;
+  copyPlane(from.intensities.values, to.intensities.values);
+  copyPlane(from.greys.values, to.greys.values);
+  copyPlane(from.image.pixels, to.image.pixels);
+  for (const auto& [channel, values] : from.channels) copyPlane(values, to.channels[channel]);
+  copyPlane(from.medium, to.medium);
+  if (from.truth) copyTruth(*from.truth, *to.truth);
+}
+
+std::vector<OutArray> checkedOutArrays(const py::dict& given, const Scene& scene) {
+  const std::vector<py::ssize_t> polar{scene.probe.samples, scene.probe.lines},
+      picture{scene.output.height, scene.output.width};
+  std::vector<OutArray> arrays;
+  for (const auto& [key, value] : given) {
+    const auto name = py::str(key).cast<std::string>();
+    const bool is_polar = name == "intensities" || name == "greys";
+    if (!is_polar && name != "image" && name != "labels")
+      throw py::value_error(fmt::format(
+          "out: \"{}\" is not known, accepted: \"intensities\", \"greys\", \"image\", \"labels\"", name));
+    if (!isMade(name, scene))
+      throw py::value_error(fmt::format("out[\"{}\"]: the scene does not ask for it", name));
+    const auto array = checkedOut(fmt::format("out[\"{}\"]", name), py::reinterpret_borrow<py::object>(value),
+                                  is_polar ? py::dtype::of<float>() : py::dtype::of<std::uint8_t>(),
+                                  is_polar ? polar : picture);
+    arrays.push_back({name, array});
+  }
+  return arrays;
+}
+
+void copyInto(const Frame& frame, const std::vector<OutArray>& out) {
+  for (const OutArray& one : out) {
+    if (one.name == "intensities")
+      copyTransposed(frame.channels.at(Channel::y), one.array);
+    else if (one.name == "greys")
+      copyTransposed(frame.greys.values, one.array);
+    else
+      copyPicture(one.name == "image" ? frame.image.pixels : frame.truth->labels, one.array);
+  }
+}
+
+py::list contoursOf(const std::vector<Contour>& contours, const Scene& scene) {
+  py::list list;
+  for (const Contour& contour : contours) {
+    py::array_t<double> points({static_cast<py::ssize_t>(contour.points_m.size()), py::ssize_t{2}});
+    auto at = points.mutable_unchecked<2>();
+    for (py::ssize_t i = 0; i < at.shape(0); ++i) {
+      at(i, 0) = 1e3 * contour.points_m[static_cast<std::size_t>(i)].x;
+      at(i, 1) = 1e3 * contour.points_m[static_cast<std::size_t>(i)].z;
+    }
+    py::dict entry;
+    entry["structure"] = scene.structures[index(contour.surface)].name;
+    entry["closed"] = contour.closed;
+    entry["points_mm"] = points;
+    list.append(entry);
+  }
+  return list;
+}
+
+}  // namespace echocine::python

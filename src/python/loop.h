@@ -1,0 +1,39 @@
+#pragma once
+// A loop in memory: every frame's planes one after the other, so that NumPy sees the whole.
+
+#include <array>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/monitor.h"
+#include "motion/cycle/cardiac_clock.h"
+#include "simulate/simulator.h"
+
+namespace echocine::python {
+
+struct LoopArrays {
+  Scene scene;
+  int frames = 0, lines = 0, samples = 0, width = 0, height = 0;
+  std::vector<FrameTime> times;
+  std::map<Channel, std::vector<float>> planes;       // T x lines x samples
+  std::map<Channel, std::vector<std::uint32_t>> ids;  // the same of whole numbers
+  std::vector<float> greys;                           // T x lines x samples
+  std::vector<std::uint8_t> images, labels;           // T x height x width
+  // T x 3 x lines x samples: lateral, axial, elevation; mm and mm/s.
+  std::vector<float> displacement_mm, velocity_mm_s;
+  std::vector<float> tracks_mm;                        // T x N x 3: lateral, elevation, depth
+  std::vector<std::uint8_t> track_layer, track_segment;  // N
+  std::vector<std::pair<std::string, std::vector<double>>> volumes_ml;  // structure -> T
+  std::vector<FunctionFrame> function;                                  // T, where asked for
+  std::vector<std::vector<Contour>> contours;                           // T, where asked for
+  double reference_intensity = 1;
+};
+
+// Frames first up to, without, last, as many at once as the threads allow. The same values as
+// renderLoop() writes. Throws SceneError, JobError; a JobError when the monitor says no.
+LoopArrays renderArrays(const Scene& scene, std::pair<int, int> range, int threads,
+                        const Monitor& monitor);
+
+}  // namespace echocine::python

@@ -1,0 +1,21 @@
+// import echocine._echocine: scenes, frames, loops and comparisons as arrays.
+
+#include "python/bindings.h"
+#include "python/fork_guard.h"
+
+PYBIND11_MODULE(_echocine, module) {
+  using namespace echocine::python;
+  module.doc() = "The compiled part of echocine; use the package's own names.";
+  module.attr("__version__") = ECHOCINE_VERSION;
+  watchForks();
+  bindErrors(module);
+  bindMeshes(module);
+  bindScene(module);
+  bindFrame(module);
+  bindSimulator(module);
+  bindLoop(module);
+  bindRender(module);
+  bindPlan(module);
+  bindCompare(module);
+  bindFiles(module);
+}

@@ -1,0 +1,81 @@
+// The commands plan and study as calls; JSON texts come back, as the commands write them.
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "python/bindings.h"
+#include "python/job.h"
+#include "python/scene.h"
+#include "render/estimate.h"
+#include "study/study.h"
+#include "study/study_files.h"
+#include "study/study_page.h"
+
+namespace echocine::python {
+
+namespace {
+
+std::string plan(const NativeScene& scene, int threads, const py::object& progress) {
+  nlohmann::ordered_json json;
+  runJob(progress, [&](const Monitor& monitor) {
+    const Estimate estimate = estimateLoop(scene.scene, threads, monitor);
+    json = planJson(estimate.measured.plan);
+    json["effects"] = effectsJson(estimate.measured);
+    json["warnings"] = estimate.measured.warnings;
+    json["frames"] = estimate.frames;
+    json["seconds"] = estimate.seconds;
+    json["memory_bytes"] = estimate.memory_bytes;
+    json["timings_ms_per_frame"] = stageTimesJson(estimate.measured);
+  });
+  return json.dump();
+}
+
+void refuseUnknown(const std::vector<std::string>& knobs) {
+  const std::vector<std::string> known = knobNames();
+  for (const std::string& knob : knobs)
+    if (std::find(known.begin(), known.end(), knob) == known.end())
+      throw SceneError(
+          fmt::format("knobs: \"{}\" is not a knob, accepted: {}", knob, fmt::join(known, ", ")));
+}
+
+std::string study(const NativeScene& scene, const std::optional<std::filesystem::path>& folder, int frames,
+                  int repeats, const std::vector<std::string>& knobs, std::optional<double> budget_s,
+                  int threads, const py::object& progress) {
+  refuseUnknown(knobs);
+  StudyOptions options;
+  options.threads = threads;
+  options.frames = frames;
+  options.repeats = repeats;
+  options.knobs = knobs;
+  if (folder) options.folder = *folder;
+  if (budget_s) options.budget_s = *budget_s;
+  const auto write = [&](const StudyResult& result) {
+    if (!folder) return;
+    writeStudyFiles(result, *folder);
+    writeStudyPage(result, *folder / "study.html");
+  };
+  std::string json;
+  runJob(progress, [&](const Monitor& monitor) {
+    const StudyResult result = runStudy(scene.scene, options, monitor, write);
+    if (result.rows.empty()) throw JobError("stopped before the first setting was measured");
+    write(result);
+    json = studyJson(result).dump();
+  });
+  return json;
+}
+
+}  // namespace
+
+void bindPlan(py::module_& module) {
+  module.def("plan", &plan, py::arg("scene"), py::arg("threads"), py::arg("progress").none(true),
+             "What a loop needs, why, and what it takes, as JSON.");
+  module.def("study", &study, py::arg("scene"), py::arg("folder").none(true), py::arg("frames"),
+             py::arg("repeats"), py::arg("knobs"), py::arg("budget_s").none(true), py::arg("threads"),
+             py::arg("progress").none(true), "What accuracy costs in time, as JSON.");
+}
+
+}  // namespace echocine::python

@@ -1,0 +1,41 @@
+// The command render as a call: a loop into a folder.
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "core/error.h"
+#include "python/bindings.h"
+#include "python/job.h"
+#include "python/scene.h"
+#include "render/render.h"
+
+namespace echocine::python {
+
+namespace {
+
+void renderToFolder(const NativeScene& scene, const std::filesystem::path& folder,
+                    const std::optional<std::pair<int, int>>& frames, int threads, bool resume,
+                    bool overwrite, const py::object& progress) {
+  const RenderOptions options{.folder = folder,
+                              .threads = threads,
+                              .frames = frames,
+                              .resume = resume,
+                              .overwrite = overwrite};
+  runJob(progress, [&](const Monitor& monitor) {
+    const RenderSummary summary = renderLoop(scene.scene, options, monitor);
+    if (summary.frames_done < summary.frames_wanted)
+      throw JobError(fmt::format("stopped: {} of {} frames are finished in {}; resume=True goes on from there",
+                                 summary.frames_done, summary.frames_wanted, folder.string()));
+  });
+}
+
+}  // namespace
+
+void bindRender(py::module_& module) {
+  module.def("render_to_folder", &renderToFolder, py::arg("scene"), py::arg("folder"),
+             py::arg("frames").none(true), py::arg("threads"), py::arg("resume"), py::arg("overwrite"),
+             py::arg("progress").none(true), "A loop as files.");
+}
+
+}  // namespace echocine::python

@@ -1,0 +1,17 @@
+#pragma once
+// A scene as Python holds it: what the one reader made of a text.
+
+#include <map>
+#include <string>
+
+#include "scene/key_log.h"
+#include "scene/scene.h"
+
+namespace echocine::python {
+
+struct NativeScene {
+  Scene scene;
+  std::map<std::string, KeyDefault> absent;  // keys that the text leaves out
+};
+
+}  // namespace echocine::python

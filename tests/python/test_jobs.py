@@ -1,0 +1,119 @@
+"""Progress, stops, plans, studies and comparisons."""
+
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import echocine
+from conftest import ball_scene
+
+
+def test_progress_by_a_function(scene):
+    seen = []
+    echocine.render(scene, progress=lambda done, total: seen.append((done, total)))
+    assert seen[-1][0] == seen[-1][1] == scene.frame_count
+
+
+class Bar:
+    """As tqdm has it."""
+
+    def __init__(self):
+        self.n, self.total = 0, None
+
+    def update(self, n):
+        self.n += n
+
+    def reset(self, total=None):
+        self.n = 0
+
+
+def test_progress_by_a_bar(scene):
+    bar = Bar()
+    echocine.render(scene, progress=bar)
+    assert bar.n == bar.total == scene.frame_count
+
+
+def test_what_progress_raises_ends_the_job(scene):
+    def refuse(done, total):
+        raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        echocine.render(scene, progress=refuse)
+    with pytest.raises(TypeError, match="progress"):
+        echocine.render(scene, progress=3)
+
+
+def test_an_interrupt_stops_the_job(tmp_path):
+    long = ball_scene(**{"acquisition.frame_rate_hz": 2000.0, "acquisition.beats": 20.0})
+    begun = threading.Event()
+    sent = []
+
+    def interrupt():
+        begun.wait(30)
+        sent.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            echocine.render(long, progress=lambda done, total: begun.set())
+        assert time.monotonic() - sent[0] < 10  # a loop of 37,000 frames takes longer
+    finally:
+        begun.set()
+        thread.join()
+
+
+def test_plan(scene):
+    plan = echocine.plan(scene)
+    assert plan.frames == scene.frame_count and plan.seconds > 0 and plan.memory_bytes > 0
+    assert {e["name"] for e in plan.effects} >= {"reflection", "attenuation"}
+    assert "reflection" in repr(plan) and "<table>" in plan._repr_html_()
+
+
+def test_study(scene, tmp_path):
+    result = echocine.study(scene, tmp_path / "study", frames=1, repeats=1, knobs=["lines"])
+    assert result["rows"] and (tmp_path / "study" / "study.html").exists()
+    with pytest.raises(echocine.SceneError, match="\"linse\" is not a knob, accepted"):
+        echocine.study(scene, knobs=["linse"])
+
+
+def test_compare_and_discrepancy_with_itself(heart, tmp_path):
+    heart.update({"output.channels": ["Y", "display.Y"], "output.width": 400, "output.height": 300, "probe.lines": 64,
+                  "probe.samples": 128})
+    loop = echocine.render(heart, tmp_path / "loop")
+    itself = echocine.compare(loop, tmp_path / "loop" / "cine.avi", tmp_path / "comparison",
+                              real_side={"fps": 10.0}, align_space=False)
+    assert itself.discrepancy < 0.2 and (tmp_path / "comparison" / "summary.json").exists()
+    distance = echocine.Discrepancy(tmp_path / "loop", heart)
+    assert distance.real_frames == len(loop)
+    near, far = distance(0, loop.greys[0]), distance(0, loop.greys[len(loop) // 2])
+    assert near < 0.05 < far
+    with pytest.raises(ValueError, match="greys: is"):
+        distance(0, loop.greys[0].T)
+    with pytest.raises(IndexError, match="frame: is 99"):
+        distance(99, loop.greys[0])
+    with pytest.raises(ValueError, match="nan"):
+        distance(0, np.full_like(loop.greys[0], np.nan))
+    with pytest.raises(ValueError, match="sid: |not known, accepted"):
+        echocine.compare(loop, tmp_path, real_side={"sid": 1})
+
+
+def test_warnings_are_python_warnings(recwarn):
+    scene = ball_scene()
+    for line in scene.warnings:
+        assert isinstance(line, str)
+    echocine.render(scene, frames=(0, 1))
+    issued = [str(w.message) for w in recwarn.list if issubclass(w.category, echocine.SceneWarning)]
+    assert all(line in issued for line in scene.warnings)
+
+
+def test_notebook(scene):
+    loop = echocine.render(scene, frames=(0, 3))
+    player = loop._repr_html_()
+    assert player.count("data:image/png;base64,") == 3 and "http" not in player
+    assert scene._repr_html_().count("<path") == 2  # the sector and the ball

@@ -1,0 +1,146 @@
+"""Loops in memory, in folders, and as the program makes them."""
+
+import subprocess
+
+import numpy as np
+import pytest
+
+import echocine
+
+
+@pytest.fixture(scope="module")
+def pair(recorded, program, tmp_path_factory):
+    """The same loop in memory, by the program, and into a folder."""
+    folder = tmp_path_factory.mktemp("loops")
+    scene = recorded.copy()
+    scene.update({"output.channels": ["Y", "display.Y", "structure.id", "displacement.lateral", "displacement.axial",
+                                      "displacement.elevation"], "truth.write": ["all"], "truth.tracks": 50})
+    written = folder / "heart"
+    assert subprocess.run([program, "heart", "--ef", "0.5", "--keyframes", "6", "-o", written, "--quiet"]).returncode == 0
+    (written / "scene.toml").write_text(scene.text)
+    assert subprocess.run([program, "render", written / "scene.toml", "-o", folder / "loop", "--quiet"]).returncode == 0
+    return echocine.render(scene), echocine.open(folder / "loop")
+
+
+def test_intensities_and_greys_are_the_programs_bytes(pair):
+    memory, folder = pair
+    assert memory.intensities.shape == (len(memory), 64, 24) and memory.intensities.dtype == np.float32
+    assert memory.intensities.tobytes() == folder.intensities.tobytes()
+    assert memory.greys.tobytes() == folder.greys.tobytes()
+    assert memory.reference_intensity == folder.reference_intensity
+
+
+def test_images_are_those_of_the_cine(pair):
+    memory, folder = pair
+    assert memory.images.shape == (len(memory), 90, 120)
+    assert np.array_equal(memory.images, folder.images)
+
+
+def test_truth_is_the_same(pair):
+    memory, folder = pair
+    assert np.array_equal(memory.labels, folder.labels) and memory.labels.max() > 3
+    assert np.array_equal(memory.tracks, folder.tracks)
+    assert np.allclose(memory.strain, folder.strain, atol=1e-12, equal_nan=True)
+    assert np.allclose(memory.times_s, folder.times_s) and np.allclose(memory.phases, folder.phases)
+    assert list(memory.volumes) == list(folder.volumes)
+    for name, ml in memory.volumes.items():
+        assert np.allclose(ml, folder.volumes[name])
+    for name, values in memory.curves.items():
+        assert np.allclose(values, folder.curves[name], equal_nan=True)
+    assert memory.displacement.shape == (len(memory), 3, 64, 24)
+    for ours, theirs in zip(memory.contours, folder.contours):
+        assert [c["structure"] for c in ours] == [c["structure"] for c in theirs]
+        assert np.allclose(ours[0]["points_mm"], theirs[0]["points_mm"], atol=1e-3)
+
+
+def test_displacement_comes_back_from_files(pair):
+    memory, folder = pair
+    assert np.array_equal(memory.displacement, folder.displacement, equal_nan=True)
+    assert np.nanmax(np.abs(memory.displacement)) > 1 and np.isnan(memory.displacement).any()
+    assert np.array_equal(memory.channel("structure.id"), folder.channel("structure.id"))
+
+
+def test_views(pair):
+    memory, _ = pair
+    for name in ("intensities", "greys", "images", "labels", "displacement", "tracks"):
+        assert np.shares_memory(getattr(memory, name), getattr(memory, name)), name
+    assert memory.greys[0].strides == (4, 256)
+
+
+def test_a_frame_is_the_loops(pair):
+    memory, _ = pair
+    scene = memory.scene.copy()
+    scene.update({"truth.write": ["labels"], "output.channels": ["Y"], "truth.tracks": None})
+    frame = echocine.Simulator(scene).frame(memory.times_s[2])
+    assert np.array_equal(frame.greys, memory.greys[2]) and np.array_equal(frame.image, memory.images[2])
+    assert np.array_equal(frame.intensities, memory.intensities[2]) and np.array_equal(frame.labels, memory.labels[2])
+
+
+def test_threads_change_nothing(scene):
+    assert echocine.render(scene, threads=1).greys.tobytes() == echocine.render(scene, threads=2).greys.tobytes()
+
+
+def test_truth_is_asked_for_by_name(scene):
+    loop = echocine.render(scene, truth=["labels", "contours"], frames=(0, 2))
+    assert len(loop) == 2 and loop.labels.shape == (2, 90, 120) and len(loop.contours) == 2
+    assert scene["truth.write"] is None  # the scene itself is as it was
+    with pytest.raises(ValueError, match="tracks.*truth"):
+        loop.tracks
+    with pytest.raises(echocine.SceneError, match="no kind of truth, accepted"):
+        echocine.render(scene, truth="depth")
+
+
+def test_volumes_are_those_of_the_meshes(scene):
+    points, faces = scene.mesh("ball")
+    a, b, c = (points[:, faces[:, k]] - points.mean(axis=1, keepdims=True) for k in range(3))
+    ml = np.einsum("kfi,kfi->k", a, np.cross(b, c)) / 6 * 1e-3
+    volumes = echocine.render(scene).volumes["ball"]
+    assert volumes.max() == pytest.approx(ml.max(), rel=1e-6) and ml.min() * 0.999 <= volumes.min()
+
+
+def test_a_closed_loop(scene):
+    with echocine.render(scene, frames=(0, 2)) as loop:
+        greys = loop.greys
+        before = greys.copy()
+    with pytest.raises(ValueError, match="closed"):
+        loop.greys
+    assert np.array_equal(greys, before) and "closed" in repr(loop)
+
+
+def test_ranges_and_threads_are_checked(scene):
+    for frames in ((3, 3), (-1, 2), (0, 999)):
+        with pytest.raises(echocine.SceneError, match="frames.*accepted"):
+            echocine.render(scene, frames=frames)
+    with pytest.raises(ValueError, match="threads"):
+        echocine.render(scene, threads=-1)
+    with pytest.raises(TypeError, match="scene: is str"):
+        echocine.render("scene.toml")
+
+
+def test_folders_that_are_none(tmp_path, scene):
+    with pytest.raises(echocine.SceneError, match="manifest.json.*accepted"):
+        echocine.open(tmp_path)
+    (tmp_path / "manifest.json").write_text("{}")
+    with pytest.raises(echocine.SceneError, match="damaged"):
+        echocine.open(tmp_path)
+    blocked = tmp_path / "file"
+    blocked.write_text("")
+    with pytest.raises(echocine.JobError):
+        echocine.render(scene, blocked)
+
+
+def test_half_floats_come_back_unscaled(scene, tmp_path):
+    scene.output.exr_pixel = "half"
+    stored = echocine.render(scene, tmp_path / "half").intensities
+    exact = echocine.render(scene).intensities
+    bright = exact > exact.max() * 1e-6
+    assert np.allclose(stored[bright], exact[bright], rtol=2**-10)
+
+
+def test_missing_and_damaged_files(scene, tmp_path):
+    loop = echocine.render(scene, tmp_path / "loop")
+    (tmp_path / "loop" / "intensity" / "frame_0001.exr").write_bytes(b"none")
+    with pytest.raises(echocine.JobError, match="frame_0001.exr"):
+        loop.intensities
+    with pytest.raises(ValueError, match="display.Y.*accepted: Y"):
+        loop.greys
