@@ -15,6 +15,7 @@
 #include "render/estimate.h"
 #include "scene/probe_pose.h"
 #include "scene/scene_reader.h"
+#include "scene/white_rule.h"
 #include "view/view_page.h"
 
 namespace echocine {
@@ -45,12 +46,13 @@ void printPose(const Scene& scene) {
     fmt::print("{}{}\n", head, line);
 }
 
-void printRest(const Estimate& estimate) {
+void printRest(const Scene& scene, const Estimate& estimate) {
   const LoopPlan& plan = estimate.measured.plan;
   for (const Omission& i : plan.interfaces)
     fmt::print("{:<24} {:<4} {:>5}  {}\n", i.name, "off", "", i.reason);
   fmt::print("\ntracer      {}: {}\n", plan.tracerName(), plan.tracer_reason);
   fmt::print("echoes      {}\n", plan.echo_reason);
+  fmt::print("white       {}\n", whiteWords(scene));
   fmt::print("triangles   {} given, {} in structures that stay, {} cut by the imaging plane\n",
              plan.triangles_given, plan.triangles_kept, plan.triangles_met);
   std::string stages;
@@ -67,6 +69,7 @@ void printJson(const Scene& scene, const Estimate& estimate) {
   nlohmann::ordered_json json = planJson(estimate.measured.plan);
   json["probe_toml"] = poseToml(scene);
   json["effects"] = effectsJson(estimate.measured);
+  json["white"] = whiteWords(scene);
   json["warnings"] = estimate.measured.warnings;
   json["frames"] = estimate.frames;
   json["seconds"] = estimate.seconds;
@@ -112,7 +115,7 @@ int PlanCommand::run() {
     printJson(scene, estimate);
   } else {
     printEffects(estimate.measured);
-    printRest(estimate);
+    printRest(scene, estimate);
     printPose(scene);
   }
   return 0;

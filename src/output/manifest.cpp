@@ -12,6 +12,7 @@
 #include "scene/role.h"
 #include "scene/scan_geometry.h"
 #include "scene/scene_json.h"
+#include "scene/white_rule.h"
 #include "signal/picture.h"
 
 namespace echocine {
@@ -215,6 +216,7 @@ void writeManifest(const std::filesystem::path& path, const Scene& scene,
                   {"accuracy", accuracyJson(manifest.accuracy)},
                   {"warnings", manifest.warnings},
                   {"reference_intensity", manifest.reference_intensity},
+                  {"white", whiteWords(scene)},
                   {"loop_frames", manifest.loop_frames},
                   {"picture", pictureJson(scene)},
                   {"left_ventricle", eventsJson(scene, manifest)},

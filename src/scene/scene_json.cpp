@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/names.h"
+#include "scene/white_rule.h"
 
 namespace echocine {
 
@@ -98,7 +99,9 @@ Json signalJson(const SignalSettings& s) {
           {"pulse_cycles", s.pulse_cycles},
           {"dynamic_range_db", s.dynamic_range_db},
           {"reference_intensity", optionalJson(s.reference_intensity)},
-          {"reference_percentile", s.reference_percentile},
+          // null: white goes by the heart's muscle
+          {"reference_percentile",
+           s.reference_percentile == kWhiteByMuscle ? Json() : Json(s.reference_percentile)},
           {"gain_db", s.gain_db},
           {"interface_gain_db", s.interface_gain_db},
           {"interface_limit_db", optionalJson(s.interface_limit_db)},
