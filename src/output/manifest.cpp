@@ -8,6 +8,7 @@
 #include "core/file.h"
 #include "core/units.h"
 #include "output/exr_stack.h"
+#include "scene/probe_pose.h"
 #include "scene/role.h"
 #include "scene/scan_geometry.h"
 #include "scene/scene_json.h"
@@ -208,6 +209,7 @@ void writeManifest(const std::filesystem::path& path, const Scene& scene,
   const Json json{{"version", ECHOCINE_VERSION},
                   {"scene_sha256", manifest.scene_sha256},
                   {"scene", sceneJson(scene)},
+                  {"probe_toml", poseToml(scene)},
                   {"media", mediaJson(scene)},
                   {"effects", effectsJson(manifest)},
                   {"plan", planJson(manifest.plan)},

@@ -216,6 +216,10 @@ Json sceneJson(const Scene& scene) {
         {"refraction_tolerance_beam_widths", scene.accuracy.refraction_tolerance_beam_widths}}},
       {"output", outputJson(scene.output)},
       {"truth", truthJson(scene.truth)}};
+  // Meshes that lie as their files have them are the same scene as before they could be moved.
+  if (scene.motion.mesh_scale != 1) json["motion"]["mesh_scale"] = scene.motion.mesh_scale;
+  if (const Vec3d m = scene.motion.mesh_offset_m; m != Vec3d{})
+    json["motion"]["mesh_offset_m"] = {m.x, m.y, m.z};
   // A picture without speckle is the same file as before there was any.
   if (scene.speckle.on) json["speckle"] = speckleJson(scene.speckle);
   json["artefacts"] = artefactsJson(scene.artefacts);

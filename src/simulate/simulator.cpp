@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "motion/probe_placement.h"
 #include "output/polar_plane.h"
 #include "output/truth_files.h"
 #include "signal/reference.h"
@@ -40,7 +41,7 @@ EchoCells echoCells(const LoopPlan& plan) {
 
 }  // namespace
 
-Simulator::Simulator(Scene scene) : Simulator(scene, std::make_shared<const MeshMotion>(scene)) {}
+Simulator::Simulator(Scene scene) : Simulator(placedWithMotion(std::move(scene))) {}
 
 Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion)
     : Simulator(scene, motion, planLoop(scene, *motion)) {}
