@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "cli/compare_command.h"
+#include "cli/dataset_command.h"
 #include "cli/heart_command.h"
 #include "cli/one_line.h"
 #include "cli/plan_command.h"
@@ -17,6 +18,7 @@
 #include "cli/self_description.h"
 #include "cli/standard_error.h"
 #include "cli/study_command.h"
+#include "cli/view_command.h"
 #include "core/error.h"
 #include "core/nearest_word.h"
 #include "core/out_of_memory.h"
@@ -79,10 +81,12 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough(false);
   echocine::RenderCommand render(app);
+  echocine::ViewCommand view(app);
   echocine::PlanCommand plan(app);
   echocine::StudyCommand study(app);
   echocine::HeartCommand heart(app);
   echocine::CompareCommand compare(app);
+  echocine::DatasetCommand dataset(app);
   try {
     // For the build alone, so not among what help lists: man pages and completions.
     if (argc == 3 && std::string_view(argv[1]) == "--describe-into") {
@@ -91,9 +95,11 @@ int run(int argc, char** argv) {
     }
     app.parse(argc, argv);
     const int code = app.got_subcommand("heart")     ? heart.run()
+                     : app.got_subcommand("view")    ? view.run()
                      : app.got_subcommand("plan")    ? plan.run()
                      : app.got_subcommand("study")   ? study.run()
                      : app.got_subcommand("compare") ? compare.run()
+                     : app.got_subcommand("dataset") ? dataset.run()
                                                      : render.run();
     // A plan piped into a full disk has failed, though all was computed.
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
