@@ -18,6 +18,7 @@
 #include "cli/self_description.h"
 #include "cli/standard_error.h"
 #include "cli/study_command.h"
+#include "cli/view_command.h"
 #include "core/error.h"
 #include "core/nearest_word.h"
 #include "core/out_of_memory.h"
@@ -80,6 +81,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough(false);
   echocine::RenderCommand render(app);
+  echocine::ViewCommand view(app);
   echocine::PlanCommand plan(app);
   echocine::StudyCommand study(app);
   echocine::HeartCommand heart(app);
@@ -93,6 +95,7 @@ int run(int argc, char** argv) {
     }
     app.parse(argc, argv);
     const int code = app.got_subcommand("heart")     ? heart.run()
+                     : app.got_subcommand("view")    ? view.run()
                      : app.got_subcommand("plan")    ? plan.run()
                      : app.got_subcommand("study")   ? study.run()
                      : app.got_subcommand("compare") ? compare.run()

@@ -1,6 +1,7 @@
 #pragma once
 // echocine plan SCENE.toml
 
+#include <filesystem>
 #include <string>
 
 #include "cli/accuracy_options.h"
@@ -19,6 +20,7 @@ class PlanCommand {
 
  private:
   std::string scene_file_;
+  std::filesystem::path page_;
   int threads_ = 0;
   bool json_ = false, quiet_ = false, interpolation_ = false;
   AccuracyOptions accuracy_;

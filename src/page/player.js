@@ -32,15 +32,16 @@ class FrameStore {
 }
 
 // A loop may have over: { images, draw(context, bitmap, k) }, which draws on top of its frames.
-// new Player(root, { loops: [{ label, images }], rate_hz, describe }): images as page.frames() gives
-// them, as many in each loop; rate_hz: images shown per second at speed 1; describe(k): text beside
-// the scrubber. Events: "frame" whenever another frame is on the canvases; detail.index is it.
+// new Player(root, { loops: [{ label, images }], count, rate_hz, describe }): images as page.frames()
+// gives them, as many in each loop; count: of frames, where there is no loop to tell it; rate_hz:
+// images shown per second at speed 1; describe(k): text beside the scrubber. Events: "frame"
+// whenever another frame is on the canvases; detail.index is it.
 class Player extends EventTarget {
   static kMemory_bytes = 256 << 20;
 
-  constructor(root, { loops, rate_hz, describe = () => "" }) {
+  constructor(root, { loops, count = 0, rate_hz, describe = () => "" }) {
     super();
-    this.count = Math.max(0, ...loops.map((loop) => loop.images.length));
+    this.count = Math.max(count, ...loops.map((loop) => loop.images.length));
     this.rate_hz = rate_hz;
     this.describe = describe;
     this.speed = 1;
@@ -48,6 +49,7 @@ class Player extends EventTarget {
     this.wanted = 0;
     this.busy = false;
     this.playing = false;
+    this.loops = [];
     const figures = loops.map((loop) => this.addLoop(loop, loops.length));
     root.append(page.element("div", { class: `loops of-${loops.length}` }, ...figures), this.controls());
     document.addEventListener("keydown", (event) => this.key(event));
@@ -59,7 +61,7 @@ class Player extends EventTarget {
     // 4 bytes a pixel; frames are taken for a megapixel until the first is seen.
     const store = new FrameStore(images, Player.kMemory_bytes / (4 << 20) / loops);
     const top = over && { draw: over.draw, store: new FrameStore(over.images, store.kept) };
-    (this.loops ??= []).push({ canvas, store, top, context: canvas.getContext("2d") });
+    this.loops.push({ canvas, store, top, context: canvas.getContext("2d") });
     return page.element("figure", { class: "loop" }, canvas, label && page.element("figcaption", {}, label));
   }
 

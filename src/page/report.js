@@ -8,6 +8,24 @@
   const x_range = [data.ecg.time_s[0], data.ecg.time_s.at(-1)];  // from the first frame to the end of the last
   const kDegrees = 180 / Math.PI, kDecibelPerNeper = 20 / Math.LN10;
 
+  // In step with the player, whose picture it carries on the imaging plane.
+  function showSpace(player) {
+    const root = byId("space"), has_pictures = page.frames("cine").length > 0;
+    let space = null, in_sight = false;
+    const show = () => {
+      if (!space || !in_sight) return;
+      space.showPhase(frames.phase[Math.max(0, player.index)]);
+      if (has_pictures && player.index >= 0) space.setPicture(player.loops[0].canvas);
+    };
+    player.addEventListener("frame", show);
+    // Made when it is first scrolled to, and drawn while it can be seen: the page opens as fast.
+    new IntersectionObserver((entries) => {
+      in_sight = entries.at(-1).isIntersecting;
+      if (in_sight && !space) page.parts.space = space = new HeartView(root, data.view);
+      show();
+    }).observe(root);
+  }
+
   function percent(share) { return `${fixed(100 * share, 1)} %`; }
 
   function showHead() {
@@ -217,6 +235,7 @@
   showVolumes(player);
   showToggles(player);
   showFunction(player);
+  showSpace(player);
   showEffects();
   showTimes();
   showProbe();

@@ -8,6 +8,7 @@
 #include "page/assets.h"
 #include "scene/scene_json.h"
 #include "signal/picture.h"
+#include "view/view_json.h"
 
 namespace echocine {
 
@@ -150,8 +151,12 @@ ReportPage::ReportPage(const std::filesystem::path& path, const Scene& scene,
                        const CardiacClock& clock, std::pair<int, int> range)
     : scene_(scene), clock_(clock), range_(range), stride_(pageStride(range.second - range.first)) {
   if (!scene.output.report) return;
-  writer_.emplace(path, pageLook("EchoCine: " + titleOf(scene), pageAsset("report.html"),
-                                 pageAsset("report.js")));
+  PageLook look =
+      pageLook("EchoCine: " + titleOf(scene), pageAsset("report.html"), pageAsset("report.js"));
+  look.styles.push_back(pageAsset("heart_view.css"));
+  look.scripts.insert(look.scripts.end() - 1,
+                      {pageAsset("three.min.js"), pageAsset("heart_view.js")});
+  writer_.emplace(path, look);
 }
 
 bool ReportPage::shows(int frame) const {
@@ -169,7 +174,7 @@ void ReportPage::addTruth(PageTruth truth) {
   truths_.push_back(std::move(truth));
 }
 
-void ReportPage::finish(const Manifest& manifest) {
+void ReportPage::finish(const Manifest& manifest, const Simulator& simulator) {
   if (!writer_) return;
   // The page gets the manifest's own JSON, so that both say the same.
   const Json scene = sceneJson(scene_);
@@ -201,6 +206,7 @@ void ReportPage::finish(const Manifest& manifest) {
                      {"tracks_px", tracks},
                      {"curves", curvesJson(manifest, *this)}};
   }
+  data["view"] = viewJson(viewScene(simulator), scene_);
   data["measured"] = measuredJson(manifest);
   writer_->finish(data);
 }

@@ -7,6 +7,7 @@
 #include "motion/cycle/cardiac_clock.h"
 #include "output/manifest.h"
 #include "page/page.h"
+#include "simulate/simulator.h"
 #include "truth/frame_truth.h"
 
 namespace echocine {
@@ -38,7 +39,8 @@ class ReportPage {
   bool shows(int frame) const;
   void addFrame(std::span<const std::byte> image);  // JPEG or PNG, in the order of frames
   void addTruth(PageTruth truth);                   // of the frame that was added last
-  void finish(const Manifest& manifest);            // with times and volumes filled in
+  // With times and volumes filled in; shows the simulator's surfaces in space too.
+  void finish(const Manifest& manifest, const Simulator& simulator);
 
  private:
   const Scene& scene_;

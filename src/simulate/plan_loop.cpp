@@ -8,10 +8,12 @@
 #include "core/units.h"
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
+#include "motion/heart_size.h"
 #include "motion/motion_warnings.h"
 #include "scene/scan_geometry.h"
 #include "simulate/echo_shift.h"
 #include "simulate/mean_loss.h"
+#include "simulate/whereabouts.h"
 #include "trace/beam_rays.h"
 
 namespace echocine {
@@ -172,9 +174,10 @@ void lookAtFrames(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) 
         "nothing can be seen: all structures and their surroundings are of one medium");
   } else if (plan.left_out.count() == scene.structures.size() ||
              (crossings == 0 && plan.effects.rays_per_beam == 1)) {
-    plan.warnings.push_back(
-        "nothing can be seen: no scan line meets a structure in the frames looked at (probe.apex, "
-        "probe.axis, motion.mesh_unit)");
+    plan.warnings.push_back(fmt::format(
+        "nothing can be seen: no scan line meets a structure in the frames looked at; {} "
+        "(probe.apex, probe.axis, motion.mesh_unit)",
+        whereabouts(scene, meshesBox(motion))));
   }
 }
 
@@ -184,6 +187,8 @@ LoopPlan planLoop(const Scene& scene, const MeshMotion& motion) {
   LoopPlan plan;
   plan.effects = planEffects(scene);
   plan.warnings = motion.repairNotes();
+  for (std::string& warning : sizeWarnings(scene, motion))
+    plan.warnings.push_back(std::move(warning));
   for (std::string& warning : motionWarnings(scene, motion))
     plan.warnings.push_back(std::move(warning));
   dropStructures(scene, motion, plan);

@@ -60,6 +60,17 @@ class ReportPage(browser.PageTest):
             self.run_script(tick)
             self.wait(lambda: self.run_script(pixels) == plain, f"{kind} stay")
 
+    def test_meshes_in_space_come_when_they_are_looked_at(self):
+        self.assertFalse(self.run_script("return !!page.parts.space"))
+        self.run_script("document.getElementById('space').scrollIntoView()")
+        self.wait(lambda: self.run_script("return !!page.parts.space"), "no meshes come")
+        self.run_script("page.parts.player.jump(5)")
+        self.wait_for_frame(5)
+        phase = self.manifest["frames"][5]["phase"]
+        self.wait(lambda: self.run_script("return page.parts.space.phase") == phase, "they are of another frame")
+        names = self.run_script("return page.data.view.structures.map((s) => s.name)")
+        self.assertEqual(names, [s["name"] for s in self.manifest["scene"]["structures"]])
+
     def test_ecg_moves_the_player(self):
         for share in (0.25, 0.75):
             points = self.run_script("return page.parts.charts[0].getOption().series[0].data.length")

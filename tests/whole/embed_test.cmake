@@ -24,7 +24,7 @@ set(common -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=${TYPE} -G Ninja 
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${folder}/prefix)
 foreach(file man/man1/echocine.1 man/man1/echocine-render.1 bash-completion/completions/echocine
-        zsh/site-functions/_echocine doc/echocine/echarts/LICENSE doc/echocine/echarts/NOTICE doc/echocine/LICENSE
+        zsh/site-functions/_echocine doc/echocine/echarts/LICENSE doc/echocine/echarts/NOTICE doc/echocine/three/LICENSE doc/echocine/LICENSE
         doc/echocine/README.md doc/echocine/examples/every_key/scene.toml)
   if(NOT EXISTS ${folder}/prefix/share/${file})
     message(FATAL_ERROR "share/${file} is not installed")

@@ -19,7 +19,7 @@ set(libraries
   "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
   "zlib\\.h$=video,dataset"
   "CLI/=cli"
-  "nlohmann/=scene,heart,output,page,simulate,compare,render,study,dataset,cli,python"
+  "nlohmann/=scene,heart,output,page,simulate,view,compare,render,study,dataset,cli,python"
   "(pybind11/|Python\\.h$)=python"
   "fmt/=*"
   "[a-z_0-9]+(\\.h)?$=*"
@@ -38,8 +38,9 @@ set(rooms
   "cycle="
   "keyframes=cycle,mesh"
   "interior=keyframes"
-  "heart=cycle|mesh,keyframes,subdivision"
-  "motion=mesh,keyframes,interior,subdivision|repair,cycle"
+  "views="
+  "heart=cycle,views|mesh,keyframes,subdivision"
+  "motion=mesh,keyframes,interior,subdivision|repair,cycle,views"
   "geometry=motion"
   "truth=geometry,motion,interior"
   "trace=geometry"
@@ -49,13 +50,14 @@ set(rooms
   "video=signal"
   "output=signal,motion,heart,truth|video"
   "simulate=output,motion,cycle,geometry,trace,speckle,signal,truth"
+  "view=simulate,mesh|cycle,geometry,signal,video,page"
   "compare=simulate,video,metrics,signal,truth,page|motion,output"
-  "render=simulate,cycle,output,page,video,truth|signal"
+  "render=simulate,cycle,output,page,video,truth|signal,motion,view"
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
   "echocine=render,simulate,heart"
   "dataset=simulate,output,cycle,heart,truth,signal|motion,video,page"
   "python=render,compare,study,simulate,heart,cycle|output,video,motion,cycle,truth,signal,geometry"
-  "cli=render,compare,study,dataset,output|video,simulate,motion,keyframes,cycle,heart")
+  "cli=render,compare,study,dataset,output,view|video,simulate,motion,keyframes,cycle,heart")
 
 function(room_of path out)
   string(REGEX REPLACE "^src/" "" path "${path}")

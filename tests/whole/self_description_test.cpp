@@ -12,7 +12,7 @@ namespace {
 
 using namespace support;
 
-const std::vector<std::string> kCommands{"render", "plan", "study", "heart", "compare"};
+const std::vector<std::string> kCommands{"render", "view", "plan", "study", "heart", "compare"};
 
 std::string helpOf(const std::string& command) {
   return runShell("%B " + command + " --help").out;

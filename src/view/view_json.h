@@ -1,0 +1,14 @@
+#pragma once
+// A view as pages carry it: see assets heart_view.js, which reads it.
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "view/scene_view.h"
+
+namespace echocine {
+
+// Lengths in mm. Positions of a structure are 16-bit steps from a corner of its own box, little
+// endian and in base64, phase after phase; indices are 16-bit, or 32-bit beyond 65536 vertices.
+nlohmann::ordered_json viewJson(const SceneView& view, const Scene& scene);
+
+}  // namespace echocine
