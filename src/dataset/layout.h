@@ -24,7 +24,7 @@ struct Layout {
 // Those that a spec asks for, in the order of their names.
 std::vector<const Layout*> layoutsOf(const Spec& spec);
 
-extern const Layout kNative, kEchonet, kCamus, kNnunet, kMyotracker, kPointodyssey;
+extern const Layout kNative, kEchonet, kCamus, kNnunet, kPointodyssey;
 
 const char* nameOf(Split split);  // "train", "val", "test"
 

@@ -78,28 +78,6 @@ bool isApical(View view) {
   return view == View::a4c || view == View::a2c || view == View::a3c;
 }
 
-// The smallest or largest number that a parameter can be in any population.
-double extremeOf(const Spec& spec, const std::string& name, bool largest, double fallback) {
-  double extreme = fallback;
-  bool found = false;
-  for (const Population& population : spec.populations)
-    for (const Parameter& p : spec.parametersOf(population)) {
-      const auto range = p.name == name ? p.distribution.range() : std::nullopt;
-      if (!range) continue;
-      const double end = largest ? range->second : range->first;
-      extreme = !found ? end : largest ? std::max(extreme, end) : std::min(extreme, end);
-      found = true;
-    }
-  return extreme;
-}
-
-int fewestFrames(const Spec& spec) {
-  const double hr_bpm = extremeOf(spec, "heart.hr", true, 65),
-               rate_hz = extremeOf(spec, "scene.acquisition.frame_rate_hz", false, 50),
-               beats = extremeOf(spec, "scene.acquisition.beats", false, 1);
-  return static_cast<int>(beats * 60 / hr_bpm * rate_hz + 0.5);
-}
-
 void checkLayouts(const Spec& spec) {
   const auto shows = [&](View view) {
     return std::find(spec.views.begin(), spec.views.end(), view) != spec.views.end();
@@ -112,12 +90,6 @@ void checkLayouts(const Spec& spec) {
                                     spec.hearts));
   if (spec.has("echonet") && !std::all_of(spec.views.begin(), spec.views.end(), isApical))
     failOfLayouts(spec, "\"echonet\" traces the long axis, accepted: views a4c, a2c and a3c");
-  constexpr int kMyoTrackerFrames = 30;  // its loader skips what is shorter
-  if (const int frames = fewestFrames(spec);
-      spec.has("myotracker") && frames < kMyoTrackerFrames)
-    failOfLayouts(spec, fmt::format("\"myotracker\" skips loops under {} frames, and these may have "
-                                    "{}: raise scene.acquisition.frame_rate_hz or beats",
-                                    kMyoTrackerFrames, frames));
 }
 
 }  // namespace

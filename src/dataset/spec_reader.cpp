@@ -224,7 +224,7 @@ void readSplit(TomlTable split, Spec& spec) {
 }  // namespace
 
 std::vector<std::string> layoutNames() {
-  return {"camus", "echonet", "myotracker", "native", "nnunet", "pointodyssey", "webdataset"};
+  return {"camus", "echonet", "native", "nnunet", "pointodyssey"};
 }
 
 Spec parseSpec(std::string_view text, const std::filesystem::path& path) {

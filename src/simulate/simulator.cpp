@@ -291,7 +291,8 @@ void Simulator::frame(double time_s, Frame& made) const {
   std::swap(made.greys, w->greys);
   std::swap(made.image, w->image);
   std::swap(made.channels, w->polar.planes);
-  std::swap(made.medium, w->polar.medium);
+  made.medium.clear();  // white may have had it traced
+  if (wants(scene_, Channel::medium)) std::swap(made.medium, w->polar.medium);
 }
 
 }  // namespace echocine
