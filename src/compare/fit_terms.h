@@ -30,10 +30,10 @@ struct FitTerms {
   double in_sight = 0;  // share of the model's plane that the real sector shows
 };
 
-// Weights of the terms in D. Calibrated on synthetic pairs of known truth (README.md), never on
-// real videos.
+// Weights of the terms in D. Our choice, looked at on synthetic pairs of known truth (README.md),
+// never on real videos.
 struct FitWeights {
-  double region = 0.4, boundary = 0.2, motion = 0.4;
+  double region = 0.5, boundary = 0.3, motion = 0.2;
 };
 
 // (6)  D = c (w_R R + w_B B + w_M M) / (w_R + w_B + w_M) + 1 - c,   c: share in sight.
