@@ -8,6 +8,7 @@
 #include "core/hash.h"
 #include "motion/mesh/mesh_check.h"
 #include "motion/mesh/mesh_io.h"
+#include "motion/mesh/world_place.h"
 #include "motion/repair/mesh_repair.h"
 #include "motion/repair/repair_advice.h"
 
@@ -55,10 +56,11 @@ KeyframeSet readKeyframes(const Scene& scene) {
   KeyframeSet set;
   Sha256 digest;
   for (const Structure& structure : scene.structures) {
+    const double unit_m = metresPerMeshUnit(scene.motion);
     try {
-      set.structures.push_back(soundKeyframes(structure, scene.motion.mesh_unit_m, digest, set));
+      set.structures.push_back(soundKeyframes(structure, unit_m, digest, set));
     } catch (const SceneError& refusal) {
-      throw SceneError(advised(refusal, structure, scene.motion.mesh_unit_m));
+      throw SceneError(advised(refusal, structure, unit_m));
     }
   }
   set.sha256 = digest.hex();

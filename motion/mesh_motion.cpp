@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "motion/keyframes/interpolation.h"
 #include "motion/mesh/surface_measure.h"
+#include "motion/mesh/world_place.h"
 #include "motion/near_plane.h"
 #include "motion/subdivision/limit_normals.h"
 #include "motion/subdivision/subdivision.h"
@@ -59,12 +60,12 @@ std::vector<Vec3d> probePositions(const Structure& structure, const KeyframeMesh
   std::vector<Vec3d> positions_m;
   positions_m.reserve(keyframe.mesh.positions.size());
   for (const Vec3d& world : keyframe.mesh.positions) {
-    const Vec3d p = scene.probe.pose.fromWorld(scene.motion.mesh_unit_m * world);
+    const Vec3d p = scene.probe.pose.fromWorld(worldPlace(scene.motion, world));
     if (!(length(p) <= kMaxDistanceMetres))
       throw SceneError(atPlace(
           structure.place,
           fmt::format("{}: {} reaches {:.4g} m from the probe's apex, at most {:g} m is accepted: "
-                      "mend motion.mesh_unit or the probe's place",
+                      "mend motion.mesh_unit, motion.mesh_scale or the probe's place",
                       structure.name, keyframe.parts.front().file.string(), length(p),
                       kMaxDistanceMetres)));
     positions_m.push_back(p);
@@ -211,6 +212,8 @@ MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
       smooth_normals_(smoothNormalsOf(scene)),
       input_sha256_(set.sha256) {
   CHECK_EQ(set.structures.size(), scene.structures.size());
+  if (scene.view)
+    throw SceneError(atPlace(scene.view->place, "is not found yet, accepted: the scene as placed()"));
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     const Structure& structure = scene.structures[s];
     KeyframeWeights weights(phasesOf(structure), scene.motion.interpolation, structure.place,

@@ -2,7 +2,7 @@
 
 import echocine
 
-scene = echocine.heart(ef=0.45, view="a4c", keyframes=8)
+scene = echocine.heart(ef=0.45, view="a4c", keyframes=6)
 scene.update({"probe.lines": 48, "probe.samples": 128, "output.width": 240, "output.height": 180, "acquisition.frame_rate_hz": 10})
 loop = echocine.render(scene)
 volume_ml = loop.volumes["lv_cavity"]

@@ -4,7 +4,7 @@ import numpy as np
 
 import echocine
 
-scene = echocine.heart(view="a4c", keyframes=8)
+scene = echocine.heart(view="a4c", keyframes=6)
 scene.update({"probe.lines": 64, "probe.samples": 128, "output.width": 256, "output.height": 256, "output.ecg": False,
               "output.depth_ticks": False, "acquisition.frame_rate_hz": 5, "truth.labels": {"lv_cavity": 1, "lv_wall": 2, "la": 3}})
 loop = echocine.render(scene, truth="labels")

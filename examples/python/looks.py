@@ -2,7 +2,7 @@
 
 import echocine
 
-scene = echocine.heart(view="plax", keyframes=8)
+scene = echocine.heart(view="plax", keyframes=6)
 scene.update({"probe.lines": 48, "probe.samples": 160, "output.width": 320, "output.height": 240})
 for look in ("paper", "clean", "scanner"):
     scene.signal.look = look

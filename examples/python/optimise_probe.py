@@ -6,7 +6,7 @@ from scipy.optimize import minimize_scalar  # type: ignore[import]
 
 import echocine
 
-scene = echocine.heart(keyframes=8, look="paper")
+scene = echocine.heart(keyframes=6, look="paper")
 scene.update({"probe.lines": 48, "probe.samples": 128, "output.width": 320, "output.height": 240, "acquisition.frame_rate_hz": 5,
               "output.report": False, "output.channels": ["Y", "display.Y"]})
 target = scene.copy()

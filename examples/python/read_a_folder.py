@@ -2,7 +2,7 @@
 
 import echocine
 
-scene = echocine.heart(keyframes=6)
+scene = echocine.heart(keyframes=6, look="paper")
 scene.update({"probe.lines": 32, "probe.samples": 96, "output.width": 160, "output.height": 120, "acquisition.frame_rate_hz": 5,
               "output.channels": ["Y", "attenuation.A"]})
 echocine.render(scene, "loop", truth=["labels", "function"])

@@ -6,7 +6,7 @@ import numpy as np
 
 import echocine
 
-scene = echocine.heart(keyframes=8)
+scene = echocine.heart(keyframes=6, look="paper")
 scene.update({"probe.lines": 48, "probe.samples": 128, "output.width": 160, "output.height": 120})
 simulator = echocine.Simulator(scene)
 

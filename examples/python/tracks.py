@@ -4,7 +4,7 @@ import numpy as np
 
 import echocine
 
-scene = echocine.heart(keyframes=8)
+scene = echocine.heart(keyframes=6, look="paper")
 scene.update({"probe.lines": 32, "probe.samples": 96, "output.width": 160, "output.height": 120, "acquisition.frame_rate_hz": 10})
 scene.update({"truth.write": ["tracks", "function"], "truth.tracks": 200})
 loop = echocine.render(scene)

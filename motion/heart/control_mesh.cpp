@@ -1,7 +1,9 @@
 #include "motion/heart/control_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <mutex>
 #include <numbers>
 #include <utility>
 
@@ -42,7 +44,16 @@ std::vector<Face> icosahedronFaces() {
 struct Neighbourhood {
   std::vector<std::uint32_t> ring;      // all neighbours
   std::vector<std::uint32_t> boundary;  // neighbours along the edge of a sheet
+  double weight = 0;                    // of each of those that count, in the limit position
 };
+
+// By Loop's rules; the edge of a sheet is a cubic B-spline.
+double limitWeight(const Neighbourhood& around) {
+  const double n = static_cast<double>(around.ring.size());
+  const double centre = 0.375 + 0.25 * std::cos(2 * std::numbers::pi / n);
+  const double beta = (0.625 - centre * centre) / n;
+  return around.boundary.empty() ? 1 / (n + 0.375 / beta) : 1.0 / 6;
+}
 
 std::vector<Neighbourhood> neighbourhoods(std::size_t vertex_count,
                                           const std::vector<Face>& faces) {
@@ -58,25 +69,25 @@ std::vector<Neighbourhood> neighbourhoods(std::size_t vertex_count,
     result[a].boundary.push_back(b);
     result[b].boundary.push_back(a);
   }
+  for (Neighbourhood& around : result) around.weight = limitWeight(around);
   return result;
 }
 
-// Limit position of a vertex under Loop's rules; the edge of a sheet is a cubic B-spline.
+// Limit position of a vertex.
 Vec3d loopLimit(const std::vector<Vec3d>& points, std::size_t vertex, const Neighbourhood& around) {
   const bool on_boundary = !around.boundary.empty();
   const auto& others = on_boundary ? around.boundary : around.ring;
   const double n = static_cast<double>(others.size());
-  const double centre = 0.375 + 0.25 * std::cos(2 * std::numbers::pi / n);
-  const double beta = (0.625 - centre * centre) / n;
-  const double weight = on_boundary ? 1.0 / 6 : 1 / (n + 0.375 / beta);
-  Vec3d limit = (1 - n * weight) * points[vertex];
-  for (const std::uint32_t other : others) limit = limit + weight * points[other];
+  Vec3d limit = (1 - n * around.weight) * points[vertex];
+  for (const std::uint32_t other : others) limit = limit + around.weight * points[other];
   return limit;
 }
 
 }  // namespace
 
-SphereMesh geodesicSphere(int frequency) {
+namespace {
+
+SphereMesh madeSphere(int frequency) {
   const auto corners = icosahedronCorners();
   SphereMesh sphere;
   std::map<Weights, std::uint32_t> known;
@@ -103,6 +114,18 @@ SphereMesh geodesicSphere(int frequency) {
       }
   }
   return sphere;
+}
+
+}  // namespace
+
+// A heart takes the same few at every instant.
+SphereMesh geodesicSphere(int frequency) {
+  static std::mutex mutex;
+  static std::map<int, SphereMesh> made;
+  const std::lock_guard lock(mutex);
+  const auto found = made.find(frequency);
+  return found != made.end() ? found->second
+                             : made.emplace(frequency, madeSphere(frequency)).first->second;
 }
 
 std::vector<Face> sheetFaces(int rows, int columns) {

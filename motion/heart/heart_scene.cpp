@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "scene/names.h"
 #include "scene/role.h"
-#include "scene/scene_reader.h"
 
 namespace echocine::heart {
 
@@ -123,12 +122,17 @@ keyframe_phases = {}
   return text;
 }
 
-Scene sceneOf(View view, const Parameters& parameters, const Recording& recording, Look look) {
+NamedMeshes meshesOf(const Recording& recording) {
   NamedMeshes meshes;
   for (const RecordedPart& part : recording.parts)
     for (std::size_t k = 0; k < part.control_m.size(); ++k)
       meshes.emplace(meshName(part, k), meshInMemory(part, k));
-  return parseScene(sceneText(view, parameters, recording, "", look), "heart", meshes);
+  return meshes;
+}
+
+Scene sceneOf(View view, const Parameters& parameters, const Recording& recording, Look look) {
+  return parseScene(sceneText(view, parameters, recording, "", look), "heart",
+                    meshesOf(recording));
 }
 
 Scene heartScene(const Parameters& parameters, View view, int keyframes, Look look) {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "motion/heart/recording.h"
-#include "scene/scene.h"
+#include "scene/scene_reader.h"
 
 namespace echocine::heart {
 
@@ -15,6 +15,9 @@ std::string meshName(const RecordedPart& part, std::size_t keyframe);
 // scene's own, else with a slash at its end), its pictures with a look.
 std::string sceneText(View view, const Parameters& parameters, const Recording& recording,
                       const std::string& mesh_folder, Look look = Look::scanner);
+
+// The keyframes of a recording by the names that sceneText() has for them.
+NamedMeshes meshesOf(const Recording& recording);
 
 // The same scene with its keyframes in memory: what writing and reading files would give, without
 // them. `view`, `parameters`: those of the recording.

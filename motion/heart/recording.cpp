@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/check.h"
 #include "core/error.h"
@@ -72,6 +73,15 @@ void addStillParts(const std::vector<Part>& parts, Recording& recording) {
     recording.parts.push_back({part.kind, part.faces, {}, {controlPoints(part, {})}, {}});
 }
 
+// Adds what stands still, then checks and measures all parts.
+void finish(const std::vector<Part>& surroundings, Recording& recording) {
+  addStillParts(surroundings, recording);
+  makeSound(recording);
+  parallelBlocks(recording.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) measureVolumes(recording.parts[p]);
+  });
+}
+
 }  // namespace
 
 const RecordedPart& Recording::part(std::string_view name) const {
@@ -123,12 +133,19 @@ Recording record(const ParametricHeart& heart, View view, int keyframes, Keyfram
       recording.places[k] = now.places;
     }
   });
-  addStillParts(surroundingsOf(view, recording.pose, heart), recording);
-  makeSound(recording);
-  parallelBlocks(recording.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) measureVolumes(recording.parts[p]);
-  });
+  finish(surroundingsOf(view, recording.pose, heart), recording);
   return recording;
+}
+
+Recording seenFrom(View view, const ParametricHeart& heart, const Recording& recording) {
+  Recording seen = recording;
+  seen.pose = poseOf(view, heart);
+  std::erase_if(seen.parts, [](const RecordedPart& part) { return part.control_m.size() == 1; });
+  Recording still;
+  still.phases = seen.phases;
+  finish(surroundingsOf(view, seen.pose, heart), still);
+  std::move(still.parts.begin(), still.parts.end(), std::back_inserter(seen.parts));
+  return seen;
 }
 
 }  // namespace echocine::heart

@@ -46,4 +46,8 @@ std::vector<double> keyframePhases(const Cycle& cycle, int count);
 Recording record(const ParametricHeart& heart, View view, int keyframes,
                  KeyframeSpacing spacing = KeyframeSpacing::by_motion, const Monitor& monitor = {});
 
+// The same beat seen from elsewhere: what is not of the view is copied, not made again. The same as
+// record() of that view. Precondition: `recording` is of this heart.
+Recording seenFrom(View view, const ParametricHeart& heart, const Recording& recording);
+
 }  // namespace echocine::heart

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "cli/compare_command.h"
+#include "cli/dataset_command.h"
 #include "cli/heart_command.h"
 #include "cli/one_line.h"
 #include "cli/plan_command.h"
@@ -85,6 +86,7 @@ int run(int argc, char** argv) {
   echocine::StudyCommand study(app);
   echocine::HeartCommand heart(app);
   echocine::CompareCommand compare(app);
+  echocine::DatasetCommand dataset(app);
   try {
     // For the build alone, so not among what help lists: man pages and completions.
     if (argc == 3 && std::string_view(argv[1]) == "--describe-into") {
@@ -97,6 +99,7 @@ int run(int argc, char** argv) {
                      : app.got_subcommand("plan")    ? plan.run()
                      : app.got_subcommand("study")   ? study.run()
                      : app.got_subcommand("compare") ? compare.run()
+                     : app.got_subcommand("dataset") ? dataset.run()
                                                      : render.run();
     // A plan piped into a full disk has failed, though all was computed.
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)

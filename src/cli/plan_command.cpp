@@ -4,13 +4,18 @@
 #include <CLI/CLI.hpp>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
 
 #include "cli/documents.h"
 #include "cli/interpolation_table.h"
 #include "cli/stop_signal.h"
 #include "cli/warning_printer.h"
+#include "motion/probe_placement.h"
 #include "render/estimate.h"
+#include "scene/probe_pose.h"
 #include "scene/scene_reader.h"
+#include "scene/white_rule.h"
 #include "view/view_page.h"
 
 namespace echocine {
@@ -33,12 +38,21 @@ void printEffects(const Manifest& manifest) {
   }
 }
 
-void printRest(const Estimate& estimate) {
+// As a scene says it, to be pasted and edited.
+void printPose(const Scene& scene) {
+  std::string head = "probe       ";
+  std::istringstream lines(poseToml(scene));
+  for (std::string line; std::getline(lines, line); head = std::string(head.size(), ' '))
+    fmt::print("{}{}\n", head, line);
+}
+
+void printRest(const Scene& scene, const Estimate& estimate) {
   const LoopPlan& plan = estimate.measured.plan;
   for (const Omission& i : plan.interfaces)
     fmt::print("{:<24} {:<4} {:>5}  {}\n", i.name, "off", "", i.reason);
   fmt::print("\ntracer      {}: {}\n", plan.tracerName(), plan.tracer_reason);
   fmt::print("echoes      {}\n", plan.echo_reason);
+  fmt::print("white       {}\n", whiteWords(scene));
   fmt::print("triangles   {} given, {} in structures that stay, {} cut by the imaging plane\n",
              plan.triangles_given, plan.triangles_kept, plan.triangles_met);
   std::string stages;
@@ -51,9 +65,11 @@ void printRest(const Estimate& estimate) {
 }
 
 // The manifest's own parts, so that scripts read plan and manifest alike.
-void printJson(const Estimate& estimate) {
+void printJson(const Scene& scene, const Estimate& estimate) {
   nlohmann::ordered_json json = planJson(estimate.measured.plan);
+  json["probe_toml"] = poseToml(scene);
   json["effects"] = effectsJson(estimate.measured);
+  json["white"] = whiteWords(scene);
   json["warnings"] = estimate.measured.warnings;
   json["frames"] = estimate.frames;
   json["seconds"] = estimate.seconds;
@@ -86,20 +102,21 @@ PlanCommand::PlanCommand(CLI::App& app) {
 
 int PlanCommand::run() {
   if (interpolation_) {  // writes no file: a signal may end it anywhere
-    printInterpolation(readScene(scene_file_), json_);
+    printInterpolation(placed(readScene(scene_file_)), json_);
     return 0;
   }
   listenForStop();
-  Scene scene = readScene(scene_file_);
+  Scene scene = placed(readScene(scene_file_));
   accuracy_.resolve(scene, threads_, quiet_);
   const Monitor monitor{.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)};
   const Estimate estimate = estimateLoop(scene, threads_, monitor);
   if (!page_.empty()) writeViewPage(scene, page_, threads_, [](const std::string&) {});
   if (json_) {
-    printJson(estimate);
+    printJson(scene, estimate);
   } else {
     printEffects(estimate.measured);
-    printRest(estimate);
+    printRest(scene, estimate);
+    printPose(scene);
   }
   return 0;
 }

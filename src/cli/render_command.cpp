@@ -10,6 +10,7 @@
 #include "cli/stop_signal.h"
 #include "core/error.h"
 #include "motion/cycle/cardiac_clock.h"
+#include "motion/probe_placement.h"
 #include "scene/scene_reader.h"
 #include "scene/truth_reader.h"
 #include "simulate/plan_loop.h"
@@ -102,7 +103,7 @@ RenderCommand::RenderCommand(CLI::App& app) {
 // Signals first: a run that is stopped while it reads must end cleanly too.
 int RenderCommand::run() {
   listenForStop();
-  Scene scene = readScene(scene_file_);
+  Scene scene = placed(readScene(scene_file_));
   askForTruth(truth_, scene);
   if (!frames_.empty()) options_.frames = parseRange(frames_, CardiacClock(scene).frameCount());
   options_.accuracy = accuracy_.resolve(scene, options_.threads, quiet_);

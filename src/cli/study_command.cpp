@@ -10,6 +10,7 @@
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
 #include "core/error.h"
+#include "motion/probe_placement.h"
 #include "scene/scene_reader.h"
 #include "study/study_files.h"
 #include "study/study_page.h"
@@ -80,7 +81,7 @@ StudyCommand::StudyCommand(CLI::App& app) {
 int StudyCommand::run() {
   refuseUnknownKnobs(options_.knobs);
   listenForStop();
-  const Scene scene = readScene(scene_file_);
+  const Scene scene = placed(readScene(scene_file_));
   ProgressLine line(quiet_);
   const StudyResult result =
       runStudy(scene, options_, line.monitor(),

@@ -7,6 +7,7 @@
 
 #include "cli/documents.h"
 #include "cli/warning_printer.h"
+#include "motion/probe_placement.h"
 #include "scene/scene_reader.h"
 #include "view/view_page.h"
 
@@ -39,7 +40,7 @@ ViewCommand::ViewCommand(CLI::App& app) {
 }
 
 int ViewCommand::run() {
-  const Scene scene = readScene(scene_file_);
+  const Scene scene = placed(readScene(scene_file_));
   // The default of one structure is for the default of all.
   budget_.triangles_per_structure =
       std::max(budget_.triangles_per_structure, budget_.triangles / 12);

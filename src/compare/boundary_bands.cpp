@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "motion/mesh_motion.h"
+#include "motion/probe_placement.h"
 #include "scene/scene_reader.h"
 
 namespace echocine::compare {
@@ -18,7 +19,7 @@ struct BoundaryBands::State {
   double half_width_m;
 
   State(const std::filesystem::path& file, const BeamGrid& g, double width_m)
-      : scene(readScene(file)), motion(scene), grid(g), half_width_m(width_m / 2) {}
+      : scene(placed(readScene(file))), motion(scene), grid(g), half_width_m(width_m / 2) {}
 };
 
 BoundaryBands::BoundaryBands(const std::filesystem::path& scene, const Loop& synthetic,

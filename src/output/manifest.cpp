@@ -8,9 +8,11 @@
 #include "core/file.h"
 #include "core/units.h"
 #include "output/exr_stack.h"
+#include "scene/probe_pose.h"
 #include "scene/role.h"
 #include "scene/scan_geometry.h"
 #include "scene/scene_json.h"
+#include "scene/white_rule.h"
 #include "signal/picture.h"
 
 namespace echocine {
@@ -207,12 +209,14 @@ void writeManifest(const std::filesystem::path& path, const Scene& scene,
   const Json json{{"version", ECHOCINE_VERSION},
                   {"scene_sha256", manifest.scene_sha256},
                   {"scene", sceneJson(scene)},
+                  {"probe_toml", poseToml(scene)},
                   {"media", mediaJson(scene)},
                   {"effects", effectsJson(manifest)},
                   {"plan", planJson(manifest.plan)},
                   {"accuracy", accuracyJson(manifest.accuracy)},
                   {"warnings", manifest.warnings},
                   {"reference_intensity", manifest.reference_intensity},
+                  {"white", whiteWords(scene)},
                   {"loop_frames", manifest.loop_frames},
                   {"picture", pictureJson(scene)},
                   {"left_ventricle", eventsJson(scene, manifest)},

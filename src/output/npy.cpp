@@ -89,6 +89,11 @@ std::vector<std::byte> npyBytes(std::span<const std::uint8_t> values,
   return npyOf("|u1", std::as_bytes(values), shape);
 }
 
+std::vector<std::byte> npyBytes(std::span<const std::int32_t> values,
+                                std::vector<std::size_t> shape) {
+  return npyOf("<i4", std::as_bytes(values), shape);
+}
+
 std::vector<std::byte> npzBytes(std::span<const NamedArray> arrays) {
   Bytes file, directory;
   for (const NamedArray& array : arrays) {

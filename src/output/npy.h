@@ -14,6 +14,8 @@ namespace echocine {
 std::vector<std::byte> npyBytes(std::span<const float> values, std::vector<std::size_t> shape);
 std::vector<std::byte> npyBytes(std::span<const std::uint8_t> values,
                                 std::vector<std::size_t> shape);
+std::vector<std::byte> npyBytes(std::span<const std::int32_t> values,
+                                std::vector<std::size_t> shape);
 
 struct NamedArray {
   std::string name;  // without .npy

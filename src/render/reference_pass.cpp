@@ -27,7 +27,7 @@ std::optional<double> findReference(const Simulator& simulator, std::pair<int, i
   if (scene.signal.reference_intensity) return scene.signal.reference_intensity;
   if (!wantsPicture(scene) || !simulator.plan().effects.contrast) return 1;
   // Of the whole loop, also when a part is rendered: parts then have the grey of the whole.
-  IntensityHistogram histogram(scene.probe);
+  WhiteMeasure white(scene);
   const std::vector<int> sampled = referenceFrames(clock.frameCount());
   const auto frames = static_cast<int>(sampled.size());
   std::size_t kept_bytes = 0;
@@ -38,7 +38,9 @@ std::optional<double> findReference(const Simulator& simulator, std::pair<int, i
         auto frame = std::make_shared<KeptFrame>();
         const std::shared_ptr<Workspace> workspace = simulator.workspace();
         frame->volumes_ml = simulator.trace(clock.at(sampled[i]), *workspace);
-        simulator.clock().time(Stage::signal, [&] { histogram.add(workspace->polar.intensities); });
+        simulator.clock().time(Stage::signal, [&] {
+          white.add(workspace->polar.intensities, workspace->polar.medium);
+        });
         frame->polar = std::move(workspace->polar);
         workspace->polar = {};
         // Only what the signal chain still needs is kept.
@@ -57,7 +59,7 @@ std::optional<double> findReference(const Simulator& simulator, std::pair<int, i
       });
   if (done < static_cast<std::size_t>(frames)) return std::nullopt;
   if (simulator.work().crossings == 0) return 1;
-  return histogram.percentile(scene.signal.reference_percentile);
+  return white.white();
 }
 
 }  // namespace echocine

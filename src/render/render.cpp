@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/shown_path.h"
+#include "motion/probe_placement.h"
 #include "output/earlier_hashes.h"
 #include "output/exr_stack.h"
 #include "output/output_folder.h"
@@ -79,8 +80,9 @@ void noteCosts(const Simulator& simulator, RenderSummary& summary) {
 
 }  // namespace
 
-RenderSummary renderLoop(const Scene& scene, const RenderOptions& options, const Monitor& monitor) {
+RenderSummary renderLoop(const Scene& given, const RenderOptions& options, const Monitor& monitor) {
   const auto start = std::chrono::steady_clock::now();
+  const Scene scene = placed(given);
   RenderSummary summary;
   warn(scene.warnings, scene, monitor, summary.manifest);
   const auto motion = std::make_shared<const MeshMotion>(scene);  // keyframes, ready to interpolate

@@ -44,7 +44,7 @@ void refuseOfSpeckle(TomlTable& root, const Scene& scene) {
   if (!(pulse_m > 0))
     root.table("signal").fail("pulse_cycles",
                               "0 excludes speckle.on = true, accepted with it: a number over 0");
-  if (pulse_m > scene.probe.max_depth_m - scene.probe.min_depth_m)
+  if (scene.probe.max_depth_m > 0 && pulse_m > scene.probe.max_depth_m - scene.probe.min_depth_m)
     root.table("signal").fail(
         "pulse_cycles", fmt::format("makes a pulse of {:.3g} mm, longer than the depth that "
                                     "speckle.on = true would fill, accepted with it: a shorter one",

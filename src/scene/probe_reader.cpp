@@ -2,44 +2,72 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/units.h"
 #include "scene/limits.h"
+#include "scene/probe_pose.h"
 #include "scene/ranges.h"
+#include "scene/view_names.h"
 
 namespace echocine {
 
 namespace {
 
-// A vector of any length but 0 as a unit vector. A power of two brings it near 1 first, exactly:
-// the squares of 1e200 and of 1e-200 are no numbers to divide by.
 Vec3d readDirection(TomlTable& table, std::string_view key) {
   const Vec3d v = table.vector(key);
-  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (largest == 0) table.fail(key, "is the zero vector, accepted: a direction");
-  const int exponent = -std::ilogb(largest);
-  return normalised(
-      Vec3d{std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)});
+  if (v == Vec3d{}) table.fail(key, "is the zero vector, accepted: a direction");
+  return v;
 }
 
-// The lateral axis is made perpendicular to the depth axis; the elevation axis completes a
-// right-handed frame.
 Pose readPose(TomlTable& table, double mesh_unit_m) {
-  Pose pose;
-  pose.z_axis = readDirection(table, "axis");
-  const Vec3d unit_lateral = readDirection(table, "lateral");
-  pose.origin = mesh_unit_m * table.vector("apex", ranges::kMostCoordinate);
-  const Vec3d across = unit_lateral - dot(unit_lateral, pose.z_axis) * pose.z_axis;
-  if (length(across) < 1e-6)
-    table.fail("lateral", "is parallel to axis, accepted: a direction across it");
-  pose.x_axis = normalised(across);
-  pose.y_axis = cross(pose.z_axis, pose.x_axis);
-  return pose;
+  if (!table.has("apex") && !table.has("axis") && !table.has("lateral"))
+    table.fail("apex",
+               "is needed with axis and lateral, accepted: three numbers [x, y, z] each; or a view "
+               "found from structures with roles: view = \"a4c\"");
+  const Vec3d axis = readDirection(table, "axis"), lateral = readDirection(table, "lateral");
+  const Vec3d apex_m = mesh_unit_m * table.vector("apex", ranges::kMostCoordinate);
+  const std::optional<Pose> pose = poseOf(apex_m, axis, lateral);
+  if (!pose) table.fail("lateral", "is parallel to axis, accepted: a direction across it");
+  return *pose;
 }
 
-void readFootprint(TomlTable& table, Probe& probe) {
+View readViewName(TomlTable& table) {
+  const std::string key = table.text("view");
+  const std::optional<View> view = viewOf(key);
+  if (view) return *view;
+  std::string accepted;
+  for (const ViewName& name : viewNames())
+    accepted += fmt::format("{}\"{}\"", accepted.empty() ? "" : ", ", name.key);
+  table.fail("view", fmt::format("is \"{}\", accepted: {}", key, accepted));
+}
+
+// Where the pose is found from the meshes, and what is changed about it.
+std::optional<ViewPlacement> readView(TomlTable& table) {
+  if (!table.has("view")) {
+    for (const char* key : {"shift_mm", "tilt_deg", "rotate_deg"}) table.unused(key, "view");
+    return std::nullopt;
+  }
+  ViewPlacement placement;
+  placement.view = readViewName(table);
+  for (const char* key : {"apex", "axis", "lateral"})
+    if (table.has(key))
+      table.fail(key, fmt::format("contradicts view = \"{}\", which finds the pose: leave out view, "
+                                  "or apex, axis and lateral; shift_mm, tilt_deg and rotate_deg "
+                                  "change what is found",
+                                  keyOf(placement.view)));
+  if (table.has("shift_mm"))
+    placement.shift_m = metresFromMillimetres(1) * table.vector("shift_mm", ranges::kMostShift_mm);
+  placement.tilt_rad = radiansFromDegrees(table.number("tilt_deg", 0.0, ranges::kTilt_deg));
+  placement.rotate_rad = radiansFromDegrees(table.number("rotate_deg", 0.0, ranges::kRotate_deg));
+  placement.place = table.place("view");
+  return placement;
+}
+
+// Of an adult cardiac probe, where the view places it. Our choice.
+std::optional<double> viewDefault(bool view, double value) {
+  return view ? std::optional(value) : std::nullopt;
+}
+
+void readFootprint(TomlTable& table, bool view, Probe& probe) {
   if (probe.kind != ProbeKind::linear) table.unused("width_mm", "kind = \"linear\"");
   if (probe.kind != ProbeKind::curvilinear)
     table.unused("face_radius_mm", "kind = \"curvilinear\"");
@@ -52,7 +80,7 @@ void readFootprint(TomlTable& table, Probe& probe) {
     return;
   }
   const double sector =
-      radiansFromDegrees(table.number("sector_deg", std::nullopt, ranges::kSector_deg));
+      radiansFromDegrees(table.number("sector_deg", viewDefault(view, 80), ranges::kSector_deg));
   probe.first_angle_rad = -sector / 2;
   probe.last_angle_rad = sector / 2;
   if (probe.kind == ProbeKind::curvilinear)
@@ -62,23 +90,27 @@ void readFootprint(TomlTable& table, Probe& probe) {
 
 }  // namespace
 
-Probe readProbe(TomlTable table, double mesh_unit_m) {
+Probe readProbe(TomlTable table, double mesh_unit_m, std::optional<ViewPlacement>& view) {
   Probe probe;
   probe.kind = table.choice("kind", ProbeKind::phased);
-  probe.pose = readPose(table, mesh_unit_m);
-  readFootprint(table, probe);
+  view = readView(table);
+  if (!view) probe.pose = readPose(table, mesh_unit_m);
+  readFootprint(table, view.has_value(), probe);
   probe.min_depth_m = metresFromMillimetres(table.number("min_depth_mm", 2.0, ranges::kNearEnd_mm));
-  probe.max_depth_m =
-      metresFromMillimetres(table.number("depth_mm", std::nullopt, ranges::kExtent_mm));
-  if (probe.max_depth_m <= probe.min_depth_m)
+  const bool depth_found = view && !table.has("depth_mm");
+  if (!depth_found)
+    probe.max_depth_m =
+        metresFromMillimetres(table.number("depth_mm", std::nullopt, ranges::kExtent_mm));
+  if (!depth_found && probe.max_depth_m <= probe.min_depth_m)
     table.fail("depth_mm", fmt::format("is not over min_depth_mm = {}",
                                        millimetresFromMetres(probe.min_depth_m)));
-  probe.frequency_hz =
-      hertzFromMegahertz(table.number("frequency_mhz", std::nullopt, {.lo = 0.1, .hi = 100}));
+  probe.frequency_hz = hertzFromMegahertz(table.number(
+      "frequency_mhz", viewDefault(view.has_value(), 2.5), {.lo = 0.1, .hi = 100}));
   // Choices of ours: the 20 mm footprint of an adult cardiac probe, focused at half the depth.
   probe.aperture_m = metresFromMillimetres(table.number("aperture_mm", 20.0, ranges::kExtent_mm));
-  probe.focus_m = metresFromMillimetres(
-      table.number("focus_mm", millimetresFromMetres(probe.max_depth_m) / 2, ranges::kRadius_mm));
+  probe.focus_m = defaultFocus(probe.max_depth_m);  // 0: of a depth that is still to be found
+  if (table.has("focus_mm"))
+    probe.focus_m = metresFromMillimetres(table.number("focus_mm", 0.0, ranges::kRadius_mm));
   probe.elevation_aperture_m = metresFromMillimetres(
       table.number("elevation_aperture_mm", millimetresFromMetres(probe.elevation_aperture_m),
                    ranges::kExtent_mm));

@@ -34,7 +34,17 @@ inline constexpr NumberRange kHeterogeneity_db{.lo = 0, .hi = 20};
 inline constexpr NumberRange kHelix_deg{.lo = 0, .hi = 90};
 inline constexpr NumberRange kNominalGain_db_cm_mhz{.lo = 0, .hi = 5};
 inline constexpr NumberRange kPersistence{.lo = 0, .hi = 0.8};
+inline constexpr NumberRange kHeartRates_bpm{.lo = 1, .hi = 1000};
 inline constexpr NumberRange kBeats{.lo = 1e-6, .hi = 1e6};
+
+inline constexpr NumberRange kTilt_deg{.lo = -90, .hi = 90};
+inline constexpr NumberRange kRotate_deg{.lo = -360, .hi = 360};
+inline constexpr double kMostShift_mm = 1000;  // of a probe, from where its view stands
+
+inline constexpr NumberRange kMeshScale{.lo = 1e-6, .hi = 1e6};
+inline constexpr double kMostOffset_mm = 1e7;  // of meshes
+// Between keyframes: 250 per second of a heart at 1 per minute, and a millisecond.
+inline constexpr NumberRange kKeyframeInterval_ms{.lo = 0.01, .hi = 30000};
 
 // Of a place in mesh units: its cube is still a float.
 inline constexpr double kMostCoordinate = 1e9;

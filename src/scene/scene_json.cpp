@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/names.h"
+#include "scene/white_rule.h"
 
 namespace echocine {
 
@@ -98,7 +99,9 @@ Json signalJson(const SignalSettings& s) {
           {"pulse_cycles", s.pulse_cycles},
           {"dynamic_range_db", s.dynamic_range_db},
           {"reference_intensity", optionalJson(s.reference_intensity)},
-          {"reference_percentile", s.reference_percentile},
+          // null: white goes by the heart's muscle
+          {"reference_percentile",
+           s.reference_percentile == kWhiteByMuscle ? Json() : Json(s.reference_percentile)},
           {"gain_db", s.gain_db},
           {"interface_gain_db", s.interface_gain_db},
           {"interface_limit_db", optionalJson(s.interface_limit_db)},
@@ -213,6 +216,10 @@ Json sceneJson(const Scene& scene) {
         {"refraction_tolerance_beam_widths", scene.accuracy.refraction_tolerance_beam_widths}}},
       {"output", outputJson(scene.output)},
       {"truth", truthJson(scene.truth)}};
+  // Meshes that lie as their files have them are the same scene as before they could be moved.
+  if (scene.motion.mesh_scale != 1) json["motion"]["mesh_scale"] = scene.motion.mesh_scale;
+  if (const Vec3d m = scene.motion.mesh_offset_m; m != Vec3d{})
+    json["motion"]["mesh_offset_m"] = {m.x, m.y, m.z};
   // A picture without speckle is the same file as before there was any.
   if (scene.speckle.on) json["speckle"] = speckleJson(scene.speckle);
   json["artefacts"] = artefactsJson(scene.artefacts);

@@ -10,6 +10,7 @@
 #include "scene/contradictions.h"
 #include "scene/keyframe_warnings.h"
 #include "scene/media_reader.h"
+#include "scene/motion_reader.h"
 #include "scene/probe_reader.h"
 #include "scene/ranges.h"
 #include "scene/signal_reader.h"
@@ -24,19 +25,17 @@ namespace {
 
 constexpr std::size_t kMaxSceneBytes = 4 << 20;
 constexpr double kMaxFrames = 1e6;
-constexpr NumberRange kHeartRates_bpm{.lo = 1, .hi = 1000};
 // Our choice: three deviations of it leave a tenth of the mean beat.
 constexpr double kMaxRrVariability = 0.3;
 constexpr int kMaxRaysPerBeam = 4096;  // errors are then far under a picture's. Our choice
 
-double readUnit(TomlTable& table, std::string_view key, double fallback) {
-  return table.choice(key, fallback, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}});
-}
-
-Acquisition readAcquisition(TomlTable table) {
+// keyframe_rate_hz: of the loop where it names no heart rate of its own.
+Acquisition readAcquisition(TomlTable table, std::optional<double> keyframe_rate_hz) {
   Acquisition a;
-  a.heart_rate_hz = hertzFromBeatsPerMinute(
-      table.number("heart_rate_bpm", a.heart_rate_hz * 60, kHeartRates_bpm));
+  a.heart_rate_hz = keyframe_rate_hz.value_or(a.heart_rate_hz);
+  if (!keyframe_rate_hz || table.has("heart_rate_bpm"))
+    a.heart_rate_hz = hertzFromBeatsPerMinute(
+        table.number("heart_rate_bpm", a.heart_rate_hz * 60, ranges::kHeartRates_bpm));
   a.frame_rate_hz = table.number("frame_rate_hz", a.frame_rate_hz, {.lo = 0.1, .hi = 100000});
   a.beats = table.number("beats", a.beats, ranges::kBeats);
   if (a.beats / a.heart_rate_hz * a.frame_rate_hz > kMaxFrames)
@@ -47,52 +46,6 @@ Acquisition readAcquisition(TomlTable table) {
   a.seed = table.integer("seed", a.seed, 0, std::numeric_limits<int>::max());
   table.finish();
   return a;
-}
-
-void readRecordedBeat(TomlTable& table, MotionSettings& m) {
-  constexpr std::string_view kRate = "keyframe_heart_rate_bpm", kEnd = "end_systole_phase";
-  if (table.has(kRate))
-    m.keyframe_heart_rate_hz =
-        hertzFromBeatsPerMinute(table.number(kRate, std::nullopt, kHeartRates_bpm));
-  if (!table.has(kEnd)) return;
-  // phaseDurations() has it from 0.19 at 30 bpm to 0.55 at 160; wider by our choice.
-  m.end_systole_phase = table.number(kEnd, std::nullopt, {.lo = 0.1, .hi = 0.8});
-  if (!m.keyframe_heart_rate_hz)
-    table.fail(kEnd, "says nothing alone, accepted: with keyframe_heart_rate_bpm");
-}
-
-std::vector<double> readKeyframePhases(TomlTable& table) {
-  const char* key = "keyframe_phases";
-  const std::vector<double> phases = table.numbers(key);
-  for (std::size_t i = 0; i < phases.size(); ++i) {
-    if (phases[i] == 1 && i > 0)
-      table.fail(key, fmt::format("phase {} is 1, the beat's start again: drop the frame that closes "
-                                  "the beat, the first follows the last by itself",
-                                  i + 1));
-    if (!(phases[i] >= 0 && phases[i] < 1))
-      table.fail(
-          key, fmt::format("phase {} is {}, accepted: from 0 up to, without, 1", i + 1, phases[i]));
-    if (i > 0 && !(phases[i] - phases[i - 1] >= ranges::kLeastPhaseStep))
-      table.fail(key,
-                 fmt::format("phase {} is {} after {}, accepted: ascending phases, {} apart or "
-                             "more",
-                             i + 1, phases[i], phases[i - 1], ranges::kLeastPhaseStep));
-  }
-  return phases;
-}
-
-MotionSettings readMotion(TomlTable table) {
-  MotionSettings m;
-  m.mesh_unit_m = readUnit(table, "mesh_unit", m.mesh_unit_m);
-  m.interpolation_given = table.has("interpolation");
-  m.interpolation = table.choice("interpolation", m.interpolation);
-  m.subdivision = table.integer("subdivision", m.subdivision, 0, 8);
-  readRecordedBeat(table, m);
-  m.keyframe_phases = readKeyframePhases(table);
-  m.interpolation_place = table.place("interpolation");
-  m.subdivision_place = table.place("subdivision");
-  table.finish();
-  return m;
 }
 
 EffectSwitches readEffects(TomlTable table) {
@@ -211,9 +164,9 @@ Scene parse(std::string_view text, const std::filesystem::path& file, const Name
   TomlTable root = TomlTable::parse(text, file.string());
   Scene scene;
   scene.file = file;
-  scene.motion = readMotion(root.table("motion"));
-  scene.probe = readProbe(root.table("probe"), scene.motion.mesh_unit_m);
-  scene.acquisition = readAcquisition(root.table("acquisition"));
+  const MotionKeys motion = readMotion(root.table("motion"));
+  scene.motion = motion.settings;
+  scene.probe = readProbe(root.table("probe"), scene.motion.mesh_unit_m, scene.view);
   MediaTable media_table;
   media_table.read(root);
   MediaInUse media(scene);
@@ -221,6 +174,9 @@ Scene parse(std::string_view text, const std::filesystem::path& file, const Name
   readStructures(root, media_table, media, meshes, scene);
   if (scene.structures.empty())
     root.fail("structure", "is missing, accepted: at least one [[structure]]");
+  const std::optional<double> spaced_hz = rateOfInterval(motion, scene.structures);
+  if (spaced_hz) scene.motion.keyframe_heart_rate_hz = spaced_hz;
+  scene.acquisition = readAcquisition(root.table("acquisition"), spaced_hz);
   if (!scene.motion.interpolation_given)
     scene.motion.interpolation = interpolationFor(scene.structures, scene.motion.interpolation);
   scene.unit_volume_m3 =

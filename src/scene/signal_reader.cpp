@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "scene/looks.h"
 #include "scene/ranges.h"
+#include "scene/white_rule.h"
 
 namespace echocine {
 
@@ -66,8 +67,10 @@ void readReference(TomlTable& table, SignalSettings& s) {
         table.number("reference_intensity", std::nullopt, ranges::kReferenceIntensity);
     table.unused("reference_percentile", "reference_intensity left out");
   } else {
-    s.reference_percentile = table.number("reference_percentile", s.reference_percentile,
-                                          {.lo = 0, .hi = 100, .lo_open = true});
+    s.reference_percentile = kWhiteByMuscle;
+    if (table.has("reference_percentile"))
+      s.reference_percentile =
+          table.number("reference_percentile", std::nullopt, {.lo = 0, .hi = 100, .lo_open = true});
   }
 }
 

@@ -28,6 +28,55 @@ Vec3d TomlTable::vector(std::string_view key, double most) {
   return {xyz[0], xyz[1], xyz[2]};
 }
 
+namespace {
+
+std::optional<TomlValue> scalarOf(const toml::node& node) {
+  if (const auto word = node.value_exact<std::string>()) return TomlValue(*word);
+  if (const auto truth = node.value_exact<bool>()) return TomlValue(*truth);
+  if (const auto whole = node.value_exact<std::int64_t>()) return TomlValue(*whole);
+  const auto number = node.value_exact<double>();
+  if (number && std::isfinite(*number)) return TomlValue(*number);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::string> names;
+  if (node_->table)
+    for (const auto& [name, item] : *node_->table) names.emplace_back(name.str());
+  return names;
+}
+
+bool TomlTable::isTable(std::string_view key) {
+  const toml::node* value = node_->find(key);
+  return value && value->is_table();
+}
+
+TomlValue TomlTable::value(std::string_view key) {
+  const char* accepted = "accepted: a finite number, a string, true or false";
+  const toml::node* value = node_->find(key);
+  if (!value) missing(key, accepted);
+  const std::optional<TomlValue> scalar = scalarOf(*value);
+  if (!scalar) fail(key, fmt::format("is {}, {}", typeName(*value), accepted));
+  return *scalar;
+}
+
+std::vector<TomlValue> TomlTable::values(std::string_view key) {
+  const char* accepted = "accepted: a list of finite numbers, strings, true or false";
+  const toml::node* value = node_->find(key);
+  if (!value) missing(key, accepted);
+  const toml::array* list = value->as_array();
+  if (!list || list->empty()) fail(key, fmt::format("is {}, {}", typeName(*value), accepted));
+  std::vector<TomlValue> result;
+  for (const toml::node& item : *list) {
+    const std::optional<TomlValue> scalar = scalarOf(item);
+    if (!scalar) fail(key, fmt::format("entry {} is no such value, {}", result.size() + 1, accepted));
+    result.push_back(*scalar);
+  }
+  return result;
+}
+
 bool TomlTable::isListOfTables(std::string_view key) {
   const toml::node* value = node_->find(key);
   return value && value->is_array() && !value->as_array()->empty() &&

@@ -16,6 +16,7 @@
 #include "scene/key_log.h"
 #include "scene/names.h"
 #include "scene/number_range.h"
+#include "scene/toml_value.h"
 
 namespace echocine {
 
@@ -59,6 +60,12 @@ class TomlTable {
       if (!found && entry.value == fallback) noteChoice(key, entry.name);
     return found ? NamesOf<T>::kAll[*found].value : fallback;
   }
+
+  // For tables whose keys are the writer's own names.
+  std::vector<std::string> keys() const;  // in ascending order
+  bool isTable(std::string_view key);
+  TomlValue value(std::string_view key);                // one bool, number or string; required
+  std::vector<TomlValue> values(std::string_view key);  // a list of them; required
 
   bool isListOfTables(std::string_view key);
   std::vector<std::string> texts(std::string_view key);  // a string or a list of strings

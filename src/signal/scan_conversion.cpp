@@ -66,16 +66,32 @@ PictureGeometry pictureGeometry(const Scene& scene) {
 }
 
 ScanConverter::ScanConverter(const Probe& probe, const PictureGeometry& geometry, int width,
-                             int height, double grey_gamma)
+                             int height, double grey_gamma, int averaged)
     : width_(width),
       height_(height),
       next_line_(probe.lines > 1 ? static_cast<std::size_t>(std::max(probe.samples, 2)) : 0),
-      single_sample_(probe.samples == 1) {
+      single_sample_(probe.samples == 1),
+      averaged_(averaged) {
   for (int x = 0; x < width; x += kStrip)
     for (int y = 0; y < height; ++y) addRow(probe, geometry, x, std::min(x + kStrip, width), y);
   for (int i = 0; grey_gamma != 1 && i <= kGreySteps; ++i)
     grey_map_.push_back(static_cast<std::uint8_t>(
         std::lround(255 * std::pow(static_cast<double>(i) / kGreySteps, grey_gamma))));
+  if (averaged == 1) return;
+  PictureGeometry fine = geometry;
+  fine.metres_per_pixel /= averaged;
+  fine.origin_x_px *= averaged;
+  fine.origin_y_px *= averaged;
+  fine_ = std::make_unique<const ScanConverter>(probe, fine, width * averaged, height * averaged,
+                                                1.0);
+}
+
+int ScanConverter::averagedOver(const Scene& scene, const PictureGeometry& geometry) {
+  const double sample_m = scene.probe.sampleSpacing();
+  const double pulse_m = scene.signal.pulse_cycles * ScanGeometry(scene.probe).wavelength() / 2;
+  if (geometry.metres_per_pixel <= std::max(sample_m, pulse_m)) return 1;
+  const double steps = std::ceil(geometry.metres_per_pixel / sample_m);
+  return static_cast<int>(std::clamp(steps, 2.0, double{kMostAveraged}));
 }
 
 void ScanConverter::addRow(const Probe& probe, const PictureGeometry& geometry, int begin, int end,
@@ -181,10 +197,46 @@ void ScanConverter::forRuns(std::span<const float> grey, const Put& put) const {
   }
 }
 
+// Each pixel of the table takes the mean of the fine ones in it that lie in the scan area; one at
+// a tip that holds none keeps its own value.
+void ScanConverter::averageFine(std::span<const float> grey, std::vector<float>& picture) const {
+  thread_local std::vector<float> fine;
+  fine_->convert(grey, fine);
+  const auto n = static_cast<std::size_t>(averaged_), width = static_cast<std::size_t>(width_);
+  for (std::size_t pixel = 0; pixel < picture.size(); ++pixel) {
+    if (picture[pixel] < 0) continue;
+    const float* row = &fine[(pixel / width * n * width + pixel % width) * n];
+    double sum = 0;
+    int count = 0;
+    for (std::size_t y = 0; y < n; ++y, row += n * width)
+      for (std::size_t x = 0; x < n; ++x) {
+        if (row[x] < 0) continue;
+        sum += static_cast<double>(row[x]);
+        ++count;
+      }
+    if (count > 0) picture[pixel] = static_cast<float>(sum / count);
+  }
+}
+
+void ScanConverter::mapGreys(std::span<const float> picture, GreyImage& image) const {
+  const float steps = grey_map_.empty() ? 255.0f : float{kGreySteps};
+  for (std::size_t pixel = 0; pixel < picture.size(); ++pixel) {
+    if (picture[pixel] < 0) continue;
+    const auto step = static_cast<std::size_t>(picture[pixel] * steps + 0.5f);
+    image.pixels[pixel] = grey_map_.empty() ? static_cast<std::uint8_t>(step) : grey_map_[step];
+  }
+}
+
 void ScanConverter::convert(std::span<const float> grey, GreyImage& image) const {
   image.width = width_;
   image.height = height_;
   image.pixels.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
+  if (fine_) {
+    thread_local std::vector<float> picture;
+    convert(grey, picture);
+    mapGreys(picture, image);
+    return;
+  }
   std::uint8_t* const pixels = image.pixels.data();
   const auto put = [pixels](std::size_t pixel, Greys greys, std::size_t count) {
     if (count == kFloatLanes)
@@ -213,6 +265,7 @@ void ScanConverter::convert(std::span<const float> grey, std::vector<float>& pic
   forRuns(grey, [&](std::size_t pixel, Floats8 values, std::size_t count) {
     std::memcpy(&picture[pixel], &values, count * sizeof(float));
   });
+  if (fine_) averageFine(grey, picture);
 }
 
 }  // namespace echocine

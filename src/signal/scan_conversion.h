@@ -2,10 +2,12 @@
 // From beam space to a picture, by a table that is computed once per loop.
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/lanes.h"
+#include "scene/scene.h"
 #include "signal/picture.h"
 
 namespace echocine {
@@ -13,15 +15,24 @@ namespace echocine {
 class ScanConverter {
  public:
   // grey_gamma: the last step, pixel = 255 (grey)^gamma, as a table too.
+  // averaged: values along a pixel's side.
   ScanConverter(const Probe& probe, const PictureGeometry& geometry, int width, int height,
-                double grey_gamma);
+                double grey_gamma, int averaged = 1);
 
   // Bilinear between lines and samples of a line-major grey plane (0..1); pixels whose centre lies
-  // outside the scan area stay exactly 0.
+  // outside the scan area stay exactly 0. Where a pixel is longer than what the plane can show
+  // (averagedOver), it is the mean of such values all over it, as far as it lies in the scan area.
   void convert(std::span<const float> grey, GreyImage& image) const;
 
   // The same before the grey map and its 8 bits; pixels outside the scan area are -1.
   void convert(std::span<const float> grey, std::vector<float>& picture) const;
+
+  // Values along a pixel's side, 1: its centre alone. A pixel that is no longer than an echo, the
+  // pulse or one sample, misses nothing; a longer one would take one value of several, which makes
+  // thin walls jagged and valves dashed. Its values lie no farther apart than the samples, up to
+  // kMostAveraged.
+  static int averagedOver(const Scene& scene, const PictureGeometry& geometry);
+  static constexpr int kMostAveraged = 16;
 
  private:
   // Of eight pixels, in the plane the shallower sample of the left line, and in parts of 65535 the
@@ -37,6 +48,8 @@ class ScanConverter {
   // Row y of the strip with the columns begin to end - 1.
   void addRow(const Probe& probe, const PictureGeometry& geometry, int begin, int end, int y);
   static void setEntry(const Probe& probe, double line, double path_m, Block& block, int lane);
+  void averageFine(std::span<const float> grey, std::vector<float>& picture) const;
+  void mapGreys(std::span<const float> picture, GreyImage& image) const;
   template <typename Put>
   void forRuns(std::span<const float> grey, const Put& put) const;
 
@@ -46,6 +59,8 @@ class ScanConverter {
   std::vector<Run> runs_;
   std::vector<Block> blocks_;  // the last one of a run is filled up with zeros
   std::vector<std::uint8_t> grey_map_;
+  int averaged_;
+  std::unique_ptr<const ScanConverter> fine_;  // a picture of averaged_ pixels for each; or none
 };
 
 }  // namespace echocine

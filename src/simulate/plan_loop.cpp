@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
+#include "motion/heart_size.h"
 #include "motion/motion_warnings.h"
 #include "scene/scan_geometry.h"
 #include "simulate/echo_shift.h"
@@ -186,6 +187,8 @@ LoopPlan planLoop(const Scene& scene, const MeshMotion& motion) {
   LoopPlan plan;
   plan.effects = planEffects(scene);
   plan.warnings = motion.repairNotes();
+  for (std::string& warning : sizeWarnings(scene, motion))
+    plan.warnings.push_back(std::move(warning));
   for (std::string& warning : motionWarnings(scene, motion))
     plan.warnings.push_back(std::move(warning));
   dropStructures(scene, motion, plan);

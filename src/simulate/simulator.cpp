@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "motion/probe_placement.h"
 #include "output/polar_plane.h"
 #include "output/truth_files.h"
 #include "signal/reference.h"
@@ -40,7 +41,7 @@ EchoCells echoCells(const LoopPlan& plan) {
 
 }  // namespace
 
-Simulator::Simulator(Scene scene) : Simulator(scene, std::make_shared<const MeshMotion>(scene)) {}
+Simulator::Simulator(Scene scene) : Simulator(placedWithMotion(std::move(scene))) {}
 
 Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion)
     : Simulator(scene, motion, planLoop(scene, *motion)) {}
@@ -240,14 +241,14 @@ FrameTruth Simulator::truthAt(const FrameTime& time, const Workspace* traced) co
 double Simulator::measureReference() const {
   if (scene_.signal.reference_intensity) return *scene_.signal.reference_intensity;
   if (!wantsPicture(scene_) || !plan_.effects.contrast) return 1;
-  IntensityHistogram histogram(scene_.probe);
+  WhiteMeasure white(scene_);
   const std::shared_ptr<Workspace> w = workspace();
   for (const int i : referenceFrames(cardiac_clock_.frameCount())) {
     trace(cardiac_clock_.at(i), *w);
-    histogram.add(w->polar.intensities);
+    white.add(w->polar.intensities, w->polar.medium);
   }
   // Where no frame has anything to be seen the percentile would paint an even nothing white.
-  return work().crossings == 0 ? 1 : histogram.percentile(scene_.signal.reference_percentile);
+  return work().crossings == 0 ? 1 : white.white();
 }
 
 double Simulator::referenceIntensity() const {
@@ -290,7 +291,8 @@ void Simulator::frame(double time_s, Frame& made) const {
   std::swap(made.greys, w->greys);
   std::swap(made.image, w->image);
   std::swap(made.channels, w->polar.planes);
-  std::swap(made.medium, w->polar.medium);
+  made.medium.clear();  // white may have had it traced
+  if (wants(scene_, Channel::medium)) std::swap(made.medium, w->polar.medium);
 }
 
 }  // namespace echocine

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -57,7 +58,8 @@ std::vector<ChannelPlane> channelPlanes(const OutputSettings& output, const Work
 
 class Simulator {
  public:
-  // Reads the scene's meshes, or takes those that it holds in memory, and plans the loop.
+  // Reads the scene's meshes, or takes those that it holds in memory, places its probe where a view
+  // asks for it, and plans the loop.
   // Throws SceneError that names the scene's key, file and face; JobError when frames between
   // keyframes are inside out.
   explicit Simulator(Scene scene);
@@ -116,6 +118,8 @@ class Simulator {
   std::vector<KeyframeVolume> keyframeVolumes() const;
 
  private:
+  explicit Simulator(std::pair<Scene, std::shared_ptr<const MeshMotion>> read)
+      : Simulator(std::move(read.first), std::move(read.second)) {}
   Volumes volumes(const SurfaceFrame& surfaces) const;
   WorkCounts traceRays(const PlaneSlice& slice, int frame, PolarFrame& polar) const;
   WorkCounts traceRays(const FrameGeometry& geometry, int frame, PolarFrame& polar) const;

@@ -152,15 +152,15 @@ double SettingRun::referenceIntensity(const std::vector<FrameTime>& times) {
   if (scene_.signal.reference_intensity) return *scene_.signal.reference_intensity;
   // Nothing to be seen: white is the transmitted intensity, as in a render.
   if (!plan_.effects.contrast) return 1;
-  IntensityHistogram histogram(scene_.probe);
+  WhiteMeasure white(scene_);
   const Simulator& making = simulator();
   const std::shared_ptr<Workspace> workspace = making.workspace();
   for (const FrameTime& time : times) {
     making.trace(time, *workspace);
-    histogram.add(workspace->polar.intensities);
+    white.add(workspace->polar.intensities, workspace->polar.medium);
   }
   return making.work().crossings == 0 ? 1
-                                      : histogram.percentile(scene_.signal.reference_percentile);
+                                      : white.white();
 }
 
 StageTimes SettingRun::timeBatch(const std::vector<FrameTime>& times, std::size_t frames,

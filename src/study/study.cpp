@@ -12,6 +12,7 @@
 #include "core/shown_path.h"
 #include "core/units.h"
 #include "motion/cycle/cardiac_clock.h"
+#include "motion/probe_placement.h"
 #include "render/render_pass.h"
 #include "study/thumbnail.h"
 
@@ -272,7 +273,7 @@ std::vector<FrameTime> probeFrames(const Scene& scene, int count) {
 StudyResult runStudy(const Scene& scene, const StudyOptions& options, const Monitor& monitor,
                      const std::function<void(const StudyResult&)>& round_done) {
   StudyResult result;
-  withThreads(options.threads, [&] { result = Study(scene, options, monitor, round_done).run(); });
+  withThreads(options.threads, [&] { result = Study(placed(scene), options, monitor, round_done).run(); });
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "scene/scan_geometry.h"
+#include "scene/white_rule.h"
 #include "trace/cell_echoes.h"
 #include "trace/line_walker.h"
 #include "trace/linked_echoes.h"
@@ -181,6 +182,12 @@ PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan) {
     if (scene.output.exr && channel != Channel::display && !isTruth(channel))
       request.channels.push_back(channel);
   request.intensities = wantsPicture(scene);
+  const auto asked = [&](Channel c) {
+    return std::find(request.channels.begin(), request.channels.end(), c) != request.channels.end();
+  };
+  // White goes by the samples of muscle, so they have to be known.
+  if (request.intensities && isWhiteByMuscle(scene) && !asked(Channel::medium))
+    request.channels.push_back(Channel::medium);
   request.intensity_terms.attenuation = plan.attenuation && scene.signal.tgc != Tgc::perfect;
   request.echo_samples = echoSamples(scene);
   // Without the average over the pulse a sample of the picture shows the echo's peak.

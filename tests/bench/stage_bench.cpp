@@ -11,6 +11,7 @@
 #include "output/exr_stack.h"
 #include "scene/scan_geometry.h"
 #include "signal/log_compression.h"
+#include "signal/scan_conversion.h"
 #include "signal/signal_chain.h"
 #include "trace/trace_beams.h"
 #include "video/cine_writer.h"
@@ -124,6 +125,23 @@ void scanConversion(benchmark::State& state) {
   overFloor(
       state, [&](std::size_t) { t.chain.picture(greys, image); },
       [&](std::size_t) { benchmark::DoNotOptimize(bare.run(grey.data()).data()); });
+}
+
+// A picture of 112 x 112, each pixel the mean over its area, next to one of values at the centres.
+void smallPicture(benchmark::State& state) {
+  Traced t{Size(state)};
+  constexpr int kSize = 112;
+  Scene& scene = t.scene.scene;
+  scene.output.width = scene.output.height = kSize;
+  const PictureGeometry geometry = pictureGeometry(scene);
+  const ScanConverter ours(scene.probe, geometry, kSize, kSize, 1,
+                           ScanConverter::averagedOver(scene, geometry)),
+      centres(scene.probe, geometry, kSize, kSize, 1);
+  const Greys greys = t.chain.compress(std::move(t.polar.intensities), kReference);
+  GreyImage image;
+  overFloor(
+      state, [&](std::size_t) { ours.convert(greys.values, image); },
+      [&](std::size_t) { centres.convert(greys.values, image); });
 }
 
 void exr(benchmark::State& state) {
@@ -284,6 +302,7 @@ BENCHMARK_CAPTURE(trace, cells, true)->Apply(byBoth);
 BENCHMARK(beamAverage)->Apply(byPlane);
 BENCHMARK(logCompression)->Apply(byPlane);
 BENCHMARK(scanConversion)->Apply(byPlane);
+BENCHMARK(smallPicture)->Apply(byPlane);
 BENCHMARK(exr)->Apply(byPlane)->Iterations(3);
 BENCHMARK(jpeg)->Apply(byPlane);
 BENCHMARK(exrKinds)->ArgsProduct({{0, 1, 2, 3, 4, 5}, {0, 1}})->Apply([](auto* b) {

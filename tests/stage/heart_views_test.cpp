@@ -52,12 +52,6 @@ struct Image {
 constexpr View kAllViews[] = {View::a4c,       View::a2c,      View::a3c,       View::plax,
                               View::psax_base, View::psax_mid, View::psax_apex, View::subcostal};
 
-const char* keyOf(View view) {
-  for (const heart::ViewName& name : heart::viewNames())
-    if (name.view == view) return name.key;
-  return "";
-}
-
 TEST(HeartViews, AreEightWithKeysThatLeadBackToThem) {
   EXPECT_EQ(heart::viewNames().size(), std::size(kAllViews));
   for (const View view : kAllViews) EXPECT_EQ(heart::viewOf(keyOf(view)), view);

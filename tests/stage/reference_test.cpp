@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "scene/white_rule.h"
 #include "support/plain_scene.h"
 
 namespace echocine {
@@ -90,6 +91,71 @@ TEST(Reference, DoesNotDependOnTheOrderOfFrames) {
     backwards.add(randomPlane(8 - i));
   }
   EXPECT_EQ(forwards.percentile(97), backwards.percentile(97));
+}
+
+// A left ventricle in its wall: media are soft tissue, myocardium and blood.
+Scene ventricle() {
+  Scene scene = support::plainScene({support::medium("soft_tissue", 1000, 1540),
+                                     support::medium("myocardium", 1060, 1540),
+                                     support::medium("blood", 1060, 1540)});
+  support::addStructure(scene, 1, 1);
+  support::addStructure(scene, 2, 2);
+  scene.structures[0].role = Role::lv_wall;
+  scene.structures[1].role = Role::lv_cavity;
+  scene.signal.reference_percentile = kWhiteByMuscle;
+  scene.probe.lines = 100;
+  scene.probe.samples = 100;
+  return scene;
+}
+
+// Half of all samples tissue of 1, the others of the medium with this intensity.
+double whiteWith(const Scene& scene, std::uint32_t medium, float intensity, std::size_t every = 2) {
+  std::vector<float> plane(10'000, 1.0f);
+  std::vector<std::uint32_t> media(plane.size(), 0);
+  for (std::size_t i = 0; i < plane.size(); i += every) {
+    plane[i] = intensity;
+    media[i] = medium;
+  }
+  WhiteMeasure white(scene);
+  white.add(plane, media);
+  return white.white();
+}
+
+// Law: the muscle's median has kMuscleGrey, whatever is brighter beside it, with any dynamic range
+// and grey map.
+TEST(Reference, GivesMuscleItsGrey) {
+  Scene scene = ventricle();
+  for (const double gamma : {0.7, 1.0, 1.35})
+    for (const double range_db : {40.0, 60.0, 90.0}) {
+      scene.signal.grey_gamma = gamma;
+      scene.signal.dynamic_range_db = range_db;
+      const double below_db = 10 * std::log10(whiteWith(scene, 1, 2e-6f) / 2e-6);
+      EXPECT_NEAR(255 * std::pow(1 - below_db / range_db, gamma), kMuscleGrey, 0.2);
+    }
+}
+
+TEST(Reference, WithoutMuscleInViewIsThePercentile) {
+  EXPECT_NEAR(whiteWith(ventricle(), 2, 2e-6f), 1, 1e-3);        // blood alone
+  EXPECT_NEAR(whiteWith(ventricle(), 1, 2e-6f, 200), 1, 1e-3);   // a seam of muscle
+  Scene given = ventricle();
+  given.signal.reference_percentile = 40;  // names its own
+  EXPECT_NEAR(whiteWith(given, 1, 2e-6f), 2e-6, 2e-9);
+}
+
+TEST(Reference, OnlyHeartsHaveMuscle) {
+  const auto muscle = [](const Scene& scene) {
+    const std::vector<char> media = muscleMedia(scene);
+    return std::vector<int>(media.begin(), media.end());
+  };
+  Scene scene = ventricle();
+  EXPECT_EQ(muscle(scene), (std::vector<int>{0, 1, 0}));
+  scene.structures[0].role = Role::none;  // by its medium
+  EXPECT_EQ(muscle(scene), (std::vector<int>{0, 1, 0}));
+  scene.structures.erase(scene.structures.begin());  // chambers in the background
+  EXPECT_EQ(muscle(scene), (std::vector<int>{1, 0, 0}));
+  scene.structures[0].role = Role::none;  // no heart
+  EXPECT_EQ(muscle(scene), (std::vector<int>{0, 0, 0}));
+  EXPECT_FALSE(isWhiteByMuscle(scene));
 }
 
 }  // namespace

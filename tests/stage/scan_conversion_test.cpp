@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "support/plain_scene.h"
 
@@ -158,6 +159,111 @@ TEST(ScanConversion, GammaIsTheLastStep) {
   GreyImage image;
   converter.convert(std::vector<float>(9, 0.5f), image);
   EXPECT_EQ(*std::max_element(image.pixels.begin(), image.pixels.end()), 64);
+}
+
+// A small picture of a fine grid: each pixel spans several samples and lines.
+struct Small {
+  explicit Small(int size) : scene(sceneOf(ProbeKind::phased, 192, 1024)) {
+    scene.output.width = scene.output.height = size;
+    scene.output.ecg = false;
+    geometry = pictureGeometry(scene);
+    averaged = ScanConverter::averagedOver(scene, geometry);
+  }
+  std::vector<float> picture(const std::vector<float>& grey, int over) const {
+    const ScanConverter converter(scene.probe, geometry, scene.output.width, scene.output.height,
+                                  1, over);
+    std::vector<float> values;
+    converter.convert(grey, values);
+    return values;
+  }
+  std::vector<float> plane(auto&& grey) const {
+    std::vector<float> values;
+    for (int line = 0; line < scene.probe.lines; ++line)
+      for (int k = 0; k < scene.probe.samples; ++k) values.push_back(grey(line, k));
+    return values;
+  }
+  Scene scene;
+  PictureGeometry geometry;
+  int averaged = 1;
+};
+
+TEST(ScanConversion, OnlyPicturesCoarserThanAnEchoAreAveraged) {
+  EXPECT_GT(Small(112).averaged, 4);
+  EXPECT_EQ(Small(1200).averaged, 1);
+  Small slow(112);  // an echo as long as a pixel
+  slow.scene.signal.pulse_cycles = 2 * slow.geometry.metres_per_pixel /
+                                   ScanGeometry(slow.scene.probe).wavelength() * 1.01;
+  EXPECT_EQ(ScanConverter::averagedOver(slow.scene, slow.geometry), 1);
+}
+
+TEST(ScanConversion, AnAveragedPictureKeepsAConstantAndItsOutline) {
+  const Small small(112);
+  const std::vector<float> grey = small.plane([](int, int) { return 0.375f; });
+  const std::vector<float> mean = small.picture(grey, small.averaged),
+                           centre = small.picture(grey, 1);
+  for (std::size_t i = 0; i < mean.size(); ++i) EXPECT_EQ(mean[i], centre[i]) << i;
+}
+
+// Law: samples bright and dark by turns have no structure that a pixel of ten samples could show.
+// Centres alone give whatever they meet.
+TEST(ScanConversion, AFineGratingBecomesItsMean) {
+  const Small small(112);
+  const std::vector<float> grey =
+      small.plane([](int, int k) { return k % 2 == 0 ? 1.0f : 0.0f; });
+  const auto furthest = [&](int over) {
+    const std::vector<float> values = small.picture(grey, over);
+    const int size = small.scene.output.width;
+    float most = 0;
+    // Pixels that lie wholly in the scan area: each neighbour is in it, too.
+    for (int y = 1; y + 1 < size; ++y)
+      for (int x = 1; x + 1 < size; ++x) {
+        bool inside = true;
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx)
+            inside = inside && values[static_cast<std::size_t>((y + dy) * size + x + dx)] >= 0;
+        const float value = values[static_cast<std::size_t>(y * size + x)];
+        if (inside) most = std::max(most, std::abs(value - 0.5f));
+      }
+    return most;
+  };
+  EXPECT_LT(furthest(small.averaged), 0.1f);
+  EXPECT_GT(furthest(1), 0.4f);
+}
+
+// Law: the mean over the scan area is that of a picture with as many pixels as values are averaged,
+// but for the pixels at its outline.
+TEST(ScanConversion, AveragingKeepsTheMean) {
+  const Small small(112), large(112 * small.averaged);
+  const std::vector<float> grey = small.plane([](int line, int k) {
+    return 0.5f + 0.3f * std::sin(0.2f * static_cast<float>(line)) *
+                      std::cos(0.013f * static_cast<float>(k));
+  });
+  const auto meanOf = [](const std::vector<float>& picture) {
+    double sum = 0, count = 0;
+    for (const float value : picture)
+      if (value >= 0) {
+        sum += static_cast<double>(value);
+        ++count;
+      }
+    return sum / count;
+  };
+  EXPECT_NEAR(meanOf(small.picture(grey, small.averaged)), meanOf(large.picture(grey, 1)), 2e-3);
+}
+
+TEST(ScanConversion, AveragedGreysAreTheMeanThroughTheGreyMap) {
+  const Small small(112);
+  const std::vector<float> grey = small.plane([](int line, int k) {
+    return static_cast<float>((line * 7 + k * 13) % 101) / 100;
+  });
+  const ScanConverter converter(small.scene.probe, small.geometry, 112, 112, 2, small.averaged);
+  GreyImage image;
+  std::vector<float> values;
+  converter.convert(grey, image);
+  converter.convert(grey, values);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double wanted = values[i] < 0 ? 0 : 255 * std::pow(static_cast<double>(values[i]), 2);
+    ASSERT_NEAR(image.pixels[i], wanted, 0.6) << i;
+  }
 }
 
 }  // namespace

@@ -16,9 +16,10 @@ set(libraries
   "embree3/=geometry"
   "(OpenEXR/|Imath/|Imf.*\\.h$|half\\.h$)=output"
   "opencv2/(core|imgproc)=signal,metrics,video,output,compare"
-  "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$|zlib\\.h$)=video"
+  "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
+  "zlib\\.h$=video,dataset"
   "CLI/=cli"
-  "nlohmann/=scene,heart,output,page,simulate,view,compare,render,study,cli,python"
+  "nlohmann/=scene,heart,output,page,simulate,view,compare,render,study,dataset,cli,python"
   "(pybind11/|Python\\.h$)=python"
   "fmt/=*"
   "[a-z_0-9]+(\\.h)?$=*"
@@ -37,8 +38,9 @@ set(rooms
   "cycle="
   "keyframes=cycle,mesh"
   "interior=keyframes"
-  "heart=cycle|mesh,keyframes,subdivision"
-  "motion=mesh,keyframes,interior,subdivision|repair,cycle"
+  "views="
+  "heart=cycle,views|mesh,keyframes,subdivision"
+  "motion=mesh,keyframes,interior,subdivision|repair,cycle,views"
   "geometry=motion"
   "truth=geometry,motion,interior"
   "trace=geometry"
@@ -50,11 +52,12 @@ set(rooms
   "simulate=output,motion,cycle,geometry,trace,speckle,signal,truth"
   "view=simulate,mesh|cycle,geometry,signal,video,page"
   "compare=simulate,video,metrics,signal,truth,page|motion,output"
-  "render=simulate,cycle,output,page,video,truth|signal,view"
+  "render=simulate,cycle,output,page,video,truth|signal,motion,view"
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
   "echocine=render,simulate,heart"
+  "dataset=simulate,output,cycle,heart,truth,signal|motion,video,page"
   "python=render,compare,study,simulate,heart,cycle|output,video,motion,cycle,truth,signal,geometry"
-  "cli=render,compare,study,output,view|video,simulate,motion,keyframes,cycle,heart")
+  "cli=render,compare,study,dataset,output,view|video,simulate,motion,keyframes,cycle,heart")
 
 function(room_of path out)
   string(REGEX REPLACE "^src/" "" path "${path}")

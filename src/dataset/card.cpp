@@ -1,0 +1,122 @@
+// The dataset's card: README.md, and plots of what was drawn.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "dataset/tables.h"
+
+namespace echocine::dataset {
+
+namespace {
+
+using Numbers = std::map<std::string, std::vector<double>>;
+
+// Every number of a loop that varies, by its name.
+Numbers numbersOf(std::span<const Json> records) {
+  Numbers numbers;
+  const auto take = [&](const std::string& name, const Json& value) {
+    if (value.is_number()) numbers[name].push_back(value.get<double>());
+  };
+  for (const Json& record : records)
+    for (const Json& loop : record["loops"]) {
+      for (const char* name : {"ef_percent", "edv_ml", "esv_ml", "frames", "mm_per_pixel"})
+        take(name, loop[name]);
+      if (loop["offset"].is_object())
+        for (const auto& [name, value] : loop["offset"].items()) take("offset." + name, value);
+      for (const auto& [name, value] : loop["drawn"].items()) take(name, value);
+    }
+  std::erase_if(numbers, [](const auto& entry) {
+    const auto [low, high] = std::minmax_element(entry.second.begin(), entry.second.end());
+    return entry.second.size() < 2 || *low == *high;
+  });
+  return numbers;
+}
+
+// A histogram as SVG, 20 bars between the smallest and the largest value.
+std::string histogram(const std::string& name, const std::vector<double>& values) {
+  constexpr int kBars = 20, kWide = 12, kHigh = 80, kLeft = 10, kTop = 22;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  std::array<int, kBars> counts{};
+  for (const double v : values)
+    ++counts[static_cast<std::size_t>(
+        std::min(kBars - 1, static_cast<int>(kBars * (v - *low) / (*high - *low))))];
+  const int most = *std::max_element(counts.begin(), counts.end());
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" font-family=\"sans-serif\" "
+      "font-size=\"11\">\n<text x=\"{}\" y=\"14\">{} (n = {})</text>\n",
+      kBars * kWide + 2 * kLeft, kHigh + kTop + 20, kLeft, name, values.size());
+  for (int i = 0; i < kBars; ++i) {
+    const double height = 1.0 * kHigh * counts[static_cast<std::size_t>(i)] / most;
+    svg += fmt::format("<rect x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\" fill=\"#36c\"/>\n",
+                       kLeft + i * kWide, kTop + kHigh - height, kWide - 1, height);
+  }
+  const int foot = kTop + kHigh + 14;
+  return svg + fmt::format("<text x=\"{}\" y=\"{}\">{:.4g}</text>\n<text x=\"{}\" y=\"{}\" "
+                           "text-anchor=\"end\">{:.4g}</text>\n</svg>\n",
+                           kLeft, foot, *low, kLeft + kBars * kWide, foot, *high);
+}
+
+std::string fileName(std::string name) {
+  std::replace(name.begin(), name.end(), '.', '_');
+  return "figures/" + name + ".svg";
+}
+
+std::string row(const std::string& name, std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  };
+  return fmt::format("| {} | {:.4g} | {:.4g} | {:.4g} | ![]({}) |\n", name, at(0), at(0.5), at(1),
+                     fileName(name));
+}
+
+std::string countsText(const Json& counts, const char* what) {
+  std::string text;
+  for (const auto& [name, count] : counts[what].items())
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count.get<int>());
+  return text;
+}
+
+}  // namespace
+
+void writeCard(const Spec& spec, std::span<const Json> records, const Json& counts, Sink& sink) {
+  const Numbers numbers = numbersOf(records);
+  std::string text = fmt::format(
+      R"(# {0}
+
+Simulated cardiac ultrasound: {1} loops of {2} hearts, {3} frames, made by EchoCine {4}.
+No picture is of a person. What is known of every loop stands in `loops.csv`, a row each.
+
+| | |
+|---|---|
+| layouts | {5} |
+| hearts by split | {6} |
+| hearts by population | {7} |
+| impossible draws, drawn again | {8} (`impossible.csv`) |
+| hearts that failed | {9} (`failed.csv`) |
+| licence | {10} |
+| made again, byte for byte, by | `echocine dataset spec.toml -o FOLDER` |
+| spec | `spec.toml`, SHA-256 {11} |
+
+Splits are by heart: all views of a heart are in the same one.
+Distributions with their sources stand in `dataset.json`.
+
+| what varies | least | median | most | |
+|---|---|---|---|---|
+)",
+      spec.name, counts["loops"].get<int>(), counts["hearts"].get<int>(),
+      counts["frames"].get<int>(), ECHOCINE_VERSION, fmt::format("{}", fmt::join(spec.layouts, ", ")),
+      countsText(counts, "hearts_by_split"), countsText(counts, "hearts_by_population"),
+      counts["impossible_draws"].get<int>(), counts["failed_hearts"].get<int>(), spec.licence,
+      spec.digest);
+  for (const auto& [name, values] : numbers) {
+    text += row(name, values);
+    sink.write(fileName(name), histogram(name, values));
+  }
+  sink.write("README.md", text);
+}
+
+}  // namespace echocine::dataset

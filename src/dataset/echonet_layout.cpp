@@ -1,0 +1,75 @@
+// EchoNet-Dynamic: FileList.csv, VolumeTracings.csv and Videos/ID.avi, 112 x 112.
+
+#include <fmt/format.h>
+
+#include "dataset/layout.h"
+#include "dataset/shrink.h"
+
+namespace echocine::dataset {
+
+namespace {
+
+constexpr int kSide = 112;
+
+// Its rows as [x1, y1, x2, y2]: the long axis, then the chords.
+Json rowsOf(const Tracing& tracing, const Square& square) {
+  Json rows = Json::array();
+  const auto add = [&](PixelPoint from, PixelPoint to) {
+    const PixelPoint a = inShrunk(from, square, kSide), b = inShrunk(to, square, kSide);
+    rows.push_back({a.x, a.y, b.x, b.y});
+  };
+  add(tracing.apex, tracing.base);
+  for (const auto& [from, to] : tracing.chords) add(from, to);
+  return rows;
+}
+
+void writeHeart(const Spec&, const Heart& heart, Sink& sink, Json& record) {
+  for (std::size_t v = 0; v < heart.loops.size(); ++v) {
+    const Loop& loop = heart.loops[v];
+    const Square square = sectorSquare(loop.frames.front().image);
+    std::vector<GreyImage> small;
+    for (const LoopFrame& frame : loop.frames) small.push_back(shrunk(frame.image, square, kSide));
+    std::vector<const GreyImage*> images;
+    for (const GreyImage& image : small) images.push_back(&image);
+    sink.writeCine(fmt::format("echonet/Videos/{}.avi", loop.id), images,
+                   loop.scene.acquisition.frame_rate_hz);
+    record["loops"][v]["echonet"] = {{"ed", rowsOf(loop.ed_tracing, square)},
+                                     {"es", rowsOf(loop.es_tracing, square)}};
+  }
+}
+
+// The loader takes the frame whose rows come first for end-systole, and a mask from the first point
+// of every chord, then the second ones backwards.
+void addTracing(const Json& loop, const char* instant, std::string& text) {
+  for (const Json& row : loop["echonet"][instant])
+    text += fmt::format("{}.avi,{:.3f},{:.3f},{:.3f},{:.3f},{}\n", loop["id"].get<std::string>(),
+                        row[0].get<double>(), row[1].get<double>(), row[2].get<double>(),
+                        row[3].get<double>(), loop[fmt::format("{}_frame", instant)].get<int>());
+}
+
+const char* splitWord(const std::string& split) {
+  return split == "train" ? "TRAIN" : split == "val" ? "VAL" : "TEST";
+}
+
+void mergeTables(const Spec&, std::span<const Json> records, Sink& sink) {
+  std::string list = "FileName,EF,ESV,EDV,FrameHeight,FrameWidth,FPS,NumberOfFrames,Split\n";
+  std::string tracings = "FileName,X1,Y1,X2,Y2,Frame\n";
+  for (const Json& record : records)
+    for (const Json& loop : record["loops"]) {
+      list += fmt::format("{},{:.4f},{:.4f},{:.4f},{},{},{:g},{},{}\n",
+                          loop["id"].get<std::string>(), loop["ef_percent"].get<double>(),
+                          loop["esv_ml"].get<double>(), loop["edv_ml"].get<double>(), kSide, kSide,
+                          loop["frame_rate_hz"].get<double>(), loop["frames"].get<int>(),
+                          splitWord(record["split"].get<std::string>()));
+      addTracing(loop, "es", tracings);
+      addTracing(loop, "ed", tracings);
+    }
+  sink.write("echonet/FileList.csv", list);
+  sink.write("echonet/VolumeTracings.csv", tracings);
+}
+
+}  // namespace
+
+const Layout kEchonet{"echonet", writeHeart, mergeTables};
+
+}  // namespace echocine::dataset

@@ -1,0 +1,196 @@
+#include "dataset/make_heart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/error.h"
+#include "core/hash_random.h"
+#include "core/parallel.h"
+#include "core/units.h"
+#include "dataset/aim.h"
+#include "dataset/tracing.h"
+#include "motion/cycle/ecg.h"
+#include "motion/heart/heart_scene.h"
+#include "output/truth_files.h"
+#include "simulate/simulator.h"
+
+namespace echocine::dataset {
+
+namespace {
+
+using heart::Landmarks;
+
+// For tests: makes a share of all hearts fail, by their numbers.
+void failIfAsked(const Spec& spec, int heart) {
+  const char* const share = std::getenv("ECHOCINE_FAILING_HEARTS");
+  if (share == nullptr || uniformFromHash(hashFor(spec, "fault", heart, 0)) >= std::atof(share))
+    return;
+  throw JobError("made to fail by ECHOCINE_FAILING_HEARTS");
+}
+
+void keepContours(const Scene& scene, std::vector<Contour>& contours) {
+  std::erase_if(contours, [&](const Contour& contour) {
+    const Role role = roleOf(scene.structures[index(contour.surface)]);
+    return std::find(std::begin(kContourRoles), std::end(kContourRoles), role) ==
+           std::end(kContourRoles);
+  });
+}
+
+LoopFrame frameOf(const Scene& scene, const SurfaceId cavity, Frame& made) {
+  LoopFrame frame;
+  frame.time = made.time;
+  std::swap(frame.image, made.image);
+  frame.labels = std::move(made.truth->labels);
+  frame.contours = std::move(made.truth->contours);
+  keepContours(scene, frame.contours);
+  frame.function = made.truth->function;
+  frame.tracks_m = std::move(made.truth->tracks_m);
+  for (const auto& [name, ml] : made.volumes_ml)
+    if (name == scene.structures[index(cavity)].name) frame.lv_ml = ml;
+  return frame;
+}
+
+// Within the first beat, and end-diastole before end-systole: CAMUS's half sequence runs from one
+// to the other.
+Instants instantsOf(const std::vector<LoopFrame>& frames) {
+  const auto smaller = [](const LoopFrame& a, const LoopFrame& b) { return a.lv_ml < b.lv_ml; };
+  const auto beat_end = std::find_if(frames.begin(), frames.end(),
+                                     [](const LoopFrame& f) { return f.time.beat > 0; });
+  const auto es = std::min_element(frames.begin(), beat_end, smaller);
+  const auto ed = std::max_element(frames.begin(), es + 1, smaller);
+  return {static_cast<int>(ed - frames.begin()), static_cast<int>(es - frames.begin())};
+}
+
+Tracing inPixels(const PlaneTracing& traced, const PictureGeometry& geometry) {
+  Tracing tracing{pixelOf(geometry, traced.apex), pixelOf(geometry, traced.base), {}};
+  for (const auto& [from, to] : traced.chords)
+    tracing.chords.emplace_back(pixelOf(geometry, from), pixelOf(geometry, to));
+  return tracing;
+}
+
+// Volumes by Simpson's rule, and the tracing, of a frame at which the landmarks are known.
+Tracing measure(const Simulator& simulator, SurfaceId cavity, const Landmarks& places,
+                const PictureGeometry& geometry, LoopFrame& frame) {
+  const Pose& pose = simulator.scene().probe.pose;
+  SurfaceFrame surfaces;
+  simulator.motion().frameAt(frame.time.phase, surfaces, false);
+  const SurfaceTopology& surface = simulator.motion().surfaces()[index(cavity)];
+  const std::vector<Vec3f>& positions = surfaces.positions_m[index(cavity)];
+  const LongAxis axis{pose.fromWorld(places.mitral), pose.fromWorld(places.apex)};
+  const auto widths = [&](Vec3d world) {  // in the heart's own four- and two-chamber directions
+    const Vec3d across{dot(world, pose.x_axis), dot(world, pose.y_axis), dot(world, pose.z_axis)};
+    return discWidths(surface.triangles, positions, axis, across);
+  };
+  const double length_m = length(axis.apex_m - axis.base_m);
+  frame.biplane_ml = millilitresFromCubicMetres(
+      discVolume(length_m, widths({1, 0, 0}), widths({0, 1, 0})));
+  const auto traced = traceCavity(longestContour(frame.contours, cavity), axis.base_m);
+  if (!traced) return {};
+  frame.disc_widths_m = traced->disc_widths_m;
+  frame.traced_length_m = traced->length_m;
+  frame.single_plane_ml = millilitresFromCubicMetres(
+      discVolume(traced->length_m, traced->disc_widths_m, traced->disc_widths_m));
+  return inPixels(*traced, geometry);
+}
+
+bool showsLongAxis(View view) {
+  return view == View::a4c || view == View::a2c || view == View::a3c || view == View::plax;
+}
+
+std::size_t nearestKeyframe(const heart::Recording& recording, double phase) {
+  const auto away = [&](double p) { return std::min(std::abs(p - phase), 1 - std::abs(p - phase)); };
+  const auto nearer = [&](double a, double b) { return away(a) < away(b); };
+  return static_cast<std::size_t>(
+      std::min_element(recording.phases.begin(), recording.phases.end(), nearer) -
+      recording.phases.begin());
+}
+
+void traceInstants(const Simulator& simulator, SurfaceId cavity, const heart::Recording& recording,
+                   Loop& loop) {
+  for (const auto& [number, tracing] :
+       {std::pair(loop.instants.ed, &loop.ed_tracing), std::pair(loop.instants.es, &loop.es_tracing)}) {
+    LoopFrame& frame = loop.frames[static_cast<std::size_t>(number)];
+    const Landmarks& places = recording.places[nearestKeyframe(recording, frame.time.phase)];
+    Tracing made = measure(simulator, cavity, places, loop.geometry, frame);
+    if (showsLongAxis(loop.view)) *tracing = std::move(made);
+  }
+}
+
+Loop makeLoop(const Spec& spec, const Draw& draw, std::size_t view,
+              const heart::Parameters& parameters, const heart::Recording& recording,
+              const Monitor& monitor) {
+  Loop loop;
+  loop.view = spec.views[view];
+  loop.id = loopId(draw.heart + 1, loop.view);
+  loop.values = draw.values;
+  loop.values.insert(draw.view_values[view].begin(), draw.view_values[view].end());
+  loop.scene = sceneOf(spec, draw, view, parameters, recording);
+  loop.geometry = pictureGeometry(loop.scene);
+  const Simulator simulator(loop.scene);
+  const CardiacClock& clock = simulator.cardiacClock();
+  const SurfaceId cavity = *structureOf(loop.scene, Role::lv_cavity);
+  Frame made;
+  for (int i = 0; i < clock.frameCount(); ++i) {
+    if (!monitor.keep_going()) throw JobError("stopped");
+    const FrameTime time = clock.at(i);
+    simulator.frame(time.time_s, made);
+    loop.frames.push_back(frameOf(loop.scene, cavity, made));
+    loop.ecg.push_back(ecgAmplitude(time.time_in_beat_s, time.beat_s));
+  }
+  loop.instants = instantsOf(loop.frames);
+  traceInstants(simulator, cavity, recording, loop);
+  loop.tracked = simulator.truth()->tracked();
+  loop.offset = simulator.truth()->view();
+  return loop;
+}
+
+Heart attempt(const Spec& spec, const Draw& draw, const Monitor& monitor) {
+  const heart::Parameters parameters = parametersOf(draw.values);
+  if (const std::string fault = faultOf(parameters); !fault.empty()) throw SceneError(fault);
+  const heart::ParametricHeart model(parameters);
+  Heart made{draw.heart + 1, draw.attempt, draw.population->name, spec.splitOf(draw.heart), {}};
+  heart::Recording recording;
+  for (std::size_t v = 0; v < spec.views.size(); ++v) {
+    recording = v == 0 ? record(model, spec.views[v], spec.keyframes)
+                       : seenFrom(spec.views[v], model, recording);
+    made.loops.push_back(makeLoop(spec, draw, v, parameters, recording, monitor));
+  }
+  return made;
+}
+
+}  // namespace
+
+std::string loopId(int heart_number, View view) {
+  for (const heart::ViewName& name : heart::viewNames())
+    if (name.view == view) {
+      std::string key = name.key;
+      std::replace(key.begin(), key.end(), '-', '_');
+      return fmt::format("ec{:06}_{}", heart_number, key);
+    }
+  return {};
+}
+
+Heart makeHeart(const Spec& spec, int heart, const Monitor& monitor) {
+  std::vector<std::string> impossible;
+  std::optional<Heart> made;
+  inThisThread([&] {
+    failIfAsked(spec, heart);
+    for (int tried = 0; tried < kMostAttempts && !made; ++tried) {
+      try {
+        made = attempt(spec, drawOf(spec, heart, tried), monitor);
+      } catch (const SceneError& error) {
+        impossible.emplace_back(error.what());
+      }
+    }
+  });
+  if (!made)
+    throw SceneError(fmt::format("{} draws were impossible, the last because of {}", kMostAttempts,
+                                 impossible.back()));
+  made->impossible = std::move(impossible);
+  return std::move(*made);
+}
+
+}  // namespace echocine::dataset

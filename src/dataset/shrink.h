@@ -1,0 +1,22 @@
+#pragma once
+// Small pictures out of large ones, every pixel the average of what it covers.
+
+#include "signal/picture.h"
+
+namespace echocine::dataset {
+
+// A square of a picture: its upper left corner and its side, in pixels.
+struct Square {
+  double x = 0, y = 0, side = 0;
+};
+
+// The bounding square of the sector in a square picture (signal/picture.h has its margins).
+Square sectorSquare(const GreyImage& image);
+
+// to x to pixels, exact averages over the square. Precondition: the square lies in the picture.
+GreyImage shrunk(const GreyImage& image, const Square& from, int to);
+
+// Where a place of the large picture is in the small one, pixel (0, 0)'s centre at (0, 0).
+PixelPoint inShrunk(PixelPoint at, const Square& from, int to);
+
+}  // namespace echocine::dataset

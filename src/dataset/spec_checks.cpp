@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "dataset/spec.h"
+#include "scene/scene_reader.h"
+
+namespace echocine::dataset {
+
+namespace {
+
+// The least scene, in which every key can be tried before a heart is made.
+constexpr const char* kTrialScene = R"(background = "soft_tissue"
+[probe]
+kind = "phased"
+apex = [0, 0, 0]
+axis = [0, 0, 1]
+lateral = [1, 0, 0]
+sector_deg = 75
+min_depth_mm = 2
+depth_mm = 160
+frequency_mhz = 2.5
+lines = 256
+samples = 1024
+[motion]
+mesh_unit = "mm"
+[signal]
+look = "scanner"
+reference_intensity = 4e-4
+[[structure]]
+name = "lv_cavity"
+medium = "blood"
+keyframes = "one.obj"
+)";
+
+NamedMeshes trialMesh() {
+  auto mesh = std::make_shared<TriangleMesh>();
+  mesh->positions = {{0, 0, 50}, {10, 0, 50}, {0, 10, 50}, {0, 0, 60}};
+  mesh->triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  return {{"one.obj", mesh}};
+}
+
+// The ends of what it gives; each word of a choice.
+std::vector<TomlValue> extremes(const Distribution& d) {
+  if (!d.items.empty()) return d.items;
+  constexpr double kEnd = 1e-12;
+  return {d.quantile(kEnd), d.quantile(1 - kEnd)};
+}
+
+// Every scene key at each of its extremes, the others in their middle.
+void tryScene(const Spec& spec) {
+  std::vector<std::pair<std::string, TomlValue>> middle;
+  std::vector<const Parameter*> tried;
+  for (const Parameter& p : spec.parameters) {
+    if (!p.name.starts_with("scene.")) continue;
+    middle.emplace_back(p.name.substr(6), p.distribution.quantile(0.5));
+    tried.push_back(&p);
+  }
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    auto values = middle;
+    for (const TomlValue& value : extremes(tried[i]->distribution)) {
+      values[i].second = value;
+      try {
+        parseScene(withValues(kTrialScene, "scene", values), "scene", trialMesh());
+      } catch (const SceneError& error) {
+        throw SceneError(atPlace(tried[i]->place, fmt::format("with {} a scene is refused: {}",
+                                                              tomlText(value), error.what())));
+      }
+    }
+  }
+}
+
+[[noreturn]] void failOfLayouts(const Spec& spec, const std::string& what) {
+  throw SceneError(atPlace({spec.file.string(), 0, "layouts"}, what));
+}
+
+bool isApical(View view) {
+  return view == View::a4c || view == View::a2c || view == View::a3c;
+}
+
+void checkLayouts(const Spec& spec) {
+  const auto shows = [&](View view) {
+    return std::find(spec.views.begin(), spec.views.end(), view) != spec.views.end();
+  };
+  if (spec.has("camus") && !(spec.views.size() == 2 && shows(View::a2c) && shows(View::a4c)))
+    failOfLayouts(spec, "\"camus\" holds two views of each heart, accepted: views = [\"a2c\", \"a4c\"]");
+  if (spec.has("camus") && spec.hearts > 9999)
+    failOfLayouts(spec, fmt::format("\"camus\" numbers patients by four digits, but hearts is {}, "
+                                    "accepted: up to 9999",
+                                    spec.hearts));
+  if (spec.has("echonet") && !std::all_of(spec.views.begin(), spec.views.end(), isApical))
+    failOfLayouts(spec, "\"echonet\" traces the long axis, accepted: views a4c, a2c and a3c");
+}
+
+}  // namespace
+
+void checkSpec(const Spec& spec) {
+  tryScene(spec);
+  checkLayouts(spec);
+}
+
+}  // namespace echocine::dataset

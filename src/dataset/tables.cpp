@@ -1,0 +1,151 @@
+#include "dataset/tables.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+
+namespace echocine::dataset {
+
+namespace {
+
+// Quoted where a comma, a quote or a line's end asks for it (RFC 4180).
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string fieldOf(const Json& value) {
+  if (value.is_null()) return {};
+  return value.is_string() ? field(value.get<std::string>()) : value.dump();
+}
+
+// All single values of a loop by column, those of tables within it as "offset.tilt_deg".
+void flatten(const Json& json, const std::string& prefix, std::map<std::string, std::string>& to,
+             std::vector<std::string>& order) {
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_object()) {
+      flatten(value, prefix + key + ".", to, order);
+    } else if (!value.is_array()) {
+      to[prefix + key] = fieldOf(value);
+      order.push_back(prefix + key);
+    }
+  }
+}
+
+std::string loopsTable(std::span<const Json> records) {
+  struct Row {
+    const Json* record;
+    std::map<std::string, std::string> cells;
+  };
+  std::vector<Row> rows;
+  std::vector<std::string> columns;  // those of every loop in their order, then what was drawn
+  std::set<std::string> known, drawn;
+  for (const Json& record : records)
+    for (const Json& loop : record["loops"]) {
+      rows.push_back({&record, {}});
+      std::vector<std::string> order;
+      flatten(loop, "", rows.back().cells, order);
+      for (const std::string& name : order) {
+        if (name.starts_with("drawn."))
+          drawn.insert(name);
+        else if (known.insert(name).second)
+          columns.push_back(name);
+      }
+    }
+  columns.insert(columns.end(), drawn.begin(), drawn.end());
+  std::string text = "heart,population,split,attempt";
+  for (const std::string& column : columns)
+    text += "," + (column.starts_with("drawn.") ? column.substr(6) : column);
+  text += "\n";
+  for (Row& row : rows) {
+    const Json& record = *row.record;
+    text += fmt::format("{},{},{},{}", fieldOf(record["heart"]), fieldOf(record["population"]),
+                        fieldOf(record["split"]), fieldOf(record["attempt"]));
+    for (const std::string& column : columns) text += "," + row.cells[column];
+    text += "\n";
+  }
+  return text;
+}
+
+std::string splitsText(std::span<const Json> records) {
+  Json splits{{"train", Json::array()}, {"val", Json::array()}, {"test", Json::array()}};
+  for (const Json& record : records)
+    for (const Json& loop : record["loops"])
+      splits[record["split"].get<std::string>()].push_back(loop["id"]);
+  return splits.dump(1) + "\n";
+}
+
+std::string impossibleTable(std::span<const Json> records) {
+  std::string text = "heart,attempt,reason\n";
+  for (const Json& record : records)
+    for (std::size_t i = 0; i < record["impossible"].size(); ++i)
+      text += fmt::format("{},{},{}\n", fieldOf(record["heart"]), i, fieldOf(record["impossible"][i]));
+  return text;
+}
+
+std::string failedTable(std::span<const Json> failures) {
+  std::string text = "heart,seed,reason\n";
+  for (const Json& failure : failures)
+    text += fmt::format("{},{},{}\n", fieldOf(failure["heart"]), fieldOf(failure["seed"]),
+                        fieldOf(failure["failed"]));
+  return text;
+}
+
+Json countsOf(std::span<const Json> records, std::span<const Json> failures) {
+  Json counts{{"hearts", records.size()}, {"loops", 0}, {"frames", 0}, {"impossible_draws", 0}};
+  std::map<std::string, int> populations, splits;
+  std::size_t loops = 0, frames = 0, impossible = 0;
+  for (const Json& record : records) {
+    loops += record["loops"].size();
+    impossible += record["impossible"].size();
+    for (const Json& loop : record["loops"]) frames += loop["frames"].get<std::size_t>();
+    ++populations[record["population"].get<std::string>()];
+    ++splits[record["split"].get<std::string>()];
+  }
+  counts["loops"] = loops;
+  counts["frames"] = frames;
+  counts["impossible_draws"] = impossible;
+  counts["failed_hearts"] = failures.size();
+  counts["hearts_by_split"] = splits;
+  counts["hearts_by_population"] = populations;
+  return counts;
+}
+
+Json distributionsJson(const Spec& spec) {
+  Json all = Json::object();
+  for (const Population& population : spec.populations) {
+    Json& one = all[population.name];
+    one["weight"] = population.weight;
+    for (const Parameter& p : spec.parametersOf(population)) {
+      one["parameters"][p.name] = p.distribution.text();
+      if (!p.distribution.source.empty()) one["sources"][p.name] = p.distribution.source;
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+void writeTables(const Spec& spec, std::span<const Json> records, std::span<const Json> failures,
+                 Sink& sink) {
+  const Json counts = countsOf(records, failures);
+  sink.write("loops.csv", loopsTable(records));
+  sink.write("splits.json", splitsText(records));
+  sink.write("impossible.csv", impossibleTable(records));
+  sink.write("failed.csv", failedTable(failures));
+  const Json dataset{{"name", spec.name},
+                     {"licence", spec.licence},
+                     {"version", ECHOCINE_VERSION},
+                     {"spec_sha256", spec.digest},
+                     {"seed", spec.seed},
+                     {"layouts", spec.layouts},
+                     {"counts", counts},
+                     {"distributions", distributionsJson(spec)}};
+  sink.write("dataset.json", dataset.dump(1) + "\n");
+  writeCard(spec, records, counts, sink);
+}
+
+}  // namespace echocine::dataset

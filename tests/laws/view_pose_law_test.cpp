@@ -1,0 +1,243 @@
+// Views found from meshes: against the parametric heart's own, against probes placed by hand on real
+// hearts, and turned along with any heart.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "motion/heart/views.h"
+#include "motion/views/heart_marks.h"
+#include "scene/view_names.h"
+#include "support/real_hearts.h"
+
+namespace echocine {
+namespace {
+
+using namespace support;
+
+using Dials = std::map<std::string, double>;
+using Surfaces = std::vector<RoleSurface>;
+
+const heart::ParametricHeart& defaultHeart() {
+  static const heart::ParametricHeart made(heart::parametersFrom({}));
+  return made;
+}
+Surfaces surfacesOf(const heart::ParametricHeart& model) {
+  Surfaces surfaces;
+  for (const heart::Part& part : model.at(0))
+    if (const Role role = guessRole(part.kind.name);
+        role != Role::none && role != Role::surroundings)
+      surfaces.push_back({role, part.kind.name, part.points});
+  return surfaces;
+}
+const Surfaces& defaultSurfaces() {
+  static const Surfaces surfaces = surfacesOf(defaultHeart());
+  return surfaces;
+}
+Surfaces only(const Surfaces& all, const std::vector<Role>& roles) {
+  Surfaces some;
+  for (const RoleSurface& s : all)
+    if (std::find(roles.begin(), roles.end(), s.role) != roles.end()) some.push_back(s);
+  return some;
+}
+
+// As heart::poseOf() has it, without making the heart anew.
+ProbePose ownPose(View view, const HeartFrame& own, const Surfaces& surfaces) {
+  return standardPose(view, own,
+                      only(surfaces, {Role::pericardium})[0].points_m);
+}
+
+HeartMarks found(const Surfaces& surfaces) { return findHeart(surfaces, {}); }
+ProbePose poseIn(View view, const Surfaces& surfaces) {
+  const HeartMarks marks = found(surfaces);
+  return standardPose(view, marks.frame, marks.outside_m, marks.wall_m);
+}
+
+void expectNear(const ProbePose& pose, const ProbePose& wanted, double most_deg, double most_mm,
+                const std::string& what) {
+  EXPECT_LT(angleBetween_deg(pose.axis, wanted.axis), most_deg) << what << ", axis";
+  EXPECT_LT(angleBetween_deg(pose.lateral, wanted.lateral), most_deg) << what << ", lateral";
+  EXPECT_LT(1e3 * length(pose.apex - wanted.apex), most_mm) << what << ", place";
+}
+
+TEST(ViewPoseLaw, ParametricHeartsAreSeenAsTheirOwnViewsSeeThem) {
+  for (const Dials& dials : {Dials{}, Dials{{"body-scale", 0.6}}, Dials{{"edv", 200}, {"ef", 0.3}},
+                             Dials{{"sphericity", 0.75}}}) {
+    const heart::ParametricHeart model(heart::parametersFrom(dials));
+    const Surfaces surfaces = surfacesOf(model);
+    const HeartFrame own = heart::frameOf(model);
+    for (const ViewName& name : viewNames())
+      expectNear(poseIn(name.view, surfaces), ownPose(name.view, own, surfaces), 10, 10, name.key);
+  }
+}
+
+// What a lab may have of a heart.
+TEST(ViewPoseLaw, FewRolesLeadToTheSameViews) {
+  struct Few {
+    const char* what;
+    std::vector<Role> roles;
+    double most_deg, most_mm;
+  };
+  const std::vector<Few> cases = {
+      {"four cavities", {Role::lv_cavity, Role::rv_cavity, Role::la, Role::ra}, 10, 12},
+      {"ventricles and valves",
+       {Role::lv_cavity, Role::rv_cavity, Role::lv_wall, Role::mitral_valve, Role::aortic_valve},
+       15, 15},
+      {"ventricles alone", {Role::lv_cavity, Role::rv_cavity}, 20, 25},
+      {"left heart and aorta", {Role::lv_cavity, Role::la, Role::aorta, Role::pericardium}, 15, 20}};
+  const HeartFrame own = heart::frameOf(defaultHeart());
+  for (const Few& few : cases)
+    for (const View view : {View::a4c, View::a2c, View::a3c, View::plax, View::psax_mid})
+      expectNear(poseIn(view, only(defaultSurfaces(), few.roles)),
+                 ownPose(view, own, defaultSurfaces()), few.most_deg, few.most_mm,
+                 std::string(few.what) + ", " + keyOf(view));
+}
+
+// A turn about any axis, then a shift; or the mirror image of that.
+struct Motion {
+  Vec3d axis;
+  double angle_rad;
+  Vec3d shift_m;
+  bool mirrored;
+
+  Vec3d direction(Vec3d v) const {
+    const double c = std::cos(angle_rad), s = std::sin(angle_rad);
+    const Vec3d turned = c * v + s * cross(axis, v) + (1 - c) * dot(axis, v) * axis;
+    return mirrored ? Vec3d{-turned.x, turned.y, turned.z} : turned;
+  }
+  Vec3d operator()(Vec3d p) const { return direction(p) + shift_m; }
+  Surfaces operator()(Surfaces surfaces) const {
+    for (RoleSurface& s : surfaces)
+      for (Vec3d& p : s.points_m) p = (*this)(p);
+    return surfaces;
+  }
+};
+
+TEST(ViewPoseLaw, TheProbeTurnsAlongWithTheHeart) {
+  const std::vector<std::vector<Role>> sets = {
+      {Role::lv_cavity, Role::rv_cavity, Role::la, Role::ra, Role::aorta, Role::lv_wall,
+       Role::mitral_valve, Role::aortic_valve, Role::tricuspid_valve},
+      {Role::lv_cavity, Role::rv_cavity, Role::aorta},
+      {Role::lv_cavity, Role::la, Role::ra, Role::aorta}};
+  for (const std::vector<Role>& roles : sets)
+    for (const bool mirrored : {false, true})
+      for (const double angle_rad : {0.4, 2.0, 3.1}) {
+        const Surfaces heart = only(defaultSurfaces(), roles);
+        const Motion motion{normalised(Vec3d{0.3, -0.8, 0.5}), angle_rad, {0.2, -1.5, 0.7},
+                            mirrored};
+        for (const ViewName& name : viewNames()) {
+          const ProbePose there = poseIn(name.view, motion(heart)),
+                          here = poseIn(name.view, heart);
+          EXPECT_LT(length(there.apex - motion(here.apex)), 1e-7) << name.key << mirrored;
+          EXPECT_LT(length(there.axis - motion.direction(here.axis)), 1e-6) << name.key;
+          EXPECT_LT(length(there.lateral - motion.direction(here.lateral)), 1e-6) << name.key;
+          EXPECT_NEAR(there.depth_m, here.depth_m, 1e-7) << name.key;
+        }
+      }
+}
+
+TEST(ViewPoseLaw, AMirroredHeartIsTold) {
+  const Motion mirror{{0, 0, 1}, 0, {}, true};
+  EXPECT_TRUE(found(defaultSurfaces()).told.empty());
+  const HeartMarks marks = found(mirror(defaultSurfaces()));
+  ASSERT_EQ(marks.told.size(), 1u);
+  EXPECT_NE(marks.told[0].find("mirrored heart"), std::string::npos) << marks.told[0];
+}
+
+// A heart of another size is another body's: everything in proportion.
+TEST(ViewPoseLaw, PosesGrowWithTheHeart) {
+  Surfaces large = defaultSurfaces();
+  for (RoleSurface& s : large)
+    for (Vec3d& p : s.points_m) p = 1.7 * p;
+  for (const ViewName& name : viewNames()) {
+    const ProbePose big = poseIn(name.view, large), small = poseIn(name.view, defaultSurfaces());
+    EXPECT_LT(length(big.apex - 1.7 * small.apex), 1e-7) << name.key;
+    EXPECT_LT(length(big.axis - small.axis), 1e-6) << name.key;
+    EXPECT_NEAR(big.depth_m, 1.7 * small.depth_m, 1e-7) << name.key;
+  }
+}
+
+// Placed by hand, as a sonographer says it: through the apex with the valves' middles in the plane.
+ProbePose byHand(View view, const RealHeart& heart) {
+  const Vec3d axis = normalised(heart.apex - heart.mitral);
+  const auto across = [&](Vec3d v) { return normalised(v - dot(v, axis) * axis); };
+  const Vec3d left = across(heart.mitral - heart.tricuspid), front = across(cross(axis, left)),
+              out = across(heart.aortic - heart.mitral);
+  const Vec3d crux = 0.65 * heart.mitral + 0.35 * heart.tricuspid;
+  const double skin_m = 0.025;  // muscle and chest before the apex
+  const auto from = [&](Vec3d target, Vec3d to_right) {
+    const Vec3d down = normalised(target - heart.apex);
+    return ProbePose{heart.apex - skin_m * down, down,
+                     normalised(to_right - dot(to_right, down) * down)};
+  };
+  if (view == View::a4c) return from(crux, left);
+  if (view == View::a2c) return from(heart.mitral, 0.5 * left + 0.866 * front);
+  if (view == View::a3c) return from(0.5 * (heart.mitral + heart.aortic), out);
+  ADD_FAILURE() << "no hand has placed it";
+  return {};
+}
+
+TEST(ViewPoseLaw, RealHeartsAreSeenAsByHand) {
+  if (!realHeartsThere()) GTEST_SKIP() << "no real hearts beside the project";
+  for (const RealHeart& heart : {patientHeart(), wholeHeart(), fourChamberHeart()})
+    for (const View view : {View::a4c, View::a2c, View::a3c}) {
+      if (view == View::a3c && !heart.has_aorta) continue;
+      expectNear(poseIn(view, heart.surfaces), byHand(view, heart), 10, 10,
+                 heart.name + ", " + keyOf(view));
+    }
+}
+
+// Structures that a view must show and must not, by what its sector cuts of them.
+struct Seen {
+  View view;
+  std::vector<Role> shown, hidden;
+};
+const std::vector<Seen> kSeen = {
+    {View::a4c, {Role::lv_cavity, Role::rv_cavity, Role::la, Role::ra, Role::mitral_valve,
+                 Role::tricuspid_valve}, {Role::aortic_valve}},
+    {View::a2c, {Role::lv_cavity, Role::la, Role::mitral_valve}, {Role::rv_cavity, Role::ra,
+                 Role::tricuspid_valve, Role::aortic_valve}},
+    {View::a3c, {Role::lv_cavity, Role::la, Role::aorta, Role::rv_cavity, Role::aortic_valve,
+                 Role::mitral_valve}, {Role::tricuspid_valve}},
+    {View::plax, {Role::lv_cavity, Role::la, Role::aorta, Role::rv_cavity, Role::mitral_valve},
+                 {Role::tricuspid_valve}},
+    {View::psax_base, {Role::rv_cavity, Role::la, Role::ra, Role::aorta}, {}},
+    {View::psax_mid, {Role::lv_cavity, Role::rv_cavity}, {Role::la, Role::ra, Role::aorta}},
+    {View::psax_apex, {Role::lv_cavity}, {Role::la, Role::ra, Role::aorta}},
+    {View::subcostal, {Role::lv_cavity, Role::rv_cavity, Role::la, Role::ra}, {}}};
+
+void expectSeen(const RealHeart& heart) {
+  for (const Seen& seen : kSeen) {
+    if (seen.view == View::psax_base && !heart.has_aorta) continue;
+    const ProbePose pose = poseIn(seen.view, heart.surfaces);
+    // A valve is a line; a sliver of an appendage is not a chamber.
+    const auto shows = [&](Role role, double least_m = 5e-3) {
+      return cutLength_m(heart, role, pose) > least_m;
+    };
+    for (const Role role : seen.shown)
+      EXPECT_TRUE(!heart.has(role) || shows(role))
+          << heart.name << ", " << keyOf(seen.view) << ": no " << nameOf(role);
+    for (const Role role : seen.hidden)
+      EXPECT_FALSE(heart.has(role) && shows(role, 30e-3))
+          << heart.name << ", " << keyOf(seen.view) << ": " << nameOf(role);
+  }
+}
+
+TEST(ViewPoseLaw, EveryViewShowsWhatItMust) {
+  RealHeart shipped{"parametric", {}, {}, {}, {}, {}, {}, true};
+  for (const heart::Part& part : defaultHeart().at(0)) {
+    const Role role = guessRole(part.kind.name);
+    if (role == Role::none || role == Role::surroundings) continue;
+    shipped.surfaces.push_back({role, part.kind.name, part.points});
+    shipped.triangles.push_back(part.faces);
+  }
+  expectSeen(shipped);
+  if (!realHeartsThere()) GTEST_SKIP() << "no real hearts beside the project";
+  for (const RealHeart& heart : {patientHeart(), wholeHeart(), fourChamberHeart()})
+    expectSeen(heart);
+}
+
+}  // namespace
+}  // namespace echocine

@@ -1,0 +1,88 @@
+// What a spec of a dataset may say, and the words by which the rest is refused.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/error.h"
+#include "dataset/spec.h"
+#include "support/paths.h"
+
+namespace echocine::dataset {
+namespace {
+
+const std::string kStart = "hearts = 4\nviews = [\"a4c\"]\n";
+
+void expectRefused(const std::string& text, const std::vector<std::string>& words) {
+  try {
+    parseSpec(text, "spec.toml");
+    ADD_FAILURE() << "accepted: " << text;
+  } catch (const SceneError& error) {
+    const std::string line = error.what();
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    for (const std::string& word : words)
+      EXPECT_NE(line.find(word), std::string::npos) << word << " in " << line;
+  }
+}
+
+TEST(DatasetSpec, WhatIsWrongIsNamedWithWhatIsAccepted) {
+  expectRefused("views = [\"a4c\"]\n", {"hearts", "is missing"});
+  expectRefused("hearts = 0\nviews = [\"a4c\"]\n", {"spec.toml:1", "hearts", "1 to"});
+  expectRefused("hearts = 4\nviews = [\"a5c\"]\n", {"views", "a5c", "a4c, a2c"});
+  expectRefused(kStart + "[heart]\nejection = 0.5\n", {"heart.ejection", "not a known key"});
+  expectRefused(kStart + "[heart]\nef = { uniform = [0.5, 0.95] }\n",
+                {"spec.toml:4", "heart.ef", "0.95", "0.05 to 0.85"});
+  expectRefused(kStart + "[heart]\nef = { gamma = [0.5, 0.6] }\n", {"heart.ef", "uniform"});
+  expectRefused(kStart + "[heart]\nef = { normal = [0.5, 0.1] }\n", {"within", "is missing"});
+  expectRefused(kStart + "[heart]\nhr = { choice = [60, 80], weights = [0.5, 0.6] }\n",
+                {"heart.hr.weights", "sum to 1.1"});
+  expectRefused(kStart + "[populations]\nhealthy = 0.5\n", {"populations", "sum to 0.5"});
+  expectRefused(kStart + "[populations]\nathletes = 1\n", {"athletes", "healthy", "dilated"});
+  expectRefused(kStart + "[heart.segments.lap]\namplitude = 0\n", {"lap", "lad"});
+  expectRefused(kStart + "[offset]\ntilt_deg = 80\n", {"offset.tilt_deg", "-60 to 60"});
+  expectRefused(kStart + "[[correlated]]\nparameters = [\"heart.ef\", \"heart.hr\"]\n",
+                {"heart.ef", "drawn nowhere"});
+}
+
+TEST(DatasetSpec, SceneKeysAreTriedAtTheirEnds) {
+  expectRefused(kStart + "[scene.signal]\ngain_db = { uniform = [0, 500] }\n",
+                {"spec.toml:4", "signal.gain_db", "500", "accepted"});
+  expectRefused(kStart + "[scene.signal]\ngain = 3\n", {"signal.gain"});
+  expectRefused(kStart + "[scene.signal]\nlook = \"paper\"\nquality = \"good\"\n",
+                {"signal.quality"});
+  expectRefused(kStart + "[scene.structure]\nname = \"x\"\n", {"scene.structure"});
+}
+
+TEST(DatasetSpec, LayoutsThatCannotHoldTheLoopsAreRefused) {
+  expectRefused(kStart + "layouts = [\"camus\"]\n", {"camus", "a2c"});
+  expectRefused(kStart + "layouts = [\"dicom\"]\n", {"dicom", "echonet"});
+  expectRefused("hearts = 4\nviews = [\"psax-mid\"]\nlayouts = [\"echonet\"]\n", {"echonet", "a4c"});
+}
+
+TEST(DatasetSpec, CommentsMakeNoOtherDataset) {
+  const Spec plain = parseSpec(kStart, "a.toml"), other = parseSpec("# hearts\n" + kStart, "a.toml");
+  EXPECT_EQ(plain.digest, other.digest);
+  EXPECT_NE(plain.digest, parseSpec("seed = 2\n" + kStart, "a.toml").digest);
+}
+
+TEST(DatasetSpec, SplitsAreByHeartAndInOrder) {
+  Spec spec = parseSpec("hearts = 500\nviews = [\"a2c\", \"a4c\"]\n", "a.toml");
+  EXPECT_EQ(spec.splitOf(399), Split::train);
+  EXPECT_EQ(spec.splitOf(400), Split::val);
+  EXPECT_EQ(spec.splitOf(449), Split::val);
+  EXPECT_EQ(spec.splitOf(450), Split::test);
+}
+
+TEST(DatasetSpec, ReadySpecsAreRead) {
+  int count = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(support::kSourceDir) / "examples/datasets")) {
+    if (entry.path().extension() != ".toml") continue;
+    EXPECT_GT(readSpec(entry.path()).loops(), 0u) << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 4);
+}
+
+}  // namespace
+}  // namespace echocine::dataset
