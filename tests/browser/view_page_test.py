@@ -105,7 +105,8 @@ class ViewPage(browser.PageTest):
             self.assertIn("shows no WebGL", words)
             self.assertIn("lv_cavity", words)
             self.assertIn("lv_cavity", self.text("structures"))
-            self.assertEqual(self.driver.get_log("browser"), [])
+            severe = [e for e in self.driver.get_log("browser") if e["level"] == "SEVERE"]
+            self.assertEqual(severe, [])
         finally:
             self.driver.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", hidden)
 
