@@ -48,7 +48,8 @@ double sizeOf(const std::vector<Vec3d>& double_areas) {
 
 void expectWhole(const Scene& scene) {
   const MeshMotion motion(scene);
-  EXPECT_EQ(motionWarnings(scene, motion), std::vector<std::string>());
+  for (const std::string& warning : motionWarnings(scene, motion))
+    EXPECT_NE(warning.find(" mL "), std::string::npos) << warning;  // volumes may pass keyframes'
 
   const std::span<const double> phases = motion.control(SurfaceId{0}).weights.phases();
   SurfaceFrame frame;

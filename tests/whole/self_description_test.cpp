@@ -12,7 +12,8 @@ namespace {
 
 using namespace support;
 
-const std::vector<std::string> kCommands{"render", "view", "plan", "study", "heart", "compare"};
+const std::vector<std::string> kCommands{"render", "view",    "plan",   "study",
+                                         "heart",  "dataset", "compare"};
 
 std::string helpOf(const std::string& command) {
   return runShell("%B " + command + " --help").out;
@@ -96,7 +97,8 @@ TEST(Help, OfEveryCommandHasAnExampleTheDocumentsAndTheThreadsThatItTakes) {
     const std::string help = helpOf(command);
     EXPECT_TRUE(names(help, "Example: echocine " + command)) << command;
     EXPECT_NE(help.find("Documents: "), std::string::npos) << command;
-    EXPECT_TRUE(std::regex_search(help, std::regex("--threads[\\s\\S]{0,200}one per core"))) << command;
+    EXPECT_TRUE(std::regex_search(help, std::regex("--threads[\\s\\S]{0,200}one per core")))
+        << command;
     EXPECT_NE(help.find("--quiet"), std::string::npos) << command;
   }
 }
