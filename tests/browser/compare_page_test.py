@@ -87,7 +87,9 @@ def make_page(folder):
     program, source = sys.argv[1:3]
     loop = os.path.join(folder, "loop")
     ComparePage.folder = os.path.join(folder, "compared")
-    scene = os.path.join(source, "examples", "beating_heart", "scene.toml")
+    heart = os.path.join(folder, "heart")
+    subprocess.run([program, "heart", "--look", "paper", "-o", heart, "--quiet"], check=True)
+    scene = os.path.join(heart, "scene.toml")
     subprocess.run([program, "render", scene, "-o", loop, "--quiet"], check=True)
     subprocess.run([program, "compare", loop, os.path.join(loop, "cine.avi"), "-o", ComparePage.folder, "--quiet",
                     "--fps", "50"], check=True)
