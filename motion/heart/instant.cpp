@@ -14,7 +14,7 @@
 namespace echocine::heart {
 namespace {
 
-constexpr double kTolerance = 1e-5;    // of volumes that are solved for
+constexpr double kBalloonTolerance = 1e-5;    // of volumes that are solved for
 constexpr double kClearance_m = 3e-4;  // between a chamber and the wall of its neighbour
 
 // Outlines over zeta, 0 at the ring and 1 at the far end, in squared shares of the axis' length.
@@ -65,7 +65,7 @@ void inflate(Balloon& balloon, double volume_m3, const char* key, const PointOf&
     balloon.girth = girth;
     return gauge(pointOf);
   };
-  balloon.girth = solve(0.2, 4, volume_m3, kTolerance * volume_m3, volume);
+  balloon.girth = solve(0.2, 4, volume_m3, kBalloonTolerance * volume_m3, volume);
   const double reached = volume(balloon.girth);
   if (std::abs(reached - volume_m3) > 0.01 * volume_m3)
     throw SceneError(
@@ -100,7 +100,7 @@ void Instant::buildRightVentricle(const Parameters& parameters) {
     right_->arch(height_m);
     return gauge(point);
   };
-  const double height_m = solve(0.02 * l, 1.5 * l, volume_m3, kTolerance * volume_m3, volume);
+  const double height_m = solve(0.02 * l, 1.5 * l, volume_m3, kBalloonTolerance * volume_m3, volume);
   const double reached = volume(height_m);
   if (std::abs(reached - volume_m3) > 0.01 * volume_m3)
     throw SceneError(fmt::format(

@@ -103,7 +103,7 @@ double thicknessAbout(double phi_rad) {
 constexpr double kApexRise = 0.035;
 
 constexpr double kLargestStrain = 0.85, kWallDrift = 0.01;  // our choice
-constexpr double kTolerance = 1e-5;  // of solved volumes, as a share of the end-diastolic one
+constexpr double kVolumeTolerance = 1e-5;  // of solved volumes, as a share of the end-diastolic one
 
 // What the apex turns by is shared with the base, which turns the other way; our choice, after the
 // usual description of twist (apex counter-clockwise seen from below, base clockwise and less).
@@ -148,7 +148,7 @@ LeftVentricle::LeftVentricle(const Parameters& parameters) : parameters_(paramet
         "ef: {:g} is not possible with mapse {:.3g} mm and these segments; accepted are {:.3f} to "
         "{:.3f}, or change those",
         ef, parameters.mapse_mm, std::max(least, 0.0), most));
-  strain_ = solve(0, kLargestStrain, -esv_m3, kTolerance * edv_m3_, emptied);
+  strain_ = solve(0, kLargestStrain, -esv_m3, kVolumeTolerance * edv_m3_, emptied);
   contract({});
 }
 
@@ -177,13 +177,13 @@ void LeftVentricle::contract(const Contraction& contraction) {
     correction_ = correction;
     return -cavityVolume();
   };
-  correction_ = solve(-0.5, 0.5, -volume_m3, kTolerance * edv_m3_, emptied);
+  correction_ = solve(-0.5, 0.5, -volume_m3, kVolumeTolerance * edv_m3_, emptied);
   const double cavity_m3 = -emptied(correction_);
   const auto outer = [this](double factor) {
     thickening_ = factor;
     return outerVolume();
   };
-  thickening_ = solve(0.5, 2, cavity_m3 + wall_m3_, kTolerance * edv_m3_, outer);
+  thickening_ = solve(0.5, 2, cavity_m3 + wall_m3_, kVolumeTolerance * edv_m3_, outer);
   const double wall_m3 = outer(thickening_) - cavity_m3;
   if (std::abs(cavity_m3 - volume_m3) > 1e-3 * edv_m3_)
     throw SceneError(fmt::format(

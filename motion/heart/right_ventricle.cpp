@@ -35,7 +35,7 @@ const MonotoneCubic& archAlong() {
 // Shares of the left ventricle's length.
 constexpr double kBase = -0.07, kApex = 0.93, kTilt = 0.256;
 constexpr double kTricuspidExcursion = 1.15;  // TAPSE over MAPSE; our choice
-constexpr double kApexRise = 0.05;
+constexpr double kRightApexRise = 0.05;
 
 }  // namespace
 
@@ -45,7 +45,7 @@ RightVentricle::RightVentricle(const LeftVentricle& left, const Epicardium& epic
   const double l = left.length();
   const double descent_m = kTricuspidExcursion * left.ringZ();
   base_z_ = kBase * l + descent_m * 0.8;
-  apex_z_ = (kApex - kApexRise * ejected) * l;
+  apex_z_ = (kApex - kRightApexRise * ejected) * l;
   tilt_m_ = kTilt * l;
   resting_ring_z_ = 0.155 * l;
   const double ring_z = resting_ring_z_ + descent_m;

@@ -7,28 +7,28 @@
 namespace echocine::heart {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kWholeTurn = 2 * std::numbers::pi;
 
 // A ring of segments, counted in the Association's order: basal and mid rings start with the
 // anterior segment, 60 degrees apart; the apical one with its anterior segment, 90 degrees apart.
-struct Ring {
+struct SegmentRing {
   double zeta;  // of the segments' centres; our choice: thirds of the wall, and the cap
   int first, count;
   double start_rad;  // centre of the first; the count goes by the septum
 };
-constexpr std::array<Ring, 4> kRings{
-    {{0.17, 0, 6, kTurn / 6}, {0.50, 6, 6, kTurn / 6}, {0.80, 12, 4, kTurn / 6}, {0.97, 16, 1, 0}}};
+constexpr std::array<SegmentRing, 4> kRings{
+    {{0.17, 0, 6, kWholeTurn / 6}, {0.50, 6, 6, kWholeTurn / 6}, {0.80, 12, 4, kWholeTurn / 6}, {0.97, 16, 1, 0}}};
 
-double smoothStep(double t) {
+double eased(double t) {
   return t * t * (3 - 2 * t);
 }
 
-void addRing(const Ring& ring, double phi_rad, double share,
+void addRing(const SegmentRing& ring, double phi_rad, double share,
              std::array<double, kSegments>& shares) {
-  double place = (phi_rad - ring.start_rad) / kTurn * ring.count;
+  double place = (phi_rad - ring.start_rad) / kWholeTurn * ring.count;
   place -= std::floor(place / ring.count) * ring.count;
   const int here = static_cast<int>(place) % ring.count;
-  const double next = smoothStep(place - std::floor(place));
+  const double next = eased(place - std::floor(place));
   shares[ring.first + here] += share * (1 - next);
   shares[ring.first + (here + 1) % ring.count] += share * next;
 }
@@ -43,8 +43,8 @@ std::array<double, kSegments> segmentShares(double phi_rad, double zeta) {
     addRing(kRings[std::min(above, kRings.size() - 1)], phi_rad, 1, shares);
     return shares;
   }
-  const Ring &low = kRings[above - 1], &high = kRings[above];
-  const double t = smoothStep((zeta - low.zeta) / (high.zeta - low.zeta));
+  const SegmentRing &low = kRings[above - 1], &high = kRings[above];
+  const double t = eased((zeta - low.zeta) / (high.zeta - low.zeta));
   addRing(low, phi_rad, 1 - t, shares);
   addRing(high, phi_rad, t, shares);
   return shares;
@@ -53,8 +53,8 @@ std::array<double, kSegments> segmentShares(double phi_rad, double zeta) {
 SegmentPlace segmentCentre(int segment) {
   std::size_t r = kRings.size() - 1;
   while (kRings[r].first > segment) --r;
-  const Ring& ring = kRings[r];
-  return {ring.start_rad + kTurn * (segment - ring.first) / ring.count, ring.zeta};
+  const SegmentRing& ring = kRings[r];
+  return {ring.start_rad + kWholeTurn * (segment - ring.first) / ring.count, ring.zeta};
 }
 
 }  // namespace echocine::heart

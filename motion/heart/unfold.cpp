@@ -84,8 +84,8 @@ class FoldFinder {
 
 // Spreads shares to neighbours, each ring of vertices half as much as the last.
 void spread(const std::vector<Ring>& rings, std::vector<double>& share) {
-  constexpr int kRings = 3;
-  for (int i = 0; i < kRings; ++i) {
+  constexpr int kSpreadRings = 3;
+  for (int i = 0; i < kSpreadRings; ++i) {
     const std::vector<double> before = share;
     for (std::size_t v = 0; v < share.size(); ++v)
       for (const std::uint32_t other : rings[v]) share[v] = std::max(share[v], 0.5 * before[other]);

@@ -17,10 +17,6 @@ namespace {
 constexpr double kMinExtentMetres = 1e-3;
 constexpr double kMaxExtentMetres = 2.0;
 
-std::string faceName(const KeyframeMesh& keyframe, std::size_t triangle) {
-  return echocine::faceName(keyframe.parts, triangle);
-}
-
 [[noreturn]] void fail(const Structure& structure, const std::string& what) {
   throw SceneError(atPlace(structure.place, fmt::format("{}: {}", structure.name, what)));
 }

@@ -29,6 +29,9 @@ void checkKeyframes(const Structure& structure, std::span<const KeyframeMesh> ke
 
 // "lid.obj: face 12", numbered as in that file. Precondition: parts as in a KeyframeMesh.
 std::string faceName(std::span<const MeshPart> parts, std::size_t triangle);
+inline std::string faceName(const KeyframeMesh& keyframe, std::size_t triangle) {
+  return faceName(keyframe.parts, triangle);
+}
 
 // Volume enclosed by a closed surface, positive when its faces look outward; cube of the mesh's
 // unit. By the divergence theorem, V = 1/6 sum a . (b x c), about a vertex of the surface so that

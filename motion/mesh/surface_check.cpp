@@ -14,10 +14,6 @@ namespace echocine {
 
 namespace {
 
-std::string faceName(const KeyframeMesh& keyframe, std::size_t triangle) {
-  return echocine::faceName(keyframe.parts, triangle);
-}
-
 // Vertices are named by where they are: in a joined mesh their numbers belong to different files.
 std::string pointName(const TriangleMesh& mesh, std::uint32_t vertex) {
   const Vec3d p = mesh.positions[vertex];

@@ -56,7 +56,7 @@ std::vector<unsigned> plansFor(const Structure& structure) {
   return plans;
 }
 
-bool namesTwice(const KeyframeMesh& keyframe) {
+bool hasCornerTwice(const KeyframeMesh& keyframe) {
   return std::any_of(keyframe.mesh.triangles.begin(), keyframe.mesh.triangles.end(),
                      [](const Triangle& t) {
                        return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
@@ -96,7 +96,7 @@ std::optional<Repairs> shortestRepair(const Structure& structure, double mesh_un
                                       std::size_t most_triangles) {
   const std::vector<KeyframeMesh> raw = rawKeyframes(structure);
   if (raw.empty()) return std::nullopt;
-  const bool must_drop = std::any_of(raw.begin(), raw.end(), namesTwice);
+  const bool must_drop = std::any_of(raw.begin(), raw.end(), hasCornerTwice);
   const std::size_t each = raw.size() * raw.front().mesh.triangles.size();
   std::size_t left = most_triangles;
   for (const unsigned plan : plansFor(structure)) {

@@ -25,7 +25,7 @@ constexpr int kMaxIsolation = 10;
 // Tangents of the limit surface at each place. The library's patches have the limit's tangents at
 // their corners; isolated at least to the refined mesh's level, each of its vertices is a corner.
 // Creases that are sharp for a while are followed until they are smooth.
-using Stencils = far_::LimitStencilTableReal<float>;
+using LimitStencils = far_::LimitStencilTableReal<float>;
 
 int isolationLevel(const MeshTags& tags, int levels) {
   float sharpest = 0;
@@ -62,7 +62,7 @@ void checkSetUp(std::span<const Triangle> triangles, std::uint32_t vertex_count,
                            isolation, fractional)));
 }
 
-std::unique_ptr<const Stencils> makeStencils(far_::TopologyRefiner& refiner,
+std::unique_ptr<const LimitStencils> makeLimitStencils(far_::TopologyRefiner& refiner,
                                              const LimitPlaces& places, int isolation) {
   far_::PatchTableFactory::Options patches(static_cast<unsigned>(isolation));
   patches.SetEndCapType(far_::PatchTableFactory::Options::ENDCAP_GREGORY_BASIS);
@@ -91,7 +91,7 @@ std::unique_ptr<const Stencils> makeStencils(far_::TopologyRefiner& refiner,
     locations.push_back(array);
     first += count;
   }
-  return std::unique_ptr<const Stencils>(Factory::Create(refiner, locations, nullptr, table.get()));
+  return std::unique_ptr<const LimitStencils>(Factory::Create(refiner, locations, nullptr, table.get()));
 }
 
 PaddedPoint cross(PaddedPoint a, PaddedPoint b) {
@@ -123,7 +123,7 @@ struct Entries {
   std::vector<int> sizes, sources;
   std::vector<float> du, dv;
 
-  explicit Entries(const Stencils& stencils) {
+  explicit Entries(const LimitStencils& stencils) {
     std::size_t first = 0;
     for (const int size : stencils.GetSizes()) {
       add(stencils, first, first + static_cast<std::size_t>(size));
@@ -132,7 +132,7 @@ struct Entries {
   }
 
  private:
-  void add(const Stencils& stencils, std::size_t begin, std::size_t end) {
+  void add(const LimitStencils& stencils, std::size_t begin, std::size_t end) {
     constexpr float kNothing = 1e-6f;  // of the largest weight
     const auto size = [&](std::size_t i) {
       return std::max(std::abs(stencils.GetDuWeights()[i]), std::abs(stencils.GetDvWeights()[i]));
@@ -167,7 +167,7 @@ LimitNormals::LimitNormals(std::span<const Triangle> triangles, std::uint32_t ve
   normal_count_ = places.normal_count;
   if (places.split) corners_ = std::move(places.corners);
   refiner->Unrefine();
-  const auto stencils = makeStencils(*refiner, places, isolationLevel(tags, levels));
+  const auto stencils = makeLimitStencils(*refiner, places, isolationLevel(tags, levels));
   if (!stencils)
     throw SceneError(atPlace(place, "the mesh has no limit surface; use normals = \"facet\""));
   const Entries entries(*stencils);

@@ -9,6 +9,7 @@
 #include "cli/number_check.h"
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
+#include "cli/view_list.h"
 #include "compare/results.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -136,13 +137,6 @@ void print(const compare::DialScan& scan, const std::filesystem::path& folder) {
   fmt::print("  {} evaluations of {:.0f} ms of a core, hearts recorded in {:.1f} s of a core\n",
              scan.points.size(), scan.evaluation_ms, 1e-3 * scan.family_ms);
   fmt::print("  {}: scan.csv, scan.json, scan.html\n", folder.string());
-}
-
-std::string viewList() {
-  std::string list;
-  for (const heart::ViewName& name : heart::viewNames())
-    list += fmt::format("{}{}", list.empty() ? "" : ", ", name.key);
-  return list;
 }
 
 }  // namespace

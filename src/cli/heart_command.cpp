@@ -7,20 +7,13 @@
 
 #include "cli/documents.h"
 #include "cli/stop_signal.h"
+#include "cli/view_list.h"
 #include "core/error.h"
 #include "scene/names.h"
 
 namespace echocine {
 
 namespace {
-
-// From the heart's own table: a new view needs no change here.
-std::string viewList() {
-  std::string list;
-  for (const heart::ViewName& name : heart::viewNames())
-    list += fmt::format("{}{}", list.empty() ? "" : ", ", name.key);
-  return list;
-}
 
 // "N:AMPLITUDE" or "N:AMPLITUDE:DELAY_MS".
 void applySegment(const std::string& text, heart::Parameters& parameters) {

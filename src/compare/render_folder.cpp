@@ -21,12 +21,12 @@ namespace echocine::compare {
 
 namespace {
 
-using Json = nlohmann::json;
+using UnorderedJson = nlohmann::json;
 
 // The picture's geometry is worked out by the very function that rendered it, not read off the
 // pixels.
-void takeGeometry(const Json& scene, Loop& loop, const std::string& name) {
-  const Json &p = scene.at("probe"), &o = scene.at("output");
+void takeGeometry(const UnorderedJson& scene, Loop& loop, const std::string& name) {
+  const UnorderedJson &p = scene.at("probe"), &o = scene.at("output");
   if (p.at("kind") == "linear")
     throw SceneError(
         fmt::format("{}: a linear probe has no sector; render the view with a phased or "
@@ -68,8 +68,8 @@ void takeGeometry(const Json& scene, Loop& loop, const std::string& name) {
 
 // Frames per beat from the phases, which count on from frame to frame.
 // By the role that the manifest has, else by the name.
-std::string leftVentricle(const Json& structures) {
-  for (const Json& structure : structures) {
+std::string leftVentricle(const UnorderedJson& structures) {
+  for (const UnorderedJson& structure : structures) {
     const std::string name = structure.at("name");
     const Role role = structure.contains("role")
                           ? valueOf<Role>(structure["role"].get<std::string>()).value_or(Role::none)
@@ -79,9 +79,9 @@ std::string leftVentricle(const Json& structures) {
   return "";
 }
 
-void takeFrames(const Json& frames, Loop& loop) {
+void takeFrames(const UnorderedJson& frames, Loop& loop) {
   std::vector<double> times;
-  for (const Json& f : frames) {
+  for (const UnorderedJson& f : frames) {
     loop.phases.push_back(f.at("phase"));
     times.push_back(f.at("time_s"));
     std::size_t i = 0;
@@ -103,9 +103,9 @@ void takeFrames(const Json& frames, Loop& loop) {
 }
 
 // The exact greys, when every frame's EXR has them.
-void takeTracedGreys(const std::filesystem::path& folder, const Json& scene, Loop& loop) {
+void takeTracedGreys(const std::filesystem::path& folder, const UnorderedJson& scene, Loop& loop) {
   loop.grey_source = "cine.avi";
-  const Json &p = scene.at("probe"), &channels = scene.at("output").at("channels");
+  const UnorderedJson &p = scene.at("probe"), &channels = scene.at("output").at("channels");
   if (std::find(channels.begin(), channels.end(), channelName(Channel::display)) ==
           channels.end() ||
       !scene.at("output").at("exr").get<bool>())
@@ -164,7 +164,7 @@ Loop readRenderFolder(const std::filesystem::path& folder) {
         fmt::format("{}: has no cine.avi; render the scene with output.cine = true", name));
   Loop loop;
   try {
-    const Json manifest = Json::parse(readTextFile(folder / "manifest.json", kMaxManifest));
+    const UnorderedJson manifest = UnorderedJson::parse(readTextFile(folder / "manifest.json", kMaxManifest));
     loop.video = readVideo(folder / "cine.avi");
     loop.video.name = name;
     loop.video.format = "render folder";
@@ -175,7 +175,7 @@ Loop readRenderFolder(const std::filesystem::path& folder) {
     loop.scene_sha256 = manifest.at("scene_sha256");
     if (loop.phases.size() == loop.video.frames.size())
       takeTracedGreys(folder, manifest.at("scene"), loop);
-  } catch (const Json::exception& error) {
+  } catch (const UnorderedJson::exception& error) {
     throw SceneError(
         fmt::format("{}: manifest.json is damaged ({}); render it again", name, error.what()));
   }

@@ -11,7 +11,7 @@ namespace echocine::compare {
 
 namespace {
 
-constexpr int kUnknowns = 6;  // shift x, shift y, scale, rotation; contrast, brightness
+constexpr int kMotionUnknowns = 6;  // shift x, shift y, scale, rotation; contrast, brightness
 
 struct Level {
   std::vector<cv::Mat> real;       // smoothed pictures
@@ -48,8 +48,8 @@ Level smoothed(const BeamGrid& grid, const Loop& real,
 
 // Normal equations of the six unknowns, and the moments of which the correlation is made.
 struct Sums {
-  cv::Mat normal = cv::Mat::zeros(kUnknowns, kUnknowns, CV_64F),
-          right = cv::Mat::zeros(kUnknowns, 1, CV_64F);
+  cv::Mat normal = cv::Mat::zeros(kMotionUnknowns, kMotionUnknowns, CV_64F),
+          right = cv::Mat::zeros(kMotionUnknowns, 1, CV_64F);
   double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
   double correlation() const {
     const double vx = xx - x * x / n, vy = yy - y * y / n;
@@ -59,7 +59,7 @@ struct Sums {
 
 // What one line of beam space adds.
 struct LineSums {
-  double normal[kUnknowns][kUnknowns] = {}, right[kUnknowns] = {};
+  double normal[kMotionUnknowns][kMotionUnknowns] = {}, right[kMotionUnknowns] = {};
   double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
 };
 
@@ -93,11 +93,11 @@ void addLine(const BeamGrid& grid, const Loop& real, const Level& level,
       s.xx += weight * v * v, s.yy += weight * g * g, s.xy += weight * v * g;
       // d(g)/d(unknown): shifts move the point by 1 px, scale by r along the line, rotation by the
       // placed radius across it.
-      const double row[kUnknowns] = {
+      const double row[kMotionUnknowns] = {
           -gx, -gy, -r * (gx * sine + gy * cosine), -placed * (gx * cosine - gy * sine), v, 1};
-      for (int p = 0; p < kUnknowns; ++p) {
+      for (int p = 0; p < kMotionUnknowns; ++p) {
         s.right[p] += weight * row[p] * g;
-        for (int q = p; q < kUnknowns; ++q) s.normal[p][q] += weight * row[p] * row[q];
+        for (int q = p; q < kMotionUnknowns; ++q) s.normal[p][q] += weight * row[p] * row[q];
       }
     }
   }
@@ -116,9 +116,9 @@ Sums sumsAt(const BeamGrid& grid, const Loop& real, const Level& level,
   Sums s;
   for (const LineSums& line : of_line) {
     s.n += line.n, s.x += line.x, s.y += line.y, s.xx += line.xx, s.yy += line.yy, s.xy += line.xy;
-    for (int p = 0; p < kUnknowns; ++p) {
+    for (int p = 0; p < kMotionUnknowns; ++p) {
       s.right.at<double>(p) += line.right[p];
-      for (int q = 0; q < kUnknowns; ++q)
+      for (int q = 0; q < kMotionUnknowns; ++q)
         s.normal.at<double>(p, q) += line.normal[std::min(p, q)][std::max(p, q)];
     }
   }

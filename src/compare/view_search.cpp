@@ -121,15 +121,15 @@ class ViewSearch {
   double as_given_ = 0;
 };
 
-struct Candidate {
+struct ViewCandidate {
   Pose pose;
   double value = -2;
 };
 
 // Every pose of the lattice, in a fixed order.
-std::vector<Candidate> wholeLattice(const ViewSearch& search) {
+std::vector<ViewCandidate> wholeLattice(const ViewSearch& search) {
   constexpr int kShifts = 5, kRotations = 3;  // each way
-  std::vector<Candidate> all;
+  std::vector<ViewCandidate> all;
   for (int r = -kRotations; r <= kRotations; ++r)
     for (int y = -kShifts; y <= kShifts; ++y)
       for (int x = -kShifts; x <= kShifts; ++x)
@@ -143,7 +143,7 @@ std::vector<Candidate> wholeLattice(const ViewSearch& search) {
 
 // Steps that halve, each taken as long as any direction gains: down to 0.2 % of the radius, a
 // pixel.
-void climb(const ViewSearch& search, Candidate& best) {
+void climb(const ViewSearch& search, ViewCandidate& best) {
   for (double step = kSearchShift / 10; step > 0.002; step /= 2)
     for (bool better = true; better;) {
       better = false;
@@ -164,20 +164,20 @@ void climb(const ViewSearch& search, Candidate& best) {
 
 SpaceAlignment searchView(const BeamGrid& grid, const BeamLoop& synthetic, const Loop& real) {
   const ViewSearch search(grid, synthetic, real);
-  std::vector<Candidate> all = wholeLattice(search);
+  std::vector<ViewCandidate> all = wholeLattice(search);
   SpaceAlignment out;
   out.correlation_before = search({});
   // Several hills are climbed, for the highest point of the lattice need not stand on the highest.
   constexpr std::size_t kBest = 6;
   std::stable_sort(all.begin(), all.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
+                   [](const ViewCandidate& a, const ViewCandidate& b) { return a.value > b.value; });
   all.resize(kBest);
   parallelBlocks(kBest, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) climb(search, all[i]);
   });
-  const Candidate best =
+  const ViewCandidate best =
       *std::max_element(all.begin(), all.end(),
-                        [](const Candidate& a, const Candidate& b) { return a.value < b.value; });
+                        [](const ViewCandidate& a, const ViewCandidate& b) { return a.value < b.value; });
   // Our choice: a search always gains a little by chance.
   constexpr double kLeastGain = 0.02;
   out.correlation_after = best.value;

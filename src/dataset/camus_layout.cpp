@@ -86,7 +86,7 @@ void writeView(const Heart& heart, const Loop& loop, const Json& entry, double e
              infoText(loop, entry, ef_percent));
 }
 
-void writeHeart(const Spec&, const Heart& heart, Sink& sink, Json& record) {
+void writeCamus(const Spec&, const Heart& heart, Sink& sink, Json& record) {
   const double ed_ml = biplaneOfViews(heart, false), es_ml = biplaneOfViews(heart, true);
   for (std::size_t v = 0; v < heart.loops.size(); ++v) {
     Json& entry = record["loops"][v];
@@ -95,7 +95,7 @@ void writeHeart(const Spec&, const Heart& heart, Sink& sink, Json& record) {
   }
 }
 
-void mergeTables(const Spec&, std::span<const Json> records, Sink& sink) {
+void mergeCamus(const Spec&, std::span<const Json> records, Sink& sink) {
   constexpr std::pair<const char*, const char*> kLists[] = {
       {"train", "training"}, {"val", "validation"}, {"test", "testing"}};
   for (const auto& [split, file] : kLists) {
@@ -108,6 +108,6 @@ void mergeTables(const Spec&, std::span<const Json> records, Sink& sink) {
 
 }  // namespace
 
-const Layout kCamus{"camus", writeHeart, mergeTables};
+const Layout kCamus{"camus", writeCamus, mergeCamus};
 
 }  // namespace echocine::dataset

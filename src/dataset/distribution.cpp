@@ -22,7 +22,7 @@ std::size_t chosen(const std::vector<double>& weights, double u) {
   return weights.size() - 1;
 }
 
-std::optional<double> numberOf(const TomlValue& value) {
+std::optional<double> plainNumberOf(const TomlValue& value) {
   if (const auto* number = std::get_if<double>(&value)) return *number;
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
   return std::nullopt;
@@ -105,20 +105,20 @@ double Distribution::cumulative(double x) const {
     case Kind::choice: {
       double sum = 0;
       for (std::size_t i = 0; i < weights.size(); ++i)
-        if (numberOf(items[i]).value_or(static_cast<double>(i)) <= x) sum += weights[i];
+        if (plainNumberOf(items[i]).value_or(static_cast<double>(i)) <= x) sum += weights[i];
       return sum;
     }
     case Kind::constant:
       break;
   }
-  return x >= numberOf(items.front()).value_or(0) ? 1 : 0;
+  return x >= plainNumberOf(items.front()).value_or(0) ? 1 : 0;
 }
 
 std::optional<std::pair<double, double>> Distribution::range() const {
   if (kind != Kind::constant && kind != Kind::choice) return std::pair(low, high);
   std::optional<std::pair<double, double>> range;
   for (const TomlValue& item : items) {
-    const std::optional<double> number = numberOf(item);
+    const std::optional<double> number = plainNumberOf(item);
     if (!number) return std::nullopt;
     if (!range) range.emplace(*number, *number);
     range = std::pair(std::min(range->first, *number), std::max(range->second, *number));

@@ -23,7 +23,7 @@ Json rowsOf(const Tracing& tracing, const Square& square) {
   return rows;
 }
 
-void writeHeart(const Spec&, const Heart& heart, Sink& sink, Json& record) {
+void writeEchonet(const Spec&, const Heart& heart, Sink& sink, Json& record) {
   for (std::size_t v = 0; v < heart.loops.size(); ++v) {
     const Loop& loop = heart.loops[v];
     const Square square = sectorSquare(loop.frames.front().image);
@@ -51,7 +51,7 @@ const char* splitWord(const std::string& split) {
   return split == "train" ? "TRAIN" : split == "val" ? "VAL" : "TEST";
 }
 
-void mergeTables(const Spec&, std::span<const Json> records, Sink& sink) {
+void mergeEchonet(const Spec&, std::span<const Json> records, Sink& sink) {
   std::string list = "FileName,EF,ESV,EDV,FrameHeight,FrameWidth,FPS,NumberOfFrames,Split\n";
   std::string tracings = "FileName,X1,Y1,X2,Y2,Frame\n";
   for (const Json& record : records)
@@ -70,6 +70,6 @@ void mergeTables(const Spec&, std::span<const Json> records, Sink& sink) {
 
 }  // namespace
 
-const Layout kEchonet{"echonet", writeHeart, mergeTables};
+const Layout kEchonet{"echonet", writeEchonet, mergeEchonet};
 
 }  // namespace echocine::dataset

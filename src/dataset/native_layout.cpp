@@ -117,7 +117,7 @@ std::string loopText(const Heart& heart, const Loop& loop, const Json& numbers) 
   return json.dump(1) + "\n";
 }
 
-void writeHeart(const Spec& spec, const Heart& heart, Sink& sink, Json& record) {
+void writeNative(const Spec& spec, const Heart& heart, Sink& sink, Json& record) {
   for (std::size_t v = 0; v < heart.loops.size(); ++v) {
     const Loop& loop = heart.loops[v];
     std::vector<const GreyImage*> images;
@@ -131,6 +131,6 @@ void writeHeart(const Spec& spec, const Heart& heart, Sink& sink, Json& record) 
 
 }  // namespace
 
-const Layout kNative{"native", writeHeart, nullptr};
+const Layout kNative{"native", writeNative, nullptr};
 
 }  // namespace echocine::dataset

@@ -18,7 +18,7 @@ std::string caseName(const std::string& id, int frame) {
 
 // End-diastole and end-systole, as annotators do; training cases are the hearts of "train" and
 // "val".
-void writeHeart(const Spec&, const Heart& heart, Sink& sink, Json& record) {
+void writeNnunet(const Spec&, const Heart& heart, Sink& sink, Json& record) {
   const char* const part = heart.split == Split::test ? "Ts" : "Tr";
   for (std::size_t v = 0; v < heart.loops.size(); ++v) {
     const Loop& loop = heart.loops[v];
@@ -35,7 +35,7 @@ void writeHeart(const Spec&, const Heart& heart, Sink& sink, Json& record) {
   }
 }
 
-void mergeTables(const Spec&, std::span<const Json> records, Sink& sink) {
+void mergeNnunet(const Spec&, std::span<const Json> records, Sink& sink) {
   std::vector<std::pair<int, std::string>> cases;  // fold, name
   int hearts = 0;
   for (const Json& record : records) {
@@ -62,6 +62,6 @@ void mergeTables(const Spec&, std::span<const Json> records, Sink& sink) {
 
 }  // namespace
 
-const Layout kNnunet{"nnunet", writeHeart, mergeTables};
+const Layout kNnunet{"nnunet", writeNnunet, mergeNnunet};
 
 }  // namespace echocine::dataset

@@ -10,7 +10,7 @@ namespace echocine::dataset {
 
 namespace {
 
-constexpr int kJpegQuality = 95;
+constexpr int kFrameQuality = 95;
 
 // Pixels with the centre of (0, 0) at (0, 0). Older releases read trajs_2d and visibilities, later
 // ones trajs_2d, visibs and valids, under another file name; both find what they look for.
@@ -34,12 +34,12 @@ std::vector<std::byte> annotations(const Loop& loop) {
   return npzBytes(arrays);
 }
 
-void writeHeart(const Spec&, const Heart& heart, Sink& sink, Json&) {
+void writePointodyssey(const Spec&, const Heart& heart, Sink& sink, Json&) {
   for (const Loop& loop : heart.loops) {
     const std::string folder = fmt::format("pointodyssey/{}/{}/", nameOf(heart.split), loop.id);
     for (std::size_t f = 0; f < loop.frames.size(); ++f)
       sink.write(fmt::format("{}rgbs/rgb_{:05}.jpg", folder, f),
-                 encodeCineFrame(loop.frames[f].image, CineCodec::mjpg, kJpegQuality));
+                 encodeCineFrame(loop.frames[f].image, CineCodec::mjpg, kFrameQuality));
     const std::vector<std::byte> npz = annotations(loop);
     sink.write(folder + "annotations.npz", npz);
     sink.write(folder + "anno.npz", npz);
@@ -48,6 +48,6 @@ void writeHeart(const Spec&, const Heart& heart, Sink& sink, Json&) {
 
 }  // namespace
 
-const Layout kPointodyssey{"pointodyssey", writeHeart, nullptr};
+const Layout kPointodyssey{"pointodyssey", writePointodyssey, nullptr};
 
 }  // namespace echocine::dataset

@@ -36,11 +36,11 @@ void flatten(const Json& json, const std::string& prefix, std::map<std::string, 
 }
 
 std::string loopsTable(std::span<const Json> records) {
-  struct Row {
+  struct LoopRow {
     const Json* record;
     std::map<std::string, std::string> cells;
   };
-  std::vector<Row> rows;
+  std::vector<LoopRow> rows;
   std::vector<std::string> columns;  // those of every loop in their order, then what was drawn
   std::set<std::string> known, drawn;
   for (const Json& record : records)
@@ -60,7 +60,7 @@ std::string loopsTable(std::span<const Json> records) {
   for (const std::string& column : columns)
     text += "," + (column.starts_with("drawn.") ? column.substr(6) : column);
   text += "\n";
-  for (Row& row : rows) {
+  for (LoopRow& row : rows) {
     const Json& record = *row.record;
     text += fmt::format("{},{},{},{}", fieldOf(record["heart"]), fieldOf(record["population"]),
                         fieldOf(record["split"]), fieldOf(record["attempt"]));

@@ -12,18 +12,13 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "output/exr_attribute.h"
 #include "output/exr_header.h"
 #include "output/polar_plane.h"
 
 namespace echocine {
 
 namespace {
-
-template <typename Attribute, typename Value>
-bool holds(const Imf::Header& header, const char* name, const Value& value) {
-  const auto* attribute = header.findTypedAttribute<Attribute>(name);
-  return attribute != nullptr && attribute->value() == value;
-}
 
 bool isWanted(const Imf::Header& header, const ExrPlaneWanted& wanted) {
   const Imf::Channel* channel = header.channels().findChannel(channelName(wanted.channel));

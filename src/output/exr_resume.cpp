@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "core/hash.h"
+#include "output/exr_attribute.h"
 #include "output/exr_digest.h"
 #include "output/exr_header.h"
 #include "output/exr_stack.h"
@@ -25,13 +26,6 @@ namespace {
 // What stands in a frame's place. Another scene's whole frame is a user's mistake and not to be
 // overwritten; damage is not.
 enum class Found { nothing, another_scene, this_frame };
-
-// An attribute of the same name but another type is not the one.
-template <typename Attribute, typename Value>
-bool holds(const Imf::Header& header, const char* name, const Value& value) {
-  const auto* attribute = header.findTypedAttribute<Attribute>(name);
-  return attribute != nullptr && attribute->value() == value;
-}
 
 bool hasSize(const Imf::Header& header, const Probe& probe) {
   return header.dataWindow() == Imath::Box2i({0, 0}, {probe.lines - 1, probe.samples - 1});

@@ -13,7 +13,7 @@ namespace echocine {
 
 namespace {
 
-constexpr int kTogether = 32;  // samples, or lines, that go through a recursion side by side
+constexpr int kSideBySide = 32;  // samples, or lines, that go through a recursion side by side
 
 }  // namespace
 
@@ -25,17 +25,17 @@ SideLobeHaze::SideLobeHaze(const Probe& probe, double level_db, double width_rad
 }
 
 void SideLobeHaze::add(std::span<float> plane) const {
-  const auto blocks = static_cast<std::size_t>((samples_ + kTogether - 1) / kTogether);
+  const auto blocks = static_cast<std::size_t>((samples_ + kSideBySide - 1) / kSideBySide);
   parallelBlocks(blocks, 8, [&](std::size_t begin, std::size_t end) {
-    thread_local std::vector<std::array<float, kTogether>> before;
+    thread_local std::vector<std::array<float, kSideBySide>> before;
     before.resize(static_cast<std::size_t>(lines_));
     for (std::size_t b = begin; b < end; ++b) {
-      const int first = static_cast<int>(b) * kTogether,
-                count = std::min(kTogether, samples_ - first);
+      const int first = static_cast<int>(b) * kSideBySide,
+                count = std::min(kSideBySide, samples_ - first);
       const auto row = [&](int line) {
         return plane.data() + static_cast<std::ptrdiff_t>(line) * samples_ + first;
       };
-      std::array<float, kTogether> sum{};
+      std::array<float, kSideBySide> sum{};
       for (int i = 0; i < lines_; ++i) {
         for (int k = 0; k < count; ++k) sum[k] = row(i)[k] + decay_ * sum[k];
         before[static_cast<std::size_t>(i)] = sum;

@@ -20,7 +20,7 @@ constexpr float kWhole = 65535;   // a weight of 1: the next step of 16 bits err
 // first-level cache from row to row.
 constexpr int kStrip = 64;
 
-using Greys = std::uint8_t __attribute__((vector_size(kFloatLanes)));
+using ByteLanes = std::uint8_t __attribute__((vector_size(kFloatLanes)));
 
 struct Area {
   double x_lo = 0, x_hi = 0, z_lo = 0, z_hi = 0;
@@ -166,7 +166,7 @@ Weights weights(const std::uint32_t* parts) {
 }
 
 // Steps of 0..255. A conversion would take them one by one.
-Greys greysOf(Ints8 steps) {
+ByteLanes greysOf(Ints8 steps) {
   using Bytes = std::uint8_t __attribute__((vector_size(sizeof(Ints8))));
   const auto bytes = std::bit_cast<Bytes>(steps);
   static_assert(std::endian::native == std::endian::little);
@@ -238,7 +238,7 @@ void ScanConverter::convert(std::span<const float> grey, GreyImage& image) const
     return;
   }
   std::uint8_t* const pixels = image.pixels.data();
-  const auto put = [pixels](std::size_t pixel, Greys greys, std::size_t count) {
+  const auto put = [pixels](std::size_t pixel, ByteLanes greys, std::size_t count) {
     if (count == kFloatLanes)
       std::memcpy(pixels + pixel, &greys, kFloatLanes);  // a plain store
     else
@@ -253,7 +253,7 @@ void ScanConverter::convert(std::span<const float> grey, GreyImage& image) const
   }
   forRuns(grey, [&](std::size_t pixel, Floats8 values, std::size_t count) {
     const auto steps = __builtin_convertvector(values * float{kGreySteps} + 0.5f, Ints8);
-    Greys greys{};
+    ByteLanes greys{};
     for (std::size_t i = 0; i < kFloatLanes; ++i)
       greys[i] = grey_map_[static_cast<std::size_t>(steps[i])];
     put(pixel, greys, count);

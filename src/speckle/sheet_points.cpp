@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kApartPerWidth = 0.5, kOrdinaryPerCell = 3;
 constexpr double kMostPoints = 1e7;  // 0.2 GB. Our choice
-constexpr int kPhasesLookedAt = 32;
+constexpr int kSheetPhases = 32;
 constexpr double kBetweenPhases_m = 2e-3;
 
 // Purposes of hashed numbers.
@@ -77,8 +77,8 @@ void SheetPoints::dropUnseen(const MeshMotion& motion, double reach_m) {
   std::vector<bool> seen(points_.size());
   std::vector<Vec3f> places_m;
   SurfaceFrame frame;
-  for (int i = 0; i < kPhasesLookedAt; ++i) {
-    motion.frameAt(static_cast<double>(i) / kPhasesLookedAt, frame, false);
+  for (int i = 0; i < kSheetPhases; ++i) {
+    motion.frameAt(static_cast<double>(i) / kSheetPhases, frame, false);
     at(frame, places_m);
     for (std::size_t p = 0; p < seen.size(); ++p)
       seen[p] = seen[p] || std::abs(static_cast<double>(places_m[p].y)) < reach_m;

@@ -30,11 +30,11 @@ int rounded(double count, int most) {
 }
 
 // How many beams lie side by side in the sector at the focus, and half pulses along a line.
-struct Extent {
+struct KnobExtent {
   double beams = 1, pulses = 1;
 };
 
-Extent extentOf(const Scene& scene) {
+KnobExtent extentOf(const Scene& scene) {
   const Probe& probe = scene.probe;
   Probe two = probe;
   two.lines = 2;
@@ -43,7 +43,7 @@ Extent extentOf(const Scene& scene) {
                              : focusedBeamWidth(probe.focus_m, probe.aperture_m, probe.focus_m,
                                                 ScanGeometry(probe).wavelength());
   const double cycles = scene.signal.pulse_cycles > 0 ? scene.signal.pulse_cycles : 2;
-  Extent extent{
+  KnobExtent extent{
       lineSpacing(two, probe.focus_m) / width_m,
       (probe.max_depth_m - probe.min_depth_m) / (cycles * ScanGeometry(probe).wavelength() / 2)};
   if (probe.lines < 2) extent.beams = 1 / kPerBeam.back();

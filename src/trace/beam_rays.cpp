@@ -47,9 +47,9 @@ constexpr double unitFromBits(std::uint32_t bits) {
   return (bits + 0.5) * 0x1p-32;
 }
 
-constexpr int kBlock = 8;
-using Block = float __attribute__((vector_size(kBlock * sizeof(float))));
-using IntBlock = std::int32_t __attribute__((vector_size(kBlock * sizeof(std::int32_t))));
+constexpr int kWide = 8;
+using Block = float __attribute__((vector_size(kWide * sizeof(float))));
+using IntBlock = std::int32_t __attribute__((vector_size(kWide * sizeof(std::int32_t))));
 
 // 2^-t for 0 <= t < 126: the nearest whole number goes into the exponent's bits, the rest, within
 // 1/2, through Taylor's series to the sixth power, whose remainder is under 1.2e-7.
@@ -130,7 +130,7 @@ BeamRays::BeamRays(const Probe& probe, const BeamSpread& spread) : spread_(sprea
                          focusedWidth(z, probe.aperture_m, probe.focus_m, wavelength_m);
     transmit_.push_back(static_cast<float>(ratio * ratio));
   }
-  transmit_.resize(transmit_.size() + kBlock);  // read by whole blocks
+  transmit_.resize(transmit_.size() + kWide);  // read by whole blocks
   if (spread.lateral) strata_ = strataEnds(spread.rays);
 }
 
@@ -175,17 +175,17 @@ BeamRay BeamRays::through(const LineGeometry& line, double q, double p, double s
 }
 
 void BeamRays::weights(const BeamRay& ray, std::span<float> out) const {
-  DCHECK_EQ(out.size() + kBlock, transmit_.size());
+  DCHECK_EQ(out.size() + kWide, transmit_.size());
   // No normal number of beamPoint() is over 9, so no power is beyond the floats.
   const auto halvings = static_cast<float>(std::min(ray.half_square, 60.0) * std::numbers::log2e);
-  const std::size_t size = out.size(), whole = size - size % kBlock;
+  const std::size_t size = out.size(), whole = size - size % kWide;
   const auto store = [&](std::size_t k, std::size_t bytes) {
     Block rho;
     std::memcpy(&rho, transmit_.data() + k, sizeof rho);
     const Block weight = powerOfHalf(rho * halvings);
     std::memcpy(out.data() + k, &weight, bytes);
   };
-  for (std::size_t k = 0; k < whole; k += kBlock) store(k, sizeof(Block));
+  for (std::size_t k = 0; k < whole; k += kWide) store(k, sizeof(Block));
   if (whole < size) store(whole, (size - whole) * sizeof(float));
 }
 

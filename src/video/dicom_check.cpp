@@ -23,10 +23,6 @@ constexpr std::size_t kMaxInflatedBytes = std::size_t{1} << 28;
 // choice.
 constexpr double kMostSamplesPerByte = 512;
 
-[[noreturn]] void refuse(const std::string& name, const std::string& what) {
-  throw SceneError(fmt::format("{}: {}", name, what));
-}
-
 // PS3.5 A.5: raw deflate, no header. Refuses more than the limit without having it in memory twice.
 std::vector<std::byte> inflated(const std::string& name, std::span<const std::byte> bytes) {
   z_stream stream{};
@@ -42,7 +38,7 @@ std::vector<std::byte> inflated(const std::string& name, std::span<const std::by
     state = inflate(&stream, Z_NO_FLUSH);
     const std::size_t made = block.size() - stream.avail_out;
     if (out.size() + made > kMaxInflatedBytes)
-      refuse(name,
+      refuseDicom(name,
              fmt::format("its deflated data set is over {} MB; give it uncompressed, or a few "
                          "beats cut out of it",
                          kMaxInflatedBytes >> 20));
@@ -50,7 +46,7 @@ std::vector<std::byte> inflated(const std::string& name, std::span<const std::by
     if (made == 0 && stream.avail_in == 0) break;
   }
   if (state != Z_STREAM_END && state != Z_OK && state != Z_BUF_ERROR)
-    refuse(name, "a damaged DICOM file (its deflated data set); copy the file again");
+    refuseDicom(name, "a damaged DICOM file (its deflated data set); copy the file again");
   return out;
 }
 
@@ -79,7 +75,7 @@ void takeFragment(const std::string& name, const DicomElement& e, bool rle, Pixe
   if (e.fragment == 0) return;  // the table of offsets
   pixels.compressed_bytes += e.value.size();
   if (rle && !isSoundRle(e.value))
-    refuse(name,
+    refuseDicom(name,
            fmt::format("a damaged DICOM file: the RLE header of fragment {} points outside its "
                        "{} bytes; copy the file again",
                        e.fragment, e.value.size()));
@@ -99,7 +95,7 @@ void checkRatio(const std::string& name, const Pixels& p) {
   if (!p.encapsulated) return;
   const double wanted = p.rows * p.columns * p.samples * p.frames;
   if (wanted > kMostSamplesPerByte * static_cast<double>(p.compressed_bytes) + (1 << 20))
-    refuse(name,
+    refuseDicom(name,
            fmt::format("a truncated or damaged DICOM file: {:.0f} pixel values are stated, its "
                        "{} bytes of pixels cannot hold them; copy the file again",
                        wanted, p.compressed_bytes));
@@ -117,15 +113,19 @@ void checkDataSet(const std::string& name, std::span<const std::byte> data,
       takeNumber(*e, pixels);
   }
   if (elements.tooDeep())
-    refuse(name,
+    refuseDicom(name,
            fmt::format("its sequences are nested deeper than {}; give an ultrasound loop as a "
                        "scanner writes it",
                        kMaxDicomDepth));
-  if (elements.lost()) refuse(name, "a truncated or damaged DICOM file; copy the file again");
+  if (elements.lost()) refuseDicom(name, "a truncated or damaged DICOM file; copy the file again");
   checkRatio(name, pixels);
 }
 
 }  // namespace
+
+void refuseDicom(const std::string& name, const std::string& what) {
+  throw SceneError(fmt::format("{}: {}", name, what));
+}
 
 void checkDicomStructure(const std::string& name, std::span<const std::byte> bytes) {
   constexpr std::size_t kPreamble = 132;

@@ -14,4 +14,7 @@ namespace echocine {
 // and data whose structure cannot be followed. Costs no more than the file and 256 MB.
 void checkDicomStructure(const std::string& name, std::span<const std::byte> bytes);
 
+// Throws SceneError "NAME: WHAT".
+[[noreturn]] void refuseDicom(const std::string& name, const std::string& what);
+
 }  // namespace echocine

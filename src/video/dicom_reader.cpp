@@ -36,10 +36,6 @@ void setUpOnce() {
   });
 }
 
-[[noreturn]] void refuse(const std::string& name, const std::string& what) {
-  throw SceneError(fmt::format("{}: {}", name, what));
-}
-
 // 0 where the tag is absent or no number: none of the tags read here can be 0.
 double numberOf(DcmItem& item, const DcmTagKey& key, unsigned long position = 0) {
   OFString text;
@@ -149,7 +145,7 @@ void checkPixels(const std::string& name, DcmDataset& data, std::int64_t frames)
   data.findAndGetUint16(DCM_BitsAllocated, bits);
   DcmElement* element = nullptr;
   if (data.findAndGetElement(DCM_PixelData, element).bad() || rows == 0 || columns == 0)
-    refuse(name, "a DICOM file without pictures; give an ultrasound multi-frame file");
+    refuseDicom(name, "a DICOM file without pictures; give an ultrasound multi-frame file");
   // Before the decoder sees a byte: it reserves what a header says.
   checkLoopSize(name, columns, rows, frames);
   const DcmXfer syntax(data.getOriginalXfer());
@@ -160,7 +156,7 @@ void checkPixels(const std::string& name, DcmDataset& data, std::int64_t frames)
       colours == "YBR_FULL_422" ? 2.0 : static_cast<double>(samples) * ((bits + 7) / 8);
   const double wanted = bytes_per_pixel * rows * columns * static_cast<double>(frames);
   if (element->getLength() < wanted)
-    refuse(name,
+    refuseDicom(name,
            fmt::format("a truncated DICOM file: {} bytes of pixels where {} frames of {} x {} "
                        "need {:.0f}; copy the file again",
                        element->getLength(), frames, columns, rows, wanted));
@@ -175,10 +171,10 @@ void addFrames(DcmDataset& data, std::int64_t frames, VideoBuilder& builder) {
                      static_cast<unsigned long>(i), 1);
     if (image.getStatus() != EIS_Normal) {
       if (i == 0)
-        refuse(name, fmt::format("pixels of transfer syntax \"{}\" cannot be decoded ({}); give it "
+        refuseDicom(name, fmt::format("pixels of transfer syntax \"{}\" cannot be decoded ({}); give it "
                                  "uncompressed, RLE, or JPEG baseline or lossless",
                                  syntax.getXferName(), DicomImage::getString(image.getStatus())));
-      refuse(name,
+      refuseDicom(name,
              fmt::format("a truncated or damaged DICOM file: frame {} of {} cannot be decoded; "
                          "copy the file again",
                          i, frames));
@@ -194,11 +190,11 @@ void addFrames(DcmDataset& data, std::int64_t frames, VideoBuilder& builder) {
       const std::size_t pixels = rgb.size() / 3;
       std::vector<std::uint8_t> grey(pixels);
       if (!image.getOutputData(grey.data(), grey.size(), 8))
-        refuse(name, "its greys cannot be read");
+        refuseDicom(name, "its greys cannot be read");
       for (std::size_t p = 0; p < pixels; ++p)
         rgb[3 * p] = rgb[3 * p + 1] = rgb[3 * p + 2] = grey[p];
     } else if (!image.getOutputData(rgb.data(), rgb.size(), 8)) {
-      refuse(name, "its colours cannot be read");
+      refuseDicom(name, "its colours cannot be read");
     }
     builder.add(rgb.data(), width, height, std::ptrdiff_t{3} * width);
   }
@@ -218,12 +214,12 @@ Video readDicom(const std::string& name, std::span<const std::byte> bytes) {
   file.transferEnd();
   // A stream that ends within the pixels is found by their length, with a better message.
   if (read.bad() && read != EC_EndOfStream)
-    refuse(name,
+    refuseDicom(name,
            fmt::format("a truncated or damaged DICOM file ({}); copy the file again", read.text()));
   DcmDataset& data = *file.getDataset();
   const double stated = numberOf(data, DCM_NumberOfFrames);
   // Over five hours at 50 frames/s.
-  if (stated > 1e6) refuse(name, fmt::format("{} frames are stated; give a few beats", stated));
+  if (stated > 1e6) refuseDicom(name, fmt::format("{} frames are stated; give a few beats", stated));
   const auto frames = static_cast<std::int64_t>(std::max(1.0, stated));
   checkPixels(name, data, frames);
   VideoBuilder builder(name);

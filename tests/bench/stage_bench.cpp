@@ -93,7 +93,7 @@ struct Traced {
     traceFrame(slice, scene.scene.probe, settings, planeRequest(scene.scene, plan), polar);
   }
 };
-constexpr float kReference = 1e-6f, kRange_db = 60;
+constexpr float kStageReference = 1e-6f, kStageRange_db = 60;
 
 void beamAverage(benchmark::State& state) {
   Traced t{Size(state)};
@@ -111,13 +111,13 @@ void logCompression(benchmark::State& state) {
   std::vector<float> out(t.polar.intensities.size());
   overFloor(
       state,
-      [&](std::size_t) { compressIntensities(t.polar.intensities, kReference, kRange_db, out); },
-      [&](std::size_t) { bare.run(t.polar.intensities.values, kReference, kRange_db, grey); });
+      [&](std::size_t) { compressIntensities(t.polar.intensities, kStageReference, kStageRange_db, out); },
+      [&](std::size_t) { bare.run(t.polar.intensities.values, kStageReference, kStageRange_db, grey); });
 }
 
 void scanConversion(benchmark::State& state) {
   Traced t{Size(state)};
-  const Greys greys = t.chain.compress(std::move(t.polar.intensities), kReference);
+  const Greys greys = t.chain.compress(std::move(t.polar.intensities), kStageReference);
   std::vector<std::uint8_t> grey;
   for (const float g : greys) grey.push_back(static_cast<std::uint8_t>(255 * g + 0.5f));
   BareScanConversion bare(t.scene.scene, t.chain.geometry());
@@ -137,7 +137,7 @@ void smallPicture(benchmark::State& state) {
   const ScanConverter ours(scene.probe, geometry, kSize, kSize, 1,
                            ScanConverter::averagedOver(scene, geometry)),
       centres(scene.probe, geometry, kSize, kSize, 1);
-  const Greys greys = t.chain.compress(std::move(t.polar.intensities), kReference);
+  const Greys greys = t.chain.compress(std::move(t.polar.intensities), kStageReference);
   GreyImage image;
   overFloor(
       state, [&](std::size_t) { ours.convert(greys.values, image); },
@@ -180,7 +180,7 @@ void exrKinds(benchmark::State& state) {
 void jpeg(benchmark::State& state) {
   Traced t{Size(state)};
   GreyImage image;
-  t.chain.picture(t.chain.compress(std::move(t.polar.intensities), kReference), image);
+  t.chain.picture(t.chain.compress(std::move(t.polar.intensities), kStageReference), image);
   const support::TempFolder folder;
   const OutputSettings& o = t.scene.scene.output;
   CineWriter writer(folder / "cine.avi", o, 50);

@@ -11,7 +11,7 @@
 namespace echocine::bench {
 namespace {
 
-constexpr int kRounds = 15;
+constexpr int kTruthRounds = 15;
 
 void truthOf(benchmark::State& state, void (*ask)(Scene&)) {
   Scene scene = support::shippedPaperHeart();
@@ -67,11 +67,11 @@ void truthField(benchmark::State& state) {
   });
 }
 
-BENCHMARK(truthLabels)->UseManualTime()->Iterations(kRounds)->Unit(benchmark::kMillisecond);
-BENCHMARK(truthContours)->UseManualTime()->Iterations(kRounds)->Unit(benchmark::kMillisecond);
-BENCHMARK(truthDisplacement)->UseManualTime()->Iterations(kRounds)->Unit(benchmark::kMillisecond);
-BENCHMARK(truthTracks)->UseManualTime()->Iterations(kRounds)->Unit(benchmark::kMillisecond);
-BENCHMARK(truthFunction)->UseManualTime()->Iterations(kRounds)->Unit(benchmark::kMillisecond);
+BENCHMARK(truthLabels)->UseManualTime()->Iterations(kTruthRounds)->Unit(benchmark::kMillisecond);
+BENCHMARK(truthContours)->UseManualTime()->Iterations(kTruthRounds)->Unit(benchmark::kMillisecond);
+BENCHMARK(truthDisplacement)->UseManualTime()->Iterations(kTruthRounds)->Unit(benchmark::kMillisecond);
+BENCHMARK(truthTracks)->UseManualTime()->Iterations(kTruthRounds)->Unit(benchmark::kMillisecond);
+BENCHMARK(truthFunction)->UseManualTime()->Iterations(kTruthRounds)->Unit(benchmark::kMillisecond);
 BENCHMARK(truthField)->Iterations(3)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
 }  // namespace

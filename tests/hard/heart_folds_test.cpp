@@ -20,12 +20,12 @@ namespace {
 // Between the normals of neighbours: 150 degrees, as findBreaks() has it.
 constexpr double kFoldedCosine = -0.8660254;
 
-struct Extent {
+struct FoldExtent {
   std::uint64_t hearts;
   int keyframes, frames;
 };
 
-Extent extent() {
+FoldExtent extent() {
   if (const char* asked = std::getenv("ECHOCINE_RANDOM_HEARTS"))
     return {std::strtoull(asked, nullptr, 10), 12, 200};
 #ifdef ECHOCINE_SANITIZED
@@ -71,7 +71,7 @@ std::vector<std::array<std::size_t, 2>> hingesOf(const std::vector<Triangle>& tr
 }
 
 // What no frame of a beat may show.
-void expectNoFold(const heart::Parameters& parameters, const Extent& wanted) {
+void expectNoFold(const heart::Parameters& parameters, const FoldExtent& wanted) {
   Scene scene = heart::heartScene(parameters, heart::View::a4c, wanted.keyframes);
   scene.acquisition.frame_rate_hz = wanted.frames * scene.acquisition.heart_rate_hz;
   const MeshMotion motion(scene);
@@ -109,7 +109,7 @@ void expectOneLine(const std::string& refusal) {
 }
 
 TEST(HeartFolds, NoRandomHeartFoldsAnywhereInItsBeat) {
-  const Extent wanted = extent();
+  const FoldExtent wanted = extent();
   std::uint64_t sound = 0;
   for (std::uint64_t number = 0; number < wanted.hearts; ++number) {
     SCOPED_TRACE("random heart " + std::to_string(number));

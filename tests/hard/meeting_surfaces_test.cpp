@@ -12,7 +12,7 @@ namespace {
 
 using namespace support;
 
-const std::vector<Tracer> kTracers{Tracer::slice, Tracer::cells, Tracer::embree};
+const std::vector<Tracer> kMeetingTracers{Tracer::slice, Tracer::cells, Tracer::embree};
 
 // Structure i has medium i + 1.
 World worldOf(const std::vector<Mesh>& meshes, const std::vector<int>& priorities) {
@@ -39,7 +39,7 @@ double difference(const World& a, const World& b, Tracer tracer) {
 void expectSame(const char* name, const char* oracle, const World& a, const World& b,
                 double bound = 1e-6) {
   Sweep sweep(name, oracle, kOfTracer, bound);
-  for (const Tracer tracer : kTracers)
+  for (const Tracer tracer : kMeetingTracers)
     sweep.addError(static_cast<double>(tracer), difference(a, b, tracer));
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 using support::decades, support::Sweep, support::ulpsAround;
 
-constexpr long double kPi = std::numbers::pi_v<long double>;
+constexpr long double kPiHere = std::numbers::pi_v<long double>;
 
 // The bracket of Eq. 7 as an integral that nothing cancels in: each of its two pairs of terms is
 // arctan(y) - y/(1+y^2) = integral of 2 t^2/(1+t^2)^2 from 0 to y, taken by Gauss-Legendre rules of
@@ -38,9 +38,9 @@ long double arctanLess(long double y) {
   return sum;
 }
 
-long double exactTissue(long double mu, long double k, long double b_m) {
+long double arctanTissue(long double mu, long double k, long double b_m) {
   const long double x = k * b_m;
-  return 3 * mu * mu * k / (4 * kPi) * (arctanLess(x) + arctanLess(3 * x) / 9);
+  return 3 * mu * mu * k / (4 * kPiHere) * (arctanLess(x) + arctanLess(3 * x) / 9);
 }
 
 TEST(ScatteringSweep, TissueFromVanishingToHugeCorrelationLengths) {
@@ -49,7 +49,7 @@ TEST(ScatteringSweep, TissueFromVanishingToHugeCorrelationLengths) {
   std::vector<double> all = decades(1e-9, 1e6, 3000);
   for (const double x : ulpsAround(0.05, 50)) all.push_back(x);  // where series and formula meet
   for (const double x : all)
-    sweep.add(x, tissueBackscatter(0.004, 1, x), exactTissue(0.004L, 1, x));
+    sweep.add(x, tissueBackscatter(0.004, 1, x), arctanTissue(0.004L, 1, x));
 }
 
 // For k b_m -> 0 the bracket is (8/3) (k b_m)^3: the leading term is the second oracle.
@@ -57,7 +57,7 @@ TEST(ScatteringSweep, TissueTendsToTheCubeOfTheCorrelationLength) {
   Sweep sweep("Eq. 7, k b_m -> 0: (8/3) (k b_m)^3", "leading term", "k b_m", 1e-8);
   for (const double x : decades(1e-90, 1e-5, 500)) {
     const long double cube = static_cast<long double>(x) * x * x;
-    sweep.add(x, tissueBackscatter(1, 1, x), 3 / (4 * kPi) * 8 / 3 * cube);
+    sweep.add(x, tissueBackscatter(1, 1, x), 3 / (4 * kPiHere) * 8 / 3 * cube);
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 using namespace support;
 
-const std::vector<Tracer> kTracers{Tracer::slice, Tracer::embree};
+const std::vector<Tracer> kSlabTracers{Tracer::slice, Tracer::embree};
 
 Medium tissue() {
   return medium("tissue", 1050, 1540, 5, 0.05);
@@ -87,7 +87,7 @@ TEST(SlabSweep, TiltedUpToTheCriticalAngle) {
     const double tilt = radiansFromDegrees(76.0 * i / 300);
     const World world = slabWorld(0.05, 3, tilt);
     const SlabForm form(0.05, 3, tilt);
-    for (const Tracer tracer : kTracers) {
+    for (const Tracer tracer : kSlabTracers) {
       const PolarFrame polar = traceWorld(world, tracer);
       echoes.add(76.0 * i / 300, sumOf(polar.planes.at(Channel::reflection)), form.frontEcho());
       const Sampling sampling = samplingOf(world.scene.probe);
@@ -107,7 +107,7 @@ TEST(SlabSweep, BeyondTheCriticalAngleThereIsOnlyTheFront) {
     const double tilt = radiansFromDegrees(77.3 + 12.6 * i / 200);
     const World world = slabWorld(0.05, 3, tilt);
     const long double cos_i = std::cos(static_cast<long double>(tilt));
-    for (const Tracer tracer : kTracers) {
+    for (const Tracer tracer : kSlabTracers) {
       const PolarFrame polar = traceWorld(world, tracer);
       echoes.add(degreesFromRadians(tilt), sumOf(polar.planes.at(Channel::reflection)),
                  SlabForm(0.05, 3, 0).R_0 * cos_i * cos_i * std::exp(-4 * 5 * 0.05L));
@@ -131,7 +131,7 @@ TEST(SlabSweep, AWallOverTheEdgeOfASample) {
   }
   depths.push_back(edge);
   for (const double depth : depths)
-    for (const Tracer tracer : kTracers) {
+    for (const Tracer tracer : kSlabTracers) {
       const World world = slabWorld(depth, 3);
       const std::vector<float> plane = traceWorld(world, tracer).planes.at(Channel::reflection);
       const SlabForm form(depth, 3, 0);
@@ -183,7 +183,7 @@ TEST(SlabSweep, AWallThatThinsToNothing) {
     const long double both =
         seen ? faces.each * (form.frontEcho() + form.R * loss * std::exp(-form.exponent(form.back)))
              : 0;
-    for (const Tracer tracer : kTracers) {
+    for (const Tracer tracer : kSlabTracers) {
       const PolarFrame polar = traceWorld(world, tracer);
       echoes.add(d, sumOf(polar.planes.at(Channel::reflection)), both);
       const long double l = samplingOf(world.scene.probe).centre(150);
@@ -207,7 +207,7 @@ TEST(SlabSweep, AProbeOutsideOnAndInside) {
     fronts.push_back(-static_cast<float>(d));
   }
   for (const double front : fronts)
-    for (const Tracer tracer : kTracers) {
+    for (const Tracer tracer : kSlabTracers) {
       World world = slabWorld(0, 1);
       world.meshes[0] = box({-4, -4, front}, {4, 4, 0.1});
       const double thin = 1e-3 * kScannerSpeed / world.scene.probe.frequency_hz;
@@ -232,7 +232,7 @@ TEST(SlabSweep, AWallOfItsSurroundingsIsNotThere) {
   for (int i = 0; i <= 90; ++i) {
     World world = slabWorld(0.05, 0.02, radiansFromDegrees(i));
     world.scene.media[1] = world.scene.media[0];
-    for (const Tracer tracer : kTracers) {
+    for (const Tracer tracer : kSlabTracers) {
       const std::vector<float> a = traceWorld(world, tracer).planes.at(Channel::reflection);
       EXPECT_EQ(sumOf(a), 0.0f);
       const std::vector<float> b = traceWorld(world, tracer).planes.at(Channel::y),

@@ -109,11 +109,11 @@ struct OwnFrame {
   Vec3d of(Vec3d p) const { return (1 / unit) * direction(p - origin); }
 };
 
-struct Extent {
+struct Reach {
   Vec3d low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
 };
 Vec3d extentOf(const Points& points, const OwnFrame& frame) {
-  Extent extent;
+  Reach extent;
   for (const Vec3d p : points) {
     const Vec3d q = frame.of(p);
     extent.low = {std::min(extent.low.x, q.x), std::min(extent.low.y, q.y),

@@ -56,7 +56,7 @@ class HeartBeatLaw : public testing::TestWithParam<Published> {};
 // A curve that starts level is seen to have started late, and one that ends level to have ended
 // early: 0.03 % of the stroke volume are ejected and filled within 3 ms, and the last 0.03 % take
 // 12 ms, since flow fades out.
-constexpr double kSeen = 3e-4, kLate_ms = 4, kEarly_ms = 14;
+constexpr double kSeenShare = 3e-4, kLate_ms = 4, kEarly_ms = 14;
 
 TEST_P(HeartBeatLaw, DurationsAreFoundAgainInTheVolumes) {
   const Published& row = GetParam();
@@ -64,9 +64,9 @@ TEST_P(HeartBeatLaw, DurationsAreFoundAgainInTheVolumes) {
   const auto volume = [&](double phase) { return ventricle.millilitres(phase); };
   const double closes = ventricle.cycle().events().aortic_closes;
   const double full = ventricle.atRest(), empty = volume(closes), stroke = full - empty;
-  const double opens = crossing(0, closes, full - kSeen * stroke, volume);
-  const double shuts = crossing(0, closes, empty + kSeen * stroke, volume);
-  const double fills = crossing(closes, 0.999, empty + kSeen * stroke, volume);
+  const double opens = crossing(0, closes, full - kSeenShare * stroke, volume);
+  const double shuts = crossing(0, closes, empty + kSeenShare * stroke, volume);
+  const double fills = crossing(closes, 0.999, empty + kSeenShare * stroke, volume);
   const double to_ms = 1e3 * ventricle.beat();
   EXPECT_NEAR(opens * to_ms, 40, 10 + kLate_ms);
   EXPECT_NEAR((shuts - opens) * to_ms, row.ejection_ms, row.ejection_sd_ms + kEarly_ms);

@@ -21,19 +21,19 @@ namespace echocine {
 namespace {
 
 // Rows of a linear map and a shift, m.
-struct Affine {
+struct AffineMap {
   Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, shift;
   Vec3d operator()(Vec3d p) const { return Vec3d{dot(x, p), dot(y, p), dot(z, p)} + shift; }
 };
 
-std::vector<Vec3f> floats(const std::vector<Vec3d>& points, const Affine& map) {
+std::vector<Vec3f> floats(const std::vector<Vec3d>& points, const AffineMap& map) {
   std::vector<Vec3f> moved;
   for (const Vec3d p : points) moved.push_back(toFloat(map(p)));
   return moved;
 }
 
 // A ball in a ball at 8 cm depth, both moved by one map half-way through the beat.
-std::vector<InteriorSurface> nestedBalls(const Affine& map) {
+std::vector<InteriorSurface> nestedBalls(const AffineMap& map) {
   std::vector<InteriorSurface> surfaces;
   const double phases[] = {0.0, 0.5};
   for (const double radius : {0.04, 0.03}) {
@@ -50,7 +50,7 @@ std::vector<InteriorSurface> nestedBalls(const Affine& map) {
 
 // What is affine on the surfaces is met exactly inside, at any distance.
 TEST(MaterialPointsLaw, OneAffineMapMovesEveryPoint) {
-  const Affine map{{0.8, 0.1, 0}, {-0.05, 0.9, 0.1}, {0, 0.05, 1.15}, {0.002, -0.004, 0.003}};
+  const AffineMap map{{0.8, 0.1, 0}, {-0.05, 0.9, 0.1}, {0, 0.05, 1.15}, {0.002, -0.004, 0.003}};
   const MotionField field(nestedBalls(map));
   FieldFrame frame;
   field.at(0.5, frame);

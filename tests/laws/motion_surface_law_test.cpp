@@ -8,7 +8,7 @@
 namespace echocine::motion_test {
 namespace {
 
-constexpr Interpolation kKinds[] = {Interpolation::linear, Interpolation::catmull_rom,
+constexpr Interpolation kSurfaceKinds[] = {Interpolation::linear, Interpolation::catmull_rom,
                                     Interpolation::spline, Interpolation::fourier,
                                     Interpolation::cycle};
 
@@ -29,7 +29,7 @@ double volumeAt(const MeshMotion& motion, double phase) {
 // Interpolation passes through what was recorded.
 TEST(MotionSurfaceLaw, KeyframePhasesReproduceTheirKeyframes) {
   const TestFolder folder;
-  for (const Interpolation kind : kKinds) {
+  for (const Interpolation kind : kSurfaceKinds) {
     Scene scene = beatingBall(folder, beat(7), 1);
     scene.motion.interpolation = kind;
     const MeshMotion motion(scene);
@@ -46,7 +46,7 @@ TEST(MotionSurfaceLaw, KeyframePhasesReproduceTheirKeyframes) {
 // Phase 1 is phase 0 of the next beat.
 TEST(MotionSurfaceLaw, TheCycleClosesWithoutAJump) {
   const TestFolder folder;
-  for (const Interpolation kind : kKinds) {
+  for (const Interpolation kind : kSurfaceKinds) {
     Scene scene = beatingBall(folder, beat(6), 1);
     scene.motion.interpolation = kind;
     const MeshMotion motion(scene);

@@ -12,7 +12,7 @@
 namespace echocine {
 namespace {
 
-constexpr int kLines = 60, kSamples = 120;
+constexpr int kBlockLines = 60, kBlockSamples = 120;
 
 // A sum of waves, several to a block, none of whose beats repeats in the search.
 double textureAt(double line, double sample) {
@@ -27,14 +27,14 @@ double textureAt(double line, double sample) {
 
 std::vector<float> texture(double lines, double samples, double gain = 1, double offset = 0) {
   std::vector<float> plane;
-  for (int i = 0; i < kLines; ++i)
-    for (int k = 0; k < kSamples; ++k)
+  for (int i = 0; i < kBlockLines; ++i)
+    for (int k = 0; k < kBlockSamples; ++k)
       plane.push_back(static_cast<float>(gain * textureAt(i - lines, k - samples) + offset));
   return plane;
 }
 
 BlockPlane planeOf(const std::vector<float>& values) {
-  return {.values = values, .lines = kLines, .samples = kSamples};
+  return {.values = values, .lines = kBlockLines, .samples = kBlockSamples};
 }
 
 TEST(BlockMatch, AWholeShiftIsFoundWithAFullCorrelationWhateverGainAndOffset) {

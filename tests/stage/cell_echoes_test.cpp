@@ -65,11 +65,11 @@ std::vector<double> alongDepth(const Probe& probe, const std::vector<float>& pla
   return sums;
 }
 
-struct Spread {
+struct Evenness {
   double lowest_db, highest_db;
 };
 
-Spread spreadOver(const std::vector<double>& sums, std::size_t first, std::size_t last) {
+Evenness spreadOver(const std::vector<double>& sums, std::size_t first, std::size_t last) {
   double lo = 1e300, hi = 0;
   for (std::size_t k = first; k < last; ++k) {
     lo = std::min(lo, sums[k]);
@@ -102,7 +102,7 @@ TEST_P(SteepWall, AtTenDegreesToTheBeamIsEvenWithCellsAndBeadsWithout) {
     }
     return spreadOver(sums, 400, 620);
   };
-  const Spread cells = evenness(true), centres = evenness(false);
+  const Evenness cells = evenness(true), centres = evenness(false);
   std::printf(
       "[          ] echo along the wall varies by %.4f dB with cells, by %.0f dB with centres\n",
       cells.highest_db - cells.lowest_db, centres.highest_db - centres.lowest_db);

@@ -14,10 +14,6 @@ using heart::kLeafletColumns, heart::kLeafletRows;
 
 using Points = std::vector<Vec3d>;
 
-const heart::ParametricHeart& defaultHeart() {
-  static const heart::ParametricHeart made(heart::parametersFrom({}));
-  return made;
-}
 
 // A beat in instants between all events; the parts at each, made once.
 constexpr int kInstants = 25;

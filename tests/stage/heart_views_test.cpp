@@ -10,10 +10,6 @@ namespace {
 using namespace support;
 using heart::View;
 
-const heart::ParametricHeart& defaultHeart() {
-  static const heart::ParametricHeart made(heart::parametersFrom({}));
-  return made;
-}
 const std::vector<heart::Part>& partsAtRest() {
   static const std::vector<heart::Part> parts = defaultHeart().at(0);
   return parts;

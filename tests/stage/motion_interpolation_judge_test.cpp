@@ -26,7 +26,7 @@ std::vector<double> cosineRadii(int keyframes) {
   return radii_cm;
 }
 
-InterpolationError errorOf(const MeshMotion& motion, Interpolation kind) {
+InterpolationError interpolationErrorOf(const MeshMotion& motion, Interpolation kind) {
   const auto error = judgeInterpolation(motion.control(SurfaceId{}), kind);
   EXPECT_TRUE(error.has_value());
   return error.value_or(InterpolationError{});
@@ -57,7 +57,7 @@ TEST(MotionInterpolationJudge, CosineRadiusHasTheClosedFormErrors) {
   for (const Interpolation kind : kInterpolations) {
     if (kind == Interpolation::cycle) continue;
     const double lost_m = 0.005 * (1 - halfwayFactor(kind, kPi / 4));
-    const InterpolationError e = errorOf(motion, kind);
+    const InterpolationError e = interpolationErrorOf(motion, kind);
     EXPECT_EQ(e.kept, 8u);
     EXPECT_EQ(e.left_out, 8u);
     EXPECT_EQ(e.vertices, 48u);
@@ -79,7 +79,7 @@ TEST(MotionInterpolationJudge, CosineRadiusHasTheClosedFormErrors) {
 TEST(MotionInterpolationJudge, OddNumberKeepsBothEndsAndItsUnevenGap) {
   const TestFolder folder;
   const MeshMotion motion = ballOf(folder, {2.0, 2.5, 2.2, 1.5, 1.6});
-  const InterpolationError e = errorOf(motion, Interpolation::linear);
+  const InterpolationError e = interpolationErrorOf(motion, Interpolation::linear);
   EXPECT_EQ(e.kept, 3u);
   EXPECT_EQ(e.left_out, 2u);
   EXPECT_NEAR(e.vertex_rms_m, std::hypot(0.004, 0.004) / std::sqrt(2.0), 1e-8);  // 2.1, 1.9 cm
@@ -88,7 +88,7 @@ TEST(MotionInterpolationJudge, OddNumberKeepsBothEndsAndItsUnevenGap) {
   const double spline_cm = 2.0 * weights[0] + 2.2 * weights[1] + 1.6 * weights[2];
   KeyframeWeights(std::vector{0.0, 0.4, 0.8}, Interpolation::spline).at(0.6, weights);
   const double later_cm = 2.0 * weights[0] + 2.2 * weights[1] + 1.6 * weights[2];
-  EXPECT_NEAR(errorOf(motion, Interpolation::spline).vertex_max_m,
+  EXPECT_NEAR(interpolationErrorOf(motion, Interpolation::spline).vertex_max_m,
               0.01 * std::max(std::abs(spline_cm - 2.5), std::abs(later_cm - 1.5)), 1e-8);
 }
 
@@ -96,14 +96,14 @@ TEST(MotionInterpolationJudge, WhatDoesNotMoveIsFoundByEveryKind) {
   const TestFolder folder;
   const MeshMotion motion = ballOf(folder, {2, 2, 2, 2, 2});
   for (const Interpolation kind : kInterpolations) {
-    EXPECT_LT(errorOf(motion, kind).vertex_max_m, 1e-8);
-    EXPECT_LT(errorOf(motion, kind).volume_max_share, 1e-6);
+    EXPECT_LT(interpolationErrorOf(motion, kind).vertex_max_m, 1e-8);
+    EXPECT_LT(interpolationErrorOf(motion, kind).volume_max_share, 1e-6);
   }
 }
 
 TEST(MotionInterpolationJudge, MembraneHasNoVolumes) {
   const TestFolder folder;
-  const InterpolationError e = errorOf(ballOf(folder, cosineRadii(8), true), Interpolation::spline);
+  const InterpolationError e = interpolationErrorOf(ballOf(folder, cosineRadii(8), true), Interpolation::spline);
   EXPECT_GT(e.vertex_rms_m, 0);
   EXPECT_EQ(e.volumes, 0u);
   EXPECT_EQ(e.volume_max_share, 0);

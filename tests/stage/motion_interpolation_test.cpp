@@ -10,7 +10,7 @@
 namespace echocine::motion_test {
 namespace {
 
-constexpr Interpolation kKinds[] = {Interpolation::linear, Interpolation::catmull_rom,
+constexpr Interpolation kInterpolations[] = {Interpolation::linear, Interpolation::catmull_rom,
                                     Interpolation::spline, Interpolation::fourier,
                                     Interpolation::cycle};
 
@@ -25,13 +25,13 @@ std::string says(const std::vector<double>& phases, Interpolation kind) {
 }
 
 TEST(MotionInterpolation, OneKeyframeHasWeightOne) {
-  for (const Interpolation kind : kKinds)
+  for (const Interpolation kind : kInterpolations)
     for (const double phase : {0.0, 0.3, 0.999})
       EXPECT_EQ(weightsAt(KeyframeWeights(std::vector{0.25}, kind), phase)[0], 1.0);
 }
 
 TEST(MotionInterpolation, TwoEvenKeyframesMeetHalfwayInEveryKindButTheHearts) {
-  for (const Interpolation kind : kKinds) {
+  for (const Interpolation kind : kInterpolations) {
     if (kind == Interpolation::cycle) continue;
     const KeyframeWeights weights(std::vector{0.0, 0.5}, kind);
     for (const double phase : {0.25, 0.75})
@@ -65,7 +65,7 @@ TEST(MotionInterpolation, CheapFormHasFewTerms) {
   std::vector<double> phases(25);
   for (std::size_t k = 0; k < phases.size(); ++k) phases[k] = static_cast<double>(k) / 25;
   std::vector<KeyframeWeights::Term> terms;
-  for (const Interpolation kind : kKinds) {
+  for (const Interpolation kind : kInterpolations) {
     const KeyframeWeights weights(phases, kind);
     weights.termsAt(0.123, terms);
     EXPECT_LE(terms.size(), kind == Interpolation::fourier ? 25u : 4u);
@@ -110,7 +110,7 @@ TEST(MotionInterpolation, SplineOverAVeryUnevenGapIsRefused) {
 }
 
 TEST(MotionInterpolation, EvenKeyframesAreNeverMagnifiedMuch) {
-  for (const Interpolation kind : kKinds)
+  for (const Interpolation kind : kInterpolations)
     for (const std::size_t n : {2u, 3u, 8u, 25u, 30u, 100u}) {
       std::vector<double> phases(n);
       for (std::size_t k = 0; k < n; ++k)

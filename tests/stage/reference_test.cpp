@@ -15,7 +15,7 @@ namespace echocine {
 namespace {
 
 // 100 samples from 0 to 100 mm: the near field is the first 15.
-Probe probe() {
+Probe referenceProbe() {
   Probe p = support::plainScene({support::medium("m", 1000, 1500)}).probe;
   p.min_depth_m = 0;
   p.max_depth_m = 0.1;
@@ -40,7 +40,7 @@ std::vector<float> farField(const std::vector<float>& plane) {
 
 TEST(Reference, IsThePercentileOfASortToATenthOfAPercent) {
   std::vector<float> all;
-  IntensityHistogram histogram(probe());
+  IntensityHistogram histogram(referenceProbe());
   for (unsigned seed = 0; seed < 20; ++seed) {
     const std::vector<float> plane = randomPlane(seed), far = farField(plane);
     histogram.add(plane);
@@ -61,13 +61,13 @@ TEST(Reference, LeavesTheNearFieldOut) {
   std::vector<float> plane(5000, 1.0f);
   for (std::size_t i = 0; i < plane.size(); ++i)
     if (i % 100 < 15) plane[i] = 1e6f;
-  IntensityHistogram histogram(probe());
+  IntensityHistogram histogram(referenceProbe());
   histogram.add(plane);
   EXPECT_NEAR(histogram.percentile(100), 1, 1e-3);
 }
 
 TEST(Reference, IsOneWhenNothingIsBright) {
-  IntensityHistogram histogram(probe());
+  IntensityHistogram histogram(referenceProbe());
   EXPECT_EQ(histogram.percentile(99.5), 1);
   histogram.add(std::vector<float>(5000, 0.0f));
   EXPECT_EQ(histogram.percentile(99.5), 1);
@@ -78,14 +78,14 @@ TEST(Reference, IsThatOfTheBrightSamplesWhenMostAreDark) {
   plane[97] = 0.125f;
   plane[98] = 0.25f;
   plane[99] = 0.5f;
-  IntensityHistogram histogram(probe());
+  IntensityHistogram histogram(referenceProbe());
   histogram.add(plane);
   EXPECT_NEAR(histogram.percentile(50), 0.25, 2.5e-4);
 }
 
 // Frames are measured in parallel; the same loop must have the same white.
 TEST(Reference, DoesNotDependOnTheOrderOfFrames) {
-  IntensityHistogram forwards(probe()), backwards(probe());
+  IntensityHistogram forwards(referenceProbe()), backwards(referenceProbe());
   for (unsigned i = 0; i < 9; ++i) {
     forwards.add(randomPlane(i));
     backwards.add(randomPlane(8 - i));

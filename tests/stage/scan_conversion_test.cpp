@@ -68,11 +68,11 @@ std::pair<double, double> centroid(const GreyImage& image) {
   return {x / sum, y / sum};
 }
 
-constexpr ProbeKind kKinds[] = {ProbeKind::phased, ProbeKind::curvilinear, ProbeKind::linear};
+constexpr ProbeKind kProbeKinds[] = {ProbeKind::phased, ProbeKind::curvilinear, ProbeKind::linear};
 
 // Against the geometry by hand, for all kinds of probes.
 TEST(ScanConversion, ABrightSampleLandsOnItsPixelWithinHalfAPixel) {
-  for (const ProbeKind kind : kKinds) {
+  for (const ProbeKind kind : kProbeKinds) {
     const Converted c{sceneOf(kind, 161, 201)};
     for (const auto& [line, sample] : {std::pair(80, 100), {20, 180}, {140, 60}, {7, 120}}) {
       std::vector<float> grey = c.plane(0);
@@ -97,7 +97,7 @@ bool inside(const Scene& scene, double x_m, double z_m, double margin) {
 
 // Exactly 0 outside: readers find the sector by it.
 TEST(ScanConversion, InsideIsFilledAndOutsideIsExactlyBlack) {
-  for (const ProbeKind kind : kKinds) {
+  for (const ProbeKind kind : kProbeKinds) {
     const Converted c{sceneOf(kind, 33, 50)};
     const GreyImage image = c.image(c.plane(1));
     for (int row = 0; row < image.height; ++row)
@@ -116,7 +116,7 @@ TEST(ScanConversion, InsideIsFilledAndOutsideIsExactlyBlack) {
 }
 
 TEST(ScanConversion, TheWholeScanAreaIsInThePictureAboveTheEcg) {
-  for (const ProbeKind kind : kKinds) {
+  for (const ProbeKind kind : kProbeKinds) {
     const Converted c{sceneOf(kind, 33, 50)};
     for (const int line : {0, 16, 32})
       for (const int sample : {0, 49}) {
@@ -143,7 +143,7 @@ TEST(ScanConversion, AGreyRampIsInterpolatedWithoutSteps) {
 }
 
 TEST(ScanConversion, OneLineOrOneSampleFillTheScanArea) {
-  for (const ProbeKind kind : kKinds)
+  for (const ProbeKind kind : kProbeKinds)
     for (const auto& [lines, samples] : {std::pair(1, 40), {40, 1}, {1, 1}}) {
       const Converted c{sceneOf(kind, lines, samples)};
       const GreyImage image = c.image(c.plane(0.5f));

@@ -10,7 +10,7 @@ namespace echocine {
 namespace {
 
 // Samples centred at 1, 2, ... 100 mm.
-Probe probe() {
+Probe gainProbe() {
   Probe p = support::plainScene({support::medium("m", 1000, 1500)}).probe;
   p.min_depth_m = 0.0005;
   p.max_depth_m = 0.1005;
@@ -25,7 +25,7 @@ double decibelsAt(const std::vector<float>& gains, int mm) {
 // As sliders do: straight in dB between them, held beyond the ends.
 TEST(TimeGain, IsLinearInDecibelsBetweenThePointsAndConstantBeyond) {
   const std::vector<float> gains =
-      timeGains({{0.01, 0}, {0.02, 20}, {0.06, 28}, {0.09, -4}}, probe());
+      timeGains({{0.01, 0}, {0.02, 20}, {0.06, 28}, {0.09, -4}}, gainProbe());
   for (const auto& [mm, db] : {std::pair(1, 0.0),
                                {10, 0.0},
                                {15, 10.0},
@@ -39,7 +39,7 @@ TEST(TimeGain, IsLinearInDecibelsBetweenThePointsAndConstantBeyond) {
 }
 
 TEST(TimeGain, OnePointIsTheSameGainEverywhere) {
-  for (const float gain : timeGains({{0.05, 3}}, probe()))
+  for (const float gain : timeGains({{0.05, 3}}, gainProbe()))
     EXPECT_FLOAT_EQ(gain, std::pow(10.0f, 0.3f));
 }
 

@@ -19,9 +19,9 @@ namespace {
 
 using namespace support;
 
-class View : public ::testing::Test {
+class ViewPage : public ::testing::Test {
  protected:
-  View() { writeBallMeshes(folder); }
+  ViewPage() { writeBallMeshes(folder); }
   Simulator simulator(SceneText text) const {
     return Simulator(parseScene(text.text(), folder / "scene.toml"));
   }
@@ -35,7 +35,7 @@ SceneText ball(int subdivision) {
   return text;
 }
 
-TEST_F(View, CoarseMeshesFollowTheSurfacesThroughTheBeat) {
+TEST_F(ViewPage, CoarseMeshesFollowTheSurfacesThroughTheBeat) {
   for (const int subdivision : {0, 1}) {
     const Simulator s = simulator(ball(subdivision));
     const SceneView view =
@@ -62,7 +62,7 @@ TEST_F(View, CoarseMeshesFollowTheSurfacesThroughTheBeat) {
   }
 }
 
-TEST_F(View, BoxesHoldAllOfEverySurface) {
+TEST_F(ViewPage, BoxesHoldAllOfEverySurface) {
   SceneText text = ballScene(4);
   text.setProbe("apex", "[1, 2, 3]");
   text.setProbe("axis", "[0, 1, 0]");
@@ -77,7 +77,7 @@ TEST_F(View, BoxesHoldAllOfEverySurface) {
   EXPECT_NEAR(view.structures[1].probe_box_m.hi.z, world.hi.y - 0.02, 1e-6);
 }
 
-TEST_F(View, SmallMeshesLeaveTheirShareToLargeOnes) {
+TEST_F(ViewPage, SmallMeshesLeaveTheirShareToLargeOnes) {
   const SceneView view = viewScene(simulator(ballScene(4)),
                                    {.triangles_per_structure = 400, .triangles = 500, .phases = 1});
   std::size_t all = 0;
@@ -98,7 +98,7 @@ Probe probeOf(const std::string& kind, const TempFolder& folder) {
   return parseScene(text.text(), folder / "scene.toml").probe;
 }
 
-TEST_F(View, OutlineGoesAlongFaceAndDepthFromLineToLine) {
+TEST_F(ViewPage, OutlineGoesAlongFaceAndDepthFromLineToLine) {
   for (const char* kind : {"phased", "curvilinear", "linear"}) {
     const Probe probe = probeOf(kind, folder);
     const ScanGeometry geometry(probe);
@@ -118,7 +118,7 @@ TEST_F(View, OutlineGoesAlongFaceAndDepthFromLineToLine) {
   }
 }
 
-TEST_F(View, ASectorThatSeesNothingIsToldWhereTheMeshesAre) {
+TEST_F(ViewPage, ASectorThatSeesNothingIsToldWhereTheMeshesAre) {
   SceneText text = ballScene(4);
   text.setProbe("apex", "[0, 30, 0]");
   const Simulator s = simulator(text);
@@ -137,7 +137,7 @@ TEST_F(View, ASectorThatSeesNothingIsToldWhereTheMeshesAre) {
 }
 
 // A structure that the sector lies in is seen though no line meets its surface.
-TEST_F(View, WhatHoldsTheWholeSectorIsSeen) {
+TEST_F(ViewPage, WhatHoldsTheWholeSectorIsSeen) {
   SceneText text = ballScene(4);
   text.setProbe("apex", "[0.3, 0.2, 6]");
   text.setProbe("depth_mm", "10");
@@ -163,7 +163,7 @@ std::vector<std::uint16_t> words(const std::string& base64) {
   return out;
 }
 
-TEST_F(View, ItsJsonHoldsPositionsToHalfAStep) {
+TEST_F(ViewPage, ItsJsonHoldsPositionsToHalfAStep) {
   const Simulator s = simulator(ballScene(4));
   const SceneView view =
       viewScene(s, {.triangles_per_structure = 3000, .triangles = 36000, .phases = 3});
@@ -188,7 +188,7 @@ TEST_F(View, ItsJsonHoldsPositionsToHalfAStep) {
   }
 }
 
-TEST_F(View, PagesAreTheSameForAnyNumberOfThreads) {
+TEST_F(ViewPage, PagesAreTheSameForAnyNumberOfThreads) {
   SceneText text = ballScene(4);
   text.output["cine"] = "false";  // the page has its picture all the same
   const Scene scene = parseScene(text.text(), folder / "scene.toml");

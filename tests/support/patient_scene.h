@@ -33,12 +33,12 @@ inline std::string vectorText(Vec3d v) {
 }
 
 // The left ventricle's long axis at end-diastole, mm.
-struct LongAxis {
+struct PatientAxis {
   Vec3d apex, mitral, direction,
       to_left;  // units: from apex to mitral valve; towards the left side
 };
 
-inline LongAxis longAxis() {
+inline PatientAxis longAxis() {
   const Vec3d mitral = centroid(patientPoints("mitral_valve")),
               tricuspid = centroid(patientPoints("tricuspid_valve"));
   const std::vector<Vec3d> left = patientPoints("lv_endo_closed");
@@ -52,7 +52,7 @@ inline LongAxis longAxis() {
 // The probe 2 cm beyond the apex of the left ventricle, looking at the mitral valve, the left
 // ventricle to the right.
 inline void poseApical(SceneText& text) {
-  const LongAxis heart = longAxis();
+  const PatientAxis heart = longAxis();
   text.probe["apex"] = vectorText(heart.apex - 20.0 * heart.direction);
   text.probe["axis"] = vectorText(heart.direction);
   text.probe["lateral"] = vectorText(heart.to_left);
@@ -61,7 +61,7 @@ inline void poseApical(SceneText& text) {
 // A parasternal short axis: the probe 8 cm in front of the middle of the left ventricle, the plane
 // across its long axis.
 inline void poseShortAxis(SceneText& text) {
-  const LongAxis heart = longAxis();
+  const PatientAxis heart = longAxis();
   const Vec3d middle = 0.5 * (heart.apex + heart.mitral);
   const Vec3d depth = normalised(cross(heart.direction, heart.to_left));
   text.probe["apex"] = vectorText(middle - 80.0 * depth);

@@ -25,6 +25,11 @@ struct RecordedHeart {
   heart::Recording recording;
 };
 
+inline const heart::ParametricHeart& defaultHeart() {
+  static const heart::ParametricHeart made(heart::parametersFrom({}));
+  return made;
+}
+
 // Made once for the same dials.
 inline const RecordedHeart& recordedHeart(const Dials& dials, int keyframes) {
   static std::map<std::pair<Dials, int>, std::unique_ptr<RecordedHeart>> made;

@@ -10,14 +10,14 @@
 namespace echocine::compare {
 namespace {
 
-const std::filesystem::path kVideos = std::filesystem::path(support::kSharedDir) / "real/videos";
-const std::filesystem::path kDicom = kVideos / "a4c_sonosite_30f.dcm";
-const std::filesystem::path kFilm = kVideos / "a4c_echotracker_45f.mp4";
+const std::filesystem::path kVideoFolder = std::filesystem::path(support::kSharedDir) / "real/videos";
+const std::filesystem::path kDicom = kVideoFolder / "a4c_sonosite_30f.dcm";
+const std::filesystem::path kFilm = kVideoFolder / "a4c_echotracker_45f.mp4";
 
 class RealVideos : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!std::filesystem::is_directory(kVideos)) GTEST_SKIP() << kVideos << " is absent";
+    if (!std::filesystem::is_directory(kVideoFolder)) GTEST_SKIP() << kVideoFolder << " is absent";
   }
 };
 

@@ -25,13 +25,6 @@ namespace fs = std::filesystem;
 const fs::path kRoot = support::kSourceDir;
 constexpr int kMostLinesOfTopReadme = 120, kMostRowsOfItsTables = 10;
 
-std::vector<std::string> linesOf(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
 // What a reader opens first, and every room's README. Vendored files are other people's documents.
 std::vector<fs::path> documents() {
   std::vector<fs::path> found{kRoot / "CHANGELOG.md", kRoot / "README.md",
@@ -53,7 +46,7 @@ struct Document {
 Document read(const fs::path& file) {
   Document document;
   bool fenced = false;
-  for (const std::string& line : linesOf(support::bytesOf(file))) {
+  for (const std::string& line : support::linesOf(support::bytesOf(file))) {
     if (line.starts_with("```")) {
       fenced = !fenced;
     } else if (fenced || line.starts_with("    ")) {
@@ -92,7 +85,7 @@ std::vector<std::string> spansOf(const Document& document) {
 // spaces to hyphens.
 std::set<std::string> anchorsOf(const fs::path& file) {
   std::set<std::string> anchors;
-  for (const std::string& line : linesOf(support::bytesOf(file))) {
+  for (const std::string& line : support::linesOf(support::bytesOf(file))) {
     if (!line.starts_with("#")) continue;
     std::string anchor;
     for (const char c : line.substr(line.find_first_not_of("# ")))
@@ -140,7 +133,7 @@ TEST(Documents, EveryDocumentIsReachedFromTheTopReadme) {
 }
 
 TEST(Documents, TopReadmeIsShort) {
-  const std::vector<std::string> lines = linesOf(support::bytesOf(kRoot / "README.md"));
+  const std::vector<std::string> lines = support::linesOf(support::bytesOf(kRoot / "README.md"));
   EXPECT_LE(lines.size(), kMostLinesOfTopReadme);
   int rows = 0;
   for (const std::string& line : lines) {
