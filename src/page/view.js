@@ -12,7 +12,7 @@
     byId("foot").textContent = `EchoCine ${data.version}. Meshes are drawn with fewer triangles than are traced: the table says how many.`;
     if (!view.sees_any) {
       byId("blind").hidden = false;
-      byId("blind-words").textContent = `${view.sight} Change probe.apex and probe.axis, or motion.mesh_unit.`;
+      byId("blind-words").textContent = `${view.sight} Give probe.view to place it by the heart's anatomy, or change probe.apex and probe.axis, motion.mesh_unit or motion.mesh_scale.`;
     }
     const warnings = data.warnings.filter((w) => view.sees_any || !w.startsWith("nothing can be seen: no scan line"));
     if (!warnings.length) return;

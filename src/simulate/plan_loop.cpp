@@ -176,7 +176,8 @@ void lookAtFrames(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) 
              (crossings == 0 && plan.effects.rays_per_beam == 1)) {
     plan.warnings.push_back(fmt::format(
         "nothing can be seen: no scan line meets a structure in the frames looked at; {} "
-        "(probe.apex, probe.axis, motion.mesh_unit)",
+        "(probe.view places the probe by the heart's anatomy; else probe.apex and probe.axis, "
+        "motion.mesh_unit and motion.mesh_scale)",
         whereabouts(scene, meshesBox(motion))));
   }
 }
