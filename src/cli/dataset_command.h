@@ -8,6 +8,10 @@ namespace CLI {
 class App;
 }
 
+namespace echocine::dataset {
+struct Spec;
+}
+
 namespace echocine {
 
 class DatasetCommand {
@@ -16,10 +20,14 @@ class DatasetCommand {
   int run();
 
  private:
+  int preview(const dataset::Spec& spec) const;
+  int slurm(const dataset::Spec& spec) const;
+
   std::filesystem::path spec_file_, folder_;
-  std::string task_;
-  int threads_ = 0;
-  bool merge_ = false, quiet_ = false;
+  std::string task_, sbatch_;
+  int threads_ = 0, preview_ = 0;
+  int tasks_ = 0, cores_ = 4, minutes_ = 0;  // of Slurm's jobs; 0: by what the first heart takes
+  bool merge_ = false, slurm_ = false, no_submit_ = false, quiet_ = false;
 };
 
 }  // namespace echocine

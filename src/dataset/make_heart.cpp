@@ -11,6 +11,7 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "dataset/aim.h"
+#include "dataset/attempts.h"
 #include "dataset/tracing.h"
 #include "motion/cycle/ecg.h"
 #include "motion/heart/heart_scene.h"
@@ -178,17 +179,9 @@ Heart makeHeart(const Spec& spec, int heart, const Monitor& monitor) {
   std::optional<Heart> made;
   inThisThread([&] {
     failIfAsked(spec, heart);
-    for (int tried = 0; tried < kMostAttempts && !made; ++tried) {
-      try {
-        made = attempt(spec, drawOf(spec, heart, tried), monitor);
-      } catch (const SceneError& error) {
-        impossible.emplace_back(error.what());
-      }
-    }
+    made = firstPossible(
+        spec, heart, [&](const Draw& draw) { return attempt(spec, draw, monitor); }, impossible);
   });
-  if (!made)
-    throw SceneError(fmt::format("{} draws were impossible, the last because of {}", kMostAttempts,
-                                 impossible.back()));
   made->impossible = std::move(impossible);
   return std::move(*made);
 }

@@ -6,10 +6,9 @@
 
 namespace echocine::dataset {
 
-// Draws again while no heart fulfils a draw, kMostAttempts times. Runs in this thread alone. Throws
+// Draws again while no heart fulfils a draw (attempts.h). Runs in this thread alone. Throws
 // SceneError where every attempt was impossible; JobError where a loop failed, or the monitor wants
 // to stop.
-inline constexpr int kMostAttempts = 50;
 Heart makeHeart(const Spec& spec, int heart, const Monitor& monitor);
 
 }  // namespace echocine::dataset

@@ -11,12 +11,6 @@ double ejected(double ed_ml, double es_ml) {
   return ed_ml > 0 ? 100 * (1 - es_ml / ed_ml) : 0;
 }
 
-std::string viewKey(View view) {
-  for (const heart::ViewName& name : heart::viewNames())
-    if (name.view == view) return name.key;
-  return {};
-}
-
 Json offsetJson(const std::optional<ViewOffset>& offset) {
   if (!offset) return nullptr;
   Json json{{"label", offset->label}, {"tilt_deg", offset->tilt_deg}};
@@ -54,6 +48,12 @@ Json loopJson(const Loop& loop) {
 }
 
 }  // namespace
+
+std::string viewKey(View view) {
+  for (const heart::ViewName& name : heart::viewNames())
+    if (name.view == view) return name.key;
+  return {};
+}
 
 Json jsonOf(const Values& values) {
   Json json = Json::object();

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <sstream>
 
+#include "support/page_data.h"
 #include "support/run_program.h"
 
 namespace echocine {
@@ -129,6 +131,90 @@ TEST_F(DatasetCommand, HeartsThatFailAreListedAndEndNothing) {
   const std::vector<std::string> lines = linesOf(bytesOf(folder / "failing/failed.csv"));
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[1], "1,1,made to fail by ECHOCINE_FAILING_HEARTS");
+}
+
+// Width and height in a PNG's first chunk, big-endian (PNG, 11.2.2).
+std::pair<int, int> sizeOfPng(const std::string& png) {
+  const auto at = [&](std::size_t place) {
+    int value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(png[place + i]);
+    return value;
+  };
+  return {at(16), at(20)};
+}
+
+TEST_F(DatasetCommand, APreviewIsAPageAndASheetAndLeavesNothingElse) {
+  const Outcome made = make("look.html", "--preview 2");
+  ASSERT_EQ(made.code, 0) << made.err;
+  std::set<std::string> names;
+  for (const auto& [name, bytes] : filesOf(folder.path())) names.insert(name);
+  EXPECT_EQ(names, (std::set<std::string>{"look.html", "look.png", "tiny.toml"}));
+  // Two pairs, one above the other, of two pictures of 224 pixels each.
+  EXPECT_EQ(sizeOfPng(bytesOf(folder / "look.png")), std::pair(448, 448));
+}
+
+// The sheet's ejection fraction is the one that the dataset's table has for the same heart.
+TEST_F(DatasetCommand, APreviewShowsTheHeartsThatAreMade) {
+  ASSERT_EQ(make("look.html", "--preview 2").code, 0);
+  ASSERT_EQ(make("whole").code, 0);
+  const nlohmann::json data = dataOf(bytesOf(folder / "look.html"));
+  const std::vector<std::string> rows = linesOf(bytesOf(folder / "whole/loops.csv"));
+  const std::vector<std::string> head = fieldsOf(rows[0]);
+  const auto column = std::find(head.begin(), head.end(), "ef_percent") - head.begin();
+  ASSERT_EQ(data["glimpses"].size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(data["glimpses"][i]["ef_percent"].get<double>(),
+                std::stod(fieldsOf(rows[i + 1])[static_cast<std::size_t>(column)]), 1e-9);
+}
+
+TEST_F(DatasetCommand, APreviewIsRefusedWhereItIsNoPageOrOneOfManyParts) {
+  EXPECT_EQ(make("look", "--preview 2").code, 2);
+  EXPECT_EQ(make("look.html", "--preview 0").code, 2);
+  EXPECT_EQ(make("look.html", "--preview 2 --task 1/2").code, 2);
+  EXPECT_EQ(filesOf(folder.path()).size(), 1u);
+}
+
+// A scheduler of one machine: sbatch writes the job down and runs it at once, each task of an array
+// in turn. The second run of the first task stands for a requeue.
+constexpr const char* kSbatch = R"(#!/bin/sh
+for last; do :; done
+echo "$@" >> "$JOBS"
+tasks=$(sed -n 's/^#SBATCH --array=1-//p' "$last")
+if [ -z "$tasks" ]; then sh "$last" || exit 1; else
+  for SLURM_ARRAY_TASK_ID in 1 $(seq "$tasks"); do export SLURM_ARRAY_TASK_ID; sh "$last" || exit 1; done
+fi
+echo "17;cluster"
+)";
+
+TEST_F(DatasetCommand, JobsOfSlurmMakeTheSameBytes) {
+  fs::create_directory(folder / "bin");
+  folder.write("bin/sbatch", kSbatch);
+  fs::permissions(folder / "bin/sbatch", fs::perms::owner_all);
+  const std::string before = "PATH='" + (folder / "bin").string() + "':\"$PATH\" JOBS='" + (folder / "jobs").string() + "'";
+  const Outcome made = make("by slurm", "--slurm --tasks 2 --cores 1 --minutes 5 --sbatch '--partition=cpu --nice'", before);
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(linesOf(bytesOf(folder / "jobs")),
+            (std::vector<std::string>{"--parsable --partition=cpu --nice array.sh",
+                                      "--parsable --partition=cpu --nice --dependency=afterany:17 merge.sh"}));
+  ASSERT_EQ(make("at once").code, 0);
+  const auto ofTheDataset = [&](const char* name) {
+    std::map<std::string, std::string> files = filesOf(folder / name);
+    std::erase_if(files, [](const auto& file) { return file.first.starts_with("work/task") || file.first.starts_with("slurm/"); });
+    return files;
+  };
+  EXPECT_EQ(ofTheDataset("by slurm"), ofTheDataset("at once"));
+}
+
+TEST_F(DatasetCommand, JobsThatCannotBeSubmittedAreWritten) {
+  const Outcome made = make("own", "--slurm --tasks 5 --minutes 7", "PATH=/nowhere");
+  EXPECT_EQ(made.code, 1);
+  const Outcome written = make("own", "--slurm --no-submit --tasks 5 --minutes 7");
+  ASSERT_EQ(written.code, 0) << written.err;
+  const std::string array = bytesOf(folder / "own/slurm/array.sh");
+  EXPECT_NE(array.find("#SBATCH --array=1-2\n"), std::string::npos) << array;  // no more than hearts
+  EXPECT_NE(array.find("#SBATCH --time=7\n"), std::string::npos);
+  EXPECT_EQ(make("own", "--no-submit").code, 2);
+  EXPECT_EQ(make("own", "--tasks 3").code, 2);
 }
 
 }  // namespace

@@ -1,0 +1,70 @@
+#include "dataset/glimpse.h"
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/units.h"
+#include "dataset/aim.h"
+#include "dataset/attempts.h"
+#include "motion/heart/heart_scene.h"
+#include "simulate/simulator.h"
+
+namespace echocine::dataset {
+
+namespace {
+
+struct Instant {
+  double time_s = 0, ml = 0;
+};
+
+// Of the frames of the first beat, those of the largest and the smallest ventricle.
+std::pair<Instant, Instant> extremesOf(const Simulator& simulator) {
+  const CardiacClock& clock = simulator.cardiacClock();
+  const SurfaceTopology& cavity =
+      simulator.motion().surfaces()[index(*structureOf(simulator.scene(), Role::lv_cavity))];
+  Instant ed, es;
+  SurfaceFrame surfaces;
+  for (int i = 0; i < clock.frameCount() && clock.at(i).beat == 0; ++i) {
+    const FrameTime time = clock.at(i);
+    simulator.motion().frameAt(time.phase, surfaces, false);
+    const double ml =
+        millilitresFromCubicMetres(simulator.motion().volumeIn(surfaces, cavity));
+    if (i == 0 || ml > ed.ml) ed = {time.time_s, ml};
+    if (i == 0 || ml < es.ml) es = {time.time_s, ml};
+  }
+  return {ed, es};
+}
+
+Glimpse glimpse(const Spec& spec, const Draw& draw, std::size_t view) {
+  const heart::Parameters parameters = parametersOf(draw.values);
+  if (const std::string fault = faultOf(parameters); !fault.empty()) throw SceneError(fault);
+  const heart::ParametricHeart model(parameters);
+  const heart::Recording recording = record(model, spec.views[view], spec.keyframes);
+  Scene scene = sceneOf(spec, draw, view, parameters, recording);
+  scene.truth = {};
+  const Simulator simulator(scene);
+  const auto [ed, es] = extremesOf(simulator);
+  Glimpse made{loopId(draw.heart + 1, spec.views[view]), draw.population->name, spec.views[view],
+               ed.ml, es.ml, simulator.frame(ed.time_s).image, simulator.frame(es.time_s).image,
+               draw.values, draw.attempt};
+  made.values.insert(draw.view_values[view].begin(), draw.view_values[view].end());
+  return made;
+}
+
+}  // namespace
+
+Glimpse glimpseOf(const Spec& spec, int heart, std::size_t view, const Monitor& monitor) {
+  std::optional<Glimpse> made;
+  std::vector<std::string> impossible;
+  inThisThread([&] {
+    made = firstPossible(
+        spec, heart,
+        [&](const Draw& draw) {
+          if (!monitor.keep_going()) throw JobError("stopped");
+          return glimpse(spec, draw, view);
+        },
+        impossible);
+  });
+  return std::move(*made);
+}
+
+}  // namespace echocine::dataset

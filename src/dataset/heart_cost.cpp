@@ -1,0 +1,32 @@
+#include "dataset/heart_cost.h"
+
+#include <chrono>
+
+#include "dataset/make_dataset.h"
+
+namespace echocine::dataset {
+
+HeartCost costOfAHeart(const Spec& spec, const std::filesystem::path& scratch,
+                       const Monitor& monitor) {
+  const auto remove = [&] {
+    std::error_code failed;
+    std::filesystem::remove_all(scratch, failed);
+  };
+  remove();
+  Spec one = spec;
+  one.hearts = 1;
+  Monitor quiet;
+  quiet.keep_going = monitor.keep_going;
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    const MakeSummary made = makePart(one, {scratch, 1, 1, 1}, quiet);
+    remove();
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    return {passed.count(), static_cast<double>(made.bytes)};
+  } catch (...) {
+    remove();
+    throw;
+  }
+}
+
+}  // namespace echocine::dataset

@@ -1,0 +1,113 @@
+#include "dataset/slurm.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "dataset/work_folder.h"
+
+namespace echocine::dataset {
+
+namespace {
+
+constexpr double kTask_s = 1800;
+constexpr int kMostTasks = 1000, kLeastMinutes = 15;
+
+// As a word of a shell, whatever is in it.
+std::string quoted(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+// What a job may be called: letters, digits, "-" and "_".
+std::string jobName(std::string name) {
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
+  return name;
+}
+
+std::string command(const Spec& spec, const SlurmOptions& options) {
+  return fmt::format("exec {} dataset {} -o {} --quiet", quoted(options.program.string()),
+                     quoted(std::filesystem::absolute(spec.file).string()),
+                     quoted(std::filesystem::absolute(options.folder).string()));
+}
+
+std::string arrayText(const Spec& spec, const SlurmOptions& options) {
+  return fmt::format(
+      R"(#!/bin/sh
+# A part of the dataset: as many as the array has tasks. Finished hearts are kept, so a task that is
+# killed, requeued or submitted again goes on.
+#SBATCH --job-name={}
+#SBATCH --array=1-{}
+#SBATCH --cpus-per-task={}
+#SBATCH --time={}
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --output=array_%a.log
+{} --threads "${{SLURM_CPUS_PER_TASK:-0}}" --task "$SLURM_ARRAY_TASK_ID/{}"
+)",
+      jobName(spec.name), options.tasks, options.cores, options.minutes, command(spec, options),
+      options.tasks);
+}
+
+std::string mergeText(const Spec& spec, const SlurmOptions& options) {
+  return fmt::format(
+      R"(#!/bin/sh
+# Proves that every heart is there and writes the tables.
+#SBATCH --job-name={}_merge
+#SBATCH --cpus-per-task=1
+#SBATCH --time={}
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --output=merge.log
+{} --merge
+)",
+      jobName(spec.name), std::max(options.minutes, kLeastMinutes), command(spec, options));
+}
+
+std::string submitText(const SlurmOptions& options) {
+  return fmt::format(
+      R"(#!/bin/sh
+# Submits the array, and the merge for when all its tasks have ended: it says which hearts are missing, if any.
+set -e
+cd {}
+array=$(sbatch --parsable {}array.sh)
+merge=$(sbatch --parsable {}--dependency="afterany:${{array%%;*}}" merge.sh)
+echo "array ${{array%%;*}}, merge ${{merge%%;*}}"
+)",
+      quoted(std::filesystem::absolute(options.folder / "slurm").string()),
+      options.more.empty() ? "" : options.more + " ", options.more.empty() ? "" : options.more + " ");
+}
+
+}  // namespace
+
+int slurmTasks(int hearts, double heart_s, int cores) {
+  const double tasks = std::ceil(hearts * heart_s / cores / kTask_s);
+  return static_cast<int>(std::clamp(tasks, 1.0, static_cast<double>(std::min(hearts, kMostTasks))));
+}
+
+int slurmMinutes(int hearts, double heart_s, int cores, int tasks) {
+  const int each = (hearts + tasks - 1) / tasks;
+  const double rounds = std::ceil(static_cast<double>(each) / cores);
+  return std::max(kLeastMinutes, static_cast<int>(std::ceil(3 * rounds * heart_s / 60)));
+}
+
+std::filesystem::path writeSlurmJobs(const Spec& spec, const SlurmOptions& options) {
+  const WorkFolder work(options.folder, spec);
+  const std::filesystem::path folder = options.folder / "slurm";
+  makeFolder(folder);
+  const auto write = [&](const char* name, const std::string& text) {
+    writeFileWhole(folder / name, std::as_bytes(std::span(text)));
+  };
+  write("array.sh", arrayText(spec, options));
+  write("merge.sh", mergeText(spec, options));
+  write("submit.sh", submitText(options));
+  return folder / "submit.sh";
+}
+
+}  // namespace echocine::dataset
