@@ -26,8 +26,7 @@ std::pair<Instant, Instant> extremesOf(const Simulator& simulator) {
   for (int i = 0; i < clock.frameCount() && clock.at(i).beat == 0; ++i) {
     const FrameTime time = clock.at(i);
     simulator.motion().frameAt(time.phase, surfaces, false);
-    const double ml =
-        millilitresFromCubicMetres(simulator.motion().volumeIn(surfaces, cavity));
+    const double ml = millilitresFromCubicMetres(simulator.motion().volumeIn(surfaces, cavity));
     if (i == 0 || ml > ed.ml) ed = {time.time_s, ml};
     if (i == 0 || ml < es.ml) es = {time.time_s, ml};
   }
@@ -43,9 +42,15 @@ Glimpse glimpse(const Spec& spec, const Draw& draw, std::size_t view) {
   scene.truth = {};
   const Simulator simulator(scene);
   const auto [ed, es] = extremesOf(simulator);
-  Glimpse made{loopId(draw.heart + 1, spec.views[view]), draw.population->name, spec.views[view],
-               ed.ml, es.ml, simulator.frame(ed.time_s).image, simulator.frame(es.time_s).image,
-               draw.values, draw.attempt};
+  Glimpse made{loopId(draw.heart + 1, spec.views[view]),
+               draw.population->name,
+               spec.views[view],
+               ed.ml,
+               es.ml,
+               simulator.frame(ed.time_s).image,
+               simulator.frame(es.time_s).image,
+               draw.values,
+               draw.attempt};
   made.values.insert(draw.view_values[view].begin(), draw.view_values[view].end());
   return made;
 }

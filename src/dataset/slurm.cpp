@@ -81,14 +81,16 @@ merge=$(sbatch --parsable {}--dependency="afterany:${{array%%;*}}" merge.sh)
 echo "array ${{array%%;*}}, merge ${{merge%%;*}}"
 )",
       quoted(std::filesystem::absolute(options.folder / "slurm").string()),
-      options.more.empty() ? "" : options.more + " ", options.more.empty() ? "" : options.more + " ");
+      options.more.empty() ? "" : options.more + " ",
+      options.more.empty() ? "" : options.more + " ");
 }
 
 }  // namespace
 
 int slurmTasks(int hearts, double heart_s, int cores) {
   const double tasks = std::ceil(hearts * heart_s / cores / kTask_s);
-  return static_cast<int>(std::clamp(tasks, 1.0, static_cast<double>(std::min(hearts, kMostTasks))));
+  return static_cast<int>(
+      std::clamp(tasks, 1.0, static_cast<double>(std::min(hearts, kMostTasks))));
 }
 
 int slurmMinutes(int hearts, double heart_s, int cores, int tasks) {

@@ -14,7 +14,7 @@ struct SlurmOptions {
   int tasks = 1;                  // of the array
   int cores = 4;                  // of a task
   int minutes = 60;               // a task's limit
-  std::string more;               // options that sbatch is given for every job, such as "--partition=cpu"
+  std::string more;  // options that sbatch is given for every job, such as "--partition=cpu"
 };
 
 // Hearts that a task makes in about half an hour (our choice: short enough for a scheduler's gaps,

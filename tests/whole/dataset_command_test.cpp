@@ -137,7 +137,8 @@ TEST_F(DatasetCommand, HeartsThatFailAreListedAndEndNothing) {
 std::pair<int, int> sizeOfPng(const std::string& png) {
   const auto at = [&](std::size_t place) {
     int value = 0;
-    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(png[place + i]);
+    for (std::size_t i = 0; i < 4; ++i)
+      value = value << 8 | static_cast<unsigned char>(png[place + i]);
     return value;
   };
   return {at(16), at(20)};
@@ -190,16 +191,22 @@ TEST_F(DatasetCommand, JobsOfSlurmMakeTheSameBytes) {
   fs::create_directory(folder / "bin");
   folder.write("bin/sbatch", kSbatch);
   fs::permissions(folder / "bin/sbatch", fs::perms::owner_all);
-  const std::string before = "PATH='" + (folder / "bin").string() + "':\"$PATH\" JOBS='" + (folder / "jobs").string() + "'";
-  const Outcome made = make("by slurm", "--slurm --tasks 2 --cores 1 --minutes 5 --sbatch '--partition=cpu --nice'", before);
+  const std::string before = "PATH='" + (folder / "bin").string() + "':\"$PATH\" JOBS='" +
+                             (folder / "jobs").string() + "'";
+  const Outcome made =
+      make("by slurm", "--slurm --tasks 2 --cores 1 --minutes 5 --sbatch '--partition=cpu --nice'",
+           before);
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_EQ(linesOf(bytesOf(folder / "jobs")),
-            (std::vector<std::string>{"--parsable --partition=cpu --nice array.sh",
-                                      "--parsable --partition=cpu --nice --dependency=afterany:17 merge.sh"}));
+            (std::vector<std::string>{
+                "--parsable --partition=cpu --nice array.sh",
+                "--parsable --partition=cpu --nice --dependency=afterany:17 merge.sh"}));
   ASSERT_EQ(make("at once").code, 0);
   const auto ofTheDataset = [&](const char* name) {
     std::map<std::string, std::string> files = filesOf(folder / name);
-    std::erase_if(files, [](const auto& file) { return file.first.starts_with("work/task") || file.first.starts_with("slurm/"); });
+    std::erase_if(files, [](const auto& file) {
+      return file.first.starts_with("work/task") || file.first.starts_with("slurm/");
+    });
     return files;
   };
   EXPECT_EQ(ofTheDataset("by slurm"), ofTheDataset("at once"));
@@ -211,7 +218,8 @@ TEST_F(DatasetCommand, JobsThatCannotBeSubmittedAreWritten) {
   const Outcome written = make("own", "--slurm --no-submit --tasks 5 --minutes 7");
   ASSERT_EQ(written.code, 0) << written.err;
   const std::string array = bytesOf(folder / "own/slurm/array.sh");
-  EXPECT_NE(array.find("#SBATCH --array=1-2\n"), std::string::npos) << array;  // no more than hearts
+  EXPECT_NE(array.find("#SBATCH --array=1-2\n"), std::string::npos)
+      << array;  // no more than hearts
   EXPECT_NE(array.find("#SBATCH --time=7\n"), std::string::npos);
   EXPECT_EQ(make("own", "--no-submit").code, 2);
   EXPECT_EQ(make("own", "--tasks 3").code, 2);
