@@ -140,12 +140,18 @@ Recording record(const ParametricHeart& heart, View view, int keyframes, Keyfram
 Recording seenFrom(View view, const ParametricHeart& heart, const Recording& recording) {
   Recording seen = recording;
   seen.pose = poseOf(view, heart);
-  std::erase_if(seen.parts, [](const RecordedPart& part) { return part.control_m.size() == 1; });
-  Recording still;
-  still.phases = seen.phases;
-  finish(surroundingsOf(view, seen.pose, heart), still);
-  std::move(still.parts.begin(), still.parts.end(), std::back_inserter(seen.parts));
+  surround(view, seen.pose, heart, seen);
   return seen;
+}
+
+void surround(View view, const ProbePose& pose, const ParametricHeart& heart,
+              Recording& recording) {
+  std::erase_if(recording.parts,
+                [](const RecordedPart& part) { return part.control_m.size() == 1; });
+  Recording still;
+  still.phases = recording.phases;
+  finish(surroundingsOf(view, pose, heart), still);
+  std::move(still.parts.begin(), still.parts.end(), std::back_inserter(recording.parts));
 }
 
 }  // namespace echocine::heart

@@ -50,4 +50,10 @@ Recording record(const ParametricHeart& heart, View view, int keyframes,
 // record() of that view. Precondition: `recording` is of this heart.
 Recording seenFrom(View view, const ParametricHeart& heart, const Recording& recording);
 
+// Makes what lies around the heart anew, as it is where the probe stands at `pose`: the chest wall
+// is the probe's, wherever it slides. The recording's own pose stays. Precondition: `recording` is
+// of this heart and view.
+void surround(View view, const ProbePose& pose, const ParametricHeart& heart,
+              Recording& recording);
+
 }  // namespace echocine::heart

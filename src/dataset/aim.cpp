@@ -7,6 +7,7 @@
 #include "dataset/loop.h"
 #include "motion/heart/heart_scene.h"
 #include "scene/names.h"
+#include "scene/probe_pose.h"
 #include "scene/scene_reader.h"
 
 namespace echocine::dataset {
@@ -23,6 +24,12 @@ double numberOf(const TomlValue& value) {
 double numberAt(const Values& values, const std::string& name, double fallback) {
   const auto found = values.find(name);
   return found == values.end() ? fallback : numberOf(found->second);
+}
+
+Values allOf(const Draw& draw, std::size_t view) {
+  Values all = draw.values;
+  all.insert(draw.view_values[view].begin(), draw.view_values[view].end());
+  return all;
 }
 
 // "lad.amplitude" of some segments.
@@ -119,25 +126,39 @@ heart::Parameters parametersOf(const Values& values) {
   heart::Parameters parameters = heart::parametersFrom(dials);
   for (const auto& [name, value] : values)
     if (name.starts_with(kHeart) && name.substr(kHeart.size()).starts_with(kSegments))
-      setSegments(std::string_view(name).substr(kHeart.size() + kSegments.size()),
-                  numberOf(value), parameters);
+      setSegments(std::string_view(name).substr(kHeart.size() + kSegments.size()), numberOf(value),
+                  parameters);
   return parameters;
+}
+
+void surroundProbe(const Draw& draw, std::size_t view, View standard,
+                   const heart::ParametricHeart& model, heart::Recording& recording) {
+  const Values all = allOf(draw, view);
+  const heart::ProbePose& held = recording.pose;
+  Pose pose = *poseOf(held.apex, held.axis, held.lateral);
+  moveProbe(all, recording.places.front(), pose);
+  heart::ProbePose moved = held;
+  moved.apex = pose.origin;
+  moved.axis = pose.z_axis;
+  moved.lateral = pose.x_axis;
+  // Pressed in, the chest is thinner; a millimetre is always left (our choice).
+  moved.chest_m = std::max(0.001, held.chest_m - 1e-3 * numberAt(all, "offset.shift_depth_mm", 0));
+  surround(standard, moved, model, recording);
 }
 
 Scene sceneOf(const Spec& spec, const Draw& draw, std::size_t view,
               const heart::Parameters& parameters, const heart::Recording& recording) {
-  Values all = draw.values;
-  all.insert(draw.view_values[view].begin(), draw.view_values[view].end());
+  const Values all = allOf(draw, view);
   std::vector<std::pair<std::string, TomlValue>> keys;
   for (const auto& [name, value] : all)
     if (name.starts_with(kScene)) keys.emplace_back(name.substr(kScene.size()), value);
   const std::string name = loopId(draw.heart + 1, spec.views[view]);
   const auto look = all.find("scene.signal.look");
-  const Look wanted = look == all.end()
-                          ? Look::scanner
-                          : valueOf<Look>(std::get<std::string>(look->second)).value_or(Look::paper);
-  const std::string text = withValues(
-      heart::sceneText(spec.views[view], parameters, recording, "", wanted), name, keys);
+  const Look wanted =
+      look == all.end() ? Look::scanner
+                        : valueOf<Look>(std::get<std::string>(look->second)).value_or(Look::paper);
+  const std::string text =
+      withValues(heart::sceneText(spec.views[view], parameters, recording, "", wanted), name, keys);
   Scene scene = parseScene(text, name, heart::meshesOf(recording));
   // To find by tracing that a heart's rays hardly bend takes as long as tracing its loop: they are
   // straight unless the spec says otherwise.

@@ -37,7 +37,8 @@ Glimpse glimpse(const Spec& spec, const Draw& draw, std::size_t view) {
   const heart::Parameters parameters = parametersOf(draw.values);
   if (const std::string fault = faultOf(parameters); !fault.empty()) throw SceneError(fault);
   const heart::ParametricHeart model(parameters);
-  const heart::Recording recording = record(model, spec.views[view], spec.keyframes);
+  heart::Recording recording = record(model, spec.views[view], spec.keyframes);
+  surroundProbe(draw, view, spec.views[view], model, recording);
   Scene scene = sceneOf(spec, draw, view, parameters, recording);
   scene.truth = {};
   const Simulator simulator(scene);

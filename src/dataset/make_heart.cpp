@@ -157,6 +157,7 @@ Heart attempt(const Spec& spec, const Draw& draw, const Monitor& monitor) {
   for (std::size_t v = 0; v < spec.views.size(); ++v) {
     recording = v == 0 ? record(model, spec.views[v], spec.keyframes)
                        : seenFrom(spec.views[v], model, recording);
+    surroundProbe(draw, v, spec.views[v], model, recording);
     made.loops.push_back(makeLoop(spec, draw, v, parameters, recording, monitor));
   }
   return made;
