@@ -9,7 +9,11 @@ set(tests "")
 foreach(suite IN LISTS suites)
   string(STRIP "${suite}" suite)
   string(REGEX REPLACE "\\.$" "" suite "${suite}")
+  set(cost 1)
+  if(suite MATCHES "^(NumberSweep|Planted|SimulatorFrame|StudyCommandTest|Tolerance)$")
+    set(cost 100)  # the longest ones first, so that none is left to run alone
+  endif()
   string(APPEND tests "add_test([=[${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
-                      "set_tests_properties([=[${suite}]=] PROPERTIES TIMEOUT ${SECONDS})\n")
+                      "set_tests_properties([=[${suite}]=] PROPERTIES TIMEOUT ${SECONDS} COST ${cost})\n")
 endforeach()
 file(WRITE ${OUT} "${tests}")
