@@ -1,11 +1,12 @@
 #include "motion/mesh/decimate.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <OpenMesh/Core/System/omstream.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <algorithm>
+
+#include "motion/mesh/openmesh_turn.h"
 
 namespace echocine {
 
@@ -37,7 +38,7 @@ void addTriangle(const Triangle& t, std::span<const Vec3f> positions, Collapsibl
 }
 
 Collapsible halfEdges(std::span<const Triangle> triangles, std::span<const Vec3f> positions) {
-  omerr().disable();  // the kernel reports what it refuses there
+  const auto turn = takeOpenMesh();  // the kernel reports what it refuses
   Collapsible out;
   out.mesh.request_vertex_status();
   out.mesh.request_edge_status();

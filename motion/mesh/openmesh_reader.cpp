@@ -5,13 +5,13 @@
 // MeshIO.hh registers the readers; it must come with the manager.
 #include <OpenMesh/Core/IO/IOManager.hh>
 #include <OpenMesh/Core/IO/MeshIO.hh>
-#include <OpenMesh/Core/System/omstream.hh>
 #include <cstdint>
 #include <cstring>
 #include <sstream>
 #include <string_view>
 
 #include "core/error.h"
+#include "motion/mesh/openmesh_turn.h"
 #include "motion/mesh/ply_header.h"
 
 namespace echocine {
@@ -136,8 +136,7 @@ void parse(const std::string& bytes, const std::string& extension, PlainImporter
 }  // namespace
 
 TriangleMesh parseWithOpenMesh(const std::string& bytes, const std::string& extension) {
-  omerr().disable();
-  omlog().disable();
+  const auto turn = takeOpenMesh();
   PlainImporter importer;
   try {
     parse(bytes, extension, importer);
