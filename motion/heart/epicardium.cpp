@@ -6,11 +6,11 @@
 #include <numbers>
 
 #include "motion/heart/smooth.h"
+#include "motion/heart/units.h"
 
 namespace echocine::heart {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr int kSamples = 240;  // along a meridian
 
 struct Sample {

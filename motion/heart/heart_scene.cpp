@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "motion/heart/units.h"
 #include "scene/names.h"
 #include "scene/role.h"
 
@@ -77,7 +78,6 @@ std::string sceneText(View view, const Parameters& parameters, const Recording& 
                       const std::string& mesh_folder, Look look) {
   const ProbePose& pose = recording.pose;
   const double hr_bpm = parameters.heart_rate_bpm;
-  constexpr double kOneMillimetre = 1e-3;
   std::string text = fmt::format(
       R"(# A parametric heart, {}, {:g} beats per minute.
 # World axes in mm: origin at the mitral ring at end-diastole, z to the apex of the left ventricle,
@@ -114,7 +114,7 @@ keyframe_phases = {}
 # Where structures overlap the highest priority wins. Cavities pierce walls; the septum belongs to the
 # left ventricle and the right heart is wrapped round it.
 )",
-      meaningOf(view), hr_bpm, vectorText(pose.apex, kOneMillimetre), vectorText(pose.axis, 1),
+      meaningOf(view), hr_bpm, vectorText(pose.apex, kMillimetre), vectorText(pose.axis, 1),
       vectorText(pose.lateral, 1), pose.sector_deg, std::round(pose.depth_m * 1e4) * 0.1, hr_bpm,
       Recording::kLevels, hr_bpm, recording.end_systole_phase, listText(recording.phases),
       signalText(look));

@@ -137,13 +137,6 @@ Recording record(const ParametricHeart& heart, View view, int keyframes, Keyfram
   return recording;
 }
 
-Recording seenFrom(View view, const ParametricHeart& heart, const Recording& recording) {
-  Recording seen = recording;
-  seen.pose = poseOf(view, heart);
-  surround(view, seen.pose, heart, seen);
-  return seen;
-}
-
 void surround(View view, const ProbePose& pose, const ParametricHeart& heart,
               Recording& recording) {
   std::erase_if(recording.parts,

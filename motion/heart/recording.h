@@ -46,13 +46,10 @@ std::vector<double> keyframePhases(const Cycle& cycle, int count);
 Recording record(const ParametricHeart& heart, View view, int keyframes,
                  KeyframeSpacing spacing = KeyframeSpacing::by_motion, const Monitor& monitor = {});
 
-// The same beat seen from elsewhere: what is not of the view is copied, not made again. The same as
-// record() of that view. Precondition: `recording` is of this heart.
-Recording seenFrom(View view, const ParametricHeart& heart, const Recording& recording);
-
-// Makes what lies around the heart anew, as it is where the probe stands at `pose`: the chest wall
-// is the probe's, wherever it slides. The recording's own pose stays. Precondition: `recording` is
-// of this heart and view.
+// Makes what lies around the heart anew, as it is in a view whose probe stands at `pose`: the chest
+// wall is the probe's, wherever it slides. The recording's own pose stays. With poseOf(view) for
+// both poses the recording is what record() of that view makes. Precondition: `recording` is of
+// this heart.
 void surround(View view, const ProbePose& pose, const ParametricHeart& heart,
               Recording& recording);
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "motion/heart/smooth.h"
+#include "motion/heart/units.h"
 
 namespace echocine::heart {
 namespace {
-
-constexpr double kWholeTurn = 2 * std::numbers::pi;
 
 // A ring of segments, counted in the Association's order: basal and mid rings start with the
 // anterior segment, 60 degrees apart; the apical one with its anterior segment, 90 degrees apart.
@@ -17,18 +17,14 @@ struct SegmentRing {
   double start_rad;  // centre of the first; the count goes by the septum
 };
 constexpr std::array<SegmentRing, 4> kRings{
-    {{0.17, 0, 6, kWholeTurn / 6}, {0.50, 6, 6, kWholeTurn / 6}, {0.80, 12, 4, kWholeTurn / 6}, {0.97, 16, 1, 0}}};
-
-double eased(double t) {
-  return t * t * (3 - 2 * t);
-}
+    {{0.17, 0, 6, kTurn / 6}, {0.50, 6, 6, kTurn / 6}, {0.80, 12, 4, kTurn / 6}, {0.97, 16, 1, 0}}};
 
 void addRing(const SegmentRing& ring, double phi_rad, double share,
              std::array<double, kSegments>& shares) {
-  double place = (phi_rad - ring.start_rad) / kWholeTurn * ring.count;
+  double place = (phi_rad - ring.start_rad) / kTurn * ring.count;
   place -= std::floor(place / ring.count) * ring.count;
   const int here = static_cast<int>(place) % ring.count;
-  const double next = eased(place - std::floor(place));
+  const double next = smoothStep(0, 1, place - std::floor(place));
   shares[ring.first + here] += share * (1 - next);
   shares[ring.first + (here + 1) % ring.count] += share * next;
 }
@@ -44,7 +40,7 @@ std::array<double, kSegments> segmentShares(double phi_rad, double zeta) {
     return shares;
   }
   const SegmentRing &low = kRings[above - 1], &high = kRings[above];
-  const double t = eased((zeta - low.zeta) / (high.zeta - low.zeta));
+  const double t = smoothStep(low.zeta, high.zeta, zeta);
   addRing(low, phi_rad, 1 - t, shares);
   addRing(high, phi_rad, t, shares);
   return shares;
@@ -54,7 +50,7 @@ SegmentPlace segmentCentre(int segment) {
   std::size_t r = kRings.size() - 1;
   while (kRings[r].first > segment) --r;
   const SegmentRing& ring = kRings[r];
-  return {ring.start_rad + kWholeTurn * (segment - ring.first) / ring.count, ring.zeta};
+  return {ring.start_rad + kTurn * (segment - ring.first) / ring.count, ring.zeta};
 }
 
 }  // namespace echocine::heart

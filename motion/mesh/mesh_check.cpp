@@ -87,22 +87,21 @@ void checkExtent(const Structure& structure, const KeyframeMesh& keyframe, doubl
   const double extent = std::max({size.x, size.y, size.z});
   const double extent_m = extent * mesh_unit_m;
   if (!(extent_m >= kMinExtentMetres && extent_m <= kMaxExtentMetres))
-    fail(structure, fmt::format("{} measures {:.4g} mesh units, which motion.mesh_unit makes "
-                                "{:.4g} m; 1 mm to 2 m is accepted: mend motion.mesh_unit or motion.mesh_scale (a chamber of "
-                                "80 mm takes {:.2g} mm per mesh unit)",
-                                keyframe.parts.front().file.string(), extent, extent_m,
-                                80 / extent));
+    fail(structure,
+         fmt::format("{} measures {:.4g} mesh units, which motion.mesh_unit makes "
+                     "{:.4g} m; 1 mm to 2 m is accepted: mend motion.mesh_unit or "
+                     "motion.mesh_scale (a chamber of "
+                     "80 mm takes {:.2g} mm per mesh unit)",
+                     keyframe.parts.front().file.string(), extent, extent_m, 80 / extent));
 }
 
 void checkVolume(const Structure& structure, const KeyframeMesh& keyframe, bool is_first) {
   const double volume = signedVolume(keyframe.mesh);
   if (volume > 0) return;
-  const std::string encloses =
-      fmt::format("{} encloses a volume of {:.4g} cubic mesh units: ",
-                  keyframe.parts.front().file.string(), volume);
+  const std::string encloses = fmt::format("{} encloses a volume of {:.4g} cubic mesh units: ",
+                                           keyframe.parts.front().file.string(), volume);
   if (!is_first)
-    fail(structure,
-         encloses + "this keyframe is turned inside out or mirrored; mend its vertices");
+    fail(structure, encloses + "this keyframe is turned inside out or mirrored; mend its vertices");
   throw MeshFault(
       atPlace(structure.place,
               fmt::format("{}: {}its faces look inward; reverse the vertex order of every face",

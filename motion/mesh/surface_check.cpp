@@ -50,11 +50,12 @@ bool sameCorners(Triangle a, Triangle b) {
                         faceName(keyframe, other.triangle()), faceName(keyframe, one.triangle()));
         offer = offerOf(structure.repair.drop_degenerate, "drop-degenerate");
       }
-  fail(structure, fmt::format("{}: edge {} belongs to {} faces, the last is {}; at most two are "
-                              "accepted: {}",
-                              faceName(keyframe, edge.front().triangle()),
-                              edgeName(keyframe.mesh, edge.front().key), edge.size(),
-                              faceName(keyframe, edge.back().triangle()), advice),
+  fail(structure,
+       fmt::format("{}: edge {} belongs to {} faces, the last is {}; at most two are "
+                   "accepted: {}",
+                   faceName(keyframe, edge.front().triangle()),
+                   edgeName(keyframe.mesh, edge.front().key), edge.size(),
+                   faceName(keyframe, edge.back().triangle()), advice),
        offer);
 }
 
@@ -83,8 +84,8 @@ bool isWeldable(const KeyframeMesh& keyframe) {
 [[noreturn]] void failOpen(const Structure& structure, const KeyframeMesh& keyframe,
                            const Side& first, std::size_t count) {
   const bool weldable = !structure.repair.weld && isWeldable(keyframe);
-  RepairOffer offer = weldable ? offerOf(false, "weld")
-                               : offerOf(structure.repair.fill_holes, "fill-holes");
+  RepairOffer offer =
+      weldable ? offerOf(false, "weld") : offerOf(structure.repair.fill_holes, "fill-holes");
   offer.prefix = "";
   offer.suffix = ", ";
   fail(structure,
@@ -156,9 +157,10 @@ void checkPieces(const Structure& structure, const KeyframeMesh& keyframe) {
       depth += nesting.volume(outer) > 0 ? 1 : -1;
     if (depth >= 0) continue;
     const std::vector<std::uint32_t>& faces = nesting.trianglesOf(piece);
-    fail(structure, fmt::format("{} and the {} others of its separate surface look inward, and it "
-                                "is no cavity of another; accepted: outward: reverse them",
-                                faceName(keyframe, faces.front()), faces.size() - 1),
+    fail(structure,
+         fmt::format("{} and the {} others of its separate surface look inward, and it "
+                     "is no cavity of another; accepted: outward: reverse them",
+                     faceName(keyframe, faces.front()), faces.size() - 1),
          offerOf(structure.repair.orient, "orient"));
   }
 }

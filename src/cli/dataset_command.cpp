@@ -157,10 +157,8 @@ int DatasetCommand::slurm(const dataset::Spec& spec) const {
   options.tasks = tasks_;
   options.minutes = minutes_;
   if (tasks_ == 0 || minutes_ == 0) {
-    std::filesystem::path scratch = folder_;
-    scratch += ".part.d";
     const double heart_s =
-        dataset::costOfAHeart(spec, scratch, {.keep_going = [] { return !stopWanted(); }}).seconds;
+        dataset::costOfAHeart(spec, folder_, {.keep_going = [] { return !stopWanted(); }}).seconds;
     if (tasks_ == 0) options.tasks = dataset::slurmTasks(spec.hearts, heart_s, cores_);
     if (minutes_ == 0)
       options.minutes = dataset::slurmMinutes(spec.hearts, heart_s, cores_, options.tasks);

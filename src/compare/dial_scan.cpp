@@ -14,6 +14,7 @@
 #include "core/nearest_word.h"
 #include "core/parallel.h"
 #include "motion/heart/parameters.h"
+#include "scene/view_names.h"
 
 namespace echocine::compare {
 
@@ -215,8 +216,7 @@ DialScan scanDials(const ScanOptions& options, const Monitor& monitor) {
   refuseUnusable(options);
   DialScan scan;
   scan.options = options;
-  for (const heart::ViewName& name : heart::viewNames())
-    if (name.view == options.view) scan.view = name.key;
+  scan.view = keyOf(options.view);
   const Loop real = readLoop(options.real, options.side, true);
   std::vector<DialRange> ranges;
   std::vector<double> middle;

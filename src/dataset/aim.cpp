@@ -16,20 +16,9 @@ namespace {
 
 constexpr std::string_view kHeart = "heart.", kScene = "scene.", kSegments = "segments.";
 
-double numberOf(const TomlValue& value) {
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
-  return std::get<double>(value);
-}
-
 double numberAt(const Values& values, const std::string& name, double fallback) {
   const auto found = values.find(name);
-  return found == values.end() ? fallback : numberOf(found->second);
-}
-
-Values allOf(const Draw& draw, std::size_t view) {
-  Values all = draw.values;
-  all.insert(draw.view_values[view].begin(), draw.view_values[view].end());
-  return all;
+  return found == values.end() ? fallback : numberIn(found->second).value();
 }
 
 // "lad.amplitude" of some segments.
@@ -116,24 +105,30 @@ void setOutput(const Spec& spec, Scene& scene) {
   scene.truth.track_count = spec.track_count;
 }
 
-}  // namespace
-
 heart::Parameters parametersOf(const Values& values) {
   std::map<std::string, double> dials;
   for (const auto& [name, value] : values)
     if (name.starts_with(kHeart) && !name.substr(kHeart.size()).starts_with(kSegments))
-      dials[name.substr(kHeart.size())] = numberOf(value);
+      dials[name.substr(kHeart.size())] = numberIn(value).value();
   heart::Parameters parameters = heart::parametersFrom(dials);
   for (const auto& [name, value] : values)
     if (name.starts_with(kHeart) && name.substr(kHeart.size()).starts_with(kSegments))
-      setSegments(std::string_view(name).substr(kHeart.size() + kSegments.size()), numberOf(value),
-                  parameters);
+      setSegments(std::string_view(name).substr(kHeart.size() + kSegments.size()),
+                  numberIn(value).value(), parameters);
   return parameters;
 }
 
-void surroundProbe(const Draw& draw, std::size_t view, View standard,
+}  // namespace
+
+heart::ParametricHeart modelOf(const Values& values) {
+  const heart::Parameters parameters = parametersOf(values);
+  if (const std::string fault = faultOf(parameters); !fault.empty()) throw SceneError(fault);
+  return heart::ParametricHeart(parameters);
+}
+
+void surroundProbe(const Spec& spec, const Draw& draw, std::size_t view,
                    const heart::ParametricHeart& model, heart::Recording& recording) {
-  const Values all = allOf(draw, view);
+  const Values all = draw.valuesOf(view);
   const heart::ProbePose& held = recording.pose;
   Pose pose = *poseOf(held.apex, held.axis, held.lateral);
   moveProbe(all, recording.places.front(), pose);
@@ -143,12 +138,12 @@ void surroundProbe(const Draw& draw, std::size_t view, View standard,
   moved.lateral = pose.x_axis;
   // Pressed in, the chest is thinner; a millimetre is always left (our choice).
   moved.chest_m = std::max(0.001, held.chest_m - 1e-3 * numberAt(all, "offset.shift_depth_mm", 0));
-  surround(standard, moved, model, recording);
+  surround(spec.views[view], moved, model, recording);
 }
 
 Scene sceneOf(const Spec& spec, const Draw& draw, std::size_t view,
               const heart::Parameters& parameters, const heart::Recording& recording) {
-  const Values all = allOf(draw, view);
+  const Values all = draw.valuesOf(view);
   std::vector<std::pair<std::string, TomlValue>> keys;
   for (const auto& [name, value] : all)
     if (name.starts_with(kScene)) keys.emplace_back(name.substr(kScene.size()), value);

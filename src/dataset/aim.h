@@ -7,12 +7,12 @@
 
 namespace echocine::dataset {
 
-// The dials of a draw.
-heart::Parameters parametersOf(const Values& values);
+// The heart of drawn dials. Throws SceneError where they are impossible together.
+heart::ParametricHeart modelOf(const Values& values);
 
 // Surrounds a recorded heart as it is where a draw holds the probe: chest wall and lungs give way
 // to it there.
-void surroundProbe(const Draw& draw, std::size_t view, View standard,
+void surroundProbe(const Spec& spec, const Draw& draw, std::size_t view,
                    const heart::ParametricHeart& model, heart::Recording& recording);
 
 // The scene of a view of a recorded heart, ready to simulate. Throws SceneError where values

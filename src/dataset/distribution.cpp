@@ -22,12 +22,6 @@ std::size_t chosen(const std::vector<double>& weights, double u) {
   return weights.size() - 1;
 }
 
-std::optional<double> plainNumberOf(const TomlValue& value) {
-  if (const auto* number = std::get_if<double>(&value)) return *number;
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
-  return std::nullopt;
-}
-
 std::string listOf(const std::vector<TomlValue>& items) {
   std::string list;
   for (const TomlValue& item : items) list += (list.empty() ? "" : ", ") + tomlText(item);
@@ -35,6 +29,12 @@ std::string listOf(const std::vector<TomlValue>& items) {
 }
 
 }  // namespace
+
+std::optional<double> numberIn(const TomlValue& value) {
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+  return std::nullopt;
+}
 
 double normalCumulative(double z) {
   return 0.5 * std::erfc(-z / std::numbers::sqrt2);
@@ -105,20 +105,20 @@ double Distribution::cumulative(double x) const {
     case Kind::choice: {
       double sum = 0;
       for (std::size_t i = 0; i < weights.size(); ++i)
-        if (plainNumberOf(items[i]).value_or(static_cast<double>(i)) <= x) sum += weights[i];
+        if (numberIn(items[i]).value_or(static_cast<double>(i)) <= x) sum += weights[i];
       return sum;
     }
     case Kind::constant:
       break;
   }
-  return x >= plainNumberOf(items.front()).value_or(0) ? 1 : 0;
+  return x >= numberIn(items.front()).value_or(0) ? 1 : 0;
 }
 
 std::optional<std::pair<double, double>> Distribution::range() const {
   if (kind != Kind::constant && kind != Kind::choice) return std::pair(low, high);
   std::optional<std::pair<double, double>> range;
   for (const TomlValue& item : items) {
-    const std::optional<double> number = plainNumberOf(item);
+    const std::optional<double> number = numberIn(item);
     if (!number) return std::nullopt;
     if (!range) range.emplace(*number, *number);
     range = std::pair(std::min(range->first, *number), std::max(range->second, *number));

@@ -11,6 +11,9 @@
 
 namespace echocine::dataset {
 
+// Of a whole number or any other; nothing of what is no number.
+std::optional<double> numberIn(const TomlValue& value);
+
 struct Distribution {
   enum class Kind { constant, uniform, whole, normal, choice };
   Kind kind = Kind::constant;

@@ -65,6 +65,12 @@ std::uint64_t hashFor(const Spec& spec, std::string_view purpose, int heart, int
   return hashOf(spec.seed, numberOf(purpose), heart, attempt, view);
 }
 
+Values Draw::valuesOf(std::size_t view) const {
+  Values all = values;
+  all.insert(view_values[view].begin(), view_values[view].end());
+  return all;
+}
+
 // An impossible draw is drawn again as a whole, but from the same population: else those that are
 // often impossible would be rarer than the spec says.
 Draw drawOf(const Spec& spec, int heart, int attempt) {

@@ -19,6 +19,9 @@ struct Draw {
   const Population* population = nullptr;
   Values values;                    // of the heart
   std::vector<Values> view_values;  // of each view of the spec
+
+  // Of the heart and of one of the views.
+  Values valuesOf(std::size_t view) const;
 };
 
 Draw drawOf(const Spec& spec, int heart, int attempt);

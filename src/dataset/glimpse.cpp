@@ -34,26 +34,22 @@ std::pair<Instant, Instant> extremesOf(const Simulator& simulator) {
 }
 
 Glimpse glimpse(const Spec& spec, const Draw& draw, std::size_t view) {
-  const heart::Parameters parameters = parametersOf(draw.values);
-  if (const std::string fault = faultOf(parameters); !fault.empty()) throw SceneError(fault);
-  const heart::ParametricHeart model(parameters);
+  const heart::ParametricHeart model = modelOf(draw.values);
   heart::Recording recording = record(model, spec.views[view], spec.keyframes);
-  surroundProbe(draw, view, spec.views[view], model, recording);
-  Scene scene = sceneOf(spec, draw, view, parameters, recording);
+  surroundProbe(spec, draw, view, model, recording);
+  Scene scene = sceneOf(spec, draw, view, model.parameters(), recording);
   scene.truth = {};
   const Simulator simulator(scene);
   const auto [ed, es] = extremesOf(simulator);
-  Glimpse made{loopId(draw.heart + 1, spec.views[view]),
-               draw.population->name,
-               spec.views[view],
-               ed.ml,
-               es.ml,
-               simulator.frame(ed.time_s).image,
-               simulator.frame(es.time_s).image,
-               draw.values,
-               draw.attempt};
-  made.values.insert(draw.view_values[view].begin(), draw.view_values[view].end());
-  return made;
+  return {loopId(draw.heart + 1, spec.views[view]),
+          draw.population->name,
+          spec.views[view],
+          ed.ml,
+          es.ml,
+          simulator.frame(ed.time_s).image,
+          simulator.frame(es.time_s).image,
+          draw.valuesOf(view),
+          draw.attempt};
 }
 
 }  // namespace

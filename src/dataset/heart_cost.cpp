@@ -6,8 +6,10 @@
 
 namespace echocine::dataset {
 
-HeartCost costOfAHeart(const Spec& spec, const std::filesystem::path& scratch,
+HeartCost costOfAHeart(const Spec& spec, const std::filesystem::path& output,
                        const Monitor& monitor) {
+  std::filesystem::path scratch = output;
+  scratch += ".part.d";
   const auto remove = [&] {
     std::error_code failed;
     std::filesystem::remove_all(scratch, failed);

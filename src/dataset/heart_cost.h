@@ -13,8 +13,9 @@ struct HeartCost {
   double bytes = 0;    // of its files
 };
 
-// Of the first heart, made whole in `scratch` and thrown away. Throws as makePart() does.
-HeartCost costOfAHeart(const Spec& spec, const std::filesystem::path& scratch,
+// Of the first heart, made whole beside `output` (a page or a folder) and thrown away. Throws as
+// makePart() does.
+HeartCost costOfAHeart(const Spec& spec, const std::filesystem::path& output,
                        const Monitor& monitor);
 
 }  // namespace echocine::dataset

@@ -16,6 +16,7 @@
 #include "motion/cycle/ecg.h"
 #include "motion/heart/heart_scene.h"
 #include "output/truth_files.h"
+#include "scene/view_names.h"
 #include "simulate/simulator.h"
 
 namespace echocine::dataset {
@@ -121,14 +122,13 @@ void traceInstants(const Simulator& simulator, SurfaceId cavity, const heart::Re
 }
 
 Loop makeLoop(const Spec& spec, const Draw& draw, std::size_t view,
-              const heart::Parameters& parameters, const heart::Recording& recording,
+              const heart::ParametricHeart& model, const heart::Recording& recording,
               const Monitor& monitor) {
   Loop loop;
   loop.view = spec.views[view];
   loop.id = loopId(draw.heart + 1, loop.view);
-  loop.values = draw.values;
-  loop.values.insert(draw.view_values[view].begin(), draw.view_values[view].end());
-  loop.scene = sceneOf(spec, draw, view, parameters, recording);
+  loop.values = draw.valuesOf(view);
+  loop.scene = sceneOf(spec, draw, view, model.parameters(), recording);
   loop.geometry = pictureGeometry(loop.scene);
   const Simulator simulator(loop.scene);
   const CardiacClock& clock = simulator.cardiacClock();
@@ -149,16 +149,16 @@ Loop makeLoop(const Spec& spec, const Draw& draw, std::size_t view,
 }
 
 Heart attempt(const Spec& spec, const Draw& draw, const Monitor& monitor) {
-  const heart::Parameters parameters = parametersOf(draw.values);
-  if (const std::string fault = faultOf(parameters); !fault.empty()) throw SceneError(fault);
-  const heart::ParametricHeart model(parameters);
+  const heart::ParametricHeart model = modelOf(draw.values);
   Heart made{draw.heart + 1, draw.attempt, draw.population->name, spec.splitOf(draw.heart), {}};
   heart::Recording recording;
   for (std::size_t v = 0; v < spec.views.size(); ++v) {
-    recording = v == 0 ? record(model, spec.views[v], spec.keyframes)
-                       : seenFrom(spec.views[v], model, recording);
-    surroundProbe(draw, v, spec.views[v], model, recording);
-    made.loops.push_back(makeLoop(spec, draw, v, parameters, recording, monitor));
+    if (v == 0)
+      recording = record(model, spec.views[v], spec.keyframes);
+    else
+      recording.pose = poseOf(spec.views[v], model);  // the same beat from elsewhere
+    surroundProbe(spec, draw, v, model, recording);
+    made.loops.push_back(makeLoop(spec, draw, v, model, recording, monitor));
   }
   return made;
 }
@@ -166,13 +166,9 @@ Heart attempt(const Spec& spec, const Draw& draw, const Monitor& monitor) {
 }  // namespace
 
 std::string loopId(int heart_number, View view) {
-  for (const heart::ViewName& name : heart::viewNames())
-    if (name.view == view) {
-      std::string key = name.key;
-      std::replace(key.begin(), key.end(), '-', '_');
-      return fmt::format("ec{:06}_{}", heart_number, key);
-    }
-  return {};
+  std::string key = keyOf(view);
+  std::replace(key.begin(), key.end(), '-', '_');
+  return fmt::format("ec{:06}_{}", heart_number, key);
 }
 
 Heart makeHeart(const Spec& spec, int heart, const Monitor& monitor) {

@@ -10,8 +10,6 @@ namespace echocine::dataset {
 
 namespace {
 
-constexpr int kFrameQuality = 95;
-
 // Pixels with the centre of (0, 0) at (0, 0). Older releases read trajs_2d and visibilities, later
 // ones trajs_2d, visibs and valids, under another file name; both find what they look for.
 std::vector<std::byte> annotations(const Loop& loop) {
@@ -39,7 +37,7 @@ void writePointodyssey(const Spec&, const Heart& heart, Sink& sink, Json&) {
     const std::string folder = fmt::format("pointodyssey/{}/{}/", nameOf(heart.split), loop.id);
     for (std::size_t f = 0; f < loop.frames.size(); ++f)
       sink.write(fmt::format("{}rgbs/rgb_{:05}.jpg", folder, f),
-                 encodeCineFrame(loop.frames[f].image, CineCodec::mjpg, kFrameQuality));
+                 encodeCineFrame(loop.frames[f].image, CineCodec::mjpg, kJpegQuality));
     const std::vector<std::byte> npz = annotations(loop);
     sink.write(folder + "annotations.npz", npz);
     sink.write(folder + "anno.npz", npz);

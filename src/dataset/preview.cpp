@@ -12,6 +12,7 @@
 #include "dataset/shrink.h"
 #include "page/assets.h"
 #include "page/page.h"
+#include "scene/view_names.h"
 #include "video/cine_writer.h"
 
 namespace echocine::dataset {
@@ -57,7 +58,7 @@ GreyImage sheetOf(const std::vector<GreyImage>& pairs) {
 Json glimpseJson(const Glimpse& g, const GreyImage& pair) {
   return {{"id", g.id},
           {"population", g.population},
-          {"view", viewKey(g.view)},
+          {"view", keyOf(g.view)},
           {"edv_ml", g.edv_ml},
           {"ef_percent", 100 * (1 - g.esv_ml / g.edv_ml)},
           {"impossible", g.impossible},
@@ -91,9 +92,7 @@ PreviewSummary writePreview(const Spec& spec, const std::filesystem::path& page,
   PreviewSummary summary;
   std::vector<GreyImage> pairs;
   Json glimpses = Json::array();
-  std::filesystem::path scratch = page;
-  scratch += ".part.d";
-  const HeartCost cost = costOfAHeart(spec, scratch, monitor);
+  const HeartCost cost = costOfAHeart(spec, page, monitor);
   withThreads(threads, [&] {
     const int used = threadCount();
     summary.seconds = cost.seconds * spec.hearts / used;

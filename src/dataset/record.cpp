@@ -1,6 +1,6 @@
 #include "dataset/record.h"
 
-#include "motion/heart/views.h"
+#include "scene/view_names.h"
 
 namespace echocine::dataset {
 
@@ -24,7 +24,7 @@ Json loopJson(const Loop& loop) {
   const LoopFrame& ed = loop.frames[static_cast<std::size_t>(loop.instants.ed)];
   const LoopFrame& es = loop.frames[static_cast<std::size_t>(loop.instants.es)];
   Json json{{"id", loop.id},
-            {"view", viewKey(loop.view)},
+            {"view", keyOf(loop.view)},
             {"frames", loop.frames.size()},
             {"frame_rate_hz", loop.scene.acquisition.frame_rate_hz},
             {"width", loop.width()},
@@ -48,12 +48,6 @@ Json loopJson(const Loop& loop) {
 }
 
 }  // namespace
-
-std::string viewKey(View view) {
-  for (const heart::ViewName& name : heart::viewNames())
-    if (name.view == view) return name.key;
-  return {};
-}
 
 Json jsonOf(const Values& values) {
   Json json = Json::object();

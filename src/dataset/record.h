@@ -12,9 +12,6 @@ Json recordOf(const Spec& spec, const Heart& heart);
 Json failureOf(const Spec& spec, int heart, const std::string& reason);
 bool isFailure(const Json& record);
 
-// "a4c", as the heart's table has it.
-std::string viewKey(View view);
-
 // As JSON has it.
 Json jsonOf(const Values& values);
 

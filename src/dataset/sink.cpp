@@ -15,8 +15,6 @@ std::span<const std::byte> bytesOf(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
 
-constexpr int kJpegQuality = 95;
-
 }  // namespace
 
 std::filesystem::path Sink::place(const std::string& name) const {

@@ -10,6 +10,8 @@
 
 namespace echocine::dataset {
 
+inline constexpr int kJpegQuality = 95;  // of all frames
+
 struct FileMark {
   std::uint64_t bytes = 0;
   std::string digest;  // core/digest.h

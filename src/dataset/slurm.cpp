@@ -71,6 +71,7 @@ std::string mergeText(const Spec& spec, const SlurmOptions& options) {
 }
 
 std::string submitText(const SlurmOptions& options) {
+  const std::string more = options.more.empty() ? "" : options.more + " ";
   return fmt::format(
       R"(#!/bin/sh
 # Submits the array, and the merge for when all its tasks have ended: it says which hearts are missing, if any.
@@ -80,9 +81,7 @@ array=$(sbatch --parsable {}array.sh)
 merge=$(sbatch --parsable {}--dependency="afterany:${{array%%;*}}" merge.sh)
 echo "array ${{array%%;*}}, merge ${{merge%%;*}}"
 )",
-      quoted(std::filesystem::absolute(options.folder / "slurm").string()),
-      options.more.empty() ? "" : options.more + " ",
-      options.more.empty() ? "" : options.more + " ");
+      quoted(std::filesystem::absolute(options.folder / "slurm").string()), more, more);
 }
 
 }  // namespace

@@ -12,14 +12,14 @@
 
 #include "core/check.h"
 #include "core/digest.h"
+#include "output/exr_header.h"
 
 namespace echocine {
 
 namespace {
 
-// A header is shorter, see exr_header.cpp; blocks are multiples of the digest's stripes.
+// Blocks are multiples of the digest's stripes.
 constexpr std::size_t kBlock = 1 << 18;
-constexpr std::size_t kSearchedBytes = 1 << 16;
 
 // Name 0, type 0, size as four bytes, lowest first: what stands before the digits. No other
 // attribute of ours can hold the zeros.
@@ -35,7 +35,7 @@ std::string attributeStart() {
 std::optional<std::size_t> placeOfDigits(std::span<const std::byte> bytes) {
   const std::string start = attributeStart();
   const std::string_view header(reinterpret_cast<const char*>(bytes.data()),
-                                std::min(bytes.size(), kSearchedBytes));
+                                std::min(bytes.size(), kMaxHeaderBytes));
   const std::size_t at = header.find(start);
   if (at == std::string_view::npos || header.size() < at + start.size() + Digest::kDigits)
     return std::nullopt;

@@ -19,8 +19,6 @@ namespace echocine {
 
 namespace {
 
-// Ours are of about 1 kB.
-constexpr std::size_t kMaxHeaderBytes = 1 << 16;
 constexpr int kMaxSide = 1 << 16;
 
 // https://openexr.com/en/latest/OpenEXRFileLayout.html: a magic number, the version in a byte and

@@ -14,11 +14,6 @@ namespace {
 
 constexpr double kFar_m = 1e9;  // beyond every image
 
-// A wall that ends its line by total reflection still fills the line's cell, on one side deeper
-// than the line goes: as deep as a lean of tan = 10 (84 degrees) makes it. Our choice; of what
-// leans more the lobe cos^2 leaves under a hundredth.
-constexpr double kSteepest = 10;
-
 class CellEchoMaker {
  public:
   CellEchoMaker(const Probe& probe, const TraceSettings& settings, std::span<const LineTrace> lines,
@@ -37,7 +32,9 @@ class CellEchoMaker {
     for (const LineTrace& line : lines) {
       const double end_m = line.segments.back().end_depth_m;
       const double half_m = cell_width / 2 * (angular_ ? end_m + face_radius_m_ : 1.0);
-      samples_lit_.push_back({samplesBefore(end_m), samplesBefore(end_m + kSteepest * half_m)});
+      // A wall that ends its line by total reflection still fills the line's cell, on one side
+      // deeper than the line goes: as deep as the steepest lean makes it.
+      samples_lit_.push_back({samplesBefore(end_m), samplesBefore(end_m + kSteepestLean * half_m)});
     }
   }
 

@@ -22,6 +22,10 @@ struct MediumSegment {
   MediumId medium{};
 };
 
+// Of walls, tan (84 degrees): those that lean more are taken for it. Our choice; of what leans more
+// the lobe cos^2 leaves under a hundredth.
+inline constexpr double kSteepestLean = 10;
+
 // The echo of one interface.
 struct Echo {
   double depth_m = 0;

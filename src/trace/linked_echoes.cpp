@@ -112,8 +112,7 @@ class ChordSampler {
 
   // The tangent plane of an echo towards the next line, which lies to the side of the unit vector.
   Chord tangent(const Echo& a, Vec3d towards) const {
-    constexpr double kMostLean = 10;
-    const double lean = std::clamp(dot(towards, a.tilt), -kMostLean, kMostLean);
+    const double lean = std::clamp(dot(towards, a.tilt), -kSteepestLean, kSteepestLean);
     const double across = angular_ ? width_ / (a.depth_m + to_centre_m_) : width_;
     return {placeOf(a.depth_m), -lean * across, a.intensity, 0, a.exponent, 0};
   }

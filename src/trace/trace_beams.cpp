@@ -67,8 +67,7 @@ class LensStates {
 // Adds an interface's echo to weighted sums, over the depths of the ray's stratum.
 void addEcho(const Echo& echo, const BeamRay& ray, const Sampling& sampling, double intensity,
              std::span<const float> weights, double* sums) {
-  constexpr double kMostLean = 10;  // lean of a wall: beam_rays.h
-  const double lean = std::clamp(dot(ray.lateral, echo.tilt), -kMostLean, kMostLean);
+  const double lean = std::clamp(dot(ray.lateral, echo.tilt), -kSteepestLean, kSteepestLean);
   const auto place = [&](double slope) {  // in samples from the shallowest one's beginning
     const double depth_m = echo.depth_m * (1 - lean * slope);
     return (depth_m - sampling.min_depth_m) / sampling.spacing_m;

@@ -111,8 +111,12 @@ void logCompression(benchmark::State& state) {
   std::vector<float> out(t.polar.intensities.size());
   overFloor(
       state,
-      [&](std::size_t) { compressIntensities(t.polar.intensities, kStageReference, kStageRange_db, out); },
-      [&](std::size_t) { bare.run(t.polar.intensities.values, kStageReference, kStageRange_db, grey); });
+      [&](std::size_t) {
+        compressIntensities(t.polar.intensities, kStageReference, kStageRange_db, out);
+      },
+      [&](std::size_t) {
+        bare.run(t.polar.intensities.values, kStageReference, kStageRange_db, grey);
+      });
 }
 
 void scanConversion(benchmark::State& state) {

@@ -69,7 +69,10 @@ void truthField(benchmark::State& state) {
 
 BENCHMARK(truthLabels)->UseManualTime()->Iterations(kTruthRounds)->Unit(benchmark::kMillisecond);
 BENCHMARK(truthContours)->UseManualTime()->Iterations(kTruthRounds)->Unit(benchmark::kMillisecond);
-BENCHMARK(truthDisplacement)->UseManualTime()->Iterations(kTruthRounds)->Unit(benchmark::kMillisecond);
+BENCHMARK(truthDisplacement)
+    ->UseManualTime()
+    ->Iterations(kTruthRounds)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(truthTracks)->UseManualTime()->Iterations(kTruthRounds)->Unit(benchmark::kMillisecond);
 BENCHMARK(truthFunction)->UseManualTime()->Iterations(kTruthRounds)->Unit(benchmark::kMillisecond);
 BENCHMARK(truthField)->Iterations(3)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();

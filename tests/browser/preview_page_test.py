@@ -6,21 +6,10 @@ import sys
 
 import browser
 
-SPEC = """name = "tiny & <small>"
+SPEC_HEAD = """name = "tiny & <small>"
 hearts = 40
 views = ["a4c", "plax"]
 layouts = ["native"]
-keyframes = 8
-picture_px = 112
-[heart]
-edv = { uniform = [90, 150] }
-[scene.probe]
-lines = 48
-samples = 128
-[scene.acquisition]
-frame_rate_hz = 10
-[scene.signal]
-look = "paper"
 """
 
 
@@ -50,10 +39,10 @@ class PreviewPage(browser.PageTest):
 
 
 def make_page(folder):
-    program, _ = sys.argv[1:3]
+    program, source = sys.argv[1:3]
     spec, path = os.path.join(folder, "tiny.toml"), os.path.join(folder, "look.html")
-    with open(spec, "w") as file:
-        file.write(SPEC)
+    with open(spec, "w") as file, open(os.path.join(source, "tests", "support", "small_loops.toml")) as rest:
+        file.write(SPEC_HEAD + rest.read())
     subprocess.run([program, "dataset", spec, "--preview", "3", "-o", path, "--quiet"], check=True)
     return path
 

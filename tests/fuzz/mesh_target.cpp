@@ -47,8 +47,8 @@ void trace(const Scene& scene, const MeshMotion& motion) {
   plan.refraction = false;
   PlaneSlice slice(motion.surfaces(), scene.probe);
   slice.update(surfaces);
-  traceFrame(slice, scene.probe, TraceSettings(scene, plan, EchoCells::contours), planeRequest(scene, plan),
-             frame);
+  traceFrame(slice, scene.probe, TraceSettings(scene, plan, EchoCells::contours),
+             planeRequest(scene, plan), frame);
   promisePhysical(frame);
 }
 

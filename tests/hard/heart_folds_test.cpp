@@ -100,7 +100,7 @@ void expectNoFold(const heart::Parameters& parameters, const FoldExtent& wanted)
   }
 }
 
-void expectOneLine(const std::string& refusal) {
+void expectANamedKey(const std::string& refusal) {
   EXPECT_EQ(refusal.find('\n'), std::string::npos) << refusal;
   const std::string key = refusal.substr(0, refusal.find(':'));
   bool known = key == "segment" || key == "segments" || key == "heart";
@@ -117,7 +117,7 @@ TEST(HeartFolds, NoRandomHeartFoldsAnywhereInItsBeat) {
       expectNoFold(randomHeart(number), wanted);
       ++sound;
     } catch (const SceneError& refusal) {
-      expectOneLine(refusal.what());
+      expectANamedKey(refusal.what());
     }
   }
   std::printf("%llu of %llu random hearts have a shape\n", static_cast<unsigned long long>(sound),

@@ -16,8 +16,6 @@ namespace {
 
 using namespace support;
 
-const std::vector<Tracer> kTracers{Tracer::slice, Tracer::cells, Tracer::embree};
-
 // Largest difference of two images, relative to the brighter sample.
 double difference(const std::vector<float>& a, const std::vector<float>& b) {
   EXPECT_EQ(a.size(), b.size());

@@ -12,8 +12,6 @@ namespace {
 
 using namespace support;
 
-const std::vector<Tracer> kMeetingTracers{Tracer::slice, Tracer::cells, Tracer::embree};
-
 // Structure i has medium i + 1.
 World worldOf(const std::vector<Mesh>& meshes, const std::vector<int>& priorities) {
   World world{
@@ -36,10 +34,10 @@ double difference(const World& a, const World& b, Tracer tracer) {
   return worst;
 }
 
-void expectSame(const char* name, const char* oracle, const World& a, const World& b,
-                double bound = 1e-6) {
+void expectSamePicture(const char* name, const char* oracle, const World& a, const World& b,
+                       double bound = 1e-6) {
   Sweep sweep(name, oracle, kOfTracer, bound);
-  for (const Tracer tracer : kMeetingTracers)
+  for (const Tracer tracer : kTracers)
     sweep.addError(static_cast<double>(tracer), difference(a, b, tracer));
 }
 
@@ -47,7 +45,7 @@ TEST(MeetingSurfaces, CoincidentWallsAreTheWallOfTheHigherPriority) {
   const Mesh ball = octasphere(3, 0.03).moved({0.002, 0, 0.08});
   World one = worldOf({ball, ball}, {1, 2}), alone = worldOf({ball}, {1});
   alone.scene.structures[0].medium = MediumId(2);
-  expectSame("coincident walls", "the one wall that wins", one, alone, 0);
+  expectSamePicture("coincident walls", "the one wall that wins", one, alone, 0);
 }
 
 // Two overlapping slabs are three that touch: overlap belongs to the higher priority.
@@ -56,7 +54,7 @@ TEST(MeetingSurfaces, InterpenetratingWallsAreCutByPriority) {
   const Mesh first = box({-1, -1, 0.04}, {1, 1, 0.08}), second = box({-1, -1, 0.0625}, {1, 1, 0.1});
   const World overlapping = worldOf({first, second}, {1, 2});
   const World touching = worldOf({box({-1, -1, 0.04}, {1, 1, 0.0625}), second}, {1, 2});
-  expectSame("interpenetrating walls", "walls cut by hand", overlapping, touching);
+  expectSamePicture("interpenetrating walls", "walls cut by hand", overlapping, touching);
 }
 
 TEST(MeetingSurfaces, DuplicateFacesAreNotSeen) {
@@ -101,12 +99,12 @@ TEST(MeetingSurfaces, TrianglesOfSeveralMeshesShrunkToOnePoint) {
   for (Vec3d& p : shrunk.points) p = {0.002, 0, 0.085};
   World alone = worldOf({ball}, {1});
   alone.scene.structures[0].medium = MediumId(2);
-  expectSame("zero-area: two meshes shrunk in part to one point", "the one wall that wins",
-             worldOf({ball, ball}, {1, 2}), alone, 0);
-  expectSame("zero-area: a mesh shrunk to a point of another", "the other alone",
-             worldOf({ball, shrunk}, {1, 2}), worldOf({ball}, {1}), 0);
-  expectSame("zero-area: two meshes shrunk to a point", "no meshes",
-             worldOf({shrunk, shrunk}, {1, 2}), worldOf({}, {}), 0);
+  expectSamePicture("zero-area: two meshes shrunk in part to one point", "the one wall that wins",
+                    worldOf({ball, ball}, {1, 2}), alone, 0);
+  expectSamePicture("zero-area: a mesh shrunk to a point of another", "the other alone",
+                    worldOf({ball, shrunk}, {1, 2}), worldOf({ball}, {1}), 0);
+  expectSamePicture("zero-area: two meshes shrunk to a point", "no meshes",
+                    worldOf({shrunk, shrunk}, {1, 2}), worldOf({}, {}), 0);
 }
 
 // Faces exactly in the imaging plane: the box is as one moved by a nanometre to the one side or to
@@ -116,10 +114,10 @@ TEST(MeetingSurfaces, FacesInTheImagingPlaneBelongToOneSideOfIt) {
     return worldOf({box({-0.03, y0, 0.05}, {0.03, y1, 0.09})}, {1});
   };
   const double nm = 1e-9;
-  expectSame("whole facets in the plane, box above", "box moved by 1 nm", boxFrom(0, 0.02),
-             boxFrom(nm, 0.02));
-  expectSame("whole facets in the plane, box below", "box moved by 1 nm", boxFrom(-0.02, 0),
-             boxFrom(-0.02, nm));
+  expectSamePicture("whole facets in the plane, box above", "box moved by 1 nm", boxFrom(0, 0.02),
+                    boxFrom(nm, 0.02));
+  expectSamePicture("whole facets in the plane, box below", "box moved by 1 nm", boxFrom(-0.02, 0),
+                    boxFrom(-0.02, nm));
 }
 
 // A linear probe's line in the side of a box and its float neighbours: hit or miss, never between.

@@ -89,8 +89,8 @@ TEST(CycleInterpolationLaw, APatientsTwoPhasesFollowTheRealVolumeCurve) {
   const MeshMotion motion(twoPhases(Interpolation::cycle));
   double worst_ml = 0;
   for (std::size_t k = 0; k < kPublished_ml.size(); ++k)
-    worst_ml = std::max(worst_ml, std::abs(volumeAt_ml(motion, static_cast<double>(k) / 25) -
-                                           kPublished_ml[k]));
+    worst_ml = std::max(
+        worst_ml, std::abs(volumeAt_ml(motion, static_cast<double>(k) / 25) - kPublished_ml[k]));
   RecordProperty("worst_ml", fmt::format("{:.1f}", worst_ml));
   EXPECT_LT(worst_ml, 0.12 * kPublished_ml[0]);
   EXPECT_NEAR(volumeAt_ml(motion, 0), kPublished_ml[0], 0.1);
@@ -109,7 +109,8 @@ TEST(CycleInterpolationLaw, WhatLeavesItsKeyframesVolumesIsTold) {
   ASSERT_EQ(told.size(), 1u);
   EXPECT_NE(told[0].find(": lv: frame "), std::string::npos) << told[0];
   EXPECT_NE(told[0].find(" mL over both keyframes beside it, "), std::string::npos) << told[0];
-  EXPECT_TRUE(told[0].ends_with("motion.interpolation = \"cycle\" or \"linear\" stays between them"))
+  EXPECT_TRUE(
+      told[0].ends_with("motion.interpolation = \"cycle\" or \"linear\" stays between them"))
       << told[0];
 }
 

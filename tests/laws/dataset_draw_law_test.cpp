@@ -27,8 +27,8 @@ double farthest(std::vector<double> draws, const Cumulative& cumulative) {
   const auto n = static_cast<double>(draws.size());
   for (std::size_t i = 0; i < draws.size(); ++i) {
     const double wanted = cumulative(draws[i]);
-    most = std::max({most, wanted - static_cast<double>(i) / n,
-                     static_cast<double>(i + 1) / n - wanted});
+    most = std::max(
+        {most, wanted - static_cast<double>(i) / n, static_cast<double>(i + 1) / n - wanted});
   }
   return most;
 }
@@ -39,7 +39,9 @@ Spec specOf(const std::string& rest) {
 
 // Written out here, not taken from the quantile functions that draw.
 double cutNormal(double x, const Distribution& d) {
-  const auto below = [&](double v) { return 0.5 * std::erfc((d.mean - v) / (d.sd * std::sqrt(2.0))); };
+  const auto below = [&](double v) {
+    return 0.5 * std::erfc((d.mean - v) / (d.sd * std::sqrt(2.0)));
+  };
   return (below(x) - below(d.low)) / (below(d.high) - below(d.low));
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 using namespace support;
 
-struct Volumes {
+struct CavityVolumes {
   double at_rest_ml, emptied_ml;  // at end-diastole and end-systole
   double stroke() const { return at_rest_ml - emptied_ml; }
 };
@@ -28,7 +28,7 @@ Mesh writtenMesh(const std::vector<heart::Part>& parts, const char* name) {
       {part.kind, part.faces, {}, {heart::loopControlPoints(part.points, part.faces)}, {}}, 0));
 }
 
-Volumes volumesOf(const Extremes& heart, const char* part, bool subdivide) {
+CavityVolumes volumesOf(const Extremes& heart, const char* part, bool subdivide) {
   const auto of = [&](const Mesh& mesh) {
     return millilitresOf(subdivide ? subdivided(mesh) : mesh);
   };
@@ -64,13 +64,13 @@ double hingeDescent(const Extremes& heart) {
 void expectDialled(const heart::Parameters& dials) {
   const Extremes heart{heart::ParametricHeart(dials)};
   for (const bool subdivide : {false, true}) {
-    const Volumes left = volumesOf(heart, "lv_cavity", subdivide),
-                  right = volumesOf(heart, "rv_cavity", subdivide);
+    const CavityVolumes left = volumesOf(heart, "lv_cavity", subdivide),
+                        right = volumesOf(heart, "rv_cavity", subdivide);
     EXPECT_NEAR(left.at_rest_ml, dials.edv_ml, 0.01 * dials.edv_ml);
     EXPECT_NEAR(left.stroke() / left.at_rest_ml, dials.ejection_fraction, 0.01);
     EXPECT_NEAR(right.at_rest_ml, dials.rv_edv_ml, 0.015 * dials.rv_edv_ml);
     EXPECT_NEAR(right.stroke(), left.stroke(), 0.01 * left.stroke());
-    const Volumes outer = volumesOf(heart, "lv_wall", subdivide);
+    const CavityVolumes outer = volumesOf(heart, "lv_wall", subdivide);
     const double wall_ml = outer.at_rest_ml - left.at_rest_ml;
     EXPECT_NEAR(outer.emptied_ml - left.emptied_ml, wall_ml, 0.05 * wall_ml);
     EXPECT_GT(wall_ml, 30 * std::pow(dials.edv_ml / 120, 2.0 / 3));  // a wall there must be

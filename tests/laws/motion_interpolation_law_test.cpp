@@ -10,10 +10,6 @@ namespace echocine::motion_test {
 namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
-constexpr Interpolation kKinds[] = {Interpolation::linear, Interpolation::catmull_rom,
-                                    Interpolation::spline, Interpolation::fourier,
-                                    Interpolation::cycle};
-
 std::vector<double> evenPhases(std::size_t n) {
   std::vector<double> phases(n);
   for (std::size_t k = 0; k < n; ++k) phases[k] = static_cast<double>(k) / static_cast<double>(n);
@@ -43,7 +39,7 @@ std::vector<double> sampled(const std::vector<double>& phases, Function f) {
 
 // Law: w_j(phase_k) is 1 for j = k and 0 else, exactly, so that a keyframe comes out as its file.
 TEST(MotionInterpolationLaw, KeyframesAreReproducedExactly) {
-  for (const Interpolation kind : kKinds)
+  for (const Interpolation kind : kInterpolations)
     for (const std::vector<double>& phases : kPhaseSets) {
       const KeyframeWeights weights(phases, kind);
       std::vector<double> w(phases.size());
@@ -56,7 +52,7 @@ TEST(MotionInterpolationLaw, KeyframesAreReproducedExactly) {
 
 // Law: sum w = 1, so that what stands still in all keyframes stands still between them.
 TEST(MotionInterpolationLaw, WeightsSumToOne) {
-  for (const Interpolation kind : kKinds)
+  for (const Interpolation kind : kInterpolations)
     for (const std::vector<double>& phases : kPhaseSets) {
       const KeyframeWeights weights(phases, kind);
       const std::vector<double> ones(phases.size(), 1.0);
@@ -66,7 +62,7 @@ TEST(MotionInterpolationLaw, WeightsSumToOne) {
 
 // Law: f(t + 1) = f(t) for any t a caller may give, and continuous around every keyframe.
 TEST(MotionInterpolationLaw, PhaseHasPeriodOneAndNoJumpAnywhere) {
-  for (const Interpolation kind : kKinds)
+  for (const Interpolation kind : kInterpolations)
     for (const std::vector<double>& phases : kPhaseSets) {
       const KeyframeWeights weights(phases, kind);
       const std::vector<double> values = sampled(phases, [](double t) { return std::sin(9 * t); });
@@ -99,13 +95,13 @@ double curvatureJump(const KeyframeWeights& weights, const std::vector<double>& 
   return std::fabs(bend(kStep) - bend(-kStep));
 }
 
-// C1 for Catmull-Rom and Fourier, C2 for the spline, and no more than the volume curve for the cycle: bounds are what one-sided differences of these
-// steps leave.
+// C1 for Catmull-Rom and Fourier, C2 for the spline, and no more than the volume curve for the
+// cycle: bounds are what one-sided differences of these steps leave.
 TEST(MotionInterpolationLaw, AllButLinearAreSmoothAndTheSplineBendsSmoothlyToo) {
   for (const std::vector<double>& phases : kPhaseSets) {
     const std::vector<double> values = sampled(
         phases, [](double t) { return std::cos(kTwoPi * t) + 0.3 * std::sin(5 * kTwoPi * t); });
-    for (const Interpolation kind : kKinds) {
+    for (const Interpolation kind : kInterpolations) {
       if (kind == Interpolation::linear || kind == Interpolation::cycle) continue;
       const KeyframeWeights weights(phases, kind);
       for (const double phase : phases) EXPECT_LT(slopeJump(weights, values, phase), 1e-5);

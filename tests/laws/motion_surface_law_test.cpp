@@ -8,10 +8,6 @@
 namespace echocine::motion_test {
 namespace {
 
-constexpr Interpolation kSurfaceKinds[] = {Interpolation::linear, Interpolation::catmull_rom,
-                                    Interpolation::spline, Interpolation::fourier,
-                                    Interpolation::cycle};
-
 // Radii of a ball that contracts by a third, cm.
 std::vector<double> beat(int keyframes) {
   std::vector<double> radii_cm;
@@ -29,7 +25,7 @@ double volumeAt(const MeshMotion& motion, double phase) {
 // Interpolation passes through what was recorded.
 TEST(MotionSurfaceLaw, KeyframePhasesReproduceTheirKeyframes) {
   const TestFolder folder;
-  for (const Interpolation kind : kSurfaceKinds) {
+  for (const Interpolation kind : kInterpolations) {
     Scene scene = beatingBall(folder, beat(7), 1);
     scene.motion.interpolation = kind;
     const MeshMotion motion(scene);
@@ -46,7 +42,7 @@ TEST(MotionSurfaceLaw, KeyframePhasesReproduceTheirKeyframes) {
 // Phase 1 is phase 0 of the next beat.
 TEST(MotionSurfaceLaw, TheCycleClosesWithoutAJump) {
   const TestFolder folder;
-  for (const Interpolation kind : kSurfaceKinds) {
+  for (const Interpolation kind : kInterpolations) {
     Scene scene = beatingBall(folder, beat(6), 1);
     scene.motion.interpolation = kind;
     const MeshMotion motion(scene);

@@ -1,6 +1,7 @@
 // The contract of core/parallel.h, whichever threads it was built on.
 
 #include "core/parallel.h"
+#include "support/ordered_loops.h"
 
 #include <gtest/gtest.h>
 
@@ -19,10 +20,7 @@
 namespace echocine {
 namespace {
 
-constexpr int kThreadCounts[] = {1, 2, 3, 8};
-
-const auto kAlways = [] { return true; };
-const auto kNothing = [](std::size_t) -> std::shared_ptr<void> { return nullptr; };
+using namespace support;
 
 // The largest number of calls that were under way at once.
 class Peak {

@@ -11,14 +11,12 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "support/ordered_loops.h"
 
 namespace echocine {
 namespace {
 
-constexpr int kCounts[] = {1, 2, 3, 8};
-
-const auto kForever = [] { return true; };
-const auto kNoObject = [](std::size_t) -> std::shared_ptr<void> { return nullptr; };
+using namespace support;
 
 // What the loop throws, and that nothing of it runs on after it has thrown.
 template <typename Loop>
@@ -31,7 +29,7 @@ std::string thrownBy(int threads, const Loop& loop) {
       what = error.what();
     }
     int more = 0;  // the threads are there for the next loop
-    parallelOrdered(0, 20, 2, kForever, kNoObject,
+    parallelOrdered(0, 20, 2, kAlways, kNothing,
                     [&](std::size_t, std::shared_ptr<void>) { ++more; });
     EXPECT_EQ(more, 20);
   });
@@ -40,7 +38,7 @@ std::string thrownBy(int threads, const Loop& loop) {
 
 // And nothing of the loop runs on after the caller has caught it.
 TEST(ParallelLaw, AnExceptionOfAnyFunctionEndsTheLoopAndReachesTheCaller) {
-  for (const int threads : kCounts) {
+  for (const int threads : kThreadCounts) {
     std::atomic<int> calls = 0;
     EXPECT_EQ(thrownBy(threads,
                        [&] {
@@ -57,7 +55,7 @@ TEST(ParallelLaw, AnExceptionOfAnyFunctionEndsTheLoopAndReachesTheCaller) {
     EXPECT_EQ(thrownBy(threads,
                        [&] {
                          parallelOrdered(
-                             0, 1000, 4, kForever,
+                             0, 1000, 4, kAlways,
                              [](std::size_t i) -> std::shared_ptr<void> {
                                if (i == 7) throw std::runtime_error("work");
                                return nullptr;
@@ -69,7 +67,7 @@ TEST(ParallelLaw, AnExceptionOfAnyFunctionEndsTheLoopAndReachesTheCaller) {
 
     EXPECT_EQ(thrownBy(threads,
                        [&] {
-                         parallelOrdered(0, 1000, 4, kForever, kNoObject,
+                         parallelOrdered(0, 1000, 4, kAlways, kNothing,
                                          [](std::size_t i, std::shared_ptr<void>) {
                                            if (i == 5) throw std::runtime_error("drain");
                                          });
@@ -79,7 +77,7 @@ TEST(ParallelLaw, AnExceptionOfAnyFunctionEndsTheLoopAndReachesTheCaller) {
                        [&] {
                          parallelOrdered(
                              0, 1000, 4, []() -> bool { throw std::runtime_error("asked"); },
-                             kNoObject, count);
+                             kNothing, count);
                        }),
               "asked");
   }
@@ -89,12 +87,12 @@ TEST(ParallelLaw, AnExceptionOfAnyFunctionEndsTheLoopAndReachesTheCaller) {
 // A thread that waits for its inner loop may be given other work; another frame would need memory
 // that nobody counted.
 TEST(ParallelLaw, AFrameThatWaitsForItsLinesTakesUpNoOtherFrame) {
-  for (const int threads : kCounts) {
+  for (const int threads : kThreadCounts) {
     std::atomic<int> entered_twice = 0;
     std::vector<std::size_t> sums;
     withThreads(threads, [&] {
       parallelOrdered(
-          0, 60, 8, kForever,
+          0, 60, 8, kAlways,
           [&](std::size_t frame) -> std::shared_ptr<void> {
             thread_local int frames_here = 0;
             if (++frames_here > 1) ++entered_twice;
@@ -124,11 +122,11 @@ TEST(ParallelLaw, AFrameThatWaitsForItsLinesTakesUpNoOtherFrame) {
 
 // Nobody is left waiting for a loop that has thrown.
 TEST(ParallelLaw, AnExceptionWithinANestedLoopPassesThroughTheOuterOne) {
-  for (const int threads : kCounts)
+  for (const int threads : kThreadCounts)
     EXPECT_EQ(thrownBy(threads,
                        [&] {
                          parallelOrdered(
-                             0, 100, 4, kForever,
+                             0, 100, 4, kAlways,
                              [](std::size_t frame) -> std::shared_ptr<void> {
                                parallelBlocks(32, 1, [&](std::size_t line, std::size_t) {
                                  if (frame == 9 && line == 17) throw std::runtime_error("line 17");
@@ -146,7 +144,7 @@ TEST(ParallelLaw, TwoCallersAtOnceDoNotMeet) {
   const auto caller = [&](std::size_t which) {
     withThreads(2, [&] {
       for (int round = 0; round < 50; ++round)
-        parallelOrdered(0, 10, 4, kForever, kNoObject,
+        parallelOrdered(0, 10, 4, kAlways, kNothing,
                         [&](std::size_t i, std::shared_ptr<void>) { sums[which] += i; });
     });
   };

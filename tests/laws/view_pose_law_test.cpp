@@ -1,5 +1,5 @@
-// Views found from meshes: against the parametric heart's own, against probes placed by hand on real
-// hearts, and turned along with any heart.
+// Views found from meshes: against the parametric heart's own, against probes placed by hand on
+// real hearts, and turned along with any heart.
 
 #include <gtest/gtest.h>
 
@@ -45,11 +45,12 @@ Surfaces only(const Surfaces& all, const std::vector<Role>& roles) {
 
 // As heart::poseOf() has it, without making the heart anew.
 ProbePose ownPose(View view, const HeartFrame& own, const Surfaces& surfaces) {
-  return standardPose(view, own,
-                      only(surfaces, {Role::pericardium})[0].points_m);
+  return standardPose(view, own, only(surfaces, {Role::pericardium})[0].points_m);
 }
 
-HeartMarks found(const Surfaces& surfaces) { return findHeart(surfaces, {}); }
+HeartMarks found(const Surfaces& surfaces) {
+  return findHeart(surfaces, {});
+}
 ProbePose poseIn(View view, const Surfaces& surfaces) {
   const HeartMarks marks = found(surfaces);
   return standardPose(view, marks.frame, marks.outside_m, marks.wall_m);
@@ -84,9 +85,13 @@ TEST(ViewPoseLaw, FewRolesLeadToTheSameViews) {
       {"four cavities", {Role::lv_cavity, Role::rv_cavity, Role::la, Role::ra}, 10, 12},
       {"ventricles and valves",
        {Role::lv_cavity, Role::rv_cavity, Role::lv_wall, Role::mitral_valve, Role::aortic_valve},
-       15, 15},
+       15,
+       15},
       {"ventricles alone", {Role::lv_cavity, Role::rv_cavity}, 20, 25},
-      {"left heart and aorta", {Role::lv_cavity, Role::la, Role::aorta, Role::pericardium}, 15, 20}};
+      {"left heart and aorta",
+       {Role::lv_cavity, Role::la, Role::aorta, Role::pericardium},
+       15,
+       20}};
   const HeartFrame own = heart::frameOf(defaultHeart());
   for (const Few& few : cases)
     for (const View view : {View::a4c, View::a2c, View::a3c, View::plax, View::psax_mid})
@@ -125,11 +130,10 @@ TEST(ViewPoseLaw, TheProbeTurnsAlongWithTheHeart) {
     for (const bool mirrored : {false, true})
       for (const double angle_rad : {0.4, 2.0, 3.1}) {
         const Surfaces heart = only(defaultSurfaces(), roles);
-        const Motion motion{normalised(Vec3d{0.3, -0.8, 0.5}), angle_rad, {0.2, -1.5, 0.7},
-                            mirrored};
+        const Motion motion{
+            normalised(Vec3d{0.3, -0.8, 0.5}), angle_rad, {0.2, -1.5, 0.7}, mirrored};
         for (const ViewName& name : viewNames()) {
-          const ProbePose there = poseIn(name.view, motion(heart)),
-                          here = poseIn(name.view, heart);
+          const ProbePose there = poseIn(name.view, motion(heart)), here = poseIn(name.view, heart);
           EXPECT_LT(length(there.apex - motion(here.apex)), 1e-7) << name.key << mirrored;
           EXPECT_LT(length(there.axis - motion.direction(here.axis)), 1e-6) << name.key;
           EXPECT_LT(length(there.lateral - motion.direction(here.lateral)), 1e-6) << name.key;
@@ -195,14 +199,20 @@ struct Seen {
   std::vector<Role> shown, hidden;
 };
 const std::vector<Seen> kSeen = {
-    {View::a4c, {Role::lv_cavity, Role::rv_cavity, Role::la, Role::ra, Role::mitral_valve,
-                 Role::tricuspid_valve}, {Role::aortic_valve}},
-    {View::a2c, {Role::lv_cavity, Role::la, Role::mitral_valve}, {Role::rv_cavity, Role::ra,
-                 Role::tricuspid_valve, Role::aortic_valve}},
-    {View::a3c, {Role::lv_cavity, Role::la, Role::aorta, Role::rv_cavity, Role::aortic_valve,
-                 Role::mitral_valve}, {Role::tricuspid_valve}},
-    {View::plax, {Role::lv_cavity, Role::la, Role::aorta, Role::rv_cavity, Role::mitral_valve},
-                 {Role::tricuspid_valve}},
+    {View::a4c,
+     {Role::lv_cavity, Role::rv_cavity, Role::la, Role::ra, Role::mitral_valve,
+      Role::tricuspid_valve},
+     {Role::aortic_valve}},
+    {View::a2c,
+     {Role::lv_cavity, Role::la, Role::mitral_valve},
+     {Role::rv_cavity, Role::ra, Role::tricuspid_valve, Role::aortic_valve}},
+    {View::a3c,
+     {Role::lv_cavity, Role::la, Role::aorta, Role::rv_cavity, Role::aortic_valve,
+      Role::mitral_valve},
+     {Role::tricuspid_valve}},
+    {View::plax,
+     {Role::lv_cavity, Role::la, Role::aorta, Role::rv_cavity, Role::mitral_valve},
+     {Role::tricuspid_valve}},
     {View::psax_base, {Role::rv_cavity, Role::la, Role::ra, Role::aorta}, {}},
     {View::psax_mid, {Role::lv_cavity, Role::rv_cavity}, {Role::la, Role::ra, Role::aorta}},
     {View::psax_apex, {Role::lv_cavity}, {Role::la, Role::ra, Role::aorta}},

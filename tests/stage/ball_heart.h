@@ -57,7 +57,8 @@ inline SceneText viewScene(const std::vector<std::string>& structures) {
   text.probe = {{"view", "\"a4c\""}, {"lines", "16"}, {"samples", "64"}};
   text.motion = {{"mesh_unit", "\"mm\""}};
   for (const std::string& name : structures)
-    text.structures += "[[structure]]\nname = \"" + name + "\"\nmedium = \"blood\"\nkeyframes = \"" + name + "_*\"\n";
+    text.structures += "[[structure]]\nname = \"" + name +
+                       "\"\nmedium = \"blood\"\nkeyframes = \"" + name + "_*\"\n";
   return text;
 }
 inline const std::vector<std::string> kAll{"lv", "rv", "la", "ra", "aorta"};
@@ -74,7 +75,7 @@ inline std::string refusal(const SceneText& text, const Heart& heart = ballHeart
   return "";
 }
 inline void expectRefused(const SceneText& text, const std::vector<std::string>& says,
-                   const Heart& heart = ballHeart()) {
+                          const Heart& heart = ballHeart()) {
   const std::string message = refusal(text, heart);
   for (const std::string& part : says)
     EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;

@@ -21,7 +21,9 @@ dataset::Draw drawWith(const dataset::Values& values) {
 heart::Recording surrounded(const dataset::Values& values) {
   const RecordedHeart& made = recordedHeart({}, 8);
   heart::Recording recording = made.recording;
-  dataset::surroundProbe(drawWith(values), 0, heart::View::a4c, made.model, recording);
+  dataset::Spec spec;
+  spec.views = {View::a4c};
+  dataset::surroundProbe(spec, drawWith(values), 0, made.model, recording);
   return recording;
 }
 

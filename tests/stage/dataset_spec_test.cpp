@@ -56,11 +56,13 @@ TEST(DatasetSpec, SceneKeysAreTriedAtTheirEnds) {
 TEST(DatasetSpec, LayoutsThatCannotHoldTheLoopsAreRefused) {
   expectRefused(kStart + "layouts = [\"camus\"]\n", {"camus", "a2c"});
   expectRefused(kStart + "layouts = [\"dicom\"]\n", {"dicom", "echonet"});
-  expectRefused("hearts = 4\nviews = [\"psax-mid\"]\nlayouts = [\"echonet\"]\n", {"echonet", "a4c"});
+  expectRefused("hearts = 4\nviews = [\"psax-mid\"]\nlayouts = [\"echonet\"]\n",
+                {"echonet", "a4c"});
 }
 
 TEST(DatasetSpec, CommentsMakeNoOtherDataset) {
-  const Spec plain = parseSpec(kStart, "a.toml"), other = parseSpec("# hearts\n" + kStart, "a.toml");
+  const Spec plain = parseSpec(kStart, "a.toml"),
+             other = parseSpec("# hearts\n" + kStart, "a.toml");
   EXPECT_EQ(plain.digest, other.digest);
   EXPECT_NE(plain.digest, parseSpec("seed = 2\n" + kStart, "a.toml").digest);
 }
@@ -75,8 +77,8 @@ TEST(DatasetSpec, SplitsAreByHeartAndInOrder) {
 
 TEST(DatasetSpec, ReadySpecsAreRead) {
   int count = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::filesystem::path(support::kSourceDir) / "examples/datasets")) {
+  for (const auto& entry : std::filesystem::directory_iterator(
+           std::filesystem::path(support::kSourceDir) / "examples/datasets")) {
     if (entry.path().extension() != ".toml") continue;
     EXPECT_GT(readSpec(entry.path()).loops(), 0u) << entry.path();
     ++count;

@@ -14,7 +14,6 @@ using heart::kLeafletColumns, heart::kLeafletRows;
 
 using Points = std::vector<Vec3d>;
 
-
 // A beat in instants between all events; the parts at each, made once.
 constexpr int kInstants = 25;
 double phaseOf(int instant) {

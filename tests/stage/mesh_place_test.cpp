@@ -20,8 +20,9 @@ TEST(MeshPlace, ScaleAndOffsetMoveTheMeshesAndTheProbeWithThem) {
   text.motion["mesh_scale"] = "0.5";
   text.motion["mesh_offset_mm"] = "[100, -20, 7]";
   const Scene moved = placed(read(text));
-  EXPECT_LT(length(moved.probe.pose.origin -
-                   (0.5 * plain.probe.pose.origin + Vec3d{0.1, -0.02, 0.007})), 1e-6);
+  EXPECT_LT(
+      length(moved.probe.pose.origin - (0.5 * plain.probe.pose.origin + Vec3d{0.1, -0.02, 0.007})),
+      1e-6);
   const MeshMotion one(plain), other(moved);
   SurfaceFrame a, b;
   one.frameAt(0, a);

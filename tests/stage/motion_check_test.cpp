@@ -12,10 +12,6 @@
 namespace echocine::motion_test {
 namespace {
 
-constexpr Interpolation kKinds[] = {Interpolation::linear, Interpolation::catmull_rom,
-                                    Interpolation::spline, Interpolation::fourier,
-                                    Interpolation::cycle};
-
 std::vector<FramePhase> evenFrames(int count) {
   std::vector<FramePhase> frames;
   for (int i = 0; i < count; ++i) frames.push_back({i, static_cast<double>(i) / count});
@@ -60,7 +56,7 @@ constexpr double kApothem = 1.8477590650225735;                   // 2 cos(22.5 
 const Vec3d kOutward{0.9238795325112867, 0.3826834323650898, 0};  // to the middle of side 0
 
 TEST(MotionCheck, QuarterTurnsBetweenKeyframesAreFine) {
-  for (const Interpolation kind : kKinds)
+  for (const Interpolation kind : kInterpolations)
     for (const TriangleMesh& mesh : {tetrahedron(), octahedron(2), sphere(2, 2), cake(kMiddle)}) {
       expectWhole(breaksOf(turning(mesh, 90, 4), kind, evenFrames(103)));
       expectWhole(breaksOf({mesh, turned(mesh, 90)}, kind, evenFrames(103)));
@@ -76,7 +72,7 @@ TEST(MotionCheck, ALeafletThatSwingsByAQuarterTurnIsFine) {
       const std::uint32_t a = 5 * i + j;
       leaflet.triangles.insert(leaflet.triangles.end(), {{a, a + 5, a + 6}, {a, a + 6, a + 1}});
     }
-  for (const Interpolation kind : kKinds)
+  for (const Interpolation kind : kInterpolations)
     expectWhole(breaksOf({leaflet, turned(leaflet, 90), turned(leaflet, 80), turned(leaflet, 10)},
                          kind, evenFrames(101), true));
 }
@@ -110,7 +106,7 @@ TEST(MotionCheck, ATriangleThatMirrorsIsNamed) {
   const Vec3d beyond = kMiddle + 2.2 * kOutward;
   const std::vector<TriangleMesh> keyframes{cake(kMiddle), cake(kMiddle), cake(beyond),
                                             cake(beyond)};
-  for (const Interpolation kind : kKinds) {
+  for (const Interpolation kind : kInterpolations) {
     const SurfaceBreaks breaks = breaksOf(keyframes, kind, evenFrames(320));
     ASSERT_TRUE(breaks.first);
     EXPECT_EQ(breaks.first->triangle, 0u);

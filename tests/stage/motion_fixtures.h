@@ -21,6 +21,10 @@
 
 namespace echocine::motion_test {
 
+inline constexpr Interpolation kInterpolations[] = {
+    Interpolation::linear, Interpolation::catmull_rom, Interpolation::spline,
+    Interpolation::fourier, Interpolation::cycle};
+
 // A folder of its own for each test, gone when the test ends.
 class TestFolder {
  public:

@@ -103,7 +103,8 @@ TEST(MotionInterpolationJudge, WhatDoesNotMoveIsFoundByEveryKind) {
 
 TEST(MotionInterpolationJudge, MembraneHasNoVolumes) {
   const TestFolder folder;
-  const InterpolationError e = interpolationErrorOf(ballOf(folder, cosineRadii(8), true), Interpolation::spline);
+  const InterpolationError e =
+      interpolationErrorOf(ballOf(folder, cosineRadii(8), true), Interpolation::spline);
   EXPECT_GT(e.vertex_rms_m, 0);
   EXPECT_EQ(e.volumes, 0u);
   EXPECT_EQ(e.volume_max_share, 0);

@@ -10,10 +10,6 @@
 namespace echocine::motion_test {
 namespace {
 
-constexpr Interpolation kInterpolations[] = {Interpolation::linear, Interpolation::catmull_rom,
-                                    Interpolation::spline, Interpolation::fourier,
-                                    Interpolation::cycle};
-
 std::vector<double> weightsAt(const KeyframeWeights& weights, double phase) {
   std::vector<double> values(weights.keyframeCount());
   weights.at(phase, values);

@@ -94,7 +94,8 @@ TEST(MotionMeshCheck, InsideOutIsRefusedInTheFirstAndInLaterKeyframes) {
 TEST(MotionMeshCheck, ImplausibleSizeNamesTheUnit) {
   EXPECT_EQ(says({keyframeOf(octahedron(50))}, false, 1.0),
             "a.obj measures 100 mesh units, which motion.mesh_unit makes 100 m; 1 mm to 2 m is "
-            "accepted: mend motion.mesh_unit or motion.mesh_scale (a chamber of 80 mm takes 0.8 mm per mesh unit)");
+            "accepted: mend motion.mesh_unit or motion.mesh_scale (a chamber of 80 mm takes 0.8 mm "
+            "per mesh unit)");
   EXPECT_NE(says({keyframeOf(octahedron(0.04))}).find("mend motion.mesh_unit"), std::string::npos);
   EXPECT_EQ(says({keyframeOf(octahedron(50))}, false, 0.01), "no error");
 }

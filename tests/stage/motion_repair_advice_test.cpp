@@ -82,8 +82,7 @@ TEST(MotionRepairAdvice, WhatARefusalNamesMendsIt) {
 // Asking for what does not help is answered with what does.
 TEST(MotionRepairAdvice, AWrongRepairIsAnsweredWithTheRightOne) {
   const TestFolder folder;
-  Scene scene =
-      sceneOf(structureOf({folder.write("a.obj", objText(without(ball(), 0, 64)))}));
+  Scene scene = sceneOf(structureOf({folder.write("a.obj", objText(without(ball(), 0, 64)))}));
   scene.structures[0].repair = kWeld;
   const std::string refusal = readingOf(scene);
   EXPECT_NE(refusal.find("repair = [\"fill-holes\"], or membrane = true"), std::string::npos)
@@ -95,9 +94,8 @@ TEST(MotionRepairAdvice, IsTriedOnAllKeyframes) {
   const TestFolder folder;
   TriangleMesh mirrored = flipped(ball(), 5);
   for (Vec3d& p : mirrored.positions) p.x = -p.x;
-  const Scene scene =
-      sceneOf(structureOf({folder.write("a.obj", objText(flipped(ball(), 5))),
-                           folder.write("b.obj", objText(mirrored))}));
+  const Scene scene = sceneOf(structureOf({folder.write("a.obj", objText(flipped(ball(), 5))),
+                                           folder.write("b.obj", objText(mirrored))}));
   EXPECT_FALSE(repairsIn(readingOf(scene)).any());
 }
 

@@ -24,8 +24,8 @@ TriangleMesh glued(TriangleMesh mesh, const std::vector<std::uint32_t>& from,
 TriangleMesh cube(Vec3d centre) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i)
-    mesh.positions.push_back(centre + Vec3d{i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0,
-                                            i & 4 ? 1.0 : -1.0});
+    mesh.positions.push_back(centre +
+                             Vec3d{i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0});
   for (const auto& [a, b, c, d] : std::vector<std::array<std::uint32_t, 4>>{
            {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
     mesh.triangles.push_back({a, b, c});
@@ -78,13 +78,14 @@ std::vector<Planted> planted() {
   TriangleMesh chord = ball();  // over vertices that are there already
   chord = withFaces(chord, {{t[0], t[1], 200}});
   const double whole = signedVolume(ball());
-  return {{"a flap", flap, kSplit, whole, 1},
-          {"a triangle across the inside", chord, kSplit, whole, 1},
-          {"two cubes at an edge", cubesAtAnEdge(), kSplit, 16, 2},
-          {"two cubes at an edge, partly flipped", flipped(cubesAtAnEdge(), 3), kSplitOrient, 16, 2},
-          {"three wedges at an edge", threeWedges(), kSplit, 24, 3},
-          {"two chambers and their wall", twoChambers(), kSplit, 16, 1},
-          {"two balls at a vertex", bowTie(), kSplit, 2 * 8 * 4.0 / 3.0, 2}};
+  return {
+      {"a flap", flap, kSplit, whole, 1},
+      {"a triangle across the inside", chord, kSplit, whole, 1},
+      {"two cubes at an edge", cubesAtAnEdge(), kSplit, 16, 2},
+      {"two cubes at an edge, partly flipped", flipped(cubesAtAnEdge(), 3), kSplitOrient, 16, 2},
+      {"three wedges at an edge", threeWedges(), kSplit, 24, 3},
+      {"two chambers and their wall", twoChambers(), kSplit, 16, 1},
+      {"two balls at a vertex", bowTie(), kSplit, 2 * 8 * 4.0 / 3.0, 2}};
 }
 
 std::size_t pieceCount(const TriangleMesh& mesh) {
@@ -111,8 +112,9 @@ TEST(MotionSplit, PlantedEdgesCloseAndKeepTheirVolume) {
 TEST(MotionSplit, WhatWasDoneIsSaid) {
   std::vector<KeyframeMesh> keyframes = keyframesOf({cubesAtAnEdge()});
   EXPECT_EQ(mend(named(kSplit), keyframes),
-            objPlace() + "repaired: 1 edge of more than two faces parted, 2 vertices added where "
-                         "sheets were parted, 2 unused vertices dropped");
+            objPlace() +
+                "repaired: 1 edge of more than two faces parted, 2 vertices added where "
+                "sheets were parted, 2 unused vertices dropped");
 }
 
 // The second keyframe alone would be paired otherwise: the cubes stand turned into each other.

@@ -8,10 +8,6 @@
 namespace echocine::motion_test {
 namespace {
 
-constexpr Interpolation kNearPlaneKinds[] = {Interpolation::linear, Interpolation::catmull_rom,
-                                    Interpolation::spline, Interpolation::fourier,
-                                    Interpolation::cycle};
-
 // A ball of 1 cm that stands at these heights over the imaging plane, in cm, and breathes.
 Scene risingBall(const TestFolder& folder, const std::vector<double>& heights_cm,
                  Interpolation kind) {
@@ -50,7 +46,7 @@ std::pair<std::size_t, double> compareSlices(const Scene& scene) {
 
 TEST(NearPlane, NoCutTriangleIsMissedAtAnyPhase) {
   const TestFolder folder;
-  for (const Interpolation kind : kNearPlaneKinds)
+  for (const Interpolation kind : kInterpolations)
     for (const int subdivision : {0, 1}) {
       Scene scene = risingBall(folder, {0.2, 0.5, 0.35, -0.1}, kind);
       scene.motion.subdivision = subdivision;
@@ -63,7 +59,7 @@ TEST(NearPlane, NoCutTriangleIsMissedAtAnyPhase) {
 // Between keyframes that all stand clear of the plane a smooth interpolation dips into it.
 TEST(NearPlane, OvershootIsCounted) {
   const TestFolder folder;
-  for (const Interpolation kind : kNearPlaneKinds) {
+  for (const Interpolation kind : kInterpolations) {
     const std::size_t edges = compareSlices(risingBall(folder, {3, 1.08, 1.09, 3.1}, kind)).first;
     const bool straight = kind == Interpolation::linear || kind == Interpolation::cycle;
     EXPECT_EQ(edges > 0, !straight) << static_cast<int>(kind);
@@ -72,7 +68,7 @@ TEST(NearPlane, OvershootIsCounted) {
 
 TEST(NearPlane, SurfaceClearOfThePlaneHasNone) {
   const TestFolder folder;
-  for (const Interpolation kind : kNearPlaneKinds) {
+  for (const Interpolation kind : kInterpolations) {
     const MeshMotion motion(risingBall(folder, {5, 5.5, 6}, kind));
     EXPECT_TRUE(motion.surfaces()[0].near_plane->empty());
   }

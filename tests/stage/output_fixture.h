@@ -21,6 +21,7 @@
 
 namespace echocine::test {
 
+using support::bytesOf;
 using support::TempFolder;
 
 // While it lives no file grows past `bytes`: writes fail as they do on a full disk.
@@ -44,11 +45,6 @@ class FullDisk {
   rlimit previous_{};
   void (*previous_handler_)(int) = SIG_DFL;
 };
-
-inline std::string bytesOf(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 inline void putBytes(const std::filesystem::path& path, const std::string& bytes) {
   std::filesystem::remove(path);  // some file systems flush a file that is emptied and refilled

@@ -135,8 +135,8 @@ TEST(Reference, GivesMuscleItsGrey) {
 }
 
 TEST(Reference, WithoutMuscleInViewIsThePercentile) {
-  EXPECT_NEAR(whiteWith(ventricle(), 2, 2e-6f), 1, 1e-3);        // blood alone
-  EXPECT_NEAR(whiteWith(ventricle(), 1, 2e-6f, 200), 1, 1e-3);   // a seam of muscle
+  EXPECT_NEAR(whiteWith(ventricle(), 2, 2e-6f), 1, 1e-3);       // blood alone
+  EXPECT_NEAR(whiteWith(ventricle(), 1, 2e-6f, 200), 1, 1e-3);  // a seam of muscle
   Scene given = ventricle();
   given.signal.reference_percentile = 40;  // names its own
   EXPECT_NEAR(whiteWith(given, 1, 2e-6f), 2e-6, 2e-9);

@@ -170,8 +170,8 @@ struct Small {
     averaged = ScanConverter::averagedOver(scene, geometry);
   }
   std::vector<float> picture(const std::vector<float>& grey, int over) const {
-    const ScanConverter converter(scene.probe, geometry, scene.output.width, scene.output.height,
-                                  1, over);
+    const ScanConverter converter(scene.probe, geometry, scene.output.width, scene.output.height, 1,
+                                  over);
     std::vector<float> values;
     converter.convert(grey, values);
     return values;
@@ -191,8 +191,8 @@ TEST(ScanConversion, OnlyPicturesCoarserThanAnEchoAreAveraged) {
   EXPECT_GT(Small(112).averaged, 4);
   EXPECT_EQ(Small(1200).averaged, 1);
   Small slow(112);  // an echo as long as a pixel
-  slow.scene.signal.pulse_cycles = 2 * slow.geometry.metres_per_pixel /
-                                   ScanGeometry(slow.scene.probe).wavelength() * 1.01;
+  slow.scene.signal.pulse_cycles =
+      2 * slow.geometry.metres_per_pixel / ScanGeometry(slow.scene.probe).wavelength() * 1.01;
   EXPECT_EQ(ScanConverter::averagedOver(slow.scene, slow.geometry), 1);
 }
 
@@ -208,8 +208,7 @@ TEST(ScanConversion, AnAveragedPictureKeepsAConstantAndItsOutline) {
 // Centres alone give whatever they meet.
 TEST(ScanConversion, AFineGratingBecomesItsMean) {
   const Small small(112);
-  const std::vector<float> grey =
-      small.plane([](int, int k) { return k % 2 == 0 ? 1.0f : 0.0f; });
+  const std::vector<float> grey = small.plane([](int, int k) { return k % 2 == 0 ? 1.0f : 0.0f; });
   const auto furthest = [&](int over) {
     const std::vector<float> values = small.picture(grey, over);
     const int size = small.scene.output.width;
@@ -252,9 +251,8 @@ TEST(ScanConversion, AveragingKeepsTheMean) {
 
 TEST(ScanConversion, AveragedGreysAreTheMeanThroughTheGreyMap) {
   const Small small(112);
-  const std::vector<float> grey = small.plane([](int line, int k) {
-    return static_cast<float>((line * 7 + k * 13) % 101) / 100;
-  });
+  const std::vector<float> grey = small.plane(
+      [](int line, int k) { return static_cast<float>((line * 7 + k * 13) % 101) / 100; });
   const ScanConverter converter(small.scene.probe, small.geometry, 112, 112, 2, small.averaged);
   GreyImage image;
   std::vector<float> values;

@@ -18,8 +18,8 @@ TEST(TruthArrays, AnArrayHasItsHeaderAndItsValues) {
   const float values[] = {1, 2, 3, 4, 5, 6};
   const std::string file = textOf(npyBytes(values, {2, 3}));
   EXPECT_EQ(file.substr(0, 8), std::string("\x93NUMPY\x01\x00", 8));
-  const std::size_t length = static_cast<unsigned char>(file[8]) +
-                             256u * static_cast<unsigned char>(file[9]);
+  const std::size_t length =
+      static_cast<unsigned char>(file[8]) + 256u * static_cast<unsigned char>(file[9]);
   EXPECT_EQ((10 + length) % 64, 0u);
   EXPECT_EQ(file[10 + length - 1], '\n');
   EXPECT_NE(file.find("'descr': '<f4', 'fortran_order': False, 'shape': (2, 3, ), "),

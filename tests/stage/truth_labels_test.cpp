@@ -66,20 +66,20 @@ struct World {
   }
 };
 
-const PictureGrid kGrid{160, 160, 80.3, 5.1, 1.05e-3};
+const PictureGrid kSquareGrid{160, 160, 80.3, 5.1, 1.05e-3};
 
 TEST(TruthLabels, PixelsAreThoseOfABruteForceTest) {
   const World world;
   PlaneSlice slice(world.surfaces, world.scene.probe);
   slice.update(world.frame);
   PlaneLabels::Ids ids;
-  PlaneLabels(world.scene, kGrid).picture(slice.edges(), ids);
+  PlaneLabels(world.scene, kSquareGrid).picture(slice.edges(), ids);
   int inside = 0;
-  for (int row = 0; row < kGrid.height; ++row)
-    for (int column = 0; column < kGrid.width; ++column) {
-      const Vec3d place{kGrid.xOf(column), 0, kGrid.zOf(row)};
+  for (int row = 0; row < kSquareGrid.height; ++row)
+    for (int column = 0; column < kSquareGrid.width; ++column) {
+      const Vec3d place{kSquareGrid.xOf(column), 0, kSquareGrid.zOf(row)};
       const bool shown = inScanArea(world.scene.probe, place.x, place.z);
-      const std::uint32_t id = ids[static_cast<std::size_t>(row * kGrid.width + column)];
+      const std::uint32_t id = ids[static_cast<std::size_t>(row * kSquareGrid.width + column)];
       ASSERT_EQ(id, shown ? world.at(place) : 0) << "pixel " << column << ", " << row;
       inside += id > 0;
     }
@@ -91,7 +91,7 @@ TEST(TruthLabels, SamplesAreThoseOfABruteForceTest) {
   PlaneSlice slice(world.surfaces, world.scene.probe);
   slice.update(world.frame);
   std::vector<std::uint32_t> ids;
-  PlaneLabels(world.scene, kGrid).samples(slice.lines(), ids);
+  PlaneLabels(world.scene, kSquareGrid).samples(slice.lines(), ids);
   const Probe& probe = world.scene.probe;
   for (int i = 0; i < probe.lines; ++i) {
     const LineGeometry line = lineGeometry(probe, i);

@@ -27,7 +27,8 @@ SceneText ventricle(const std::string& truth, const std::string& outer = "lv_wal
 }
 
 // What is said on the way to the first frame's truth; empty when it is there.
-std::string truthRefusalOf(const SceneText& text, Vec3d middle_mm = {0, 0, 60}, double inner_mm = 20) {
+std::string truthRefusalOf(const SceneText& text, Vec3d middle_mm = {0, 0, 60},
+                           double inner_mm = 20) {
   const NamedMeshes meshes{{"outer", ball(30, middle_mm)}, {"inner", ball(inner_mm, middle_mm)}};
   try {
     const Simulator simulator(parseScene(text.text(), "scene.toml", meshes));
@@ -44,7 +45,8 @@ void expectNames(const std::string& refusal, const std::vector<std::string>& wor
 }
 
 TEST(TruthRefusal, WhatCanBeToldIs) {
-  EXPECT_EQ(truthRefusalOf(ventricle("write = [\"all\"]\nlabels = {lv_cavity = 1, lv_wall = 2}")), "");
+  EXPECT_EQ(truthRefusalOf(ventricle("write = [\"all\"]\nlabels = {lv_cavity = 1, lv_wall = 2}")),
+            "");
   EXPECT_EQ(truthRefusalOf(ventricle("")), "none was asked for");
 }
 
@@ -54,8 +56,9 @@ TEST(TruthRefusal, LabelsOfARoleThatNothingHas) {
 }
 
 TEST(TruthRefusal, ANumberTwice) {
-  expectNames(truthRefusalOf(ventricle("write = [\"labels\"]\nlabels = {lv_cavity = 3, lv_wall = 3}")),
-              {"labels", "lv_cavity", "lv_wall", "number 3"});
+  expectNames(
+      truthRefusalOf(ventricle("write = [\"labels\"]\nlabels = {lv_cavity = 3, lv_wall = 3}")),
+      {"labels", "lv_cavity", "lv_wall", "number 3"});
 }
 
 TEST(TruthRefusal, FunctionWithoutAVentricleOrItsWall) {
@@ -66,7 +69,8 @@ TEST(TruthRefusal, FunctionWithoutAVentricleOrItsWall) {
 
 // The cavity fills the wall: there is nothing between them.
 TEST(TruthRefusal, PointsInAWallThatIsEmpty) {
-  expectNames(truthRefusalOf(ventricle("write = [\"tracks\"]"), {0, 0, 60}, 30), {"write", "outer"});
+  expectNames(truthRefusalOf(ventricle("write = [\"tracks\"]"), {0, 0, 60}, 30),
+              {"write", "outer"});
 }
 
 TEST(TruthRefusal, PointsOutsideTheSector) {

@@ -28,9 +28,9 @@ struct RealHeart {
                        [&](const RoleSurface& s) { return s.role == role; });
   }
   const std::vector<Vec3d>& points(Role role) const {
-    return std::find_if(surfaces.begin(), surfaces.end(), [&](const RoleSurface& s) {
-             return s.role == role;
-           })->points_m;
+    return std::find_if(surfaces.begin(), surfaces.end(),
+                        [&](const RoleSurface& s) { return s.role == role; })
+        ->points_m;
   }
   void add(Role role, const std::filesystem::path& file, double metres_per_unit) {
     Sha256 digest;
@@ -42,7 +42,9 @@ struct RealHeart {
   }
 };
 
-inline std::filesystem::path realFolder() { return std::filesystem::path(kSharedDir) / "real"; }
+inline std::filesystem::path realFolder() {
+  return std::filesystem::path(kSharedDir) / "real";
+}
 inline bool realHeartsThere() {
   return std::filesystem::is_directory(realFolder() / "statics/heartdeform_whole_heart");
 }
@@ -98,7 +100,7 @@ inline RealHeart patientHeart() {
 // Seven chambers and vessels segmented from CT; its unit cube at a size that a heart has.
 inline RealHeart wholeHeart() {
   RealHeart heart{"whole heart", {}, {}, {}, {}, {}, {}, true};
-  const Role roles[] = {Role::lv_wall, Role::la,    Role::lv_cavity,       Role::ra,
+  const Role roles[] = {Role::lv_wall,   Role::la,    Role::lv_cavity,       Role::ra,
                         Role::rv_cavity, Role::aorta, Role::pulmonary_artery};
   for (int region = 1; region <= 7; ++region)
     heart.add(roles[region - 1],

@@ -36,6 +36,7 @@ struct World {
 };
 
 enum class Tracer { slice, cells, embree };
+inline constexpr Tracer kTracers[] = {Tracer::slice, Tracer::cells, Tracer::embree};
 
 inline const char* nameOf(Tracer tracer) {
   return tracer == Tracer::slice ? "slice" : tracer == Tracer::cells ? "cells" : "embree";

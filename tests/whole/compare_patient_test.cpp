@@ -69,7 +69,8 @@ TEST_F(PatientAgainstVideos, TheShippedHeartsFourChamberViewIsNearestToBoth) {
   const auto rendered = [&](const std::string& view) {
     const std::string heart = (folder / ("heart_" + view)).string(),
                       loop = (folder / view).string();
-    EXPECT_EQ(runShell("%B heart --quiet --look paper --view " + view + " -o '" + heart + "'").code, 0);
+    EXPECT_EQ(runShell("%B heart --quiet --look paper --view " + view + " -o '" + heart + "'").code,
+              0);
     EXPECT_EQ(renderScene(heart + "/scene.toml", loop).code, 0);
     return loop;
   };

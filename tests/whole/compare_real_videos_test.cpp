@@ -10,7 +10,8 @@
 namespace echocine::compare {
 namespace {
 
-const std::filesystem::path kVideoFolder = std::filesystem::path(support::kSharedDir) / "real/videos";
+const std::filesystem::path kVideoFolder =
+    std::filesystem::path(support::kSharedDir) / "real/videos";
 const std::filesystem::path kDicom = kVideoFolder / "a4c_sonosite_30f.dcm";
 const std::filesystem::path kFilm = kVideoFolder / "a4c_echotracker_45f.mp4";
 

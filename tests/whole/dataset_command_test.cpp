@@ -17,22 +17,10 @@ namespace {
 using namespace support;
 namespace fs = std::filesystem;
 
-constexpr const char* kSpec = R"(name = "tiny"
+constexpr const char* kHead = R"(name = "tiny"
 hearts = 2
 views = ["a4c"]
 layouts = ["native", "echonet"]
-keyframes = 8
-picture_px = 112
-[heart]
-edv = { uniform = [90, 150] }
-ef = { uniform = [0.4, 0.65] }
-[scene.probe]
-lines = 48
-samples = 128
-[scene.acquisition]
-frame_rate_hz = 10
-[scene.signal]
-look = "paper"
 )";
 
 // Every file but the book-keeping of tasks, which differs by how a run was cut into parts.
@@ -59,7 +47,8 @@ class DatasetCommand : public testing::Test {
                     "' --quiet " + options);
   }
   TempFolder folder;
-  const fs::path spec = folder.write("tiny.toml", kSpec);
+  const fs::path spec = folder.write(
+      "tiny.toml", kHead + bytesOf(fs::path(kSourceDir) / "tests/support/small_loops.toml"));
 };
 
 // Frames in an AVI's main header: dwTotalFrames, 48 bytes in (Microsoft, AVIMAINHEADER).

@@ -77,8 +77,9 @@ struct Part {
   const char *name, *file, *medium;
 };
 
-// Closed surfaces of a unit cube, made as large as a heart in a folder of their own; the probe 3 cm beyond the end of the
-// left ventricle that is farthest from the left atrium, the right ventricle on its left.
+// Closed surfaces of a unit cube, made as large as a heart in a folder of their own; the probe 3 cm
+// beyond the end of the left ventricle that is farthest from the left atrium, the right ventricle
+// on its left.
 SceneText staticHeart(const fs::path& folder, const std::vector<Part>& parts, double size_mm,
                       const TempFolder& scaled) {
   SceneText text;

@@ -10,25 +10,15 @@ import time
 import unittest
 
 PROGRAM = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else "echocine"
+SMALL_LOOPS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support", "small_loops.toml")
 NEEDED = ["munged", "slurmctld", "slurmd", "sbatch", "scontrol", "sinfo"]
 PATIENCE_S = 240  # an upper bound for waits on conditions
 START_S = 60
 
-SPEC = """name = "slurm test"
+SPEC_HEAD = """name = "slurm test"
 hearts = 6
 views = ["a4c"]
 layouts = ["native", "echonet"]
-keyframes = 8
-picture_px = 112
-[heart]
-edv = { uniform = [90, 150] }
-[scene.probe]
-lines = 48
-samples = 128
-[scene.acquisition]
-frame_rate_hz = 10
-[scene.signal]
-look = "paper"
 """
 
 CONF = """ClusterName=one
@@ -137,8 +127,8 @@ class Slurm(unittest.TestCase):
     def test_an_array_with_a_task_killed_and_requeued_makes_the_same_bytes(self):
         with tempfile.TemporaryDirectory(prefix="echocine_slurm_data_") as folder, Cluster() as cluster:
             spec = os.path.join(folder, "spec.toml")
-            with open(spec, "w") as file:
-                file.write(SPEC)
+            with open(spec, "w") as file, open(SMALL_LOOPS) as rest:
+                file.write(SPEC_HEAD + rest.read())
             whole, parts = os.path.join(folder, "whole"), os.path.join(folder, "parts")
             subprocess.run([PROGRAM, "dataset", spec, "-o", whole, "--quiet"], check=True)
             text = cluster.run(PROGRAM, "dataset", spec, "-o", parts, "--quiet", "--slurm", "--tasks", "2", "--cores", "1",

@@ -197,8 +197,8 @@ TEST(SmoothNormals, CellEchoesUseThemToo) {
     EffectPlan plan = planEffects(scene);
     plan.refraction = false;
     PolarFrame frame;
-    traceFrame(slice, scene.probe, TraceSettings(scene, plan, EchoCells::contours), planeRequest(scene, plan),
-               frame);
+    traceFrame(slice, scene.probe, TraceSettings(scene, plan, EchoCells::contours),
+               planeRequest(scene, plan), frame);
     double sum = 0;
     for (std::size_t i = 0; i < frame.cell_echoes.count; ++i) sum += frame.cell_echoes.intensity[i];
     return sum;
