@@ -40,19 +40,28 @@ PixelPlane widened(const PixelPlane& mask, int width, int height) {
   return out;
 }
 
-// A palette's greys are dithered: neighbours of opposite colours, whose mean is grey. Markers and
-// Doppler boxes keep theirs. Over 5 x 5 pixels a line of one pixel keeps a fifth of its colour.
-bool isColouredAround(const std::vector<std::int16_t>& colour, std::size_t at, int width,
-                      int height) {
-  constexpr int kReach = 2;
-  const int x = static_cast<int>(at % static_cast<std::size_t>(width)),
-            y = static_cast<int>(at / static_cast<std::size_t>(width));
+// Mean over the 7 x 7 pixels around one. A palette's greys are dithered: neighbours of opposite
+// colours, whose mean is grey. A line of one pixel keeps a seventh of its colour.
+template <typename ValueAt>
+int meanAround(int x, int y, int width, int height, const ValueAt& value_at) {
+  constexpr int kReach = 3;
   int sum = 0, count = 0;
   for (int v = std::max(0, y - kReach); v <= std::min(height - 1, y + kReach); ++v)
     for (int u = std::max(0, x - kReach); u <= std::min(width - 1, x + kReach); ++u, ++count)
-      sum += colour[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
-                    static_cast<std::size_t>(u)];
-  return std::abs(sum) > kDitheredStep * count;
+      sum += value_at(u, v);
+  return sum / count;
+}
+
+// Markers and Doppler boxes keep their colour over neighbours.
+bool isColouredAround(const std::vector<std::int16_t>& colour, std::size_t at, int width,
+                      int height) {
+  const auto across = static_cast<std::size_t>(width);
+  const int mean = meanAround(
+      static_cast<int>(at % across), static_cast<int>(at / across), width, height,
+      [&](int u, int v) {
+        return int{colour[static_cast<std::size_t>(v) * across + static_cast<std::size_t>(u)]};
+      });
+  return std::abs(mean) > kDitheredStep;
 }
 
 }  // namespace
@@ -108,24 +117,28 @@ void VideoBuilder::checkTime() const {
 }
 
 // Some scanners tint their grey scale: each luma then has one colour, the same all over the
-// picture, which is grey to us. The median over a frame tells it from markers and Doppler boxes.
+// picture, which is grey to us. The median over a frame tells it from markers and Doppler boxes,
+// the mean over neighbours from dithering.
 void VideoBuilder::learnTint(const std::uint8_t* rgb, std::ptrdiff_t stride) {
   std::array<std::vector<int>, 17> red, blue;
   std::int64_t lit = 0, tinted = 0;
-  for (int y = 0; y < video_.height; ++y)
+  for (int y = 0; y < video_.height; y += 2)
     for (int x = 0; x < video_.width; x += 2) {
-      const std::uint8_t* p = rgb + y * stride + 3 * x;
-      const int luma = lumaOf(p[0], p[1], p[2]);
-      red[static_cast<std::size_t>(luma / 16)].push_back(p[0] - luma);
-      blue[static_cast<std::size_t>(luma / 16)].push_back(p[2] - luma);
+      const auto mean = [&](int channel) {
+        return meanAround(x, y, video_.width, video_.height,
+                          [&](int u, int v) { return int{rgb[v * stride + 3 * u + channel]}; });
+      };
+      const int r = mean(0), b = mean(2), luma = lumaOf(r, mean(1), b);
+      red[static_cast<std::size_t>(luma / 16)].push_back(r - luma);
+      blue[static_cast<std::size_t>(luma / 16)].push_back(b - luma);
       if (luma < 24) continue;
       ++lit;
-      tinted += std::abs(p[0] - luma) > 8 || std::abs(p[2] - luma) > 8 ? 1 : 0;
+      tinted += std::abs(r - luma) > 8 || std::abs(b - luma) > 8 ? 1 : 0;
     }
   // Tinted scanners colour all of their greys; our choice of 60 % leaves room for black text.
   if (10 * tinted < 6 * lit) return;  // a grey picture with some colour on it
   for (std::size_t bin = 0; bin < 16; ++bin) {
-    const bool enough = red[bin].size() > 200;  // else as the next darker one
+    const bool enough = red[bin].size() > 100;  // else as the next darker one
     tint_red_[bin] = enough ? medianOf(red[bin]) : bin > 0 ? tint_red_[bin - 1] : 0;
     tint_blue_[bin] = enough ? medianOf(blue[bin]) : bin > 0 ? tint_blue_[bin - 1] : 0;
   }

@@ -180,6 +180,64 @@ TEST_F(Reading, DitheredGreysAreGrey) {
   EXPECT_LT(masked, 320 * 240 / 50);  // edges between dithered and plain greys
 }
 
+// Greys spread over a palette of few colours by FFmpeg, as loops of the web have them.
+TEST_F(Reading, GreysOfAPaletteOfColoursAreGrey) {
+  Drawing d = drawing;
+  d.frames = 24;
+  d.noise = 8;
+  writePictures(folder / "png", coloured(drawnLoop(d), 320, 240), ".png");
+  const std::string out = (folder / "palette.gif").string();
+  for (const char* how :
+       {"", "-vf 'split[a][b];[a]palettegen=max_colors=64[p];[b][p]paletteuse=dither=sierra2_4a'",
+        "-vf 'format=rgb8,format=rgb24,split[a][b];[a]palettegen=max_colors=256[p];"
+        "[b][p]paletteuse=dither=bayer'"}) {
+    SCOPED_TRACE(how);
+    if (runShell("ffmpeg -v error -y -framerate 25 -i '" + (folder / "png/frame_%d.png").string() +
+                 "' " + how + " '" + out + "'")
+            .code != 0)
+      GTEST_SKIP() << "no ffmpeg";
+    const Loop loop = readLoop(out, {}, true);
+    EXPECT_NEAR(loop.sector().r_max, drawing.sector.r_max, 4);
+    double inside = 0, masked = 0;
+    for (int y = 0; y < 240; ++y)
+      for (int x = 0; x < 320; ++x)
+        if (loop.sector().contains(x + 0.5, y + 0.5))
+          ++inside, masked += loop.video.coloured[static_cast<std::size_t>(y * 320 + x)];
+    EXPECT_LT(masked, 0.05 * inside);
+  }
+}
+
+// A copy that stopped half-way: what is there is read, and how much is missing is said.
+TEST_F(Reading, AFilmThatIsCutOffSaysSo) {
+  Drawing d = drawing;
+  d.frames = 24;
+  writePictures(folder / "png", coloured(drawnLoop(d), 320, 240), ".png");
+  for (const auto& [name, how] :
+       {std::pair("film.avi", "-c:v mjpeg -q:v 2"), std::pair("film.gif", "")}) {
+    const std::string whole = (folder / name).string();
+    if (runShell("ffmpeg -v error -y -framerate 25 -i '" + (folder / "png/frame_%d.png").string() +
+                 "' " + how + " '" + whole + "'")
+            .code != 0)
+      GTEST_SKIP() << "no ffmpeg";
+    const auto told = [](const Video& v) {
+      return std::count_if(v.notes.begin(), v.notes.end(), [](const std::string& note) {
+        return note.find("cut off") != std::string::npos;
+      });
+    };
+    EXPECT_EQ(told(readVideo(whole)), 0) << name;
+    const std::string bytes = bytesOf(whole);
+    for (const double share : {0.45, 0.5, 0.55, 0.6}) {
+      const auto cut = folder.write(
+          std::string("cut_") + name,
+          bytes.substr(0, static_cast<std::size_t>(share * static_cast<double>(bytes.size()))));
+      const Video video = readVideo(cut);
+      EXPECT_LT(video.frameCount(), 24) << name << ' ' << share;
+      EXPECT_GT(video.frameCount(), 8) << name << ' ' << share;
+      EXPECT_EQ(told(video), 1) << name << ' ' << share;
+    }
+  }
+}
+
 TEST_F(Reading, TheProgramEndsWithTwoAndOneLine) {
   writeLossless(folder / "loop.avi", drawing);
   writeLossless(folder / "still.avi", {frames[0], frames[0]}, 320, 240);

@@ -134,6 +134,26 @@ TEST(Reference, GivesMuscleItsGrey) {
     }
 }
 
+// Of a picture with dark blood in any share of it, from a seam to nearly all.
+TEST(Reference, DoesNotDependOnHowMuchACavityFills) {
+  const Scene scene = ventricle();
+  const auto white = [&](std::size_t blood) {
+    std::vector<float> plane(10'000);
+    std::vector<std::uint32_t> media(plane.size());
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+      const bool dark = i * 7919 % plane.size() < blood;
+      plane[i] = (dark ? 1e-8f : 1e-5f) * static_cast<float>(1 + i % 10);
+      media[i] = dark ? 2 : 1;
+    }
+    WhiteMeasure measure(scene);
+    measure.add(plane, media);
+    return measure.white();
+  };
+  const double wall_alone = white(0);
+  for (const std::size_t blood : {500u, 3000u, 6000u, 9000u})
+    EXPECT_NEAR(white(blood), wall_alone, 0.01 * wall_alone) << blood;
+}
+
 TEST(Reference, WithoutMuscleInViewIsThePercentile) {
   EXPECT_NEAR(whiteWith(ventricle(), 2, 2e-6f), 1, 1e-3);       // blood alone
   EXPECT_NEAR(whiteWith(ventricle(), 1, 2e-6f, 200), 1, 1e-3);  // a seam of muscle
