@@ -44,10 +44,14 @@ const page = {
     const { element } = page;
     const kind = (column) => ({ class: column.number ? "number" : undefined });
     const cell = (value) => (typeof value === "number" ? page.number(value) : value ?? "–");
+    // A name's line may end behind _ and . where a screen is narrow.
+    const name = (value) => (typeof value !== "string" ? [cell(value)]
+      : value.split(/(?<=[_.])/).flatMap((part, i) => (i ? [element("wbr"), part] : [part])));
     const head = element("thead", {}, element("tr", {},
       ...columns.map((c) => element("th", { scope: "col", ...kind(c) }, c.label))));
     const body = element("tbody", {}, ...rows.map((row) => element("tr", {}, ...row.map((value, i) =>
-      element(i ? "td" : "th", { scope: i ? undefined : "row", ...kind(columns[i]) }, cell(value))))));
+      element(i ? "td" : "th", { scope: i ? undefined : "row", ...kind(columns[i]) },
+        ...(i ? [cell(value)] : name(value)))))));
     const table = element("table", {}, caption && element("caption", {}, caption), head, body);
     parent.append(element("div", { class: "scroll", tabindex: "0", role: "region",
       "aria-label": caption ?? columns.map((c) => c.label).join(", ") }, table));

@@ -18,12 +18,17 @@
       if (has_pictures && player.index >= 0) space.setPicture(player.loops[0].canvas);
     };
     player.addEventListener("frame", show);
-    // Made when it is first scrolled to, and drawn while it can be seen: the page opens as fast.
-    new IntersectionObserver((entries) => {
-      in_sight = entries.at(-1).isIntersecting;
+    // Made when it is first scrolled to or printed, and drawn while it can be seen: the page opens as fast.
+    const see = (is_seen) => {
+      in_sight = is_seen;
       if (in_sight && !space) page.parts.space = space = new HeartView(root, data.view);
       show();
-    }).observe(root);
+    };
+    new IntersectionObserver((entries) => see(entries.at(-1).isIntersecting)).observe(root);
+    const paper = window.matchMedia("print");
+    const print = () => { if (paper.matches) { see(true); space.renderNow(); } };
+    paper.addEventListener("change", print);
+    print();
   }
 
   function percent(share) { return `${fixed(100 * share, 1)} %`; }

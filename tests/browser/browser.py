@@ -48,6 +48,23 @@ image.onload = () => {
 image.src = `data:${type};base64,${text}`;
 """
 
+# Names at the head of a row whose line ends within a word.
+BROKEN_WORDS = """
+const broken = [];
+for (const head of document.querySelectorAll("tbody th"))
+  for (const node of head.childNodes) {
+    if (node.nodeType !== Node.TEXT_NODE) continue;
+    for (const word of node.data.matchAll(/\\S+/g)) {
+      const range = document.createRange();
+      range.setStart(node, word.index);
+      range.setEnd(node, word.index + word[0].length);
+      const tops = new Set(Array.from(range.getClientRects(), (r) => Math.round(r.top)));
+      if (tops.size > 1 && !word[0].includes("-")) broken.push(word[0]);
+    }
+  }
+return broken;
+"""
+
 
 def brightness(colour):
     """Relative luminance of #rgb or #rrggbb, as WCAG 2.1 has it."""
@@ -182,6 +199,7 @@ class PageTest(unittest.TestCase):
         try:
             self.browser.open(self.path)
             self.assertLessEqual(self.run_script("return document.documentElement.scrollWidth"), 390)
+            self.assertEqual(self.run_script(BROKEN_WORDS), [])
         finally:
             self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 

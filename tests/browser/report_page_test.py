@@ -123,6 +123,15 @@ class ReportPage(browser.PageTest):
             self.assertIn(structure["name"], self.text("structures"))
         self.assertIn("2.5 MHz", self.text("probe"))
 
+    def test_meshes_are_on_paper_though_nobody_scrolled_to_them(self):
+        self.browser.open(self.path)
+        self.assertTrue(self.run_script("return !page.parts.space"))
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        try:
+            self.wait(lambda: self.run_script("return !!page.parts.space"), "no meshes are drawn for print")
+        finally:
+            self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+
     def test_a_row_follows_the_player(self):
         name = "lv_cavity"
         for k in (3, 7):
