@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/stop.h"
 #include "motion/mesh/mesh_check.h"
 #include "motion/mesh/mesh_io.h"
 #include "motion/mesh/world_place.h"
@@ -41,8 +42,11 @@ void checkFilesAreThere(const Scene& scene) {
 std::vector<KeyframeMesh> soundKeyframes(const Structure& structure, double mesh_unit_m,
                                          Sha256& digest, KeyframeSet& set) {
   std::vector<KeyframeMesh> keyframes;
-  for (const Keyframe& keyframe : structure.keyframes)
+  for (const Keyframe& keyframe : structure.keyframes) {
+    checkpoint();
     keyframes.push_back(readKeyframe(keyframe, structure, digest));
+  }
+  checkpoint();
   const std::string note = repairKeyframes(structure, keyframes);
   if (!note.empty()) set.repair_notes.push_back(note);
   checkKeyframes(structure, keyframes, mesh_unit_m);

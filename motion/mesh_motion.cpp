@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/stop.h"
 #include "motion/keyframes/interpolation.h"
 #include "motion/mesh/surface_measure.h"
 #include "motion/mesh/world_place.h"
@@ -215,6 +216,7 @@ MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
   if (scene.view)
     throw SceneError(atPlace(scene.view->place, "is not found yet, accepted: the scene as placed()"));
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    checkpoint();
     const Structure& structure = scene.structures[s];
     KeyframeWeights weights(phasesOf(structure), scene.motion.interpolation, structure.place,
                             paceOf(scene, structure));
@@ -255,6 +257,7 @@ void MeshMotion::frameAt(double phase, SurfaceFrame& frame, bool normals) const 
   frame.positions_m.resize(moving_.size());
   frame.normals.resize(normals ? moving_.size() : 0);
   for (std::size_t s = 0; s < moving_.size(); ++s) {
+    checkpoint();
     const bool in_place = surfaces_[s].still && !frame.positions_m[s].empty() &&
                           (!normals || !frame.normals[s].empty());
     if (!in_place)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/stop.h"
 #include "motion/heart/envelope.h"
 #include "motion/heart/instant.h"
 #include "motion/heart/segments.h"
@@ -61,6 +62,7 @@ void addSac(Vec3d centre, double scale, std::vector<Part>& parts) {
       if (part.kind.name == name)
         outside.insert(outside.end(), part.points.begin(), part.points.end());
   const auto add = [&](const char* name, const char* medium, int priority, double gap_m) {
+    checkpoint();
     parts.push_back({{name, medium, priority, false},
                      envelopeOf(outside, centre, gap_m * scale, kSac),
                      kSac.faces});

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/stop.h"
 #include "motion/heart/solve.h"
 #include "motion/heart/units.h"
 
@@ -78,8 +79,10 @@ void inflate(Balloon& balloon, double volume_m3, const char* key, const PointOf&
 
 Instant::Instant(const Parameters& parameters, const LeftVentricle& at_rest, const State& now)
     : state_(now), left_(at_rest) {
+  checkpoint();  // everything of a heart begins with an instant
   left_.contract(now.left);
   epicardium_.emplace(left_);
+  checkpoint();
   const double scale_m = kMillimetre * parameters.body_scale;
   walls_ = {4 * scale_m * (1 + 0.25 * now.rv_ejected), 2 * scale_m, 1.8 * scale_m};
   buildRightVentricle(parameters);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/stop.h"
 #include "motion/keyframes/interpolation.h"
 #include "motion/keyframes/keyframe_pair.h"
 
@@ -37,6 +38,7 @@ class FoldFinder {
     if (count > 1) weights.emplace(beat.phases, Interpolation::catmull_rom);
     std::vector<Vec3d> left, right = normalsOf(beat.points.front());
     for (std::size_t k = 0; k < count; ++k) {
+      checkpoint();
       left = std::move(right);
       right = normalsOf(beat.points[(k + 1) % count]);
       for (int i = 0; i < (count > 1 ? kBetween : 1); ++i) {

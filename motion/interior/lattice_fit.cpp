@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/stop.h"
 
 namespace echocine {
 
@@ -76,7 +77,9 @@ Equations::Equations(const ActiveNodes& nodes, std::span<const LatticeSample> sa
                      std::span<const float> stiffness, std::span<const std::uint32_t> fixed)
     : nodes_(nodes), rows_(nodes.nodes.size(), Row{}) {
   addSamples(samples);
+  checkpoint();
   addBending(stiffness);
+  checkpoint();
   for (Row& row : rows_) row[slotOf(0, 0, 0)] += kRidge;
   compress(fixed);
   rows_.clear();
@@ -229,6 +232,7 @@ class Solver {
   }
 
   void step() {
+    checkpoint();
     equations_.apply(p_, columns_, product_);
     const Sums curvature = dots(p_, product_, columns_);
     std::vector<float> alpha(columns_), minus(columns_), beta(columns_);
@@ -262,6 +266,7 @@ std::vector<float> fitLattice(const ActiveNodes& nodes, std::span<const LatticeS
                               std::span<const std::uint32_t> fixed, std::vector<float> start,
                               int steps) {
   CHECK_EQ(data.size(), samples.size() * columns);
+  checkpoint();
   const Equations equations(nodes, samples, stiffness, fixed);
   std::vector<float> right_side(nodes.nodes.size() * columns, 0.0f);
   for (std::size_t j = 0; j < samples.size(); ++j)

@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "core/parallel.h"
+#include "core/stop.h"
 #include "motion/interior/group_lattice.h"
 
 namespace echocine {
@@ -117,6 +118,7 @@ void MotionField::State::findModes(const std::vector<InteriorSurface>& surfaces,
     const std::size_t keyframes = classes[c].weights.keyframeCount();
     std::vector<Vec3f> displacement_m;
     std::int32_t count = 0;
+    checkpoint();
     for (const BorderPoint& point : points) {
       const std::size_t s = index(point.surface);
       const bool mine = class_of[s] == static_cast<std::int32_t>(c);
@@ -125,6 +127,7 @@ void MotionField::State::findModes(const std::vector<InteriorSurface>& surfaces,
       for (std::size_t k = 0; k < keyframes; ++k)
         displacement_m.push_back(placeOf(point, surfaces[s].keyframes_m[k]) - point.reference_m);
     }
+    checkpoint();
     classes[c].modes = motionModes(displacement_m, keyframes, tolerance_m);
   }
 }
@@ -149,6 +152,7 @@ MotionField::MotionField(std::vector<InteriorSurface> surfaces, const FieldSetti
   std::vector<std::vector<Vec3f>> reference_m;
   std::vector<Winners::Closed> closed;
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    checkpoint();
     reference_m.push_back(positionsAt(surfaces[s], settings.reference_phase));
     if (!surfaces[s].membrane)
       closed.push_back({static_cast<SurfaceId>(s), surfaces[s].priority,
@@ -234,6 +238,7 @@ void MotionField::at(double phase, FieldFrame& frame,
   for (std::size_t c = 0; c < terms.size(); ++c)
     state_->classes[c].weights.termsAt(phase, terms[c]);
   for (std::size_t g = 0; g < frame.groups.size(); ++g) {
+    checkpoint();
     const GroupLattice& lattice = state_->groups[g].lattice;
     GroupFrame& out = frame.groups[g];
     out.grid = lattice.grid;

@@ -2,6 +2,7 @@
 
 #include "core/library_threads.h"
 #include "core/parallel.h"
+#include "core/stop.h"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
@@ -17,17 +18,30 @@ namespace echocine {
 
 namespace tbb = oneapi::tbb;
 
+namespace {
+
+// In an arena, whichever thread it takes for it.
+void execute(tbb::task_arena& arena, const std::function<void()>& body) {
+  const StopQuestion* const question = stopQuestion();
+  arena.execute([&] {
+    const StopScope asked(question);
+    body();
+  });
+}
+
+}  // namespace
+
 void withThreads(int threads, const std::function<void()>& body) {
   const int count = threads > 0 ? threads : tbb::info::default_concurrency();
   tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                             static_cast<std::size_t>(count));
   tbb::task_arena arena(count);
-  arena.execute(body);
+  execute(arena, body);
 }
 
 void inThisThread(const std::function<void()>& body) {
   tbb::task_arena arena(1);
-  arena.execute(body);
+  execute(arena, body);
 }
 
 int threadCount() {
@@ -46,8 +60,11 @@ int libraryThreads() {
 void parallelBlocks(std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, std::size_t)>& body) {
   const std::size_t blocks = (count + grain - 1) / grain;
+  const StopQuestion* const question = stopQuestion();
   isolated([&] {
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      const StopScope asked(question);
+      checkpoint();
       const std::size_t begin = block * grain;
       body(begin, begin + grain < count ? begin + grain : count);
     });
@@ -63,6 +80,7 @@ std::size_t parallelOrdered(std::size_t first, std::size_t last, std::size_t in_
   // The pipeline carries numbers: of a token that owns memory it loses some when a stage throws.
   // Item i is drained before item i + in_flight begins, so each has a place of its own.
   std::vector<std::shared_ptr<void>> made(in_flight);
+  const StopQuestion* const question = stopQuestion();
   tbb::parallel_pipeline(
       in_flight,
       tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order,
@@ -75,11 +93,13 @@ std::size_t parallelOrdered(std::size_t first, std::size_t last, std::size_t in_
                                           }) &
           tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel,
                                                      [&](std::size_t i) {
+                                                       const StopScope asked(question);
                                                        made[i % in_flight] = work(i);
                                                        return i;
                                                      }) &
           tbb::make_filter<std::size_t, void>(
               tbb::filter_mode::serial_in_order, [&](std::size_t i) {
+                const StopScope asked(question);
                 drain(i, std::exchange(made[i % in_flight], nullptr));
                 drained = i + 1;
               }));

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/stop.h"
+
 namespace echocine {
 
 using Lock = std::unique_lock<std::mutex>;
@@ -33,6 +35,7 @@ class Loop {
     lock.unlock();
     std::exception_ptr error;
     try {
+      const StopScope asked(question_);
       run(*taken);
     } catch (...) {
       error = std::current_exception();
@@ -59,7 +62,8 @@ class Loop {
   virtual bool nothingLeft() const = 0;
   virtual void run(Step& step) const = 0;  // without the lock
 
-  int busy_ = 0;  // threads in a step
+  int busy_ = 0;                                   // threads in a step
+  const StopQuestion* question_ = stopQuestion();  // of the thread that begins the loop
   std::exception_ptr error_;
 };
 
@@ -75,6 +79,7 @@ class BlockLoop final : public Loop {
     return Step{Step::Kind::block, std::exchange(next_, next_ + std::min(grain_, count_ - next_))};
   }
   void run(Step& step) const override {
+    checkpoint();
     body_(step.index, step.index + std::min(grain_, count_ - step.index));
   }
   void finish(Step&) override {}

@@ -1,6 +1,7 @@
 #include "python/job.h"
 
 #include <pthread.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/stop.h"
 #include "python/fork_guard.h"
 
 namespace echocine::python {
@@ -51,7 +53,7 @@ struct Job {
                               }};
     std::exception_ptr thrown;
     try {
-      body(monitor);
+      stoppable([this] { return stop.load(); }, [&] { body(monitor); });
     } catch (...) {
       thrown = std::current_exception();
     }
@@ -115,7 +117,43 @@ void issueWarnings(const std::vector<std::string>& lines) {
     if (PyErr_WarnEx(type.ptr(), line.c_str(), 2) != 0) throw py::error_already_set();
 }
 
+// Looks for signals from inside work. Only the process's first thread is told of them, so others
+// never wait for the interpreter's lock.
+class SignalWatch {
+ public:
+  bool stopWanted() {
+    if (raised) return true;
+    if (!hears_ || Clock::now() < next_) return false;
+    next_ = Clock::now() + kLook;
+    const py::gil_scoped_acquire held;
+    if (PyErr_CheckSignals() != 0) raised.emplace();
+    return raised.has_value();
+  }
+  std::optional<py::error_already_set> raised;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  const bool hears_ = ::getpid() == ::gettid();
+  Clock::time_point next_ = Clock::now() + kLook;
+};
+
 }  // namespace
+
+void runHere(const std::function<void()>& work) {
+  beginWork();
+  SignalWatch watch;
+  std::exception_ptr thrown;
+  {
+    const py::gil_scoped_release released;
+    try {
+      stoppable([&] { return watch.stopWanted(); }, work);
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+  }
+  if (watch.raised) throw py::error_already_set(*watch.raised);
+  if (thrown) std::rethrow_exception(thrown);
+}
 
 void runJob(const py::object& progress, const std::function<void(const Monitor&)>& body) {
   beginWork();

@@ -16,4 +16,9 @@ namespace echocine::python {
 // Precondition: the caller holds the interpreter's lock; the job touches no Python object.
 void runJob(const pybind11::object& progress, const std::function<void(const Monitor&)>& job);
 
+// Work of some ms, such as a frame, in this thread without the interpreter's lock: no thread is
+// begun for it. Ctrl-C is looked for at checkpoints of this very thread (core/stop.h), every 50 ms;
+// what it raises is raised here. Precondition and errors: those of runJob().
+void runHere(const std::function<void()>& work);
+
 }  // namespace echocine::python

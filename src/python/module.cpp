@@ -17,5 +17,6 @@ PYBIND11_MODULE(_echocine, module) {
   bindRender(module);
   bindPlan(module);
   bindCompare(module);
+  bindDataset(module);
   bindFiles(module);
 }

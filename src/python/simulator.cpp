@@ -2,7 +2,6 @@
 
 #include "python/arrays.h"
 #include "python/bindings.h"
-#include "python/fork_guard.h"
 #include "python/frame.h"
 #include "python/job.h"
 #include "python/scene.h"
@@ -45,31 +44,29 @@ class Busy {
 };
 
 std::shared_ptr<NativeFrame> newFrame(NativeSimulator& simulator, double time_s) {
-  beginWork();
   auto made = std::make_shared<NativeFrame>();
   made->width = simulator.simulator.scene().output.width;
   made->height = simulator.simulator.scene().output.height;
-  const py::gil_scoped_release released;
-  simulator.simulator.frame(time_s, made->frame);
+  runHere([&] { simulator.simulator.frame(time_s, made->frame); });
   return made;
 }
 
 void fillFrame(NativeSimulator& simulator, double time_s, NativeFrame& out) {
-  beginWork();
   const Busy busy(out);
-  const py::gil_scoped_release released;
-  Scratch scratch(simulator);
-  simulator.simulator.frame(time_s, *scratch.frame);
-  copyInPlace(*scratch.frame, out.frame);
+  runHere([&] {
+    Scratch scratch(simulator);
+    simulator.simulator.frame(time_s, *scratch.frame);
+    copyInPlace(*scratch.frame, out.frame);
+  });
 }
 
 void fillArrays(NativeSimulator& simulator, double time_s, const py::dict& out) {
-  beginWork();
   const std::vector<OutArray> arrays = checkedOutArrays(out, simulator.simulator.scene());
-  const py::gil_scoped_release released;
-  Scratch scratch(simulator);
-  simulator.simulator.frame(time_s, *scratch.frame);
-  copyInto(*scratch.frame, arrays);
+  runHere([&] {
+    Scratch scratch(simulator);
+    simulator.simulator.frame(time_s, *scratch.frame);
+    copyInto(*scratch.frame, arrays);
+  });
 }
 
 std::shared_ptr<NativeSimulator> make(const NativeScene& scene) {
@@ -108,9 +105,9 @@ void bindSimulator(py::module_& module) {
                              "One line: tracer, what is on, what is off.")
       .def_property_readonly("reference_intensity",
                              [](const NativeSimulator& n) {
-                               beginWork();
-                               const py::gil_scoped_release released;
-                               return n.simulator.referenceIntensity();
+                               double white = 0;
+                               runHere([&] { white = n.simulator.referenceIntensity(); });
+                               return white;
                              },
                              "White of the log compression, relative to the transmitted.");
 }

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/hash_random.h"
 #include "core/parallel.h"
+#include "core/stop.h"
 
 namespace echocine {
 
@@ -129,7 +130,10 @@ Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const Beam
       material.groupsAt(block.places_m, block.groups);
     }
   });
-  for (const Block& block : blocks) addBlock(block, material);
+  for (const Block& block : blocks) {
+    checkpoint();
+    addBlock(block, material);
+  }
   dropUnseen(view, material);
   weigh(material);
 }

@@ -141,9 +141,11 @@ void Study::addSweep(const Knob& knob, std::size_t k, Preset around) {
 }
 
 void Study::prepare() {
-  makeFolder(options_.folder);
-  // A folder that takes no files is found out before anything is measured.
-  const WholeFile writable(options_.folder / "study.json");
+  if (!options_.folder.empty()) {
+    makeFolder(options_.folder);
+    // A folder that takes no files is found out before anything is measured.
+    const WholeFile writable(options_.folder / "study.json");
+  }
   result_.scene_file = scene_.file.filename().string();
   result_.dynamic_range_db = scene_.signal.dynamic_range_db;
   result_.threads = threadCount();

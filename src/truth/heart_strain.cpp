@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/stop.h"
 #include "core/units.h"
 #include "truth/heart_function.h"
 #include "truth/surface_normals.h"
@@ -30,6 +31,7 @@ void HeartFunction::findColumns(const SurfaceFrame& surfaces) {
   const std::vector<Vec3f>& p = surfaces.positions_m[index(cavity_)];
   const std::vector<Vec3d> normals = vertexNormals(motion_.surfaces()[index(cavity_)].triangles, p);
   for (std::uint32_t v = 0; v < p.size(); ++v) {
+    checkpoint();
     if (!(length(normals[v]) > 0)) continue;
     const Vec3d radial = normalised(normals[v]);
     const Vec3f n = toFloat(radial);

@@ -16,6 +16,7 @@ extern "C" {
 #include <string_view>
 
 #include "core/error.h"
+#include "core/stop.h"
 
 namespace echocine {
 
@@ -181,6 +182,7 @@ void Decoder::addFrame(VideoBuilder& builder) {
 
 void Decoder::takeFrames(VideoBuilder& builder) {
   for (;;) {
+    checkpoint();
     const int got = avcodec_receive_frame(codec, frame);
     if (got == AVERROR(EAGAIN) || got == AVERROR_EOF) return;
     if (got < 0 || frame->flags & AV_FRAME_FLAG_CORRUPT || frame->decode_error_flags != 0)

@@ -78,6 +78,7 @@ def test_plan(scene):
 def test_study(scene, tmp_path):
     result = echocine.study(scene, tmp_path / "study", frames=1, repeats=1, knobs=["lines"])
     assert result["rows"] and (tmp_path / "study" / "study.html").exists()
+    assert echocine.study(scene, frames=1, repeats=1, knobs=["lines"])["rows"]  # without files
     with pytest.raises(echocine.SceneError, match="\"linse\" is not a knob, accepted"):
         echocine.study(scene, knobs=["linse"])
 

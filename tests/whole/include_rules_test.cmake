@@ -56,7 +56,7 @@ set(rooms
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
   "echocine=render,simulate,heart"
   "dataset=simulate,output,cycle,heart,truth,signal|motion,video,page"
-  "python=render,compare,study,simulate,heart,cycle|output,video,motion,cycle,truth,signal,geometry"
+  "python=render,compare,study,dataset,simulate,heart,cycle|output,video,motion,cycle,truth,signal,geometry"
   "cli=render,compare,study,dataset,output,view|video,simulate,motion,keyframes,cycle,heart")
 
 function(room_of path out)

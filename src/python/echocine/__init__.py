@@ -15,11 +15,13 @@ and JobError (the work failed).
 """
 
 from ._echocine import Frame, __version__
+from ._dataset import Dataset, DatasetLoop, dataset, preview_dataset
 from ._errors import JobError, SceneError, SceneWarning
 from ._jobs import Comparison, Discrepancy, Plan, compare, plan, study
 from ._loop import Loop, open, render
 from ._scene import Scene, Table, dials, heart
 from ._simulator import Simulator
 
-__all__ = ["Comparison", "Discrepancy", "Frame", "JobError", "Loop", "Plan", "Scene", "SceneError", "SceneWarning", "Simulator",
-           "Table", "__version__", "compare", "dials", "heart", "open", "plan", "render", "study"]
+__all__ = ["Comparison", "Dataset", "DatasetLoop", "Discrepancy", "Frame", "JobError", "Loop", "Plan", "Scene", "SceneError",
+           "SceneWarning", "Simulator", "Table", "__version__", "compare", "dataset", "dials", "heart", "open", "plan",
+           "preview_dataset", "render", "study"]

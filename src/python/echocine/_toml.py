@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from typing import Any, Mapping
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 
@@ -53,6 +53,12 @@ def _inline(value: Any) -> str:
 
 def _is_tables(value: Any) -> bool:
     return isinstance(value, list) and bool(value) and all(isinstance(v, dict) for v in value)
+
+
+def section_of(path: Sequence[str], table: Mapping[str, Any]) -> str:
+    """One table under its header; nothing where it is empty."""
+    lines = ["", f"[{'.'.join(_key(k) for k in path)}]"] + [f"{_key(k)} = {_inline(v)}" for k, v in table.items()]
+    return "\n".join(lines) + "\n" if table else ""
 
 
 def text_of(scene: Mapping[str, Any]) -> str:
