@@ -79,15 +79,32 @@ Vec3d Tube::point(Vec3d direction, double thickness_m) const {
          radius_m * std::sin(azimuth_rad) * section.v;
 }
 
-Vec3d Tube::pushedOut(Vec3d point, double gap_m) const {
-  const Section* nearest = &sections_.front();
-  for (const Section& section : sections_)
-    if (length(point - section.centre) < length(point - nearest->centre)) nearest = &section;
-  const Vec3d away = point - nearest->centre;
-  const double distance_m = length(away), limit_m = nearest->radius_m + gap_m;
+// The first of the nearest. Sections stand a step apart, so that one farther off than the best by n
+// steps has n neighbours that are no nearer.
+const Tube::Section& Tube::nearest(Vec3d point) const {
+  const double steps_per_m = (1 - 1e-9) * kSections / length_m_;
+  const Section* best = &sections_.front();
+  double best_m = length(point - best->centre);
+  for (std::size_t i = 1; i < sections_.size();) {
+    const double distance_m = length(point - sections_[i].centre);
+    if (distance_m < best_m) {
+      best = &sections_[i];
+      best_m = distance_m;
+    }
+    i += std::max<std::size_t>(1, static_cast<std::size_t>((distance_m - best_m) * steps_per_m));
+  }
+  return *best;
+}
+
+void Tube::pushOut(double gap_m, std::vector<Vec3d>& points) const {
   constexpr double kRounding_m = 4e-3;
-  if (distance_m > limit_m + 10 * kRounding_m || distance_m < 1e-6) return point;
-  return nearest->centre + (smoothMax(distance_m, limit_m, kRounding_m) / distance_m) * away;
+  for (Vec3d& point : points) {
+    const Section& section = nearest(point);
+    const Vec3d away = point - section.centre;
+    const double distance_m = length(away), limit_m = section.radius_m + gap_m;
+    if (distance_m > limit_m + 10 * kRounding_m || distance_m < 1e-6) continue;
+    point = section.centre + (smoothMax(distance_m, limit_m, kRounding_m) / distance_m) * away;
+  }
 }
 
 }  // namespace echocine::heart
