@@ -13,7 +13,7 @@
 #include "motion/heart/sound.h"
 #include "motion/heart/surroundings.h"
 #include "motion/mesh/surface_measure.h"
-#include "motion/subdivision/subdivision.h"
+#include "motion/subdivision/shared_subdivision.h"
 
 namespace echocine::heart {
 namespace {
@@ -64,13 +64,14 @@ MeshTags tagsOf(const Part& part) {
 void measureVolumes(RecordedPart& part) {
   if (part.kind.membrane) return;
   const auto vertices = static_cast<std::uint32_t>(part.control_m.front().size());
-  const Subdivision subdivision(part.faces, vertices, part.tags, Recording::kLevels, {});
-  std::vector<Vec3f> control, refined(subdivision.vertexCount());
+  const auto subdivision =
+      sharedSubdivision(part.faces, vertices, part.tags, Recording::kLevels, {});
+  std::vector<Vec3f> control, refined(subdivision->vertexCount());
   for (const std::vector<Vec3d>& points : part.control_m) {
     control.clear();
     for (const Vec3d& p : points) control.push_back(toFloat(p));
-    subdivision.apply(control, refined);
-    part.volume_m3.push_back(enclosedVolume(subdivision.triangles(), refined));
+    subdivision->apply(control, refined);
+    part.volume_m3.push_back(enclosedVolume(subdivision->triangles(), refined));
   }
 }
 

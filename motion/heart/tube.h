@@ -32,7 +32,14 @@ class Tube {
   Section at(double share) const;
   const Section& nearest(Vec3d point) const;
 
+  // Coordinates of four sections' centres, to look at all of them at once.
+  using Lanes [[gnu::vector_size(32)]] = double;
+  struct Four {
+    Lanes x, y, z;
+  };
+
   std::vector<Section> sections_;  // evenly spaced by arc length
+  std::vector<Four> fours_;        // the last one's left over lanes lie at infinity
   double length_m_ = 0;
 };
 
