@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "core/check.h"
@@ -14,7 +15,7 @@
 #include "motion/mesh/world_place.h"
 #include "motion/near_plane.h"
 #include "motion/subdivision/limit_normals.h"
-#include "motion/subdivision/subdivision.h"
+#include "motion/subdivision/shared_subdivision.h"
 #include "scene/effect_plan.h"
 
 namespace echocine {
@@ -118,7 +119,7 @@ ControlMotion controlMotion(KeyframeWeights weights, const SurfaceTopology& topo
 
 struct MeshMotion::MovingSurface {
   ControlMotion control;
-  std::optional<Subdivision> subdivision{};
+  std::shared_ptr<const Subdivision> subdivision{};
   std::optional<LimitNormals> limit_normals{};
   std::vector<Vec3f> still_m{};  // of a still structure that is subdivided: the refined vertices
   double still_volume_m3 = 0;    // of a still structure
@@ -170,8 +171,8 @@ void MeshMotion::MovingSurface::smooth(SurfaceTopology& topology, const MeshTags
 // Refines the topology now and the positions of every frame.
 void MeshMotion::MovingSurface::subdivide(SurfaceTopology& topology, const MeshTags& tags,
                                           const MotionSettings& motion) {
-  subdivision.emplace(topology.triangles, topology.vertex_count, tags, motion.subdivision,
-                      motion.subdivision_place);
+  subdivision = sharedSubdivision(topology.triangles, topology.vertex_count, tags,
+                                  motion.subdivision, motion.subdivision_place);
   topology.triangles = subdivision->triangles();
   topology.vertex_count = subdivision->vertexCount();
   if (!control.still() || limit_normals) return;

@@ -4,10 +4,18 @@
 #include <cmath>
 #include <numbers>
 
-#include "motion/heart/control_mesh.h"
 #include "motion/heart/smooth.h"
 
 namespace echocine::heart {
+
+Bearing bearingOf(const Meridian& outline, Vec3d direction) {
+  const double share = std::acos(std::clamp(direction.z, -1.0, 1.0)) / std::numbers::pi;
+  const Meridian::Point at = outline.at(share);
+  // Turned by an odd angle, so that no edge of the mesh lies in an imaging plane.
+  constexpr double kTurn_rad = 0.23;
+  const double azimuth_rad = std::atan2(direction.y, direction.x) + kTurn_rad;
+  return {at.zeta, at.rho, std::cos(azimuth_rad), std::sin(azimuth_rad)};
+}
 
 Balloon::Axes Balloon::axes() const {
   const Vec3d span = roof - ring;
@@ -28,24 +36,24 @@ Vec3d Balloon::centre(double zeta) const {
   return ring + zeta * (roof - ring) + middle * bow;
 }
 
-Vec3d Balloon::point(Vec3d direction) const {
+std::vector<Vec3d> Balloon::points(std::span<const Bearing> bearings) const {
   const Axes a = axes();
-  const double share = std::acos(std::clamp(direction.z, -1.0, 1.0)) / std::numbers::pi;
-  const Meridian::Point at = outline->at(share);
-  // Turned by an odd angle, so that no edge of the mesh lies in an imaging plane.
-  constexpr double kTurn_rad = 0.23;
-  const double azimuth_rad = std::atan2(direction.y, direction.x) + kTurn_rad;
-  const double radius_m = radius(at.zeta, at.rho, a.length_m);
-  return centre(at.zeta) + radius_m * aspect * std::cos(azimuth_rad) * a.u +
-         radius_m / aspect * std::sin(azimuth_rad) * a.v;
+  std::vector<Vec3d> points;
+  points.reserve(bearings.size());
+  for (const Bearing& at : bearings) {
+    const double radius_m = radius(at.zeta, at.rho, a.length_m);
+    points.push_back(centre(at.zeta) + radius_m * aspect * at.cos_azimuth * a.u +
+                     radius_m / aspect * at.sin_azimuth * a.v);
+  }
+  return points;
 }
 
-Vec3d Balloon::normal(Vec3d direction) const {
-  return normalOf([this](Vec3d d) { return point(d); }, direction);
+void Balloon::pushOut(double gap_m, std::vector<Vec3d>& points) const {
+  const Axes a = axes();
+  for (Vec3d& p : points) p = pushedOut(p, gap_m, a);
 }
 
-Vec3d Balloon::pushedOut(Vec3d p, double gap_m) const {
-  const Axes a = axes();
+Vec3d Balloon::pushedOut(Vec3d p, double gap_m, const Axes& a) const {
   const double zeta = dot(p - ring, a.along) / a.length_m;
   if (zeta < outline->lowest() || zeta > 1) return p;
   const Vec3d from = p - centre(zeta);

@@ -40,6 +40,8 @@ std::vector<Face> icosahedronFaces() {
   return faces;
 }
 
+using WideVec [[gnu::vector_size(32)]] = double;  // a point in one register, its fourth lane idle
+
 // What the Loop limit of a vertex is made of.
 struct Neighbourhood {
   std::vector<std::uint32_t> ring;      // all neighbours
@@ -57,30 +59,24 @@ double limitWeight(const Neighbourhood& around) {
 
 std::vector<Neighbourhood> neighbourhoods(std::size_t vertex_count,
                                           const std::vector<Face>& faces) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  // one for each face at it
+  edges.reserve(3 * faces.size());
   for (const Face& face : faces)
-    for (int k = 0; k < 3; ++k) ++uses[std::minmax({face[k], face[(k + 1) % 3]})];
+    for (int k = 0; k < 3; ++k) edges.push_back(std::minmax({face[k], face[(k + 1) % 3]}));
+  std::sort(edges.begin(), edges.end());
   std::vector<Neighbourhood> result(vertex_count);
-  for (const auto& [edge, count] : uses) {
-    const auto [a, b] = edge;
+  for (std::size_t e = 0; e < edges.size();) {
+    const auto [a, b] = edges[e];
+    const std::size_t first = e;
+    while (e < edges.size() && edges[e] == edges[first]) ++e;
     result[a].ring.push_back(b);
     result[b].ring.push_back(a);
-    if (count > 1) continue;
+    if (e - first > 1) continue;
     result[a].boundary.push_back(b);
     result[b].boundary.push_back(a);
   }
   for (Neighbourhood& around : result) around.weight = limitWeight(around);
   return result;
-}
-
-// Limit position of a vertex.
-Vec3d loopLimit(const std::vector<Vec3d>& points, std::size_t vertex, const Neighbourhood& around) {
-  const bool on_boundary = !around.boundary.empty();
-  const auto& others = on_boundary ? around.boundary : around.ring;
-  const double n = static_cast<double>(others.size());
-  Vec3d limit = (1 - n * around.weight) * points[vertex];
-  for (const std::uint32_t other : others) limit = limit + around.weight * points[other];
-  return limit;
 }
 
 }  // namespace
@@ -119,7 +115,7 @@ SphereMesh madeSphere(int frequency) {
 }  // namespace
 
 // A heart takes the same few at every instant.
-SphereMesh geodesicSphere(int frequency) {
+const SphereMesh& geodesicSphere(int frequency) {
   static std::mutex mutex;
   static std::map<int, SphereMesh> made;
   const std::lock_guard lock(mutex);
@@ -153,22 +149,47 @@ double volumeOf(const std::vector<Vec3d>& points, const std::vector<Face>& faces
   return six_volumes / 6;
 }
 
+LoopFit::LoopFit(std::size_t vertex_count, const std::vector<Face>& faces,
+                 std::span<const std::uint32_t> corners)
+    : corners_(corners.begin(), corners.end()) {
+  for (const Neighbourhood& around : neighbourhoods(vertex_count, faces)) {
+    const auto& others = around.boundary.empty() ? around.ring : around.boundary;
+    first_.push_back(static_cast<std::uint32_t>(others_.size()));
+    others_.insert(others_.end(), others.begin(), others.end());
+    weights_.push_back(around.weight);
+  }
+  first_.push_back(static_cast<std::uint32_t>(others_.size()));
+}
+
+// Loop's limit weights keep at least a quarter of the finest detail, so that each round takes away
+// a quarter of what is left of it and far more of everything smooth.
+std::vector<Vec3d> LoopFit::controlPoints(const std::vector<Vec3d>& points) const {
+  constexpr int kRounds = 24;
+  std::vector<WideVec> control, wanted;
+  for (const Vec3d& p : points) wanted.push_back(WideVec{p.x, p.y, p.z, 0});
+  control = wanted;
+  std::vector<WideVec> better(points.size());
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double weight = weights_[i], n = first_[i + 1] - first_[i];
+      WideVec limit = (1 - n * weight) * control[i];
+      for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k)
+        limit = limit + weight * control[others_[k]];
+      better[i] = control[i] + wanted[i] - limit;
+    }
+    for (const std::uint32_t corner : corners_) better[corner] = wanted[corner];
+    std::swap(control, better);
+  }
+  std::vector<Vec3d> result;
+  result.reserve(points.size());
+  for (const WideVec& p : control) result.push_back({p[0], p[1], p[2]});
+  return result;
+}
+
 std::vector<Vec3d> loopControlPoints(const std::vector<Vec3d>& points,
                                      const std::vector<Face>& faces,
                                      std::span<const std::uint32_t> corners) {
-  // Loop's limit weights keep at least a quarter of the finest detail, so that each round takes
-  // away a quarter of what is left of it and far more of everything smooth.
-  constexpr int kRounds = 24;
-  const auto around = neighbourhoods(points.size(), faces);
-  std::vector<Vec3d> control = points;
-  for (int round = 0; round < kRounds; ++round) {
-    std::vector<Vec3d> better = control;
-    for (std::size_t i = 0; i < points.size(); ++i)
-      better[i] = control[i] + points[i] - loopLimit(control, i, around[i]);
-    for (const std::uint32_t corner : corners) better[corner] = points[corner];
-    control = std::move(better);
-  }
-  return control;
+  return LoopFit(points.size(), faces, corners).controlPoints(points);
 }
 
 }  // namespace echocine::heart

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,7 +22,8 @@ struct SphereMesh {
 
 // The icosahedron with every edge cut into `frequency` parts, on the unit sphere: all vertices but
 // twelve have six neighbours, where Loop surfaces are smoothest. One vertex stands at (0, 0, -1).
-SphereMesh geodesicSphere(int frequency);
+// Each is made once; the reference stays good.
+const SphereMesh& geodesicSphere(int frequency);
 
 // The points of a surface given as a function of direction.
 template <typename PointOf>
@@ -30,19 +32,6 @@ std::vector<Vec3d> pointsOn(const SphereMesh& sphere, const PointOf& pointOf) {
   points.reserve(sphere.directions.size());
   for (const Vec3d direction : sphere.directions) points.push_back(pointOf(direction));
   return points;
-}
-
-// Unit normal of such a surface, outward where the map keeps the sphere's orientation.
-template <typename PointOf>
-Vec3d normalOf(const PointOf& pointOf, Vec3d direction) {
-  constexpr double kStep = 0.05;
-  const Vec3d helper = std::abs(direction.z) < 0.7 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
-  const Vec3d u = normalised(cross(helper, direction)), v = cross(direction, u);
-  const auto along = [&](Vec3d tangent) {
-    return pointOf(normalised(direction + kStep * tangent)) -
-           pointOf(normalised(direction - kStep * tangent));
-  };
-  return normalised(cross(along(u), along(v)));
 }
 
 // Faces of a sheet of rows x columns vertices, row after row, all diagonals alike.
@@ -58,9 +47,24 @@ inline Vec3d toMicrometre(Vec3d p) {
 // Volume within a closed mesh.
 double volumeOf(const std::vector<Vec3d>& points, const std::vector<Face>& faces);
 
-// Control points whose Loop limit surface passes through `points`: Loop pulls a convex surface
-// inwards, by 3 % of the volume of a chamber of 500 vertices. `corners` are tagged sharp, so that
-// they stay where they are.
+// Finds control points whose Loop limit surface passes through given points: Loop pulls a convex
+// surface inwards, by 3 % of the volume of a chamber of 500 vertices.
+class LoopFit {
+ public:
+  // `corners` are tagged sharp, so that they stay where they are.
+  LoopFit(std::size_t vertex_count, const std::vector<Face>& faces,
+          std::span<const std::uint32_t> corners = {});
+
+  std::vector<Vec3d> controlPoints(const std::vector<Vec3d>& points) const;
+
+ private:
+  std::vector<std::uint32_t> first_;   // of each vertex's entries in others_
+  std::vector<std::uint32_t> others_;  // neighbours that count in the vertex's limit
+  std::vector<double> weights_;        // of each of them
+  std::vector<std::uint32_t> corners_;
+};
+
+// The same for one surface.
 std::vector<Vec3d> loopControlPoints(const std::vector<Vec3d>& points,
                                      const std::vector<Face>& faces,
                                      std::span<const std::uint32_t> corners = {});

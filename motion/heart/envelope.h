@@ -8,9 +8,19 @@
 
 namespace echocine::heart {
 
-// Points, one per direction of the sphere mesh, of a smooth star-shaped surface about `centre` that
-// stands at least `gap_m` outside every given point.
-std::vector<Vec3d> envelopeOf(std::span<const Vec3d> points, Vec3d centre, double gap_m,
-                              const SphereMesh& sphere);
+// A smooth star-shaped surface about `centre` that holds all of some points.
+class Envelope {
+ public:
+  static constexpr int kFrequency = 9;  // of its geodesicSphere
+
+  Envelope(std::span<const Vec3d> points, Vec3d centre);
+
+  // Points, one per direction of the sphere mesh, of the surface `gap_m` outside.
+  std::vector<Vec3d> points(double gap_m) const;
+
+ private:
+  Vec3d centre_;
+  std::vector<double> reach_m_;  // by direction
+};
 
 }  // namespace echocine::heart

@@ -11,29 +11,44 @@
 namespace echocine::heart {
 namespace {
 
-constexpr int kSamples = 240;  // along a meridian
+constexpr int kAngles = 90, kHeights = 120;  // of the table
+constexpr int kSamples = 240;                // along a meridian
 
 struct Sample {
   double phi_rad, r, z;
 };
 
-// The wall's points over one angle of the mesh, apex to base; twisted and bent, they drift in
-// angle.
-std::vector<Sample> meridianOf(const LeftVentricle& ventricle, double azimuth_rad) {
+// The places over each angle of the mesh, apex to base.
+const std::vector<std::vector<WallPlace>>& meridianPlaces() {
+  static const std::vector<std::vector<WallPlace>> places = [] {
+    std::vector<std::vector<WallPlace>> made(kAngles);
+    for (int a = 0; a < kAngles; ++a)
+      for (int i = 1; i < kSamples; ++i) {
+        const double azimuth_rad = kTurn * a / kAngles, polar_rad = std::numbers::pi * i / kSamples;
+        made[a].push_back(
+            wallPlaceOf({std::sin(polar_rad) * std::cos(azimuth_rad),
+                         std::sin(polar_rad) * std::sin(azimuth_rad), std::cos(polar_rad)}));
+      }
+    return made;
+  }();
+  return places;
+}
+
+// The wall's points there; twisted and bent, they drift in angle.
+std::vector<Sample> meridianOf(const LeftVentricle& ventricle,
+                               const std::vector<WallPlace>& places) {
   std::vector<Sample> samples;
-  for (int i = 1; i < kSamples; ++i) {
-    const double polar_rad = std::numbers::pi * i / kSamples;
-    const Vec3d p =
-        ventricle.wallPoint({std::sin(polar_rad) * std::cos(azimuth_rad),
-                             std::sin(polar_rad) * std::sin(azimuth_rad), std::cos(polar_rad)});
+  samples.reserve(places.size());
+  for (const WallPlace& place : places) {
+    const Vec3d p = ventricle.wallPoint(place);
     samples.push_back({std::atan2(p.y, p.x), std::hypot(p.x, p.y), p.z});
   }
   return samples;
 }
 
-// Place on the meridian where it passes a height, from the apex: the first below it.
-Sample atHeight(const std::vector<Sample>& meridian, double z) {
-  std::size_t i = 1;
+// Place on the meridian where it passes a height, from the apex: the first below it. `i` is where
+// to start, at the apex 1, and goes on to the place's number: for heights that fall.
+Sample atHeight(const std::vector<Sample>& meridian, double z, std::size_t& i) {
   while (i + 1 < meridian.size() && meridian[i].z > z) ++i;
   const Sample &a = meridian[i - 1], &b = meridian[i];
   const double t = a.z > b.z ? std::clamp((a.z - z) / (a.z - b.z), 0.0, 1.0) : 0;
@@ -45,16 +60,18 @@ Sample atHeight(const std::vector<Sample>& meridian, double z) {
 
 Epicardium::Epicardium(const LeftVentricle& ventricle) {
   std::vector<std::vector<Sample>> meridians;
-  for (int a = 0; a < kAngles; ++a) meridians.push_back(meridianOf(ventricle, kTurn * a / kAngles));
+  for (const auto& places : meridianPlaces()) meridians.push_back(meridianOf(ventricle, places));
   // Nearer the base the wall turns inwards to the valves; its neighbours feel it no further.
   low_z_ = ventricle.ringZ() + 0.04 * ventricle.length();
   high_z_ = std::numeric_limits<double>::max();
   for (const auto& meridian : meridians) high_z_ = std::min(high_z_, meridian.front().z);
   radius_m_.resize(std::size_t{kAngles} * kHeights);
-  for (int h = 0; h < kHeights; ++h) {
+  std::vector<std::size_t> reached(meridians.size(), 1);
+  for (int h = kHeights - 1; h >= 0; --h) {
     const double z = std::lerp(low_z_, high_z_, double(h) / (kHeights - 1));
     std::vector<Sample> ring;
-    for (const auto& meridian : meridians) ring.push_back(atHeight(meridian, z));
+    for (std::size_t m = 0; m < meridians.size(); ++m)
+      ring.push_back(atHeight(meridians[m], z, reached[m]));
     for (Sample& sample : ring) sample.phi_rad -= kTurn * std::floor(sample.phi_rad / kTurn);
     std::sort(ring.begin(), ring.end(),
               [](const Sample& a, const Sample& b) { return a.phi_rad < b.phi_rad; });

@@ -19,9 +19,8 @@ class Epicardium {
   Vec3d pushedOut(Vec3d point, double gap_m) const;
 
  private:
-  static constexpr int kAngles = 90, kHeights = 120;
   double low_z_ = 0, high_z_ = 0;
-  std::vector<double> radius_m_;  // kAngles rows of kHeights
+  std::vector<double> radius_m_;  // a row of heights for each angle
 };
 
 }  // namespace echocine::heart

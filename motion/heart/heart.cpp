@@ -20,52 +20,52 @@ namespace {
 // keeps its shape. So the septum belongs to the left ventricle and the right heart is wrapped
 // round.
 void addChambers(const Instant& now, std::vector<Part>& parts) {
-  static const SphereMesh kVentricle = geodesicSphere(LeftVentricle::kFrequency),
-                          kAtrium = geodesicSphere(Instant::kAtriumFrequency),
-                          kVessel = geodesicSphere(7), kMuscle = geodesicSphere(4);
+  static const SphereMesh &kVentricle = geodesicSphere(LeftVentricle::kFrequency),
+                          &kAtrium = geodesicSphere(Instant::kAtriumFrequency),
+                          &kVessel = geodesicSphere(7), &kMuscle = geodesicSphere(4);
+  const auto addPoints = [&](const char* name, const char* medium, int priority,
+                             const SphereMesh& sphere, std::vector<Vec3d> points) {
+    parts.push_back({{name, medium, priority, false}, std::move(points), sphere.faces});
+  };
   const auto add = [&](const char* name, const char* medium, int priority, const SphereMesh& sphere,
                        auto&& pointOf) {
-    parts.push_back({{name, medium, priority, false}, pointsOn(sphere, pointOf), sphere.faces});
+    addPoints(name, medium, priority, sphere, pointsOn(sphere, pointOf));
   };
   const WallThickness& wall = now.walls();
-  add("papillary_anterolateral", "myocardium", 95, kMuscle,
-      [&](Vec3d d) { return now.papillaries()[0].point(d); });
-  add("papillary_posteromedial", "myocardium", 95, kMuscle,
-      [&](Vec3d d) { return now.papillaries()[1].point(d); });
-  add("lv_cavity", "blood", 90, kVentricle, [&](Vec3d d) { return now.left().cavityPoint(d); });
+  addPoints("papillary_anterolateral", "myocardium", 95, kMuscle, now.papillary(0, kMuscle));
+  addPoints("papillary_posteromedial", "myocardium", 95, kMuscle, now.papillary(1, kMuscle));
+  addPoints("lv_cavity", "blood", 90, kVentricle, now.left().cavityPoints());
   add("aorta", "blood", 85, kVessel, [&](Vec3d d) { return now.aorta().point(d); });
-  add("la", "blood", 80, kAtrium, [&](Vec3d d) { return now.leftAtriumPoint(d); });
-  add("lv_wall", "myocardium", 70, kVentricle, [&](Vec3d d) { return now.left().wallPoint(d); });
+  addPoints("la", "blood", 80, kAtrium, now.leftAtrium());
+  addPoints("lv_wall", "myocardium", 70, kVentricle, now.left().wallPoints());
   add("aortic_wall", "vessel_wall", 65, kVessel,
       [&](Vec3d d) { return now.aorta().point(d, wall.vessel_m); });
-  add("la_wall", "myocardium", 60, kAtrium,
-      [&](Vec3d d) { return now.leftAtriumPoint(d, wall.atrium_m); });
+  addPoints("la_wall", "myocardium", 60, kAtrium, now.leftAtrium(wall.atrium_m));
   add("rv_cavity", "blood", 50, kVentricle, [&](Vec3d d) { return now.right().cavityPoint(d); });
-  add("ra", "blood", 45, kAtrium, [&](Vec3d d) { return now.rightAtriumPoint(d); });
+  addPoints("ra", "blood", 45, kAtrium, now.rightAtrium());
   add("pulmonary_artery", "blood", 40, kVessel,
       [&](Vec3d d) { return now.pulmonaryArtery().point(d); });
   add("pulmonary_wall", "vessel_wall", 35, kVessel,
       [&](Vec3d d) { return now.pulmonaryArtery().point(d, wall.vessel_m); });
   add("rv_wall", "myocardium", 30, kVentricle,
       [&](Vec3d d) { return now.right().wallPoint(d, wall.rv_m); });
-  add("ra_wall", "myocardium", 25, kAtrium,
-      [&](Vec3d d) { return now.rightAtriumPoint(d, wall.atrium_m); });
+  addPoints("ra_wall", "myocardium", 25, kAtrium, now.rightAtrium(wall.atrium_m));
 }
 
 // Connective tissue fills the grooves between the walls, and round all of it lies the sac.
 void addSac(Vec3d centre, double scale, std::vector<Part>& parts) {
-  static const SphereMesh kSac = geodesicSphere(9);
   constexpr double kSac_m = 1.5e-3, kLoose_m = 0.8e-3;  // our choice
   std::vector<Vec3d> outside;
   for (const Part& part : parts)
     for (const std::string_view name : {"lv_wall", "rv_wall", "la_wall", "ra_wall"})
       if (part.kind.name == name)
         outside.insert(outside.end(), part.points.begin(), part.points.end());
+  const Envelope envelope(outside, centre);
   const auto add = [&](const char* name, const char* medium, int priority, double gap_m) {
     checkpoint();
     parts.push_back({{name, medium, priority, false},
-                     envelopeOf(outside, centre, gap_m * scale, kSac),
-                     kSac.faces});
+                     envelope.points(gap_m * scale),
+                     geodesicSphere(Envelope::kFrequency).faces});
   };
   add("grooves", "soft_tissue", 22, kLoose_m);
   add("pericardium", "pericardium", 20, kLoose_m + kSac_m);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <span>
 
 #include "core/error.h"
 #include "core/stop.h"
@@ -15,8 +16,8 @@
 namespace echocine::heart {
 namespace {
 
-constexpr double kBalloonTolerance = 1e-5;    // of volumes that are solved for
-constexpr double kClearance_m = 3e-4;  // between a chamber and the wall of its neighbour
+constexpr double kBalloonTolerance = 1e-5;  // of volumes that are solved for
+constexpr double kClearance_m = 3e-4;       // between a chamber and the wall of its neighbour
 
 // Outlines over zeta, 0 at the ring and 1 at the far end, in squared shares of the axis' length.
 const Meridian& atriumOutline() {
@@ -58,13 +59,66 @@ double atrialAxis(double largest_ml) {
   return 0.044 * std::cbrt(largest_ml / 55);
 }
 
-// Sets the girth of a balloon, part of `pointOf`, to enclose a volume.
-template <typename PointOf>
-void inflate(Balloon& balloon, double volume_m3, const char* key, const PointOf& pointOf) {
-  const VolumeGauge gauge(Instant::kAtriumFrequency, pointOf);
+std::vector<Bearing> atriumBearings(std::span<const Vec3d> directions) {
+  std::vector<Bearing> bearings;
+  for (const Vec3d d : directions) bearings.push_back(bearingOf(atriumOutline(), d));
+  return bearings;
+}
+
+// Beside each direction four, by which its normal is found.
+std::vector<Vec3d> besides(std::span<const Vec3d> directions) {
+  constexpr double kStep = 0.05;
+  std::vector<Vec3d> all;
+  for (const Vec3d direction : directions) {
+    const Vec3d helper = std::abs(direction.z) < 0.7 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
+    const Vec3d u = normalised(cross(helper, direction)), v = cross(direction, u);
+    for (const Vec3d tangent : {u, v})
+      for (const double step : {kStep, -kStep})
+        all.push_back(normalised(direction + step * tangent));
+  }
+  return all;
+}
+
+struct AtriumMesh {
+  std::vector<Bearing> bearings, fine, beside;
+};
+const AtriumMesh& atriumMesh() {
+  static const std::vector<Vec3d>& directions =
+      geodesicSphere(Instant::kAtriumFrequency).directions;
+  static const AtriumMesh mesh{
+      atriumBearings(directions),
+      atriumBearings(geodesicSphere(2 * Instant::kAtriumFrequency).directions),
+      atriumBearings(besides(directions))};
+  return mesh;
+}
+
+// Walls grow along the normals of the undented chamber, which never meet.
+std::vector<Vec3d> thickened(std::vector<Vec3d> points, const Balloon& atrium, double thickness_m) {
+  const std::vector<Vec3d> beside = atrium.points(atriumMesh().beside);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3d* const at = &beside[4 * i];
+    points[i] = points[i] + thickness_m * normalised(cross(at[0] - at[1], at[2] - at[3]));
+  }
+  return points;
+}
+
+// Sets the girth of a balloon to enclose a volume when it has given way to its neighbours. Returns
+// its points.
+template <typename GiveWay>
+std::vector<Vec3d> inflate(Balloon& balloon, double volume_m3, const char* key,
+                           const GiveWay& giveWay) {
+  const auto pointsOf = [&](const std::vector<Bearing>& bearings) {
+    std::vector<Vec3d> points = balloon.points(bearings);
+    giveWay(points);
+    return points;
+  };
+  const AtriumMesh& mesh = atriumMesh();
+  const VolumeGauge gauge(Instant::kAtriumFrequency, pointsOf(mesh.bearings), pointsOf(mesh.fine));
+  std::vector<Vec3d> points;
   const auto volume = [&](double girth) {
     balloon.girth = girth;
-    return gauge(pointOf);
+    points = pointsOf(mesh.bearings);
+    return gauge(points);
   };
   balloon.girth = solve(0.2, 4, volume_m3, kBalloonTolerance * volume_m3, volume);
   const double reached = volume(balloon.girth);
@@ -73,6 +127,7 @@ void inflate(Balloon& balloon, double volume_m3, const char* key, const PointOf&
         fmt::format("{}: an atrium of {:.3g} mL does not fit beside the rest of this heart, it "
                     "would come to {:.3g}",
                     key, volume_m3 / kMillilitre, reached / kMillilitre));
+  return points;
 }
 
 }  // namespace
@@ -96,14 +151,17 @@ void Instant::buildRightVentricle(const Parameters& parameters) {
   const double stroke_ml = parameters.edv_ml * parameters.ejection_fraction;
   const double volume_m3 = (parameters.rv_edv_ml - stroke_ml * state_.rv_ejected) * kMillilitre;
   const double l = left_.length();
-  const auto point = [this](Vec3d d) { return right_->cavityPoint(d); };
+  constexpr int kFrequency = RightVentricle::kFrequency;
+  const std::vector<RightVentricle::Spoke> spokes = right_->spokes(kFrequency);
   right_->arch(0.3 * l);
-  const VolumeGauge gauge(RightVentricle::kFrequency, point);
+  const VolumeGauge gauge(kFrequency, right_->cavityPoints(spokes),
+                          right_->cavityPoints(right_->spokes(2 * kFrequency)));
   const auto volume = [&](double height_m) {
     right_->arch(height_m);
-    return gauge(point);
+    return gauge(right_->cavityPoints(spokes));
   };
-  const double height_m = solve(0.02 * l, 1.5 * l, volume_m3, kBalloonTolerance * volume_m3, volume);
+  const double height_m =
+      solve(0.02 * l, 1.5 * l, volume_m3, kBalloonTolerance * volume_m3, volume);
   const double reached = volume(height_m);
   if (std::abs(reached - volume_m3) > 0.01 * volume_m3)
     throw SceneError(fmt::format(
@@ -159,8 +217,10 @@ void Instant::buildAtria(const Parameters& parameters) {
   la_.aspect = 1.08;
   la_.ring_zone = kRingZone;
   la_.bow = {-0.03 * l, -0.03 * l, 0};
-  inflate(la_, atrialVolume(parameters.la_volume_ml, state_.atria_filled), "la-volume",
-          [this](Vec3d d) { return leftAtriumPoint(d); });
+  const double clear_of_aorta_m = walls_.vessel_m + kClearance_m;
+  la_points_ =
+      inflate(la_, atrialVolume(parameters.la_volume_ml, state_.atria_filled), "la-volume",
+              [&](std::vector<Vec3d>& points) { aorta_->pushOut(clear_of_aorta_m, points); });
 
   tricuspid_ = ringAt(right_->ringCentre(), {0.12, 0.05, 1}, right_->ringRadius());
   ra_.outline = &atriumOutline();
@@ -171,8 +231,12 @@ void Instant::buildAtria(const Parameters& parameters) {
   ra_.aspect = 0.98;
   ra_.ring_zone = kRingZone;
   ra_.bow = {-0.03 * l, 0, 0};
-  inflate(ra_, atrialVolume(parameters.ra_volume_ml, state_.atria_filled), "ra-volume",
-          [this](Vec3d d) { return rightAtriumPoint(d); });
+  ra_points_ = inflate(ra_, atrialVolume(parameters.ra_volume_ml, state_.atria_filled), "ra-volume",
+                       [&](std::vector<Vec3d>& points) {
+                         aorta_->pushOut(clear_of_aorta_m, points);
+                         for (Vec3d& p : points) p = epicardium_->pushedOut(p, kClearance_m);
+                         la_.pushOut(walls_.atrium_m + kClearance_m, points);
+                       });
 }
 
 // From the wall at mid-height towards the commissures of the mitral valve.
@@ -189,17 +253,18 @@ void Instant::buildPapillaries() {
   }
 }
 
-// Walls grow along the normals of the undented chamber, which never meet.
-Vec3d Instant::leftAtriumPoint(Vec3d direction, double thickness_m) const {
-  const Vec3d p = aorta_->pushedOut(la_.point(direction), walls_.vessel_m + kClearance_m);
-  return p + thickness_m * la_.normal(direction);
+std::vector<Vec3d> Instant::leftAtrium(double thickness_m) const {
+  return thickness_m == 0 ? la_points_ : thickened(la_points_, la_, thickness_m);
 }
 
-Vec3d Instant::rightAtriumPoint(Vec3d direction, double thickness_m) const {
-  Vec3d p = aorta_->pushedOut(ra_.point(direction), walls_.vessel_m + kClearance_m);
-  p = epicardium_->pushedOut(p, kClearance_m);
-  p = la_.pushedOut(p, walls_.atrium_m + kClearance_m);
-  return p + thickness_m * ra_.normal(direction);
+std::vector<Vec3d> Instant::rightAtrium(double thickness_m) const {
+  return thickness_m == 0 ? ra_points_ : thickened(ra_points_, ra_, thickness_m);
+}
+
+std::vector<Vec3d> Instant::papillary(std::size_t number, const SphereMesh& sphere) const {
+  std::vector<Bearing> bearings;
+  for (const Vec3d d : sphere.directions) bearings.push_back(bearingOf(papillaryOutline(), d));
+  return papillaries_[number].points(bearings);
 }
 
 }  // namespace echocine::heart

@@ -34,17 +34,17 @@ class Instant {
   const RightVentricle& right() const { return *right_; }
   const Tube& aorta() const { return *aorta_; }
   const Tube& pulmonaryArtery() const { return *pulmonary_artery_; }
-  const std::array<Balloon, 2>& papillaries() const { return papillaries_; }
   const WallThickness& walls() const { return walls_; }
   const ValveRing& mitral() const { return mitral_; }
   const ValveRing& tricuspid() const { return tricuspid_; }
   const ValveRing& aortic() const { return aortic_; }
   const ValveRing& pulmonary() const { return pulmonary_; }
 
-  // Points of the atria for a direction of the unit sphere, grown outwards by a thickness. The left
-  // one gives way to the aorta, the right one to everything of the left heart.
-  Vec3d leftAtriumPoint(Vec3d direction, double thickness_m = 0) const;
-  Vec3d rightAtriumPoint(Vec3d direction, double thickness_m = 0) const;
+  // Points of the atria for geodesicSphere(kAtriumFrequency), grown outwards by a thickness. The
+  // left one gives way to the aorta, the right one to everything of the left heart.
+  std::vector<Vec3d> leftAtrium(double thickness_m = 0) const;
+  std::vector<Vec3d> rightAtrium(double thickness_m = 0) const;
+  std::vector<Vec3d> papillary(std::size_t number, const SphereMesh& sphere) const;
 
  private:
   void buildRightVentricle(const Parameters& parameters);
@@ -58,6 +58,7 @@ class Instant {
   std::optional<RightVentricle> right_;
   std::optional<Tube> aorta_, pulmonary_artery_;
   Balloon la_, ra_;
+  std::vector<Vec3d> la_points_, ra_points_;
   std::array<Balloon, 2> papillaries_;
   ValveRing mitral_, tricuspid_, aortic_, pulmonary_;
   WallThickness walls_{};

@@ -37,16 +37,12 @@ Profile profileOf(double closed_rad, const LeafletMotion& motion, double opening
   return profile;
 }
 
-// The closed slope at the hinge that brings the edge to the given drop over reach.
+// The closed slope at the hinge that brings the edge to the given drop over reach. A steeper hinge
+// turns the closed leaflet as a whole.
 double closedSlope(double drop_over_reach, const LeafletMotion& motion) {
-  double low_rad = -1.5, high_rad = 1.2;
-  for (int i = 0; i < 50; ++i) {
-    const double middle_rad = 0.5 * (low_rad + high_rad);
-    const Profile closed = profileOf(middle_rad, motion, 0);
-    const bool too_flat = closed.drop.back() < drop_over_reach * closed.reach.back();
-    (too_flat ? low_rad : high_rad) = middle_rad;
-  }
-  return 0.5 * (low_rad + high_rad);
+  const Profile level = profileOf(0, motion, 0);
+  const double bent_rad = std::atan2(level.drop.back(), level.reach.back());
+  return std::clamp(std::atan(drop_over_reach) - bent_rad, -1.5, 1.2);
 }
 
 // The closed leaflet's hinge and edge in the ring's plane, and how far downstream the edge is.

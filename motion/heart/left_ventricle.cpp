@@ -4,100 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.h"
-#include "motion/heart/meridian.h"
-#include "motion/heart/segments.h"
 #include "motion/heart/solve.h"
 #include "motion/heart/units.h"
 
 namespace echocine::heart {
 namespace {
-
-// The tables of the shape, over zeta: shares of the length from the mitral ring (0) to the apex (1)
-// at end-diastole. Our choice, drawn after one heart fitted to cine MR; below 0 lies the
-// outflow tract under the aortic valve.
-const Meridian& outline() {
-  static const Meridian table({{-0.06, 0},
-                               {-0.05, 0.022},
-                               {-0.03, 0.042},
-                               {0, 0.056},
-                               {0.05, 0.068},
-                               {0.10, 0.081},
-                               {0.20, 0.102},
-                               {0.30, 0.1066},
-                               {0.40, 0.0965},
-                               {0.50, 0.083},
-                               {0.60, 0.0665},
-                               {0.70, 0.0470},
-                               {0.80, 0.0298},
-                               {0.90, 0.0163},
-                               {0.95, 0.0093},
-                               {1, 0}});
-  return table;
-}
-const MonotoneCubic& centreX() {
-  static const MonotoneCubic table({{-0.06, -0.03},
-                                    {0, -0.01},
-                                    {0.1, 0.008},
-                                    {0.2, 0.035},
-                                    {0.3, 0.054},
-                                    {0.4, 0.066},
-                                    {0.6, 0.056},
-                                    {0.8, 0.043},
-                                    {0.9, 0.023},
-                                    {1, 0}});
-  return table;
-}
-const MonotoneCubic& centreY() {
-  static const MonotoneCubic table({{-0.06, 0.15},
-                                    {0, 0.105},
-                                    {0.05, 0.083},
-                                    {0.1, 0.060},
-                                    {0.2, 0.030},
-                                    {0.3, 0.028},
-                                    {0.4, 0.038},
-                                    {0.7, 0.040},
-                                    {0.9, 0.022},
-                                    {1, 0}});
-  return table;
-}
-// sqrt of the semi-axes' ratio, x to y.
-const MonotoneCubic& flattening() {
-  static const MonotoneCubic table({{-0.06, 0.90},
-                                    {0, 0.94},
-                                    {0.1, 1.04},
-                                    {0.2, 1.05},
-                                    {0.35, 1.0},
-                                    {0.5, 1.01},
-                                    {0.65, 1.06},
-                                    {0.85, 1.05},
-                                    {1, 1}});
-  return table;
-}
-// How much of the contraction each height takes part in: the ring is stiff.
-const MonotoneCubic& participation() {
-  static const MonotoneCubic table(
-      {{-0.06, 0.05}, {0, 0.10}, {0.05, 0.22}, {0.1, 0.45}, {0.2, 0.82}, {0.3, 1}, {1, 1}});
-  return table;
-}
-// Wall thickness over that of the septum: thin over the valves, thinner at the apex.
-const MonotoneCubic& thickness() {
-  static const MonotoneCubic table({{-0.06, 0.22},
-                                    {-0.02, 0.25},
-                                    {0.03, 0.6},
-                                    {0.10, 0.92},
-                                    {0.2, 1},
-                                    {0.65, 0.96},
-                                    {0.85, 0.78},
-                                    {1, 0.58}});
-  return table;
-}
-// The free wall is thinner than the septum.
-double thicknessAbout(double phi_rad) {
-  return 0.93 + 0.07 * std::cos(phi_rad - 150 * kDegree);
-}
 
 // Of the apex towards the base at end-systole, of the length.
 constexpr double kApexRise = 0.035;
@@ -111,31 +24,32 @@ double twistShare(double zeta) {
   return zeta - 0.3;
 }
 
-// Of the outline, from the apex.
-double shareOf(Vec3d direction) {
-  return std::acos(std::clamp(direction.z, -1.0, 1.0)) / std::numbers::pi;
+// All segments at the end of their inward motion.
+Contraction contractionBy(const Parameters& parameters) {
+  Contraction contraction{1, {}};
+  for (int s = 0; s < kSegments; ++s) contraction.segments[s] = parameters.segments[s].amplitude;
+  return contraction;
 }
 
 }  // namespace
 
 LeftVentricle::LeftVentricle(const Parameters& parameters) : parameters_(parameters) {
   edv_m3_ = parameters.edv_ml * kMillilitre;
-  // Volume = length^3 girth^2 outline().volume(); sphericity = 2 girth outline().widest().
+  // Volume = length^3 girth^2 wallOutline().volume(); sphericity = 2 girth wallOutline().widest().
   if (parameters.lv_length_mm) {
     length_ = *parameters.lv_length_mm * kMillimetre;
-    girth_ = std::sqrt(edv_m3_ / (std::pow(length_, 3) * outline().volume()));
+    girth_ = std::sqrt(edv_m3_ / (std::pow(length_, 3) * wallOutline().volume()));
   } else {
-    girth_ = parameters.sphericity / (2 * outline().widest());
-    length_ = std::cbrt(edv_m3_ / (girth_ * girth_ * outline().volume()));
+    girth_ = parameters.sphericity / (2 * wallOutline().widest());
+    length_ = std::cbrt(edv_m3_ / (girth_ * girth_ * wallOutline().volume()));
   }
-  apex_z_ = length_;
+  set({});
   cavity_gauge_.emplace(kFrequency, [this](Vec3d d) { return cavityPoint(d); });
-  outer_gauge_.emplace(kFrequency, [this](Vec3d d) { return wallPoint(d); });
-  wall_m3_ = outerVolume() - cavityVolume();
+  outer_gauge_.emplace(kFrequency, [this](Vec3d d) { return wallPoint(wallPlaceOf(d)); });
+  wall_m3_ = (*outer_gauge_)(wallPoints()) - cavityVolume();
 
   // The strain of a beat whose segments all do their share at once.
-  for (int s = 0; s < kSegments; ++s) contraction_.segments[s] = parameters.segments[s].amplitude;
-  moveAxis(1);
+  set(contractionBy(parameters));
   const double esv_m3 = edv_m3_ * (1 - parameters.ejection_fraction);
   const auto emptied = [this](double strain) {
     strain_ = strain;
@@ -156,22 +70,22 @@ double LeftVentricle::ejectionFractionOf(const Parameters& parameters) {
   Parameters healthy = parameters;
   for (Segment& segment : healthy.segments) segment = {};
   LeftVentricle ventricle(healthy);  // finds the strain
-  for (int s = 0; s < kSegments; ++s)
-    ventricle.contraction_.segments[s] = parameters.segments[s].amplitude;
-  ventricle.moveAxis(1);
+  ventricle.set(contractionBy(parameters));
   ventricle.correction_ = 0;
   return 1 - ventricle.cavityVolume() / ventricle.edv_m3_;
 }
 
-void LeftVentricle::moveAxis(double ejected) {
-  ring_z_ = parameters_.mapse_mm * kMillimetre * ejected;
-  apex_z_ = length_ * (1 - kApexRise * ejected);
-  twist_rad_ = parameters_.twist_deg * kDegree * ejected;
+void LeftVentricle::set(const Contraction& contraction) {
+  contraction_ = contraction;
+  ring_z_ = parameters_.mapse_mm * kMillimetre * contraction.ejected;
+  apex_z_ = length_ * (1 - kApexRise * contraction.ejected);
+  twist_rad_ = parameters_.twist_deg * kDegree * contraction.ejected;
+  turned_.clear();
+  for (const WallPlace& at : meshPlaces()) turned_.push_back(turnedOf(at));
 }
 
 void LeftVentricle::contract(const Contraction& contraction) {
-  contraction_ = contraction;
-  moveAxis(contraction.ejected);
+  set(contraction);
   const double volume_m3 = edv_m3_ * (1 - parameters_.ejection_fraction * contraction.ejected);
   const auto emptied = [this](double correction) {
     correction_ = correction;
@@ -179,9 +93,12 @@ void LeftVentricle::contract(const Contraction& contraction) {
   };
   correction_ = solve(-0.5, 0.5, -volume_m3, kVolumeTolerance * edv_m3_, emptied);
   const double cavity_m3 = -emptied(correction_);
-  const auto outer = [this](double factor) {
-    thickening_ = factor;
-    return outerVolume();
+  const std::vector<Grown> grown = grownPlaces();
+  std::vector<Vec3d> points(grown.size());
+  const auto outer = [&](double factor) {
+    std::transform(grown.begin(), grown.end(), points.begin(),
+                   [factor](const Grown& g) { return g.from + factor * g.thickness_m * g.normal; });
+    return (*outer_gauge_)(points);
   };
   thickening_ = solve(0.5, 2, cavity_m3 + wall_m3_, kVolumeTolerance * edv_m3_, outer);
   const double wall_m3 = outer(thickening_) - cavity_m3;
@@ -197,82 +114,94 @@ void LeftVentricle::contract(const Contraction& contraction) {
                     wall_m3_ / kMillilitre, 100 * contraction.ejected));
 }
 
-LeftVentricle::Material LeftVentricle::materialOf(Vec3d direction) const {
-  const Meridian::Point at = outline().at(shareOf(direction));
-  // Turned by an odd angle, so that no edge of the mesh lies in an imaging plane.
-  constexpr double kTurn_rad = 0.3;
-  return {std::atan2(direction.y, direction.x) + kTurn_rad, at.zeta, at.rho};
-}
-
-LeftVentricle::Material LeftVentricle::materialAt(double phi_rad, double zeta) const {
-  return {phi_rad - twist_rad_ * twistShare(zeta), zeta, outline().rhoAt(zeta)};
-}
-
-double LeftVentricle::radialShare(const Material& at) const {
-  const auto shares = segmentShares(at.phi_rad, at.zeta);
-  double inward = 0;
-  for (int s = 0; s < kSegments; ++s) inward += shares[s] * contraction_.segments[s];
-  return 1 - participation()(at.zeta) * (strain_ * inward + correction_);
-}
-
-Vec3d LeftVentricle::placed(const Material& at) const {
+LeftVentricle::Turned LeftVentricle::turnedOf(const WallPlace& at) const {
   const double phi_rad = at.phi_rad + twist_rad_ * twistShare(at.zeta);
-  const double flat = flattening()(at.zeta);
-  const double radius = girth_ * length_ * at.rho * radialShare(at);
+  double inward = 0;
+  for (std::size_t i = 0; i < at.segment.size(); ++i)
+    inward += at.share[i] * contraction_.segments[at.segment[i]];
+  return {std::cos(phi_rad), std::sin(phi_rad), inward};
+}
+
+double LeftVentricle::radius(const WallPlace& at, const Turned& turned) const {
+  const double share = 1 - at.participation * (strain_ * turned.inward + correction_);
+  return girth_ * length_ * at.rho * share;
+}
+
+Vec3d LeftVentricle::placed(const WallPlace& at, const Turned& turned) const {
+  const double r = radius(at, turned);
   const double offset = girth_ * (apex_z_ - ring_z_);
-  return {offset * centreX()(at.zeta) + radius * flat * std::cos(phi_rad),
-          offset * centreY()(at.zeta) + radius / flat * std::sin(phi_rad),
+  return {offset * at.centre_x + r * at.flat * turned.cos_phi,
+          offset * at.centre_y + r / at.flat * turned.sin_phi,
           std::lerp(ring_z_, apex_z_, at.zeta)};
 }
 
+WallPlace LeftVentricle::untwisted(double phi_rad, double zeta) const {
+  return wallPlaceAt(phi_rad - twist_rad_ * twistShare(zeta), zeta);
+}
+
 Vec3d LeftVentricle::cavityPoint(Vec3d direction) const {
-  return placed(materialOf(direction));
+  const WallPlace at = wallPlaceOf(direction);
+  return placed(at, turnedOf(at));
 }
 
 Vec3d LeftVentricle::cavityAt(double phi_rad, double zeta) const {
-  return placed(materialAt(phi_rad, zeta));
+  const WallPlace at = untwisted(phi_rad, zeta);
+  return placed(at, turnedOf(at));
 }
 
 double LeftVentricle::wallThicknessAt(double phi_rad, double zeta) const {
-  return wallThickness(materialAt(phi_rad, zeta));
+  const WallPlace at = untwisted(phi_rad, zeta);
+  return thickening_ * unscaledThickness(at, turnedOf(at));
 }
 
 // Muscle keeps its volume: (r + h)^2 - r^2, the wall's section about the axis, grows as the length
 // shrinks, r being the cavity's radius and h the wall's thickness.
-double LeftVentricle::wallThickness(const Material& at) const {
-  const double h0 = parameters_.wall_thickness_mm * kMillimetre * thickness()(at.zeta) *
-                    thicknessAbout(at.phi_rad);
+double LeftVentricle::unscaledThickness(const WallPlace& at, const Turned& turned) const {
+  const double h0 = parameters_.wall_thickness_mm * kMillimetre * at.thickness * at.thickness_about;
   const double r0 = girth_ * length_ * at.rho;
-  const double r = r0 * radialShare(at);
+  const double r = radius(at, turned);
   const double section = h0 * (2 * r0 + h0) * length_ / (apex_z_ - ring_z_);
   const double grown = std::sqrt(r * r + section) - r;
-  return thickening_ * std::lerp(h0, grown, participation()(at.zeta));
+  return std::lerp(h0, grown, at.participation);
 }
 
 // The wall grows along normals of the outline turned about a straight axis, which is convex: those
 // of the cavity itself meet where the septum is hollow.
-Vec3d LeftVentricle::wallPoint(Vec3d direction) const {
-  const Material at = materialOf(direction);
-  constexpr double kStep = 0.015;  // of the outline
-  const double share = shareOf(direction);
-  const Meridian::Point before = outline().at(std::abs(share - kStep));
-  const Meridian::Point after = outline().at(1 - std::abs(1 - share - kStep));
-  // Past either end the outline comes back on the other side.
-  const double rho_before = share < kStep ? -before.rho : before.rho;
-  const double rho_after = share > 1 - kStep ? -after.rho : after.rho;
-  const double outward = before.zeta - after.zeta, apexward = girth_ * (rho_after - rho_before);
-  const double phi_rad = at.phi_rad + twist_rad_ * twistShare(at.zeta);
+LeftVentricle::Grown LeftVentricle::grown(const WallPlace& at, const Turned& turned) const {
   const Vec3d normal =
-      normalised(Vec3d{outward * std::cos(phi_rad), outward * std::sin(phi_rad), apexward});
-  return placed(at) + wallThickness(at) * normal;
+      normalised(Vec3d{at.outward * turned.cos_phi, at.outward * turned.sin_phi, girth_ * at.rise});
+  return {placed(at, turned), normal, unscaledThickness(at, turned)};
+}
+
+Vec3d LeftVentricle::wallPoint(const WallPlace& at) const {
+  const Grown g = grown(at, turnedOf(at));
+  return g.from + thickening_ * g.thickness_m * g.normal;
+}
+
+std::vector<LeftVentricle::Grown> LeftVentricle::grownPlaces() const {
+  std::vector<Grown> all;
+  for (std::size_t i = 0; i < turned_.size(); ++i)
+    all.push_back(grown(meshPlaces()[i], turned_[i]));
+  return all;
+}
+
+std::vector<Vec3d> LeftVentricle::cavityPoints() const {
+  std::vector<Vec3d> points;
+  points.reserve(turned_.size());
+  for (std::size_t i = 0; i < turned_.size(); ++i)
+    points.push_back(placed(meshPlaces()[i], turned_[i]));
+  return points;
+}
+
+std::vector<Vec3d> LeftVentricle::wallPoints() const {
+  std::vector<Vec3d> points;
+  for (const Grown& g : grownPlaces())
+    points.push_back(g.from + thickening_ * g.thickness_m * g.normal);
+  return points;
 }
 
 double LeftVentricle::cavityVolume() const {
-  return (*cavity_gauge_)([this](Vec3d d) { return cavityPoint(d); });
-}
-
-double LeftVentricle::outerVolume() const {
-  return (*outer_gauge_)([this](Vec3d d) { return wallPoint(d); });
+  return (*cavity_gauge_)(cavityPoints());
 }
 
 }  // namespace echocine::heart

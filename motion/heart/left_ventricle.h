@@ -8,11 +8,13 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "core/vec3.h"
 #include "motion/heart/control_mesh.h"
 #include "motion/heart/parameters.h"
 #include "motion/heart/volume_gauge.h"
+#include "motion/heart/wall_place.h"
 
 namespace echocine::heart {
 
@@ -25,7 +27,7 @@ struct Contraction {
 class LeftVentricle {
  public:
   // Meshes of its surfaces are geodesicSphere(kFrequency).
-  static constexpr int kFrequency = 12;
+  static constexpr int kFrequency = kWallFrequency;
 
   // At end-diastole. Throws SceneError when no contraction reaches the end-systolic volume.
   explicit LeftVentricle(const Parameters& parameters);
@@ -46,7 +48,10 @@ class LeftVentricle {
 
   // Points for a direction of the unit sphere, (0, 0, 1) being the apex.
   Vec3d cavityPoint(Vec3d direction) const;
-  Vec3d wallPoint(Vec3d direction) const;
+  Vec3d wallPoint(const WallPlace& at) const;
+  // Those of all directions of geodesicSphere(kFrequency).
+  std::vector<Vec3d> cavityPoints() const;
+  std::vector<Vec3d> wallPoints() const;
 
   // A place of the cavity's surface by its angle about the axis and zeta, 0 at the mitral ring and
   // 1 at the apex; and how thick the wall is there.
@@ -54,17 +59,22 @@ class LeftVentricle {
   double wallThicknessAt(double phi_rad, double zeta) const;
 
  private:
-  struct Material {
-    double phi_rad, zeta, rho;  // of a direction, at end-diastole
+  struct Turned {  // a place at this instant
+    double cos_phi, sin_phi, inward;
   };
-  void moveAxis(double ejected);
-  Material materialOf(Vec3d direction) const;
-  Material materialAt(double phi_rad, double zeta) const;
-  double radialShare(const Material& at) const;  // radius now over end-diastole
-  Vec3d placed(const Material& at) const;
-  double wallThickness(const Material& at) const;
+  struct Grown {  // the wall over a place, before `thickening_`
+    Vec3d from, normal;
+    double thickness_m;
+  };
+  void set(const Contraction& contraction);
+  Turned turnedOf(const WallPlace& at) const;
+  WallPlace untwisted(double phi_rad, double zeta) const;
+  double radius(const WallPlace& at, const Turned& turned) const;
+  Vec3d placed(const WallPlace& at, const Turned& turned) const;
+  double unscaledThickness(const WallPlace& at, const Turned& turned) const;
+  Grown grown(const WallPlace& at, const Turned& turned) const;
+  std::vector<Grown> grownPlaces() const;
   double cavityVolume() const;
-  double outerVolume() const;
 
   Parameters parameters_;
   double length_ = 0, girth_ = 1;  // of the table's radii
@@ -72,6 +82,7 @@ class LeftVentricle {
   double strain_ = 0, correction_ = 0, thickening_ = 1;
   double edv_m3_ = 0, wall_m3_ = 0;
   Contraction contraction_;
+  std::vector<Turned> turned_;  // meshPlaces()
   std::optional<VolumeGauge> cavity_gauge_, outer_gauge_;
 };
 

@@ -1,8 +1,10 @@
 #include "motion/heart/recording.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <span>
 
 #include "core/check.h"
 #include "core/error.h"
@@ -11,7 +13,7 @@
 #include "motion/heart/sound.h"
 #include "motion/heart/surroundings.h"
 #include "motion/mesh/surface_measure.h"
-#include "motion/subdivision/subdivision.h"
+#include "motion/subdivision/shared_subdivision.h"
 
 namespace echocine::heart {
 namespace {
@@ -26,10 +28,14 @@ double activity(const Cycle& cycle, double phase) {
   return kAlways + (std::abs(b.left.ejected - a.left.ejected) + kLeaflets * leaflets) / kStep;
 }
 
-std::vector<Vec3d> controlPoints(const Part& part, const MeshTags& tags) {
+LoopFit fitOf(const Part& part, const MeshTags& tags) {
   std::vector<std::uint32_t> corners;
   for (const SharpVertex& corner : tags.vertices) corners.push_back(corner.v);
-  std::vector<Vec3d> control = loopControlPoints(part.points, part.faces, corners);
+  return {part.points.size(), part.faces, corners};
+}
+
+std::vector<Vec3d> controlPoints(const LoopFit& fit, const std::vector<Vec3d>& points) {
+  std::vector<Vec3d> control = fit.controlPoints(points);
   std::transform(control.begin(), control.end(), control.begin(), toMicrometre);
   return control;
 }
@@ -58,28 +64,48 @@ MeshTags tagsOf(const Part& part) {
 void measureVolumes(RecordedPart& part) {
   if (part.kind.membrane) return;
   const auto vertices = static_cast<std::uint32_t>(part.control_m.front().size());
-  const Subdivision subdivision(part.faces, vertices, part.tags, Recording::kLevels, {});
-  std::vector<Vec3f> control, refined(subdivision.vertexCount());
+  const auto subdivision =
+      sharedSubdivision(part.faces, vertices, part.tags, Recording::kLevels, {});
+  std::vector<Vec3f> control, refined(subdivision->vertexCount());
   for (const std::vector<Vec3d>& points : part.control_m) {
     control.clear();
     for (const Vec3d& p : points) control.push_back(toFloat(p));
-    subdivision.apply(control, refined);
-    part.volume_m3.push_back(enclosedVolume(subdivision.triangles(), refined));
+    subdivision->apply(control, refined);
+    part.volume_m3.push_back(enclosedVolume(subdivision->triangles(), refined));
   }
 }
 
-void addStillParts(const std::vector<Part>& parts, Recording& recording) {
-  for (const Part& part : parts)
-    recording.parts.push_back({part.kind, part.faces, {}, {controlPoints(part, {})}, {}});
-}
-
-// Adds what stands still, then checks and measures all parts.
-void finish(const std::vector<Part>& surroundings, Recording& recording) {
-  addStillParts(surroundings, recording);
+// Checks and measures all parts.
+void finish(Recording& recording) {
   makeSound(recording);
   parallelBlocks(recording.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) measureVolumes(recording.parts[p]);
   });
+}
+
+// The heart at all phases.
+std::vector<Shape> shapesAt(const ParametricHeart& heart, const std::vector<double>& phases,
+                            const Monitor& monitor) {
+  std::vector<Shape> shapes(phases.size());
+  parallelBlocks(phases.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      if (!monitor.keep_going()) throw JobError("stopped");
+      shapes[k] = heart.shapeAt(phases[k]);
+    }
+  });
+  return shapes;
+}
+
+std::vector<double> reachOfSac(const ParametricHeart& heart, std::span<const Shape* const> shapes) {
+  std::vector<double> reach_m;
+  for (const Shape* shape : shapes)
+    for (const Part& part : shape->parts) {
+      if (part.kind.name != "pericardium") continue;
+      reach_m.resize(part.points.size(), 0);
+      for (std::size_t i = 0; i < reach_m.size(); ++i)
+        reach_m[i] = std::max(reach_m[i], length(part.points[i] - heart.centre()));
+    }
+  return reach_m;
 }
 
 }  // namespace
@@ -111,29 +137,39 @@ std::vector<double> keyframePhases(const Cycle& cycle, int count) {
   return phases;
 }
 
-Recording record(const ParametricHeart& heart, View view, int keyframes, KeyframeSpacing spacing,
-                 const Monitor& monitor) {
+Recording recordBeat(const ParametricHeart& heart, View view, int keyframes,
+                     KeyframeSpacing spacing, const Monitor& monitor) {
   Recording recording;
-  recording.pose = poseOf(view, heart);
   recording.phases = spacing == KeyframeSpacing::even ? evenPhases(keyframes)
                                                       : keyframePhases(heart.cycle(), keyframes);
   recording.end_systole_phase = heart.cycle().events().aortic_closes;
   recording.end_systole = nearest(recording.phases, recording.end_systole_phase);
 
-  for (const Part& part : heart.at(0))
+  std::vector<double> phases = recording.phases;  // the first is 0
+  phases.push_back(recording.end_systole_phase);  // to its last digit, for the sac
+  const std::vector<Shape> shapes = shapesAt(heart, phases, monitor);
+  const std::array sacs{&shapes.front(), &shapes.back()};
+  recording.sac_reach_m = reachOfSac(heart, sacs);
+  recording.pose = poseOf(view, heart, shapes.front());
+  for (const Part& part : shapes.front().parts)
     recording.parts.push_back({part.kind, part.faces, tagsOf(part), {}, {}});
-  for (RecordedPart& part : recording.parts) part.control_m.resize(recording.phases.size());
-  recording.places.resize(recording.phases.size());
-  parallelBlocks(recording.phases.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      if (!monitor.keep_going()) throw JobError("stopped");
-      const Shape now = heart.shapeAt(recording.phases[k]);
-      for (std::size_t p = 0; p < now.parts.size(); ++p)
-        recording.parts[p].control_m[k] = controlPoints(now.parts[p], recording.parts[p].tags);
-      recording.places[k] = now.places;
+  parallelBlocks(recording.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      const LoopFit fit = fitOf(shapes.front().parts[p], recording.parts[p].tags);
+      for (std::size_t k = 0; k < recording.phases.size(); ++k)
+        recording.parts[p].control_m.push_back(controlPoints(fit, shapes[k].parts[p].points));
     }
   });
-  finish(surroundingsOf(view, recording.pose, heart), recording);
+  for (std::size_t k = 0; k < recording.phases.size(); ++k)
+    recording.places.push_back(shapes[k].places);
+  finish(recording);
+  return recording;
+}
+
+Recording record(const ParametricHeart& heart, View view, int keyframes, KeyframeSpacing spacing,
+                 const Monitor& monitor) {
+  Recording recording = recordBeat(heart, view, keyframes, spacing, monitor);
+  surround(view, recording.pose, heart, recording);
   return recording;
 }
 
@@ -143,7 +179,10 @@ void surround(View view, const ProbePose& pose, const ParametricHeart& heart,
                 [](const RecordedPart& part) { return part.control_m.size() == 1; });
   Recording still;
   still.phases = recording.phases;
-  finish(surroundingsOf(view, pose, heart), still);
+  for (const Part& part : surroundingsOf(view, pose, heart, recording.sac_reach_m))
+    still.parts.push_back(
+        {part.kind, part.faces, {}, {controlPoints(fitOf(part, {}), part.points)}, {}});
+  finish(still);
   std::move(still.parts.begin(), still.parts.end(), std::back_inserter(recording.parts));
 }
 

@@ -30,6 +30,9 @@ struct Recording {
   std::size_t end_systole = 0;    // the keyframe then, or the nearest where they are even
   std::vector<Landmarks> places;  // one per keyframe
   std::vector<RecordedPart> parts;
+  // From the heart's centre to the sac, by direction of the sac's mesh: at end-diastole or
+  // end-systole, whichever is more.
+  std::vector<double> sac_reach_m;
 
   const RecordedPart& part(std::string_view name) const;  // Precondition: there is one
 };
@@ -46,11 +49,15 @@ std::vector<double> keyframePhases(const Cycle& cycle, int count);
 Recording record(const ParametricHeart& heart, View view, int keyframes,
                  KeyframeSpacing spacing = KeyframeSpacing::by_motion, const Monitor& monitor = {});
 
+// The same without what lies around the heart, which surround() adds.
+Recording recordBeat(const ParametricHeart& heart, View view, int keyframes,
+                     KeyframeSpacing spacing = KeyframeSpacing::by_motion,
+                     const Monitor& monitor = {});
+
 // Makes what lies around the heart anew, as it is in a view whose probe stands at `pose`: the chest
 // wall is the probe's, wherever it slides. The recording's own pose stays. With poseOf(view) for
 // both poses the recording is what record() of that view makes. Precondition: `recording` is of
 // this heart.
-void surround(View view, const ProbePose& pose, const ParametricHeart& heart,
-              Recording& recording);
+void surround(View view, const ProbePose& pose, const ParametricHeart& heart, Recording& recording);
 
 }  // namespace echocine::heart

@@ -37,6 +37,33 @@ constexpr double kBase = -0.07, kApex = 0.93, kTilt = 0.256;
 constexpr double kTricuspidExcursion = 1.15;  // TAPSE over MAPSE; our choice
 constexpr double kRightApexRise = 0.05;
 
+// What a direction has before any dial or instant.
+struct RightPlace {
+  double x, t, phi_rad, along, height;  // t from base to apex
+};
+
+RightPlace rightPlaceOf(Vec3d direction) {
+  const double t = 0.5 * (1 + direction.y);
+  // 0 on the septal sheet, rising over the free wall, the turn between them rounded.
+  constexpr double kRim = 0.3;
+  return {direction.x, t, (middle()(t) + halfWidth()(t) * direction.x) * kDegree, archAlong()(t),
+          0.5 * (direction.z + std::hypot(direction.z, kRim))};
+}
+
+struct TurnedPlace {
+  RightPlace place;
+  double cos_phi, sin_phi;
+};
+
+std::vector<TurnedPlace> placesOf(int frequency) {
+  std::vector<TurnedPlace> places;
+  for (const Vec3d direction : geodesicSphere(frequency).directions) {
+    const RightPlace place = rightPlaceOf(direction);
+    places.push_back({place, std::cos(place.phi_rad), std::sin(place.phi_rad)});
+  }
+  return places;
+}
+
 }  // namespace
 
 RightVentricle::RightVentricle(const LeftVentricle& left, const Epicardium& epicardium,
@@ -62,19 +89,41 @@ Vec3d RightVentricle::cavityPoint(Vec3d direction) const {
 // Grown along the sphere's direction, read as (about the axis, along it, away from it): near enough
 // to the normal, and no thickness folds it.
 Vec3d RightVentricle::wallPoint(Vec3d direction, double thickness_m) const {
-  const double t = 0.5 * (1 + direction.y);
-  const double phi_rad = (middle()(t) + halfWidth()(t) * direction.x) * kDegree;
-  // The inflow's base stands nearer the apex than the outflow's.
-  const double z = std::lerp(base_z_, apex_z_, t) + tilt_m_ * direction.x * (1 - t);
-  // 0 on the septal sheet, rising over the free wall, the turn between them rounded.
-  constexpr double kRim = 0.3;
-  const double height = 0.5 * (direction.z + std::hypot(direction.z, kRim));
-  const double r =
-      epicardium_->radius(phi_rad, z) + kSeptalGap_m + arch_m_ * archAlong()(t) * height;
+  const RightPlace at = rightPlaceOf(direction);
+  const double phi_rad = at.phi_rad, z = heightAlong(at.t, at.x);
+  const double r = epicardium_->radius(phi_rad, z) + kSeptalGap_m + arch_m_ * at.along * at.height;
   const double outer_phi_rad = phi_rad + thickness_m / r * direction.x;
   const double outer_r = r + thickness_m * direction.z;
   return {outer_r * std::cos(outer_phi_rad), outer_r * std::sin(outer_phi_rad),
           z + thickness_m * direction.y};
+}
+
+// The inflow's base stands nearer the apex than the outflow's.
+double RightVentricle::heightAlong(double t, double x) const {
+  return std::lerp(base_z_, apex_z_, t) + tilt_m_ * x * (1 - t);
+}
+
+std::vector<RightVentricle::Spoke> RightVentricle::spokes(int frequency) const {
+  static const std::vector<TurnedPlace> coarse = placesOf(kFrequency),
+                                        fine = placesOf(2 * kFrequency);
+  std::vector<Spoke> spokes;
+  spokes.reserve(fine.size());
+  for (const auto& [place, cos_phi, sin_phi] : frequency == kFrequency ? coarse : fine) {
+    const double z = heightAlong(place.t, place.x);
+    spokes.push_back({cos_phi, sin_phi, z, epicardium_->radius(place.phi_rad, z) + kSeptalGap_m,
+                      place.along, place.height});
+  }
+  return spokes;
+}
+
+std::vector<Vec3d> RightVentricle::cavityPoints(const std::vector<Spoke>& spokes) const {
+  std::vector<Vec3d> points;
+  points.reserve(spokes.size());
+  for (const Spoke& at : spokes) {
+    const double r = at.septal_m + arch_m_ * at.along * at.height;
+    points.push_back({r * at.cos_phi, r * at.sin_phi, at.z});
+  }
+  return points;
 }
 
 Vec3d RightVentricle::outflow() const {

@@ -1,6 +1,8 @@
 #pragma once
 // The right ventricle: a crescent wrapped round the left one.
 
+#include <vector>
+
 #include "motion/heart/epicardium.h"
 #include "motion/heart/left_ventricle.h"
 
@@ -24,6 +26,14 @@ class RightVentricle {
   Vec3d cavityPoint(Vec3d direction) const;
   Vec3d wallPoint(Vec3d direction, double thickness_m) const;
 
+  // The cavity's points before the free wall arches, to be asked for at several heights.
+  struct Spoke {
+    double cos_phi, sin_phi, z, septal_m, along, height;
+  };
+  // For directions of geodesicSphere(frequency). Precondition: kFrequency or twice that.
+  std::vector<Spoke> spokes(int frequency) const;
+  std::vector<Vec3d> cavityPoints(const std::vector<Spoke>& spokes) const;
+
   // Of the tricuspid valve.
   Vec3d ringCentre() const { return ring_centre_; }
   double restingRingZ() const { return resting_ring_z_; }  // at end-diastole
@@ -32,6 +42,8 @@ class RightVentricle {
   Vec3d outflow() const;
 
  private:
+  double heightAlong(double t, double x) const;
+
   const Epicardium* epicardium_;
   double arch_m_ = 0;
   double base_z_ = 0, apex_z_ = 0, tilt_m_ = 0, resting_ring_z_ = 0;

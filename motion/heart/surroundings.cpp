@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/heart/envelope.h"
 #include "motion/heart/smooth.h"
 #include "motion/heart/tube.h"
 #include "motion/heart/units.h"
@@ -26,7 +27,7 @@ std::vector<Vec3d> ellipsoid(const SphereMesh& sphere, Vec3d centre, Vec3d semi_
 // Shells round the probe, circles in the imaging plane, so that they bend no ray there, and long
 // across it, so that they lie before all of the lens: skin and fat, then muscle.
 void addChestWall(const ProbePose& pose, double scale, std::vector<Part>& parts) {
-  static const SphereMesh kShell = geodesicSphere(20);  // fat is a lens: fine
+  static const SphereMesh& kShell = geodesicSphere(20);  // fat is a lens: fine
   const Vec3d elevation = cross(pose.axis, pose.lateral);
   const auto add = [&](const char* name, const char* medium, int priority, double radius_m) {
     const double across_m = radius_m + 0.02 * scale;
@@ -45,17 +46,12 @@ void addChestWall(const ProbePose& pose, double scale, std::vector<Part>& parts)
 
 // The tissue between the lungs: round the heart, and open towards the probe, where the lungs give
 // way to it.
-void addMediastinum(const ProbePose& pose, const ParametricHeart& heart, double window_rad,
+void addMediastinum(const ProbePose& pose, const ParametricHeart& heart,
+                    const std::vector<double>& reach_m, double window_rad,
                     std::vector<Part>& parts) {
-  static const SphereMesh kAround = geodesicSphere(9);
+  static const SphereMesh& kAround = geodesicSphere(Envelope::kFrequency);
   const Vec3d centre = heart.centre();
   const double scale = heart.parameters().body_scale;
-  std::vector<double> reach_m(kAround.directions.size(), 0);
-  for (const double phase : {0.0, heart.cycle().events().aortic_closes})
-    for (const Part& part : heart.at(phase))
-      if (part.kind.name == "pericardium")  // the same directions, since the same sphere mesh
-        for (std::size_t i = 0; i < reach_m.size(); ++i)
-          reach_m[i] = std::max(reach_m[i], length(part.points[i] - centre));
   const Vec3d to_probe = pose.apex - centre;
   const double probe_m = length(to_probe) + 0.03 * scale;
   std::vector<Vec3d> points;
@@ -71,7 +67,7 @@ void addMediastinum(const ProbePose& pose, const ParametricHeart& heart, double 
 }
 
 void addLungs(const ParametricHeart& heart, std::vector<Part>& parts) {
-  static const SphereMesh kLung = geodesicSphere(6);
+  static const SphereMesh& kLung = geodesicSphere(6);
   const double l = heart.lvLength();
   const auto add = [&](const char* name, Vec3d centre, Vec3d semi_axes) {
     parts.push_back(
@@ -83,7 +79,7 @@ void addLungs(const ParametricHeart& heart, std::vector<Part>& parts) {
 
 // Behind the left atrium, along the spine: from head to foot, which is across the view's long axis.
 void addDescendingAorta(const ParametricHeart& heart, std::vector<Part>& parts) {
-  static const SphereMesh kVessel = geodesicSphere(7);
+  static const SphereMesh& kVessel = geodesicSphere(7);
   const double l = heart.lvLength(), scale = heart.parameters().body_scale;
   const Vec3d behind = l * Vec3d{0.28, -0.49, -0.28}, along = l * Vec3d{0.62, 0.42, 0.10};
   const double radius_m = 0.011 * scale;
@@ -100,7 +96,7 @@ void addDescendingAorta(const ParametricHeart& heart, std::vector<Part>& parts) 
 
 // Under the heart, which rests on the diaphragm.
 void addAbdomen(const ParametricHeart& heart, std::vector<Part>& parts) {
-  static const SphereMesh kLobe = geodesicSphere(8);
+  static const SphereMesh& kLobe = geodesicSphere(8);
   const double l = heart.lvLength(), dome_m = 0.003 * heart.parameters().body_scale;
   const Vec3d centre = l * Vec3d{-0.75, -1.80, 0.35}, semi_axes = l * Vec3d{1.5, 1.25, 1.6};
   const auto add = [&](const char* name, const char* medium, int priority, double grow_m) {
@@ -113,7 +109,7 @@ void addAbdomen(const ParametricHeart& heart, std::vector<Part>& parts) {
 
 // Below the diaphragm, between the probe and the heart.
 void addLiver(const ProbePose& pose, const ParametricHeart& heart, std::vector<Part>& parts) {
-  static const SphereMesh kLiver = geodesicSphere(8);
+  static const SphereMesh& kLiver = geodesicSphere(8);
   const double scale = heart.parameters().body_scale;
   const Vec3d to_heart = pose.axis;
   // A flattened ball whose far side, the diaphragm, stands just before the sac.
@@ -132,7 +128,8 @@ void addLiver(const ProbePose& pose, const ParametricHeart& heart, std::vector<P
 
 }  // namespace
 
-std::vector<Part> surroundingsOf(View view, const ProbePose& pose, const ParametricHeart& heart) {
+std::vector<Part> surroundingsOf(View view, const ProbePose& pose, const ParametricHeart& heart,
+                                 const std::vector<double>& sac_reach_m) {
   std::vector<Part> parts;
   const bool from_below = view == View::subcostal;
   if (from_below) {
@@ -144,7 +141,7 @@ std::vector<Part> surroundingsOf(View view, const ProbePose& pose, const Paramet
   // Apical views look past it.
   if (view == View::plax || view == View::psax_base || view == View::psax_mid)
     addDescendingAorta(heart, parts);
-  addMediastinum(pose, heart, (from_below ? 80 : 60) * kDegree, parts);
+  addMediastinum(pose, heart, sac_reach_m, (from_below ? 80 : 60) * kDegree, parts);
   addLungs(heart, parts);
   return parts;
 }

@@ -9,6 +9,8 @@
 namespace echocine::heart {
 
 // Still parts for one view, in heart coordinates; all of lower priority than the heart's.
-std::vector<Part> surroundingsOf(View view, const ProbePose& pose, const ParametricHeart& heart);
+// `sac_reach_m`: as a recording has it.
+std::vector<Part> surroundingsOf(View view, const ProbePose& pose, const ParametricHeart& heart,
+                                 const std::vector<double>& sac_reach_m);
 
 }  // namespace echocine::heart

@@ -1,7 +1,9 @@
 #include "motion/heart/tube.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/check.h"
@@ -11,6 +13,7 @@ namespace echocine::heart {
 namespace {
 
 constexpr int kSections = 120, kFine = 40;
+constexpr double kFar = std::numeric_limits<double>::infinity();
 
 Vec3d catmullRom(Vec3d a, Vec3d b, Vec3d c, Vec3d d, double t) {
   return 0.5 * (2 * b + t * (c - a) + t * t * (2 * a - 5 * b + 4 * c - d) +
@@ -52,6 +55,15 @@ Tube::Tube(const std::vector<Station>& stations) {
     sections_.push_back({fine[i - 1].centre + t * (fine[i].centre - fine[i - 1].centre), u,
                          cross(tangent, u), std::lerp(fine[i - 1].radius_m, fine[i].radius_m, t)});
   }
+  for (std::size_t i = 0; i < sections_.size(); i += 4) {
+    Four& four = fours_.emplace_back(Four{{kFar, kFar, kFar, kFar}, {}, {}});
+    for (std::size_t lane = 0; lane < 4 && i + lane < sections_.size(); ++lane) {
+      const Vec3d centre = sections_[i + lane].centre;
+      four.x[lane] = centre.x;
+      four.y[lane] = centre.y;
+      four.z[lane] = centre.z;
+    }
+  }
 }
 
 Tube::Section Tube::at(double share) const {
@@ -79,15 +91,33 @@ Vec3d Tube::point(Vec3d direction, double thickness_m) const {
          radius_m * std::sin(azimuth_rad) * section.v;
 }
 
-Vec3d Tube::pushedOut(Vec3d point, double gap_m) const {
-  const Section* nearest = &sections_.front();
-  for (const Section& section : sections_)
-    if (length(point - section.centre) < length(point - nearest->centre)) nearest = &section;
-  const Vec3d away = point - nearest->centre;
-  const double distance_m = length(away), limit_m = nearest->radius_m + gap_m;
+// The first of the nearest. Distances that round alike count as equal.
+const Tube::Section& Tube::nearest(Vec3d point) const {
+  constexpr std::size_t kFours = (kSections + 4) / 4;
+  std::array<Lanes, kFours> squares;
+  Lanes least{kFar, kFar, kFar, kFar};
+  for (std::size_t k = 0; k < kFours; ++k) {
+    const Lanes x = point.x - fours_[k].x, y = point.y - fours_[k].y, z = point.z - fours_[k].z;
+    squares[k] = x * x + y * y + z * z;
+    least = squares[k] < least ? squares[k] : least;
+  }
+  const double best = std::min({least[0], least[1], least[2], least[3]}), best_m = std::sqrt(best);
+  for (std::size_t i = 0; i + 1 < sections_.size(); ++i) {
+    const double square = squares[i / 4][i % 4];
+    if (square <= best * (1 + 1e-15) && std::sqrt(square) == best_m) return sections_[i];
+  }
+  return sections_.back();
+}
+
+void Tube::pushOut(double gap_m, std::vector<Vec3d>& points) const {
   constexpr double kRounding_m = 4e-3;
-  if (distance_m > limit_m + 10 * kRounding_m || distance_m < 1e-6) return point;
-  return nearest->centre + (smoothMax(distance_m, limit_m, kRounding_m) / distance_m) * away;
+  for (Vec3d& point : points) {
+    const Section& section = nearest(point);
+    const Vec3d away = point - section.centre;
+    const double distance_m = length(away), limit_m = section.radius_m + gap_m;
+    if (distance_m > limit_m + 10 * kRounding_m || distance_m < 1e-6) continue;
+    point = section.centre + (smoothMax(distance_m, limit_m, kRounding_m) / distance_m) * away;
+  }
 }
 
 }  // namespace echocine::heart

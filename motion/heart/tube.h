@@ -21,8 +21,8 @@ class Tube {
   // For a direction of the unit sphere, z being the last station's end; grown outwards by
   // `thickness_m`, the ends staying where they are.
   Vec3d point(Vec3d direction, double thickness_m = 0) const;
-  // `point`, moved away from the line until it is at least `gap_m` outside.
-  Vec3d pushedOut(Vec3d point, double gap_m) const;
+  // Moves each point away from the line until it is at least `gap_m` outside.
+  void pushOut(double gap_m, std::vector<Vec3d>& points) const;
 
  private:
   struct Section {
@@ -30,8 +30,16 @@ class Tube {
     double radius_m;
   };
   Section at(double share) const;
+  const Section& nearest(Vec3d point) const;
+
+  // Coordinates of four sections' centres, to look at all of them at once.
+  using Lanes [[gnu::vector_size(32)]] = double;
+  struct Four {
+    Lanes x, y, z;
+  };
 
   std::vector<Section> sections_;  // evenly spaced by arc length
+  std::vector<Four> fours_;        // the last one's left over lanes lie at infinity
   double length_m_ = 0;
 };
 

@@ -12,6 +12,26 @@ namespace echocine::heart {
 namespace {
 
 constexpr double kFoldedCosine = -0.766, kTurnedCosine = 0.342;  // of 140 and of 70 degrees
+
+// A face's normal, as long as twice its area. Most pairs are told by the sign of their product, so
+// none is made a unit vector.
+struct Normal {
+  Vec3d area;
+  double squared;
+};
+
+// Whether the cosine between two normals is below kFoldedCosine; never where a face has no area.
+bool areFolded(const Normal& a, const Normal& b) {
+  const double product = dot(a.area, b.area);
+  return product < 0 && product * product > kFoldedCosine * kFoldedCosine * a.squared * b.squared;
+}
+// Whether it is below kTurnedCosine; always where a face has no area.
+bool areTurned(const Normal& a, const Normal& b) {
+  const double product = dot(a.area, b.area);
+  return !(product > 0 &&
+           product * product >= kTurnedCosine * kTurnedCosine * a.squared * b.squared);
+}
+
 constexpr int kBetween = 8;  // instants looked at from one keyframe to the next
 
 using Ring = std::vector<std::uint32_t>;
@@ -36,7 +56,7 @@ class FoldFinder {
     // A scene's own choice where it makes none.
     std::optional<KeyframeWeights> weights;
     if (count > 1) weights.emplace(beat.phases, Interpolation::catmull_rom);
-    std::vector<Vec3d> left, right = normalsOf(beat.points.front());
+    std::vector<Normal> left, right = normalsOf(beat.points.front());
     for (std::size_t k = 0; k < count; ++k) {
       checkpoint();
       left = std::move(right);
@@ -44,16 +64,13 @@ class FoldFinder {
       for (int i = 0; i < (count > 1 ? kBetween : 1); ++i) {
         const double end = k + 1 < count ? beat.phases[k + 1] : 1;
         const double phase = std::lerp(beat.phases[k], end, static_cast<double>(i) / kBetween);
-        const std::vector<Vec3d> now =
+        const std::vector<Normal> now =
             i == 0 ? left : normalsOf(pointsAt(phase, *weights, beat.points));
         for (const Neighbours& hinge : hinges_)
-          if (dot(now[hinge.a], now[hinge.b]) < kFoldedCosine &&
-              !(found(k, hinge.a) && found(k, hinge.b)))
+          if (areFolded(now[hinge.a], now[hinge.b]) && !(found(k, hinge.a) && found(k, hinge.b)))
             return;
         for (std::size_t f = 0; f < now.size(); ++f)
-          if (dot(now[f], left[f]) < kTurnedCosine && dot(now[f], right[f]) < kTurnedCosine &&
-              !found(k, f))
-            return;
+          if (areTurned(now[f], left[f]) && areTurned(now[f], right[f]) && !found(k, f)) return;
       }
     }
   }
@@ -69,13 +86,12 @@ class FoldFinder {
         points[v] = points[v] + term.weight * keyframes[term.row][v];
     return points;
   }
-  std::vector<Vec3d> normalsOf(const std::vector<Vec3d>& points) const {
-    std::vector<Vec3d> normals(faces_.size());
+  std::vector<Normal> normalsOf(const std::vector<Vec3d>& points) const {
+    std::vector<Normal> normals(faces_.size());
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       const Vec3d a = points[faces_[f][0]];
       const Vec3d area = cross(points[faces_[f][1]] - a, points[faces_[f][2]] - a);
-      const double size = length(area);
-      if (size > 0) normals[f] = (1 / size) * area;
+      normals[f] = {area, dot(area, area)};
     }
     return normals;
   }

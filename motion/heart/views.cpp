@@ -3,16 +3,7 @@
 namespace echocine::heart {
 namespace {
 
-std::vector<Vec3d> sacOf(const ParametricHeart& heart) {
-  for (const Part& part : heart.at(0))
-    if (part.kind.name == "pericardium") return part.points;
-  return {};
-}
-
-}  // namespace
-
-HeartFrame frameOf(const ParametricHeart& heart) {
-  const Landmarks marks = heart.landmarksAt(0);
+HeartFrame heartFrame(const ParametricHeart& heart, const Landmarks& marks) {
   HeartFrame frame;
   frame.length_m = heart.lvLength();
   frame.scale = heart.parameters().body_scale;
@@ -23,8 +14,21 @@ HeartFrame frameOf(const ParametricHeart& heart) {
   return frame;
 }
 
+}  // namespace
+
+HeartFrame frameOf(const ParametricHeart& heart) {
+  return heartFrame(heart, heart.landmarksAt(0));
+}
+
 ProbePose poseOf(View view, const ParametricHeart& heart) {
-  return standardPose(view, frameOf(heart), sacOf(heart));
+  return poseOf(view, heart, heart.shapeAt(0));
+}
+
+ProbePose poseOf(View view, const ParametricHeart& heart, const Shape& at_end_diastole) {
+  std::vector<Vec3d> sac;
+  for (const Part& part : at_end_diastole.parts)
+    if (part.kind.name == "pericardium") sac = part.points;
+  return standardPose(view, heartFrame(heart, at_end_diastole.places), sac);
 }
 
 }  // namespace echocine::heart

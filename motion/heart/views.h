@@ -15,5 +15,7 @@ HeartFrame frameOf(const ParametricHeart& heart);
 
 // Aimed by the heart at end-diastole, over which the probe stays where it is. Heart coordinates.
 ProbePose poseOf(View view, const ParametricHeart& heart);
+// The same for who has the heart at end-diastole.
+ProbePose poseOf(View view, const ParametricHeart& heart, const Shape& at_end_diastole);
 
 }  // namespace echocine::heart

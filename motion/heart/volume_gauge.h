@@ -10,25 +10,28 @@ namespace echocine::heart {
 // their kind of shape over the beat.
 class VolumeGauge {
  public:
-  template <typename PointOf>
-  VolumeGauge(int frequency, const PointOf& pointOf) : sphere_(geodesicSphere(frequency)) {
-    const double coarse = facets(sphere_, pointOf);
-    const double fine = facets(geodesicSphere(2 * frequency), pointOf);
+  // By the surface's points for the directions of geodesicSphere(frequency) and of one twice as
+  // fine.
+  VolumeGauge(int frequency, const std::vector<Vec3d>& coarse_points,
+              const std::vector<Vec3d>& fine_points)
+      : faces_(&geodesicSphere(frequency).faces) {
+    const double coarse = volumeOf(coarse_points, *faces_);
+    const double fine = volumeOf(fine_points, geodesicSphere(2 * frequency).faces);
     gain_ = (coarse + (fine - coarse) * 4 / 3) / coarse;
   }
 
   template <typename PointOf>
-  double operator()(const PointOf& pointOf) const {
-    return gain_ * facets(sphere_, pointOf);
+  VolumeGauge(int frequency, const PointOf& pointOf)
+      : VolumeGauge(frequency, pointsOn(geodesicSphere(frequency), pointOf),
+                    pointsOn(geodesicSphere(2 * frequency), pointOf)) {}
+
+  // Of points for the directions of geodesicSphere(frequency).
+  double operator()(const std::vector<Vec3d>& points) const {
+    return gain_ * volumeOf(points, *faces_);
   }
 
  private:
-  template <typename PointOf>
-  static double facets(const SphereMesh& sphere, const PointOf& pointOf) {
-    return volumeOf(pointsOn(sphere, pointOf), sphere.faces);
-  }
-
-  SphereMesh sphere_;
+  const std::vector<Face>* faces_;
   double gain_ = 1;
 };
 

@@ -35,7 +35,7 @@ std::pair<Instant, Instant> extremesOf(const Simulator& simulator) {
 
 Glimpse glimpse(const Spec& spec, const Draw& draw, std::size_t view) {
   const heart::ParametricHeart model = modelOf(draw.values);
-  heart::Recording recording = record(model, spec.views[view], spec.keyframes);
+  heart::Recording recording = recordBeat(model, spec.views[view], spec.keyframes);
   surroundProbe(spec, draw, view, model, recording);
   Scene scene = sceneOf(spec, draw, view, model.parameters(), recording);
   scene.truth = {};

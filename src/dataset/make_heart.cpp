@@ -154,7 +154,7 @@ Heart attempt(const Spec& spec, const Draw& draw, const Monitor& monitor) {
   heart::Recording recording;
   for (std::size_t v = 0; v < spec.views.size(); ++v) {
     if (v == 0)
-      recording = record(model, spec.views[v], spec.keyframes);
+      recording = recordBeat(model, spec.views[v], spec.keyframes);
     else
       recording.pose = poseOf(spec.views[v], model);  // the same beat from elsewhere
     surroundProbe(spec, draw, v, model, recording);

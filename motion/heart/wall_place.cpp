@@ -1,0 +1,165 @@
+#include "motion/heart/wall_place.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/check.h"
+#include "core/monotone_cubic.h"
+#include "motion/heart/control_mesh.h"
+#include "motion/heart/segments.h"
+#include "motion/heart/units.h"
+
+namespace echocine::heart {
+namespace {
+
+// The tables of the shape, over zeta: shares of the length from the mitral ring (0) to the apex (1)
+// at end-diastole. Our choice, drawn after one heart fitted to cine MR; below 0 lies the
+// outflow tract under the aortic valve.
+const MonotoneCubic& centreX() {
+  static const MonotoneCubic table({{-0.06, -0.03},
+                                    {0, -0.01},
+                                    {0.1, 0.008},
+                                    {0.2, 0.035},
+                                    {0.3, 0.054},
+                                    {0.4, 0.066},
+                                    {0.6, 0.056},
+                                    {0.8, 0.043},
+                                    {0.9, 0.023},
+                                    {1, 0}});
+  return table;
+}
+const MonotoneCubic& centreY() {
+  static const MonotoneCubic table({{-0.06, 0.15},
+                                    {0, 0.105},
+                                    {0.05, 0.083},
+                                    {0.1, 0.060},
+                                    {0.2, 0.030},
+                                    {0.3, 0.028},
+                                    {0.4, 0.038},
+                                    {0.7, 0.040},
+                                    {0.9, 0.022},
+                                    {1, 0}});
+  return table;
+}
+// sqrt of the semi-axes' ratio, x to y.
+const MonotoneCubic& flattening() {
+  static const MonotoneCubic table({{-0.06, 0.90},
+                                    {0, 0.94},
+                                    {0.1, 1.04},
+                                    {0.2, 1.05},
+                                    {0.35, 1.0},
+                                    {0.5, 1.01},
+                                    {0.65, 1.06},
+                                    {0.85, 1.05},
+                                    {1, 1}});
+  return table;
+}
+// How much of the contraction each height takes part in: the ring is stiff.
+const MonotoneCubic& participation() {
+  static const MonotoneCubic table(
+      {{-0.06, 0.05}, {0, 0.10}, {0.05, 0.22}, {0.1, 0.45}, {0.2, 0.82}, {0.3, 1}, {1, 1}});
+  return table;
+}
+// Wall thickness over that of the septum: thin over the valves, thinner at the apex.
+const MonotoneCubic& thickness() {
+  static const MonotoneCubic table({{-0.06, 0.22},
+                                    {-0.02, 0.25},
+                                    {0.03, 0.6},
+                                    {0.10, 0.92},
+                                    {0.2, 1},
+                                    {0.65, 0.96},
+                                    {0.85, 0.78},
+                                    {1, 0.58}});
+  return table;
+}
+// The free wall is thinner than the septum.
+double thicknessAbout(double phi_rad) {
+  return 0.93 + 0.07 * std::cos(phi_rad - 150 * kDegree);
+}
+
+// Of the outline, from the apex.
+double shareOf(Vec3d direction) {
+  return std::acos(std::clamp(direction.z, -1.0, 1.0)) / std::numbers::pi;
+}
+
+// What a place has that its direction does not matter to.
+WallPlace placeOf(double phi_rad, double zeta, double rho) {
+  WallPlace place{phi_rad,
+                  zeta,
+                  rho,
+                  centreX()(zeta),
+                  centreY()(zeta),
+                  flattening()(zeta),
+                  participation()(zeta),
+                  thickness()(zeta),
+                  thicknessAbout(phi_rad),
+                  0,
+                  0,
+                  {},
+                  {}};
+  const std::array<double, kSegments> shares = segmentShares(phi_rad, zeta);
+  std::size_t count = 0;
+  for (std::size_t s = 0; s < kSegments; ++s) {
+    if (shares[s] == 0) continue;
+    CHECK_LT(count, place.share.size());  // two of each of two rings
+    place.segment[count] = static_cast<std::uint8_t>(s);
+    place.share[count++] = shares[s];
+  }
+  return place;
+}
+
+}  // namespace
+
+const Meridian& wallOutline() {
+  static const Meridian table({{-0.06, 0},
+                               {-0.05, 0.022},
+                               {-0.03, 0.042},
+                               {0, 0.056},
+                               {0.05, 0.068},
+                               {0.10, 0.081},
+                               {0.20, 0.102},
+                               {0.30, 0.1066},
+                               {0.40, 0.0965},
+                               {0.50, 0.083},
+                               {0.60, 0.0665},
+                               {0.70, 0.0470},
+                               {0.80, 0.0298},
+                               {0.90, 0.0163},
+                               {0.95, 0.0093},
+                               {1, 0}});
+  return table;
+}
+
+WallPlace wallPlaceOf(Vec3d direction) {
+  const double share = shareOf(direction);
+  const Meridian::Point at = wallOutline().at(share);
+  // Turned by an odd angle, so that no edge of the mesh lies in an imaging plane.
+  constexpr double kTurn_rad = 0.3;
+  WallPlace place = placeOf(std::atan2(direction.y, direction.x) + kTurn_rad, at.zeta, at.rho);
+  constexpr double kStep = 0.015;  // of the outline
+  const Meridian::Point before = wallOutline().at(std::abs(share - kStep));
+  const Meridian::Point after = wallOutline().at(1 - std::abs(1 - share - kStep));
+  // Past either end the outline comes back on the other side.
+  const double rho_before = share < kStep ? -before.rho : before.rho;
+  const double rho_after = share > 1 - kStep ? -after.rho : after.rho;
+  place.outward = before.zeta - after.zeta;
+  place.rise = rho_after - rho_before;
+  return place;
+}
+
+WallPlace wallPlaceAt(double phi_rad, double zeta) {
+  return placeOf(phi_rad, zeta, wallOutline().rhoAt(zeta));
+}
+
+const std::vector<WallPlace>& meshPlaces() {
+  static const std::vector<WallPlace> places = [] {
+    std::vector<WallPlace> made;
+    for (const Vec3d direction : geodesicSphere(kWallFrequency).directions)
+      made.push_back(wallPlaceOf(direction));
+    return made;
+  }();
+  return places;
+}
+
+}  // namespace echocine::heart

@@ -1,0 +1,64 @@
+#include "motion/subdivision/shared_subdivision.h"
+
+#include <algorithm>
+#include <list>
+#include <mutex>
+
+namespace echocine {
+
+namespace {
+
+// A heart from dials has fewer topologies; larger meshes, a user's own, are not kept. Our choice.
+constexpr std::size_t kMostKept = 24, kLargestKept = 20000;
+
+struct Kept {
+  std::vector<Triangle> triangles;
+  std::uint32_t vertex_count;
+  int levels;
+  MeshTags tags;
+  std::shared_ptr<const Subdivision> made;
+
+  bool isOf(std::span<const Triangle> of, std::uint32_t vertices, const MeshTags& its_tags,
+            int its_levels) const {
+    return vertex_count == vertices && levels == its_levels && tags == its_tags &&
+           std::equal(triangles.begin(), triangles.end(), of.begin(), of.end());
+  }
+};
+
+struct Keep {
+  std::mutex mutex;
+  std::list<Kept> kept;  // the last used first
+};
+
+Keep& keep() {
+  static Keep keep;
+  return keep;
+}
+
+}  // namespace
+
+std::shared_ptr<const Subdivision> sharedSubdivision(std::span<const Triangle> triangles,
+                                                     std::uint32_t vertex_count,
+                                                     const MeshTags& tags, int levels,
+                                                     const SourcePlace& place) {
+  Keep& all = keep();
+  {
+    const std::lock_guard lock(all.mutex);
+    const auto found = std::find_if(all.kept.begin(), all.kept.end(), [&](const Kept& kept) {
+      return kept.isOf(triangles, vertex_count, tags, levels);
+    });
+    if (found != all.kept.end()) {
+      all.kept.splice(all.kept.begin(), all.kept, found);
+      return found->made;
+    }
+  }
+  // Made outside the lock: two threads at worst make the same.
+  auto made = std::make_shared<const Subdivision>(triangles, vertex_count, tags, levels, place);
+  if (made->triangles().size() > kLargestKept) return made;
+  const std::lock_guard lock(all.mutex);
+  all.kept.push_front({{triangles.begin(), triangles.end()}, vertex_count, levels, tags, made});
+  if (all.kept.size() > kMostKept) all.kept.pop_back();
+  return made;
+}
+
+}  // namespace echocine
