@@ -100,7 +100,7 @@ void setOutput(const Spec& spec, Scene& scene) {
   scene.truth.labels = scene.truth.contours = true;
   scene.truth.papillary_in_cavity = true;  // as laboratories trace it
   scene.truth.label_numbers = {{"lv_cavity", 1}, {"lv_wall", 2}, {"la", 3}};
-  scene.truth.tracks = wants("tracks") || spec.has("pointodyssey");
+  scene.truth.tracks = wants("tracks") || spec.has("pointodyssey") || spec.has("myotracker");
   scene.truth.function = wants("function");
   scene.truth.track_count = spec.track_count;
 }

@@ -87,8 +87,8 @@ Tracing measure(const Simulator& simulator, SurfaceId cavity, const Landmarks& p
     return discWidths(surface.triangles, positions, axis, across);
   };
   const double length_m = length(axis.apex_m - axis.base_m);
-  frame.biplane_ml = millilitresFromCubicMetres(
-      discVolume(length_m, widths({1, 0, 0}), widths({0, 1, 0})));
+  frame.biplane_ml =
+      millilitresFromCubicMetres(discVolume(length_m, widths({1, 0, 0}), widths({0, 1, 0})));
   const auto traced = traceCavity(longestContour(frame.contours, cavity), axis.base_m);
   if (!traced) return {};
   frame.disc_widths_m = traced->disc_widths_m;
@@ -103,7 +103,9 @@ bool showsLongAxis(View view) {
 }
 
 std::size_t nearestKeyframe(const heart::Recording& recording, double phase) {
-  const auto away = [&](double p) { return std::min(std::abs(p - phase), 1 - std::abs(p - phase)); };
+  const auto away = [&](double p) {
+    return std::min(std::abs(p - phase), 1 - std::abs(p - phase));
+  };
   const auto nearer = [&](double a, double b) { return away(a) < away(b); };
   return static_cast<std::size_t>(
       std::min_element(recording.phases.begin(), recording.phases.end(), nearer) -
@@ -112,8 +114,8 @@ std::size_t nearestKeyframe(const heart::Recording& recording, double phase) {
 
 void traceInstants(const Simulator& simulator, SurfaceId cavity, const heart::Recording& recording,
                    Loop& loop) {
-  for (const auto& [number, tracing] :
-       {std::pair(loop.instants.ed, &loop.ed_tracing), std::pair(loop.instants.es, &loop.es_tracing)}) {
+  for (const auto& [number, tracing] : {std::pair(loop.instants.ed, &loop.ed_tracing),
+                                        std::pair(loop.instants.es, &loop.es_tracing)}) {
     LoopFrame& frame = loop.frames[static_cast<std::size_t>(number)];
     const Landmarks& places = recording.places[nearestKeyframe(recording, frame.time.phase)];
     Tracing made = measure(simulator, cavity, places, loop.geometry, frame);
@@ -132,6 +134,9 @@ Loop makeLoop(const Spec& spec, const Draw& draw, std::size_t view,
   loop.geometry = pictureGeometry(loop.scene);
   const Simulator simulator(loop.scene);
   const CardiacClock& clock = simulator.cardiacClock();
+  if (spec.has("myotracker") && clock.frameCount() < kLeastTrackedFrames)  // of varied beats
+    throw SceneError(fmt::format("a loop of {} frames, \"myotracker\" needs {}", clock.frameCount(),
+                                 kLeastTrackedFrames));
   const SurfaceId cavity = *structureOf(loop.scene, Role::lv_cavity);
   Frame made;
   for (int i = 0; i < clock.frameCount(); ++i) {

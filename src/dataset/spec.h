@@ -53,8 +53,9 @@ struct Spec {
   double resolution_mm = 0;  // largest pixel; 0: whatever picture_px gives
   std::vector<std::string> truth;
   int track_count = 300;
-  std::vector<Parameter> parameters;      // of all hearts; they win over the populations'
-  std::vector<Population> populations;    // at least one
+  int shard_mb = 1000;  // of WebDataset, 10^6 bytes; a loop that is larger has a shard of its own
+  std::vector<Parameter> parameters;    // of all hearts; they win over the populations'
+  std::vector<Population> populations;  // at least one
   std::vector<CorrelatedGroup> correlated;
 
   std::size_t loops() const { return static_cast<std::size_t>(hearts) * views.size(); }
@@ -65,6 +66,9 @@ struct Spec {
   // All that is drawn for a heart of a population.
   std::vector<Parameter> parametersOf(const Population& population) const;
 };
+
+// MyoTracker's loader passes over loops with fewer frames.
+inline constexpr int kLeastTrackedFrames = 30;
 
 // Names of the layouts that loops are written in.
 std::vector<std::string> layoutNames();

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "dataset/spec.h"
+#include "motion/heart/parameters.h"
 #include "scene/scene_reader.h"
 
 namespace echocine::dataset {
@@ -78,16 +80,48 @@ bool isApical(View view) {
   return view == View::a4c || view == View::a2c || view == View::a3c;
 }
 
+// The most or the least that a parameter of a population gives; `otherwise` where it is not drawn.
+double endOf(const std::vector<Parameter>& parameters, const std::string& name, bool most,
+             double otherwise) {
+  for (const Parameter& p : parameters)
+    if (p.name == name)
+      if (const auto range = p.distribution.range()) return most ? range->second : range->first;
+  return otherwise;
+}
+
+// Of the fastest heart at the lowest frame rate, in beats that do not vary.
+void checkFrames(const Spec& spec) {
+  const Acquisition usual;
+  for (const Population& population : spec.populations) {
+    const std::vector<Parameter> all = spec.parametersOf(population);
+    const double heart_bpm = endOf(all, "heart.hr", true, heart::Parameters{}.heart_rate_bpm);
+    const double bpm = endOf(all, "scene.acquisition.heart_rate_bpm", true, heart_bpm),
+                 fps = endOf(all, "scene.acquisition.frame_rate_hz", false, usual.frame_rate_hz),
+                 beats = endOf(all, "scene.acquisition.beats", false, usual.beats);
+    const long frames = std::lround(beats * fps * 60 / bpm);
+    if (frames < kLeastTrackedFrames)
+      failOfLayouts(spec,
+                    fmt::format("\"myotracker\" needs {} frames, but a loop of \"{}\" may have "
+                                "{}: {:g} beats at {:g} frames/s and {:g} beats/min; raise "
+                                "scene.acquisition.frame_rate_hz or beats",
+                                kLeastTrackedFrames, population.name, frames, beats, fps, bpm));
+  }
+}
+
 void checkLayouts(const Spec& spec) {
+  if (spec.has("myotracker")) checkFrames(spec);
   const auto shows = [&](View view) {
     return std::find(spec.views.begin(), spec.views.end(), view) != spec.views.end();
   };
   if (spec.has("camus") && !(spec.views.size() == 2 && shows(View::a2c) && shows(View::a4c)))
-    failOfLayouts(spec, "\"camus\" holds two views of each heart, accepted: views = [\"a2c\", \"a4c\"]");
+    failOfLayouts(spec,
+                  "\"camus\" holds two views of each heart, accepted: views = [\"a2c\", \"a4c\"]");
   if (spec.has("camus") && spec.hearts > 9999)
     failOfLayouts(spec, fmt::format("\"camus\" numbers patients by four digits, but hearts is {}, "
                                     "accepted: up to 9999",
                                     spec.hearts));
+  if (spec.has("webdataset") && !spec.has("native"))
+    failOfLayouts(spec, "\"webdataset\" packs what \"native\" writes, accepted: both");
   if (spec.has("echonet") && !std::all_of(spec.views.begin(), spec.views.end(), isApical))
     failOfLayouts(spec, "\"echonet\" traces the long axis, accepted: views a4c, a2c and a3c");
 }

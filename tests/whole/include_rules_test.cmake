@@ -18,6 +18,7 @@ set(libraries
   "opencv2/(core|imgproc)=signal,metrics,video,output,compare"
   "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
   "zlib\\.h$=video,dataset"
+  "hdf5\\.h$=dataset"
   "CLI/=cli"
   "nlohmann/=scene,heart,output,page,simulate,view,compare,render,study,dataset,cli,python"
   "(pybind11/|Python\\.h$)=python"
