@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dataset/spec.h"
+#include "dataset/user_scenes.h"
 #include "motion/heart/parameters.h"
 #include "scene/scene_reader.h"
 
@@ -49,8 +50,23 @@ std::vector<TomlValue> extremes(const Distribution& d) {
   return {d.quantile(kEnd), d.quantile(1 - kEnd)};
 }
 
+// A scene in which keys are tried.
+struct TrialScene {
+  std::string text;
+  std::filesystem::path file;
+  NamedMeshes meshes;
+
+  void read(const std::vector<std::pair<std::string, TomlValue>>& values) const {
+    const std::string changed = withValues(text, file.string(), values);
+    if (meshes.empty())
+      parseScene(changed, file);
+    else
+      parseScene(changed, file, meshes);
+  }
+};
+
 // Every scene key at each of its extremes, the others in their middle.
-void tryScene(const Spec& spec) {
+void tryKeys(const Spec& spec, const TrialScene& trial) {
   std::vector<std::pair<std::string, TomlValue>> middle;
   std::vector<const Parameter*> tried;
   for (const Parameter& p : spec.parameters) {
@@ -63,13 +79,18 @@ void tryScene(const Spec& spec) {
     for (const TomlValue& value : extremes(tried[i]->distribution)) {
       values[i].second = value;
       try {
-        parseScene(withValues(kTrialScene, "scene", values), "scene", trialMesh());
+        trial.read(values);
       } catch (const SceneError& error) {
         throw SceneError(atPlace(tried[i]->place, fmt::format("with {} a scene is refused: {}",
                                                               tomlText(value), error.what())));
       }
     }
   }
+}
+
+void tryScenes(const Spec& spec) {
+  if (spec.scenes.empty()) tryKeys(spec, {kTrialScene, "scene", trialMesh()});
+  for (const UserScene& mine : spec.scenes) tryKeys(spec, {mine.text, mine.file, {}});
 }
 
 [[noreturn]] void failOfLayouts(const Spec& spec, const std::string& what) {
@@ -91,10 +112,13 @@ double endOf(const std::vector<Parameter>& parameters, const std::string& name, 
 
 // Of the fastest heart at the lowest frame rate, in beats that do not vary.
 void checkFrames(const Spec& spec) {
-  const Acquisition usual;
-  for (const Population& population : spec.populations) {
+  for (std::size_t i = 0; i < spec.populations.size(); ++i) {
+    const Population& population = spec.populations[i];
+    const bool own = !spec.scenes.empty();
+    const Acquisition usual = own ? spec.scenes[i].acquisition : Acquisition{};
     const std::vector<Parameter> all = spec.parametersOf(population);
-    const double heart_bpm = endOf(all, "heart.hr", true, heart::Parameters{}.heart_rate_bpm);
+    const double heart_bpm = own ? 60 * usual.heart_rate_hz
+                                 : endOf(all, "heart.hr", true, heart::Parameters{}.heart_rate_bpm);
     const double bpm = endOf(all, "scene.acquisition.heart_rate_bpm", true, heart_bpm),
                  fps = endOf(all, "scene.acquisition.frame_rate_hz", false, usual.frame_rate_hz),
                  beats = endOf(all, "scene.acquisition.beats", false, usual.beats);
@@ -129,7 +153,8 @@ void checkLayouts(const Spec& spec) {
 }  // namespace
 
 void checkSpec(const Spec& spec) {
-  tryScene(spec);
+  checkUserScenes(spec);
+  tryScenes(spec);
   checkLayouts(spec);
 }
 

@@ -7,6 +7,7 @@
 #include "core/nearest_word.h"
 #include "dataset/draws.h"
 #include "dataset/spec.h"
+#include "dataset/user_scenes.h"
 #include "motion/heart/parameters.h"
 #include "motion/heart/views.h"
 
@@ -236,11 +237,9 @@ Spec parseSpec(std::string_view text, const std::filesystem::path& path) {
   Sha256 digest;
   digest.update(ECHOCINE_VERSION);
   digest.update(withValues(text, path.string(), {}));  // whatever its comments are
-  spec.digest = digest.hex();
   spec.name = file.text("name", path.stem().string());
   spec.licence = file.text("licence", "CC0-1.0");
   spec.seed = static_cast<std::uint64_t>(file.integer("seed", 1, 0, 2147483647));
-  spec.hearts = file.integer("hearts", std::nullopt, 1, kMostHearts);
   readViews(file, spec);
   spec.layouts = readWords(file, "layouts", layoutNames(), {"native"});
   spec.truth = readWords(file, "truth", {"contours", "function", "labels", "tracks"},
@@ -250,6 +249,11 @@ Spec parseSpec(std::string_view text, const std::filesystem::path& path) {
     spec.shard_mb = file.integer("shard_mb", spec.shard_mb, 1, 100000);
   else
     file.unused("shard_mb", "layouts = [\"native\", \"webdataset\"]");
+  readUserScenes(file, spec, digest);
+  spec.digest = digest.hex();
+  const auto scenes = static_cast<int>(spec.scenes.size());
+  spec.hearts = file.integer("hearts", scenes > 0 ? std::optional(scenes) : std::nullopt,
+                             std::max(1, scenes), kMostHearts);
   spec.keyframes = file.integer("keyframes", spec.keyframes, 8, 100);
   spec.picture_px = file.integer("picture_px", spec.picture_px, 56, 4032);
   spec.resolution_mm = file.number("resolution_mm", 0.0, {.lo = 0, .hi = 10});
@@ -258,7 +262,7 @@ Spec parseSpec(std::string_view text, const std::filesystem::path& path) {
   readOffsets(file.table("offset"), spec.parameters);
   readSceneKeys(file.table("scene"), spec.parameters);
   readSubject(file.table("subject"), spec.parameters);
-  readPopulations(file, spec);
+  if (spec.scenes.empty()) readPopulations(file, spec);
   readCorrelated(file, spec);
   file.finish();
   checkSpec(spec);

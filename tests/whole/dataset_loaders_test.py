@@ -41,6 +41,8 @@ test = 33
 hr = 60
 edv = { uniform = [90, 150] }
 ef = { uniform = [0.4, 0.65] }
+[offset]
+rotate_deg = { uniform = [-1, 1] }
 [subject]
 age = { whole = [30, 80] }
 sex = { choice = ["F", "M"] }
@@ -100,6 +102,10 @@ class Native(Loaders):
         self.assertEqual(len(self.loops), 2 * HEARTS)
         self.assertEqual({row["split"] for row in self.loops.values()}, {"train", "val", "test"})
         self.assertEqual(len(rows_of(self.path("failed.csv"))), 0)
+        with open(self.path("loops.csv"), newline="") as file:
+            columns = next(csv.reader(file))
+        self.assertEqual(len(columns), len(set(columns)))
+        self.assertLessEqual({"offset.rotate_deg", "view_offset.rotation_deg"}, set(columns))
 
     def test_native_arrays_agree_with_the_table(self):
         for name, row in self.loops.items():
