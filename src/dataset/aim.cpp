@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "dataset/cavity_marks.h"
 #include "dataset/loop.h"
+#include "dataset/user_scenes.h"
 #include "motion/heart/heart_scene.h"
 #include "scene/names.h"
 #include "scene/probe_pose.h"
@@ -45,8 +47,8 @@ void turn(Pose& pose, Vec3d axis, double angle_rad) {
 
 // Turns the imaging plane about the line through the middle of the mitral ring along the lateral
 // axis, so that it misses the ventricle's apex by so many metres: the long axis is foreshortened.
-void missApex(double miss_m, const heart::Landmarks& places, Pose& pose) {
-  const Vec3d mitral = pose.fromWorld(places.mitral), apex = pose.fromWorld(places.apex);
+void missApex(double miss_m, const CavityMarks& marks, Pose& pose) {
+  const Vec3d mitral = pose.fromWorld(marks.mitral), apex = pose.fromWorld(marks.apex);
   const double reach_m = std::abs(apex.z - mitral.z);
   if (miss_m == 0 || !(reach_m > 0)) return;
   const double angle_rad = std::atan(miss_m / reach_m);
@@ -56,8 +58,8 @@ void missApex(double miss_m, const heart::Landmarks& places, Pose& pose) {
 }
 
 // The operator's hand: shifted along the probe's axes, then turned about its apex.
-void moveProbe(const Values& values, const heart::Landmarks& places, Pose& pose) {
-  missApex(1e-3 * numberAt(values, "offset.apex_miss_mm", 0), places, pose);
+void moveProbe(const Values& values, const CavityMarks& marks, Pose& pose) {
+  missApex(1e-3 * numberAt(values, "offset.apex_miss_mm", 0), marks, pose);
   pose.origin = pose.origin + 1e-3 * numberAt(values, "offset.shift_lateral_mm", 0) * pose.x_axis +
                 1e-3 * numberAt(values, "offset.shift_elevation_mm", 0) * pose.y_axis +
                 1e-3 * numberAt(values, "offset.shift_depth_mm", 0) * pose.z_axis;
@@ -100,9 +102,23 @@ void setOutput(const Spec& spec, Scene& scene) {
   scene.truth.labels = scene.truth.contours = true;
   scene.truth.papillary_in_cavity = true;  // as laboratories trace it
   scene.truth.label_numbers = {{"lv_cavity", 1}, {"lv_wall", 2}, {"la", 3}};
-  scene.truth.tracks = wants("tracks") || spec.has("pointodyssey");
+  scene.truth.tracks = wants("tracks") || spec.has("pointodyssey") || spec.has("myotracker");
   scene.truth.function = wants("function");
   scene.truth.track_count = spec.track_count;
+}
+
+std::vector<std::pair<std::string, TomlValue>> sceneKeys(const Values& all) {
+  std::vector<std::pair<std::string, TomlValue>> keys;
+  for (const auto& [name, value] : all)
+    if (name.starts_with(kScene)) keys.emplace_back(name.substr(kScene.size()), value);
+  return keys;
+}
+
+// To find by tracing that a heart's rays hardly bend takes as long as tracing its loop: they are
+// straight unless the spec or a user's scene says otherwise.
+void straightenRays(const Values& all, Scene& scene) {
+  if (all.count("scene.effects.refraction") == 0 && scene.effects.refraction == Switch::automatic)
+    scene.effects.refraction = Switch::off;
 }
 
 heart::Parameters parametersOf(const Values& values) {
@@ -131,7 +147,7 @@ void surroundProbe(const Spec& spec, const Draw& draw, std::size_t view,
   const Values all = draw.valuesOf(view);
   const heart::ProbePose& held = recording.pose;
   Pose pose = *poseOf(held.apex, held.axis, held.lateral);
-  moveProbe(all, recording.places.front(), pose);
+  moveProbe(all, marksOf(recording, 0), pose);
   heart::ProbePose moved = held;
   moved.apex = pose.origin;
   moved.axis = pose.z_axis;
@@ -141,24 +157,31 @@ void surroundProbe(const Spec& spec, const Draw& draw, std::size_t view,
   surround(spec.views[view], moved, model, recording);
 }
 
+Scene sceneOf(const Spec& spec, const Draw& draw, std::size_t view) {
+  const Values all = draw.valuesOf(view);
+  Scene scene = userScene(spec, draw, spec.views[view], sceneKeys(all));
+  straightenRays(all, scene);
+  CavityMarks marks;
+  if (numberAt(all, "offset.apex_miss_mm", 0) != 0) marks = marksOf(scene, MeshMotion(scene), 0);
+  moveProbe(all, marks, scene.probe.pose);
+  setSeeds(spec, draw, static_cast<int>(spec.views[view]), all, scene);
+  setOutput(spec, scene);
+  return scene;
+}
+
 Scene sceneOf(const Spec& spec, const Draw& draw, std::size_t view,
               const heart::Parameters& parameters, const heart::Recording& recording) {
   const Values all = draw.valuesOf(view);
-  std::vector<std::pair<std::string, TomlValue>> keys;
-  for (const auto& [name, value] : all)
-    if (name.starts_with(kScene)) keys.emplace_back(name.substr(kScene.size()), value);
   const std::string name = loopId(draw.heart + 1, spec.views[view]);
   const auto look = all.find("scene.signal.look");
   const Look wanted =
       look == all.end() ? Look::scanner
                         : valueOf<Look>(std::get<std::string>(look->second)).value_or(Look::paper);
-  const std::string text =
-      withValues(heart::sceneText(spec.views[view], parameters, recording, "", wanted), name, keys);
+  const std::string text = withValues(
+      heart::sceneText(spec.views[view], parameters, recording, "", wanted), name, sceneKeys(all));
   Scene scene = parseScene(text, name, heart::meshesOf(recording));
-  // To find by tracing that a heart's rays hardly bend takes as long as tracing its loop: they are
-  // straight unless the spec says otherwise.
-  if (all.count("scene.effects.refraction") == 0) scene.effects.refraction = Switch::off;
-  moveProbe(all, recording.places.front(), scene.probe.pose);
+  straightenRays(all, scene);
+  moveProbe(all, marksOf(recording, 0), scene.probe.pose);
   setSeeds(spec, draw, static_cast<int>(spec.views[view]), all, scene);
   setOutput(spec, scene);
   return scene;

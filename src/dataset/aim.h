@@ -15,6 +15,10 @@ heart::ParametricHeart modelOf(const Values& values);
 void surroundProbe(const Spec& spec, const Draw& draw, std::size_t view,
                    const heart::ParametricHeart& model, heart::Recording& recording);
 
+// The scene of a view of a user's heart, ready to simulate. Precondition: the spec has scenes.
+// Throws SceneError where values contradict each other.
+Scene sceneOf(const Spec& spec, const Draw& draw, std::size_t view);
+
 // The scene of a view of a recorded heart, ready to simulate. Throws SceneError where values
 // contradict each other.
 Scene sceneOf(const Spec& spec, const Draw& draw, std::size_t view,

@@ -24,8 +24,9 @@ Numbers numbersOf(std::span<const Json> records) {
     for (const Json& loop : record["loops"]) {
       for (const char* name : {"ef_percent", "edv_ml", "esv_ml", "frames", "mm_per_pixel"})
         take(name, loop[name]);
-      if (loop["offset"].is_object())
-        for (const auto& [name, value] : loop["offset"].items()) take("offset." + name, value);
+      if (loop["view_offset"].is_object())
+        for (const auto& [name, value] : loop["view_offset"].items())
+          take("view_offset." + name, value);
       for (const auto& [name, value] : loop["drawn"].items()) take(name, value);
     }
   std::erase_if(numbers, [](const auto& entry) {

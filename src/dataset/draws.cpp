@@ -47,11 +47,13 @@ std::optional<double> correlatedShare(const Place& place, const std::string& nam
 TomlValue valueAt(const Place& place, const Parameter& parameter) {
   if (!parameter.distribution.varies()) return parameter.distribution.quantile(0.5);
   const std::optional<double> share = correlatedShare(place, parameter.name);
-  return parameter.distribution.quantile(
-      share ? *share : uniformFromHash(place.hash(parameter.name)));
+  return parameter.distribution.quantile(share ? *share
+                                               : uniformFromHash(place.hash(parameter.name)));
 }
 
 const Population& populationAt(const Spec& spec, int heart, int attempt) {
+  if (!spec.scenes.empty())
+    return spec.populations[static_cast<std::size_t>(heart) % spec.scenes.size()];
   double u = uniformFromHash(hashFor(spec, "population", heart, attempt));
   for (const Population& population : spec.populations)
     if ((u -= population.weight) < 0) return population;

@@ -33,11 +33,16 @@ std::pair<Instant, Instant> extremesOf(const Simulator& simulator) {
   return {ed, es};
 }
 
-Glimpse glimpse(const Spec& spec, const Draw& draw, std::size_t view) {
+Scene drawnScene(const Spec& spec, const Draw& draw, std::size_t view) {
+  if (!spec.scenes.empty()) return sceneOf(spec, draw, view);
   const heart::ParametricHeart model = modelOf(draw.values);
   heart::Recording recording = recordBeat(model, spec.views[view], spec.keyframes);
   surroundProbe(spec, draw, view, model, recording);
-  Scene scene = sceneOf(spec, draw, view, model.parameters(), recording);
+  return sceneOf(spec, draw, view, model.parameters(), recording);
+}
+
+Glimpse glimpse(const Spec& spec, const Draw& draw, std::size_t view) {
+  Scene scene = drawnScene(spec, draw, view);
   scene.truth = {};
   const Simulator simulator(scene);
   const auto [ed, es] = extremesOf(simulator);

@@ -10,7 +10,8 @@ namespace echocine::dataset {
 
 std::vector<const Layout*> layoutsOf(const Spec& spec) {
   std::vector<const Layout*> wanted;
-  for (const Layout* layout : {&kCamus, &kEchonet, &kNative, &kNnunet, &kPointodyssey})
+  for (const Layout* layout :
+       {&kCamus, &kEchonet, &kMyotracker, &kNative, &kNnunet, &kPointodyssey, &kWebdataset})
     if (spec.has(layout->name)) wanted.push_back(layout);
   return wanted;
 }

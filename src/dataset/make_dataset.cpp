@@ -67,7 +67,8 @@ Done makeOne(const Spec& spec, int heart, const WorkFolder& work, const Monitor&
   }
   Json record = recordOf(spec, *made);
   Sink sink(work.folder());
-  for (const Layout* layout : layoutsOf(spec)) layout->write(spec, *made, sink, record);
+  for (const Layout* layout : layoutsOf(spec))
+    if (layout->write != nullptr) layout->write(spec, *made, sink, record);
   Done done;
   done.loops = made->loops.size();
   done.impossible = made->impossible.size();
@@ -82,6 +83,16 @@ void add(const Done& done, MakeSummary& summary) {
   summary.impossible += done.impossible;
   summary.kept += done.kept;
   summary.failed += done.failed;
+}
+
+// Of a finished heart's files, those that a layout's merge reads: of many hearts they are many.
+void keepFiles(const Spec& spec, Json& record) {
+  if (isFailure(record)) return;
+  Json kept = Json::object();
+  if (spec.has("webdataset"))
+    for (const auto& [name, mark] : record["files"].items())
+      if (name.starts_with("native/")) kept[name] = mark;
+  record["files"] = std::move(kept);
 }
 
 }  // namespace
@@ -130,7 +141,7 @@ MakeSummary mergeParts(const Spec& spec, const std::filesystem::path& folder) {
       continue;
     }
     add(countsOf(*record), summary);
-    record->erase("files");
+    keepFiles(spec, *record);
     (isFailure(*record) ? failures : records).push_back(std::move(*record));
   }
   if (!missing.empty()) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 
 #include "core/error.h"
 #include "core/hash_random.h"
@@ -12,6 +13,7 @@
 #include "core/units.h"
 #include "dataset/aim.h"
 #include "dataset/attempts.h"
+#include "dataset/cavity_marks.h"
 #include "dataset/tracing.h"
 #include "motion/cycle/ecg.h"
 #include "motion/heart/heart_scene.h"
@@ -23,7 +25,7 @@ namespace echocine::dataset {
 
 namespace {
 
-using heart::Landmarks;
+using MarksAt = std::function<CavityMarks(const Simulator& simulator, double phase)>;
 
 // For tests: makes a share of all hearts fail, by their numbers.
 void failIfAsked(const Spec& spec, int heart) {
@@ -74,21 +76,21 @@ Tracing inPixels(const PlaneTracing& traced, const PictureGeometry& geometry) {
 }
 
 // Volumes by Simpson's rule, and the tracing, of a frame at which the landmarks are known.
-Tracing measure(const Simulator& simulator, SurfaceId cavity, const Landmarks& places,
+Tracing measure(const Simulator& simulator, SurfaceId cavity, const CavityMarks& marks,
                 const PictureGeometry& geometry, LoopFrame& frame) {
   const Pose& pose = simulator.scene().probe.pose;
   SurfaceFrame surfaces;
   simulator.motion().frameAt(frame.time.phase, surfaces, false);
   const SurfaceTopology& surface = simulator.motion().surfaces()[index(cavity)];
   const std::vector<Vec3f>& positions = surfaces.positions_m[index(cavity)];
-  const LongAxis axis{pose.fromWorld(places.mitral), pose.fromWorld(places.apex)};
+  const LongAxis axis{pose.fromWorld(marks.mitral), pose.fromWorld(marks.apex)};
   const auto widths = [&](Vec3d world) {  // in the heart's own four- and two-chamber directions
     const Vec3d across{dot(world, pose.x_axis), dot(world, pose.y_axis), dot(world, pose.z_axis)};
     return discWidths(surface.triangles, positions, axis, across);
   };
   const double length_m = length(axis.apex_m - axis.base_m);
   frame.biplane_ml = millilitresFromCubicMetres(
-      discVolume(length_m, widths({1, 0, 0}), widths({0, 1, 0})));
+      discVolume(length_m, widths(marks.lateral), widths(marks.anterior)));
   const auto traced = traceCavity(longestContour(frame.contours, cavity), axis.base_m);
   if (!traced) return {};
   frame.disc_widths_m = traced->disc_widths_m;
@@ -102,36 +104,30 @@ bool showsLongAxis(View view) {
   return view == View::a4c || view == View::a2c || view == View::a3c || view == View::plax;
 }
 
-std::size_t nearestKeyframe(const heart::Recording& recording, double phase) {
-  const auto away = [&](double p) { return std::min(std::abs(p - phase), 1 - std::abs(p - phase)); };
-  const auto nearer = [&](double a, double b) { return away(a) < away(b); };
-  return static_cast<std::size_t>(
-      std::min_element(recording.phases.begin(), recording.phases.end(), nearer) -
-      recording.phases.begin());
-}
-
-void traceInstants(const Simulator& simulator, SurfaceId cavity, const heart::Recording& recording,
+void traceInstants(const Simulator& simulator, SurfaceId cavity, const MarksAt& marks_at,
                    Loop& loop) {
-  for (const auto& [number, tracing] :
-       {std::pair(loop.instants.ed, &loop.ed_tracing), std::pair(loop.instants.es, &loop.es_tracing)}) {
+  for (const auto& [number, tracing] : {std::pair(loop.instants.ed, &loop.ed_tracing),
+                                        std::pair(loop.instants.es, &loop.es_tracing)}) {
     LoopFrame& frame = loop.frames[static_cast<std::size_t>(number)];
-    const Landmarks& places = recording.places[nearestKeyframe(recording, frame.time.phase)];
-    Tracing made = measure(simulator, cavity, places, loop.geometry, frame);
+    const CavityMarks marks = marks_at(simulator, frame.time.phase);
+    Tracing made = measure(simulator, cavity, marks, loop.geometry, frame);
     if (showsLongAxis(loop.view)) *tracing = std::move(made);
   }
 }
 
-Loop makeLoop(const Spec& spec, const Draw& draw, std::size_t view,
-              const heart::ParametricHeart& model, const heart::Recording& recording,
-              const Monitor& monitor) {
+Loop makeLoop(const Spec& spec, const Draw& draw, std::size_t view, Scene scene,
+              const MarksAt& marks_at, const Monitor& monitor) {
   Loop loop;
   loop.view = spec.views[view];
   loop.id = loopId(draw.heart + 1, loop.view);
   loop.values = draw.valuesOf(view);
-  loop.scene = sceneOf(spec, draw, view, model.parameters(), recording);
+  loop.scene = std::move(scene);
   loop.geometry = pictureGeometry(loop.scene);
   const Simulator simulator(loop.scene);
   const CardiacClock& clock = simulator.cardiacClock();
+  if (spec.has("myotracker") && clock.frameCount() < kLeastTrackedFrames)  // of varied beats
+    throw SceneError(fmt::format("a loop of {} frames, \"myotracker\" needs {}", clock.frameCount(),
+                                 kLeastTrackedFrames));
   const SurfaceId cavity = *structureOf(loop.scene, Role::lv_cavity);
   Frame made;
   for (int i = 0; i < clock.frameCount(); ++i) {
@@ -142,24 +138,40 @@ Loop makeLoop(const Spec& spec, const Draw& draw, std::size_t view,
     loop.ecg.push_back(ecgAmplitude(time.time_in_beat_s, time.beat_s));
   }
   loop.instants = instantsOf(loop.frames);
-  traceInstants(simulator, cavity, recording, loop);
+  traceInstants(simulator, cavity, marks_at, loop);
   loop.tracked = simulator.truth()->tracked();
   loop.offset = simulator.truth()->view();
   return loop;
 }
 
-Heart attempt(const Spec& spec, const Draw& draw, const Monitor& monitor) {
+void addUserLoops(const Spec& spec, const Draw& draw, const Monitor& monitor, Heart& made) {
+  const MarksAt marks_at = [](const Simulator& simulator, double phase) {
+    return marksOf(simulator.scene(), simulator.motion(), phase);
+  };
+  for (std::size_t v = 0; v < spec.views.size(); ++v)
+    made.loops.push_back(makeLoop(spec, draw, v, sceneOf(spec, draw, v), marks_at, monitor));
+}
+
+void addLoops(const Spec& spec, const Draw& draw, const Monitor& monitor, Heart& made) {
   const heart::ParametricHeart model = modelOf(draw.values);
-  Heart made{draw.heart + 1, draw.attempt, draw.population->name, spec.splitOf(draw.heart), {}};
   heart::Recording recording;
+  const MarksAt marks_at = [&](const Simulator&, double phase) {
+    return marksOf(recording, phase);
+  };
   for (std::size_t v = 0; v < spec.views.size(); ++v) {
     if (v == 0)
       recording = recordBeat(model, spec.views[v], spec.keyframes);
     else
       recording.pose = poseOf(spec.views[v], model);  // the same beat from elsewhere
     surroundProbe(spec, draw, v, model, recording);
-    made.loops.push_back(makeLoop(spec, draw, v, model, recording, monitor));
+    Scene scene = sceneOf(spec, draw, v, model.parameters(), recording);
+    made.loops.push_back(makeLoop(spec, draw, v, std::move(scene), marks_at, monitor));
   }
+}
+
+Heart attempt(const Spec& spec, const Draw& draw, const Monitor& monitor) {
+  Heart made{draw.heart + 1, draw.attempt, draw.population->name, spec.splitOf(draw.heart), {}};
+  (spec.scenes.empty() ? addLoops : addUserLoops)(spec, draw, monitor, made);
   return made;
 }
 

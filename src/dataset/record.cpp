@@ -42,7 +42,8 @@ Json loopJson(const Loop& loop) {
             {"esv_single_plane_ml", es.single_plane_ml},
             {"ef_single_plane_percent", ejected(ed.single_plane_ml, es.single_plane_ml)},
             {"length_in_plane_mm", 1e3 * ed.traced_length_m}};
-  json["offset"] = offsetJson(loop.offset);
+  // Measured; what was drawn for it is "offset".
+  json["view_offset"] = offsetJson(loop.offset);
   json["drawn"] = jsonOf(loop.values);
   return json;
 }

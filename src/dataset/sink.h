@@ -29,10 +29,12 @@ class Sink {
   void writeCine(const std::string& name, std::span<const GreyImage* const> images,
                  double frame_rate_hz);
 
+  const std::filesystem::path& folder() const { return folder_; }
+  // Where a file goes, its folders made.
+  std::filesystem::path place(const std::string& name) const;
   const std::map<std::string, FileMark>& files() const { return files_; }
 
  private:
-  std::filesystem::path place(const std::string& name) const;
   std::filesystem::path folder_;
   std::map<std::string, FileMark> files_;
 };

@@ -15,9 +15,15 @@ bool Spec::has(std::string_view layout) const {
 }
 
 Split Spec::splitOf(int heart) const {
-  const auto until = [this](double share) { return std::llround(share * hearts); };
-  if (heart < until(split[0])) return Split::train;
-  return heart < until(split[0] + split[1]) ? Split::val : Split::test;
+  const int all = scenes.empty() ? hearts : static_cast<int>(scenes.size());
+  const int number = scenes.empty() ? heart : heart % all;
+  const auto until = [all](double share) { return std::llround(share * all); };
+  if (number < until(split[0])) return Split::train;
+  return number < until(split[0] + split[1]) ? Split::val : Split::test;
+}
+
+const UserScene& Spec::sceneOf(int heart) const {
+  return scenes[static_cast<std::size_t>(heart) % scenes.size()];
 }
 
 std::vector<Parameter> Spec::parametersOf(const Population& population) const {

@@ -30,6 +30,14 @@ struct Population {
   std::vector<Parameter> parameters;  // "heart." each
 };
 
+// A scene of the user, which brings its own heart.
+struct UserScene {
+  std::string name;  // as the spec has it
+  std::filesystem::path file;
+  std::string text;
+  Acquisition acquisition;  // where nothing is drawn
+};
+
 // Parameters drawn together (draws.h).
 struct CorrelatedGroup {
   std::vector<std::string> names;
@@ -53,18 +61,25 @@ struct Spec {
   double resolution_mm = 0;  // largest pixel; 0: whatever picture_px gives
   std::vector<std::string> truth;
   int track_count = 300;
-  std::vector<Parameter> parameters;      // of all hearts; they win over the populations'
-  std::vector<Population> populations;    // at least one
+  int shard_mb = 1000;  // of WebDataset, 10^6 bytes; a loop that is larger has a shard of its own
+  std::vector<Parameter> parameters;    // of all hearts; they win over the populations'
+  std::vector<UserScene> scenes;        // in place of the parametric heart; empty: none
+  std::vector<Population> populations;  // at least one; of scenes one each, in their order
   std::vector<CorrelatedGroup> correlated;
 
   std::size_t loops() const { return static_cast<std::size_t>(hearts) * views.size(); }
   bool has(std::string_view layout) const;
   // Hearts in their order: the first ones train, then validation, then test. They are independent
-  // draws, and some loaders split by number.
+  // draws, and some loaders split by number. All draws of one user's scene are in one split.
   Split splitOf(int heart) const;
+  // Of a drawn heart: the scenes take turns. Precondition: there are some.
+  const UserScene& sceneOf(int heart) const;
   // All that is drawn for a heart of a population.
   std::vector<Parameter> parametersOf(const Population& population) const;
 };
+
+// MyoTracker's loader passes over loops with fewer frames.
+inline constexpr int kLeastTrackedFrames = 30;
 
 // Names of the layouts that loops are written in.
 std::vector<std::string> layoutNames();

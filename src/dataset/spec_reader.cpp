@@ -7,6 +7,7 @@
 #include "core/nearest_word.h"
 #include "dataset/draws.h"
 #include "dataset/spec.h"
+#include "dataset/user_scenes.h"
 #include "motion/heart/parameters.h"
 #include "motion/heart/views.h"
 
@@ -41,16 +42,16 @@ Parameter readBounded(TomlTable& table, const Bounds& bounds, const std::string&
   const std::string accepted = fmt::format("accepted: {:g} to {:g}", bounds.low, bounds.high);
   if (!range) table.fail(bounds.key, "gives what is no number, " + accepted);
   if (range->first < bounds.low || range->second > bounds.high)
-    table.fail(bounds.key, fmt::format("reaches from {:g} to {:g}, {}", range->first,
-                                       range->second, accepted));
+    table.fail(bounds.key,
+               fmt::format("reaches from {:g} to {:g}, {}", range->first, range->second, accepted));
   return p;
 }
 
 void readSegments(TomlTable& heart, std::vector<Parameter>& to) {
   for (auto& [word, segment] : heart.namedTables("segments")) {
     if (segmentsOf(word).empty())
-      heart.fail("segments", fmt::format("\"{}\" is no segment, accepted: {}", word,
-                                         segmentWords()));
+      heart.fail("segments",
+                 fmt::format("\"{}\" is no segment, accepted: {}", word, segmentWords()));
     for (const Bounds& bounds : kSegment)
       if (segment.has(bounds.key))
         to.push_back(readBounded(segment, bounds, "heart.segments." + word + "."));
@@ -76,8 +77,8 @@ void readOffsets(TomlTable offset, std::vector<Parameter>& to) {
 
 // Those of a scene that say how a heart is imaged; its parts and files are the program's own.
 void readSceneKeys(TomlTable scene, std::vector<Parameter>& to) {
-  for (const char* section :
-       {"probe", "acquisition", "motion", "effects", "speckle", "artefacts", "signal", "accuracy"}) {
+  for (const char* section : {"probe", "acquisition", "motion", "effects", "speckle", "artefacts",
+                              "signal", "accuracy"}) {
     TomlTable keys = scene.table(section);
     for (const std::string& key : keys.keys())
       to.push_back(readParameter(keys, key, fmt::format("scene.{}.", section)));
@@ -169,13 +170,14 @@ void readCorrelated(TomlTable& file, Spec& spec) {
                                      [&](const Population& p) { return has(p.parameters); });
       if (!known)
         table.fail("parameters", fmt::format("\"{}\" is drawn nowhere in this spec, accepted: "
-                                             "names such as heart.edv", name));
+                                             "names such as heart.edv",
+                                             name));
       if (std::find(taken.begin(), taken.end(), name) != taken.end())
         table.fail("parameters", fmt::format("\"{}\" is correlated twice, accepted: once", name));
       if (isOfHeart(name) != isOfHeart(group.names.front()))
         table.fail("parameters", fmt::format("\"{}\" and \"{}\" are not drawn together: one is the "
-                                             "heart's, the other a view's", name,
-                                             group.names.front()));
+                                             "heart's, the other a view's",
+                                             name, group.names.front()));
       taken.push_back(name);
     }
     group.factor = readFactor(table, group.names.size());
@@ -224,7 +226,7 @@ void readSplit(TomlTable split, Spec& spec) {
 }  // namespace
 
 std::vector<std::string> layoutNames() {
-  return {"camus", "echonet", "native", "nnunet", "pointodyssey"};
+  return {"camus", "echonet", "myotracker", "native", "nnunet", "pointodyssey", "webdataset"};
 }
 
 Spec parseSpec(std::string_view text, const std::filesystem::path& path) {
@@ -235,16 +237,23 @@ Spec parseSpec(std::string_view text, const std::filesystem::path& path) {
   Sha256 digest;
   digest.update(ECHOCINE_VERSION);
   digest.update(withValues(text, path.string(), {}));  // whatever its comments are
-  spec.digest = digest.hex();
   spec.name = file.text("name", path.stem().string());
   spec.licence = file.text("licence", "CC0-1.0");
   spec.seed = static_cast<std::uint64_t>(file.integer("seed", 1, 0, 2147483647));
-  spec.hearts = file.integer("hearts", std::nullopt, 1, kMostHearts);
   readViews(file, spec);
   spec.layouts = readWords(file, "layouts", layoutNames(), {"native"});
   spec.truth = readWords(file, "truth", {"contours", "function", "labels", "tracks"},
                          {"contours", "labels"});
   spec.track_count = file.integer("track_count", spec.track_count, 3, 100000);
+  if (spec.has("webdataset"))
+    spec.shard_mb = file.integer("shard_mb", spec.shard_mb, 1, 100000);
+  else
+    file.unused("shard_mb", "layouts = [\"native\", \"webdataset\"]");
+  readUserScenes(file, spec, digest);
+  spec.digest = digest.hex();
+  const auto scenes = static_cast<int>(spec.scenes.size());
+  spec.hearts = file.integer("hearts", scenes > 0 ? std::optional(scenes) : std::nullopt,
+                             std::max(1, scenes), kMostHearts);
   spec.keyframes = file.integer("keyframes", spec.keyframes, 8, 100);
   spec.picture_px = file.integer("picture_px", spec.picture_px, 56, 4032);
   spec.resolution_mm = file.number("resolution_mm", 0.0, {.lo = 0, .hi = 10});
@@ -253,7 +262,7 @@ Spec parseSpec(std::string_view text, const std::filesystem::path& path) {
   readOffsets(file.table("offset"), spec.parameters);
   readSceneKeys(file.table("scene"), spec.parameters);
   readSubject(file.table("subject"), spec.parameters);
-  readPopulations(file, spec);
+  if (spec.scenes.empty()) readPopulations(file, spec);
   readCorrelated(file, spec);
   file.finish();
   checkSpec(spec);

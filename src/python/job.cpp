@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/error.h"
@@ -117,24 +118,31 @@ void issueWarnings(const std::vector<std::string>& lines) {
     if (PyErr_WarnEx(type.ptr(), line.c_str(), 2) != 0) throw py::error_already_set();
 }
 
-// Looks for signals from inside work. Only the process's first thread is told of them, so others
-// never wait for the interpreter's lock.
+// Looks for signals from inside work. Only the process's first thread is told of them: it looks,
+// and what helps it reads what it has seen. No other thread waits for the interpreter's lock.
 class SignalWatch {
  public:
   bool stopWanted() {
-    if (raised) return true;
-    if (!hears_ || Clock::now() < next_) return false;
+    if (stop_.load()) return true;
+    if (!hears_ || std::this_thread::get_id() != mine_ || Clock::now() < next_) return false;
     next_ = Clock::now() + kLook;
     const py::gil_scoped_acquire held;
-    if (PyErr_CheckSignals() != 0) raised.emplace();
-    return raised.has_value();
+    if (PyErr_CheckSignals() != 0) {
+      raised_.emplace();
+      stop_ = true;
+    }
+    return stop_;
   }
-  std::optional<py::error_already_set> raised;
+  // Of the thread that began, after the work.
+  const std::optional<py::error_already_set>& raised() const { return raised_; }
 
  private:
   using Clock = std::chrono::steady_clock;
+  const std::thread::id mine_ = std::this_thread::get_id();
   const bool hears_ = ::getpid() == ::gettid();
   Clock::time_point next_ = Clock::now() + kLook;
+  std::optional<py::error_already_set> raised_;
+  std::atomic<bool> stop_{false};
 };
 
 }  // namespace
@@ -151,7 +159,7 @@ void runHere(const std::function<void()>& work) {
       thrown = std::current_exception();
     }
   }
-  if (watch.raised) throw py::error_already_set(*watch.raised);
+  if (watch.raised()) throw py::error_already_set(*watch.raised());
   if (thrown) std::rethrow_exception(thrown);
 }
 

@@ -60,6 +60,24 @@ TEST(DatasetSpec, LayoutsThatCannotHoldTheLoopsAreRefused) {
                 {"echonet", "a4c"});
 }
 
+TEST(DatasetSpec, LoopsTooShortForMyotrackerAreRefusedWhereAnyMayBe) {
+  const std::string start = kStart + "layouts = [\"myotracker\"]\n";
+  EXPECT_NO_THROW(parseSpec(start, "spec.toml"));
+  const std::string rate = "[scene.acquisition]\nframe_rate_hz = { uniform = [25, 60] }\n";
+  expectRefused(start + rate, {"spec.toml", "layouts", "myotracker", "30 frames", "may have 23"});
+  EXPECT_NO_THROW(parseSpec(start + rate + "beats = 2\n", "spec.toml"));
+  expectRefused(start + "[heart]\nhr = { whole = [60, 110] }\n", {"myotracker", "110 beats/min"});
+  EXPECT_NO_THROW(parseSpec(start + "[heart]\nhr = { whole = [60, 101] }\n", "spec.toml"));
+}
+
+TEST(DatasetSpec, ShardsArePackedFromTheNativeLayout) {
+  expectRefused(kStart + "layouts = [\"webdataset\"]\n", {"layouts", "webdataset", "native"});
+  expectRefused(kStart + "shard_mb = 100\n", {"spec.toml:3", "shard_mb", "webdataset"});
+  const std::string start = kStart + "layouts = [\"native\", \"webdataset\"]\n";
+  EXPECT_EQ(parseSpec(start, "spec.toml").shard_mb, 1000);
+  expectRefused(start + "shard_mb = 0\n", {"spec.toml:4", "shard_mb", "1 to"});
+}
+
 TEST(DatasetSpec, CommentsMakeNoOtherDataset) {
   const Spec plain = parseSpec(kStart, "a.toml"),
              other = parseSpec("# hearts\n" + kStart, "a.toml");

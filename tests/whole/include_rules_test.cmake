@@ -18,6 +18,7 @@ set(libraries
   "opencv2/(core|imgproc)=signal,metrics,video,output,compare"
   "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
   "zlib\\.h$=video,dataset"
+  "hdf5\\.h$=dataset"
   "CLI/=cli"
   "nlohmann/=scene,heart,output,page,simulate,view,compare,render,study,dataset,cli,python"
   "(pybind11/|Python\\.h$)=python"
@@ -55,7 +56,7 @@ set(rooms
   "render=simulate,cycle,output,page,video,truth|signal,motion,view"
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
   "echocine=render,simulate,heart"
-  "dataset=simulate,output,cycle,heart,truth,signal|motion,video,page"
+  "dataset=simulate,output,motion,cycle,heart,truth,signal|views,video,page"
   "python=render,compare,study,dataset,simulate,heart,cycle|output,video,motion,cycle,truth,signal,geometry"
   "cli=render,compare,study,dataset,output,view|video,simulate,motion,keyframes,cycle,heart")
 
