@@ -63,24 +63,28 @@ Vec3f NearestVertex::to(Vec3f place_m) const {
   const float outside = std::sqrt(off.x * off.x + off.y * off.y + off.z * off.z);
   float best2 = std::numeric_limits<float>::infinity();
   Vec3f best = points_m_.front();
+  const auto look = [&](std::size_t first_bin, std::size_t last_bin) {
+    for (std::uint32_t i = starts_[first_bin]; i < starts_[last_bin + 1]; ++i) {
+      const Vec3f d = points_m_[i] - place_m;
+      const float d2 = d.x * d.x + d.y * d.y + d.z * d.z;
+      if (d2 < best2) {
+        best2 = d2;
+        best = points_m_[i];
+      }
+    }
+  };
   for (int shell = 0; shell <= std::max({nx_, ny_, nz_}); ++shell) {
     const float least = std::max(static_cast<float>(shell - 1) * edge_m_ - outside, 0.0f);
     if (best2 < least * least) break;
+    const int x0 = cx - shell, x1 = cx + shell;
     for (int z = std::max(cz - shell, 0); z <= std::min(cz + shell, nz_ - 1); ++z)
       for (int y = std::max(cy - shell, 0); y <= std::min(cy + shell, ny_ - 1); ++y) {
-        const bool face = std::abs(z - cz) == shell || std::abs(y - cy) == shell;
-        for (int x = cx - shell; x <= cx + shell; x += face || shell == 0 ? 1 : 2 * shell) {
-          if (x < 0 || x >= nx_) continue;
-          const std::size_t b = bin(x, y, z);
-          for (std::uint32_t i = starts_[b]; i < starts_[b + 1]; ++i) {
-            const Vec3f d = points_m_[i] - place_m;
-            const float d2 = d.x * d.x + d.y * d.y + d.z * d.z;
-            if (d2 < best2) {
-              best2 = d2;
-              best = points_m_[i];
-            }
-          }
+        if (std::abs(z - cz) == shell || std::abs(y - cy) == shell) {  // a row's bins are one run
+          look(bin(std::max(x0, 0), y, z), bin(std::min(x1, nx_ - 1), y, z));
+          continue;
         }
+        if (x0 >= 0) look(bin(x0, y, z), bin(x0, y, z));
+        if (x1 < nx_) look(bin(x1, y, z), bin(x1, y, z));
       }
   }
   return best;
