@@ -144,3 +144,15 @@ def test_missing_and_damaged_files(scene, tmp_path):
         loop.intensities
     with pytest.raises(ValueError, match="display.Y.*accepted: Y"):
         loop.greys
+
+
+@pytest.mark.parametrize("numbers", [None, {"lv_cavity": 3, "lv_wall": 7}])
+def test_labels_have_names(heart, tmp_path, numbers):
+    heart.update({"acquisition.frame_rate_hz": 3.0, "truth.labels": numbers})
+    loop = echocine.render(heart, truth="labels")
+    assert loop.label_names == echocine.render(heart, tmp_path / "loop", truth="labels").label_names
+    assert set(np.unique(loop.labels)) - {0} <= set(loop.label_names)
+    assert loop.label_names[int(np.bincount(loop.labels[loop.labels > 0]).argmax())] in ("lv_cavity", "lv_wall", "lung_left", "lung_right")
+    assert numbers is None or loop.label_names == {3: "lv_cavity", 7: "lv_wall"}
+    with pytest.raises(ValueError, match="labels.*accepted"):
+        echocine.render(heart, frames=(0, 1)).label_names

@@ -5,12 +5,13 @@
     scene.probe.lines = 128
     loop = echocine.render(scene, truth="labels")
     loop.images                     # (T, H, W) uint8
-    loop.labels                     # (T, H, W) uint8
+    loop.labels                     # (T, H, W) uint8; loop.label_names says which number is what
     loop.intensities                # (T, depth, line) float32
     loop.volumes["lv_cavity"]       # (T,) float64, mL
     loop.times_s                    # (T,) float64, s
 
-Scenes have the keys of scene files; `Scene.keys()` lists them. Errors are SceneError (what was given cannot be used)
+Scenes have the keys of scene files; `Scene.keys()` lists them, `dials()` those of hearts. Another heart is another scene:
+`heart(ef=0.3)`. `Simulator` makes single frames, `dataset` many loops, `open` reads a render's folder. Errors are SceneError (what was given cannot be used)
 and JobError (the work failed).
 """
 

@@ -130,6 +130,20 @@ class Loop:
         labels = self._named("labels", "truth=\"labels\"")
         return labels
 
+    @property
+    def label_names(self) -> Dict[int, str]:
+        """What the numbers of `labels` are: number -> structure, or role where truth.labels names roles; 0 is left out."""
+        if self._source() is None:
+            file = self._truth_file("labels.json", "truth=\"labels\"")
+            table = self._once("label_names", lambda: json.loads(file.read_text(encoding="utf-8"))["labels"])
+            return {int(number): str(name) for number, name in table.items()}
+        self._named("labels", "truth=\"labels\"")
+        assert self._scene is not None
+        given: Dict[str, int] = self._scene["truth.labels"] or {}
+        if given:
+            return {number: name for name, number in sorted(given.items(), key=lambda entry: entry[1])}
+        return dict(enumerate((e["name"] for e in self._scene._native.structures if not e["membrane"]), 1))
+
     def _motion(self, kind: str) -> NDArray[np.float32]:
         if self._source() is None:
             planes: NDArray[np.float32] = self._once(
