@@ -64,8 +64,9 @@ def test_long_calls_stop_soon(speckled, tmp_path, after_s):
     took = {name: seconds_to_stop(work, after_s) for name, work in cases(speckled, tmp_path).items()}
     print({name: None if s is None else round(s, 3) for name, s in took.items()})
     assert all(s is None or s < SOON_S for s in took.values()), took
-    # Those that take far longer than this on any machine.
-    assert None not in [took[name] for name in ("heart", "render", "render to a folder", "study", "dataset")]
+    # Those that take far longer than this on any machine; the others may have ended before.
+    assert None not in [took[name] for name in ("render", "render to a folder", "study", "dataset")]
+    assert after_s > 0.1 or took["heart"] is not None
 
 
 def test_compare_stops_soon(recorded, tmp_path):
