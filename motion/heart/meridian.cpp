@@ -7,7 +7,7 @@
 namespace echocine::heart {
 namespace {
 
-constexpr int kSteps = 1024, kFineSteps = 8192;
+constexpr int kArcSteps = 1024, kFineSteps = 8192;
 
 }  // namespace
 
@@ -27,8 +27,8 @@ Meridian::Meridian(std::vector<std::pair<double, double>> squares) : square_(squ
                (fine[i].rho * fine[i].rho + fine[i - 1].rho * fine[i - 1].rho) / 2;
     widest_ = std::max(widest_, fine[i].rho);
   }
-  for (int step = 0; step <= kSteps; ++step) {
-    const double want = arc.back() * step / kSteps;
+  for (int step = 0; step <= kArcSteps; ++step) {
+    const double want = arc.back() * step / kArcSteps;
     const auto above = std::upper_bound(arc.begin() + 1, arc.end() - 1, want);
     const auto i = static_cast<std::size_t>(above - arc.begin());
     const double t = std::clamp((want - arc[i - 1]) / (arc[i] - arc[i - 1]), 0.0, 1.0);
@@ -38,8 +38,8 @@ Meridian::Meridian(std::vector<std::pair<double, double>> squares) : square_(squ
 }
 
 Meridian::Point Meridian::at(double share) const {
-  const double step = std::clamp(share, 0.0, 1.0) * kSteps;
-  const int i = std::min(static_cast<int>(step), kSteps - 1);
+  const double step = std::clamp(share, 0.0, 1.0) * kArcSteps;
+  const int i = std::min(static_cast<int>(step), kArcSteps - 1);
   return {std::lerp(points_[i].zeta, points_[i + 1].zeta, step - i),
           std::lerp(points_[i].rho, points_[i + 1].rho, step - i)};
 }
