@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "motion/heart/smooth.h"
 
 namespace echocine::heart {
 
 Bearing bearingOf(const Meridian& outline, Vec3d direction) {
-  const double share = std::acos(std::clamp(direction.z, -1.0, 1.0)) / std::numbers::pi;
-  const Meridian::Point at = outline.at(share);
+  const Meridian::Point at = outline.at(shareOf(direction));
   // Turned by an odd angle, so that no edge of the mesh lies in an imaging plane.
   constexpr double kTurn_rad = 0.23;
   const double azimuth_rad = std::atan2(direction.y, direction.x) + kTurn_rad;

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "core/monotone_cubic.h"
+#include "core/vec3.h"
 
 namespace echocine::heart {
 
@@ -35,5 +37,11 @@ class Meridian {
   std::vector<Point> points_;  // evenly spaced by arc length
   double volume_ = 0, widest_ = 0;
 };
+
+// Where a meridian passes a direction of the unit sphere, (0, 0, 1) being its high-zeta end: 0
+// there, 1 at the other, evenly by angle.
+inline double shareOf(Vec3d direction) {
+  return std::acos(std::clamp(direction.z, -1.0, 1.0)) / std::numbers::pi;
+}
 
 }  // namespace echocine::heart

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "core/check.h"
+#include "motion/heart/meridian.h"
 #include "motion/heart/smooth.h"
 
 namespace echocine::heart {
@@ -78,7 +78,7 @@ Tube::Section Tube::at(double share) const {
 Vec3d Tube::point(Vec3d direction, double thickness_m) const {
   // The outline walked by arc length: across the first end, along, across the last end.
   const double first_m = sections_.front().radius_m, last_m = sections_.back().radius_m;
-  const double share = 1 - std::acos(std::clamp(direction.z, -1.0, 1.0)) / std::numbers::pi;
+  const double share = 1 - shareOf(direction);
   const double walked_m = share * (first_m + length_m_ + last_m);
   const double along = (walked_m - first_m) / length_m_;
   const Section section = at(along);

@@ -1,8 +1,6 @@
 #include "motion/heart/wall_place.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/check.h"
 #include "core/monotone_cubic.h"
@@ -76,11 +74,6 @@ const MonotoneCubic& thickness() {
 // The free wall is thinner than the septum.
 double thicknessAbout(double phi_rad) {
   return 0.93 + 0.07 * std::cos(phi_rad - 150 * kDegree);
-}
-
-// Of the outline, from the apex.
-double shareOf(Vec3d direction) {
-  return std::acos(std::clamp(direction.z, -1.0, 1.0)) / std::numbers::pi;
 }
 
 // What a place has that its direction does not matter to.

@@ -62,6 +62,8 @@ struct Pose {
     const Vec3d d = point - origin;
     return {dot(d, x_axis), dot(d, y_axis), dot(d, z_axis)};
   }
+  // And back.
+  Vec3d toWorld(Vec3d p) const { return origin + p.x * x_axis + p.y * y_axis + p.z * z_axis; }
 };
 
 }  // namespace echocine

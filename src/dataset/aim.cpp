@@ -96,14 +96,11 @@ void setOutput(const Spec& spec, Scene& scene) {
   scene.output = {};
   scene.output.exr = scene.output.report = scene.output.ecg = scene.output.depth_ticks = false;
   scene.output.width = scene.output.height = pictureSide(spec, scene.probe);
-  const auto wants = [&](const char* kind) {
-    return std::find(spec.truth.begin(), spec.truth.end(), kind) != spec.truth.end();
-  };
   scene.truth.labels = scene.truth.contours = true;
   scene.truth.papillary_in_cavity = true;  // as laboratories trace it
   scene.truth.label_numbers = {{"lv_cavity", 1}, {"lv_wall", 2}, {"la", 3}};
-  scene.truth.tracks = wants("tracks") || spec.has("pointodyssey") || spec.has("myotracker");
-  scene.truth.function = wants("function");
+  scene.truth.tracks = spec.wantsTracks();
+  scene.truth.function = spec.wants("function");
   scene.truth.track_count = spec.track_count;
 }
 

@@ -8,15 +8,6 @@
 
 namespace echocine::dataset {
 
-namespace {
-
-Vec3d toWorld(const Pose& pose, Vec3f place) {
-  const Vec3d p = toDouble(place);
-  return pose.origin + p.x * pose.x_axis + p.y * pose.y_axis + p.z * pose.z_axis;
-}
-
-}  // namespace
-
 CavityMarks marksOf(const heart::Recording& recording, double phase) {
   const auto away = [&](double p) {
     return std::min(std::abs(p - phase), 1 - std::abs(p - phase));
@@ -40,7 +31,7 @@ CavityMarks marksOf(const Scene& scene, const MeshMotion& motion, double phase) 
     if (role == Role::none || role == Role::surroundings) continue;
     RoleSurface part{role, scene.structures[s].name, {}};
     for (const Vec3f p : surfaces.positions_m[s])
-      part.points_m.push_back(toWorld(scene.probe.pose, p));
+      part.points_m.push_back(scene.probe.pose.toWorld(toDouble(p)));
     parts.push_back(std::move(part));
   }
   const HeartFrame frame = findHeart(parts, {}).frame;

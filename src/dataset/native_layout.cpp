@@ -36,9 +36,9 @@ void addLabels(const Loop& loop, Arrays& arrays) {
   std::vector<std::uint8_t> all;
   for (const LoopFrame& frame : loop.frames)
     all.insert(all.end(), frame.labels.begin(), frame.labels.end());
-  arrays.push_back({"labels", npyBytes(all, {loop.frames.size(),
-                                             static_cast<std::size_t>(loop.height()),
-                                             static_cast<std::size_t>(loop.width())})});
+  arrays.push_back(
+      {"labels", npyBytes(all, {loop.frames.size(), static_cast<std::size_t>(loop.height()),
+                                static_cast<std::size_t>(loop.width())})});
 }
 
 // Of each role: contour_ROLE [P, 2] in pixels, contour by contour, and contour_ROLE_starts [C, 2],
@@ -50,8 +50,8 @@ void addContours(const Loop& loop, Arrays& arrays) {
     for (std::size_t f = 0; f < loop.frames.size(); ++f)
       for (const Contour& contour : loop.frames[f].contours) {
         if (roleOf(loop.scene.structures[index(contour.surface)]) != role) continue;
-        starts.insert(starts.end(), {static_cast<std::int32_t>(f),
-                                     static_cast<std::int32_t>(points.size() / 2)});
+        starts.insert(starts.end(),
+                      {static_cast<std::int32_t>(f), static_cast<std::int32_t>(points.size() / 2)});
         for (const Vec3d p : contour.points_m) {
           const PixelPoint at = pixelOf(loop.geometry, p);
           points.insert(points.end(), {static_cast<float>(at.x), static_cast<float>(at.y)});
@@ -89,12 +89,9 @@ void addTracks(const Loop& loop, Arrays& arrays) {
 
 std::vector<std::byte> truthFile(const Spec& spec, const Loop& loop) {
   Arrays arrays;
-  const auto wants = [&](const char* kind) {
-    return std::find(spec.truth.begin(), spec.truth.end(), kind) != spec.truth.end();
-  };
   addCurves(loop, arrays);
-  if (wants("labels")) addLabels(loop, arrays);
-  if (wants("contours")) addContours(loop, arrays);
+  if (spec.wants("labels")) addLabels(loop, arrays);
+  if (spec.wants("contours")) addContours(loop, arrays);
   if (!loop.tracked.empty()) addTracks(loop, arrays);
   return compressedNpz(arrays);
 }

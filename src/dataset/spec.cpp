@@ -14,6 +14,14 @@ bool Spec::has(std::string_view layout) const {
   return std::find(layouts.begin(), layouts.end(), layout) != layouts.end();
 }
 
+bool Spec::wants(std::string_view truth_kind) const {
+  return std::find(truth.begin(), truth.end(), truth_kind) != truth.end();
+}
+
+bool Spec::wantsTracks() const {
+  return wants("tracks") || has("pointodyssey") || has("myotracker");
+}
+
 Split Spec::splitOf(int heart) const {
   const int all = scenes.empty() ? hearts : static_cast<int>(scenes.size());
   const int number = scenes.empty() ? heart : heart % all;

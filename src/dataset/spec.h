@@ -69,6 +69,8 @@ struct Spec {
 
   std::size_t loops() const { return static_cast<std::size_t>(hearts) * views.size(); }
   bool has(std::string_view layout) const;
+  bool wants(std::string_view truth_kind) const;
+  bool wantsTracks() const;  // as truth, or for a layout
   // Hearts in their order: the first ones train, then validation, then test. They are independent
   // draws, and some loaders split by number. All draws of one user's scene are in one split.
   Split splitOf(int heart) const;

@@ -22,17 +22,11 @@ constexpr std::size_t kMostSceneBytes = std::size_t{16} << 20;
   throw SceneError(atPlace({spec.file.string(), 0, "scenes"}, what));
 }
 
-bool needsWall(const Spec& spec) {
-  const auto wants = [&](const char* kind) {
-    return std::find(spec.truth.begin(), spec.truth.end(), kind) != spec.truth.end();
-  };
-  return wants("tracks") || wants("function") || spec.has("pointodyssey") || spec.has("myotracker");
-}
-
 // Truth is of the left ventricle.
 void checkRoles(const Spec& spec, const UserScene& mine, const Scene& scene) {
+  const bool needs_wall = spec.wantsTracks() || spec.wants("function");
   for (const Role role : {Role::lv_cavity, Role::lv_wall})
-    if (!structureOf(scene, role) && (role == Role::lv_cavity || needsWall(spec)))
+    if (!structureOf(scene, role) && (role == Role::lv_cavity || needs_wall))
       failOfScenes(spec,
                    fmt::format("{} has no structure with role = \"{}\", which the truth needs",
                                mine.name, nameOf(role)));

@@ -46,11 +46,8 @@ Box meshesBox(const MeshMotion& motion) {
 
 std::string whereabouts(const Scene& scene, const Box& box_m) {
   const Box sector = sectorBox(scene.probe);
-  const Pose& pose = scene.probe.pose;
   const Vec3d middle = 0.5 * (box_m.lo + box_m.hi);
-  const Vec3d world =
-      (1 / scene.motion.mesh_unit_m) *
-      (pose.origin + middle.x * pose.x_axis + middle.y * pose.y_axis + middle.z * pose.z_axis);
+  const Vec3d world = (1 / scene.motion.mesh_unit_m) * scene.probe.pose.toWorld(middle);
   return fmt::format(
       "seen from the probe the meshes fill {} mm along its lateral axis, {} mm across the imaging "
       "plane and {} mm of depth, the sector {} mm, 0 mm and {} mm; their middle is at "

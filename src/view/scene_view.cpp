@@ -13,10 +13,6 @@ namespace echocine {
 
 namespace {
 
-Vec3d worldFrom(const Pose& pose, Vec3d p) {
-  return pose.origin + p.x * pose.x_axis + p.y * pose.y_axis + p.z * pose.z_axis;
-}
-
 // The most that each may have for all to keep within the budget: small ones leave theirs to others.
 std::size_t mostTriangles(const ViewBudget& budget, const MeshMotion& motion) {
   std::vector<std::size_t> sizes;
@@ -47,7 +43,7 @@ void addPhase(const std::vector<Vec3f>& all_m, const Pose& pose, ViewStructure& 
   structure.positions_m.push_back(std::move(kept_m));
   for (const Vec3f p : all_m) {
     structure.probe_box_m.add(toDouble(p));
-    structure.world_box_m.add(worldFrom(pose, toDouble(p)));
+    structure.world_box_m.add(pose.toWorld(toDouble(p)));
   }
 }
 
