@@ -32,7 +32,14 @@ bool areTurned(const Normal& a, const Normal& b) {
            product * product >= kTurnedCosine * kTurnedCosine * a.squared * b.squared);
 }
 
-constexpr int kBetween = 8;  // instants looked at from one keyframe to the next
+// Instants looked at from one keyframe to the next: as many as a loop of 200 frames a beat shows,
+// and some where keyframes are close. Our choice.
+constexpr double kStep = 0.005;  // of a beat
+constexpr int kLeastBetween = 4;
+
+int instantsBetween(double left, double right) {
+  return std::max(kLeastBetween, static_cast<int>(std::ceil((right - left) / kStep)));
+}
 
 using Ring = std::vector<std::uint32_t>;
 
@@ -61,9 +68,10 @@ class FoldFinder {
       checkpoint();
       left = std::move(right);
       right = normalsOf(beat.points[(k + 1) % count]);
-      for (int i = 0; i < (count > 1 ? kBetween : 1); ++i) {
-        const double end = k + 1 < count ? beat.phases[k + 1] : 1;
-        const double phase = std::lerp(beat.phases[k], end, static_cast<double>(i) / kBetween);
+      const double start = beat.phases[k], end = k + 1 < count ? beat.phases[k + 1] : 1;
+      const int instants = count > 1 ? instantsBetween(start, end) : 1;
+      for (int i = 0; i < instants; ++i) {
+        const double phase = std::lerp(start, end, static_cast<double>(i) / instants);
         const std::vector<Normal> now =
             i == 0 ? left : normalsOf(pointsAt(phase, *weights, beat.points));
         for (const Neighbours& hinge : hinges_)

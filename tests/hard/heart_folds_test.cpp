@@ -132,5 +132,10 @@ TEST(HeartFolds, ARightAtriumAmongLargeNeighboursIsSound) {
   expectNoFold(dials, {1, 12, 200});
 }
 
+// A face of its left atrium looks elsewhere for a hundredth of the beat only.
+TEST(HeartFolds, AFaceThatTurnsForAnInstantIsSound) {
+  expectNoFold(randomHeart(543), {1, 12, 200});
+}
+
 }  // namespace
 }  // namespace echocine
