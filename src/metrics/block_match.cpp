@@ -127,4 +127,13 @@ std::optional<BlockMatch> matchBlock(const BlockPlane& before, const BlockPlane&
   return match;
 }
 
+std::optional<double> correlationInPlace(const BlockPlane& before, const BlockPlane& after,
+                                         int line, int sample, const BlockMatchSettings& s) {
+  const Block block{before, line, sample, s.half_lines, s.half_samples};
+  if (!block.within()) return std::nullopt;
+  const Search search(after, block);
+  const double found = search.even() ? Search::kNone : search.at(0, 0);
+  return found == Search::kNone ? std::nullopt : std::optional(found);
+}
+
 }  // namespace echocine

@@ -30,4 +30,9 @@ struct BlockPlane {
 std::optional<BlockMatch> matchBlock(const BlockPlane& before, const BlockPlane& after, int line,
                                      int sample, const BlockMatchSettings& settings = {});
 
+// The normalised correlation of a block with what is there in another picture. Nothing where the
+// block does not lie within the pictures or is even in one of them. Preconditions: as above.
+std::optional<double> correlationInPlace(const BlockPlane& before, const BlockPlane& after,
+                                         int line, int sample, const BlockMatchSettings& settings);
+
 }  // namespace echocine
