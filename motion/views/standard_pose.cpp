@@ -9,8 +9,8 @@ namespace echocine {
 
 namespace {
 
-constexpr double kBeam_m = 0.02;     // half the thickness of what counts as in the plane; our choice
-constexpr double kBehind_m = 0.0144; // of the image, behind the heart; our choice
+constexpr double kBeam_m = 0.02;  // half the thickness of what counts as in the plane; our choice
+constexpr double kBehind_m = 0.0144;  // of the image, behind the heart; our choice
 constexpr double kSector_deg = 80;
 
 // What a view looks at: the probe stands off `target` against `axis`.
@@ -41,6 +41,16 @@ Aim aorticShortAxis(const HeartFrame& heart, Vec3d out, Vec3d across) {
   return aim;
 }
 
+// From under the ribs, up and back and to the left: 10 deg below the four-chamber plane and 20 deg
+// towards the base, our choice.
+Aim subcostal(const HeartFrame& heart, Vec3d target) {
+  const Vec3d from = heart.about(radiansFromDegrees(190));
+  const double tilt_rad = radiansFromDegrees(20);
+  const Vec3d axis = -std::cos(tilt_rad) * from - std::sin(tilt_rad) * heart.apical;
+  return {target, axis, normalised(heart.apical - dot(heart.apical, axis) * axis),
+          0.045 * heart.scale};
+}
+
 Aim aimOf(View view, const HeartFrame& heart) {
   const double l = heart.length_m;
   // The long axes pass through the aortic valve.
@@ -63,8 +73,7 @@ Aim aimOf(View view, const HeartFrame& heart) {
     case View::psax_apex:
       return parasternal(heart, heart.at({0, 0, 0.80 * l}) - 0.08 * l * across, -out, across);
     case View::subcostal:
-      return {heart.at({-0.15 * l, 0, 0.22 * l}), -heart.about(radiansFromDegrees(200)),
-              heart.apical, 0.045 * heart.scale};
+      return subcostal(heart, heart.at({-0.15 * l, 0, 0.22 * l}));
   }
   return {};
 }
@@ -118,8 +127,7 @@ ProbePose standardPose(View view, const HeartFrame& heart, std::span<const Vec3d
                  0,
                  kSector_deg,
                  aim.chest_m};
-  pose.depth_m =
-      fittingDepth(outside_m, pose, radiansFromDegrees(0.5 * kSector_deg), heart.scale);
+  pose.depth_m = fittingDepth(outside_m, pose, radiansFromDegrees(0.5 * kSector_deg), heart.scale);
   return pose;
 }
 

@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 #include "python/arrays.h"
@@ -52,6 +53,23 @@ void copyPicture(const std::vector<std::uint8_t>& pixels, const py::array& to) {
                   &pixels[static_cast<std::size_t>(y * to.shape(1) + x)], 1);
 }
 
+// Interleaved arrays of one buffer are apart.
+bool shareMemory(const py::array& a, const py::array& b) {
+  const auto boundsOf = [](const py::array& array) {
+    const auto* low = static_cast<const char*>(array.data());
+    const auto* high = low + array.itemsize();
+    for (py::ssize_t i = 0; i < array.ndim(); ++i) {
+      const py::ssize_t reach = (array.shape(i) - 1) * array.strides(i);
+      (reach < 0 ? low : high) += reach;
+    }
+    return std::pair(low, high);
+  };
+  const auto [low_a, high_a] = boundsOf(a);
+  const auto [low_b, high_b] = boundsOf(b);
+  return low_a < high_b && low_b < high_a &&
+         py::module_::import("numpy").attr("shares_memory")(a, b).cast<bool>();
+}
+
 bool isMade(const std::string& name, const Scene& scene) {
   if (name == "intensities")
     return std::count(scene.output.channels.begin(), scene.output.channels.end(), Channel::y) > 0;
@@ -89,6 +107,9 @@ std::vector<OutArray> checkedOutArrays(const py::dict& given, const Scene& scene
     const auto array = checkedOut(fmt::format("out[\"{}\"]", name), py::reinterpret_borrow<py::object>(value),
                                   is_polar ? py::dtype::of<float>() : py::dtype::of<std::uint8_t>(),
                                   is_polar ? polar : picture);
+    for (const OutArray& other : arrays)
+      if (shareMemory(other.array, array))
+        throw py::value_error(fmt::format("out[\"{}\"]: shares memory with out[\"{}\"], accepted: arrays apart", name, other.name));
     arrays.push_back({name, array});
   }
   return arrays;

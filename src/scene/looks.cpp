@@ -27,11 +27,11 @@ struct Grade {
 constexpr Grade gradeOf(Quality quality) {
   switch (quality) {
     case Quality::good:
-      return {-24, -30, -16, -62, 3, 40e-3};
+      return {-24, -30, -34, -62, 3, 40e-3};
     case Quality::medium:
-      return {-20, -27, -12, -55, 6, 32e-3};
+      return {-20, -27, -28, -55, 6, 32e-3};
     case Quality::poor:
-      return {-16, -23, -8, -46, 12, 22e-3};
+      return {-16, -23, -20, -46, 12, 22e-3};
   }
   return {};
 }

@@ -186,7 +186,7 @@ struct ArtefactSettings {
   double reverberation_db = -27;                   // of the echo
   double reverberation_length_m = 6e-3;            // where it has fallen to 1/e
   bool clutter = false;                            // of the near field, standing still
-  double clutter_db = -12;                         // of white, at the face
+  double clutter_db = -28;                         // of white, at the face
   double clutter_length_m = 6e-3;                  // where it has fallen to 1/e
   double clutter_width_rad = 0.15707963267948966;  // of its speckle, full at half maximum
   int clutter_seed = 1;

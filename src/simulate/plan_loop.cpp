@@ -3,13 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <set>
+#include <utility>
 
+#include "core/error.h"
 #include "core/units.h"
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
 #include "motion/heart_size.h"
 #include "motion/motion_warnings.h"
+#include "scene/names.h"
+#include "scene/role.h"
 #include "scene/scan_geometry.h"
 #include "simulate/echo_shift.h"
 #include "simulate/mean_loss.h"
@@ -182,12 +188,35 @@ void lookAtFrames(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) 
   }
 }
 
+// Walls are filled: of a heart with chambers, one whose own is not given hides it.
+void tellWallsWithoutChambers(const Scene& scene, LoopPlan& plan) {
+  constexpr std::pair<Role, Role> kChambers[] = {{Role::lv_wall, Role::lv_cavity},
+                                                 {Role::rv_wall, Role::rv_cavity},
+                                                 {Role::la_wall, Role::la},
+                                                 {Role::ra_wall, Role::ra}};
+  const auto isThere = [&](Role role) { return structureOf(scene, role).has_value(); };
+  if (std::none_of(std::begin(kChambers), std::end(kChambers),
+                   [&](const auto& pair) { return isThere(pair.second); }))
+    return;
+  for (const auto& [wall, chamber] : kChambers) {
+    const std::optional<SurfaceId> found = structureOf(scene, wall);
+    if (!found || isThere(chamber)) continue;
+    const Structure& structure = scene.structures[index(*found)];
+    plan.warnings.push_back(atPlace(
+        structure.place,
+        fmt::format("{}: is {} and no structure is {}: what it encloses is shown as wall or "
+                    "background, not as blood; add the chamber's surface with role = \"{}\"",
+                    structure.name, nameOf(wall), nameOf(chamber), nameOf(chamber))));
+  }
+}
+
 }  // namespace
 
 LoopPlan planLoop(const Scene& scene, const MeshMotion& motion) {
   LoopPlan plan;
   plan.effects = planEffects(scene);
   plan.warnings = motion.repairNotes();
+  tellWallsWithoutChambers(scene, plan);
   for (std::string& warning : sizeWarnings(scene, motion))
     plan.warnings.push_back(std::move(warning));
   for (std::string& warning : motionWarnings(scene, motion))

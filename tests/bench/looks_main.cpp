@@ -1,9 +1,13 @@
 // echo_looks: texture of simulated apical stills beside that of clinical ones.
 //   echo_looks [--hearts N] [--quality good|medium|poor] [--with TOML] [--save FOLDER]
 //   echo_looks --measure FILE MILLIMETRES_PER_PIXEL     frame 0 of a real loop
+//   echo_looks --real FILE=MILLIMETRES_PER_PIXEL [--real ...] [--hearts N]     a linear classifier
+//   echo_looks --regions CSV --loop SCENE_OR_VIDEO [--pixel MILLIMETRES] [--save PGM]
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -13,6 +17,8 @@
 
 #include "core/file.h"
 #include "core/parallel.h"
+#include "looks_classifier.h"
+#include "looks_regions.h"
 #include "metrics/statistics.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/heart/parameters.h"
@@ -31,6 +37,8 @@ struct Options {
   int hearts = 12;
   Quality quality = Quality::medium;
   std::string save, measure, with;  // with: a scene file's [signal], [speckle], [artefacts]
+  std::string regions, loop;
+  std::vector<std::pair<std::string, double>> real;  // loops, and how large their pixels are
   double mm_per_pixel = 0;
 };
 
@@ -133,6 +141,7 @@ void addHeart(int number, const Options& options, std::map<int, Column>& columns
 void printTable(const std::map<int, Column>& columns) {
   const char* kNames[] = {"4CH-ED", "4CH-ES", "2CH-ED", "2CH-ES"};
   int wide_all = 0, narrow_all = 0, wide[4] = {}, narrow[4] = {};
+  std::vector<std::pair<double, const char*>> off;  // deviations of the clinical stills
   fmt::print(
       "| statistic | 4CH-ED | 4CH-ES | 2CH-ED | 2CH-ES | all | p10-p90 | quartiles |\n"
       "|---|---|---|---|---|---|---|---|\n");
@@ -149,9 +158,13 @@ void printTable(const std::map<int, Column>& columns) {
       wide[c] += median >= p.p10 && median <= p.p90;
       narrow[c] += median >= p.p25 && median <= p.p75;
       mean.p10 += p.p10 / 4, mean.p25 += p.p25 / 4, mean.p75 += p.p75 / 4, mean.p90 += p.p90 / 4;
+      mean.p50 += p.p50 / 4;
       fmt::print("| {:.3g} ", median);
     }
     const double median = quartilesOf(every).median;
+    constexpr double kDeviations = 2.563;  // of a normal distribution, from p10 to p90
+    off.emplace_back(std::abs(median - mean.p50) * kDeviations / (mean.p90 - mean.p10),
+                     statistic.name);
     const bool in_wide = median >= mean.p10 && median <= mean.p90,
                in_narrow = median >= mean.p25 && median <= mean.p75;
     wide_all += in_wide;
@@ -160,6 +173,9 @@ void printTable(const std::map<int, Column>& columns) {
                mean.p10, mean.p90, in_narrow ? "" : "not ", mean.p25, mean.p75);
   }
   fmt::print("\ninside p10-p90: {} of 15, inside quartiles: {} of 15\n", wide_all, narrow_all);
+  std::sort(off.rbegin(), off.rend());
+  fmt::print("farthest off: {} by {:.1f} and {} by {:.1f} standard deviations\n", off[0].second,
+             off[0].first, off[1].second, off[1].first);
   for (const auto& [c, column] : columns)
     fmt::print("{}: {} and {} of 15, {} hearts\n", kNames[c], wide[c], narrow[c], column.size());
   std::vector<double> cavity, muscle, p5, p50, p95, dark;
@@ -177,6 +193,22 @@ void printTable(const std::map<int, Column>& columns) {
       "{:.3f}\n",
       quartilesOf(cavity).median, quartilesOf(muscle).median, quartilesOf(p5).median,
       quartilesOf(p50).median, quartilesOf(p95).median, quartilesOf(dark).median);
+}
+
+// Hearts of all grades of quality, in turn.
+void classify(Options options) {
+  std::vector<PictureGroup> simulated, real;
+  for (int h = 0; h < options.hearts; ++h) {
+    options.quality = std::array{Quality::good, Quality::medium, Quality::poor}[h % 3];
+    std::map<int, Column> columns;
+    addHeart(h, options, columns);
+    PictureGroup& group = simulated.emplace_back();
+    for (const auto& [c, column] : columns)
+      for (const Measured& m : column) group.pictures.push_back(m.sector);
+  }
+  for (const auto& [file, mm_per_pixel] : options.real)
+    real.push_back(framesOf(file, mm_per_pixel));
+  printClassifier(simulated, real);
 }
 
 void measureFile(const Options& options) {
@@ -202,6 +234,12 @@ int run(int count, char** words) {
       options.quality = valueOf<Quality>(words[i + 1]).value_or(options.quality);
     if (key == "--with") options.with = words[i + 1];
     if (key == "--save") options.save = words[i + 1];
+    if (const std::string word = words[i + 1]; key == "--real")
+      options.real.emplace_back(word.substr(0, word.rfind('=')),
+                                std::atof(word.substr(word.rfind('=') + 1).c_str()));
+    if (key == "--regions") options.regions = words[i + 1];
+    if (key == "--loop") options.loop = words[i + 1];
+    if (key == "--pixel") options.mm_per_pixel = std::atof(words[i + 1]);
     if (key == "--measure") {
       options.measure = words[i + 1];
       options.mm_per_pixel = i + 2 < count ? std::atof(words[i + 2]) : 0;
@@ -209,6 +247,14 @@ int run(int count, char** words) {
   }
   if (!options.measure.empty()) {
     measureFile(options);
+    return 0;
+  }
+  if (!options.regions.empty()) {
+    printRegions(options.regions, options.loop, options.mm_per_pixel, options.save);
+    return 0;
+  }
+  if (!options.real.empty()) {
+    classify(options);
     return 0;
   }
   std::map<int, Column> columns;

@@ -193,6 +193,26 @@ TEST(ViewPoseLaw, RealHeartsAreSeenAsByHand) {
     }
 }
 
+// The patient lies in a scanner: x to the left, y to the back, z up. Under the ribs' tip a probe
+// looks up, back and to the left, from below the heart and from its front half.
+TEST(ViewPoseLaw, ASubcostalProbeStandsBelowAndBeforeAPatientsHeart) {
+  if (!realHeartsThere()) GTEST_SKIP() << "no real hearts beside the project";
+  const RealHeart heart = patientHeart();
+  const ProbePose pose = poseIn(View::subcostal, heart.surfaces);
+  EXPECT_GT(pose.axis.x, 0.3);
+  EXPECT_GT(pose.axis.y, 0.3);
+  EXPECT_GT(pose.axis.z, 0.3);
+  double lowest_m = 1, front_m = 1, back_m = -1;
+  for (const RoleSurface& surface : heart.surfaces)
+    for (const Vec3d p : surface.points_m) {
+      lowest_m = std::min(lowest_m, p.z);
+      front_m = std::min(front_m, p.y);
+      back_m = std::max(back_m, p.y);
+    }
+  EXPECT_LT(pose.apex.z, lowest_m);
+  EXPECT_LT(pose.apex.y, 0.5 * (front_m + back_m));
+}
+
 // Structures that a view must show and must not, by what its sector cuts of them.
 struct Seen {
   View view;

@@ -68,6 +68,20 @@ def test_read_only_buffers_and_frames_of_others_are_refused(scene):
         simulator.frame(0.0, out=other)
 
 
+def test_one_buffer_for_two_planes(scene):
+    simulator, plane, both = echocine.Simulator(scene), np.zeros((64, 24), np.float32), np.zeros((64, 24, 2), np.float32)
+    with pytest.raises(ValueError, match=r"greys.*shares memory with out.*intensities"):
+        simulator.frame(0.0, out={"intensities": plane, "greys": plane})
+    simulator.frame(0.0, out={"intensities": both[..., 0], "greys": both[..., 1]})  # interleaved: apart
+    assert np.array_equal(both[..., 1], simulator.frame(0.0).greys)
+
+
+@pytest.mark.parametrize("frames", [(0.0, 1.0), 3, ("0", "1"), (0, 1, 2)])
+def test_frames_that_are_no_pair_of_whole_numbers(scene, frames):
+    with pytest.raises(ValueError, match="frames: is .*accepted: two whole numbers"):
+        echocine.render(scene, frames=frames)
+
+
 def test_instants_outside_the_loop_and_no_numbers(scene):
     simulator = echocine.Simulator(scene)
     with pytest.raises(echocine.SceneError, match="not in the loop"):

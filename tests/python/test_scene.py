@@ -120,6 +120,16 @@ def test_dials():
         echocine.heart(view="a9c")
 
 
+@pytest.mark.parametrize("given, words", [
+    (dict(EF=0.4), "EF: is not a dial, nearest: ef$"), (dict(rv_ed=100), "rv_ed: is not a dial, nearest: rv_edv$"),
+    (dict(zzz=1), "accepted: .*wall_thickness"), (dict(ef="0.4"), "ef: is '0.4', accepted: a number"),
+    (dict(ef=True), "ef: is True"), (dict(segments=[7, 13]), r"segments: is \[7, 13\], accepted"), (dict(view=0.4), "view: is 0.4"),
+])
+def test_dials_that_are_none_are_named_as_python_has_them(given, words):
+    with pytest.raises(echocine.SceneError, match=words):
+        echocine.heart(**given)
+
+
 def test_new_points_keep_faces(scene):
     points, faces = scene.mesh("ball")
     scene["structure.ball.keyframes"] = points[:1] * [1, 1, 1.1]

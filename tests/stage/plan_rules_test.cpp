@@ -148,5 +148,22 @@ TEST(MeanGain, ThePaperIsTheDefault) {
   EXPECT_TRUE(planOf(folder, ballAndWall(folder, "plaque")).effects.mean_loss.empty());
 }
 
+// Walls are filled, so one without its chamber hides blood.
+TEST(PlanWarnings, AWallWithoutItsChamberIsTold) {
+  const TempFolder folder;
+  SceneText text = ballAndWall(folder, "plaque");
+  const auto told = [&] {
+    for (const std::string& warning : planOf(folder, text).warnings)
+      if (warning.find("no structure is lv_cavity") != std::string::npos) return true;
+    return false;
+  };
+  text.addStructure("muscle", "wall", "\"ball.obj\"", 3, "role = \"lv_wall\"");
+  EXPECT_FALSE(told());  // no heart's wall
+  text.addStructure("beside", "lens", "\"ball_away.obj\"", 4, "role = \"rv_cavity\"");
+  EXPECT_TRUE(told());
+  text.addStructure("chamber", "lens", "\"ball.obj\"", 4, "role = \"lv_cavity\"");
+  EXPECT_FALSE(told());
+}
+
 }  // namespace
 }  // namespace echocine

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 import struct
 import zlib
@@ -410,6 +411,12 @@ def render(scene: Scene, folder: Union[None, str, "os.PathLike[str]"] = None, *,
         raise TypeError(f"scene: is {type(scene).__name__}, accepted: an echocine.Scene")
     if not isinstance(threads, int) or not 0 <= threads <= 4096:
         raise ValueError(f"threads: is {threads!r}, accepted: a whole number from 0 to 4096")
+    if frames is not None:
+        try:
+            first, end = (operator.index(frame) for frame in frames)
+        except (TypeError, ValueError):
+            raise ValueError(f"frames: is {frames!r}, accepted: two whole numbers, such as (0, 10)") from None
+        frames = (first, end)
     asked = _asking_for(scene, truth)
     if folder is None:
         return Loop(asked, _echocine.render_in_memory(asked._native, frames, threads, report_to(progress)))

@@ -403,6 +403,16 @@ def _rebuild(text: str, file: str, meshes: Optional[_echocine.Meshes], changed: 
     return Scene._of(text, file, meshes, changed)
 
 
+def _number(name: str, value: Any) -> float:
+    """A number of Python's or NumPy's; no text, no truth value."""
+    try:
+        if isinstance(value, (str, bytes, bool, np.bool_)):
+            raise TypeError
+        return float(value)
+    except (TypeError, ValueError):
+        raise SceneError(f"{name}: is {value!r}, accepted: a number") from None
+
+
 def heart(view: str = "a4c", *, segments: Optional[Mapping[int, Any]] = None, keep_volumes: bool = False, keyframes: int = 24,
           look: str = "scanner", even: bool = False, threads: int = 0, progress: Progress = None, **dials: float) -> Scene:
     """A beating heart from its dials, as a scene with its meshes in memory.
@@ -421,12 +431,18 @@ def heart(view: str = "a4c", *, segments: Optional[Mapping[int, Any]] = None, ke
 
     Raises SceneError for dials that no heart fulfils.
     """
+    if not isinstance(view, str):
+        raise SceneError(f'heart: view: is {view!r}, accepted: a name such as "a4c"')
+    if not isinstance(segments or {}, Mapping):
+        raise SceneError(f"heart: segments: is {segments!r}, accepted: amplitudes by number, such as {{7: 0}}")
+    known = [row[0].replace("-", "_") for row in _echocine.dials()]
     given = {}
     for name, value in dials.items():
-        try:
-            given[name.replace("_", "-")] = float(value)
-        except (TypeError, ValueError):
-            raise SceneError(f"heart: {name}: is {value!r}, accepted: a number") from None
+        if name not in known:
+            alike = [dial for dial in known if dial == name.lower()] or difflib.get_close_matches(name.lower(), known, 1)
+            raise SceneError(f"heart: {name}: is not a dial, " +
+                             (f"nearest: {alike[0]}" if alike else f"accepted: {', '.join(known)}"))
+        given[name.replace("_", "-")] = _number(f"heart: {name}", value)
     walls = {}
     for number, wall in (segments or {}).items():
         amplitude, delay_ms = wall if isinstance(wall, (tuple, list)) else (wall, 0.0)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from . import _echocine
 from ._echocine import Frame
 from ._errors import SceneError
-from ._scene import Scene
+from ._scene import Scene, _number
 
 
 class Simulator:
@@ -49,12 +49,16 @@ class Simulator:
         if self._scene._version != self._version:
             raise SceneError("scene: was changed after this Simulator was made, accepted: a new Simulator(scene), or a scene "
                              "that stays as it is, Simulator(scene.copy())")
+        try:
+            instant_s = _number("time_s", time_s)
+        except SceneError as error:
+            raise TypeError(str(error)) from None
         if out is None:
-            return self._native.frame(time_s)
+            return self._native.frame(instant_s)
         if isinstance(out, Frame):
-            self._native.fill_frame(time_s, out)
+            self._native.fill_frame(instant_s, out)
         elif isinstance(out, Mapping):
-            self._native.fill_arrays(time_s, dict(out))
+            self._native.fill_arrays(instant_s, dict(out))
         else:
             raise TypeError(f"out: is {type(out).__name__}, accepted: a Frame, or a dict of arrays by name")
         return out

@@ -1,0 +1,26 @@
+#pragma once
+// How well a straight line through texture statistics tells simulated pictures from real ones, and
+// which statistics give a picture away.
+
+#include <string>
+#include <vector>
+
+#include "metrics/echo_texture.h"
+
+namespace echocine::bench {
+
+// Pictures of one heart or of one real loop: they are much alike, so they are held out together.
+struct PictureGroup {
+  std::vector<SectorTexture> pictures;
+};
+
+// Frames of a loop, every third: neighbours are nearly equal.
+PictureGroup framesOf(const std::string& video, double mm_per_pixel);
+
+// Fisher's linear discriminant over the statistics that need no labels. Prints the area under the
+// ROC curve of the pictures it was fitted to and of those held out (each real loop in turn, with
+// every other heart), and the two statistics of the greatest weight, in standard deviations.
+void printClassifier(const std::vector<PictureGroup>& simulated,
+                     const std::vector<PictureGroup>& real);
+
+}  // namespace echocine::bench
