@@ -100,7 +100,7 @@ std::vector<Contour> contoursAt(const MeshMotion& motion, const Probe& probe, do
   SurfaceFrame frame;
   motion.frameAt(phase - std::floor(phase), frame);
   PlaneSlice slice(motion.surfaces(), probe);
-  slice.update(frame);
+  slice.cut(frame);
   return chainContours(slice.edges(), motion.surfaces(), frame);
 }
 
