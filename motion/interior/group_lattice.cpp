@@ -1,20 +1,24 @@
 #include "motion/interior/group_lattice.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "motion/interior/affine_fit.h"
+#include "motion/interior/folds.h"
 
 namespace echocine {
 
 namespace {
 
-// Of second differences against a cell's samples. Our choice: tried from 0.001 to 0.1.
-constexpr float kStiffness = 0.01f;
+// Of second differences against a cell's samples. Our choice: thin walls keep their points from
+// 0.001 down, and below it more cells fold.
+constexpr float kStiffness = 0.001f;
+// Modes of what the affine part leaves that are smaller than this part of it, as root mean squares,
+// are left out: micrometres. Our choice.
+constexpr double kLeftOut = 0.004;
 // Steps of conjugate gradients; more change the fit by less than a hundredth of a millimetre.
 constexpr int kFirstSteps = 24, kMoreSteps = 12;
-// A cell that keeps less than this part of its volume at a keyframe is about to fold: its
-// surroundings are made this much stiffer, so many times at most. Our choices.
-constexpr float kLeastVolume = 0.05f, kStiffer = 4;
+// Rounds in which what folds is made stiffer, at most. Our choice.
 constexpr int kUnfoldings = 4;
 // A neighbour's surface that moves otherwise than the group's own, by this root mean square over
 // the keyframes, slides on it: its samples lose three quarters of their weight at twice of it. Our
@@ -30,12 +34,6 @@ struct FitData {
   std::vector<float> values;  // columns per point
 };
 
-std::vector<float> sum(const std::vector<float>& a, const std::vector<float>& b) {
-  std::vector<float> total(a);
-  for (std::size_t i = 0; i < total.size(); ++i) total[i] += b[i];
-  return total;
-}
-
 class GroupFitter {
  public:
   GroupFitter(const FieldSpace& space, const GroupMembers& members, const Winners& winners,
@@ -45,16 +43,17 @@ class GroupFitter {
   GroupLattice fit() {
     if (!gather()) return {};
     takeCells(layCells(space_, members_, winners_, data_.places_m));
-    const std::vector<float> smooth = affinePart();
-    subtract(smooth);
+    affine_ = affineFit(data_.places_m, data_.samples, data_.values, data_.columns);
+    subtractAffine();
+    keepFewModes();
     resting_ = restingNodes();
     stiffness_.assign(lattice_.nodes.nodes.size(), kStiffness);
     std::vector<float> rest = solve({}, kFirstSteps);
     if (letSlide(rest)) rest = solve(std::move(rest), kMoreSteps);
-    fillRows(sum(smooth, rest));
-    for (int i = 0; i < kUnfoldings && stiffenFolds(); ++i) {
+    fillRows(rest);
+    for (int i = 0; i < kUnfoldings && stiffenFolds(lattice_, classes_, used_, stiffness_); ++i) {
       rest = solve(std::move(rest), kMoreSteps);
-      fillRows(sum(smooth, rest));
+      fillRows(rest);
     }
     return std::move(lattice_);
   }
@@ -62,14 +61,15 @@ class GroupFitter {
  private:
   bool gather();
   void takeCells(GroupCells cells);
-  std::vector<float> affinePart() const;
-  void subtract(const std::vector<float>& nodes);
+  void subtractAffine();
   std::vector<std::uint32_t> restingNodes() const;
   std::vector<float> solve(std::vector<float> start, int steps) const;
-  bool stiffenFolds();
-  bool folds(const std::uint32_t (&corners)[8]) const;
   bool letSlide(const std::vector<float>& nodes);
-  void fillRows(const std::vector<float>& nodes);
+  std::size_t keyframeCount() const;
+  void keepFewModes();
+  void fillRows(const std::vector<float>& rest);
+  void fillRow(const std::vector<double>& factors, const std::vector<float>& rest,
+               std::vector<Vec3f>& row) const;
   double fadeAt(Vec3d place_m) const;
 
   const FieldSpace& space_;
@@ -79,10 +79,13 @@ class GroupFitter {
   std::span<const PhaseClass> classes_;
   GroupLattice lattice_;
   FitData data_;
+  AffineFit affine_;  // of all modes
+  MotionModes few_;   // of what remains: the classes' modes take the keyframes' place
   std::vector<std::uint32_t> resting_;
   std::vector<float> stiffness_;      // by active node
   std::vector<bool> used_;            // GroupCells::used
   std::vector<Vec3d> node_places_m_;  // by active node
+  std::vector<double> fade_;          // of the affine part, by active node
 };
 
 // The points of this group and what each mode does to them; false when none of them moves.
@@ -131,29 +134,48 @@ double GroupFitter::fadeAt(Vec3d p) const {
   return 1 - t * t * (3 - 2 * t);
 }
 
-// The best affine function of place for every column, at the nodes. What is affine is met exactly
-// and at any distance; the lattice is fitted to what remains.
-std::vector<float> GroupFitter::affinePart() const {
-  const AffineFit fit = affineFit(data_.places_m, data_.samples, data_.values, data_.columns);
-  std::vector<float> nodes;
-  nodes.reserve(node_places_m_.size() * data_.columns);
-  for (const Vec3d at : node_places_m_) {
-    const double fade = fadeAt(at);
-    for (std::size_t c = 0; c < data_.columns; ++c)
-      nodes.push_back(static_cast<float>(fade * fit.at(c, at)));
+// The best affine function of place is taken from the data as its values at the nodes give it.
+// What is affine is met exactly and at any distance; the lattice is fitted to what remains.
+void GroupFitter::subtractAffine() {
+  for (const Vec3d at : node_places_m_) fade_.push_back(fadeAt(at));
+  const std::size_t columns = data_.columns;
+  for (std::size_t j = 0; j < data_.samples.size(); ++j) {
+    const LatticeSample& sample = data_.samples[j];
+    double fade = 0;
+    Vec3d arm;
+    for (std::size_t i = 0; i < 8; ++i) {
+      const std::uint32_t n = sample.node[i];
+      const double share = static_cast<double>(sample.share[i]) * fade_[n];
+      fade += share;
+      arm = arm + share * (node_places_m_[n] - affine_.middle);
+    }
+    for (std::size_t c = 0; c < columns; ++c)
+      data_.values[j * columns + c] -=
+          static_cast<float>(fade * affine_.mean[c] + dot(affine_.slope[c], arm));
   }
-  return nodes;
 }
 
-// From the data, what given node values already say there.
-void GroupFitter::subtract(const std::vector<float>& nodes) {
-  const std::size_t columns = data_.columns;
-  for (std::size_t j = 0; j < data_.samples.size(); ++j)
-    for (std::size_t i = 0; i < 8; ++i) {
-      const float share = data_.samples[j].share[i];
-      const float* const from = &nodes[data_.samples[j].node[i] * columns];
-      for (std::size_t c = 0; c < columns; ++c) data_.values[j * columns + c] -= share * from[c];
-    }
+// What the affine part leaves of a group is mostly a few modes. Their columns take the data's
+// place.
+void GroupFitter::keepFewModes() {
+  std::vector<Vec3f> remains_m;
+  remains_m.reserve(data_.values.size() / 3);
+  for (std::size_t i = 0; i < data_.values.size(); i += 3)
+    remains_m.push_back({data_.values[i], data_.values[i + 1], data_.values[i + 2]});
+  double squares_m2 = 0;  // over points and keyframes, since the classes' modes are orthonormal
+  for (const Vec3f d : remains_m) squares_m2 += static_cast<double>(dot(d, d));
+  const auto points = static_cast<double>(data_.points.size());
+  few_ = motionModes(remains_m, data_.columns / 3, kLeftOut * std::sqrt(squares_m2 / points));
+  data_.columns = 3 * few_.count;
+  data_.values.clear();
+  for (const Vec3f d : few_.shapes_m) data_.values.insert(data_.values.end(), {d.x, d.y, d.z});
+  few_.shapes_m = {};
+}
+
+std::size_t GroupFitter::keyframeCount() const {
+  std::size_t keyframes = 0;
+  for (const PhaseClass& c : classes_) keyframes = std::max(keyframes, c.weights.keyframeCount());
+  return keyframes;
 }
 
 // An open group's outermost nodes.
@@ -174,8 +196,7 @@ std::vector<std::uint32_t> GroupFitter::restingNodes() const {
 // the neighbour gives way. Modes are orthonormal over the keyframes, so the sum of squares over
 // modes is that over keyframes. False when nothing changes.
 bool GroupFitter::letSlide(const std::vector<float>& nodes) {
-  std::size_t keyframes = 0;
-  for (const PhaseClass& c : classes_) keyframes = std::max(keyframes, c.weights.keyframeCount());
+  const auto keyframes = static_cast<double>(keyframeCount());
   bool slides = false;
   const std::size_t columns = data_.columns;
   std::vector<double> miss(columns);
@@ -189,7 +210,7 @@ bool GroupFitter::letSlide(const std::vector<float>& nodes) {
       for (std::size_t c = 0; c < columns; ++c)
         miss[c] -= static_cast<double>(sample.share[i] * nodes[sample.node[i] * columns + c]);
     double square_m2 = 0;
-    for (const double m : miss) square_m2 += m * m / static_cast<double>(keyframes);
+    for (const double m : miss) square_m2 += m * m / keyframes;
     const double factor = 1 / (1 + square_m2 / (kSlides_m * kSlides_m));
     slides |= factor < 0.5;
     sample.weight *= static_cast<float>(factor);
@@ -202,76 +223,50 @@ std::vector<float> GroupFitter::solve(std::vector<float> start, int steps) const
                     resting_, std::move(start), steps);
 }
 
-// Does the map turn over, or nearly, at a corner of the cell at any keyframe? Corner numbers have
-// bit 0 for x, 1 for z, 2 for y.
-bool GroupFitter::folds(const std::uint32_t (&corners)[8]) const {
-  const float h = lattice_.grid.spacing_m;
-  for (std::size_t c = 0; c < classes_.size(); ++c)
-    for (std::size_t k = 0; k < classes_[c].weights.keyframeCount(); ++k) {
-      const std::vector<Vec3f>& row = lattice_.rows_m[c][k];
-      Vec3f d[8];
-      for (std::size_t i = 0; i < 8; ++i) d[i] = row[corners[i]];
-      for (std::size_t i = 0; i < 8; ++i) {
-        const Vec3f x = Vec3f{h, 0, 0} + d[i | 1] - d[i & 6],
-                    z = Vec3f{0, 0, h} + d[i | 2] - d[i & 5],
-                    y = Vec3f{0, h, 0} + d[i | 4] - d[i & 3];
-        if (dot(x, cross(y, z)) < kLeastVolume * h * h * h) return true;
-      }
-    }
-  return false;
-}
-
-// False when no cell folds.
-bool GroupFitter::stiffenFolds() {
-  const LatticeGrid& grid = lattice_.grid;
-  std::vector<bool> stiffer(stiffness_.size(), false);
-  bool found = false;
-  for (int y = 0; y + 1 < grid.ny; ++y)
-    for (int z = 0; z + 1 < grid.nz; ++z)
-      for (int x = 0; x + 1 < grid.nx; ++x) {
-        std::uint32_t corners[8];
-        bool whole = true;
-        for (int i = 0; i < 8; ++i) {
-          const std::int32_t n =
-              lattice_.nodes.numberAt(x + (i & 1), y + (i >> 2), z + (i >> 1 & 1));
-          whole &= n >= 0;
-          corners[i] = static_cast<std::uint32_t>(n);
-        }
-        if (!whole || !used_[corners[0]] || !folds(corners)) continue;
-        found = true;
-        for (const std::uint32_t n : corners) stiffer[n] = true;
-      }
-  for (std::size_t n = 0; n < stiffer.size(); ++n)
-    if (stiffer[n]) stiffness_[n] *= kStiffer;
-  return found;
-}
-
 // Back from modes to the rows that the weights ask for.
-void GroupFitter::fillRows(const std::vector<float>& nodes) {
-  const std::size_t columns = data_.columns, count = lattice_.nodes.nodes.size();
+void GroupFitter::fillRows(const std::vector<float>& rest) {
+  const std::size_t modes = affine_.mean.size() / 3;
   std::size_t first = 0;
   lattice_.rows_m.clear();
   for (const PhaseClass& c : classes_) {
-    auto& rows = lattice_.rows_m.emplace_back();
-    for (std::size_t r = 0; r < c.weights.rowCount(); ++r) {
-      std::vector<float> factors(c.modes.count, 0.0f);
-      for (std::size_t m = 0; m < c.modes.count; ++m) {
-        double sum = 0;
+    auto& rows = lattice_.rows_m.emplace_back(c.weights.rowCount());
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      std::vector<double> factors(modes, 0.0);
+      for (std::size_t m = 0; m < c.modes.count; ++m)
         if (r < c.weights.keyframeCount())
-          sum = c.modes.keyframe_from_mode[r][m];
+          factors[first + m] = c.modes.keyframe_from_mode[r][m];
         else
           for (std::size_t k = 0; k < c.weights.keyframeCount(); ++k)
-            sum += c.weights.rowWeights(r)[k] * c.modes.keyframe_from_mode[k][m];
-        factors[m] = static_cast<float>(sum);
-      }
-      std::vector<Vec3f>& row = rows.emplace_back(count);
-      for (std::size_t n = 0; n < count; ++n)
-        for (std::size_t m = 0; m < c.modes.count; ++m) {
-          const float* const v = &nodes[n * columns + first + 3 * m];
-          row[n] = row[n] + factors[m] * Vec3f{v[0], v[1], v[2]};
-        }
+            factors[first + m] += c.weights.rowWeights(r)[k] * c.modes.keyframe_from_mode[k][m];
+      fillRow(factors, rest, rows[r]);
     }
-    first += 3 * c.modes.count;
+    first += c.modes.count;
+  }
+}
+
+// The modes by their factors: the affine part, and the few of the rest.
+void GroupFitter::fillRow(const std::vector<double>& factors, const std::vector<float>& rest,
+                          std::vector<Vec3f>& row) const {
+  double mean[3] = {};
+  Vec3d slope[3];
+  std::vector<double> few(few_.count, 0.0);
+  for (std::size_t m = 0; m < factors.size(); ++m) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      mean[i] += factors[m] * affine_.mean[3 * m + i];
+      slope[i] = slope[i] + factors[m] * affine_.slope[3 * m + i];
+    }
+    for (std::size_t k = 0; k < few.size(); ++k)
+      few[k] += factors[m] * few_.keyframe_from_mode[m][k];
+  }
+  const std::vector<float> shares(few.begin(), few.end());
+  row.resize(node_places_m_.size());
+  for (std::size_t n = 0; n < row.size(); ++n) {
+    const Vec3d arm = node_places_m_[n] - affine_.middle;
+    row[n] = toFloat(fade_[n] * Vec3d{mean[0] + dot(slope[0], arm), mean[1] + dot(slope[1], arm),
+                                      mean[2] + dot(slope[2], arm)});
+    const float* from = &rest[n * data_.columns];
+    for (std::size_t k = 0; k < shares.size(); ++k, from += 3)
+      row[n] = row[n] + shares[k] * Vec3f{from[0], from[1], from[2]};
   }
 }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/check.h"
+#include "core/lanes.h"
+#include "core/parallel.h"
 #include "core/stop.h"
+#include "motion/interior/lattice_equations.h"
 
 namespace echocine {
 
@@ -13,249 +15,169 @@ namespace {
 
 // Our choice: the residual falls to this part of the right-hand side, which leaves micrometres.
 constexpr double kTolerance = 1e-4;
-// Holds what no sample reaches; far below any sample's weight.
-constexpr double kRidge = 1e-6;
 
-// Second differences and trilinear samples couple a node with the 27 about it and with those two
-// steps along an axis.
-struct Offset {
-  int x, y, z;
+// Columns that are solved together: as many as keep a node's sum in registers. Our choice.
+constexpr std::size_t kTogether = 3 * kFloatLanes;
+
+struct FitProblem {
+  std::span<const LatticeSample> samples;
+  std::span<const float> data;
+  std::size_t columns;
+  std::span<const std::uint32_t> fixed;
 };
 
-std::array<Offset, 33> stencilOffsets() {
-  std::array<Offset, 33> offsets{};
-  std::size_t n = 0;
-  for (int y = -1; y <= 1; ++y)
-    for (int z = -1; z <= 1; ++z)
-      for (int x = -1; x <= 1; ++x) offsets[n++] = {x, y, z};
-  for (const int s : {-2, 2})
-    for (const Offset o : {Offset{s, 0, 0}, Offset{0, s, 0}, Offset{0, 0, s}}) offsets[n++] = o;
-  return offsets;
-}
-
-// Where in the stencil an offset stands.
-std::size_t slotOf(int x, int y, int z) {
-  if (std::max({std::abs(x), std::abs(y), std::abs(z)}) <= 1)
-    return static_cast<std::size_t>((y + 1) * 9 + (z + 1) * 3 + x + 1);
-  const std::size_t sign = x + y + z > 0 ? 3 : 0;
-  return 27 + sign + (x != 0 ? 0u : y != 0 ? 1u : 2u);
-}
-
-// The normal equations: a stencil per node.
-class Equations {
+// Conjugate gradients with the diagonal as preconditioner, for a few columns, each with its own
+// steps. Lanes beyond the columns stay 0.
+template <std::size_t kLanes>
+class ColumnSolver {
  public:
-  Equations(const ActiveNodes& nodes, std::span<const LatticeSample> samples,
-            std::span<const float> stiffness, std::span<const std::uint32_t> fixed);
+  static constexpr std::size_t kWidth = kLanes * kFloatLanes;
 
-  std::size_t size() const { return starts_.size() - 1; }
-  const std::vector<float>& diagonal() const { return diagonal_; }
+  ColumnSolver(const LatticeEquations& equations, const FitProblem& problem, std::size_t first)
+      : equations_(equations),
+        problem_(problem),
+        first_(first),
+        count_(std::min(kWidth, problem.columns - first)),
+        x_(equations.size() * kWidth),
+        r_(x_.size()),
+        p_(x_.size()),
+        product_(x_.size()) {}
 
-  // out = A x for all columns.
-  void apply(const std::vector<float>& x, std::size_t columns, std::vector<float>& out) const;
+  // Replaces the columns of `all`, which are where it starts.
+  void solve(int steps, std::vector<float>& all) {
+    for (std::size_t n = 0; n < size(); ++n)
+      std::copy_n(&all[n * problem_.columns + first_], count_, &x_[n * kWidth]);
+    makeRightSide();
+    const Sums target = Sums::scaled(residual(), kTolerance * kTolerance);
+    const Factors none{};
+    Factors one;
+    one.fill(1);
+    multiply(x_);
+    rho_ = descend(one);
+    turn(none, none);
+    for (int i = 0; i < steps && rho_.over(target); ++i) step(target);
+    for (std::size_t n = 0; n < size(); ++n)
+      std::copy_n(&x_[n * kWidth], count_, &all[n * problem_.columns + first_]);
+  }
 
  private:
-  using Row = std::array<double, 33>;
-  struct Place {
-    int x, y, z;
+  using Factors = std::array<float, kWidth>;  // one per column
+  // One double per column.
+  struct Sums {
+    Doubles4 parts[2 * kLanes]{};
+    double operator[](std::size_t c) const { return parts[c / kDoubleLanes][c % kDoubleLanes]; }
+    void add(std::size_t lane, Floats8 a, Floats8 b) {
+      Floats4 halves[2][2];
+      std::memcpy(halves[0], &a, sizeof a);
+      std::memcpy(halves[1], &b, sizeof b);
+      for (std::size_t h = 0; h < 2; ++h)
+        parts[2 * lane + h] += __builtin_convertvector(halves[0][h], Doubles4) *
+                               __builtin_convertvector(halves[1][h], Doubles4);
+    }
+    static Sums scaled(Sums sums, double factor) {
+      for (Doubles4& part : sums.parts) part *= factor;
+      return sums;
+    }
+    bool over(const Sums& target) const {
+      for (std::size_t c = 0; c < kWidth; ++c)
+        if ((*this)[c] > target[c]) return true;
+      return false;
+    }
   };
-  Place placeOf(std::uint32_t number) const;
-  void addProduct(std::span<const std::uint32_t> numbers, std::span<const double> factors,
-                  double weight);
-  void addSamples(std::span<const LatticeSample> samples);
-  void addBending(std::span<const float> stiffness);
-  void addDifference(Place at, std::span<const Offset> offsets, std::span<const double> factors,
-                     double weight);
-  void compress(std::span<const std::uint32_t> fixed);
 
-  const ActiveNodes& nodes_;
-  std::vector<Row> rows_;
-  std::vector<std::uint32_t> starts_, members_;
-  std::vector<float> values_, diagonal_;
-};
+  std::size_t size() const { return equations_.size(); }
 
-Equations::Equations(const ActiveNodes& nodes, std::span<const LatticeSample> samples,
-                     std::span<const float> stiffness, std::span<const std::uint32_t> fixed)
-    : nodes_(nodes), rows_(nodes.nodes.size(), Row{}) {
-  addSamples(samples);
-  checkpoint();
-  addBending(stiffness);
-  checkpoint();
-  for (Row& row : rows_) row[slotOf(0, 0, 0)] += kRidge;
-  compress(fixed);
-  rows_.clear();
-  rows_.shrink_to_fit();
-}
-
-Equations::Place Equations::placeOf(std::uint32_t number) const {
-  const auto node = static_cast<int>(nodes_.nodes[number]);
-  return {node % nodes_.nx, node / (nodes_.nx * nodes_.nz), node / nodes_.nx % nodes_.nz};
-}
-
-// Adds weight * f f^T for a combination f of nodes.
-void Equations::addProduct(std::span<const std::uint32_t> numbers, std::span<const double> factors,
-                           double weight) {
-  Place places[8];
-  for (std::size_t a = 0; a < numbers.size(); ++a) places[a] = placeOf(numbers[a]);
-  for (std::size_t a = 0; a < numbers.size(); ++a)
-    for (std::size_t b = 0; b < numbers.size(); ++b)
-      rows_[numbers[a]][slotOf(places[b].x - places[a].x, places[b].y - places[a].y,
-                               places[b].z - places[a].z)] += weight * factors[a] * factors[b];
-}
-
-void Equations::addSamples(std::span<const LatticeSample> samples) {
-  for (const LatticeSample& sample : samples) {
-    double factors[8];
-    for (std::size_t i = 0; i < 8; ++i) factors[i] = sample.share[i];
-    addProduct(sample.node, factors, sample.weight);
-  }
-}
-
-// Nothing where one of the nodes takes no part: no condition across the border of the region.
-void Equations::addDifference(Place at, std::span<const Offset> offsets,
-                              std::span<const double> factors, double weight) {
-  std::uint32_t numbers[4];
-  for (std::size_t i = 0; i < offsets.size(); ++i) {
-    const std::int32_t number =
-        nodes_.numberAt(at.x + offsets[i].x, at.y + offsets[i].y, at.z + offsets[i].z);
-    if (number < 0) return;
-    numbers[i] = static_cast<std::uint32_t>(number);
-  }
-  addProduct(std::span(numbers, offsets.size()), factors, weight);
-}
-
-// |D^2 u|^2 = u_xx^2 + u_yy^2 + u_zz^2 + 2 (u_xy^2 + u_yz^2 + u_zx^2).
-void Equations::addBending(std::span<const float> stiffness) {
-  constexpr Offset kAxes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  constexpr double kStraight[3] = {1, -2, 1}, kMixed[4] = {1, -1, -1, 1};
-  for (std::uint32_t n = 0; n < rows_.size(); ++n) {
-    const Place at = placeOf(n);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Offset a = kAxes[i], b = kAxes[(i + 1) % 3];
-      const Offset straight[3] = {{-a.x, -a.y, -a.z}, {0, 0, 0}, a};
-      addDifference(at, straight, kStraight, stiffness[n]);
-      const Offset mixed[4] = {{0, 0, 0}, a, b, {a.x + b.x, a.y + b.y, a.z + b.z}};
-      addDifference(at, mixed, kMixed, 2 * stiffness[n]);
+  void makeRightSide() {
+    for (std::size_t j = 0; j < problem_.samples.size(); ++j) {
+      const LatticeSample& sample = problem_.samples[j];
+      const float* const data = &problem_.data[j * problem_.columns + first_];
+      for (std::size_t i = 0; i < 8; ++i) {
+        const float factor = sample.weight * sample.share[i];
+        float* const to = &r_[sample.node[i] * kWidth];
+        for (std::size_t c = 0; c < count_; ++c) to[c] += factor * data[c];
+      }
     }
+    for (const std::uint32_t n : problem_.fixed) std::fill_n(&r_[n * kWidth], kWidth, 0.0f);
   }
-}
 
-// To lists of neighbours that matter. A fixed node's row and column become those of u = 0.
-void Equations::compress(std::span<const std::uint32_t> fixed) {
-  std::vector<bool> held(rows_.size(), false);
-  for (const std::uint32_t n : fixed) held[n] = true;
-  const auto offsets = stencilOffsets();
-  starts_.push_back(0);
-  for (std::uint32_t n = 0; n < rows_.size(); ++n) {
-    const Place at = placeOf(n);
-    for (std::size_t s = 0; s < offsets.size(); ++s) {
-      if (rows_[n][s] == 0) continue;
-      const auto other = static_cast<std::uint32_t>(
-          nodes_.numberAt(at.x + offsets[s].x, at.y + offsets[s].y, at.z + offsets[s].z));
-      if (other != n && (held[n] || held[other])) continue;
-      members_.push_back(other);
-      values_.push_back(static_cast<float>(rows_[n][s]));
+  // r . r over the diagonal.
+  Sums residual() const {
+    Sums sums;
+    for (std::size_t n = 0; n < size(); ++n)
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const Floats8 r = lanesAt(&r_[n * kWidth + lane * kFloatLanes]);
+        sums.add(lane, r, r * equations_.inverseDiagonal()[n]);
+      }
+    return sums;
+  }
+
+  // product = A from; returns from . product.
+  Sums multiply(const std::vector<float>& from) {
+    Sums sums;
+    for (std::size_t n = 0; n < size(); ++n) {
+      const LatticeEquations::Row row = equations_[n];
+      Floats8 sum[kLanes]{};
+      for (std::size_t m = 0; m < row.members.size(); ++m) {
+        const float* const at = &from[row.members[m] * kWidth];
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+          sum[lane] += row.values[m] * lanesAt(at + lane * kFloatLanes);
+      }
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const std::size_t i = n * kWidth + lane * kFloatLanes;
+        store(sum[lane], &product_[i]);
+        sums.add(lane, lanesAt(&from[i]), sum[lane]);
+      }
     }
-    diagonal_.push_back(static_cast<float>(rows_[n][slotOf(0, 0, 0)]));
-    starts_.push_back(static_cast<std::uint32_t>(members_.size()));
-  }
-}
-
-void Equations::apply(const std::vector<float>& x, std::size_t columns,
-                      std::vector<float>& out) const {
-  for (std::size_t n = 0; n < size(); ++n) {
-    float* const to = &out[n * columns];
-    std::fill(to, to + columns, 0.0f);
-    for (std::uint32_t m = starts_[n]; m < starts_[n + 1]; ++m) {
-      const float value = values_[m];
-      const float* const from = &x[members_[m] * columns];
-      for (std::size_t c = 0; c < columns; ++c) to[c] += value * from[c];
-    }
-  }
-}
-
-using Sums = std::vector<double>;  // one per column
-
-Sums dots(const std::vector<float>& a, const std::vector<float>& b, std::size_t columns) {
-  Sums sums(columns, 0.0);
-  for (std::size_t i = 0; i < a.size(); i += columns)
-    for (std::size_t c = 0; c < columns; ++c)
-      sums[c] += static_cast<double>(a[i + c]) * static_cast<double>(b[i + c]);
-  return sums;
-}
-
-// Conjugate gradients with the diagonal as preconditioner, every column with its own steps.
-class Solver {
- public:
-  Solver(const Equations& equations, std::vector<float> right_side, std::vector<float> start,
-         std::size_t columns)
-      : equations_(equations), columns_(columns), x_(std::move(start)), r_(std::move(right_side)) {
-    z_.resize(r_.size());
-    product_.resize(r_.size());
-    precondition();
-    for (const double rho : dots(r_, z_, columns_))
-      target_.push_back(kTolerance * kTolerance * rho);
-    if (x_.empty()) {
-      x_.assign(r_.size(), 0.0f);
-    } else {
-      equations_.apply(x_, columns_, product_);
-      for (std::size_t i = 0; i < r_.size(); ++i) r_[i] -= product_[i];
-      precondition();
-    }
-    p_ = z_;
-    rho_ = dots(r_, z_, columns_);
+    return sums;
   }
 
-  std::vector<float> solve(int steps) {
-    for (int i = 0; i < steps && !settled(); ++i) step();
-    return std::move(x_);
+  // r -= alpha product; returns r . r over the diagonal.
+  Sums descend(const Factors& alpha) {
+    Sums sums;
+    for (std::size_t n = 0; n < size(); ++n)
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const std::size_t i = n * kWidth + lane * kFloatLanes;
+        const Floats8 r =
+            lanesAt(&r_[i]) - lanesAt(&alpha[lane * kFloatLanes]) * lanesAt(&product_[i]);
+        store(r, &r_[i]);
+        sums.add(lane, r, r * equations_.inverseDiagonal()[n]);
+      }
+    return sums;
   }
 
- private:
-  bool settled() const {
-    for (std::size_t c = 0; c < columns_; ++c)
-      if (rho_[c] > target_[c]) return false;
-    return true;
+  // x += alpha p; p = r over the diagonal + beta p.
+  void turn(const Factors& alpha, const Factors& beta) {
+    for (std::size_t n = 0; n < size(); ++n)
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const std::size_t i = n * kWidth + lane * kFloatLanes;
+        const Floats8 p = lanesAt(&p_[i]);
+        store(lanesAt(&x_[i]) + lanesAt(&alpha[lane * kFloatLanes]) * p, &x_[i]);
+        store(lanesAt(&r_[i]) * equations_.inverseDiagonal()[n] +
+                  lanesAt(&beta[lane * kFloatLanes]) * p,
+              &p_[i]);
+      }
   }
 
-  void precondition() {
-    const std::vector<float>& diagonal = equations_.diagonal();
-    for (std::size_t n = 0; n < diagonal.size(); ++n)
-      for (std::size_t c = 0; c < columns_; ++c)
-        z_[n * columns_ + c] = r_[n * columns_ + c] / diagonal[n];
-  }
-
-  // to += factor[c] * from
-  void add(const std::vector<float>& factor, const std::vector<float>& from,
-           std::vector<float>& to) const {
-    for (std::size_t i = 0; i < to.size(); i += columns_)
-      for (std::size_t c = 0; c < columns_; ++c) to[i + c] += factor[c] * from[i + c];
-  }
-
-  void step() {
+  void step(const Sums& target) {
     checkpoint();
-    equations_.apply(p_, columns_, product_);
-    const Sums curvature = dots(p_, product_, columns_);
-    std::vector<float> alpha(columns_), minus(columns_), beta(columns_);
-    for (std::size_t c = 0; c < columns_; ++c) {
-      const bool done = rho_[c] <= target_[c] || curvature[c] <= 0;
+    const Sums curvature = multiply(p_);
+    Factors alpha, beta;
+    for (std::size_t c = 0; c < kWidth; ++c) {
+      const bool done = rho_[c] <= target[c] || curvature[c] <= 0;
       alpha[c] = done ? 0.0f : static_cast<float>(rho_[c] / curvature[c]);
-      minus[c] = -alpha[c];
     }
-    add(alpha, p_, x_);
-    add(minus, product_, r_);
-    precondition();
-    const Sums rho = dots(r_, z_, columns_);
-    for (std::size_t c = 0; c < columns_; ++c)
+    const Sums rho = descend(alpha);
+    for (std::size_t c = 0; c < kWidth; ++c)
       beta[c] = rho_[c] > 0 ? static_cast<float>(rho[c] / rho_[c]) : 0.0f;
-    for (std::size_t i = 0; i < p_.size(); i += columns_)
-      for (std::size_t c = 0; c < columns_; ++c) p_[i + c] = z_[i + c] + beta[c] * p_[i + c];
+    turn(alpha, beta);
     rho_ = rho;
   }
 
-  const Equations& equations_;
-  std::size_t columns_;
-  std::vector<float> x_, r_, z_, p_, product_;
-  Sums rho_, target_;
+  const LatticeEquations& equations_;
+  const FitProblem& problem_;
+  std::size_t first_, count_;
+  std::vector<float> x_, r_, p_, product_;  // kWidth values per node
+  Sums rho_;                                // r . r over the diagonal
 };
 
 }  // namespace
@@ -267,16 +189,18 @@ std::vector<float> fitLattice(const ActiveNodes& nodes, std::span<const LatticeS
                               int steps) {
   CHECK_EQ(data.size(), samples.size() * columns);
   checkpoint();
-  const Equations equations(nodes, samples, stiffness, fixed);
-  std::vector<float> right_side(nodes.nodes.size() * columns, 0.0f);
-  for (std::size_t j = 0; j < samples.size(); ++j)
-    for (std::size_t i = 0; i < 8; ++i) {
-      const float factor = samples[j].weight * samples[j].share[i];
-      float* const to = &right_side[samples[j].node[i] * columns];
-      for (std::size_t c = 0; c < columns; ++c) to[c] += factor * data[j * columns + c];
-    }
-  for (const std::uint32_t n : fixed) std::fill_n(&right_side[n * columns], columns, 0.0f);
-  return Solver(equations, std::move(right_side), std::move(start), columns).solve(steps);
+  const LatticeEquations equations(nodes, samples, stiffness, fixed);
+  const FitProblem problem{samples, data, columns, fixed};
+  start.resize(nodes.nodes.size() * columns);
+  parallelBlocks(columns, kTogether, [&](std::size_t begin, std::size_t end) {
+    if (end - begin > 2 * kFloatLanes)
+      ColumnSolver<3>(equations, problem, begin).solve(steps, start);
+    else if (end - begin > kFloatLanes)
+      ColumnSolver<2>(equations, problem, begin).solve(steps, start);
+    else
+      ColumnSolver<1>(equations, problem, begin).solve(steps, start);
+  });
+  return start;
 }
 
 }  // namespace echocine

@@ -28,9 +28,9 @@ struct ActiveNodes {
   }
 };
 
-// A place with the eight nodes about it.
+// A place with the corners of its cell.
 struct LatticeSample {
-  std::uint32_t node[8];  // numbers of active nodes
+  std::uint32_t node[8];  // numbers of active nodes; bit 0 counts along x, 1 along z, 2 along y
   float share[8];         // trilinear
   float weight = 1;
 };

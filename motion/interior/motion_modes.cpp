@@ -45,11 +45,18 @@ Matrix diagonalise(Matrix& a) {
 
 Matrix gram(std::span<const Vec3f> displacement_m, std::size_t keyframes) {
   Matrix products(keyframes, std::vector<double>(keyframes, 0.0));
-  std::vector<Vec3d> row(keyframes);
+  std::vector<double> x(keyframes), y(keyframes), z(keyframes);
   for (std::size_t start = 0; start < displacement_m.size(); start += keyframes) {
-    for (std::size_t k = 0; k < keyframes; ++k) row[k] = toDouble(displacement_m[start + k]);
-    for (std::size_t i = 0; i < keyframes; ++i)
-      for (std::size_t j = i; j < keyframes; ++j) products[i][j] += dot(row[i], row[j]);
+    for (std::size_t k = 0; k < keyframes; ++k) {
+      const Vec3d d = toDouble(displacement_m[start + k]);
+      x[k] = d.x;
+      y[k] = d.y;
+      z[k] = d.z;
+    }
+    for (std::size_t i = 0; i < keyframes; ++i) {
+      double* const to = products[i].data();
+      for (std::size_t j = i; j < keyframes; ++j) to[j] += x[i] * x[j] + y[i] * y[j] + z[i] * z[j];
+    }
   }
   for (std::size_t i = 0; i < keyframes; ++i)
     for (std::size_t j = 0; j < i; ++j) products[i][j] = products[j][i];

@@ -51,13 +51,12 @@ void PlaneSlice::cutSurface(const SurfaceTopology& surface, const std::vector<Ve
   for (std::uint32_t t = 0; t < count; ++t) cut(surface.triangles[t], t);
 }
 
-// Of the surface's edges, which start at `first`.
-void PlaneSlice::addNormals(const SurfaceTopology& surface, const SurfaceFrame& frame,
-                            std::size_t first, std::span<const ContourEdge> edges,
+void PlaneSlice::addNormals(const SurfaceFrame& frame, std::span<const ContourEdge> edges,
                             std::vector<EdgeNormals>& normals) const {
-  const std::vector<Vec3f>& position = frame.positions_m[index(surface.id)];
-  const std::vector<Vec3f>& normal = frame.normals[index(surface.id)];
-  for (const ContourEdge& edge : edges.subspan(first)) {
+  for (const ContourEdge& edge : edges) {
+    const SurfaceTopology& surface = surfaces_[index(edge.surface)];
+    const std::vector<Vec3f>& position = frame.positions_m[index(surface.id)];
+    const std::vector<Vec3f>& normal = frame.normals[index(surface.id)];
     const Triangle& corner = surface.triangles[edge.triangle];
     const Triangle& n = surface.normalCorners()[edge.triangle];
     normals.push_back(cutNormals({normal[n[0]], normal[n[1]], normal[n[2]]}, position[corner[0]].y,
@@ -127,22 +126,27 @@ void PlaneSlice::resolve(RayCrossings& line) const {
   keepChanges(line.crossings, depth, membranes_, clamped);
 }
 
-void PlaneSlice::update(const SurfaceFrame& frame) {
+void PlaneSlice::cut(const SurfaceFrame& frame) {
   for (RayCrossings& line : lines_) line.crossings.clear();
-  const auto cutAll = [&](bool still, std::vector<ContourEdge>& edges,
-                          std::vector<EdgeNormals>& normals) {
-    for (const SurfaceTopology& surface : surfaces_) {
-      if (surface.still != still || left_out_[index(surface.id)]) continue;
-      const std::size_t first = edges.size();
-      cutSurface(surface, frame.positions_m[index(surface.id)], edges);
-      if (!frame.normals.empty()) addNormals(surface, frame, first, edges, normals);
-    }
+  normals_.clear();
+  const auto cutAll = [&](bool still, std::vector<ContourEdge>& edges) {
+    for (const SurfaceTopology& surface : surfaces_)
+      if (surface.still == still && !left_out_[index(surface.id)])
+        cutSurface(surface, frame.positions_m[index(surface.id)], edges);
   };
-  if (!still_cut_) cutAll(true, still_edges_, still_normals_);
+  if (!still_cut_) cutAll(true, still_edges_);
   still_cut_ = true;
   edges_ = still_edges_;
-  normals_ = still_normals_;
-  cutAll(false, edges_, normals_);
+  cutAll(false, edges_);
+}
+
+void PlaneSlice::update(const SurfaceFrame& frame) {
+  cut(frame);
+  if (!frame.normals.empty()) {
+    if (still_normals_.empty()) addNormals(frame, still_edges_, still_normals_);
+    normals_ = still_normals_;
+    addNormals(frame, std::span(edges_).subspan(still_edges_.size()), normals_);
+  }
   for (std::size_t edge = 0; edge < edges_.size(); ++edge) crossEdge(edge);
   for (RayCrossings& line : lines_) resolve(line);
 }

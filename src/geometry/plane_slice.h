@@ -39,6 +39,9 @@ class PlaneSlice {
   // frame.
   void update(const SurfaceFrame& frame);
 
+  // Cuts the frame and asks no line: edges() alone are made.
+  void cut(const SurfaceFrame& frame);
+
   const std::vector<RayCrossings>& lines() const { return lines_; }
   const std::vector<ContourEdge>& edges() const { return edges_; }
   // One for each edge; none at all when the frame has no smooth normals.
@@ -47,8 +50,8 @@ class PlaneSlice {
  private:
   void cutSurface(const SurfaceTopology& surface, const std::vector<Vec3f>& positions,
                   std::vector<ContourEdge>& edges);
-  void addNormals(const SurfaceTopology& surface, const SurfaceFrame& frame, std::size_t first,
-                  std::span<const ContourEdge> edges, std::vector<EdgeNormals>& normals) const;
+  void addNormals(const SurfaceFrame& frame, std::span<const ContourEdge> edges,
+                  std::vector<EdgeNormals>& normals) const;
   void crossEdge(std::size_t edge);
   void crossLine(std::size_t edge, int line);
   void resolve(RayCrossings& line) const;

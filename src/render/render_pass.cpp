@@ -151,7 +151,7 @@ std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
   finished->entry.volumes_ml = tracedFrame(time, *workspace);
   GreyImage& image =
       parts_.simulator.picture(manifest_.reference_intensity, time, *workspace, o.cine || o.png);
-  if (truth_files_) makeTruth(time, *workspace, *finished);
+  if (truth_files_) clock.time(Stage::truth, [&] { makeTruth(time, *workspace, *finished); });
   clock.time(Stage::exr, [&] { writeExr(record, *workspace, *finished); });
   if (finished->truth) finished->truth->forgetPlanes();
   if (o.cine || o.png) clock.time(Stage::avi, [&] { writePictures(image, *finished); });

@@ -1,6 +1,7 @@
 #include "truth/contour.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -26,27 +27,51 @@ EdgeEnds endsOf(const Triangle& t, const std::vector<Vec3f>& positions) {
   return above[k] ? EdgeEnds{first, second} : EdgeEnds{second, first};
 }
 
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+// Which edge starts at a key; the first where several do. A table at most half full.
+class EdgeStarts {
+ public:
+  explicit EdgeStarts(const std::vector<EdgeEnds>& ends)
+      : mask_(std::bit_ceil(2 * ends.size() + 1) - 1), slots_(mask_ + 1, {0, kNone}) {
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      Slot& slot = slots_[find(ends[i].from)];
+      if (slot.edge == kNone) slot = {ends[i].from, i};
+    }
+  }
+  // kNone where none starts.
+  std::size_t at(EdgeKey key) const { return slots_[find(key)].edge; }
+
+ private:
+  struct Slot {
+    EdgeKey key;
+    std::size_t edge;
+  };
+  // The key's slot, or the empty one where it would stand.
+  std::size_t find(EdgeKey key) const {
+    std::size_t i = (key * 0x9e3779b97f4a7c15u >> 32) & mask_;  // Knuth's multiplier, 2^64 / phi
+    while (slots_[i].edge != kNone && slots_[i].key != key) i = (i + 1) & mask_;
+    return i;
+  }
+
+  std::size_t mask_;
+  std::vector<Slot> slots_;
+};
+
 // Chains the edges of one surface. Its triangles run the same way round, so an edge starts at most
 // one edge and ends at most one: following an edge's end to the edge that starts there never
 // branches.
 class Chainer {
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-
  public:
   Chainer(std::span<const ContourEdge> edges, std::vector<EdgeEnds> ends)
       : edges_(edges),
         ends_(std::move(ends)),
         used_(ends_.size(), false),
         follows_(ends_.size(), false) {
-    std::vector<std::pair<EdgeKey, std::size_t>> starts;
-    for (std::size_t i = 0; i < ends_.size(); ++i) starts.emplace_back(ends_[i].from, i);
-    std::sort(starts.begin(), starts.end());
+    const EdgeStarts starts(ends_);
     for (const EdgeEnds& edge : ends_) {
-      const auto found =
-          std::lower_bound(starts.begin(), starts.end(), std::pair(edge.to, std::size_t{0}));
-      const bool there = found != starts.end() && found->first == edge.to;
-      next_.push_back(there ? found->second : kNone);
-      if (there) follows_[found->second] = true;
+      next_.push_back(starts.at(edge.to));
+      if (next_.back() != kNone) follows_[next_.back()] = true;
     }
   }
 
@@ -100,7 +125,7 @@ std::vector<Contour> contoursAt(const MeshMotion& motion, const Probe& probe, do
   SurfaceFrame frame;
   motion.frameAt(phase - std::floor(phase), frame);
   PlaneSlice slice(motion.surfaces(), probe);
-  slice.update(frame);
+  slice.cut(frame);
   return chainContours(slice.edges(), motion.surfaces(), frame);
 }
 

@@ -155,7 +155,10 @@ void TruthMaker::addMotion(const TruthTime& time, Space& space, FrameTruth& trut
 const PlaneSlice& TruthMaker::sliceOf(const SurfaceFrame& surfaces, const TruthShared& shared,
                                       Space& space) const {
   if (shared.slice != nullptr) return *shared.slice;
-  space.slice.update(surfaces);
+  if (samples_)
+    space.slice.update(surfaces);
+  else
+    space.slice.cut(surfaces);
   return space.slice;
 }
 

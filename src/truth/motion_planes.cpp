@@ -54,10 +54,16 @@ class LineMotion {
   Vec3f offset_m_;
 };
 
-void put(std::array<std::vector<float>, 3>& planes, std::size_t at, Vec3f value) {
-  planes[0][at] = value.x;
-  planes[1][at] = value.z;
-  planes[2][at] = value.y;
+// `count` samples from `left` on, straight towards `right`, which is the one after them.
+void put(std::array<std::vector<float>, 3>& planes, std::size_t at, std::size_t count, Vec3f left,
+         Vec3f right) {
+  const Vec3f step = (1 / static_cast<float>(count)) * (right - left);
+  const auto along = [&](std::vector<float>& plane, float value, float more) {
+    for (std::size_t i = 0; i < count; ++i) plane[at + i] = value + static_cast<float>(i) * more;
+  };
+  along(planes[0], left.x, step.x);
+  along(planes[1], left.z, step.z);
+  along(planes[2], left.y, step.y);
 }
 
 }  // namespace
@@ -84,14 +90,12 @@ void motionPlanes(const Scene& scene, const MotionField& field, const FieldTimes
       for (std::size_t k = begin; k < end;) {
         const std::size_t next = std::min(k + kStride, end - 1);
         const std::optional<Motion> right = next > k ? motion.at(id, placeOf(next)) : left;
-        const std::size_t stop = next > k ? next : end;  // the last sample by itself
-        for (std::size_t i = k; left && right && i < std::max(stop, k + 1); ++i) {
-          const float t = next > k ? static_cast<float>(i - k) / static_cast<float>(next - k) : 0;
-          put(planes.displacement_mm, first + i,
-              left->displacement_mm + t * (right->displacement_mm - left->displacement_mm));
+        const std::size_t count = std::max(next - k, std::size_t{1});  // the last sample by itself
+        if (left && right) {
+          put(planes.displacement_mm, first + k, count, left->displacement_mm,
+              right->displacement_mm);
           if (velocity)
-            put(planes.velocity_mm_s, first + i,
-                left->velocity_mm_s + t * (right->velocity_mm_s - left->velocity_mm_s));
+            put(planes.velocity_mm_s, first + k, count, left->velocity_mm_s, right->velocity_mm_s);
         }
         if (next == k) break;
         k = next;

@@ -160,6 +160,15 @@ TEST(EffectsCalledFor, PictureWhenNoneIsAskedFor) {
   EXPECT_EQ(run.manifest["timings_ms_per_frame"]["scan_conversion"], 0);
 }
 
+TEST(EffectsCalledFor, TruthIsTimedWhereItIsAskedFor) {
+  SceneText text = ballText();
+  const TempFolder folder;
+  writeBallMeshes(folder);
+  EXPECT_EQ(render(folder, text, "plain", false).manifest["timings_ms_per_frame"]["truth"], 0);
+  text.extra += "[truth]\nwrite = [\"labels\"]\n";
+  EXPECT_GT(render(folder, text, "asked", false).manifest["timings_ms_per_frame"]["truth"], 0);
+}
+
 TEST(EffectsCalledFor, ForcedOffIsSaidInTheManifest) {
   SceneText text = ballText();
   text.effects["reflection"] = "\"off\"";

@@ -10,8 +10,12 @@ namespace {
 
 using namespace support;
 
-long peakOf(const TempFolder& folder, int frames, const Lines& signal) {
+long peakOf(const TempFolder& folder, int frames, const Lines& signal, bool truth) {
   SceneText text = ballScene(100);
+  if (truth) {
+    text.extra = "[truth]\nwrite = [\"labels\", \"contours\"]\n";
+    text.output["channels"] = "[\"Y\", \"displacement.axial\", \"velocity.axial\"]";
+  }
   text.signal = signal;
   text.probe["lines"] = "16";
   text.probe["samples"] = "64";
@@ -20,14 +24,14 @@ long peakOf(const TempFolder& folder, int frames, const Lines& signal) {
   return peakMemory(folder / "scene.toml", folder / ("out_" + std::to_string(frames)));
 }
 
-void expectBounded(const Lines& signal, double limit) {
+void expectBounded(const Lines& signal, double limit, bool truth = false) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "the sanitizer keeps freed memory back";
 #endif
   const TempFolder folder;
   writeBallMeshes(folder);
-  const auto hundred = static_cast<double>(peakOf(folder, 100, signal));
-  const auto thousand = static_cast<double>(peakOf(folder, 1000, signal));
+  const auto hundred = static_cast<double>(peakOf(folder, 100, signal, truth));
+  const auto thousand = static_cast<double>(peakOf(folder, 1000, signal, truth));
   std::printf("peak memory of 100 frames %.1f MB, of 1000 frames %.1f MB\n", hundred / 1e6,
               thousand / 1e6);
   ASSERT_GT(hundred, 0);
@@ -37,6 +41,11 @@ void expectBounded(const Lines& signal, double limit) {
 // Nothing may be kept per frame: loops are long.
 TEST(PeakMemory, OfAThousandFramesIsThatOfAHundred) {
   expectBounded({{"reference_intensity", "1e-7"}}, 1.1);
+}
+
+// Nor of their truth.
+TEST(PeakMemory, OfAThousandFramesWithTruthIsThatOfAHundred) {
+  expectBounded({{"reference_intensity", "1e-7"}}, 1.1, true);
 }
 
 // A measured reference keeps traced frames, up to a fixed amount of memory: here all of them, 8 kB

@@ -1,0 +1,58 @@
+#include "motion/interior/folds.h"
+
+namespace echocine {
+
+namespace {
+
+// A cell that keeps less than this part of its volume at a keyframe is about to fold: its
+// surroundings are made this much stiffer. Our choices.
+constexpr float kLeastVolume = 0.1f, kStiffer = 4;
+
+// Does the map turn over, or nearly, at a corner of the cell at any keyframe? Corner numbers have
+// bit 0 for x, 1 for z, 2 for y.
+bool folds(const GroupLattice& lattice, std::span<const PhaseClass> classes,
+           const std::uint32_t (&corners)[8]) {
+  const float h = lattice.grid.spacing_m;
+  for (std::size_t c = 0; c < classes.size(); ++c)
+    for (std::size_t k = 0; k < classes[c].weights.keyframeCount(); ++k) {
+      const std::vector<Vec3f>& row = lattice.rows_m[c][k];
+      Vec3f d[8];
+      for (std::size_t i = 0; i < 8; ++i) d[i] = row[corners[i]];
+      for (std::size_t i = 0; i < 8; ++i) {
+        const Vec3f x = Vec3f{h, 0, 0} + d[i | 1] - d[i & 6],
+                    z = Vec3f{0, 0, h} + d[i | 2] - d[i & 5],
+                    y = Vec3f{0, h, 0} + d[i | 4] - d[i & 3];
+        if (dot(x, cross(y, z)) < kLeastVolume * h * h * h) return true;
+      }
+    }
+  return false;
+}
+
+}  // namespace
+
+bool stiffenFolds(const GroupLattice& lattice, std::span<const PhaseClass> classes,
+                  const std::vector<bool>& used, std::span<float> stiffness) {
+  const LatticeGrid& grid = lattice.grid;
+  std::vector<bool> stiffer(stiffness.size(), false);
+  bool found = false;
+  for (int y = 0; y + 1 < grid.ny; ++y)
+    for (int z = 0; z + 1 < grid.nz; ++z)
+      for (int x = 0; x + 1 < grid.nx; ++x) {
+        std::uint32_t corners[8];
+        bool whole = true;
+        for (int i = 0; i < 8; ++i) {
+          const std::int32_t n =
+              lattice.nodes.numberAt(x + (i & 1), y + (i >> 2), z + (i >> 1 & 1));
+          whole &= n >= 0;
+          corners[i] = static_cast<std::uint32_t>(n);
+        }
+        if (!whole || !used[corners[0]] || !folds(lattice, classes, corners)) continue;
+        found = true;
+        for (const std::uint32_t n : corners) stiffer[n] = true;
+      }
+  for (std::size_t n = 0; n < stiffer.size(); ++n)
+    if (stiffer[n]) stiffness[n] *= kStiffer;
+  return found;
+}
+
+}  // namespace echocine
