@@ -70,10 +70,13 @@ Json spaceJson(const Comparison& c) {
   json["used"] = c.space.used;
   json["at_limit_of_search"] = c.space.at_limit;
   json["confidence"] = c.space.confidence;
+  json["unlike"] = c.space.unlike;
+  json["unlike_definition"] =
+      "E = (1 - G) / c, least at the best placement: what edges are unlike per share in sight";
   json["rivals"] = Json::array();
   for (const PlacementFound& rival : c.space.rivals) {
     json["rivals"].push_back(placementJson(rival.placement));
-    json["rivals"].back()["discrepancy"] = rival.discrepancy;
+    json["rivals"].back()["unlike"] = rival.unlike;
   }
   return json;
 }

@@ -17,7 +17,7 @@ const double kTurnPart_rad = radiansFromDegrees(2);
 
 // Smoothed by 2 % of the depth, greys need no finer grid.
 BeamGrid coarser(BeamGrid grid) {
-  constexpr int kMost = 128;
+  constexpr int kMost = 96;
   grid.lines = std::min(grid.lines, kMost);
   grid.samples = std::min(grid.samples, kMost);
   return grid;
@@ -85,14 +85,14 @@ std::vector<float> SpaceSearch::weightsAt(const std::vector<PixelPlace>& in_loop
   return weights;
 }
 
-double SpaceSearch::discrepancyAt(const std::vector<Pair>& pairs, const Unknowns& at) const {
+double SpaceSearch::unlikeAt(const std::vector<Pair>& pairs, const Unknowns& at) const {
   const Placement placement = placementAt(at);
   const std::vector<PixelPlace> in_loop = sampler_.placesInLoop(placement),
                                 places = real_.traced.frames.empty() ? in_loop
                                                                      : sampler_.places(placement);
   const std::vector<float> weights = weightsAt(in_loop);
   const double share = shareInSight(as_given_, weights, placement.scale);
-  if (!(share > 0)) return 1;
+  if (!(share > 0)) return 2;
   const WallEdges edges(grid_, weights);
   std::vector<float> placed(places.size());
   double sum = 0;
@@ -107,9 +107,9 @@ double SpaceSearch::discrepancyAt(const std::vector<Pair>& pairs, const Unknowns
 std::vector<Unknowns> SpaceSearch::starts() const {
   const std::vector<float> real = sampler_.meanPicture();
   const std::vector<Pair> means{{meanOf(synthetic_.frames), &real}};
-  const auto value = [&](const Unknowns& at) { return discrepancyAt(means, at); };
+  const auto value = [&](const Unknowns& at) { return unlikeAt(means, at); };
   constexpr std::size_t kStarts = 5;
-  std::vector<Descent> from = leastApart(lattice(value, box(), {5, 5, 3, 2}), kStarts);
+  std::vector<Descent> from = leastApart(lattice(value, box(), {4, 4, 2, 2}), kStarts);
   from.push_back({Unknowns{}, 2});
   std::vector<Unknowns> out;
   for (const Descent& d : leastApart(descendAll(value, from, box()), from.size()))
@@ -124,7 +124,7 @@ Descent SpaceSearch::refined(const Unknowns& start, const Pairing& synthetic_at)
     if (!pair.synthetic.empty()) pairs.push_back(std::move(pair));
   }
   if (pairs.empty()) return {start, 1};
-  return descend([&](const Unknowns& at) { return discrepancyAt(pairs, at); }, start, box());
+  return descend([&](const Unknowns& at) { return unlikeAt(pairs, at); }, start, box());
 }
 
 SpaceAlignment SpaceSearch::best(const std::vector<Descent>& refined) const {
@@ -135,10 +135,11 @@ SpaceAlignment SpaceSearch::best(const std::vector<Descent>& refined) const {
   out.used = std::any_of(at.begin(), at.end(), [](double u) { return u != 0; });
   out.method = "several starts, then Newton's method";
   out.at_limit = box().atLimit(at);
+  out.unlike = hills.front().value;
   for (std::size_t i = 1; i < hills.size(); ++i)
     out.rivals.push_back({placementAt(hills[i].at), hills[i].value});
-  out.confidence =
-      standsOut(hills.front().value, out.rivals.empty() ? 1 : out.rivals.front().discrepancy, 1);
+  const double rival = out.rivals.empty() ? 1 : out.rivals.front().unlike;
+  out.confidence = std::clamp(std::min(rival, 1.0) - out.unlike, 0.0, 1.0);
   return out;
 }
 

@@ -20,7 +20,7 @@ inline constexpr double kMostScaling = 0.15;  // each way
 
 struct PlacementFound {
   Placement placement;
-  double discrepancy = 1;
+  double unlike = 1;  // E of Eq. 7
 };
 
 struct SpaceAlignment {
@@ -28,19 +28,27 @@ struct SpaceAlignment {
   std::string method = "sectors as they are";  // or "several starts, then Newton's method"
   bool used = false;                           // false: nothing else is better
   bool at_limit = false;                       // of what the search may do: the best may lie beyond
-  // How far the best stands out: its gap to the best rival over its gap to 1, which says nothing.
-  // 0: as good elsewhere; 1: nothing else is better than nothing.
+  double unlike = 1;                           // E of Eq. 7
+  // By how much less E is than at the best rival, or than 1, which says nothing. 0: as good
+  // elsewhere; 1: equal loops, and nothing else like them.
   double confidence = 0;
   // Other optima, least first: farther than 7 % of the radius or 10 degrees from the best.
   std::vector<PlacementFound> rivals;
 };
 
-// The placement of least D (Eq. 2 of discrepancy.h) by one method, however alike the loops are.
-// All placements of a lattice (3 % of the radius, 10/3 degrees, 7.5 % of scale) are tried with the
-// loops' means, which need no pairing in time. Newton's method leads on from the best five that
-// stand apart and from the sectors as they are: starts(). From each of these it leads on with a
-// dozen frames that are paired in time: refined(). D is measured on at most 128 x 128 samples,
-// whose weights fall evenly to nothing where the real sector ends: it has no steps.
+// The placement of least
+// (7)  E = (1 - G) / c,
+// G the mean of Eq. 1 over pairs of frames, c the share in sight of Eq. 2: what is unlike, per what
+// is in sight. Where edges agree wholly it is 0 whatever leaves the sight. D = 1 - c G is not: its
+// least value lies off the right place, towards more in sight. c is half at least within the
+// limits.
+//
+// One method, however alike the loops are. All placements of a lattice (4 % of the radius, 5
+// degrees, 7.5 % of scale) are tried with the loops' means, which need no pairing in time. Newton's
+// method leads on from the best five that stand apart and from the sectors as they are: starts().
+// From each of these it leads on with a dozen frames that are paired in time: refined(). E is
+// measured on at most 96 x 96 samples, whose weights fall evenly to nothing where the real sector
+// ends: it has no steps.
 class SpaceSearch {
  public:
   // References are kept.
@@ -64,7 +72,7 @@ class SpaceSearch {
     std::vector<float> synthetic;    // on the grid
     const std::vector<float>* real;  // a picture of the sampler
   };
-  double discrepancyAt(const std::vector<Pair>& pairs, const Unknowns& at) const;
+  double unlikeAt(const std::vector<Pair>& pairs, const Unknowns& at) const;
   std::vector<float> weightsAt(const std::vector<PixelPlace>& in_loop) const;
   SearchBox box() const;
 

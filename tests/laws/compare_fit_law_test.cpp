@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "compare/descent.h"
 #include "compare/dial_scan.h"
 #include "compare/model_discrepancy.h"
 #include "compare/tissue_greys.h"
@@ -52,6 +53,42 @@ TEST(CompareFit, BloodIsNeverBrighter) {
       greys->add(i % 2, i % 2, 1, i % 13 / 13.0, i % 2 == 0 ? 30 : 120, 1);
   EXPECT_NEAR(right.fit().ratio(), 0, 1e-6);
   EXPECT_NEAR(wrong.fit().ratio(), 1, 1e-6);
+}
+
+// A bowl and a deeper one beside it: both bottoms are found, the deeper one first, and the limit is
+// kept and told.
+TEST(CompareFit, DescentsFindTheBottomsOfHills) {
+  SearchBox box;
+  box.high = {12, 12, 6, 0};
+  box.low = {-12, -12, -6, 0};
+  const auto bowl = [](const Unknowns& u, const Unknowns& at) {
+    double square = 0;
+    for (std::size_t i = 0; i < kUnknowns; ++i) square += (u[i] - at[i]) * (u[i] - at[i]);
+    return square;
+  };
+  const Unknowns deep{-7.3, 2.1, 1.4, 0}, shallow{6.2, -3.7, -2.6, 0};
+  const auto f = [&](const Unknowns& u) {
+    return 1 - 0.8 * std::exp(-bowl(u, deep) / 30) - 0.5 * std::exp(-bowl(u, shallow) / 30);
+  };
+  withThreads(2, [&] {
+    const std::vector<Descent> hills =
+        leastApart(descendAll(f, leastApart(lattice(f, box, {4, 4, 2, 2}), 5), box), 5);
+    ASSERT_GE(hills.size(), 2u);
+    for (std::size_t u = 0; u < kUnknowns; ++u) {
+      EXPECT_NEAR(hills[0].at[u], deep[u], 0.02) << u;  // each pulls the other a little
+      EXPECT_NEAR(hills[1].at[u], shallow[u], 0.05) << u;
+    }
+    EXPECT_FALSE(box.atLimit(hills[0].at));
+    const Descent beyond = descend(
+        [&](const Unknowns& u) {
+          return bowl(u, {20, 0, 0, 0});
+        },
+        {}, box);
+    EXPECT_EQ(beyond.at[0], 12);
+    EXPECT_TRUE(box.atLimit(beyond.at));
+  });
+  EXPECT_NEAR(standsOut(0.2, 0.6, 1), 0.5, 1e-12);
+  EXPECT_EQ(standsOut(1, 1, 1), 0);
 }
 
 TEST(CompareFit, PlantedPosesAreFound) {
