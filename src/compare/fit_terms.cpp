@@ -192,11 +192,12 @@ FitTerms fitTerms(const ModelLoop& model, const EchoStack& real, const FitPose& 
 namespace {
 
 // What tissues and gain leave of the grey of each cell, in standard deviations.
-std::vector<float> leftOver(const ModelFrame& frame, const EchoStack& real, int picture,
-                            const Mapping& map, const TissueGreys::Fit& fit, double deviation) {
-  std::vector<float> left(frame.cells.size(), std::numeric_limits<float>::quiet_NaN());
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    const TissueCell& cell = frame.cells[i];
+std::vector<RegionLeft> leftOver(const ModelFrame& frame, const EchoStack& real, int picture,
+                                 const Mapping& map, const TissueGreys::Fit& fit,
+                                 double deviation) {
+  std::vector<RegionLeft> left;
+  for (const TissueCell& cell : frame.cells) {
+    if (!(cell.area > 0)) continue;
     double x, z;
     map.place(cell.x_m, cell.z_m, x, z);
     const EchoStack::Sample s = real.at(picture, x, z);
@@ -207,7 +208,8 @@ std::vector<float> leftOver(const ModelFrame& frame, const EchoStack& real, int 
     const double grey =
         cell.share * fit.grey[cell.first] +
         (cell.share < 1 ? (1 - static_cast<double>(cell.share)) * fit.grey[cell.second] : 0);
-    left[i] = static_cast<float>((s.grey - grey - gain) / deviation);
+    left.push_back({static_cast<float>(x), static_cast<float>(z),
+                    static_cast<float>((s.grey - grey - gain) / deviation)});
   }
   return left;
 }
@@ -246,12 +248,37 @@ FitMap fitMap(const ModelLoop& model, const EchoStack& real, const FitPose& pose
   for (std::size_t n = 0; n < model.frames.size(); ++n) {
     const bool seen = real.seen(picture(n));
     out.region.push_back(seen ? leftOver(model.frames[n], real, picture(n), map, fit, deviation)
-                              : std::vector<float>(model.frames[n].cells.size(),
-                                                   std::numeric_limits<float>::quiet_NaN()));
+                              : std::vector<RegionLeft>{});
     out.boundary.push_back(seen ? offsetsOf(model.frames[n], real, picture(n), map)
                                 : std::vector<BoundaryOffset>{});
   }
   return out;
+}
+
+std::vector<OffsetCurve> offsetCurves(const FitMap& map, std::size_t structures) {
+  std::vector<OffsetCurve> curves;
+  const auto mean = [](double sum, double weight) {
+    return weight > 0 ? sum / weight : std::numeric_limits<double>::quiet_NaN();
+  };
+  for (std::size_t s = 0; s < structures; ++s) {
+    OffsetCurve curve{s, {}, {}, {}};
+    bool seen = false;
+    for (const std::vector<BoundaryOffset>& frame : map.boundary) {
+      double weight = 0, offset = 0, distance = 0, tracked = 0, motion = 0;
+      for (const BoundaryOffset& p : frame) {
+        if (p.surface != s) continue;
+        const double w = p.certainty, mm = p.offset_mm;
+        weight += w, offset += w * mm, distance += w * std::abs(mm);
+        if (p.motion_mm >= 0) tracked += 1, motion += static_cast<double>(p.motion_mm);
+      }
+      seen = seen || weight > 0;
+      curve.offset_mm.push_back(mean(offset, weight));
+      curve.distance_mm.push_back(mean(distance, weight));
+      curve.motion_mm.push_back(mean(motion, tracked));
+    }
+    if (seen) curves.push_back(std::move(curve));
+  }
+  return curves;
 }
 
 }  // namespace echocine::compare
