@@ -45,14 +45,22 @@ class Mapping {
 // p(s) of Eq. 4 as its first two moments, and how far from even it is.
 struct EdgeProfile {
   double mean_m = 0, square = 1.0 / 3;  // of s; of (s/S)^2
-  double certainty = 0;                 // 1 - entropy of p over that of an even one
   double in_sight = 0;                  // of the place itself
+  double p[kProfileSteps] = {};
+
+  // 1 - entropy of p over that of an even one.
+  double certainty() const {
+    double entropy = 0;
+    for (const double share : p)
+      if (share > 0) entropy -= share * std::log(share);
+    return 1 - entropy / std::log(static_cast<double>(kProfileSteps));
+  }
 };
 
 EdgeProfile profileAt(const EchoStack& real, int picture, double x, double z, double nx, double nz,
                       bool of_blood) {
   EdgeProfile out;
-  double weight[kProfileSteps], sum = 0;
+  double sum = 0;
   const double per_scale = kSharpness / real.edgeScale();
   for (int i = 0; i < kProfileSteps; ++i) {
     const double s = kProfileReach_m * (2.0 * i / (kProfileSteps - 1) - 1);
@@ -63,18 +71,16 @@ EdgeProfile profileAt(const EchoStack& real, int picture, double x, double z, do
                static_cast<double>(g.in_sight);
     if (!of_blood) e = std::abs(e);
     if (2 * i == kProfileSteps - 1) out.in_sight = g.in_sight;
-    weight[i] = std::exp(per_scale * e);
-    sum += weight[i];
+    out.p[i] = static_cast<double>(std::exp(static_cast<float>(per_scale * e)));
+    sum += out.p[i];
   }
   out.square = 0;
-  double entropy = 0;
   for (int i = 0; i < kProfileSteps; ++i) {
-    const double p = weight[i] / sum, t = 2.0 * i / (kProfileSteps - 1) - 1;
-    out.mean_m += p * t * kProfileReach_m;
-    out.square += p * t * t;
-    if (p > 0) entropy -= p * std::log(p);
+    out.p[i] /= sum;
+    const double t = 2.0 * i / (kProfileSteps - 1) - 1;
+    out.mean_m += out.p[i] * t * kProfileReach_m;
+    out.square += out.p[i] * t * t;
   }
-  out.certainty = 1 - entropy / std::log(static_cast<double>(kProfileSteps));
   return out;
 }
 
@@ -226,7 +232,7 @@ std::vector<BoundaryOffset> offsetsOf(const ModelFrame& frame, const EchoStack& 
     const MotionPair m = motionOf(p, real, picture, map, x, z, nx, nz);
     const bool tracked = p.of_blood && m.weight > 0;
     out.push_back({static_cast<float>(x), static_cast<float>(z),
-                   static_cast<float>(1e3 * edge.mean_m), static_cast<float>(edge.certainty),
+                   static_cast<float>(1e3 * edge.mean_m), static_cast<float>(edge.certainty()),
                    static_cast<float>(tracked ? 1e3 * std::sqrt(m.apart) : -1), p.surface});
   }
   return out;
