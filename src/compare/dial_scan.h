@@ -34,7 +34,7 @@ struct ScanOptions {
   heart::View view = heart::View::a4c;
   bool yes = false;  // more than kMostUnasked evaluations
 };
-inline constexpr std::size_t kMostUnasked = 500;  // some three minutes of one core; our choice
+inline constexpr std::size_t kMostUnasked = 500;  // some two minutes of one core; our choice
 
 struct ScanPoint {
   std::vector<double> values;  // by axis

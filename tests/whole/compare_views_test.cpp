@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "compare/dial_scan.h"
+#include "compare/heart_family.h"
 #include "compare/model_discrepancy.h"
 #include "support/echo_video.h"
 #include "support/page_data.h"
@@ -35,6 +37,32 @@ TEST(CompareViews, AWholeHeartIsSeenInItsView) {
     EXPECT_LT(values[0], values[2] - 0.1);
     std::printf("whole heart, psax-mid: %.3f, as a2c %.3f, as plax %.3f\n", values[0], values[1],
                 values[2]);
+  });
+}
+
+// Along the ejection fraction D is smooth: what the best cubic leaves of five neighbours is 6/70 of
+// their fourth difference at most.
+TEST(CompareViews, DiscrepancyIsSmoothInADial) {
+  withThreads(2, [] {
+    const HeartFamily family({{"hr", 72}, {"edv", 150}, {"wall-thickness", 11}},
+                             {{"ef", 0.4, 0.55}}, heart::View::a4c, kFitFrames, 3);
+    const Loop loop = scannedLoop(sceneOf(Family::shipped, View::a4c), 10, 3);
+    SideOptions side;
+    side.ed_frame = 0;
+    const ModelLoop first = family.at({0.45});
+    const ModelDiscrepancy discrepancy(loop, side, first);
+    const FitPose pose = discrepancy.search(first).pose;
+    std::vector<double> y;
+    for (int i = 0; i < 9; ++i)
+      y.push_back(discrepancy.refine(family.at({0.42 + 0.01 * i}), {pose}).discrepancy);
+    double worst = 0;
+    for (std::size_t i = 2; i + 2 < y.size(); ++i)
+      worst = std::max(
+          worst, 6.0 / 70 * std::abs(y[i - 2] - 4 * y[i - 1] + 6 * y[i] - 4 * y[i + 1] + y[i + 2]));
+    EXPECT_LT(worst, 0.002);
+    const auto least = std::min_element(y.begin(), y.end()) - y.begin();
+    std::printf("least at EF %.2f of 0.45, residual to local cubics %.5f\n",
+                0.42 + 0.01 * static_cast<double>(least), worst);
   });
 }
 
