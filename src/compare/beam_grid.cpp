@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
-#include "core/parallel.h"
 #include "core/units.h"
 
 namespace echocine::compare {
@@ -82,111 +80,31 @@ PicturePoint pictureAt(const BeamGrid& grid, const Loop& loop, const Placement& 
 
 // The sector is narrowed by the same length at its arcs and at its sides, where that is an angle
 // that grows towards the apex.
-PixelPlane validSamples(const BeamGrid& grid, const Loop& loop, const Placement& placement) {
+bool showsEcho(const Loop& loop, double x, double y) {
   const Video& v = loop.video;
+  const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
+  if (i < 0 || j < 0 || i >= v.width || j >= v.height) return false;
+  if (loop.overlay[static_cast<std::size_t>(j) * static_cast<std::size_t>(v.width) +
+                   static_cast<std::size_t>(i)] != 0)
+    return false;
   Sector inner = loop.sector();
+  const double inset = kEdgePx / std::max(kEdgePx, std::hypot(x - inner.apex_x, y - inner.apex_y));
   inner.r_min += kEdgePx;
   inner.r_max -= kEdgePx;
+  inner.first_rad += inset;
+  inner.last_rad -= inset;
+  return inner.contains(x, y);
+}
+
+PixelPlane validSamples(const BeamGrid& grid, const Loop& loop, const Placement& placement) {
   PixelPlane valid;
   valid.reserve(grid.size());
   for (int i = 0; i < grid.lines; ++i)
     for (int k = 0; k < grid.samples; ++k) {
       const PicturePoint p = pictureAt(grid, loop, placement, grid.angle(i), grid.depth(k));
-      const double inset =
-          kEdgePx / std::max(kEdgePx, std::hypot(p.x - inner.apex_x, p.y - inner.apex_y));
-      Sector narrowed = inner;
-      narrowed.first_rad += inset;
-      narrowed.last_rad -= inset;
-      const int x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y));
-      const bool inside =
-          x >= 0 && y >= 0 && x < v.width && y < v.height && narrowed.contains(p.x, p.y) &&
-          loop.overlay[static_cast<std::size_t>(y) * static_cast<std::size_t>(v.width) +
-                       static_cast<std::size_t>(x)] == 0;
-      valid.push_back(inside ? 1 : 0);
+      valid.push_back(showsEcho(loop, p.x, p.y) ? 1 : 0);
     }
   return valid;
-}
-
-namespace {
-
-// Greys that are in beam space already: a picture of their own, x the sample, y the line.
-void resampleTraced(const BeamGrid& grid, const Loop& loop, const Placement& placement,
-                    BeamLoop& out) {
-  const TracedGreys& t = loop.traced;
-  // Pixels of that picture: lines stand at whole numbers, samples at halves, as in an EXR.
-  const double sample_m = (t.far_m - t.near_m) / t.samples,
-               line_rad = (t.last_rad - t.first_rad) / (t.lines - 1);
-  std::vector<PixelPlace> places;
-  places.reserve(grid.size());
-  for (int i = 0; i < grid.lines; ++i)
-    for (int k = 0; k < grid.samples; ++k) {
-      const PicturePoint p = pictureAt(grid, loop, placement, grid.angle(i), grid.depth(k));
-      const double dx = p.x - loop.sector().apex_x, dy = p.y - loop.sector().apex_y;
-      const double depth_m = std::hypot(dx, dy) * *loop.metres_per_pixel;
-      places.push_back(pixelPlace(t.samples, t.lines, (depth_m - t.near_m) / sample_m,
-                                  (std::atan2(dx, dy) - t.first_rad) / line_rad + 0.5));
-    }
-  // Finer than the grid: smoothed to its spacing, as pictures are.
-  const auto sigma = [](double ratio) {
-    return ratio > 1 ? 0.5 * std::sqrt(ratio * ratio - 1) : 0.0;
-  };
-  const double along = sigma((grid.far - grid.near) / grid.samples * pixelsPerUnit(grid, loop) *
-                             *loop.metres_per_pixel / sample_m),
-               across =
-                   sigma((grid.last_rad - grid.first_rad) / std::max(1, grid.lines - 1) / line_rad);
-  constexpr double kLeast = 1e-3;  // a Gaussian of no width is none
-  out.frames.resize(t.frames.size());
-  parallelBlocks(t.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      cv::Mat greys(t.lines, t.samples, CV_32F, const_cast<float*>(t.frames[f].data()));
-      if (along > kLeast || across > kLeast) {
-        cv::Mat smooth;
-        cv::GaussianBlur(greys, smooth, {0, 0}, std::max(along, kLeast), std::max(across, kLeast));
-        greys = smooth;
-      }
-      std::vector<float>& frame = out.frames[f];
-      frame.reserve(places.size());
-      for (const PixelPlace& place : places)
-        frame.push_back(greyAt(greys.ptr<float>(), t.samples, place));
-    }
-  });
-}
-
-}  // namespace
-
-BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& placement) {
-  const Video& v = loop.video;
-  BeamLoop out;
-  out.valid = validSamples(grid, loop, placement);
-  if (!loop.traced.frames.empty()) {
-    resampleTraced(grid, loop, placement, out);
-    return out;
-  }
-  std::vector<PixelPlace> places;
-  places.reserve(grid.size());
-  for (int i = 0; i < grid.lines; ++i)
-    for (int k = 0; k < grid.samples; ++k) {
-      const PicturePoint p = pictureAt(grid, loop, placement, grid.angle(i), grid.depth(k));
-      places.push_back(pixelPlace(v.width, v.height, p.x, p.y));
-    }
-  // A Gaussian of half the spacing is what the coarser raster can hold; the pixel itself has half a
-  // pixel of it already, and variances subtract.
-  const double spacing_px = (grid.far - grid.near) / grid.samples * pixelsPerUnit(grid, loop);
-  const double sigma = spacing_px > 1 ? 0.5 * std::sqrt(spacing_px * spacing_px - 1) : 0;
-  out.frames.resize(v.frames.size());
-  parallelBlocks(v.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      const cv::Mat bytes(v.height, v.width, CV_8U, const_cast<std::uint8_t*>(v.frames[f].data()));
-      cv::Mat grey;
-      bytes.convertTo(grey, CV_32F);
-      if (sigma > 0) cv::GaussianBlur(grey, grey, {0, 0}, sigma);
-      std::vector<float>& frame = out.frames[f];
-      frame.reserve(places.size());
-      for (const PixelPlace& place : places)
-        frame.push_back(greyAt(grey.ptr<float>(), v.width, place));
-    }
-  });
-  return out;
 }
 
 // A sample's area in the picture grows with its depth; over the outer depth it is 1 at most.

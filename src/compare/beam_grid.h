@@ -45,15 +45,10 @@ double pixelsPerUnit(const BeamGrid& grid, const Loop& loop);
 PicturePoint pictureAt(const BeamGrid& grid, const Loop& loop, const Placement& placement,
                        double angle_rad, double depth);
 
-// A loop in beam space, line-major. Pictures finer than the grid are smoothed to its spacing first.
-// Grey 0 to 255.
-struct BeamLoop {
-  std::vector<std::vector<float>> frames;
-  PixelPlane valid;  // 1: within the sector, not under an overlay
-};
-BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& placement = {});
+// Does the picture show echo at a place, in pixels: within the sector and not under an overlay?
+bool showsEcho(const Loop& loop, double x, double y);
 
-// BeamLoop::valid alone.
+// 1 for every sample, line-major, at which it does.
 PixelPlane validSamples(const BeamGrid& grid, const Loop& loop, const Placement& placement);
 
 // Area weights of the samples where both are valid, else 0: a sample counts as the area it covers

@@ -9,6 +9,7 @@
 
 #include "compare/heart_family.h"
 #include "compare/model_discrepancy.h"
+#include "signal/picture.h"
 
 namespace echocine::compare {
 
@@ -33,11 +34,19 @@ struct ScanOptions {
   heart::View view = heart::View::a4c;
   bool yes = false;  // more than kMostUnasked evaluations
 };
-inline constexpr std::size_t kMostUnasked = 500;  // some three minutes of one core; our choice
+inline constexpr std::size_t kMostUnasked = 500;  // some two minutes of one core; our choice
 
 struct ScanPoint {
   std::vector<double> values;  // by axis
   PoseFound found;
+};
+
+// Where the best heart of a scan disagrees with the loop.
+struct ScanMap {
+  FitMap map;
+  std::vector<std::string> structures;
+  std::vector<GreyImage> pictures;  // of the real loop, nearest to each frame of the beat
+  double apex_x_px = 0, apex_y_px = 0, metres_per_pixel = 1;
 };
 
 struct DialScan {
@@ -55,6 +64,7 @@ struct DialScan {
                                                  // is made good by the other
   double family_ms = 0, evaluation_ms = 0;  // CPU time: of recording, of one evaluation in the mean
   std::vector<std::string> notes;
+  ScanMap where;  // of the best point
 };
 
 // Throws SceneError and JobError as compareLoops() does, and where too many evaluations are asked

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "compare/resample.h"
 #include "core/check.h"
 #include "core/error.h"
 

@@ -187,19 +187,6 @@ void EchoStack::trackOne(std::size_t picture) {
     }
 }
 
-EchoStack::Sample EchoStack::at(int picture, double x_m, double z_m) const {
-  const double u = x_m / kEchoPixel_m + origin_x_, v = z_m / kEchoPixel_m + origin_z_;
-  if (!(u > 0 && v > 0 && u < width_ && v < height_)) return {};
-  const PixelPlace p = pixelPlace(width_, height_, u, v);
-  const Sample *a = planes_[static_cast<std::size_t>(picture)].data() + p.at, *b = a + width_;
-  const float w00 = (1 - p.right) * (1 - p.low), w10 = p.right * (1 - p.low),
-              w01 = (1 - p.right) * p.low, w11 = p.right * p.low;
-  return {w00 * a[0].grey + w10 * a[1].grey + w01 * b[0].grey + w11 * b[1].grey,
-          w00 * a[0].gx + w10 * a[1].gx + w01 * b[0].gx + w11 * b[1].gx,
-          w00 * a[0].gz + w10 * a[1].gz + w01 * b[0].gz + w11 * b[1].gz,
-          w00 * a[0].in_sight + w10 * a[1].in_sight + w01 * b[0].in_sight + w11 * b[1].in_sight};
-}
-
 EchoMotion EchoStack::motionAt(int picture, double x_m, double z_m) const {
   const std::vector<EchoMotion>& field = motion_[static_cast<std::size_t>(picture)];
   const double u = (x_m / kEchoPixel_m + origin_x_ - 0.5) / kBlockStep,

@@ -2,11 +2,13 @@
 // One beat of a real loop as smoothed pictures in millimetres, ready to be looked up under any
 // pose.
 
+#include <cstring>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "compare/loop.h"
+#include "compare/beam_grid.h"
+#include "core/lanes.h"
 
 namespace echocine::compare {
 
@@ -49,7 +51,22 @@ class EchoStack {
 
   // At a place, lateral and depth from the apex; in_sight is 0 outside the picture.
   // Precondition: seen(picture).
-  Sample at(int picture, double x_m, double z_m) const;
+  Sample at(int picture, double x_m, double z_m) const {
+    const double u = x_m / kEchoPixel_m + origin_x_, v = z_m / kEchoPixel_m + origin_z_;
+    if (!(u > 0 && v > 0 && u < width_ && v < height_)) return {};
+    const PixelPlace p = pixelPlace(width_, height_, u, v);
+    const Sample* from = planes_[static_cast<std::size_t>(picture)].data() + p.at;
+    // The four numbers of a sample at once: fits spend most of their time here.
+    const auto lanes = [](const Sample* sample) {
+      Floats4 out;
+      std::memcpy(&out, sample, sizeof out);
+      return out;
+    };
+    const Floats4 sum =
+        (1 - p.right) * (1 - p.low) * lanes(from) + p.right * (1 - p.low) * lanes(from + 1) +
+        (1 - p.right) * p.low * lanes(from + width_) + p.right * p.low * lanes(from + width_ + 1);
+    return {sum[0], sum[1], sum[2], sum[3]};
+  }
   // Nothing (weight 0) outside.
   EchoMotion motionAt(int picture, double x_m, double z_m) const;
 

@@ -45,14 +45,22 @@ class Mapping {
 // p(s) of Eq. 4 as its first two moments, and how far from even it is.
 struct EdgeProfile {
   double mean_m = 0, square = 1.0 / 3;  // of s; of (s/S)^2
-  double certainty = 0;                 // 1 - entropy of p over that of an even one
   double in_sight = 0;                  // of the place itself
+  double p[kProfileSteps] = {};
+
+  // 1 - entropy of p over that of an even one.
+  double certainty() const {
+    double entropy = 0;
+    for (const double share : p)
+      if (share > 0) entropy -= share * std::log(share);
+    return 1 - entropy / std::log(static_cast<double>(kProfileSteps));
+  }
 };
 
 EdgeProfile profileAt(const EchoStack& real, int picture, double x, double z, double nx, double nz,
                       bool of_blood) {
   EdgeProfile out;
-  double weight[kProfileSteps], sum = 0;
+  double sum = 0;
   const double per_scale = kSharpness / real.edgeScale();
   for (int i = 0; i < kProfileSteps; ++i) {
     const double s = kProfileReach_m * (2.0 * i / (kProfileSteps - 1) - 1);
@@ -63,18 +71,16 @@ EdgeProfile profileAt(const EchoStack& real, int picture, double x, double z, do
                static_cast<double>(g.in_sight);
     if (!of_blood) e = std::abs(e);
     if (2 * i == kProfileSteps - 1) out.in_sight = g.in_sight;
-    weight[i] = std::exp(per_scale * e);
-    sum += weight[i];
+    out.p[i] = static_cast<double>(std::exp(static_cast<float>(per_scale * e)));
+    sum += out.p[i];
   }
   out.square = 0;
-  double entropy = 0;
   for (int i = 0; i < kProfileSteps; ++i) {
-    const double p = weight[i] / sum, t = 2.0 * i / (kProfileSteps - 1) - 1;
-    out.mean_m += p * t * kProfileReach_m;
-    out.square += p * t * t;
-    if (p > 0) entropy -= p * std::log(p);
+    out.p[i] /= sum;
+    const double t = 2.0 * i / (kProfileSteps - 1) - 1;
+    out.mean_m += out.p[i] * t * kProfileReach_m;
+    out.square += out.p[i] * t * t;
   }
-  out.certainty = 1 - entropy / std::log(static_cast<double>(kProfileSteps));
   return out;
 }
 
@@ -192,11 +198,12 @@ FitTerms fitTerms(const ModelLoop& model, const EchoStack& real, const FitPose& 
 namespace {
 
 // What tissues and gain leave of the grey of each cell, in standard deviations.
-std::vector<float> leftOver(const ModelFrame& frame, const EchoStack& real, int picture,
-                            const Mapping& map, const TissueGreys::Fit& fit, double deviation) {
-  std::vector<float> left(frame.cells.size(), std::numeric_limits<float>::quiet_NaN());
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    const TissueCell& cell = frame.cells[i];
+std::vector<RegionLeft> leftOver(const ModelFrame& frame, const EchoStack& real, int picture,
+                                 const Mapping& map, const TissueGreys::Fit& fit,
+                                 double deviation) {
+  std::vector<RegionLeft> left;
+  for (const TissueCell& cell : frame.cells) {
+    if (!(cell.area > 0)) continue;
     double x, z;
     map.place(cell.x_m, cell.z_m, x, z);
     const EchoStack::Sample s = real.at(picture, x, z);
@@ -207,7 +214,8 @@ std::vector<float> leftOver(const ModelFrame& frame, const EchoStack& real, int 
     const double grey =
         cell.share * fit.grey[cell.first] +
         (cell.share < 1 ? (1 - static_cast<double>(cell.share)) * fit.grey[cell.second] : 0);
-    left[i] = static_cast<float>((s.grey - grey - gain) / deviation);
+    left.push_back({static_cast<float>(x), static_cast<float>(z),
+                    static_cast<float>((s.grey - grey - gain) / deviation)});
   }
   return left;
 }
@@ -224,7 +232,7 @@ std::vector<BoundaryOffset> offsetsOf(const ModelFrame& frame, const EchoStack& 
     const MotionPair m = motionOf(p, real, picture, map, x, z, nx, nz);
     const bool tracked = p.of_blood && m.weight > 0;
     out.push_back({static_cast<float>(x), static_cast<float>(z),
-                   static_cast<float>(1e3 * edge.mean_m), static_cast<float>(edge.certainty),
+                   static_cast<float>(1e3 * edge.mean_m), static_cast<float>(edge.certainty()),
                    static_cast<float>(tracked ? 1e3 * std::sqrt(m.apart) : -1), p.surface});
   }
   return out;
@@ -246,12 +254,37 @@ FitMap fitMap(const ModelLoop& model, const EchoStack& real, const FitPose& pose
   for (std::size_t n = 0; n < model.frames.size(); ++n) {
     const bool seen = real.seen(picture(n));
     out.region.push_back(seen ? leftOver(model.frames[n], real, picture(n), map, fit, deviation)
-                              : std::vector<float>(model.frames[n].cells.size(),
-                                                   std::numeric_limits<float>::quiet_NaN()));
+                              : std::vector<RegionLeft>{});
     out.boundary.push_back(seen ? offsetsOf(model.frames[n], real, picture(n), map)
                                 : std::vector<BoundaryOffset>{});
   }
   return out;
+}
+
+std::vector<OffsetCurve> offsetCurves(const FitMap& map, std::size_t structures) {
+  std::vector<OffsetCurve> curves;
+  const auto mean = [](double sum, double weight) {
+    return weight > 0 ? sum / weight : std::numeric_limits<double>::quiet_NaN();
+  };
+  for (std::size_t s = 0; s < structures; ++s) {
+    OffsetCurve curve{s, {}, {}, {}};
+    bool seen = false;
+    for (const std::vector<BoundaryOffset>& frame : map.boundary) {
+      double weight = 0, offset = 0, distance = 0, tracked = 0, motion = 0;
+      for (const BoundaryOffset& p : frame) {
+        if (p.surface != s) continue;
+        const double w = p.certainty, mm = p.offset_mm;
+        weight += w, offset += w * mm, distance += w * std::abs(mm);
+        if (p.motion_mm >= 0) tracked += 1, motion += static_cast<double>(p.motion_mm);
+      }
+      seen = seen || weight > 0;
+      curve.offset_mm.push_back(mean(offset, weight));
+      curve.distance_mm.push_back(mean(distance, weight));
+      curve.motion_mm.push_back(mean(motion, tracked));
+    }
+    if (seen) curves.push_back(std::move(curve));
+  }
+  return curves;
 }
 
 }  // namespace echocine::compare

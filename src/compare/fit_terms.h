@@ -68,12 +68,26 @@ struct BoundaryOffset {
   float motion_mm = 0;     // |u - v|; negative where nothing was tracked
   std::uint16_t surface = 0;
 };
+// What the tissues leave of the real grey in a cell, in standard deviations.
+struct RegionLeft {
+  float x_m = 0, z_m = 0;  // in the real plane
+  float left = 0;
+};
 struct FitMap {
   std::vector<std::vector<BoundaryOffset>> boundary;  // by frame
-  std::vector<std::vector<float>> region;  // by frame and cell: what the tissues leave of the grey,
-                                           // in standard deviations; not a number out of sight
-  std::vector<double> tissue_grey;         // by tissue
+  std::vector<std::vector<RegionLeft>> region;        // by frame: cells near blood and in sight
+  std::vector<double> tissue_grey;                    // by tissue
 };
 FitMap fitMap(const ModelLoop& model, const EchoStack& real, const FitPose& pose);
+
+// How far edges lie from the boundary of one structure over the beat; means by certainty, not a
+// number where nothing is seen. Out of blood is positive: the model's chamber is too small there.
+struct OffsetCurve {
+  std::size_t structure = 0;
+  std::vector<double> offset_mm, distance_mm;  // by frame: of the offsets, of their sizes
+  std::vector<double> motion_mm;               // of |u - v|, even mean
+};
+// Of structures that show a boundary.
+std::vector<OffsetCurve> offsetCurves(const FitMap& map, std::size_t structures);
 
 }  // namespace echocine::compare

@@ -22,7 +22,7 @@ struct DialRange {
 // plane moves with the dials as `echocine heart` would move it.
 class HeartFamily {
  public:
-  // `given`: dials that stay. Records nodes^(number of ranges) hearts, 3 s of one core each. Runs
+  // `given`: dials that stay. Records nodes^(number of ranges) hearts, 0.8 s of one core each. Runs
   // in parallel. Throws SceneError for hearts that cannot be, JobError when the monitor wants to
   // stop.
   HeartFamily(const std::map<std::string, double>& given, const std::vector<DialRange>& ranges,

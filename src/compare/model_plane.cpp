@@ -45,6 +45,11 @@ class TissueAt {
 
 // The two tissues of most samples.
 TissueCell cellOf(const std::uint32_t* ids, const std::vector<std::uint8_t>& tissue_of) {
+  if (std::all_of(ids + 1, ids + kSamplesPerCell, [&](std::uint32_t id) { return id == ids[0]; })) {
+    TissueCell whole;
+    whole.first = whole.second = tissue_of[ids[0]];
+    return whole;
+  }
   std::uint8_t tissues[kSamplesPerCell], counts[kSamplesPerCell];
   int kinds = 0;
   for (int s = 0; s < kSamplesPerCell; ++s) {

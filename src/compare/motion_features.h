@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "compare/beam_grid.h"
+#include "compare/resample.h"
 
 namespace echocine::compare {
 

@@ -7,8 +7,8 @@
 #include "compare/discrepancy.h"
 #include "compare/frame_blend.h"
 #include "compare/motion_features.h"
+#include "compare/space_alignment.h"
 #include "compare/time_anchors.h"
-#include "compare/view_search.h"
 #include "core/error.h"
 #include "core/parallel.h"
 
@@ -83,18 +83,10 @@ void place(const Placement& placement, Comparison& c) {
                                   placement.scale);
 }
 
-SpaceAlignment alignedFrom(const Placement& start, const Comparison& c) {
-  // A dozen frames over the loop hold all there is to learn about four numbers.
-  std::vector<int> frames;
-  std::vector<std::vector<float>> paired;
-  const std::size_t step = std::max<std::size_t>(1, c.real_beams.frames.size() / 12);
-  for (std::size_t j = 0; j < c.real_beams.frames.size(); j += step)
-    if (isCounted(c, j)) {
-      frames.push_back(static_cast<int>(j));
-      paired.push_back(pairedFrame(c, j));
-    }
-  if (frames.empty()) return {};
-  return alignInSpace(c.grid, c.real, paired, frames, c.weights, start);
+std::vector<float> pairedFrame(const Comparison& c, const std::vector<std::vector<float>>& frames,
+                               std::size_t real) {
+  return frameAtPlace(frames, std::max(0.0, c.time.place[real]), c.synthetic_beat.frames,
+                      c.time.periodic);
 }
 
 // Both loops stand in memory, resampled. Our choice: 2 GB, some 1300 frames of each.
@@ -113,8 +105,7 @@ void refuseTooLong(const Comparison& c) {
 }  // namespace
 
 std::vector<float> pairedFrame(const Comparison& c, std::size_t real) {
-  return frameAtPlace(c.synthetic_beams.frames, std::max(0.0, c.time.place[real]),
-                      c.synthetic_beat.frames, c.time.periodic);
+  return pairedFrame(c, c.synthetic_beams.frames, real);
 }
 
 std::vector<double> discrepancies(const Comparison& c) {
@@ -151,18 +142,20 @@ void registerLoops(const CompareOptions& options, Comparison& c) {
   c.real_beat = beatOf(c.real);
   pairInTime(options, c);
   c.discrepancy_as_placed = meanCounted(c, discrepancies(c));
-  if (!options.align_space || c.discrepancy_as_placed == 0) return;
-  const auto adopt = [&](const SpaceAlignment& found) {
-    c.space = found;
-    if (!found.used) return;
-    place(found.placement, c);
+  if (!options.align_space) return;
+  // Which instants belong together depends on where the loops lie: each start has its own.
+  const SpaceSearch search(c.grid, c.synthetic, c.real);
+  std::vector<Descent> refined;
+  for (const Unknowns& start : search.starts()) {
+    place(search.placementAt(start), c);
     pairInTime(options, c);
-  };
-  const SpaceAlignment by_greys = alignedFrom({}, c);
-  if (by_greys.used || by_greys.correlation_after > kAlikeCorrelation) return adopt(by_greys);
-  adopt(searchView(c.grid, c.synthetic_beams, c.real));
-  if (!c.space.used) return;
-  if (const SpaceAlignment finer = alignedFrom(c.space.placement, c); finer.used) adopt(finer);
+    refined.push_back(search.refined(start, [&](const auto& frames, std::size_t real) {
+      return isCounted(c, real) ? pairedFrame(c, frames, real) : std::vector<float>{};
+    }));
+  }
+  c.space = search.best(refined);
+  place(c.space.placement, c);
+  pairInTime(options, c);
 }
 
 }  // namespace echocine::compare

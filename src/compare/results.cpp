@@ -58,17 +58,27 @@ Json loopJson(const Loop& l, const BeatLength& beat) {
   return json;
 }
 
-Json spaceJson(const Comparison& c) {
-  const Placement& p = c.space.placement;
+Json placementJson(const Placement& p) {
   return {{"shift_px", {p.shift_x_px, p.shift_y_px}},
           {"scale", p.scale},
-          {"rotation_deg", degreesFromRadians(p.rotation_rad)},
-          {"method", c.space.method},
-          {"used", c.space.used},
-          {"at_limit_of_search", c.space.at_limit},
-          {"correlation_before", c.space.correlation_before},
-          {"correlation_after", c.space.correlation_after},
-          {"confidence", c.space.confidence}};
+          {"rotation_deg", degreesFromRadians(p.rotation_rad)}};
+}
+
+Json spaceJson(const Comparison& c) {
+  Json json = placementJson(c.space.placement);
+  json["method"] = c.space.method;
+  json["used"] = c.space.used;
+  json["at_limit_of_search"] = c.space.at_limit;
+  json["confidence"] = c.space.confidence;
+  json["unlike"] = c.space.unlike;
+  json["unlike_definition"] =
+      "E = (1 - G) / c, least at the best placement: what edges are unlike per share in sight";
+  json["rivals"] = Json::array();
+  for (const PlacementFound& rival : c.space.rivals) {
+    json["rivals"].push_back(placementJson(rival.placement));
+    json["rivals"].back()["unlike"] = rival.unlike;
+  }
+  return json;
 }
 
 Json timeJson(const TimeAlignment& t) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "compare/dial_scan.h"
@@ -11,6 +12,7 @@
 #include "core/units.h"
 #include "page/assets.h"
 #include "page/page.h"
+#include "video/cine_writer.h"
 
 namespace echocine::compare {
 
@@ -44,6 +46,21 @@ Json axesJson(const DialScan& scan) {
   return axes;
 }
 
+// Three digits are a thousandth of a pixel here, and keep the page short.
+double rounded(double value) {
+  return std::round(1e3 * value) / 1e3;
+}
+
+Json curvesJson(const ScanMap& where) {
+  Json curves = Json::array();
+  for (const OffsetCurve& c : offsetCurves(where.map, where.structures.size()))
+    curves.push_back({{"structure", where.structures[c.structure]},
+                      {"offset_mm", c.offset_mm},
+                      {"distance_mm", c.distance_mm},
+                      {"motion_mm", c.motion_mm}});
+  return curves;
+}
+
 Json scanJson(const DialScan& scan) {
   Json points = Json::array();
   for (const ScanPoint& p : scan.points) {
@@ -74,7 +91,38 @@ Json scanJson(const DialScan& scan) {
           {"centre", centre},
           {"cpu_ms", {{"recording_hearts", scan.family_ms}, {"evaluation", scan.evaluation_ms}}},
           {"points", points},
+          {"curves_of_best", curvesJson(scan.where)},
           {"notes", scan.notes}};
+}
+
+// Places in pixels of the pictures; a row for each boundary point and cell.
+Json mapJson(const ScanMap& where) {
+  const auto x = [&](double m) { return rounded(where.apex_x_px + m / where.metres_per_pixel); };
+  const auto y = [&](double m) { return rounded(where.apex_y_px + m / where.metres_per_pixel); };
+  Json frames = Json::array();
+  for (std::size_t n = 0; n < where.map.boundary.size(); ++n) {
+    Json boundary = Json::array(), region = Json::array();
+    for (const BoundaryOffset& p : where.map.boundary[n])
+      boundary.push_back({x(p.x_m), y(p.z_m), rounded(p.offset_mm), rounded(p.certainty),
+                          rounded(p.motion_mm), p.surface});
+    for (const RegionLeft& r : where.map.region[n])
+      region.push_back({x(r.x_m), y(r.z_m), rounded(r.left)});
+    frames.push_back({{"boundary", boundary}, {"region", region}});
+  }
+  return frames;
+}
+
+// The page alone has the maps: they are its pictures.
+void writeScanPage(const DialScan& scan, Json json, const std::filesystem::path& path) {
+  PageWriter page(path, pageLook("EchoCine: dials against " + shownName(scan.options.real.string()),
+                                 pageAsset("scan.html"), pageAsset("scan.js")));
+  const OutputSettings settings;
+  for (const GreyImage& picture : scan.where.pictures)
+    page.addFrame("real", encodeCineFrame(picture, settings.codec, settings.jpeg_quality));
+  json["structures"] = scan.where.structures;
+  json["map"] = mapJson(scan.where);
+  json["mm_per_pixel"] = 1e3 * scan.where.metres_per_pixel;
+  page.finish(json);
 }
 
 std::string scanCsv(const DialScan& scan) {
@@ -109,10 +157,7 @@ void writeScan(const DialScan& scan, const std::filesystem::path& folder) {
   };
   const Json json = scanJson(scan);
   text("scan.csv", scanCsv(scan));
-  writePage(folder / "scan.html",
-            pageLook("EchoCine: dials against " + shownName(scan.options.real.string()),
-                     pageAsset("scan.html"), pageAsset("scan.js")),
-            json);
+  writeScanPage(scan, json, folder / "scan.html");
   text("scan.json", json.dump(1) + "\n");
 }
 

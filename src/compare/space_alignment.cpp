@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
+#include "compare/discrepancy.h"
 #include "core/parallel.h"
 #include "core/units.h"
 
@@ -11,174 +11,135 @@ namespace echocine::compare {
 
 namespace {
 
-constexpr int kMotionUnknowns = 6;  // shift x, shift y, scale, rotation; contrast, brightness
+// Units of Unknowns: 2 mm in 15 cm, in parts of the outer radius.
+constexpr double kShiftPart = 2.0 / 150, kScalePart = 0.03;
+const double kTurnPart_rad = radiansFromDegrees(2);
 
-struct Level {
-  std::vector<cv::Mat> real;       // smoothed pictures
-  std::vector<cv::Mat> synthetic;  // smoothed frames in beam space
-  int stride = 1;                  // of lines and samples: smooth greys need not all be looked at
-};
+// Smoothed by 2 % of the depth, greys need no finer grid.
+BeamGrid coarser(BeamGrid grid) {
+  constexpr int kMost = 96;
+  grid.lines = std::min(grid.lines, kMost);
+  grid.samples = std::min(grid.samples, kMost);
+  return grid;
+}
 
-// Both smoothed by about the same length: sigma in real pixels.
-Level smoothed(const BeamGrid& grid, const Loop& real,
-               const std::vector<std::vector<float>>& paired, const std::vector<int>& frames,
-               double sigma_px) {
-  Level level;
-  const double sample_px = (grid.far - grid.near) / grid.samples * pixelsPerUnit(grid, real);
-  const double line_px = (grid.last_rad - grid.first_rad) / std::max(1, grid.lines - 1) * 0.5 *
-                         (grid.near + grid.far) * pixelsPerUnit(grid, real);
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const cv::Mat bytes(
-        real.video.height, real.video.width, CV_8U,
-        const_cast<std::uint8_t*>(real.video.frames[static_cast<std::size_t>(frames[i])].data()));
-    cv::Mat picture,
-        beams =
-            cv::Mat(grid.lines, grid.samples, CV_32F, const_cast<float*>(paired[i].data())).clone();
-    bytes.convertTo(picture, CV_32F);
-    if (sigma_px > 0) {
-      cv::GaussianBlur(picture, picture, {0, 0}, sigma_px);
-      cv::GaussianBlur(beams, beams, {0, 0}, std::max(0.3, sigma_px / sample_px),
-                       std::max(0.3, sigma_px / line_px));
+// Its outermost pixels show none: a place beyond the picture is carried on from there.
+std::vector<float> insideOf(const Loop& loop) {
+  const int w = loop.video.width, h = loop.video.height;
+  std::vector<float> inside;
+  inside.reserve(loop.overlay.size());
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      const bool border = x == 0 || y == 0 || x == w - 1 || y == h - 1;
+      inside.push_back(!border && showsEcho(loop, x + 0.5, y + 0.5) ? 1.0f : 0.0f);
     }
-    level.real.push_back(picture);
-    level.synthetic.push_back(beams);
-  }
-  return level;
+  return inside;
 }
 
-// Normal equations of the six unknowns, and the moments of which the correlation is made.
-struct Sums {
-  cv::Mat normal = cv::Mat::zeros(kMotionUnknowns, kMotionUnknowns, CV_64F),
-          right = cv::Mat::zeros(kMotionUnknowns, 1, CV_64F);
-  double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
-  double correlation() const {
-    const double vx = xx - x * x / n, vy = yy - y * y / n;
-    return n > 0 && vx > 0 && vy > 0 ? (xy - x * y / n) / std::sqrt(vx * vy) : 0;
-  }
-};
-
-// What one line of beam space adds.
-struct LineSums {
-  double normal[kMotionUnknowns][kMotionUnknowns] = {}, right[kMotionUnknowns] = {};
-  double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
-};
-
-// The real grey g at the placed point obeys g + grad g . dp = contrast * synthetic + brightness,
-// with dp linear in the first four unknowns.
-void addLine(const BeamGrid& grid, const Loop& real, const Level& level,
-             const std::vector<float>& weights, const Placement& placement, int line, LineSums& s) {
-  const int w = real.video.width, h = real.video.height;
-  const double angle = grid.angle(line) + placement.rotation_rad;
-  const double sine = std::sin(angle), cosine = std::cos(angle);
-  for (int k = 0; k < grid.samples; k += level.stride) {
-    const double weight =
-        weights[static_cast<std::size_t>(line) * static_cast<std::size_t>(grid.samples) +
-                static_cast<std::size_t>(k)];
-    if (!(weight > 0)) continue;
-    const double r = grid.depth(k) * pixelsPerUnit(grid, real), placed = placement.scale * r;
-    const double x = real.sector().apex_x + placement.shift_x_px + placed * sine;
-    const double y = real.sector().apex_y + placement.shift_y_px + placed * cosine;
-    // Gradients need a pixel on each side.
-    if (x < 1 || y < 1 || x > w - 1 || y > h - 1) continue;
-    const PixelPlace here = pixelPlace(w, h, x, y), right = pixelPlace(w, h, x + 1, y),
-                     left = pixelPlace(w, h, x - 1, y), below = pixelPlace(w, h, x, y + 1),
-                     above = pixelPlace(w, h, x, y - 1);
-    for (std::size_t f = 0; f < level.real.size(); ++f) {
-      const float* picture = level.real[f].ptr<float>();
-      const double g = greyAt(picture, w, here);
-      const double gx = 0.5 * (greyAt(picture, w, right) - greyAt(picture, w, left));
-      const double gy = 0.5 * (greyAt(picture, w, below) - greyAt(picture, w, above));
-      const double v = level.synthetic[f].at<float>(line, k);
-      s.n += weight, s.x += weight * v, s.y += weight * g;
-      s.xx += weight * v * v, s.yy += weight * g * g, s.xy += weight * v * g;
-      // d(g)/d(unknown): shifts move the point by 1 px, scale by r along the line, rotation by the
-      // placed radius across it.
-      const double row[kMotionUnknowns] = {
-          -gx, -gy, -r * (gx * sine + gy * cosine), -placed * (gx * cosine - gy * sine), v, 1};
-      for (int p = 0; p < kMotionUnknowns; ++p) {
-        s.right[p] += weight * row[p] * g;
-        for (int q = p; q < kMotionUnknowns; ++q) s.normal[p][q] += weight * row[p] * row[q];
-      }
-    }
-  }
-}
-
-// Sums over all lines about a placement, line by line in order whatever the threads.
-Sums sumsAt(const BeamGrid& grid, const Loop& real, const Level& level,
-            const std::vector<float>& weights, const Placement& placement) {
-  const auto lines = static_cast<std::size_t>((grid.lines + level.stride - 1) / level.stride);
-  std::vector<LineSums> of_line(lines);
-  parallelBlocks(lines, 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      addLine(grid, real, level, weights, placement, static_cast<int>(i) * level.stride,
-              of_line[i]);
-  });
-  Sums s;
-  for (const LineSums& line : of_line) {
-    s.n += line.n, s.x += line.x, s.y += line.y, s.xx += line.xx, s.yy += line.yy, s.xy += line.xy;
-    for (int p = 0; p < kMotionUnknowns; ++p) {
-      s.right.at<double>(p) += line.right[p];
-      for (int q = 0; q < kMotionUnknowns; ++q)
-        s.normal.at<double>(p, q) += line.normal[std::min(p, q)][std::max(p, q)];
-    }
-  }
-  return s;
-}
-
-// 6 % of the radius, 6 % of scale, 6 degrees: what is left between loops of one view. Our choice.
-bool withinLimits(const Placement& p, const Placement& start, double radius_px) {
-  return std::hypot(p.shift_x_px - start.shift_x_px, p.shift_y_px - start.shift_y_px) <=
-             0.06 * radius_px &&
-         std::abs(p.scale - start.scale) <= 0.06 &&
-         std::abs(p.rotation_rad - start.rotation_rad) <= radiansFromDegrees(6);
-}
-
-Placement improved(const Sums& sums, const Placement& from) {
-  cv::Mat step;
-  // SVD: a picture without edges in some direction leaves that unknown at 0 instead of failing.
-  cv::solve(sums.normal, sums.right, step, cv::DECOMP_SVD);
-  return {from.shift_x_px + step.at<double>(0), from.shift_y_px + step.at<double>(1),
-          from.scale + step.at<double>(2), from.rotation_rad + step.at<double>(3)};
+std::vector<float> meanOf(const std::vector<std::vector<float>>& frames) {
+  std::vector<float> mean(frames.front().size(), 0);
+  for (const std::vector<float>& frame : frames)
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += frame[i];
+  for (float& m : mean) m /= static_cast<float>(frames.size());
+  return mean;
 }
 
 }  // namespace
 
-SpaceAlignment alignInSpace(const BeamGrid& grid, const Loop& real,
-                            const std::vector<std::vector<float>>& paired,
-                            const std::vector<int>& real_frames, const std::vector<float>& weights,
-                            const Placement& start) {
-  SpaceAlignment out;
-  Placement placement = start;
-  double final_correlation = 0;
-  const double finest =
-      std::max(0.7, (grid.far - grid.near) / grid.samples * pixelsPerUnit(grid, real) / 2);
-  // From coarse to fine: smooth greys catch large shifts, sharp ones are exact.
-  for (const double sigma : {6 * finest, 3 * finest, 1.5 * finest, finest}) {
-    Level level = smoothed(grid, real, paired, real_frames, sigma);
-    level.stride = sigma > 2 * finest ? 3 : sigma > finest ? 2 : 1;
-    Sums sums = sumsAt(grid, real, level, weights, placement);
-    for (int i = 0; i < 12; ++i) {
-      const Placement next = improved(sums, placement);
-      if (!withinLimits(next, start, real.sector().r_max)) break;
-      const Sums there = sumsAt(grid, real, level, weights, next);
-      // A step that gains nothing is the end of this level; 1e-7 is rounding of the sums.
-      if (there.correlation() <= sums.correlation() + 1e-7) break;
-      placement = next;
-      sums = there;
-    }
-    final_correlation = sums.correlation();
-    // Finer ones correlate less, not more: no use going on.
-    const bool hopeless = final_correlation < 0.5 * kAlikeCorrelation;
-    if (sigma == finest || hopeless)
-      out.correlation_before = sumsAt(grid, real, level, weights, start).correlation();
-    if (hopeless) break;
+SpaceSearch::SpaceSearch(const BeamGrid& grid, const Loop& synthetic, const Loop& real)
+    : grid_(coarser(grid)),
+      real_(real),
+      sampler_(grid_, real),
+      synthetic_(resample(grid_, synthetic)),
+      inside_(insideOf(real)) {
+  as_given_ = weightsAt(sampler_.placesInLoop({}));
+  // A dozen frames over the loop hold all there is to learn about four numbers.
+  const std::size_t all = real.video.frames.size(), step = std::max<std::size_t>(1, all / 12);
+  for (std::size_t j = 0; j < all; j += step)
+    if (!real.video.isRepeat(static_cast<int>(j))) frames_.push_back(j);
+  pictures_.resize(frames_.size());
+  parallelBlocks(frames_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) pictures_[i] = sampler_.picture(frames_[i]);
+  });
+}
+
+Placement SpaceSearch::placementAt(const Unknowns& at) const {
+  const double radius = real_.sector().r_max;
+  return {kShiftPart * radius * at[0], kShiftPart * radius * at[1], 1 + kScalePart * at[3],
+          kTurnPart_rad * at[2]};
+}
+
+SearchBox SpaceSearch::box() const {
+  SearchBox box;
+  box.high = {kMostShift / kShiftPart, kMostShift / kShiftPart,
+              radiansFromDegrees(kMostTurn_deg) / kTurnPart_rad,
+              grid_.metric ? 0 : kMostScaling / kScalePart};
+  for (std::size_t u = 0; u < kUnknowns; ++u) box.low[u] = -box.high[u];
+  return box;
+}
+
+std::vector<float> SpaceSearch::weightsAt(const std::vector<PixelPlace>& in_loop) const {
+  std::vector<float> weights = areaWeights(grid_, synthetic_.valid, synthetic_.valid);
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    if (weights[i] > 0) weights[i] *= greyAt(inside_.data(), real_.video.width, in_loop[i]);
+  return weights;
+}
+
+double SpaceSearch::unlikeAt(const std::vector<Pair>& pairs, const Unknowns& at) const {
+  const Placement placement = placementAt(at);
+  const std::vector<PixelPlace> in_loop = sampler_.placesInLoop(placement),
+                                places = real_.traced.frames.empty() ? in_loop
+                                                                     : sampler_.places(placement);
+  const std::vector<float> weights = weightsAt(in_loop);
+  const double share = shareInSight(as_given_, weights, placement.scale);
+  if (!(share > 0)) return 2;
+  const WallEdges edges(grid_, weights);
+  std::vector<float> placed(places.size());
+  double sum = 0;
+  for (const Pair& pair : pairs) {
+    for (std::size_t i = 0; i < places.size(); ++i)
+      placed[i] = greyAt(pair.real->data(), sampler_.width(), places[i]);
+    sum += edgeCorrelation(edges(pair.synthetic), edges(placed));
   }
-  out.correlation_after = final_correlation;
-  out.placement = placement;
-  out.used =
-      final_correlation > kAlikeCorrelation && final_correlation > out.correlation_before + 1e-5;
-  out.confidence = std::clamp(out.correlation_after, 0.0, 1.0);
-  if (out.used) out.method = "Lucas and Kanade";
+  return (1 - sum / static_cast<double>(pairs.size())) / share;
+}
+
+std::vector<Unknowns> SpaceSearch::starts() const {
+  const std::vector<float> real = sampler_.meanPicture();
+  const std::vector<Pair> means{{meanOf(synthetic_.frames), &real}};
+  const auto value = [&](const Unknowns& at) { return unlikeAt(means, at); };
+  constexpr std::size_t kStarts = 5;
+  std::vector<Descent> from = leastApart(lattice(value, box(), {4, 4, 2, 2}), kStarts);
+  from.push_back({Unknowns{}, 2});
+  std::vector<Unknowns> out;
+  for (const Descent& d : leastApart(descendAll(value, from, box()), from.size()))
+    out.push_back(d.at);
+  return out;
+}
+
+Descent SpaceSearch::refined(const Unknowns& start, const Pairing& synthetic_at) const {
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    Pair pair{synthetic_at(synthetic_.frames, frames_[i]), &pictures_[i]};
+    if (!pair.synthetic.empty()) pairs.push_back(std::move(pair));
+  }
+  if (pairs.empty()) return {start, 1};
+  return descend([&](const Unknowns& at) { return unlikeAt(pairs, at); }, start, box());
+}
+
+SpaceAlignment SpaceSearch::best(const std::vector<Descent>& refined) const {
+  const std::vector<Descent> hills = leastApart(refined, refined.size());
+  SpaceAlignment out;
+  const Unknowns& at = hills.front().at;
+  out.placement = placementAt(at);
+  out.used = std::any_of(at.begin(), at.end(), [](double u) { return u != 0; });
+  out.method = "several starts, then Newton's method";
+  out.at_limit = box().atLimit(at);
+  out.unlike = hills.front().value;
+  for (std::size_t i = 1; i < hills.size(); ++i)
+    out.rivals.push_back({placementAt(hills[i].at), hills[i].value});
+  const double rival = out.rivals.empty() ? 1 : out.rivals.front().unlike;
+  out.confidence = std::clamp(std::min(rival, 1.0) - out.unlike, 0.0, 1.0);
   return out;
 }
 

@@ -25,10 +25,10 @@ EdgeField edgesOf(const BeamGrid& lattice, std::span<const float> smooth,
   for (int i = 1; i + 1 < lattice.lines; ++i)
     for (std::size_t k = 1; k + 1 < samples; ++k) {
       const std::size_t at = static_cast<std::size_t>(i) * samples + k;
-      if (!(weights[at] > 0 && weights[at - 1] > 0 && weights[at + 1] > 0 &&
-            weights[at - samples] > 0 && weights[at + samples] > 0))
-        continue;
-      out.weight[at] = weights[at];
+      const float least = std::min({weights[at], weights[at - 1], weights[at + 1],
+                                    weights[at - samples], weights[at + samples]});
+      if (!(least > 0)) continue;
+      out.weight[at] = least;
       out.along[at] = per_sample * (smooth[at + 1] - smooth[at - 1]);
       out.across[at] = per_line[k] * (smooth[at + samples] - smooth[at - samples]);
     }
@@ -84,11 +84,11 @@ WallEdges::WallEdges(const BeamGrid& g, std::span<const float> weights)
                      static_cast<std::size_t>(k / sample_block_)] +=
           weights_[static_cast<std::size_t>(i + first_line_) * samples +
                    static_cast<std::size_t>(k + first_sample_)];
-  share_.resize(lattice_.size());
-  for (std::size_t b = 0; b < share_.size(); ++b) share_[b] = block_weights_[b] > 0 ? 1.0f : 0.0f;
+  share_ = block_weights_;
   smooth(share_);
-  // What a block got from outside the sector is nothing; divided by the share inside, no edge
-  // arises at the border.
+  // Greys are smoothed with their weights and divided by the smoothed weights (normalised
+  // convolution, Knutsson and Westin 1993): no edge arises at the border of the area, and greys
+  // change evenly as it moves.
   for (float& s : share_) s = std::max(s, 1e-6f);
 }
 
@@ -110,8 +110,6 @@ EdgeField WallEdges::operator()(std::span<const float> frame) const {
     for (std::size_t b = 0; b < blocks; ++b)
       for (int s = 0; s < sample_block_; ++s, ++grey, ++weight) out[b] += *weight * *grey;
   }
-  for (std::size_t b = 0; b < u.size(); ++b)
-    u[b] = block_weights_[b] > 0 ? u[b] / block_weights_[b] : 0;
   smooth(u);
   for (std::size_t b = 0; b < u.size(); ++b) u[b] /= share_[b];
   return edgesOf(lattice_, u, block_weights_, depth_);

@@ -18,8 +18,8 @@ struct EdgeField {
   std::vector<float> along, across, weight;  // weight 0: a neighbour lies outside the area
 };
 
-// Central differences of `smooth` (line-major on the lattice) where both neighbours each way have
-// a weight. `depth`: what a hundredth is of.
+// Central differences of `smooth` (line-major on the lattice), with the least weight of a place and
+// its neighbours each way. `depth`: what a hundredth is of.
 EdgeField edgesOf(const BeamGrid& lattice, std::span<const float> smooth,
                   std::span<const float> weights, double depth);
 

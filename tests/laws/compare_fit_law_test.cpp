@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "compare/descent.h"
 #include "compare/dial_scan.h"
 #include "compare/model_discrepancy.h"
 #include "compare/tissue_greys.h"
@@ -52,6 +53,42 @@ TEST(CompareFit, BloodIsNeverBrighter) {
       greys->add(i % 2, i % 2, 1, i % 13 / 13.0, i % 2 == 0 ? 30 : 120, 1);
   EXPECT_NEAR(right.fit().ratio(), 0, 1e-6);
   EXPECT_NEAR(wrong.fit().ratio(), 1, 1e-6);
+}
+
+// A bowl and a deeper one beside it: both bottoms are found, the deeper one first, and the limit is
+// kept and told.
+TEST(CompareFit, DescentsFindTheBottomsOfHills) {
+  SearchBox box;
+  box.high = {12, 12, 6, 0};
+  box.low = {-12, -12, -6, 0};
+  const auto bowl = [](const Unknowns& u, const Unknowns& at) {
+    double square = 0;
+    for (std::size_t i = 0; i < kUnknowns; ++i) square += (u[i] - at[i]) * (u[i] - at[i]);
+    return square;
+  };
+  const Unknowns deep{-7.3, 2.1, 1.4, 0}, shallow{6.2, -3.7, -2.6, 0};
+  const auto f = [&](const Unknowns& u) {
+    return 1 - 0.8 * std::exp(-bowl(u, deep) / 30) - 0.5 * std::exp(-bowl(u, shallow) / 30);
+  };
+  withThreads(2, [&] {
+    const std::vector<Descent> hills =
+        leastApart(descendAll(f, leastApart(lattice(f, box, {4, 4, 2, 2}), 5), box), 5);
+    ASSERT_GE(hills.size(), 2u);
+    for (std::size_t u = 0; u < kUnknowns; ++u) {
+      EXPECT_NEAR(hills[0].at[u], deep[u], 0.02) << u;  // each pulls the other a little
+      EXPECT_NEAR(hills[1].at[u], shallow[u], 0.05) << u;
+    }
+    EXPECT_FALSE(box.atLimit(hills[0].at));
+    const Descent beyond = descend(
+        [&](const Unknowns& u) {
+          return bowl(u, {20, 0, 0, 0});
+        },
+        {}, box);
+    EXPECT_EQ(beyond.at[0], 12);
+    EXPECT_TRUE(box.atLimit(beyond.at));
+  });
+  EXPECT_NEAR(standsOut(0.2, 0.6, 1), 0.5, 1e-12);
+  EXPECT_EQ(standsOut(1, 1, 1), 0);
 }
 
 TEST(CompareFit, PlantedPosesAreFound) {
@@ -134,6 +171,21 @@ TEST(CompareFit, TermsSeeSizeAndMotion) {
     EXPECT_LT(offset / weight, -1);
     EXPECT_GT(offset / weight, -4);
   });
+}
+
+// The curve of a structure has the mean of its points by their certainty, and says nothing where
+// none is seen.
+TEST(CompareFit, OffsetsOfAStructureAreAveragedByCertainty) {
+  FitMap map;
+  map.boundary = {{{0, 0, 2, 0.75F, 1, 3}, {0, 0, -2, 0.25F, -1, 3}}, {{0, 0, 5, 1, 2, 1}}};
+  const std::vector<OffsetCurve> curves = offsetCurves(map, 5);
+  ASSERT_EQ(curves.size(), 2u);
+  EXPECT_EQ(curves[1].structure, 3u);
+  EXPECT_NEAR(curves[1].offset_mm[0], 1, 1e-6);
+  EXPECT_NEAR(curves[1].distance_mm[0], 2, 1e-6);
+  EXPECT_NEAR(curves[1].motion_mm[0], 1, 1e-6);  // of the one that was tracked
+  EXPECT_TRUE(std::isnan(curves[1].offset_mm[1]));
+  EXPECT_NEAR(curves[0].offset_mm[1], 5, 1e-6);
 }
 
 // Small changes of a model are small changes of D: it bends evenly, step by tenth of a millimetre.

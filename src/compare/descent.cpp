@@ -1,0 +1,171 @@
+#include "compare/descent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "core/parallel.h"
+
+namespace echocine::compare {
+
+namespace {
+
+// Gradient and Hessian of the unknowns that may move.
+struct Local {
+  cv::Mat gradient, hessian;
+};
+
+std::vector<std::size_t> movable(const SearchBox& box) {
+  std::vector<std::size_t> out;
+  for (std::size_t u = 0; u < kUnknowns; ++u)
+    if (box.high[u] > box.low[u]) out.push_back(u);
+  return out;
+}
+
+Local differences(const PoseFunction& f, const Descent& from, const SearchBox& box,
+                  const std::vector<std::size_t>& unknowns, double step) {
+  const int n = static_cast<int>(unknowns.size());
+  Local out{cv::Mat::zeros(n, 1, CV_64F), cv::Mat::zeros(n, n, CV_64F)};
+  Unknowns plus{}, minus{};
+  const auto value = [&](std::size_t i, double a, std::size_t j, double b) {
+    Unknowns at = from.at;
+    at[i] += a;
+    at[j] += b;
+    return f(box.clamped(at));
+  };
+  for (int i = 0; i < n; ++i) {
+    const std::size_t u = unknowns[static_cast<std::size_t>(i)];
+    plus[u] = value(u, step, u, 0);
+    minus[u] = value(u, -step, u, 0);
+    out.gradient.at<double>(i) = (plus[u] - minus[u]) / (2 * step);
+    out.hessian.at<double>(i, i) = (plus[u] - 2 * from.value + minus[u]) / (step * step);
+  }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < i; ++j) {
+      const std::size_t u = unknowns[static_cast<std::size_t>(i)],
+                        v = unknowns[static_cast<std::size_t>(j)];
+      const double both = value(u, step, v, step);
+      out.hessian.at<double>(i, j) = out.hessian.at<double>(j, i) =
+          (both - plus[u] - plus[v] + from.value) / (step * step);
+    }
+  return out;
+}
+
+// Newton's step with all curvatures made positive, no longer than three units.
+Unknowns newtonStep(const Local& local, const std::vector<std::size_t>& unknowns) {
+  cv::Mat values, vectors;
+  cv::eigen(local.hessian, values, vectors);
+  const double largest =
+      std::max(std::abs(values.at<double>(0)), std::abs(values.at<double>(values.rows - 1)));
+  const double least = std::max(1e-3 * largest, 1e-9);
+  cv::Mat step = cv::Mat::zeros(local.gradient.rows, 1, CV_64F);
+  for (int i = 0; i < values.rows; ++i) {
+    const double along = vectors.row(i).dot(local.gradient.t());
+    step -= (along / std::max(std::abs(values.at<double>(i)), least)) * vectors.row(i).t();
+  }
+  constexpr double kLongest = 3;
+  const double length = cv::norm(step);
+  if (length > kLongest) step *= kLongest / length;
+  Unknowns out{};
+  for (int i = 0; i < step.rows; ++i)
+    out[unknowns[static_cast<std::size_t>(i)]] = step.at<double>(i);
+  return out;
+}
+
+}  // namespace
+
+Unknowns SearchBox::clamped(const Unknowns& at) const {
+  Unknowns out{};
+  for (std::size_t u = 0; u < kUnknowns; ++u) out[u] = std::clamp(at[u], low[u], high[u]);
+  return out;
+}
+
+bool SearchBox::atLimit(const Unknowns& at) const {
+  constexpr double kNear = 5e-4;  // of the range
+  for (const std::size_t u : movable(*this))
+    if (std::min(at[u] - low[u], high[u] - at[u]) < kNear * (high[u] - low[u])) return true;
+  return false;
+}
+
+bool standApart(const Unknowns& a, const Unknowns& b) {
+  constexpr double kApart = 5;
+  return std::hypot(a[0] - b[0], a[1] - b[1]) > kApart || std::abs(a[2] - b[2]) > kApart;
+}
+
+std::vector<Descent> lattice(const PoseFunction& f, const SearchBox& box,
+                             const std::array<int, kUnknowns>& each_way) {
+  std::vector<Descent> all{{box.clamped({}), 2}};
+  for (std::size_t u = kUnknowns; u-- > 0;) {
+    std::vector<Descent> finer;
+    const int steps = box.high[u] > box.low[u] ? 2 * each_way[u] : 0;
+    for (const Descent& d : all)
+      for (int i = 0; i <= steps; ++i) {
+        finer.push_back(d);
+        if (steps > 0) finer.back().at[u] = box.low[u] + (box.high[u] - box.low[u]) * i / steps;
+      }
+    all = std::move(finer);
+  }
+  parallelBlocks(all.size(), 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) all[i].value = f(all[i].at);
+  });
+  return all;
+}
+
+std::vector<Descent> leastApart(std::vector<Descent> all, std::size_t most) {
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Descent& a, const Descent& b) { return a.value < b.value; });
+  std::vector<Descent> out;
+  for (const Descent& d : all) {
+    if (out.size() == most) break;
+    if (std::all_of(out.begin(), out.end(),
+                    [&](const Descent& o) { return standApart(o.at, d.at); }))
+      out.push_back(d);
+  }
+  return out;
+}
+
+Descent descend(const PoseFunction& f, const Unknowns& start, const SearchBox& box) {
+  const std::vector<std::size_t> unknowns = movable(box);
+  Descent best{start, f(start)};
+  double width = 1;  // of the differences
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    const Unknowns step = newtonStep(differences(f, best, box, unknowns, width), unknowns);
+    bool better = false;
+    double length = 0;
+    for (double share = 1; share > 0.1 && !better; share /= 2) {
+      Unknowns at = best.at;
+      double square = 0;
+      for (std::size_t u = 0; u < kUnknowns; ++u) {
+        at[u] += share * step[u];
+        square += share * share * step[u] * step[u];
+      }
+      at = box.clamped(at);
+      const double value = f(at);
+      if (value < best.value) {
+        better = true;
+        best = {at, value};
+        length = std::sqrt(square);
+      }
+    }
+    // A hundredth of a unit is 20 micrometres in 15 cm.
+    if (!better && width < 0.3) break;
+    if (!better || length < 0.3) width = std::max(0.25, width / 2);
+    if (better && length < 0.01 && width <= 0.25) break;
+  }
+  return best;
+}
+
+std::vector<Descent> descendAll(const PoseFunction& f, const std::vector<Descent>& starts,
+                                const SearchBox& box) {
+  std::vector<Descent> out(starts.size());
+  parallelBlocks(out.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) out[i] = descend(f, starts[i].at, box);
+  });
+  return out;
+}
+
+double standsOut(double best, double rival, double nothing) {
+  return nothing > best ? std::clamp((rival - best) / (nothing - best), 0.0, 1.0) : 0;
+}
+
+}  // namespace echocine::compare

@@ -1,0 +1,50 @@
+#pragma once
+// The least values of a smooth function of a pose: Newton's method from several starts.
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace echocine::compare {
+
+// Two shifts, a turn, a scale, each in units that change the function about alike at the size of
+// what is looked for: a unit of shift is 2 mm in 15 cm, of turn 2 degrees, of scale 3 %.
+inline constexpr std::size_t kUnknowns = 4;
+using Unknowns = std::array<double, kUnknowns>;
+
+struct Descent {
+  Unknowns at{};
+  double value = 2;
+};
+
+// Where the unknowns may lie; those whose ends are equal stay.
+struct SearchBox {
+  Unknowns low{}, high{};
+
+  Unknowns clamped(const Unknowns& at) const;
+  bool atLimit(const Unknowns& at) const;
+};
+
+using PoseFunction = std::function<double(const Unknowns&)>;
+
+// Five units of shift or of turn apart: other hills. Our choice.
+bool standApart(const Unknowns& a, const Unknowns& b);
+
+// The function at every place of a lattice of so many steps each way. Runs in parallel.
+std::vector<Descent> lattice(const PoseFunction& f, const SearchBox& box,
+                             const std::array<int, kUnknowns>& each_way);
+
+// The least `most` of them that stand apart, least first.
+std::vector<Descent> leastApart(std::vector<Descent> all, std::size_t most);
+
+// Newton's method with central differences, curvatures made positive, steps halved until they gain.
+// The function must be thread-safe; starts are followed in parallel.
+Descent descend(const PoseFunction& f, const Unknowns& start, const SearchBox& box);
+std::vector<Descent> descendAll(const PoseFunction& f, const std::vector<Descent>& starts,
+                                const SearchBox& box);
+
+// How far the least value stands out: its gap to a rival's over its gap to one that says nothing,
+// 0 to 1.
+double standsOut(double best, double rival, double nothing);
+
+}  // namespace echocine::compare

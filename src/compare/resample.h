@@ -1,0 +1,45 @@
+#pragma once
+// Loops in beam space, wherever they are placed.
+
+#include <vector>
+
+#include "compare/beam_grid.h"
+
+namespace echocine::compare {
+
+// A loop in beam space, line-major. Pictures finer than the grid are smoothed to its spacing first.
+// Grey 0 to 255.
+struct BeamLoop {
+  std::vector<std::vector<float>> frames;
+  PixelPlane valid;  // 1: within the sector, not under an overlay
+};
+// Runs in parallel.
+BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& placement = {});
+
+// The same in two steps, for a loop that is placed again and again.
+class LoopSampler {
+ public:
+  // References are kept.
+  LoopSampler(const BeamGrid& grid, const Loop& loop);
+
+  int width() const;  // of picture()
+  // A frame as it is sampled, smoothed to the grid's spacing: the loop's picture, or its greys in
+  // beam space where it has them.
+  std::vector<float> picture(std::size_t frame) const;
+  std::vector<float> meanPicture() const;
+  // Where the grid's samples lie in it, and in the loop's picture; line-major.
+  std::vector<PixelPlace> places(const Placement& placement) const;
+  std::vector<PixelPlace> placesInLoop(const Placement& placement) const;
+
+ private:
+  template <typename AtPlace>
+  std::vector<PixelPlace> everyPlace(const Placement& placement, const AtPlace& at) const;
+  std::vector<float> smoothed(std::vector<float> picture) const;
+
+  const BeamGrid& grid_;
+  const Loop& loop_;
+  bool traced_;
+  double sigma_x_ = 0, sigma_y_ = 0;
+};
+
+}  // namespace echocine::compare

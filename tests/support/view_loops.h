@@ -1,0 +1,142 @@
+#pragma once
+// Hearts of three families in eight views, and loops of them as a scanner with a look of its own
+// shows them.
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "compare/loop.h"
+#include "core/error.h"
+#include "core/hash_random.h"
+#include "core/parallel.h"
+#include "motion/heart/heart_scene.h"
+#include "motion/views/heart_marks.h"
+#include "simulate/simulator.h"
+#include "support/patient_scene.h"
+#include "support/real_hearts.h"
+#include "support/scene_text.h"
+
+namespace echocine::support {
+
+// Hearts whose scenes stand for what is seen: "shipped" with given dials, "patient", "whole".
+enum class Family { shipped, patient, whole };
+inline constexpr Family kFamilies[] = {Family::shipped, Family::patient, Family::whole};
+inline const char* nameOf(Family family) {
+  return family == Family::shipped   ? "parametric"
+         : family == Family::patient ? "patient"
+                                     : "whole heart";
+}
+
+inline void holdProbe(View view, const std::vector<RoleSurface>& surfaces, double metres_per_unit,
+                      SceneText& text) {
+  const HeartMarks heart = findHeart(surfaces, {});
+  const ProbePose pose = standardPose(view, heart.frame, heart.outside_m, heart.wall_m);
+  text.probe["apex"] = vectorText(1 / metres_per_unit * pose.apex);
+  text.probe["axis"] = vectorText(pose.axis);
+  text.probe["lateral"] = vectorText(pose.lateral);
+  text.probe["sector_deg"] = std::to_string(pose.sector_deg);
+  text.probe["depth_mm"] = std::to_string(1e3 * pose.depth_m);
+  text.probe["lines"] = "128";
+  text.probe["samples"] = "512";
+  text.signal["look"] = "\"scanner\"";
+}
+
+// Segmented chambers that shorten by 12 % along the long axis and by 18 % across it, about the
+// apex, as a raised cosine: an ejection fraction of 0.41.
+inline Scene wholeHeartScene(View view) {
+  static const RealHeart heart = wholeHeart();
+  static const NamedMeshes meshes = [] {
+    constexpr int kKeyframes = 10;
+    NamedMeshes named;
+    const Vec3d axis = normalised(heart.mitral - heart.apex);
+    for (std::size_t s = 0; s < heart.surfaces.size(); ++s)
+      for (int k = 0; k < kKeyframes; ++k) {
+        const double part = 0.5 * (1 - std::cos(2 * std::numbers::pi * k / kKeyframes));
+        TriangleMesh mesh;
+        mesh.triangles = heart.triangles[s];
+        for (const Vec3d p : heart.surfaces[s].points_m) {
+          const Vec3d from = p - heart.apex, along = dot(from, axis) * axis;
+          mesh.positions.push_back(heart.apex + (1 - 0.12 * part) * along +
+                                   (1 - 0.18 * part) * (from - along));
+        }
+        named[heart.surfaces[s].name + "_0" + std::to_string(k) + ".obj"] =
+            std::make_shared<const TriangleMesh>(std::move(mesh));
+      }
+    return named;
+  }();
+  SceneText text;
+  text.motion = {{"mesh_unit", "\"m\""}};
+  holdProbe(view, heart.surfaces, 1, text);
+  for (const RoleSurface& s : heart.surfaces)
+    text.addStructure(s.name, s.role == Role::lv_wall ? "myocardium" : "blood",
+                      "\"" + s.name + "_*.obj\"", s.role == Role::lv_wall ? 1 : 2);
+  return parseScene(text.text(), "scene.toml", meshes);
+}
+
+inline Scene sceneOf(Family family, View view) {
+  if (family == Family::shipped)
+    return heart::heartScene(
+        heart::parametersFrom({{"ef", 0.45}, {"edv", 150}, {"wall-thickness", 11}, {"hr", 72}}),
+        view, 20, Look::scanner);
+  if (family == Family::whole) return wholeHeartScene(view);
+  static const RealHeart heart = patientHeart();
+  SceneText text = patientScene();
+  holdProbe(view, heart.surfaces, 1e-3, text);
+  text.output.clear();
+  return parseScene(text.text(), "scene.toml");
+}
+
+// One beat as another scanner shows it: media, gain, grey curve and speckle are its own, drawn from
+// `seed`. The first frame is end-diastole.
+inline compare::Loop scannedLoop(Scene scene, int frames, int seed) {
+  int number = 0;
+  const auto drawn = [&](double low, double high) {
+    return low + (high - low) * uniformFromHash(hashOf(static_cast<std::uint64_t>(seed), 7,
+                                                       static_cast<std::uint64_t>(number++)));
+  };
+  for (Medium& medium : scene.media) {
+    medium.backscatter_per_m_sr *= std::pow(10, drawn(-0.2, 0.2));
+    medium.attenuation_np_per_m *= drawn(0.85, 1.15);
+  }
+  scene.signal.gain_db += drawn(-6, 6);
+  scene.signal.grey_gamma *= drawn(0.8, 1.25);
+  scene.signal.dynamic_range_db += drawn(-8, 8);
+  scene.speckle.seed = scene.speckle.heterogeneity_seed = seed;
+  scene.artefacts.noise_seed = scene.artefacts.clutter_seed = seed;
+  scene.acquisition.frame_rate_hz = frames * scene.acquisition.heart_rate_hz;
+  scene.acquisition.beats = 1;
+  scene.output.width = 360;
+  scene.output.height = 300;
+  scene.output.ecg = scene.output.depth_ticks = false;
+  const Simulator simulator(scene);
+  const Probe& p = simulator.scene().probe;
+  const PictureGeometry& g = simulator.chain().geometry();
+  compare::Loop loop;
+  loop.video.name = "scanned";
+  loop.video.width = scene.output.width;
+  loop.video.height = scene.output.height;
+  loop.video.rate = {scene.acquisition.frame_rate_hz, "drawn", true};
+  loop.metres_per_pixel = g.metres_per_pixel;
+  loop.frames_per_beat = frames;
+  loop.find.sector = {g.origin_x_px,
+                      g.origin_y_px,
+                      p.first_angle_rad,
+                      p.last_angle_rad,
+                      (p.face_radius_m + p.min_depth_m) / g.metres_per_pixel,
+                      (p.face_radius_m + p.max_depth_m) / g.metres_per_pixel};
+  loop.video.frames.resize(static_cast<std::size_t>(frames));
+  simulator.referenceIntensity();
+  parallelBlocks(loop.video.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      loop.video.frames[i] =
+          simulator.frame(static_cast<double>(i) / scene.acquisition.frame_rate_hz).image.pixels;
+  });
+  loop.overlay.assign(loop.video.frames.front().size(), 0);
+  loop.video.coloured.assign(loop.overlay.size(), 0);
+  return loop;
+}
+
+}  // namespace echocine::support
