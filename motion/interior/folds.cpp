@@ -6,7 +6,7 @@ namespace {
 
 // A cell that keeps less than this part of its volume at a keyframe is about to fold: its
 // surroundings are made this much stiffer. Our choices.
-constexpr float kLeastVolume = 0.1f, kStiffer = 4;
+constexpr float kLeastVolume = 0.05f, kStiffer = 4;
 
 // Does the map turn over, or nearly, at a corner of the cell at any keyframe? Corner numbers have
 // bit 0 for x, 1 for z, 2 for y.

@@ -29,6 +29,12 @@ void execute(tbb::task_arena& arena, const std::function<void()>& body) {
   });
 }
 
+// Of a loop within another that failed oneTBB leaves out the rest in silence, and what comes after
+// it would take its work for done. A loop of its own context ends whole or by an exception.
+tbb::task_group_context contextOfItsOwn() {
+  return tbb::task_group_context(tbb::task_group_context::isolated);
+}
+
 }  // namespace
 
 void withThreads(int threads, const std::function<void()>& body) {
@@ -61,13 +67,17 @@ void parallelBlocks(std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, std::size_t)>& body) {
   const std::size_t blocks = (count + grain - 1) / grain;
   const StopQuestion* const question = stopQuestion();
+  tbb::task_group_context alone = contextOfItsOwn();
   isolated([&] {
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      const StopScope asked(question);
-      checkpoint();
-      const std::size_t begin = block * grain;
-      body(begin, begin + grain < count ? begin + grain : count);
-    });
+    tbb::parallel_for(
+        std::size_t{0}, blocks,
+        [&](std::size_t block) {
+          const StopScope asked(question);
+          checkpoint();
+          const std::size_t begin = block * grain;
+          body(begin, begin + grain < count ? begin + grain : count);
+        },
+        alone);
   });
 }
 
@@ -81,6 +91,7 @@ std::size_t parallelOrdered(std::size_t first, std::size_t last, std::size_t in_
   // Item i is drained before item i + in_flight begins, so each has a place of its own.
   std::vector<std::shared_ptr<void>> made(in_flight);
   const StopQuestion* const question = stopQuestion();
+  tbb::task_group_context alone = contextOfItsOwn();
   tbb::parallel_pipeline(
       in_flight,
       tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order,
@@ -102,7 +113,8 @@ std::size_t parallelOrdered(std::size_t first, std::size_t last, std::size_t in_
                 const StopScope asked(question);
                 drain(i, std::exchange(made[i % in_flight], nullptr));
                 drained = i + 1;
-              }));
+              }),
+      alone);
   return drained;
 }
 

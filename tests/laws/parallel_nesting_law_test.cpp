@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
@@ -136,6 +137,42 @@ TEST(ParallelLaw, AnExceptionWithinANestedLoopPassesThroughTheOuterOne) {
                              [](std::size_t, std::shared_ptr<void>) {});
                        }),
               "line 17");
+}
+
+// What comes after a loop takes its work for done: a frame's own loop ends whole although another
+// frame fails meanwhile.
+TEST(ParallelLaw, AFrameThatFailsLeavesTheLoopsOfOthersWhole) {
+  constexpr int kLines = 64;
+  std::atomic<bool> begun = false, failed = false;
+  std::atomic<int> lines = 0, ended = 0;
+  withThreads(2, [&] {
+    EXPECT_THROW(parallelOrdered(
+                     0, 2, 2, kAlways,
+                     [&](std::size_t frame) -> std::shared_ptr<void> {
+                       const auto until = [](const std::atomic<bool>& what) {
+                         for (int i = 0; i < 2000 && !what; ++i)
+                           std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                       };
+                       if (frame == 0) {
+                         until(begun);
+                         failed = true;
+                         throw std::runtime_error("frame 0");
+                       }
+                       parallelBlocks(kLines, 1, [&](std::size_t line, std::size_t) {
+                         begun = true;
+                         if (line == 0) until(failed);
+                         std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                         ++lines;
+                       });
+                       ++ended;
+                       return nullptr;
+                     },
+                     [](std::size_t, std::shared_ptr<void>) {}),
+                 std::runtime_error);
+  });
+  if (ended == 1) {
+    EXPECT_EQ(lines, kLines);
+  }
 }
 
 // A library's callers bring threads of their own.
