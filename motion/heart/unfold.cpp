@@ -34,11 +34,11 @@ bool areTurned(const Normal& a, const Normal& b) {
 
 // Instants looked at from one keyframe to the next: as many as a loop of 200 frames a beat shows,
 // and some where keyframes are close. Our choice.
-constexpr double kStep = 0.005;  // of a beat
+constexpr double kFoldStep = 0.005;  // of a beat
 constexpr int kLeastBetween = 4;
 
 int instantsBetween(double left, double right) {
-  return std::max(kLeastBetween, static_cast<int>(std::ceil((right - left) / kStep)));
+  return std::max(kLeastBetween, static_cast<int>(std::ceil((right - left) / kFoldStep)));
 }
 
 using Ring = std::vector<std::uint32_t>;
