@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/nearest_word.h"
 #include "core/parallel.h"
@@ -88,19 +90,28 @@ heart::View viewFrom(const std::string& key) {
   throw SceneError(fmt::format("heart: view: is \"{}\", accepted: {}", key, accepted));
 }
 
+// Dials by the names that Python has for them: underscores for hyphens.
 heart::Parameters parametersFrom(const std::map<std::string, double>& dials,
                                  const std::map<int, std::pair<double, double>>& segments,
                                  bool keep_volumes) {
+  std::map<std::string, double> by_key;
   std::vector<std::string> names;
-  for (const heart::Dial& dial : heart::dials()) names.emplace_back(dial.key);
+  for (const heart::Dial& dial : heart::dials()) {
+    names.emplace_back(dial.key);
+    std::replace(names.back().begin(), names.back().end(), '-', '_');
+    if (const auto given = dials.find(names.back()); given != dials.end())
+      by_key.emplace(dial.key, given->second);
+  }
   for (const auto& dial : dials)
     if (std::find(names.begin(), names.end(), dial.first) == names.end()) {
-      const std::string nearest = nearestWord(dial.first, names);
+      std::string lower = dial.first;
+      for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+      const std::string nearest = nearestWord(lower, names);
       throw SceneError(fmt::format(
           "heart: {}: is not a dial, {}", dial.first,
           nearest.empty() ? fmt::format("accepted: {}", fmt::join(names, ", ")) : "nearest: " + nearest));
     }
-  heart::Parameters parameters = heart::parametersFrom(dials);
+  heart::Parameters parameters = heart::parametersFrom(by_key);
   for (const auto& [number, segment] : segments) {
     if (number < 1 || number > heart::kSegments)
       throw SceneError(

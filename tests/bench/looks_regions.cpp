@@ -7,6 +7,7 @@
 #include <sstream>
 #include <vector>
 
+#include "compare/beam_grid.h"
 #include "compare/sector.h"
 #include "core/error.h"
 #include "core/units.h"
@@ -75,32 +76,21 @@ struct BeamSpace {
   std::vector<std::vector<float>> frames;
 };
 
-float bilinearGrey(const PictureLoop& loop, const PixelPlane& frame, double x, double y) {
-  const double u = x - 0.5, v = y - 0.5;
-  const int i = static_cast<int>(std::floor(u)), j = static_cast<int>(std::floor(v));
-  if (i < 0 || j < 0 || i + 1 >= loop.width || j + 1 >= loop.height) return 0;
-  const auto at = [&](int di, int dj) {
-    return static_cast<double>(
-        frame[static_cast<std::size_t>(j + dj) * static_cast<std::size_t>(loop.width) +
-              static_cast<std::size_t>(i + di)]);
-  };
-  return static_cast<float>(
-      std::lerp(std::lerp(at(0, 0), at(1, 0), u - i), std::lerp(at(0, 1), at(1, 1), u - i), v - j));
-}
-
 BeamSpace beamSpace(const PictureLoop& loop) {
   BeamSpace space;
   space.first_deg = loop.first_deg;
   space.lines = static_cast<int>((loop.last_deg - loop.first_deg) / kLine_deg) + 1;
   space.samples = static_cast<int>(loop.far_mm / kSample_mm) + 1;
   for (const PixelPlane& frame : loop.frames) {
+    const std::vector<float> picture(frame.begin(), frame.end());
     std::vector<float> plane;
     for (int i = 0; i < space.lines; ++i) {
       const double angle = radiansFromDegrees(space.first_deg + kLine_deg * i);
       for (int k = 0; k < space.samples; ++k) {
         const double r = kSample_mm * k / loop.mm_per_pixel;
-        plane.push_back(bilinearGrey(loop, frame, loop.apex_x + r * std::sin(angle),
-                                     loop.apex_y + r * std::cos(angle)));
+        plane.push_back(compare::greyAt(picture.data(), loop.width, loop.height,
+                                        loop.apex_x + r * std::sin(angle),
+                                        loop.apex_y + r * std::cos(angle)));
       }
     }
     space.frames.push_back(std::move(plane));

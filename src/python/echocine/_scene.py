@@ -435,14 +435,7 @@ def heart(view: str = "a4c", *, segments: Optional[Mapping[int, Any]] = None, ke
         raise SceneError(f'heart: view: is {view!r}, accepted: a name such as "a4c"')
     if not isinstance(segments or {}, Mapping):
         raise SceneError(f"heart: segments: is {segments!r}, accepted: amplitudes by number, such as {{7: 0}}")
-    known = [row[0].replace("-", "_") for row in _echocine.dials()]
-    given = {}
-    for name, value in dials.items():
-        if name not in known:
-            alike = [dial for dial in known if dial == name.lower()] or difflib.get_close_matches(name.lower(), known, 1)
-            raise SceneError(f"heart: {name}: is not a dial, " +
-                             (f"nearest: {alike[0]}" if alike else f"accepted: {', '.join(known)}"))
-        given[name.replace("_", "-")] = _number(f"heart: {name}", value)
+    given = {name: _number(f"heart: {name}", value) for name, value in dials.items()}
     walls = {}
     for number, wall in (segments or {}).items():
         amplitude, delay_ms = wall if isinstance(wall, (tuple, list)) else (wall, 0.0)
