@@ -59,14 +59,7 @@ std::vector<float> LoopSampler::picture(std::size_t frame) const {
 }
 
 std::vector<float> LoopSampler::meanPicture() const {
-  const auto mean = [](const auto& frames) {
-    std::vector<float> sum(frames.front().size(), 0);
-    for (const auto& frame : frames)
-      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += static_cast<float>(frame[i]);
-    for (float& s : sum) s /= static_cast<float>(frames.size());
-    return sum;
-  };
-  return smoothed(traced_ ? mean(loop_.traced.frames) : mean(loop_.video.frames));
+  return smoothed(traced_ ? meanOf(loop_.traced.frames) : meanOf(loop_.video.frames));
 }
 
 // pictureAt() for the whole grid.

@@ -13,6 +13,17 @@ struct BeamLoop {
   std::vector<std::vector<float>> frames;
   PixelPlane valid;  // 1: within the sector, not under an overlay
 };
+
+// Pixel by pixel, of frames of one size; one at least.
+template <typename Frame>
+std::vector<float> meanOf(const std::vector<Frame>& frames) {
+  std::vector<float> mean(frames.front().size(), 0);
+  for (const Frame& frame : frames)
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += static_cast<float>(frame[i]);
+  for (float& m : mean) m /= static_cast<float>(frames.size());
+  return mean;
+}
+
 // Runs in parallel.
 BeamLoop resample(const BeamGrid& grid, const Loop& loop, const Placement& placement = {});
 

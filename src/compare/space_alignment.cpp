@@ -36,14 +36,6 @@ std::vector<float> insideOf(const Loop& loop) {
   return inside;
 }
 
-std::vector<float> meanOf(const std::vector<std::vector<float>>& frames) {
-  std::vector<float> mean(frames.front().size(), 0);
-  for (const std::vector<float>& frame : frames)
-    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += frame[i];
-  for (float& m : mean) m /= static_cast<float>(frames.size());
-  return mean;
-}
-
 }  // namespace
 
 SpaceSearch::SpaceSearch(const BeamGrid& grid, const Loop& synthetic, const Loop& real)
