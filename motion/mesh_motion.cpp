@@ -120,7 +120,7 @@ ControlMotion controlMotion(KeyframeWeights weights, const SurfaceTopology& topo
 struct MeshMotion::MovingSurface {
   ControlMotion control;
   std::shared_ptr<const Subdivision> subdivision{};
-  std::optional<LimitNormals> limit_normals{};
+  std::shared_ptr<const LimitNormals> limit_normals{};
   std::vector<Vec3f> still_m{};  // of a still structure that is subdivided: the refined vertices
   double still_volume_m3 = 0;    // of a still structure
   VolumeSum volume{};            // of any other that encloses one
@@ -163,8 +163,8 @@ std::vector<NumberedTriangle> MeshMotion::MovingSurface::nearPlane(
 // Normals of the limit surface at the vertices that subdivide() will make.
 void MeshMotion::MovingSurface::smooth(SurfaceTopology& topology, const MeshTags& tags,
                                        const Scene& scene) {
-  limit_normals.emplace(topology.triangles, topology.vertex_count, tags, scene.motion.subdivision,
-                        scene.accuracy.normals_place);
+  limit_normals = sharedLimitNormals(topology.triangles, topology.vertex_count, tags,
+                                     scene.motion.subdivision, scene.accuracy.normals_place);
   topology.normal_corners = limit_normals->corners();
 }
 
@@ -215,7 +215,8 @@ MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
       input_sha256_(set.sha256) {
   CHECK_EQ(set.structures.size(), scene.structures.size());
   if (scene.view)
-    throw SceneError(atPlace(scene.view->place, "is not found yet, accepted: the scene as placed()"));
+    throw SceneError(
+        atPlace(scene.view->place, "is not found yet, accepted: the scene as placed()"));
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     checkpoint();
     const Structure& structure = scene.structures[s];

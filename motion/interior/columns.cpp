@@ -31,10 +31,8 @@ void Columns::fillBins() {
   const auto forBins = [&](const Triangle& t, const auto& visit) {
     Box box;
     for (const std::uint32_t v : t) box.add(positions_m_[v]);
-    const int y1 = binOf(box.hi.y, box_m_.lo.y, box_m_.hi.y, bins_),
-              z0 = binOf(box.lo.z, box_m_.lo.z, box_m_.hi.z, bins_),
-              z1 = binOf(box.hi.z, box_m_.lo.z, box_m_.hi.z, bins_);
-    for (int y = binOf(box.lo.y, box_m_.lo.y, box_m_.hi.y, bins_); y <= y1; ++y)
+    const int y1 = binAlongY(box.hi.y), z0 = binAlongZ(box.lo.z), z1 = binAlongZ(box.hi.z);
+    for (int y = binAlongY(box.lo.y); y <= y1; ++y)
       for (int z = z0; z <= z1; ++z) visit(static_cast<std::size_t>(y * bins_ + z));
   };
   for (const Triangle& t : triangles_) forBins(t, [&](std::size_t b) { ++starts_[b + 1]; });
@@ -42,14 +40,51 @@ void Columns::fillBins() {
   members_.resize(starts_.back());
   std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
   for (std::uint32_t i = 0; i < triangles_.size(); ++i)
-    forBins(triangles_[i], [&](std::size_t b) { members_[next[b]++] = i; });
+    forBins(triangles_[i],
+            [&, member = memberOf(i)](std::size_t b) { members_[next[b]++] = member; });
 }
 
-std::span<const std::uint32_t> Columns::bin(double y, double z) const {
-  if (y < box_m_.lo.y || y > box_m_.hi.y || z < box_m_.lo.z || z > box_m_.hi.z) return {};
-  const auto b = static_cast<std::size_t>(binOf(y, box_m_.lo.y, box_m_.hi.y, bins_) * bins_ +
-                                          binOf(z, box_m_.lo.z, box_m_.hi.z, bins_));
+// Wider by more than floats of a heart's size round.
+Columns::Member Columns::memberOf(std::uint32_t triangle) const {
+  Box box;
+  for (const std::uint32_t v : triangles_[triangle]) box.add(positions_m_[v]);
+  const double size_m = std::max({std::abs(box.lo.x), std::abs(box.hi.x), std::abs(box.lo.y),
+                                  std::abs(box.hi.y), std::abs(box.lo.z), std::abs(box.hi.z)});
+  const double wider_m = 1e-6 * size_m;
+  const auto below = [&](double m) { return static_cast<float>(m - wider_m); };
+  const auto above = [&](double m) { return static_cast<float>(m + wider_m); };
+  return {below(box.lo.x), above(box.hi.x), below(box.lo.y), above(box.hi.y),
+          below(box.lo.z), above(box.hi.z), triangle};
+}
+
+int Columns::binAlongY(double y) const {
+  return binOf(y, box_m_.lo.y, box_m_.hi.y, bins_);
+}
+int Columns::binAlongZ(double z) const {
+  return binOf(z, box_m_.lo.z, box_m_.hi.z, bins_);
+}
+
+std::span<const Columns::Member> Columns::bin(int y, int z) const {
+  const auto b = static_cast<std::size_t>(y * bins_ + z);
   return std::span(members_).subspan(starts_[b], starts_[b + 1] - starts_[b]);
+}
+
+std::span<const Columns::Member> Columns::bin(double y, double z) const {
+  if (y < box_m_.lo.y || y > box_m_.hi.y || z < box_m_.lo.z || z > box_m_.hi.z) return {};
+  return bin(binAlongY(y), binAlongZ(z));
+}
+
+bool Columns::mayPass(const Box& box_m) const {
+  if (!box_m_.meets(box_m)) return false;
+  const Vec3f lo = toFloat(box_m.lo), hi = toFloat(box_m.hi);
+  const int y1 = binAlongY(box_m.hi.y), z1 = binAlongZ(box_m.hi.z);
+  for (int y = binAlongY(box_m.lo.y); y <= y1; ++y)
+    for (int z = binAlongZ(box_m.lo.z); z <= z1; ++z)
+      for (const Member& m : bin(y, z))
+        if (m.lo_x <= hi.x && m.hi_x >= lo.x && m.lo_y <= hi.y && m.hi_y >= lo.y &&
+            m.lo_z <= hi.z && m.hi_z >= lo.z)
+          return true;
+  return false;
 }
 
 Columns::Cut Columns::cutEdge(std::uint32_t a, std::uint32_t b, double y) const {
@@ -77,8 +112,10 @@ bool Columns::cross(const Triangle& t, double y, double z, Crossing& out) const 
 void Columns::crossings(double y, double z, std::vector<Crossing>& out) const {
   out.clear();
   Crossing crossing{};
-  for (const std::uint32_t i : bin(y, z))
-    if (cross(triangles_[i], y, z, crossing)) out.push_back(crossing);
+  const float y_near = static_cast<float>(y), z_near = static_cast<float>(z);
+  for (const Member& m : bin(y, z))
+    if (m.mayCross(m.lo_x, y_near, z_near) && cross(triangles_[m.triangle], y, z, crossing))
+      out.push_back(crossing);
   std::sort(out.begin(), out.end(), [](const Crossing& a, const Crossing& b) {
     return a.x < b.x || (a.x == b.x && a.change < b.change);
   });
@@ -88,8 +125,11 @@ bool Columns::contains(Vec3d p) const {
   if (!box_m_.contains(p)) return false;
   int winding = 0;
   Crossing crossing{};
-  for (const std::uint32_t i : bin(p.y, p.z))
-    if (cross(triangles_[i], p.y, p.z, crossing) && crossing.x <= p.x) winding += crossing.change;
+  const Vec3f near = toFloat(p);
+  for (const Member& m : bin(p.y, p.z))
+    if (m.mayCross(near.x, near.y, near.z) && cross(triangles_[m.triangle], p.y, p.z, crossing) &&
+        crossing.x <= p.x)
+      winding += crossing.change;
   return winding > 0;
 }
 

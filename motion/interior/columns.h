@@ -31,22 +31,38 @@ class Columns {
   // Is the place inside, with a winding number above 0? What overlaps itself is inside.
   bool contains(Vec3d place_m) const;
 
+  // False: no triangle passes through the box, so all its places are inside or all are not.
+  bool mayPass(const Box& box_m) const;
+
  private:
+  // A triangle of a bin, with the bounds of where it can be crossed.
+  struct Member {
+    float lo_x, hi_x, lo_y, hi_y, lo_z, hi_z;  // m, a little wider than the triangle
+    std::uint32_t triangle;
+    // May the line at (y, z) cross it, at no greater x?
+    bool mayCross(float x, float y, float z) const {
+      return (lo_y <= y) & (y <= hi_y) & (lo_z <= z) & (z <= hi_z) & (lo_x <= x);
+    }
+  };
   // (x, z) where a triangle's edge passes the height y; the same for both its faces.
   struct Cut {
     double x, z;
   };
   Cut cutEdge(std::uint32_t a, std::uint32_t b, double y) const;
   bool cross(const Triangle& triangle, double y, double z, Crossing& out) const;
-  std::span<const std::uint32_t> bin(double y, double z) const;
+  int binAlongY(double y) const;
+  int binAlongZ(double z) const;
+  std::span<const Member> bin(int y, int z) const;
+  std::span<const Member> bin(double y, double z) const;
+  Member memberOf(std::uint32_t triangle) const;
   void fillBins();
 
   std::vector<Triangle> triangles_;
   std::vector<Vec3d> positions_m_;
   Box box_m_;
-  int bins_ = 1;                        // a side
-  std::vector<std::uint32_t> starts_;   // of each bin in members_
-  std::vector<std::uint32_t> members_;  // triangles
+  int bins_ = 1;                       // a side
+  std::vector<std::uint32_t> starts_;  // of each bin in members_
+  std::vector<Member> members_;
 };
 
 }  // namespace echocine

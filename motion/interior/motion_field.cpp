@@ -206,9 +206,14 @@ GroupId MotionField::groupAt(Vec3f reference_m) const {
 
 void MotionField::groupsAt(std::span<const Vec3f> reference_m, std::span<GroupId> groups) const {
   CHECK_EQ(reference_m.size(), groups.size());
-  parallelBlocks(reference_m.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) groups[i] = groupAt(reference_m[i]);
-  });
+  Box box;
+  for (const Vec3f p : reference_m) box.add(toDouble(p));
+  if (reference_m.empty()) return;
+  const Winners::Within winners = state_->winners->within(box);
+  for (std::size_t i = 0; i < reference_m.size(); ++i) {
+    const auto surface = winners.at(toDouble(reference_m[i]));
+    groups[i] = surface ? groupOf(*surface) : background();
+  }
 }
 
 namespace {

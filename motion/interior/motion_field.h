@@ -110,6 +110,7 @@ class MotionField {
 
   // The group whose material is at a reference place: that of the winning closed surface there.
   GroupId groupAt(Vec3f reference_m) const;
+  // The same for places that are near each other: faster the smaller the box about them.
   void groupsAt(std::span<const Vec3f> reference_m, std::span<GroupId> groups) const;
   // The winning closed surface at a reference place; nothing in the background.
   std::optional<SurfaceId> surfaceAt(Vec3f reference_m) const;

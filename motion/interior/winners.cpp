@@ -22,6 +22,25 @@ std::optional<SurfaceId> Winners::at(Vec3d place_m, std::optional<SurfaceId> wit
   return std::nullopt;
 }
 
+Winners::Within Winners::within(const Box& box_m) const {
+  Within within;
+  for (const Closed& surface : closed_) {
+    if (surface.columns.mayPass(box_m)) {
+      within.asked_.push_back(&surface);
+    } else if (surface.columns.contains(box_m.lo)) {
+      within.else_ = surface.id;
+      break;
+    }
+  }
+  return within;
+}
+
+std::optional<SurfaceId> Winners::Within::at(Vec3d place_m) const {
+  for (const Closed* surface : asked_)
+    if (surface->columns.contains(place_m)) return surface->id;
+  return else_;
+}
+
 bool Winners::hides(Vec3d place_m, SurfaceId surface) const {
   for (std::size_t i = 0; i < rank_[index(surface)]; ++i)
     if (closed_[i].columns.contains(place_m)) return true;

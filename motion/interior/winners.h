@@ -25,6 +25,19 @@ class Winners {
   // The winner at a place, as if `without` were not there.
   std::optional<SurfaceId> at(Vec3d place_m, std::optional<SurfaceId> without = {}) const;
 
+  // Of places that are all within one box: only what has a border there is asked.
+  class Within {
+   public:
+    // Precondition: place_m is in the box.
+    std::optional<SurfaceId> at(Vec3d place_m) const;
+
+   private:
+    friend class Winners;
+    std::vector<const Closed*> asked_;  // strongest first
+    std::optional<SurfaceId> else_;     // where none of them holds the place
+  };
+  Within within(const Box& box_m) const;
+
   // Does a surface other than `surface`, and stronger than it, hold the place?
   bool hides(Vec3d place_m, SurfaceId surface) const;
 

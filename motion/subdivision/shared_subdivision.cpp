@@ -9,14 +9,15 @@ namespace echocine {
 namespace {
 
 // A heart from dials has fewer topologies; larger meshes, a user's own, are not kept. Our choice.
-constexpr std::size_t kMostKept = 24, kLargestKept = 20000;
+constexpr std::size_t kMostKept = 24, kLargestKept = 20000;  // triangles after subdivision
 
+template <typename Made>
 struct Kept {
   std::vector<Triangle> triangles;
   std::uint32_t vertex_count;
   int levels;
   MeshTags tags;
-  std::shared_ptr<const Subdivision> made;
+  std::shared_ptr<const Made> made;
 
   bool isOf(std::span<const Triangle> of, std::uint32_t vertices, const MeshTags& its_tags,
             int its_levels) const {
@@ -25,26 +26,19 @@ struct Kept {
   }
 };
 
+template <typename Made>
 struct Keep {
   std::mutex mutex;
-  std::list<Kept> kept;  // the last used first
+  std::list<Kept<Made>> kept;  // the last used first
 };
 
-Keep& keep() {
-  static Keep keep;
-  return keep;
-}
-
-}  // namespace
-
-std::shared_ptr<const Subdivision> sharedSubdivision(std::span<const Triangle> triangles,
-                                                     std::uint32_t vertex_count,
-                                                     const MeshTags& tags, int levels,
-                                                     const SourcePlace& place) {
-  Keep& all = keep();
+template <typename Made>
+std::shared_ptr<const Made> shared(std::span<const Triangle> triangles, std::uint32_t vertex_count,
+                                   const MeshTags& tags, int levels, const SourcePlace& place) {
+  static Keep<Made> all;
   {
     const std::lock_guard lock(all.mutex);
-    const auto found = std::find_if(all.kept.begin(), all.kept.end(), [&](const Kept& kept) {
+    const auto found = std::find_if(all.kept.begin(), all.kept.end(), [&](const Kept<Made>& kept) {
       return kept.isOf(triangles, vertex_count, tags, levels);
     });
     if (found != all.kept.end()) {
@@ -53,12 +47,28 @@ std::shared_ptr<const Subdivision> sharedSubdivision(std::span<const Triangle> t
     }
   }
   // Made outside the lock: two threads at worst make the same.
-  auto made = std::make_shared<const Subdivision>(triangles, vertex_count, tags, levels, place);
-  if (made->triangles().size() > kLargestKept) return made;
+  auto made = std::make_shared<const Made>(triangles, vertex_count, tags, levels, place);
+  if (triangles.size() << (2 * levels) > kLargestKept) return made;
   const std::lock_guard lock(all.mutex);
   all.kept.push_front({{triangles.begin(), triangles.end()}, vertex_count, levels, tags, made});
   if (all.kept.size() > kMostKept) all.kept.pop_back();
   return made;
+}
+
+}  // namespace
+
+std::shared_ptr<const Subdivision> sharedSubdivision(std::span<const Triangle> triangles,
+                                                     std::uint32_t vertex_count,
+                                                     const MeshTags& tags, int levels,
+                                                     const SourcePlace& place) {
+  return shared<Subdivision>(triangles, vertex_count, tags, levels, place);
+}
+
+std::shared_ptr<const LimitNormals> sharedLimitNormals(std::span<const Triangle> triangles,
+                                                       std::uint32_t vertex_count,
+                                                       const MeshTags& tags, int levels,
+                                                       const SourcePlace& place) {
+  return shared<LimitNormals>(triangles, vertex_count, tags, levels, place);
 }
 
 }  // namespace echocine

@@ -1,8 +1,9 @@
 #pragma once
-// Subdivisions that many meshes of a process share.
+// Subdivisions, and the normals of their limits, that many meshes of a process share.
 
 #include <memory>
 
+#include "motion/subdivision/limit_normals.h"
 #include "motion/subdivision/subdivision.h"
 
 namespace echocine {
@@ -14,5 +15,11 @@ std::shared_ptr<const Subdivision> sharedSubdivision(std::span<const Triangle> t
                                                      std::uint32_t vertex_count,
                                                      const MeshTags& tags, int levels,
                                                      const SourcePlace& place);
+
+// The same for LimitNormals.
+std::shared_ptr<const LimitNormals> sharedLimitNormals(std::span<const Triangle> triangles,
+                                                       std::uint32_t vertex_count,
+                                                       const MeshTags& tags, int levels,
+                                                       const SourcePlace& place);
 
 }  // namespace echocine

@@ -19,6 +19,10 @@ struct Box {
   bool contains(Vec3d p) const {
     return p.x >= lo.x && p.y >= lo.y && p.z >= lo.z && p.x <= hi.x && p.y <= hi.y && p.z <= hi.z;
   }
+  bool meets(const Box& other) const {
+    return lo.x <= other.hi.x && lo.y <= other.hi.y && lo.z <= other.hi.z && hi.x >= other.lo.x &&
+           hi.y >= other.lo.y && hi.z >= other.lo.z;
+  }
 };
 
 }  // namespace echocine

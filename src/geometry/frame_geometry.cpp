@@ -102,13 +102,22 @@ std::optional<Crossing> FrameGeometry::State::cross(const RayPlanes& ray,
                        at.triangle);
 }
 
-// Every triangle of a surface against the rule, without the hierarchy.
+// Every triangle of a surface against the rule, without the hierarchy. Those wholly on one side of
+// the ray's plane are told by their vertices.
 void FrameGeometry::State::crossAll(const RayPlanes& ray, std::uint32_t surface,
                                     std::vector<Crossing>& out) const {
-  const std::uint32_t first = first_place[surface];
-  const auto count = static_cast<std::uint32_t>(surfaces[surface].triangles.size());
-  for (std::uint32_t i = 0; i < count; ++i)
-    if (const std::optional<Crossing> c = cross(ray, first + i)) out.push_back(*c);
+  const SurfaceTopology& topology = surfaces[surface];
+  const Vec3f* const own = vertices + first_vertex[surface];
+  thread_local std::vector<std::uint8_t> above;
+  above.resize(topology.vertex_count);
+  for (std::size_t v = 0; v < above.size(); ++v)
+    above[v] = dot(ray.v_axis, toDouble(own[v]) - ray.origin) >= 0 ? 1 : 0;
+  for (std::uint32_t i = 0; i < topology.triangles.size(); ++i) {
+    const Triangle& t = topology.triangles[i];
+    const int count = above[t[0]] + above[t[1]] + above[t[2]];
+    if (count == 0 || count == 3) continue;
+    if (const std::optional<Crossing> c = cross(ray, first_place[surface] + i)) out.push_back(*c);
+  }
 }
 
 // Four candidates at once; fewer leave the last one in the rest of the lanes.

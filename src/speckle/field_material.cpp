@@ -57,8 +57,10 @@ void FieldMaterial::overTheBeat(const std::function<void(const MaterialFrame&)>&
 
 void FieldMaterial::groupsAt(std::span<const Vec3f> reference_m,
                              std::span<std::uint16_t> groups) const {
-  for (std::size_t i = 0; i < reference_m.size(); ++i)
-    groups[i] = static_cast<std::uint16_t>(index(field_.groupAt(reference_m[i])));
+  std::vector<GroupId> ids(reference_m.size());
+  field_.groupsAt(reference_m, ids);
+  std::transform(ids.begin(), ids.end(), groups.begin(),
+                 [](GroupId id) { return static_cast<std::uint16_t>(index(id)); });
 }
 
 CubeCorners FieldMaterialFrame::corners(std::uint16_t group, Vec3f low_m, float edge_m) const {

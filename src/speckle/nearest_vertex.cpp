@@ -11,7 +11,7 @@ namespace echocine {
 
 namespace {
 
-constexpr int kMostBins = 64;  // along the longest side
+constexpr int kMostBins = 24;  // along the longest side
 
 }  // namespace
 

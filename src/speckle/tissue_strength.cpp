@@ -43,40 +43,53 @@ Vec3d longAxis(std::span<const Vec3f> cavity_m, std::span<const Vec3f> base_m) {
 
 }  // namespace
 
-double normalFieldAt(Vec3f place_m, double scale_m, std::uint64_t seed) {
-  const double at[3] = {static_cast<double>(place_m.x) / scale_m,
-                        static_cast<double>(place_m.y) / scale_m,
-                        static_cast<double>(place_m.z) / scale_m};
-  std::int64_t node[3];
+const NormalField::Cell& NormalField::cellOf(const std::array<std::int64_t, 3>& node) {
+  Cell& cell =
+      cells_[static_cast<std::size_t>((node[0] & 3) | (node[1] & 3) << 2 | (node[2] & 3) << 4)];
+  if (cell.known && cell.node == node) return cell;
+  cell.node = node;
+  cell.known = true;
+  for (int corner = 0; corner < 8; ++corner) {
+    std::uint64_t hash = seed_;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      hash = hashOf(hash, node[axis] + (corner >> axis & 1));
+    cell.normals[static_cast<std::size_t>(corner)] =
+        normalFromHashes(hashOf(hash, 0), hashOf(hash, 1));
+  }
+  return cell;
+}
+
+double NormalField::at(Vec3f place_m) {
+  const double at[3] = {static_cast<double>(place_m.x) / scale_m_,
+                        static_cast<double>(place_m.y) / scale_m_,
+                        static_cast<double>(place_m.z) / scale_m_};
+  std::array<std::int64_t, 3> node;
   double high[3];
-  for (int axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     const double floor = std::floor(at[axis]), f = at[axis] - floor;
     node[axis] = static_cast<std::int64_t>(floor);
     high[axis] = f * f * (3 - 2 * f);
   }
+  const Cell& cell = cellOf(node);
   double sum = 0, squares = 0;
-  for (int corner = 0; corner < 8; ++corner) {
+  for (std::size_t corner = 0; corner < 8; ++corner) {
     double weight = 1;
-    std::uint64_t hash = seed;
-    for (int axis = 0; axis < 3; ++axis) {
-      const int bit = corner >> axis & 1;
-      weight *= bit ? high[axis] : 1 - high[axis];
-      hash = hashOf(hash, node[axis] + bit);
-    }
-    sum += weight * normalFromHashes(hashOf(hash, 0), hashOf(hash, 1));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      weight *= corner >> axis & 1 ? high[axis] : 1 - high[axis];
+    sum += weight * cell.normals[corner];
     squares += weight * weight;
   }
   return sum / std::sqrt(squares);
 }
 
-double heterogeneityAt(Vec3f place_m, const SpeckleSettings& settings) {
-  const double s = settings.heterogeneity_db * std::numbers::ln10 / 10;
-  const double n = (normalFieldAt(place_m, settings.heterogeneity_fine_m,
-                                  hashOf(settings.heterogeneity_seed, kFine)) +
-                    normalFieldAt(place_m, settings.heterogeneity_coarse_m,
-                                  hashOf(settings.heterogeneity_seed, kCoarse))) /
-                   std::numbers::sqrt2;
-  return std::exp(s * n - s * s / 2);
+Heterogeneity::Heterogeneity(const SpeckleSettings& settings)
+    : s_(settings.heterogeneity_db * std::numbers::ln10 / 10),
+      fine_(settings.heterogeneity_fine_m, hashOf(settings.heterogeneity_seed, kFine)),
+      coarse_(settings.heterogeneity_coarse_m, hashOf(settings.heterogeneity_seed, kCoarse)) {}
+
+double Heterogeneity::at(Vec3f place_m) {
+  const double n = (fine_.at(place_m) + coarse_.at(place_m)) / std::numbers::sqrt2;
+  return std::exp(s_ * n - s_ * s_ / 2);
 }
 
 Vec3d fibreAt(Vec3d n, Vec3d a, double depth, double helix_angle_rad) {
@@ -119,9 +132,9 @@ TissueStrength::~TissueStrength() = default;
 void TissueStrength::amplitudes(std::span<const Vec3f> reference_m, std::uint16_t group, bool blood,
                                 std::span<float> out) const {
   const Vec3d parallel = lineGeometry(probe_, probe_.lines / 2).direction;
+  Heterogeneity heterogeneity(settings_);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    double factor =
-        blood || settings_.heterogeneity_db == 0 ? 1 : heterogeneityAt(reference_m[i], settings_);
+    double factor = blood || settings_.heterogeneity_db == 0 ? 1 : heterogeneity.at(reference_m[i]);
     if (wall_ && group == wall_->group) {
       const Vec3d p = toDouble(reference_m[i]),
                   in = toDouble(wall_->endocardium.to(reference_m[i])),

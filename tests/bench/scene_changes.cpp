@@ -1,5 +1,5 @@
-// A scene that changes for every frame, in C++: the floor of python_calls.py. Prints CPU milliseconds a frame.
-// scene_changes FRAMES
+// A scene that changes for every frame, in C++: the floor of python_calls.py. Prints CPU
+// milliseconds a frame. scene_changes FRAMES
 
 #include <sys/resource.h>
 

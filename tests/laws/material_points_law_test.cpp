@@ -64,6 +64,26 @@ TEST(MaterialPointsLaw, OneAffineMapMovesEveryPoint) {
   }
 }
 
+// Boxes of all sizes: inside, outside and across both balls' borders.
+TEST(MaterialPointsLaw, PlacesTogetherHaveTheGroupsOfEachAlone) {
+  const MotionField field(nestedBalls({}));
+  for (std::uint64_t box = 0; box < 400; ++box) {
+    const auto in = [&](std::uint64_t n, double half_m) {
+      return half_m * (2 * uniformFromHash(hashOf(box, n)) - 1);
+    };
+    const Vec3d middle{in(1, 0.05), in(2, 0.05), 0.08 + in(3, 0.05)};
+    const double half_m = 0.02 * uniformFromHash(hashOf(box, 4));
+    std::vector<Vec3f> places;
+    for (std::uint64_t i = 0; i < 60; ++i)
+      places.push_back(toFloat(
+          middle + Vec3d{in(3 * i + 5, half_m), in(3 * i + 6, half_m), in(3 * i + 7, half_m)}));
+    std::vector<GroupId> together(places.size());
+    field.groupsAt(places, together);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      EXPECT_EQ(together[i], field.groupAt(places[i])) << "box " << box << ", place " << i;
+  }
+}
+
 TEST(MaterialPointsLaw, FarFromWhatMovesNothingDoes) {
   const MotionField field(nestedBalls({{0.8, 0, 0}, {0, 0.8, 0}, {0, 0, 0.8}, {0, 0, 0.016}}));
   FieldFrame frame;

@@ -27,18 +27,27 @@ Vec3f placeOf(int i) {
 TEST(NormalField, HasVarianceOneEverywhereAndForgetsBeyondItsScale) {
   double sum = 0, squares = 0, near = 0, far = 0;
   constexpr int kPlaces = 40000;
+  NormalField field(4e-3, 9);
   for (int i = 0; i < kPlaces; ++i) {
     const Vec3f p = placeOf(i);
-    const double n = normalFieldAt(p, 4e-3, 9);
+    const double n = field.at(p);
     sum += n;
     squares += n * n;
-    near += n * normalFieldAt(p + Vec3f{1e-4f, 0, 0}, 4e-3, 9);
-    far += n * normalFieldAt(p + Vec3f{8.1e-3f, 0, 0}, 4e-3, 9);
+    near += n * field.at(p + Vec3f{1e-4f, 0, 0});
+    far += n * field.at(p + Vec3f{8.1e-3f, 0, 0});
   }
   EXPECT_NEAR(sum / kPlaces, 0, 0.03);
   EXPECT_NEAR(squares / kPlaces, 1, 0.04);
   EXPECT_GT(near / kPlaces, 0.95);
   EXPECT_NEAR(far / kPlaces, 0, 0.04);
+}
+
+// What it remembers of other places changes nothing.
+TEST(NormalField, IsTheSameInAnyOrder) {
+  NormalField used(4e-3, 9);
+  for (int i = 0; i < 2000; ++i)
+    for (const Vec3f p : {placeOf(i), 0.1f * placeOf(i)})
+      EXPECT_EQ(used.at(p), NormalField(4e-3, 9).at(p)) << i;
 }
 
 // Law of the log-normal: mean 1, and the decibels' deviation is what was asked for.
@@ -47,8 +56,9 @@ TEST(Heterogeneity, HasMeanOneAndItsDecibels) {
   settings.heterogeneity_db = 4;
   double sum = 0, db = 0, db2 = 0;
   constexpr int kPlaces = 60000;
+  Heterogeneity heterogeneity(settings);
   for (int i = 0; i < kPlaces; ++i) {
-    const double factor = heterogeneityAt(placeOf(i), settings);
+    const double factor = heterogeneity.at(placeOf(i));
     sum += factor;
     const double d = 10 * std::log10(factor);
     db += d;
