@@ -4,6 +4,7 @@
 #include <pybind11/numpy.h>
 
 #include <atomic>
+#include <cstdint>
 #include <vector>
 
 #include "python/bindings.h"
@@ -16,10 +17,11 @@ namespace echocine::python {
 struct NativeFrame {
   Frame frame;
   int width = 0, height = 0;  // of its picture and labels, pixels
+  std::uint64_t maker = 0;    // NativeSimulator::number
   std::atomic<bool> busy{false};  // being filled
 };
 
-// Into `to`'s own memory, which has the same planes: both are of one simulator. Contours are new.
+// Into `to`'s own memory. Contours are new. Precondition: both are of one simulator.
 void copyInPlace(const Frame& from, Frame& to);
 
 // Into arrays by name: "intensities", "greys", "image", "labels". Throws as checkedOut() does, and

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/error.h"
+#include "core/check.h"
 #include "python/arrays.h"
 #include "python/frame.h"
 
@@ -16,10 +16,8 @@ namespace {
 // Memory that arrays may be views of stays where it is.
 template <typename T>
 void copyPlane(const std::vector<T>& from, std::vector<T>& to) {
-  if (from.size() == to.size())
-    std::copy(from.begin(), from.end(), to.begin());
-  else
-    throw JobError("out: the frame is of another scene, accepted: a frame of this simulator");
+  CHECK_EQ(from.size(), to.size());
+  std::copy(from.begin(), from.end(), to.begin());
 }
 
 void copyTruth(const FrameTruth& from, FrameTruth& to) {
@@ -67,8 +65,6 @@ bool isMade(const std::string& name, const Scene& scene) {
 }  // namespace
 
 void copyInPlace(const Frame& from, Frame& to) {
-  if (from.channels.size() != to.channels.size() || from.truth.has_value() != to.truth.has_value())
-    throw JobError("out: the frame is of another scene, accepted: a frame of this simulator");
   to.time = from.time;
   to.volumes_ml = from.volumes_ml;
   copyPlane(from.intensities.values, to.intensities.values);

@@ -1,5 +1,7 @@
 #include "python/simulator.h"
 
+#include <fmt/format.h>
+
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/frame.h"
@@ -47,11 +49,19 @@ std::shared_ptr<NativeFrame> newFrame(NativeSimulator& simulator, double time_s)
   auto made = std::make_shared<NativeFrame>();
   made->width = simulator.simulator.scene().output.width;
   made->height = simulator.simulator.scene().output.height;
+  made->maker = simulator.number;
   runHere([&] { simulator.simulator.frame(time_s, made->frame); });
   return made;
 }
 
+void checkMaker(const char* argument, const NativeSimulator& simulator, const NativeFrame& frame) {
+  if (frame.maker != simulator.number)
+    throw py::value_error(fmt::format(
+        "{}: the frame is of another simulator, accepted: a frame of this one", argument));
+}
+
 void fillFrame(NativeSimulator& simulator, double time_s, NativeFrame& out) {
+  checkMaker("out", simulator, out);
   const Busy busy(out);
   runHere([&] {
     Scratch scratch(simulator);
@@ -83,6 +93,7 @@ py::array times(const NativeSimulator& native) {
 }
 
 py::list contoursOfFrame(const NativeSimulator& native, const NativeFrame& frame) {
+  checkMaker("contours: frame", native, frame);
   if (!frame.frame.truth || !native.simulator.scene().truth.contours)
     throw py::value_error(
         "contours: the scene does not ask for it, accepted: truth.write with \"contours\"");

@@ -63,9 +63,12 @@ def test_read_only_buffers_and_frames_of_others_are_refused(scene):
     locked.flags.writeable = False
     with pytest.raises(ValueError, match="read-only"):
         simulator.frame(0.0, out={"greys": locked})
-    other = echocine.Simulator(ball_scene(**{"probe.lines": 12})).frame(0.0)
-    with pytest.raises(echocine.JobError, match="another scene"):
-        simulator.frame(0.0, out=other)
+    for other in (ball_scene(**{"probe.lines": 12}), ball_scene()):  # of another shape, and of the same
+        frame = echocine.Simulator(other).frame(0.0)
+        with pytest.raises(ValueError, match="out: the frame is of another simulator"):
+            simulator.frame(0.0, out=frame)
+        with pytest.raises(ValueError, match="frame: the frame is of another simulator"):
+            simulator.contours(frame)
 
 
 def test_one_buffer_for_two_planes(scene):

@@ -30,6 +30,17 @@ foreach(file man/man1/echocine.1 man/man1/echocine-render.1 bash-completion/comp
     message(FATAL_ERROR "share/${file} is not installed")
   endif()
 endforeach()
+# What the installed README links to is there.
+file(READ ${folder}/prefix/share/doc/echocine/README.md readme)
+string(REGEX REPLACE "[<;[]" " " readme "${readme}")
+string(REPLACE "](" "<" readme "${readme}")  # brackets would hold a list together
+string(REGEX MATCHALL "<[^)#]+" links "${readme}")
+foreach(link IN LISTS links)
+  string(SUBSTRING "${link}" 1 -1 link)
+  if(NOT link MATCHES "^http" AND NOT EXISTS ${folder}/prefix/share/doc/echocine/${link})
+    message(FATAL_ERROR "the installed README.md links to ${link}, which is not installed")
+  endif()
+endforeach()
 run(${CMAKE_COMMAND} -S ${folder}/program -B ${folder}/found ${common} -DCMAKE_PREFIX_PATH=${folder}/prefix)
 run(${CMAKE_COMMAND} --build ${folder}/found)
 run(${folder}/found/embed)
