@@ -23,6 +23,8 @@ const std::string kMedia =
     "backscatter = { kind = \"fixed\", per_cm_sr = 1e-5 }\n"
     "[media.plaque]\ndensity_kg_m3 = 1200\nsound_speed_m_s = 1584\nattenuation_db_cm_mhz = 15\n"
     "backscatter = { kind = \"fixed\", per_cm_sr = 1e-5 }\n"
+    "[media.absorber]\ndensity_kg_m3 = 1060\nsound_speed_m_s = 1700\nattenuation_db_cm_mhz = 13\n"
+    "backscatter = { kind = \"fixed\", per_cm_sr = 1e-5 }\n"
     "[media.wall]\ndensity_kg_m3 = 1200\nsound_speed_m_s = 1584\nattenuation_db_cm_mhz = 0.5\n"
     "backscatter = { kind = \"fixed\", per_cm_sr = 1e-5 }\n";
 
@@ -59,6 +61,19 @@ TEST(RefractionRule, FindsALensThatIsInViewAtOneKeyframeAlone) {
   EXPECT_TRUE(plan.effects.refraction);
   EXPECT_NE(plan.effects.decision(Effect::refraction).reason.find("phase 0.65"), std::string::npos)
       << plan.effects.decision(Effect::refraction).reason;
+}
+
+// A slab at 50 degrees, which takes 120 dB from no straight ray and from every bent one: those go
+// a longer way through it.
+TEST(RefractionRule, FindsAShadowThatOnlyBentRaysCast) {
+  const TempFolder folder;
+  SceneText text = ballAndWall(folder, "absorber", "\"slab.obj\"");
+  Mesh slab = box({-1.2, -3, 5}, {1.2, 3, 6.56});
+  for (Vec3d& p : slab.points) p.z += std::tan(radiansFromDegrees(50)) * p.x;
+  writeObj(slab, folder / "slab.obj");
+  text.probe["sector_deg"] = "2";
+  const LoopPlan plan = planOf(folder, text);
+  EXPECT_TRUE(plan.effects.refraction) << plan.effects.decision(Effect::refraction).reason;
 }
 
 TEST(RefractionRule, DoesNotDependOnTheNumberOfLines) {
