@@ -23,13 +23,13 @@ constexpr std::array<double, 3> kElevations{0, -1, 1};
 // Our choice; 160 mm of tissue take 40 to 60 dB.
 constexpr double kLostExponent = 27.6;  // nepers of intensity
 
-double exponentAtEnd(const LineTrace& line) {
-  if (line.segments.empty()) return 0;
-  const MediumSegment& last = line.segments.back();
-  return last.begin_exponent + last.exponent_per_m * (last.end_depth_m - last.begin_depth_m);
-}
-
+// Where a line ends, or attenuation has taken what a scanner receives.
 double endOf(const LineTrace& line) {
+  for (const MediumSegment& segment : line.segments) {
+    const double left = kLostExponent - segment.begin_exponent;
+    if (left < segment.exponent_per_m * (segment.end_depth_m - segment.begin_depth_m))
+      return segment.begin_depth_m + std::max(left, 0.0) / segment.exponent_per_m;
+  }
   return line.segments.empty() ? 0 : line.segments.back().end_depth_m;
 }
 
@@ -135,8 +135,6 @@ void EchoShiftMeter::measureRays(const FrameGeometry& geometry, double elevation
                                        std::abs(off.y) / elevationResolution(hit.depth_m));
         fields.add(first + i, {length(off), widths, hit.depth_m, 0});
       }
-      if (std::min(exponentAtEnd(of_bent[at]), exponentAtEnd(of_straight[at])) > kLostExponent)
-        continue;
       const double one = endOf(of_bent[at]), other = endOf(of_straight[at]);
       const double from = std::min(one, other), to = std::max(one, other);
       for (double depth_m = from; to - from > resolution(from) && depth_m < to;

@@ -5,10 +5,10 @@
 // field each line counts once, with the farthest shift of its echoes there, in beam widths; the
 // field's shift is the one that a quarter of its lines exceeds. So a few rays that graze are no
 // reason to bend all, echoes that stay do not hide others that move, and neither the number of
-// lines nor that of layers has a part in it. A line that ends elsewhere when it bends is shifted by
-// that distance in between. What attenuation has taken 120 dB from does not count: no scanner
-// receives it. The frame's shift is the largest field's, that of a loop the largest
-// of its frames. Fields, quarter and tolerance are our choice.
+// lines nor that of layers has a part in it. What attenuation has taken 120 dB from no scanner
+// receives: there a line ends. One that ends elsewhere when it bends is shifted by that distance in
+// between. The frame's shift is the largest field's, that of a loop the largest of its frames.
+// Fields, quarter and tolerance are our choice.
 
 #include "geometry/frame_geometry.h"
 #include "scene/scene.h"

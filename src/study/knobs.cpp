@@ -81,11 +81,14 @@ void addRefraction(const Scene& scene, const MeshMotion& motion, KnobBuilder& ta
   // Where the plan leaves refraction out it moves echoes by less than the picture shows, while
   // links between bent lines know a little less of the walls than contours do; so the reference
   // does what the plan says.
-  const bool bends = planLoop(scene, motion).effects.refraction;
+  // A tolerance over the shift that the plan found is off, one under it is on.
+  const EffectPlan plan = planLoop(scene, motion).effects;
+  const bool bends = plan.refraction;
   Knob knob{
       "refraction",
       "effects.refraction",
-      "rays bend where sound speeds differ; the plan of the scene as written is the reference",
+      "rays bend where sound speeds differ; the plan of the scene as written is the reference: " +
+          plan.decision(Effect::refraction).reason,
       {bends ? off : on, bends ? on : off},
       {1, 1, 1, 1}};
   if (bends) knob.of_preset[0] = 0;

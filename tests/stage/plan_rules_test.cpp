@@ -4,8 +4,11 @@
 
 #include "core/units.h"
 #include "motion/mesh_motion.h"
+#include "scene/beam_profile.h"
+#include "scene/scan_geometry.h"
 #include "simulate/mean_loss.h"
 #include "simulate/plan_loop.h"
+#include "simulate/simulator.h"
 #include "support/loop_scene.h"
 
 namespace echocine {
@@ -19,6 +22,8 @@ const std::string kMedia =
     "[media.lens]\ndensity_kg_m3 = 1060\nsound_speed_m_s = 1450\nattenuation_db_cm_mhz = 0.5\n"
     "backscatter = { kind = \"fixed\", per_cm_sr = 1e-5 }\n"
     "[media.plaque]\ndensity_kg_m3 = 1200\nsound_speed_m_s = 1584\nattenuation_db_cm_mhz = 15\n"
+    "backscatter = { kind = \"fixed\", per_cm_sr = 1e-5 }\n"
+    "[media.absorber]\ndensity_kg_m3 = 1060\nsound_speed_m_s = 1700\nattenuation_db_cm_mhz = 13\n"
     "backscatter = { kind = \"fixed\", per_cm_sr = 1e-5 }\n"
     "[media.wall]\ndensity_kg_m3 = 1200\nsound_speed_m_s = 1584\nattenuation_db_cm_mhz = 0.5\n"
     "backscatter = { kind = \"fixed\", per_cm_sr = 1e-5 }\n";
@@ -56,6 +61,19 @@ TEST(RefractionRule, FindsALensThatIsInViewAtOneKeyframeAlone) {
   EXPECT_TRUE(plan.effects.refraction);
   EXPECT_NE(plan.effects.decision(Effect::refraction).reason.find("phase 0.65"), std::string::npos)
       << plan.effects.decision(Effect::refraction).reason;
+}
+
+// A slab at 50 degrees, which takes 120 dB from no straight ray and from every bent one: those go
+// a longer way through it.
+TEST(RefractionRule, FindsAShadowThatOnlyBentRaysCast) {
+  const TempFolder folder;
+  SceneText text = ballAndWall(folder, "absorber", "\"slab.obj\"");
+  Mesh slab = box({-1.2, -3, 5}, {1.2, 3, 6.56});
+  for (Vec3d& p : slab.points) p.z += std::tan(radiansFromDegrees(50)) * p.x;
+  writeObj(slab, folder / "slab.obj");
+  text.probe["sector_deg"] = "2";
+  const LoopPlan plan = planOf(folder, text);
+  EXPECT_TRUE(plan.effects.refraction) << plan.effects.decision(Effect::refraction).reason;
 }
 
 TEST(RefractionRule, DoesNotDependOnTheNumberOfLines) {
@@ -100,6 +118,99 @@ TEST(RefractionRule, AskedForWhereNoSpeedDiffersItChangesNothing) {
   const LoopPlan plan = planOf(folder, text);
   EXPECT_FALSE(plan.effects.refraction);
   EXPECT_TRUE(plan.slice && plan.cell_echoes);
+}
+
+constexpr double kLeftToFew = 0.01;
+
+// One frame of a loop: the medium of each sample, and whether the plan bends rays.
+struct Labelled {
+  Scene scene;
+  bool bent = false;
+  std::vector<std::uint32_t> medium;
+};
+
+Labelled labelledFrame(const TempFolder& folder, SceneText text,
+                       std::initializer_list<const char*> effects, const char* wanted) {
+  for (const char* effect : effects) text.effects[effect] = wanted;
+  const Simulator simulator(readScene(folder.write("scene.toml", text.text())));
+  return {simulator.scene(), simulator.plan().effects.refraction, simulator.frame(0).medium};
+}
+
+// The share of samples of `a` whose medium `b` shows nowhere within `widths` of the beam's width,
+// or within one sample or line.
+double shareFartherThan(const Labelled& a, const Labelled& b, double widths) {
+  const Probe& probe = a.scene.probe;
+  const double wavelength_m = ScanGeometry(probe).wavelength();
+  std::size_t farther = 0;
+  for (int line = 0; line < probe.lines; ++line)
+    for (int k = 0; k < probe.samples; ++k) {
+      const double depth_m = ScanGeometry(probe).sampleDepth(k);
+      const double reach_m =
+          widths * focusedBeamWidth(depth_m, probe.aperture_m, probe.focus_m, wavelength_m);
+      const int lines = static_cast<int>(std::ceil(reach_m / lineSpacing(probe, depth_m)));
+      const int samples = static_cast<int>(std::ceil(reach_m / probe.sampleSpacing()));
+      const auto at = [&](int i, int j) {
+        return static_cast<std::size_t>(i) * static_cast<std::size_t>(probe.samples) +
+               static_cast<std::size_t>(j);
+      };
+      bool found = false;
+      for (int i = std::max(line - lines, 0); i <= std::min(line + lines, probe.lines - 1); ++i)
+        for (int j = std::max(k - samples, 0); j <= std::min(k + samples, probe.samples - 1); ++j)
+          found = found || b.medium[at(i, j)] == a.medium[at(line, k)];
+      farther += found ? 0 : 1;
+    }
+  return static_cast<double>(farther) / static_cast<double>(a.medium.size());
+}
+
+// Where the plan leaves refraction out, rays that are forced to bend, with all else forced on, meet
+// the same media within what was accepted. One sample in a hundred is left to the quarter of a
+// field's lines that the rule leaves out.
+TEST(RefractionRule, ForcedOnWhereItIsLeftOutNothingMovesByMoreThanAccepted) {
+  struct Varied {
+    const char *lens_m_s, *sector_deg, *frequency_mhz, *lens_at;
+  };
+  const Varied scenes[] = {{"1580", "70", "2.5", "ball.obj"},  {"1590", "70", "2.5", "ball.obj"},
+                           {"1582", "80", "4", "ball.obj"},    {"1592", "90", "2", "ball.obj"},
+                           {"1450", "70", "2.5", "deep.obj"},  {"1700", "60", "3", "deep.obj"},
+                           {"1575", "70", "2.5", "cross.obj"}, {"1594", "50", "4", "cross.obj"}};
+  const TempFolder folder;
+  for (const Varied& varied : scenes) {
+    SCOPED_TRACE(std::string(varied.lens_m_s) + " m/s, " + varied.lens_at);
+    SceneText text = ballAndWall(folder, "lens", std::string("\"") + varied.lens_at + "\"");
+    writeObj(icosphere(3, 1.5).moved({1, 0.1, 11.7}), folder / "deep.obj");
+    writeObj(box({-3, -2, 5.5}, {3, 2, 6}), folder / "cross.obj");
+    text.media.replace(text.media.find("1450"), 4, varied.lens_m_s);
+    text.probe["sector_deg"] = varied.sector_deg;
+    text.probe["frequency_mhz"] = varied.frequency_mhz;
+    text.probe["lines"] = "256";
+    text.probe["samples"] = "256";
+    text.output["channels"] = "[\"medium.id\"]";
+    const Labelled planned = labelledFrame(folder, text, {}, ""),
+                   forced = labelledFrame(folder, text,
+                                          {"reflection", "lobe", "transmission_loss", "refraction",
+                                           "attenuation", "backscatter", "spread", "beam_width",
+                                           "snell_angles", "reflection_cap", "thin_layers"},
+                                          "\"on\"");
+    EXPECT_FALSE(planned.bent);
+    EXPECT_TRUE(forced.bent);
+    EXPECT_NE(planned.medium, forced.medium);
+    const double widths = planned.scene.accuracy.refraction_tolerance_beam_widths;
+    EXPECT_LT(shareFartherThan(planned, forced, widths), kLeftToFew);
+    EXPECT_LT(shareFartherThan(forced, planned, widths), kLeftToFew);
+  }
+}
+
+// The measure sees a lens that calls for it.
+TEST(RefractionRule, LeftOutWhereItIsCalledForMediaMoveByMoreThanAccepted) {
+  const TempFolder folder;
+  SceneText text = ballAndWall(folder, "lens");
+  text.probe["lines"] = text.probe["samples"] = "256";
+  text.output["channels"] = "[\"medium.id\"]";
+  const Labelled bent = labelledFrame(folder, text, {}, ""),
+                 straight = labelledFrame(folder, text, {"refraction"}, "\"off\"");
+  EXPECT_TRUE(bent.bent);
+  const double widths = bent.scene.accuracy.refraction_tolerance_beam_widths;
+  EXPECT_GT(shareFartherThan(bent, straight, widths), 2 * kLeftToFew);
 }
 
 TEST(BentRays, TakeSmoothNormalsWhereSurfacesHaveThem) {

@@ -87,6 +87,18 @@ TEST_F(StudyCommandTest, EveryKnobIsSweptFromDraftAndFromReference) {
   }
 }
 
+// What the tolerance of refraction decides is a fact of its knob.
+TEST_F(StudyCommandTest, RefractionSaysHowFarEchoesMoveAndWhatIsAccepted) {
+  ASSERT_EQ(study("--knobs refraction").code, 0);
+  const Json json = this->json();
+  for (const Json& knob : json["knobs"])
+    if (knob["name"] == "refraction") {
+      const std::string meaning = knob["meaning"];
+      EXPECT_NE(meaning.find("echoes move by up to"), std::string::npos) << meaning;
+      EXPECT_NE(meaning.find("(accepted: 0.25)"), std::string::npos) << meaning;
+    }
+}
+
 // What is asserted of the presets: the reference errs by nothing, each one errs less than the one
 // before it, and so does each finer value of lines and of samples from the reference.
 TEST_F(StudyCommandTest, FinerPresetsErrLess) {
