@@ -239,6 +239,7 @@ void MotionField::at(double phase, FieldFrame& frame,
   frame.phase = phase;
   frame.groups.resize(state_->groups.size());
   thread_local std::vector<std::vector<KeyframeWeights::Term>> terms;
+  thread_local std::vector<Vec3f> sums_m;
   terms.resize(state_->classes.size());
   for (std::size_t c = 0; c < terms.size(); ++c)
     state_->classes[c].weights.termsAt(phase, terms[c]);
@@ -250,13 +251,15 @@ void MotionField::at(double phase, FieldFrame& frame,
     out.displacement_m.resize(lattice.grid.empty() ? 0 : lattice.grid.count());
     if (lattice.grid.empty()) continue;
     const auto [begin, end] = nodesWithin(lattice, y_range_m);
-    for (std::uint32_t n = begin; n < end; ++n) {
-      Vec3f sum;
-      for (std::size_t c = 0; c < terms.size(); ++c)
-        for (const KeyframeWeights::Term& term : terms[c])
-          sum = sum + static_cast<float>(term.weight) * lattice.rows_m[c][term.row][n];
-      out.displacement_m[lattice.nodes.nodes[n]] = sum;
-    }
+    sums_m.assign(end - begin, Vec3f{});
+    for (std::size_t c = 0; c < terms.size(); ++c)
+      for (const KeyframeWeights::Term& term : terms[c]) {
+        const auto weight = static_cast<float>(term.weight);
+        const Vec3f* const row_m = lattice.rows_m[c][term.row].data() + begin;
+        for (std::size_t i = 0; i < sums_m.size(); ++i) sums_m[i] = sums_m[i] + weight * row_m[i];
+      }
+    for (std::size_t i = 0; i < sums_m.size(); ++i)
+      out.displacement_m[lattice.nodes.nodes[begin + i]] = sums_m[i];
   }
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/hash_random.h"
+
 namespace echocine {
 
 namespace {
@@ -49,7 +51,7 @@ class EdgeStarts {
   };
   // The key's slot, or the empty one where it would stand.
   std::size_t find(EdgeKey key) const {
-    std::size_t i = (key * 0x9e3779b97f4a7c15u >> 32) & mask_;  // Knuth's multiplier, 2^64 / phi
+    std::size_t i = mixBits(key) & mask_;
     while (slots_[i].edge != kNone && slots_[i].key != key) i = (i + 1) & mask_;
     return i;
   }

@@ -147,7 +147,8 @@ void TruthMaker::addMotion(const TruthTime& time, Space& space, FrameTruth& trut
     field_->at(time.before, space.before, slab);
     field_->at(time.after, space.after, slab);
   }
-  const FieldTimes times{first_, space.now, velocity_ ? space.before : space.now,
+  const bool moved = first_.phase != field_->referencePhase();
+  const FieldTimes times{moved ? &first_ : nullptr, space.now, velocity_ ? space.before : space.now,
                          velocity_ ? space.after : space.now, velocity_ ? time.seconds : 1};
   motionPlanes(scene_, *field_, times, truth.sample_ids, velocity_, truth.motion);
 }

@@ -1,107 +1,182 @@
 #include "truth/motion_planes.h"
-#include "scene/scan_geometry.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/lanes.h"
+#include "motion/interior/line_march.h"
+#include "scene/scan_geometry.h"
+
 namespace echocine {
 
 namespace {
 
-// Along a line the motion is found at every so many samples of one structure, and linear between:
-// finer than the field's own lattice. Our choice.
-constexpr std::size_t kStride = 12;
+// One line of the planes of a quantity, lateral, axial and elevation, while it is painted: from
+// sample to sample, and each may spoil what a few lanes behind it are still to be.
+using LinePlanes = std::array<std::vector<float>, 3>;
 
-// Displacement and velocity of the material at a place, mm and mm/s.
-struct Motion {
-  Vec3f displacement_mm, velocity_mm_s;
+constexpr Floats8 kRamp{0, 1, 2, 3, 4, 5, 6, 7};
+
+// The cubic that has a stretch's values and slopes at its ends, at the samples from `begin` to
+// before `end`.
+void putCubic(float from, float to, const LineMarch::Stretch& stretch, float scale,
+              std::size_t begin, std::size_t end, LinePlanes& planes) {
+  const float length = to - from, per = length > 0 ? 1 / length : 0;
+  const auto put = [&](float Vec3f::*axis, std::vector<float>& plane) {
+    const float a = scale * stretch.from.value_m.*axis, slope = scale * stretch.from.slope_m.*axis,
+                slope_to = scale * stretch.to.slope_m.*axis,
+                mean = (scale * stretch.to.value_m.*axis - a) * per;
+    const float square = (3 * mean - 2 * slope - slope_to) * per,
+                cube = (slope + slope_to - 2 * mean) * per * per;
+    for (std::size_t k = begin; k < end; k += kFloatLanes) {
+      const Floats8 u = kRamp + (static_cast<float>(k) - from);
+      store(a + u * (slope + u * (square + u * cube)), &plane[k]);
+    }
+  };
+  put(&Vec3f::x, planes[0]);
+  put(&Vec3f::z, planes[1]);
+  put(&Vec3f::y, planes[2]);
+}
+
+// Samples of one structure along one line.
+struct SampleRun {
+  std::size_t begin, end;
 };
 
-class LineMotion {
+class LinePainter {
  public:
-  LineMotion(const Scene& scene, const MotionField& field, const FieldTimes& times, bool velocity)
-      : field_(field), times_(times), velocity_(velocity) {
-    for (const Structure& s : scene.structures)
-      tissue_.push_back(!s.membrane &&
-                        scene.medium(s.medium).name.find("blood") == std::string::npos);
+  LinePainter(const FieldTimes& times, bool velocity, std::size_t samples)
+      : times_(times), velocity_(velocity), offsets_m_(times.now.groups.size()) {
+    for (std::vector<float>& plane : displacement_mm_) plane.resize(samples + kFloatLanes);
+    if (velocity)
+      for (std::vector<float>& plane : velocity_mm_s_) plane.resize(samples + kFloatLanes);
   }
 
-  bool isTissue(std::uint32_t id) const { return id > 0 && tissue_[id - 1]; }
+  // start_m, step_m: of the line, from sample to sample.
+  void paint(GroupId group, const SampleRun& run, Vec3d start_m, Vec3d step_m) {
+    if (times_.now[group].displacement_m.empty()) return fill(run, 0);
+    LineMarch march(times_.now[group], start_m, step_m);
+    for (std::size_t k = run.begin; k < run.end; ++k) {
+      if (start(march, group, k, start_m + static_cast<double>(k) * step_m))
+        k = follow(march, group, k, run.end);
+      if (k < run.end) fill({k, k + 1}, std::numeric_limits<float>::quiet_NaN());
+    }
+  }
 
-  // The guess is the last place's, which is near.
-  std::optional<Motion> at(std::uint32_t id, Vec3f place_m) {
-    const GroupId group = field_.groupOf(static_cast<SurfaceId>(id - 1));
-    if (group_ != group) offset_m_ = {};
-    group_ = group;
-    auto reference = times_.now[group].reference(place_m, place_m + offset_m_);
-    if (!reference) reference = times_.now[group].reference(place_m, place_m);
-    if (!reference) return std::nullopt;
-    offset_m_ = *reference - place_m;
-    const Vec3f moved = place_m - times_.reference[group].place(*reference);
-    Vec3f run;
-    if (velocity_)
-      run = times_.after[group].place(*reference) - times_.before[group].place(*reference);
-    return Motion{1e3f * moved, static_cast<float>(1e3 / times_.seconds) * run};
+  void fill(const SampleRun& run, float value) {
+    for (LinePlanes* const planes : {&displacement_mm_, &velocity_mm_s_})
+      for (std::vector<float>& plane : *planes)
+        if (!plane.empty()) std::fill(&plane[run.begin], &plane[run.end], value);
+  }
+
+  void append(MotionPlanes& planes) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      append(displacement_mm_[i], planes.displacement_mm[i]);
+      if (velocity_) append(velocity_mm_s_[i], planes.velocity_mm_s[i]);
+    }
   }
 
  private:
-  const MotionField& field_;
+  static void append(const std::vector<float>& line, std::vector<float>& plane) {
+    plane.insert(plane.end(), line.begin(), line.end() - kFloatLanes);
+  }
+
+  // The guess is how the group's last run began, which is mostly the line's before; what is found
+  // far from it is sought from the place itself.
+  bool start(LineMarch& march, GroupId group, std::size_t k, Vec3d place_m) {
+    const auto at = static_cast<float>(k);
+    Vec3f& offset_m = offsets_m_[index(group)];
+    const Vec3f place = toFloat(place_m);
+    const auto offset = [&] { return -march.moved().to.value_m; };
+    const bool near = march.startAt(at, place + offset_m) &&
+                      length(offset() - offset_m) < times_.now[group].grid.spacing_m;
+    if (!near && !march.startAt(at, place)) return false;
+    offset_m = offset();
+    return true;
+  }
+
+  // Fills from sample k on while the field says where the material was. Returns the first sample
+  // that is not filled.
+  std::size_t follow(LineMarch& march, GroupId group, std::size_t k, std::size_t end) {
+    const auto last = static_cast<float>(end - 1);
+    while (k < end && march.advance(last)) {
+      const auto reached = march.to() < last ? static_cast<std::size_t>(march.to()) + 1 : end;
+      if (reached > k) put(march, group, k, reached);
+      k = std::max(k, reached);
+    }
+    return k;
+  }
+
+  void put(const LineMarch& march, GroupId group, std::size_t begin, std::size_t end) {
+    LineMarch::Stretch moved = march.moved();
+    if (times_.first != nullptr) {
+      const LineMarch::Stretch first = march.in((*times_.first)[group]);
+      moved = {moved.from - first.from, moved.to - first.to};
+    }
+    putCubic(march.from(), march.to(), moved, 1e3f, begin, end, displacement_mm_);
+    if (velocity_)
+      putCubic(march.from(), march.to(), march.between(times_.before[group], times_.after[group]),
+               static_cast<float>(1e3 / times_.seconds), begin, end, velocity_mm_s_);
+  }
+
   const FieldTimes& times_;
   bool velocity_;
-  std::vector<bool> tissue_;
-  std::optional<GroupId> group_;
-  Vec3f offset_m_;
+  LinePlanes displacement_mm_, velocity_mm_s_;
+  std::vector<Vec3f> offsets_m_;  // by group: from a place to its reference
 };
 
-// `count` samples from `left` on, straight towards `right`, which is the one after them.
-void put(std::array<std::vector<float>, 3>& planes, std::size_t at, std::size_t count, Vec3f left,
-         Vec3f right) {
-  const Vec3f step = (1 / static_cast<float>(count)) * (right - left);
-  const auto along = [&](std::vector<float>& plane, float value, float more) {
-    for (std::size_t i = 0; i < count; ++i) plane[at + i] = value + static_cast<float>(i) * more;
-  };
-  along(planes[0], left.x, step.x);
-  along(planes[1], left.z, step.z);
-  along(planes[2], left.y, step.y);
+// By structure, from 1: blood and what is no body have no motion of their own.
+std::vector<bool> tissueOf(const Scene& scene) {
+  std::vector<bool> tissue{false};
+  for (const Structure& s : scene.structures)
+    tissue.push_back(!s.membrane && scene.medium(s.medium).name.find("blood") == std::string::npos);
+  return tissue;
+}
+
+// The first sample behind `begin` that is of another structure.
+std::size_t runEnd(std::span<const std::uint32_t> ids, std::size_t begin) {
+  constexpr std::size_t kTogether = 16;
+  const std::uint32_t id = ids[begin];
+  std::size_t end = begin + 1;
+  for (; end + kTogether <= ids.size(); end += kTogether) {
+    std::uint32_t others = 0;
+    for (std::size_t i = 0; i < kTogether; ++i) others |= ids[end + i] ^ id;
+    if (others != 0) break;
+  }
+  while (end < ids.size() && ids[end] == id) ++end;
+  return end;
 }
 
 }  // namespace
 
 void motionPlanes(const Scene& scene, const MotionField& field, const FieldTimes& times,
                   std::span<const std::uint32_t> ids, bool velocity, MotionPlanes& planes) {
-  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-  for (auto& plane : planes.displacement_mm) plane.assign(ids.size(), kUnknown);
-  for (auto& plane : planes.velocity_mm_s) plane.assign(velocity ? ids.size() : 0, kUnknown);
   const auto samples = static_cast<std::size_t>(scene.probe.samples);
-  LineMotion motion(scene, field, times, velocity);
+  for (std::size_t i = 0; i < 3; ++i) {
+    planes.displacement_mm[i].clear();
+    planes.displacement_mm[i].reserve(ids.size());
+    planes.velocity_mm_s[i].clear();
+    if (velocity) planes.velocity_mm_s[i].reserve(ids.size());
+  }
+  const std::vector<bool> tissue = tissueOf(scene);
+  LinePainter painter(times, velocity, samples);
+  const double spacing_m = scene.probe.sampleSpacing();
   for (std::size_t first = 0; first < ids.size(); first += samples) {
     const LineGeometry line = lineGeometry(scene.probe, static_cast<int>(first / samples));
-    const auto placeOf = [&](std::size_t k) {
-      const double path_m =
-          scene.probe.min_depth_m + (static_cast<double>(k) + 0.5) * scene.probe.sampleSpacing();
-      return toFloat(line.origin + path_m * line.direction);
-    };
+    const Vec3d start_m =
+                    line.origin + (scene.probe.min_depth_m + 0.5 * spacing_m) * line.direction,
+                step_m = spacing_m * line.direction;
+    const std::span<const std::uint32_t> of_line = ids.subspan(first, samples);
     for (std::size_t begin = 0, end = 0; begin < samples; begin = end) {
-      const std::uint32_t id = ids[first + begin];
-      for (end = begin + 1; end < samples && ids[first + end] == id;) ++end;
-      if (!motion.isTissue(id)) continue;
-      std::optional<Motion> left = motion.at(id, placeOf(begin));
-      for (std::size_t k = begin; k < end;) {
-        const std::size_t next = std::min(k + kStride, end - 1);
-        const std::optional<Motion> right = next > k ? motion.at(id, placeOf(next)) : left;
-        const std::size_t count = std::max(next - k, std::size_t{1});  // the last sample by itself
-        if (left && right) {
-          put(planes.displacement_mm, first + k, count, left->displacement_mm,
-              right->displacement_mm);
-          if (velocity)
-            put(planes.velocity_mm_s, first + k, count, left->velocity_mm_s, right->velocity_mm_s);
-        }
-        if (next == k) break;
-        k = next;
-        left = right;
-      }
+      const std::uint32_t id = of_line[begin];
+      end = runEnd(of_line, begin);
+      if (tissue[id])
+        painter.paint(field.groupOf(static_cast<SurfaceId>(id - 1)), {begin, end}, start_m, step_m);
+      else
+        painter.fill({begin, end}, std::numeric_limits<float>::quiet_NaN());
     }
+    painter.append(planes);
   }
 }
 

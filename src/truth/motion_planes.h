@@ -17,9 +17,10 @@ struct MotionPlanes {
   std::array<std::vector<float>, 3> displacement_mm, velocity_mm_s;
 };
 
-// The field at the reference frame, at this one and a little before and after it.
+// The field at the first frame, at this one and a little before and after it.
 struct FieldTimes {
-  const FieldFrame &reference, &now, &before, &after;
+  const FieldFrame* first;  // null where its phase is the reference phase: nothing has moved
+  const FieldFrame &now, &before, &after;
   double seconds = 0;  // from before to after
 };
 

@@ -103,7 +103,8 @@ void PlaneLabels::picture(std::span<const ContourEdge> edges, Ids& ids) const {
 void PlaneLabels::samples(std::span<const RayCrossings> lines,
                           std::vector<std::uint32_t>& ids) const {
   const auto count = static_cast<std::size_t>(probe_.samples);
-  ids.assign(lines.size() * count, 0);
+  ids.clear();
+  ids.reserve(lines.size() * count);
   const double spacing_m = probe_.sampleSpacing();
   const auto sampleFrom = [&](double path_m) {
     const double sample = std::ceil((path_m - probe_.min_depth_m) / spacing_m - 0.5);
@@ -118,15 +119,16 @@ void PlaneLabels::samples(std::span<const RayCrossings> lines,
     };
     std::size_t begin = 0;
     std::uint32_t now = winner();
-    std::uint32_t* const to = ids.data() + line * count;
     for (const Crossing& crossing : lines[line].crossings) {
       const std::size_t end = sampleFrom(crossing.distance_m);
-      std::fill(to + begin, to + std::max(begin, end), now);
-      begin = std::max(begin, end);
+      if (end > begin) {
+        ids.insert(ids.end(), end - begin, now);
+        begin = end;
+      }
       inside[index(crossing.surface)] = crossing.entering;
       now = winner();
     }
-    std::fill(to + begin, to + count, now);
+    ids.insert(ids.end(), count - begin, now);
   }
 }
 
