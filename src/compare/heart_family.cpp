@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/lanes.h"
 #include "motion/heart/heart_scene.h"
 
 namespace echocine::compare {
@@ -71,6 +72,7 @@ HeartFamily::HeartFamily(const std::map<std::string, double>& given,
   for (std::size_t r = 0; r < ranges.size(); ++r) count *= static_cast<std::size_t>(nodes);
   std::vector<std::vector<char>> near;
   std::vector<SurfaceTopology> all;
+  std::vector<Node> recorded;
   for (std::size_t n = 0; n < count; ++n) {
     if (!monitor.keep_going()) throw JobError("stopped while hearts were recorded");
     std::map<std::string, double> dials = given;
@@ -88,16 +90,14 @@ HeartFamily::HeartFamily(const std::map<std::string, double>& given,
       all = motion.surfaces();
     }
     CHECK_EQ(motion.surfaces().size(), all.size());
-    Node node;
-    node.frames.resize(static_cast<std::size_t>(frames));
+    Node node(static_cast<std::size_t>(frames));
     for (int i = 0; i < frames; ++i)
-      motion.frameAt(static_cast<double>(i) / frames, node.frames[static_cast<std::size_t>(i)],
-                     false);
-    recorded_.push_back(std::move(node));
+      motion.frameAt(static_cast<double>(i) / frames, node[static_cast<std::size_t>(i)], false);
+    recorded.push_back(std::move(node));
   }
   for (Structure& structure : scene_.structures) structure.keyframes.clear();
   keepNearPlane(all, near);
-  for (Node& node : recorded_) compact(node);
+  keepCoordinates(recorded);
 }
 
 // Hearts far from the plane are no business of its slice.
@@ -125,18 +125,27 @@ void HeartFamily::keepNearPlane(const std::vector<SurfaceTopology>& all,
   }
 }
 
-void HeartFamily::compact(Node& node) const {
-  for (SurfaceFrame& frame : node.frames)
+void HeartFamily::keepCoordinates(const std::vector<Node>& recorded) {
+  coordinates_.assign(recorded.front().size(), {});
+  for (std::size_t f = 0; f < coordinates_.size(); ++f)
     for (std::size_t s = 0; s < kept_.size(); ++s) {
-      std::vector<Vec3f> some;
-      some.reserve(kept_[s].size());
-      for (const std::uint32_t v : kept_[s]) some.push_back(frame.positions_m[s][v]);
-      frame.positions_m[s] = std::move(some);
+      const std::size_t numbers = 3 * kept_[s].size(), block = kFloatLanes * recorded.size();
+      std::vector<float> all((numbers + kFloatLanes - 1) / kFloatLanes * block, 0);
+      for (std::size_t n = 0; n < recorded.size(); ++n)
+        for (std::size_t v = 0; v < kept_[s].size(); ++v) {
+          const Vec3f p = recorded[n][f].positions_m[s][kept_[s][v]];
+          std::size_t i = 3 * v;
+          for (const float number : {p.x, p.y, p.z}) {
+            all[i / kFloatLanes * block + n * kFloatLanes + i % kFloatLanes] = number;
+            ++i;
+          }
+        }
+      coordinates_[f].push_back(std::move(all));
     }
 }
 
 // Products of the polynomials of each dial, node by node.
-std::vector<double> HeartFamily::shares(const std::vector<double>& values) const {
+std::vector<float> HeartFamily::shares(const std::vector<double>& values) const {
   std::vector<double> out{1};
   for (std::size_t r = 0; r < ranges_.size(); ++r) {
     std::vector<double> next;
@@ -144,30 +153,34 @@ std::vector<double> HeartFamily::shares(const std::vector<double>& values) const
       for (const double before : out) next.push_back(own * before);
     out = std::move(next);
   }
-  return out;
+  return {out.begin(), out.end()};
+}
+
+std::vector<SurfaceFrame> HeartFamily::surfacesAt(const std::vector<double>& values) const {
+  CHECK_EQ(values.size(), ranges_.size());
+  static_assert(sizeof(Vec3f) == 3 * sizeof(float));
+  const std::vector<float> share = shares(values);
+  std::vector<SurfaceFrame> frames(coordinates_.size());
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+      std::vector<Vec3f> positions(kept_[s].size());
+      const std::size_t numbers = 3 * positions.size();
+      const float* from = coordinates_[f][s].data();
+      for (std::size_t i = 0; i < numbers; i += kFloatLanes) {
+        Floats8 sum{};
+        for (const float own : share) {
+          sum += own * lanesAt(from);
+          from += kFloatLanes;
+        }
+        storeSome(sum, numbers - i, reinterpret_cast<float*>(positions.data()) + i);
+      }
+      frames[f].positions_m.push_back(std::move(positions));
+    }
+  return frames;
 }
 
 ModelLoop HeartFamily::at(const std::vector<double>& values) const {
-  CHECK_EQ(values.size(), ranges_.size());
-  const std::vector<double> share = shares(values);
-  std::vector<SurfaceFrame> frames(recorded_.front().frames.size());
-  for (std::size_t f = 0; f < frames.size(); ++f) {
-    frames[f].positions_m.resize(surfaces_.size());
-    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-      std::vector<Vec3f>& sum = frames[f].positions_m[s];
-      sum.assign(kept_[s].size(), Vec3f{});
-      for (std::size_t n = 0; n < recorded_.size(); ++n) {
-        const auto w = static_cast<float>(share[n]);
-        const std::vector<Vec3f>& own = recorded_[n].frames[f].positions_m[s];
-        for (std::size_t v = 0; v < sum.size(); ++v) {
-          sum[v].x += w * own[v].x;
-          sum[v].y += w * own[v].y;
-          sum[v].z += w * own[v].z;
-        }
-      }
-    }
-  }
-  return ModelPlane(scene_, surfaces_).cut(frames);
+  return ModelPlane(scene_, surfaces_).cut(surfacesAt(values));
 }
 
 }  // namespace echocine::compare

@@ -44,11 +44,10 @@ class TissueAt {
 };
 
 // The two tissues of most samples.
-TissueCell cellOf(const std::uint32_t* ids, const std::vector<std::uint8_t>& tissue_of) {
+void fill(TissueCell& cell, const std::uint32_t* ids, const std::vector<std::uint8_t>& tissue_of) {
   if (std::all_of(ids + 1, ids + kSamplesPerCell, [&](std::uint32_t id) { return id == ids[0]; })) {
-    TissueCell whole;
-    whole.first = whole.second = tissue_of[ids[0]];
-    return whole;
+    cell.first = cell.second = tissue_of[ids[0]];
+    return;
   }
   std::uint8_t tissues[kSamplesPerCell], counts[kSamplesPerCell];
   int kinds = 0;
@@ -64,17 +63,15 @@ TissueCell cellOf(const std::uint32_t* ids, const std::vector<std::uint8_t>& tis
     if (counts[i] > counts[first]) first = i;
   for (int i = 0; i < kinds; ++i)
     if (i != first && (second < 0 || counts[i] > counts[second])) second = i;
-  TissueCell cell;
   cell.first = cell.second = tissues[first];
-  if (second < 0) return cell;
+  if (second < 0) return;
   cell.second = tissues[second];
   cell.share =
       static_cast<float>(counts[first]) / static_cast<float>(counts[first] + counts[second]);
-  return cell;
 }
 
-std::vector<TissueCell> cellsOf(const Probe& p, const std::vector<std::uint32_t>& ids,
-                                const std::vector<std::uint8_t>& tissue_of) {
+// The cells without their tissues.
+std::vector<TissueCell> cellsAt(const Probe& p) {
   std::vector<TissueCell> cells;
   cells.reserve(static_cast<std::size_t>(kCellLines) * kCellsAlong);
   const double near = p.face_radius_m + p.min_depth_m, step = p.sampleSpacing() * kSamplesPerCell;
@@ -83,9 +80,7 @@ std::vector<TissueCell> cellsOf(const Probe& p, const std::vector<std::uint32_t>
         p.first_angle_rad + (p.last_angle_rad - p.first_angle_rad) * i / (kCellLines - 1);
     for (int k = 0; k < kCellsAlong; ++k) {
       const double r = near + (k + 0.5) * step;
-      TissueCell cell =
-          cellOf(ids.data() + (static_cast<std::ptrdiff_t>(i) * kCellsAlong + k) * kSamplesPerCell,
-                 tissue_of);
+      TissueCell cell;
       cell.x_m = static_cast<float>(r * std::sin(angle));
       cell.z_m = static_cast<float>(r * std::cos(angle));
       cell.area = static_cast<float>(r / (p.face_radius_m + p.max_depth_m));
@@ -130,7 +125,10 @@ void weighByBlood(const ModelLoop& loop, ModelFrame& frame) {
 }
 
 ModelPlane::ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& surfaces)
-    : surfaces_(surfaces), coarse_(withCoarseLines(scene)), labels_(coarse_, PictureGrid{}) {
+    : surfaces_(surfaces),
+      coarse_(withCoarseLines(scene)),
+      labels_(coarse_, PictureGrid{}),
+      cells_(cellsAt(coarse_.probe)) {
   if (scene.probe.kind == ProbeKind::linear)
     throw SceneError("a linear probe has no sector to compare; give a phased or curvilinear one");
   const auto tissue = [&](MediumId id) {
@@ -226,7 +224,9 @@ ModelFrame ModelPlane::cutOne(const SurfaceFrame& now, const SurfaceFrame& next,
   std::vector<std::uint32_t> ids;
   labels_.samples(slice.lines(), ids);
   ModelFrame frame;
-  frame.cells = cellsOf(coarse_.probe, ids, tissue_of_);
+  frame.cells = cells_;
+  for (std::size_t c = 0; c < cells_.size(); ++c)
+    fill(frame.cells[c], ids.data() + c * kSamplesPerCell, tissue_of_);
   weighByBlood(empty_, frame);
   const TissueAt tissueAt(coarse_.probe, ids, tissue_of_);
   const CutAt cutAt(slice.edges());
