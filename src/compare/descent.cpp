@@ -22,10 +22,10 @@ std::vector<std::size_t> movable(const SearchBox& box) {
   return out;
 }
 
-Local differences(const PoseFunction& f, const Descent& from, const SearchBox& box,
-                  const std::vector<std::size_t>& unknowns, double step) {
+// `crossed`: mixed derivatives too; else those that `out` has stay.
+void differences(const PoseFunction& f, const Descent& from, const SearchBox& box,
+                 const std::vector<std::size_t>& unknowns, double step, bool crossed, Local& out) {
   const int n = static_cast<int>(unknowns.size());
-  Local out{cv::Mat::zeros(n, 1, CV_64F), cv::Mat::zeros(n, n, CV_64F)};
   Unknowns plus{}, minus{};
   const auto value = [&](std::size_t i, double a, std::size_t j, double b) {
     Unknowns at = from.at;
@@ -40,7 +40,7 @@ Local differences(const PoseFunction& f, const Descent& from, const SearchBox& b
     out.gradient.at<double>(i) = (plus[u] - minus[u]) / (2 * step);
     out.hessian.at<double>(i, i) = (plus[u] - 2 * from.value + minus[u]) / (step * step);
   }
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; crossed && i < n; ++i)
     for (int j = 0; j < i; ++j) {
       const std::size_t u = unknowns[static_cast<std::size_t>(i)],
                         v = unknowns[static_cast<std::size_t>(j)];
@@ -48,7 +48,6 @@ Local differences(const PoseFunction& f, const Descent& from, const SearchBox& b
       out.hessian.at<double>(i, j) = out.hessian.at<double>(j, i) =
           (both - plus[u] - plus[v] + from.value) / (step * step);
     }
-  return out;
 }
 
 // Newton's step with all curvatures made positive, no longer than three units.
@@ -127,9 +126,14 @@ std::vector<Descent> leastApart(std::vector<Descent> all, std::size_t most) {
 Descent descend(const PoseFunction& f, const Unknowns& start, const SearchBox& box) {
   const std::vector<std::size_t> unknowns = movable(box);
   Descent best{start, f(start)};
-  double width = 1;  // of the differences
+  const int n = static_cast<int>(unknowns.size());
+  Local local{cv::Mat::zeros(n, 1, CV_64F), cv::Mat::zeros(n, n, CV_64F)};
+  constexpr double kWide = 1, kNarrow = 0.25;  // of the differences: far from the bottom, and near
+  double width = kWide;
+  bool crossed = true;
   for (int iteration = 0; iteration < 12; ++iteration) {
-    const Unknowns step = newtonStep(differences(f, best, box, unknowns, width), unknowns);
+    differences(f, best, box, unknowns, width, crossed, local);
+    const Unknowns step = newtonStep(local, unknowns);
     bool better = false;
     double length = 0;
     for (double share = 1; share > 0.1 && !better; share /= 2) {
@@ -147,10 +151,11 @@ Descent descend(const PoseFunction& f, const Unknowns& start, const SearchBox& b
         length = std::sqrt(square);
       }
     }
-    // A hundredth of a unit is 20 micrometres in 15 cm.
-    if (!better && width < 0.3) break;
-    if (!better || length < 0.3) width = std::max(0.25, width / 2);
-    if (better && length < 0.01 && width <= 0.25) break;
+    if (!better && width == kNarrow) break;
+    // A fortieth of a unit is 50 micrometres in 15 cm. There mixed derivatives no longer change.
+    crossed = width != kNarrow;
+    if (!better || length < 0.3) width = kNarrow;
+    if (better && length < 0.025 && !crossed) break;
   }
   return best;
 }

@@ -43,23 +43,11 @@ Scene recordedScene(const std::map<std::string, double>& dials, heart::View view
                         heart::record(model, view, frames, heart::KeyframeSpacing::even));
 }
 
-// Marks the triangles that the plane may cut, and their neighbours.
-void markNear(const std::vector<SurfaceTopology>& surfaces, std::vector<std::vector<char>>& near) {
-  near.resize(surfaces.size());
-  for (std::size_t s = 0; s < surfaces.size(); ++s) {
-    const SurfaceTopology& surface = surfaces[s];
-    near[s].resize(surface.triangles.size(), 0);
-    if (!surface.near_plane) {
-      std::fill(near[s].begin(), near[s].end(), 1);
-      continue;
-    }
-    std::vector<char> touched(surface.vertex_count, 0);
-    for (const NumberedTriangle& t : *surface.near_plane)
-      for (const std::uint32_t v : t.corners) touched[v] = 1;
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-      for (const std::uint32_t v : surface.triangles[t])
-        if (touched[v] != 0) near[s][t] = 1;
-  }
+// How far a polynomial through nodes may leave the middle of its values there, over half their
+// range: a bound of Lebesgue's constant for these nodes (Trefethen, Approximation Theory and
+// Approximation Practice, 2013, theorem 15.2).
+double mostOvershoot(int nodes) {
+  return 1 + 2 / std::numbers::pi * std::log(static_cast<double>(nodes));
 }
 
 }  // namespace
@@ -70,7 +58,6 @@ HeartFamily::HeartFamily(const std::map<std::string, double>& given,
     : ranges_(ranges), nodes_(nodes) {
   std::size_t count = 1;
   for (std::size_t r = 0; r < ranges.size(); ++r) count *= static_cast<std::size_t>(nodes);
-  std::vector<std::vector<char>> near;
   std::vector<SurfaceTopology> all;
   std::vector<Node> recorded;
   for (std::size_t n = 0; n < count; ++n) {
@@ -84,7 +71,6 @@ HeartFamily::HeartFamily(const std::map<std::string, double>& given,
     }
     const Scene scene = recordedScene(dials, view, frames);
     const MeshMotion motion(scene);
-    markNear(motion.surfaces(), near);
     if (n == 0) {
       scene_ = scene;
       all = motion.surfaces();
@@ -96,20 +82,50 @@ HeartFamily::HeartFamily(const std::map<std::string, double>& given,
     recorded.push_back(std::move(node));
   }
   for (Structure& structure : scene_.structures) structure.keyframes.clear();
-  keepNearPlane(all, near);
+  keepNearPlane(all, recorded);
   keepCoordinates(recorded);
+}
+
+// Of triangles, those that some heart between the recorded ones has on the plane: their corners'
+// heights are polynomials, which the recorded heights bound.
+std::vector<char> HeartFamily::nearPlane(const SurfaceTopology& surface,
+                                         const std::vector<Node>& recorded) const {
+  const auto reach =
+      static_cast<float>(std::pow(mostOvershoot(nodes_), static_cast<double>(ranges_.size())));
+  constexpr float kRounding_m = 1e-6f;
+  std::vector<char> near(surface.triangles.size(), 0);
+  std::vector<float> low(surface.vertex_count), high(surface.vertex_count);
+  for (std::size_t f = 0; f < recorded.front().size(); ++f) {
+    for (std::size_t v = 0; v < low.size(); ++v) {
+      float least = recorded.front()[f].positions_m[index(surface.id)][v].y, most = least;
+      for (const Node& node : recorded) {
+        const float y = node[f].positions_m[index(surface.id)][v].y;
+        least = std::min(least, y), most = std::max(most, y);
+      }
+      const float middle = 0.5f * (least + most), half = 0.5f * reach * (most - least);
+      low[v] = middle - half - kRounding_m;
+      high[v] = middle + half + kRounding_m;
+    }
+    for (std::size_t t = 0; t < near.size(); ++t) {
+      const auto [a, b, c] = surface.triangles[t];
+      if (std::min({low[a], low[b], low[c]}) <= 0 && std::max({high[a], high[b], high[c]}) >= 0)
+        near[t] = 1;
+    }
+  }
+  return near;
 }
 
 // Hearts far from the plane are no business of its slice.
 void HeartFamily::keepNearPlane(const std::vector<SurfaceTopology>& all,
-                                const std::vector<std::vector<char>>& near) {
-  for (std::size_t s = 0; s < all.size(); ++s) {
+                                const std::vector<Node>& recorded) {
+  for (const SurfaceTopology& whole : all) {
+    const std::vector<char> near = nearPlane(whole, recorded);
     constexpr std::uint32_t kNone = 0xffffffff;
-    std::vector<std::uint32_t> number(all[s].vertex_count, kNone), kept;
-    SurfaceTopology surface{all[s].id, {}, 0, all[s].membrane, false};
-    for (std::size_t t = 0; t < all[s].triangles.size(); ++t) {
-      if (near[s][t] == 0) continue;
-      Triangle triangle = all[s].triangles[t];
+    std::vector<std::uint32_t> number(whole.vertex_count, kNone), kept;
+    SurfaceTopology surface{whole.id, {}, 0, whole.membrane, false};
+    for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+      if (near[t] == 0) continue;
+      Triangle triangle = whole.triangles[t];
       for (std::uint32_t& v : triangle) {
         if (number[v] == kNone) {
           number[v] = static_cast<std::uint32_t>(kept.size());

@@ -40,8 +40,9 @@ class HeartFamily {
  private:
   using Node = std::vector<SurfaceFrame>;  // a recorded heart
   std::vector<float> shares(const std::vector<double>& values) const;
-  void keepNearPlane(const std::vector<SurfaceTopology>& all,
-                     const std::vector<std::vector<char>>& near);
+  std::vector<char> nearPlane(const SurfaceTopology& surface,
+                              const std::vector<Node>& recorded) const;
+  void keepNearPlane(const std::vector<SurfaceTopology>& all, const std::vector<Node>& recorded);
   void keepCoordinates(const std::vector<Node>& recorded);
 
   std::vector<DialRange> ranges_;
