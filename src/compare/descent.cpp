@@ -26,28 +26,31 @@ std::vector<std::size_t> movable(const SearchBox& box) {
 void differences(const PoseFunction& f, const Descent& from, const SearchBox& box,
                  const std::vector<std::size_t>& unknowns, double step, bool crossed, Local& out) {
   const int n = static_cast<int>(unknowns.size());
-  Unknowns plus{}, minus{};
-  const auto value = [&](std::size_t i, double a, std::size_t j, double b) {
+  std::vector<Unknowns> places;
+  const auto add = [&](std::size_t u, double a, std::size_t v, double b) {
     Unknowns at = from.at;
-    at[i] += a;
-    at[j] += b;
-    return f(box.clamped(at));
+    at[u] += a;
+    at[v] += b;
+    places.push_back(box.clamped(at));
   };
-  for (int i = 0; i < n; ++i) {
-    const std::size_t u = unknowns[static_cast<std::size_t>(i)];
-    plus[u] = value(u, step, u, 0);
-    minus[u] = value(u, -step, u, 0);
-    out.gradient.at<double>(i) = (plus[u] - minus[u]) / (2 * step);
-    out.hessian.at<double>(i, i) = (plus[u] - 2 * from.value + minus[u]) / (step * step);
+  for (const std::size_t u : unknowns) {
+    add(u, step, u, 0);
+    add(u, -step, u, 0);
   }
+  for (std::size_t i = 0; crossed && i < unknowns.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) add(unknowns[i], step, unknowns[j], step);
+  const std::vector<double> values = f(places);
+  const auto plus = [&](int i) { return values[static_cast<std::size_t>(2 * i)]; };
+  for (int i = 0; i < n; ++i) {
+    const double minus = values[static_cast<std::size_t>(2 * i + 1)];
+    out.gradient.at<double>(i) = (plus(i) - minus) / (2 * step);
+    out.hessian.at<double>(i, i) = (plus(i) - 2 * from.value + minus) / (step * step);
+  }
+  auto both = values.begin() + 2 * n;
   for (int i = 0; crossed && i < n; ++i)
-    for (int j = 0; j < i; ++j) {
-      const std::size_t u = unknowns[static_cast<std::size_t>(i)],
-                        v = unknowns[static_cast<std::size_t>(j)];
-      const double both = value(u, step, v, step);
+    for (int j = 0; j < i; ++j, ++both)
       out.hessian.at<double>(i, j) = out.hessian.at<double>(j, i) =
-          (both - plus[u] - plus[v] + from.value) / (step * step);
-    }
+          (*both - plus(i) - plus(j) + from.value) / (step * step);
 }
 
 // Newton's step with all curvatures made positive, no longer than three units.
@@ -105,7 +108,10 @@ std::vector<Descent> lattice(const PoseFunction& f, const SearchBox& box,
     all = std::move(finer);
   }
   parallelBlocks(all.size(), 8, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) all[i].value = f(all[i].at);
+    std::vector<Unknowns> places;
+    for (std::size_t i = begin; i < end; ++i) places.push_back(all[i].at);
+    const std::vector<double> values = f(places);
+    for (std::size_t i = begin; i < end; ++i) all[i].value = values[i - begin];
   });
   return all;
 }
@@ -123,9 +129,18 @@ std::vector<Descent> leastApart(std::vector<Descent> all, std::size_t most) {
   return out;
 }
 
+PoseFunction oneByOne(std::function<double(const Unknowns&)> f) {
+  return [f = std::move(f)](std::span<const Unknowns> places) {
+    std::vector<double> values;
+    for (const Unknowns& at : places) values.push_back(f(at));
+    return values;
+  };
+}
+
 Descent descend(const PoseFunction& f, const Unknowns& start, const SearchBox& box) {
+  const auto valueAt = [&](const Unknowns& at) { return f({&at, 1}).front(); };
   const std::vector<std::size_t> unknowns = movable(box);
-  Descent best{start, f(start)};
+  Descent best{start, valueAt(start)};
   const int n = static_cast<int>(unknowns.size());
   Local local{cv::Mat::zeros(n, 1, CV_64F), cv::Mat::zeros(n, n, CV_64F)};
   constexpr double kWide = 1, kNarrow = 0.25;  // of the differences: far from the bottom, and near
@@ -144,7 +159,7 @@ Descent descend(const PoseFunction& f, const Unknowns& start, const SearchBox& b
         square += share * share * step[u] * step[u];
       }
       at = box.clamped(at);
-      const double value = f(at);
+      const double value = valueAt(at);
       if (value < best.value) {
         better = true;
         best = {at, value};

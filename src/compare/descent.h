@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace echocine::compare {
@@ -25,7 +26,9 @@ struct SearchBox {
   bool atLimit(const Unknowns& at) const;
 };
 
-using PoseFunction = std::function<double(const Unknowns&)>;
+// Values at several places: what they share is made once. Thread-safe.
+using PoseFunction = std::function<std::vector<double>(std::span<const Unknowns>)>;
+PoseFunction oneByOne(std::function<double(const Unknowns&)> f);
 
 // Five units of shift or of turn apart: other hills. Our choice.
 bool standApart(const Unknowns& a, const Unknowns& b);
@@ -38,7 +41,7 @@ std::vector<Descent> lattice(const PoseFunction& f, const SearchBox& box,
 std::vector<Descent> leastApart(std::vector<Descent> all, std::size_t most);
 
 // Newton's method with central differences, curvatures made positive, steps halved until they gain.
-// The function must be thread-safe; starts are followed in parallel.
+// Starts are followed in parallel.
 Descent descend(const PoseFunction& f, const Unknowns& start, const SearchBox& box);
 std::vector<Descent> descendAll(const PoseFunction& f, const std::vector<Descent>& starts,
                                 const SearchBox& box);

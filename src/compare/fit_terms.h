@@ -2,6 +2,7 @@
 // How far a model is from a real loop, term by term.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "compare/echo_stack.h"
@@ -59,6 +60,9 @@ double fitDiscrepancy(const FitTerms& terms, const FitWeights& weights = {});
 // blood. 0 for equal, 1 for unrelated, 2 for opposite motion.
 FitTerms fitTerms(const ModelLoop& model, const EchoStack& real, const FitPose& pose,
                   const FitStride& stride = {});
+// Of several poses: each picture is read while it is near at hand.
+std::vector<FitTerms> fitTerms(const ModelLoop& model, const EchoStack& real,
+                               std::span<const FitPose> poses, const FitStride& stride);
 
 // Where the model disagrees: the same as the terms, place by place.
 struct BoundaryOffset {

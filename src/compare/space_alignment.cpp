@@ -99,7 +99,7 @@ double SpaceSearch::unlikeAt(const std::vector<Pair>& pairs, const Unknowns& at)
 std::vector<Unknowns> SpaceSearch::starts() const {
   const std::vector<float> real = sampler_.meanPicture();
   const std::vector<Pair> means{{meanOf(synthetic_.frames), &real}};
-  const auto value = [&](const Unknowns& at) { return unlikeAt(means, at); };
+  const PoseFunction value = oneByOne([&](const Unknowns& at) { return unlikeAt(means, at); });
   constexpr std::size_t kStarts = 5;
   std::vector<Descent> from = leastApart(lattice(value, box(), {4, 4, 2, 2}), kStarts);
   from.push_back({Unknowns{}, 2});
@@ -116,7 +116,7 @@ Descent SpaceSearch::refined(const Unknowns& start, const Pairing& synthetic_at)
     if (!pair.synthetic.empty()) pairs.push_back(std::move(pair));
   }
   if (pairs.empty()) return {start, 1};
-  return descend([&](const Unknowns& at) { return unlikeAt(pairs, at); }, start, box());
+  return descend(oneByOne([&](const Unknowns& at) { return unlikeAt(pairs, at); }), start, box());
 }
 
 SpaceAlignment SpaceSearch::best(const std::vector<Descent>& refined) const {

@@ -67,9 +67,9 @@ TEST(CompareFit, DescentsFindTheBottomsOfHills) {
     return square;
   };
   const Unknowns deep{-7.3, 2.1, 1.4, 0}, shallow{6.2, -3.7, -2.6, 0};
-  const auto f = [&](const Unknowns& u) {
+  const PoseFunction f = oneByOne([&](const Unknowns& u) {
     return 1 - 0.8 * std::exp(-bowl(u, deep) / 30) - 0.5 * std::exp(-bowl(u, shallow) / 30);
-  };
+  });
   withThreads(2, [&] {
     const std::vector<Descent> hills =
         leastApart(descendAll(f, leastApart(lattice(f, box, {4, 4, 2, 2}), 5), box), 5);
@@ -79,11 +79,10 @@ TEST(CompareFit, DescentsFindTheBottomsOfHills) {
       EXPECT_NEAR(hills[1].at[u], shallow[u], 0.05) << u;
     }
     EXPECT_FALSE(box.atLimit(hills[0].at));
-    const Descent beyond = descend(
-        [&](const Unknowns& u) {
-          return bowl(u, {20, 0, 0, 0});
-        },
-        {}, box);
+    const Descent beyond = descend(oneByOne([&](const Unknowns& u) {
+                                     return bowl(u, {20, 0, 0, 0});
+                                   }),
+                                   {}, box);
     EXPECT_EQ(beyond.at[0], 12);
     EXPECT_TRUE(box.atLimit(beyond.at));
   });
