@@ -185,7 +185,7 @@ std::vector<Descent> descendAll(const PoseFunction& f, const std::vector<Descent
 }
 
 double standsOut(double best, double rival, double nothing) {
-  return nothing > best ? std::clamp((rival - best) / (nothing - best), 0.0, 1.0) : 0;
+  return nothing > 0 ? std::clamp((std::min(rival, nothing) - best) / nothing, 0.0, 1.0) : 0;
 }
 
 }  // namespace echocine::compare

@@ -46,8 +46,11 @@ Descent descend(const PoseFunction& f, const Unknowns& start, const SearchBox& b
 std::vector<Descent> descendAll(const PoseFunction& f, const std::vector<Descent>& starts,
                                 const SearchBox& box);
 
-// How far the least value stands out: its gap to a rival's over its gap to one that says nothing,
-// 0 to 1.
+// (8)  confidence = (min(rival, nothing) - best) / nothing,   between 0 and 1,
+// of every search in this room: by which part of the way from `nothing`, the value of what says
+// nothing, to 0, the value of what is perfect, the best beats its best rival. 0: as good elsewhere,
+// or nothing was found; 1: perfect, and nothing else says anything. Measured by the whole way: the
+// best of a search through noise beats others by luck, but by little of it.
 double standsOut(double best, double rival, double nothing);
 
 }  // namespace echocine::compare

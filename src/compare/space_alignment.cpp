@@ -130,8 +130,9 @@ SpaceAlignment SpaceSearch::best(const std::vector<Descent>& refined) const {
   out.unlike = hills.front().value;
   for (std::size_t i = 1; i < hills.size(); ++i)
     out.rivals.push_back({placementAt(hills[i].at), hills[i].value});
-  const double rival = out.rivals.empty() ? 1 : out.rivals.front().unlike;
-  out.confidence = std::clamp(std::min(rival, 1.0) - out.unlike, 0.0, 1.0);
+  constexpr double kNothing = 1;  // E of unrelated loops
+  out.confidence =
+      standsOut(out.unlike, out.rivals.empty() ? kNothing : out.rivals.front().unlike, kNothing);
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include "compare/model_discrepancy.h"
 #include "compare/tissue_greys.h"
 #include "core/error.h"
+#include "core/lanes.h"
 #include "core/parallel.h"
 #include "core/units.h"
 #include "support/drawn_heart.h"
@@ -86,8 +87,59 @@ TEST(CompareFit, DescentsFindTheBottomsOfHills) {
     EXPECT_EQ(beyond.at[0], 12);
     EXPECT_TRUE(box.atLimit(beyond.at));
   });
-  EXPECT_NEAR(standsOut(0.2, 0.6, 1), 0.5, 1e-12);
-  EXPECT_EQ(standsOut(1, 1, 1), 0);
+}
+
+TEST(CompareFit, ConfidenceIsThePartOfTheWayByWhichTheBestWins) {
+  EXPECT_NEAR(standsOut(0.2, 0.6, 0.8), 0.5, 1e-12);
+  EXPECT_EQ(standsOut(0, 2, 0.8), 1);       // a rival worse than nothing is nothing
+  EXPECT_EQ(standsOut(0.3, 0.3, 0.8), 0);   // as good elsewhere
+  EXPECT_EQ(standsOut(0.9, 0.95, 0.8), 0);  // worse than nothing
+  EXPECT_LT(standsOut(0.70, 0.75, 0.8), standsOut(0.20, 0.40, 0.8));
+}
+
+TEST(CompareFit, TheExponentialOfLanesIsThatOfTheLibrary) {
+  for (int i = 0; i < 2000; ++i) {
+    float x[kFloatLanes] = {}, y[kFloatLanes];
+    for (std::size_t k = 0; k < kFloatLanes; ++k)
+      x[k] = static_cast<float>(-86 + 0.0107 * (8 * i + static_cast<int>(k)));
+    store(exponential(lanesAt(x)), y);
+    for (std::size_t k = 0; k < kFloatLanes; ++k) {
+      const double right = std::exp(static_cast<double>(x[k]));
+      ASSERT_NEAR(static_cast<double>(y[k]), right, 2e-7 * right) << x[k];
+    }
+  }
+}
+
+// The heart sinks into noise that moves with nothing. A pose that is told with confidence is right,
+// and of noise alone none is.
+TEST(CompareFit, APoseToldWithConfidenceIsRight) {
+  const ModelLoop model = Phantom{}.model();
+  const FitPose planted{0.012, -0.006, radiansFromDegrees(7), 1};
+  constexpr double kConfident = 0.1;
+  int confident = 0;
+  withThreads(2, [&] {
+    for (const double contrast : {1.0, 0.5, 0.25, 0.12, 0.06, 0.0}) {
+      Loop real = draw(Phantom{}, planted, 20, 40);
+      for (std::size_t n = 0; n < real.video.frames.size(); ++n)
+        for (std::size_t i = 0; i < real.video.frames[n].size(); ++i) {
+          std::uint8_t& grey = real.video.frames[n][i];
+          const double noise = normalFromHashes(hashOf(n, i, 51), hashOf(n, i, 52));
+          grey = static_cast<std::uint8_t>(
+              std::clamp(128 + contrast * (grey - 128.0) + 40 * noise, 0.0, 255.0));
+        }
+      const PoseFound found = ModelDiscrepancy(real, fromTheStart(), model).search(model);
+      const double apart_mm = 1e3 * std::hypot(found.pose.shift_x_m - planted.shift_x_m,
+                                               found.pose.shift_z_m - planted.shift_z_m);
+      std::printf("contrast %.2f: confidence %.3f, %.2f mm off, D %.3f\n", contrast,
+                  found.confidence, apart_mm, found.discrepancy);
+      if (found.confidence < kConfident) continue;
+      EXPECT_GT(contrast, 0);
+      ++confident;
+      EXPECT_LT(apart_mm, 2) << contrast;
+      EXPECT_NEAR(degreesFromRadians(found.pose.turn_rad - planted.turn_rad), 0, 2) << contrast;
+    }
+  });
+  EXPECT_GE(confident, 2);
 }
 
 TEST(CompareFit, PlantedPosesAreFound) {
