@@ -10,7 +10,7 @@ namespace echocine::compare {
 namespace {
 
 // Frames, cells and pieces that are looked at: enough to rank starts, and to climb.
-constexpr FitStride kCoarse{5, 4, 6}, kFine{3, 2, 2};
+constexpr FitStride kCoarse{5, 4, 12}, kFine{3, 2, 4};
 
 // Of Unknowns.
 constexpr double kShiftUnit_m = 2e-3, kScaleUnit = 0.03;
