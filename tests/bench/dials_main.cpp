@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <ctime>
 
@@ -145,11 +146,25 @@ double leastOf(double before, double here, double after) {
   return bend > 0 ? std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) : 0;
 }
 
+// Where the loop's edges lie about the boundaries of the right heart: what biases its dials.
+void tellEdges(const ModelDiscrepancy& d, const ModelLoop& right, const FitPose& pose) {
+  const FitMap map = d.map(right, pose);
+  for (const OffsetCurve& c : offsetCurves(map, right.structures.size())) {
+    double sum = 0, n = 0;
+    for (const double mm : c.offset_mm)
+      if (std::isfinite(mm)) sum += mm, ++n;
+    fmt::print("  edges of {} lie {:+.2f} mm out of blood\n", right.structures[c.structure],
+               n > 0 ? sum / n : 0);
+  }
+}
+
 void tellPairs() {
   for (const Pair& p : kPairs) {
     const HeartFamily family = familyOf(p);
     const ModelLoop first = family.at({p.ef, p.edv_ml});
-    const ModelDiscrepancy d(loopOf(p), fromFirstFrame(), first);
+    const Loop loop = loopOf(p);
+    const ModelDiscrepancy d(loop, fromFirstFrame(), first);
+    const BeatFound beat = ModelDiscrepancy(loop, {}, first).beat();
     const FitPose pose = d.search(first).pose;
     constexpr int kHalf = 5;
     constexpr double kEf = 0.02, kEdv = 0.04;  // steps; of EDV relative
@@ -163,6 +178,9 @@ void tellPairs() {
     });
     fmt::print("EF {:.2f}, EDV {:.0f} mL, {:.0f} mm, {:.0f} bpm\n", p.ef, p.edv_ml, p.wall_mm,
                p.rate_bpm);
+    fmt::print("  end-diastole where none is given: frame {:.2f}, confidence {:.3f}\n",
+               beat.span.end_diastole, beat.confidence);
+    tellEdges(d, first, pose);
     const auto tell = [&](const char* what, auto value) {
       int bi = 1, bj = 1;
       const auto at = [&](int i, int j) {
