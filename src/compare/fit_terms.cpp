@@ -146,15 +146,15 @@ void addBoundary(const ModelFrame& frame, const EchoStack& real, int picture, co
                  int stride, BoundarySums& sums) {
   for (std::size_t i = 0; i < frame.boundary.size(); i += static_cast<std::size_t>(stride)) {
     const BoundaryPoint& p = frame.boundary[i];
+    if (!p.of_blood) continue;
     double x, z, nx, nz;
     map.place(p.x_m, p.z_m, x, z);
     map.turn(p.nx, p.nz, nx, nz);
-    const EdgeProfile edge = profileAt(real, picture, x, z, nx, nz, p.of_blood);
+    const EdgeProfile edge = profileAt(real, picture, x, z, nx, nz, true);
     const double length = p.length_m * edge.in_sight;
     if (!(length > 0)) continue;
     sums.square += length * edge.square;
     sums.length += length;
-    if (!p.of_blood) continue;
     const MotionPair m = motionOf(p, real, picture, map, x, z, nx, nz);
     sums.apart += length * m.weight * m.apart;
     sums.together += length * m.weight * m.together;
