@@ -77,7 +77,7 @@ class ModelPlane {
   Scene coarse_;  // the scene with as many lines as the plane has
   PlaneLabels labels_;
   std::vector<std::uint8_t> tissue_of_;  // by structure from 1; 0 the background
-  std::vector<TissueCell> cells_;  // without tissues
+  std::vector<TissueCell> cells_;        // without tissues
   ModelLoop empty_;
 };
 
