@@ -22,33 +22,35 @@ std::vector<std::size_t> movable(const SearchBox& box) {
   return out;
 }
 
-Local differences(const PoseFunction& f, const Descent& from, const SearchBox& box,
-                  const std::vector<std::size_t>& unknowns, double step) {
+// `crossed`: mixed derivatives too; else those that `out` has stay.
+void differences(const PoseFunction& f, const Descent& from, const SearchBox& box,
+                 const std::vector<std::size_t>& unknowns, double step, bool crossed, Local& out) {
   const int n = static_cast<int>(unknowns.size());
-  Local out{cv::Mat::zeros(n, 1, CV_64F), cv::Mat::zeros(n, n, CV_64F)};
-  Unknowns plus{}, minus{};
-  const auto value = [&](std::size_t i, double a, std::size_t j, double b) {
+  std::vector<Unknowns> places;
+  const auto add = [&](std::size_t u, double a, std::size_t v, double b) {
     Unknowns at = from.at;
-    at[i] += a;
-    at[j] += b;
-    return f(box.clamped(at));
+    at[u] += a;
+    at[v] += b;
+    places.push_back(box.clamped(at));
   };
-  for (int i = 0; i < n; ++i) {
-    const std::size_t u = unknowns[static_cast<std::size_t>(i)];
-    plus[u] = value(u, step, u, 0);
-    minus[u] = value(u, -step, u, 0);
-    out.gradient.at<double>(i) = (plus[u] - minus[u]) / (2 * step);
-    out.hessian.at<double>(i, i) = (plus[u] - 2 * from.value + minus[u]) / (step * step);
+  for (const std::size_t u : unknowns) {
+    add(u, step, u, 0);
+    add(u, -step, u, 0);
   }
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < i; ++j) {
-      const std::size_t u = unknowns[static_cast<std::size_t>(i)],
-                        v = unknowns[static_cast<std::size_t>(j)];
-      const double both = value(u, step, v, step);
+  for (std::size_t i = 0; crossed && i < unknowns.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) add(unknowns[i], step, unknowns[j], step);
+  const std::vector<double> values = f(places);
+  const auto plus = [&](int i) { return values[static_cast<std::size_t>(2 * i)]; };
+  for (int i = 0; i < n; ++i) {
+    const double minus = values[static_cast<std::size_t>(2 * i + 1)];
+    out.gradient.at<double>(i) = (plus(i) - minus) / (2 * step);
+    out.hessian.at<double>(i, i) = (plus(i) - 2 * from.value + minus) / (step * step);
+  }
+  auto both = values.begin() + 2 * n;
+  for (int i = 0; crossed && i < n; ++i)
+    for (int j = 0; j < i; ++j, ++both)
       out.hessian.at<double>(i, j) = out.hessian.at<double>(j, i) =
-          (both - plus[u] - plus[v] + from.value) / (step * step);
-    }
-  return out;
+          (*both - plus(i) - plus(j) + from.value) / (step * step);
 }
 
 // Newton's step with all curvatures made positive, no longer than three units.
@@ -106,7 +108,10 @@ std::vector<Descent> lattice(const PoseFunction& f, const SearchBox& box,
     all = std::move(finer);
   }
   parallelBlocks(all.size(), 8, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) all[i].value = f(all[i].at);
+    std::vector<Unknowns> places;
+    for (std::size_t i = begin; i < end; ++i) places.push_back(all[i].at);
+    const std::vector<double> values = f(places);
+    for (std::size_t i = begin; i < end; ++i) all[i].value = values[i - begin];
   });
   return all;
 }
@@ -124,12 +129,26 @@ std::vector<Descent> leastApart(std::vector<Descent> all, std::size_t most) {
   return out;
 }
 
+PoseFunction oneByOne(std::function<double(const Unknowns&)> f) {
+  return [f = std::move(f)](std::span<const Unknowns> places) {
+    std::vector<double> values;
+    for (const Unknowns& at : places) values.push_back(f(at));
+    return values;
+  };
+}
+
 Descent descend(const PoseFunction& f, const Unknowns& start, const SearchBox& box) {
+  const auto valueAt = [&](const Unknowns& at) { return f({&at, 1}).front(); };
   const std::vector<std::size_t> unknowns = movable(box);
-  Descent best{start, f(start)};
-  double width = 1;  // of the differences
+  Descent best{start, valueAt(start)};
+  const int n = static_cast<int>(unknowns.size());
+  Local local{cv::Mat::zeros(n, 1, CV_64F), cv::Mat::zeros(n, n, CV_64F)};
+  constexpr double kWide = 1, kNarrow = 0.25;  // of the differences: far from the bottom, and near
+  double width = kWide;
+  bool crossed = true;
   for (int iteration = 0; iteration < 12; ++iteration) {
-    const Unknowns step = newtonStep(differences(f, best, box, unknowns, width), unknowns);
+    differences(f, best, box, unknowns, width, crossed, local);
+    const Unknowns step = newtonStep(local, unknowns);
     bool better = false;
     double length = 0;
     for (double share = 1; share > 0.1 && !better; share /= 2) {
@@ -140,17 +159,18 @@ Descent descend(const PoseFunction& f, const Unknowns& start, const SearchBox& b
         square += share * share * step[u] * step[u];
       }
       at = box.clamped(at);
-      const double value = f(at);
+      const double value = valueAt(at);
       if (value < best.value) {
         better = true;
         best = {at, value};
         length = std::sqrt(square);
       }
     }
-    // A hundredth of a unit is 20 micrometres in 15 cm.
-    if (!better && width < 0.3) break;
-    if (!better || length < 0.3) width = std::max(0.25, width / 2);
-    if (better && length < 0.01 && width <= 0.25) break;
+    if (!better && width == kNarrow) break;
+    // A fortieth of a unit is 50 micrometres in 15 cm. There mixed derivatives no longer change.
+    crossed = width != kNarrow;
+    if (!better || length < 0.3) width = kNarrow;
+    if (better && length < 0.025 && !crossed) break;
   }
   return best;
 }
@@ -165,7 +185,7 @@ std::vector<Descent> descendAll(const PoseFunction& f, const std::vector<Descent
 }
 
 double standsOut(double best, double rival, double nothing) {
-  return nothing > best ? std::clamp((rival - best) / (nothing - best), 0.0, 1.0) : 0;
+  return nothing > 0 ? std::clamp((std::min(rival, nothing) - best) / nothing, 0.0, 1.0) : 0;
 }
 
 }  // namespace echocine::compare

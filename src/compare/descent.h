@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace echocine::compare {
@@ -25,7 +26,9 @@ struct SearchBox {
   bool atLimit(const Unknowns& at) const;
 };
 
-using PoseFunction = std::function<double(const Unknowns&)>;
+// Values at several places: what they share is made once. Thread-safe.
+using PoseFunction = std::function<std::vector<double>(std::span<const Unknowns>)>;
+PoseFunction oneByOne(std::function<double(const Unknowns&)> f);
 
 // Five units of shift or of turn apart: other hills. Our choice.
 bool standApart(const Unknowns& a, const Unknowns& b);
@@ -38,13 +41,16 @@ std::vector<Descent> lattice(const PoseFunction& f, const SearchBox& box,
 std::vector<Descent> leastApart(std::vector<Descent> all, std::size_t most);
 
 // Newton's method with central differences, curvatures made positive, steps halved until they gain.
-// The function must be thread-safe; starts are followed in parallel.
+// Starts are followed in parallel.
 Descent descend(const PoseFunction& f, const Unknowns& start, const SearchBox& box);
 std::vector<Descent> descendAll(const PoseFunction& f, const std::vector<Descent>& starts,
                                 const SearchBox& box);
 
-// How far the least value stands out: its gap to a rival's over its gap to one that says nothing,
-// 0 to 1.
+// (8)  confidence = (min(rival, nothing) - best) / nothing,   between 0 and 1,
+// of every search in this room: by which part of the way from `nothing`, the value of what says
+// nothing, to 0, the value of what is perfect, the best beats its best rival. 0: as good elsewhere,
+// or nothing was found; 1: perfect, and nothing else says anything. Measured by the whole way: the
+// best of a search through noise beats others by luck, but by little of it.
 double standsOut(double best, double rival, double nothing);
 
 }  // namespace echocine::compare

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "compare/tissue_greys.h"
+#include "core/lanes.h"
 
 namespace echocine::compare {
 
@@ -60,23 +60,26 @@ struct EdgeProfile {
 EdgeProfile profileAt(const EchoStack& real, int picture, double x, double z, double nx, double nz,
                       bool of_blood) {
   EdgeProfile out;
-  double sum = 0;
   const double per_scale = kSharpness / real.edgeScale();
+  float e[2 * kFloatLanes] = {};
+  static_assert(kProfileSteps <= std::size(e));
   for (int i = 0; i < kProfileSteps; ++i) {
     const double s = kProfileReach_m * (2.0 * i / (kProfileSteps - 1) - 1);
     const double px = x + s * nx, pz = z + s * nz;
     // The sector's end shows no edge.
     const EchoStack::Sample g = real.at(picture, px, pz);
-    double e = (nx * static_cast<double>(g.gx) + nz * static_cast<double>(g.gz)) *
-               static_cast<double>(g.in_sight);
-    if (!of_blood) e = std::abs(e);
+    const double edge = (nx * static_cast<double>(g.gx) + nz * static_cast<double>(g.gz)) *
+                        static_cast<double>(g.in_sight);
+    e[i] = static_cast<float>(per_scale * (of_blood ? edge : std::abs(edge)));
     if (2 * i == kProfileSteps - 1) out.in_sight = g.in_sight;
-    out.p[i] = static_cast<double>(std::exp(static_cast<float>(per_scale * e)));
-    sum += out.p[i];
   }
+  for (std::size_t i = 0; i < std::size(e); i += kFloatLanes)
+    store(exponential(lanesAt(e + i)), e + i);
+  double sum = 0;
+  for (int i = 0; i < kProfileSteps; ++i) sum += static_cast<double>(e[i]);
+  for (int i = 0; i < kProfileSteps; ++i) out.p[i] = static_cast<double>(e[i]) / sum;
   out.square = 0;
   for (int i = 0; i < kProfileSteps; ++i) {
-    out.p[i] /= sum;
     const double t = 2.0 * i / (kProfileSteps - 1) - 1;
     out.mean_m += out.p[i] * t * kProfileReach_m;
     out.square += out.p[i] * t * t;
@@ -143,15 +146,15 @@ void addBoundary(const ModelFrame& frame, const EchoStack& real, int picture, co
                  int stride, BoundarySums& sums) {
   for (std::size_t i = 0; i < frame.boundary.size(); i += static_cast<std::size_t>(stride)) {
     const BoundaryPoint& p = frame.boundary[i];
+    if (!p.of_blood) continue;
     double x, z, nx, nz;
     map.place(p.x_m, p.z_m, x, z);
     map.turn(p.nx, p.nz, nx, nz);
-    const EdgeProfile edge = profileAt(real, picture, x, z, nx, nz, p.of_blood);
+    const EdgeProfile edge = profileAt(real, picture, x, z, nx, nz, true);
     const double length = p.length_m * edge.in_sight;
     if (!(length > 0)) continue;
     sums.square += length * edge.square;
     sums.length += length;
-    if (!p.of_blood) continue;
     const MotionPair m = motionOf(p, real, picture, map, x, z, nx, nz);
     sums.apart += length * m.weight * m.apart;
     sums.together += length * m.weight * m.together;
@@ -171,28 +174,48 @@ double fitDiscrepancy(const FitTerms& t, const FitWeights& w) {
   return t.in_sight * inside + 1 - t.in_sight;
 }
 
+namespace {
+
+struct TermSums {
+  RegionSums region;
+  BoundarySums boundary;
+
+  FitTerms terms() const {
+    static const double kEven = evenSquare();
+    FitTerms out;
+    if (!(region.seen > 0)) return out;
+    out.in_sight = region.seen / region.all;
+    out.region = region.greys.fit().ratio();
+    // Each sum has a little of the value that says nothing, so that terms stay continuous where
+    // boundaries leave the sector.
+    constexpr double kLeast_m = 1e-3, kLeast_m3 = 1e-9;
+    out.boundary = (boundary.square / kEven + kLeast_m) / (boundary.length + kLeast_m);
+    out.motion = (boundary.apart + kLeast_m3) / (boundary.together + kLeast_m3);
+    return out;
+  }
+};
+
+}  // namespace
+
+std::vector<FitTerms> fitTerms(const ModelLoop& model, const EchoStack& real,
+                               std::span<const FitPose> poses, const FitStride& stride) {
+  std::vector<TermSums> sums(poses.size(), TermSums{{TissueGreys(model.blood)}, {}});
+  for (std::size_t n = 0; n < model.frames.size(); n += static_cast<std::size_t>(stride.picture))
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const Mapping map(poses[i], model.far_m);
+      const int picture = pictureOf(static_cast<int>(n), poses[i], real);
+      if (!real.seen(picture)) continue;
+      addRegion(model, model.frames[n], real, picture, map, stride.cell, sums[i].region);
+      addBoundary(model.frames[n], real, picture, map, stride.piece, sums[i].boundary);
+    }
+  std::vector<FitTerms> out;
+  for (const TermSums& sum : sums) out.push_back(sum.terms());
+  return out;
+}
+
 FitTerms fitTerms(const ModelLoop& model, const EchoStack& real, const FitPose& pose,
                   const FitStride& stride) {
-  static const double kEven = evenSquare();
-  const Mapping map(pose, model.far_m);
-  RegionSums region{TissueGreys(model.blood)};
-  BoundarySums boundary;
-  for (std::size_t n = 0; n < model.frames.size(); n += static_cast<std::size_t>(stride.picture)) {
-    const int picture = pictureOf(static_cast<int>(n), pose, real);
-    if (!real.seen(picture)) continue;
-    addRegion(model, model.frames[n], real, picture, map, stride.cell, region);
-    addBoundary(model.frames[n], real, picture, map, stride.piece, boundary);
-  }
-  FitTerms terms;
-  if (!(region.seen > 0)) return terms;
-  terms.in_sight = region.seen / region.all;
-  terms.region = region.greys.fit().ratio();
-  // Each sum has a little of the value that says nothing, so that terms stay continuous where
-  // boundaries leave the sector.
-  constexpr double kLeast_m = 1e-3, kLeast_m3 = 1e-9;
-  terms.boundary = (boundary.square / kEven + kLeast_m) / (boundary.length + kLeast_m);
-  terms.motion = (boundary.apart + kLeast_m3) / (boundary.together + kLeast_m3);
-  return terms;
+  return fitTerms(model, real, std::span(&pose, 1), stride).front();
 }
 
 namespace {
@@ -259,32 +282,6 @@ FitMap fitMap(const ModelLoop& model, const EchoStack& real, const FitPose& pose
                                 : std::vector<BoundaryOffset>{});
   }
   return out;
-}
-
-std::vector<OffsetCurve> offsetCurves(const FitMap& map, std::size_t structures) {
-  std::vector<OffsetCurve> curves;
-  const auto mean = [](double sum, double weight) {
-    return weight > 0 ? sum / weight : std::numeric_limits<double>::quiet_NaN();
-  };
-  for (std::size_t s = 0; s < structures; ++s) {
-    OffsetCurve curve{s, {}, {}, {}};
-    bool seen = false;
-    for (const std::vector<BoundaryOffset>& frame : map.boundary) {
-      double weight = 0, offset = 0, distance = 0, tracked = 0, motion = 0;
-      for (const BoundaryOffset& p : frame) {
-        if (p.surface != s) continue;
-        const double w = p.certainty, mm = p.offset_mm;
-        weight += w, offset += w * mm, distance += w * std::abs(mm);
-        if (p.motion_mm >= 0) tracked += 1, motion += static_cast<double>(p.motion_mm);
-      }
-      seen = seen || weight > 0;
-      curve.offset_mm.push_back(mean(offset, weight));
-      curve.distance_mm.push_back(mean(distance, weight));
-      curve.motion_mm.push_back(mean(motion, tracked));
-    }
-    if (seen) curves.push_back(std::move(curve));
-  }
-  return curves;
 }
 
 }  // namespace echocine::compare

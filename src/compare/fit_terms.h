@@ -2,6 +2,7 @@
 // How far a model is from a real loop, term by term.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "compare/echo_stack.h"
@@ -48,10 +49,11 @@ double fitDiscrepancy(const FitTerms& terms, const FitWeights& weights = {});
 // turns that round.
 //
 // (4)  B = < sum_s p(s) (s/S)^2 > / < (s/S)^2 >,   p(s) = exp(2 e(s)/E) / sum exp(2 e(s)/E),
-// mean over pieces of boundary by length; e(s): gradient of the real grey along the normal at s
-// from the boundary, out of blood, its magnitude where no blood is; E: root mean square of the
-// gradient over the loop; S: 8 mm, in 9 steps. 1 where the loop shows no edge, near 0 where all
-// edges lie on the boundary, up to 2.4 where they lie elsewhere.
+// mean over pieces of boundary of blood by length: other boundaries have edges of no known sign,
+// and are no claim of a heart's model. e(s): gradient of the real grey along the normal at s from
+// the boundary, out of blood; E: root mean square of the gradient over the loop; S: 8 mm, in 9
+// steps. 1 where the loop shows no edge, near 0 where all edges lie on the boundary, up to 2.4
+// where they lie elsewhere. Maps show the others too, by the magnitude of the gradient.
 //
 // (5)  M = sum w |u - v|^2 / sum w (|u|^2 + |v|^2),
 // u the model's displacement from frame to frame, v what block matching finds 2 mm outside the
@@ -59,6 +61,9 @@ double fitDiscrepancy(const FitTerms& terms, const FitWeights& weights = {});
 // blood. 0 for equal, 1 for unrelated, 2 for opposite motion.
 FitTerms fitTerms(const ModelLoop& model, const EchoStack& real, const FitPose& pose,
                   const FitStride& stride = {});
+// Of several poses: each picture is read while it is near at hand.
+std::vector<FitTerms> fitTerms(const ModelLoop& model, const EchoStack& real,
+                               std::span<const FitPose> poses, const FitStride& stride);
 
 // Where the model disagrees: the same as the terms, place by place.
 struct BoundaryOffset {

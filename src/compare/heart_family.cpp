@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/lanes.h"
 #include "motion/heart/heart_scene.h"
 
 namespace echocine::compare {
@@ -42,23 +43,11 @@ Scene recordedScene(const std::map<std::string, double>& dials, heart::View view
                         heart::record(model, view, frames, heart::KeyframeSpacing::even));
 }
 
-// Marks the triangles that the plane may cut, and their neighbours.
-void markNear(const std::vector<SurfaceTopology>& surfaces, std::vector<std::vector<char>>& near) {
-  near.resize(surfaces.size());
-  for (std::size_t s = 0; s < surfaces.size(); ++s) {
-    const SurfaceTopology& surface = surfaces[s];
-    near[s].resize(surface.triangles.size(), 0);
-    if (!surface.near_plane) {
-      std::fill(near[s].begin(), near[s].end(), 1);
-      continue;
-    }
-    std::vector<char> touched(surface.vertex_count, 0);
-    for (const NumberedTriangle& t : *surface.near_plane)
-      for (const std::uint32_t v : t.corners) touched[v] = 1;
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-      for (const std::uint32_t v : surface.triangles[t])
-        if (touched[v] != 0) near[s][t] = 1;
-  }
+// How far a polynomial through nodes may leave the middle of its values there, over half their
+// range: a bound of Lebesgue's constant for these nodes (Trefethen, Approximation Theory and
+// Approximation Practice, 2013, theorem 15.2).
+double mostOvershoot(int nodes) {
+  return 1 + 2 / std::numbers::pi * std::log(static_cast<double>(nodes));
 }
 
 }  // namespace
@@ -69,8 +58,8 @@ HeartFamily::HeartFamily(const std::map<std::string, double>& given,
     : ranges_(ranges), nodes_(nodes) {
   std::size_t count = 1;
   for (std::size_t r = 0; r < ranges.size(); ++r) count *= static_cast<std::size_t>(nodes);
-  std::vector<std::vector<char>> near;
   std::vector<SurfaceTopology> all;
+  std::vector<Node> recorded;
   for (std::size_t n = 0; n < count; ++n) {
     if (!monitor.keep_going()) throw JobError("stopped while hearts were recorded");
     std::map<std::string, double> dials = given;
@@ -82,34 +71,61 @@ HeartFamily::HeartFamily(const std::map<std::string, double>& given,
     }
     const Scene scene = recordedScene(dials, view, frames);
     const MeshMotion motion(scene);
-    markNear(motion.surfaces(), near);
     if (n == 0) {
       scene_ = scene;
       all = motion.surfaces();
     }
     CHECK_EQ(motion.surfaces().size(), all.size());
-    Node node;
-    node.frames.resize(static_cast<std::size_t>(frames));
+    Node node(static_cast<std::size_t>(frames));
     for (int i = 0; i < frames; ++i)
-      motion.frameAt(static_cast<double>(i) / frames, node.frames[static_cast<std::size_t>(i)],
-                     false);
-    recorded_.push_back(std::move(node));
+      motion.frameAt(static_cast<double>(i) / frames, node[static_cast<std::size_t>(i)], false);
+    recorded.push_back(std::move(node));
   }
   for (Structure& structure : scene_.structures) structure.keyframes.clear();
-  keepNearPlane(all, near);
-  for (Node& node : recorded_) compact(node);
+  keepNearPlane(all, recorded);
+  keepCoordinates(recorded);
+}
+
+// Of triangles, those that some heart between the recorded ones has on the plane: their corners'
+// heights are polynomials, which the recorded heights bound.
+std::vector<char> HeartFamily::nearPlane(const SurfaceTopology& surface,
+                                         const std::vector<Node>& recorded) const {
+  const auto reach =
+      static_cast<float>(std::pow(mostOvershoot(nodes_), static_cast<double>(ranges_.size())));
+  constexpr float kRounding_m = 1e-6f;
+  std::vector<char> near(surface.triangles.size(), 0);
+  std::vector<float> low(surface.vertex_count), high(surface.vertex_count);
+  for (std::size_t f = 0; f < recorded.front().size(); ++f) {
+    for (std::size_t v = 0; v < low.size(); ++v) {
+      float least = recorded.front()[f].positions_m[index(surface.id)][v].y, most = least;
+      for (const Node& node : recorded) {
+        const float y = node[f].positions_m[index(surface.id)][v].y;
+        least = std::min(least, y), most = std::max(most, y);
+      }
+      const float middle = 0.5f * (least + most), half = 0.5f * reach * (most - least);
+      low[v] = middle - half - kRounding_m;
+      high[v] = middle + half + kRounding_m;
+    }
+    for (std::size_t t = 0; t < near.size(); ++t) {
+      const auto [a, b, c] = surface.triangles[t];
+      if (std::min({low[a], low[b], low[c]}) <= 0 && std::max({high[a], high[b], high[c]}) >= 0)
+        near[t] = 1;
+    }
+  }
+  return near;
 }
 
 // Hearts far from the plane are no business of its slice.
 void HeartFamily::keepNearPlane(const std::vector<SurfaceTopology>& all,
-                                const std::vector<std::vector<char>>& near) {
-  for (std::size_t s = 0; s < all.size(); ++s) {
+                                const std::vector<Node>& recorded) {
+  for (const SurfaceTopology& whole : all) {
+    const std::vector<char> near = nearPlane(whole, recorded);
     constexpr std::uint32_t kNone = 0xffffffff;
-    std::vector<std::uint32_t> number(all[s].vertex_count, kNone), kept;
-    SurfaceTopology surface{all[s].id, {}, 0, all[s].membrane, false};
-    for (std::size_t t = 0; t < all[s].triangles.size(); ++t) {
-      if (near[s][t] == 0) continue;
-      Triangle triangle = all[s].triangles[t];
+    std::vector<std::uint32_t> number(whole.vertex_count, kNone), kept;
+    SurfaceTopology surface{whole.id, {}, 0, whole.membrane, false};
+    for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+      if (near[t] == 0) continue;
+      Triangle triangle = whole.triangles[t];
       for (std::uint32_t& v : triangle) {
         if (number[v] == kNone) {
           number[v] = static_cast<std::uint32_t>(kept.size());
@@ -125,18 +141,27 @@ void HeartFamily::keepNearPlane(const std::vector<SurfaceTopology>& all,
   }
 }
 
-void HeartFamily::compact(Node& node) const {
-  for (SurfaceFrame& frame : node.frames)
+void HeartFamily::keepCoordinates(const std::vector<Node>& recorded) {
+  coordinates_.assign(recorded.front().size(), {});
+  for (std::size_t f = 0; f < coordinates_.size(); ++f)
     for (std::size_t s = 0; s < kept_.size(); ++s) {
-      std::vector<Vec3f> some;
-      some.reserve(kept_[s].size());
-      for (const std::uint32_t v : kept_[s]) some.push_back(frame.positions_m[s][v]);
-      frame.positions_m[s] = std::move(some);
+      const std::size_t numbers = 3 * kept_[s].size(), block = kFloatLanes * recorded.size();
+      std::vector<float> all((numbers + kFloatLanes - 1) / kFloatLanes * block, 0);
+      for (std::size_t n = 0; n < recorded.size(); ++n)
+        for (std::size_t v = 0; v < kept_[s].size(); ++v) {
+          const Vec3f p = recorded[n][f].positions_m[s][kept_[s][v]];
+          std::size_t i = 3 * v;
+          for (const float number : {p.x, p.y, p.z}) {
+            all[i / kFloatLanes * block + n * kFloatLanes + i % kFloatLanes] = number;
+            ++i;
+          }
+        }
+      coordinates_[f].push_back(std::move(all));
     }
 }
 
 // Products of the polynomials of each dial, node by node.
-std::vector<double> HeartFamily::shares(const std::vector<double>& values) const {
+std::vector<float> HeartFamily::shares(const std::vector<double>& values) const {
   std::vector<double> out{1};
   for (std::size_t r = 0; r < ranges_.size(); ++r) {
     std::vector<double> next;
@@ -144,30 +169,34 @@ std::vector<double> HeartFamily::shares(const std::vector<double>& values) const
       for (const double before : out) next.push_back(own * before);
     out = std::move(next);
   }
-  return out;
+  return {out.begin(), out.end()};
+}
+
+std::vector<SurfaceFrame> HeartFamily::surfacesAt(const std::vector<double>& values) const {
+  CHECK_EQ(values.size(), ranges_.size());
+  static_assert(sizeof(Vec3f) == 3 * sizeof(float));
+  const std::vector<float> share = shares(values);
+  std::vector<SurfaceFrame> frames(coordinates_.size());
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+      std::vector<Vec3f> positions(kept_[s].size());
+      const std::size_t numbers = 3 * positions.size();
+      const float* from = coordinates_[f][s].data();
+      for (std::size_t i = 0; i < numbers; i += kFloatLanes) {
+        Floats8 sum{};
+        for (const float own : share) {
+          sum += own * lanesAt(from);
+          from += kFloatLanes;
+        }
+        storeSome(sum, numbers - i, reinterpret_cast<float*>(positions.data()) + i);
+      }
+      frames[f].positions_m.push_back(std::move(positions));
+    }
+  return frames;
 }
 
 ModelLoop HeartFamily::at(const std::vector<double>& values) const {
-  CHECK_EQ(values.size(), ranges_.size());
-  const std::vector<double> share = shares(values);
-  std::vector<SurfaceFrame> frames(recorded_.front().frames.size());
-  for (std::size_t f = 0; f < frames.size(); ++f) {
-    frames[f].positions_m.resize(surfaces_.size());
-    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-      std::vector<Vec3f>& sum = frames[f].positions_m[s];
-      sum.assign(kept_[s].size(), Vec3f{});
-      for (std::size_t n = 0; n < recorded_.size(); ++n) {
-        const auto w = static_cast<float>(share[n]);
-        const std::vector<Vec3f>& own = recorded_[n].frames[f].positions_m[s];
-        for (std::size_t v = 0; v < sum.size(); ++v) {
-          sum[v].x += w * own[v].x;
-          sum[v].y += w * own[v].y;
-          sum[v].z += w * own[v].z;
-        }
-      }
-    }
-  }
-  return ModelPlane(scene_, surfaces_).cut(frames);
+  return ModelPlane(scene_, surfaces_).cut(surfacesAt(values));
 }
 
 }  // namespace echocine::compare

@@ -30,26 +30,29 @@ class HeartFamily {
 
   // A beat of the heart at one value for each range, in its order. Thread-safe.
   ModelLoop at(const std::vector<double>& values) const;
+  // What it is cut from: the surfaces' vertices near the plane.
+  std::vector<SurfaceFrame> surfacesAt(const std::vector<double>& values) const;
 
   const Scene& scene() const { return scene_; }
   const std::vector<DialRange>& ranges() const { return ranges_; }
   int nodes() const { return nodes_; }
 
  private:
-  struct Node {
-    std::vector<SurfaceFrame> frames;
-  };
-  std::vector<double> shares(const std::vector<double>& values) const;
-  void keepNearPlane(const std::vector<SurfaceTopology>& all,
-                     const std::vector<std::vector<char>>& near);
-  void compact(Node& node) const;
+  using Node = std::vector<SurfaceFrame>;  // a recorded heart
+  std::vector<float> shares(const std::vector<double>& values) const;
+  std::vector<char> nearPlane(const SurfaceTopology& surface,
+                              const std::vector<Node>& recorded) const;
+  void keepNearPlane(const std::vector<SurfaceTopology>& all, const std::vector<Node>& recorded);
+  void keepCoordinates(const std::vector<Node>& recorded);
 
   std::vector<DialRange> ranges_;
   int nodes_;
   Scene scene_;  // of the first node, without meshes
   std::vector<SurfaceTopology> surfaces_;
   std::vector<std::vector<std::uint32_t>> kept_;  // vertices, by surface
-  std::vector<Node> recorded_;
+  // By frame and surface: eight coordinates of the first node, the same of the next, and so on to
+  // the last; then the next eight. A blend reads them once, in order.
+  std::vector<std::vector<std::vector<float>>> coordinates_;
 };
 
 }  // namespace echocine::compare

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/descent.h"
 #include "compare/registration.h"
 #include "core/check.h"
 #include "core/parallel.h"
@@ -85,7 +86,7 @@ void ModelDiscrepancy::findStart(const Loop& real, const ModelLoop& first) {
   std::vector<double> sorted = values;
   std::nth_element(sorted.begin(), sorted.begin() + kFitFrames / 2, sorted.end());
   const double median = sorted[kFitFrames / 2];
-  beat_.confidence = median > here ? std::clamp((rival - here) / (median - here), 0.0, 1.0) : 0;
+  beat_.confidence = standsOut(here, rival, median);
   beat_.start_source = "the model's beat";
   beat_.span.end_diastole = (best + part) / kFitFrames * beat_.span.frames;
   stack_.emplace(real, beat_.span, kFitFrames, first.far_m);

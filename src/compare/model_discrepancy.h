@@ -24,8 +24,8 @@ struct FitSettings {
 struct BeatFound {
   BeatSpan span;
   std::string length_source, start_source;
-  // 1: known; else how far the best start stands out: its gap to the next one apart, over its gap
-  // to the median of all.
+  // 1: known; else Eq. 8 of descent.h: rivals lie three pictures away or more, what says nothing is
+  // the median of all starts.
   double confidence = 1;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <tuple>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -44,11 +43,10 @@ class TissueAt {
 };
 
 // The two tissues of most samples.
-TissueCell cellOf(const std::uint32_t* ids, const std::vector<std::uint8_t>& tissue_of) {
-  if (std::all_of(ids + 1, ids + kSamplesPerCell, [&](std::uint32_t id) { return id == ids[0]; })) {
-    TissueCell whole;
-    whole.first = whole.second = tissue_of[ids[0]];
-    return whole;
+void fill(TissueCell& cell, const std::uint32_t* ids, const std::vector<std::uint8_t>& tissue_of) {
+  if (std::equal(ids + 1, ids + kSamplesPerCell, ids)) {
+    cell.first = cell.second = tissue_of[ids[0]];
+    return;
   }
   std::uint8_t tissues[kSamplesPerCell], counts[kSamplesPerCell];
   int kinds = 0;
@@ -64,17 +62,15 @@ TissueCell cellOf(const std::uint32_t* ids, const std::vector<std::uint8_t>& tis
     if (counts[i] > counts[first]) first = i;
   for (int i = 0; i < kinds; ++i)
     if (i != first && (second < 0 || counts[i] > counts[second])) second = i;
-  TissueCell cell;
   cell.first = cell.second = tissues[first];
-  if (second < 0) return cell;
+  if (second < 0) return;
   cell.second = tissues[second];
   cell.share =
       static_cast<float>(counts[first]) / static_cast<float>(counts[first] + counts[second]);
-  return cell;
 }
 
-std::vector<TissueCell> cellsOf(const Probe& p, const std::vector<std::uint32_t>& ids,
-                                const std::vector<std::uint8_t>& tissue_of) {
+// The cells without their tissues.
+std::vector<TissueCell> cellsAt(const Probe& p) {
   std::vector<TissueCell> cells;
   cells.reserve(static_cast<std::size_t>(kCellLines) * kCellsAlong);
   const double near = p.face_radius_m + p.min_depth_m, step = p.sampleSpacing() * kSamplesPerCell;
@@ -83,9 +79,7 @@ std::vector<TissueCell> cellsOf(const Probe& p, const std::vector<std::uint32_t>
         p.first_angle_rad + (p.last_angle_rad - p.first_angle_rad) * i / (kCellLines - 1);
     for (int k = 0; k < kCellsAlong; ++k) {
       const double r = near + (k + 0.5) * step;
-      TissueCell cell =
-          cellOf(ids.data() + (static_cast<std::ptrdiff_t>(i) * kCellsAlong + k) * kSamplesPerCell,
-                 tissue_of);
+      TissueCell cell;
       cell.x_m = static_cast<float>(r * std::sin(angle));
       cell.z_m = static_cast<float>(r * std::cos(angle));
       cell.area = static_cast<float>(r / (p.face_radius_m + p.max_depth_m));
@@ -130,7 +124,10 @@ void weighByBlood(const ModelLoop& loop, ModelFrame& frame) {
 }
 
 ModelPlane::ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& surfaces)
-    : surfaces_(surfaces), coarse_(withCoarseLines(scene)), labels_(coarse_, PictureGrid{}) {
+    : surfaces_(surfaces),
+      coarse_(withCoarseLines(scene)),
+      labels_(coarse_, PictureGrid{}),
+      cells_(cellsAt(coarse_.probe)) {
   if (scene.probe.kind == ProbeKind::linear)
     throw SceneError("a linear probe has no sector to compare; give a phased or curvilinear one");
   const auto tissue = [&](MediumId id) {
@@ -161,60 +158,29 @@ struct Sides {
   bool differ() const { return inner >= 0 && outer >= 0 && inner != outer; }
 };
 
-// Cuts by where they start: contours are chained cuts, each point the start of one.
-class CutAt {
- public:
-  explicit CutAt(const std::vector<ContourEdge>& edges) {
-    for (std::uint32_t i = 0; i < edges.size(); ++i)
-      starts_.push_back({edges[i].cut.from.x, edges[i].cut.from.z, index(edges[i].surface), i});
-    std::sort(starts_.begin(), starts_.end());
-  }
-  // kNone for the end of an open contour.
-  std::uint32_t operator()(std::size_t surface, Vec3d point) const {
-    const auto at =
-        std::lower_bound(starts_.begin(), starts_.end(), Start{point.x, point.z, surface, 0});
-    return at != starts_.end() && at->x == point.x && at->z == point.z && at->surface == surface
-               ? at->edge
-               : kNone;
-  }
-  static constexpr std::uint32_t kNone = 0xffffffff;
-
- private:
-  struct Start {
-    double x, z;
-    std::size_t surface;
-    std::uint32_t edge;
-    bool operator<(const Start& o) const {
-      return std::tie(x, z, surface, edge) < std::tie(o.x, o.z, o.surface, o.edge);
-    }
-  };
-  std::vector<Start> starts_;
-};
-
 // Places at even steps along a contour: the cut that each lies on. A sum over them is the integral
 // along the contour to far better than the step, wherever the first one lies.
 template <typename Body>
-void stepAlong(const Contour& c, double step_m, Body&& body) {
-  const std::size_t cuts = c.closed ? c.points_m.size() : c.points_m.size() - 1;
+void stepAlong(const Contour& c, double step_m, const Body& body) {
+  const std::size_t cuts = c.edges.size();
+  thread_local std::vector<double> lengths;
+  lengths.clear();
   double length = 0;
-  const auto ends = [&](std::size_t i) {
-    return std::pair(c.points_m[i], c.points_m[(i + 1) % c.points_m.size()]);
-  };
-  const auto lengthOf = [&](std::size_t i) {
-    const auto e = ends(i);
-    return std::hypot(e.second.x - e.first.x, e.second.z - e.first.z);
-  };
-  for (std::size_t i = 0; i < cuts; ++i) length += lengthOf(i);
+  const auto from = [&](std::size_t i) { return c.points_m[i]; };
+  const auto to = [&](std::size_t i) { return c.points_m[i + 1 < c.points_m.size() ? i + 1 : 0]; };
+  for (std::size_t i = 0; i < cuts; ++i) {
+    const double dx = to(i).x - from(i).x, dz = to(i).z - from(i).z;
+    lengths.push_back(std::sqrt(dx * dx + dz * dz));
+    length += lengths.back();
+  }
   const double pieces = std::max(1.0, std::round(length / step_m)), piece = length / pieces;
   double next = piece / 2, so_far = 0;
   for (std::size_t i = 0; i < cuts; ++i) {
-    const double own = lengthOf(i);
-    for (; next < so_far + own; next += piece) {
-      const auto e = ends(i);
-      const double t = (next - so_far) / own;
-      body(i, e.first + t * (e.second - e.first), piece);
+    for (; next < so_far + lengths[i]; next += piece) {
+      const double t = (next - so_far) / lengths[i];
+      body(c.edges[i], from(i) + t * (to(i) - from(i)), piece);
     }
-    so_far += own;
+    so_far += lengths[i];
   }
 }
 
@@ -226,17 +192,16 @@ ModelFrame ModelPlane::cutOne(const SurfaceFrame& now, const SurfaceFrame& next,
   std::vector<std::uint32_t> ids;
   labels_.samples(slice.lines(), ids);
   ModelFrame frame;
-  frame.cells = cellsOf(coarse_.probe, ids, tissue_of_);
+  frame.cells = cells_;
+  for (std::size_t c = 0; c < cells_.size(); ++c)
+    fill(frame.cells[c], ids.data() + c * kSamplesPerCell, tissue_of_);
   weighByBlood(empty_, frame);
   const TissueAt tissueAt(coarse_.probe, ids, tissue_of_);
-  const CutAt cutAt(slice.edges());
   for (const Contour& contour : chainContours(slice.edges(), surfaces_, now)) {
     const std::size_t s = index(contour.surface);
     if (surfaces_[s].membrane) continue;
-    stepAlong(contour, kBoundaryPiece_m, [&](std::size_t i, Vec3d at, double length_m) {
-      const std::uint32_t cut = cutAt(s, contour.points_m[i]);
-      if (cut != CutAt::kNone)
-        addPiece(slice.edges()[cut], at, length_m, tissueAt, now, next, frame.boundary);
+    stepAlong(contour, kBoundaryPiece_m, [&](std::uint32_t edge, Vec3d at, double length_m) {
+      addPiece(slice.edges()[edge], at, length_m, tissueAt, now, next, frame.boundary);
     });
   }
   return frame;

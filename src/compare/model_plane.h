@@ -49,7 +49,7 @@ struct ModelLoop {
 // Resolution of the plane, our choice: cells of 2.5 mm at two thirds of a 15 cm depth, each of
 // eight samples.
 inline constexpr int kCellLines = 64, kCellsAlong = 60, kSamplesPerCell = 8;
-inline constexpr double kBoundaryPiece_m = 2.5e-3;  // between looks along a boundary; our choice
+inline constexpr double kBoundaryPiece_m = 1.25e-3;  // between looks along a boundary; our choice
 
 // Cells count in full up to about so far from blood, and not at all from twice as far on: what lies
 // around a heart is no model's claim. Our choice: a wall's thickness.
@@ -77,6 +77,7 @@ class ModelPlane {
   Scene coarse_;  // the scene with as many lines as the plane has
   PlaneLabels labels_;
   std::vector<std::uint8_t> tissue_of_;  // by structure from 1; 0 the background
+  std::vector<TissueCell> cells_;        // without tissues
   ModelLoop empty_;
 };
 

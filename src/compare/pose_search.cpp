@@ -10,7 +10,7 @@ namespace echocine::compare {
 namespace {
 
 // Frames, cells and pieces that are looked at: enough to rank starts, and to climb.
-constexpr FitStride kCoarse{5, 4, 6}, kFine{3, 2, 2};
+constexpr FitStride kCoarse{5, 4, 12}, kFine{3, 2, 4};
 
 // Of Unknowns.
 constexpr double kShiftUnit_m = 2e-3, kScaleUnit = 0.03;
@@ -35,6 +35,19 @@ SearchBox boxOf(const PoseLimits& limits, double far_m) {
   return box;
 }
 
+// D at the poses of unknowns.
+PoseFunction discrepancyAt(const ModelLoop& model, const EchoStack& real, const FitWeights& weights,
+                           int lag, const FitStride& stride) {
+  return [&model, &real, &weights, lag, stride](std::span<const Unknowns> places) {
+    std::vector<FitPose> poses;
+    for (const Unknowns& u : places) poses.push_back(poseAt(u, lag));
+    std::vector<double> values;
+    for (const FitTerms& terms : fitTerms(model, real, poses, stride))
+      values.push_back(fitDiscrepancy(terms, weights));
+    return values;
+  };
+}
+
 }  // namespace
 
 PoseFound refinePose(const ModelLoop& model, const EchoStack& real, const FitWeights& weights,
@@ -43,10 +56,8 @@ PoseFound refinePose(const ModelLoop& model, const EchoStack& real, const FitWei
   const int lag = starts.front().lag;
   std::vector<Descent> from;
   for (const FitPose& start : starts) from.push_back({unknownsOf(start)});
-  const auto value = [&](const Unknowns& u) {
-    return fitDiscrepancy(fitTerms(model, real, poseAt(u, lag), kFine), weights);
-  };
-  const std::vector<Descent> hills = leastApart(descendAll(value, from, box), from.size());
+  const std::vector<Descent> hills = leastApart(
+      descendAll(discrepancyAt(model, real, weights, lag, kFine), from, box), from.size());
   PoseFound out;
   out.pose = poseAt(hills.front().at, lag);
   out.terms = fitTerms(model, real, out.pose);
@@ -59,10 +70,7 @@ PoseFound refinePose(const ModelLoop& model, const EchoStack& real, const FitWei
 
 PoseFound searchPose(const ModelLoop& model, const EchoStack& real, const FitWeights& weights,
                      const PoseLimits& limits) {
-  const auto value = [&](const Unknowns& u, const FitStride& stride) {
-    return fitDiscrepancy(fitTerms(model, real, poseAt(u, 0), stride), weights);
-  };
-  std::vector<Descent> all = lattice([&](const Unknowns& u) { return value(u, kCoarse); },
+  std::vector<Descent> all = lattice(discrepancyAt(model, real, weights, 0, kCoarse),
                                      boxOf(limits, model.far_m), {4, 4, 2, 2});
   constexpr std::size_t kStarts = 5;
   std::vector<FitPose> starts;
@@ -72,7 +80,8 @@ PoseFound searchPose(const ModelLoop& model, const EchoStack& real, const FitWei
   const double median = all[all.size() / 2].value;
   PoseFound out = refinePose(model, real, weights, limits, starts);
   const double next = out.rivals.empty() ? median : out.rivals.front().second;
-  out.confidence = standsOut(value(unknownsOf(out.pose), kFine), next, median);
+  out.confidence =
+      standsOut(fitDiscrepancy(fitTerms(model, real, out.pose, kFine), weights), next, median);
   return out;
 }
 

@@ -22,8 +22,7 @@ struct PoseFound {
   double discrepancy = 1;
   // Other optima, least first: farther than 10 mm or 10 degrees from the best.
   std::vector<std::pair<FitPose, double>> rivals;
-  // How far the best stands out: its gap to the next rival over its gap to the median of all
-  // starts. 0: as good elsewhere; 1: nothing else comes near.
+  // Eq. 8 of descent.h; what says nothing is the median of all starts.
   double confidence = 0;
   bool at_limit = false;
 };

@@ -99,7 +99,7 @@ double SpaceSearch::unlikeAt(const std::vector<Pair>& pairs, const Unknowns& at)
 std::vector<Unknowns> SpaceSearch::starts() const {
   const std::vector<float> real = sampler_.meanPicture();
   const std::vector<Pair> means{{meanOf(synthetic_.frames), &real}};
-  const auto value = [&](const Unknowns& at) { return unlikeAt(means, at); };
+  const PoseFunction value = oneByOne([&](const Unknowns& at) { return unlikeAt(means, at); });
   constexpr std::size_t kStarts = 5;
   std::vector<Descent> from = leastApart(lattice(value, box(), {4, 4, 2, 2}), kStarts);
   from.push_back({Unknowns{}, 2});
@@ -116,7 +116,7 @@ Descent SpaceSearch::refined(const Unknowns& start, const Pairing& synthetic_at)
     if (!pair.synthetic.empty()) pairs.push_back(std::move(pair));
   }
   if (pairs.empty()) return {start, 1};
-  return descend([&](const Unknowns& at) { return unlikeAt(pairs, at); }, start, box());
+  return descend(oneByOne([&](const Unknowns& at) { return unlikeAt(pairs, at); }), start, box());
 }
 
 SpaceAlignment SpaceSearch::best(const std::vector<Descent>& refined) const {
@@ -130,8 +130,9 @@ SpaceAlignment SpaceSearch::best(const std::vector<Descent>& refined) const {
   out.unlike = hills.front().value;
   for (std::size_t i = 1; i < hills.size(); ++i)
     out.rivals.push_back({placementAt(hills[i].at), hills[i].value});
-  const double rival = out.rivals.empty() ? 1 : out.rivals.front().unlike;
-  out.confidence = std::clamp(std::min(rival, 1.0) - out.unlike, 0.0, 1.0);
+  constexpr double kNothing = 1;  // E of unrelated loops
+  out.confidence =
+      standsOut(out.unlike, out.rivals.empty() ? kNothing : out.rivals.front().unlike, kNothing);
   return out;
 }
 

@@ -29,8 +29,7 @@ struct SpaceAlignment {
   bool used = false;                           // false: nothing else is better
   bool at_limit = false;                       // of what the search may do: the best may lie beyond
   double unlike = 1;                           // E of Eq. 7
-  // By how much less E is than at the best rival, or than 1, which says nothing. 0: as good
-  // elsewhere; 1: equal loops, and nothing else like them.
+  // Eq. 8 of descent.h; what says nothing has an E of 1.
   double confidence = 0;
   // Other optima, least first: farther than 7 % of the radius or 10 degrees from the best.
   std::vector<PlacementFound> rivals;

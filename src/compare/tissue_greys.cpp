@@ -25,8 +25,12 @@ TissueGreys::Fit TissueGreys::solve(const std::vector<int>& group_of) const {
   };
   for (int i = 0; i < unknowns_; ++i) {
     b.at<double>(to(i)) += right_[static_cast<std::size_t>(i)];
-    for (int j = 0; j < unknowns_; ++j)
-      a.at<double>(to(i), to(j)) += normal_[static_cast<std::size_t>(i * unknowns_ + j)];
+    for (int j = 0; j < unknowns_; ++j) {
+      const auto at = [&](int row, int column) {
+        return normal_[static_cast<std::size_t>(row * unknowns_ + column)];
+      };
+      a.at<double>(to(i), to(j)) += at(i, j) + (i == j ? 0 : at(j, i));
+    }
   }
   for (int i = 0; i < n; ++i) a.at<double>(i, i) += 1e-9 * weight_;
   cv::solve(a, b, x, cv::DECOMP_CHOLESKY);

@@ -20,12 +20,15 @@ class TissueGreys {
                      : place < 0             ? 0
                                              : static_cast<int>(place);
     const double high = place - knot;
-    const int at[4] = {first, second, tissues_ + knot, tissues_ + knot + 1};
-    const double value[4] = {share, 1 - share, 1 - high, high};
-    for (int a = 0; a < 4; ++a) {
+    // Whole cells have no second tissue: it comes last, and is left out.
+    const int at[4] = {tissues_ + knot, tissues_ + knot + 1, first, second};
+    const bool whole = first == second || share >= 1;
+    const double value[4] = {1 - high, high, whole ? 1 : share, 1 - share};
+    const int parts = whole ? 3 : 4;
+    for (int a = 0; a < parts; ++a) {
       const double wa = weight * value[a];
       double* row = normal_.data() + at[a] * unknowns_;
-      for (int b = 0; b < 4; ++b) row[at[b]] += wa * value[b];
+      for (int b = 0; b <= a; ++b) row[at[b]] += wa * value[b];
       right_[static_cast<std::size_t>(at[a])] += wa * g;
     }
     weight_ += weight;
@@ -46,6 +49,7 @@ class TissueGreys {
 
   std::vector<bool> blood_;
   int tissues_, unknowns_;
+  // Of pairs of unknowns, one of both orders: the sum of an unordered pair is that of both places.
   std::vector<double> normal_, right_;
   double weight_ = 0, square_ = 0;
 };

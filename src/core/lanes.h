@@ -87,6 +87,27 @@ inline Doubles4 wholeOf(Doubles4 a) {
   return __builtin_convertvector(__builtin_convertvector(a, Ints4), Doubles4);
 }
 
+// e^x to 2e-7 of itself: e^x = 2^n e^r with |r| <= ln 2 / 2, e^r the polynomial of Cephes' expf
+// (Moshier 1989). Beyond +-87 it stays at the value there.
+inline Floats8 exponential(Floats8 x) {
+  constexpr float kMost = 87;
+  x = x > kMost ? Floats8{} + kMost : x;
+  x = x < -kMost ? Floats8{} - kMost : x;
+  const Floats8 scaled = x * 1.44269504F;
+  const Ints8 n =
+      __builtin_convertvector(scaled + (scaled > 0 ? Floats8{} + 0.5F : Floats8{} - 0.5F), Ints8);
+  const Floats8 whole = __builtin_convertvector(n, Floats8);
+  // ln 2 in two parts, of which the first times n is exact.
+  const Floats8 r = x - whole * 0.693359375F + whole * 2.12194440e-4F;
+  Floats8 p = r * 1.9875691500e-4F + 1.3981999507e-3F;
+  p = p * r + 8.3334519073e-3F;
+  p = p * r + 4.1665795894e-2F;
+  p = p * r + 1.6666665459e-1F;
+  p = p * r + 5.0000001201e-1F;
+  p = p * r * r + r + 1;
+  return p * reinterpret_cast<Floats8>((n + 127) << 23);
+}
+
 inline bool any(Mask4 mask) {
   return ((mask[0] | mask[1]) | (mask[2] | mask[3])) != 0;
 }

@@ -16,8 +16,8 @@ namespace echocine::python {
 // again.
 struct NativeFrame {
   Frame frame;
-  int width = 0, height = 0;  // of its picture and labels, pixels
-  std::uint64_t maker = 0;    // NativeSimulator::number
+  int width = 0, height = 0;      // of its picture and labels, pixels
+  std::uint64_t maker = 0;        // NativeSimulator::number
   std::atomic<bool> busy{false};  // being filled
 };
 

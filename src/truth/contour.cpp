@@ -65,8 +65,10 @@ class EdgeStarts {
 // branches.
 class Chainer {
  public:
-  Chainer(std::span<const ContourEdge> edges, std::vector<EdgeEnds> ends)
+  // `first`: the number of the first edge.
+  Chainer(std::span<const ContourEdge> edges, std::size_t first, std::vector<EdgeEnds> ends)
       : edges_(edges),
+        first_(first),
         ends_(std::move(ends)),
         used_(ends_.size(), false),
         follows_(ends_.size(), false) {
@@ -86,9 +88,10 @@ class Chainer {
 
  private:
   void follow(std::size_t first, std::vector<Contour>& out) {
-    Contour contour{edges_[first].surface, false, {edges_[first].cut.from}};
+    Contour contour{edges_[first].surface, false, {edges_[first].cut.from}, {}};
     for (std::size_t i = first;;) {
       used_[i] = true;
+      contour.edges.push_back(static_cast<std::uint32_t>(first_ + i));
       const std::size_t next = next_[i];
       contour.closed = next == first;
       if (contour.closed) break;
@@ -100,6 +103,7 @@ class Chainer {
   }
 
   std::span<const ContourEdge> edges_;
+  std::size_t first_;
   std::vector<EdgeEnds> ends_;
   std::vector<bool> used_;
   std::vector<bool> follows_;      // an edge ends where this one starts
@@ -118,7 +122,7 @@ std::vector<Contour> chainContours(std::span<const ContourEdge> edges,
     for (end = begin; end < edges.size() && index(edges[end].surface) == surface; ++end)
       ends.push_back(
           endsOf(surfaces[surface].triangles[edges[end].triangle], frame.positions_m[surface]));
-    Chainer(edges.subspan(begin, end - begin), std::move(ends)).run(contours);
+    Chainer(edges.subspan(begin, end - begin), begin, std::move(ends)).run(contours);
   }
   return contours;
 }

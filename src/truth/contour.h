@@ -1,6 +1,7 @@
 #pragma once
 // The plane slice as ground truth: chains of points per structure.
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct Contour {
   SurfaceId surface{};
   bool closed = false;
   std::vector<Vec3d> points_m;
+  // Of the edges given, the one that starts at each point; none at the last of an open contour.
+  std::vector<std::uint32_t> edges;
 };
 
 // All contours of the frame that `edges` were cut from, surface by surface.

@@ -98,7 +98,7 @@ struct Phantom {
     return {kX + c * u - s * v, 0, kZ + s * u + c * v};
   }
   void addBoundary(double phase, ModelFrame& out) const {
-    constexpr int kPieces = 80;
+    constexpr int kPieces = 160;
     for (int i = 0; i < kPieces; ++i) {
       const double at = 2 * std::numbers::pi * i / kPieces, step = std::numbers::pi / kPieces;
       const Vec3d p = pointAt(at, phase), next = pointAt(at, phase + 1.0 / kFrames),

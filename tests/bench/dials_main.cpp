@@ -1,0 +1,227 @@
+// dial_table [cost|smooth|pairs]: what one evaluation of a heart's dials costs, stage by stage; how
+// smooth the discrepancy is along two dials; and how far its least value lies from the dials of
+// three hearts under another look.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <ctime>
+
+#include "compare/dial_scan.h"
+#include "support/view_loops.h"
+
+namespace echocine::bench {
+namespace {
+
+using namespace compare;
+using namespace support;
+
+// A heart under a scanner's look. Wall and rate are told to the models.
+struct Pair {
+  double ef, edv_ml, wall_mm, rate_bpm;
+  int seed;
+};
+constexpr std::array kPairs{Pair{0.45, 150, 11, 72, 3}, Pair{0.60, 130, 9, 65, 17},
+                            Pair{0.36, 190, 10, 80, 29}};
+
+std::map<std::string, double> givenOf(const Pair& p) {
+  return {{"hr", p.rate_bpm}, {"wall-thickness", p.wall_mm}};
+}
+
+Loop loopOf(const Pair& p) {
+  std::map<std::string, double> dials = givenOf(p);
+  dials["ef"] = p.ef;
+  dials["edv"] = p.edv_ml;
+  return scannedLoop(heart::heartScene(heart::parametersFrom(dials), View::a4c, 24, Look::scanner),
+                     24, p.seed);
+}
+
+HeartFamily familyOf(const Pair& p) {
+  return {givenOf(p),
+          {{"ef", p.ef - 0.1, p.ef + 0.1}, {"edv", p.edv_ml - 30, p.edv_ml + 30}},
+          View::a4c,
+          kFitFrames,
+          4};
+}
+
+SideOptions fromFirstFrame() {
+  SideOptions side;
+  side.ed_frame = 0;
+  return side;
+}
+
+template <typename Body>
+void timed(const char* what, int rounds, const Body& body) {
+  std::vector<double> ms;
+  for (int i = 0; i < rounds; ++i) {
+    timespec from{}, to{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &from);
+    body(i);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &to);
+    ms.push_back(1e3 * static_cast<double>(to.tv_sec - from.tv_sec) +
+                 1e-6 * static_cast<double>(to.tv_nsec - from.tv_nsec));
+  }
+  std::nth_element(ms.begin(), ms.begin() + rounds / 2, ms.end());
+  fmt::print("  {:<44} {:7.1f} ms\n", what, ms[static_cast<std::size_t>(rounds / 2)]);
+}
+
+// Of one core, medians.
+void tellCost() {
+  const Pair& p = kPairs[0];
+  const HeartFamily family = familyOf(p);
+  const ModelLoop first = family.at({p.ef, p.edv_ml});
+  const ModelDiscrepancy d(loopOf(p), fromFirstFrame(), first);
+  const FitPose pose = d.search(first).pose;
+  const auto dialsOf = [&](int i) {
+    return std::vector<double>{p.ef - 0.05 + 0.004 * i, p.edv_ml + 10 - i};
+  };
+  std::vector<ModelLoop> models;
+  for (int i = 0; i < 25; ++i) models.push_back(family.at(dialsOf(i)));
+  const auto modelOf = [&](int i) -> const ModelLoop& {
+    return models[static_cast<std::size_t>(i)];
+  };
+  fmt::print("one evaluation of {} frames\n", kFitFrames);
+  timed("surfaces between recorded hearts", 25, [&](int i) { family.surfacesAt(dialsOf(i)); });
+  timed("surfaces, labels, boundaries, motion", 25, [&](int i) { family.at(dialsOf(i)); });
+  timed("terms", 25, [&](int i) { d.at(modelOf(i), pose); });
+  timed("pose from one start, terms", 25, [&](int i) { d.refine(modelOf(i), {pose}); });
+  timed("all of it", 25, [&](int i) { d.refine(family.at(dialsOf(i)), {pose}); });
+  timed("pose from everywhere", 5, [&](int i) { d.search(modelOf(i)); });
+}
+
+void tellLine(const char* what, const std::vector<PoseFound>& found) {
+  std::vector<double> y;
+  for (const PoseFound& f : found) y.push_back(f.discrepancy);
+  double rest = 0, jump = 0, bend = 0;
+  for (std::size_t i = 0; i + 1 < y.size(); ++i) jump = std::max(jump, std::abs(y[i + 1] - y[i]));
+  for (std::size_t i = 0; i + 3 < y.size(); ++i)
+    bend = std::max(bend, std::abs(y[i + 3] - 3 * y[i + 2] + 3 * y[i + 1] - y[i]));
+  // What the best cubic leaves of five neighbours: 6/70 of their fourth difference at most.
+  for (std::size_t i = 2; i + 2 < y.size(); ++i)
+    rest = std::max(
+        rest, 6.0 / 70 * std::abs(y[i - 2] - 4 * y[i - 1] + 6 * y[i] - 4 * y[i + 1] + y[i + 2]));
+  fmt::print("{}: largest step {:.4f}, third difference {:.4f}, residual to cubics {:.5f}\n", what,
+             jump, bend, rest);
+}
+
+void tellSmooth() {
+  const Pair& p = kPairs[0];
+  const HeartFamily family = familyOf(p);
+  const ModelLoop first = family.at({p.ef, p.edv_ml});
+  const ModelDiscrepancy d(loopOf(p), fromFirstFrame(), first);
+  const FitPose pose = d.search(first).pose;
+  const auto along = [&](const char* what, auto dialsOf) {
+    std::vector<PoseFound> found, held;
+    for (int i = -10; i <= 10; ++i) {
+      const std::vector<double> dials = dialsOf(i);
+      const ModelLoop model = family.at(dials);
+      found.push_back(d.refine(model, {pose}));
+      held.push_back(d.at(model, pose));
+      const PoseFound &f = found.back(), &h = held.back();
+      fmt::print(
+          "  {:.2f} {:.0f}  D {:.5f} R {:.5f} B {:.5f} M {:.5f} c {:.5f}  {:.2f} {:.2f} mm {:.2f} "
+          "deg   held D {:.5f} R {:.5f} B {:.5f} M {:.5f}\n",
+          dials[0], dials[1], f.discrepancy, f.terms.region, f.terms.boundary, f.terms.motion,
+          f.terms.in_sight, 1e3 * f.pose.shift_x_m, 1e3 * f.pose.shift_z_m,
+          57.2958 * f.pose.turn_rad, h.discrepancy, h.terms.region, h.terms.boundary,
+          h.terms.motion);
+    }
+    tellLine(what, found);
+    tellLine("  with the pose held", held);
+  };
+  along("EF in steps of 0.01", [&](int i) {
+    return std::vector<double>{p.ef + 0.01 * i, p.edv_ml};
+  });
+  along("EDV in steps of 2 mL", [&](int i) {
+    return std::vector<double>{p.ef, p.edv_ml + 2.0 * i};
+  });
+}
+
+// Where a parabola through the least of three values at even steps lies, in steps.
+double leastOf(double before, double here, double after) {
+  const double bend = before - 2 * here + after;
+  return bend > 0 ? std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) : 0;
+}
+
+// Where the loop's edges lie about the boundaries of the right heart: what biases its dials.
+void tellEdges(const ModelDiscrepancy& d, const ModelLoop& right, const FitPose& pose) {
+  const FitMap map = d.map(right, pose);
+  for (const OffsetCurve& c : offsetCurves(map, right.structures.size())) {
+    double sum = 0, n = 0;
+    for (const double mm : c.offset_mm)
+      if (std::isfinite(mm)) sum += mm, ++n;
+    fmt::print("  edges of {} lie {:+.2f} mm out of blood\n", right.structures[c.structure],
+               n > 0 ? sum / n : 0);
+  }
+}
+
+void tellPairs() {
+  for (const Pair& p : kPairs) {
+    const HeartFamily family = familyOf(p);
+    const ModelLoop first = family.at({p.ef, p.edv_ml});
+    const Loop loop = loopOf(p);
+    const ModelDiscrepancy d(loop, fromFirstFrame(), first);
+    const BeatFound beat = ModelDiscrepancy(loop, {}, first).beat();
+    const FitPose pose = d.search(first).pose;
+    constexpr int kHalf = 5;
+    constexpr double kEf = 0.02, kEdv = 0.04;  // steps; of EDV relative
+    constexpr int kSide = 2 * kHalf + 1;
+    std::vector<PoseFound> found(kSide * kSide);
+    parallelBlocks(found.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) {
+        const int i = static_cast<int>(n) / kSide - kHalf, j = static_cast<int>(n) % kSide - kHalf;
+        found[n] = d.refine(family.at({p.ef + kEf * i, p.edv_ml * (1 + kEdv * j * 0.99)}), {pose});
+      }
+    });
+    fmt::print("EF {:.2f}, EDV {:.0f} mL, {:.0f} mm, {:.0f} bpm\n", p.ef, p.edv_ml, p.wall_mm,
+               p.rate_bpm);
+    fmt::print("  end-diastole where none is given: frame {:.2f}, confidence {:.3f}\n",
+               beat.span.end_diastole, beat.confidence);
+    tellEdges(d, first, pose);
+    const auto tell = [&](const char* what, auto value) {
+      int bi = 1, bj = 1;
+      const auto at = [&](int i, int j) {
+        return value(found[static_cast<std::size_t>(i * kSide + j)]);
+      };
+      for (int i = 0; i < kSide; ++i)
+        for (int j = 0; j < kSide; ++j)
+          if (at(i, j) < at(bi, bj)) bi = i, bj = j;
+      const int i = std::clamp(bi, 1, kSide - 2), j = std::clamp(bj, 1, kSide - 2);
+      const double ef = kEf * (i - kHalf + leastOf(at(i - 1, bj), at(i, bj), at(i + 1, bj))),
+                   edv = kEdv * (j - kHalf + leastOf(at(bi, j - 1), at(bi, j), at(bi, j + 1)));
+      // Along EF alone, EDV right.
+      int only = 1;
+      for (int k = 1; k + 1 < kSide; ++k)
+        if (at(k, kHalf) < at(only, kHalf)) only = k;
+      const double ef_alone =
+          kEf * (only - kHalf + leastOf(at(only - 1, kHalf), at(only, kHalf), at(only + 1, kHalf)));
+      fmt::print("  {:<10} EF {:+.3f}, EDV {:+.1f} %, least {:.4f}; EF alone {:+.3f}\n", what, ef,
+                 100 * edv, at(bi, bj), ef_alone);
+    };
+    tell("D", [](const PoseFound& f) { return f.discrepancy; });
+    tell("region", [](const PoseFound& f) { return f.terms.region; });
+    tell("boundary", [](const PoseFound& f) { return f.terms.boundary; });
+    tell("motion", [](const PoseFound& f) { return f.terms.motion; });
+    std::fflush(stdout);
+  }
+}
+
+void run(const char* only) {
+  const auto wanted = [&](const char* what) {
+    return only == nullptr || std::strcmp(only, what) == 0;
+  };
+  if (wanted("cost")) tellCost();
+  if (wanted("smooth")) tellSmooth();
+  if (wanted("pairs")) tellPairs();
+}
+
+}  // namespace
+}  // namespace echocine::bench
+
+int main(int argc, char** argv) {
+  echocine::withThreads(argc > 1 && std::strcmp(argv[1], "cost") == 0 ? 1 : 0,
+                        [&] { echocine::bench::run(argc > 1 ? argv[1] : nullptr); });
+}
