@@ -3,13 +3,13 @@
 Needs the module and scene_changes, both of the build.
 """
 
+import concurrent.futures
 import multiprocessing
 import pathlib
 import resource
 import statistics
 import subprocess
 import sys
-import threading
 import time
 
 BUILD = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "build/release")
@@ -17,7 +17,7 @@ sys.path.insert(0, str(BUILD / "python"))
 
 import echocine  # noqa: E402
 
-ROUNDS, FRAMES, CHANGES = 40, 12, 25
+ROUNDS, FRAMES, CHANGES = 9, 60, 8
 
 
 def cpu_s():
@@ -62,12 +62,10 @@ def two_at_once(look):
     frames(simulator, 0)
     mine.recv()
 
+    pool = concurrent.futures.ThreadPoolExecutor(2)  # threads that stay, as the processes do
+
     def threads():
-        both = [threading.Thread(target=frames, args=(simulator, first)) for first in (7, 21)]
-        for thread in both:
-            thread.start()
-        for thread in both:
-            thread.join()
+        concurrent.futures.wait([pool.submit(frames, simulator, first) for first in (7, 21)])
 
     def processes():
         mine.send(True)
