@@ -8,9 +8,11 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 
+#include "bench/cpu_time.h"
 #include "compare/dial_scan.h"
+#include "core/units.h"
+#include "metrics/statistics.h"
 #include "support/view_loops.h"
 
 namespace echocine::bench {
@@ -53,43 +55,51 @@ SideOptions fromFirstFrame() {
   return side;
 }
 
+// A pair with its pose as the heart of its own dials finds it.
+struct Fitted {
+  HeartFamily family;
+  Loop loop;
+  ModelLoop right;
+  ModelDiscrepancy d;
+  FitPose pose;
+
+  explicit Fitted(const Pair& p)
+      : family(familyOf(p)),
+        loop(loopOf(p)),
+        right(family.at({p.ef, p.edv_ml})),
+        d(loop, fromFirstFrame(), right),
+        pose(d.search(right).pose) {}
+};
+
 template <typename Body>
 void timed(const char* what, int rounds, const Body& body) {
   std::vector<double> ms;
-  for (int i = 0; i < rounds; ++i) {
-    timespec from{}, to{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &from);
-    body(i);
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &to);
-    ms.push_back(1e3 * static_cast<double>(to.tv_sec - from.tv_sec) +
-                 1e-6 * static_cast<double>(to.tv_nsec - from.tv_nsec));
-  }
-  std::nth_element(ms.begin(), ms.begin() + rounds / 2, ms.end());
-  fmt::print("  {:<44} {:7.1f} ms\n", what, ms[static_cast<std::size_t>(rounds / 2)]);
+  for (int i = 0; i < rounds; ++i) ms.push_back(millisecondsOf([&] { body(i); }));
+  fmt::print("  {:<44} {:7.1f} ms\n", what, quartilesOf(ms).median);
 }
 
 // Of one core, medians.
 void tellCost() {
   const Pair& p = kPairs[0];
-  const HeartFamily family = familyOf(p);
-  const ModelLoop first = family.at({p.ef, p.edv_ml});
-  const ModelDiscrepancy d(loopOf(p), fromFirstFrame(), first);
-  const FitPose pose = d.search(first).pose;
+  const Fitted fitted(p);
   const auto dialsOf = [&](int i) {
     return std::vector<double>{p.ef - 0.05 + 0.004 * i, p.edv_ml + 10 - i};
   };
   std::vector<ModelLoop> models;
-  for (int i = 0; i < 25; ++i) models.push_back(family.at(dialsOf(i)));
+  for (int i = 0; i < 25; ++i) models.push_back(fitted.family.at(dialsOf(i)));
   const auto modelOf = [&](int i) -> const ModelLoop& {
     return models[static_cast<std::size_t>(i)];
   };
   fmt::print("one evaluation of {} frames\n", kFitFrames);
-  timed("surfaces between recorded hearts", 25, [&](int i) { family.surfacesAt(dialsOf(i)); });
-  timed("surfaces, labels, boundaries, motion", 25, [&](int i) { family.at(dialsOf(i)); });
-  timed("terms", 25, [&](int i) { d.at(modelOf(i), pose); });
-  timed("pose from one start, terms", 25, [&](int i) { d.refine(modelOf(i), {pose}); });
-  timed("all of it", 25, [&](int i) { d.refine(family.at(dialsOf(i)), {pose}); });
-  timed("pose from everywhere", 5, [&](int i) { d.search(modelOf(i)); });
+  timed("surfaces between recorded hearts", 25,
+        [&](int i) { fitted.family.surfacesAt(dialsOf(i)); });
+  timed("surfaces, labels, boundaries, motion", 25, [&](int i) { fitted.family.at(dialsOf(i)); });
+  timed("terms", 25, [&](int i) { fitted.d.at(modelOf(i), fitted.pose); });
+  timed("pose from one start, terms", 25,
+        [&](int i) { fitted.d.refine(modelOf(i), {fitted.pose}); });
+  timed("all of it", 25,
+        [&](int i) { fitted.d.refine(fitted.family.at(dialsOf(i)), {fitted.pose}); });
+  timed("pose from everywhere", 5, [&](int i) { fitted.d.search(modelOf(i)); });
 }
 
 void tellLine(const char* what, const std::vector<PoseFound>& found) {
@@ -109,24 +119,21 @@ void tellLine(const char* what, const std::vector<PoseFound>& found) {
 
 void tellSmooth() {
   const Pair& p = kPairs[0];
-  const HeartFamily family = familyOf(p);
-  const ModelLoop first = family.at({p.ef, p.edv_ml});
-  const ModelDiscrepancy d(loopOf(p), fromFirstFrame(), first);
-  const FitPose pose = d.search(first).pose;
+  const Fitted fitted(p);
   const auto along = [&](const char* what, auto dialsOf) {
     std::vector<PoseFound> found, held;
     for (int i = -10; i <= 10; ++i) {
       const std::vector<double> dials = dialsOf(i);
-      const ModelLoop model = family.at(dials);
-      found.push_back(d.refine(model, {pose}));
-      held.push_back(d.at(model, pose));
+      const ModelLoop model = fitted.family.at(dials);
+      found.push_back(fitted.d.refine(model, {fitted.pose}));
+      held.push_back(fitted.d.at(model, fitted.pose));
       const PoseFound &f = found.back(), &h = held.back();
       fmt::print(
           "  {:.2f} {:.0f}  D {:.5f} R {:.5f} B {:.5f} M {:.5f} c {:.5f}  {:.2f} {:.2f} mm {:.2f} "
           "deg   held D {:.5f} R {:.5f} B {:.5f} M {:.5f}\n",
           dials[0], dials[1], f.discrepancy, f.terms.region, f.terms.boundary, f.terms.motion,
           f.terms.in_sight, 1e3 * f.pose.shift_x_m, 1e3 * f.pose.shift_z_m,
-          57.2958 * f.pose.turn_rad, h.discrepancy, h.terms.region, h.terms.boundary,
+          degreesFromRadians(f.pose.turn_rad), h.discrepancy, h.terms.region, h.terms.boundary,
           h.terms.motion);
     }
     tellLine(what, found);
@@ -160,12 +167,8 @@ void tellEdges(const ModelDiscrepancy& d, const ModelLoop& right, const FitPose&
 
 void tellPairs() {
   for (const Pair& p : kPairs) {
-    const HeartFamily family = familyOf(p);
-    const ModelLoop first = family.at({p.ef, p.edv_ml});
-    const Loop loop = loopOf(p);
-    const ModelDiscrepancy d(loop, fromFirstFrame(), first);
-    const BeatFound beat = ModelDiscrepancy(loop, {}, first).beat();
-    const FitPose pose = d.search(first).pose;
+    const Fitted fitted(p);
+    const BeatFound beat = ModelDiscrepancy(fitted.loop, {}, fitted.right).beat();
     constexpr int kHalf = 5;
     constexpr double kEf = 0.02, kEdv = 0.04;  // steps; of EDV relative
     constexpr int kSide = 2 * kHalf + 1;
@@ -173,14 +176,15 @@ void tellPairs() {
     parallelBlocks(found.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t n = begin; n < end; ++n) {
         const int i = static_cast<int>(n) / kSide - kHalf, j = static_cast<int>(n) % kSide - kHalf;
-        found[n] = d.refine(family.at({p.ef + kEf * i, p.edv_ml * (1 + kEdv * j * 0.99)}), {pose});
+        found[n] = fitted.d.refine(
+            fitted.family.at({p.ef + kEf * i, p.edv_ml * (1 + kEdv * j * 0.99)}), {fitted.pose});
       }
     });
     fmt::print("EF {:.2f}, EDV {:.0f} mL, {:.0f} mm, {:.0f} bpm\n", p.ef, p.edv_ml, p.wall_mm,
                p.rate_bpm);
     fmt::print("  end-diastole where none is given: frame {:.2f}, confidence {:.3f}\n",
                beat.span.end_diastole, beat.confidence);
-    tellEdges(d, first, pose);
+    tellEdges(fitted.d, fitted.right, fitted.pose);
     const auto tell = [&](const char* what, auto value) {
       int bi = 1, bj = 1;
       const auto at = [&](int i, int j) {

@@ -4,27 +4,14 @@
 // caches.
 
 #include <benchmark/benchmark.h>
-#include <time.h>
 
 #include <vector>
 
+#include "bench/cpu_time.h"
 #include "core/parallel.h"
 #include "metrics/statistics.h"
 
 namespace echocine::bench {
-
-inline double cpuMilliseconds() {
-  timespec now{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-template <typename Work>
-double millisecondsOf(Work&& work) {
-  const double start = cpuMilliseconds();
-  work();
-  return cpuMilliseconds() - start;
-}
 
 // Frames of a loop that are made together: each finds in the caches what the one before it left, as
 // in a run of the program, and not what it is compared with.

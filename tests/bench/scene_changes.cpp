@@ -1,25 +1,17 @@
 // A scene that changes for every frame, in C++: the floor of python_calls.py. Prints CPU
 // milliseconds a frame. scene_changes FRAMES
 
-#include <sys/resource.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 
+#include "bench/cpu_time.h"
 #include "core/units.h"
 #include "echocine/echocine.h"
 
 namespace {
 
 using namespace echocine;
-
-double cpuSeconds() {
-  rusage use{};
-  ::getrusage(RUSAGE_SELF, &use);
-  return static_cast<double>(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
-         1e-6 * static_cast<double>(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
-}
 
 // The ejection fraction and the probe's place move with i, as they do in python_calls.py.
 void frameOf(int i) {
@@ -37,9 +29,10 @@ int main(int argc, char** argv) try {
   const int frames = argc == 2 ? std::atoi(argv[1]) : 0;
   if (frames < 1) return 2;
   frameOf(0);
-  const double before_s = cpuSeconds();
-  for (int i = 0; i < frames; ++i) frameOf(i);
-  std::printf("%.3f\n", 1e3 * (cpuSeconds() - before_s) / frames);
+  const double all_ms = bench::millisecondsOf([&] {
+    for (int i = 0; i < frames; ++i) frameOf(i);
+  });
+  std::printf("%.3f\n", all_ms / frames);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;
