@@ -27,8 +27,9 @@ constexpr double kLostExponent = 27.6;  // nepers of intensity
 double endOf(const LineTrace& line) {
   for (const MediumSegment& segment : line.segments) {
     const double left = kLostExponent - segment.begin_exponent;
+    if (left <= 0) return segment.begin_depth_m;
     if (left < segment.exponent_per_m * (segment.end_depth_m - segment.begin_depth_m))
-      return segment.begin_depth_m + std::max(left, 0.0) / segment.exponent_per_m;
+      return segment.begin_depth_m + left / segment.exponent_per_m;
   }
   return line.segments.empty() ? 0 : line.segments.back().end_depth_m;
 }
