@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "motion/heart/envelope.h"
 #include "motion/heart/smooth.h"
@@ -24,24 +25,45 @@ std::vector<Vec3d> ellipsoid(const SphereMesh& sphere, Vec3d centre, Vec3d semi_
   });
 }
 
+struct WallLayer {
+  const char *name, *medium;
+  int priority;
+  double radius_m;  // from the probe's apex to its far side
+};
+
 // Shells round the probe, circles in the imaging plane, so that they bend no ray there, and long
-// across it, so that they lie before all of the lens: skin and fat, then muscle.
-void addChestWall(const ProbePose& pose, double scale, std::vector<Part>& parts) {
+// across it, so that they lie before all of the lens.
+void addShells(const ProbePose& pose, double scale, std::initializer_list<WallLayer> layers,
+               std::vector<Part>& parts) {
   static const SphereMesh& kShell = geodesicSphere(20);  // fat is a lens: fine
   const Vec3d elevation = cross(pose.axis, pose.lateral);
-  const auto add = [&](const char* name, const char* medium, int priority, double radius_m) {
-    const double across_m = radius_m + 0.02 * scale;
-    parts.push_back(closedPart(name, medium, priority,
-                               pointsOn(kShell,
-                                        [&](Vec3d d) {
-                                          return pose.apex +
-                                                 radius_m * (d.x * pose.lateral + d.z * pose.axis) +
-                                                 across_m * d.y * elevation;
-                                        }),
-                               kShell));
-  };
-  add("chest_fat", "fat", 9, std::min(0.007 * scale, 0.4 * pose.chest_m));
-  add("chest_muscle", "muscle", 8, std::min(0.013 * scale, 0.8 * pose.chest_m));
+  for (const WallLayer& layer : layers) {
+    const double across_m = layer.radius_m + 0.02 * scale;
+    parts.push_back(closedPart(
+        layer.name, layer.medium, layer.priority,
+        pointsOn(kShell,
+                 [&](Vec3d d) {
+                   return pose.apex + layer.radius_m * (d.x * pose.lateral + d.z * pose.axis) +
+                          across_m * d.y * elevation;
+                 }),
+        kShell));
+  }
+}
+
+// Skin and fat, then muscle.
+void addChestWall(const ProbePose& pose, double scale, std::vector<Part>& parts) {
+  addShells(pose, scale,
+            {{"chest_fat", "fat", 9, std::min(0.007 * scale, 0.4 * pose.chest_m)},
+             {"chest_muscle", "muscle", 8, std::min(0.013 * scale, 0.8 * pose.chest_m)}},
+            parts);
+}
+
+// Before the liver, where a probe is pressed in.
+void addAbdominalWall(const ProbePose& pose, double scale, std::vector<Part>& parts) {
+  addShells(pose, scale,
+            {{"abdominal_fat", "fat", 14, 0.008 * scale},
+             {"abdominal_muscle", "muscle", 13, 0.015 * scale}},
+            parts);
 }
 
 // The tissue between the lungs: round the heart, and open towards the probe, where the lungs give
@@ -133,6 +155,7 @@ std::vector<Part> surroundingsOf(View view, const ProbePose& pose, const Paramet
   std::vector<Part> parts;
   const bool from_below = view == View::subcostal;
   if (from_below) {
+    addAbdominalWall(pose, heart.parameters().body_scale, parts);
     addLiver(pose, heart, parts);
   } else {
     addChestWall(pose, heart.parameters().body_scale, parts);

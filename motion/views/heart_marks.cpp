@@ -52,6 +52,7 @@ class Finder {
     findSides();
     findAorta();
     marks_.outside_m = outsideOf(surfaces_);
+    marks_.front_m = frontOf(surfaces_);
     if (!hasWall(surfaces_)) marks_.wall_m = kWall * marks_.frame.length_m;
     return marks_;
   }

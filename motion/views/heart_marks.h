@@ -16,6 +16,7 @@ struct HeartMarks {
   HeartFrame frame;
   bool aortic_found = false;      // else the valve stands where other hearts have it
   std::vector<Vec3d> outside_m;   // of what belongs to the heart; the great vessels left out
+  std::vector<Vec3d> front_m;     // of these without the atria, whose appendages lie beside a probe
   double wall_m = 0;              // that is missing around these points
   std::vector<std::string> told;  // what was guessed for want of a role, in words
 };

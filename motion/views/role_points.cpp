@@ -17,6 +17,14 @@ bool isAmong(Role role, std::initializer_list<Role> roles) {
   return std::find(roles.begin(), roles.end(), role) != roles.end();
 }
 
+std::vector<Vec3d> without(const std::vector<RoleSurface>& surfaces,
+                           std::initializer_list<Role> roles) {
+  std::vector<Vec3d> all;
+  for (const RoleSurface& s : surfaces)
+    if (!isAmong(s.role, roles)) all.insert(all.end(), s.points_m.begin(), s.points_m.end());
+  return all;
+}
+
 }  // namespace
 
 std::vector<Vec3d> pointsOf(const std::vector<RoleSurface>& surfaces, Role role) {
@@ -44,12 +52,14 @@ std::string rolesThere(const std::vector<RoleSurface>& surfaces) {
 }
 
 std::vector<Vec3d> outsideOf(const std::vector<RoleSurface>& surfaces) {
-  std::vector<Vec3d> all;
-  for (const RoleSurface& s : surfaces)
-    if (!isAmong(s.role, {Role::none, Role::surroundings, Role::aorta, Role::aortic_wall,
-                          Role::pulmonary_artery, Role::pulmonary_wall}))
-      all.insert(all.end(), s.points_m.begin(), s.points_m.end());
-  return all;
+  return without(surfaces, {Role::none, Role::surroundings, Role::aorta, Role::aortic_wall,
+                            Role::pulmonary_artery, Role::pulmonary_wall});
+}
+
+std::vector<Vec3d> frontOf(const std::vector<RoleSurface>& surfaces) {
+  return without(surfaces, {Role::none, Role::surroundings, Role::aorta, Role::aortic_wall,
+                            Role::pulmonary_artery, Role::pulmonary_wall, Role::la, Role::la_wall,
+                            Role::ra, Role::ra_wall});
 }
 
 bool hasWall(const std::vector<RoleSurface>& surfaces) {

@@ -29,6 +29,9 @@ std::string rolesThere(const std::vector<RoleSurface>& surfaces);
 // All vertices of what belongs to the heart; the great vessels are left out.
 std::vector<Vec3d> outsideOf(const std::vector<RoleSurface>& surfaces);
 
+// Of these what stands behind the chest beside the sternum: without the atria.
+std::vector<Vec3d> frontOf(const std::vector<RoleSurface>& surfaces);
+
 // A surface around the left ventricle's muscle is among them.
 bool hasWall(const std::vector<RoleSurface>& surfaces);
 

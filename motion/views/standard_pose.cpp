@@ -9,7 +9,9 @@ namespace echocine {
 
 namespace {
 
-constexpr double kBeam_m = 0.02;  // half the thickness of what counts as in the plane; our choice
+// Half of what counts as in the plane, and as before the probe: half a phased array's face. Our
+// choices.
+constexpr double kBeam_m = 0.02, kFace_m = 0.01;
 constexpr double kBehind_m = 0.0144;  // of the image, behind the heart; our choice
 constexpr double kSector_deg = 80;
 
@@ -17,6 +19,7 @@ constexpr double kSector_deg = 80;
 struct Aim {
   Vec3d target, axis, lateral;
   double chest_m;  // skin to pericardium; our choice
+  bool beside_sternum = false;
 };
 
 // Through the apex, looking at a point of the base; the image plane holds the long axis and the
@@ -28,7 +31,7 @@ Aim apical(const HeartFrame& heart, double phi_rad, Vec3d base_point) {
 }
 
 Aim parasternal(const HeartFrame& heart, Vec3d target, Vec3d axis, Vec3d lateral) {
-  return {target, axis, lateral, 0.022 * heart.scale};
+  return {target, axis, lateral, 0.022 * heart.scale, true};
 }
 
 // In the valve's plane, which leans: seen from in front and along the ring.
@@ -69,9 +72,9 @@ Aim aimOf(View view, const HeartFrame& heart) {
     case View::psax_base:
       return aorticShortAxis(heart, out, across);
     case View::psax_mid:
-      return parasternal(heart, heart.at({0, 0, 0.54 * l}) - 0.13 * l * across, -out, across);
+      return parasternal(heart, heart.at({0, 0, 0.54 * l}) - 0.05 * l * across, -out, across);
     case View::psax_apex:
-      return parasternal(heart, heart.at({0, 0, 0.80 * l}) - 0.08 * l * across, -out, across);
+      return parasternal(heart, heart.at({0, 0, 0.80 * l}) - 0.05 * l * across, -out, across);
     case View::subcostal:
       return subcostal(heart, heart.at({-0.15 * l, 0, 0.22 * l}));
   }
@@ -118,9 +121,11 @@ double fittingDepth(std::span<const Vec3d> outside_m, const ProbePose& pose, dou
 }
 
 ProbePose standardPose(View view, const HeartFrame& heart, std::span<const Vec3d> outside_m,
-                       double wall_m) {
+                       double wall_m, std::span<const Vec3d> front_m) {
   const Aim aim = aimOf(view, heart);
-  const double to_surface_m = reachBefore(aim, outside_m, kBeam_m * heart.scale) + wall_m;
+  const bool front = aim.beside_sternum && !front_m.empty();
+  const double to_surface_m =
+      reachBefore(aim, front ? front_m : outside_m, kFace_m * heart.scale) + wall_m;
   ProbePose pose{aim.target - (to_surface_m + aim.chest_m) * aim.axis,
                  aim.axis,
                  aim.lateral,

@@ -40,9 +40,9 @@ struct ProbePose {
 
 // The probe on the skin: the chest's thickness before the outermost of `outside_m` in the beam's
 // middle, and as deep as all of them in the image need. wall_m: of what lies between these points
-// and the heart's surface.
+// and the heart's surface. front_m: what a parasternal probe stands before, in place of all.
 ProbePose standardPose(View view, const HeartFrame& heart, std::span<const Vec3d> outside_m,
-                       double wall_m = 0);
+                       double wall_m = 0, std::span<const Vec3d> front_m = {});
 
 // The path length from the apex that shows all points of the image, within `half_rad` of the axis.
 double fittingDepth(std::span<const Vec3d> outside_m, const ProbePose& pose, double half_rad,

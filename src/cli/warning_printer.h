@@ -1,5 +1,5 @@
 #pragma once
-// Warnings go to standard error, one line each, unless the run is to be quiet.
+// Warnings go to standard error, one line each. A quiet run has one only: that nothing can be seen.
 
 #include <fmt/format.h>
 
@@ -8,12 +8,13 @@
 
 #include "cli/one_line.h"
 #include "cli/standard_error.h"
+#include "scene/effect_plan.h"
 
 namespace echocine {
 
 inline std::function<void(const std::string&)> warningPrinter(bool quiet) {
-  if (quiet) return [](const std::string&) {};
-  return [](const std::string& warning) {
+  return [quiet](const std::string& warning) {
+    if (quiet && !warning.starts_with(kNothingSeen)) return;
     writeError(fmt::format("echocine: warning: {}\n", oneLine(warning)));
   };
 }

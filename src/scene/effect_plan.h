@@ -2,11 +2,15 @@
 // Which effects a loop needs, decided once before its first frame, each with its reason.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/scene.h"
 
 namespace echocine {
+
+// How a warning begins of a loop whose pictures stay black.
+inline constexpr std::string_view kNothingSeen = "nothing can be seen";
 
 struct EffectDecision {
   Effect effect{};

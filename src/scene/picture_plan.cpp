@@ -39,7 +39,7 @@ void planSpeckle(const Scene& scene, EffectPlan& plan) {
       {Effect::speckle, plan.speckle,
        !scene.speckle.on      ? "speckle.on asks for none"
        : !wantsPicture(scene) ? "no picture is asked for"
-       : !plan.contrast       ? "nothing can be seen"
+       : !plan.contrast       ? std::string(kNothingSeen)
                         : fmt::format("{:g} scatterers per resolution cell move with the tissue",
                                       scene.speckle.per_cell)});
   planTissue(scene, plan);

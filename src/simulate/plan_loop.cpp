@@ -177,14 +177,14 @@ void lookAtFrames(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) 
   }
   if (!plan.effects.contrast) {
     plan.warnings.push_back(
-        "nothing can be seen: all structures and their surroundings are of one medium");
+        fmt::format("{}: all structures and their surroundings are of one medium", kNothingSeen));
   } else if (plan.left_out.count() == scene.structures.size() ||
              (crossings == 0 && plan.effects.rays_per_beam == 1)) {
     plan.warnings.push_back(fmt::format(
-        "nothing can be seen: no scan line meets a structure in the frames looked at; {} "
+        "{}: no scan line meets a structure in the frames looked at; {} "
         "(probe.view places the probe by the heart's anatomy; else probe.apex and probe.axis, "
         "motion.mesh_unit and motion.mesh_scale)",
-        whereabouts(scene, meshesBox(motion))));
+        kNothingSeen, whereabouts(scene, meshesBox(motion))));
   }
 }
 

@@ -53,7 +53,7 @@ HeartMarks found(const Surfaces& surfaces) {
 }
 ProbePose poseIn(View view, const Surfaces& surfaces) {
   const HeartMarks marks = found(surfaces);
-  return standardPose(view, marks.frame, marks.outside_m, marks.wall_m);
+  return standardPose(view, marks.frame, marks.outside_m, marks.wall_m, marks.front_m);
 }
 
 void expectNear(const ProbePose& pose, const ProbePose& wanted, double most_deg, double most_mm,
@@ -163,7 +163,29 @@ TEST(ViewPoseLaw, PosesGrowWithTheHeart) {
   }
 }
 
-// Placed by hand, as a sonographer says it: through the apex with the valves' middles in the plane.
+// The last of a heart's surface that a ray meets, m from its start.
+double surfaceAlong_m(const RealHeart& heart, Vec3d from, Vec3d direction) {
+  double last_m = 0;
+  for (std::size_t s = 0; s < heart.surfaces.size(); ++s) {
+    const std::vector<Vec3d>& points = heart.surfaces[s].points_m;
+    for (const Triangle& t : heart.triangles[s]) {
+      const Vec3d a = points[t[0]] - from, b = points[t[1]] - from, c = points[t[2]] - from;
+      const double sides[] = {dot(direction, cross(a, b)), dot(direction, cross(b, c)),
+                              dot(direction, cross(c, a))};
+      const auto [low, high] = std::minmax_element(std::begin(sides), std::end(sides));
+      if (*low < 0 && *high > 0) continue;
+      const Vec3d normal = cross(b - a, c - a);
+      if (const double slope = dot(direction, normal); slope != 0)
+        last_m = std::max(last_m, dot(a, normal) / slope);
+    }
+  }
+  return last_m;
+}
+
+// Placed by hand, as a sonographer says it (Mitchell et al., J. Am. Soc. Echocardiogr. 32, 1-64,
+// 2019). Apical: through the apex with the valves' middles in the plane. Parasternal: from in
+// front, the long axis level; 15 mm behind the mitral ring, where its leaflets end, or half-way to
+// the apex.
 ProbePose byHand(View view, const RealHeart& heart) {
   const Vec3d axis = normalised(heart.apex - heart.mitral);
   const auto across = [&](Vec3d v) { return normalised(v - dot(v, axis) * axis); };
@@ -176,9 +198,23 @@ ProbePose byHand(View view, const RealHeart& heart) {
     return ProbePose{heart.apex - skin_m * down, down,
                      normalised(to_right - dot(to_right, down) * down)};
   };
+  // On the chest, 22 mm before what nine rays from 10 by 10 mm of the probe's face meet first.
+  const auto before = [&](Vec3d target, Vec3d to_right) {
+    double off_m = 0;
+    for (const double right_m : {-0.005, 0.0, 0.005})
+      for (const double up_m : {-0.005, 0.0, 0.005})
+        off_m = std::max(
+            off_m,
+            0.022 + surfaceAlong_m(heart, target + right_m * to_right + up_m * cross(out, to_right),
+                                   out));
+    return ProbePose{target + off_m * out, -out, to_right};
+  };
   if (view == View::a4c) return from(crux, left);
   if (view == View::a2c) return from(heart.mitral, 0.5 * left + 0.866 * front);
   if (view == View::a3c) return from(0.5 * (heart.mitral + heart.aortic), out);
+  if (view == View::plax) return before(heart.mitral + 0.015 * axis, -axis);
+  if (view == View::psax_mid)
+    return before(0.5 * (heart.mitral + heart.apex), across(cross(out, axis)));
   ADD_FAILURE() << "no hand has placed it";
   return {};
 }
@@ -186,8 +222,8 @@ ProbePose byHand(View view, const RealHeart& heart) {
 TEST(ViewPoseLaw, RealHeartsAreSeenAsByHand) {
   if (!realHeartsThere()) GTEST_SKIP() << "no real hearts beside the project";
   for (const RealHeart& heart : {patientHeart(), wholeHeart(), fourChamberHeart()})
-    for (const View view : {View::a4c, View::a2c, View::a3c}) {
-      if (view == View::a3c && !heart.has_aorta) continue;
+    for (const View view : {View::a4c, View::a2c, View::a3c, View::plax, View::psax_mid}) {
+      if (!heart.has_aorta && view != View::a4c && view != View::a2c) continue;
       expectNear(poseIn(view, heart.surfaces), byHand(view, heart), 10, 10,
                  heart.name + ", " + keyOf(view));
     }

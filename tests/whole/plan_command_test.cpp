@@ -106,6 +106,8 @@ void expectBlackWithWarning(TempFolder& folder, SceneText text) {
       runShell("%B render '" + scene + "' -o '" + (folder / "out").string() + "'");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("warning: nothing can be seen"), std::string::npos) << outcome.err;
+  const Outcome quiet = runShell("%B plan '" + scene + "' --quiet");
+  EXPECT_TRUE(quiet.err.starts_with("echocine: warning: nothing can be seen")) << quiet.err;
   EXPECT_EQ(brightest(folder / "out/png/frame_0001.png"), 0);
 }
 

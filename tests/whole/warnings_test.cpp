@@ -58,6 +58,7 @@ TEST_F(Warnings, ATurnedTriangleIsOneLineAndStandsInTheManifest) {
   EXPECT_EQ(warning.find(folders), std::string::npos) << warning;
 }
 
+// But for that nothing can be seen, see PlanCommand.
 TEST_F(Warnings, QuietKeepsThemInTheManifestOnly) {
   const SceneText scene = slipped();
   const Outcome outcome = run("render", scene, out() + " --quiet");
