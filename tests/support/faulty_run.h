@@ -27,9 +27,10 @@ struct FaultyRun {
   std::string fault{};                                  // of the injector, KIND:STEP
   std::function<void()> before = [] {};                 // called in the child; only system calls
   std::function<void(pid_t)> meanwhile = [](pid_t) {};  // called in the parent once it runs
+  unsigned limit_s = 180;
 };
 
-// A run that hangs ends by SIGALRM after three minutes, a hundred times longer than any takes.
+// A run that hangs ends by SIGALRM after its limit, three minutes: a hundred times longer than most take.
 inline Outcome outcomeOf(const FaultyRun& run, Steps* steps = nullptr) {
   const TempFolder folder;
   const std::string out = folder / "out", err = folder / "err", counts = folder / "steps";
@@ -47,7 +48,7 @@ inline Outcome outcomeOf(const FaultyRun& run, Steps* steps = nullptr) {
     if (!std::freopen(out.c_str(), "w", stdout) || !std::freopen(err.c_str(), "w", stderr))
       ::_exit(126);
     run.before();
-    ::alarm(180);
+    ::alarm(run.limit_s);
     ::execv(kProgram, const_cast<char* const*>(arguments.data()));
     ::_exit(127);
   }

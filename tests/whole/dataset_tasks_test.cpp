@@ -153,6 +153,7 @@ TEST_F(DatasetTasks, HeartsThatFailAreListedAndTheOthersAreWhole) {
   text.replace(text.find(usual), usual.size(), "hearts = " + std::to_string(hearts));
   place->write("tasks.toml", text);
   FaultyRun run = making("failing");
+  run.limit_s += 20 * static_cast<unsigned>(hearts);
   run.before = [&] { ::setenv("ECHOCINE_FAILING_HEARTS", share.c_str(), 1); };
   const Outcome made = outcomeOf(run);
   ASSERT_EQ(made.code, 0) << made.err;
