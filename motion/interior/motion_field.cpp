@@ -42,6 +42,7 @@ struct MotionField::State {
   struct Group {
     GroupMembers members;
     GroupLattice lattice;
+    double reach_across_m = 0;
   };
   FieldSettings settings;
   FieldSpace space{};
@@ -49,7 +50,6 @@ struct MotionField::State {
   std::vector<std::uint32_t> group_of;  // by surface
   std::vector<Group> groups;
   std::vector<PhaseClass> classes;
-  double reach_across_m = 0;
 
   void number(const std::vector<InteriorSurface>& surfaces);
   std::vector<std::int32_t> classify(const std::vector<InteriorSurface>& surfaces);
@@ -71,12 +71,12 @@ void MotionField::State::number(const std::vector<InteriorSurface>& surfaces) {
              surfaces[group.members.surfaces.front()].group == surfaces[s].group;
     };
     auto found = std::find_if(groups.begin(), groups.end(), same);
-    if (found == groups.end()) found = groups.insert(found, Group{{{}, true}, {}});
+    if (found == groups.end()) found = groups.insert(found, Group{{{}, true}, {}, 0});
     found->members.surfaces.push_back(s);
     found->members.open &= surfaces[s].weights.keyframeCount() == 1;
     group_of[s] = static_cast<std::uint32_t>(found - groups.begin());
   }
-  groups.push_back({{{background}, true}, {}});
+  groups.push_back({{{background}, true}, {}, 0});
   for (std::uint32_t& group : group_of)
     group = std::min(group, static_cast<std::uint32_t>(groups.size() - 1));
 }
@@ -137,11 +137,11 @@ void MotionField::State::fit(std::span<const BorderPoint> points) {
     for (std::size_t g = begin; g < end; ++g)
       groups[g].lattice = fitGroup(space, groups[g].members, *winners, points, classes);
   });
-  for (const Group& group : groups)
+  for (Group& group : groups)
     for (const auto& rows : group.lattice.rows_m)
       for (const auto& row : rows)
         for (const Vec3f d : row)
-          reach_across_m = std::max(reach_across_m, std::abs(static_cast<double>(d.y)));
+          group.reach_across_m = std::max(group.reach_across_m, std::abs(static_cast<double>(d.y)));
 }
 
 MotionField::MotionField(std::vector<InteriorSurface> surfaces, const FieldSettings& settings)
@@ -192,7 +192,12 @@ double MotionField::spacing() const {
   return state_->space.spacing_m;
 }
 double MotionField::reachAcrossPlane() const {
-  return state_->reach_across_m;
+  double most_m = 0;
+  for (const State::Group& group : state_->groups) most_m = std::max(most_m, group.reach_across_m);
+  return most_m;
+}
+double MotionField::reachAcrossPlane(GroupId group) const {
+  return state_->groups[index(group)].reach_across_m;
 }
 
 std::optional<SurfaceId> MotionField::surfaceAt(Vec3f reference_m) const {
@@ -218,24 +223,29 @@ void MotionField::groupsAt(std::span<const Vec3f> reference_m, std::span<GroupId
 
 namespace {
 
+constexpr float kEverywhere_m = 1e3f;
+
 // The active nodes of the slabs about a range of y.
-std::pair<std::uint32_t, std::uint32_t> nodesWithin(
-    const GroupLattice& lattice, const std::optional<std::pair<float, float>>& y_range_m) {
-  if (!y_range_m) return {0, lattice.slab_starts.back()};
+std::pair<std::uint32_t, std::uint32_t> nodesWithin(const GroupLattice& lattice,
+                                                    std::pair<float, float> y_range_m) {
   const LatticeGrid& grid = lattice.grid;
   const auto slabOf = [&](float y, int beyond) {
     const float slab = std::floor((y - grid.origin_m.y) / grid.spacing_m);
     return std::clamp(static_cast<int>(slab) + beyond, 0, grid.ny);
   };
-  const int first = slabOf(y_range_m->first, 0), end = slabOf(y_range_m->second, 2);
+  const int first = slabOf(y_range_m.first, 0), end = slabOf(y_range_m.second, 2);
   return {lattice.slab_starts[static_cast<std::size_t>(first)],
           lattice.slab_starts[static_cast<std::size_t>(std::max(first, end))]};
 }
 
 }  // namespace
 
-void MotionField::at(double phase, FieldFrame& frame,
-                     std::optional<std::pair<float, float>> y_range_m) const {
+void MotionField::at(double phase, FieldFrame& frame) const {
+  at(phase, frame, FieldPart(groupCount(), std::pair(-kEverywhere_m, kEverywhere_m)));
+}
+
+void MotionField::at(double phase, FieldFrame& frame, const FieldPart& part) const {
+  CHECK_EQ(part.size(), groupCount());
   frame.phase = phase;
   frame.groups.resize(state_->groups.size());
   thread_local std::vector<std::vector<KeyframeWeights::Term>> terms;
@@ -249,8 +259,8 @@ void MotionField::at(double phase, FieldFrame& frame,
     GroupFrame& out = frame.groups[g];
     out.grid = lattice.grid;
     out.displacement_m.resize(lattice.grid.empty() ? 0 : lattice.grid.count());
-    if (lattice.grid.empty()) continue;
-    const auto [begin, end] = nodesWithin(lattice, y_range_m);
+    if (lattice.grid.empty() || !part[g]) continue;
+    const auto [begin, end] = nodesWithin(lattice, *part[g]);
     sums_m.assign(end - begin, Vec3f{});
     for (std::size_t c = 0; c < terms.size(); ++c)
       for (const KeyframeWeights::Term& term : terms[c]) {

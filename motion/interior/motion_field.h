@@ -93,6 +93,10 @@ struct FieldFrame {
   const GroupFrame& operator[](GroupId group) const { return groups[index(group)]; }
 };
 
+// What of each group will be asked for, by GroupId: the lowest and the highest reference y, m;
+// nothing of a group that is not.
+using FieldPart = std::vector<std::optional<std::pair<float, float>>>;
+
 class MotionField {
  public:
   // Fits all groups. Uses the threads of the enclosing withThreads(); the same field for any
@@ -115,15 +119,15 @@ class MotionField {
   // The winning closed surface at a reference place; nothing in the background.
   std::optional<SurfaceId> surfaceAt(Vec3f reference_m) const;
 
-  // The field at a phase. With `y_range_m` (lowest and highest reference y that will be asked for)
-  // only the nodes about that slab are blended, the others keep what they had: the cost is the
-  // slab's. Thread-safe.
-  void at(double phase, FieldFrame& frame,
-          std::optional<std::pair<float, float>> y_range_m = {}) const;
+  // The field at a phase; of a part only the nodes about it are blended, the others keep what they
+  // had: the cost is the part's. Thread-safe.
+  void at(double phase, FieldFrame& frame) const;
+  void at(double phase, FieldFrame& frame, const FieldPart& part) const;
 
   // The most that any node moves along y, from the reference, at any keyframe: material that the
-  // imaging plane can show lies within this of it. m.
+  // imaging plane can show lies within this of it. m. Of all groups, or of one.
   double reachAcrossPlane() const;
+  double reachAcrossPlane(GroupId group) const;
 
  private:
   struct State;

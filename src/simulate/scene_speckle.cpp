@@ -8,8 +8,8 @@ SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion, const E
     : material_(scene, motion, &plan),
       sheets_(scene, motion, material_.field().referencePhase()),
       speckle_(scene.probe, scene.signal.pulse_cycles, scene.speckle, material_) {
-  const double half_m = speckle_.farthestAcross_m();
-  y_range_m_ = {static_cast<float>(-half_m), static_cast<float>(half_m)};
+  const auto half_m = static_cast<float>(speckle_.farthestAcross_m());
+  about_plane_.assign(material_.field().groupCount(), std::pair(-half_m, half_m));
 }
 
 void SceneSpeckle::apply(const FrameTime& time, const SurfaceFrame& surfaces,
@@ -17,7 +17,7 @@ void SceneSpeckle::apply(const FrameTime& time, const SurfaceFrame& surfaces,
   thread_local std::vector<Vec3f> on_sheets_m;
   sheets_.at(surfaces, on_sheets_m);
   thread_local FieldFrame frame;
-  material_.field().at(time.phase, frame, y_range_m_);
+  material_.field().at(time.phase, frame, about_plane_);
   speckle_.apply(FieldMaterialFrame(frame, on_sheets_m), time.time_s, intensities);
 }
 

@@ -24,7 +24,7 @@ class SceneSpeckle {
   FieldMaterial material_;
   SheetPoints sheets_;
   Speckle speckle_;
-  std::pair<float, float> y_range_m_;  // of the tissue that beams may see
+  FieldPart about_plane_;  // where scatterers stand
 };
 
 }  // namespace echocine

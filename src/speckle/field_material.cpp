@@ -25,14 +25,14 @@ FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion, const
       blood_[index(field_.groupOf(surface.id))] =
           scene.medium(scene.structures[index(surface.id)].medium).blood;
   FieldFrame frame;
+  float farthest_m2 = 0;
   for (int i = 0; i < kPhasesLookedAt; ++i) {
     field_.at(static_cast<double>(i) / kPhasesLookedAt, frame);
     for (const GroupFrame& group : frame.groups)
       for (const Vec3f d : group.displacement_m)
-        along_m_ =
-            std::max(along_m_, std::hypot(static_cast<double>(d.x), static_cast<double>(d.z)));
+        farthest_m2 = std::max(farthest_m2, d.x * d.x + d.z * d.z);
   }
-  along_m_ *= kBetweenPhases;
+  along_m_ = kBetweenPhases * std::sqrt(static_cast<double>(farthest_m2));
   across_m_ = kBetweenPhases * field_.reachAcrossPlane();
   const float fine_m = static_cast<float>(field_.spacing());
   lattice_.block_m = fine_m > 0 ? 2 * fine_m : kStillBlock_m;

@@ -58,6 +58,7 @@ TruthMaker::TruthMaker(const Scene& scene, const MeshMotion& motion, const Pictu
   if (!motion_wanted_ && !scene.truth.tracks && !scene.truth.function) return;
   field_.emplace(interiorMotion(scene, motion));
   field_->at(first_phase, first_);
+  in_plane_ = tissueInPlane();
   if (!scene.truth.tracks && !scene.truth.function) return;
   function_.emplace(scene, motion, *field_, first_phase);
   if (scene.truth.tracks) chooseTracks();
@@ -77,10 +78,12 @@ void TruthMaker::chooseTracks() {
   for (const std::uint32_t i : nearest)
     for (std::uint8_t layer = 0; layer < 3 && tracked_.size() < wanted; ++layer)
       tracked_.push_back({layer, static_cast<std::uint8_t>(columns[i].segment), i});
-  tracked_y_m_ = {kFarAway, -kFarAway};
+  std::pair<float, float> y_m{kFarAway, -kFarAway};
   for (const Tracked& point : tracked_)
     for (const Vec3f p : {columns[point.column].mid_m, columns[point.column].epi_m})
-      tracked_y_m_ = {std::min(tracked_y_m_.first, p.y), std::max(tracked_y_m_.second, p.y)};
+      y_m = {std::min(y_m.first, p.y), std::max(y_m.second, p.y)};
+  about_tracks_.resize(field_->groupCount());
+  about_tracks_[index(field_->groupOf(function_->wall()))] = y_m;
   const auto seen = [&](const Tracked& point) {
     const Vec3d p = toDouble(columns[point.column].mid_m);
     return inScanArea(scene_.probe, p.x, p.z);
@@ -138,14 +141,24 @@ std::shared_ptr<TruthMaker::Space> TruthMaker::space() const {
           }};
 }
 
-// Only slabs that the imaging plane can show are blended.
+// Only what the imaging plane can show of tissue is blended.
+FieldPart TruthMaker::tissueInPlane() const {
+  const std::vector<bool> tissue = tissueGroups(scene_, *field_);
+  FieldPart part(tissue.size());
+  for (std::size_t g = 0; g < part.size(); ++g) {
+    if (!tissue[g]) continue;
+    const double reach_m =
+        field_->reachAcrossPlane(static_cast<GroupId>(g)) + 2 * field_->spacing();
+    part[g].emplace(static_cast<float>(-reach_m), static_cast<float>(reach_m));
+  }
+  return part;
+}
+
 void TruthMaker::addMotion(const TruthTime& time, Space& space, FrameTruth& truth) const {
-  const auto reach_m = static_cast<float>(field_->reachAcrossPlane() + 2 * field_->spacing());
-  const std::pair slab(-reach_m, reach_m);
-  field_->at(time.phase, space.now, slab);
+  field_->at(time.phase, space.now, in_plane_);
   if (velocity_) {
-    field_->at(time.before, space.before, slab);
-    field_->at(time.after, space.after, slab);
+    field_->at(time.before, space.before, in_plane_);
+    field_->at(time.after, space.after, in_plane_);
   }
   const bool moved = first_.phase != field_->referencePhase();
   const FieldTimes times{moved ? &first_ : nullptr, space.now, velocity_ ? space.before : space.now,
@@ -180,7 +193,7 @@ FrameTruth TruthMaker::at(const TruthTime& time, const TruthShared& shared) cons
     field_->at(time.phase, s->now);
     truth.function = function_->at(surfaces, s->now);
   } else if (wanted.tracks) {
-    field_->at(time.phase, s->now, tracked_y_m_);
+    field_->at(time.phase, s->now, about_tracks_);
   }
   if (wanted.tracks) addTracks(surfaces, *s, truth);
   if (motion_wanted_) addMotion(time, *s, truth);

@@ -84,6 +84,7 @@ class TruthMaker {
   std::shared_ptr<Space> space() const;
   void chooseTracks();
   void lookAtBeat();
+  FieldPart tissueInPlane() const;
   void addTracks(const SurfaceFrame& surfaces, const Space& space, FrameTruth& truth) const;
   void addLabels(const PlaneSlice& slice, FrameTruth& truth) const;
   const PlaneSlice& sliceOf(const SurfaceFrame& surfaces, const TruthShared& shared,
@@ -98,7 +99,7 @@ class TruthMaker {
   std::optional<MotionField> field_;
   std::optional<HeartFunction> function_;
   std::vector<Tracked> tracked_;
-  std::pair<float, float> tracked_y_m_{};  // lowest and highest at the reference phase
+  FieldPart in_plane_, about_tracks_;  // what a frame blends for motion and for tracks
   std::optional<ValveTimes> valves_;
   std::optional<ViewOffset> view_;
   FieldFrame first_;  // the loop's first frame

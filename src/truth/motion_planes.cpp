@@ -150,6 +150,14 @@ std::size_t runEnd(std::span<const std::uint32_t> ids, std::size_t begin) {
 
 }  // namespace
 
+std::vector<bool> tissueGroups(const Scene& scene, const MotionField& field) {
+  std::vector<bool> groups(field.groupCount(), false);
+  const std::vector<bool> tissue = tissueOf(scene);
+  for (std::size_t s = 0; s < scene.structures.size(); ++s)
+    if (tissue[s + 1]) groups[index(field.groupOf(static_cast<SurfaceId>(s)))] = true;
+  return groups;
+}
+
 void motionPlanes(const Scene& scene, const MotionField& field, const FieldTimes& times,
                   std::span<const std::uint32_t> ids, bool velocity, MotionPlanes& planes) {
   const auto samples = static_cast<std::size_t>(scene.probe.samples);

@@ -24,6 +24,9 @@ struct FieldTimes {
   double seconds = 0;  // from before to after
 };
 
+// By group: whether it is tissue, of which motionPlanes() tells.
+std::vector<bool> tissueGroups(const Scene& scene, const MotionField& field);
+
 // ids: every sample's structure, from 1. Blood and the background have no motion of their own: the
 // one is renewed, the other unknown.
 void motionPlanes(const Scene& scene, const MotionField& field, const FieldTimes& times,

@@ -98,7 +98,7 @@ TEST(MaterialPointsLaw, APlaceIsFoundBackAndASlabIsTheWhole) {
       nestedBalls({{0.9, 0.1, 0}, {0, 0.8, 0}, {0.1, 0, 1.1}, {0.003, 0.002, 0}}));
   FieldFrame frame, slab;
   field.at(0.3, frame);
-  field.at(0.3, slab, std::pair(-0.005f, 0.005f));
+  field.at(0.3, slab, FieldPart(field.groupCount(), std::pair(-0.005f, 0.005f)));
   for (std::uint64_t i = 0; i < 500; ++i) {
     const Vec3f p = toFloat({0.02 * uniformFromHash(hashOf(i, 1)),
                              0.005 * (2 * uniformFromHash(hashOf(i, 2)) - 1),
