@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/loop_scene.h"
 #include "support/page_data.h"
 #include "support/run_program.h"
@@ -31,7 +33,7 @@ TEST_F(ViewCommand, WritesAPageAndSaysWhatIsSeen) {
   EXPECT_EQ(data["view"]["structures"][1]["medium"], "blood");
 }
 
-TEST_F(ViewCommand, QuietSaysNothingThoughNothingIsSeen) {
+TEST_F(ViewCommand, QuietSaysOnlyThatNothingIsSeen) {
   SceneText text = ballScene(4);
   text.setProbe("axis", "[0, 0, -1]");
   const Outcome loud = view(text);
@@ -39,7 +41,9 @@ TEST_F(ViewCommand, QuietSaysNothingThoughNothingIsSeen) {
       << loud.out;
   const Outcome quiet = view(text, "--quiet");
   EXPECT_EQ(quiet.code, 0);
-  EXPECT_EQ(quiet.out + quiet.err, "");
+  EXPECT_EQ(quiet.out, "");
+  EXPECT_TRUE(quiet.err.starts_with("echocine: warning: nothing can be seen")) << quiet.err;
+  EXPECT_EQ(std::count(quiet.err.begin(), quiet.err.end(), '\n'), 1) << quiet.err;
   EXPECT_FALSE(dataOf(bytesOf(page))["view"]["sees_any"]);
 }
 
