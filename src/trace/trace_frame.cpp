@@ -170,10 +170,12 @@ TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan, EchoCel
       reflection_cap(plan.reflection_cap),
       thin_layers(plan.thin_layers),
       cells(integrated),
+      coherent_echoes(plan.coherent_echoes),
       note_hits(integrated == EchoCells::contours) {
   for (const Structure& s : scene.structures)
     surfaces.push_back({s.medium, s.priority, s.membrane, s.reflection_gain,
-                        plan.lobe ? s.reflection_exponent : 0});
+                        plan.lobe ? s.reflection_exponent : 0,
+                        s.coherent_share / (1 + s.coherent_share)});
 }
 
 PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan) {
@@ -211,6 +213,11 @@ void sampleLines(const Probe& probe, const TraceSettings& settings, const PlaneR
     for (std::size_t i = begin; i < end; ++i) sampler.sample(static_cast<int>(i), frame.traces[i]);
   });
   if (settings.cells != EchoCells::none) sampler.addCellEchoes();
+  if (settings.coherent_echoes && request.intensities) {
+    frame.coherent.clear(frame.intensities.size());
+    addCoherent(frame.traces, frame.cell_echoes, settings, samplingOf(probe, settings),
+                request.intensity_terms, frame.coherent);
+  }
   work += sampler.work();
 }
 
@@ -238,7 +245,8 @@ WorkCounts traceFrame(const FrameGeometry& geometry, const Probe& probe,
   reservePlanes(probe, request, frame);
   WorkCounts work = walkLines(geometry, probe, settings, frame.traces);
   work.bvh_updates = 1;  // the one that this frame's rays went through
-  if (settings.cells == EchoCells::links) linkEchoes(probe, frame.traces, frame.cell_echoes);
+  if (settings.cells == EchoCells::links)
+    linkEchoes(probe, settings, frame.traces, frame.cell_echoes);
   sampleLines(probe, settings, request, frame, work);
   return work;
 }
