@@ -22,6 +22,8 @@ class BeamAverage {
   void apply(std::vector<float>& plane, LineRange lines) const;
 
   bool acrossLines() const { return !runs_.empty(); }
+  // Of each line so many samples, from the first, as the averages of some lines take in.
+  std::vector<int> taken(LineRange lines) const;
 
  private:
   // Samples first..last-1, neighbours in one block, whose windows end in the same lines: those of

@@ -12,6 +12,7 @@ namespace echocine {
 SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
     : settings_(scene.signal),
       all_lines_{0, scene.probe.lines},
+      samples_(scene.probe.samples),
       geometry_(pictureGeometry(scene)),
       converter_(scene.probe, geometry_, scene.output.width, scene.output.height,
                  scene.signal.grey_gamma, ScanConverter::averagedOver(scene, geometry_)) {
@@ -37,11 +38,20 @@ void SignalChain::process(Intensities& intensities, LineRange lines) const {
   if (!losses_.empty()) applySectorLosses(losses_, intensities);
   if (haze_) haze_->add(intensities);
   if (!tail_) return;
-  const std::size_t samples =
-      intensities.size() / static_cast<std::size_t>(std::max(all_lines_.count(), 1));
+  const auto samples = static_cast<std::size_t>(samples_);
   tail_->add(std::span<float>(intensities)
                  .subspan(static_cast<std::size_t>(lines.first) * samples,
                           static_cast<std::size_t>(lines.count()) * samples));
+}
+
+std::vector<int> SignalChain::taken(LineRange lines) const {
+  const auto all = static_cast<std::size_t>(all_lines_.end);
+  const int samples = samples_;
+  if (haze_) return std::vector<int>(all, samples);
+  if (beam_) return beam_->taken(lines);
+  std::vector<int> taken(all, 0);
+  std::fill(taken.begin() + lines.first, taken.begin() + lines.end, samples);
+  return taken;
 }
 
 void SignalChain::process(CoherentEchoes& echoes, LineRange lines) const {

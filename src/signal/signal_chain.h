@@ -26,10 +26,11 @@ class SignalChain {
 
   // Time gain, beam width and what the chest does to echoes, in place.
   void process(Intensities& intensities) const { process(intensities, all_lines_); }
-  // The same of some lines. What becomes of the others is not defined. All lines have to be as they
-  // were received, but where mixesLines() is false, which needs those lines alone.
+  // The same of some lines. What becomes of the others is not defined. What it takes in has to be
+  // as it was received.
   void process(Intensities& intensities, LineRange lines) const;
-  bool mixesLines() const { return (beam_ && beam_->acrossLines()) || haze_; }
+  // Of each line so many samples, from the first, as process() of some lines takes in.
+  std::vector<int> taken(LineRange lines) const;
 
   // The same of what is coherent, as far as it stays so: no haze and no tail.
   void process(CoherentEchoes& echoes, LineRange lines) const;
@@ -48,6 +49,7 @@ class SignalChain {
  private:
   SignalSettings settings_;
   LineRange all_lines_;
+  int samples_;
   std::vector<float> gains_;  // of a table or the mean; empty: none
   std::optional<BeamAverage> beam_;
   std::vector<float> losses_;  // of drop-out and ribs; empty: none

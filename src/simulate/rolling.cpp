@@ -8,7 +8,8 @@
 
 namespace echocine {
 
-RollingLines::RollingLines(const Scene& scene)
+RollingLines::RollingLines(const Scene& scene,
+                           const std::function<std::vector<int>(LineRange)>& taken)
     : lines_(scene.probe.lines), samples_(scene.probe.samples) {
   const double whole_s = scene.acquisition.rolling_share / scene.acquisition.frame_rate_hz;
   const int together = scene.accuracy.rolling_lines;
@@ -16,7 +17,13 @@ RollingLines::RollingLines(const Scene& scene)
     const LineRange lines{first, std::min(first + together, lines_)};
     // Exactly 0 of the middle: its instant is the frame's very time.
     const double from_middle = 0.5 * (lines.first + lines.end - lines_) / lines_;
-    groups_.push_back({lines, from_middle * whole_s});
+    Group group{lines, from_middle * whole_s, {lines, taken(lines)}, lines};
+    const std::vector<int>& samples = group.traced.intensities;
+    while (group.beams.first > 0 && samples[static_cast<std::size_t>(group.beams.first - 1)] > 0)
+      --group.beams.first;
+    while (group.beams.end < lines_ && samples[static_cast<std::size_t>(group.beams.end)] > 0)
+      ++group.beams.end;
+    groups_.push_back(std::move(group));
   }
   if (!scene.truth.labels) return;
   const PictureGrid grid = pictureGrid(scene);

@@ -7,22 +7,27 @@
 // line of a rolling frame is that of the still frame at its group's instant.
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/beam_plane.h"
 #include "scene/scene.h"
 #include "trace/polar_frame.h"
+#include "trace/trace_frame.h"
 #include "truth/frame_truth.h"
 
 namespace echocine {
 
 class RollingLines {
  public:
-  explicit RollingLines(const Scene& scene);
+  // taken: which samples of each line are traced for some lines.
+  RollingLines(const Scene& scene, const std::function<std::vector<int>(LineRange)>& taken);
 
   struct Group {
     LineRange lines;
-    double offset_s = 0;  // from the frame's time
+    double offset_s = 0;     // from the frame's time
+    NeededSamples traced{};  // for these lines
+    LineRange beams{};       // that hold all these samples
   };
   const std::vector<Group>& groups() const { return groups_; }
 

@@ -55,11 +55,14 @@ Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, Loop
       settings_(scene_, plan_.effects, echoCells(plan_)),
       request_(planeRequest(scene_, plan_.effects)),
       all_lines_{0, scene_.probe.lines} {
-  if (plan_.effects.rolling) rolling_.emplace(scene_);
   if (plan_.effects.rays_per_beam > 1)
     beams_.emplace(scene_.probe, beamSpread(plan_.effects, scene_.acquisition.seed));
   if (plan_.effects.speckle)
     speckle_ = std::make_unique<const SceneSpeckle>(scene_, *motion_, plan_.effects);
+  if (plan_.effects.rolling)
+    rolling_.emplace(scene_, [this](LineRange lines) {
+      return chain_.taken(speckle_ ? speckle_->reach(lines) : lines);
+    });
   if (plan_.effects.persistence)
     persistence_ = std::make_unique<const Persistence>(scene_.artefacts.persistence, cardiac_clock_,
                                                        scene_.acquisition.frame_rate_hz);
@@ -112,16 +115,19 @@ void refuseUnusable(double phase, const PolarFrame& polar) {
 
 }  // namespace
 
-WorkCounts Simulator::traceRays(const PlaneSlice& slice, int /*frame*/, LineRange /*lines*/,
+WorkCounts Simulator::traceRays(const PlaneSlice& slice, int /*frame*/, const Group* group,
                                 PolarFrame& polar) const {
-  return traceFrame(slice, scene_.probe, settings_, request_, polar);
+  return traceFrame(slice, scene_.probe, settings_, request_, polar,
+                    group ? &group->traced : nullptr);
 }
 
-WorkCounts Simulator::traceRays(const FrameGeometry& geometry, int frame, LineRange lines,
+WorkCounts Simulator::traceRays(const FrameGeometry& geometry, int frame, const Group* group,
                                 PolarFrame& polar) const {
   if (beams_)
-    return traceBeams(geometry, scene_.probe, settings_, request_, *beams_, frame, lines, polar);
-  return traceFrame(geometry, scene_.probe, settings_, request_, polar);
+    return traceBeams(geometry, scene_.probe, settings_, request_, *beams_, frame,
+                      group ? group->beams : all_lines_, polar);
+  return traceFrame(geometry, scene_.probe, settings_, request_, polar,
+                    group ? &group->traced : nullptr);
 }
 
 Volumes Simulator::trace(const FrameTime& time, Workspace& w) const {
@@ -143,11 +149,11 @@ Volumes Simulator::stand(const FrameTime& time, Workspace& w) const {
   return volumes_ml;
 }
 
-WorkCounts Simulator::traceAt(const FrameTime& time, LineRange lines, Workspace& w) const {
+WorkCounts Simulator::traceAt(const FrameTime& time, const Group* group, Workspace& w) const {
   return std::visit(
       [&](const auto& geometry) {
         return clock_.time(Stage::trace,
-                           [&] { return traceRays(geometry, time.frame, lines, w.polar); });
+                           [&] { return traceRays(geometry, time.frame, group, w.polar); });
       },
       w.geometry);
 }
@@ -156,7 +162,7 @@ Volumes Simulator::traceUncounted(const FrameTime& time, Workspace& w, WorkCount
   if (w.polar.intensities.empty()) w.polar.intensities = Intensities(w.greys.release());
   if (rolling_) work = traceRolling(time, w);
   Volumes volumes_ml = stand(time, w);
-  if (!rolling_) work = traceAt(time, all_lines_, w);
+  if (!rolling_) work = traceAt(time, nullptr, w);
   return volumes_ml;
 }
 

@@ -128,14 +128,16 @@ class Simulator {
       : Simulator(std::move(read.first), std::move(read.second)) {}
   Volumes volumes(const SurfaceFrame& surfaces) const;
   FrameTime timeOf(double time_s) const;
-  WorkCounts traceRays(const PlaneSlice& slice, int frame, LineRange lines,
+  // Of all lines, or what a group takes in.
+  using Group = RollingLines::Group;
+  WorkCounts traceRays(const PlaneSlice& slice, int frame, const Group* group,
                        PolarFrame& polar) const;
-  WorkCounts traceRays(const FrameGeometry& geometry, int frame, LineRange lines,
+  WorkCounts traceRays(const FrameGeometry& geometry, int frame, const Group* group,
                        PolarFrame& polar) const;
   double measureReference() const;
   // A frame's surfaces, made ready for rays.
   Volumes stand(const FrameTime& time, Workspace& workspace) const;
-  WorkCounts traceAt(const FrameTime& time, LineRange lines, Workspace& workspace) const;
+  WorkCounts traceAt(const FrameTime& time, const Group* group, Workspace& workspace) const;
   void processAt(const FrameTime& time, LineRange lines, Workspace& workspace) const;
   WorkCounts traceRolling(const FrameTime& time, Workspace& workspace) const;
   Volumes traceUncounted(const FrameTime& time, Workspace& workspace, WorkCounts& work) const;

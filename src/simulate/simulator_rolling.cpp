@@ -6,18 +6,15 @@
 
 namespace echocine {
 
-// Near the probe the average over the beam takes in nearly all lines, and haze does at every depth:
-// then all are traced. What only a group's lines need is done for these alone.
+// Near the probe the average over the beam takes in nearly all lines, deeper few of them; haze
+// takes in all. What only a group's lines need is done for these alone.
 WorkCounts Simulator::traceRolling(const FrameTime& time, Workspace& w) const {
   WorkCounts work;
   for (std::size_t g = 0; g < rolling_->groups().size(); ++g) {
     const RollingLines::Group& group = rolling_->groups()[g];
     const FrameTime at = timeOf(time.time_s + group.offset_s);
     stand(at, w);
-    const LineRange needed = chain_.mixesLines() ? all_lines_
-                             : speckle_          ? speckle_->reach(group.lines)
-                                                 : group.lines;
-    work += traceAt(at, needed, w);
+    work += traceAt(at, &group, w);
     if (request_.intensities) processAt(at, group.lines, w);
     rolling_->take(g, w.polar, w.rolled);
   }
@@ -28,7 +25,7 @@ WorkCounts Simulator::traceRolling(const FrameTime& time, Workspace& w) const {
 Volumes Simulator::traceStill(const FrameTime& time, Workspace& w) const {
   if (w.polar.intensities.empty()) w.polar.intensities = Intensities(w.greys.release());
   Volumes volumes_ml = stand(time, w);
-  count(traceAt(time, all_lines_, w));
+  count(traceAt(time, nullptr, w));
   if (request_.intensities) processAt(time, all_lines_, w);
   return volumes_ml;
 }
