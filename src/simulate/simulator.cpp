@@ -136,17 +136,13 @@ Volumes Simulator::trace(const FrameTime& time, Workspace& w) const {
   return volumes_ml;
 }
 
-Volumes Simulator::stand(const FrameTime& time, Workspace& w) const {
-  Volumes volumes_ml;
+void Simulator::stand(const FrameTime& time, Workspace& w) const {
   w.phase = -1;
-  clock_.time(Stage::motion, [&] {
-    motion_->frameAt(time.phase, w.surfaces, plan_.smooth_normals);
-    volumes_ml = volumes(w.surfaces);
-  });
+  clock_.time(Stage::motion,
+              [&] { motion_->frameAt(time.phase, w.surfaces, plan_.smooth_normals); });
   std::visit([&](auto& g) { clock_.time(Stage::geometry, [&] { g.update(w.surfaces); }); },
              w.geometry);
   w.phase = time.phase;
-  return volumes_ml;
 }
 
 WorkCounts Simulator::traceAt(const FrameTime& time, const Group* group, Workspace& w) const {
@@ -161,9 +157,9 @@ WorkCounts Simulator::traceAt(const FrameTime& time, const Group* group, Workspa
 Volumes Simulator::traceUncounted(const FrameTime& time, Workspace& w, WorkCounts& work) const {
   if (w.polar.intensities.empty()) w.polar.intensities = Intensities(w.greys.release());
   if (rolling_) work = traceRolling(time, w);
-  Volumes volumes_ml = stand(time, w);
+  stand(time, w);
   if (!rolling_) work = traceAt(time, nullptr, w);
-  return volumes_ml;
+  return clock_.time(Stage::motion, [&] { return volumes(w.surfaces); });
 }
 
 void Simulator::count(const WorkCounts& work) const {

@@ -136,7 +136,7 @@ class Simulator {
                        PolarFrame& polar) const;
   double measureReference() const;
   // A frame's surfaces, made ready for rays.
-  Volumes stand(const FrameTime& time, Workspace& workspace) const;
+  void stand(const FrameTime& time, Workspace& workspace) const;
   WorkCounts traceAt(const FrameTime& time, const Group* group, Workspace& workspace) const;
   void processAt(const FrameTime& time, LineRange lines, Workspace& workspace) const;
   WorkCounts traceRolling(const FrameTime& time, Workspace& workspace) const;

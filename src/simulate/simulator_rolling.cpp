@@ -24,10 +24,10 @@ WorkCounts Simulator::traceRolling(const FrameTime& time, Workspace& w) const {
 
 Volumes Simulator::traceStill(const FrameTime& time, Workspace& w) const {
   if (w.polar.intensities.empty()) w.polar.intensities = Intensities(w.greys.release());
-  Volumes volumes_ml = stand(time, w);
+  stand(time, w);
   count(traceAt(time, nullptr, w));
   if (request_.intensities) processAt(time, all_lines_, w);
-  return volumes_ml;
+  return clock_.time(Stage::motion, [&] { return volumes(w.surfaces); });
 }
 
 }  // namespace echocine

@@ -113,6 +113,36 @@ TEST_F(Rolling, TheFirstFramesEarlyLinesAreOfABeatBefore) {
   }
 }
 
+// Speckle and rolling lines know no seam between beats: from one frame to the next as much changes
+// across the beat's end as beside it.
+TEST_F(Rolling, BeatsAreContinuous) {
+  for (const bool rolling : {false, true}) {
+    SceneText text = ball();
+    text.acquisition["frame_rate_hz"] = "200";
+    text.signal["reference_intensity"] = "1e-6";
+    text.extra = "[speckle]\non = true\nblood_time_ms = 100\ntissue_time_ms = 400\n";
+    const Simulator simulator(scene(text, rolling));
+    const auto at = [&](int frame) { return simulator.frame(frame / 200.0).greys.values; };
+    std::vector<double> changes;
+    std::vector<float> before = at(194);
+    for (int frame = 195; frame <= 206; ++frame) {
+      const std::vector<float> now = at(frame);
+      double sum = 0;
+      for (std::size_t i = 0; i < now.size(); ++i)
+        sum += std::abs(double{now[i]} - double{before[i]});
+      changes.push_back(sum / static_cast<double>(now.size()));
+      before = now;
+    }
+    constexpr std::ptrdiff_t kSeam = 5;  // from frame 199 to 200
+    const double seam = changes[kSeam];
+    changes.erase(changes.begin() + kSeam);
+    const auto [least, most] = std::minmax_element(changes.begin(), changes.end());
+    EXPECT_GT(seam, 0.9 * *least) << rolling;
+    EXPECT_LT(seam, 1.1 * *most) << rolling;
+    EXPECT_LT(*most, 0.01);  // of other speckle it would be some 0.05
+  }
+}
+
 TEST_F(Rolling, WhatStandsStillIsTheStillFrame) {
   SceneText text = SceneText::oneBox("myocardium");
   text.probe["lines"] = "24";
