@@ -70,7 +70,14 @@ FrameTime CardiacClock::inSteadyBeats(double time_s, double cycles) const {
   return t;
 }
 
+// Before the loop's start the first beat is taken to have had one like it before.
 FrameTime CardiacClock::inVariedBeats(double time_s) const {
+  if (time_s < 0) {
+    FrameTime t = inVariedBeats(starts_s_[1] + time_s);
+    t.time_s = time_s;
+    t.beat = -1;
+    return t;
+  }
   const double tolerance_s = kWholeBeatTolerance / acquisition_.heart_rate_hz;
   const auto next =
       std::upper_bound(starts_s_.begin() + 1, starts_s_.end() - 1, time_s + tolerance_s);

@@ -27,7 +27,8 @@ class CardiacClock {
   // least 1.
   int frameCount() const;
   FrameTime at(int frame) const;
-  // Any instant from the loop's first frame to the end of its last. Precondition: in that range.
+  // Any instant from half a frame's interval before the loop's first frame to the end of its last.
+  // Precondition: in that range.
   FrameTime atTime(double time_s) const;
 
  private:

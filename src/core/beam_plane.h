@@ -35,6 +35,12 @@ class BeamPlane {
   friend bool operator==(const BeamPlane&, const BeamPlane&) = default;
 };
 
+// Scan lines from `first` to before `end`.
+struct LineRange {
+  int first = 0, end = 0;
+  int count() const { return end - first; }
+};
+
 // Received intensities relative to the transmitted I_S, as the trace stage or the signal chain up
 // to the average over the beam leaves them.
 using Intensities = BeamPlane<struct IntensityQuantity>;

@@ -176,6 +176,7 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest) {
                         {Effect::speckle, Stage::speckle, 1},
                         {Effect::heterogeneity, Stage::speckle, 0.01},
                         {Effect::anisotropy, Stage::speckle, 0.01},
+                        {Effect::coherent_echoes, Stage::speckle, 0.1},
                         {Effect::dropout, Stage::signal, 0.05},
                         {Effect::acoustic_window, Stage::signal, 0.05},
                         {Effect::haze, Stage::signal, 0.3},

@@ -37,7 +37,7 @@ std::optional<double> findReference(const Simulator& simulator, std::pair<int, i
       [&](std::size_t i) -> std::shared_ptr<void> {
         auto frame = std::make_shared<KeptFrame>();
         const std::shared_ptr<Workspace> workspace = simulator.workspace();
-        frame->volumes_ml = simulator.trace(clock.at(sampled[i]), *workspace);
+        frame->volumes_ml = simulator.traceStill(clock.at(sampled[i]), *workspace);
         simulator.clock().time(Stage::signal, [&] {
           white.add(workspace->polar.intensities, workspace->polar.medium);
         });
@@ -46,12 +46,13 @@ std::optional<double> findReference(const Simulator& simulator, std::pair<int, i
         // Only what the signal chain still needs is kept.
         frame->polar.traces.clear();
         frame->polar.cell_echoes = {};
+        frame->polar.coherent = {};
         return frame;
       },
       [&](std::size_t i, std::shared_ptr<void> result) {
         auto& frame = *static_cast<KeptFrame*>(result.get());
         const int index = sampled[i];
-        if (index >= range.first && index < range.second) {
+        if (index >= range.first && index < range.second && !simulator.plan().effects.rolling) {
           kept_bytes += bytesOf(frame.polar);
           if (kept_bytes <= kKeptBytes) kept.emplace(index, std::move(frame));
         }

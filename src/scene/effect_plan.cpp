@@ -228,6 +228,16 @@ Finding timeGain(const Scene& scene, const EffectPlan& plan) {
   return {true, "one curve of depth that undoes the loop's mean attenuation"};
 }
 
+void planRolling(const Scene& scene, EffectPlan& plan) {
+  const int together = scene.accuracy.rolling_lines;
+  plan.rolling = scene.acquisition.rolling && scene.probe.lines > together;
+  add(plan, Effect::rolling, plan.rolling,
+      !scene.acquisition.rolling ? "acquisition.rolling asks for none"
+      : !plan.rolling            ? "all lines share one instant (accuracy.rolling_lines)"
+      : together == 1            ? "each line at its own instant"
+                      : fmt::format("each {} lines at the instant of their middle", together));
+}
+
 void planSignal(const Scene& scene, EffectPlan& plan) {
   const bool picture = wantsPicture(scene);
   const Finding gain = timeGain(scene, plan);
@@ -279,6 +289,7 @@ EffectPlan planEffects(const Scene& scene) {
                             {false, "echoes are placed at their path length"});
   planSpeckle(scene, plan);
   planArtefacts(scene, plan);
+  planRolling(scene, plan);
   planSignal(scene, plan);
   return plan;
 }

@@ -36,8 +36,10 @@ struct EffectPlan {
   bool travel_time = false;
   bool speckle = false;
   bool heterogeneity = false, anisotropy = false;  // of the scatterers
+  bool coherent_echoes = false;                    // interfaces keep part of their phase
   bool dropout = false, acoustic_window = false, haze = false, reverberation = false;
   bool clutter = false, noise = false, persistence = false;
+  bool rolling = false;                          // groups of lines have instants of their own
   int rays_per_beam = 1;                         // that are traced
   bool lateral_rays = false, elevation = false;  // what several rays are spread over
   // Of signal.tgc = "mean": what the loop's mean attenuation takes at each sample's depth, 0..1.

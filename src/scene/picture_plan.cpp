@@ -29,6 +29,15 @@ void planTissue(const Scene& scene, EffectPlan& plan) {
   plan.anisotropy = decidePicture(
       scene, plan, Effect::anisotropy, s.anisotropy_db > 0, plan.speckle, off,
       fmt::format("muscle sends back {:g} dB less along its fibres", s.anisotropy_db));
+  const Structure* coherent = nullptr;
+  for (const Structure& structure : scene.structures)
+    if (structure.coherent_share > 0 && !coherent) coherent = &structure;
+  plan.coherent_echoes = decidePicture(
+      scene, plan, Effect::coherent_echoes, coherent != nullptr, plan.speckle && plan.reflection,
+      !plan.speckle ? "without speckle all echoes are whole" : "no interface sends back an echo",
+      !coherent ? ""
+                : fmt::format("{} sends back {:g} times as much in phase as at random",
+                              coherent->name, coherent->coherent_share));
 }
 
 }  // namespace

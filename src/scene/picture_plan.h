@@ -6,7 +6,8 @@
 
 namespace echocine {
 
-// Speckle, heterogeneity and anisotropy. Precondition: plan.contrast is decided.
+// Speckle and what scatterers and interfaces have of it. Precondition: plan.contrast and
+// plan.reflection are decided.
 void planSpeckle(const Scene& scene, EffectPlan& plan);
 
 // Drop-out, ribs, haze, reverberation, clutter, noise and persistence.

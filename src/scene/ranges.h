@@ -12,6 +12,7 @@ inline constexpr NumberRange kNearEnd_mm{.lo = 0, .hi = 1e4};
 inline constexpr NumberRange kRadius_mm{.lo = 0.001, .hi = 1e6};  // of a face; of a focus
 inline constexpr NumberRange kUnitVolume_cm3{.lo = 1e-12, .hi = 1e12};
 inline constexpr NumberRange kReflectionGain{.lo = 0, .hi = 1e6};
+inline constexpr NumberRange kCoherentShare{.lo = 0};
 inline constexpr NumberRange kDensity_kg_m3{.lo = 1e-3, .hi = 1e5};  // air 1.2, osmium 22590
 inline constexpr NumberRange kSoundSpeed_m_s{.lo = 1, .hi = 1e5};    // rubber 40, diamond 18000
 inline constexpr NumberRange kAttenuation_db_cm_mhz{.lo = 0, .hi = 1e6};
@@ -34,6 +35,7 @@ inline constexpr NumberRange kHeterogeneity_db{.lo = 0, .hi = 20};
 inline constexpr NumberRange kHelix_deg{.lo = 0, .hi = 90};
 inline constexpr NumberRange kNominalGain_db_cm_mhz{.lo = 0, .hi = 5};
 inline constexpr NumberRange kPersistence{.lo = 0, .hi = 0.8};
+inline constexpr NumberRange kRollingShare{.lo = 0.001, .hi = 1};
 inline constexpr NumberRange kHeartRates_bpm{.lo = 1, .hi = 1000};
 inline constexpr NumberRange kBeats{.lo = 1e-6, .hi = 1e6};
 

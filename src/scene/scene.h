@@ -31,6 +31,8 @@ struct Acquisition {
   WarpChoice time_warp = WarpChoice::automatic;
   double rr_variability = 0;  // standard deviation / mean of the beats' durations
   int seed = 1;               // of what is random in the acquisition
+  bool rolling = false;       // each line is acquired at its own instant, in order
+  double rolling_share = 1;   // of the frame's interval, in which all lines are acquired
 };
 
 struct Structure {
@@ -44,6 +46,7 @@ struct Structure {
   bool phases_given = false;        // by the scene; else evenly spaced
   double reflection_gain = 1;       // factor of R in W of the non-specular lobe
   double reflection_exponent = 2;   // n of the non-specular lobe
+  double coherent_share = 0;        // K: its echoes' coherent power over their random one
   Repairs repair;
   SourcePlace place;  // of its keyframes in the scene file
 };
@@ -69,6 +72,7 @@ enum class Effect {
   speckle,
   heterogeneity,
   anisotropy,
+  coherent_echoes,
   dropout,
   acoustic_window,
   haze,
@@ -76,6 +80,7 @@ enum class Effect {
   clutter,
   noise,
   persistence,
+  rolling,
   tgc,
   log_compression,
   labels,
@@ -213,6 +218,9 @@ struct AccuracySettings {
   // Refraction "auto" is off while echoes move by less than this many beam widths, by the rule of
   // simulate/echo_shift.h. Our choice.
   double refraction_tolerance_beam_widths = 0.25;
+  // Of rolling acquisition: lines that share the instant of their middle. Our choice, by what the
+  // study's README measures.
+  int rolling_lines = 32;
 };
 
 enum class ExrCompression { none, rle, zips, zip, piz, pxr24 };  // pxr24 loses: 24-bit floats

@@ -73,6 +73,7 @@ Json structuresJson(const Scene& scene) {
                     {"priority", s.priority},
                     {"reflection_gain", s.reflection_gain},
                     {"reflection_exponent", s.reflection_exponent},
+                    {"coherent_share", s.coherent_share},
                     {"repair", repairJson(s.repair)},
                     {"keyframes", keyframes}});
   }
@@ -198,7 +199,9 @@ Json sceneJson(const Scene& scene) {
         {"beats", scene.acquisition.beats},
         {"time_warp", nameOf(scene.acquisition.time_warp)},
         {"rr_variability", scene.acquisition.rr_variability},
-        {"seed", scene.acquisition.seed}}},
+        {"seed", scene.acquisition.seed},
+        {"rolling", scene.acquisition.rolling},
+        {"rolling_share", scene.acquisition.rolling_share}}},
       {"motion",
        {{"mesh_unit_m", scene.motion.mesh_unit_m},
         {"interpolation", nameOf(scene.motion.interpolation)},
@@ -213,7 +216,8 @@ Json sceneJson(const Scene& scene) {
         {"tracer", nameOf(scene.accuracy.tracer)},
         {"interface_echo", nameOf(scene.accuracy.interface_echo)},
         {"normals", nameOf(scene.accuracy.normals)},
-        {"refraction_tolerance_beam_widths", scene.accuracy.refraction_tolerance_beam_widths}}},
+        {"refraction_tolerance_beam_widths", scene.accuracy.refraction_tolerance_beam_widths},
+        {"rolling_lines", scene.accuracy.rolling_lines}}},
       {"output", outputJson(scene.output)},
       {"truth", truthJson(scene.truth)}};
   // Meshes that lie as their files have them are the same scene as before they could be moved.

@@ -27,7 +27,8 @@ constexpr std::size_t kMaxSceneBytes = 4 << 20;
 constexpr double kMaxFrames = 1e6;
 // Our choice: three deviations of it leave a tenth of the mean beat.
 constexpr double kMaxRrVariability = 0.3;
-constexpr int kMaxRaysPerBeam = 4096;  // errors are then far under a picture's. Our choice
+constexpr int kMostRollingLines = 65536;  // as many as a probe may have
+constexpr int kMaxRaysPerBeam = 4096;     // errors are then far under a picture's. Our choice
 
 // keyframe_rate_hz: of the loop where it names no heart rate of its own.
 Acquisition readAcquisition(TomlTable table, std::optional<double> keyframe_rate_hz) {
@@ -44,6 +45,8 @@ Acquisition readAcquisition(TomlTable table, std::optional<double> keyframe_rate
   a.rr_variability =
       table.number("rr_variability", a.rr_variability, {.lo = 0, .hi = kMaxRrVariability});
   a.seed = table.integer("seed", a.seed, 0, std::numeric_limits<int>::max());
+  a.rolling = table.boolean("rolling", a.rolling);
+  a.rolling_share = table.number("rolling_share", a.rolling_share, ranges::kRollingShare);
   table.finish();
   return a;
 }
@@ -113,6 +116,7 @@ AccuracySettings readAccuracy(TomlTable table) {
   a.refraction_tolerance_beam_widths =
       table.number("refraction_tolerance_beam_widths", a.refraction_tolerance_beam_widths,
                    ranges::kToleranceLines);
+  a.rolling_lines = table.integer("rolling_lines", a.rolling_lines, 1, kMostRollingLines);
   readTolerance(table);  // who sets the accuracy; the scene as rendered has none
   table.finish();
   return a;

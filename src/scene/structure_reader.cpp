@@ -203,6 +203,8 @@ Structure readStructure(TomlTable& table, const fs::path& folder, std::span<cons
       table.number("reflection_gain", structure.reflection_gain, ranges::kReflectionGain);
   structure.reflection_exponent =
       table.number("reflection_exponent", structure.reflection_exponent, {.lo = 0, .hi = 1000});
+  structure.coherent_share =
+      table.number("coherent_share", structure.coherent_share, ranges::kCoherentShare);
   return structure;
 }
 

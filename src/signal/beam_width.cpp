@@ -243,14 +243,14 @@ void BeamAverage::averageAcross(int i, const Run& run, int block_first, Workspac
   window.means(count, out);
 }
 
-void BeamAverage::averageBlock(float* plane, int first, int count, const Borders& borders,
-                               Workspace& w) const {
+void BeamAverage::averageBlock(float* plane, LineRange lines, int first, int count,
+                               const Borders& borders, Workspace& w) const {
   const auto place = [&](int line, int sample) {
     return plane + std::ptrdiff_t{line} * samples_ + sample;
   };
   if (runs_.empty()) {
     w.reserve(1, 1);
-    for (int i = 0; i < lines_; ++i) {
+    for (int i = lines.first; i < lines.end; ++i) {
       averageAlong(plane, i, first, count, borders, w);
       std::copy_n(w.row(0, i), count, place(i, first));
     }
@@ -268,7 +268,7 @@ void BeamAverage::averageBlock(float* plane, int first, int count, const Borders
   w.reserve(std::min(above - below, lines_) + 2, whole);
   // Line i is averaged along when it comes, and across once the lines its windows reach are there:
   // no other then needs it as it was.
-  for (int i = 0; i < lines_ + above; ++i) {
+  for (int i = std::max(lines.first + below, 0); i < lines.end + above; ++i) {
     if (i < lines_) {
       // Lines are pages apart, which no processor foresees.
       const float* soon = place(std::min(i + 2, lines_ - 1), first);
@@ -277,19 +277,19 @@ void BeamAverage::averageBlock(float* plane, int first, int count, const Borders
       w.addUp(i);
     }
     const int done = i - above;
-    if (done < 0) continue;
+    if (done < lines.first) continue;
     for (auto run = begin; run != end; ++run)
       averageAcross(done, *run, first, w, place(done, run->first));
   }
 }
 
-void BeamAverage::apply(std::vector<float>& plane) const {
+void BeamAverage::apply(std::vector<float>& plane, LineRange lines) const {
   if (taps_.empty() && runs_.empty()) return;
   const Borders borders = bordersOf(plane);
   parallelBlocks(static_cast<std::size_t>(samples_), kBlock,
                  [&](std::size_t begin, std::size_t end) {
                    thread_local Workspace workspace;
-                   averageBlock(plane.data(), static_cast<int>(begin),
+                   averageBlock(plane.data(), lines, static_cast<int>(begin),
                                 static_cast<int>(end - begin), borders, workspace);
                  });
 }

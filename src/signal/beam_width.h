@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/beam_plane.h"
 #include "scene/beam_profile.h"
 #include "scene/scene.h"
 
@@ -16,7 +17,13 @@ class BeamAverage {
   // Averages a line-major plane in place. Windows end at the image's edges and keep their mean
   // there: a constant plane stays constant. The work is shared among threads; the result does not
   // depend on them.
-  void apply(std::vector<float>& plane) const;
+  void apply(std::vector<float>& plane) const { apply(plane, {0, lines_}); }
+  // The same of some lines; what becomes of the others is not defined.
+  void apply(std::vector<float>& plane, LineRange lines) const;
+
+  bool acrossLines() const { return !runs_.empty(); }
+  // Of each line so many samples, from the first, as the averages of some lines take in.
+  std::vector<int> taken(LineRange lines) const;
 
  private:
   // Samples first..last-1, neighbours in one block, whose windows end in the same lines: those of
@@ -31,7 +38,8 @@ class BeamAverage {
   void averageAlong(const float* plane, int line, int first, int count, const Borders& borders,
                     Workspace& w) const;
   void averageAcross(int line, const Run& run, int block_first, Workspace& w, float* out) const;
-  void averageBlock(float* plane, int first, int count, const Borders& borders, Workspace& w) const;
+  void averageBlock(float* plane, LineRange lines, int first, int count, const Borders& borders,
+                    Workspace& w) const;
 
   int lines_ = 0, samples_ = 0;
   std::vector<float> taps_;             // axial weights, centre in the middle; empty: none

@@ -52,7 +52,7 @@ void SideLobeHaze::add(std::span<float> plane) const {
 }
 
 ReverberationTail::ReverberationTail(const Probe& probe, double level_db, double length_m)
-    : lines_(probe.lines), samples_(probe.samples) {
+    : samples_(probe.samples) {
   const double a = std::exp(-probe.sampleSpacing() / length_m);
   decay_ = static_cast<float>(a);
   level_ = static_cast<float>(intensityFromDecibels(level_db) * (1 - a));
@@ -61,10 +61,11 @@ ReverberationTail::ReverberationTail(const Probe& probe, double level_db, double
 // Lines side by side: each sum waits for its own last one alone.
 void ReverberationTail::add(std::span<float> plane) const {
   constexpr int kLines = 8;
-  const auto blocks = static_cast<std::size_t>((lines_ + kLines - 1) / kLines);
+  const int lines = static_cast<int>(plane.size() / static_cast<std::size_t>(samples_));
+  const auto blocks = static_cast<std::size_t>((lines + kLines - 1) / kLines);
   parallelBlocks(blocks, 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      const int first = static_cast<int>(b) * kLines, count = std::min(kLines, lines_ - first);
+      const int first = static_cast<int>(b) * kLines, count = std::min(kLines, lines - first);
       float* at = plane.data() + static_cast<std::ptrdiff_t>(first) * samples_;
       std::array<float, kLines> tail{};
       for (int k = 0; k < samples_; ++k)

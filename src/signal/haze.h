@@ -27,10 +27,10 @@ class SideLobeHaze {
 class ReverberationTail {
  public:
   ReverberationTail(const Probe& probe, double level_db, double length_m);
-  void add(std::span<float> plane) const;
+  void add(std::span<float> plane) const;  // of whole lines
 
  private:
-  int lines_, samples_;
+  int samples_;
   float decay_, level_;
 };
 

@@ -1,5 +1,7 @@
 #include "signal/signal_chain.h"
 
+#include <algorithm>
+
 #include "core/units.h"
 #include "signal/log_compression.h"
 #include "signal/sector_loss.h"
@@ -9,6 +11,8 @@ namespace echocine {
 
 SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
     : settings_(scene.signal),
+      all_lines_{0, scene.probe.lines},
+      samples_(scene.probe.samples),
       geometry_(pictureGeometry(scene)),
       converter_(scene.probe, geometry_, scene.output.width, scene.output.height,
                  scene.signal.grey_gamma, ScanConverter::averagedOver(scene, geometry_)) {
@@ -28,12 +32,35 @@ SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
   if (plan.noise) noise_.emplace(scene, gains_);
 }
 
-void SignalChain::process(Intensities& intensities) const {
+void SignalChain::process(Intensities& intensities, LineRange lines) const {
   if (!gains_.empty()) applyTimeGains(gains_, intensities);
-  if (beam_) beam_->apply(intensities.values);
+  if (beam_) beam_->apply(intensities.values, haze_ ? all_lines_ : lines);
   if (!losses_.empty()) applySectorLosses(losses_, intensities);
   if (haze_) haze_->add(intensities);
-  if (tail_) tail_->add(intensities);
+  if (!tail_) return;
+  const auto samples = static_cast<std::size_t>(samples_);
+  tail_->add(std::span<float>(intensities)
+                 .subspan(static_cast<std::size_t>(lines.first) * samples,
+                          static_cast<std::size_t>(lines.count()) * samples));
+}
+
+std::vector<int> SignalChain::taken(LineRange lines) const {
+  const auto all = static_cast<std::size_t>(all_lines_.end);
+  const int samples = samples_;
+  if (haze_) return std::vector<int>(all, samples);
+  if (beam_) return beam_->taken(lines);
+  std::vector<int> taken(all, 0);
+  std::fill(taken.begin() + lines.first, taken.begin() + lines.end, samples);
+  return taken;
+}
+
+void SignalChain::process(CoherentEchoes& echoes, LineRange lines) const {
+  if (echoes.empty()) return;
+  for (std::vector<float>* plane : {&echoes.intensity, &echoes.real, &echoes.imaginary}) {
+    if (!gains_.empty()) applyTimeGains(gains_, *plane);
+    if (beam_) beam_->apply(*plane, lines);
+    if (!losses_.empty()) applySectorLosses(losses_, *plane);
+  }
 }
 
 Greys SignalChain::compress(Intensities&& intensities, double reference_intensity,

@@ -14,6 +14,7 @@
 #include "signal/haze.h"
 #include "signal/noise.h"
 #include "signal/scan_conversion.h"
+#include "trace/coherent_echoes.h"
 
 namespace echocine {
 
@@ -24,7 +25,15 @@ class SignalChain {
   const PictureGeometry& geometry() const { return geometry_; }
 
   // Time gain, beam width and what the chest does to echoes, in place.
-  void process(Intensities& intensities) const;
+  void process(Intensities& intensities) const { process(intensities, all_lines_); }
+  // The same of some lines. What becomes of the others is not defined. What it takes in has to be
+  // as it was received.
+  void process(Intensities& intensities, LineRange lines) const;
+  // Of each line so many samples, from the first, as process() of some lines takes in.
+  std::vector<int> taken(LineRange lines) const;
+
+  // The same of what is coherent, as far as it stays so: no haze and no tail.
+  void process(CoherentEchoes& echoes, LineRange lines) const;
 
   // Clutter, noise and log compression against the loop's one reference; noise is that of an
   // instant. The greys take over the intensities' memory.
@@ -39,6 +48,8 @@ class SignalChain {
 
  private:
   SignalSettings settings_;
+  LineRange all_lines_;
+  int samples_;
   std::vector<float> gains_;  // of a table or the mean; empty: none
   std::optional<BeamAverage> beam_;
   std::vector<float> losses_;  // of drop-out and ribs; empty: none

@@ -13,12 +13,13 @@ SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion, const E
 }
 
 void SceneSpeckle::apply(const FrameTime& time, const SurfaceFrame& surfaces,
-                         Intensities& intensities) const {
+                         Intensities& intensities, const CoherentEchoes& echoes,
+                         LineRange lines) const {
   thread_local std::vector<Vec3f> on_sheets_m;
   sheets_.at(surfaces, on_sheets_m);
   thread_local FieldFrame frame;
   material_.field().at(time.phase, frame, about_plane_);
-  speckle_.apply(FieldMaterialFrame(frame, on_sheets_m), time.time_s, intensities);
+  speckle_.apply(FieldMaterialFrame(frame, on_sheets_m), time.time_s, intensities, echoes, lines);
 }
 
 }  // namespace echocine

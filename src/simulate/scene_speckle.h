@@ -14,9 +14,13 @@ class SceneSpeckle {
  public:
   SceneSpeckle(const Scene& scene, const MeshMotion& motion, const EffectPlan& plan);
 
-  // Intensities after the average over the beam, in place. `surfaces` are those of the instant.
-  // Thread-safe; frames of equal time are equal.
-  void apply(const FrameTime& time, const SurfaceFrame& surfaces, Intensities& intensities) const;
+  // Of some lines the intensities after the average over the beam, in place, and what of them is
+  // coherent. `surfaces`
+  // are those of the instant. Thread-safe; frames of equal time are equal.
+  void apply(const FrameTime& time, const SurfaceFrame& surfaces, Intensities& intensities,
+             const CoherentEchoes& echoes, LineRange lines) const;
+  // Lines whose intensities those of a range take in.
+  LineRange reach(LineRange lines) const { return speckle_.reach(lines); }
 
   std::size_t scatterers() const { return speckle_.scatterers() + sheets_.count(); }
 

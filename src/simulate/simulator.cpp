@@ -53,11 +53,16 @@ Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, Loop
       cardiac_clock_(scene_),
       chain_(scene_, plan_.effects),
       settings_(scene_, plan_.effects, echoCells(plan_)),
-      request_(planeRequest(scene_, plan_.effects)) {
+      request_(planeRequest(scene_, plan_.effects)),
+      all_lines_{0, scene_.probe.lines} {
   if (plan_.effects.rays_per_beam > 1)
     beams_.emplace(scene_.probe, beamSpread(plan_.effects, scene_.acquisition.seed));
   if (plan_.effects.speckle)
     speckle_ = std::make_unique<const SceneSpeckle>(scene_, *motion_, plan_.effects);
+  if (plan_.effects.rolling)
+    rolling_.emplace(scene_, [this](LineRange lines) {
+      return chain_.taken(speckle_ ? speckle_->reach(lines) : lines);
+    });
   if (plan_.effects.persistence)
     persistence_ = std::make_unique<const Persistence>(scene_.artefacts.persistence, cardiac_clock_,
                                                        scene_.acquisition.frame_rate_hz);
@@ -110,13 +115,19 @@ void refuseUnusable(double phase, const PolarFrame& polar) {
 
 }  // namespace
 
-WorkCounts Simulator::traceRays(const PlaneSlice& slice, int /*frame*/, PolarFrame& polar) const {
-  return traceFrame(slice, scene_.probe, settings_, request_, polar);
+WorkCounts Simulator::traceRays(const PlaneSlice& slice, int /*frame*/, const Group* group,
+                                PolarFrame& polar) const {
+  return traceFrame(slice, scene_.probe, settings_, request_, polar,
+                    group ? &group->traced : nullptr);
 }
 
-WorkCounts Simulator::traceRays(const FrameGeometry& geometry, int frame, PolarFrame& polar) const {
-  if (beams_) return traceBeams(geometry, scene_.probe, settings_, request_, *beams_, frame, polar);
-  return traceFrame(geometry, scene_.probe, settings_, request_, polar);
+WorkCounts Simulator::traceRays(const FrameGeometry& geometry, int frame, const Group* group,
+                                PolarFrame& polar) const {
+  if (beams_)
+    return traceBeams(geometry, scene_.probe, settings_, request_, *beams_, frame,
+                      group ? group->beams : all_lines_, polar);
+  return traceFrame(geometry, scene_.probe, settings_, request_, polar,
+                    group ? &group->traced : nullptr);
 }
 
 Volumes Simulator::trace(const FrameTime& time, Workspace& w) const {
@@ -125,38 +136,61 @@ Volumes Simulator::trace(const FrameTime& time, Workspace& w) const {
   return volumes_ml;
 }
 
-Volumes Simulator::traceUncounted(const FrameTime& time, Workspace& w, WorkCounts& work) const {
-  Volumes volumes_ml;
+void Simulator::stand(const FrameTime& time, Workspace& w) const {
   w.phase = -1;
-  if (w.polar.intensities.empty()) w.polar.intensities = Intensities(w.greys.release());
-  clock_.time(Stage::motion, [&] {
-    motion_->frameAt(time.phase, w.surfaces, plan_.smooth_normals);
-    volumes_ml = volumes(w.surfaces);
-  });
-  work = std::visit(
-      [&](auto& geometry) {
-        clock_.time(Stage::geometry, [&] { geometry.update(w.surfaces); });
-        return clock_.time(Stage::trace, [&] { return traceRays(geometry, time.frame, w.polar); });
+  clock_.time(Stage::motion,
+              [&] { motion_->frameAt(time.phase, w.surfaces, plan_.smooth_normals); });
+  std::visit([&](auto& g) { clock_.time(Stage::geometry, [&] { g.update(w.surfaces); }); },
+             w.geometry);
+  w.phase = time.phase;
+}
+
+WorkCounts Simulator::traceAt(const FrameTime& time, const Group* group, Workspace& w) const {
+  return std::visit(
+      [&](const auto& geometry) {
+        return clock_.time(Stage::trace,
+                           [&] { return traceRays(geometry, time.frame, group, w.polar); });
       },
       w.geometry);
-  w.phase = time.phase;
-  return volumes_ml;
+}
+
+Volumes Simulator::traceUncounted(const FrameTime& time, Workspace& w, WorkCounts& work) const {
+  if (w.polar.intensities.empty()) w.polar.intensities = Intensities(w.greys.release());
+  if (rolling_) work = traceRolling(time, w);
+  stand(time, w);
+  if (!rolling_) work = traceAt(time, nullptr, w);
+  return clock_.time(Stage::motion, [&] { return volumes(w.surfaces); });
+}
+
+void Simulator::count(const WorkCounts& work) const {
+  const std::lock_guard lock(mutex_);
+  work_ += work;
+  ++traced_frames_;
 }
 
 Volumes Simulator::traceLines(const FrameTime& time, Workspace& w) const {
   WorkCounts work;
   Volumes volumes_ml = traceUncounted(time, w, work);
-  const std::lock_guard lock(mutex_);
-  work_ += work;
-  ++traced_frames_;
+  count(work);
   return volumes_ml;
+}
+
+void Simulator::processAt(const FrameTime& time, LineRange lines, Workspace& w) const {
+  PolarFrame& polar = w.polar;
+  const LineRange reached = speckle_ ? speckle_->reach(lines) : lines;
+  clock_.time(Stage::signal, [&] {
+    chain_.process(polar.intensities, reached);
+    chain_.process(polar.coherent, lines);
+  });
+  if (speckle_)
+    clock_.time(Stage::speckle, [&] {
+      speckle_->apply(time, w.surfaces, polar.intensities, polar.coherent, lines);
+    });
 }
 
 void Simulator::process(const FrameTime& time, Workspace& w) const {
   if (!request_.intensities) return;
-  clock_.time(Stage::signal, [&] { chain_.process(w.polar.intensities); });
-  if (speckle_)
-    clock_.time(Stage::speckle, [&] { speckle_->apply(time, w.surfaces, w.polar.intensities); });
+  if (!rolling_) processAt(time, all_lines_, w);
   refuseUnusable(time.phase, w.polar);
 }
 
@@ -194,57 +228,13 @@ int Simulator::tracedFrames() const {
   return traced_frames_;
 }
 
-std::vector<KeyframeVolume> Simulator::keyframeVolumes() const {
-  std::vector<KeyframeVolume> list;
-  std::map<double, Volumes> by_phase;  // structures mostly share their phases
-  SurfaceFrame surfaces;
-  for (const Structure& structure : scene_.structures) {
-    if (structure.membrane) continue;
-    for (const Keyframe& keyframe : structure.keyframes) {
-      Volumes& all = by_phase[keyframe.phase];
-      if (all.empty()) {
-        motion_->frameAt(keyframe.phase, surfaces);
-        all = volumes(surfaces);
-      }
-      for (const auto& [name, ml] : all)
-        if (name == structure.name) list.push_back({name, keyframe.phase, ml});
-    }
-  }
-  return list;
-}
-
-const TruthMaker* Simulator::truth() const {
-  std::call_once(truth_once_, [this] {
-    if (TruthMaker::wanted(scene_))
-      truth_ = std::make_unique<const TruthMaker>(scene_, *motion_, pictureGrid(scene_),
-                                                  cardiac_clock_.at(0).phase);
-  });
-  return truth_.get();
-}
-
-// Velocity is taken from a millisecond before to one after, within the loop.
-FrameTruth Simulator::truthAt(const FrameTime& time, const Workspace* traced) const {
-  constexpr double kStep_s = 1e-3;
-  const double end_s = cardiac_clock_.frameCount() / scene_.acquisition.frame_rate_hz;
-  const double before_s = std::max(time.time_s - kStep_s, 0.0),
-               after_s = std::min(time.time_s + kStep_s, end_s);
-  TruthShared shared;
-  if (traced != nullptr && traced->phase == time.phase) {
-    shared.surfaces = &traced->surfaces;
-    if (plan_.left_out.none()) shared.slice = std::get_if<PlaneSlice>(&traced->geometry);
-  }
-  return truth()->at({time.phase, cardiac_clock_.atTime(before_s).phase,
-                      cardiac_clock_.atTime(after_s).phase, after_s - before_s},
-                     shared);
-}
-
 double Simulator::measureReference() const {
   if (scene_.signal.reference_intensity) return *scene_.signal.reference_intensity;
   if (!wantsPicture(scene_) || !plan_.effects.contrast) return 1;
   WhiteMeasure white(scene_);
   const std::shared_ptr<Workspace> w = workspace();
   for (const int i : referenceFrames(cardiac_clock_.frameCount())) {
-    trace(cardiac_clock_.at(i), *w);
+    traceStill(cardiac_clock_.at(i), *w);
     white.add(w->polar.intensities, w->polar.medium);
   }
   // Where no frame has anything to be seen the percentile would paint an even nothing white.
@@ -255,6 +245,17 @@ double Simulator::referenceIntensity() const {
   std::call_once(reference_once_,
                  [this] { inThisThread([this] { reference_intensity_ = measureReference(); }); });
   return reference_intensity_;
+}
+
+// A frame of the loop has its very time, whatever rounding the seconds have.
+FrameTime Simulator::timeOf(double time_s) const {
+  const double rate_hz = scene_.acquisition.frame_rate_hz, number = std::round(time_s * rate_hz);
+  if (number >= 0 && number < cardiac_clock_.frameCount() &&
+      std::abs(time_s * rate_hz - number) < 1e-6)
+    return cardiac_clock_.at(static_cast<int>(number));
+  FrameTime time = cardiac_clock_.atTime(time_s);
+  time.frame = static_cast<int>(std::floor(time_s * rate_hz));
+  return time;
 }
 
 Frame Simulator::frame(double time_s) const {
@@ -271,12 +272,7 @@ void Simulator::frame(double time_s, Frame& made) const {
         fmt::format("the frame at {} s is not in the loop, accepted: 0 to {:g} s "
                     "(acquisition.beats, acquisition.frame_rate_hz)",
                     time_s, end_s));
-  // A frame of the loop has its very time, whatever rounding the caller's seconds have.
-  const double number = std::round(time_s * rate_hz);
-  const bool of_loop =
-      number < cardiac_clock_.frameCount() && std::abs(time_s * rate_hz - number) < 1e-6;
-  made.time = of_loop ? cardiac_clock_.at(static_cast<int>(number)) : cardiac_clock_.atTime(time_s);
-  if (!of_loop) made.time.frame = static_cast<int>(std::floor(time_s * rate_hz));
+  made.time = timeOf(time_s);
   const double reference = referenceIntensity();
   const std::shared_ptr<Workspace> w = workspace();
   inThisThread([&] {

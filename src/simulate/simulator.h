@@ -22,6 +22,7 @@
 #include "scene/loop_plan.h"
 #include "signal/signal_chain.h"
 #include "simulate/persistence.h"
+#include "simulate/rolling.h"
 #include "simulate/scene_speckle.h"
 #include "trace/trace_beams.h"
 #include "trace/trace_frame.h"
@@ -49,6 +50,7 @@ struct Workspace {
   SurfaceFrame surfaces;
   std::variant<PlaneSlice, FrameGeometry> geometry;  // whichever the plan's tracer needs
   PolarFrame polar;
+  PolarFrame rolled{};  // lines of a rolling frame, as they come
   Greys greys{};
   GreyImage image{};
 };
@@ -93,9 +95,13 @@ class Simulator {
   Volumes trace(const FrameTime& time, Workspace& workspace) const;
 
   // The two halves of trace(): up to the intensities that the lines receive, and what the signal
-  // chain makes of them in place.
+  // chain makes of them in place. Of rolling lines, each group of which goes through both at its
+  // own instant, the first does all.
   Volumes traceLines(const FrameTime& time, Workspace& workspace) const;
   void process(const FrameTime& time, Workspace& workspace) const;
+
+  // As trace(), with all lines at the frame's instant even where they roll: what white goes by.
+  Volumes traceStill(const FrameTime& time, Workspace& workspace) const;
 
   // log compression -> scan conversion: workspace.polar.intensities become workspace.greys. The
   // picture is the workspace's; empty or an old one where none is wanted. `time` is what the
@@ -104,8 +110,8 @@ class Simulator {
   GreyImage& picture(double reference_intensity, const FrameTime& time, Workspace& workspace,
                      bool wanted) const;
 
-  // What makes truth, fitted by the first call; nullptr where the scene asks for none. Errors: those
-  // of TruthMaker. Thread-safe.
+  // What makes truth, fitted by the first call; nullptr where the scene asks for none. Errors:
+  // those of TruthMaker. Thread-safe.
   const TruthMaker* truth() const;
   // Takes surfaces and their slice from `traced` where it stands at this very phase.
   // Precondition: truth() is not nullptr.
@@ -121,10 +127,22 @@ class Simulator {
   explicit Simulator(std::pair<Scene, std::shared_ptr<const MeshMotion>> read)
       : Simulator(std::move(read.first), std::move(read.second)) {}
   Volumes volumes(const SurfaceFrame& surfaces) const;
-  WorkCounts traceRays(const PlaneSlice& slice, int frame, PolarFrame& polar) const;
-  WorkCounts traceRays(const FrameGeometry& geometry, int frame, PolarFrame& polar) const;
+  FrameTime timeOf(double time_s) const;
+  // Of all lines, or what a group takes in.
+  using Group = RollingLines::Group;
+  WorkCounts traceRays(const PlaneSlice& slice, int frame, const Group* group,
+                       PolarFrame& polar) const;
+  WorkCounts traceRays(const FrameGeometry& geometry, int frame, const Group* group,
+                       PolarFrame& polar) const;
   double measureReference() const;
+  // A frame's surfaces, made ready for rays.
+  void stand(const FrameTime& time, Workspace& workspace) const;
+  WorkCounts traceAt(const FrameTime& time, const Group* group, Workspace& workspace) const;
+  void processAt(const FrameTime& time, LineRange lines, Workspace& workspace) const;
+  WorkCounts traceRolling(const FrameTime& time, Workspace& workspace) const;
   Volumes traceUncounted(const FrameTime& time, Workspace& workspace, WorkCounts& work) const;
+  void count(const WorkCounts& work) const;
+  FrameTruth truthOf(const FrameTime& time, const TruthShared& shared, bool planes_only) const;
   Greys greysAlone(double reference_intensity, const FrameTime& time) const;
 
   const Scene scene_;
@@ -134,7 +152,9 @@ class Simulator {
   const SignalChain chain_;
   const TraceSettings settings_;
   const PlaneRequest request_;
+  const LineRange all_lines_;
   std::optional<BeamRays> beams_;  // several rays per beam
+  std::optional<RollingLines> rolling_;
   std::unique_ptr<const SceneSpeckle> speckle_;
   std::unique_ptr<const Persistence> persistence_;
   mutable StageClock clock_;

@@ -26,7 +26,6 @@ BeamView::BeamView(const Probe& probe, const PointSpread& spread)
   face_radius_m_ = static_cast<float>(probe.face_radius_m);
   tangent_ = static_cast<float>(std::tan(probe.first_angle_rad));
   per_cosine_ = static_cast<float>(1 / std::cos(probe.first_angle_rad));
-  lines_ = static_cast<float>(probe.lines);
   samples_ = static_cast<float>(probe.samples);
   min_depth_m_ = static_cast<float>(probe.min_depth_m);
   per_spacing_ = static_cast<float>(1 / probe.sampleSpacing());
@@ -82,8 +81,9 @@ BeamCube BeamView::cubeOf(const CubeCorners& c) const {
 }
 
 // Cohen and Sutherland's codes: one bit for each side that a corner lies beyond.
-bool BeamView::sees(const BeamCube& c) const {
-  const Ints8 beyond = ((c.line < 0) & 1) | ((c.line >= lines_) & 2) | ((c.sample < 0) & 4) |
+bool BeamView::sees(const BeamCube& c, LineRange lines) const {
+  const auto first = static_cast<float>(lines.first), end = static_cast<float>(lines.end);
+  const Ints8 beyond = ((c.line < first) & 1) | ((c.line >= end) & 2) | ((c.sample < 0) & 4) |
                        ((c.sample >= samples_) & 8) | ((c.across < -1) & 16) |
                        ((c.across > 1) & 32);
   return shared(beyond) == 0;

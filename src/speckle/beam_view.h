@@ -1,6 +1,7 @@
 #pragma once
 // Where a place of the probe frame lies among the scan lines, and what a beam can see of a ball.
 
+#include "core/beam_plane.h"
 #include "core/lanes.h"
 #include "scene/probe.h"
 #include "speckle/material.h"
@@ -31,8 +32,10 @@ class BeamView {
   // edge^2 / 8 r, which stays with a scatterer as it moves and so never shows in its motion.
   BeamCube cubeOf(const CubeCorners& corners) const;
 
-  // May a beam reach some of it? Exact, since what is trilinear lies between its corners.
-  bool sees(const BeamCube& cube) const;
+  // May one of these lines' beams reach some of it? Exact, since what is trilinear lies between its
+  // corners.
+  bool sees(const BeamCube& cube, LineRange lines) const;
+  bool sees(const BeamCube& cube) const { return sees(cube, {0, probe_.lines}); }
 
   // May a beam reach some of it? True where in doubt.
   bool sees(const Extent& extent) const;
@@ -48,7 +51,7 @@ class BeamView {
   double diffraction_ = 0;  // part of w_e over the path length
   double pitch_ = 0;        // between lines: rad, or m of a linear probe
   float first_ = 0, per_pitch_ = 0, face_radius_m_ = 0, tangent_ = 0, per_cosine_ = 1;
-  float lines_ = 0, samples_ = 0, min_depth_m_ = 0, per_spacing_ = 0;
+  float samples_ = 0, min_depth_m_ = 0, per_spacing_ = 0;
   float across_ = 0, lens_ = 0, per_focus_ = 0;  // what is cut: sqrt of the squares' sum
 };
 

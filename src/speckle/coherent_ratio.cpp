@@ -154,12 +154,28 @@ void CoherentRatio::alongLine(EchoSum* sums, const float* intensities, Rows& row
   smear(squares, stride_, axial_squares_, to(out + 2 * stride_));
 }
 
-// |g|^2 / w of one line, 1 where no scatterer is in reach.
-template <bool even>
+// What of a line's samples is coherent. Rounding may leave q a little over 1.
+void CoherentRatio::shareOut(const CoherentEchoes& echoes, int line, const float* intensities,
+                             Rows& rows) const {
+  const std::size_t first = static_cast<std::size_t>(line) * static_cast<std::size_t>(samples_);
+  float *rest = floatsOf(rows.echoes), *real = rest + stride_, *imaginary = real + stride_;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(samples_); ++k) {
+    const float part = echoes.intensity[first + k], of = intensities[k];
+    const float q = of > 0 ? std::clamp(part / of, 0.0f, 1.0f) : 0;
+    const float re = echoes.real[first + k], im = echoes.imaginary[first + k];
+    const float size = std::sqrt(re * re + im * im);
+    rest[k] = std::sqrt(1 - q);
+    real[k] = std::sqrt(q) * (size > 0 ? re / size : 1);
+    imaginary[k] = std::sqrt(q) * (size > 0 ? im / size : 0);
+  }
+}
+
+// |g|^2 / w of one line, 1 where no scatterer is in reach; with what is coherent beside it.
+template <bool even, bool coherent>
 void CoherentRatio::acrossLines(int line, Rows& rows) const {
   constexpr float kNothing = 1e-35f;
   float* ratio = floatsOf(rows.ratio) + kPad;
-  const float* middle = smeared(rows, line);
+  const float *middle = smeared(rows, line), *echoes = floatsOf(rows.echoes);
   const float *below[kMostTaps + 1], *above[kMostTaps + 1];
   for (std::size_t t = 1; t <= lateral_taps_; ++t) {
     const int low = line - static_cast<int>(t), high = line + static_cast<int>(t);
@@ -178,9 +194,15 @@ void CoherentRatio::acrossLines(int line, Rows& rows) const {
       i += h * (lanesAt(a + next) + lanesAt(b + next));
       s += hh * (lanesAt(a + 2 * next) + lanesAt(b + 2 * next));
     }
-    Floats8 ratio() const {
-      const Floats8 one = Floats8{} + 1;
-      return s > kNothing ? (r * r + i * i) / (s > kNothing ? s : one) : one;
+    Floats8 ratio(const float* echoes, std::size_t next) const {
+      const Floats8 one = Floats8{} + 1, w = s > kNothing ? s : one;
+      if constexpr (coherent) {
+        const Floats8 rest = lanesAt(echoes) / roots(w);
+        const Floats8 re = rest * r + lanesAt(echoes + next),
+                      im = rest * i + lanesAt(echoes + 2 * next);
+        return s > kNothing ? re * re + im * im : one;
+      }
+      return s > kNothing ? (r * r + i * i) / w : one;
     }
   };
   const auto start = [&](std::size_t k) {
@@ -196,8 +218,8 @@ void CoherentRatio::acrossLines(int line, Rows& rows) const {
       one.add(a + k, b + k, stride, tap(taps, t, k), tap(squares, t, k));
       two.add(a + next, b + next, stride, tap(taps, t, next), tap(squares, t, next));
     }
-    store(one.ratio(), ratio + k);
-    store(two.ratio(), ratio + next);
+    store(one.ratio(echoes + k, stride), ratio + k);
+    store(two.ratio(echoes + next, stride), ratio + next);
   }
 }
 
@@ -216,7 +238,13 @@ void CoherentRatio::finish(Rows& rows, float* intensities) const {
   });
 }
 
-void CoherentRatio::apply(EchoSums& sums, Rows& rows, std::span<float> intensities) const {
+LineRange CoherentRatio::reach(LineRange lines) const {
+  const int taps = static_cast<int>(lateral_taps_);
+  return {std::max(lines.first - taps, 0), std::min(lines.end + taps, lines_)};
+}
+
+void CoherentRatio::apply(EchoSums& sums, Rows& rows, std::span<float> intensities,
+                          const CoherentEchoes& echoes, LineRange lines) const {
   const auto plane = [&](int line) {
     return intensities.data() + static_cast<std::ptrdiff_t>(line) * samples_;
   };
@@ -224,17 +252,20 @@ void CoherentRatio::apply(EchoSums& sums, Rows& rows, std::span<float> intensiti
   setFloats(rows.lines, (2 * lateral_taps_ + 1) * 3 * stride_);
   setFloats(rows.ratio, stride_ + 2 * kPad);
   setFloats(rows.nothing, 3 * stride_);
+  setFloats(rows.echoes, 3 * stride_);
+  const auto across = echoes.empty() ? even_ ? &CoherentRatio::acrossLines<true, false>
+                                             : &CoherentRatio::acrossLines<false, false>
+                      : even_ ? &CoherentRatio::acrossLines<true, true>
+                                     : &CoherentRatio::acrossLines<false, true>;
   const int ahead = static_cast<int>(lateral_taps_);
   // A line is smeared along as soon as it comes, and across once the lines its bell reaches are
   // there; its intensities have then been read by all who need them.
-  for (int i = 0; i < lines_ + ahead; ++i) {
+  for (int i = reach(lines).first; i < lines.end + ahead; ++i) {
     if (i < lines_) alongLine(sums.line(i), plane(i), rows, smeared(rows, i));
     const int done = i - ahead;
-    if (done < 0) continue;
-    if (even_)
-      acrossLines<true>(done, rows);
-    else
-      acrossLines<false>(done, rows);
+    if (done < lines.first) continue;
+    if (!echoes.empty()) shareOut(echoes, done, plane(done), rows);
+    (this->*across)(done, rows);
     finish(rows, plane(done));
   }
 }

@@ -3,11 +3,14 @@
 //   I = Ibar smooth(|g|^2 / w),  g = h * (sqrt(Ibar) U),  w = h^2 * (Ibar P),
 // with U, P the echo sums, h the separable point spread function over samples and lines. g and w
 // take in the very same samples, so that E|g|^2 = w exactly and the mean over seeds is Ibar.
+// Where the part q = Ic / Ibar of a sample is coherent, of phase phi:
+//   I = Ibar smooth(|sqrt(1 - q) g / sqrt(w) + sqrt(q) exp(j phi)|^2), of the same mean.
 
 #include <span>
 #include <vector>
 
 #include "speckle/splat.h"
+#include "trace/coherent_echoes.h"
 
 namespace echocine {
 
@@ -27,14 +30,22 @@ class CoherentRatio {
     std::vector<CacheLine> lines;    // lines that have been smeared along, used round
     std::vector<CacheLine> ratio;    // one line's, with its ends repeated
     std::vector<CacheLine> nothing;  // a line beyond the sector
+    std::vector<CacheLine> echoes;   // one line's sqrt(1 - q), and real and imaginary of sqrt(q)
   };
 
-  // In place; clears the sums. Where no scatterer is in reach the picture stays as it is.
-  void apply(EchoSums& sums, Rows& rows, std::span<float> intensities) const;
+  // Lines whose sums and intensities those of a range take in.
+  LineRange reach(LineRange lines) const;
+
+  // A range of lines in place; clears the sums within their reach. Where no scatterer is in reach
+  // the picture stays as it is. echoes: what of the intensities is coherent, sample by sample;
+  // empty: nothing.
+  void apply(EchoSums& sums, Rows& rows, std::span<float> intensities, const CoherentEchoes& echoes,
+             LineRange lines) const;
 
  private:
   void alongLine(EchoSum* sums, const float* intensities, Rows& rows, float* smeared) const;
-  template <bool even>
+  void shareOut(const CoherentEchoes& echoes, int line, const float* intensities, Rows& rows) const;
+  template <bool even, bool coherent>
   void acrossLines(int line, Rows& rows) const;
   void finish(Rows& rows, float* intensities) const;
   float* smeared(Rows& rows, int line) const;

@@ -27,11 +27,12 @@ double Speckle::farthestAcross_m() const {
   return farthest_m;
 }
 
-void Speckle::addUp(const MaterialFrame& tissue, double time_s, EchoSums& sums) const {
-  SplatQueue queue;
+void Speckle::addUp(const MaterialFrame& tissue, double time_s, LineRange lines,
+                    EchoSums& sums) const {
+  SplatQueue queue(lines);
   for (const ScattererBatch& batch : scatterers_.batches()) {
     const BeamCube cube = view_.cubeOf(tissue.corners(batch.group, batch.low_m, batch.edge_m));
-    if (!view_.sees(cube)) continue;
+    if (!view_.sees(cube, lines)) continue;
     GaussianMix mix = mixAt(gaussian_, batch.pattern, time_s,
                             batch.blood ? settings_.blood_time_s : settings_.tissue_time_s);
     mix.strength = scatterers_.strength(batch);
@@ -59,13 +60,13 @@ void Speckle::addSheets(std::span<const Vec3f> places_m, double time_s, SplatQue
   }
 }
 
-void Speckle::apply(const MaterialFrame& tissue, double time_s,
-                    std::span<float> intensities) const {
+void Speckle::apply(const MaterialFrame& tissue, double time_s, std::span<float> intensities,
+                    const CoherentEchoes& echoes, LineRange lines) const {
   thread_local EchoSums sums;
   thread_local CoherentRatio::Rows rows;
   sums.resize(lines_, samples_);
-  addUp(tissue, time_s, sums);
-  ratio_.apply(sums, rows, intensities);
+  addUp(tissue, time_s, reach(lines), sums);
+  ratio_.apply(sums, rows, intensities, echoes, lines);
 }
 
 }  // namespace echocine

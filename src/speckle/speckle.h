@@ -6,6 +6,7 @@
 #include <span>
 
 #include "speckle/coherent_ratio.h"
+#include "trace/coherent_echoes.h"
 
 namespace echocine {
 
@@ -23,11 +24,19 @@ class Speckle {
   double farthestAcross_m() const;
 
   // Intensities after the average over the beam, in place. A function of the instant alone: any
-  // frame by itself has the bytes that it has in its loop. Thread-safe.
-  void apply(const MaterialFrame& tissue, double time_s, std::span<float> intensities) const;
+  // frame by itself has the bytes that it has in its loop. Thread-safe. echoes: what of the
+  // intensities is coherent; empty: nothing.
+  void apply(const MaterialFrame& tissue, double time_s, std::span<float> intensities,
+             const CoherentEchoes& echoes = {}) const {
+    apply(tissue, time_s, intensities, echoes, {0, lines_});
+  }
+  // The same of some lines; those within their reach have to be as without speckle.
+  void apply(const MaterialFrame& tissue, double time_s, std::span<float> intensities,
+             const CoherentEchoes& echoes, LineRange lines) const;
+  LineRange reach(LineRange lines) const { return ratio_.reach(lines); }
 
  private:
-  void addUp(const MaterialFrame& tissue, double time_s, EchoSums& sums) const;
+  void addUp(const MaterialFrame& tissue, double time_s, LineRange lines, EchoSums& sums) const;
   void addSheets(std::span<const Vec3f> places_m, double time_s, SplatQueue& queue,
                  EchoSums& sums) const;
 

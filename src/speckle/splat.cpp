@@ -108,8 +108,7 @@ GaussianMix mixAt(const GaussianTable& table, std::uint64_t pattern, double time
 }
 
 Splatter::Splatter(const Probe& probe, const PointSpread& spread)
-    : lines_(probe.lines),
-      samples_(probe.samples),
+    : samples_(probe.samples),
       stride_(static_cast<int>(EchoSums::strideOf(probe.samples))),
       turns_per_sample_(static_cast<float>(2 * probe.sampleSpacing() / spread.wavelength_m)),
       turns_before_(
@@ -144,7 +143,7 @@ inline void Splatter::addLanes(const BeamCube& at, const Bend& bend, const Gauss
   constexpr float kBell = static_cast<float>(2.7725887222397811 * kElevationCut * kElevationCut);
   const Floats8 q = at.across * at.across;
   const Ints8 seen = (q <= 1) & (at.sample >= 0) & (at.sample < static_cast<float>(samples_)) &
-                     (at.line >= 0) & (at.line < static_cast<float>(lines_));
+                     queue.holds(at.line);
   const Floats8 e = fallingExp(kBell * q);
   // exp(-2 pi j turns); folded to a quarter turn either side of 0.
   const Floats8 turns =

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/beam_plane.h"
 #include "speckle/scatterers.h"
 
 namespace echocine {
@@ -41,12 +42,18 @@ class EchoSums {
 // for as an echo comes and is there when it is added.
 class SplatQueue {
  public:
+  // Takes echoes of these lines alone.
+  explicit SplatQueue(LineRange lines)
+      : first_line_(static_cast<float>(lines.first)), end_line_(static_cast<float>(lines.end)) {}
+  Ints8 holds(Floats8 line) const { return (line >= first_line_) & (line < end_line_); }
+
   // Of lanes that are seen (-1, else 0). Every place is one of the sums.
   void add(const Floats4* numbers, Ints8 places, Ints8 seen, EchoSums& sums);
   void flush(EchoSums& sums);
 
  private:
   static constexpr std::size_t kMost = 256;
+  float first_line_, end_line_;
   std::size_t count_ = 0;
   Floats4 numbers_[kMost];
   std::int32_t places_[kMost];
@@ -100,7 +107,7 @@ class Splatter {
   void addLanes(const BeamCube& at, const Bend& bend, const GaussianMix& mix, std::uint32_t j,
                 SplatQueue& queue, EchoSums& sums) const;
 
-  int lines_, samples_, stride_;
+  int samples_, stride_;
   float turns_per_sample_, turns_before_;
   double min_depth_m_, spacing_m_, lens_, focus_m_;
 };

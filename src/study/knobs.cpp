@@ -177,9 +177,10 @@ KnobTable knobsOf(const Scene& scene) {
 }
 
 std::vector<std::string> knobNames() {
-  return {"lines",          "samples",     "subdivision", "normals",   "keyframes",
-          "interpolation",  "refraction",  "rays",        "echoes",    "snell_angles",
-          "reflection_cap", "thin_layers", "tgc",         "exr_pixel", "exr_compression"};
+  return {"lines",     "samples",       "subdivision",    "normals",
+          "keyframes", "interpolation", "refraction",     "rays",
+          "echoes",    "snell_angles",  "reflection_cap", "thin_layers",
+          "tgc",       "rolling_lines", "exr_pixel",      "exr_compression"};
 }
 
 Setting presetSetting(const KnobTable& table, Preset preset) {

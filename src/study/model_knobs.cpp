@@ -1,5 +1,6 @@
-// The knobs of what the model decides where the paper leaves it open. They are no matter of
-// accuracy: the scene's own stands in every preset, and the error is how much the decision changes.
+// The knobs of what the model decides where the paper leaves it open. Effects and time gain are no
+// matter of accuracy: the scene's own stands in every preset, and the error is how much the
+// decision changes.
 
 #include "scene/effect_plan.h"
 #include "scene/names.h"
@@ -53,11 +54,22 @@ void addTimeGain(const Scene& scene, KnobBuilder& table) {
              {1, 1, 1, 1}});
 }
 
+// The reference's groups of eight move by a 32nd of a frame's interval among 256 lines.
+void addRolling(const Scene& scene, KnobBuilder& table) {
+  if (!scene.acquisition.rolling)
+    return table.leaveOut("rolling_lines", "acquisition.rolling = false: all lines at one instant");
+  table.addNumbers("rolling_lines", "accuracy.rolling_lines",
+                   "neighbouring lines that share the instant of their middle",
+                   {128, 64, 32, 16, 8}, {1, 2, 3, 4},
+                   [](Scene& s, int n) { s.accuracy.rolling_lines = n; });
+}
+
 }  // namespace
 
 void addModelKnobs(const Scene& scene, KnobBuilder& table) {
   for (const ModelSwitch& s : kSwitches) addSwitch(scene, s, table);
   addTimeGain(scene, table);
+  addRolling(scene, table);
 }
 
 }  // namespace echocine

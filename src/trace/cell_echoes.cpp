@@ -48,7 +48,7 @@ class CellEchoMaker {
     std::array<std::uint32_t, 2 * kClips> longer;
     const std::size_t count = addSingles(clips, interfaces, longer);
     for (std::size_t i = 0; i < count; ++i)
-      intoSamples(longer[i], clips.line[longer[i]], interfaces.ends[longer[i]]);
+      intoSamples(longer[i], clips.line[longer[i]], interfaces);
     takeShares();
   }
 
@@ -184,6 +184,11 @@ class CellEchoMaker {
       intensity[singles] = rows_.whole[i];
       exponent[singles] = std::max(rows_.exponent[i], 0.0);
       longer[others] = static_cast<std::uint32_t>(i);
+      if (settings_.coherent_echoes) {
+        echoes_.coherent_part[echoes_.count + singles] = interfaces.coherent_part[i];
+        echoes_.place[echoes_.count + singles] =
+            static_cast<float>((rows_.k_a[i] + rows_.k_b[i]) / 2 - first);
+      }
       singles += lit & rows_.single[i];
       others += lit & ~rows_.single[i];
     }
@@ -192,8 +197,9 @@ class CellEchoMaker {
   }
 
   // An interval for each sample that a clip spans.
-  void intoSamples(std::size_t clip, std::uint32_t line, std::uint32_t ends) {
-    const int first = rows_.first[clip], end = std::min(rows_.end[clip], samples_lit_[line][ends]);
+  void intoSamples(std::size_t clip, std::uint32_t line, const InterfaceRows& interfaces) {
+    const int first = rows_.first[clip],
+              end = std::min(rows_.end[clip], samples_lit_[line][interfaces.ends[clip]]);
     const double k_a = rows_.k_a[clip], k_b = rows_.k_b[clip];
     const double zero_m = rows_.zero_m[clip], step_m = rows_.step_m[clip];
     const std::uint32_t line_at = line * static_cast<std::uint32_t>(samples_);
@@ -210,6 +216,10 @@ class CellEchoMaker {
       echoes_.at[to] = line_at + static_cast<std::uint32_t>(k);
       echoes_.exponent[to] =
           std::max(rows_.exponent[clip] + (k - first) * rows_.exponent_step[clip], 0.0);
+      if (!settings_.coherent_echoes) continue;
+      echoes_.coherent_part[to] = interfaces.coherent_part[clip];
+      echoes_.place[to] =
+          static_cast<float>((std::max<double>(k, k_a) + std::min<double>(k + 1, k_b)) / 2 - k);
     }
   }
 

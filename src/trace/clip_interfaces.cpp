@@ -106,6 +106,7 @@ inline void ClipInterfaces::takeOver(const InterfaceHit* hit, InterfaceRows& row
   rows.passed[i] = hit->passed * surface.gain;
   rows.lobe[i] = surface.exponent;
   rows.membrane[i] = surface.membrane ? 1 : 0;
+  rows.coherent_part[i] = static_cast<float>(surface.coherent_part);
   rows.wave_along[i] = hit->wave.x;
   rows.wave_across[i] = hit->wave.y;
   rows.wave_out[i] = hit->wave.z;

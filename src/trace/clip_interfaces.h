@@ -17,6 +17,7 @@ struct InterfaceRows {
   ClipRow<double> Z_1, Z_2, r, turn;  // of the media before and behind; r and turn: SpeedRatio
   ClipRow<double> passed;             // prod (1-R)^2 before it times the gain
   ClipRow<double> lobe, membrane;     // n of cos^n; 1 or 0
+  ClipRow<float> coherent_part;       // SurfaceTraits
   ClipRow<double> wave_along, wave_across, wave_out;  // InterfaceHit::wave
   ClipRow<double> path_m, depth_m, path_per_depth, exponent, exponent_per_path;  // InterfaceHit
 };

@@ -48,6 +48,8 @@ struct CellEchoes {
   std::size_t count = 0;
   std::vector<std::uint32_t> at;            // line * samples + sample
   std::vector<double> intensity, exponent;  // as of an Echo in the middle of its sample
+  // Where echoes have a coherent part: that part, and the place in the sample, 0 to 1.
+  std::vector<float> coherent_part, place;
 
   // Room for so many, and for whole lanes.
   void reserve(std::size_t most) {
@@ -57,6 +59,8 @@ struct CellEchoes {
     at.resize(size);
     intensity.resize(size);
     exponent.resize(size);
+    coherent_part.resize(size);
+    place.resize(size);
   }
 };
 

@@ -90,13 +90,15 @@ struct Chord {
   double place = 0, place_per_s = 0;  // ChordSampler::placeOf() its depth
   double intensity = 0, intensity_per_s = 0;
   double exponent = 0, exponent_per_s = 0;
+  SurfaceId surface{};
 };
 
 // Puts stretches of wall into samples.
 class ChordSampler {
  public:
-  ChordSampler(const Probe& probe, CellEchoes& echoes)
-      : echoes_(echoes),
+  ChordSampler(const Probe& probe, const TraceSettings& settings, CellEchoes& echoes)
+      : settings_(settings),
+        echoes_(echoes),
         angular_(ScanGeometry(probe).angular()),
         width_(ScanGeometry(probe).cellWidth()),
         to_centre_m_(probe.face_radius_m),
@@ -107,14 +109,14 @@ class ChordSampler {
   Chord between(const Echo& a, const Echo& b) const {
     const double place = placeOf(a.depth_m);
     return {place,      placeOf(b.depth_m) - place, a.intensity, b.intensity - a.intensity,
-            a.exponent, b.exponent - a.exponent};
+            a.exponent, b.exponent - a.exponent,    a.surface};
   }
 
   // The tangent plane of an echo towards the next line, which lies to the side of the unit vector.
   Chord tangent(const Echo& a, Vec3d towards) const {
     const double lean = std::clamp(dot(towards, a.tilt), -kSteepestLean, kSteepestLean);
     const double across = angular_ ? width_ / (a.depth_m + to_centre_m_) : width_;
-    return {placeOf(a.depth_m), -lean * across, a.intensity, 0, a.exponent, 0};
+    return {placeOf(a.depth_m), -lean * across, a.intensity, 0, a.exponent, 0, a.surface};
   }
 
   // What lies in s of [from, to].
@@ -131,7 +133,8 @@ class ChordSampler {
       const double begin = k == first ? near : reach(k), end = k == last ? far : reach(k + 1);
       const double middle = (begin + end) / 2;
       put(line, k, std::abs(end - begin) * (chord.intensity + middle * chord.intensity_per_s),
-          chord.exponent + middle * chord.exponent_per_s);
+          chord.exponent + middle * chord.exponent_per_s, chord.surface,
+          placesAt(chord, middle) - k);
     });
   }
 
@@ -148,7 +151,7 @@ class ChordSampler {
       const double begin_m = min_depth_m_ + k * spacing_m_;
       const double share =
           first == last ? 1 : std::abs(before(begin_m + spacing_m_) - before(begin_m));
-      put(line, k, share / 3 * echo.intensity, echo.exponent);
+      put(line, k, share / 3 * echo.intensity, echo.exponent, echo.surface, 0.5);
     });
   }
 
@@ -157,14 +160,15 @@ class ChordSampler {
   double placeOf(double depth_m) const {
     return angular_ ? -1 / (depth_m + to_centre_m_) : depth_m;
   }
-  double sampleAt(const Chord& chord, double s) const {
+  // In samples from the first one's beginning.
+  double placesAt(const Chord& chord, double s) const {
     const double place = chord.place + s * chord.place_per_s;
-    if (!angular_) return sampleOf(place);
-    return place < 0 ? sampleOf(-1 / place - to_centre_m_) : samples_;  // else it is never met
+    if (!angular_) return placesOf(place);
+    return place < 0 ? placesOf(-1 / place - to_centre_m_) : samples_;  // else it is never met
   }
-  double sampleOf(double depth_m) const {
-    return std::floor((depth_m - min_depth_m_) / spacing_m_);
-  }
+  double placesOf(double depth_m) const { return (depth_m - min_depth_m_) / spacing_m_; }
+  double sampleAt(const Chord& chord, double s) const { return std::floor(placesAt(chord, s)); }
+  double sampleOf(double depth_m) const { return std::floor(placesOf(depth_m)); }
 
   // Of the samples from first to last, those in the image.
   template <typename Each>
@@ -175,14 +179,18 @@ class ChordSampler {
     for (double k = begin; k <= end; ++k) each(k);
   }
 
-  void put(std::size_t line, double k, double intensity, double exponent) {
+  void put(std::size_t line, double k, double intensity, double exponent, SurfaceId surface,
+           double place) {
     const std::size_t i = echoes_.count++;
     echoes_.at[i] = static_cast<std::uint32_t>(line * static_cast<std::size_t>(samples_)) +
                     static_cast<std::uint32_t>(k);
     echoes_.intensity[i] = intensity;
     echoes_.exponent[i] = exponent;
+    echoes_.coherent_part[i] = static_cast<float>(settings_.surfaces[index(surface)].coherent_part);
+    echoes_.place[i] = static_cast<float>(place);
   }
 
+  const TraceSettings& settings_;
   CellEchoes& echoes_;
   bool angular_;
   double width_, to_centre_m_, min_depth_m_, spacing_m_;
@@ -234,9 +242,10 @@ void addLonely(std::size_t line, const Echoes& echoes, const Side& side, ChordSa
 
 }  // namespace
 
-void linkEchoes(const Probe& probe, std::span<LineTrace> lines, CellEchoes& echoes) {
+void linkEchoes(const Probe& probe, const TraceSettings& settings, std::span<LineTrace> lines,
+                CellEchoes& echoes) {
   echoes.count = 0;
-  ChordSampler sampler(probe, echoes);
+  ChordSampler sampler(probe, settings, echoes);
   Pairing pairing;
   Side left, right;
   std::vector<std::size_t> waiting;

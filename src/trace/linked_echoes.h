@@ -30,11 +30,13 @@
 
 #include "scene/probe.h"
 #include "trace/line_trace.h"
+#include "trace/trace_settings.h"
 
 namespace echocine {
 
 // Fills `echoes` with those of the lines, which are left with none. Precondition: the probe is that
 // of the lines, two at least.
-void linkEchoes(const Probe& probe, std::span<LineTrace> lines, CellEchoes& echoes);
+void linkEchoes(const Probe& probe, const TraceSettings& settings, std::span<LineTrace> lines,
+                CellEchoes& echoes);
 
 }  // namespace echocine

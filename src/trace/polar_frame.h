@@ -7,6 +7,7 @@
 
 #include "core/beam_plane.h"
 #include "scene/scene.h"
+#include "trace/coherent_echoes.h"
 #include "trace/line_trace.h"
 
 namespace echocine {
@@ -20,6 +21,7 @@ struct PolarFrame {
   std::map<Channel, std::vector<float>> planes;  // the intensity channels that were asked for
   std::vector<std::uint32_t> medium;             // Channel::medium, if asked for
   Intensities intensities;                       // where the signal chain starts
+  CoherentEchoes coherent;                       // part of these; empty unless asked for
 };
 
 }  // namespace echocine

@@ -19,6 +19,8 @@ constexpr std::size_t kRaysOfBlock = 64;  // shared among threads at least so ma
 struct Wanted {
   IntensityTerms parts;
   std::vector<float>* plane;
+  // Of a plane of CoherentEchoes: which one.
+  std::vector<float> CoherentEchoes::*coherent = nullptr;
 };
 
 std::vector<Wanted> intensityPlanes(const TraceSettings& settings, const PlaneRequest& request,
@@ -29,7 +31,15 @@ std::vector<Wanted> intensityPlanes(const TraceSettings& settings, const PlaneRe
       wanted.push_back({partsOf(channel, settings.attenuation, request.spread_undone_at_m),
                         &frame.planes.at(channel)});
   for (Wanted& plane : wanted) plane.parts.echo_samples = request.echo_samples;
-  if (request.intensities) wanted.push_back({request.intensity_terms, &frame.intensities.values});
+  if (!request.intensities) return wanted;
+  wanted.push_back({request.intensity_terms, &frame.intensities.values});
+  if (!settings.coherent_echoes) return wanted;
+  frame.coherent.clear(frame.intensities.size());
+  IntensityTerms echoes = request.intensity_terms;
+  echoes.backscatter = false;
+  for (const auto plane :
+       {&CoherentEchoes::intensity, &CoherentEchoes::real, &CoherentEchoes::imaginary})
+    wanted.push_back({echoes, &(frame.coherent.*plane), plane});
   return wanted;
 }
 
@@ -64,29 +74,38 @@ class LensStates {
   std::array<RayCrossings, 2> met_;
 };
 
-// Adds an interface's echo to weighted sums, over the depths of the ray's stratum.
-void addEcho(const Echo& echo, const BeamRay& ray, const Sampling& sampling, double intensity,
-             std::span<const float> weights, double* sums) {
+// Spreads an interface's echo over the depths of the ray's stratum: to each sample its share, and
+// the middle of that in samples.
+template <typename Each>
+void overStratum(const Echo& echo, const BeamRay& ray, const Sampling& sampling, const Each& each) {
   const double lean = std::clamp(dot(ray.lateral, echo.tilt), -kSteepestLean, kSteepestLean);
   const auto place = [&](double slope) {  // in samples from the shallowest one's beginning
     const double depth_m = echo.depth_m * (1 - lean * slope);
     return (depth_m - sampling.min_depth_m) / sampling.spacing_m;
   };
-  const double one = place(ray.from_slope), other = place(ray.to_slope);
-  const double from = std::min(one, other), to = std::max(one, other);
+  const double first = place(ray.from_slope), last = place(ray.to_slope);
+  const double from = std::min(first, last), to = std::max(first, last);
   const double samples = static_cast<double>(sampling.samples);
   if (std::floor(from) == std::floor(to)) {
     if (from < 0 || from >= samples) return;
-    const auto k = static_cast<std::size_t>(from);
-    sums[k] += static_cast<double>(weights[k]) * intensity;
+    each(static_cast<std::size_t>(from), 1.0, (from + to) / 2);
     return;
   }
   const double begin = std::max(from, 0.0), end = std::min(to, samples);
   for (double k = std::floor(begin); k < end; ++k) {
-    const double share = (std::min(k + 1, to) - std::max(k, from)) / (to - from);
-    const auto at = static_cast<std::size_t>(k);
-    sums[at] += static_cast<double>(weights[at]) * intensity * share;
+    const double one = std::max(k, from), other = std::min(k + 1, to);
+    each(static_cast<std::size_t>(k), (other - one) / (to - from), (one + other) / 2);
   }
+}
+
+// What a plane takes of an echo at a place in samples.
+double coherentPart(std::vector<float> CoherentEchoes::*plane, const TraceSettings& settings,
+                    const Sampling& sampling, const Echo& echo, double place) {
+  if (!plane) return 1;
+  const double part = settings.surfaces[index(echo.surface)].coherent_part;
+  if (part == 0 || plane == &CoherentEchoes::intensity) return part;
+  const EchoPhase phase(sampling.min_depth_m + place * sampling.spacing_m, settings.wavelength_m);
+  return part * (plane == &CoherentEchoes::real ? phase.real : phase.imaginary);
 }
 
 // Weighted sums of one line's rays. In double: the average of equal values is that value, however
@@ -101,8 +120,8 @@ class BeamSums {
     for (std::vector<double>& sums : of_planes_) sums.assign(samples, 0.0);
   }
 
-  void add(const BeamRays& beams, const BeamRay& ray, const LineTrace& trace,
-           const Sampling& sampling, std::span<const Wanted> wanted) {
+  void add(const TraceSettings& settings, const BeamRays& beams, const BeamRay& ray,
+           const LineTrace& trace, const Sampling& sampling, std::span<const Wanted> wanted) {
     if (beams.weighted()) beams.weights(ray, weights_);
     const std::size_t samples = weights_.size();
     const float* weight = weights_.data();
@@ -122,8 +141,11 @@ class BeamSums {
       if (!parts.reflection) continue;
       for (const Echo& echo : trace.echoes) {
         const double lost = parts.attenuation ? std::exp(-echo.exponent) : 1.0;
-        addEcho(echo, ray, sampling, parts.echo_samples * parts.shown(echo.intensity) * lost,
-                weights_, sums);
+        const double intensity = parts.echo_samples * parts.shown(echo.intensity) * lost;
+        overStratum(echo, ray, sampling, [&](std::size_t k, double share, double middle) {
+          sums[k] += static_cast<double>(weight[k]) * intensity * share *
+                     coherentPart(wanted[p].coherent, settings, sampling, echo, middle);
+        });
       }
     }
   }
@@ -203,7 +225,7 @@ class BeamFrame {
         walkTogether(geometry_, settings_, std::span(packet.rays).first(packet.size), traces);
     for (std::size_t i = 0; i < packet.size; ++i) {
       if (packet.done == 0) sums.begin(wanted_.size(), static_cast<std::size_t>(sampling_.samples));
-      sums.add(beams_, packet.beam[i], traces[i], sampling_, wanted_);
+      sums.add(settings_, beams_, packet.beam[i], traces[i], sampling_, wanted_);
       if (++packet.done < static_cast<std::size_t>(beams_.count())) continue;
       sums.finish(packet.line[i], wanted_);
       packet.done = 0;
@@ -250,18 +272,19 @@ WorkCounts sampledWork(const TraceSettings& settings, std::span<const Wanted> wa
 
 WorkCounts traceBeams(const FrameGeometry& geometry, const Probe& probe,
                       const TraceSettings& settings, const PlaneRequest& request,
-                      const BeamRays& beams, int frame_index, PolarFrame& frame) {
+                      const BeamRays& beams, int frame_index, LineRange range, PolarFrame& frame) {
   reservePlanes(probe, request, frame);
   WorkCounts work = traceCentres(geometry, probe, settings, request, frame);
   const std::vector<Wanted> wanted = intensityPlanes(settings, request, frame);
   if (wanted.empty()) return work;
   const BeamFrame shared(geometry, probe, settings, beams, frame_index, wanted);
-  const auto lines = static_cast<std::size_t>(probe.lines);
+  const auto first = static_cast<std::size_t>(range.first);
+  const auto lines = static_cast<std::size_t>(range.count());
   const auto per_line = static_cast<std::size_t>(beams.count());
   const std::size_t grain = std::max<std::size_t>(kRaysOfBlock / per_line, 1);
   std::vector<WorkCounts> of_block((lines + grain - 1) / grain);
   parallelBlocks(lines, grain, [&](std::size_t begin, std::size_t end) {
-    of_block[begin / grain] = shared.traceLines(begin, end);
+    of_block[begin / grain] = shared.traceLines(first + begin, first + end);
   });
   for (const WorkCounts& w : of_block) work += w;
   return work += sampledWork(settings, wanted,

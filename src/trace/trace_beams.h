@@ -11,9 +11,10 @@ namespace echocine {
 // the line itself, which is traced only for them. Patterns of rays differ from frame to frame and
 // line to line. Lines are worked on in parallel; the result does not depend on the number of
 // threads. frame.traces are those along the lines, or empty.
+// Intensities and their channels of other lines than `lines` are not defined.
 // Precondition: settings.cells is none.
 WorkCounts traceBeams(const FrameGeometry& geometry, const Probe& probe,
                       const TraceSettings& settings, const PlaneRequest& request,
-                      const BeamRays& beams, int frame_index, PolarFrame& frame);
+                      const BeamRays& beams, int frame_index, LineRange lines, PolarFrame& frame);
 
 }  // namespace echocine

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "core/units.h"
@@ -63,10 +64,11 @@ namespace {
 class LineSampler {
  public:
   LineSampler(const Probe& probe, const TraceSettings& settings, const PlaneRequest& request,
-              PolarFrame& frame)
+              const NeededSamples* needed, PolarFrame& frame)
       : sampling_(samplingOf(probe, settings)),
         settings_(settings),
         request_(request),
+        needed_(needed),
         frame_(frame) {}
 
   // After all lines.
@@ -79,34 +81,50 @@ class LineSampler {
   }
 
   void sample(int line, const LineTrace& trace) const {
+    const bool taken = !needed_ || (line >= needed_->lines.first && line < needed_->lines.end);
+    if (taken) sampleChannels(line, trace);
+    if (!request_.intensities) return;
+    const std::span<float> values = column(frame_.intensities.values, line);
+    Sampling first = sampling_;
+    if (needed_) first.samples = needed_->intensities[static_cast<std::size_t>(line)];
+    const auto count = static_cast<std::size_t>(first.samples);
+    sampleIntensity(trace, first, request_.intensity_terms, values.first(count));
+    std::fill(values.begin() + first.samples, values.end(), 0.0f);
+  }
+
+  void sampleChannels(int line, const LineTrace& trace) const {
     for (const Channel channel : request_.channels) {
       if (channel == Channel::medium)
         sampleMedium(trace, sampling_, column(frame_.medium, line));
       else if (channel == Channel::attenuation)
         sampleExponent(trace, sampling_, column(frame_.planes.at(channel), line));
       else
-        intensity(trace, termsOfChannel(channel), column(frame_.planes.at(channel), line));
+        sampleIntensity(trace, sampling_, termsOfChannel(channel),
+                        column(frame_.planes.at(channel), line));
     }
-    if (request_.intensities)
-      intensity(trace, request_.intensity_terms, column(frame_.intensities.values, line));
   }
 
   // Of all lines, by what each plane takes.
   WorkCounts work() const {
     WorkCounts work;
-    const auto add = [&](const IntensityTerms& parts) {
-      const auto size =
-          static_cast<std::uint64_t>(frame_.lines) * static_cast<std::uint64_t>(frame_.samples);
+    const int lines = needed_ ? needed_->lines.count() : frame_.lines;
+    const auto of_channel =
+        static_cast<std::uint64_t>(lines) * static_cast<std::uint64_t>(frame_.samples);
+    const auto add = [&](const IntensityTerms& parts, std::uint64_t size) {
       if (parts.backscatter && settings_.backscatter) work.samples_backscatter += size;
       if (parts.attenuation) work.samples_attenuated += size;
     };
     for (const Channel channel : request_.channels) {
       if (channel == Channel::attenuation)
-        add({.reflection = false, .backscatter = false});
+        add({.reflection = false, .backscatter = false}, of_channel);
       else if (channel != Channel::medium)
-        add(termsOfChannel(channel));
+        add(termsOfChannel(channel), of_channel);
     }
-    if (request_.intensities) add(request_.intensity_terms);
+    if (!request_.intensities) return work;
+    add(request_.intensity_terms,
+        needed_ ? std::accumulate(needed_->intensities.begin(), needed_->intensities.end(),
+                                  std::uint64_t{0})
+                : of_channel);
     return work;
   }
 
@@ -122,14 +140,10 @@ class LineSampler {
     return std::span(plane).subspan(static_cast<std::size_t>(line) * samples, samples);
   }
 
-  void intensity(const LineTrace& trace, const IntensityTerms& parts,
-                 std::span<float> values) const {
-    sampleIntensity(trace, sampling_, parts, values);
-  }
-
   Sampling sampling_;
   const TraceSettings& settings_;
   const PlaneRequest& request_;
+  const NeededSamples* needed_;
   PolarFrame& frame_;
 };
 
@@ -170,10 +184,12 @@ TraceSettings::TraceSettings(const Scene& scene, const EffectPlan& plan, EchoCel
       reflection_cap(plan.reflection_cap),
       thin_layers(plan.thin_layers),
       cells(integrated),
+      coherent_echoes(plan.coherent_echoes),
       note_hits(integrated == EchoCells::contours) {
   for (const Structure& s : scene.structures)
     surfaces.push_back({s.medium, s.priority, s.membrane, s.reflection_gain,
-                        plan.lobe ? s.reflection_exponent : 0});
+                        plan.lobe ? s.reflection_exponent : 0,
+                        s.coherent_share / (1 + s.coherent_share)});
 }
 
 PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan) {
@@ -205,12 +221,17 @@ namespace {
 
 // Samples all lines into the planes of the frame.
 void sampleLines(const Probe& probe, const TraceSettings& settings, const PlaneRequest& request,
-                 PolarFrame& frame, WorkCounts& work) {
-  const LineSampler sampler(probe, settings, request, frame);
+                 const NeededSamples* needed, PolarFrame& frame, WorkCounts& work) {
+  const LineSampler sampler(probe, settings, request, needed, frame);
   parallelBlocks(frame.traces.size(), kPacket, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) sampler.sample(static_cast<int>(i), frame.traces[i]);
   });
   if (settings.cells != EchoCells::none) sampler.addCellEchoes();
+  if (settings.coherent_echoes && request.intensities) {
+    frame.coherent.clear(frame.intensities.size());
+    addCoherent(frame.traces, frame.cell_echoes, settings, samplingOf(probe, settings),
+                request.intensity_terms, frame.coherent);
+  }
   work += sampler.work();
 }
 
@@ -233,18 +254,19 @@ WorkCounts walkLines(const FrameGeometry& geometry, const Probe& probe,
 }
 
 WorkCounts traceFrame(const FrameGeometry& geometry, const Probe& probe,
-                      const TraceSettings& settings, const PlaneRequest& request,
-                      PolarFrame& frame) {
+                      const TraceSettings& settings, const PlaneRequest& request, PolarFrame& frame,
+                      const NeededSamples* needed) {
   reservePlanes(probe, request, frame);
   WorkCounts work = walkLines(geometry, probe, settings, frame.traces);
   work.bvh_updates = 1;  // the one that this frame's rays went through
-  if (settings.cells == EchoCells::links) linkEchoes(probe, frame.traces, frame.cell_echoes);
-  sampleLines(probe, settings, request, frame, work);
+  if (settings.cells == EchoCells::links)
+    linkEchoes(probe, settings, frame.traces, frame.cell_echoes);
+  sampleLines(probe, settings, request, needed, frame, work);
   return work;
 }
 
 WorkCounts traceFrame(const PlaneSlice& slice, const Probe& probe, const TraceSettings& settings,
-                      const PlaneRequest& request, PolarFrame& frame) {
+                      const PlaneRequest& request, PolarFrame& frame, const NeededSamples* needed) {
   reservePlanes(probe, request, frame);
   WorkCounts work;
   for (int i = 0; i < probe.lines; ++i) {
@@ -259,7 +281,7 @@ WorkCounts traceFrame(const PlaneSlice& slice, const Probe& probe, const TraceSe
   work.facets_sliced = slice.edges().size();
   if (settings.cells == EchoCells::contours)
     addCellEchoes(slice.edges(), slice.normals(), probe, settings, frame.traces, frame.cell_echoes);
-  sampleLines(probe, settings, request, frame, work);
+  sampleLines(probe, settings, request, needed, frame, work);
   return work;
 }
 

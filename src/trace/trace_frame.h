@@ -19,6 +19,13 @@ struct PlaneRequest {
   IntensityTerms intensity_terms;
 };
 
+// Of a frame that only some lines are taken from: those whose channels are, and of each line so
+// many of the samples of intensities, from the first.
+struct NeededSamples {
+  LineRange lines;
+  std::vector<int> intensities;
+};
+
 PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan);
 
 Sampling samplingOf(const Probe& probe, const TraceSettings& settings);
@@ -37,12 +44,14 @@ WorkCounts walkLines(const FrameGeometry& geometry, const Probe& probe,
 // links through the hierarchy, contours through the slice; and then two lines at least.
 // Fills `frame` (its memory is used again) and returns the work. Lines are sampled in parallel;
 // each writes only its own column, so the result does not depend on the number of threads.
+// needed: what is sampled, with the same values; null: all.
 WorkCounts traceFrame(const FrameGeometry& geometry, const Probe& probe,
-                      const TraceSettings& settings, const PlaneRequest& request,
-                      PolarFrame& frame);
+                      const TraceSettings& settings, const PlaneRequest& request, PolarFrame& frame,
+                      const NeededSamples* needed = nullptr);
 
 // The same through the plane slice. Precondition: settings.refraction is off.
 WorkCounts traceFrame(const PlaneSlice& slice, const Probe& probe, const TraceSettings& settings,
-                      const PlaneRequest& request, PolarFrame& frame);
+                      const PlaneRequest& request, PolarFrame& frame,
+                      const NeededSamples* needed = nullptr);
 
 }  // namespace echocine

@@ -13,6 +13,7 @@ struct SurfaceTraits {
   int priority = 0;
   bool membrane = false;
   double gain = 1, exponent = 2;  // of the non-specular lobe
+  double coherent_part = 0;       // of its echoes: K / (1 + K)
 };
 
 // Echoes of interfaces at the lines; or integrated over the beams' cells, by what the plane slice
@@ -41,7 +42,8 @@ struct TraceSettings {
   bool reflection_cap = true;  // W is at most R at normal incidence
   bool thin_layers = true;     // interfaces closer than the pulse send back one coherent echo
   EchoCells cells = EchoCells::none;
-  bool note_hits = false;  // keep what the walk judged of each crossing; contours need it
+  bool coherent_echoes = false;  // some structure's echoes have a coherent part, and it is wanted
+  bool note_hits = false;        // keep what the walk judged of each crossing; contours need it
 };
 
 }  // namespace echocine

@@ -178,7 +178,8 @@ const PlaneSlice& TruthMaker::sliceOf(const SurfaceFrame& surfaces, const TruthS
 
 FrameTruth TruthMaker::at(const TruthTime& time, const TruthShared& shared) const {
   FrameTruth truth;
-  const TruthSettings& wanted = scene_.truth;
+  TruthSettings wanted = scene_.truth;
+  if (time.planes_only) wanted.contours = wanted.function = wanted.tracks = false;
   const std::shared_ptr<Space> s = space();
   if (shared.surfaces == nullptr) motion_.frameAt(time.phase, s->surfaces, false);
   const SurfaceFrame& surfaces = shared.surfaces != nullptr ? *shared.surfaces : s->surfaces;

@@ -39,9 +39,11 @@ struct FrameTruth {
 };
 
 // An instant and its neighbours, from which velocity is taken.
+// planes_only: what stands at pixels and samples; nothing of contours, function and tracks.
 struct TruthTime {
   double phase = 0, before = 0, after = 0;  // phases of the keyframes, [0, 1)
   double seconds = 0;                       // from before to after
+  bool planes_only = false;
 };
 
 // What the tracer has made of the same phase already; null where it has not.

@@ -113,6 +113,49 @@ void speckleFrame(benchmark::State& state) {
   overFloor(state, made(*with), made(without));
 }
 
+// A scene's frames with a change next to those without, at the loop's own instants.
+template <typename Change>
+void changedFrame(benchmark::State& state, const Scene& scene, const Change& change) {
+  const Simulator without(scene);
+  Scene changed = scene;
+  change(changed);
+  std::optional<Simulator> with;
+  withThreads(1, [&] { with.emplace(changed, without.sharedMotion()); });
+  const auto made = [](const Simulator& simulator) {
+    return [&simulator, w = simulator.workspace()](std::size_t i) {
+      const CardiacClock& clock = simulator.cardiacClock();
+      const FrameTime time = clock.at(static_cast<int>(i) % clock.frameCount());
+      benchmark::DoNotOptimize(simulator.trace(time, *w));
+      benchmark::DoNotOptimize(simulator.picture(kReference, time, *w, true).pixels.data());
+    };
+  };
+  overFloor(state, made(*with), made(without));
+}
+
+// The whole frame with all artefacts, but for persistence, next to the same frame without them.
+void artefactFrame(benchmark::State& state) {
+  const BenchScene bare_scene{Size(state)};
+  const LoopOnDisk loop(bare_scene, false);
+  Scene scene = readScene(loop.sceneFile());
+  scene.speckle.on = state.range(3) != 0;
+  changedFrame(state, scene, [](Scene& s) {
+    s.artefacts.dropout = s.artefacts.acoustic_window = s.artefacts.haze = true;
+    s.artefacts.reverberation = s.artefacts.clutter = s.artefacts.noise = true;
+  });
+}
+
+// Frames whose lines roll, by lines to a group, next to still ones.
+void rollingFrame(benchmark::State& state) {
+  const BenchScene bare_scene{Size(state)};
+  const LoopOnDisk loop(bare_scene, false);
+  Scene scene = readScene(loop.sceneFile());
+  scene.speckle.on = state.range(4) != 0;
+  changedFrame(state, scene, [&](Scene& s) {
+    s.acquisition.rolling = true;
+    s.accuracy.rolling_lines = static_cast<int>(state.range(3));
+  });
+}
+
 struct LoopTime {
   double cpu_ms = 0, wall_ms = 0;  // per frame, the first ones left out
 };
@@ -186,6 +229,16 @@ BENCHMARK(wholeFrame)
 BENCHMARK(speckleFrame)
     ->Args({50000, 256, 1024})
     ->Args({50000, 128, 1024})
+    ->UseManualTime()
+    ->Iterations(kRounds)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(artefactFrame)
+    ->ArgsProduct({{50000}, {256}, {1024}, {0, 1}})
+    ->UseManualTime()
+    ->Iterations(kRounds)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(rollingFrame)
+    ->ArgsProduct({{50000}, {256}, {1024}, {8, 16, 32, 64, 128}, {0, 1}})
     ->UseManualTime()
     ->Iterations(kRounds)
     ->Unit(benchmark::kMillisecond);

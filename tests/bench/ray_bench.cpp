@@ -87,7 +87,8 @@ void beams(benchmark::State& state, bool elevation) {
   overFloor(
       state,
       [&](std::size_t i) {
-        traceBeams(geometry, asked.probe, settings, request, rays, static_cast<int>(i), polar);
+        traceBeams(geometry, asked.probe, settings, request, rays, static_cast<int>(i),
+                   {0, asked.probe.lines}, polar);
       },
       [&](std::size_t) {
         for (int i = 0; i < kRays; ++i)

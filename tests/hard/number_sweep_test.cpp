@@ -23,6 +23,7 @@ unit_volume_cm3 = 1.0
 [acquisition]
 heart_rate_bpm = 65.0
 frame_rate_hz = 5.0
+rolling_share = 0.5
 beats = 1.0
 rr_variability = 0.1
 seed = 1
@@ -39,6 +40,7 @@ priority = 3
 keyframes = ["ball_0.obj", "ball_1.obj"]
 reflection_gain = 1.0
 reflection_exponent = 2.0
+coherent_share = 1.0
 [output]
 channels = ["Y", "unattenuated.Y", "attenuation.A", "reflection.Y", "backscatter.Y", "display.Y"]
 report = false
@@ -96,6 +98,7 @@ grey_gamma = 1.0
 [accuracy]
 rays_per_beam = 1
 refraction_tolerance_beam_widths = 0.5
+rolling_lines = 16
 )";
 const std::string kRays = R"(
 aperture_mm = 20

@@ -156,3 +156,13 @@ def test_labels_have_names(heart, tmp_path, numbers):
     assert numbers is None or loop.label_names == {3: "lv_cavity", 7: "lv_wall"}
     with pytest.raises(ValueError, match="labels.*accepted"):
         echocine.render(heart, frames=(0, 1)).label_names
+
+
+def test_rolling_lines_are_the_same_in_frames_and_loops(heart):
+    still = echocine.render(heart)
+    heart.update({"acquisition.rolling": True, "accuracy.rolling_lines": 6, "output.channels": ["Y", "display.Y"]})
+    loop = echocine.render(heart)
+    frame = echocine.Simulator(heart).frame(float(loop.times_s[3]))
+    assert frame.intensities.tobytes() == loop.intensities[3].tobytes()
+    assert frame.greys.tobytes() == loop.greys[3].tobytes()
+    assert frame.intensities.tobytes() != still.intensities[3].tobytes()

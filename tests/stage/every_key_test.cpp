@@ -40,6 +40,7 @@ TEST(EveryKey, ProbeKeysThatAreLeftOutTakeTheReferencesValues) {
   EXPECT_EQ(plain.probe.min_depth_m, reference.probe.min_depth_m);
   EXPECT_EQ(reference.structures[0].reflection_gain, Structure{}.reflection_gain);
   EXPECT_EQ(reference.structures[0].reflection_exponent, Structure{}.reflection_exponent);
+  EXPECT_EQ(reference.structures[0].coherent_share, Structure{}.coherent_share);
   EXPECT_EQ(reference.structures[0].repair.any(), Structure{}.repair.any());
 }
 

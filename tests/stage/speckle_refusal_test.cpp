@@ -46,6 +46,16 @@ TEST(SpeckleRefusal, NumbersOutOfRangeNameTheirKeyInOneLine) {
   }
 }
 
+TEST(SpeckleRefusal, ACoherentShareIsANumberFromZeroUp) {
+  for (const std::string share : {"-1", "nan", "inf", "\"all\""}) {
+    SceneText scene;
+    scene.addStructure("box", "blood", "\"box.obj\"", 1, "coherent_share = " + share);
+    const std::string message = refusalOf(scene.text());
+    EXPECT_NE(message.find(": structure.coherent_share: is "), std::string::npos) << message;
+    EXPECT_NE(message.find("accepted: a number from 0 up"), std::string::npos) << message;
+  }
+}
+
 TEST(SpeckleRefusal, APulseThatSpeckleCannotBeMadeOf) {
   SceneText scene = SceneText::oneBox("blood");
   scene.extra = "[speckle]\non = true\n";

@@ -58,7 +58,8 @@ inline PolarFrame traceWorld(const World& world, EffectPlan plan, Tracer tracer,
     geometry.update(frame);
     if (plan.rays_per_beam > 1) {
       const BeamRays beams(world.scene.probe, beamSpread(plan, world.scene.acquisition.seed));
-      traceBeams(geometry, world.scene.probe, settings, request, beams, frame_index, polar);
+      traceBeams(geometry, world.scene.probe, settings, request, beams, frame_index,
+                 {0, world.scene.probe.lines}, polar);
       return polar;
     }
     traceFrame(geometry, world.scene.probe, settings, request, polar);

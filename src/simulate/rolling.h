@@ -1,0 +1,45 @@
+#pragma once
+// Lines that are acquired one after the other, and not all at once.
+//
+// Of N lines, line l is acquired at t + ((l + 1/2) / N - 1/2) s T: t the frame's time, which is
+// that of its middle line, T the interval between frames, s the share of it in which lines are
+// acquired. Neighbours in groups of accuracy.rolling_lines share the instant of their middle. A
+// line of a rolling frame is that of the still frame at its group's instant.
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/beam_plane.h"
+#include "scene/scene.h"
+#include "trace/polar_frame.h"
+#include "trace/trace_frame.h"
+#include "truth/frame_truth.h"
+
+namespace echocine {
+
+class RollingLines {
+ public:
+  // taken: which samples of each line are traced for some lines.
+  RollingLines(const Scene& scene, const std::function<std::vector<int>(LineRange)>& taken);
+
+  struct Group {
+    LineRange lines;
+    double offset_s = 0;     // from the frame's time
+    NeededSamples traced{};  // for these lines
+    LineRange beams{};       // that hold all these samples
+  };
+  const std::vector<Group>& groups() const { return groups_; }
+
+  // Copies the lines of a group, of all planes that there are. `to` has room after the first.
+  void take(std::size_t group, const PolarFrame& from, PolarFrame& to) const;
+  // The same of truth at samples, and at the pixels that are nearest to its lines.
+  void take(std::size_t group, const FrameTruth& from, FrameTruth& to) const;
+
+ private:
+  int lines_, samples_;
+  std::vector<Group> groups_;
+  std::vector<std::uint16_t> group_of_pixel_;  // of the picture; only where labels are asked for
+};
+
+}  // namespace echocine
