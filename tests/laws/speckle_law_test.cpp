@@ -78,20 +78,15 @@ TEST(SpeckleLaw, TheEnvelopeIsRayleighAtAnyDensity) {
 // Full width at half maximum of the intensity's autocorrelation, in samples (or lines), over seeds.
 double widthOf(SpeckleBed bed, bool along) {
   constexpr int kSeeds = 8, kLags = 12;
-  double mean[kLags] = {};
+  std::vector<double> mean(kLags);
   const Window w{8, bed.probe.lines - 8 - kLags, 8, bed.probe.samples - 8 - kLags};
   for (bed.settings.seed = 1; bed.settings.seed <= kSeeds; ++bed.settings.seed) {
     const std::vector<float> p = bed.picture(bed.speckle());
     for (int lag = 0; lag < kLags; ++lag)
-      mean[lag] +=
+      mean[static_cast<std::size_t>(lag)] +=
           correlation(p, p, bed.probe.samples, w, along ? 0 : lag, along ? lag : 0) / kSeeds;
   }
-  int lag = 1;
-  while (lag + 1 < kLags && mean[lag] > 0.5) ++lag;
-  // Between two lags as a Gaussian falls: linear in lag^2 and the logarithm.
-  const double x0 = (lag - 1.0) * (lag - 1.0), x1 = 1.0 * lag * lag;
-  const double y0 = std::log(mean[lag - 1]), y1 = std::log(mean[lag]);
-  return 2 * std::sqrt(x0 + (x1 - x0) * (y0 - std::log(0.5)) / (y0 - y1));
+  return widthAtHalf(mean);
 }
 
 TEST(SpeckleLaw, CellsAreAsWideAsThePointSpreadAtEveryDepth) {

@@ -122,4 +122,14 @@ inline double correlation(const std::vector<float>& a, const std::vector<float>&
   return (sab - sa * sb / n) / std::sqrt((saa - sa * sa / n) * (sbb - sb * sb / n));
 }
 
+// Full width at half maximum, in lags, of a correlation by lag from 0 on: between two lags as a
+// Gaussian falls, linear in lag^2 and the logarithm.
+inline double widthAtHalf(const std::vector<double>& by_lag) {
+  std::size_t lag = 1;
+  while (lag + 1 < by_lag.size() && by_lag[lag] > 0.5) ++lag;
+  const double at = static_cast<double>(lag), x0 = (at - 1) * (at - 1), x1 = at * at;
+  const double y0 = std::log(by_lag[lag - 1]), y1 = std::log(by_lag[lag]);
+  return 2 * std::sqrt(x0 + (x1 - x0) * (y0 - std::log(0.5)) / (y0 - y1));
+}
+
 }  // namespace echocine::support
