@@ -71,6 +71,7 @@ EchoStack::EchoStack(const Loop& real, const BeatSpan& beat, int pictures, doubl
   metres_per_pixel_ =
       real.metres_per_pixel ? *real.metres_per_pixel : depth_m / real.sector().r_max;
   far_m_ = metres_per_pixel_ * real.sector().r_max;
+  spread_ = measureSpread(real, metres_per_pixel_);
   const double per_pixel = metres_per_pixel_ / kEchoPixel_m;
   width_ = static_cast<int>(std::ceil(real.video.width * per_pixel));
   height_ = static_cast<int>(std::ceil(real.video.height * per_pixel));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compare/beam_grid.h"
+#include "compare/echo_spread.h"
 #include "core/lanes.h"
 
 namespace echocine::compare {
@@ -48,6 +49,7 @@ class EchoStack {
   double metresPerPixel() const { return metres_per_pixel_; }  // of the real loop
   double edgeScale() const { return edge_scale_; }             // root mean square of the gradient
   double far() const { return far_m_; }
+  const EchoSpread& spread() const { return spread_; }
 
   // At a place, lateral and depth from the apex; in_sight is 0 outside the picture.
   // Precondition: seen(picture).
@@ -79,6 +81,7 @@ class EchoStack {
   double metres_per_pixel_ = 0, far_m_ = 0, edge_scale_ = 1;
   int width_ = 0, height_ = 0;
   double origin_x_ = 0, origin_z_ = 0;  // of the apex, in pixels of the stack
+  EchoSpread spread_;
   PixelPlane inside_;
   std::vector<std::vector<Sample>> planes_;
   std::vector<std::vector<float>> sharp_;  // for block matching alone

@@ -231,6 +231,8 @@ void ModelPlane::addPiece(const ContourEdge& cut, Vec3d at, double length_m,
   p.dx_m = static_cast<float>(d.x), p.dz_m = static_cast<float>(d.z);
   p.surface = static_cast<std::uint16_t>(s);
   p.of_blood = blood_in != blood_out;
+  p.blood = static_cast<std::uint8_t>(blood_in ? sides.inner : sides.outer);
+  p.beside = static_cast<std::uint8_t>(blood_in ? sides.outer : sides.inner);
   pieces.push_back(p);
 }
 

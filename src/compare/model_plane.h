@@ -23,12 +23,13 @@ struct TissueCell {
 
 // A piece of a boundary that shows: other tissues lie on its two sides.
 struct BoundaryPoint {
-  float x_m = 0, z_m = 0;     // its middle
-  float nx = 0, nz = 0;       // unit normal; out of blood where blood is on one side
-  float length_m = 0;         // of the piece
-  float dx_m = 0, dz_m = 0;   // of the material, from this frame to the next
-  std::uint16_t surface = 0;  // structure
-  bool of_blood = false;      // blood on one side, something else on the other
+  float x_m = 0, z_m = 0;              // its middle
+  float nx = 0, nz = 0;                // unit normal; out of blood where blood is on one side
+  float length_m = 0;                  // of the piece
+  float dx_m = 0, dz_m = 0;            // of the material, from this frame to the next
+  std::uint16_t surface = 0;           // structure
+  bool of_blood = false;               // blood on one side, something else on the other
+  std::uint8_t blood = 0, beside = 0;  // tissues of the two sides, where it is of blood
 };
 
 struct ModelFrame {

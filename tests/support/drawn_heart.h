@@ -111,6 +111,7 @@ struct Phantom {
       piece.length_m = static_cast<float>(length);
       piece.dx_m = static_cast<float>(next.x - p.x), piece.dz_m = static_cast<float>(next.z - p.z);
       piece.of_blood = true;
+      piece.blood = 2, piece.beside = 1;
       out.boundary.push_back(piece);
     }
   }
@@ -140,7 +141,7 @@ inline Loop draw(const Phantom& phantom, const FitPose& pose, int frames, std::u
                      rz = (j + 0.5 - 1) * kPixel_m - kMiddle_m - pose.shift_z_m;
         const double x = c * rx - s * rz, z = kMiddle_m + s * rx + c * rz;
         const std::uint64_t where =
-            hashOf(seed, static_cast<std::uint64_t>(i / 2), static_cast<std::uint64_t>(j));
+            hashOf(seed, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(j));
         const double speckle = normalFromHashes(hashOf(where, 1, 0), hashOf(where, 2, 0));
         const double grey =
             kGrey[phantom.tissue(x, z, start_phase + static_cast<double>(n) / frames)] +
