@@ -58,7 +58,8 @@ std::vector<BoundaryOffset> offsetsOf(const ModelFrame& frame, const EchoStack& 
     const bool tracked = p.of_blood && m.weight > 0;
     out.push_back({static_cast<float>(x), static_cast<float>(z),
                    static_cast<float>(1e3 * edge.mean_m), static_cast<float>(edge.certainty()),
-                   static_cast<float>(tracked ? 1e3 * std::sqrt(m.apart) : -1), p.surface});
+                   static_cast<float>(tracked ? 1e3 * std::sqrt(m.apart) : -1), p.surface,
+                   p.segment});
   }
   return out;
 }

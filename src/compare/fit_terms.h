@@ -74,6 +74,7 @@ struct BoundaryOffset {
   float certainty = 0;  // 0 no edge to be seen, 1 a single one
   float motion_mm = 0;  // |u - v|; negative where nothing was tracked
   std::uint16_t surface = 0;
+  std::uint8_t segment = 0;  // of the left ventricle's wall; 0: none
 };
 // What the tissues leave of the real grey in a cell, in standard deviations.
 struct RegionLeft {
@@ -87,14 +88,15 @@ struct FitMap {
 };
 FitMap fitMap(const ModelLoop& model, const EchoStack& real, const FitPose& pose);
 
-// How far edges lie from the boundary of one structure over the beat; means by certainty, not a
-// number where nothing is seen. Out of blood is positive: the model's chamber is too small there.
+// How far edges lie from a part of the boundaries over the beat; means by certainty, not a number
+// where nothing is seen. Out of blood is positive: the model's chamber is too small there.
 struct OffsetCurve {
-  std::size_t structure = 0;
+  std::size_t part = 0;                        // a structure, or a segment of 1 to 17
   std::vector<double> offset_mm, distance_mm;  // by frame: of the offsets, of their sizes
   std::vector<double> motion_mm;               // of |u - v|, even mean
 };
-// Of structures that show a boundary.
+// Of structures that show a boundary, and of segments of the left ventricle's wall that do.
 std::vector<OffsetCurve> offsetCurves(const FitMap& map, std::size_t structures);
+std::vector<OffsetCurve> segmentCurves(const FitMap& map);
 
 }  // namespace echocine::compare

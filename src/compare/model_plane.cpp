@@ -123,8 +123,10 @@ void weighByBlood(const ModelLoop& loop, ModelFrame& frame) {
         std::clamp((blood.ptr<float>()[c] - kNone) / (kFull - kNone), 0.0f, 1.0f);
 }
 
-ModelPlane::ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& surfaces)
+ModelPlane::ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& surfaces,
+                       std::optional<WallSegments> segments)
     : surfaces_(surfaces),
+      segments_(std::move(segments)),
       coarse_(withCoarseLines(scene)),
       labels_(coarse_, PictureGrid{}),
       cells_(cellsAt(coarse_.probe)) {
@@ -231,6 +233,8 @@ void ModelPlane::addPiece(const ContourEdge& cut, Vec3d at, double length_m,
   p.dx_m = static_cast<float>(d.x), p.dz_m = static_cast<float>(d.z);
   p.surface = static_cast<std::uint16_t>(s);
   p.of_blood = blood_in != blood_out;
+  if (segments_ && segments_->surface == s && p.of_blood)
+    p.segment = segments_->of_vertex[surfaces_[s].triangles[cut.triangle][0]];
   p.blood = static_cast<std::uint8_t>(blood_in ? sides.inner : sides.outer);
   p.beside = static_cast<std::uint8_t>(blood_in ? sides.outer : sides.inner);
   pieces.push_back(p);
@@ -248,13 +252,14 @@ ModelLoop ModelPlane::cut(const std::vector<SurfaceFrame>& frames) const {
   return loop;
 }
 
-ModelLoop modelLoop(const Scene& scene, const MeshMotion& motion, int frames) {
+ModelLoop modelLoop(const Scene& scene, const MeshMotion& motion, int frames,
+                    const std::optional<WallSegments>& segments) {
   std::vector<SurfaceFrame> surfaces(static_cast<std::size_t>(frames));
   parallelBlocks(surfaces.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       motion.frameAt(static_cast<double>(i) / frames, surfaces[i], false);
   });
-  return ModelPlane(scene, motion.surfaces()).cut(surfaces);
+  return ModelPlane(scene, motion.surfaces(), segments).cut(surfaces);
 }
 
 }  // namespace echocine::compare

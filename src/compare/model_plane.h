@@ -3,6 +3,7 @@
 // and how they move. From the truth of the scene; nothing is traced.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,12 +24,13 @@ struct TissueCell {
 
 // A piece of a boundary that shows: other tissues lie on its two sides.
 struct BoundaryPoint {
-  float x_m = 0, z_m = 0;              // its middle
-  float nx = 0, nz = 0;                // unit normal; out of blood where blood is on one side
-  float length_m = 0;                  // of the piece
-  float dx_m = 0, dz_m = 0;            // of the material, from this frame to the next
-  std::uint16_t surface = 0;           // structure
-  bool of_blood = false;               // blood on one side, something else on the other
+  float x_m = 0, z_m = 0;     // its middle
+  float nx = 0, nz = 0;       // unit normal; out of blood where blood is on one side
+  float length_m = 0;         // of the piece
+  float dx_m = 0, dz_m = 0;   // of the material, from this frame to the next
+  std::uint16_t surface = 0;  // structure
+  bool of_blood = false;      // blood on one side, something else on the other
+  std::uint8_t segment = 0;   // of the left ventricle's wall (WallSegments), 1 to 17; 0: none
   std::uint8_t blood = 0, beside = 0;  // tissues of the two sides, where it is of blood
 };
 
@@ -57,12 +59,22 @@ inline constexpr double kBoundaryPiece_m = 1.25e-3;  // between looks along a bo
 inline constexpr double kNearBlood_m = 10e-3;
 void weighByBlood(const ModelLoop& loop, ModelFrame& frame);
 
+// Which of the 17 segments each vertex of the left ventricle's cavity borders on; 0: none.
+struct WallSegments {
+  std::size_t surface = 0;  // the cavity's
+  std::vector<std::uint8_t> of_vertex;
+};
+// By the material at the beat's start, as truth counts them. Nothing for scenes without a left
+// ventricle and its wall. A second of one core.
+std::optional<WallSegments> wallSegments(const Scene& scene, const MeshMotion& motion);
+
 // Cuts surfaces of one topology, whatever made them.
 class ModelPlane {
  public:
   // Surfaces that a scene has, in the probe frame of the scene. References are kept. Throws
   // SceneError for a linear probe.
-  ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& surfaces);
+  ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& surfaces,
+             std::optional<WallSegments> segments = {});
 
   // Frames that follow one another at equal steps through a whole beat. Runs in parallel.
   ModelLoop cut(const std::vector<SurfaceFrame>& frames) const;
@@ -75,6 +87,7 @@ class ModelPlane {
                 std::vector<BoundaryPoint>& pieces) const;
 
   const std::vector<SurfaceTopology>& surfaces_;
+  std::optional<WallSegments> segments_;
   Scene coarse_;  // the scene with as many lines as the plane has
   PlaneLabels labels_;
   std::vector<std::uint8_t> tissue_of_;  // by structure from 1; 0 the background
@@ -83,6 +96,7 @@ class ModelPlane {
 };
 
 // A beat of a scene's motion in `frames` steps.
-ModelLoop modelLoop(const Scene& scene, const MeshMotion& motion, int frames);
+ModelLoop modelLoop(const Scene& scene, const MeshMotion& motion, int frames,
+                    const std::optional<WallSegments>& segments = {});
 
 }  // namespace echocine::compare

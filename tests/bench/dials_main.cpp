@@ -165,7 +165,7 @@ void tellEdges(const ModelDiscrepancy& d, const ModelLoop& right, const FitPose&
     double sum = 0, n = 0;
     for (const double mm : c.offset_mm)
       if (std::isfinite(mm)) sum += mm, ++n;
-    fmt::print("  edges of {} lie {:+.2f} mm out of blood\n", right.structures[c.structure],
+    fmt::print("  edges of {} lie {:+.2f} mm out of blood\n", right.structures[c.part],
                n > 0 ? sum / n : 0);
   }
 }
