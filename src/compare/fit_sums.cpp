@@ -1,6 +1,7 @@
 #include "compare/fit_sums.h"
 
 #include <algorithm>
+#include <initializer_list>
 
 #include "core/lanes.h"
 
@@ -20,7 +21,7 @@ double EdgeProfile::certainty() const {
   return 1 - entropy / std::log(static_cast<double>(kProfileSteps));
 }
 
-EdgeProfile edgeProfileAt(const EchoStack& real, int picture, double x, double z, double nx,
+EdgeProfile edgeProfileAt(const EchoStack& real, const BeatPlace& at, double x, double z, double nx,
                           double nz, bool of_blood) {
   EdgeProfile out;
   const double per_scale = kSharpness / real.edgeScale();
@@ -30,7 +31,7 @@ EdgeProfile edgeProfileAt(const EchoStack& real, int picture, double x, double z
     const double s = kProfileReach_m * (2.0 * i / (kProfileSteps - 1) - 1);
     const double px = x + s * nx, pz = z + s * nz;
     // The sector's end shows no edge.
-    const EchoStack::Sample g = real.at(picture, px, pz);
+    const EchoStack::Sample g = real.at(at, px, pz);
     const double edge = (nx * static_cast<double>(g.gx) + nz * static_cast<double>(g.gz)) *
                         static_cast<double>(g.in_sight);
     e[i] = static_cast<float>(per_scale * (of_blood ? edge : std::abs(edge)));
@@ -55,9 +56,9 @@ double seenBeside(const EchoStack& real, double x, double z, double nx, double n
   return r > 0 ? real.spread().shift(r, (nx * x + nz * z) / r) : 0;
 }
 
-MotionPair motionOf(const BoundaryPoint& p, const EchoStack& real, int picture,
+MotionPair motionOf(const BoundaryPoint& p, const EchoStack& real, const BeatPlace& at,
                     const PoseMapping& map, double x, double z, double nx, double nz) {
-  const EchoMotion v = real.motionAt(picture, x + kIntoWall_m * nx, z + kIntoWall_m * nz);
+  const EchoMotion v = real.motionAt(at, x + kIntoWall_m * nx, z + kIntoWall_m * nz);
   double ux, uz;
   map.turn(p.dx_m, p.dz_m, ux, uz);
   ux *= map.scale(), uz *= map.scale();
@@ -68,15 +69,15 @@ MotionPair motionOf(const BoundaryPoint& p, const EchoStack& real, int picture,
           v.weight};
 }
 
-void addCells(const ModelLoop& model, const ModelFrame& frame, const EchoStack& real, int picture,
-              const PoseMapping& map, int stride, RegionSums& sums) {
+void addCells(const ModelLoop& model, const ModelFrame& frame, const EchoStack& real,
+              const BeatPlace& at, const PoseMapping& map, int stride, RegionSums& sums) {
   for (int i = stride / 2; i < model.cells_across; i += stride)
     for (int k = stride / 2; k < model.cells_along; k += stride) {
       const TissueCell& cell = frame.cells[static_cast<std::size_t>(i * model.cells_along + k)];
       if (!(cell.area > 0)) continue;
       double x, z;
       map.place(cell.x_m, cell.z_m, x, z);
-      const EchoStack::Sample s = real.at(picture, x, z);
+      const EchoStack::Sample s = real.at(at, x, z);
       const double area = cell.area, seen = area * static_cast<double>(s.in_sight);
       sums.all += area;
       if (!(seen > 0)) continue;
@@ -86,10 +87,11 @@ void addCells(const ModelLoop& model, const ModelFrame& frame, const EchoStack& 
     }
 }
 
-void addStrip(const BoundaryPoint& p, const EchoStack& real, int picture, double x, double z,
-              double nx, double nz, double beside, double cells_per_m2, RegionSums& sums) {
+void addStrip(const BoundaryPoint& p, const EchoStack& real, const BeatPlace& at, double x,
+              double z, double nx, double nz, double beside, double cells_per_m2,
+              RegionSums& sums) {
   const double hx = x - 0.5 * beside * nx, hz = z - 0.5 * beside * nz;
-  const EchoStack::Sample strip = real.at(picture, hx, hz);
+  const EchoStack::Sample strip = real.at(at, hx, hz);
   const double weight = cells_per_m2 * p.length_m * beside * static_cast<double>(strip.in_sight),
                depth = std::sqrt(hx * hx + hz * hz) / real.far();
   sums.greys.add(p.blood, p.blood, 1, depth, strip.grey, -weight);
@@ -105,9 +107,39 @@ double cellsPerArea(const ModelLoop& model, const FitStride& stride) {
   return stride.piece / (stride.cell * stride.cell * along * turn * model.far_m);
 }
 
-int pictureOf(int frame, const FitPose& pose, const EchoStack& real) {
+BeatPlace placeOf(const ModelLoop& model, std::size_t frame, const FitPose& pose,
+                  const EchoStack& real) {
   const int n = real.pictures();
-  return ((frame + pose.lag) % n + n) % n;
+  const double frames = static_cast<double>(model.frames.size()),
+               to = pose.systole > 0 ? pose.systole : real.systole();
+  const auto placed = [&](double f) { return n * warpedPhase(f / frames, model.systole, to); };
+  const double here = placed(static_cast<double>(frame)) + pose.lag;
+  BeatPlace out;
+  out.pace = placed(static_cast<double>(frame) + 1) + pose.lag - here;
+  const auto fill = [&](double first, std::initializer_list<double> shares) {
+    int at = static_cast<int>(first) % n, i = 0;
+    if (at < 0) at += n;
+    for (const double share : shares) {
+      out.pictures[i] = at;
+      out.shares[i++] = static_cast<float>(share);
+      at = at + 1 == n ? 0 : at + 1;
+    }
+  };
+  if (pose.systole > 0) {
+    // Of a search for it: the quadratic B-spline. Two pictures have half the speckle of one, and
+    // blends would win by that; these have nearly as much anywhere between pictures.
+    const double middle = std::round(here), t = here - middle;
+    fill(middle - 1, {0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)});
+    return out;
+  }
+  // What is a picture within rounding is no blend.
+  constexpr double kRounding = 1e-6;
+  const double whole = std::floor(here + kRounding), share = here - whole;
+  if (share > kRounding)
+    fill(whole, {1 - share, share});
+  else
+    fill(whole, {1});
+  return out;
 }
 
 }  // namespace echocine::compare

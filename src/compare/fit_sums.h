@@ -48,7 +48,7 @@ struct EdgeProfile {
 };
 
 // Along a unit normal at a place of the real plane.
-EdgeProfile edgeProfileAt(const EchoStack& real, int picture, double x, double z, double nx,
+EdgeProfile edgeProfileAt(const EchoStack& real, const BeatPlace& at, double x, double z, double nx,
                           double nz, bool of_blood);
 
 // How far into blood a boundary is seen: Eq. 9.
@@ -58,7 +58,7 @@ double seenBeside(const EchoStack& real, double x, double z, double nx, double n
 struct MotionPair {
   double apart = 0, together = 0, weight = 0;
 };
-MotionPair motionOf(const BoundaryPoint& p, const EchoStack& real, int picture,
+MotionPair motionOf(const BoundaryPoint& p, const EchoStack& real, const BeatPlace& at,
                     const PoseMapping& map, double x, double z, double nx, double nz);
 
 // Of Eq. 3.
@@ -68,15 +68,17 @@ struct RegionSums {
 };
 
 // The cells of a frame.
-void addCells(const ModelLoop& model, const ModelFrame& frame, const EchoStack& real, int picture,
-              const PoseMapping& map, int stride, RegionSums& sums);
+void addCells(const ModelLoop& model, const ModelFrame& frame, const EchoStack& real,
+              const BeatPlace& at, const PoseMapping& map, int stride, RegionSums& sums);
 // What lies between a boundary of blood and where it is seen: it looks like what is beside blood.
-void addStrip(const BoundaryPoint& p, const EchoStack& real, int picture, double x, double z,
-              double nx, double nz, double beside, double cells_per_m2, RegionSums& sums);
+void addStrip(const BoundaryPoint& p, const EchoStack& real, const BeatPlace& at, double x,
+              double z, double nx, double nz, double beside, double cells_per_m2, RegionSums& sums);
 // Cells at the largest depth, whose area counts as 1, to the square metre, where every
 // `stride.cell`-th and every `stride.piece`-th piece is looked at.
 double cellsPerArea(const ModelLoop& model, const FitStride& stride);
 
-int pictureOf(int frame, const FitPose& pose, const EchoStack& real);
+// The instant of a model's frame.
+BeatPlace placeOf(const ModelLoop& model, std::size_t frame, const FitPose& pose,
+                  const EchoStack& real);
 
 }  // namespace echocine::compare

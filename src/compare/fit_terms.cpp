@@ -21,7 +21,7 @@ struct BoundarySums {
   double apart = 0, together = 0;  // of Eq. 5
 };
 
-void addBoundary(const ModelFrame& frame, const EchoStack& real, int picture,
+void addBoundary(const ModelFrame& frame, const EchoStack& real, const BeatPlace& at,
                  const PoseMapping& map, int stride, double cells_per_m2, RegionSums& region,
                  BoundarySums& sums) {
   for (std::size_t i = 0; i < frame.boundary.size(); i += static_cast<std::size_t>(stride)) {
@@ -32,13 +32,13 @@ void addBoundary(const ModelFrame& frame, const EchoStack& real, int picture,
     map.turn(p.nx, p.nz, nx, nz);
     const double beside = seenBeside(real, x, z, nx, nz);
     const EdgeProfile edge =
-        edgeProfileAt(real, picture, x - beside * nx, z - beside * nz, nx, nz, true);
+        edgeProfileAt(real, at, x - beside * nx, z - beside * nz, nx, nz, true);
     const double length = p.length_m * edge.in_sight;
     if (!(length > 0)) continue;
-    addStrip(p, real, picture, x, z, nx, nz, beside, cells_per_m2, region);
+    addStrip(p, real, at, x, z, nx, nz, beside, cells_per_m2, region);
     sums.square += length * edge.square;
     sums.length += length;
-    const MotionPair m = motionOf(p, real, picture, map, x, z, nx, nz);
+    const MotionPair m = motionOf(p, real, at, map, x, z, nx, nz);
     sums.apart += length * m.weight * m.apart;
     sums.together += length * m.weight * m.together;
   }
@@ -82,10 +82,10 @@ std::vector<FitTerms> fitTerms(const ModelLoop& model, const EchoStack& real,
   for (std::size_t n = 0; n < model.frames.size(); n += static_cast<std::size_t>(stride.picture))
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const PoseMapping map(poses[i], model.far_m);
-      const int picture = pictureOf(static_cast<int>(n), poses[i], real);
-      if (!real.seen(picture)) continue;
-      addCells(model, model.frames[n], real, picture, map, stride.cell, sums[i].region);
-      addBoundary(model.frames[n], real, picture, map, stride.piece, per_m2, sums[i].region,
+      const BeatPlace at = placeOf(model, n, poses[i], real);
+      if (!real.seen(at)) continue;
+      addCells(model, model.frames[n], real, at, map, stride.cell, sums[i].region);
+      addBoundary(model.frames[n], real, at, map, stride.piece, per_m2, sums[i].region,
                   sums[i].boundary);
     }
   std::vector<FitTerms> out;

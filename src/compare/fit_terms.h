@@ -13,10 +13,12 @@ namespace echocine::compare {
 // Where the model's plane lies in the real one: a point p of the model is seen at
 //   middle + shift + scale R(turn) (p - middle),
 // the middle being half the model's depth below its apex, so that a turn hardly shifts.
-// Frame n of the model is held against picture n + lag of the real beat.
+// Frame n of the model is held against picture n + lag of the real beat, its phase run through so
+// that the model's end-systole meets that of the pictures (warpedPhase()).
 struct FitPose {
   double shift_x_m = 0, shift_z_m = 0, turn_rad = 0, scale = 1;
-  int lag = 0;  // pictures
+  int lag = 0;         // pictures
+  double systole = 0;  // where end-systole is in the pictures; 0: where the stack has it
 };
 
 // What is looked at: every `picture`-th frame, every `cell`-th cell each way, every `piece`-th

@@ -25,7 +25,9 @@ FitWhere fitWhere(const ModelLoop& model, const ModelDiscrepancy& discrepancy, c
   const BeatSpan& beat = discrepancy.beat().span;
   const int last = real.video.frameCount() - 1;
   for (int n = 0; n < kFitFrames; ++n) {
-    const double at = beat.end_diastole + beat.frames * n / kFitFrames,
+    const double phase =
+                     warpedPhase(static_cast<double>(n) / kFitFrames, model.systole, beat.systole),
+                 at = beat.end_diastole + beat.frames * phase,
                  within = at > last + 0.5 ? at - beat.frames : at;
     const auto frame =
         static_cast<std::size_t>(std::clamp(static_cast<int>(std::lround(within)), 0, last));
@@ -58,7 +60,12 @@ Json foundJson(const PoseFound& f) {
 }
 
 Json beatJson(const BeatFound& beat) {
-  return {{"end_diastole_frame", beat.span.end_diastole},
+  return {{"end_systole",
+           {{"part_of_beat", beat.span.systole > 0 ? Json(beat.span.systole) : Json()},
+            {"of_model", beat.span.systole > 0 ? Json(beat.span.shown_systole) : Json()},
+            {"source", beat.systole_source},
+            {"confidence", beat.systole_confidence}}},
+          {"end_diastole_frame", beat.span.end_diastole},
           {"frames", beat.span.frames},
           {"length_source", beat.length_source},
           {"start_source", beat.start_source},

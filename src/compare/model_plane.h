@@ -44,7 +44,8 @@ struct ModelLoop {
   std::vector<std::string> tissues;  // media by name; the background's is the first
   std::vector<bool> blood;           // by tissue
   std::vector<std::string> structures;
-  double far_m = 0;  // depth of the sector from its apex
+  double far_m = 0;    // depth of the sector from its apex
+  double systole = 0;  // end-systole, as a part of the beat; 0: not known
   int cells_across = 0, cells_along = 0;
   std::vector<ModelFrame> frames;
 };
@@ -95,7 +96,8 @@ class ModelPlane {
   ModelLoop empty_;
 };
 
-// A beat of a scene's motion in `frames` steps.
+// A beat of a scene's motion in `frames` steps. Its end-systole is that of the scene's keyframes,
+// else where the left ventricle's cavity is smallest.
 ModelLoop modelLoop(const Scene& scene, const MeshMotion& motion, int frames,
                     const std::optional<WallSegments>& segments = {});
 

@@ -1,6 +1,6 @@
-// dial_table [cost|smooth|pairs|looks]: what one evaluation of a heart's dials costs, stage by
-// stage; how smooth the discrepancy is along two dials; and how far its least value lies from the
-// dials of three hearts under another look, and of one under several.
+// dial_table [cost|smooth|pairs|looks|rates]: what one evaluation of a heart's dials costs, stage
+// by stage; how smooth the discrepancy is along two dials; and how far its least value lies from
+// the dials of three hearts under another look, and of one under several.
 
 #include <fmt/format.h>
 
@@ -69,11 +69,21 @@ struct Fitted {
   FitPose pose;
 
   explicit Fitted(const Pair& p, Look look = Look::scanner, const Change& change = unchanged)
-      : family(familyOf(p)),
-        loop(loopOf(p, look, change)),
-        right(family.at({p.ef, p.edv_ml})),
+      : Fitted(p, familyOf(p), loopOf(p, look, change)) {}
+  // warped: the models' systole may have another share of the beat than the loop's.
+  Fitted(const Pair& p, HeartFamily models, Loop shown, bool warped = true)
+      : family(std::move(models)),
+        loop(std::move(shown)),
+        right(rightOf(p, warped)),
         d(loop, fromFirstFrame(), right),
         pose(d.search(right).pose) {}
+
+ private:
+  ModelLoop rightOf(const Pair& p, bool warped) const {
+    ModelLoop model = family.at({p.ef, p.edv_ml});
+    if (!warped) model.systole = 0;
+    return model;
+  }
 };
 
 template <typename Body>
@@ -185,6 +195,9 @@ void tellPair(const char* name, const Pair& p, const Fitted& fitted) {
   });
   fmt::print("EF {:.2f}, EDV {:.0f} mL, {:.0f} mm, {:.0f} bpm, {}\n", p.ef, p.edv_ml, p.wall_mm,
              p.rate_bpm, name);
+  const BeatFound& timed = fitted.d.beat();
+  fmt::print("  end-systole of the models {:.3f}, of the loop {:.3f}, confidence {:.3f}\n",
+             timed.span.shown_systole, timed.span.systole, timed.systole_confidence);
   const EchoSpread& spread = fitted.d.stack().spread();
   fmt::print("  echoes spread by {:.2f} mm along, {:.2f} mm across at 10 cm, {:.0f} dB\n",
              1e3 * spread.along_m, 100 * spread.across_rad, spread.contrast_db);
@@ -241,6 +254,17 @@ void tellLooks() {
   tell("no beam's width", Look::clean, [](Scene& s) { s.signal.beam_width = BeamWidth::none; });
 }
 
+// Models are told another heart rate than the loop's: another share of systole.
+void tellRates() {
+  for (const auto& [shown, told] : {std::pair{95.0, 60.0}, {55.0, 85.0}}) {
+    Pair p = kPairs[0], q = p;
+    p.rate_bpm = shown, q.rate_bpm = told;
+    for (const bool warped : {false, true})
+      tellPair(fmt::format("models of {:.0f} bpm, {}", told, warped ? "warped" : "even").c_str(), p,
+               Fitted(p, familyOf(q), loopOf(p, Look::scanner, unchanged), warped));
+  }
+}
+
 void run(const char* only) {
   const auto wanted = [&](const char* what) {
     return only == nullptr || std::strcmp(only, what) == 0;
@@ -249,6 +273,7 @@ void run(const char* only) {
   if (wanted("smooth")) tellSmooth();
   if (wanted("pairs")) tellPairs();
   if (wanted("looks")) tellLooks();
+  if (wanted("rates")) tellRates();
 }
 
 }  // namespace

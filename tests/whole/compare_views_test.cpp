@@ -52,6 +52,8 @@ TEST(CompareViews, DiscrepancyIsSmoothInADial) {
     side.ed_frame = 0;
     const ModelLoop first = family.at({0.45});
     const ModelDiscrepancy discrepancy(loop, side, first);
+    // Found, not given: models and loop have the same heart rate.
+    EXPECT_NEAR(discrepancy.beat().span.systole, first.systole, 0.02);
     const FitPose pose = discrepancy.search(first).pose;
     std::vector<double> y;
     for (int i = 0; i < 9; ++i)
