@@ -49,6 +49,10 @@ BoundaryBands::BoundaryBands(const std::filesystem::path& scene, const Loop& syn
 BoundaryBands::~BoundaryBands() = default;
 BoundaryBands::BoundaryBands(BoundaryBands&&) noexcept = default;
 
+const Scene& BoundaryBands::scene() const {
+  return state_->scene;
+}
+
 std::vector<Contour> BoundaryBands::contoursAt(double phase) const {
   return echocine::contoursAt(state_->motion, state_->scene.probe, phase);
 }

@@ -28,6 +28,7 @@ class BoundaryBands {
 
   // The contours at a phase, metres in the probe frame.
   std::vector<Contour> contoursAt(double phase) const;
+  const Scene& scene() const;
 
  private:
   struct State;

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "compare/boundary_bands.h"
+#include "compare/fit_where.h"
 #include "compare/registration.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -122,6 +123,15 @@ void noteAssumptions(Comparison& c) {
     say("the view that fits best lies at the limit of the search: a better one may lie beyond");
 }
 
+// Metrics of frames stand without it.
+void holdScene(const Scene& scene, const CompareOptions& options, Comparison& c) {
+  try {
+    c.scene_fit = std::make_shared<const SceneFit>(fitScene(scene, c.real, options.real_side));
+  } catch (const SceneError& error) {
+    c.notes.push_back(fmt::format("where the scene disagrees is not shown: {}", error.what()));
+  }
+}
+
 }  // namespace
 
 Comparison compareLoops(const CompareOptions& options, const Monitor& monitor) {
@@ -134,8 +144,10 @@ Comparison compareLoops(const CompareOptions& options, const Monitor& monitor) {
   std::optional<BoundaryBands> bands;
   registerLoops(options, c);
   steps.next();
-  if (!options.scene.empty())
+  if (!options.scene.empty()) {
     bands.emplace(options.scene, c.synthetic, c.grid, 1e-3 * options.band_mm);
+    holdScene(bands->scene(), options, c);
+  }
   noteAssumptions(c);
   for (const std::string& note : c.notes) monitor.warn(note);
   const std::vector<double> discrepancy = discrepancies(c);

@@ -2,6 +2,7 @@
 // The comparison in one call: two loops in, every estimate and metric out.
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,7 +33,8 @@ struct CompareOptions {
   bool monotone = false;
   int knot_count = 8;
   std::vector<double> knots;    // given: greys of the synthetic loop; empty: chosen
-  std::filesystem::path scene;  // of the render folder: for bands about its boundaries
+  std::filesystem::path scene;  // of the render folder: for bands about its
+                                // boundaries, and for where it disagrees
   double band_mm = 4;           // full width of a band; our choice
   bool contours = false;        // drawn in the pictures
 };
@@ -55,6 +57,8 @@ struct FrameResult {
   bool counted() const { return synthetic_place >= 0 && !repeat; }
 };
 
+struct SceneFit;  // fit_where.h
+
 struct Comparison {
   Loop synthetic, real;
   BeatLength synthetic_beat, real_beat;
@@ -69,6 +73,8 @@ struct Comparison {
   double discrepancy = 0;
   double discrepancy_as_placed = 0;  // before anything but the sectors was registered
   std::vector<std::string> notes;    // everything that was overridden, assumed or left out
+
+  std::shared_ptr<const SceneFit> scene_fit;  // with CompareOptions::scene, where it can be held
 
   BeamLoop synthetic_beams, real_beams;  // on the common grid, registered
   std::vector<float> weights;            // of its samples

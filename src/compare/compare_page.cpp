@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compare/fit_where.h"
 #include "compare/results.h"
 #include "core/shown_path.h"
 #include "page/assets.h"
@@ -40,14 +41,22 @@ Json framesJson(const Comparison& c, const ComparePage& page) {
   return frames;
 }
 
+PageLook lookOf(const Comparison& c) {
+  PageLook look = pageLook(
+      "EchoCine: " + shownName(c.synthetic.video.name) + " against " + shownName(c.real.video.name),
+      pageAsset("compare.html"), pageAsset("compare.js"));
+  look.scripts.insert(look.scripts.end() - 1, pageAsset("fit_map.js"));
+  return look;
+}
+
 }  // namespace
 
 ComparePage::ComparePage(const std::filesystem::path& path, const Comparison& comparison)
     : c_(comparison),
       stride_(pageStride(static_cast<int>(comparison.frames.size()))),
-      writer_(path, pageLook("EchoCine: " + shownName(c_.synthetic.video.name) + " against " +
-                                 shownName(c_.real.video.name),
-                             pageAsset("compare.html"), pageAsset("compare.js"))) {}
+      writer_(path, lookOf(comparison)) {
+  if (c_.scene_fit) addFitPictures(c_.scene_fit->where, writer_);
+}
 
 void ComparePage::addFrame(Panel panel, std::span<const std::byte> image) {
   constexpr const char* kNames[] = {"real", "synthetic", "difference"};
@@ -62,6 +71,7 @@ void ComparePage::finish(const Json& summary, std::span<const std::byte> sector_
                   {"metrics", metrics},
                   {"stride", stride_},
                   {"frames", framesJson(c_, *this)},
+                  {"fit", c_.scene_fit ? fitJson(c_.scene_fit->where) : Json()},
                   {"sector_real", dataUri(sector_real)},
                   {"sector_synthetic", dataUri(sector_synthetic)}});
 }

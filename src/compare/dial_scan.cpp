@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/nearest_word.h"
 #include "core/parallel.h"
+#include "motion/heart/heart_scene.h"
 #include "motion/heart/parameters.h"
 #include "scene/view_names.h"
 
@@ -210,25 +211,17 @@ void fitParaboloid(DialScan& scan) {
   }
 }
 
-// With the real frame nearest to each of the model's.
-ScanMap mapOf(const ModelLoop& model, const ModelDiscrepancy& discrepancy, const Loop& real,
-              const FitPose& pose) {
-  ScanMap out;
-  out.map = discrepancy.map(model, pose);
-  out.structures = model.structures;
-  out.metres_per_pixel = discrepancy.stack().metresPerPixel();
-  out.apex_x_px = real.sector().apex_x;
-  out.apex_y_px = real.sector().apex_y;
-  const BeatSpan& beat = discrepancy.beat().span;
-  const int last = real.video.frameCount() - 1;
-  for (int n = 0; n < kFitFrames; ++n) {
-    const double at = beat.end_diastole + beat.frames * n / kFitFrames,
-                 within = at > last + 0.5 ? at - beat.frames : at;
-    const auto frame =
-        static_cast<std::size_t>(std::clamp(static_cast<int>(std::lround(within)), 0, last));
-    out.pictures.push_back({real.video.width, real.video.height, real.video.frames[frame]});
-  }
-  return out;
+// Of the best heart itself, recorded at its own dials: with the segments of its wall.
+FitWhere whereBest(const DialScan& scan, const ModelDiscrepancy& discrepancy, const Loop& real) {
+  const ScanPoint& best = scan.points[scan.best];
+  std::map<std::string, double> dials = scan.options.dials;
+  for (std::size_t a = 0; a < best.values.size(); ++a)
+    dials[scan.options.axes[a].range.key] = best.values[a];
+  const Scene scene =
+      heart::heartScene(heart::parametersFrom(dials), scan.options.view, kFitFrames);
+  const MeshMotion motion(scene);
+  return fitWhere(modelLoop(scene, motion, kFitFrames, wallSegments(scene, motion)), discrepancy,
+                  real, best.found.pose);
 }
 
 }  // namespace
@@ -271,8 +264,7 @@ DialScan scanDials(const ScanOptions& options, const Monitor& monitor) {
   for (std::size_t i = 0; i < scan.points.size(); ++i)
     if (scan.points[i].found.discrepancy < scan.points[scan.best].found.discrepancy) scan.best = i;
   fitParaboloid(scan);
-  scan.where = mapOf(family.at(scan.points[scan.best].values), discrepancy, real,
-                     scan.points[scan.best].found.pose);
+  scan.where = whereBest(scan, discrepancy, real);
   for (const std::string& note : real.video.notes) scan.notes.push_back(note);
   if (scan.beat.confidence < 0.1)
     scan.notes.push_back(

@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "compare/fit_where.h"
 #include "compare/heart_family.h"
-#include "compare/model_discrepancy.h"
-#include "signal/picture.h"
 
 namespace echocine::compare {
 
@@ -41,14 +40,6 @@ struct ScanPoint {
   PoseFound found;
 };
 
-// Where the best heart of a scan disagrees with the loop.
-struct ScanMap {
-  FitMap map;
-  std::vector<std::string> structures;
-  std::vector<GreyImage> pictures;  // of the real loop, nearest to each frame of the beat
-  double apex_x_px = 0, apex_y_px = 0, metres_per_pixel = 1;
-};
-
 struct DialScan {
   ScanOptions options;
   std::string view;
@@ -64,7 +55,7 @@ struct DialScan {
                                                  // is made good by the other
   double family_ms = 0, evaluation_ms = 0;  // CPU time: of recording, of one evaluation in the mean
   std::vector<std::string> notes;
-  ScanMap where;  // of the best point
+  FitWhere where;  // of the best point
 };
 
 // Throws SceneError and JobError as compareLoops() does, and where too many evaluations are asked

@@ -71,6 +71,8 @@ EchoStack::EchoStack(const Loop& real, const BeatSpan& beat, int pictures, doubl
   metres_per_pixel_ =
       real.metres_per_pixel ? *real.metres_per_pixel : depth_m / real.sector().r_max;
   far_m_ = metres_per_pixel_ * real.sector().r_max;
+  spread_ = measureSpread(real, metres_per_pixel_);
+  systole_ = beat.systole > 0 ? beat.shown_systole : 0;
   const double per_pixel = metres_per_pixel_ / kEchoPixel_m;
   width_ = static_cast<int>(std::ceil(real.video.width * per_pixel));
   height_ = static_cast<int>(std::ceil(real.video.height * per_pixel));
@@ -110,14 +112,29 @@ namespace {
 // Where a picture of the beat stands in the loop: in the beat itself, or where that is cut off, a
 // beat earlier. Negative: the loop does not show it.
 double placeOf(const BeatSpan& beat, double phase, int frames) {
-  double place = beat.end_diastole + phase * beat.frames;
+  double place =
+      beat.end_diastole + warpedPhase(phase, beat.shown_systole, beat.systole) * beat.frames;
   while (place > frames - 1) place -= beat.frames;
   return place;
 }
 
+// Where the last frame stands a beat before the first: next to it, where the loop closes.
+double placeBefore(const BeatSpan& beat, int frames) {
+  return frames - 1 - beat.frames;
+}
+bool shows(const BeatSpan& beat, double place, int frames) {
+  const double before = placeBefore(beat, frames);
+  return place >= 0 || (place >= before && before > -1.01);
+}
+
 // One frame of the loop, or two blended, on the stack's pixels.
-cv::Mat pictureAt(const Video& v, double place, int width, int height) {
-  const Blend blend = blendAt(place, v.frameCount(), 0, false);
+cv::Mat pictureAt(const Video& v, const BeatSpan& beat, double place, int width, int height) {
+  Blend blend = blendAt(std::max(0.0, place), v.frameCount(), 0, false);
+  if (place < 0) {
+    const double before = placeBefore(beat, v.frameCount());
+    blend.a = v.frames.size() - 1, blend.b = 0;
+    blend.share = static_cast<decltype(blend.share)>((place - before) / -before);
+  }
   const auto bytes = [&](std::size_t f) {
     return cv::Mat(v.height, v.width, CV_8U, const_cast<std::uint8_t*>(v.frames[f].data()));
   };
@@ -144,8 +161,8 @@ void EchoStack::makePictures(const Loop& real, const BeatSpan& beat) {
       const double place =
           placeOf(beat, static_cast<double>(n) / static_cast<double>(planes_.size()),
                   real.video.frameCount());
-      if (place < 0) continue;
-      const cv::Mat picture = pictureAt(real.video, place, width_, height_);
+      if (!shows(beat, place, real.video.frameCount())) continue;
+      const cv::Mat picture = pictureAt(real.video, beat, place, width_, height_);
       sharp_[n].assign(picture.ptr<float>(), picture.ptr<float>() + picture.total());
       planes_[n] = withGradients(smoothed(sharp_[n], mask, kSigma_px), in_sight, width_, height_);
     }
@@ -206,6 +223,20 @@ EchoMotion EchoStack::motionAt(int picture, double x_m, double z_m) const {
     out.dx_m += w * m[at].dx_m, out.dz_m += w * m[at].dz_m, out.weight += w;
   }
   if (out.weight > 0) out.dx_m /= out.weight, out.dz_m /= out.weight;
+  return out;
+}
+
+EchoMotion EchoStack::motionAt(const BeatPlace& instant, double x_m, double z_m) const {
+  EchoMotion out;
+  for (int i = 0; i < 3; ++i) {
+    if (!(instant.shares[i] > 0)) continue;
+    const EchoMotion v = motionAt(instant.pictures[i], x_m, z_m);
+    const float w = instant.shares[i] * v.weight;
+    out.dx_m += w * v.dx_m, out.dz_m += w * v.dz_m, out.weight += w;
+  }
+  if (out.weight > 0) out.dx_m /= out.weight, out.dz_m /= out.weight;
+  const auto pace = static_cast<float>(instant.pace);
+  out.dx_m *= pace, out.dz_m *= pace;
   return out;
 }
 

@@ -2,12 +2,14 @@
 // One beat of a real loop as smoothed pictures in millimetres, ready to be looked up under any
 // pose.
 
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "compare/beam_grid.h"
+#include "compare/echo_spread.h"
 #include "core/lanes.h"
 
 namespace echocine::compare {
@@ -20,6 +22,24 @@ inline constexpr double kEchoPixel_m = 1e-3;
 struct BeatSpan {
   double end_diastole = 0;  // frame, may lie between two
   double frames = 0;        // length of the beat
+  // End-systole as parts of the beat: in the loop, and where pictures of an EchoStack show it. 0:
+  // not known, pictures follow evenly.
+  double systole = 0, shown_systole = 0;
+};
+
+// A beat run through piecewise evenly, so that `from` lands at `to`; parts of the beat, 0 either:
+// as it is. Systole and diastole differ in length from heart to heart, and with their rate.
+inline double warpedPhase(double phase, double from, double to) {
+  if (!(from > 0 && to > 0)) return phase;
+  const double whole = std::floor(phase), part = phase - whole;
+  return whole + (part < from ? part * to / from : to + (part - from) * (1 - to) / (1 - from));
+}
+
+// An instant as a sum of pictures that follow one another.
+struct BeatPlace {
+  int pictures[3] = {};
+  float shares[3] = {1, 0, 0};
+  double pace = 1;  // pictures that pass from a model's frame to its next
 };
 
 // Motion of the echoes at a place, from one picture to the next.
@@ -44,41 +64,56 @@ class EchoStack {
 
   // A loop shorter than its beat does not show all of it.
   bool seen(int picture) const { return !planes_[static_cast<std::size_t>(picture)].empty(); }
+  bool seen(const BeatPlace& at) const {
+    for (int i = 0; i < 3; ++i)
+      if (at.shares[i] > 0 && !seen(at.pictures[i])) return false;
+    return true;
+  }
+  double systole() const { return systole_; }  // where pictures show end-systole; 0: not known
   int pictures() const { return static_cast<int>(planes_.size()); }
   double metresPerPixel() const { return metres_per_pixel_; }  // of the real loop
   double edgeScale() const { return edge_scale_; }             // root mean square of the gradient
   double far() const { return far_m_; }
+  const EchoSpread& spread() const { return spread_; }
 
   // At a place, lateral and depth from the apex; in_sight is 0 outside the picture.
-  // Precondition: seen(picture).
-  Sample at(int picture, double x_m, double z_m) const {
+  // Precondition: seen(instant).
+  Sample at(const BeatPlace& instant, double x_m, double z_m) const {
     const double u = x_m / kEchoPixel_m + origin_x_, v = z_m / kEchoPixel_m + origin_z_;
     if (!(u > 0 && v > 0 && u < width_ && v < height_)) return {};
     const PixelPlace p = pixelPlace(width_, height_, u, v);
+    Floats4 sum = instant.shares[0] * blended(instant.pictures[0], p);
+    for (int i = 1; i < 3; ++i)
+      if (instant.shares[i] > 0) sum += instant.shares[i] * blended(instant.pictures[i], p);
+    return {sum[0], sum[1], sum[2], sum[3]};
+  }
+  // Nothing (weight 0) outside.
+  EchoMotion motionAt(int picture, double x_m, double z_m) const;
+  // Over a model's frame: by its pace.
+  EchoMotion motionAt(const BeatPlace& instant, double x_m, double z_m) const;
+
+ private:
+  // The four numbers of a sample at once: fits spend most of their time here.
+  Floats4 blended(int picture, const PixelPlace& p) const {
     const Sample* from = planes_[static_cast<std::size_t>(picture)].data() + p.at;
-    // The four numbers of a sample at once: fits spend most of their time here.
     const auto lanes = [](const Sample* sample) {
       Floats4 out;
       std::memcpy(&out, sample, sizeof out);
       return out;
     };
-    const Floats4 sum =
-        (1 - p.right) * (1 - p.low) * lanes(from) + p.right * (1 - p.low) * lanes(from + 1) +
-        (1 - p.right) * p.low * lanes(from + width_) + p.right * p.low * lanes(from + width_ + 1);
-    return {sum[0], sum[1], sum[2], sum[3]};
+    return (1 - p.right) * (1 - p.low) * lanes(from) + p.right * (1 - p.low) * lanes(from + 1) +
+           (1 - p.right) * p.low * lanes(from + width_) +
+           p.right * p.low * lanes(from + width_ + 1);
   }
-  // Nothing (weight 0) outside.
-  EchoMotion motionAt(int picture, double x_m, double z_m) const;
-
- private:
   void makePictures(const Loop& real, const BeatSpan& beat);
   void markInside(const Loop& real);
   void trackOne(std::size_t picture);
   void measureEdges();
 
-  double metres_per_pixel_ = 0, far_m_ = 0, edge_scale_ = 1;
+  double metres_per_pixel_ = 0, far_m_ = 0, edge_scale_ = 1, systole_ = 0;
   int width_ = 0, height_ = 0;
   double origin_x_ = 0, origin_z_ = 0;  // of the apex, in pixels of the stack
+  EchoSpread spread_;
   PixelPlane inside_;
   std::vector<std::vector<Sample>> planes_;
   std::vector<std::vector<float>> sharp_;  // for block matching alone

@@ -76,6 +76,7 @@ HeartFamily::HeartFamily(const std::map<std::string, double>& given,
       all = motion.surfaces();
     }
     CHECK_EQ(motion.surfaces().size(), all.size());
+    systoles_.push_back(scene.motion.end_systole_phase.value_or(0));
     Node node(static_cast<std::size_t>(frames));
     for (int i = 0; i < frames; ++i)
       motion.frameAt(static_cast<double>(i) / frames, node[static_cast<std::size_t>(i)], false);
@@ -196,7 +197,11 @@ std::vector<SurfaceFrame> HeartFamily::surfacesAt(const std::vector<double>& val
 }
 
 ModelLoop HeartFamily::at(const std::vector<double>& values) const {
-  return ModelPlane(scene_, surfaces_).cut(surfacesAt(values));
+  ModelLoop loop = ModelPlane(scene_, surfaces_).cut(surfacesAt(values));
+  const std::vector<float> share = shares(values);
+  for (std::size_t n = 0; n < share.size(); ++n)
+    loop.systole += static_cast<double>(share[n]) * systoles_[n];
+  return loop;
 }
 
 }  // namespace echocine::compare

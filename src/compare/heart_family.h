@@ -46,6 +46,7 @@ class HeartFamily {
   void keepCoordinates(const std::vector<Node>& recorded);
 
   std::vector<DialRange> ranges_;
+  std::vector<double> systoles_;  // end-systole of each recorded heart, as a part of its beat
   int nodes_;
   Scene scene_;  // of the first node, without meshes
   std::vector<SurfaceTopology> surfaces_;

@@ -1,11 +1,14 @@
 #include "compare/model_discrepancy.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "compare/descent.h"
 #include "compare/registration.h"
 #include "core/check.h"
+#include "core/error.h"
 #include "core/parallel.h"
 #include "simulate/simulator.h"
 
@@ -53,6 +56,62 @@ ModelDiscrepancy::ModelDiscrepancy(const Loop& real, const SideOptions& side,
   beat_.span.end_diastole = start.value_or(0);
   stack_.emplace(real, beat_.span, kFitFrames, first.far_m);
   if (!start) findStart(real, first);
+  findSystole(real, side, first);
+}
+
+// The pose hardly depends on it, so one is sought with the other held, twice.
+void ModelDiscrepancy::findSystole(const Loop& real, const SideOptions& side,
+                                   const ModelLoop& first) {
+  if (!(first.systole > 0)) return;
+  // Parts of a beat at which systole ends, at 30 to 200 beats a minute and beyond. Our choice.
+  constexpr double kEarliest = 0.15, kLatest = 0.70, kStep = 0.0125, kApart = 0.15;
+  beat_.span.shown_systole = first.systole;
+  if (side.es_frame) {
+    const double beats = (*side.es_frame - beat_.span.end_diastole) / beat_.span.frames;
+    beat_.span.systole = beats - std::floor(beats);
+    beat_.systole_source = "given";
+    if (!(beat_.span.systole >= kEarliest && beat_.span.systole <= kLatest))
+      throw SceneError(fmt::format(
+          "--real-es: frame {:g} lies at {:.2f} of the beat from end-diastole, accepted: {:g} to "
+          "{:g}; give another, or --real-ed",
+          *side.es_frame, beat_.span.systole, kEarliest, kLatest));
+  } else {
+    FitPose pose = search(first).pose;
+    std::vector<double> values(
+        static_cast<std::size_t>(std::lround((kLatest - kEarliest) / kStep)) + 1);
+    std::ptrdiff_t best = 0;
+    for (int round = 0; round < 2; ++round) {
+      parallelBlocks(values.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          FitPose held = pose;
+          held.systole = kEarliest + kStep * static_cast<double>(i);
+          values[i] = at(first, held).discrepancy;
+        }
+      });
+      best = std::min_element(values.begin(), values.end()) - values.begin();
+      pose.systole = kEarliest + kStep * static_cast<double>(best);
+      if (round == 0) pose = refine(first, {pose}).pose;
+    }
+    const auto value = [&](std::ptrdiff_t i) {
+      return values[static_cast<std::size_t>(
+          std::clamp(i, std::ptrdiff_t{0}, static_cast<std::ptrdiff_t>(values.size()) - 1))];
+    };
+    const double before = value(best - 1), here = value(best), after = value(best + 1),
+                 bend = before - 2 * here + after;
+    beat_.span.systole =
+        pose.systole +
+        (bend > 0 ? kStep * std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) : 0);
+    double rival = 2;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (std::abs(kStep * (static_cast<double>(i) - static_cast<double>(best))) >= kApart)
+        rival = std::min(rival, values[i]);
+    std::vector<double> sorted = values;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    beat_.systole_source = "the model's beat";
+    beat_.systole_confidence = standsOut(here, rival, *middle);
+  }
+  stack_.emplace(real, beat_.span, kFitFrames, first.far_m);
 }
 
 // Pose and start depend on each other little: walls stand about where they stand at any time. So

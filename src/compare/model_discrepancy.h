@@ -27,6 +27,9 @@ struct BeatFound {
   // 1: known; else Eq. 8 of descent.h: rivals lie three pictures away or more, what says nothing is
   // the median of all starts.
   double confidence = 1;
+  // Of the loop's end-systole, the same; rivals lie three pictures away or more.
+  std::string systole_source;
+  double systole_confidence = 1;
 };
 
 // Built once from a real loop.
@@ -54,6 +57,7 @@ class ModelDiscrepancy {
 
  private:
   void findStart(const Loop& real, const ModelLoop& first);
+  void findSystole(const Loop& real, const SideOptions& side, const ModelLoop& first);
 
   FitSettings settings_;
   BeatFound beat_;

@@ -3,6 +3,7 @@
 // and how they move. From the truth of the scene; nothing is traced.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct BoundaryPoint {
   float dx_m = 0, dz_m = 0;   // of the material, from this frame to the next
   std::uint16_t surface = 0;  // structure
   bool of_blood = false;      // blood on one side, something else on the other
+  std::uint8_t segment = 0;   // of the left ventricle's wall (WallSegments), 1 to 17; 0: none
+  std::uint8_t blood = 0, beside = 0;  // tissues of the two sides, where it is of blood
 };
 
 struct ModelFrame {
@@ -41,7 +44,8 @@ struct ModelLoop {
   std::vector<std::string> tissues;  // media by name; the background's is the first
   std::vector<bool> blood;           // by tissue
   std::vector<std::string> structures;
-  double far_m = 0;  // depth of the sector from its apex
+  double far_m = 0;    // depth of the sector from its apex
+  double systole = 0;  // end-systole, as a part of the beat; 0: not known
   int cells_across = 0, cells_along = 0;
   std::vector<ModelFrame> frames;
 };
@@ -56,12 +60,22 @@ inline constexpr double kBoundaryPiece_m = 1.25e-3;  // between looks along a bo
 inline constexpr double kNearBlood_m = 10e-3;
 void weighByBlood(const ModelLoop& loop, ModelFrame& frame);
 
+// Which of the 17 segments each vertex of the left ventricle's cavity borders on; 0: none.
+struct WallSegments {
+  std::size_t surface = 0;  // the cavity's
+  std::vector<std::uint8_t> of_vertex;
+};
+// By the material at the beat's start, as truth counts them. Nothing for scenes without a left
+// ventricle and its wall. A second of one core.
+std::optional<WallSegments> wallSegments(const Scene& scene, const MeshMotion& motion);
+
 // Cuts surfaces of one topology, whatever made them.
 class ModelPlane {
  public:
   // Surfaces that a scene has, in the probe frame of the scene. References are kept. Throws
   // SceneError for a linear probe.
-  ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& surfaces);
+  ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& surfaces,
+             std::optional<WallSegments> segments = {});
 
   // Frames that follow one another at equal steps through a whole beat. Runs in parallel.
   ModelLoop cut(const std::vector<SurfaceFrame>& frames) const;
@@ -74,6 +88,7 @@ class ModelPlane {
                 std::vector<BoundaryPoint>& pieces) const;
 
   const std::vector<SurfaceTopology>& surfaces_;
+  std::optional<WallSegments> segments_;
   Scene coarse_;  // the scene with as many lines as the plane has
   PlaneLabels labels_;
   std::vector<std::uint8_t> tissue_of_;  // by structure from 1; 0 the background
@@ -81,7 +96,9 @@ class ModelPlane {
   ModelLoop empty_;
 };
 
-// A beat of a scene's motion in `frames` steps.
-ModelLoop modelLoop(const Scene& scene, const MeshMotion& motion, int frames);
+// A beat of a scene's motion in `frames` steps. Its end-systole is that of the scene's keyframes,
+// else where the left ventricle's cavity is smallest.
+ModelLoop modelLoop(const Scene& scene, const MeshMotion& motion, int frames,
+                    const std::optional<WallSegments>& segments = {});
 
 }  // namespace echocine::compare

@@ -21,9 +21,14 @@ Unknowns unknownsOf(const FitPose& p) {
           (p.scale - 1) / kScaleUnit};
 }
 
-FitPose poseAt(const Unknowns& u, int lag) {
-  return {kShiftUnit_m * u[0], kShiftUnit_m * u[1], kTurnUnit_rad * u[2], 1 + kScaleUnit * u[3],
-          lag};
+// The time of `held`.
+FitPose poseAt(const Unknowns& u, const FitPose& held) {
+  return {kShiftUnit_m * u[0],
+          kShiftUnit_m * u[1],
+          kTurnUnit_rad * u[2],
+          1 + kScaleUnit * u[3],
+          held.lag,
+          held.systole};
 }
 
 SearchBox boxOf(const PoseLimits& limits, double far_m) {
@@ -37,10 +42,10 @@ SearchBox boxOf(const PoseLimits& limits, double far_m) {
 
 // D at the poses of unknowns.
 PoseFunction discrepancyAt(const ModelLoop& model, const EchoStack& real, const FitWeights& weights,
-                           int lag, const FitStride& stride) {
-  return [&model, &real, &weights, lag, stride](std::span<const Unknowns> places) {
+                           const FitPose& held, const FitStride& stride) {
+  return [&model, &real, &weights, held, stride](std::span<const Unknowns> places) {
     std::vector<FitPose> poses;
-    for (const Unknowns& u : places) poses.push_back(poseAt(u, lag));
+    for (const Unknowns& u : places) poses.push_back(poseAt(u, held));
     std::vector<double> values;
     for (const FitTerms& terms : fitTerms(model, real, poses, stride))
       values.push_back(fitDiscrepancy(terms, weights));
@@ -53,28 +58,28 @@ PoseFunction discrepancyAt(const ModelLoop& model, const EchoStack& real, const 
 PoseFound refinePose(const ModelLoop& model, const EchoStack& real, const FitWeights& weights,
                      const PoseLimits& limits, const std::vector<FitPose>& starts) {
   const SearchBox box = boxOf(limits, model.far_m);
-  const int lag = starts.front().lag;
+  const FitPose held = starts.front();
   std::vector<Descent> from;
   for (const FitPose& start : starts) from.push_back({unknownsOf(start)});
   const std::vector<Descent> hills = leastApart(
-      descendAll(discrepancyAt(model, real, weights, lag, kFine), from, box), from.size());
+      descendAll(discrepancyAt(model, real, weights, held, kFine), from, box), from.size());
   PoseFound out;
-  out.pose = poseAt(hills.front().at, lag);
+  out.pose = poseAt(hills.front().at, held);
   out.terms = fitTerms(model, real, out.pose);
   out.discrepancy = fitDiscrepancy(out.terms, weights);
   out.at_limit = box.atLimit(hills.front().at);
   for (std::size_t i = 1; i < hills.size(); ++i)
-    out.rivals.emplace_back(poseAt(hills[i].at, lag), hills[i].value);
+    out.rivals.emplace_back(poseAt(hills[i].at, held), hills[i].value);
   return out;
 }
 
 PoseFound searchPose(const ModelLoop& model, const EchoStack& real, const FitWeights& weights,
                      const PoseLimits& limits) {
-  std::vector<Descent> all = lattice(discrepancyAt(model, real, weights, 0, kCoarse),
+  std::vector<Descent> all = lattice(discrepancyAt(model, real, weights, {}, kCoarse),
                                      boxOf(limits, model.far_m), {4, 4, 2, 2});
   constexpr std::size_t kStarts = 5;
   std::vector<FitPose> starts;
-  for (const Descent& d : leastApart(all, kStarts)) starts.push_back(poseAt(d.at, 0));
+  for (const Descent& d : leastApart(all, kStarts)) starts.push_back(poseAt(d.at, {}));
   std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2),
                    all.end(), [](const Descent& a, const Descent& b) { return a.value < b.value; });
   const double median = all[all.size() / 2].value;

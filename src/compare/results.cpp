@@ -7,6 +7,7 @@
 
 #include "compare/boundary_bands.h"
 #include "compare/compare_page.h"
+#include "compare/fit_where.h"
 #include "compare/panels.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -90,6 +91,16 @@ Json timeJson(const TimeAlignment& t) {
           {"confidence", t.confidence}};
 }
 
+// How the scene itself lies in the real loop, apart from its greys.
+Json sceneFitJson(const SceneFit& fit) {
+  Json json = foundJson(fit.found);
+  json["confidence"] = fit.found.confidence;
+  json["beat"] = beatJson(fit.beat);
+  json["curves"] = structureCurvesJson(fit.where);
+  json["segments"] = segmentCurvesJson(fit.where);
+  return json;
+}
+
 void addMetrics(std::string& row, const FrameMetrics& m, bool measured) {
   for (const Metric& metric : kMetrics)
     row += measured ? fmt::format(",{:.6g}", m.*metric.value) : ",";
@@ -162,6 +173,7 @@ Json summaryJson(const Comparison& c) {
             {"unit", c.grid.metric ? "m" : "outer radius"}}},
           {"synthetic", loopJson(c.synthetic, c.synthetic_beat)},
           {"real", loopJson(c.real, c.real_beat)},
+          {"scene_fit", c.scene_fit ? sceneFitJson(*c.scene_fit) : Json()},
           {"notes", c.notes}};
 }
 

@@ -20,18 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json poseJson(const FitPose& p) {
-  return {{"shift_mm", {1e3 * p.shift_x_m, 1e3 * p.shift_z_m}},
-          {"turn_deg", degreesFromRadians(p.turn_rad)},
-          {"scale", p.scale}};
-}
-
-Json foundJson(const PoseFound& f) {
-  return {{"discrepancy", f.discrepancy}, {"region", f.terms.region},
-          {"boundary", f.terms.boundary}, {"motion", f.terms.motion},
-          {"in_sight", f.terms.in_sight}, {"pose", poseJson(f.pose)}};
-}
-
 Json axesJson(const DialScan& scan) {
   Json axes = Json::array();
   for (std::size_t a = 0; a < scan.options.axes.size(); ++a) {
@@ -44,21 +32,6 @@ Json axesJson(const DialScan& scan) {
     axes.push_back(json);
   }
   return axes;
-}
-
-// Three digits are a thousandth of a pixel here, and keep the page short.
-double rounded(double value) {
-  return std::round(1e3 * value) / 1e3;
-}
-
-Json curvesJson(const ScanMap& where) {
-  Json curves = Json::array();
-  for (const OffsetCurve& c : offsetCurves(where.map, where.structures.size()))
-    curves.push_back({{"structure", where.structures[c.structure]},
-                      {"offset_mm", c.offset_mm},
-                      {"distance_mm", c.distance_mm},
-                      {"motion_mm", c.motion_mm}});
-  return curves;
 }
 
 Json scanJson(const DialScan& scan) {
@@ -82,46 +55,23 @@ Json scanJson(const DialScan& scan) {
           {"axes", axesJson(scan)},
           {"best", scan.best},
           {"confounding", scan.confounding},
-          {"beat",
-           {{"end_diastole_frame", scan.beat.span.end_diastole},
-            {"frames", scan.beat.span.frames},
-            {"length_source", scan.beat.length_source},
-            {"start_source", scan.beat.start_source},
-            {"confidence", scan.beat.confidence}}},
+          {"beat", beatJson(scan.beat)},
           {"centre", centre},
           {"cpu_ms", {{"recording_hearts", scan.family_ms}, {"evaluation", scan.evaluation_ms}}},
           {"points", points},
-          {"curves_of_best", curvesJson(scan.where)},
+          {"curves_of_best", structureCurvesJson(scan.where)},
+          {"segments_of_best", segmentCurvesJson(scan.where)},
           {"notes", scan.notes}};
-}
-
-// Places in pixels of the pictures; a row for each boundary point and cell.
-Json mapJson(const ScanMap& where) {
-  const auto x = [&](double m) { return rounded(where.apex_x_px + m / where.metres_per_pixel); };
-  const auto y = [&](double m) { return rounded(where.apex_y_px + m / where.metres_per_pixel); };
-  Json frames = Json::array();
-  for (std::size_t n = 0; n < where.map.boundary.size(); ++n) {
-    Json boundary = Json::array(), region = Json::array();
-    for (const BoundaryOffset& p : where.map.boundary[n])
-      boundary.push_back({x(p.x_m), y(p.z_m), rounded(p.offset_mm), rounded(p.certainty),
-                          rounded(p.motion_mm), p.surface});
-    for (const RegionLeft& r : where.map.region[n])
-      region.push_back({x(r.x_m), y(r.z_m), rounded(r.left)});
-    frames.push_back({{"boundary", boundary}, {"region", region}});
-  }
-  return frames;
 }
 
 // The page alone has the maps: they are its pictures.
 void writeScanPage(const DialScan& scan, Json json, const std::filesystem::path& path) {
-  PageWriter page(path, pageLook("EchoCine: dials against " + shownName(scan.options.real.string()),
-                                 pageAsset("scan.html"), pageAsset("scan.js")));
-  const OutputSettings settings;
-  for (const GreyImage& picture : scan.where.pictures)
-    page.addFrame("real", encodeCineFrame(picture, settings.codec, settings.jpeg_quality));
-  json["structures"] = scan.where.structures;
-  json["map"] = mapJson(scan.where);
-  json["mm_per_pixel"] = 1e3 * scan.where.metres_per_pixel;
+  PageLook look = pageLook("EchoCine: dials against " + shownName(scan.options.real.string()),
+                           pageAsset("scan.html"), pageAsset("scan.js"));
+  look.scripts.insert(look.scripts.end() - 1, pageAsset("fit_map.js"));
+  PageWriter page(path, look);
+  addFitPictures(scan.where, page);
+  json["fit"] = fitJson(scan.where);
   page.finish(json);
 }
 

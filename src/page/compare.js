@@ -208,6 +208,10 @@
   page.parts.player = player;
   showNumbers(player);
   showCurves(player);
+  if (data.fit) {
+    byId("fit").hidden = false;
+    showFit(data.fit);
+  }
   showCalibration();
   showTime(player);
   showSpace(player);

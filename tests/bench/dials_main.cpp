@@ -1,6 +1,6 @@
-// dial_table [cost|smooth|pairs]: what one evaluation of a heart's dials costs, stage by stage; how
-// smooth the discrepancy is along two dials; and how far its least value lies from the dials of
-// three hearts under another look.
+// dial_table [cost|smooth|pairs|looks|rates]: what one evaluation of a heart's dials costs, stage
+// by stage; how smooth the discrepancy is along two dials; and how far its least value lies from
+// the dials of three hearts under another look, and of one under several.
 
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 #include "bench/cpu_time.h"
 #include "compare/dial_scan.h"
@@ -33,12 +34,16 @@ std::map<std::string, double> givenOf(const Pair& p) {
   return {{"hr", p.rate_bpm}, {"wall-thickness", p.wall_mm}};
 }
 
-Loop loopOf(const Pair& p) {
+using Change = std::function<void(Scene&)>;
+void unchanged(Scene&) {}
+
+Loop loopOf(const Pair& p, Look look, const Change& change) {
   std::map<std::string, double> dials = givenOf(p);
   dials["ef"] = p.ef;
   dials["edv"] = p.edv_ml;
-  return scannedLoop(heart::heartScene(heart::parametersFrom(dials), View::a4c, 24, Look::scanner),
-                     24, p.seed);
+  Scene scene = heart::heartScene(heart::parametersFrom(dials), View::a4c, 24, look);
+  change(scene);
+  return scannedLoop(scene, 24, p.seed);
 }
 
 HeartFamily familyOf(const Pair& p) {
@@ -63,12 +68,22 @@ struct Fitted {
   ModelDiscrepancy d;
   FitPose pose;
 
-  explicit Fitted(const Pair& p)
-      : family(familyOf(p)),
-        loop(loopOf(p)),
-        right(family.at({p.ef, p.edv_ml})),
+  explicit Fitted(const Pair& p, Look look = Look::scanner, const Change& change = unchanged)
+      : Fitted(p, familyOf(p), loopOf(p, look, change)) {}
+  // warped: the models' systole may have another share of the beat than the loop's.
+  Fitted(const Pair& p, HeartFamily models, Loop shown, bool warped = true)
+      : family(std::move(models)),
+        loop(std::move(shown)),
+        right(rightOf(p, warped)),
         d(loop, fromFirstFrame(), right),
         pose(d.search(right).pose) {}
+
+ private:
+  ModelLoop rightOf(const Pair& p, bool warped) const {
+    ModelLoop model = family.at({p.ef, p.edv_ml});
+    if (!warped) model.systole = 0;
+    return model;
+  }
 };
 
 template <typename Body>
@@ -160,56 +175,93 @@ void tellEdges(const ModelDiscrepancy& d, const ModelLoop& right, const FitPose&
     double sum = 0, n = 0;
     for (const double mm : c.offset_mm)
       if (std::isfinite(mm)) sum += mm, ++n;
-    fmt::print("  edges of {} lie {:+.2f} mm out of blood\n", right.structures[c.structure],
+    fmt::print("  edges of {} lie {:+.2f} mm out of blood\n", right.structures[c.part],
                n > 0 ? sum / n : 0);
   }
 }
 
-void tellPairs() {
-  for (const Pair& p : kPairs) {
-    const Fitted fitted(p);
-    const BeatFound beat = ModelDiscrepancy(fitted.loop, {}, fitted.right).beat();
-    constexpr int kHalf = 5;
-    constexpr double kEf = 0.02, kEdv = 0.04;  // steps; of EDV relative
-    constexpr int kSide = 2 * kHalf + 1;
-    std::vector<PoseFound> found(kSide * kSide);
-    parallelBlocks(found.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t n = begin; n < end; ++n) {
-        const int i = static_cast<int>(n) / kSide - kHalf, j = static_cast<int>(n) % kSide - kHalf;
-        found[n] = fitted.d.refine(
-            fitted.family.at({p.ef + kEf * i, p.edv_ml * (1 + kEdv * j * 0.99)}), {fitted.pose});
-      }
-    });
-    fmt::print("EF {:.2f}, EDV {:.0f} mL, {:.0f} mm, {:.0f} bpm\n", p.ef, p.edv_ml, p.wall_mm,
-               p.rate_bpm);
-    fmt::print("  end-diastole where none is given: frame {:.2f}, confidence {:.3f}\n",
-               beat.span.end_diastole, beat.confidence);
-    tellEdges(fitted.d, fitted.right, fitted.pose);
-    const auto tell = [&](const char* what, auto value) {
-      int bi = 1, bj = 1;
-      const auto at = [&](int i, int j) {
-        return value(found[static_cast<std::size_t>(i * kSide + j)]);
-      };
-      for (int i = 0; i < kSide; ++i)
-        for (int j = 0; j < kSide; ++j)
-          if (at(i, j) < at(bi, bj)) bi = i, bj = j;
-      const int i = std::clamp(bi, 1, kSide - 2), j = std::clamp(bj, 1, kSide - 2);
-      const double ef = kEf * (i - kHalf + leastOf(at(i - 1, bj), at(i, bj), at(i + 1, bj))),
-                   edv = kEdv * (j - kHalf + leastOf(at(bi, j - 1), at(bi, j), at(bi, j + 1)));
-      // Along EF alone, EDV right.
-      int only = 1;
-      for (int k = 1; k + 1 < kSide; ++k)
-        if (at(k, kHalf) < at(only, kHalf)) only = k;
-      const double ef_alone =
-          kEf * (only - kHalf + leastOf(at(only - 1, kHalf), at(only, kHalf), at(only + 1, kHalf)));
-      fmt::print("  {:<10} EF {:+.3f}, EDV {:+.1f} %, least {:.4f}; EF alone {:+.3f}\n", what, ef,
-                 100 * edv, at(bi, bj), ef_alone);
+void tellPair(const char* name, const Pair& p, const Fitted& fitted) {
+  const BeatFound beat = ModelDiscrepancy(fitted.loop, {}, fitted.right).beat();
+  constexpr int kHalf = 5;
+  constexpr double kEf = 0.02, kEdv = 0.04;  // steps; of EDV relative
+  constexpr int kSide = 2 * kHalf + 1;
+  std::vector<PoseFound> found(kSide * kSide);
+  parallelBlocks(found.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      const int i = static_cast<int>(n) / kSide - kHalf, j = static_cast<int>(n) % kSide - kHalf;
+      found[n] = fitted.d.refine(
+          fitted.family.at({p.ef + kEf * i, p.edv_ml * (1 + kEdv * j * 0.99)}), {fitted.pose});
+    }
+  });
+  fmt::print("EF {:.2f}, EDV {:.0f} mL, {:.0f} mm, {:.0f} bpm, {}\n", p.ef, p.edv_ml, p.wall_mm,
+             p.rate_bpm, name);
+  const BeatFound& timed = fitted.d.beat();
+  fmt::print("  end-systole of the models {:.3f}, of the loop {:.3f}, confidence {:.3f}\n",
+             timed.span.shown_systole, timed.span.systole, timed.systole_confidence);
+  const EchoSpread& spread = fitted.d.stack().spread();
+  fmt::print("  echoes spread by {:.2f} mm along, {:.2f} mm across at 10 cm, {:.0f} dB\n",
+             1e3 * spread.along_m, 100 * spread.across_rad, spread.contrast_db);
+  fmt::print("  end-diastole where none is given: frame {:.2f}, confidence {:.3f}\n",
+             beat.span.end_diastole, beat.confidence);
+  tellEdges(fitted.d, fitted.right, fitted.pose);
+  const auto tell = [&](const char* what, auto value) {
+    int bi = 1, bj = 1;
+    const auto at = [&](int i, int j) {
+      return value(found[static_cast<std::size_t>(i * kSide + j)]);
     };
-    tell("D", [](const PoseFound& f) { return f.discrepancy; });
-    tell("region", [](const PoseFound& f) { return f.terms.region; });
-    tell("boundary", [](const PoseFound& f) { return f.terms.boundary; });
-    tell("motion", [](const PoseFound& f) { return f.terms.motion; });
-    std::fflush(stdout);
+    for (int i = 0; i < kSide; ++i)
+      for (int j = 0; j < kSide; ++j)
+        if (at(i, j) < at(bi, bj)) bi = i, bj = j;
+    const int i = std::clamp(bi, 1, kSide - 2), j = std::clamp(bj, 1, kSide - 2);
+    const double ef = kEf * (i - kHalf + leastOf(at(i - 1, bj), at(i, bj), at(i + 1, bj))),
+                 edv = kEdv * (j - kHalf + leastOf(at(bi, j - 1), at(bi, j), at(bi, j + 1)));
+    // Along EF alone, EDV right.
+    int only = 1;
+    for (int k = 1; k + 1 < kSide; ++k)
+      if (at(k, kHalf) < at(only, kHalf)) only = k;
+    const double ef_alone =
+        kEf * (only - kHalf + leastOf(at(only - 1, kHalf), at(only, kHalf), at(only + 1, kHalf)));
+    fmt::print("  {:<10} EF {:+.3f}, EDV {:+.1f} %, least {:.4f}; EF alone {:+.3f}\n", what, ef,
+               100 * edv, at(bi, bj), ef_alone);
+  };
+  tell("D", [](const PoseFound& f) { return f.discrepancy; });
+  tell("region", [](const PoseFound& f) { return f.terms.region; });
+  tell("boundary", [](const PoseFound& f) { return f.terms.boundary; });
+  tell("motion", [](const PoseFound& f) { return f.terms.motion; });
+  std::fflush(stdout);
+}
+
+void tellPairs() {
+  for (const Pair& p : kPairs) tellPair("scanner", p, Fitted(p));
+}
+
+// The first of them under looks that spread echoes otherwise, and show them otherwise.
+void tellLooks() {
+  const Pair& p = kPairs[0];
+  const auto tell = [&](const char* name, Look look, const Change& change) {
+    tellPair(name, p, Fitted(p, look, change));
+  };
+  tell("clean", Look::clean, unchanged);
+  tell("paper", Look::paper, unchanged);
+  tell("aperture of 14 mm", Look::scanner, [](Scene& s) { s.probe.aperture_m = 14e-3; });
+  tell("aperture of 28 mm", Look::scanner, [](Scene& s) { s.probe.aperture_m = 28e-3; });
+  tell("dynamic range less by 15 dB", Look::scanner,
+       [](Scene& s) { s.signal.dynamic_range_db -= 15; });
+  tell("dynamic range more by 12 dB", Look::scanner,
+       [](Scene& s) { s.signal.dynamic_range_db += 12; });
+  tell("gain less by 8 dB", Look::scanner, [](Scene& s) { s.signal.gain_db -= 8; });
+  tell("gain more by 8 dB", Look::scanner, [](Scene& s) { s.signal.gain_db += 8; });
+  tell("no beam's width", Look::clean, [](Scene& s) { s.signal.beam_width = BeamWidth::none; });
+}
+
+// Models are told another heart rate than the loop's: another share of systole.
+void tellRates() {
+  for (const auto& [shown, told] : {std::pair{95.0, 60.0}, {55.0, 85.0}}) {
+    Pair p = kPairs[0], q = p;
+    p.rate_bpm = shown, q.rate_bpm = told;
+    for (const bool warped : {false, true})
+      tellPair(fmt::format("models of {:.0f} bpm, {}", told, warped ? "warped" : "even").c_str(), p,
+               Fitted(p, familyOf(q), loopOf(p, Look::scanner, unchanged), warped));
   }
 }
 
@@ -220,6 +272,8 @@ void run(const char* only) {
   if (wanted("cost")) tellCost();
   if (wanted("smooth")) tellSmooth();
   if (wanted("pairs")) tellPairs();
+  if (wanted("looks")) tellLooks();
+  if (wanted("rates")) tellRates();
 }
 
 }  // namespace

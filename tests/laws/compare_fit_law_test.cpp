@@ -224,21 +224,6 @@ TEST(CompareFit, TermsSeeSizeAndMotion) {
   });
 }
 
-// The curve of a structure has the mean of its points by their certainty, and says nothing where
-// none is seen.
-TEST(CompareFit, OffsetsOfAStructureAreAveragedByCertainty) {
-  FitMap map;
-  map.boundary = {{{0, 0, 2, 0.75F, 1, 3}, {0, 0, -2, 0.25F, -1, 3}}, {{0, 0, 5, 1, 2, 1}}};
-  const std::vector<OffsetCurve> curves = offsetCurves(map, 5);
-  ASSERT_EQ(curves.size(), 2u);
-  EXPECT_EQ(curves[1].structure, 3u);
-  EXPECT_NEAR(curves[1].offset_mm[0], 1, 1e-6);
-  EXPECT_NEAR(curves[1].distance_mm[0], 2, 1e-6);
-  EXPECT_NEAR(curves[1].motion_mm[0], 1, 1e-6);  // of the one that was tracked
-  EXPECT_TRUE(std::isnan(curves[1].offset_mm[1]));
-  EXPECT_NEAR(curves[0].offset_mm[1], 5, 1e-6);
-}
-
 // Small changes of a model are small changes of D: it bends evenly, step by tenth of a millimetre.
 TEST(CompareFit, DiscrepancyIsSmoothInTheModel) {
   withThreads(2, [&] {

@@ -111,15 +111,16 @@ struct Phantom {
       piece.length_m = static_cast<float>(length);
       piece.dx_m = static_cast<float>(next.x - p.x), piece.dz_m = static_cast<float>(next.z - p.z);
       piece.of_blood = true;
+      piece.blood = 2, piece.beside = 1;
       out.boundary.push_back(piece);
     }
   }
 };
 
 // The phantom as a scanner might show it: one grey for each tissue, a gain over depth, speckle that
-// moves with nothing, all moved by a pose.
+// moves with nothing, all moved by a pose. It is smallest at `systole` of the beat.
 inline Loop draw(const Phantom& phantom, const FitPose& pose, int frames, std::uint64_t seed,
-                 double start_phase = 0) {
+                 double start_phase = 0, double systole = 0.5) {
   constexpr int kWidth = 250, kHeight = 190;
   constexpr double kPixel_m = 0.8e-3;
   constexpr double kGrey[3] = {95, 150, 35};
@@ -140,10 +141,11 @@ inline Loop draw(const Phantom& phantom, const FitPose& pose, int frames, std::u
                      rz = (j + 0.5 - 1) * kPixel_m - kMiddle_m - pose.shift_z_m;
         const double x = c * rx - s * rz, z = kMiddle_m + s * rx + c * rz;
         const std::uint64_t where =
-            hashOf(seed, static_cast<std::uint64_t>(i / 2), static_cast<std::uint64_t>(j));
+            hashOf(seed, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(j));
         const double speckle = normalFromHashes(hashOf(where, 1, 0), hashOf(where, 2, 0));
         const double grey =
-            kGrey[phantom.tissue(x, z, start_phase + static_cast<double>(n) / frames)] +
+            kGrey[phantom.tissue(
+                x, z, warpedPhase(start_phase + static_cast<double>(n) / frames, systole, 0.5))] +
             30 * (rz + kMiddle_m) / kDepth_m + 18 * speckle;
         plane.push_back(static_cast<std::uint8_t>(std::clamp(grey, 0.0, 255.0)));
       }

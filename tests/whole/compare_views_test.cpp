@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "compare/dial_scan.h"
 #include "compare/heart_family.h"
@@ -51,6 +52,8 @@ TEST(CompareViews, DiscrepancyIsSmoothInADial) {
     side.ed_frame = 0;
     const ModelLoop first = family.at({0.45});
     const ModelDiscrepancy discrepancy(loop, side, first);
+    // Found, not given: models and loop have the same heart rate.
+    EXPECT_NEAR(discrepancy.beat().span.systole, first.systole, 0.02);
     const FitPose pose = discrepancy.search(first).pose;
     std::vector<double> y;
     for (int i = 0; i < 9; ++i)
@@ -63,6 +66,33 @@ TEST(CompareViews, DiscrepancyIsSmoothInADial) {
     const auto least = std::min_element(y.begin(), y.end()) - y.begin();
     std::printf("least at EF %.2f of 0.45, residual to local cubics %.5f\n",
                 0.42 + 0.01 * static_cast<double>(least), worst);
+  });
+}
+
+// A wall that stands still in the loop and moves in the model, the mid anterolateral one: at the
+// end of systole its edges lie out of the model's chamber, by far more than those of any other
+// segment.
+TEST(CompareViews, AStillSegmentIsWhereTheSceneDisagrees) {
+  withThreads(2, [] {
+    heart::Parameters still = heart::parametersFrom({{"ef", 0.5}});
+    still.segments[11].amplitude = 0;
+    const Loop loop = scannedLoop(heart::heartScene(still, View::a4c, 16, Look::scanner), 16, 23);
+    SideOptions side;
+    side.ed_frame = 0;
+    const SceneFit fit = fitScene(
+        heart::heartScene(heart::parametersFrom({}), View::a4c, 20, Look::scanner), loop, side);
+    double planted = 0, next = 0;
+    for (const OffsetCurve& curve : segmentCurves(fit.where.map)) {
+      double sum = 0;
+      for (std::size_t n = 5; n < 9; ++n) sum += curve.offset_mm[n] / 4;
+      if (curve.part == 12)
+        planted = sum;
+      else if (sum > next)
+        next = sum;
+    }
+    std::printf("still segment %+.1f mm, the next one %+.1f mm\n", planted, next);
+    EXPECT_GT(planted, 2.5);
+    EXPECT_LT(next, planted - 1);
   });
 }
 
@@ -81,22 +111,33 @@ TEST(CompareViews, TheScansPageShowsWhereTheBestHeartDisagrees) {
   });
   const nlohmann::json data = dataOf(bytesOf(folder / "scan/scan.html")),
                        file = nlohmann::json::parse(bytesOf(folder / "scan/scan.json"));
-  ASSERT_EQ(data["map"].size(), static_cast<std::size_t>(kFitFrames));
-  for (const nlohmann::json& frame : data["map"]) {
+  const nlohmann::json& fit = data["fit"];
+  ASSERT_EQ(fit["map"].size(), static_cast<std::size_t>(kFitFrames));
+  for (const nlohmann::json& frame : fit["map"]) {
     EXPECT_FALSE(frame["region"].empty());
     ASSERT_FALSE(frame["boundary"].empty());
     for (const nlohmann::json& p : frame["boundary"]) {
-      ASSERT_EQ(p.size(), 6u);
+      ASSERT_EQ(p.size(), 7u);
       EXPECT_LE(std::abs(p[2].get<double>()), 8);
-      EXPECT_LT(p[5].get<std::size_t>(), data["structures"].size());
+      EXPECT_LT(p[5].get<std::size_t>(), fit["structures"].size());
+      EXPECT_LE(p[6].get<int>(), 17);
     }
   }
-  EXPECT_EQ(data["curves_of_best"], file["curves_of_best"]);
+  EXPECT_EQ(fit["curves"], file["curves_of_best"]);
+  EXPECT_EQ(fit["segments"], file["segments_of_best"]);
   bool cavity = false;
   for (const nlohmann::json& curve : file["curves_of_best"])
     cavity = cavity || curve["structure"] == "lv_cavity";
   EXPECT_TRUE(cavity);
-  EXPECT_FALSE(file.contains("map"));
+  EXPECT_FALSE(file.contains("fit"));
+  // The walls that a four-chamber view shows, and the cap between them.
+  std::set<std::string> segments;
+  for (const nlohmann::json& curve : file["segments_of_best"]) segments.insert(curve["segment"]);
+  for (const char* name : {"basal inferoseptal", "mid inferoseptal", "apical septal", "apex",
+                           "apical lateral", "mid anterolateral", "basal anterolateral"})
+    EXPECT_TRUE(segments.contains(name)) << name;
+  EXPECT_FALSE(segments.contains("mid inferior"));
+  EXPECT_FALSE(segments.contains("mid anterior"));
 }
 
 }  // namespace

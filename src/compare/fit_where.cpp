@@ -1,0 +1,136 @@
+#include "compare/fit_where.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/units.h"
+#include "motion/mesh_motion.h"
+#include "truth/aha_segments.h"
+#include "video/cine_writer.h"
+
+namespace echocine::compare {
+
+using Json = nlohmann::ordered_json;
+
+// With the real frame nearest to each of the model's.
+FitWhere fitWhere(const ModelLoop& model, const ModelDiscrepancy& discrepancy, const Loop& real,
+                  const FitPose& pose) {
+  FitWhere out;
+  out.map = discrepancy.map(model, pose);
+  out.structures = model.structures;
+  out.metres_per_pixel = discrepancy.stack().metresPerPixel();
+  out.apex_x_px = real.sector().apex_x;
+  out.apex_y_px = real.sector().apex_y;
+  const BeatSpan& beat = discrepancy.beat().span;
+  const int last = real.video.frameCount() - 1;
+  for (int n = 0; n < kFitFrames; ++n) {
+    const double phase =
+                     warpedPhase(static_cast<double>(n) / kFitFrames, model.systole, beat.systole),
+                 at = beat.end_diastole + beat.frames * phase,
+                 within = at > last + 0.5 ? at - beat.frames : at;
+    const auto frame =
+        static_cast<std::size_t>(std::clamp(static_cast<int>(std::lround(within)), 0, last));
+    out.pictures.push_back({real.video.width, real.video.height, real.video.frames[frame]});
+  }
+  return out;
+}
+
+SceneFit fitScene(const Scene& scene, const Loop& real, const SideOptions& side) {
+  const MeshMotion motion(scene);
+  const ModelLoop model = modelLoop(scene, motion, kFitFrames, wallSegments(scene, motion));
+  const ModelDiscrepancy discrepancy(real, side, model);
+  SceneFit fit;
+  fit.beat = discrepancy.beat();
+  fit.found = discrepancy.search(model);
+  fit.where = fitWhere(model, discrepancy, real, fit.found.pose);
+  return fit;
+}
+
+Json poseJson(const FitPose& p) {
+  return {{"shift_mm", {1e3 * p.shift_x_m, 1e3 * p.shift_z_m}},
+          {"turn_deg", degreesFromRadians(p.turn_rad)},
+          {"scale", p.scale}};
+}
+
+Json foundJson(const PoseFound& f) {
+  return {{"discrepancy", f.discrepancy}, {"region", f.terms.region},
+          {"boundary", f.terms.boundary}, {"motion", f.terms.motion},
+          {"in_sight", f.terms.in_sight}, {"pose", poseJson(f.pose)}};
+}
+
+Json beatJson(const BeatFound& beat) {
+  return {{"end_systole",
+           {{"part_of_beat", beat.span.systole > 0 ? Json(beat.span.systole) : Json()},
+            {"of_model", beat.span.systole > 0 ? Json(beat.span.shown_systole) : Json()},
+            {"source", beat.systole_source},
+            {"confidence", beat.systole_confidence}}},
+          {"end_diastole_frame", beat.span.end_diastole},
+          {"frames", beat.span.frames},
+          {"length_source", beat.length_source},
+          {"start_source", beat.start_source},
+          {"confidence", beat.confidence}};
+}
+
+namespace {
+
+template <typename NameOf>
+Json curvesJson(const std::vector<OffsetCurve>& all, const char* what, const NameOf& nameOf) {
+  Json curves = Json::array();
+  for (const OffsetCurve& c : all)
+    curves.push_back({{what, nameOf(c.part)},
+                      {"offset_mm", c.offset_mm},
+                      {"distance_mm", c.distance_mm},
+                      {"motion_mm", c.motion_mm}});
+  return curves;
+}
+
+// Three digits are a thousandth of a pixel here, and keep the page short.
+double rounded(double value) {
+  return std::round(1e3 * value) / 1e3;
+}
+
+// Places in pixels of the pictures; a row for each boundary point and cell.
+Json mapJson(const FitWhere& where) {
+  const auto x = [&](double m) { return rounded(where.apex_x_px + m / where.metres_per_pixel); };
+  const auto y = [&](double m) { return rounded(where.apex_y_px + m / where.metres_per_pixel); };
+  Json frames = Json::array();
+  for (std::size_t n = 0; n < where.map.boundary.size(); ++n) {
+    Json boundary = Json::array(), region = Json::array();
+    for (const BoundaryOffset& p : where.map.boundary[n])
+      boundary.push_back({x(p.x_m), y(p.z_m), rounded(p.offset_mm), rounded(p.certainty),
+                          rounded(p.motion_mm), p.surface, p.segment});
+    for (const RegionLeft& r : where.map.region[n])
+      region.push_back({x(r.x_m), y(r.z_m), rounded(r.left)});
+    frames.push_back({{"boundary", boundary}, {"region", region}});
+  }
+  return frames;
+}
+
+}  // namespace
+
+Json structureCurvesJson(const FitWhere& where) {
+  return curvesJson(offsetCurves(where.map, where.structures.size()), "structure",
+                    [&](std::size_t s) { return where.structures[s]; });
+}
+
+Json segmentCurvesJson(const FitWhere& where) {
+  return curvesJson(segmentCurves(where.map), "segment",
+                    [](std::size_t s) { return kAhaNames[s - 1]; });
+}
+
+void addFitPictures(const FitWhere& where, PageWriter& page) {
+  const OutputSettings settings;
+  for (const GreyImage& picture : where.pictures)
+    page.addFrame("fit", encodeCineFrame(picture, settings.codec, settings.jpeg_quality));
+}
+
+Json fitJson(const FitWhere& where) {
+  return {{"structures", where.structures},
+          {"map", mapJson(where)},
+          {"mm_per_pixel", 1e3 * where.metres_per_pixel},
+          {"curves", structureCurvesJson(where)},
+          {"segments", segmentCurvesJson(where)}};
+}
+
+}  // namespace echocine::compare

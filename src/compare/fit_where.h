@@ -1,0 +1,45 @@
+#pragma once
+// Where a model disagrees with a loop, with the loop's pictures: what pages and files show of it.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "compare/model_discrepancy.h"
+#include "page/page.h"
+#include "signal/picture.h"
+
+namespace echocine::compare {
+
+struct FitWhere {
+  FitMap map;
+  std::vector<std::string> structures;
+  std::vector<GreyImage> pictures;  // of the real loop, nearest to each frame of the beat
+  double apex_x_px = 0, apex_y_px = 0, metres_per_pixel = 1;
+};
+
+FitWhere fitWhere(const ModelLoop& model, const ModelDiscrepancy& discrepancy, const Loop& real,
+                  const FitPose& pose);
+
+// A scene held against the real loop, as it stands.
+struct SceneFit {
+  BeatFound beat;
+  PoseFound found;
+  FitWhere where;
+};
+// Throws SceneError as ModelDiscrepancy does.
+SceneFit fitScene(const Scene& scene, const Loop& real, const SideOptions& side);
+
+// As files have them: {shift_mm, turn_deg, scale}; D, its terms and the pose; the beat's start;
+// curves of structures and of the left ventricle's segments.
+nlohmann::ordered_json poseJson(const FitPose& pose);
+nlohmann::ordered_json foundJson(const PoseFound& found);
+nlohmann::ordered_json beatJson(const BeatFound& beat);
+nlohmann::ordered_json structureCurvesJson(const FitWhere& where);
+nlohmann::ordered_json segmentCurvesJson(const FitWhere& where);
+
+// For fit_map.js: its pictures as loop "fit", and what is drawn over them. Throws JobError.
+void addFitPictures(const FitWhere& where, PageWriter& page);
+nlohmann::ordered_json fitJson(const FitWhere& where);
+
+}  // namespace echocine::compare
