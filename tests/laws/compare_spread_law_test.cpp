@@ -21,7 +21,7 @@ constexpr int kLines = 420, kSamples = 640;
 constexpr double kFirst_rad = -0.73, kStep_rad = 2 * 0.73 / (kLines - 1);
 constexpr double kAlong_m = kDepth_m / kSamples;
 
-struct Spread {
+struct PlantedSpread {
   double along_m, across_rad;  // standard deviations of intensity
 };
 
@@ -57,7 +57,7 @@ void spreadOut(std::vector<T>& plane, double lines, double samples, bool amplitu
 // The phantom as a scanner of known spread shows it: intensities spread by a bell, speckle of the
 // amplitudes that go with it (root 2 wider), a logarithm of 60 dB. Blood lies `contrast_db` below
 // all else. Tissue's speckle stays, as it moves little; blood's is new in every frame.
-Loop scan(const Phantom& phantom, const Spread& spread, double contrast_db, int frames) {
+Loop scan(const Phantom& phantom, const PlantedSpread& spread, double contrast_db, int frames) {
   Loop loop = draw(phantom, {}, 1, 1);
   constexpr int kWidth = 500, kHeight = 380;
   constexpr double kPixel_m = 0.4e-3;
@@ -141,7 +141,8 @@ TEST(CompareSpread, TheShiftFollowsTheNormal) {
 
 TEST(CompareSpread, ThePlantedSpreadIsMeasured) {
   withThreads(2, [] {
-    for (const Spread planted : {Spread{0.45e-3, 0.007}, Spread{0.6e-3, 0.012}}) {
+    for (const PlantedSpread planted :
+         {PlantedSpread{0.45e-3, 0.007}, PlantedSpread{0.6e-3, 0.012}}) {
       const EchoSpread found = measureSpread(scan(Phantom{}, planted, 25, 2), 0.4e-3);
       std::printf("planted %.2f mm, %.4f rad, 25 dB; found %.2f mm, %.4f rad, %.0f dB\n",
                   1e3 * planted.along_m, planted.across_rad, 1e3 * found.along_m, found.across_rad,
@@ -157,7 +158,8 @@ TEST(CompareSpread, ThePlantedSpreadIsMeasured) {
 // inside it are told from walls.
 TEST(CompareSpread, SizesAreFoundWhateverTheSpread) {
   withThreads(2, [] {
-    for (const Spread planted : {Spread{0.3e-3, 0.003}, Spread{0.6e-3, 0.012}}) {
+    for (const PlantedSpread planted :
+         {PlantedSpread{0.3e-3, 0.003}, PlantedSpread{0.6e-3, 0.012}}) {
       const ModelLoop right = Phantom{}.model();
       const Loop loop = scan(Phantom{}, planted, 25, 10);
       const ModelDiscrepancy d(loop, fromTheStart(), right);
