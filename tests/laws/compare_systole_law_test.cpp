@@ -57,7 +57,9 @@ TEST(CompareSystole, ThePlantedEndSystoleIsFound) {
       EXPECT_NEAR(d.beat().span.systole, planted, 0.05);  // a picture
       EXPECT_GT(d.beat().systole_confidence, 0.1);
       EXPECT_NEAR(warped, even, 0.03);
-      if (std::abs(planted - 0.5) > 0.1) EXPECT_LT(warped, stiff - 0.03);
+      if (std::abs(planted - 0.5) > 0.1) {
+        EXPECT_LT(warped, stiff - 0.03);
+      }
     }
   });
 }
