@@ -58,9 +58,7 @@ double endDiastole(const Scene& scene) {
 }
 
 Structure atPhase(Structure structure, double phase) {
-  const auto apart = [&](const Keyframe& k) {
-    return std::abs(std::remainder(k.phase - phase, 1));
-  };
+  const auto apart = [&](const Keyframe& k) { return std::abs(std::remainder(k.phase - phase, 1)); };
   const Keyframe nearest =
       *std::min_element(structure.keyframes.begin(), structure.keyframes.end(),
                         [&](const Keyframe& a, const Keyframe& b) { return apart(a) < apart(b); });
@@ -109,8 +107,8 @@ Pose moved(const Pose& pose, const ViewPlacement& by) {
 
 bool inSector(const Probe& probe, Vec3d at) {
   if (probe.kind == ProbeKind::linear)
-    return at.x >= probe.first_offset_m && at.x <= probe.last_offset_m &&
-           at.z >= probe.min_depth_m && at.z <= probe.max_depth_m;
+    return at.x >= probe.first_offset_m && at.x <= probe.last_offset_m && at.z >= probe.min_depth_m &&
+           at.z <= probe.max_depth_m;
   const double angle_rad = std::atan2(at.x, at.z), path_m = length(at) - probe.face_radius_m;
   return angle_rad >= probe.first_angle_rad && angle_rad <= probe.last_angle_rad &&
          path_m >= probe.min_depth_m && path_m <= probe.max_depth_m;
@@ -155,10 +153,10 @@ std::string whereTheyAre(const Probe& probe, const Instant& heart) {
   for (const RoleSurface& s : heart.surfaces)
     for (const Vec3d p : s.points_m) box.add(probe.pose.fromWorld(p));
   const auto mm = [](double m) { return std::round(millimetresFromMetres(m)); };
-  return fmt::format(
-      "from the probe they lie {} to {} mm lateral, {} to {} mm in elevation, {} to {} "
-      "mm deep",
-      mm(box.lo.x), mm(box.hi.x), mm(box.lo.y), mm(box.hi.y), mm(box.lo.z), mm(box.hi.z));
+  return fmt::format("from the probe they lie {} to {} mm lateral, {} to {} mm in elevation, {} to {} "
+                     "mm deep",
+                     mm(box.lo.x), mm(box.hi.x), mm(box.lo.y), mm(box.hi.y), mm(box.lo.z),
+                     mm(box.hi.z));
 }
 
 // The first view that cuts a mesh, this one before the others.
@@ -171,8 +169,7 @@ std::string viewThatCuts(const Scene& scene, const HeartMarks& marks, const Inst
     unmoved.view = view;
     place(unmoved, marks, scene.motion.mesh_unit_m, probe);
     if (cuts(probe, heart))
-      return fmt::format("view = \"{}\" without shift_mm, tilt_deg and rotate_deg does",
-                         keyOf(view));
+      return fmt::format("view = \"{}\" without shift_mm, tilt_deg and rotate_deg does", keyOf(view));
   }
   return "a depth_mm or a sector that holds them does";
 }
@@ -184,10 +181,8 @@ void tellGuesses(const HeartMarks& marks, Scene& scene) {
   for (const std::string& what : marks.told) tell(what);
   const View view = scene.view->view;
   if (!marks.aortic_found && (view == View::a3c || view == View::plax))
-    tell(
-        "no role says where the aortic valve is: the plane passes where other hearts have it; give "
-        "a "
-        "structure role = \"aortic_valve\" or \"aorta\"");
+    tell("no role says where the aortic valve is: the plane passes where other hearts have it; give a "
+         "structure role = \"aortic_valve\" or \"aorta\"");
 }
 
 }  // namespace
@@ -202,8 +197,7 @@ Scene placed(Scene scene) {
   };
   if (placement.view == View::psax_base && !marks.aortic_found)
     fail(hasVessel(heart.surfaces)
-             ? "the structure with role aorta does not reach the left ventricle, so its valve is "
-               "not "
+             ? "the structure with role aorta does not reach the left ventricle, so its valve is not "
                "found; accepted: one that does, or role = \"aortic_valve\" of another"
              : "\"psax-base\" is found from the aortic valve, accepted: role = \"aortic_valve\" or "
                "\"aorta\" of one structure, or view = \"psax-mid\"");

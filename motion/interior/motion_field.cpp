@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/check.h"
 #include "core/parallel.h"
@@ -223,7 +224,7 @@ void MotionField::groupsAt(std::span<const Vec3f> reference_m, std::span<GroupId
 
 namespace {
 
-constexpr float kEverywhere_m = 1e3f;
+constexpr float kEverywhere_m = std::numeric_limits<float>::infinity();
 
 // The active nodes of the slabs about a range of y.
 std::pair<std::uint32_t, std::uint32_t> nodesWithin(const GroupLattice& lattice,
@@ -231,7 +232,8 @@ std::pair<std::uint32_t, std::uint32_t> nodesWithin(const GroupLattice& lattice,
   const LatticeGrid& grid = lattice.grid;
   const auto slabOf = [&](float y, int beyond) {
     const float slab = std::floor((y - grid.origin_m.y) / grid.spacing_m);
-    return std::clamp(static_cast<int>(slab) + beyond, 0, grid.ny);
+    const auto last = static_cast<float>(grid.ny);  // clamped before it need fit an integer
+    return std::clamp(static_cast<int>(std::clamp(slab, -last, last)) + beyond, 0, grid.ny);
   };
   const int first = slabOf(y_range_m.first, 0), end = slabOf(y_range_m.second, 2);
   return {lattice.slab_starts[static_cast<std::size_t>(first)],

@@ -17,21 +17,27 @@ bool isAmong(Role role, std::initializer_list<Role> roles) {
   return std::find(roles.begin(), roles.end(), role) != roles.end();
 }
 
-std::vector<Vec3d> without(const std::vector<RoleSurface>& surfaces,
-                           std::initializer_list<Role> roles) {
+bool isOfHeart(Role role) {
+  return !isAmong(role, {Role::none, Role::surroundings, Role::aorta, Role::aortic_wall,
+                         Role::pulmonary_artery, Role::pulmonary_wall});
+}
+
+bool isAtrium(Role role) {
+  return isAmong(role, {Role::la, Role::la_wall, Role::ra, Role::ra_wall});
+}
+
+template <typename Wanted>
+std::vector<Vec3d> pointsWhere(const std::vector<RoleSurface>& surfaces, Wanted wanted) {
   std::vector<Vec3d> all;
   for (const RoleSurface& s : surfaces)
-    if (!isAmong(s.role, roles)) all.insert(all.end(), s.points_m.begin(), s.points_m.end());
+    if (wanted(s.role)) all.insert(all.end(), s.points_m.begin(), s.points_m.end());
   return all;
 }
 
 }  // namespace
 
 std::vector<Vec3d> pointsOf(const std::vector<RoleSurface>& surfaces, Role role) {
-  std::vector<Vec3d> all;
-  for (const RoleSurface& s : surfaces)
-    if (s.role == role) all.insert(all.end(), s.points_m.begin(), s.points_m.end());
-  return thinned(std::move(all), kMostPoints);
+  return thinned(pointsWhere(surfaces, [role](Role other) { return other == role; }), kMostPoints);
 }
 
 std::string namedRole(const std::vector<RoleSurface>& surfaces, Role role) {
@@ -52,14 +58,11 @@ std::string rolesThere(const std::vector<RoleSurface>& surfaces) {
 }
 
 std::vector<Vec3d> outsideOf(const std::vector<RoleSurface>& surfaces) {
-  return without(surfaces, {Role::none, Role::surroundings, Role::aorta, Role::aortic_wall,
-                            Role::pulmonary_artery, Role::pulmonary_wall});
+  return pointsWhere(surfaces, isOfHeart);
 }
 
 std::vector<Vec3d> frontOf(const std::vector<RoleSurface>& surfaces) {
-  return without(surfaces, {Role::none, Role::surroundings, Role::aorta, Role::aortic_wall,
-                            Role::pulmonary_artery, Role::pulmonary_wall, Role::la, Role::la_wall,
-                            Role::ra, Role::ra_wall});
+  return pointsWhere(surfaces, [](Role role) { return isOfHeart(role) && !isAtrium(role); });
 }
 
 bool hasWall(const std::vector<RoleSurface>& surfaces) {
