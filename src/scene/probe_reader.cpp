@@ -116,7 +116,7 @@ Probe readProbe(TomlTable table, double mesh_unit_m, std::optional<ViewPlacement
                    ranges::kExtent_mm));
   probe.elevation_focus_m = metresFromMillimetres(table.number(
       "elevation_focus_mm", millimetresFromMetres(probe.elevation_focus_m), ranges::kRadius_mm));
-  probe.lines = table.integer("lines", 256, 1, 65536);
+  probe.lines = table.integer("lines", 256, 1, ranges::kMostLines);
   probe.samples = table.integer("samples", 1024, 1, 65536);
   if (static_cast<double>(probe.lines) * probe.samples > kMaxPolarSamples)
     table.fail("samples",

@@ -35,6 +35,7 @@ inline constexpr NumberRange kHeterogeneity_db{.lo = 0, .hi = 20};
 inline constexpr NumberRange kHelix_deg{.lo = 0, .hi = 90};
 inline constexpr NumberRange kNominalGain_db_cm_mhz{.lo = 0, .hi = 5};
 inline constexpr NumberRange kPersistence{.lo = 0, .hi = 0.8};
+inline constexpr int kMostLines = 65536;  // of a probe; our choice
 inline constexpr NumberRange kRollingShare{.lo = 0.001, .hi = 1};
 inline constexpr NumberRange kHeartRates_bpm{.lo = 1, .hi = 1000};
 inline constexpr NumberRange kBeats{.lo = 1e-6, .hi = 1e6};

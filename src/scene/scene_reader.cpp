@@ -27,8 +27,7 @@ constexpr std::size_t kMaxSceneBytes = 4 << 20;
 constexpr double kMaxFrames = 1e6;
 // Our choice: three deviations of it leave a tenth of the mean beat.
 constexpr double kMaxRrVariability = 0.3;
-constexpr int kMostRollingLines = 65536;  // as many as a probe may have
-constexpr int kMaxRaysPerBeam = 4096;     // errors are then far under a picture's. Our choice
+constexpr int kMaxRaysPerBeam = 4096;  // errors are then far under a picture's. Our choice
 
 // keyframe_rate_hz: of the loop where it names no heart rate of its own.
 Acquisition readAcquisition(TomlTable table, std::optional<double> keyframe_rate_hz) {
@@ -116,7 +115,7 @@ AccuracySettings readAccuracy(TomlTable table) {
   a.refraction_tolerance_beam_widths =
       table.number("refraction_tolerance_beam_widths", a.refraction_tolerance_beam_widths,
                    ranges::kToleranceLines);
-  a.rolling_lines = table.integer("rolling_lines", a.rolling_lines, 1, kMostRollingLines);
+  a.rolling_lines = table.integer("rolling_lines", a.rolling_lines, 1, ranges::kMostLines);
   readTolerance(table);  // who sets the accuracy; the scene as rendered has none
   table.finish();
   return a;

@@ -15,8 +15,7 @@ class SceneSpeckle {
   SceneSpeckle(const Scene& scene, const MeshMotion& motion, const EffectPlan& plan);
 
   // Of some lines the intensities after the average over the beam, in place, and what of them is
-  // coherent. `surfaces`
-  // are those of the instant. Thread-safe; frames of equal time are equal.
+  // coherent. `surfaces` are those of the instant. Thread-safe; frames of equal time are equal.
   void apply(const FrameTime& time, const SurfaceFrame& surfaces, Intensities& intensities,
              const CoherentEchoes& echoes, LineRange lines) const;
   // Lines whose intensities those of a range take in.
