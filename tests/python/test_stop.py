@@ -18,9 +18,10 @@ SPEC = {"hearts": 40, "views": ["a4c"], "keyframes": 8, "scene": {"probe": {"lin
 
 def seconds_to_stop(work, after_s):
     """From a signal that is sent after_s into the work until it raised KeyboardInterrupt; None: it had ended before."""
-    done, sent = threading.Event(), []
+    begun, done, sent = threading.Event(), threading.Event(), []
 
     def interrupt():
+        begun.wait()
         if not done.wait(after_s):
             sent.append(time.monotonic())
             os.kill(os.getpid(), signal.SIGINT)
@@ -30,6 +31,7 @@ def seconds_to_stop(work, after_s):
     stopped = None
     try:
         try:
+            begun.set()  # here, as a signal may come before start() has returned
             work()
             done.set()
         except KeyboardInterrupt:
