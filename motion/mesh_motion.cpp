@@ -17,6 +17,7 @@
 #include "motion/subdivision/limit_normals.h"
 #include "motion/subdivision/shared_subdivision.h"
 #include "scene/effect_plan.h"
+#include "scene/role.h"
 
 namespace echocine {
 
@@ -95,11 +96,11 @@ std::vector<Vec3d> weightedSum(std::span<const double> weights,
   return sum;
 }
 
-Box loopBox(const std::vector<std::vector<Vec3d>>& keyframes_m, double overshoot) {
+Box loopBox(const std::vector<std::vector<Vec3d>>& keyframes_m, double overshoot, double aside_m) {
   Box box;
   for (const std::vector<Vec3d>& positions : keyframes_m)
     for (const Vec3d& p : positions) box.add(p);
-  const Vec3d widen = overshoot * (box.hi - box.lo);
+  const Vec3d widen = overshoot * (box.hi - box.lo) + aside_m * Vec3d{1, 1, 1};
   return {box.lo - widen, box.hi + widen};
 }
 
@@ -128,7 +129,7 @@ struct MeshMotion::MovingSurface {
   void smooth(SurfaceTopology& topology, const MeshTags& tags, const Scene& scene);
   void subdivide(SurfaceTopology& topology, const MeshTags& tags, const MotionSettings& motion);
   void frameAt(double phase, std::vector<Vec3f>& positions_m, std::vector<Vec3f>* normals) const;
-  std::vector<NumberedTriangle> nearPlane(const SurfaceTopology& topology) const;
+  std::vector<NumberedTriangle> nearPlane(const SurfaceTopology& topology, double aside_m) const;
 };
 
 void MeshMotion::MovingSurface::frameAt(double phase, std::vector<Vec3f>& positions_m,
@@ -153,11 +154,11 @@ void MeshMotion::MovingSurface::frameAt(double phase, std::vector<Vec3f>& positi
 }
 
 std::vector<NumberedTriangle> MeshMotion::MovingSurface::nearPlane(
-    const SurfaceTopology& topology) const {
+    const SurfaceTopology& topology, double aside_m) const {
   HeightRanges heights;
   for (std::size_t k = 0; k < control.weights.keyframeCount(); ++k) heights.add(control.rows_m[k]);
   if (subdivision) heights.refine(*subdivision);
-  return heights.nearPlane(topology.triangles, control.weights.overshoot());
+  return heights.nearPlane(topology.triangles, control.weights.overshoot(), aside_m);
 }
 
 // Normals of the limit surface at the vertices that subdivide() will make.
@@ -229,7 +230,8 @@ MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
     positions_m.reserve(keyframes.size());
     for (const KeyframeMesh& keyframe : keyframes)
       positions_m.push_back(probePositions(structure, keyframe, scene));
-    loop_boxes_m_.push_back(loopBox(positions_m, weights.overshoot()));
+    const double aside_m = trabeculaeReach(scene, structure);
+    loop_boxes_m_.push_back(loopBox(positions_m, weights.overshoot(), aside_m));
     MovingSurface moving{controlMotion(std::move(weights), topology, keyframes, positions_m)};
     const MeshTags& tags = keyframes.front().mesh.tags;
     if (smooth_normals_) offerNormals(moving, topology, tags, scene);
@@ -241,7 +243,7 @@ MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
     } else if (!topology.membrane) {
       moving.volume = VolumeSum(topology.triangles);
     }
-    if (!topology.still) topology.near_plane = moving.nearPlane(topology);
+    if (!topology.still) topology.near_plane = moving.nearPlane(topology, aside_m);
     surfaces_.push_back(std::move(topology));
     moving_.push_back(std::move(moving));
   }

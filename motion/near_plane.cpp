@@ -23,20 +23,21 @@ void HeightRanges::refine(const Subdivision& subdivision) {
 }
 
 std::vector<NumberedTriangle> HeightRanges::nearPlane(std::span<const Triangle> triangles,
-                                                      double overshoot) const {
+                                                      double overshoot,
+                                                      double aside_m) const {
   // Of single precision in blends and stencils, in parts of the largest height. Our choice: ten
   // times what a hundred roundings can add up to.
   constexpr float kRounding = 1e-4f;
   float largest_m = 0;
   for (const auto& [lo, hi, none] : ranges_m_)
     largest_m = std::max({largest_m, std::abs(lo), std::abs(hi)});
-  const auto beyond = static_cast<float>(overshoot);
+  const auto beyond = static_cast<float>(overshoot), aside = static_cast<float>(aside_m);
   std::vector<NumberedTriangle> near;
   for (std::uint32_t number = 0; number < triangles.size(); ++number) {
     bool above = false, below = false;
     for (const std::uint32_t v : triangles[number]) {
       const auto& [lo, hi, none] = ranges_m_[v];
-      const float widen = beyond * (hi - lo) + kRounding * largest_m;
+      const float widen = beyond * (hi - lo) + kRounding * largest_m + aside;
       above |= hi + widen >= 0;
       below |= lo - widen <= 0;
     }

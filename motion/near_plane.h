@@ -21,9 +21,9 @@ class HeightRanges {
   void refine(const Subdivision& subdivision);
 
   // In ascending order at least all triangles that have corners on both sides of the plane at any
-  // phase. overshoot: KeyframeWeights::overshoot().
-  std::vector<NumberedTriangle> nearPlane(std::span<const Triangle> triangles,
-                                          double overshoot) const;
+  // phase. overshoot: KeyframeWeights::overshoot(). Corners may stand `aside_m` beside their place.
+  std::vector<NumberedTriangle> nearPlane(std::span<const Triangle> triangles, double overshoot,
+                                          double aside_m = 0) const;
 
  private:
   std::vector<Vec3f> ranges_m_;  // by vertex: x the lowest, y the highest

@@ -75,6 +75,7 @@ void setSeeds(const Spec& spec, const Draw& draw, int view, const Values& given,
   };
   set("scene.acquisition.seed", scene.acquisition.seed, -1);
   set("scene.speckle.heterogeneity_seed", scene.speckle.heterogeneity_seed, -1);
+  set("scene.trabeculae.seed", scene.trabeculae.seed, -1);
   set("scene.speckle.seed", scene.speckle.seed, view);
   set("scene.artefacts.clutter_seed", scene.artefacts.clutter_seed, view);
   set("scene.artefacts.noise_seed", scene.artefacts.noise_seed, view);

@@ -173,6 +173,7 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest) {
                         {Effect::elevation, Stage::trace, 20 * rays},
                         {Effect::travel_time, Stage::trace, 2 * crossings},
                         {Effect::labels, Stage::trace, 0.1 * scattered},
+                        {Effect::trabeculae, Stage::geometry, 1},
                         {Effect::speckle, Stage::speckle, 1},
                         {Effect::heterogeneity, Stage::speckle, 0.01},
                         {Effect::anisotropy, Stage::speckle, 0.01},

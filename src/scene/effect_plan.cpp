@@ -8,6 +8,7 @@
 #include "scene/media_in_use.h"
 #include "scene/names.h"
 #include "scene/picture_plan.h"
+#include "scene/role.h"
 #include "scene/scan_geometry.h"
 
 namespace echocine {
@@ -228,6 +229,17 @@ Finding timeGain(const Scene& scene, const EffectPlan& plan) {
   return {true, "one curve of depth that undoes the loop's mean attenuation"};
 }
 
+void planTrabeculae(const Scene& scene, EffectPlan& plan) {
+  const TrabeculaeSettings& t = scene.trabeculae;
+  const auto has = [&](const Structure& s) { return hasTrabeculae(scene, s); };
+  plan.trabeculae = std::any_of(scene.structures.begin(), scene.structures.end(), has);
+  add(plan, Effect::trabeculae, plan.trabeculae,
+      t.deviation_m == 0 ? "trabeculae.height_mm asks for none"
+      : !plan.trabeculae ? "no structure is a ventricle's cavity"
+                         : fmt::format("ridges of {:g} mm on the ventricles' inner surfaces",
+                                       millimetresFromMetres(t.deviation_m)));
+}
+
 void planRolling(const Scene& scene, EffectPlan& plan) {
   const int together = scene.accuracy.rolling_lines;
   plan.rolling = scene.acquisition.rolling && scene.probe.lines > together;
@@ -287,6 +299,7 @@ EffectPlan planEffects(const Scene& scene) {
   if (plan.elevation || plan.lateral_rays) plan.rays_per_beam = scene.accuracy.rays_per_beam;
   plan.travel_time = decide(plan, Effect::travel_time, wanted.travel_time,
                             {false, "echoes are placed at their path length"});
+  planTrabeculae(scene, plan);
   planSpeckle(scene, plan);
   planArtefacts(scene, plan);
   planRolling(scene, plan);

@@ -34,6 +34,7 @@ struct EffectPlan {
   bool spread = true;
   bool beam_width = true;
   bool travel_time = false;
+  bool trabeculae = false;  // the ventricles' inner surfaces have a relief
   bool speckle = false;
   bool heterogeneity = false, anisotropy = false;  // of the scatterers
   bool coherent_echoes = false;                    // interfaces keep part of their phase

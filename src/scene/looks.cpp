@@ -8,13 +8,14 @@ namespace {
 // TMI 38(9), 2198-2210, 2019); greys are presets. Walls send interface echoes no stronger than
 // their muscle: closed white outlines are a drawing's, not a scanner's.
 void applyClean(Scene& scene) {
+  scene.trabeculae.deviation_m = 1e-3;
   scene.speckle.on = true;
   scene.speckle.smoothing_m = 0.6e-3;
-  scene.speckle.heterogeneity_db = 5;
+  scene.speckle.heterogeneity_db = 4.3;
   scene.speckle.anisotropy_db = 10;  // 14.5 dB ex vivo, 15.9 dB between walls in vivo
-  scene.signal.dynamic_range_db = 78;
-  scene.signal.grey_gamma = 1.35;
-  scene.signal.gain_db = 2;
+  scene.signal.dynamic_range_db = 80;
+  scene.signal.grey_gamma = 1.2;
+  scene.signal.gain_db = 1;
   scene.signal.interface_gain_db = -24;
   scene.signal.interface_limit_db = -64;
 }

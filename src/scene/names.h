@@ -163,6 +163,7 @@ struct NamesOf<Effect> {
                                            {Effect::beam_width, "beam_width"},
                                            {Effect::elevation, "elevation"},
                                            {Effect::travel_time, "travel_time"},
+                                           {Effect::trabeculae, "trabeculae"},
                                            {Effect::speckle, "speckle"},
                                            {Effect::heterogeneity, "heterogeneity"},
                                            {Effect::anisotropy, "anisotropy"},

@@ -29,6 +29,9 @@ inline constexpr NumberRange kLevel_db{.lo = -200, .hi = 60};  // of an artefact
 inline constexpr NumberRange kLoss_db{.lo = 0, .hi = 200};
 inline constexpr NumberRange kPictureGain_db{.lo = -100, .hi = 100};
 inline constexpr NumberRange kArtefactLength_mm{.lo = 0.01, .hi = 1e4};
+// Of the ridges' height, far from half a ventricle, and from one to the next. Our choice.
+inline constexpr NumberRange kTrabeculae_mm{.lo = 0, .hi = 4};
+inline constexpr NumberRange kTrabeculaeScale_mm{.lo = 0.5, .hi = 50};
 inline constexpr NumberRange kArtefactWidth_deg{.lo = 0.01, .hi = 180};
 inline constexpr NumberRange kWindowOffset_mm{.lo = -1e4, .hi = 1e4};
 inline constexpr NumberRange kHeterogeneity_db{.lo = 0, .hi = 20};

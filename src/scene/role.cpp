@@ -76,4 +76,18 @@ std::optional<SurfaceId> structureOf(const Scene& scene, Role role) {
   return std::nullopt;
 }
 
+bool hasTrabeculae(const Scene& scene, const Structure& structure) {
+  if (!(scene.trabeculae.deviation_m > 0) || structure.membrane) return false;
+  const Role role = roleOf(structure);
+  return role == Role::lv_cavity || role == Role::rv_cavity;
+}
+
+double trabeculaeReach(const Scene& scene, const Structure& structure) {
+  const Role role = roleOf(structure);
+  const bool wall = role == Role::lv_wall || role == Role::rv_wall;
+  return hasTrabeculae(scene, structure) || (wall && !structure.membrane)
+             ? scene.trabeculae.most_m()
+             : 0;
+}
+
 }  // namespace echocine

@@ -46,4 +46,12 @@ Role roleOf(const Structure& structure);
 // The first structure of a role.
 std::optional<SurfaceId> structureOf(const Scene& scene, Role role);
 
+// Does the picture show the structure's surface with trabeculae? Ventricles' cavities have them,
+// where the scene asks for some.
+bool hasTrabeculae(const Scene& scene, const Structure& structure);
+
+// How far its vertices may be moved for them: those of the ventricles' walls go along where they
+// lie on a cavity's. m.
+double trabeculaeReach(const Scene& scene, const Structure& structure);
+
 }  // namespace echocine

@@ -69,6 +69,7 @@ enum class Effect {
   beam_width,
   elevation,
   travel_time,
+  trabeculae,
   speckle,
   heterogeneity,
   anisotropy,
@@ -157,6 +158,14 @@ struct SignalSettings {
   double grey_gamma = 1;  // grey = (position in the dynamic range)^gamma
 };
 
+// A relief of the ventricles' inner surfaces, in the picture alone (motion/trabeculae.h).
+struct TrabeculaeSettings {
+  double deviation_m = 0;  // of its height, about the mesh; 0: none
+  double scale_m = 5e-3;   // from ridge to ridge, about half
+  int seed = 1;
+  double most_m() const { return 2 * deviation_m; }  // where it is cut. Our choice
+};
+
 // Coherent echoes of material scatterers (src/speckle).
 struct SpeckleSettings {
   bool on = false;
@@ -166,9 +175,11 @@ struct SpeckleSettings {
   double tissue_time_s = 0;     // after which tissue's scatterers are new ones; 0: never
   double blood_time_s = 0.01;   // the same of blood; our choice: well under a frame
   // Backscatter that differs from place to place and stays with the tissue: log-normal with mean 1,
-  // a sum of two fields of equal variance with these scales. Standard deviation; 0: none.
+  // a sum of two fields of equal variance, one alike in all directions, one of layers across the
+  // beam, so thick and so wide. Standard deviation; 0: none.
   double heterogeneity_db = 0;
-  double heterogeneity_fine_m = 1.2e-3, heterogeneity_coarse_m = 4e-3;
+  double heterogeneity_fine_m = 1.2e-3;
+  double heterogeneity_layer_m = 1e-3, heterogeneity_coarse_m = 12e-3;
   int heterogeneity_seed = 1;
   // What muscle fibres send back along themselves, below what they do across; 0: none.
   double anisotropy_db = 0;
@@ -266,6 +277,7 @@ struct Scene {
   MotionSettings motion;
   std::vector<Structure> structures;
   EffectSwitches effects;
+  TrabeculaeSettings trabeculae;
   SpeckleSettings speckle;
   ArtefactSettings artefacts;
   SignalSettings signal;

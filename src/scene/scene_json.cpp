@@ -118,10 +118,15 @@ Json speckleJson(const SpeckleSettings& s) {
           {"blood_time_s", s.blood_time_s},
           {"heterogeneity_db", s.heterogeneity_db},
           {"heterogeneity_fine_m", s.heterogeneity_fine_m},
+          {"heterogeneity_layer_m", s.heterogeneity_layer_m},
           {"heterogeneity_coarse_m", s.heterogeneity_coarse_m},
           {"heterogeneity_seed", s.heterogeneity_seed},
           {"anisotropy_db", s.anisotropy_db},
           {"helix_angle_rad", s.helix_angle_rad}};
+}
+
+Json trabeculaeJson(const TrabeculaeSettings& t) {
+  return {{"height_m", t.deviation_m}, {"scale_m", t.scale_m}, {"seed", t.seed}};
 }
 
 Json artefactsJson(const ArtefactSettings& a) {
@@ -225,6 +230,7 @@ Json sceneJson(const Scene& scene) {
   if (const Vec3d m = scene.motion.mesh_offset_m; m != Vec3d{})
     json["motion"]["mesh_offset_m"] = {m.x, m.y, m.z};
   // A picture without speckle is the same file as before there was any.
+  if (scene.trabeculae.deviation_m > 0) json["trabeculae"] = trabeculaeJson(scene.trabeculae);
   if (scene.speckle.on) json["speckle"] = speckleJson(scene.speckle);
   json["artefacts"] = artefactsJson(scene.artefacts);
   return json;

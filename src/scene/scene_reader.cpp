@@ -186,6 +186,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file, const Name
       cubicMetresFromCubicCentimetres(root.number("unit_volume_cm3", 1.0, ranges::kUnitVolume_cm3));
   scene.effects = readEffects(root.table("effects"));
   takeLook(root.table("signal"), scene);
+  scene.trabeculae = readTrabeculae(root.table("trabeculae"), scene.trabeculae);
   scene.speckle = readSpeckle(root.table("speckle"), scene.speckle);
   scene.artefacts = readArtefacts(root.table("artefacts"), scene.artefacts);
   scene.signal = readSignal(root.table("signal"), scene.signal);

@@ -128,6 +128,7 @@ SpeckleSettings readSpeckle(TomlTable table, const SpeckleSettings& defaults) {
   s.heterogeneity_db =
       table.number("heterogeneity_db", s.heterogeneity_db, ranges::kHeterogeneity_db);
   s.heterogeneity_fine_m = readLength(table, "heterogeneity_fine_mm", s.heterogeneity_fine_m);
+  s.heterogeneity_layer_m = readLength(table, "heterogeneity_layer_mm", s.heterogeneity_layer_m);
   s.heterogeneity_coarse_m = readLength(table, "heterogeneity_coarse_mm", s.heterogeneity_coarse_m);
   s.heterogeneity_seed = readSeed(table, "heterogeneity_seed", s.heterogeneity_seed);
   s.anisotropy_db = table.number("anisotropy_db", s.anisotropy_db, ranges::kLoss_db);

@@ -57,8 +57,10 @@ Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, Loop
       all_lines_{0, scene_.probe.lines} {
   if (plan_.effects.rays_per_beam > 1)
     beams_.emplace(scene_.probe, beamSpread(plan_.effects, scene_.acquisition.seed));
+  if (plan_.effects.trabeculae)
+    trabeculae_ = std::make_unique<const Trabeculae>(scene_, *motion_, !plan_.slice);
   if (plan_.effects.speckle)
-    speckle_ = std::make_unique<const SceneSpeckle>(scene_, *motion_, plan_.effects);
+    speckle_ = std::make_unique<const SceneSpeckle>(scene_, *motion_, plan_.effects, trabeculae_.get());
   if (plan_.effects.rolling)
     rolling_.emplace(scene_, [this](LineRange lines) {
       return chain_.taken(speckle_ ? speckle_->reach(lines) : lines);
@@ -79,10 +81,10 @@ std::shared_ptr<Workspace> Simulator::workspace() const {
   }
   if (!space && plan_.slice)
     space = std::make_unique<Workspace>(
-        Workspace{-1, {}, PlaneSlice(motion_->surfaces(), scene_.probe, plan_.left_out), {}});
+        Workspace{-1, {}, {}, PlaneSlice(motion_->surfaces(), scene_.probe, plan_.left_out), {}});
   if (!space)
     space = std::make_unique<Workspace>(
-        Workspace{-1, {}, FrameGeometry(motion_->surfaces(), plan_.left_out), {}});
+        Workspace{-1, {}, {}, FrameGeometry(motion_->surfaces(), plan_.left_out), {}});
   return {space.release(), [this](Workspace* used) {
             const std::lock_guard lock(mutex_);
             free_.emplace_back(used);
@@ -140,8 +142,11 @@ void Simulator::stand(const FrameTime& time, Workspace& w) const {
   w.phase = -1;
   clock_.time(Stage::motion,
               [&] { motion_->frameAt(time.phase, w.surfaces, plan_.smooth_normals); });
-  std::visit([&](auto& g) { clock_.time(Stage::geometry, [&] { g.update(w.surfaces); }); },
-             w.geometry);
+  clock_.time(Stage::geometry, [&] {
+    if (trabeculae_) trabeculae_->raise(w.surfaces, w.smooth);
+    std::visit([&](auto& g) { g.update(w.surfaces); }, w.geometry);
+    if (trabeculae_) trabeculae_->lower(w.surfaces, w.smooth);
+  });
   w.phase = time.phase;
 }
 

@@ -17,6 +17,7 @@
 #include "geometry/plane_slice.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/mesh_motion.h"
+#include "motion/trabeculae.h"
 #include "motion/volumes.h"
 #include "output/frame_record.h"
 #include "scene/loop_plan.h"
@@ -48,6 +49,7 @@ struct Frame {
 struct Workspace {
   double phase = -1;  // that surfaces and geometry stand at
   SurfaceFrame surfaces;
+  Trabeculae::Smooth smooth{};  // surfaces while others are shown
   std::variant<PlaneSlice, FrameGeometry> geometry;  // whichever the plan's tracer needs
   PolarFrame polar;
   PolarFrame rolled{};  // lines of a rolling frame, as they come
@@ -154,6 +156,7 @@ class Simulator {
   const PlaneRequest request_;
   const LineRange all_lines_;
   std::optional<BeamRays> beams_;  // several rays per beam
+  std::unique_ptr<const Trabeculae> trabeculae_;
   std::optional<RollingLines> rolling_;
   std::unique_ptr<const SceneSpeckle> speckle_;
   std::unique_ptr<const Persistence> persistence_;

@@ -2,18 +2,71 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/box.h"
+#include "core/nearest_vertex.h"
 
 namespace echocine {
 
 namespace {
 
 constexpr float kStillBlock_m = 8e-3f;  // where nothing moves
+constexpr float kBehind_m = 1e-3f;  // of a ridge's foot, in the wall. Our choice
 constexpr int kPhasesLookedAt = 32;
 constexpr double kBetweenPhases = 1.1;  // tissue may move farther between them
 
 }  // namespace
 
-FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion, const EffectPlan* plan)
+// A ventricle's relief at the reference phase.
+struct FieldMaterial::Ridges {
+  GroupId cavity;
+  NearestVertex surface;
+  std::vector<Vec3f> at_m, outward;  // by vertex; outward are unit
+  std::vector<float> height_m;
+  float reach_m;  // no place in a ridge is farther from the nearest vertex
+
+  Ridges(const Relief& relief, const SurfaceTopology& topology, std::vector<Vec3f> vertices_m,
+         GroupId group)
+      : cavity(group),
+        surface(vertices_m),
+        at_m(std::move(vertices_m)),
+        outward(at_m.size()),
+        height_m(relief.height_m),
+        reach_m(std::max(*std::max_element(height_m.begin(), height_m.end()), 0.0f)) {
+    float longest_m = 0;
+    for (const Triangle& t : topology.triangles) {
+      longest_m = std::max(longest_m, length(at_m[t[1]] - at_m[t[0]]));
+      const Vec3f n = cross(at_m[t[1]] - at_m[t[0]], at_m[t[2]] - at_m[t[0]]);
+      for (const std::uint32_t v : t) outward[v] = outward[v] + n;
+    }
+    for (Vec3f& n : outward)
+      if (dot(n, n) > 0) n = normalised(n);
+    reach_m = std::hypot(reach_m, longest_m);
+  }
+
+  // False only where no place in the box is in a ridge.
+  bool reachInto(const Box& box) const {
+    const double radius_m = 0.5 * length(box.hi - box.lo);
+    return surface.numberOf(toFloat(0.5 * (box.lo + box.hi)), static_cast<float>(radius_m) + reach_m)
+        .has_value();
+  }
+
+  // Behind the surface where a place is in a ridge, else nothing.
+  std::optional<Vec3f> behind(Vec3f place_m) const {
+    const std::optional<std::uint32_t> v = surface.numberOf(place_m, reach_m);
+    if (!v) return std::nullopt;
+    const float depth_m = -dot(place_m - at_m[*v], outward[*v]);
+    if (!(depth_m < height_m[*v])) return std::nullopt;
+    return place_m + (std::max(depth_m, 0.0f) + kBehind_m) * outward[*v];
+  }
+};
+
+FieldMaterial::~FieldMaterial() = default;
+
+FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion, const EffectPlan* plan,
+                             const Trabeculae* trabeculae)
     : field_(interiorMotion(scene, motion)) {
   if (plan && (plan->heterogeneity || plan->anisotropy))
     strength_ = std::make_unique<const TissueStrength>(scene, *plan, motion, field_);
@@ -24,6 +77,14 @@ FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion, const
     if (!surface.membrane)
       blood_[index(field_.groupOf(surface.id))] =
           scene.medium(scene.structures[index(surface.id)].medium).blood;
+  if (trabeculae) {
+    SurfaceFrame surfaces;
+    motion.frameAt(field_.referencePhase(), surfaces, false);
+    for (const Relief& relief : trabeculae->reliefs())
+      ridges_.emplace_back(relief, motion.surfaces()[index(relief.surface)],
+                           surfaces.positions_m[index(relief.surface)],
+                           field_.groupOf(relief.surface));
+  }
   FieldFrame frame;
   float farthest_m2 = 0;
   for (int i = 0; i < kPhasesLookedAt; ++i) {
@@ -59,6 +120,18 @@ void FieldMaterial::groupsAt(std::span<const Vec3f> reference_m,
                              std::span<std::uint16_t> groups) const {
   std::vector<GroupId> ids(reference_m.size());
   field_.groupsAt(reference_m, ids);
+  Box about;
+  for (const Vec3f p : reference_m) about.add(toDouble(p));
+  for (const Ridges& ridges : ridges_) {
+    if (!ridges.reachInto(about)) continue;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      if (ids[i] != ridges.cavity) continue;
+      const std::optional<Vec3f> behind_m = ridges.behind(reference_m[i]);
+      if (!behind_m) continue;
+      const GroupId wall = field_.groupAt(*behind_m);
+      if (!blood_[index(wall)]) ids[i] = wall;
+    }
+  }
   std::transform(ids.begin(), ids.end(), groups.begin(),
                  [](GroupId id) { return static_cast<std::uint16_t>(index(id)); });
 }

@@ -2,6 +2,7 @@
 // Tissue as the motion field carries it: speckle and truth move by one field.
 
 #include "motion/interior_motion.h"
+#include "motion/trabeculae.h"
 #include "speckle/material.h"
 #include "speckle/tissue_strength.h"
 
@@ -10,8 +11,10 @@ namespace echocine {
 class FieldMaterial : public Material {
  public:
   // Tissue is alike everywhere but where the plan has heterogeneity or anisotropy; no plan:
-  // neither.
-  FieldMaterial(const Scene& scene, const MeshMotion& motion, const EffectPlan* plan = nullptr);
+  // neither. Trabeculae that stand in a cavity belong to the wall behind them.
+  FieldMaterial(const Scene& scene, const MeshMotion& motion, const EffectPlan* plan = nullptr,
+                const Trabeculae* trabeculae = nullptr);
+  ~FieldMaterial() override;
 
   CubeLattice lattice() const override { return lattice_; }
   bool blood(std::uint16_t group) const override { return blood_[group]; }
@@ -29,7 +32,9 @@ class FieldMaterial : public Material {
   const MotionField& field() const { return field_; }
 
  private:
+  struct Ridges;
   MotionField field_;
+  std::vector<Ridges> ridges_;
   CubeLattice lattice_;
   std::vector<bool> blood_, coarse_;  // by group
   std::unique_ptr<const TissueStrength> strength_;

@@ -5,15 +5,15 @@
 #include <numbers>
 
 #include "core/hash_random.h"
+#include "core/nearest_vertex.h"
 #include "scene/role.h"
 #include "scene/scan_geometry.h"
-#include "speckle/nearest_vertex.h"
 
 namespace echocine {
 
 namespace {
 
-enum : std::uint64_t { kFine = 11, kCoarse = 12 };  // purposes of hashed numbers
+enum : std::uint64_t { kFine = 11, kLayers = 12 };  // purposes of hashed numbers
 
 Vec3d unitOf(Vec3d v) {
   return dot(v, v) > 0 ? normalised(v) : Vec3d{0, 0, 1};
@@ -43,52 +43,27 @@ Vec3d longAxis(std::span<const Vec3f> cavity_m, std::span<const Vec3f> base_m) {
 
 }  // namespace
 
-const NormalField::Cell& NormalField::cellOf(const std::array<std::int64_t, 3>& node) {
-  Cell& cell =
-      cells_[static_cast<std::size_t>((node[0] & 3) | (node[1] & 3) << 2 | (node[2] & 3) << 4)];
-  if (cell.known && cell.node == node) return cell;
-  cell.node = node;
-  cell.known = true;
-  for (int corner = 0; corner < 8; ++corner) {
-    std::uint64_t hash = seed_;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      hash = hashOf(hash, node[axis] + (corner >> axis & 1));
-    cell.normals[static_cast<std::size_t>(corner)] =
-        normalFromHashes(hashOf(hash, 0), hashOf(hash, 1));
-  }
-  return cell;
-}
-
-double NormalField::at(Vec3f place_m) {
-  const double at[3] = {static_cast<double>(place_m.x) / scale_m_,
-                        static_cast<double>(place_m.y) / scale_m_,
-                        static_cast<double>(place_m.z) / scale_m_};
-  std::array<std::int64_t, 3> node;
-  double high[3];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double floor = std::floor(at[axis]), f = at[axis] - floor;
-    node[axis] = static_cast<std::int64_t>(floor);
-    high[axis] = f * f * (3 - 2 * f);
-  }
-  const Cell& cell = cellOf(node);
-  double sum = 0, squares = 0;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    double weight = 1;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      weight *= corner >> axis & 1 ? high[axis] : 1 - high[axis];
-    sum += weight * cell.normals[corner];
-    squares += weight * weight;
-  }
-  return sum / std::sqrt(squares);
-}
-
-Heterogeneity::Heterogeneity(const SpeckleSettings& settings)
+Heterogeneity::Heterogeneity(const SpeckleSettings& settings, const Probe& probe)
     : s_(settings.heterogeneity_db * std::numbers::ln10 / 10),
+      extent_m_(settings.heterogeneity_coarse_m),
+      per_thickness_(1 / settings.heterogeneity_layer_m),
+      middle_m_(probe.face_radius_m + probe.middleDepth()),
+      tangent_(std::tan(probe.first_angle_rad)),
+      linear_(probe.kind == ProbeKind::linear),
       fine_(settings.heterogeneity_fine_m, hashOf(settings.heterogeneity_seed, kFine)),
-      coarse_(settings.heterogeneity_coarse_m, hashOf(settings.heterogeneity_seed, kCoarse)) {}
+      layers_(1, hashOf(settings.heterogeneity_seed, kLayers)) {}
+
+// Coordinates in which layers are one unit thick along the beam and one wide across it.
+Vec3f Heterogeneity::inLayers(Vec3f place_m) const {
+  const Vec3d p = toDouble(place_m);
+  const double across_m =
+      linear_ ? p.x - p.z * tangent_ : middle_m_ * std::atan2(p.x, p.z);
+  const double along_m = linear_ ? p.z * std::hypot(1, tangent_) : std::hypot(p.x, p.z);
+  return toFloat({across_m / extent_m_, p.y / extent_m_, along_m * per_thickness_});
+}
 
 double Heterogeneity::at(Vec3f place_m) {
-  const double n = (fine_.at(place_m) + coarse_.at(place_m)) / std::numbers::sqrt2;
+  const double n = (fine_.at(place_m) + layers_.at(inLayers(place_m))) / std::numbers::sqrt2;
   return std::exp(s_ * n - s_ * s_ / 2);
 }
 
@@ -132,7 +107,7 @@ TissueStrength::~TissueStrength() = default;
 void TissueStrength::amplitudes(std::span<const Vec3f> reference_m, std::uint16_t group, bool blood,
                                 std::span<float> out) const {
   const Vec3d parallel = lineGeometry(probe_, probe_.lines / 2).direction;
-  Heterogeneity heterogeneity(settings_);
+  Heterogeneity heterogeneity(settings_, probe_);
   for (std::size_t i = 0; i < out.size(); ++i) {
     double factor = blood || settings_.heterogeneity_db == 0 ? 1 : heterogeneity.at(reference_m[i]);
     if (wall_ && group == wall_->group) {

@@ -3,49 +3,32 @@
 // drawn at the reference phase. The coherent ratio is normalised without them, so the mean over
 // seeds is the picture times their square.
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 
+#include "core/normal_field.h"
 #include "motion/interior/motion_field.h"
 #include "motion/mesh_motion.h"
 #include "scene/effect_plan.h"
 
 namespace echocine {
 
-// A standard normal field that is smooth over `scale_m`: normals hashed on a lattice of that
-// spacing, blended by smooth weights and divided by the root of their squares' sum, so that its
-// variance is 1 at every place. Fast for places near each other: it remembers cells. One thread at
-// a time.
-class NormalField {
- public:
-  NormalField(double scale_m, std::uint64_t seed) : scale_m_(scale_m), seed_(seed) {}
-  double at(Vec3f place_m);
-
- private:
-  struct Cell {
-    std::array<std::int64_t, 3> node;
-    bool known = false;
-    std::array<double, 8> normals;
-  };
-  const Cell& cellOf(const std::array<std::int64_t, 3>& node);
-
-  double scale_m_;
-  std::uint64_t seed_;
-  std::array<Cell, 64> cells_{};  // by their nodes' last two bits. Our choice
-};
-
 // Log-normal backscatter with mean 1: exp(s n - s^2 / 2) with s = ln(10) / 10 times the standard
-// deviation in dB, and n the sum of the fine and the coarse field over sqrt(2).
+// deviation in dB, and n the sum of two normal fields over sqrt(2). One is alike in all directions.
+// The other one's are layers that lie across the beam: of all sheets of tissue those are seen. They
+// reach `heterogeneity_coarse_m` at the probe's middle depth, elsewhere by the angle.
 class Heterogeneity {
  public:
-  explicit Heterogeneity(const SpeckleSettings& settings);
+  Heterogeneity(const SpeckleSettings& settings, const Probe& probe);
   double at(Vec3f place_m);
 
  private:
-  double s_;
-  NormalField fine_, coarse_;
+  Vec3f inLayers(Vec3f place_m) const;
+
+  double s_, extent_m_, per_thickness_, middle_m_, tangent_;
+  bool linear_;
+  NormalField fine_, layers_;
 };
 
 // A unit fibre within the wall: n the unit way from endo- to epicardium, a the long axis from base

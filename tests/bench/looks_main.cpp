@@ -24,6 +24,7 @@
 #include "motion/heart/parameters.h"
 #include "scene/names.h"
 #include "scene/role.h"
+#include "scene/motion_reader.h"
 #include "scene/signal_reader.h"
 #include "simulate/simulator.h"
 #include "texture_table.h"
@@ -102,6 +103,7 @@ Measured measure(const Simulator& simulator, double time_s, const std::string& s
 void takeTables(const Options& options, Scene& scene) {
   const SignalSettings before = scene.signal;
   scene.signal = {};
+  scene.trabeculae = {};
   scene.speckle = {};
   scene.artefacts = {};
   scene.signal.look = Look::scanner;
@@ -111,6 +113,7 @@ void takeTables(const Options& options, Scene& scene) {
   TomlTable root = TomlTable::parse(text, options.with);
   takeLook(root.table("signal"), scene);
   scene.signal = readSignal(root.table("signal"), scene.signal);
+  scene.trabeculae = readTrabeculae(root.table("trabeculae"), scene.trabeculae);
   scene.speckle = readSpeckle(root.table("speckle"), scene.speckle);
   scene.artefacts = readArtefacts(root.table("artefacts"), scene.artefacts);
   if (!scene.signal.reference_intensity)
@@ -125,7 +128,7 @@ void addHeart(int number, const Options& options, std::map<int, Column>& columns
     takeTables(options, scene);
     scene.speckle.seed = number + 1;
     scene.artefacts.noise_seed = scene.artefacts.clutter_seed = number + 1;
-    scene.speckle.heterogeneity_seed = number + 1;
+    scene.speckle.heterogeneity_seed = scene.trabeculae.seed = number + 1;
     const double es_s =
         scene.motion.end_systole_phase.value_or(0.35) / scene.acquisition.heart_rate_hz;
     const Simulator simulator(std::move(scene));

@@ -116,6 +116,10 @@ interface_limit_db = -55.0
 rays_per_beam = 4
 )";
 const std::string kSpeckle = R"(
+[trabeculae]
+height_mm = 1.0
+scale_mm = 5.0
+seed = 1
 [speckle]
 on = true
 seed = 1
@@ -125,6 +129,7 @@ tissue_time_ms = 0.0
 blood_time_ms = 10.0
 heterogeneity_db = 4.0
 heterogeneity_fine_mm = 1.2
+heterogeneity_layer_mm = 1.0
 heterogeneity_coarse_mm = 4.0
 heterogeneity_seed = 1
 anisotropy_db = 10.0

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/hash_random.h"
-#include "speckle/nearest_vertex.h"
+#include "core/nearest_vertex.h"
 #include "speckle/tissue_strength.h"
 #include "support/meshes.h"
 #include "support/speckle_bed.h"
@@ -56,7 +56,7 @@ TEST(Heterogeneity, HasMeanOneAndItsDecibels) {
   settings.heterogeneity_db = 4;
   double sum = 0, db = 0, db2 = 0;
   constexpr int kPlaces = 60000;
-  Heterogeneity heterogeneity(settings);
+  Heterogeneity heterogeneity(settings, Probe{});
   for (int i = 0; i < kPlaces; ++i) {
     const double factor = heterogeneity.at(placeOf(i));
     sum += factor;

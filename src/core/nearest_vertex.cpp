@@ -1,4 +1,4 @@
-#include "speckle/nearest_vertex.h"
+#include "core/nearest_vertex.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,10 @@ namespace echocine {
 
 namespace {
 
-constexpr int kMostBins = 24;  // along the longest side
+// Bins along the longest side, our choice: points of a surface are then a few to each that has any.
+int binsFor(std::size_t points) {
+  return std::clamp(static_cast<int>(std::sqrt(static_cast<double>(points)) / 4), 8, 64);
+}
 
 }  // namespace
 
@@ -21,7 +24,7 @@ NearestVertex::NearestVertex(std::span<const Vec3f> points_m) {
   for (const Vec3f p : points_m) box.add(toDouble(p));
   const Vec3d size = box.hi - box.lo;
   low_m_ = toFloat(box.lo);
-  edge_m_ = static_cast<float>(std::max({size.x, size.y, size.z, 1e-9}) / kMostBins);
+  edge_m_ = static_cast<float>(std::max({size.x, size.y, size.z, 1e-9}) / binsFor(points_m.size()));
   const auto bins = [&](double length) {
     return static_cast<int>(length / static_cast<double>(edge_m_)) + 1;
   };
@@ -37,8 +40,13 @@ NearestVertex::NearestVertex(std::span<const Vec3f> points_m) {
   }
   for (std::size_t b = 1; b < starts_.size(); ++b) starts_[b] += starts_[b - 1];
   points_m_.resize(of.size());
+  numbers_.resize(of.size());
   std::vector<std::uint32_t> next = starts_;
-  for (std::size_t i = 0; i < of.size(); ++i) points_m_[next[of[i]]++] = points_m[i];
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const std::uint32_t place = next[of[i]]++;
+    points_m_[place] = points_m[i];
+    numbers_[place] = static_cast<std::uint32_t>(i);
+  }
 }
 
 std::size_t NearestVertex::bin(int x, int y, int z) const {
@@ -53,7 +61,7 @@ int NearestVertex::binOf(float at, float low, int count) const {
 }
 
 // Shells of bins about the place's own, until none that is left can be nearer.
-Vec3f NearestVertex::to(Vec3f place_m) const {
+std::optional<std::uint32_t> NearestVertex::placeOf(Vec3f place_m, float reach_m) const {
   const Vec3f held{std::clamp(place_m.x, low_m_.x, low_m_.x + edge_m_ * static_cast<float>(nx_)),
                    std::clamp(place_m.y, low_m_.y, low_m_.y + edge_m_ * static_cast<float>(ny_)),
                    std::clamp(place_m.z, low_m_.z, low_m_.z + edge_m_ * static_cast<float>(nz_))};
@@ -61,20 +69,30 @@ Vec3f NearestVertex::to(Vec3f place_m) const {
             cz = binOf(held.z, low_m_.z, nz_);
   const Vec3f off = place_m - held;
   const float outside = std::sqrt(off.x * off.x + off.y * off.y + off.z * off.z);
-  float best2 = std::numeric_limits<float>::infinity();
-  Vec3f best = points_m_.front();
+  // From there to the nearest side of its bin.
+  const auto toSide = [&](float at, float low, int bin) {
+    const float in = at - low - edge_m_ * static_cast<float>(bin);
+    return std::min(in, edge_m_ - in);
+  };
+  const float inside =
+      std::max(std::min({toSide(held.x, low_m_.x, cx), toSide(held.y, low_m_.y, cy),
+                         toSide(held.z, low_m_.z, cz)}),
+               0.0f);
+  float best2 = reach_m * reach_m;
+  std::optional<std::uint32_t> best;
   const auto look = [&](std::size_t first_bin, std::size_t last_bin) {
     for (std::uint32_t i = starts_[first_bin]; i < starts_[last_bin + 1]; ++i) {
       const Vec3f d = points_m_[i] - place_m;
       const float d2 = d.x * d.x + d.y * d.y + d.z * d.z;
       if (d2 < best2) {
         best2 = d2;
-        best = points_m_[i];
+        best = i;
       }
     }
   };
   for (int shell = 0; shell <= std::max({nx_, ny_, nz_}); ++shell) {
-    const float least = std::max(static_cast<float>(shell - 1) * edge_m_ - outside, 0.0f);
+    const float least =
+        shell == 0 ? 0 : std::max(static_cast<float>(shell - 1) * edge_m_ + inside - outside, 0.0f);
     if (best2 < least * least) break;
     const int x0 = cx - shell, x1 = cx + shell;
     for (int z = std::max(cz - shell, 0); z <= std::min(cz + shell, nz_ - 1); ++z)

@@ -1,0 +1,48 @@
+#include "core/normal_field.h"
+
+#include <cmath>
+
+#include "core/hash_random.h"
+
+namespace echocine {
+
+const NormalField::Cell& NormalField::cellOf(const std::array<std::int64_t, 3>& node) {
+  Cell& cell =
+      cells_[static_cast<std::size_t>((node[0] & 3) | (node[1] & 3) << 2 | (node[2] & 3) << 4)];
+  if (cell.known && cell.node == node) return cell;
+  cell.node = node;
+  cell.known = true;
+  for (int corner = 0; corner < 8; ++corner) {
+    std::uint64_t hash = seed_;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      hash = hashOf(hash, node[axis] + (corner >> axis & 1));
+    cell.normals[static_cast<std::size_t>(corner)] =
+        normalFromHashes(hashOf(hash, 0), hashOf(hash, 1));
+  }
+  return cell;
+}
+
+double NormalField::at(Vec3f place_m) {
+  const double at[3] = {static_cast<double>(place_m.x) / scale_m_,
+                        static_cast<double>(place_m.y) / scale_m_,
+                        static_cast<double>(place_m.z) / scale_m_};
+  std::array<std::int64_t, 3> node;
+  double high[3];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double floor = std::floor(at[axis]), f = at[axis] - floor;
+    node[axis] = static_cast<std::int64_t>(floor);
+    high[axis] = f * f * (3 - 2 * f);
+  }
+  const Cell& cell = cellOf(node);
+  double sum = 0, squares = 0;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    double weight = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      weight *= corner >> axis & 1 ? high[axis] : 1 - high[axis];
+    sum += weight * cell.normals[corner];
+    squares += weight * weight;
+  }
+  return sum / std::sqrt(squares);
+}
+
+}  // namespace echocine

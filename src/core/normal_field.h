@@ -1,0 +1,33 @@
+#pragma once
+// Smooth random fields.
+
+#include <array>
+#include <cstdint>
+
+#include "core/vec3.h"
+
+namespace echocine {
+
+// A standard normal field that is smooth over `scale_m`: normals hashed on a lattice of that
+// spacing, blended by smooth weights and divided by the root of their squares' sum, so that its
+// variance is 1 at every place. Fast for places near each other: it remembers cells. One thread at
+// a time.
+class NormalField {
+ public:
+  NormalField(double scale_m, std::uint64_t seed) : scale_m_(scale_m), seed_(seed) {}
+  double at(Vec3f place_m);
+
+ private:
+  struct Cell {
+    std::array<std::int64_t, 3> node;
+    bool known = false;
+    std::array<double, 8> normals;
+  };
+  const Cell& cellOf(const std::array<std::int64_t, 3>& node);
+
+  double scale_m_;
+  std::uint64_t seed_;
+  std::array<Cell, 64> cells_{};  // by their nodes' last two bits. Our choice
+};
+
+}  // namespace echocine
