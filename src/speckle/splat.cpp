@@ -34,7 +34,7 @@ inline Floats8 fallingExp(Floats8 u) {
 
 // What is trilinear in a cube, as sums over 1, u, v, uv, w, uw, vw, uvw.
 struct Trilinear {
-  float c[8];
+  Floats8 c[8];  // each in all lanes
   // From the values at the corners: along each axis in turn the upper end less the lower.
   explicit Trilinear(Floats8 at) {
     const Floats8 none{};
@@ -43,7 +43,9 @@ struct Trilinear {
     low = __builtin_shufflevector(at, none, 8, 8, 0, 1, 8, 8, 4, 5);
     at -= low;
     low = __builtin_shufflevector(at, none, 8, 8, 8, 8, 0, 1, 2, 3);
-    store(at - low, c);
+    at -= low;
+    for (int i = 0; i < 8; ++i)
+      c[i] = Floats8{at[i], at[i], at[i], at[i], at[i], at[i], at[i], at[i]};
   }
 };
 
@@ -84,7 +86,7 @@ struct Monomials {
   Monomials(Floats8 u1, Floats8 v1, Floats8 w1)
       : u(u1), v(v1), w(w1), uv(u * v), uw(u * w), vw(v * w), uvw(uv * w) {}
   Floats8 sum(const Trilinear& t) const {
-    const float* c = t.c;
+    const Floats8* c = t.c;
     return (c[0] + u * c[1]) + (v * c[2] + uv * c[3]) +
            ((w * c[4] + uw * c[5]) + (vw * c[6] + uvw * c[7]));
   }
