@@ -19,10 +19,17 @@ std::size_t tapsOf(double deviation) {
   return std::min(static_cast<std::size_t>(std::ceil(kCutDeviations * deviation)), kMostTaps);
 }
 
-// Whole cache lines, an odd number of them: rows a power of two apart would share few sets of it.
-std::size_t strideOf(int samples) {
-  constexpr std::size_t kLine = sizeof(CacheLine) / sizeof(float);
-  return ((static_cast<std::size_t>(samples) + kLine - 1) / kLine | 1) * kLine;
+// What is summed at once: four chains that do not wait for each other.
+constexpr std::size_t kChains = 4, kStep = kChains * kFloatLanes;
+
+// Lines are smeared across by groups, piece by piece: what one has read the next finds in the
+// nearest cache. By time.
+constexpr int kGroup = 4;
+constexpr std::size_t kPiece = 2 * kStep;
+
+// Whole steps.
+std::size_t lengthOf(int samples) {
+  return (static_cast<std::size_t>(samples) + kStep - 1) / kStep * kStep;
 }
 
 // The first place of a row in memory that begins with a cache line.
@@ -54,7 +61,9 @@ CoherentRatio::CoherentRatio(const Probe& probe, const PointSpread& spread, cons
                              double smoothing_m)
     : lines_(probe.lines),
       samples_(probe.samples),
-      stride_(strideOf(probe.samples)),
+      length_(lengthOf(probe.samples)),
+      // An odd number of cache lines: rows a power of two apart would share few sets of the cache.
+      stride_(length_ + sizeof(CacheLine) / sizeof(float)),
       axial_(bellTaps(spread.axial_m / probe.sampleSpacing())),
       smoothing_(normalisedTaps(smoothing_m / kWidthAtHalf / probe.sampleSpacing())) {
   for (const float h : axial_) axial_squares_.push_back(h * h);
@@ -74,29 +83,17 @@ CoherentRatio::CoherentRatio(const Probe& probe, const PointSpread& spread, cons
 }
 
 float* CoherentRatio::smeared(Rows& rows, int line) const {
-  const std::size_t slots = 2 * lateral_taps_ + 1;
+  const std::size_t slots = 2 * lateral_taps_ + kGroup;
   return floatsOf(rows.lines) + static_cast<std::size_t>(line) % slots * 3 * stride_;
+}
+float* CoherentRatio::ratioOf(Rows& rows, int member) const {
+  return floatsOf(rows.ratios) + static_cast<std::size_t>(member) * (stride_ + 2 * kPad) + kPad;
+}
+float* CoherentRatio::echoesOf(Rows& rows, int member) const {
+  return floatsOf(rows.echoes) + static_cast<std::size_t>(member) * 3 * stride_;
 }
 
 namespace {
-
-// Eight samples' sums, read side by side and cleared.
-struct Sums8 {
-  Floats8 real, imaginary, squares;
-  explicit Sums8(EchoSum* from) {
-    const float* f = &from->real;
-    const Floats8 a = lanesAt(f), b = lanesAt(f + 8), c = lanesAt(f + 16), d = lanesAt(f + 24);
-    // Samples 0, 2, 4, 6 then 1, 3, 5, 7 of two numbers each.
-    const Floats8 ri0 = __builtin_shufflevector(a, b, 0, 4, 1, 5, 8, 12, 9, 13),
-                  ri1 = __builtin_shufflevector(c, d, 0, 4, 1, 5, 8, 12, 9, 13),
-                  s0 = __builtin_shufflevector(a, b, 2, 6, 2, 6, 10, 14, 10, 14),
-                  s1 = __builtin_shufflevector(c, d, 2, 6, 2, 6, 10, 14, 10, 14);
-    real = __builtin_shufflevector(ri0, ri1, 0, 1, 4, 5, 8, 9, 12, 13);
-    imaginary = __builtin_shufflevector(ri0, ri1, 2, 3, 6, 7, 10, 11, 14, 15);
-    squares = __builtin_shufflevector(s0, s1, 0, 1, 4, 5, 8, 9, 12, 13);
-    for (std::size_t i = 0; i < kFloatLanes; ++i) from[i] = {};
-  }
-};
 
 Floats8 roots(Floats8 a) {
   Floats8 out;
@@ -111,54 +108,66 @@ Floats8 someLanesAt(const float* from, int count) {
   return lanes;
 }
 
-// A row with its neighbours either side, by taps of distance 0, 1, ...; sixteen at a time, two
-// chains of sums that do not wait for each other.
+Floats8 allOf(float a) {
+  return Floats8{a, a, a, a, a, a, a, a};
+}
+
+// A row with its neighbours either side, by taps of distance 0, 1, ...
 template <typename Take>
 void smear(const float* row, std::size_t length, const std::vector<float>& by, const Take& take) {
   float taps[kMostTaps + 1];
   const std::size_t count = by.size();
   std::copy(by.begin(), by.end(), taps);
-  for (std::size_t k = 0; k < length; k += 2 * kFloatLanes) {
-    const float *one = row + k, *two = one + kFloatLanes;
-    Floats8 a = taps[0] * lanesAt(one), b = taps[0] * lanesAt(two);
+  for (std::size_t k = 0; k < length; k += kStep) {
+    Floats8 sums[kChains];
+    for (std::size_t c = 0; c < kChains; ++c)
+      sums[c] = allOf(taps[0]) * lanesAt(row + k + c * kFloatLanes);
     for (std::size_t t = 1; t < count; ++t) {
-      a += taps[t] * (lanesAt(one - t) + lanesAt(one + t));
-      b += taps[t] * (lanesAt(two - t) + lanesAt(two + t));
+      const Floats8 h = allOf(taps[t]);
+      const float *before = row + k - t, *after = row + k + t;
+      for (std::size_t c = 0; c < kChains; ++c)
+        sums[c] += h * (lanesAt(before + c * kFloatLanes) + lanesAt(after + c * kFloatLanes));
     }
-    take(a, k);
-    take(b, k + kFloatLanes);
+    for (std::size_t c = 0; c < kChains; ++c) take(sums[c], k + c * kFloatLanes);
   }
 }
 
 }  // namespace
 
-// One line's sums, weighted by the picture, and smeared along it.
-void CoherentRatio::alongLine(EchoSum* sums, const float* intensities, Rows& rows,
-                              float* out) const {
+// One line's splats, added up, weighted by the picture, and smeared along it.
+void CoherentRatio::alongLine(std::span<const Splat> scattered, const float* intensities,
+                              Rows& rows, float* out) const {
   const std::size_t length = stride_ + 2 * kPad;
   float *real = floatsOf(rows.raw) + kPad, *imaginary = real + length,
         *squares = imaginary + length;
+  for (float* row : {real, imaginary, squares}) std::fill(row, row + length_, 0.0f);
+  constexpr std::ptrdiff_t kAhead = 32;  // our choice, by time
+  for (const Splat& splat : scattered) {
+    __builtin_prefetch(&splat + kAhead);
+    real[splat.sample] += splat.real;
+    imaginary[splat.sample] += splat.imaginary;
+    squares[splat.sample] += splat.square;
+  }
   for (int k = 0; k < samples_; k += kFloatLanes) {
-    const Sums8 sum(sums + k);
     const Floats8 intensity = someLanesAt(intensities + k, samples_ - k);
     const Floats8 amplitude = roots(intensity);
-    store(amplitude * sum.real, real + k);
-    store(amplitude * sum.imaginary, imaginary + k);
-    store(intensity * sum.squares, squares + k);
+    store(amplitude * lanesAt(real + k), real + k);
+    store(amplitude * lanesAt(imaginary + k), imaginary + k);
+    store(intensity * lanesAt(squares + k), squares + k);
   }
   const auto to = [](float* plane) {
     return [plane](Floats8 lanes, std::size_t k) { store(lanes, plane + k); };
   };
-  smear(real, stride_, axial_, to(out));
-  smear(imaginary, stride_, axial_, to(out + stride_));
-  smear(squares, stride_, axial_squares_, to(out + 2 * stride_));
+  smear(real, length_, axial_, to(out));
+  smear(imaginary, length_, axial_, to(out + stride_));
+  smear(squares, length_, axial_squares_, to(out + 2 * stride_));
 }
 
 // What of a line's samples is coherent. Rounding may leave q a little over 1.
 void CoherentRatio::shareOut(const CoherentEchoes& echoes, int line, const float* intensities,
-                             Rows& rows) const {
+                             float* rest) const {
   const std::size_t first = static_cast<std::size_t>(line) * static_cast<std::size_t>(samples_);
-  float *rest = floatsOf(rows.echoes), *real = rest + stride_, *imaginary = real + stride_;
+  float *real = rest + stride_, *imaginary = real + stride_;
   for (std::size_t k = 0; k < static_cast<std::size_t>(samples_); ++k) {
     const float part = echoes.intensity[first + k], of = intensities[k];
     const float q = of > 0 ? std::clamp(part / of, 0.0f, 1.0f) : 0;
@@ -170,22 +179,19 @@ void CoherentRatio::shareOut(const CoherentEchoes& echoes, int line, const float
   }
 }
 
-// |g|^2 / w of one line, 1 where no scatterer is in reach; with what is coherent beside it.
+// |g|^2 / w of a group of lines, 1 where no scatterer is in reach; with what is coherent beside it.
 template <bool even, bool coherent>
-void CoherentRatio::acrossLines(int line, Rows& rows) const {
+void CoherentRatio::acrossLines(LineRange group, Rows& rows) const {
   constexpr float kNothing = 1e-35f;
-  float* ratio = floatsOf(rows.ratio) + kPad;
-  const float *middle = smeared(rows, line), *echoes = floatsOf(rows.echoes);
-  const float *below[kMostTaps + 1], *above[kMostTaps + 1];
-  for (std::size_t t = 1; t <= lateral_taps_; ++t) {
-    const int low = line - static_cast<int>(t), high = line + static_cast<int>(t);
-    below[t] = low >= 0 ? smeared(rows, low) : floatsOf(rows.nothing);
-    above[t] = high < lines_ ? smeared(rows, high) : floatsOf(rows.nothing);
+  const std::size_t stride = stride_, count = lateral_taps_;
+  const float* lines[kGroup + 2 * kMostTaps];  // from the first that the group's bells reach
+  for (std::size_t n = 0; n < kGroup + 2 * count; ++n) {
+    const int line = group.first - static_cast<int>(count) + static_cast<int>(n);
+    lines[n] = line >= 0 && line < lines_ ? smeared(rows, line) : floatsOf(rows.nothing);
   }
   const float *taps = lateral_.data(), *squares = lateral_squares_.data();
-  const std::size_t stride = stride_, count = lateral_taps_;
   const auto tap = [&](const float* from, std::size_t t, std::size_t k) {
-    return even ? Floats8{} + from[t * stride] : lanesAt(from + t * stride + k);
+    return even ? allOf(from[t * stride]) : lanesAt(from + t * stride + k);
   };
   struct Sum {
     Floats8 r, i, s;
@@ -205,32 +211,38 @@ void CoherentRatio::acrossLines(int line, Rows& rows) const {
       return s > kNothing ? (r * r + i * i) / w : one;
     }
   };
-  const auto start = [&](std::size_t k) {
-    const Floats8 h = tap(taps, 0, k), hh = tap(squares, 0, k);
-    const float* at = middle + k;
-    return Sum{h * lanesAt(at), h * lanesAt(at + stride), hh * lanesAt(at + 2 * stride)};
-  };
-  for (std::size_t k = 0; k < stride; k += 2 * kFloatLanes) {
-    const std::size_t next = k + kFloatLanes;
-    Sum one = start(k), two = start(next);
-    for (std::size_t t = 1; t <= count; ++t) {
-      const float *a = below[t], *b = above[t];
-      one.add(a + k, b + k, stride, tap(taps, t, k), tap(squares, t, k));
-      two.add(a + next, b + next, stride, tap(taps, t, next), tap(squares, t, next));
+  const auto step = [&](const float* const* middle, std::size_t k, const float* echoes,
+                        float* ratio) {
+    Sum sums[kChains];
+    for (std::size_t c = 0; c < kChains; ++c) {
+      const std::size_t at = k + c * kFloatLanes;
+      const Floats8 h = tap(taps, 0, at), hh = tap(squares, 0, at);
+      const float* row = *middle + at;
+      sums[c] = {h * lanesAt(row), h * lanesAt(row + stride), hh * lanesAt(row + 2 * stride)};
     }
-    store(one.ratio(echoes + k, stride), ratio + k);
-    store(two.ratio(echoes + next, stride), ratio + next);
-  }
+    for (std::size_t t = 1; t <= count; ++t) {
+      const float *below = *(middle - t), *above = *(middle + t);
+      for (std::size_t c = 0; c < kChains; ++c) {
+        const std::size_t at = k + c * kFloatLanes;
+        sums[c].add(below + at, above + at, stride, tap(taps, t, at), tap(squares, t, at));
+      }
+    }
+    for (std::size_t c = 0; c < kChains; ++c)
+      store(sums[c].ratio(echoes + k + c * kFloatLanes, stride), ratio + k + c * kFloatLanes);
+  };
+  for (std::size_t from = 0; from < length_; from += kPiece)
+    for (int i = 0; i < group.end - group.first; ++i)
+      for (std::size_t k = from; k < std::min(from + kPiece, length_); k += kStep)
+        step(lines + count + i, k, echoesOf(rows, i), ratioOf(rows, i));
 }
 
-void CoherentRatio::finish(Rows& rows, float* intensities) const {
-  float* ratio = floatsOf(rows.ratio) + kPad;
+void CoherentRatio::finish(float* ratio, float* intensities) const {
   for (std::size_t t = 1; t < smoothing_.size(); ++t) {  // ends are mirrored: the mean stays
     ratio[-static_cast<std::ptrdiff_t>(t)] =
         ratio[std::min<int>(static_cast<int>(t), samples_) - 1];
     ratio[samples_ + static_cast<int>(t) - 1] = ratio[std::max(samples_ - static_cast<int>(t), 0)];
   }
-  smear(ratio, stride_, smoothing_, [&](Floats8 smooth, std::size_t k) {
+  smear(ratio, length_, smoothing_, [&](Floats8 smooth, std::size_t k) {
     const int left = samples_ - static_cast<int>(k);
     if (left > 0)
       storeSome(someLanesAt(intensities + k, left) * smooth, static_cast<std::size_t>(left),
@@ -243,30 +255,32 @@ LineRange CoherentRatio::reach(LineRange lines) const {
   return {std::max(lines.first - taps, 0), std::min(lines.end + taps, lines_)};
 }
 
-void CoherentRatio::apply(EchoSums& sums, Rows& rows, std::span<float> intensities,
+void CoherentRatio::apply(const SplatLists& scattered, Rows& rows, std::span<float> intensities,
                           const CoherentEchoes& echoes, LineRange lines) const {
   const auto plane = [&](int line) {
     return intensities.data() + static_cast<std::ptrdiff_t>(line) * samples_;
   };
   setFloats(rows.raw, 3 * (stride_ + 2 * kPad));
-  setFloats(rows.lines, (2 * lateral_taps_ + 1) * 3 * stride_);
-  setFloats(rows.ratio, stride_ + 2 * kPad);
+  setFloats(rows.lines, (2 * lateral_taps_ + kGroup) * 3 * stride_);
+  setFloats(rows.ratios, kGroup * (stride_ + 2 * kPad));
   setFloats(rows.nothing, 3 * stride_);
-  setFloats(rows.echoes, 3 * stride_);
+  setFloats(rows.echoes, kGroup * 3 * stride_);
   const auto across = echoes.empty() ? even_ ? &CoherentRatio::acrossLines<true, false>
                                              : &CoherentRatio::acrossLines<false, false>
                       : even_ ? &CoherentRatio::acrossLines<true, true>
                                      : &CoherentRatio::acrossLines<false, true>;
-  const int ahead = static_cast<int>(lateral_taps_);
-  // A line is smeared along as soon as it comes, and across once the lines its bell reaches are
-  // there; its intensities have then been read by all who need them.
-  for (int i = reach(lines).first; i < lines.end + ahead; ++i) {
-    if (i < lines_) alongLine(sums.line(i), plane(i), rows, smeared(rows, i));
-    const int done = i - ahead;
-    if (done < lines.first) continue;
-    if (!echoes.empty()) shareOut(echoes, done, plane(done), rows);
-    (this->*across)(done, rows);
-    finish(rows, plane(done));
+  // A line is smeared along as soon as it comes, and a group across once the lines that its bells
+  // reach are there; its intensities have then been read by all who need them.
+  int next = reach(lines).first;
+  for (int first = lines.first; first < lines.end; first += kGroup) {
+    const LineRange group{first, std::min(first + kGroup, lines.end)};
+    for (const int end = reach(group).end; next < end; ++next)
+      alongLine(scattered.line(next), plane(next), rows, smeared(rows, next));
+    if (!echoes.empty())
+      for (int i = group.first; i < group.end; ++i)
+        shareOut(echoes, i, plane(i), echoesOf(rows, i - first));
+    (this->*across)(group, rows);
+    for (int i = group.first; i < group.end; ++i) finish(ratioOf(rows, i - first), plane(i));
   }
 }
 

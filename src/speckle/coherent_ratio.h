@@ -28,30 +28,34 @@ class CoherentRatio {
   struct Rows {
     std::vector<CacheLine> raw;      // one line's real, imaginary, squares, with zeros about them
     std::vector<CacheLine> lines;    // lines that have been smeared along, used round
-    std::vector<CacheLine> ratio;    // one line's, with its ends repeated
+    std::vector<CacheLine> ratios;   // those of a group of lines, with their ends repeated
     std::vector<CacheLine> nothing;  // a line beyond the sector
-    std::vector<CacheLine> echoes;   // one line's sqrt(1 - q), and real and imaginary of sqrt(q)
+    std::vector<CacheLine> echoes;   // their sqrt(1 - q), and real and imaginary of sqrt(q)
   };
 
   // Lines whose sums and intensities those of a range take in.
   LineRange reach(LineRange lines) const;
 
-  // A range of lines in place; clears the sums within their reach. Where no scatterer is in reach
-  // the picture stays as it is. echoes: what of the intensities is coherent, sample by sample;
-  // empty: nothing.
-  void apply(EchoSums& sums, Rows& rows, std::span<float> intensities, const CoherentEchoes& echoes,
-             LineRange lines) const;
+  // A range of lines in place, from the splats of their reach. Where no scatterer is in reach the
+  // picture stays as it is. echoes: what of the intensities is coherent, sample by sample; empty:
+  // nothing.
+  void apply(const SplatLists& scattered, Rows& rows, std::span<float> intensities,
+             const CoherentEchoes& echoes, LineRange lines) const;
 
  private:
-  void alongLine(EchoSum* sums, const float* intensities, Rows& rows, float* smeared) const;
-  void shareOut(const CoherentEchoes& echoes, int line, const float* intensities, Rows& rows) const;
+  void alongLine(std::span<const Splat> scattered, const float* intensities, Rows& rows,
+                 float* smeared) const;
+  void shareOut(const CoherentEchoes& echoes, int line, const float* intensities,
+                float* shares) const;
   template <bool even, bool coherent>
-  void acrossLines(int line, Rows& rows) const;
-  void finish(Rows& rows, float* intensities) const;
+  void acrossLines(LineRange group, Rows& rows) const;
+  void finish(float* ratio, float* intensities) const;
   float* smeared(Rows& rows, int line) const;
+  float* ratioOf(Rows& rows, int member) const;
+  float* echoesOf(Rows& rows, int member) const;
 
   int lines_, samples_;
-  std::size_t stride_;                            // of a row, whole lanes
+  std::size_t length_, stride_;                   // of a row: whole steps, and to the next one
   std::vector<float> axial_, axial_squares_;      // h and h^2 of distance 0, 1, ...
   std::vector<float> smoothing_;                  // of the ratio
   std::size_t lateral_taps_ = 0;                  // beside the middle one

@@ -11,7 +11,6 @@ Speckle::Speckle(const Probe& probe, double pulse_cycles, const SpeckleSettings&
                  const Material& material)
     : settings_(settings),
       lines_(probe.lines),
-      samples_(probe.samples),
       spread_(probe, pulse_cycles),
       view_(probe, spread_),
       gaussian_(settings.seed),
@@ -28,23 +27,21 @@ double Speckle::farthestAcross_m() const {
 }
 
 void Speckle::addUp(const MaterialFrame& tissue, double time_s, LineRange lines,
-                    EchoSums& sums) const {
-  SplatQueue queue(lines);
+                    SplatLists& splats) const {
+  splats.start(lines_, lines);
   for (const ScattererBatch& batch : scatterers_.batches()) {
     const BeamCube cube = view_.cubeOf(tissue.corners(batch.group, batch.low_m, batch.edge_m));
     if (!view_.sees(cube, lines)) continue;
     GaussianMix mix = mixAt(gaussian_, batch.pattern, time_s,
                             batch.blood ? settings_.blood_time_s : settings_.tissue_time_s);
     mix.strength = scatterers_.strength(batch);
-    splatter_.add(cube, scatterers_, batch, mix, queue, sums);
+    splatter_.add(cube, scatterers_, batch, mix, splats);
   }
-  addSheets(tissue.onSheets(), time_s, queue, sums);
-  queue.flush(sums);
+  addSheets(tissue.onSheets(), time_s, splats);
 }
 
 // Eight places in a cube's stead, by runs of the table that belong to the seed.
-void Speckle::addSheets(std::span<const Vec3f> places_m, double time_s, SplatQueue& queue,
-                        EchoSums& sums) const {
+void Speckle::addSheets(std::span<const Vec3f> places_m, double time_s, SplatLists& splats) const {
   constexpr std::uint64_t kSheets = 5;
   const float beyond = std::numeric_limits<float>::infinity();
   for (std::size_t first = 0; first < places_m.size(); first += kMostOfBatch) {
@@ -55,18 +52,17 @@ void Speckle::addSheets(std::span<const Vec3f> places_m, double time_s, SplatQue
       CubeCorners eight;
       for (std::size_t i = 0; i < kFloatLanes; ++i)
         eight[i] = j + i < count ? places_m[first + j + i] : Vec3f{0, beyond, 1};
-      splatter_.addPlaces(view_.cubeOf(eight), mix, static_cast<std::uint32_t>(j), queue, sums);
+      splatter_.addPlaces(view_.cubeOf(eight), mix, static_cast<std::uint32_t>(j), splats);
     }
   }
 }
 
 void Speckle::apply(const MaterialFrame& tissue, double time_s, std::span<float> intensities,
                     const CoherentEchoes& echoes, LineRange lines) const {
-  thread_local EchoSums sums;
+  thread_local SplatLists splats;
   thread_local CoherentRatio::Rows rows;
-  sums.resize(lines_, samples_);
-  addUp(tissue, time_s, reach(lines), sums);
-  ratio_.apply(sums, rows, intensities, echoes, lines);
+  addUp(tissue, time_s, reach(lines), splats);
+  ratio_.apply(splats, rows, intensities, echoes, lines);
 }
 
 }  // namespace echocine

@@ -36,12 +36,11 @@ class Speckle {
   LineRange reach(LineRange lines) const { return ratio_.reach(lines); }
 
  private:
-  void addUp(const MaterialFrame& tissue, double time_s, LineRange lines, EchoSums& sums) const;
-  void addSheets(std::span<const Vec3f> places_m, double time_s, SplatQueue& queue,
-                 EchoSums& sums) const;
+  void addUp(const MaterialFrame& tissue, double time_s, LineRange lines, SplatLists& splats) const;
+  void addSheets(std::span<const Vec3f> places_m, double time_s, SplatLists& splats) const;
 
   SpeckleSettings settings_;
-  int lines_, samples_;
+  int lines_;
   PointSpread spread_;
   BeamView view_;
   GaussianTable gaussian_;

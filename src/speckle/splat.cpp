@@ -34,7 +34,7 @@ inline Floats8 fallingExp(Floats8 u) {
 
 // What is trilinear in a cube, as sums over 1, u, v, uv, w, uw, vw, uvw.
 struct Trilinear {
-  float c[8];
+  Floats8 c[8];  // each in all lanes
   // From the values at the corners: along each axis in turn the upper end less the lower.
   explicit Trilinear(Floats8 at) {
     const Floats8 none{};
@@ -43,7 +43,9 @@ struct Trilinear {
     low = __builtin_shufflevector(at, none, 8, 8, 0, 1, 8, 8, 4, 5);
     at -= low;
     low = __builtin_shufflevector(at, none, 8, 8, 8, 8, 0, 1, 2, 3);
-    store(at - low, c);
+    at -= low;
+    for (int i = 0; i < 8; ++i)
+      c[i] = Floats8{at[i], at[i], at[i], at[i], at[i], at[i], at[i], at[i]};
   }
 };
 
@@ -56,23 +58,25 @@ inline void store(Ints8 lanes, std::int32_t* to) {
   std::memcpy(to, &lanes, sizeof lanes);
 }
 
-// By lane: its three numbers side by side.
-struct LaneSums {
-  Floats4 lane[kFloatLanes];
-  LaneSums(Floats8 real, Floats8 imaginary, Floats8 squares) {
-    const Floats8 none{};
+// By lane: its four numbers side by side.
+struct LaneSplats {
+  Splat lane[kFloatLanes];
+  LaneSplats(Floats8 real, Floats8 imaginary, Floats8 squares, Ints8 samples) {
+    const Floats8 at = reinterpret_cast<Floats8>(samples);
     const Floats8 a = __builtin_shufflevector(real, imaginary, 0, 8, 1, 9, 4, 12, 5, 13),
                   b = __builtin_shufflevector(real, imaginary, 2, 10, 3, 11, 6, 14, 7, 15),
-                  c = __builtin_shufflevector(squares, none, 0, 8, 1, 9, 4, 12, 5, 13),
-                  d = __builtin_shufflevector(squares, none, 2, 10, 3, 11, 6, 14, 7, 15);
+                  c = __builtin_shufflevector(squares, at, 0, 8, 1, 9, 4, 12, 5, 13),
+                  d = __builtin_shufflevector(squares, at, 2, 10, 3, 11, 6, 14, 7, 15);
     // Lanes 0 and 4, 1 and 5, 2 and 6, 3 and 7.
     const Floats8 pairs[4] = {__builtin_shufflevector(a, c, 0, 1, 8, 9, 4, 5, 12, 13),
                               __builtin_shufflevector(a, c, 2, 3, 10, 11, 6, 7, 14, 15),
                               __builtin_shufflevector(b, d, 0, 1, 8, 9, 4, 5, 12, 13),
                               __builtin_shufflevector(b, d, 2, 3, 10, 11, 6, 7, 14, 15)};
     for (int i = 0; i < 4; ++i) {
-      lane[i] = __builtin_shufflevector(pairs[i], pairs[i], 0, 1, 2, 3);
-      lane[i + 4] = __builtin_shufflevector(pairs[i], pairs[i], 4, 5, 6, 7);
+      const Floats4 low = __builtin_shufflevector(pairs[i], pairs[i], 0, 1, 2, 3),
+                    high = __builtin_shufflevector(pairs[i], pairs[i], 4, 5, 6, 7);
+      std::memcpy(&lane[i], &low, sizeof low);
+      std::memcpy(&lane[i + 4], &high, sizeof high);
     }
   }
 };
@@ -82,7 +86,7 @@ struct Monomials {
   Monomials(Floats8 u1, Floats8 v1, Floats8 w1)
       : u(u1), v(v1), w(w1), uv(u * v), uw(u * w), vw(v * w), uvw(uv * w) {}
   Floats8 sum(const Trilinear& t) const {
-    const float* c = t.c;
+    const Floats8* c = t.c;
     return (c[0] + u * c[1]) + (v * c[2] + uv * c[3]) +
            ((w * c[4] + uw * c[5]) + (vw * c[6] + uvw * c[7]));
   }
@@ -109,7 +113,6 @@ GaussianMix mixAt(const GaussianTable& table, std::uint64_t pattern, double time
 
 Splatter::Splatter(const Probe& probe, const PointSpread& spread)
     : samples_(probe.samples),
-      stride_(static_cast<int>(EchoSums::strideOf(probe.samples))),
       turns_per_sample_(static_cast<float>(2 * probe.sampleSpacing() / spread.wavelength_m)),
       turns_before_(
           static_cast<float>(std::fmod(2 * probe.min_depth_m / spread.wavelength_m, 1.0))),
@@ -139,11 +142,11 @@ Splatter::Bend Splatter::bendOf(Floats8 sample) const {
 
 // Elevation: with s the place across in parts of the cut the bell is exp(-4 ln2 cut^2 s^2).
 inline void Splatter::addLanes(const BeamCube& at, const Bend& bend, const GaussianMix& mix,
-                               std::uint32_t j, SplatQueue& queue, EchoSums& sums) const {
+                               std::uint32_t j, SplatLists& splats) const {
   constexpr float kBell = static_cast<float>(2.7725887222397811 * kElevationCut * kElevationCut);
   const Floats8 q = at.across * at.across;
   const Ints8 seen = (q <= 1) & (at.sample >= 0) & (at.sample < static_cast<float>(samples_)) &
-                     queue.holds(at.line);
+                     splats.keeps(at.line);
   const Floats8 e = fallingExp(kBell * q);
   // exp(-2 pi j turns); folded to a quarter turn either side of 0.
   const Floats8 turns =
@@ -155,13 +158,12 @@ inline void Splatter::addLanes(const BeamCube& at, const Bend& bend, const Gauss
   const Floats8 cr = mix.real(j), ci = mix.imaginary(j);
   const Floats8 real = e * (cr * cosine + ci * sine), imaginary = e * (ci * cosine - cr * sine),
                 squares = e * e;
-  const Ints8 at_line = __builtin_convertvector(at.line, Ints8) & seen,
-              at_sample = __builtin_convertvector(at.sample, Ints8) & seen;
-  queue.add(LaneSums(real, imaginary, squares).lane, at_line * stride_ + at_sample, seen, sums);
+  splats.add(LaneSplats(real, imaginary, squares, __builtin_convertvector(at.sample, Ints8)).lane,
+             __builtin_convertvector(at.line, Ints8) & seen, seen);
 }
 
 void Splatter::add(const BeamCube& cube, const Scatterers& scatterers, const ScattererBatch& batch,
-                   const GaussianMix& mix, SplatQueue& queue, EchoSums& sums) const {
+                   const GaussianMix& mix, SplatLists& splats) const {
   const Trilinear lines(cube.line), samples(cube.sample), acrosses(cube.across);
   const Bend bend = bendOf(cube.sample);
   const float *us = scatterers.u(batch), *vs = scatterers.v(batch), *ws = scatterers.w(batch);
@@ -169,38 +171,36 @@ void Splatter::add(const BeamCube& cube, const Scatterers& scatterers, const Sca
     const Monomials m(lanesAt(us + j), lanesAt(vs + j), lanesAt(ws + j));
     const Floats8 across = m.sum(acrosses);
     if (any(across * across <= 1))
-      addLanes({m.sum(lines), m.sum(samples), across}, bend, mix, j, queue, sums);
+      addLanes({m.sum(lines), m.sum(samples), across}, bend, mix, j, splats);
   }
 }
 
 void Splatter::addPlaces(const BeamCube& at, const GaussianMix& mix, std::uint32_t j,
-                         SplatQueue& queue, EchoSums& sums) const {
-  addLanes(at, bendOf(at.sample), mix, j, queue, sums);
+                         SplatLists& splats) const {
+  addLanes(at, bendOf(at.sample), mix, j, splats);
 }
 
-// Without a branch: half of the lanes are unseen, which no processor foresees.
-void SplatQueue::add(const Floats4* numbers, Ints8 places, Ints8 seen, EchoSums& sums) {
-  if (count_ > kMost - kFloatLanes) flush(sums);
+// Without a branch: a third of the lanes are unseen, which no processor foresees. What they write
+// is written over. Memory is asked for some splats ahead. Our choice, by time.
+void SplatLists::add(const Splat* splats, Ints8 lines, Ints8 seen) {
+  constexpr std::ptrdiff_t kAhead = 12;
   std::int32_t at[kFloatLanes], taken[kFloatLanes];
-  store(places, at);
+  store(lines, at);
   store(seen, taken);
   for (std::size_t i = 0; i < kFloatLanes; ++i) {
-    __builtin_prefetch(sums.data() + at[i], 1);
-    places_[count_] = at[i];
-    numbers_[count_] = numbers[i];
-    count_ -= static_cast<std::size_t>(static_cast<std::ptrdiff_t>(taken[i]));
+    List& list = lists_[static_cast<std::size_t>(at[i])];
+    if (list.next == list.end) grow(list);
+    *list.next = splats[i];
+    __builtin_prefetch(list.next + kAhead, 1);
+    list.next -= taken[i];
   }
 }
 
-void SplatQueue::flush(EchoSums& sums) {
-  for (std::size_t i = 0; i < count_; ++i) {
-    float* to = &sums.data()[places_[i]].real;
-    Floats4 sum;
-    std::memcpy(&sum, to, sizeof sum);
-    sum += numbers_[i];
-    std::memcpy(to, &sum, sizeof sum);
-  }
-  count_ = 0;
+void SplatLists::grow(List& list) {
+  const std::size_t count = list.memory.size();
+  list.memory.resize(std::max<std::size_t>(2 * count, 64));
+  list.next = list.memory.data() + count;
+  list.end = list.memory.data() + list.memory.size();
 }
 
 }  // namespace echocine

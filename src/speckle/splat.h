@@ -1,7 +1,9 @@
 #pragma once
-// Adds scatterers up at the samples nearest to them: what the point spread function then smears.
+// Sorts the scatterers' splats by line, each at the sample nearest to it: what the point spread
+// function then smears.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/beam_plane.h"
@@ -9,54 +11,41 @@
 
 namespace echocine {
 
-// One sample: sum of c e exp(-2j k0 r), its real and imaginary part, and sum of e^2. One load and
-// store for each scatterer.
-struct EchoSum {
-  float real = 0, imaginary = 0, squares = 0, unused = 0;
+// Of one scatterer: c e exp(-2j k0 r), its real and imaginary part, and e^2.
+struct Splat {
+  float real, imaginary, square;
+  std::int32_t sample;
 };
 
-// Line-major sums of a frame. Between frames all are
-// 0: who reads them clears them, while they are at hand.
-class EchoSums {
+// A frame's splats by line, each line's in the order in which they came. They are written and read
+// one after the other, so that a frame's sums need never be in memory all at once.
+class SplatLists {
  public:
-  // From one line to the next. Whole cache lines, an odd number of them: rows a power of two apart
-  // would share few sets of the cache.
-  static std::size_t strideOf(int samples) {
-    return (static_cast<std::size_t>(samples) / 4 | 1) * 4 + 8;
+  // No splats yet; from now on those of some of the lines are kept.
+  void start(int lines, LineRange kept) {
+    lists_.resize(static_cast<std::size_t>(lines));
+    for (List& list : lists_) list.next = list.memory.data();
+    first_ = static_cast<float>(kept.first);
+    end_ = static_cast<float>(kept.end);
+  }
+  Ints8 keeps(Floats8 line) const { return (line >= first_) & (line < end_); }
+
+  // Of lanes that are seen (-1, else 0). Every line is one of the frame's.
+  void add(const Splat* splats, Ints8 lines, Ints8 seen);
+
+  std::span<const Splat> line(int i) const {
+    const List& list = lists_[static_cast<std::size_t>(i)];
+    return {list.memory.data(), list.next};
   }
 
-  void resize(int lines, int samples) {
-    stride_ = strideOf(samples);
-    const std::size_t size = static_cast<std::size_t>(lines) * stride_;
-    if (sums_.size() != size) sums_.assign(size, {});
-  }
-  EchoSum* data() { return sums_.data(); }
-  EchoSum* line(int i) { return sums_.data() + static_cast<std::size_t>(i) * stride_; }
-
  private:
-  std::size_t stride_ = 0;
-  std::vector<EchoSum> sums_;
-};
-
-// Echoes on their way to their samples. The sums are larger than the nearer caches: memory is asked
-// for as an echo comes and is there when it is added.
-class SplatQueue {
- public:
-  // Takes echoes of these lines alone.
-  explicit SplatQueue(LineRange lines)
-      : first_line_(static_cast<float>(lines.first)), end_line_(static_cast<float>(lines.end)) {}
-  Ints8 holds(Floats8 line) const { return (line >= first_line_) & (line < end_line_); }
-
-  // Of lanes that are seen (-1, else 0). Every place is one of the sums.
-  void add(const Floats4* numbers, Ints8 places, Ints8 seen, EchoSums& sums);
-  void flush(EchoSums& sums);
-
- private:
-  static constexpr std::size_t kMost = 256;
-  float first_line_, end_line_;
-  std::size_t count_ = 0;
-  Floats4 numbers_[kMost];
-  std::int32_t places_[kMost];
+  struct List {
+    Splat *next = nullptr, *end = nullptr;
+    std::vector<Splat> memory;
+  };
+  static void grow(List& list);
+  std::vector<List> lists_;
+  float first_ = 0, end_ = 0;
 };
 
 // The Gaussian numbers of a batch at an instant: a mix of two draws, of variance 1.
@@ -92,11 +81,11 @@ class Splatter {
   // imaging plane, the curvature of the lens's wave, which makes the correlation after a shift d
   // exp(-d^2 / 2 s0^2) at every depth, s0 the deviation by diffraction alone.
   void add(const BeamCube& cube, const Scatterers& scatterers, const ScattererBatch& batch,
-           const GaussianMix& mix, SplatQueue& queue, EchoSums& sums) const;
+           const GaussianMix& mix, SplatLists& splats) const;
 
   // Eight scatterers at their own places, with the mix's numbers from `j` on.
-  void addPlaces(const BeamCube& at, const GaussianMix& mix, std::uint32_t j, SplatQueue& queue,
-                 EchoSums& sums) const;
+  void addPlaces(const BeamCube& at, const GaussianMix& mix, std::uint32_t j,
+                 SplatLists& splats) const;
 
  private:
   // Turns that the lens adds at the cut, over a cube's samples.
@@ -105,9 +94,9 @@ class Splatter {
   };
   Bend bendOf(Floats8 sample) const;
   void addLanes(const BeamCube& at, const Bend& bend, const GaussianMix& mix, std::uint32_t j,
-                SplatQueue& queue, EchoSums& sums) const;
+                SplatLists& splats) const;
 
-  int samples_, stride_;
+  int samples_;
   float turns_per_sample_, turns_before_;
   double min_depth_m_, spacing_m_, lens_, focus_m_;
 };
