@@ -10,6 +10,7 @@
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
 #include "cli/view_list.h"
+#include "compare/fit_where.h"
 #include "compare/results.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -82,6 +83,15 @@ void checkOptions(const compare::CompareOptions& o) {
 }
 
 // The one number first: it is what optimisers and impatient readers want.
+void print(const compare::TiltFound& t) {
+  const auto degrees = [](double rad) { return rad / radiansFromDegrees(1); };
+  fmt::print(
+      "  tilt: {:.1f} deg, confidence {:.2f}; rotation {:.1f} deg, confidence {:.2f}; the model's "
+      "discrepancy {:.4f}, {:.4f} untilted; {} planes, {:.1f} s of a core\n",
+      degrees(t.tilt.tilt_rad), t.tilt_confidence, degrees(t.tilt.rotate_rad), t.rotate_confidence,
+      t.found.discrepancy, t.untilted, t.planes, 1e-3 * t.cpu_ms);
+}
+
 void print(const compare::Comparison& c, const std::filesystem::path& folder) {
   fmt::print(
       "discrepancy {:.4f} (0 equal, about 1 unrelated), mean of {} frames; {:.4f} as placed\n",
@@ -110,6 +120,7 @@ void print(const compare::Comparison& c, const std::filesystem::path& folder) {
       "{:.2f}\n",
       c.space.method, p.shift_x_px, p.shift_y_px, p.scale, p.rotation_rad / radiansFromDegrees(1),
       c.space.used ? "" : " not used", c.space.confidence);
+  if (c.scene_fit && c.scene_fit->tilt) print(*c.scene_fit->tilt);
   fmt::print(
       "  {}: compare.html, frames.csv, summary.json, side_by_side.avi, sector_real.png, "
       "sector_synthetic.png\n",
@@ -134,6 +145,7 @@ void print(const compare::DialScan& scan, const std::filesystem::path& folder) {
   fmt::print("  pose: shift {:.1f}, {:.1f} mm, turn {:.1f} deg, scale {:.3f}, confidence {:.2f}\n",
              1e3 * p.shift_x_m, 1e3 * p.shift_z_m, p.turn_rad / radiansFromDegrees(1), p.scale,
              scan.centre.confidence);
+  if (scan.tilt) print(*scan.tilt);
   fmt::print("  {} evaluations of {:.0f} ms of a core, hearts recorded in {:.1f} s of a core\n",
              scan.points.size(), scan.evaluation_ms, 1e-3 * scan.family_ms);
   fmt::print("  {}: scan.csv, scan.json, scan.html\n", folder.string());
@@ -169,6 +181,15 @@ CompareCommand::CompareCommand(CLI::App& app) {
                       "Scene of the render: metrics in bands about its boundaries");
   command->add_option("--band-mm", options_.band_mm, "Full width of a band, mm")
       ->check(within(0.1, 100))
+      ->type_name("NUMBER")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--tilt", options_.tilt_deg,
+          fmt::format("Tilt and rotate the plane of --scene, or of the heart of --scan, to "
+                      "where it fits best: degrees either way, 0 to {:g}",
+                      compare::kMostTilt_deg))
+      ->check(within(0, compare::kMostTilt_deg))
       ->type_name("NUMBER")
       ->capture_default_str();
   command->add_flag("--contours", options_.contours, "Draw the scene's contours into the pictures");
@@ -223,6 +244,7 @@ int CompareCommand::runScan() {
   scan_.dials = compare::parseDials(dials_text_);
   scan_.real = options_.synthetic;
   scan_.side = options_.real_side;
+  scan_.tilt_deg = options_.tilt_deg;
   listenForStop();
   ProgressLine line(quiet_);
   withThreads(threads_, [&] {

@@ -35,6 +35,7 @@ struct CompareOptions {
   std::vector<double> knots;    // given: greys of the synthetic loop; empty: chosen
   std::filesystem::path scene;  // of the render folder: for bands about its
                                 // boundaries, and for where it disagrees
+  double tilt_deg = 0;          // by which the scene's plane may be tilted and rotated, either way
   double band_mm = 4;           // full width of a band; our choice
   bool contours = false;        // drawn in the pictures
 };

@@ -96,6 +96,7 @@ Json sceneFitJson(const SceneFit& fit) {
   Json json = foundJson(fit.found);
   json["confidence"] = fit.found.confidence;
   json["beat"] = beatJson(fit.beat);
+  if (fit.tilt) json["tilt"] = tiltJson(fit);
   json["curves"] = structureCurvesJson(fit.where);
   json["segments"] = segmentCurvesJson(fit.where);
   return json;

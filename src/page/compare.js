@@ -210,6 +210,7 @@
   showCurves(player);
   if (data.fit) {
     byId("fit").hidden = false;
+    if (summary.scene_fit.tilt) page.facts(byId("tilt"), page.tiltFacts(summary.scene_fit.tilt));
     showFit(data.fit);
   }
   showCalibration();
