@@ -92,6 +92,14 @@ void print(const compare::TiltFound& t) {
       t.found.discrepancy, t.untilted, t.planes, 1e-3 * t.cpu_ms);
 }
 
+void printBeat(const compare::Loop& real) {
+  fmt::print("  beat: {}", real.beat_anchor);
+  if (real.ecg)
+    fmt::print(", {}, {} R waves, {:.2f} px a frame, confidence {:.2f}", real.ecg->kind,
+               real.rWaveFrames().size(), real.ecg->px_per_frame, real.ecg->confidence);
+  fmt::print("\n");
+}
+
 void print(const compare::Comparison& c, const std::filesystem::path& folder) {
   fmt::print(
       "discrepancy {:.4f} (0 equal, about 1 unrelated), mean of {} frames; {:.4f} as placed\n",
@@ -114,6 +122,7 @@ void print(const compare::Comparison& c, const std::filesystem::path& folder) {
     if (band.metrics.weight > 0) row("  band: " + band.structure, band.metrics);
   fmt::print("  time: {}, shift {:.2f} frames, pace {:.3f}, confidence {:.2f}\n", c.time.method,
              c.time.shift_frames, c.time.rate, c.time.confidence);
+  printBeat(c.real);
   const auto& p = c.space.placement;
   fmt::print(
       "  space: {}, shift {:.2f}, {:.2f} px, scale {:.4f}, rotation {:.2f} deg{}, confidence "
@@ -146,6 +155,7 @@ void print(const compare::DialScan& scan, const std::filesystem::path& folder) {
              1e3 * p.shift_x_m, 1e3 * p.shift_z_m, p.turn_rad / radiansFromDegrees(1), p.scale,
              scan.centre.confidence);
   if (scan.tilt) print(*scan.tilt);
+  fmt::print("  beat: {}\n", scan.beat_anchor);
   fmt::print("  {} evaluations of {:.0f} ms of a core, hearts recorded in {:.1f} s of a core\n",
              scan.points.size(), scan.evaluation_ms, 1e-3 * scan.family_ms);
   fmt::print("  {}: scan.csv, scan.json, scan.html\n", folder.string());
@@ -169,6 +179,7 @@ CompareCommand::CompareCommand(CLI::App& app) {
   addTimes(*command, options_.synthetic_side, "synthetic", "synthetic");
   command->add_flag("--sectors-only", no_space_,
                     "Lay the sectors on one another and shift, scale and turn nothing");
+  command->add_flag("--no-ecg", no_ecg_, "Read no ECG from the pictures of either loop");
   command->add_flag("--monotone", options_.monotone, "A grey calibration that never falls");
   command->add_option("--knot-count", options_.knot_count, "Knots of the grey calibration")
       ->check(CLI::Range(2, 64))
@@ -219,6 +230,7 @@ int CompareCommand::run() {
     if (given) throw SceneError("--dials, --view and --yes: belong to --scan");
   // A flag that leaves out reads better than one that turns on what is on.
   options_.align_space = !no_space_;
+  options_.real_side.read_ecg = options_.synthetic_side.read_ecg = !no_ecg_;
   checkOptions(options_);
   listenForStop();
   ProgressLine line(quiet_);
@@ -244,6 +256,7 @@ int CompareCommand::runScan() {
   scan_.dials = compare::parseDials(dials_text_);
   scan_.real = options_.synthetic;
   scan_.side = options_.real_side;
+  scan_.side.read_ecg = !no_ecg_;
   scan_.tilt_deg = options_.tilt_deg;
   listenForStop();
   ProgressLine line(quiet_);

@@ -24,6 +24,7 @@ struct SideOptions {
   std::optional<std::string> sector;
   std::optional<double> ed_frame, es_frame;  // may lie between two
   std::vector<double> r_waves_s;             // from the first frame
+  bool read_ecg = true;                      // of the picture, where no R wave is known otherwise
 };
 
 struct CompareOptions {

@@ -242,6 +242,7 @@ DialScan scanDials(const ScanOptions& options, const Monitor& monitor) {
   const ModelLoop first = family.at(middle);
   const ModelDiscrepancy discrepancy(real, options.side, first);
   scan.beat = discrepancy.beat();
+  scan.beat_anchor = real.beat_anchor;
   scan.centre = discrepancy.search(first);
   if (options.tilt_deg > 0) {
     scan.tilt = searchTilt([&](const PlaneTilt& tilt) { return family.at(middle, tilt); },

@@ -45,6 +45,7 @@ struct DialScan {
   ScanOptions options;
   std::string view;
   BeatFound beat;
+  std::string beat_anchor;  // of the loop: Loop::beat_anchor
   PoseFound centre;               // in the middle of all ranges, searched from everywhere
   std::optional<TiltFound> tilt;  // of that heart, where asked for; all points have it
   std::vector<ScanPoint> points;  // the last axis fastest

@@ -56,6 +56,7 @@ Json scanJson(const DialScan& scan) {
             {"best", scan.best},
             {"confounding", scan.confounding},
             {"beat", beatJson(scan.beat)},
+            {"beat_anchor", scan.beat_anchor},
             {"centre", centre},
             {"cpu_ms", {{"recording_hearts", scan.family_ms}, {"evaluation", scan.evaluation_ms}}},
             {"points", points},
