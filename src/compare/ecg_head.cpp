@@ -127,6 +127,27 @@ void leaveErasing(const EcgCurve& curve, const std::vector<bool>& used, Pass& pa
   }
 }
 
+// One pace for all passes, by least squares about the middle of each.
+void settleTogether(const EcgCurve& curve, std::vector<Pass>& passes) {
+  double spread = 0, together = 0;
+  for (const Pass& pass : passes) {
+    double n = 0, f_sum = 0, x_sum = 0, ff = 0, fx = 0;
+    for (int f = pass.from; f <= pass.to; ++f)
+      if (const auto* c = onPass(pass, curve.changed[static_cast<std::size_t>(f)], f))
+        ++n, f_sum += f, x_sum += c->first, ff += double(f) * f, fx += double(f) * c->first;
+    if (n == 0) continue;
+    spread += ff - f_sum * f_sum / n;
+    together += fx - f_sum * x_sum / n;
+  }
+  if (!(spread > 0)) return;
+  const double pace = together / spread;
+  for (Pass& pass : passes) {  // turned about its middle frame
+    const double middle = 0.5 * (pass.from + pass.to);
+    pass.at += (pass.pace - pace) * middle;
+    pass.pace = pace;
+  }
+}
+
 // Every pass of the head, in time.
 std::vector<Pass> passesOf(const EcgCurve& curve) {
   std::vector<bool> used(curve.changed.size(), false);
@@ -142,6 +163,7 @@ std::vector<Pass> passesOf(const EcgCurve& curve) {
   }
   std::sort(passes.begin(), passes.end(),
             [](const Pass& a, const Pass& b) { return a.from < b.from; });
+  settleTogether(curve, passes);
   return passes;
 }
 

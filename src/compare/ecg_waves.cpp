@@ -83,13 +83,12 @@ RWaves toOneSide(std::span<const double> heights, double thickness, double sign,
   if (waves.empty()) return out;
   std::stable_sort(waves.begin(), waves.end(),
                    [](const Wave& a, const Wave& b) { return a.sharpness() > b.sharpness(); });
-  // The sharpest might be a fault of the picture: the third stands for all, where there is one.
-  const Wave& usual = waves[std::min<std::size_t>(2, (waves.size() - 1) / 2)];
+  const Wave sharpest = waves.front();
   std::vector<Wave> found;
   double other = 0;
   for (const Wave& w : waves)
-    if (w.sharpness() >= kSharpPart * usual.sharpness() &&
-        w.prominence >= kTallPart * usual.prominence)
+    if (w.sharpness() >= kSharpPart * sharpest.sharpness() &&
+        w.prominence >= kTallPart * sharpest.prominence)
       found.push_back(w);
     else
       other = std::max(other, w.sharpness());
@@ -105,9 +104,13 @@ RWaves toOneSide(std::span<const double> heights, double thickness, double sign,
   const double step = steps.empty() ? static_cast<double>(y.size()) : medianOfAll(steps);
   if (medianOfAll(widths) > kMostWidth * step) return out;
   // An early beat and the pause after it are regular enough: half of the steps are about alike.
-  constexpr double kMostOff = 0.5;  // of the median step; our choice
+  // No heart beats twice in a third of its beat. Parts of the median step, our choice.
+  constexpr double kMostOff = 0.5, kLeastStep = 0.35;
   std::vector<double> off;
-  for (const double s : steps) off.push_back(std::abs(s - step));
+  for (const double s : steps) {
+    off.push_back(std::abs(s - step));
+    if (s < kLeastStep * step) return out;
+  }
   if (steps.size() > 2 && medianOfAll(off) > kMostOff * step) return out;
   double alive = 0, all = 0;
   const double level = medianOfAll(y);

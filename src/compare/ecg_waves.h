@@ -14,7 +14,7 @@ struct RWaves {
 };
 
 // Deflections to one side whose prominence over their width at half of it is 0.4 and more of the
-// usual: narrow and tall. That side is taken on which they are sharper. NaN: not known.
+// sharpest one's: narrow and tall. That side is taken on which they are sharper. NaN: not known.
 // `thickness`: of the curve, in units of the heights: lower waves say nothing.
 RWaves findRWaves(std::span<const double> heights, double thickness);
 

@@ -22,28 +22,33 @@ const char* nameOf(EcgKind kind) {
 
 // Every R wave of the loop but those of its last three frames, where a head hides them, is found
 // within a frame, and nothing else in the loop.
-void expectFound(const DrawnEcg& e, const std::string& what) {
-  const auto trace = readEcg(videoOf(ecgFrames(e), e.fps), ecgPicture(1).sector);
-  ASSERT_TRUE(trace.has_value()) << what;
+void expectWaves(const EcgTrace& trace, const DrawnEcg& e, const std::string& what, double size) {
   double worst = 0;
   for (const double r : e.r_s) {
     const double frame = r * e.fps;
     if (frame < 0.5 || frame > e.frames - 4) continue;
     double off = 1e9;
-    for (const double found : trace->r_frames) off = std::min(off, std::abs(found - frame));
+    for (const double found : trace.r_frames) off = std::min(off, std::abs(found - frame));
     EXPECT_LT(off, 1) << what << ": R wave at frame " << frame;
     worst = std::max(worst, off);
   }
-  for (const double found : trace->r_frames) {
+  for (const double found : trace.r_frames) {
     if (found < 0 || found > e.frames - 1) continue;
     double off = 1e9;
     for (const double r : e.r_s) off = std::min(off, std::abs(found - r * e.fps));
     EXPECT_LT(off, 1) << what << ": found at frame " << found;
   }
-  EXPECT_EQ(trace->kind, nameOf(e.kind)) << what;
-  EXPECT_NEAR(trace->px_per_frame, e.px_per_s / e.fps, 0.02 * e.px_per_s / e.fps) << what;
+  EXPECT_EQ(trace.kind, nameOf(e.kind)) << what;
+  EXPECT_NEAR(trace.px_per_frame, size * e.px_per_s / e.fps, 0.02 * size * e.px_per_s / e.fps)
+      << what;
   std::printf("%s: confidence %.3f, %.3f px a frame, R waves within %.2f frames\n", what.c_str(),
-              trace->confidence, trace->px_per_frame, worst);
+              trace.confidence, trace.px_per_frame, worst);
+}
+
+void expectFound(const DrawnEcg& e, const std::string& what) {
+  const auto trace = readEcg(videoOf(ecgFrames(e), e.fps), ecgPicture(1).sector);
+  ASSERT_TRUE(trace.has_value()) << what;
+  expectWaves(*trace, e, what, 1);
 }
 
 constexpr EcgKind kKinds[] = {EcgKind::sweeping, EcgKind::scrolling, EcgKind::marked};
@@ -86,6 +91,28 @@ TEST(CompareEcg, PacesAndHeadsOfAllKinds) {
     expectFound({.r_s = evenBeats(66, 0.2), .gap_px = gap}, fmt::format("gap of {} px", gap));
   expectFound({.r_s = evenBeats(66, 0.2), .dot = true}, "a dot at the head");
   expectFound({.fps = 60, .frames = 130, .r_s = evenBeats(80, 0.1)}, "60 frames a second");
+}
+
+// A beat of a loop shows one R wave or two; what the trace has from before helps where it is shown.
+TEST(CompareEcg, LoopsOfOneBeatAreEnough) {
+  for (const EcgKind kind : kKinds)
+    for (const double first_s : {0.1, 0.4, 0.6})
+      expectFound({.kind = kind, .frames = 27, .r_s = evenBeats(66, first_s), .head_s = 0.5},
+                  fmt::format("{}, one beat, R at {:.1f} s", nameOf(kind), first_s));
+}
+
+// The same in a picture of twice the size, whose lines are two pixels thick and smooth.
+TEST(CompareEcg, LargerPicturesAreReadAlike) {
+  for (const EcgKind kind : kKinds) {
+    const DrawnEcg e{.kind = kind, .r_s = evenBeats(72, 0.35), .jpeg_quality = 80};
+    std::vector<cv::Mat> frames = ecgFrames(e);
+    for (cv::Mat& frame : frames) cv::resize(frame, frame, {}, 2, 2, cv::INTER_LINEAR);
+    const Sector& s = ecgPicture(1).sector;
+    const auto trace = readEcg(videoOf(frames, e.fps), {2 * s.apex_x, 2 * s.apex_y, s.first_rad,
+                                                        s.last_rad, 2 * s.r_min, 2 * s.r_max});
+    ASSERT_TRUE(trace.has_value()) << nameOf(kind);
+    expectWaves(*trace, e, std::string(nameOf(kind)) + ", twice as large", 2);
+  }
 }
 
 // What stands or moves beside a sector and is no ECG.
@@ -149,6 +176,15 @@ TEST(CompareEcg, RWavesAreTheSharpOnes) {
     EXPECT_GT(waves.confidence, 0.6);
   }
   EXPECT_TRUE(findRWaves(std::vector<double>(100, 0.0), 1).at.empty());
+  // Two or one alone are told from T and P waves too.
+  for (const int samples : {170, 90}) {
+    std::vector<double> heights;
+    for (int i = 0; i < samples; ++i) heights.push_back(40 * leadAt(beats, i / 100.0));
+    const RWaves waves = findRWaves(heights, 1);
+    ASSERT_EQ(waves.at.size(), samples == 170 ? 2u : 1u);
+    EXPECT_NEAR(waves.at[0], 50, 0.6);
+    EXPECT_GT(waves.confidence, 0.6);
+  }
 }
 
 }  // namespace

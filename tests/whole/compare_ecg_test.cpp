@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "support/drawn_ecg.h"
 #include "support/drawn_heart.h"
+#include "support/loop_scene.h"
 #include "support/run_program.h"
 
 namespace echocine::compare {
@@ -75,6 +76,24 @@ TEST_F(VideoWithEcg, ItsRWavesPairFramesAndAreTold) {
   ASSERT_EQ(given.code, 0) << given.err;
   EXPECT_NE(given.out.find("  beat: given\n"), std::string::npos) << given.out;
   EXPECT_EQ(summaryOf("given").at("time").at("method"), "R waves");
+}
+
+// The trace that this program draws itself, with its cursor, in a video that nobody tells about.
+TEST_F(VideoWithEcg, TheProgramsOwnTraceIsRead) {
+  SceneText text = ballScene(30);
+  text.acquisition["beats"] = "3";
+  text.output["width"] = "640";
+  text.output["height"] = "480";
+  text.output["ecg"] = "true";
+  ASSERT_EQ(renderScene(writeBall(folder, text), folder / "loop").code, 0);
+  std::filesystem::copy(folder / "loop/cine.avi", folder / "own.avi");
+  const double beat = readLoop(folder / "loop", {}, false).frames_per_beat;
+  const Loop loop = readLoop(folder / "own.avi", {}, true);
+  ASSERT_TRUE(loop.ecg.has_value());
+  EXPECT_EQ(loop.ecg->kind, "still, with a marker");
+  EXPECT_NEAR(loop.ecg->beat_frames, beat, 0.5);
+  ASSERT_GE(loop.rWaveFrames().size(), 2u);
+  for (const double r : loop.rWaveFrames()) EXPECT_NEAR(std::remainder(r, beat), 0, 1) << r;
 }
 
 // The sector, the scale and what is compared are as without a trace beneath.
