@@ -21,8 +21,8 @@ struct EcgTrace {
   double confidence = 0;
 };
 
-// Traces below this are not taken. Our choice: those that tests plant have 0.59 and more, what is no
-// trace has 0.
+// Traces below this are not taken. Our choice: those that tests plant have 0.59 and more, what is
+// no trace has 0.
 inline constexpr double kEcgConfident = 0.4;
 
 // The trace of most confidence, where one has enough and an R wave within the loop: sweeping or

@@ -1,5 +1,6 @@
 // R waves that were drawn are read from the picture to within a frame, and none where none were.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
