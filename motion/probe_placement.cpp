@@ -89,20 +89,12 @@ Pose frameOf(const ProbePose& pose) {
   return {pose.apex, pose.lateral, cross(pose.axis, pose.lateral), pose.axis};
 }
 
-// Shifted along its own axes, turned about its depth axis, then tilted about its lateral axis.
-// Turning takes lateral towards elevation, tilting takes depth towards elevation.
+// Shifted along its own axes, then turned and tilted.
 Pose moved(const Pose& pose, const ViewPlacement& by) {
-  const auto turned = [](Vec3d from, Vec3d towards, double rad) {
-    return std::cos(rad) * from + std::sin(rad) * towards;
-  };
   Pose p = pose;
   p.origin = pose.origin + by.shift_m.x * pose.x_axis + by.shift_m.y * pose.y_axis +
              by.shift_m.z * pose.z_axis;
-  p.x_axis = turned(pose.x_axis, pose.y_axis, by.rotate_rad);
-  p.y_axis = cross(pose.z_axis, p.x_axis);
-  p.z_axis = turned(pose.z_axis, p.y_axis, by.tilt_rad);
-  p.y_axis = cross(p.z_axis, p.x_axis);
-  return p;
+  return turnedAndTilted(p, by.rotate_rad, by.tilt_rad);
 }
 
 bool inSector(const Probe& probe, Vec3d at) {
@@ -217,6 +209,18 @@ std::pair<Scene, std::shared_ptr<const MeshMotion>> placedWithMotion(Scene given
   Scene scene = placed(std::move(given));
   auto motion = std::make_shared<const MeshMotion>(scene);
   return {std::move(scene), std::move(motion)};
+}
+
+Pose turnedAndTilted(const Pose& pose, double rotate_rad, double tilt_rad) {
+  const auto turned = [](Vec3d from, Vec3d towards, double rad) {
+    return std::cos(rad) * from + std::sin(rad) * towards;
+  };
+  Pose p = pose;
+  p.x_axis = turned(pose.x_axis, pose.y_axis, rotate_rad);
+  p.y_axis = cross(pose.z_axis, p.x_axis);
+  p.z_axis = turned(pose.z_axis, p.y_axis, tilt_rad);
+  p.y_axis = cross(p.z_axis, p.x_axis);
+  return p;
 }
 
 }  // namespace echocine

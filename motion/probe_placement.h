@@ -20,4 +20,8 @@ Scene placed(Scene scene);
 // The same, and the motion of its meshes in that probe's frame.
 std::pair<Scene, std::shared_ptr<const MeshMotion>> placedWithMotion(Scene scene);
 
+// A pose turned about its depth axis, then tilted about its lateral axis; its origin stays. Turning
+// takes lateral towards elevation, tilting takes depth towards elevation.
+Pose turnedAndTilted(const Pose& pose, double rotate_rad, double tilt_rad);
+
 }  // namespace echocine

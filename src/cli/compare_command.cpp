@@ -10,6 +10,7 @@
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
 #include "cli/view_list.h"
+#include "compare/fit_where.h"
 #include "compare/results.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -82,6 +83,23 @@ void checkOptions(const compare::CompareOptions& o) {
 }
 
 // The one number first: it is what optimisers and impatient readers want.
+void print(const compare::TiltFound& t) {
+  const auto degrees = [](double rad) { return rad / radiansFromDegrees(1); };
+  fmt::print(
+      "  tilt: {:.1f} deg, confidence {:.2f}; rotation {:.1f} deg, confidence {:.2f}; the model's "
+      "discrepancy {:.4f}, {:.4f} untilted; {} planes, {:.1f} s of a core\n",
+      degrees(t.tilt.tilt_rad), t.tilt_confidence, degrees(t.tilt.rotate_rad), t.rotate_confidence,
+      t.found.discrepancy, t.untilted, t.planes, 1e-3 * t.cpu_ms);
+}
+
+void printBeat(const compare::Loop& real) {
+  fmt::print("  beat: {}", real.beat_anchor);
+  if (real.ecg)
+    fmt::print(", {}, {} R waves, {:.2f} px a frame, confidence {:.2f}", real.ecg->kind,
+               real.rWaveFrames().size(), real.ecg->px_per_frame, real.ecg->confidence);
+  fmt::print("\n");
+}
+
 void print(const compare::Comparison& c, const std::filesystem::path& folder) {
   fmt::print(
       "discrepancy {:.4f} (0 equal, about 1 unrelated), mean of {} frames; {:.4f} as placed\n",
@@ -104,12 +122,14 @@ void print(const compare::Comparison& c, const std::filesystem::path& folder) {
     if (band.metrics.weight > 0) row("  band: " + band.structure, band.metrics);
   fmt::print("  time: {}, shift {:.2f} frames, pace {:.3f}, confidence {:.2f}\n", c.time.method,
              c.time.shift_frames, c.time.rate, c.time.confidence);
+  printBeat(c.real);
   const auto& p = c.space.placement;
   fmt::print(
       "  space: {}, shift {:.2f}, {:.2f} px, scale {:.4f}, rotation {:.2f} deg{}, confidence "
       "{:.2f}\n",
       c.space.method, p.shift_x_px, p.shift_y_px, p.scale, p.rotation_rad / radiansFromDegrees(1),
       c.space.used ? "" : " not used", c.space.confidence);
+  if (c.scene_fit && c.scene_fit->tilt) print(*c.scene_fit->tilt);
   fmt::print(
       "  {}: compare.html, frames.csv, summary.json, side_by_side.avi, sector_real.png, "
       "sector_synthetic.png\n",
@@ -134,6 +154,8 @@ void print(const compare::DialScan& scan, const std::filesystem::path& folder) {
   fmt::print("  pose: shift {:.1f}, {:.1f} mm, turn {:.1f} deg, scale {:.3f}, confidence {:.2f}\n",
              1e3 * p.shift_x_m, 1e3 * p.shift_z_m, p.turn_rad / radiansFromDegrees(1), p.scale,
              scan.centre.confidence);
+  if (scan.tilt) print(*scan.tilt);
+  fmt::print("  beat: {}\n", scan.beat_anchor);
   fmt::print("  {} evaluations of {:.0f} ms of a core, hearts recorded in {:.1f} s of a core\n",
              scan.points.size(), scan.evaluation_ms, 1e-3 * scan.family_ms);
   fmt::print("  {}: scan.csv, scan.json, scan.html\n", folder.string());
@@ -157,6 +179,7 @@ CompareCommand::CompareCommand(CLI::App& app) {
   addTimes(*command, options_.synthetic_side, "synthetic", "synthetic");
   command->add_flag("--sectors-only", no_space_,
                     "Lay the sectors on one another and shift, scale and turn nothing");
+  command->add_flag("--no-ecg", no_ecg_, "Read no ECG from the pictures of either loop");
   command->add_flag("--monotone", options_.monotone, "A grey calibration that never falls");
   command->add_option("--knot-count", options_.knot_count, "Knots of the grey calibration")
       ->check(CLI::Range(2, 64))
@@ -169,6 +192,15 @@ CompareCommand::CompareCommand(CLI::App& app) {
                       "Scene of the render: metrics in bands about its boundaries");
   command->add_option("--band-mm", options_.band_mm, "Full width of a band, mm")
       ->check(within(0.1, 100))
+      ->type_name("NUMBER")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--tilt", options_.tilt_deg,
+          fmt::format("Tilt and rotate the plane of --scene, or of the heart of --scan, to "
+                      "where it fits best: degrees either way, 0 to {:g}",
+                      compare::kMostTilt_deg))
+      ->check(within(0, compare::kMostTilt_deg))
       ->type_name("NUMBER")
       ->capture_default_str();
   command->add_flag("--contours", options_.contours, "Draw the scene's contours into the pictures");
@@ -198,6 +230,7 @@ int CompareCommand::run() {
     if (given) throw SceneError("--dials, --view and --yes: belong to --scan");
   // A flag that leaves out reads better than one that turns on what is on.
   options_.align_space = !no_space_;
+  options_.real_side.read_ecg = options_.synthetic_side.read_ecg = !no_ecg_;
   checkOptions(options_);
   listenForStop();
   ProgressLine line(quiet_);
@@ -223,6 +256,8 @@ int CompareCommand::runScan() {
   scan_.dials = compare::parseDials(dials_text_);
   scan_.real = options_.synthetic;
   scan_.side = options_.real_side;
+  scan_.side.read_ecg = !no_ecg_;
+  scan_.tilt_deg = options_.tilt_deg;
   listenForStop();
   ProgressLine line(quiet_);
   withThreads(threads_, [&] {

@@ -26,7 +26,7 @@ class CompareCommand {
   std::string scan_text_, dials_text_, view_text_ = "a4c";
   std::filesystem::path folder_;
   int threads_ = 0;
-  bool quiet_ = false, no_space_ = false;
+  bool quiet_ = false, no_space_ = false, no_ecg_ = false;
 };
 
 }  // namespace echocine

@@ -119,14 +119,21 @@ void noteAssumptions(Comparison& c) {
         fmt::format("the alignment in time is hardly better than any other (confidence {:.2f}): "
                     "--real-ed and --real-es, or R waves, say which frames belong together",
                     c.time.confidence));
+  if (c.scene_fit && c.scene_fit->tilt && c.scene_fit->tilt->at_limit)
+    say(fmt::format(
+        "the tilt that fits best lies at the limit of {:g} degrees: a better one may lie "
+        "beyond (--tilt)",
+        c.scene_fit->tilt->most_deg));
   if (c.space.used && c.space.at_limit)
     say("the view that fits best lies at the limit of the search: a better one may lie beyond");
 }
 
 // Metrics of frames stand without it.
-void holdScene(const Scene& scene, const CompareOptions& options, Comparison& c) {
+void holdScene(const Scene& scene, const CompareOptions& options, const Monitor& monitor,
+               Comparison& c) {
   try {
-    c.scene_fit = std::make_shared<const SceneFit>(fitScene(scene, c.real, options.real_side));
+    c.scene_fit = std::make_shared<const SceneFit>(
+        fitScene(scene, c.real, options.real_side, options.tilt_deg, monitor));
   } catch (const SceneError& error) {
     c.notes.push_back(fmt::format("where the scene disagrees is not shown: {}", error.what()));
   }
@@ -135,6 +142,11 @@ void holdScene(const Scene& scene, const CompareOptions& options, Comparison& c)
 }  // namespace
 
 Comparison compareLoops(const CompareOptions& options, const Monitor& monitor) {
+  checkTilt(options.tilt_deg);
+  if (options.tilt_deg > 0 && options.scene.empty())
+    throw SceneError(
+        "--tilt: needs --scene, the scene that the synthetic loop was rendered from: another plane "
+        "is cut from its meshes");
   Steps steps(monitor);
   Comparison c;
   c.synthetic = readLoop(options.synthetic, options.synthetic_side, false);
@@ -146,7 +158,7 @@ Comparison compareLoops(const CompareOptions& options, const Monitor& monitor) {
   steps.next();
   if (!options.scene.empty()) {
     bands.emplace(options.scene, c.synthetic, c.grid, 1e-3 * options.band_mm);
-    holdScene(bands->scene(), options, c);
+    holdScene(bands->scene(), options, monitor, c);
   }
   noteAssumptions(c);
   for (const std::string& note : c.notes) monitor.warn(note);

@@ -24,6 +24,7 @@ struct SideOptions {
   std::optional<std::string> sector;
   std::optional<double> ed_frame, es_frame;  // may lie between two
   std::vector<double> r_waves_s;             // from the first frame
+  bool read_ecg = true;                      // of the picture, where no R wave is known otherwise
 };
 
 struct CompareOptions {
@@ -35,6 +36,7 @@ struct CompareOptions {
   std::vector<double> knots;    // given: greys of the synthetic loop; empty: chosen
   std::filesystem::path scene;  // of the render folder: for bands about its
                                 // boundaries, and for where it disagrees
+  double tilt_deg = 0;          // by which the scene's plane may be tilted and rotated, either way
   double band_mm = 4;           // full width of a band; our choice
   bool contours = false;        // drawn in the pictures
 };

@@ -6,10 +6,10 @@
 #include <atomic>
 #include <charconv>
 #include <cmath>
-#include <ctime>
 #include <mutex>
 #include <opencv2/core.hpp>
 
+#include "compare/cpu_seconds.h"
 #include "core/error.h"
 #include "core/nearest_word.h"
 #include "core/parallel.h"
@@ -62,12 +62,6 @@ void checkRange(const std::string& option, const heart::Dial& dial, double value
     throw SceneError(fmt::format(
         "{}: {} is {:g}, accepted: {:g} to {:g}{}{}", option, dial.key, value, dial.low, dial.high,
         std::string(dial.unit) == "1" ? "" : " ", std::string(dial.unit) == "1" ? "" : dial.unit));
-}
-
-double cpuSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace
@@ -220,13 +214,16 @@ FitWhere whereBest(const DialScan& scan, const ModelDiscrepancy& discrepancy, co
   const Scene scene =
       heart::heartScene(heart::parametersFrom(dials), scan.options.view, kFitFrames);
   const MeshMotion motion(scene);
-  return fitWhere(modelLoop(scene, motion, kFitFrames, wallSegments(scene, motion)), discrepancy,
-                  real, best.found.pose);
+  const auto segments = wallSegments(scene, motion);
+  return fitWhere(scan.tilt ? TiltableModel(scene, motion, kFitFrames, segments).at(scan.tilt->tilt)
+                            : modelLoop(scene, motion, kFitFrames, segments),
+                  discrepancy, real, best.found.pose);
 }
 
 }  // namespace
 
 DialScan scanDials(const ScanOptions& options, const Monitor& monitor) {
+  checkTilt(options.tilt_deg);
   refuseUnusable(options);
   DialScan scan;
   scan.options = options;
@@ -240,12 +237,19 @@ DialScan scanDials(const ScanOptions& options, const Monitor& monitor) {
   }
   double since = cpuSeconds();
   const HeartFamily family(options.dials, ranges, options.view, kFitFrames, nodesFor(ranges.size()),
-                           monitor);
+                           monitor, options.tilt_deg);
   scan.family_ms = 1e3 * (cpuSeconds() - since);
   const ModelLoop first = family.at(middle);
   const ModelDiscrepancy discrepancy(real, options.side, first);
   scan.beat = discrepancy.beat();
+  scan.beat_anchor = real.beat_anchor;
   scan.centre = discrepancy.search(first);
+  if (options.tilt_deg > 0) {
+    scan.tilt = searchTilt([&](const PlaneTilt& tilt) { return family.at(middle, tilt); },
+                           discrepancy, scan.centre, options.tilt_deg, monitor);
+    scan.centre = scan.tilt->found;
+  }
+  const PlaneTilt tilt = scan.tilt ? scan.tilt->tilt : PlaneTilt{};
   std::vector<FitPose> starts{scan.centre.pose};
   if (!scan.centre.rivals.empty()) starts.push_back(scan.centre.rivals.front().first);
   scan.points = pointsOf(options.axes);
@@ -255,7 +259,7 @@ DialScan scanDials(const ScanOptions& options, const Monitor& monitor) {
   parallelBlocks(scan.points.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!monitor.keep_going()) throw JobError("stopped while dials were scanned");
-      scan.points[i].found = discrepancy.refine(family.at(scan.points[i].values), starts);
+      scan.points[i].found = discrepancy.refine(family.at(scan.points[i].values, tilt), starts);
       const std::lock_guard lock(telling);
       monitor.tell({Task::settings, ++done, scan.points.size()});
     }
@@ -271,6 +275,8 @@ DialScan scanDials(const ScanOptions& options, const Monitor& monitor) {
         "the start of the beat is hardly better than any other: --real-ed gives it");
   if (scan.centre.at_limit)
     scan.notes.push_back("the pose lies at the limit of its search: a better one may lie beyond");
+  if (scan.tilt && scan.tilt->at_limit)
+    scan.notes.push_back("the tilt lies at the limit of its search: a better one may lie beyond");
   for (std::size_t a = 0; a < options.axes.size(); ++a) {
     const std::vector<double> values = options.axes[a].values();
     const double best = scan.points[scan.best].values[a];

@@ -31,7 +31,8 @@ struct ScanOptions {
   std::vector<ScanAxis> axes;
   std::map<std::string, double> dials;  // that stay; the rest follows them
   heart::View view = heart::View::a4c;
-  bool yes = false;  // more than kMostUnasked evaluations
+  double tilt_deg = 0;  // by which the plane may be tilted and rotated, either way
+  bool yes = false;     // more than kMostUnasked evaluations
 };
 inline constexpr std::size_t kMostUnasked = 500;  // some two minutes of one core; our choice
 
@@ -44,7 +45,9 @@ struct DialScan {
   ScanOptions options;
   std::string view;
   BeatFound beat;
+  std::string beat_anchor;        // of the loop: Loop::beat_anchor
   PoseFound centre;               // in the middle of all ranges, searched from everywhere
+  std::optional<TiltFound> tilt;  // of that heart, where asked for; all points have it
   std::vector<ScanPoint> points;  // the last axis fastest
   std::size_t best = 0;
   // Of the paraboloid through the points within two steps of the best; empty where there are too

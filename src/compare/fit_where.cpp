@@ -6,6 +6,8 @@
 
 #include "core/units.h"
 #include "motion/mesh_motion.h"
+#include "motion/probe_placement.h"
+#include "scene/probe_pose.h"
 #include "truth/aha_segments.h"
 #include "video/cine_writer.h"
 
@@ -36,14 +38,28 @@ FitWhere fitWhere(const ModelLoop& model, const ModelDiscrepancy& discrepancy, c
   return out;
 }
 
-SceneFit fitScene(const Scene& scene, const Loop& real, const SideOptions& side) {
+SceneFit fitScene(const Scene& scene, const Loop& real, const SideOptions& side, double tilt_deg,
+                  const Monitor& monitor) {
   const MeshMotion motion(scene);
-  const ModelLoop model = modelLoop(scene, motion, kFitFrames, wallSegments(scene, motion));
+  const auto segments = wallSegments(scene, motion);
+  const ModelLoop model = modelLoop(scene, motion, kFitFrames, segments);
   const ModelDiscrepancy discrepancy(real, side, model);
   SceneFit fit;
   fit.beat = discrepancy.beat();
   fit.found = discrepancy.search(model);
-  fit.where = fitWhere(model, discrepancy, real, fit.found.pose);
+  if (!(tilt_deg > 0)) {
+    fit.where = fitWhere(model, discrepancy, real, fit.found.pose);
+    return fit;
+  }
+  const TiltableModel tiltable(scene, motion, kFitFrames, segments);
+  fit.tilt = searchTilt([&](const PlaneTilt& tilt) { return tiltable.at(tilt); }, discrepancy,
+                        fit.found, tilt_deg, monitor);
+  fit.found = fit.tilt->found;
+  fit.where = fitWhere(tiltable.at(fit.tilt->tilt), discrepancy, real, fit.found.pose);
+  Scene tilted = scene;
+  tilted.probe.pose =
+      turnedAndTilted(scene.probe.pose, fit.tilt->tilt.rotate_rad, fit.tilt->tilt.tilt_rad);
+  fit.tilted_probe = poseToml(tilted);
   return fit;
 }
 
@@ -70,6 +86,24 @@ Json beatJson(const BeatFound& beat) {
           {"length_source", beat.length_source},
           {"start_source", beat.start_source},
           {"confidence", beat.confidence}};
+}
+
+Json tiltJson(const TiltFound& t) {
+  return {{"tilt_deg", degreesFromRadians(t.tilt.tilt_rad)},
+          {"rotate_deg", degreesFromRadians(t.tilt.rotate_rad)},
+          {"most_deg", t.most_deg},
+          {"tilt_confidence", t.tilt_confidence},
+          {"rotate_confidence", t.rotate_confidence},
+          {"at_limit_of_search", t.at_limit},
+          {"discrepancy", t.found.discrepancy},
+          {"discrepancy_untilted", t.untilted},
+          {"planes", t.planes}};
+}
+
+Json tiltJson(const SceneFit& fit) {
+  Json json = tiltJson(*fit.tilt);
+  json["probe_toml"] = fit.tilted_probe;
+  return json;
 }
 
 namespace {

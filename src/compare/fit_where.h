@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/model_discrepancy.h"
+#include "compare/plane_tilt.h"
 #include "page/page.h"
 #include "signal/picture.h"
 
@@ -26,15 +26,22 @@ struct SceneFit {
   BeatFound beat;
   PoseFound found;
   FitWhere where;
+  std::optional<TiltFound> tilt;  // where one was asked for: found and where are of that plane
+  std::string tilted_probe;       // that plane, as keys of a scene's [probe]
 };
-// Throws SceneError as ModelDiscrepancy does.
-SceneFit fitScene(const Scene& scene, const Loop& real, const SideOptions& side);
+// tilt_deg: by which the plane may be tilted and rotated, either way. Throws SceneError as
+// ModelDiscrepancy does, JobError when the monitor wants to stop. Precondition: the scene's probe
+// is placed.
+SceneFit fitScene(const Scene& scene, const Loop& real, const SideOptions& side,
+                  double tilt_deg = 0, const Monitor& monitor = {});
 
-// As files have them: {shift_mm, turn_deg, scale}; D, its terms and the pose; the beat's start;
-// curves of structures and of the left ventricle's segments.
+// As files have them: {shift_mm, turn_deg, scale}; D, its terms and the pose; the beat's start; the
+// tilt; curves of structures and of the left ventricle's segments.
 nlohmann::ordered_json poseJson(const FitPose& pose);
 nlohmann::ordered_json foundJson(const PoseFound& found);
 nlohmann::ordered_json beatJson(const BeatFound& beat);
+nlohmann::ordered_json tiltJson(const TiltFound& tilt);
+nlohmann::ordered_json tiltJson(const SceneFit& fit);  // with the keys; precondition: it has a tilt
 nlohmann::ordered_json structureCurvesJson(const FitWhere& where);
 nlohmann::ordered_json segmentCurvesJson(const FitWhere& where);
 

@@ -7,6 +7,7 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "core/lanes.h"
+#include "core/units.h"
 #include "motion/heart/heart_scene.h"
 
 namespace echocine::compare {
@@ -54,8 +55,8 @@ double mostOvershoot(int nodes) {
 
 HeartFamily::HeartFamily(const std::map<std::string, double>& given,
                          const std::vector<DialRange>& ranges, heart::View view, int frames,
-                         int nodes, const Monitor& monitor)
-    : ranges_(ranges), nodes_(nodes) {
+                         int nodes, const Monitor& monitor, double tilt_deg)
+    : ranges_(ranges), nodes_(nodes), tilt_rad_(radiansFromDegrees(tilt_deg)) {
   std::size_t count = 1;
   for (std::size_t r = 0; r < ranges.size(); ++r) count *= static_cast<std::size_t>(nodes);
   std::vector<SurfaceTopology> all;
@@ -88,12 +89,15 @@ HeartFamily::HeartFamily(const std::map<std::string, double>& given,
 }
 
 // Of triangles, those that some heart between the recorded ones has on the plane: their corners'
-// heights are polynomials, which the recorded heights bound.
+// heights are polynomials, which the recorded heights bound. Planes tilted by t and rotated by r
+// lie at y = x tan r + z tan t / cos r: that much nearer may a corner be to one of them.
 std::vector<char> HeartFamily::nearPlane(const SurfaceTopology& surface,
                                          const std::vector<Node>& recorded) const {
   const auto reach =
       static_cast<float>(std::pow(mostOvershoot(nodes_), static_cast<double>(ranges_.size())));
   constexpr float kRounding_m = 1e-6f;
+  const auto aside = static_cast<float>(std::tan(tilt_rad_)),
+             below = static_cast<float>(std::tan(tilt_rad_) / std::cos(tilt_rad_));
   std::vector<char> near(surface.triangles.size(), 0);
   std::vector<float> low(surface.vertex_count), high(surface.vertex_count);
   for (std::size_t f = 0; f < recorded.front().size(); ++f) {
@@ -103,7 +107,13 @@ std::vector<char> HeartFamily::nearPlane(const SurfaceTopology& surface,
         const float y = node[f].positions_m[index(surface.id)][v].y;
         least = std::min(least, y), most = std::max(most, y);
       }
-      const float middle = 0.5f * (least + most), half = 0.5f * reach * (most - least);
+      float farthest = 0;
+      for (const Node& node : recorded) {
+        const Vec3f p = node[f].positions_m[index(surface.id)][v];
+        farthest = std::max(farthest, aside * std::abs(p.x) + below * std::abs(p.z));
+      }
+      const float middle = 0.5f * (least + most),
+                  half = 0.5f * reach * (most - least) + reach * farthest;
       low[v] = middle - half - kRounding_m;
       high[v] = middle + half + kRounding_m;
     }
@@ -196,8 +206,11 @@ std::vector<SurfaceFrame> HeartFamily::surfacesAt(const std::vector<double>& val
   return frames;
 }
 
-ModelLoop HeartFamily::at(const std::vector<double>& values) const {
-  ModelLoop loop = ModelPlane(scene_, surfaces_).cut(surfacesAt(values));
+ModelLoop HeartFamily::at(const std::vector<double>& values, const PlaneTilt& tilt) const {
+  CHECK_LE(std::max(std::abs(tilt.tilt_rad), std::abs(tilt.rotate_rad)), tilt_rad_ * (1 + 1e-12));
+  std::vector<SurfaceFrame> surfaces = surfacesAt(values);
+  if (tilt_rad_ > 0) tiltSurfaces(tilt, surfaces);
+  ModelLoop loop = ModelPlane(scene_, surfaces_).cut(surfaces);
   const std::vector<float> share = shares(values);
   for (std::size_t n = 0; n < share.size(); ++n)
     loop.systole += static_cast<double>(share[n]) * systoles_[n];

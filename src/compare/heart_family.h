@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/model_plane.h"
+#include "compare/plane_tilt.h"
 #include "core/monitor.h"
 #include "motion/heart/views.h"
 
@@ -26,10 +26,12 @@ class HeartFamily {
   // in parallel. Throws SceneError for hearts that cannot be, JobError when the monitor wants to
   // stop.
   HeartFamily(const std::map<std::string, double>& given, const std::vector<DialRange>& ranges,
-              heart::View view, int frames, int nodes, const Monitor& monitor = {});
+              heart::View view, int frames, int nodes, const Monitor& monitor = {},
+              double tilt_deg = 0);
 
-  // A beat of the heart at one value for each range, in its order. Thread-safe.
-  ModelLoop at(const std::vector<double>& values) const;
+  // A beat of the heart at one value for each range, in its order. Thread-safe. Precondition: the
+  // tilt is within the tilt_deg that it was made for, either angle.
+  ModelLoop at(const std::vector<double>& values, const PlaneTilt& tilt = {}) const;
   // What it is cut from: the surfaces' vertices near the plane.
   std::vector<SurfaceFrame> surfacesAt(const std::vector<double>& values) const;
 
@@ -48,7 +50,8 @@ class HeartFamily {
   std::vector<DialRange> ranges_;
   std::vector<double> systoles_;  // end-systole of each recorded heart, as a part of its beat
   int nodes_;
-  Scene scene_;  // of the first node, without meshes
+  double tilt_rad_;  // the plane may be tilted and rotated by so much, either way
+  Scene scene_;      // of the first node, without meshes
   std::vector<SurfaceTopology> surfaces_;
   std::vector<std::vector<std::uint32_t>> kept_;  // vertices, by surface
   // By frame and surface: eight coordinates of the first node, the same of the next, and so on to

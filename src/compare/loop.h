@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "compare/ecg_trace.h"
 #include "compare/sector.h"
 #include "video/video.h"
 
@@ -22,6 +23,10 @@ struct Loop {
   std::optional<double> metres_per_pixel;  // nothing when neither file, image nor user tells
   std::string scale_source;                // "--scale", "DICOM regions", "manifest", ...
   std::string grey_source = "picture";     // or "EXR display.Y", "cine.avi"
+  // What tells when beats start: "given", "DICOM R waves", "ECG in the picture", "manifest", or
+  // "the picture itself".
+  std::string beat_anchor = "the picture itself";
+  std::optional<EcgTrace> ecg;  // where it is that
   // Of a render folder; empty otherwise.
   TracedGreys traced;  // where its EXR hold them, resample() takes them and not the picture's
   std::vector<double> phases;                                           // of the beat, per frame
@@ -31,6 +36,16 @@ struct Loop {
   double frames_per_beat = 0;  // 0: not known
 
   const Sector& sector() const { return find.sector; }
+
+  // R waves in frames, within the loop where they are read from the picture; empty where none are
+  // known.
+  std::vector<double> rWaveFrames() const {
+    if (ecg) return rWavesWithin(*ecg, video.frameCount());
+    std::vector<double> out;
+    if (video.rate.hz > 0)
+      for (const double s : video.r_waves_s) out.push_back(s * video.rate.hz);
+    return out;
+  }
 };
 
 }  // namespace echocine::compare

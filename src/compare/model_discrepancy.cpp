@@ -22,11 +22,10 @@ std::optional<double> knownStart(const Loop& real, const SideOptions& side, std:
     source = "given";
     return *side.ed_frame;
   }
-  const Video& v = real.video;
-  if (!v.r_waves_s.empty() && v.rate.hz > 0 &&
-      v.r_waves_s.front() * v.rate.hz < v.frameCount() - 1) {
-    source = "R waves";
-    return v.r_waves_s.front() * v.rate.hz;
+  const std::vector<double> waves = real.rWaveFrames();
+  if (!waves.empty() && waves.front() < real.video.frameCount() - 1) {
+    source = real.ecg ? real.beat_anchor : "R waves";
+    return waves.front();
   }
   for (const auto& [name, ml] : real.volumes_ml)
     if (name == real.lv_cavity && !ml.empty()) {
@@ -54,6 +53,13 @@ ModelDiscrepancy::ModelDiscrepancy(const Loop& real, const SideOptions& side,
   }
   const std::optional<double> start = knownStart(real, side, beat_.start_source);
   beat_.span.end_diastole = start.value_or(0);
+  if (real.ecg && !side.ed_frame) {  // not an early beat, where the trace shows a usual one
+    beat_.confidence = real.ecg->confidence;
+    const auto beat = usualBeat(*real.ecg, real.video.frameCount());
+    if (beat && beat_.length_source == real.beat_anchor)
+      beat_.span = {
+          .end_diastole = beat->r_frame, .frames = beat->frames, .systole = 0, .shown_systole = 0};
+  }
   stack_.emplace(real, beat_.span, kFitFrames, first.far_m);
   if (!start) findStart(real, first);
   findSystole(real, side, first);

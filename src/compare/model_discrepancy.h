@@ -24,8 +24,8 @@ struct FitSettings {
 struct BeatFound {
   BeatSpan span;
   std::string length_source, start_source;
-  // 1: known; else Eq. 8 of descent.h: rivals lie three pictures away or more, what says nothing is
-  // the median of all starts.
+  // 1: known; of an ECG in the picture the trace's; else Eq. 8 of descent.h: rivals lie three
+  // pictures away or more, what says nothing is the median of all starts.
   double confidence = 1;
   // Of the loop's end-systole, the same; rivals lie three pictures away or more.
   std::string systole_source;

@@ -252,38 +252,4 @@ ModelLoop ModelPlane::cut(const std::vector<SurfaceFrame>& frames) const {
   return loop;
 }
 
-namespace {
-
-// A parabola through the smallest volume and its neighbours; 0 without a left ventricle.
-double smallestAt(const Scene& scene, const MeshMotion& motion,
-                  const std::vector<SurfaceFrame>& frames) {
-  const auto cavity = structureOf(scene, Role::lv_cavity);
-  if (!cavity || frames.size() < 3) return 0;
-  std::vector<double> volumes;
-  for (const SurfaceFrame& frame : frames)
-    volumes.push_back(motion.volumeIn(frame, motion.surfaces()[index(*cavity)]));
-  const std::size_t n = volumes.size(),
-                    least = static_cast<std::size_t>(
-                        std::min_element(volumes.begin(), volumes.end()) - volumes.begin());
-  const double before = volumes[(least + n - 1) % n], here = volumes[least],
-               after = volumes[(least + 1) % n], bend = before - 2 * here + after;
-  return (static_cast<double>(least) + (bend > 0 ? 0.5 * (before - after) / bend : 0)) /
-         static_cast<double>(n);
-}
-
-}  // namespace
-
-ModelLoop modelLoop(const Scene& scene, const MeshMotion& motion, int frames,
-                    const std::optional<WallSegments>& segments) {
-  std::vector<SurfaceFrame> surfaces(static_cast<std::size_t>(frames));
-  parallelBlocks(surfaces.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      motion.frameAt(static_cast<double>(i) / frames, surfaces[i], false);
-  });
-  ModelLoop loop = ModelPlane(scene, motion.surfaces(), segments).cut(surfaces);
-  loop.systole = scene.motion.end_systole_phase ? *scene.motion.end_systole_phase
-                                                : smallestAt(scene, motion, surfaces);
-  return loop;
-}
-
 }  // namespace echocine::compare

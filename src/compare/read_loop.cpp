@@ -107,6 +107,21 @@ void blankOutside(Loop& loop) {
     }
 }
 
+// The user's word first, then the file's, then the picture's: before what is burnt in around the
+// sector is blanked.
+void anchorBeat(Loop& loop, const SideOptions& side, bool folder) {
+  if (side.ed_frame || !side.r_waves_s.empty()) {
+    loop.beat_anchor = "given";
+  } else if (folder) {
+    loop.beat_anchor = "manifest";
+  } else if (!loop.video.r_waves_s.empty()) {
+    loop.beat_anchor = "DICOM R waves";
+  } else if (side.read_ecg) {
+    loop.ecg = readEcg(loop.video, loop.sector());
+    if (loop.ecg) loop.beat_anchor = "ECG in the picture";
+  }
+}
+
 bool insidePicture(const UltrasoundRegion& r, const Video& v) {
   return r.max_x < v.width && r.max_y < v.height && r.min_x <= r.max_x && r.min_y <= r.max_y;
 }
@@ -191,6 +206,7 @@ Loop readLoop(const std::filesystem::path& path, const SideOptions& side, bool i
   }
   if (!side.r_waves_s.empty()) v.r_waves_s = side.r_waves_s;
   if (!folder || side.sector) findWhere(loop, side, is_real);
+  anchorBeat(loop, side, folder);
   if (!folder) {
     loop.overlay = overlayMask(v, loop.sector());
     noteColour(loop);

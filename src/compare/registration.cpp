@@ -50,6 +50,8 @@ BeatLength beatOf(const Loop& loop) {
     known((v.r_waves_s.back() - v.r_waves_s.front()) / static_cast<double>(v.r_waves_s.size() - 1) *
               v.rate.hz,
           "R waves");
+  else if (loop.ecg && loop.ecg->beat_frames > 0 && v.heart_rate_source != "--heart-rate")
+    beat = {loop.ecg->beat_frames, loop.ecg->confidence, loop.beat_anchor, beat.dissimilarity};
   else if (v.heart_rate_bpm && v.rate.trusted)
     known(60 / *v.heart_rate_bpm * v.rate.hz, v.heart_rate_source);
   return beat;

@@ -26,6 +26,16 @@ Json numberOrNull(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
 
+// Where the trace lies in the picture, how fast it runs, and its R waves in frames.
+Json ecgJson(const EcgTrace& e, const FrameRate& rate) {
+  return {{"kind", e.kind},
+          {"box_px", {e.left, e.top, e.right, e.bottom}},
+          {"px_per_frame", e.px_per_frame},
+          {"px_per_s", rate.hz > 0 ? Json(e.px_per_frame * rate.hz) : Json()},
+          {"r_wave_frames", e.r_frames},
+          {"confidence", e.confidence}};
+}
+
 // What was taken of each loop, and from where: a number whose source a reader cannot see is no
 // result.
 Json loopJson(const Loop& l, const BeatLength& beat) {
@@ -54,7 +64,9 @@ Json loopJson(const Loop& l, const BeatLength& beat) {
             {"beat",
              {{"frames", beat.frames > 0 ? Json(beat.frames) : Json()},
               {"source", beat.source},
-              {"confidence", beat.confidence}}},
+              {"confidence", beat.confidence},
+              {"anchor", l.beat_anchor},
+              {"ecg", l.ecg ? ecgJson(*l.ecg, l.video.rate) : Json()}}},
             {"notes", l.video.notes}};
   return json;
 }
@@ -96,6 +108,7 @@ Json sceneFitJson(const SceneFit& fit) {
   Json json = foundJson(fit.found);
   json["confidence"] = fit.found.confidence;
   json["beat"] = beatJson(fit.beat);
+  if (fit.tilt) json["tilt"] = tiltJson(fit);
   json["curves"] = structureCurvesJson(fit.where);
   json["segments"] = segmentCurvesJson(fit.where);
   return json;

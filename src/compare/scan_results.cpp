@@ -48,20 +48,23 @@ Json scanJson(const DialScan& scan) {
     centre["rivals"].push_back(poseJson(pose));
     centre["rivals"].back()["discrepancy"] = value;
   }
-  return {{"version", ECHOCINE_VERSION},
-          {"real", shownName(scan.options.real.string())},
-          {"view", scan.view},
-          {"dials", scan.options.dials},
-          {"axes", axesJson(scan)},
-          {"best", scan.best},
-          {"confounding", scan.confounding},
-          {"beat", beatJson(scan.beat)},
-          {"centre", centre},
-          {"cpu_ms", {{"recording_hearts", scan.family_ms}, {"evaluation", scan.evaluation_ms}}},
-          {"points", points},
-          {"curves_of_best", structureCurvesJson(scan.where)},
-          {"segments_of_best", segmentCurvesJson(scan.where)},
-          {"notes", scan.notes}};
+  Json json{{"version", ECHOCINE_VERSION},
+            {"real", shownName(scan.options.real.string())},
+            {"view", scan.view},
+            {"dials", scan.options.dials},
+            {"axes", axesJson(scan)},
+            {"best", scan.best},
+            {"confounding", scan.confounding},
+            {"beat", beatJson(scan.beat)},
+            {"beat_anchor", scan.beat_anchor},
+            {"centre", centre},
+            {"cpu_ms", {{"recording_hearts", scan.family_ms}, {"evaluation", scan.evaluation_ms}}},
+            {"points", points},
+            {"curves_of_best", structureCurvesJson(scan.where)},
+            {"segments_of_best", segmentCurvesJson(scan.where)},
+            {"notes", scan.notes}};
+  if (scan.tilt) json["tilt"] = tiltJson(*scan.tilt);
+  return json;
 }
 
 // The page alone has the maps: they are its pictures.

@@ -67,16 +67,14 @@ std::vector<Anchor> byMarks(const Cardinal& s, const Cardinal& r, double beat,
 
 // Empty where either side knows no R wave. Phase 0 of a render is its R wave.
 std::vector<Anchor> byRWaves(double synthetic_beat, const Loop& synthetic, const Loop& real) {
-  const Video& v = real.video;
-  const bool synthetic_r = !synthetic.phases.empty() || !synthetic.video.r_waves_s.empty();
+  const std::vector<double> waves = real.rWaveFrames(), own = synthetic.rWaveFrames();
   std::vector<Anchor> anchors;
-  if (v.r_waves_s.empty() || !(v.rate.hz > 0) || !synthetic_r || !(synthetic_beat > 0))
+  if (waves.empty() || (synthetic.phases.empty() && own.empty()) || !(synthetic_beat > 0))
     return anchors;
-  const double at_r = synthetic.phases.empty()
-                          ? synthetic.video.r_waves_s.front() * synthetic.video.rate.hz
-                          : -synthetic.phases.front() * synthetic_beat;
-  for (std::size_t i = 0; i < v.r_waves_s.size(); ++i)
-    anchors.push_back({v.r_waves_s[i] * v.rate.hz, at_r + static_cast<double>(i) * synthetic_beat});
+  const double at_r =
+      synthetic.phases.empty() ? own.front() : -synthetic.phases.front() * synthetic_beat;
+  for (std::size_t i = 0; i < waves.size(); ++i)
+    anchors.push_back({waves[i], at_r + static_cast<double>(i) * synthetic_beat});
   return anchors;
 }
 
@@ -99,7 +97,9 @@ TimeAlignment alignByWhatIsKnown(const CompareOptions& options, const TimeProble
                    byMarks(s, r, problem.synthetic_beat, synthetic.video.name));
   }
   const std::vector<Anchor> waves = byRWaves(problem.synthetic_beat, synthetic, real);
-  return waves.empty() ? alignInTime(problem) : alignBy("R waves", problem, waves);
+  return waves.empty()
+             ? alignInTime(problem)
+             : alignBy(real.ecg ? "R waves of the ECG in the picture" : "R waves", problem, waves);
 }
 
 }  // namespace echocine::compare

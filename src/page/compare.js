@@ -181,7 +181,9 @@
       ["edges", (l) => `${fixed(l.sector.first_deg, 2)}° to ${fixed(l.sector.last_deg, 2)}°`],
       ["radii", (l) => `${fixed(l.sector.r_min_px, 1)} to ${fixed(l.sector.r_max_px, 1)} px`],
       ["sector", (l) => `${l.sector.source}, confidence ${fixed(l.sector.confidence, 3)}`],
-      ["beat", (l) => (l.beat.frames ? `${number(l.beat.frames)} frames, ${l.beat.source}, confidence ${fixed(l.beat.confidence, 3)}` : "not known")]];
+      ["beat", (l) => (l.beat.frames ? `${number(l.beat.frames)} frames, ${l.beat.source}, confidence ${fixed(l.beat.confidence, 3)}` : "not known")],
+      ["beats start by", (l) => l.beat.anchor + (l.beat.ecg ? `: ${l.beat.ecg.kind}, R waves at frames `
+        + `${l.beat.ecg.r_wave_frames.map((f) => fixed(f, 1)).join(", ")}, confidence ${fixed(l.beat.ecg.confidence, 2)}` : "")]];
     page.table(byId("loops"), { columns: [{ label: "" }, { label: "real" }, { label: "synthetic" }],
       rows: rows.map(([label, text]) => [label, String(text(summary.real)), String(text(summary.synthetic))]) })
       .classList.add("wrapped");
@@ -210,6 +212,7 @@
   showCurves(player);
   if (data.fit) {
     byId("fit").hidden = false;
+    if (summary.scene_fit.tilt) page.facts(byId("tilt"), page.tiltFacts(summary.scene_fit.tilt));
     showFit(data.fit);
   }
   showCalibration();

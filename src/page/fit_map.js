@@ -2,7 +2,13 @@
 "use strict";
 
 const showFit = (() => {
-  const { byId, element } = page;
+  const { byId, element, fixed } = page;
+
+  page.tiltFacts = (t) => [["tilt about the lateral axis", `${fixed(t.tilt_deg, 1)}° of ±${fixed(t.most_deg, 1)}°, confidence ${fixed(t.tilt_confidence, 2)}`],
+    ["rotation about the beam's axis", `${fixed(t.rotate_deg, 1)}° of ±${fixed(t.most_deg, 1)}°, confidence ${fixed(t.rotate_confidence, 2)}`
+      + (t.at_limit_of_search ? "; at the limit of the search" : "")],
+    ["the model's discrepancy there", `${fixed(t.discrepancy, 4)}, ${fixed(t.discrepancy_untilted, 4)} untilted`],
+    ["planes that were tried", String(t.planes)]];
 
   // Blue: edges lie inside the model's boundary, or the model leaves too much grey; red the other way.
   const tint = (value, most) => {

@@ -9,9 +9,11 @@
 
 #include "compare/compare.h"
 #include "compare/discrepancy.h"
+#include "compare/fit_where.h"
 #include "compare/results.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "motion/probe_placement.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/fork_guard.h"
@@ -37,17 +39,24 @@ compare::SideOptions sideOf(const py::dict& given, const char* argument) {
     else if (name == "ed_frame") side.ed_frame = value.cast<double>();
     else if (name == "es_frame") side.es_frame = value.cast<double>();
     else if (name == "r_waves_s") side.r_waves_s = value.cast<std::vector<double>>();
+    else if (name == "read_ecg") side.read_ecg = value.cast<bool>();
     else
       throw py::value_error(fmt::format("{}: \"{}\" is not known, accepted: fps, mm_per_pixel, pixel_aspect, "
-                                        "heart_rate_bpm, sector, ed_frame, es_frame, r_waves_s",
+                                        "heart_rate_bpm, sector, ed_frame, es_frame, r_waves_s, read_ecg",
                                         argument, name));
   }
   return side;
 }
 
+double tiltOf(double tilt_deg) {
+  if (!(tilt_deg >= 0 && tilt_deg <= compare::kMostTilt_deg))
+    throw py::value_error(fmt::format("tilt_deg: is {:g}, accepted: 0 to {:g}", tilt_deg, compare::kMostTilt_deg));
+  return tilt_deg;
+}
+
 py::tuple compareFiles(const Path& synthetic, const Path& real, const std::optional<Path>& folder,
                        const py::dict& real_side, const py::dict& synthetic_side, bool align_space,
-                       const std::optional<Path>& scene, int threads, const py::object& progress) {
+                       const std::optional<Path>& scene, double tilt_deg, int threads, const py::object& progress) {
   compare::CompareOptions options;
   options.synthetic = synthetic;
   options.real = real;
@@ -55,6 +64,7 @@ py::tuple compareFiles(const Path& synthetic, const Path& real, const std::optio
   options.synthetic_side = sideOf(synthetic_side, "synthetic");
   options.align_space = align_space;
   if (scene) options.scene = *scene;
+  options.tilt_deg = tiltOf(tilt_deg);
   std::string summary, frames;
   runJob(progress, [&](const Monitor& monitor) {
     withThreads(threads, [&] {
@@ -70,15 +80,20 @@ py::tuple compareFiles(const Path& synthetic, const Path& real, const std::optio
 struct Distance {
   Distance(const compare::Loop& real, const Probe& probe) : discrepancy(real, probe), lines(probe.lines), samples(probe.samples) {}
   compare::Discrepancy discrepancy;
+  std::string tilt;  // JSON; empty without
   int lines, samples;
 };
 
-std::shared_ptr<Distance> makeDistance(const Path& real, const NativeScene& scene, const py::dict& side) {
+std::shared_ptr<Distance> makeDistance(const Path& real, const NativeScene& scene, const py::dict& side, double tilt_deg) {
   const compare::SideOptions options = sideOf(side, "real");
+  const double most_deg = tiltOf(tilt_deg);
   std::shared_ptr<Distance> made;
-  runJob(py::none(), [&](const Monitor&) {
+  runJob(py::none(), [&](const Monitor& monitor) {
     withThreads(0, [&] {
-      made = std::make_shared<Distance>(compare::readLoop(real, options, true), scene.scene.probe);
+      const compare::Loop loop = compare::readLoop(real, options, true);
+      made = std::make_shared<Distance>(loop, scene.scene.probe);
+      if (most_deg > 0)
+        made->tilt = compare::tiltJson(compare::fitScene(placed(scene.scene), loop, options, most_deg, monitor)).dump();
     });
   });
   return made;
@@ -108,15 +123,16 @@ double distance(const Distance& d, int frame, const py::array_t<float>& greys) {
 void bindCompare(py::module_& module) {
   module.def("compare", &compareFiles, py::arg("synthetic"), py::arg("real"), py::arg("folder").none(true),
              py::arg("real_side"), py::arg("synthetic_side"), py::arg("align_space"), py::arg("scene").none(true),
-             py::arg("threads"), py::arg("progress").none(true), "summary.json and frames.csv as texts.");
+             py::arg("tilt_deg"), py::arg("threads"), py::arg("progress").none(true), "summary.json and frames.csv as texts.");
   py::class_<Distance, std::shared_ptr<Distance>>(module, "Discrepancy", "Distance of frames to a real loop.")
-      .def(py::init(&makeDistance), py::arg("real"), py::arg("scene"), py::arg("side"))
+      .def(py::init(&makeDistance), py::arg("real"), py::arg("scene"), py::arg("side"), py::arg("tilt_deg"))
       .def("__call__", &distance, py::arg("frame"), py::arg("greys"),
            "0 equal, about 1 unrelated: greys (depth, line) float32, 0 to 1.")
       .def_property_readonly("real_frames", [](const Distance& d) { return d.discrepancy.realFrames(); },
                              "Frames of the real loop.")
       .def_property_readonly("share_in_sight", [](const Distance& d) { return d.discrepancy.shareInSight(); },
-                             "Share of the sector that both loops show, 0 to 1.");
+                             "Share of the sector that both loops show, 0 to 1.")
+      .def_readonly("tilt", &Distance::tilt, "The tilt that was found, as JSON; empty where none was asked for.");
 }
 
 }  // namespace echocine::python

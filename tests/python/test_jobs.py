@@ -88,7 +88,7 @@ def test_compare_and_discrepancy_with_itself(heart, tmp_path):
                   "probe.samples": 128})
     loop = echocine.render(heart, tmp_path / "loop")
     itself = echocine.compare(loop, tmp_path / "loop" / "cine.avi", tmp_path / "comparison",
-                              real_side={"fps": 10.0}, align_space=False)
+                              real_side={"fps": 10.0, "read_ecg": False}, align_space=False)
     assert itself.discrepancy < 0.2 and (tmp_path / "comparison" / "summary.json").exists()
     distance = echocine.Discrepancy(tmp_path / "loop", heart)
     assert distance.real_frames == len(loop)
@@ -100,6 +100,12 @@ def test_compare_and_discrepancy_with_itself(heart, tmp_path):
         distance(99, loop.greys[0])
     with pytest.raises(ValueError, match="nan"):
         distance(0, np.full_like(loop.greys[0], np.nan))
+    assert distance.tilt is None
+    tilted = echocine.Discrepancy(tmp_path / "loop", heart, tilt_deg=2)
+    assert abs(tilted.tilt["tilt_deg"]) <= 2 and tilted.tilt["discrepancy"] <= tilted.tilt["discrepancy_untilted"]
+    assert tilted.tilt["probe_toml"].startswith("apex = ")
+    with pytest.raises(ValueError, match="tilt_deg: is 30, accepted: 0 to 20"):
+        echocine.compare(loop, tmp_path, tilt_deg=30)
     with pytest.raises(ValueError, match="sid: |not known, accepted"):
         echocine.compare(loop, tmp_path, real_side={"sid": 1})
 

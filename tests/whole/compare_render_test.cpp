@@ -40,6 +40,47 @@ TEST(ComparedRender, ARenderAgainstItselfIsPerfectAndItsResultsAreWhole) {
   EXPECT_TRUE(std::filesystem::exists(folder / "out/sector_real.png"));
 }
 
+// Where no tilt is asked for nothing is written of one; where one is, it is told. A loop without
+// its scene has no other plane.
+TEST(ComparedRender, ATiltIsToldWhereItIsAskedFor) {
+  TempFolder folder;
+  ASSERT_EQ(renderScene(writeBall(folder, ballScene(8)), folder / "loop").code, 0);
+  const auto quoted = [&](const char* name) { return " '" + (folder / name).string() + "'"; };
+  const auto compared = [&](const char* out, const std::string& more) {
+    return runShell("%B compare" + quoted("loop") + quoted("loop") + " -o" + quoted(out) + more);
+  };
+  const std::string scene = " --scene" + quoted("scene.toml");
+  ASSERT_EQ(compared("plain", scene).code, 0);
+  ASSERT_EQ(compared("zero", scene + " --tilt 0").code, 0);
+  const Outcome tilted = compared("tilted", scene + " --tilt 5");
+  ASSERT_EQ(tilted.code, 0) << tilted.err;
+  for (const char* file : {"summary.json", "compare.html", "frames.csv"})
+    EXPECT_EQ(bytesOf(folder / "plain" / file), bytesOf(folder / "zero" / file)) << file;
+  const auto fitOf = [&](const char* out) {
+    return nlohmann::json::parse(bytesOf(folder / out / "summary.json")).at("scene_fit");
+  };
+  EXPECT_FALSE(fitOf("plain").contains("tilt"));
+  const nlohmann::json tilt = fitOf("tilted").at("tilt");
+  EXPECT_EQ(tilt.at("most_deg").get<double>(), 5);
+  EXPECT_LE(std::abs(tilt.at("tilt_deg").get<double>()), 5);
+  EXPECT_LE(tilt.at("discrepancy").get<double>(), tilt.at("discrepancy_untilted").get<double>());
+  EXPECT_GT(tilt.at("planes").get<int>(), 25);
+  EXPECT_NE(tilt.at("probe_toml").get<std::string>().find("lateral = "), std::string::npos);
+  EXPECT_NE(tilted.out.find("  tilt: "), std::string::npos) << tilted.out;
+  EXPECT_NE(bytesOf(folder / "tilted/compare.html").find("rotate_confidence"), std::string::npos);
+
+  const Outcome alone = compared("alone", " --tilt 5");
+  EXPECT_EQ(alone.code, 2);
+  EXPECT_EQ(std::count(alone.err.begin(), alone.err.end(), '\n'), 1) << alone.err;
+  EXPECT_NE(alone.err.find("--tilt: needs --scene"), std::string::npos) << alone.err;
+  for (const char* bad : {"21", "-1", "much"}) {
+    const Outcome o = compared("bad", scene + " --tilt=" + bad);
+    EXPECT_EQ(o.code, 2) << bad;
+    EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+    EXPECT_NE(o.err.find("tilt"), std::string::npos) << o.err;
+  }
+}
+
 // Greys of a render come from its EXR where they are all there, else from its cine.
 TEST(ComparedRender, GreysOfARenderAreThoseOfItsExrWhereItHasThem) {
   TempFolder folder;

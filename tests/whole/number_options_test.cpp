@@ -37,7 +37,7 @@ TEST_F(HostileArguments, EveryNumberOfTheCommandLineHasFiniteBounds) {
       {"compare a b" + out,
        {"--fps", "--scale", "--pixel-aspect", "--heart-rate", "--real-ed", "--real-es",
         "--real-r-waves", "--synthetic-fps", "--synthetic-scale", "--synthetic-heart-rate",
-        "--knots", "--band-mm", "--knot-count", "--threads"}},
+        "--knots", "--band-mm", "--tilt", "--knot-count", "--threads"}},
       {"study" + in("scene.toml") + out, {"--budget-s", "--frames", "--repeats", "--threads"}},
       {"render" + in("scene.toml") + out, {"--tolerance-db", "--threads", "--frames"}},
       {"heart" + out, {"--hr", "--edv", "--ef", "--keyframes", "--threads"}}};

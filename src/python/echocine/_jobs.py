@@ -119,7 +119,8 @@ def _number(text: str) -> Any:
 
 def compare(synthetic: Union[Loop, PathLike], real: PathLike, folder: Optional[PathLike] = None, *,
             real_side: Optional[Mapping[str, Any]] = None, synthetic_side: Optional[Mapping[str, Any]] = None,
-            align_space: bool = True, scene: Optional[PathLike] = None, threads: int = 0, progress: Progress = None) -> Comparison:
+            align_space: bool = True, scene: Optional[PathLike] = None, tilt_deg: float = 0, threads: int = 0,
+            progress: Progress = None) -> Comparison:
     """Compares a loop with an echo video, frame by frame, as ``echocine compare`` does.
 
     Args:
@@ -127,16 +128,18 @@ def compare(synthetic: Union[Loop, PathLike], real: PathLike, folder: Optional[P
         real: AVI, MP4, GIF, DICOM, or a folder of PNG or JPEG frames.
         folder: for compare.html, frames.csv and pictures; None: no files.
         real_side, synthetic_side: what is known better than the files tell: fps (1/s), mm_per_pixel, pixel_aspect,
-            heart_rate_bpm, sector, ed_frame, es_frame, r_waves_s.
+            heart_rate_bpm, sector, ed_frame, es_frame, r_waves_s, read_ecg (False: no ECG is read from the pictures).
         align_space: shift, scale and turn one sector onto the other.
         scene: file of the scene of the render: metrics in bands about its boundaries.
+        tilt_deg: by which the scene's plane may be tilted and rotated to where it fits best, either way, 0 to 20;
+            ``summary["scene_fit"]["tilt"]`` tells it.
         threads: 0: one per core.
         progress: None, True, a function (done, total), or a bar as tqdm makes them.
     """
     with tempfile.TemporaryDirectory(prefix="echocine-") as spare:
         source = _as_files(synthetic, Path(spare) / "loop", threads)
         summary, frames = _echocine.compare(source, Path(real), None if folder is None else Path(folder), dict(real_side or {}),
-                                            dict(synthetic_side or {}), align_space, None if scene is None else Path(scene),
+                                            dict(synthetic_side or {}), align_space, None if scene is None else Path(scene), tilt_deg,
                                             threads, report_to(progress))
     rows = [{k: _number(v) for k, v in row.items()} for row in csv.DictReader(io.StringIO(frames))]
     return Comparison(json.loads(summary), rows)
@@ -164,10 +167,16 @@ class Discrepancy:
         real: AVI, MP4, GIF, DICOM, or a folder of frames.
         scene: its probe says which lines and depths greys have.
         side: what is known better than the file tells, as for `compare`.
+        tilt_deg: by which the scene's plane may be tilted and rotated to where it fits best, either way, 0 to 20.
+
+    Attributes:
+        tilt: None without tilt_deg; else tilt_deg, rotate_deg, their confidences, the model's discrepancy there and
+            untilted, and probe_toml, the keys of the probe that frames are then to be made with.
     """
 
-    def __init__(self, real: PathLike, scene: Scene, side: Optional[Mapping[str, Any]] = None) -> None:
-        self._native = _echocine.Discrepancy(Path(real), _scene(scene), dict(side or {}))
+    def __init__(self, real: PathLike, scene: Scene, side: Optional[Mapping[str, Any]] = None, tilt_deg: float = 0) -> None:
+        self._native = _echocine.Discrepancy(Path(real), _scene(scene), dict(side or {}), tilt_deg)
+        self.tilt: Optional[Dict[str, Any]] = json.loads(self._native.tilt) if self._native.tilt else None
 
     def __call__(self, frame: int, greys: NDArray[np.float32]) -> float:
         """0 equal, about 1 unrelated, up to 2: greys (depth, line), 0 to 1, against a real frame, from 0. Thread-safe."""
