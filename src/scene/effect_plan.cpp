@@ -8,7 +8,6 @@
 #include "scene/media_in_use.h"
 #include "scene/names.h"
 #include "scene/picture_plan.h"
-#include "scene/role.h"
 #include "scene/scan_geometry.h"
 
 namespace echocine {
@@ -227,17 +226,6 @@ Finding timeGain(const Scene& scene, const EffectPlan& plan) {
   if (scene.signal.tgc == Tgc::nominal)
     return {true, "one curve of depth, by a nominal attenuation"};
   return {true, "one curve of depth that undoes the loop's mean attenuation"};
-}
-
-void planTrabeculae(const Scene& scene, EffectPlan& plan) {
-  const TrabeculaeSettings& t = scene.trabeculae;
-  const auto has = [&](const Structure& s) { return hasTrabeculae(scene, s); };
-  plan.trabeculae = std::any_of(scene.structures.begin(), scene.structures.end(), has);
-  add(plan, Effect::trabeculae, plan.trabeculae,
-      t.deviation_m == 0 ? "trabeculae.height_mm asks for none"
-      : !plan.trabeculae ? "no structure is a ventricle's cavity"
-                         : fmt::format("ridges of {:g} mm on the ventricles' inner surfaces",
-                                       millimetresFromMetres(t.deviation_m)));
 }
 
 void planRolling(const Scene& scene, EffectPlan& plan) {

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/units.h"
+#include "scene/role.h"
 
 namespace echocine {
 
@@ -41,6 +44,18 @@ void planTissue(const Scene& scene, EffectPlan& plan) {
 }
 
 }  // namespace
+
+void planTrabeculae(const Scene& scene, EffectPlan& plan) {
+  const double height_m = scene.trabeculae.deviation_m;
+  plan.trabeculae = std::any_of(scene.structures.begin(), scene.structures.end(),
+                                [&](const Structure& s) { return hasTrabeculae(scene, s); });
+  plan.decisions.push_back({Effect::trabeculae, plan.trabeculae,
+                            height_m == 0      ? "trabeculae.height_mm asks for none"
+                            : !plan.trabeculae ? "no structure is a ventricle's cavity"
+                                               : fmt::format("ridges of {:g} mm on the ventricles' "
+                                                             "inner surfaces",
+                                                             millimetresFromMetres(height_m))});
+}
 
 void planSpeckle(const Scene& scene, EffectPlan& plan) {
   plan.speckle = scene.speckle.on && wantsPicture(scene) && plan.contrast;

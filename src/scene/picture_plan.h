@@ -1,10 +1,13 @@
 #pragma once
-// The part of the plan that the picture alone knows: speckle, what tissue it shows, and what the
-// scanner adds.
+// The part of the plan that truth knows nothing of: trabeculae, speckle, what tissue it shows, and
+// what the scanner adds.
 
 #include "scene/effect_plan.h"
 
 namespace echocine {
+
+// The relief of the ventricles' inner surfaces.
+void planTrabeculae(const Scene& scene, EffectPlan& plan);
 
 // Speckle and what scatterers and interfaces have of it. Precondition: plan.contrast and
 // plan.reflection are decided.
