@@ -15,7 +15,7 @@ void applyClean(Scene& scene) {
   scene.speckle.anisotropy_db = 10;  // 14.5 dB ex vivo, 15.9 dB between walls in vivo
   scene.signal.dynamic_range_db = 80;
   scene.signal.grey_gamma = 1.2;
-  scene.signal.gain_db = 1;
+  scene.signal.gain_db = -1;
   scene.signal.interface_gain_db = -24;
   scene.signal.interface_limit_db = -64;
 }
@@ -28,11 +28,11 @@ struct Grade {
 constexpr Grade gradeOf(Quality quality) {
   switch (quality) {
     case Quality::good:
-      return {-24, -30, -34, -62, 3, 40e-3};
+      return {-24, -30, -38, -62, 3, 40e-3};
     case Quality::medium:
-      return {-20, -27, -28, -55, 6, 32e-3};
+      return {-20, -27, -32, -55, 6, 32e-3};
     case Quality::poor:
-      return {-16, -23, -20, -46, 12, 22e-3};
+      return {-16, -23, -24, -46, 12, 22e-3};
   }
   return {};
 }
