@@ -13,7 +13,11 @@
 
 namespace echocine::compare {
 
+namespace {
+
 using Json = nlohmann::ordered_json;
+
+}  // namespace
 
 // With the real frame nearest to each of the model's.
 FitWhere fitWhere(const ModelLoop& model, const ModelDiscrepancy& discrepancy, const Loop& real,

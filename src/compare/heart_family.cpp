@@ -131,14 +131,14 @@ void HeartFamily::keepNearPlane(const std::vector<SurfaceTopology>& all,
                                 const std::vector<Node>& recorded) {
   for (const SurfaceTopology& whole : all) {
     const std::vector<char> near = nearPlane(whole, recorded);
-    constexpr std::uint32_t kNone = 0xffffffff;
-    std::vector<std::uint32_t> number(whole.vertex_count, kNone), kept;
+    constexpr std::uint32_t kLeftOut = 0xffffffff;
+    std::vector<std::uint32_t> number(whole.vertex_count, kLeftOut), kept;
     SurfaceTopology surface{whole.id, {}, 0, whole.membrane, false};
     for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
       if (near[t] == 0) continue;
       Triangle triangle = whole.triangles[t];
       for (std::uint32_t& v : triangle) {
-        if (number[v] == kNone) {
+        if (number[v] == kLeftOut) {
           number[v] = static_cast<std::uint32_t>(kept.size());
           kept.push_back(v);
         }
