@@ -23,23 +23,21 @@ constexpr int kPhases = 16;              // at which no face may turn over
 constexpr int kMostHalvings = 8;
 constexpr std::uint64_t kPurpose = 0x7ab;
 
-// Twice each face's area as a vector, added up by vertex.
-void addNormals(std::span<const Triangle> faces, const std::vector<Vec3f>& at_m,
-                std::vector<Vec3f>& normals) {
-  for (const Triangle& t : faces) {
+// What moves each vertex at an instant, along the sum of its faces' normals. `normals` are zero
+// before and after, as many as there are vertices or more.
+template <typename Move>
+void moveAll(const Relief& relief, const std::vector<Vec3f>& at_m, std::vector<Vec3f>& normals,
+             const Move& move) {
+  for (const Triangle& t : relief.about) {
     const Vec3f a = at_m[t[0]], n = cross(at_m[t[1]] - a, at_m[t[2]] - a);
     for (const std::uint32_t v : t) normals[v] = normals[v] + n;
   }
-}
-
-// What moves each vertex, from the normals that addNormals() makes; these are cleared.
-template <typename Move>
-void moveAll(const Relief& relief, std::vector<Vec3f>& normals, const Move& move) {
   for (const std::uint32_t v : relief.moved) {
-    const Vec3f n = std::exchange(normals[v], Vec3f{});
-    const float length2 = dot(n, n);
-    if (length2 > 0) move(v, (-relief.height_m[v] / std::sqrt(length2)) * n);
+    const float length2 = dot(normals[v], normals[v]);
+    if (length2 > 0) move(v, (-relief.height_m[v] / std::sqrt(length2)) * normals[v]);
   }
+  for (const Triangle& t : relief.about)
+    for (const std::uint32_t v : t) normals[v] = {};
 }
 
 double meanEdge(const std::vector<Triangle>& faces, const std::vector<Vec3f>& at_m) {
@@ -95,30 +93,23 @@ std::vector<float> heights(const Scene& scene, const SurfaceTopology& surface,
   return height_m;
 }
 
-// Halves the heights about faces that would turn over, until none does.
-void calm(const MeshMotion& motion, const std::vector<Triangle>& faces, Relief& relief) {
-  const std::size_t s = index(relief.surface);
-  SurfaceFrame frame;
-  std::vector<Vec3f> normals(relief.height_m.size()), raised_m;
-  for (int i = 0; i < kPhases; ++i) {
-    motion.frameAt(static_cast<double>(i) / kPhases, frame, false);
-    const std::vector<Vec3f>& at_m = frame.positions_m[s];
-    for (int halving = 0; halving <= kMostHalvings; ++halving) {
-      raised_m = at_m;
-      addNormals(faces, at_m, normals);
-      moveAll(relief, normals, [&](std::uint32_t v, Vec3f by) { raised_m[v] = at_m[v] + by; });
-      bool turned = false;
-      for (const Triangle& t : faces) {
-        const auto normal = [&](const std::vector<Vec3f>& of) {
-          return toDouble(cross(of[t[1]] - of[t[0]], of[t[2]] - of[t[0]]));
-        };
-        if (dot(normal(at_m), normal(raised_m)) > 0) continue;
-        turned = true;
-        for (const std::uint32_t v : t)
-          relief.height_m[v] = halving < kMostHalvings ? 0.5f * relief.height_m[v] : 0;
-      }
-      if (!turned) break;
+// Halves the heights about faces that would turn over at an instant, until none does.
+void calm(const std::vector<Vec3f>& at_m, Relief& relief) {
+  std::vector<Vec3f> normals(at_m.size()), raised_m;
+  for (int halving = 0; halving <= kMostHalvings; ++halving) {
+    raised_m = at_m;
+    moveAll(relief, at_m, normals, [&](std::uint32_t v, Vec3f by) { raised_m[v] = at_m[v] + by; });
+    bool turned = false;
+    for (const Triangle& t : relief.about) {
+      const auto normal = [&](const std::vector<Vec3f>& of) {
+        return toDouble(cross(of[t[1]] - of[t[0]], of[t[2]] - of[t[0]]));
+      };
+      if (dot(normal(at_m), normal(raised_m)) > 0) continue;
+      turned = true;
+      for (const std::uint32_t v : t)
+        relief.height_m[v] = halving < kMostHalvings ? 0.5f * relief.height_m[v] : 0;
     }
+    if (!turned) return;
   }
 }
 
@@ -144,10 +135,17 @@ Trabeculae::Trabeculae(const Scene& scene, const MeshMotion& motion, bool everyw
     relief.moved.resize(surface.vertex_count);
     std::iota(relief.moved.begin(), relief.moved.end(), 0u);
     relief.about = surface.triangles;
-    calm(motion, surface.triangles, relief);
-    if (!everywhere && surface.near_plane) showAboutPlane(surface, relief);
     reliefs_.push_back(std::move(relief));
   }
+  SurfaceFrame later;
+  for (int i = 0; i < kPhases && !reliefs_.empty(); ++i) {
+    motion.frameAt(static_cast<double>(i) / kPhases, later, false);
+    for (Relief& relief : reliefs_) calm(later.positions_m[index(relief.surface)], relief);
+  }
+  for (Relief& relief : reliefs_)
+    if (const SurfaceTopology& surface = motion.surfaces()[index(relief.surface)];
+        !everywhere && surface.near_plane)
+      showAboutPlane(surface, relief);
   follow(scene, frame, motion);
 }
 
@@ -182,10 +180,8 @@ void Trabeculae::raise(SurfaceFrame& frame, Smooth& smooth) const {
     std::vector<Vec3f>& smooth_m = smooth.positions_m[index(relief.surface)];
     smooth_m = shown_m;
     normals.resize(std::max(normals.size(), shown_m.size()));
-    addNormals(relief.about, smooth_m, normals);
-    moveAll(relief, normals, [&](std::uint32_t v, Vec3f by) { shown_m[v] = smooth_m[v] + by; });
-    for (const Triangle& t : relief.about)
-      for (const std::uint32_t v : t) normals[v] = {};
+    moveAll(relief, smooth_m, normals,
+            [&](std::uint32_t v, Vec3f by) { shown_m[v] = smooth_m[v] + by; });
   }
   for (const Followers& followers : followers_) {
     std::vector<Vec3f>& shown_m = frame.positions_m[followers.surface];

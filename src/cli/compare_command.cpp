@@ -82,7 +82,6 @@ void checkOptions(const compare::CompareOptions& o) {
     throw SceneError("--knots: needs two greys or more, such as 0,40,90,160,255");
 }
 
-// The one number first: it is what optimisers and impatient readers want.
 void print(const compare::TiltFound& t) {
   const auto degrees = [](double rad) { return rad / radiansFromDegrees(1); };
   fmt::print(
@@ -100,6 +99,7 @@ void printBeat(const compare::Loop& real) {
   fmt::print("\n");
 }
 
+// The one number first: it is what optimisers and impatient readers want.
 void print(const compare::Comparison& c, const std::filesystem::path& folder) {
   fmt::print(
       "discrepancy {:.4f} (0 equal, about 1 unrelated), mean of {} frames; {:.4f} as placed\n",

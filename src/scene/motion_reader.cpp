@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "core/units.h"
 #include "scene/ranges.h"
 
@@ -82,18 +80,6 @@ MotionKeys readMotion(TomlTable table) {
   m.subdivision_place = table.place("subdivision");
   table.finish();
   return keys;
-}
-
-TrabeculaeSettings readTrabeculae(TomlTable table, const TrabeculaeSettings& defaults) {
-  const auto readLength = [&](std::string_view key, double fallback_m, NumberRange range_mm) {
-    return metresFromMillimetres(table.number(key, millimetresFromMetres(fallback_m), range_mm));
-  };
-  TrabeculaeSettings t = defaults;
-  t.deviation_m = readLength("height_mm", t.deviation_m, ranges::kTrabeculae_mm);
-  t.scale_m = readLength("scale_mm", t.scale_m, ranges::kTrabeculaeScale_mm);
-  t.seed = table.integer("seed", t.seed, 0, std::numeric_limits<int>::max());
-  table.finish();
-  return t;
 }
 
 std::optional<double> rateOfInterval(const MotionKeys& keys,

@@ -20,9 +20,6 @@ struct MotionKeys {
 // Throws SceneError.
 MotionKeys readMotion(TomlTable table);
 
-// [trabeculae] of a scene file. Throws SceneError.
-TrabeculaeSettings readTrabeculae(TomlTable table, const TrabeculaeSettings& defaults);
-
 // Beats per second of evenly spaced keyframes, of which each moving structure has as many; none
 // without an interval. Throws SceneError where structures contradict it.
 std::optional<double> rateOfInterval(const MotionKeys& keys,

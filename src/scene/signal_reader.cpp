@@ -115,6 +115,15 @@ SignalSettings readSignal(TomlTable table, const SignalSettings& defaults) {
   return s;
 }
 
+TrabeculaeSettings readTrabeculae(TomlTable table, const TrabeculaeSettings& defaults) {
+  TrabeculaeSettings t = defaults;
+  t.deviation_m = readLength(table, "height_mm", t.deviation_m, ranges::kTrabeculae_mm);
+  t.scale_m = readLength(table, "scale_mm", t.scale_m, ranges::kTrabeculaeScale_mm);
+  t.seed = readSeed(table, "seed", t.seed);
+  table.finish();
+  return t;
+}
+
 SpeckleSettings readSpeckle(TomlTable table, const SpeckleSettings& defaults) {
   constexpr double kMostPerCell = 1000;  // statistics are final from 3 on; our choice
   const NumberRange times_ms{.lo = 0, .hi = 1e9};

@@ -1,5 +1,5 @@
 #pragma once
-// The tables [signal], [speckle] and [artefacts] of a scene.
+// The tables of a scene that a look sets: [signal], [trabeculae], [speckle] and [artefacts].
 
 #include "scene/scene.h"
 #include "scene/toml_table.h"
@@ -12,6 +12,7 @@ void takeLook(TomlTable signal, Scene& scene);
 
 // Each with the defaults that it is given.
 SignalSettings readSignal(TomlTable table, const SignalSettings& defaults);
+TrabeculaeSettings readTrabeculae(TomlTable table, const TrabeculaeSettings& defaults);
 SpeckleSettings readSpeckle(TomlTable table, const SpeckleSettings& defaults);
 ArtefactSettings readArtefacts(TomlTable table, const ArtefactSettings& defaults);
 

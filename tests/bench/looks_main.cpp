@@ -24,7 +24,6 @@
 #include "motion/heart/parameters.h"
 #include "scene/names.h"
 #include "scene/role.h"
-#include "scene/motion_reader.h"
 #include "scene/signal_reader.h"
 #include "simulate/simulator.h"
 #include "texture_table.h"

@@ -250,13 +250,7 @@ TEST(CompareFit, AFamilyHoldsItsHearts) {
     const std::vector<DialRange> ranges{{"ef", 0.4, 0.6}};
     const HeartFamily family({}, ranges, heart::View::a4c, 4, 2);
     const auto bloodOf = [&](double ef, std::size_t frame) {
-      const ModelLoop loop = family.at({ef});
-      double area = 0;
-      for (const TissueCell& cell : loop.frames[frame].cells)
-        area += static_cast<double>(cell.area) *
-                ((loop.blood[cell.first] ? static_cast<double>(cell.share) : 0) +
-                 (loop.blood[cell.second] ? 1 - static_cast<double>(cell.share) : 0));
-      return area;
+      return support::bloodOf(family.at({ef}), frame);
     };
     // Quarter of a beat: the ventricle is emptier the more it ejects.
     EXPECT_GT(bloodOf(0.4, 1), bloodOf(0.5, 1));

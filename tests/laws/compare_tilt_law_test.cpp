@@ -139,15 +139,6 @@ Scene held(Scene scene, double tilt_deg, double rotate_deg) {
   return scene;
 }
 
-double bloodOf(const ModelLoop& loop, std::size_t frame) {
-  double area = 0;
-  for (const TissueCell& cell : loop.frames[frame].cells)
-    area += static_cast<double>(cell.area) *
-            ((loop.blood[cell.first] ? static_cast<double>(cell.share) : 0) +
-             (loop.blood[cell.second] ? 1 - static_cast<double>(cell.share) : 0));
-  return area;
-}
-
 // Turning surfaces is holding the probe otherwise.
 TEST(CompareTilt, ATiltedModelIsThatOfATiltedProbe) {
   withThreads(2, [] {

@@ -161,4 +161,14 @@ inline SideOptions fromTheStart() {
   return side;
 }
 
+// What of a frame of a model is blood, in the unit of its cells.
+inline double bloodOf(const ModelLoop& loop, std::size_t frame) {
+  double area = 0;
+  for (const TissueCell& cell : loop.frames[frame].cells)
+    area += static_cast<double>(cell.area) *
+            ((loop.blood[cell.first] ? static_cast<double>(cell.share) : 0) +
+             (loop.blood[cell.second] ? 1 - static_cast<double>(cell.share) : 0));
+  return area;
+}
+
 }  // namespace echocine::support
