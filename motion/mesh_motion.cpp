@@ -17,6 +17,7 @@
 #include "motion/subdivision/limit_normals.h"
 #include "motion/subdivision/shared_subdivision.h"
 #include "scene/effect_plan.h"
+#include "scene/elevation_slices.h"
 #include "scene/role.h"
 
 namespace echocine {
@@ -230,7 +231,7 @@ MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
     positions_m.reserve(keyframes.size());
     for (const KeyframeMesh& keyframe : keyframes)
       positions_m.push_back(probePositions(structure, keyframe, scene));
-    const double aside_m = trabeculaeReach(scene, structure);
+    const double aside_m = trabeculaeReach(scene, structure) + elevationReach(scene);
     loop_boxes_m_.push_back(loopBox(positions_m, weights.overshoot(), aside_m));
     MovingSurface moving{controlMotion(std::move(weights), topology, keyframes, positions_m)};
     const MeshTags& tags = keyframes.front().mesh.tags;

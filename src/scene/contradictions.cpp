@@ -38,6 +38,21 @@ void refuseOfRays(TomlTable& root, const Scene& scene) {
                                                             : "signal.beam_width = \"none\""));
 }
 
+// What several slices across the plane cannot do. A look's slices give way instead.
+void refuseOfSlices(TomlTable& root, const Scene& scene) {
+  const AccuracySettings& a = scene.accuracy;
+  const TomlTable accuracy = root.table("accuracy");
+  const auto refuse = [&](std::string_view other) {
+    accuracy.fail("elevation_slices", fmt::format("{} excludes {}, accepted with it: 1",
+                                                  a.elevation_slices, other));
+  };
+  if (a.rays_per_beam > 1)
+    refuse(fmt::format("accuracy.rays_per_beam = {}", a.rays_per_beam));
+  if (a.tracer == TracerChoice::embree) refuse("accuracy.tracer = \"embree\"");
+  if (scene.effects.refraction == Switch::on) refuse("effects.refraction = \"on\"");
+  if (scene.effects.elevation == Switch::off) refuse("effects.elevation = \"off\"");
+}
+
 // A pulse that speckle can be made of.
 void refuseOfSpeckle(TomlTable& root, const Scene& scene) {
   const double pulse_m = scene.signal.pulse_cycles * ScanGeometry(scene.probe).wavelength() / 2;
@@ -67,10 +82,12 @@ void refuseContradictions(TomlTable& root, const Scene& scene) {
         "\"on\" excludes accuracy.tracer = \"slice\", accepted with it: \"auto\" | \"off\"");
   if (scene.speckle.on) refuseOfSpeckle(root, scene);
   if (a.rays_per_beam > 1) refuseOfRays(root, scene);
-  if (scene.effects.elevation == Switch::on && a.rays_per_beam == 1)
-    effects.fail(
-        "elevation",
-        "\"on\" needs accuracy.rays_per_beam over 1, accepted with one ray: \"auto\" | \"off\"");
+  if (root.table("accuracy").has("elevation_slices") && a.elevation_slices > 1)
+    refuseOfSlices(root, scene);
+  if (scene.effects.elevation == Switch::on && a.rays_per_beam == 1 && a.elevation_slices == 1)
+    effects.fail("elevation",
+                 "\"on\" needs accuracy.rays_per_beam or accuracy.elevation_slices over 1, "
+                 "accepted with one ray and one slice: \"auto\" | \"off\"");
   if (scene.effects.attenuation == Switch::off && scene.output.channels_given)
     for (const Channel c : scene.output.channels)
       if (c == Channel::y || c == Channel::attenuation || c == Channel::reflection ||

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/units.h"
+#include "scene/beam_findings.h"
 #include "scene/media_in_use.h"
 #include "scene/names.h"
 #include "scene/picture_plan.h"
@@ -19,6 +20,11 @@ bool wants(const Scene& scene, Channel channel) {
 
 bool wantsPicture(const Scene& scene) {
   return scene.output.cine || scene.output.png || wants(scene, Channel::display);
+}
+
+bool wantsIntensity(const Scene& scene, bool reflected) {
+  return wantsPicture(scene) || wants(scene, Channel::y) || wants(scene, Channel::unattenuated) ||
+         wants(scene, reflected ? Channel::reflection : Channel::backscatter);
 }
 
 std::string EffectDecision::name() const {
@@ -37,11 +43,6 @@ const EffectDecision& EffectPlan::decision(Effect effect) const {
 
 namespace {
 
-struct Finding {
-  bool on;
-  std::string reason;
-};
-
 bool decide(EffectPlan& plan, Effect effect, Switch wanted, const Finding& found) {
   Finding decided = found;
   if (wanted == Switch::on)
@@ -52,11 +53,6 @@ bool decide(EffectPlan& plan, Effect effect, Switch wanted, const Finding& found
                                : "the scene turns it off"};
   plan.decisions.push_back({effect, decided.on, decided.reason});
   return decided.on;
-}
-
-bool wantsIntensity(const Scene& scene, bool reflected) {
-  return wantsPicture(scene) || wants(scene, Channel::y) || wants(scene, Channel::unattenuated) ||
-         wants(scene, reflected ? Channel::reflection : Channel::backscatter);
 }
 
 Finding interfaces(const Scene& scene) {
@@ -157,42 +153,6 @@ Finding spreading(const Scene& scene, bool backscatter) {
   return {false, "the display compensates it and no received intensity was asked for"};
 }
 
-bool severalRays(const Scene& scene) {
-  return scene.accuracy.rays_per_beam > 1 &&
-         (wantsIntensity(scene, true) || wantsIntensity(scene, false));
-}
-
-bool lateralRays(const Scene& scene) {
-  return severalRays(scene) && scene.signal.beam_width == BeamWidth::focused;
-}
-
-Finding beamWidth(const Scene& scene) {
-  if (lateralRays(scene))
-    return {true,
-            fmt::format("{} rays over the beam of {:g} mm focused at {:g} mm; the picture's "
-                        "average is over the pulse alone",
-                        scene.accuracy.rays_per_beam, millimetresFromMetres(scene.probe.aperture_m),
-                        millimetresFromMetres(scene.probe.focus_m))};
-  if (!wantsPicture(scene)) return {false, "no picture is asked for"};
-  const bool lateral = scene.signal.beam_width != BeamWidth::none && scene.probe.lines > 1;
-  const double pulse_m = scene.signal.pulse_cycles * ScanGeometry(scene.probe).wavelength() / 2;
-  if (lateral)
-    return {true, "average over the beam at each depth (signal.beam_width) and over the pulse"};
-  if (pulse_m > scene.probe.sampleSpacing())
-    return {true, "average over the pulse, longer than a sample"};
-  return {false, "beam and pulse are no wider than a sample"};
-}
-
-Finding elevation(const Scene& scene) {
-  if (scene.accuracy.rays_per_beam == 1)
-    return {false, "one ray per beam stays in the imaging plane"};
-  if (!severalRays(scene)) return {false, "no requested output holds intensities"};
-  return {true, fmt::format("{} rays over a lens of {:g} mm focused at {:g} mm",
-                            scene.accuracy.rays_per_beam,
-                            millimetresFromMetres(scene.probe.elevation_aperture_m),
-                            millimetresFromMetres(scene.probe.elevation_focus_m))};
-}
-
 void add(EffectPlan& plan, Effect effect, bool on, std::string reason, Channel channel = {}) {
   plan.decisions.push_back({effect, on, std::move(reason), channel});
 }
@@ -280,11 +240,13 @@ EffectPlan planEffects(const Scene& scene) {
   plan.attenuation = decide(plan, Effect::attenuation, wanted.attenuation, attenuating(scene));
   plan.backscatter = decide(plan, Effect::backscatter, wanted.backscatter, scattering(scene));
   plan.spread = decide(plan, Effect::spread, wanted.spread, spreading(scene, plan.backscatter));
-  plan.beam_width = decide(plan, Effect::beam_width, wanted.beam_width, beamWidth(scene));
-  plan.elevation =
-      decide(plan, Effect::elevation, wanted.elevation, elevation(scene)) && severalRays(scene);
+  plan.beam_width = decide(plan, Effect::beam_width, wanted.beam_width, findBeamWidth(scene));
+  const bool elevation =
+      decide(plan, Effect::elevation, wanted.elevation, findElevation(scene));
+  plan.elevation = elevation && severalRays(scene);
   plan.lateral_rays = plan.beam_width && lateralRays(scene);
   if (plan.elevation || plan.lateral_rays) plan.rays_per_beam = scene.accuracy.rays_per_beam;
+  if (elevation && severalSlices(scene)) plan.elevation_slices = scene.accuracy.elevation_slices;
   plan.travel_time = decide(plan, Effect::travel_time, wanted.travel_time,
                             {false, "echoes are placed at their path length"});
   planTrabeculae(scene, plan);

@@ -43,6 +43,7 @@ struct EffectPlan {
   bool rolling = false;                          // groups of lines have instants of their own
   int rays_per_beam = 1;                         // that are traced
   bool lateral_rays = false, elevation = false;  // what several rays are spread over
+  int elevation_slices = 1;                      // that stand for the beam across the plane
   // Of signal.tgc = "mean": what the loop's mean attenuation takes at each sample's depth, 0..1.
   std::vector<double> mean_loss;
   bool contrast = true;  // the media in use differ at all
@@ -59,6 +60,9 @@ EffectPlan planEffects(const Scene& scene);
 
 // Is the channel among those that the scene asks for?
 bool wants(const Scene& scene, Channel channel);
+
+// Does a requested output hold intensities of interfaces, or else of tissue?
+bool wantsIntensity(const Scene& scene, bool reflected);
 
 // Is there a picture to make (cine, PNG or channel display.Y)?
 bool wantsPicture(const Scene& scene);

@@ -218,6 +218,7 @@ enum class Normals { automatic, facet, smooth };
 
 struct AccuracySettings {
   int rays_per_beam = 1;
+  int elevation_slices = 1;  // 1, 3 or 5: of scene/elevation_slices.h
   TracerChoice tracer = TracerChoice::automatic;
   // At the scan line, or integrated over the beam's cell (plane slice only; automatic: where it can
   // be).

@@ -229,6 +229,8 @@ Json sceneJson(const Scene& scene) {
   if (scene.motion.mesh_scale != 1) json["motion"]["mesh_scale"] = scene.motion.mesh_scale;
   if (const Vec3d m = scene.motion.mesh_offset_m; m != Vec3d{})
     json["motion"]["mesh_offset_m"] = {m.x, m.y, m.z};
+  if (scene.accuracy.elevation_slices > 1)
+    json["accuracy"]["elevation_slices"] = scene.accuracy.elevation_slices;
   // A picture without speckle is the same file as before there was any.
   if (scene.trabeculae.deviation_m > 0) json["trabeculae"] = trabeculaeJson(scene.trabeculae);
   if (scene.speckle.on) json["speckle"] = speckleJson(scene.speckle);

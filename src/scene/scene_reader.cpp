@@ -8,6 +8,7 @@
 #include "core/file.h"
 #include "core/units.h"
 #include "scene/contradictions.h"
+#include "scene/elevation_slices.h"
 #include "scene/keyframe_warnings.h"
 #include "scene/media_reader.h"
 #include "scene/motion_reader.h"
@@ -105,9 +106,13 @@ std::optional<SceneTolerance> readTolerance(TomlTable& table) {
   return SceneTolerance{table.number(kKey, std::nullopt, ranges::kTolerance_db), table.place(kKey)};
 }
 
-AccuracySettings readAccuracy(TomlTable table) {
-  AccuracySettings a;
+AccuracySettings readAccuracy(TomlTable table, const AccuracySettings& defaults) {
+  AccuracySettings a = defaults;
   a.rays_per_beam = table.integer("rays_per_beam", a.rays_per_beam, 1, kMaxRaysPerBeam);
+  a.elevation_slices =
+      table.integer("elevation_slices", a.elevation_slices, 1, kMostElevationSlices);
+  if (a.elevation_slices % 2 == 0)
+    table.fail("elevation_slices", fmt::format("is {}, accepted: 1, 3 or 5", a.elevation_slices));
   a.tracer = table.choice("tracer", a.tracer);
   a.interface_echo = table.choice("interface_echo", a.interface_echo);
   a.normals = table.choice("normals", a.normals);
@@ -190,7 +195,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file, const Name
   scene.speckle = readSpeckle(root.table("speckle"), scene.speckle);
   scene.artefacts = readArtefacts(root.table("artefacts"), scene.artefacts);
   scene.signal = readSignal(root.table("signal"), scene.signal);
-  scene.accuracy = readAccuracy(root.table("accuracy"));
+  scene.accuracy = readAccuracy(root.table("accuracy"), scene.accuracy);
   scene.output = readOutput(root.table("output"));
   if (root.has("truth")) scene.truth = readTruth(root.table("truth"), scene);
   root.finish();

@@ -14,6 +14,7 @@
 #include "geometry/plane_slice.h"
 #include "motion/heart_size.h"
 #include "motion/motion_warnings.h"
+#include "scene/elevation_slices.h"
 #include "scene/names.h"
 #include "scene/role.h"
 #include "scene/scan_geometry.h"
@@ -76,6 +77,10 @@ bool invisible(const Scene& scene, const Structure& structure) {
 
 void dropStructures(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) {
   Box sector = sectorBox(scene.probe, plan.effects);
+  if (plan.effects.elevation_slices > 1) {
+    sector.lo.y -= elevationReach(scene);
+    sector.hi.y += elevationReach(scene);
+  }
   if (plan.effects.refraction) {  // rays may leave the imaging plane: as far as they are long
     const double reach = scene.probe.max_depth_m;
     sector.add(sector.lo - Vec3d{reach, reach, reach});
@@ -152,6 +157,12 @@ void chooseTracer(const Scene& scene, LoopPlan& plan) {
       : beams      ? fmt::format("{} rays per beam, each by itself", plan.effects.rays_per_beam)
       : plan.slice ? "straight rays in one plane meet only the facets on it"
                    : "refracted rays leave the imaging plane";
+  if (!plan.slice && plan.effects.elevation_slices > 1) {
+    plan.effects.elevation_slices = 1;
+    EffectDecision& decision = plan.effects.decision(Effect::elevation);
+    decision.on = false;
+    decision.reason = "only the plane slice has several slices; " + plan.tracer_reason;
+  }
   plan.cell_echoes = !beams && plan.effects.reflection && scene.probe.lines > 1 &&
                      a.interface_echo != InterfaceEcho::centre;
   plan.echo_reason =

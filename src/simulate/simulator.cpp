@@ -82,6 +82,8 @@ std::shared_ptr<Workspace> Simulator::workspace() const {
   if (!space && plan_.slice)
     space = std::make_unique<Workspace>(
         Workspace{-1, {}, {}, PlaneSlice(motion_->surfaces(), scene_.probe, plan_.left_out), {}});
+  if (space && plan_.effects.elevation_slices > 1 && !space->sides)
+    space->sides.emplace(motion_->surfaces(), scene_, plan_.left_out);
   if (!space)
     space = std::make_unique<Workspace>(
         Workspace{-1, {}, {}, FrameGeometry(motion_->surfaces(), plan_.left_out), {}});
@@ -117,46 +119,10 @@ void refuseUnusable(double phase, const PolarFrame& polar) {
 
 }  // namespace
 
-WorkCounts Simulator::traceRays(const PlaneSlice& slice, int /*frame*/, const Group* group,
-                                PolarFrame& polar) const {
-  return traceFrame(slice, scene_.probe, settings_, request_, polar,
-                    group ? &group->traced : nullptr);
-}
-
-WorkCounts Simulator::traceRays(const FrameGeometry& geometry, int frame, const Group* group,
-                                PolarFrame& polar) const {
-  if (beams_)
-    return traceBeams(geometry, scene_.probe, settings_, request_, *beams_, frame,
-                      group ? group->beams : all_lines_, polar);
-  return traceFrame(geometry, scene_.probe, settings_, request_, polar,
-                    group ? &group->traced : nullptr);
-}
-
 Volumes Simulator::trace(const FrameTime& time, Workspace& w) const {
   Volumes volumes_ml = traceLines(time, w);
   process(time, w);
   return volumes_ml;
-}
-
-void Simulator::stand(const FrameTime& time, Workspace& w) const {
-  w.phase = -1;
-  clock_.time(Stage::motion,
-              [&] { motion_->frameAt(time.phase, w.surfaces, plan_.smooth_normals); });
-  clock_.time(Stage::geometry, [&] {
-    if (trabeculae_) trabeculae_->raise(w.surfaces, w.smooth);
-    std::visit([&](auto& g) { g.update(w.surfaces); }, w.geometry);
-    if (trabeculae_) trabeculae_->lower(w.surfaces, w.smooth);
-  });
-  w.phase = time.phase;
-}
-
-WorkCounts Simulator::traceAt(const FrameTime& time, const Group* group, Workspace& w) const {
-  return std::visit(
-      [&](const auto& geometry) {
-        return clock_.time(Stage::trace,
-                           [&] { return traceRays(geometry, time.frame, group, w.polar); });
-      },
-      w.geometry);
 }
 
 Volumes Simulator::traceUncounted(const FrameTime& time, Workspace& w, WorkCounts& work) const {

@@ -15,6 +15,7 @@
 #include "core/work_counts.h"
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
+#include "geometry/side_slices.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/mesh_motion.h"
 #include "motion/trabeculae.h"
@@ -25,6 +26,7 @@
 #include "simulate/persistence.h"
 #include "simulate/rolling.h"
 #include "simulate/scene_speckle.h"
+#include "trace/thick_slice.h"
 #include "trace/trace_beams.h"
 #include "trace/trace_frame.h"
 #include "truth/frame_truth.h"
@@ -52,6 +54,8 @@ struct Workspace {
   Trabeculae::Smooth smooth{};  // surfaces while others are shown
   std::variant<PlaneSlice, FrameGeometry> geometry;  // whichever the plan's tracer needs
   PolarFrame polar;
+  std::optional<SideSlices> sides{};  // of a beam that is thick across the plane
+  PolarFrame side{};
   PolarFrame rolled{};  // lines of a rolling frame, as they come
   Greys greys{};
   GreyImage image{};
@@ -133,9 +137,9 @@ class Simulator {
   // Of all lines, or what a group takes in.
   using Group = RollingLines::Group;
   WorkCounts traceRays(const PlaneSlice& slice, int frame, const Group* group,
-                       PolarFrame& polar) const;
+                       Workspace& w) const;
   WorkCounts traceRays(const FrameGeometry& geometry, int frame, const Group* group,
-                       PolarFrame& polar) const;
+                       Workspace& w) const;
   double measureReference() const;
   // A frame's surfaces, made ready for rays.
   void stand(const FrameTime& time, Workspace& workspace) const;

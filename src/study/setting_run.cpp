@@ -1,11 +1,14 @@
 #include "study/setting_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "output/exr_plane.h"
+#include "scene/elevation_slices.h"
 #include "scene/scene_json.h"
 #include "signal/reference.h"
 #include "simulate/plan_loop.h"
@@ -38,7 +41,8 @@ std::size_t trianglesOf(const MeshMotion& motion) {
 }  // namespace
 
 std::shared_ptr<const MeshMotion> MotionShelf::motionOf(const Scene& scene) {
-  const std::string key = motionJson(scene).dump();
+  // Motions know the triangles that any slice can reach.
+  const std::string key = motionJson(scene).dump() + fmt::format("{}", elevationReach(scene));
   Entry& entry = shelf_[key];
   entry.last_used = ++uses_;
   if (entry.motion) return entry.motion;

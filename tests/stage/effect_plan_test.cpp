@@ -134,5 +134,26 @@ TEST(EffectPlanOfBeams, SeveralRaysSpreadOverWhatIsNotTurnedOff) {
   EXPECT_EQ(plan.decision(Effect::elevation).reason, "no requested output holds intensities");
 }
 
+// Rays are drawn across the plane themselves, so slices give way to them.
+TEST(EffectPlanOfBeams, SlicesStandForABeamOfOneRay) {
+  Scene scene = sceneOf(medium("a", 1000, 1540, 1, 1e-3), medium("b", 1100, 1540, 1, 1e-3));
+  scene.accuracy.elevation_slices = 5;
+  EffectPlan plan = planEffects(scene);
+  EXPECT_EQ(plan.elevation_slices, 5);
+  EXPECT_TRUE(plan.decision(Effect::elevation).on);
+  EXPECT_FALSE(plan.elevation);
+  scene.effects.elevation = Switch::off;
+  EXPECT_EQ(planEffects(scene).elevation_slices, 1);
+  scene.effects.elevation = Switch::automatic;
+  scene.accuracy.rays_per_beam = 12;
+  plan = planEffects(scene);
+  EXPECT_EQ(plan.elevation_slices, 1);
+  EXPECT_TRUE(plan.elevation);
+  scene.accuracy.rays_per_beam = 1;
+  scene.output.cine = false;
+  scene.output.channels = {Channel::medium};
+  EXPECT_EQ(planEffects(scene).elevation_slices, 1);
+}
+
 }  // namespace
 }  // namespace echocine

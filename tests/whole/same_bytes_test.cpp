@@ -24,12 +24,13 @@ using namespace support;
 // The contract: same scene, same bytes, whatever the number of threads.
 TEST(SameBytes, OneTwoAndFourThreadsWriteTheSameFiles) {
   const TempFolder folder;
-  for (const auto& [name, refraction, rays] :
-       {std::tuple{"straight", "\"off\"", "1"}, std::tuple{"bent", "\"on\"", "1"},
-        std::tuple{"beams", "\"on\"", "5"}}) {
+  for (const auto& [name, refraction, rays, slices] :
+       {std::tuple{"straight", "\"off\"", "1", "1"}, std::tuple{"bent", "\"on\"", "1", "1"},
+        std::tuple{"beams", "\"on\"", "5", "1"}, std::tuple{"slices", "\"off\"", "1", "5"}}) {
     SceneText text = ballScene(6);
     text.effects["refraction"] = refraction;
     text.accuracy["rays_per_beam"] = rays;
+    text.accuracy["elevation_slices"] = slices;
     text.output["png"] = "true";
     text.output["channels"] =
         "[\"Y\", \"unattenuated.Y\", \"attenuation.A\", \"reflection.Y\", "
