@@ -28,6 +28,7 @@ struct SectorTexture {
   // far across.
   double radial[4] = {}, tangential[4] = {};
   double grey_p5 = 0, grey_p50 = 0, grey_p95 = 0;
+  double near_field_grey = 0;  // median of the first 15 mm of rows
   double dark_fraction = 0;  // share of the sector under grey 20
 };
 inline constexpr double kTextureLags_mm[] = {1, 2, 4, 8};
@@ -41,6 +42,9 @@ struct RegionTexture {
   double myocardial_detrended_std = 0, cavity_detrended_std = 0;
   // Full width at half maximum of the residual's autocovariance, along rows and columns, mm.
   double cell_horizontal_mm = 0, cell_vertical_mm = 0;
+  // Medians of the myocardium on either side of the cavity, 30 to 70 % down its rows. In a
+  // four-chamber view with the septum on the left: septum and lateral wall.
+  double left_wall_grey = 0, right_wall_grey = 0;
   double residual_skew = 0;    // of the myocardium's residual; log-Rayleigh has -1.14
   double level_std_slope = 0;  // standard deviation per 100 grey levels, over 5 x 5 windows
 };

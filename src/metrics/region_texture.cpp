@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "metrics/box_means.h"
 #include "metrics/echo_texture.h"
@@ -91,6 +93,36 @@ class Regions {
   const EchoPicture& picture_;
 };
 
+// Medians of the muscle left and right of the cavity on its middle rows.
+std::pair<double, double> besideCavity(const EchoPicture& picture, const Mask& muscle) {
+  const auto label = [&](int x, int y) {
+    return picture.labels[static_cast<std::size_t>(y * picture.width + x)];
+  };
+  const auto ofRow = [&](int y) {  // its first and last pixel of the cavity
+    std::pair<int, int> ends{picture.width, -1};
+    for (int x = 0; x < picture.width; ++x)
+      if (label(x, y) == kCavity) ends = {std::min(ends.first, x), x};
+    return ends;
+  };
+  int first = picture.height, last = -1;
+  for (int y = 0; y < picture.height; ++y)
+    if (ofRow(y).second >= 0) {
+      first = std::min(first, y);
+      last = y;
+    }
+  std::vector<float> left, right;
+  for (int y = static_cast<int>(std::ceil(first + 0.3 * (last - first)));
+       y <= first + 0.7 * (last - first); ++y) {
+    const auto ends = ofRow(y);
+    for (int x = 0; x < picture.width; ++x) {
+      const auto i = static_cast<std::size_t>(y * picture.width + x);
+      if (muscle[i] != 0 && x < ends.first) left.push_back(picture.grey[i]);
+      if (muscle[i] != 0 && x > ends.second) right.push_back(picture.grey[i]);
+    }
+  }
+  return {orderStatistic(std::move(left), 0.5), orderStatistic(std::move(right), 0.5)};
+}
+
 struct Moments {
   double deviation = kNone, skew = kNone;
 };
@@ -132,7 +164,7 @@ double levelSlope(const Regions& regions, const Mask& all) {
 
 RegionTexture regionTexture(const EchoPicture& picture) {
   if (picture.labels.empty())
-    return {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
+    return {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
   const Regions regions(picture);
   const Mask cavity = regions.eroded(kCavity), muscle = regions.eroded(kMyocardium),
              atrium = regions.eroded(kAtrium);
@@ -154,6 +186,7 @@ RegionTexture regionTexture(const EchoPicture& picture) {
   Mask all(cavity.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = cavity[i] | muscle[i] | atrium[i];
   t.level_std_slope = levelSlope(regions, all);
+  std::tie(t.left_wall_grey, t.right_wall_grey) = besideCavity(picture, muscle);
   return t;
 }
 

@@ -43,6 +43,13 @@ class Sector {
     t.grey_p5 = orderStatistic(all, 0.05);
     t.grey_p50 = orderStatistic(all, 0.5);
     t.grey_p95 = orderStatistic(all, 0.95);
+    std::vector<float> near;
+    int first_row = picture_.height;
+    forAll(mask_, [&](int, int y, std::size_t i) {
+      first_row = std::min(first_row, y);
+      if (y < first_row + pixelsY(15)) near.push_back(picture_.grey[i]);
+    });
+    t.near_field_grey = orderStatistic(std::move(near), 0.5);
   }
 
   void deviations(SectorTexture& t) const {

@@ -180,21 +180,30 @@ void printTable(const std::map<int, Column>& columns) {
              off[0].first, off[1].second, off[1].first);
   for (const auto& [c, column] : columns)
     fmt::print("{}: {} and {} of 15, {} hearts\n", kNames[c], wide[c], narrow[c], column.size());
-  std::vector<double> cavity, muscle, p5, p50, p95, dark;
-  for (const auto& [c, column] : columns)
-    for (const Measured& m : column) {
-      cavity.push_back(m.region.cavity_grey);
-      muscle.push_back(m.region.myocardium_grey);
-      p5.push_back(m.sector.grey_p5);
-      p50.push_back(m.sector.grey_p50);
-      p95.push_back(m.sector.grey_p95);
-      dark.push_back(m.sector.dark_fraction);
-    }
+  // Medians over hearts, of one column or of all.
+  const auto medianOf = [&](auto&& of, int of_column = -1) {
+    std::vector<double> values;
+    for (const auto& [c, column] : columns)
+      for (const Measured& m : column)
+        if (of_column < 0 || c == of_column) values.push_back(of(m));
+    return quartilesOf(values).median;
+  };
   fmt::print(
-      "greys: cavity {:.0f}, myocardium {:.0f}, sector p5 {:.0f} p50 {:.0f} p95 {:.0f}, dark "
-      "{:.3f}\n",
-      quartilesOf(cavity).median, quartilesOf(muscle).median, quartilesOf(p5).median,
-      quartilesOf(p50).median, quartilesOf(p95).median, quartilesOf(dark).median);
+      "greys: cavity {:.0f}, myocardium {:.0f}, near field {:.0f}, sector p5 {:.0f} p50 {:.0f} p95 "
+      "{:.0f}, dark {:.3f}\n",
+      medianOf([](const Measured& m) { return m.region.cavity_grey; }),
+      medianOf([](const Measured& m) { return m.region.myocardium_grey; }),
+      medianOf([](const Measured& m) { return m.sector.near_field_grey; }),
+      medianOf([](const Measured& m) { return m.sector.grey_p5; }),
+      medianOf([](const Measured& m) { return m.sector.grey_p50; }),
+      medianOf([](const Measured& m) { return m.sector.grey_p95; }),
+      medianOf([](const Measured& m) { return m.sector.dark_fraction; }));
+  fmt::print("left less right wall:");
+  for (const auto& [c, column] : columns)
+    fmt::print(" {} {:.0f}", kNames[c], medianOf([](const Measured& m) {
+                 return m.region.left_wall_grey - m.region.right_wall_grey;
+               }, c));
+  fmt::print("\n");
 }
 
 // Hearts of all grades of quality, in turn.

@@ -80,6 +80,26 @@ TEST(EchoTexture, OfAGrainTheCellsCorrelationsAndDeviationsAreItsOwn) {
   }
 }
 
+// Columns of grey 60, a cavity, and grey 110; above and below them nothing counts.
+TEST(EchoTexture, WallsOnEitherSideAndTheNearFieldHaveTheirGreys) {
+  const auto cavity = [](int x, int y) { return x >= 100 && x < 140 && y >= 100 && y < 200; };
+  const auto columns = [](int y) { return y >= 130 && y < 170; };
+  EchoPicture picture = lit([&](int x, int y) {
+    return y < 60 ? 130.0 : !columns(y) ? 200.0 : cavity(x, y) ? 30.0 : x < 100 ? 60.0 : 110.0;
+  });
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const bool is_lit = picture.grey[picture.labels.size()] > 0;
+      const bool wall = std::abs(x - 120) < 60 && y >= 90 && y < 210;
+      picture.labels.push_back(static_cast<std::uint8_t>(
+          is_lit && cavity(x, y) ? 1 : is_lit && wall ? 2 : 0));
+    }
+  const RegionTexture region = regionTexture(picture);
+  EXPECT_EQ(region.left_wall_grey, 60);
+  EXPECT_EQ(region.right_wall_grey, 110);
+  EXPECT_EQ(sectorTexture(picture).near_field_grey, 130);
+}
+
 // The logarithm of an exponential variable has a skew of -1.14 (log-Rayleigh speckle).
 TEST(EchoTexture, TheSkewOfLogRayleighSpeckle) {
   EchoPicture picture = lit([](int x, int y) {
