@@ -38,7 +38,8 @@ void refuseOfRays(TomlTable& root, const Scene& scene) {
                                                             : "signal.beam_width = \"none\""));
 }
 
-// What several slices across the plane cannot do. A look's slices give way instead.
+// What several slices across the plane cannot do. A look's slices give way instead, and all give
+// way to several rays per beam, which are drawn across the plane themselves.
 void refuseOfSlices(TomlTable& root, const Scene& scene) {
   const AccuracySettings& a = scene.accuracy;
   const TomlTable accuracy = root.table("accuracy");
@@ -46,8 +47,6 @@ void refuseOfSlices(TomlTable& root, const Scene& scene) {
     accuracy.fail("elevation_slices", fmt::format("{} excludes {}, accepted with it: 1",
                                                   a.elevation_slices, other));
   };
-  if (a.rays_per_beam > 1)
-    refuse(fmt::format("accuracy.rays_per_beam = {}", a.rays_per_beam));
   if (a.tracer == TracerChoice::embree) refuse("accuracy.tracer = \"embree\"");
   if (scene.effects.refraction == Switch::on) refuse("effects.refraction = \"on\"");
   if (scene.effects.elevation == Switch::off) refuse("effects.elevation = \"off\"");

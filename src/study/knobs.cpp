@@ -8,6 +8,7 @@
 #include "motion/mesh_motion.h"
 #include "scene/beam_profile.h"
 #include "scene/effect_plan.h"
+#include "scene/elevation_slices.h"
 #include "scene/scan_geometry.h"
 #include "simulate/plan_loop.h"
 #include "study/knob_builder.h"
@@ -119,6 +120,24 @@ void addRays(const Scene& scene, KnobBuilder& table) {
                    [](Scene& s, int n) { s.accuracy.rays_per_beam = n; });
 }
 
+// The beam across the plane, of one ray per beam. Another model of the beam, as several rays are.
+void addSlices(const Scene& scene, KnobBuilder& table) {
+  const int written = scene.accuracy.elevation_slices;
+  Scene several = scene;
+  several.accuracy.elevation_slices = kMostElevationSlices;
+  if (scene.accuracy.tracer == TracerChoice::embree || scene.effects.refraction == Switch::on)
+    return table.leaveOut("slices", "only the plane slice has several slices");
+  if (planEffects(several).elevation_slices == 1)
+    return table.leaveOut("slices", planEffects(several).decision(Effect::elevation).reason);
+  std::vector<int> counts{3, 5, 1};
+  if (written == 3) counts = {1, 5, 3};
+  if (written == 5) counts = {1, 3, 5};
+  const std::size_t last = counts.size() - 1, first = written > 1 ? 0 : last;
+  table.addNumbers(
+      "slices", "accuracy.elevation_slices", "1: the imaging plane; several: the beam across it",
+      counts, {first, last, last, last}, [](Scene& s, int n) { s.accuracy.elevation_slices = n; });
+}
+
 void addEchoes(const Scene& scene, KnobBuilder& table) {
   if (scene.probe.lines < 2) return table.leaveOut("echoes", "the scene has a single line");
   const auto value = [](const char* name, InterfaceEcho echo) {
@@ -157,6 +176,7 @@ KnobTable knobsOf(const Scene& scene) {
   addMotionKnobs(scene, triangles, table);
   addRefraction(scene, motion, table);
   addRays(scene, table);
+  addSlices(scene, table);
   addEchoes(scene, table);
   addModelKnobs(scene, table);
   addStorage<ExrPixel>(
@@ -177,10 +197,10 @@ KnobTable knobsOf(const Scene& scene) {
 }
 
 std::vector<std::string> knobNames() {
-  return {"lines",     "samples",       "subdivision",    "normals",
-          "keyframes", "interpolation", "refraction",     "rays",
-          "echoes",    "snell_angles",  "reflection_cap", "thin_layers",
-          "tgc",       "rolling_lines", "exr_pixel",      "exr_compression"};
+  return {"lines",         "samples",        "subdivision", "normals", "keyframes",
+          "interpolation", "refraction",     "rays",        "slices",  "echoes",
+          "snell_angles",  "reflection_cap", "thin_layers", "tgc",     "rolling_lines",
+          "exr_pixel",     "exr_compression"};
 }
 
 Setting presetSetting(const KnobTable& table, Preset preset) {

@@ -113,6 +113,16 @@ void speckleFrame(benchmark::State& state) {
   overFloor(state, made(*with), made(without));
 }
 
+// Whole frames at the loop's own instants.
+auto wholeFrames(const Simulator& simulator) {
+  return [&simulator, w = simulator.workspace()](std::size_t i) {
+    const CardiacClock& clock = simulator.cardiacClock();
+    const FrameTime time = clock.at(static_cast<int>(i) % clock.frameCount());
+    benchmark::DoNotOptimize(simulator.trace(time, *w));
+    benchmark::DoNotOptimize(simulator.picture(kReference, time, *w, true).pixels.data());
+  };
+}
+
 // A scene's frames with a change next to those without, at the loop's own instants.
 template <typename Change>
 void changedFrame(benchmark::State& state, const Scene& scene, const Change& change) {
@@ -121,15 +131,7 @@ void changedFrame(benchmark::State& state, const Scene& scene, const Change& cha
   change(changed);
   std::optional<Simulator> with;
   withThreads(1, [&] { with.emplace(changed, without.sharedMotion()); });
-  const auto made = [](const Simulator& simulator) {
-    return [&simulator, w = simulator.workspace()](std::size_t i) {
-      const CardiacClock& clock = simulator.cardiacClock();
-      const FrameTime time = clock.at(static_cast<int>(i) % clock.frameCount());
-      benchmark::DoNotOptimize(simulator.trace(time, *w));
-      benchmark::DoNotOptimize(simulator.picture(kReference, time, *w, true).pixels.data());
-    };
-  };
-  overFloor(state, made(*with), made(without));
+  overFloor(state, wholeFrames(*with), wholeFrames(without));
 }
 
 // The whole frame with all artefacts, but for persistence, next to the same frame without them.
@@ -142,6 +144,19 @@ void artefactFrame(benchmark::State& state) {
     s.artefacts.dropout = s.artefacts.acoustic_window = s.artefacts.haze = true;
     s.artefacts.reverberation = s.artefacts.clutter = s.artefacts.noise = true;
   });
+}
+
+// Frames of a beam that is thick across the plane, by slices, next to those of the plane alone.
+void elevationFrame(benchmark::State& state) {
+  const BenchScene bare_scene{Size(state)};
+  const LoopOnDisk loop(bare_scene, false);
+  Scene scene = readScene(loop.sceneFile());
+  scene.accuracy.elevation_slices = static_cast<int>(state.range(3));
+  scene.speckle.on = state.range(4) != 0;
+  const Simulator thick(scene);
+  scene.accuracy.elevation_slices = 1;
+  const Simulator thin(scene, thick.sharedMotion());
+  overFloor(state, wholeFrames(thick), wholeFrames(thin));
 }
 
 // Frames whose lines roll, by lines to a group, next to still ones.
@@ -234,6 +249,11 @@ BENCHMARK(speckleFrame)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(artefactFrame)
     ->ArgsProduct({{50000}, {256}, {1024}, {0, 1}})
+    ->UseManualTime()
+    ->Iterations(kRounds)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(elevationFrame)
+    ->ArgsProduct({{50000}, {256}, {1024}, {3, 5}, {0, 1}})
     ->UseManualTime()
     ->Iterations(kRounds)
     ->Unit(benchmark::kMillisecond);

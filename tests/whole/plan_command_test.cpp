@@ -72,7 +72,6 @@ TEST_F(PlanCommand, ContradictionsAreOneLineThatNamesBothKeys) {
         Contradiction{"signal", "beam_width", "\"fixed\"\nbeam_width_mm = 2", "accuracy",
                       "rays_per_beam", "8"},
         Contradiction{"effects", "elevation", "\"on\"", "accuracy", "rays_per_beam", "1"},
-        Contradiction{"accuracy", "elevation_slices", "3", "accuracy", "rays_per_beam", "8"},
         Contradiction{"accuracy", "elevation_slices", "3", "accuracy", "tracer", "\"embree\""},
         Contradiction{"accuracy", "elevation_slices", "5", "effects", "refraction", "\"on\""}}) {
     SceneText text = ballScene(2);
