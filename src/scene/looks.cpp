@@ -8,7 +8,7 @@ namespace {
 // TMI 38(9), 2198-2210, 2019); greys are presets. Walls send interface echoes no stronger than
 // their muscle: closed white outlines are a drawing's, not a scanner's.
 void applyClean(Scene& scene) {
-  scene.accuracy.elevation_slices = 5;
+  scene.accuracy.elevation_slices = 3;
   scene.trabeculae.deviation_m = 1e-3;
   scene.speckle.on = true;
   scene.speckle.smoothing_m = 0.62e-3;
