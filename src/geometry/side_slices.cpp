@@ -40,7 +40,7 @@ SideSlices::SideSlices(const std::vector<SurfaceTopology>& surfaces, const Scene
 
 void SideSlices::note(const SurfaceFrame& frame) {
   const ScanGeometry geometry(probe_);
-  const double wavelength_m = geometry.wavelength();
+  const ElevationBell bell(probe_);
   for (Moved& moved : moved_) {
     moved.height_m.clear();
     moved.deviation_m.clear();
@@ -49,7 +49,7 @@ void SideSlices::note(const SurfaceFrame& frame) {
       const Vec3f& p = frame.positions_m[moved.surface][v];
       moved.height_m.push_back(p.y);
       const double path_m = geometry.pathOf({toDouble(p).x, 0, toDouble(p).z});
-      moved.deviation_m.push_back(static_cast<float>(elevationDeviation(probe_, wavelength_m, path_m)));
+      moved.deviation_m.push_back(static_cast<float>(bell.deviation(path_m)));
     }
   }
 }

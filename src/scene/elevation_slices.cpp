@@ -1,7 +1,6 @@
 #include "scene/elevation_slices.h"
 
-#include <algorithm>
-#include <cmath>
+#include <numbers>
 
 #include "core/check.h"
 #include "scene/beam_profile.h"
@@ -35,10 +34,12 @@ std::span<const ElevationNode> elevationNodes(int slices) {
   return kFive;
 }
 
-double elevationDeviation(const Probe& probe, double wavelength_m, double depth_m) {
-  return elevationBeamWidth(std::max(depth_m, 0.0), probe.elevation_aperture_m,
-                            probe.elevation_focus_m, wavelength_m) /
-         kWidthPerDeviation;
+ElevationBell::ElevationBell(const Probe& probe) {
+  constexpr double kTwoWays = std::numbers::sqrt2 * kWidthPerDeviation;
+  const double wavelength_m = ScanGeometry(probe).wavelength();
+  slope_ = followedWidth(1, probe.elevation_aperture_m, wavelength_m) / kTwoWays;
+  lens_m_ = probe.elevation_aperture_m / kTwoWays;
+  per_focus_ = 1 / probe.elevation_focus_m;
 }
 
 // The width's square is a quadratic of the depth that opens upwards: largest at an end.
@@ -46,9 +47,8 @@ double elevationReach(const Scene& scene) {
   double widest = 0;
   for (const ElevationNode& node : elevationNodes(scene.accuracy.elevation_slices))
     widest = std::max(widest, node.place);
-  const double wavelength_m = ScanGeometry(scene.probe).wavelength();
-  return widest * std::max(elevationDeviation(scene.probe, wavelength_m, 0),
-                           elevationDeviation(scene.probe, wavelength_m, scene.probe.max_depth_m));
+  const ElevationBell bell(scene.probe);
+  return widest * std::max(bell.deviation(0), bell.deviation(scene.probe.max_depth_m));
 }
 
 }  // namespace echocine

@@ -10,6 +10,8 @@
 // Of a step, as a wall's edge is, n slices make n smaller ones. The widest slices count for little,
 // yet on a logarithmic scale an edge's foot is theirs: 19 dB under the wall for five slices.
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "scene/scene.h"
@@ -26,8 +28,19 @@ struct ElevationNode {
 // The imaging plane first, then the others in pairs. Precondition: 1, 3 or 5.
 std::span<const ElevationNode> elevationNodes(int slices);
 
-// sigma at a path length, all in m; wavelength_m as in ScanGeometry.
-double elevationDeviation(const Probe& probe, double wavelength_m, double depth_m);
+// sigma by the path length, m: elevationBeamWidth() with what does not change worked out before.
+class ElevationBell {
+ public:
+  explicit ElevationBell(const Probe& probe);
+  double deviation(double depth_m) const {
+    const double z = std::max(depth_m, 0.0), diffracted = slope_ * z,
+                 convergent = lens_m_ * (1 - z * per_focus_);
+    return std::sqrt(diffracted * diffracted + convergent * convergent);
+  }
+
+ private:
+  double slope_, lens_m_, per_focus_;
+};
 
 // How far the scene's slices lie from the imaging plane at most, m; 0 of one slice.
 double elevationReach(const Scene& scene);

@@ -98,9 +98,13 @@ TEST(ElevationSlicesLaw, TheReachIsThatOfTheWidestSliceAtTheWidestDepth) {
   const Probe& p = scene.probe;
   const double wavelength_m = ScanGeometry(p).wavelength();
   double widest = 0;
-  for (int i = 0; i <= 1000; ++i)
-    widest = std::max(widest, elevationBeamWidth(p.max_depth_m * i / 1000, p.elevation_aperture_m,
-                                                 p.elevation_focus_m, wavelength_m));
+  for (int i = 0; i <= 1000; ++i) {
+    const double z = p.max_depth_m * i / 1000,
+                 width = elevationBeamWidth(z, p.elevation_aperture_m, p.elevation_focus_m,
+                                            wavelength_m);
+    EXPECT_NEAR(ElevationBell(p).deviation(z), width / std::sqrt(8 * std::log(4.0)), 1e-12);
+    widest = std::max(widest, width);
+  }
   EXPECT_NEAR(elevationReach(scene), std::sqrt(3.0) * widest / std::sqrt(8 * std::log(4.0)), 1e-9);
 }
 
@@ -109,7 +113,8 @@ TEST(ElevationSlicesLaw, ALeaningSheetEchoesWhereEachSliceMeetsIt) {
   for (const double lean : {-0.5, 0.2, 0.7}) {
     const World world = leaningSheet(lean);
     const Probe& p = world.scene.probe;
-    const double whole = wholeEcho(world), wavelength_m = ScanGeometry(p).wavelength();
+    const double whole = wholeEcho(world);
+    const ElevationBell bell(p);
     for (const int n : {3, 5}) {
       const PolarFrame polar = traceSlices(world, n);
       const std::vector<float>& echoes = polar.planes.at(Channel::reflection);
@@ -117,7 +122,7 @@ TEST(ElevationSlicesLaw, ALeaningSheetEchoesWhereEachSliceMeetsIt) {
       for (const ElevationNode& node : elevationNodes(n)) {
         double z = kDepth_m;
         for (int i = 0; i < 50; ++i)
-          z = kDepth_m + lean * node.place * elevationDeviation(p, wavelength_m, z);
+          z = kDepth_m + lean * node.place * bell.deviation(z);
         double near = 0;
         const auto at = static_cast<std::size_t>((z - p.min_depth_m) / p.sampleSpacing());
         for (std::size_t k = at - 1; k <= at + 1; ++k) near += static_cast<double>(echoes[k]);
