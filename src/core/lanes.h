@@ -15,6 +15,7 @@ inline constexpr std::size_t kFloatLanes = 8, kDoubleLanes = 4;
 using Floats8 = float __attribute__((vector_size(32)));
 using Ints8 = std::int32_t __attribute__((vector_size(32)));
 using Uints8 = std::uint32_t __attribute__((vector_size(32)));
+using Shorts8 = std::uint16_t __attribute__((vector_size(16)));
 using Doubles4 = double __attribute__((vector_size(32)));
 using Mask4 = std::int64_t __attribute__((vector_size(32)));  // -1 where true, else 0
 using Ints4 = std::int32_t __attribute__((vector_size(16)));
@@ -60,6 +61,12 @@ inline void storeSome(Floats8 lanes, std::size_t count, float* to) {
 
 inline constexpr double kTiny = 1e-300;  // instead of 0 in a denominator
 
+inline Floats8 larger(Floats8 a, Floats8 b) {
+  return a > b ? a : b;
+}
+inline Floats8 smaller(Floats8 a, Floats8 b) {
+  return a < b ? a : b;
+}
 inline Doubles4 larger(Doubles4 a, Doubles4 b) {
   return a > b ? a : b;
 }
@@ -106,6 +113,28 @@ inline Floats8 exponential(Floats8 x) {
   p = p * r + 5.0000001201e-1F;
   p = p * r * r + r + 1;
   return p * reinterpret_cast<Floats8>((n + 127) << 23);
+}
+
+// Bit i: lane i of a mask, whose lanes are -1 where true, else 0.
+inline unsigned bitsOf(Ints8 mask) {
+#ifdef __AVX2__
+  return static_cast<unsigned>(__builtin_ia32_movmskps256(reinterpret_cast<Floats8>(mask)));
+#else
+  unsigned bits = 0;
+  for (unsigned i = 0; i < kFloatLanes; ++i) bits |= (static_cast<unsigned>(mask[i]) & 1) << i;
+  return bits;
+#endif
+}
+
+// Lane i of the result is lane order[i]. Orders are 0 to 7.
+inline Floats8 reordered(Floats8 a, Ints8 order) {
+#ifdef __AVX2__
+  return __builtin_ia32_permvarsf256(a, order);
+#else
+  Floats8 out;
+  for (std::size_t i = 0; i < kFloatLanes; ++i) out[i] = a[order[i]];
+  return out;
+#endif
 }
 
 inline bool any(Mask4 mask) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 
@@ -17,7 +16,7 @@ namespace echocine {
 
 namespace {
 
-constexpr double kMostScatterers = 5e7;  // 0.6 GB. Our choice
+constexpr double kMostScatterers = 5e7;  // 0.3 GB. Our choice
 
 // Purposes of hashed numbers.
 enum : std::uint64_t { kPlaces = 1, kCount = 2, kGauss = 3, kBatch = 4 };
@@ -33,6 +32,12 @@ Vec3f pointIn(std::uint64_t hash, std::uint32_t j) {
     return static_cast<float>(at - std::floor(at));
   };
   return {along(0), along(1), along(2)};
+}
+
+Vec3f placeInCube(const EightPlaces& eight, std::size_t lane) {
+  constexpr float kStep = 1.0f / kCubeEdge;
+  return kStep * Vec3f{static_cast<float>(eight.u[lane]), static_cast<float>(eight.v[lane]),
+                       static_cast<float>(eight.w[lane])};
 }
 
 // From a path length back to numbers of blocks about the sector.
@@ -135,19 +140,22 @@ Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const Beam
     addBlock(block, material);
   }
   dropUnseen(view, material);
+  for (const EightPlaces& eight : places_)
+    highest_.push_back(*std::max_element(std::begin(eight.v), std::end(eight.v)));
   weigh(material);
 }
 
 void Scatterers::weigh(const Material& material) {
   if (!material.differs()) return;
-  strength_.assign(u_.size(), 1);
+  strength_.assign(places_.size() * kFloatLanes, 1);
   parallelBlocks(batches_.size(), 16, [&](std::size_t begin, std::size_t end) {
     std::vector<Vec3f> places_m;
     for (std::size_t n = begin; n < end; ++n) {
       const ScattererBatch& b = batches_[n];
       places_m.clear();
       for (std::uint32_t i = b.first; i < b.first + b.count; ++i)
-        places_m.push_back(b.low_m + b.edge_m * Vec3f{u_[i], v_[i], w_[i]});
+        places_m.push_back(b.low_m +
+                           b.edge_m * placeInCube(places_[i / kFloatLanes], i % kFloatLanes));
       material.amplitudes(places_m, b.group, std::span(strength_).subspan(b.first, b.count));
     }
   });
@@ -167,23 +175,19 @@ void Scatterers::dropUnseen(const BeamView& view, const Material& material) {
   });
   if (!looked) return;
   std::vector<ScattererBatch> all;
-  std::vector<float> u, v, w;
+  std::vector<EightPlaces> places;
   std::swap(all, batches_);
+  std::swap(places, places_);
   count_ = 0;
   for (std::size_t b = 0; b < all.size(); ++b) {
     if (!seen[b]) continue;
-    const std::size_t whole = (all[b].count + kFloatLanes - 1) / kFloatLanes * kFloatLanes;
-    const std::uint32_t first = all[b].first;
-    for (auto [to, from] : {std::pair(&u, &u_), std::pair(&v, &v_), std::pair(&w, &w_)})
-      to->insert(to->end(), from->begin() + first, from->begin() + first + whole);
-    all[b].first = static_cast<std::uint32_t>(u.size() - whole);
+    const auto from = places.begin() + static_cast<std::ptrdiff_t>(eightOf(all[b]));
+    all[b].first = static_cast<std::uint32_t>(places_.size() * kFloatLanes);
+    places_.insert(places_.end(), from, from + (all[b].count + kFloatLanes - 1) / kFloatLanes);
     count_ += all[b].count;
     batches_.push_back(all[b]);
   }
-  for (auto [to, from] : {std::pair(&u_, &u), std::pair(&v_, &v), std::pair(&w_, &w)}) {
-    from->shrink_to_fit();
-    std::swap(*to, *from);
-  }
+  places_.shrink_to_fit();
 }
 
 // By group and half block: small cubes are left out sooner. Points of a cube ascend across the
@@ -216,17 +220,21 @@ void Scatterers::addBlock(const Block& block, const Material& material) {
 
 void Scatterers::addBatch(std::span<const Vec3f> places_m, Vec3f low_m, float edge_m,
                           std::uint16_t group, bool blood, std::uint64_t pattern) {
-  batches_.push_back({low_m, edge_m, static_cast<std::uint32_t>(u_.size()),
+  batches_.push_back({low_m, edge_m, static_cast<std::uint32_t>(places_.size() * kFloatLanes),
                       static_cast<std::uint32_t>(places_m.size()), group, blood, pattern});
   count_ += places_m.size();
-  for (const Vec3f p : places_m) {
-    u_.push_back((p.x - low_m.x) / edge_m);
-    v_.push_back((p.y - low_m.y) / edge_m);
-    w_.push_back((p.z - low_m.z) / edge_m);
+  const auto stepsOf = [&](float along_m) {
+    return static_cast<std::uint16_t>(
+        std::lround(std::clamp(along_m / edge_m, 0.0f, 1.0f) * static_cast<float>(kCubeEdge)));
+  };
+  for (std::size_t i = 0; i < places_m.size(); ++i) {
+    const std::size_t lane = i % kFloatLanes;
+    if (lane == 0) places_.push_back({});
+    const Vec3f in_m = places_m[i] - low_m;
+    places_.back().u[lane] = stepsOf(in_m.x);
+    places_.back().v[lane] = stepsOf(in_m.y);
+    places_.back().w[lane] = stepsOf(in_m.z);
   }
-  while (u_.size() % kFloatLanes != 0)
-    for (std::vector<float>* list : {&u_, &v_, &w_})
-      list->push_back(std::numeric_limits<float>::quiet_NaN());
 }
 
 }  // namespace echocine

@@ -24,6 +24,13 @@ struct ScattererBatch {
 
 inline constexpr std::uint32_t kMostOfBatch = 1024;
 
+// Places of eight scatterers in their cube, 0 to kCubeEdge: a frame reads most of them, so they are
+// short. A step is 0.2 um of 10 mm.
+struct EightPlaces {
+  std::uint16_t u[kFloatLanes], v[kFloatLanes], w[kFloatLanes];
+};
+inline constexpr std::uint16_t kCubeEdge = 65535;
+
 // Complex numbers with zero mean and variance 1, any run of which serves as a batch's.
 class GaussianTable {
  public:
@@ -44,10 +51,12 @@ class Scatterers {
 
   const std::vector<ScattererBatch>& batches() const { return batches_; }
   std::size_t count() const { return count_; }
-  // Places in their cubes, 0 to 1; NaN between the end of a batch and the next whole lanes.
-  const float* u(const ScattererBatch& b) const { return u_.data() + b.first; }
-  const float* v(const ScattererBatch& b) const { return v_.data() + b.first; }
-  const float* w(const ScattererBatch& b) const { return w_.data() + b.first; }
+  // Places of a batch, which ascend in v. The last eight may be less: the rest are 0.
+  const EightPlaces* places(const ScattererBatch& b) const { return places_.data() + eightOf(b); }
+  // The highest v of each eight.
+  const std::uint16_t* highest(const ScattererBatch& b) const {
+    return highest_.data() + eightOf(b);
+  }
 
   // Factors of amplitude; none where all are 1.
   const float* strength(const ScattererBatch& b) const {
@@ -56,6 +65,7 @@ class Scatterers {
 
  private:
   struct Block;
+  static std::size_t eightOf(const ScattererBatch& b) { return b.first / kFloatLanes; }
   void weigh(const Material& material);
   void addBlock(const Block& block, const Material& material);
   void dropUnseen(const BeamView& view, const Material& material);
@@ -63,7 +73,9 @@ class Scatterers {
                 bool blood, std::uint64_t pattern);
 
   std::vector<ScattererBatch> batches_;
-  std::vector<float> u_, v_, w_, strength_;
+  std::vector<EightPlaces> places_;
+  std::vector<std::uint16_t> highest_;
+  std::vector<float> strength_;
   std::size_t count_ = 0;
 };
 

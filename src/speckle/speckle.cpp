@@ -38,6 +38,7 @@ void Speckle::addUp(const MaterialFrame& tissue, double time_s, LineRange lines,
     splatter_.add(cube, scatterers_, batch, mix, splats);
   }
   addSheets(tissue.onSheets(), time_s, splats);
+  splats.settle();
 }
 
 // Eight places in a cube's stead, by runs of the table that belong to the seed.

@@ -1,52 +1,12 @@
 #pragma once
-// Sorts the scatterers' splats by line, each at the sample nearest to it: what the point spread
-// function then smears.
+// From scatterers to splats: where in beam space each one is now, its phase and its weight.
 
 #include <cstdint>
-#include <span>
-#include <vector>
 
-#include "core/beam_plane.h"
 #include "speckle/scatterers.h"
+#include "speckle/splat_lists.h"
 
 namespace echocine {
-
-// Of one scatterer: c e exp(-2j k0 r), its real and imaginary part, and e^2.
-struct Splat {
-  float real, imaginary, square;
-  std::int32_t sample;
-};
-
-// A frame's splats by line, each line's in the order in which they came. They are written and read
-// one after the other, so that a frame's sums need never be in memory all at once.
-class SplatLists {
- public:
-  // No splats yet; from now on those of some of the lines are kept.
-  void start(int lines, LineRange kept) {
-    lists_.resize(static_cast<std::size_t>(lines));
-    for (List& list : lists_) list.next = list.memory.data();
-    first_ = static_cast<float>(kept.first);
-    end_ = static_cast<float>(kept.end);
-  }
-  Ints8 keeps(Floats8 line) const { return (line >= first_) & (line < end_); }
-
-  // Of lanes that are seen (-1, else 0). Every line is one of the frame's.
-  void add(const Splat* splats, Ints8 lines, Ints8 seen);
-
-  std::span<const Splat> line(int i) const {
-    const List& list = lists_[static_cast<std::size_t>(i)];
-    return {list.memory.data(), list.next};
-  }
-
- private:
-  struct List {
-    Splat *next = nullptr, *end = nullptr;
-    std::vector<Splat> memory;
-  };
-  static void grow(List& list);
-  std::vector<List> lists_;
-  float first_ = 0, end_ = 0;
-};
 
 // The Gaussian numbers of a batch at an instant: a mix of two draws, of variance 1.
 struct GaussianMix {
@@ -94,11 +54,11 @@ class Splatter {
   };
   Bend bendOf(Floats8 sample) const;
   void addLanes(const BeamCube& at, const Bend& bend, const GaussianMix& mix, std::uint32_t j,
-                SplatLists& splats) const;
+                std::uint32_t count, SplatLists& splats) const;
 
-  int samples_;
+  float samples_;
   float turns_per_sample_, turns_before_;
-  double min_depth_m_, spacing_m_, lens_, focus_m_;
+  float min_depth_m_, spacing_m_, bend_, bend_at_focus_;
 };
 
 }  // namespace echocine

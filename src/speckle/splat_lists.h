@@ -1,0 +1,98 @@
+#pragma once
+// Splats sorted by line, each at the sample nearest to its scatterer: what the point spread
+// function then smears.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/beam_plane.h"
+#include "core/lanes.h"
+
+namespace echocine {
+
+// Of one scatterer: c e exp(-2j k0 r), its real and imaginary part, and e^2.
+struct Splat {
+  float real, imaginary, square;
+  std::int32_t sample;
+};
+
+// By a mask's bits: the numbers of its lanes, then whatever.
+struct LaneOrders {
+  std::array<std::array<std::uint16_t, kFloatLanes>, 256> of{};
+  constexpr LaneOrders() {
+    for (std::size_t bits = 0; bits < of.size(); ++bits) {
+      std::size_t count = 0;
+      for (std::uint16_t lane = 0; lane < kFloatLanes; ++lane)
+        if (bits >> lane & 1) of[bits][count++] = lane;
+    }
+  }
+};
+inline constexpr LaneOrders kLaneOrders;
+
+// Eight scatterers in beam space, seen or not.
+struct BeamPlaces {
+  Floats8 line, sample;     // by the number of the one whose share begins there
+  Floats8 q;                // square of the place across, in parts of the elevation's cut
+  Floats8 turns;            // of the phase
+  Floats8 real, imaginary;  // c
+};
+
+// A frame's splats by line, each line's in the order in which they came. They are written and read
+// one after the other, so that a frame's sums need never be in memory all at once.
+class SplatLists {
+ public:
+  // No splats yet; from now on those of some of the lines are kept.
+  void start(int lines, LineRange kept);
+
+  // Of the lanes in the mask that lie in kept lines. Without a branch on what is seen, which no
+  // processor foresees.
+  void add(const BeamPlaces& places, Ints8 seen) {
+    const unsigned bits = bitsOf(seen & (places.line >= first_) & (places.line < end_));
+    Shorts8 lanes;
+    std::memcpy(&lanes, kLaneOrders.of[bits].data(), sizeof lanes);
+    const Ints8 order = __builtin_convertvector(lanes, Ints8);
+    const Ints8 at = __builtin_convertvector(places.line, Ints8) << 16 |
+                     __builtin_convertvector(places.sample, Ints8);
+    Waiting& w = waiting_;
+    const std::size_t n = w.count;
+    store(reordered(places.q, order), w.q + n);
+    store(reordered(places.turns, order), w.turns + n);
+    store(reordered(places.real, order), w.real + n);
+    store(reordered(places.imaginary, order), w.imaginary + n);
+    store(reordered(reinterpret_cast<Floats8>(at), order), w.at + n);
+    w.count = n + static_cast<std::size_t>(__builtin_popcount(bits));
+    if (w.count > kMostWaiting - kFloatLanes) sortWhole();
+  }
+  // After the last add(): what waits becomes splats.
+  void settle();
+
+  std::span<const Splat> line(int i) const {
+    const List& list = lists_[static_cast<std::size_t>(i)];
+    return {list.memory.data(), list.next};
+  }
+
+ private:
+  struct List {
+    Splat *next = nullptr, *end = nullptr;
+    std::vector<Splat> memory;
+  };
+  // Those that are seen wait side by side: of eight places half are, and most of the work comes
+  // after that is known.
+  static constexpr std::size_t kMostWaiting = 512;
+  struct Waiting {
+    std::size_t count = 0;
+    alignas(32) float q[kMostWaiting], turns[kMostWaiting], real[kMostWaiting],
+        imaginary[kMostWaiting], at[kMostWaiting];  // at: bits of line and sample
+  };
+  void sortWhole();
+  void sort(std::size_t first, std::size_t count);
+  static void grow(List& list);
+
+  std::vector<List> lists_;
+  float first_ = 0, end_ = 0;
+  Waiting waiting_;
+};
+
+}  // namespace echocine
