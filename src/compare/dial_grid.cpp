@@ -18,6 +18,10 @@ std::vector<double> ScanAxis::values() const {
   return out;
 }
 
+int nodesFor(std::size_t axes) {
+  return axes >= kMostAxes ? 3 : 4;
+}
+
 std::vector<double> middleOf(const std::vector<ScanAxis>& axes) {
   std::vector<double> middle;
   for (const ScanAxis& axis : axes) middle.push_back(0.5 * (axis.range.low + axis.range.high));

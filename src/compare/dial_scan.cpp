@@ -18,8 +18,6 @@ namespace echocine::compare {
 
 namespace {
 
-constexpr std::size_t kMostAxes = 3;
-
 // from_chars knows no locale, in which 0.5 might end at the point.
 double numberOf(const std::string& option, const std::string& text) {
   double value = 0;
@@ -113,12 +111,6 @@ void refuseUnusable(const ScanOptions& o) {
   if (count > kMost)
     throw SceneError(
         fmt::format("--scan: {:.0f} evaluations, accepted: {:g}; take larger steps", count, kMost));
-}
-
-// Nodes of each dial: two dials need 16 hearts, three 27. Our choice: with four the surfaces lie
-// within 0.1 mm over half of a dial's range.
-int nodesFor(std::size_t axes) {
-  return axes >= kMostAxes ? 3 : 4;
 }
 
 // Of the best heart itself, recorded at its own dials: with the segments of its wall.

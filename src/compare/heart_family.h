@@ -43,8 +43,8 @@ class HeartNodes {
 };
 
 // Between recorded hearts every point of a surface is the polynomial through its nodes, in the
-// probe's frame. Views are aimed by each heart, so the
-// plane moves with the dials as `echocine heart` would move it.
+// probe's frame. Views are aimed by each heart, so the plane moves with the dials as `echocine
+// heart` would move it.
 class HeartFamily {
  public:
   // tilt_deg: by which the plane may be tilted and rotated, either way. Throws JobError when the

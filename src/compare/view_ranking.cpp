@@ -9,15 +9,10 @@
 #include "compare/split.h"
 #include "core/error.h"
 #include "core/nearest_word.h"
-#include "core/parallel.h"
-#include "motion/heart/heart_scene.h"
 
 namespace echocine::compare {
 
 namespace {
-
-// A middle heart at the nodes of two dials lies within 0.4 mm of a recorded one. Our choice.
-constexpr int kNodes = 4;
 
 heart::View viewNamed(const std::string& name) {
   if (const auto view = heart::viewOf(name)) return *view;
@@ -35,7 +30,7 @@ heart::View viewNamed(const std::string& name) {
 
 void noteLimits(ViewRanking& ranking) {
   const auto say = [&](const std::string& note) { ranking.notes.push_back(note); };
-  constexpr double kDoubtful = 0.1;  // below it a test's views are told wrong; see README.md
+  constexpr double kDoubtful = 0.1;  // views told with more are right in a test; see README.md
   const ViewFound& best = ranking.views.front();
   if (ranking.confidence < kDoubtful)
     say(fmt::format("{} and {} are hardly told apart (confidence {:.2f})", keyOf(best.view),
@@ -88,7 +83,7 @@ std::vector<heart::View> parseViews(const std::string& text) {
   return views;
 }
 
-void rank(ViewRanking& ranking) {
+void orderViews(ViewRanking& ranking) {
   std::stable_sort(
       ranking.views.begin(), ranking.views.end(),
       [](const ViewFound& a, const ViewFound& b) { return a.heart.left < b.heart.left; });
@@ -107,9 +102,9 @@ ViewRanking rankViews(const Loop& real, const ViewsOptions& options, const Monit
   ranking.beat_anchor = real.beat_anchor;
   std::vector<DialRange> ranges;
   for (const ScanAxis& axis : ranking.population) ranges.push_back(axis.range);
-  const HeartNodes hearts(options.dials, ranges, kFitFrames, kNodes, monitor);
+  const HeartNodes hearts(options.dials, ranges, kFitFrames, nodesFor(ranges.size()), monitor);
   ranking.nodes_ms = 1e3 * (cpuSeconds() - since);
-  // One at a time: a family takes 0.2 GB.
+  // One at a time: families are large.
   for (const heart::View view : options.views) {
     Monitor one = monitor;
     one.tell = [&](const Progress& p) {
@@ -120,7 +115,7 @@ ViewRanking rankViews(const Loop& real, const ViewsOptions& options, const Monit
                                        ranking.population, real, options.side, options.tilt_deg,
                                        one));
   }
-  rank(ranking);
+  orderViews(ranking);
   for (const std::string& note : real.video.notes) ranking.notes.push_back(note);
   noteLimits(ranking);
   ranking.cpu_ms = 1e3 * (cpuSeconds() - since);

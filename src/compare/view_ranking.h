@@ -55,7 +55,7 @@ ViewRanking rankViews(const ViewsOptions& options, const Monitor& monitor = {});
 // Of a loop in memory; options.real plays no part.
 ViewRanking rankViews(const Loop& real, const ViewsOptions& options, const Monitor& monitor = {});
 // Orders the views, and tells margin and confidence. Precondition: two or more.
-void rank(ViewRanking& ranking);
+void orderViews(ViewRanking& ranking);
 
 // views.csv, views.json and views.html. Throws JobError.
 void writeViews(const ViewRanking& ranking, const std::filesystem::path& folder);
