@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "cli/compare_tables.h"
 #include "cli/documents.h"
 #include "cli/number_check.h"
 #include "cli/progress_line.h"
@@ -82,85 +83,6 @@ void checkOptions(const compare::CompareOptions& o) {
     throw SceneError("--knots: needs two greys or more, such as 0,40,90,160,255");
 }
 
-void print(const compare::TiltFound& t) {
-  const auto degrees = [](double rad) { return rad / radiansFromDegrees(1); };
-  fmt::print(
-      "  tilt: {:.1f} deg, confidence {:.2f}; rotation {:.1f} deg, confidence {:.2f}; the model's "
-      "discrepancy {:.4f}, {:.4f} untilted; {} planes, {:.1f} s of a core\n",
-      degrees(t.tilt.tilt_rad), t.tilt_confidence, degrees(t.tilt.rotate_rad), t.rotate_confidence,
-      t.found.discrepancy, t.untilted, t.planes, 1e-3 * t.cpu_ms);
-}
-
-void printBeat(const compare::Loop& real) {
-  fmt::print("  beat: {}", real.beat_anchor);
-  if (real.ecg)
-    fmt::print(", {}, {} R waves, {:.2f} px a frame, confidence {:.2f}", real.ecg->kind,
-               real.rWaveFrames().size(), real.ecg->px_per_frame, real.ecg->confidence);
-  fmt::print("\n");
-}
-
-// The one number first: it is what optimisers and impatient readers want.
-void print(const compare::Comparison& c, const std::filesystem::path& folder) {
-  fmt::print(
-      "discrepancy {:.4f} (0 equal, about 1 unrelated), mean of {} frames; {:.4f} as placed\n",
-      c.discrepancy,
-      std::count_if(c.frames.begin(), c.frames.end(), [](const auto& f) { return f.counted(); }),
-      c.discrepancy_as_placed);
-  std::string head = fmt::format("  {:<22}", "");
-  for (const Metric& metric : kMetrics)
-    if (*metric.column) head += fmt::format("{:>8}", metric.column);
-  fmt::print("{}\n", head);
-  const auto row = [](const std::string& name, const FrameMetrics& m) {
-    std::string line = fmt::format("  {:<22}", name);
-    for (const Metric& metric : kMetrics)
-      if (*metric.column) line += fmt::format("{:8.{}f}", m.*metric.value, metric.decimals);
-    fmt::print("{}\n", line);
-  };
-  row("greys as they are", c.mean_before);
-  row("greys calibrated", c.mean_after);
-  for (const auto& band : c.mean_bands)
-    if (band.metrics.weight > 0) row("  band: " + band.structure, band.metrics);
-  fmt::print("  time: {}, shift {:.2f} frames, pace {:.3f}, confidence {:.2f}\n", c.time.method,
-             c.time.shift_frames, c.time.rate, c.time.confidence);
-  printBeat(c.real);
-  const auto& p = c.space.placement;
-  fmt::print(
-      "  space: {}, shift {:.2f}, {:.2f} px, scale {:.4f}, rotation {:.2f} deg{}, confidence "
-      "{:.2f}\n",
-      c.space.method, p.shift_x_px, p.shift_y_px, p.scale, p.rotation_rad / radiansFromDegrees(1),
-      c.space.used ? "" : " not used", c.space.confidence);
-  if (c.scene_fit && c.scene_fit->tilt) print(*c.scene_fit->tilt);
-  fmt::print(
-      "  {}: compare.html, frames.csv, summary.json, side_by_side.avi, sector_real.png, "
-      "sector_synthetic.png\n",
-      folder.string());
-}
-
-void print(const compare::DialScan& scan, const std::filesystem::path& folder) {
-  const compare::ScanPoint& best = scan.points[scan.best];
-  std::string where, between;
-  for (std::size_t a = 0; a < best.values.size(); ++a) {
-    const std::string& key = scan.options.axes[a].range.key;
-    where += fmt::format("{}{} {:g}", a > 0 ? ", " : "", key, best.values[a]);
-    if (!scan.minimum.empty())
-      between += fmt::format("{}{} {:.4g}", a > 0 ? ", " : "", key, scan.minimum[a]);
-  }
-  const compare::FitTerms& t = best.found.terms;
-  fmt::print("discrepancy {:.4f} at {}{}\n", best.found.discrepancy, where,
-             between.empty() ? "" : "; between the steps least at " + between);
-  fmt::print("  region {:.3f}, boundary {:.3f}, motion {:.3f}, {:.0f} % in sight\n", t.region,
-             t.boundary, t.motion, 100 * t.in_sight);
-  const compare::FitPose& p = best.found.pose;
-  fmt::print("  pose: shift {:.1f}, {:.1f} mm, turn {:.1f} deg, scale {:.3f}, confidence {:.2f}\n",
-             1e3 * p.shift_x_m, 1e3 * p.shift_z_m, p.turn_rad / radiansFromDegrees(1), p.scale,
-             scan.centre.confidence);
-  if (scan.tilt) print(*scan.tilt);
-  fmt::print("  beat: {}\n", scan.beat_anchor);
-  fmt::print("  {} evaluations of {:.0f} ms of a core, hearts recorded in {:.1f} s of a core\n",
-             scan.points.size(), scan.evaluation_ms, 1e-3 * scan.family_ms);
-  fmt::print("  {}: scan.csv, scan.json, scan.html\n", folder.string());
-}
-
 }  // namespace
 
 CompareCommand::CompareCommand(CLI::App& app) {
@@ -168,7 +90,7 @@ CompareCommand::CompareCommand(CLI::App& app) {
       app.add_subcommand("compare", "Compare a synthetic loop with an echo video, frame by frame");
   command
       ->add_option("synthetic", options_.synthetic,
-                   "Folder of a render, or any video; left out with --scan")
+                   "Folder of a render, or any video; left out with --scan and --views")
       ->required();
   command->add_option("real", options_.real,
                       "AVI, MP4, GIF, DICOM, or a folder of PNG or JPEG frames");
@@ -197,8 +119,8 @@ CompareCommand::CompareCommand(CLI::App& app) {
   command
       ->add_option(
           "--tilt", options_.tilt_deg,
-          fmt::format("Tilt and rotate the plane of --scene, or of the heart of --scan, to "
-                      "where it fits best: degrees either way, 0 to {:g}",
+          fmt::format("Tilt and rotate the plane of --scene, or of the hearts of --scan or "
+                      "--views, to where it fits best: degrees either way, 0 to {:g}",
                       compare::kMostTilt_deg))
       ->check(within(0, compare::kMostTilt_deg))
       ->type_name("NUMBER")
@@ -208,6 +130,10 @@ CompareCommand::CompareCommand(CLI::App& app) {
       "--scan", scan_text_,
       "Instead of a synthetic loop: a parametric heart whose dials are changed, up to "
       "three, such as ef=0.3:0.75:0.05,edv=120:230:20");
+  command->add_option("--views", views_text_,
+                      "Instead of a synthetic loop: which of these views the loop shows, and whose "
+                      "heart. all, or two or more of " +
+                          viewList());
   command->add_option("--dials", dials_text_,
                       "Dials of that heart that stay, such as hr=72,wall-thickness=11");
   command->add_option("--view", view_text_, "View of that heart, as `echocine heart` has them")
@@ -222,12 +148,16 @@ CompareCommand::CompareCommand(CLI::App& app) {
 }
 
 int CompareCommand::run() {
+  if (!scan_text_.empty() && !views_text_.empty())
+    throw SceneError("--views: --scan scans one view; give one of the two");
   if (!scan_text_.empty()) return runScan();
+  for (const bool given : {scan_.yes, view_text_ != "a4c"})
+    if (given) throw SceneError("--view and --yes: belong to --scan");
+  if (!views_text_.empty()) return runViews();
   if (options_.real.empty())
     throw SceneError(
-        "compare: needs two loops, SYNTHETIC and REAL; with --scan the real one alone");
-  for (const bool given : {!dials_text_.empty(), scan_.yes, view_text_ != "a4c"})
-    if (given) throw SceneError("--dials, --view and --yes: belong to --scan");
+        "compare: needs two loops, SYNTHETIC and REAL; with --scan or --views the real one alone");
+  if (!dials_text_.empty()) throw SceneError("--dials: belongs to --scan and --views");
   // A flag that leaves out reads better than one that turns on what is on.
   options_.align_space = !no_space_;
   options_.real_side.read_ecg = options_.synthetic_side.read_ecg = !no_ecg_;
@@ -238,15 +168,22 @@ int CompareCommand::run() {
     const compare::Comparison comparison = compareLoops(options_, line.monitor());
     line.finish();
     writeResults(comparison, options_, folder_);
-    if (!quiet_) print(comparison, folder_);
+    if (!quiet_) printTable(comparison, folder_);
   });
   return 0;
 }
 
+void CompareCommand::needOneLoop(const char* option) const {
+  if (!options_.real.empty())
+    throw SceneError(
+        fmt::format("{}: takes the real loop alone; leave the synthetic one out", option));
+  if (!options_.scene.empty())
+    throw SceneError(fmt::format("{}: has hearts of its own; leave --scene out", option));
+}
+
 // One loop stands first, whatever the position is called.
 int CompareCommand::runScan() {
-  if (!options_.real.empty())
-    throw SceneError("--scan: takes the real loop alone; leave the synthetic one out");
+  needOneLoop("--scan");
   const auto view = heart::viewOf(view_text_);
   if (!view)
     throw SceneError(
@@ -264,7 +201,27 @@ int CompareCommand::runScan() {
     const compare::DialScan scan = scanDials(scan_, line.monitor());
     line.finish();
     writeScan(scan, folder_);
-    if (!quiet_) print(scan, folder_);
+    if (!quiet_) printTable(scan, folder_);
+  });
+  return 0;
+}
+
+int CompareCommand::runViews() {
+  needOneLoop("--views");
+  compare::ViewsOptions options;
+  options.views = compare::parseViews(views_text_);
+  options.dials = compare::parseDials(dials_text_);
+  options.real = options_.synthetic;
+  options.side = options_.real_side;
+  options.side.read_ecg = !no_ecg_;
+  options.tilt_deg = options_.tilt_deg;
+  listenForStop();
+  ProgressLine line(quiet_);
+  withThreads(threads_, [&] {
+    const compare::ViewRanking ranking = rankViews(options, line.monitor());
+    line.finish();
+    writeViews(ranking, folder_);
+    if (!quiet_) printTable(ranking, folder_);
   });
   return 0;
 }

@@ -1,10 +1,12 @@
 #pragma once
-// echocine compare SYNTHETIC REAL -o DIR, or echocine compare REAL --scan DIALS -o DIR
+// echocine compare SYNTHETIC REAL -o DIR, echocine compare REAL --scan DIALS -o DIR, or
+// echocine compare REAL --views all -o DIR
 
 #include <string>
 
 #include "compare/compare.h"
 #include "compare/dial_scan.h"
+#include "compare/view_ranking.h"
 
 namespace CLI {
 class App;
@@ -20,10 +22,13 @@ class CompareCommand {
 
  private:
   int runScan();
+  int runViews();
+  // Of a command that holds hearts of its own against one loop.
+  void needOneLoop(const char* option) const;
 
   compare::CompareOptions options_;
   compare::ScanOptions scan_;
-  std::string scan_text_, dials_text_, view_text_ = "a4c";
+  std::string scan_text_, views_text_, dials_text_, view_text_ = "a4c";
   std::filesystem::path folder_;
   int threads_ = 0;
   bool quiet_ = false, no_space_ = false, no_ecg_ = false;

@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <charconv>
 #include <cmath>
-#include <mutex>
-#include <opencv2/core.hpp>
 
 #include "compare/cpu_seconds.h"
+#include "compare/split.h"
 #include "core/error.h"
 #include "core/nearest_word.h"
-#include "core/parallel.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/heart/parameters.h"
 #include "scene/view_names.h"
@@ -20,18 +17,6 @@
 namespace echocine::compare {
 
 namespace {
-
-constexpr std::size_t kMostAxes = 3;
-
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts{""};
-  for (const char c : text)
-    if (c == at)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  return parts;
-}
 
 // from_chars knows no locale, in which 0.5 might end at the point.
 double numberOf(const std::string& option, const std::string& text) {
@@ -65,13 +50,6 @@ void checkRange(const std::string& option, const heart::Dial& dial, double value
 }
 
 }  // namespace
-
-std::vector<double> ScanAxis::values() const {
-  std::vector<double> out;
-  const int steps = static_cast<int>(std::floor((range.high - range.low) / step + 1e-6));
-  for (int i = 0; i <= steps; ++i) out.push_back(range.low + step * i);
-  return out;
-}
 
 std::vector<ScanAxis> parseScan(const std::string& text) {
   std::vector<ScanAxis> axes;
@@ -116,20 +94,6 @@ std::map<std::string, double> parseDials(const std::string& text) {
 
 namespace {
 
-std::vector<ScanPoint> pointsOf(const std::vector<ScanAxis>& axes) {
-  std::vector<ScanPoint> points{{}};
-  for (const ScanAxis& axis : axes) {
-    std::vector<ScanPoint> next;
-    for (const ScanPoint& point : points)
-      for (const double value : axis.values()) {
-        next.push_back(point);
-        next.back().values.push_back(value);
-      }
-    points = std::move(next);
-  }
-  return points;
-}
-
 void refuseUnusable(const ScanOptions& o) {
   double count = 1;
   for (const ScanAxis& axis : o.axes) {
@@ -147,62 +111,6 @@ void refuseUnusable(const ScanOptions& o) {
   if (count > kMost)
     throw SceneError(
         fmt::format("--scan: {:.0f} evaluations, accepted: {:g}; take larger steps", count, kMost));
-}
-
-// Nodes of each dial: two dials need 16 hearts, three 27. Our choice: with four the surfaces lie
-// within 0.1 mm over half of a dial's range.
-int nodesFor(std::size_t axes) {
-  return axes >= kMostAxes ? 3 : 4;
-}
-
-// Least squares of a paraboloid in steps about the best point.
-void fitParaboloid(DialScan& scan) {
-  const std::size_t n = scan.options.axes.size(), unknowns = 1 + n + n * (n + 1) / 2;
-  const auto steps = [&](const ScanPoint& p, std::size_t a) {
-    return (p.values[a] - scan.points[scan.best].values[a]) / scan.options.axes[a].step;
-  };
-  cv::Mat rows(0, static_cast<int>(unknowns), CV_64F), right(0, 1, CV_64F);
-  for (const ScanPoint& p : scan.points) {
-    cv::Mat row(1, static_cast<int>(unknowns), CV_64F);
-    int at = 0;
-    bool near = true;
-    row.at<double>(at++) = 1;
-    for (std::size_t a = 0; a < n; ++a) {
-      near = near && std::abs(steps(p, a)) < 2.5;
-      row.at<double>(at++) = steps(p, a);
-    }
-    for (std::size_t a = 0; a < n; ++a)
-      for (std::size_t b = 0; b <= a; ++b) row.at<double>(at++) = steps(p, a) * steps(p, b);
-    if (!near) continue;
-    rows.push_back(row);
-    right.push_back(p.found.discrepancy);
-  }
-  if (rows.rows <= static_cast<int>(unknowns)) return;
-  cv::Mat x, hessian(static_cast<int>(n), static_cast<int>(n), CV_64F), values, move;
-  cv::solve(rows, right, x, cv::DECOMP_SVD);
-  int at = 1 + static_cast<int>(n);
-  for (int a = 0; a < static_cast<int>(n); ++a)
-    for (int b = 0; b <= a; ++b, ++at)
-      hessian.at<double>(a, b) = hessian.at<double>(b, a) = x.at<double>(at) * (a == b ? 2 : 1);
-  for (int a = 0; a < static_cast<int>(n); ++a) scan.curvature.push_back(hessian.at<double>(a, a));
-  cv::eigen(hessian, values);
-  if (!(values.at<double>(values.rows - 1) > 0)) return;
-  // Of the inverse: how errors of two dials go together.
-  const cv::Mat inverse = hessian.inv();
-  for (int a = 0; a < static_cast<int>(n); ++a) {
-    scan.confounding.emplace_back();
-    for (int b = 0; b < static_cast<int>(n); ++b)
-      scan.confounding.back().push_back(
-          inverse.at<double>(a, b) /
-          std::sqrt(inverse.at<double>(a, a) * inverse.at<double>(b, b)));
-  }
-  move = -inverse * x.rowRange(1, 1 + static_cast<int>(n));
-  for (std::size_t a = 0; a < n; ++a) {
-    const ScanAxis& axis = scan.options.axes[a];
-    scan.minimum.push_back(std::clamp(
-        scan.points[scan.best].values[a] + move.at<double>(static_cast<int>(a)) * axis.step,
-        axis.range.low, axis.range.high));
-  }
 }
 
 // Of the best heart itself, recorded at its own dials: with the segments of its wall.
@@ -230,11 +138,8 @@ DialScan scanDials(const ScanOptions& options, const Monitor& monitor) {
   scan.view = keyOf(options.view);
   const Loop real = readLoop(options.real, options.side, true);
   std::vector<DialRange> ranges;
-  std::vector<double> middle;
-  for (const ScanAxis& axis : options.axes) {
-    ranges.push_back(axis.range);
-    middle.push_back(0.5 * (axis.range.low + axis.range.high));
-  }
+  for (const ScanAxis& axis : options.axes) ranges.push_back(axis.range);
+  const std::vector<double> middle = middleOf(options.axes);
   double since = cpuSeconds();
   const HeartFamily family(options.dials, ranges, options.view, kFitFrames, nodesFor(ranges.size()),
                            monitor, options.tilt_deg);
@@ -252,22 +157,9 @@ DialScan scanDials(const ScanOptions& options, const Monitor& monitor) {
   const PlaneTilt tilt = scan.tilt ? scan.tilt->tilt : PlaneTilt{};
   std::vector<FitPose> starts{scan.centre.pose};
   if (!scan.centre.rivals.empty()) starts.push_back(scan.centre.rivals.front().first);
-  scan.points = pointsOf(options.axes);
   since = cpuSeconds();
-  std::atomic<std::size_t> done = 0;
-  std::mutex telling;
-  parallelBlocks(scan.points.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!monitor.keep_going()) throw JobError("stopped while dials were scanned");
-      scan.points[i].found = discrepancy.refine(family.at(scan.points[i].values, tilt), starts);
-      const std::lock_guard lock(telling);
-      monitor.tell({Task::settings, ++done, scan.points.size()});
-    }
-  });
+  static_cast<DialGrid&>(scan) = holdGrid(options.axes, family, discrepancy, starts, tilt, monitor);
   scan.evaluation_ms = 1e3 * (cpuSeconds() - since) / static_cast<double>(scan.points.size());
-  for (std::size_t i = 0; i < scan.points.size(); ++i)
-    if (scan.points[i].found.discrepancy < scan.points[scan.best].found.discrepancy) scan.best = i;
-  fitParaboloid(scan);
   scan.where = whereBest(scan, discrepancy, real);
   for (const std::string& note : real.video.notes) scan.notes.push_back(note);
   if (scan.beat.confidence < 0.1)

@@ -7,17 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "compare/dial_grid.h"
 #include "compare/fit_where.h"
-#include "compare/heart_family.h"
 
 namespace echocine::compare {
-
-// low, low + step, ... up to high.
-struct ScanAxis {
-  DialRange range;
-  double step = 0;
-  std::vector<double> values() const;
-};
 
 // "ef=0.3:0.75:0.05,edv=120:230:20". Throws SceneError naming --scan: no dial of the heart, beyond
 // its range, no step upwards, more than three dials.
@@ -36,26 +29,13 @@ struct ScanOptions {
 };
 inline constexpr std::size_t kMostUnasked = 500;  // some two minutes of one core; our choice
 
-struct ScanPoint {
-  std::vector<double> values;  // by axis
-  PoseFound found;
-};
-
-struct DialScan {
+struct DialScan : DialGrid {
   ScanOptions options;
   std::string view;
   BeatFound beat;
-  std::string beat_anchor;        // of the loop: Loop::beat_anchor
-  PoseFound centre;               // in the middle of all ranges, searched from everywhere
-  std::optional<TiltFound> tilt;  // of that heart, where asked for; all points have it
-  std::vector<ScanPoint> points;  // the last axis fastest
-  std::size_t best = 0;
-  // Of the paraboloid through the points within two steps of the best; empty where there are too
-  // few of them, or it has no least value.
-  std::vector<double> minimum;
-  std::vector<double> curvature;                 // D per square of a step, by axis
-  std::vector<std::vector<double>> confounding;  // -1..1 between axes: at 1 or -1 a change of one
-                                                 // is made good by the other
+  std::string beat_anchor;                  // of the loop: Loop::beat_anchor
+  PoseFound centre;                         // in the middle of all ranges, searched from everywhere
+  std::optional<TiltFound> tilt;            // of that heart, where asked for; all points have it
   double family_ms = 0, evaluation_ms = 0;  // CPU time: of recording, of one evaluation in the mean
   std::vector<std::string> notes;
   FitWhere where;  // of the best point

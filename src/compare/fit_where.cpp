@@ -128,24 +128,40 @@ double rounded(double value) {
   return std::round(1e3 * value) / 1e3;
 }
 
-// Places in pixels of the pictures; a row for each boundary point and cell.
+// Places in pixels of the pictures.
+struct PixelAt {
+  const FitWhere& where;
+  double x(double m) const { return rounded(where.apex_x_px + m / where.metres_per_pixel); }
+  double y(double m) const { return rounded(where.apex_y_px + m / where.metres_per_pixel); }
+};
+
+// A row for each boundary point and cell.
 Json mapJson(const FitWhere& where) {
-  const auto x = [&](double m) { return rounded(where.apex_x_px + m / where.metres_per_pixel); };
-  const auto y = [&](double m) { return rounded(where.apex_y_px + m / where.metres_per_pixel); };
+  const PixelAt at{where};
   Json frames = Json::array();
   for (std::size_t n = 0; n < where.map.boundary.size(); ++n) {
     Json boundary = Json::array(), region = Json::array();
     for (const BoundaryOffset& p : where.map.boundary[n])
-      boundary.push_back({x(p.x_m), y(p.z_m), rounded(p.offset_mm), rounded(p.certainty),
+      boundary.push_back({at.x(p.x_m), at.y(p.z_m), rounded(p.offset_mm), rounded(p.certainty),
                           rounded(p.motion_mm), p.surface, p.segment});
     for (const RegionLeft& r : where.map.region[n])
-      region.push_back({x(r.x_m), y(r.z_m), rounded(r.left)});
+      region.push_back({at.x(r.x_m), at.y(r.z_m), rounded(r.left)});
     frames.push_back({{"boundary", boundary}, {"region", region}});
   }
   return frames;
 }
 
 }  // namespace
+
+Json outlineJson(const FitWhere& where) {
+  const PixelAt at{where};
+  Json frames = Json::array();
+  for (const std::vector<BoundaryOffset>& points : where.map.boundary) {
+    frames.push_back(Json::array());
+    for (const BoundaryOffset& p : points) frames.back().push_back({at.x(p.x_m), at.y(p.z_m)});
+  }
+  return frames;
+}
 
 Json structureCurvesJson(const FitWhere& where) {
   return curvesJson(offsetCurves(where.map, where.structures.size()), "structure",
@@ -157,10 +173,10 @@ Json segmentCurvesJson(const FitWhere& where) {
                     [](std::size_t s) { return kAhaNames[s - 1]; });
 }
 
-void addFitPictures(const FitWhere& where, PageWriter& page) {
+void addFitPictures(const FitWhere& where, PageWriter& page, std::string_view loop) {
   const OutputSettings settings;
   for (const GreyImage& picture : where.pictures)
-    page.addFrame("fit", encodeCineFrame(picture, settings.codec, settings.jpeg_quality));
+    page.addFrame(loop, encodeCineFrame(picture, settings.codec, settings.jpeg_quality));
 }
 
 Json fitJson(const FitWhere& where) {

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compare/plane_tilt.h"
@@ -45,8 +46,10 @@ nlohmann::ordered_json tiltJson(const SceneFit& fit);  // with the keys; precond
 nlohmann::ordered_json structureCurvesJson(const FitWhere& where);
 nlohmann::ordered_json segmentCurvesJson(const FitWhere& where);
 
-// For fit_map.js: its pictures as loop "fit", and what is drawn over them. Throws JobError.
-void addFitPictures(const FitWhere& where, PageWriter& page);
+// For fit_map.js: its pictures as a loop, and what is drawn over them. Throws JobError.
+void addFitPictures(const FitWhere& where, PageWriter& page, std::string_view loop = "fit");
 nlohmann::ordered_json fitJson(const FitWhere& where);
+// The boundaries alone, by frame: [x, y] in pixels of the pictures.
+nlohmann::ordered_json outlineJson(const FitWhere& where);
 
 }  // namespace echocine::compare

@@ -7,6 +7,7 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "core/lanes.h"
+#include "core/parallel.h"
 #include "core/units.h"
 #include "motion/heart/heart_scene.h"
 
@@ -34,16 +35,6 @@ std::vector<double> lagrange(const DialRange& range, int nodes, double x) {
   return out;
 }
 
-// The scene of a heart recorded at the very phases of the frames.
-Scene recordedScene(const std::map<std::string, double>& dials, heart::View view, int frames) {
-  const heart::Parameters parameters = heart::parametersFrom(dials);
-  if (const std::string fault = heart::faultOf(parameters); !fault.empty())
-    throw SceneError("heart: " + fault);
-  const heart::ParametricHeart model(parameters);
-  return heart::sceneOf(view, parameters,
-                        heart::record(model, view, frames, heart::KeyframeSpacing::even));
-}
-
 // How far a polynomial through nodes may leave the middle of its values there, over half their
 // range: a bound of Lebesgue's constant for these nodes (Trefethen, Approximation Theory and
 // Approximation Practice, 2013, theorem 15.2).
@@ -53,14 +44,12 @@ double mostOvershoot(int nodes) {
 
 }  // namespace
 
-HeartFamily::HeartFamily(const std::map<std::string, double>& given,
-                         const std::vector<DialRange>& ranges, heart::View view, int frames,
-                         int nodes, const Monitor& monitor, double tilt_deg)
-    : ranges_(ranges), nodes_(nodes), tilt_rad_(radiansFromDegrees(tilt_deg)) {
+HeartNodes::HeartNodes(const std::map<std::string, double>& given,
+                       const std::vector<DialRange>& ranges, int frames, int nodes,
+                       const Monitor& monitor)
+    : ranges_(ranges), nodes_(nodes), frames_(frames) {
   std::size_t count = 1;
   for (std::size_t r = 0; r < ranges.size(); ++r) count *= static_cast<std::size_t>(nodes);
-  std::vector<SurfaceTopology> all;
-  std::vector<Node> recorded;
   for (std::size_t n = 0; n < count; ++n) {
     if (!monitor.keep_going()) throw JobError("stopped while hearts were recorded");
     std::map<std::string, double> dials = given;
@@ -70,19 +59,53 @@ HeartFamily::HeartFamily(const std::map<std::string, double>& given,
           nodeOf(range, static_cast<int>(rest % static_cast<std::size_t>(nodes)), nodes);
       rest /= static_cast<std::size_t>(nodes);
     }
-    const Scene scene = recordedScene(dials, view, frames);
-    const MeshMotion motion(scene);
-    if (n == 0) {
-      scene_ = scene;
-      all = motion.surfaces();
-    }
-    CHECK_EQ(motion.surfaces().size(), all.size());
-    systoles_.push_back(scene.motion.end_systole_phase.value_or(0));
-    Node node(static_cast<std::size_t>(frames));
-    for (int i = 0; i < frames; ++i)
-      motion.frameAt(static_cast<double>(i) / frames, node[static_cast<std::size_t>(i)], false);
-    recorded.push_back(std::move(node));
+    const heart::Parameters parameters = heart::parametersFrom(dials);
+    if (const std::string fault = heart::faultOf(parameters); !fault.empty())
+      throw SceneError("heart: " + fault);
+    // Its view is that of the probe alone, which sceneOf() aims anew.
+    hearts_.push_back(
+        {parameters, heart::recordBeat(heart::ParametricHeart(parameters), heart::View::a4c, frames,
+                                       heart::KeyframeSpacing::even)});
   }
+}
+
+Scene HeartNodes::sceneOf(std::size_t heart, heart::View view) const {
+  const Heart& h = hearts_[heart];
+  const heart::ParametricHeart model(h.parameters);
+  heart::Recording recording = h.beat;
+  recording.pose = heart::poseOf(view, model);
+  heart::surround(view, recording.pose, model, recording);
+  return heart::sceneOf(view, h.parameters, recording);
+}
+
+HeartFamily::HeartFamily(const std::map<std::string, double>& given,
+                         const std::vector<DialRange>& ranges, heart::View view, int frames,
+                         int nodes, const Monitor& monitor, double tilt_deg)
+    : HeartFamily(HeartNodes(given, ranges, frames, nodes, monitor), view, monitor, tilt_deg) {}
+
+HeartFamily::HeartFamily(const HeartNodes& hearts, heart::View view, const Monitor& monitor,
+                         double tilt_deg)
+    : ranges_(hearts.ranges()), nodes_(hearts.nodes()), tilt_rad_(radiansFromDegrees(tilt_deg)) {
+  const int frames = hearts.frames();
+  std::vector<SurfaceTopology> all;
+  std::vector<Node> recorded(hearts.size(), Node(static_cast<std::size_t>(frames)));
+  systoles_.resize(hearts.size());
+  parallelBlocks(hearts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      if (!monitor.keep_going()) throw JobError("stopped while hearts were recorded");
+      const Scene scene = hearts.sceneOf(n, view);
+      const MeshMotion motion(scene);
+      if (n == 0) {
+        scene_ = scene;
+        all = motion.surfaces();
+      }
+      systoles_[n] = scene.motion.end_systole_phase.value_or(0);
+      for (int i = 0; i < frames; ++i)
+        motion.frameAt(static_cast<double>(i) / frames, recorded[n][static_cast<std::size_t>(i)],
+                       false);
+      CHECK_EQ(recorded[n].front().positions_m.size(), motion.surfaces().size());
+    }
+  });
   for (Structure& structure : scene_.structures) structure.keyframes.clear();
   keepNearPlane(all, recorded);
   keepCoordinates(recorded);

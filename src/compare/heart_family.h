@@ -7,7 +7,7 @@
 
 #include "compare/plane_tilt.h"
 #include "core/monitor.h"
-#include "motion/heart/views.h"
+#include "motion/heart/recording.h"
 
 namespace echocine::compare {
 
@@ -17,14 +17,41 @@ struct DialRange {
   double low = 0, high = 0;
 };
 
-// Hearts recorded at Chebyshev-Lobatto nodes of each dial; between them every point of a surface
-// is the polynomial through its nodes, in the probe's frame. Views are aimed by each heart, so the
-// plane moves with the dials as `echocine heart` would move it.
+// Hearts recorded at Chebyshev-Lobatto nodes of each dial: once for all views.
+class HeartNodes {
+ public:
+  // `given`: dials that stay. Records nodes^(number of ranges) hearts. Runs in parallel. Throws
+  // SceneError for hearts that cannot be, JobError when the monitor wants to stop.
+  HeartNodes(const std::map<std::string, double>& given, const std::vector<DialRange>& ranges,
+             int frames, int nodes, const Monitor& monitor = {});
+
+  const std::vector<DialRange>& ranges() const { return ranges_; }
+  int nodes() const { return nodes_; }  // of each dial
+  int frames() const { return frames_; }
+  std::size_t size() const { return hearts_.size(); }
+  // A heart as a scene of a view, recorded at the very phases of the frames.
+  Scene sceneOf(std::size_t heart, heart::View view) const;
+
+ private:
+  struct Heart {
+    heart::Parameters parameters;
+    heart::Recording beat;  // without what lies around it
+  };
+  std::vector<DialRange> ranges_;
+  int nodes_, frames_;
+  std::vector<Heart> hearts_;  // the first dial fastest
+};
+
+// Between recorded hearts every point of a surface is the polynomial through its nodes, in the
+// probe's frame. Views are aimed by each heart, so the plane moves with the dials as `echocine
+// heart` would move it.
 class HeartFamily {
  public:
-  // `given`: dials that stay. Records nodes^(number of ranges) hearts, 0.8 s of one core each. Runs
-  // in parallel. Throws SceneError for hearts that cannot be, JobError when the monitor wants to
-  // stop.
+  // tilt_deg: by which the plane may be tilted and rotated, either way. Throws JobError when the
+  // monitor wants to stop.
+  HeartFamily(const HeartNodes& hearts, heart::View view, const Monitor& monitor = {},
+              double tilt_deg = 0);
+  // Of one view: records its hearts, 0.8 s of one core each. Throws as HeartNodes does.
   HeartFamily(const std::map<std::string, double>& given, const std::vector<DialRange>& ranges,
               heart::View view, int frames, int nodes, const Monitor& monitor = {},
               double tilt_deg = 0);

@@ -166,6 +166,17 @@ PoseFound ModelDiscrepancy::refine(const ModelLoop& model,
   return refinePose(model, *stack_, settings_.weights, settings_.limits, starts);
 }
 
+PoseFound ModelDiscrepancy::searchAlsoFrom(const ModelLoop& model,
+                                           const std::vector<FitPose>& starts) const {
+  PoseFound out = search(model);
+  const PoseFound near = refine(model, starts);
+  if (!(near.discrepancy < out.discrepancy)) return out;
+  const double confidence = out.confidence;
+  out = near;
+  out.confidence = confidence;
+  return out;
+}
+
 PoseFound ModelDiscrepancy::search(const Simulator& model) const {
   return search(modelLoop(model.scene(), model.motion(), kFitFrames));
 }

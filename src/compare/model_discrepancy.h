@@ -45,6 +45,9 @@ class ModelDiscrepancy {
   // Thread-safe. Precondition: the model has kFitFrames frames.
   PoseFound search(const ModelLoop& model) const;
   PoseFound refine(const ModelLoop& model, const std::vector<FitPose>& starts) const;
+  // From everywhere, where another pose may lie lower, and from given ones too, near which none
+  // then lies higher.
+  PoseFound searchAlsoFrom(const ModelLoop& model, const std::vector<FitPose>& starts) const;
   // Of a simulator's heart; its scene's lines and signal play no part.
   PoseFound search(const Simulator& model) const;
   // Without moving anything.

@@ -62,14 +62,7 @@ TiltFound searchTilt(const ModelAtTilt& model, const ModelDiscrepancy& discrepan
   out.untilted = start.discrepancy;
   out.at_limit = box.atLimit(best.at);
   const ModelLoop tilted = model(out.tilt);
-  out.found = discrepancy.search(tilted);
-  // From everywhere another pose may lie lower; near the start one never lies higher.
-  const PoseFound near = discrepancy.refine(tilted, {start.pose});
-  if (near.discrepancy < out.found.discrepancy) {
-    const double confidence = out.found.confidence;
-    out.found = near;
-    out.found.confidence = confidence;
-  }
+  out.found = discrepancy.searchAlsoFrom(tilted, {start.pose});
   out.planes = planes + 1;
   std::vector<double> values;
   for (const Descent& d : all) values.push_back(d.value);

@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/dial_scan.h"
-#include "core/error.h"
-#include "core/file.h"
+#include "compare/results_folder.h"
 #include "core/shown_path.h"
 #include "core/units.h"
 #include "page/assets.h"
@@ -98,20 +97,11 @@ std::string scanCsv(const DialScan& scan) {
 }  // namespace
 
 void writeScan(const DialScan& scan, const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder, error))
-    throw JobError(fmt::format("{}: the folder cannot be made: {}", folder.string(),
-                               error ? error.message() : "a file stands there"));
-  for (const char* name : {"scan.json", "scan.html"})  // a folder without them is unfinished
-    std::filesystem::remove(folder / name, error);
-  const auto text = [&](const char* name, const std::string& content) {
-    writeFileWhole(folder / name, std::as_bytes(std::span(content)));
-  };
+  const ResultsFolder results(folder, {"scan.json", "scan.html"});
   const Json json = scanJson(scan);
-  text("scan.csv", scanCsv(scan));
+  results.write("scan.csv", scanCsv(scan));
   writeScanPage(scan, json, folder / "scan.html");
-  text("scan.json", json.dump(1) + "\n");
+  results.write("scan.json", json.dump(1) + "\n");
 }
 
 }  // namespace echocine::compare

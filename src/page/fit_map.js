@@ -10,6 +10,19 @@ const showFit = (() => {
     ["the model's discrepancy there", `${fixed(t.discrepancy, 4)}, ${fixed(t.discrepancy_untilted, 4)} untilted`],
     ["planes that were tried", String(t.planes)]];
 
+  // How a loop was laid on a model, in space and in time.
+  page.showPose = (parent, what, { pose, confidence, at_limit_of_search, rivals, tilt, beat }, anchor) => {
+    const text = (p) => `${fixed(p.shift_mm[0], 1)}, ${fixed(p.shift_mm[1], 1)} mm, ${fixed(p.turn_deg, 1)}°, scale ${fixed(p.scale, 3)}`;
+    page.facts(parent, [[what, text(pose)],
+      ["confidence", `${fixed(confidence, 2)}${at_limit_of_search ? ", at the limit of the search" : ""}`],
+      ...rivals.map((r, i) => [`rival ${i + 1}`, `${text(r)}, discrepancy ${fixed(r.discrepancy, 4)}`]),
+      ...(tilt ? page.tiltFacts(tilt) : []),
+      ["end-diastole", `frame ${fixed(beat.end_diastole_frame, 2)}, by ${beat.start_source}, confidence ${fixed(beat.confidence, 2)}`],
+      ...(beat.end_systole.part_of_beat === null ? [] : [["end-systole", `at ${fixed(beat.end_systole.part_of_beat, 3)} of the beat, `
+        + `by ${beat.end_systole.source}, confidence ${fixed(beat.end_systole.confidence, 2)}; the models' at ${fixed(beat.end_systole.of_model, 3)}`]]),
+      ["beat", `${fixed(beat.frames, 2)} frames, ${beat.length_source}; beats start by: ${anchor}`]]);
+  };
+
   // Blue: edges lie inside the model's boundary, or the model leaves too much grey; red the other way.
   const tint = (value, most) => {
     const t = Math.max(-1, Math.min(1, value / most)), pale = Math.round(235 * (1 - Math.abs(t)));

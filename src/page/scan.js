@@ -50,19 +50,6 @@
       ["recording hearts", `${number(data.cpu_ms.recording_hearts / 1000, 3)} s of a core`]]);
   }
 
-  function showPose() {
-    const { centre, beat } = data;
-    const text = (p) => `${fixed(p.shift_mm[0], 1)}, ${fixed(p.shift_mm[1], 1)} mm, ${fixed(p.turn_deg, 1)}°, scale ${fixed(p.scale, 3)}`;
-    page.facts(byId("pose"), [["pose in the middle of the ranges", text(centre.pose)],
-      ["confidence", `${fixed(centre.confidence, 2)}${centre.at_limit_of_search ? ", at the limit of the search" : ""}`],
-      ...centre.rivals.map((r, i) => [`rival ${i + 1}`, `${text(r)}, discrepancy ${fixed(r.discrepancy, 4)}`]),
-      ...(data.tilt ? page.tiltFacts(data.tilt) : []),
-      ["end-diastole", `frame ${fixed(beat.end_diastole_frame, 2)}, by ${beat.start_source}, confidence ${fixed(beat.confidence, 2)}`],
-      ...(beat.end_systole.part_of_beat === null ? [] : [["end-systole", `at ${fixed(beat.end_systole.part_of_beat, 3)} of the beat, `
-        + `by ${beat.end_systole.source}, confidence ${fixed(beat.end_systole.confidence, 2)}; the models' at ${fixed(beat.end_systole.of_model, 3)}`]]),
-      ["beat", `${fixed(beat.frames, 2)} frames, ${beat.length_source}; beats start by: ${data.beat_anchor}`]]);
-  }
-
   // Made when it is opened: thousands of rows cost a second.
   function fillPoints() {
     page.table(byId("points"), { columns: [...axes.map((a) => ({ label: a.dial, number: true })),
@@ -75,6 +62,6 @@
   showCurves();
   showFit(data.fit);
   showLeast();
-  showPose();
+  page.showPose(byId("pose"), "pose in the middle of the ranges", { ...data.centre, tilt: data.tilt, beat: data.beat }, data.beat_anchor);
   byId("points").addEventListener("toggle", fillPoints, { once: true });
 })();

@@ -1,12 +1,17 @@
-// view_table [FAMILY]: which of eight views of a model lies nearest to a loop of each view, with
-// its margin; the model is the same heart, and then a healthy one. One line per loop.
+// view_table [FAMILY [VIEW|all [TILT]]]: which of eight views of a model lies nearest to a loop of
+// each view, with its margin. The models are the same heart, a healthy one, and then a population
+// of hearts whose dials are found; at last their planes are tilted by up to TILT degrees. One line
+// for each loop and kind of models, by the discrepancy D and by V of claim.h.
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
+#include <map>
 
-#include "compare/model_discrepancy.h"
+#include "compare/claim.h"
+#include "compare/view_ranking.h"
 #include "support/view_loops.h"
 
 namespace echocine::bench {
@@ -24,6 +29,14 @@ std::vector<ModelLoop> modelsOf(const std::function<Scene(View)>& sceneFor) {
   return models;
 }
 
+// Of one loop in a view.
+struct Nearness {
+  PoseFound found;
+  double claimed = 0;
+  std::string dials;
+  double left() const { return pictureLeft(found.discrepancy, claimed); }
+};
+
 // Of all eight, right ones and margins.
 struct Score {
   int right = 0, views = 0;
@@ -34,57 +47,138 @@ struct Score {
     least = std::min(least, margin);
     sum += margin;
   }
+  std::string text() const {
+    return fmt::format("{} of {}, margin {:.3f} in the mean, {:.3f} at least", right, views,
+                       sum / std::max(1, views), least);
+  }
+};
+struct Scores {
+  Score by_d, by_v;
 };
 
-void judge(const char* what, const ModelDiscrepancy& loop, const std::vector<ModelLoop>& models,
-           std::size_t right, Score& score) {
-  std::vector<PoseFound> found;
-  for (const ModelLoop& model : models) found.push_back(loop.search(model));
-  std::size_t next = right == 0 ? 1 : 0;
-  for (std::size_t v = 0; v < found.size(); ++v)
-    if (v != right && found[v].discrepancy < found[next].discrepancy) next = v;
-  const double margin = found[next].discrepancy - found[right].discrepancy;
-  score.add(margin);
-  const auto terms = [&](std::size_t v) {
-    const PoseFound& f = found[v];
-    return fmt::format("{} {:.3f} (R {:.2f} B {:.2f} M {:.2f} c {:.2f})", viewNames()[v].key,
-                       f.discrepancy, f.terms.region, f.terms.boundary, f.terms.motion,
-                       f.terms.in_sight);
+template <typename Value>
+double marginOf(const std::vector<Nearness>& all, std::size_t right, const Value& value,
+                std::size_t& next) {
+  next = right == 0 ? 1 : 0;
+  for (std::size_t v = 0; v < all.size(); ++v)
+    if (v != right && value(all[v]) < value(all[next])) next = v;
+  return value(all[next]) - value(all[right]);
+}
+
+void judge(const std::string& what, const std::vector<Nearness>& all, std::size_t right,
+           Scores& scores) {
+  std::size_t next_d, next_v;
+  const double by_d = marginOf(
+                   all, right, [](const Nearness&n) { return n.found.discrepancy; }, next_d),
+               by_v = marginOf(
+                   all, right, [](const Nearness&n) { return n.left(); }, next_v);
+  scores.by_d.add(by_d);
+  scores.by_v.add(by_v);
+  const auto tell = [&](std::size_t v) {
+    const Nearness& n = all[v];
+    const FitTerms& t = n.found.terms;
+    const FitPose& p = n.found.pose;
+    return fmt::format(
+        "{} V {:.3f} a {:.2f} D {:.3f} (R {:.2f} B {:.2f} M {:.2f} c {:.2f}; {:.0f},{:.0f} mm "
+        "{:.0f} deg{})",
+        viewNames()[v].key, n.left(), n.claimed, n.found.discrepancy, t.region, t.boundary,
+        t.motion, t.in_sight, 1e3 * p.shift_x_m, 1e3 * p.shift_z_m, p.turn_rad * 57.3, n.dials);
   };
-  fmt::print("  {:<8} {:+.3f}  {}  next {}\n", what, margin, terms(right), terms(next));
+  fmt::print("  {:<32} V {:+.3f} D {:+.3f}  {}  next {}{}\n", what, by_v, by_d, tell(right),
+             tell(next_v), next_d == next_v ? "" : "; by D " + tell(next_d));
   std::fflush(stdout);
 }
 
-void tell(const char* what, const Score& s) {
-  fmt::print("{}: right view first in {} of {}, margin {:.3f} in the mean, {:.3f} at least\n", what,
-             s.right, s.views, s.sum / std::max(1, s.views), s.least);
+struct Case {
+  Family family;
+  std::size_t view;
+  Loop loop;
+  std::string name() const { return fmt::format("{} {}", nameOf(family), viewNames()[view].key); }
+};
+
+SideOptions fromFirstFrame() {
+  SideOptions side;
+  side.ed_frame = 0;
+  return side;
 }
 
-void run(const char* only) {
-  const std::vector<ModelLoop> healthy =
-      modelsOf([](View view) { return heart::heartScene(heart::parametersFrom({}), view, 20); });
+std::vector<Case> casesOf(const char* family_only, const char* view_only) {
+  std::vector<Case> cases;
   for (const Family family : kFamilies) {
-    if (only != nullptr && std::strcmp(only, nameOf(family)) != 0) continue;
-    const std::vector<ModelLoop> same = modelsOf([&](View view) { return sceneOf(family, view); });
-    Score own, other;
-    for (std::size_t v = 0; v < viewNames().size(); ++v) {
-      const Loop loop =
-          scannedLoop(sceneOf(family, viewNames()[v].view), 24, 11 + static_cast<int>(v));
-      SideOptions side;
-      side.ed_frame = 0;
-      const ModelDiscrepancy discrepancy(loop, side, same[v]);
-      fmt::print("{} {}\n", nameOf(family), viewNames()[v].key);
-      judge("same", discrepancy, same, v, own);
-      judge("healthy", discrepancy, healthy, v, other);
-    }
-    tell((std::string(nameOf(family)) + ", the same heart").c_str(), own);
-    tell((std::string(nameOf(family)) + ", a healthy heart").c_str(), other);
+    if (family_only != nullptr && std::strcmp(family_only, nameOf(family)) != 0) continue;
+    for (std::size_t v = 0; v < viewNames().size(); ++v)
+      if (view_only == nullptr || std::strcmp(view_only, "all") == 0 ||
+          std::strcmp(view_only, viewNames()[v].key) == 0)
+        cases.push_back(
+            {family, v,
+             scannedLoop(sceneOf(family, viewNames()[v].view), 24, 11 + static_cast<int>(v))});
   }
+  return cases;
+}
+
+void judgeModels(const char* what, const std::vector<ModelLoop>& models, const Case& c,
+                 std::map<std::string, Scores>& scores) {
+  const ModelDiscrepancy discrepancy(c.loop, fromFirstFrame(), models[c.view]);
+  std::vector<Nearness> all;
+  for (const ModelLoop& model : models) {
+    const PoseFound found = discrepancy.search(model);
+    all.push_back({found, claimedShare(model, discrepancy.stack(), found.pose), ""});
+  }
+  judge(c.name() + ", " + what, all, c.view, scores[std::string(nameOf(c.family)) + ", " + what]);
+}
+
+void judgePopulation(const std::vector<Case>& cases, double tilt_deg,
+                     std::map<std::string, Scores>& scores) {
+  const std::vector<ScanAxis> population = populationWithout({});
+  std::vector<DialRange> ranges;
+  for (const ScanAxis& axis : population) ranges.push_back(axis.range);
+  const HeartNodes hearts({}, ranges, kFitFrames, 4);
+  std::vector<std::vector<Nearness>> all(cases.size());
+  for (const ViewName& name : viewNames()) {
+    const HeartFamily family(hearts, name.view, {}, tilt_deg);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      const HeartFound h =
+          searchView(name.view, family, population, cases[i].loop, fromFirstFrame(), tilt_deg)
+              .heart;
+      all[i].push_back(
+          {h.found, h.claimed, fmt::format(", EF {:.2f}, {:.0f} mL", h.values[0], h.values[1])});
+      if (h.tilt)
+        all[i].back().dials += fmt::format(", tilt {:.0f},{:.0f} deg", h.tilt->tilt.tilt_rad * 57.3,
+                                           h.tilt->tilt.rotate_rad * 57.3);
+    }
+  }
+  const std::string what = tilt_deg > 0 ? "a population, tilted" : "a population";
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    judge(cases[i].name() + ", " + what, all[i], cases[i].view,
+          scores[std::string(nameOf(cases[i].family)) + ", " + what]);
+}
+
+void run(const char* family_only, const char* view_only, double tilt_deg) {
+  const std::vector<Case> cases = casesOf(family_only, view_only);
+  std::map<std::string, Scores> scores;
+  if (tilt_deg > 0) {
+    judgePopulation(cases, tilt_deg, scores);
+  } else {
+    const std::vector<ModelLoop> healthy =
+        modelsOf([](View view) { return heart::heartScene(heart::parametersFrom({}), view, 20); });
+    std::map<Family, std::vector<ModelLoop>> same;
+    for (const Case& c : cases) {
+      if (!same.contains(c.family))
+        same[c.family] = modelsOf([&](View view) { return sceneOf(c.family, view); });
+      judgeModels("the same heart", same[c.family], c, scores);
+      judgeModels("a healthy heart", healthy, c, scores);
+    }
+    judgePopulation(cases, 0, scores);
+  }
+  for (const auto& [what, s] : scores)
+    fmt::print("{}: right view first by V in {}; by D in {}\n", what, s.by_v.text(), s.by_d.text());
 }
 
 }  // namespace
 }  // namespace echocine::bench
 
 int main(int argc, char** argv) {
-  echocine::withThreads(0, [&] { echocine::bench::run(argc > 1 ? argv[1] : nullptr); });
+  const auto given = [&](int i) { return argc > i ? argv[i] : nullptr; };
+  echocine::withThreads(
+      0, [&] { echocine::bench::run(given(1), given(2), argc > 3 ? std::atof(argv[3]) : 0); });
 }
