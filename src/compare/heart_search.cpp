@@ -1,5 +1,7 @@
 #include "compare/heart_search.h"
 
+#include <algorithm>
+
 #include "compare/claim.h"
 #include "core/check.h"
 
@@ -12,6 +14,23 @@ std::vector<ScanAxis> populationWithout(const std::map<std::string, double>& giv
   return out;
 }
 
+namespace {
+
+// Half a step either way of a place, within the population.
+std::vector<ScanAxis> closerTo(const std::vector<double>& values,
+                               const std::vector<ScanAxis>& population) {
+  std::vector<ScanAxis> closer = population;
+  for (std::size_t a = 0; a < closer.size(); ++a) {
+    ScanAxis& axis = closer[a];
+    axis.step /= 2;
+    axis.range.low = std::max(axis.range.low, values[a] - axis.step);
+    axis.range.high = std::min(axis.range.high, values[a] + axis.step);
+  }
+  return closer;
+}
+
+}  // namespace
+
 HeartFound searchHeart(const HeartFamily& family, const std::vector<ScanAxis>& population,
                        const ModelDiscrepancy& discrepancy, double tilt_deg,
                        const Monitor& monitor) {
@@ -22,18 +41,24 @@ HeartFound searchHeart(const HeartFamily& family, const std::vector<ScanAxis>& p
   HeartFound out;
   out.middle = centre.discrepancy;
   const DialGrid grid = holdGrid(population, family, discrepancy, starts, {}, monitor);
-  const ScanPoint& best = grid.points[grid.best];
   out.hearts = static_cast<int>(grid.points.size()) + 1;
-  out.values = best.values;
-  out.found = discrepancy.searchAlsoFrom(family.at(best.values), {best.found.pose});
-  if (!grid.minimum.empty()) {
-    const PoseFound between = discrepancy.searchAlsoFrom(family.at(grid.minimum), {out.found.pose});
+  out.values = grid.points[grid.best].values;
+  out.found =
+      discrepancy.searchAlsoFrom(family.at(out.values), {grid.points[grid.best].found.pose});
+  const auto takeIfLess = [&](const std::vector<double>& values, const FitPose& from) {
+    if (values.empty() || values == out.values) return;
+    const PoseFound other = discrepancy.searchAlsoFrom(family.at(values), {from});
     ++out.hearts;
-    if (between.discrepancy < out.found.discrepancy) {
-      out.values = grid.minimum;
-      out.found = between;
-    }
-  }
+    if (other.discrepancy >= out.found.discrepancy) return;
+    out.values = values;
+    out.found = other;
+  };
+  takeIfLess(grid.minimum, out.found.pose);
+  const DialGrid close = holdGrid(closerTo(out.values, population), family, discrepancy,
+                                  {out.found.pose}, {}, monitor);
+  out.hearts += static_cast<int>(close.points.size());
+  takeIfLess(close.points[close.best].values, close.points[close.best].found.pose);
+  takeIfLess(close.minimum, out.found.pose);
   if (tilt_deg > 0) {
     out.tilt = searchTilt([&](const PlaneTilt& tilt) { return family.at(out.values, tilt); },
                           discrepancy, out.found, tilt_deg, monitor);

@@ -20,12 +20,12 @@ struct HeartFound {
   std::optional<TiltFound> tilt;  // of that heart, where asked for
 };
 
-// A grid of hearts, of which that of least D or the minimum of a paraboloid through its neighbours.
-// Hearts of the grid have the pose of least D near those of the middle one; the best has that of
-// least D from everywhere. At last its plane is tilted, where tilt_deg is above 0. Runs in
-// parallel. The same input gives the same heart whatever the threads. Throws JobError when the
-// monitor wants to stop. Precondition: the family's dials are the population's, its tilt is
-// tilt_deg.
+// A grid of hearts, and one of half its steps about the best: that of least D, or the minimum of a
+// paraboloid through its neighbours. Hearts of a grid have the pose of least D near those of the
+// middle one, or of the best so far; the best has that of least D from everywhere. At last its
+// plane is tilted, where tilt_deg is above 0. Runs in parallel. The same input gives the same heart
+// whatever the threads. Throws JobError when the monitor wants to stop. Precondition: the family's
+// dials are the population's, its tilt is tilt_deg.
 HeartFound searchHeart(const HeartFamily& family, const std::vector<ScanAxis>& population,
                        const ModelDiscrepancy& discrepancy, double tilt_deg = 0,
                        const Monitor& monitor = {});

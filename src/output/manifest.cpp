@@ -124,6 +124,7 @@ Json planJson(const LoopPlan& plan) {
   return {{"tracer", plan.tracerName()},
           {"tracer_reason", plan.tracer_reason},
           {"rays_per_beam", plan.effects.rays_per_beam},
+          {"elevation_slices", plan.effects.elevation_slices},
           {"interface_echo", plan.cell_echoes ? "cell" : "centre"},
           {"interface_echo_reason", plan.echo_reason},
           {"left_out", interfaces},
@@ -157,6 +158,9 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest) {
   const auto crossings = static_cast<double>(w.crossings), rays = static_cast<double>(w.rays),
              scattered = static_cast<double>(w.samples_backscatter),
              attenuated = static_cast<double>(w.samples_attenuated);
+  // Slices beside the plane do all that the plane does once more each.
+  const double beside = manifest.plan.effects.elevation_slices - 1,
+               of_all = 35 * crossings + 0.6 * scattered + 0.5 * attenuated;
   // Relative cost of a unit of each work: our choice, weighed by the operations of each, not timed.
   struct Part {
     Effect effect;
@@ -170,7 +174,7 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest) {
                         {Effect::attenuation, Stage::trace, 0.5 * attenuated},
                         {Effect::backscatter, Stage::trace, 0.3 * scattered},
                         {Effect::spread, Stage::trace, 0.3 * scattered},
-                        {Effect::elevation, Stage::trace, 20 * rays},
+                        {Effect::elevation, Stage::trace, beside > 0 ? beside * of_all : 20 * rays},
                         {Effect::travel_time, Stage::trace, 2 * crossings},
                         {Effect::labels, Stage::trace, 0.1 * scattered},
                         {Effect::trabeculae, Stage::geometry, 1},

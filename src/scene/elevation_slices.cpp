@@ -44,6 +44,7 @@ ElevationBell::ElevationBell(const Probe& probe) {
 
 // The width's square is a quadratic of the depth that opens upwards: largest at an end.
 double elevationReach(const Scene& scene) {
+  if (scene.accuracy.elevation_slices == 1) return 0;
   double widest = 0;
   for (const ElevationNode& node : elevationNodes(scene.accuracy.elevation_slices))
     widest = std::max(widest, node.place);

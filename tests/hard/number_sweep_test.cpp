@@ -97,6 +97,7 @@ reference_percentile = 99.5
 grey_gamma = 1.0
 [accuracy]
 rays_per_beam = 1
+elevation_slices = 3
 refraction_tolerance_beam_widths = 0.5
 rolling_lines = 16
 )";

@@ -6,64 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-
-#include "signal/signal_chain.h"
-#include "support/random_world.h"
+#include "support/random_checks.h"
 
 namespace echocine {
 namespace {
 
 using namespace support;
-
-#ifdef NDEBUG
-constexpr std::uint64_t kScenes = 10000;
-#else
-constexpr std::uint64_t kScenes = 500;
-#endif
-
-std::uint64_t sceneCount() {
-  const char* asked = std::getenv("ECHOCINE_RANDOM_SCENES");
-  return asked ? std::strtoull(asked, nullptr, 10) : kScenes;
-}
-
-// Calls check(world) for every number, on one core, until three worlds have failed.
-template <typename Check>
-void forRandomWorlds(std::uint64_t count, Check&& check) {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
-  double slowest_s = 0;
-  int failed = 0;
-  withThreads(1, [&] {
-    for (std::uint64_t i = 0; i < count && failed < 3; ++i) {
-      SCOPED_TRACE("random world " + std::to_string(i));
-      const auto began = Clock::now();
-      check(randomWorld(i), i);
-      slowest_s = std::max(slowest_s, std::chrono::duration<double>(Clock::now() - began).count());
-      const auto* result = testing::UnitTest::GetInstance()->current_test_info()->result();
-      failed = result->total_part_count();
-    }
-  });
-  EXPECT_LT(slowest_s, 5);  // seconds; they take milliseconds: one that hangs shows
-  std::printf("%llu random worlds in %.1f s, the slowest %.3f s\n",
-              static_cast<unsigned long long>(count),
-              std::chrono::duration<double>(Clock::now() - start).count(), slowest_s);
-}
-
-// The number of values that are no intensity.
-std::size_t unusable(const std::vector<float>& values) {
-  return static_cast<std::size_t>(std::count_if(values.begin(), values.end(), [](float v) {
-    return !(v >= 0 && v <= std::numeric_limits<float>::max());
-  }));
-}
-
-void expectIntensities(const World& world, const PolarFrame& polar) {
-  for (const auto& [channel, plane] : polar.planes)
-    EXPECT_EQ(unusable(plane), 0u) << channelName(channel);
-  EXPECT_EQ(unusable(polar.intensities.values), 0u) << "signal";
-  for (const std::uint32_t id : polar.medium)
-    ASSERT_TRUE(id == kNoMedium || id < world.scene.media.size()) << id;
-}
 
 // Segments follow each other without a gap to the end, their lengths and exponents grow, and what
 // is left of the pulse (prod (1-R)^2, the strength over eta_b V) only falls and never exceeds 1.
@@ -121,20 +69,6 @@ void expectCellEchoes(const World& world, const PolarFrame& polar) {
   }
 }
 
-// Time gain, beam, compression and scan conversion of whatever was traced. The brightest sample is
-// the reference: the loop's percentile has tests of its own and costs more than all the rest here.
-void expectPicture(const World& world, const EffectPlan& plan, PolarFrame& polar) {
-  const SignalChain chain(world.scene, plan);
-  chain.process(polar.intensities);
-  EXPECT_EQ(unusable(polar.intensities.values), 0u) << "after the signal chain";
-  const double brightest = *std::max_element(polar.intensities.begin(), polar.intensities.end());
-  const Greys greys = chain.compress(std::move(polar.intensities), brightest > 0 ? brightest : 1);
-  for (const float grey : greys) ASSERT_TRUE(grey >= 0 && grey <= 1) << grey;
-  GreyImage image;
-  chain.picture(greys, image);
-  EXPECT_EQ(image.pixels.size(), 24u * 20u);
-}
-
 void expectLawful(const World& world, const EffectPlan& plan, Tracer tracer,
                   const PolarFrame& polar) {
   expectIntensities(world, polar);
@@ -182,52 +116,6 @@ TEST(RandomScenes, AreFiniteWithinTheEnergyOfThePulseAndTheSameThroughBothTracer
       expectLawful(world, straight, Tracer::cells, sliced);
     }
     expectPicture(world, plan, shown);
-  });
-}
-
-// Averages of lawful rays: what one ray cannot exceed no average can. The channels say what the
-// picture says: reflection and backscatter make Y, and unattenuated is no less.
-void expectLawfulBeams(const World& world, const EffectPlan& plan, const PolarFrame& polar) {
-  expectIntensities(world, polar);
-  double gain = 0, scattered = 0;
-  for (const Structure& s : world.scene.structures) gain = std::max(gain, s.reflection_gain);
-  for (const Medium& m : world.scene.media) scattered = std::max(scattered, m.backscatter_per_m_sr);
-  const auto plane = [&](Channel c) -> const std::vector<float>& { return polar.planes.at(c); };
-  const Probe& probe = world.scene.probe;
-  const auto samples = static_cast<std::size_t>(probe.samples);
-  for (std::size_t k = 0; k < polar.planes.at(Channel::y).size(); ++k) {
-    const double y = plane(Channel::y)[k], echo = plane(Channel::reflection)[k],
-                 scatter = plane(Channel::backscatter)[k];
-    ASSERT_NEAR(y, echo + scatter, 1e-5 * (echo + scatter)) << k;
-    ASSERT_LE(y, plane(Channel::unattenuated)[k] * (1 + 1e-5)) << k;
-    if (plan.transmission_loss) {
-      ASSERT_LE(echo, gain * planeRequest(world.scene, plan).echo_samples * (1 + 1e-5)) << k;
-    }
-    const double l = samplingOf(probe).centre(static_cast<double>(k % samples));
-    // With travel times depth is not path: speeds here are up to 1e5, down to 10 m/s.
-    if (!plan.travel_time && plan.spread) {
-      ASSERT_LE(scatter * l * l, scattered * world.scene.unit_volume_m3 * (1 + 1e-5)) << k;
-    }
-  }
-}
-
-// Beams of a few rays, and those of one line and frame the same through any number of threads.
-TEST(RandomScenes, BeamsOfSeveralRaysAreFiniteAndWithinTheEnergyOfThePulse) {
-  forRandomWorlds(sceneCount() / 2, [](World world, std::uint64_t number) {
-    Dice dice(hashOf(std::uint64_t{0xbea}, number));
-    randomBeam(world.scene, dice);
-    const EffectPlan plan = planEffects(world.scene);
-    if (plan.rays_per_beam == 1) return;
-    const int frame = dice.whole(0, 1000);
-    PolarFrame polar = traceWorld(world, plan, Tracer::embree, frame);
-    expectLawfulBeams(world, plan, polar);
-    expectPicture(world, plan, polar);
-    // Labels and exponents are those of the line.
-    EffectPlan one = plan;
-    one.rays_per_beam = 1;
-    const PolarFrame line = traceWorld(world, one, Tracer::embree);
-    EXPECT_EQ(polar.medium, line.medium);
-    EXPECT_EQ(polar.planes.at(Channel::attenuation), line.planes.at(Channel::attenuation));
   });
 }
 

@@ -9,7 +9,6 @@
 #include "scene/beam_profile.h"
 #include "scene/scan_geometry.h"
 #include "support/beam_world.h"
-#include "trace/thick_slice.h"
 
 namespace echocine {
 namespace {
@@ -30,19 +29,7 @@ PolarFrame traceSlices(World world, int slices) {
   world.scene.accuracy.elevation_slices = slices;
   const EffectPlan plan = planEffects(world.scene);
   EXPECT_EQ(plan.elevation_slices, slices);
-  const TraceSettings settings(world.scene, plan, EchoCells::none);
-  const std::vector<SurfaceTopology> topology = world.topology();
-  SurfaceFrame frame = world.frame();
-  const SurfaceFrame before = frame;
-  PlaneSlice plane(topology, world.scene.probe);
-  SideSlices sides(topology, world.scene);
-  plane.update(frame);
-  sides.update(frame);
-  EXPECT_TRUE(frame.positions_m == before.positions_m) << "surfaces were left bent";
-  PolarFrame polar, side;
-  traceThick(plane, sides, world.scene.probe, settings, planeRequest(world.scene, plan), polar,
-             side);
-  return polar;
+  return traceThickWorld(world, plan, EchoCells::none);
 }
 
 struct Moments {

@@ -209,14 +209,6 @@ const std::vector<Bad> kBad{
      "accuracy.rays_per_beam", "rays_per_beam", "effects.beam_width = \"off\""},
     {"an even number of slices", accuracy("elevation_slices", "4"), "accuracy.elevation_slices",
      "elevation_slices", "1, 3 or 5"},
-    {"too many slices", accuracy("elevation_slices", "7"), "accuracy.elevation_slices",
-     "elevation_slices", "5"},
-    {"slices that are turned off",
-     [](SceneText& t) {
-       t.accuracy["elevation_slices"] = "3";
-       t.effects["elevation"] = "\"off\"";
-     },
-     "accuracy.elevation_slices", "elevation_slices", "effects.elevation = \"off\""},
     {"lens without a size", probe("elevation_aperture_mm", "0"), "probe.elevation_aperture_mm",
      "elevation_aperture_mm", "from 0.001"},
     {"lens focused at its face", probe("elevation_focus_mm", "0"), "probe.elevation_focus_mm",

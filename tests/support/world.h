@@ -1,11 +1,14 @@
 #pragma once
 // A scene with its meshes in memory, traced through either geometry.
 
+#include <gtest/gtest.h>
+
 #include <optional>
 
 #include "core/parallel.h"
 #include "scene/effect_plan.h"
 #include "support/meshes.h"
+#include "trace/thick_slice.h"
 #include "trace/trace_beams.h"
 
 namespace echocine::support {
@@ -73,6 +76,23 @@ inline PolarFrame traceWorld(const World& world, EffectPlan plan, Tracer tracer,
 
 inline PolarFrame traceWorld(const World& world, Tracer tracer) {
   return traceWorld(world, planEffects(world.scene), tracer);
+}
+
+// Every channel, over the slices across the plane that the plan has.
+inline PolarFrame traceThickWorld(const World& world, const EffectPlan& plan, EchoCells cells) {
+  const std::vector<SurfaceTopology> topology = world.topology();
+  SurfaceFrame frame = world.frame();
+  Scene scene = world.scene;
+  scene.accuracy.elevation_slices = plan.elevation_slices;
+  PlaneSlice plane(topology, scene.probe);
+  SideSlices sides(topology, scene);
+  plane.update(frame);
+  sides.update(frame);
+  EXPECT_TRUE(frame.positions_m == world.frame().positions_m) << "surfaces were left bent";
+  PolarFrame polar, side;
+  traceThick(plane, sides, scene.probe, TraceSettings(scene, plan, cells),
+             planeRequest(scene, plan), polar, side);
+  return polar;
 }
 
 }  // namespace echocine::support

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "core/parallel.h"
 #include "scene/scene_json.h"
 #include "simulate/simulator.h"
@@ -104,14 +106,18 @@ TEST_F(Looks, AnyFrameAloneHasTheBytesOfTheLoopForAnyThreads) {
   });
 }
 
-TEST_F(Looks, LeaveTheReceivedIntensitiesAlone) {
-  const auto received = [&](const char* look) {
+// But for what they trace: trabeculae, of which there are none here, and slices across the plane.
+TEST_F(Looks, LeaveTheReceivedIntensitiesOfThePlaneAlone) {
+  const auto received = [&](const char* look, std::optional<int> slices) {
     Scene scene = sceneWith({{"look", look}});
+    if (slices) scene.accuracy.elevation_slices = *slices;
     scene.output.exr = true;
     scene.output.channels = {Channel::y, Channel::reflection};
     return Simulator(scene).frame(0.2).channels;
   };
-  EXPECT_EQ(received("\"scanner\""), received("\"paper\""));
+  EXPECT_EQ(received("\"scanner\"", 1), received("\"paper\"", {}));
+  EXPECT_EQ(received("\"scanner\"", {}), received("\"paper\"", 3));
+  EXPECT_NE(received("\"scanner\"", {}), received("\"paper\"", {}));
 }
 
 TEST_F(Looks, QualityIsOfTheScannerAlone) {

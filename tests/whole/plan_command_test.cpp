@@ -73,6 +73,7 @@ TEST_F(PlanCommand, ContradictionsAreOneLineThatNamesBothKeys) {
                       "rays_per_beam", "8"},
         Contradiction{"effects", "elevation", "\"on\"", "accuracy", "rays_per_beam", "1"},
         Contradiction{"accuracy", "elevation_slices", "3", "accuracy", "tracer", "\"embree\""},
+        Contradiction{"accuracy", "elevation_slices", "3", "effects", "elevation", "\"off\""},
         Contradiction{"accuracy", "elevation_slices", "5", "effects", "refraction", "\"on\""}}) {
     SceneText text = ballScene(2);
     const auto lines = [&](std::string_view table) -> Lines& {
