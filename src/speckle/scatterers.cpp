@@ -35,8 +35,8 @@ Vec3f pointIn(std::uint64_t hash, std::uint32_t j) {
 }
 
 Vec3f placeInCube(const EightPlaces& eight, std::size_t lane) {
-  constexpr float kStep = 1.0f / kCubeEdge;
-  return kStep * Vec3f{static_cast<float>(eight.u[lane]), static_cast<float>(eight.v[lane]),
+  constexpr float kOfEdge = 1.0f / kCubeEdge;
+  return kOfEdge * Vec3f{static_cast<float>(eight.u[lane]), static_cast<float>(eight.v[lane]),
                        static_cast<float>(eight.w[lane])};
 }
 

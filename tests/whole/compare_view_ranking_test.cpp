@@ -52,11 +52,13 @@ TEST(CompareViewRanking, AViewToldWithConfidenceIsRight) {
           grey = static_cast<std::uint8_t>(std::clamp(
               128 + contrast * (grey - 128.0) + (contrast < 1 ? 40 * noise : 0), 0.0, 255.0));
         }
-      const ViewRanking ranking = rankViews(real, optionsOf("a4c,a2c,psax-mid"));
+      // In noise one dial is sought, which takes a quarter of the hearts.
+      const ViewRanking ranking = rankViews(
+          real, contrast == 1 ? optionsOf("a4c,a2c") : optionsOf("a4c,a2c,psax-mid", "ef=0.45"));
       const ViewFound& best = ranking.views.front();
-      std::printf("contrast %.1f: %s, V %.3f, D %.3f, confidence %.3f, EF %.3f, EDV %.0f mL\n",
-                  contrast, keyOf(best.view), best.heart.left, best.heart.found.discrepancy,
-                  ranking.confidence, dialOf(ranking, "ef"), dialOf(ranking, "edv"));
+      std::printf("contrast %.1f: %s, V %.3f, D %.3f, confidence %.3f, EDV %.0f mL\n", contrast,
+                  keyOf(best.view), best.heart.left, best.heart.found.discrepancy,
+                  ranking.confidence, dialOf(ranking, "edv"));
       EXPECT_TRUE(std::is_sorted(
           ranking.views.begin(), ranking.views.end(),
           [](const ViewFound& a, const ViewFound& b) { return a.heart.left < b.heart.left; }));
