@@ -219,6 +219,7 @@ MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
   if (scene.view)
     throw SceneError(
         atPlace(scene.view->place, "is not found yet, accepted: the scene as placed()"));
+  const double slices_m = elevationReach(scene);
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     checkpoint();
     const Structure& structure = scene.structures[s];
@@ -231,7 +232,7 @@ MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
     positions_m.reserve(keyframes.size());
     for (const KeyframeMesh& keyframe : keyframes)
       positions_m.push_back(probePositions(structure, keyframe, scene));
-    const double aside_m = trabeculaeReach(scene, structure) + elevationReach(scene);
+    const double aside_m = trabeculaeReach(scene, structure) + slices_m;
     loop_boxes_m_.push_back(loopBox(positions_m, weights.overshoot(), aside_m));
     MovingSurface moving{controlMotion(std::move(weights), topology, keyframes, positions_m)};
     const MeshTags& tags = keyframes.front().mesh.tags;

@@ -46,4 +46,12 @@ std::vector<NumberedTriangle> HeightRanges::nearPlane(std::span<const Triangle> 
   return near;
 }
 
+std::vector<bool> verticesNearPlane(const SurfaceTopology& surface) {
+  std::vector<bool> near(surface.vertex_count, !surface.near_plane);
+  if (surface.near_plane)
+    for (const NumberedTriangle& t : *surface.near_plane)
+      for (const std::uint32_t v : t.corners) near[v] = true;
+  return near;
+}
+
 }  // namespace echocine

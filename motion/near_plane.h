@@ -29,4 +29,8 @@ class HeightRanges {
   std::vector<Vec3f> ranges_m_;  // by vertex: x the lowest, y the highest
 };
 
+// By vertex: is it a corner of a triangle that the plane can reach? All are, of a surface that does
+// not know.
+std::vector<bool> verticesNearPlane(const SurfaceTopology& surface);
+
 }  // namespace echocine

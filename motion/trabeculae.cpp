@@ -8,6 +8,7 @@
 #include "core/hash_random.h"
 #include "core/nearest_vertex.h"
 #include "core/normal_field.h"
+#include "motion/near_plane.h"
 #include "scene/role.h"
 
 namespace echocine {
@@ -115,9 +116,7 @@ void calm(const std::vector<Vec3f>& at_m, Relief& relief) {
 
 // Only vertices whose faces the plane can cut are shown, and all faces about these.
 void showAboutPlane(const SurfaceTopology& surface, Relief& relief) {
-  std::vector<bool> shown(surface.vertex_count);
-  for (const NumberedTriangle& t : *surface.near_plane)
-    for (const std::uint32_t v : t.corners) shown[v] = true;
+  const std::vector<bool> shown = verticesNearPlane(surface);
   const auto isShown = [&](std::uint32_t v) { return shown[v]; };
   std::erase_if(relief.moved, [&](std::uint32_t v) { return !shown[v]; });
   std::erase_if(relief.about,
@@ -142,10 +141,9 @@ Trabeculae::Trabeculae(const Scene& scene, const MeshMotion& motion, bool everyw
     motion.frameAt(static_cast<double>(i) / kPhases, later, false);
     for (Relief& relief : reliefs_) calm(later.positions_m[index(relief.surface)], relief);
   }
-  for (Relief& relief : reliefs_)
-    if (const SurfaceTopology& surface = motion.surfaces()[index(relief.surface)];
-        !everywhere && surface.near_plane)
-      showAboutPlane(surface, relief);
+  if (!everywhere)
+    for (Relief& relief : reliefs_)
+      showAboutPlane(motion.surfaces()[index(relief.surface)], relief);
   follow(scene, frame, motion);
 }
 

@@ -147,6 +147,19 @@ CompareCommand::CompareCommand(CLI::App& app) {
                   std::string(kDocuments));
 }
 
+template <typename Make, typename Write>
+int CompareCommand::runAndTell(const Make& make, const Write& write) const {
+  listenForStop();
+  ProgressLine line(quiet_);
+  withThreads(threads_, [&] {
+    const auto result = make(line.monitor());
+    line.finish();
+    write(result, folder_);
+    if (!quiet_) printTable(result, folder_);
+  });
+  return 0;
+}
+
 int CompareCommand::run() {
   if (!scan_text_.empty() && !views_text_.empty())
     throw SceneError("--views: --scan scans one view; give one of the two");
@@ -162,15 +175,9 @@ int CompareCommand::run() {
   options_.align_space = !no_space_;
   options_.real_side.read_ecg = options_.synthetic_side.read_ecg = !no_ecg_;
   checkOptions(options_);
-  listenForStop();
-  ProgressLine line(quiet_);
-  withThreads(threads_, [&] {
-    const compare::Comparison comparison = compareLoops(options_, line.monitor());
-    line.finish();
-    writeResults(comparison, options_, folder_);
-    if (!quiet_) printTable(comparison, folder_);
-  });
-  return 0;
+  return runAndTell(
+      [&](const auto& monitor) { return compareLoops(options_, monitor); },
+      [&](const auto& comparison, const auto& to) { writeResults(comparison, options_, to); });
 }
 
 void CompareCommand::needOneLoop(const char* option) const {
@@ -195,15 +202,8 @@ int CompareCommand::runScan() {
   scan_.side = options_.real_side;
   scan_.side.read_ecg = !no_ecg_;
   scan_.tilt_deg = options_.tilt_deg;
-  listenForStop();
-  ProgressLine line(quiet_);
-  withThreads(threads_, [&] {
-    const compare::DialScan scan = scanDials(scan_, line.monitor());
-    line.finish();
-    writeScan(scan, folder_);
-    if (!quiet_) printTable(scan, folder_);
-  });
-  return 0;
+  return runAndTell([&](const auto& monitor) { return scanDials(scan_, monitor); },
+                    compare::writeScan);
 }
 
 int CompareCommand::runViews() {
@@ -215,15 +215,8 @@ int CompareCommand::runViews() {
   options.side = options_.real_side;
   options.side.read_ecg = !no_ecg_;
   options.tilt_deg = options_.tilt_deg;
-  listenForStop();
-  ProgressLine line(quiet_);
-  withThreads(threads_, [&] {
-    const compare::ViewRanking ranking = rankViews(options, line.monitor());
-    line.finish();
-    writeViews(ranking, folder_);
-    if (!quiet_) printTable(ranking, folder_);
-  });
-  return 0;
+  return runAndTell([&](const auto& monitor) { return rankViews(options, monitor); },
+                    compare::writeViews);
 }
 
 }  // namespace echocine

@@ -23,6 +23,9 @@ class CompareCommand {
  private:
   int runScan();
   int runViews();
+  // Makes the result under a progress line, writes it into the folder and prints its table.
+  template <typename Make, typename Write>
+  int runAndTell(const Make& make, const Write& write) const;
   // Of a command that holds hearts of its own against one loop.
   void needOneLoop(const char* option) const;
 

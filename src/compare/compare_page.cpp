@@ -5,7 +5,6 @@
 #include "compare/fit_where.h"
 #include "compare/results.h"
 #include "core/shown_path.h"
-#include "page/assets.h"
 
 namespace echocine::compare {
 
@@ -42,11 +41,9 @@ Json framesJson(const Comparison& c, const ComparePage& page) {
 }
 
 PageLook lookOf(const Comparison& c) {
-  PageLook look = pageLook(
+  return fitPageLook(
       "EchoCine: " + shownName(c.synthetic.video.name) + " against " + shownName(c.real.video.name),
-      pageAsset("compare.html"), pageAsset("compare.js"));
-  look.scripts.insert(look.scripts.end() - 1, pageAsset("fit_map.js"));
-  return look;
+      "compare");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "core/units.h"
 #include "motion/mesh_motion.h"
 #include "motion/probe_placement.h"
+#include "page/assets.h"
 #include "scene/probe_pose.h"
 #include "truth/aha_segments.h"
 #include "video/cine_writer.h"
@@ -171,6 +172,12 @@ Json structureCurvesJson(const FitWhere& where) {
 Json segmentCurvesJson(const FitWhere& where) {
   return curvesJson(segmentCurves(where.map), "segment",
                     [](std::size_t s) { return kAhaNames[s - 1]; });
+}
+
+PageLook fitPageLook(const std::string& title, const std::string& name) {
+  PageLook look = pageLook(title, pageAsset(name + ".html"), pageAsset(name + ".js"));
+  look.scripts.insert(look.scripts.end() - 1, pageAsset("fit_map.js"));
+  return look;
 }
 
 void addFitPictures(const FitWhere& where, PageWriter& page, std::string_view loop) {

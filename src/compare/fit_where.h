@@ -46,6 +46,9 @@ nlohmann::ordered_json tiltJson(const SceneFit& fit);  // with the keys; precond
 nlohmann::ordered_json structureCurvesJson(const FitWhere& where);
 nlohmann::ordered_json segmentCurvesJson(const FitWhere& where);
 
+// The look of a page of this name that shows where a model disagrees: its markup, its script, and
+// fit_map.js before that.
+PageLook fitPageLook(const std::string& title, const std::string& name);
 // For fit_map.js: its pictures as a loop, and what is drawn over them. Throws JobError.
 void addFitPictures(const FitWhere& where, PageWriter& page, std::string_view loop = "fit");
 nlohmann::ordered_json fitJson(const FitWhere& where);

@@ -9,7 +9,6 @@
 #include "compare/results_folder.h"
 #include "core/shown_path.h"
 #include "core/units.h"
-#include "page/assets.h"
 #include "page/page.h"
 #include "video/cine_writer.h"
 
@@ -68,10 +67,8 @@ Json scanJson(const DialScan& scan) {
 
 // The page alone has the maps: they are its pictures.
 void writeScanPage(const DialScan& scan, Json json, const std::filesystem::path& path) {
-  PageLook look = pageLook("EchoCine: dials against " + shownName(scan.options.real.string()),
-                           pageAsset("scan.html"), pageAsset("scan.js"));
-  look.scripts.insert(look.scripts.end() - 1, pageAsset("fit_map.js"));
-  PageWriter page(path, look);
+  PageWriter page(
+      path, fitPageLook("EchoCine: dials against " + shownName(scan.options.real.string()), "scan"));
   addFitPictures(scan.where, page);
   json["fit"] = fitJson(scan.where);
   page.finish(json);

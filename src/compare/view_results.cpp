@@ -8,7 +8,6 @@
 #include "compare/view_ranking.h"
 #include "core/shown_path.h"
 #include "core/units.h"
-#include "page/assets.h"
 #include "page/page.h"
 
 namespace echocine::compare {
@@ -62,10 +61,8 @@ Json viewsJson(const ViewRanking& ranking) {
 
 // The page alone has outlines and maps: they are its pictures.
 void writeViewsPage(const ViewRanking& ranking, Json json, const std::filesystem::path& path) {
-  PageLook look = pageLook("EchoCine: views against " + shownName(ranking.options.real.string()),
-                           pageAsset("views.html"), pageAsset("views.js"));
-  look.scripts.insert(look.scripts.end() - 1, pageAsset("fit_map.js"));
-  PageWriter page(path, look);
+  PageWriter page(
+      path, fitPageLook("EchoCine: views against " + shownName(ranking.options.real.string()), "views"));
   for (std::size_t i = 0; i < ranking.views.size(); ++i) {
     const ViewFound& v = ranking.views[i];
     addFitPictures(v.where, page, keyOf(v.view));

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "motion/near_plane.h"
 #include "scene/elevation_slices.h"
 #include "scene/scan_geometry.h"
 
@@ -11,12 +12,9 @@ namespace {
 
 // Vertices of the triangles that a slice can reach.
 std::vector<std::uint32_t> verticesOf(const SurfaceTopology& surface) {
+  const std::vector<bool> near = verticesNearPlane(surface);
   std::vector<std::uint32_t> vertices(surface.vertex_count);
   std::iota(vertices.begin(), vertices.end(), 0u);
-  if (!surface.near_plane) return vertices;
-  std::vector<bool> near(surface.vertex_count);
-  for (const NumberedTriangle& t : *surface.near_plane)
-    for (const std::uint32_t v : t.corners) near[v] = true;
   std::erase_if(vertices, [&](std::uint32_t v) { return !near[v]; });
   return vertices;
 }

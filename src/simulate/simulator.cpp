@@ -79,11 +79,12 @@ std::shared_ptr<Workspace> Simulator::workspace() const {
       free_.pop_back();
     }
   }
-  if (!space && plan_.slice)
+  if (!space && plan_.slice) {
     space = std::make_unique<Workspace>(
         Workspace{-1, {}, {}, PlaneSlice(motion_->surfaces(), scene_.probe, plan_.left_out), {}});
-  if (space && plan_.effects.elevation_slices > 1 && !space->sides)
-    space->sides.emplace(motion_->surfaces(), scene_, plan_.left_out);
+    if (plan_.effects.elevation_slices > 1)
+      space->sides.emplace(motion_->surfaces(), scene_, plan_.left_out);
+  }
   if (!space)
     space = std::make_unique<Workspace>(
         Workspace{-1, {}, {}, FrameGeometry(motion_->surfaces(), plan_.left_out), {}});
