@@ -1,6 +1,7 @@
 #include "speckle/splat.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -57,7 +58,7 @@ Floats8 floatsAt(const std::uint16_t* from) {
   return __builtin_convertvector(__builtin_convertvector(lanes, Ints8), Floats8);
 }
 
-constexpr std::ptrdiff_t kAhead = 16;  // eights that memory is asked for. Our choice, by time
+constexpr std::ptrdiff_t kPlacesAhead = 16;  // eights that memory is asked for. Our choice, by time
 
 }  // namespace
 
@@ -67,9 +68,12 @@ GaussianMix mixAt(const GaussianTable& table, std::uint64_t pattern, double time
     return {table.real(start), table.imaginary(start), table.real(start), table.imaginary(start)};
   }
   const double at = time_s / tau_s + uniformFromHash(hashOf(pattern, 0x7e));
-  const double m = std::floor(at), f = at - m;
-  const std::uint64_t one = hashOf(pattern, static_cast<std::int64_t>(m)),
-                      two = hashOf(pattern, static_cast<std::int64_t>(m) + 1);
+  const double floor = std::floor(at);
+  // From 2^52 on a double has no fraction: each instant then has a draw of its own, by its bits.
+  const bool whole = !(std::abs(at) < 0x1p52);
+  const auto m = whole ? std::bit_cast<std::int64_t>(at) : static_cast<std::int64_t>(floor);
+  const double f = whole ? 0 : at - floor;
+  const std::uint64_t one = hashOf(pattern, m), two = hashOf(pattern, m + 1);
   return {table.real(one),
           table.imaginary(one),
           table.real(two),
@@ -96,7 +100,7 @@ Splatter::Splatter(const Probe& probe, const PointSpread& spread)
 // q = y^2 / w_e^2, the wave's curvature adds (c / d) 8 ln2 q / 4 pi turns. c / d as a line between
 // the cube's ends, which is off by under a per cent over its depth.
 inline Splatter::Bend Splatter::bendOf(Floats8 sample) const {
-  constexpr float kNearest_m = 1e-4f;
+  constexpr float kLeastDepth_m = 1e-4f;
   const auto pairs = [](Floats8 a) {
     return __builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3);
   };
@@ -108,7 +112,7 @@ inline Splatter::Bend Splatter::bendOf(Floats8 sample) const {
   high = larger(high, next(high));
   const float first = std::min(low[0], low[1]), last = std::max(high[0], high[1]);
   const auto at = [&](float k) {
-    return bend_ / std::max(min_depth_m_ + k * spacing_m_, kNearest_m) - bend_at_focus_;
+    return bend_ / std::max(min_depth_m_ + k * spacing_m_, kLeastDepth_m) - bend_at_focus_;
   };
   const float at_first = at(first);
   const float slope = last > first ? (at(last) - at_first) / (last - first) : 0;
@@ -140,7 +144,7 @@ void Splatter::add(const BeamCube& cube, const Scatterers& scatterers, const Sca
   for (; n < eights; ++n) {
     if (n > 0 && static_cast<float>(highest[n - 1]) > range.last) break;
     const Floats8 u = floatsAt(places[n].u), v = floatsAt(places[n].v), w = floatsAt(places[n].w);
-    __builtin_prefetch(places + n + kAhead);
+    __builtin_prefetch(places + n + kPlacesAhead);
     addLanes({lines.at(u, v, w), samples.at(u, v, w), acrosses.at(u, v, w)}, bend, mix,
              n * kFloatLanes, batch.count, splats);
   }

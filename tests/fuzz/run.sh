@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Runs the fuzzers of the preset `fuzz`, which must be built: tests/fuzz/run.sh [SECONDS [TARGET...]]
+# Runs the fuzzers of the preset `dev`, which must be built: tests/fuzz/run.sh [SECONDS [TARGET...]]
 # Without SECONDS a short run that is the same every time; with SECONDS each target gets that long,
-# begins where its last long run ended (build/fuzz/corpus), and leaves what breaks it in
-# build/fuzz/findings.
+# begins where its last long run ended (build/dev/fuzz/corpus), and leaves what breaks it in
+# build/dev/fuzz/findings.
 set -euo pipefail
 cd "$(dirname "$0")"
-build=../../build/fuzz
+build=../../build/dev
+work=$build/fuzz
 seconds=${1:-}
 targets=("${@:2}")
 [ ${#targets[@]} -gt 0 ] || targets=(exr lid obj off ply scene stl video)
@@ -15,7 +16,7 @@ targets=("${@:2}")
 limits=(-malloc_limit_mb=257 -rss_limit_mb=1024 -timeout=20 -max_len=4096)
 export ASAN_OPTIONS=quarantine_size_mb=16:max_allocation_size_mb=256:allocator_may_return_null=1
 [ ! -d /dev/shm ] || export TMPDIR=/dev/shm  # for readers that take a path
-mkdir -p "$build/findings"
+mkdir -p "$work/findings"
 
 for target in "${targets[@]}"; do
   dictionary=()
@@ -25,18 +26,18 @@ for target in "${targets[@]}"; do
     lid | obj | off | ply | stl) dictionary=(-dict=mesh.dict) ;;
   esac
   if [ -n "$seconds" ]; then
-    mkdir -p "$build/corpus/$target"
-    folders=("$build/corpus/$target" "corpus/$target")
+    mkdir -p "$work/corpus/$target"
+    folders=("$work/corpus/$target" "corpus/$target")
     length=(-max_total_time="$seconds" -print_final_stats=1)
   else
-    rm -rf "$build/short"
-    mkdir -p "$build/short"
-    folders=("$build/short" "corpus/$target")
+    rm -rf "$work/short"
+    mkdir -p "$work/short"
+    folders=("$work/short" "corpus/$target")
     length=(-runs=5000 -seed=1)
   fi
-  log=$build/$target.log
+  log=$work/$target.log
   if ! "$build/fuzz_$target" "${limits[@]}" "${dictionary[@]}" "${length[@]}" \
-    -artifact_prefix="$build/findings/$target-" "${folders[@]}" 2>"$log"; then
+    -artifact_prefix="$work/findings/$target-" "${folders[@]}" 2>"$log"; then
     tail -n 60 "$log" >&2
     exit 1
   fi

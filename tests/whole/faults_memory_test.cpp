@@ -90,7 +90,7 @@ TEST_F(ShortOfMemory, AShortageThatLastsEndsInOneLine) {
 // A limit on the address space, from the least that lets the program start to what a run needs.
 // Below that the system's loader refuses, which is no matter of the program's.
 TEST_F(ShortOfMemory, EveryLimitOfAddressesEndsInOneLine) {
-  const auto limited = [this](std::vector<std::string> arguments, long megabytes) {
+  const auto limited = [](std::vector<std::string> arguments, long megabytes) {
     FaultyRun run{std::move(arguments)};
     run.before = [megabytes] {
       const rlimit limit{static_cast<rlim_t>(megabytes) << 20, static_cast<rlim_t>(megabytes)

@@ -10,10 +10,15 @@ foreach(suite IN LISTS suites)
   string(STRIP "${suite}" suite)
   string(REGEX REPLACE "\\.$" "" suite "${suite}")
   set(cost 1)
-  if(suite MATCHES "^(NumberSweep|Planted|SimulatorFrame|StudyCommandTest|Tolerance)$")
-    set(cost 100)  # the longest ones first, so that none is left to run alone
+  set(labels "")
+  # The longest ones first, so that none is left to run alone.
+  if(suite MATCHES "^(DatasetCommand|NumberSweep|SimulatorFrame|VideoWithEcg|ComparedRender)$")
+    set(cost 100)
+  elseif(suite MATCHES "^(CompareFit|CompareSystole|CompareTilt|CompareViewRanking|CompareViews|HeartMotionWhole|PatientAgainstVideos|Planted|StudyCommandTest|Tolerance|EachFamily/ToleranceOfHeart|Trabeculae)$")
+    set(cost 200)
+    set(labels "LABELS long")  # searches and tables: minutes under sanitizers, over code that other suites run too
   endif()
   string(APPEND tests "add_test([=[${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
-                      "set_tests_properties([=[${suite}]=] PROPERTIES TIMEOUT ${SECONDS} COST ${cost})\n")
+                      "set_tests_properties([=[${suite}]=] PROPERTIES TIMEOUT ${SECONDS} COST ${cost} ${labels})\n")
 endforeach()
 file(WRITE ${OUT} "${tests}")

@@ -20,7 +20,7 @@ const fs::path kCorpus = fs::path(kSourceDir) / "tests/fuzz/corpus";
 // 4 GB of addresses, of which the libraries take one; under ASan, which takes terabytes, 512 MB at
 // once.
 Outcome planWithLittleMemory(const fs::path& scene) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef ECHOCINE_SANITIZED
   const std::string limit = "export ASAN_OPTIONS=max_allocation_size_mb=512; ";
 #else
   const std::string limit = "ulimit -v 4000000; ";

@@ -25,7 +25,7 @@ long peakOf(const TempFolder& folder, int frames, const Lines& signal, bool trut
 }
 
 void expectBounded(const Lines& signal, double limit, bool truth = false) {
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef ECHOCINE_SANITIZED
   GTEST_SKIP() << "the sanitizer keeps freed memory back";
 #endif
   const TempFolder folder;
