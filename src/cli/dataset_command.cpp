@@ -9,6 +9,7 @@
 #include "cli/documents.h"
 #include "cli/progress_bar.h"
 #include "cli/stop_signal.h"
+#include "cli/warning_printer.h"
 #include "core/error.h"
 #include "core/run_script.h"
 #include "dataset/heart_cost.h"
@@ -54,6 +55,10 @@ DatasetCommand::DatasetCommand(CLI::App& app) {
                            ->add_flag("--merge", merge_,
                                       "Make nothing: prove that all is there and write the tables")
                            ->excludes(task);
+  command
+      ->add_flag("--fast", fast_,
+                 "Of --merge: prove files by their sizes alone, not by their bytes")
+      ->needs(merge);
   command
       ->add_option(
           "--preview", preview_,
@@ -102,7 +107,7 @@ int DatasetCommand::run() {
   if (!merge_) {
     ProgressBar bar(quiet_);
     const Clock::time_point start = Clock::now();
-    Monitor monitor{.keep_going = [] { return !stopWanted(); }};
+    Monitor monitor{.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)};
     monitor.tell = [&](const Progress& p) {
       if (!bar.due(p.done, p.total)) return;
       const double s = std::chrono::duration<double>(Clock::now() - start).count();
@@ -121,7 +126,10 @@ int DatasetCommand::run() {
           made.impossible);
     if (!task_.empty()) return 0;
   }
-  const dataset::MakeSummary merged = dataset::mergeParts(spec, folder_);
+  // A run without --merge has just proven the bytes of what it kept.
+  const dataset::MakeSummary merged = dataset::mergeParts(
+      spec, folder_, {.fast = fast_ || !merge_, .threads = threads_},
+      {.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)});
   if (!quiet_)
     fmt::print("{} hearts, {} loops in {}: README.md tells of them\n", merged.merged, merged.loops,
                folder_.string());

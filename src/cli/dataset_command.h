@@ -27,7 +27,7 @@ class DatasetCommand {
   std::string task_, sbatch_;
   int threads_ = 0, preview_ = 0;
   int tasks_ = 0, cores_ = 4, minutes_ = 0;  // of Slurm's jobs; 0: by what the first heart takes
-  bool merge_ = false, slurm_ = false, no_submit_ = false, quiet_ = false;
+  bool merge_ = false, fast_ = false, slurm_ = false, no_submit_ = false, quiet_ = false;
 };
 
 }  // namespace echocine

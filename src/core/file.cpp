@@ -76,10 +76,8 @@ void syncFolderOf(const std::filesystem::path& path) {
   ::close(descriptor);
 }
 
-WholeFile::WholeFile(std::filesystem::path path)
-    : path_(std::move(path)), part_(path_.string() + ".part") {
-  descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (descriptor_ < 0) fail(errno);
+WholeFile::WholeFile(std::filesystem::path path) : path_(std::move(path)), part_(makePart(path_)) {
+  if (part_.descriptor < 0) fail(errno);
 }
 
 WholeFile::~WholeFile() {
@@ -87,9 +85,9 @@ WholeFile::~WholeFile() {
 }
 
 void WholeFile::discard() {
-  if (descriptor_ < 0) return;
-  ::close(std::exchange(descriptor_, -1));
-  ::unlink(part_.c_str());
+  if (part_.descriptor < 0) return;
+  ::close(std::exchange(part_.descriptor, -1));
+  ::unlink(part_.name.c_str());
 }
 
 void WholeFile::fail(int reason) {
@@ -98,16 +96,62 @@ void WholeFile::fail(int reason) {
 }
 
 void WholeFile::write(std::span<const std::byte> bytes) {
-  if (!writeAll(descriptor_, bytes)) fail(errno);
+  if (!writeAll(part_.descriptor, bytes)) fail(errno);
+}
+
+// On the disk, under its part's name.
+void WholeFile::close() {
+  if (!syncFile(part_.descriptor)) fail(errno);
+  if (::close(std::exchange(part_.descriptor, -1)) == 0) return;
+  const int reason = errno;
+  ::unlink(part_.name.c_str());
+  fail(reason);
 }
 
 void WholeFile::finish() {
-  if (!syncFile(descriptor_)) fail(errno);
-  const int closed = ::close(std::exchange(descriptor_, -1));
-  if (closed == 0 && ::rename(part_.c_str(), path_.c_str()) == 0) return syncFolderOf(path_);
+  close();
+  if (::rename(part_.name.c_str(), path_.c_str()) == 0) return syncFolderOf(path_);
   const int reason = errno;
-  ::unlink(part_.c_str());
+  ::unlink(part_.name.c_str());
   fail(reason);
+}
+
+// A link fails where the name is taken. File systems without links get a rename: then the last of
+// two writers wins.
+bool WholeFile::finishOnce() {
+  close();
+  const bool linked = ::link(part_.name.c_str(), path_.c_str()) == 0;
+  const int reason = linked ? 0 : errno;
+  if (reason == EPERM || reason == EOPNOTSUPP || reason == EMLINK) {
+    if (::rename(part_.name.c_str(), path_.c_str()) == 0) return syncFolderOf(path_), true;
+  }
+  ::unlink(part_.name.c_str());
+  if (!linked && reason != EEXIST) fail(reason);
+  syncFolderOf(path_);
+  return linked;
+}
+
+bool isOrdinaryFile(const std::filesystem::path& path) {
+  std::error_code failed;
+  return std::filesystem::symlink_status(path, failed).type() ==
+         std::filesystem::file_type::regular;
+}
+
+std::filesystem::path linkBelow(const std::filesystem::path& folder,
+                                const std::filesystem::path& name) {
+  std::filesystem::path at = folder;
+  std::error_code failed;
+  for (const std::filesystem::path& part : name) {
+    at /= part;
+    if (std::filesystem::is_symlink(std::filesystem::symlink_status(at, failed))) return at;
+  }
+  return {};
+}
+
+bool writeFileOnce(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  WholeFile file(path);
+  file.write(bytes);
+  return file.finishOnce();
 }
 
 void writeFileWhole(const std::filesystem::path& path, std::span<const std::byte> bytes) {

@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 
+#include "core/part_file.h"
+
 namespace echocine {
 
 // The text of a file. Throws SceneError when it cannot be read or is larger than max_bytes.
@@ -31,15 +33,28 @@ class WholeFile {
 
   void write(std::span<const std::byte> bytes);
   void finish();
+  bool finishOnce();  // false, and nothing left behind, where the target is there already
 
  private:
+  void close();
   [[noreturn]] void fail(int reason);
   void discard();
 
   std::filesystem::path path_;
-  std::string part_;
-  int descriptor_ = -1;
+  PartFile part_;
 };
+
+// Whether an ordinary file stands at the path itself: no link to one, no pipe, no folder.
+bool isOrdinaryFile(const std::filesystem::path& path);
+
+// The first part of `name` below `folder` that is a link, as a path; empty where none is. The
+// folder itself may be reached through links.
+std::filesystem::path linkBelow(const std::filesystem::path& folder,
+                                const std::filesystem::path& name);
+
+// As writeFileWhole(), but false, and nothing changed, where the name is taken already, by another
+// process at this very moment too. Throws JobError.
+bool writeFileOnce(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 // Writes beside the target and renames, so that the target is either as before or whole.
 // Throws JobError with the system's reason (disk full, no permission), the target untouched.

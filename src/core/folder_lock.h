@@ -24,4 +24,7 @@ class FolderLock {
   int descriptor_;
 };
 
+// Whether another run holds the folder at this moment. False where there is no such folder.
+bool isLocked(const std::filesystem::path& folder);
+
 }  // namespace echocine

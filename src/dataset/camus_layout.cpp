@@ -46,7 +46,7 @@ double biplaneOfViews(const Heart& heart, bool end_systole) {
 }
 
 std::string word(const Json& drawn, const char* key, const std::string& fallback) {
-  return drawn.contains(key) ? drawn[key].get<std::string>() : fallback;
+  return drawn.contains(key) ? drawn.at(key).get<std::string>() : fallback;
 }
 
 // Exactly eight lines: the loaders split each at ": ". Numbers of frames are from 1 within the half
@@ -59,9 +59,8 @@ std::string infoText(const Loop& loop, const Json& entry, double ef_percent) {
   return fmt::format(
       "ED: 1\nES: {0}\nNbFrame: {0}\nSex: {1}\nAge: {2}\nImageQuality: {3}\nEF: {4:.0f}\n"
       "FrameRate: {5:.1f}\n",
-      frames, word(drawn, "subject.sex", "F"),
-      std::lround(drawn.value("subject.age", 60.0)), quality, ef_percent,
-      loop.scene.acquisition.frame_rate_hz);
+      frames, word(drawn, "subject.sex", "F"), std::lround(drawn.value("subject.age", 60.0)),
+      quality, ef_percent, loop.scene.acquisition.frame_rate_hz);
 }
 
 void writeView(const Heart& heart, const Loop& loop, const Json& entry, double ef_percent,
@@ -70,8 +69,8 @@ void writeView(const Heart& heart, const Loop& loop, const Json& entry, double e
                                         heart.number, viewWord(loop));
   const double mm = 1e3 * loop.geometry.metres_per_pixel;
   const auto write = [&](const char* what, int first, int last, int frames) {
-    const NiftiShape shape{loop.width(), loop.height(), frames, mm, mm,
-                           1 / loop.scene.acquisition.frame_rate_hz};
+    const NiftiShape shape{
+        loop.width(), loop.height(), frames, mm, mm, 1 / loop.scene.acquisition.frame_rate_hz};
     sink.write(fmt::format("{}{}.nii.gz", start, what),
                niftiBytes(shape, pixelsOf(loop, first, last, false)));
     sink.write(fmt::format("{}{}_gt.nii.gz", start, what),
@@ -81,9 +80,9 @@ void writeView(const Heart& heart, const Loop& loop, const Json& entry, double e
   write("ED", at.ed, at.ed, 0);
   write("ES", at.es, at.es, 0);
   write("half_sequence", at.ed, at.es, at.es - at.ed + 1);
-  sink.write(fmt::format("camus/database_nifti/patient{:04}/Info_{}.cfg", heart.number,
-                         viewWord(loop)),
-             infoText(loop, entry, ef_percent));
+  sink.write(
+      fmt::format("camus/database_nifti/patient{:04}/Info_{}.cfg", heart.number, viewWord(loop)),
+      infoText(loop, entry, ef_percent));
 }
 
 void writeCamus(const Spec&, const Heart& heart, Sink& sink, Json& record) {
@@ -101,7 +100,8 @@ void mergeCamus(const Spec&, std::span<const Json> records, Sink& sink) {
   for (const auto& [split, file] : kLists) {
     std::string list;
     for (const Json& record : records)
-      if (record["split"] == split) list += fmt::format("patient{:04}\n", record["heart"].get<int>());
+      if (record.at("split") == split)
+        list += fmt::format("patient{:04}\n", record.at("heart").get<int>());
     sink.write(fmt::format("camus/database_split/subgroup_{}.txt", file), list);
   }
 }

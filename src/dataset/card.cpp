@@ -21,13 +21,13 @@ Numbers numbersOf(std::span<const Json> records) {
     if (value.is_number()) numbers[name].push_back(value.get<double>());
   };
   for (const Json& record : records)
-    for (const Json& loop : record["loops"]) {
+    for (const Json& loop : record.at("loops")) {
       for (const char* name : {"ef_percent", "edv_ml", "esv_ml", "frames", "mm_per_pixel"})
-        take(name, loop[name]);
-      if (loop["view_offset"].is_object())
-        for (const auto& [name, value] : loop["view_offset"].items())
+        take(name, loop.at(name));
+      if (loop.at("view_offset").is_object())
+        for (const auto& [name, value] : loop.at("view_offset").items())
           take("view_offset." + name, value);
-      for (const auto& [name, value] : loop["drawn"].items()) take(name, value);
+      for (const auto& [name, value] : loop.at("drawn").items()) take(name, value);
     }
   std::erase_if(numbers, [](const auto& entry) {
     const auto [low, high] = std::minmax_element(entry.second.begin(), entry.second.end());
@@ -46,18 +46,21 @@ std::string histogram(const std::string& name, const std::vector<double>& values
         std::min(kBars - 1, static_cast<int>(kBars * (v - *low) / (*high - *low))))];
   const int most = *std::max_element(counts.begin(), counts.end());
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" font-family=\"sans-serif\" "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" "
+      "font-family=\"sans-serif\" "
       "font-size=\"11\">\n<text x=\"{}\" y=\"14\">{} (n = {})</text>\n",
       kBars * kWide + 2 * kLeft, kHigh + kTop + 20, kLeft, name, values.size());
   for (int i = 0; i < kBars; ++i) {
     const double height = 1.0 * kHigh * counts[static_cast<std::size_t>(i)] / most;
-    svg += fmt::format("<rect x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\" fill=\"#36c\"/>\n",
-                       kLeft + i * kWide, kTop + kHigh - height, kWide - 1, height);
+    svg +=
+        fmt::format("<rect x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\" fill=\"#36c\"/>\n",
+                    kLeft + i * kWide, kTop + kHigh - height, kWide - 1, height);
   }
   const int foot = kTop + kHigh + 14;
-  return svg + fmt::format("<text x=\"{}\" y=\"{}\">{:.4g}</text>\n<text x=\"{}\" y=\"{}\" "
-                           "text-anchor=\"end\">{:.4g}</text>\n</svg>\n",
-                           kLeft, foot, *low, kLeft + kBars * kWide, foot, *high);
+  return svg + fmt::format(
+                   "<text x=\"{}\" y=\"{}\">{:.4g}</text>\n<text x=\"{}\" y=\"{}\" "
+                   "text-anchor=\"end\">{:.4g}</text>\n</svg>\n",
+                   kLeft, foot, *low, kLeft + kBars * kWide, foot, *high);
 }
 
 std::string fileName(std::string name) {
@@ -108,11 +111,11 @@ Distributions with their sources stand in `dataset.json`.
 | what varies | least | median | most | |
 |---|---|---|---|---|
 )",
-      spec.name, counts["loops"].get<int>(), counts["hearts"].get<int>(),
-      counts["frames"].get<int>(), ECHOCINE_VERSION, fmt::format("{}", fmt::join(spec.layouts, ", ")),
-      countsText(counts, "hearts_by_split"), countsText(counts, "hearts_by_population"),
-      counts["impossible_draws"].get<int>(), counts["failed_hearts"].get<int>(), spec.licence,
-      spec.digest);
+      spec.name, counts.at("loops").get<int>(), counts.at("hearts").get<int>(),
+      counts.at("frames").get<int>(), ECHOCINE_VERSION,
+      fmt::format("{}", fmt::join(spec.layouts, ", ")), countsText(counts, "hearts_by_split"),
+      countsText(counts, "hearts_by_population"), counts.at("impossible_draws").get<int>(),
+      counts.at("failed_hearts").get<int>(), spec.licence, spec.digest);
   for (const auto& [name, values] : numbers) {
     text += row(name, values);
     sink.write(fileName(name), histogram(name, values));

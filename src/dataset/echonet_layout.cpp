@@ -41,10 +41,11 @@ void writeEchonet(const Spec&, const Heart& heart, Sink& sink, Json& record) {
 // The loader takes the frame whose rows come first for end-systole, and a mask from the first point
 // of every chord, then the second ones backwards.
 void addTracing(const Json& loop, const char* instant, std::string& text) {
-  for (const Json& row : loop["echonet"][instant])
-    text += fmt::format("{}.avi,{:.3f},{:.3f},{:.3f},{:.3f},{}\n", loop["id"].get<std::string>(),
-                        row[0].get<double>(), row[1].get<double>(), row[2].get<double>(),
-                        row[3].get<double>(), loop[fmt::format("{}_frame", instant)].get<int>());
+  for (const Json& row : loop.at("echonet").at(instant))
+    text +=
+        fmt::format("{}.avi,{:.3f},{:.3f},{:.3f},{:.3f},{}\n", loop.at("id").get<std::string>(),
+                    row.at(0).get<double>(), row.at(1).get<double>(), row.at(2).get<double>(),
+                    row.at(3).get<double>(), loop.at(fmt::format("{}_frame", instant)).get<int>());
 }
 
 const char* splitWord(const std::string& split) {
@@ -55,12 +56,12 @@ void mergeEchonet(const Spec&, std::span<const Json> records, Sink& sink) {
   std::string list = "FileName,EF,ESV,EDV,FrameHeight,FrameWidth,FPS,NumberOfFrames,Split\n";
   std::string tracings = "FileName,X1,Y1,X2,Y2,Frame\n";
   for (const Json& record : records)
-    for (const Json& loop : record["loops"]) {
-      list += fmt::format("{},{:.4f},{:.4f},{:.4f},{},{},{:g},{},{}\n",
-                          loop["id"].get<std::string>(), loop["ef_percent"].get<double>(),
-                          loop["esv_ml"].get<double>(), loop["edv_ml"].get<double>(), kSide, kSide,
-                          loop["frame_rate_hz"].get<double>(), loop["frames"].get<int>(),
-                          splitWord(record["split"].get<std::string>()));
+    for (const Json& loop : record.at("loops")) {
+      list += fmt::format(
+          "{},{:.4f},{:.4f},{:.4f},{},{},{:g},{},{}\n", loop.at("id").get<std::string>(),
+          loop.at("ef_percent").get<double>(), loop.at("esv_ml").get<double>(),
+          loop.at("edv_ml").get<double>(), kSide, kSide, loop.at("frame_rate_hz").get<double>(),
+          loop.at("frames").get<int>(), splitWord(record.at("split").get<std::string>()));
       addTracing(loop, "es", tracings);
       addTracing(loop, "ed", tracings);
     }

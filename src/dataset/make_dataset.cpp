@@ -25,16 +25,17 @@ namespace {
 struct Done {
   std::size_t loops = 0, bytes = 0, impossible = 0;
   bool kept = false, failed = false;
+  std::string flaw = {};  // what was wrong with what an earlier run left
 };
 
 Done countsOf(const Json& record) {
   Done done;
   done.failed = isFailure(record);
   if (done.failed) return done;
-  done.loops = record["loops"].size();
-  done.impossible = record["impossible"].size();
-  for (const auto& [name, mark] : record["files"].items())
-    done.bytes += mark["bytes"].get<std::size_t>();
+  done.loops = record.at("loops").size();
+  done.impossible = record.at("impossible").size();
+  for (const auto& [name, mark] : record.at("files").items())
+    done.bytes += mark.at("bytes").get<std::size_t>();
   return done;
 }
 
@@ -53,9 +54,9 @@ std::optional<Heart> tryHeart(const Spec& spec, int heart, const Monitor& monito
 }
 
 Done makeOne(const Spec& spec, int heart, const WorkFolder& work, const Monitor& monitor) {
-  if (const auto record = work.finished(heart, WorkFolder::Look::bytes);
-      record && !isFailure(*record)) {
-    Done done = countsOf(*record);
+  WorkFolder::Finished earlier = work.finished(heart, WorkFolder::Look::bytes);
+  if (earlier.record && !isFailure(*earlier.record)) {
+    Done done = countsOf(*earlier.record);
     done.kept = true;
     return done;
   }
@@ -63,13 +64,14 @@ Done makeOne(const Spec& spec, int heart, const WorkFolder& work, const Monitor&
   const std::optional<Heart> made = tryHeart(spec, heart, monitor, reason);
   if (!made) {
     work.finish(heart, failureOf(spec, heart, reason), {});
-    return {.failed = true};
+    return {.failed = true, .flaw = std::move(earlier.flaw)};
   }
   Json record = recordOf(spec, *made);
   Sink sink(work.folder());
   for (const Layout* layout : layoutsOf(spec))
     if (layout->write != nullptr) layout->write(spec, *made, sink, record);
   Done done;
+  done.flaw = std::move(earlier.flaw);
   done.loops = made->loops.size();
   done.impossible = made->impossible.size();
   for (const auto& [name, mark] : sink.files()) done.bytes += mark.bytes;
@@ -90,7 +92,7 @@ void keepFiles(const Spec& spec, Json& record) {
   if (isFailure(record)) return;
   Json kept = Json::object();
   if (spec.has("webdataset"))
-    for (const auto& [name, mark] : record["files"].items())
+    for (const auto& [name, mark] : record.at("files").items())
       if (name.starts_with("native/")) kept[name] = mark;
   record["files"] = std::move(kept);
 }
@@ -118,7 +120,10 @@ MakeSummary makePart(const Spec& spec, const MakeOptions& options, const Monitor
   };
   const auto collect = [&](std::size_t i, std::shared_ptr<void> done) {
     lock.checkStillThere();
-    add(*static_cast<Done*>(done.get()), summary);
+    const Done& one = *static_cast<Done*>(done.get());
+    if (!one.flaw.empty())
+      monitor.warn(fmt::format("heart {} was made anew: {}", first + i * step + 1, one.flaw));
+    add(one, summary);
     monitor.tell({Task::rendering, i + 1, count});
   };
   withThreads(options.threads, [&] {
@@ -129,35 +134,77 @@ MakeSummary makePart(const Spec& spec, const MakeOptions& options, const Monitor
   return summary;
 }
 
-MakeSummary mergeParts(const Spec& spec, const std::filesystem::path& folder) {
-  const WorkFolder work(folder, spec);
-  std::vector<Json> records, failures;
+namespace {
+
+constexpr std::size_t kShown = 20;  // of missing or damaged hearts
+
+[[noreturn]] void failOfMissing(const std::vector<int>& missing, int hearts,
+                                const std::string& first_flaw) {
+  const std::size_t shown = std::min(kShown, missing.size());
+  throw JobError(fmt::format(
+      "{} of {} hearts are missing or damaged ({}{}){}{}: run the same command again without "
+      "--merge",
+      missing.size(), hearts,
+      fmt::join(missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+      shown < missing.size() ? ", ..." : "", first_flaw.empty() ? "" : ", first ", first_flaw));
+}
+
+struct Records {
+  std::vector<Json> finished, failed;
+};
+
+// The records of all hearts, in their order, and what they add up to. Throws JobError.
+Records provenRecords(const Spec& spec, const WorkFolder& work, const MergeOptions& options,
+                      const Monitor& monitor, MakeSummary& summary) {
+  const auto look = options.fast ? WorkFolder::Look::sizes : WorkFolder::Look::bytes;
+  const auto hearts = static_cast<std::size_t>(spec.hearts);
+  Records records;
   std::vector<int> missing;
-  MakeSummary summary;
-  for (int heart = 0; heart < spec.hearts; ++heart) {
-    std::optional<Json> record = work.finished(heart, WorkFolder::Look::sizes);
-    if (!record) {
-      missing.push_back(heart + 1);
-      continue;
-    }
+  std::size_t damaged = 0;
+  std::string first_flaw;
+  const auto prove = [&](std::size_t heart) -> std::shared_ptr<void> {
+    return std::make_shared<WorkFolder::Finished>(work.finished(static_cast<int>(heart), look));
+  };
+  const auto collect = [&](std::size_t heart, std::shared_ptr<void> proven) {
+    auto& [record, flaw] = *static_cast<WorkFolder::Finished*>(proven.get());
+    if (!flaw.empty() && ++damaged <= kShown)
+      monitor.warn(fmt::format("heart {}: {}", heart + 1, flaw));
+    if (first_flaw.empty()) first_flaw = flaw;
+    if (!record) return missing.push_back(static_cast<int>(heart) + 1);
     add(countsOf(*record), summary);
     keepFiles(spec, *record);
-    (isFailure(*record) ? failures : records).push_back(std::move(*record));
-  }
-  if (!missing.empty()) {
-    constexpr std::size_t kShown = 20;
-    const std::size_t shown = std::min(kShown, missing.size());
-    throw JobError(fmt::format(
-        "{} of {} hearts are missing or damaged ({}{}): run the same command again without --merge",
-        missing.size(), spec.hearts,
-        fmt::join(missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-        shown < missing.size() ? ", ..." : ""));
-  }
+    (isFailure(*record) ? records.failed : records.finished).push_back(std::move(*record));
+  };
+  withThreads(options.threads, [&] {
+    const auto in_flight = 2 * static_cast<std::size_t>(threadCount());
+    if (parallelOrdered(0, hearts, in_flight, monitor.keep_going, prove, collect) < hearts)
+      throw JobError("stopped: nothing was merged, the same command does it again");
+  });
+  if (!missing.empty()) failOfMissing(missing, spec.hearts, first_flaw);
+  return records;
+}
+
+}  // namespace
+
+MakeSummary mergeParts(const Spec& spec, const std::filesystem::path& folder,
+                       const MergeOptions& options, const Monitor& monitor) {
+  const WorkFolder work(folder, spec);
+  MakeSummary summary;
+  const Records records = provenRecords(spec, work, options, monitor, summary);
+  work.removeParts();
   Sink sink(folder);
-  for (const Layout* layout : layoutsOf(spec))
-    if (layout->merge != nullptr) layout->merge(spec, records, sink);
-  writeTables(spec, records, failures, sink);
-  summary.merged = records.size();
+  try {
+    for (const Layout* layout : layoutsOf(spec))
+      if (layout->merge != nullptr) layout->merge(spec, records.finished, sink);
+    writeTables(spec, records.finished, records.failed, sink);
+  } catch (const Json::exception&) {
+    // A record with a sound digest that is not of this program: made by hand.
+    throw JobError(
+        fmt::format("{}: its records are not as this program writes them: delete the "
+                    "folder's work/ and run the same command again",
+                    folder.string()));
+  }
+  summary.merged = records.finished.size();
   return summary;
 }
 

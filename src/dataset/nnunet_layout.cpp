@@ -26,7 +26,8 @@ void writeNnunet(const Spec&, const Heart& heart, Sink& sink, Json& record) {
     for (const int number : {loop.instants.ed, loop.instants.es}) {
       const LoopFrame& frame = loop.frames[static_cast<std::size_t>(number)];
       const std::string name = caseName(loop.id, number);
-      sink.write(fmt::format("{}/images{}/{}_0000.png", kFolder, part, name), encodePng(frame.image));
+      sink.write(fmt::format("{}/images{}/{}_0000.png", kFolder, part, name),
+                 encodePng(frame.image));
       sink.write(fmt::format("{}/labels{}/{}.png", kFolder, part, name),
                  encodePng(GreyImage{loop.width(), loop.height(), frame.labels}));
       cases.push_back(name);
@@ -39,10 +40,10 @@ void mergeNnunet(const Spec&, std::span<const Json> records, Sink& sink) {
   std::vector<std::pair<int, std::string>> cases;  // fold, name
   int hearts = 0;
   for (const Json& record : records) {
-    if (record["split"] == "test") continue;
+    if (record.at("split") == "test") continue;
     const int fold = hearts++ % kFolds;
-    for (const Json& loop : record["loops"])
-      for (const Json& name : loop["nnunet"]) cases.emplace_back(fold, name.get<std::string>());
+    for (const Json& loop : record.at("loops"))
+      for (const Json& name : loop.at("nnunet")) cases.emplace_back(fold, name.get<std::string>());
   }
   const Json dataset{
       {"channel_names", {{"0", "US"}}},

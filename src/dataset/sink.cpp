@@ -1,9 +1,13 @@
 #include "dataset/sink.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <array>
-#include <fstream>
 
 #include "core/digest.h"
+#include "core/error.h"
 #include "core/file.h"
 #include "video/cine_writer.h"
 
@@ -19,6 +23,11 @@ std::span<const std::byte> bytesOf(std::string_view text) {
 
 std::filesystem::path Sink::place(const std::string& name) const {
   const std::filesystem::path path = folder_ / name;
+  // What is written through a planted link lands elsewhere; a link in the file's own place is
+  // replaced by the rename.
+  const std::filesystem::path within = std::filesystem::path(name).parent_path();
+  if (const std::filesystem::path link = linkBelow(folder_, within); !link.empty())
+    throw JobError(fmt::format("{}: is a link, a folder is needed: remove it", link.string()));
   makeFolder(path.parent_path());
   return path;
 }
@@ -48,17 +57,27 @@ void Sink::writeCine(const std::string& name, std::span<const GreyImage* const> 
 }
 
 std::optional<FileMark> markOf(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
+  // A pipe that nobody fills would have us wait for ever.
+  if (!isOrdinaryFile(path)) return std::nullopt;
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return std::nullopt;
   FileMark mark;
   Digest digest;
-  std::array<char, 1 << 16> piece;  // a multiple of what the digest takes at once
-  while (file.read(piece.data(), piece.size()), file.gcount() > 0) {
-    const auto count = static_cast<std::size_t>(file.gcount());
-    digest.update(std::as_bytes(std::span(piece.data(), count)));
-    mark.bytes += count;
-  }
-  if (file.bad()) return std::nullopt;
+  std::array<std::byte, 1 << 16> piece;  // a multiple of what the digest takes at once
+  std::size_t filled = 0;
+  ssize_t count = 0;
+  do {
+    count = ::read(descriptor, piece.data() + filled, piece.size() - filled);
+    if (count < 0 && errno == EINTR) continue;
+    if (count > 0) filled += static_cast<std::size_t>(count);
+    if (filled == piece.size() || count == 0) {
+      digest.update(std::span(piece).first(filled));
+      mark.bytes += filled;
+      filled = 0;
+    }
+  } while (count > 0 || (count < 0 && errno == EINTR));
+  ::close(descriptor);
+  if (count < 0) return std::nullopt;
   mark.digest = digest.hex();
   return mark;
 }

@@ -44,7 +44,7 @@ std::string loopsTable(std::span<const Json> records) {
   std::vector<std::string> columns;  // those of every loop in their order, then what was drawn
   std::set<std::string> known, drawn;
   for (const Json& record : records)
-    for (const Json& loop : record["loops"]) {
+    for (const Json& loop : record.at("loops")) {
       rows.push_back({&record, {}});
       std::vector<std::string> order;
       flatten(loop, "", rows.back().cells, order);
@@ -62,8 +62,9 @@ std::string loopsTable(std::span<const Json> records) {
   text += "\n";
   for (LoopRow& row : rows) {
     const Json& record = *row.record;
-    text += fmt::format("{},{},{},{}", fieldOf(record["heart"]), fieldOf(record["population"]),
-                        fieldOf(record["split"]), fieldOf(record["attempt"]));
+    text +=
+        fmt::format("{},{},{},{}", fieldOf(record.at("heart")), fieldOf(record.at("population")),
+                    fieldOf(record.at("split")), fieldOf(record.at("attempt")));
     for (const std::string& column : columns) text += "," + row.cells[column];
     text += "\n";
   }
@@ -73,24 +74,25 @@ std::string loopsTable(std::span<const Json> records) {
 std::string splitsText(std::span<const Json> records) {
   Json splits{{"train", Json::array()}, {"val", Json::array()}, {"test", Json::array()}};
   for (const Json& record : records)
-    for (const Json& loop : record["loops"])
-      splits[record["split"].get<std::string>()].push_back(loop["id"]);
+    for (const Json& loop : record.at("loops"))
+      splits[record.at("split").get<std::string>()].push_back(loop.at("id"));
   return splits.dump(1) + "\n";
 }
 
 std::string impossibleTable(std::span<const Json> records) {
   std::string text = "heart,attempt,reason\n";
   for (const Json& record : records)
-    for (std::size_t i = 0; i < record["impossible"].size(); ++i)
-      text += fmt::format("{},{},{}\n", fieldOf(record["heart"]), i, fieldOf(record["impossible"][i]));
+    for (std::size_t i = 0; i < record.at("impossible").size(); ++i)
+      text += fmt::format("{},{},{}\n", fieldOf(record.at("heart")), i,
+                          fieldOf(record.at("impossible").at(i)));
   return text;
 }
 
 std::string failedTable(std::span<const Json> failures) {
   std::string text = "heart,seed,reason\n";
   for (const Json& failure : failures)
-    text += fmt::format("{},{},{}\n", fieldOf(failure["heart"]), fieldOf(failure["seed"]),
-                        fieldOf(failure["failed"]));
+    text += fmt::format("{},{},{}\n", fieldOf(failure.at("heart")), fieldOf(failure.at("seed")),
+                        fieldOf(failure.at("failed")));
   return text;
 }
 
@@ -99,11 +101,11 @@ Json countsOf(std::span<const Json> records, std::span<const Json> failures) {
   std::map<std::string, int> populations, splits;
   std::size_t loops = 0, frames = 0, impossible = 0;
   for (const Json& record : records) {
-    loops += record["loops"].size();
-    impossible += record["impossible"].size();
-    for (const Json& loop : record["loops"]) frames += loop["frames"].get<std::size_t>();
-    ++populations[record["population"].get<std::string>()];
-    ++splits[record["split"].get<std::string>()];
+    loops += record.at("loops").size();
+    impossible += record.at("impossible").size();
+    for (const Json& loop : record.at("loops")) frames += loop.at("frames").get<std::size_t>();
+    ++populations[record.at("population").get<std::string>()];
+    ++splits[record.at("split").get<std::string>()];
   }
   counts["loops"] = loops;
   counts["frames"] = frames;

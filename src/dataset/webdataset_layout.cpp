@@ -31,19 +31,20 @@ std::vector<Member> membersOf(const Json& record, const std::string& id,
   std::vector<Member> members;
   for (const auto& [ending, file] : kMembers) {
     const std::string name = fmt::format("native/{}/{}", id, file);
-    members.push_back({fmt::format("{}.{}", id, ending), folder / name, &record["files"].at(name)});
+    members.push_back(
+        {fmt::format("{}.{}", id, ending), folder / name, &record.at("files").at(name)});
   }
   return members;
 }
 
 // A merge has looked at sizes only; what goes into a shard is looked at byte by byte.
 std::vector<std::byte> bytesOf(const Member& member) {
-  std::vector<std::byte> bytes((*member.noted)["bytes"].get<std::size_t>());
+  std::vector<std::byte> bytes(member.noted->at("bytes").get<std::size_t>());
   std::ifstream file(member.file, std::ios::binary);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   Digest digest;
   digest.update(bytes);
-  if (!file || digest.hex() != (*member.noted)["digest"].get<std::string>())
+  if (!file || digest.hex() != member.noted->at("digest").get<std::string>())
     throw JobError(
         fmt::format("{}: is not as it was written: run the same command again without "
                     "--merge",
@@ -60,7 +61,7 @@ class Shards {
   void add(const std::vector<Member>& members) {
     std::uint64_t bytes = 0;
     for (const Member& member : members)
-      bytes += ustarBytes((*member.noted)["bytes"].get<std::uint64_t>());
+      bytes += ustarBytes(member.noted->at("bytes").get<std::uint64_t>());
     if (shard_ && shard_->bytes() + bytes > most_bytes_) close();
     if (!shard_) shard_ = std::make_unique<UstarFile>(sink_.place(nameOfShard(count_)));
     for (const Member& member : members) shard_->add(member.name, bytesOf(member));
@@ -97,9 +98,9 @@ void mergeWebdataset(const Spec& spec, std::span<const Json> records, Sink& sink
   for (const Split split : {Split::train, Split::val, Split::test}) {
     Shards shards(sink, nameOf(split), static_cast<std::uint64_t>(spec.shard_mb) * kMega);
     for (const Json& record : records) {
-      if (record["split"] != nameOf(split)) continue;
-      for (const Json& loop : record["loops"])
-        shards.add(membersOf(record, loop["id"].get<std::string>(), sink.folder()));
+      if (record.at("split") != nameOf(split)) continue;
+      for (const Json& loop : record.at("loops"))
+        shards.add(membersOf(record, loop.at("id").get<std::string>(), sink.folder()));
     }
     shards.finish();
   }

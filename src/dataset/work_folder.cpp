@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "core/error.h"
 #include "core/file.h"
+#include "core/folder_lock.h"
 #include "dataset/record.h"
+#include "dataset/record_check.h"
 
 namespace echocine::dataset {
 
@@ -12,13 +16,12 @@ namespace {
 
 constexpr std::size_t kMostRecordBytes = std::size_t{64} << 20;
 
-// Nothing where there is no such file or no JSON in it: then it was never finished.
-std::optional<Json> readJson(const std::filesystem::path& file) {
-  std::error_code absent;
-  if (!std::filesystem::exists(file, absent)) return std::nullopt;
+// Nothing where there is no such file, or something else than a file.
+std::optional<std::string> readText(const std::filesystem::path& file) {
+  if (!isOrdinaryFile(file)) return std::nullopt;
   try {
-    return Json::parse(readTextFile(file, kMostRecordBytes));
-  } catch (const std::exception&) {
+    return readTextFile(file, kMostRecordBytes);
+  } catch (const SceneError&) {
     return std::nullopt;
   }
 }
@@ -36,31 +39,53 @@ bool isEmptyFolder(const std::filesystem::path& folder) {
               std::filesystem::directory_iterator());
 }
 
-bool isAsNoted(const std::filesystem::path& file, const Json& noted, WorkFolder::Look look) {
+std::string markText(const Spec& spec) {
+  return Json{{"digest", spec.digest}, {"name", spec.name}}.dump() + "\n";
+}
+
+[[noreturn]] void failOfOtherSpec(const std::filesystem::path& folder) {
+  throw SceneError(
+      fmt::format("{}: holds the dataset of another spec or program version: choose another folder",
+                  folder.string()));
+}
+
+// Why a file is not as its record has it; empty where it is.
+std::string flawOfFile(const std::filesystem::path& folder, const std::string& name,
+                       const Json& noted, WorkFolder::Look look) {
+  if (!linkBelow(folder, name).empty()) return "is reached through a link";
+  const std::filesystem::path file = folder / name;
+  if (!isOrdinaryFile(file)) return "is missing or no ordinary file";
   std::error_code failed;
   if (std::filesystem::file_size(file, failed) != noted["bytes"].get<std::uint64_t>() || failed)
-    return false;
-  if (look == WorkFolder::Look::sizes) return true;
+    return "is of another size than was written";
+  if (look == WorkFolder::Look::sizes) return {};
   const std::optional<FileMark> mark = markOf(file);
-  return mark && mark->digest == noted["digest"].get<std::string>();
+  return mark && mark->digest == noted["digest"].get<std::string>()
+             ? ""
+             : "has another byte than was written";
 }
 
 }  // namespace
 
 WorkFolder::WorkFolder(std::filesystem::path folder, const Spec& spec)
-    : folder_(std::move(folder)), digest_(spec.digest) {
-  const std::filesystem::path mark = folder_ / "work" / "spec.json";
-  if (const std::optional<Json> earlier = readJson(mark)) {
-    if (earlier->value("digest", std::string()) == digest_) return;
-    throw SceneError(fmt::format(
-        "{}: holds the dataset of another spec or program version: choose another folder",
-        folder_.string()));
+    : folder_(std::move(folder)), spec_(spec) {
+  const std::filesystem::path work = folder_ / "work", mark = work / "spec.json";
+  std::error_code failed;
+  if (std::filesystem::is_symlink(work, failed))
+    throw SceneError(fmt::format("{}: is a link: choose a new or empty folder", work.string()));
+  if (const std::optional<std::string> earlier = readText(mark)) {
+    if (*earlier != markText(spec)) failOfOtherSpec(folder_);
+    return;
   }
   // A run that was killed at once leaves an empty work folder.
-  if (!isEmptyFolder(folder_) && !std::filesystem::exists(folder_ / "work"))
+  if (!isEmptyFolder(folder_) && !std::filesystem::exists(work, failed))
     throw SceneError(fmt::format("{}: holds files of something else: choose a new or empty folder",
                                  folder_.string()));
-  writeText(mark, Json{{"digest", digest_}, {"name", spec.name}}.dump() + "\n");
+  makeFolder(work);
+  // Of tasks that begin together one writes the mark; the others find their own spec in it.
+  const std::string own = markText(spec);
+  if (!writeFileOnce(mark, std::as_bytes(std::span(own))) && readText(mark) != own)
+    failOfOtherSpec(folder_);
   writeText(folder_ / "spec.toml", spec.text);
 }
 
@@ -75,20 +100,37 @@ void WorkFolder::finish(int heart, Json record,
   record["files"] = Json::object();
   for (const auto& [name, mark] : files)
     record["files"][name] = {{"bytes", mark.bytes}, {"digest", mark.digest}};
-  writeText(recordFile(heart), record.dump() + "\n");
+  writeText(recordFile(heart), sealedText(record));
 }
 
-std::optional<Json> WorkFolder::finished(int heart, Look look) const {
-  std::optional<Json> record = readJson(recordFile(heart));
-  try {
-    if (!record || record->at("spec") != digest_) return std::nullopt;
-    if (isFailure(*record)) return record;
-    for (const auto& [name, noted] : record->at("files").items())
-      if (!isAsNoted(folder_ / name, noted, look)) return std::nullopt;
-  } catch (const Json::exception&) {
-    return std::nullopt;
-  }
-  return record;
+WorkFolder::Finished WorkFolder::finished(int heart, Look look) const {
+  const std::filesystem::path file = recordFile(heart);
+  std::error_code failed;
+  if (std::filesystem::symlink_status(file, failed).type() == std::filesystem::file_type::not_found)
+    return {};
+  const std::string name = std::filesystem::relative(file, folder_).string();
+  const std::optional<std::string> text = readText(file);
+  if (!text) return {std::nullopt, name + ": cannot be read, or is no ordinary file"};
+  CheckedRecord checked = checkRecord(*text, spec_, heart);
+  if (!checked.flaw.empty()) return {std::nullopt, name + ": " + checked.flaw};
+  if (isFailure(checked.record)) return {std::move(checked.record), ""};
+  for (const auto& [noted_name, noted] : checked.record["files"].items())
+    if (const std::string flaw = flawOfFile(folder_, noted_name, noted, look); !flaw.empty())
+      return {std::nullopt, noted_name + ": " + flaw};
+  return {std::move(checked.record), ""};
+}
+
+void WorkFolder::removeParts() const {
+  std::vector<std::filesystem::path> parts;
+  std::error_code failed;
+  for (std::filesystem::recursive_directory_iterator it(folder_, failed), end; it != end;
+       it.increment(failed))
+    if (!targetOfPart(it->path().filename().string()).empty() && isOrdinaryFile(it->path()))
+      parts.push_back(it->path());
+  if (parts.empty()) return;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "work", failed))
+    if (entry.path().filename().string().starts_with("task_") && isLocked(entry.path())) return;
+  for (const std::filesystem::path& part : parts) std::filesystem::remove(part, failed);
 }
 
 }  // namespace echocine::dataset

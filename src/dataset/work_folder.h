@@ -12,9 +12,10 @@ namespace echocine::dataset {
 
 class WorkFolder {
  public:
-  // Makes the folder, or finds it as an earlier run of the same spec left it. Throws SceneError,
-  // nothing written, where it holds another spec's dataset or files of something else; JobError
-  // where it cannot be written.
+  // Makes the folder, or finds it as an earlier run of the same spec left it; another process may
+  // be making it at this moment. Throws SceneError, nothing written, where it holds another spec's
+  // dataset, files of something else or a link; JobError where it cannot be written.
+  // The spec must outlive it.
   WorkFolder(std::filesystem::path folder, const Spec& spec);
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -22,15 +23,23 @@ class WorkFolder {
   // Notes a heart as finished with these files. Throws JobError.
   void finish(int heart, Json record, const std::map<std::string, FileMark>& files) const;
 
-  // The record of a heart that is finished; nothing where it is not, or not by this spec. How its
-  // files are looked at: by their names and sizes, or by their bytes too.
+  // The record of a heart that is finished, and whose files are as it has them: by their sizes, or
+  // by their bytes too. Otherwise nothing: `flaw` says what is wrong and names the file; it is
+  // empty where the heart was never finished.
   enum class Look { sizes, bytes };
-  std::optional<Json> finished(int heart, Look look) const;
+  struct Finished {
+    std::optional<Json> record;
+    std::string flaw;
+  };
+  Finished finished(int heart, Look look) const;
+
+  // Half-written files of tasks that were killed. Nothing is removed while a task is at work.
+  void removeParts() const;
 
  private:
   std::filesystem::path recordFile(int heart) const;
   std::filesystem::path folder_;
-  std::string digest_;
+  const Spec& spec_;
 };
 
 }  // namespace echocine::dataset

@@ -44,9 +44,10 @@ void removeFile(const fs::path& path) {
 
 // Permissions do not tell (full disks, read-only mounts, a superuser), so a file is tried.
 void tryWriting(const fs::path& folder) {
-  const fs::path trial = folder / "write_test.part";
-  writeFileWhole(trial, std::as_bytes(std::span(std::string_view("echocine"))));
-  removeFile(trial);
+  const fs::path name = folder / "write_test";
+  removePartsOf(name);  // of a run that was killed here
+  WholeFile trial(name);
+  trial.write(std::as_bytes(std::span(std::string_view("echocine"))));
 }
 
 // How the files of frames are called: stem, number, ending.
@@ -73,13 +74,12 @@ std::optional<int> frameNumber(std::string_view name, const FrameNames& names) {
 // Deletes numbered frames from `first` on, and their half-written forms whatever the number.
 // Listed first and removed then: what a directory iterator sees while files vanish is not defined.
 void removeFrames(const fs::path& folder, const FrameNames& names, int first) {
-  const std::string part = std::string(names.ending) + ".part";
   std::vector<fs::path> stale;
   std::error_code absent;
   for (fs::directory_iterator it(folder, absent), end; it != end; it.increment(absent)) {
     const std::string name = it->path().filename().string();
     const std::optional<int> number = frameNumber(name, names);
-    if ((number && *number >= first) || frameNumber(name, {names.stem, part}))
+    if ((number && *number >= first) || frameNumber(targetOfPart(name), names))
       stale.push_back(it->path());
   }
   for (const fs::path& path : stale) removeFile(path);
@@ -101,7 +101,7 @@ OutputFolder::OutputFolder(fs::path folder, const OutputSettings& settings, bool
   }
   removeFile(manifest());
   removeFile(report());
-  removeFile(report().string() + ".part");
+  removePartsOf(report());
 }
 
 // Files of the whole loop are made anew by every run that wants them.
@@ -122,8 +122,8 @@ void OutputFolder::removeStale(int frame_count) const {
   removeFrames(png(), {"frame_", ".png"}, exr_ ? first : 0);
   removeTruth(exr_ ? first : 0);
   if (!resume_) removeFile(cine());
-  removeFile(cine().string() + ".part");
-  removeFile(manifest().string() + ".part");
+  removePartsOf(cine());
+  removePartsOf(manifest());
 }
 
 }  // namespace echocine

@@ -26,7 +26,7 @@ struct PageLook {
 PageLook pageLook(std::string title, std::string_view body, std::string_view script);
 
 // Writes a page in one go through memory that does not grow with its images. Until finish() the
-// page stands in `path`.part; destroyed without it, nothing is left behind.
+// page stands in a part beside it; destroyed without it, nothing is left behind.
 class PageWriter {
  public:
   PageWriter(const std::filesystem::path& path, const PageLook& look);  // throws JobError

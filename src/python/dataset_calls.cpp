@@ -40,10 +40,13 @@ py::dict makePart(const std::optional<std::string>& text, const Path& file, cons
   return dictOf(made);
 }
 
-py::dict mergeParts(const std::optional<std::string>& text, const Path& file, const Path& folder) {
+py::dict mergeParts(const std::optional<std::string>& text, const Path& file, const Path& folder,
+                    bool fast, int threads) {
   dataset::MakeSummary merged;
-  runJob(py::none(),
-         [&](const Monitor&) { merged = dataset::mergeParts(specOf(text, file), folder); });
+  runJob(py::none(), [&](const Monitor& monitor) {
+    const dataset::Spec spec = specOf(text, file);
+    merged = dataset::mergeParts(spec, folder, {fast, threads}, monitor);
+  });
   return dictOf(merged);
 }
 
@@ -68,7 +71,8 @@ void bindDataset(py::module_& module) {
              py::arg("folder"), py::arg("task"), py::arg("threads"), py::arg("progress").none(true),
              "Makes a part of the hearts; returns counts.");
   module.def("merge_dataset", &mergeParts, py::arg("text").none(true), py::arg("file"),
-             py::arg("folder"), "Writes tables and lists of all hearts; returns counts.");
+             py::arg("folder"), py::arg("fast"), py::arg("threads"),
+             "Proves all hearts' files, writes tables and lists; returns counts.");
   module.def("preview_dataset", &preview, py::arg("text").none(true), py::arg("file"),
              py::arg("page"), py::arg("hearts"), py::arg("threads"), py::arg("progress").none(true),
              "A page of some hearts; returns hearts, impossible, seconds and bytes of the whole.");

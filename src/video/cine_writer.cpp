@@ -129,7 +129,9 @@ std::int64_t CineWriter::Muxer::seekTo(void* self, std::int64_t offset, int when
 
 void CineWriter::Muxer::open() {
   // Read and write: the muxer reads back what it fills in at the end.
-  descriptor = ::open(part.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  PartFile made = makePart(path);
+  descriptor = made.descriptor;
+  part = std::move(made.name);
   if (descriptor < 0) fail(errno);
   openContext();
   describeStream();
@@ -200,7 +202,6 @@ CineWriter::CineWriter(std::filesystem::path path, const OutputSettings& setting
                        double frame_rate_hz)
     : muxer_(std::make_unique<Muxer>()) {
   muxer_->path = std::move(path);
-  muxer_->part = muxer_->path.string() + ".part";
   muxer_->settings = settings;
   muxer_->rate = rationalFrameRate(frame_rate_hz);
 }

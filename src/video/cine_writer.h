@@ -31,7 +31,7 @@ struct PaletteColour {
 };
 std::vector<std::byte> encodePng(const GreyImage& image, std::span<const PaletteColour> palette);
 
-// Muxes encoded frames into `path`. Until finish() the data stand in `path`.part; a writer
+// Muxes encoded frames into `path`. Until finish() the data stand in a part beside it; a writer
 // destroyed without finish() removes them. The frames are of settings.codec, width and height.
 class CineWriter {
  public:

@@ -1,13 +1,13 @@
 #include "video/dicom_check.h"
 
+#include <dcmtk/config/osconfig.h>
+// DCMTK's own order of includes: osconfig.h first.
+#include <dcmtk/dcmdata/dcxfer.h>
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include <array>
 #include <cstdint>
-#include <cstring>
 #include <memory>
-#include <string_view>
 #include <vector>
 
 #include "core/error.h"
@@ -19,9 +19,6 @@ namespace echocine {
 namespace {
 
 constexpr std::size_t kMaxInflatedBytes = std::size_t{1} << 28;
-// An RLE segment packs 128 bytes in 2, a block of baseline JPEG 64 pixels in a few bits. Our
-// choice.
-constexpr double kMostSamplesPerByte = 512;
 
 // PS3.5 A.5: raw deflate, no header. Refuses more than the limit without having it in memory twice.
 std::vector<std::byte> inflated(const std::string& name, std::span<const std::byte> bytes) {
@@ -39,9 +36,9 @@ std::vector<std::byte> inflated(const std::string& name, std::span<const std::by
     const std::size_t made = block.size() - stream.avail_out;
     if (out.size() + made > kMaxInflatedBytes)
       refuseDicom(name,
-             fmt::format("its deflated data set is over {} MB; give it uncompressed, or a few "
-                         "beats cut out of it",
-                         kMaxInflatedBytes >> 20));
+                  fmt::format("its deflated data set is over {} MB; give it uncompressed, or a few "
+                              "beats cut out of it",
+                              kMaxInflatedBytes >> 20));
     out.insert(out.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(made));
     if (made == 0 && stream.avail_in == 0) break;
   }
@@ -50,75 +47,19 @@ std::vector<std::byte> inflated(const std::string& name, std::span<const std::by
   return out;
 }
 
-// PS3.5 G.5: 64 bytes of header, a count of 1 to 15 segments and their offsets, rising from 64.
-bool isSoundRle(std::span<const std::byte> frame) {
-  std::array<std::uint32_t, 16> header{};
-  if (frame.size() < sizeof header) return false;
-  std::memcpy(header.data(), frame.data(), sizeof header);  // little-endian, as we are
-  if (header[0] < 1 || header[0] > 15 || header[1] != sizeof header) return false;
-  for (std::uint32_t s = 1; s <= header[0]; ++s) {
-    const std::uint32_t end =
-        s < header[0] ? header[s + 1] : static_cast<std::uint32_t>(frame.size());
-    if (header[s] > end || end > frame.size()) return false;
-  }
-  return true;
-}
-
-struct Pixels {
-  double rows = 0, columns = 0, samples = 1, frames = 1;
-  std::size_t compressed_bytes = 0;
-  bool encapsulated = false;
-};
-
-void takeFragment(const std::string& name, const DicomElement& e, bool rle, Pixels& pixels) {
-  pixels.encapsulated = true;
-  if (e.fragment == 0) return;  // the table of offsets
-  pixels.compressed_bytes += e.value.size();
-  if (rle && !isSoundRle(e.value))
-    refuseDicom(name,
-           fmt::format("a damaged DICOM file: the RLE header of fragment {} points outside its "
-                       "{} bytes; copy the file again",
-                       e.fragment, e.value.size()));
-}
-
-void takeNumber(const DicomElement& e, Pixels& pixels) {
-  constexpr std::uint32_t kRows = 0x00280010, kColumns = 0x00280011, kSamples = 0x00280002,
-                          kFrames = 0x00280008;
-  if (e.tag == kRows) pixels.rows = e.shortNumber();
-  if (e.tag == kColumns) pixels.columns = e.shortNumber();
-  if (e.tag == kSamples) pixels.samples = e.shortNumber();
-  if (e.tag == kFrames) pixels.frames = std::atof(e.text(16).c_str());
-}
-
-// Pixels that the compressed bytes cannot hold would only be made up, at the cost of real ones.
-void checkRatio(const std::string& name, const Pixels& p) {
-  if (!p.encapsulated) return;
-  const double wanted = p.rows * p.columns * p.samples * p.frames;
-  if (wanted > kMostSamplesPerByte * static_cast<double>(p.compressed_bytes) + (1 << 20))
-    refuseDicom(name,
-           fmt::format("a truncated or damaged DICOM file: {:.0f} pixel values are stated, its "
-                       "{} bytes of pixels cannot hold them; copy the file again",
-                       wanted, p.compressed_bytes));
-}
-
-void checkDataSet(const std::string& name, std::span<const std::byte> data,
-                  const DicomSyntax& syntax, bool rle) {
+void checkNesting(const std::string& name, std::span<const std::byte> data,
+                  const DicomSyntax& syntax) {
   DicomElements elements(data, syntax);
-  Pixels pixels;
-  while (const std::optional<DicomElement> e = elements.next()) {
-    if (e->depth > 0) continue;
-    if (e->fragment >= 0)
-      takeFragment(name, *e, rle, pixels);
-    else
-      takeNumber(*e, pixels);
+  while (elements.next()) {
   }
   if (elements.tooDeep())
     refuseDicom(name,
-           fmt::format("its sequences are nested deeper than {}; give an ultrasound loop as a "
-                       "scanner writes it",
-                       kMaxDicomDepth));
+                fmt::format("its sequences are nested deeper than {}; give an ultrasound loop as a "
+                            "scanner writes it",
+                            kMaxDicomDepth));
+  if (elements.unknownType())
+    refuseDicom(name, "a damaged DICOM file (an element of unknown type); copy the file again");
   if (elements.lost()) refuseDicom(name, "a truncated or damaged DICOM file; copy the file again");
-  checkRatio(name, pixels);
 }
 
 }  // namespace
@@ -127,26 +68,16 @@ void refuseDicom(const std::string& name, const std::string& what) {
   throw SceneError(fmt::format("{}: {}", name, what));
 }
 
-void checkDicomStructure(const std::string& name, std::span<const std::byte> bytes) {
-  constexpr std::size_t kPreamble = 132;
-  constexpr std::uint32_t kTransferSyntax = 0x00020010;
-  std::string uid;
-  DicomElements meta(bytes.subspan(kPreamble), {});
-  std::size_t at = 0;
-  while (const std::optional<DicomElement> e = meta.next()) {
-    if (e->tag >> 16 != 2) break;  // the data set begins here
-    if (e->tag == kTransferSyntax) uid = e->text(64);
-    at = meta.position();
+DicomMeta checkDicomStructure(const std::string& name, std::span<const std::byte> bytes) {
+  DicomMeta meta = readDicomMeta(name, bytes);
+  const std::span<const std::byte> data = bytes.subspan(meta.data_at);
+  const DcmXfer coding(meta.transfer_syntax.c_str());
+  if (coding.getStreamCompression() != ESC_none) {
+    checkNesting(name, inflated(name, data), {});
+  } else {
+    checkNesting(name, data, {coding.isExplicitVR() == OFTrue, coding.isBigEndian() == OFTrue});
   }
-  const std::span<const std::byte> data = bytes.subspan(kPreamble + at);
-  if (uid == "1.2.840.10008.1.2.1.99") {
-    const std::vector<std::byte> whole = inflated(name, data);
-    return checkDataSet(name, whole, {}, false);
-  }
-  DicomSyntax syntax;
-  syntax.explicit_vr = uid != "1.2.840.10008.1.2";
-  syntax.big_endian = uid == "1.2.840.10008.1.2.2";
-  checkDataSet(name, data, syntax, uid == "1.2.840.10008.1.2.5");
+  return meta;
 }
 
 }  // namespace echocine

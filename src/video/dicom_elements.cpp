@@ -19,14 +19,14 @@ bool hasLongLength(std::string_view vr) {
   return std::find(kLong.begin(), kLong.end(), vr) != kLong.end();
 }
 
-}  // namespace
-
-unsigned DicomElement::shortNumber() const {
-  if (value.size() < 2) return 0;
-  const auto low = static_cast<unsigned>(value[big_endian ? 1 : 0]),
-             high = static_cast<unsigned>(value[big_endian ? 0 : 1]);
-  return low + 256 * high;
+bool hasShortLength(std::string_view vr) {
+  constexpr std::array<std::string_view, 21> kShort{"AE", "AS", "AT", "CS", "DA", "DS", "DT",
+                                                    "FD", "FL", "IS", "LO", "LT", "PN", "SH",
+                                                    "SL", "SS", "ST", "TM", "UI", "UL", "US"};
+  return std::find(kShort.begin(), kShort.end(), vr) != kShort.end();
 }
+
+}  // namespace
 
 std::string DicomElement::text(std::size_t longest) const {
   std::string text(reinterpret_cast<const char*>(value.data()), std::min(value.size(), longest));
@@ -45,6 +45,11 @@ std::uint32_t DicomElements::number(std::size_t at, std::size_t size) const {
 
 std::uint32_t DicomElements::tagAt(std::size_t at) const {
   return number(at, 2) << 16 | number(at + 2, 2);
+}
+
+std::optional<std::uint32_t> DicomElements::nextTag() const {
+  if (data_.size() - at_ < 4) return std::nullopt;
+  return tagAt(at_);
 }
 
 void DicomElements::closeEnded() {
@@ -75,12 +80,13 @@ bool DicomElements::readLength(DicomElement& e, std::uint32_t& length, bool& seq
   }
   const std::string_view vr(reinterpret_cast<const char*>(data_.data()) + at_ + 4, 2);
   sequence = vr == "SQ";
-  if (!hasLongLength(vr)) {
+  if (hasShortLength(vr)) {
     length = number(at_ + 6, 2);
     at_ += 8;
     return true;
   }
-  if (data_.size() - at_ < 12) return false;
+  unknown_type_ = !hasLongLength(vr);
+  if (unknown_type_ || data_.size() - at_ < 12) return false;
   length = number(at_ + 8, 4);
   at_ += 12;
   // PS3.5 6.2.2: of undefined length it is a sequence with implicit types.
@@ -105,7 +111,6 @@ std::optional<DicomElement> DicomElements::delimiter(DicomElement e, std::uint32
   const bool in_fragments = !open_.empty() && open_.back().kind == Kind::fragments;
   if (e.tag == kItem && in_fragments) {
     if (length > data_.size() - at_) return giveUp();
-    e.fragment = fragment_++;
     e.depth = open_.size() - 1;
     e.value = data_.subspan(at_, length);
     at_ += length;
@@ -125,17 +130,16 @@ std::optional<DicomElement> DicomElements::next() {
   if (too_deep_ || at_ >= data_.size()) return std::nullopt;
   DicomElement e;
   e.depth = open_.size();
-  e.big_endian = syntax_.big_endian;
   std::uint32_t length = 0;
   bool sequence = false, unknown = false;
   const std::size_t start = at_;
   if (!readLength(e, length, sequence, unknown)) return giveUp();
   if (e.tag == kItem || e.tag == kItemEnd || e.tag == kSequenceEnd) return delimiter(e, length);
   if (e.tag == kPixelData && length == kUndefined) {
-    fragment_ = 0;
     open_.push_back({Kind::fragments, data_.size(), explicitHere()});
     return e;
   }
+  e.sequence = sequence;
   if (sequence) {
     if (!open(Kind::sequence, length, explicitHere() && !unknown)) return std::nullopt;
     return e;

@@ -22,11 +22,9 @@ struct DicomSyntax {
 struct DicomElement {
   std::uint32_t tag = 0;  // group in the upper half
   std::size_t depth = 0;  // sequences around it
-  int fragment = -1;      // of encapsulated pixels, from 0, the table of offsets; else -1
-  bool big_endian = false;
+  bool sequence = false;
   std::span<const std::byte> value;  // of sequences and items: empty
 
-  unsigned shortNumber() const;                 // the first two bytes; 0 without them
   std::string text(std::size_t longest) const;  // without padding
 };
 
@@ -38,9 +36,13 @@ class DicomElements {
   // Nothing at the end, or where the structure is broken off.
   std::optional<DicomElement> next();
 
+  // The tag of the next element; nothing at the end.
+  std::optional<std::uint32_t> nextTag() const;
   std::size_t position() const { return at_; }
   bool tooDeep() const { return too_deep_; }
   bool lost() const { return lost_; }  // an element reaches outside what it lies in
+  // An element's type (PS3.5, 6.2) is none of the standard's: where it ends is a guess.
+  bool unknownType() const { return unknown_type_; }
 
  private:
   enum class Kind { sequence, item, fragments };
@@ -66,8 +68,7 @@ class DicomElements {
   DicomSyntax syntax_;
   std::size_t at_ = 0;
   std::vector<Level> open_;
-  int fragment_ = 0;
-  bool too_deep_ = false, lost_ = false;
+  bool too_deep_ = false, lost_ = false, unknown_type_ = false;
 };
 
 }  // namespace echocine

@@ -19,6 +19,7 @@
 
 #include "core/error.h"
 #include "video/dicom_check.h"
+#include "video/dicom_pixels.h"
 #include "video/read_video.h"
 #include "video/video_builder.h"
 
@@ -136,32 +137,6 @@ void takeRegions(DcmDataset& data, Video& video) {
   }
 }
 
-// What pixel data must at least hold before anything is made of it.
-void checkPixels(const std::string& name, DcmDataset& data, std::int64_t frames) {
-  Uint16 rows = 0, columns = 0, samples = 1, bits = 8;
-  data.findAndGetUint16(DCM_Rows, rows);
-  data.findAndGetUint16(DCM_Columns, columns);
-  data.findAndGetUint16(DCM_SamplesPerPixel, samples);
-  data.findAndGetUint16(DCM_BitsAllocated, bits);
-  DcmElement* element = nullptr;
-  if (data.findAndGetElement(DCM_PixelData, element).bad() || rows == 0 || columns == 0)
-    refuseDicom(name, "a DICOM file without pictures; give an ultrasound multi-frame file");
-  // Before the decoder sees a byte: it reserves what a header says.
-  checkLoopSize(name, columns, rows, frames);
-  const DcmXfer syntax(data.getOriginalXfer());
-  if (syntax.isEncapsulated()) return;
-  OFString colours;
-  data.findAndGetOFString(DCM_PhotometricInterpretation, colours);
-  const double bytes_per_pixel =
-      colours == "YBR_FULL_422" ? 2.0 : static_cast<double>(samples) * ((bits + 7) / 8);
-  const double wanted = bytes_per_pixel * rows * columns * static_cast<double>(frames);
-  if (element->getLength() < wanted)
-    refuseDicom(name,
-           fmt::format("a truncated DICOM file: {} bytes of pixels where {} frames of {} x {} "
-                       "need {:.0f}; copy the file again",
-                       element->getLength(), frames, columns, rows, wanted));
-}
-
 void addFrames(DcmDataset& data, std::int64_t frames, VideoBuilder& builder) {
   const std::string& name = builder.video().name;
   const DcmXfer syntax(data.getOriginalXfer());
@@ -171,13 +146,14 @@ void addFrames(DcmDataset& data, std::int64_t frames, VideoBuilder& builder) {
                      static_cast<unsigned long>(i), 1);
     if (image.getStatus() != EIS_Normal) {
       if (i == 0)
-        refuseDicom(name, fmt::format("pixels of transfer syntax \"{}\" cannot be decoded ({}); give it "
-                                 "uncompressed, RLE, or JPEG baseline or lossless",
-                                 syntax.getXferName(), DicomImage::getString(image.getStatus())));
-      refuseDicom(name,
-             fmt::format("a truncated or damaged DICOM file: frame {} of {} cannot be decoded; "
-                         "copy the file again",
-                         i, frames));
+        refuseDicom(name,
+                    fmt::format("pixels of transfer syntax \"{}\" cannot be decoded ({}); give it "
+                                "uncompressed, RLE, or JPEG baseline or lossless",
+                                syntax.getXferName(), DicomImage::getString(image.getStatus())));
+      refuseDicom(
+          name, fmt::format("a truncated or damaged DICOM file: frame {} of {} cannot be decoded; "
+                            "copy the file again",
+                            i, frames));
     }
     const auto width = static_cast<int>(image.getWidth()),
                height = static_cast<int>(image.getHeight());
@@ -203,7 +179,7 @@ void addFrames(DcmDataset& data, std::int64_t frames, VideoBuilder& builder) {
 }  // namespace
 
 Video readDicom(const std::string& name, std::span<const std::byte> bytes) {
-  checkDicomStructure(name, bytes);
+  const DicomMeta meta = checkDicomStructure(name, bytes);
   setUpOnce();
   DcmInputBufferStream stream;
   stream.setBuffer(bytes.data(), static_cast<offile_off_t>(bytes.size()));
@@ -214,14 +190,20 @@ Video readDicom(const std::string& name, std::span<const std::byte> bytes) {
   file.transferEnd();
   // A stream that ends within the pixels is found by their length, with a better message.
   if (read.bad() && read != EC_EndOfStream)
-    refuseDicom(name,
-           fmt::format("a truncated or damaged DICOM file ({}); copy the file again", read.text()));
+    refuseDicom(name, fmt::format("a truncated or damaged DICOM file ({}); copy the file again",
+                                  read.text()));
   DcmDataset& data = *file.getDataset();
+  // Guards followed the stated syntax; one that the library found by itself has none.
+  if (data.getOriginalXfer() != DcmXfer(meta.transfer_syntax.c_str()).getXfer())
+    refuseDicom(name,
+                "a damaged DICOM file: its data set is not of the stated transfer syntax; "
+                "export the file again");
   const double stated = numberOf(data, DCM_NumberOfFrames);
   // Over five hours at 50 frames/s.
-  if (stated > 1e6) refuseDicom(name, fmt::format("{} frames are stated; give a few beats", stated));
+  if (stated > 1e6)
+    refuseDicom(name, fmt::format("{} frames are stated; give a few beats", stated));
   const auto frames = static_cast<std::int64_t>(std::max(1.0, stated));
-  checkPixels(name, data, frames);
+  checkDicomPixels(name, data, frames);
   VideoBuilder builder(name);
   builder.expectBytes(bytes.size());
   builder.video().format = fmt::format("DICOM, {}", DcmXfer(data.getOriginalXfer()).getXferName());

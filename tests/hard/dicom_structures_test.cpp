@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "core/error.h"
@@ -148,6 +149,84 @@ TEST(DicomStructures, SizesThatTheBytesCannotHoldAreRefusedCheaply) {
   expectCheapRefusal(rleFile(frames, 2048, 4096), "cannot hold them");
   expectCheapRefusal(dicomFile(kRle, dicomPicture(kSide, kSide, 900000) + dicomFragments(frames)),
                      "cannot hold them");
+}
+
+// A file whose meta information is put together by hand: what the group length states, then
+// elements.
+std::string fileOfMeta(std::uint32_t length, const std::string& meta, const std::string& data) {
+  std::string file(128, '\0');
+  file += "DICM";
+  file += dicomElement(0x00020000, "UL", littleEndian(length, 4));
+  return file + meta + data;
+}
+
+std::string wildRle() {
+  std::vector<std::string> frames = soundFrames(3);
+  frames[1].replace(4, 4, littleEndian(0x7fffffff, 4));
+  return dicomPicture(kSide, kSide, 3) + dicomFragments(frames);
+}
+
+// The guards follow the transfer syntax, so it must not be possible to hide it from them.
+TEST(DicomStructures, AMetaHeaderThatCanBeReadInTwoWaysIsRefused) {
+  const std::string rle = dicomElement(0x00020010, "UI", kRle),
+                    plain = dicomElement(0x00020010, "UI", kExplicitLittle),
+                    foreign = dicomElement(0x00090010, "LO", "ACME"),
+                    later = dicomElement(0x00030010, "LO", "ACME"),
+                    sequence = dicomElement(0x00020102, "SQ", ""),
+                    odd_type = dicomElement(0x00020102, "QQ", "abcd");
+  const auto size = [](const std::string& meta) { return static_cast<std::uint32_t>(meta.size()); };
+  struct Case {
+    const char* name;
+    std::uint32_t length;
+    std::string meta;
+  };
+  const std::vector<Case> cases = {
+      {"a foreign element before the syntax", size(foreign + rle), foreign + rle},
+      {"the same, the length of the syntax alone", size(rle), foreign + rle},
+      {"the same, no length", 0, foreign + rle},
+      {"a later group before the syntax", size(later + rle), later + rle},
+      {"a foreign element after the syntax", size(rle + foreign), rle + foreign},
+      {"too short a length", size(rle) - 4, rle},
+      {"a length without the syntax", 0, rle},
+      {"too long a length", size(rle) + 20, rle},
+      {"a length beyond the file", 0x7fffffff, rle},
+      {"two syntaxes", size(plain + rle), plain + rle},
+      {"the same syntax twice, the second beyond the length", size(plain), plain + rle},
+      {"no syntax", size(odd_type), odd_type},
+      {"no elements", 0, ""},
+      {"an empty syntax", 8, dicomElement(0x00020010, "UI", "")},
+      {"a sequence", size(sequence + rle), sequence + rle},
+      {"an unknown type", size(odd_type + rle), odd_type + rle}};
+  for (const Case& c : cases)
+    EXPECT_NE(refusal(fileOfMeta(c.length, c.meta, wildRle())).find("its file meta information"),
+              std::string::npos)
+        << c.name << ": " << refusal(fileOfMeta(c.length, c.meta, wildRle()));
+  EXPECT_NE(refusal(fileOfMeta(size(rle), rle, wildRle())).find("RLE header"), std::string::npos);
+  // Some exporters leave the length out: the group ends where another begins.
+  const std::string sound = fileOfMeta(0, rle, "");
+  const std::string without = std::string(sound).erase(132, 12);
+  EXPECT_NE(refusal(without + wildRle()).find("RLE header"), std::string::npos);
+  EXPECT_EQ(refusal(without + dicomPicture(kSide, kSide, 3) + dicomFragments(soundFrames(3))), "");
+}
+
+TEST(DicomStructures, UnknownSyntaxesAndTypesAreRefused) {
+  EXPECT_NE(refusal(dicomFile("1.2.3.4", wildRle())).find("\"1.2.3.4\" is not known"),
+            std::string::npos);
+  EXPECT_NE(refusal(dicomFile("1.2\n", wildRle())).find("states no transfer syntax"),
+            std::string::npos);
+  EXPECT_NE(refusal(dicomFile(kExplicitLittle, dicomElement(0x00091001, "zz", "abcd") +
+                                                   dicomPicture(kSide, kSide, 1)))
+                .find("unknown type"),
+            std::string::npos);
+}
+
+// Fragments under a syntax that has none: the RLE decoder is not asked, and nothing is made up.
+TEST(DicomStructures, FragmentsUnderAnUncompressedSyntaxAreRefused) {
+  for (const std::string& syntax : {kExplicitLittle, kDeflated}) {
+    const std::string text = refusal(dicomFile(syntax, wildRle()));
+    EXPECT_FALSE(text.empty());
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 0);
+  }
 }
 
 TEST(DicomStructures, TimesThatNoScannerHasAreToldAndLeftOut) {

@@ -29,9 +29,10 @@ inline std::string dicomElement(std::uint32_t tag, const std::string& vr, std::s
 
 inline std::string dicomFile(const std::string& transfer_syntax, const std::string& data) {
   const std::string meta = dicomElement(0x00020010, "UI", transfer_syntax);
-  return std::string(128, '\0') + "DICM" +
-         dicomElement(0x00020000, "UL", littleEndian(static_cast<std::uint32_t>(meta.size()), 4)) +
-         meta + data;
+  std::string file(128, '\0');
+  file += "DICM";
+  file += dicomElement(0x00020000, "UL", littleEndian(static_cast<std::uint32_t>(meta.size()), 4));
+  return file + meta + data;
 }
 
 inline const std::string kExplicitLittle = "1.2.840.10008.1.2.1",

@@ -264,7 +264,7 @@ def _whole(name: str, value: Any, least: int, most: int) -> None:
         raise ValueError(f"{name}: is {value!r}, accepted: a whole number from {least} to {most}")
 
 
-def dataset(spec: Spec, folder: PathLike, *, task: Optional[Tuple[int, int]] = None, merge: bool = False, threads: int = 0,
+def dataset(spec: Spec, folder: PathLike, *, task: Optional[Tuple[int, int]] = None, merge: bool = False, fast: bool = False, threads: int = 0,
             progress: Progress = None) -> Dataset:
     """Makes many loops with truth, drawn from a spec, as ``echocine dataset`` does.
 
@@ -283,7 +283,8 @@ def dataset(spec: Spec, folder: PathLike, *, task: Optional[Tuple[int, int]] = N
             {"choice": ["good", "poor"], "weights": [0.7, 0.3]}.
         folder: of the dataset.
         task: (k, n): only the k-th of n parts, from 1. Tables wait for the merge.
-        merge: make nothing: prove that all parts are there, and write tables and lists.
+        merge: make nothing: prove that all parts are there, byte by byte, and write tables and lists.
+        fast: with merge, prove files by their sizes alone.
         threads: 0: one per core.
         progress: None, True, a function (done, total) that counts hearts, or a bar as tqdm makes them.
 
@@ -305,7 +306,7 @@ def dataset(spec: Spec, folder: PathLike, *, task: Optional[Tuple[int, int]] = N
             part = (1, 1) if task is None else (task[0], task[1])
             made = _echocine.make_dataset(text, file, path, part, threads, report_to(progress))
         if task is None:
-            merged = _echocine.merge_dataset(text, file, path)
+            merged = _echocine.merge_dataset(text, file, path, fast or not merge, threads)
             made = made or merged
     except SceneError as error:
         raise (error.without_line() if isinstance(spec, Mapping) else error) from None
