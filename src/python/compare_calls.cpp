@@ -18,6 +18,7 @@
 #include "python/bindings.h"
 #include "python/fork_guard.h"
 #include "python/job.h"
+#include "python/unlocked.h"
 #include "python/scene.h"
 
 namespace echocine::python {
@@ -114,7 +115,7 @@ double distance(const Distance& d, int frame, const py::array_t<float>& greys) {
       throw py::value_error(fmt::format("greys: holds {} at line {}, sample {}, accepted: 0 to 1", values[i],
                                         i / static_cast<std::size_t>(d.samples),
                                         i % static_cast<std::size_t>(d.samples)));
-  const py::gil_scoped_release released;
+  const Unlocked released;
   return d.discrepancy(frame, values);
 }
 

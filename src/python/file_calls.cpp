@@ -5,11 +5,13 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "core/error.h"
+#include "dataset/sink.h"
 #include "output/exr_plane.h"
 #include "output/exr_stack.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/job.h"
+#include "python/unlocked.h"
 #include "video/read_video.h"
 
 namespace echocine::python {
@@ -57,7 +59,7 @@ py::array readExr(const Path& folder, int frame, const std::string& channel, con
   std::optional<std::vector<float>> values;
   std::optional<std::vector<std::uint32_t>> ids;
   {
-    const py::gil_scoped_release released;
+    const Unlocked released;
     if (isLabel(wanted.channel))
       ids = readExrIds(file, wanted);
     else
@@ -75,12 +77,21 @@ py::array readFrames(const Path& path) {
   return arrayOf(std::move(pixels), {video.frameCount(), video.height, video.width});
 }
 
+// Size and digest of a file, as a dataset's records have them.
+std::pair<std::uint64_t, std::string> fileDigest(const Path& path) {
+  const Unlocked released;
+  const std::optional<dataset::FileMark> mark = dataset::markOf(path);
+  if (!mark) throw JobError(fmt::format("{}: cannot be read, or is no ordinary file", path.string()));
+  return {mark->bytes, mark->digest};
+}
+
 }  // namespace
 
 void bindFiles(py::module_& module) {
   module.def("read_exr", &readExr, py::arg("folder"), py::arg("frame"), py::arg("channel"),
              py::arg("scene_sha256"), py::arg("lines"), py::arg("samples"),
              "One channel of an intensity EXR, (depth, line) float32 or uint32.");
+  module.def("file_digest", &fileDigest, py::arg("path"), "(bytes, digest) of a file.");
   module.def("read_video", &readFrames, py::arg("path"), "(T, H, W) uint8 greys of a video.");
 }
 

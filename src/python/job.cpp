@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "core/stop.h"
 #include "python/fork_guard.h"
+#include "python/unlocked.h"
 
 namespace echocine::python {
 
@@ -46,7 +47,7 @@ struct Job {
                                 latest = progress;
                                 news.notify_one();
                               },
-                          .keep_going = [this] { return !stop; },
+                          .keep_going = [this] { return !stop && !isEnding(); },
                           .warn =
                               [this](const std::string& line) {
                                 const std::lock_guard lock(mutex);
@@ -54,7 +55,7 @@ struct Job {
                               }};
     std::exception_ptr thrown;
     try {
-      stoppable([this] { return stop.load(); }, [&] { body(monitor); });
+      stoppable([this] { return stop.load() || isEnding(); }, [&] { body(monitor); });
     } catch (...) {
       thrown = std::current_exception();
     }
@@ -83,7 +84,7 @@ pthread_t start(Job& job) {
 
 // Without the lock of the interpreter. The newest progress, and whether the job has ended.
 std::pair<std::optional<Progress>, bool> waitForNews(Job& job) {
-  const py::gil_scoped_release released;
+  const Unlocked released;
   std::unique_lock lock(job.mutex);
   job.news.wait_for(lock, kLook, [&] { return job.ended || job.latest; });
   return {std::exchange(job.latest, std::nullopt), job.ended};
@@ -152,9 +153,9 @@ void runHere(const std::function<void()>& work) {
   SignalWatch watch;
   std::exception_ptr thrown;
   {
-    const py::gil_scoped_release released;
+    const Unlocked released;
     try {
-      stoppable([&] { return watch.stopWanted(); }, work);
+      stoppable([&] { return isEnding() || watch.stopWanted(); }, work);
     } catch (...) {
       thrown = std::current_exception();
     }
@@ -169,7 +170,7 @@ void runJob(const py::object& progress, const std::function<void(const Monitor&)
   const pthread_t thread = start(job);
   std::optional<py::error_already_set> raised = attend(job, progress);
   {
-    const py::gil_scoped_release released;
+    const Unlocked released;
     ::pthread_join(thread, nullptr);
   }
   if (raised) throw py::error_already_set(*raised);

@@ -2,12 +2,14 @@
 
 #include "python/bindings.h"
 #include "python/fork_guard.h"
+#include "python/unlocked.h"
 
 PYBIND11_MODULE(_echocine, module) {
   using namespace echocine::python;
   module.doc() = "The compiled part of echocine; use the package's own names.";
   module.attr("__version__") = ECHOCINE_VERSION;
   watchForks();
+  watchTheEnd();
   bindErrors(module);
   bindMeshes(module);
   bindScene(module);

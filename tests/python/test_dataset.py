@@ -1,6 +1,7 @@
 """Datasets: made, read back, in parts, as the command makes them."""
 
 import json
+import shutil
 import subprocess
 
 import numpy as np
@@ -156,3 +157,19 @@ def test_a_preview(tmp_path):
     with pytest.raises(ValueError, match="hearts: is 0"):
         echocine.preview_dataset(spec, tmp_path / "look.html", 0)
     assert json.dumps(numbers)
+
+
+def test_a_damaged_file_of_a_loop_is_named(data, folder, tmp_path):
+    copy = tmp_path / "copy"
+    shutil.copytree(folder, copy)
+    for name, read in (("truth.npz", lambda loop: loop.truth), ("cine.avi", lambda loop: loop.images),
+                       ("loop.json", lambda loop: loop.details)):
+        file = copy / "native" / data[1].id / name
+        content = bytearray(file.read_bytes())
+        content[len(content) // 2] ^= 1
+        file.write_bytes(content)
+        with pytest.raises(echocine.JobError, match=f"{name}: is not as it was written"):
+            read(echocine.Dataset(copy)[1])
+    echocine.Dataset(copy, verify=False)[1].images
+    shutil.rmtree(copy / "work")  # published without its book-keeping
+    echocine.Dataset(copy)[1].images

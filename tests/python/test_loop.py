@@ -1,6 +1,8 @@
 """Loops in memory, in folders, and as the program makes them."""
 
+import shutil
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -166,3 +168,32 @@ def test_rolling_lines_are_the_same_in_frames_and_loops(heart):
     assert frame.intensities.tobytes() == loop.intensities[3].tobytes()
     assert frame.greys.tobytes() == loop.greys[3].tobytes()
     assert frame.intensities.tobytes() != still.intensities[3].tobytes()
+
+
+def flip(file, at):
+    data = bytearray(file.read_bytes())
+    data[at] ^= 4
+    file.write_bytes(data)
+
+
+def test_a_file_that_is_not_as_it_was_written_is_named(pair, tmp_path):
+    _, folder = pair
+    for name, read in (("intensity/frame_0001.exr", lambda l: l.intensities), ("truth/labels_0001.png", lambda l: l.labels),
+                       ("truth/contours_0000.json", lambda l: l.contours), ("truth/tracks.npz", lambda l: l.tracks),
+                       ("truth/function.json", lambda l: l.strain), ("truth/labels.json", lambda l: l.label_names)):
+        copy = tmp_path / name.replace("/", "_")
+        shutil.copytree(folder.folder, copy)
+        flip(copy / name, (copy / name).stat().st_size - 40)
+        with pytest.raises(echocine.JobError, match=f"{Path(name).name}: is not as it was written"):
+            read(echocine.open(copy))
+    copy = tmp_path / "halved"
+    shutil.copytree(folder.folder, copy)
+    cine = copy / "cine.avi"
+    cine.write_bytes(cine.read_bytes()[:cine.stat().st_size // 2])
+    with pytest.raises(echocine.JobError, match="cine.avi: is not as it was written"):
+        echocine.open(copy).images
+    shutil.copy(folder.folder / "cine.avi", cine)
+    flip(cine, cine.stat().st_size - 40)  # in the index, which a reader does not need
+    with pytest.raises(echocine.JobError, match="cine.avi: is not as it was written"):
+        echocine.open(copy).images
+    assert np.array_equal(echocine.open(copy, verify=False).images, folder.images)

@@ -80,3 +80,23 @@ def test_frames_leave_nothing_behind(scene):
     work(600)
     # A frame is 25 kB: a leak of each would be 30 MB.
     assert resident() - before < 8 << 20
+
+
+@pytest.mark.parametrize("work", ["simulator.frame(0.1)", "echocine.render(scene)"])
+def test_daemon_threads_at_work_do_not_abort_the_end(work):
+    """The interpreter ends while threads are in native work: quietly, and with the program's own exit code."""
+    text = prologue() + f"""
+import threading, time
+scene = ball_scene()
+simulator = echocine.Simulator(scene)
+def repeat():
+    while True:
+        {work}
+for _ in range(3):
+    threading.Thread(target=repeat, daemon=True).start()
+time.sleep(sys.argv[1])
+sys.exit(5)
+"""
+    for delay in (0.0, 0.013, 0.05, 0.11):
+        result = run_python(text.replace("sys.argv[1]", str(delay)))
+        assert result.returncode == 5 and result.stderr == "", result.stderr

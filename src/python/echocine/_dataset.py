@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from . import _echocine, _toml
 from ._errors import SceneError
 from ._progress import Progress, report_to
+from ._verify import HeartFiles
 
 PathLike = Union[str, "os.PathLike[str]"]
 Spec = Union[str, "os.PathLike[str]", Mapping[str, Any]]
@@ -49,8 +50,8 @@ class DatasetLoop:
         row: its row of loops.csv: split, view, ed_frame, es_frame, edv_ml, ef_percent and every number drawn.
     """
 
-    def __init__(self, folder: Path, row: Dict[str, Any]) -> None:
-        self._folder = folder
+    def __init__(self, folder: Path, row: Dict[str, Any], files: HeartFiles) -> None:
+        self._folder, self._files = folder, files
         self.row = row
         self.id = str(row["id"])
         self._kept: Dict[str, Any] = {}
@@ -64,7 +65,7 @@ class DatasetLoop:
         file = self._folder / "native" / self.id / name
         if not file.exists():
             raise ValueError(f"{name}: {self.id} has none, accepted: a dataset with the layout \"native\"")
-        return file
+        return self._files.checked(self.row.get("heart"), f"native/{self.id}/{name}")
 
     @property
     def images(self) -> NDArray[np.uint8]:
@@ -72,7 +73,9 @@ class DatasetLoop:
         def read() -> NDArray[np.uint8]:
             small = self._folder / "echonet" / "Videos" / f"{self.id}.avi"
             native = self._folder / "native" / self.id / "cine.avi"
-            return _echocine.read_video(small if small.exists() and not native.exists() else self._file("cine.avi"))
+            if small.exists() and not native.exists():
+                return _echocine.read_video(self._files.checked(self.row.get("heart"), f"echonet/Videos/{self.id}.avi"))
+            return _echocine.read_video(self._file("cine.avi"))
 
         images: NDArray[np.uint8] = self._once("images", read)
         return images
@@ -139,6 +142,8 @@ class Dataset:
 
     Args:
         folder: of the dataset. Parts of it that wait for the others have no tables yet: they have no loops.
+        verify: compare each file with its digest in the heart's record before it is read; a JobError names one that is not as it
+            was written. False for speed.
 
     Attributes:
         folder: its path.
@@ -146,8 +151,9 @@ class Dataset:
             impossible (draws), failed (hearts); empty of a folder that was opened.
     """
 
-    def __init__(self, folder: PathLike) -> None:
+    def __init__(self, folder: PathLike, *, verify: bool = True) -> None:
         self.folder = Path(folder)
+        self._files = HeartFiles(self.folder, verify)
         self.made: Dict[str, int] = {}
         self._rows: Optional[List[Dict[str, Any]]] = None
         if not self.folder.is_dir():
@@ -199,14 +205,14 @@ class Dataset:
 
     def __getitem__(self, loop: Union[int, str]) -> DatasetLoop:
         if not isinstance(loop, str):
-            return DatasetLoop(self.folder, self.rows[loop])
+            return DatasetLoop(self.folder, self.rows[loop], self._files)
         for row in self.rows:
             if row["id"] == loop:
-                return DatasetLoop(self.folder, row)
+                return DatasetLoop(self.folder, row, self._files)
         raise KeyError(f"{loop}: is no loop of {self.folder}")
 
     def __iter__(self) -> Iterator[DatasetLoop]:
-        return (DatasetLoop(self.folder, row) for row in self.rows)
+        return (DatasetLoop(self.folder, row, self._files) for row in self.rows)
 
     def __repr__(self) -> str:
         if not (self.folder / "loops.csv").exists():

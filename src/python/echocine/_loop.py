@@ -18,6 +18,7 @@ from . import _echocine
 from ._errors import JobError, SceneError
 from ._progress import Progress, report_to
 from ._scene import Scene
+from ._verify import RenderFiles
 
 _TRUTH = ("all", "labels", "contours", "tracks", "function", "displacement", "velocity")
 _SIDES = ("lateral", "axial", "elevation")
@@ -29,14 +30,17 @@ class Loop:
     Of `render` without a folder everything lies in memory, and arrays are views of it that keep it alive. Of `open`,
     or of `render` into a folder, arrays are read from the files when they are first asked for.
     What the scene did not ask for raises a ValueError that says how to ask. Times are in s, volumes in mL.
+    Files are compared with the digests of the manifest before they are read: a JobError names one that is not as it was written.
     """
 
-    def __init__(self, scene: Optional[Scene], native: Optional[_echocine.LoopArrays] = None, folder: Optional[Path] = None) -> None:
+    def __init__(self, scene: Optional[Scene], native: Optional[_echocine.LoopArrays] = None, folder: Optional[Path] = None,
+                 verify: bool = True) -> None:
         self._scene, self._native, self._folder = scene, native, folder
         self._closed = False
         self._kept: Dict[str, Any] = {}
         if folder is not None:
             self._manifest = _manifest(folder)
+            self._files = RenderFiles(folder, self._manifest, verify)
 
     # Where things come from.
 
@@ -64,7 +68,7 @@ class Loop:
         path = self._folder / "truth" / name
         if not path.exists():
             raise ValueError(f"{path}: is absent, accepted: {remedy}")
-        return path
+        return self._files.checked(f"truth/{name}")
 
     def _read_channel(self, name: str) -> NDArray[Any]:
         """(T, depth, line), any scale of half floats undone."""
@@ -74,6 +78,8 @@ class Loop:
         if name not in listed or not m["scene"]["output"]["exr"]:
             raise ValueError(f"{name}: is not in {self._folder / 'intensity'}, accepted: {', '.join(listed)}")
         probe = m["scene"]["probe"]
+        for f in m["frames"]:
+            self._files.checked(f"intensity/frame_{f['index']:04d}.exr")
         planes = [_echocine.read_exr(self._folder / "intensity", f["index"], name, m["scene_sha256"], probe["lines"],
                                      probe["samples"]) for f in m["frames"]]
         return np.stack(planes)
@@ -114,7 +120,7 @@ class Loop:
             cine = self._folder / "cine.avi"
             if not cine.exists():
                 raise ValueError(f"{cine}: is absent, accepted: a loop of a scene with output.cine = true")
-            images: NDArray[np.uint8] = self._once("images", lambda: _echocine.read_video(cine))
+            images: NDArray[np.uint8] = self._once("images", lambda: _echocine.read_video(self._files.checked("cine.avi")))
             return images
         images = self._named("images", "output.cine = true")
         return images
@@ -125,8 +131,8 @@ class Loop:
         if self._source() is None:
             self._truth_file("labels.json", "truth=\"labels\"")
             assert self._folder is not None
-            files = [self._folder / "truth" / f"labels_{f['index']:04d}.png" for f in self._manifest["frames"]]
-            labels: NDArray[np.uint8] = self._once("labels", lambda: np.stack([_png(file) for file in files]))
+            files = [f"truth/labels_{f['index']:04d}.png" for f in self._manifest["frames"]]
+            labels: NDArray[np.uint8] = self._once("labels", lambda: np.stack([_png(self._files.checked(file)) for file in files]))
             return labels
         labels = self._named("labels", "truth=\"labels\"")
         return labels
@@ -425,6 +431,13 @@ def render(scene: Scene, folder: Union[None, str, "os.PathLike[str]"] = None, *,
     return Loop(asked, folder=path)
 
 
-def open(folder: Union[str, "os.PathLike[str]"]) -> Loop:
-    """A render's folder as a loop; files are read when they are asked for. Raises SceneError where there is no finished render."""
-    return Loop(None, folder=Path(folder))
+def open(folder: Union[str, "os.PathLike[str]"], *, verify: bool = True) -> Loop:
+    """A render's folder as a loop; files are read when they are asked for.
+
+    Args:
+        folder: of a finished render.
+        verify: compare each file with its digest in the manifest before it is read; False for speed.
+
+    Raises SceneError where there is no finished render; what is read raises JobError where a file is not as it was written.
+    """
+    return Loop(None, folder=Path(folder), verify=verify)
