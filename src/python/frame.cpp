@@ -28,7 +28,7 @@ struct Held {
 py::array intensities(const py::object& self) {
   const Held held(self);
   const auto found = held.native.frame.channels.find(Channel::y);
-  if (found == held.native.frame.channels.end()) absent("intensities", "output.channels with \"Y\"");
+  if (found == held.native.frame.channels.end()) absent("intensities", "output.channels with \"Y\" and output.exr = true");
   return held.plane(found->second);
 }
 
@@ -62,9 +62,11 @@ py::array tracks(const py::object& self) {
   const Held held(self);
   const Frame& frame = held.native.frame;
   if (!frame.truth || frame.truth->tracks_m.empty()) absent("tracks", "truth.write with \"tracks\"");
-  static_assert(sizeof(Vec3f) == 3 * sizeof(float));
-  return viewOf(&frame.truth->tracks_m.data()->x,
-                {static_cast<py::ssize_t>(frame.truth->tracks_m.size()), 3}, self);
+  py::array_t<float> tracks_mm({static_cast<py::ssize_t>(frame.truth->tracks_m.size()), py::ssize_t{3}});
+  float* at = tracks_mm.mutable_data();
+  for (const Vec3f p : frame.truth->tracks_m)
+    for (const float metres : {p.x, p.y, p.z}) *at++ = 1e3f * metres;  // as LoopArrays has them
+  return tracks_mm;
 }
 
 void addTruthPlanes(const Held& held, py::dict& planes) {
@@ -120,7 +122,7 @@ void bindFrame(py::module_& module) {
                              "Each channel of output.channels by name, (depth, line) float32 or uint32.")
       .def_property_readonly("labels", &labels, "(H, W) uint8: structures at the picture's pixels.")
       .def_property_readonly("tracks", &tracks,
-                             "(N, 3) float32: material points, lateral, elevation and depth, m.");
+                             "(N, 3) float32: material points, lateral, elevation and depth, mm. A copy.");
 }
 
 }  // namespace echocine::python

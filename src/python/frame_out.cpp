@@ -57,7 +57,8 @@ bool shareMemory(const py::array& a, const py::array& b) {
 
 bool isMade(const std::string& name, const Scene& scene) {
   if (name == "intensities")
-    return std::count(scene.output.channels.begin(), scene.output.channels.end(), Channel::y) > 0;
+    return scene.output.exr &&
+           std::count(scene.output.channels.begin(), scene.output.channels.end(), Channel::y) > 0;
   if (name == "labels") return scene.truth.labels;
   return wantsPicture(scene) && (name == "greys" || scene.output.cine || scene.output.png);
 }

@@ -17,6 +17,8 @@ namespace echocine {
 namespace {
 
 constexpr double kMostScatterers = 5e7;  // 0.3 GB. Our choice
+constexpr double kMostBlocks = 2e7;      // looked at; under a second. Our choice
+constexpr std::size_t kMostKept = 3e6;   // of these, 0.3 GB. Our choice
 
 // Purposes of hashed numbers.
 enum : std::uint64_t { kPlaces = 1, kCount = 2, kGauss = 3, kBatch = 4 };
@@ -37,17 +39,58 @@ Vec3f pointIn(std::uint64_t hash, std::uint32_t j) {
 Vec3f placeInCube(const EightPlaces& eight, std::size_t lane) {
   constexpr float kOfEdge = 1.0f / kCubeEdge;
   return kOfEdge * Vec3f{static_cast<float>(eight.u[lane]), static_cast<float>(eight.v[lane]),
-                       static_cast<float>(eight.w[lane])};
+                         static_cast<float>(eight.w[lane])};
 }
 
-// From a path length back to numbers of blocks about the sector.
+struct Range {
+  double low_m, high_m;
+};
+
+// Numbers of blocks.
 struct BlockRange {
   int begin, end;
+  double count() const { return std::max(end - begin, 0); }
 };
-BlockRange blocksOver(double lo_m, double hi_m, float origin_m, float edge_m) {
+BlockRange blocksOver(Range range, float origin_m, float edge_m) {
   const double origin = static_cast<double>(origin_m), edge = static_cast<double>(edge_m);
-  return {static_cast<int>(std::floor((lo_m - origin) / edge)),
-          static_cast<int>(std::ceil((hi_m - origin) / edge))};
+  const auto number = [](double at) { return static_cast<int>(std::clamp(at, -1e9, 1e9)); };
+  return {number(std::floor((range.low_m - origin) / edge)),
+          number(std::ceil((range.high_m - origin) / edge))};
+}
+
+// Where tissue may lie that the sector's beams reach at some instant, in its plane: all that
+// BeamView::sees() accepts of discs whose tissue moves so far.
+struct SectorBox {
+  Range x, z;
+};
+SectorBox boxAbout(const Probe& probe, double disc_m, double moves_m, double edge_m) {
+  const double reach_m = probe.face_radius_m + probe.max_depth_m;
+  const Range deep{-moves_m, reach_m + moves_m};
+  if (probe.kind == ProbeKind::linear) {
+    const double half_m = moves_m + edge_m +
+                          std::max(std::abs(probe.first_offset_m), std::abs(probe.last_offset_m)) +
+                          reach_m * std::abs(std::tan(probe.first_angle_rad));
+    return {{-half_m, half_m}, deep};
+  }
+  // sees() takes a disc's half angle for q / sqrt(1 - q^2), q = radius / r, and 1e-4 rad more: over
+  // twice its radius away from the centre that is 1.16 radii; nearer by, any direction is seen.
+  const double margin_m = 1.2 * disc_m + edge_m + 1e-4 * reach_m;
+  const double nearest_m = probe.face_radius_m + probe.min_depth_m;
+  const double about_m = nearest_m <= 3 * disc_m ? 2 * disc_m : 0;
+  const double beside_rad =
+      probe.lines > 1 ? (probe.last_angle_rad - probe.first_angle_rad) / (probe.lines - 1) : 0.1;
+  Range x{-about_m, about_m}, z{about_m > 0 ? -about_m : reach_m, about_m};
+  const double first = probe.first_angle_rad - beside_rad;
+  const double last = probe.last_angle_rad + beside_rad;
+  for (const double angle : {first, std::clamp(0.0, first, last), last})
+    for (const double r_m : {nearest_m, reach_m}) {
+      const double across_m = r_m * std::sin(angle), along_m = r_m * std::cos(angle);
+      x = {std::min(x.low_m, across_m), std::max(x.high_m, across_m)};
+      z = {std::min(z.low_m, along_m), std::max(z.high_m, along_m)};
+    }
+  const double half_m = moves_m + reach_m + edge_m;
+  return {{std::max(x.low_m - margin_m, -half_m), std::min(x.high_m + margin_m, half_m)},
+          {std::max(z.low_m - margin_m, deep.low_m), std::min(z.high_m + margin_m, deep.high_m)}};
 }
 
 double pathOf(const Probe& probe, Vec3d p) {
@@ -83,28 +126,38 @@ struct Scatterers::Block {
   std::vector<std::uint16_t> groups;
 };
 
-Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const BeamView& view,
-                       const SpeckleSettings& settings, const Material& material) {
+// Blocks of tissue that beams may reach at some instant.
+std::vector<Scatterers::Block> Scatterers::blocksInReach(const Probe& probe,
+                                                         const PointSpread& spread,
+                                                         const BeamView& view,
+                                                         const SpeckleSettings& settings,
+                                                         const Material& material) {
   const CubeLattice lattice = material.lattice();
   const double edge_m = static_cast<double>(lattice.block_m);
   const double along_m = material.reachAlong_m(), across_m = material.reachAcross_m();
-  const double reach_m = probe.face_radius_m + probe.max_depth_m;
-  const double half_x_m =
-      along_m + (probe.kind == ProbeKind::linear
-                     ? std::max(std::abs(probe.first_offset_m), std::abs(probe.last_offset_m)) +
-                           reach_m * std::abs(std::tan(probe.first_angle_rad)) + edge_m
-                     : reach_m + edge_m);
-  const double half_y_m =
-      across_m + kElevationCut * std::max(spread.elevationWidth(0), spread.elevationWidth(reach_m));
-  const BlockRange xs = blocksOver(-half_x_m, half_x_m, lattice.origin_m.x, lattice.block_m);
-  const BlockRange ys = blocksOver(-half_y_m, half_y_m, lattice.origin_m.y, lattice.block_m);
-  const BlockRange zs =
-      blocksOver(-along_m, reach_m + along_m, lattice.origin_m.z, lattice.block_m);
   const double ball_m = edge_m * std::numbers::sqrt2 / 2 + along_m;
+  const double half_y_m =
+      across_m + kElevationCut *
+                     std::max(spread.elevationWidth(0), spread.elevationWidth(std::min(
+                                                            probe.face_radius_m + probe.max_depth_m,
+                                                            probe.max_depth_m + 2 * ball_m)));
+  const SectorBox box = boxAbout(probe, ball_m, along_m, edge_m);
+  const BlockRange xs = blocksOver(box.x, lattice.origin_m.x, lattice.block_m);
+  const BlockRange ys = blocksOver({-half_y_m, half_y_m}, lattice.origin_m.y, lattice.block_m);
+  const BlockRange zs = blocksOver(box.z, lattice.origin_m.z, lattice.block_m);
+  const auto tooLarge = [&](double number) {
+    return SceneError(fmt::format(
+        "[speckle]: the sector and what moves into it take over {:.0f} blocks of {:.2g} mm, more "
+        "than memory is meant for: a smaller sector (probe.depth_mm, probe.face_radius_mm) is "
+        "accepted",
+        number, edge_m * 1e3));
+  };
+  if (xs.count() * ys.count() * zs.count() > kMostBlocks) throw tooLarge(kMostBlocks);
   std::vector<Block> blocks;
   double planned = 0;
   for (int iz = zs.begin; iz < zs.end; ++iz)
-    for (int iy = ys.begin; iy < ys.end; ++iy)
+    for (int iy = ys.begin; iy < ys.end; ++iy) {
+      checkpoint();
       for (int ix = xs.begin; ix < xs.end; ++ix) {
         const Vec3f low = lattice.origin_m + lattice.block_m * Vec3f{static_cast<float>(ix),
                                                                      static_cast<float>(iy),
@@ -121,9 +174,17 @@ Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const Beam
               "speckle.per_cell = {:g} takes over {:g} scatterers, more than memory is meant for: "
               "fewer are accepted",
               settings.per_cell, kMostScatterers));
+        if (blocks.size() == kMostKept) throw tooLarge(kMostKept);
         blocks.push_back(
             {low, lattice.block_m, hashOf(settings.seed, kPlaces, ix, iy, iz), wanted, {}, {}});
       }
+    }
+  return blocks;
+}
+
+Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const BeamView& view,
+                       const SpeckleSettings& settings, const Material& material) {
+  std::vector<Block> blocks = blocksInReach(probe, spread, view, settings, material);
   parallelBlocks(blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       Block& block = blocks[b];
@@ -168,6 +229,7 @@ void Scatterers::dropUnseen(const BeamView& view, const Material& material) {
   std::vector<bool> seen(batches_.size());
   material.overTheBeat([&](const MaterialFrame& tissue) {
     looked = true;
+    checkpoint();
     for (std::size_t b = 0; b < batches_.size(); ++b)
       seen[b] = seen[b] || view.sees(extentOf(tissue.corners(batches_[b].group, batches_[b].low_m,
                                                              batches_[b].edge_m),

@@ -65,6 +65,9 @@ class Scatterers {
 
  private:
   struct Block;
+  static std::vector<Block> blocksInReach(const Probe& probe, const PointSpread& spread,
+                                          const BeamView& view, const SpeckleSettings& settings,
+                                          const Material& material);
   static std::size_t eightOf(const ScattererBatch& b) { return b.first / kFloatLanes; }
   void weigh(const Material& material);
   void addBlock(const Block& block, const Material& material);

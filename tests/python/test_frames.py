@@ -136,3 +136,29 @@ def test_channels(scene):
     assert set(planes) >= {"Y", "attenuation.A", "medium.id", "structure.id", "displacement.axial"}
     assert planes["structure.id"].dtype == np.uint32 and planes["structure.id"].max() == 1
     assert all(p.shape == (64, 24) for p in planes.values())
+
+
+def test_tracks_have_the_unit_of_a_loops(recorded):
+    scene = recorded.copy()
+    scene.update({"truth.write": ["tracks"], "truth.tracks": 20})
+    loop = echocine.render(scene, frames=(0, 2))
+    frame = echocine.Simulator(scene).frame(loop.times_s[1])
+    assert np.array_equal(frame.tracks, loop.tracks[1]) and 10 < np.abs(frame.tracks).max() < 200
+
+
+def test_without_stack_intensities_are_refused_by_name(scene):
+    scene["output.exr"] = False
+    simulator = echocine.Simulator(scene)
+    with pytest.raises(ValueError, match="intensities.*output.exr"):
+        simulator.frame(0).intensities
+    with pytest.raises(ValueError, match=r'out\["intensities"\]: the scene does not ask for it'):
+        simulator.frame(0, out={"intensities": np.zeros((64, 24), np.float32)})
+
+
+def test_a_frame_of_another_simulator_is_refused_whatever_its_shape(scene):
+    frame = echocine.Simulator(scene).frame(0)
+    other = echocine.Simulator(scene.copy())
+    with pytest.raises(ValueError, match="another simulator"):
+        other.frame(0, out=frame)
+    with pytest.raises(ValueError, match="another simulator"):
+        other.contours(frame)

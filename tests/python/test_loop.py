@@ -100,6 +100,19 @@ def test_volumes_are_those_of_the_meshes(scene):
     assert volumes.max() == pytest.approx(ml.max(), rel=1e-6) and ml.min() * 0.999 <= volumes.min()
 
 
+def test_planes_without_a_stack(scene):
+    """The stack's planes are made only where it is; the greys are there for any picture."""
+    asked = scene.copy()
+    asked.update({"output.channels": ["Y", "display.Y"], "output.exr": False})
+    loop = echocine.render(asked, frames=(0, 2))
+    assert loop.greys.shape == (2, 64, 24) and loop.images.shape == (2, 90, 120)
+    with pytest.raises(ValueError, match="Y: the scene does not ask for it, accepted: .*output.exr = true"):
+        loop.intensities
+    asked["output.exr"] = True
+    loop = echocine.render(asked, frames=(0, 2))
+    assert np.array_equal(loop.channel("display.Y"), loop.greys)
+
+
 def test_a_closed_loop(scene):
     with echocine.render(scene, frames=(0, 2)) as loop:
         greys = loop.greys

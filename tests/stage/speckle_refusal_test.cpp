@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/stop.h"
 #include "support/scene_text.h"
 #include "support/speckle_bed.h"
 
@@ -83,6 +84,43 @@ TEST(SpeckleRefusal, MoreScatterersThanMemoryIsMeantFor) {
               std::string::npos)
         << error.what();
   }
+}
+
+// A fine lattice about an apex far behind the face.
+struct FineGroup : support::OneGroup {
+  CubeLattice lattice() const override { return {{}, 1e-3f}; }
+};
+
+TEST(SpeckleRefusal, AFarApexTakesTheBlocksOfItsSectorAlone) {
+  Probe probe = support::speckleProbe(ProbeKind::curvilinear, 128, 512, 0.005, 0.1);
+  probe.face_radius_m = 1;
+  probe.first_angle_rad = -0.03;
+  probe.last_angle_rad = 0.03;
+  SpeckleSettings settings;
+  settings.on = true;
+  settings.per_cell = 0.1;
+  FineGroup fine;
+  fine.reach_m = 0;
+  EXPECT_GT(Speckle(probe, 2, settings, fine).scatterers(), 1000u);
+  probe.first_angle_rad = -0.6;
+  probe.last_angle_rad = 0.6;
+  try {
+    const Speckle speckle(probe, 2, settings, fine);
+    FAIL() << speckle.scatterers();
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("probe.face_radius_mm"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(SpeckleRefusal, AStopEndsTheSearchForBlocks) {
+  const Probe probe = support::speckleProbe(ProbeKind::phased, 128, 512, 0.005, 0.15);
+  SpeckleSettings settings;
+  settings.on = true;
+  int asked = 0;
+  EXPECT_THROW(stoppable([&] { return ++asked > 20; },
+                         [&] { const Speckle made(probe, 2, settings, FineGroup{}); }),
+               JobError);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ class Frame:
         """(H, W) uint8: structures at the picture's pixels."""
     @property
     def tracks(self) -> NDArray[np.float32]:
-        """(N, 3) float32: material points, lateral, elevation and depth, m."""
+        """(N, 3) float32: material points, lateral, elevation and depth, mm. A copy."""
 
 class Simulator:
     def __init__(self, scene: Scene) -> None: ...

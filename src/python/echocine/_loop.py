@@ -94,8 +94,9 @@ class Loop:
             return read
         planes = self._once("channels", lambda: native.channels)
         if name not in planes:
-            known = ", ".join(planes)
-            raise ValueError(f"{name}: the scene does not ask for it, accepted: {known}, or output.channels with \"{name}\"")
+            known = "".join(f"{plane}, " for plane in planes) + ("or " if planes else "")
+            raise ValueError(f"{name}: the scene does not ask for it, accepted: {known}output.channels with \"{name}\" and "
+                             "output.exr = true")
         plane: NDArray[Any] = planes[name]
         return plane
 
