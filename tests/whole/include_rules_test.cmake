@@ -15,12 +15,12 @@ set(libraries
   "opensubdiv/=subdivision"
   "embree3/=geometry"
   "(OpenEXR/|Imath/|Imf.*\\.h$|half\\.h$)=output"
-  "opencv2/(core|imgproc)=signal,metrics,video,output,compare"
+  "opencv2/(core|imgproc)=signal,metrics,video,output,echo,fit,compare"
   "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
   "zlib\\.h$=video,dataset"
   "hdf5\\.h$=dataset"
   "CLI/=cli"
-  "nlohmann/=scene,heart,output,page,simulate,view,compare,render,study,dataset,cli,python"
+  "nlohmann/=scene,heart,output,page,simulate,view,echo,fit,compare,render,study,dataset,cli,python"
   "(pybind11/|Python\\.h$)=python"
   "fmt/=*"
   "[a-z_0-9]+(\\.h)?$=*"
@@ -52,13 +52,15 @@ set(rooms
   "output=signal,motion,heart,truth|video"
   "simulate=output,motion,cycle,geometry,trace,speckle,signal,truth"
   "view=simulate,mesh|cycle,geometry,signal,video,page"
-  "compare=simulate,video,metrics,signal,truth,page,motion,geometry,heart|output,cycle"
+  "echo=video|signal,metrics,output"
+  "fit=echo,heart,simulate,motion,geometry,truth,signal,page|video"
+  "compare=echo,fit,metrics,signal,truth,page|motion,video"
   "render=simulate,cycle,output,page,video,truth|signal,motion,view"
   "study=simulate,cycle,output,video,signal,metrics|motion,keyframes,render,page"
   "echocine=render,simulate,heart"
   "dataset=simulate,output,motion,cycle,heart,truth,signal|views,video,page"
-  "python=render,compare,study,dataset,simulate,heart,cycle|output,video,motion,cycle,truth,signal,geometry"
-  "cli=render,compare,study,dataset,output,view|video,simulate,motion,keyframes,cycle,heart")
+  "python=render,echo,fit,compare,study,dataset,simulate,heart,cycle|output,video,motion,cycle,truth,signal,geometry"
+  "cli=render,echo,fit,compare,study,dataset,output,view|video,simulate,motion,keyframes,cycle,heart")
 
 function(room_of path out)
   string(REGEX REPLACE "^src/" "" path "${path}")
