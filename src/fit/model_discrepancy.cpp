@@ -10,7 +10,7 @@
 #include "core/parallel.h"
 #include "echo/beat_length.h"
 #include "fit/descent.h"
-#include "simulate/simulator.h"
+#include "frame/simulator.h"
 
 namespace echocine::fit {
 

@@ -11,7 +11,7 @@
 #include "core/units.h"
 #include "fit/cpu_seconds.h"
 #include "fit/descent.h"
-#include "simulate/simulator.h"
+#include "frame/simulator.h"
 
 namespace echocine::fit {
 

@@ -1,4 +1,4 @@
-#include "simulate/simulator.h"
+#include "frame/simulator.h"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,11 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "core/usable.h"
+#include "frame/plan_loop.h"
+#include "frame/reference_frames.h"
 #include "motion/probe_placement.h"
-#include "output/polar_plane.h"
-#include "output/truth_files.h"
 #include "signal/reference.h"
-#include "simulate/plan_loop.h"
-#include "simulate/reference_frames.h"
 
 namespace echocine {
 
@@ -60,7 +59,8 @@ Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, Loop
   if (plan_.effects.trabeculae)
     trabeculae_ = std::make_unique<const Trabeculae>(scene_, *motion_, !plan_.slice);
   if (plan_.effects.speckle)
-    speckle_ = std::make_unique<const SceneSpeckle>(scene_, *motion_, plan_.effects, trabeculae_.get());
+    speckle_ =
+        std::make_unique<const SceneSpeckle>(scene_, *motion_, plan_.effects, trabeculae_.get());
   if (plan_.effects.rolling)
     rolling_.emplace(scene_, [this](LineRange lines) {
       return chain_.taken(speckle_ ? speckle_->reach(lines) : lines);
