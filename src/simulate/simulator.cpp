@@ -11,6 +11,7 @@
 #include "motion/probe_placement.h"
 #include "output/polar_plane.h"
 #include "output/truth_files.h"
+#include "scene/scene_keys.h"
 #include "signal/reference.h"
 #include "simulate/plan_loop.h"
 #include "simulate/reference_frames.h"
@@ -41,7 +42,9 @@ EchoCells echoCells(const LoopPlan& plan) {
 
 }  // namespace
 
-Simulator::Simulator(Scene scene) : Simulator(placedWithMotion(std::move(scene))) {}
+// Before anything depends on its numbers, such as the levels of subdivision.
+Simulator::Simulator(Scene scene)
+    : Simulator((refuseOutOfRange(scene), placedWithMotion(std::move(scene)))) {}
 
 Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion)
     : Simulator(scene, motion, planLoop(scene, *motion)) {}
@@ -60,7 +63,8 @@ Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, Loop
   if (plan_.effects.trabeculae)
     trabeculae_ = std::make_unique<const Trabeculae>(scene_, *motion_, !plan_.slice);
   if (plan_.effects.speckle)
-    speckle_ = std::make_unique<const SceneSpeckle>(scene_, *motion_, plan_.effects, trabeculae_.get());
+    speckle_ =
+        std::make_unique<const SceneSpeckle>(scene_, *motion_, plan_.effects, trabeculae_.get());
   if (plan_.effects.rolling)
     rolling_.emplace(scene_, [this](LineRange lines) {
       return chain_.taken(speckle_ ? speckle_->reach(lines) : lines);
