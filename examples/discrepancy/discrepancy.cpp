@@ -7,8 +7,8 @@
 #include "compare/compare.h"
 #include "compare/discrepancy.h"
 #include "core/parallel.h"
+#include "frame/simulator.h"
 #include "scene/scene_reader.h"
-#include "simulate/simulator.h"
 
 using namespace echocine;
 

@@ -10,7 +10,7 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "simulate/simulator.h"
+#include "frame/simulator.h"
 
 namespace echocine::compare {
 

@@ -11,7 +11,7 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "core/units.h"
-#include "simulate/simulator.h"
+#include "frame/simulator.h"
 
 namespace echocine::compare {
 

@@ -11,9 +11,9 @@
 #include "compare/sector.h"
 #include "core/error.h"
 #include "core/units.h"
+#include "frame/simulator.h"
 #include "metrics/box_echo.h"
 #include "scene/scene_reader.h"
-#include "simulate/simulator.h"
 #include "video/read_video.h"
 
 namespace echocine::bench {

@@ -1,4 +1,4 @@
-#include "simulate/simulator.h"
+#include "frame/simulator.h"
 
 #include <fmt/format.h>
 
@@ -8,13 +8,12 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "core/usable.h"
+#include "frame/plan_loop.h"
+#include "frame/reference_frames.h"
 #include "motion/probe_placement.h"
-#include "output/polar_plane.h"
-#include "output/truth_files.h"
 #include "scene/scene_keys.h"
 #include "signal/reference.h"
-#include "simulate/plan_loop.h"
-#include "simulate/reference_frames.h"
 
 namespace echocine {
 

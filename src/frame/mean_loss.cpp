@@ -1,4 +1,4 @@
-#include "simulate/mean_loss.h"
+#include "frame/mean_loss.h"
 
 #include <algorithm>
 #include <cmath>

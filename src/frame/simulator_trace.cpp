@@ -1,6 +1,6 @@
 // A frame's surfaces, and its rays through them.
 
-#include "simulate/simulator.h"
+#include "frame/simulator.h"
 
 namespace echocine {
 
@@ -37,8 +37,7 @@ void Simulator::stand(const FrameTime& time, Workspace& w) const {
 WorkCounts Simulator::traceAt(const FrameTime& time, const Group* group, Workspace& w) const {
   return std::visit(
       [&](const auto& geometry) {
-        return clock_.time(Stage::trace,
-                           [&] { return traceRays(geometry, time.frame, group, w); });
+        return clock_.time(Stage::trace, [&] { return traceRays(geometry, time.frame, group, w); });
       },
       w.geometry);
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "output/truth_files.h"
-#include "simulate/simulator.h"
+#include "frame/picture_grid.h"
+#include "frame/simulator.h"
 
 namespace echocine {
 
@@ -54,7 +54,8 @@ FrameTruth Simulator::truthAt(const FrameTime& time, const Workspace* traced) co
   TruthShared shared;
   if (traced != nullptr && traced->phase == time.phase) {
     shared.surfaces = &traced->surfaces;
-    if (plan_.left_out.none() && !trabeculae_) shared.slice = std::get_if<PlaneSlice>(&traced->geometry);
+    if (plan_.left_out.none() && !trabeculae_)
+      shared.slice = std::get_if<PlaneSlice>(&traced->geometry);
   }
   FrameTruth truth = truthOf(time, shared, false);
   for (std::size_t g = 0; rolling_ && g < rolling_->groups().size(); ++g)

@@ -1,4 +1,4 @@
-#include "simulate/persistence.h"
+#include "frame/persistence.h"
 
 #include <cmath>
 #include <iterator>

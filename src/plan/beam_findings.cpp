@@ -1,9 +1,9 @@
-#include "scene/beam_findings.h"
+#include "plan/beam_findings.h"
 
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 #include "scene/scan_geometry.h"
 
 namespace echocine {

@@ -1,4 +1,4 @@
-#include "simulate/scene_speckle.h"
+#include "frame/scene_speckle.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "simulate/plan_loop.h"
+#include "frame/plan_loop.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,9 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "frame/echo_shift.h"
+#include "frame/mean_loss.h"
+#include "frame/whereabouts.h"
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
 #include "motion/heart_size.h"
@@ -19,9 +22,6 @@
 #include "scene/role.h"
 #include "scene/scan_geometry.h"
 #include "scene/scene_keys.h"
-#include "simulate/echo_shift.h"
-#include "simulate/mean_loss.h"
-#include "simulate/whereabouts.h"
 #include "trace/beam_rays.h"
 
 namespace echocine {

@@ -1,14 +1,14 @@
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "core/units.h"
-#include "scene/beam_findings.h"
-#include "scene/media_in_use.h"
+#include "plan/beam_findings.h"
+#include "plan/media_in_use.h"
+#include "plan/picture_plan.h"
 #include "scene/names.h"
-#include "scene/picture_plan.h"
 #include "scene/scan_geometry.h"
 
 namespace echocine {
@@ -241,8 +241,7 @@ EffectPlan planEffects(const Scene& scene) {
   plan.backscatter = decide(plan, Effect::backscatter, wanted.backscatter, scattering(scene));
   plan.spread = decide(plan, Effect::spread, wanted.spread, spreading(scene, plan.backscatter));
   plan.beam_width = decide(plan, Effect::beam_width, wanted.beam_width, findBeamWidth(scene));
-  const bool elevation =
-      decide(plan, Effect::elevation, wanted.elevation, findElevation(scene));
+  const bool elevation = decide(plan, Effect::elevation, wanted.elevation, findElevation(scene));
   plan.elevation = elevation && severalRays(scene);
   plan.lateral_rays = plan.beam_width && lateralRays(scene);
   if (plan.elevation || plan.lateral_rays) plan.rays_per_beam = scene.accuracy.rays_per_beam;

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "simulate/simulator.h"
+#include "frame/simulator.h"
 
 namespace echocine {
 

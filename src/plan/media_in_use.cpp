@@ -1,4 +1,4 @@
-#include "scene/media_in_use.h"
+#include "plan/media_in_use.h"
 
 #include <algorithm>
 

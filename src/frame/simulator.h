@@ -13,6 +13,9 @@
 #include "core/beam_plane.h"
 #include "core/stage_clock.h"
 #include "core/work_counts.h"
+#include "frame/persistence.h"
+#include "frame/rolling.h"
+#include "frame/scene_speckle.h"
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
 #include "geometry/side_slices.h"
@@ -20,12 +23,9 @@
 #include "motion/mesh_motion.h"
 #include "motion/trabeculae.h"
 #include "motion/volumes.h"
-#include "output/frame_record.h"
-#include "scene/loop_plan.h"
+#include "plan/loop_plan.h"
 #include "signal/signal_chain.h"
-#include "simulate/persistence.h"
-#include "simulate/rolling.h"
-#include "simulate/scene_speckle.h"
+#include "trace/channel_plane.h"
 #include "trace/thick_slice.h"
 #include "trace/trace_beams.h"
 #include "trace/trace_frame.h"
@@ -51,7 +51,7 @@ struct Frame {
 struct Workspace {
   double phase = -1;  // that surfaces and geometry stand at
   SurfaceFrame surfaces;
-  Trabeculae::Smooth smooth{};  // surfaces while others are shown
+  Trabeculae::Smooth smooth{};                       // surfaces while others are shown
   std::variant<PlaneSlice, FrameGeometry> geometry;  // whichever the plan's tracer needs
   PolarFrame polar;
   std::optional<SideSlices> sides{};  // of a beam that is thick across the plane
@@ -136,8 +136,7 @@ class Simulator {
   FrameTime timeOf(double time_s) const;
   // Of all lines, or what a group takes in.
   using Group = RollingLines::Group;
-  WorkCounts traceRays(const PlaneSlice& slice, int frame, const Group* group,
-                       Workspace& w) const;
+  WorkCounts traceRays(const PlaneSlice& slice, int frame, const Group* group, Workspace& w) const;
   WorkCounts traceRays(const FrameGeometry& geometry, int frame, const Group* group,
                        Workspace& w) const;
   double measureReference() const;

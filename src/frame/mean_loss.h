@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "motion/mesh_motion.h"
-#include "scene/loop_plan.h"
+#include "plan/loop_plan.h"
 
 namespace echocine {
 

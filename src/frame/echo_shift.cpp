@@ -1,4 +1,4 @@
-#include "simulate/echo_shift.h"
+#include "frame/echo_shift.h"
 
 #include <algorithm>
 #include <array>

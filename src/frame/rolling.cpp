@@ -1,9 +1,9 @@
-#include "simulate/rolling.h"
+#include "frame/rolling.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "output/truth_files.h"
+#include "frame/picture_grid.h"
 #include "scene/scan_geometry.h"
 
 namespace echocine {

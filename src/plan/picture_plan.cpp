@@ -1,4 +1,4 @@
-#include "scene/picture_plan.h"
+#include "plan/picture_plan.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "core/beam_plane.h"
 #include "motion/cycle/cardiac_clock.h"
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 #include "speckle/field_material.h"
 #include "speckle/sheet_points.h"
 #include "speckle/speckle.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/ids.h"
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 
 namespace echocine {
 

@@ -1,4 +1,4 @@
-#include "simulate/reference_frames.h"
+#include "frame/reference_frames.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "simulate/whereabouts.h"
+#include "frame/whereabouts.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 // What a scene says about the beam: its width across the lines and across the imaging plane.
 
-#include "scene/finding.h"
+#include "plan/finding.h"
 #include "scene/scene.h"
 
 namespace echocine {

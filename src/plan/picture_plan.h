@@ -2,7 +2,7 @@
 // The part of the plan that truth knows nothing of: trabeculae, speckle, what tissue it shows, and
 // what the scanner adds.
 
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 
 namespace echocine {
 
