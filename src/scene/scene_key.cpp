@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/check.h"
 #include "core/error.h"
 #include "scene/scene_keys.h"
@@ -27,7 +29,8 @@ std::string SceneKey::accepted() const {
     case KeyKind::other:
       break;
   }
-  return {};
+  if (field.words != nullptr) return fmt::format("\"{}\"", fmt::join(field.words(), "\" | \""));
+  return std::isfinite(range.lo) ? range.text() : std::string();
 }
 
 const SceneKey* findSceneKey(std::string_view table, std::string_view name) {
