@@ -137,6 +137,7 @@ CompareCommand::CompareCommand(CLI::App& app) {
   command->add_option("--dials", dials_text_,
                       "Dials of that heart that stay, such as hr=72,wall-thickness=11");
   command->add_option("--view", view_text_, "View of that heart, as `echocine heart` has them")
+      ->type_name(viewChoice())
       ->capture_default_str();
   command->add_flag("--yes", scan_.yes,
                     fmt::format("Scan also at more than {} places", fit::kMostUnasked));

@@ -12,6 +12,7 @@
 #include "frame/plan_loop.h"
 #include "frame/reference_frames.h"
 #include "motion/probe_placement.h"
+#include "scene/scene_keys.h"
 #include "signal/reference.h"
 
 namespace echocine {
@@ -40,7 +41,9 @@ EchoCells echoCells(const LoopPlan& plan) {
 
 }  // namespace
 
-Simulator::Simulator(Scene scene) : Simulator(placedWithMotion(std::move(scene))) {}
+// Before anything depends on its numbers, such as the levels of subdivision.
+Simulator::Simulator(Scene scene)
+    : Simulator((refuseOutOfRange(scene), placedWithMotion(std::move(scene)))) {}
 
 Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion)
     : Simulator(scene, motion, planLoop(scene, *motion)) {}
