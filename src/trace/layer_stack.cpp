@@ -98,6 +98,14 @@ class Stack {
     return cycles;
   }
 
+  // What turns back twice in each layer is so little that the first nodes hold all of it.
+  bool weak() const {
+    constexpr double kWeak = 0.05;
+    for (std::size_t i = 0; i < layers_.size(); ++i)
+      if (norm(r_[i]) * norm(r_[i + 1]) > kWeak * kWeak) return false;
+    return true;
+  }
+
  private:
   std::span<const Layer> layers_;
   std::array<Phasor, kMostLayers + 1> r_;
@@ -184,7 +192,7 @@ StackResponse stackResponse(LayerMedium before, double cos_0, std::span<const La
   }
   WeighedSum all = tail;
   all.add(inner, 1);
-  for (; doublings < kMostDoublings; ++doublings) {
+  for (; doublings < kMostDoublings && !stack.weak(); ++doublings) {
     WeighedSum between;
     for (int j = 0; j < nodes; ++j) {
       const double f = kTailFrom * (j + 0.5) / nodes;
