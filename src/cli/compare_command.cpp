@@ -22,8 +22,6 @@ namespace echocine {
 
 namespace {
 
-constexpr double kMostFrame = 1e6;
-
 void addSide(CLI::App& command, echo::SideOptions& side, const std::string& prefix,
              const char* which) {
   const auto help = [&](const char* what) { return fmt::format("{} loop: {}", which, what); };
@@ -35,7 +33,7 @@ void addSide(CLI::App& command, echo::SideOptions& side, const std::string& pref
   command
       .add_option("--" + prefix + "scale", side.mm_per_pixel,
                   help("length scale, mm per pixel, 0.001 to 100"))
-      ->check(within(1e-3, 100))
+      ->check(within(echo::kLeastScale_mm, echo::kMostScale_mm))
       ->type_name("NUMBER");
   command
       .add_option("--" + prefix + "sector", side.sector,
@@ -43,14 +41,18 @@ void addSide(CLI::App& command, echo::SideOptions& side, const std::string& pref
                        "apex_x,apex_y,first_deg,last_deg,r_min,r_max"))
       ->expected(1);
   command
+      .add_option("--" + prefix + "label", side.label,
+                  help("its name in pages and JSON, which have no file's name"))
+      ->type_name("TEXT");
+  command
       .add_option("--" + prefix + "pixel-aspect", side.pixel_aspect,
                   help("height of a pixel over its width, where the picture is stretched"))
-      ->check(within(0.2, 5))
+      ->check(within(echo::kLeastAspect, echo::kMostAspect))
       ->type_name("NUMBER");
   command
       .add_option("--" + prefix + "heart-rate", side.heart_rate_bpm,
                   help("beats per minute, 10 to 400"))
-      ->check(within(10, 400))
+      ->check(within(echo::kLeastHeartRate_bpm, echo::kMostHeartRate_bpm))
       ->type_name("NUMBER");
 }
 
@@ -58,15 +60,15 @@ void addTimes(CLI::App& command, echo::SideOptions& side, const std::string& pre
               const char* which) {
   const auto help = [&](const char* what) { return fmt::format("{} loop: {}", which, what); };
   command.add_option("--" + prefix + "-ed", side.ed_frame, help("frame of end-diastole, from 0"))
-      ->check(within(0, kMostFrame))
+      ->check(within(0, echo::kMostFrame))
       ->type_name("NUMBER");
   command.add_option("--" + prefix + "-es", side.es_frame, help("frame of end-systole, from 0"))
-      ->check(within(0, kMostFrame))
+      ->check(within(0, echo::kMostFrame))
       ->type_name("NUMBER");
   command
       .add_option("--" + prefix + "-r-waves", side.r_waves_s,
                   help("times of its R waves, s from the first frame: a,b,..."))
-      ->check(within(0, 3600))
+      ->check(within(0, echo::kMostRWave_s))
       ->type_name("NUMBER")
       ->delimiter(',');
 }

@@ -21,6 +21,11 @@ void printTilt(const fit::TiltFound& t) {
       t.found.discrepancy, t.untilted, t.planes, 1e-3 * t.cpu_ms);
 }
 
+// Beside the result: a reader of the first lines must not miss them.
+void printCaveats(const std::vector<std::string>& caveats) {
+  for (const std::string& caveat : caveats) fmt::print("  {}\n", caveat);
+}
+
 void printBeat(const echo::EchoLoop& real) {
   fmt::print("  beat: {}", real.beat_anchor);
   if (real.ecg)
@@ -77,6 +82,7 @@ void printTable(const fit::DialScan& scan, const std::filesystem::path& folder) 
     if (!scan.minimum.empty())
       between += fmt::format("{}{} {:.4g}", a > 0 ? ", " : "", key, scan.minimum[a]);
   }
+  printCaveats(scan.caveats);
   const fit::FitTerms& t = best.found.terms;
   fmt::print("discrepancy {:.4f} at {}{}\n", best.found.discrepancy, where,
              between.empty() ? "" : "; between the steps least at " + between);
@@ -97,6 +103,7 @@ void printTable(const fit::ViewRanking& ranking, const std::filesystem::path& fo
   const fit::ViewFound& best = ranking.views.front();
   fmt::print("view {}, margin {:.4f} before {}, confidence {:.2f}\n", keyOf(best.view),
              ranking.margin, keyOf(ranking.views[1].view), ranking.confidence);
+  printCaveats(ranking.caveats);
   std::string head = fmt::format("  {:<10}", "");
   for (const char* name : {"V", "claimed", "D", "region", "boundary", "motion", "in sight"})
     head += fmt::format("{:>9}", name);

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/check.h"
+#include "core/error.h"
 
 namespace echocine::compare {
 
@@ -36,7 +37,8 @@ std::vector<double> solveFor(const cv::Mat& a, const cv::Mat& b, const std::vect
       sub.at<double>(i, j) =
           a.at<double>(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(j)]);
   }
-  cv::solve(sub, right, x, cv::DECOMP_SVD);
+  if (!cv::solve(sub, right, x, cv::DECOMP_SVD) || !cv::checkRange(x))
+    throw JobError("the grey calibration has no solution; give other --knots");
   std::vector<double> all(static_cast<std::size_t>(b.rows), 0);
   for (int i = 0; i < n; ++i)
     all[static_cast<std::size_t>(free[static_cast<std::size_t>(i)])] = x.at<double>(i);
@@ -150,7 +152,8 @@ GreyCurve CalibrationFit::solve(bool monotone) const {
   GreyCurve curve{knots_, {}};
   if (!monotone) {
     cv::Mat x;
-    cv::solve(normal, right, x, cv::DECOMP_SVD);
+    if (!cv::solve(normal, right, x, cv::DECOMP_SVD) || !cv::checkRange(x))
+      throw JobError("the grey calibration has no solution; give other --knots");
     for (int i = 0; i < n; ++i) curve.values.push_back(x.at<double>(i));
     return curve;
   }

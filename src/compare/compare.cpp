@@ -101,19 +101,17 @@ constexpr double kDoubtfulConfidence = 0.1;
 void noteAssumptions(Comparison& c) {
   const auto say = [&](const std::string& note) { c.notes.push_back(note); };
   for (const echo::EchoLoop* loop : {&c.synthetic, &c.real})
-    for (const std::string& note : loop->video.notes)
-      say(shownName(loop->video.name) + ": " + note);
+    for (const std::string& note : loop->video.notes) say(loop->label + ": " + note);
   if (!c.grid.metric)
-    say(fmt::format(
-        "{} has no length scale (--scale, in mm per pixel, gives it): both sectors are "
-        "taken to be of "
-        "one depth",
-        shownName(c.real.metres_per_pixel ? c.synthetic.video.name : c.real.video.name)));
+    say(
+        fmt::format("{} has no length scale (--scale, in mm per pixel, gives it): both sectors are "
+                    "taken to be of "
+                    "one depth",
+                    c.real.metres_per_pixel ? c.synthetic.label : c.real.label));
   for (const echo::BeatLength* beat : {&c.synthetic_beat, &c.real_beat})
     if (beat->frames == 0)
-      say(fmt::format(
-          "{}: no beat found in the loop; frames are paired by the best shift and pace",
-          shownName(beat == &c.real_beat ? c.real.video.name : c.synthetic.video.name)));
+      say(fmt::format("{}: no beat found in the loop; frames are paired by the best shift and pace",
+                      beat == &c.real_beat ? c.real.label : c.synthetic.label));
   if (c.time.confidence < kDoubtfulConfidence)
     say(
         fmt::format("the alignment in time is hardly better than any other (confidence {:.2f}): "
@@ -128,6 +126,13 @@ void noteAssumptions(Comparison& c) {
     say("the view that fits best lies at the limit of the search: a better one may lie beyond");
 }
 
+// A message names its file; notes are for pages and JSON, which do not.
+std::string withoutName(std::string text, const echo::EchoLoop& loop) {
+  for (const std::string& name : {loop.video.name, shownName(loop.video.name)})
+    if (!name.empty() && text.starts_with(name + ":")) text.replace(0, name.size(), loop.label);
+  return text;
+}
+
 // Metrics of frames stand without it.
 void holdScene(const Scene& scene, const CompareOptions& options, const Monitor& monitor,
                Comparison& c) {
@@ -135,7 +140,8 @@ void holdScene(const Scene& scene, const CompareOptions& options, const Monitor&
     c.scene_fit = std::make_shared<const fit::SceneFit>(
         fit::fitScene(scene, c.real, options.real_side, options.tilt_deg, monitor));
   } catch (const SceneError& error) {
-    c.notes.push_back(fmt::format("where the scene disagrees is not shown: {}", error.what()));
+    c.notes.push_back(fmt::format("where the scene disagrees is not shown: {}",
+                                  withoutName(error.what(), c.real)));
   }
 }
 

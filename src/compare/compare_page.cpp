@@ -41,9 +41,7 @@ Json framesJson(const Comparison& c, const ComparePage& page) {
 }
 
 PageLook lookOf(const Comparison& c) {
-  return fit::fitPageLook(
-      "EchoCine: " + shownName(c.synthetic.video.name) + " against " + shownName(c.real.video.name),
-      "compare");
+  return fit::fitPageLook("EchoCine: " + c.synthetic.label + " against " + c.real.label, "compare");
 }
 
 }  // namespace

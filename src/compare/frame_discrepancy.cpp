@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "echo/read_loop.h"
 #include "echo/resample.h"
 
 namespace echocine::compare {
@@ -26,6 +27,7 @@ FrameDiscrepancy::FrameDiscrepancy(const echo::EchoLoop& real, const Probe& prob
   if (!real.metres_per_pixel)
     throw SceneError(
         fmt::format("{}: has no length scale; give --scale in mm per pixel", real.video.name));
+  echo::checkScale(real);
   if (probe.kind == ProbeKind::linear || probe.lines < 8 || probe.samples < 16)
     throw SceneError("the discrepancy needs a sector of at least 8 lines and 16 samples");
   // What the smoothing of 2 % of the depth leaves has under a hundred independent depths, so 384

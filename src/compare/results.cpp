@@ -40,7 +40,7 @@ Json ecgJson(const echo::EcgTrace& e, const FrameRate& rate) {
 // result.
 Json loopJson(const echo::EchoLoop& l, const echo::BeatLength& beat) {
   const echo::Sector& s = l.sector();
-  Json json{{"path", shownName(l.video.name)},
+  Json json{{"label", l.label},
             {"format", l.video.format},
             {"grey_source", l.grey_source},
             {"width", l.video.width},

@@ -18,6 +18,8 @@ struct TracedGreys {
 
 struct EchoLoop {
   Video video;
+  // What pages and JSON call it: a file's name may be a patient's. Video::name is for messages.
+  std::string label = "loop";
   SectorFind find;
   PixelPlane overlay;                      // 1 where a pixel holds no echo
   std::optional<double> metres_per_pixel;  // nothing when neither file, image nor user tells

@@ -188,9 +188,32 @@ void scaleFromRegions(EchoLoop& loop) {
 
 }  // namespace
 
+void checkSide(const SideOptions& side) {
+  const auto check = [](const char* name, const std::optional<double>& value, double least,
+                        double most) {
+    if (value && !(*value >= least && *value <= most))
+      throw SceneError(
+          fmt::format("{}: is {:g}, accepted: {:g} to {:g}", name, *value, least, most));
+  };
+  check("fps", side.fps, kLeastFrameRate_hz, kMostFrameRate_hz);
+  check("mm_per_pixel", side.mm_per_pixel, kLeastScale_mm, kMostScale_mm);
+  check("pixel_aspect", side.pixel_aspect, kLeastAspect, kMostAspect);
+  check("heart_rate_bpm", side.heart_rate_bpm, kLeastHeartRate_bpm, kMostHeartRate_bpm);
+  check("ed_frame", side.ed_frame, 0, kMostFrame);
+  check("es_frame", side.es_frame, 0, kMostFrame);
+  for (const double wave : side.r_waves_s) check("r_waves_s", wave, 0, kMostRWave_s);
+}
+
+void checkScale(const EchoLoop& loop) {
+  SideOptions side;
+  if (loop.metres_per_pixel) side.mm_per_pixel = 1e3 * *loop.metres_per_pixel;
+  checkSide(side);
+}
+
 // Order matters: pixels are made square before the sector is looked for, and the scale needs the
 // sector.
 EchoLoop readLoop(const std::filesystem::path& path, const SideOptions& side, bool is_real) {
+  checkSide(side);
   const bool folder = isRenderFolder(path);
   EchoLoop loop;
   if (folder) {
@@ -200,6 +223,7 @@ EchoLoop readLoop(const std::filesystem::path& path, const SideOptions& side, bo
     if (side.pixel_aspect) makeSquare(loop.video, *side.pixel_aspect);
   }
   Video& v = loop.video;
+  loop.label = side.label.value_or(is_real ? "real loop" : "synthetic loop");
   if (side.fps) v.rate = {*side.fps, is_real ? "--fps" : "--synthetic-fps", true};
   if (side.heart_rate_bpm) {
     v.heart_rate_bpm = side.heart_rate_bpm;

@@ -14,10 +14,24 @@ namespace echocine::echo {
 struct SideOptions {
   std::optional<double> fps, mm_per_pixel, pixel_aspect, heart_rate_bpm;  // aspect: height / width
   std::optional<std::string> sector;
+  std::optional<std::string> label;          // what pages and JSON call the loop
   std::optional<double> ed_frame, es_frame;  // may lie between two
   std::vector<double> r_waves_s;             // from the first frame
   bool read_ecg = true;                      // of the picture, where no R wave is known otherwise
 };
+
+// Ranges of the numbers, ends included.
+inline constexpr double kLeastScale_mm = 1e-3, kMostScale_mm = 100;  // per pixel
+inline constexpr double kLeastAspect = 0.2, kMostAspect = 5;
+inline constexpr double kLeastHeartRate_bpm = 10, kMostHeartRate_bpm = 400;
+inline constexpr double kMostFrame = 1e6, kMostRWave_s = 3600;
+
+// Throws SceneError that names the member: a number out of range, or not a number.
+void checkSide(const SideOptions& side);
+
+// A loop that was made in memory: throws SceneError unless its scale, where it has one, is within
+// the range.
+void checkScale(const EchoLoop& loop);
 
 // A loop with its sector, scale and rate, from a render folder or any video.
 EchoLoop readLoop(const std::filesystem::path& path, const SideOptions& side, bool is_real);

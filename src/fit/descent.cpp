@@ -56,7 +56,9 @@ void differences(const PoseFunction& f, const Descent& from, const SearchBox& bo
 // Newton's step with all curvatures made positive, no longer than three units.
 Unknowns newtonStep(const Local& local, const std::vector<std::size_t>& unknowns) {
   cv::Mat values, vectors;
-  cv::eigen(local.hessian, values, vectors);
+  if (!cv::checkRange(local.hessian) || !cv::checkRange(local.gradient) ||
+      !cv::eigen(local.hessian, values, vectors))
+    return {};
   const double largest =
       std::max(std::abs(values.at<double>(0)), std::abs(values.at<double>(values.rows - 1)));
   const double least = std::max(1e-3 * largest, 1e-9);

@@ -68,16 +68,16 @@ void fitParaboloid(const std::vector<ScanAxis>& axes, DialGrid& grid) {
   }
   if (rows.rows <= static_cast<int>(unknowns)) return;
   cv::Mat x, hessian(static_cast<int>(n), static_cast<int>(n), CV_64F), values, move;
-  cv::solve(rows, right, x, cv::DECOMP_SVD);
+  if (!cv::solve(rows, right, x, cv::DECOMP_SVD) || !cv::checkRange(x)) return;
   int at = 1 + static_cast<int>(n);
   for (int a = 0; a < static_cast<int>(n); ++a)
     for (int b = 0; b <= a; ++b, ++at)
       hessian.at<double>(a, b) = hessian.at<double>(b, a) = x.at<double>(at) * (a == b ? 2 : 1);
   for (int a = 0; a < static_cast<int>(n); ++a) grid.curvature.push_back(hessian.at<double>(a, a));
-  cv::eigen(hessian, values);
-  if (!(values.at<double>(values.rows - 1) > 0)) return;
+  if (!cv::eigen(hessian, values) || !(values.at<double>(values.rows - 1) > 0)) return;
   // Of the inverse: how errors of two dials go together.
-  const cv::Mat inverse = hessian.inv();
+  cv::Mat inverse;
+  if (cv::invert(hessian, inverse) == 0 || !cv::checkRange(inverse)) return;
   for (int a = 0; a < static_cast<int>(n); ++a) {
     grid.confounding.emplace_back();
     for (int b = 0; b < static_cast<int>(n); ++b)

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/nearest_word.h"
+#include "fit/caveats.h"
 #include "fit/cpu_seconds.h"
 #include "fit/option_list.h"
 #include "motion/heart/heart_scene.h"
@@ -163,8 +164,10 @@ DialScan scanDials(const ScanOptions& options, const Monitor& monitor) {
   static_cast<DialGrid&>(scan) = holdGrid(options.axes, family, discrepancy, starts, tilt, monitor);
   scan.evaluation_ms = 1e3 * (cpuSeconds() - since) / static_cast<double>(scan.points.size());
   scan.where = whereBest(scan, discrepancy, real);
+  scan.label = real.label;
+  scan.caveats = caveatsOf(real, scan.beat, scan.centre.confidence);
   for (const std::string& note : real.video.notes) scan.notes.push_back(note);
-  if (scan.beat.confidence < 0.1)
+  if (scan.beat.confidence < kLeastConfidence)
     scan.notes.push_back(
         "the start of the beat is hardly better than any other: --real-ed gives it");
   if (scan.centre.at_limit)

@@ -37,8 +37,10 @@ struct DialScan : DialGrid {
   PoseFound centre;                         // in the middle of all ranges, searched from everywhere
   std::optional<TiltFound> tilt;            // of that heart, where asked for; all points have it
   double family_ms = 0, evaluation_ms = 0;  // CPU time: of recording, of one evaluation in the mean
+  std::vector<std::string> caveats;         // caveats.h
   std::vector<std::string> notes;
-  FitReport where;  // of the best point
+  std::string label;  // of the loop: EchoLoop::label
+  FitReport where;    // of the best point
 };
 
 // Throws SceneError and JobError as compareLoops() does, and where too many evaluations are asked

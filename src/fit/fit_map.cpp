@@ -78,6 +78,7 @@ FitMap fitMap(const ModelLoop& model, const echo::EchoStack& real, const FitPose
   FitMap out;
   if (!(sums.seen > 0)) return out;
   const TissueGreys::Fit fit = sums.greys.fit();
+  if (!fit.solved) return out;
   const double deviation = std::sqrt(std::max(1e-9, fit.residual / sums.seen));
   out.tissue_grey = fit.grey;
   for (std::size_t n = 0; n < model.frames.size(); ++n) {

@@ -44,13 +44,15 @@ ModelDiscrepancy::ModelDiscrepancy(const echo::EchoLoop& real, const echo::SideO
                                    const ModelLoop& first, const FitSettings& settings)
     : settings_(settings) {
   CHECK_EQ(first.frames.size(), static_cast<std::size_t>(kFitFrames));
+  echo::checkSide(side);
+  echo::checkScale(real);
   if (!real.metres_per_pixel) settings_.limits.scale_free = true;
   const echo::BeatLength length = echo::beatOf(real);
   beat_.span.frames = length.frames;
   beat_.length_source = length.source;
   if (!(length.frames > 0)) {
     beat_.span.frames = real.video.frameCount();
-    beat_.length_source = "the loop is taken for a beat";
+    beat_.length_source = kLoopIsBeat;
   }
   const std::optional<double> start = knownStart(real, side, beat_.start_source);
   beat_.span.end_diastole = start.value_or(0);

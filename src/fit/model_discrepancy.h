@@ -15,6 +15,9 @@ namespace echocine::fit {
 
 inline constexpr int kFitFrames = 20;  // of a beat; our choice: 46 ms at 65 beats per minute
 
+// BeatFound::length_source where nothing tells the beat's length.
+inline constexpr const char* kLoopIsBeat = "the loop is taken for a beat";
+
 struct FitSettings {
   FitWeights weights;
   PoseLimits limits;  // scale_free: set where the real loop has no scale

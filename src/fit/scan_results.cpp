@@ -5,7 +5,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/shown_path.h"
 #include "core/units.h"
 #include "fit/dial_scan.h"
 #include "fit/results_folder.h"
@@ -47,11 +46,12 @@ Json scanJson(const DialScan& scan) {
     centre["rivals"].back()["discrepancy"] = value;
   }
   Json json{{"version", ECHOCINE_VERSION},
-            {"real", shownName(scan.options.real.string())},
+            {"real", scan.label},
             {"view", scan.view},
             {"dials", scan.options.dials},
             {"axes", axesJson(scan)},
             {"best", scan.best},
+            {"caveats", scan.caveats},
             {"confounding", scan.confounding},
             {"beat", beatJson(scan.beat)},
             {"beat_anchor", scan.beat_anchor},
@@ -67,9 +67,7 @@ Json scanJson(const DialScan& scan) {
 
 // The page alone has the maps: they are its pictures.
 void writeScanPage(const DialScan& scan, Json json, const std::filesystem::path& path) {
-  PageWriter page(
-      path,
-      fitPageLook("EchoCine: dials against " + shownName(scan.options.real.string()), "scan"));
+  PageWriter page(path, fitPageLook("EchoCine: dials against " + scan.label, "scan"));
   addFitPictures(scan.where, page);
   json["fit"] = fitJson(scan.where);
   page.finish(json);

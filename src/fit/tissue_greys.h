@@ -2,6 +2,7 @@
 // The grey of each tissue and the gain over depth, estimated from a loop together (Eq. 3 of
 // fit_terms.h).
 
+#include <algorithm>
 #include <vector>
 
 namespace echocine::fit {
@@ -37,10 +38,12 @@ class TissueGreys {
   double weight() const { return weight_; }
 
   struct Fit {
+    bool solved = false;             // false: the sums are of no least squares
     double residual = 0, total = 0;  // sums of squares
     std::vector<double> grey;        // by tissue; not a number where a tissue is not in sight
     double gain[kGainKnots] = {};    // by knot, 0 in the mean
-    double ratio() const { return total > 0 ? residual / total : 1; }
+    // 0 to 1; 1, the worst, where nothing was solved.
+    double ratio() const { return solved && total > 0 ? std::min(1.0, residual / total) : 1; }
   };
   Fit fit() const;
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
+#include "core/check.h"
 #include "core/error.h"
 #include "core/nearest_word.h"
+#include "fit/caveats.h"
 #include "fit/cpu_seconds.h"
 #include "fit/descent.h"
 #include "fit/option_list.h"
@@ -28,14 +30,18 @@ heart::View viewNamed(const std::string& name) {
                                list.substr(0, list.size() - 2)));
 }
 
+void checkViews(const std::vector<heart::View>& views) {
+  if (views.size() < 2)
+    throw SceneError(fmt::format("--views: has {}, needs two views or more", views.size()));
+}
+
 void noteLimits(ViewRanking& ranking) {
   const auto say = [&](const std::string& note) { ranking.notes.push_back(note); };
-  constexpr double kDoubtful = 0.1;  // views told with more are right in a test; see README.md
   const ViewFound& best = ranking.views.front();
-  if (ranking.confidence < kDoubtful)
+  if (ranking.confidence < kLeastConfidence)
     say(fmt::format("{} and {} are hardly told apart (confidence {:.2f})", keyOf(best.view),
                     keyOf(ranking.views[1].view), ranking.confidence));
-  if (best.beat.confidence < kDoubtful)
+  if (best.beat.confidence < kLeastConfidence)
     say("the start of the beat is hardly better than any other: --real-ed gives it");
   if (best.heart.found.at_limit)
     say("the pose lies at the limit of its search: a better one may lie beyond");
@@ -87,6 +93,7 @@ void orderViews(ViewRanking& ranking) {
   std::stable_sort(
       ranking.views.begin(), ranking.views.end(),
       [](const ViewFound& a, const ViewFound& b) { return a.heart.left < b.heart.left; });
+  CHECK_LE(std::size_t{2}, ranking.views.size());
   const double best = ranking.views[0].heart.left, next = ranking.views[1].heart.left;
   constexpr double kNothing = 1;
   ranking.margin = next - best;
@@ -96,6 +103,7 @@ void orderViews(ViewRanking& ranking) {
 ViewRanking rankViews(const echo::EchoLoop& real, const ViewsOptions& options,
                       const Monitor& monitor) {
   checkTilt(options.tilt_deg);
+  checkViews(options.views);
   const double since = cpuSeconds();
   ViewRanking ranking;
   ranking.options = options;
@@ -117,6 +125,8 @@ ViewRanking rankViews(const echo::EchoLoop& real, const ViewsOptions& options,
                                        one));
   }
   orderViews(ranking);
+  ranking.label = real.label;
+  ranking.caveats = caveatsOf(real, ranking.views.front().beat, ranking.confidence);
   for (const std::string& note : real.video.notes) ranking.notes.push_back(note);
   noteLimits(ranking);
   ranking.cpu_ms = 1e3 * (cpuSeconds() - since);
@@ -126,6 +136,7 @@ ViewRanking rankViews(const echo::EchoLoop& real, const ViewsOptions& options,
 
 ViewRanking rankViews(const ViewsOptions& options, const Monitor& monitor) {
   checkTilt(options.tilt_deg);
+  checkViews(options.views);
   return rankViews(echo::readLoop(options.real, options.side, true), options, monitor);
 }
 

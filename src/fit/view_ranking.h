@@ -47,8 +47,10 @@ struct ViewRanking {
   // Of the first: V of the second less its own; and Eq. 8 of descent.h, where the second is the
   // rival and 1 the value of what says nothing.
   double margin = 0, confidence = 0;
-  double nodes_ms = 0, cpu_ms = 0;  // CPU time: of recording hearts, of all
+  double nodes_ms = 0, cpu_ms = 0;   // CPU time: of recording hearts, of all
+  std::vector<std::string> caveats;  // caveats.h
   std::vector<std::string> notes;
+  std::string label;  // of the loop: EchoLoop::label
 };
 
 // Throws SceneError and JobError as compareLoops() does. Runs in parallel.

@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/shown_path.h"
 #include "core/units.h"
 #include "fit/results_folder.h"
 #include "fit/view_ranking.h"
@@ -46,10 +45,11 @@ Json viewsJson(const ViewRanking& ranking) {
   for (const ScanAxis& d : ranking.population)
     population.push_back({{"dial", d.range.key}, {"low", d.range.low}, {"high", d.range.high}});
   return {{"version", ECHOCINE_VERSION},
-          {"real", shownName(ranking.options.real.string())},
+          {"real", ranking.label},
           {"best", keyOf(ranking.views.front().view)},
           {"margin", ranking.margin},
           {"confidence", ranking.confidence},
+          {"caveats", ranking.caveats},
           {"population", population},
           {"dials", ranking.options.dials},
           {"beat_anchor", ranking.beat_anchor},
@@ -61,9 +61,7 @@ Json viewsJson(const ViewRanking& ranking) {
 
 // The page alone has outlines and maps: they are its pictures.
 void writeViewsPage(const ViewRanking& ranking, Json json, const std::filesystem::path& path) {
-  PageWriter page(
-      path,
-      fitPageLook("EchoCine: views against " + shownName(ranking.options.real.string()), "views"));
+  PageWriter page(path, fitPageLook("EchoCine: views against " + ranking.label, "views"));
   for (std::size_t i = 0; i < ranking.views.size(); ++i) {
     const ViewFound& v = ranking.views[i];
     addFitPictures(v.where, page, keyOf(v.view));

@@ -11,7 +11,6 @@
   const x_name = rate_hz ? "time in the real loop, s" : "frame of the real loop";
   const kBefore = "greys as they are", kAfter = "greys calibrated";
 
-  const nameOf = (path) => path.replace(/\/+$/, "").split("/").pop() || path;
   // Equal frames have no finite PSNR, which JSON cannot hold.
   const value = (metrics, key, digits) => (key === "psnr_db" && metrics[key] === null && metrics.rms === 0 ? "∞"
     : number(metrics[key], digits));
@@ -19,7 +18,7 @@
   const bandName = (name) => (name === "all" ? "band about all boundaries" : `band about ${name}`);
 
   function showHead() {
-    byId("title").textContent = `${nameOf(summary.synthetic.path)} against ${nameOf(summary.real.path)}`;
+    byId("title").textContent = `${summary.synthetic.label} against ${summary.real.label}`;
     byId("subtitle").textContent = `discrepancy ${fixed(summary.discrepancy, 4)} (0 equal, about 1 unrelated) · `
       + `${fixed(summary.discrepancy_as_placed, 4)} before registration · ${summary.frames_counted} of ${summary.frames_total} frames counted`
       + (data.stride > 1 ? ` · this page shows every ${data.stride}th, frames.csv has all` : "");
@@ -171,7 +170,7 @@
   }
 
   function showLoops() {
-    const rows = [["file", (l) => l.path], ["format", (l) => l.format], ["greys", (l) => l.grey_source], ["picture", (l) => `${l.width} × ${l.height}`],
+    const rows = [["loop", (l) => l.label], ["format", (l) => l.format], ["greys", (l) => l.grey_source], ["picture", (l) => `${l.width} × ${l.height}`],
       ["frames", (l) => l.frames],
       ["repeated frames", (l) => (l.repeated_frames.length ? l.repeated_frames.join(", ") : "none")],
       ["frame rate", (l) => (l.frame_rate_hz ? `${number(l.frame_rate_hz, 5)} /s, ${l.frame_rate_source}` : "not known")

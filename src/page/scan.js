@@ -9,10 +9,10 @@
   const last = axes.at(-1), others = axes.slice(0, -1);
 
   function showHead() {
-    byId("title").textContent = `${axes.map((a) => a.dial).join(", ")} against ${data.real.split("/").pop()}`;
+    byId("title").textContent = `${axes.map((a) => a.dial).join(", ")} against ${data.real}`;
     const best = points[data.best];
     byId("subtitle").textContent = `least discrepancy ${fixed(best.discrepancy, 4)} at `
-      + axes.map((a, i) => `${a.dial} ${number(best.values[i])}`).join(", ") + ` · ${points.length} evaluations, ${data.view}`;
+      + axes.map((a, i) => `${a.dial} ${number(best.values[i])}`).join(", ") + ` · ${points.length} evaluations, ${data.view}${data.caveats.map((text) => ` · ${text}`).join("")}`;
     byId("axis").textContent = others.length
       ? `Along ${last.dial}; a line for each ${others.map((a) => a.dial).join(", ")}.` : `Along ${last.dial}.`;
     byId("foot").textContent = `EchoCine ${data.version}. The same numbers are in scan.csv and scan.json.`;

@@ -8,9 +8,9 @@
   const heartOf = (v) => population.map((d) => `${d.dial} ${number(v.dials[d.dial], 3)}`).join(", ");
 
   function showHead() {
-    byId("title").textContent = `${best.view}: the view of ${data.real.split("/").pop()}`;
+    byId("title").textContent = `${best.view}: the view of ${data.real}`;
     byId("subtitle").textContent = `V ${fixed(best.value, 4)}, ${fixed(data.margin, 4)} before ${views[1].view} · confidence `
-      + `${fixed(data.confidence, 2)}${population.length ? ` · ${heartOf(best)}` : ""}`;
+      + `${fixed(data.confidence, 2)}${population.length ? ` · ${heartOf(best)}` : ""}${data.caveats.map((text) => ` · ${text}`).join("")}`;
     byId("foot").textContent = `EchoCine ${data.version}. The same numbers are in views.csv and views.json.`;
     byId("notes").hidden = !data.notes.length;
     byId("notes").querySelector("ul").append(...data.notes.map((note) => element("li", {}, note)));

@@ -48,12 +48,14 @@ echo::SideOptions sideOf(const py::dict& given, const char* argument) {
       side.es_frame = value.cast<double>();
     else if (name == "r_waves_s")
       side.r_waves_s = value.cast<std::vector<double>>();
+    else if (name == "label")
+      side.label = value.cast<std::string>();
     else if (name == "read_ecg")
       side.read_ecg = value.cast<bool>();
     else
       throw py::value_error(
           fmt::format("{}: \"{}\" is not known, accepted: fps, mm_per_pixel, pixel_aspect, "
-                      "heart_rate_bpm, sector, ed_frame, es_frame, r_waves_s, read_ecg",
+                      "heart_rate_bpm, sector, ed_frame, es_frame, r_waves_s, read_ecg, label",
                       argument, name));
   }
   return side;

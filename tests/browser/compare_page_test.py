@@ -65,7 +65,7 @@ class ComparePage(browser.PageTest):
         self.assertIn(self.summary["time"]["method"], self.text("time"))
         self.assertIn(f"{self.summary['space']['scale']:.4f}", self.text("space"))
         for side in ("real", "synthetic"):
-            self.assertIn(self.summary[side]["path"], self.text("loops"))
+            self.assertIn(self.summary[side]["label"], self.text("loops"))
             self.assertIn(f"{self.summary[side]['sector']['r_max_px']:.1f}", self.text("loops"))
         for note in self.summary["notes"]:
             self.assertIn(note, self.text("notes"))

@@ -200,8 +200,8 @@ TEST(CompareTilt, APlantedTiltIsFoundUnderAnotherLook) {
     std::printf("6 degrees found as %.2f, rotation %.2f, D %.4f from %.4f\n",
                 degreesFromRadians(found.tilt.tilt_rad), degreesFromRadians(found.tilt.rotate_rad),
                 found.found.discrepancy, found.untilted);
-    EXPECT_NEAR(degreesFromRadians(found.tilt.tilt_rad), 6, 2);
-    EXPECT_NEAR(degreesFromRadians(found.tilt.rotate_rad), 0, 4);
+    EXPECT_NEAR(degreesFromRadians(found.tilt.tilt_rad), 6, 1.5);
+    EXPECT_NEAR(degreesFromRadians(found.tilt.rotate_rad), 0, 1);
     EXPECT_LT(found.found.discrepancy, found.untilted - 0.05);
     EXPECT_GT(found.tilt_confidence, 0.1);
   });

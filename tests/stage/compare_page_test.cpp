@@ -31,8 +31,8 @@ FrameMetrics someMetrics(double rms) {
 // A frame that was measured, one that the synthetic loop does not show, one that repeats.
 Comparison threeFrames() {
   Comparison c;
-  c.synthetic.video.name = "renders/my_loop/";
-  c.real.video.name = "</script><b>patient.dcm";
+  c.synthetic.label = "renders/my_loop/";
+  c.real.label = "</script><b>patient.dcm";
   FrameResult measured, outside, repeat;
   measured.real_time_s = 0;
   measured.synthetic_place = 2.5;
@@ -113,7 +113,7 @@ TEST(ComparePage, HoldsThePicturesOfAllPanelsAndTheSummary) {
 
 TEST(ComparePage, ItsTitleNamesBothLoopsAndIsNoMarkup) {
   const std::string html = pageOf(threeFrames());
-  EXPECT_NE(html.find("<title>EchoCine: my_loop against script&gt;&lt;b&gt;patient.dcm<"),
+  EXPECT_NE(html.find("<title>EchoCine: renders/my_loop/ against &lt;/script&gt;&lt;b&gt;patient.dcm<"),
             std::string::npos)
       << html.substr(html.find("<title>"), 100);
   EXPECT_EQ(countOf(html, "<b>patient"), 0u);

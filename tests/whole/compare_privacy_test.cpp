@@ -68,5 +68,40 @@ TEST_F(Privacy, NoTagAndNoFolderIsInAnyOutput) {
   }
 }
 
+// A file's name may be a patient's: no output has it, whichever of the three kinds of comparison
+// wrote it; the label that was given stands there instead.
+TEST_F(Privacy, NoFileNameIsInAnyOutput) {
+  fs::create_directories(folder / "QUILLFEATHER_JANE");
+  const fs::path real = folder / "QUILLFEATHER_JANE" / "QUILLFEATHER_1950.dcm",
+                 drawn = folder / "QUILLFEATHER_JANE" / "QUILLFEATHER.avi";
+  fs::copy_file(loop("plain", false), real);
+  fs::copy_file(synthetic, drawn);
+  const std::string given = " --sector=160,5,-40,40,12,225 --label 'case 12' -o '",
+                    both = "' --synthetic-sector=160,5,-40,40,12,225";
+  for (const auto& [name, line] : std::initializer_list<std::pair<const char*, std::string>>{
+           {"compared", "'" + drawn.string() + "' '" + real.string() + "'"},
+           {"scanned", "'" + real.string() + "' --scan ef=0.5:0.6:0.1 --real-ed 0"},
+           {"ranked",
+            "'" + real.string() + "' --views a4c,plax --dials ef=0.55,edv=120 --real-ed 0"}}) {
+    const fs::path out = folder / name;
+    const Outcome o = runShell("%B compare " + line + given + out.string() +
+                               (std::string(name) == "compared" ? both : "'"));
+    ASSERT_EQ(o.code, 0) << o.err;
+    bool labelled = false;
+    for (const auto& entry : fs::directory_iterator(out)) {
+      const std::string bytes = bytesOf(entry.path());
+      EXPECT_EQ(bytes.find("QUILLFEATHER"), std::string::npos) << entry.path();
+      labelled = labelled || bytes.find("case 12") != std::string::npos;
+    }
+    EXPECT_TRUE(labelled) << name;
+    if (std::string(name) == "compared") continue;
+    // A drawing without scale: said beside the result, in the terminal and in the files.
+    EXPECT_NE(o.out.find("scale unknown"), std::string::npos) << o.out;
+    const std::string json =
+        bytesOf(out / (std::string(name) == "scanned" ? "scan.json" : "views.json"));
+    EXPECT_NE(json.find("scale unknown"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace echocine

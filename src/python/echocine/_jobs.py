@@ -128,7 +128,8 @@ def compare(synthetic: Union[Loop, PathLike], real: PathLike, folder: Optional[P
         real: AVI, MP4, GIF, DICOM, or a folder of PNG or JPEG frames.
         folder: for compare.html, frames.csv and pictures; None: no files.
         real_side, synthetic_side: what is known better than the files tell: fps (1/s), mm_per_pixel, pixel_aspect,
-            heart_rate_bpm, sector, ed_frame, es_frame, r_waves_s, read_ecg (False: no ECG is read from the pictures).
+            heart_rate_bpm, sector, ed_frame, es_frame, r_waves_s, read_ecg (False: no ECG is read from the pictures),
+            label (what pages and JSON call the loop; without it they name no file).
         align_space: shift, scale and turn one sector onto the other.
         scene: file of the scene of the render: metrics in bands about its boundaries.
         tilt_deg: by which the scene's plane may be tilted and rotated to where it fits best, either way, 0 to 20;
