@@ -21,6 +21,7 @@
 #include "scene/names.h"
 #include "scene/role.h"
 #include "scene/scan_geometry.h"
+#include "scene/scene_keys.h"
 #include "trace/beam_rays.h"
 
 namespace echocine {
@@ -224,6 +225,7 @@ void tellWallsWithoutChambers(const Scene& scene, LoopPlan& plan) {
 }  // namespace
 
 LoopPlan planLoop(const Scene& scene, const MeshMotion& motion) {
+  refuseOutOfRange(scene);
   LoopPlan plan;
   plan.effects = planEffects(scene);
   plan.warnings = motion.repairNotes();

@@ -12,6 +12,7 @@
 #include "frame/reference_frames.h"
 #include "frame/structure_volumes.h"
 #include "motion/probe_placement.h"
+#include "scene/scene_keys.h"
 
 namespace echocine {
 
@@ -160,7 +161,9 @@ double Simulator::referenceIntensity() const {
   return *white;
 }
 
-Simulator::Simulator(Scene scene) : Simulator(placedWithMotion(std::move(scene))) {}
+// Before anything depends on its numbers, such as the levels of subdivision.
+Simulator::Simulator(Scene scene)
+    : Simulator((refuseOutOfRange(scene), placedWithMotion(std::move(scene)))) {}
 
 Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion)
     : Simulator(scene, motion, planLoop(scene, *motion)) {}
