@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/monitor.h"
 #include "frame/simulator.h"
+#include "loop/loop.h"
 #include "motion/heart/heart_scene.h"
 #include "render/render.h"
 #include "scene/names.h"

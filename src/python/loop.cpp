@@ -1,11 +1,11 @@
-#include "python/loop.h"
-
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <cmath>
 
 #include "core/error.h"
+#include "core/parallel.h"
+#include "loop/loop.h"
 #include "output/function_json.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
@@ -17,7 +17,7 @@ namespace echocine::python {
 
 namespace {
 
-using LoopPointer = std::shared_ptr<LoopArrays>;
+using LoopPointer = std::shared_ptr<Loop>;
 
 LoopPointer renderInMemory(const NativeScene& scene, const std::optional<std::pair<int, int>>& frames,
                            int threads, const py::object& progress) {
@@ -26,16 +26,20 @@ LoopPointer renderInMemory(const NativeScene& scene, const std::optional<std::pa
   if (range.first < 0 || range.first >= range.second || range.second > count)
     throw SceneError(fmt::format("frames: ({}, {}) is not in the loop, accepted: (A, B) with 0 <= A < B <= {}",
                                  range.first, range.second, count));
-  auto loop = std::make_shared<LoopArrays>();
+  auto loop = std::make_shared<Loop>();
   runJob(progress, [&](const Monitor& monitor) {
-    *loop = renderArrays(scene.scene, range, threads, monitor);
+    for (const std::string& warning : scene.scene.warnings) monitor.warn(warning);
+    std::optional<Simulator> simulator;
+    withThreads(threads, [&] { simulator.emplace(scene.scene); });
+    for (const std::string& warning : simulator->plan().warnings) monitor.warn(warning);
+    *loop = renderInMemory(*simulator, range, monitor, threads);
   });
   return loop;
 }
 
 // Views by name; a name that is absent was not asked for.
 py::dict arrays(const py::object& self) {
-  const LoopArrays& loop = self.cast<const LoopArrays&>();
+  const Loop& loop = self.cast<const Loop&>();
   const auto t = static_cast<py::ssize_t>(loop.frames);
   py::dict named;
   const auto add = [&](const char* name, const auto& values, const std::vector<py::ssize_t>& shape) {
@@ -60,7 +64,7 @@ py::dict arrays(const py::object& self) {
 }
 
 py::dict channels(const py::object& self) {
-  const LoopArrays& loop = self.cast<const LoopArrays&>();
+  const Loop& loop = self.cast<const Loop&>();
   py::dict named;
   for (const auto& [channel, values] : loop.planes)
     named[channelName(channel)] = planesView(values.data(), loop.frames, loop.lines, loop.samples, self);
@@ -70,19 +74,19 @@ py::dict channels(const py::object& self) {
 }
 
 template <typename Of>
-py::array perFrame(const LoopArrays& loop, const Of& of) {
+py::array perFrame(const Loop& loop, const Of& of) {
   std::vector<double> values;
   for (const FrameTime& time : loop.times) values.push_back(of(time));
   return copyOf(values);
 }
 
-py::dict volumes(const LoopArrays& loop) {
+py::dict volumes(const Loop& loop) {
   py::dict named;
   for (const auto& [name, ml] : loop.volumes_ml) named[py::str(name)] = copyOf(ml);
   return named;
 }
 
-py::dict curves(const LoopArrays& loop) {
+py::dict curves(const Loop& loop) {
   py::dict named;
   if (loop.function.empty()) return named;
   for (const auto& [name, values] : functionCurves(loop.function)) named[py::str(name)] = copyOf(values);
@@ -90,7 +94,7 @@ py::dict curves(const LoopArrays& loop) {
 }
 
 // (T, 17, 3): longitudinal, radial, circumferential.
-py::object strain(const LoopArrays& loop) {
+py::object strain(const Loop& loop) {
   if (loop.function.empty()) return py::none();
   const auto t = static_cast<py::ssize_t>(loop.function.size());
   py::array_t<double> values({t, static_cast<py::ssize_t>(kAhaSegments), py::ssize_t{3}});
@@ -106,7 +110,7 @@ py::object strain(const LoopArrays& loop) {
   return values;
 }
 
-py::list contours(const LoopArrays& loop) {
+py::list contours(const Loop& loop) {
   py::list list;
   for (const auto& frame : loop.contours) list.append(contoursOf(frame, loop.scene));
   return list;
@@ -115,22 +119,24 @@ py::list contours(const LoopArrays& loop) {
 }  // namespace
 
 void bindLoop(py::module_& module) {
-  py::class_<LoopArrays, LoopPointer>(module, "LoopArrays", "A loop in memory.")
+  py::class_<Loop, LoopPointer>(module, "LoopArrays", "A loop in memory.")
       .def_property_readonly("arrays", &arrays, "Views by name.")
       .def_property_readonly("channels", &channels, "Views (T, depth, line) by channel.")
       .def_property_readonly(
-          "times_s", [](const LoopArrays& l) { return perFrame(l, [](const FrameTime& t) { return t.time_s; }); },
+          "times_s",
+          [](const Loop& l) { return perFrame(l, [](const FrameTime& t) { return t.time_s; }); },
           "(T,) float64, s.")
       .def_property_readonly(
-          "phases", [](const LoopArrays& l) { return perFrame(l, [](const FrameTime& t) { return t.phase; }); },
+          "phases",
+          [](const Loop& l) { return perFrame(l, [](const FrameTime& t) { return t.phase; }); },
           "(T,) float64, of the beat.")
       .def_property_readonly("volumes", &volumes, "Structure -> (T,) float64, mL.")
       .def_property_readonly("curves", &curves, "Name with unit -> (T,) float64.")
       .def_property_readonly("strain", &strain, "(T, 17, 3) float64, or None.")
       .def_property_readonly("contours", &contours, "Per frame a list of dicts.")
-      .def_property_readonly("reference_intensity",
-                             [](const LoopArrays& l) { return l.reference_intensity; },
-                             "White of the log compression, relative to the transmitted.");
+      .def_property_readonly(
+          "reference_intensity", [](const Loop& l) { return l.reference_intensity; },
+          "White of the log compression, relative to the transmitted.");
   module.def("render_in_memory", &renderInMemory, py::arg("scene"), py::arg("frames").none(true),
              py::arg("threads"), py::arg("progress").none(true), "A loop as arrays.");
 }

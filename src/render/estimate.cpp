@@ -11,8 +11,8 @@
 
 #include "core/error.h"
 #include "frame/reference_frames.h"
+#include "loop/kept_frames.h"
 #include "motion/cycle/cardiac_clock.h"
-#include "render/reference_pass.h"
 
 namespace echocine {
 

@@ -11,11 +11,11 @@
 #include "core/parallel.h"
 #include "core/shown_path.h"
 #include "frame/simulator.h"
+#include "frame/structure_volumes.h"
 #include "motion/probe_placement.h"
 #include "output/earlier_hashes.h"
 #include "output/exr_stack.h"
 #include "output/output_folder.h"
-#include "render/reference_pass.h"
 #include "render/render_pass.h"
 #include "render/report.h"
 
@@ -75,7 +75,7 @@ void noteCosts(const Simulator& simulator, RenderSummary& summary) {
                                 ? std::max(simulator.tracedFrames(), summary.frames_done)
                                 : summary.frames_done;
   manifest.work = simulator.work();
-  manifest.keyframes = simulator.keyframeVolumes();
+  manifest.keyframes = keyframeVolumes(simulator.scene(), simulator.motion());
 }
 
 }  // namespace
@@ -107,13 +107,15 @@ RenderSummary renderLoop(const Scene& given, const RenderOptions& options, const
     const OutputFolder folder(options.folder, scene.output, options.resume);
     folder.removeStale(manifest.loop_frames);
     summary.setup_s = secondsSince(start);
-    KeptFrames kept;  // the loop's one reference for log compression, then every frame with it
-    const auto reference = findReference(simulator, range, monitor, kept);
-    if (!reference) return;
-    manifest.reference_intensity = *reference;
     ReportPage report(folder.report(), scene, simulator.cardiacClock(), range);
-    RenderPass pass({simulator, folder, monitor, report, options.resume, earlier}, manifest, kept);
-    summary.frames_done = pass.run(range.first, range.second);
+    FolderSink sink({simulator, folder, monitor, report, options.resume, earlier}, manifest);
+    try {
+      summary.frames_done = renderFrames(simulator, range, sink, monitor);
+    } catch (...) {
+      sink.endEarly();
+      throw;
+    }
+    sink.finish(summary.frames_done == summary.frames_wanted);
     summary.passes_s = secondsSince(start) - summary.setup_s;
     // No manifest: a folder without one is an unfinished run.
     if (summary.frames_done < summary.frames_wanted) return;

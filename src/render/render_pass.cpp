@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <new>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
-#include "core/out_of_memory.h"
-#include "core/parallel.h"
 #include "motion/cycle/ecg.h"
 #include "scene/scene_json.h"
 
@@ -49,49 +46,35 @@ std::string sceneSha256(const Scene& scene, const MeshMotion& motion) {
   return hash.hex();
 }
 
-RenderPass::RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept)
-    : parts_(parts),
-      manifest_(manifest),
-      kept_(kept),
-      exr_(parts.folder.intensity(), parts.simulator.scene(), manifest.scene_sha256,
-           manifest.reference_intensity),
-      overlay_(parts.simulator.scene(), parts.simulator.chain().geometry(),
-               parts.simulator.scene().output.ecg
-                   ? loopEcg(parts.simulator.cardiacClock(),
-                             parts.simulator.scene().acquisition.frame_rate_hz)
-                   : std::vector<double>{}),
-      cine_(parts.folder.cine(), parts.simulator.scene().output,
-            parts.simulator.scene().acquisition.frame_rate_hz) {
-  const TruthMaker* const truth = parts.simulator.truth();
+FolderSink::FolderSink(const Parts& parts, Manifest& manifest)
+    : parts_(parts), manifest_(manifest) {}
+
+void FolderSink::begin(double white) {
+  const Simulator& simulator = parts_.simulator;
+  const Scene& scene = simulator.scene();
+  manifest_.reference_intensity = white;
+  exr_.emplace(parts_.folder.intensity(), scene, manifest_.scene_sha256, white);
+  overlay_.emplace(scene, simulator.chain().geometry(),
+                   scene.output.ecg
+                       ? loopEcg(simulator.cardiacClock(), scene.acquisition.frame_rate_hz)
+                       : std::vector<double>{});
+  cine_.emplace(parts_.folder.cine(), scene.output, scene.acquisition.frame_rate_hz);
+  const TruthMaker* const truth = simulator.truth();
   if (truth == nullptr) return;
-  truth_files_.emplace(parts.folder.truth(), parts.simulator.scene(), truth->labels());
+  truth_files_.emplace(parts_.folder.truth(), scene, truth->labels());
   manifest_.files.merge(truth_files_->writeTables());
 }
 
-void RenderPass::makeTruth(const FrameTime& time, const Workspace& workspace, Finished& finished) {
-  finished.truth = parts_.simulator.truthAt(time, &workspace);
-  TruthFrameFiles files = truth_files_->write(finished.entry.record, *finished.truth);
+void FolderSink::writeTruth(Finished& finished) {
+  const FrameRecord& record = finished.entry.record;
+  TruthFrameFiles files = truth_files_->write(record, *finished.truth);
   finished.truth_files = std::move(files.sha256);
-  if (!parts_.report.shows(time.frame)) return;
+  if (!parts_.report.shows(record.frame)) return;
   finished.page_truth =
       pageTruth(*finished.truth, parts_.simulator.scene(), std::move(files.labels));
 }
 
-Volumes RenderPass::tracedFrame(const FrameTime& time, Workspace& workspace) {
-  {
-    // Frames are made in parallel; each kept one is taken once and its memory freed.
-    const std::lock_guard lock(kept_mutex_);
-    if (const auto found = kept_.find(time.frame); found != kept_.end()) {
-      workspace.polar = std::move(found->second.polar);
-      Volumes volumes_ml = std::move(found->second.volumes_ml);
-      kept_.erase(found);
-      return volumes_ml;
-    }
-  }
-  return parts_.simulator.trace(time, workspace);
-}
-
-void RenderPass::writeExr(const FrameRecord& record, const Workspace& workspace,
+void FolderSink::writeExr(const FrameRecord& record, const Workspace& workspace,
                           Finished& finished) {
   if (!parts_.simulator.scene().output.exr || !finished.entry.exr_sha256.empty()) return;
   const OutputSettings& output = parts_.simulator.scene().output;
@@ -101,14 +84,14 @@ void RenderPass::writeExr(const FrameRecord& record, const Workspace& workspace,
       planes.push_back({channel, {}, finished.truth->sample_ids});
     else if (isMotion(channel))
       planes.push_back({channel, finished.truth->values(channel), {}});
-  finished.entry.exr_sha256 = exr_.write(record, planes);
+  finished.entry.exr_sha256 = exr_->write(record, planes);
 }
 
 // Browsers show JPEG and PNG, but no FFV1: then the report needs pictures of its own.
-void RenderPass::writePictures(GreyImage& image, Finished& finished) {
+void FolderSink::writePictures(GreyImage& image, Finished& finished) {
   const OutputSettings& o = parts_.simulator.scene().output;
   const int frame = finished.entry.record.frame;
-  overlay_.draw(image, static_cast<double>(frame) / parts_.simulator.cardiacClock().frameCount());
+  overlay_->draw(image, static_cast<double>(frame) / parts_.simulator.cardiacClock().frameCount());
   if (o.cine) finished.cine_frame = encodeCineFrame(image, o.codec, o.jpeg_quality);
   const bool shown = parts_.report.shows(frame) && !(o.cine && o.codec == CineCodec::mjpg);
   if (shown && !o.png)
@@ -121,13 +104,13 @@ void RenderPass::writePictures(GreyImage& image, Finished& finished) {
 }
 
 // A frame of an earlier run, when it is the very one: by its own digest and by that run's manifest.
-void RenderPass::takeEarlier(const FrameRecord& record, Finished& finished) const {
+void FolderSink::takeEarlier(const FrameRecord& record, Finished& finished) const {
   const std::string name = "intensity/" + ExrStack::fileName(record.frame);
   std::error_code absent;
   if (!std::filesystem::exists(parts_.folder.intensity() / ExrStack::fileName(record.frame),
                                absent))
     return;
-  std::string sha256 = exr_.existing(record);
+  std::string sha256 = exr_->existing(record);
   const auto noted = parts_.earlier_hashes.find(name);
   const bool as_noted = noted == parts_.earlier_hashes.end() || noted->second == sha256;
   if (!sha256.empty() && as_noted)
@@ -138,28 +121,26 @@ void RenderPass::takeEarlier(const FrameRecord& record, Finished& finished) cons
                                                  : "not the file that the manifest tells of");
 }
 
-std::shared_ptr<RenderPass::Finished> RenderPass::make(int frame) {
-  const FrameTime time = parts_.simulator.cardiacClock().at(frame);
+std::shared_ptr<void> FolderSink::take(MadeFrame& frame) {
   auto finished = std::make_shared<Finished>();
-  finished->entry.record = {frame, time.time_s, time.phase, time.beat};
+  finished->entry.record = {frame.time.frame, frame.time.time_s, frame.time.phase, frame.time.beat};
+  finished->entry.volumes_ml = std::move(frame.volumes_ml);
+  finished->truth = std::move(frame.truth);
   const FrameRecord& record = finished->entry.record;
   StageClock& clock = parts_.simulator.clock();
   const OutputSettings& o = parts_.simulator.scene().output;
   if (parts_.resume && o.exr) clock.time(Stage::exr, [&] { takeEarlier(record, *finished); });
-
-  const std::shared_ptr<Workspace> workspace = parts_.simulator.workspace();
-  finished->entry.volumes_ml = tracedFrame(time, *workspace);
-  GreyImage& image =
-      parts_.simulator.picture(manifest_.reference_intensity, time, *workspace, o.cine || o.png);
-  if (truth_files_) clock.time(Stage::truth, [&] { makeTruth(time, *workspace, *finished); });
-  clock.time(Stage::exr, [&] { writeExr(record, *workspace, *finished); });
+  if (truth_files_) clock.time(Stage::truth, [&] { writeTruth(*finished); });
+  clock.time(Stage::exr, [&] { writeExr(record, frame.workspace, *finished); });
   if (finished->truth) finished->truth->forgetPlanes();
-  if (o.cine || o.png) clock.time(Stage::avi, [&] { writePictures(image, *finished); });
+  if (o.cine || o.png)
+    clock.time(Stage::avi, [&] { writePictures(frame.workspace.image, *finished); });
   return finished;
 }
 
 // One at a time, in the order of the frames.
-void RenderPass::drain(Finished& finished) {
+void FolderSink::inOrder(void* taken) {
+  Finished& finished = *static_cast<Finished*>(taken);
   // A folder that was moved away would otherwise be made anew, file by file.
   parts_.folder.checkStillThere();
   const FrameEntry& entry = finished.entry;
@@ -168,7 +149,7 @@ void RenderPass::drain(Finished& finished) {
   if (!finished.mended.empty()) parts_.monitor.warn(finished.mended);
   if (o.cine || o.png) {
     parts_.simulator.clock().time(Stage::avi, [&] {
-      if (o.cine) cine_.add(finished.cine_frame);
+      if (o.cine) cine_->add(finished.cine_frame);
       if (parts_.report.shows(frame))
         parts_.report.addFrame(finished.report_frame.empty() ? finished.cine_frame
                                                              : finished.report_frame);
@@ -186,11 +167,9 @@ void RenderPass::drain(Finished& finished) {
   manifest_.frames.push_back(entry);
 }
 
-// The run has failed: what of the cine is there may still play, or else is of no more use than
-// before.
-void RenderPass::endEarly() {
+void FolderSink::endEarly() {
   try {
-    cine_.finishEarly();
+    if (cine_) cine_->finishEarly();
   } catch (const std::exception&) {  // the first failure is the one to report
   }
 }
@@ -210,7 +189,7 @@ double timeOfPhase(const CardiacClock& clock, double phase, double loop_s) {
 
 }  // namespace
 
-void RenderPass::finishTruth() {
+void FolderSink::finishTruth() {
   const TruthMaker& truth = *parts_.simulator.truth();
   LoopTruth loop{truth.tracked(), truth.view(), {}};
   if (const auto& valves = truth.valves()) {
@@ -226,37 +205,15 @@ void RenderPass::finishTruth() {
   manifest_.curves = functionCurves(truth_files_->functions());
 }
 
-int RenderPass::run(int first, int last) {
-  const auto work = [&](std::size_t i) -> std::shared_ptr<void> {
-    try {
-      return make(static_cast<int>(i));
-    } catch (const std::bad_alloc&) {
-      throw JobError(fmt::format("frame {}: {}", i, kOutOfMemory));
-    }
-  };
-  const auto collect = [&](std::size_t i, std::shared_ptr<void> result) {
-    drain(*static_cast<Finished*>(result.get()));
-    parts_.monitor.tell({Task::rendering, i + 1 - static_cast<std::size_t>(first),
-                         static_cast<std::size_t>(last - first)});
-  };
-  std::size_t done = 0;
-  try {
-    done = parallelOrdered(static_cast<std::size_t>(first), static_cast<std::size_t>(last),
-                           2 * static_cast<std::size_t>(threadCount()), parts_.monitor.keep_going,
-                           work, collect);
-  } catch (...) {
-    endEarly();
-    throw;
-  }
+void FolderSink::finish(bool whole) {
+  if (!cine_) return;  // stopped before the first frame
   // A part of a loop may not take the place of a longer cine that stands there.
-  const bool whole = done == static_cast<std::size_t>(last);
   if (parts_.simulator.scene().output.cine && !manifest_.frames.empty()) {
     parts_.simulator.clock().time(Stage::avi,
-                                  [&] { whole ? cine_.finish() : cine_.finishEarly(); });
+                                  [&] { whole ? cine_->finish() : cine_->finishEarly(); });
     if (whole) manifest_.files["cine.avi"] = sha256HexOfFile(parts_.folder.cine());
   }
   if (whole && truth_files_) finishTruth();
-  return static_cast<int>(done) - first;
 }
 
 }  // namespace echocine

@@ -1,16 +1,16 @@
 #pragma once
-// The second pass of a loop: every frame to its files.
+// The sink of a loop that goes into a folder: every frame to its files.
 
 #include <map>
 #include <memory>
 #include <string>
 
 #include "frame/simulator.h"
+#include "loop/render_frames.h"
 #include "output/exr_stack.h"
 #include "output/output_folder.h"
 #include "output/overlay.h"
 #include "output/truth_files.h"
-#include "render/reference_pass.h"
 #include "render/render.h"
 #include "render/report.h"
 #include "video/cine_writer.h"
@@ -21,7 +21,7 @@ namespace echocine {
 // runs that must give the same files.
 std::string sceneSha256(const Scene& scene, const MeshMotion& motion);
 
-class RenderPass {
+class FolderSink : public FrameSink {
  public:
   struct Parts {
     const Simulator& simulator;
@@ -31,11 +31,17 @@ class RenderPass {
     bool resume;
     std::map<std::string, std::string> earlier_hashes;  // on resuming, of an earlier manifest
   };
-  // Frames, file hashes and reference go through `manifest`; `kept` frames are used up.
-  RenderPass(const Parts& parts, Manifest& manifest, KeptFrames& kept);
+  // Frames, file hashes and white go into `manifest`. References are kept.
+  FolderSink(const Parts& parts, Manifest& manifest);
 
-  // Renders frames first..last-1; returns how many were finished.
-  int run(int first, int last);
+  void begin(double white) override;
+  std::shared_ptr<void> take(MadeFrame& frame) override;
+  void inOrder(void* taken) override;
+
+  // After the last frame: whole, or of a run that was stopped.
+  void finish(bool whole);
+  // The run has failed: what of the cine is there may still play.
+  void endEarly();
 
  private:
   struct Finished {
@@ -49,23 +55,18 @@ class RenderPass {
     PageTruth page_truth;
   };
 
-  std::shared_ptr<Finished> make(int frame);
   void takeEarlier(const FrameRecord& record, Finished& finished) const;
-  Volumes tracedFrame(const FrameTime& time, Workspace& workspace);
   void writeExr(const FrameRecord& record, const Workspace& workspace, Finished& finished);
-  void makeTruth(const FrameTime& time, const Workspace& workspace, Finished& finished);
+  void writeTruth(Finished& finished);
   void writePictures(GreyImage& image, Finished& finished);
   void finishTruth();
-  void drain(Finished& finished);
-  void endEarly();
 
   const Parts parts_;
   Manifest& manifest_;
-  KeptFrames& kept_;
-  std::mutex kept_mutex_;
-  ExrStack exr_;
-  Overlay overlay_;
-  CineWriter cine_;
+  // From begin() on.
+  std::optional<ExrStack> exr_;
+  std::optional<Overlay> overlay_;
+  std::optional<CineWriter> cine_;
   std::optional<TruthFiles> truth_files_;
 };
 

@@ -11,7 +11,6 @@
 #include "output/exr_plane.h"
 #include "scene/elevation_slices.h"
 #include "scene/scene_json.h"
-#include "signal/reference.h"
 
 namespace echocine {
 
@@ -129,12 +128,12 @@ FramePicture SettingRun::picture(const FrameTime& time, double reference_intensi
   const bool stored = made_of == MadeOf::stored && scene_.output.exr;
   const ExrStack stack = exrStack(scene_, reference_intensity);
   const FrameRecord record{0, 0, time.phase, 0};
-  PolarFrame& polar = workspace->polar;
-  making.traceLines(time, *workspace);
+  Making how;
   if (stored)
-    polar.intensities.values =
-        readBack(stack.encode(record, {{Channel::y, polar.intensities, {}}}), Channel::y);
-  making.process(time, *workspace);
+    how.received = [&](Intensities& received) {
+      received.values = readBack(stack.encode(record, {{Channel::y, received, {}}}), Channel::y);
+    };
+  making.make(time, how, *workspace);
   FramePicture picture;
   picture.image = making.picture(reference_intensity, time, *workspace, true);
   making.chain().picture(workspace->greys, picture.grey);
@@ -153,18 +152,7 @@ FramePicture SettingRun::picture(const FrameTime& time, double reference_intensi
 }
 
 double SettingRun::referenceIntensity(const std::vector<FrameTime>& times) {
-  if (scene_.signal.reference_intensity) return *scene_.signal.reference_intensity;
-  // Nothing to be seen: white is the transmitted intensity, as in a render.
-  if (!plan_.effects.contrast) return 1;
-  WhiteMeasure white(scene_);
-  const Simulator& making = simulator();
-  const std::shared_ptr<Workspace> workspace = making.workspace();
-  for (const FrameTime& time : times) {
-    making.trace(time, *workspace);
-    white.add(workspace->polar.intensities, workspace->polar.medium);
-  }
-  return making.work().crossings == 0 ? 1
-                                      : white.white();
+  return *measureWhite(simulator(), times, {}, {});
 }
 
 StageTimes SettingRun::timeBatch(const std::vector<FrameTime>& times, std::size_t frames,

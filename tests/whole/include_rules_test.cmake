@@ -49,6 +49,7 @@ set(rooms
   "speckle=plan,trace,interior,motion"
   "signal=plan,trace|speckle"
   "frame=plan,motion,cycle,geometry,trace,speckle,signal,truth"
+  "loop=frame,motion,cycle,trace,truth"
   "metrics=signal,trace"
   "video=signal"
   "output=plan,trace,signal,motion,heart,truth|video"
@@ -56,11 +57,11 @@ set(rooms
   "echo=video|signal,metrics,output"
   "fit=echo,heart,frame,motion,geometry,truth,signal,page|video"
   "compare=echo,fit,metrics,signal,truth,page|motion,video"
-  "render=frame,cycle,output,page,video,truth|signal,motion,view"
+  "render=loop,frame,cycle,output,page,video,truth|signal,motion,view"
   "study=plan,frame,cycle,output,video,signal,metrics|motion,keyframes,render,page"
-  "echocine=render,frame,heart"
+  "echocine=render,loop,frame,heart"
   "dataset=frame,output,motion,cycle,heart,truth,signal|views,video,page"
-  "python=render,echo,fit,compare,study,dataset,frame,heart,cycle|output,video,motion,cycle,truth,signal,geometry"
+  "python=loop,render,echo,fit,compare,study,dataset,frame,heart,cycle|output,video,motion,cycle,truth,signal,geometry"
   "cli=render,echo,fit,compare,study,dataset,output,view,plan|video,frame,motion,keyframes,cycle,heart")
 
 function(room_of path out)

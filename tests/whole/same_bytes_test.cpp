@@ -88,7 +88,7 @@ TEST(IntensityStack, HoldsTheFrameThatWasTraced) {
 
   const Simulator simulator(scene);
   const std::shared_ptr<Workspace> workspace = simulator.workspace();
-  simulator.traceLines(simulator.cardiacClock().at(1), *workspace);
+  simulator.trace(simulator.cardiacClock().at(1), *workspace);
   const PolarFrame& frame = workspace->polar;
   const auto same = [&](const char* channel, const auto& plane) {
     const ExrPlane read = exrPlane(folder / "out/intensity/frame_0001.exr", channel);

@@ -10,11 +10,11 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "frame/reference_frames.h"
+#include "loop/render_frames.h"
 #include "motion/heart/heart_scene.h"
 #include "output/exr_plane.h"
 #include "output/exr_stack.h"
 #include "output/heart_files.h"
-#include "render/reference_pass.h"
 #include "render/render.h"
 #include "scene/scene_reader.h"
 #include "support/loop_scene.h"
@@ -89,8 +89,13 @@ TEST(SimulatorFrame, OfALongLoopHasTheWhiteOfItsRender) {
     scene.signal.reference_percentile = percentile;
     const Simulator simulator(scene, motion);
     ASSERT_GT(simulator.cardiacClock().frameCount(), 2 * kReferenceFrames);
-    KeptFrames kept;
-    EXPECT_EQ(simulator.referenceIntensity(), findReference(simulator, {5, 6}, {}, kept));
+    struct : FrameSink {
+      double white = 0;
+      void begin(double measured) override { white = measured; }
+      std::shared_ptr<void> take(MadeFrame&) override { return nullptr; }
+    } sink;
+    withThreads(2, [&] { renderFrames(Simulator(scene, motion), {5, 6}, sink, {}); });
+    EXPECT_EQ(simulator.referenceIntensity(), sink.white);
   }
 }
 

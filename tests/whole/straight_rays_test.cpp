@@ -45,17 +45,17 @@ void addLost(const PolarFrame& polar, int rays_per_line, Lost& lost) {
 // The picture of a view's lines whose intensities are the means of `many` rays each.
 std::vector<float> pictureOf(const Simulator& lines, const PolarFrame& many, int rays_per_line,
                              const Lost& lost, const FrameTime& time, Workspace& workspace) {
-  lines.traceLines(time, workspace);
-  Intensities& means = workspace.polar.intensities;
   const auto samples = static_cast<std::size_t>(many.samples);
   const auto rays = static_cast<std::size_t>(rays_per_line);
-  for (std::size_t at = 0; at < lost.size(); ++at) {
-    double sum = 0;
-    for (std::size_t r = 0; r < rays; ++r)
-      sum += many.intensities[(at / samples * rays + r) * samples + at % samples];
-    means.values[at] = lost[at] ? 0 : static_cast<float>(sum / rays_per_line);
-  }
-  lines.process(time, workspace);
+  const auto average = [&](Intensities& means) {
+    for (std::size_t at = 0; at < lost.size(); ++at) {
+      double sum = 0;
+      for (std::size_t r = 0; r < rays; ++r)
+        sum += many.intensities[(at / samples * rays + r) * samples + at % samples];
+      means.values[at] = lost[at] ? 0 : static_cast<float>(sum / rays_per_line);
+    }
+  };
+  lines.make(time, {.received = average}, workspace);
   lines.picture(*lines.scene().signal.reference_intensity, time, workspace, false);
   std::vector<float> grey;
   lines.chain().picture(workspace.greys, grey);
@@ -82,8 +82,14 @@ StraightError straightError(View view) {
   const FrameTime time = straight.cardiacClock().at(7);
   const auto of_straight = straight.workspace(), of_bent = bent.workspace(),
              shown = straight.workspace();
-  straight.traceLines(time, *of_straight);
-  bent.traceLines(time, *of_bent);
+  // As the lines receive them, before the signal chain.
+  for (const auto& [simulator, workspace] :
+       {std::pair(&straight, of_straight.get()), std::pair(&bent, of_bent.get())}) {
+    Intensities received;
+    simulator->make(time, {.received = [&](Intensities& of_lines) { received = of_lines; }},
+                    *workspace);
+    workspace->polar.intensities = std::move(received);
+  }
   Lost lost(static_cast<std::size_t>(scene.probe.lines) *
             static_cast<std::size_t>(scene.probe.samples));
   addLost(of_straight->polar, 1, lost);

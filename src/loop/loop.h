@@ -1,7 +1,6 @@
 #pragma once
-// A loop in memory: every frame's planes one after the other, so that NumPy sees the whole.
+// A loop in memory: every frame's planes one after the other.
 
-#include <array>
 #include <map>
 #include <string>
 #include <utility>
@@ -11,9 +10,10 @@
 #include "frame/simulator.h"
 #include "motion/cycle/cardiac_clock.h"
 
-namespace echocine::python {
+namespace echocine {
 
-struct LoopArrays {
+// What the scene asks for; the rest is empty.
+struct Loop {
   Scene scene;
   int frames = 0, lines = 0, samples = 0, width = 0, height = 0;
   std::vector<FrameTime> times;
@@ -23,7 +23,7 @@ struct LoopArrays {
   std::vector<std::uint8_t> images, labels;           // T x height x width
   // T x 3 x lines x samples: lateral, axial, elevation; mm and mm/s.
   std::vector<float> displacement_mm, velocity_mm_s;
-  std::vector<float> tracks_mm;                        // T x N x 3: lateral, elevation, depth
+  std::vector<float> tracks_mm;                          // T x N x 3: lateral, elevation, depth
   std::vector<std::uint8_t> track_layer, track_segment;  // N
   std::vector<std::pair<std::string, std::vector<double>>> volumes_ml;  // structure -> T
   std::vector<FunctionFrame> function;                                  // T, where asked for
@@ -31,9 +31,9 @@ struct LoopArrays {
   double reference_intensity = 1;
 };
 
-// Frames first up to, without, last, as many at once as the threads allow. The same values as
-// renderLoop() writes. Throws SceneError, JobError; a JobError when the monitor says no.
-LoopArrays renderArrays(const Scene& scene, std::pair<int, int> range, int threads,
-                        const Monitor& monitor);
+// Frames range.first up to, without, range.second, on so many threads (0: one per core): the same
+// values as renderLoop() writes. Throws SceneError, JobError; a JobError when the monitor says no.
+Loop renderInMemory(const Simulator& simulator, std::pair<int, int> range,
+                    const Monitor& monitor = {}, int threads = 0);
 
-}  // namespace echocine::python
+}  // namespace echocine

@@ -1,4 +1,4 @@
-// A loop straight into memory, without files: the stages that renderLoop() calls, but for encoding.
+#include "loop/loop.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,9 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "python/loop.h"
-#include "render/reference_pass.h"
+#include "loop/render_frames.h"
 
-namespace echocine::python {
+namespace echocine {
 
 namespace {
 
@@ -20,7 +19,7 @@ void put(std::vector<T>& loop, std::size_t frame, const Range& plane) {
 }
 
 // Memory for what the scene asks for; nothing else is made.
-void reserve(const Simulator& simulator, LoopArrays& loop) {
+void reserve(const Simulator& simulator, Loop& loop) {
   const OutputSettings& output = loop.scene.output;
   const auto frames = static_cast<std::size_t>(loop.frames);
   const std::size_t plane =
@@ -53,7 +52,7 @@ void reserve(const Simulator& simulator, LoopArrays& loop) {
   }
 }
 
-void putTruth(FrameTruth truth, std::size_t frame, LoopArrays& loop) {
+void putTruth(FrameTruth truth, std::size_t frame, Loop& loop) {
   if (!loop.labels.empty()) put(loop.labels, frame, truth.labels);
   if (const auto found = loop.ids.find(Channel::structure); found != loop.ids.end())
     put(found->second, frame, truth.sample_ids);
@@ -72,27 +71,33 @@ void putTruth(FrameTruth truth, std::size_t frame, LoopArrays& loop) {
 }
 
 // Threads write to places of their own.
-class ArrayPass {
+class ArraySink : public FrameSink {
  public:
-  ArrayPass(const Simulator& simulator, KeptFrames& kept, LoopArrays& loop)
-      : simulator_(simulator), kept_(kept), loop_(loop), volumes_(static_cast<std::size_t>(loop.frames)) {}
+  ArraySink(const Simulator& simulator, int first, Loop& loop)
+      : simulator_(simulator),
+        first_(first),
+        loop_(loop),
+        volumes_(static_cast<std::size_t>(loop.frames)) {}
 
-  void make(std::size_t frame) {
-    const FrameTime& time = loop_.times[frame];
-    const std::shared_ptr<Workspace> w = simulator_.workspace();
-    volumes_[frame] = traced(time, *w);
-    // The greys take the intensities' memory over, so planes of channels are put first.
-    for (auto& [channel, values] : loop_.planes) put(values, frame, w->polar.planes.at(channel));
-    if (const auto found = loop_.ids.find(Channel::medium); found != loop_.ids.end())
-      put(found->second, frame, w->polar.medium);
-    const GreyImage& image =
-        simulator_.picture(loop_.reference_intensity, time, *w, !loop_.images.empty());
-    if (!loop_.greys.empty()) put(loop_.greys, frame, w->greys.values);
-    if (!loop_.images.empty()) put(loop_.images, frame, image.pixels);
-    if (simulator_.truth() != nullptr) putTruth(simulator_.truthAt(time, w.get()), frame, loop_);
+  void begin(double white) override {
+    loop_.reference_intensity = white;
+    reserve(simulator_, loop_);
   }
 
-  void takeVolumes() {
+  std::shared_ptr<void> take(MadeFrame& made) override {
+    const auto frame = static_cast<std::size_t>(made.time.frame - first_);
+    const Workspace& w = made.workspace;
+    volumes_[frame] = std::move(made.volumes_ml);
+    for (auto& [channel, values] : loop_.planes) put(values, frame, w.polar.planes.at(channel));
+    if (const auto found = loop_.ids.find(Channel::medium); found != loop_.ids.end())
+      put(found->second, frame, w.polar.medium);
+    if (!loop_.greys.empty()) put(loop_.greys, frame, w.greys.values);
+    if (!loop_.images.empty()) put(loop_.images, frame, w.image.pixels);
+    if (made.truth) putTruth(std::move(*made.truth), frame, loop_);
+    return nullptr;
+  }
+
+  void finish() {
     for (const Volumes& frame : volumes_)
       for (std::size_t s = 0; s < frame.size(); ++s) {
         if (loop_.volumes_ml.size() <= s) loop_.volumes_ml.push_back({frame[s].first, {}});
@@ -101,70 +106,40 @@ class ArrayPass {
   }
 
  private:
-  Volumes traced(const FrameTime& time, Workspace& w) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (const auto found = kept_.find(time.frame); found != kept_.end()) {
-        w.polar = std::move(found->second.polar);
-        Volumes volumes_ml = std::move(found->second.volumes_ml);
-        kept_.erase(found);
-        return volumes_ml;
-      }
-    }
-    return simulator_.trace(time, w);
-  }
-
   const Simulator& simulator_;
-  KeptFrames& kept_;
-  LoopArrays& loop_;
+  const int first_;
+  Loop& loop_;
   std::vector<Volumes> volumes_;
-  std::mutex mutex_;
 };
 
-void renderInto(const Simulator& simulator, std::pair<int, int> range, const Monitor& monitor,
-                LoopArrays& loop) {
-  const JobError stopped("stopped before the loop was finished");
-  simulator.truth();  // refuses what it cannot tell before anything is traced
-  KeptFrames kept;
-  const std::optional<double> reference = findReference(simulator, range, monitor, kept);
-  if (!reference) throw stopped;
-  loop.reference_intensity = *reference;
-  reserve(simulator, loop);
-  ArrayPass pass(simulator, kept, loop);
-  const auto count = static_cast<std::size_t>(loop.frames);
-  const std::size_t done = parallelOrdered(
-      0, count, 2 * static_cast<std::size_t>(threadCount()), monitor.keep_going,
-      [&](std::size_t i) -> std::shared_ptr<void> {
-        pass.make(i);
-        return nullptr;
-      },
-      [&](std::size_t i, const std::shared_ptr<void>&) {
-        monitor.tell({Task::rendering, i + 1, count});
-      });
-  if (done < count) throw stopped;
-  pass.takeVolumes();
+void checkRange(std::pair<int, int> range, int count) {
+  if (range.first < 0 || range.first >= range.second || range.second > count)
+    throw SceneError(
+        fmt::format("frames: ({}, {}) is not in the loop, accepted: (A, B) with 0 <= A < B <= {}",
+                    range.first, range.second, count));
 }
 
 }  // namespace
 
-LoopArrays renderArrays(const Scene& scene, std::pair<int, int> range, int threads,
-                        const Monitor& monitor) {
-  LoopArrays loop;
-  loop.scene = scene;
+Loop renderInMemory(const Simulator& simulator, std::pair<int, int> range, const Monitor& monitor,
+                    int threads) {
+  const CardiacClock& clock = simulator.cardiacClock();
+  checkRange(range, clock.frameCount());
+  Loop loop;
+  loop.scene = simulator.scene();
   loop.frames = range.second - range.first;
-  loop.lines = scene.probe.lines;
-  loop.samples = scene.probe.samples;
-  loop.width = scene.output.width;
-  loop.height = scene.output.height;
-  for (const std::string& warning : scene.warnings) monitor.warn(warning);
-  const CardiacClock clock(scene);
+  loop.lines = loop.scene.probe.lines;
+  loop.samples = loop.scene.probe.samples;
+  loop.width = loop.scene.output.width;
+  loop.height = loop.scene.output.height;
   for (int i = range.first; i < range.second; ++i) loop.times.push_back(clock.at(i));
   withThreads(threads, [&] {
-    const Simulator simulator(scene);
-    for (const std::string& warning : simulator.plan().warnings) monitor.warn(warning);
-    renderInto(simulator, range, monitor, loop);
+    ArraySink sink(simulator, range.first, loop);
+    if (renderFrames(simulator, range, sink, monitor) < loop.frames)
+      throw JobError("stopped before the loop was finished");
+    sink.finish();
   });
   return loop;
 }
 
-}  // namespace echocine::python
+}  // namespace echocine

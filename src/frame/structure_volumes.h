@@ -1,0 +1,17 @@
+#pragma once
+#include <vector>
+
+#include "motion/mesh_motion.h"
+#include "motion/volumes.h"
+#include "scene/scene.h"
+
+namespace echocine {
+
+// Of closed structures, by name, mL.
+Volumes structureVolumes(const Scene& scene, const MeshMotion& motion,
+                         const SurfaceFrame& surfaces);
+
+// The same of each structure at its own keyframes.
+std::vector<KeyframeVolume> keyframeVolumes(const Scene& scene, const MeshMotion& motion);
+
+}  // namespace echocine

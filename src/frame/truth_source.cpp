@@ -1,0 +1,49 @@
+#include "frame/truth_source.h"
+
+#include <algorithm>
+
+#include "frame/loop_instant.h"
+#include "frame/picture_grid.h"
+
+namespace echocine {
+
+const TruthMaker* TruthSource::maker() const {
+  std::call_once(once_, [this] {
+    if (TruthMaker::wanted(scene_))
+      maker_ = std::make_unique<const TruthMaker>(scene_, motion_, pictureGrid(scene_),
+                                                  clock_.at(0).phase);
+  });
+  return maker_.get();
+}
+
+// Velocity is taken from a millisecond before to one after, within the loop; rolling lines may
+// begin a little before it.
+FrameTruth TruthSource::ofInstant(const FrameTime& time, const TruthShared& shared,
+                                  bool planes_only) const {
+  constexpr double kStep_s = 1e-3;
+  const double end_s = clock_.frameCount() / scene_.acquisition.frame_rate_hz;
+  const double before_s = std::max(time.time_s - kStep_s, std::min(time.time_s, 0.0)),
+               after_s = std::min(time.time_s + kStep_s, end_s);
+  return maker()->at({time.phase, clock_.atTime(before_s).phase, clock_.atTime(after_s).phase,
+                      after_s - before_s, planes_only},
+                     shared);
+}
+
+// Of rolling lines what stands at samples and pixels is that of each line's instant; the rest is
+// that of the frame's time.
+FrameTruth TruthSource::at(const FrameTime& time, const Workspace* traced) const {
+  TruthShared shared;
+  if (traced != nullptr && traced->phase == time.phase) {
+    shared.surfaces = &traced->surfaces;
+    if (as_traced_) shared.slice = std::get_if<PlaneSlice>(&traced->geometry);
+  }
+  FrameTruth truth = ofInstant(time, shared, false);
+  for (std::size_t g = 0; rolling_ && g < rolling_->groups().size(); ++g) {
+    const double offset_s = rolling_->groups()[g].offset_s;
+    const FrameTime instant = instantOf(clock_, scene_, time.time_s + offset_s);
+    rolling_->take(g, ofInstant(instant, {}, true), truth);
+  }
+  return truth;
+}
+
+}  // namespace echocine

@@ -1,0 +1,59 @@
+#pragma once
+// What one frame needs while it is made.
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "core/beam_plane.h"
+#include "geometry/frame_geometry.h"
+#include "geometry/plane_slice.h"
+#include "geometry/side_slices.h"
+#include "motion/mesh_motion.h"
+#include "motion/trabeculae.h"
+#include "plan/loop_plan.h"
+#include "signal/picture.h"
+#include "trace/channel_plane.h"
+#include "trace/polar_frame.h"
+
+namespace echocine {
+
+struct Workspace {
+  double phase = -1;  // that surfaces and geometry stand at
+  SurfaceFrame surfaces;
+  Trabeculae::Smooth smooth{};                       // surfaces while others are shown
+  std::variant<PlaneSlice, FrameGeometry> geometry;  // whichever the plan's tracer needs
+  PolarFrame polar;
+  std::optional<SideSlices> sides{};  // of a beam that is thick across the plane
+  PolarFrame side{};
+  PolarFrame rolled{};  // lines of a rolling frame, as they come
+  Greys greys{};
+  GreyImage image{};
+};
+
+// The planes of a frame that go into its EXR, in the order of the scene's channels.
+std::vector<ChannelPlane> channelPlanes(const OutputSettings& output, const Workspace& workspace);
+
+// Workspaces are lent and come back: there are as many as frames in flight.
+class WorkspacePool {
+ public:
+  // References are kept.
+  WorkspacePool(const Scene& scene, const MeshMotion& motion, const LoopPlan& plan)
+      : scene_(scene), motion_(motion), plan_(plan) {}
+
+  // Until the pointer dies, which must be before the pool does. Thread-safe.
+  std::shared_ptr<Workspace> borrow() const;
+
+ private:
+  std::unique_ptr<Workspace> made() const;
+
+  const Scene& scene_;
+  const MeshMotion& motion_;
+  const LoopPlan& plan_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<Workspace>> free_;
+};
+
+}  // namespace echocine

@@ -1,0 +1,76 @@
+#include "loop/render_frames.h"
+
+#include <fmt/format.h>
+
+#include <new>
+#include <vector>
+
+#include "core/error.h"
+#include "core/out_of_memory.h"
+#include "core/parallel.h"
+#include "loop/kept_frames.h"
+
+namespace echocine {
+
+namespace {
+
+// One frame: from its instant, or from what was kept of its rays, into the sink.
+std::shared_ptr<void> makeFrame(const Simulator& simulator, const FrameTime& time, double white,
+                                KeptFrames& kept, FrameSink& sink) {
+  const OutputSettings& output = simulator.scene().output;
+  const std::shared_ptr<Workspace> workspace = simulator.workspace();
+  MadeFrame made{time, *workspace, {}, {}};
+  if (!kept.take(time.frame, workspace->polar, made.volumes_ml))
+    made.volumes_ml = simulator.trace(time, *workspace);
+  simulator.picture(white, time, *workspace, output.cine || output.png);
+  if (simulator.truth() != nullptr)
+    made.truth = simulator.clock().time(Stage::truth,
+                                        [&] { return simulator.truthAt(time, workspace.get()); });
+  return sink.take(made);
+}
+
+int renderEach(const Simulator& simulator, std::span<const FrameTime> times, double white,
+               KeptFrames& kept, FrameSink& sink, const Monitor& monitor) {
+  const auto make = [&](std::size_t i) {
+    try {
+      return makeFrame(simulator, times[i], white, kept, sink);
+    } catch (const std::bad_alloc&) {
+      throw JobError(fmt::format("frame {}: {}", times[i].frame, kOutOfMemory));
+    }
+  };
+  const auto collect = [&](std::size_t i, const std::shared_ptr<void>& taken) {
+    sink.inOrder(taken.get());
+    monitor.tell({Task::rendering, i + 1, times.size()});
+  };
+  return static_cast<int>(parallelOrdered(0, times.size(),
+                                          2 * static_cast<std::size_t>(threadCount()),
+                                          monitor.keep_going, make, collect));
+}
+
+}  // namespace
+
+int renderFrames(const Simulator& simulator, std::pair<int, int> range, FrameSink& sink,
+                 const Monitor& monitor) {
+  simulator.truth();  // refuses what it cannot tell before anything is traced
+  KeptFrames kept(range);
+  // White goes by still frames: a rolling one is traced again.
+  KeepTraced keep;
+  if (!simulator.plan().effects.rolling)
+    keep = [&](int frame, PolarFrame&& polar, Volumes&& volumes_ml) {
+      kept.keep(frame, std::move(polar), std::move(volumes_ml));
+    };
+  const std::optional<double> white = simulator.referenceIntensity(monitor, keep);
+  if (!white) return 0;
+  std::vector<FrameTime> times;
+  for (int i = range.first; i < range.second; ++i) times.push_back(simulator.cardiacClock().at(i));
+  sink.begin(*white);
+  return renderEach(simulator, times, *white, kept, sink, monitor);
+}
+
+int renderFrames(const Simulator& simulator, std::span<const FrameTime> times, double white,
+                 FrameSink& sink, const Monitor& monitor) {
+  KeptFrames none({0, 0});
+  return renderEach(simulator, times, white, none, sink, monitor);
+}
+
+}  // namespace echocine
