@@ -51,7 +51,7 @@ BlockRange blocksOver(double lo_m, double hi_m, float origin_m, float edge_m) {
 }
 
 double pathOf(const Probe& probe, Vec3d p) {
-  return probe.kind == ProbeKind::linear ? p.z : std::hypot(p.x, p.z) - probe.face_radius_m;
+  return !probe.isFan() ? p.z : std::hypot(p.x, p.z) - probe.face_radius_m;
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const Beam
   const double along_m = material.reachAlong_m(), across_m = material.reachAcross_m();
   const double reach_m = probe.face_radius_m + probe.max_depth_m;
   const double half_x_m =
-      along_m + (probe.kind == ProbeKind::linear
+      along_m + (!probe.isFan()
                      ? std::max(std::abs(probe.first_offset_m), std::abs(probe.last_offset_m)) +
                            reach_m * std::abs(std::tan(probe.first_angle_rad)) + edge_m
                      : reach_m + edge_m);
