@@ -15,12 +15,12 @@ set(libraries
   "opensubdiv/=subdivision"
   "embree3/=geometry"
   "(OpenEXR/|Imath/|Imf.*\\.h$|half\\.h$)=output"
-  "opencv2/(core|imgproc)=signal,metrics,video,output,compare"
+  "opencv2/(core|imgproc)=signal,metrics,video,output,echo,fit,compare"
   "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
   "zlib\\.h$=video,dataset"
   "hdf5\\.h$=dataset"
   "CLI/=cli"
-  "nlohmann/=scene,heart,output,page,view,compare,render,study,dataset,cli,python"
+  "nlohmann/=scene,heart,output,page,view,echo,fit,compare,render,study,dataset,cli,python"
   "(pybind11/|Python\\.h$)=python"
   "fmt/=*"
   "[a-z_0-9]+(\\.h)?$=*"
@@ -53,13 +53,15 @@ set(rooms
   "video=signal"
   "output=plan,trace,signal,motion,heart,truth|video"
   "view=frame,mesh|cycle,geometry,signal,video,page"
-  "compare=frame,video,metrics,signal,truth,page,motion,geometry,heart|output,cycle"
+  "echo=video|signal,metrics,output"
+  "fit=echo,heart,frame,motion,geometry,truth,signal,page|video"
+  "compare=echo,fit,metrics,signal,truth,page|motion,video"
   "render=frame,cycle,output,page,video,truth|signal,motion,view"
   "study=plan,frame,cycle,output,video,signal,metrics|motion,keyframes,render,page"
   "echocine=render,frame,heart"
   "dataset=frame,output,motion,cycle,heart,truth,signal|views,video,page"
-  "python=render,compare,study,dataset,frame,heart,cycle|output,video,motion,cycle,truth,signal,geometry"
-  "cli=render,compare,study,dataset,output,view,plan|video,frame,motion,keyframes,cycle,heart")
+  "python=render,echo,fit,compare,study,dataset,frame,heart,cycle|output,video,motion,cycle,truth,signal,geometry"
+  "cli=render,echo,fit,compare,study,dataset,output,view,plan|video,frame,motion,keyframes,cycle,heart")
 
 function(room_of path out)
   string(REGEX REPLACE "^src/" "" path "${path}")
