@@ -12,6 +12,7 @@
 #include "motion/mesh/world_place.h"
 #include "motion/views/heart_marks.h"
 #include "scene/probe_pose.h"
+#include "scene/scan_geometry.h"
 #include "scene/view_names.h"
 
 namespace echocine {
@@ -58,7 +59,9 @@ double endDiastole(const Scene& scene) {
 }
 
 Structure atPhase(Structure structure, double phase) {
-  const auto apart = [&](const Keyframe& k) { return std::abs(std::remainder(k.phase - phase, 1)); };
+  const auto apart = [&](const Keyframe& k) {
+    return std::abs(std::remainder(k.phase - phase, 1));
+  };
   const Keyframe nearest =
       *std::min_element(structure.keyframes.begin(), structure.keyframes.end(),
                         [&](const Keyframe& a, const Keyframe& b) { return apart(a) < apart(b); });
@@ -97,15 +100,6 @@ Pose moved(const Pose& pose, const ViewPlacement& by) {
   return turnedAndTilted(p, by.rotate_rad, by.tilt_rad);
 }
 
-bool inSector(const Probe& probe, Vec3d at) {
-  if (probe.kind == ProbeKind::linear)
-    return at.x >= probe.first_offset_m && at.x <= probe.last_offset_m && at.z >= probe.min_depth_m &&
-           at.z <= probe.max_depth_m;
-  const double angle_rad = std::atan2(at.x, at.z), path_m = length(at) - probe.face_radius_m;
-  return angle_rad >= probe.first_angle_rad && angle_rad <= probe.last_angle_rad &&
-         path_m >= probe.min_depth_m && path_m <= probe.max_depth_m;
-}
-
 // An edge of a mesh meets the imaging plane within the sector.
 bool cuts(const Probe& probe, const Instant& heart) {
   for (std::size_t s = 0; s < heart.surfaces.size(); ++s) {
@@ -115,7 +109,8 @@ bool cuts(const Probe& probe, const Instant& heart) {
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec3d a = at[t[k]], b = at[t[(k + 1) % 3]];
         if ((a.y < 0) == (b.y < 0)) continue;
-        if (inSector(probe, a + a.y / (a.y - b.y) * (b - a))) return true;
+        const Vec3d at_plane = a + a.y / (a.y - b.y) * (b - a);
+        if (inScanArea(probe, at_plane.x, at_plane.z)) return true;
       }
   }
   return false;
@@ -130,8 +125,7 @@ void place(const ViewPlacement& placement, const HeartMarks& marks, double mesh_
   pose.origin = pose.origin - probe.face_radius_m * pose.z_axis;
   probe.pose = writable(pose, mesh_unit_m);
   if (probe.max_depth_m > 0) return;
-  const double half_rad =
-      probe.kind == ProbeKind::linear ? radiansFromDegrees(90) : probe.last_angle_rad;
+  const double half_rad = probe.isFan() ? probe.last_angle_rad : radiansFromDegrees(90);
   const double deep_m =
       fittingDepth(marks.outside_m, {probe.pose.origin, probe.pose.z_axis, probe.pose.x_axis},
                    half_rad, marks.frame.scale) +
@@ -145,10 +139,10 @@ std::string whereTheyAre(const Probe& probe, const Instant& heart) {
   for (const RoleSurface& s : heart.surfaces)
     for (const Vec3d p : s.points_m) box.add(probe.pose.fromWorld(p));
   const auto mm = [](double m) { return std::round(millimetresFromMetres(m)); };
-  return fmt::format("from the probe they lie {} to {} mm lateral, {} to {} mm in elevation, {} to {} "
-                     "mm deep",
-                     mm(box.lo.x), mm(box.hi.x), mm(box.lo.y), mm(box.hi.y), mm(box.lo.z),
-                     mm(box.hi.z));
+  return fmt::format(
+      "from the probe they lie {} to {} mm lateral, {} to {} mm in elevation, {} to {} "
+      "mm deep",
+      mm(box.lo.x), mm(box.hi.x), mm(box.lo.y), mm(box.hi.y), mm(box.lo.z), mm(box.hi.z));
 }
 
 // The first view that cuts a mesh, this one before the others.
@@ -161,7 +155,8 @@ std::string viewThatCuts(const Scene& scene, const HeartMarks& marks, const Inst
     unmoved.view = view;
     place(unmoved, marks, scene.motion.mesh_unit_m, probe);
     if (cuts(probe, heart))
-      return fmt::format("view = \"{}\" without shift_mm, tilt_deg and rotate_deg does", keyOf(view));
+      return fmt::format("view = \"{}\" without shift_mm, tilt_deg and rotate_deg does",
+                         keyOf(view));
   }
   return "a depth_mm or a sector that holds them does";
 }
@@ -173,8 +168,10 @@ void tellGuesses(const HeartMarks& marks, Scene& scene) {
   for (const std::string& what : marks.told) tell(what);
   const View view = scene.view->view;
   if (!marks.aortic_found && (view == View::a3c || view == View::plax))
-    tell("no role says where the aortic valve is: the plane passes where other hearts have it; give a "
-         "structure role = \"aortic_valve\" or \"aorta\"");
+    tell(
+        "no role says where the aortic valve is: the plane passes where other hearts have it; give "
+        "a "
+        "structure role = \"aortic_valve\" or \"aorta\"");
 }
 
 }  // namespace
@@ -189,7 +186,8 @@ Scene placed(Scene scene) {
   };
   if (placement.view == View::psax_base && !marks.aortic_found)
     fail(hasVessel(heart.surfaces)
-             ? "the structure with role aorta does not reach the left ventricle, so its valve is not "
+             ? "the structure with role aorta does not reach the left ventricle, so its valve is "
+               "not "
                "found; accepted: one that does, or role = \"aortic_valve\" of another"
              : "\"psax-base\" is found from the aortic valve, accepted: role = \"aortic_valve\" or "
                "\"aorta\" of one structure, or view = \"psax-mid\"");

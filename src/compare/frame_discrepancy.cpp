@@ -28,7 +28,7 @@ FrameDiscrepancy::FrameDiscrepancy(const echo::EchoLoop& real, const Probe& prob
     throw SceneError(
         fmt::format("{}: has no length scale; give --scale in mm per pixel", real.video.name));
   echo::checkScale(real);
-  if (probe.kind == ProbeKind::linear || probe.lines < 8 || probe.samples < 16)
+  if (!probe.isFan() || probe.lines < 8 || probe.samples < 16)
     throw SceneError("the discrepancy needs a sector of at least 8 lines and 16 samples");
   // What the smoothing of 2 % of the depth leaves has under a hundred independent depths, so 384
   // lose nothing and keep a call short. Our choice.

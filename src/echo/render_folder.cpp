@@ -27,13 +27,14 @@ using UnorderedJson = nlohmann::json;
 // pixels.
 void takeGeometry(const UnorderedJson& scene, EchoLoop& loop, const std::string& name) {
   const UnorderedJson &p = scene.at("probe"), &o = scene.at("output");
-  if (p.at("kind") == "linear")
+  const auto kind = valueOf<ProbeKind>(p.at("kind").get<std::string>());
+  if (!kind || !layoutOf(*kind).fan)
     throw SceneError(
         fmt::format("{}: a linear probe has no sector; render the view with a phased or "
                     "curvilinear one",
                     name));
   Scene s;  // what the picture's geometry depends on
-  s.probe.kind = p.at("kind") == "phased" ? ProbeKind::phased : ProbeKind::curvilinear;
+  s.probe.kind = *kind;
   s.probe.first_angle_rad = p.at("first_angle_rad");
   s.probe.last_angle_rad = p.at("last_angle_rad");
   s.probe.face_radius_m = p.at("face_radius_m");

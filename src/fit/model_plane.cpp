@@ -130,7 +130,7 @@ ModelPlane::ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& s
       coarse_(withCoarseLines(scene)),
       labels_(coarse_, PictureGrid{}),
       cells_(cellsAt(coarse_.probe)) {
-  if (scene.probe.kind == ProbeKind::linear)
+  if (!scene.probe.isFan())
     throw SceneError("a linear probe has no sector to compare; give a phased or curvilinear one");
   const auto tissue = [&](MediumId id) {
     const std::string& name = scene.medium(id).name;

@@ -77,11 +77,10 @@ inline constexpr KeyField kByHand{};
 
 inline constexpr KeyUse kWithView WITH("view", o.scene->view.has_value());
 inline constexpr KeyUse kWithAngle WITH("kind = \"phased\" | \"curvilinear\"",
-                                        o.scene->probe.kind != ProbeKind::linear);
+                                        o.scene->probe.isFan());
 inline constexpr KeyUse kWithCurve WITH("kind = \"curvilinear\"",
-                                        o.scene->probe.kind == ProbeKind::curvilinear);
-inline constexpr KeyUse kWithWidth WITH("kind = \"linear\"",
-                                        o.scene->probe.kind == ProbeKind::linear);
+                                        layoutOf(o.scene->probe.kind).curved_face);
+inline constexpr KeyUse kWithWidth WITH("kind = \"linear\"", !o.scene->probe.isFan());
 inline constexpr KeyUse kClosed WITH("membrane = false: a membrane encloses nothing",
                                      !o.structure->membrane);
 inline constexpr KeyUse kWithQuality WITH("look = \"scanner\"",

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/vec3.h"
+#include "scene/named.h"
 #include "scene/triangle_mesh.h"
 
 namespace echocine {
@@ -15,6 +16,15 @@ namespace echocine {
 // cycle: from one keyframe to the next as the published volume curve goes, for hearts of which a
 // few instants are known.
 enum class Interpolation { linear, catmull_rom, spline, fourier, cycle };
+
+template <>
+struct NamesOf<Interpolation> {
+  static constexpr Named<Interpolation> kAll[] = {{Interpolation::linear, "linear"},
+                                                  {Interpolation::catmull_rom, "catmull-rom"},
+                                                  {Interpolation::spline, "spline"},
+                                                  {Interpolation::fourier, "fourier"},
+                                                  {Interpolation::cycle, "cycle"}};
+};
 
 struct MotionSettings {
   double mesh_unit_m = 1e-3;

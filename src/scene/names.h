@@ -1,7 +1,7 @@
 #pragma once
 // What every choice of a scene is called, once: the reader, the JSON of results, the study and
-// messages all look here. A new value of an enum needs its line here and nothing else to be
-// readable.
+// messages all look here. A new value of an enum needs its line in the list of names, here or
+// beside the enum, and nothing else to be readable.
 
 #include <array>
 #include <cstddef>
@@ -10,40 +10,16 @@
 
 #include "core/check.h"
 #include "scene/channel.h"
+#include "scene/named.h"
 #include "scene/scene.h"
 
 namespace echocine {
-
-template <typename E>
-struct Named {
-  E value;
-  const char* name;
-};
-
-template <typename E>
-struct NamesOf;
-
-template <>
-struct NamesOf<ProbeKind> {
-  static constexpr Named<ProbeKind> kAll[] = {{ProbeKind::phased, "phased"},
-                                              {ProbeKind::curvilinear, "curvilinear"},
-                                              {ProbeKind::linear, "linear"}};
-};
 
 template <>
 struct NamesOf<WarpChoice> {
   static constexpr Named<WarpChoice> kAll[] = {{WarpChoice::automatic, "auto"},
                                                {WarpChoice::uniform, "uniform"},
                                                {WarpChoice::systole, "systole"}};
-};
-
-template <>
-struct NamesOf<Interpolation> {
-  static constexpr Named<Interpolation> kAll[] = {{Interpolation::linear, "linear"},
-                                                  {Interpolation::catmull_rom, "catmull-rom"},
-                                                  {Interpolation::spline, "spline"},
-                                                  {Interpolation::fourier, "fourier"},
-                                                  {Interpolation::cycle, "cycle"}};
 };
 
 template <>
@@ -146,44 +122,6 @@ struct NamesOf<Role> {
                                          {Role::epicardium, "epicardium"},
                                          {Role::pericardium, "pericardium"},
                                          {Role::surroundings, "surroundings"}};
-};
-
-template <>
-struct NamesOf<Effect> {
-  static constexpr Named<Effect> kAll[] = {{Effect::reflection, "reflection"},
-                                           {Effect::lobe, "lobe"},
-                                           {Effect::transmission_loss, "transmission_loss"},
-                                           {Effect::refraction, "refraction"},
-                                           {Effect::snell_angles, "snell_angles"},
-                                           {Effect::reflection_cap, "reflection_cap"},
-                                           {Effect::thin_layers, "thin_layers"},
-                                           {Effect::attenuation, "attenuation"},
-                                           {Effect::backscatter, "backscatter"},
-                                           {Effect::spread, "spread"},
-                                           {Effect::beam_width, "beam_width"},
-                                           {Effect::elevation, "elevation"},
-                                           {Effect::travel_time, "travel_time"},
-                                           {Effect::trabeculae, "trabeculae"},
-                                           {Effect::speckle, "speckle"},
-                                           {Effect::heterogeneity, "heterogeneity"},
-                                           {Effect::anisotropy, "anisotropy"},
-                                           {Effect::coherent_echoes, "coherent_echoes"},
-                                           {Effect::dropout, "dropout"},
-                                           {Effect::acoustic_window, "acoustic_window"},
-                                           {Effect::haze, "haze"},
-                                           {Effect::reverberation, "reverberation"},
-                                           {Effect::clutter, "clutter"},
-                                           {Effect::noise, "noise"},
-                                           {Effect::persistence, "persistence"},
-                                           {Effect::rolling, "rolling"},
-                                           {Effect::tgc, "tgc"},
-                                           {Effect::log_compression, "log_compression"},
-                                           {Effect::labels, "labels"},
-                                           {Effect::truth_labels, "truth labels"},
-                                           {Effect::truth_contours, "truth contours"},
-                                           {Effect::truth_tracks, "truth tracks"},
-                                           {Effect::truth_function, "truth function"},
-                                           {Effect::channel, "channel"}};
 };
 
 template <typename E>

@@ -3,14 +3,13 @@
 // plane is y = 0 and the origin is the apex.
 
 #include "core/vec3.h"
+#include "scene/probe_kind.h"
 
 namespace echocine {
 
 // The speed by which a scanner turns echo times into depths: the soft-tissue average it is built
 // for.
 inline constexpr double kScannerSpeed = 1540;  // m/s
-
-enum class ProbeKind { phased, curvilinear, linear };
 
 struct Probe {
   ProbeKind kind = ProbeKind::phased;
@@ -30,6 +29,7 @@ struct Probe {
   double elevation_focus_m = 0.08;
   int lines = 0, samples = 0;
 
+  bool isFan() const { return layoutOf(kind).fan; }  // else its lines are parallel
   double sampleSpacing() const { return (max_depth_m - min_depth_m) / samples; }
   double middleDepth() const { return 0.5 * (min_depth_m + max_depth_m); }
 };

@@ -111,7 +111,7 @@ std::string poseToml(const Scene& scene) {
                                  vectorText(1 / unit * probe.pose.origin, places),
                                  vectorText(probe.pose.z_axis, places),
                                  vectorText(probe.pose.x_axis, places));
-  if (probe.kind != ProbeKind::linear)
+  if (probe.isFan())
     text += fmt::format("sector_deg = {}\n", shortest(probe.last_angle_rad - probe.first_angle_rad,
                                                       radiansFromDegrees(1)));
   return text + fmt::format("depth_mm = {}\nfrequency_mhz = {}\n",

@@ -27,9 +27,35 @@ double lineSpacing(const Probe& probe, double depth_m) {
   return angle * (probe.face_radius_m + depth_m) + offset;
 }
 
+bool inScanArea(const Probe& probe, double x_m, double z_m) {
+  if (!probe.isFan())
+    return x_m >= probe.first_offset_m && x_m <= probe.last_offset_m && z_m >= probe.min_depth_m &&
+           z_m <= probe.max_depth_m;
+  const double angle = std::atan2(x_m, z_m), path_m = std::hypot(x_m, z_m) - probe.face_radius_m;
+  return angle >= probe.first_angle_rad && angle <= probe.last_angle_rad &&
+         path_m >= probe.min_depth_m && path_m <= probe.max_depth_m;
+}
+
+std::vector<Vec3d> sectorOutline(const Probe& probe) {
+  if (!probe.isFan())
+    return {{probe.first_offset_m, 0, probe.min_depth_m},
+            {probe.last_offset_m, 0, probe.min_depth_m},
+            {probe.last_offset_m, 0, probe.max_depth_m},
+            {probe.first_offset_m, 0, probe.max_depth_m}};
+  constexpr int kArcPoints = 257;
+  std::vector<Vec3d> outline{{0, 0, 0}};
+  const double radius_m = probe.face_radius_m + probe.max_depth_m;
+  for (int i = 0; i < kArcPoints; ++i) {
+    const double angle = probe.last_angle_rad +
+                         (probe.first_angle_rad - probe.last_angle_rad) * i / (kArcPoints - 1);
+    outline.push_back({radius_m * std::sin(angle), 0, radius_m * std::cos(angle)});
+  }
+  return outline;
+}
+
 ScanGeometry::ScanGeometry(const Probe& probe)
     : probe_(probe),
-      angular_(probe.kind != ProbeKind::linear),
+      angular_(probe.isFan()),
       first_place_(angular_ ? probe.first_angle_rad : probe.first_offset_m),
       last_place_(angular_ ? probe.last_angle_rad : probe.last_offset_m) {}
 

@@ -4,6 +4,7 @@
 // lines meet in the apex, an offset (m) where they run side by side.
 
 #include <optional>
+#include <vector>
 
 #include "core/vec3.h"
 #include "scene/probe.h"
@@ -22,6 +23,14 @@ LineGeometry lineGeometry(const Probe& probe, int line);
 
 // Distance between neighbouring scan lines at a path length; 0 for a single line.
 double lineSpacing(const Probe& probe, double depth_m);
+
+// Does a point of the imaging plane lie between the outermost lines and their first and last
+// samples?
+bool inScanArea(const Probe& probe, double x_m, double z_m);
+
+// The scan area's outline from outside, clockwise as seen in the picture: convex for sectors up to
+// 180 degrees, the arc of the deepest samples as a fine polygon. The face's own arc is left out.
+std::vector<Vec3d> sectorOutline(const Probe& probe);
 
 class ScanGeometry {
  public:

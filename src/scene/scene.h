@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/ids.h"
 #include "scene/channel.h"
+#include "scene/effects.h"
 #include "scene/medium.h"
 #include "scene/motion_settings.h"
 #include "scene/probe.h"
@@ -50,83 +51,6 @@ struct Structure {
   Repairs repair;
   SourcePlace place;  // of its keyframes in the scene file
 };
-
-enum class Switch { automatic, on, off };
-
-// What a loop may compute or leave out. What each is stands in effect_plan.cpp, beside the reasons
-// to leave it out.
-enum class Effect {
-  reflection,
-  lobe,
-  transmission_loss,
-  refraction,
-  snell_angles,
-  reflection_cap,
-  thin_layers,
-  attenuation,
-  backscatter,
-  spread,
-  beam_width,
-  elevation,
-  travel_time,
-  trabeculae,
-  speckle,
-  heterogeneity,
-  anisotropy,
-  coherent_echoes,
-  dropout,
-  acoustic_window,
-  haze,
-  reverberation,
-  clutter,
-  noise,
-  persistence,
-  rolling,
-  tgc,
-  log_compression,
-  labels,
-  truth_labels,
-  truth_contours,
-  truth_tracks,
-  truth_function,
-  channel  // of the intensity stack, one decision each
-};
-
-struct EffectSwitches {
-  Switch reflection = Switch::automatic;         // echoes of interfaces
-  Switch lobe = Switch::automatic;               // cos^n of the non-specular lobe
-  Switch transmission_loss = Switch::automatic;  // (1-R)^2 at each interface passed
-  Switch refraction = Switch::automatic;         // bent rays
-  Switch snell_angles = Switch::automatic;       // straight rays carry Snell's direction for angles
-  Switch reflection_cap = Switch::automatic;     // W is at most R at normal incidence
-  Switch thin_layers = Switch::automatic;        // one coherent echo of interfaces in one pulse
-  Switch attenuation = Switch::automatic;        // exp(-4 alpha l)
-  Switch backscatter = Switch::automatic;        // Eqs. 4-7
-  Switch spread = Switch::automatic;             // 1/l^2 of the backscattered part
-  Switch beam_width = Switch::automatic;         // the average over the beam
-  Switch elevation = Switch::automatic;          // rays out of the imaging plane
-  Switch travel_time = Switch::automatic;  // place echoes at 1540 m/s t/2 instead of path length
-};
-
-// The effects that a scene can switch, by their names.
-struct EffectSwitch {
-  Effect effect;
-  Switch EffectSwitches::*wanted;
-};
-inline constexpr EffectSwitch kEffectSwitches[] = {
-    {Effect::reflection, &EffectSwitches::reflection},
-    {Effect::lobe, &EffectSwitches::lobe},
-    {Effect::transmission_loss, &EffectSwitches::transmission_loss},
-    {Effect::refraction, &EffectSwitches::refraction},
-    {Effect::snell_angles, &EffectSwitches::snell_angles},
-    {Effect::reflection_cap, &EffectSwitches::reflection_cap},
-    {Effect::thin_layers, &EffectSwitches::thin_layers},
-    {Effect::attenuation, &EffectSwitches::attenuation},
-    {Effect::backscatter, &EffectSwitches::backscatter},
-    {Effect::spread, &EffectSwitches::spread},
-    {Effect::beam_width, &EffectSwitches::beam_width},
-    {Effect::elevation, &EffectSwitches::elevation},
-    {Effect::travel_time, &EffectSwitches::travel_time}};
 
 enum class Tgc { perfect, mean, table, none, nominal };
 enum class Spread { compensate, keep };

@@ -2,6 +2,11 @@
 
 #include "scene/scene_keys.h"
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
+
 #include "scene/key_parts.h"
 
 namespace echocine {
@@ -87,20 +92,6 @@ constexpr SceneKey kKeys[] = {
     {"media.backscatter", "cell_density_kg_m3", kDensity, ranges::kDensity_kg_m3, "rho_e of kind blood", kByHand},
     {"media.backscatter", "cell_compressibility_cm2_dyn", kCompressibility, ranges::kCompressibility_cm2_dyn, "G_e of kind blood", kByHand},
     {"media.backscatter", "plasma", kNone, kAny, "medium around the cells of kind blood", kByHand},
-
-    {"effects", "reflection", kNone, kAny, "echoes of interfaces", AT(EffectSwitches, reflection)},
-    {"effects", "lobe", kNone, kAny, "cos^n of the non-specular return", AT(EffectSwitches, lobe)},
-    {"effects", "transmission_loss", kNone, kAny, "(1-R)^2 at each interface passed", AT(EffectSwitches, transmission_loss)},
-    {"effects", "refraction", kNone, kAny, "bent rays", AT(EffectSwitches, refraction)},
-    {"effects", "snell_angles", kNone, kAny, "straight rays meet interfaces at the angles of bent ones", AT(EffectSwitches, snell_angles)},
-    {"effects", "reflection_cap", kNone, kAny, "W is at most R at normal incidence; off: W is R at every angle", AT(EffectSwitches, reflection_cap)},
-    {"effects", "thin_layers", kNone, kAny, "interfaces less than half a pulse apart echo coherently", AT(EffectSwitches, thin_layers)},
-    {"effects", "attenuation", kNone, kAny, "exp(-4 alpha l)", AT(EffectSwitches, attenuation)},
-    {"effects", "backscatter", kNone, kAny, "Eqs. 4-7", AT(EffectSwitches, backscatter)},
-    {"effects", "spread", kNone, kAny, "1/l^2 of the backscattered part", AT(EffectSwitches, spread)},
-    {"effects", "beam_width", kNone, kAny, "average over the beam, by its rays where there are several, and over the pulse", AT(EffectSwitches, beam_width)},
-    {"effects", "elevation", kNone, kAny, "rays out of the imaging plane", AT(EffectSwitches, elevation)},
-    {"effects", "travel_time", kNone, kAny, "echoes at 1540 m/s t/2 instead of their path length; only when on", AT(EffectSwitches, travel_time)},
 
     {"speckle", "on", kNone, kAny, "coherent echoes of scatterers that move with the tissue; the mean over seeds is the picture without", AT(SpeckleSettings, on)},
     {"speckle", "seed", kNone, kSeed, "of the scatterers", AT(SpeckleSettings, seed)},
@@ -193,10 +184,29 @@ constexpr SceneKey kKeys[] = {
 #undef AT
 #undef AS
 
+// The rows of kEffectSwitches as keys of [effects].
+template <std::size_t... kRows>
+std::vector<SceneKey> effectKeys(std::index_sequence<kRows...>) {
+  return {{"effects", kEffectSwitches[kRows].key, kNone, kAny, kEffectSwitches[kRows].meaning,
+           key_field::of<kEffectSwitches[kRows].wanted>(kEffectSwitches[kRows].key)}...};
+}
+
+std::vector<SceneKey> allKeys() {
+  std::vector<SceneKey> keys(std::begin(kKeys), std::end(kKeys));
+  const std::vector<SceneKey> effects =
+      effectKeys(std::make_index_sequence<std::size(kEffectSwitches)>());
+  const auto after_media = std::find_if(keys.begin(), keys.end(), [](const SceneKey& key) {
+    return std::string_view(key.table) == "speckle";
+  });
+  keys.insert(after_media, effects.begin(), effects.end());
+  return keys;
+}
+
 }  // namespace
 
 std::span<const SceneKey> sceneKeys() {
-  return kKeys;
+  static const std::vector<SceneKey> keys = allKeys();
+  return keys;
 }
 
 }  // namespace echocine

@@ -10,7 +10,7 @@
 namespace echocine {
 
 BeamView::BeamView(const Probe& probe, const PointSpread& spread)
-    : probe_(probe), spread_(spread), linear_(probe.kind == ProbeKind::linear) {
+    : probe_(probe), spread_(spread), linear_(!probe.isFan()) {
   const double lines = std::max(probe.lines - 1, 1);
   const double span = linear_ ? probe.last_offset_m - probe.first_offset_m
                               : probe.last_angle_rad - probe.first_angle_rad;

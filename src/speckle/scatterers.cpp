@@ -66,7 +66,7 @@ struct SectorBox {
 SectorBox boxAbout(const Probe& probe, double disc_m, double moves_m, double edge_m) {
   const double reach_m = probe.face_radius_m + probe.max_depth_m;
   const Range deep{-moves_m, reach_m + moves_m};
-  if (probe.kind == ProbeKind::linear) {
+  if (!probe.isFan()) {
     const double half_m = moves_m + edge_m +
                           std::max(std::abs(probe.first_offset_m), std::abs(probe.last_offset_m)) +
                           reach_m * std::abs(std::tan(probe.first_angle_rad));
@@ -94,7 +94,7 @@ SectorBox boxAbout(const Probe& probe, double disc_m, double moves_m, double edg
 }
 
 double pathOf(const Probe& probe, Vec3d p) {
-  return probe.kind == ProbeKind::linear ? p.z : std::hypot(p.x, p.z) - probe.face_radius_m;
+  return !probe.isFan() ? p.z : std::hypot(p.x, p.z) - probe.face_radius_m;
 }
 
 }  // namespace

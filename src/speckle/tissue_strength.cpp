@@ -49,7 +49,7 @@ Heterogeneity::Heterogeneity(const SpeckleSettings& settings, const Probe& probe
       per_thickness_(1 / settings.heterogeneity_layer_m),
       middle_m_(probe.face_radius_m + probe.middleDepth()),
       tangent_(std::tan(probe.first_angle_rad)),
-      linear_(probe.kind == ProbeKind::linear),
+      linear_(!probe.isFan()),
       fine_(settings.heterogeneity_fine_m, hashOf(settings.heterogeneity_seed, kFine)),
       layers_(1, hashOf(settings.heterogeneity_seed, kLayers)) {}
 
@@ -116,7 +116,7 @@ void TissueStrength::amplitudes(std::span<const Vec3f> reference_m, std::uint16_
                   out_m = toDouble(wall_->epicardium.to(reference_m[i]));
       const double inside = std::sqrt(dot(p - in, p - in)),
                    outside = std::sqrt(dot(p - out_m, p - out_m));
-      const Vec3d beam = probe_.kind == ProbeKind::linear ? parallel : unitOf(p);
+      const Vec3d beam = !probe_.isFan() ? parallel : unitOf(p);
       factor *=
           fibreFactor(fibreAt(unitOf(out_m - in), wall_->axis,
                               inside / std::max(inside + outside, 1e-9), settings_.helix_angle_rad),

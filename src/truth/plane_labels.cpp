@@ -5,15 +5,6 @@
 
 namespace echocine {
 
-bool inScanArea(const Probe& probe, double x_m, double z_m) {
-  if (probe.kind == ProbeKind::linear)
-    return x_m >= probe.first_offset_m && x_m <= probe.last_offset_m && z_m >= probe.min_depth_m &&
-           z_m <= probe.max_depth_m;
-  const double angle = std::atan2(x_m, z_m), path_m = std::hypot(x_m, z_m) - probe.face_radius_m;
-  return angle >= probe.first_angle_rad && angle <= probe.last_angle_rad &&
-         path_m >= probe.min_depth_m && path_m <= probe.max_depth_m;
-}
-
 PlaneLabels::PlaneLabels(const Scene& scene, const PictureGrid& grid)
     : probe_(scene.probe), grid_(grid) {
   for (std::size_t s = 0; s < scene.structures.size(); ++s)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/plane_slice.h"
+#include "scene/scan_geometry.h"
 #include "scene/scene.h"
 
 namespace echocine {
@@ -21,9 +22,6 @@ struct PictureGrid {
   double xOf(int column) const { return (column + 0.5 - origin_x_px) * metres_per_pixel; }
   double zOf(int row) const { return (row + 0.5 - origin_y_px) * metres_per_pixel; }
 };
-
-// Is a place of the imaging plane between the outermost lines and within their depths?
-bool inScanArea(const Probe& probe, double x_m, double z_m);
 
 class PlaneLabels {
  public:

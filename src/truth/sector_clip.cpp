@@ -1,25 +1,6 @@
 #include "truth/sector_clip.h"
 
-#include <cmath>
-
 namespace echocine {
-
-std::vector<Vec3d> sectorOutline(const Probe& probe) {
-  if (probe.kind == ProbeKind::linear)
-    return {{probe.first_offset_m, 0, probe.min_depth_m},
-            {probe.last_offset_m, 0, probe.min_depth_m},
-            {probe.last_offset_m, 0, probe.max_depth_m},
-            {probe.first_offset_m, 0, probe.max_depth_m}};
-  constexpr int kArcPoints = 257;
-  std::vector<Vec3d> outline{{0, 0, 0}};
-  const double radius_m = probe.face_radius_m + probe.max_depth_m;
-  for (int i = 0; i < kArcPoints; ++i) {
-    const double angle = probe.last_angle_rad +
-                         (probe.first_angle_rad - probe.last_angle_rad) * i / (kArcPoints - 1);
-    outline.push_back({radius_m * std::sin(angle), 0, radius_m * std::cos(angle)});
-  }
-  return outline;
-}
 
 std::vector<Vec3d> clipped(std::vector<Vec3d> polygon, const std::vector<Vec3d>& outline) {
   for (std::size_t e = 0; e < outline.size() && !polygon.empty(); ++e) {

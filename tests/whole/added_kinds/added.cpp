@@ -1,0 +1,17 @@
+// What the patches beside this file add is there by its name.
+
+#include <type_traits>
+
+#include "scene/key_field.h"
+#include "scene/scene.h"
+
+#ifdef ADDED_PROBE_KIND
+static_assert(echocine::layoutOf(echocine::ProbeKind::microconvex).curved_face);
+#endif
+#ifdef ADDED_EFFECT
+static_assert(echocine::kEffectSwitches[0].effect == echocine::Effect::edge_boost);
+#endif
+#ifdef ADDED_INTERPOLATION_KIND
+static_assert(echocine::NamesOf<echocine::Interpolation>::kAll[5].value ==
+              echocine::Interpolation::cosine);
+#endif
