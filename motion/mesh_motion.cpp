@@ -16,7 +16,7 @@
 #include "motion/near_plane.h"
 #include "motion/subdivision/limit_normals.h"
 #include "motion/subdivision/shared_subdivision.h"
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 #include "scene/elevation_slices.h"
 #include "scene/role.h"
 

@@ -5,19 +5,19 @@
 #include <exception>
 
 #include "compare/compare.h"
-#include "compare/discrepancy.h"
+#include "compare/frame_discrepancy.h"
 #include "core/parallel.h"
+#include "frame/simulator.h"
 #include "scene/scene_reader.h"
-#include "simulate/simulator.h"
 
 using namespace echocine;
 
 int main(int argc, char** argv) try {
   if (argc != 3) return 2;
   withThreads(0, [&] {
-    const compare::Loop real = compare::readLoop(argv[1], {}, true);  // once
+    const echo::EchoLoop real = echo::readLoop(argv[1], {}, true);  // once
     const Scene scene = readScene(argv[2]);
-    const compare::Discrepancy discrepancy(real, scene.probe);  // once: the loop on the probe's lines
+    const compare::FrameDiscrepancy discrepancy(real, scene.probe);  // once: the loop on the probe's lines
     const Simulator simulator(scene);                           // the model, again when it changes
     const Frame frame = simulator.frame(0);                     // end-diastole
     std::printf("%.4f\n", discrepancy(0, frame.greys));        // against real frame 0

@@ -36,9 +36,8 @@ AccuracyChoice choose(const Scene& scene, double tolerance_db, int threads, bool
 }  // namespace
 
 void AccuracyOptions::addTo(CLI::App& command) {
-  command.add_option(
-      "--preset", preset_,
-      fmt::format("Set the knobs of `echocine study` together: {}", fmt::join(kPresetNames, ", ")));
+  command.add_option("--preset", preset_, "Set the knobs of `echocine study` together")
+      ->type_name(fmt::format("{{{}}}", fmt::join(kPresetNames, ",")));
   command
       .add_option("--tolerance-db", tolerance_db_,
                   "Set them as cheaply as the picture stays within this RMS error of the "

@@ -11,11 +11,11 @@
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
 #include "cli/view_list.h"
-#include "compare/fit_where.h"
 #include "compare/results.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "fit/fit_report.h"
 #include "video/video.h"
 
 namespace echocine {
@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kMostFrame = 1e6;
 
-void addSide(CLI::App& command, compare::SideOptions& side, const std::string& prefix,
+void addSide(CLI::App& command, echo::SideOptions& side, const std::string& prefix,
              const char* which) {
   const auto help = [&](const char* what) { return fmt::format("{} loop: {}", which, what); };
   command
@@ -54,7 +54,7 @@ void addSide(CLI::App& command, compare::SideOptions& side, const std::string& p
       ->type_name("NUMBER");
 }
 
-void addTimes(CLI::App& command, compare::SideOptions& side, const std::string& prefix,
+void addTimes(CLI::App& command, echo::SideOptions& side, const std::string& prefix,
               const char* which) {
   const auto help = [&](const char* what) { return fmt::format("{} loop: {}", which, what); };
   command.add_option("--" + prefix + "-ed", side.ed_frame, help("frame of end-diastole, from 0"))
@@ -121,8 +121,8 @@ CompareCommand::CompareCommand(CLI::App& app) {
           "--tilt", options_.tilt_deg,
           fmt::format("Tilt and rotate the plane of --scene, or of the hearts of --scan or "
                       "--views, to where it fits best: degrees either way, 0 to {:g}",
-                      compare::kMostTilt_deg))
-      ->check(within(0, compare::kMostTilt_deg))
+                      fit::kMostTilt_deg))
+      ->check(within(0, fit::kMostTilt_deg))
       ->type_name("NUMBER")
       ->capture_default_str();
   command->add_flag("--contours", options_.contours, "Draw the scene's contours into the pictures");
@@ -137,9 +137,10 @@ CompareCommand::CompareCommand(CLI::App& app) {
   command->add_option("--dials", dials_text_,
                       "Dials of that heart that stay, such as hr=72,wall-thickness=11");
   command->add_option("--view", view_text_, "View of that heart, as `echocine heart` has them")
+      ->type_name(viewChoice())
       ->capture_default_str();
   command->add_flag("--yes", scan_.yes,
-                    fmt::format("Scan also at more than {} places", compare::kMostUnasked));
+                    fmt::format("Scan also at more than {} places", fit::kMostUnasked));
   command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--quiet", quiet_, "Print nothing but errors");
@@ -196,27 +197,26 @@ int CompareCommand::runScan() {
     throw SceneError(
         fmt::format("--view: \"{}\" is not a view, accepted: {}", view_text_, viewList()));
   scan_.view = *view;
-  scan_.axes = compare::parseScan(scan_text_);
-  scan_.dials = compare::parseDials(dials_text_);
+  scan_.axes = fit::parseScan(scan_text_);
+  scan_.dials = fit::parseDials(dials_text_);
   scan_.real = options_.synthetic;
   scan_.side = options_.real_side;
   scan_.side.read_ecg = !no_ecg_;
   scan_.tilt_deg = options_.tilt_deg;
-  return runAndTell([&](const auto& monitor) { return scanDials(scan_, monitor); },
-                    compare::writeScan);
+  return runAndTell([&](const auto& monitor) { return scanDials(scan_, monitor); }, fit::writeScan);
 }
 
 int CompareCommand::runViews() {
   needOneLoop("--views");
-  compare::ViewsOptions options;
-  options.views = compare::parseViews(views_text_);
-  options.dials = compare::parseDials(dials_text_);
+  fit::ViewsOptions options;
+  options.views = fit::parseViews(views_text_);
+  options.dials = fit::parseDials(dials_text_);
   options.real = options_.synthetic;
   options.side = options_.real_side;
   options.side.read_ecg = !no_ecg_;
   options.tilt_deg = options_.tilt_deg;
   return runAndTell([&](const auto& monitor) { return rankViews(options, monitor); },
-                    compare::writeViews);
+                    fit::writeViews);
 }
 
 }  // namespace echocine

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "compare/compare.h"
-#include "compare/dial_scan.h"
-#include "compare/view_ranking.h"
+#include "fit/dial_scan.h"
+#include "fit/view_ranking.h"
 
 namespace CLI {
 class App;
@@ -30,7 +30,7 @@ class CompareCommand {
   void needOneLoop(const char* option) const;
 
   compare::CompareOptions options_;
-  compare::ScanOptions scan_;
+  fit::ScanOptions scan_;
   std::string scan_text_, views_text_, dials_text_, view_text_ = "a4c";
   std::filesystem::path folder_;
   int threads_ = 0;

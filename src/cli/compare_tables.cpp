@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <string>
 
-#include "compare/fit_where.h"
 #include "core/units.h"
+#include "fit/fit_report.h"
 
 namespace echocine {
 
 namespace {
 
-void printTilt(const compare::TiltFound& t) {
+void printTilt(const fit::TiltFound& t) {
   const auto degrees = [](double rad) { return rad / radiansFromDegrees(1); };
   fmt::print(
       "  tilt: {:.1f} deg, confidence {:.2f}; rotation {:.1f} deg, confidence {:.2f}; the model's "
@@ -21,7 +21,7 @@ void printTilt(const compare::TiltFound& t) {
       t.found.discrepancy, t.untilted, t.planes, 1e-3 * t.cpu_ms);
 }
 
-void printBeat(const compare::Loop& real) {
+void printBeat(const echo::EchoLoop& real) {
   fmt::print("  beat: {}", real.beat_anchor);
   if (real.ecg)
     fmt::print(", {}, {} R waves, {:.2f} px a frame, confidence {:.2f}", real.ecg->kind,
@@ -68,8 +68,8 @@ void printTable(const compare::Comparison& c, const std::filesystem::path& folde
       folder.string());
 }
 
-void printTable(const compare::DialScan& scan, const std::filesystem::path& folder) {
-  const compare::ScanPoint& best = scan.points[scan.best];
+void printTable(const fit::DialScan& scan, const std::filesystem::path& folder) {
+  const fit::ScanPoint& best = scan.points[scan.best];
   std::string where, between;
   for (std::size_t a = 0; a < best.values.size(); ++a) {
     const std::string& key = scan.options.axes[a].range.key;
@@ -77,12 +77,12 @@ void printTable(const compare::DialScan& scan, const std::filesystem::path& fold
     if (!scan.minimum.empty())
       between += fmt::format("{}{} {:.4g}", a > 0 ? ", " : "", key, scan.minimum[a]);
   }
-  const compare::FitTerms& t = best.found.terms;
+  const fit::FitTerms& t = best.found.terms;
   fmt::print("discrepancy {:.4f} at {}{}\n", best.found.discrepancy, where,
              between.empty() ? "" : "; between the steps least at " + between);
   fmt::print("  region {:.3f}, boundary {:.3f}, motion {:.3f}, {:.0f} % in sight\n", t.region,
              t.boundary, t.motion, 100 * t.in_sight);
-  const compare::FitPose& p = best.found.pose;
+  const fit::FitPose& p = best.found.pose;
   fmt::print("  pose: shift {:.1f}, {:.1f} mm, turn {:.1f} deg, scale {:.3f}, confidence {:.2f}\n",
              1e3 * p.shift_x_m, 1e3 * p.shift_z_m, p.turn_rad / radiansFromDegrees(1), p.scale,
              scan.centre.confidence);
@@ -93,17 +93,17 @@ void printTable(const compare::DialScan& scan, const std::filesystem::path& fold
   fmt::print("  {}: scan.csv, scan.json, scan.html\n", folder.string());
 }
 
-void printTable(const compare::ViewRanking& ranking, const std::filesystem::path& folder) {
-  const compare::ViewFound& best = ranking.views.front();
+void printTable(const fit::ViewRanking& ranking, const std::filesystem::path& folder) {
+  const fit::ViewFound& best = ranking.views.front();
   fmt::print("view {}, margin {:.4f} before {}, confidence {:.2f}\n", keyOf(best.view),
              ranking.margin, keyOf(ranking.views[1].view), ranking.confidence);
   std::string head = fmt::format("  {:<10}", "");
   for (const char* name : {"V", "claimed", "D", "region", "boundary", "motion", "in sight"})
     head += fmt::format("{:>9}", name);
-  for (const compare::ScanAxis& d : ranking.population) head += fmt::format("{:>7}", d.range.key);
+  for (const fit::ScanAxis& d : ranking.population) head += fmt::format("{:>7}", d.range.key);
   fmt::print("{}  pose: mm, deg\n", head);
-  for (const compare::ViewFound& v : ranking.views) {
-    const compare::PoseFound& f = v.heart.found;
+  for (const fit::ViewFound& v : ranking.views) {
+    const fit::PoseFound& f = v.heart.found;
     std::string line = fmt::format("  {:<10}", keyOf(v.view));
     for (const double value : {v.heart.left, v.heart.claimed, f.discrepancy, f.terms.region,
                                f.terms.boundary, f.terms.motion, f.terms.in_sight})

@@ -15,6 +15,12 @@ namespace echocine {
 
 namespace {
 
+std::vector<std::string> lookNames() {
+  std::vector<std::string> names;
+  for (const Named<Look>& look : NamesOf<Look>::kAll) names.emplace_back(look.name);
+  return names;
+}
+
 // "N:AMPLITUDE" or "N:AMPLITUDE:DELAY_MS".
 void applySegment(const std::string& text, heart::Parameters& parameters) {
   const auto refuse = [&] {
@@ -51,7 +57,8 @@ HeartCommand::HeartCommand(CLI::App& app) {
   command
       ->add_option("-o,--output", folder_, "New folder for the meshes, scene.toml and truth.json")
       ->required();
-  command->add_option("--view", view_, "Where the probe is held: " + viewList())
+  command->add_option("--view", view_, "Where the probe is held")
+      ->type_name(viewChoice())
       ->capture_default_str();
   const heart::Parameters defaults;
   // One option per dial, with unit, range and default from the heart's own table.
@@ -81,7 +88,7 @@ HeartCommand::HeartCommand(CLI::App& app) {
       ->add_option("--look", look_,
                    "How the scene's pictures look: paper (the paper's, without speckle), clean "
                    "(speckle and a grey map), scanner (with its artefacts too)")
-      ->check(CLI::IsMember({"paper", "clean", "scanner"}))
+      ->check(CLI::IsMember(lookNames()))
       ->capture_default_str();
   command->add_option("--keyframes", wanted_.keyframes, "Keyframes a beat")
       ->check(CLI::Range(4, 100))

@@ -9,11 +9,11 @@
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
 #include "core/error.h"
+#include "frame/plan_loop.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/probe_placement.h"
 #include "scene/scene_reader.h"
 #include "scene/truth_reader.h"
-#include "simulate/plan_loop.h"
 
 namespace echocine {
 

@@ -6,11 +6,15 @@
 
 namespace echocine {
 
-std::string viewList() {
+std::string viewList(const char* between) {
   std::string list;
   for (const heart::ViewName& name : heart::viewNames())
-    list += fmt::format("{}{}", list.empty() ? "" : ", ", name.key);
+    list += fmt::format("{}{}", list.empty() ? "" : between, name.key);
   return list;
+}
+
+std::string viewChoice() {
+  return fmt::format("{{{}}}", viewList(","));
 }
 
 }  // namespace echocine

@@ -8,7 +8,7 @@
 
 #include "cli/one_line.h"
 #include "cli/standard_error.h"
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 
 namespace echocine {
 

@@ -15,15 +15,15 @@ namespace echocine::compare {
 struct BoundaryBands::State {
   Scene scene;
   MeshMotion motion;
-  BeamGrid grid;
+  echo::BeamGrid grid;
   double half_width_m;
 
-  State(const std::filesystem::path& file, const BeamGrid& g, double width_m)
+  State(const std::filesystem::path& file, const echo::BeamGrid& g, double width_m)
       : scene(placed(readScene(file))), motion(scene), grid(g), half_width_m(width_m / 2) {}
 };
 
-BoundaryBands::BoundaryBands(const std::filesystem::path& scene, const Loop& synthetic,
-                             const BeamGrid& grid, double width_m) {
+BoundaryBands::BoundaryBands(const std::filesystem::path& scene, const echo::EchoLoop& synthetic,
+                             const echo::BeamGrid& grid, double width_m) {
   // Contours are cut anew from the scene, so the loop must be one that was rendered.
   if (synthetic.scene_sha256.empty())
     throw SceneError(
@@ -68,7 +68,7 @@ double distanceToEdge(double x, double z, Vec3d a, Vec3d b) {
 }
 
 // Marks the samples nearer to an edge than the half width. Only those in its box are looked at.
-void markEdge(const BeamGrid& g, Vec3d a, Vec3d b, double half, std::vector<char>& near) {
+void markEdge(const echo::BeamGrid& g, Vec3d a, Vec3d b, double half, std::vector<char>& near) {
   const double reach_a = std::hypot(a.x, a.z), reach_b = std::hypot(b.x, b.z),
                edge = std::hypot(b.x - a.x, b.z - a.z);
   const double r_lo = std::max(1e-6, std::min(reach_a, reach_b) - edge - half),

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/beam_grid.h"
+#include "echo/beam_grid.h"
 #include "truth/contour.h"
 
 namespace echocine::compare {
@@ -16,8 +16,8 @@ class BoundaryBands {
  public:
   // The scene that `synthetic` was rendered from; its contours are cut anew, exactly, for any
   // phase. Throws SceneError: not its scene, or the loop is no render folder.
-  BoundaryBands(const std::filesystem::path& scene, const Loop& synthetic, const BeamGrid& grid,
-                double width_m);
+  BoundaryBands(const std::filesystem::path& scene, const echo::EchoLoop& synthetic,
+                const echo::BeamGrid& grid, double width_m);
   ~BoundaryBands();
   BoundaryBands(BoundaryBands&&) noexcept;
 

@@ -9,11 +9,11 @@
 #include <cmath>
 
 #include "compare/boundary_bands.h"
-#include "compare/fit_where.h"
 #include "compare/registration.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/shown_path.h"
+#include "fit/fit_report.h"
 
 namespace echocine::compare {
 
@@ -100,7 +100,7 @@ constexpr double kDoubtfulConfidence = 0.1;
 
 void noteAssumptions(Comparison& c) {
   const auto say = [&](const std::string& note) { c.notes.push_back(note); };
-  for (const Loop* loop : {&c.synthetic, &c.real})
+  for (const echo::EchoLoop* loop : {&c.synthetic, &c.real})
     for (const std::string& note : loop->video.notes)
       say(shownName(loop->video.name) + ": " + note);
   if (!c.grid.metric)
@@ -109,7 +109,7 @@ void noteAssumptions(Comparison& c) {
         "taken to be of "
         "one depth",
         shownName(c.real.metres_per_pixel ? c.synthetic.video.name : c.real.video.name)));
-  for (const BeatLength* beat : {&c.synthetic_beat, &c.real_beat})
+  for (const echo::BeatLength* beat : {&c.synthetic_beat, &c.real_beat})
     if (beat->frames == 0)
       say(fmt::format(
           "{}: no beat found in the loop; frames are paired by the best shift and pace",
@@ -132,8 +132,8 @@ void noteAssumptions(Comparison& c) {
 void holdScene(const Scene& scene, const CompareOptions& options, const Monitor& monitor,
                Comparison& c) {
   try {
-    c.scene_fit = std::make_shared<const SceneFit>(
-        fitScene(scene, c.real, options.real_side, options.tilt_deg, monitor));
+    c.scene_fit = std::make_shared<const fit::SceneFit>(
+        fit::fitScene(scene, c.real, options.real_side, options.tilt_deg, monitor));
   } catch (const SceneError& error) {
     c.notes.push_back(fmt::format("where the scene disagrees is not shown: {}", error.what()));
   }
@@ -142,16 +142,16 @@ void holdScene(const Scene& scene, const CompareOptions& options, const Monitor&
 }  // namespace
 
 Comparison compareLoops(const CompareOptions& options, const Monitor& monitor) {
-  checkTilt(options.tilt_deg);
+  fit::checkTilt(options.tilt_deg);
   if (options.tilt_deg > 0 && options.scene.empty())
     throw SceneError(
         "--tilt: needs --scene, the scene that the synthetic loop was rendered from: another plane "
         "is cut from its meshes");
   Steps steps(monitor);
   Comparison c;
-  c.synthetic = readLoop(options.synthetic, options.synthetic_side, false);
+  c.synthetic = echo::readLoop(options.synthetic, options.synthetic_side, false);
   steps.next();
-  c.real = readLoop(options.real, options.real_side, true);
+  c.real = echo::readLoop(options.real, options.real_side, true);
   steps.next();
   std::optional<BoundaryBands> bands;
   registerLoops(options, c);

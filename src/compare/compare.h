@@ -7,29 +7,24 @@
 #include <string>
 #include <vector>
 
-#include "compare/beat_length.h"
 #include "compare/calibration.h"
-#include "compare/loop.h"
 #include "compare/space_alignment.h"
 #include "compare/time_alignment.h"
 #include "core/monitor.h"
+#include "echo/beat_length.h"
+#include "echo/read_loop.h"
 #include "metrics/frame_metrics.h"
 #include "signal/picture.h"
 
-namespace echocine::compare {
+namespace echocine::fit {
+struct SceneFit;  // fit_report.h
+}
 
-// What a user may know better than the files. Frames count from 0.
-struct SideOptions {
-  std::optional<double> fps, mm_per_pixel, pixel_aspect, heart_rate_bpm;  // aspect: height / width
-  std::optional<std::string> sector;
-  std::optional<double> ed_frame, es_frame;  // may lie between two
-  std::vector<double> r_waves_s;             // from the first frame
-  bool read_ecg = true;                      // of the picture, where no R wave is known otherwise
-};
+namespace echocine::compare {
 
 struct CompareOptions {
   std::filesystem::path synthetic, real;
-  SideOptions synthetic_side, real_side;
+  echo::SideOptions synthetic_side, real_side;
   bool align_space = true;
   bool monotone = false;
   int knot_count = 8;
@@ -59,12 +54,10 @@ struct FrameResult {
   bool counted() const { return synthetic_place >= 0 && !repeat; }
 };
 
-struct SceneFit;  // fit_where.h
-
 struct Comparison {
-  Loop synthetic, real;
-  BeatLength synthetic_beat, real_beat;
-  BeamGrid grid;
+  echo::EchoLoop synthetic, real;
+  echo::BeatLength synthetic_beat, real_beat;
+  echo::BeamGrid grid;
   TimeAlignment time;
   SpaceAlignment space;
   GreyCurve curve;
@@ -76,17 +69,15 @@ struct Comparison {
   double discrepancy_as_placed = 0;  // before anything but the sectors was registered
   std::vector<std::string> notes;    // everything that was overridden, assumed or left out
 
-  std::shared_ptr<const SceneFit> scene_fit;  // with CompareOptions::scene, where it can be held
+  std::shared_ptr<const fit::SceneFit>
+      scene_fit;  // with CompareOptions::scene, where it can be held
 
-  BeamLoop synthetic_beams, real_beams;  // on the common grid, registered
-  std::vector<float> weights;            // of its samples
+  echo::BeamLoop synthetic_beams, real_beams;  // on the common grid, registered
+  std::vector<float> weights;                  // of its samples
 };
 
 // Throws SceneError (unusable input or option) and JobError, also when the monitor, which is asked
 // between stages, wants to stop.
 Comparison compareLoops(const CompareOptions& options, const Monitor& monitor = {});
-
-// A loop with its sector, scale and rate, from a render folder or any video.
-Loop readLoop(const std::filesystem::path& path, const SideOptions& side, bool is_real);
 
 }  // namespace echocine::compare

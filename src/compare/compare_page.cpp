@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "compare/fit_where.h"
 #include "compare/results.h"
 #include "core/shown_path.h"
+#include "fit/fit_report.h"
 
 namespace echocine::compare {
 
@@ -41,7 +41,7 @@ Json framesJson(const Comparison& c, const ComparePage& page) {
 }
 
 PageLook lookOf(const Comparison& c) {
-  return fitPageLook(
+  return fit::fitPageLook(
       "EchoCine: " + shownName(c.synthetic.video.name) + " against " + shownName(c.real.video.name),
       "compare");
 }
@@ -52,7 +52,7 @@ ComparePage::ComparePage(const std::filesystem::path& path, const Comparison& co
     : c_(comparison),
       stride_(pageStride(static_cast<int>(comparison.frames.size()))),
       writer_(path, lookOf(comparison)) {
-  if (c_.scene_fit) addFitPictures(c_.scene_fit->where, writer_);
+  if (c_.scene_fit) fit::addFitPictures(c_.scene_fit->where, writer_);
 }
 
 void ComparePage::addFrame(Panel panel, std::span<const std::byte> image) {
@@ -68,7 +68,7 @@ void ComparePage::finish(const Json& summary, std::span<const std::byte> sector_
                   {"metrics", metrics},
                   {"stride", stride_},
                   {"frames", framesJson(c_, *this)},
-                  {"fit", c_.scene_fit ? fitJson(c_.scene_fit->where) : Json()},
+                  {"fit", c_.scene_fit ? fit::fitJson(c_.scene_fit->where) : Json()},
                   {"sector_real", dataUri(sector_real)},
                   {"sector_synthetic", dataUri(sector_synthetic)}});
 }

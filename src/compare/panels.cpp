@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "compare/boundary_bands.h"
-#include "compare/frame_blend.h"
+#include "echo/frame_blend.h"
 
 namespace echocine::compare {
 
@@ -30,7 +30,7 @@ void drawLine(GreyImage& image, double x0, double y0, double x1, double y1, std:
 }  // namespace
 
 PanelMaker::PanelMaker(const Comparison& comparison, int height_px) : c_(comparison) {
-  const BeamGrid& g = c_.grid;
+  const echo::BeamGrid& g = c_.grid;
   // The sector's box: its corners, and its lowest point where it looks straight down.
   const double x_lo = std::min({g.far * std::sin(g.first_rad), g.near * std::sin(g.first_rad)}),
                x_hi = std::max({g.far * std::sin(g.last_rad), g.near * std::sin(g.last_rad)});
@@ -59,14 +59,14 @@ PanelMaker::PanelMaker(const Comparison& comparison, int height_px) : c_(compari
 
 GreyImage PanelMaker::picture(Panel panel, int real_frame) const {
   const auto frame = static_cast<std::size_t>(real_frame);
-  const BeamGrid& g = c_.grid;
+  const echo::BeamGrid& g = c_.grid;
   const bool paired = c_.frames[frame].synthetic_place >= 0;
   std::vector<float> grey;
   if (panel == Panel::real) {
     grey = c_.real_beams.frames[frame];
   } else if (paired) {
-    grey = frameAtPlace(c_.synthetic_beams.frames, c_.frames[frame].synthetic_place,
-                        c_.synthetic_beat.frames, c_.time.periodic);
+    grey = echo::frameAtPlace(c_.synthetic_beams.frames, c_.frames[frame].synthetic_place,
+                              c_.synthetic_beat.frames, c_.time.periodic);
     c_.curve.apply(grey, grey);
     if (panel == Panel::difference)
       for (std::size_t i = 0; i < grey.size(); ++i)
@@ -81,8 +81,8 @@ GreyImage PanelMaker::picture(Panel panel, int real_frame) const {
   // Beam space is a picture of its own: x the sample, y the line.
   for (const Pixel& p : pixels_)
     image.pixels[static_cast<std::size_t>(p.at)] = static_cast<std::uint8_t>(std::clamp(
-        std::lround(greyAt(grey.data(), g.samples, g.lines, p.sample + 0.5, p.line + 0.5)), 0L,
-        255L));
+        std::lround(echo::greyAt(grey.data(), g.samples, g.lines, p.sample + 0.5, p.line + 0.5)),
+        0L, 255L));
   if (bands_ != nullptr && panel != Panel::difference && paired) addContours(real_frame, image);
   return image;
 }
@@ -113,25 +113,25 @@ GreyImage PanelMaker::sideBySide(std::span<const GreyImage> pictures) {
   return all;
 }
 
-GreyImage sectorPicture(const Loop& loop) {
+GreyImage sectorPicture(const echo::EchoLoop& loop) {
   const Video& v = loop.video;
   GreyImage image{v.width, v.height, v.frames.front()};
   for (std::size_t p = 0; p < image.pixels.size(); ++p)
     // What is masked shows as an even grey, so that a user sees what is not compared.
     if (loop.overlay[p] != 0) image.pixels[p] = 160;
-  const Sector& s = loop.sector();
+  const echo::Sector& s = loop.sector();
   const auto at = [&](double r, double angle) {
-    return PicturePoint{s.apex_x + r * std::sin(angle), s.apex_y + r * std::cos(angle)};
+    return echo::PicturePoint{s.apex_x + r * std::sin(angle), s.apex_y + r * std::cos(angle)};
   };
   for (const double angle : {s.first_rad, s.last_rad}) {
-    const PicturePoint a = at(0, angle), b = at(s.r_max, angle);
+    const echo::PicturePoint a = at(0, angle), b = at(s.r_max, angle);
     drawLine(image, a.x, a.y, b.x, b.y, 255);
   }
   for (const double r : {s.r_min, s.r_max}) {
     const int steps =
         std::max(8, static_cast<int>(std::min(20000.0, 2 * r * (s.last_rad - s.first_rad))));
     for (int i = 0; i <= steps; ++i) {
-      const PicturePoint p = at(r, s.first_rad + (s.last_rad - s.first_rad) * i / steps);
+      const echo::PicturePoint p = at(r, s.first_rad + (s.last_rad - s.first_rad) * i / steps);
       plot(image, p.x, p.y, 255);
     }
   }

@@ -44,6 +44,6 @@ class PanelMaker {
 };
 
 // A frame with the found (or given) sector drawn over it, and what is masked: the picture to check.
-GreyImage sectorPicture(const Loop& loop);
+GreyImage sectorPicture(const echo::EchoLoop& loop);
 
 }  // namespace echocine::compare

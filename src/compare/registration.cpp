@@ -4,64 +4,21 @@
 
 #include <algorithm>
 
-#include "compare/discrepancy.h"
-#include "compare/frame_blend.h"
-#include "compare/motion_features.h"
+#include "compare/frame_discrepancy.h"
 #include "compare/space_alignment.h"
 #include "compare/time_anchors.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "echo/frame_blend.h"
+#include "echo/motion_features.h"
 
 namespace echocine::compare {
 
 namespace {
 
-// 200 beats a minute at a rate that is known; otherwise an eighth of the loop.
-double shortestBeat(const Loop& loop) {
-  constexpr double kShortest_s = 0.3;
-  return loop.video.rate.trusted && loop.video.rate.hz > 0
-             ? kShortest_s * loop.video.rate.hz
-             : static_cast<double>(loop.video.frames.size()) / 8;
-}
-
-// What moves in a loop's own sector, whatever it is compared with. Features are coarse, so the grid
-// may be.
-Features ownFeatures(const Loop& loop) {
-  BeamGrid grid = commonGrid(loop, loop);
-  grid.lines = std::min(grid.lines, 128);
-  grid.samples = std::min(grid.samples, 192);
-  const BeamLoop beams = resample(grid, loop);
-  return motionFeatures(grid, beams, areaWeights(grid, beams.valid, beams.valid));
-}
-
-}  // namespace
-
-BeatLength beatOf(const Loop& loop) {
-  BeatLength beat = findBeatLength(ownFeatures(loop), shortestBeat(loop));
-  const auto known = [&](double frames, const std::string& source) {
-    beat.frames = frames;
-    beat.confidence = 1;
-    beat.source = source;
-  };
-  const Video& v = loop.video;
-  if (loop.frames_per_beat > 0)
-    known(loop.frames_per_beat, "manifest");
-  else if (v.r_waves_s.size() > 1 && v.rate.hz > 0)
-    known((v.r_waves_s.back() - v.r_waves_s.front()) / static_cast<double>(v.r_waves_s.size() - 1) *
-              v.rate.hz,
-          "R waves");
-  else if (loop.ecg && loop.ecg->beat_frames > 0 && v.heart_rate_source != "--heart-rate")
-    beat = {loop.ecg->beat_frames, loop.ecg->confidence, loop.beat_anchor, beat.dissimilarity};
-  else if (v.heart_rate_bpm && v.rate.trusted)
-    known(60 / *v.heart_rate_bpm * v.rate.hz, v.heart_rate_source);
-  return beat;
-}
-
-namespace {
-
 void pairInTime(const CompareOptions& options, Comparison& c) {
-  const Features synthetic = motionFeatures(c.grid, c.synthetic_beams, c.weights),
-                 real = motionFeatures(c.grid, c.real_beams, c.weights);
+  const echo::Features synthetic = echo::motionFeatures(c.grid, c.synthetic_beams, c.weights),
+                       real = echo::motionFeatures(c.grid, c.real_beams, c.weights);
   const FrameRate &s = c.synthetic.video.rate, &r = c.real.video.rate;
   const TimeProblem problem{synthetic,
                             real,
@@ -77,18 +34,18 @@ bool isCounted(const Comparison& c, std::size_t real) {
 }
 
 // Where the real loop lies now, and what of it is common.
-void place(const Placement& placement, Comparison& c) {
-  const PixelPlane as_given = validSamples(c.grid, c.real, {});
-  c.real_beams = resample(c.grid, c.real, placement);
-  c.weights = areaWeights(c.grid, c.synthetic_beams.valid, c.real_beams.valid);
-  c.share_in_sight = shareInSight(areaWeights(c.grid, c.synthetic_beams.valid, as_given), c.weights,
-                                  placement.scale);
+void place(const echo::Placement& placement, Comparison& c) {
+  const PixelPlane as_given = echo::validSamples(c.grid, c.real, {});
+  c.real_beams = echo::resample(c.grid, c.real, placement);
+  c.weights = echo::areaWeights(c.grid, c.synthetic_beams.valid, c.real_beams.valid);
+  c.share_in_sight = shareInSight(echo::areaWeights(c.grid, c.synthetic_beams.valid, as_given),
+                                  c.weights, placement.scale);
 }
 
 std::vector<float> pairedFrame(const Comparison& c, const std::vector<std::vector<float>>& frames,
                                std::size_t real) {
-  return frameAtPlace(frames, std::max(0.0, c.time.place[real]), c.synthetic_beat.frames,
-                      c.time.periodic);
+  return echo::frameAtPlace(frames, std::max(0.0, c.time.place[real]), c.synthetic_beat.frames,
+                            c.time.periodic);
 }
 
 // Both loops stand in memory, resampled. Our choice: 2 GB, some 1300 frames of each.
@@ -131,24 +88,24 @@ double meanCounted(const Comparison& c, const std::vector<double>& values) {
 }
 
 void registerLoops(const CompareOptions& options, Comparison& c) {
-  c.grid = commonGrid(c.synthetic, c.real);
+  c.grid = echo::commonGrid(c.synthetic, c.real);
   refuseTooLong(c);
-  c.synthetic_beams = resample(c.grid, c.synthetic);
+  c.synthetic_beams = echo::resample(c.grid, c.synthetic);
   place({}, c);
   if (std::count_if(c.weights.begin(), c.weights.end(), [](float w) { return w > 0; }) <
       static_cast<std::ptrdiff_t>(c.weights.size() / 10))
     throw SceneError(
         fmt::format("{} and {} share under a tenth of their sectors; give loops of the same view",
                     c.synthetic.video.name, c.real.video.name));
-  c.synthetic_beat = beatOf(c.synthetic);
-  c.real_beat = beatOf(c.real);
+  c.synthetic_beat = echo::beatOf(c.synthetic);
+  c.real_beat = echo::beatOf(c.real);
   pairInTime(options, c);
   c.discrepancy_as_placed = meanCounted(c, discrepancies(c));
   if (!options.align_space) return;
   // Which instants belong together depends on where the loops lie: each start has its own.
   const SpaceSearch search(c.grid, c.synthetic, c.real);
-  std::vector<Descent> refined;
-  for (const Unknowns& start : search.starts()) {
+  std::vector<fit::Descent> refined;
+  for (const fit::Unknowns& start : search.starts()) {
     place(search.placementAt(start), c);
     pairInTime(options, c);
     refined.push_back(search.refined(start, [&](const auto& frames, std::size_t real) {

@@ -15,9 +15,6 @@ void registerLoops(const CompareOptions& options, Comparison& c);
 // The synthetic loop at a real frame's instant; frames outside it are left as they are.
 std::vector<float> pairedFrame(const Comparison& c, std::size_t real);
 
-// The loop's beat by its file, its R waves, a heart rate, or its likeness to itself.
-BeatLength beatOf(const Loop& loop);
-
 // Eq. 2 of discrepancy.h frame by frame, as the loops lie now; 0 where the synthetic one shows no
 // such instant.
 std::vector<double> discrepancies(const Comparison& c);

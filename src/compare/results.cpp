@@ -7,12 +7,12 @@
 
 #include "compare/boundary_bands.h"
 #include "compare/compare_page.h"
-#include "compare/fit_where.h"
 #include "compare/panels.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/shown_path.h"
 #include "core/units.h"
+#include "fit/fit_report.h"
 #include "video/cine_writer.h"
 
 namespace echocine::compare {
@@ -27,7 +27,7 @@ Json numberOrNull(double value) {
 }
 
 // Where the trace lies in the picture, how fast it runs, and its R waves in frames.
-Json ecgJson(const EcgTrace& e, const FrameRate& rate) {
+Json ecgJson(const echo::EcgTrace& e, const FrameRate& rate) {
   return {{"kind", e.kind},
           {"box_px", {e.left, e.top, e.right, e.bottom}},
           {"px_per_frame", e.px_per_frame},
@@ -38,8 +38,8 @@ Json ecgJson(const EcgTrace& e, const FrameRate& rate) {
 
 // What was taken of each loop, and from where: a number whose source a reader cannot see is no
 // result.
-Json loopJson(const Loop& l, const BeatLength& beat) {
-  const Sector& s = l.sector();
+Json loopJson(const echo::EchoLoop& l, const echo::BeatLength& beat) {
+  const echo::Sector& s = l.sector();
   Json json{{"path", shownName(l.video.name)},
             {"format", l.video.format},
             {"grey_source", l.grey_source},
@@ -71,7 +71,7 @@ Json loopJson(const Loop& l, const BeatLength& beat) {
   return json;
 }
 
-Json placementJson(const Placement& p) {
+Json placementJson(const echo::Placement& p) {
   return {{"shift_px", {p.shift_x_px, p.shift_y_px}},
           {"scale", p.scale},
           {"rotation_deg", degreesFromRadians(p.rotation_rad)}};
@@ -104,13 +104,13 @@ Json timeJson(const TimeAlignment& t) {
 }
 
 // How the scene itself lies in the real loop, apart from its greys.
-Json sceneFitJson(const SceneFit& fit) {
-  Json json = foundJson(fit.found);
+Json sceneFitJson(const fit::SceneFit& fit) {
+  Json json = fit::foundJson(fit.found);
   json["confidence"] = fit.found.confidence;
-  json["beat"] = beatJson(fit.beat);
-  if (fit.tilt) json["tilt"] = tiltJson(fit);
-  json["curves"] = structureCurvesJson(fit.where);
-  json["segments"] = segmentCurvesJson(fit.where);
+  json["beat"] = fit::beatJson(fit.beat);
+  if (fit.tilt) json["tilt"] = fit::tiltJson(fit);
+  json["curves"] = fit::structureCurvesJson(fit.where);
+  json["segments"] = fit::segmentCurvesJson(fit.where);
   return json;
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "compare/descent.h"
-#include "compare/resample.h"
+#include "echo/resample.h"
+#include "fit/descent.h"
 
 namespace echocine::compare {
 
@@ -19,12 +19,12 @@ inline constexpr double kMostTurn_deg = 10;   // about the apex, each way
 inline constexpr double kMostScaling = 0.15;  // each way
 
 struct PlacementFound {
-  Placement placement;
+  echo::Placement placement;
   double unlike = 1;  // E of Eq. 7
 };
 
 struct SpaceAlignment {
-  Placement placement;                         // of beam space in the real picture
+  echo::Placement placement;                   // of beam space in the real picture
   std::string method = "sectors as they are";  // or "several starts, then Newton's method"
   bool used = false;                           // false: nothing else is better
   bool at_limit = false;                       // of what the search may do: the best may lie beyond
@@ -51,34 +51,35 @@ struct SpaceAlignment {
 class SpaceSearch {
  public:
   // References are kept.
-  SpaceSearch(const BeamGrid& grid, const Loop& synthetic, const Loop& real);
+  SpaceSearch(const echo::BeamGrid& grid, const echo::EchoLoop& synthetic,
+              const echo::EchoLoop& real);
 
   // Places in unknowns of this search. Runs in parallel.
-  std::vector<Unknowns> starts() const;
-  Placement placementAt(const Unknowns& at) const;
+  std::vector<fit::Unknowns> starts() const;
+  echo::Placement placementAt(const fit::Unknowns& at) const;
 
   // `synthetic_at`: the instant of the synthetic loop that a real frame shows, made of its frames
   // on a grid; nothing where it shows none.
   using Pairing =
       std::function<std::vector<float>(const std::vector<std::vector<float>>&, std::size_t real)>;
-  Descent refined(const Unknowns& start, const Pairing& synthetic_at) const;
+  fit::Descent refined(const fit::Unknowns& start, const Pairing& synthetic_at) const;
 
   // Of what was refined.
-  SpaceAlignment best(const std::vector<Descent>& refined) const;
+  SpaceAlignment best(const std::vector<fit::Descent>& refined) const;
 
  private:
   struct Pair {
     std::vector<float> synthetic;    // on the grid
     const std::vector<float>* real;  // a picture of the sampler
   };
-  double unlikeAt(const std::vector<Pair>& pairs, const Unknowns& at) const;
-  std::vector<float> weightsAt(const std::vector<PixelPlace>& in_loop) const;
-  SearchBox box() const;
+  double unlikeAt(const std::vector<Pair>& pairs, const fit::Unknowns& at) const;
+  std::vector<float> weightsAt(const std::vector<echo::PixelPlace>& in_loop) const;
+  fit::SearchBox box() const;
 
-  BeamGrid grid_;
-  const Loop& real_;
-  LoopSampler sampler_;
-  BeamLoop synthetic_;
+  echo::BeamGrid grid_;
+  const echo::EchoLoop& real_;
+  echo::LoopSampler sampler_;
+  echo::BeamLoop synthetic_;
   std::vector<float> inside_;  // the real picture: 1 where it shows echo
   std::vector<float> as_given_;
   std::vector<std::size_t> frames_;           // of the real loop, that are looked at

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "compare/motion_features.h"
+#include "echo/motion_features.h"
 
 namespace echocine::compare {
 
 struct TimeProblem {
-  const Features& synthetic;
-  const Features& real;
+  const echo::Features& synthetic;
+  const echo::Features& real;
   double synthetic_beat = 0, real_beat = 0;  // frames; 0: not known
   double nominal_rate = 1;   // synthetic frames per real frame when beats are not known
   std::vector<int> repeats;  // real frames that say nothing of their own

@@ -17,7 +17,7 @@ struct Cardinal {
 
 // Those of a render: the largest and smallest volume of the left ventricle's cavity, else of the
 // structure that empties most.
-Cardinal fromVolumes(const Loop& loop) {
+Cardinal fromVolumes(const echo::EchoLoop& loop) {
   const std::vector<double>* best = nullptr;
   double most = 0.05;
   for (const auto& [name, ml] : loop.volumes_ml) {
@@ -32,7 +32,7 @@ Cardinal fromVolumes(const Loop& loop) {
 }
 
 // The user's word goes before the volumes.
-Cardinal cardinalOf(const Loop& loop, const SideOptions& side) {
+Cardinal cardinalOf(const echo::EchoLoop& loop, const echo::SideOptions& side) {
   Cardinal c = fromVolumes(loop);
   if (side.ed_frame) c.ed = side.ed_frame;
   if (side.es_frame) c.es = side.es_frame;
@@ -66,7 +66,8 @@ std::vector<Anchor> byMarks(const Cardinal& s, const Cardinal& r, double beat,
 }
 
 // Empty where either side knows no R wave. Phase 0 of a render is its R wave.
-std::vector<Anchor> byRWaves(double synthetic_beat, const Loop& synthetic, const Loop& real) {
+std::vector<Anchor> byRWaves(double synthetic_beat, const echo::EchoLoop& synthetic,
+                             const echo::EchoLoop& real) {
   const std::vector<double> waves = real.rWaveFrames(), own = synthetic.rWaveFrames();
   std::vector<Anchor> anchors;
   if (waves.empty() || (synthetic.phases.empty() && own.empty()) || !(synthetic_beat > 0))
@@ -87,7 +88,7 @@ TimeAlignment alignBy(const char* method, const TimeProblem& problem, std::vecto
 }  // namespace
 
 TimeAlignment alignByWhatIsKnown(const CompareOptions& options, const TimeProblem& problem,
-                                 const Loop& synthetic, const Loop& real) {
+                                 const echo::EchoLoop& synthetic, const echo::EchoLoop& real) {
   // Frames of the synthetic side are checked even where they find no partner.
   const Cardinal s = cardinalOf(synthetic, options.synthetic_side);
   const Cardinal r{options.real_side.ed_frame, options.real_side.es_frame};

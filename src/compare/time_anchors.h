@@ -8,6 +8,6 @@ namespace echocine::compare {
 // By end-diastole and end-systole when the real side has them, else by R waves, else by what moves.
 // Throws SceneError for a frame that is not in its loop, and for one without a partner.
 TimeAlignment alignByWhatIsKnown(const CompareOptions& options, const TimeProblem& problem,
-                                 const Loop& synthetic, const Loop& real);
+                                 const echo::EchoLoop& synthetic, const echo::EchoLoop& real);
 
 }  // namespace echocine::compare

@@ -26,7 +26,7 @@ Correlations::Correlations(const TimeProblem& p) {
   for (const auto& r : p.real) real_.push_back(std::sqrt(product(r, r)));
 }
 
-double Correlations::of(const Blend& blend, std::size_t real) const {
+double Correlations::of(const echo::Blend& blend, std::size_t real) const {
   const double u = 1 - blend.share, v = blend.share;
   const double norm = u * u * own_[blend.a][blend.a] + 2 * u * v * own_[blend.a][blend.b] +
                       v * v * own_[blend.b][blend.b];
@@ -43,7 +43,7 @@ TimeSearch::TimeSearch(const TimeProblem& p)
 }
 
 double TimeSearch::at(double place, std::size_t j) const {
-  const Blend blend = blendAt(place, n_, p_.synthetic_beat, periodic_);
+  const echo::Blend blend = echo::blendAt(place, n_, p_.synthetic_beat, periodic_);
   return blend.inside ? correlations_.of(blend, j) : -1;
 }
 
@@ -53,8 +53,8 @@ double TimeSearch::straight(double shift, double rate) const {
   for (std::size_t j = 0; j < p_.real.size(); ++j) {
     if (!used_[j]) continue;
     ++wanted;
-    const Blend blend =
-        blendAt(shift + rate * static_cast<double>(j), n_, p_.synthetic_beat, periodic_);
+    const echo::Blend blend =
+        echo::blendAt(shift + rate * static_cast<double>(j), n_, p_.synthetic_beat, periodic_);
     if (!blend.inside) continue;
     sum += correlations_.of(blend, j);
     ++count;

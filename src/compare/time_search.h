@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "compare/frame_blend.h"
 #include "compare/time_alignment.h"
+#include "echo/frame_blend.h"
 
 namespace echocine::compare {
 
@@ -12,7 +12,7 @@ namespace echocine::compare {
 class Correlations {
  public:
   explicit Correlations(const TimeProblem& p);
-  double of(const Blend& blend, std::size_t real) const;  // -1..1
+  double of(const echo::Blend& blend, std::size_t real) const;  // -1..1
 
  private:
   std::vector<std::vector<double>> cross_, own_;  // [synthetic][real], [synthetic][synthetic]

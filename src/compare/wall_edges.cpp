@@ -9,7 +9,7 @@
 namespace echocine::compare {
 
 // Central differences, per hundredth of the depth, so that loops of any scale compare.
-EdgeField edgesOf(const BeamGrid& lattice, std::span<const float> smooth,
+EdgeField edgesOf(const echo::BeamGrid& lattice, std::span<const float> smooth,
                   std::span<const float> weights, double depth) {
   EdgeField out;
   out.along.assign(lattice.size(), 0);
@@ -52,7 +52,7 @@ double edgeCorrelation(const EdgeField& x, const EdgeField& y) {
   return std::clamp(xy / std::sqrt(xx * yy), -1.0, 1.0);
 }
 
-WallEdges::WallEdges(const BeamGrid& g, std::span<const float> weights)
+WallEdges::WallEdges(const echo::BeamGrid& g, std::span<const float> weights)
     : grid_(g), lattice_(g), depth_(g.far), weights_(weights.begin(), weights.end()) {
   // Smoothed by sigma, greys are the same within sigma / 2: the lattice is as coarse as that
   // allows, and a call as quick.

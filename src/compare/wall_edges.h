@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "compare/beam_grid.h"
+#include "echo/beam_grid.h"
 
 namespace echocine::compare {
 
@@ -20,7 +20,7 @@ struct EdgeField {
 
 // Central differences of `smooth` (line-major on the lattice), with the least weight of a place and
 // its neighbours each way. `depth`: what a hundredth is of.
-EdgeField edgesOf(const BeamGrid& lattice, std::span<const float> smooth,
+EdgeField edgesOf(const echo::BeamGrid& lattice, std::span<const float> smooth,
                   std::span<const float> weights, double depth);
 
 // (1)  G = sum w g_x . g_y / sqrt(sum w |g_x|^2 sum w |g_y|^2)   over samples that weigh in both,
@@ -34,16 +34,16 @@ double edgeCorrelation(const EdgeField& x, const EdgeField& y);
 // the depth and widens in proportion, as beams do.
 class WallEdges {
  public:
-  WallEdges(const BeamGrid& grid, std::span<const float> weights);
+  WallEdges(const echo::BeamGrid& grid, std::span<const float> weights);
 
-  const BeamGrid& lattice() const { return lattice_; }  // of the block centres
+  const echo::BeamGrid& lattice() const { return lattice_; }  // of the block centres
   double depth() const { return depth_; }
   EdgeField operator()(std::span<const float> frame) const;
 
  private:
   void smooth(std::vector<float>& values) const;
 
-  BeamGrid grid_, lattice_;
+  echo::BeamGrid grid_, lattice_;
   double depth_ = 1;
   int line_block_ = 1, sample_block_ = 1, first_line_ = 0, first_sample_ = 0;
   double along_ = 1, across_ = 1;             // standard deviations in blocks

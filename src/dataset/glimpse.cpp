@@ -5,8 +5,8 @@
 #include "core/units.h"
 #include "dataset/aim.h"
 #include "dataset/attempts.h"
+#include "frame/simulator.h"
 #include "motion/heart/heart_scene.h"
-#include "simulate/simulator.h"
 
 namespace echocine::dataset {
 

@@ -15,11 +15,11 @@
 #include "dataset/attempts.h"
 #include "dataset/cavity_marks.h"
 #include "dataset/tracing.h"
+#include "frame/simulator.h"
 #include "motion/cycle/ecg.h"
 #include "motion/heart/heart_scene.h"
 #include "output/truth_files.h"
 #include "scene/view_names.h"
-#include "simulate/simulator.h"
 
 namespace echocine::dataset {
 

@@ -5,9 +5,9 @@
 
 #include "core/error.h"
 #include "core/monitor.h"
+#include "frame/simulator.h"
 #include "motion/heart/heart_scene.h"
 #include "render/render.h"
 #include "scene/names.h"
 #include "scene/scene.h"
 #include "scene/scene_reader.h"
-#include "simulate/simulator.h"

@@ -12,9 +12,9 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "core/usable.h"
 #include "output/exr_attribute.h"
 #include "output/exr_header.h"
-#include "output/polar_plane.h"
 
 namespace echocine {
 

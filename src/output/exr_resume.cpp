@@ -14,11 +14,11 @@
 #include <string_view>
 
 #include "core/hash.h"
+#include "core/usable.h"
 #include "output/exr_attribute.h"
 #include "output/exr_digest.h"
 #include "output/exr_header.h"
 #include "output/exr_stack.h"
-#include "output/polar_plane.h"
 
 namespace echocine {
 namespace {

@@ -19,6 +19,7 @@
 #include "core/check.h"
 #include "core/file.h"
 #include "core/hash.h"
+#include "core/usable.h"
 #include "output/exr_digest.h"
 #include "output/half_plane.h"
 #include "output/polar_plane.h"

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "output/frame_record.h"
+#include "scene/scene.h"
+#include "trace/channel_plane.h"
 
 namespace echocine {
 

@@ -13,7 +13,7 @@
 #include "motion/volumes.h"
 #include "output/accuracy_record.h"
 #include "output/frame_record.h"
-#include "scene/loop_plan.h"
+#include "plan/loop_plan.h"
 
 namespace echocine {
 

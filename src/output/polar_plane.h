@@ -1,15 +1,10 @@
 #pragma once
-// What every plane of a polar frame goes through on its way into a file.
+// From lines to rows, as a file has them.
 
 #include <cstdint>
-#include <optional>
 #include <span>
 
 namespace echocine {
-
-// Position of the first value that no intensity, attenuation or grey can have: negative, infinite
-// or not a number. A negative zero passes.
-std::optional<std::size_t> firstUnusable(std::span<const float> values);
 
 // Turns a line-major plane into rows of equal depth: out[sample * lines + line], bit patterns kept.
 // Precondition: in and out hold lines * samples values.

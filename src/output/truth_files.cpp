@@ -52,12 +52,6 @@ std::span<const std::byte> bytesOf(const std::string& text) {
 
 }  // namespace
 
-PictureGrid pictureGrid(const Scene& scene) {
-  const PictureGeometry g = pictureGeometry(scene);
-  return {scene.output.width, scene.output.height, g.origin_x_px, g.origin_y_px,
-          g.metres_per_pixel};
-}
-
 TruthFiles::TruthFiles(std::filesystem::path folder, const Scene& scene, const LabelTable& labels)
     : folder_(std::move(folder)),
       scene_(scene),

@@ -14,9 +14,6 @@
 
 namespace echocine {
 
-// The picture's pixels as truth has them.
-PictureGrid pictureGrid(const Scene& scene);
-
 // What was written for a frame.
 struct TruthFrameFiles {
   std::map<std::string, std::string> sha256;  // by name, relative to the run's folder

@@ -8,18 +8,18 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/compare.h"
-#include "compare/discrepancy.h"
-#include "compare/fit_where.h"
+#include "compare/frame_discrepancy.h"
 #include "compare/results.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "fit/fit_report.h"
 #include "motion/probe_placement.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/fork_guard.h"
 #include "python/job.h"
-#include "python/unlocked.h"
 #include "python/scene.h"
+#include "python/unlocked.h"
 
 namespace echocine::python {
 
@@ -28,36 +28,48 @@ namespace {
 using Path = std::filesystem::path;
 
 // As the command's options have them; None leaves one out.
-compare::SideOptions sideOf(const py::dict& given, const char* argument) {
-  compare::SideOptions side;
+echo::SideOptions sideOf(const py::dict& given, const char* argument) {
+  echo::SideOptions side;
   for (const auto& [key, value] : given) {
     const auto name = py::str(key).cast<std::string>();
-    if (name == "fps") side.fps = value.cast<double>();
-    else if (name == "mm_per_pixel") side.mm_per_pixel = value.cast<double>();
-    else if (name == "pixel_aspect") side.pixel_aspect = value.cast<double>();
-    else if (name == "heart_rate_bpm") side.heart_rate_bpm = value.cast<double>();
-    else if (name == "sector") side.sector = value.cast<std::string>();
-    else if (name == "ed_frame") side.ed_frame = value.cast<double>();
-    else if (name == "es_frame") side.es_frame = value.cast<double>();
-    else if (name == "r_waves_s") side.r_waves_s = value.cast<std::vector<double>>();
-    else if (name == "read_ecg") side.read_ecg = value.cast<bool>();
+    if (name == "fps")
+      side.fps = value.cast<double>();
+    else if (name == "mm_per_pixel")
+      side.mm_per_pixel = value.cast<double>();
+    else if (name == "pixel_aspect")
+      side.pixel_aspect = value.cast<double>();
+    else if (name == "heart_rate_bpm")
+      side.heart_rate_bpm = value.cast<double>();
+    else if (name == "sector")
+      side.sector = value.cast<std::string>();
+    else if (name == "ed_frame")
+      side.ed_frame = value.cast<double>();
+    else if (name == "es_frame")
+      side.es_frame = value.cast<double>();
+    else if (name == "r_waves_s")
+      side.r_waves_s = value.cast<std::vector<double>>();
+    else if (name == "read_ecg")
+      side.read_ecg = value.cast<bool>();
     else
-      throw py::value_error(fmt::format("{}: \"{}\" is not known, accepted: fps, mm_per_pixel, pixel_aspect, "
-                                        "heart_rate_bpm, sector, ed_frame, es_frame, r_waves_s, read_ecg",
-                                        argument, name));
+      throw py::value_error(
+          fmt::format("{}: \"{}\" is not known, accepted: fps, mm_per_pixel, pixel_aspect, "
+                      "heart_rate_bpm, sector, ed_frame, es_frame, r_waves_s, read_ecg",
+                      argument, name));
   }
   return side;
 }
 
 double tiltOf(double tilt_deg) {
-  if (!(tilt_deg >= 0 && tilt_deg <= compare::kMostTilt_deg))
-    throw py::value_error(fmt::format("tilt_deg: is {:g}, accepted: 0 to {:g}", tilt_deg, compare::kMostTilt_deg));
+  if (!(tilt_deg >= 0 && tilt_deg <= fit::kMostTilt_deg))
+    throw py::value_error(
+        fmt::format("tilt_deg: is {:g}, accepted: 0 to {:g}", tilt_deg, fit::kMostTilt_deg));
   return tilt_deg;
 }
 
 py::tuple compareFiles(const Path& synthetic, const Path& real, const std::optional<Path>& folder,
                        const py::dict& real_side, const py::dict& synthetic_side, bool align_space,
-                       const std::optional<Path>& scene, double tilt_deg, int threads, const py::object& progress) {
+                       const std::optional<Path>& scene, double tilt_deg, int threads,
+                       const py::object& progress) {
   compare::CompareOptions options;
   options.synthetic = synthetic;
   options.real = real;
@@ -79,22 +91,26 @@ py::tuple compareFiles(const Path& synthetic, const Path& real, const std::optio
 }
 
 struct Distance {
-  Distance(const compare::Loop& real, const Probe& probe) : discrepancy(real, probe), lines(probe.lines), samples(probe.samples) {}
-  compare::Discrepancy discrepancy;
+  Distance(const echo::EchoLoop& real, const Probe& probe)
+      : discrepancy(real, probe), lines(probe.lines), samples(probe.samples) {}
+  compare::FrameDiscrepancy discrepancy;
   std::string tilt;  // JSON; empty without
   int lines, samples;
 };
 
-std::shared_ptr<Distance> makeDistance(const Path& real, const NativeScene& scene, const py::dict& side, double tilt_deg) {
-  const compare::SideOptions options = sideOf(side, "real");
+std::shared_ptr<Distance> makeDistance(const Path& real, const NativeScene& scene,
+                                       const py::dict& side, double tilt_deg) {
+  const echo::SideOptions options = sideOf(side, "real");
   const double most_deg = tiltOf(tilt_deg);
   std::shared_ptr<Distance> made;
   runJob(py::none(), [&](const Monitor& monitor) {
     withThreads(0, [&] {
-      const compare::Loop loop = compare::readLoop(real, options, true);
+      const echo::EchoLoop loop = echo::readLoop(real, options, true);
       made = std::make_shared<Distance>(loop, scene.scene.probe);
       if (most_deg > 0)
-        made->tilt = compare::tiltJson(compare::fitScene(placed(scene.scene), loop, options, most_deg, monitor)).dump();
+        made->tilt =
+            fit::tiltJson(fit::fitScene(placed(scene.scene), loop, options, most_deg, monitor))
+                .dump();
     });
   });
   return made;
@@ -104,16 +120,20 @@ std::shared_ptr<Distance> makeDistance(const Path& real, const NativeScene& scen
 double distance(const Distance& d, int frame, const py::array_t<float>& greys) {
   beginWork();
   if (frame < 0 || frame >= d.discrepancy.realFrames())
-    throw py::index_error(fmt::format("frame: is {}, accepted: 0 to {}", frame, d.discrepancy.realFrames() - 1));
+    throw py::index_error(
+        fmt::format("frame: is {}, accepted: 0 to {}", frame, d.discrepancy.realFrames() - 1));
   if (greys.ndim() != 2 || greys.shape(0) != d.samples || greys.shape(1) != d.lines)
-    throw py::value_error(fmt::format("greys: is {}, accepted: ({}, {}), float32: depth, line of the probe",
-                                      shown(greys), d.samples, d.lines));
-  const auto lines_first = py::array_t<float, py::array::c_style | py::array::forcecast>(greys.attr("T"));
-  const std::span<const float> values(lines_first.data(), static_cast<std::size_t>(lines_first.size()));
+    throw py::value_error(
+        fmt::format("greys: is {}, accepted: ({}, {}), float32: depth, line of the probe",
+                    shown(greys), d.samples, d.lines));
+  const auto lines_first =
+      py::array_t<float, py::array::c_style | py::array::forcecast>(greys.attr("T"));
+  const std::span<const float> values(lines_first.data(),
+                                      static_cast<std::size_t>(lines_first.size()));
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isfinite(values[i]))
-      throw py::value_error(fmt::format("greys: holds {} at line {}, sample {}, accepted: 0 to 1", values[i],
-                                        i / static_cast<std::size_t>(d.samples),
+      throw py::value_error(fmt::format("greys: holds {} at line {}, sample {}, accepted: 0 to 1",
+                                        values[i], i / static_cast<std::size_t>(d.samples),
                                         i % static_cast<std::size_t>(d.samples)));
   const Unlocked released;
   return d.discrepancy(frame, values);
@@ -122,18 +142,25 @@ double distance(const Distance& d, int frame, const py::array_t<float>& greys) {
 }  // namespace
 
 void bindCompare(py::module_& module) {
-  module.def("compare", &compareFiles, py::arg("synthetic"), py::arg("real"), py::arg("folder").none(true),
-             py::arg("real_side"), py::arg("synthetic_side"), py::arg("align_space"), py::arg("scene").none(true),
-             py::arg("tilt_deg"), py::arg("threads"), py::arg("progress").none(true), "summary.json and frames.csv as texts.");
-  py::class_<Distance, std::shared_ptr<Distance>>(module, "Discrepancy", "Distance of frames to a real loop.")
-      .def(py::init(&makeDistance), py::arg("real"), py::arg("scene"), py::arg("side"), py::arg("tilt_deg"))
+  module.def("compare", &compareFiles, py::arg("synthetic"), py::arg("real"),
+             py::arg("folder").none(true), py::arg("real_side"), py::arg("synthetic_side"),
+             py::arg("align_space"), py::arg("scene").none(true), py::arg("tilt_deg"),
+             py::arg("threads"), py::arg("progress").none(true),
+             "summary.json and frames.csv as texts.");
+  py::class_<Distance, std::shared_ptr<Distance>>(module, "Discrepancy",
+                                                  "Distance of frames to a real loop.")
+      .def(py::init(&makeDistance), py::arg("real"), py::arg("scene"), py::arg("side"),
+           py::arg("tilt_deg"))
       .def("__call__", &distance, py::arg("frame"), py::arg("greys"),
            "0 equal, about 1 unrelated: greys (depth, line) float32, 0 to 1.")
-      .def_property_readonly("real_frames", [](const Distance& d) { return d.discrepancy.realFrames(); },
-                             "Frames of the real loop.")
-      .def_property_readonly("share_in_sight", [](const Distance& d) { return d.discrepancy.shareInSight(); },
-                             "Share of the sector that both loops show, 0 to 1.")
-      .def_readonly("tilt", &Distance::tilt, "The tilt that was found, as JSON; empty where none was asked for.");
+      .def_property_readonly(
+          "real_frames", [](const Distance& d) { return d.discrepancy.realFrames(); },
+          "Frames of the real loop.")
+      .def_property_readonly(
+          "share_in_sight", [](const Distance& d) { return d.discrepancy.shareInSight(); },
+          "Share of the sector that both loops show, 0 to 1.")
+      .def_readonly("tilt", &Distance::tilt,
+                    "The tilt that was found, as JSON; empty where none was asked for.");
 }
 
 }  // namespace echocine::python

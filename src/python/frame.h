@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "frame/simulator.h"
 #include "python/bindings.h"
-#include "simulate/simulator.h"
 
 namespace echocine::python {
 

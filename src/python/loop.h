@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/monitor.h"
+#include "frame/simulator.h"
 #include "motion/cycle/cardiac_clock.h"
-#include "simulate/simulator.h"
 
 namespace echocine::python {
 

@@ -15,6 +15,7 @@
 #include "python/meshes.h"
 #include "scene/names.h"
 #include "scene/scene_json.h"
+#include "scene/scene_keys.h"
 
 #include <nlohmann/json.hpp>
 
@@ -154,6 +155,13 @@ py::list dialTable() {
   return table;
 }
 
+py::list keyTable() {
+  py::list table;
+  for (const SceneKey& key : sceneKeys())
+    table.append(py::make_tuple(key.fullName(), key.unit.symbol, key.accepted(), key.meaning));
+  return table;
+}
+
 }  // namespace
 
 void bindScene(py::module_& module) {
@@ -173,6 +181,7 @@ void bindScene(py::module_& module) {
   module.def("heart", &makeHeart, py::arg("view"), py::arg("dials"), py::arg("segments"),
              py::arg("keep_volumes"), py::arg("keyframes"), py::arg("even"), py::arg("threads"),
              py::arg("progress").none(true), "A heart from its dials: its scene's text and its meshes.");
+  module.def("scene_keys", &keyTable, "Full name, unit, accepted values, meaning of each key.");
   module.def("dials", &dialTable, "Key, unit, least, most, default or None, meaning of each dial.");
 }
 

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "frame/plan_loop.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/frame.h"
 #include "python/job.h"
 #include "python/scene.h"
-#include "simulate/plan_loop.h"
 
 namespace echocine::python {
 

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <vector>
 
-#include "simulate/simulator.h"
+#include "frame/simulator.h"
 
 namespace echocine::python {
 

@@ -10,9 +10,9 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "frame/reference_frames.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "render/reference_pass.h"
-#include "simulate/reference_frames.h"
 
 namespace echocine {
 

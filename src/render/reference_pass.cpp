@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "frame/reference_frames.h"
 #include "signal/reference.h"
-#include "simulate/reference_frames.h"
 
 namespace echocine {
 

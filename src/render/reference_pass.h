@@ -4,8 +4,8 @@
 #include <map>
 #include <optional>
 
+#include "frame/simulator.h"
 #include "render/render.h"
-#include "simulate/simulator.h"
 
 namespace echocine {
 

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/shown_path.h"
+#include "frame/simulator.h"
 #include "motion/probe_placement.h"
 #include "output/earlier_hashes.h"
 #include "output/exr_stack.h"
@@ -17,7 +18,6 @@
 #include "render/reference_pass.h"
 #include "render/render_pass.h"
 #include "render/report.h"
-#include "simulate/simulator.h"
 
 namespace echocine {
 

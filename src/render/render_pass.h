@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "frame/simulator.h"
 #include "output/exr_stack.h"
 #include "output/output_folder.h"
 #include "output/overlay.h"
@@ -12,7 +13,6 @@
 #include "render/reference_pass.h"
 #include "render/render.h"
 #include "render/report.h"
-#include "simulate/simulator.h"
 #include "video/cine_writer.h"
 
 namespace echocine {

@@ -4,10 +4,10 @@
 #include <optional>
 #include <utility>
 
+#include "frame/simulator.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "output/manifest.h"
 #include "page/page.h"
-#include "simulate/simulator.h"
 #include "truth/frame_truth.h"
 
 namespace echocine {

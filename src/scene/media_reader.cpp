@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "core/units.h"
+#include <algorithm>
+
 #include "scene/built_in_media.h"
-#include "scene/ranges.h"
+#include "scene/key_reader.h"
 
 namespace echocine {
 
@@ -12,15 +13,16 @@ namespace {
 
 enum class Kind { none, fixed, blood, tissue };
 
+double readLaw(TomlTable& table, std::string_view key) {
+  return readNumber(table, sceneKey("media.backscatter", key));
+}
+
 BloodBackscatter readBlood(TomlTable& table, const MediumSpec& plasma) {
   BloodBackscatter blood;
-  blood.hematocrit = table.number("hematocrit", std::nullopt, {.lo = 0, .hi = 1});
-  blood.cell_radius_m =
-      metresFromMicrometres(table.number("cell_radius_um", std::nullopt, ranges::kCellRadius_um));
-  blood.cell_density_kg_m3 =
-      table.number("cell_density_kg_m3", std::nullopt, ranges::kDensity_kg_m3);
-  blood.cell_compressibility_per_pa = perPascalFromSquareCentimetrePerDyne(
-      table.number("cell_compressibility_cm2_dyn", std::nullopt, ranges::kCompressibility_cm2_dyn));
+  blood.hematocrit = readLaw(table, "hematocrit");
+  blood.cell_radius_m = readLaw(table, "cell_radius_um");
+  blood.cell_density_kg_m3 = readLaw(table, "cell_density_kg_m3");
+  blood.cell_compressibility_per_pa = readLaw(table, "cell_compressibility_cm2_dyn");
   blood.plasma_density_kg_m3 = plasma.density_kg_m3;
   // A fluid's compressibility is G = 1 / (rho c^2).
   blood.plasma_compressibility_per_pa =
@@ -62,35 +64,26 @@ void MediaTable::read(TomlTable& file) {
 MediumSpec MediaTable::readMedium(const std::string& name, TomlTable& table) const {
   MediumSpec spec;
   spec.name = name;
-  spec.density_kg_m3 = table.number("density_kg_m3", std::nullopt, ranges::kDensity_kg_m3);
-  spec.sound_speed_m_s = table.number("sound_speed_m_s", std::nullopt, ranges::kSoundSpeed_m_s);
-  spec.attenuation_db_cm_mhz =
-      table.number("attenuation_db_cm_mhz", std::nullopt, ranges::kAttenuation_db_cm_mhz);
-  spec.attenuation_exponent = table.number("attenuation_exponent", 1.0, {.lo = 0, .hi = 4});
+  readKeys(table, "media", {.medium = &spec});
   TomlTable backscatter = table.table("backscatter");
   if (!backscatter.has("kind"))
     backscatter.fail("kind", "is missing, accepted: \"none\" | \"fixed\" | \"blood\" | \"tissue\"");
-  const Kind kind = backscatter.choice("kind", Kind::none,
-                                       {{"none", Kind::none},
-                                        {"fixed", Kind::fixed},
-                                        {"blood", Kind::blood},
-                                        {"tissue", Kind::tissue}});
+  const std::vector<std::string_view> kinds{"none", "fixed", "blood", "tissue"};  // as in Kind
+  const std::string word = backscatter.word("kind", "none", kinds);
+  const auto kind = static_cast<Kind>(std::find(kinds.begin(), kinds.end(), word) - kinds.begin());
   noteOtherKinds(backscatter, kind);
   switch (kind) {
     case Kind::none:
       break;
     case Kind::fixed:
-      spec.backscatter = FixedBackscatter{perMetreFromPerCentimetre(
-          backscatter.number("per_cm_sr", std::nullopt, ranges::kBackscatter_per_cm_sr))};
+      spec.backscatter = FixedBackscatter{readLaw(backscatter, "per_cm_sr")};
       break;
     case Kind::blood:
       spec.backscatter = readBlood(backscatter, named(backscatter, "plasma", "plasma"));
       break;
     case Kind::tissue:
-      spec.backscatter = TissueBackscatter{
-          backscatter.number("velocity_variation", std::nullopt, {.lo = 0, .hi = 1}),
-          metresFromMicrometres(backscatter.number("correlation_length_um", std::nullopt,
-                                                   ranges::kCorrelationLength_um))};
+      spec.backscatter = TissueBackscatter{readLaw(backscatter, "velocity_variation"),
+                                           readLaw(backscatter, "correlation_length_um")};
       break;
   }
   backscatter.finish();

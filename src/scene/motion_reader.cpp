@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "scene/key_reader.h"
 #include "scene/ranges.h"
 
 namespace echocine {
@@ -11,17 +12,11 @@ namespace {
 
 constexpr std::string_view kInterval = "keyframe_interval_ms";
 
-void readRecordedBeat(TomlTable& table, MotionSettings& m) {
-  constexpr std::string_view kRate = "keyframe_heart_rate_bpm", kEnd = "end_systole_phase";
-  if (table.has(kRate))
-    m.keyframe_heart_rate_hz =
-        hertzFromBeatsPerMinute(table.number(kRate, std::nullopt, ranges::kHeartRates_bpm));
-  if (!table.has(kEnd)) return;
-  // phaseDurations() has it from 0.19 at 30 bpm to 0.55 at 160; wider by our choice.
-  m.end_systole_phase = table.number(kEnd, std::nullopt, {.lo = 0.1, .hi = 0.8});
-  if (!m.keyframe_heart_rate_hz && !table.has(kInterval))
-    table.fail(kEnd, "says nothing alone, accepted: with keyframe_heart_rate_bpm or " +
-                         std::string(kInterval));
+void refuseEndAlone(TomlTable& table, const MotionSettings& m) {
+  if (m.end_systole_phase && !m.keyframe_heart_rate_hz && !table.has(kInterval))
+    table.fail(
+        "end_systole_phase",
+        "says nothing alone, accepted: with keyframe_heart_rate_bpm or " + std::string(kInterval));
 }
 
 std::vector<double> readKeyframePhases(TomlTable& table) {
@@ -29,9 +24,10 @@ std::vector<double> readKeyframePhases(TomlTable& table) {
   const std::vector<double> phases = table.numbers(key);
   for (std::size_t i = 0; i < phases.size(); ++i) {
     if (phases[i] == 1 && i > 0)
-      table.fail(key, fmt::format("phase {} is 1, the beat's start again: drop the frame that closes "
-                                  "the beat, the first follows the last by itself",
-                                  i + 1));
+      table.fail(key,
+                 fmt::format("phase {} is 1, the beat's start again: drop the frame that closes "
+                             "the beat, the first follows the last by itself",
+                             i + 1));
     if (!(phases[i] >= 0 && phases[i] < 1))
       table.fail(
           key, fmt::format("phase {} is {}, accepted: from 0 up to, without, 1", i + 1, phases[i]));
@@ -44,37 +40,30 @@ std::vector<double> readKeyframePhases(TomlTable& table) {
   return phases;
 }
 
-// How meshes lie in the world.
-void readPlace(TomlTable& table, MotionSettings& m) {
-  m.mesh_unit_m = table.choice("mesh_unit", m.mesh_unit_m, {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}});
-  m.mesh_scale = table.number("mesh_scale", m.mesh_scale, ranges::kMeshScale);
-  if (table.has("mesh_offset_mm"))
-    m.mesh_offset_m =
-        metresFromMillimetres(1) * table.vector("mesh_offset_mm", ranges::kMostOffset_mm);
-}
-
 void readInterval(TomlTable& table, MotionKeys& keys) {
   if (!table.has(kInterval)) return;
-  keys.interval_s = 1e-3 * table.number(kInterval, std::nullopt, ranges::kKeyframeInterval_ms);
+  keys.interval_s = readNumber(table, sceneKey("motion", kInterval));
   keys.interval_place = table.place(kInterval);
   for (const char* other : {"keyframe_heart_rate_bpm", "keyframe_phases"})
     if (table.has(other))
-      table.fail(kInterval, fmt::format("contradicts {}: the interval times the number of keyframes "
-                                        "is the beat; leave out one of the two",
-                                        other));
+      table.fail(kInterval,
+                 fmt::format("contradicts {}: the interval times the number of keyframes "
+                             "is the beat; leave out one of the two",
+                             other));
 }
 
 }  // namespace
 
-MotionKeys readMotion(TomlTable table) {
+MotionKeys readMotion(TomlTable table, Scene& scene) {
   MotionKeys keys;
-  MotionSettings& m = keys.settings;
-  readPlace(table, m);
+  MotionSettings& m = scene.motion;
+  readKeys(table, "motion", {&scene});
+  if (table.has("mesh_offset_mm"))
+    m.mesh_offset_m =
+        metresFromMillimetres(1) * table.vector("mesh_offset_mm", ranges::kMostOffset_mm);
   readInterval(table, keys);
   m.interpolation_given = table.has("interpolation");
-  m.interpolation = table.choice("interpolation", m.interpolation);
-  m.subdivision = table.integer("subdivision", m.subdivision, 0, 8);
-  readRecordedBeat(table, m);
+  refuseEndAlone(table, m);
   m.keyframe_phases = readKeyframePhases(table);
   m.interpolation_place = table.place("interpolation");
   m.subdivision_place = table.place("subdivision");
@@ -95,17 +84,19 @@ std::optional<double> rateOfInterval(const MotionKeys& keys,
       fail(fmt::format("contradicts the phases of {}: leave out one of the two", s.name));
     if (!moving) moving = &s;
     if (s.keyframes.size() != moving->keyframes.size())
-      fail(fmt::format("is one beat for all, but {} has {} keyframes and {} has {}: accepted with as "
-                       "many for each, or keyframe_heart_rate_bpm",
-                       moving->name, moving->keyframes.size(), s.name, s.keyframes.size()));
+      fail(fmt::format(
+          "is one beat for all, but {} has {} keyframes and {} has {}: accepted with as "
+          "many for each, or keyframe_heart_rate_bpm",
+          moving->name, moving->keyframes.size(), s.name, s.keyframes.size()));
   }
   if (!moving) fail("says nothing of structures with one keyframe: leave it out");
   const double beat_s = *keys.interval_s * static_cast<double>(moving->keyframes.size());
   if (!ranges::kHeartRates_bpm.contains(60 / beat_s))
-    fail(fmt::format("times the {} keyframes of {} is a beat of {:.4g} s, {:.4g} per minute; accepted: "
-                     "{} of it",
-                     moving->keyframes.size(), moving->name, beat_s, 60 / beat_s,
-                     ranges::kHeartRates_bpm.text()));
+    fail(fmt::format(
+        "times the {} keyframes of {} is a beat of {:.4g} s, {:.4g} per minute; accepted: "
+        "{} of it",
+        moving->keyframes.size(), moving->name, beat_s, 60 / beat_s,
+        ranges::kHeartRates_bpm.text()));
   return 1 / beat_s;
 }
 

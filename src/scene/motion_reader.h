@@ -11,14 +11,14 @@
 
 namespace echocine {
 
+// What becomes a setting only with the structures.
 struct MotionKeys {
-  MotionSettings settings;
   std::optional<double> interval_s;  // between evenly spaced keyframes
   SourcePlace interval_place;
 };
 
-// Throws SceneError.
-MotionKeys readMotion(TomlTable table);
+// Sets scene.motion. Throws SceneError.
+MotionKeys readMotion(TomlTable table, Scene& scene);
 
 // Beats per second of evenly spaced keyframes, of which each moving structure has as many; none
 // without an interval. Throws SceneError where structures contradict it.

@@ -228,7 +228,7 @@ struct AccuracySettings {
   Normals normals = Normals::automatic;
   SourcePlace normals_place;
   // Refraction "auto" is off while echoes move by less than this many beam widths, by the rule of
-  // simulate/echo_shift.h. Our choice.
+  // frame/echo_shift.h. Our choice.
   double refraction_tolerance_beam_widths = 0.25;
   // Of rolling acquisition: lines that share the instant of their middle. Our choice, by what the
   // study's README measures.

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/names.h"
-#include "scene/white_rule.h"
+#include "scene/scene_keys.h"
+#include "scene/view_names.h"
 
 namespace echocine {
 
@@ -11,34 +11,43 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json optionalJson(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
+Json jsonOf(const KeyValue& value) {
+  return std::visit(
+      [](const auto& v) -> Json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::monostate>)
+          return Json();
+        else
+          return v;
+      },
+      value);
+}
+
+// Adds the members of a table's keys, by their names in the structs.
+void addKeys(const char* table, const KeyOwner& owner, Json& json) {
+  for (const SceneKey& key : sceneKeys())
+    if (key.field.member != nullptr && std::string_view(table) == key.table)
+      json[key.field.member] = jsonOf(key.field.get(owner));
 }
 
 Json vectorJson(Vec3d v) {
   return Json::array({v.x, v.y, v.z});
 }
 
-Json probeJson(const Probe& p) {
-  return {{"kind", nameOf(p.kind)},
-          {"apex_m", vectorJson(p.pose.origin)},
-          {"lateral", vectorJson(p.pose.x_axis)},
-          {"elevation", vectorJson(p.pose.y_axis)},
-          {"axis", vectorJson(p.pose.z_axis)},
-          {"first_angle_rad", p.first_angle_rad},
-          {"last_angle_rad", p.last_angle_rad},
-          {"face_radius_m", p.face_radius_m},
-          {"first_offset_m", p.first_offset_m},
-          {"last_offset_m", p.last_offset_m},
-          {"min_depth_m", p.min_depth_m},
-          {"max_depth_m", p.max_depth_m},
-          {"frequency_hz", p.frequency_hz},
-          {"aperture_m", p.aperture_m},
-          {"focus_m", p.focus_m},
-          {"elevation_aperture_m", p.elevation_aperture_m},
-          {"elevation_focus_m", p.elevation_focus_m},
-          {"lines", p.lines},
-          {"samples", p.samples}};
+void addPose(const Scene& scene, Json& json) {
+  const Probe& p = scene.probe;
+  json["apex_m"] = vectorJson(p.pose.origin);
+  json["lateral"] = vectorJson(p.pose.x_axis);
+  json["elevation"] = vectorJson(p.pose.y_axis);
+  json["axis"] = vectorJson(p.pose.z_axis);
+  json["first_angle_rad"] = p.first_angle_rad;
+  json["last_angle_rad"] = p.last_angle_rad;
+  json["first_offset_m"] = p.first_offset_m;
+  json["last_offset_m"] = p.last_offset_m;
+  if (!scene.view) return;  // where it is still to be found
+  json["view"] = keyOf(scene.view->view);
+  json["view_shift_m"] = vectorJson(scene.view->shift_m);
+  json["view_tilt_rad"] = scene.view->tilt_rad;
+  json["view_rotate_rad"] = scene.view->rotate_rad;
 }
 
 Json repairJson(const Repairs& r) {
@@ -57,128 +66,49 @@ std::string fileFrom(const std::filesystem::path& scene, const std::filesystem::
   return from.empty() ? file.filename().string() : from.generic_string();
 }
 
-Json structuresJson(const Scene& scene) {
+Json keyframesJson(const Scene& scene, const Structure& structure) {
+  Json keyframes = Json::array();
+  for (const Keyframe& k : structure.keyframes) {
+    Json files = Json::array();
+    for (const auto& file : k.files) files.push_back(fileFrom(scene.file, file));
+    keyframes.push_back({{"files", files}, {"phase", k.phase}});
+  }
+  return keyframes;
+}
+
+Json structuresJson(Scene& scene) {
   Json list = Json::array();
-  for (const Structure& s : scene.structures) {
-    Json keyframes = Json::array();
-    for (const Keyframe& k : s.keyframes) {
-      Json files = Json::array();
-      for (const auto& file : k.files) files.push_back(fileFrom(scene.file, file));
-      keyframes.push_back({{"files", files}, {"phase", k.phase}});
-    }
-    list.push_back({{"name", s.name},
-                    {"role", nameOf(s.role)},
-                    {"medium", scene.medium(s.medium).name},
-                    {"membrane", s.membrane},
-                    {"priority", s.priority},
-                    {"reflection_gain", s.reflection_gain},
-                    {"reflection_exponent", s.reflection_exponent},
-                    {"coherent_share", s.coherent_share},
-                    {"repair", repairJson(s.repair)},
-                    {"keyframes", keyframes}});
+  for (Structure& s : scene.structures) {
+    Json json{{"name", s.name}};
+    addKeys("structure", {&scene, &s}, json);
+    json["medium"] = scene.medium(s.medium).name;
+    json["repair"] = repairJson(s.repair);
+    json["keyframes"] = keyframesJson(scene, s);
+    list.push_back(std::move(json));
   }
   return list;
 }
 
-Json effectsJson(const EffectSwitches& switches) {
-  Json json = Json::object();
-  for (const EffectSwitch& s : kEffectSwitches) json[nameOf(s.effect)] = nameOf(switches.*s.wanted);
-  return json;
-}
-
-Json signalJson(const SignalSettings& s) {
-  Json tgc_table = Json::array();
-  for (const auto& [depth_m, gain_db] : s.tgc_table) tgc_table.push_back({depth_m, gain_db});
-  return {{"look", nameOf(s.look)},
-          {"quality", nameOf(s.quality)},
-          {"tgc", nameOf(s.tgc)},
-          {"tgc_table_m_db", tgc_table},
-          {"nominal_gain_np_per_m_hz", s.nominal_gain_np_per_m_hz},
-          {"spread", nameOf(s.spread)},
-          {"beam_width", nameOf(s.beam_width)},
-          {"beam_width_m", s.beam_width_m},
-          {"pulse_cycles", s.pulse_cycles},
-          {"dynamic_range_db", s.dynamic_range_db},
-          {"reference_intensity", optionalJson(s.reference_intensity)},
-          // null: white goes by the heart's muscle
-          {"reference_percentile",
-           s.reference_percentile == kWhiteByMuscle ? Json() : Json(s.reference_percentile)},
-          {"gain_db", s.gain_db},
-          {"interface_gain_db", s.interface_gain_db},
-          {"interface_limit_db", optionalJson(s.interface_limit_db)},
-          {"grey_gamma", s.grey_gamma}};
-}
-
-Json speckleJson(const SpeckleSettings& s) {
-  return {{"on", s.on},
-          {"seed", s.seed},
-          {"per_cell", s.per_cell},
-          {"smoothing_m", s.smoothing_m},
-          {"tissue_time_s", s.tissue_time_s},
-          {"blood_time_s", s.blood_time_s},
-          {"heterogeneity_db", s.heterogeneity_db},
-          {"heterogeneity_fine_m", s.heterogeneity_fine_m},
-          {"heterogeneity_layer_m", s.heterogeneity_layer_m},
-          {"heterogeneity_coarse_m", s.heterogeneity_coarse_m},
-          {"heterogeneity_seed", s.heterogeneity_seed},
-          {"anisotropy_db", s.anisotropy_db},
-          {"helix_angle_rad", s.helix_angle_rad}};
-}
-
-Json trabeculaeJson(const TrabeculaeSettings& t) {
-  return {{"height_m", t.deviation_m}, {"scale_m", t.scale_m}, {"seed", t.seed}};
-}
-
-Json artefactsJson(const ArtefactSettings& a) {
-  return {{"dropout", a.dropout},
-          {"dropout_db", a.dropout_db},
-          {"acoustic_window", a.acoustic_window},
-          {"window_width_m", a.window_width_m},
-          {"window_offset_m", a.window_offset_m},
-          {"window_depth_m", a.window_depth_m},
-          {"window_shadow_db", a.window_shadow_db},
-          {"haze", a.haze},
-          {"haze_db", a.haze_db},
-          {"haze_width_rad", a.haze_width_rad},
-          {"reverberation", a.reverberation},
-          {"reverberation_db", a.reverberation_db},
-          {"reverberation_length_m", a.reverberation_length_m},
-          {"clutter", a.clutter},
-          {"clutter_db", a.clutter_db},
-          {"clutter_length_m", a.clutter_length_m},
-          {"clutter_width_rad", a.clutter_width_rad},
-          {"clutter_seed", a.clutter_seed},
-          {"noise", a.noise},
-          {"noise_db", a.noise_db},
-          {"noise_seed", a.noise_seed},
-          {"persistence", a.persistence}};
-}
-
-Json outputJson(const OutputSettings& o) {
+Json channelsJson(const OutputSettings& o) {
   Json channels = Json::array();
   for (const Channel c : o.channels) channels.push_back(channelName(c));
-  return {{"exr", o.exr},
-          {"cine", o.cine},
-          {"png", o.png},
-          {"report", o.report},
-          {"channels", channels},
-          {"exr_compression", nameOf(o.exr_compression)},
-          {"exr_pixel", nameOf(o.exr_pixel)},
-          {"codec", nameOf(o.codec)},
-          {"jpeg_quality", o.jpeg_quality},
-          {"width", o.width},
-          {"height", o.height},
-          {"ecg", o.ecg},
-          {"depth_ticks", o.depth_ticks}};
+  return channels;
 }
 
-Json truthJson(const TruthSettings& t) {
-  Json numbers = Json::object();
-  for (const auto& [name, number] : t.label_numbers) numbers[name] = number;
-  return {{"labels", t.labels},          {"contours", t.contours},
-          {"tracks", t.tracks},          {"function", t.function},
-          {"label_numbers", numbers},    {"papillary_in_cavity", t.papillary_in_cavity},
-          {"track_count", t.track_count}};
+Json gainTableJson(const SignalSettings& s) {
+  Json table = Json::array();
+  for (const auto& [depth_m, gain_db] : s.tgc_table) table.push_back({depth_m, gain_db});
+  return table;
+}
+
+void addTruth(const TruthSettings& t, Json& json) {
+  json["labels"] = t.labels;
+  json["contours"] = t.contours;
+  json["tracks"] = t.tracks;
+  json["function"] = t.function;
+  json["label_numbers"] = Json::object();
+  for (const auto& [name, number] : t.label_numbers) json["label_numbers"][name] = number;
+  json["papillary_in_cavity"] = t.papillary_in_cavity;
 }
 
 }  // namespace
@@ -194,47 +124,22 @@ Json mediaJson(const Scene& scene) {
 }
 
 Json sceneJson(const Scene& scene) {
-  Json json = {
-      {"background", scene.medium(scene.background).name},
-      {"unit_volume_m3", scene.unit_volume_m3},
-      {"probe", probeJson(scene.probe)},
-      {"acquisition",
-       {{"heart_rate_hz", scene.acquisition.heart_rate_hz},
-        {"frame_rate_hz", scene.acquisition.frame_rate_hz},
-        {"beats", scene.acquisition.beats},
-        {"time_warp", nameOf(scene.acquisition.time_warp)},
-        {"rr_variability", scene.acquisition.rr_variability},
-        {"seed", scene.acquisition.seed},
-        {"rolling", scene.acquisition.rolling},
-        {"rolling_share", scene.acquisition.rolling_share}}},
-      {"motion",
-       {{"mesh_unit_m", scene.motion.mesh_unit_m},
-        {"interpolation", nameOf(scene.motion.interpolation)},
-        {"subdivision", scene.motion.subdivision},
-        {"keyframe_heart_rate_hz", optionalJson(scene.motion.keyframe_heart_rate_hz)},
-        {"end_systole_phase", optionalJson(scene.motion.end_systole_phase)}}},
-      {"structures", structuresJson(scene)},
-      {"effects", effectsJson(scene.effects)},
-      {"signal", signalJson(scene.signal)},
-      {"accuracy",
-       {{"rays_per_beam", scene.accuracy.rays_per_beam},
-        {"tracer", nameOf(scene.accuracy.tracer)},
-        {"interface_echo", nameOf(scene.accuracy.interface_echo)},
-        {"normals", nameOf(scene.accuracy.normals)},
-        {"refraction_tolerance_beam_widths", scene.accuracy.refraction_tolerance_beam_widths},
-        {"rolling_lines", scene.accuracy.rolling_lines}}},
-      {"output", outputJson(scene.output)},
-      {"truth", truthJson(scene.truth)}};
-  // Meshes that lie as their files have them are the same scene as before they could be moved.
-  if (scene.motion.mesh_scale != 1) json["motion"]["mesh_scale"] = scene.motion.mesh_scale;
-  if (const Vec3d m = scene.motion.mesh_offset_m; m != Vec3d{})
-    json["motion"]["mesh_offset_m"] = {m.x, m.y, m.z};
-  if (scene.accuracy.elevation_slices > 1)
-    json["accuracy"]["elevation_slices"] = scene.accuracy.elevation_slices;
-  // A picture without speckle is the same file as before there was any.
-  if (scene.trabeculae.deviation_m > 0) json["trabeculae"] = trabeculaeJson(scene.trabeculae);
-  if (scene.speckle.on) json["speckle"] = speckleJson(scene.speckle);
-  json["artefacts"] = artefactsJson(scene.artefacts);
+  // Fields give access for the reader too; nothing is changed here.
+  Scene& fields = const_cast<Scene&>(scene);
+  Json json{{"background", scene.medium(scene.background).name}};
+  addKeys("", {&fields}, json);
+  for (const char* table : {"probe", "acquisition", "motion", "effects", "signal", "accuracy",
+                            "output", "truth", "trabeculae", "speckle", "artefacts"}) {
+    json[table] = Json::object();
+    addKeys(table, {&fields}, json[table]);
+  }
+  addPose(scene, json["probe"]);
+  json["motion"]["mesh_unit_m"] = scene.motion.mesh_unit_m;
+  json["motion"]["mesh_offset_m"] = vectorJson(scene.motion.mesh_offset_m);
+  json["structures"] = structuresJson(fields);
+  json["signal"]["tgc_table_m_db"] = gainTableJson(scene.signal);
+  json["output"]["channels"] = channelsJson(scene.output);
+  addTruth(scene.truth, json["truth"]);
   return json;
 }
 

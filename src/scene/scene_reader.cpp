@@ -3,17 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "core/file.h"
-#include "core/units.h"
 #include "scene/contradictions.h"
-#include "scene/elevation_slices.h"
+#include "scene/key_reader.h"
 #include "scene/keyframe_warnings.h"
 #include "scene/media_reader.h"
 #include "scene/motion_reader.h"
 #include "scene/probe_reader.h"
-#include "scene/ranges.h"
 #include "scene/signal_reader.h"
 #include "scene/structure_reader.h"
 #include "scene/tolerance_reader.h"
@@ -26,37 +23,15 @@ namespace {
 
 constexpr std::size_t kMaxSceneBytes = 4 << 20;
 constexpr double kMaxFrames = 1e6;
-// Our choice: three deviations of it leave a tenth of the mean beat.
-constexpr double kMaxRrVariability = 0.3;
-constexpr int kMaxRaysPerBeam = 4096;  // errors are then far under a picture's. Our choice
 
 // keyframe_rate_hz: of the loop where it names no heart rate of its own.
-Acquisition readAcquisition(TomlTable table, std::optional<double> keyframe_rate_hz) {
-  Acquisition a;
-  a.heart_rate_hz = keyframe_rate_hz.value_or(a.heart_rate_hz);
-  if (!keyframe_rate_hz || table.has("heart_rate_bpm"))
-    a.heart_rate_hz = hertzFromBeatsPerMinute(
-        table.number("heart_rate_bpm", a.heart_rate_hz * 60, ranges::kHeartRates_bpm));
-  a.frame_rate_hz = table.number("frame_rate_hz", a.frame_rate_hz, {.lo = 0.1, .hi = 100000});
-  a.beats = table.number("beats", a.beats, ranges::kBeats);
+void readAcquisition(TomlTable table, std::optional<double> keyframe_rate_hz, Scene& scene) {
+  readKeys(table, "acquisition", {&scene});
+  Acquisition& a = scene.acquisition;
+  if (keyframe_rate_hz && !table.has("heart_rate_bpm")) a.heart_rate_hz = *keyframe_rate_hz;
   if (a.beats / a.heart_rate_hz * a.frame_rate_hz > kMaxFrames)
     table.fail("beats", fmt::format("the loop would have over {} frames", kMaxFrames));
-  a.time_warp = table.choice("time_warp", a.time_warp);
-  a.rr_variability =
-      table.number("rr_variability", a.rr_variability, {.lo = 0, .hi = kMaxRrVariability});
-  a.seed = table.integer("seed", a.seed, 0, std::numeric_limits<int>::max());
-  a.rolling = table.boolean("rolling", a.rolling);
-  a.rolling_share = table.number("rolling_share", a.rolling_share, ranges::kRollingShare);
   table.finish();
-  return a;
-}
-
-EffectSwitches readEffects(TomlTable table) {
-  EffectSwitches switches;
-  for (const EffectSwitch& s : kEffectSwitches)
-    switches.*s.wanted = table.choice(nameOf(s.effect), switches.*s.wanted);
-  table.finish();
-  return switches;
 }
 
 std::vector<Channel> readChannels(TomlTable& table) {
@@ -79,51 +54,34 @@ std::vector<Channel> readChannels(TomlTable& table) {
   return channels;
 }
 
-OutputSettings readOutput(TomlTable table) {
-  OutputSettings o;
-  o.exr = table.boolean("exr", o.exr);
-  o.cine = table.boolean("cine", o.cine);
-  o.png = table.boolean("png", o.png);
-  o.report = table.boolean("report", o.report);
+void readOutput(TomlTable table, Scene& scene) {
+  readKeys(table, "output", {&scene});
+  OutputSettings& o = scene.output;
   o.channels_given = table.has("channels");
   if (o.channels_given) o.channels = readChannels(table);
   if (o.channels.empty()) table.fail("channels", "is empty, accepted: at least one channel");
-  o.exr_compression = table.choice("exr_compression", o.exr_compression);
-  o.exr_pixel = table.choice("exr_pixel", o.exr_pixel);
-  o.codec = table.choice("codec", o.codec);
-  o.jpeg_quality = table.integer("jpeg_quality", o.jpeg_quality, 1, 100);
-  o.width = table.integer("width", o.width, 16, 16384);
-  o.height = table.integer("height", o.height, 16, 16384);
-  o.ecg = table.boolean("ecg", o.ecg);
-  o.depth_ticks = table.boolean("depth_ticks", o.depth_ticks);
   table.finish();
-  return o;
 }
 
 std::optional<SceneTolerance> readTolerance(TomlTable& table) {
   constexpr std::string_view kKey = "tolerance_db";
   if (!table.has(kKey)) return std::nullopt;
-  return SceneTolerance{table.number(kKey, std::nullopt, ranges::kTolerance_db), table.place(kKey)};
+  return SceneTolerance{readNumber(table, sceneKey("accuracy", kKey)), table.place(kKey)};
 }
 
-AccuracySettings readAccuracy(TomlTable table, const AccuracySettings& defaults) {
-  AccuracySettings a = defaults;
-  a.rays_per_beam = table.integer("rays_per_beam", a.rays_per_beam, 1, kMaxRaysPerBeam);
-  a.elevation_slices =
-      table.integer("elevation_slices", a.elevation_slices, 1, kMostElevationSlices);
-  if (a.elevation_slices % 2 == 0)
-    table.fail("elevation_slices", fmt::format("is {}, accepted: 1, 3 or 5", a.elevation_slices));
-  a.tracer = table.choice("tracer", a.tracer);
-  a.interface_echo = table.choice("interface_echo", a.interface_echo);
-  a.normals = table.choice("normals", a.normals);
-  a.normals_place = table.place("normals");
-  a.refraction_tolerance_beam_widths =
-      table.number("refraction_tolerance_beam_widths", a.refraction_tolerance_beam_widths,
-                   ranges::kToleranceLines);
-  a.rolling_lines = table.integer("rolling_lines", a.rolling_lines, 1, ranges::kMostLines);
+void readAccuracy(TomlTable table, Scene& scene) {
+  readKeys(table, "accuracy", {&scene});
+  const int slices = scene.accuracy.elevation_slices;
+  if (slices % 2 == 0)
+    table.fail("elevation_slices", fmt::format("is {}, accepted: 1, 3 or 5", slices));
+  scene.accuracy.normals_place = table.place("normals");
   readTolerance(table);  // who sets the accuracy; the scene as rendered has none
   table.finish();
-  return a;
+}
+
+void readPlain(TomlTable table, const char* name, Scene& scene) {
+  readKeys(table, name, {&scene});
+  table.finish();
 }
 
 // Gives each medium that the scene uses one id and its numbers at the probe's frequency.
@@ -172,9 +130,8 @@ Scene parse(std::string_view text, const std::filesystem::path& file, const Name
   TomlTable root = TomlTable::parse(text, file.string());
   Scene scene;
   scene.file = file;
-  const MotionKeys motion = readMotion(root.table("motion"));
-  scene.motion = motion.settings;
-  scene.probe = readProbe(root.table("probe"), scene.motion.mesh_unit_m, scene.view);
+  const MotionKeys motion = readMotion(root.table("motion"), scene);
+  readProbe(root.table("probe"), scene);
   MediaTable media_table;
   media_table.read(root);
   MediaInUse media(scene);
@@ -184,20 +141,18 @@ Scene parse(std::string_view text, const std::filesystem::path& file, const Name
     root.fail("structure", "is missing, accepted: at least one [[structure]]");
   const std::optional<double> spaced_hz = rateOfInterval(motion, scene.structures);
   if (spaced_hz) scene.motion.keyframe_heart_rate_hz = spaced_hz;
-  scene.acquisition = readAcquisition(root.table("acquisition"), spaced_hz);
+  readAcquisition(root.table("acquisition"), spaced_hz, scene);
   if (!scene.motion.interpolation_given)
     scene.motion.interpolation = interpolationFor(scene.structures, scene.motion.interpolation);
-  scene.unit_volume_m3 =
-      cubicMetresFromCubicCentimetres(root.number("unit_volume_cm3", 1.0, ranges::kUnitVolume_cm3));
-  scene.effects = readEffects(root.table("effects"));
+  readKeys(root, "", {&scene});
+  readPlain(root.table("effects"), "effects", scene);
   takeLook(root.table("signal"), scene);
-  scene.trabeculae = readTrabeculae(root.table("trabeculae"), scene.trabeculae);
-  scene.speckle = readSpeckle(root.table("speckle"), scene.speckle);
-  scene.artefacts = readArtefacts(root.table("artefacts"), scene.artefacts);
-  scene.signal = readSignal(root.table("signal"), scene.signal);
-  scene.accuracy = readAccuracy(root.table("accuracy"), scene.accuracy);
-  scene.output = readOutput(root.table("output"));
-  if (root.has("truth")) scene.truth = readTruth(root.table("truth"), scene);
+  for (const char* of_look : {"trabeculae", "speckle", "artefacts"})
+    readPlain(root.table(of_look), of_look, scene);
+  readSignal(root.table("signal"), scene);
+  readAccuracy(root.table("accuracy"), scene);
+  readOutput(root.table("output"), scene);
+  if (root.has("truth")) readTruth(root.table("truth"), scene);
   root.finish();
   refuseContradictions(root, scene);
   scene.warnings = keyframeWarnings(scene);

@@ -1,5 +1,5 @@
 #pragma once
-// The tables of a scene that a look sets: [signal], [trabeculae], [speckle] and [artefacts].
+// The [signal] table of a scene, and its look.
 
 #include "scene/scene.h"
 #include "scene/toml_table.h"
@@ -10,10 +10,7 @@ namespace echocine {
 // that are read after it.
 void takeLook(TomlTable signal, Scene& scene);
 
-// Each with the defaults that it is given.
-SignalSettings readSignal(TomlTable table, const SignalSettings& defaults);
-TrabeculaeSettings readTrabeculae(TomlTable table, const TrabeculaeSettings& defaults);
-SpeckleSettings readSpeckle(TomlTable table, const SpeckleSettings& defaults);
-ArtefactSettings readArtefacts(TomlTable table, const ArtefactSettings& defaults);
+// Sets scene.signal.
+void readSignal(TomlTable table, Scene& scene);
 
 }  // namespace echocine

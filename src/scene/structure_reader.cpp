@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "scene/key_reader.h"
 #include "scene/ranges.h"
 
 namespace echocine {
@@ -96,9 +97,10 @@ std::vector<Keyframe> readPhasedKeyframes(TomlTable& table, const MeshSource& so
                                                           : source.folder / named;
     const double phase = entry.number("phase", std::nullopt, {.lo = 0, .hi = 1});
     if (phase == 1)
-      entry.fail("phase", keyframes.empty() ? "is 1, accepted: from 0 up to, without, 1"
-                                            : "is 1, the beat's start again: drop the frame that "
-                                              "closes the beat, the first follows the last by itself");
+      entry.fail("phase", keyframes.empty()
+                              ? "is 1, accepted: from 0 up to, without, 1"
+                              : "is 1, the beat's start again: drop the frame that "
+                                "closes the beat, the first follows the last by itself");
     if (!keyframes.empty() && !(phase - keyframes.back().phase >= ranges::kLeastPhaseStep))
       entry.fail("phase",
                  fmt::format("is {} after {}, accepted: ascending phases, {} apart or more", phase,
@@ -179,12 +181,8 @@ Structure readStructure(TomlTable& table, const fs::path& folder, std::span<cons
   structure.name = table.text("name");
   if (structure.name.empty()) table.fail("name", "is empty, accepted: a name");
   structure.role_given = table.has("role");
-  structure.role = table.choice("role", guessRole(structure.name));
-  structure.membrane = table.boolean("membrane", structure.membrane);
-  if (!structure.membrane)
-    structure.priority = table.integer("priority", structure.priority, -1000000, 1000000);
-  else
-    table.unused("priority", "membrane = false: a membrane encloses nothing");
+  structure.role = guessRole(structure.name);
+  readKeys(table, "structure", {.structure = &structure});
   structure.phases_given = table.isListOfTables("keyframes");
   structure.keyframes = structure.phases_given ? readPhasedKeyframes(table, source)
                                                : readPlainKeyframes(table, source, phases);
@@ -199,12 +197,6 @@ Structure readStructure(TomlTable& table, const fs::path& folder, std::span<cons
   if (meshes) takeMeshes(*meshes, structure.keyframes);
   structure.repair = readRepairs(table, structure.membrane);
   structure.place = table.place("keyframes");
-  structure.reflection_gain =
-      table.number("reflection_gain", structure.reflection_gain, ranges::kReflectionGain);
-  structure.reflection_exponent =
-      table.number("reflection_exponent", structure.reflection_exponent, {.lo = 0, .hi = 1000});
-  structure.coherent_share =
-      table.number("coherent_share", structure.coherent_share, ranges::kCoherentShare);
   return structure;
 }
 

@@ -74,10 +74,6 @@ void TomlTable::noteDefault(std::string_view key, KeyDefault value) const {
   if (KeyLog::wanted()) KeyLog::note(node_->fullKey(key), std::move(value));
 }
 
-void TomlTable::noteChoice(std::string_view key, std::string_view name) const {
-  noteDefault(key, std::string(name));
-}
-
 SourcePlace TomlTable::place(std::string_view key) const {
   const toml::node* value = node_->table ? node_->table->get(key) : nullptr;
   const int line = value ? static_cast<int>(value->source().begin.line) : node_->line;
@@ -146,16 +142,18 @@ std::string TomlTable::withoutNul(std::string_view key, std::string text) const 
   return text;
 }
 
-std::optional<std::size_t> TomlTable::choiceIndex(std::string_view key,
-                                                  const std::vector<std::string_view>& names) {
+std::string TomlTable::word(std::string_view key, std::string_view fallback,
+                            const std::vector<std::string_view>& words) {
   const toml::node* value = node_->find(key);
-  if (!value) return std::nullopt;
+  if (!value) {
+    noteDefault(key, std::string(fallback));
+    return std::string(fallback);
+  }
   const std::optional<std::string> word = value->value_exact<std::string>();
-  if (!word) fail(key, fmt::format("is {}, accepted: {}", typeName(*value), quotedList(names)));
-  const auto found = std::find(names.begin(), names.end(), *word);
-  if (found == names.end())
-    fail(key, fmt::format("is \"{}\", accepted: {}", *word, quotedList(names)));
-  return static_cast<std::size_t>(found - names.begin());
+  if (!word) fail(key, fmt::format("is {}, accepted: {}", typeName(*value), quotedList(words)));
+  if (std::find(words.begin(), words.end(), *word) == words.end())
+    fail(key, fmt::format("is \"{}\", accepted: {}", *word, quotedList(words)));
+  return *word;
 }
 
 TomlTable TomlTable::table(std::string_view key) {

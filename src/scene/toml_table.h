@@ -14,7 +14,6 @@
 #include "core/nearest_word.h"
 #include "core/vec3.h"
 #include "scene/key_log.h"
-#include "scene/names.h"
 #include "scene/number_range.h"
 #include "scene/toml_value.h"
 
@@ -38,28 +37,9 @@ class TomlTable {
   std::string text(std::string_view key, std::optional<std::string> fallback = std::nullopt);
   Vec3d vector(std::string_view key, double most = std::numeric_limits<double>::max());
 
-  // The value that belongs to one of the names.
-  template <typename T>
-  T choice(std::string_view key, T fallback,
-           const std::vector<std::pair<std::string_view, T>>& choices) {
-    std::vector<std::string_view> names;
-    for (const auto& c : choices) names.push_back(c.first);
-    const std::optional<std::size_t> found = choiceIndex(key, names);
-    for (const auto& c : choices)
-      if (!found && c.second == fallback) noteChoice(key, c.first);
-    return found ? choices[*found].second : fallback;
-  }
-
-  // The same by the names that the enum has in names.h.
-  template <typename T>
-  T choice(std::string_view key, T fallback) {
-    std::vector<std::string_view> names;
-    for (const auto& entry : NamesOf<T>::kAll) names.emplace_back(entry.name);
-    const std::optional<std::size_t> found = choiceIndex(key, names);
-    for (const auto& entry : NamesOf<T>::kAll)
-      if (!found && entry.value == fallback) noteChoice(key, entry.name);
-    return found ? NamesOf<T>::kAll[*found].value : fallback;
-  }
+  // One of the words.
+  std::string word(std::string_view key, std::string_view fallback,
+                   const std::vector<std::string_view>& words);
 
   // For tables whose keys are the writer's own names.
   std::vector<std::string> keys() const;  // in ascending order
@@ -89,12 +69,9 @@ class TomlTable {
 
  private:
   void noteDefault(std::string_view key, KeyDefault value) const;
-  void noteChoice(std::string_view key, std::string_view name) const;
   std::string withoutNul(std::string_view key, std::string text) const;
   struct Node;
   explicit TomlTable(std::unique_ptr<Node> node);
-  std::optional<std::size_t> choiceIndex(std::string_view key,
-                                         const std::vector<std::string_view>& names);
   // A required key is absent: names a misspelt one where the table has it.
   [[noreturn]] void missing(std::string_view key, const std::string& accepted) const;
   std::unique_ptr<Node> node_;

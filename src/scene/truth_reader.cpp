@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scene/key_reader.h"
 #include "scene/names.h"
 
 namespace echocine {
@@ -47,22 +48,21 @@ void checkNumbers(const TomlTable& table, const TruthSettings& truth, const Scen
 
 }  // namespace
 
-TruthSettings readTruth(TomlTable table, const Scene& scene) {
-  TruthSettings truth;
+void readTruth(TomlTable table, Scene& scene) {
+  TruthSettings& truth = scene.truth;
   const std::string unknown = switchOn(table.texts("write"), truth);
   if (!unknown.empty())
     table.fail("write",
                fmt::format("\"{}\" is no kind of truth, accepted: {}", unknown, kTruthKinds));
-  truth.label_numbers = table.namedIntegers("labels", 1, 255);
+  const NumberRange numbers = sceneKey("truth", "labels").range;
+  truth.label_numbers =
+      table.namedIntegers("labels", static_cast<int>(numbers.lo), static_cast<int>(numbers.hi));
   truth.labels_place = table.place("labels");
   truth.tracks_place = table.place("tracks");
   truth.function_place = table.place("write");
   checkNumbers(table, truth, scene);
-  truth.papillary_in_cavity =
-      table.choice("papillary", truth.papillary_in_cavity, {{"wall", false}, {"cavity", true}});
-  truth.track_count = table.integer("tracks", truth.track_count, 1, 1000000);
+  readKeys(table, "truth", {&scene});
   table.finish();
-  return truth;
 }
 
 }  // namespace echocine

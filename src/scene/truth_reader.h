@@ -15,7 +15,7 @@ inline constexpr const char* kTruthKinds = "all, labels, contours, tracks, funct
 // Turns them on. Returns a name that is none of them, or an empty text.
 std::string switchOn(const std::vector<std::string>& kinds, TruthSettings& truth);
 
-// Checks numbers and names against the scene's structures.
-TruthSettings readTruth(TomlTable table, const Scene& scene);
+// Sets scene.truth. Checks numbers and names against the scene's structures.
+void readTruth(TomlTable table, Scene& scene);
 
 }  // namespace echocine

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 #include "scene/scene.h"
 
 namespace echocine {

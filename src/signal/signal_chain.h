@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/beam_plane.h"
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 #include "signal/beam_width.h"
 #include "signal/haze.h"
 #include "signal/noise.h"

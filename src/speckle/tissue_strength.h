@@ -10,7 +10,7 @@
 #include "core/normal_field.h"
 #include "motion/interior/motion_field.h"
 #include "motion/mesh_motion.h"
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 
 namespace echocine {
 

@@ -2,7 +2,7 @@
 // What a frame costs by counted work: an order of settings that no clock disturbs.
 
 #include "core/work_counts.h"
-#include "scene/loop_plan.h"
+#include "plan/loop_plan.h"
 #include "scene/scene.h"
 
 namespace echocine {

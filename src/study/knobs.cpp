@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frame/plan_loop.h"
 #include "motion/mesh_motion.h"
+#include "plan/effect_plan.h"
 #include "scene/beam_profile.h"
-#include "scene/effect_plan.h"
 #include "scene/elevation_slices.h"
 #include "scene/scan_geometry.h"
-#include "simulate/plan_loop.h"
 #include "study/knob_builder.h"
 
 namespace echocine {

@@ -2,7 +2,7 @@
 // matter of accuracy: the scene's own stands in every preset, and the error is how much the
 // decision changes.
 
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 #include "scene/names.h"
 #include "study/knob_builder.h"
 

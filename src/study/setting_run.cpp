@@ -7,11 +7,11 @@
 
 #include "core/hash.h"
 #include "core/parallel.h"
+#include "frame/plan_loop.h"
 #include "output/exr_plane.h"
 #include "scene/elevation_slices.h"
 #include "scene/scene_json.h"
 #include "signal/reference.h"
-#include "simulate/plan_loop.h"
 
 namespace echocine {
 

@@ -6,11 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "frame/simulator.h"
 #include "metrics/interface_error.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "output/exr_stack.h"
 #include "output/overlay.h"
-#include "simulate/simulator.h"
 #include "video/cine_writer.h"
 
 namespace echocine {

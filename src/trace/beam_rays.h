@@ -38,7 +38,7 @@
 #include <vector>
 
 #include "geometry/crossing.h"
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 #include "scene/scan_geometry.h"
 
 namespace echocine {

@@ -18,6 +18,7 @@ LineWalker::LineWalker(const TraceSettings& settings, const Ray& start, const In
       trace_(trace),
       query_{start, inside, {}},
       wave_(start.direction),
+      layer_(settings.frequency_hz, settings.pulse_cycles),
       walked_m_(start_m) {
   trace_.clear();
 }
@@ -153,7 +154,9 @@ void LineWalker::advance(const RayCrossings& met) {
     const double distance_m = all[begin].distance_m;
     end = begin + 1;
     while (end < all.size() && all[end].distance_m - distance_m <= settings_.thin_layer_m) ++end;
-    walkTo(distance_m);
+    const bool lost = mirror_.met && !layer_.reaches(path_m_ + distance_m - walked_m_);
+    if (!lost) walkTo(distance_m);
+    if (mirror_.met && (lost || !alive_)) return endAtMirror();
     if (!alive_) return;
     const Group group(&all[begin], end - begin);
     for (const Crossing& c : group) cross(c, inside);
@@ -173,6 +176,7 @@ void LineWalker::advance(const RayCrossings& met) {
       return;
     }
   }
+  if (mirror_.met) return endAtMirror();
   walkTo(std::numeric_limits<double>::infinity());
 }
 

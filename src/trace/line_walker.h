@@ -40,12 +40,16 @@ class LineWalker {
   // Of a crossing: Snell's direction there, and the law by it.
   Vec3d incidentAt(const Crossing& crossing);
   InterfaceLaw lawAt(const Crossing& crossing, const Medium& from, const Medium& to);
-  void addEcho(double reflected, double cos_i, const Crossing& crossing, MediumId after);
+  void addEcho(double reflected, double passed, double cos_i, const Crossing& crossing,
+               MediumId after);
   double sentBack(const InterfaceLaw& law, const Medium& from, const Medium& to) const;
   void loseAt(const InterfaceLaw& law);
-  double phaseSinceFace(const Crossing& crossing) const;
-  void joinLayer(const InterfaceLaw& law, double phase, std::size_t first_hit,
-                 std::size_t first_echo);
+  void reflectAll(double speed_before_m_s);
+  void endAtMirror();
+  LayerEchoes::Meeting meetingAt(const Crossing& crossing, const InterfaceLaw& law,
+                                 const Medium& from, const Medium& to) const;
+  void joinLayer(const LayerEchoes::Meeting& meeting, const InterfaceLaw& law,
+                 std::size_t first_hit, std::size_t first_echo);
   void bend(Group group, Vec3d direction);
   const Crossing& deciding(Group group) const;
 
@@ -55,14 +59,20 @@ class LineWalker {
   static constexpr std::size_t kNoSurface = kMaxSurfaces;
   std::size_t ruling_ = kNoSurface;  // the closed surface whose medium the line is in
   MediumId medium_{};
-  Vec3d wave_;              // unit: by which angles of incidence are taken
-  LayerEchoes layer_;       // the faces that the pulse still holds
-  double face_path_m_ = 0;  // l of the last of them
-  double walked_m_ = 0;     // along the present ray
-  double path_m_ = 0;       // l since the transducer
-  double depth_m_ = 0;      // on the image's axis
-  double exponent_ = 0;     // A since the transducer
-  double passed_ = 1;       // prod (1-R)^2
+  Vec3d wave_;         // unit: by which angles of incidence are taken
+  LayerEchoes layer_;  // the faces that the pulse still holds
+  // A total reflection behind which the line still looks for the layer's other face: the speed
+  // before it, which goes with wave_, its l, and what the trace held then.
+  struct Mirror {
+    bool met = false;
+    double speed_before_m_s = 0, path_m = 0;
+    std::size_t segments = 0, echoes = 0, hits = 0;
+  } mirror_;
+  double walked_m_ = 0;  // along the present ray
+  double path_m_ = 0;    // l since the transducer
+  double depth_m_ = 0;   // on the image's axis
+  double exponent_ = 0;  // A since the transducer
+  double passed_ = 1;    // prod (1-R)^2
   int bends_ = 0;
   bool alive_ = true;
 };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "trace/line_walker.h"
 
@@ -14,13 +13,16 @@ namespace {
 // Snell's direction behind an interface. Beyond the facet's critical angle but not the smooth
 // normal's it may point back to the side of the facet from which the ray came, while by the facets
 // it has crossed: such a ray goes on straight.
-std::optional<Vec3d> bentDirection(const Crossing& crossing, Vec3d direction, const Medium& from,
-                                   const Medium& to) {
-  const std::optional<Vec3d> bent =
-      refracted(direction, crossing.normal, from.sound_speed_m_s, to.sound_speed_m_s);
+std::optional<Vec3d> bentDirection(const Crossing& crossing, Vec3d direction, double c_from,
+                                   double c_to) {
+  const std::optional<Vec3d> bent = refracted(direction, crossing.normal, c_from, c_to);
   const Vec3d facet = crossing.facet_normal;
   const bool back = bent && dot(facet, *bent) * dot(facet, direction) < 0;
   return back ? std::nullopt : bent;
+}
+
+LayerMedium layerMedium(const Medium& medium) {
+  return {medium.impedance_kg_m2_s, medium.sound_speed_m_s};
 }
 
 }  // namespace
@@ -46,14 +48,15 @@ double LineWalker::sentBack(const InterfaceLaw& law, const Medium& from, const M
   return cappedReflectance(law.R, from.impedance_kg_m2_s, to.impedance_kg_m2_s);
 }
 
-// What the interface sends to the transducer, added to what is lost before it.
-void LineWalker::addEcho(double reflected, double cos_i, const Crossing& crossing, MediumId after) {
+// What the interface sends to the transducer behind losses of `passed`.
+void LineWalker::addEcho(double reflected, double passed, double cos_i, const Crossing& crossing,
+                         MediumId after) {
   if (!settings_.reflection || settings_.cells == EchoCells::contours || reflected == 0) return;
   const SurfaceTraits& surface = settings_.surfaces[index(crossing.surface)];
   const double towards = dot(query_.ray.direction, crossing.normal);
   const double cosine = std::copysign(std::max(std::abs(towards), 1e-3), towards);
   const double W = surface.gain * reflected;
-  trace_.echoes.push_back({depth_m_, passed_ * nonSpecularReturn(W, cos_i, surface.exponent),
+  trace_.echoes.push_back({depth_m_, passed * nonSpecularReturn(W, cos_i, surface.exponent),
                            exponent_, (1 / cosine) * crossing.normal, crossing.surface, medium_,
                            after, query_.ray.origin + walked_m_ * query_.ray.direction});
 }
@@ -62,50 +65,72 @@ void LineWalker::addEcho(double reflected, double cos_i, const Crossing& crossin
 // whatever effects are on: there is no direction in which it could go on.
 void LineWalker::loseAt(const InterfaceLaw& law) {
   if (law.total) {
-    alive_ = false;
-    for (std::size_t h = trace_.hits.size(); h-- > 0 && trace_.hits[h].path_m == path_m_;)
-      trace_.hits[h].ends = true;
+    reflectAll(0);
+    return endAtMirror();
   }
   if (settings_.transmission_loss) passed_ *= law.through * law.through;
 }
 
-// The phase x of layer_echoes.h between the last face and this one.
-double LineWalker::phaseSinceFace(const Crossing& crossing) const {
-  const double k = 2 * std::numbers::pi * settings_.frequency_hz /
-                   settings_.media[index(medium_)].sound_speed_m_s;
-  const double thickness_m =
-      (path_m_ - face_path_m_) * std::abs(dot(query_.ray.direction, crossing.normal));
-  return 2 * k * thickness_m * std::abs(dot(wave_, crossing.normal));
+// Total reflection. Where a layer begins here the line goes on until it is known how thick that is.
+void LineWalker::reflectAll(double speed_before_m_s) {
+  mirror_ = {true,
+             speed_before_m_s,
+             path_m_,
+             trace_.segments.size(),
+             trace_.echoes.size(),
+             trace_.hits.size()};
 }
 
-// An interface that the pulse holds together with those before it: all their echoes and the loss
-// behind them are worked out anew.
-void LineWalker::joinLayer(const InterfaceLaw& law, double phase, std::size_t first_hit,
-                           std::size_t first_echo) {
+void LineWalker::endAtMirror() {
+  trace_.segments.resize(mirror_.segments);
+  trace_.echoes.resize(mirror_.echoes);
+  trace_.hits.resize(mirror_.hits);
+  for (std::size_t h = mirror_.hits; h-- > 0 && trace_.hits[h].path_m == mirror_.path_m;)
+    trace_.hits[h].ends = true;
+  alive_ = false;
+}
+
+// The interface as a face of a stack of layers. Behind a total reflection there is no ray whose
+// angle the law could take: whether the wave goes on is decided by the medium before that.
+LayerEchoes::Meeting LineWalker::meetingAt(const Crossing& crossing, const InterfaceLaw& law,
+                                           const Medium& from, const Medium& to) const {
+  const double along = dot(query_.ray.direction, crossing.normal);
+  const double cos_i = std::min(std::abs(dot(wave_, crossing.normal)), 1.0);
+  const bool total = mirror_.met
+                         ? !transmissionCosine(cos_i, mirror_.speed_before_m_s, to.sound_speed_m_s)
+                         : law.total;
+  return {layerMedium(from),
+          layerMedium(to),
+          cos_i,
+          law.amplitude,
+          total,
+          path_m_,
+          std::abs(along),
+          along < 0 ? crossing.normal : -crossing.normal};
+}
+
+// Adds a face to the layers that the pulse holds: their echoes and the loss behind them are worked
+// out anew.
+void LineWalker::joinLayer(const LayerEchoes::Meeting& meeting, const InterfaceLaw& law,
+                           std::size_t first_hit, std::size_t first_echo) {
   const bool alone = layer_.empty();
-  const double passed = layer_.passed();
-  double base = 0;
-  if (trace_.echoes.size() > first_echo) {
-    Echo& echo = trace_.echoes.back();
-    if (!alone && passed_ > 0) echo.intensity *= passed / passed_;
-    base = echo.intensity;
+  const double base = trace_.echoes.size() > first_echo ? trace_.echoes.back().intensity : 0;
+  layer_.add(meeting,
+             {meeting.amplitude, meeting.total, base, first_echo, first_hit, trace_.hits.size()});
+  if (alone) {
+    if (settings_.transmission_loss) passed_ *= law.through * law.through;
+    return;
   }
-  layer_.add(
-      {law.amplitude, layer_.lastPhase() + phase, base, first_echo, first_hit, trace_.hits.size()});
-  face_path_m_ = path_m_;
-  loseAt(law);
-  if (alone) return;
-  const LayerEchoes::Together together =
-      layer_.together(settings_.pulse_cycles, settings_.transmission_loss);
+  const LayerEchoes::Together together = layer_.together(settings_.transmission_loss);
   const std::span<const LayerEchoes::Face> faces = layer_.faces();
   for (std::size_t i = 0; i < faces.size(); ++i) {
     if (faces[i].base > 0)
       trace_.echoes[faces[i].echo].intensity = faces[i].base * together.scale[i];
     for (std::size_t h = faces[i].hit; h < faces[i].hits_end; ++h)
       if (!settings_.surfaces[index(trace_.hits[h].surface)].membrane)
-        trace_.hits[h].passed = passed * together.scale[i];
+        trace_.hits[h].passed = layer_.passed() * together.scale[i];
   }
-  if (settings_.transmission_loss) passed_ = passed * together.through * together.through;
+  passed_ = layer_.passed() * together.passed_twice;
 }
 
 void LineWalker::passInterface(Group group, MediumId after, std::size_t first_hit) {
@@ -118,23 +143,23 @@ void LineWalker::passInterface(Group group, MediumId after, std::size_t first_hi
   const Crossing& crossing = deciding(group);
   const Vec3d incident = incidentAt(crossing);
   const InterfaceLaw law = lawAt(crossing, from, to);
+  const LayerEchoes::Meeting meeting = meetingAt(crossing, law, from, to);
+  const bool held = settings_.thin_layers && layer_.holds(meeting);
+  if (mirror_.met && !held) return endAtMirror();
+  if (!held) layer_.clear(passed_);
   const std::size_t first_echo = trace_.echoes.size();
-  const double phase = layer_.empty() ? 0 : phaseSinceFace(crossing);
-  // Faces are together while one pulse holds them, by their phase and on the line.
-  const double pulse_m = settings_.pulse_cycles * settings_.wavelength_m / 2;
-  const bool held =
-      phase < 2 * std::numbers::pi * settings_.pulse_cycles && path_m_ - face_path_m_ < pulse_m;
-  if (law.total || layer_.full() || !held) layer_.clear(passed_);
-  addEcho(sentBack(law, from, to), std::min(std::abs(dot(incident, crossing.normal)), 1.0),
-          crossing, after);
+  addEcho(sentBack(law, from, to), layer_.passed(), meeting.cos_i, crossing, after);
   medium_ = after;
-  if (settings_.thin_layers && !law.total)
-    joinLayer(law, layer_.empty() ? 0 : phase, first_hit, first_echo);
+  if (settings_.thin_layers)
+    joinLayer(meeting, law, first_hit, first_echo);
   else
     loseAt(law);
-  if (!alive_ || from.sound_speed_m_s == to.sound_speed_m_s) return;
-  if (!settings_.refraction && !settings_.snell_angles) return;
-  const auto bent = bentDirection(crossing, incident, from, to);
+  if (!alive_) return;
+  const double c_from = mirror_.met ? mirror_.speed_before_m_s : from.sound_speed_m_s;
+  mirror_.met = false;
+  if (meeting.total) return reflectAll(c_from);
+  if (c_from == to.sound_speed_m_s || !(settings_.refraction || settings_.snell_angles)) return;
+  const auto bent = bentDirection(crossing, incident, c_from, to.sound_speed_m_s);
   if (!bent) return;
   if (settings_.refraction) return bend(group, *bent);
   wave_ = *bent;
@@ -143,17 +168,18 @@ void LineWalker::passInterface(Group group, MediumId after, std::size_t first_hi
 // Two interfaces of a sheet that is thin against a sample: both echoes arrive together, each with
 // its own angle. R is the same from the sheet outwards.
 void LineWalker::passMembrane(const Crossing& crossing) {
+  if (mirror_.met) return endAtMirror();
   const SurfaceTraits& surface = settings_.surfaces[index(crossing.surface)];
   const Medium& around = settings_.media[index(medium_)];
   const Medium& sheet = settings_.media[index(surface.medium)];
   const double cos_i = std::min(std::abs(dot(incidentAt(crossing), crossing.normal)), 1.0);
   const InterfaceLaw law = lawAt(crossing, around, sheet);
-  addEcho(sentBack(law, around, sheet), cos_i, crossing, surface.medium);
+  addEcho(sentBack(law, around, sheet), passed_, cos_i, crossing, surface.medium);
   loseAt(law);
   if (!alive_) return;
   const double cos_t =
       transmissionCosine(cos_i, around.sound_speed_m_s, sheet.sound_speed_m_s).value_or(0);
-  addEcho(sentBack(law, around, sheet), cos_t, crossing, surface.medium);
+  addEcho(sentBack(law, around, sheet), passed_, cos_t, crossing, surface.medium);
   loseAt(law);
   layer_.clear(passed_);  // the sheet's loss lies between what is before it and behind
 }

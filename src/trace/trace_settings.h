@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 #include "scene/scene.h"
 
 namespace echocine {

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "motion/interior_motion.h"
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 
 namespace echocine {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "frame/whereabouts.h"
 #include "geometry/plane_slice.h"
 #include "scene/scan_geometry.h"
-#include "simulate/whereabouts.h"
 
 namespace echocine {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/box.h"
+#include "frame/simulator.h"
 #include "motion/mesh/decimate.h"
-#include "simulate/simulator.h"
 
 namespace echocine {
 

@@ -4,18 +4,19 @@
 #include <cmath>
 
 #include "bench/rounds.h"
-#include "compare/discrepancy.h"
+#include "compare/frame_discrepancy.h"
 #include "core/hash_random.h"
 #include "support/plain_scene.h"
 
 namespace echocine::bench {
 namespace {
 
+using namespace echo;
 using namespace compare;
 
 // A loop of moving rings under noise, its sector that of the probe.
-Loop ringLoop(const Probe& probe) {
-  Loop loop;
+EchoLoop ringLoop(const Probe& probe) {
+  EchoLoop loop;
   loop.video.name = "rings";
   loop.video.width = 640;
   loop.video.height = 480;
@@ -42,8 +43,8 @@ void discrepancy(benchmark::State& state) {
   Scene scene = support::plainScene({support::medium("tissue", 1050, 1584, 14, 1e-3)});
   scene.probe.lines = 256;
   scene.probe.samples = 1024;
-  const Loop real = ringLoop(scene.probe);
-  const Discrepancy measure(real, scene.probe);
+  const EchoLoop real = ringLoop(scene.probe);
+  const FrameDiscrepancy measure(real, scene.probe);
   std::vector<float> grey(256 * 1024);
   for (std::size_t i = 0; i < grey.size(); ++i)
     grey[i] = static_cast<float>(uniformFromHash(hashOf(i, 1)));

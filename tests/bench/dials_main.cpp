@@ -11,7 +11,7 @@
 #include <functional>
 
 #include "bench/cpu_time.h"
-#include "compare/dial_scan.h"
+#include "fit/dial_scan.h"
 #include "core/units.h"
 #include "metrics/statistics.h"
 #include "support/view_loops.h"
@@ -19,7 +19,8 @@
 namespace echocine::bench {
 namespace {
 
-using namespace compare;
+using namespace echo;
+using namespace fit;
 using namespace support;
 
 // A heart under a scanner's look. Wall and rate are told to the models.
@@ -37,7 +38,7 @@ std::map<std::string, double> givenOf(const Pair& p) {
 using Change = std::function<void(Scene&)>;
 void unchanged(Scene&) {}
 
-Loop loopOf(const Pair& p, Look look, const Change& change) {
+EchoLoop loopOf(const Pair& p, Look look, const Change& change) {
   std::map<std::string, double> dials = givenOf(p);
   dials["ef"] = p.ef;
   dials["edv"] = p.edv_ml;
@@ -63,7 +64,7 @@ SideOptions fromFirstFrame() {
 // A pair with its pose as the heart of its own dials finds it.
 struct Fitted {
   HeartFamily family;
-  Loop loop;
+  EchoLoop loop;
   ModelLoop right;
   ModelDiscrepancy d;
   FitPose pose;
@@ -71,7 +72,7 @@ struct Fitted {
   explicit Fitted(const Pair& p, Look look = Look::scanner, const Change& change = unchanged)
       : Fitted(p, familyOf(p), loopOf(p, look, change)) {}
   // warped: the models' systole may have another share of the beat than the loop's.
-  Fitted(const Pair& p, HeartFamily models, Loop shown, bool warped = true)
+  Fitted(const Pair& p, HeartFamily models, EchoLoop shown, bool warped = true)
       : family(std::move(models)),
         loop(std::move(shown)),
         right(rightOf(p, warped)),

@@ -12,9 +12,9 @@
 #include "bench/floor/bare_signal.h"
 #include "bench/floor/bare_slice.h"
 #include "bench/rounds.h"
+#include "frame/simulator.h"
 #include "render/render.h"
 #include "scene/scene_reader.h"
-#include "simulate/simulator.h"
 
 namespace echocine::bench {
 namespace {

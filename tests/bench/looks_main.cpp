@@ -17,6 +17,7 @@
 
 #include "core/file.h"
 #include "core/parallel.h"
+#include "frame/simulator.h"
 #include "looks_classifier.h"
 #include "looks_regions.h"
 #include "metrics/statistics.h"
@@ -25,7 +26,6 @@
 #include "scene/names.h"
 #include "scene/role.h"
 #include "scene/signal_reader.h"
-#include "simulate/simulator.h"
 #include "texture_table.h"
 #include "truth/frame_truth.h"
 #include "video/read_video.h"

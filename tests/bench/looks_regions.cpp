@@ -7,13 +7,13 @@
 #include <sstream>
 #include <vector>
 
-#include "compare/beam_grid.h"
-#include "compare/sector.h"
+#include "echo/beam_grid.h"
+#include "echo/sector.h"
 #include "core/error.h"
 #include "core/units.h"
+#include "frame/simulator.h"
 #include "metrics/box_echo.h"
 #include "scene/scene_reader.h"
-#include "simulate/simulator.h"
 #include "video/read_video.h"
 
 namespace echocine::bench {
@@ -55,7 +55,7 @@ PictureLoop ofScene(const std::string& file) {
 
 PictureLoop ofVideo(const std::string& file, double mm_per_pixel) {
   Video video = readVideo(file);
-  const compare::Sector sector = compare::findSector(video).sector;
+  const echo::Sector sector = echo::findSector(video).sector;
   PictureLoop loop{.frames = {},
                    .width = video.width,
                    .height = video.height,
@@ -88,7 +88,7 @@ BeamSpace beamSpace(const PictureLoop& loop) {
       const double angle = radiansFromDegrees(space.first_deg + kLine_deg * i);
       for (int k = 0; k < space.samples; ++k) {
         const double r = kSample_mm * k / loop.mm_per_pixel;
-        plane.push_back(compare::greyAt(picture.data(), loop.width, loop.height,
+        plane.push_back(echo::greyAt(picture.data(), loop.width, loop.height,
                                         loop.apex_x + r * std::sin(angle),
                                         loop.apex_y + r * std::cos(angle)));
       }

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstring>
 
-#include "compare/plane_tilt.h"
+#include "fit/plane_tilt.h"
 #include "core/units.h"
 #include "motion/probe_placement.h"
 #include "support/view_loops.h"
@@ -15,7 +15,8 @@
 namespace echocine::bench {
 namespace {
 
-using namespace compare;
+using namespace echo;
+using namespace fit;
 using namespace support;
 
 struct Planted {

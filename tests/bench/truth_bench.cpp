@@ -2,9 +2,9 @@
 // and 800 x 600: `over_floor` less 1 is its time over the frame's.
 
 #include "bench/rounds.h"
+#include "frame/simulator.h"
 #include "motion/interior_motion.h"
 #include "scene/scene_reader.h"
-#include "simulate/simulator.h"
 #include "support/paths.h"
 #include "support/shipped_heart.h"
 

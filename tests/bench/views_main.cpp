@@ -10,14 +10,15 @@
 #include <cstring>
 #include <map>
 
-#include "compare/claim.h"
-#include "compare/view_ranking.h"
+#include "fit/coverage.h"
+#include "fit/view_ranking.h"
 #include "support/view_loops.h"
 
 namespace echocine::bench {
 namespace {
 
-using namespace compare;
+using namespace echo;
+using namespace fit;
 using namespace support;
 
 std::vector<ModelLoop> modelsOf(const std::function<Scene(View)>& sceneFor) {
@@ -34,7 +35,7 @@ struct Nearness {
   PoseFound found;
   double claimed = 0;
   std::string dials;
-  double left() const { return pictureLeft(found.discrepancy, claimed); }
+  double left() const { return pictureDiscrepancy(found.discrepancy, claimed); }
 };
 
 // Of all eight, right ones and margins.
@@ -92,7 +93,7 @@ void judge(const std::string& what, const std::vector<Nearness>& all, std::size_
 struct Case {
   Family family;
   std::size_t view;
-  Loop loop;
+  EchoLoop loop;
   std::string name() const { return fmt::format("{} {}", nameOf(family), viewNames()[view].key); }
 };
 
@@ -122,7 +123,7 @@ void judgeModels(const char* what, const std::vector<ModelLoop>& models, const C
   std::vector<Nearness> all;
   for (const ModelLoop& model : models) {
     const PoseFound found = discrepancy.search(model);
-    all.push_back({found, claimedShare(model, discrepancy.stack(), found.pose), ""});
+    all.push_back({found, coverageOf(model, discrepancy.stack(), found.pose), ""});
   }
   judge(c.name() + ", " + what, all, c.view, scores[std::string(nameOf(c.family)) + ", " + what]);
 }

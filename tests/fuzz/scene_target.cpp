@@ -1,8 +1,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "plan/effect_plan.h"
 #include "promises.h"
-#include "scene/effect_plan.h"
 #include "scene/scene_json.h"
 #include "scene/scene_reader.h"
 #include "targets.h"

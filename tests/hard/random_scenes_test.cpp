@@ -145,10 +145,9 @@ TEST(RandomScenes, ADeeperInterfaceChangesNothingShallower) {
     EffectPlan plan = planEffects(more.scene);  // of both: it decides for the same media
     plan.travel_time = false;                   // depth is path length
     const TraceSettings settings(world.scene, plan);
-    // One pulse holds it together with up to seven before it; and one rounding of the mesh to
-    // float.
+    // A stack of layers ends after 48 lengths of the pulse; and one rounding of the mesh to float.
     const double pulse_m = settings.pulse_cycles * settings.wavelength_m / 2;
-    const double safe_m = z_m - 7 * pulse_m - settings.thin_layer_m - 1e-7;
+    const double safe_m = z_m - 48 * pulse_m - settings.thin_layer_m - 1e-7;
     const double shallow = (safe_m - probe.min_depth_m) / probe.sampleSpacing();
     const auto same = static_cast<std::size_t>(
         std::clamp(std::floor(shallow), 0.0, static_cast<double>(probe.samples)));

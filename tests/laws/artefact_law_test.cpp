@@ -6,12 +6,12 @@
 #include <numbers>
 
 #include "core/units.h"
+#include "frame/persistence.h"
 #include "signal/haze.h"
 #include "signal/noise.h"
 #include "signal/sector_loss.h"
 #include "signal/signal_chain.h"
 #include "signal/time_gain.h"
-#include "simulate/persistence.h"
 #include "support/plain_scene.h"
 
 namespace echocine {

@@ -6,11 +6,13 @@
 #include <functional>
 
 #include "compare/calibration.h"
-#include "compare/discrepancy.h"
+#include "compare/frame_discrepancy.h"
 #include "core/hash_random.h"
 #include "metrics/frame_metrics.h"
 
 namespace echocine::compare {
+
+using namespace echo;
 namespace {
 
 constexpr int kLines = 40, kSamples = 60;

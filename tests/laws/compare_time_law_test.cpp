@@ -4,11 +4,13 @@
 
 #include <cmath>
 
-#include "compare/beat_length.h"
 #include "compare/time_alignment.h"
 #include "core/hash_random.h"
+#include "echo/beat_length.h"
 
 namespace echocine::compare {
+
+using namespace echo;
 namespace {
 
 // Frames of a wheel: what moves is known at any instant.

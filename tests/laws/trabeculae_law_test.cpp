@@ -6,11 +6,11 @@
 #include <cmath>
 #include <map>
 
+#include "frame/simulator.h"
 #include "geometry/plane_slice.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/trabeculae.h"
 #include "scene/role.h"
-#include "simulate/simulator.h"
 #include "speckle/field_material.h"
 
 namespace echocine {

@@ -18,7 +18,7 @@ EVERY_KEY = SOURCE / "examples" / "every_key" / "scene.toml"
 def test_every_key_of_the_documented_scene_reads_back():
     scene = echocine.Scene(EVERY_KEY)
     document = tomllib.loads(EVERY_KEY.read_text())
-    for table in ("probe", "acquisition", "motion", "effects", "speckle", "artefacts", "signal", "accuracy", "output"):
+    for table in ("probe", "acquisition", "motion", "effects", "trabeculae", "speckle", "artefacts", "signal", "accuracy", "output"):
         for key, value in document[table].items():
             assert scene[f"{table}.{key}"] == value
             assert getattr(getattr(scene, table), key) == value
@@ -30,9 +30,21 @@ def test_every_key_of_the_documented_scene_reads_back():
 def test_defaults_are_those_that_the_documented_scene_names():
     document = tomllib.loads(EVERY_KEY.read_text())
     scene = ball_scene()
-    for table in ("effects", "speckle", "artefacts", "accuracy"):
+    for table in ("effects", "trabeculae", "speckle", "artefacts", "accuracy"):
         for key, value in document[table].items():
             assert scene[f"{table}.{key}"] == pytest.approx(value) if isinstance(value, float) else scene[f"{table}.{key}"] == value
+
+
+def test_the_table_of_keys_names_every_key_of_a_scene():
+    table = echocine.scene_keys()
+    assert table["probe.depth_mm"]["unit"] == "mm" and '"linear"' in table["probe.kind"]["accepted"]
+    for key in echocine.Scene(EVERY_KEY).keys():
+        parts = key.split(".")
+        if parts[0] == "structure":
+            key = f"structure.{parts[-1]}"
+        elif parts[0] == "media":
+            key = "media." + ".".join(parts[2:])
+        assert key in table or key == "media.backscatter"
 
 
 def test_every_key_can_be_set_to_what_it_is():

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "compare/beat_length.h"
 #include "compare/time_alignment.h"
 #include "core/hash_random.h"
+#include "echo/beat_length.h"
 
 namespace echocine::compare {
+
+using namespace echo;
 namespace {
 
 // What moves in a picture at a phase of the beat, in three directions, and what is added to it.

@@ -12,6 +12,8 @@
 #include "support/temp_folder.h"
 
 namespace echocine::compare {
+
+using namespace echo;
 namespace {
 
 using nlohmann::json;

@@ -1,6 +1,6 @@
 // Only the effects that a scene calls for, each with its reason.
 
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 
 #include <gtest/gtest.h>
 

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "core/hash.h"
+#include "core/usable.h"
 #include "output/polar_plane.h"
 #include "output_exr_fixture.h"
 

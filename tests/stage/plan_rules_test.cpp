@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
+#include "frame/mean_loss.h"
+#include "frame/plan_loop.h"
+#include "frame/simulator.h"
 #include "motion/mesh_motion.h"
 #include "scene/beam_profile.h"
 #include "scene/scan_geometry.h"
-#include "simulate/mean_loss.h"
-#include "simulate/plan_loop.h"
-#include "simulate/simulator.h"
 #include "support/loop_scene.h"
 
 namespace echocine {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "simulate/simulator.h"
+#include "frame/simulator.h"
 #include "support/scene_text.h"
 
 namespace echocine {

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 #include "support/plain_scene.h"
 #include "support/world.h"
 

@@ -6,14 +6,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "compare/loop.h"
-#include "compare/model_discrepancy.h"
+#include "echo/echo_loop.h"
+#include "fit/model_discrepancy.h"
 #include "core/hash_random.h"
 #include "core/units.h"
 
 namespace echocine::support {
 
-using namespace compare;
+using namespace echo;
+using namespace fit;
 
 inline constexpr double kDepth_m = 0.15, kMiddle_m = kDepth_m / 2;
 inline constexpr int kFrames = kFitFrames;
@@ -119,12 +120,12 @@ struct Phantom {
 
 // The phantom as a scanner might show it: one grey for each tissue, a gain over depth, speckle that
 // moves with nothing, all moved by a pose. It is smallest at `systole` of the beat.
-inline Loop draw(const Phantom& phantom, const FitPose& pose, int frames, std::uint64_t seed,
+inline EchoLoop draw(const Phantom& phantom, const FitPose& pose, int frames, std::uint64_t seed,
                  double start_phase = 0, double systole = 0.5) {
   constexpr int kWidth = 250, kHeight = 190;
   constexpr double kPixel_m = 0.8e-3;
   constexpr double kGrey[3] = {95, 150, 35};
-  Loop loop;
+  EchoLoop loop;
   loop.video.name = "drawn";
   loop.video.width = kWidth;
   loop.video.height = kHeight;

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/loop.h"
+#include "echo/echo_loop.h"
 #include "core/hash_random.h"
 #include "video/cine_writer.h"
 
@@ -30,7 +30,7 @@ struct Drawing {
   double shift_x = 0, shift_y = 0, scale = 1;   // of everything, about the picture's origin
   double gamma = 1, noise = 0;  // of the grey 0..1; standard deviation in grey levels
   std::uint64_t seed = 1;
-  compare::Sector sector{160, 5, -0.7, 0.7, 12, 225};
+  echo::Sector sector{160, 5, -0.7, 0.7, 12, 225};
 };
 
 inline double ringGrey(const Drawing& d, double x, double y, double phase) {
@@ -75,8 +75,8 @@ inline std::vector<PixelPlane> drawnLoop(const Drawing& d) {
   return frames;
 }
 
-inline compare::Sector placedSector(const Drawing& d) {
-  compare::Sector s = d.sector;
+inline echo::Sector placedSector(const Drawing& d) {
+  echo::Sector s = d.sector;
   s.apex_x = s.apex_x * d.scale + d.shift_x;
   s.apex_y = s.apex_y * d.scale + d.shift_y;
   s.r_min *= d.scale;

@@ -10,7 +10,7 @@
 #include "support/echo_video.h"
 #include "support/temp_folder.h"
 
-namespace echocine::compare {
+namespace echocine::echo {
 
 using namespace support;
 
@@ -42,4 +42,4 @@ class Reading : public ::testing::Test {
   TempFolder folder;
 };
 
-}  // namespace echocine::compare
+}  // namespace echocine::echo

@@ -2,7 +2,7 @@
 // Scenes built in memory, without files, for the trace and signal stages.
 
 #include "core/units.h"
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 #include "trace/line_walker.h"
 #include "trace/trace_frame.h"
 

@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "compare/loop.h"
+#include "echo/echo_loop.h"
 #include "core/error.h"
 #include "core/hash_random.h"
 #include "core/parallel.h"
+#include "frame/simulator.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/views/heart_marks.h"
-#include "simulate/simulator.h"
 #include "support/patient_scene.h"
 #include "support/real_hearts.h"
 #include "support/scene_text.h"
@@ -91,7 +91,7 @@ inline Scene sceneOf(Family family, View view) {
 
 // One beat as another scanner shows it: media, gain, grey curve and speckle are its own, drawn from
 // `seed`. The first frame is end-diastole.
-inline compare::Loop scannedLoop(Scene scene, int frames, int seed) {
+inline echo::EchoLoop scannedLoop(Scene scene, int frames, int seed) {
   int number = 0;
   const auto drawn = [&](double low, double high) {
     return low + (high - low) * uniformFromHash(hashOf(static_cast<std::uint64_t>(seed), 7,
@@ -114,7 +114,7 @@ inline compare::Loop scannedLoop(Scene scene, int frames, int seed) {
   const Simulator simulator(scene);
   const Probe& p = simulator.scene().probe;
   const PictureGeometry& g = simulator.chain().geometry();
-  compare::Loop loop;
+  echo::EchoLoop loop;
   loop.video.name = "scanned";
   loop.video.width = scene.output.width;
   loop.video.height = scene.output.height;

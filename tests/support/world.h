@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/parallel.h"
-#include "scene/effect_plan.h"
+#include "plan/effect_plan.h"
 #include "support/meshes.h"
 #include "trace/thick_slice.h"
 #include "trace/trace_beams.h"

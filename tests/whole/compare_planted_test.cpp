@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/compare.h"
-#include "compare/discrepancy.h"
+#include "compare/frame_discrepancy.h"
 #include "compare/results.h"
 #include "core/parallel.h"
 #include "support/cine_frames.h"
@@ -16,6 +16,8 @@
 #include "support/run_program.h"
 
 namespace echocine::compare {
+
+using namespace echo;
 namespace {
 
 using namespace support;
@@ -165,7 +167,7 @@ TEST_F(Planted, MoreChangeIsMoreDiscrepancy) {
 TEST_F(Planted, TheCallWithoutFilesIsLeastAtTheRightInstant) {
   SideOptions side;
   side.mm_per_pixel = 0.5;
-  const Loop real = readLoop(folder / "plain.avi", side, true);
+  const EchoLoop real = readLoop(folder / "plain.avi", side, true);
   Probe probe;
   probe.first_angle_rad = plain.sector.first_rad;
   probe.last_angle_rad = plain.sector.last_rad;
@@ -187,7 +189,7 @@ TEST_F(Planted, TheCallWithoutFilesIsLeastAtTheRightInstant) {
   };
   std::vector<double> values;
   withThreads(2, [&] {
-    Discrepancy d(real, probe);
+    FrameDiscrepancy d(real, probe);
     EXPECT_EQ(d.realFrames(), 24);
     for (int j = 0; j < 24; j += 3) values.push_back(d(3, beams(j / 24.0)));
   });

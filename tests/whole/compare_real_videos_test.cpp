@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "compare/beat_length.h"
+#include "echo/beat_length.h"
 #include "compare/compare.h"
 #include "core/units.h"
 #include "support/paths.h"
 
 namespace echocine::compare {
+
+using namespace echo;
 namespace {
 
 const std::filesystem::path kVideoFolder =
@@ -22,7 +24,7 @@ class RealVideos : public ::testing::Test {
   }
 };
 
-void expectSector(const Loop& loop, double x, double y, double first_deg, double last_deg,
+void expectSector(const EchoLoop& loop, double x, double y, double first_deg, double last_deg,
                   double radius) {
   const Sector& s = loop.sector();
   EXPECT_NEAR(s.apex_x, x, 3);
@@ -39,7 +41,7 @@ bool says(const std::vector<std::string>& notes, const std::string& part) {
 }
 
 TEST_F(RealVideos, TheDicomIsReadWithItsRepeatsAndItsWrongScaleIsCaught) {
-  const Loop loop = readLoop(kDicom, {}, true);
+  const EchoLoop loop = readLoop(kDicom, {}, true);
   EXPECT_EQ(loop.video.frameCount(), 30);
   EXPECT_EQ(loop.video.width, 320);
   EXPECT_EQ(loop.video.repeats, (std::vector<int>{11, 28}));
@@ -54,7 +56,7 @@ TEST_F(RealVideos, TheDicomIsReadWithItsRepeatsAndItsWrongScaleIsCaught) {
 }
 
 TEST_F(RealVideos, TheFilmIsReadAndItsSectorFound) {
-  const Loop loop = readLoop(kFilm, {}, true);
+  const EchoLoop loop = readLoop(kFilm, {}, true);
   EXPECT_EQ(loop.video.frameCount(), 45);
   EXPECT_TRUE(loop.video.repeats.empty());
   EXPECT_FALSE(loop.video.rate.trusted);
@@ -67,7 +69,7 @@ TEST_F(RealVideos, WhatTheUserSaysGoesFirst) {
   side.fps = 61.5;
   side.mm_per_pixel = 0.2;
   side.sector = "510,-3,-43,43,5,769";
-  const Loop loop = readLoop(kFilm, side, true);
+  const EchoLoop loop = readLoop(kFilm, side, true);
   EXPECT_EQ(loop.video.rate.hz, 61.5);
   EXPECT_EQ(loop.video.rate.source, "--fps");
   EXPECT_NEAR(*loop.metres_per_pixel, 2e-4, 1e-15);

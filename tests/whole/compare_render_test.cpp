@@ -12,6 +12,8 @@
 #include "support/run_program.h"
 
 namespace echocine::compare {
+
+using namespace echo;
 namespace {
 
 using namespace support;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "frame/simulator.h"
 #include "scene/white_rule.h"
-#include "simulate/simulator.h"
 #include "support/paths.h"
 #include "support/patient_scene.h"
 #include "support/temp_folder.h"

@@ -213,28 +213,8 @@ TEST(Documents, CommandsShownAreAcceptedByTheParser) {
   EXPECT_GT(commands, 3);
 }
 
-// Keys that the scene reader asks its tables for, by the readers' own text.
-std::set<std::string> keysOfTheReader() {
-  static const std::regex kAsked(
-      R"rx((?:number|integer|boolean|text|texts|vector|choice|numbers|pairs|table|tables|namedTables)(?:<\w+>)?\(\s*"([a-z][a-z_0-9]*)")rx");
-  std::set<std::string> keys;
-  for (const auto& entry : fs::directory_iterator(kRoot / "src/scene"))
-    if (entry.path().extension() == ".cpp")
-      for (const std::string& key : matches(support::bytesOf(entry.path()), kAsked))
-        keys.insert(key);
-  return keys;
-}
-
 bool hasWord(const std::string& text, const std::string& word) {
   return std::regex_search(text, std::regex("(^|[^A-Za-z_0-9])" + word + "($|[^A-Za-z_0-9])"));
-}
-
-TEST(Documents, ReferenceSceneHasEveryKeyOfTheReader) {
-  const std::string reference = support::bytesOf(kRoot / "examples/every_key/scene.toml") +
-                                support::bytesOf(kRoot / "data/media.toml");
-  const std::set<std::string> keys = keysOfTheReader();
-  EXPECT_GT(keys.size(), 60u);
-  for (const std::string& key : keys) EXPECT_TRUE(hasWord(reference, key)) << key;
 }
 
 // `signal.tgc`, `accuracy.rays_per_beam = 32` and the like.

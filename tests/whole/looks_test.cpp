@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "core/parallel.h"
+#include "frame/simulator.h"
 #include "scene/scene_json.h"
-#include "simulate/simulator.h"
 #include "support/loop_scene.h"
 
 namespace echocine {

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
-#include "output/truth_files.h"
+#include "frame/picture_grid.h"
+#include "frame/simulator.h"
 #include "render/render.h"
 #include "scene/scan_geometry.h"
-#include "simulate/simulator.h"
 #include "support/exr_planes.h"
 #include "support/loop_scene.h"
 #include "support/run_files.h"

@@ -7,10 +7,10 @@
 #include <map>
 #include <tuple>
 
+#include "frame/simulator.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/mesh_motion.h"
 #include "render/render.h"
-#include "simulate/simulator.h"
 #include "support/exr_planes.h"
 #include "support/loop_scene.h"
 #include "support/run_files.h"

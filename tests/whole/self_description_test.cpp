@@ -68,6 +68,28 @@ TEST_F(SelfDescription, EveryCommandAndOptionOfHelpIsInManPagesAndCompletions) {
   }
 }
 
+// What bash offers behind `echocine COMMAND OPTION `.
+std::string offered(const std::filesystem::path& script, const std::string& command,
+                    const std::string& option) {
+  return runShell("bash -c 'source " + script.string() + "; COMP_WORDS=(echocine " + command + " " +
+                  option + " \"\"); COMP_CWORD=3; _echocine; echo \"${COMPREPLY[*]}\"'")
+      .out;
+}
+
+TEST_F(SelfDescription, CompletionOffersTheValuesOfChoices) {
+  const std::filesystem::path bash = *folder_ / "echocine.bash";
+  const std::string views = "a4c a2c a3c plax psax-base psax-mid psax-apex subcostal\n";
+  EXPECT_EQ(offered(bash, "heart", "--view"), views);
+  EXPECT_EQ(offered(bash, "compare", "--view"), views);
+  EXPECT_EQ(offered(bash, "heart", "--look"), "paper clean scanner\n");
+  EXPECT_EQ(offered(bash, "render", "--preset"), "draft standard fine reference\n");
+  EXPECT_EQ(offered(bash, "plan", "--preset"), "draft standard fine reference\n");
+  const std::string zsh = text("_echocine");
+  EXPECT_NE(zsh.find(":value:(a4c a2c a3c plax psax-base psax-mid psax-apex subcostal)"),
+            std::string::npos);
+  EXPECT_NE(zsh.find(":value:(draft standard fine reference)"), std::string::npos);
+}
+
 TEST_F(SelfDescription, NoCommandOfHelpIsMissedHere) {
   const std::string help = runShell("%B --help").out;
   const std::string list = help.substr(help.find("Subcommands:"));

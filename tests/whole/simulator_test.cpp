@@ -1,6 +1,6 @@
 // One frame as a caller gets it: the bytes of a render, from any thread, with or without files.
 
-#include "simulate/simulator.h"
+#include "frame/simulator.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "frame/reference_frames.h"
 #include "motion/heart/heart_scene.h"
 #include "output/exr_plane.h"
 #include "output/exr_stack.h"
@@ -16,7 +17,6 @@
 #include "render/reference_pass.h"
 #include "render/render.h"
 #include "scene/scene_reader.h"
-#include "simulate/reference_frames.h"
 #include "support/loop_scene.h"
 #include "support/scene_text.h"
 #include "support/temp_folder.h"

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
+#include "frame/simulator.h"
 #include "scene/scene_reader.h"
-#include "simulate/simulator.h"
 #include "speckle/sheet_points.h"
 #include "support/loop_scene.h"
 

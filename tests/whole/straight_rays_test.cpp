@@ -6,11 +6,11 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "frame/simulator.h"
 #include "metrics/picture_error.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/probe_placement.h"
 #include "scene/scan_geometry.h"
-#include "simulate/simulator.h"
 
 namespace echocine {
 namespace {

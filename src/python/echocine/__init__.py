@@ -20,9 +20,9 @@ from ._dataset import Dataset, DatasetLoop, dataset, preview_dataset
 from ._errors import JobError, SceneError, SceneWarning
 from ._jobs import Comparison, Discrepancy, Plan, compare, plan, study
 from ._loop import Loop, open, render
-from ._scene import Scene, Table, dials, heart
+from ._scene import Scene, Table, dials, heart, scene_keys
 from ._simulator import Simulator
 
 __all__ = ["Comparison", "Dataset", "DatasetLoop", "Discrepancy", "Frame", "JobError", "Loop", "Plan", "Scene", "SceneError",
            "SceneWarning", "Simulator", "Table", "__version__", "compare", "dataset", "dials", "heart", "open", "plan",
-           "preview_dataset", "render", "study"]
+           "preview_dataset", "render", "scene_keys", "study"]

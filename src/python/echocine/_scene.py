@@ -16,10 +16,9 @@ from . import _echocine, _meshes, _toml
 from ._errors import SceneError
 from ._progress import Progress, report_to
 
-_TABLES = ("probe", "acquisition", "motion", "effects", "speckle", "artefacts", "signal", "accuracy", "output", "truth")
-_PLAIN = ("background", "unit_volume_cm3")
-# Of a table that a scene without truth does not have at all.
-_TRUTH_KEYS = ("write", "labels", "papillary", "tracks")
+# Full keys of the reader's table: "probe.depth_mm", "structure.priority".
+_KEYS = frozenset(row[0] for row in _echocine.scene_keys())
+_PLAIN = frozenset(key for key in _KEYS if "." not in key)
 
 
 class Table:
@@ -177,12 +176,14 @@ class Scene:
                 found.add(name)
         for key in self._native.absent:
             table, _, rest = key.partition(".")
-            if (rest and table in _TABLES) or (not rest and key in _PLAIN):
-                found.add(key)
-            elif rest and table == "structure":
+            if key not in _KEYS:
+                continue
+            if table == "structure":
                 found.update(f"structure.{e['name']}.{rest}" for e in self._native.structures)
-        if "truth" not in document:
-            found.update(f"truth.{key}" for key in _TRUTH_KEYS)
+            else:
+                found.add(key)
+        if "truth" not in document:  # which the reader then does not look into
+            found.update(key for key in _KEYS if key.startswith("truth."))
         return sorted(found)
 
     def __getitem__(self, key: str) -> Any:
@@ -338,6 +339,11 @@ class Scene:
         return Table(self, "speckle")
 
     @property
+    def trabeculae(self) -> Table:
+        """Rough inner surfaces of the ventricles."""
+        return Table(self, "trabeculae")
+
+    @property
     def artefacts(self) -> Table:
         """What a scanner adds to the picture."""
         return Table(self, "artefacts")
@@ -451,3 +457,9 @@ def dials() -> Dict[str, Dict[str, Any]]:
     """The dials of `heart`: name -> unit, least, most, default (None: follows the others), meaning."""
     words = ("unit", "least", "most", "default", "meaning")
     return {row[0].replace("-", "_"): dict(zip(words, row[1:])) for row in _echocine.dials()}
+
+
+def scene_keys() -> Dict[str, Dict[str, str]]:
+    """The keys of scenes: full name -> unit, accepted values, meaning. Those of media stand under ``media``."""
+    words = ("unit", "accepted", "meaning")
+    return {row[0]: dict(zip(words, row[1:])) for row in _echocine.scene_keys()}

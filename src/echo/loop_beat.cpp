@@ -1,0 +1,53 @@
+// The beat of a loop: by its file, its R waves, a heart rate, or its self-similarity.
+
+#include <algorithm>
+
+#include "echo/beat_length.h"
+#include "echo/resample.h"
+
+namespace echocine::echo {
+
+namespace {
+
+// 200 beats a minute at a rate that is known; otherwise an eighth of the loop.
+double shortestBeat(const EchoLoop& loop) {
+  constexpr double kShortest_s = 0.3;
+  return loop.video.rate.trusted && loop.video.rate.hz > 0
+             ? kShortest_s * loop.video.rate.hz
+             : static_cast<double>(loop.video.frames.size()) / 8;
+}
+
+// What moves in a loop's own sector, whatever it is compared with. Features are coarse, so the grid
+// may be.
+Features ownFeatures(const EchoLoop& loop) {
+  BeamGrid grid = commonGrid(loop, loop);
+  grid.lines = std::min(grid.lines, 128);
+  grid.samples = std::min(grid.samples, 192);
+  const BeamLoop beams = resample(grid, loop);
+  return motionFeatures(grid, beams, areaWeights(grid, beams.valid, beams.valid));
+}
+
+}  // namespace
+
+BeatLength beatOf(const EchoLoop& loop) {
+  BeatLength beat = findBeatLength(ownFeatures(loop), shortestBeat(loop));
+  const auto known = [&](double frames, const std::string& source) {
+    beat.frames = frames;
+    beat.confidence = 1;
+    beat.source = source;
+  };
+  const Video& v = loop.video;
+  if (loop.frames_per_beat > 0)
+    known(loop.frames_per_beat, "manifest");
+  else if (v.r_waves_s.size() > 1 && v.rate.hz > 0)
+    known((v.r_waves_s.back() - v.r_waves_s.front()) / static_cast<double>(v.r_waves_s.size() - 1) *
+              v.rate.hz,
+          "R waves");
+  else if (loop.ecg && loop.ecg->beat_frames > 0 && v.heart_rate_source != "--heart-rate")
+    beat = {loop.ecg->beat_frames, loop.ecg->confidence, loop.beat_anchor, beat.dissimilarity};
+  else if (v.heart_rate_bpm && v.rate.trusted)
+    known(60 / *v.heart_rate_bpm * v.rate.hz, v.heart_rate_source);
+  return beat;
+}
+
+}  // namespace echocine::echo

@@ -1,0 +1,191 @@
+#include "echo/render_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/parallel.h"
+#include "output/exr_plane.h"
+#include "output/exr_stack.h"
+#include "scene/names.h"
+#include "signal/picture.h"
+#include "video/read_video.h"
+#include "video/video_builder.h"
+
+namespace echocine::echo {
+
+namespace {
+
+using UnorderedJson = nlohmann::json;
+
+// The picture's geometry is worked out by the very function that rendered it, not read off the
+// pixels.
+void takeGeometry(const UnorderedJson& scene, EchoLoop& loop, const std::string& name) {
+  const UnorderedJson &p = scene.at("probe"), &o = scene.at("output");
+  if (p.at("kind") == "linear")
+    throw SceneError(
+        fmt::format("{}: a linear probe has no sector; render the view with a phased or "
+                    "curvilinear one",
+                    name));
+  Scene s;  // what the picture's geometry depends on
+  s.probe.kind = p.at("kind") == "phased" ? ProbeKind::phased : ProbeKind::curvilinear;
+  s.probe.first_angle_rad = p.at("first_angle_rad");
+  s.probe.last_angle_rad = p.at("last_angle_rad");
+  s.probe.face_radius_m = p.at("face_radius_m");
+  s.probe.min_depth_m = p.at("min_depth_m");
+  s.probe.max_depth_m = p.at("max_depth_m");
+  s.probe.lines = p.at("lines");
+  s.probe.samples = p.at("samples");
+  s.output.width = o.at("width");
+  s.output.height = o.at("height");
+  s.output.ecg = o.at("ecg");
+  s.output.depth_ticks = o.at("depth_ticks");
+  s.output.cine = true;
+  if (s.output.width != loop.video.width || s.output.height != loop.video.height)
+    throw SceneError(
+        fmt::format("{}: its cine is {} x {} pixels, its manifest says {} x {}; render it "
+                    "again",
+                    name, loop.video.width, loop.video.height, s.output.width, s.output.height));
+  const PictureGeometry g = pictureGeometry(s);
+  if (!(g.metres_per_pixel > 0 && std::isfinite(g.metres_per_pixel)))
+    throw SceneError(
+        fmt::format("{}: manifest.json: its probe has no extent; render it again", name));
+  loop.metres_per_pixel = g.metres_per_pixel;
+  loop.scale_source = "manifest";
+  loop.find.given = true;
+  loop.find.sector = {g.origin_x_px,
+                      g.origin_y_px,
+                      s.probe.first_angle_rad,
+                      s.probe.last_angle_rad,
+                      (s.probe.face_radius_m + s.probe.min_depth_m) / g.metres_per_pixel,
+                      (s.probe.face_radius_m + s.probe.max_depth_m) / g.metres_per_pixel};
+}
+
+// Frames per beat from the phases, which count on from frame to frame.
+// By the role that the manifest has, else by the name.
+std::string leftVentricle(const UnorderedJson& structures) {
+  for (const UnorderedJson& structure : structures) {
+    const std::string name = structure.at("name");
+    const Role role = structure.contains("role")
+                          ? valueOf<Role>(structure["role"].get<std::string>()).value_or(Role::none)
+                          : guessRole(name);
+    if (role == Role::lv_cavity) return name;
+  }
+  return "";
+}
+
+void takeFrames(const UnorderedJson& frames, EchoLoop& loop) {
+  std::vector<double> times;
+  for (const UnorderedJson& f : frames) {
+    loop.phases.push_back(f.at("phase"));
+    times.push_back(f.at("time_s"));
+    std::size_t i = 0;
+    for (const auto& [name, ml] : f.at("volumes_ml").items()) {
+      if (loop.volumes_ml.size() <= i) loop.volumes_ml.push_back({name, {}});
+      loop.volumes_ml[i++].second.push_back(ml);
+    }
+  }
+  // Beats gone by: each step forwards, modulo 1. Preconditions: under one beat from frame to frame.
+  double turned = 0;
+  for (std::size_t i = 1; i < loop.phases.size(); ++i) {
+    const double step = loop.phases[i] - loop.phases[i - 1];
+    turned += step - std::floor(step);
+  }
+  if (turned > 0) loop.frames_per_beat = static_cast<double>(loop.phases.size() - 1) / turned;
+  if (times.size() > 1 && times.back() > times.front())
+    loop.video.rate = {static_cast<double>(times.size() - 1) / (times.back() - times.front()),
+                       "manifest", true};
+}
+
+// The exact greys, when every frame's EXR has them.
+void takeTracedGreys(const std::filesystem::path& folder, const UnorderedJson& scene,
+                     EchoLoop& loop) {
+  loop.grey_source = "cine.avi";
+  const UnorderedJson &p = scene.at("probe"), &channels = scene.at("output").at("channels");
+  if (std::find(channels.begin(), channels.end(), channelName(Channel::display)) ==
+          channels.end() ||
+      !scene.at("output").at("exr").get<bool>())
+    return;
+  TracedGreys t;
+  t.lines = p.at("lines");
+  t.samples = p.at("samples");
+  t.first_rad = p.at("first_angle_rad");
+  t.last_rad = p.at("last_angle_rad");
+  t.near_m = p.at("face_radius_m").get<double>() + p.at("min_depth_m").get<double>();
+  t.far_m = p.at("face_radius_m").get<double>() + p.at("max_depth_m").get<double>();
+  const int frames = loop.video.frameCount();
+  // The manifest may be damaged; memory stays within what a video of its length may take.
+  if (t.lines < 2 || t.samples < 2 || t.lines > kMaxLoopPixels / t.samples / frames) return;
+  t.frames.resize(static_cast<std::size_t>(frames));
+  // One bad frame is enough: a mix of exact and decoded greys would step in brightness.
+  std::atomic<int> unread{-1};
+  parallelBlocks(t.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end && unread < 0; ++f) {
+      const int frame = static_cast<int>(f);
+      std::optional<std::vector<float>> plane =
+          readExrPlane(folder / "intensity" / ExrStack::fileName(frame),
+                       {Channel::display, loop.scene_sha256, frame, t.lines, t.samples});
+      if (!plane) {
+        unread = frame;
+        return;
+      }
+      for (float& grey : *plane) grey *= 255;
+      t.frames[f] = std::move(*plane);
+    }
+  });
+  if (unread >= 0) {
+    loop.video.notes.push_back(
+        "not all of its frames' EXR are there and whole: greys are those of cine.avi");
+    return;
+  }
+  loop.grey_source = "EXR display.Y";
+  loop.traced = std::move(t);
+}
+
+}  // namespace
+
+bool isRenderFolder(const std::filesystem::path& path) {
+  std::error_code failed;
+  return std::filesystem::is_regular_file(path / "manifest.json", failed);
+}
+
+// The manifest is written last, so a folder that has one is whole unless files were taken away
+// since.
+EchoLoop readRenderFolder(const std::filesystem::path& folder) {
+  constexpr std::size_t kMaxManifest = std::size_t{1} << 28;
+  const std::string name = folder.string();
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(folder / "cine.avi", failed))
+    throw SceneError(
+        fmt::format("{}: has no cine.avi; render the scene with output.cine = true", name));
+  EchoLoop loop;
+  try {
+    const UnorderedJson manifest =
+        UnorderedJson::parse(readTextFile(folder / "manifest.json", kMaxManifest));
+    loop.video = readVideo(folder / "cine.avi");
+    loop.video.name = name;
+    loop.video.format = "render folder";
+    loop.video.repeats.clear();  // frames that do not move are no repeats here
+    takeGeometry(manifest.at("scene"), loop, name);
+    takeFrames(manifest.at("frames"), loop);
+    loop.lv_cavity = leftVentricle(manifest.at("scene").at("structures"));
+    loop.scene_sha256 = manifest.at("scene_sha256");
+    if (loop.phases.size() == loop.video.frames.size())
+      takeTracedGreys(folder, manifest.at("scene"), loop);
+  } catch (const UnorderedJson::exception& error) {
+    throw SceneError(
+        fmt::format("{}: manifest.json is damaged ({}); render it again", name, error.what()));
+  }
+  if (loop.phases.size() != loop.video.frames.size())
+    throw SceneError(fmt::format("{}: cine.avi has {} frames, manifest.json {}; render it again",
+                                 name, loop.video.frames.size(), loop.phases.size()));
+  loop.overlay.assign(loop.video.frames.front().size(), 0);
+  return loop;
+}
+
+}  // namespace echocine::echo

@@ -1,0 +1,56 @@
+#include "fit/coverage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/fit_sums.h"
+
+namespace echocine::fit {
+
+namespace {
+
+// Places of the sector do not change their sight over the beat.
+echo::BeatPlace anyPicture(const echo::EchoStack& real) {
+  echo::BeatPlace at;
+  for (int p = 0; p < real.pictures(); ++p)
+    if (real.seen(p)) {
+      at.pictures[0] = p;
+      break;
+    }
+  return at;
+}
+
+double sectorArea(const echo::EchoStack& real, const echo::BeatPlace& at) {
+  constexpr double kStep_m = 3e-3;
+  const int steps = static_cast<int>(std::ceil(real.far() / kStep_m));
+  double area = 0;
+  for (int i = -steps; i <= steps; ++i)
+    for (int k = 0; k <= steps; ++k)
+      area += static_cast<double>(real.at(at, kStep_m * i, kStep_m * k).in_sight);
+  return area * kStep_m * kStep_m;
+}
+
+}  // namespace
+
+double coverageOf(const ModelLoop& model, const echo::EchoStack& real, const FitPose& pose) {
+  const echo::BeatPlace at = anyPicture(real);
+  const PoseMapping map(pose, model.far_m);
+  double cells = 0;
+  for (const ModelFrame& frame : model.frames)
+    for (const TissueCell& cell : frame.cells) {
+      if (!(cell.area > 0)) continue;
+      double x, z;
+      map.place(cell.x_m, cell.z_m, x, z);
+      cells += static_cast<double>(cell.area * real.at(at, x, z).in_sight);
+    }
+  const double sector = sectorArea(real, at),
+               claimed = cells / static_cast<double>(model.frames.size()) /
+                         cellsPerArea(model, {}) * map.scale() * map.scale();
+  return sector > 0 ? std::clamp(claimed / sector, 0.0, 1.0) : 0;
+}
+
+double pictureDiscrepancy(double discrepancy, double claimed) {
+  return std::pow(discrepancy, claimed);
+}
+
+}  // namespace echocine::fit

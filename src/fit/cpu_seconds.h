@@ -1,0 +1,14 @@
+#pragma once
+// CPU time of the whole process: what a search costs, however many threads ran it.
+
+#include <ctime>
+
+namespace echocine::fit {
+
+inline double cpuSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace echocine::fit

@@ -1,0 +1,120 @@
+#include "fit/dial_grid.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <opencv2/core.hpp>
+
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace echocine::fit {
+
+std::vector<double> ScanAxis::values() const {
+  std::vector<double> out;
+  const int steps = static_cast<int>(std::floor((range.high - range.low) / step + 1e-6));
+  for (int i = 0; i <= steps; ++i) out.push_back(range.low + step * i);
+  return out;
+}
+
+int nodesFor(std::size_t axes) {
+  return axes >= kMostAxes ? 3 : 4;
+}
+
+std::vector<double> middleOf(const std::vector<ScanAxis>& axes) {
+  std::vector<double> middle;
+  for (const ScanAxis& axis : axes) middle.push_back(0.5 * (axis.range.low + axis.range.high));
+  return middle;
+}
+
+namespace {
+
+std::vector<ScanPoint> pointsOf(const std::vector<ScanAxis>& axes) {
+  std::vector<ScanPoint> points{{}};
+  for (const ScanAxis& axis : axes) {
+    std::vector<ScanPoint> next;
+    for (const ScanPoint& point : points)
+      for (const double value : axis.values()) {
+        next.push_back(point);
+        next.back().values.push_back(value);
+      }
+    points = std::move(next);
+  }
+  return points;
+}
+
+// Least squares of a paraboloid in steps about the best point.
+void fitParaboloid(const std::vector<ScanAxis>& axes, DialGrid& grid) {
+  const std::size_t n = axes.size(), unknowns = 1 + n + n * (n + 1) / 2;
+  const auto steps = [&](const ScanPoint& p, std::size_t a) {
+    return (p.values[a] - grid.points[grid.best].values[a]) / axes[a].step;
+  };
+  cv::Mat rows(0, static_cast<int>(unknowns), CV_64F), right(0, 1, CV_64F);
+  for (const ScanPoint& p : grid.points) {
+    cv::Mat row(1, static_cast<int>(unknowns), CV_64F);
+    int at = 0;
+    bool near = true;
+    row.at<double>(at++) = 1;
+    for (std::size_t a = 0; a < n; ++a) {
+      near = near && std::abs(steps(p, a)) < 2.5;
+      row.at<double>(at++) = steps(p, a);
+    }
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = 0; b <= a; ++b) row.at<double>(at++) = steps(p, a) * steps(p, b);
+    if (!near) continue;
+    rows.push_back(row);
+    right.push_back(p.found.discrepancy);
+  }
+  if (rows.rows <= static_cast<int>(unknowns)) return;
+  cv::Mat x, hessian(static_cast<int>(n), static_cast<int>(n), CV_64F), values, move;
+  cv::solve(rows, right, x, cv::DECOMP_SVD);
+  int at = 1 + static_cast<int>(n);
+  for (int a = 0; a < static_cast<int>(n); ++a)
+    for (int b = 0; b <= a; ++b, ++at)
+      hessian.at<double>(a, b) = hessian.at<double>(b, a) = x.at<double>(at) * (a == b ? 2 : 1);
+  for (int a = 0; a < static_cast<int>(n); ++a) grid.curvature.push_back(hessian.at<double>(a, a));
+  cv::eigen(hessian, values);
+  if (!(values.at<double>(values.rows - 1) > 0)) return;
+  // Of the inverse: how errors of two dials go together.
+  const cv::Mat inverse = hessian.inv();
+  for (int a = 0; a < static_cast<int>(n); ++a) {
+    grid.confounding.emplace_back();
+    for (int b = 0; b < static_cast<int>(n); ++b)
+      grid.confounding.back().push_back(
+          inverse.at<double>(a, b) /
+          std::sqrt(inverse.at<double>(a, a) * inverse.at<double>(b, b)));
+  }
+  move = -inverse * x.rowRange(1, 1 + static_cast<int>(n));
+  for (std::size_t a = 0; a < n; ++a) {
+    const ScanAxis& axis = axes[a];
+    grid.minimum.push_back(std::clamp(
+        grid.points[grid.best].values[a] + move.at<double>(static_cast<int>(a)) * axis.step,
+        axis.range.low, axis.range.high));
+  }
+}
+
+}  // namespace
+
+DialGrid holdGrid(const std::vector<ScanAxis>& axes, const HeartFamily& family,
+                  const ModelDiscrepancy& discrepancy, const std::vector<FitPose>& starts,
+                  const PlaneTilt& tilt, const Monitor& monitor) {
+  DialGrid grid;
+  grid.points = pointsOf(axes);
+  std::atomic<std::size_t> done = 0;
+  std::mutex telling;
+  parallelBlocks(grid.points.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!monitor.keep_going()) throw JobError("stopped while dials were scanned");
+      grid.points[i].found = discrepancy.refine(family.at(grid.points[i].values, tilt), starts);
+      const std::lock_guard lock(telling);
+      monitor.tell({Task::settings, ++done, grid.points.size()});
+    }
+  });
+  for (std::size_t i = 0; i < grid.points.size(); ++i)
+    if (grid.points[i].found.discrepancy < grid.points[grid.best].found.discrepancy) grid.best = i;
+  fitParaboloid(axes, grid);
+  return grid;
+}
+
+}  // namespace echocine::fit

@@ -1,0 +1,147 @@
+#include "fit/fit_sums.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+#include "core/lanes.h"
+
+namespace echocine::fit {
+
+namespace {
+
+constexpr double kSharpness = 2;      // of p in Eq. 4; our choice
+constexpr double kIntoWall_m = 2e-3;  // where walls are tracked: inside them; our choice
+
+}  // namespace
+
+double EdgeProfile::certainty() const {
+  double entropy = 0;
+  for (const double share : p)
+    if (share > 0) entropy -= share * std::log(share);
+  return 1 - entropy / std::log(static_cast<double>(kProfileSteps));
+}
+
+EdgeProfile edgeProfileAt(const echo::EchoStack& real, const echo::BeatPlace& at, double x,
+                          double z, double nx, double nz, bool of_blood) {
+  EdgeProfile out;
+  const double per_scale = kSharpness / real.edgeScale();
+  float e[2 * kFloatLanes] = {};
+  static_assert(kProfileSteps <= std::size(e));
+  for (int i = 0; i < kProfileSteps; ++i) {
+    const double s = kProfileReach_m * (2.0 * i / (kProfileSteps - 1) - 1);
+    const double px = x + s * nx, pz = z + s * nz;
+    // The sector's end shows no edge.
+    const echo::EchoStack::Sample g = real.at(at, px, pz);
+    const double edge = (nx * static_cast<double>(g.gx) + nz * static_cast<double>(g.gz)) *
+                        static_cast<double>(g.in_sight);
+    e[i] = static_cast<float>(per_scale * (of_blood ? edge : std::abs(edge)));
+    if (2 * i == kProfileSteps - 1) out.in_sight = g.in_sight;
+  }
+  for (std::size_t i = 0; i < std::size(e); i += kFloatLanes)
+    store(exponential(lanesAt(e + i)), e + i);
+  double sum = 0;
+  for (int i = 0; i < kProfileSteps; ++i) sum += static_cast<double>(e[i]);
+  for (int i = 0; i < kProfileSteps; ++i) out.p[i] = static_cast<double>(e[i]) / sum;
+  out.square = 0;
+  for (int i = 0; i < kProfileSteps; ++i) {
+    const double t = 2.0 * i / (kProfileSteps - 1) - 1;
+    out.mean_m += out.p[i] * t * kProfileReach_m;
+    out.square += out.p[i] * t * t;
+  }
+  return out;
+}
+
+double seenBeside(const echo::EchoStack& real, double x, double z, double nx, double nz) {
+  const double r = std::sqrt(x * x + z * z);
+  return r > 0 ? real.spread().shift(r, (nx * x + nz * z) / r) : 0;
+}
+
+MotionPair motionOf(const BoundaryPoint& p, const echo::EchoStack& real, const echo::BeatPlace& at,
+                    const PoseMapping& map, double x, double z, double nx, double nz) {
+  const echo::EchoMotion v = real.motionAt(at, x + kIntoWall_m * nx, z + kIntoWall_m * nz);
+  double ux, uz;
+  map.turn(p.dx_m, p.dz_m, ux, uz);
+  ux *= map.scale(), uz *= map.scale();
+  const double ax = ux - static_cast<double>(v.dx_m), az = uz - static_cast<double>(v.dz_m);
+  return {ax * ax + az * az,
+          ux * ux + uz * uz + static_cast<double>(v.dx_m) * v.dx_m +
+              static_cast<double>(v.dz_m) * v.dz_m,
+          v.weight};
+}
+
+void addCells(const ModelLoop& model, const ModelFrame& frame, const echo::EchoStack& real,
+              const echo::BeatPlace& at, const PoseMapping& map, int stride, RegionSums& sums) {
+  for (int i = stride / 2; i < model.cells_across; i += stride)
+    for (int k = stride / 2; k < model.cells_along; k += stride) {
+      const TissueCell& cell = frame.cells[static_cast<std::size_t>(i * model.cells_along + k)];
+      if (!(cell.area > 0)) continue;
+      double x, z;
+      map.place(cell.x_m, cell.z_m, x, z);
+      const echo::EchoStack::Sample s = real.at(at, x, z);
+      const double area = cell.area, seen = area * static_cast<double>(s.in_sight);
+      sums.all += area;
+      if (!(seen > 0)) continue;
+      sums.seen += seen;
+      const double depth = std::sqrt(x * x + z * z) / real.far();
+      sums.greys.add(cell.first, cell.second, cell.share, depth, s.grey, seen);
+    }
+}
+
+void addStrip(const BoundaryPoint& p, const echo::EchoStack& real, const echo::BeatPlace& at,
+              double x, double z, double nx, double nz, double beside, double cells_per_m2,
+              RegionSums& sums) {
+  const double hx = x - 0.5 * beside * nx, hz = z - 0.5 * beside * nz;
+  const echo::EchoStack::Sample strip = real.at(at, hx, hz);
+  const double weight = cells_per_m2 * p.length_m * beside * static_cast<double>(strip.in_sight),
+               depth = std::sqrt(hx * hx + hz * hz) / real.far();
+  sums.greys.add(p.blood, p.blood, 1, depth, strip.grey, -weight);
+  sums.greys.add(p.beside, p.beside, 1, depth, strip.grey, weight);
+}
+
+double cellsPerArea(const ModelLoop& model, const FitStride& stride) {
+  const std::vector<TissueCell>& cells = model.frames.front().cells;
+  const TissueCell &a = cells[0], &b = cells[1],
+                   &c = cells[static_cast<std::size_t>(model.cells_along)];
+  const double along = std::hypot(b.x_m - a.x_m, b.z_m - a.z_m),
+               turn = std::abs(std::atan2(a.x_m, a.z_m) - std::atan2(c.x_m, c.z_m));
+  return stride.piece / (stride.cell * stride.cell * along * turn * model.far_m);
+}
+
+echo::BeatPlace placeOf(const ModelLoop& model, std::size_t frame, const FitPose& pose,
+                        const echo::EchoStack& real) {
+  const int n = real.pictures();
+  const double frames = static_cast<double>(model.frames.size()),
+               to = pose.systole > 0 ? pose.systole : real.systole();
+  const auto placed = [&](double f) {
+    return n * echo::warpedPhase(f / frames, model.systole, to);
+  };
+  const double here = placed(static_cast<double>(frame)) + pose.lag;
+  echo::BeatPlace out;
+  out.pace = placed(static_cast<double>(frame) + 1) + pose.lag - here;
+  const auto fill = [&](double first, std::initializer_list<double> shares) {
+    int at = static_cast<int>(first) % n, i = 0;
+    if (at < 0) at += n;
+    for (const double share : shares) {
+      out.pictures[i] = at;
+      out.shares[i++] = static_cast<float>(share);
+      at = at + 1 == n ? 0 : at + 1;
+    }
+  };
+  if (pose.systole > 0) {
+    // Of a search for it: the quadratic B-spline. Two pictures have half the speckle of one, and
+    // blends would win by that; these have nearly as much anywhere between pictures.
+    const double middle = std::round(here), t = here - middle;
+    fill(middle - 1, {0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)});
+    return out;
+  }
+  // What is a picture within rounding is no blend.
+  constexpr double kRounding = 1e-6;
+  const double whole = std::floor(here + kRounding), share = here - whole;
+  if (share > kRounding)
+    fill(whole, {1 - share, share});
+  else
+    fill(whole, {1});
+  return out;
+}
+
+}  // namespace echocine::fit

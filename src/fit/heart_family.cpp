@@ -1,0 +1,243 @@
+#include "fit/heart_family.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/check.h"
+#include "core/error.h"
+#include "core/lanes.h"
+#include "core/parallel.h"
+#include "core/units.h"
+#include "motion/heart/heart_scene.h"
+
+namespace echocine::fit {
+
+namespace {
+
+// Chebyshev-Lobatto: ends included, dense towards them, so the polynomial stays tame.
+double nodeOf(const DialRange& range, int node, int nodes) {
+  const double t = std::cos(std::numbers::pi * (nodes - 1 - node) / (nodes - 1));
+  return 0.5 * (range.low + range.high) + 0.5 * (range.high - range.low) * t;
+}
+
+// Lagrange's polynomials of the nodes at x.
+std::vector<double> lagrange(const DialRange& range, int nodes, double x) {
+  std::vector<double> out;
+  for (int i = 0; i < nodes; ++i) {
+    double product = 1;
+    for (int j = 0; j < nodes; ++j)
+      if (j != i)
+        product *=
+            (x - nodeOf(range, j, nodes)) / (nodeOf(range, i, nodes) - nodeOf(range, j, nodes));
+    out.push_back(product);
+  }
+  return out;
+}
+
+// How far a polynomial through nodes may leave the middle of its values there, over half their
+// range: a bound of Lebesgue's constant for these nodes (Trefethen, Approximation Theory and
+// Approximation Practice, 2013, theorem 15.2).
+double mostOvershoot(int nodes) {
+  return 1 + 2 / std::numbers::pi * std::log(static_cast<double>(nodes));
+}
+
+}  // namespace
+
+HeartNodes::HeartNodes(const std::map<std::string, double>& given,
+                       const std::vector<DialRange>& ranges, int frames, int nodes,
+                       const Monitor& monitor)
+    : ranges_(ranges), nodes_(nodes), frames_(frames) {
+  std::size_t count = 1;
+  for (std::size_t r = 0; r < ranges.size(); ++r) count *= static_cast<std::size_t>(nodes);
+  for (std::size_t n = 0; n < count; ++n) {
+    if (!monitor.keep_going()) throw JobError("stopped while hearts were recorded");
+    std::map<std::string, double> dials = given;
+    std::size_t rest = n;
+    for (const DialRange& range : ranges) {
+      dials[range.key] =
+          nodeOf(range, static_cast<int>(rest % static_cast<std::size_t>(nodes)), nodes);
+      rest /= static_cast<std::size_t>(nodes);
+    }
+    const heart::Parameters parameters = heart::parametersFrom(dials);
+    if (const std::string fault = heart::faultOf(parameters); !fault.empty())
+      throw SceneError("heart: " + fault);
+    // Its view is that of the probe alone, which sceneOf() aims anew.
+    hearts_.push_back(
+        {parameters, heart::recordBeat(heart::ParametricHeart(parameters), heart::View::a4c, frames,
+                                       heart::KeyframeSpacing::even)});
+  }
+}
+
+Scene HeartNodes::sceneOf(std::size_t heart, heart::View view) const {
+  const Heart& h = hearts_[heart];
+  const heart::ParametricHeart model(h.parameters);
+  heart::Recording recording = h.beat;
+  recording.pose = heart::poseOf(view, model);
+  heart::surround(view, recording.pose, model, recording);
+  return heart::sceneOf(view, h.parameters, recording);
+}
+
+HeartFamily::HeartFamily(const std::map<std::string, double>& given,
+                         const std::vector<DialRange>& ranges, heart::View view, int frames,
+                         int nodes, const Monitor& monitor, double tilt_deg)
+    : HeartFamily(HeartNodes(given, ranges, frames, nodes, monitor), view, monitor, tilt_deg) {}
+
+HeartFamily::HeartFamily(const HeartNodes& hearts, heart::View view, const Monitor& monitor,
+                         double tilt_deg)
+    : ranges_(hearts.ranges()), nodes_(hearts.nodes()), tilt_rad_(radiansFromDegrees(tilt_deg)) {
+  const int frames = hearts.frames();
+  std::vector<SurfaceTopology> all;
+  std::vector<Node> recorded(hearts.size(), Node(static_cast<std::size_t>(frames)));
+  systoles_.resize(hearts.size());
+  parallelBlocks(hearts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      if (!monitor.keep_going()) throw JobError("stopped while hearts were recorded");
+      const Scene scene = hearts.sceneOf(n, view);
+      const MeshMotion motion(scene);
+      if (n == 0) {
+        scene_ = scene;
+        all = motion.surfaces();
+      }
+      systoles_[n] = scene.motion.end_systole_phase.value_or(0);
+      for (int i = 0; i < frames; ++i)
+        motion.frameAt(static_cast<double>(i) / frames, recorded[n][static_cast<std::size_t>(i)],
+                       false);
+      CHECK_EQ(recorded[n].front().positions_m.size(), motion.surfaces().size());
+    }
+  });
+  for (Structure& structure : scene_.structures) structure.keyframes.clear();
+  keepNearPlane(all, recorded);
+  keepCoordinates(recorded);
+}
+
+// Of triangles, those that some heart between the recorded ones has on the plane: their corners'
+// heights are polynomials, which the recorded heights bound. Planes tilted by t and rotated by r
+// lie at y = x tan r + z tan t / cos r: that much nearer may a corner be to one of them.
+std::vector<char> HeartFamily::nearPlane(const SurfaceTopology& surface,
+                                         const std::vector<Node>& recorded) const {
+  const auto reach =
+      static_cast<float>(std::pow(mostOvershoot(nodes_), static_cast<double>(ranges_.size())));
+  constexpr float kRounding_m = 1e-6f;
+  const auto aside = static_cast<float>(std::tan(tilt_rad_)),
+             below = static_cast<float>(std::tan(tilt_rad_) / std::cos(tilt_rad_));
+  std::vector<char> near(surface.triangles.size(), 0);
+  std::vector<float> low(surface.vertex_count), high(surface.vertex_count);
+  for (std::size_t f = 0; f < recorded.front().size(); ++f) {
+    for (std::size_t v = 0; v < low.size(); ++v) {
+      float least = recorded.front()[f].positions_m[index(surface.id)][v].y, most = least;
+      for (const Node& node : recorded) {
+        const float y = node[f].positions_m[index(surface.id)][v].y;
+        least = std::min(least, y), most = std::max(most, y);
+      }
+      float farthest = 0;
+      for (const Node& node : recorded) {
+        const Vec3f p = node[f].positions_m[index(surface.id)][v];
+        farthest = std::max(farthest, aside * std::abs(p.x) + below * std::abs(p.z));
+      }
+      const float middle = 0.5f * (least + most),
+                  half = 0.5f * reach * (most - least) + reach * farthest;
+      low[v] = middle - half - kRounding_m;
+      high[v] = middle + half + kRounding_m;
+    }
+    for (std::size_t t = 0; t < near.size(); ++t) {
+      const auto [a, b, c] = surface.triangles[t];
+      if (std::min({low[a], low[b], low[c]}) <= 0 && std::max({high[a], high[b], high[c]}) >= 0)
+        near[t] = 1;
+    }
+  }
+  return near;
+}
+
+// Hearts far from the plane are no business of its slice.
+void HeartFamily::keepNearPlane(const std::vector<SurfaceTopology>& all,
+                                const std::vector<Node>& recorded) {
+  for (const SurfaceTopology& whole : all) {
+    const std::vector<char> near = nearPlane(whole, recorded);
+    constexpr std::uint32_t kLeftOut = 0xffffffff;
+    std::vector<std::uint32_t> number(whole.vertex_count, kLeftOut), kept;
+    SurfaceTopology surface{whole.id, {}, 0, whole.membrane, false};
+    for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+      if (near[t] == 0) continue;
+      Triangle triangle = whole.triangles[t];
+      for (std::uint32_t& v : triangle) {
+        if (number[v] == kLeftOut) {
+          number[v] = static_cast<std::uint32_t>(kept.size());
+          kept.push_back(v);
+        }
+        v = number[v];
+      }
+      surface.triangles.push_back(triangle);
+    }
+    surface.vertex_count = static_cast<std::uint32_t>(kept.size());
+    surfaces_.push_back(std::move(surface));
+    kept_.push_back(std::move(kept));
+  }
+}
+
+void HeartFamily::keepCoordinates(const std::vector<Node>& recorded) {
+  coordinates_.assign(recorded.front().size(), {});
+  for (std::size_t f = 0; f < coordinates_.size(); ++f)
+    for (std::size_t s = 0; s < kept_.size(); ++s) {
+      const std::size_t numbers = 3 * kept_[s].size(), block = kFloatLanes * recorded.size();
+      std::vector<float> all((numbers + kFloatLanes - 1) / kFloatLanes * block, 0);
+      for (std::size_t n = 0; n < recorded.size(); ++n)
+        for (std::size_t v = 0; v < kept_[s].size(); ++v) {
+          const Vec3f p = recorded[n][f].positions_m[s][kept_[s][v]];
+          std::size_t i = 3 * v;
+          for (const float number : {p.x, p.y, p.z}) {
+            all[i / kFloatLanes * block + n * kFloatLanes + i % kFloatLanes] = number;
+            ++i;
+          }
+        }
+      coordinates_[f].push_back(std::move(all));
+    }
+}
+
+// Products of the polynomials of each dial, node by node.
+std::vector<float> HeartFamily::shares(const std::vector<double>& values) const {
+  std::vector<double> out{1};
+  for (std::size_t r = 0; r < ranges_.size(); ++r) {
+    std::vector<double> next;
+    for (const double own : lagrange(ranges_[r], nodes_, values[r]))
+      for (const double before : out) next.push_back(own * before);
+    out = std::move(next);
+  }
+  return {out.begin(), out.end()};
+}
+
+std::vector<SurfaceFrame> HeartFamily::surfacesAt(const std::vector<double>& values) const {
+  CHECK_EQ(values.size(), ranges_.size());
+  static_assert(sizeof(Vec3f) == 3 * sizeof(float));
+  const std::vector<float> share = shares(values);
+  std::vector<SurfaceFrame> frames(coordinates_.size());
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+      std::vector<Vec3f> positions(kept_[s].size());
+      const std::size_t numbers = 3 * positions.size();
+      const float* from = coordinates_[f][s].data();
+      for (std::size_t i = 0; i < numbers; i += kFloatLanes) {
+        Floats8 sum{};
+        for (const float own : share) {
+          sum += own * lanesAt(from);
+          from += kFloatLanes;
+        }
+        storeSome(sum, numbers - i, reinterpret_cast<float*>(positions.data()) + i);
+      }
+      frames[f].positions_m.push_back(std::move(positions));
+    }
+  return frames;
+}
+
+ModelLoop HeartFamily::at(const std::vector<double>& values, const PlaneTilt& tilt) const {
+  CHECK_LE(std::max(std::abs(tilt.tilt_rad), std::abs(tilt.rotate_rad)), tilt_rad_ * (1 + 1e-12));
+  std::vector<SurfaceFrame> surfaces = surfacesAt(values);
+  if (tilt_rad_ > 0) tiltSurfaces(tilt, surfaces);
+  ModelLoop loop = ModelPlane(scene_, surfaces_).cut(surfaces);
+  const std::vector<float> share = shares(values);
+  for (std::size_t n = 0; n < share.size(); ++n)
+    loop.systole += static_cast<double>(share[n]) * systoles_[n];
+  return loop;
+}
+
+}  // namespace echocine::fit

@@ -1,0 +1,255 @@
+#include "fit/model_plane.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "truth/contour.h"
+
+namespace echocine::fit {
+
+namespace {
+
+Scene withCoarseLines(Scene scene) {
+  scene.probe.lines = kCellLines;
+  scene.probe.samples = kCellsAlong * kSamplesPerCell;
+  return scene;
+}
+
+// The tissue at a place of the plane, by the sample nearest to it; nothing outside the sector.
+class TissueAt {
+ public:
+  TissueAt(const Probe& probe, const std::vector<std::uint32_t>& ids,
+           const std::vector<std::uint8_t>& tissue_of)
+      : p_(probe), ids_(ids), tissue_of_(tissue_of) {}
+
+  int operator()(double x_m, double z_m) const {
+    const double line = (std::atan2(x_m, z_m) - p_.first_angle_rad) /
+                        (p_.last_angle_rad - p_.first_angle_rad) * (p_.lines - 1);
+    const double sample =
+        (std::hypot(x_m, z_m) - p_.face_radius_m - p_.min_depth_m) / p_.sampleSpacing();
+    const auto i = static_cast<std::ptrdiff_t>(std::lround(line)),
+               k = static_cast<std::ptrdiff_t>(std::floor(sample));
+    if (i < 0 || k < 0 || i >= p_.lines || k >= p_.samples) return -1;
+    return tissue_of_[ids_[static_cast<std::size_t>(i * p_.samples + k)]];
+  }
+
+ private:
+  const Probe& p_;
+  const std::vector<std::uint32_t>& ids_;
+  const std::vector<std::uint8_t>& tissue_of_;
+};
+
+// The two tissues of most samples.
+void fill(TissueCell& cell, const std::uint32_t* ids, const std::vector<std::uint8_t>& tissue_of) {
+  if (std::equal(ids + 1, ids + kSamplesPerCell, ids)) {
+    cell.first = cell.second = tissue_of[ids[0]];
+    return;
+  }
+  std::uint8_t tissues[kSamplesPerCell], counts[kSamplesPerCell];
+  int kinds = 0;
+  for (int s = 0; s < kSamplesPerCell; ++s) {
+    const std::uint8_t tissue = tissue_of[ids[s]];
+    int at = 0;
+    while (at < kinds && tissues[at] != tissue) ++at;
+    if (at == kinds) tissues[kinds] = tissue, counts[kinds++] = 0;
+    ++counts[at];
+  }
+  int first = 0, second = -1;
+  for (int i = 1; i < kinds; ++i)
+    if (counts[i] > counts[first]) first = i;
+  for (int i = 0; i < kinds; ++i)
+    if (i != first && (second < 0 || counts[i] > counts[second])) second = i;
+  cell.first = cell.second = tissues[first];
+  if (second < 0) return;
+  cell.second = tissues[second];
+  cell.share =
+      static_cast<float>(counts[first]) / static_cast<float>(counts[first] + counts[second]);
+}
+
+// The cells without their tissues.
+std::vector<TissueCell> cellsAt(const Probe& p) {
+  std::vector<TissueCell> cells;
+  cells.reserve(static_cast<std::size_t>(kCellLines) * kCellsAlong);
+  const double near = p.face_radius_m + p.min_depth_m, step = p.sampleSpacing() * kSamplesPerCell;
+  for (int i = 0; i < kCellLines; ++i) {
+    const double angle =
+        p.first_angle_rad + (p.last_angle_rad - p.first_angle_rad) * i / (kCellLines - 1);
+    for (int k = 0; k < kCellsAlong; ++k) {
+      const double r = near + (k + 0.5) * step;
+      TissueCell cell;
+      cell.x_m = static_cast<float>(r * std::sin(angle));
+      cell.z_m = static_cast<float>(r * std::cos(angle));
+      cell.area = static_cast<float>(r / (p.face_radius_m + p.max_depth_m));
+      cells.push_back(cell);
+    }
+  }
+  return cells;
+}
+
+// How far a facet's middle moves, in the plane.
+Vec3d displacementOf(const Triangle& t, const std::vector<Vec3f>& now,
+                     const std::vector<Vec3f>& next) {
+  Vec3d sum{};
+  for (const std::uint32_t v : t) sum = sum + toDouble(next[v]) - toDouble(now[v]);
+  return (1.0 / 3) * sum;
+}
+
+}  // namespace
+
+// The share of blood, smoothed by kNearBlood_m: a half above an even wall, 0.16 at one standard
+// deviation from it, where the weight has just reached 1, and 0.02 at two.
+void weighByBlood(const ModelLoop& loop, ModelFrame& frame) {
+  cv::Mat blood(loop.cells_across, loop.cells_along, CV_32F);
+  for (std::size_t i = 0; i < frame.cells.size(); ++i) {
+    const TissueCell& cell = frame.cells[i];
+    blood.ptr<float>()[i] =
+        (loop.blood[cell.first] ? cell.share : 0) + (loop.blood[cell.second] ? 1 - cell.share : 0);
+  }
+  const auto at = [&](int i, int k) {
+    const TissueCell& cell = frame.cells[static_cast<std::size_t>(i * loop.cells_along + k)];
+    return Vec3d{cell.x_m, 0, cell.z_m};
+  };
+  // Across the beams at half the depth; it widens with depth as beams do.
+  const int i = loop.cells_across / 2, k = loop.cells_along / 2;
+  const double along = kNearBlood_m / length(at(i, k + 1) - at(i, k)),
+               across = kNearBlood_m / length(at(i + 1, k) - at(i, k));
+  cv::GaussianBlur(blood, blood, {0, 0}, along, across, cv::BORDER_CONSTANT);
+  constexpr float kFull = 0.16f, kNone = 0.02f;
+  for (std::size_t c = 0; c < frame.cells.size(); ++c)
+    frame.cells[c].area *=
+        std::clamp((blood.ptr<float>()[c] - kNone) / (kFull - kNone), 0.0f, 1.0f);
+}
+
+ModelPlane::ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& surfaces,
+                       std::optional<WallSegments> segments)
+    : surfaces_(surfaces),
+      segments_(std::move(segments)),
+      coarse_(withCoarseLines(scene)),
+      labels_(coarse_, PictureGrid{}),
+      cells_(cellsAt(coarse_.probe)) {
+  if (scene.probe.kind == ProbeKind::linear)
+    throw SceneError("a linear probe has no sector to compare; give a phased or curvilinear one");
+  const auto tissue = [&](MediumId id) {
+    const std::string& name = scene.medium(id).name;
+    const auto at = std::find(empty_.tissues.begin(), empty_.tissues.end(), name);
+    if (at == empty_.tissues.end()) {
+      empty_.tissues.push_back(name);
+      empty_.blood.push_back(scene.medium(id).blood);
+      return static_cast<std::uint8_t>(empty_.tissues.size() - 1);
+    }
+    return static_cast<std::uint8_t>(at - empty_.tissues.begin());
+  };
+  tissue_of_.push_back(tissue(scene.background));
+  for (const Structure& structure : scene.structures) {
+    tissue_of_.push_back(tissue(structure.medium));
+    empty_.structures.push_back(structure.name);
+  }
+  empty_.far_m = scene.probe.face_radius_m + scene.probe.max_depth_m;
+  empty_.cells_across = kCellLines;
+  empty_.cells_along = kCellsAlong;
+}
+
+namespace {
+
+// Which sides show: stepping to both sides of a boundary, another tissue must lie there.
+struct Sides {
+  int inner = -1, outer = -1;
+  bool differ() const { return inner >= 0 && outer >= 0 && inner != outer; }
+};
+
+// Places at even steps along a contour: the cut that each lies on. A sum over them is the integral
+// along the contour to far better than the step, wherever the first one lies.
+template <typename Body>
+void stepAlong(const Contour& c, double step_m, const Body& body) {
+  const std::size_t cuts = c.edges.size();
+  thread_local std::vector<double> lengths;
+  lengths.clear();
+  double length = 0;
+  const auto from = [&](std::size_t i) { return c.points_m[i]; };
+  const auto to = [&](std::size_t i) { return c.points_m[i + 1 < c.points_m.size() ? i + 1 : 0]; };
+  for (std::size_t i = 0; i < cuts; ++i) {
+    const double dx = to(i).x - from(i).x, dz = to(i).z - from(i).z;
+    lengths.push_back(std::sqrt(dx * dx + dz * dz));
+    length += lengths.back();
+  }
+  const double pieces = std::max(1.0, std::round(length / step_m)), piece = length / pieces;
+  double next = piece / 2, so_far = 0;
+  for (std::size_t i = 0; i < cuts; ++i) {
+    for (; next < so_far + lengths[i]; next += piece) {
+      const double t = (next - so_far) / lengths[i];
+      body(c.edges[i], from(i) + t * (to(i) - from(i)), piece);
+    }
+    so_far += lengths[i];
+  }
+}
+
+}  // namespace
+
+ModelFrame ModelPlane::cutOne(const SurfaceFrame& now, const SurfaceFrame& next,
+                              PlaneSlice& slice) const {
+  slice.update(now);
+  std::vector<std::uint32_t> ids;
+  labels_.samples(slice.lines(), ids);
+  ModelFrame frame;
+  frame.cells = cells_;
+  for (std::size_t c = 0; c < cells_.size(); ++c)
+    fill(frame.cells[c], ids.data() + c * kSamplesPerCell, tissue_of_);
+  weighByBlood(empty_, frame);
+  const TissueAt tissueAt(coarse_.probe, ids, tissue_of_);
+  for (const Contour& contour : chainContours(slice.edges(), surfaces_, now)) {
+    const std::size_t s = index(contour.surface);
+    if (surfaces_[s].membrane) continue;
+    stepAlong(contour, kBoundaryPiece_m, [&](std::uint32_t edge, Vec3d at, double length_m) {
+      addPiece(slice.edges()[edge], at, length_m, tissueAt, now, next, frame.boundary);
+    });
+  }
+  return frame;
+}
+
+template <typename TissueAtPlace>
+void ModelPlane::addPiece(const ContourEdge& cut, Vec3d at, double length_m,
+                          const TissueAtPlace& tissueAt, const SurfaceFrame& now,
+                          const SurfaceFrame& next, std::vector<BoundaryPoint>& pieces) const {
+  constexpr double kStep_m = 1.2e-3;  // to either side: beyond a sample, within any wall
+  const double across = std::hypot(cut.area_normal.x, cut.area_normal.z);
+  if (!(across > 0)) return;
+  const double nx = cut.area_normal.x / across, nz = cut.area_normal.z / across;
+  const Sides sides{tissueAt(at.x - kStep_m * nx, at.z - kStep_m * nz),
+                    tissueAt(at.x + kStep_m * nx, at.z + kStep_m * nz)};
+  if (!sides.differ()) return;
+  const bool blood_in = empty_.blood[static_cast<std::size_t>(sides.inner)],
+             blood_out = empty_.blood[static_cast<std::size_t>(sides.outer)];
+  const double sign = blood_out && !blood_in ? -1 : 1;
+  const std::size_t s = index(cut.surface);
+  const Vec3d d =
+      displacementOf(surfaces_[s].triangles[cut.triangle], now.positions_m[s], next.positions_m[s]);
+  BoundaryPoint p;
+  p.x_m = static_cast<float>(at.x), p.z_m = static_cast<float>(at.z);
+  p.nx = static_cast<float>(sign * nx), p.nz = static_cast<float>(sign * nz);
+  p.length_m = static_cast<float>(length_m);
+  p.dx_m = static_cast<float>(d.x), p.dz_m = static_cast<float>(d.z);
+  p.surface = static_cast<std::uint16_t>(s);
+  p.of_blood = blood_in != blood_out;
+  if (segments_ && segments_->surface == s && p.of_blood)
+    p.segment = segments_->of_vertex[surfaces_[s].triangles[cut.triangle][0]];
+  p.blood = static_cast<std::uint8_t>(blood_in ? sides.inner : sides.outer);
+  p.beside = static_cast<std::uint8_t>(blood_in ? sides.outer : sides.inner);
+  pieces.push_back(p);
+}
+
+ModelLoop ModelPlane::cut(const std::vector<SurfaceFrame>& frames) const {
+  ModelLoop loop = empty_;
+  loop.frames.resize(frames.size());
+  // A few frames share a slice, whose memory serves them all.
+  parallelBlocks(frames.size(), 5, [&](std::size_t begin, std::size_t end) {
+    PlaneSlice slice(surfaces_, coarse_.probe);
+    for (std::size_t i = begin; i < end; ++i)
+      loop.frames[i] = cutOne(frames[i], frames[(i + 1) % frames.size()], slice);
+  });
+  return loop;
+}
+
+}  // namespace echocine::fit

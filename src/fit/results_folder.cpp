@@ -1,0 +1,24 @@
+#include "fit/results_folder.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/file.h"
+
+namespace echocine::fit {
+
+ResultsFolder::ResultsFolder(std::filesystem::path folder, std::initializer_list<const char*> last)
+    : folder_(std::move(folder)) {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error || !std::filesystem::is_directory(folder_, error))
+    throw JobError(fmt::format("{}: the folder cannot be made: {}", folder_.string(),
+                               error ? error.message() : "a file stands there"));
+  for (const char* name : last) std::filesystem::remove(folder_ / name, error);
+}
+
+void ResultsFolder::write(const char* name, const std::string& content) const {
+  writeFileWhole(folder_ / name, std::as_bytes(std::span(content)));
+}
+
+}  // namespace echocine::fit

@@ -1,0 +1,34 @@
+#pragma once
+// The speckle of a scene's frames: scatterers, and the tissue that carries them.
+
+#include "core/beam_plane.h"
+#include "motion/cycle/cardiac_clock.h"
+#include "plan/effect_plan.h"
+#include "speckle/field_material.h"
+#include "speckle/sheet_points.h"
+#include "speckle/speckle.h"
+
+namespace echocine {
+
+class SceneSpeckle {
+ public:
+  SceneSpeckle(const Scene& scene, const MeshMotion& motion, const EffectPlan& plan,
+               const Trabeculae* trabeculae);
+
+  // Of some lines the intensities after the average over the beam, in place, and what of them is
+  // coherent. `surfaces` are those of the instant. Thread-safe; frames of equal time are equal.
+  void apply(const FrameTime& time, const SurfaceFrame& surfaces, Intensities& intensities,
+             const CoherentEchoes& echoes, LineRange lines) const;
+  // Lines whose intensities those of a range take in.
+  LineRange reach(LineRange lines) const { return speckle_.reach(lines); }
+
+  std::size_t scatterers() const { return speckle_.scatterers() + sheets_.count(); }
+
+ private:
+  FieldMaterial material_;
+  SheetPoints sheets_;
+  Speckle speckle_;
+  FieldPart about_plane_;  // where scatterers stand
+};
+
+}  // namespace echocine

@@ -1,0 +1,96 @@
+#include "plan/picture_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/units.h"
+#include "scene/role.h"
+
+namespace echocine {
+
+namespace {
+
+// What changes nothing but the picture.
+bool decidePicture(const Scene& scene, EffectPlan& plan, Effect effect, bool asked, bool possible,
+                   const std::string& off, const std::string& on) {
+  const bool decided = asked && possible && wantsPicture(scene);
+  plan.decisions.push_back({effect, decided,
+                            !asked                 ? "not asked for"
+                            : !wantsPicture(scene) ? "no picture is asked for"
+                            : decided              ? on
+                                                   : off});
+  return decided;
+}
+
+void planTissue(const Scene& scene, EffectPlan& plan) {
+  const SpeckleSettings& s = scene.speckle;
+  const std::string off = "there are no scatterers to carry it";
+  plan.heterogeneity =
+      decidePicture(scene, plan, Effect::heterogeneity, s.heterogeneity_db > 0, plan.speckle, off,
+                    fmt::format("{:g} dB from place to place of the tissue", s.heterogeneity_db));
+  plan.anisotropy = decidePicture(
+      scene, plan, Effect::anisotropy, s.anisotropy_db > 0, plan.speckle, off,
+      fmt::format("muscle sends back {:g} dB less along its fibres", s.anisotropy_db));
+  const Structure* coherent = nullptr;
+  for (const Structure& structure : scene.structures)
+    if (structure.coherent_share > 0 && !coherent) coherent = &structure;
+  plan.coherent_echoes = decidePicture(
+      scene, plan, Effect::coherent_echoes, coherent != nullptr, plan.speckle && plan.reflection,
+      !plan.speckle ? "without speckle all echoes are whole" : "no interface sends back an echo",
+      !coherent ? ""
+                : fmt::format("{} sends back {:g} times as much in phase as at random",
+                              coherent->name, coherent->coherent_share));
+}
+
+}  // namespace
+
+void planTrabeculae(const Scene& scene, EffectPlan& plan) {
+  const double height_m = scene.trabeculae.deviation_m;
+  plan.trabeculae = std::any_of(scene.structures.begin(), scene.structures.end(),
+                                [&](const Structure& s) { return hasTrabeculae(scene, s); });
+  plan.decisions.push_back({Effect::trabeculae, plan.trabeculae,
+                            height_m == 0      ? "trabeculae.height_mm asks for none"
+                            : !plan.trabeculae ? "no structure is a ventricle's cavity"
+                                               : fmt::format("ridges of {:g} mm on the ventricles' "
+                                                             "inner surfaces",
+                                                             millimetresFromMetres(height_m))});
+}
+
+void planSpeckle(const Scene& scene, EffectPlan& plan) {
+  plan.speckle = scene.speckle.on && wantsPicture(scene) && plan.contrast;
+  plan.decisions.push_back(
+      {Effect::speckle, plan.speckle,
+       !scene.speckle.on      ? "speckle.on asks for none"
+       : !wantsPicture(scene) ? "no picture is asked for"
+       : !plan.contrast       ? std::string(kNothingSeen)
+                        : fmt::format("{:g} scatterers per resolution cell move with the tissue",
+                                      scene.speckle.per_cell)});
+  planTissue(scene, plan);
+}
+
+void planArtefacts(const Scene& scene, EffectPlan& plan) {
+  const ArtefactSettings& a = scene.artefacts;
+  const bool lines = scene.probe.lines > 1;
+  const std::string one = "there is one line alone";
+  plan.dropout = decidePicture(scene, plan, Effect::dropout, a.dropout, lines, one,
+                               fmt::format("outermost lines lose {:g} dB", a.dropout_db));
+  plan.acoustic_window = decidePicture(
+      scene, plan, Effect::acoustic_window, a.acoustic_window, true, "",
+      fmt::format("ribs leave {:g} mm open", millimetresFromMetres(a.window_width_m)));
+  plan.haze = decidePicture(scene, plan, Effect::haze, a.haze, lines, one,
+                            fmt::format("side lobes at {:g} dB", a.haze_db));
+  plan.reverberation =
+      decidePicture(scene, plan, Effect::reverberation, a.reverberation, scene.probe.samples > 1,
+                    "there is one sample alone",
+                    fmt::format("a tail of {:g} dB behind every echo", a.reverberation_db));
+  plan.clutter = decidePicture(scene, plan, Effect::clutter, a.clutter, true, "",
+                               fmt::format("{:g} dB of white at the face", a.clutter_db));
+  plan.noise = decidePicture(scene, plan, Effect::noise, a.noise, true, "",
+                             fmt::format("{:g} dB of white at the largest gain", a.noise_db));
+  plan.persistence =
+      decidePicture(scene, plan, Effect::persistence, a.persistence > 0, true, "",
+                    fmt::format("each frame holds {:g} of the one before", a.persistence));
+}
+
+}  // namespace echocine
