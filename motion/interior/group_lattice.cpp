@@ -17,8 +17,8 @@ constexpr float kStiffness = 0.01f;
 // Modes of what the affine part leaves that are smaller than this part of it, as root mean squares,
 // are left out: micrometres. Our choice.
 constexpr double kLeftOut = 0.004;
-// Residuals, in parts of the right side: of fits that only decide what slides and what folds, and of
-// the field. Our choices.
+// Residuals, in parts of the right side: of fits that only decide what slides and what folds, and
+// of the field. Our choices.
 constexpr double kTrial = 1e-3, kConverged = 1e-6;
 // Rounds in which what folds is made stiffer, at most. Our choice.
 constexpr int kUnfoldings = 4;
@@ -71,9 +71,7 @@ class GroupFitter {
   void takeCells(GroupCells cells);
   void subtractAffine();
   std::vector<std::uint32_t> restingNodes() const;
-  void equate() {
-    equations_.emplace(lattice_.nodes, data_.samples, stiffness_, resting_);
-  }
+  void equate() { equations_.emplace(lattice_.nodes, data_.samples, stiffness_, resting_); }
   std::vector<float> solve(std::vector<float> start, double tolerance) const;
   bool letSlide(const std::vector<float>& nodes);
   std::size_t keyframeCount() const;
@@ -94,10 +92,10 @@ class GroupFitter {
   MotionModes few_;   // of what remains: the classes' modes take the keyframes' place
   std::vector<std::uint32_t> resting_;
   std::optional<LatticeFit> equations_;  // of the weights and the stiffness as they are
-  std::vector<float> stiffness_;      // by active node
-  std::vector<bool> used_;            // GroupCells::used
-  std::vector<Vec3d> node_places_m_;  // by active node
-  std::vector<double> fade_;          // of the affine part, by active node
+  std::vector<float> stiffness_;         // by active node
+  std::vector<bool> used_;               // GroupCells::used
+  std::vector<Vec3d> node_places_m_;     // by active node
+  std::vector<double> fade_;             // of the affine part, by active node
 };
 
 // The points of this group and what each mode does to them; false when none of them moves.

@@ -59,7 +59,8 @@ class Coarsening {
     SparseRows<float> floats;
     for (std::size_t n = 0; n < parents_.size(); ++n) {
       const auto row = parents_[n];
-      for (std::size_t i = 0; i < row.members.size(); ++i) floats.add(row.members[i], row.values[i]);
+      for (std::size_t i = 0; i < row.members.size(); ++i)
+        floats.add(row.members[i], row.values[i]);
       floats.endRow();
     }
     return floats;
@@ -69,7 +70,8 @@ class Coarsening {
   Lattice coarse() {
     std::vector<Slots> slots(coarse_.nodes.nodes.size(), Slots{});
     product_.assign(slots.size(), 0.0);
-    for (std::size_t n = 0; n < slots.size(); ++n) keys_.push_back(keyOf(placeOf(coarse_.nodes, n)));
+    for (std::size_t n = 0; n < slots.size(); ++n)
+      keys_.push_back(keyOf(placeOf(coarse_.nodes, n)));
     for (std::size_t n = 0; n < fine_.rows.size(); ++n) addRow(n, slots);
     for (std::size_t n = 0; n < slots.size(); ++n) {
       const Place at = placeOf(coarse_.nodes, n);
@@ -151,7 +153,8 @@ Multigrid::Level levelOf(const SparseRows<double>& rows) {
     const auto row = rows[n];
     for (std::size_t i = 0; i < row.members.size(); ++i) {
       level.rows.add(row.members[i], row.values[i]);
-      if (row.members[i] == n) level.inverse_diagonal.push_back(static_cast<float>(1 / row.values[i]));
+      if (row.members[i] == n)
+        level.inverse_diagonal.push_back(static_cast<float>(1 / row.values[i]));
     }
     level.rows.endRow();
   }
