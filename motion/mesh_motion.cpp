@@ -154,8 +154,8 @@ void MeshMotion::MovingSurface::frameAt(double phase, std::vector<Vec3f>& positi
   subdivision->apply(control_m, positions_m);
 }
 
-std::vector<NumberedTriangle> MeshMotion::MovingSurface::nearPlane(
-    const SurfaceTopology& topology, double aside_m) const {
+std::vector<NumberedTriangle> MeshMotion::MovingSurface::nearPlane(const SurfaceTopology& topology,
+                                                                   double aside_m) const {
   HeightRanges heights;
   for (std::size_t k = 0; k < control.weights.keyframeCount(); ++k) heights.add(control.rows_m[k]);
   if (subdivision) heights.refine(*subdivision);

@@ -17,10 +17,11 @@ int main(int argc, char** argv) try {
   withThreads(0, [&] {
     const echo::EchoLoop real = echo::readLoop(argv[1], {}, true);  // once
     const Scene scene = readScene(argv[2]);
-    const compare::FrameDiscrepancy discrepancy(real, scene.probe);  // once: the loop on the probe's lines
-    const Simulator simulator(scene);                           // the model, again when it changes
-    const Frame frame = simulator.frame(0);                     // end-diastole
-    std::printf("%.4f\n", discrepancy(0, frame.greys));        // against real frame 0
+    const compare::FrameDiscrepancy discrepancy(
+        real, scene.probe);                              // once: the loop on the probe's lines
+    const Simulator simulator(scene);                    // the model, again when it changes
+    const Frame frame = simulator.frame(0);              // end-diastole
+    std::printf("%.4f\n", discrepancy(0, frame.greys));  // against real frame 0
   });
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());

@@ -25,7 +25,8 @@ bool isWanted(const Imf::Header& header, const ExrPlaneWanted& wanted) {
   return header.dataWindow() == Imath::Box2i({0, 0}, {wanted.lines - 1, wanted.samples - 1}) &&
          holds<Imf::StringAttribute>(header, "echocine:scene_sha256", wanted.scene_sha256) &&
          holds<Imf::IntAttribute>(header, "echocine:frame", wanted.frame) && channel != nullptr &&
-         (channel->type == Imf::UINT) == isLabel(wanted.channel) && channel->xSampling == 1 && channel->ySampling == 1;
+         (channel->type == Imf::UINT) == isLabel(wanted.channel) && channel->xSampling == 1 &&
+         channel->ySampling == 1;
 }
 
 // Line-major; floats widened and the scale of half floats undone.
@@ -99,7 +100,8 @@ std::optional<std::vector<float>> readExrPlane(const std::filesystem::path& path
   using Plane = std::optional<std::vector<float>>;
   return readWanted<float>(path, wanted, [&](Imf::InputFile& file) -> Plane {
     std::vector<float> values = channelOf<float>(file, wanted.channel, Imf::FLOAT);
-    // A scale that is none makes such too. Motion has a sign, and is not a number where it is unknown.
+    // A scale that is none makes such too. Motion has a sign, and is not a number where it is
+    // unknown.
     if (!isMotion(wanted.channel) && firstUnusable(values)) return std::nullopt;
     return values;
   });

@@ -85,15 +85,19 @@ std::vector<OutArray> checkedOutArrays(const py::dict& given, const Scene& scene
     const bool is_polar = name == "intensities" || name == "greys";
     if (!is_polar && name != "image" && name != "labels")
       throw py::value_error(fmt::format(
-          "out: \"{}\" is not known, accepted: \"intensities\", \"greys\", \"image\", \"labels\"", name));
+          "out: \"{}\" is not known, accepted: \"intensities\", \"greys\", \"image\", \"labels\"",
+          name));
     if (!isMade(name, scene))
       throw py::value_error(fmt::format("out[\"{}\"]: the scene does not ask for it", name));
-    const auto array = checkedOut(fmt::format("out[\"{}\"]", name), py::reinterpret_borrow<py::object>(value),
-                                  is_polar ? py::dtype::of<float>() : py::dtype::of<std::uint8_t>(),
-                                  is_polar ? polar : picture);
+    const auto array =
+        checkedOut(fmt::format("out[\"{}\"]", name), py::reinterpret_borrow<py::object>(value),
+                   is_polar ? py::dtype::of<float>() : py::dtype::of<std::uint8_t>(),
+                   is_polar ? polar : picture);
     for (const OutArray& other : arrays)
       if (shareMemory(other.array, array))
-        throw py::value_error(fmt::format("out[\"{}\"]: shares memory with out[\"{}\"], accepted: arrays apart", name, other.name));
+        throw py::value_error(
+            fmt::format("out[\"{}\"]: shares memory with out[\"{}\"], accepted: arrays apart", name,
+                        other.name));
     arrays.push_back({name, array});
   }
   return arrays;

@@ -19,13 +19,15 @@ namespace {
 
 using LoopPointer = std::shared_ptr<Loop>;
 
-LoopPointer renderInMemory(const NativeScene& scene, const std::optional<std::pair<int, int>>& frames,
-                           int threads, const py::object& progress) {
+LoopPointer renderInMemory(const NativeScene& scene,
+                           const std::optional<std::pair<int, int>>& frames, int threads,
+                           const py::object& progress) {
   const int count = CardiacClock(scene.scene).frameCount();
   const std::pair range = frames.value_or(std::pair(0, count));
   if (range.first < 0 || range.first >= range.second || range.second > count)
-    throw SceneError(fmt::format("frames: ({}, {}) is not in the loop, accepted: (A, B) with 0 <= A < B <= {}",
-                                 range.first, range.second, count));
+    throw SceneError(
+        fmt::format("frames: ({}, {}) is not in the loop, accepted: (A, B) with 0 <= A < B <= {}",
+                    range.first, range.second, count));
   auto loop = std::make_shared<Loop>();
   runJob(progress, [&](const Monitor& monitor) {
     for (const std::string& warning : scene.scene.warnings) monitor.warn(warning);
@@ -42,7 +44,8 @@ py::dict arrays(const py::object& self) {
   const Loop& loop = self.cast<const Loop&>();
   const auto t = static_cast<py::ssize_t>(loop.frames);
   py::dict named;
-  const auto add = [&](const char* name, const auto& values, const std::vector<py::ssize_t>& shape) {
+  const auto add = [&](const char* name, const auto& values,
+                       const std::vector<py::ssize_t>& shape) {
     if (!values.empty()) named[name] = viewOf(values.data(), shape, self);
   };
   add("images", loop.images, {t, loop.height, loop.width});
@@ -55,11 +58,13 @@ py::dict arrays(const py::object& self) {
   add("track_segment", loop.track_segment, {points});
   constexpr auto kItem = static_cast<py::ssize_t>(sizeof(float));
   const py::ssize_t plane = static_cast<py::ssize_t>(loop.lines) * loop.samples * kItem;
-  for (const auto& [name, values] :
-       {std::pair("displacement", &loop.displacement_mm), std::pair("velocity", &loop.velocity_mm_s)})
+  for (const auto& [name, values] : {std::pair("displacement", &loop.displacement_mm),
+                                     std::pair("velocity", &loop.velocity_mm_s)})
     if (!values->empty())
-      named[name] = py::array(py::dtype::of<float>(), {t, py::ssize_t{3}, py::ssize_t{loop.samples}, py::ssize_t{loop.lines}},
-                              {3 * plane, plane, kItem, loop.samples * kItem}, values->data(), self);
+      named[name] =
+          py::array(py::dtype::of<float>(),
+                    {t, py::ssize_t{3}, py::ssize_t{loop.samples}, py::ssize_t{loop.lines}},
+                    {3 * plane, plane, kItem, loop.samples * kItem}, values->data(), self);
   return named;
 }
 
@@ -67,9 +72,11 @@ py::dict channels(const py::object& self) {
   const Loop& loop = self.cast<const Loop&>();
   py::dict named;
   for (const auto& [channel, values] : loop.planes)
-    named[channelName(channel)] = planesView(values.data(), loop.frames, loop.lines, loop.samples, self);
+    named[channelName(channel)] =
+        planesView(values.data(), loop.frames, loop.lines, loop.samples, self);
   for (const auto& [channel, values] : loop.ids)
-    named[channelName(channel)] = planesView(values.data(), loop.frames, loop.lines, loop.samples, self);
+    named[channelName(channel)] =
+        planesView(values.data(), loop.frames, loop.lines, loop.samples, self);
   return named;
 }
 
@@ -89,7 +96,8 @@ py::dict volumes(const Loop& loop) {
 py::dict curves(const Loop& loop) {
   py::dict named;
   if (loop.function.empty()) return named;
-  for (const auto& [name, values] : functionCurves(loop.function)) named[py::str(name)] = copyOf(values);
+  for (const auto& [name, values] : functionCurves(loop.function))
+    named[py::str(name)] = copyOf(values);
   return named;
 }
 

@@ -108,9 +108,10 @@ heart::Parameters parametersFrom(const std::map<std::string, double>& dials,
       std::string lower = dial.first;
       for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
       const std::string nearest = nearestWord(lower, names);
-      throw SceneError(fmt::format(
-          "heart: {}: is not a dial, {}", dial.first,
-          nearest.empty() ? fmt::format("accepted: {}", fmt::join(names, ", ")) : "nearest: " + nearest));
+      throw SceneError(fmt::format("heart: {}: is not a dial, {}", dial.first,
+                                   nearest.empty()
+                                       ? fmt::format("accepted: {}", fmt::join(names, ", "))
+                                       : "nearest: " + nearest));
     }
   heart::Parameters parameters = heart::parametersFrom(by_key);
   for (const auto& [number, segment] : segments) {
@@ -137,9 +138,9 @@ py::tuple makeHeart(const std::string& view_key, const std::map<std::string, dou
   runJob(progress, [&](const Monitor& monitor) {
     withThreads(threads, [&] {
       const heart::ParametricHeart model(parameters);
-      const heart::Recording recording =
-          heart::record(model, view, keyframes,
-                        even ? heart::KeyframeSpacing::even : heart::KeyframeSpacing::by_motion, monitor);
+      const heart::Recording recording = heart::record(
+          model, view, keyframes,
+          even ? heart::KeyframeSpacing::even : heart::KeyframeSpacing::by_motion, monitor);
       text = heart::sceneText(view, parameters, recording, "");
       meshes = meshesOf(heart::sceneOf(view, parameters, recording));
     });
@@ -151,7 +152,8 @@ py::list dialTable() {
   const heart::Parameters defaults;
   py::list table;
   for (const heart::Dial& dial : heart::dials())
-    table.append(py::make_tuple(dial.key, dial.unit, dial.low, dial.high, dial.get(defaults), dial.meaning));
+    table.append(
+        py::make_tuple(dial.key, dial.unit, dial.low, dial.high, dial.get(defaults), dial.meaning));
   return table;
 }
 
@@ -171,16 +173,19 @@ void bindScene(py::module_& module) {
       .def_property_readonly("absent", &absentKeys, "Keys that are left out -> default, or None.")
       .def_property_readonly("structures", &structures, "One dict per structure, in order.")
       .def_property_readonly("probe", &probe, "The probe in SI.")
-      .def_property_readonly("warnings", [](const NativeScene& n) { return n.scene.warnings; },
-                             "What is accepted but hardly meant, a line each.")
-      .def_property_readonly("frame_count",
-                             [](const NativeScene& n) { return CardiacClock(n.scene).frameCount(); },
-                             "Frames of the loop.")
-      .def_property_readonly("json", [](const NativeScene& n) { return sceneJson(n.scene).dump(); },
-                             "The scene as resolved, in SI, as the manifest has it.");
+      .def_property_readonly(
+          "warnings", [](const NativeScene& n) { return n.scene.warnings; },
+          "What is accepted but hardly meant, a line each.")
+      .def_property_readonly(
+          "frame_count", [](const NativeScene& n) { return CardiacClock(n.scene).frameCount(); },
+          "Frames of the loop.")
+      .def_property_readonly(
+          "json", [](const NativeScene& n) { return sceneJson(n.scene).dump(); },
+          "The scene as resolved, in SI, as the manifest has it.");
   module.def("heart", &makeHeart, py::arg("view"), py::arg("dials"), py::arg("segments"),
              py::arg("keep_volumes"), py::arg("keyframes"), py::arg("even"), py::arg("threads"),
-             py::arg("progress").none(true), "A heart from its dials: its scene's text and its meshes.");
+             py::arg("progress").none(true),
+             "A heart from its dials: its scene's text and its meshes.");
   module.def("scene_keys", &keyTable, "Full name, unit, accepted values, meaning of each key.");
   module.def("dials", &dialTable, "Key, unit, least, most, default or None, meaning of each dial.");
 }

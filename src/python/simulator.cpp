@@ -37,7 +37,8 @@ class Busy {
  public:
   explicit Busy(NativeFrame& native) : native_(native) {
     if (native.busy.exchange(true))
-      throw py::value_error("out: another thread is filling this frame, accepted: a frame of its own");
+      throw py::value_error(
+          "out: another thread is filling this frame, accepted: a frame of its own");
   }
   ~Busy() { native_.busy = false; }
 
@@ -81,7 +82,8 @@ void fillArrays(NativeSimulator& simulator, double time_s, const py::dict& out) 
 
 std::shared_ptr<NativeSimulator> make(const NativeScene& scene) {
   std::shared_ptr<NativeSimulator> made;
-  runJob(py::none(), [&](const Monitor&) { made = std::make_shared<NativeSimulator>(scene.scene); });
+  runJob(py::none(),
+         [&](const Monitor&) { made = std::make_shared<NativeSimulator>(scene.scene); });
   return made;
 }
 
@@ -107,20 +109,23 @@ void bindSimulator(py::module_& module) {
                                                                 "Makes frames of a scene.")
       .def(py::init(&make), py::arg("scene"))
       .def("frame", &newFrame, py::arg("time_s"), "A new frame at an instant of the loop, s.")
-      .def("fill_frame", &fillFrame, py::arg("time_s"), py::arg("out"), "The same into an earlier frame.")
-      .def("fill_arrays", &fillArrays, py::arg("time_s"), py::arg("out"), "The same into arrays by name.")
+      .def("fill_frame", &fillFrame, py::arg("time_s"), py::arg("out"),
+           "The same into an earlier frame.")
+      .def("fill_arrays", &fillArrays, py::arg("time_s"), py::arg("out"),
+           "The same into arrays by name.")
       .def("contours", &contoursOfFrame, py::arg("frame"), "A frame's contours.")
       .def_property_readonly("times_s", &times, "(T,) float64: the loop's frames, s.")
-      .def_property_readonly("plan",
-                             [](const NativeSimulator& n) { return planSummary(n.simulator.plan()); },
-                             "One line: tracer, what is on, what is off.")
-      .def_property_readonly("reference_intensity",
-                             [](const NativeSimulator& n) {
-                               double white = 0;
-                               runHere([&] { white = n.simulator.referenceIntensity(); });
-                               return white;
-                             },
-                             "White of the log compression, relative to the transmitted.");
+      .def_property_readonly(
+          "plan", [](const NativeSimulator& n) { return planSummary(n.simulator.plan()); },
+          "One line: tracer, what is on, what is off.")
+      .def_property_readonly(
+          "reference_intensity",
+          [](const NativeSimulator& n) {
+            double white = 0;
+            runHere([&] { white = n.simulator.referenceIntensity(); });
+            return white;
+          },
+          "White of the log compression, relative to the transmitted.");
 }
 
 }  // namespace echocine::python

@@ -107,10 +107,9 @@ std::string poseToml(const Scene& scene) {
   const Probe& probe = scene.probe;
   const double unit = scene.motion.mesh_unit_m;
   const int places = placesOf(probe.pose, unit);
-  std::string text = fmt::format("apex = {}\naxis = {}\nlateral = {}\n",
-                                 vectorText(1 / unit * probe.pose.origin, places),
-                                 vectorText(probe.pose.z_axis, places),
-                                 vectorText(probe.pose.x_axis, places));
+  std::string text = fmt::format(
+      "apex = {}\naxis = {}\nlateral = {}\n", vectorText(1 / unit * probe.pose.origin, places),
+      vectorText(probe.pose.z_axis, places), vectorText(probe.pose.x_axis, places));
   if (probe.isFan())
     text += fmt::format("sector_deg = {}\n", shortest(probe.last_angle_rad - probe.first_angle_rad,
                                                       radiansFromDegrees(1)));

@@ -11,6 +11,7 @@
 #include "core/hash_random.h"
 #include "core/parallel.h"
 #include "core/stop.h"
+#include "speckle/sector_box.h"
 
 namespace echocine {
 
@@ -42,55 +43,16 @@ Vec3f placeInCube(const EightPlaces& eight, std::size_t lane) {
                          static_cast<float>(eight.w[lane])};
 }
 
-struct Range {
-  double low_m, high_m;
-};
-
 // Numbers of blocks.
 struct BlockRange {
   int begin, end;
   double count() const { return std::max(end - begin, 0); }
 };
-BlockRange blocksOver(Range range, float origin_m, float edge_m) {
+BlockRange blocksOver(SectorBox::Range range, float origin_m, float edge_m) {
   const double origin = static_cast<double>(origin_m), edge = static_cast<double>(edge_m);
   const auto number = [](double at) { return static_cast<int>(std::clamp(at, -1e9, 1e9)); };
   return {number(std::floor((range.low_m - origin) / edge)),
           number(std::ceil((range.high_m - origin) / edge))};
-}
-
-// Where tissue may lie that the sector's beams reach at some instant, in its plane: all that
-// BeamView::sees() accepts of discs whose tissue moves so far.
-struct SectorBox {
-  Range x, z;
-};
-SectorBox boxAbout(const Probe& probe, double disc_m, double moves_m, double edge_m) {
-  const double reach_m = probe.face_radius_m + probe.max_depth_m;
-  const Range deep{-moves_m, reach_m + moves_m};
-  if (!probe.isFan()) {
-    const double half_m = moves_m + edge_m +
-                          std::max(std::abs(probe.first_offset_m), std::abs(probe.last_offset_m)) +
-                          reach_m * std::abs(std::tan(probe.first_angle_rad));
-    return {{-half_m, half_m}, deep};
-  }
-  // sees() takes a disc's half angle for q / sqrt(1 - q^2), q = radius / r, and 1e-4 rad more: over
-  // twice its radius away from the centre that is 1.16 radii; nearer by, any direction is seen.
-  const double margin_m = 1.2 * disc_m + edge_m + 1e-4 * reach_m;
-  const double nearest_m = probe.face_radius_m + probe.min_depth_m;
-  const double about_m = nearest_m <= 3 * disc_m ? 2 * disc_m : 0;
-  const double beside_rad =
-      probe.lines > 1 ? (probe.last_angle_rad - probe.first_angle_rad) / (probe.lines - 1) : 0.1;
-  Range x{-about_m, about_m}, z{about_m > 0 ? -about_m : reach_m, about_m};
-  const double first = probe.first_angle_rad - beside_rad;
-  const double last = probe.last_angle_rad + beside_rad;
-  for (const double angle : {first, std::clamp(0.0, first, last), last})
-    for (const double r_m : {nearest_m, reach_m}) {
-      const double across_m = r_m * std::sin(angle), along_m = r_m * std::cos(angle);
-      x = {std::min(x.low_m, across_m), std::max(x.high_m, across_m)};
-      z = {std::min(z.low_m, along_m), std::max(z.high_m, along_m)};
-    }
-  const double half_m = moves_m + reach_m + edge_m;
-  return {{std::max(x.low_m - margin_m, -half_m), std::min(x.high_m + margin_m, half_m)},
-          {std::max(z.low_m - margin_m, deep.low_m), std::min(z.high_m + margin_m, deep.high_m)}};
 }
 
 double pathOf(const Probe& probe, Vec3d p) {
@@ -141,7 +103,7 @@ std::vector<Scatterers::Block> Scatterers::blocksInReach(const Probe& probe,
                      std::max(spread.elevationWidth(0), spread.elevationWidth(std::min(
                                                             probe.face_radius_m + probe.max_depth_m,
                                                             probe.max_depth_m + 2 * ball_m)));
-  const SectorBox box = boxAbout(probe, ball_m, along_m, edge_m);
+  const SectorBox box = sectorBox(probe, ball_m, along_m, edge_m);
   const BlockRange xs = blocksOver(box.x, lattice.origin_m.x, lattice.block_m);
   const BlockRange ys = blocksOver({-half_y_m, half_y_m}, lattice.origin_m.y, lattice.block_m);
   const BlockRange zs = blocksOver(box.z, lattice.origin_m.z, lattice.block_m);

@@ -56,8 +56,7 @@ Heterogeneity::Heterogeneity(const SpeckleSettings& settings, const Probe& probe
 // Coordinates in which layers are one unit thick along the beam and one wide across it.
 Vec3f Heterogeneity::inLayers(Vec3f place_m) const {
   const Vec3d p = toDouble(place_m);
-  const double across_m =
-      linear_ ? p.x - p.z * tangent_ : middle_m_ * std::atan2(p.x, p.z);
+  const double across_m = linear_ ? p.x - p.z * tangent_ : middle_m_ * std::atan2(p.x, p.z);
   const double along_m = linear_ ? p.z * std::hypot(1, tangent_) : std::hypot(p.x, p.z);
   return toFloat({across_m / extent_m_, p.y / extent_m_, along_m * per_thickness_});
 }

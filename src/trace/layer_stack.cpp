@@ -100,9 +100,9 @@ class Stack {
 
   // What turns back twice in each layer is so little that the first nodes hold all of it.
   bool weak() const {
-    constexpr double kWeak = 0.05;
+    constexpr double kWeakReflectance = 0.05;
     for (std::size_t i = 0; i < layers_.size(); ++i)
-      if (norm(r_[i]) * norm(r_[i + 1]) > kWeak * kWeak) return false;
+      if (norm(r_[i]) * norm(r_[i + 1]) > kWeakReflectance * kWeakReflectance) return false;
     return true;
   }
 

@@ -11,8 +11,8 @@
 #include <functional>
 
 #include "bench/cpu_time.h"
-#include "fit/dial_scan.h"
 #include "core/units.h"
+#include "fit/dial_scan.h"
 #include "metrics/statistics.h"
 #include "support/view_loops.h"
 

@@ -23,6 +23,7 @@
 #include "metrics/statistics.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/heart/parameters.h"
+#include "scene/key_reader.h"
 #include "scene/names.h"
 #include "scene/role.h"
 #include "scene/signal_reader.h"
@@ -111,10 +112,11 @@ void takeTables(const Options& options, Scene& scene) {
       options.with.empty() ? "" : readTextFile(options.with, std::size_t{1} << 20);
   TomlTable root = TomlTable::parse(text, options.with);
   takeLook(root.table("signal"), scene);
-  scene.signal = readSignal(root.table("signal"), scene.signal);
-  scene.trabeculae = readTrabeculae(root.table("trabeculae"), scene.trabeculae);
-  scene.speckle = readSpeckle(root.table("speckle"), scene.speckle);
-  scene.artefacts = readArtefacts(root.table("artefacts"), scene.artefacts);
+  readSignal(root.table("signal"), scene);
+  for (const char* name : {"trabeculae", "speckle", "artefacts"}) {
+    TomlTable table = root.table(name);
+    readKeys(table, name, {&scene});
+  }
   if (!scene.signal.reference_intensity)
     scene.signal.reference_intensity = before.reference_intensity;
 }
@@ -200,9 +202,11 @@ void printTable(const std::map<int, Column>& columns) {
       medianOf([](const Measured& m) { return m.sector.dark_fraction; }));
   fmt::print("left less right wall:");
   for (const auto& [c, column] : columns)
-    fmt::print(" {} {:.0f}", kNames[c], medianOf([](const Measured& m) {
-                 return m.region.left_wall_grey - m.region.right_wall_grey;
-               }, c));
+    fmt::print(
+        " {} {:.0f}", kNames[c],
+        medianOf(
+            [](const Measured& m) { return m.region.left_wall_grey - m.region.right_wall_grey; },
+            c));
   fmt::print("\n");
 }
 

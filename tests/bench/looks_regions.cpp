@@ -7,10 +7,10 @@
 #include <sstream>
 #include <vector>
 
-#include "echo/beam_grid.h"
-#include "echo/sector.h"
 #include "core/error.h"
 #include "core/units.h"
+#include "echo/beam_grid.h"
+#include "echo/sector.h"
 #include "frame/simulator.h"
 #include "metrics/box_echo.h"
 #include "scene/scene_reader.h"
@@ -89,8 +89,8 @@ BeamSpace beamSpace(const PictureLoop& loop) {
       for (int k = 0; k < space.samples; ++k) {
         const double r = kSample_mm * k / loop.mm_per_pixel;
         plane.push_back(echo::greyAt(picture.data(), loop.width, loop.height,
-                                        loop.apex_x + r * std::sin(angle),
-                                        loop.apex_y + r * std::cos(angle)));
+                                     loop.apex_x + r * std::sin(angle),
+                                     loop.apex_y + r * std::cos(angle)));
       }
     }
     space.frames.push_back(std::move(plane));

@@ -7,8 +7,8 @@
 #include <array>
 #include <cstring>
 
-#include "fit/plane_tilt.h"
 #include "core/units.h"
+#include "fit/plane_tilt.h"
 #include "motion/probe_placement.h"
 #include "support/view_loops.h"
 

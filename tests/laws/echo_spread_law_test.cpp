@@ -6,9 +6,9 @@
 #include <cmath>
 #include <complex>
 
+#include "core/parallel.h"
 #include "echo/echo_spread.h"
 #include "fit/model_discrepancy.h"
-#include "core/parallel.h"
 #include "support/drawn_heart.h"
 
 namespace echocine::echo {

@@ -113,8 +113,9 @@ TEST(ComparePage, HoldsThePicturesOfAllPanelsAndTheSummary) {
 
 TEST(ComparePage, ItsTitleNamesBothLoopsAndIsNoMarkup) {
   const std::string html = pageOf(threeFrames());
-  EXPECT_NE(html.find("<title>EchoCine: renders/my_loop/ against &lt;/script&gt;&lt;b&gt;patient.dcm<"),
-            std::string::npos)
+  EXPECT_NE(
+      html.find("<title>EchoCine: renders/my_loop/ against &lt;/script&gt;&lt;b&gt;patient.dcm<"),
+      std::string::npos)
       << html.substr(html.find("<title>"), 100);
   EXPECT_EQ(countOf(html, "<b>patient"), 0u);
 }

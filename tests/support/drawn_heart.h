@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "echo/echo_loop.h"
-#include "fit/model_discrepancy.h"
 #include "core/hash_random.h"
 #include "core/units.h"
+#include "echo/echo_loop.h"
+#include "fit/model_discrepancy.h"
 
 namespace echocine::support {
 
@@ -121,7 +121,7 @@ struct Phantom {
 // The phantom as a scanner might show it: one grey for each tissue, a gain over depth, speckle that
 // moves with nothing, all moved by a pose. It is smallest at `systole` of the beat.
 inline EchoLoop draw(const Phantom& phantom, const FitPose& pose, int frames, std::uint64_t seed,
-                 double start_phase = 0, double systole = 0.5) {
+                     double start_phase = 0, double systole = 0.5) {
   constexpr int kWidth = 250, kHeight = 190;
   constexpr double kPixel_m = 0.8e-3;
   constexpr double kGrey[3] = {95, 150, 35};

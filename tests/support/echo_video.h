@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "echo/echo_loop.h"
 #include "core/hash_random.h"
+#include "echo/echo_loop.h"
 #include "video/cine_writer.h"
 
 namespace echocine::support {

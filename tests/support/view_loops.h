@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "echo/echo_loop.h"
 #include "core/error.h"
 #include "core/hash_random.h"
 #include "core/parallel.h"
+#include "echo/echo_loop.h"
 #include "frame/simulator.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/views/heart_marks.h"
@@ -33,7 +33,8 @@ inline const char* nameOf(Family family) {
 inline void holdProbe(View view, const std::vector<RoleSurface>& surfaces, double metres_per_unit,
                       SceneText& text) {
   const HeartMarks heart = findHeart(surfaces, {});
-  const ProbePose pose = standardPose(view, heart.frame, heart.outside_m, heart.wall_m, heart.front_m);
+  const ProbePose pose =
+      standardPose(view, heart.frame, heart.outside_m, heart.wall_m, heart.front_m);
   text.probe["apex"] = vectorText(1 / metres_per_unit * pose.apex);
   text.probe["axis"] = vectorText(pose.axis);
   text.probe["lateral"] = vectorText(pose.lateral);

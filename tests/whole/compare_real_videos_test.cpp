@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "echo/beat_length.h"
 #include "compare/compare.h"
 #include "core/units.h"
+#include "echo/beat_length.h"
 #include "support/paths.h"
 
 namespace echocine::compare {

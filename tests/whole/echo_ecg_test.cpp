@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/compare.h"
-#include "fit/model_discrepancy.h"
 #include "core/parallel.h"
+#include "fit/model_discrepancy.h"
 #include "support/drawn_ecg.h"
 #include "support/drawn_heart.h"
 #include "support/loop_scene.h"
