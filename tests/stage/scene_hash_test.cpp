@@ -18,7 +18,7 @@ using namespace support;
 
 // Values for keys that are no single member of a scene.
 std::optional<std::pair<std::string, std::string>> twoValuesOf(const std::string& name) {
-  static const std::map<std::string, std::pair<std::string, std::string>> kValues{
+  static const std::map<std::string, std::pair<std::string, std::string>> kHashedValues{
       {"background", {"\"blood\"", "\"soft_tissue\""}},
       {"probe.apex", {"[0, 0, 0]", "[0, 0, 1]"}},
       {"probe.axis", {"[0, 0, 1]", "[0, 1, 1]"}},
@@ -51,8 +51,8 @@ std::optional<std::pair<std::string, std::string>> twoValuesOf(const std::string
       {"signal.tgc_table_mm_db", {"[[0, 0]]", "[[0, 1]]"}},
       {"output.channels", {"[\"Y\"]", "[\"Y\", \"medium.id\"]"}},
   };
-  const auto found = kValues.find(name);
-  if (found == kValues.end()) return std::nullopt;
+  const auto found = kHashedValues.find(name);
+  if (found == kHashedValues.end()) return std::nullopt;
   return found->second;
 }
 
