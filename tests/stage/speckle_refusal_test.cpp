@@ -88,7 +88,8 @@ TEST(SpeckleRefusal, MoreScatterersThanMemoryIsMeantFor) {
 
 // A fine lattice about an apex far behind the face.
 struct FineGroup : support::OneGroup {
-  CubeLattice lattice() const override { return {{}, 1e-3f}; }
+  float block_m = 1e-3f;
+  CubeLattice lattice() const override { return {{}, block_m}; }
 };
 
 TEST(SpeckleRefusal, AFarApexTakesTheBlocksOfItsSectorAlone) {
@@ -101,9 +102,14 @@ TEST(SpeckleRefusal, AFarApexTakesTheBlocksOfItsSectorAlone) {
   settings.per_cell = 0.1;
   FineGroup fine;
   fine.reach_m = 0;
-  EXPECT_GT(Speckle(probe, 2, settings, fine).scatterers(), 1000u);
+  const std::size_t narrow = Speckle(probe, 2, settings, fine).scatterers();
+  EXPECT_GT(narrow, 1000u);
   probe.first_angle_rad = -0.6;
   probe.last_angle_rad = 0.6;
+  const std::size_t wide = Speckle(probe, 2, settings, fine).scatterers();
+  EXPECT_GT(wide, 10 * narrow);
+  EXPECT_LT(wide, 30 * narrow);
+  fine.block_m = 1e-4f;
   try {
     const Speckle speckle(probe, 2, settings, fine);
     FAIL() << speckle.scatterers();
