@@ -85,10 +85,10 @@ def test_a_bad_value_is_named_and_leaves_the_scene(scene):
 
 def test_errors_of_a_file_have_its_line(tmp_path):
     file = tmp_path / "bad.toml"
-    file.write_text("[probe]\nkind = 'square'\n")
+    file.write_text("[probe]\napex = [0, 0, 0]\naxis = [0, 0, 1]\nlateral = [1, 0, 0]\nkind = 'square'\n")
     with pytest.raises(echocine.SceneError) as caught:
         echocine.Scene(file)
-    assert (caught.value.file, caught.value.line, caught.value.key) == (str(file), 2, "probe.kind")
+    assert (caught.value.file, caught.value.line, caught.value.key) == (str(file), 5, "probe.kind")
     with pytest.raises(echocine.SceneError, match="cannot be read"):
         echocine.Scene(tmp_path / "absent.toml")
 
