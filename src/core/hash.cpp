@@ -1,6 +1,7 @@
 #include "core/hash.h"
 
 #include <fmt/format.h>
+#include <openssl/crypto.h>
 #include <openssl/evp.h>
 
 #include <array>
@@ -13,6 +14,21 @@
 
 namespace echocine {
 
+namespace {
+
+// Fetched once per process. The fetch leaves an error queue in the calling thread; a worker thread
+// that ends after OpenSSL's clean-up at exit would leak it, so it is freed here.
+const EVP_MD* sha256Algorithm() {
+  static const EVP_MD* const algorithm = [] {
+    const EVP_MD* const fetched = EVP_MD_fetch(nullptr, "SHA256", nullptr);
+    OPENSSL_thread_stop();
+    return fetched;
+  }();
+  return algorithm;
+}
+
+}  // namespace
+
 struct Sha256::State {
   EVP_MD_CTX* context = EVP_MD_CTX_new();
   ~State() { EVP_MD_CTX_free(context); }
@@ -20,7 +36,8 @@ struct Sha256::State {
 
 Sha256::Sha256() : state_(std::make_unique<State>()) {
   if (state_->context == nullptr) throw std::bad_alloc();
-  if (EVP_DigestInit_ex(state_->context, EVP_sha256(), nullptr) != 1)
+  const EVP_MD* const algorithm = sha256Algorithm();
+  if (algorithm == nullptr || EVP_DigestInit_ex(state_->context, algorithm, nullptr) != 1)
     throw JobError("SHA-256: the installed OpenSSL does not have it, or is out of memory");
 }
 Sha256::~Sha256() = default;

@@ -18,7 +18,7 @@ struct TracedGreys {
 
 struct EchoLoop {
   Video video;
-  // What pages and JSON call it: a file's name may be a patient's. Video::name is for messages.
+  // Shown in pages and JSON: a file name may contain a patient's name. Messages use Video::name.
   std::string label = "loop";
   SectorFind find;
   PixelPlane overlay;                      // 1 where a pixel holds no echo

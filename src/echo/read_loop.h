@@ -10,7 +10,7 @@
 
 namespace echocine::echo {
 
-// What a user may know better than the files. Frames count from 0.
+// Values that the user gives in place of those in the files. Frames count from 0.
 struct SideOptions {
   std::optional<double> fps, mm_per_pixel, pixel_aspect, heart_rate_bpm;  // aspect: height / width
   std::optional<std::string> sector;

@@ -1,5 +1,5 @@
 #pragma once
-// What a reader of a fit must know beside its numbers.
+// Caveats that stand beside the numbers of a fit.
 
 #include <string>
 #include <vector>

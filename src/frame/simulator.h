@@ -65,7 +65,7 @@ class Simulator {
   // Throws SceneError that names the scene's key, file and face; JobError when frames between
   // keyframes are inside out.
   explicit Simulator(Scene scene);
-  // Of a motion that several simulators share. Precondition: it is that of the scene.
+  // With a motion that several simulators share. Precondition: it was made from this scene.
   Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion);
   Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan);
 
@@ -134,7 +134,7 @@ class Simulator {
   const CardiacClock cardiac_clock_;
   const SignalChain chain_;
   const FrameRays rays_;
-  // What only some scenes need.
+  // Null where the plan leaves the effect out.
   std::unique_ptr<const Trabeculae> trabeculae_;
   std::unique_ptr<const SceneSpeckle> speckle_;
   std::unique_ptr<const RollingLines> rolling_;

@@ -7,7 +7,7 @@
 
 namespace echocine {
 
-// Of closed structures, by name, mL.
+// Volumes of closed structures by name, mL.
 Volumes structureVolumes(const Scene& scene, const MeshMotion& motion,
                          const SurfaceFrame& surfaces);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is known to be true of a loop's frames: of the instant, of rolling lines, of velocities.
+// Ground truth of a loop's frames: at an instant, along rolling lines, and velocities.
 
 #include <memory>
 #include <mutex>

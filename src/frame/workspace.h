@@ -1,5 +1,5 @@
 #pragma once
-// What one frame needs while it is made.
+// Buffers of one frame while it is made.
 
 #include <memory>
 #include <mutex>

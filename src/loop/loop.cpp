@@ -28,7 +28,7 @@ void reserve(const Simulator& simulator, Loop& loop) {
       static_cast<std::size_t>(output.width) * static_cast<std::size_t>(output.height);
   bool displacement = false, velocity = false;
   for (const Channel channel : output.channels) {
-    if (!output.exr) break;  // planes are made for the stack alone
+    if (!wants(loop.scene, channel)) continue;  // planes are made for the stack alone
     displacement |= isMotion(channel) && channel < Channel::velocity_lateral;
     velocity |= channel >= Channel::velocity_lateral;
     if (isLabel(channel))

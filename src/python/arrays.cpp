@@ -21,9 +21,9 @@ py::array copyOf(const std::vector<double>& values) {
 }
 
 std::string shown(const py::array& array) {
-  return fmt::format("{}, {}",
-                     shapeText(std::vector<py::ssize_t>(array.shape(), array.shape() + array.ndim())),
-                     nameOf(array.dtype()));
+  return fmt::format(
+      "{}, {}", shapeText(std::vector<py::ssize_t>(array.shape(), array.shape() + array.ndim())),
+      nameOf(array.dtype()));
 }
 
 py::array checkedOut(const std::string& argument, const py::object& given, const py::dtype& type,
@@ -31,14 +31,15 @@ py::array checkedOut(const std::string& argument, const py::object& given, const
   const std::string accepted =
       fmt::format("accepted: a writeable array {}, {}", shapeText(shape), nameOf(type));
   if (!py::isinstance<py::array>(given))
-    throw py::type_error(fmt::format("{}: is {}, {}", argument,
-                                     py::str(py::type::of(given).attr("__name__")).cast<std::string>(),
-                                     accepted));
+    throw py::type_error(
+        fmt::format("{}: is {}, {}", argument,
+                    py::str(py::type::of(given).attr("__name__")).cast<std::string>(), accepted));
   const auto array = py::reinterpret_borrow<py::array>(given);
   const std::vector<py::ssize_t> has(array.shape(), array.shape() + array.ndim());
   if (!array.dtype().is(type) && !array.dtype().equal(type))
     throw py::type_error(fmt::format("{}: is {}, {}", argument, shown(array), accepted));
-  if (has != shape) throw py::value_error(fmt::format("{}: is {}, {}", argument, shown(array), accepted));
+  if (has != shape)
+    throw py::value_error(fmt::format("{}: is {}, {}", argument, shown(array), accepted));
   if (!array.writeable())
     throw py::value_error(fmt::format("{}: is read-only, {}", argument, accepted));
   return array;

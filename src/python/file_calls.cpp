@@ -44,16 +44,17 @@ py::array arrayOf(std::vector<T> values, const std::vector<py::ssize_t>& shape) 
 
 // (depth, line)
 template <typename T>
-py::array planeOf(std::optional<std::vector<T>> values, const ExrPlaneWanted& wanted, const Path& file) {
+py::array planeOf(std::optional<std::vector<T>> values, const ExrPlaneWanted& wanted,
+                  const Path& file) {
   if (!values)
-    throw JobError(fmt::format("{}: is absent, damaged, of another scene, or has no channel {}", file.string(),
-                               channelName(wanted.channel)));
+    throw JobError(fmt::format("{}: is absent, damaged, of another scene, or has no channel {}",
+                               file.string(), channelName(wanted.channel)));
   return arrayOf(std::move(*values), {wanted.lines, wanted.samples}).attr("T");
 }
 
 // Any scale of half floats undone.
-py::array readExr(const Path& folder, int frame, const std::string& channel, const std::string& sha256,
-                  int lines, int samples) {
+py::array readExr(const Path& folder, int frame, const std::string& channel,
+                  const std::string& sha256, int lines, int samples) {
   const ExrPlaneWanted wanted{channelFrom(channel), sha256, frame, lines, samples};
   const Path file = folder / ExrStack::fileName(frame);
   std::optional<std::vector<float>> values;
@@ -73,7 +74,8 @@ py::array readFrames(const Path& path) {
   Video video;
   runJob(py::none(), [&](const Monitor&) { video = readVideo(path); });
   std::vector<std::uint8_t> pixels;
-  for (const PixelPlane& frame : video.frames) pixels.insert(pixels.end(), frame.begin(), frame.end());
+  for (const PixelPlane& frame : video.frames)
+    pixels.insert(pixels.end(), frame.begin(), frame.end());
   return arrayOf(std::move(pixels), {video.frameCount(), video.height, video.width});
 }
 
@@ -81,7 +83,8 @@ py::array readFrames(const Path& path) {
 std::pair<std::uint64_t, std::string> fileDigest(const Path& path) {
   const Unlocked released;
   const std::optional<dataset::FileMark> mark = dataset::markOf(path);
-  if (!mark) throw JobError(fmt::format("{}: cannot be read, or is no ordinary file", path.string()));
+  if (!mark)
+    throw JobError(fmt::format("{}: cannot be read, or is no ordinary file", path.string()));
   return {mark->bytes, mark->digest};
 }
 

@@ -22,7 +22,8 @@ void beginWork() {
   if (orphaned)
     throw JobError(
         "this process was forked from one that had used echocine, whose threads it does not have, "
-        "accepted: the start method \"spawn\" or \"forkserver\" (multiprocessing.get_context), or a "
+        "accepted: the start method \"spawn\" or \"forkserver\" (multiprocessing.get_context), or "
+        "a "
         "first use of echocine after the fork");
   worked = true;
 }

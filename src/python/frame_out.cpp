@@ -56,9 +56,7 @@ bool shareMemory(const py::array& a, const py::array& b) {
 }
 
 bool isMade(const std::string& name, const Scene& scene) {
-  if (name == "intensities")
-    return scene.output.exr &&
-           std::count(scene.output.channels.begin(), scene.output.channels.end(), Channel::y) > 0;
+  if (name == "intensities") return wants(scene, Channel::y);
   if (name == "labels") return scene.truth.labels;
   return wantsPicture(scene) && (name == "greys" || scene.output.cine || scene.output.png);
 }

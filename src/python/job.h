@@ -12,8 +12,8 @@ namespace echocine::python {
 
 // `progress`: None, or called as progress(done, total, what) in this thread, with what is newest;
 // total 0: not known. What it raises, or Ctrl-C, stops the job and is raised here when the job has
-// ended. Warnings are issued as echocine.SceneWarning when it has ended. Throws what the job throws.
-// Precondition: the caller holds the interpreter's lock; the job touches no Python object.
+// ended. Warnings are issued as echocine.SceneWarning when it has ended. Throws what the job
+// throws. Precondition: the caller holds the interpreter's lock; the job touches no Python object.
 void runJob(const pybind11::object& progress, const std::function<void(const Monitor&)>& job);
 
 // Work of some ms, such as a frame, in this thread without the interpreter's lock: no thread is

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -78,9 +77,7 @@ py::dict channels(const py::object& self) {
   for (const auto& [channel, values] : loop.ids)
     named[channelName(channel)] =
         planesView(values.data(), loop.frames, loop.lines, loop.samples, self);
-  const std::vector<Channel>& asked = loop.scene.output.channels;
-  if (loop.scene.output.exr && !loop.greys.empty() &&
-      std::find(asked.begin(), asked.end(), Channel::display) != asked.end())
+  if (!loop.greys.empty() && wants(loop.scene, Channel::display))
     named[channelName(Channel::display)] =
         planesView(loop.greys.data(), loop.frames, loop.lines, loop.samples, self);
   return named;

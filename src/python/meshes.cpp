@@ -29,8 +29,8 @@ std::vector<Vec3d> positionsOf(const std::string& name, const Points& points) {
   for (py::ssize_t i = 0; i < at.shape(0); ++i) {
     const Vec3d p{at(i, 0), at(i, 1), at(i, 2)};
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      throw py::value_error(fmt::format("{}: points: row {} is ({}, {}, {}), accepted: finite numbers",
-                                        name, i, p.x, p.y, p.z));
+      throw py::value_error(fmt::format(
+          "{}: points: row {} is ({}, {}, {}), accepted: finite numbers", name, i, p.x, p.y, p.z));
     positions.push_back(p);
   }
   return positions;
@@ -44,8 +44,8 @@ std::vector<Triangle> trianglesOf(const std::string& name, const Faces& faces, s
     for (py::ssize_t k = 0; k < 3; ++k) {
       if (at(i, k) < 0 || at(i, k) >= static_cast<std::int64_t>(points))
         throw py::value_error(
-            fmt::format("{}: faces: row {} holds vertex {}, accepted: 0 to {}, a row of points", name, i,
-                        at(i, k), static_cast<std::int64_t>(points) - 1));
+            fmt::format("{}: faces: row {} holds vertex {}, accepted: 0 to {}, a row of points",
+                        name, i, at(i, k), static_cast<std::int64_t>(points) - 1));
       triangles[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] =
           static_cast<std::uint32_t>(at(i, k));
     }
@@ -60,7 +60,8 @@ void add(Meshes& meshes, const std::string& name, const Points& points, const Fa
 }
 
 // With tags, whatever they are to subdivision.
-void addLike(Meshes& meshes, const std::string& name, const std::string& like, const Points& points) {
+void addLike(Meshes& meshes, const std::string& name, const std::string& like,
+             const Points& points) {
   const auto found = meshes.named.find(like);
   if (found == meshes.named.end())
     throw py::key_error(fmt::format("{}: is not a mesh in memory", like));
@@ -80,10 +81,12 @@ py::tuple get(const Meshes& meshes, const std::string& name) {
   // A new pointer to the same mesh keeps it alive for as long as its arrays.
   using Owner = std::shared_ptr<const TriangleMesh>;
   const py::capsule owner(new Owner(found->second), [](void* p) { delete static_cast<Owner*>(p); });
-  static_assert(sizeof(Vec3d) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(std::uint32_t));
-  py::array points = viewOf(&mesh.positions.data()->x, {static_cast<py::ssize_t>(mesh.positions.size()), 3}, owner);
-  py::array faces =
-      viewOf(mesh.triangles.data()->data(), {static_cast<py::ssize_t>(mesh.triangles.size()), 3}, owner);
+  static_assert(sizeof(Vec3d) == 3 * sizeof(double) &&
+                sizeof(Triangle) == 3 * sizeof(std::uint32_t));
+  py::array points = viewOf(&mesh.positions.data()->x,
+                            {static_cast<py::ssize_t>(mesh.positions.size()), 3}, owner);
+  py::array faces = viewOf(mesh.triangles.data()->data(),
+                           {static_cast<py::ssize_t>(mesh.triangles.size()), 3}, owner);
   // Shared by scenes and simulators.
   points.attr("flags").attr("writeable") = false;
   faces.attr("flags").attr("writeable") = false;
@@ -142,18 +145,21 @@ void bindMeshes(py::module_& module) {
   py::class_<Meshes>(module, "Meshes", "Keyframe meshes in memory, by name.")
       .def(py::init<>())
       .def(py::pickle(&stateOf, &fromState))
-      .def("copy", [](const Meshes& meshes) { return meshes; }, "The same meshes, not copied.")
-      .def("names",
-           [](const Meshes& meshes) {
-             std::vector<std::string> names;
-             for (const auto& entry : meshes.named) names.push_back(entry.first);
-             return names;
-           },
-           "Names, sorted.")
+      .def(
+          "copy", [](const Meshes& meshes) { return meshes; }, "The same meshes, not copied.")
+      .def(
+          "names",
+          [](const Meshes& meshes) {
+            std::vector<std::string> names;
+            for (const auto& entry : meshes.named) names.push_back(entry.first);
+            return names;
+          },
+          "Names, sorted.")
       .def("add", &add, py::arg("name"), py::arg("points"), py::arg("faces"),
            "Adds or replaces: points (V, 3) float64, faces (F, 3) int64. Copies.")
-      .def("add_like", &addLike, py::arg("name"), py::arg("like"), py::arg("points"),
-           "Adds or replaces with the faces and subdivision tags of another: points (V, 3) float64.")
+      .def(
+          "add_like", &addLike, py::arg("name"), py::arg("like"), py::arg("points"),
+          "Adds or replaces with the faces and subdivision tags of another: points (V, 3) float64.")
       .def("get", &get, py::arg("name"), "Read-only views (V, 3) float64 and (F, 3) uint32.");
 }
 

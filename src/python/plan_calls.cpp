@@ -42,9 +42,9 @@ void refuseUnknown(const std::vector<std::string>& knobs) {
           fmt::format("knobs: \"{}\" is not a knob, accepted: {}", knob, fmt::join(known, ", ")));
 }
 
-std::string study(const NativeScene& scene, const std::optional<std::filesystem::path>& folder, int frames,
-                  int repeats, const std::vector<std::string>& knobs, std::optional<double> budget_s,
-                  int threads, const py::object& progress) {
+std::string study(const NativeScene& scene, const std::optional<std::filesystem::path>& folder,
+                  int frames, int repeats, const std::vector<std::string>& knobs,
+                  std::optional<double> budget_s, int threads, const py::object& progress) {
   refuseUnknown(knobs);
   StudyOptions options;
   options.threads = threads;
@@ -74,8 +74,9 @@ void bindPlan(py::module_& module) {
   module.def("plan", &plan, py::arg("scene"), py::arg("threads"), py::arg("progress").none(true),
              "What a loop needs, why, and what it takes, as JSON.");
   module.def("study", &study, py::arg("scene"), py::arg("folder").none(true), py::arg("frames"),
-             py::arg("repeats"), py::arg("knobs"), py::arg("budget_s").none(true), py::arg("threads"),
-             py::arg("progress").none(true), "What accuracy costs in time, as JSON.");
+             py::arg("repeats"), py::arg("knobs"), py::arg("budget_s").none(true),
+             py::arg("threads"), py::arg("progress").none(true),
+             "What accuracy costs in time, as JSON.");
 }
 
 }  // namespace echocine::python

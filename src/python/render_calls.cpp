@@ -25,8 +25,9 @@ void renderToFolder(const NativeScene& scene, const std::filesystem::path& folde
   runJob(progress, [&](const Monitor& monitor) {
     const RenderSummary summary = renderLoop(scene.scene, options, monitor);
     if (summary.frames_done < summary.frames_wanted)
-      throw JobError(fmt::format("stopped: {} of {} frames are finished in {}; resume=True goes on from there",
-                                 summary.frames_done, summary.frames_wanted, folder.string()));
+      throw JobError(
+          fmt::format("stopped: {} of {} frames are finished in {}; resume=True goes on from there",
+                      summary.frames_done, summary.frames_wanted, folder.string()));
   });
 }
 
@@ -34,8 +35,8 @@ void renderToFolder(const NativeScene& scene, const std::filesystem::path& folde
 
 void bindRender(py::module_& module) {
   module.def("render_to_folder", &renderToFolder, py::arg("scene"), py::arg("folder"),
-             py::arg("frames").none(true), py::arg("threads"), py::arg("resume"), py::arg("overwrite"),
-             py::arg("progress").none(true), "A loop as files.");
+             py::arg("frames").none(true), py::arg("threads"), py::arg("resume"),
+             py::arg("overwrite"), py::arg("progress").none(true), "A loop as files.");
 }
 
 }  // namespace echocine::python

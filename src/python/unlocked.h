@@ -9,8 +9,8 @@
 
 namespace echocine::python {
 
-// Gives the interpreter's lock up and takes it again at the end of the scope; there the thread sleeps
-// for ever once the interpreter is ending. Precondition: the lock is held.
+// Gives the interpreter's lock up and takes it again at the end of the scope; there the thread
+// sleeps for ever once the interpreter is ending. Precondition: the lock is held.
 class Unlocked {
  public:
   Unlocked();
