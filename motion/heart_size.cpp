@@ -19,8 +19,10 @@ struct Size {
   Role role;
   double least_ml, most_ml, usual_ml;
 };
-constexpr Size kSizes[] = {{Role::lv_cavity, 0.5, 1000, 110}, {Role::rv_cavity, 0.5, 1000, 120},
-                           {Role::la, 0.2, 2000, 50},         {Role::ra, 0.2, 2000, 50},
+constexpr Size kSizes[] = {{Role::lv_cavity, 0.5, 1000, 110},
+                           {Role::rv_cavity, 0.5, 1000, 120},
+                           {Role::la, 0.2, 2000, 50},
+                           {Role::ra, 0.2, 2000, 50},
                            {Role::lv_wall, 1, 3000, 240}};
 // A unit that brings the volume within this factor of the usual one is what was meant; units are
 // 1000 of it apart.

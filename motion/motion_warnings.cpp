@@ -120,9 +120,10 @@ std::string closingWords(const ControlMotion& motion) {
   const std::size_t last = motion.weights.keyframeCount() - 1;
   const auto same = [&](std::size_t k) { return motion.rows_m[k] == motion.rows_m.front(); };
   if (last < 2 || !same(last) || same(last / 2)) return "";
-  return fmt::format("{} has the shape of the first keyframe: drop the frame that closes the beat, "
-                     "the first follows the last by itself",
-                     motion.fileOf(last));
+  return fmt::format(
+      "{} has the shape of the first keyframe: drop the frame that closes the beat, "
+      "the first follows the last by itself",
+      motion.fileOf(last));
 }
 
 std::string advice(const SurfaceBreaks& breaks, Interpolation kind) {

@@ -23,8 +23,7 @@ void HeightRanges::refine(const Subdivision& subdivision) {
 }
 
 std::vector<NumberedTriangle> HeightRanges::nearPlane(std::span<const Triangle> triangles,
-                                                      double overshoot,
-                                                      double aside_m) const {
+                                                      double overshoot, double aside_m) const {
   // Of single precision in blends and stencils, in parts of the largest height. Our choice: ten
   // times what a hundred roundings can add up to.
   constexpr float kRounding = 1e-4f;

@@ -13,8 +13,8 @@ namespace echocine {
 // keyframe of the largest left ventricle. Pose, and depth and focus where the scene names none, are
 // those that poseToml() writes, so that a scene with these lines instead is the same to the last
 // bit. A scene without a view comes back as it is. What had to be guessed is added to its warnings.
-// Reads those meshes. Throws SceneError naming the scene's place: no role to find the view by, roles
-// that contradict one another, a sector that cuts no mesh; and as readKeyframes().
+// Reads those meshes. Throws SceneError naming the scene's place: no role to find the view by,
+// roles that contradict one another, a sector that cuts no mesh; and as readKeyframes().
 Scene placed(Scene scene);
 
 // The same, and the motion of its meshes in that probe's frame.

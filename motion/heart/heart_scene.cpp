@@ -131,8 +131,7 @@ NamedMeshes meshesOf(const Recording& recording) {
 }
 
 Scene sceneOf(View view, const Parameters& parameters, const Recording& recording, Look look) {
-  return parseScene(sceneText(view, parameters, recording, "", look), "heart",
-                    meshesOf(recording));
+  return parseScene(sceneText(view, parameters, recording, "", look), "heart", meshesOf(recording));
 }
 
 Scene heartScene(const Parameters& parameters, View view, int keyframes, Look look) {

@@ -31,8 +31,8 @@ class KeyframeWeights {
   // Phases in cycles. Throws SceneError that starts with the place unless they ascend within [0,
   // 1), at least 1e-6 apart (also around the end), and the interpolation stays below
   // kMaxMagnification. `pace` is the heart's that Interpolation::cycle follows.
-  KeyframeWeights(std::span<const double> phases, Interpolation kind,
-                  const SourcePlace& place = {}, const HeartPace& pace = {});
+  KeyframeWeights(std::span<const double> phases, Interpolation kind, const SourcePlace& place = {},
+                  const HeartPace& pace = {});
 
   std::size_t keyframeCount() const { return phases_.size(); }
   std::span<const double> phases() const { return phases_; }

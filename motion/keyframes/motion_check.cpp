@@ -19,8 +19,8 @@ void merge(const SurfaceBreaks& from, SurfaceBreaks& into) {
     into.collapsed = from.collapsed;
   if (from.inside_out && (!into.inside_out || from.inside_out->frame < into.inside_out->frame))
     into.inside_out = from.inside_out;
-  if (from.overshoot && (!into.overshoot || std::abs(from.overshoot->beyond_m3) >
-                                                std::abs(into.overshoot->beyond_m3)))
+  if (from.overshoot && (!into.overshoot ||
+                         std::abs(from.overshoot->beyond_m3) > std::abs(into.overshoot->beyond_m3)))
     into.overshoot = from.overshoot;
 }
 

@@ -30,7 +30,8 @@ std::vector<Leaf> leavesAround(std::span<const Side> edge, std::span<const Trian
   for (const Side& side : edge) {
     const Vec3d w = across(side);
     const double angle = std::atan2(dot(w, v), dot(w, u));
-    leaves.push_back({angle < 0 ? angle + 2 * std::numbers::pi : angle, side.side, !side.descending});
+    leaves.push_back(
+        {angle < 0 ? angle + 2 * std::numbers::pi : angle, side.side, !side.descending});
   }
   std::sort(leaves.begin(), leaves.end(), [](const Leaf& l, const Leaf& r) {
     return l.angle != r.angle ? l.angle < r.angle : l.side < r.side;

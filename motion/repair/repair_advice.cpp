@@ -57,10 +57,9 @@ std::vector<unsigned> plansFor(const Structure& structure) {
 }
 
 bool hasCornerTwice(const KeyframeMesh& keyframe) {
-  return std::any_of(keyframe.mesh.triangles.begin(), keyframe.mesh.triangles.end(),
-                     [](const Triangle& t) {
-                       return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-                     });
+  return std::any_of(
+      keyframe.mesh.triangles.begin(), keyframe.mesh.triangles.end(),
+      [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
 }
 
 bool mends(Structure structure, const Repairs& repair, std::vector<KeyframeMesh> keyframes,

@@ -19,9 +19,9 @@ struct PartedSheets {
 // Unless it is a membrane's, faces that are there twice go first (duplicates.h): they enclose
 // nothing. An odd number of faces at an edge cannot be paired into closed sheets:
 // one of the sheets that end there is dropped: one that is open elsewhere, a flap, before one that
-// is not, a wall between two chambers; of these the smallest by area (our choice). The largest sheet
-// of a mesh always stays. A sheet pinched along an edge whose both ends it also runs around stays
-// joined there, and is refused as before.
+// is not, a wall between two chambers; of these the smallest by area (our choice). The largest
+// sheet of a mesh always stays. A sheet pinched along an edge whose both ends it also runs around
+// stays joined there, and is refused as before.
 PartedSheets partSheets(RepairMesh& mesh, bool membrane);
 
 }  // namespace echocine

@@ -63,7 +63,7 @@ void checkSetUp(std::span<const Triangle> triangles, std::uint32_t vertex_count,
 }
 
 std::unique_ptr<const LimitStencils> makeLimitStencils(far_::TopologyRefiner& refiner,
-                                             const LimitPlaces& places, int isolation) {
+                                                       const LimitPlaces& places, int isolation) {
   far_::PatchTableFactory::Options patches(static_cast<unsigned>(isolation));
   patches.SetEndCapType(far_::PatchTableFactory::Options::ENDCAP_GREGORY_BASIS);
   patches.useInfSharpPatch = true;
@@ -91,7 +91,8 @@ std::unique_ptr<const LimitStencils> makeLimitStencils(far_::TopologyRefiner& re
     locations.push_back(array);
     first += count;
   }
-  return std::unique_ptr<const LimitStencils>(Factory::Create(refiner, locations, nullptr, table.get()));
+  return std::unique_ptr<const LimitStencils>(
+      Factory::Create(refiner, locations, nullptr, table.get()));
 }
 
 PaddedPoint cross(PaddedPoint a, PaddedPoint b) {

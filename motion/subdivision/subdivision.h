@@ -25,8 +25,9 @@ class Subdivision {
   const std::vector<Triangle>& triangles() const { return triangles_; }  // oriented as the input
   std::uint32_t vertexCount() const { return static_cast<std::uint32_t>(rows_.rows().size()); }
 
-  // The first refined vertices are the control vertices in their order, moved to where the scheme has
-  // them. Preconditions: as many control vertices as the input had, refined.size() == vertexCount().
+  // The first refined vertices are the control vertices in their order, moved to where the scheme
+  // has them. Preconditions: as many control vertices as the input had, refined.size() ==
+  // vertexCount().
   void apply(std::span<const Vec3f> control, std::span<Vec3f> refined) const;
 
  private:

@@ -20,7 +20,8 @@ namespace {
 constexpr double kTouching = 0.12, kContact = 0.04;
 // A wall whose middle is so far off the long axis, in its lengths, holds the right ventricle too.
 constexpr double kOffAxis = 0.10;
-// A ring is flat that is so much thinner than wide; looked at so far below, in long axes. Our choice.
+// A ring is flat that is so much thinner than wide; looked at so far below, in long axes. Our
+// choice.
 constexpr double kFlat = 0.35, kBelowRing = 0.06;
 // Where a heart has what, in lengths of the long axis from the mitral ring and as angles about it:
 // means over three or four hearts, README.md.
@@ -29,8 +30,8 @@ constexpr double kRightHeart_deg = 180, kRightVentricle_deg = 157, kAorticValve_
                  kAorta_deg = 126, kPulmonaryValve_deg = 104, kPulmonaryArtery_deg = 97;
 // Of the parametric heart's long axis: there the body's scale is 1.
 constexpr double kAdultLength_m = 0.0875;
-// Missing muscle, of the long axis: 9 mm of an adult's 90 mm (normal: 6 to 10 mm, Lang et al., J. Am.
-// Soc. Echocardiogr. 28, 1-39, 2015).
+// Missing muscle, of the long axis: 9 mm of an adult's 90 mm (normal: 6 to 10 mm, Lang et al., J.
+// Am. Soc. Echocardiogr. 28, 1-39, 2015).
 constexpr double kWall = 0.10;
 
 // Something that stands at a known angle about the long axis.
@@ -89,9 +90,10 @@ void Finder::ventricle() {
   cavity_ = points(Role::lv_cavity);
   if (cavity_.empty()) cavity_ = points(Role::lv_wall);
   if (cavity_.size() < 4)
-    fail(fmt::format("is found from structures with roles; {}; accepted: role = \"lv_cavity\" (or "
-                     "\"lv_wall\") of one structure, better with rv_cavity and mitral_valve or la",
-                     rolesThere(surfaces_)));
+    fail(
+        fmt::format("is found from structures with roles; {}; accepted: role = \"lv_cavity\" (or "
+                    "\"lv_wall\") of one structure, better with rv_cavity and mitral_valve or la",
+                    rolesThere(surfaces_)));
 }
 
 // By what lies beyond the base of a left ventricle.
@@ -102,18 +104,19 @@ Vec3d Finder::towardsBase() const {
   for (const Vec3d p : cavity_) extent = std::max(extent, 2 * std::abs(dot(p - from, axis)));
   Vec3d first{};
   Role first_role = Role::none;
-  for (const Role role : {Role::mitral_valve, Role::la, Role::la_wall, Role::aortic_valve, Role::aorta,
-                          Role::aortic_wall, Role::tricuspid_valve, Role::ra, Role::pulmonary_valve,
-                          Role::pulmonary_artery}) {
+  for (const Role role : {Role::mitral_valve, Role::la, Role::la_wall, Role::aortic_valve,
+                          Role::aorta, Role::aortic_wall, Role::tricuspid_valve, Role::ra,
+                          Role::pulmonary_valve, Role::pulmonary_artery}) {
     const auto there = middle(role);
     if (!there || std::abs(dot(*there - from, axis)) < 0.25 * extent) continue;
     if (first_role == Role::none) {
       first = *there - from;
       first_role = role;
     } else if (dot(first, axis) * dot(*there - from, axis) < 0) {
-      fail(fmt::format("{} and {} lie beyond opposite ends of the left ventricle, in a heart both lie "
-                       "at its base: mend their roles or places",
-                       nameOfRole(first_role), nameOfRole(role)));
+      fail(fmt::format(
+          "{} and {} lie beyond opposite ends of the left ventricle, in a heart both lie "
+          "at its base: mend their roles or places",
+          nameOfRole(first_role), nameOfRole(role)));
     }
   }
   return first;
@@ -133,9 +136,10 @@ void Finder::findAxis() {
     ring_known = ring.gap < kTouching * axis.length();
   }
   if (!ring_known)
-    marks_.told.push_back("no role says where the mitral ring is: the long axis is that of the "
-                          "cavity's shape, some 10 deg off in a heart; give a structure role = "
-                          "\"mitral_valve\", or \"la\" where the atrium touches the ventricle");
+    marks_.told.push_back(
+        "no role says where the mitral ring is: the long axis is that of the "
+        "cavity's shape, some 10 deg off in a heart; give a structure role = "
+        "\"mitral_valve\", or \"la\" where the atrium touches the ventricle");
   HeartFrame& f = marks_.frame;
   f.origin = f.mitral = axis.base;
   f.apex = axis.apex;
@@ -149,15 +153,18 @@ void Finder::refuseMixedSides() const {
   const auto rv = middle(Role::rv_cavity), la = middle(Role::la), ra = middle(Role::ra);
   const Vec3d lv = middleOf(cavity_);
   if (rv && la && ra && dot(*la - *ra, lv - *rv) < 0)
-    fail(fmt::format("{} lies on the side of {}, and {} on that of the left ventricle: mend the "
-                     "roles, left and right are mixed up",
-                     nameOfRole(Role::la), nameOfRole(Role::rv_cavity), nameOfRole(Role::ra)));
-  for (const Role role : {Role::mitral_valve, Role::aortic_valve, Role::rv_cavity, Role::la, Role::ra})
+    fail(
+        fmt::format("{} lies on the side of {}, and {} on that of the left ventricle: mend the "
+                    "roles, left and right are mixed up",
+                    nameOfRole(Role::la), nameOfRole(Role::rv_cavity), nameOfRole(Role::ra)));
+  for (const Role role :
+       {Role::mitral_valve, Role::aortic_valve, Role::rv_cavity, Role::la, Role::ra})
     if (const auto there = middle(role); there && length(*there - lv) > 3 * marks_.frame.length_m)
-      fail(fmt::format("{} lies {:.0f} mm from the left ventricle, which is {:.0f} mm long: mend its "
-                       "role or place",
-                       nameOfRole(role), millimetresFromMetres(length(*there - lv)),
-                       millimetresFromMetres(marks_.frame.length_m)));
+      fail(fmt::format(
+          "{} lies {:.0f} mm from the left ventricle, which is {:.0f} mm long: mend its "
+          "role or place",
+          nameOfRole(role), millimetresFromMetres(length(*there - lv)),
+          millimetresFromMetres(marks_.frame.length_m)));
 }
 
 // The right heart, by what tells best where it is.
@@ -212,9 +219,10 @@ void Finder::findSides() {
   const bool known = cue && length(across(cue->place)) > 0.02 * f.length_m;
   const Vec3d there = known ? normalised(across(cue->place)) : principalAxis(cavity_, f.apical);
   if (!known)
-    marks_.told.push_back("no role says on which side of the left ventricle the right heart is: the "
-                          "view is turned by the cavity's shape alone; probe.rotate_deg turns it, or "
-                          "give a structure role = \"rv_cavity\"");
+    marks_.told.push_back(
+        "no role says on which side of the left ventricle the right heart is: the "
+        "view is turned by the cavity's shape alone; probe.rotate_deg turns it, or "
+        "give a structure role = \"rv_cavity\"");
   // Seen from the base the front of a heart lies clockwise of its right side.
   double hand = 1;
   if (right && front) {
@@ -223,10 +231,11 @@ void Finder::findSides() {
     if (sine < -std::sin(radiansFromDegrees(10))) hand = -1;
   }
   if (hand < 0)
-    marks_.told.push_back(fmt::format(
-        "{} and {} stand as in a mirrored heart, so the view is mirrored too: look at the axes of the "
-        "meshes",
-        front->name, right->name));
+    marks_.told.push_back(
+        fmt::format("{} and {} stand as in a mirrored heart, so the view is mirrored too: look at "
+                    "the axes of the "
+                    "meshes",
+                    front->name, right->name));
   const double back_rad = -radiansFromDegrees(known ? cue->angle_deg : kRightHeart_deg);
   f.lateral = std::cos(back_rad) * there + hand * std::sin(back_rad) * cross(f.apical, there);
   f.lateral = normalised(f.lateral - dot(f.lateral, f.apical) * f.apical);

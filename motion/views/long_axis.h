@@ -7,9 +7,9 @@
 
 namespace echocine {
 
-// The direction in which points are spread most: the first eigenvector of their covariance, by power
-// iteration; a unit vector of either sign. `across`, where not zero, is kept out of it, so that the
-// second one can be asked for. Precondition: at least one point.
+// The direction in which points are spread most: the first eigenvector of their covariance, by
+// power iteration; a unit vector of either sign. `across`, where not zero, is kept out of it, so
+// that the second one can be asked for. Precondition: at least one point.
 Vec3d principalAxis(std::span<const Vec3d> points, Vec3d across = {});
 
 // From the middle of the base to the apex.
@@ -24,8 +24,8 @@ struct VentricleAxis {
 // vertex decides.
 VentricleAxis axisFromBase(std::span<const Vec3d> cavity, Vec3d base);
 
-// Of a cavity alone: along its principal axis, the base at the blunter end. `towards_base`, where not
-// zero, says which end that is.
+// Of a cavity alone: along its principal axis, the base at the blunter end. `towards_base`, where
+// not zero, says which end that is.
 VentricleAxis axisOfCavity(std::span<const Vec3d> cavity, Vec3d towards_base = {});
 
 }  // namespace echocine

@@ -16,8 +16,8 @@ struct RoleSurface {
   std::vector<Vec3d> points_m;  // vertices, world
 };
 
-// Of all surfaces with the role, thinned out: enough for a millimetre, few enough for the distances of
-// every pair.
+// Of all surfaces with the role, thinned out: enough for a millimetre, few enough for the distances
+// of every pair.
 std::vector<Vec3d> pointsOf(const std::vector<RoleSurface>& surfaces, Role role);
 
 // "lv (role lv_cavity)", as messages name the first of a role; the role alone where none has it.

@@ -11,12 +11,12 @@ namespace echocine {
 
 // A heart's own axes and the places by which views are aimed, at end-diastole. World, metres.
 struct HeartFrame {
-  Vec3d origin;           // the middle of the mitral ring
-  Vec3d lateral{1, 0, 0}; // unit, across one another: from the septum to the lateral wall,
-  Vec3d anterior{0, 1, 0};// to the anterior wall,
-  Vec3d apical{0, 0, 1};  // and along the long axis to the apex; left-handed in a mirrored heart
-  double length_m = 0;    // of the left ventricle's long axis
-  double scale = 1;       // of the body: 1 for an adult's
+  Vec3d origin;             // the middle of the mitral ring
+  Vec3d lateral{1, 0, 0};   // unit, across one another: from the septum to the lateral wall,
+  Vec3d anterior{0, 1, 0};  // to the anterior wall,
+  Vec3d apical{0, 0, 1};    // and along the long axis to the apex; left-handed in a mirrored heart
+  double length_m = 0;      // of the left ventricle's long axis
+  double scale = 1;         // of the body: 1 for an adult's
   Vec3d apex, mitral, aortic;  // of the left ventricle's cavity; middles of the valves
   Vec3d aortic_flow;           // unit, from the ventricle into the aorta
 

@@ -108,12 +108,13 @@ std::size_t parallelOrdered(std::size_t first, std::size_t last, std::size_t in_
                                                        made[i % in_flight] = work(i);
                                                        return i;
                                                      }) &
-          tbb::make_filter<std::size_t, void>(
-              tbb::filter_mode::serial_in_order, [&](std::size_t i) {
-                const StopScope asked(question);
-                drain(i, std::exchange(made[i % in_flight], nullptr));
-                drained = i + 1;
-              }),
+          tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order,
+                                              [&](std::size_t i) {
+                                                const StopScope asked(question);
+                                                drain(i,
+                                                      std::exchange(made[i % in_flight], nullptr));
+                                                drained = i + 1;
+                                              }),
       alone);
   return drained;
 }

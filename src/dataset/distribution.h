@@ -1,6 +1,6 @@
 #pragma once
-// What a parameter of a dataset may be: drawn by its quantile function, so that a draw is one number
-// between 0 and 1 wherever it comes from.
+// What a parameter of a dataset may be: drawn by its quantile function, so that a draw is one
+// number between 0 and 1 wherever it comes from.
 
 #include <optional>
 #include <string>

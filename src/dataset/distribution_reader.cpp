@@ -76,7 +76,8 @@ void normaliseWeights(const TomlTable& table, std::string_view key, std::vector<
 Distribution readDistribution(TomlTable& table, std::string_view key) {
   if (!table.isTable(key)) return Distribution::constant(table.value(key));
   TomlTable kinds = table.table(key);
-  const int given = kinds.has("uniform") + kinds.has("whole") + kinds.has("normal") + kinds.has("choice");
+  const int given =
+      kinds.has("uniform") + kinds.has("whole") + kinds.has("normal") + kinds.has("choice");
   if (given != 1) table.fail(key, fmt::format("names {} distributions, {}", given, kAccepted));
   Distribution d;
   if (kinds.has("normal"))

@@ -18,19 +18,19 @@ struct LoopFrame {
   GreyImage image;                   // without ECG and ticks
   std::vector<std::uint8_t> labels;  // CAMUS's: 0 background, 1 LV cavity, 2 LV wall, 3 left atrium
   double lv_ml = 0;                  // exact, from the mesh
-  double biplane_ml = 0;             // at the two instants: Simpson's rule in two planes along the long axis
-  double single_plane_ml = 0;        // the same in the imaging plane alone
+  double biplane_ml = 0;  // at the two instants: Simpson's rule in two planes along the long axis
+  double single_plane_ml = 0;  // the same in the imaging plane alone
   // At the two instants, as traced: widths of the discs and the axis in the imaging plane.
   std::vector<double> disc_widths_m{};
   double traced_length_m = 0;
-  std::vector<Contour> contours;     // of structures with a role among kContourRoles
+  std::vector<Contour> contours;  // of structures with a role among kContourRoles
   std::optional<FunctionFrame> function;
   std::vector<Vec3f> tracks_m;
 };
 
 // Long axis and cavity as an echo laboratory traces them, in pixels.
 struct Tracing {
-  PixelPoint apex, base;                                 // of the long axis
+  PixelPoint apex, base;                                  // of the long axis
   std::vector<std::pair<PixelPoint, PixelPoint>> chords;  // from the apex to the base
 };
 

@@ -37,8 +37,8 @@ std::vector<std::byte> niftiBytes(const NiftiShape& shape, std::span<const std::
   const double pixdim[4] = {1, shape.dx_mm, shape.dy_mm, shape.frames > 0 ? shape.dt_s : 1};
   for (std::size_t i = 0; i < 4; ++i) put(file, 76 + 4 * i, static_cast<float>(pixdim[i]));
   put(file, 108, static_cast<float>(kData));
-  put(file, 112, 1.0f);           // slope, intercept 0
-  put(file, 123, char{10});       // mm and s
+  put(file, 112, 1.0f);             // slope, intercept 0
+  put(file, 123, char{10});         // mm and s
   put(file, 252, std::int16_t{1});  // scanner's frame, as quaternion: none
   put(file, 254, std::int16_t{1});  // and as affine
   for (std::size_t i = 0; i < 3; ++i)

@@ -58,13 +58,10 @@ Json jsonOf(const Values& values) {
 }
 
 Json recordOf(const Spec& spec, const Heart& heart) {
-  Json record{{"spec", spec.digest},
-              {"heart", heart.number},
-              {"population", heart.population},
-              {"split", nameOf(heart.split)},
-              {"attempt", heart.attempt},
-              {"impossible", heart.impossible},
-              {"loops", Json::array()}};
+  Json record{
+      {"spec", spec.digest},          {"heart", heart.number},    {"population", heart.population},
+      {"split", nameOf(heart.split)}, {"attempt", heart.attempt}, {"impossible", heart.impossible},
+      {"loops", Json::array()}};
   for (const Loop& loop : heart.loops) record["loops"].push_back(loopJson(loop));
   return record;
 }

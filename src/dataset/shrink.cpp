@@ -20,8 +20,8 @@ std::vector<Cover> covers(double begin, double side, int to, int most) {
     Cover& cover = all[static_cast<std::size_t>(i)];
     cover.first = static_cast<int>(std::floor(low));
     for (int p = cover.first; p < high && p < most; ++p)
-      cover.shares.push_back(static_cast<float>((std::min(p + 1.0, high) - std::max(1.0 * p, low)) /
-                                                (high - low)));
+      cover.shares.push_back(
+          static_cast<float>((std::min(p + 1.0, high) - std::max(1.0 * p, low)) / (high - low)));
   }
   return all;
 }

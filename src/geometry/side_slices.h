@@ -2,11 +2,11 @@
 // The slices beside the imaging plane that stand for the beam's thickness across it: those of
 // scene/elevation_slices.h but for the plane itself.
 //
-// A slice is curved, y = u sigma(z). Cutting it is cutting the plane y = 0 through surfaces that are
-// bent by y - u sigma(z), as PlaneSlice does: vertices are moved, edges and facets stay straight
-// between them. So contours close as those of the plane do. Angles of incidence are those of the
-// bent facets, which are those of rays that follow the slice; with smooth normals they err by the
-// slice's slope, 3 degrees at most.
+// A slice is curved, y = u sigma(z). Cutting it is cutting the plane y = 0 through surfaces that
+// are bent by y - u sigma(z), as PlaneSlice does: vertices are moved, edges and facets stay
+// straight between them. So contours close as those of the plane do. Angles of incidence are those
+// of the bent facets, which are those of rays that follow the slice; with smooth normals they err
+// by the slice's slope, 3 degrees at most.
 
 #include <span>
 #include <vector>

@@ -29,7 +29,7 @@ struct SectorTexture {
   double radial[4] = {}, tangential[4] = {};
   double grey_p5 = 0, grey_p50 = 0, grey_p95 = 0;
   double near_field_grey = 0;  // median of the first 15 mm of rows
-  double dark_fraction = 0;  // share of the sector under grey 20
+  double dark_fraction = 0;    // share of the sector under grey 20
 };
 inline constexpr double kTextureLags_mm[] = {1, 2, 4, 8};
 SectorTexture sectorTexture(const EchoPicture& picture);

@@ -28,8 +28,8 @@ std::optional<std::vector<float>> readExrPlane(const std::filesystem::path& path
 std::optional<std::vector<std::uint32_t>> readExrIds(const std::filesystem::path& path,
                                                      const ExrPlaneWanted& wanted);
 
-// As readExrPlane() from bytes just written. Preconditions: they are a file by ExrStack::encode(); the
-// channel is one of its, not Channel::medium.
+// As readExrPlane() from bytes just written. Preconditions: they are a file by ExrStack::encode();
+// the channel is one of its, not Channel::medium.
 std::vector<float> readBack(std::span<const std::byte> file, Channel channel);
 
 }  // namespace echocine

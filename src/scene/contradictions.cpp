@@ -44,8 +44,8 @@ void refuseOfSlices(TomlTable& root, const Scene& scene) {
   const AccuracySettings& a = scene.accuracy;
   const TomlTable accuracy = root.table("accuracy");
   const auto refuse = [&](std::string_view other) {
-    accuracy.fail("elevation_slices", fmt::format("{} excludes {}, accepted with it: 1",
-                                                  a.elevation_slices, other));
+    accuracy.fail("elevation_slices",
+                  fmt::format("{} excludes {}, accepted with it: 1", a.elevation_slices, other));
   };
   if (a.tracer == TracerChoice::embree) refuse("accuracy.tracer = \"embree\"");
   if (scene.effects.refraction == Switch::on) refuse("effects.refraction = \"on\"");

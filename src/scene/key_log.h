@@ -12,7 +12,8 @@ namespace echocine {
 // In the file's unit; nothing where a key has no default.
 using KeyDefault = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
 
-// While one lives, tables that this thread reads note their absent keys in it. The innermost counts.
+// While one lives, tables that this thread reads note their absent keys in it. The innermost
+// counts.
 class KeyLog {
  public:
   KeyLog();

@@ -71,7 +71,8 @@ std::vector<TomlValue> TomlTable::values(std::string_view key) {
   std::vector<TomlValue> result;
   for (const toml::node& item : *list) {
     const std::optional<TomlValue> scalar = scalarOf(item);
-    if (!scalar) fail(key, fmt::format("entry {} is no such value, {}", result.size() + 1, accepted));
+    if (!scalar)
+      fail(key, fmt::format("entry {} is no such value, {}", result.size() + 1, accepted));
     result.push_back(*scalar);
   }
   return result;

@@ -60,9 +60,8 @@ bool isWhiteByMuscle(const Scene& scene) {
 std::string whiteWords(const Scene& scene) {
   if (scene.signal.reference_intensity) return "signal.reference_intensity";
   const double asked = scene.signal.reference_percentile;
-  const std::string percentile =
-      fmt::format("percentile {:g} of all samples, near field left out",
-                  asked == kWhiteByMuscle ? kDefaultPercentile : asked);
+  const std::string percentile = fmt::format("percentile {:g} of all samples, near field left out",
+                                             asked == kWhiteByMuscle ? kDefaultPercentile : asked);
   if (!isWhiteByMuscle(scene)) return percentile;
   return fmt::format("median of the heart muscle at grey {:g}; with next to none in view {}",
                      kMuscleGrey, percentile);

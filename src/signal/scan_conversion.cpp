@@ -82,8 +82,8 @@ ScanConverter::ScanConverter(const Probe& probe, const PictureGeometry& geometry
   fine.metres_per_pixel /= averaged;
   fine.origin_x_px *= averaged;
   fine.origin_y_px *= averaged;
-  fine_ = std::make_unique<const ScanConverter>(probe, fine, width * averaged, height * averaged,
-                                                1.0);
+  fine_ =
+      std::make_unique<const ScanConverter>(probe, fine, width * averaged, height * averaged, 1.0);
 }
 
 int ScanConverter::averagedOver(const Scene& scene, const PictureGeometry& geometry) {

@@ -13,7 +13,7 @@ namespace echocine {
 namespace {
 
 constexpr float kStillBlock_m = 8e-3f;  // where nothing moves
-constexpr float kBehind_m = 1e-3f;  // of a ridge's foot, in the wall. Our choice
+constexpr float kBehind_m = 1e-3f;      // of a ridge's foot, in the wall. Our choice
 constexpr int kPhasesLookedAt = 32;
 constexpr double kBetweenPhases = 1.1;  // tissue may move farther between them
 
@@ -49,7 +49,8 @@ struct FieldMaterial::Ridges {
   // False only where no place in the box is in a ridge.
   bool reachInto(const Box& box) const {
     const double radius_m = 0.5 * length(box.hi - box.lo);
-    return surface.numberOf(toFloat(0.5 * (box.lo + box.hi)), static_cast<float>(radius_m) + reach_m)
+    return surface
+        .numberOf(toFloat(0.5 * (box.lo + box.hi)), static_cast<float>(radius_m) + reach_m)
         .has_value();
   }
 

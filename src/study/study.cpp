@@ -275,7 +275,8 @@ std::vector<FrameTime> probeFrames(const Scene& scene, int count) {
 StudyResult runStudy(const Scene& scene, const StudyOptions& options, const Monitor& monitor,
                      const std::function<void(const StudyResult&)>& round_done) {
   StudyResult result;
-  withThreads(options.threads, [&] { result = Study(placed(scene), options, monitor, round_done).run(); });
+  withThreads(options.threads,
+              [&] { result = Study(placed(scene), options, monitor, round_done).run(); });
   return result;
 }
 

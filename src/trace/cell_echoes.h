@@ -17,8 +17,8 @@ namespace echocine {
 // contour its lobe at its own angle of incidence, spread over the samples it spans by the share of
 // the cell it covers in each. Media and losses before it are those of the cell's line where it
 // hits the same surface, nearest in depth. For a flat interface the sum over lines is what
-// sampling at the centres gives. Preconditions: settings.cells == contours during the walk, which left
-// lines[i].hits; two lines at least, and one segment at least per line. Limit: contour whose
+// sampling at the centres gives. Preconditions: settings.cells == contours during the walk, which
+// left lines[i].hits; two lines at least, and one segment at least per line. Limit: contour whose
 // surface its own line does not cross (a tip or a structure between two lines) sends nothing back,
 // as with sampling at the centres. normals: of each edge, with smooth normals; else empty.
 void addCellEchoes(std::span<const ContourEdge> edges, std::span<const EdgeNormals> normals,

@@ -37,8 +37,8 @@ void blend(float a, std::vector<float>& to, float b, const std::vector<float>& f
 }  // namespace
 
 WorkCounts traceThick(const PlaneSlice& plane, const SideSlices& sides, const Probe& probe,
-                      const TraceSettings& settings, const PlaneRequest& request,
-                      PolarFrame& frame, PolarFrame& side, const NeededSamples* needed) {
+                      const TraceSettings& settings, const PlaneRequest& request, PolarFrame& frame,
+                      PolarFrame& side, const NeededSamples* needed) {
   WorkCounts work = traceFrame(plane, probe, settings, request, frame, needed);
   PlaneRequest beside = request;
   std::erase_if(beside.channels, isOfPlane);

@@ -11,7 +11,7 @@ namespace echocine {
 // side: room for the other slices, used again. Weights of an even field add up to it but for
 // rounding.
 WorkCounts traceThick(const PlaneSlice& plane, const SideSlices& sides, const Probe& probe,
-                      const TraceSettings& settings, const PlaneRequest& request,
-                      PolarFrame& frame, PolarFrame& side, const NeededSamples* needed = nullptr);
+                      const TraceSettings& settings, const PlaneRequest& request, PolarFrame& frame,
+                      PolarFrame& side, const NeededSamples* needed = nullptr);
 
 }  // namespace echocine

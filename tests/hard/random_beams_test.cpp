@@ -68,8 +68,7 @@ TEST(RandomScenes, SlicesAcrossThePlaneAreFiniteAndWithinTheEnergyOfThePulse) {
     plan.refraction = false;
     if (plan.elevation_slices == 1) return;
     const bool cells = dice.chance(0.5) && world.scene.probe.lines > 1;
-    PolarFrame polar =
-        traceThickWorld(world, plan, cells ? EchoCells::contours : EchoCells::none);
+    PolarFrame polar = traceThickWorld(world, plan, cells ? EchoCells::contours : EchoCells::none);
     // An echo over a cell stands in samples of its own, where the bound is another one.
     if (cells)
       expectIntensities(world, polar);

@@ -108,8 +108,7 @@ TEST(ElevationSlicesLaw, ALeaningSheetEchoesWhereEachSliceMeetsIt) {
       EXPECT_NEAR(sumOf(echoes), whole, 1e-5 * whole);
       for (const ElevationNode& node : elevationNodes(n)) {
         double z = kDepth_m;
-        for (int i = 0; i < 50; ++i)
-          z = kDepth_m + lean * node.place * bell.deviation(z);
+        for (int i = 0; i < 50; ++i) z = kDepth_m + lean * node.place * bell.deviation(z);
         double near = 0;
         const auto at = static_cast<std::size_t>((z - p.min_depth_m) / p.sampleSpacing());
         for (std::size_t k = at - 1; k <= at + 1; ++k) near += static_cast<double>(echoes[k]);
@@ -124,12 +123,11 @@ TEST(ElevationSlicesLaw, ALeaningSheetEchoesWhereEachSliceMeetsIt) {
 TEST(ElevationSlicesLaw, MomentsOfALeaningSheetAreThoseOfManyRays) {
   for (const double lean : {0.3, 0.6}) {
     const World world = leaningSheet(lean);
-    const Moments rays = momentsOf(
-        world, traceWorld(world, beamPlan(world.scene, 4096, false, true), Tracer::embree)
-                   .planes.at(Channel::reflection));
+    const Moments rays =
+        momentsOf(world, traceWorld(world, beamPlan(world.scene, 4096, false, true), Tracer::embree)
+                             .planes.at(Channel::reflection));
     for (const int n : {3, 5}) {
-      const Moments slices =
-          momentsOf(world, traceSlices(world, n).planes.at(Channel::reflection));
+      const Moments slices = momentsOf(world, traceSlices(world, n).planes.at(Channel::reflection));
       EXPECT_NEAR(slices.sum, rays.sum, 1e-3 * rays.sum);
       EXPECT_NEAR(slices.mean, rays.mean, 1e-4) << n;
       EXPECT_NEAR(std::sqrt(slices.variance), std::sqrt(rays.variance),
@@ -142,8 +140,7 @@ TEST(ElevationSlicesLaw, MomentsOfALeaningSheetAreThoseOfManyRays) {
 // What does not change across the plane is the same in every slice.
 TEST(ElevationSlicesLaw, ASceneThatIsTheSameAcrossThePlaneIsThatOfOneSlice) {
   const World world = leaningSheet(0);
-  const std::vector<float> one =
-      traceWorld(world, Tracer::slice).planes.at(Channel::reflection);
+  const std::vector<float> one = traceWorld(world, Tracer::slice).planes.at(Channel::reflection);
   for (const int n : {3, 5}) {
     const std::vector<float> several = traceSlices(world, n).planes.at(Channel::reflection);
     for (std::size_t k = 0; k < one.size(); ++k)

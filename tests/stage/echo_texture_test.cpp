@@ -91,8 +91,9 @@ TEST(EchoTexture, WallsOnEitherSideAndTheNearFieldHaveTheirGreys) {
     for (int x = 0; x < kSide; ++x) {
       const bool is_lit = picture.grey[picture.labels.size()] > 0;
       const bool wall = std::abs(x - 120) < 60 && y >= 90 && y < 210;
-      picture.labels.push_back(static_cast<std::uint8_t>(
-          is_lit && cavity(x, y) ? 1 : is_lit && wall ? 2 : 0));
+      picture.labels.push_back(static_cast<std::uint8_t>(is_lit && cavity(x, y) ? 1
+                                                         : is_lit && wall       ? 2
+                                                                                : 0));
     }
   const RegionTexture region = regionTexture(picture);
   EXPECT_EQ(region.left_wall_grey, 60);

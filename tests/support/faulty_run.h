@@ -30,7 +30,8 @@ struct FaultyRun {
   unsigned limit_s = 180;
 };
 
-// A run that hangs ends by SIGALRM after its limit, three minutes: a hundred times longer than most take.
+// A run that hangs ends by SIGALRM after its limit, three minutes: a hundred times longer than most
+// take.
 inline Outcome outcomeOf(const FaultyRun& run, Steps* steps = nullptr) {
   const TempFolder folder;
   const std::string out = folder / "out", err = folder / "err", counts = folder / "steps";

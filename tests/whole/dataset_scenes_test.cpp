@@ -139,7 +139,8 @@ TEST_F(DatasetScenes, WhatTheyCannotBeIsRefused) {
                 {"scenes", "large/scene.toml", "twice"});
   expectRefused(with("hearts = 4", "hearts = 1"), {"spec.toml:2", "hearts", "2 to"});
   expectRefused(with("lines = 48", "view = \"a2c\""), {"scene.probe.view", "views"});
-  expectRefused(with("uniform = [-3, 3]", "uniform = [-3, 150]"), {"scene.signal.gain_db", "149.9"});
+  expectRefused(with("uniform = [-3, 3]", "uniform = [-3, 150]"),
+                {"scene.signal.gain_db", "149.9"});
   std::string text = bytesOf(*place / "small/scene.toml");
   for (std::size_t at = 0; (at = text.find("lv_cavity\"", at)) != std::string::npos; at += 5)
     text.replace(at, 10, "left\"");
