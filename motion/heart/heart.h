@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "motion/heart/control_mesh.h"
-#include "motion/heart/cycle.h"
+#include "motion/heart/heart_cycle.h"
 #include "motion/heart/parameters.h"
 
 namespace echocine::heart {

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "motion/heart/balloon.h"
-#include "motion/heart/cycle.h"
 #include "motion/heart/epicardium.h"
+#include "motion/heart/heart_cycle.h"
 #include "motion/heart/leaflet.h"
 #include "motion/heart/left_ventricle.h"
 #include "motion/heart/parameters.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/monitor.h"
-#include "motion/heart/views.h"
+#include "motion/heart/heart_poses.h"
 #include "scene/mesh_tags.h"
 
 namespace echocine::heart {
@@ -43,9 +43,9 @@ enum class KeyframeSpacing { by_motion, even };
 // end-systole among them. Precondition: count >= 4.
 std::vector<double> keyframePhases(const Cycle& cycle, int count);
 
-// No surface folds (sound.h). Runs in parallel. Throws SceneError when the heart has no shape at
-// some phase or none without folds, JobError when
-// the monitor, asked before each keyframe, wants to stop.
+// No surface folds (fold_repair.h). Runs in parallel. Throws SceneError when the heart has no shape
+// at some phase or none without folds, JobError when the monitor, asked before each keyframe, wants
+// to stop.
 Recording record(const ParametricHeart& heart, View view, int keyframes,
                  KeyframeSpacing spacing = KeyframeSpacing::by_motion, const Monitor& monitor = {});
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "motion/heart/views.h"
+#include "motion/heart/heart_poses.h"
 
 namespace echocine::heart {
 

@@ -51,6 +51,6 @@ std::vector<Descent> descendAll(const PoseFunction& f, const std::vector<Descent
 // nothing, to 0, the value of what is perfect, the best beats its best rival. 0: as good elsewhere,
 // or nothing was found; 1: perfect, and nothing else says anything. Measured by the whole way: the
 // best of a search through noise beats others by luck, but by little of it.
-double confidenceOf(double best, double rival, double nothing);
+double confidenceOf(double best, double rival, double baseline);
 
 }  // namespace echocine::fit

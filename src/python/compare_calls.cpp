@@ -18,7 +18,7 @@
 #include "python/bindings.h"
 #include "python/fork_guard.h"
 #include "python/job.h"
-#include "python/scene.h"
+#include "python/native_scene.h"
 #include "python/unlocked.h"
 
 namespace echocine::python {

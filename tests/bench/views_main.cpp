@@ -1,7 +1,7 @@
 // view_table [FAMILY [VIEW|all [TILT]]]: which of eight views of a model lies nearest to a loop of
 // each view, with its margin. The models are the same heart, a healthy one, and then a population
 // of hearts whose dials are found; at last their planes are tilted by up to TILT degrees. One line
-// for each loop and kind of models, by the discrepancy D and by V of claim.h.
+// for each loop and kind of models, by the discrepancy D and by V of coverage.h.
 
 #include <fmt/format.h>
 

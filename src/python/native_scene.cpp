@@ -1,4 +1,4 @@
-#include "python/scene.h"
+#include "python/native_scene.h"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

@@ -1,4 +1,4 @@
-#include "motion/heart/sound.h"
+#include "motion/heart/fold_repair.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "motion/heart/heart_units.h"
 #include "motion/heart/unfold.h"
-#include "motion/heart/units.h"
 
 namespace echocine::heart {
 namespace {
@@ -57,7 +57,7 @@ std::string mend(RecordedPart& part, const std::vector<double>& phases) {
 
 }  // namespace
 
-void makeSound(Recording& recording) {
+void repairFolds(Recording& recording) {
   std::vector<std::string> faults(recording.parts.size());
   parallelBlocks(recording.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)

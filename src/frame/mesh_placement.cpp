@@ -1,4 +1,4 @@
-#include "frame/whereabouts.h"
+#include "frame/mesh_placement.h"
 
 #include <fmt/format.h>
 
@@ -44,7 +44,7 @@ Box meshesBox(const MeshMotion& motion) {
   return box;
 }
 
-std::string whereabouts(const Scene& scene, const Box& box_m) {
+std::string describePlacement(const Scene& scene, const Box& box_m) {
   const Box sector = sectorBox(scene.probe);
   const Vec3d middle = 0.5 * (box_m.lo + box_m.hi);
   const Vec3d world = (1 / scene.motion.mesh_unit_m) * scene.probe.pose.toWorld(middle);

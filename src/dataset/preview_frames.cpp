@@ -1,10 +1,10 @@
-#include "dataset/glimpse.h"
+#include "dataset/preview_frames.h"
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
 #include "dataset/aim.h"
-#include "dataset/attempts.h"
+#include "dataset/redraw.h"
 #include "frame/simulator.h"
 #include "motion/heart/heart_scene.h"
 
@@ -41,7 +41,7 @@ Scene drawnScene(const Spec& spec, const Draw& draw, std::size_t view) {
   return sceneOf(spec, draw, view, model.parameters(), recording);
 }
 
-Glimpse glimpse(const Spec& spec, const Draw& draw, std::size_t view) {
+PreviewFrames previewOf(const Spec& spec, const Draw& draw, std::size_t view) {
   Scene scene = drawnScene(spec, draw, view);
   scene.truth = {};
   const Simulator simulator(scene);
@@ -59,15 +59,16 @@ Glimpse glimpse(const Spec& spec, const Draw& draw, std::size_t view) {
 
 }  // namespace
 
-Glimpse glimpseOf(const Spec& spec, int heart, std::size_t view, const Monitor& monitor) {
-  std::optional<Glimpse> made;
+PreviewFrames previewFramesOf(const Spec& spec, int heart, std::size_t view,
+                              const Monitor& monitor) {
+  std::optional<PreviewFrames> made;
   std::vector<std::string> impossible;
   inThisThread([&] {
     made = firstPossible(
         spec, heart,
         [&](const Draw& draw) {
           if (!monitor.keep_going()) throw JobError("stopped");
-          return glimpse(spec, draw, view);
+          return previewOf(spec, draw, view);
         },
         impossible);
   });

@@ -1,6 +1,6 @@
 // What is true of a recorded heart, for those who test algorithms against it.
 
-#include "motion/heart/truth.h"
+#include "motion/heart/heart_truth.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
-#include "motion/heart/segments.h"
+#include "motion/heart/segment_shares.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "motion/heart/heart_units.h"
 #include "motion/heart/smooth.h"
-#include "motion/heart/units.h"
 
 namespace echocine::heart {
 namespace {

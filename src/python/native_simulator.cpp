@@ -1,4 +1,4 @@
-#include "python/simulator.h"
+#include "python/native_simulator.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "python/bindings.h"
 #include "python/frame.h"
 #include "python/job.h"
-#include "python/scene.h"
+#include "python/native_scene.h"
 
 namespace echocine::python {
 

@@ -13,16 +13,16 @@
 
 namespace echocine::dataset {
 
-inline constexpr int kMostAttempts = 50;
+inline constexpr int kMaxDraws = 50;
 
 // What `make` returns of the first draw of a heart that is possible; the reasons of those before
 // it go into `impossible`. A draw is impossible where `make` throws SceneError. Throws SceneError
-// where kMostAttempts draws were impossible.
+// where kMaxDraws draws were impossible.
 template <typename Make>
 auto firstPossible(const Spec& spec, int heart, const Make& make,
                    std::vector<std::string>& impossible) {
   std::optional<decltype(make(std::declval<const Draw&>()))> made;
-  for (int tried = 0; tried < kMostAttempts && !made; ++tried) {
+  for (int tried = 0; tried < kMaxDraws && !made; ++tried) {
     try {
       made = make(drawOf(spec, heart, tried));
     } catch (const SceneError& error) {
@@ -30,7 +30,7 @@ auto firstPossible(const Spec& spec, int heart, const Make& make,
     }
   }
   if (!made)
-    throw SceneError(fmt::format("{} draws were impossible, the last because of {}", kMostAttempts,
+    throw SceneError(fmt::format("{} draws were impossible, the last because of {}", kMaxDraws,
                                  impossible.back()));
   return std::move(*made);
 }

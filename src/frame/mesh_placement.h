@@ -15,6 +15,6 @@ Box meshesBox(const MeshMotion& motion);
 // One sentence part without a full stop: the box in mm of the probe's axes, what the sector
 // covers of them, and where the box has its middle in the coordinates of probe.apex. Precondition:
 // the box is not empty.
-std::string whereabouts(const Scene& scene, const Box& box_m);
+std::string describePlacement(const Scene& scene, const Box& box_m);
 
 }  // namespace echocine

@@ -1,4 +1,4 @@
-#include "motion/heart/views.h"
+#include "motion/heart/heart_poses.h"
 
 namespace echocine::heart {
 namespace {

@@ -1,4 +1,4 @@
-#include "motion/repair/split.h"
+#include "motion/repair/non_manifold_edges.h"
 
 #include <algorithm>
 #include <numeric>
@@ -95,8 +95,8 @@ std::size_t dropLooseSheets(RepairMesh& mesh) {
 
 }  // namespace
 
-PartedSheets partSheets(RepairMesh& mesh, bool membrane) {
-  PartedSheets parted;
+NonManifoldSplit splitNonManifold(RepairMesh& mesh, bool membrane) {
+  NonManifoldSplit parted;
   if (!membrane) parted.dropped = dropDuplicates(mesh) + dropLooseSheets(mesh);
   const std::vector<Side> sides = sortedSides(mesh.triangles);
   std::vector<std::uint32_t> opposite = oppositeSides(mesh.triangles, sides);

@@ -1,4 +1,4 @@
-#include "motion/heart/cycle.h"
+#include "motion/heart/heart_cycle.h"
 
 #include <algorithm>
 #include <cmath>

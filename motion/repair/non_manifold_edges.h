@@ -5,7 +5,7 @@
 
 namespace echocine {
 
-struct PartedSheets {
+struct NonManifoldSplit {
   std::size_t edges = 0;     // of more than two faces, that were parted
   std::size_t dropped = 0;   // faces of flaps, inner walls and fins, and those there twice
   std::size_t vertices = 0;  // that came
@@ -22,6 +22,6 @@ struct PartedSheets {
 // is not, a wall between two chambers; of these the smallest by area (our choice). The largest
 // sheet of a mesh always stays. A sheet pinched along an edge whose both ends it also runs around
 // stays joined there, and is refused as before.
-PartedSheets partSheets(RepairMesh& mesh, bool membrane);
+NonManifoldSplit splitNonManifold(RepairMesh& mesh, bool membrane);
 
 }  // namespace echocine
