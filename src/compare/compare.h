@@ -64,7 +64,7 @@ struct Comparison {
   std::vector<FrameResult> frames;       // one per real frame
   FrameMetrics mean_before, mean_after;  // over counted frames
   std::vector<BandMetrics> mean_bands;
-  double share_in_sight = 1;  // c of discrepancy.h
+  double overlap = 1;  // c of discrepancy.h
   double discrepancy = 0;
   double discrepancy_as_placed = 0;  // before anything but the sectors was registered
   std::vector<std::string> notes;    // everything that was overridden, assumed or left out

@@ -19,8 +19,8 @@ namespace echocine::compare {
 // bright. The loop's number is the mean over its frames. Greys are compared as they are displayed,
 // both log-compressed. No calibration comes before: a curve fitted to frames that do not yet lie on
 // one another flattens the very edges that would bring them there, and may turn them round.
-inline double discrepancyOf(double edge_correlation, double share_in_sight) {
-  return 1 - share_in_sight * edge_correlation;
+inline double discrepancyOf(double edge_correlation, double overlap) {
+  return 1 - overlap * edge_correlation;
 }
 
 // Built once from a real loop; each call takes a synthetic frame in beam space as the tracer makes
@@ -34,7 +34,7 @@ class FrameDiscrepancy {
                    const echo::Placement& placement = {});
 
   int realFrames() const { return static_cast<int>(real_.size()); }
-  double shareInSight() const { return share_in_sight_; }
+  double overlapShare() const { return overlap_; }
 
   // Thread-safe.
   double operator()(int frame, std::span<const float> grey) const;
@@ -43,13 +43,13 @@ class FrameDiscrepancy {
   Probe probe_;
   echo::BeamGrid grid_;
   int per_sample_ = 1;
-  double share_in_sight_ = 1;
+  double overlap_ = 1;
   std::optional<WallEdges> edges_;
   std::vector<EdgeField> real_;
 };
 
 // c of Eq. 2 for areas before and after a placement of that scale.
-double shareInSight(std::span<const float> weights_as_given, std::span<const float> weights,
+double overlapShare(std::span<const float> weights_as_given, std::span<const float> weights,
                     double scale);
 
 }  // namespace echocine::compare

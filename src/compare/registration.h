@@ -7,7 +7,7 @@
 
 namespace echocine::compare {
 
-// Fills grid, beams, weights, beats, time, space and share_in_sight of `c`, whose loops are read.
+// Fills grid, beams, weights, beats, time, space and overlap of `c`, whose loops are read.
 // Space by SpaceSearch, whose every start is paired in time for itself.
 // Throws SceneError when they share too little, or are too long for memory.
 void registerLoops(const CompareOptions& options, Comparison& c);

@@ -55,11 +55,11 @@ class EchoStack {
   // beat. Runs in parallel.
   EchoStack(const EchoLoop& real, const BeatSpan& beat, int pictures, double depth_m);
 
-  // Grey 0 to 255; gradient in greys per mm. in_sight: 0 outside the sector and under overlays,
+  // Grey 0 to 255; gradient in greys per mm. visible: 0 outside the sector and under overlays,
   // rising to 1 within two standard deviations of the smoothing, so that sums change evenly as
   // places cross the border.
   struct Sample {
-    float grey = 0, gx = 0, gz = 0, in_sight = 0;
+    float grey = 0, gx = 0, gz = 0, visible = 0;
   };
 
   // A loop shorter than its beat does not show all of it.
@@ -76,7 +76,7 @@ class EchoStack {
   double far() const { return far_m_; }
   const EchoSpread& spread() const { return spread_; }
 
-  // At a place, lateral and depth from the apex; in_sight is 0 outside the picture.
+  // At a place, lateral and depth from the apex; visible is 0 outside the picture.
   // Precondition: seen(instant).
   Sample at(const BeatPlace& instant, double x_m, double z_m) const {
     const double u = x_m / kEchoPixel_m + origin_x_, v = z_m / kEchoPixel_m + origin_z_;

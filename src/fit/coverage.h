@@ -15,6 +15,6 @@ double coverageOf(const ModelLoop& model, const echo::EchoStack& real, const Fit
 // it claims nothing. If D is a share of variance that is left, as its region term is, V ranks
 // models as the likelihood of the whole picture does: -ln V times half the number of cells is its
 // logarithm, up to a constant. D alone favours what claims little.
-double pictureDiscrepancy(double discrepancy, double claimed);
+double pictureDiscrepancy(double discrepancy, double coverage);
 
 }  // namespace echocine::fit

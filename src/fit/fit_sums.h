@@ -41,7 +41,7 @@ class PoseMapping {
 // p(s) of Eq. 4 as its first two moments, and how far from even it is.
 struct EdgeProfile {
   double mean_m = 0, square = 1.0 / 3;  // of s; of (s/S)^2
-  double in_sight = 0;                  // of the place itself
+  double visible = 0;                   // of the place itself
   double p[kProfileSteps] = {};
 
   double certainty() const;  // 1 - entropy of p over that of an even one

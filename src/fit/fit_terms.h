@@ -30,7 +30,7 @@ struct FitStride {
 // The terms; each 0 for a perfect model, about 1 for one that says nothing.
 struct FitTerms {
   double region = 1, boundary = 1, motion = 1;
-  double in_sight = 0;  // share of the model's plane that the real sector shows
+  double overlap = 0;  // share of the model's plane that the real sector shows
 };
 
 // Weights of the terms in D. Our choice, looked at on synthetic pairs of known truth (README.md),

@@ -13,7 +13,7 @@ std::vector<ScanAxis> populationWithout(const std::map<std::string, double>& giv
 struct HeartFound {
   std::vector<double> values;  // of the population's dials, in their order
   PoseFound found;
-  double claimed = 0;             // a of coverage.h, Eq. 11
+  double coverage = 0;            // a of coverage.h, Eq. 11
   double left = 1;                // V, Eq. 12
   double middle = 1;              // D of the heart in the middle of all ranges
   int hearts = 0;                 // that were tried, each with a pose of its own

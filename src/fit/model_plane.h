@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geometry/plane_slice.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "scene/scene.h"
 #include "truth/plane_labels.h"
 

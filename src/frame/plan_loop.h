@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "plan/loop_plan.h"
 
 namespace echocine {

@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "motion/mesh_motion.h"
-#include "motion/volumes.h"
+#include "motion/surfaces/mesh_motion.h"
+#include "motion/surfaces/volumes.h"
 #include "scene/scene.h"
 
 namespace echocine {

@@ -7,7 +7,7 @@
 
 #include "core/monitor.h"
 #include "motion/cycle/cardiac_clock.h"
-#include "motion/volumes.h"
+#include "motion/surfaces/volumes.h"
 #include "trace/polar_frame.h"
 
 namespace echocine {

@@ -19,7 +19,7 @@
 
 #include "core/lanes.h"
 #include "geometry/crossing.h"
-#include "motion/surface_frame.h"
+#include "motion/surfaces/surface_frame.h"
 
 namespace echocine {
 

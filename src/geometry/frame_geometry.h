@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geometry/crossing.h"
-#include "motion/surface_frame.h"
+#include "motion/surfaces/surface_frame.h"
 
 namespace echocine {
 

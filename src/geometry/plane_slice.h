@@ -8,7 +8,7 @@
 
 #include "geometry/crossing.h"
 #include "geometry/crossing_rule.h"
-#include "motion/surface_frame.h"
+#include "motion/surfaces/surface_frame.h"
 #include "scene/probe.h"
 
 namespace echocine {

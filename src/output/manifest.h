@@ -10,7 +10,7 @@
 
 #include "core/stage_clock.h"
 #include "core/work_counts.h"
-#include "motion/volumes.h"
+#include "motion/surfaces/volumes.h"
 #include "output/accuracy_record.h"
 #include "output/frame_record.h"
 #include "plan/loop_plan.h"

@@ -82,7 +82,7 @@ struct SignalSettings {
   double grey_gamma = 1;  // grey = (position in the dynamic range)^gamma
 };
 
-// A relief of the ventricles' inner surfaces, in the picture alone (motion/trabeculae.h).
+// A relief of the ventricles' inner surfaces, in the picture alone (motion/surfaces/trabeculae.h).
 struct TrabeculaeSettings {
   double deviation_m = 0;  // of its height, about the mesh; 0: none
   double scale_m = 5e-3;   // from ridge to ridge, about half

@@ -1,4 +1,4 @@
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 
 #include <fmt/format.h>
 
@@ -13,9 +13,9 @@
 #include "motion/keyframes/interpolation.h"
 #include "motion/mesh/surface_measure.h"
 #include "motion/mesh/world_place.h"
-#include "motion/near_plane.h"
 #include "motion/subdivision/limit_normals.h"
 #include "motion/subdivision/shared_subdivision.h"
+#include "motion/surfaces/near_plane.h"
 #include "plan/effect_plan.h"
 #include "scene/elevation_slices.h"
 #include "scene/role.h"

@@ -1,4 +1,4 @@
-#include "motion/heart_size.h"
+#include "motion/surfaces/heart_size.h"
 
 #include <fmt/format.h>
 

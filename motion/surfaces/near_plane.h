@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "motion/subdivision/subdivision.h"
-#include "motion/surface_frame.h"
+#include "motion/surfaces/surface_frame.h"
 
 namespace echocine {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "scene/scene.h"
 
 namespace echocine {

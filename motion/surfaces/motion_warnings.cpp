@@ -1,4 +1,4 @@
-#include "motion/motion_warnings.h"
+#include "motion/surfaces/motion_warnings.h"
 
 #include <fmt/format.h>
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "motion/mesh_motion.h"
-#include "motion/surface_frame.h"
+#include "motion/surfaces/mesh_motion.h"
+#include "motion/surfaces/surface_frame.h"
 
 namespace echocine {
 

@@ -1,4 +1,4 @@
-#include "motion/probe_placement.h"
+#include "motion/surfaces/probe_placement.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 
 #include "core/box.h"
 #include "core/units.h"
-#include "motion/keyframe_set.h"
 #include "motion/mesh/mesh_check.h"
 #include "motion/mesh/world_place.h"
+#include "motion/surfaces/keyframe_set.h"
 #include "motion/views/heart_marks.h"
 #include "scene/probe_pose.h"
 #include "scene/scan_geometry.h"

@@ -1,4 +1,4 @@
-#include "motion/near_plane.h"
+#include "motion/surfaces/near_plane.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "motion/interior_motion.h"
+#include "motion/surfaces/interior_motion.h"
 
 #include <map>
 

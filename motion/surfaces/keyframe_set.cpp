@@ -1,4 +1,4 @@
-#include "motion/keyframe_set.h"
+#include "motion/surfaces/keyframe_set.h"
 
 #include <fmt/format.h>
 

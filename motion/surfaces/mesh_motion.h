@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/box.h"
-#include "motion/keyframe_set.h"
 #include "motion/keyframes/control_motion.h"
-#include "motion/surface_frame.h"
+#include "motion/surfaces/keyframe_set.h"
+#include "motion/surfaces/surface_frame.h"
 #include "scene/scene.h"
 
 namespace echocine {

@@ -2,7 +2,7 @@
 // The material points of a scene's meshes.
 
 #include "motion/interior/motion_field.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 
 namespace echocine {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 
 namespace echocine {
 

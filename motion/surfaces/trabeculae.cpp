@@ -1,4 +1,4 @@
-#include "motion/trabeculae.h"
+#include "motion/surfaces/trabeculae.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "core/hash_random.h"
 #include "core/nearest_vertex.h"
 #include "core/normal_field.h"
-#include "motion/near_plane.h"
+#include "motion/surfaces/near_plane.h"
 #include "scene/role.h"
 
 namespace echocine {
