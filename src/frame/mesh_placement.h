@@ -1,5 +1,5 @@
 #pragma once
-// Where a scene's meshes stand to its probe, in words for whoever placed it blindly.
+// The position of a scene's meshes relative to its probe, as a message.
 
 #include <string>
 
@@ -9,12 +9,11 @@
 
 namespace echocine {
 
-// Around all surfaces at eight phases of the beat, probe frame, m. Empty without surfaces.
+// Bounding box of all surfaces at eight phases of the beat, probe frame, m. Empty without surfaces.
 Box meshesBox(const MeshMotion& motion);
 
-// One sentence part without a full stop: the box in mm of the probe's axes, what the sector
-// covers of them, and where the box has its middle in the coordinates of probe.apex. Precondition:
-// the box is not empty.
+// A clause without a full stop: the box in mm of the probe's axes, the part within the sector, and
+// the centre of the box in the coordinates of probe.apex. Precondition: the box is not empty.
 std::string describePlacement(const Scene& scene, const Box& box_m);
 
 }  // namespace echocine

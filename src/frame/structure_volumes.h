@@ -11,7 +11,7 @@ namespace echocine {
 Volumes structureVolumes(const Scene& scene, const MeshMotion& motion,
                          const SurfaceFrame& surfaces);
 
-// The same of each structure at its own keyframes.
+// Volumes of each structure at its own keyframes.
 std::vector<KeyframeVolume> keyframeVolumes(const Scene& scene, const MeshMotion& motion);
 
 }  // namespace echocine
