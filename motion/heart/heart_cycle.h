@@ -1,5 +1,5 @@
 #pragma once
-// What the heart does when.
+// Timing of the heart: contraction, filling and valves over the beat.
 
 #include "motion/cycle/cardiac_timing.h"
 #include "motion/cycle/volume_curve.h"
@@ -10,9 +10,9 @@ namespace echocine::heart {
 
 struct State {
   Contraction left;
-  double rv_ejected = 0;    // of its stroke volume
+  double rv_ejected = 0;    // share of its stroke volume
   double atria_filled = 0;  // 0 after the kick, 1 at end-systole
-  double mitral = 0, tricuspid = 0, aortic = 0, pulmonary = 0;  // 0 shut, 1 open
+  double mitral = 0, tricuspid = 0, aortic = 0, pulmonary = 0;  // 0 closed, 1 open
 };
 
 class Cycle {
@@ -24,8 +24,8 @@ class Cycle {
   const CycleEvents& events() const { return left_events_; }  // of the left heart
 
  private:
-  double opened(double phase, const CycleEvents& events) const;    // an inflow valve
-  double ejecting(double phase, const CycleEvents& events) const;  // an outflow valve
+  double opened(double phase, const CycleEvents& events) const;    // of an inflow valve
+  double ejecting(double phase, const CycleEvents& events) const;  // of an outflow valve
 
   Parameters parameters_;
   PhaseDurations left_, right_;

@@ -1,5 +1,5 @@
 #pragma once
-// Where a probe is held for the standard views of the parametric heart.
+// Probe poses of the standard views of the parametric heart.
 
 #include "motion/heart/heart.h"
 #include "motion/views/standard_pose.h"
@@ -10,12 +10,12 @@ namespace echocine::heart {
 using echocine::ProbePose, echocine::View, echocine::ViewName;
 using echocine::viewNames, echocine::viewOf;
 
-// Its own axes as the views' rules take them: heart coordinates, m.
+// Its axes in the form that the view rules need: heart coordinates, m.
 HeartFrame frameOf(const ParametricHeart& heart);
 
-// Aimed by the heart at end-diastole, over which the probe stays where it is. Heart coordinates.
+// For the heart at end-diastole; the probe is static over the beat. Heart coordinates.
 ProbePose poseOf(View view, const ParametricHeart& heart);
-// The same for who has the heart at end-diastole.
+// The same with a given shape at end-diastole.
 ProbePose poseOf(View view, const ParametricHeart& heart, const Shape& at_end_diastole);
 
 }  // namespace echocine::heart

@@ -1,5 +1,5 @@
 #pragma once
-// What is true of a recorded heart, for those who test algorithms against it.
+// Ground truth of a recorded heart, for tests of algorithms.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace echocine::heart {
 
-// Dials, timing, volumes, excursions, wall thickness and places of valves, as JSON.
+// Dials, timing, volumes, excursions, wall thickness and positions of valves, as JSON.
 std::string truthText(const ParametricHeart& heart, const Recording& recording);
 
 }  // namespace echocine::heart

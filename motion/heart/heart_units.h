@@ -1,5 +1,5 @@
 #pragma once
-// What the heart's numbers are written in.
+// Units of the heart's constants.
 
 #include <numbers>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a scene's heart is as large as a heart can be.
+// Plausibility of the size of a scene's heart.
 
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace echocine {
 
-// At most one line: the first chamber, by its role, whose largest keyframe has a volume that no
-// heart has, and the mesh_unit or the mesh_scale that would fit.
+// At most one line: the first chamber, by role, whose largest keyframe has an implausible volume,
+// with a fitting mesh_unit or mesh_scale.
 std::vector<std::string> sizeWarnings(const Scene& scene, const MeshMotion& motion);
 
 }  // namespace echocine

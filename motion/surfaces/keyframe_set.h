@@ -1,5 +1,5 @@
 #pragma once
-// The meshes of a scene's keyframes, read or taken over from memory, repaired and checked.
+// The meshes of a scene's keyframes, read or taken from memory, repaired and checked.
 
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@ namespace echocine {
 
 struct KeyframeSet {
   std::vector<std::vector<KeyframeMesh>> structures;  // by SurfaceId, then keyframe; mesh units
-  std::vector<std::string> repair_notes;              // what was mended, a line for each structure
+  std::vector<std::string> repair_notes;              // repairs done, a line for each structure
   std::string sha256;                                 // over all meshes, in the scene's order
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the loop's frames between keyframes suffer, in words.
+// Warnings about the loop's frames between keyframes.
 
 #include <string>
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace echocine {
 
-// Looks at every frame of the loop, each phase once; a line per structure with triangles that turn
-// over or vanish or with a surface that collapses, naming the first of them, one
-// where a volume leaves the range of both keyframes beside the frame by over 1 % of the
-// end-diastolic volume, and one where the last keyframe is the first again. Throws JobError naming
-// structure and frame where a closed one is turned inside out: no medium is inside it then.
+// Examines every frame of the loop, each phase once. One line per structure with inverted,
+// vanishing or collapsing parts, naming the first; one if a volume leaves the range of both
+// adjacent keyframes by more than 1 % of the end-diastolic volume; one if the last keyframe repeats
+// the first. Throws JobError naming structure and frame if a closed surface is inverted: it then
+// encloses no medium.
 std::vector<std::string> motionWarnings(const Scene& scene, const MeshMotion& motion);
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// Which triangles of a moving surface the imaging plane can reach at all.
+// Triangles of a moving surface that can reach the imaging plane.
 
 #include <span>
 #include <vector>
@@ -9,19 +9,18 @@
 
 namespace echocine {
 
-// How high and how low each vertex stands over the imaging plane, y = 0, at the keyframes.
+// Range of each vertex's height over the imaging plane, y = 0, over the keyframes.
 class HeightRanges {
  public:
-  // The vertices at a keyframe, always equally many.
+  // The vertices at a keyframe, always the same number.
   void add(std::span<const Vec3f> positions_m);
 
-  // Takes the vertices for control vertices and goes on to the refined ones. These are means of
-  // control vertices, weighted by the same numbers from 0 up in every frame, and so are their
-  // bounds.
+  // Takes the vertices as control vertices and continues with the refined ones. These are means of
+  // control vertices with constant non-negative weights, and so are their bounds.
   void refine(const Subdivision& subdivision);
 
-  // In ascending order at least all triangles that have corners on both sides of the plane at any
-  // phase. overshoot: KeyframeWeights::overshoot(). Corners may stand `aside_m` beside their place.
+  // A superset of all triangles with corners on both sides of the plane at any phase, in ascending
+  // order. overshoot: KeyframeWeights::overshoot(). Corners may be displaced by `aside_m`.
   std::vector<NumberedTriangle> nearPlane(std::span<const Triangle> triangles, double overshoot,
                                           double aside_m = 0) const;
 
@@ -29,8 +28,7 @@ class HeightRanges {
   std::vector<Vec3f> ranges_m_;  // by vertex: x the lowest, y the highest
 };
 
-// By vertex: is it a corner of a triangle that the plane can reach? All are, of a surface that does
-// not know.
+// By vertex: is it a corner of a triangle that can reach the plane? True for all if unknown.
 std::vector<bool> verticesNearPlane(const SurfaceTopology& surface);
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// A probe placed by the heart's anatomy.
+// A probe placed by anatomy.
 
 #include <memory>
 #include <utility>
@@ -9,19 +9,19 @@
 
 namespace echocine {
 
-// The scene with the pose of its view found from its structures with roles, at end-diastole: the
-// keyframe of the largest left ventricle. Pose, and depth and focus where the scene names none, are
-// those that poseToml() writes, so that a scene with these lines instead is the same to the last
-// bit. A scene without a view comes back as it is. What had to be guessed is added to its warnings.
-// Reads those meshes. Throws SceneError naming the scene's place: no role to find the view by,
-// roles that contradict one another, a sector that cuts no mesh; and as readKeyframes().
+// The scene with the pose of its view computed from its structures with roles, at end-diastole: the
+// keyframe of the largest left ventricle. Pose, and default depth and focus, are those that
+// poseToml() writes, so a scene with these lines is equal to the last bit. A scene without a view
+// is returned unchanged. Guesses are added to its warnings. Reads those meshes. Throws SceneError
+// naming the scene's place for a missing role, contradictory roles, or a sector that cuts no mesh;
+// and like readKeyframes().
 Scene placed(Scene scene);
 
-// The same, and the motion of its meshes in that probe's frame.
+// The same, with the motion of its meshes in the probe's frame.
 std::pair<Scene, std::shared_ptr<const MeshMotion>> placedWithMotion(Scene scene);
 
-// A pose turned about its depth axis, then tilted about its lateral axis; its origin stays. Turning
-// takes lateral towards elevation, tilting takes depth towards elevation.
+// A pose rotated about its depth axis, then tilted about its lateral axis; its origin is fixed.
+// Rotation moves lateral towards elevation, tilt moves depth towards elevation.
 Pose turnedAndTilted(const Pose& pose, double rotate_rad, double tilt_rad);
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// What the motion stage hands on: the surfaces of one instant, in the probe frame and in metres.
+// Output of the motion stage: the surfaces of one instant, in the probe frame, m.
 
 #include <cstdint>
 #include <optional>
@@ -11,24 +11,23 @@
 
 namespace echocine {
 
-// A triangle with its number in its surface.
+// A triangle with its index in its surface.
 struct NumberedTriangle {
   Triangle corners;
   std::uint32_t number = 0;
 };
 
-// What never changes over a loop.
+// Constant over a loop.
 struct SurfaceTopology {
   SurfaceId id{};
   std::vector<Triangle> triangles;
   std::uint32_t vertex_count = 0;
   bool membrane = false;  // an open sheet: encloses nothing
   bool still = false;     // one keyframe: the same in every frame
-  // With smooth normals: the normal that each corner of each triangle takes. Empty where that is
-  // the normal with its vertex's number.
+  // With smooth normals: the index of the normal of each corner of each triangle. Empty if it is
+  // the vertex index.
   std::vector<Triangle> normal_corners{};
-  // In ascending order at least all triangles that the imaging plane cuts at any phase, where that
-  // is known.
+  // A superset of the triangles that the imaging plane cuts at any phase, ascending, if known.
   std::optional<std::vector<NumberedTriangle>> near_plane{};
 
   const std::vector<Triangle>& normalCorners() const {
@@ -37,12 +36,12 @@ struct SurfaceTopology {
 };
 
 // One instant. positions_m[s] has vertex_count entries for the surface with index s. Probe frame:
-// the imaging plane is y = 0, the apex is the origin, so single precision is fine to nanometres
-// wherever in the world the scene stands.
+// the imaging plane is y = 0 and the apex is the origin, so single precision resolves nanometres
+// anywhere in the world.
 struct SurfaceFrame {
   std::vector<std::vector<Vec3f>> positions_m;
-  // Smooth normals, by SurfaceTopology::normalCorners(): unit, outward; zero where there is none.
-  // No surface has any when the scene wants those of the facets.
+  // Smooth normals, indexed by SurfaceTopology::normalCorners(): unit, outward; zero without a
+  // normal. Empty if the scene uses facet normals.
   std::vector<std::vector<Vec3f>> normals{};
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the surfaces of a scene enclose.
+// Volumes of the surfaces of a scene.
 
 #include <string>
 #include <utility>
@@ -7,7 +7,7 @@
 
 namespace echocine {
 
-// Closed structures' volumes in the order of the scene; membranes are left out.
+// Volumes of closed structures in the scene's order; membranes are omitted.
 using Volumes = std::vector<std::pair<std::string, double>>;  // mL
 
 struct KeyframeVolume {
