@@ -1,5 +1,5 @@
 #pragma once
-// When each frame is taken, and where in the cardiac cycle that is.
+// Time and cardiac phase of each frame.
 
 #include <optional>
 #include <vector>
@@ -14,8 +14,8 @@ struct FrameTime {
   double phase = 0;           // of the keyframes, [0, 1), 0 at end-diastole (the R wave)
   int beat = 0;               // of the loop, from 0
   double time_in_beat_s = 0;  // from its R wave
-  double beat_s = 0;          // from this beat's R wave to the next
-  int frame = 0;              // of the loop, from 0; atTime() leaves it
+  double beat_s = 0;          // duration of this beat, R wave to R wave
+  int frame = 0;              // of the loop, from 0; atTime() does not set it
 };
 
 class CardiacClock {
@@ -23,11 +23,10 @@ class CardiacClock {
   explicit CardiacClock(const Scene& scene) : CardiacClock(scene.acquisition, scene.motion) {}
   explicit CardiacClock(const Acquisition& acquisition, const MotionSettings& motion = {});
 
-  // Frames of the loop: the beats' duration in frame intervals, rounded to whole frames, at
-  // least 1.
+  // Number of frames: the duration of the beats in frame intervals, rounded, at least 1.
   int frameCount() const;
   FrameTime at(int frame) const;
-  // Any instant from half a frame's interval before the loop's first frame to the end of its last.
+  // Any instant from half a frame interval before the first frame to the end of the last.
   // Precondition: in that range.
   FrameTime atTime(double time_s) const;
 
@@ -37,9 +36,9 @@ class CardiacClock {
   FrameTime inVariedBeats(double time_s) const;
 
   Acquisition acquisition_;
-  std::optional<RecordedBeat> recorded_;  // set where keyframes have to be warped
-  std::optional<TimeWarp> steady_warp_;   // of every beat where all are alike
-  std::vector<double> starts_s_;          // of each beat; empty where all are alike
+  std::optional<RecordedBeat> recorded_;  // set if keyframes are warped
+  std::optional<TimeWarp> steady_warp_;   // of every beat, if all are equal
+  std::vector<double> starts_s_;          // of each beat; empty if all are equal
 };
 
 }  // namespace echocine

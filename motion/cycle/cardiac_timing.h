@@ -1,7 +1,7 @@
 #pragma once
-// How long each part of a heartbeat lasts at a heart rate, and where its events stand in the beat.
-// Time counts from the R wave, which by our convention is end-diastole: the mitral valve closes
-// there, so the electromechanical delay that clinical pre-ejection periods contain is left out.
+// Durations of the parts of a heartbeat at a heart rate, and phases of its events. Time counts from
+// the R wave. By our convention this is end-diastole: the mitral valve closes there, so the
+// electromechanical delay of clinical pre-ejection periods is omitted.
 
 namespace echocine {
 
@@ -16,13 +16,13 @@ struct PhaseDurations {
   double beat() const { return endSystole() + isovolumic_relaxation_s + filling(); }
 };
 
-// Durations of a beat of 1 / heart_rate_hz: none negative, none growing with the heart rate,
-// together the beat. Both ventricles end their filling together and share the atrial kick's time.
-// Precondition: heart_rate_hz over 0; the sources hold between 30 and 160 beats per minute.
+// Durations of a beat of 1 / heart_rate_hz. None is negative, none grows with the heart rate, and
+// they sum to the beat. Both ventricles end their filling together and share the time of the atrial
+// kick. Precondition: heart_rate_hz > 0; the sources cover 30 to 160 beats per minute.
 PhaseDurations phaseDurations(double heart_rate_hz, Ventricle ventricle = Ventricle::left);
 
-// Phases of the events, ascending in [0, 1); the right ventricle's valves are meant where the
-// durations are the right ventricle's. Without a diastasis its begin is the atrial kick's.
+// Phases of the events, ascending in [0, 1). For durations of the right ventricle they are those of
+// its valves. Without a diastasis its start is that of the atrial kick.
 struct CycleEvents {
   double mitral_closes, aortic_opens, aortic_closes, mitral_opens, diastasis_begins,
       atrial_kick_begins;

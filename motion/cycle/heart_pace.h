@@ -1,16 +1,16 @@
 #pragma once
-// How fast a heart goes through its shapes: the way between two known instants of the beat, as the
-// published volume curve divides it.
+// Pace of the shape changes of a heart: progress between two instants of the beat, from the
+// published volume curve.
 
 #include "motion/cycle/time_warp.h"
 #include "motion/cycle/volume_curve.h"
 
 namespace echocine {
 
-// Where the aortic valve closes in a beat whose smallest volume was seen at `phase`, in (0, 1). A
-// segmentation's end-systole is its smallest picture, which may stem from any instant of isovolumic
-// relaxation: timing stays as published for the rate while that phase lies within it, and moves as
-// little as puts the phase at its nearer end otherwise. Our choice.
+// Phase of aortic valve closure in a beat whose smallest volume was observed at `phase`, in (0, 1).
+// A segmentation's end-systole is its smallest picture, which can be any instant of isovolumic
+// relaxation. The published timing is kept if that phase lies within it; otherwise the timing is
+// moved until the phase is at its nearer end. Our choice.
 double endSystoleAround(double phase, double heart_rate_hz);
 
 class HeartPace {
@@ -19,15 +19,15 @@ class HeartPace {
   HeartPace() : HeartPace(RecordedBeat{65.0 / 60.0, {}}) {}
   explicit HeartPace(const RecordedBeat& beat);
 
-  // The way from the R wave to a phase in [0, 2), in stroke volumes: what the ventricle has given
-  // out and taken in, and a little that goes with time (kDrift). It ascends strictly and has
+  // Progress from the R wave to a phase in [0, 2), in stroke volumes: what the ventricle has
+  // ejected and filled, plus a small drift in time (kDrift). It is strictly increasing and has
   //   travelled(phase + 1) = travelled(phase) + travelled(1).
-  // Where the volume only falls or only rises between two phases, the share of the way there is
-  // the share of the volume, but for the drift.
+  // Between two phases of monotone volume, the fraction of the progress is the fraction of the
+  // volume, except for the drift.
   double travelled(double phase) const;
 
-  // Of travelled() over a beat, in stroke volumes: a heart whose volume stands still moves on too.
-  // Our choice.
+  // Part of travelled() over a beat, in stroke volumes, so that a heart of constant volume moves
+  // too. Our choice.
   static constexpr double kDrift = 0.02;
 
  private:

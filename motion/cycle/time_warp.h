@@ -1,35 +1,34 @@
 #pragma once
-// Keyframes recorded at one heart rate, played at another. A heart that beats twice as fast does
-// not contract twice as fast: systole keeps most of its time and diastole gives the rest. So the
-// events of the beat, not its start and end alone, are made to fall together.
+// Playback of keyframes at another heart rate. At twice the rate a heart does not contract twice as
+// fast: systole keeps most of its duration, and diastole is shortened. So all events of the beat
+// are aligned, not only its start and end.
 
 #include <array>
 #include <optional>
 
 namespace echocine {
 
-// The beat that the keyframes show.
+// The beat of the keyframes.
 struct RecordedBeat {
   double heart_rate_hz = 1;
-  // Where the keyframes' aortic valve closes, in (0, 1); that of phaseDurations() if left out.
+  // Aortic valve closure of the keyframes, in (0, 1); default: that of phaseDurations().
   std::optional<double> end_systole_phase;
 };
 
-// The map of one beat: cubics between the events, one slope on both sides of each, never going
-// back. The keyframes run in real time at the R wave, so beats of any lengths join without a kink
-// wherever the events leave that slope room (time runs at most threefold of an interval's mean).
+// The map of one beat: monotone cubics between the events, continuous in slope. The slope is 1 at
+// the R wave, so beats of any lengths join without a kink wherever the events permit (the slope is
+// at most three times an interval's mean).
 class TimeWarp {
  public:
-  // beat_s: duration of the beat that is played, over 0.
+  // beat_s: duration of the beat played, over 0.
   TimeWarp(const RecordedBeat& recorded, double beat_s);
 
-  // Phase of the keyframes in [0, 1] at a time in [0, beat] after the R wave; the identity
-  // but for rounding where the beat lasts as long as the recorded one.
+  // Phase of the keyframes in [0, 1] at a time in [0, beat] after the R wave. For a beat of the
+  // recorded duration it is the identity within rounding.
   double phaseAt(double time_s) const;
 
-  // Where the aortic valve closes in the beat that is played. Without an end_systole_phase it is
-  // that of phaseDurations(); with one the ratio of systole to the rest of the beat changes as
-  // there.
+  // Aortic valve closure in the beat played. Without an end_systole_phase it is that of
+  // phaseDurations(); with one, the ratio of systole to diastole changes by the same factor.
   double endSystole() const { return end_systole_s_; }
 
  private:

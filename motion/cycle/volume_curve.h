@@ -1,5 +1,5 @@
 #pragma once
-// How full a ventricle is over the beat, as a share of its stroke volume.
+// Volume of a ventricle over the beat, as a fraction of its stroke volume.
 
 #include <optional>
 
@@ -9,16 +9,16 @@ namespace echocine {
 
 class VolumeCurve {
  public:
-  // `kick_share`: part of the stroke volume that the atrial kick fills, in (0, 1); else as in
-  // health.
+  // `kick_share`: fraction of the stroke volume filled by the atrial kick, in (0, 1); default:
+  // healthy.
   explicit VolumeCurve(const PhaseDurations& durations, std::optional<double> kick_share = {});
 
-  // Filled share at a phase in [0, 1]: 1 at end-diastole, 0 at end-systole; volume is then
-  // ESV + share (EDV - ESV). Constant in the isovolumic phases, falling in ejection, rising in
-  // filling; continuous with its first derivative, also from one beat to the next.
+  // Filled fraction at a phase in [0, 1]: 1 at end-diastole, 0 at end-systole; volume = ESV +
+  // fraction (EDV - ESV). Constant in the isovolumic phases, falling in ejection, rising in
+  // filling; once continuously differentiable, also between beats.
   double at(double phase) const;
 
-  // Parts of the stroke volume that come in during rapid filling, diastasis and the atrial kick.
+  // Fractions of the stroke volume filled during rapid filling, diastasis and the atrial kick.
   double rapidShare() const { return 1 - diastasis_share_ - kick_share_; }
   double diastasisShare() const { return diastasis_share_; }
   double kickShare() const { return kick_share_; }
@@ -26,7 +26,7 @@ class VolumeCurve {
  private:
   CycleEvents events_;
   double diastasis_share_ = 0, kick_share_ = 0;
-  double diastasis_slope_ = 0;  // share of the stroke volume per beat
+  double diastasis_slope_ = 0;  // fraction of the stroke volume per beat
 };
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// Triangle meshes that Loop subdivision turns into the surface one has in mind.
+// Triangle meshes whose Loop limit surface is a given surface.
 
 #include <array>
 #include <cmath>
@@ -20,12 +20,12 @@ struct SphereMesh {
   std::vector<Face> faces;
 };
 
-// The icosahedron with every edge cut into `frequency` parts, on the unit sphere: all vertices but
-// twelve have six neighbours, where Loop surfaces are smoothest. One vertex stands at (0, 0, -1).
-// Each is made once; the reference stays good.
+// An icosahedron with every edge divided into `frequency` parts, projected on the unit sphere. All
+// vertices except twelve have six neighbours, where Loop surfaces are smoothest. One vertex is (0,
+// 0, -1). Meshes are cached; the reference stays valid.
 const SphereMesh& geodesicSphere(int frequency);
 
-// The points of a surface given as a function of direction.
+// The points of a surface defined as a function of direction.
 template <typename PointOf>
 std::vector<Vec3d> pointsOn(const SphereMesh& sphere, const PointOf& pointOf) {
   std::vector<Vec3d> points;
@@ -34,11 +34,11 @@ std::vector<Vec3d> pointsOn(const SphereMesh& sphere, const PointOf& pointOf) {
   return points;
 }
 
-// Faces of a sheet of rows x columns vertices, row after row, all diagonals alike.
+// Faces of a sheet of rows x columns vertices, row by row, with parallel diagonals.
 std::vector<Face> sheetFaces(int rows, int columns);
 std::array<std::uint32_t, 4> sheetCorners(int rows, int columns);
 
-// As files hold them. Never minus zero.
+// Rounded to a micrometre, as in files. Never minus zero.
 inline Vec3d toMicrometre(Vec3d p) {
   const auto rounded = [](double metres) { return std::round(metres * 1e6) * 1e-6 + 0.0; };
   return {rounded(p.x), rounded(p.y), rounded(p.z)};
@@ -47,20 +47,20 @@ inline Vec3d toMicrometre(Vec3d p) {
 // Volume within a closed mesh.
 double volumeOf(const std::vector<Vec3d>& points, const std::vector<Face>& faces);
 
-// Finds control points whose Loop limit surface passes through given points: Loop pulls a convex
-// surface inwards, by 3 % of the volume of a chamber of 500 vertices.
+// Computes control points whose Loop limit surface interpolates given points: without this, Loop
+// subdivision shrinks a convex surface, by 3 % of the volume for a chamber of 500 vertices.
 class LoopFit {
  public:
-  // `corners` are tagged sharp, so that they stay where they are.
+  // `corners` are tagged as sharp, so that they keep their places.
   LoopFit(std::size_t vertex_count, const std::vector<Face>& faces,
           std::span<const std::uint32_t> corners = {});
 
   std::vector<Vec3d> controlPoints(const std::vector<Vec3d>& points) const;
 
  private:
-  std::vector<std::uint32_t> first_;   // of each vertex's entries in others_
-  std::vector<std::uint32_t> others_;  // neighbours that count in the vertex's limit
-  std::vector<double> weights_;        // of each of them
+  std::vector<std::uint32_t> first_;   // start of each vertex's entries in others_
+  std::vector<std::uint32_t> others_;  // neighbours with a weight in the vertex's limit
+  std::vector<double> weights_;        // one per entry of others_
   std::vector<std::uint32_t> corners_;
 };
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "motion/heart/units.h"
+#include "motion/heart/heart_units.h"
 
 namespace echocine::heart {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-// The sac round the heart.
+// The sac around the heart.
 
 #include <span>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace echocine::heart {
 
-// A smooth star-shaped surface about `centre` that holds all of some points.
+// A smooth star-shaped surface around `centre` that encloses given points.
 class Envelope {
  public:
   static constexpr int kFrequency = 9;  // of its geodesicSphere

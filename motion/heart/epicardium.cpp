@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "motion/heart/heart_units.h"
 #include "motion/heart/smooth.h"
-#include "motion/heart/units.h"
 
 namespace echocine::heart {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-// The outer surface of the left ventricle as its neighbours feel it.
+// The outer surface of the left ventricle, for its neighbours.
 
 #include <vector>
 
@@ -7,20 +7,19 @@
 
 namespace echocine::heart {
 
-// Distance of the wall's outer surface from the long axis, tabled.
+// Distance of the wall's outer surface from the long axis, tabulated.
 class Epicardium {
  public:
   explicit Epicardium(const LeftVentricle& ventricle);
 
-  // Metres, at an angle about the axis and a height z; beyond the table's ends the end values.
+  // In m, at an angle about the axis and a height z; constant beyond the ends of the table.
   double radius(double phi_rad, double z) const;
-  // `point`, moved away from the axis until it stands at least `gap_m` outside. The bend from
-  // untouched to moved is rounded.
+  // `point`, moved away from the axis to at least `gap_m` outside, with a smooth transition.
   Vec3d pushedOut(Vec3d point, double gap_m) const;
 
  private:
   double low_z_ = 0, high_z_ = 0;
-  std::vector<double> radius_m_;  // a row of heights for each angle
+  std::vector<double> radius_m_;  // one row of heights per angle
 };
 
 }  // namespace echocine::heart

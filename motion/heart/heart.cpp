@@ -9,9 +9,9 @@
 #include "core/error.h"
 #include "core/stop.h"
 #include "motion/heart/envelope.h"
+#include "motion/heart/heart_units.h"
 #include "motion/heart/instant.h"
-#include "motion/heart/segments.h"
-#include "motion/heart/units.h"
+#include "motion/heart/segment_shares.h"
 
 namespace echocine::heart {
 namespace {

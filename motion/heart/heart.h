@@ -5,17 +5,17 @@
 #include <vector>
 
 #include "motion/heart/control_mesh.h"
-#include "motion/heart/cycle.h"
+#include "motion/heart/heart_cycle.h"
 #include "motion/heart/parameters.h"
 
 namespace echocine::heart {
 
-// What a structure is made of and how it fits among the others; the same at every phase.
+// Material and priority of a structure; the same at every phase.
 struct PartKind {
   std::string name, medium;
-  int priority = 0;  // where closed parts overlap the highest wins
+  int priority = 0;  // the highest wins where closed parts overlap
   bool membrane = false;
-  double reflection_gain = 1;  // of what its surface sends back
+  double reflection_gain = 1;  // of its surface
 };
 
 // A structure's surface at one instant, in heart coordinates (left_ventricle.h), metres.
@@ -25,14 +25,14 @@ struct Part {
   std::vector<Face> faces;
 };
 
-// Places by which views are aimed and the truth is told, at one instant.
+// Landmarks for views and truth, at one instant.
 struct Landmarks {
   Vec3d apex;                                  // of the left ventricle's cavity
   Vec3d mitral, tricuspid, aortic, pulmonary;  // centres of the valve rings
   Vec3d aortic_flow;                           // unit, from the ventricle into the aorta
   double mitral_radius_m = 0, tricuspid_radius_m = 0;
-  double twist_rad = 0;                              // of the apex against the base
-  std::array<double, kSegments> wall_thickness_m{};  // at the middle of each segment
+  double twist_rad = 0;                              // of the apex relative to the base
+  std::array<double, kSegments> wall_thickness_m{};  // at the centre of each segment
 };
 
 // Both at one instant.
@@ -43,20 +43,20 @@ struct Shape {
 
 class ParametricHeart {
  public:
-  // Throws SceneError when no shape fulfils the parameters. Precondition: faultOf(parameters) is
+  // Throws SceneError if no shape fulfils the parameters. Precondition: faultOf(parameters) is
   // empty.
   explicit ParametricHeart(const Parameters& parameters);
 
-  // Every part at a phase in [0, 1), always in the same order with the same faces. Errors: as the
+  // Every part at a phase in [0, 1), always in the same order with the same faces. Throws like the
   // constructor.
   std::vector<Part> at(double phase) const;
   Landmarks landmarksAt(double phase) const;
-  Shape shapeAt(double phase) const;  // at half the cost of asking for one after the other
+  Shape shapeAt(double phase) const;  // at half the cost of two separate calls
 
   const Parameters& parameters() const { return parameters_; }
   const Cycle& cycle() const { return cycle_; }
   double lvLength() const { return at_rest_.length(); }  // at end-diastole, m
-  // Middle of the heart, about which it is star-shaped but for the great vessels.
+  // Centre of the heart, which is star-shaped about it except for the great vessels.
   Vec3d centre() const;
 
  private:

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "motion/heart/units.h"
+#include "motion/heart/heart_units.h"
 #include "scene/names.h"
 #include "scene/role.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// A recorded heart as a scene: its text for files, or with its meshes in memory.
+// A recorded heart as a scene: as text for files, or with meshes in memory.
 
 #include <string>
 
@@ -8,24 +8,24 @@
 
 namespace echocine::heart {
 
-// The name of a part's keyframe: "lv_wall_07.obj", "abdomen.obj" of what stands still.
+// The name of a part's keyframe: "lv_wall_07.obj"; "abdomen.obj" for a static part.
 std::string meshName(const RecordedPart& part, std::size_t keyframe);
 
-// The scene that renders a recording, as TOML, its meshes found under `mesh_folder` ("" for the
-// scene's own, else with a slash at its end), its pictures with a look.
+// The scene that renders a recording, as TOML. Meshes are under `mesh_folder` ("" for the scene's
+// own folder, otherwise with a trailing slash).
 std::string sceneText(View view, const Parameters& parameters, const Recording& recording,
                       const std::string& mesh_folder, Look look = Look::scanner);
 
-// The keyframes of a recording by the names that sceneText() has for them.
+// The keyframes of a recording by their names in sceneText().
 NamedMeshes meshesOf(const Recording& recording);
 
-// The same scene with its keyframes in memory: what writing and reading files would give, without
-// them. `view`, `parameters`: those of the recording.
+// The same scene with its keyframes in memory: equal to writing and reading files. `view`,
+// `parameters`: those of the recording.
 Scene sceneOf(View view, const Parameters& parameters, const Recording& recording,
               Look look = Look::scanner);
 
-// A heart from its dials, recorded at `keyframes` instants: all of the above in one call. Runs in
-// parallel inside withThreads(). Throws SceneError for parameters that no heart fulfils.
+// A heart from its dials with `keyframes` instants: all of the above in one call. Runs in parallel
+// inside withThreads(). Throws SceneError for impossible parameters.
 Scene heartScene(const Parameters& parameters, View view, int keyframes = 24,
                  Look look = Look::scanner);
 

@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "core/stop.h"
+#include "motion/heart/heart_units.h"
 #include "motion/heart/solve.h"
-#include "motion/heart/units.h"
 
 // Places without a source are our choice, drawn after hearts segmented from CT and fitted to cine
 // MR. l is the length of the left ventricle at end-diastole.

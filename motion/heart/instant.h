@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "motion/heart/balloon.h"
-#include "motion/heart/cycle.h"
 #include "motion/heart/epicardium.h"
+#include "motion/heart/heart_cycle.h"
 #include "motion/heart/leaflet.h"
 #include "motion/heart/left_ventricle.h"
 #include "motion/heart/parameters.h"
@@ -23,11 +23,11 @@ class Instant {
  public:
   static constexpr int kAtriumFrequency = 8;  // of the atria's sphere meshes
 
-  // `at_rest` is the left ventricle at end-diastole, which is costly to find. Throws SceneError
-  // when a chamber cannot reach its volume beside its neighbours.
+  // `at_rest` is the left ventricle at end-diastole, which is costly to compute. Throws SceneError
+  // if a chamber cannot reach its volume beside its neighbours.
   Instant(const Parameters& parameters, const LeftVentricle& at_rest, const State& now);
 
-  Instant(const Instant&) = delete;  // its shapes point at each other
+  Instant(const Instant&) = delete;  // its shapes refer to each other
 
   const State& state() const { return state_; }
   const LeftVentricle& left() const { return left_; }
@@ -40,8 +40,8 @@ class Instant {
   const ValveRing& aortic() const { return aortic_; }
   const ValveRing& pulmonary() const { return pulmonary_; }
 
-  // Points of the atria for geodesicSphere(kAtriumFrequency), grown outwards by a thickness. The
-  // left one gives way to the aorta, the right one to everything of the left heart.
+  // Points of the atria for geodesicSphere(kAtriumFrequency), dilated by a thickness. The left
+  // atrium yields to the aorta, the right one to the whole left heart.
   std::vector<Vec3d> leftAtrium(double thickness_m = 0) const;
   std::vector<Vec3d> rightAtrium(double thickness_m = 0) const;
   std::vector<Vec3d> papillary(std::size_t number, const SphereMesh& sphere) const;

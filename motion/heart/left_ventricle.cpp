@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "motion/heart/heart_units.h"
 #include "motion/heart/solve.h"
-#include "motion/heart/units.h"
 
 namespace echocine::heart {
 namespace {

@@ -18,48 +18,48 @@
 
 namespace echocine::heart {
 
-// Where the left ventricle is in its beat.
+// State of the left ventricle within its beat.
 struct Contraction {
-  double ejected = 0;  // share of the stroke volume, 0 at end-diastole, 1 at end-systole
-  std::array<double, kSegments> segments{};  // inward motion, 1 a healthy one's at end-systole
+  double ejected = 0;  // fraction of the stroke volume, 0 at end-diastole, 1 at end-systole
+  std::array<double, kSegments> segments{};  // inward motion; 1: a healthy segment at end-systole
 };
 
 class LeftVentricle {
  public:
-  // Meshes of its surfaces are geodesicSphere(kFrequency).
+  // Its surfaces' meshes are geodesicSphere(kFrequency).
   static constexpr int kFrequency = kWallFrequency;
 
-  // At end-diastole. Throws SceneError when no contraction reaches the end-systolic volume.
+  // At end-diastole. Throws SceneError if no contraction reaches the end-systolic volume.
   explicit LeftVentricle(const Parameters& parameters);
 
-  // What a ventricle ejects whose healthy segments contract as they would for the dialled ejection
-  // fraction, and whose others do their own share: the dialled one where all are healthy. Throws
-  // as the constructor.
+  // Ejection fraction of a ventricle whose healthy segments contract as for the dialled one, and
+  // whose other segments contract by their own amplitude; the dialled one if all are healthy.
+  // Throws like the constructor.
   static double ejectionFractionOf(const Parameters& parameters);
 
-  // Sets the shape: the cavity encloses edv - ejected * stroke volume, and the wall the volume it
-  // has at end-diastole. Throws SceneError when it cannot.
+  // Sets the shape: the cavity encloses edv - ejected * stroke volume; the wall keeps its
+  // end-diastolic volume. Throws SceneError if that is impossible.
   void contract(const Contraction& contraction);
 
   double length() const { return length_; }  // at end-diastole
   double ringZ() const { return ring_z_; }   // of the mitral ring's plane
   double apexZ() const { return apex_z_; }
-  double twist() const { return twist_rad_; }  // of the apex against the base
+  double twist() const { return twist_rad_; }  // of the apex relative to the base
 
-  // Points for a direction of the unit sphere, (0, 0, 1) being the apex.
+  // Points for a direction of the unit sphere; (0, 0, 1) is the apex.
   Vec3d cavityPoint(Vec3d direction) const;
   Vec3d wallPoint(const WallPlace& at) const;
-  // Those of all directions of geodesicSphere(kFrequency).
+  // Points for all directions of geodesicSphere(kFrequency).
   std::vector<Vec3d> cavityPoints() const;
   std::vector<Vec3d> wallPoints() const;
 
-  // A place of the cavity's surface by its angle about the axis and zeta, 0 at the mitral ring and
-  // 1 at the apex; and how thick the wall is there.
+  // A place on the cavity's surface by its angle about the axis and zeta, 0 at the mitral ring and
+  // 1 at the apex; and the wall thickness there.
   Vec3d cavityAt(double phi_rad, double zeta) const;
   double wallThicknessAt(double phi_rad, double zeta) const;
 
  private:
-  struct Turned {  // a place at this instant
+  struct Turned {  // a place at one instant
     double cos_phi, sin_phi, inward;
   };
   struct Grown {  // the wall over a place, before `thickening_`

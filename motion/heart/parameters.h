@@ -12,10 +12,10 @@ namespace echocine::heart {
 inline constexpr int kSegments = 17;
 
 // Wall motion of one of the 17 segments of the American Heart Association (Cerqueira et al.,
-// Circulation 105, 539-542, 2002), numbered there from 1.
+// Circulation 105, 539-542, 2002), which numbers them from 1.
 struct Segment {
-  double amplitude = 1;  // inward motion against a healthy wall: 0 akinetic, negative dyskinetic
-  double delay_s = 0;    // behind the others
+  double amplitude = 1;  // inward motion, healthy = 1: 0 akinetic, negative dyskinetic
+  double delay_s = 0;    // relative to the other segments
 };
 
 // Defaults: a healthy adult, within the reference values of large cohorts.
@@ -25,40 +25,40 @@ struct Parameters {
   double rv_edv_ml = 125;
   double la_volume_ml = 55, ra_volume_ml = 52;  // largest, at end-systole
   std::optional<double> lv_length_mm;  // mitral ring to apex at end-diastole; else from sphericity
-  double sphericity = 0.60;            // short-axis diameter over length at end-diastole
+  double sphericity = 0.60;            // short-axis diameter / length at end-diastole
   double wall_thickness_mm = 9;        // septum at end-diastole
   double mapse_mm = 13;                // systolic excursion of the mitral ring
-  double twist_deg = 12;               // of the apex against the base at end-systole
-  std::optional<double>
-      atrial_share;  // of the stroke volume, filled by the kick; else by heart rate
+  double twist_deg = 12;               // of the apex relative to the base at end-systole
+  std::optional<double> atrial_share;  // fraction of the stroke volume filled by the atrial kick;
+                                       // default by heart rate
   double mitral_opening = 1, tricuspid_opening = 1, aortic_opening = 1;  // 1: healthy
-  double body_scale = 1;                                                 // of lengths
+  double body_scale = 1;                                                 // scale of lengths
   std::array<Segment, kSegments> segments{};
-  // The ejection fraction stays as dialled, and healthy segments do the work of still ones. Else
-  // each does its own, and the ventricle ejects what comes of it.
+  // false: the ejection fraction is the dialled one, and healthy segments compensate for akinetic
+  // ones. true: each segment contracts by its own amplitude, which determines the ejection
+  // fraction.
   bool volumes_rule = false;
 };
 
-// One dial: its name on the command line and in files, and what is accepted.
+// One dial: its name on the command line and in files, and its accepted range.
 struct Dial {
   const char* key;  // such as "edv"
   const char* unit;
   double low, high;
-  int power;  // of the body scale that its default follows: 3 for volumes, 1 for lengths
+  int power;  // power of the body scale in its default: 3 for volumes, 1 for lengths
   const char* meaning;
   void (*set)(Parameters&, double);
   std::optional<double> (*get)(const Parameters&);
 };
 std::span<const Dial> dials();
 
-// Parameters with some dials given, by key; the segments are healthy. What is not given follows
-// what is: lengths the body scale and volumes its cube; the right ventricle's volume the left
-// one's; excursion of the ring and twist the ejection fraction. Precondition: every key is a
-// dial's.
+// Parameters from given dials, by key, with healthy segments. Other dials follow the given ones:
+// lengths the body scale and volumes its cube; the right ventricle's volume the left one's;
+// excursion of the ring and twist the ejection fraction. Precondition: every key is a dial's.
 Parameters parametersFrom(const std::map<std::string, double>& given);
 
-// Empty when every dial is within its range and those that can be told to contradict each other do
-// not; else what is wrong and what is accepted.
+// Empty if every dial is within its range and no detectable contradiction exists; otherwise the
+// fault and the accepted values.
 std::string faultOf(const Parameters& parameters);
 
 }  // namespace echocine::heart

@@ -9,8 +9,8 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "motion/heart/fold_repair.h"
 #include "motion/heart/leaflet.h"
-#include "motion/heart/sound.h"
 #include "motion/heart/surroundings.h"
 #include "motion/mesh/surface_measure.h"
 #include "motion/subdivision/shared_subdivision.h"
@@ -77,7 +77,7 @@ void measureVolumes(RecordedPart& part) {
 
 // Checks and measures all parts.
 void finish(Recording& recording) {
-  makeSound(recording);
+  repairFolds(recording);
   parallelBlocks(recording.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) measureVolumes(recording.parts[p]);
   });

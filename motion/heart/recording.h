@@ -1,11 +1,11 @@
 #pragma once
-// A beat of the parametric heart as keyframes: control meshes for Loop subdivision, and the truth
-// about them.
+// A beat of the parametric heart as keyframes: control meshes for Loop subdivision, and their
+// ground truth.
 
 #include <vector>
 
 #include "core/monitor.h"
-#include "motion/heart/views.h"
+#include "motion/heart/heart_poses.h"
 #include "scene/mesh_tags.h"
 
 namespace echocine::heart {
@@ -14,50 +14,50 @@ struct RecordedPart {
   PartKind kind;
   std::vector<Face> faces;
   MeshTags tags;
-  // One entry per keyframe, one in all for what stands still. Heart coordinates, rounded to a
+  // One entry per keyframe; a single one for a static part. Heart coordinates, rounded to a
   // micrometre.
   std::vector<std::vector<Vec3d>> control_m;
-  // Enclosed by the surface after kLevels of subdivision; empty for membranes.
+  // Volume within the surface after kLevels of subdivision; empty for membranes.
   std::vector<double> volume_m3;
 };
 
 struct Recording {
-  static constexpr int kLevels = 1;  // of Loop subdivision that the control meshes are meant for
+  static constexpr int kLevels =
+      1;  // levels of Loop subdivision for which the control meshes are fitted
 
   ProbePose pose;
   std::vector<double> phases;     // of the keyframes, ascending from 0
-  double end_systole_phase = 0;   // when the aortic valve closes
-  std::size_t end_systole = 0;    // the keyframe then, or the nearest where they are even
+  double end_systole_phase = 0;   // closure of the aortic valve
+  std::size_t end_systole = 0;    // the keyframe at that phase, or the nearest of even ones
   std::vector<Landmarks> places;  // one per keyframe
   std::vector<RecordedPart> parts;
-  // From the heart's centre to the sac, by direction of the sac's mesh: at end-diastole or
-  // end-systole, whichever is more.
+  // Distance from the heart's centre to the sac, by direction of the sac's mesh: the larger of
+  // end-diastole and end-systole.
   std::vector<double> sac_reach_m;
 
-  const RecordedPart& part(std::string_view name) const;  // Precondition: there is one
+  const RecordedPart& part(std::string_view name) const;  // Precondition: it exists
 };
 
 enum class KeyframeSpacing { by_motion, even };
 
-// Phases for keyframes by motion: dense where volumes and valves move fast, with end-diastole and
-// end-systole among them. Precondition: count >= 4.
+// Phases of keyframes by motion: dense where volumes and valves move fast, including end-diastole
+// and end-systole. Precondition: count >= 4.
 std::vector<double> keyframePhases(const Cycle& cycle, int count);
 
-// No surface folds (sound.h). Runs in parallel. Throws SceneError when the heart has no shape at
-// some phase or none without folds, JobError when
-// the monitor, asked before each keyframe, wants to stop.
+// Surfaces do not fold (fold_repair.h). Runs in parallel. Throws SceneError if the heart has no
+// valid shape at some phase, JobError when the monitor, polled before each keyframe, requests a
+// stop.
 Recording record(const ParametricHeart& heart, View view, int keyframes,
                  KeyframeSpacing spacing = KeyframeSpacing::by_motion, const Monitor& monitor = {});
 
-// The same without what lies around the heart, which surround() adds.
+// The same without the surroundings of the heart, which surround() adds.
 Recording recordBeat(const ParametricHeart& heart, View view, int keyframes,
                      KeyframeSpacing spacing = KeyframeSpacing::by_motion,
                      const Monitor& monitor = {});
 
-// Makes what lies around the heart anew, as it is in a view whose probe stands at `pose`: the chest
-// wall is the probe's, wherever it slides. The recording's own pose stays. With poseOf(view) for
-// both poses the recording is what record() of that view makes. Precondition: `recording` is of
-// this heart.
+// Recomputes the surroundings of the heart for a view whose probe is at `pose`: the chest wall is
+// at the probe. The recording's own pose is unchanged. With poseOf(view) for both poses the
+// recording equals that of record() for the view. Precondition: `recording` is of this heart.
 void surround(View view, const ProbePose& pose, const ParametricHeart& heart, Recording& recording);
 
 }  // namespace echocine::heart

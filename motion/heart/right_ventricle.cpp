@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/monotone_cubic.h"
-#include "motion/heart/units.h"
+#include "motion/heart/heart_units.h"
 
 namespace echocine::heart {
 namespace {

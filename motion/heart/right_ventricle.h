@@ -1,5 +1,5 @@
 #pragma once
-// The right ventricle: a crescent wrapped round the left one.
+// The right ventricle: a crescent around the left one.
 
 #include <vector>
 
@@ -8,15 +8,15 @@
 
 namespace echocine::heart {
 
-// Cavity at one instant. Its septal sheet follows the left ventricle's outer surface half a
-// millimetre away, its free wall arches over that; the sheets meet along the two edges of the
+// Cavity at one instant. Its septal sheet follows the left ventricle's outer surface at a distance
+// of half a millimetre; its free wall arches over that. The sheets meet along the two edges of the
 // septum, below the pulmonary valve and at the apex.
 class RightVentricle {
  public:
   static constexpr int kFrequency = 12;
 
-  // `left` and `epicardium` at the same instant; `ejected` of its own stroke volume. `epicardium`
-  // must outlive the ventricle.
+  // `left` and `epicardium` are at the same instant; `ejected` is the fraction of its own stroke
+  // volume. `epicardium` must outlive the ventricle.
   RightVentricle(const LeftVentricle& left, const Epicardium& epicardium, double ejected);
 
   // Sets the free wall's height over the septum.
@@ -26,7 +26,7 @@ class RightVentricle {
   Vec3d cavityPoint(Vec3d direction) const;
   Vec3d wallPoint(Vec3d direction, double thickness_m) const;
 
-  // The cavity's points before the free wall arches, to be asked for at several heights.
+  // The cavity's points without the arch of the free wall, for evaluation at several heights.
   struct Spoke {
     double cos_phi, sin_phi, z, septal_m, along, height;
   };

@@ -6,8 +6,8 @@
 
 namespace echocine::heart {
 
-// The larger of two lengths, the change from one to the other rounded over `rounding`; never less
-// than either, and at most rounding / 2 more.
+// The larger of two lengths, with a smooth transition over `rounding`. Never less than either, and
+// at most rounding / 2 larger.
 inline double smoothMax(double a, double b, double rounding) {
   return 0.5 * (a + b + std::hypot(a - b, rounding));
 }

@@ -1,14 +1,14 @@
 #pragma once
-// Root finding for shapes whose volume is asked for.
+// Root finding for shapes of a required volume.
 
 #include <cmath>
 #include <utility>
 
 namespace echocine::heart {
 
-// The x in [low, high] at which a continuous growing function reaches `wanted`, to `tolerance` of
-// the function; the nearer end where it does not. Regula falsi with halved ends (Illinois), so a
-// dozen calls.
+// The x in [low, high] at which a continuous increasing function equals `wanted`, within
+// `tolerance` of the function; the nearer end if there is none. Regula falsi with halved ends
+// (Illinois), about a dozen calls.
 template <typename Function>
 double solve(double low, double high, double wanted, double tolerance, Function&& f) {
   double f_low = f(low) - wanted, f_high = f(high) - wanted;

@@ -5,9 +5,9 @@
 #include <initializer_list>
 
 #include "motion/heart/envelope.h"
+#include "motion/heart/heart_units.h"
 #include "motion/heart/smooth.h"
 #include "motion/heart/tube.h"
-#include "motion/heart/units.h"
 
 // Places and thicknesses are our choice: an adult's chest in outline, not a patient's.
 

@@ -1,15 +1,15 @@
 #pragma once
-// What an echo shows around the heart: chest wall, lungs, the tissue between, the aorta that passes
-// behind.
+// The surroundings of the heart in an echo: chest wall, lungs, tissue between them, descending
+// aorta.
 
 #include <vector>
 
-#include "motion/heart/views.h"
+#include "motion/heart/heart_poses.h"
 
 namespace echocine::heart {
 
-// Still parts for one view, in heart coordinates; all of lower priority than the heart's.
-// `sac_reach_m`: as a recording has it.
+// Static parts for one view, in heart coordinates, with lower priority than the heart.
+// `sac_reach_m`: from a recording.
 std::vector<Part> surroundingsOf(View view, const ProbePose& pose, const ParametricHeart& heart,
                                  const std::vector<double>& sac_reach_m);
 

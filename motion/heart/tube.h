@@ -14,12 +14,12 @@ class Tube {
     double radius_m;
   };
 
-  // A smooth line through the stations (Catmull-Rom), closed by rounded ends. Precondition: at
-  // least three stations.
+  // A smooth line through the stations (Catmull-Rom) with rounded ends. Precondition: at least
+  // three stations.
   explicit Tube(const std::vector<Station>& stations);
 
-  // For a direction of the unit sphere, z being the last station's end; grown outwards by
-  // `thickness_m`, the ends staying where they are.
+  // For a direction of the unit sphere, z towards the last station; dilated by `thickness_m`, with
+  // fixed ends.
   Vec3d point(Vec3d direction, double thickness_m = 0) const;
   // Moves each point away from the line until it is at least `gap_m` outside.
   void pushOut(double gap_m, std::vector<Vec3d>& points) const;
@@ -32,14 +32,14 @@ class Tube {
   Section at(double share) const;
   const Section& nearest(Vec3d point) const;
 
-  // Coordinates of four sections' centres, to look at all of them at once.
+  // Coordinates of the centres of four sections, for evaluation in parallel lanes.
   using Lanes [[gnu::vector_size(32)]] = double;
   struct Four {
     Lanes x, y, z;
   };
 
   std::vector<Section> sections_;  // evenly spaced by arc length
-  std::vector<Four> fours_;        // the last one's left over lanes lie at infinity
+  std::vector<Four> fours_;        // unused lanes of the last one lie at infinity
   double length_m_ = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Surfaces that give way to too many neighbours at once fold; here they are smoothed out again.
+// Removes folds of surfaces that yield to many neighbours.
 
 #include <optional>
 #include <span>
@@ -12,23 +12,23 @@ namespace echocine::heart {
 // The same surface at every keyframe of a beat.
 struct SurfaceBeat {
   std::span<const double> phases;           // ascending from 0, below 1; the first follows the last
-  std::vector<std::vector<Vec3d>>& points;  // one entry per phase, or one for what stands still
+  std::vector<std::vector<Vec3d>>& points;  // one entry per phase, or one for a static part
 };
 
-// Where a surface folds.
+// Position of a fold.
 struct Fold {
   std::size_t keyframe = 0;  // the one at or before it
   std::size_t face = 0;
 };
 
-// The first fold of a closed surface at the keyframes and between them, interpolated as a scene is
-// that does not say how: two neighbouring faces with more than 140 degrees between their
-// normals, or a face more than 70 degrees away from where it looks in both keyframes beside the
-// instant. Both are our choice: other kinds of interpolation need room. None where it is sound.
+// The first fold of a closed surface at and between keyframes, under the default interpolation: two
+// neighbouring faces with more than 140 degrees between their normals, or a face more than 70
+// degrees from its direction in both adjacent keyframes. Both are our choice, with a margin for
+// other kinds of interpolation. None without folds.
 std::optional<Fold> foldIn(const SurfaceBeat& beat, const std::vector<Face>& faces);
 
-// Smooths a closed surface where it folds and near there, and nothing elsewhere. One linear map
-// serves all keyframes, so that motion stays as smooth as it was. Returns what it could not mend.
+// Smooths a closed surface at its folds and near them only. One linear map serves all keyframes, so
+// the motion stays as smooth as before. Returns a remaining fold.
 std::optional<Fold> unfold(const SurfaceBeat& beat, const std::vector<Face>& faces);
 
 }  // namespace echocine::heart

@@ -1,16 +1,16 @@
 #pragma once
-// The volume within a smooth surface, from its points on a sphere mesh.
+// Volume within a smooth surface, from its points on a sphere mesh.
 
 #include "motion/heart/control_mesh.h"
 
 namespace echocine::heart {
 
-// Facets cut corners: half a per cent of a chamber's volume here. Their error falls with the square
-// of the edge length, so twice as fine a mesh tells it (Richardson); once, since chambers keep
-// their kind of shape over the beat.
+// Facets underestimate a chamber's volume, by half a per cent here. The error falls with the square
+// of the edge length, so a mesh of half the edge length determines it (Richardson). It is computed
+// once, because chambers keep their shape over the beat.
 class VolumeGauge {
  public:
-  // By the surface's points for the directions of geodesicSphere(frequency) and of one twice as
+  // From the surface's points for the directions of geodesicSphere(frequency) and of one twice as
   // fine.
   VolumeGauge(int frequency, const std::vector<Vec3d>& coarse_points,
               const std::vector<Vec3d>& fine_points)
@@ -25,7 +25,7 @@ class VolumeGauge {
       : VolumeGauge(frequency, pointsOn(geodesicSphere(frequency), pointOf),
                     pointsOn(geodesicSphere(2 * frequency), pointOf)) {}
 
-  // Of points for the directions of geodesicSphere(frequency).
+  // Volume from points for the directions of geodesicSphere(frequency).
   double operator()(const std::vector<Vec3d>& points) const {
     return gain_ * volumeOf(points, *faces_);
   }

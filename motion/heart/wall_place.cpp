@@ -5,8 +5,8 @@
 #include "core/check.h"
 #include "core/monotone_cubic.h"
 #include "motion/heart/control_mesh.h"
-#include "motion/heart/segments.h"
-#include "motion/heart/units.h"
+#include "motion/heart/heart_units.h"
+#include "motion/heart/segment_shares.h"
 
 namespace echocine::heart {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-// Places of the left ventricle's wall, and what each has from the tables of its shape.
+// Places of the left ventricle's wall, with tabulated properties of its shape.
 
 #include <array>
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace echocine::heart {
 
-// What a place is before any dial or instant: to look it up takes longer than to move it.
+// A place independent of dials and time. Computing it takes longer than moving it, so it is cached.
 struct WallPlace {
   double phi_rad, zeta, rho;          // at end-diastole
-  double centre_x, centre_y;          // of the section, as shares of the length
-  double flat;                        // sqrt of the section's semi-axes' ratio, x to y
-  double participation;               // in the contraction: the ring is stiff
-  double thickness, thickness_about;  // over that of the septum, by height and by angle
-  double outward, rise;               // of the outline's normal, at girth 1
-  // The segments that have a say, in their order, and how much. Those left over have none.
+  double centre_x, centre_y;          // of the section, relative to the length
+  double flat;                        // sqrt of the ratio of the section's semi-axes, x to y
+  double participation;               // in the contraction; the ring is stiff
+  double thickness, thickness_about;  // relative to the septum, by height and by angle
+  double outward, rise;               // of the outline's normal, for girth 1
+  // Segments with a weight, in their order, and the weights. Unused entries have weight 0.
   std::array<std::uint8_t, 4> segment;
   std::array<double, 4> share;
 };
@@ -30,7 +30,7 @@ inline constexpr int kWallFrequency = 12;
 const Meridian& wallOutline();
 
 WallPlace wallPlaceOf(Vec3d direction);              // of the unit sphere, (0, 0, 1) being the apex
-WallPlace wallPlaceAt(double phi_rad, double zeta);  // no normal
+WallPlace wallPlaceAt(double phi_rad, double zeta);  // without normal
 
 // Of the directions of geodesicSphere(kWallFrequency).
 const std::vector<WallPlace>& meshPlaces();

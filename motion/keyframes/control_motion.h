@@ -1,5 +1,5 @@
 #pragma once
-// The control mesh of one structure in time: its keyframes, and their blend at any phase.
+// The control mesh of one structure over time: its keyframes, and their interpolation at any phase.
 
 #include <string>
 #include <vector>
@@ -11,15 +11,15 @@ namespace echocine {
 
 struct ControlMotion {
   KeyframeWeights weights;
-  std::vector<Triangle> triangles;           // the same in every keyframe
-  std::vector<std::vector<Vec3f>> rows_m;    // of `weights`: the keyframes, then what they derive
+  std::vector<Triangle> triangles;         // the same in every keyframe
+  std::vector<std::vector<Vec3f>> rows_m;  // inputs of `weights`: the keyframes, then derived rows
   std::vector<std::vector<MeshPart>> parts;  // the files of each keyframe
   bool membrane = false;
 
   bool still() const { return weights.keyframeCount() == 1; }
 
-  // A keyframe's phase gives it exactly as it was read. Thread-safe; does not allocate once
-  // `positions_m` has the size.
+  // A keyframe's phase returns it exactly. Thread-safe; does not allocate once `positions_m` has
+  // the size.
   void at(double phase, std::vector<Vec3f>& positions_m) const;
 
   // "lv_03.obj", the keyframe's own file without its lids.

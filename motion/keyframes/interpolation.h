@@ -13,10 +13,9 @@
 
 namespace echocine {
 
-// Largest sum of absolute weights accepted at any phase: errors and wobbles of the keyframes come
-// out at most this much larger. Evenly spaced keyframes stay below 3 with every kind up to 100
-// keyframes; uneven ones can exceed any bound, first of all with trigonometric polynomials. Our
-// choice.
+// Largest accepted sum of absolute weights at any phase: an upper bound for the amplification of
+// errors in the keyframes. With even spacing it is below 3 for every kind up to 100 keyframes.
+// Uneven spacing can exceed any bound, first for trigonometric polynomials. Our choice.
 inline constexpr double kMaxMagnification = 10;
 
 class KeyframeWeights {
@@ -29,8 +28,8 @@ class KeyframeWeights {
   };
 
   // Phases in cycles. Throws SceneError that starts with the place unless they ascend within [0,
-  // 1), at least 1e-6 apart (also around the end), and the interpolation stays below
-  // kMaxMagnification. `pace` is the heart's that Interpolation::cycle follows.
+  // 1), at least 1e-6 apart (also cyclically), and the interpolation stays below kMaxMagnification.
+  // `pace` is the heart's pace for Interpolation::cycle.
   KeyframeWeights(std::span<const double> phases, Interpolation kind, const SourcePlace& place = {},
                   const HeartPace& pace = {});
 
@@ -43,26 +42,26 @@ class KeyframeWeights {
   std::size_t rowCount() const;
   std::span<const double> rowWeights(std::size_t row) const;  // row >= keyframeCount()
 
-  // The cheapest form of the sum: at most four terms for all kinds but fourier, exactly one at a
-  // keyframe. The phase may be any finite number. Does not allocate when `terms` has the capacity.
+  // The shortest form of the sum: at most four terms for all kinds except fourier, exactly one at a
+  // keyframe. The phase may be any finite number. Does not allocate if `terms` has the capacity.
   void termsAt(double phase, std::vector<Term>& terms) const;
 
   // One weight per keyframe; they sum to 1. Precondition: weights.size() == keyframeCount().
   void at(double phase, std::span<double> weights) const;
 
-  // Largest sum of absolute weights over a cycle (the Lebesgue constant), from 16 samples an
+  // Largest sum of absolute weights over a cycle (the Lebesgue constant), from 16 samples per
   // interval.
   double magnification() const;
 
-  // How far a point may leave the range of its keyframes, in parts of that range: with weights w
-  // that sum to 1, sum w p = c + sum w (p - c) stays within sum |w| times half the range of its
-  // middle c.
+  // Largest excursion of a point beyond the range of its keyframes, relative to that range: with
+  // weights w that sum to 1, sum w p = c + sum w (p - c) stays within sum |w| times half the range
+  // around its centre c.
   double overshoot() const;
 
  private:
   struct Interval {
     std::size_t left, right;  // keyframes
-    double length, fraction;  // in cycles; of the length, [0, 1)
+    double length, fraction;  // length in cycles; fraction of it, [0, 1)
   };
   Interval intervalAt(double phase) const;
   double gapAfter(std::size_t keyframe) const;

@@ -1,5 +1,5 @@
 #pragma once
-// Two keyframes that follow each other, and the judgement of frames between them.
+// Two successive keyframes, and checks of frames between them.
 
 #include <cstdint>
 #include <optional>
@@ -21,19 +21,19 @@ class KeyframePair {
   KeyframePair(const ControlMotion& motion, const std::vector<Neighbours>& neighbours,
                std::size_t left, std::size_t right);
 
-  // Judges a frame between the two and adds what it finds; `triangles` is left to isBroken().
+  // Checks a frame between the two and adds its findings; isBroken() has the triangles.
   void look(const FramePhase& at, SurfaceBreaks& breaks);
 
   const std::vector<bool>& isBroken() const { return is_broken_; }  // triangles, in any frame
 
  private:
-  // Normals of triangles; of a keyframe's, zero for those too thin to have one.
+  // Normals of triangles. In a keyframe, zero for triangles too thin to have one.
   struct Sides {
     std::vector<Vec3f> normal;
     std::vector<double> double_area_m2;
     double size = 0;  // volume of a closed surface, m^3, area of a membrane, m^2
   };
-  // An edge that is not folded in both keyframes.
+  // An edge that is unfolded in both keyframes.
   struct OpenEdge {
     Neighbours triangles;
     bool open_in_left, folded_in_other;

@@ -1,5 +1,5 @@
 #pragma once
-// A coarser mesh to be looked at, never to be traced.
+// A coarser mesh for display, not for tracing.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,16 +11,17 @@
 
 namespace echocine {
 
-// Its vertices are some of the original's, so the same choice serves every keyframe of a motion.
+// Its vertices are a subset of the original's, so the same subset serves every keyframe of a
+// motion.
 struct DecimatedMesh {
   std::vector<std::uint32_t> vertices;  // of the original, ascending
-  std::vector<Triangle> triangles;      // corners are places in `vertices`; oriented as before
+  std::vector<Triangle> triangles;      // indices into `vertices`; orientation as before
 };
 
-// At most `most_triangles` where the mesh lets itself be made so coarse: edges are collapsed into
-// one of their ends, that of the least quadric error first (Garland and Heckbert 1997), none that
-// turns a triangle over. Vertices of open edges stay, so that sheets keep their outline. Equal
-// input gives equal output. Precondition: triangles name positions.
+// At most `most_triangles`, if the mesh permits it. Edges are collapsed into one of their ends in
+// the order of quadric error (Garland and Heckbert 1997), unless a triangle would be inverted.
+// Vertices of open edges stay, so sheets keep their outline. Deterministic. Precondition: triangles
+// refer to existing positions.
 DecimatedMesh decimated(std::span<const Triangle> triangles, std::span<const Vec3f> positions,
                         std::size_t most_triangles);
 

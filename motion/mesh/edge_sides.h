@@ -1,5 +1,5 @@
 #pragma once
-// The sides of a mesh's triangles, gathered by edge.
+// The sides of a mesh's triangles, grouped by edge.
 
 #include <cstdint>
 #include <limits>
@@ -31,10 +31,10 @@ struct Side {
   std::uint32_t triangle() const { return side / 3; }
 };
 
-// Ascending by key, then by side: an edge's sides stand together.
+// Ascending by key, then by side, so the sides of an edge are adjacent.
 std::vector<Side> sortedSides(std::span<const Triangle> triangles);
 
-// Calls `visit` with the sides of one edge after the other.
+// Calls `visit` with the sides of each edge.
 template <typename Visit>
 void forEachEdge(const std::vector<Side>& sides, Visit&& visit) {
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
@@ -43,12 +43,12 @@ void forEachEdge(const std::vector<Side>& sides, Visit&& visit) {
   }
 }
 
-// What lies across each side: the other side of an edge that has two, else kNoSide.
+// The opposite of each side: the other side of an edge that has two, otherwise kNoSide.
 std::vector<std::uint32_t> oppositeSides(std::span<const Triangle> triangles,
                                          const std::vector<Side>& sides);
 
-// The surfaces that hang together by edges with two faces: a number for each triangle, from 0 in
-// the order of their first triangles.
+// Surfaces connected by edges with two faces: a number for each triangle, from 0 in the order of
+// their first triangles.
 struct Pieces {
   std::vector<std::uint32_t> of_triangle;
   std::uint32_t count = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with a mesh, in words that leave a place for the repair that mends it.
+// The description of a mesh's fault, with a place for the repair that removes it.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace echocine {
 
-// The word of `repair` that mends this fault where it is the only one, and what stands around it:
-// before + prefix + words + suffix + after, all but `before` and `after` left out without words.
+// The `repair` word that removes this fault if it is the only one, and the text around it: before +
+// prefix + words + suffix + after. Without words only `before` and `after` remain.
 struct RepairOffer {
   std::string words;  // "repair = ["weld"]"; empty: none
   std::string prefix = ", or set ";
@@ -23,12 +23,12 @@ class MeshFault : public SceneError {
         after_(std::move(after)),
         offer_(std::move(offer)) {}
 
-  // With other words of repair in the offer's place; none where they are empty.
+  // With other repair words in the same place; without them if empty.
   std::string withRepair(const std::string& words) const {
     return joined(before_, {words, offer_.prefix, offer_.suffix}, after_);
   }
 
-  // The same fault with `place` before it.
+  // The same fault, preceded by `place`.
   MeshFault at(const std::string& place) const { return {place + before_, offer_, after_}; }
 
  private:

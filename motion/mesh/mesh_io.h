@@ -1,5 +1,5 @@
 #pragma once
-// Mesh files of one keyframe, or meshes in memory -> one triangle mesh.
+// Mesh files or meshes in memory of one keyframe -> one triangle mesh.
 
 #include "core/hash.h"
 #include "motion/mesh/mesh.h"
@@ -7,15 +7,15 @@
 
 namespace echocine {
 
-// Reads an OBJ, PLY, OFF or STL file, told apart by its extension; its bytes go into the digest.
-// Polygons become triangle fans. Throws SceneError that starts with the file's name.
+// Reads an OBJ, PLY, OFF or STL file, by its extension; its bytes are added to the digest. Polygons
+// become triangle fans. Throws SceneError that starts with the file's name.
 TriangleMesh readMesh(const std::filesystem::path& file, Sha256& digest);
 
-// The keyframe's mesh with its lids appended. A lid's vertex with exactly the coordinates of one
-// that is already there is welded to it, so lids can close a mesh and each other. Every file is
-// checked by itself (checkFile) before it is joined; faces with two corners in one vertex pass
-// where the structure asks for their repair. Throws SceneError that starts with the structure's
-// place and name.
+// The keyframe's mesh with its lids appended. A lid's vertex with exactly the coordinates of an
+// existing one is welded to it, so lids can close a mesh and each other. Every file is checked
+// separately (checkFile) before it is joined. Faces with two equal corners are accepted if the
+// structure requests their repair. Throws SceneError that starts with the structure's place and
+// name.
 KeyframeMesh readKeyframe(const Keyframe& keyframe, const Structure& structure, Sha256& digest);
 
 }  // namespace echocine

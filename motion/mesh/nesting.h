@@ -1,5 +1,5 @@
 #pragma once
-// Which piece of a mesh lies inside which.
+// Containment of the pieces of a mesh.
 
 #include <span>
 #include <vector>
@@ -10,20 +10,20 @@
 
 namespace echocine {
 
-// The most pieces that are held against every other. Our choice.
+// Largest number of pieces that are compared pairwise. Our choice.
 inline constexpr std::uint32_t kMaxNestedPieces = 256;
 
 class Nesting {
  public:
-  // Keeps both spans. Precondition: faces of a piece are oriented alike.
+  // Keeps both spans. Precondition: faces of a piece are consistently oriented.
   Nesting(std::span<const Triangle> triangles, std::span<const Vec3d> positions,
           const Pieces& pieces);
 
-  // The closed pieces that a piece lies in, by their winding numbers, whichever way their faces
-  // look. Pieces that only overlap are none.
+  // The closed pieces that contain a piece, by winding number and for either orientation. Pieces
+  // that only overlap do not count.
   std::vector<std::uint32_t> around(std::uint32_t piece) const;
 
-  // Signed, by the divergence theorem; 0 where it is nothing but rounding.
+  // Signed, by the divergence theorem; 0 if it is within rounding.
   double volume(std::uint32_t piece) const;
   const std::vector<std::uint32_t>& trianglesOf(std::uint32_t piece) const {
     return pieces_[piece].triangles;

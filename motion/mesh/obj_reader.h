@@ -1,5 +1,5 @@
 #pragma once
-// Wavefront OBJ, the vertices, faces, creases and corners of it.
+// Wavefront OBJ: vertices, faces, creases and corners.
 
 #include <string_view>
 
@@ -7,11 +7,10 @@
 
 namespace echocine {
 
-// Reads `v`, `f` and `t` (see obj_tags.h) statements; every other statement is skipped. Polygons
-// become fans. Negative indices count back from the newest vertex. Throws SceneError that starts
-// with the line's number: the library's reader works in single precision, silently skips vertices
-// it cannot parse (which shifts the numbers of all that follow) and silently drops faces that use a
-// vertex twice.
+// Reads `v`, `f` and `t` (see obj_tags.h) statements; others are skipped. Polygons become fans.
+// Negative indices count back from the newest vertex. Throws SceneError that starts with the line's
+// number. OpenMesh's reader is not used: it has single precision, silently skips unreadable
+// vertices (which shifts later numbers) and silently drops faces that use a vertex twice.
 TriangleMesh parseObj(std::string_view text);
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// The `t` statements of an OBJ file, as OpenSubdiv's example shapes write them.
+// The `t` statements of an OBJ file, in the syntax of OpenSubdiv's example shapes.
 
 #include <cstddef>
 #include <string_view>
@@ -9,19 +9,19 @@
 
 namespace echocine {
 
-// Collects creases and corners while a file is read and joins them to its mesh at the end, since
-// tags may stand before the faces they name.
+// Collects creases and corners while a file is read and adds them to its mesh at the end, because
+// tags may precede their faces.
 //   t crease 2/1/0 <v0> <v1> <sharpness>
 //   t corner 1/1/0 <v> <sharpness>
 // Vertices count from 0, unlike those of faces. Errors are SceneErrors that start with the line's
 // number.
 class ObjTags {
  public:
-  // `rest`: what follows the `t`.
+  // `rest`: the text after the `t`.
   void read(std::string_view rest, std::size_t line_number);
 
-  // Every edge must be one of a triangle and every vertex exist; naming one twice is accepted when
-  // the sharpness is the same. Sharpness 0 is no tag, 10 and more are infinitely sharp.
+  // Every edge and vertex must exist in the mesh. Repeated tags must have equal sharpness.
+  // Sharpness 0 is no tag; 10 and more are infinitely sharp.
   void joinTo(TriangleMesh& mesh);
 
  private:

@@ -10,7 +10,7 @@ inline bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-// Cuts the next blank-separated word off the front of a line; empty at its end.
+// Removes the next blank-separated word from the front of a line; empty at its end.
 inline std::string_view nextWord(std::string_view& line) {
   std::size_t begin = 0;
   while (begin < line.size() && isBlank(line[begin])) ++begin;

@@ -1,12 +1,12 @@
 #pragma once
-// OpenMesh keeps state in the process: its message streams are built by their first use, and its
-// readers are single objects. One thread at a time may use either.
+// OpenMesh has process-wide state: its message streams are created on first use, and its readers
+// are singletons. Only one thread at a time may use it.
 
 #include <mutex>
 
 namespace echocine {
 
-// Holds the library for the caller until the lock goes; its messages are silent. Not recursive.
+// Locks the library for the lifetime of the result and silences its messages. Not recursive.
 [[nodiscard]] std::unique_lock<std::mutex> takeOpenMesh();
 
 }  // namespace echocine

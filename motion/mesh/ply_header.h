@@ -1,13 +1,13 @@
 #pragma once
-// The header of a PLY file, checked before OpenMesh sees it: its reader trusts headers and crashes
-// on what they get wrong.
+// Checks the header of a PLY file before OpenMesh, whose reader trusts headers and crashes on wrong
+// ones.
 
 #include <string_view>
 
 namespace echocine {
 
 // Throws SceneError unless the header is well-formed and describes vertices with x, y, z, then
-// faces with one list of vertex indices, no more of either than the file has bytes.
+// faces with one list of vertex indices, and neither count exceeds the size of the file.
 void checkPlyHeader(std::string_view bytes);
 
 }  // namespace echocine

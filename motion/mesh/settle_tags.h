@@ -1,5 +1,5 @@
 #pragma once
-// Creases or corners that come from several places, brought to the order MeshTags has.
+// Brings creases or corners from several sources into the order of MeshTags.
 
 #include <algorithm>
 #include <cstddef>
@@ -16,8 +16,9 @@ inline std::uint64_t tagKey(const SharpVertex& vertex) {
   return vertex.v;
 }
 
-// Ascending by key, each once. `tag` gives a Named's SharpEdge or SharpVertex; `refuse`, which must
-// throw, is called with two that share a key but not a sharpness, in the order they had.
+// Ascending by key, each once. `tag` returns the SharpEdge or SharpVertex of a Named. `refuse`,
+// which must throw, is called with two of equal key and different sharpness, in their original
+// order.
 template <typename Named, typename Tag, typename Refuse>
 void settleTags(std::vector<Named>& named, const Tag& tag, const Refuse& refuse) {
   const auto sameKey = [&](const Named& a, const Named& b) {

@@ -1,5 +1,5 @@
 #pragma once
-// Faces that are no surface: without area in every keyframe, or there twice.
+// Degenerate faces: without area in every keyframe, or duplicates.
 
 #include "motion/repair/repair_mesh.h"
 
@@ -8,11 +8,12 @@ namespace echocine {
 struct DroppedFaces {
   std::size_t collapsed = 0;   // with two corners at one place
   std::size_t duplicates = 0;  // with the same corners as another
-  std::size_t flipped = 0;  // three corners on a line: their long edge turned across the neighbour
+  std::size_t flipped =
+      0;  // three collinear corners: their long edge was flipped into the neighbour
 };
 
-// Edges without length in every keyframe are drawn to a point and their faces dropped, which leaves
-// a closed surface closed; then duplicates.h and flat_faces.h.
+// Edges without length in every keyframe are collapsed and their faces dropped, which keeps a
+// closed surface closed. Then duplicates.h and flat_faces.h follow.
 DroppedFaces dropDegenerate(RepairMesh& mesh);
 
 }  // namespace echocine

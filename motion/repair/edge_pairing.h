@@ -10,10 +10,11 @@
 
 namespace echocine {
 
-// The sides of one edge in pairs of neighbours by angle about it. Where as many faces run the edge
-// up as down, each pair has the inside of the surface between its two, as in two bodies that touch
-// along the edge. Else, faces not being oriented alike, the pairs with the smallest angles between
-// them; of an odd number one is left over. Depends on the places alone, not on the order of faces.
+// The sides of one edge in pairs of neighbours by angle around it. If equal numbers of faces run
+// the edge up and down, each pair has the inside of the surface between its two, as in two bodies
+// that touch along the edge. Otherwise orientation is inconsistent, and the pairs with the smallest
+// angles are chosen; one side of an odd number remains. Depends on positions only, not on the order
+// of faces.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> pairsAround(
     std::span<const Side> edge, std::span<const Triangle> triangles,
     std::span<const Vec3d> positions);

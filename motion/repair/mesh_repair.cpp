@@ -10,8 +10,8 @@
 #include "motion/mesh/mesh_check.h"
 #include "motion/repair/degenerate.h"
 #include "motion/repair/holes.h"
+#include "motion/repair/non_manifold_edges.h"
 #include "motion/repair/orientation.h"
-#include "motion/repair/split.h"
 #include "motion/repair/weld.h"
 
 namespace echocine {
@@ -20,7 +20,7 @@ namespace {
 
 struct RepairCounts {
   std::size_t welded = 0, split = 0, unused = 0;
-  PartedSheets parted;
+  NonManifoldSplit parted;
   DroppedFaces dropped;
   std::size_t turned = 0;
   FilledHoles filled;
@@ -52,7 +52,7 @@ RepairCounts repair(const Repairs& asked, bool membrane, RepairMesh& mesh) {
   // Dropped faces may leave a bow tie, so this part of welding comes after them.
   if (asked.weld) counts.split = splitBowTies(mesh);
   if (asked.orient) counts.turned = orientFaces(mesh, membrane);
-  if (asked.split) counts.parted = partSheets(mesh, membrane);
+  if (asked.split) counts.parted = splitNonManifold(mesh, membrane);
   // Sheets that were parted hang together otherwise than before.
   if (asked.split && asked.orient) counts.turned += orientFaces(mesh, membrane);
   if (asked.weld || asked.drop_degenerate || asked.split) {

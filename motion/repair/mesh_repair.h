@@ -1,5 +1,5 @@
 #pragma once
-// What a scene's `repair` words do to the meshes of a structure.
+// Repairs of a structure's meshes by a scene's `repair` words.
 
 #include <span>
 #include <string>
@@ -10,12 +10,11 @@
 
 namespace echocine {
 
-// Welds, drops degenerate faces, orients, parts sheets and fills holes, in this order and as far as
-// the structure asks for it, in all keyframes alike; the faces of a membrane come out oriented
-// alike whether it asks or not. Returns what was done as a line that starts with the structure's
-// place; empty when nothing had to be. A mesh that is whole stays as it is. Throws SceneError as
-// checkKeyframes does, when keyframes do not have the same faces to begin with, or what is left is
-// no surface. Precondition: keyframes of files that passed checkFile, at least one.
+// Welds, drops degenerate faces, orients, splits sheets and fills holes, in this order and as
+// requested, in all keyframes together. The faces of a membrane are always oriented consistently.
+// Returns a report line that starts with the structure's place; empty if nothing was repaired. A
+// valid mesh is unchanged. Throws SceneError like checkKeyframes if keyframes have different faces,
+// or the result is no surface. Precondition: at least one keyframe, of files that passed checkFile.
 std::string repairKeyframes(const Structure& structure, std::vector<KeyframeMesh>& keyframes);
 
 }  // namespace echocine

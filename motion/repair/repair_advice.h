@@ -1,5 +1,5 @@
 #pragma once
-// Which repairs would mend a structure that was refused: found by trying, not by guessing.
+// Repairs that would make a rejected structure valid, found by trial.
 
 #include <optional>
 #include <string>
@@ -10,18 +10,18 @@
 
 namespace echocine {
 
-// The fewest words of `repair` with which the structure's keyframes pass checkKeyframes, each
-// combination tried on the meshes in memory, those first that hold what the scene asks for already;
-// nothing where none does. Reads the files anew. A refusal stays cheap: together the trials take at
-// most `most_triangles` of all keyframes, what lies beyond is not tried.
+// The fewest `repair` words with which the structure's keyframes pass checkKeyframes; none if no
+// combination works. Combinations are tried in memory, those that include the scene's own words
+// first. Reads the files again. The trials process at most `most_triangles` triangles of all
+// keyframes, so a rejection stays cheap.
 inline constexpr std::size_t kMostTriedTriangles = 4'000'000;
 std::optional<Repairs> shortestRepair(const Structure& structure, double mesh_unit_m,
                                       std::size_t most_triangles = kMostTriedTriangles);
 
-// repair = ["weld", "fill-holes"], in the order in which they are done; "" without any.
+// repair = ["weld", "fill-holes"], in the order of execution; "" without any.
 std::string repairWords(const Repairs& repair);
 
-// The refusal of a structure with the repairs in it that mend it, as far as there are any.
+// The rejection of a structure, with the repairs that work if there are any.
 std::string advised(const SceneError& refusal, const Structure& structure, double mesh_unit_m);
 
 }  // namespace echocine

@@ -5,15 +5,14 @@
 
 namespace echocine {
 
-// Joins vertices at the same place (coincide) that lie on open edges; returns how many went. Where
-// a surface is whole nothing is joined, so parts that touch each other stay apart and a closed mesh
-// stays as it is. A vertex keeps the place and the order of its lowest number.
+// Joins coincident vertices on open edges; returns the number removed. A surface without open edges
+// is unchanged, so touching parts stay separate and a closed mesh keeps its vertices. A vertex
+// keeps the position and order of its lowest index.
 std::size_t weldOpenEdges(RepairMesh& mesh);
 
-// Gives every fan of triangles a vertex of its own where several meet in a point only; returns how
-// many vertices came.
+// Gives each fan of triangles at a bow tie its own vertex; returns the number added.
 std::size_t splitBowTies(RepairMesh& mesh);
-// The same with the fans given: for each corner the lowest of its fan (corner_fans.h).
+// The same with given fans: for each corner the lowest of its fan (corner_fans.h).
 std::size_t splitFans(RepairMesh& mesh, const std::vector<std::uint32_t>& fans);
 
 }  // namespace echocine

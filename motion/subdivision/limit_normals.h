@@ -14,22 +14,22 @@ namespace echocine {
 
 class LimitNormals {
  public:
-  // At the vertices after `levels` levels of Subdivision (0: of the control mesh itself), in its
-  // numbers. Where an infinitely sharp crease or corner splits the tangent plane each face has a
-  // normal of its own side. Throws SceneError as Subdivision does, and when more than 128
-  // faces meet at a vertex or fractional creases need too many levels to become smooth.
-  // Preconditions: levels >= 0, and those of Subdivision.
+  // At the vertices after `levels` levels of Subdivision (0: the control mesh), in its numbering.
+  // Where an infinitely sharp crease or corner splits the tangent plane, each face has the normal
+  // of its own side. Throws SceneError like Subdivision, for more than 128 faces at a vertex, and
+  // if fractional creases need too many levels to become smooth. Preconditions: levels >= 0, and
+  // those of Subdivision.
   LimitNormals(std::span<const Triangle> triangles, std::uint32_t vertex_count,
                const MeshTags& tags, int levels, const SourcePlace& place);
 
-  // The normal that each corner of each refined triangle takes; empty when that is the normal with
-  // its vertex's number everywhere.
+  // The index of the normal of each corner of each refined triangle; empty if it is the vertex
+  // index everywhere.
   const std::vector<Triangle>& corners() const { return corners_; }
   std::uint32_t normalCount() const { return normal_count_; }
 
   // Preconditions: as many control vertices as the input had, normals.size() == normalCount().
-  // Outward as the triangles run; the zero vector where the limit surface has no normal, and for
-  // vertices of no face.
+  // Outward by the orientation of triangles; zero where the limit surface has no normal, and for
+  // vertices without faces.
   void apply(std::span<const Vec3f> control, std::span<Vec3f> normals) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// OpenSubdiv's view of a control mesh under Loop's scheme. Only for the sources of this stage: no
-// other header names the library.
+// OpenSubdiv's representation of a control mesh under Loop's scheme. Only for the sources of this
+// room: no other header names the library.
 
 #include <opensubdiv/far/topologyRefiner.h>
 
@@ -13,18 +13,18 @@
 
 namespace echocine {
 
-// Not yet refined. Open boundaries follow their own vertices. Throws SceneError that starts with
-// the place when the library cannot take the mesh.
+// Not yet refined. Open boundaries depend on their own vertices only. Throws SceneError that starts
+// with the place if the library rejects the mesh.
 std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> makeRefiner(std::span<const Triangle> triangles,
                                                               std::uint32_t vertex_count,
                                                               const MeshTags& tags,
                                                               const SourcePlace& place);
 
-// Refuses what would not fit the memory of a workstation, before anything is reserved: triangles
-// after the last level, and the weights that make its vertices. A vertex of the last level within a
-// control face depends on that face's one-ring, so a single control vertex with thousands of edges
-// makes millions of rows of thousands of weights. `values` is how many weights each source takes: 1
-// for positions, 2 for tangents. Throws SceneError that starts with the place.
+// Rejects sizes beyond the memory of a workstation before allocation: triangles after the last
+// level, and the weights of its vertices. A vertex within a control face depends on that face's
+// one-ring, so a single control vertex with thousands of edges makes millions of rows of thousands
+// of weights. `values`: weights per source, 1 for positions, 2 for tangents. Throws SceneError that
+// starts with the place.
 void checkRefinedSize(std::span<const Triangle> triangles, std::uint32_t vertex_count, int levels,
                       int values, const SourcePlace& place);
 

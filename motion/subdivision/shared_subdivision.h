@@ -1,5 +1,5 @@
 #pragma once
-// Subdivisions, and the normals of their limits, that many meshes of a process share.
+// Subdivisions and limit normals shared by the meshes of a process.
 
 #include <memory>
 
@@ -8,9 +8,9 @@
 
 namespace echocine {
 
-// Subdivision(...) of the arguments, or the one that was made of the same before: hearts made from
-// dials have the same few topologies, and stencils take longer to make than to apply. The last few
-// are kept. Any thread may call it. Throws as Subdivision does.
+// Subdivision(...) of the arguments, or a cached one: parametric hearts have the same few
+// topologies, and stencils take longer to compute than to apply. The last few are cached.
+// Thread-safe. Throws like Subdivision.
 std::shared_ptr<const Subdivision> sharedSubdivision(std::span<const Triangle> triangles,
                                                      std::uint32_t vertex_count,
                                                      const MeshTags& tags, int levels,

@@ -1,6 +1,6 @@
 #pragma once
-// The layout of a sparse matrix that makes refined points of control points: which rows, in which
-// order, from which sources. What the weights mean is the user's business.
+// The layout of a sparse matrix from control points to refined points: rows, their order and
+// sources. The meaning of the weights is the caller's.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace echocine {
 
-// A control point in one vector register (an extension GCC and Clang share; left to itself the
-// compiler adds the three coordinates one by one). The fourth lane is idle.
+// A control point in one vector register (an extension of GCC and Clang; without it the compiler
+// adds the three coordinates separately). The fourth lane is unused.
 using PaddedPoint [[gnu::vector_size(16)]] = float;
 
 // Valid until the thread's next call.
 const PaddedPoint* padded(std::span<const Vec3f> points);
 
-// Rows of equal length stand one after the other: a product takes a quarter longer when the
-// processor cannot foresee where a row ends.
+// Rows of equal length are adjacent: otherwise a product takes a quarter longer, because the
+// processor mispredicts the ends of rows.
 class StencilRows {
  public:
   struct Group {
@@ -28,10 +28,10 @@ class StencilRows {
   };
 
   StencilRows() = default;
-  // Row v has sizes[v] entries; those of all rows follow each other in `sources`.
+  // Row v has sizes[v] entries; the entries of all rows follow each other in `sources`.
   StencilRows(std::span<const int> sizes, std::span<const int> sources);
 
-  // A value per entry, put into this order.
+  // One value per entry, in this layout's order.
   std::vector<float> arranged(std::span<const int> sizes, std::span<const float> values) const;
 
   const std::vector<Group>& groups() const { return groups_; }

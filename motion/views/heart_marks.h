@@ -1,6 +1,6 @@
 #pragma once
-// A heart's axes and valves, found from whichever of its surfaces a scene has. The rules and their
-// limits are in the README of this folder.
+// A heart's axes and valves, detected from the surfaces that a scene has. This folder's README has
+// the rules and their limits.
 
 #include <string>
 #include <vector>
@@ -14,14 +14,14 @@ namespace echocine {
 
 struct HeartMarks {
   HeartFrame frame;
-  bool aortic_found = false;      // else the valve stands where other hearts have it
-  std::vector<Vec3d> outside_m;   // of what belongs to the heart; the great vessels left out
-  std::vector<Vec3d> front_m;     // of these without the atria, whose appendages lie beside a probe
-  double wall_m = 0;              // that is missing around these points
-  std::vector<std::string> told;  // what was guessed for want of a role, in words
+  bool aortic_found = false;      // false: placed as in an average heart
+  std::vector<Vec3d> outside_m;   // points of the heart without the great vessels
+  std::vector<Vec3d> front_m;     // the same without the atria, whose appendages lie beside a probe
+  double wall_m = 0;              // thickness of a missing wall around these points
+  std::vector<std::string> told;  // guesses due to missing roles, in words
 };
 
-// Throws SceneError at `place`: no left ventricle, or roles that contradict one another.
+// Throws SceneError at `place` without a left ventricle, or for contradictory roles.
 HeartMarks findHeart(const std::vector<RoleSurface>& surfaces, const SourcePlace& place);
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// What a surface's vertices say as a cloud of points.
+// Operations on a surface's vertices as a point cloud.
 
 #include <cstddef>
 #include <span>
@@ -12,11 +12,11 @@ namespace echocine {
 // Precondition: at least one point.
 Vec3d middleOf(std::span<const Vec3d> points);
 
-// At most `most` of them, evenly spread over their order.
+// At most `most` points, evenly spaced in their order.
 std::vector<Vec3d> thinned(std::vector<Vec3d> points, std::size_t most);
 
-// Where two surfaces meet: the middle of those points of `a` that are nearer to `b` than the least
-// distance and `margin` more; and that least distance. Preconditions: neither is empty.
+// Contact of two surfaces: the centre of those points of `a` whose distance to `b` is at most the
+// smallest distance plus `margin`; and that smallest distance. Preconditions: neither is empty.
 struct Contact {
   Vec3d middle;
   double gap = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The vertices of structures by their roles.
+// The vertices of structures by role.
 
 #include <string>
 #include <vector>
@@ -16,23 +16,24 @@ struct RoleSurface {
   std::vector<Vec3d> points_m;  // vertices, world
 };
 
-// Of all surfaces with the role, thinned out: enough for a millimetre, few enough for the distances
-// of every pair.
+// Points of all surfaces with the role, thinned: enough for a millimetre, few enough for all
+// pairwise distances.
 std::vector<Vec3d> pointsOf(const std::vector<RoleSurface>& surfaces, Role role);
 
-// "lv (role lv_cavity)", as messages name the first of a role; the role alone where none has it.
+// "lv (role lv_cavity)": the first structure of a role, for messages; the role alone if there is
+// none.
 std::string namedRole(const std::vector<RoleSurface>& surfaces, Role role);
 
 // "there are la, ra", each role once.
 std::string rolesThere(const std::vector<RoleSurface>& surfaces);
 
-// All vertices of what belongs to the heart; the great vessels are left out.
+// All vertices of the heart without the great vessels.
 std::vector<Vec3d> outsideOf(const std::vector<RoleSurface>& surfaces);
 
-// Of these what stands behind the chest beside the sternum: without the atria.
+// The same without the atria: what lies behind the chest beside the sternum.
 std::vector<Vec3d> frontOf(const std::vector<RoleSurface>& surfaces);
 
-// A surface around the left ventricle's muscle is among them.
+// Is there a surface around the left ventricle's muscle?
 bool hasWall(const std::vector<RoleSurface>& surfaces);
 
 }  // namespace echocine

@@ -87,7 +87,7 @@ void printTable(const fit::DialScan& scan, const std::filesystem::path& folder) 
   fmt::print("discrepancy {:.4f} at {}{}\n", best.found.discrepancy, where,
              between.empty() ? "" : "; between the steps least at " + between);
   fmt::print("  region {:.3f}, boundary {:.3f}, motion {:.3f}, {:.0f} % in sight\n", t.region,
-             t.boundary, t.motion, 100 * t.in_sight);
+             t.boundary, t.motion, 100 * t.overlap);
   const fit::FitPose& p = best.found.pose;
   fmt::print("  pose: shift {:.1f}, {:.1f} mm, turn {:.1f} deg, scale {:.3f}, confidence {:.2f}\n",
              1e3 * p.shift_x_m, 1e3 * p.shift_z_m, p.turn_rad / radiansFromDegrees(1), p.scale,
@@ -105,15 +105,15 @@ void printTable(const fit::ViewRanking& ranking, const std::filesystem::path& fo
              ranking.margin, keyOf(ranking.views[1].view), ranking.confidence);
   printCaveats(ranking.caveats);
   std::string head = fmt::format("  {:<10}", "");
-  for (const char* name : {"V", "claimed", "D", "region", "boundary", "motion", "in sight"})
+  for (const char* name : {"V", "coverage", "D", "region", "boundary", "motion", "overlap"})
     head += fmt::format("{:>9}", name);
   for (const fit::ScanAxis& d : ranking.population) head += fmt::format("{:>7}", d.range.key);
   fmt::print("{}  pose: mm, deg\n", head);
   for (const fit::ViewFound& v : ranking.views) {
     const fit::PoseFound& f = v.heart.found;
     std::string line = fmt::format("  {:<10}", keyOf(v.view));
-    for (const double value : {v.heart.left, v.heart.claimed, f.discrepancy, f.terms.region,
-                               f.terms.boundary, f.terms.motion, f.terms.in_sight})
+    for (const double value : {v.heart.left, v.heart.coverage, f.discrepancy, f.terms.region,
+                               f.terms.boundary, f.terms.motion, f.terms.overlap})
       line += fmt::format("{:9.3f}", value);
     for (const double value : v.heart.values) line += fmt::format("{:7.3g}", value);
     fmt::print("{}  {:6.1f},{:6.1f},{:6.1f}\n", line, 1e3 * f.pose.shift_x_m,

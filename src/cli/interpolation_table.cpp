@@ -6,7 +6,7 @@
 
 #include "core/units.h"
 #include "motion/keyframes/interpolation_judge.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "scene/names.h"
 
 namespace echocine {

@@ -11,7 +11,7 @@
 #include "cli/interpolation_table.h"
 #include "cli/stop_signal.h"
 #include "cli/warning_printer.h"
-#include "motion/probe_placement.h"
+#include "motion/surfaces/probe_placement.h"
 #include "render/estimate.h"
 #include "scene/probe_pose.h"
 #include "scene/scene_reader.h"

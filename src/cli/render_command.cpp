@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "frame/plan_loop.h"
 #include "motion/cycle/cardiac_clock.h"
-#include "motion/probe_placement.h"
+#include "motion/surfaces/probe_placement.h"
 #include "scene/scene_reader.h"
 #include "scene/truth_reader.h"
 

@@ -10,7 +10,7 @@
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
 #include "core/error.h"
-#include "motion/probe_placement.h"
+#include "motion/surfaces/probe_placement.h"
 #include "scene/scene_reader.h"
 #include "study/study_files.h"
 #include "study/study_page.h"

@@ -7,7 +7,7 @@
 
 #include "cli/documents.h"
 #include "cli/warning_printer.h"
-#include "motion/probe_placement.h"
+#include "motion/surfaces/probe_placement.h"
 #include "scene/scene_reader.h"
 #include "view/view_page.h"
 

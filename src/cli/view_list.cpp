@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "motion/heart/views.h"
+#include "motion/heart/heart_poses.h"
 
 namespace echocine {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "motion/mesh_motion.h"
-#include "motion/probe_placement.h"
+#include "motion/surfaces/mesh_motion.h"
+#include "motion/surfaces/probe_placement.h"
 #include "scene/scene_reader.h"
 
 namespace echocine::compare {

@@ -1,5 +1,5 @@
 #pragma once
-// Bands about the model's boundaries: where a comparison matters most.
+// Bands around the model's boundaries, where a comparison matters most.
 
 #include <filesystem>
 #include <memory>
@@ -14,15 +14,15 @@ namespace echocine::compare {
 
 class BoundaryBands {
  public:
-  // The scene that `synthetic` was rendered from; its contours are cut anew, exactly, for any
-  // phase. Throws SceneError: not its scene, or the loop is no render folder.
+  // The scene from which `synthetic` was rendered. Its contours are cut exactly at any phase.
+  // Throws SceneError if the scene does not belong to the loop, or the loop is no render folder.
   BoundaryBands(const std::filesystem::path& scene, const echo::EchoLoop& synthetic,
                 const echo::BeamGrid& grid, double width_m);
   ~BoundaryBands();
   BoundaryBands(BoundaryBands&&) noexcept;
 
-  // For each structure that the plane cuts anywhere in the loop, and for "all" of them: the
-  // weights, 0 farther from the boundary than half the width. Thread-safe.
+  // Weights for each structure that the plane cuts anywhere in the loop, and for "all" structures.
+  // The weight is 0 beyond half the width from the boundary. Thread-safe.
   std::vector<std::pair<std::string, std::vector<float>>> weightsAt(
       double phase, const std::vector<float>& weights) const;
 

@@ -28,15 +28,15 @@ struct CompareOptions {
   bool align_space = true;
   bool monotone = false;
   int knot_count = 8;
-  std::vector<double> knots;    // given: greys of the synthetic loop; empty: chosen
-  std::filesystem::path scene;  // of the render folder: for bands about its
-                                // boundaries, and for where it disagrees
-  double tilt_deg = 0;          // by which the scene's plane may be tilted and rotated, either way
+  std::vector<double> knots;    // given: synthetic grey levels; empty: chosen
+  std::filesystem::path scene;  // of the render folder: for bands around its
+                                // boundaries, and for the scene fit
+  double tilt_deg = 0;          // limit of tilt and rotation of the scene's plane, either way
   double band_mm = 4;           // full width of a band; our choice
-  bool contours = false;        // drawn in the pictures
+  bool contours = false;        // draw the scene's contours into the pictures
 };
 
-// A band about one structure's boundary, or over all boundaries together ("all").
+// A band around one structure's boundary, or around all boundaries together ("all").
 struct BandMetrics {
   std::string structure;
   FrameMetrics metrics;
@@ -45,10 +45,10 @@ struct BandMetrics {
 struct FrameResult {
   int real_frame = 0;
   double real_time_s = 0;
-  double synthetic_place = -1;  // frames; negative: the synthetic loop shows no such instant
-  double synthetic_phase = -1;  // of the beat, when known
-  bool repeat = false;          // of the real frame before: measured, but not in the loop's means
-  FrameMetrics before, after;   // without and with grey calibration
+  double synthetic_place = -1;  // frames; negative: the synthetic loop does not show this instant
+  double synthetic_phase = -1;  // of the beat, if known
+  bool repeat = false;         // repeats the previous real frame: measured, but excluded from means
+  FrameMetrics before, after;  // without and with grey calibration
   double discrepancy = 0;
   std::vector<BandMetrics> bands;  // with calibration
   bool counted() const { return synthetic_place >= 0 && !repeat; }
@@ -64,20 +64,20 @@ struct Comparison {
   std::vector<FrameResult> frames;       // one per real frame
   FrameMetrics mean_before, mean_after;  // over counted frames
   std::vector<BandMetrics> mean_bands;
-  double share_in_sight = 1;  // c of discrepancy.h
+  double overlap = 1;  // c of discrepancy.h
   double discrepancy = 0;
-  double discrepancy_as_placed = 0;  // before anything but the sectors was registered
-  std::vector<std::string> notes;    // everything that was overridden, assumed or left out
+  double discrepancy_as_placed = 0;  // after registration of the sectors only
+  std::vector<std::string> notes;    // everything that was overridden, assumed or omitted
 
   std::shared_ptr<const fit::SceneFit>
-      scene_fit;  // with CompareOptions::scene, where it can be held
+      scene_fit;  // with CompareOptions::scene, if a comparison is possible
 
   echo::BeamLoop synthetic_beams, real_beams;  // on the common grid, registered
   std::vector<float> weights;                  // of its samples
 };
 
-// Throws SceneError (unusable input or option) and JobError, also when the monitor, which is asked
-// between stages, wants to stop.
+// Throws SceneError for unusable input or options, and JobError, also when the monitor requests a
+// stop. It is polled between stages.
 Comparison compareLoops(const CompareOptions& options, const Monitor& monitor = {});
 
 }  // namespace echocine::compare

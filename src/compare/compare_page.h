@@ -11,7 +11,7 @@ class ComparePage {
   // The comparison must outlive the page. Throws JobError, as all functions here do.
   ComparePage(const std::filesystem::path& path, const Comparison& comparison);
 
-  // Whether the page shows this real frame (pageStride()).
+  // Does the page show this real frame (pageStride())?
   bool shows(int real_frame) const { return real_frame % stride_ == 0; }
   // JPEG or PNG, in the order of frames.
   void addFrame(Panel panel, std::span<const std::byte> image);

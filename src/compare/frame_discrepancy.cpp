@@ -14,7 +14,7 @@
 namespace echocine::compare {
 
 // Weights are areas on the grid; a placement of scale s covers s^2 as much of the real picture.
-double shareInSight(std::span<const float> weights_as_given, std::span<const float> weights,
+double overlapShare(std::span<const float> weights_as_given, std::span<const float> weights,
                     double scale) {
   const double before = std::accumulate(weights_as_given.begin(), weights_as_given.end(), 0.0),
                after = std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -51,8 +51,8 @@ FrameDiscrepancy::FrameDiscrepancy(const echo::EchoLoop& real, const Probe& prob
                     "same view",
                     real.video.name));
   const PixelPlane as_given = echo::validSamples(grid_, real, {});
-  share_in_sight_ =
-      compare::shareInSight(echo::areaWeights(grid_, as_given, as_given), weights, placement.scale);
+  overlap_ =
+      compare::overlapShare(echo::areaWeights(grid_, as_given, as_given), weights, placement.scale);
   // All that depends on the real loop alone is worked out here, so that a call looks at one frame
   // only.
   edges_.emplace(grid_, weights);
@@ -75,7 +75,7 @@ double FrameDiscrepancy::operator()(int frame, std::span<const float> grey) cons
     }
   }
   return discrepancyOf(edgeCorrelation((*edges_)(means), real_.at(static_cast<std::size_t>(frame))),
-                       share_in_sight_);
+                       overlap_);
 }
 
 }  // namespace echocine::compare

@@ -1,5 +1,5 @@
 #pragma once
-// One number for optimisers: how far synthetic frames are from real ones.
+// One number for optimisers: the discrepancy between synthetic and real frames.
 
 #include <optional>
 #include <span>
@@ -12,29 +12,29 @@
 namespace echocine::compare {
 
 // (2)  D = 1 - c G,  0..2,
-// with G of Eq. 1 (wall_edges.h) for the synthetic and the real frame over the sector,
-// area-weighted, and c the share of the sector, as the loops were given, that registration leaves
-// in both: what it moves out of sight counts as unlike. 0 for equal frames, about 1 when the
-// synthetic frame says nothing of the real one, above 1 when it is dark where the real one is
-// bright. The loop's number is the mean over its frames. Greys are compared as they are displayed,
-// both log-compressed. No calibration comes before: a curve fitted to frames that do not yet lie on
-// one another flattens the very edges that would bring them there, and may turn them round.
-inline double discrepancyOf(double edge_correlation, double share_in_sight) {
-  return 1 - share_in_sight * edge_correlation;
+// with G of Eq. 1 (wall_edges.h) for the synthetic and the real frame over the sector, weighted by
+// area. c is the overlap: the share of the original sector that both loops cover after
+// registration, so an area without a partner counts as dissimilar. D is 0 for equal frames, about 1
+// for an uninformative synthetic frame, and above 1 if edges are inverted. D of a loop is the mean
+// over its frames. Displayed, log-compressed grey levels are compared without calibration: a
+// calibration curve of frames that are not yet registered would flatten or invert the edges that
+// register them.
+inline double discrepancyOf(double edge_correlation, double overlap) {
+  return 1 - overlap * edge_correlation;
 }
 
-// Built once from a real loop; each call takes a synthetic frame in beam space as the tracer makes
-// it (grey 0 to 1 after log compression, line-major) and needs no file.
+// Built once from a real loop. Each call takes a synthetic frame in beam space as the tracer makes
+// it (grey level 0 to 1 after log compression, line-major) and needs no file.
 class FrameDiscrepancy {
  public:
   // The real loop is resampled to the lines of `probe` and to at most 384 of its depths.
-  // `placement`: of beam space in the real picture, such as Comparison::space found it. Throws
-  // SceneError when the sectors do not overlap or the loop has no scale.
+  // `placement` maps beam space into the real picture, as Comparison::space does. Throws SceneError
+  // if the sectors do not overlap or the loop has no scale.
   FrameDiscrepancy(const echo::EchoLoop& real, const Probe& probe,
                    const echo::Placement& placement = {});
 
   int realFrames() const { return static_cast<int>(real_.size()); }
-  double shareInSight() const { return share_in_sight_; }
+  double overlapShare() const { return overlap_; }
 
   // Thread-safe.
   double operator()(int frame, std::span<const float> grey) const;
@@ -43,13 +43,13 @@ class FrameDiscrepancy {
   Probe probe_;
   echo::BeamGrid grid_;
   int per_sample_ = 1;
-  double share_in_sight_ = 1;
+  double overlap_ = 1;
   std::optional<WallEdges> edges_;
   std::vector<EdgeField> real_;
 };
 
-// c of Eq. 2 for areas before and after a placement of that scale.
-double shareInSight(std::span<const float> weights_as_given, std::span<const float> weights,
+// c of Eq. 2 from the areas before and after a placement of that scale.
+double overlapShare(std::span<const float> weights_as_given, std::span<const float> weights,
                     double scale);
 
 }  // namespace echocine::compare

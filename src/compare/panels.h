@@ -1,6 +1,5 @@
 #pragma once
-// The pictures of a comparison: real, synthetic and their difference side by side, all in one
-// shape.
+// The pictures of a comparison: real, synthetic and their difference side by side, in one geometry.
 
 #include <filesystem>
 #include <span>
@@ -15,7 +14,7 @@ class BoundaryBands;
 enum class Panel { real, synthetic, difference };
 
 // Pictures in the common sector, scan-converted from the registered loops. The synthetic one is
-// calibrated; the difference is 128 + (synthetic - real) / 2.
+// calibrated. The difference is 128 + (synthetic - real) / 2.
 class PanelMaker {
  public:
   PanelMaker(const Comparison& comparison, int height_px = 480);
@@ -26,7 +25,8 @@ class PanelMaker {
   // From left to right. Precondition: one or more, all of one size.
   static GreyImage sideBySide(std::span<const GreyImage> pictures);
 
-  // With contours of the model drawn into the first two. Precondition: `bands` outlives the maker.
+  // Draws the model's contours into the first two pictures. Precondition: `bands` outlives the
+  // maker.
   void drawContours(const BoundaryBands* bands) { bands_ = bands; }
 
  private:
@@ -43,7 +43,7 @@ class PanelMaker {
   const BoundaryBands* bands_ = nullptr;
 };
 
-// A frame with the found (or given) sector drawn over it, and what is masked: the picture to check.
+// A frame with the detected (or given) sector and the mask drawn over it, for inspection.
 GreyImage sectorPicture(const echo::EchoLoop& loop);
 
 }  // namespace echocine::compare

@@ -38,8 +38,8 @@ void place(const echo::Placement& placement, Comparison& c) {
   const PixelPlane as_given = echo::validSamples(c.grid, c.real, {});
   c.real_beams = echo::resample(c.grid, c.real, placement);
   c.weights = echo::areaWeights(c.grid, c.synthetic_beams.valid, c.real_beams.valid);
-  c.share_in_sight = shareInSight(echo::areaWeights(c.grid, c.synthetic_beams.valid, as_given),
-                                  c.weights, placement.scale);
+  c.overlap = overlapShare(echo::areaWeights(c.grid, c.synthetic_beams.valid, as_given), c.weights,
+                           placement.scale);
 }
 
 std::vector<float> pairedFrame(const Comparison& c, const std::vector<std::vector<float>>& frames,
@@ -73,9 +73,8 @@ std::vector<double> discrepancies(const Comparison& c) {
   parallelBlocks(all.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j)
       if (c.time.place[j] >= 0)
-        all[j] =
-            discrepancyOf(edgeCorrelation(edges(pairedFrame(c, j)), edges(c.real_beams.frames[j])),
-                          c.share_in_sight);
+        all[j] = discrepancyOf(
+            edgeCorrelation(edges(pairedFrame(c, j)), edges(c.real_beams.frames[j])), c.overlap);
   });
   return all;
 }

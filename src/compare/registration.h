@@ -1,5 +1,5 @@
 #pragma once
-// Two loops laid on one another: one beam space, one beat, one time, one place.
+// Registration of two loops: one beam space, one beat, one time, one place.
 
 #include <vector>
 
@@ -7,19 +7,19 @@
 
 namespace echocine::compare {
 
-// Fills grid, beams, weights, beats, time, space and share_in_sight of `c`, whose loops are read.
-// Space by SpaceSearch, whose every start is paired in time for itself.
-// Throws SceneError when they share too little, or are too long for memory.
+// Sets grid, beams, weights, beats, time, space and overlap of `c`, whose loops are read. Space is
+// found by SpaceSearch, and each of its starts is paired in time separately. Throws SceneError if
+// the loops share too little, or are too long for memory.
 void registerLoops(const CompareOptions& options, Comparison& c);
 
-// The synthetic loop at a real frame's instant; frames outside it are left as they are.
+// The synthetic loop at a real frame's instant; frames outside it are unchanged.
 std::vector<float> pairedFrame(const Comparison& c, std::size_t real);
 
-// Eq. 2 of discrepancy.h frame by frame, as the loops lie now; 0 where the synthetic one shows no
-// such instant.
+// Eq. 2 of frame_discrepancy.h for each frame, with the current registration; 0 if the synthetic
+// loop does not show the instant.
 std::vector<double> discrepancies(const Comparison& c);
 
-// Over real frames that have a partner and repeat no other; 0 without any.
+// Mean over real frames with a partner, without repeats; 0 without any.
 double meanCounted(const Comparison& c, const std::vector<double>& values);
 
 }  // namespace echocine::compare

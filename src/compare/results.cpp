@@ -167,7 +167,7 @@ Json summaryJson(const Comparison& c) {
            "1 - c G, mean over counted frames; G: correlation of the gradients of both frames, "
            "smoothed by 2 % of the depth, 1 for equal edges and 0 for unrelated ones; c: share of "
            "the common sector that registration leaves in sight"},
-          {"share_in_sight", c.share_in_sight},
+          {"overlap", c.overlap},
           {"frames_counted", counted},
           {"frames_total", c.frames.size()},
           {"before_calibration", metricsJson(c.mean_before)},

@@ -85,7 +85,7 @@ double SpaceSearch::unlikeAt(const std::vector<Pair>& pairs, const fit::Unknowns
                                                    ? in_loop
                                                    : sampler_.places(placement);
   const std::vector<float> weights = weightsAt(in_loop);
-  const double share = shareInSight(as_given_, weights, placement.scale);
+  const double share = overlapShare(as_given_, weights, placement.scale);
   if (!(share > 0)) return 2;
   const WallEdges edges(grid_, weights);
   std::vector<float> placed(places.size());

@@ -1,11 +1,11 @@
 #pragma once
-// Pairs the instants of two loops by what files and user say of them.
+// Pairs the instants of two loops by information from files and user.
 
 #include "compare/compare.h"
 
 namespace echocine::compare {
 
-// By end-diastole and end-systole when the real side has them, else by R waves, else by what moves.
+// Uses end-diastole and end-systole if the real side has them, else R waves, else similarity.
 // Throws SceneError for a frame that is not in its loop, and for one without a partner.
 TimeAlignment alignByWhatIsKnown(const CompareOptions& options, const TimeProblem& problem,
                                  const echo::EchoLoop& synthetic, const echo::EchoLoop& real);

@@ -1,5 +1,5 @@
 #pragma once
-// How well real frames correlate with instants of the synthetic loop.
+// Correlation of real frames with instants of the synthetic loop.
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace echocine::compare {
 
-// Correlations of blended synthetic frames with real ones, from inner products alone.
+// Correlations of blended synthetic frames with real ones, computed from inner products.
 class Correlations {
  public:
   explicit Correlations(const TimeProblem& p);
@@ -30,11 +30,11 @@ class TimeSearch {
   // Correlation of real frame j with the synthetic loop at `place`, in frames; -1 outside it.
   double at(double place, std::size_t j) const;
 
-  // Does real frame j say anything of its own?
+  // Is real frame j used? Repeats are not.
   bool used(std::size_t j) const { return used_[j]; }
 
-  // Mean correlation of a straight map, place = shift + rate j; places outside the synthetic loop
-  // are left out, but half of the real frames must be inside, else -1.
+  // Mean correlation of a linear map, place = shift + rate j. Places outside the synthetic loop are
+  // omitted; -1 if fewer than half of the real frames are inside.
   double straight(double shift, double rate) const;
 
  private:

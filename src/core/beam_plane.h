@@ -1,8 +1,7 @@
 #pragma once
 // One number for each sample of a frame in beam space, line-major: the samples of line 0 from
-// shallow to deep, then those of line 1, and so on. What the number is belongs to the type, so that
-// a plane of intensities can never pass for one of greys; the memory goes from one to the other by
-// release().
+// shallow to deep, then those of line 1, and so on. The quantity is part of the type, so
+// intensities cannot be used as grey levels. release() passes the memory from one plane to another.
 
 #include <cstddef>
 #include <span>
@@ -29,20 +28,20 @@ class BeamPlane {
   operator std::span<const float>() const { return values; }
   operator std::span<float>() { return values; }
 
-  // Gives the memory away; the plane is empty then.
+  // Releases the memory; the plane is then empty.
   std::vector<float> release() { return std::exchange(values, {}); }
 
   friend bool operator==(const BeamPlane&, const BeamPlane&) = default;
 };
 
-// Scan lines from `first` to before `end`.
+// Scan lines first <= line < end.
 struct LineRange {
   int first = 0, end = 0;
   int count() const { return end - first; }
 };
 
-// Received intensities relative to the transmitted I_S, as the trace stage or the signal chain up
-// to the average over the beam leaves them.
+// Received intensities relative to the transmitted I_S, from the trace stage or from the signal
+// chain up to the beam average.
 using Intensities = BeamPlane<struct IntensityQuantity>;
 // After log compression: 0 black, 1 white.
 using Greys = BeamPlane<struct GreyQuantity>;

@@ -1,6 +1,6 @@
 #pragma once
-// Checks of what can only be wrong through a mistake in the program. Bad input is a SceneError
-// instead. CHECK is always on; DCHECK is on in debug builds and may stand in hot loops.
+// Checks for programming errors. Bad input is a SceneError instead. CHECK is always on. DCHECK is
+// on in debug builds and may be used in hot loops.
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ template <typename A, typename B>
 [[noreturn]] void checkFailed(const char* file, int line, const char* expression, const A& a,
                               const B& b) {
   fmt::print(stderr, "{}:{}: check failed: {} (left {}, right {})\n", file, line, expression, a, b);
-  std::signal(SIGABRT, SIG_DFL);  // a mistake of the program's own is not to be taken for another's
+  std::signal(SIGABRT, SIG_DFL);  // so that a handler for libraries' aborts does not take this one
   std::abort();
 }
 

@@ -1,6 +1,5 @@
 #pragma once
-// A fast digest of bytes, to tell damage from what was written; not against forgers, for whom the
-// SHA-256 in the manifest is.
+// A fast digest for detecting damage, not forgery; the SHA-256 in the manifest is for that.
 
 #include <array>
 #include <cstddef>
@@ -10,11 +9,11 @@
 
 namespace echocine {
 
-// Four lanes of 64 bits, each fed every fourth word by a step that is one to one in both the word
-// and the lane: bytes that differ within one word of eight always differ in their digest.
+// Four lanes of 64 bits. Each takes every fourth word by a step that is bijective in both word and
+// lane, so bytes that differ within one 8-byte word always have different digests.
 class Digest {
  public:
-  // Precondition: all pieces but the last are multiples of 32 bytes.
+  // Precondition: all pieces except the last are multiples of 32 bytes.
   void update(std::span<const std::byte> bytes);
   std::string hex();  // kDigits digits; call once, at the end
 

@@ -1,5 +1,5 @@
 #pragma once
-// Whole files in, whole files out.
+// Reading and writing of whole files.
 
 #include <cstddef>
 #include <filesystem>
@@ -13,17 +13,17 @@ namespace echocine {
 // The text of a file. Throws SceneError when it cannot be read or is larger than max_bytes.
 std::string readTextFile(const std::filesystem::path& path, std::size_t max_bytes);
 
-// Makes the folder and those it lies in, if they are not there. Throws JobError.
+// Creates the folder and its parents if they do not exist. Throws JobError.
 void makeFolder(const std::filesystem::path& folder);
 
-// Has the disk hold what was written to a descriptor. False, with errno, when it cannot.
+// Flushes a descriptor's data to disk. False, with errno, on failure.
 bool syncFile(int descriptor);
 
-// Has the disk hold the names in a file's folder, as far as the file system can; after a rename.
+// Flushes the names in a file's folder to disk, if the file system can; for use after a rename.
 void syncFolderOf(const std::filesystem::path& path);
 
-// A file written in pieces beside its target and renamed at the end, so that the target is either
-// as before or whole. Destroyed without finish() it leaves nothing behind.
+// A file written in pieces under a temporary name and renamed at the end, so the target is either
+// unchanged or complete. Destroyed without finish() it leaves no file.
 class WholeFile {
  public:
   explicit WholeFile(std::filesystem::path path);  // throws JobError, as write() and finish() do
@@ -33,7 +33,7 @@ class WholeFile {
 
   void write(std::span<const std::byte> bytes);
   void finish();
-  bool finishOnce();  // false, and nothing left behind, where the target is there already
+  bool finishOnce();  // false, and no file is left, if the target already exists
 
  private:
   void close();
@@ -44,20 +44,20 @@ class WholeFile {
   PartFile part_;
 };
 
-// Whether an ordinary file stands at the path itself: no link to one, no pipe, no folder.
+// Is the path itself an ordinary file: not a link, a pipe or a folder?
 bool isOrdinaryFile(const std::filesystem::path& path);
 
-// The first part of `name` below `folder` that is a link, as a path; empty where none is. The
-// folder itself may be reached through links.
+// The first part of `name` below `folder` that is a link, as a path; empty if none is. The folder
+// itself may be reached through links.
 std::filesystem::path linkBelow(const std::filesystem::path& folder,
                                 const std::filesystem::path& name);
 
-// As writeFileWhole(), but false, and nothing changed, where the name is taken already, by another
-// process at this very moment too. Throws JobError.
+// Like writeFileWhole(), but returns false and changes nothing if the name exists, even if another
+// process creates it concurrently. Throws JobError.
 bool writeFileOnce(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-// Writes beside the target and renames, so that the target is either as before or whole.
-// Throws JobError with the system's reason (disk full, no permission), the target untouched.
+// Writes a temporary file and renames it, so the target is either unchanged or complete. Throws
+// JobError with the system's reason (disk full, no permission); the target is then unchanged.
 void writeFileWhole(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 }  // namespace echocine

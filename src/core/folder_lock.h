@@ -1,22 +1,22 @@
 #pragma once
-// One run at a time in a folder.
+// Exclusive use of a folder by one run.
 
 #include <filesystem>
 
 namespace echocine {
 
-// Holds the folder itself locked (flock), so nothing is left behind however the program ends. Where
-// a file system has no such locks there is no protection.
+// Locks the folder itself (flock), so no lock file remains after any kind of exit. On a file system
+// without such locks there is no protection.
 class FolderLock {
  public:
-  // Precondition: the folder is there. Throws JobError when another run holds it.
+  // Precondition: the folder exists. Throws JobError if another run holds it.
   explicit FolderLock(std::filesystem::path folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  // Throws JobError when the path no longer leads to the folder that was locked: it was removed,
-  // renamed or replaced, and what is there now may be another run's.
+  // Throws JobError if the path no longer leads to the locked folder: it was removed, renamed or
+  // replaced, possibly by another run's.
   void checkStillThere() const;
 
  private:
@@ -24,7 +24,7 @@ class FolderLock {
   int descriptor_;
 };
 
-// Whether another run holds the folder at this moment. False where there is no such folder.
+// Does another run hold the folder now? False for a missing folder.
 bool isLocked(const std::filesystem::path& folder);
 
 }  // namespace echocine

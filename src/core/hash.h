@@ -1,5 +1,5 @@
 #pragma once
-// SHA-256 of bytes, for the manifest and for telling whether two runs had the same input.
+// SHA-256 of bytes, for the manifest and for comparing the input of two runs.
 
 #include <cstddef>
 #include <filesystem>

@@ -1,6 +1,5 @@
 #pragma once
-// Random numbers as a hash of what they are drawn for: the same for any order and any number of
-// threads.
+// Random numbers as a hash of their purpose: independent of order and number of threads.
 
 #include <cmath>
 #include <cstdint>
@@ -9,14 +8,14 @@
 namespace echocine {
 
 // Finaliser of splitmix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators",
-// OOPSLA 2014): one to one, each input bit changes about half of the output's.
+// OOPSLA 2014): bijective; each input bit changes about half of the output bits.
 constexpr std::uint64_t mixBits(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
   return x ^ (x >> 31);
 }
 
-// A hash of numbers in their order, such as (seed, purpose, beat).
+// A hash of an ordered list of numbers, such as (seed, purpose, beat).
 template <typename... Numbers>
 constexpr std::uint64_t hashOf(Numbers... numbers) {
   std::uint64_t hash = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Typed indices, so that a medium's number cannot be handed where a structure's is wanted.
+// Typed indices, so that indices of different kinds cannot be confused.
 
 #include <bitset>
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace echocine {
 enum class MediumId : std::uint32_t {};
 enum class SurfaceId : std::uint32_t {};  // position of a structure in Scene::structures
 
-// The most structures a scene may have: sets of them fit in a few words.
+// Largest number of structures of a scene, so that sets of them fit in a few words.
 inline constexpr std::size_t kMaxSurfaces = 256;
 using SurfaceSet = std::bitset<kMaxSurfaces>;  // by SurfaceId
 

@@ -1,7 +1,7 @@
 #pragma once
-// Several numbers at once, in the vector extension that GCC and Clang share, for loops that
-// compilers left to themselves shuffle or unroll. Every lane is computed as one number would be, so
-// results depend neither on which numbers stand together nor on the instruction set.
+// SIMD lanes in the vector extension of GCC and Clang, for loops that compilers do not vectorise
+// well. Every lane gives the result of scalar code, so results depend neither on the grouping of
+// numbers nor on the instruction set.
 
 #include <cmath>
 #include <cstdint>
@@ -89,13 +89,13 @@ inline Doubles4 magnitude(Doubles4 a) {
 inline Doubles4 squareRoot(Doubles4 a) {
   return Doubles4{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
 }
-// Without their fractions; magnitudes below 2^31.
+// Truncated towards zero; for magnitudes below 2^31.
 inline Doubles4 wholeOf(Doubles4 a) {
   return __builtin_convertvector(__builtin_convertvector(a, Ints4), Doubles4);
 }
 
-// e^x to 2e-7 of itself: e^x = 2^n e^r with |r| <= ln 2 / 2, e^r the polynomial of Cephes' expf
-// (Moshier 1989). Beyond +-87 it stays at the value there.
+// e^x with a relative error of 2e-7: e^x = 2^n e^r with |r| <= ln 2 / 2, e^r by the polynomial of
+// Cephes' expf (Moshier 1989). Clamped beyond +-87.
 inline Floats8 exponential(Floats8 x) {
   constexpr float kMost = 87;
   x = x > kMost ? Floats8{} + kMost : x;
@@ -104,7 +104,7 @@ inline Floats8 exponential(Floats8 x) {
   const Ints8 n =
       __builtin_convertvector(scaled + (scaled > 0 ? Floats8{} + 0.5F : Floats8{} - 0.5F), Ints8);
   const Floats8 whole = __builtin_convertvector(n, Floats8);
-  // ln 2 in two parts, of which the first times n is exact.
+  // ln 2 in two parts; n times the first part is exact.
   const Floats8 r = x - whole * 0.693359375F + whole * 2.12194440e-4F;
   Floats8 p = r * 1.9875691500e-4F + 1.3981999507e-3F;
   p = p * r + 8.3334519073e-3F;

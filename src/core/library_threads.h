@@ -1,10 +1,9 @@
 #pragma once
-// Threads of libraries that bring TBB tasks of their own.
+// Threads of libraries that create TBB tasks.
 
 namespace echocine {
 
-// How many threads such a library (Embree) may use: 0 for those of withThreads(), or 1 where
-// nothing else runs on TBB.
+// Number of threads for such a library (Embree): 0 for those of withThreads(), or 1 without TBB.
 int libraryThreads();
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// How a long job tells how far it is, and is told to stop: one type for all of them.
+// Progress, warnings and cancellation of a long job: one type for all jobs.
 
 #include <array>
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace echocine {
 
-// What is counted.
+// Unit of the progress.
 enum class Task { reference, rendering, settings, accuracy, keyframes, comparing };
 
 // "rendering 3/46 frames".
@@ -27,16 +27,16 @@ constexpr TaskWords wordsOf(Task task) {
 
 struct Progress {
   Task task = Task::rendering;
-  std::size_t done = 0, total = 0;  // total 0: not known before
-  double seconds_left = -1;         // below 0: to be guessed from the pace so far
+  std::size_t done = 0, total = 0;  // total 0: unknown
+  double seconds_left = -1;         // negative: estimated from the pace
 };
 
 struct Monitor {
-  // From one thread at a time.
+  // Called from one thread at a time.
   std::function<void(const Progress&)> tell = [](const Progress&) {};
-  // From any thread. No: the job ends as soon as it can, and what is finished stays.
+  // Called from any thread. On false the job ends as soon as it can and keeps finished results.
   std::function<bool()> keep_going = [] { return true; };
-  // What is accepted but hardly meant, each line as soon as it is known.
+  // Warnings about valid but unlikely input, each as soon as it is known.
   std::function<void(const std::string&)> warn = [](const std::string&) {};
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// A smooth curve through given points that never overshoots them.
+// A smooth curve through given points without overshoot.
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,9 @@
 
 namespace echocine {
 
-// Piecewise cubic through knots, once differentiable and monotone wherever the knots are: slopes
+// Piecewise cubic through knots, once differentiable, and monotone wherever the knots are. Slopes
 // after Fritsch and Butland, "A method for constructing local monotone piecewise cubic
-// interpolants", SIAM J. Sci. Stat. Comput. 5(2), 300-304, 1984. Outside the knots it keeps the end
-// values.
+// interpolants", SIAM J. Sci. Stat. Comput. 5(2), 300-304, 1984. Constant outside the knots.
 class MonotoneCubic {
  public:
   // Precondition: at least two knots (x, y), x strictly ascending.
@@ -24,7 +23,7 @@ class MonotoneCubic {
     slopes_.assign(knots_.size(), 0);
     for (std::size_t i = 1; i < last; ++i) {
       const double left = secant(i - 1), right = secant(i);
-      if (left * right <= 0) continue;  // an extremum of the knots is one of the curve
+      if (left * right <= 0) continue;  // an extremum of the knots is an extremum of the curve
       const double h_left = gap(i - 1), h_right = gap(i);
       const double a = (h_left + 2 * h_right) / (3 * (h_left + h_right));
       slopes_[i] = left * right / (a * right + (1 - a) * left);
@@ -48,7 +47,7 @@ class MonotoneCubic {
  private:
   double gap(std::size_t i) const { return knots_[i + 1].first - knots_[i].first; }
   double secant(std::size_t i) const { return (knots_[i + 1].second - knots_[i].second) / gap(i); }
-  // The parabola's end slope, kept within the bound for monotone cubics (three times the secant).
+  // End slope of the parabola, limited by the bound for monotone cubics (three times the secant).
   static double endSlope(double secant, double inner) {
     const double slope = 1.5 * secant - 0.5 * inner;
     if (slope * secant <= 0) return 0;

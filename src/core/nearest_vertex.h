@@ -1,5 +1,5 @@
 #pragma once
-// The nearest of many points, by bins.
+// The nearest of many points, by spatial bins.
 
 #include <cstdint>
 #include <limits>
@@ -16,7 +16,7 @@ class NearestVertex {
   // Precondition: at least one point.
   explicit NearestVertex(std::span<const Vec3f> points_m);
   Vec3f to(Vec3f place_m) const { return points_m_[*placeOf(place_m, kAnywhere)]; }
-  // As it was given; nothing where none is within reach.
+  // Index in the given order; none without a point within reach.
   std::optional<std::uint32_t> numberOf(Vec3f place_m, float reach_m = kAnywhere) const {
     const std::optional<std::uint32_t> place = placeOf(place_m, reach_m);
     return place ? std::optional(numbers_[*place]) : std::nullopt;
@@ -28,8 +28,8 @@ class NearestVertex {
   std::size_t bin(int x, int y, int z) const;
   int binOf(float at, float low, int count) const;
 
-  std::vector<Vec3f> points_m_;         // bin by bin
-  std::vector<std::uint32_t> numbers_;  // as given, in the same order
+  std::vector<Vec3f> points_m_;         // ordered by bin
+  std::vector<std::uint32_t> numbers_;  // original indices, in the same order
   std::vector<std::uint32_t> starts_;
   Vec3f low_m_;
   float edge_m_ = 1;

@@ -1,5 +1,5 @@
 #pragma once
-// What a misspelt word was meant to be.
+// Suggestion for a misspelt word.
 
 #include <cstddef>
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace echocine {
 
-// The candidate with the fewest edits to `word`; empty when none is nearer than `edits`, half the
-// word or three letters if left out.
+// The candidate with the fewest edits to `word`. Empty if none is within `edits`; the default is
+// half the word, at most three letters.
 std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates,
                         std::optional<std::size_t> edits = std::nullopt);
 

@@ -8,10 +8,9 @@
 
 namespace echocine {
 
-// A standard normal field that is smooth over `scale_m`: normals hashed on a lattice of that
-// spacing, blended by smooth weights and divided by the root of their squares' sum, so that its
-// variance is 1 at every place. Fast for places near each other: it remembers cells. One thread at
-// a time.
+// A standard normal field, smooth over `scale_m`: normals hashed on a lattice of that spacing,
+// blended with smooth weights and normalised to variance 1 at every place. Fast for nearby places,
+// because it caches cells. Not thread-safe.
 class NormalField {
  public:
   NormalField(double scale_m, std::uint64_t seed) : scale_m_(scale_m), seed_(seed) {}
@@ -27,7 +26,7 @@ class NormalField {
 
   double scale_m_;
   std::uint64_t seed_;
-  std::array<Cell, 64> cells_{};  // by their nodes' last two bits. Our choice
+  std::array<Cell, 64> cells_{};  // by the last two bits of their nodes. Our choice
 };
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// What to say of std::bad_alloc, which is a failed job.
+// Message for std::bad_alloc, a failed job.
 
 namespace echocine {
 

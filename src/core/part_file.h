@@ -1,6 +1,6 @@
 #pragma once
-// Half-written files: each stands beside its target as TARGET.XXXXXXXX.part, a name of its own,
-// until it is whole and renamed.
+// Temporary files: each has its own name TARGET.XXXXXXXX.part beside its target until it is
+// complete and renamed.
 
 #include <filesystem>
 #include <string>
@@ -8,20 +8,20 @@
 
 namespace echocine {
 
-// A new, empty part of `path`, open to read and write. Never an existing file and never through a
-// link (O_EXCL), so writers of the same target do not share one. descriptor < 0, with errno, when
-// it cannot be made.
+// A new, empty part of `path`, open for reading and writing. Never an existing file and never
+// through a link (O_EXCL), so writers of one target do not share a part. descriptor < 0, with
+// errno, on failure.
 struct PartFile {
   std::string name;
   int descriptor = -1;
 };
 PartFile makePart(const std::filesystem::path& path);
 
-// "cine.avi" of "cine.avi.0a1b2c3d.part", and of "cine.avi.part" as versions before 0.2 wrote;
-// empty for a name of another kind.
+// "cine.avi" for "cine.avi.0a1b2c3d.part", and for "cine.avi.part" of versions before 0.2; empty
+// for any other name.
 std::string_view targetOfPart(std::string_view file_name);
 
-// Removes what killed runs left of this file. What cannot be removed stays.
+// Removes parts of this file left by killed runs. Files that cannot be removed stay.
 void removePartsOf(const std::filesystem::path& path);
 
 }  // namespace echocine

@@ -6,7 +6,7 @@
 
 namespace echocine {
 
-// The arctangent of 0..1 to 1e-5 rad (Abramowitz and Stegun, 4.4.49); of one number or of lanes.
+// The arctangent of 0..1 to 1e-5 rad (Abramowitz and Stegun, 4.4.49), for scalars or lanes.
 template <typename T>
 T roughArctangent(T q) {
   const T q2 = q * q;
@@ -14,8 +14,8 @@ T roughArctangent(T q) {
          (0.9998660 + q2 * (-0.3302995 + q2 * (0.1801410 + q2 * (-0.0851330 + q2 * 0.0208351))));
 }
 
-// atan2(x, z) for z >= 0, good to 1e-5 rad: a first guess among directions that an exact comparison
-// then corrects. x = z = 0 gives 0.
+// atan2(x, z) for z >= 0, to 1e-5 rad: a first guess that an exact comparison then corrects. x = z
+// = 0 gives 0.
 inline double roughAngle(double x, double z) {
   const double ax = std::abs(x), large = std::max(ax, z), small = std::min(ax, z);
   const double q = large > 0 ? small / large : 0;

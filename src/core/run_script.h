@@ -1,11 +1,11 @@
 #pragma once
-// Another program's work, waited for.
+// Runs another program and waits for it.
 
 #include <filesystem>
 
 namespace echocine {
 
-// Runs a script of sh, which writes where this program writes. Whether it ended with 0.
+// Runs a shell script with this program's output streams. True if it ended with 0.
 bool runScript(const std::filesystem::path& script);
 
 }  // namespace echocine

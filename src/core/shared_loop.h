@@ -1,5 +1,5 @@
 #pragma once
-// Loops that several threads work at, step by step; parallel_std.cpp has the threads.
+// Loops shared by several threads, step by step; parallel_std.cpp has the threads.
 
 #include <algorithm>
 #include <exception>
@@ -23,11 +23,11 @@ struct Step {
   bool go_on = true;
 };
 
-// A loop that several threads work at, step by step. The pool's one mutex guards its state: blocks
-// and frames are long against a lock.
+// A loop shared by several threads, step by step. The pool's one mutex guards its state: blocks and
+// frames are long compared with a lock.
 class Loop {
  public:
-  // Takes a step, if there is one to take now. The caller's functions run without the lock.
+  // Takes a step if one is available. The caller's functions run without the lock.
   bool step(Lock& lock) {
     std::optional<Step> taken = error_ ? std::nullopt : take();
     if (!taken) return false;
@@ -57,13 +57,13 @@ class Loop {
   ~Loop() = default;
 
  private:
-  virtual std::optional<Step> take() = 0;  // with the lock, as the next two
+  virtual std::optional<Step> take() = 0;  // with the lock held, like the next two
   virtual void finish(Step& step) = 0;
   virtual bool nothingLeft() const = 0;
   virtual void run(Step& step) const = 0;  // without the lock
 
   int busy_ = 0;                                   // threads in a step
-  const StopQuestion* question_ = stopQuestion();  // of the thread that begins the loop
+  const StopQuestion* question_ = stopQuestion();  // of the thread that starts the loop
   std::exception_ptr error_;
 };
 
@@ -95,7 +95,7 @@ struct OrderedCalls {
   const std::function<void(std::size_t, std::shared_ptr<void>)>& drain;
 };
 
-// An index is asked for, worked at and drained; from the yes to the end of the drain it is alive.
+// An index is agreed, processed and drained; it is live from the agreement to the end of the drain.
 class OrderedLoop final : public Loop {
  public:
   OrderedLoop(std::size_t first, std::size_t last, std::size_t in_flight, const OrderedCalls& calls)
@@ -157,8 +157,8 @@ class OrderedLoop final : public Loop {
 
   std::size_t next_, last_, drained_;
   bool asking_ = false, draining_ = false;
-  std::optional<std::size_t> agreed_;  // asked, not yet begun
-  std::vector<Result> results_;        // as many as may be alive, each in the place of its index
+  std::optional<std::size_t> agreed_;  // agreed, not yet started
+  std::vector<Result> results_;        // one slot per live index
   const OrderedCalls& calls_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where the time of a run goes.
+// Time spent in the stages of a run.
 
 #include <array>
 #include <atomic>
@@ -9,7 +9,7 @@
 
 namespace echocine {
 
-// The stages that are timed, in the manifest's order.
+// The timed stages, in the manifest's order.
 enum class Stage { motion, geometry, trace, speckle, signal, scan_conversion, truth, exr, avi };
 inline constexpr std::size_t kStages = 9;
 

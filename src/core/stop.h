@@ -1,6 +1,5 @@
 #pragma once
-// How long work is stopped inside its parts. Who runs it lends a question; the work asks it at its
-// checkpoints, without knowing whose it is.
+// Cooperative cancellation. The caller installs a predicate; long loops poll it at checkpoint().
 
 #include <functional>
 
@@ -8,19 +7,20 @@ namespace echocine {
 
 using StopQuestion = std::function<bool()>;  // yes: stop
 
-// Runs body. The checkpoints of this thread, and of all threads that work at its parallel loops
-// (core/parallel.h), ask `wanted`, which any of them may call at any time.
+// Runs body. The checkpoints of this thread, and of all threads in its parallel loops
+// (core/parallel.h), poll `wanted`, which must be thread-safe.
 void stoppable(const StopQuestion& wanted, const std::function<void()>& body);
 
-// Throws JobError where the enclosing stoppable() answers yes; outside of one it does nothing. Each
-// block of a parallel loop begins with one. Costs nanoseconds: to be called every some ms of work.
-// Not for destructors, nor while files are half written in place.
+// Throws JobError if the predicate of the enclosing stoppable() is true; without one it does
+// nothing. Each block of a parallel loop starts with a checkpoint. A call costs nanoseconds and
+// should follow every few ms of work. Not for destructors, nor while a file is partly written in
+// place.
 void checkpoint();
 
-// The question that a thread's checkpoints ask; nullptr: none.
+// The predicate of this thread's checkpoints; nullptr: none.
 const StopQuestion* stopQuestion();
 
-// Lends the question of one thread to another that works for it, while it lives.
+// Installs the predicate of one thread in another that works for it, for its lifetime.
 class StopScope {
  public:
   explicit StopScope(const StopQuestion* question);

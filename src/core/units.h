@@ -1,6 +1,6 @@
 #pragma once
 // Conversions between the units of scene files and SI. Inside the program every quantity is SI
-// (metre, second, radian, kilogram, neper); these are the only places where another unit appears.
+// (metre, second, radian, kilogram, neper); other units appear only here.
 
 #include <cmath>
 #include <numbers>

@@ -5,8 +5,8 @@
 
 namespace echocine {
 
-// Position of the first value that no intensity, attenuation or grey can have: negative, infinite
-// or not a number. A negative zero passes.
+// Position of the first value that is invalid as intensity, attenuation or grey level: negative,
+// infinite or NaN. Negative zero is valid.
 std::optional<std::size_t> firstUnusable(std::span<const float> values);
 
 }  // namespace echocine

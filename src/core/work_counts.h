@@ -1,5 +1,5 @@
 #pragma once
-// How much work a run was: what is off costs nothing, and the counts show it.
+// Counted work of a run. A disabled effect costs nothing, and the counts show it.
 
 #include <cstdint>
 
@@ -8,7 +8,7 @@ namespace echocine {
 struct WorkCounts {
   std::uint64_t bvh_updates = 0;
   std::uint64_t facets_sliced = 0;
-  std::uint64_t rays = 0;  // straight pieces of scan lines
+  std::uint64_t rays = 0;  // straight segments of scan lines
   std::uint64_t crossings = 0;
   std::uint64_t samples_backscatter = 0;  // samples whose backscatter was evaluated
   std::uint64_t samples_attenuated = 0;   // samples whose attenuation was evaluated

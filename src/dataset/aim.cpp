@@ -5,7 +5,7 @@
 
 #include "core/units.h"
 #include "dataset/cavity_marks.h"
-#include "dataset/loop.h"
+#include "dataset/dataset_loop.h"
 #include "dataset/user_scenes.h"
 #include "motion/heart/heart_scene.h"
 #include "scene/names.h"

@@ -2,7 +2,7 @@
 // Where a heart's left ventricle is and how it lies, at one instant.
 
 #include "motion/heart/recording.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 
 namespace echocine::dataset {
 

@@ -12,8 +12,8 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "dataset/aim.h"
-#include "dataset/attempts.h"
 #include "dataset/cavity_marks.h"
+#include "dataset/redraw.h"
 #include "dataset/tracing.h"
 #include "frame/simulator.h"
 #include "motion/cycle/ecg.h"
@@ -169,7 +169,7 @@ void addLoops(const Spec& spec, const Draw& draw, const Monitor& monitor, Heart&
   }
 }
 
-Heart attempt(const Spec& spec, const Draw& draw, const Monitor& monitor) {
+Heart heartOf(const Spec& spec, const Draw& draw, const Monitor& monitor) {
   Heart made{draw.heart + 1, draw.attempt, draw.population->name, spec.splitOf(draw.heart), {}};
   (spec.scenes.empty() ? addLoops : addUserLoops)(spec, draw, monitor, made);
   return made;
@@ -189,7 +189,7 @@ Heart makeHeart(const Spec& spec, int heart, const Monitor& monitor) {
   inThisThread([&] {
     failIfAsked(spec, heart);
     made = firstPossible(
-        spec, heart, [&](const Draw& draw) { return attempt(spec, draw, monitor); }, impossible);
+        spec, heart, [&](const Draw& draw) { return heartOf(spec, draw, monitor); }, impossible);
   });
   made->impossible = std::move(impossible);
   return std::move(*made);

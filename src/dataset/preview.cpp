@@ -6,8 +6,8 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
-#include "dataset/glimpse.h"
 #include "dataset/heart_cost.h"
+#include "dataset/preview_frames.h"
 #include "dataset/record.h"
 #include "dataset/shrink.h"
 #include "page/assets.h"
@@ -23,11 +23,11 @@ constexpr int kPicture_px = 224;  // on the sheet, of each instant
 constexpr int kMostDrawn = 1000;  // hearts whose draws the histograms count
 
 // Both instants side by side, the sector's square of each.
-GreyImage pairOf(const Glimpse& glimpse) {
+GreyImage pairOf(const PreviewFrames& preview) {
   GreyImage pair{2 * kPicture_px, kPicture_px, {}};
   pair.pixels.resize(std::size_t{2} * kPicture_px * kPicture_px);
   int left = 0;
-  for (const GreyImage* instant : {&glimpse.ed, &glimpse.es}) {
+  for (const GreyImage* instant : {&preview.ed, &preview.es}) {
     const GreyImage small = shrunk(*instant, sectorSquare(*instant), kPicture_px);
     for (int y = 0; y < kPicture_px; ++y)
       std::copy_n(small.pixels.begin() + std::ptrdiff_t{y} * kPicture_px, kPicture_px,
@@ -55,7 +55,7 @@ GreyImage sheetOf(const std::vector<GreyImage>& pairs) {
   return sheet;
 }
 
-Json glimpseJson(const Glimpse& g, const GreyImage& pair) {
+Json previewJson(const PreviewFrames& g, const GreyImage& pair) {
   return {{"id", g.id},
           {"population", g.population},
           {"view", keyOf(g.view)},
@@ -91,21 +91,21 @@ PreviewSummary writePreview(const Spec& spec, const std::filesystem::path& page,
   const auto count = static_cast<std::size_t>(hearts);
   PreviewSummary summary;
   std::vector<GreyImage> pairs;
-  Json glimpses = Json::array();
+  Json previews = Json::array();
   const HeartCost cost = costOfAHeart(spec, page, monitor);
   withThreads(threads, [&] {
     const int used = threadCount();
     summary.seconds = cost.seconds * spec.hearts / used;
     summary.bytes = cost.bytes * spec.hearts;
     const auto make = [&](std::size_t i) -> std::shared_ptr<void> {
-      return std::make_shared<Glimpse>(
-          glimpseOf(spec, static_cast<int>(i), i % spec.views.size(), monitor));
+      return std::make_shared<PreviewFrames>(
+          previewFramesOf(spec, static_cast<int>(i), i % spec.views.size(), monitor));
     };
     const auto collect = [&](std::size_t i, std::shared_ptr<void> made) {
-      const auto& glimpse = *static_cast<Glimpse*>(made.get());
-      pairs.push_back(pairOf(glimpse));
-      glimpses.push_back(glimpseJson(glimpse, pairs.back()));
-      summary.impossible += glimpse.impossible;
+      const auto& preview = *static_cast<PreviewFrames*>(made.get());
+      pairs.push_back(pairOf(preview));
+      previews.push_back(previewJson(preview, pairs.back()));
+      summary.impossible += preview.impossible;
       monitor.tell({Task::rendering, i + 1, count});
     };
     const auto in_flight = static_cast<std::size_t>(used) + 1;
@@ -120,7 +120,7 @@ PreviewSummary writePreview(const Spec& spec, const std::filesystem::path& page,
                   {"layouts", spec.layouts},
                   {"expected_s", summary.seconds},
                   {"expected_bytes", summary.bytes},
-                  {"glimpses", glimpses},
+                  {"previews", previews},
                   {"counted", std::min(spec.hearts, kMostDrawn)},
                   {"drawn", drawnJson(spec)}};
   std::filesystem::path sheet = page;

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "dataset/loop.h"
+#include "dataset/dataset_loop.h"
 
 namespace echocine::dataset {
 

@@ -8,8 +8,8 @@
 #include "dataset/draws.h"
 #include "dataset/spec.h"
 #include "dataset/user_scenes.h"
+#include "motion/heart/heart_poses.h"
 #include "motion/heart/parameters.h"
-#include "motion/heart/views.h"
 
 namespace echocine::dataset {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/file.h"
-#include "motion/keyframe_set.h"
-#include "motion/probe_placement.h"
+#include "motion/surfaces/keyframe_set.h"
+#include "motion/surfaces/probe_placement.h"
 #include "scene/names.h"
 #include "scene/role.h"
 #include "scene/scene_reader.h"

@@ -11,11 +11,11 @@
 namespace echocine::echo {
 
 // Angles from first to last, edges included; depth k is at near + (k + 1/2) (far - near)/samples
-// from the apex. Depths are metres when both loops have a scale, otherwise parts of each loop's
+// from the apex. Depths are in metres if both loops have a scale, otherwise relative to each loop's
 // outer radius.
 struct BeamGrid {
   int lines = 0, samples = 0;
-  double first_rad = 0, last_rad = 0, near = 0, far = 0;  // rad; metres or parts
+  double first_rad = 0, last_rad = 0, near = 0, far = 0;  // rad; metres or relative
   bool metric = false;                                    // depths are metres
 
   std::size_t size() const {
@@ -27,11 +27,11 @@ struct BeamGrid {
   double depth(int sample) const { return near + (sample + 0.5) * (far - near) / samples; }
 };
 
-// What both sectors share, sampled as finely as the coarser picture. Throws SceneError when they
-// share under a third of the smaller one's angles or depths.
+// The common area of both sectors, sampled as finely as the coarser picture. Throws SceneError if
+// it is less than a third of the smaller one's angles or depths.
 BeamGrid commonGrid(const EchoLoop& synthetic, const EchoLoop& real);
 
-// Where beam space lies in a picture: apex + shift + scale R(rotation) (radius in pixels).
+// Pose of beam space in a picture: apex + shift + scale R(rotation) (radius in pixels).
 struct Placement {
   double shift_x_px = 0, shift_y_px = 0, scale = 1, rotation_rad = 0;  // scale: a factor
 };
@@ -48,18 +48,18 @@ PicturePoint pictureAt(const BeamGrid& grid, const EchoLoop& loop, const Placeme
 // Does the picture show echo at a place, in pixels: within the sector and not under an overlay?
 bool showsEcho(const EchoLoop& loop, double x, double y);
 
-// 1 for every sample, line-major, at which it does.
+// 1 for every sample that does, line-major.
 PixelPlane validSamples(const BeamGrid& grid, const EchoLoop& loop, const Placement& placement);
 
-// Area weights of the samples where both are valid, else 0: a sample counts as the area it covers
-// (in proportion to its depth), so sums over beam space are sums over the picture.
+// Area weights of the samples that are valid in both, otherwise 0. A sample is weighted by its area
+// (proportional to its depth), so sums over beam space are sums over the picture.
 std::vector<float> areaWeights(const BeamGrid& grid, const PixelPlane& a, const PixelPlane& b);
 
-// Where a point lies among the pixels of a picture: pixel centres at halves; the border is carried
-// on outside.
+// Position of a point among the pixels of a picture: pixel centres at halves; the border is
+// extended outside.
 struct PixelPlace {
   std::ptrdiff_t at = 0;     // the pixel up and left of it
-  float right = 0, low = 0;  // shares of the next column and row
+  float right = 0, low = 0;  // weights of the next column and row
 };
 inline PixelPlace pixelPlace(int width, int height, double x, double y) {
   const double u = std::clamp(x - 0.5, 0.0, width - 1.0),

@@ -1,5 +1,5 @@
 #pragma once
-// The length of a beat, found from how a loop resembles itself a while later.
+// The length of a beat, from the self-similarity of a loop.
 
 #include <string>
 #include <vector>
@@ -10,18 +10,18 @@ namespace echocine::echo {
 
 struct BeatLength {
   double frames = 0;      // 0: not found
-  double confidence = 0;  // 0..1: how far the resemblance stands out from that at other lags
+  double confidence = 0;  // 0..1: contrast of the similarity against that at other lags
   std::string source;  // "self-similarity", "loop closes", "manifest", "R waves", or a heart rate's
-  std::vector<double> dissimilarity;  // by lag in frames, 0 for equal frames, 1 for unrelated ones
+  std::vector<double> dissimilarity;  // by lag in frames; 0 for equal frames, 1 for unrelated ones
 };
 
 // d(L) = mean over j of |f_j - f_(j+L)|^2 / (2 mean |f|^2). The beat is the first lag at which d
-// has fallen back most of its way, refined by a parabola through the lag and its neighbours. Lags
-// go from `shortest` frames up to the last that two pairs of frames support. A loop of one beat has
-// no such lag; when its last frames come back to its first, its length is the beat.
+// has fallen back most of the way, refined by a parabola through the lag and its neighbours. Lags
+// range from `shortest` frames to the last one with two pairs of frames. A loop of one beat has no
+// such lag; if its last frames return to its first, its length is the beat.
 BeatLength findBeatLength(const Features& features, double shortest);
 
-// The loop's beat by its file, its R waves, a heart rate, or its self-similarity.
+// The loop's beat from its file, its R waves, a heart rate, or its self-similarity.
 BeatLength beatOf(const EchoLoop& loop);
 
 }  // namespace echocine::echo

@@ -1,5 +1,5 @@
 #pragma once
-// A thin curve in a band of a picture, outside its sector: where an ECG is drawn.
+// A thin curve in a band of a picture outside its sector: a candidate for an ECG.
 
 #include <vector>
 
@@ -7,14 +7,14 @@
 
 namespace echocine::echo {
 
-// Columns of a picture that hold the curve, and rows that it keeps to; ends included.
+// Columns and rows of the curve in a picture; ends included.
 struct CurveBand {
   int left = 0, right = 0, top = 0, bottom = 0;
   int columns() const { return right - left + 1; }
   int rows() const { return bottom - top + 1; }
 };
 
-// Columns that changed from a frame to the next; ends included, counted from the band's left.
+// Columns that changed between two frames; ends included, counted from the band's left.
 struct ChangedColumns {
   int first = 0, last = 0;
   int pixels = 0;
@@ -25,17 +25,17 @@ struct ChangedColumns {
 struct EcgCurve {
   CurveBand band;
   double thickness_px = 1;
-  // By frame and column: how far the curve lies above its usual row, px; NaN where there is none.
+  // By frame and column: height of the curve above its usual row, px; NaN without a curve.
   std::vector<std::vector<float>> height_px;
-  // By frame: what changed since the frame before; the most pixels first, eight at most.
+  // By frame: changed columns since the previous frame, the largest changes first, eight at most.
   std::vector<std::vector<ChangedColumns>> changed;
 };
 
-// Bands that hold a curve in a third of the frames and more, the widest first, three at most. A
-// curve is brighter than what is around it, at least 0.15 of the picture's width long, at most 0.35
-// of its height high, 8-connected once gaps of two pixels are closed, thin, and single-valued: one
-// run of pixels in four of five columns. Text, bars and ticks that stand free are none of these.
-// Our choice of numbers.
+// Bands that contain a curve in at least a third of the frames, the widest first, three at most. A
+// curve is brighter than its neighbourhood, at least 0.15 of the picture's width long, at most 0.35
+// of its height high, 8-connected after closing gaps of two pixels, thin, and single-valued: one
+// run of pixels in four of five columns. Isolated text, bars and ticks do not qualify. The numbers
+// are our choice.
 std::vector<CurveBand> curveBands(const Video& video, const Sector& sector);
 
 EcgCurve curveIn(const CurveBand& band, const Video& video, const Sector& sector);

@@ -8,14 +8,14 @@ namespace echocine::echo {
 
 struct RWaves {
   std::vector<double> at;  // samples
-  // 0..1: how far the sharpest deflection that is no R wave falls behind the R waves; 0 where they
-  // are not narrow, not tall, or not regular.
+  // 0..1: margin between the R waves and the sharpest other deflection; 0 if they are not narrow,
+  // not tall, or not regular.
   double confidence = 0;
 };
 
-// Deflections to one side whose prominence over their width at half of it is 0.4 and more of the
-// sharpest one's: narrow and tall. That side is taken on which they are sharper. NaN: not known.
-// `thickness`: of the curve, in units of the heights: lower waves say nothing.
+// Deflections to one side whose ratio of prominence to width at half prominence is at least 0.4 of
+// the sharpest one's: narrow and tall. The side with the sharper deflections is used. NaN: unknown.
+// `thickness`: of the curve, in units of the heights; smaller waves are ignored.
 RWaves findRWaves(std::span<const double> heights, double thickness);
 
 }  // namespace echocine::echo

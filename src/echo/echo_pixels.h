@@ -1,5 +1,5 @@
 #pragma once
-// The pixels of a loop that show echoes: those that are ever brighter than the background.
+// The pixels of a loop that show echoes: those ever brighter than the background.
 
 #include "video/video.h"
 
@@ -18,9 +18,9 @@ struct EchoPixels {
   }
 };
 
-// Live: moving by more than `moving` grey levels over the loop, or brighter than the background by
-// twice that and more, and in the largest connected part once pixels are thinned and thickened by
-// one (so that text and ticks that only touch fall off).
+// Live pixels change by more than `moving` grey levels over the loop, or are brighter than the
+// background by at least twice that, and belong to the largest connected part after an opening by
+// one pixel, which removes attached text and ticks.
 EchoPixels echoPixels(const Video& video, int moving);
 
 }  // namespace echocine::echo

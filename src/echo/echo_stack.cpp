@@ -44,7 +44,7 @@ std::vector<float> softened(const cv::Mat& mask, double sigma_px) {
 }
 
 std::vector<EchoStack::Sample> withGradients(const std::vector<float>& g,
-                                             const std::vector<float>& in_sight, int width,
+                                             const std::vector<float>& visible, int width,
                                              int height) {
   std::vector<EchoStack::Sample> out(g.size());
   constexpr float kPerMillimetre = static_cast<float>(0.5e-3 / kEchoPixel_m);
@@ -54,7 +54,7 @@ std::vector<EchoStack::Sample> withGradients(const std::vector<float>& g,
       const float* p = g.data() + at;
       EchoStack::Sample& s = out[static_cast<std::size_t>(at)];
       s.grey = *p;
-      s.in_sight = in_sight[static_cast<std::size_t>(at)];
+      s.visible = visible[static_cast<std::size_t>(at)];
       if (i > 0 && i + 1 < width) s.gx = kPerMillimetre * (p[1] - p[-1]);
       if (j > 0 && j + 1 < height) s.gz = kPerMillimetre * (p[width] - p[-width]);
     }
@@ -155,7 +155,7 @@ void EchoStack::makePictures(const EchoLoop& real, const BeatSpan& beat) {
           inside_[static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) +
                   static_cast<std::size_t>(i)];
   constexpr double kSigma_px = kEchoSmoothing_m / kEchoPixel_m;
-  const std::vector<float> in_sight = softened(mask, kSigma_px);
+  const std::vector<float> visible = softened(mask, kSigma_px);
   parallelBlocks(planes_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       const double place =
@@ -164,7 +164,7 @@ void EchoStack::makePictures(const EchoLoop& real, const BeatSpan& beat) {
       if (!shows(beat, place, real.video.frameCount())) continue;
       const cv::Mat picture = pictureAt(real.video, beat, place, width_, height_);
       sharp_[n].assign(picture.ptr<float>(), picture.ptr<float>() + picture.total());
-      planes_[n] = withGradients(smoothed(sharp_[n], mask, kSigma_px), in_sight, width_, height_);
+      planes_[n] = withGradients(smoothed(sharp_[n], mask, kSigma_px), visible, width_, height_);
     }
   });
 }

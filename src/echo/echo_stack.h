@@ -1,6 +1,5 @@
 #pragma once
-// One beat of a real loop as smoothed pictures in millimetres, ready to be looked up under any
-// pose.
+// One beat of a real loop as smoothed pictures in millimetres, for look-up under any pose.
 
 #include <cmath>
 #include <cstring>
@@ -14,70 +13,71 @@
 
 namespace echocine::echo {
 
-// Standard deviation of the smoothing: above speckle, below the thickness of a wall; our choice.
+// Standard deviation of the smoothing: larger than speckle, smaller than the thickness of a wall;
+// our choice.
 inline constexpr double kEchoSmoothing_m = 2e-3;
 inline constexpr double kEchoPixel_m = 1e-3;
 
-// Which frames of a loop are a beat.
+// The frames of a loop that form a beat.
 struct BeatSpan {
-  double end_diastole = 0;  // frame, may lie between two
+  double end_diastole = 0;  // frame, possibly fractional
   double frames = 0;        // length of the beat
-  // End-systole as parts of the beat: in the loop, and where pictures of an EchoStack show it. 0:
-  // not known, pictures follow evenly.
+  // End-systole as a fraction of the beat: in the loop, and in the pictures of an EchoStack. 0:
+  // unknown, pictures are evenly spaced.
   double systole = 0, shown_systole = 0;
 };
 
-// A beat run through piecewise evenly, so that `from` lands at `to`; parts of the beat, 0 either:
-// as it is. Systole and diastole differ in length from heart to heart, and with their rate.
+// Piecewise linear warp of a beat that maps `from` to `to`, fractions of the beat; identity if
+// either is 0. Durations of systole and diastole differ between hearts and with heart rate.
 inline double warpedPhase(double phase, double from, double to) {
   if (!(from > 0 && to > 0)) return phase;
   const double whole = std::floor(phase), part = phase - whole;
   return whole + (part < from ? part * to / from : to + (part - from) * (1 - to) / (1 - from));
 }
 
-// An instant as a sum of pictures that follow one another.
+// An instant as a sum of successive pictures.
 struct BeatPlace {
   int pictures[3] = {};
   float shares[3] = {1, 0, 0};
-  double pace = 1;  // pictures that pass from a model's frame to its next
+  double pace = 1;  // pictures per step of a model's frames
 };
 
-// Motion of the echoes at a place, from one picture to the next.
+// Motion of the echoes at a place between successive pictures.
 struct EchoMotion {
   float dx_m = 0, dz_m = 0;
-  float weight = 0;  // 0..1: the correlation of the blocks; 0: nothing was found
+  float weight = 0;  // 0..1: the correlation of the blocks; 0: no match
 };
 
 class EchoStack {
  public:
-  // `pictures` pictures at equal steps through the beat, the first at end-diastole. Where the loop
-  // has no scale its sector is taken to be `depth_m` deep. Throws SceneError: less than half a
-  // beat. Runs in parallel.
+  // `pictures` evenly spaced pictures of the beat, the first at end-diastole. The sector of a loop
+  // without scale is assumed to be `depth_m` deep. Throws SceneError for less than half a beat.
+  // Runs in parallel.
   EchoStack(const EchoLoop& real, const BeatSpan& beat, int pictures, double depth_m);
 
-  // Grey 0 to 255; gradient in greys per mm. in_sight: 0 outside the sector and under overlays,
-  // rising to 1 within two standard deviations of the smoothing, so that sums change evenly as
-  // places cross the border.
+  // Grey 0 to 255; gradient in grey levels per mm. visible: 0 outside the sector and under
+  // overlays, rising to 1 within two standard deviations of the smoothing, so that sums change
+  // continuously as places cross the border.
   struct Sample {
-    float grey = 0, gx = 0, gz = 0, in_sight = 0;
+    float grey = 0, gx = 0, gz = 0, visible = 0;
   };
 
-  // A loop shorter than its beat does not show all of it.
+  // False for pictures outside a loop that is shorter than its beat.
   bool seen(int picture) const { return !planes_[static_cast<std::size_t>(picture)].empty(); }
   bool seen(const BeatPlace& at) const {
     for (int i = 0; i < 3; ++i)
       if (at.shares[i] > 0 && !seen(at.pictures[i])) return false;
     return true;
   }
-  double systole() const { return systole_; }  // where pictures show end-systole; 0: not known
+  double systole() const { return systole_; }  // of the pictures; 0: unknown
   int pictures() const { return static_cast<int>(planes_.size()); }
   double metresPerPixel() const { return metres_per_pixel_; }  // of the real loop
   double edgeScale() const { return edge_scale_; }             // root mean square of the gradient
   double far() const { return far_m_; }
   const EchoSpread& spread() const { return spread_; }
 
-  // At a place, lateral and depth from the apex; in_sight is 0 outside the picture.
-  // Precondition: seen(instant).
+  // At a place, lateral and depth from the apex; visible is 0 outside the picture. Precondition:
+  // seen(instant).
   Sample at(const BeatPlace& instant, double x_m, double z_m) const {
     const double u = x_m / kEchoPixel_m + origin_x_, v = z_m / kEchoPixel_m + origin_z_;
     if (!(u > 0 && v > 0 && u < width_ && v < height_)) return {};
@@ -87,9 +87,9 @@ class EchoStack {
       if (instant.shares[i] > 0) sum += instant.shares[i] * blended(instant.pictures[i], p);
     return {sum[0], sum[1], sum[2], sum[3]};
   }
-  // Nothing (weight 0) outside.
+  // Weight 0 outside.
   EchoMotion motionAt(int picture, double x_m, double z_m) const;
-  // Over a model's frame: by its pace.
+  // Over a step of the model, by its pace.
   EchoMotion motionAt(const BeatPlace& instant, double x_m, double z_m) const;
 
  private:
@@ -116,7 +116,7 @@ class EchoStack {
   EchoSpread spread_;
   PixelPlane inside_;
   std::vector<std::vector<Sample>> planes_;
-  std::vector<std::vector<float>> sharp_;  // for block matching alone
+  std::vector<std::vector<float>> sharp_;  // for block matching only
   int blocks_across_ = 0, blocks_down_ = 0;
   std::vector<std::vector<EchoMotion>> motion_;
 };

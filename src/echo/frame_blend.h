@@ -1,23 +1,23 @@
 #pragma once
-// A loop at a place between two of its frames.
+// A loop interpolated between two of its frames.
 
 #include <cstddef>
 #include <vector>
 
 namespace echocine::echo {
 
-// Two neighbouring frames and the share of the second.
+// Two neighbouring frames and the weight of the second.
 struct Blend {
   std::size_t a = 0, b = 0;
   double share = 0;     // 0..1
-  bool inside = false;  // false: the loop shows no such instant
+  bool inside = false;  // false: outside the loop
 };
 
-// place and beat in frames; beat 0 where not periodic. A periodic loop closes from the last frame
-// before the beat's end to frame 0; that step may be shorter or longer than one frame.
+// place and beat in frames; beat 0: not periodic. A periodic loop closes from the last frame before
+// the beat's end to frame 0; that step may be shorter or longer than one frame.
 Blend blendAt(double place, int frames, double beat, bool periodic);
 
-// Frames blended at a place, for loops in beam space.
+// Interpolated frame at a place, for loops in beam space.
 std::vector<float> frameAtPlace(const std::vector<std::vector<float>>& frames, double place,
                                 double beat, bool periodic);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A loop's frames as short vectors of what moves, for finding the beat in them.
+// A loop's frames as short vectors of their moving parts, for finding the beat.
 
 #include <vector>
 
@@ -7,9 +7,9 @@
 
 namespace echocine::echo {
 
-// Each frame: weighted means over blocks of beam space (about 32 x 48 of them), less their mean
-// over the loop, times the square root of the block's weight. Inner products are then those of what
-// moves in the picture.
+// For each frame: weighted means over blocks of beam space (about 32 x 48 of them), minus their
+// mean over the loop, times the square root of the block's weight. Inner products then measure the
+// moving parts of the picture.
 using Features = std::vector<std::vector<double>>;
 Features motionFeatures(const BeamGrid& grid, const BeamLoop& loop,
                         const std::vector<float>& weights);

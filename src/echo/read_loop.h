@@ -1,5 +1,5 @@
 #pragma once
-// From a file to a loop with its sector, scale and rate.
+// Reads a loop with its sector, scale and rate.
 
 #include <filesystem>
 #include <optional>
@@ -10,14 +10,14 @@
 
 namespace echocine::echo {
 
-// Values that the user gives in place of those in the files. Frames count from 0.
+// Values given by the user, which override those of the files. Frames count from 0.
 struct SideOptions {
   std::optional<double> fps, mm_per_pixel, pixel_aspect, heart_rate_bpm;  // aspect: height / width
   std::optional<std::string> sector;
-  std::optional<std::string> label;          // what pages and JSON call the loop
-  std::optional<double> ed_frame, es_frame;  // may lie between two
+  std::optional<std::string> label;          // name of the loop in pages and JSON
+  std::optional<double> ed_frame, es_frame;  // possibly fractional
   std::vector<double> r_waves_s;             // from the first frame
-  bool read_ecg = true;                      // of the picture, where no R wave is known otherwise
+  bool read_ecg = true;                      // of the picture, if no R wave is known otherwise
 };
 
 // Ranges of the numbers, ends included.
@@ -26,11 +26,10 @@ inline constexpr double kLeastAspect = 0.2, kMostAspect = 5;
 inline constexpr double kLeastHeartRate_bpm = 10, kMostHeartRate_bpm = 400;
 inline constexpr double kMostFrame = 1e6, kMostRWave_s = 3600;
 
-// Throws SceneError that names the member: a number out of range, or not a number.
+// Throws SceneError naming the member for a number out of range or NaN.
 void checkSide(const SideOptions& side);
 
-// A loop that was made in memory: throws SceneError unless its scale, where it has one, is within
-// the range.
+// For a loop made in memory: throws SceneError if its scale is out of range.
 void checkScale(const EchoLoop& loop);
 
 // A loop with its sector, scale and rate, from a render folder or any video.

@@ -1,5 +1,5 @@
 #pragma once
-// A folder that `echocine render` made: its cine, and the exact geometry from its manifest.
+// Reads a folder of `echocine render`: its cine, and the exact geometry from its manifest.
 
 #include <filesystem>
 
@@ -7,9 +7,9 @@
 
 namespace echocine::echo {
 
-bool isRenderFolder(const std::filesystem::path& path);  // holds a manifest.json
+bool isRenderFolder(const std::filesystem::path& path);  // does it contain a manifest.json?
 
-// Throws SceneError: unfinished, damaged, without a cine, of a linear probe.
+// Throws SceneError for an unfinished or damaged folder, one without a cine, and a linear probe.
 EchoLoop readRenderFolder(const std::filesystem::path& folder);
 
 }  // namespace echocine::echo

@@ -1,5 +1,5 @@
 #pragma once
-// Loops in beam space, wherever they are placed.
+// Loops in beam space, for any placement.
 
 #include <vector>
 
@@ -7,14 +7,14 @@
 
 namespace echocine::echo {
 
-// A loop in beam space, line-major. Pictures finer than the grid are smoothed to its spacing first.
+// A loop in beam space, line-major. Pictures finer than the grid are first smoothed to its spacing.
 // Grey 0 to 255.
 struct BeamLoop {
   std::vector<std::vector<float>> frames;
   PixelPlane valid;  // 1: within the sector, not under an overlay
 };
 
-// Pixel by pixel, of frames of one size; one at least.
+// Pixel by pixel, for frames of one size; at least one.
 template <typename Frame>
 std::vector<float> meanOf(const std::vector<Frame>& frames) {
   std::vector<float> mean(frames.front().size(), 0);
@@ -27,18 +27,18 @@ std::vector<float> meanOf(const std::vector<Frame>& frames) {
 // Runs in parallel.
 BeamLoop resample(const BeamGrid& grid, const EchoLoop& loop, const Placement& placement = {});
 
-// The same in two steps, for a loop that is placed again and again.
+// The same in two steps, for repeated placements of a loop.
 class LoopSampler {
  public:
   // References are kept.
   LoopSampler(const BeamGrid& grid, const EchoLoop& loop);
 
   int width() const;  // of picture()
-  // A frame as it is sampled, smoothed to the grid's spacing: the loop's picture, or its greys in
-  // beam space where it has them.
+  // A frame for sampling, smoothed to the grid's spacing: the loop's picture, or its grey levels in
+  // beam space if it has them.
   std::vector<float> picture(std::size_t frame) const;
   std::vector<float> meanPicture() const;
-  // Where the grid's samples lie in it, and in the loop's picture; line-major.
+  // Positions of the grid's samples in it and in the loop's picture; line-major.
   std::vector<PixelPlace> places(const Placement& placement) const;
   std::vector<PixelPlace> placesInLoop(const Placement& placement) const;
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where the scan area lies in a picture.
+// The scan area in a picture.
 
 #include <string>
 #include <vector>
@@ -19,24 +19,24 @@ struct Sector {
 
 struct SectorFind {
   Sector sector;
-  double edge_inliers = 1;  // share of rows whose first and last live pixel lie on the edges
-  double aspect = 1;  // height of a pixel over its width by the lower arc; 1 when it cannot tell
+  double edge_inliers = 1;  // share of rows whose first and last live pixels lie on the edges
+  double aspect = 1;        // pixel height / width, from the lower arc; 1 if undetermined
   bool given = false;
   std::vector<std::string> notes;
   double confidence() const { return edge_inliers; }
 };
 
-// The sector of what moves or is not black: for every pixel the largest grey over the loop, the
-// largest connected part of it, straight lines through its outermost pixels (RANSAC, then least
-// squares), their meeting point, and the radii between which arcs are live. Throws SceneError when
-// there is none. One that is stretched says so by its aspect.
+// The sector of pixels that move or are not black: the largest grey level of each pixel over the
+// loop, the largest connected part, straight lines through its outermost pixels (RANSAC, then least
+// squares), their intersection, and the radii between which arcs are live. Throws SceneError if
+// there is none. A stretched sector is reported by its aspect.
 SectorFind findSector(const Video& video);
 
 // "apex_x,apex_y,first_deg,last_deg,r_min,r_max". Throws SceneError naming the option.
 Sector parseSector(const std::string& option, const std::string& text);
 
-// Pixels of the sector that hold no echo: colour and text that stands still over the picture.
-// Throws SceneError when colour covers more than 60 % of the sector (a Doppler box).
+// Pixels of the sector without echo: colour, and static text over the picture. Throws SceneError if
+// colour covers more than 60 % of the sector (a Doppler box).
 PixelPlane overlayMask(const Video& video, const Sector& sector);
 
 }  // namespace echocine::echo

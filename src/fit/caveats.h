@@ -1,5 +1,5 @@
 #pragma once
-// Caveats that stand beside the numbers of a fit.
+// Caveats reported with the results of a fit.
 
 #include <string>
 #include <vector>
@@ -9,10 +9,11 @@
 
 namespace echocine::fit {
 
-// A result with less confidence (Eq. 8) is a hint: right ones and wrong ones lie below. Our choice.
+// A result with a lower confidence (Eq. 8) is a hint: correct and wrong results lie below. Our
+// choice.
 inline constexpr double kLeastConfidence = 0.1;
 
-// One clause each: a hint, an unknown scale, a loop that was taken for a beat.
+// One clause each: low confidence, unknown scale, a loop assumed to be one beat.
 std::vector<std::string> caveatsOf(const echo::EchoLoop& real, const BeatFound& beat,
                                    double confidence);
 

@@ -26,7 +26,7 @@ double sectorArea(const echo::EchoStack& real, const echo::BeatPlace& at) {
   double area = 0;
   for (int i = -steps; i <= steps; ++i)
     for (int k = 0; k <= steps; ++k)
-      area += static_cast<double>(real.at(at, kStep_m * i, kStep_m * k).in_sight);
+      area += static_cast<double>(real.at(at, kStep_m * i, kStep_m * k).visible);
   return area * kStep_m * kStep_m;
 }
 
@@ -41,16 +41,16 @@ double coverageOf(const ModelLoop& model, const echo::EchoStack& real, const Fit
       if (!(cell.area > 0)) continue;
       double x, z;
       map.place(cell.x_m, cell.z_m, x, z);
-      cells += static_cast<double>(cell.area * real.at(at, x, z).in_sight);
+      cells += static_cast<double>(cell.area * real.at(at, x, z).visible);
     }
   const double sector = sectorArea(real, at),
-               claimed = cells / static_cast<double>(model.frames.size()) /
-                         cellsPerArea(model, {}) * map.scale() * map.scale();
-  return sector > 0 ? std::clamp(claimed / sector, 0.0, 1.0) : 0;
+               coverage = cells / static_cast<double>(model.frames.size()) /
+                          cellsPerArea(model, {}) * map.scale() * map.scale();
+  return sector > 0 ? std::clamp(coverage / sector, 0.0, 1.0) : 0;
 }
 
-double pictureDiscrepancy(double discrepancy, double claimed) {
-  return std::pow(discrepancy, claimed);
+double pictureDiscrepancy(double discrepancy, double coverage) {
+  return std::pow(discrepancy, coverage);
 }
 
 }  // namespace echocine::fit

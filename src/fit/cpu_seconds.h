@@ -1,5 +1,5 @@
 #pragma once
-// CPU time of the whole process: what a search costs, however many threads ran it.
+// CPU time of the whole process: the cost of a search on any number of threads.
 
 #include <ctime>
 

@@ -186,8 +186,8 @@ std::vector<Descent> descendAll(const PoseFunction& f, const std::vector<Descent
   return out;
 }
 
-double confidenceOf(double best, double rival, double nothing) {
-  return nothing > 0 ? std::clamp((std::min(rival, nothing) - best) / nothing, 0.0, 1.0) : 0;
+double confidenceOf(double best, double rival, double baseline) {
+  return baseline > 0 ? std::clamp((std::min(rival, baseline) - best) / baseline, 0.0, 1.0) : 0;
 }
 
 }  // namespace echocine::fit

@@ -1,5 +1,5 @@
 #pragma once
-// The least values of a smooth function of a pose: Newton's method from several starts.
+// Minima of a smooth function of a pose: Newton's method from several starts.
 
 #include <array>
 #include <functional>
@@ -8,8 +8,8 @@
 
 namespace echocine::fit {
 
-// Two shifts, a turn, a scale, each in units that change the function about alike at the size of
-// what is looked for: a unit of shift is 2 mm in 15 cm, of turn 2 degrees, of scale 3 %.
+// Two shifts, a rotation, a scale. The units have similar effect on the function: one unit is a
+// shift of 2 mm in 15 cm, a rotation of 2 degrees, or a scale of 3 %.
 inline constexpr std::size_t kUnknowns = 4;
 using Unknowns = std::array<double, kUnknowns>;
 
@@ -18,7 +18,7 @@ struct Descent {
   double value = 2;
 };
 
-// Where the unknowns may lie; those whose ends are equal stay.
+// Bounds of the unknowns. An unknown with equal bounds is fixed.
 struct SearchBox {
   Unknowns low{}, high{};
 
@@ -26,31 +26,33 @@ struct SearchBox {
   bool atLimit(const Unknowns& at) const;
 };
 
-// Values at several places: what they share is made once. Thread-safe.
+// Values at several places. Shared work is done once. Thread-safe.
 using PoseFunction = std::function<std::vector<double>(std::span<const Unknowns>)>;
 PoseFunction oneByOne(std::function<double(const Unknowns&)> f);
 
-// Five units of shift or of turn apart: other hills. Our choice.
+// At least five units of shift or of rotation apart, so in different basins. Our choice.
 bool standApart(const Unknowns& a, const Unknowns& b);
 
-// The function at every place of a lattice of so many steps each way. Runs in parallel.
+// The function at every point of a lattice, with `each_way` steps in each direction. Runs in
+// parallel.
 std::vector<Descent> lattice(const PoseFunction& f, const SearchBox& box,
                              const std::array<int, kUnknowns>& each_way);
 
-// The least `most` of them that stand apart, least first.
+// The lowest `most` of them that stand apart, in ascending order.
 std::vector<Descent> leastApart(std::vector<Descent> all, std::size_t most);
 
-// Newton's method with central differences, curvatures made positive, steps halved until they gain.
-// Starts are followed in parallel.
+// Newton's method with central differences and absolute curvatures. Steps are halved until the
+// value falls. Starts are refined in parallel.
 Descent descend(const PoseFunction& f, const Unknowns& start, const SearchBox& box);
 std::vector<Descent> descendAll(const PoseFunction& f, const std::vector<Descent>& starts,
                                 const SearchBox& box);
 
-// (8)  confidence = (min(rival, nothing) - best) / nothing,   between 0 and 1,
-// of every search in this room: by which part of the way from `nothing`, the value of what says
-// nothing, to 0, the value of what is perfect, the best beats its best rival. 0: as good elsewhere,
-// or nothing was found; 1: perfect, and nothing else says anything. Measured by the whole way: the
-// best of a search through noise beats others by luck, but by little of it.
-double confidenceOf(double best, double rival, double nothing);
+// (8)  confidence = (min(rival, baseline) - best) / baseline,   between 0 and 1,
+// for every search in this room. `baseline` is the value of an uninformative model; a perfect one
+// has 0. The confidence is 0 if another place fits as well or nothing was found, and 1 if the best
+// is perfect and no other place fits at all. It is relative to the whole range because the best
+// result of a search through noise exceeds its rivals by chance, but only by a small part of that
+// range.
+double confidenceOf(double best, double rival, double baseline);
 
 }  // namespace echocine::fit

@@ -19,7 +19,7 @@ std::vector<RegionLeft> leftOver(const ModelFrame& frame, const echo::EchoStack&
     double x, z;
     map.place(cell.x_m, cell.z_m, x, z);
     const echo::EchoStack::Sample s = real.at(at, x, z);
-    if (!(s.in_sight > 0)) continue;
+    if (!(s.visible > 0)) continue;
     const double place = std::clamp(std::hypot(x, z) / real.far(), 0.0, 1.0) * (kGainKnots - 1);
     const int knot = std::min(static_cast<int>(place), kGainKnots - 2);
     const double gain = fit.gain[knot] + (place - knot) * (fit.gain[knot + 1] - fit.gain[knot]);
@@ -53,7 +53,7 @@ std::vector<BoundaryOffset> offsetsOf(const ModelFrame& frame, const echo::EchoS
     const double beside = p.of_blood ? seenBeside(real, x, z, nx, nz) : 0;
     const EdgeProfile edge =
         edgeProfileAt(real, at, x - beside * nx, z - beside * nz, nx, nz, p.of_blood);
-    if (!(edge.in_sight > 0)) continue;
+    if (!(edge.visible > 0)) continue;
     const MotionPair m = motionOf(p, real, at, map, x, z, nx, nz);
     const bool tracked = p.of_blood && m.weight > 0;
     out.push_back({static_cast<float>(x), static_cast<float>(z),

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
-#include "motion/mesh_motion.h"
-#include "motion/probe_placement.h"
+#include "motion/surfaces/mesh_motion.h"
+#include "motion/surfaces/probe_placement.h"
 #include "page/assets.h"
 #include "scene/probe_pose.h"
 #include "truth/aha_segments.h"
@@ -77,7 +77,7 @@ Json poseJson(const FitPose& p) {
 Json foundJson(const PoseFound& f) {
   return {{"discrepancy", f.discrepancy}, {"region", f.terms.region},
           {"boundary", f.terms.boundary}, {"motion", f.terms.motion},
-          {"in_sight", f.terms.in_sight}, {"pose", poseJson(f.pose)}};
+          {"overlap", f.terms.overlap},   {"pose", poseJson(f.pose)}};
 }
 
 Json beatJson(const BeatFound& beat) {

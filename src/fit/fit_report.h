@@ -1,5 +1,5 @@
 #pragma once
-// Where a model disagrees with a loop, with the loop's pictures: what pages and files show of it.
+// Disagreement of a model with a loop, with the loop's pictures, for pages and files.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -22,22 +22,22 @@ struct FitReport {
 FitReport fitReport(const ModelLoop& model, const ModelDiscrepancy& discrepancy,
                     const echo::EchoLoop& real, const FitPose& pose);
 
-// A scene held against the real loop, as it stands.
+// A scene compared with the real loop.
 struct SceneFit {
   BeatFound beat;
   PoseFound found;
   FitReport where;
-  std::optional<TiltFound> tilt;  // where one was asked for: found and where are of that plane
-  std::string tilted_probe;       // that plane, as keys of a scene's [probe]
+  std::optional<TiltFound> tilt;  // if requested; found and where are then of that plane
+  std::string tilted_probe;       // that plane as keys of [probe]
 };
-// tilt_deg: by which the plane may be tilted and rotated, either way. Throws SceneError as
-// ModelDiscrepancy does, JobError when the monitor wants to stop. Precondition: the scene's probe
-// is placed.
+// tilt_deg: limit of tilt and rotation of the plane, either way. Throws SceneError like
+// ModelDiscrepancy, JobError when the monitor requests a stop. Precondition: the scene's probe is
+// placed.
 SceneFit fitScene(const Scene& scene, const echo::EchoLoop& real, const echo::SideOptions& side,
                   double tilt_deg = 0, const Monitor& monitor = {});
 
-// As files have them: {shift_mm, turn_deg, scale}; D, its terms and the pose; the beat's start; the
-// tilt; curves of structures and of the left ventricle's segments.
+// JSON for files: {shift_mm, turn_deg, scale}; D, its terms and the pose; the start of the beat;
+// the tilt; curves of structures and of the left ventricle's segments.
 nlohmann::ordered_json poseJson(const FitPose& pose);
 nlohmann::ordered_json foundJson(const PoseFound& found);
 nlohmann::ordered_json beatJson(const BeatFound& beat);
@@ -46,13 +46,13 @@ nlohmann::ordered_json tiltJson(const SceneFit& fit);  // with the keys; precond
 nlohmann::ordered_json structureCurvesJson(const FitReport& where);
 nlohmann::ordered_json segmentCurvesJson(const FitReport& where);
 
-// The look of a page of this name that shows where a model disagrees: its markup, its script, and
-// fit_map.js before that.
+// Look of a page of this name that shows the disagreement of a model: its markup and its script,
+// preceded by fit_map.js.
 PageLook fitPageLook(const std::string& title, const std::string& name);
-// For fit_map.js: its pictures as a loop, and what is drawn over them. Throws JobError.
+// Data for fit_map.js: its pictures as a loop, and the overlays. Throws JobError.
 void addFitPictures(const FitReport& where, PageWriter& page, std::string_view loop = "fit");
 nlohmann::ordered_json fitJson(const FitReport& where);
-// The boundaries alone, by frame: [x, y] in pixels of the pictures.
+// Boundaries only, by frame: [x, y] in pixels of the pictures.
 nlohmann::ordered_json outlineJson(const FitReport& where);
 
 }  // namespace echocine::fit

@@ -33,9 +33,9 @@ EdgeProfile edgeProfileAt(const echo::EchoStack& real, const echo::BeatPlace& at
     // The sector's end shows no edge.
     const echo::EchoStack::Sample g = real.at(at, px, pz);
     const double edge = (nx * static_cast<double>(g.gx) + nz * static_cast<double>(g.gz)) *
-                        static_cast<double>(g.in_sight);
+                        static_cast<double>(g.visible);
     e[i] = static_cast<float>(per_scale * (of_blood ? edge : std::abs(edge)));
-    if (2 * i == kProfileSteps - 1) out.in_sight = g.in_sight;
+    if (2 * i == kProfileSteps - 1) out.visible = g.visible;
   }
   for (std::size_t i = 0; i < std::size(e); i += kFloatLanes)
     store(exponential(lanesAt(e + i)), e + i);
@@ -78,7 +78,7 @@ void addCells(const ModelLoop& model, const ModelFrame& frame, const echo::EchoS
       double x, z;
       map.place(cell.x_m, cell.z_m, x, z);
       const echo::EchoStack::Sample s = real.at(at, x, z);
-      const double area = cell.area, seen = area * static_cast<double>(s.in_sight);
+      const double area = cell.area, seen = area * static_cast<double>(s.visible);
       sums.all += area;
       if (!(seen > 0)) continue;
       sums.seen += seen;
@@ -92,7 +92,7 @@ void addStrip(const BoundaryPoint& p, const echo::EchoStack& real, const echo::B
               RegionSums& sums) {
   const double hx = x - 0.5 * beside * nx, hz = z - 0.5 * beside * nz;
   const echo::EchoStack::Sample strip = real.at(at, hx, hz);
-  const double weight = cells_per_m2 * p.length_m * beside * static_cast<double>(strip.in_sight),
+  const double weight = cells_per_m2 * p.length_m * beside * static_cast<double>(strip.visible),
                depth = std::sqrt(hx * hx + hz * hz) / real.far();
   sums.greys.add(p.blood, p.blood, 1, depth, strip.grey, -weight);
   sums.greys.add(p.beside, p.beside, 1, depth, strip.grey, weight);

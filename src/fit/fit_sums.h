@@ -1,5 +1,6 @@
 #pragma once
-// What terms and maps of a fit share: places under a pose, edges along normals, sums of greys.
+// Shared by the terms and maps of a fit: places under a pose, edges along normals, sums of grey
+// levels.
 
 #include <cmath>
 
@@ -22,7 +23,7 @@ class PoseMapping {
         s_(p.scale * std::sin(p.turn_rad)),
         turn_c_(std::cos(p.turn_rad)),
         turn_s_(std::sin(p.turn_rad)) {}
-  // Positive turns lead from depth towards lateral, as Placement's rotation does.
+  // Positive angles rotate depth towards lateral, like Placement's rotation.
   void place(double x, double z, double& rx, double& rz) const {
     const double dz = z - middle_;
     rx = x_ + c_ * x + s_ * dz;
@@ -38,47 +39,48 @@ class PoseMapping {
   double middle_, x_, z_, c_, s_, turn_c_, turn_s_;
 };
 
-// p(s) of Eq. 4 as its first two moments, and how far from even it is.
+// p(s) of Eq. 4 as its first two moments, and its certainty.
 struct EdgeProfile {
-  double mean_m = 0, square = 1.0 / 3;  // of s; of (s/S)^2
-  double in_sight = 0;                  // of the place itself
+  double mean_m = 0, square = 1.0 / 3;  // mean of s, m; mean of (s/S)^2
+  double visible = 0;                   // visibility of the place itself
   double p[kProfileSteps] = {};
 
-  double certainty() const;  // 1 - entropy of p over that of an even one
+  double certainty() const;  // 1 - entropy of p / entropy of an even p
 };
 
-// Along a unit normal at a place of the real plane.
+// The edge profile along a unit normal at a place of the real plane.
 EdgeProfile edgeProfileAt(const echo::EchoStack& real, const echo::BeatPlace& at, double x,
                           double z, double nx, double nz, bool of_blood);
 
-// How far into blood a boundary is seen: Eq. 9.
+// Displacement into the blood at which a boundary is visible: Eq. 9.
 double seenBeside(const echo::EchoStack& real, double x, double z, double nx, double nz);
 
-// |u - v|^2 and |u|^2 + |v|^2 of Eq. 5; no weight where nothing is tracked.
+// u - v|^2 and |u|^2 + |v|^2 of Eq. 5; weight 0 without tracking.
 struct MotionPair {
   double apart = 0, together = 0, weight = 0;
 };
 MotionPair motionOf(const BoundaryPoint& p, const echo::EchoStack& real, const echo::BeatPlace& at,
                     const PoseMapping& map, double x, double z, double nx, double nz);
 
-// Of Eq. 3.
+// Sums of Eq. 3.
 struct RegionSums {
   TissueGreys greys;
   double seen = 0, all = 0;  // areas
 };
 
-// The cells of a frame.
+// Adds the cells of a frame.
 void addCells(const ModelLoop& model, const ModelFrame& frame, const echo::EchoStack& real,
               const echo::BeatPlace& at, const PoseMapping& map, int stride, RegionSums& sums);
-// What lies between a boundary of blood and where it is seen: it looks like what is beside blood.
+// Adds the strip between a boundary of blood and its visible position, as the tissue beside the
+// blood.
 void addStrip(const BoundaryPoint& p, const echo::EchoStack& real, const echo::BeatPlace& at,
               double x, double z, double nx, double nz, double beside, double cells_per_m2,
               RegionSums& sums);
-// Cells at the largest depth, whose area counts as 1, to the square metre, where every
-// `stride.cell`-th and every `stride.piece`-th piece is looked at.
+// Number of cells at the largest depth per square metre; a cell there has an area of 1. Only every
+// `stride.cell`-th cell and every `stride.piece`-th piece is evaluated.
 double cellsPerArea(const ModelLoop& model, const FitStride& stride);
 
-// The instant of a model's frame.
+// The instant of a model's frame in the beat.
 echo::BeatPlace placeOf(const ModelLoop& model, std::size_t frame, const FitPose& pose,
                         const echo::EchoStack& real);
 

@@ -33,7 +33,7 @@ void addBoundary(const ModelFrame& frame, const echo::EchoStack& real, const ech
     const double beside = seenBeside(real, x, z, nx, nz);
     const EdgeProfile edge =
         edgeProfileAt(real, at, x - beside * nx, z - beside * nz, nx, nz, true);
-    const double length = p.length_m * edge.in_sight;
+    const double length = p.length_m * edge.visible;
     if (!(length > 0)) continue;
     addStrip(p, real, at, x, z, nx, nz, beside, cells_per_m2, region);
     sums.square += length * edge.square;
@@ -49,7 +49,7 @@ void addBoundary(const ModelFrame& frame, const echo::EchoStack& real, const ech
 double fitDiscrepancy(const FitTerms& t, const FitWeights& w) {
   const double sum = w.region + w.boundary + w.motion;
   const double inside = (w.region * t.region + w.boundary * t.boundary + w.motion * t.motion) / sum;
-  return t.in_sight * inside + 1 - t.in_sight;
+  return t.overlap * inside + 1 - t.overlap;
 }
 
 namespace {
@@ -62,7 +62,7 @@ struct TermSums {
     static const double kEven = evenSquare();
     FitTerms out;
     if (!(region.seen > 0)) return out;
-    out.in_sight = region.seen / region.all;
+    out.overlap = region.seen / region.all;
     out.region = region.greys.fit().ratio();
     // Each sum has a little of the value that says nothing, so that terms stay continuous where
     // boundaries leave the sector.

@@ -64,9 +64,9 @@ HeartFound searchHeart(const HeartFamily& family, const std::vector<ScanAxis>& p
                           discrepancy, out.found, tilt_deg, monitor);
     out.found = out.tilt->found;
   }
-  out.claimed = coverageOf(family.at(out.values, out.tilt ? out.tilt->tilt : PlaneTilt{}),
-                           discrepancy.stack(), out.found.pose);
-  out.left = pictureDiscrepancy(out.found.discrepancy, out.claimed);
+  out.coverage = coverageOf(family.at(out.values, out.tilt ? out.tilt->tilt : PlaneTilt{}),
+                            discrepancy.stack(), out.found.pose);
+  out.left = pictureDiscrepancy(out.found.discrepancy, out.coverage);
   return out;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A real loop against models, without files: what an optimiser asks again and again.
+// Discrepancy between a real loop and models, in memory, for repeated calls by an optimiser.
 
 #include <string>
 #include <vector>
@@ -15,22 +15,22 @@ namespace echocine::fit {
 
 inline constexpr int kFitFrames = 20;  // of a beat; our choice: 46 ms at 65 beats per minute
 
-// BeatFound::length_source where nothing tells the beat's length.
+// BeatFound::length_source if the length of the beat is unknown.
 inline constexpr const char* kLoopIsBeat = "the loop is taken for a beat";
 
 struct FitSettings {
   FitWeights weights;
-  PoseLimits limits;  // scale_free: set where the real loop has no scale
+  PoseLimits limits;  // scale_free: set if the real loop has no scale
 };
 
-// When the real beat starts, and how sure that is.
+// Start of the real beat, and its confidence.
 struct BeatFound {
   echo::BeatSpan span;
   std::string length_source, start_source;
-  // 1: known; of an ECG in the picture the trace's; else Eq. 8 of descent.h: rivals lie three
-  // pictures away or more, what says nothing is the median of all starts.
+  // 1: known; for an ECG in the picture that of the trace; else Eq. 8 of descent.h. Rivals are at
+  // least three pictures away; the baseline is the median of all starts.
   double confidence = 1;
-  // Of the loop's end-systole, the same; rivals lie three pictures away or more.
+  // The same for the loop's end-systole; rivals are at least three pictures away.
   std::string systole_source;
   double systole_confidence = 1;
 };
@@ -38,22 +38,21 @@ struct BeatFound {
 // Built once from a real loop.
 class ModelDiscrepancy {
  public:
-  // `first`: a model of about the right heart and view: it tells the start of the beat where
-  // neither the file (`side`: the user) has R waves nor end-diastole, and the depth of a loop
-  // without scale. Throws SceneError: less than half a beat. Runs in parallel.
+  // `first`: a model of roughly the right heart and view. It determines the start of the beat if
+  // neither the file nor `side` (the user) gives R waves or end-diastole, and the depth of a loop
+  // without scale. Throws SceneError for less than half a beat. Runs in parallel.
   ModelDiscrepancy(const echo::EchoLoop& real, const echo::SideOptions& side,
                    const ModelLoop& first, const FitSettings& settings = {});
 
-  // The pose of least D, from everywhere, or near given ones; with that D and its terms.
-  // Thread-safe. Precondition: the model has kFitFrames frames.
+  // The pose of lowest D, searched globally or near given poses, with its D and terms. Thread-safe.
+  // Precondition: the model has kFitFrames frames.
   PoseFound search(const ModelLoop& model) const;
   PoseFound refine(const ModelLoop& model, const std::vector<FitPose>& starts) const;
-  // From everywhere, where another pose may lie lower, and from given ones too, near which none
-  // then lies higher.
+  // Global search plus the given starts: no lower minimum near a start is missed.
   PoseFound searchAlsoFrom(const ModelLoop& model, const std::vector<FitPose>& starts) const;
-  // Of a simulator's heart; its scene's lines and signal play no part.
+  // The same for a simulator's heart. Lines and signal chain of its scene are not used.
   PoseFound search(const Simulator& model) const;
-  // Without moving anything.
+  // Evaluates one pose without a search.
   PoseFound at(const ModelLoop& model, const FitPose& pose) const;
 
   FitMap map(const ModelLoop& model, const FitPose& pose) const;

@@ -1,6 +1,6 @@
 #pragma once
-// What a model says of its imaging plane over a beat: which tissue is where, where boundaries run
-// and how they move. From the truth of the scene; nothing is traced.
+// A model's imaging plane over a beat: tissues, boundaries and their motion. Taken from the truth
+// of the scene, without tracing.
 
 #include <cstdint>
 #include <optional>
@@ -8,30 +8,30 @@
 #include <vector>
 
 #include "geometry/plane_slice.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "scene/scene.h"
 #include "truth/plane_labels.h"
 
 namespace echocine::fit {
 
-// A cell of the plane: the two tissues that fill most of it.
+// A cell of the plane and the two tissues that fill most of it.
 struct TissueCell {
   float x_m = 0, z_m = 0;  // its centre
-  float area = 0;  // relative to a cell at the largest depth, less far from blood (kNearBlood_m)
+  float area = 0;  // relative to a cell at the largest depth, reduced far from blood (kNearBlood_m)
   std::uint8_t first = 0, second = 0;  // tissues
-  float share = 1;                     // of the first, of both
+  float share = 1;                     // share of the first among both
 };
 
-// A piece of a boundary that shows: other tissues lie on its two sides.
+// A piece of a visible boundary: its two sides have different tissues.
 struct BoundaryPoint {
-  float x_m = 0, z_m = 0;     // its middle
-  float nx = 0, nz = 0;       // unit normal; out of blood where blood is on one side
+  float x_m = 0, z_m = 0;     // its centre
+  float nx = 0, nz = 0;       // unit normal; out of blood if one side is blood
   float length_m = 0;         // of the piece
-  float dx_m = 0, dz_m = 0;   // of the material, from this frame to the next
+  float dx_m = 0, dz_m = 0;   // motion of the material to the next frame
   std::uint16_t surface = 0;  // structure
-  bool of_blood = false;      // blood on one side, something else on the other
+  bool of_blood = false;      // blood on exactly one side
   std::uint8_t segment = 0;   // of the left ventricle's wall (WallSegments), 1 to 17; 0: none
-  std::uint8_t blood = 0, beside = 0;  // tissues of the two sides, where it is of blood
+  std::uint8_t blood = 0, beside = 0;  // tissues of the two sides, if of_blood
 };
 
 struct ModelFrame {
@@ -39,45 +39,45 @@ struct ModelFrame {
   std::vector<BoundaryPoint> boundary;
 };
 
-// A beat in frames at equal steps of phase, from end-diastole.
+// A beat in frames of equal phase steps, from end-diastole.
 struct ModelLoop {
-  std::vector<std::string> tissues;  // media by name; the background's is the first
+  std::vector<std::string> tissues;  // media by name, background first
   std::vector<bool> blood;           // by tissue
   std::vector<std::string> structures;
   double far_m = 0;    // depth of the sector from its apex
-  double systole = 0;  // end-systole, as a part of the beat; 0: not known
+  double systole = 0;  // end-systole, as a fraction of the beat; 0: unknown
   int cells_across = 0, cells_along = 0;
   std::vector<ModelFrame> frames;
 };
 
-// Resolution of the plane, our choice: cells of 2.5 mm at two thirds of a 15 cm depth, each of
+// Resolution of the plane, our choice: cells of 2.5 mm at two thirds of a 15 cm depth, each with
 // eight samples.
 inline constexpr int kCellLines = 64, kCellsAlong = 60, kSamplesPerCell = 8;
-inline constexpr double kBoundaryPiece_m = 1.25e-3;  // between looks along a boundary; our choice
+inline constexpr double kBoundaryPiece_m = 1.25e-3;  // spacing along a boundary; our choice
 
-// Cells count in full up to about so far from blood, and not at all from twice as far on: what lies
-// around a heart is no model's claim. Our choice: a wall's thickness.
+// Cells have full weight up to this distance from blood, and none beyond twice the distance: the
+// model does not describe the surroundings of a heart. Our choice: the thickness of a wall.
 inline constexpr double kNearBlood_m = 10e-3;
 void weighByBlood(const ModelLoop& loop, ModelFrame& frame);
 
-// Which of the 17 segments each vertex of the left ventricle's cavity borders on; 0: none.
+// The adjacent wall segment, 1 to 17, of each vertex of the left ventricle's cavity; 0: none.
 struct WallSegments {
-  std::size_t surface = 0;  // the cavity's
+  std::size_t surface = 0;  // surface of the cavity
   std::vector<std::uint8_t> of_vertex;
 };
-// By the material at the beat's start, as truth counts them. Nothing for scenes without a left
-// ventricle and its wall. A second of one core.
+// Segments of the material at the start of the beat, as in the truth. Empty for scenes without a
+// left ventricle and its wall. Takes a second of one core.
 std::optional<WallSegments> wallSegments(const Scene& scene, const MeshMotion& motion);
 
-// Cuts surfaces of one topology, whatever made them.
+// Cuts surfaces of one topology, from any source.
 class ModelPlane {
  public:
-  // Surfaces that a scene has, in the probe frame of the scene. References are kept. Throws
-  // SceneError for a linear probe.
+  // Surfaces of a scene, in the scene's probe frame. References are kept. Throws SceneError for a
+  // linear probe.
   ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& surfaces,
              std::optional<WallSegments> segments = {});
 
-  // Frames that follow one another at equal steps through a whole beat. Runs in parallel.
+  // Cuts successive frames of equal steps through a whole beat. Runs in parallel.
   ModelLoop cut(const std::vector<SurfaceFrame>& frames) const;
 
  private:
@@ -89,15 +89,15 @@ class ModelPlane {
 
   const std::vector<SurfaceTopology>& surfaces_;
   std::optional<WallSegments> segments_;
-  Scene coarse_;  // the scene with as many lines as the plane has
+  Scene coarse_;  // the scene with the plane's number of lines
   PlaneLabels labels_;
-  std::vector<std::uint8_t> tissue_of_;  // by structure from 1; 0 the background
+  std::vector<std::uint8_t> tissue_of_;  // by structure from 1; 0 is the background
   std::vector<TissueCell> cells_;        // without tissues
   ModelLoop empty_;
 };
 
-// A beat of a scene's motion in `frames` steps. Its end-systole is that of the scene's keyframes,
-// else where the left ventricle's cavity is smallest.
+// A beat of a scene's motion in `frames` steps. End-systole is that of the scene's keyframes, or
+// else the instant of the smallest left ventricular cavity.
 ModelLoop modelLoop(const Scene& scene, const MeshMotion& motion, int frames,
                     const std::optional<WallSegments>& segments = {});
 

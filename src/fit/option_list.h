@@ -1,12 +1,12 @@
 #pragma once
-// Lists as options have them.
+// Lists in options.
 
 #include <string>
 #include <vector>
 
 namespace echocine::fit {
 
-// "a,b" at "," is a and b; an empty text is one empty part.
+// Splits "a,b" at "," into a and b. An empty text is one empty part.
 inline std::vector<std::string> splitOption(const std::string& text, char at) {
   std::vector<std::string> parts{""};
   for (const char c : text)

@@ -24,11 +24,11 @@ PlaneTilt tiltAt(const Unknowns& u) {
 
 // By which the best beats planes that lie half of the range away in one angle, whatever the other.
 double confidenceIn(std::size_t angle, const Descent& best, const std::vector<Descent>& lattice,
-                    double most_deg, double nothing) {
+                    double most_deg, double baseline) {
   double rival = 2;
   for (const Descent& d : lattice)
     if (std::abs(d.at[angle] - best.at[angle]) >= most_deg / 2) rival = std::min(rival, d.value);
-  return confidenceOf(best.value, rival, nothing);
+  return confidenceOf(best.value, rival, baseline);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// Where a model's plane lies in a real one: the pose of least discrepancy.
+// The pose of lowest discrepancy of a model's plane in a real one.
 
 #include <vector>
 
@@ -7,12 +7,12 @@
 
 namespace echocine::fit {
 
-// How far a pose may go from none: hearts of other people, probes held otherwise. Our choice. The
-// scale stays where both scales are known.
+// Limits of a pose, for hearts of other people and other probe positions. Our choice. The scale is
+// fixed if both scales are known.
 struct PoseLimits {
   double shift = 0.2;    // of the model's depth, each way
   double turn_deg = 25;  // each way
-  double scale = 0.15;   // each way, where it is free
+  double scale = 0.15;   // each way, if it is free
   bool scale_free = false;
 };
 
@@ -20,21 +20,21 @@ struct PoseFound {
   FitPose pose;
   FitTerms terms;
   double discrepancy = 1;
-  // Other optima, least first: farther than 10 mm or 10 degrees from the best.
+  // Other optima in ascending order, more than 10 mm or 10 degrees from the best.
   std::vector<std::pair<FitPose, double>> rivals;
-  // Eq. 8 of descent.h; what says nothing is the median of all starts.
+  // Eq. 8 of descent.h; the baseline is the median of all starts.
   double confidence = 0;
   bool at_limit = false;
 };
 
-// One method, whatever the loops are like: all poses of a lattice (7.5 mm in 15 cm, 10 degrees, 7 %
-// of scale) over few frames, then Newton's method with finite differences from the best five,
-// of which the best is taken and measured with all frames. Positions are continuous throughout.
-// Runs in parallel. The same input gives the same pose whatever the threads.
+// One method for all loops: all poses of a lattice (7.5 mm in 15 cm, 10 degrees, 7 % of scale) over
+// a few frames, then Newton's method with finite differences from the best five. The best result is
+// evaluated with all frames. Positions are continuous. Runs in parallel; the result does not depend
+// on the threads.
 PoseFound searchPose(const ModelLoop& model, const echo::EchoStack& real, const FitWeights& weights,
                      const PoseLimits& limits);
 
-// From given starts alone: for a model that is hardly another than one whose pose is known.
+// Starts only from given poses, for a model close to one of known pose.
 PoseFound refinePose(const ModelLoop& model, const echo::EchoStack& real, const FitWeights& weights,
                      const PoseLimits& limits, const std::vector<FitPose>& starts);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where results go.
+// The folder of results.
 
 #include <filesystem>
 #include <initializer_list>
@@ -9,9 +9,10 @@ namespace echocine::fit {
 
 class ResultsFolder {
  public:
-  // Makes the folder, and removes `last`: one without them is unfinished. Throws JobError.
+  // Makes the folder, and removes the files `last`: a folder without them is unfinished. Throws
+  // JobError.
   ResultsFolder(std::filesystem::path folder, std::initializer_list<const char*> last);
-  // Whole or not at all. Throws JobError.
+  // Writes the whole file or none. Throws JobError.
   void write(const char* name, const std::string& content) const;
 
  private:

@@ -77,14 +77,14 @@ std::string scanCsv(const DialScan& scan) {
   std::string text;
   for (const ScanAxis& axis : scan.options.axes) text += axis.range.key + ",";
   text +=
-      "discrepancy,region,boundary,motion,in_sight,shift_lateral_mm,shift_depth_mm,turn_deg,"
+      "discrepancy,region,boundary,motion,overlap,shift_lateral_mm,shift_depth_mm,turn_deg,"
       "scale\n";
   for (const ScanPoint& p : scan.points) {
     for (const double value : p.values) text += fmt::format("{:.6g},", value);
     const PoseFound& f = p.found;
     text += fmt::format("{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},{:.3f},{:.3f},{:.3f},{:.5f}\n",
                         f.discrepancy, f.terms.region, f.terms.boundary, f.terms.motion,
-                        f.terms.in_sight, 1e3 * f.pose.shift_x_m, 1e3 * f.pose.shift_z_m,
+                        f.terms.overlap, 1e3 * f.pose.shift_x_m, 1e3 * f.pose.shift_z_m,
                         degreesFromRadians(f.pose.turn_rad), f.pose.scale);
   }
   return text;

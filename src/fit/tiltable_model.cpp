@@ -4,7 +4,7 @@
 
 #include "core/parallel.h"
 #include "fit/plane_tilt.h"
-#include "motion/probe_placement.h"
+#include "motion/surfaces/probe_placement.h"
 
 namespace echocine::fit {
 

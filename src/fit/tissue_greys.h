@@ -1,5 +1,5 @@
 #pragma once
-// The grey of each tissue and the gain over depth, estimated from a loop together (Eq. 3 of
+// Grey level of each tissue and gain over depth, estimated jointly from a loop (Eq. 3 of
 // fit_terms.h).
 
 #include <algorithm>
@@ -7,21 +7,22 @@
 
 namespace echocine::fit {
 
-inline constexpr int kGainKnots = 4;  // depths between which the gain is linear; our choice
+inline constexpr int kGainKnots = 4;  // knots of the piecewise linear gain; our choice
 
-// Weighted least squares of g = grey(tissue) + gain(depth), gathered cell by cell.
+// Weighted least squares of g = grey(tissue) + gain(depth), accumulated cell by cell.
 class TissueGreys {
  public:
   explicit TissueGreys(const std::vector<bool>& blood);
 
-  // A cell of grey g that holds `share` of tissue `first` and the rest of `second`. depth: 0 to 1.
+  // A cell of grey level g with a share `share` of tissue `first`, the rest of `second`. depth: 0
+  // to 1.
   void add(int first, int second, double share, double depth, double g, double weight) {
     const double place = depth * (kGainKnots - 1);
     const int knot = place >= kGainKnots - 1 ? kGainKnots - 2
                      : place < 0             ? 0
                                              : static_cast<int>(place);
     const double high = place - knot;
-    // Whole cells have no second tissue: it comes last, and is left out.
+    // Cells of one tissue have no second: it comes last, and is skipped.
     const int at[4] = {tissues_ + knot, tissues_ + knot + 1, first, second};
     const bool whole = first == second || share >= 1;
     const double value[4] = {1 - high, high, whole ? 1 : share, 1 - share};
@@ -38,11 +39,11 @@ class TissueGreys {
   double weight() const { return weight_; }
 
   struct Fit {
-    bool solved = false;             // false: the sums are of no least squares
+    bool solved = false;             // false: the normal equations have no solution
     double residual = 0, total = 0;  // sums of squares
-    std::vector<double> grey;        // by tissue; not a number where a tissue is not in sight
-    double gain[kGainKnots] = {};    // by knot, 0 in the mean
-    // 0 to 1; 1, the worst, where nothing was solved.
+    std::vector<double> grey;        // by tissue; NaN for an invisible tissue
+    double gain[kGainKnots] = {};    // by knot, with mean 0
+    // 0 to 1; 1, the worst, without a solution.
     double ratio() const { return solved && total > 0 ? std::min(1.0, residual / total) : 1; }
   };
   Fit fit() const;
@@ -52,7 +53,7 @@ class TissueGreys {
 
   std::vector<bool> blood_;
   int tissues_, unknowns_;
-  // Of pairs of unknowns, one of both orders: the sum of an unordered pair is that of both places.
+  // Pairs of unknowns, stored once: the sum of an unordered pair is that of both places.
   std::vector<double> normal_, right_;
   double weight_ = 0, square_ = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Which view of a heart a loop shows, and what heart.
+// The view of a heart that a loop shows, and its heart.
 
 #include <filesystem>
 #include <map>
@@ -12,28 +12,28 @@
 
 namespace echocine::fit {
 
-// "all", or two or more of them, such as "a4c,a2c,plax". Throws SceneError naming --views: no view,
-// one twice, fewer than two.
+// "all", or at least two views such as "a4c,a2c,plax". Throws SceneError naming --views for an
+// unknown view, a repeated view, or fewer than two.
 std::vector<heart::View> parseViews(const std::string& text);
 
 struct ViewsOptions {
   std::filesystem::path real;
   echo::SideOptions side;
   std::vector<heart::View> views;
-  std::map<std::string, double> dials;  // that stay
-  double tilt_deg = 0;                  // by which planes may be tilted and rotated, either way
+  std::map<std::string, double> dials;  // fixed dials
+  double tilt_deg = 0;                  // limit of tilt and rotation of the planes, either way
 };
 
-// A view, and the heart that fits best in it.
+// A view, and its best heart.
 struct ViewFound {
   heart::View view{};
-  BeatFound beat;  // as this view's models tell it, where nothing else does
+  BeatFound beat;  // by this view's models, unless known otherwise
   HeartFound heart;
   FitReport where;  // of that heart
 };
 
-// One view by its hearts. Throws as rankViews() does. Precondition: the family is of that view, of
-// the population's dials, and made for that tilt.
+// Searches one view with its hearts. Throws like rankViews(). Precondition: the family has that
+// view, the population's dials and that tilt.
 ViewFound searchView(heart::View view, const HeartFamily& family,
                      const std::vector<ScanAxis>& population, const echo::EchoLoop& real,
                      const echo::SideOptions& side, double tilt_deg = 0,
@@ -41,24 +41,24 @@ ViewFound searchView(heart::View view, const HeartFamily& family,
 
 struct ViewRanking {
   ViewsOptions options;
-  std::vector<ScanAxis> population;  // the dials that were sought
-  std::vector<ViewFound> views;      // the least V first
+  std::vector<ScanAxis> population;  // the searched dials
+  std::vector<ViewFound> views;      // in ascending order of V
   std::string beat_anchor;           // of the loop: EchoLoop::beat_anchor
-  // Of the first: V of the second less its own; and Eq. 8 of descent.h, where the second is the
-  // rival and 1 the value of what says nothing.
+  // Of the best view: V of the second minus V of the best; and Eq. 8 of descent.h, with the second
+  // as rival and baseline 1.
   double margin = 0, confidence = 0;
-  double nodes_ms = 0, cpu_ms = 0;   // CPU time: of recording hearts, of all
+  double nodes_ms = 0, cpu_ms = 0;   // CPU time: of computing hearts, of everything
   std::vector<std::string> caveats;  // caveats.h
   std::vector<std::string> notes;
   std::string label;  // of the loop: EchoLoop::label
 };
 
-// Throws SceneError and JobError as compareLoops() does. Runs in parallel.
+// Throws SceneError and JobError like compareLoops(). Runs in parallel.
 ViewRanking rankViews(const ViewsOptions& options, const Monitor& monitor = {});
-// Of a loop in memory; options.real plays no part.
+// The same for a loop in memory; options.real is not used.
 ViewRanking rankViews(const echo::EchoLoop& real, const ViewsOptions& options,
                       const Monitor& monitor = {});
-// Orders the views, and tells margin and confidence. Precondition: two or more.
+// Sorts the views and sets margin and confidence. Precondition: at least two views.
 void orderViews(ViewRanking& ranking);
 
 // views.csv, views.json and views.html. Throws JobError.

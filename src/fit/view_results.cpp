@@ -26,7 +26,7 @@ Json viewJson(const ViewFound& v, const ViewRanking& ranking) {
   }
   Json json{{"view", keyOf(v.view)},
             {"value", v.heart.left},
-            {"claimed", v.heart.claimed},
+            {"coverage", v.heart.coverage},
             {"dials", dials}};
   json.update(foundJson(v.heart.found));
   json["pose_confidence"] = v.heart.found.confidence;
@@ -73,7 +73,7 @@ void writeViewsPage(const ViewRanking& ranking, Json json, const std::filesystem
 }
 
 std::string viewsCsv(const ViewRanking& ranking) {
-  std::string text = "view,value,claimed,discrepancy,region,boundary,motion,in_sight,";
+  std::string text = "view,value,coverage,discrepancy,region,boundary,motion,overlap,";
   for (const ScanAxis& d : ranking.population) text += d.range.key + ",";
   text +=
       "shift_lateral_mm,shift_depth_mm,turn_deg,scale,pose_confidence,tilt_deg,"
@@ -81,8 +81,8 @@ std::string viewsCsv(const ViewRanking& ranking) {
   for (const ViewFound& v : ranking.views) {
     const PoseFound& f = v.heart.found;
     text += fmt::format("{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},", keyOf(v.view),
-                        v.heart.left, v.heart.claimed, f.discrepancy, f.terms.region,
-                        f.terms.boundary, f.terms.motion, f.terms.in_sight);
+                        v.heart.left, v.heart.coverage, f.discrepancy, f.terms.region,
+                        f.terms.boundary, f.terms.motion, f.terms.overlap);
     for (const double value : v.heart.values) text += fmt::format("{:.6g},", value);
     const PlaneTilt tilt = v.heart.tilt ? v.heart.tilt->tilt : PlaneTilt{};
     text += fmt::format("{:.3f},{:.3f},{:.3f},{:.5f},{:.4f},{:.3f},{:.3f}\n",

@@ -1,6 +1,6 @@
 #include "core/error.h"
 #include "fit/model_plane.h"
-#include "motion/interior_motion.h"
+#include "motion/surfaces/interior_motion.h"
 #include "truth/heart_function.h"
 
 namespace echocine::fit {

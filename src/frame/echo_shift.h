@@ -1,13 +1,13 @@
 #pragma once
-// How far refraction moves what a picture shows: the honest ground for leaving it out.
+// Displacement of visible echoes by refraction: the criterion for omitting it.
 //
-// Rule. A frame's lines, in 8 groups side by side, and its depth, in 8 bands, make 64 fields. In a
-// field each line counts once, with the farthest shift of its echoes there, in beam widths; the
-// field's shift is the one that a quarter of its lines exceeds. So a few rays that graze are no
-// reason to bend all, echoes that stay do not hide others that move, and neither the number of
-// lines nor that of layers has a part in it. What attenuation has taken 120 dB from no scanner
-// receives: there a line ends. One that ends elsewhere when it bends is shifted by that distance in
-// between. The frame's shift is the largest field's, that of a loop the largest of its frames.
+// Rule. A frame's lines, in 8 adjacent groups, and its depth, in 8 bands, form 64 fields. In a
+// field each line counts once, with the largest shift of its echoes there, in beam widths. The
+// field's shift is the one exceeded by a quarter of its lines. A few grazing rays thus do not
+// enable refraction, static echoes do not hide moving ones, and the numbers of lines and layers
+// have no influence. A line ends where attenuation reaches 120 dB, because no scanner receives
+// echoes beyond. A line that ends elsewhere with refraction is shifted by that distance in between.
+// The frame's shift is the largest of its fields, the loop's shift the largest of its frames.
 // Fields, quarter and tolerance are our choice.
 
 #include "geometry/frame_geometry.h"
@@ -18,8 +18,8 @@ namespace echocine {
 
 struct EchoShift {
   double metres = 0;
-  double beam_widths = 0;  // the same in widths of the beam
-  double depth_m = 0;      // of the field's middle
+  double beam_widths = 0;  // the same in beam widths
+  double depth_m = 0;      // centre of the field
   double phase = 0;        // of the beat, [0, 1)
 };
 
@@ -29,10 +29,10 @@ inline bool operator<(const EchoShift& a, const EchoShift& b) {
 
 class EchoShiftMeter {
  public:
-  // Rays out of the imaging plane are asked too where the plan traces them.
+  // Includes rays out of the imaging plane if the plan traces them.
   EchoShiftMeter(const Scene& scene, const EffectPlan& plan);
 
-  // The shift of one frame; nothing met gives 0.
+  // The shift of one frame; 0 without interfaces.
   EchoShift measure(const FrameGeometry& geometry, double phase) const;
 
  private:
@@ -41,7 +41,7 @@ class EchoShiftMeter {
   double resolution(double depth_m) const;
   double elevationResolution(double depth_m) const;
 
-  Scene scene_;  // with lines of the rule's own
+  Scene scene_;  // with the rule's own lines
   EffectPlan plan_;
 };
 

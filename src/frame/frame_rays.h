@@ -1,5 +1,5 @@
 #pragma once
-// The rays of a frame through its surfaces, by the tracer of the plan.
+// The rays of a frame through its surfaces, by the planned tracer.
 
 #include <optional>
 
@@ -16,11 +16,11 @@ class FrameRays {
   // The scene is kept by reference.
   FrameRays(const Scene& scene, const LoopPlan& plan);
 
-  // Whether an output needs intensities at all.
+  // Does an output need intensities?
   bool receive() const { return request_.intensities; }
 
-  // From the workspace's geometry to its polar frame. Of a group of rolling lines, what these take
-  // in. Thread-safe; frames of equal number and surfaces are equal.
+  // Traces the workspace's geometry into its polar frame; for a group of rolling lines only what
+  // the group needs. Thread-safe; frames of equal number and surfaces are equal.
   WorkCounts trace(int frame, const RollingLines::Group* group, Workspace& workspace) const;
 
  private:

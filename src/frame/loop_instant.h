@@ -6,7 +6,7 @@
 
 namespace echocine {
 
-// The instant at a time. A frame of the loop has its very time, whatever rounding the seconds have.
+// The instant at a time. A frame of the loop gets its exact time, free of the rounding of seconds.
 inline FrameTime instantOf(const CardiacClock& clock, const Scene& scene, double time_s) {
   const double rate_hz = scene.acquisition.frame_rate_hz, number = std::round(time_s * rate_hz);
   if (number >= 0 && number < clock.frameCount() && std::abs(time_s * rate_hz - number) < 1e-6)

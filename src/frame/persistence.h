@@ -1,5 +1,5 @@
 #pragma once
-// Persistence: what is shown is a weighted mean of the greys of a frame and of those before it.
+// Persistence: the displayed grey levels are a weighted mean of a frame and its predecessors.
 
 #include <functional>
 #include <map>
@@ -12,20 +12,20 @@
 
 namespace echocine {
 
-// A scanner's recursion grey_n = (1 - p) new_n + p grey_(n-1) never forgets; here its weights p^j
-// end where they fall under 1/64 and are divided by their sum. So a frame depends on few others,
-// and any frame alone has the bytes that it has in its loop. Before the loop's first frame there is
-// none: fewer are then averaged.
+// A scanner's recursion grey_n = (1 - p) new_n + p grey_(n-1) has infinite memory. Here the weights
+// p^j end below 1/64 and are normalised, so a frame depends on few others, and a single frame has
+// the bytes of the loop's. Frames before the start of the loop do not exist; fewer are averaged
+// there.
 class Persistence {
  public:
   // weight: p, over 0 and under 1.
   Persistence(double weight, const CardiacClock& clock, double frame_rate_hz);
 
-  // Frames before the shown one that still count.
+  // Number of previous frames with weight.
   int depth() const { return static_cast<int>(weights_.size()) - 1; }
 
-  // In place. `alone` gives the greys of an earlier instant without persistence; those of the
-  // loop's frames are kept for a while. Thread-safe.
+  // In place. `alone` returns the grey levels of an earlier instant without persistence; those of
+  // the loop's frames are cached. Thread-safe.
   using Alone = std::function<Greys(const FrameTime&)>;
   void apply(double reference_intensity, const FrameTime& time, Greys& greys,
              const Alone& alone) const;
@@ -41,7 +41,7 @@ class Persistence {
   const CardiacClock& clock_;
   double frame_rate_hz_;
   mutable std::mutex mutex_;
-  mutable double reference_ = 0;      // of the kept ones
+  mutable double reference_ = 0;      // white of the cached frames
   mutable std::map<int, Kept> kept_;  // by frame of the loop
 };
 

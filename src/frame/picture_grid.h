@@ -4,7 +4,7 @@
 
 namespace echocine {
 
-// The pixels of the scene's picture, as truth is sampled on them.
+// The pixels of the scene's picture, for sampling truth.
 PictureGrid pictureGrid(const Scene& scene);
 
 }  // namespace echocine

@@ -12,11 +12,11 @@
 #include "core/units.h"
 #include "frame/echo_shift.h"
 #include "frame/mean_loss.h"
-#include "frame/whereabouts.h"
+#include "frame/mesh_placement.h"
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
-#include "motion/heart_size.h"
-#include "motion/motion_warnings.h"
+#include "motion/surfaces/heart_size.h"
+#include "motion/surfaces/motion_warnings.h"
 #include "scene/elevation_slices.h"
 #include "scene/names.h"
 #include "scene/role.h"
@@ -196,7 +196,7 @@ void lookAtFrames(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) 
         "{}: no scan line meets a structure in the frames looked at; {} "
         "(probe.view places the probe by the heart's anatomy; else probe.apex and probe.axis, "
         "motion.mesh_unit and motion.mesh_scale)",
-        kNothingSeen, whereabouts(scene, meshesBox(motion))));
+        kNothingSeen, describePlacement(scene, meshesBox(motion))));
   }
 }
 

@@ -1,9 +1,9 @@
 #pragma once
-// Decides what a loop computes and by which tracer, once, from its scene and its meshes.
+// Plans a loop's effects and tracer once, from scene and meshes.
 
 #include <string>
 
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "plan/loop_plan.h"
 
 namespace echocine {
@@ -11,7 +11,7 @@ namespace echocine {
 // Throws JobError when a frame between keyframes is inside out.
 LoopPlan planLoop(const Scene& scene, const MeshMotion& motion);
 
-// One line for a person: tracer, what is on, what is off.
+// One line for the terminal: tracer, enabled and disabled effects.
 std::string planSummary(const LoopPlan& plan);
 
 }  // namespace echocine

@@ -1,17 +1,16 @@
 #pragma once
-// The frames of a loop by which its white is measured: one list for a frame in memory and for a
-// loop of files.
+// The frames that determine a loop's white: one list for a frame in memory and for a loop of files.
 
 #include <vector>
 
 namespace echocine {
 
-// Our choice: the percentile of a beat's frames hardly moves with more, and a single frame of a
-// long loop need not trace the whole of it.
+// Our choice: more frames hardly change the percentile, and a single frame of a long loop need not
+// trace all others.
 inline constexpr int kReferenceFrames = 64;
 
-// Frame numbers, in order: all of a loop of up to kReferenceFrames, else that many spread over it,
-// some of them twice in a loop hardly longer. They follow from the count alone.
+// Frame numbers in ascending order: all frames of a loop of up to kReferenceFrames, otherwise that
+// many spread over it; loops that are hardly longer repeat some. They depend on the count only.
 std::vector<int> referenceFrames(int frame_count);
 
 }  // namespace echocine

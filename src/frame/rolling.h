@@ -1,10 +1,10 @@
 #pragma once
-// Lines that are acquired one after the other, and not all at once.
+// Lines acquired one after the other.
 //
-// Of N lines, line l is acquired at t + ((l + 1/2) / N - 1/2) s T: t the frame's time, which is
-// that of its middle line, T the interval between frames, s the share of it in which lines are
-// acquired. Neighbours in groups of accuracy.rolling_lines share the instant of their middle. A
-// line of a rolling frame is that of the still frame at its group's instant.
+// Of N lines, line l is acquired at t + ((l + 1/2) / N - 1/2) s T, with t the frame's time (that of
+// its middle line), T the frame interval, and s the share of it in which lines are acquired. Groups
+// of accuracy.rolling_lines neighbours share the instant of their middle. A line of a rolling frame
+// equals that of the still frame at its group's instant.
 
 #include <cstdint>
 #include <functional>
@@ -20,7 +20,7 @@ namespace echocine {
 
 class RollingLines {
  public:
-  // taken: which samples of each line are traced for some lines.
+  // taken: the samples of each line that some lines need.
   RollingLines(const Scene& scene, const std::function<std::vector<int>(LineRange)>& taken);
 
   struct Group {
@@ -31,15 +31,15 @@ class RollingLines {
   };
   const std::vector<Group>& groups() const { return groups_; }
 
-  // Copies the lines of a group, of all planes that there are. `to` has room after the first.
+  // Copies the lines of a group, for all existing planes. `to` has room after the first.
   void take(std::size_t group, const PolarFrame& from, PolarFrame& to) const;
-  // The same of truth at samples, and at the pixels that are nearest to its lines.
+  // The same for truth, at samples and at the pixels nearest to its lines.
   void take(std::size_t group, const FrameTruth& from, FrameTruth& to) const;
 
  private:
   int lines_, samples_;
   std::vector<Group> groups_;
-  std::vector<std::uint16_t> group_of_pixel_;  // of the picture; only where labels are asked for
+  std::vector<std::uint16_t> group_of_pixel_;  // of the picture; only with labels
 };
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// The speckle of a scene's frames: scatterers, and the tissue that carries them.
+// The speckle of a scene's frames: scatterers and the tissue that moves them.
 
 #include "core/beam_plane.h"
 #include "motion/cycle/cardiac_clock.h"
@@ -15,11 +15,12 @@ class SceneSpeckle {
   SceneSpeckle(const Scene& scene, const MeshMotion& motion, const EffectPlan& plan,
                const Trabeculae* trabeculae);
 
-  // Of some lines the intensities after the average over the beam, in place, and what of them is
-  // coherent. `surfaces` are those of the instant. Thread-safe; frames of equal time are equal.
+  // Applies speckle in place to the intensities of some lines after the beam average, and to their
+  // coherent part. `surfaces` are those of the instant. Thread-safe; frames of equal time are
+  // equal.
   void apply(const FrameTime& time, const SurfaceFrame& surfaces, Intensities& intensities,
              const CoherentEchoes& echoes, LineRange lines) const;
-  // Lines whose intensities those of a range take in.
+  // Lines whose intensities affect those of a range.
   LineRange reach(LineRange lines) const { return speckle_.reach(lines); }
 
   std::size_t scatterers() const { return speckle_.scatterers() + sheets_.count(); }
@@ -28,7 +29,7 @@ class SceneSpeckle {
   FieldMaterial material_;
   SheetPoints sheets_;
   Speckle speckle_;
-  FieldPart about_plane_;  // where scatterers stand
+  FieldPart about_plane_;  // region of the scatterers
 };
 
 }  // namespace echocine

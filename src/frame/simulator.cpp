@@ -11,7 +11,7 @@
 #include "frame/plan_loop.h"
 #include "frame/reference_frames.h"
 #include "frame/structure_volumes.h"
-#include "motion/probe_placement.h"
+#include "motion/surfaces/probe_placement.h"
 #include "scene/scene_keys.h"
 
 namespace echocine {

@@ -1,5 +1,5 @@
 #pragma once
-// One frame of a scene, from its instant to its pictures. Nobody else puts the stages together.
+// One frame of a scene, from its instant to its pictures: the only place that combines the stages.
 
 #include <functional>
 #include <map>
@@ -22,17 +22,17 @@
 #include "frame/work_tally.h"
 #include "frame/workspace.h"
 #include "motion/cycle/cardiac_clock.h"
-#include "motion/mesh_motion.h"
-#include "motion/trabeculae.h"
-#include "motion/volumes.h"
+#include "motion/surfaces/mesh_motion.h"
+#include "motion/surfaces/trabeculae.h"
+#include "motion/surfaces/volumes.h"
 #include "plan/loop_plan.h"
 #include "signal/signal_chain.h"
 #include "truth/frame_truth.h"
 
 namespace echocine {
 
-// A frame as a caller gets it. Planes are line-major: sample k of line i stands at
-// i * samples + k, line i and sample k where scene().probe has them.
+// A frame for callers. Planes are line-major: sample k of line i has the index i * samples + k;
+// scene().probe has their positions.
 struct Frame {
   FrameTime time;  // instant (s), phase of the beat, beat
   int lines = 0, samples = 0;
@@ -41,31 +41,31 @@ struct Frame {
   Greys greys;              // log-compressed, 0 black to 1 white
   GreyImage image;          // the scan-converted picture, without ECG and depth ticks
   std::map<Channel, std::vector<float>> channels;  // intensity channels of scene.output.channels
-  std::vector<std::uint32_t> medium;               // channel medium.id, if the scene asks for it
-  std::optional<FrameTruth> truth;                 // as far as scene.truth and its channels ask
+  std::vector<std::uint32_t> medium;               // channel medium.id, if requested
+  std::optional<FrameTruth> truth;                 // as requested by scene.truth and the channels
 };
 
-// Which stages of a frame are carried out, and how.
+// The stages of a frame to run, and their options.
 struct Making {
-  bool traced = false;   // the workspace's intensities are the frame's already: the later stages
-  bool still = false;    // all lines at the frame's instant, even where they roll
-  bool counted = true;   // as work of the loop
-  bool persists = true;  // greys of earlier frames are mixed in, where the scene asks for it
-  bool picture = false;  // scan conversion too
-  std::optional<double> white{};  // of the log compression; without it intensities are the last
-  // Sees the intensities that the lines receive, before the signal chain; those of rolling lines,
-  // whose groups go through it one by one, after it.
+  bool traced = false;   // the workspace already has the frame's intensities: later stages only
+  bool still = false;    // all lines at the frame's instant, even if they roll
+  bool counted = true;   // counts as work of the loop
+  bool persists = true;  // mixes in earlier frames, if the scene has persistence
+  bool picture = false;  // runs scan conversion too
+  std::optional<double>
+      white{};  // of the log compression; without it the frame ends with intensities
+  // Receives the intensities of the lines before the signal chain; for rolling lines, whose groups
+  // pass the chain separately, after it.
   std::function<void(Intensities&)> received{};
 };
 
 class Simulator {
  public:
-  // Reads the scene's meshes, or takes those that it holds in memory, places its probe where a view
-  // asks for it, and plans the loop.
-  // Throws SceneError that names the scene's key, file and face; JobError when frames between
+  // Reads the scene's meshes or uses those in memory, places its probe for a view, and plans the
+  // loop. Throws SceneError that names the scene's key, file and face; JobError if frames between
   // keyframes are inside out.
   explicit Simulator(Scene scene);
-  // With a motion that several simulators share. Precondition: it was made from this scene.
+  // Shares the motion with other simulators. Precondition: it was made from this scene.
   Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion);
   Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan);
 
@@ -75,30 +75,31 @@ class Simulator {
   const LoopPlan& plan() const { return plan_; }
   const CardiacClock& cardiacClock() const { return cardiac_clock_; }
 
-  // The frame at an instant of the loop, from 0 s to its end; instants beyond it are refused with a
-  // SceneError. The same bytes as `render` gives that instant. Thread-safe from any thread; memory
-  // of `frame` and of earlier calls is used again.
+  // The frame at an instant of the loop, from 0 s to its end; other instants are rejected with a
+  // SceneError. Same bytes as `render` at that instant. Thread-safe; reuses the memory of `frame`
+  // and of earlier calls.
   Frame frame(double time_s) const;
   void frame(double time_s, Frame& frame) const;
 
-  // White of the loop's log compression, relative to I_S: signal.reference_intensity, or else the
+  // White of the loop's log compression, relative to I_S: signal.reference_intensity, otherwise the
   // percentile over its referenceFrames(), which the first call traces. Thread-safe. The second
-  // form works on the threads of the enclosing withThreads(), and gives nothing when the monitor
-  // stops it; `keep` gets the frames, unless white is known already.
+  // form uses the threads of the enclosing withThreads() and returns none when the monitor stops
+  // it; `keep` receives the frames, unless white is already known.
   double referenceIntensity() const;
   std::optional<double> referenceIntensity(const Monitor& monitor, const KeepTraced& keep) const;
 
-  // The stages, for those who write files or measure. All thread-safe.
+  // The stages, for code that writes files or measures. All are thread-safe.
 
-  // Borrows a workspace until the pointer dies; made on first use and used again.
+  // Borrows a workspace for the lifetime of the pointer. Workspaces are created on demand and
+  // reused.
   std::shared_ptr<Workspace> workspace() const { return workspaces_.borrow(); }
 
-  // Makes a frame in a workspace: its polar frame, and where white is given its greys and picture.
-  // The greys take the memory of the intensities. Returns the volumes, none where traced already.
-  // Frames of equal number and phase are equal.
+  // Computes a frame in a workspace: its polar frame and, if white is given, its grey levels and
+  // picture. The grey levels reuse the memory of the intensities. Returns the volumes, empty if
+  // already traced. Frames of equal number and phase are equal.
   Volumes make(const FrameTime& time, const Making& making, Workspace& workspace) const;
 
-  // make() up to the intensities, and from there to the picture.
+  // make() up to the intensities, and from the intensities to the picture.
   Volumes trace(const FrameTime& time, Workspace& workspace) const {
     return make(time, {}, workspace);
   }
@@ -107,11 +108,11 @@ class Simulator {
     return workspace.image;
   }
 
-  // What makes truth, fitted by the first call; nullptr where the scene asks for none. Errors:
-  // those of TruthMaker.
+  // The maker of truth, fitted by the first call; nullptr if the scene requests no truth. Throws
+  // like TruthMaker.
   const TruthMaker* truth() const { return truth_.maker(); }
-  // Takes surfaces and their slice from `traced` where it stands at this very phase.
-  // Precondition: truth() is not nullptr.
+  // Reuses surfaces and slice of `traced` if it has exactly this phase. Precondition: truth() is
+  // not nullptr.
   FrameTruth truthAt(const FrameTime& time, const Workspace* traced = nullptr) const {
     return truth_.at(time, traced);
   }
@@ -134,7 +135,7 @@ class Simulator {
   const CardiacClock cardiac_clock_;
   const SignalChain chain_;
   const FrameRays rays_;
-  // Null where the plan leaves the effect out.
+  // Null if the plan disables the effect.
   std::unique_ptr<const Trabeculae> trabeculae_;
   std::unique_ptr<const SceneSpeckle> speckle_;
   std::unique_ptr<const RollingLines> rolling_;
@@ -144,7 +145,7 @@ class Simulator {
   mutable StageClock clock_;
   mutable WorkTally tally_;
   mutable std::mutex white_mutex_;
-  mutable std::optional<double> white_;  // once it was measured
+  mutable std::optional<double> white_;  // once measured
 };
 
 }  // namespace echocine

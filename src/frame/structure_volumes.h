@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "motion/mesh_motion.h"
-#include "motion/volumes.h"
+#include "motion/surfaces/mesh_motion.h"
+#include "motion/surfaces/volumes.h"
 #include "scene/scene.h"
 
 namespace echocine {
@@ -11,7 +11,7 @@ namespace echocine {
 Volumes structureVolumes(const Scene& scene, const MeshMotion& motion,
                          const SurfaceFrame& surfaces);
 
-// The same of each structure at its own keyframes.
+// Volumes of each structure at its own keyframes.
 std::vector<KeyframeVolume> keyframeVolumes(const Scene& scene, const MeshMotion& motion);
 
 }  // namespace echocine

@@ -13,18 +13,18 @@ namespace echocine {
 
 class TruthSource {
  public:
-  // References are kept. Without a group of lines all are of the frame's instant. `as_traced`: the
-  // slice that is traced is that of the smooth surfaces, and of all of them.
+  // References are kept. Without a group of lines everything is at the frame's instant.
+  // `as_traced`: the traced slice is that of the smooth surfaces, and of all of them.
   TruthSource(const Scene& scene, const MeshMotion& motion, const CardiacClock& clock,
               const RollingLines* rolling, bool as_traced)
       : scene_(scene), motion_(motion), clock_(clock), rolling_(rolling), as_traced_(as_traced) {}
 
-  // Fitted by the first call; nullptr where the scene asks for no truth. Errors: those of
-  // TruthMaker. Thread-safe.
+  // Fitted by the first call; nullptr if the scene requests no truth. Throws like TruthMaker.
+  // Thread-safe.
   const TruthMaker* maker() const;
 
-  // Takes surfaces and their slice from `traced` where it stands at this very phase.
-  // Precondition: maker() is not nullptr.
+  // Reuses surfaces and slice of `traced` if it has exactly this phase. Precondition: maker() is
+  // not nullptr.
   FrameTruth at(const FrameTime& time, const Workspace* traced) const;
 
  private:

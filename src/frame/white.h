@@ -1,5 +1,5 @@
 #pragma once
-// White of a loop's log compression, measured over frames.
+// White of a loop's log compression, measured over reference frames.
 
 #include <functional>
 #include <optional>
@@ -7,20 +7,20 @@
 
 #include "core/monitor.h"
 #include "motion/cycle/cardiac_clock.h"
-#include "motion/volumes.h"
+#include "motion/surfaces/volumes.h"
 #include "trace/polar_frame.h"
 
 namespace echocine {
 
 class Simulator;
 
-// Gets the frames that were traced, by their numbers, one at a time and in order.
+// Receives the traced frames by number, one at a time and in order.
 using KeepTraced = std::function<void(int frame, PolarFrame&& polar, Volumes&& volumes_ml)>;
 
-// signal.reference_intensity where the scene has it, else the percentile over still frames at these
-// instants, as many at once as the threads allow. Where there is nothing to be seen the percentile
-// would paint an even nothing white; white is then the transmitted intensity, 1. Nothing when the
-// monitor stops it.
+// signal.reference_intensity if given, otherwise the percentile over still frames at these
+// instants, as many at once as the threads allow. In an empty picture the percentile would map
+// uniform noise to white; white is then the transmitted intensity, 1. None when the monitor stops
+// it.
 std::optional<double> measureWhite(const Simulator& simulator, std::span<const FrameTime> times,
                                    const Monitor& monitor, const KeepTraced& keep);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Buffers of one frame while it is made.
+// Buffers of one frame.
 
 #include <memory>
 #include <mutex>
@@ -11,8 +11,8 @@
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
 #include "geometry/side_slices.h"
-#include "motion/mesh_motion.h"
-#include "motion/trabeculae.h"
+#include "motion/surfaces/mesh_motion.h"
+#include "motion/surfaces/trabeculae.h"
 #include "plan/loop_plan.h"
 #include "signal/picture.h"
 #include "trace/channel_plane.h"
@@ -21,29 +21,29 @@
 namespace echocine {
 
 struct Workspace {
-  double phase = -1;  // that surfaces and geometry stand at
+  double phase = -1;  // of surfaces and geometry
   SurfaceFrame surfaces;
-  Trabeculae::Smooth smooth{};                       // surfaces while others are shown
-  std::variant<PlaneSlice, FrameGeometry> geometry;  // whichever the plan's tracer needs
+  Trabeculae::Smooth smooth{};                       // smooth surfaces, while others are displayed
+  std::variant<PlaneSlice, FrameGeometry> geometry;  // by the planned tracer
   PolarFrame polar;
-  std::optional<SideSlices> sides{};  // of a beam that is thick across the plane
+  std::optional<SideSlices> sides{};  // of a beam with several elevation slices
   PolarFrame side{};
-  PolarFrame rolled{};  // lines of a rolling frame, as they come
+  PolarFrame rolled{};  // lines of a rolling frame, as they are acquired
   Greys greys{};
   GreyImage image{};
 };
 
-// The planes of a frame that go into its EXR, in the order of the scene's channels.
+// The planes of a frame for its EXR, in the order of the scene's channels.
 std::vector<ChannelPlane> channelPlanes(const OutputSettings& output, const Workspace& workspace);
 
-// Workspaces are lent and come back: there are as many as frames in flight.
+// A pool of workspaces: one per frame in flight.
 class WorkspacePool {
  public:
   // References are kept.
   WorkspacePool(const Scene& scene, const MeshMotion& motion, const LoopPlan& plan)
       : scene_(scene), motion_(motion), plan_(plan) {}
 
-  // Until the pointer dies, which must be before the pool does. Thread-safe.
+  // Borrowed for the lifetime of the pointer, which must end before the pool's. Thread-safe.
   std::shared_ptr<Workspace> borrow() const;
 
  private:

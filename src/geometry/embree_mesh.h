@@ -1,5 +1,5 @@
 #pragma once
-// Embree with one mesh that moves: which of its triangles rays may meet.
+// Embree with one moving mesh: candidate triangles of rays.
 
 #include <array>
 #include <cstdint>
@@ -15,27 +15,27 @@ namespace echocine {
 
 class EmbreeMesh {
  public:
-  static constexpr std::size_t kPacket = 16;  // rays that go together
+  static constexpr std::size_t kPacket = 16;  // rays traced together
   using Candidates = std::array<std::vector<std::uint32_t>, kPacket>;
 
-  // Errors, of all that follows: std::bad_alloc, JobError.
+  // All member functions throw std::bad_alloc, JobError.
   EmbreeMesh();
   ~EmbreeMesh();
   EmbreeMesh(const EmbreeMesh&) = delete;
   EmbreeMesh& operator=(const EmbreeMesh&) = delete;
 
-  // Once, before anything else. Without triangles no ray meets any.
+  // Call once, before anything else. Without triangles no ray has candidates.
   void reserve(std::size_t vertices, std::size_t triangles);
 
-  // To be filled; nothing without triangles.
+  // For the caller to fill; null without triangles.
   Vec3f* vertices() { return vertices_; }
   Triangle* triangles() { return triangles_; }
 
-  // Takes over vertices that have moved.
+  // Updates Embree after the vertices have moved.
   void refit();
 
-  // The triangles that each of up to 16 rays may meet, in any order; one at a shared edge or vertex
-  // may be missing or stand there twice. Thread-safe between refits.
+  // The triangles that each of up to 16 rays may intersect, in any order. At a shared edge or
+  // vertex one may be missing or duplicated. Thread-safe between refits.
   void candidates(std::span<const RayQuery> rays, Candidates& found) const;
 
  private:

@@ -1,50 +1,49 @@
 #pragma once
-// One frame's surfaces cut by the imaging plane: their contours, and where the scan lines meet
-// them. Needs no hierarchy: the cost is a look at the heights of the facets that can reach the
-// plane, and the facets on it.
+// Intersection of one frame's surfaces with the imaging plane: their contours, and the crossings of
+// scan lines. It needs no hierarchy: it checks the heights of facets that can reach the plane, and
+// processes the facets on it.
 
 #include <span>
 #include <vector>
 
 #include "geometry/crossing.h"
 #include "geometry/crossing_rule.h"
-#include "motion/surface_frame.h"
+#include "motion/surfaces/surface_frame.h"
 #include "scene/probe.h"
 
 namespace echocine {
 
-// An edge of contour: a facet's cut by the imaging plane.
+// A contour edge: the intersection of a facet with the imaging plane.
 struct ContourEdge {
   TriangleCut cut;    // in the imaging plane, y = 0
-  Vec3d area_normal;  // of the facet, outward, twice its area long
+  Vec3d area_normal;  // of the facet, outward; its length is twice the area
   SurfaceId surface{};
   std::uint32_t triangle = 0;
 };
 
-// With smooth normals: their values at the ends of an edge's cut, as cutNormals() has them.
+// With smooth normals: their values at the ends of an edge's cut, by cutNormals().
 using EdgeNormals = TriangleCut;
 
 // Unit normal of an edge's facet, by facetNormal().
 Vec3d unitNormal(const ContourEdge& edge);
 
-// What every scan line meets, as RayCrossings for each line.
+// The crossings of every scan line, as RayCrossings.
 class PlaneSlice {
  public:
-  // Surfaces in `left_out` are in no frame's slice. Preconditions: `surfaces` outlives the slice;
-  // where they know their triangles near the plane, frames are of the motion that these are of.
+  // Surfaces in `left_out` are omitted. Preconditions: `surfaces` outlives the slice; if they have
+  // near_plane, frames are of the motion for which it was computed.
   PlaneSlice(const std::vector<SurfaceTopology>& surfaces, const Probe& probe,
              const InsideSet& left_out = {});
 
-  // Cuts the frame and finds the crossings of all lines. Its memory is used again from frame to
-  // frame.
+  // Cuts the frame and computes the crossings of all lines. Memory is reused from frame to frame.
   void update(const SurfaceFrame& frame);
 
-  // Cuts the frame and asks no line: edges() alone are made.
+  // Cuts the frame without lines: only edges().
   void cut(const SurfaceFrame& frame);
 
   const std::vector<RayCrossings>& lines() const { return lines_; }
   const std::vector<ContourEdge>& edges() const { return edges_; }
-  // One for each edge; none at all when the frame has no smooth normals.
+  // One for each edge; empty if the frame has no smooth normals.
   const std::vector<EdgeNormals>& normals() const { return normals_; }
 
  private:
@@ -60,7 +59,7 @@ class PlaneSlice {
   const std::vector<SurfaceTopology>& surfaces_;
   Probe probe_;
   std::vector<RayPlanes> rays_;
-  std::vector<ContourEdge> still_edges_;  // of surfaces that never move: cut once
+  std::vector<ContourEdge> still_edges_;  // of static surfaces: cut once
   bool still_cut_ = false;
   std::vector<EdgeNormals> still_normals_;
   std::vector<ContourEdge> edges_;
@@ -68,7 +67,7 @@ class PlaneSlice {
   std::vector<RayCrossings> lines_;
   bool angular_ = true;
   double first_place_ = 0,
-         lines_per_place_ = 0;  // of the lines: angles, or offsets of a linear probe
+         lines_per_place_ = 0;  // coordinate of the lines: angles, or offsets of a linear probe
   InsideSet membranes_, left_out_;
 };
 

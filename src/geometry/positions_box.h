@@ -1,5 +1,5 @@
 #pragma once
-// The box about the vertices of a surface.
+// Bounding box of the vertices of a surface.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace echocine {
 
-// In metres, as the positions. Empty without any.
+// In metres, like the positions. Empty without vertices.
 Box boxOf(const std::vector<Vec3f>& positions_m);
 
 }  // namespace echocine

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "motion/near_plane.h"
+#include "motion/surfaces/near_plane.h"
 #include "scene/elevation_slices.h"
 #include "scene/scan_geometry.h"
 

@@ -1,12 +1,12 @@
 #pragma once
-// The slices beside the imaging plane that stand for the beam's thickness across it: those of
-// scene/elevation_slices.h but for the plane itself.
+// The slices beside the imaging plane that represent the beam's thickness: those of
+// scene/elevation_slices.h except the plane itself.
 //
-// A slice is curved, y = u sigma(z). Cutting it is cutting the plane y = 0 through surfaces that
-// are bent by y - u sigma(z), as PlaneSlice does: vertices are moved, edges and facets stay
-// straight between them. So contours close as those of the plane do. Angles of incidence are those
-// of the bent facets, which are those of rays that follow the slice; with smooth normals they err
-// by the slice's slope, 3 degrees at most.
+// A slice is curved, y = u sigma(z). Cutting it equals cutting the plane y = 0 through surfaces
+// displaced by y - u sigma(z), as PlaneSlice does: vertices are moved; edges and facets stay
+// straight between them. So contours close like those of the plane. Angles of incidence are those
+// of the displaced facets, which are those of rays that follow the slice. With smooth normals their
+// error is the slope of the slice, at most 3 degrees.
 
 #include <span>
 #include <vector>
@@ -18,12 +18,12 @@ namespace echocine {
 
 class SideSlices {
  public:
-  // Of scene.accuracy.elevation_slices. Preconditions: those of PlaneSlice; surfaces know their
-  // triangles within elevationReach() of the plane, or none.
+  // For scene.accuracy.elevation_slices. Preconditions: those of PlaneSlice; surfaces have
+  // near_plane within elevationReach(), or none.
   SideSlices(const std::vector<SurfaceTopology>& surfaces, const Scene& scene,
              const InsideSet& left_out = {});
 
-  // Cuts the frame. Its positions are moved meanwhile and are what they were at the end.
+  // Cuts the frame. Its positions are modified temporarily and restored.
   void update(SurfaceFrame& frame);
 
   double centreWeight() const { return centre_weight_; }  // of the imaging plane
@@ -32,7 +32,7 @@ class SideSlices {
   double weight(std::size_t k) const { return weights_[k]; }
 
  private:
-  // What is moved of a surface, and by how much in the last frame.
+  // Displaced vertices of a surface, and their displacement in the last frame.
   struct Moved {
     std::size_t surface;
     bool still;
@@ -46,7 +46,7 @@ class SideSlices {
   std::vector<double> places_, weights_;
   std::vector<PlaneSlice> slices_;
   std::vector<Moved> moved_;
-  bool still_cut_ = false;  // those of surfaces that never move are cut once
+  bool still_cut_ = false;  // static surfaces have been cut
 };
 
 }  // namespace echocine

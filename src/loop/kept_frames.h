@@ -1,5 +1,5 @@
 #pragma once
-// Frames that were traced while white was measured and need not be traced again.
+// Frames traced for the measurement of white, kept so that they are not traced again.
 
 #include <cstddef>
 #include <map>
@@ -10,18 +10,18 @@
 
 namespace echocine {
 
-// Our choice: loops of a beat are kept whole at usual sizes, and long ones stay bounded.
+// Our choice: loops of one beat are kept completely at usual sizes, and memory is bounded for long
+// ones.
 inline constexpr std::size_t kKeptBytes = 128u << 20;
 
 class KeptFrames {
  public:
-  // Keeps frames of the range alone, as long as there is room: loops of a beat whole at usual
-  // sizes, of long ones the first.
+  // Keeps frames of the range only, as long as there is room; of long loops the first ones.
   explicit KeptFrames(std::pair<int, int> range) : range_(range) {}
 
   void keep(int frame, PolarFrame&& polar, Volumes&& volumes_ml);
 
-  // Gives a frame away, once; false where it was not kept. Thread-safe.
+  // Releases a frame, once; false if it was not kept. Thread-safe.
   bool take(int frame, PolarFrame& polar, Volumes& volumes_ml);
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// A loop in memory: every frame's planes one after the other.
+// A loop in memory: the planes of all frames in order.
 
 #include <map>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace echocine {
 
-// What the scene asks for; the rest is empty.
+// As requested by the scene; everything else is empty.
 struct Loop {
   Scene scene;
   int frames = 0, lines = 0, samples = 0, width = 0, height = 0;
@@ -26,13 +26,14 @@ struct Loop {
   std::vector<float> tracks_mm;                          // T x N x 3: lateral, elevation, depth
   std::vector<std::uint8_t> track_layer, track_segment;  // N
   std::vector<std::pair<std::string, std::vector<double>>> volumes_ml;  // structure -> T
-  std::vector<FunctionFrame> function;                                  // T, where asked for
-  std::vector<std::vector<Contour>> contours;                           // T, where asked for
+  std::vector<FunctionFrame> function;                                  // T, if requested
+  std::vector<std::vector<Contour>> contours;                           // T, if requested
   double reference_intensity = 1;
 };
 
-// Frames range.first up to, without, range.second, on so many threads (0: one per core): the same
-// values as renderLoop() writes. Throws SceneError, JobError; a JobError when the monitor says no.
+// Frames range.first to range.second - 1 on the given number of threads (0: one per core), with the
+// same values as renderLoop(). Throws SceneError, JobError; JobError also when the monitor requests
+// a stop.
 Loop renderInMemory(const Simulator& simulator, std::pair<int, int> range,
                     const Monitor& monitor = {}, int threads = 0);
 

@@ -1,5 +1,5 @@
 #pragma once
-// One loop: its white is measured once, then every frame goes into a sink.
+// One loop: white is measured once, then every frame is passed to a sink.
 
 #include <memory>
 #include <optional>
@@ -11,15 +11,15 @@
 
 namespace echocine {
 
-// A frame on its way into a sink, which may move out of it what it keeps.
+// A rendered frame for a sink, which may move data out of it.
 struct MadeFrame {
   FrameTime time;
   Workspace& workspace;             // channels, greys and picture
   Volumes volumes_ml;               // of closed structures, by name
-  std::optional<FrameTruth> truth;  // as far as the scene asks
+  std::optional<FrameTruth> truth;  // as requested by the scene
 };
 
-// Where the frames of a loop go.
+// Destination of the frames of a loop.
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
@@ -27,21 +27,21 @@ class FrameSink {
   // Once, before the first frame, with the loop's white (relative to I_S).
   virtual void begin(double /*white*/) {}
 
-  // From several threads at once. Returns what has to be handled in order, or nullptr.
+  // Called from several threads. Returns data to be handled in order, or nullptr.
   virtual std::shared_ptr<void> take(MadeFrame& frame) = 0;
 
-  // What take() returned: one call at a time, in the order of the frames.
+  // Receives the results of take(), one call at a time, in the order of the frames.
   virtual void inOrder(void* /*taken*/) {}
 };
 
-// Makes the frames first up to, without, last of the loop, as many at once as the enclosing
-// withThreads() allows, and returns how many. There are fewer when monitor.keep_going() says no;
-// begin() is not called if it does so while white is measured. Frames that were traced for white
-// are not traced again. Throws what the simulator and the sink throw.
+// Renders the frames first to last - 1 of the loop, as many at once as the enclosing withThreads()
+// allows, and returns their number. It is smaller if monitor.keep_going() becomes false; if that
+// happens during the measurement of white, begin() is not called. Frames traced for white are not
+// traced again. Throws what the simulator and the sink throw.
 int renderFrames(const Simulator& simulator, std::pair<int, int> range, FrameSink& sink,
                  const Monitor& monitor);
 
-// The same of any instants, against a given white; begin() is not called.
+// The same for any instants, with a given white; begin() is not called.
 int renderFrames(const Simulator& simulator, std::span<const FrameTime> times, double white,
                  FrameSink& sink, const Monitor& monitor);
 

@@ -1,7 +1,6 @@
 #pragma once
-// Where a block of one picture is found again in the next, as speckle tracking does it: the shift
-// of the greatest normalised correlation, between samples by a paraboloid. Pictures are line-major
-// planes of beam space, or rows of pixels.
+// Block matching, as in speckle tracking: the shift of the highest normalised correlation, refined
+// between samples by a paraboloid. Pictures are line-major planes of beam space, or rows of pixels.
 
 #include <optional>
 #include <span>
@@ -9,13 +8,13 @@
 namespace echocine {
 
 struct BlockMatchSettings {
-  int half_lines = 8, half_samples = 16;      // the block reaches so far either side of its middle
-  int search_lines = 6, search_samples = 12;  // shifts that are tried, either way
+  int half_lines = 8, half_samples = 16;      // half the size of the block
+  int search_lines = 6, search_samples = 12;  // largest shifts, either way
 };
 
 struct BlockMatch {
   double lines = 0, samples = 0;  // shift of the block from `before` to `after`
-  double correlation = 0;         // there, at the whole shift: -1 to 1
+  double correlation = 0;         // at the nearest whole shift: -1 to 1
 };
 
 // A plane of lines * samples numbers, line-major.
@@ -24,14 +23,14 @@ struct BlockPlane {
   int lines = 0, samples = 0;
 };
 
-// Nothing where the block does not lie within `before`, where it is even, where no whole shift
-// keeps it within `after`, or where the best shift lies at the end of those that can be tried: the
-// true one may lie beyond. Preconditions: planes of equal size; finite values; settings of 1 up.
+// None if the block is not within `before` or is constant, if no whole shift keeps it within
+// `after`, or if the best shift is at the limit of the search: the true one may lie beyond.
+// Preconditions: planes of equal size; finite values; settings of at least 1.
 std::optional<BlockMatch> matchBlock(const BlockPlane& before, const BlockPlane& after, int line,
                                      int sample, const BlockMatchSettings& settings = {});
 
-// The normalised correlation of a block with what is there in another picture. Nothing where the
-// block does not lie within the pictures or is even in one of them. Preconditions: as above.
+// The normalised correlation of a block with the same place in another picture. None if the block
+// is not within the pictures or is constant in one of them. Preconditions: as above.
 std::optional<double> correlationInPlace(const BlockPlane& before, const BlockPlane& after,
                                          int line, int sample, const BlockMatchSettings& settings);
 

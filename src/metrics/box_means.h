@@ -1,5 +1,5 @@
 #pragma once
-// Means over boxes of a picture, of those pixels that a mask takes in, by summed-area tables.
+// Means over boxes of a picture within a mask, by summed-area tables.
 
 #include <cstdint>
 #include <span>
@@ -9,11 +9,11 @@ namespace echocine {
 
 class BoxMeans {
  public:
-  // mask: 0 leaves a pixel out; sizes width times height.
+  // mask: 0 excludes a pixel; sizes width times height.
   BoxMeans(int width, int height, std::span<const float> values,
            std::span<const std::uint8_t> mask);
 
-  // Over +-half_x by +-half_y pixels about (x, y), cut at the picture's edges.
+  // Over +-half_x by +-half_y pixels around (x, y), cut at the picture's edges.
   struct Sums {
     double count = 0, sum = 0, squares = 0;
     double mean() const { return sum / count; }
@@ -21,10 +21,10 @@ class BoxMeans {
   };
   Sums at(int x, int y, int half_x, int half_y) const;
 
-  // The mask's share of the whole box, also where the picture cuts it.
+  // The mask's fraction of the whole box, also at the picture's edges.
   double share(int x, int y, int half_x, int half_y) const;
 
-  // Means of all pixels of the mask; NaN where it fills less than `least` of the box.
+  // Means at all pixels of the mask; NaN if it fills less than `least` of the box.
   std::vector<float> means(int half_x, int half_y, double least) const;
 
  private:

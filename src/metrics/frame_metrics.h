@@ -1,5 +1,5 @@
 #pragma once
-// How unlike two frames in beam space are.
+// Differences between two frames in beam space.
 
 #include <array>
 #include <span>
@@ -7,31 +7,32 @@
 
 namespace echocine {
 
-// Greys x (synthetic) and y (real), 0 to 255, at samples with weights w (0: left out), N = sum w.
+// Grey levels x (synthetic) and y (real), 0 to 255, at samples with weights w (0: excluded), N =
+// sum w.
 struct FrameMetrics {
   double rms = 0;            // sqrt(sum w (x - y)^2 / N), grey levels
   double mean_absolute = 0;  // sum w |x - y| / N, grey levels
   double psnr_db = 0;        // 20 log10(255 / rms); infinite for equal frames
-  double ncc = 0;   // correlation coefficient; 0 when a frame is constant (1 when both equal)
+  double ncc = 0;   // correlation coefficient; 0 for a constant frame (1 if both are equal)
   double ssim = 0;  // structuralSimilarity()
-  double mutual_information = 0;    // bits, of 32 x 32 greys
+  double mutual_information = 0;    // bits, of 32 x 32 grey levels
   double histogram_distance = 0;    // grey levels: area between the cumulative histograms
   double gradient_correlation = 0;  // gradientCorrelation()
-  double weight = 0;                // N; all others are 0 when this is
+  double weight = 0;                // N; all others are 0 if N is
 };
 
-// How frames' values become that of a loop.
+// Averaging of frames' values over a loop.
 enum class LoopMean {
   arithmetic,
   root_mean_square,  // of all samples of all frames
   psnr               // of the loop's root mean square
 };
 
-// Every metric once: means, tables, files and pages follow these rows.
+// All metrics: means, tables, files and pages follow these rows.
 struct Metric {
   const char* key;     // in CSV and JSON
   const char* title;   // with its unit
-  const char* column;  // on the terminal; empty: not shown there
+  const char* column;  // on the terminal; empty: not shown
   int decimals;
   double FrameMetrics::*value;
   LoopMean mean = LoopMean::arithmetic;
@@ -52,7 +53,7 @@ inline constexpr std::array kMetrics{
     Metric{"gradient_correlation", "Gradient correlation", "GC", 3,
            &FrameMetrics::gradient_correlation}};
 
-// Of those frames that have any weight; all 0 without one.
+// Over frames with positive weight; all 0 without any.
 FrameMetrics loopMetrics(std::span<const FrameMetrics> frames);
 
 struct BeamPair {
@@ -63,12 +64,12 @@ struct BeamPair {
 FrameMetrics frameMetrics(const BeamPair& pair);
 double rmsDifference(const BeamPair& pair);
 
-// signal/structural_similarity.h over the samples, whose window counts those in the area only.
+// metrics/structural_similarity.h over the samples; its window includes only those in the area.
 double structuralSimilarity(const BeamPair& pair);
 
 // Mean of the correlation coefficients of the derivatives across and along the beams (Penney et
-// al., IEEE Trans. Med. Imaging 17(4), 1998). Central differences; a derivative whose neighbours
-// are not both in the area is left out.
+// al., IEEE Trans. Med. Imaging 17(4), 1998). Central differences; a derivative without both
+// neighbours in the area is omitted.
 double gradientCorrelation(const BeamPair& pair);
 
 }  // namespace echocine

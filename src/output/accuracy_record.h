@@ -1,5 +1,5 @@
 #pragma once
-// How the accuracy of a run was chosen, for its manifest.
+// Selection of the accuracy settings of a run, for its manifest.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -11,20 +11,20 @@ namespace echocine {
 // A setting that was tried.
 struct AccuracyCandidate {
   std::string setting;    // scene keys and values
-  double error_db = 0;    // of the worst probe frame
+  double error_db = 0;    // of the worst test frame
   double cost_ms = 0;     // by the model of counted work
-  double probe_ms = 0;    // a probe frame took this long; the choice does not look at it
-  bool accepted = false;  // its error is small enough
+  double probe_ms = 0;    // measured time of a test frame; not used by the selection
+  bool accepted = false;  // its error is within the limit
 };
 
 struct AccuracyRecord {
-  std::string preset;                  // that was asked for; empty: none
-  std::optional<double> tolerance_db;  // that was asked for
-  double safety = 1;                   // error times this had to stay within the tolerance
+  std::string preset;                  // requested; empty: none
+  std::optional<double> tolerance_db;  // requested
+  double safety = 1;                   // factor of the error that must stay within the tolerance
   std::vector<double> probe_phases;
-  std::string setting;  // the choice; empty when the scene is rendered as written
+  std::string setting;  // the selected one; empty if the scene is rendered as written
   std::string reason;
-  std::vector<AccuracyCandidate> candidates;  // in the order in which they were tried
+  std::vector<AccuracyCandidate> candidates;  // in the order of the trials
 };
 
 nlohmann::ordered_json accuracyJson(const AccuracyRecord& record);

@@ -1,5 +1,5 @@
 #pragma once
-// What an earlier run's manifest.json says of its files, for resuming.
+// File hashes of an earlier run's manifest.json, for resuming.
 
 #include <filesystem>
 #include <map>
@@ -7,12 +7,11 @@
 
 namespace echocine {
 
-// Path relative to the folder -> SHA-256. Empty when there is no manifest, it cannot be read, or it
-// is of another scene.
+// Path relative to the folder -> SHA-256. Empty without a readable manifest of this scene.
 std::map<std::string, std::string> earlierHashes(const std::filesystem::path& manifest,
                                                  const std::string& scene_sha256);
 
-// Whether the manifest can be read and is of another scene.
+// Is the manifest readable and of another scene?
 bool isOfAnotherScene(const std::filesystem::path& manifest, const std::string& scene_sha256);
 
 }  // namespace echocine

@@ -5,7 +5,7 @@
 
 namespace echocine {
 
-// An attribute of the same name but another type is not the one.
+// An attribute of the same name but another type is ignored.
 template <typename Attribute, typename Value>
 bool holds(const Imf::Header& header, const char* name, const Value& value) {
   const auto* attribute = header.findTypedAttribute<Attribute>(name);

@@ -1,5 +1,5 @@
 #pragma once
-// The digest that an EXR of ours holds of itself: of all its bytes, its own digits read as zeros.
+// The digest inside our EXR files: of all bytes, with the digest's own digits read as zeros.
 
 #include <cstddef>
 #include <filesystem>
@@ -10,13 +10,13 @@ namespace echocine {
 
 inline constexpr const char* kExrDigestName = "echocine:digest";
 
-// What the attribute holds until the file's bytes are known.
+// The attribute's value until the digest is computed.
 std::string emptyExrDigest();
 
-// Puts the digest into the attribute's place. Precondition: the attribute is there, empty.
+// Writes the digest into the attribute. Precondition: the attribute exists, empty.
 void sealExr(std::span<std::byte> file);
 
-// Whether the file holds its own digest, unharmed. False for one that cannot be read.
+// Does the file match its own digest? False for an unreadable file.
 bool isSealedExr(const std::filesystem::path& path);
 
 }  // namespace echocine

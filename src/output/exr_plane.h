@@ -19,17 +19,17 @@ struct ExrPlaneWanted {
   int frame = 0, lines = 0, samples = 0;
 };
 
-// The values as they were before any half-float scale, line-major. Nothing when the file is absent,
-// damaged, without the channel, or of another scene, frame or size than wanted.
+// The values before any half-float scaling, line-major. None if the file is absent, damaged,
+// without the channel, or of another scene, frame or size.
 std::optional<std::vector<float>> readExrPlane(const std::filesystem::path& path,
                                                const ExrPlaneWanted& wanted);
 
-// The same of whole numbers. Precondition: isLabel(wanted.channel).
+// The same for whole numbers. Precondition: isLabel(wanted.channel).
 std::optional<std::vector<std::uint32_t>> readExrIds(const std::filesystem::path& path,
                                                      const ExrPlaneWanted& wanted);
 
-// As readExrPlane() from bytes just written. Preconditions: they are a file by ExrStack::encode();
-// the channel is one of its, not Channel::medium.
+// Like readExrPlane(), from bytes just written. Preconditions: the file is from ExrStack::encode();
+// it has the channel, which is not Channel::medium.
 std::vector<float> readBack(std::span<const std::byte> file, Channel channel);
 
 }  // namespace echocine

@@ -1,10 +1,10 @@
 #pragma once
 // The intensity stack: one OpenEXR file per frame in beam space, x = scan line, y = sample.
 //
-// What a pixel keeps of its value: 32-bit floats every bit; with compression pxr24 15 binary digits
-// behind the point, a relative error of 2^-16 at most; half floats as half_plane.h has it, where
-// the header's echocine:scale.<channel> is what the value was multiplied by; display.Y has none.
-// medium.id is always whole. Each file holds a digest of itself, exr_digest.h.
+// Precision: 32-bit floats are exact. Compression pxr24 keeps 15 binary digits, a relative error of
+// at most 2^-16. Half floats follow half_plane.h; the header's echocine:scale.<channel> is the
+// factor of the stored values. display.Y is not scaled. medium.id is always exact. Each file
+// contains its own digest, exr_digest.h.
 
 #include <cstddef>
 #include <filesystem>
@@ -20,31 +20,29 @@ namespace echocine {
 
 class ExrStack {
  public:
-  // Files go to `folder`/frame_0000.exr and so on. scene_sha256 and reference_intensity go into
-  // every header. Precondition: the scene outlives the stack.
+  // Files are `folder`/frame_0000.exr and so on. scene_sha256 and reference_intensity are written
+  // to every header. Precondition: the scene outlives the stack.
   ExrStack(std::filesystem::path folder, const Scene& scene, std::string scene_sha256,
            double reference_intensity);
 
-  // The bytes of the frame's file, in memory of this thread until it encodes again. Thread-safe.
-  // Throws JobError: a value is negative or not finite (names frame, line and sample).
+  // The bytes of the frame's file, in a buffer of this thread that the next encoding reuses.
+  // Thread-safe. Throws JobError naming frame, line and sample for a negative or non-finite value.
   std::span<const std::byte> encode(const FrameRecord& record,
                                     const std::vector<ChannelPlane>& planes) const;
 
-  // Encodes, writes beside and renames. Returns the SHA-256 of the file. Thread-safe. Throws
-  // JobError as encode() does, and when the file cannot be written.
+  // Encodes, writes a temporary file and renames it. Returns the SHA-256 of the file. Thread-safe.
+  // Throws JobError like encode(), and if the file cannot be written.
   std::string write(const FrameRecord& record, const std::vector<ChannelPlane>& planes) const;
 
-  // The SHA-256 of an existing whole file of this very scene and frame, or empty when there is
-  // none: absent, truncated, with a byte other than was written, of another size, frame, channel
-  // list, reference or program version. Thread-safe. Throws SceneError when the file is whole but
-  // belongs to another scene.
+  // The SHA-256 of an existing complete file of this scene and frame. Empty if it is absent,
+  // truncated, changed in any byte, or of another size, frame, channel list, reference or program
+  // version. Thread-safe. Throws SceneError if the file is complete but belongs to another scene.
   std::string existing(const FrameRecord& record) const;
 
-  // Whether the frame's file is there and its header is of another scene, whether or not the pixels
-  // are whole.
+  // Does the frame's file exist with a header of another scene, complete or not?
   bool isOfAnotherScene(int frame) const;
 
-  // Throws SceneError where isOfAnotherScene().
+  // Throws SceneError if isOfAnotherScene().
   void refuseOtherScene(int frame) const;
 
   static std::string fileName(int frame);  // "frame_0000.exr"

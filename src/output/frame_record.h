@@ -1,5 +1,5 @@
 #pragma once
-// What the file writers need to know of one frame besides its images.
+// Data of one frame for the file writers, besides its images.
 
 namespace echocine {
 

@@ -1,5 +1,5 @@
 #pragma once
-// How the heart works over a loop, as JSON: truth/function.json and the manifest's curves.
+// Function of the heart over a loop, as JSON: truth/function.json and the manifest's curves.
 
 #include <nlohmann/json_fwd.hpp>
 #include <span>
@@ -13,11 +13,11 @@
 
 namespace echocine {
 
-// What holds for a loop as a whole.
+// Properties of a loop as a whole.
 struct LoopTruth {
   std::span<const TruthMaker::Tracked> tracked;
   std::optional<ViewOffset> view;
-  // Valves of the left ventricle by name: phase, and the instant of the loop's first beat, s.
+  // A valve event of the left ventricle: phase, and its instant in the first beat of the loop, s.
   struct Event {
     const char* name;
     double phase, time_s;
@@ -25,12 +25,12 @@ struct LoopTruth {
   std::vector<Event> events;
 };
 
-// records and frames: one of each per frame.
+// records and frames: one per frame each.
 nlohmann::ordered_json functionJson(std::span<const FrameRecord> records,
                                     std::span<const FunctionFrame> frames, const LoopTruth& loop,
                                     const PictureGeometry& picture);
 
-// A name, with its unit where it has one, and a value per frame.
+// A name with its unit, if it has one, and one value per frame.
 using Curve = std::pair<std::string, std::vector<double>>;
 std::vector<Curve> functionCurves(std::span<const FunctionFrame> frames);
 

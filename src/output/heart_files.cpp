@@ -11,7 +11,7 @@
 #include "core/folder_lock.h"
 #include "core/parallel.h"
 #include "motion/heart/heart_scene.h"
-#include "motion/heart/truth.h"
+#include "motion/heart/heart_truth.h"
 
 namespace echocine {
 

@@ -1,5 +1,5 @@
 #pragma once
-// The parametric heart as files: keyframes, a scene that renders them, the truth.
+// The parametric heart as files: keyframes, a scene, ground truth.
 
 #include <filesystem>
 #include <string>
@@ -18,12 +18,12 @@ struct HeartFiles {
   int threads = 0;
 };
 
-// The text of a part's keyframe: OBJ in mm, with the tags that subdivision needs.
+// A part's keyframe as OBJ text in mm, with subdivision tags.
 std::string heartMesh(const heart::RecordedPart& part, std::size_t keyframe);
 
 // Writes NAME_00.obj ... of every part, scene.toml and truth.json into `folder`, which must be
-// absent or empty and is there whole or not at all. Throws SceneError for parameters that no heart
-// fulfils, JobError when the folder cannot be written or the monitor wants to stop.
+// absent or empty. The folder is written completely or not at all. Throws SceneError for impossible
+// parameters, JobError if the folder cannot be written or the monitor requests a stop.
 void writeHeart(const HeartFiles& wanted, const std::filesystem::path& folder,
                 const Monitor& monitor = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// manifest.json: what a finished run was made of and what it consists of.
+// manifest.json: input, settings and files of a finished run.
 
 #include <filesystem>
 #include <map>
@@ -10,7 +10,7 @@
 
 #include "core/stage_clock.h"
 #include "core/work_counts.h"
-#include "motion/volumes.h"
+#include "motion/surfaces/volumes.h"
 #include "output/accuracy_record.h"
 #include "output/frame_record.h"
 #include "plan/loop_plan.h"
@@ -34,20 +34,20 @@ struct Manifest {
   std::array<double, kStages> stage_ms{};  // per frame, summed over threads
   double wall_ms = 0;                      // per frame
   WorkCounts work;                         // of the whole run
-  // What truth tells of the heart's function, a value per frame; names have units.
+  // Curves of the heart's function from truth, a value per frame; names have units.
   std::vector<std::pair<std::string, std::vector<double>>> curves;
-  std::vector<std::string> warnings;         // of scene, motion and plan
+  std::vector<std::string> warnings;         // from scene, motion and plan
   std::map<std::string, std::string> files;  // path relative to the folder -> SHA-256
 };
 
-// Estimated share of an effect in the time of a frame: a stage's time goes to the effects that it
-// carries out, in proportion to the work that was counted for each. What no effect calls for
-// (motion, encoding) is nobody's share.
+// Estimated share of an effect in the time of a frame: the time of a stage is divided among its
+// effects in proportion to their counted work. Stages without effects (motion, encoding) are not
+// attributed.
 double timeShare(const EffectDecision& effect, const Manifest& manifest);
 
-// Parts of the manifest that are printed on their own too.
+// Parts of the manifest that are also printed separately.
 nlohmann::ordered_json effectsJson(const Manifest& manifest);  // name, on, reason, time_share
-nlohmann::ordered_json planJson(const LoopPlan& plan);         // tracer, echoes, what is left out
+nlohmann::ordered_json planJson(const LoopPlan& plan);         // tracer, echoes, omissions
 nlohmann::ordered_json stageTimesJson(const Manifest& manifest);
 nlohmann::ordered_json workJson(const WorkCounts& work);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Arrays for NumPy: .npy in memory, and .npz, a zip that stores them uncompressed. C order, little
-// endian, the same bytes for the same values.
+// Arrays for NumPy: .npy in memory, and .npz, an uncompressed zip of them. C order, little endian,
+// deterministic bytes.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace echocine {
 
-// A whole .npy file (format 1.0). Precondition: as many values as the shape says.
+// A complete .npy file (format 1.0). Precondition: the number of values matches the shape.
 std::vector<std::byte> npyBytes(std::span<const float> values, std::vector<std::size_t> shape);
 std::vector<std::byte> npyBytes(std::span<const std::uint8_t> values,
                                 std::vector<std::size_t> shape);
@@ -22,7 +22,7 @@ struct NamedArray {
   std::vector<std::byte> npy;
 };
 
-// A whole .npz file. Throws JobError from 4 GiB on, which the plain format cannot hold.
+// A complete .npz file. Throws JobError from 4 GiB on, the limit of the plain format.
 std::vector<std::byte> npzBytes(std::span<const NamedArray> arrays);
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// The folder of a run: made, found writable, and rid of what earlier runs left.
+// The folder of a run: created, checked for writing, cleaned of earlier runs.
 
 #include <filesystem>
 
@@ -10,19 +10,19 @@ namespace echocine {
 
 class OutputFolder {
  public:
-  // Makes `folder` and, as far as the settings ask for them, its intensity/ and png/, and keeps
-  // other runs out of it. Removes an earlier manifest.json and its report at once: a folder without
-  // them is an unfinished run. Throws JobError when the path is a file, nothing can be written
-  // there, another run is at work there, or a folder stands in the place of a file.
+  // Creates `folder` and, as the settings require, its intensity/ and png/, and locks out other
+  // runs. Removes an earlier manifest.json and its report at once: a folder without them is an
+  // unfinished run. Throws JobError if the path is a file, it is not writable, another run uses it,
+  // or a folder is in the place of a file.
   OutputFolder(std::filesystem::path folder, const OutputSettings& settings, bool resume);
 
-  // Deletes leftovers of earlier runs. On resuming: frames past the loop's end and half-written
-  // files; pictures too where no EXR proves whose they are. Otherwise every frame and the cine too,
-  // for a run that ends early must not leave a mix of two. Files with names of other kinds are
-  // never touched. Throws JobError.
+  // Deletes files of earlier runs. When resuming: frames beyond the loop's end and temporary files;
+  // also pictures, if no EXR proves their origin. Otherwise every frame and the cine, because an
+  // interrupted run must not leave a mixture. Files of other names are never touched. Throws
+  // JobError.
   void removeStale(int frame_count) const;
 
-  // Throws JobError when the folder was removed or replaced since.
+  // Throws JobError if the folder has been removed or replaced.
   void checkStillThere() const { lock_.checkStillThere(); }
 
   std::filesystem::path intensity() const { return folder_ / "intensity"; }

@@ -1,5 +1,5 @@
 #pragma once
-// The truth of frames as files: label pictures and contours.
+// Ground truth of frames as files: label pictures and contours.
 
 #include <cstddef>
 #include <filesystem>
@@ -14,31 +14,30 @@
 
 namespace echocine {
 
-// What was written for a frame.
+// The files written for a frame.
 struct TruthFrameFiles {
   std::map<std::string, std::string> sha256;  // by name, relative to the run's folder
-  std::vector<std::byte> labels;              // the label picture; empty where none is asked for
+  std::vector<std::byte> labels;              // the label picture; empty if not requested
 };
 
 class TruthFiles {
  public:
-  // Makes `folder` where the scene asks for truth files. References are kept.
+  // Creates `folder` if the scene requests truth files. References are kept.
   TruthFiles(std::filesystem::path folder, const Scene& scene, const LabelTable& labels);
 
   // Writes a frame's files. Thread-safe. Throws JobError.
   TruthFrameFiles write(const FrameRecord& record, const FrameTruth& truth) const;
 
-  // Keeps what goes into one file of the whole loop. One call at a time, in the order of the
-  // frames.
+  // Collects data for the files of the whole loop. One call at a time, in the order of the frames.
   void add(const FrameRecord& record, const FrameTruth& truth);
 
-  // tracks.npz and function.json of the frames that were added.
+  // tracks.npz and function.json of the added frames.
   std::map<std::string, std::string> finish(const LoopTruth& loop) const;
 
-  // The function of the frames that were added, one by one.
+  // The function of the added frames, one entry each.
   std::span<const FunctionFrame> functions() const { return functions_; }
 
-  // What holds for all frames: labels.json.
+  // Files that are common to all frames: labels.json.
   std::map<std::string, std::string> writeTables() const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Zip archives in memory: the same bytes for the same parts.
+// Zip archives in memory: deterministic bytes.
 
 #include <bit>
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace echocine {
 
 static_assert(std::endian::native == std::endian::little);
 
-// A text, or a number as little endian has it, at the end of a file in the making.
+// Appends a text, or a number in little endian, to a file in memory.
 inline void append(std::vector<std::byte>& to, std::string_view text) {
   const std::size_t begin = to.size();
   to.resize(begin + text.size());
@@ -28,13 +28,13 @@ void append(std::vector<std::byte>& to, const T& value) {
 // One file of an archive.
 struct ZipPart {
   std::string name;
-  std::span<const std::byte> whole;   // what it holds
-  std::span<const std::byte> packed;  // what is written: the whole itself, or that deflated
+  std::span<const std::byte> whole;   // uncompressed content
+  std::span<const std::byte> packed;  // bytes to write: the content, plain or deflated
   bool deflated = false;              // by raw deflate (RFC 1951)
 };
 
-// A whole archive, its times 1 January 1980. Throws JobError from 4 GiB on, which the plain format
-// cannot hold.
+// A complete archive, with times of 1 January 1980. Throws JobError from 4 GiB on, the limit of the
+// plain format.
 std::vector<std::byte> zipBytes(std::span<const ZipPart> parts);
 
 }  // namespace echocine

@@ -161,10 +161,10 @@
     page.facts(byId("space"), [["method", s.method], ["shift", `${fixed(s.shift_px[0], 2)}, ${fixed(s.shift_px[1], 2)} px of the real picture`],
       ["scale", fixed(s.scale, 4)], ["rotation", `${fixed(s.rotation_deg, 2)}°`],
       ["used", s.used ? "yes" : "no: the sectors lie best as they are"],
-      ["unlike per share in sight", fixed(s.unlike, 3)],
+      ["dissimilarity E", fixed(s.unlike, 3)],
       ["confidence", `${fixed(s.confidence, 3)}${s.at_limit_of_search ? ", at the limit of the search" : ""}`],
       ...s.rivals.map((r, i) => [`rival ${i + 1}`, `${fixed(r.shift_px[0], 1)}, ${fixed(r.shift_px[1], 1)} px, scale ${fixed(r.scale, 3)}, `
-        + `${fixed(r.rotation_deg, 1)}°, unlike ${fixed(r.unlike, 3)} per share in sight`]),
+        + `${fixed(r.rotation_deg, 1)}°, E ${fixed(r.unlike, 3)}`]),
       ["common beam space", `${b.lines} × ${b.samples}, ${fixed(b.first_deg, 1)}° to ${fixed(b.last_deg, 1)}°, `
         + `${number(b.near)} to ${number(b.far)} ${b.unit}`]]);
   }

@@ -19,7 +19,7 @@
   byId("counted").textContent = `First draws of ${data.counted} hearts, those that turn out impossible among them.`;
   byId("foot").textContent = `EchoCine ${data.version}. The contact sheet lies beside this page as PNG.`;
 
-  for (const g of data.glimpses) {
+  for (const g of data.previews) {
     const words = `${g.id}: ${g.population}, ejection fraction ${fixed(g.ef_percent, 0)} %, ${fixed(g.edv_ml, 0)} mL`
       + (g.impossible ? `; ${g.impossible} impossible draws before it` : "");
     byId("sheet").append(element("figure", { class: "loop" },

@@ -11,17 +11,17 @@
   // In step with the player, whose picture it carries on the imaging plane.
   function showSpace(player) {
     const root = byId("space"), has_pictures = page.frames("cine").length > 0;
-    let space = null, in_sight = false;
+    let space = null, visible = false;
     const show = () => {
-      if (!space || !in_sight) return;
+      if (!space || !visible) return;
       space.showPhase(frames.phase[Math.max(0, player.index)]);
       if (has_pictures && player.index >= 0) space.setPicture(player.loops[0].canvas);
     };
     player.addEventListener("frame", show);
     // Made when it is first scrolled to or printed, and drawn while it can be seen: the page opens as fast.
     const see = (is_seen) => {
-      in_sight = is_seen;
-      if (in_sight && !space) page.parts.space = space = new HeartView(root, data.view);
+      visible = is_seen;
+      if (visible && !space) page.parts.space = space = new HeartView(root, data.view);
       show();
     };
     new IntersectionObserver((entries) => see(entries.at(-1).isIntersecting)).observe(root);

@@ -5,7 +5,7 @@
   const { data, byId, element, number, fixed } = page;
   const { axes, points } = data;
   const kTerms = [["discrepancy", "Discrepancy"], ["region", "Region"], ["boundary", "Boundary"], ["motion", "Motion"],
-    ["in_sight", "Share in sight"]];
+    ["overlap", "Overlap"]];
   const last = axes.at(-1), others = axes.slice(0, -1);
 
   function showHead() {

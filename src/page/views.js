@@ -22,10 +22,10 @@
       xAxis: { type: "category", data: views.map((v) => v.view) }, yAxis: { type: "value", scale: true },
       series: [["V", "value"], ["discrepancy D", "discrepancy"]].map(([name, key]) => (
         { name, type: "bar", data: views.map((v) => v[key]) })) });
-    page.table(byId("ranking"), { columns: [{ label: "view" }, ...["V", "claimed a", "D", "region", "boundary", "motion",
-      "in sight", ...population.map((d) => d.dial)].map((label) => ({ label, number: true })),
+    page.table(byId("ranking"), { columns: [{ label: "view" }, ...["V", "coverage a", "D", "region", "boundary", "motion",
+      "overlap", ...population.map((d) => d.dial)].map((label) => ({ label, number: true })),
     ...["lateral, mm", "depth, mm", "turn, °", "scale", "pose's confidence"].map((label) => ({ label, number: true }))],
-    rows: views.map((v) => [v.view, ...["value", "claimed", "discrepancy", "region", "boundary", "motion", "in_sight"]
+    rows: views.map((v) => [v.view, ...["value", "coverage", "discrepancy", "region", "boundary", "motion", "overlap"]
       .map((key) => fixed(v[key], 4)), ...population.map((d) => number(v.dials[d.dial], 3)),
     fixed(v.pose.shift_mm[0], 1), fixed(v.pose.shift_mm[1], 1), fixed(v.pose.turn_deg, 1), fixed(v.pose.scale, 3),
     fixed(v.pose_confidence, 2)]) });

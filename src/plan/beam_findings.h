@@ -1,5 +1,5 @@
 #pragma once
-// What a scene says about the beam: its width across the lines and across the imaging plane.
+// The scene's requirements for the beam: its width across the lines and across the imaging plane.
 
 #include "plan/finding.h"
 #include "scene/scene.h"
@@ -9,7 +9,8 @@ namespace echocine {
 // Is each beam traced by several rays?
 bool severalRays(const Scene& scene);
 
-// Is it traced along several slices across the plane? Several rays are drawn across it themselves.
+// Is it traced along several slices across the plane? Several rays sample that direction
+// themselves.
 bool severalSlices(const Scene& scene);
 
 // Are several rays spread across the lines?

@@ -1,5 +1,5 @@
 #pragma once
-// Which effects a loop needs, decided once before its first frame, each with its reason.
+// The effects that a loop needs, decided once before its first frame, each with its reason.
 
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace echocine {
 
-// How a warning begins of a loop whose pictures stay black.
+// Start of the warning about a loop of black pictures.
 inline constexpr std::string_view kNothingSeen = "nothing can be seen";
 
 struct EffectDecision {
@@ -34,19 +34,19 @@ struct EffectPlan {
   bool spread = true;
   bool beam_width = true;
   bool travel_time = false;
-  bool trabeculae = false;  // the ventricles' inner surfaces have a relief
+  bool trabeculae = false;  // relief of the ventricles' inner surfaces
   bool speckle = false;
   bool heterogeneity = false, anisotropy = false;  // of the scatterers
   bool coherent_echoes = false;                    // interfaces keep part of their phase
   bool dropout = false, acoustic_window = false, haze = false, reverberation = false;
   bool clutter = false, noise = false, persistence = false;
-  bool rolling = false;                          // groups of lines have instants of their own
+  bool rolling = false;                          // groups of lines have their own instants
   int rays_per_beam = 1;                         // that are traced
-  bool lateral_rays = false, elevation = false;  // what several rays are spread over
-  int elevation_slices = 1;                      // that stand for the beam across the plane
-  // Of signal.tgc = "mean": what the loop's mean attenuation takes at each sample's depth, 0..1.
+  bool lateral_rays = false, elevation = false;  // dimensions sampled by several rays
+  int elevation_slices = 1;                      // slices that represent the beam across the plane
+  // For signal.tgc = "mean": the loop's mean attenuation factor at the depth of each sample, 0..1.
   std::vector<double> mean_loss;
-  bool contrast = true;  // the media in use differ at all
+  bool contrast = true;  // do the media in use differ?
   std::vector<EffectDecision> decisions;
 
   // Precondition: not Effect::channel.
@@ -54,17 +54,17 @@ struct EffectPlan {
   EffectDecision& decision(Effect effect);
 };
 
-// What the scene file alone decides. Refraction stays on here where any ray could bend; how far
-// rays do bend takes the meshes.
+// Decides from the scene file alone. Refraction stays on if any ray could bend; by how much depends
+// on the meshes.
 EffectPlan planEffects(const Scene& scene);
 
-// Is the channel among those that the scene asks for?
+// Does the scene request the channel?
 bool wants(const Scene& scene, Channel channel);
 
-// Does a requested output hold intensities of interfaces, or else of tissue?
+// Does a requested output contain intensities of interfaces (reflected), or of tissue?
 bool wantsIntensity(const Scene& scene, bool reflected);
 
-// Is there a picture to make (cine, PNG or channel display.Y)?
+// Is a picture needed (cine, PNG or channel display.Y)?
 bool wantsPicture(const Scene& scene);
 
 }  // namespace echocine

@@ -3,7 +3,7 @@
 
 namespace echocine {
 
-// What a scene says about an effect: is it called for, and why or why not.
+// Whether a scene calls for an effect, and the reason.
 struct Finding {
   bool on;
   std::string reason;

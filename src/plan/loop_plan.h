@@ -1,6 +1,5 @@
 #pragma once
-// What a loop is going to compute and by which tracer: the record that the program acts on, prints
-// and keeps.
+// What a loop computes, and by which tracer: the record that the program follows, prints and keeps.
 
 #include <string>
 #include <vector>
@@ -10,7 +9,7 @@
 
 namespace echocine {
 
-// A structure, or "interface A/B" of two media, that drops out.
+// A structure, or "interface A/B" of two media, that is omitted.
 struct Omission {
   std::string name, reason;
 };
@@ -19,14 +18,14 @@ struct LoopPlan {
   EffectPlan effects;
   std::vector<Omission> interfaces;
   SurfaceSet left_out;  // those structures
-  bool slice = false;   // the plane slice traces; else the hierarchy
+  bool slice = false;   // plane slice; false: Embree
   std::string tracer_reason;
   bool cell_echoes = false;
-  bool smooth_normals = false;  // angles of incidence by the limit surfaces' normals
+  bool smooth_normals = false;  // angles of incidence from normals of the limit surface
   std::string echo_reason;
   std::size_t triangles_given = 0;  // of all structures
   std::size_t triangles_kept = 0;   // of the structures that stay
-  std::size_t triangles_met = 0;    // cut by the imaging plane, the most of the frames looked at
+  std::size_t triangles_met = 0;    // cut by the imaging plane, maximum over the frames examined
   std::vector<std::string> warnings;
 
   const char* tracerName() const { return slice ? "slice" : "embree"; }

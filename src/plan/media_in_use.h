@@ -1,5 +1,5 @@
 #pragma once
-// Which media a scene holds, and in what they differ.
+// The media of a scene, and whether they differ.
 
 #include <vector>
 
@@ -7,11 +7,11 @@
 
 namespace echocine {
 
-// The background's first, then each structure's, also when two have the same. They live as long as
-// the scene.
+// The background first, then that of each structure, with repetitions. They live as long as the
+// scene.
 std::vector<const Medium*> mediaInUse(const Scene& scene);
 
-// Does any differ from another in what the tracer knows of it, or in sound speed?
+// Do any two differ in a property that the tracer uses, or in sound speed?
 bool mediaDiffer(const Scene& scene);
 bool speedsDiffer(const Scene& scene);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The part of the plan that truth knows nothing of: trabeculae, speckle, what tissue it shows, and
-// what the scanner adds.
+// The part of the plan that does not affect truth: trabeculae, speckle and its tissue properties,
+// artefacts.
 
 #include "plan/effect_plan.h"
 
@@ -9,7 +9,7 @@ namespace echocine {
 // The relief of the ventricles' inner surfaces.
 void planTrabeculae(const Scene& scene, EffectPlan& plan);
 
-// Speckle and what scatterers and interfaces have of it. Precondition: plan.contrast and
+// Speckle and the properties of scatterers and interfaces. Precondition: plan.contrast and
 // plan.reflection are decided.
 void planSpeckle(const Scene& scene, EffectPlan& plan);
 

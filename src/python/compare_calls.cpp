@@ -13,12 +13,12 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "fit/fit_report.h"
-#include "motion/probe_placement.h"
+#include "motion/surfaces/probe_placement.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/fork_guard.h"
 #include "python/job.h"
-#include "python/scene.h"
+#include "python/native_scene.h"
 #include "python/unlocked.h"
 
 namespace echocine::python {
@@ -159,7 +159,7 @@ void bindCompare(py::module_& module) {
           "real_frames", [](const Distance& d) { return d.discrepancy.realFrames(); },
           "Frames of the real loop.")
       .def_property_readonly(
-          "share_in_sight", [](const Distance& d) { return d.discrepancy.shareInSight(); },
+          "overlap", [](const Distance& d) { return d.discrepancy.overlapShare(); },
           "Share of the sector that both loops show, 0 to 1.")
       .def_readonly("tilt", &Distance::tilt,
                     "The tilt that was found, as JSON; empty where none was asked for.");

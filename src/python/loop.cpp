@@ -11,7 +11,7 @@
 #include "python/bindings.h"
 #include "python/frame.h"
 #include "python/job.h"
-#include "python/scene.h"
+#include "python/native_scene.h"
 
 namespace echocine::python {
 

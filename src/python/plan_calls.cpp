@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "python/bindings.h"
 #include "python/job.h"
-#include "python/scene.h"
+#include "python/native_scene.h"
 #include "render/estimate.h"
 #include "study/study.h"
 #include "study/study_files.h"

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "python/bindings.h"
 #include "python/job.h"
-#include "python/scene.h"
+#include "python/native_scene.h"
 #include "render/render.h"
 
 namespace echocine::python {

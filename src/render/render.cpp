@@ -12,7 +12,7 @@
 #include "core/shown_path.h"
 #include "frame/simulator.h"
 #include "frame/structure_volumes.h"
-#include "motion/probe_placement.h"
+#include "motion/surfaces/probe_placement.h"
 #include "output/earlier_hashes.h"
 #include "output/exr_stack.h"
 #include "output/output_folder.h"

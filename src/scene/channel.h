@@ -14,9 +14,9 @@ enum class Channel {
   backscatter,
   medium,
   display,
-  // Truth of the sample's centre, which no ray is traced for.
-  structure,             // 0 in the background, else the structure's place in the scene, from 1
-  displacement_lateral,  // of the material there, since the reference frame, mm
+  // Truth at the sample's centre; no ray is traced for it.
+  structure,             // 0 in the background, else the structure's position in the scene, from 1
+  displacement_lateral,  // of the material since the reference frame, mm
   displacement_axial,
   displacement_elevation,
   velocity_lateral,  // mm/s
@@ -37,11 +37,11 @@ inline constexpr std::array kTruthChannels{
 constexpr bool isTruth(Channel channel) {
   return channel >= Channel::structure;
 }
-// Of the material's motion: not a number where nothing is known to move.
+// Motion of the material: NaN where no motion is defined.
 constexpr bool isMotion(Channel channel) {
   return channel > Channel::structure;
 }
-// Whole numbers.
+// Channels of whole numbers.
 constexpr bool isLabel(Channel channel) {
   return channel == Channel::medium || channel == Channel::structure;
 }

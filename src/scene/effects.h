@@ -1,5 +1,5 @@
 #pragma once
-// The effects: what each is called, and which a scene can switch.
+// The effects: their names, and which of them a scene can switch.
 
 #include "scene/named.h"
 
@@ -7,8 +7,8 @@ namespace echocine {
 
 enum class Switch { automatic, on, off };
 
-// What a loop may compute or leave out. What each is stands in effect_plan.cpp, beside the reasons
-// to leave it out.
+// Everything that a loop may compute or omit. effect_plan.cpp describes each, with the reasons to
+// omit it.
 enum class Effect {
   reflection,
   lobe,
@@ -43,10 +43,10 @@ enum class Effect {
   truth_contours,
   truth_tracks,
   truth_function,
-  channel  // of the intensity stack, one decision each
+  channel  // of the intensity stack, one decision per channel
 };
 
-// Each of the scene's [effects], automatic unless it says otherwise.
+// Switches of the scene's [effects], automatic by default.
 struct EffectSwitches {
   Switch reflection{};
   Switch lobe{};
@@ -63,7 +63,7 @@ struct EffectSwitches {
   Switch travel_time{};
 };
 
-// The effects that a scene can switch, and what they are; the keys of [effects] follow the rows.
+// The effects that a scene can switch, with descriptions; the keys of [effects] follow these rows.
 struct EffectSwitch {
   Effect effect;
   const char* key;

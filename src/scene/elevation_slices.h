@@ -1,14 +1,15 @@
 #pragma once
-// The beam across the imaging plane by a few slices: a quadrature in place of many rays.
+// The beam across the imaging plane as a few slices: a quadrature instead of many rays.
 //
-// At the path length z the two-way profile of the lens is the bell N(0, sigma(z)^2) in y, sigma =
-// w_e / sqrt(8 ln 4) (elevationBeamWidth()). Slice k is the surface y = u_k sigma(z), and
+// At the path length z the two-way profile of the lens is the Gaussian N(0, sigma(z)^2) in y, with
+// sigma = w_e / sqrt(8 ln 4) (elevationBeamWidth()). Slice k is the surface y = u_k sigma(z), and
 //
 //   mean over y of f(y, z) = sum over k of q_k f(u_k sigma(z), z)                            (1)
 //
-// with u_k, q_k of Gauss and Hermite: exact where f is a polynomial in y of degree up to 2 n - 1.
-// Of a step, as a wall's edge is, n slices make n smaller ones. The widest slices count for little,
-// yet on a logarithmic scale an edge's foot is theirs: 19 dB under the wall for five slices.
+// with u_k, q_k of Gauss-Hermite quadrature: exact if f is a polynomial in y of degree up to 2 n -
+// 1. A step, such as the edge of a wall, becomes n smaller steps. The outermost slices have small
+// weights but are visible on a logarithmic scale: the foot of an edge is 19 dB below the wall for
+// five slices.
 
 #include <algorithm>
 #include <cmath>
@@ -21,14 +22,14 @@ namespace echocine {
 inline constexpr int kMostElevationSlices = 5;
 
 struct ElevationNode {
-  double place;   // u, in deviations of the beam
-  double weight;  // q; they add up to 1
+  double place;   // u, in standard deviations of the beam
+  double weight;  // q; the weights sum to 1
 };
 
-// The imaging plane first, then the others in pairs. Precondition: 1, 3 or 5.
+// The imaging plane first, then pairs. Precondition: 1, 3 or 5.
 std::span<const ElevationNode> elevationNodes(int slices);
 
-// sigma by the path length, m: elevationBeamWidth() with what does not change worked out before.
+// sigma by path length, m: elevationBeamWidth() with precomputed constants.
 class ElevationBell {
  public:
   explicit ElevationBell(const Probe& probe);
@@ -42,7 +43,7 @@ class ElevationBell {
   double slope_, lens_m_, per_focus_;
 };
 
-// How far the scene's slices lie from the imaging plane at most, m; 0 of one slice.
+// Largest distance of the scene's slices from the imaging plane, m; 0 for one slice.
 double elevationReach(const Scene& scene);
 
 }  // namespace echocine

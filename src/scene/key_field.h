@@ -1,5 +1,5 @@
 #pragma once
-// Where a scene's structs keep the value of a key: access by one type, whatever the member's own.
+// Uniform access to the members of a scene's structs that hold the values of keys.
 
 #include <optional>
 #include <string>
@@ -15,11 +15,11 @@
 
 namespace echocine {
 
-// In SI; words by their names. std::monostate where an optional member has no value.
+// In SI units; words by name. std::monostate for an optional member without a value.
 using KeyValue = KeyDefault;
 
-// What holds a key's member: the scene, for [[structure]] also the structure, for [media.NAME] the
-// medium before its numbers are resolved.
+// The object that contains a key's member: the scene; for [[structure]] also the structure; for
+// [media.NAME] the unresolved medium.
 struct KeyOwner {
   Scene* scene = nullptr;
   Structure* structure = nullptr;
@@ -29,8 +29,8 @@ struct KeyOwner {
 enum class KeyKind { number, whole, flag, word, other };
 
 struct KeyField {
-  KeyKind kind = KeyKind::other;  // other: read by hand
-  const char* member = nullptr;   // its name in the JSON; none: the JSON has it otherwise
+  KeyKind kind = KeyKind::other;  // other: read by its own code
+  const char* member = nullptr;   // its name in the JSON; null: the JSON has another form
   KeyValue (*get)(const KeyOwner&) = nullptr;
   void (*set)(const KeyOwner&, const KeyValue&) = nullptr;
   std::vector<std::string_view> (*words)() = nullptr;  // of KeyKind::word

@@ -1,5 +1,6 @@
 #pragma once
-// Which keys a scene could have had: what the reader asked for and did not find, with its defaults.
+// Keys that a scene could have had: those that the reader looked up and did not find, with
+// defaults.
 
 #include <cstdint>
 #include <map>
@@ -9,11 +10,11 @@
 
 namespace echocine {
 
-// In the file's unit; nothing where a key has no default.
+// In the file's unit; std::monostate for a key without default.
 using KeyDefault = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
 
-// While one lives, tables that this thread reads note their absent keys in it. The innermost
-// counts.
+// During its lifetime, tables read by this thread record their absent keys in it. The innermost log
+// is used.
 class KeyLog {
  public:
   KeyLog();
@@ -24,8 +25,8 @@ class KeyLog {
   // By full key, "probe.lines". Entries of a list share their list's name, "structure.priority".
   const std::map<std::string, KeyDefault>& absent() const { return absent_; }
 
-  static bool wanted();  // by anybody in this thread
-  // A key is often first looked for and then read: the default that is known counts.
+  static bool wanted();  // by any log of this thread
+  // A key is often looked up before it is read. A known default replaces an unknown one.
   static void note(const std::string& key, KeyDefault value);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// What the rows of the table of keys are made of: units, ranges, conditions, and the fields of keys
-// that are no single member. Only scene_keys.cpp includes this.
+// Parts of the rows of the table of keys: units, ranges, conditions, and fields of keys that are
+// not single members. Included by scene_keys.cpp only.
 
 #include <limits>
 #include <string>
@@ -56,14 +56,14 @@ inline constexpr NumberRange kAny{}, kSeed{.lo = 0, .hi = kIntMost}, kPixels{.lo
     kVariability{.lo = 0,
                  .hi = 0.3},  // three deviations leave a tenth of the mean beat. Our choice
     kSubdivision{.lo = 0, .hi = 8},
-    // phaseDurations() has it from 0.19 at 30 bpm to 0.55 at 160; wider by our choice.
+    // phaseDurations() yields 0.19 at 30 bpm to 0.55 at 160; wider by our choice.
     kEndSystole{.lo = 0.1, .hi = 0.8}, kPriority{.lo = -1000000, .hi = 1000000},
     kExponent{.lo = 0, .hi = 1000}, kAttenuationExponent{.lo = 0, .hi = 4},
     kShare{.lo = 0, .hi = 1},
-    kPerCell{.lo = 0.1, .hi = 1000},  // statistics are final from 3 on. Our choice
+    kPerCell{.lo = 0.1, .hi = 1000},  // statistics converge from 3 on. Our choice
     kSmoothing_mm{.lo = 0, .hi = 100}, kLabel{.lo = 1, .hi = 255}, kTracks{.lo = 1, .hi = 1000000},
     kPulse{.lo = 0, .hi = 1000}, kPercentileRange{.lo = 0, .hi = 100, .lo_open = true},
-    kRays{.lo = 1, .hi = 4096},  // errors are then far under a picture's. Our choice
+    kRays{.lo = 1, .hi = 4096},  // errors are then far below a picture's. Our choice
     kSlices{.lo = 1, .hi = kMostElevationSlices}, kQuality{.lo = 1, .hi = 100};
 
 inline constexpr KeyNeed kAlways = KeyNeed::always, kUnlessView = KeyNeed::unless_view,
@@ -112,14 +112,14 @@ inline constexpr KeyField kWidth{KeyKind::number, nullptr,
                                  }};
 inline constexpr KeyField kDepth{
     KeyKind::number, "max_depth_m",
-    [](const KeyOwner& o) -> KeyValue {  // 0: still to be found by the view
+    [](const KeyOwner& o) -> KeyValue {  // 0: not yet placed by the view
       const double depth_m = o.scene->probe.max_depth_m;
       return o.scene->view && depth_m == 0 ? KeyValue() : KeyValue(depth_m);
     },
     [](const KeyOwner& o, const KeyValue& v) { o.scene->probe.max_depth_m = std::get<double>(v); }};
 inline constexpr KeyField kFocus{
     KeyKind::number, "focus_m",
-    [](const KeyOwner& o) -> KeyValue {  // 0: half of a depth that is still to be found
+    [](const KeyOwner& o) -> KeyValue {  // 0: half of a depth that is not yet known
       const double focus_m = o.scene->probe.focus_m;
       return o.scene->view && focus_m == 0 ? KeyValue() : KeyValue(focus_m);
     },
@@ -150,7 +150,7 @@ inline constexpr KeyField kPapillary{
     }};
 inline constexpr KeyField kPercentile{
     KeyKind::number, "reference_percentile",
-    [](const KeyOwner& o) -> KeyValue {  // none: white goes by the heart's muscle
+    [](const KeyOwner& o) -> KeyValue {  // none: white follows the heart's muscle
       const double percentile = o.scene->signal.reference_percentile;
       return percentile == kWhiteByMuscle ? KeyValue() : KeyValue(percentile);
     },
@@ -158,7 +158,7 @@ inline constexpr KeyField kPercentile{
       o.scene->signal.reference_percentile = std::get<double>(v);
     }};
 
-// Keys that are read by hand, of some words.
+// Keys with their own reading code, accepting some words.
 #define OF_WORDS(list)                                         \
   {                                                            \
     KeyKind::other, nullptr, nullptr, nullptr,                 \

@@ -1,5 +1,5 @@
 #pragma once
-// Reads the keys of a table of a scene by their rows in the table of keys.
+// Reads the keys of a scene's table by their rows in the table of keys.
 
 #include <string_view>
 
@@ -8,14 +8,14 @@
 
 namespace echocine {
 
-// All keys of [table] that are not read by hand, in the order of their rows. Those that the file
-// leaves out keep the value of their member, which is their default then. Throws SceneError.
+// All keys of [table] except those with their own reading code, in the order of their rows. An
+// absent key keeps the initial value of its member. Throws SceneError.
 void readKeys(TomlTable& file, std::string_view table, const KeyOwner& owner);
 
-// One of them.
+// Reads one key.
 void readKey(TomlTable& file, const SceneKey& key, const KeyOwner& owner);
 
-// In SI, of a key without a member; it must be given.
+// Reads a required key without a member, in SI units.
 double readNumber(TomlTable& file, const SceneKey& key);
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// Lists of keyframes that can be used but are hardly what was meant.
+// Warnings about lists of keyframes that are valid but unlikely.
 
 #include <string>
 #include <vector>
@@ -8,10 +8,9 @@
 
 namespace echocine {
 
-// One line `file:line: key: structure: what looks wrong` each: a pattern that takes another
-// structure's files too, evenly spaced structures with different numbers of keyframes, a loop of
-// many frames in which nothing moves. Looks at the files' names only, so that it can speak before a
-// mesh is refused.
+// One line `file:line: key: structure: fault` each: a pattern that also matches another structure's
+// files, evenly spaced structures with different numbers of keyframes, a loop of many frames
+// without motion. Uses file names only, so it can warn before a mesh is rejected.
 std::vector<std::string> keyframeWarnings(const Scene& scene);
 
 }  // namespace echocine

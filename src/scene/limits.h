@@ -1,9 +1,9 @@
 #pragma once
-// Limits that reading a scene and reading back its frames share; our choice.
+// Limits shared by the scene reader and the reader of frames; our choice.
 
 namespace echocine {
 
-// Most lines x samples of a frame.
+// Largest lines x samples of a frame.
 inline constexpr double kMaxPolarSamples = 1 << 26;
 
 }  // namespace echocine

@@ -17,7 +17,7 @@ class MediaTable {
   // Adds [media.*] of a file, replacing media of the same name.
   void read(TomlTable& file);
 
-  // The medium that `key` of `table` names. Throws SceneError with the nearest known name.
+  // The medium named by `key` of `table`. Throws SceneError with the nearest known name.
   const MediumSpec& named(TomlTable& table, std::string_view key, std::string fallback = "") const;
 
  private:

@@ -1,16 +1,16 @@
 #pragma once
-// A medium as the tracer sees it: plain numbers at the run's frequency. Eqs. 5-7 and the unit
-// conversions are done once, when the scene is read.
+// A medium as the tracer uses it: numbers at the frequency of the run. Eqs. 5-7 and the unit
+// conversions are evaluated once, when the scene is read.
 
 #include <string>
 #include <variant>
 
 namespace echocine {
 
-// No backscatter at all.
+// No backscatter.
 struct NoBackscatter {};
 
-// A stated backscattering coefficient.
+// A given backscattering coefficient.
 struct FixedBackscatter {
   double per_m_sr = 0;  // eta_b
 };
@@ -49,15 +49,15 @@ struct Medium {
   double sound_speed_m_s = 0;       // c
   double attenuation_np_per_m = 0;  // alpha, amplitude
   double backscatter_per_m_sr = 0;  // eta_b
-  bool blood = false;               // flows: its scatterers are not tied to walls
+  bool blood = false;               // flows: its scatterers are not bound to walls
 };
 
-// Equal impedance and speed: an interface between them neither reflects nor bends.
+// Equal impedance and speed: their interface neither reflects nor refracts.
 inline bool sameInterface(const Medium& a, const Medium& b) {
   return a.impedance_kg_m2_s == b.impedance_kg_m2_s && a.sound_speed_m_s == b.sound_speed_m_s;
 }
 
-// Equal in everything but the name.
+// Equal in everything except the name.
 inline bool sameMedium(const Medium& a, const Medium& b) {
   return sameInterface(a, b) && a.attenuation_np_per_m == b.attenuation_np_per_m &&
          a.backscatter_per_m_sr == b.backscatter_per_m_sr;

@@ -1,17 +1,17 @@
 #pragma once
-// Creases and corners of a control mesh: where Loop subdivision is to keep an edge or a point.
+// Creases and corners of a control mesh: edges and points that Loop subdivision keeps sharp.
 
 #include <cstdint>
 #include <vector>
 
 namespace echocine {
 
-// From here on sharp at every level: OpenSubdiv's Sdc::Crease::SHARPNESS_INFINITE.
+// Sharp at every level from this value on: OpenSubdiv's Sdc::Crease::SHARPNESS_INFINITE.
 inline constexpr float kInfiniteSharpness = 10;
 
-// Sharpness in (0, 10]: as many levels, counted in fractions, keep the edge or point before the
-// smooth rules take over (DeRose, Kass and Truong, "Subdivision surfaces in character animation",
-// SIGGRAPH 1998).
+// Sharpness in (0, 10]: the number of levels, possibly fractional, that keep the edge or point
+// before the smooth rules apply (DeRose, Kass and Truong, "Subdivision surfaces in character
+// animation", SIGGRAPH 1998).
 struct SharpEdge {
   std::uint32_t v0 = 0, v1 = 0;  // v0 < v1
   float sharpness = 0;
@@ -23,8 +23,7 @@ struct SharpVertex {
   friend bool operator==(const SharpVertex&, const SharpVertex&) = default;
 };
 
-// Ascending by vertices and each named once, so equal tags compare equal in whatever order a file
-// has them.
+// Ascending by vertices, each named once, so equal tags compare equal for any order in the file.
 struct MeshTags {
   std::vector<SharpEdge> edges;
   std::vector<SharpVertex> vertices;
@@ -33,7 +32,7 @@ struct MeshTags {
   friend bool operator==(const MeshTags&, const MeshTags&) = default;
 };
 
-// Both ends of an edge in one number, whichever way it runs.
+// Both ends of an edge in one number, for either direction.
 inline std::uint64_t edgeKey(std::uint32_t a, std::uint32_t b) {
   return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
 }

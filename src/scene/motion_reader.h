@@ -11,7 +11,7 @@
 
 namespace echocine {
 
-// What becomes a setting only with the structures.
+// Keys that become settings together with the structures.
 struct MotionKeys {
   std::optional<double> interval_s;  // between evenly spaced keyframes
   SourcePlace interval_place;
@@ -20,8 +20,8 @@ struct MotionKeys {
 // Sets scene.motion. Throws SceneError.
 MotionKeys readMotion(TomlTable table, Scene& scene);
 
-// Beats per second of evenly spaced keyframes, of which each moving structure has as many; none
-// without an interval. Throws SceneError where structures contradict it.
+// Beats per second of evenly spaced keyframes, the same number for each moving structure; none
+// without an interval. Throws SceneError if structures contradict it.
 std::optional<double> rateOfInterval(const MotionKeys& keys,
                                      const std::vector<Structure>& structures);
 

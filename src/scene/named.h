@@ -1,6 +1,6 @@
 #pragma once
-// What a value of an enum is called in scene files. An enum's list stands beside the enum where
-// adding a value should take one file, else in names.h.
+// Names of enum values in scene files. An enum's list stands beside the enum if adding a value
+// should change one file, else in names.h.
 
 namespace echocine {
 
@@ -10,7 +10,7 @@ struct Named {
   const char* name;
 };
 
-// Specialised with `kAll`, every value once in the enum's order.
+// Specialised with `kAll`, each value once in the enum's order.
 template <typename E>
 struct NamesOf;
 

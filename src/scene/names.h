@@ -1,7 +1,6 @@
 #pragma once
-// What every choice of a scene is called, once: the reader, the JSON of results, the study and
-// messages all look here. A new value of an enum needs its line in the list of names, here or
-// beside the enum, and nothing else to be readable.
+// Names of all choices of a scene, defined once for the reader, the JSON of results, the study and
+// messages. A new enum value needs only its row in the list of names, here or beside the enum.
 
 #include <array>
 #include <cstddef>
@@ -128,7 +127,7 @@ template <typename E>
 const char* nameOf(E value) {
   for (const Named<E>& entry : NamesOf<E>::kAll)
     if (entry.value == value) return entry.name;
-  CHECK_EQ(static_cast<int>(value), -1);  // a value without a line above
+  CHECK_EQ(static_cast<int>(value), -1);  // a value without a row above
   return "";
 }
 

@@ -6,7 +6,7 @@
 
 namespace echocine {
 
-// Accepted numbers: lo..hi, an end left out when open.
+// Accepted numbers: lo..hi; an absent end is open.
 struct NumberRange {
   double lo = -std::numeric_limits<double>::infinity();
   double hi = std::numeric_limits<double>::infinity();

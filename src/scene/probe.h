@@ -7,15 +7,14 @@
 
 namespace echocine {
 
-// The speed by which a scanner turns echo times into depths: the soft-tissue average it is built
-// for.
+// The sound speed by which a scanner converts echo times to depths: the average of soft tissue.
 inline constexpr double kScannerSpeed = 1540;  // m/s
 
 struct Probe {
   ProbeKind kind = ProbeKind::phased;
-  // World pose. The apex is where the scan lines meet: the transducer for a phased array, the
-  // centre of curvature behind the face for a curvilinear one, the middle of the face for a linear
-  // one.
+  // World pose. The apex is the common point of the scan lines: the transducer for a phased array,
+  // the centre of curvature behind the face for a curvilinear one, the centre of the face for a
+  // linear one.
   Pose pose;
   double first_angle_rad = 0, last_angle_rad = 0;  // of the outermost lines, from z towards x
   double face_radius_m = 0;                        // curvilinear: apex to face; others 0
@@ -24,12 +23,12 @@ struct Probe {
   double frequency_hz = 0;
   double aperture_m = 0;  // active lateral aperture of a beam
   double focus_m = 0;     // depth of the focus
-  // Of the fixed lens across the imaging plane: our choice for an adult cardiac probe.
+  // The fixed lens across the imaging plane: our choice for an adult cardiac probe.
   double elevation_aperture_m = 0.013;
   double elevation_focus_m = 0.08;
   int lines = 0, samples = 0;
 
-  bool isFan() const { return layoutOf(kind).fan; }  // else its lines are parallel
+  bool isFan() const { return layoutOf(kind).fan; }  // otherwise its lines are parallel
   double sampleSpacing() const { return (max_depth_m - min_depth_m) / samples; }
   double middleDepth() const { return 0.5 * (min_depth_m + max_depth_m); }
 };

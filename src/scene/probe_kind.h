@@ -1,5 +1,5 @@
 #pragma once
-// The kinds of probes: one row each.
+// The kinds of probes, one row each.
 
 #include "scene/named.h"
 
@@ -7,10 +7,10 @@ namespace echocine {
 
 enum class ProbeKind { phased, curvilinear, linear };
 
-// How a kind lays its lines: as a fan from the apex, or side by side. Nobody else asks what kind a
-// probe is; a kind that does neither needs new code in scan_geometry.cpp.
+// Arrangement of a kind's lines: a fan from the apex, or parallel. No other code asks for the kind
+// of a probe. A kind of another arrangement needs new code in scan_geometry.cpp.
 struct LineLayout {
-  bool fan;          // lines meet in the apex; key sector_deg, else width_mm
+  bool fan;          // lines meet in the apex; key sector_deg, otherwise width_mm
   bool curved_face;  // the apex lies behind the face; key face_radius_mm
 };
 

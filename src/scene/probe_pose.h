@@ -1,5 +1,5 @@
 #pragma once
-// A probe's pose as scene files write it, both ways.
+// A probe's pose in the form of scene files, both ways.
 
 #include <optional>
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace echocine {
 
-// Of any two directions that are not along each other, of any length but 0: `lateral` is made
-// perpendicular to `axis`, and the elevation axis completes a right-handed frame. None where they
-// are along each other.
+// A pose from two directions that are not parallel, of any non-zero length: `lateral` is made
+// perpendicular to `axis`, and the elevation axis completes a right-handed frame. None for parallel
+// directions.
 std::optional<Pose> poseOf(Vec3d apex_m, Vec3d axis, Vec3d lateral);
 
-// The focus of a probe that names none: half its depth.
+// The default focus: half the depth.
 double defaultFocus(double depth_m);
 
-// A pose that its own text gives back to the last bit, within 1e-6 of a direction and 0.1 um of
+// A pose that its own text reproduces to the last bit, within 1e-6 of a direction and 0.1 um of
 // `pose`; the depth likewise, in tenths of a millimetre.
 Pose writable(const Pose& pose, double mesh_unit_m);
 double writableDepth(double depth_m);
 
-// The keys of [probe] that place it, as lines to paste: apex, axis, lateral, sector_deg, depth_mm,
-// frequency_mhz. With as many digits as give the pose back; 17 where fewer do not.
+// The keys of [probe] for its pose, as lines to paste: apex, axis, lateral, sector_deg, depth_mm,
+// frequency_mhz. As few digits as reproduce the pose, at most 17.
 std::string poseToml(const Scene& scene);
 
 }  // namespace echocine

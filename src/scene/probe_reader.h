@@ -6,8 +6,8 @@
 
 namespace echocine {
 
-// Sets scene.probe, and scene.view where the pose is still to be found; so is the depth where it is
-// 0 then, and the focus. Precondition: scene.motion has the unit of the apex. Throws SceneError.
+// Sets scene.probe. Sets scene.view if the pose is still to be computed; a depth or focus of 0 then
+// is too. Precondition: scene.motion has the unit of the apex. Throws SceneError.
 void readProbe(TomlTable table, Scene& scene);
 
 }  // namespace echocine

@@ -1,6 +1,6 @@
 #pragma once
-// What each number of a scene may be: wider than anything physical, and narrow enough that products
-// of a few of them are still numbers. Our choice throughout.
+// Ranges of a scene's numbers: wider than anything physical, and narrow enough that products of a
+// few stay finite. Our choice throughout.
 
 #include "scene/toml_table.h"
 
@@ -29,7 +29,7 @@ inline constexpr NumberRange kLevel_db{.lo = -200, .hi = 60};  // of an artefact
 inline constexpr NumberRange kLoss_db{.lo = 0, .hi = 200};
 inline constexpr NumberRange kPictureGain_db{.lo = -100, .hi = 100};
 inline constexpr NumberRange kArtefactLength_mm{.lo = 0.01, .hi = 1e4};
-// Of the ridges' height, far from half a ventricle, and from one to the next. Our choice.
+// Height of the ridges, much less than half a ventricle, and their spacing. Our choice.
 inline constexpr NumberRange kTrabeculae_mm{.lo = 0, .hi = 4};
 inline constexpr NumberRange kTrabeculaeScale_mm{.lo = 0.5, .hi = 50};
 inline constexpr NumberRange kArtefactWidth_deg{.lo = 0.01, .hi = 180};
@@ -45,20 +45,20 @@ inline constexpr NumberRange kBeats{.lo = 1e-6, .hi = 1e6};
 
 inline constexpr NumberRange kTilt_deg{.lo = -90, .hi = 90};
 inline constexpr NumberRange kRotate_deg{.lo = -360, .hi = 360};
-inline constexpr double kMostShift_mm = 1000;  // of a probe, from where its view stands
+inline constexpr double kMostShift_mm = 1000;  // of a probe, from its view's standard place
 
 inline constexpr NumberRange kMeshScale{.lo = 1e-6, .hi = 1e6};
 inline constexpr double kMostOffset_mm = 1e7;  // of meshes
-// Between keyframes: 250 per second of a heart at 1 per minute, and a millisecond.
+// Between keyframes: from 250 keyframes per beat at 1 bpm to a millisecond.
 inline constexpr NumberRange kKeyframeInterval_ms{.lo = 0.01, .hi = 30000};
 
-// Of a place in mesh units: its cube is still a float.
+// A coordinate in mesh units: its cube is still a float.
 inline constexpr double kMostCoordinate = 1e9;
 
-// Keyframes nearer to one another than this have no motion between them.
+// Keyframes closer than this have no motion between them.
 inline constexpr double kLeastPhaseStep = 1e-6;
 
-// Most keyframes of a structure; a beat at 1000 frames per second has as many at 15 bpm.
+// Largest number of keyframes of a structure: a beat at 1000 frames per second and 15 bpm.
 inline constexpr int kMostKeyframes = 4096;
 
 }  // namespace echocine::ranges

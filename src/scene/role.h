@@ -1,5 +1,5 @@
 #pragma once
-// What a structure is in the heart, whatever it is called.
+// Anatomical role of a structure, independent of its name.
 
 #include <optional>
 #include <string_view>
@@ -11,7 +11,7 @@ namespace echocine {
 struct Scene;
 struct Structure;
 
-// Walls are outer surfaces, filled; cavities pierce them.
+// Walls are outer surfaces, filled; cavities cut holes into them.
 enum class Role {
   none,
   lv_cavity,
@@ -36,22 +36,22 @@ enum class Role {
   surroundings
 };
 
-// By the words that labs put into names: "lv_endo_closed" is lv_cavity, "Left_Atrium" la; none
-// where nothing fits.
+// Guesses by the words that laboratories use in names: "lv_endo_closed" is lv_cavity, "Left_Atrium"
+// la. Role::none if nothing matches.
 Role guessRole(std::string_view name);
 
-// That which a structure was given, else by its name: scenes built in code may leave it out.
+// The given role, else the guess by name: scenes built in code may omit the role.
 Role roleOf(const Structure& structure);
 
 // The first structure of a role.
 std::optional<SurfaceId> structureOf(const Scene& scene, Role role);
 
-// Does the picture show the structure's surface with trabeculae? Ventricles' cavities have them,
-// where the scene asks for some.
+// Does the picture show the structure's surface with trabeculae? Ventricular cavities have them if
+// the scene asks for trabeculae.
 bool hasTrabeculae(const Scene& scene, const Structure& structure);
 
-// How far its vertices may be moved for them: those of the ventricles' walls go along where they
-// lie on a cavity's. m.
+// Largest displacement of its vertices by trabeculae, m: vertices of the ventricles' walls follow
+// those of a cavity at the same place.
 double trabeculaeReach(const Scene& scene, const Structure& structure);
 
 }  // namespace echocine

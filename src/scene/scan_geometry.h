@@ -1,7 +1,7 @@
 #pragma once
-// Where lines and samples of a probe lie, and back: the one place that knows what kinds of probes
-// there are. All kinds lay their lines evenly along one coordinate, their `place`: an angle where
-// lines meet in the apex, an offset (m) where they run side by side.
+// Positions of a probe's lines and samples, both ways: the only place that knows the kinds of
+// probes. All kinds space their lines evenly along one coordinate, their `place`: an angle for
+// lines that meet in the apex, an offset (m) for parallel lines.
 
 #include <optional>
 #include <vector>
@@ -17,8 +17,8 @@ struct LineGeometry {
   Vec3d direction;
 };
 
-// Line i of N stands at first + i (last - first)/(N - 1), edges included; a single line in the
-// middle.
+// Line i of N has the place first + i (last - first)/(N - 1), edges included; a single line is in
+// the middle.
 LineGeometry lineGeometry(const Probe& probe, int line);
 
 // Distance between neighbouring scan lines at a path length; 0 for a single line.
@@ -28,8 +28,8 @@ double lineSpacing(const Probe& probe, double depth_m);
 // samples?
 bool inScanArea(const Probe& probe, double x_m, double z_m);
 
-// The scan area's outline from outside, clockwise as seen in the picture: convex for sectors up to
-// 180 degrees, the arc of the deepest samples as a fine polygon. The face's own arc is left out.
+// Outline of the scan area, clockwise in the picture: convex for sectors up to 180 degrees; the arc
+// of the deepest samples is a fine polygon. The arc of the face is omitted.
 std::vector<Vec3d> sectorOutline(const Probe& probe);
 
 class ScanGeometry {
@@ -45,17 +45,18 @@ class ScanGeometry {
   // Path length of a point from the start of the line through it.
   double pathOf(Vec3d point_m) const;
 
-  // From line to line: the width of a beam's cell. Precondition: two lines at least.
+  // Spacing of lines: the width of a beam's cell. Precondition: at least two lines.
   double cellWidth() const { return (last_place_ - first_place_) / (probe_.lines - 1); }
-  // An angle across the lines, in lines: parallel lines take it as an arc at the middle depth.
-  // Precondition: two lines at least.
+  // An angle across the lines, in lines. For parallel lines it is an arc at the middle depth.
+  // Precondition: at least two lines.
   double linesAcross(double angle_rad) const {
     return (angular_ ? angle_rad : angle_rad * probe_.middleDepth()) / cellWidth();
   }
-  // Where the cell of line i begins, half a width before it; that of `lines` ends the last cell.
+  // Start of the cell of line i, half a width before the line; that of `lines` is the end of the
+  // last cell.
   double cellBorder(int line) const { return first_place_ + (line - 0.5) * cellWidth(); }
 
-  // Fractional line (0 to lines - 1) and path length of a point; nothing outside the lines.
+  // Fractional line (0 to lines - 1) and path length of a point; none outside the lines.
   struct BeamPosition {
     double line = 0, path_m = 0;  // line: lines from the first
   };
@@ -66,7 +67,7 @@ class ScanGeometry {
     return probe_.min_depth_m + (sample + 0.5) * probe_.sampleSpacing();
   }
 
-  // By which a beam is focused and its width reckoned, m.
+  // The wavelength for focusing and beam width, m.
   double wavelength() const { return kScannerSpeed / probe_.frequency_hz; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// A scene as the program works with it: plain structs in SI units, no library types. Every default
-// of the scene format stands here once, as a member's initial value; scene_reader.cpp has the keys.
+// A scene: plain structs in SI units, without library types. The initial value of a member is the
+// default of its key; scene_keys.cpp has the keys.
 
 #include <filesystem>
 #include <memory>
@@ -21,8 +21,7 @@
 
 namespace echocine {
 
-// How keyframes of one heart rate are played at another; automatic: by systole where the keyframes'
-// rate is known.
+// Playback of keyframes at another heart rate. automatic: systole if the keyframes' rate is known.
 enum class WarpChoice { automatic, uniform, systole };
 
 struct Acquisition {
@@ -31,23 +30,23 @@ struct Acquisition {
   double beats = 1;
   WarpChoice time_warp = WarpChoice::automatic;
   double rr_variability = 0;  // standard deviation / mean of the beats' durations
-  int seed = 1;               // of what is random in the acquisition
+  int seed = 1;               // of all randomness of the acquisition
   bool rolling = false;       // each line is acquired at its own instant, in order
-  double rolling_share = 1;   // of the frame's interval, in which all lines are acquired
+  double rolling_share = 1;   // share of the frame interval in which all lines are acquired
 };
 
 struct Structure {
   std::string name;
   MediumId medium{};
-  Role role = Role::none;           // in the heart
+  Role role = Role::none;           // anatomical role
   bool role_given = false;          // by the scene; else guessed from the name
   bool membrane = false;            // an open sheet of a thin material: reflects, encloses nothing
-  int priority = 0;                 // where closed structures overlap the highest wins
+  int priority = 0;                 // the highest wins where closed structures overlap
   std::vector<Keyframe> keyframes;  // ascending phases
   bool phases_given = false;        // by the scene; else evenly spaced
   double reflection_gain = 1;       // factor of R in W of the non-specular lobe
   double reflection_exponent = 2;   // n of the non-specular lobe
-  double coherent_share = 0;        // K: its echoes' coherent power over their random one
+  double coherent_share = 0;        // K: coherent / random power of its echoes
   Repairs repair;
   SourcePlace place;  // of its keyframes in the scene file
 };
@@ -56,8 +55,8 @@ enum class Tgc { perfect, mean, table, none, nominal };
 enum class Spread { compensate, keep };
 enum class BeamWidth { focused, fixed, none };
 
-// What a picture is to look like: the paper's; with speckle and a scanner's grey map; with its
-// artefacts too. A look is nothing but other defaults (looks.h).
+// Appearance of a picture: the paper's; with speckle and a scanner's grey map; also with its
+// artefacts. A look only sets other defaults (looks.h).
 enum class Look { paper, clean, scanner };
 enum class Quality { good, medium, poor };
 
@@ -66,28 +65,29 @@ struct SignalSettings {
   Quality quality = Quality::medium;  // of the look "scanner"
   Tgc tgc = Tgc::perfect;
   std::vector<std::pair<double, double>> tgc_table;  // (depth m, gain dB), ascending depths
-  // Of Tgc::nominal: 0.76 of soft tissue's 0.54 dB/(cm MHz), so that lung stays dark. Our choice.
+  // For Tgc::nominal: 0.76 of soft tissue's 0.54 dB/(cm MHz), so that lung stays dark. Our choice.
   double nominal_gain_np_per_m_hz = 4.72e-6;
   Spread spread = Spread::compensate;
   BeamWidth beam_width = BeamWidth::focused;
   double beam_width_m = 0;  // for BeamWidth::fixed
   double pulse_cycles = 2;  // axial averaging over the pulse, pulse_cycles * wavelength / 2
   double dynamic_range_db = 60;
-  std::optional<double> reference_intensity;  // absolute, relative to I_S; else the percentile
-  double reference_percentile = 99.5;         // of all samples of the loop, near field left out
-  double gain_db = 0;                         // of the picture: white is so far below the reference
-  double interface_gain_db = 0;  // of interface echoes against tissue, in the picture alone
-  // Interface echoes E become E / (1 + E / limit), in dB of the transmitted intensity. None: as is.
+  std::optional<double> reference_intensity;  // relative to I_S; otherwise the percentile
+  double reference_percentile = 99.5;         // of all samples of the loop, without the near field
+  double gain_db = 0;                         // of the picture: lowers the intensity shown as white
+  double interface_gain_db = 0;  // of interface echoes relative to tissue, in the picture only
+  // Interface echoes E become E / (1 + E / limit), in dB of the transmitted intensity. None:
+  // unchanged.
   std::optional<double> interface_limit_db;
   double grey_gamma = 1;  // grey = (position in the dynamic range)^gamma
 };
 
-// A relief of the ventricles' inner surfaces, in the picture alone (motion/trabeculae.h).
+// Relief of the ventricles' inner surfaces, in the picture only (motion/surfaces/trabeculae.h).
 struct TrabeculaeSettings {
-  double deviation_m = 0;  // of its height, about the mesh; 0: none
-  double scale_m = 5e-3;   // from ridge to ridge, about half
+  double deviation_m = 0;  // standard deviation of its height about the mesh; 0: none
+  double scale_m = 5e-3;   // about half the distance between ridges
   int seed = 1;
-  double most_m() const { return 2 * deviation_m; }  // where it is cut. Our choice
+  double most_m() const { return 2 * deviation_m; }  // largest height. Our choice
 };
 
 // Coherent echoes of material scatterers (src/speckle).
@@ -96,21 +96,22 @@ struct SpeckleSettings {
   int seed = 1;
   double per_cell = 3;          // scatterers per resolution cell
   double smoothing_m = 0.7e-3;  // full width at half maximum, along the lines; 0: none
-  double tissue_time_s = 0;     // after which tissue's scatterers are new ones; 0: never
-  double blood_time_s = 0.01;   // the same of blood; our choice: well under a frame
-  // Backscatter that differs from place to place and stays with the tissue: log-normal with mean 1,
-  // a sum of two fields of equal variance, one alike in all directions, one of layers across the
-  // beam, so thick and so wide. Standard deviation; 0: none.
+  double tissue_time_s = 0;     // renewal time of tissue scatterers; 0: never
+  double blood_time_s = 0.01;   // renewal time of blood scatterers; our choice: well under a frame
+  // Backscatter that varies in space and moves with the tissue. Log-normal with mean 1: the sum of
+  // two fields of equal variance, an isotropic one and one of layers across the beam, of the given
+  // thickness and width. Standard deviation; 0: none.
   double heterogeneity_db = 0;
   double heterogeneity_fine_m = 1.2e-3;
   double heterogeneity_layer_m = 1e-3, heterogeneity_coarse_m = 12e-3;
   int heterogeneity_seed = 1;
-  // What muscle fibres send back along themselves, below what they do across; 0: none.
+  // Backscatter of muscle fibres along their axis, relative to that across it, as a loss; 0: none.
   double anisotropy_db = 0;
-  double helix_angle_rad = 1.0471975511965976;  // at the endocardium, minus at the epicardium
+  double helix_angle_rad =
+      1.0471975511965976;  // at the endocardium; the negative at the epicardium
 };
 
-// What a scanner adds to the echoes, each by itself. Levels are intensities.
+// Artefacts of a scanner, independent of each other. Levels are intensities.
 struct ArtefactSettings {
   bool dropout = false;                            // lines at the sector's edges lose contact
   double dropout_db = 12;                          // on the outermost lines
@@ -118,22 +119,22 @@ struct ArtefactSettings {
   double window_width_m = 24e-3;                   // between them
   double window_offset_m = 0;                      // of its middle, along the lateral axis
   double window_depth_m = 12e-3;                   // of the ribs, from the probe's face
-  double window_shadow_db = 30;                    // what a whole shadow takes, both ways
+  double window_shadow_db = 30;                    // loss in the full shadow, both ways
   bool haze = false;                               // side lobes: across the lines
-  double haze_db = -24;                            // of what all its sources send
+  double haze_db = -24;                            // relative to all its sources
   double haze_width_rad = 0.12217304763960307;     // where it has fallen to 1/e
   bool reverberation = false;                      // a tail behind every echo
-  double reverberation_db = -27;                   // of the echo
+  double reverberation_db = -27;                   // relative to the echo
   double reverberation_length_m = 6e-3;            // where it has fallen to 1/e
-  bool clutter = false;                            // of the near field, standing still
-  double clutter_db = -28;                         // of white, at the face
+  bool clutter = false;                            // of the near field, static
+  double clutter_db = -28;                         // relative to white, at the face
   double clutter_length_m = 6e-3;                  // where it has fallen to 1/e
-  double clutter_width_rad = 0.15707963267948966;  // of its speckle, full at half maximum
+  double clutter_width_rad = 0.15707963267948966;  // of its speckle, full width at half maximum
   int clutter_seed = 1;
-  bool noise = false;     // of the receiver, under the time gain
-  double noise_db = -55;  // of white, at the depth of the largest gain
+  bool noise = false;     // of the receiver, before the time gain
+  double noise_db = -55;  // relative to white, at the depth of the largest gain
   int noise_seed = 1;
-  double persistence = 0;  // weight of each frame over that of the next one; 0: none
+  double persistence = 0;  // weight of each frame relative to the next one; 0: none
 };
 
 enum class TracerChoice { automatic, slice, embree };
@@ -142,20 +143,20 @@ enum class Normals { automatic, facet, smooth };
 
 struct AccuracySettings {
   int rays_per_beam = 1;
-  int elevation_slices = 1;  // 1, 3 or 5: of scene/elevation_slices.h
+  int elevation_slices = 1;  // 1, 3 or 5: scene/elevation_slices.h
   TracerChoice tracer = TracerChoice::automatic;
-  // At the scan line, or integrated over the beam's cell (plane slice only; automatic: where it can
-  // be).
+  // At the scan line, or integrated over the beam's cell (plane slice only; automatic: whenever
+  // possible).
   InterfaceEcho interface_echo = InterfaceEcho::automatic;
-  // Angles of incidence from the facets, or from normals of the Loop limit surface interpolated
-  // over them; automatic: smooth where rays bend and the surfaces can give them.
+  // Angles of incidence from facets, or from interpolated normals of the Loop limit surface.
+  // automatic: smooth with refraction, if the surfaces have such normals.
   Normals normals = Normals::automatic;
   SourcePlace normals_place;
-  // Refraction "auto" is off while echoes move by less than this many beam widths, by the rule of
+  // Refraction "auto" is off if echoes move by less than this many beam widths, by the rule of
   // frame/echo_shift.h. Our choice.
   double refraction_tolerance_beam_widths = 0.25;
-  // Of rolling acquisition: lines that share the instant of their middle. Our choice, by what the
-  // study's README measures.
+  // Rolling acquisition: number of lines that share an instant. Our choice, from the study's
+  // measurements.
   int rolling_lines = 32;
 };
 
@@ -166,7 +167,7 @@ enum class CineCodec { mjpg, ffv1 };
 struct OutputSettings {
   bool exr = true, cine = true, png = false, report = true;
   std::vector<Channel> channels{Channel::y};
-  bool channels_given = false;  // by the scene, not by the default
+  bool channels_given = false;  // by the scene
   ExrCompression exr_compression = ExrCompression::none;
   ExrPixel exr_pixel = ExrPixel::whole;
   CineCodec codec = CineCodec::mjpg;
@@ -175,14 +176,14 @@ struct OutputSettings {
   bool ecg = true, depth_ticks = true;
 };
 
-// What is true of every frame, written beside its picture; nothing that is not asked for is made.
+// Ground truth of every frame, written beside its picture; only what is requested is computed.
 struct TruthSettings {
   bool labels = false;    // truth/labels_0000.png: the picture's pixels
   bool contours = false;  // truth/contours.json: per structure and frame
   bool tracks = false;    // truth/tracks.npz: material points over the loop
   bool function = false;  // truth/function.json: volumes, strain, thickness, excursions
-  // Structures or roles and their numbers in the label pictures; empty: closed structures from 1 in
-  // the scene's order.
+  // Labels of structures or roles in the label pictures; empty: closed structures from 1, in the
+  // scene's order.
   std::vector<std::pair<std::string, int>> label_numbers;
   bool papillary_in_cavity = false;  // papillary muscles count as cavity in the label pictures
   int track_count = 1000;            // material points
@@ -197,7 +198,7 @@ struct Scene {
   std::vector<Medium> media;     // resolved at the probe's frequency
   double unit_volume_m3 = 1e-6;  // V of Eq. 4
   Probe probe;
-  std::optional<ViewPlacement> view;  // where the pose is still to be found from the structures
+  std::optional<ViewPlacement> view;  // until the pose is computed from the structures
   Acquisition acquisition;
   MotionSettings motion;
   std::vector<Structure> structures;
@@ -209,7 +210,7 @@ struct Scene {
   AccuracySettings accuracy;
   OutputSettings output;
   TruthSettings truth;
-  std::vector<std::string> warnings;  // what is accepted but hardly meant, one line each
+  std::vector<std::string> warnings;  // about valid but unlikely input, one line each
 
   const Medium& medium(MediumId id) const { return media[index(id)]; }
 };

@@ -1,5 +1,5 @@
 #pragma once
-// The scene as resolved, in SI units, for the manifest and for telling scenes apart.
+// The resolved scene in SI units, for the manifest and for comparing scenes.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -7,7 +7,7 @@
 
 namespace echocine {
 
-// Everything that can change an output, except where files lie and how the run is carried out.
+// Everything that can change an output, except file locations and execution settings.
 nlohmann::ordered_json sceneJson(const Scene& scene);
 
 // `name` -> Z, c, alpha_np_per_m, eta_b_per_m_sr.

@@ -1,6 +1,6 @@
 #pragma once
-// The keys of a scene file, in one table. The reader, the JSON and hash of a scene, the checks of
-// ranges, the list in this room's README and Python's keys derive from it.
+// The keys of a scene file, in one table. The reader, the JSON and hash of a scene, the range
+// checks, the list in this room's README and Python's keys derive from it.
 
 #include <optional>
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace echocine {
 
-// A unit of scene files. Precondition of the table: to_si rises.
+// A unit of scene files. Precondition of the table: to_si is increasing.
 struct KeyUnit {
   const char* symbol;
   double (*to_si)(double);
@@ -21,13 +21,13 @@ struct KeyUnit {
 
 // Must a scene give the key?
 enum class KeyNeed {
-  none,         // its member's initial value, or `fallback`, stands in
+  none,         // no; the default is the member's initial value or `fallback`
   always,       // yes
-  unless_view,  // yes, unless probe.view is given: then `fallback` stands in, or it is found
-  found         // no; left out, its value follows from other keys or from the meshes
+  unless_view,  // yes, unless probe.view is given; then `fallback` applies, or the view sets it
+  found         // no; its value then follows from other keys or from the meshes
 };
 
-// When a key has an effect; elsewhere a scene that gives it is refused.
+// Condition under which a key has an effect. A scene that gives it otherwise is rejected.
 struct KeyUse {
   bool (*applies)(const KeyOwner&) = nullptr;  // nullptr: always
   const char* with = nullptr;                  // in words of the scene: tgc = "table"
@@ -42,24 +42,24 @@ struct SceneKey {
   KeyField field;
   KeyNeed need = KeyNeed::none;
   KeyUse use{};
-  std::optional<double> fallback{};  // in the file's unit, where the member has no initial value
+  std::optional<double> fallback{};  // in the file's unit, if the member has no initial value
 
   std::string fullName() const;                                // "probe.depth_mm"
-  bool applies(const KeyOwner& owner) const;                   // has an effect there
+  bool applies(const KeyOwner& owner) const;                   // does it have an effect there?
   std::string accepted() const;                                // "a number from 1 to 2"
   std::optional<double> defaultNumber(const KeyOwner&) const;  // in the file's unit
 };
 
-// Table by table, in the order of the reference scene.
+// All keys, by table, in the order of the reference scene.
 std::span<const SceneKey> sceneKeys();
 
-// nullptr where there is none.
+// nullptr if unknown.
 const SceneKey* findSceneKey(std::string_view table, std::string_view name);
-// Precondition: there is one.
+// Precondition: the key exists.
 const SceneKey& sceneKey(std::string_view table, std::string_view name);
 
-// Throws SceneError that names the first key whose number lies outside its range. The reader has
-// checked what it read; scenes built in code are checked before they are traced.
+// Throws SceneError that names the first key out of range. The reader checks what it reads; scenes
+// built in code are checked before they are traced.
 void refuseOutOfRange(const Scene& scene);
 
 }  // namespace echocine

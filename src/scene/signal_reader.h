@@ -6,8 +6,7 @@
 
 namespace echocine {
 
-// Reads signal.look and signal.quality and gives the scene their values, as defaults of the keys
-// that are read after it.
+// Reads signal.look and signal.quality and applies them as defaults of the keys read later.
 void takeLook(TomlTable signal, Scene& scene);
 
 // Sets scene.signal.

@@ -10,9 +10,9 @@
 
 namespace echocine {
 
-// Everything but the medium. `folder` is the base of the structure's paths; `phases` are those of
-// keyframes that are given without, evenly spaced where empty.
-// `meshes`: where they are in memory, see parseScene(); nullptr: on disk.
+// Everything except the medium. `folder` is the base of the structure's paths. `phases` are those
+// of keyframes without their own, evenly spaced if empty. `meshes`: meshes in memory, see
+// parseScene(); nullptr: on disk.
 Structure readStructure(TomlTable& table, const std::filesystem::path& folder,
                         std::span<const double> phases, const NamedMeshes* meshes = nullptr);
 

@@ -1,6 +1,6 @@
 #pragma once
-// accuracy.tolerance_db of a scene file: a wish about how its accuracy is set, which is no part of
-// the scene that is rendered.
+// accuracy.tolerance_db of a scene file: a request for choosing accuracy settings, not part of the
+// rendered scene.
 
 #include <filesystem>
 #include <optional>
@@ -14,7 +14,7 @@ struct SceneTolerance {
   SourcePlace place;
 };
 
-// Nothing where the file has none. Throws SceneError when it cannot be read.
+// None if the file has none. Throws SceneError if it cannot be read.
 std::optional<SceneTolerance> readSceneTolerance(const std::filesystem::path& file);
 
 }  // namespace echocine

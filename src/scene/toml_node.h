@@ -1,5 +1,6 @@
 #pragma once
-// What stands behind a TomlTable; only its sources include this, so that nobody else meets toml++.
+// The implementation behind TomlTable; only its sources include this, which keeps toml++ out of all
+// other files.
 
 #include <toml++/toml.h>
 
@@ -17,12 +18,13 @@ namespace echocine {
 // The parsed document is shared by all tables of one file.
 struct TomlTable::Node {
   std::shared_ptr<const toml::table> root;  // keeps `table` alive
-  const toml::table* table = nullptr;       // null: absent in the file
+  const toml::table* table = nullptr;       // null: not in the file
   std::string file;
   std::string path;  // "probe", for messages
   int line = 0;
   std::vector<std::string> known;
-  std::map<std::string, std::string, std::less<>> unused;  // key -> what it is accepted with
+  std::map<std::string, std::string, std::less<>>
+      unused;  // key -> condition under which it is accepted
 
   const toml::node* find(std::string_view key) {
     if (std::find(known.begin(), known.end(), key) == known.end()) known.emplace_back(key);
@@ -44,7 +46,7 @@ struct TomlTable::Node {
   }
 };
 
-// As messages call it: "a string".
+// The type's name in messages: "a string".
 const char* typeName(const toml::node& node);
 
 }  // namespace echocine

@@ -1,6 +1,6 @@
 #pragma once
-// Typed access to a TOML table. Every key that is asked for becomes a known key; finish() refuses
-// the rest. Every error is a SceneError `file:line: key: what is wrong, what is accepted`.
+// Typed access to a TOML table. Every requested key becomes a known key; finish() rejects all
+// others. Every error is a SceneError `file:line: key: fault, accepted values`.
 
 #include <limits>
 #include <memory>
@@ -21,13 +21,14 @@ namespace echocine {
 
 class TomlTable {
  public:
-  // `name` is what messages call the file.
+  // `name` is the file's name in messages.
   static TomlTable parse(std::string_view text, const std::string& name);
   ~TomlTable();
   TomlTable(TomlTable&&) noexcept;
 
   bool has(std::string_view key);
-  SourcePlace place(std::string_view key) const;  // of the key, or of the table when it is absent
+  SourcePlace place(
+      std::string_view key) const;  // of the key, or of the table if the key is absent
   [[noreturn]] void fail(std::string_view key, const std::string& what) const;
 
   // Without a fallback the key is required.
@@ -41,7 +42,7 @@ class TomlTable {
   std::string word(std::string_view key, std::string_view fallback,
                    const std::vector<std::string_view>& words);
 
-  // For tables whose keys are the writer's own names.
+  // For tables whose keys are the user's own names.
   std::vector<std::string> keys() const;  // in ascending order
   bool isTable(std::string_view key);
   TomlValue value(std::string_view key);                // one bool, number or string; required
@@ -52,19 +53,19 @@ class TomlTable {
   std::vector<double> numbers(std::string_view key);     // [a, b, ...]
   std::vector<std::pair<double, double>> pairs(std::string_view key);  // [[a, b], ...]
 
-  // name = whole number, in the table's order of names: { a = 1, b = 2 }.
+  // name = whole number, ordered by name: { a = 1, b = 2 }.
   std::vector<std::pair<std::string, int>> namedIntegers(std::string_view key, int lo, int hi);
 
-  // Sub-tables; absent ones are empty, so that their defaults apply.
+  // Sub-tables. Absent ones are empty, so their defaults apply.
   TomlTable table(std::string_view key);
   std::vector<TomlTable> tables(std::string_view key);                               // [[key]]
   std::vector<std::pair<std::string, TomlTable>> namedTables(std::string_view key);  // [key.name]
 
-  // A key of the format that the other settings leave without effect; finish() refuses it with
-  // these words: "accepted only with tgc = "table"".
+  // A valid key without effect under the other settings. finish() rejects it with these words:
+  // "accepted only with tgc = "table"".
   void unused(std::string_view key, std::string_view accepted_with);
 
-  // Refuses keys nobody asked for, with the nearest known one.
+  // Rejects keys that were not requested, and names the nearest known one.
   void finish() const;
 
  private:
@@ -72,7 +73,7 @@ class TomlTable {
   std::string withoutNul(std::string_view key, std::string text) const;
   struct Node;
   explicit TomlTable(std::unique_ptr<Node> node);
-  // A required key is absent: names a misspelt one where the table has it.
+  // Reports an absent required key, and a misspelt one in the table.
   [[noreturn]] void missing(std::string_view key, const std::string& accepted) const;
   std::unique_ptr<Node> node_;
 };

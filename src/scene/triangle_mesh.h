@@ -1,5 +1,5 @@
 #pragma once
-// A triangle mesh as files and callers hold it: in their own unit and world coordinates.
+// A triangle mesh from a file or a caller, in its own unit and world coordinates.
 
 #include <array>
 #include <cstdint>
@@ -17,7 +17,7 @@ struct TriangleMesh {
   std::vector<Vec3d> positions;
   std::vector<Triangle> triangles;
   MeshTags tags{};  // OBJ files only
-  // The file's face, from 0, that each triangle is of; empty where every face is a triangle.
+  // Face of the file, from 0, of each triangle; empty if all faces are triangles.
   std::vector<std::uint32_t> faces{};
 };
 

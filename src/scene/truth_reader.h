@@ -12,7 +12,7 @@ namespace echocine {
 // Kinds of truth by name, as in truth.write and render --truth.
 inline constexpr const char* kTruthKinds = "all, labels, contours, tracks, function";
 
-// Turns them on. Returns a name that is none of them, or an empty text.
+// Enables the named kinds. Returns the first unknown name, or an empty text.
 std::string switchOn(const std::vector<std::string>& kinds, TruthSettings& truth);
 
 // Sets scene.truth. Checks numbers and names against the scene's structures.

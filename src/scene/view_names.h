@@ -1,5 +1,5 @@
 #pragma once
-// What the standard views are called, in scenes and on the command line.
+// Names of the standard views in scenes and on the command line.
 
 #include <optional>
 #include <span>

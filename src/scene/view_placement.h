@@ -1,5 +1,5 @@
 #pragma once
-// A probe placed by the heart's anatomy.
+// A probe placed by anatomy.
 
 #include "core/error.h"
 #include "core/vec3.h"
@@ -9,8 +9,8 @@ namespace echocine {
 // The standard views of echocardiography.
 enum class View { a4c, a2c, a3c, plax, psax_base, psax_mid, psax_apex, subcostal };
 
-// The pose of a standard view, found from structures with roles, and what is changed about it: the
-// shift along the probe's lateral, elevation and depth axes, then the turns about its apex.
+// The pose of a standard view, computed from structures with roles, and its modification: a shift
+// along the probe's lateral, elevation and depth axes, then rotations about its apex.
 struct ViewPlacement {
   View view = View::a4c;
   Vec3d shift_m{};

@@ -1,6 +1,6 @@
 #pragma once
-// The paper's arithmetic average over each point's neighbours, on intensities: as wide as the beam
-// at that depth across the lines, as long as half the pulse along them.
+// The paper's arithmetic average over neighbouring samples, of intensities: as wide as the beam at
+// that depth across the lines, and half a pulse long along them.
 
 #include <vector>
 
@@ -14,20 +14,19 @@ class BeamAverage {
  public:
   BeamAverage(const Probe& probe, const SignalSettings& settings);
 
-  // Averages a line-major plane in place. Windows end at the image's edges and keep their mean
-  // there: a constant plane stays constant. The work is shared among threads; the result does not
-  // depend on them.
+  // Averages a line-major plane in place. Windows are cut at the image's edges and renormalised: a
+  // constant plane stays constant. Runs in parallel; the result does not depend on the threads.
   void apply(std::vector<float>& plane) const { apply(plane, {0, lines_}); }
-  // The same of some lines; what becomes of the others is not defined.
+  // The same for some lines; the content of the others is undefined.
   void apply(std::vector<float>& plane, LineRange lines) const;
 
   bool acrossLines() const { return !runs_.empty(); }
-  // Of each line so many samples, from the first, as the averages of some lines take in.
+  // Number of samples of each line, from the first, that the averages of some lines need.
   std::vector<int> taken(LineRange lines) const;
 
  private:
-  // Samples first..last-1, neighbours in one block, whose windows end in the same lines: those of
-  // line i in lines i + below and i + above.
+  // Adjacent samples first..last-1 in one block whose windows end at the same lines: for line i, at
+  // lines i + below and i + above.
   struct Run {
     int first, last, below, above;
   };
@@ -42,11 +41,11 @@ class BeamAverage {
                     Workspace& w) const;
 
   int lines_ = 0, samples_ = 0;
-  std::vector<float> taps_;             // axial weights, centre in the middle; empty: none
+  std::vector<float> taps_;             // axial weights, the centre in the middle; empty: none
   std::vector<float> tap_sum_inverse_;  // per sample
   std::vector<Run> runs_;               // in order of samples; empty: no lateral average
-  // Of each sample: half the window's width in lines, 1 / width, and the parts that the window
-  // takes in of the lines at its ends.
+  // For each sample: half the width of the window in lines, 1 / width, and the fractions of the
+  // outermost lines within the window.
   std::vector<double> half_;
   std::vector<float> scale_, part_below_, part_above_;
 };

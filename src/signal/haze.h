@@ -1,6 +1,6 @@
 #pragma once
-// Echoes that are received where they do not belong: beside them through side lobes, and behind
-// them by reverberation. Both are added before speckle, so they are as speckled as tissue.
+// Misplaced echoes: lateral ones from side lobes, deeper ones from reverberation. Both are added
+// before speckle, so they are speckled like tissue.
 
 #include <span>
 
@@ -8,9 +8,9 @@
 
 namespace echocine {
 
-// Across the lines: adds level sum_j I_j a^|i - j| (1 - a)/(1 + a) to line i, the line itself
-// included, with a = exp(-pitch / width): a two-sided exponential whose weights sum to 1 over
-// endless lines. Beyond the sector's edges nothing echoes.
+// Across the lines: adds level sum_j I_j a^|i - j| (1 - a)/(1 + a) to line i, itself included, with
+// a = exp(-pitch / width): a two-sided exponential whose weights sum to 1 over infinitely many
+// lines. There are no echoes beyond the sector's edges.
 class SideLobeHaze {
  public:
   SideLobeHaze(const Probe& probe, double level_db, double width_rad);
@@ -22,12 +22,12 @@ class SideLobeHaze {
 };
 
 // Along the line: adds level sum_{m > 0} I_(k-m) a^m (1 - a)/a with a = exp(-spacing / length): a
-// one-sided exponential whose weights sum to 1. Measured in hearts with a mean of about 5 mm
+// one-sided exponential whose weights sum to 1. Measured in hearts with a mean length of about 5 mm
 // (Byram, J. Acoust. Soc. Am. 140, 2016).
 class ReverberationTail {
  public:
   ReverberationTail(const Probe& probe, double level_db, double length_m);
-  void add(std::span<float> plane) const;  // of whole lines
+  void add(std::span<float> plane) const;  // whole lines
 
  private:
   int samples_;

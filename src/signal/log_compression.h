@@ -1,17 +1,17 @@
 #pragma once
-// Logarithmic compression of intensities to grey.
+// Logarithmic compression of intensities to grey levels.
 
 #include <span>
 
 namespace echocine {
 
-// grey = 1 + 10 log10(I / reference) / dynamic_range_db, limited to 0..1: the reference is white,
-// everything dynamic_range_db and more below it, and an intensity of 0 or subnormal, is black. The
-// logarithm errs by under 2e-7 dB, the sum that is a float by its rounding. In place is allowed.
+// grey = 1 + 10 log10(I / reference) / dynamic_range_db, limited to 0..1. The reference is white.
+// Intensities at least dynamic_range_db below it, 0 and subnormal ones are black. The logarithm has
+// an error below 2e-7 dB, the result that of float rounding. May be in place.
 void compressIntensities(std::span<const float> intensities, double reference,
                          double dynamic_range_db, std::span<float> grey);
 
-// The intensity that compresses to a grey value between 0 and 1, both left out.
+// The intensity that compresses to a grey level between 0 and 1, both exclusive.
 double expandGrey(double grey, double reference, double dynamic_range_db);
 
 }  // namespace echocine

@@ -1,6 +1,6 @@
 #pragma once
-// Noise of the receiver and clutter of the near field: random intensities with the grain that the
-// scanner's own filters give them, whatever the tissue does.
+// Receiver noise and near-field clutter: random intensities with the grain of the scanner's
+// filters, independent of the tissue.
 
 #include <cstdint>
 #include <span>
@@ -10,9 +10,9 @@
 
 namespace echocine {
 
-// Filtered complex Gaussian noise, squared: a plane of intensities with mean 1 that repeats in both
-// directions. Its amplitude is white noise through bells of these deviations; smoothing (of the
-// intensity, along the line) is the speckle's.
+// Filtered complex Gaussian noise, squared: a plane of intensities with mean 1, periodic in both
+// directions. Its amplitude is white noise filtered by Gaussians of these deviations; smoothing (of
+// the intensity, along the line) is that of the speckle.
 struct Grain {
   double lateral_lines = 0, axial_samples = 0, smoothing_samples = 0;  // standard deviations
 };
@@ -30,13 +30,13 @@ class RandomPlane {
   std::vector<float> values_;
 };
 
-// The grain of speckle at a depth, which an echo of noise shares: of a scene's probe and pulse.
-// width_rad above 0 widens it across the lines: its full width at half maximum, in intensity.
+// The grain of speckle at a depth, which noise shares, for a scene's probe and pulse. width_rad > 0
+// widens it across the lines: full width at half maximum, in intensity.
 Grain grainOf(const Scene& scene, double width_rad = 0);
 
-// White noise before the time gain, after it: intensity level gain_k / max(gain) at sample k, on
-// average. Every instant draws a part of one random plane by a hash of seed and time. No gains:
-// alike at all depths.
+// Noise that is white before the time gain; after it the mean intensity is level gain_k / max(gain)
+// at sample k. Each instant draws a part of one random plane by a hash of seed and time. Without
+// gains it is uniform in depth.
 class ReceiverNoise {
  public:
   ReceiverNoise(const Scene& scene, std::span<const float> gains);
@@ -44,12 +44,12 @@ class ReceiverNoise {
 
  private:
   int lines_, samples_, seed_;
-  std::vector<float> levels_;  // over white, by sample
+  std::vector<float> levels_;  // relative to white, by sample
   RandomPlane random_;
 };
 
-// Reverberation between face and chest wall: level exp(-r / length) at the path length r, on
-// average; it stands still while the heart beats. Deeper than 60 dB below its level there is none.
+// Reverberation between face and chest wall: mean level exp(-r / length) at the path length r,
+// static while the heart beats. It ends 60 dB below its level.
 class NearFieldClutter {
  public:
   explicit NearFieldClutter(const Scene& scene);
@@ -57,7 +57,7 @@ class NearFieldClutter {
 
  private:
   int lines_, samples_;
-  std::vector<float> levels_;  // over white, by sample, as deep as it reaches
+  std::vector<float> levels_;  // relative to white, by sample, down to its end
   RandomPlane random_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures as they are shown, and where the probe frame lies in them.
+// Displayed pictures, and the position of the probe frame in them.
 
 #include <cstdint>
 #include <vector>
@@ -14,12 +14,12 @@ struct GreyImage {
   std::vector<std::uint8_t> pixels;
 };
 
-// Where the probe frame lies in the picture: pixel = origin + metres / metres_per_pixel, x to the
+// Position of the probe frame in the picture: pixel = origin + metres / metres_per_pixel, x to the
 // right along the lateral axis, y down along the depth axis.
 struct PictureGeometry {
-  double origin_x_px = 0, origin_y_px = 0;  // of the apex (curvilinear: centre of curvature)
+  double origin_x_px = 0, origin_y_px = 0;  // the apex (curvilinear: the centre of curvature)
   double metres_per_pixel = 1;
-  int ecg_strip_px = 0;  // rows at the foot that the sector leaves free
+  int ecg_strip_px = 0;  // rows at the bottom, below the sector
 };
 
 // A point of the imaging plane (probe frame, m) in the picture: pixel (i, j) covers i..i+1, j..j+1.
@@ -31,8 +31,8 @@ inline PixelPoint pixelOf(const PictureGeometry& g, Vec3d point_m) {
           g.origin_y_px + point_m.z / g.metres_per_pixel};
 }
 
-// The largest upright picture of the scan area in the middle of the output size, with room for
-// ticks and ECG.
+// The largest upright picture of the scan area, centred in the output size, with margins for ticks
+// and ECG.
 PictureGeometry pictureGeometry(const Scene& scene);
 
 }  // namespace echocine

@@ -1,6 +1,6 @@
 #pragma once
-// The one reference of a loop's log compression, from all of its frames: never a frame's own
-// maximum, so a loop does not flicker.
+// The single reference of a loop's log compression, from all of its frames. A frame's own maximum
+// would make the loop flicker.
 
 #include <atomic>
 #include <cstdint>
@@ -12,22 +12,22 @@
 
 namespace echocine {
 
-// Counts intensities of all frames in bins of 0.1 % and finds a percentile. Samples of the near
-// field, the first 15 % of the depth, are left out, and so are samples without any intensity
-// (behind total reflection, in media that scatter nothing). Counts are whole numbers, so the order
-// of frames and threads has no effect.
+// Histogram of the intensities of all frames, in bins of 0.1 %, for percentiles. Samples of the
+// near field, the first 15 % of the depth, are omitted, and so are samples of intensity 0 (behind
+// total reflection, or without scattering). Counts are integers, so the order of frames and threads
+// has no effect.
 class IntensityHistogram {
  public:
   explicit IntensityHistogram(const Probe& probe);
 
   void add(std::span<const float> plane);  // line-major; thread-safe
-  // The samples in these media alone; `medium` is the plane's, by sample.
+  // Samples in these media only; `medium` is that of each sample of the plane.
   void add(std::span<const float> plane, std::span<const std::uint32_t> medium,
            std::span<const char> counted);
 
-  std::uint64_t positive() const;  // samples that were counted, of some intensity
+  std::uint64_t positive() const;  // number of counted samples of positive intensity
 
-  // The smallest bin edge that `percent` of the positive samples do not exceed; 1 without any.
+  // The smallest bin edge that `percent` of the positive samples do not exceed; 1 without samples.
   double percentile(double percent) const;
 
  private:
@@ -38,24 +38,24 @@ class IntensityHistogram {
   std::unique_ptr<std::atomic<std::uint64_t>[]> counts_;
 };
 
-// White of a loop, from its frames: so far over the median of the heart's muscle that this has the
-// grey of kMuscleGrey (scene/white_rule.h), where the scene leaves white to it and at least
-// kLeastMuscle of the samples are muscle's; else the percentile of all samples.
+// White of a loop, from its frames. If the scene leaves white to the heart's muscle and at least
+// kLeastMuscle of the samples are muscle, it is such that their median gets the grey level
+// kMuscleGrey (scene/white_rule.h). Otherwise it is the percentile of all samples.
 class WhiteMeasure {
  public:
   // Keeps the reference.
   explicit WhiteMeasure(const Scene& scene);
 
-  // `medium` is read where isWhiteByMuscle(scene). Line-major; thread-safe.
+  // `medium` is used if isWhiteByMuscle(scene). Line-major; thread-safe.
   void add(std::span<const float> intensities, std::span<const std::uint32_t> medium);
   double white() const;
 
-  // Our choice: less is a wall at the sector's edge, not a view of the heart.
+  // Our choice: a smaller share is a wall at the sector's edge, not a view of the heart.
   static constexpr double kLeastMuscle = 0.01;
 
  private:
   const Scene& scene_;
-  std::vector<char> muscle_media_;  // empty: white is not theirs
+  std::vector<char> muscle_media_;  // empty: white does not follow the muscle
   IntensityHistogram all_, muscle_;
 };
 

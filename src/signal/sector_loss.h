@@ -1,6 +1,6 @@
 #pragma once
-// What a patient's chest takes from a scan line before anything is received: contact that is lost
-// towards the sector's edges, and ribs that shade part of the aperture.
+// Losses of a scan line in the patient's chest: lost contact towards the sector's edges, and ribs
+// that shade part of the aperture.
 
 #include <span>
 #include <vector>
@@ -14,17 +14,17 @@ namespace echocine {
 // edges. The fourth power keeps the middle half within L / 16. Our choice.
 double dropoutFactor(double s, double loss_db);
 
-// Ribs lie at one depth d beside a gap of width w. Of an aperture D about the start of a line, the
-// part f whose straight paths to a point pass the gap is open; what passes ribs keeps the amplitude
-// tau. Both ways: (f + (1 - f) tau)^4, with tau^4 the whole shadow in intensity. In front of the
-// ribs 1. Points in the probe frame, from the middle of the face.
+// Ribs at one depth d with a gap of width w. Of an aperture D at the start of a line, the fraction
+// f whose straight paths to a point pass the gap is open; paths through ribs keep the amplitude
+// tau. Both ways: (f + (1 - f) tau)^4, with tau^4 the full shadow in intensity. 1 in front of the
+// ribs. Points in the probe frame, from the centre of the face.
 struct RibGap {
   double aperture_m = 0, width_m = 0, offset_m = 0, depth_m = 0, shadow_db = 0;
   double openPart(double start_x_m, double x_m, double z_m) const;
   double factor(double start_x_m, double x_m, double z_m) const;
 };
 
-// Of every sample of every line, line-major; empty where the plan has neither effect.
+// Factors of all samples, line-major; empty if the plan has neither effect.
 std::vector<float> sectorLosses(const Probe& probe, const ArtefactSettings& settings,
                                 const EffectPlan& plan);
 

@@ -1,9 +1,8 @@
 #pragma once
-// The scanner's signal processing, the same in every frame of a loop:
-// time gain -> beam width -> drop-out, ribs, haze, reverberation -> (speckle) -> clutter, noise ->
-// log compression -> scan conversion -> grey map.
-// Spread is the tracer's part (it knows which intensity was scattered), by the intensity_terms of
-// its request.
+// The scanner's signal processing, the same in every frame of a loop: time gain -> beam width ->
+// drop-out, ribs, haze, reverberation -> (speckle) -> clutter, noise -> log compression -> scan
+// conversion -> grey map. The tracer handles the spread, because it knows the scattered part, by
+// the intensity_terms of its request.
 
 #include <optional>
 #include <vector>
@@ -24,24 +23,24 @@ class SignalChain {
 
   const PictureGeometry& geometry() const { return geometry_; }
 
-  // Time gain, beam width and what the chest does to echoes, in place.
+  // Time gain, beam width and chest effects, in place.
   void process(Intensities& intensities) const { process(intensities, all_lines_); }
-  // The same of some lines. What becomes of the others is not defined. What it takes in has to be
-  // as it was received.
+  // The same for some lines. The content of the others is undefined afterwards. The lines that it
+  // reads must be as received.
   void process(Intensities& intensities, LineRange lines) const;
-  // Of each line so many samples, from the first, as process() of some lines takes in.
+  // Number of samples of each line, from the first, that process() of some lines needs.
   std::vector<int> taken(LineRange lines) const;
 
-  // The same of what is coherent, as far as it stays so: no haze and no tail.
+  // The same for the coherent part, without haze and tail, which are incoherent.
   void process(CoherentEchoes& echoes, LineRange lines) const;
 
-  // Clutter, noise and log compression against the loop's one reference; noise is that of an
-  // instant. The greys take over the intensities' memory.
+  // Clutter, noise and log compression against the loop's single reference; noise is that of the
+  // instant. The grey levels reuse the intensities' memory.
   Greys compress(Intensities&& intensities, double reference_intensity, double time_s = 0) const;
 
   // Scan conversion and grey map.
   void picture(const Greys& greys, GreyImage& image) const { converter_.convert(greys, image); }
-  // Scan conversion alone: grey 0..1, -1 outside the sector.
+  // Scan conversion only: grey 0..1, -1 outside the sector.
   void picture(const Greys& greys, std::vector<float>& picture) const {
     converter_.convert(greys, picture);
   }
@@ -50,9 +49,9 @@ class SignalChain {
   SignalSettings settings_;
   LineRange all_lines_;
   int samples_;
-  std::vector<float> gains_;  // of a table or the mean; empty: none
+  std::vector<float> gains_;  // from a table or the mean; empty: none
   std::optional<BeamAverage> beam_;
-  std::vector<float> losses_;  // of drop-out and ribs; empty: none
+  std::vector<float> losses_;  // by drop-out and ribs; empty: none
   std::optional<SideLobeHaze> haze_;
   std::optional<ReverberationTail> tail_;
   std::optional<NearFieldClutter> clutter_;

@@ -10,14 +10,14 @@
 namespace echocine {
 
 // Intensity gain of each sample: the table's decibels, linear between its depths and constant
-// beyond its ends. Precondition: depths ascend, at least one entry.
+// beyond its ends. Precondition: at least one entry, ascending depths.
 std::vector<float> timeGains(const std::vector<std::pair<double, double>>& table_m_db,
                              const Probe& probe);
 
-// What undoes a loss at each sample; none of no losses. Precondition: losses are over 0.
+// Gains that undo a loss at each sample; empty for no losses. Precondition: losses are positive.
 std::vector<float> gainsAgainst(std::span<const double> losses);
 
-// What undoes a medium of this attenuation of amplitude (alpha, Np/m) along the whole path, both
+// Gains that undo a medium of this amplitude attenuation (alpha, Np/m) along the whole path, both
 // ways: exp(4 alpha r) at the path length r. At most 200 dB.
 std::vector<float> nominalGains(double attenuation_np_per_m, const Probe& probe);
 

@@ -1,8 +1,8 @@
 #pragma once
 // Tissue as the motion field carries it: speckle and truth move by one field.
 
-#include "motion/interior_motion.h"
-#include "motion/trabeculae.h"
+#include "motion/surfaces/interior_motion.h"
+#include "motion/surfaces/trabeculae.h"
 #include "speckle/material.h"
 #include "speckle/tissue_strength.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "motion/interior/bound_point.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "speckle/point_spread.h"
 
 namespace echocine {

@@ -9,7 +9,7 @@
 
 #include "core/normal_field.h"
 #include "motion/interior/motion_field.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "plan/effect_plan.h"
 
 namespace echocine {

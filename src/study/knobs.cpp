@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "frame/plan_loop.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "plan/effect_plan.h"
 #include "scene/beam_profile.h"
 #include "scene/elevation_slices.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "motion/keyframes/interpolation.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "scene/names.h"
 #include "study/knob_builder.h"
 

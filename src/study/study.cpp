@@ -12,7 +12,7 @@
 #include "core/shown_path.h"
 #include "core/units.h"
 #include "motion/cycle/cardiac_clock.h"
-#include "motion/probe_placement.h"
+#include "motion/surfaces/probe_placement.h"
 #include "render/render_pass.h"
 #include "study/thumbnail.h"
 

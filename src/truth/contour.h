@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geometry/plane_slice.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 
 namespace echocine {
 

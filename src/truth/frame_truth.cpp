@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "motion/interior_motion.h"
+#include "motion/surfaces/interior_motion.h"
 #include "plan/effect_plan.h"
 
 namespace echocine {

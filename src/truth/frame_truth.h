@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "motion/interior/motion_field.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "truth/contour.h"
 #include "truth/heart_function.h"
 #include "truth/label_table.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "motion/interior/motion_field.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "truth/aha_segments.h"
 #include "truth/orifice.h"
 #include "truth/simpson.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "motion/surface_frame.h"
+#include "motion/surfaces/surface_frame.h"
 #include "truth/aha_segments.h"
 
 namespace echocine {

@@ -1,6 +1,6 @@
 #pragma once
-// A DICOM file's structure, checked before the library sees it: its parser recurses once per nested
-// sequence and inflates whatever a deflated data set promises.
+// Checks a DICOM file's structure before the library reads it: its parser recurses once per nested
+// sequence, and inflates deflated data sets without limit.
 
 #include <cstddef>
 #include <span>
@@ -10,10 +10,9 @@
 
 namespace echocine {
 
-// The file's meta information, after its data set was followed to the end. Throws SceneError as
-// readDicomMeta() does, and for sequences nested deeper than 32, a deflated data set of over 256
-// MB, elements of unknown type and data whose structure cannot be followed. Costs no more than the
-// file and 256 MB.
+// The file's meta information, after its data set has been parsed to the end. Throws SceneError
+// like readDicomMeta(), and for sequences nested deeper than 32, a deflated data set above 256 MB,
+// elements of unknown type, and a broken structure. Needs no more memory than the file and 256 MB.
 DicomMeta checkDicomStructure(const std::string& name, std::span<const std::byte> bytes);
 
 // Throws SceneError "NAME: WHAT".

@@ -1,6 +1,5 @@
 #pragma once
-// The elements of a DICOM data set one after another (PS3.5, 7), without recursion and without
-// copies.
+// The elements of a DICOM data set in order (PS3.5, 7), without recursion and without copies.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +10,8 @@
 
 namespace echocine {
 
-// Ultrasound files nest a handful of sequences; the library's parser takes a kilobyte of stack for
-// each. Our choice.
+// Ultrasound files nest a few sequences; the library's parser uses a kilobyte of stack for each.
+// Our choice.
 inline constexpr std::size_t kMaxDicomDepth = 32;
 
 struct DicomSyntax {
@@ -21,7 +20,7 @@ struct DicomSyntax {
 
 struct DicomElement {
   std::uint32_t tag = 0;  // group in the upper half
-  std::size_t depth = 0;  // sequences around it
+  std::size_t depth = 0;  // enclosing sequences
   bool sequence = false;
   std::span<const std::byte> value;  // of sequences and items: empty
 
@@ -33,22 +32,22 @@ class DicomElements {
   DicomElements(std::span<const std::byte> data, DicomSyntax syntax)
       : data_(data), syntax_(syntax) {}
 
-  // Nothing at the end, or where the structure is broken off.
+  // None at the end, or at a break of the structure.
   std::optional<DicomElement> next();
 
-  // The tag of the next element; nothing at the end.
+  // The tag of the next element; none at the end.
   std::optional<std::uint32_t> nextTag() const;
   std::size_t position() const { return at_; }
   bool tooDeep() const { return too_deep_; }
-  bool lost() const { return lost_; }  // an element reaches outside what it lies in
-  // An element's type (PS3.5, 6.2) is none of the standard's: where it ends is a guess.
+  bool lost() const { return lost_; }  // an element extends beyond its container
+  // An element's type (PS3.5, 6.2) is not one of the standard's: its end is a guess.
   bool unknownType() const { return unknown_type_; }
 
  private:
   enum class Kind { sequence, item, fragments };
   struct Level {
     Kind kind;
-    std::size_t end;  // of the data, when the length is not given
+    std::size_t end;  // of the data, if the length is not given
     bool explicit_vr;
   };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Pixel data of a DICOM data set, checked before anything is decoded: DCMTK's decoders reserve what
-// a header states, and its RLE decoder follows the offsets of a segment out of the frame.
+// Checks the pixel data of a DICOM data set before decoding: DCMTK's decoders allocate what a
+// header states, and its RLE decoder follows segment offsets out of the frame.
 
 #include <cstdint>
 #include <string>
@@ -9,9 +9,9 @@ class DcmDataset;
 
 namespace echocine {
 
-// Looks at the data set as the decoders will see it, so there is no second reading to disagree.
-// Throws SceneError: no pictures, a loop beyond the limits, fewer bytes than the pictures need,
-// more pixels than compressed bytes can hold, an RLE header that points outside its frame.
+// Checks the data set in memory, the one that is decoded, so the two readings cannot disagree.
+// Throws SceneError for no pictures, a loop beyond the limits, fewer bytes than the pictures need,
+// more pixels than compressed bytes can contain, and an RLE header that points outside its frame.
 void checkDicomPixels(const std::string& name, DcmDataset& data, std::int64_t frames);
 
 }  // namespace echocine

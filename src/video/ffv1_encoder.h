@@ -1,5 +1,5 @@
 #pragma once
-// The lossless codec of a cine, opened the same way for encoding a frame and for describing the
+// The lossless codec of a cine, with the same settings for encoding a frame and for describing the
 // stream.
 
 #include <memory>
@@ -8,8 +8,7 @@ struct AVCodecContext;
 
 namespace echocine {
 
-// Keeps the libraries' own lines off the terminal: what goes wrong comes back as a value and is
-// reported once.
+// Silences the libraries' own messages: errors are returned as values and reported once.
 void silenceLibav();
 
 struct CodecContextFree {
@@ -17,9 +16,9 @@ struct CodecContextFree {
 };
 using CodecContext = std::unique_ptr<AVCodecContext, CodecContextFree>;
 
-// An open FFV1 encoder of 8-bit grey key frames. Version 3 of the format keeps its parameters in a
-// stream header; they depend on nothing but the size, so every encoder of one size yields the same
-// header. Throws JobError when libavcodec lacks the codec or refuses the size.
+// An open FFV1 encoder of 8-bit grey key frames. Version 3 of the format stores its parameters in a
+// stream header that depends only on the size, so every encoder of one size has the same header.
+// Throws JobError if libavcodec lacks the codec or rejects the size.
 CodecContext openFfv1(int width, int height);
 
 }  // namespace echocine

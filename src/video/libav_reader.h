@@ -1,5 +1,5 @@
 #pragma once
-// Whatever the libav libraries decode, from memory.
+// Decodes all formats of the libav libraries, from memory.
 
 #include <cstddef>
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace echocine {
 
-// Adds every frame of the first video stream; sets the builder's format and container rate (as not
-// trusted). Frames whose pixels are not square are stretched to square ones, with a note.
-// Throws SceneError: no video, unknown codec, damaged, beyond the limits.
+// Adds every frame of the first video stream; sets the builder's format and container rate (marked
+// as not trusted). Frames with non-square pixels are resampled to square ones, with a note. Throws
+// SceneError for no video, an unknown codec, damage, or sizes beyond the limits.
 void readByLibav(std::span<const std::byte> bytes, VideoBuilder& builder);
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// A loop as it was read: grey frames, and what its file says or shows about them.
+// A loop as read: grey frames, and the information in its file.
 
 #include <cstdint>
 #include <optional>
@@ -13,16 +13,16 @@ using PixelPlane = std::vector<std::uint8_t>;  // rows from the top, one byte a 
 // A region of a DICOM file (Sequence of Ultrasound Regions, PS3.3 C.8.5.5), pixels, ends included.
 struct UltrasoundRegion {
   int min_x = 0, min_y = 0, max_x = 0, max_y = 0;
-  double cm_per_pixel_x = 0, cm_per_pixel_y = 0;  // 0: the file has no length scale for it
+  double cm_per_pixel_x = 0, cm_per_pixel_y = 0;  // 0: no length scale in the file
 };
 
-// Rates that an acquisition may have; our choice.
+// Valid frame rates of an acquisition; our choice.
 inline constexpr double kLeastFrameRate_hz = 0.5, kMostFrameRate_hz = 10000;
 
 struct FrameRate {
   double hz = 0;
   std::string source;    // "--fps", "DICOM FrameTime", "manifest", "container"
-  bool trusted = false;  // a container's rate is that of playing, not of acquisition
+  bool trusted = false;  // a container's rate is that of playback, not of acquisition
 };
 
 struct Video {
@@ -30,14 +30,14 @@ struct Video {
   std::string format;  // "DICOM", "mov,mp4", ...
   int width = 0, height = 0;
   std::vector<PixelPlane> frames;
-  PixelPlane coloured;  // 1 where colour was laid over the grey in any frame: never compared
+  PixelPlane coloured;  // 1 if any frame has colour over the grey level; excluded from comparisons
   FrameRate rate;
   std::optional<double> heart_rate_bpm;
   std::string heart_rate_source;  // "--heart-rate", "DICOM HeartRate", "DICOM NominalInterval"
-  std::vector<double> r_waves_s;  // from the first frame, as the file's tags say
+  std::vector<double> r_waves_s;  // from the first frame, by the file's tags
   std::vector<UltrasoundRegion> regions;
-  std::vector<int> repeats;        // frames that repeat the one before
-  std::vector<std::string> notes;  // what was found odd while reading, a line each
+  std::vector<int> repeats;        // frames that repeat the previous one
+  std::vector<std::string> notes;  // anomalies found while reading, a line each
 
   int frameCount() const { return static_cast<int>(frames.size()); }
   bool isRepeat(int frame) const {

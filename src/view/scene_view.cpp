@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/parallel.h"
-#include "frame/whereabouts.h"
+#include "frame/mesh_placement.h"
 #include "geometry/plane_slice.h"
 #include "scene/scan_geometry.h"
 
@@ -67,7 +67,7 @@ void tellSight(const Simulator& simulator, SceneView& view) {
       view.sees_any
           ? fmt::format("The sector sees {} of {} structures.", seen, view.structures.size())
           : fmt::format("The sector sees nothing: {}.",
-                        whereabouts(simulator.scene(), meshesBox(simulator.motion())));
+                        describePlacement(simulator.scene(), meshesBox(simulator.motion())));
 }
 
 }  // namespace

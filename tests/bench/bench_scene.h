@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "motion/keyframes/control_motion.h"
-#include "motion/near_plane.h"
+#include "motion/surfaces/near_plane.h"
 #include "support/meshes.h"
 #include "support/plain_scene.h"
 

@@ -148,7 +148,7 @@ void tellSmooth() {
           "  {:.2f} {:.0f}  D {:.5f} R {:.5f} B {:.5f} M {:.5f} c {:.5f}  {:.2f} {:.2f} mm {:.2f} "
           "deg   held D {:.5f} R {:.5f} B {:.5f} M {:.5f}\n",
           dials[0], dials[1], f.discrepancy, f.terms.region, f.terms.boundary, f.terms.motion,
-          f.terms.in_sight, 1e3 * f.pose.shift_x_m, 1e3 * f.pose.shift_z_m,
+          f.terms.overlap, 1e3 * f.pose.shift_x_m, 1e3 * f.pose.shift_z_m,
           degreesFromRadians(f.pose.turn_rad), h.discrepancy, h.terms.region, h.terms.boundary,
           h.terms.motion);
     }

@@ -8,7 +8,7 @@
 #include "core/parallel.h"
 #include "metrics/statistics.h"
 #include "motion/cycle/cardiac_clock.h"
-#include "motion/motion_warnings.h"
+#include "motion/surfaces/motion_warnings.h"
 #include "scene/scene_reader.h"
 #include "support/paths.h"
 

@@ -7,7 +7,7 @@
 #include "bench/rounds.h"
 #include "bench/sizes.h"
 #include "motion/mesh/surface_measure.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "output/exr_stack.h"
 #include "scene/scan_geometry.h"
 #include "signal/log_compression.h"

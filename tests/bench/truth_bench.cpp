@@ -3,7 +3,7 @@
 
 #include "bench/rounds.h"
 #include "frame/simulator.h"
-#include "motion/interior_motion.h"
+#include "motion/surfaces/interior_motion.h"
 #include "scene/scene_reader.h"
 #include "support/paths.h"
 #include "support/shipped_heart.h"

@@ -1,7 +1,7 @@
 // view_table [FAMILY [VIEW|all [TILT]]]: which of eight views of a model lies nearest to a loop of
 // each view, with its margin. The models are the same heart, a healthy one, and then a population
 // of hearts whose dials are found; at last their planes are tilted by up to TILT degrees. One line
-// for each loop and kind of models, by the discrepancy D and by V of claim.h.
+// for each loop and kind of models, by the discrepancy D and by V of coverage.h.
 
 #include <fmt/format.h>
 
@@ -33,9 +33,9 @@ std::vector<ModelLoop> modelsOf(const std::function<Scene(View)>& sceneFor) {
 // Of one loop in a view.
 struct Nearness {
   PoseFound found;
-  double claimed = 0;
+  double coverage = 0;
   std::string dials;
-  double left() const { return pictureDiscrepancy(found.discrepancy, claimed); }
+  double left() const { return pictureDiscrepancy(found.discrepancy, coverage); }
 };
 
 // Of all eight, right ones and margins.
@@ -82,8 +82,8 @@ void judge(const std::string& what, const std::vector<Nearness>& all, std::size_
     return fmt::format(
         "{} V {:.3f} a {:.2f} D {:.3f} (R {:.2f} B {:.2f} M {:.2f} c {:.2f}; {:.0f},{:.0f} mm "
         "{:.0f} deg{})",
-        viewNames()[v].key, n.left(), n.claimed, n.found.discrepancy, t.region, t.boundary,
-        t.motion, t.in_sight, 1e3 * p.shift_x_m, 1e3 * p.shift_z_m, p.turn_rad * 57.3, n.dials);
+        viewNames()[v].key, n.left(), n.coverage, n.found.discrepancy, t.region, t.boundary,
+        t.motion, t.overlap, 1e3 * p.shift_x_m, 1e3 * p.shift_z_m, p.turn_rad * 57.3, n.dials);
   };
   fmt::print("  {:<32} V {:+.3f} D {:+.3f}  {}  next {}{}\n", what, by_v, by_d, tell(right),
              tell(next_v), next_d == next_v ? "" : "; by D " + tell(next_d));
@@ -142,7 +142,7 @@ void judgePopulation(const std::vector<Case>& cases, double tilt_deg,
           searchView(name.view, family, population, cases[i].loop, fromFirstFrame(), tilt_deg)
               .heart;
       all[i].push_back(
-          {h.found, h.claimed, fmt::format(", EF {:.2f}, {:.0f} mL", h.values[0], h.values[1])});
+          {h.found, h.coverage, fmt::format(", EF {:.2f}, {:.0f} mL", h.values[0], h.values[1])});
       if (h.tilt)
         all[i].back().dials += fmt::format(", tilt {:.0f},{:.0f} deg", h.tilt->tilt.tilt_rad * 57.3,
                                            h.tilt->tilt.rotate_rad * 57.3);

@@ -19,10 +19,10 @@ class PreviewPage(browser.PageTest):
             return Array.from(document.querySelectorAll("#sheet figure"), (figure) => [
               figure.querySelector("img").naturalWidth, figure.querySelector("figcaption").textContent])""")
         self.assertEqual(len(shown), 3)
-        for (width, words), glimpse in zip(shown, self.run_script("return page.data.glimpses"), strict=True):
+        for (width, words), preview in zip(shown, self.run_script("return page.data.previews"), strict=True):
             self.assertEqual(width, 448)
-            self.assertIn(glimpse["id"], words)
-            self.assertIn(f"{glimpse['ef_percent']:.0f} %", words)
+            self.assertIn(preview["id"], words)
+            self.assertIn(f"{preview['ef_percent']:.0f} %", words)
         self.assertIn("tiny & <small>", self.text("title"))
 
     def test_what_varies_has_a_chart_that_counts_every_draw(self):

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "promises.h"
 #include "support/plain_scene.h"
 #include "targets.h"

@@ -10,8 +10,8 @@
 #include "core/error.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/mesh/surface_measure.h"
-#include "motion/mesh_motion.h"
-#include "motion/motion_warnings.h"
+#include "motion/surfaces/mesh_motion.h"
+#include "motion/surfaces/motion_warnings.h"
 #include "support/random_world.h"
 
 namespace echocine {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "support/random_world.h"
 #include "support/scene_text.h"
 #include "support/sweep.h"

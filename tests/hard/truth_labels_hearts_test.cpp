@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "scene/scan_geometry.h"
 #include "scene/scene_reader.h"
 #include "support/meshes.h"

@@ -214,8 +214,8 @@ TEST(EdgeCorrelation, SamplesOutsideTheAreaDoNotCount) {
 TEST(CompareMetrics, WhatRegistrationMovesOutOfSightCountsAsUnlike) {
   EXPECT_EQ(discrepancyOf(1, 0.75), 0.25);
   const std::vector<float> all(10, 1.0f), half{1, 1, 1, 1, 1, 0, 0, 0, 0, 0};
-  EXPECT_EQ(shareInSight(all, half, 1), 0.5);
-  EXPECT_EQ(shareInSight(all, half, 2), 1);  // twice as large: the same half fills all
+  EXPECT_EQ(overlapShare(all, half, 1), 0.5);
+  EXPECT_EQ(overlapShare(all, half, 2), 1);  // twice as large: the same half fills all
 }
 
 // Least squares without noise give back the curve itself.

@@ -8,7 +8,7 @@
 
 #include "core/units.h"
 #include "motion/cycle/cardiac_timing.h"
-#include "motion/motion_warnings.h"
+#include "motion/surfaces/motion_warnings.h"
 #include "tests/stage/motion_fixtures.h"
 #include "tests/support/paths.h"
 

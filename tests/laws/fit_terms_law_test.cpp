@@ -214,7 +214,7 @@ TEST(CompareFit, TermsSeeSizeAndMotion) {
     EXPECT_LT(best.terms.motion, still.terms.motion - 0.1);
     EXPECT_LT(best.discrepancy, larger.discrepancy);
     EXPECT_LT(best.discrepancy, still.discrepancy);
-    EXPECT_GT(best.terms.in_sight, 0.95);
+    EXPECT_GT(best.terms.overlap, 0.95);
     // Where the model is 3 mm too large its edges are seen inside.
     double offset = 0, weight = 0;
     for (const auto& frame : d.map(Phantom{.grow_m = 0.003, .beat = 0.15}.model(), {}).boundary)

@@ -8,7 +8,7 @@
 #include "core/parallel.h"
 #include "motion/cycle/cardiac_timing.h"
 #include "motion/heart/heart_scene.h"
-#include "motion/interior_motion.h"
+#include "motion/surfaces/interior_motion.h"
 #include "scene/scene_reader.h"
 #include "support/paths.h"
 #include "truth/frame_truth.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "motion/interior_motion.h"
+#include "motion/surfaces/interior_motion.h"
 #include "scene/scan_geometry.h"
 #include "support/scene_text.h"
 #include "truth/frame_truth.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "motion/heart/segments.h"
+#include "motion/heart/segment_shares.h"
 #include "support/recorded_heart.h"
 
 namespace echocine {

@@ -10,7 +10,7 @@
 #include "core/hash_random.h"
 #include "motion/interior/bound_point.h"
 #include "motion/interior/winners.h"
-#include "motion/interior_motion.h"
+#include "motion/surfaces/interior_motion.h"
 #include "scene/scene_reader.h"
 #include "support/meshes.h"
 #include "support/paths.h"

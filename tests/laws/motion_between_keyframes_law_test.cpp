@@ -7,7 +7,7 @@
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/keyframes/interpolation_judge.h"
 #include "motion/mesh/mesh_io.h"
-#include "motion/motion_warnings.h"
+#include "motion/surfaces/motion_warnings.h"
 #include "output/heart_files.h"
 #include "scene/scene_reader.h"
 #include "tests/stage/motion_fixtures.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "motion/interior_motion.h"
+#include "motion/surfaces/interior_motion.h"
 #include "scene/scan_geometry.h"
 #include "scene/scene_reader.h"
 #include "support/paths.h"

@@ -8,7 +8,7 @@
 
 #include "core/units.h"
 #include "motion/mesh/mesh_io.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "tests/stage/motion_fixtures.h"
 #include "tests/support/paths.h"
 

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "tests/stage/motion_fixtures.h"
 
 namespace echocine::motion_test {

@@ -9,7 +9,7 @@
 #include "frame/simulator.h"
 #include "geometry/plane_slice.h"
 #include "motion/heart/heart_scene.h"
-#include "motion/trabeculae.h"
+#include "motion/surfaces/trabeculae.h"
 #include "scene/role.h"
 #include "speckle/field_material.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "motion/heart/views.h"
+#include "motion/heart/heart_poses.h"
 #include "motion/views/heart_marks.h"
 #include "scene/view_names.h"
 #include "support/real_hearts.h"

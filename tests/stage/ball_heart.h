@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "motion/mesh_motion.h"
-#include "motion/probe_placement.h"
+#include "motion/surfaces/mesh_motion.h"
+#include "motion/surfaces/probe_placement.h"
 #include "support/meshes.h"
 #include "support/scene_text.h"
 

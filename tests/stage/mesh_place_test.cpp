@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "motion/heart_size.h"
+#include "motion/surfaces/heart_size.h"
 #include "tests/stage/ball_heart.h"
 
 namespace echocine {

@@ -6,7 +6,7 @@
 
 #include "core/parallel.h"
 #include "motion/keyframes/keyframe_pair.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "tests/stage/motion_fixtures.h"
 
 namespace echocine::motion_test {

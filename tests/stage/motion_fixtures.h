@@ -16,7 +16,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "motion/mesh/mesh.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "scene/scene.h"
 
 namespace echocine::motion_test {

@@ -1,6 +1,6 @@
 // The motion stage as a whole on small beating balls.
 
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 
 #include <limits>
 #include <numbers>

@@ -1,7 +1,7 @@
 // What a refusal advises is tried: the repairs it names mend the mesh, and no fewer do.
 
-#include "motion/keyframe_set.h"
 #include "motion/repair/repair_advice.h"
+#include "motion/surfaces/keyframe_set.h"
 #include "tests/stage/nasty_meshes.h"
 #include "tests/support/paths.h"
 

@@ -1,6 +1,6 @@
 // The words for what breaks between keyframes.
 
-#include "motion/motion_warnings.h"
+#include "motion/surfaces/motion_warnings.h"
 
 #include "tests/stage/motion_fixtures.h"
 

@@ -6,7 +6,7 @@
 #include "frame/mean_loss.h"
 #include "frame/plan_loop.h"
 #include "frame/simulator.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "scene/beam_profile.h"
 #include "scene/scan_geometry.h"
 #include "support/loop_scene.h"

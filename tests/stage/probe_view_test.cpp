@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "motion/mesh_motion.h"
-#include "motion/probe_placement.h"
+#include "motion/surfaces/mesh_motion.h"
+#include "motion/surfaces/probe_placement.h"
 #include "scene/probe_pose.h"
 #include "scene/view_names.h"
 #include "tests/stage/ball_heart.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "render/render_pass.h"
 #include "support/key_scene.h"
 #include "support/loop_scene.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/vec3.h"
-#include "motion/surface_frame.h"
+#include "motion/surfaces/surface_frame.h"
 
 namespace echocine::support {
 

@@ -77,7 +77,7 @@ TEST_F(Planted, APixelOfShiftIsFound) {
   EXPECT_NEAR(c.space.placement.shift_x_px, 1, 0.1);
   EXPECT_NEAR(c.space.placement.shift_y_px, -1, 0.1);
   EXPECT_NEAR(c.space.placement.scale, 1, 0.001);
-  EXPECT_LT(c.discrepancy, 1 - 0.995 * c.share_in_sight);
+  EXPECT_LT(c.discrepancy, 1 - 0.995 * c.overlap);
   std::printf("shift (1, -1) px found as (%.3f, %.3f)\n", c.space.placement.shift_x_px,
               c.space.placement.shift_y_px);
 }
@@ -244,8 +244,8 @@ TEST_F(Planted, AViewFarOffIsSearchedForAndFound) {
   EXPECT_FALSE(c.space.at_limit);
   EXPECT_NEAR(c.space.placement.shift_x_px, 16, 0.5);
   EXPECT_NEAR(c.space.placement.shift_y_px, 24, 0.5);
-  EXPECT_LT(c.share_in_sight, 1);
-  EXPECT_LT(c.discrepancy, 1 - 0.8 * c.share_in_sight);
+  EXPECT_LT(c.overlap, 1);
+  EXPECT_LT(c.discrepancy, 1 - 0.8 * c.overlap);
   EXPECT_GT(c.discrepancy_as_placed, 2 * c.discrepancy);
   std::printf("shift (16, 24) px found as (%.2f, %.2f), D %.3f from %.3f\n",
               c.space.placement.shift_x_px, c.space.placement.shift_y_px, c.discrepancy,

@@ -151,9 +151,9 @@ TEST_F(DatasetCommand, APreviewShowsTheHeartsThatAreMade) {
   const std::vector<std::string> rows = linesOf(bytesOf(folder / "whole/loops.csv"));
   const std::vector<std::string> head = fieldsOf(rows[0]);
   const auto column = std::find(head.begin(), head.end(), "ef_percent") - head.begin();
-  ASSERT_EQ(data["glimpses"].size(), 2u);
+  ASSERT_EQ(data["previews"].size(), 2u);
   for (std::size_t i = 0; i < 2; ++i)
-    EXPECT_NEAR(data["glimpses"][i]["ef_percent"].get<double>(),
+    EXPECT_NEAR(data["previews"][i]["ef_percent"].get<double>(),
                 std::stod(fieldsOf(rows[i + 1])[static_cast<std::size_t>(column)]), 1e-9);
 }
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "motion/mesh/surface_measure.h"
-#include "motion/motion_warnings.h"
+#include "motion/surfaces/motion_warnings.h"
 #include "scene/scene_reader.h"
 #include "support/paths.h"
 #include "support/recorded_heart.h"

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "scene/scan_geometry.h"
 #include "support/plain_scene.h"
 #include "support/scene_text.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "render/render.h"
 #include "support/cine_frames.h"
 #include "support/exr_planes.h"

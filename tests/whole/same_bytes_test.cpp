@@ -9,7 +9,7 @@
 
 #include "frame/simulator.h"
 #include "motion/cycle/cardiac_clock.h"
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "render/render.h"
 #include "support/exr_planes.h"
 #include "support/loop_scene.h"

@@ -9,7 +9,7 @@
 #include "frame/simulator.h"
 #include "metrics/picture_error.h"
 #include "motion/heart/heart_scene.h"
-#include "motion/probe_placement.h"
+#include "motion/surfaces/probe_placement.h"
 #include "scene/scan_geometry.h"
 
 namespace echocine {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "motion/mesh_motion.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "scene/scene_reader.h"
 #include "support/paths.h"
 #include "support/scene_text.h"

@@ -189,6 +189,6 @@ class Discrepancy:
         return self._native.real_frames
 
     @property
-    def share_in_sight(self) -> float:
+    def overlap(self) -> float:
         """Share of the sector that both show, 0 to 1."""
-        return self._native.share_in_sight
+        return self._native.overlap

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "motion/surface_frame.h"
+#include "motion/surfaces/surface_frame.h"
 #include "support/meshes.h"
 
 namespace echocine::bench {

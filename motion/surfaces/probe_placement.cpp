@@ -1,0 +1,224 @@
+#include "motion/surfaces/probe_placement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/box.h"
+#include "core/units.h"
+#include "motion/mesh/mesh_check.h"
+#include "motion/mesh/world_place.h"
+#include "motion/surfaces/keyframe_set.h"
+#include "motion/views/heart_marks.h"
+#include "scene/probe_pose.h"
+#include "scene/scan_geometry.h"
+#include "scene/view_names.h"
+
+namespace echocine {
+
+namespace {
+
+bool hasVessel(const std::vector<RoleSurface>& surfaces) {
+  return std::any_of(surfaces.begin(), surfaces.end(),
+                     [](const RoleSurface& s) { return s.role == Role::aorta; });
+}
+
+// What the view is found from: the meshes of one instant, in the world.
+struct Instant {
+  std::vector<RoleSurface> surfaces;
+  std::vector<std::vector<Triangle>> triangles;  // of each
+};
+
+// The scene with some of its structures alone.
+Scene sceneOf(const Scene& scene, std::vector<Structure> structures) {
+  Scene part;
+  part.motion = scene.motion;
+  part.structures = std::move(structures);
+  return part;
+}
+
+// Of the largest left ventricle; 0 without one, or where it stands still.
+double endDiastole(const Scene& scene) {
+  auto ventricle = structureOf(scene, Role::lv_cavity);
+  if (!ventricle) ventricle = structureOf(scene, Role::lv_wall);
+  if (!ventricle) return 0;
+  const Structure& structure = scene.structures[index(*ventricle)];
+  if (structure.keyframes.size() < 2) return structure.keyframes.front().phase;
+  const KeyframeSet set = readKeyframes(sceneOf(scene, {structure}));
+  std::size_t largest = 0;
+  double most = 0;
+  for (std::size_t k = 0; k < structure.keyframes.size(); ++k) {
+    const double volume = std::abs(signedVolume(set.structures.front()[k].mesh));
+    if (volume > most) {
+      most = volume;
+      largest = k;
+    }
+  }
+  return structure.keyframes[largest].phase;
+}
+
+Structure atPhase(Structure structure, double phase) {
+  const auto apart = [&](const Keyframe& k) {
+    return std::abs(std::remainder(k.phase - phase, 1));
+  };
+  const Keyframe nearest =
+      *std::min_element(structure.keyframes.begin(), structure.keyframes.end(),
+                        [&](const Keyframe& a, const Keyframe& b) { return apart(a) < apart(b); });
+  structure.keyframes = {nearest};
+  return structure;
+}
+
+Instant heartAtEndDiastole(const Scene& scene) {
+  const double phase = endDiastole(scene);
+  std::vector<Structure> parts;
+  for (const Structure& structure : scene.structures)
+    if (const Role role = roleOf(structure); role != Role::none && role != Role::surroundings)
+      parts.push_back(atPhase(structure, phase));
+  const Scene heart = sceneOf(scene, std::move(parts));
+  const KeyframeSet set = readKeyframes(heart);
+  Instant instant;
+  for (std::size_t s = 0; s < heart.structures.size(); ++s) {
+    const TriangleMesh& mesh = set.structures[s].front().mesh;
+    RoleSurface surface{roleOf(heart.structures[s]), heart.structures[s].name, {}};
+    for (const Vec3d& p : mesh.positions) surface.points_m.push_back(worldPlace(scene.motion, p));
+    instant.surfaces.push_back(std::move(surface));
+    instant.triangles.push_back(mesh.triangles);
+  }
+  return instant;
+}
+
+Pose frameOf(const ProbePose& pose) {
+  return {pose.apex, pose.lateral, cross(pose.axis, pose.lateral), pose.axis};
+}
+
+// Shifted along its own axes, then turned and tilted.
+Pose moved(const Pose& pose, const ViewPlacement& by) {
+  Pose p = pose;
+  p.origin = pose.origin + by.shift_m.x * pose.x_axis + by.shift_m.y * pose.y_axis +
+             by.shift_m.z * pose.z_axis;
+  return turnedAndTilted(p, by.rotate_rad, by.tilt_rad);
+}
+
+// An edge of a mesh meets the imaging plane within the sector.
+bool cuts(const Probe& probe, const Instant& heart) {
+  for (std::size_t s = 0; s < heart.surfaces.size(); ++s) {
+    std::vector<Vec3d> at;
+    for (const Vec3d p : heart.surfaces[s].points_m) at.push_back(probe.pose.fromWorld(p));
+    for (const Triangle& t : heart.triangles[s])
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3d a = at[t[k]], b = at[t[(k + 1) % 3]];
+        if ((a.y < 0) == (b.y < 0)) continue;
+        const Vec3d at_plane = a + a.y / (a.y - b.y) * (b - a);
+        if (inScanArea(probe, at_plane.x, at_plane.z)) return true;
+      }
+  }
+  return false;
+}
+
+// From the pose of the view to that of the probe: a curvilinear one's apex lies behind its face.
+void place(const ViewPlacement& placement, const HeartMarks& marks, double mesh_unit_m,
+           Probe& probe) {
+  Pose pose = moved(frameOf(standardPose(placement.view, marks.frame, marks.outside_m, marks.wall_m,
+                                         marks.front_m)),
+                    placement);
+  pose.origin = pose.origin - probe.face_radius_m * pose.z_axis;
+  probe.pose = writable(pose, mesh_unit_m);
+  if (probe.max_depth_m > 0) return;
+  const double half_rad = probe.isFan() ? probe.last_angle_rad : radiansFromDegrees(90);
+  const double deep_m =
+      fittingDepth(marks.outside_m, {probe.pose.origin, probe.pose.z_axis, probe.pose.x_axis},
+                   half_rad, marks.frame.scale) +
+      marks.wall_m - probe.face_radius_m;
+  probe.max_depth_m = writableDepth(std::max(deep_m, 2 * probe.min_depth_m + 1e-3));
+  if (probe.focus_m == 0) probe.focus_m = defaultFocus(probe.max_depth_m);
+}
+
+std::string whereTheyAre(const Probe& probe, const Instant& heart) {
+  Box box;
+  for (const RoleSurface& s : heart.surfaces)
+    for (const Vec3d p : s.points_m) box.add(probe.pose.fromWorld(p));
+  const auto mm = [](double m) { return std::round(millimetresFromMetres(m)); };
+  return fmt::format(
+      "from the probe they lie {} to {} mm lateral, {} to {} mm in elevation, {} to {} "
+      "mm deep",
+      mm(box.lo.x), mm(box.hi.x), mm(box.lo.y), mm(box.hi.y), mm(box.lo.z), mm(box.hi.z));
+}
+
+// The first view that cuts a mesh, this one before the others.
+std::string viewThatCuts(const Scene& scene, const HeartMarks& marks, const Instant& heart) {
+  std::vector<View> views{scene.view->view};
+  for (const ViewName& name : viewNames()) views.push_back(name.view);
+  for (const View view : views) {
+    Probe probe = scene.probe;
+    ViewPlacement unmoved;
+    unmoved.view = view;
+    place(unmoved, marks, scene.motion.mesh_unit_m, probe);
+    if (cuts(probe, heart))
+      return fmt::format("view = \"{}\" without shift_mm, tilt_deg and rotate_deg does",
+                         keyOf(view));
+  }
+  return "a depth_mm or a sector that holds them does";
+}
+
+void tellGuesses(const HeartMarks& marks, Scene& scene) {
+  const auto tell = [&](const std::string& what) {
+    scene.warnings.push_back(atPlace(scene.view->place, what));
+  };
+  for (const std::string& what : marks.told) tell(what);
+  const View view = scene.view->view;
+  if (!marks.aortic_found && (view == View::a3c || view == View::plax))
+    tell(
+        "no role says where the aortic valve is: the plane passes where other hearts have it; give "
+        "a "
+        "structure role = \"aortic_valve\" or \"aorta\"");
+}
+
+}  // namespace
+
+Scene placed(Scene scene) {
+  if (!scene.view) return scene;
+  const ViewPlacement placement = *scene.view;
+  const Instant heart = heartAtEndDiastole(scene);
+  const HeartMarks marks = findHeart(heart.surfaces, placement.place);
+  const auto fail = [&](const std::string& what) {
+    throw SceneError(atPlace(placement.place, what));
+  };
+  if (placement.view == View::psax_base && !marks.aortic_found)
+    fail(hasVessel(heart.surfaces)
+             ? "the structure with role aorta does not reach the left ventricle, so its valve is "
+               "not "
+               "found; accepted: one that does, or role = \"aortic_valve\" of another"
+             : "\"psax-base\" is found from the aortic valve, accepted: role = \"aortic_valve\" or "
+               "\"aorta\" of one structure, or view = \"psax-mid\"");
+  Probe probe = scene.probe;
+  place(placement, marks, scene.motion.mesh_unit_m, probe);
+  if (!cuts(probe, heart))
+    fail(fmt::format("\"{}\" as it is moved cuts none of the meshes with roles: {}; {}",
+                     keyOf(placement.view), whereTheyAre(probe, heart),
+                     viewThatCuts(scene, marks, heart)));
+  tellGuesses(marks, scene);
+  scene.probe = probe;
+  scene.view.reset();
+  return scene;
+}
+
+std::pair<Scene, std::shared_ptr<const MeshMotion>> placedWithMotion(Scene given) {
+  Scene scene = placed(std::move(given));
+  auto motion = std::make_shared<const MeshMotion>(scene);
+  return {std::move(scene), std::move(motion)};
+}
+
+Pose turnedAndTilted(const Pose& pose, double rotate_rad, double tilt_rad) {
+  const auto turned = [](Vec3d from, Vec3d towards, double rad) {
+    return std::cos(rad) * from + std::sin(rad) * towards;
+  };
+  Pose p = pose;
+  p.x_axis = turned(pose.x_axis, pose.y_axis, rotate_rad);
+  p.y_axis = cross(pose.z_axis, p.x_axis);
+  p.z_axis = turned(pose.z_axis, p.y_axis, tilt_rad);
+  p.y_axis = cross(p.z_axis, p.x_axis);
+  return p;
+}
+
+}  // namespace echocine
