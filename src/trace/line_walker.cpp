@@ -17,69 +17,39 @@ LineWalker::LineWalker(const TraceSettings& settings, const Ray& start, const In
     : settings_(settings),
       trace_(trace),
       query_{start, inside, {}},
-      wave_(start.direction),
-      layer_(settings.frequency_hz, settings.pulse_cycles),
-      walked_m_(start_m) {
+      ruling_(settings),
+      at_{.walked_m = start_m, .wave = start.direction},
+      layer_(settings.frequency_hz, settings.pulse_cycles) {
   trace_.clear();
-}
-
-// Where closed structures overlap the highest priority wins, among equals the later in the scene.
-bool LineWalker::rules(std::size_t surface, std::size_t over) const {
-  if (over == kNoSurface) return true;
-  const int priority = settings_.surfaces[surface].priority,
-            of_other = settings_.surfaces[over].priority;
-  return priority > of_other || (priority == of_other && surface >= over);
-}
-
-void LineWalker::findRuling(const InsideSet& inside) {
-  ruling_ = kNoSurface;
-  if (inside.none()) return;
-  for (std::size_t s = 0; s < settings_.surfaces.size(); ++s)
-    if (inside[s] && rules(s, ruling_)) ruling_ = s;
-}
-
-MediumId LineWalker::rulingMedium() const {
-  return ruling_ == kNoSurface ? settings_.background : settings_.surfaces[ruling_].medium;
-}
-
-// Only who leaves the surface that rules has to ask all others.
-void LineWalker::cross(const Crossing& crossing, InsideSet& inside) {
-  const std::size_t s = index(crossing.surface);
-  if (settings_.surfaces[s].membrane) return;
-  inside[s] = crossing.entering;
-  if (crossing.entering) {
-    if (rules(s, ruling_)) ruling_ = s;
-  } else if (s == ruling_) {
-    findRuling(inside);
-  }
 }
 
 // Eq. 3 along one medium, there and back: A grows by 4 alpha per metre.
 void LineWalker::walkTo(double distance_m) {
-  const Medium& medium = settings_.media[index(medium_)];
+  const Medium& medium = settings_.media[index(at_.medium)];
   const double path_per_depth =
       settings_.travel_time ? medium.sound_speed_m_s / kScannerSpeed : 1.0;
   const double exponent_per_path = settings_.attenuation ? 4 * medium.attenuation_np_per_m : 0.0;
-  double step_m = distance_m - walked_m_;
-  const double end_depth_m = depth_m_ + (settings_.travel_time ? step_m / path_per_depth : step_m);
+  double step_m = distance_m - at_.walked_m;
+  const double end_depth_m =
+      at_.depth_m + (settings_.travel_time ? step_m / path_per_depth : step_m);
   if (end_depth_m >= settings_.max_depth_m) {
-    step_m = (settings_.max_depth_m - depth_m_) * path_per_depth;
-    alive_ = false;
+    step_m = (settings_.max_depth_m - at_.depth_m) * path_per_depth;
+    at_.alive = false;
   }
-  const double next_depth_m = alive_ ? end_depth_m : settings_.max_depth_m;
+  const double next_depth_m = at_.alive ? end_depth_m : settings_.max_depth_m;
   const double eta_b = settings_.backscatter ? medium.backscatter_per_m_sr : 0.0;
-  trace_.segments.push_back({.begin_depth_m = depth_m_,
+  trace_.segments.push_back({.begin_depth_m = at_.depth_m,
                              .end_depth_m = next_depth_m,
-                             .begin_path_m = path_m_,
+                             .begin_path_m = at_.path_m,
                              .path_per_depth = path_per_depth,
-                             .begin_exponent = exponent_,
+                             .begin_exponent = at_.exponent,
                              .exponent_per_m = exponent_per_path * path_per_depth,
-                             .strength_m2_sr = eta_b * settings_.unit_volume_m3 * passed_,
-                             .medium = medium_});
-  walked_m_ += step_m;
-  path_m_ += step_m;
-  depth_m_ = next_depth_m;
-  exponent_ += exponent_per_path * step_m;
+                             .strength_m2_sr = eta_b * settings_.unit_volume_m3 * at_.passed,
+                             .medium = at_.medium});
+  at_.walked_m += step_m;
+  at_.path_m += step_m;
+  at_.depth_m = next_depth_m;
+  at_.exponent += exponent_per_path * step_m;
 }
 
 // The crossing whose normal and lobe stand for a group of coincident surfaces.
@@ -97,45 +67,45 @@ const Crossing& LineWalker::deciding(Group group) const {
 // For integration over cells: every crossing with the media and losses of this line. Of coincident
 // surfaces the deciding one is seen.
 void LineWalker::noteHits(Group group, MediumId after) {
-  const Medium& medium = settings_.media[index(medium_)];
+  const Medium& medium = settings_.media[index(at_.medium)];
   const Crossing& decided = deciding(group);
   const Vec3d along = query_.ray.direction, across = echocine::cross(Vec3d{0, 1, 0}, along);
   const Vec3d incident = incidentAt(decided);
   for (const Crossing& c : group) {
     const SurfaceTraits& surface = settings_.surfaces[index(c.surface)];
-    const bool seen = surface.membrane || (after != medium_ && &c == &decided);
+    const bool seen = surface.membrane || (after != at_.medium && &c == &decided);
     trace_.hits.push_back(
         {.surface = c.surface,
          .entering = c.entering,
          .seen = seen,
-         .before = medium_,
+         .before = at_.medium,
          .after = surface.membrane ? surface.medium : after,
-         .point = query_.ray.origin + walked_m_ * along,
-         .path_m = path_m_,
-         .depth_m = depth_m_,
+         .point = query_.ray.origin + at_.walked_m * along,
+         .path_m = at_.path_m,
+         .depth_m = at_.depth_m,
          .path_per_depth = settings_.travel_time ? medium.sound_speed_m_s / kScannerSpeed : 1.0,
-         .exponent = exponent_,
+         .exponent = at_.exponent,
          .exponent_per_path = settings_.attenuation ? 4 * medium.attenuation_np_per_m : 0.0,
-         .passed = passed_});
+         .passed = at_.passed});
     if (settings_.snell_angles && !(incident == along))
       trace_.hits.back().wave = {dot(incident, along), dot(incident, across), incident.y};
   }
 }
 
 void LineWalker::bend(Group group, Vec3d direction) {
-  query_.ray.origin = query_.ray.origin + walked_m_ * query_.ray.direction;
-  query_.ray.direction = wave_ = direction;
+  query_.ray.origin = query_.ray.origin + at_.walked_m * query_.ray.direction;
+  query_.ray.direction = at_.wave = direction;
   query_.left_behind.clear();
   for (const Crossing& c : group) query_.left_behind.emplace_back(c.surface, c.triangle);
-  walked_m_ = 0;
-  if (++bends_ > kMaxBends) alive_ = false;
+  at_.walked_m = 0;
+  if (++at_.bends > kMaxBends) at_.alive = false;
 }
 
 // A wall in the transducer's face is no interface, as two walls in one place are one: a probe that
 // stands on a surface within rounding is in the medium behind it. Returns the first crossing
 // beyond.
 std::size_t LineWalker::crossAtFace(Group crossings, InsideSet& inside) const {
-  const double face_m = walked_m_ + settings_.face_m;
+  const double face_m = at_.walked_m + settings_.face_m;
   std::size_t first = 0;
   for (; first < crossings.size() && crossings[first].distance_m <= face_m; ++first)
     if (const std::size_t s = index(crossings[first].surface); !settings_.surfaces[s].membrane)
@@ -146,32 +116,34 @@ std::size_t LineWalker::crossAtFace(Group crossings, InsideSet& inside) const {
 void LineWalker::advance(const RayCrossings& met) {
   InsideSet inside = met.inside;
   const std::vector<Crossing>& all = met.crossings;
-  const std::size_t first = path_m_ == 0 ? crossAtFace(all, inside) : 0;
-  findRuling(inside);
-  medium_ = rulingMedium();
-  const int bends_before = bends_;
+  const std::size_t first = at_.path_m == 0 ? crossAtFace(all, inside) : 0;
+  ruling_.find(inside);
+  at_.medium = ruling_.medium();
+  const int bends_before = at_.bends;
   for (std::size_t begin = first, end = 0; begin < all.size(); begin = end) {
     const double distance_m = all[begin].distance_m;
     end = begin + 1;
     while (end < all.size() && all[end].distance_m - distance_m <= settings_.thin_layer_m) ++end;
-    const bool lost = mirror_.met && !layer_.reaches(path_m_ + distance_m - walked_m_);
+    const bool lost = mirror_.met && !layer_.reaches(at_.path_m + distance_m - at_.walked_m);
     if (!lost) walkTo(distance_m);
-    if (mirror_.met && (lost || !alive_)) return endAtMirror();
-    if (!alive_) return;
+    if (mirror_.met && (lost || !at_.alive)) return endAtMirror();
+    if (!at_.alive) return;
     const Group group(&all[begin], end - begin);
-    for (const Crossing& c : group) cross(c, inside);
-    const MediumId after = rulingMedium();
+    for (const Crossing& c : group)
+      if (const std::size_t s = index(c.surface); !settings_.surfaces[s].membrane)
+        ruling_.cross(s, c.entering, inside);
+    const MediumId after = ruling_.medium();
     const std::size_t first_hit = trace_.hits.size();
     if (settings_.note_hits) noteHits(group, after);
-    for (auto c = group.begin(); alive_ && c != group.end(); ++c) {
+    for (auto c = group.begin(); at_.alive && c != group.end(); ++c) {
       if (!settings_.surfaces[index(c->surface)].membrane) continue;
       // At a vertex a sheet may be met by several of its triangles: it is passed once.
       const auto same = [&](const Crossing& other) { return other.surface == c->surface; };
       if (std::find_if(group.begin(), c, same) == c) passMembrane(*c);
     }
-    if (alive_ && after != medium_) passInterface(group, after, first_hit);
-    if (!alive_) return;
-    if (bends_ != bends_before) {
+    if (at_.alive && after != at_.medium) passInterface(group, after, first_hit);
+    if (!at_.alive) return;
+    if (at_.bends != bends_before) {
       query_.inside = inside;
       return;
     }

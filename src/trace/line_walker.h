@@ -5,6 +5,7 @@
 #include "trace/interface_law.h"
 #include "trace/layer_echoes.h"
 #include "trace/line_trace.h"
+#include "trace/ruling_surface.h"
 #include "trace/trace_settings.h"
 
 namespace echocine {
@@ -19,7 +20,7 @@ class LineWalker {
 
   // The ray to be asked next; alive() is false when the line has ended.
   const RayQuery& query() const { return query_; }
-  bool alive() const { return alive_; }
+  bool alive() const { return at_.alive; }
 
   // Goes along the crossings of query() to the depth of the image, to total reflection, or to the
   // next bend, after which query() is a new ray.
@@ -28,10 +29,27 @@ class LineWalker {
  private:
   using Group = std::span<const Crossing>;  // crossings of one interface, nearest first
 
-  bool rules(std::size_t surface, std::size_t over) const;
-  void findRuling(const InsideSet& inside);
-  MediumId rulingMedium() const;
-  void cross(const Crossing& crossing, InsideSet& inside);
+  // How far the line has come, and what is left of its wave there.
+  struct Progress {
+    double walked_m = 0;  // along the present ray
+    double path_m = 0;    // l since the transducer
+    double depth_m = 0;   // on the image's axis
+    double exponent = 0;  // A since the transducer
+    double passed = 1;    // prod (1-R)^2
+    MediumId medium{};    // that it is in
+    Vec3d wave;           // unit: by which angles of incidence are taken
+    int bends = 0;
+    bool alive = true;
+  };
+
+  // A total reflection behind which the line still looks for the layer's other face: the speed
+  // before it, which goes with the wave, its l, and what the trace held then.
+  struct Mirror {
+    bool met = false;
+    double speed_before_m_s = 0, path_m = 0;
+    std::size_t segments = 0, echoes = 0, hits = 0;
+  };
+
   std::size_t crossAtFace(Group crossings, InsideSet& inside) const;
   void walkTo(double distance_m);
   void passInterface(Group group, MediumId after, std::size_t first_hit);
@@ -56,25 +74,10 @@ class LineWalker {
   const TraceSettings& settings_;
   LineTrace& trace_;
   RayQuery query_;
-  static constexpr std::size_t kNoSurface = kMaxSurfaces;
-  std::size_t ruling_ = kNoSurface;  // the closed surface whose medium the line is in
-  MediumId medium_{};
-  Vec3d wave_;         // unit: by which angles of incidence are taken
+  RulingSurface ruling_;
+  Progress at_;
   LayerEchoes layer_;  // the faces that the pulse still holds
-  // A total reflection behind which the line still looks for the layer's other face: the speed
-  // before it, which goes with wave_, its l, and what the trace held then.
-  struct Mirror {
-    bool met = false;
-    double speed_before_m_s = 0, path_m = 0;
-    std::size_t segments = 0, echoes = 0, hits = 0;
-  } mirror_;
-  double walked_m_ = 0;  // along the present ray
-  double path_m_ = 0;    // l since the transducer
-  double depth_m_ = 0;   // on the image's axis
-  double exponent_ = 0;  // A since the transducer
-  double passed_ = 1;    // prod (1-R)^2
-  int bends_ = 0;
-  bool alive_ = true;
+  Mirror mirror_{};
 };
 
 }  // namespace echocine

@@ -32,12 +32,12 @@ LayerMedium layerMedium(const Medium& medium) {
 // surface the bent ray passes it by, and the ray's own direction counts again.
 Vec3d LineWalker::incidentAt(const Crossing& crossing) {
   const Vec3d direction = query_.ray.direction;
-  if (dot(wave_, crossing.normal) * dot(direction, crossing.normal) <= 0) wave_ = direction;
-  return wave_;
+  if (dot(at_.wave, crossing.normal) * dot(direction, crossing.normal) <= 0) at_.wave = direction;
+  return at_.wave;
 }
 
 InterfaceLaw LineWalker::lawAt(const Crossing& crossing, const Medium& from, const Medium& to) {
-  const double cos_i = std::min(std::abs(dot(wave_, crossing.normal)), 1.0);
+  const double cos_i = std::min(std::abs(dot(at_.wave, crossing.normal)), 1.0);
   return interfaceLaw(from.impedance_kg_m2_s, from.sound_speed_m_s, to.impedance_kg_m2_s,
                       to.sound_speed_m_s, cos_i);
 }
@@ -56,9 +56,10 @@ void LineWalker::addEcho(double reflected, double passed, double cos_i, const Cr
   const double towards = dot(query_.ray.direction, crossing.normal);
   const double cosine = std::copysign(std::max(std::abs(towards), 1e-3), towards);
   const double W = surface.gain * reflected;
-  trace_.echoes.push_back({depth_m_, passed * nonSpecularReturn(W, cos_i, surface.exponent),
-                           exponent_, (1 / cosine) * crossing.normal, crossing.surface, medium_,
-                           after, query_.ray.origin + walked_m_ * query_.ray.direction});
+  trace_.echoes.push_back({at_.depth_m, passed * nonSpecularReturn(W, cos_i, surface.exponent),
+                           at_.exponent, (1 / cosine) * crossing.normal, crossing.surface,
+                           at_.medium, after,
+                           query_.ray.origin + at_.walked_m * query_.ray.direction});
 }
 
 // Forward times backward transmission, T_12 T_21 = (1 - R)^2. Total reflection ends the ray
@@ -68,14 +69,14 @@ void LineWalker::loseAt(const InterfaceLaw& law) {
     reflectAll(0);
     return endAtMirror();
   }
-  if (settings_.transmission_loss) passed_ *= law.through * law.through;
+  if (settings_.transmission_loss) at_.passed *= law.through * law.through;
 }
 
 // Total reflection. Where a layer begins here the line goes on until it is known how thick that is.
 void LineWalker::reflectAll(double speed_before_m_s) {
   mirror_ = {true,
              speed_before_m_s,
-             path_m_,
+             at_.path_m,
              trace_.segments.size(),
              trace_.echoes.size(),
              trace_.hits.size()};
@@ -87,7 +88,7 @@ void LineWalker::endAtMirror() {
   trace_.hits.resize(mirror_.hits);
   for (std::size_t h = mirror_.hits; h-- > 0 && trace_.hits[h].path_m == mirror_.path_m;)
     trace_.hits[h].ends = true;
-  alive_ = false;
+  at_.alive = false;
 }
 
 // The interface as a face of a stack of layers. Behind a total reflection there is no ray whose
@@ -95,7 +96,7 @@ void LineWalker::endAtMirror() {
 LayerEchoes::Meeting LineWalker::meetingAt(const Crossing& crossing, const InterfaceLaw& law,
                                            const Medium& from, const Medium& to) const {
   const double along = dot(query_.ray.direction, crossing.normal);
-  const double cos_i = std::min(std::abs(dot(wave_, crossing.normal)), 1.0);
+  const double cos_i = std::min(std::abs(dot(at_.wave, crossing.normal)), 1.0);
   const bool total = mirror_.met
                          ? !transmissionCosine(cos_i, mirror_.speed_before_m_s, to.sound_speed_m_s)
                          : law.total;
@@ -104,7 +105,7 @@ LayerEchoes::Meeting LineWalker::meetingAt(const Crossing& crossing, const Inter
           cos_i,
           law.amplitude,
           total,
-          path_m_,
+          at_.path_m,
           std::abs(along),
           along < 0 ? crossing.normal : -crossing.normal};
 }
@@ -118,7 +119,7 @@ void LineWalker::joinLayer(const LayerEchoes::Meeting& meeting, const InterfaceL
   layer_.add(meeting,
              {meeting.amplitude, meeting.total, base, first_echo, first_hit, trace_.hits.size()});
   if (alone) {
-    if (settings_.transmission_loss) passed_ *= law.through * law.through;
+    if (settings_.transmission_loss) at_.passed *= law.through * law.through;
     return;
   }
   const LayerEchoes::Together together = layer_.together(settings_.transmission_loss);
@@ -130,14 +131,14 @@ void LineWalker::joinLayer(const LayerEchoes::Meeting& meeting, const InterfaceL
       if (!settings_.surfaces[index(trace_.hits[h].surface)].membrane)
         trace_.hits[h].passed = layer_.passed() * together.scale[i];
   }
-  passed_ = layer_.passed() * together.passed_twice;
+  at_.passed = layer_.passed() * together.passed_twice;
 }
 
 void LineWalker::passInterface(Group group, MediumId after, std::size_t first_hit) {
-  const Medium& from = settings_.media[index(medium_)];
+  const Medium& from = settings_.media[index(at_.medium)];
   const Medium& to = settings_.media[index(after)];
   if (sameInterface(from, to)) {
-    medium_ = after;
+    at_.medium = after;
     return;
   }
   const Crossing& crossing = deciding(group);
@@ -146,15 +147,15 @@ void LineWalker::passInterface(Group group, MediumId after, std::size_t first_hi
   const LayerEchoes::Meeting meeting = meetingAt(crossing, law, from, to);
   const bool held = settings_.thin_layers && layer_.holds(meeting);
   if (mirror_.met && !held) return endAtMirror();
-  if (!held) layer_.clear(passed_);
+  if (!held) layer_.clear(at_.passed);
   const std::size_t first_echo = trace_.echoes.size();
   addEcho(sentBack(law, from, to), layer_.passed(), meeting.cos_i, crossing, after);
-  medium_ = after;
+  at_.medium = after;
   if (settings_.thin_layers)
     joinLayer(meeting, law, first_hit, first_echo);
   else
     loseAt(law);
-  if (!alive_) return;
+  if (!at_.alive) return;
   const double c_from = mirror_.met ? mirror_.speed_before_m_s : from.sound_speed_m_s;
   mirror_.met = false;
   if (meeting.total) return reflectAll(c_from);
@@ -162,7 +163,7 @@ void LineWalker::passInterface(Group group, MediumId after, std::size_t first_hi
   const auto bent = bentDirection(crossing, incident, c_from, to.sound_speed_m_s);
   if (!bent) return;
   if (settings_.refraction) return bend(group, *bent);
-  wave_ = *bent;
+  at_.wave = *bent;
 }
 
 // Two interfaces of a sheet that is thin against a sample: both echoes arrive together, each with
@@ -170,18 +171,18 @@ void LineWalker::passInterface(Group group, MediumId after, std::size_t first_hi
 void LineWalker::passMembrane(const Crossing& crossing) {
   if (mirror_.met) return endAtMirror();
   const SurfaceTraits& surface = settings_.surfaces[index(crossing.surface)];
-  const Medium& around = settings_.media[index(medium_)];
+  const Medium& around = settings_.media[index(at_.medium)];
   const Medium& sheet = settings_.media[index(surface.medium)];
   const double cos_i = std::min(std::abs(dot(incidentAt(crossing), crossing.normal)), 1.0);
   const InterfaceLaw law = lawAt(crossing, around, sheet);
-  addEcho(sentBack(law, around, sheet), passed_, cos_i, crossing, surface.medium);
+  addEcho(sentBack(law, around, sheet), at_.passed, cos_i, crossing, surface.medium);
   loseAt(law);
-  if (!alive_) return;
+  if (!at_.alive) return;
   const double cos_t =
       transmissionCosine(cos_i, around.sound_speed_m_s, sheet.sound_speed_m_s).value_or(0);
-  addEcho(sentBack(law, around, sheet), passed_, cos_t, crossing, surface.medium);
+  addEcho(sentBack(law, around, sheet), at_.passed, cos_t, crossing, surface.medium);
   loseAt(law);
-  layer_.clear(passed_);  // the sheet's loss lies between what is before it and behind
+  layer_.clear(at_.passed);  // the sheet's loss lies between what is before it and behind
 }
 
 }  // namespace echocine
