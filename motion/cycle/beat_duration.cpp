@@ -8,10 +8,10 @@ namespace echocine {
 
 namespace {
 
-constexpr std::uint64_t kPurpose = 0x5252;  // "RR": other uses of the seed draw other numbers
+constexpr std::uint64_t kPurpose = 0x5252;  // "RR": other uses of the seed have other purposes
 
-// A standard normal that is cut at kCut has the standard deviation kCutDeviation =
-// sqrt(1 - 2 a p(a) / (2 P(a) - 1)); these two are in the ratio of 3.
+// A standard normal truncated at kCut has the standard deviation kCutDeviation = sqrt(1 - 2 a p(a)
+// / (2 P(a) - 1)); their ratio is 3.
 constexpr double kCut = 2.954538559, kCutDeviation = 0.984846186;
 
 // Mean 0, standard deviation 1, within +-3.

@@ -9,8 +9,8 @@ namespace echocine {
 
 namespace {
 
-// Whole beats are seldom representable: 65 bpm at 50 Hz reaches 0.9999999999999999 of a beat where
-// 1 is meant. Within this many cycles of a whole beat it is the whole beat (1e-9 of a beat is 1
+// Whole beats are seldom representable: 65 bpm at 50 Hz reaches 0.9999999999999999 of a beat
+// instead of 1. Within this many cycles of a whole beat it counts as whole (1e-9 of a beat is 1
 // ns).
 constexpr double kWholeBeatTolerance = 1e-9;
 
@@ -20,7 +20,7 @@ double phaseOf(double cycles) {
   return cycles - std::floor(cycles);
 }
 
-// A beat's last instants are the next R wave for the keyframes, too.
+// The end of a beat is the next R wave for the keyframes, too.
 double wrapped(double phase) {
   return phase >= 1 - kWholeBeatTolerance ? 0 : phase;
 }
@@ -70,7 +70,7 @@ FrameTime CardiacClock::inSteadyBeats(double time_s, double cycles) const {
   return t;
 }
 
-// Before the loop's start the first beat is taken to have had one like it before.
+// Before the start of the loop an identical beat is assumed.
 FrameTime CardiacClock::inVariedBeats(double time_s) const {
   if (time_s < 0) {
     FrameTime t = inVariedBeats(starts_s_[1] + time_s);

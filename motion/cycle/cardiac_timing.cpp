@@ -19,21 +19,21 @@ constexpr double exerciseEjection(double bpm) {
   return 0.371 - 0.0012 * bpm;
 }
 
-// Carried on, the exercise line has filling time grow again from 181 bpm. Our choice: from here on
-// every part of the beat keeps its share of it.
+// Extrapolated, the exercise line would let the filling time grow again from 181 bpm. Our choice:
+// from here on every part of the beat keeps its fraction.
 constexpr double kSharesFixed_bpm = 160;
 
 // Isovolumic contraction 40 +- 10 ms and relaxation 96 +- 19 ms (Copenhagen City Heart Study, n =
 // 1969, at rest). The pre-ejection period keeps its ratio to the ejection time at all rates
-// (0.345); our choice: so do both isovolumic phases, and the means stand for 65 bpm.
+// (0.345). Our choice: both isovolumic phases do too, and the means hold at 65 bpm.
 constexpr double kRest_bpm = 65, kContraction_s = 0.040, kRelaxation_s = 0.096;
 
-// Rapid filling and atrial kick at 65 bpm. Our choice: with them diastasis, which is what remains,
-// is gone at 101 bpm; over that the two share the filling time alike.
+// Rapid filling and atrial kick at 65 bpm. Our choice: diastasis, the remainder, then vanishes at
+// 101 bpm; above that the two share the filling time in the same ratio.
 constexpr double kRapidFilling_s = 0.160, kAtrialKick_s = 0.110;
 
-// The right ventricle works against a fifth of the pressure: it begins to eject earlier and goes on
-// for longer. Our choice of factors.
+// The right ventricle works against a fifth of the pressure: it begins to eject earlier and ejects
+// for longer. The factors are our choice.
 constexpr double kRightIsovolumic = 0.5, kRightEjection = 1.08;
 
 double ejectionTime(double bpm) {

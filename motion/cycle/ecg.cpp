@@ -8,8 +8,8 @@ namespace echocine {
 
 namespace {
 
-// One wave of the trace: when its peak stands from R, how strongly it pulls, how wide it is, all at
-// 60 beats per minute, and the powers of the beat's duration that its time and width follow.
+// One wave of the trace at 60 beats per minute: time of its peak relative to R, strength, width,
+// and the exponents of the beat's duration for its time and width.
 struct Wave {
   double angle_rad;  // theta_i
   double strength;   // a_i
@@ -26,11 +26,11 @@ struct Wave {
 
 // P, Q, R, S, T after McSharry, Clifford, Tarassenko, Smith, "A dynamical model for generating
 // synthetic electrocardiogram signals", IEEE Trans. Biomed. Eng. 50(3), 289-294, 2003, Table I.
-// With the rate they scale widths and angles by sqrt(HR/60), in their program ECGSYN (PhysioNet)
-// the P wave's angle by the root of that: P stands T^(3/4) before R in a beat of T seconds. On T
-// the factor sqrt(HR/60) is Bazett's rule, QT ~ sqrt(RR) (Heart 7, 353-370, 1920). Ventricles are
-// activated in a time that the rate hardly changes, so Q, R and S keep theirs: our choice, as is
-// that the amplitudes stay.
+// They scale widths and angles by sqrt(HR/60). Their program ECGSYN (PhysioNet) scales the P wave's
+// angle by the root of that, so P is T^(3/4) before R in a beat of T seconds. For T the factor
+// sqrt(HR/60) is Bazett's rule, QT ~ sqrt(RR) (Heart 7, 353-370, 1920). Ventricular activation
+// hardly depends on the rate, so Q, R and S keep their times: our choice, as are constant
+// amplitudes.
 constexpr double kFixed = 0, kRoot = 0.5;
 constexpr Wave kP{-std::numbers::pi / 3, 1.2, 0.25, 0.75, kRoot};
 constexpr Wave kT{std::numbers::pi / 2, 0.75, 0.4, kRoot, kRoot};
@@ -41,8 +41,8 @@ constexpr std::array<Wave, 5> kWaves{{kP,
                                       kT}};
 
 // Their dz/dt = -sum a_i dtheta_i exp(-dtheta_i^2 / 2 b_i^2), integrated along a cycle of constant
-// speed without baseline wander: z ~ sum a_i b_i^2 exp(-dtheta_i^2 / 2 b_i^2), here in time. The
-// waves of the neighbouring beats reach in from both sides alike, so beats join.
+// speed without baseline wander: z ~ sum a_i b_i^2 exp(-dtheta_i^2 / 2 b_i^2), here in time. Waves
+// of both neighbouring beats are included, so beats join continuously.
 double trace(double time_s, double beat_s) {
   double sum = 0;
   for (const Wave& wave : kWaves) {

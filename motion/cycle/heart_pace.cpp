@@ -13,13 +13,13 @@ double endSystoleAround(double phase, double heart_rate_hz) {
   const CycleEvents published = cycleEvents(phaseDurations(heart_rate_hz));
   if (phase <= published.aortic_closes) return phase;
   if (phase <= published.mitral_opens) return published.aortic_closes;
-  // Diastole is stretched as a whole, so relaxation keeps its share of it.
+  // Diastole is stretched as a whole, so relaxation keeps its fraction of it.
   const double relaxation =
       (published.mitral_opens - published.aortic_closes) / (1 - published.aortic_closes);
   return (phase - relaxation) / (1 - relaxation);
 }
 
-// Systole and the rest of the beat are each stretched to where this beat's end-systole stands.
+// Systole and diastole are each stretched to this beat's end-systole.
 double HeartPace::inBeat(double phase) const {
   const double drift = kDrift * phase;
   if (phase <= end_systole_)

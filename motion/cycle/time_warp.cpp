@@ -10,8 +10,8 @@ namespace echocine {
 
 namespace {
 
-// The same parts with end-systole at a share of the beat: systole and the rest each keep their
-// proportions.
+// The same parts with end-systole at a given fraction of the beat: systole and diastole each keep
+// their proportions.
 PhaseDurations withEndSystole(const PhaseDurations& d, double share) {
   const double systole = share * d.beat() / d.endSystole();
   const double rest = (1 - share) * d.beat() / (d.beat() - d.endSystole());
@@ -27,7 +27,7 @@ double odds(double share) {
   return share / (1 - share);
 }
 
-// Two beats whose events are to fall together.
+// Two beats whose events are aligned.
 struct BeatPair {
   PhaseDurations played, recorded;
 };
@@ -36,20 +36,20 @@ BeatPair beatsOf(const RecordedBeat& recorded, double beat_s) {
   BeatPair pair{phaseDurations(1 / beat_s), phaseDurations(recorded.heart_rate_hz)};
   if (!recorded.end_systole_phase) return pair;
   const double anchor = *recorded.end_systole_phase;
-  // Odds stay between 0 and infinity, so systole stays within the beat at every rate.
+  // Odds lie between 0 and infinity, so systole stays within the beat at every rate.
   const double played = odds(cycleEvents(pair.played).aortic_closes) * odds(anchor) /
                         odds(cycleEvents(pair.recorded).aortic_closes);
   return {withEndSystole(pair.played, played / (1 + played)),
           withEndSystole(pair.recorded, anchor)};
 }
 
-// The filling time in shares.
+// The filling time in fractions.
 struct Division {
   double rapid, diastasis, kick;
 };
 
-// A fast heart has no diastasis. With this little of it all the same no two events of a beat fall
-// on each other, and the map changes without a jump between rates with and without. Our choice.
+// A fast heart has no diastasis. With this minimum no two events of a beat coincide, and the map
+// changes continuously between rates with and without diastasis. Our choice.
 constexpr double kLeastDiastasis = 0.05;
 
 Division divisionOf(const PhaseDurations& d) {
@@ -60,10 +60,9 @@ Division divisionOf(const PhaseDurations& d) {
   return {rest * d.rapid_filling_s, kLeastDiastasis, rest * d.atrial_kick_s};
 }
 
-// Diastasis may be long in one beat and short in the other. Each takes over this much of the
-// other's division, so nothing recorded is skipped, no moment stands still, and recorded time runs
-// on average through each part of the filling between 1/4 and 4 times as fast as through all of it.
-// Our choice.
+// Diastasis may be long in one beat and short in the other. Each beat adopts this fraction of the
+// other's division, so no recorded part is skipped and no instant is frozen. Through each part of
+// the filling the mean rate is then between 1/4 and 4 times that of the whole. Our choice.
 constexpr double kTakenOver = 0.2;
 
 PhaseDurations dividedAs(PhaseDurations d, const Division& own, const Division& other) {
@@ -83,7 +82,7 @@ void alignFilling(BeatPair& pair) {
   pair.recorded = dividedAs(pair.recorded, recorded, played);
 }
 
-// Aortic opening and closing, mitral opening, begin of diastasis and of the atrial kick, in s.
+// Aortic opening and closing, mitral opening, start of diastasis and of the atrial kick, in s.
 std::array<double, 5> eventTimes(const PhaseDurations& d) {
   const double filling_s = d.endSystole() + d.isovolumic_relaxation_s;
   const double diastasis_s = filling_s + d.rapid_filling_s;
@@ -105,9 +104,9 @@ TimeWarp::TimeWarp(const RecordedBeat& recorded, double beat_s)
   setSlopes();
 }
 
-// Fritsch and Carlson, SIAM J. Numer. Anal. 17(2), 238-246, 1980: a cubic is monotone while both
-// its slopes are at most three times the interval's mean. Within the beat the weighted harmonic
-// mean of Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5(2), 300-304, 1984, which always is.
+// Fritsch and Carlson, SIAM J. Numer. Anal. 17(2), 238-246, 1980: a cubic is monotone if both its
+// slopes are at most three times the interval's mean. Within the beat: the weighted harmonic mean
+// of Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5(2), 300-304, 1984, which satisfies this.
 void TimeWarp::setSlopes() {
   const auto width = [&](std::size_t i) { return knots_[i + 1].time_s - knots_[i].time_s; };
   const auto mean = [&](std::size_t i) {

@@ -7,15 +7,15 @@ namespace echocine {
 
 namespace {
 
-// Filling at rest: 70 % rapid, 20 % in diastasis, 10 % by the atrial kick. Our choice: rest is 70
-// bpm and less; where diastasis is shorter it brings in less at the same flow, and the kick the
-// rest of its 20 %, up to 30 % by the kick when diastasis is gone.
+// Filling at rest: 70 % rapid, 20 % in diastasis, 10 % by the atrial kick. Our choice: rest is at
+// most 70 bpm. A shorter diastasis fills less at the same flow, and the kick fills the rest of its
+// 20 %, up to 30 % without diastasis.
 constexpr double kDiastasisAtRest = 0.20, kKickAtRest = 0.10, kRest_hz = 70.0 / 60.0;
 
-// Where in ejection the flow peaks, 0 to 1: at its first third. Our choice.
+// Time of peak flow within ejection, 0 to 1: its first third. Our choice.
 constexpr double kPeakEjection = 1.0 / 3;
 
-// Share ejected at t in [0, 1] of the ejection. Its rate is (b+1)(b+2) t (1-t)^b, which peaks at
+// Fraction ejected at t in [0, 1] of the ejection. The rate is (b+1)(b+2) t (1-t)^b, which peaks at
 // 1 / (1+b) and is 0 at both ends.
 double ejected(double t) {
   constexpr double b = 1 / kPeakEjection - 1;
@@ -36,13 +36,13 @@ VolumeCurve::VolumeCurve(const PhaseDurations& durations, std::optional<double> 
   const double at_rest_s = phaseDurations(kRest_hz).diastasis_s;
   diastasis_share_ = kDiastasisAtRest * std::min(1.0, durations.diastasis_s / at_rest_s);
   kick_share_ = kKickAtRest + kDiastasisAtRest - diastasis_share_;
-  // The flow of diastasis stays when its time goes to 0, so the curve changes smoothly with the
-  // rate, and rapid filling runs into the kick without a stop.
+  // The flow of diastasis is kept as its duration goes to 0, so the curve changes smoothly with the
+  // rate, and rapid filling merges into the kick.
   diastasis_slope_ =
       kDiastasisAtRest / std::max(at_rest_s, durations.diastasis_s) * durations.beat();
   if (!kick_share) return;
   const double rest =
-      (1 - *kick_share) / (1 - kick_share_);  // rapid filling and diastasis share it
+      (1 - *kick_share) / (1 - kick_share_);  // rapid filling and diastasis share the rest
   diastasis_share_ *= rest;
   diastasis_slope_ *= rest;
   kick_share_ = *kick_share;

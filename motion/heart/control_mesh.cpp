@@ -42,7 +42,7 @@ std::vector<Face> icosahedronFaces() {
 
 using WideVec [[gnu::vector_size(32)]] = double;  // a point in one register, its fourth lane idle
 
-// What the Loop limit of a vertex is made of.
+// Neighbourhood of a vertex in its Loop limit.
 struct Neighbourhood {
   std::vector<std::uint32_t> ring;      // all neighbours
   std::vector<std::uint32_t> boundary;  // neighbours along the edge of a sheet
@@ -114,7 +114,7 @@ SphereMesh madeSphere(int frequency) {
 
 }  // namespace
 
-// A heart takes the same few at every instant.
+// A heart uses the same few meshes at every instant.
 const SphereMesh& geodesicSphere(int frequency) {
   static std::mutex mutex;
   static std::map<int, SphereMesh> made;
@@ -161,8 +161,8 @@ LoopFit::LoopFit(std::size_t vertex_count, const std::vector<Face>& faces,
   first_.push_back(static_cast<std::uint32_t>(others_.size()));
 }
 
-// Loop's limit weights keep at least a quarter of the finest detail, so that each round takes away
-// a quarter of what is left of it and far more of everything smooth.
+// Loop's limit weights preserve at least a quarter of the finest detail, so each round removes at
+// least a quarter of its remainder, and far more of smooth components.
 std::vector<Vec3d> LoopFit::controlPoints(const std::vector<Vec3d>& points) const {
   constexpr int kRounds = 24;
   std::vector<WideVec> control, wanted;

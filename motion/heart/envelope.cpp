@@ -42,7 +42,7 @@ std::vector<double> farthestIn(std::span<const Vec3d> points, Vec3d centre) {
   return farthest_m;
 }
 
-// The directions about each one that its mean is taken over, with their weights.
+// The directions in the mean around each one, with their weights.
 struct Share {
   std::size_t direction;
   double weight;
@@ -63,8 +63,9 @@ const std::vector<std::vector<Share>>& sharesAbout() {
 
 }  // namespace
 
-// The farthest point within a cone; then the mean over a cone as wide, which is smooth and, being a
-// mean of maxima over cones that hold the point itself, no nearer than the point.
+// The farthest point within a cone, then the mean over a cone of equal width. The result is smooth.
+// It is not closer than the point itself, because it is a mean of maxima over cones that contain
+// the point.
 Envelope::Envelope(std::span<const Vec3d> points, Vec3d centre) : centre_(centre) {
   const std::vector<double> farthest_m = farthestIn(points, centre);
   for (const std::vector<Share>& shares : sharesAbout()) {

@@ -34,7 +34,7 @@ const std::vector<std::vector<WallPlace>>& meridianPlaces() {
   return places;
 }
 
-// The wall's points there; twisted and bent, they drift in angle.
+// The wall's points there; twist and bow change their angle.
 std::vector<Sample> meridianOf(const LeftVentricle& ventricle,
                                const std::vector<WallPlace>& places) {
   std::vector<Sample> samples;
@@ -46,8 +46,8 @@ std::vector<Sample> meridianOf(const LeftVentricle& ventricle,
   return samples;
 }
 
-// Place on the meridian where it passes a height, from the apex: the first below it. `i` is where
-// to start, at the apex 1, and goes on to the place's number: for heights that fall.
+// The meridian at a given height: the first place below it, starting at the apex. `i` is the first
+// place to test (1 at the apex) and returns the place's index, for descending heights.
 Sample atHeight(const std::vector<Sample>& meridian, double z, std::size_t& i) {
   while (i + 1 < meridian.size() && meridian[i].z > z) ++i;
   const Sample &a = meridian[i - 1], &b = meridian[i];
@@ -61,7 +61,7 @@ Sample atHeight(const std::vector<Sample>& meridian, double z, std::size_t& i) {
 Epicardium::Epicardium(const LeftVentricle& ventricle) {
   std::vector<std::vector<Sample>> meridians;
   for (const auto& places : meridianPlaces()) meridians.push_back(meridianOf(ventricle, places));
-  // Nearer the base the wall turns inwards to the valves; its neighbours feel it no further.
+  // Close to the base the wall turns inwards to the valves and no longer affects its neighbours.
   low_z_ = ventricle.ringZ() + 0.04 * ventricle.length();
   high_z_ = std::numeric_limits<double>::max();
   for (const auto& meridian : meridians) high_z_ = std::min(high_z_, meridian.front().z);

@@ -12,7 +12,7 @@
 namespace echocine::heart {
 namespace {
 
-// The dial that has most to do with a part.
+// The dial with most influence on a part.
 const char* dialOf(std::string_view part) {
   const auto begins = [part](std::string_view with) { return part.substr(0, with.size()) == with; };
   if (begins("lv_cavity") || begins("papillary")) return "ef";
@@ -30,7 +30,7 @@ std::vector<double> volumesOf(const RecordedPart& part) {
   return volumes_m3;
 }
 
-// What is wrong with a part after its folds were smoothed out; empty: nothing.
+// The remaining fault of a part after its folds were smoothed; empty if there is none.
 std::string mend(RecordedPart& part, const std::vector<double>& phases) {
   const SurfaceBeat beat{phases, part.control_m};
   if (!foldIn(beat, part.faces)) return {};
@@ -41,16 +41,16 @@ std::string mend(RecordedPart& part, const std::vector<double>& phases) {
   const char* const dial = dialOf(part.kind.name);
   if (left)
     return fmt::format(
-        "{}: {} folds at {:.2f} of the beat beside the rest of this heart; choose another {}, or "
-        "dials nearer to their defaults",
+        "{}: {} folds at phase {:.2f} between its neighbours; choose another {}, or dials closer "
+        "to their defaults",
         dial, part.kind.name, phases[left->keyframe], dial);
   const double accepted = part.kind.name == "lv_cavity" ? 0.001 : 0.1;
   const std::vector<double> after_m3 = volumesOf(part);
   for (std::size_t k = 0; k < after_m3.size(); ++k)
     if (!(std::abs(after_m3[k] - before_m3[k]) <= accepted * std::abs(before_m3[k])))
       return fmt::format(
-          "{}: {} of {:.3g} mL does not fit beside the rest of this heart without folds, it would "
-          "come to {:.3g}; choose another {}, or dials nearer to their defaults",
+          "{}: {} of {:.3g} mL does not fit this heart without folds: it would have {:.3g}; choose "
+          "another {}, or dials closer to their defaults",
           dial, part.kind.name, before_m3[k] / kMillilitre, after_m3[k] / kMillilitre, dial);
   return {};
 }
@@ -63,7 +63,7 @@ void repairFolds(Recording& recording) {
     for (std::size_t p = begin; p < end; ++p)
       if (!recording.parts[p].kind.membrane) faults[p] = mend(recording.parts[p], recording.phases);
   });
-  for (const std::string& fault : faults)  // the first, whichever thread was faster
+  for (const std::string& fault : faults)  // the first one, independent of the threads
     if (!fault.empty()) throw SceneError(fault);
 }
 

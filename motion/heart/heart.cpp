@@ -16,9 +16,9 @@
 namespace echocine::heart {
 namespace {
 
-// Cavities pierce walls; of two walls or cavities that touch, the left heart's and the rounder one
-// keeps its shape. So the septum belongs to the left ventricle and the right heart is wrapped
-// round.
+// Cavities cut holes into walls. Of two touching walls or cavities, the left heart's or the rounder
+// one keeps its shape, so the septum belongs to the left ventricle and the right heart wraps around
+// it.
 void addChambers(const Instant& now, std::vector<Part>& parts) {
   static const SphereMesh &kVentricle = geodesicSphere(LeftVentricle::kFrequency),
                           &kAtrium = geodesicSphere(Instant::kAtriumFrequency),
@@ -52,7 +52,7 @@ void addChambers(const Instant& now, std::vector<Part>& parts) {
   addPoints("ra_wall", "myocardium", 25, kAtrium, now.rightAtrium(wall.atrium_m));
 }
 
-// Connective tissue fills the grooves between the walls, and round all of it lies the sac.
+// Connective tissue fills the grooves between the walls; the sac encloses everything.
 void addSac(Vec3d centre, double scale, std::vector<Part>& parts) {
   constexpr double kSac_m = 1.5e-3, kLoose_m = 0.8e-3;  // our choice
   std::vector<Vec3d> outside;
@@ -71,7 +71,7 @@ void addSac(Vec3d centre, double scale, std::vector<Part>& parts) {
   add("pericardium", "pericardium", 20, kLoose_m + kSac_m);
 }
 
-// Angles about the mitral ring count as phi does: the anterior leaflet hangs beside the aorta.
+// Angles about the mitral ring are like phi: the anterior leaflet is beside the aorta.
 void addLeaflets(const Instant& now, std::vector<Part>& parts) {
   const auto add = [&](const char* name, std::vector<Vec3d> points) {
     parts.push_back(
@@ -84,7 +84,7 @@ void addLeaflets(const Instant& now, std::vector<Part>& parts) {
                                        0.30 * mitral_m, kAnterior, state.mitral));
   add("mitral_posterior", pairedLeaflet(now.mitral(), 310 * kDegree, 0.26 * mitral_m,
                                         0.30 * mitral_m, kPosterior, state.mitral));
-  // The septal leaflet opens least, for the septum leans over it.
+  // The septal leaflet opens least, because the septum leans over it.
   constexpr LeafletMotion kSeptal{50 * kDegree, 1.0, 0.45}, kLateral{78 * kDegree, 1.0, 0.45};
   add("tricuspid_septal", pairedLeaflet(now.tricuspid(), 0, 0.22 * tricuspid_m, 0.28 * tricuspid_m,
                                         kSeptal, state.tricuspid));
@@ -107,8 +107,8 @@ void addLeaflets(const Instant& now, std::vector<Part>& parts) {
 
 namespace {
 
-// Still segments eject less. A ventricle that ejects next to nothing is refused: the circulation
-// would have stopped.
+// Akinetic segments reduce the ejection. A ventricle that ejects next to nothing is rejected:
+// circulation would have stopped.
 Parameters withSegmentsRuling(Parameters parameters) {
   const bool healthy = std::all_of(parameters.segments.begin(), parameters.segments.end(),
                                    [](const Segment& segment) { return segment.amplitude == 1; });

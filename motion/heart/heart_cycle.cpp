@@ -9,7 +9,7 @@
 namespace echocine::heart {
 namespace {
 
-// Times that leaflets take, s; our choice, from the slopes of M-mode tracings in health.
+// Opening and closing times of leaflets, s; our choice, from the slopes of healthy M-mode tracings.
 constexpr double kInflowOpens_s = 0.045, kInflowCloses_s = 0.045, kOutflowMoves_s = 0.030;
 // Opening of the inflow valves between rapid filling and the kick, and in the kick; our choice.
 constexpr double kAjar = 0.35, kKickOpening = 0.80;
@@ -29,7 +29,8 @@ Cycle::Cycle(const Parameters& parameters)
       left_curve_(left_, parameters.atrial_share),
       right_curve_(right_, parameters.atrial_share) {}
 
-// Wide open in rapid filling, ajar in diastasis, open again in the kick, shut at end-diastole.
+// Fully open in rapid filling, half open in diastasis, open again in the kick, closed at
+// end-diastole.
 double Cycle::opened(double phase, const CycleEvents& events) const {
   const double beat_s = left_.beat();
   if (phase < events.mitral_opens) return 0;
@@ -57,8 +58,8 @@ State Cycle::at(double phase) const {
     state.left.segments[s] = segment.amplitude * (1 - left_curve_.at(late));
   }
   state.rv_ejected = 1 - right_curve_.at(phase);
-  // Reservoir while the inflow valves are shut, conduit in early filling, pump in the kick. Our
-  // choice of the levels between.
+  // Reservoir with closed inflow valves, conduit in early filling, pump in the kick. The levels are
+  // our choice.
   const CycleEvents& e = left_events_;
   const double kick = std::max(e.atrial_kick_begins, e.diastasis_begins + 0.01);
   const MonotoneCubic atria({{0, 0},

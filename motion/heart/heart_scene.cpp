@@ -47,7 +47,7 @@ std::string structureText(const RecordedPart& part, const std::string& mesh_fold
                             still ? "" : "_??");
 }
 
-// In millimetres, to a micrometre, as the files have it.
+// In millimetres, to a micrometre, like the files.
 std::shared_ptr<const TriangleMesh> meshInMemory(const RecordedPart& part, std::size_t keyframe) {
   auto mesh = std::make_shared<TriangleMesh>();
   const auto millimetres = [](double metres) { return std::round(metres * 1e6) / 1e3 + 0.0; };
@@ -58,7 +58,7 @@ std::shared_ptr<const TriangleMesh> meshInMemory(const RecordedPart& part, std::
   return mesh;
 }
 
-// The paper's picture has a dynamic range of its own; looks bring theirs.
+// The paper's picture has its own dynamic range; looks define theirs.
 std::string signalText(Look look) {
   return fmt::format(
       "look = \"{}\"\n{}reference_intensity = 4e-4   # white, of the transmitted intensity: one "

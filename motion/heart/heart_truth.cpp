@@ -1,4 +1,4 @@
-// What is true of a recorded heart, for those who test algorithms against it.
+// Ground truth of a recorded heart, for tests of algorithms.
 
 #include "motion/heart/heart_truth.h"
 

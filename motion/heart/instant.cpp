@@ -10,8 +10,8 @@
 #include "motion/heart/heart_units.h"
 #include "motion/heart/solve.h"
 
-// Places without a source are our choice, drawn after hearts segmented from CT and fitted to cine
-// MR. l is the length of the left ventricle at end-diastole.
+// Positions without a source are our choice, modelled on hearts segmented from CT and fitted to
+// cine MR. l is the length of the left ventricle at end-diastole.
 
 namespace echocine::heart {
 namespace {
@@ -65,7 +65,7 @@ std::vector<Bearing> atriumBearings(std::span<const Vec3d> directions) {
   return bearings;
 }
 
-// Beside each direction four, by which its normal is found.
+// Four directions beside each one, for its normal.
 std::vector<Vec3d> besides(std::span<const Vec3d> directions) {
   constexpr double kStep = 0.05;
   std::vector<Vec3d> all;
@@ -92,7 +92,7 @@ const AtriumMesh& atriumMesh() {
   return mesh;
 }
 
-// Walls grow along the normals of the undented chamber, which never meet.
+// Walls grow along the normals of the undented chamber, which never intersect.
 std::vector<Vec3d> thickened(std::vector<Vec3d> points, const Balloon& atrium, double thickness_m) {
   const std::vector<Vec3d> beside = atrium.points(atriumMesh().beside);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -102,8 +102,8 @@ std::vector<Vec3d> thickened(std::vector<Vec3d> points, const Balloon& atrium, d
   return points;
 }
 
-// Sets the girth of a balloon to enclose a volume when it has given way to its neighbours. Returns
-// its points.
+// Sets the girth of a balloon so that it encloses a volume after yielding to its neighbours.
+// Returns its points.
 template <typename GiveWay>
 std::vector<Vec3d> inflate(Balloon& balloon, double volume_m3, const char* key,
                            const GiveWay& giveWay) {
@@ -124,9 +124,8 @@ std::vector<Vec3d> inflate(Balloon& balloon, double volume_m3, const char* key,
   const double reached = volume(balloon.girth);
   if (std::abs(reached - volume_m3) > 0.01 * volume_m3)
     throw SceneError(
-        fmt::format("{}: an atrium of {:.3g} mL does not fit beside the rest of this heart, it "
-                    "would come to {:.3g}",
-                    key, volume_m3 / kMillilitre, reached / kMillilitre));
+        fmt::format("{}: an atrium of {:.3g} mL does not fit this heart; it would have {:.3g}", key,
+                    volume_m3 / kMillilitre, reached / kMillilitre));
   return points;
 }
 
@@ -134,7 +133,7 @@ std::vector<Vec3d> inflate(Balloon& balloon, double volume_m3, const char* key,
 
 Instant::Instant(const Parameters& parameters, const LeftVentricle& at_rest, const State& now)
     : state_(now), left_(at_rest) {
-  checkpoint();  // everything of a heart begins with an instant
+  checkpoint();  // the first computation of every heart
   left_.contract(now.left);
   epicardium_.emplace(left_);
   checkpoint();
@@ -164,13 +163,13 @@ void Instant::buildRightVentricle(const Parameters& parameters) {
       solve(0.02 * l, 1.5 * l, volume_m3, kBalloonTolerance * volume_m3, volume);
   const double reached = volume(height_m);
   if (std::abs(reached - volume_m3) > 0.01 * volume_m3)
-    throw SceneError(fmt::format(
-        "rv-edv: a right ventricle of {:.3g} mL does not fit round a left one of {:.3g} "
-        "mm length, it would come to {:.3g} mL",
-        volume_m3 / kMillilitre, l / kMillimetre, reached / kMillilitre));
+    throw SceneError(
+        fmt::format("rv-edv: a right ventricle of {:.3g} mL does not fit around a left one of "
+                    "{:.3g} mm length; it would have {:.3g} mL",
+                    volume_m3 / kMillilitre, l / kMillimetre, reached / kMillilitre));
 }
 
-// The great vessels begin within their ventricle and leave away from the apex.
+// The great vessels start within their ventricle and leave away from the apex.
 void Instant::buildVessels() {
   const double l = left_.length();
   const Vec3d descent{0, 0, left_.ringZ()};
@@ -204,7 +203,7 @@ void Instant::buildVessels() {
   pulmonary_ = ringAt(pulmonary, pulmonary_flow, trunk_m + kInWall_m);
 }
 
-// The roofs of the atria stay where they are, while the rings descend and pull the atria long.
+// The roofs of the atria are fixed, while the rings descend and elongate the atria.
 void Instant::buildAtria(const Parameters& parameters) {
   const double l = left_.length(), mapse_m = parameters.mapse_mm * kMillimetre;
   constexpr double kRingZone = 0.35;

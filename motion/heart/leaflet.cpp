@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kStepsPerRow = 8;
 
-// The leaflet's slope at a share v of its length.
+// Slope of the leaflet at a fraction v of its length.
 double slope(double v, double closed_rad, const LeafletMotion& motion, double opening) {
   const double closed = closed_rad + motion.closed_bend_rad * v * v;
   const double open = motion.open_rad + motion.open_bend_rad * (v - 0.5);
@@ -37,8 +37,8 @@ Profile profileOf(double closed_rad, const LeafletMotion& motion, double opening
   return profile;
 }
 
-// The closed slope at the hinge that brings the edge to the given drop over reach. A steeper hinge
-// turns the closed leaflet as a whole.
+// The slope at the hinge of the closed leaflet for a given drop over reach. A steeper hinge rotates
+// the closed leaflet as a whole.
 double closedSlope(double drop_over_reach, const LeafletMotion& motion) {
   const Profile level = profileOf(0, motion, 0);
   const double bent_rad = std::atan2(level.drop.back(), level.reach.back());
@@ -71,7 +71,7 @@ double across(int column) {
   return u + 0.06 * (1 - u * u);
 }
 
-// Commissures keep this share of the arc, so that the sheet does not end in a point.
+// Commissures keep this fraction of the arc, so that the sheet does not end in a point.
 constexpr double kArcKept = 0.92;
 
 }  // namespace

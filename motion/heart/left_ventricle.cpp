@@ -18,7 +18,7 @@ constexpr double kApexRise = 0.035;
 constexpr double kLargestStrain = 0.85, kWallDrift = 0.01;  // our choice
 constexpr double kVolumeTolerance = 1e-5;  // of solved volumes, as a share of the end-diastolic one
 
-// What the apex turns by is shared with the base, which turns the other way; our choice, after the
+// The twist of the apex is shared with the base, which rotates the other way; our choice, after the
 // usual description of twist (apex counter-clockwise seen from below, base clockwise and less).
 double twistShare(double zeta) {
   return zeta - 0.3;
@@ -48,7 +48,7 @@ LeftVentricle::LeftVentricle(const Parameters& parameters) : parameters_(paramet
   outer_gauge_.emplace(kFrequency, [this](Vec3d d) { return wallPoint(wallPlaceOf(d)); });
   wall_m3_ = (*outer_gauge_)(wallPoints()) - cavityVolume();
 
-  // The strain of a beat whose segments all do their share at once.
+  // The strain of a beat in which all segments contract simultaneously.
   set(contractionBy(parameters));
   const double esv_m3 = edv_m3_ * (1 - parameters.ejection_fraction);
   const auto emptied = [this](double strain) {
@@ -165,8 +165,8 @@ double LeftVentricle::unscaledThickness(const WallPlace& at, const Turned& turne
   return std::lerp(h0, grown, at.participation);
 }
 
-// The wall grows along normals of the outline turned about a straight axis, which is convex: those
-// of the cavity itself meet where the septum is hollow.
+// The wall grows along normals of the outline rotated about a straight axis, which is convex. The
+// cavity's own normals would intersect where the septum is concave.
 LeftVentricle::Grown LeftVentricle::grown(const WallPlace& at, const Turned& turned) const {
   const Vec3d normal =
       normalised(Vec3d{at.outward * turned.cos_phi, at.outward * turned.sin_phi, girth_ * at.rise});

@@ -34,8 +34,8 @@ struct Parameters {
   double mitral_opening = 1, tricuspid_opening = 1, aortic_opening = 1;  // 1: healthy
   double body_scale = 1;                                                 // scale of lengths
   std::array<Segment, kSegments> segments{};
-  // false: the ejection fraction is the dialled one, and healthy segments compensate for akinetic
-  // ones. true: each segment contracts by its own amplitude, which determines the ejection
+  // true: the ejection fraction stays as dialled, and healthy segments compensate for akinetic
+  // ones. false: each segment contracts by its own amplitude, which determines the ejection
   // fraction.
   bool volumes_rule = false;
 };

@@ -18,8 +18,8 @@
 namespace echocine::heart {
 namespace {
 
-// How much moves at a phase, per beat: filling, and leaflets, which matter as much as half a stroke
-// volume; and a little of everything all the time. Our choice.
+// Rate of change at a phase, per beat: filling, and leaflets, weighted like half a stroke volume;
+// plus a small constant. Our choice.
 double activity(const Cycle& cycle, double phase) {
   constexpr double kStep = 1e-3, kLeaflets = 0.5, kAlways = 1.2;
   const State a = cycle.at(phase), b = cycle.at(std::min(phase + kStep, 1 - 1e-9));
@@ -130,7 +130,7 @@ std::vector<double> keyframePhases(const Cycle& cycle, int count) {
     while (sum[i + 1] < want) ++i;
     phases.push_back((static_cast<double>(i) + (want - sum[i]) / (sum[i + 1] - sum[i])) / kSteps);
   }
-  // The nearest keyframe moves onto end-systole.
+  // The nearest keyframe is moved to end-systole.
   const double end_systole = cycle.events().aortic_closes;
   phases[nearest(phases, end_systole)] = end_systole;
   for (double& phase : phases) phase = std::round(phase * 1e6) * 1e-6;  // as files hold them

@@ -37,14 +37,14 @@ constexpr double kBase = -0.07, kApex = 0.93, kTilt = 0.256;
 constexpr double kTricuspidExcursion = 1.15;  // TAPSE over MAPSE; our choice
 constexpr double kRightApexRise = 0.05;
 
-// What a direction has before any dial or instant.
+// Properties of a direction that are independent of dials and time.
 struct RightPlace {
   double x, t, phi_rad, along, height;  // t from base to apex
 };
 
 RightPlace rightPlaceOf(Vec3d direction) {
   const double t = 0.5 * (1 + direction.y);
-  // 0 on the septal sheet, rising over the free wall, the turn between them rounded.
+  // 0 on the septal sheet, rising over the free wall, with a smooth transition.
   constexpr double kRim = 0.3;
   return {direction.x, t, (middle()(t) + halfWidth()(t) * direction.x) * kDegree, archAlong()(t),
           0.5 * (direction.z + std::hypot(direction.z, kRim))};
@@ -86,8 +86,8 @@ Vec3d RightVentricle::cavityPoint(Vec3d direction) const {
   return wallPoint(direction, 0);
 }
 
-// Grown along the sphere's direction, read as (about the axis, along it, away from it): near enough
-// to the normal, and no thickness folds it.
+// Dilated along the sphere's direction, interpreted as (about the axis, along it, away from it):
+// close to the normal, and free of folds for any thickness.
 Vec3d RightVentricle::wallPoint(Vec3d direction, double thickness_m) const {
   const RightPlace at = rightPlaceOf(direction);
   const double phi_rad = at.phi_rad, z = heightAlong(at.t, at.x);
@@ -98,7 +98,7 @@ Vec3d RightVentricle::wallPoint(Vec3d direction, double thickness_m) const {
           z + thickness_m * direction.y};
 }
 
-// The inflow's base stands nearer the apex than the outflow's.
+// The inflow's base is closer to the apex than the outflow's.
 double RightVentricle::heightAlong(double t, double x) const {
   return std::lerp(base_z_, apex_z_, t) + tilt_m_ * x * (1 - t);
 }

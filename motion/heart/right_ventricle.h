@@ -34,7 +34,7 @@ class RightVentricle {
   std::vector<Spoke> spokes(int frequency) const;
   std::vector<Vec3d> cavityPoints(const std::vector<Spoke>& spokes) const;
 
-  // Of the tricuspid valve.
+  // Centre of the tricuspid valve.
   Vec3d ringCentre() const { return ring_centre_; }
   double restingRingZ() const { return resting_ring_z_; }  // at end-diastole
   double ringRadius() const { return ring_radius_; }

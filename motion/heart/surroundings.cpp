@@ -9,7 +9,7 @@
 #include "motion/heart/smooth.h"
 #include "motion/heart/tube.h"
 
-// Places and thicknesses are our choice: an adult's chest in outline, not a patient's.
+// Positions and thicknesses are our choice: an adult's chest in outline, not a patient's.
 
 namespace echocine::heart {
 namespace {
@@ -31,8 +31,8 @@ struct WallLayer {
   double radius_m;  // from the probe's apex to its far side
 };
 
-// Shells round the probe, circles in the imaging plane, so that they bend no ray there, and long
-// across it, so that they lie before all of the lens.
+// Shells around the probe: circles in the imaging plane, so that they refract no ray there, and
+// long across it, so that they cover the whole lens.
 void addShells(const ProbePose& pose, double scale, std::initializer_list<WallLayer> layers,
                std::vector<Part>& parts) {
   static const SphereMesh& kShell = geodesicSphere(20);  // fat is a lens: fine
@@ -58,7 +58,7 @@ void addChestWall(const ProbePose& pose, double scale, std::vector<Part>& parts)
             parts);
 }
 
-// Before the liver, where a probe is pressed in.
+// In front of the liver, where a probe is pressed in.
 void addAbdominalWall(const ProbePose& pose, double scale, std::vector<Part>& parts) {
   addShells(pose, scale,
             {{"abdominal_fat", "fat", 14, 0.008 * scale},
@@ -66,8 +66,8 @@ void addAbdominalWall(const ProbePose& pose, double scale, std::vector<Part>& pa
             parts);
 }
 
-// The tissue between the lungs: round the heart, and open towards the probe, where the lungs give
-// way to it.
+// The tissue between the lungs: around the heart, and open towards the probe, where the lungs yield
+// to it.
 void addMediastinum(const ProbePose& pose, const ParametricHeart& heart,
                     const std::vector<double>& reach_m, double window_rad,
                     std::vector<Part>& parts) {
@@ -99,7 +99,8 @@ void addLungs(const ParametricHeart& heart, std::vector<Part>& parts) {
   add("lung_right", {-2.05, -0.1, -0.1}, {1.25, 1.6, 2.2});
 }
 
-// Behind the left atrium, along the spine: from head to foot, which is across the view's long axis.
+// Behind the left atrium, along the spine: from head to foot, perpendicular to the view's long
+// axis.
 void addDescendingAorta(const ParametricHeart& heart, std::vector<Part>& parts) {
   static const SphereMesh& kVessel = geodesicSphere(7);
   const double l = heart.lvLength(), scale = heart.parameters().body_scale;
@@ -134,7 +135,7 @@ void addLiver(const ProbePose& pose, const ParametricHeart& heart, std::vector<P
   static const SphereMesh& kLiver = geodesicSphere(8);
   const double scale = heart.parameters().body_scale;
   const Vec3d to_heart = pose.axis;
-  // A flattened ball whose far side, the diaphragm, stands just before the sac.
+  // A flattened ball whose far side, the diaphragm, lies just in front of the sac.
   const double half_m = 0.5 * (pose.chest_m + 0.02 * scale), wide_m = 0.11 * scale;
   const Vec3d centre = pose.apex + (pose.chest_m - 0.004 * scale - half_m) * to_heart;
   const Vec3d across = pose.lateral, up = cross(to_heart, across);
@@ -161,7 +162,7 @@ std::vector<Part> surroundingsOf(View view, const ProbePose& pose, const Paramet
     addChestWall(pose, heart.parameters().body_scale, parts);
     addAbdomen(heart, parts);
   }
-  // Apical views look past it.
+  // Not in apical views.
   if (view == View::plax || view == View::psax_base || view == View::psax_mid)
     addDescendingAorta(heart, parts);
   addMediastinum(pose, heart, sac_reach_m, (from_below ? 80 : 60) * kDegree, parts);

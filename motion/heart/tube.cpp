@@ -91,7 +91,7 @@ Vec3d Tube::point(Vec3d direction, double thickness_m) const {
          radius_m * std::sin(azimuth_rad) * section.v;
 }
 
-// The first of the nearest. Distances that round alike count as equal.
+// The first of the nearest. Distances that round to the same value count as equal.
 const Tube::Section& Tube::nearest(Vec3d point) const {
   constexpr std::size_t kFours = (kSections + 4) / 4;
   std::array<Lanes, kFours> squares;

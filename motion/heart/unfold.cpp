@@ -13,27 +13,27 @@ namespace {
 
 constexpr double kFoldedCosine = -0.766, kTurnedCosine = 0.342;  // of 140 and of 70 degrees
 
-// A face's normal, as long as twice its area. Most pairs are told by the sign of their product, so
-// none is made a unit vector.
+// A face's normal, with twice its area as its length. The sign of a product decides most pairs, so
+// normals are not normalised.
 struct Normal {
   Vec3d area;
   double squared;
 };
 
-// Whether the cosine between two normals is below kFoldedCosine; never where a face has no area.
+// Is the cosine between two normals below kFoldedCosine? False for a face without area.
 bool areFolded(const Normal& a, const Normal& b) {
   const double product = dot(a.area, b.area);
   return product < 0 && product * product > kFoldedCosine * kFoldedCosine * a.squared * b.squared;
 }
-// Whether it is below kTurnedCosine; always where a face has no area.
+// Is it below kTurnedCosine? True for a face without area.
 bool areTurned(const Normal& a, const Normal& b) {
   const double product = dot(a.area, b.area);
   return !(product > 0 &&
            product * product >= kTurnedCosine * kTurnedCosine * a.squared * b.squared);
 }
 
-// Instants looked at from one keyframe to the next: as many as a loop of 200 frames a beat shows,
-// and some where keyframes are close. Our choice.
+// Number of instants examined between keyframes: as many as a loop of 200 frames per beat shows,
+// and some if keyframes are close. Our choice.
 constexpr double kFoldStep = 0.005;  // of a beat
 constexpr int kLeastBetween = 4;
 
@@ -60,7 +60,7 @@ class FoldFinder {
   template <typename Found>
   void look(const SurfaceBeat& beat, Found&& found) {
     const std::size_t count = beat.points.size();
-    // A scene's own choice where it makes none.
+    // The default interpolation of a scene.
     std::optional<KeyframeWeights> weights;
     if (count > 1) weights.emplace(beat.phases, Interpolation::catmull_rom);
     std::vector<Normal> left, right = normalsOf(beat.points.front());
@@ -108,7 +108,7 @@ class FoldFinder {
   std::vector<Neighbours> hinges_;
 };
 
-// Spreads shares to neighbours, each ring of vertices half as much as the last.
+// Spreads weights to neighbours, halved with each ring of vertices.
 void spread(const std::vector<Ring>& rings, std::vector<double>& share) {
   constexpr int kSpreadRings = 3;
   for (int i = 0; i < kSpreadRings; ++i) {
@@ -118,7 +118,7 @@ void spread(const std::vector<Ring>& rings, std::vector<double>& share) {
   }
 }
 
-// Each vertex goes towards the middle of its neighbours by its share.
+// Moves each vertex towards the centre of its neighbours by its weight.
 void smoothOnce(const std::vector<Ring>& rings, const std::vector<double>& share,
                 std::vector<Vec3d>& points) {
   const std::vector<Vec3d> before = points;

@@ -11,9 +11,9 @@
 namespace echocine::heart {
 namespace {
 
-// The tables of the shape, over zeta: shares of the length from the mitral ring (0) to the apex (1)
-// at end-diastole. Our choice, drawn after one heart fitted to cine MR; below 0 lies the
-// outflow tract under the aortic valve.
+// The tables of the shape, over zeta: relative to the length from the mitral ring (0) to the apex
+// (1) at end-diastole. Our choice, modelled on one heart fitted to cine MR; below 0 is the outflow
+// tract under the aortic valve.
 const MonotoneCubic& centreX() {
   static const MonotoneCubic table({{-0.06, -0.03},
                                     {0, -0.01},
@@ -53,13 +53,13 @@ const MonotoneCubic& flattening() {
                                     {1, 1}});
   return table;
 }
-// How much of the contraction each height takes part in: the ring is stiff.
+// Participation of each height in the contraction: the ring is stiff.
 const MonotoneCubic& participation() {
   static const MonotoneCubic table(
       {{-0.06, 0.05}, {0, 0.10}, {0.05, 0.22}, {0.1, 0.45}, {0.2, 0.82}, {0.3, 1}, {1, 1}});
   return table;
 }
-// Wall thickness over that of the septum: thin over the valves, thinner at the apex.
+// Wall thickness relative to the septum: thin at the valves, thinner at the apex.
 const MonotoneCubic& thickness() {
   static const MonotoneCubic table({{-0.06, 0.22},
                                     {-0.02, 0.25},
@@ -76,7 +76,7 @@ double thicknessAbout(double phi_rad) {
   return 0.93 + 0.07 * std::cos(phi_rad - 150 * kDegree);
 }
 
-// What a place has that its direction does not matter to.
+// Properties of a place that do not depend on its direction.
 WallPlace placeOf(double phi_rad, double zeta, double rho) {
   WallPlace place{phi_rad,
                   zeta,
@@ -133,7 +133,7 @@ WallPlace wallPlaceOf(Vec3d direction) {
   constexpr double kStep = 0.015;  // of the outline
   const Meridian::Point before = wallOutline().at(std::abs(share - kStep));
   const Meridian::Point after = wallOutline().at(1 - std::abs(1 - share - kStep));
-  // Past either end the outline comes back on the other side.
+  // Beyond either end the outline continues on the other side.
   const double rho_before = share < kStep ? -before.rho : before.rho;
   const double rho_after = share > 1 - kStep ? -after.rho : after.rho;
   place.outward = before.zeta - after.zeta;

@@ -32,7 +32,7 @@ const Meridian& wallOutline();
 WallPlace wallPlaceOf(Vec3d direction);              // of the unit sphere, (0, 0, 1) being the apex
 WallPlace wallPlaceAt(double phi_rad, double zeta);  // without normal
 
-// Of the directions of geodesicSphere(kWallFrequency).
+// Places of the directions of geodesicSphere(kWallFrequency).
 const std::vector<WallPlace>& meshPlaces();
 
 }  // namespace echocine::heart

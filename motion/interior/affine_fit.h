@@ -1,5 +1,5 @@
 #pragma once
-// The affine function of place that is nearest to samples, for many columns of values at once.
+// Weighted least-squares fit of an affine function of place, for many columns of values at once.
 
 #include <cstddef>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace echocine {
 
-// u_c(x) = mean_c + slope_c . (x - middle); u in the values' unit, x and middle in metres.
+// u_c(x) = mean_c + slope_c . (x - middle); u in the unit of the values, x and middle in metres.
 struct AffineFit {
   Vec3d middle;              // weighted mean of the points
   std::vector<double> mean;  // by column
@@ -20,8 +20,8 @@ struct AffineFit {
   }
 };
 
-// Least squares by the samples' weights. values: columns per point; a sample per point, one at
-// least. Slopes that flat or few points leave open are 0.
+// values: columns per point; one sample per point, at least one. Slopes that are undetermined for
+// flat or few points are 0.
 AffineFit affineFit(std::span<const Vec3f> points_m, std::span<const LatticeSample> samples,
                     std::span<const float> values, std::size_t columns);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Points of the surfaces that can be seen, and the two groups that meet at each.
+// Points of the visible surfaces, and the two groups that meet at each.
 
 #include <cstdint>
 #include <span>
@@ -10,25 +10,26 @@
 
 namespace echocine {
 
-// A point of a surface as a mean of the corners of one triangle. A vertex has itself three times.
+// A point of a surface as a mean of the corners of one triangle. For a vertex all three are the
+// vertex itself.
 struct BorderPoint {
   SurfaceId surface{};
   std::uint32_t corners[3]{};
   float shares[3]{};
   Vec3f reference_m;
-  // The surface on the other side, which wins where this one ends; the count of surfaces for the
+  // The surface on the other side, which wins where this one ends; the number of surfaces for the
   // background.
   std::uint32_t beyond = 0;
 };
 
 // All vertices of closed surfaces within `region` that no stronger surface hides at the reference
-// phase, and points between them where triangles are larger than `spacing_m`.
-// reference_m: by surface, its vertices at the reference phase.
+// phase, and points between them in triangles larger than `spacing_m`. reference_m: by surface, its
+// vertices at the reference phase.
 std::vector<BorderPoint> borderPoints(std::span<const InteriorSurface> surfaces,
                                       std::span<const std::vector<Vec3f>> reference_m,
                                       const Winners& winners, const Box& region, double spacing_m);
 
-// A point of a surface when its vertices stand at `positions_m`.
+// A point of a surface with its vertices at `positions_m`.
 inline Vec3f placeOf(const BorderPoint& point, std::span<const Vec3f> positions_m) {
   return point.shares[0] * positions_m[point.corners[0]] +
          point.shares[1] * positions_m[point.corners[1]] +

@@ -1,5 +1,5 @@
 #pragma once
-// Points that belong to a surface: held by the corners of their triangle, exactly.
+// Points bound to a surface: exact combinations of the corners of their triangle.
 
 #include <cstdint>
 #include <span>
@@ -17,7 +17,7 @@ struct BoundPoint {
   float b1 = 0, b2 = 0;  // barycentric coordinates of the second and third corner
 };
 
-// Where it is when the surface's vertices stand at `positions_m`.
+// Its position for vertices at `positions_m`.
 Vec3f place(const BoundPoint& point, std::span<const Triangle> triangles,
             std::span<const Vec3f> positions_m);
 

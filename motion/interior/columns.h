@@ -1,5 +1,5 @@
 #pragma once
-// Where lines along x cross a closed surface: tells inside from outside, for places and for whole
+// Intersections of lines along x with a closed surface: an inside test for places and for whole
 // rows of a lattice.
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class Columns {
  public:
   struct Crossing {
     double x;
-    int change;  // of the winding number on the way to greater x
+    int change;  // of the winding number towards greater x
   };
 
   // Copies what it needs. Faces look outward.
@@ -28,23 +28,23 @@ class Columns {
   // once.
   void crossings(double y, double z, std::vector<Crossing>& out) const;
 
-  // Is the place inside, with a winding number above 0? What overlaps itself is inside.
+  // Is the place inside, with a winding number above 0? Overlaps count as inside.
   bool contains(Vec3d place_m) const;
 
-  // False: no triangle passes through the box, so all its places are inside or all are not.
+  // False: no triangle passes through the box, so all its places are inside or all are outside.
   bool mayPass(const Box& box_m) const;
 
  private:
-  // A triangle of a bin, with the bounds of where it can be crossed.
+  // A triangle of a bin, with bounds of its possible crossings.
   struct Member {
     float lo_x, hi_x, lo_y, hi_y, lo_z, hi_z;  // m, a little wider than the triangle
     std::uint32_t triangle;
-    // May the line at (y, z) cross it, at no greater x?
+    // Can the line at (y, z) cross it, at no greater x?
     bool mayCross(float x, float y, float z) const {
       return (lo_y <= y) & (y <= hi_y) & (lo_z <= z) & (z <= hi_z) & (lo_x <= x);
     }
   };
-  // (x, z) where a triangle's edge passes the height y; the same for both its faces.
+  // (x, z) at which a triangle's edge passes the height y; the same for both its faces.
   struct Cut {
     double x, z;
   };
@@ -60,7 +60,7 @@ class Columns {
   std::vector<Triangle> triangles_;
   std::vector<Vec3d> positions_m_;
   Box box_m_;
-  int bins_ = 1;                       // a side
+  int bins_ = 1;                       // along each axis
   std::vector<std::uint32_t> starts_;  // of each bin in members_
   std::vector<Member> members_;
 };

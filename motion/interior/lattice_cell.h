@@ -1,5 +1,5 @@
 #pragma once
-// One cell of a group's lattice: what its eight nodes say of the places in it.
+// One cell of a group's lattice: interpolation from its eight nodes.
 
 #include <cstddef>
 
@@ -8,8 +8,8 @@
 
 namespace echocine {
 
-// Where a cell's nodes stand in a group's displacements: rows along x at (y, z) of (0, 0), (0, 1),
-// (1, 0) and (1, 1), and how far on the second node of each is.
+// Positions of a cell's nodes in a group's displacements: rows along x at (y, z) of (0, 0), (0, 1),
+// (1, 0) and (1, 1), and the offset of the second node of each.
 struct CellNodes {
   std::size_t rows[4];
   std::size_t right;

@@ -1,7 +1,7 @@
 #pragma once
-// A straight line of now as its material lay at the reference phase. In a cell of the lattice the
-// field is one trilinear function, so the material's path is smooth there and bends where it passes
-// to the next cell: its places and slopes at these passages say all of it.
+// A current straight line at the place of its material at the reference phase. In a cell of the
+// lattice the field is one trilinear function, so the material's path is smooth there and bends at
+// the passage to the next cell. Positions and slopes at these passages describe it completely.
 
 #include "motion/interior/lattice_cell.h"
 #include "motion/interior/motion_field.h"
@@ -22,19 +22,19 @@ class LineMarch {
   // Places start + at * step, m, of a group that moves. A reference is kept.
   LineMarch(const GroupFrame& now, Vec3d start_m, Vec3d step_m);
 
-  // Where the material of a place of the line is found, from a guess of its reference place. False
-  // where it is not.
+  // Finds the reference place of the line's material at `at`, from a guess. False if it is not
+  // found.
   bool startAt(float at, Vec3f guess_m);
-  // From where the last stretch ended to where the line leaves the cell, and to `end` at most.
-  // False where the field does not say where the material was.
+  // Continues from the end of the last stretch to where the line leaves the cell, at most to `end`.
+  // False if the field does not define the reference place.
   bool advance(float end);
 
-  // The ends of the stretch, in steps of the line. They are the same after startAt().
+  // The ends of the stretch, in steps of the line. They are equal after startAt().
   float from() const { return from_.at; }
   float to() const { return to_.at; }
 
-  // Between the stretch's ends: the displacement that brought the material here, and that of other
-  // frames of the same group.
+  // Within the stretch: the displacement that moved the material here, and that of other frames of
+  // the same group.
   struct Stretch {
     LineValue from, to;
   };
@@ -50,8 +50,8 @@ class LineMarch {
   };
   // The side through which a line leaves a cell.
   struct Side {
-    int axis = -1, next = 0;  // none below 0; the cell beyond it along the axis
-    float steps = 0;          // of the line to it, below 0 when it is passed
+    int axis = -1, next = 0;  // none if negative; the next cell along the axis
+    float steps = 0;          // of the line to it, negative once passed
   };
   static void go(End& end, float steps);
   float settle(End& end) const;
@@ -68,7 +68,7 @@ class LineMarch {
   Ints4 counts_;           // nodes by axis
   Ints4 cell_{};           // from -1, before the first node, to the last node, beyond it
   CellCorners corners_{};  // of the cell, in metres
-  Side side_;              // through which the stretch leaves the cell
+  Side side_;              // through which the line leaves the cell
   End from_, to_;
 };
 

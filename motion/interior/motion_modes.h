@@ -1,6 +1,6 @@
 #pragma once
-// The displacements of all keyframes as a few modes: the fit is linear, so fitting the modes and
-// mixing them again is the fit of every keyframe.
+// The displacements of all keyframes as a few modes: the fit is linear, so a fit of the modes gives
+// that of every keyframe.
 
 #include <span>
 #include <vector>
@@ -15,8 +15,8 @@ struct MotionModes {
   std::vector<Vec3f> shapes_m;                          // [point][mode]: count per point
 };
 
-// displacement_m: [point][keyframe], keyframes values per point. Modes whose share is less than
-// `tolerance_m`, as a root mean square over points, are left out: principal components.
+// displacement_m: [point][keyframe], keyframes values per point. Principal components with a root
+// mean square over points below `tolerance_m` are omitted.
 MotionModes motionModes(std::span<const Vec3f> displacement_m, std::size_t keyframes,
                         double tolerance_m);
 

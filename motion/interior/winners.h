@@ -1,5 +1,5 @@
 #pragma once
-// Which closed surface wins at a place: the rule of the scene, at the reference phase.
+// The winning closed surface at a place, by the scene's priorities at the reference phase.
 
 #include <memory>
 #include <optional>
@@ -19,13 +19,13 @@ class Winners {
     Columns columns;
   };
 
-  // Any order. Among equal priorities the later surface wins.
+  // In any order. Among equal priorities the later surface wins.
   explicit Winners(std::vector<Closed> closed);
 
-  // The winner at a place, as if `without` were not there.
+  // The winner at a place, ignoring `without`.
   std::optional<SurfaceId> at(Vec3d place_m, std::optional<SurfaceId> without = {}) const;
 
-  // Of places that are all within one box: only what has a border there is asked.
+  // For places within one box: tests only surfaces with a border there.
   class Within {
    public:
     // Precondition: place_m is in the box.
@@ -34,11 +34,11 @@ class Winners {
    private:
     friend class Winners;
     std::vector<const Closed*> asked_;  // strongest first
-    std::optional<SurfaceId> else_;     // where none of them holds the place
+    std::optional<SurfaceId> else_;     // if none of them contains the place
   };
   Within within(const Box& box_m) const;
 
-  // Does a surface other than `surface`, and stronger than it, hold the place?
+  // Does a stronger surface than `surface` contain the place?
   bool hides(Vec3d place_m, SurfaceId surface) const;
 
   // The winners of a row of places x = start + i step, by index; kNone in the background.

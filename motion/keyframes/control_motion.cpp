@@ -44,8 +44,7 @@ void ControlMotion::at(double phase, std::vector<Vec3f>& positions_m) const {
   if (terms.size() == 2) return blend<2>(from, weight, count, to);
   if (terms.size() == 3) return blend<3>(from, weight, count, to);
   blend<4>(from, weight, count, to);
-  for (std::size_t k = 4; k < terms.size();
-       ++k)  // the trigonometric polynomial takes all keyframes
+  for (std::size_t k = 4; k < terms.size(); ++k)  // the trigonometric polynomial uses all keyframes
     add(static_cast<float>(terms[k].weight), &rows_m[terms[k].row].data()->x, count, to);
 }
 

@@ -124,8 +124,8 @@ void KeyframeWeights::termsAt(double phase, std::vector<Term>& terms) const {
   }
 }
 
-// Of the heart's way from the left keyframe to the right one, in [0, 1]: no weight is negative, so
-// no point leaves the line between its two keyframes.
+// Progress of the heart from the left keyframe to the right one, in [0, 1]: no weight is negative,
+// so no point leaves the line between its two keyframes.
 double KeyframeWeights::shareOfWay(const Interval& at) const {
   const double from = phases_[at.left];
   const double begin = pace_.travelled(from), end = pace_.travelled(from + at.length);
@@ -240,14 +240,14 @@ double KeyframeWeights::magnification() const {
       at(phases_[j] + gapAfter(j) * s / kSamples, weights);
       double sum = 0;
       for (const double weight : weights) sum += std::fabs(weight);
-      if (!(sum <= largest)) largest = sum;  // also takes over what is no number
+      if (!(sum <= largest)) largest = sum;  // also propagates NaN
     }
   }
   return largest;
 }
 
 double KeyframeWeights::overshoot() const {
-  constexpr double kSlack = 1.01;  // the magnification is known from samples
+  constexpr double kSlack = 1.01;  // the magnification is estimated from samples
   return phases_.size() < 2 ? 0 : std::max(kSlack * magnification() - 1, 0.0) / 2;
 }
 

@@ -10,7 +10,7 @@ namespace echocine {
 
 namespace {
 
-// Weights of keyframes 0, 2, 4, ...; nothing when the kind refuses their spacing.
+// Weights of keyframes 0, 2, 4, ...; none if the kind rejects their spacing.
 std::optional<KeyframeWeights> halfOf(const KeyframeWeights& all, Interpolation kind) {
   const std::span<const double> phases = all.phases();
   std::vector<double> kept;
@@ -22,7 +22,7 @@ std::optional<KeyframeWeights> halfOf(const KeyframeWeights& all, Interpolation 
   }
 }
 
-// Vertices at a phase from keyframes 0, 2, 4, ... alone.
+// Vertices at a phase from keyframes 0, 2, 4, ... only.
 std::vector<Vec3f> fromHalf(const ControlMotion& motion, const KeyframeWeights& half,
                             double phase) {
   std::vector<double> weights(half.keyframeCount());
@@ -36,7 +36,7 @@ std::vector<Vec3f> fromHalf(const ControlMotion& motion, const KeyframeWeights& 
   return positions_m;
 }
 
-// Adds up one left-out keyframe; the sums become roots of means in the end.
+// Adds one omitted keyframe; the sums are finally converted to root mean squares.
 void addKeyframe(const ControlMotion& motion, const std::vector<Vec3f>& truth_m,
                  const std::vector<Vec3f>& found_m, InterpolationError& sums) {
   for (std::size_t v = 0; v < truth_m.size(); ++v) {

@@ -9,8 +9,8 @@ namespace echocine {
 
 namespace {
 
-// Normals of triangles lower than this share of their longest side are rounding, not shape: single
-// precision leaves 1e-8 m, a side has about 1e-3 m. Our choice.
+// Normals of triangles with a height below this fraction of their longest side are rounding, not
+// shape: single precision resolves 1e-8 m, a side has about 1e-3 m. Our choice.
 constexpr double kSliver = 1e-3;
 constexpr float kFoldedCosine = -0.8660254f;  // 150 degrees between normals; our choice
 
@@ -64,8 +64,8 @@ KeyframePair::KeyframePair(const ControlMotion& motion, const std::vector<Neighb
   }
 }
 
-// All of a surface in one pass. The volume is V = 1/6 sum a . n over a corner a and the doubled
-// area n of each triangle, about a vertex so that distant coordinates do not cancel.
+// One pass over a surface. The volume is V = 1/6 sum a . n over a corner a and the doubled area n
+// of each triangle, relative to a vertex, so that distant coordinates do not cancel.
 void KeyframePair::measure(const std::vector<Vec3f>& positions_m, Sides& sides) const {
   const std::size_t count = motion_.triangles.size();
   sides.normal.resize(count);
@@ -127,8 +127,8 @@ void KeyframePair::lookAtTriangles(const FramePhase& at, const Sides& sides,
   }
 }
 
-// Of two triangles folded onto each other it is the one that looks elsewhere than in the keyframe
-// where they are not. One that is vanishing may look anywhere.
+// Of two triangles folded onto each other, the inverted one is that whose direction differs from
+// the keyframe in which they are unfolded. A vanishing triangle may have any direction.
 void KeyframePair::lookAtEdges(const FramePhase& at, const Sides& sides, SurfaceBreaks& breaks) {
   for (const OpenEdge& edge : open_edges_) {
     const std::uint32_t a = edge.triangles.a, b = edge.triangles.b;

@@ -24,7 +24,7 @@ void merge(const SurfaceBreaks& from, SurfaceBreaks& into) {
     into.overshoot = from.overshoot;
 }
 
-// Frames by the keyframe before them; those at a keyframe are left out.
+// Frames grouped by the keyframe before them; frames at a keyframe are omitted.
 std::vector<std::vector<FramePhase>> framesAfter(const KeyframeWeights& weights,
                                                  std::span<const FramePhase> frames) {
   std::vector<std::vector<FramePhase>> after(weights.keyframeCount());

@@ -23,8 +23,8 @@ std::vector<char> verticesOnOpenEdges(std::span<const Triangle> triangles, std::
   return open;
 }
 
-// Vertices of the first keyframe by cells of space, eight tolerances wide: most points look into
-// one.
+// Vertices of the first keyframe by spatial cells, eight tolerances wide: most points examine one
+// cell.
 class Cells {
  public:
   explicit Cells(double tolerance) : tolerance_(tolerance), width_(8 * tolerance) {}

@@ -27,7 +27,7 @@ class Groups {
   std::vector<std::uint32_t> parent_;
 };
 
-// Each corner by itself, but for those of faces that name a vertex twice.
+// Each corner separately, except for faces that use a vertex twice.
 Groups cornersOf(std::span<const Triangle> triangles) {
   Groups fans(3 * triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t)

@@ -28,7 +28,8 @@ struct Collapsible {
   }
 };
 
-// What the kernel refuses, as a third face at an edge, gets corners of its own: nothing is lost.
+// Faces that the kernel rejects, such as a third face at an edge, get separate corners, so none is
+// lost.
 void addTriangle(const Triangle& t, std::span<const Vec3f> positions, Collapsible& out) {
   const auto handle = [](std::uint32_t i) { return om::VertexHandle(static_cast<int>(i)); };
   if (out.mesh.add_face(handle(t[0]), handle(t[1]), handle(t[2])).is_valid()) return;
@@ -38,7 +39,7 @@ void addTriangle(const Triangle& t, std::span<const Vec3f> positions, Collapsibl
 }
 
 Collapsible halfEdges(std::span<const Triangle> triangles, std::span<const Vec3f> positions) {
-  const auto turn = takeOpenMesh();  // the kernel reports what it refuses
+  const auto turn = takeOpenMesh();  // the kernel prints messages about rejected faces
   Collapsible out;
   out.mesh.request_vertex_status();
   out.mesh.request_edge_status();
@@ -62,12 +63,12 @@ void collapse(HalfEdges& mesh, std::size_t most_triangles) {
   om::Decimater::ModNormalFlippingT<HalfEdges>::Handle flipping;
   decimater.add(quadric);
   decimater.add(flipping);
-  decimater.module(quadric).unset_max_err();                // it ranks; the other one only refuses
+  decimater.module(quadric).unset_max_err();  // only for ranking; the other module rejects
   decimater.module(flipping).set_max_normal_deviation(80);  // degrees
   if (decimater.initialize()) decimater.decimate_to_faces(0, most_triangles);
 }
 
-// Numbers of the original, which are made places in the list of those that occur.
+// Indices of the original, converted to indices into the list of those in use.
 DecimatedMesh compacted(std::vector<Triangle> triangles) {
   DecimatedMesh out;
   for (const Triangle& t : triangles) out.vertices.insert(out.vertices.end(), t.begin(), t.end());
@@ -90,7 +91,7 @@ DecimatedMesh decimated(std::span<const Triangle> triangles, std::span<const Vec
   Collapsible coarse = halfEdges(triangles, positions);
   collapse(coarse.mesh, most_triangles);
   std::vector<Triangle> kept;
-  for (const om::FaceHandle face : coarse.mesh.faces()) {  // leaves out what was collapsed
+  for (const om::FaceHandle face : coarse.mesh.faces()) {  // without collapsed faces
     Triangle corners{};
     std::size_t i = 0;
     for (const om::VertexHandle v : coarse.mesh.fv_range(face))

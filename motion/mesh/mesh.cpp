@@ -5,7 +5,7 @@
 namespace echocine {
 
 void appendFan(std::span<const std::uint32_t> corners, std::size_t face, TriangleMesh& mesh) {
-  // Numbers are kept from the first polygon on.
+  // Indices are recorded from the first polygon on.
   const bool numbered = !mesh.faces.empty() || corners.size() > 3;
   if (numbered && mesh.faces.empty()) {
     mesh.faces.resize(mesh.triangles.size());

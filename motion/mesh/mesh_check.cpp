@@ -13,7 +13,7 @@ namespace echocine {
 
 namespace {
 
-// Our choice: smaller is a wrong unit or a speck, larger is no part of a body.
+// Our choice: smaller is a wrong unit or a speck, larger is not part of a body.
 constexpr double kMinExtentMetres = 1e-3;
 constexpr double kMaxExtentMetres = 2.0;
 
@@ -21,7 +21,7 @@ constexpr double kMaxExtentMetres = 2.0;
   throw SceneError(atPlace(structure.place, fmt::format("{}: {}", structure.name, what)));
 }
 
-// Vertices of a part that no earlier part has at the same place.
+// Vertices of a part that are not at the place of an earlier part's.
 std::size_t ownVertices(const KeyframeMesh& keyframe, std::size_t part) {
   const std::size_t end = part + 1 < keyframe.parts.size() ? keyframe.parts[part + 1].first_vertex
                                                            : keyframe.mesh.positions.size();
@@ -61,8 +61,8 @@ void checkSameFaces(const Structure& structure, const KeyframeMesh& first,
                                   faceName(other, t), first_file));
 }
 
-// Creases and corners belong to the faces: the first keyframe's hold for all. Others may leave them
-// out, all of them alike.
+// Creases and corners belong to the faces: the first keyframe's apply to all. The others may all
+// omit them.
 void checkSameTags(const Structure& structure, std::span<const KeyframeMesh> keyframes) {
   const KeyframeMesh* given = &keyframes.front();  // with which the others must agree
   for (const KeyframeMesh& other : keyframes.subspan(1)) {
@@ -89,7 +89,7 @@ void checkExtent(const Structure& structure, const KeyframeMesh& keyframe, doubl
   if (!(extent_m >= kMinExtentMetres && extent_m <= kMaxExtentMetres))
     fail(structure,
          fmt::format("{} measures {:.4g} mesh units, which motion.mesh_unit makes "
-                     "{:.4g} m; 1 mm to 2 m is accepted: mend motion.mesh_unit or "
+                     "{:.4g} m; 1 mm to 2 m is accepted: correct motion.mesh_unit or "
                      "motion.mesh_scale (a chamber of "
                      "80 mm takes {:.2g} mm per mesh unit)",
                      keyframe.parts.front().file.string(), extent, extent_m, 80 / extent));
@@ -101,7 +101,8 @@ void checkVolume(const Structure& structure, const KeyframeMesh& keyframe, bool 
   const std::string encloses = fmt::format("{} encloses a volume of {:.4g} cubic mesh units: ",
                                            keyframe.parts.front().file.string(), volume);
   if (!is_first)
-    fail(structure, encloses + "this keyframe is turned inside out or mirrored; mend its vertices");
+    fail(structure,
+         encloses + "this keyframe is turned inside out or mirrored; correct its vertices");
   throw MeshFault(
       atPlace(structure.place,
               fmt::format("{}: {}its faces look inward; reverse the vertex order of every face",
@@ -120,13 +121,13 @@ void checkFile(const TriangleMesh& mesh, const std::filesystem::path& file, bool
                           mesh.positions.size(), mesh.triangles.size()));
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
     if (!isFinite(mesh.positions[v]))
-      fail_file(fmt::format("vertex {} has a coordinate that is not finite; mend it", v + 1));
+      fail_file(fmt::format("vertex {} has a coordinate that is not finite; correct it", v + 1));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& corners = mesh.triangles[t];
     const std::size_t face = fileFace(mesh.faces, t) + 1;
     for (const std::uint32_t v : corners)
       if (v >= mesh.positions.size())
-        fail_file(fmt::format("face {} uses vertex {}, the file has {} vertices; mend the face",
+        fail_file(fmt::format("face {} uses vertex {}, the file has {} vertices; correct the face",
                               face, std::uint64_t{v} + 1, mesh.positions.size()));
     for (std::size_t k = 0; k < 3 && !degenerate; ++k)
       if (corners[k] == corners[(k + 1) % 3])

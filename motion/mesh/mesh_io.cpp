@@ -20,7 +20,7 @@ namespace echocine {
 
 namespace {
 
-// A text mesh at the vertex limit is about this large.
+// Approximate size of a text mesh at the vertex limit.
 constexpr std::size_t kMaxFileBytes = std::size_t{2} << 30;
 
 // Zero is added so that -0 and 0, which compare equal, hash equal.
@@ -42,7 +42,7 @@ std::string extensionOf(const std::filesystem::path& file) {
   return extension.empty() ? extension : extension.substr(1);
 }
 
-// `degenerate`: faces with two corners at the same place are let pass.
+// `degenerate`: accepts faces with two corners at the same place.
 void appendLid(const TriangleMesh& lid, const std::filesystem::path& file, bool degenerate,
                VertexAt& vertex_at, TriangleMesh& mesh) {
   std::vector<std::uint32_t> joined_from_lid;

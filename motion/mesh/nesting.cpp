@@ -36,7 +36,7 @@ Nesting::Nesting(std::span<const Triangle> triangles, std::span<const Vec3d> pos
   }
 }
 
-// Looked at from three of its corners, as one may lie on the other's surface.
+// Tested from three of its corners, because one may lie on the other's surface.
 bool Nesting::isInside(const Piece& inner, const Piece& outer) const {
   double sum = 0;
   const std::size_t count = inner.triangles.size();

@@ -45,7 +45,7 @@ class ObjParser {
     if (keyword == "t") tags_.read(line, line_number_);
   }
 
-  // Further numbers (a weight, a colour) are let pass.
+  // Further numbers (a weight, a colour) are ignored.
   void vertex(std::string_view line) {
     Vec3d position;
     for (double* coordinate : {&position.x, &position.y, &position.z}) {

@@ -50,7 +50,7 @@ void expectWord(std::string_view& rest, std::string_view wanted, std::size_t lin
     fail(line, fmt::format("the tag has '{}' where '{}' is needed; {}", word, wanted, kAccepted));
 }
 
-// Merges what is named twice alike, drops what is smooth. Tags come in the order of their lines;
+// Merges duplicates of equal sharpness and drops smooth tags. Tags are in the order of their lines;
 // `name` names one for the message.
 template <typename Named, typename Tag, typename Name>
 void settle(std::vector<Named>& named, Tag&& tag, Name&& name) {
@@ -102,8 +102,9 @@ void ObjTags::checkEdges(const TriangleMesh& mesh) const {
     for (std::size_t k = 0; k < 3; ++k) edges.insert(edgeKey(t[k], t[(k + 1) % 3]));
   for (const Crease& c : creases_)
     if (c.edge.v0 == c.edge.v1 || !edges.contains(edgeKey(c.edge.v0, c.edge.v1)))
-      fail(c.line, fmt::format("crease {} - {} is no edge of a face; vertices count from 0 in tags",
-                               c.edge.v0, c.edge.v1));
+      fail(c.line,
+           fmt::format("crease {} - {} is not an edge of a face; vertices count from 0 in tags",
+                       c.edge.v0, c.edge.v1));
 }
 
 void ObjTags::joinTo(TriangleMesh& mesh) {

@@ -20,8 +20,8 @@ namespace {
 
 namespace om = OpenMesh;
 
-// Collects vertices and faces as the file has them. The half-edge kernel would drop or duplicate
-// what is not manifold, and a dropped face is a leak nobody was told of.
+// Collects vertices and faces of the file unchanged. The half-edge kernel would drop or duplicate
+// non-manifold faces, and a silently dropped face is an undetected leak.
 class PlainImporter final : public om::IO::BaseImporter {
  public:
   TriangleMesh mesh;
@@ -48,7 +48,7 @@ class PlainImporter final : public om::IO::BaseImporter {
   std::size_t n_faces() const override { return face_count_; }
   std::size_t n_edges() const override { return 0; }
 
-  // The rest of what a file may hold does not concern a surface's shape.
+  // Other content of a file does not affect a surface's shape.
   om::HalfedgeHandle add_edge(om::VertexHandle, om::VertexHandle) override {
     return om::HalfedgeHandle();
   }
@@ -106,8 +106,8 @@ class PlainImporter final : public om::IO::BaseImporter {
   std::size_t face_count_ = 0;
 };
 
-// Binary STL: 80 bytes of anything (often "solid", as in a text file), a 32-bit count, and 50 bytes
-// a triangle. The size alone tells it from text.
+// Binary STL: 80 arbitrary bytes (often "solid", as in a text file), a 32-bit count, and 50 bytes
+// per triangle. Only the size distinguishes it from text.
 bool isBinaryStl(const std::string& bytes) {
   if (bytes.size() < 84) return false;
   std::uint32_t triangle_count = 0;
@@ -125,10 +125,11 @@ void parse(const std::string& bytes, const std::string& extension, PlainImporter
   if (extension == "ply") checkPlyHeader(bytes);
   if (stl && isBinaryStl(bytes)) options += om::IO::Options::Binary;
   std::istringstream stream(bytes);
-  // The PLY and OFF readers know how much is to come and read on after a failure, filling in zeros.
+  // The PLY and OFF readers know the expected counts and continue after a failure, filling in
+  // zeros.
   if (!stl) stream.exceptions(std::ios::failbit | std::ios::badbit);
   const bool good = om::IO::IOManager().read(stream, extension, importer, options);
-  // The reader of STL text runs into the end of the file, or stops at what is no number.
+  // The reader of STL text reads to the end of the file, or stops at text that is not a number.
   const bool stopped_early = stl && !options.check(om::IO::Options::Binary) && !stream.eof();
   if (!good || stopped_early) throw SceneError("is damaged or no such file");
 }

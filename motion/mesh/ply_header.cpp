@@ -46,7 +46,7 @@ class HeaderCheck {
  public:
   explicit HeaderCheck(std::size_t file_size) : file_size_(file_size) {}
 
-  // False when the line makes no sense where it stands.
+  // False if the line is invalid at its position.
   bool accepts(const std::vector<std::string_view>& words) {
     if (words[0] == "comment" || words[0] == "obj_info") return true;
     if (words[0] == "format") return acceptsFormat(words);
@@ -79,7 +79,8 @@ class HeaderCheck {
       const bool is_indices = words[4] == "vertex_indices" || words[4] == "vertex_index";
       const bool is_known = isOneOf(kIntegers, words[2]) && isOneOf(kIntegers, words[3]);
       const bool is_wanted = element_ == "face" && is_indices && is_known && !has_indices_;
-      const bool is_after_faces = element_ != "face" && has_indices_;  // where nothing is read
+      const bool is_after_faces =
+          element_ != "face" && has_indices_;  // a list there would be ignored
       has_indices_ = has_indices_ || is_wanted;
       return is_wanted || is_after_faces;
     }
@@ -109,7 +110,7 @@ void checkPlyHeader(std::string_view bytes) {
     bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + 1);
     if (line_number == 1) {
       if (words.size() == 1 && words[0] == "ply") continue;
-      throw SceneError("is no PLY file: its first line must be \"ply\"");
+      throw SceneError("is not a PLY file: its first line must be \"ply\"");
     }
     if (words.size() == 1 && words[0] == "end_header") {
       if (header.isComplete()) return;

@@ -14,7 +14,7 @@ namespace echocine {
 
 namespace {
 
-// Vertices are named by where they are: in a joined mesh their numbers belong to different files.
+// Vertices are named by position, because the indices of a joined mesh belong to different files.
 std::string pointName(const TriangleMesh& mesh, std::uint32_t vertex) {
   const Vec3d p = mesh.positions[vertex];
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
@@ -40,7 +40,7 @@ bool sameCorners(Triangle a, Triangle b) {
 [[noreturn]] void failCrowded(const Structure& structure, const KeyframeMesh& keyframe,
                               std::span<const Side> edge) {
   const auto corners = [&](const Side& side) { return keyframe.mesh.triangles[side.triangle()]; };
-  std::string advice = "part the surfaces that meet there";
+  std::string advice = "separate the surfaces that meet there";
   RepairOffer offer = offerOf(structure.repair.split, "split");
   for (const Side& one : edge)
     for (const Side& other : edge)
@@ -59,7 +59,7 @@ bool sameCorners(Triangle a, Triangle b) {
        offer);
 }
 
-// A weld brings corners together that were two vertices of a face.
+// A weld can merge two vertices of one face.
 void checkCorners(const Structure& structure, const KeyframeMesh& keyframe) {
   const std::vector<Triangle>& triangles = keyframe.mesh.triangles;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -105,8 +105,8 @@ void checkBowTies(const Structure& structure, const KeyframeMesh& keyframe,
     if (first_fan[v] == kNoSide) first_fan[v] = fans[corner];
     if (first_fan[v] == fans[corner]) continue;
     fail(structure,
-         fmt::format("{} and {} belong to surfaces that meet in the point {} only; accepted: a "
-                     "vertex of its own for each: part them",
+         fmt::format("{} and {} belong to surfaces that meet in the point {} only; accepted: its "
+                     "own vertex for each: separate them",
                      faceName(keyframe, first_fan[v] / 3), faceName(keyframe, corner / 3),
                      pointName(mesh, v)),
          offerOf(structure.repair.weld, "weld"));
@@ -130,7 +130,7 @@ void checkEdges(const Structure& structure, const KeyframeMesh& keyframe) {
     if (edge.size() == 2 && one.descending == other.descending && !structure.membrane)
       fail(structure,
            fmt::format("{} and {} run their common edge {} in the same direction; faces must be "
-                       "oriented alike: reverse one of them",
+                       "oriented consistently: reverse one of them",
                        faceName(keyframe, one.triangle()), faceName(keyframe, other.triangle()),
                        edgeName(keyframe.mesh, one.key)),
            offerOf(structure.repair.orient, "orient"));
@@ -152,7 +152,7 @@ void checkPieces(const Structure& structure, const KeyframeMesh& keyframe) {
   for (std::uint32_t piece = 0; piece < pieces.count && judged < kMaxNestedPieces; ++piece) {
     if (nesting.volume(piece) >= 0) continue;
     ++judged;
-    int depth = -1;  // entries less exits of a ray that has come to its inside from afar
+    int depth = -1;  // entries minus exits of a ray that ends inside it, from far outside
     for (const std::uint32_t outer : nesting.around(piece))
       depth += nesting.volume(outer) > 0 ? 1 : -1;
     if (depth >= 0) continue;

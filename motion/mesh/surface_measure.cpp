@@ -14,7 +14,7 @@ double enclosedVolume(std::span<const Triangle> triangles, std::span<const Vec3f
 
 namespace {
 
-// A point in one vector. The fourth lane is nothing of its own and goes nowhere.
+// A point in one vector. The fourth lane is unused.
 using WidePoint = Doubles4;
 
 // Relative to the point with the number `first`.
@@ -37,12 +37,12 @@ WidePoint turnedCross(WidePoint p, WidePoint q) {
   return p * turned(q) - turned(p) * q;
 }
 
-// The triangle beginning at another of its corners.
+// The same triangle, starting at another corner.
 Triangle from(const Triangle& t, std::size_t corner) {
   return {t[corner], t[(corner + 1) % 3], t[(corner + 2) % 3]};
 }
 
-// (a, b, c) and (a, c, d) as a, b, c, d if that is what two triangles are.
+// The corners a, b, c, d of two triangles of the form (a, b, c) and (a, c, d).
 std::optional<std::array<std::uint32_t, 4>> joined(const Triangle& t, const Triangle& u) {
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
@@ -55,8 +55,8 @@ std::optional<std::array<std::uint32_t, 4>> joined(const Triangle& t, const Tria
 
 }  // namespace
 
-// Meshes mostly list triangles next to their neighbours: two of a quadrangle, those of a strip, the
-// parts of one that was divided.
+// Meshes mostly list triangles next to their neighbours: two of a quadrilateral, those of a strip,
+// the parts of a divided one.
 VolumeSum::VolumeSum(std::span<const Triangle> triangles) {
   constexpr std::size_t kAhead = 3;  // a divided triangle's parts are four
   if (triangles.empty()) return;

@@ -13,7 +13,7 @@ namespace echocine {
 
 namespace {
 
-// Appends `added` to `tags` and settles what both name.
+// Appends `added` to `tags` and resolves duplicates.
 template <typename Tag>
 void merge(std::vector<Tag>& tags, const std::vector<Tag>& added,
            const std::filesystem::path& file) {

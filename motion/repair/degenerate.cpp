@@ -16,7 +16,7 @@ bool namesTwice(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-// Draws edges without length to their lower vertex and drops faces with a vertex named twice.
+// Collapses edges without length into their lower vertex and drops faces that use a vertex twice.
 std::size_t dropCollapsed(RepairMesh& mesh) {
   std::vector<std::uint32_t> joined(mesh.vertexCount());
   std::iota(joined.begin(), joined.end(), 0u);

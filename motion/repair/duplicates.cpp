@@ -11,7 +11,8 @@ namespace echocine {
 
 namespace {
 
-// The faces that share all corners, lowest first; and whether they run both ways equally often.
+// The faces that share all corners, lowest first, and whether both orientations are equally
+// frequent.
 struct Twins {
   std::vector<std::uint32_t> faces;
   bool opposed = false;
@@ -50,8 +51,8 @@ std::vector<Twins> findTwins(const RepairMesh& mesh) {
   return all;
 }
 
-// Opposed twins that hang together form a patch. It is a fin, to be removed on both sides, where it
-// is joined to single faces and every edge of it has an even number of faces.
+// Opposite duplicates that are connected form a patch. It is a fin, to be removed on both sides, if
+// it is joined to single faces and every edge of it has an even number of faces.
 class Fins {
  public:
   Fins(const RepairMesh& mesh, const std::vector<Twins>& all)

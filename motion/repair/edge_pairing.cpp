@@ -39,8 +39,8 @@ std::vector<Leaf> leavesAround(std::span<const Side> edge, std::span<const Trian
   return leaves;
 }
 
-// The outer normal of a face that runs the edge up points to larger angles: the inside lies between
-// a face that runs down and the next one up, as between brackets.
+// The outer normal of an "up" face points to larger angles: the inside lies between a "down" face
+// and the next "up" face, like between brackets.
 Pairs pairsByInside(const std::vector<Leaf>& leaves) {
   const std::size_t n = leaves.size();
   std::size_t start = 0;
@@ -49,7 +49,7 @@ Pairs pairsByInside(const std::vector<Leaf>& leaves) {
     depth += leaves[i].up ? -1 : 1;
     if (depth >= least) continue;
     least = depth;
-    start = i + 1;  // from behind the deepest point on, no bracket closes before it opens
+    start = i + 1;  // start after the deepest point, so that no bracket closes before it opens
   }
   Pairs pairs;
   std::vector<std::uint32_t> open;
@@ -65,7 +65,7 @@ Pairs pairsByInside(const std::vector<Leaf>& leaves) {
   return pairs;
 }
 
-// Neighbours in pairs from one of them on; a last one is left over.
+// Pairs of neighbours starting at one of them; the last one of an odd number remains.
 Pairs pairsFrom(const std::vector<Leaf>& leaves, std::size_t start, double& angles) {
   const std::size_t n = leaves.size();
   Pairs pairs;
@@ -80,8 +80,8 @@ Pairs pairsFrom(const std::vector<Leaf>& leaves, std::size_t start, double& angl
 }
 
 Pairs pairsByAngle(const std::vector<Leaf>& leaves) {
-  // With an even number there are two ways; with an odd one as many as faces, of which the first
-  // few do for what no scanner makes.
+  // With an even number there are two pairings; with an odd one as many as faces, of which only the
+  // first few are tried.
   constexpr std::size_t kMostTried = 16;
   const std::size_t tried = leaves.size() % 2 == 0 ? 2 : std::min(leaves.size(), kMostTried);
   double least = 0;

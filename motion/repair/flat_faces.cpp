@@ -9,7 +9,7 @@ namespace echocine {
 
 namespace {
 
-// Turns long edges of flat faces.
+// Flips long edges of flat faces.
 class FlatFaces {
  public:
   explicit FlatFaces(RepairMesh& mesh) : mesh_(mesh) {
@@ -17,7 +17,7 @@ class FlatFaces {
       for (const SharpEdge& e : tags.edges) creases_.insert(edgeKey(e.v0, e.v1));
   }
 
-  // One pass; faces that were turned are not looked at again in it.
+  // One pass; flipped faces are not processed again in it.
   std::size_t turn() {
     std::vector<std::uint32_t> flat;
     for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i)
@@ -71,7 +71,7 @@ class FlatFaces {
     const std::uint32_t p = sideStart(triangles, side), q = sideEnd(triangles, side);
     const std::uint32_t r = sideStart(triangles, previousSide(side));
     const std::uint32_t s = sideStart(triangles, previousSide(across));
-    const bool alike = sideStart(triangles, across) == q;  // both faces look to one side
+    const bool alike = sideStart(triangles, across) == q;  // both faces have the same orientation
     if (!alike || r == s || edges_.contains(edgeKey(r, s)) || creases_.contains(edgeKey(p, q)))
       return false;
     const Triangle one{p, s, r}, other{s, q, r};
@@ -91,7 +91,7 @@ class FlatFaces {
 }  // namespace
 
 std::size_t mendFlatFaces(RepairMesh& mesh) {
-  // Flat faces side by side are freed one after the other, from their rim. Our choice.
+  // Adjacent flat faces are repaired one after the other, from their rim. Our choice.
   constexpr int kPasses = 8;
   FlatFaces flat(mesh);
   std::size_t mended = 0;

@@ -63,7 +63,7 @@ void refuseSheets(const RepairMesh& mesh, const std::vector<Rim>& rims,
     throw SceneError(fmt::format(
         "{}: the open rim of {} edges at this face would take {:.0f} % of its surface to fill, "
         "{:g} "
-        "% is accepted: a sheet is no closed structure; give lids, or membrane = true",
+        "% is accepted: a sheet is not a closed structure; give lids, or membrane = true",
         mesh.faceName(rim.triangle), rim.vertices.size(), 100 * share, 100 * kLargestShare));
   }
 }

@@ -49,11 +49,11 @@ RepairCounts repair(const Repairs& asked, bool membrane, RepairMesh& mesh) {
         fmt::format("{}: no face is left when those without area and both sides of "
                     "fins are dropped: give another mesh",
                     mesh.parts.front().file.string()));
-  // Dropped faces may leave a bow tie, so this part of welding comes after them.
+  // Dropping faces may leave a bow tie, so this part of welding follows it.
   if (asked.weld) counts.split = splitBowTies(mesh);
   if (asked.orient) counts.turned = orientFaces(mesh, membrane);
   if (asked.split) counts.parted = splitNonManifold(mesh, membrane);
-  // Sheets that were parted hang together otherwise than before.
+  // Splitting changes the connections of sheets.
   if (asked.split && asked.orient) counts.turned += orientFaces(mesh, membrane);
   if (asked.weld || asked.drop_degenerate || asked.split) {
     const std::size_t gone = dropUnusedVertices(mesh);
@@ -63,7 +63,7 @@ RepairCounts repair(const Repairs& asked, bool membrane, RepairMesh& mesh) {
   return counts;
 }
 
-// The parts of a keyframe with the faces that are left of them.
+// The parts of a keyframe with their remaining faces.
 std::vector<MeshPart> partsLeft(const std::vector<MeshPart>& before, const RepairMesh& mesh,
                                 std::size_t triangles_before) {
   std::vector<MeshPart> parts;
@@ -93,7 +93,7 @@ void giveBack(RepairMesh& mesh, std::vector<KeyframeMesh>& keyframes) {
   }
 }
 
-// Whether two faces anywhere run their common edge in the same direction.
+// Do two faces anywhere have the same direction along their common edge?
 bool windsBothWays(std::span<const Triangle> triangles) {
   bool both = false;
   forEachEdge(sortedSides(triangles), [&](std::span<const Side> edge) {
@@ -112,11 +112,11 @@ std::string words(const RepairCounts& counts) {
   add(counts.welded, "vertex", "vertices", "welded");
   add(counts.dropped.collapsed, "face without area", "faces without area", "dropped");
   add(counts.dropped.duplicates, "duplicate face", "duplicate faces", "dropped");
-  add(counts.dropped.flipped, "flat face", "flat faces", "mended by turning an edge");
+  add(counts.dropped.flipped, "flat face", "flat faces", "repaired by flipping an edge");
   add(counts.split, "vertex", "vertices", "added where surfaces met in a point");
-  add(counts.parted.dropped, "face", "faces", "dropped that enclosed nothing");
-  add(counts.parted.edges, "edge of more than two faces", "edges of more than two faces", "parted");
-  add(counts.parted.vertices, "vertex", "vertices", "added where sheets were parted");
+  add(counts.parted.dropped, "face", "faces", "dropped that enclosed no volume");
+  add(counts.parted.edges, "edge of more than two faces", "edges of more than two faces", "split");
+  add(counts.parted.vertices, "vertex", "vertices", "added where sheets were separated");
   add(counts.unused, "unused vertex", "unused vertices", "dropped");
   add(counts.turned, "face", "faces", "turned");
   add(counts.filled.holes, "hole", "holes", "filled");
@@ -135,7 +135,8 @@ std::string repairKeyframes(const Structure& structure, std::vector<KeyframeMesh
   RepairCounts counts;
   try {
     counts = repair(structure.repair, structure.membrane, mesh);
-    // A membrane has no side that could be wrong, but normals and smoothing want one: not told.
+    // A membrane has no correct side, but normals and smoothing need a consistent one. Not
+    // reported.
     if (winds && !structure.repair.orient) orientFaces(mesh, true);
   } catch (const SceneError& error) {
     throw SceneError(atPlace(structure.place, fmt::format("{}: {}", structure.name, error.what())));

@@ -12,7 +12,7 @@ namespace echocine {
 
 namespace {
 
-// What hangs together by edges of two faces.
+// Sheets connected by edges of two faces.
 struct Sheets {
   Pieces pieces;
   std::vector<double> double_areas;  // in the first keyframe, mesh unit squared
@@ -38,8 +38,8 @@ Sheets sheetsOf(const RepairMesh& mesh, const std::vector<Side>& sides) {
   return sheets;
 }
 
-// The sheet to drop at an edge of an odd number of faces, of those that have an odd number of them;
-// the largest sheet where there is no other.
+// The sheet to drop at an edge with an odd number of faces, among those with an odd number there;
+// the largest sheet if there is no other.
 std::uint32_t looseSheet(const Sheets& sheets, std::span<const Side> edge) {
   std::vector<std::uint32_t> at;
   for (const Side& side : edge) at.push_back(sheets.pieces.of_triangle[side.triangle()]);
@@ -48,7 +48,7 @@ std::uint32_t looseSheet(const Sheets& sheets, std::span<const Side> edge) {
     if (sheets.open[a] != sheets.open[b]) return sheets.open[a] > sheets.open[b];
     if (sheets.double_areas[a] != sheets.double_areas[b])
       return sheets.double_areas[a] < sheets.double_areas[b];
-    return a > b;  // of two alike the first stays
+    return a > b;  // the first of equal ones stays
   };
   for (const std::uint32_t sheet : at)
     if (sheet != sheets.largest && std::count(at.begin(), at.end(), sheet) % 2 == 1 &&
@@ -57,8 +57,8 @@ std::uint32_t looseSheet(const Sheets& sheets, std::span<const Side> edge) {
   return loose;
 }
 
-// Which sheets go at the edges of odd numbers of faces: one at each, unless one of its sheets goes
-// already, which changes the number.
+// The sheets to drop at edges with odd numbers of faces: one at each, unless one of its sheets is
+// already dropped, which changes the number.
 std::vector<char> looseSheets(const Sheets& sheets, const std::vector<Side>& sides) {
   std::vector<char> loose(sheets.pieces.count);
   forEachEdge(sides, [&](std::span<const Side> edge) {
@@ -71,10 +71,10 @@ std::vector<char> looseSheets(const Sheets& sheets, const std::vector<Side>& sid
   return loose;
 }
 
-// Drops flaps and inner walls until every edge has an even number of faces or none can go; each
-// round takes one sheet at least.
+// Drops flaps and inner walls until every edge has an even number of faces or none can be dropped;
+// each round drops at least one sheet.
 std::size_t dropLooseSheets(RepairMesh& mesh) {
-  constexpr int kMostRounds = 32;  // flaps upon flaps; our choice
+  constexpr int kMostRounds = 32;  // nested flaps; our choice
   const std::size_t before = mesh.triangles.size();
   for (int round = 0; round < kMostRounds; ++round) {
     const std::vector<Side> sides = sortedSides(mesh.triangles);

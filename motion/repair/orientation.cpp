@@ -13,7 +13,7 @@ namespace echocine {
 
 namespace {
 
-// Which faces to turn so that all of a piece agree with its first.
+// Faces to flip so that each piece has the orientation of its first face.
 std::vector<char> turnedToAgree(const RepairMesh& mesh,
                                 const std::vector<std::uint32_t>& opposite) {
   const std::vector<Triangle>& triangles = mesh.triangles;
@@ -49,7 +49,7 @@ std::vector<char> turnedToAgree(const RepairMesh& mesh,
   return turned;
 }
 
-// Turns the fewer faces of each piece.
+// Flips the minority of each piece.
 void keepMajority(const Pieces& pieces, std::vector<char>& turned) {
   std::vector<std::int64_t> balance(pieces.count);
   for (std::size_t t = 0; t < turned.size(); ++t)
@@ -58,7 +58,7 @@ void keepMajority(const Pieces& pieces, std::vector<char>& turned) {
     if (balance[pieces.of_triangle[t]] > 0) turned[t] = !turned[t];
 }
 
-// Six times the volume of each piece, open rims closed by fans.
+// Six times the volume of each piece, with open rims closed by fans.
 std::vector<double> pieceVolumes(const RepairMesh& mesh, const std::vector<std::uint32_t>& opposite,
                                  const Pieces& pieces) {
   const std::vector<Vec3d>& places = mesh.positions.front();
@@ -89,7 +89,7 @@ void turn(Triangle& t) {
   std::swap(t[1], t[2]);
 }
 
-// Which pieces look the wrong way.
+// Pieces with the wrong orientation.
 std::vector<char> wrongPieces(const RepairMesh& mesh, const std::vector<Side>& sides) {
   const auto opposite = oppositeSides(mesh.triangles, sides);
   const Pieces pieces = piecesOf(opposite);

@@ -42,8 +42,8 @@ int wordsIn(unsigned plan) {
   return std::popcount(plan);
 }
 
-// All combinations but the one that was asked for: the shortest first, of equal ones those that
-// hold what was asked.
+// All combinations except the scene's own: the shortest first, among equals those that contain the
+// scene's words.
 std::vector<unsigned> plansFor(const Structure& structure) {
   const unsigned asked = planOf(structure.repair), fill = planOf({.fill_holes = true});
   std::vector<unsigned> plans;
@@ -74,9 +74,9 @@ bool mends(Structure structure, const Repairs& repair, std::vector<KeyframeMesh>
   }
 }
 
-// As they are in the files; nothing where a file by itself cannot be used.
+// The unmodified keyframes; empty if a file is unusable on its own.
 std::vector<KeyframeMesh> rawKeyframes(Structure structure) {
-  structure.repair.drop_degenerate = true;  // reads what it would drop
+  structure.repair.drop_degenerate = true;  // also reads faces that would be dropped
   std::vector<KeyframeMesh> keyframes;
   Sha256 digest;
   try {
@@ -119,7 +119,7 @@ std::string advised(const SceneError& refusal, const Structure& structure, doubl
   const std::optional<Repairs> repair = shortestRepair(structure, mesh_unit_m);
   const std::string words = repair ? repairWords(*repair) : "";
   if (const auto* fault = dynamic_cast<const MeshFault*>(&refusal)) return fault->withRepair(words);
-  return words.empty() ? refusal.what() : fmt::format("{}; {} mends it", refusal.what(), words);
+  return words.empty() ? refusal.what() : fmt::format("{}; {} repairs it", refusal.what(), words);
 }
 
 }  // namespace echocine

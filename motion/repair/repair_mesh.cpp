@@ -27,7 +27,7 @@ std::string tagName(const SharpVertex& c) {
   return fmt::format("corner {}", c.v);
 }
 
-// Tags that were brought together must agree.
+// Merged tags must agree.
 template <typename Tag>
 void settle(std::vector<Tag>& tags) {
   settleTags(tags, std::identity{}, [](const Tag&, const Tag& second) {

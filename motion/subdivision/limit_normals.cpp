@@ -19,12 +19,12 @@ namespace {
 
 namespace far_ = OpenSubdiv::Far;
 
-// The library's own bound on isolation.
+// The library's own limit of isolation.
 constexpr int kMaxIsolation = 10;
 
 // Tangents of the limit surface at each place. The library's patches have the limit's tangents at
-// their corners; isolated at least to the refined mesh's level, each of its vertices is a corner.
-// Creases that are sharp for a while are followed until they are smooth.
+// their corners. Isolated at least to the level of the refined mesh, each of its vertices is a
+// corner. Semi-sharp creases are followed until they are smooth.
 using LimitStencils = far_::LimitStencilTableReal<float>;
 
 int isolationLevel(const MeshTags& tags, int levels) {
@@ -36,8 +36,8 @@ int isolationLevel(const MeshTags& tags, int levels) {
   return std::clamp(std::max(levels, static_cast<int>(std::ceil(sharpest))), 1, kMaxIsolation);
 }
 
-// What the library's set-up cannot bear. Measured: a vertex of 100 faces takes 2 s, one of 200
-// takes 20 s; a fractional crease takes 16 kB for each piece it is split into. Our choices.
+// Limits of the library's set-up. Measured: a vertex of 100 faces takes 2 s, one of 200 takes 20 s;
+// a fractional crease takes 16 kB for each piece into which it is split. Our choices.
 constexpr std::uint32_t kMaxFacesAtVertex = 128;
 constexpr double kMaxCreasePieces = 200e3;
 
@@ -107,8 +107,8 @@ float squared(PaddedPoint a) {
   return s[0] + s[1] + s[2];
 }
 
-// Where the tangents are parallel but for the rounding of their weights there is no normal to be
-// had from them: so at the corner of a sheet's single face, whose boundary curve runs on smoothly.
+// If the tangents are parallel except for rounding, there is no normal: for example at the corner
+// of a sheet's single face, whose boundary curve is smooth.
 Vec3f unitNormal(PaddedPoint du, PaddedPoint dv) {
   constexpr float kParallel = 1e-4f;  // sine of the angle between them
   const PaddedPoint n = cross(du, dv);
@@ -118,8 +118,8 @@ Vec3f unitNormal(PaddedPoint du, PaddedPoint dv) {
   return {unit[0], unit[1], unit[2]};
 }
 
-// The entries of all stencils without those that are zero but for rounding: a place at a corner
-// takes 7 of its patch's 12 points.
+// The entries of all stencils, without those that are zero within rounding: a place at a corner
+// uses 7 of its patch's 12 points.
 struct Entries {
   std::vector<int> sizes, sources;
   std::vector<float> du, dv;
@@ -161,7 +161,7 @@ LimitNormals::LimitNormals(std::span<const Triangle> triangles, std::uint32_t ve
   const auto refiner = makeRefiner(triangles, vertex_count, tags, place);
   if (levels > 0) {
     far_::TopologyRefiner::UniformOptions uniform(levels);
-    uniform.fullTopologyInLastLevel = true;  // its edges' sharpness is asked for
+    uniform.fullTopologyInLastLevel = true;  // its edges' sharpness is requested
     refiner->RefineUniform(uniform);
   }
   LimitPlaces places = limitPlaces(*refiner);
@@ -183,8 +183,8 @@ LimitNormals::LimitNormals(std::span<const Triangle> triangles, std::uint32_t ve
   for (const std::uint32_t row : rows_.rows()) normal_of_stencil_.push_back(normals[row]);
 }
 
-// A tangent's weights sum to zero, so sources are taken from the row's first one: far from the
-// probe the sum of large coordinates would leave their rounding, and a plane comes out exactly
+// A tangent's weights sum to zero, so sources are taken relative to the row's first one: far from
+// the probe the sum of large coordinates would leave their rounding. A plane thus stays exactly
 // flat.
 void LimitNormals::apply(std::span<const Vec3f> control, std::span<Vec3f> normals) const {
   CHECK_EQ(control.size(), control_count_);

@@ -25,7 +25,7 @@ Uv middle(Uv a, Uv b) {
   return {(a.u + b.u) / 2, (a.v + b.v) / 2};
 }
 
-// The place of a child's corner: it came from a vertex or from an edge of the parent.
+// The position of a child's corner, which came from a vertex or from an edge of the parent.
 Uv placeInParent(const far_::TopologyLevel& level, int face, const FacePart& part, int child) {
   const far_::ConstIndexArray vertices = level.GetFaceVertices(face);
   const far_::ConstIndexArray edges = level.GetFaceEdges(face);
@@ -58,8 +58,8 @@ std::vector<FacePart> childParts(const far_::TopologyRefiner& refiner, int paren
   return parts;
 }
 
-// Whether the faces at a vertex may have different limit normals. What is less than infinitely
-// sharp becomes smooth after some levels, so its limit has one normal.
+// Can the faces at a vertex have different limit normals? Semi-sharp features become smooth after
+// some levels, so their limit has one normal.
 bool splits(const far_::TopologyLevel& level, int vertex) {
   if (level.IsVertexNonManifold(vertex)) return true;
   if (level.GetVertexSharpness(vertex) >= kInfiniteSharpness) return true;

@@ -42,7 +42,7 @@ struct TagArrays {
 std::unique_ptr<far_::TopologyRefiner> makeRefiner(std::span<const Triangle> triangles,
                                                    std::uint32_t vertex_count, const MeshTags& tags,
                                                    const SourcePlace& place) {
-  // What goes wrong is reported below; the library would print.
+  // Errors are reported below; the library would print them.
   far_::SetErrorCallback([](far_::ErrorType, const char*) {});
   far_::SetWarningCallback([](const char*) {});
   const std::vector<int> corner_counts(triangles.size(), 3);

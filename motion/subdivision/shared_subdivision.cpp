@@ -8,7 +8,7 @@ namespace echocine {
 
 namespace {
 
-// A heart from dials has fewer topologies; larger meshes, a user's own, are not kept. Our choice.
+// Parametric hearts have fewer topologies; larger meshes of users are not cached. Our choice.
 constexpr std::size_t kMostKept = 24, kLargestKept = 20000;  // triangles after subdivision
 
 template <typename Made>
@@ -29,7 +29,7 @@ struct Kept {
 template <typename Made>
 struct Keep {
   std::mutex mutex;
-  std::list<Kept<Made>> kept;  // the last used first
+  std::list<Kept<Made>> kept;  // most recently used first
 };
 
 template <typename Made>
@@ -46,7 +46,7 @@ std::shared_ptr<const Made> shared(std::span<const Triangle> triangles, std::uin
       return found->made;
     }
   }
-  // Made outside the lock: two threads at worst make the same.
+  // Computed outside the lock: at worst two threads compute the same.
   auto made = std::make_shared<const Made>(triangles, vertex_count, tags, levels, place);
   if (triangles.size() << (2 * levels) > kLargestKept) return made;
   const std::lock_guard lock(all.mutex);

@@ -15,13 +15,14 @@ namespace {
 namespace far_ = OpenSubdiv::Far;
 
 // Points of boundary curves, sharp creases and corners are sums of at most this many points of the
-// curve, cubic B-spline subdivision's four. Their weights have few binary digits, so in double
-// precision the sums are exact, whatever order a mesh's numbers put them in: meshes that share a
-// curve share the refined one to the last bit.
+// curve, the four of cubic B-spline subdivision. Their weights have few binary digits, so the sums
+// are exact in double precision, in any order: meshes that share a curve share the refined one to
+// the last bit.
 constexpr std::uint32_t kCurvePoints = 4;
 using WidePoint [[gnu::vector_size(32)]] = double;
 
-// The class templates, since the library's plain StencilTable casts down to what the object is not.
+// The class templates, because the library's plain StencilTable casts down to a type that the
+// object does not have.
 using Stencils = far_::StencilTableReal<float>;
 
 std::unique_ptr<const Stencils> makeStencils(const far_::TopologyRefiner& refiner) {

@@ -13,7 +13,7 @@ namespace echocine {
 
 namespace {
 
-// Our choice, wide: an adult's left ventricle holds 46 to 150 mL (Lang et al., J. Am. Soc.
+// Our choice, wide: an adult's left ventricle has 46 to 150 mL (Lang et al., J. Am. Soc.
 // Echocardiogr. 28, 1-39, 2015), a newborn's a few, a dilated one several hundred.
 struct Size {
   Role role;
@@ -24,8 +24,8 @@ constexpr Size kSizes[] = {{Role::lv_cavity, 0.5, 1000, 110},
                            {Role::la, 0.2, 2000, 50},
                            {Role::ra, 0.2, 2000, 50},
                            {Role::lv_wall, 1, 3000, 240}};
-// A unit that brings the volume within this factor of the usual one is what was meant; units are
-// 1000 of it apart.
+// A unit that brings the volume within this factor of the usual one is suggested; the volumes of
+// two units differ by 1000.
 constexpr double kFits = 10;
 
 double largestVolume_ml(const ControlMotion& control) {

@@ -17,7 +17,7 @@ namespace echocine {
 
 namespace {
 
-// Before any is read, which may take minutes: a file that is missing is a typing error.
+// Runs before any file is read, which may take minutes: a missing file is usually a typing error.
 void checkFilesAreThere(const Scene& scene) {
   std::string first;
   std::size_t missing = 0;

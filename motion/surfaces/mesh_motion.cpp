@@ -33,8 +33,8 @@ std::vector<double> phasesOf(const Structure& structure) {
   return phases;
 }
 
-// The beat that the keyframes show. Of two keyframes, one at the R wave, the other has the smallest
-// volume, which is what segmentations of two phases give.
+// The beat of the keyframes. Of two keyframes, one at the R wave, the other has the smallest
+// volume, as in segmentations of two phases.
 HeartPace paceOf(const Scene& scene, const Structure& structure) {
   RecordedBeat beat{scene.motion.keyframe_heart_rate_hz.value_or(scene.acquisition.heart_rate_hz),
                     scene.motion.end_systole_phase};
@@ -44,7 +44,7 @@ HeartPace paceOf(const Scene& scene, const Structure& structure) {
   return HeartPace(beat);
 }
 
-// A frame whose axes are left-handed mirrors space, which turns every face around.
+// A frame with left-handed axes mirrors space, which inverts every face.
 bool mirrors(const Pose& pose) {
   return dot(cross(pose.x_axis, pose.y_axis), pose.z_axis) < 0;
 }
@@ -69,7 +69,7 @@ std::vector<Vec3d> probePositions(const Structure& structure, const KeyframeMesh
       throw SceneError(atPlace(
           structure.place,
           fmt::format("{}: {} reaches {:.4g} m from the probe's apex, at most {:g} m is accepted: "
-                      "mend motion.mesh_unit, motion.mesh_scale or the probe's place",
+                      "correct motion.mesh_unit, motion.mesh_scale or the probe's place",
                       structure.name, keyframe.parts.front().file.string(), length(p),
                       kMaxDistanceMetres)));
     positions_m.push_back(p);
@@ -77,9 +77,9 @@ std::vector<Vec3d> probePositions(const Structure& structure, const KeyframeMesh
   return positions_m;
 }
 
-// To single precision. What is within rounding of a coordinate plane, a picometre, is on it:
-// vertices that a mesh puts exactly on the imaging plane stay there after the turn into the probe
-// frame.
+// To single precision. A coordinate within rounding (a picometre) of a coordinate plane becomes
+// exactly 0, so vertices that a mesh puts on the imaging plane stay there after the rotation into
+// the probe frame.
 std::vector<Vec3f> narrowed(const std::vector<Vec3d>& values) {
   const auto onPlane = [](double c) { return std::abs(c) < 1e-12 ? 0.0 : c; };
   std::vector<Vec3f> floats(values.size());
@@ -123,9 +123,9 @@ struct MeshMotion::MovingSurface {
   ControlMotion control;
   std::shared_ptr<const Subdivision> subdivision{};
   std::shared_ptr<const LimitNormals> limit_normals{};
-  std::vector<Vec3f> still_m{};  // of a still structure that is subdivided: the refined vertices
-  double still_volume_m3 = 0;    // of a still structure
-  VolumeSum volume{};            // of any other that encloses one
+  std::vector<Vec3f> still_m{};  // of a static structure with subdivision: the refined vertices
+  double still_volume_m3 = 0;    // of a static structure
+  VolumeSum volume{};            // of any other closed one
 
   void smooth(SurfaceTopology& topology, const MeshTags& tags, const Scene& scene);
   void subdivide(SurfaceTopology& topology, const MeshTags& tags, const MotionSettings& motion);
@@ -162,7 +162,7 @@ std::vector<NumberedTriangle> MeshMotion::MovingSurface::nearPlane(const Surface
   return heights.nearPlane(topology.triangles, control.weights.overshoot(), aside_m);
 }
 
-// Normals of the limit surface at the vertices that subdivide() will make.
+// Normals of the limit surface at the vertices of subdivide().
 void MeshMotion::MovingSurface::smooth(SurfaceTopology& topology, const MeshTags& tags,
                                        const Scene& scene) {
   limit_normals = sharedLimitNormals(topology.triangles, topology.vertex_count, tags,
@@ -170,7 +170,7 @@ void MeshMotion::MovingSurface::smooth(SurfaceTopology& topology, const MeshTags
   topology.normal_corners = limit_normals->corners();
 }
 
-// Refines the topology now and the positions of every frame.
+// Refines the topology now, and positions in every frame.
 void MeshMotion::MovingSurface::subdivide(SurfaceTopology& topology, const MeshTags& tags,
                                           const MotionSettings& motion) {
   subdivision = sharedSubdivision(topology.triangles, topology.vertex_count, tags,
@@ -178,7 +178,7 @@ void MeshMotion::MovingSurface::subdivide(SurfaceTopology& topology, const MeshT
   topology.triangles = subdivision->triangles();
   topology.vertex_count = subdivision->vertexCount();
   if (!control.still() || limit_normals) return;
-  // Of a still structure the positions too; its normals need the control vertices.
+  // For a static structure also the positions; its normals need the control vertices.
   still_m.resize(subdivision->vertexCount());
   subdivision->apply(control.rows_m.front(), still_m);
   subdivision.reset();
@@ -186,19 +186,19 @@ void MeshMotion::MovingSurface::subdivide(SurfaceTopology& topology, const MeshT
 
 namespace {
 
-// Facets scatter bent rays, so these take smooth normals unless told otherwise. Meshes that are
-// the surfaces themselves have none.
+// Facets scatter refracted rays, so these use smooth normals by default. Meshes without subdivision
+// have none.
 bool smoothNormalsOf(const Scene& scene) {
   if (scene.accuracy.normals != Normals::automatic)
     return scene.accuracy.normals == Normals::smooth;
-  if (scene.media.empty()) return false;  // meshes alone, nothing to bend rays
+  if (scene.media.empty()) return false;  // no media: rays cannot bend
   return scene.motion.subdivision > 0 && scene.accuracy.tracer != TracerChoice::slice &&
          planEffects(scene).refraction;
 }
 
 }  // namespace
 
-// Where nobody asked for them, a surface that has none leaves all with their facets.
+// Unless requested, all surfaces use facet normals if one has no smooth normals.
 void MeshMotion::offerNormals(MovingSurface& moving, SurfaceTopology& topology,
                               const MeshTags& tags, const Scene& scene) {
   try {

@@ -16,7 +16,7 @@ namespace echocine {
 
 namespace {
 
-// Phases as equal as the clock makes those of whole beats; 1e-9 of a beat is 1 ns.
+// Phases of whole beats that are equal within the clock's rounding; 1e-9 of a beat is 1 ns.
 constexpr double kSamePhase = 1e-9;
 
 // The loop's frames, one for each phase: the earliest.
@@ -43,14 +43,14 @@ std::string triangleWords(const ControlMotion& motion, const SurfaceBreaks& brea
   std::string words;
   switch (first.kind) {
     case TriangleBreak::mirrored:
-      words = fmt::format("{} turns over between there and {}, in one of which it lies folded",
-                          face, next);
+      words = fmt::format("{} turns over between there and {}; one of the two has it folded", face,
+                          next);
       break;
     case TriangleBreak::turned:
       words = fmt::format("{} is turned over on the way to {}", face, next);
       break;
     case TriangleBreak::vanished:
-      words = fmt::format("{} shrinks to nothing on the way to {}", face, next);
+      words = fmt::format("{} vanishes on the way to {}", face, next);
       break;
   }
   if (breaks.triangles > 1)
@@ -65,7 +65,7 @@ std::string collapseWords(const ControlMotion& motion, const SurfaceBreaks::Size
                      motion.fileOf(size.left), motion.fileOf(size.right));
 }
 
-// Told from this share of the end-diastolic volume on. Our choice.
+// Reported from this fraction of the end-diastolic volume. Our choice.
 constexpr double kToldOvershoot = 0.01;
 
 double largestVolume(const ControlMotion& motion) {
@@ -75,15 +75,15 @@ double largestVolume(const ControlMotion& motion) {
   return largest_m3;
 }
 
-// The end-diastolic volume of the scene's left ventricle, m^3; of a scene without one that of each
-// structure itself, its largest keyframe.
+// The end-diastolic volume of the scene's left ventricle, m^3; in a scene without one, the largest
+// keyframe of each structure.
 double endDiastolicVolume(const Scene& scene, const MeshMotion& motion, SurfaceId structure) {
   const std::optional<SurfaceId> ventricle = structureOf(scene, Role::lv_cavity);
   return largestVolume(motion.control(ventricle.value_or(structure)));
 }
 
-// How far a straight blend of two keyframes leaves the range of their volumes, m^3: bodies that
-// turn lose some on the way, whatever the kind. From three instants between them.
+// Excess of a linear blend of two keyframes beyond the range of their volumes, m^3: rotating bodies
+// lose volume with any kind of interpolation. From three instants between them.
 double straightBeyond(const ControlMotion& motion, std::size_t left, std::size_t right) {
   const std::vector<Vec3f>&a = motion.rows_m[left], &b = motion.rows_m[right];
   const auto at = [&](float share) {
@@ -108,27 +108,27 @@ std::string overshootWords(const ControlMotion& motion, const SurfaceBreaks::Ove
   if (!(std::abs(found.beyond_m3) > told_m3)) return "";
   const bool straight_stays = straightBeyond(motion, found.left, found.right) <= told_m3;
   return fmt::format(
-      "frame {}, phase {:.2f}: {:.2g} mL {} both keyframes beside it, {} and {}: {}", found.frame,
+      "frame {}, phase {:.2f}: {:.2g} mL {} both adjacent keyframes, {} and {}: {}", found.frame,
       found.phase, millilitresFromCubicMetres(std::abs(found.beyond_m3)),
       found.beyond_m3 > 0 ? "over" : "under", motion.fileOf(found.left), motion.fileOf(found.right),
       straight_stays ? "motion.interpolation = \"cycle\" or \"linear\" stays between them"
                      : "keyframes closer in time are needed");
 }
 
-// A beat whose last keyframe is its first again stands still on the way between the two.
+// A beat whose last keyframe repeats its first is frozen between the two.
 std::string closingWords(const ControlMotion& motion) {
   const std::size_t last = motion.weights.keyframeCount() - 1;
   const auto same = [&](std::size_t k) { return motion.rows_m[k] == motion.rows_m.front(); };
   if (last < 2 || !same(last) || same(last / 2)) return "";
   return fmt::format(
       "{} has the shape of the first keyframe: drop the frame that closes the beat, "
-      "the first follows the last by itself",
+      "the first keyframe follows the last automatically",
       motion.fileOf(last));
 }
 
 std::string advice(const SurfaceBreaks& breaks, Interpolation kind) {
   if (breaks.first && breaks.first->kind == TriangleBreak::mirrored)
-    return "mend one of the two files";
+    return "correct one of the two files";
   return kind == Interpolation::linear || breaks.collapsed
              ? "keyframes closer in time are needed"
              : "keyframes closer in time or motion.interpolation = \"linear\" avoid it";
@@ -136,12 +136,12 @@ std::string advice(const SurfaceBreaks& breaks, Interpolation kind) {
 
 [[noreturn]] void refuse(const Structure& structure, const ControlMotion& motion,
                          const SurfaceBreaks::Size& size, Interpolation kind) {
-  throw JobError(atPlace(
-      structure.place,
-      fmt::format("{}: frame {}: encloses {:.4g} mL between {} and {}: it turns inside out on the "
-                  "way, a volume over 0 is accepted: {}",
-                  structure.name, size.frame, millilitresFromCubicMetres(size.volume_m3),
-                  motion.fileOf(size.left), motion.fileOf(size.right), advice({}, kind))));
+  throw JobError(
+      atPlace(structure.place,
+              fmt::format("{}: frame {}: encloses {:.4g} mL between {} and {}: it is inverted in "
+                          "between, a positive volume is accepted: {}",
+                          structure.name, size.frame, millilitresFromCubicMetres(size.volume_m3),
+                          motion.fileOf(size.left), motion.fileOf(size.right), advice({}, kind))));
 }
 
 }  // namespace
@@ -161,7 +161,7 @@ std::vector<std::string> motionWarnings(const Scene& scene, const MeshMotion& mo
       words += (words.empty() ? "" : "; ") + collapseWords(control, *breaks.collapsed);
     if (!words.empty()) words += ": " + advice(breaks, kind);
     std::string beyond;
-    if (breaks.overshoot && !breaks.collapsed)  // a collapse says it all
+    if (breaks.overshoot && !breaks.collapsed)  // a collapse covers it
       beyond = overshootWords(control, *breaks.overshoot,
                               endDiastolicVolume(scene, motion, static_cast<SurfaceId>(s)));
     for (const std::string& told : {words, beyond, closingWords(control)})

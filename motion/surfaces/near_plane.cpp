@@ -24,8 +24,8 @@ void HeightRanges::refine(const Subdivision& subdivision) {
 
 std::vector<NumberedTriangle> HeightRanges::nearPlane(std::span<const Triangle> triangles,
                                                       double overshoot, double aside_m) const {
-  // Of single precision in blends and stencils, in parts of the largest height. Our choice: ten
-  // times what a hundred roundings can add up to.
+  // Single-precision error of blends and stencils, relative to the largest height. Our choice: ten
+  // times the sum of a hundred roundings.
   constexpr float kRounding = 1e-4f;
   float largest_m = 0;
   for (const auto& [lo, hi, none] : ranges_m_)

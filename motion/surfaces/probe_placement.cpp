@@ -169,7 +169,8 @@ void tellGuesses(const HeartMarks& marks, Scene& scene) {
   const View view = scene.view->view;
   if (!marks.aortic_found && (view == View::a3c || view == View::plax))
     tell(
-        "no role says where the aortic valve is: the plane passes where other hearts have it; give "
+        "no structure has the role of the aortic valve: the plane uses its position in an average "
+        "heart; give "
         "a "
         "structure role = \"aortic_valve\" or \"aorta\"");
 }

@@ -15,17 +15,17 @@ namespace echocine {
 
 namespace {
 
-// Our choice: no ridges at the rings of valves, all of them a centimetre on, few of them on the
-// left side of the septum.
+// Our choice: no ridges at the rings of valves, full height from a centimetre on, few on the left
+// side of the septum.
 constexpr float kNoneWithin_m = 6e-3f, kAllBeyond_m = 16e-3f;
-constexpr float kOnSurface_m = 0.3e-3f;  // of vertices that meshes share
-constexpr std::size_t kEnough = 600;     // vertices of a surface, to tell how far it is
-constexpr int kPhases = 16;              // at which no face may turn over
+constexpr float kOnSurface_m = 0.3e-3f;  // distance of shared vertices
+constexpr std::size_t kEnough = 600;     // vertices of a surface that suffice for distances
+constexpr int kPhases = 16;              // at which no face may be inverted
 constexpr int kMostHalvings = 8;
 constexpr std::uint64_t kPurpose = 0x7ab;
 
-// What moves each vertex at an instant, along the sum of its faces' normals. `normals` are zero
-// before and after, as many as there are vertices or more.
+// Displaces each vertex at an instant along the sum of its faces' normals. `normals` are zero
+// before and after; at least one per vertex.
 template <typename Move>
 void moveAll(const Relief& relief, const std::vector<Vec3f>& at_m, std::vector<Vec3f>& normals,
              const Move& move) {
@@ -49,8 +49,8 @@ double meanEdge(const std::vector<Triangle>& faces, const std::vector<Vec3f>& at
   return faces.empty() ? 0 : sum / (3 * static_cast<double>(faces.size()));
 }
 
-// Vertices of all other structures that hold blood; of the right ventricle without the left,
-// since the septum's right side is rough.
+// Vertices of all other structures that contain blood; for the right ventricle without the left,
+// because the septum's right side is rough.
 std::vector<Vec3f> otherBlood(const Scene& scene, const SurfaceFrame& frame, std::size_t but) {
   std::vector<Vec3f> places_m;
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
@@ -94,7 +94,7 @@ std::vector<float> heights(const Scene& scene, const SurfaceTopology& surface,
   return height_m;
 }
 
-// Halves the heights about faces that would turn over at an instant, until none does.
+// Halves the heights around inverted faces at an instant, until there are none.
 void calm(const std::vector<Vec3f>& at_m, Relief& relief) {
   std::vector<Vec3f> normals(at_m.size()), raised_m;
   for (int halving = 0; halving <= kMostHalvings; ++halving) {
@@ -114,7 +114,7 @@ void calm(const std::vector<Vec3f>& at_m, Relief& relief) {
   }
 }
 
-// Only vertices whose faces the plane can cut are shown, and all faces about these.
+// Only vertices whose faces the plane can cut are displaced, and all faces around them are marked.
 void showAboutPlane(const SurfaceTopology& surface, Relief& relief) {
   const std::vector<bool> shown = verticesNearPlane(surface);
   const auto isShown = [&](std::uint32_t v) { return shown[v]; };

@@ -115,7 +115,7 @@ Vec3d Finder::towardsBase() const {
     } else if (dot(first, axis) * dot(*there - from, axis) < 0) {
       fail(fmt::format(
           "{} and {} lie beyond opposite ends of the left ventricle, in a heart both lie "
-          "at its base: mend their roles or places",
+          "at its base: correct their roles or positions",
           nameOfRole(first_role), nameOfRole(role)));
     }
   }
@@ -137,7 +137,7 @@ void Finder::findAxis() {
   }
   if (!ring_known)
     marks_.told.push_back(
-        "no role says where the mitral ring is: the long axis is that of the "
+        "no structure has the role of the mitral valve: the long axis is that of the "
         "cavity's shape, some 10 deg off in a heart; give a structure role = "
         "\"mitral_valve\", or \"la\" where the atrium touches the ventricle");
   HeartFrame& f = marks_.frame;
@@ -154,17 +154,17 @@ void Finder::refuseMixedSides() const {
   const Vec3d lv = middleOf(cavity_);
   if (rv && la && ra && dot(*la - *ra, lv - *rv) < 0)
     fail(
-        fmt::format("{} lies on the side of {}, and {} on that of the left ventricle: mend the "
+        fmt::format("{} lies on the side of {}, and {} on that of the left ventricle: correct the "
                     "roles, left and right are mixed up",
                     nameOfRole(Role::la), nameOfRole(Role::rv_cavity), nameOfRole(Role::ra)));
   for (const Role role :
        {Role::mitral_valve, Role::aortic_valve, Role::rv_cavity, Role::la, Role::ra})
     if (const auto there = middle(role); there && length(*there - lv) > 3 * marks_.frame.length_m)
-      fail(fmt::format(
-          "{} lies {:.0f} mm from the left ventricle, which is {:.0f} mm long: mend its "
-          "role or place",
-          nameOfRole(role), millimetresFromMetres(length(*there - lv)),
-          millimetresFromMetres(marks_.frame.length_m)));
+      fail(
+          fmt::format("{} lies {:.0f} mm from the left ventricle, which is {:.0f} mm long: correct "
+                      "its role or position",
+                      nameOfRole(role), millimetresFromMetres(length(*there - lv)),
+                      millimetresFromMetres(marks_.frame.length_m)));
 }
 
 // The right heart, by what tells best where it is.
@@ -220,8 +220,8 @@ void Finder::findSides() {
   const Vec3d there = known ? normalised(across(cue->place)) : principalAxis(cavity_, f.apical);
   if (!known)
     marks_.told.push_back(
-        "no role says on which side of the left ventricle the right heart is: the "
-        "view is turned by the cavity's shape alone; probe.rotate_deg turns it, or "
+        "no role identifies the side of the right heart: the view is rotated by the cavity's shape "
+        "only; set probe.rotate_deg, or "
         "give a structure role = \"rv_cavity\"");
   // Seen from the base the front of a heart lies clockwise of its right side.
   double hand = 1;
@@ -232,9 +232,8 @@ void Finder::findSides() {
   }
   if (hand < 0)
     marks_.told.push_back(
-        fmt::format("{} and {} stand as in a mirrored heart, so the view is mirrored too: look at "
-                    "the axes of the "
-                    "meshes",
+        fmt::format("{} and {} are arranged as in a mirrored heart, so the view is mirrored too: "
+                    "check the axes of the meshes",
                     front->name, right->name));
   const double back_rad = -radiansFromDegrees(known ? cue->angle_deg : kRightHeart_deg);
   f.lateral = std::cos(back_rad) * there + hand * std::sin(back_rad) * cross(f.apical, there);
@@ -242,7 +241,7 @@ void Finder::findSides() {
   f.anterior = hand * cross(f.apical, f.lateral);
   if (const auto rv = middle(Role::rv_cavity);
       right && rv && dot(across(*rv), across(right->place)) < 0)
-    fail(fmt::format("{} and {} lie on opposite sides of the left ventricle: mend their roles",
+    fail(fmt::format("{} and {} lie on opposite sides of the left ventricle: correct their roles",
                      right->name, nameOfRole(Role::rv_cavity)));
 }
 

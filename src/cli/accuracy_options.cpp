@@ -36,12 +36,12 @@ AccuracyChoice choose(const Scene& scene, double tolerance_db, int threads, bool
 }  // namespace
 
 void AccuracyOptions::addTo(CLI::App& command) {
-  command.add_option("--preset", preset_, "Set the knobs of `echocine study` together")
+  command.add_option("--preset", preset_, "Set all knobs of `echocine study`")
       ->type_name(fmt::format("{{{}}}", fmt::join(kPresetNames, ",")));
   command
       .add_option("--tolerance-db", tolerance_db_,
-                  "Set them as cheaply as the picture stays within this RMS error of the "
-                  "reference preset, dB of the displayed range (also accuracy.tolerance_db)")
+                  "Choose the cheapest settings within this RMS error of the reference preset, dB "
+                  "of the displayed range (also accuracy.tolerance_db)")
       ->type_name("DB");
 }
 

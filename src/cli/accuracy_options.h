@@ -1,5 +1,5 @@
 #pragma once
-// --preset and --tolerance-db: who sets a scene's accuracy, if not the scene.
+// --preset and --tolerance-db: options that override a scene's accuracy.
 
 #include <optional>
 #include <string>
@@ -17,8 +17,8 @@ class AccuracyOptions {
  public:
   void addTo(CLI::App& command);
 
-  // The scene as it is to be rendered, with the record for its manifest. What was picked, and why,
-  // is a line on standard error. Throws SceneError when two demands contradict each other.
+  // The scene to render, with the record for its manifest. The selection and its reason are printed
+  // on standard error. Throws SceneError for contradictory options.
   AccuracyRecord resolve(Scene& scene, int threads, bool quiet) const;
 
  private:

@@ -42,11 +42,11 @@ void addSide(CLI::App& command, echo::SideOptions& side, const std::string& pref
       ->expected(1);
   command
       .add_option("--" + prefix + "label", side.label,
-                  help("its name in pages and JSON, which have no file's name"))
+                  help("its name in pages and JSON, which never contain a file name"))
       ->type_name("TEXT");
   command
       .add_option("--" + prefix + "pixel-aspect", side.pixel_aspect,
-                  help("height of a pixel over its width, where the picture is stretched"))
+                  help("pixel height / width, if the picture is stretched"))
       ->check(within(echo::kLeastAspect, echo::kMostAspect))
       ->type_name("NUMBER");
   command
@@ -80,7 +80,7 @@ void checkOptions(const compare::CompareOptions& o) {
         "--contours: needs --scene, the scene that the synthetic loop was rendered from");
   for (std::size_t i = 1; i < o.knots.size(); ++i)
     if (!(o.knots[i] > o.knots[i - 1]))
-      throw SceneError("--knots: must rise, such as 0,40,90,160,255");
+      throw SceneError("--knots: must ascend, such as 0,40,90,160,255");
   if (o.knots.size() == 1)
     throw SceneError("--knots: needs two greys or more, such as 0,40,90,160,255");
 }
@@ -92,7 +92,7 @@ CompareCommand::CompareCommand(CLI::App& app) {
       app.add_subcommand("compare", "Compare a synthetic loop with an echo video, frame by frame");
   command
       ->add_option("synthetic", options_.synthetic,
-                   "Folder of a render, or any video; left out with --scan and --views")
+                   "Folder of a render, or any video; omitted with --scan and --views")
       ->required();
   command->add_option("real", options_.real,
                       "AVI, MP4, GIF, DICOM, or a folder of PNG or JPEG frames");
@@ -102,18 +102,18 @@ CompareCommand::CompareCommand(CLI::App& app) {
   addSide(*command, options_.synthetic_side, "synthetic-", "synthetic");
   addTimes(*command, options_.synthetic_side, "synthetic", "synthetic");
   command->add_flag("--sectors-only", no_space_,
-                    "Lay the sectors on one another and shift, scale and turn nothing");
-  command->add_flag("--no-ecg", no_ecg_, "Read no ECG from the pictures of either loop");
-  command->add_flag("--monotone", options_.monotone, "A grey calibration that never falls");
+                    "Register by the sectors only, without shift, scale and rotation");
+  command->add_flag("--no-ecg", no_ecg_, "Do not read an ECG from the pictures");
+  command->add_flag("--monotone", options_.monotone, "Monotone grey calibration");
   command->add_option("--knot-count", options_.knot_count, "Knots of the grey calibration")
       ->check(CLI::Range(2, 64))
       ->capture_default_str();
-  command->add_option("--knots", options_.knots, "Synthetic greys (0 to 255) to put the knots at")
+  command->add_option("--knots", options_.knots, "Synthetic grey levels (0 to 255) of the knots")
       ->delimiter(',')
       ->check(within(0, 255))
       ->type_name("NUMBER");
   command->add_option("--scene", options_.scene,
-                      "Scene of the render: metrics in bands about its boundaries");
+                      "Scene of the render: metrics in bands around its boundaries");
   command->add_option("--band-mm", options_.band_mm, "Full width of a band, mm")
       ->check(within(0.1, 100))
       ->type_name("NUMBER")
@@ -121,31 +121,30 @@ CompareCommand::CompareCommand(CLI::App& app) {
   command
       ->add_option(
           "--tilt", options_.tilt_deg,
-          fmt::format("Tilt and rotate the plane of --scene, or of the hearts of --scan or "
-                      "--views, to where it fits best: degrees either way, 0 to {:g}",
+          fmt::format("Search the best tilt and rotation of the plane of --scene, or of the hearts "
+                      "of --scan or --views: limit in degrees either way, 0 to {:g}",
                       fit::kMostTilt_deg))
       ->check(within(0, fit::kMostTilt_deg))
       ->type_name("NUMBER")
       ->capture_default_str();
   command->add_flag("--contours", options_.contours, "Draw the scene's contours into the pictures");
-  command->add_option(
-      "--scan", scan_text_,
-      "Instead of a synthetic loop: a parametric heart whose dials are changed, up to "
-      "three, such as ef=0.3:0.75:0.05,edv=120:230:20");
+  command->add_option("--scan", scan_text_,
+                      "Instead of a synthetic loop: scan up to three dials of a parametric heart, "
+                      "such as ef=0.3:0.75:0.05,edv=120:230:20");
   command->add_option("--views", views_text_,
-                      "Instead of a synthetic loop: which of these views the loop shows, and whose "
-                      "heart. all, or two or more of " +
+                      "Instead of a synthetic loop: rank these views and fit a heart in each; all, "
+                      "or at least two of " +
                           viewList());
   command->add_option("--dials", dials_text_,
-                      "Dials of that heart that stay, such as hr=72,wall-thickness=11");
-  command->add_option("--view", view_text_, "View of that heart, as `echocine heart` has them")
+                      "Fixed dials of that heart, such as hr=72,wall-thickness=11");
+  command->add_option("--view", view_text_, "View of that heart, as in `echocine heart`")
       ->type_name(viewChoice())
       ->capture_default_str();
   command->add_flag("--yes", scan_.yes,
-                    fmt::format("Scan also at more than {} places", fit::kMostUnasked));
+                    fmt::format("Allow scans of more than {} points", fit::kMostUnasked));
   command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
-  command->add_flag("--quiet", quiet_, "Print nothing but errors");
+  command->add_flag("--quiet", quiet_, "Print errors only");
   command->footer("Example: echocine compare loop patient.dcm -o comparison --heart-rate 62.5\n" +
                   std::string(kDocuments));
 }
@@ -172,7 +171,7 @@ int CompareCommand::run() {
   if (!views_text_.empty()) return runViews();
   if (options_.real.empty())
     throw SceneError(
-        "compare: needs two loops, SYNTHETIC and REAL; with --scan or --views the real one alone");
+        "compare: needs two loops, SYNTHETIC and REAL; with --scan or --views only the real one");
   if (!dials_text_.empty()) throw SceneError("--dials: belongs to --scan and --views");
   // A flag that leaves out reads better than one that turns on what is on.
   options_.align_space = !no_space_;
@@ -185,10 +184,9 @@ int CompareCommand::run() {
 
 void CompareCommand::needOneLoop(const char* option) const {
   if (!options_.real.empty())
-    throw SceneError(
-        fmt::format("{}: takes the real loop alone; leave the synthetic one out", option));
+    throw SceneError(fmt::format("{}: takes only the real loop; omit the synthetic one", option));
   if (!options_.scene.empty())
-    throw SceneError(fmt::format("{}: has hearts of its own; leave --scene out", option));
+    throw SceneError(fmt::format("{}: uses its own hearts; omit --scene", option));
 }
 
 // One loop stands first, whatever the position is called.

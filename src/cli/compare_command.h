@@ -14,7 +14,7 @@ class App;
 
 namespace echocine {
 
-// Options as given; compareLoops() judges what files can tell.
+// Options as given; compareLoops() checks what depends on files.
 class CompareCommand {
  public:
   explicit CompareCommand(CLI::App& app);  // adds the sub-command
@@ -23,10 +23,10 @@ class CompareCommand {
  private:
   int runScan();
   int runViews();
-  // Makes the result under a progress line, writes it into the folder and prints its table.
+  // Computes the result with a progress line, writes it into the folder and prints its table.
   template <typename Make, typename Write>
   int runAndTell(const Make& make, const Write& write) const;
-  // Of a command that holds hearts of its own against one loop.
+  // For a command that compares its own hearts with one loop.
   void needOneLoop(const char* option) const;
 
   compare::CompareOptions options_;

@@ -16,7 +16,7 @@ void printTilt(const fit::TiltFound& t) {
   const auto degrees = [](double rad) { return rad / radiansFromDegrees(1); };
   fmt::print(
       "  tilt: {:.1f} deg, confidence {:.2f}; rotation {:.1f} deg, confidence {:.2f}; the model's "
-      "discrepancy {:.4f}, {:.4f} untilted; {} planes, {:.1f} s of a core\n",
+      "discrepancy {:.4f}, {:.4f} without tilt; {} planes, {:.1f} s of one core\n",
       degrees(t.tilt.tilt_rad), t.tilt_confidence, degrees(t.tilt.rotate_rad), t.rotate_confidence,
       t.found.discrepancy, t.untilted, t.planes, 1e-3 * t.cpu_ms);
 }
@@ -29,7 +29,7 @@ void printCaveats(const std::vector<std::string>& caveats) {
 void printBeat(const echo::EchoLoop& real) {
   fmt::print("  beat: {}", real.beat_anchor);
   if (real.ecg)
-    fmt::print(", {}, {} R waves, {:.2f} px a frame, confidence {:.2f}", real.ecg->kind,
+    fmt::print(", {}, {} R waves, {:.2f} px per frame, confidence {:.2f}", real.ecg->kind,
                real.rWaveFrames().size(), real.ecg->px_per_frame, real.ecg->confidence);
   fmt::print("\n");
 }
@@ -39,7 +39,8 @@ void printBeat(const echo::EchoLoop& real) {
 // The one number first: it is what optimisers and impatient readers want.
 void printTable(const compare::Comparison& c, const std::filesystem::path& folder) {
   fmt::print(
-      "discrepancy {:.4f} (0 equal, about 1 unrelated), mean of {} frames; {:.4f} as placed\n",
+      "discrepancy {:.4f} (0 equal, about 1 unrelated), mean of {} frames; {:.4f} without "
+      "registration\n",
       c.discrepancy,
       std::count_if(c.frames.begin(), c.frames.end(), [](const auto& f) { return f.counted(); }),
       c.discrepancy_as_placed);
@@ -85,8 +86,8 @@ void printTable(const fit::DialScan& scan, const std::filesystem::path& folder) 
   printCaveats(scan.caveats);
   const fit::FitTerms& t = best.found.terms;
   fmt::print("discrepancy {:.4f} at {}{}\n", best.found.discrepancy, where,
-             between.empty() ? "" : "; between the steps least at " + between);
-  fmt::print("  region {:.3f}, boundary {:.3f}, motion {:.3f}, {:.0f} % in sight\n", t.region,
+             between.empty() ? "" : "; minimum between the steps at " + between);
+  fmt::print("  region {:.3f}, boundary {:.3f}, motion {:.3f}, {:.0f} % overlap\n", t.region,
              t.boundary, t.motion, 100 * t.overlap);
   const fit::FitPose& p = best.found.pose;
   fmt::print("  pose: shift {:.1f}, {:.1f} mm, turn {:.1f} deg, scale {:.3f}, confidence {:.2f}\n",
@@ -94,7 +95,7 @@ void printTable(const fit::DialScan& scan, const std::filesystem::path& folder) 
              scan.centre.confidence);
   if (scan.tilt) printTilt(*scan.tilt);
   fmt::print("  beat: {}\n", scan.beat_anchor);
-  fmt::print("  {} evaluations of {:.0f} ms of a core, hearts recorded in {:.1f} s of a core\n",
+  fmt::print("  {} evaluations of {:.0f} ms of one core, hearts computed in {:.1f} s of one core\n",
              scan.points.size(), scan.evaluation_ms, 1e-3 * scan.family_ms);
   fmt::print("  {}: scan.csv, scan.json, scan.html\n", folder.string());
 }
@@ -121,8 +122,8 @@ void printTable(const fit::ViewRanking& ranking, const std::filesystem::path& fo
   }
   if (best.heart.tilt) printTilt(*best.heart.tilt);
   fmt::print("  beat: {}\n", ranking.beat_anchor);
-  fmt::print("  {:.0f} s of a core, of which {:.0f} s for recording hearts\n",
-             1e-3 * ranking.cpu_ms, 1e-3 * ranking.nodes_ms);
+  fmt::print("  {:.0f} s of one core, {:.0f} s of it for computing hearts\n", 1e-3 * ranking.cpu_ms,
+             1e-3 * ranking.nodes_ms);
   fmt::print("  {}: views.csv, views.json, views.html\n", folder.string());
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What `echocine compare` prints.
+// Terminal output of `echocine compare`.
 
 #include <filesystem>
 

@@ -33,7 +33,7 @@ std::pair<int, int> parseTask(const std::string& text) {
   if (!slash || second.ec != std::errc() || second.ptr != end || task.first < 1 ||
       task.first > task.second)
     throw SceneError(fmt::format(
-        "--task: \"{}\" is no part, accepted: K/N, the K-th of N parts, such as 1/8", text));
+        "--task: \"{}\" is not a part, accepted: K/N, the K-th of N parts, such as 1/8", text));
   return task;
 }
 
@@ -41,58 +41,59 @@ std::pair<int, int> parseTask(const std::string& text) {
 
 DatasetCommand::DatasetCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "dataset", "Make many loops with truth from a spec of distributions, in common layouts");
+      "dataset",
+      "Generate many loops with ground truth from a spec of distributions, in common layouts");
   command->add_option("spec", spec_file_, "Spec of the dataset (TOML)")->required();
   command
       ->add_option("-o,--output", folder_,
-                   "Folder of the dataset, the same one goes on; of --preview the page")
+                   "Folder of the dataset, which is resumed if it exists; with --preview the page")
       ->required();
   command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   CLI::Option* task = command->add_option(
-      "--task", task_, "Make only the K-th of N parts (K/N); tables wait for --merge");
-  CLI::Option* merge = command
-                           ->add_flag("--merge", merge_,
-                                      "Make nothing: prove that all is there and write the tables")
-                           ->excludes(task);
-  command
-      ->add_flag("--fast", fast_,
-                 "Of --merge: prove files by their sizes alone, not by their bytes")
+      "--task", task_, "Render only the K-th of N parts (K/N); --merge writes the tables");
+  CLI::Option* merge =
+      command
+          ->add_flag("--merge", merge_,
+                     "Render nothing: verify that all parts exist and write the tables")
+          ->excludes(task);
+  command->add_flag("--fast", fast_, "With --merge: verify files by size only, not by content")
       ->needs(merge);
   command
-      ->add_option(
-          "--preview", preview_,
-          "Write only a page and a contact sheet of N hearts, with time and disk of the whole")
+      ->add_option("--preview", preview_,
+                   "Write only a page and a contact sheet of N hearts, with the expected time and "
+                   "disk space")
       ->check(CLI::Range(1, 1000))
       ->excludes(task)
       ->excludes(merge);
-  CLI::Option* slurm = command
-                           ->add_flag("--slurm", slurm_,
-                                      "Write jobs of Slurm into FOLDER/slurm and submit them: an "
-                                      "array, and a merge behind it")
-                           ->excludes(task)
-                           ->excludes(merge)
-                           ->excludes("--preview");
-  command->add_flag("--no-submit", no_submit_, "Of --slurm: write the jobs only")->needs(slurm);
+  CLI::Option* slurm =
+      command
+          ->add_flag("--slurm", slurm_,
+                     "Write Slurm jobs into FOLDER/slurm and submit them: an array, then a merge")
+          ->excludes(task)
+          ->excludes(merge)
+          ->excludes("--preview");
+  command->add_flag("--no-submit", no_submit_, "With --slurm: write the jobs only")->needs(slurm);
   command
       ->add_option(
           "--tasks", tasks_,
-          "Of --slurm: tasks of the array; default: of about half an hour, by the first heart")
+          "With --slurm: tasks of the array; default: about half an hour each, by the first heart")
       ->check(CLI::Range(1, 1000000))
       ->needs(slurm);
-  command->add_option("--cores", cores_, "Of --slurm: cores of a task; default 4")
+  command->add_option("--cores", cores_, "With --slurm: cores of a task; default 4")
       ->check(CLI::Range(1, 4096))
       ->needs(slurm);
   command
       ->add_option("--minutes", minutes_,
-                   "Of --slurm: a task's limit; default: three times what the first heart tells")
+                   "With --slurm: time limit of a task; default: three times the estimate from the "
+                   "first heart")
       ->check(CLI::Range(1, 1000000))
       ->needs(slurm);
   command
       ->add_option("--sbatch", sbatch_,
-                   "Of --slurm: more options for sbatch, such as \"--partition=cpu\"")
+                   "With --slurm: more options for sbatch, such as \"--partition=cpu\"")
       ->needs(slurm);
-  command->add_flag("--quiet", quiet_, "Print nothing but errors");
+  command->add_flag("--quiet", quiet_, "Print errors only");
   command->footer("Example: echocine dataset examples/datasets/smoke.toml -o smoke\n" +
                   std::string(kDocuments));
 }
@@ -120,10 +121,9 @@ int DatasetCommand::run() {
     const dataset::MakeSummary made = dataset::makePart(spec, options, monitor);
     bar.finish();
     if (!quiet_)
-      fmt::print(
-          "{} loops, {:.1f} MB; {} hearts were there before, {} failed, {} draws impossible\n",
-          made.loops, static_cast<double>(made.bytes) * 1e-6, made.kept, made.failed,
-          made.impossible);
+      fmt::print("{} loops, {:.1f} MB; {} hearts were kept, {} failed, {} draws impossible\n",
+                 made.loops, static_cast<double>(made.bytes) * 1e-6, made.kept, made.failed,
+                 made.impossible);
     if (!task_.empty()) return 0;
   }
   // A run without --merge has just proven the bytes of what it kept.
@@ -131,7 +131,7 @@ int DatasetCommand::run() {
       spec, folder_, {.fast = fast_ || !merge_, .threads = threads_},
       {.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)});
   if (!quiet_)
-    fmt::print("{} hearts, {} loops in {}: README.md tells of them\n", merged.merged, merged.loops,
+    fmt::print("{} hearts, {} loops in {}: README.md describes them\n", merged.merged, merged.loops,
                folder_.string());
   return 0;
 }
@@ -139,7 +139,7 @@ int DatasetCommand::run() {
 int DatasetCommand::preview(const dataset::Spec& spec) const {
   if (folder_.extension() != ".html")
     throw SceneError(fmt::format(
-        "--output: \"{}\" is no page, accepted with --preview: a name that ends in .html",
+        "--output: \"{}\" is not a page, accepted with --preview: a name that ends in .html",
         folder_.string()));
   ProgressBar bar(quiet_);
   Monitor monitor{.keep_going = [] { return !stopWanted(); }};

@@ -1,5 +1,5 @@
 #pragma once
-// echocine dataset: a spec in, a folder of many loops with truth out.
+// echocine dataset: a spec in, a folder of many loops with ground truth out.
 
 #include <filesystem>
 #include <string>
@@ -26,7 +26,7 @@ class DatasetCommand {
   std::filesystem::path spec_file_, folder_;
   std::string task_, sbatch_;
   int threads_ = 0, preview_ = 0;
-  int tasks_ = 0, cores_ = 4, minutes_ = 0;  // of Slurm's jobs; 0: by what the first heart takes
+  int tasks_ = 0, cores_ = 4, minutes_ = 0;  // of Slurm's jobs; 0: derived from the first heart
   bool merge_ = false, fast_ = false, slurm_ = false, no_submit_ = false, quiet_ = false;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where help ends and documents begin.
+// Reference to the documents at the end of help texts.
 
 namespace echocine {
 

@@ -57,7 +57,7 @@ HeartCommand::HeartCommand(CLI::App& app) {
   command
       ->add_option("-o,--output", folder_, "New folder for the meshes, scene.toml and truth.json")
       ->required();
-  command->add_option("--view", view_, "Where the probe is held")
+  command->add_option("--view", view_, "View of the probe")
       ->type_name(viewChoice())
       ->capture_default_str();
   const heart::Parameters defaults;
@@ -77,16 +77,16 @@ HeartCommand::HeartCommand(CLI::App& app) {
   command->add_option(
       "--segment", segments_,
       "Wall motion of one of the 17 segments, NUMBER:AMPLITUDE[:DELAY_MS]: 1 healthy, "
-      "0 akinetic, below 0 dyskinetic; may be given often");
+      "0 akinetic, below 0 dyskinetic; may be repeated");
   command
       ->add_option("--rule", rule_,
-                   "What gives way where --segment says that walls are still: segments (the "
-                   "ejection fraction falls) or volumes (it stays as dialled)")
+                   "Priority if --segment makes walls akinetic: segments (the ejection fraction "
+                   "falls) or volumes (it stays as dialled)")
       ->check(CLI::IsMember({"segments", "volumes"}))
       ->capture_default_str();
   command
       ->add_option("--look", look_,
-                   "How the scene's pictures look: paper (the paper's, without speckle), clean "
+                   "Look of the scene's pictures: paper (the paper's, without speckle), clean "
                    "(speckle and a grey map), scanner (with its artefacts too)")
       ->check(CLI::IsMember(lookNames()))
       ->capture_default_str();
@@ -95,10 +95,10 @@ HeartCommand::HeartCommand(CLI::App& app) {
       ->capture_default_str();
   command->add_flag(
       "--even", even_,
-      "Space keyframes evenly, not by how much moves; end-systole then falls between two");
+      "Space keyframes evenly, not by motion; end-systole then lies between two of them");
   command->add_option("--threads", wanted_.threads, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
-  command->add_flag("--quiet", quiet_, "Print nothing but errors");
+  command->add_flag("--quiet", quiet_, "Print errors only");
   command->footer("Example: echocine heart --ef 0.35 --view a2c -o failing_heart\n" +
                   std::string(kDocuments));
 }

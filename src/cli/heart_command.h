@@ -22,7 +22,7 @@ class HeartCommand {
  private:
   HeartFiles wanted_;
   std::filesystem::path folder_;
-  // By the dial's key; what is not given follows what is.
+  // By the dial's key; other dials follow.
   std::map<std::string, double> given_;
   std::string view_ = "a4c", rule_ = "segments", look_ = "scanner";
   std::vector<std::string> segments_;

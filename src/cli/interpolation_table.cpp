@@ -36,7 +36,7 @@ std::vector<Row> judged(const Scene& scene) {
   }
   if (rows.empty())
     throw SceneError(atPlace(scene.structures.front().place,
-                             "too few keyframes to leave some out, accepted: four or more"));
+                             "too few keyframes to omit some, accepted: four or more"));
   Row all{"all", {}};
   for (std::size_t k = 0; k < kInterpolationKinds; ++k)
     if (of_kind[k].size() == rows.size()) all.errors[k] = pooled(of_kind[k]);
@@ -90,7 +90,7 @@ void printInterpolation(const Scene& scene, bool as_json) {
     fmt::print("{}\n", json.dump(1));
     return;
   }
-  fmt::print("every other keyframe left out and interpolated from the rest\n\n");
+  fmt::print("every other keyframe omitted and interpolated from the rest\n\n");
   using E = const InterpolationError&;
   printBlock(
       rows, "vertices, RMS in mm", [](E e) { return millimetresFromMetres(e.vertex_rms_m); },
@@ -102,7 +102,8 @@ void printInterpolation(const Scene& scene, bool as_json) {
       rows, "volume, worst in mL", [](E e) { return millilitresFromCubicMetres(e.volume_max_m3); },
       true);
   printBlock(
-      rows, "volume, worst in % of most", [](E e) { return 100 * e.volume_max_share; }, true);
+      rows, "volume, worst in % of the largest", [](E e) { return 100 * e.volume_max_share; },
+      true);
 }
 
 }  // namespace echocine

@@ -5,8 +5,8 @@
 
 namespace echocine {
 
-// Reads the keyframes and prints, per structure and over all, how well each kind of interpolation
-// finds every other keyframe from the rest. Throws SceneError.
+// Reads the keyframes and prints the error of each kind of interpolation at every other keyframe,
+// computed from the rest, per structure and in total. Throws SceneError.
 void printInterpolation(const Scene& scene, bool as_json);
 
 }  // namespace echocine

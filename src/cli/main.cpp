@@ -103,7 +103,7 @@ int run(int argc, char** argv) {
                                                      : render.run();
     // A plan piped into a full disk has failed, though all was computed.
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-      return failed(kJobFailed, "what was to be printed could not be written");
+      return failed(kJobFailed, "the output could not be written");
     return code;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version

@@ -1,6 +1,6 @@
 #pragma once
-// Numbers of the command line: finite and within bounds. The library's own check lets "nan" pass,
-// and takes fractions of whole bounds for a mistake.
+// Numbers of the command line: finite and within bounds. The library's own check accepts "nan", and
+// rejects fractions if the bounds are whole numbers.
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-// One line of text, whatever names it quotes.
+// Makes a message one line, whatever names it quotes.
 
 #include <fmt/format.h>
 
@@ -9,17 +9,17 @@
 
 namespace echocine {
 
-// Longest word or quotation that a message repeats, and longest message; our choice.
+// Longest word or quotation of a message, and longest message; our choice.
 inline constexpr std::size_t kLongestQuote = 200, kLongestLine = 2000;
 
-// The ends tell most: of a path its root and its file.
+// Keeps both ends, which are the most informative: the root and the file of a path.
 inline std::string shortened(std::string_view text, std::size_t longest) {
   if (text.size() <= longest) return std::string(text);
   const std::size_t half = (longest - 5) / 2;
   return fmt::format("{} ... {}", text.substr(0, half), text.substr(text.size() - half));
 }
 
-// Words of over kLongestQuote characters, and quotations, with their middle left out.
+// Shortens words and quotations of more than kLongestQuote characters in the middle.
 inline std::string withShortWords(std::string_view text) {
   std::string line;
   while (!text.empty()) {
@@ -34,8 +34,7 @@ inline std::string withShortWords(std::string_view text) {
   return line;
 }
 
-// Control characters, such as line breaks within a quoted key, spelled out: \x0a. What is longer
-// than anybody reads is cut.
+// Escapes control characters, such as line breaks in a quoted key: \x0a. Truncates long messages.
 inline std::string oneLine(std::string_view text) {
   std::string line;
   for (const char c : shortened(withShortWords(text), kLongestLine)) {

@@ -53,7 +53,7 @@ void printRest(const Scene& scene, const Estimate& estimate) {
   fmt::print("\ntracer      {}: {}\n", plan.tracerName(), plan.tracer_reason);
   fmt::print("echoes      {}\n", plan.echo_reason);
   fmt::print("white       {}\n", whiteWords(scene));
-  fmt::print("triangles   {} given, {} in structures that stay, {} cut by the imaging plane\n",
+  fmt::print("triangles   {} given, {} in structures in use, {} cut by the imaging plane\n",
              plan.triangles_given, plan.triangles_kept, plan.triangles_met);
   std::string stages;
   for (std::size_t s = 0; s < kStages; ++s)
@@ -82,16 +82,16 @@ void printJson(const Scene& scene, const Estimate& estimate) {
 
 PlanCommand::PlanCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "plan", "Say which effects a scene's loop needs, why, and what it will take in s and MB");
+      "plan",
+      "List the effects that a scene's loop needs, with reasons and the expected time and memory");
   command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")
       ->required();
   command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   accuracy_.addTo(*command);
-  command->add_flag(
-      "--interpolation", interpolation_,
-      "Instead: how well each kind of motion.interpolation finds every other keyframe "
-      "from the rest, errors in mm and mL");
+  command->add_flag("--interpolation", interpolation_,
+                    "Print instead the errors of each kind of motion.interpolation at omitted "
+                    "keyframes, mm and mL");
   command->add_option(
       "--page", page_,
       "Also write the page of `echocine view` to this file: meshes and sector in 3-D");

@@ -12,7 +12,7 @@ class App;
 
 namespace echocine {
 
-// Renders a few frames into a temporary folder to measure what the loop will take.
+// Renders a few frames into a temporary folder to measure the expected cost of the loop.
 class PlanCommand {
  public:
   explicit PlanCommand(CLI::App& app);  // adds the sub-command

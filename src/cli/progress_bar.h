@@ -1,16 +1,16 @@
 #pragma once
-// A bar that redraws itself on a terminal, a line now and then elsewhere.
+// A bar that is redrawn on a terminal; periodic lines otherwise.
 
 #include <chrono>
 #include <string>
 
 namespace echocine {
 
-// On standard error, so that a pipe of the output stays clean.
+// On standard error, so that piped output stays clean.
 class ProgressBar {
  public:
   explicit ProgressBar(bool quiet);
-  // Ten times a second on a terminal; every ten seconds for logs; always at the end.
+  // Ten times a second on a terminal; every ten seconds otherwise; always at the end.
   bool due(std::size_t done, std::size_t total);
   void draw(std::size_t done, std::size_t total, const std::string& text);
   void finish();  // ends an open bar
@@ -21,7 +21,7 @@ class ProgressBar {
   Clock::time_point last_shown_{};
 };
 
-// "3:07" of seconds.
+// Seconds as "3:07".
 std::string minutesAndSeconds(double seconds);
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// How far a job is: a bar that redraws itself on a terminal, a line now and then elsewhere.
+// Progress of a job: a bar that is redrawn on a terminal; periodic lines otherwise.
 
 #include <chrono>
 
@@ -14,7 +14,7 @@ class ProgressLine {
   void show(const Progress& progress);  // from one thread at a time
   void finish();                        // ends an open bar
 
-  // Shows progress here, stops on a signal and prints warnings. Precondition: the line outlives it.
+  // Shows progress, stops on a signal and prints warnings. Precondition: the line outlives it.
   Monitor monitor();
 
  private:

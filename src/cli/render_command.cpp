@@ -32,8 +32,7 @@ std::pair<int, int> parseRange(const std::string& text, int loop_frames) {
   if (colon == std::string::npos || !read(view.substr(0, colon), range.first) ||
       !read(view.substr(colon + 1), range.second))
     throw SceneError(fmt::format(
-        "--frames: \"{}\" is not a range, accepted: A:B for the frames from A up to, without, B",
-        text));
+        "--frames: \"{}\" is not a range, accepted: A:B for the frames A to B - 1", text));
   return range;
 }
 
@@ -46,7 +45,7 @@ void askForTruth(const std::string& list, Scene& scene) {
   const std::string unknown = switchOn(kinds, scene.truth);
   if (!unknown.empty())
     throw SceneError(
-        fmt::format("--truth: \"{}\" is no kind of truth, accepted: {}", unknown, kTruthKinds));
+        fmt::format("--truth: \"{}\" is not a kind of truth, accepted: {}", unknown, kTruthKinds));
 }
 
 // Times are summed over threads, so that settings compare whatever the number of cores.
@@ -86,16 +85,16 @@ RenderCommand::RenderCommand(CLI::App& app) {
   command->add_option("--threads", options_.threads, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   command->add_option("--frames", frames_,
-                      "Only frames A up to, without, B of the loop, counted from 0 (A:B, A:, :B)");
+                      "Only frames A to B - 1 of the loop, counted from 0 (A:B, A:, :B)");
   command->add_option("--truth", truth_,
-                      "Write truth too, beside what the scene asks for: all, or some of labels, "
-                      "contours, tracks, function with commas between");
+                      "Write ground truth in addition to the scene's own: all, or a "
+                      "comma-separated list of labels, contours, tracks, function");
   accuracy_.addTo(*command);
   command->add_flag("--resume", options_.resume,
-                    "Keep frames whose EXR is whole and of this very scene");
+                    "Keep frames whose EXR is complete and of this scene");
   command->add_flag("--overwrite", options_.overwrite,
-                    "Replace the loop of another scene in the folder; without it that is refused");
-  command->add_flag("--quiet", quiet_, "Print nothing but errors");
+                    "Replace the loop of another scene in the folder");
+  command->add_flag("--quiet", quiet_, "Print errors only");
   command->footer("Example: echocine render scene.toml -o loop --frames 0:50\n" +
                   std::string(kDocuments));
 }
@@ -113,7 +112,7 @@ int RenderCommand::run() {
   // A stopped run is a failed job: scripts must not go on with half a loop.
   if (summary.frames_done < summary.frames_wanted)
     throw JobError(
-        fmt::format("stopped: {} of {} frames are finished in {}; --resume goes on from there",
+        fmt::format("stopped: {} of {} frames are finished in {}; --resume continues from there",
                     summary.frames_done, summary.frames_wanted, options_.folder.string()));
   if (quiet_) return 0;
   printSummary(summary, options_, scene);

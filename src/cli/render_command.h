@@ -12,7 +12,7 @@ class App;
 
 namespace echocine {
 
-// The main job; what is asked of a run, as opposed to a scene, stands here.
+// The main job. Options of a run, which are not part of the scene, are here.
 class RenderCommand {
  public:
   explicit RenderCommand(CLI::App& app);  // adds the sub-command
@@ -20,7 +20,7 @@ class RenderCommand {
 
  private:
   std::string scene_file_;
-  std::string truth_;  // kinds, between commas
+  std::string truth_;  // kinds, comma-separated
   std::string frames_;
   bool quiet_ = false;
   RenderOptions options_;

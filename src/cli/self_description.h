@@ -1,5 +1,5 @@
 #pragma once
-// Man pages and completions of shells, made from what the parser knows: no second list of options.
+// Man pages and shell completions, generated from the parser's options.
 
 #include <string>
 
@@ -9,10 +9,10 @@ class App;
 
 namespace echocine {
 
-// roff: of the program, which names every command, or of one of its commands.
+// roff: of the program, with all commands, or of one command.
 std::string manPage(const CLI::App& program, const CLI::App* command = nullptr);
 
-// Scripts that complete commands, their options and the words that an option takes, and else files.
+// Scripts that complete commands, options, the words of an option, and otherwise files.
 std::string bashCompletion(const CLI::App& program);
 std::string zshCompletion(const CLI::App& program);
 

@@ -21,13 +21,13 @@ int exit_code = 1;
 // Only what is allowed in a signal handler: write() and _exit(), no formatting.
 void endAborted(int) {
   endsFirst();
-  writeError("echocine: a library gave up (abort), most likely for want of memory\n");
+  writeError("echocine: a library aborted, probably out of memory\n");
   ::_exit(exit_code);
 }
 
 // An exception that left a thread of a library, or was thrown while another was on its way.
 [[noreturn]] void endUncaught() {
-  constexpr const char* kUnknown = "a library gave up, most likely for want of memory";
+  constexpr const char* kUnknown = "a library aborted, probably out of memory";
   endsFirst();
   writeError("echocine: ");
   try {

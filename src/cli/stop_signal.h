@@ -1,12 +1,12 @@
 #pragma once
-// Ctrl-C, SIGTERM and SIGHUP as a wish to stop, which running work asks for between frames.
+// Ctrl-C, SIGTERM and SIGHUP as a request to stop, polled by running work between frames.
 
 namespace echocine {
 
-// From now on the signals only note the wish; one that comes two seconds or more after the first
-// ends the program at once.
+// From now on the signals only set a flag; one that arrives two seconds or more after the first
+// ends the program immediately.
 void listenForStop();
-// Asked between frames, from any thread.
+// Polled between frames, from any thread.
 bool stopWanted();
 
 }  // namespace echocine

@@ -39,7 +39,7 @@ void writeAll(const StudyResult& result, const std::filesystem::path& folder) {
 
 StudyCommand::StudyCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "study", "Measure what each accuracy knob of a scene costs in ms and leaves in dB and mm");
+      "study", "Measure the time (ms) and the error (dB, mm) of each accuracy knob of a scene");
   command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")
       ->required();
   command
@@ -48,7 +48,7 @@ StudyCommand::StudyCommand(CLI::App& app) {
       ->required();
   command
       ->add_option("--frames", options_.frames,
-                   "Frames that are compared and timed, evenly over the first beat")
+                   "Frames to compare and time, evenly spaced over the first beat")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command
@@ -61,18 +61,16 @@ StudyCommand::StudyCommand(CLI::App& app) {
                    fmt::format("Only these knobs, a,b,...: {}", fmt::join(knobNames(), ", ")))
       ->delimiter(',');
   command
-      ->add_option(
-          "--budget-s", options_.budget_s,
-          "Begin nothing later than this many seconds after the start: the run ends within "
-          "one setting of it")
+      ->add_option("--budget-s", options_.budget_s,
+                   "Start no setting later than this many seconds after the start")
       ->check(within(1e-3, 1e9))
       ->type_name("SECONDS");
   command
       ->add_option("--threads", options_.threads,
-                   "Frames in the making at once while they are timed; 0 for one per core")
+                   "Frames rendered in parallel during timing; 0: one per core")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
-  command->add_flag("--quiet", quiet_, "Print nothing but errors");
+  command->add_flag("--quiet", quiet_, "Print errors only");
   command->footer(
       "Example: echocine study scene.toml -o study --knobs lines,samples --budget-s 60\n" +
       std::string(kDocuments));

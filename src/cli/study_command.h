@@ -11,7 +11,7 @@ class App;
 
 namespace echocine {
 
-// One thread unless asked: times of a single frame are what settings are compared by.
+// One thread by default: settings are compared by the time of a single frame.
 class StudyCommand {
  public:
   explicit StudyCommand(CLI::App& app);  // adds the sub-command

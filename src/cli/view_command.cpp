@@ -21,21 +21,22 @@ ViewCommand::ViewCommand(CLI::App& app) {
   command
       ->add_option(
           "-o,--output", page_,
-          "Page to write (HTML, one file that opens offline); one that is there is replaced")
+          "Page to write (HTML, one file that opens offline); an existing file is replaced")
       ->required();
   command
-      ->add_option("--triangles", budget_.triangles,
-                   "Most triangles drawn of all structures together; open edges keep theirs")
+      ->add_option(
+          "--triangles", budget_.triangles,
+          "Largest number of triangles drawn, all structures together; open edges are kept")
       ->check(CLI::Range(100, 1000000))
       ->capture_default_str();
   command
       ->add_option("--phases", budget_.phases,
-                   "Instants of the beat that the page holds; between them meshes go straight")
+                   "Instants of the beat on the page; linear in between")
       ->check(CLI::Range(1, 200))
       ->capture_default_str();
   command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
-  command->add_flag("--quiet", quiet_, "Print nothing but errors");
+  command->add_flag("--quiet", quiet_, "Print errors only");
   command->footer("Example: echocine view scene.toml -o page.html\n" + std::string(kDocuments));
 }
 

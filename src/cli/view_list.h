@@ -1,14 +1,14 @@
 #pragma once
-// The views' names, as options list them.
+// Names of the views, for options.
 
 #include <string>
 
 namespace echocine {
 
-// "a4c, a2c, ...", from the heart's own table: a new view needs no change here.
+// "a4c, a2c, ...", from the heart's table: a new view needs no change here.
 std::string viewList(const char* between = ", ");
 
-// The same as an option's type: "{a4c,a2c,...}", which completions of shells offer.
+// The same as an option's type, "{a4c,a2c,...}", which shell completions offer.
 std::string viewChoice();
 
 }  // namespace echocine

@@ -1,5 +1,6 @@
 #pragma once
-// Warnings go to standard error, one line each. A quiet run has one only: that nothing can be seen.
+// Warnings go to standard error, one line each. With --quiet only the warning about an empty
+// picture is printed.
 
 #include <fmt/format.h>
 

@@ -27,7 +27,7 @@ BoundaryBands::BoundaryBands(const std::filesystem::path& scene, const echo::Ech
   // Contours are cut anew from the scene, so the loop must be one that was rendered.
   if (synthetic.scene_sha256.empty())
     throw SceneError(
-        fmt::format("--scene: {} is no render folder; bands need one", synthetic.video.name));
+        fmt::format("--scene: {} is not a render folder; bands need one", synthetic.video.name));
   if (!grid.metric)
     throw SceneError(
         "--scene: bands are in mm, and the real loop has no length scale; give --scale");

@@ -15,7 +15,7 @@ namespace echocine::compare {
 class BoundaryBands {
  public:
   // The scene from which `synthetic` was rendered. Its contours are cut exactly at any phase.
-  // Throws SceneError if the scene does not belong to the loop, or the loop is no render folder.
+  // Throws SceneError if the scene does not belong to the loop, or the loop is not a render folder.
   BoundaryBands(const std::filesystem::path& scene, const echo::EchoLoop& synthetic,
                 const echo::BeamGrid& grid, double width_m);
   ~BoundaryBands();

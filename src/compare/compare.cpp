@@ -105,8 +105,7 @@ void noteAssumptions(Comparison& c) {
   if (!c.grid.metric)
     say(
         fmt::format("{} has no length scale (--scale, in mm per pixel, gives it): both sectors are "
-                    "taken to be of "
-                    "one depth",
+                    "assumed to have equal depth",
                     c.real.metres_per_pixel ? c.synthetic.label : c.real.label));
   for (const echo::BeatLength* beat : {&c.synthetic_beat, &c.real_beat})
     if (beat->frames == 0)
@@ -114,16 +113,16 @@ void noteAssumptions(Comparison& c) {
                       beat == &c.real_beat ? c.real.label : c.synthetic.label));
   if (c.time.confidence < kDoubtfulConfidence)
     say(
-        fmt::format("the alignment in time is hardly better than any other (confidence {:.2f}): "
-                    "--real-ed and --real-es, or R waves, say which frames belong together",
+        fmt::format("the temporal alignment is ambiguous (confidence {:.2f}): give --real-ed and "
+                    "--real-es, or R waves",
                     c.time.confidence));
   if (c.scene_fit && c.scene_fit->tilt && c.scene_fit->tilt->at_limit)
-    say(fmt::format(
-        "the tilt that fits best lies at the limit of {:g} degrees: a better one may lie "
-        "beyond (--tilt)",
-        c.scene_fit->tilt->most_deg));
+    say(
+        fmt::format("the best tilt is at the limit of {:g} degrees: a better one may lie "
+                    "beyond (--tilt)",
+                    c.scene_fit->tilt->most_deg));
   if (c.space.used && c.space.at_limit)
-    say("the view that fits best lies at the limit of the search: a better one may lie beyond");
+    say("the best placement is at the limit of the search: a better one may lie beyond");
 }
 
 // A message names its file; notes are for pages and JSON, which do not.
@@ -140,8 +139,8 @@ void holdScene(const Scene& scene, const CompareOptions& options, const Monitor&
     c.scene_fit = std::make_shared<const fit::SceneFit>(
         fit::fitScene(scene, c.real, options.real_side, options.tilt_deg, monitor));
   } catch (const SceneError& error) {
-    c.notes.push_back(fmt::format("where the scene disagrees is not shown: {}",
-                                  withoutName(error.what(), c.real)));
+    c.notes.push_back(
+        fmt::format("the scene fit is not shown: {}", withoutName(error.what(), c.real)));
   }
 }
 

@@ -85,7 +85,8 @@ Json spaceJson(const Comparison& c) {
   json["confidence"] = c.space.confidence;
   json["unlike"] = c.space.unlike;
   json["unlike_definition"] =
-      "E = (1 - G) / c, least at the best placement: what edges are unlike per share in sight";
+      "E = (1 - G) / c, minimal at the best placement: dissimilarity of edges without the bias of "
+      "the overlap";
   json["rivals"] = Json::array();
   for (const PlacementFound& rival : c.space.rivals) {
     json["rivals"].push_back(placementJson(rival.placement));
@@ -165,8 +166,8 @@ Json summaryJson(const Comparison& c) {
           {"discrepancy_as_placed", c.discrepancy_as_placed},
           {"discrepancy_definition",
            "1 - c G, mean over counted frames; G: correlation of the gradients of both frames, "
-           "smoothed by 2 % of the depth, 1 for equal edges and 0 for unrelated ones; c: share of "
-           "the common sector that registration leaves in sight"},
+           "smoothed by 2 % of the depth, 1 for equal edges and 0 for unrelated ones; c: overlap, "
+           "the share of the common sector that both loops cover after registration"},
           {"overlap", c.overlap},
           {"frames_counted", counted},
           {"frames_total", c.frames.size()},

@@ -23,9 +23,9 @@ struct PlacementFound {
 };
 
 struct SpaceAlignment {
-  echo::Placement placement;                   // of beam space in the real picture
-  std::string method = "sectors as they are";  // or "several starts, then Newton's method"
-  bool used = false;                           // false: no placement is better
+  echo::Placement placement;                    // of beam space in the real picture
+  std::string method = "unregistered sectors";  // or "several starts, then Newton's method"
+  bool used = false;                            // false: no placement is better
   bool at_limit = false;  // the best placement is at a limit and may lie beyond
   double unlike = 1;      // E of Eq. 7
   // Eq. 8 of descent.h with the baseline 1.

@@ -1,5 +1,5 @@
 #pragma once
-// How a drawn heart is imaged: its scene with the drawn values, the probe moved off the standard
+// Imaging of a drawn heart: its scene with the drawn values, the probe displaced from the standard
 // view.
 
 #include "dataset/draws.h"
@@ -7,20 +7,20 @@
 
 namespace echocine::dataset {
 
-// The heart of drawn dials. Throws SceneError where they are impossible together.
+// The heart of drawn dials. Throws SceneError for an impossible combination.
 heart::ParametricHeart modelOf(const Values& values);
 
-// Surrounds a recorded heart as it is where a draw holds the probe: chest wall and lungs give way
-// to it there.
+// Adds the surroundings of a recorded heart for the drawn probe pose: chest wall and lungs yield to
+// the probe there.
 void surroundProbe(const Spec& spec, const Draw& draw, std::size_t view,
                    const heart::ParametricHeart& model, heart::Recording& recording);
 
 // The scene of a view of a user's heart, ready to simulate. Precondition: the spec has scenes.
-// Throws SceneError where values contradict each other.
+// Throws SceneError for contradictory values.
 Scene sceneOf(const Spec& spec, const Draw& draw, std::size_t view);
 
-// The scene of a view of a recorded heart, ready to simulate. Throws SceneError where values
-// contradict each other.
+// The scene of a view of a recorded heart, ready to simulate. Throws SceneError for contradictory
+// values.
 Scene sceneOf(const Spec& spec, const Draw& draw, std::size_t view,
               const heart::Parameters& parameters, const heart::Recording& recording);
 

@@ -1,5 +1,5 @@
 #pragma once
-// One loop of a dataset, in memory: pictures and truth of every frame, and all numbers about it.
+// One loop of a dataset in memory: pictures and truth of every frame, and all its numbers.
 
 #include <string>
 #include <utility>
@@ -18,9 +18,9 @@ struct LoopFrame {
   GreyImage image;                   // without ECG and ticks
   std::vector<std::uint8_t> labels;  // CAMUS's: 0 background, 1 LV cavity, 2 LV wall, 3 left atrium
   double lv_ml = 0;                  // exact, from the mesh
-  double biplane_ml = 0;  // at the two instants: Simpson's rule in two planes along the long axis
-  double single_plane_ml = 0;  // the same in the imaging plane alone
-  // At the two instants, as traced: widths of the discs and the axis in the imaging plane.
+  double biplane_ml = 0;  // at the two instants: Simpson's rule in two planes through the long axis
+  double single_plane_ml = 0;  // the same in the imaging plane only
+  // At the two instants, as traced: widths of the discs, and the axis in the imaging plane.
   std::vector<double> disc_widths_m{};
   double traced_length_m = 0;
   std::vector<Contour> contours;  // of structures with a role among kContourRoles
@@ -28,7 +28,7 @@ struct LoopFrame {
   std::vector<Vec3f> tracks_m;
 };
 
-// Long axis and cavity as an echo laboratory traces them, in pixels.
+// Long axis and cavity as traced by an echo laboratory, in pixels.
 struct Tracing {
   PixelPoint apex, base;                                  // of the long axis
   std::vector<std::pair<PixelPoint, PixelPoint>> chords;  // from the apex to the base
@@ -52,22 +52,22 @@ struct Loop {
   std::vector<TruthMaker::Tracked> tracked;
   std::optional<ViewOffset> offset;
   std::vector<double> ecg;  // amplitude at each frame
-  Values values;            // all that was drawn for it
+  Values values;            // all drawn values
   int width() const { return scene.output.width; }
   int height() const { return scene.output.height; }
 };
 
 struct Heart {
-  int number = 0;   // from 1, as patients are
+  int number = 0;   // from 1, like patients
   int attempt = 0;  // impossible draws before this one
   std::string population;
   Split split = Split::train;
   std::vector<Loop> loops;                // one for each view of the spec
-  std::vector<std::string> impossible{};  // reasons of the draws before it
+  std::vector<std::string> impossible{};  // reasons of the impossible draws
 };
 
-// A place of the imaging plane's neighbourhood is in the picture: within the sector, and no farther
-// from the plane than half the beam is wide across it there (full width at half maximum).
+// Is a place near the imaging plane in the picture? It is if it lies within the sector, and no
+// farther from the plane than half the beam's thickness there (full width at half maximum).
 bool isShown(const Loop& loop, Vec3f place_m);
 
 std::string loopId(int heart_number, View view);

@@ -24,17 +24,20 @@ std::pair<double, double> readEnds(TomlTable& table, const char* key) {
 Distribution readNormal(TomlTable& table) {
   const std::vector<double> shape = table.numbers("normal");
   if (shape.size() != 2 || !(shape[1] > 0))
-    table.fail("normal", "is not a bell, accepted: [MEAN, SD] with SD above 0");
+    table.fail("normal", "is not a normal distribution, accepted: [MEAN, SD] with SD above 0");
   if (!table.has("within"))
-    table.fail("within", "is missing, accepted: [LOW, HIGH], where the bell is cut off");
+    table.fail("within",
+               "is missing, accepted: [LOW, HIGH], where the normal distribution is truncated");
   const auto [low, high] = readEnds(table, "within");
   Distribution d = Distribution::normal(shape[0], shape[1], low, high);
   // Farther out the digits of the distribution function would show.
   constexpr double kFarthest = 6;
   if (low > d.mean + kFarthest * d.sd || high < d.mean - kFarthest * d.sd)
-    table.fail("within", fmt::format("lies over {} SD from the mean, where the bell has no draws: "
-                                     "move the range or the mean",
-                                     kFarthest));
+    table.fail(
+        "within",
+        fmt::format("lies over {} SD from the mean, where the normal distribution has no draws: "
+                    "move the range or the mean",
+                    kFarthest));
   return d;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// HDF5 files of a few arrays, the same bytes for the same arrays (https://www.hdfgroup.org).
+// HDF5 files of a few arrays, with deterministic bytes (https://www.hdfgroup.org).
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,8 @@ struct Hdf5Array {
   std::variant<std::span<const std::uint8_t>, std::span<const float>> values;
 };
 
-// A whole file, without times. Bytes are compressed, floats are not. Thread-safe. Throws JobError.
+// A complete file, without times. Bytes are compressed, floats are not. Thread-safe. Throws
+// JobError.
 std::vector<std::byte> hdf5Bytes(std::span<const Hdf5Array> arrays);
 
 }  // namespace echocine::dataset

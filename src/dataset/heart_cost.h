@@ -1,5 +1,5 @@
 #pragma once
-// What a heart of a dataset takes: measured, not modelled.
+// Measured cost of a heart of a dataset.
 
 #include <filesystem>
 
@@ -13,8 +13,8 @@ struct HeartCost {
   double bytes = 0;    // of its files
 };
 
-// Of the first heart, made whole beside `output` (a page or a folder) and thrown away. Throws as
-// makePart() does.
+// Renders the first heart completely beside `output` (a page or a folder) and deletes it. Throws
+// like makePart().
 HeartCost costOfAHeart(const Spec& spec, const std::filesystem::path& output,
                        const Monitor& monitor);
 

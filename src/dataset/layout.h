@@ -1,5 +1,5 @@
 #pragma once
-// The layouts that loops are written in: one interface, one file each.
+// The file layouts of loops: one interface, one file each.
 
 #include <nlohmann/json.hpp>
 #include <span>
@@ -11,18 +11,19 @@ namespace echocine::dataset {
 
 using Json = nlohmann::ordered_json;
 
-// What a finished heart left: heart, population, split, loops with their numbers, files.
+// A layout. Records of finished hearts contain heart, population, split, loops with their numbers,
+// and files.
 struct Layout {
   const char* name;
-  // A heart's own files; none where it is null. `record` has its loops already, one entry each; a
-  // layout adds what its tables need.
+  // Writes a heart's own files; null: none. `record` already has one entry per loop; a layout adds
+  // data for its tables.
   void (*write)(const Spec& spec, const Heart& heart, Sink& sink, Json& record);
-  // Files of the whole dataset, from the records of all hearts in their order; none where it is
-  // null. Of the records' files, those of the native layout are there if the spec has webdataset.
+  // Writes files of the whole dataset, from the records of all hearts in order; null: none. Files
+  // of the native layout are available if the spec has webdataset.
   void (*merge)(const Spec& spec, std::span<const Json> records, Sink& sink);
 };
 
-// Those that a spec asks for, in the order of their names.
+// The layouts of a spec, ordered by name.
 std::vector<const Layout*> layoutsOf(const Spec& spec);
 
 extern const Layout kNative, kEchonet, kCamus, kMyotracker, kNnunet, kPointodyssey, kWebdataset;

@@ -122,14 +122,14 @@ MakeSummary makePart(const Spec& spec, const MakeOptions& options, const Monitor
     lock.checkStillThere();
     const Done& one = *static_cast<Done*>(done.get());
     if (!one.flaw.empty())
-      monitor.warn(fmt::format("heart {} was made anew: {}", first + i * step + 1, one.flaw));
+      monitor.warn(fmt::format("heart {} was rendered again: {}", first + i * step + 1, one.flaw));
     add(one, summary);
     monitor.tell({Task::rendering, i + 1, count});
   };
   withThreads(options.threads, [&] {
     const auto in_flight = static_cast<std::size_t>(threadCount()) + 1;
     if (parallelOrdered(0, count, in_flight, monitor.keep_going, make, collect) < count)
-      throw JobError("stopped: finished hearts are kept, the same command goes on");
+      throw JobError("stopped: finished hearts are kept, the same command resumes");
   });
   return summary;
 }
@@ -178,7 +178,7 @@ Records provenRecords(const Spec& spec, const WorkFolder& work, const MergeOptio
   withThreads(options.threads, [&] {
     const auto in_flight = 2 * static_cast<std::size_t>(threadCount());
     if (parallelOrdered(0, hearts, in_flight, monitor.keep_going, prove, collect) < hearts)
-      throw JobError("stopped: nothing was merged, the same command does it again");
+      throw JobError("stopped: nothing was merged, repeat the command");
   });
   if (!missing.empty()) failOfMissing(missing, spec.hearts, first_flaw);
   return records;

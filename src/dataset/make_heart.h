@@ -6,9 +6,9 @@
 
 namespace echocine::dataset {
 
-// Draws again while no heart fulfils a draw (redraw.h). Runs in this thread alone. Throws
-// SceneError where every attempt was impossible; JobError where a loop failed, or the monitor wants
-// to stop.
+// Draws again until a draw has a valid heart (redraw.h). Runs in this thread only. Throws
+// SceneError if every draw was impossible; JobError if a loop failed, or the monitor requests a
+// stop.
 Heart makeHeart(const Spec& spec, int heart, const Monitor& monitor);
 
 }  // namespace echocine::dataset

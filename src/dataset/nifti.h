@@ -10,7 +10,7 @@ namespace echocine::dataset {
 
 struct NiftiShape {
   int width = 0, height = 0;
-  int frames = 0;  // 0: a single picture of two dimensions
+  int frames = 0;  // 0: a single two-dimensional picture
   double dx_mm = 1, dy_mm = 1, dt_s = 1;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// One view of a heart at two instants: no truth, no layouts, no other frames.
+// One view of a heart at two instants, without truth, layouts and other frames.
 
 #include "core/monitor.h"
 #include "dataset/dataset_loop.h"
@@ -12,12 +12,11 @@ struct PreviewFrames {
   double edv_ml = 0, esv_ml = 0;
   GreyImage ed, es;
   Values values;
-  int impossible = 0;  // draws before it
+  int impossible = 0;  // draws before this one
 };
 
-// Of the first draw that is possible, the same as makeHeart() takes as far as no frame of a loop
-// is impossible. `view` counts the spec's. Throws SceneError where every draw was impossible,
-// JobError where the monitor stops.
+// For the first possible draw, the one of makeHeart() unless frames of a loop fail. `view`: index
+// in the spec. Throws SceneError if every draw was impossible, JobError if the monitor stops.
 PreviewFrames previewFramesOf(const Spec& spec, int heart, std::size_t view,
                               const Monitor& monitor);
 

@@ -1,18 +1,18 @@
 #pragma once
-// What is noted of a finished heart: one small file, from which the tables of all are made.
+// The record of a finished heart: a small file, the source of all tables.
 
 #include "dataset/layout.h"
 
 namespace echocine::dataset {
 
-// Everything but files: numbers of the heart and of each loop, and all that was drawn.
+// Everything except files: numbers of the heart and of each loop, and all drawn values.
 Json recordOf(const Spec& spec, const Heart& heart);
 
-// Of a heart that could not be made.
+// Record of a heart whose rendering failed.
 Json failureOf(const Spec& spec, int heart, const std::string& reason);
 bool isFailure(const Json& record);
 
-// As JSON has it.
+// As JSON.
 Json jsonOf(const Values& values);
 
 }  // namespace echocine::dataset

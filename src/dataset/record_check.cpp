@@ -99,7 +99,8 @@ std::string flawOfLoops(const Json& record, const Spec& spec) {
   for (const Json& loop : loops) {
     if (const char* key = wrongKey(loop, kOfLoop))
       return fmt::format("loops: \"{}\" is absent or of another type", key);
-    if (!isPlainName(loop["id"].get_ref<const std::string&>())) return "loops: \"id\" is no name";
+    if (!isPlainName(loop["id"].get_ref<const std::string&>()))
+      return "loops: \"id\" is not a name";
     const auto frames = loop["frames"].get<std::int64_t>();
     for (const char* key : {"ed_frame", "es_frame"})
       if (const auto frame = loop[key].get<std::int64_t>(); frame < 0 || frame >= frames)
@@ -122,7 +123,7 @@ std::string flawOf(const Json& record, const Spec& spec, int heart) {
     const auto found = record.find(key);
     return found != record.end() && *found == value;
   };
-  if (!has("spec", spec.digest)) return "it is of another spec or program version";
+  if (!has("spec", spec.digest)) return "it belongs to another spec or program version";
   if (!has("heart", heart + 1)) return "it is of another heart";
   if (isFailure(record))
     return record["failed"].is_string() && has("seed", spec.seed)
@@ -153,9 +154,9 @@ std::string sealedText(const Json& record) {
 CheckedRecord checkRecord(std::string_view text, const Spec& spec, int heart) {
   if (text.size() < kSealSize ||
       text.substr(text.size() - kSealSize) != sealOf(text.substr(0, text.size() - kSealSize)))
-    return {nullptr, "it is cut short or has another byte than was written"};
+    return {nullptr, "it is truncated or modified"};
   Json record = isShallow(text) ? Json::parse(text, nullptr, false) : Json();
-  if (!record.is_object()) return {nullptr, "it is no JSON of this program"};
+  if (!record.is_object()) return {nullptr, "it is not JSON of this program"};
   record.erase(kSeal);
   std::string flaw = flawOf(record, spec, heart);
   if (!flaw.empty()) return {nullptr, std::move(flaw)};

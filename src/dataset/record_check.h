@@ -1,6 +1,5 @@
 #pragma once
-// Records are read back from a disk that others can write to: nothing in them is believed
-// unchecked.
+// Verification of records: other programs can change them on disk.
 
 #include "dataset/layout.h"
 
@@ -10,13 +9,13 @@ namespace echocine::dataset {
 std::string sealedText(const Json& record);
 
 struct CheckedRecord {
-  Json record;       // without its digest; null where there is a flaw
-  std::string flaw;  // "another byte than was written"; empty for a sound record
+  Json record;       // without its digest; null with a flaw
+  std::string flaw;  // such as "another byte than was written"; empty for a valid record
 };
 
-// Sound is the text of sealedText() of a record of this spec and heart (from 0): its keys are there
-// with their types, its population and split are the spec's, it has a loop a view, names of files
-// stay below the folder. Never throws.
+// A valid text is sealedText() of a record of this spec and heart (from 0): its keys exist with
+// their types, population and split are the spec's, it has one loop per view, and file names stay
+// below the folder. Never throws.
 CheckedRecord checkRecord(std::string_view text, const Spec& spec, int heart);
 
 }  // namespace echocine::dataset

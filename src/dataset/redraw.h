@@ -1,5 +1,5 @@
 #pragma once
-// Draws again while no heart fulfils a draw.
+// Repeats draws until a valid heart results.
 
 #include <fmt/format.h>
 
@@ -15,9 +15,9 @@ namespace echocine::dataset {
 
 inline constexpr int kMaxDraws = 50;
 
-// What `make` returns of the first draw of a heart that is possible; the reasons of those before
-// it go into `impossible`. A draw is impossible where `make` throws SceneError. Throws SceneError
-// where kMaxDraws draws were impossible.
+// The result of `make` for the first possible draw of a heart. Reasons of earlier draws are added
+// to `impossible`. A draw is impossible if `make` throws SceneError. Throws SceneError if kMaxDraws
+// draws were impossible.
 template <typename Make>
 auto firstPossible(const Spec& spec, int heart, const Make& make,
                    std::vector<std::string>& impossible) {

@@ -1,5 +1,5 @@
 #pragma once
-// Small pictures out of large ones, every pixel the average of what it covers.
+// Downsampling of pictures by exact averages over pixels.
 
 #include "signal/picture.h"
 
@@ -13,10 +13,10 @@ struct Square {
 // The bounding square of the sector in a square picture (signal/picture.h has its margins).
 Square sectorSquare(const GreyImage& image);
 
-// to x to pixels, exact averages over the square. Precondition: the square lies in the picture.
+// to x to pixels, exact averages over the square. Precondition: the square is within the picture.
 GreyImage shrunk(const GreyImage& image, const Square& from, int to);
 
-// Where a place of the large picture is in the small one, pixel (0, 0)'s centre at (0, 0).
+// A place of the large picture in the small one; the centre of pixel (0, 0) is (0, 0).
 PixelPoint inShrunk(PixelPoint at, const Square& from, int to);
 
 }  // namespace echocine::dataset

@@ -1,6 +1,5 @@
 #pragma once
-// Where a heart's files go, and what is noted of each so that a later run can tell whether they are
-// still there as they were written.
+// Writes a heart's files, and records a mark of each, by which a later run verifies them.
 
 #include <filesystem>
 #include <map>
@@ -19,10 +18,11 @@ struct FileMark {
 
 class Sink {
  public:
-  // `folder` of the dataset. The time that files are synced to disk is the caller's.
+  // `folder` of the dataset. The caller syncs files to disk.
   explicit Sink(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // A whole file by its name relative to the folder, its folders made. Throws JobError.
+  // Writes a complete file by its name relative to the folder, and creates its folders. Throws
+  // JobError.
   void write(const std::string& name, std::span<const std::byte> bytes);
   void write(const std::string& name, std::string_view text);
   // Motion JPEG of frames of equal size. Throws JobError.
@@ -30,7 +30,7 @@ class Sink {
                  double frame_rate_hz);
 
   const std::filesystem::path& folder() const { return folder_; }
-  // Where a file goes, its folders made.
+  // Path of a file; creates its folders.
   std::filesystem::path place(const std::string& name) const;
   const std::map<std::string, FileMark>& files() const { return files_; }
 
@@ -39,7 +39,7 @@ class Sink {
   std::map<std::string, FileMark> files_;
 };
 
-// Of a file on the disk; nothing where it cannot be read.
+// The mark of a file on disk; none if it cannot be read.
 std::optional<FileMark> markOf(const std::filesystem::path& file);
 
 }  // namespace echocine::dataset

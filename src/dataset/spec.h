@@ -1,5 +1,5 @@
 #pragma once
-// What a dataset is to be: the spec file in, a checked struct out.
+// The specification of a dataset: the spec file in, a checked struct out.
 
 #include <array>
 #include <cstdint>
@@ -13,15 +13,15 @@
 
 namespace echocine::dataset {
 
-// A drawn quantity. Its name says whose it is: "heart.ef", "offset.tilt_deg",
+// A drawn quantity. Its name contains its owner: "heart.ef", "offset.tilt_deg",
 // "scene.signal.gain_db", "subject.age".
 struct Parameter {
   std::string name;
   Distribution distribution;
-  SourcePlace place;  // in the spec; none of those built in
+  SourcePlace place;  // in the spec; empty for built-in ones
 };
 
-// Heart, subject and acquisition are drawn once a heart, the rest once a view.
+// Heart, subject and acquisition are drawn once per heart, the rest once per view.
 bool isOfHeart(std::string_view name);
 
 struct Population {
@@ -30,15 +30,15 @@ struct Population {
   std::vector<Parameter> parameters;  // "heart." each
 };
 
-// A scene of the user, which brings its own heart.
+// A scene of the user, with its own heart.
 struct UserScene {
-  std::string name;  // as the spec has it
+  std::string name;  // as in the spec
   std::filesystem::path file;
   std::string text;
-  Acquisition acquisition;  // where nothing is drawn
+  Acquisition acquisition;  // used for values that are not drawn
 };
 
-// Parameters drawn together (draws.h).
+// Correlated parameters (draws.h).
 struct CorrelatedGroup {
   std::vector<std::string> names;
   std::vector<double> factor;  // Cholesky factor of the correlations, row by row
@@ -48,7 +48,7 @@ enum class Split { train, val, test };
 
 struct Spec {
   std::filesystem::path file;
-  std::string digest;  // SHA-256 of what the file says and of the program's version
+  std::string digest;  // SHA-256 of the file's content and of the program's version
   std::string text;    // of the file
   std::string name, licence;
   std::uint64_t seed = 1;
@@ -58,38 +58,38 @@ struct Spec {
   std::array<double, 3> split{0.8, 0.1, 0.1};  // shares by heart: train, val, test
   int keyframes = 16;
   int picture_px = 448;      // side of the square picture
-  double resolution_mm = 0;  // largest pixel; 0: whatever picture_px gives
+  double resolution_mm = 0;  // largest pixel; 0: determined by picture_px
   std::vector<std::string> truth;
   int track_count = 300;
-  int shard_mb = 1000;  // of WebDataset, 10^6 bytes; a loop that is larger has a shard of its own
-  std::vector<Parameter> parameters;    // of all hearts; they win over the populations'
-  std::vector<UserScene> scenes;        // in place of the parametric heart; empty: none
-  std::vector<Population> populations;  // at least one; of scenes one each, in their order
+  int shard_mb = 1000;                // of WebDataset, 10^6 bytes; a larger loop has its own shard
+  std::vector<Parameter> parameters;  // of all hearts; they override the populations'
+  std::vector<UserScene> scenes;      // instead of the parametric heart; may be empty
+  std::vector<Population> populations;  // at least one; one per scene, in their order
   std::vector<CorrelatedGroup> correlated;
 
   std::size_t loops() const { return static_cast<std::size_t>(hearts) * views.size(); }
   bool has(std::string_view layout) const;
   bool wants(std::string_view truth_kind) const;
   bool wantsTracks() const;  // as truth, or for a layout
-  // Hearts in their order: the first ones train, then validation, then test. They are independent
-  // draws, and some loaders split by number. All draws of one user's scene are in one split.
+  // Splits by the order of hearts: train, then validation, then test. Hearts are independent draws,
+  // and some loaders split by number. All draws of one user's scene are in one split.
   Split splitOf(int heart) const;
-  // Of a drawn heart: the scenes take turns. Precondition: there are some.
+  // The scene of a heart, cyclically. Precondition: the spec has scenes.
   const UserScene& sceneOf(int heart) const;
-  // All that is drawn for a heart of a population.
+  // All drawn parameters of a population's heart.
   std::vector<Parameter> parametersOf(const Population& population) const;
 };
 
-// MyoTracker's loader passes over loops with fewer frames.
+// MyoTracker's loader skips loops with fewer frames.
 inline constexpr int kLeastTrackedFrames = 30;
 
-// Names of the layouts that loops are written in.
+// Names of the layouts.
 std::vector<std::string> layoutNames();
 
-// Throws SceneError where a parameter may be what a scene, or a layout the loops, cannot hold.
+// Throws SceneError if a parameter can take a value that a scene or a layout rejects.
 void checkSpec(const Spec& spec);
 
-// Throws SceneError `file:line: key: what is wrong, what is accepted`.
+// Throws SceneError `file:line: key: fault, accepted values`.
 Spec readSpec(const std::filesystem::path& file);
 Spec parseSpec(std::string_view text, const std::filesystem::path& file);
 

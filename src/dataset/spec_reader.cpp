@@ -40,7 +40,7 @@ Parameter readBounded(TomlTable& table, const Bounds& bounds, const std::string&
   Parameter p = readParameter(table, bounds.key, prefix);
   const auto range = p.distribution.range();
   const std::string accepted = fmt::format("accepted: {:g} to {:g}", bounds.low, bounds.high);
-  if (!range) table.fail(bounds.key, "gives what is no number, " + accepted);
+  if (!range) table.fail(bounds.key, "can be something other than a number, " + accepted);
   if (range->first < bounds.low || range->second > bounds.high)
     table.fail(bounds.key,
                fmt::format("reaches from {:g} to {:g}, {}", range->first, range->second, accepted));
@@ -51,7 +51,7 @@ void readSegments(TomlTable& heart, std::vector<Parameter>& to) {
   for (auto& [word, segment] : heart.namedTables("segments")) {
     if (segmentsOf(word).empty())
       heart.fail("segments",
-                 fmt::format("\"{}\" is no segment, accepted: {}", word, segmentWords()));
+                 fmt::format("\"{}\" is not a segment, accepted: {}", word, segmentWords()));
     for (const Bounds& bounds : kSegment)
       if (segment.has(bounds.key))
         to.push_back(readBounded(segment, bounds, "heart.segments." + word + "."));
@@ -169,7 +169,7 @@ void readCorrelated(TomlTable& file, Spec& spec) {
                          std::any_of(spec.populations.begin(), spec.populations.end(),
                                      [&](const Population& p) { return has(p.parameters); });
       if (!known)
-        table.fail("parameters", fmt::format("\"{}\" is drawn nowhere in this spec, accepted: "
+        table.fail("parameters", fmt::format("\"{}\" is not drawn in this spec, accepted: "
                                              "names such as heart.edv",
                                              name));
       if (std::find(taken.begin(), taken.end(), name) != taken.end())

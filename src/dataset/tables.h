@@ -1,5 +1,5 @@
 #pragma once
-// What tells of a dataset as a whole: tables, splits, the card.
+// Files about a dataset as a whole: tables, splits, card.
 
 #include <span>
 
@@ -7,8 +7,8 @@
 
 namespace echocine::dataset {
 
-// loops.csv (a row a loop with all numbers), splits.json, impossible.csv, failed.csv, dataset.json
-// and the card, README.md with figures/. Records in the order of hearts.
+// loops.csv (one row per loop with all numbers), splits.json, impossible.csv, failed.csv,
+// dataset.json and the card, README.md with figures/. Records are in the order of hearts.
 void writeTables(const Spec& spec, std::span<const Json> records, std::span<const Json> failures,
                  Sink& sink);
 

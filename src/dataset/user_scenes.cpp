@@ -45,9 +45,9 @@ void readUserScenes(TomlTable& file, Spec& spec, Sha256& digest) {
   if (!file.has("scenes")) return;
   for (const char* heart : {"heart", "populations", "population", "keyframes"})
     if (file.has(heart))
-      file.fail(heart,
-                "is of the parametric heart, but scenes bring hearts of their own: leave out "
-                "one of the two");
+      file.fail(
+          heart,
+          "is for the parametric heart, but scenes define their own hearts: omit one of the two");
   for (const std::string& name : file.texts("scenes")) {
     const bool twice = std::any_of(spec.scenes.begin(), spec.scenes.end(),
                                    [&](const UserScene& s) { return s.name == name; });

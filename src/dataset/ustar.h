@@ -1,6 +1,5 @@
 #pragma once
-// Tar archives as POSIX has them (IEEE Std 1003.1, pax, ustar interchange format): the same bytes
-// for the same files.
+// POSIX tar archives (IEEE Std 1003.1, pax, ustar interchange format), with deterministic bytes.
 
 #include <cstdint>
 #include <filesystem>
@@ -11,10 +10,10 @@
 
 namespace echocine::dataset {
 
-// Bytes that a file takes in an archive: its header, and itself in whole blocks.
+// Size of a file in an archive: its header, and its content in whole blocks.
 std::uint64_t ustarBytes(std::uint64_t file_bytes);
 
-// Files have mode 0644, owner 0 and time 0. Written beside its target and renamed by finish().
+// Files have mode 0644, owner 0 and time 0. Written under a temporary name and renamed by finish().
 class UstarFile {
  public:
   explicit UstarFile(const std::filesystem::path& path) : file_(path) {}  // throws JobError

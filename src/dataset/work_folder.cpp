@@ -54,15 +54,13 @@ std::string flawOfFile(const std::filesystem::path& folder, const std::string& n
                        const Json& noted, WorkFolder::Look look) {
   if (!linkBelow(folder, name).empty()) return "is reached through a link";
   const std::filesystem::path file = folder / name;
-  if (!isOrdinaryFile(file)) return "is missing or no ordinary file";
+  if (!isOrdinaryFile(file)) return "is missing or not an ordinary file";
   std::error_code failed;
   if (std::filesystem::file_size(file, failed) != noted["bytes"].get<std::uint64_t>() || failed)
-    return "is of another size than was written";
+    return "has another size than recorded";
   if (look == WorkFolder::Look::sizes) return {};
   const std::optional<FileMark> mark = markOf(file);
-  return mark && mark->digest == noted["digest"].get<std::string>()
-             ? ""
-             : "has another byte than was written";
+  return mark && mark->digest == noted["digest"].get<std::string>() ? "" : "was modified";
 }
 
 }  // namespace
@@ -110,7 +108,7 @@ WorkFolder::Finished WorkFolder::finished(int heart, Look look) const {
     return {};
   const std::string name = std::filesystem::relative(file, folder_).string();
   const std::optional<std::string> text = readText(file);
-  if (!text) return {std::nullopt, name + ": cannot be read, or is no ordinary file"};
+  if (!text) return {std::nullopt, name + ": cannot be read, or is not an ordinary file"};
   CheckedRecord checked = checkRecord(*text, spec_, heart);
   if (!checked.flaw.empty()) return {std::nullopt, name + ": " + checked.flaw};
   if (isFailure(checked.record)) return {std::move(checked.record), ""};

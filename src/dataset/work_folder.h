@@ -1,6 +1,6 @@
 #pragma once
-// The dataset's own book-keeping below work/: of which spec the folder is, and a record of each
-// finished heart, written when all its files are on the disk.
+// The dataset's own state in work/: the spec of the folder, and a record of each finished heart,
+// written after all its files are on disk.
 
 #include <filesystem>
 #include <map>
@@ -12,20 +12,18 @@ namespace echocine::dataset {
 
 class WorkFolder {
  public:
-  // Makes the folder, or finds it as an earlier run of the same spec left it; another process may
-  // be making it at this moment. Throws SceneError, nothing written, where it holds another spec's
-  // dataset, files of something else or a link; JobError where it cannot be written.
-  // The spec must outlive it.
+  // Creates the folder or opens that of an earlier run of the same spec; another process may create
+  // it concurrently. Throws SceneError, and writes nothing, if it contains another spec's dataset,
+  // other files or a link; JobError if it cannot be written. The spec must outlive it.
   WorkFolder(std::filesystem::path folder, const Spec& spec);
 
   const std::filesystem::path& folder() const { return folder_; }
 
-  // Notes a heart as finished with these files. Throws JobError.
+  // Records a heart as finished with these files. Throws JobError.
   void finish(int heart, Json record, const std::map<std::string, FileMark>& files) const;
 
-  // The record of a heart that is finished, and whose files are as it has them: by their sizes, or
-  // by their bytes too. Otherwise nothing: `flaw` says what is wrong and names the file; it is
-  // empty where the heart was never finished.
+  // The record of a finished heart whose files match it, by size, or also by content. Otherwise
+  // none: `flaw` names the fault and the file; it is empty if the heart was never finished.
   enum class Look { sizes, bytes };
   struct Finished {
     std::optional<Json> record;
@@ -33,7 +31,7 @@ class WorkFolder {
   };
   Finished finished(int heart, Look look) const;
 
-  // Half-written files of tasks that were killed. Nothing is removed while a task is at work.
+  // Removes temporary files of killed tasks. Removes nothing while a task is running.
   void removeParts() const;
 
  private:

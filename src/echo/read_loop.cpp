@@ -65,9 +65,10 @@ void findWhere(EchoLoop& loop, const SideOptions& side, bool is_real) {
         loop.video.name, loop.find.aspect, is_real ? "" : "synthetic-", loop.find.aspect));
   if (off > kAspectNoted && !side.pixel_aspect)
     loop.video.notes.push_back(fmt::format(
-        "the lower edge of its sector is no circle about the apex: pixels may be {:.3f} times as "
+        "the lower edge of its sector is not a circle around the apex: pixels may be {:.3f} times "
+        "as "
         "high as "
-        "wide (--{}pixel-aspect), or its lines start from a curved face; taken as it is",
+        "wide (--{}pixel-aspect), or its lines start from a curved face; used unchanged",
         loop.find.aspect, is_real ? "" : "synthetic-"));
 }
 
@@ -174,8 +175,8 @@ void scaleFromRegions(EchoLoop& loop) {
     // From a mouse's heart to more than a body.
     if (depth_cm < 2 || depth_cm > 40) {
       v.notes.push_back(
-          fmt::format("its scale of {:.5f} cm per pixel makes the sector {:.1f} cm deep, which no "
-                      "echo is: not used",
+          fmt::format("its scale of {:.5f} cm per pixel makes the sector {:.1f} cm deep, which is "
+                      "impossible for an echo: not used",
                       cm, depth_cm));
       continue;
     }
@@ -245,14 +246,15 @@ EchoLoop readLoop(const std::filesystem::path& path, const SideOptions& side, bo
   }
   if (v.rate.hz > 0 && !v.rate.trusted)
     v.notes.push_back(
-        fmt::format("{:.4g} frames/s is the container's rate of playing, not trusted as that of "
-                    "acquisition; {} gives it",
+        fmt::format("{:.4g} frames/s is the container's playback rate, not used as the acquisition "
+                    "rate; {} sets it",
                     v.rate.hz, is_real ? "--fps" : "--synthetic-fps"));
   if (!v.repeats.empty()) {
     std::string list;
     for (const int r : v.repeats) list += fmt::format("{}{}", list.empty() ? "" : ", ", r);
-    v.notes.push_back(fmt::format("frame{} {} repeat the one before: left out of means and fits",
-                                  v.repeats.size() == 1 ? "" : "s", list));
+    v.notes.push_back(
+        fmt::format("frame{} {} repeat the previous one: excluded from means and fits",
+                    v.repeats.size() == 1 ? "" : "s", list));
   }
   return loop;
 }

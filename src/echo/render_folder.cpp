@@ -141,7 +141,7 @@ void takeTracedGreys(const std::filesystem::path& folder, const UnorderedJson& s
   });
   if (unread >= 0) {
     loop.video.notes.push_back(
-        "not all of its frames' EXR are there and whole: greys are those of cine.avi");
+        "EXR files are missing or incomplete: grey levels are those of cine.avi");
     return;
   }
   loop.grey_source = "EXR display.Y";

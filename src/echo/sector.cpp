@@ -117,12 +117,12 @@ Attempt attempt(const Video& video, int moving) {
   const auto lit = std::count_if(area.live.begin(), area.live.end(), [](auto v) { return v != 0; });
   // Two per cent of the picture: less is a still, or a dark loop.
   if (static_cast<double>(lit) < 0.02 * static_cast<double>(area.live.size()))
-    return {{}, "hardly a pixel moves or is lit"};
+    return {{}, "too few pixels move or are bright"};
   const std::vector<EdgePoint> left = outermost(area, -1), right = outermost(area, 1);
   // Two pixels at a thousand across: what scan conversion and codecs smear.
   const double tolerance = std::max(1.0, 0.002 * video.width);
   const auto left_line = edgeLine(left, -1, tolerance), right_line = edgeLine(right, 1, tolerance);
-  if (!left_line || !right_line) return {{}, "what moves has no two straight sides"};
+  if (!left_line || !right_line) return {{}, "the moving area has no two straight edges"};
   SectorFind found;
   Sector& s = found.sector;
   // Where both edges meet: the apex, which for a curvilinear probe lies above the picture.
@@ -133,7 +133,7 @@ Attempt attempt(const Video& video, int moving) {
   findRadii(area, s);
   // Our choices: a fifth of the picture, 15 degrees.
   if (s.r_max < 0.2 * video.height || s.last_rad - s.first_rad < radiansFromDegrees(15))
-    return {{}, "the lines through its sides enclose no sector"};
+    return {{}, "the lines through its edges enclose no sector"};
   // Rows that the edges can span: from the near end to where the lower arc begins.
   const auto rows = [&](double angle, const EdgeLine& line) {
     const double top = std::max(0.0, s.apex_y + s.r_min * std::cos(angle));
@@ -148,7 +148,7 @@ Attempt attempt(const Video& video, int moving) {
   // What moves elsewhere (an ECG, a second sector) is allowed 15 %.
   if (inside < 0.85 * all)
     return {{},
-            fmt::format("{:.0f} % of what moves lies outside the one that fits best",
+            fmt::format("{:.0f} % of the moving area lies outside the best fit",
                         100 * (1 - inside / all))};
   found.aspect = aspectOfArc(lowerArc(area, s), s);
   return {found, {}};
@@ -176,7 +176,7 @@ SectorFind findSector(const Video& video) {
     throw SceneError(
         fmt::format("{}: no sector found ({}); give it by --sector or --synthetic-sector "
                     "apex_x,apex_y,first_deg,last_deg,r_min,r_max",
-                    video.name, best ? "its edges are hardly seen" : failure));
+                    video.name, best ? "its edges are hardly visible" : failure));
   return *best;
 }
 
@@ -198,10 +198,11 @@ Sector parseSector(const std::string& option, const std::string& text) {
            std::abs(values[0]) < 1e5 && std::abs(values[1]) < 1e5;
   };
   if (!sound())
-    throw SceneError(fmt::format(
-        "{}: \"{}\" is no sector, accepted: apex_x,apex_y,first_deg,last_deg,r_min,r_max in pixels "
-        "and degrees from straight down, such as 170,6,-42,41.6,4,197",
-        option, text));
+    throw SceneError(
+        fmt::format("{}: \"{}\" is not a sector, accepted: "
+                    "apex_x,apex_y,first_deg,last_deg,r_min,r_max in pixels "
+                    "and degrees from straight down, such as 170,6,-42,41.6,4,197",
+                    option, text));
   return {values[0], values[1], radiansFromDegrees(values[2]), radiansFromDegrees(values[3]),
           values[4], values[5]};
 }

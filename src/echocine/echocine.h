@@ -1,7 +1,6 @@
 #pragma once
-// What a caller of the library names: a scene in, frames and loops out. Everything throws
-// SceneError (what was given cannot be used; messages name scene keys) or JobError (the work
-// failed).
+// The library's interface: a scene in, frames and loops out. Functions throw SceneError for
+// unusable input (messages name scene keys) or JobError for a failed operation.
 
 #include "core/error.h"
 #include "core/monitor.h"

@@ -12,7 +12,7 @@ std::vector<std::string> caveatsOf(const echo::EchoLoop& real, const BeatFound& 
                               kLeastConfidence));
   if (!real.metres_per_pixel)
     out.emplace_back(
-        "scale unknown: the sector is taken to be as deep as the model's, so sizes and mL are not "
+        "scale unknown: the sector is assumed to have the model's depth, so sizes and mL are not "
         "measured");
   if (beat.length_source == kLoopIsBeat) out.push_back(beat.length_source);
   return out;

@@ -70,7 +70,7 @@ std::vector<ScanAxis> parseScan(const std::string& text) {
           "--scan: {} must go up by a step of at most its range, such as ef=0.3:0.75:0.05", part));
     for (const ScanAxis& other : axes)
       if (other.range.key == axis.range.key)
-        throw SceneError(fmt::format("--scan: {} stands there twice", axis.range.key));
+        throw SceneError(fmt::format("--scan: {} is given twice", axis.range.key));
     axes.push_back(axis);
   }
   if (axes.size() > kMostAxes)
@@ -104,14 +104,12 @@ void refuseUnusable(const ScanOptions& o) {
   }
   if (count > static_cast<double>(kMostUnasked) && !o.yes)
     throw SceneError(
-        fmt::format("--scan: {:.0f} evaluations are more than {}: --yes makes them all the same, "
-                    "or take larger "
-                    "steps",
+        fmt::format("--scan: {:.0f} evaluations are more than {}: give --yes, or use larger steps",
                     count, kMostUnasked));
   constexpr double kMost = 1e5;
   if (count > kMost)
     throw SceneError(
-        fmt::format("--scan: {:.0f} evaluations, accepted: {:g}; take larger steps", count, kMost));
+        fmt::format("--scan: {:.0f} evaluations, accepted: {:g}; use larger steps", count, kMost));
 }
 
 // Of the best heart itself, recorded at its own dials: with the segments of its wall.
@@ -168,17 +166,16 @@ DialScan scanDials(const ScanOptions& options, const Monitor& monitor) {
   scan.caveats = caveatsOf(real, scan.beat, scan.centre.confidence);
   for (const std::string& note : real.video.notes) scan.notes.push_back(note);
   if (scan.beat.confidence < kLeastConfidence)
-    scan.notes.push_back(
-        "the start of the beat is hardly better than any other: --real-ed gives it");
+    scan.notes.push_back("the start of the beat is ambiguous: give --real-ed");
   if (scan.centre.at_limit)
-    scan.notes.push_back("the pose lies at the limit of its search: a better one may lie beyond");
+    scan.notes.push_back("the pose is at the limit of its search: a better one may lie beyond");
   if (scan.tilt && scan.tilt->at_limit)
-    scan.notes.push_back("the tilt lies at the limit of its search: a better one may lie beyond");
+    scan.notes.push_back("the tilt is at the limit of its search: a better one may lie beyond");
   for (std::size_t a = 0; a < options.axes.size(); ++a) {
     const std::vector<double> values = options.axes[a].values();
     const double best = scan.points[scan.best].values[a];
     if (best <= values.front() || best >= values.back())
-      scan.notes.push_back(fmt::format("the least discrepancy lies at the end of {}: scan farther",
+      scan.notes.push_back(fmt::format("the minimum is at the end of {}: extend the scan",
                                        options.axes[a].range.key));
   }
   for (const std::string& note : scan.notes) monitor.warn(note);

@@ -51,7 +51,7 @@ HeartNodes::HeartNodes(const std::map<std::string, double>& given,
   std::size_t count = 1;
   for (std::size_t r = 0; r < ranges.size(); ++r) count *= static_cast<std::size_t>(nodes);
   for (std::size_t n = 0; n < count; ++n) {
-    if (!monitor.keep_going()) throw JobError("stopped while hearts were recorded");
+    if (!monitor.keep_going()) throw JobError("stopped while hearts were computed");
     std::map<std::string, double> dials = given;
     std::size_t rest = n;
     for (const DialRange& range : ranges) {
@@ -92,7 +92,7 @@ HeartFamily::HeartFamily(const HeartNodes& hearts, heart::View view, const Monit
   systoles_.resize(hearts.size());
   parallelBlocks(hearts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
-      if (!monitor.keep_going()) throw JobError("stopped while hearts were recorded");
+      if (!monitor.keep_going()) throw JobError("stopped while hearts were computed");
       const Scene scene = hearts.sceneOf(n, view);
       const MeshMotion motion(scene);
       if (n == 0) {

@@ -16,7 +16,7 @@ namespace echocine::fit {
 inline constexpr int kFitFrames = 20;  // of a beat; our choice: 46 ms at 65 beats per minute
 
 // BeatFound::length_source if the length of the beat is unknown.
-inline constexpr const char* kLoopIsBeat = "the loop is taken for a beat";
+inline constexpr const char* kLoopIsBeat = "the loop is assumed to be one beat";
 
 struct FitSettings {
   FitWeights weights;

@@ -39,20 +39,19 @@ void noteLimits(ViewRanking& ranking) {
   const auto say = [&](const std::string& note) { ranking.notes.push_back(note); };
   const ViewFound& best = ranking.views.front();
   if (ranking.confidence < kLeastConfidence)
-    say(fmt::format("{} and {} are hardly told apart (confidence {:.2f})", keyOf(best.view),
+    say(fmt::format("{} and {} are hardly distinguishable (confidence {:.2f})", keyOf(best.view),
                     keyOf(ranking.views[1].view), ranking.confidence));
   if (best.beat.confidence < kLeastConfidence)
-    say("the start of the beat is hardly better than any other: --real-ed gives it");
+    say("the start of the beat is ambiguous: give --real-ed");
   if (best.heart.found.at_limit)
-    say("the pose lies at the limit of its search: a better one may lie beyond");
+    say("the pose is at the limit of its search: a better one may lie beyond");
   if (best.heart.tilt && best.heart.tilt->at_limit)
-    say("the tilt lies at the limit of its search: a better one may lie beyond");
+    say("the tilt is at the limit of its search: a better one may lie beyond");
   for (std::size_t a = 0; a < ranking.population.size(); ++a) {
     const DialRange& range = ranking.population[a].range;
     const double value = best.heart.values[a], near = 1e-3 * (range.high - range.low);
     if (value <= range.low + near || value >= range.high - near)
-      say(fmt::format("the least discrepancy lies at the end of {}: --scan looks farther",
-                      range.key));
+      say(fmt::format("the minimum is at the end of {}: use --scan for a wider range", range.key));
   }
 }
 
@@ -80,7 +79,7 @@ std::vector<heart::View> parseViews(const std::string& text) {
   for (const std::string& name : splitOption(text, ',')) {
     const heart::View view = viewNamed(name);
     if (std::find(views.begin(), views.end(), view) != views.end())
-      throw SceneError(fmt::format("--views: {} stands there twice", name));
+      throw SceneError(fmt::format("--views: {} is given twice", name));
     views.push_back(view);
   }
   if (views.size() < 2)

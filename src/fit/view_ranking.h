@@ -44,7 +44,7 @@ struct ViewRanking {
   std::vector<ScanAxis> population;  // the searched dials
   std::vector<ViewFound> views;      // in ascending order of V
   std::string beat_anchor;           // of the loop: EchoLoop::beat_anchor
-  // Of the best view: V of the second minus V of the best; and Eq. 8 of descent.h, with the second
+  // V of the second view minus V of the best; and Eq. 8 of descent.h, with the second
   // as rival and baseline 1.
   double margin = 0, confidence = 0;
   double nodes_ms = 0, cpu_ms = 0;   // CPU time: of computing hearts, of everything

@@ -125,7 +125,7 @@ void decideRefraction(const Scene& scene, const MeshMotion& motion, LoopPlan& pl
   EffectDecision& decision = plan.effects.decision(Effect::refraction);
   if (scene.accuracy.tracer == TracerChoice::slice) {
     plan.effects.refraction = decision.on = false;
-    decision.reason = "accuracy.tracer asks for the plane slice, whose rays are straight";
+    decision.reason = "accuracy.tracer selects the plane slice, whose rays are straight";
     return;
   }
   FrameGeometry geometry(motion.surfaces(), plan.left_out);
@@ -154,7 +154,7 @@ void chooseTracer(const Scene& scene, LoopPlan& plan) {
   const bool beams = plan.effects.rays_per_beam > 1;
   plan.slice = a.tracer != TracerChoice::embree && !plan.effects.refraction && !beams;
   plan.tracer_reason =
-      a.tracer != TracerChoice::automatic ? "accuracy.tracer asks for it"
+      a.tracer != TracerChoice::automatic ? "accuracy.tracer selects it"
       : beams      ? fmt::format("{} rays per beam, each by itself", plan.effects.rays_per_beam)
       : plan.slice ? "straight rays in one plane meet only the facets on it"
                    : "refracted rays leave the imaging plane";
@@ -172,7 +172,7 @@ void chooseTracer(const Scene& scene, LoopPlan& plan) {
       : plan.cell_echoes
           ? "integrated over the beam's cell: neighbouring lines' crossings of one wall are linked"
       : a.interface_echo == InterfaceEcho::centre && !beams
-          ? "at each line's centre: accuracy.interface_echo asks for it"
+          ? "at each line's centre: accuracy.interface_echo selects it"
       : beams ? "at each ray, averaged over the beam"
               : "at each line's centre";
 }
@@ -193,7 +193,7 @@ void lookAtFrames(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) 
   } else if (plan.left_out.count() == scene.structures.size() ||
              (crossings == 0 && plan.effects.rays_per_beam == 1)) {
     plan.warnings.push_back(fmt::format(
-        "{}: no scan line meets a structure in the frames looked at; {} "
+        "{}: no scan line meets a structure in the frames examined; {} "
         "(probe.view places the probe by the heart's anatomy; else probe.apex and probe.axis, "
         "motion.mesh_unit and motion.mesh_scale)",
         kNothingSeen, describePlacement(scene, meshesBox(motion))));
@@ -216,8 +216,8 @@ void tellWallsWithoutChambers(const Scene& scene, LoopPlan& plan) {
     const Structure& structure = scene.structures[index(*found)];
     plan.warnings.push_back(atPlace(
         structure.place,
-        fmt::format("{}: is {} and no structure is {}: what it encloses is shown as wall or "
-                    "background, not as blood; add the chamber's surface with role = \"{}\"",
+        fmt::format("{}: is {} and no structure is {}: its content is shown as wall or background, "
+                    "not as blood; add the chamber's surface with role = \"{}\"",
                     structure.name, nameOf(wall), nameOf(chamber), nameOf(chamber))));
   }
 }

@@ -43,8 +43,8 @@ class FolderInTheMaking {
     if (fs::exists(folder, failed)) {
       if (!(fs::is_directory(folder, failed) && fs::is_empty(folder, failed)))
         throw JobError(
-            fmt::format("{}: is not empty; give a new folder, so that no keyframes of "
-                        "another heart stay among these",
+            fmt::format("{}: is not empty; give a new folder, so that keyframes of another heart "
+                        "are not mixed in",
                         folder.string()));
       folder_ = fs::canonical(folder, failed);
     } else {

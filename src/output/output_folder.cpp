@@ -31,7 +31,7 @@ fs::path madeFolder(const fs::path& folder) {
 void refuseFolderAt(const fs::path& file) {
   std::error_code absent;
   if (fs::is_directory(file, absent))
-    throw JobError(fmt::format("{}: is a folder, a file has to go there", file.string()));
+    throw JobError(fmt::format("{}: is a folder, a file is needed there", file.string()));
 }
 
 // A file that is not there is removed already.

@@ -1,5 +1,5 @@
 #pragma once
-// The HTML, CSS and JavaScript files of this folder, as they stand in the program.
+// The HTML, CSS and JavaScript files of this folder, embedded in the program.
 
 #include <cstddef>
 #include <string_view>
@@ -13,7 +13,7 @@ struct Asset {
 extern const Asset kAssets[];
 extern const std::size_t kAssetCount;
 
-// The text of a file by its name without folders. Precondition: CMakeLists.txt lists it.
+// A file's text by its name without folders. Precondition: CMakeLists.txt lists it.
 std::string_view pageAsset(std::string_view name);
 
 }  // namespace echocine

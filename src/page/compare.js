@@ -15,13 +15,13 @@
   const value = (metrics, key, digits) => (key === "psnr_db" && metrics[key] === null && metrics.rms === 0 ? "∞"
     : number(metrics[key], digits));
   const at = (group, k) => Object.fromEntries(Object.entries(group).map(([key, values]) => [key, values[k]]));
-  const bandName = (name) => (name === "all" ? "band about all boundaries" : `band about ${name}`);
+  const bandName = (name) => (name === "all" ? "band around all boundaries" : `band around ${name}`);
 
   function showHead() {
     byId("title").textContent = `${summary.synthetic.label} against ${summary.real.label}`;
     byId("subtitle").textContent = `discrepancy ${fixed(summary.discrepancy, 4)} (0 equal, about 1 unrelated) · `
       + `${fixed(summary.discrepancy_as_placed, 4)} before registration · ${summary.frames_counted} of ${summary.frames_total} frames counted`
-      + (data.stride > 1 ? ` · this page shows every ${data.stride}th, frames.csv has all` : "");
+      + (data.stride > 1 ? ` · this page shows every ${data.stride}th frame, frames.csv has all` : "");
     byId("definition").textContent = `Discrepancy: ${summary.discrepancy_definition}.`;
     byId("foot").textContent = `EchoCine ${summary.version}. The same numbers are in summary.json and frames.csv.`;
     // A loop's own notes return in the comparison's with its name before them.
@@ -39,7 +39,7 @@
         : `synthetic frame ${fixed(frames.synthetic_frame[k], 2)}`);
       if (frames.synthetic_phase[k] !== null) parts.push(`phase ${fixed(frames.synthetic_phase[k], 3)}`);
       if (frames.discrepancy[k] !== null) parts.push(`discrepancy ${fixed(frames.discrepancy[k], 3)}`);
-      if (frames.repeat[k]) parts.push("repeats the frame before: not counted");
+      if (frames.repeat[k]) parts.push("repeats the previous frame: not counted");
       return parts.join(" · ");
     };
     const loop = (name, label) => ({ label, images: page.frames(name) });
@@ -129,7 +129,7 @@
 
   // Both loops in one picture, real in green and synthetic in magenta: white where they agree.
   function showOverlay(player) {
-    const canvas = element("canvas", { class: "picture", role: "img", "aria-label": "Real and synthetic frame over one another" });
+    const canvas = element("canvas", { class: "picture", role: "img", "aria-label": "Real and synthetic frame superimposed" });
     const context = canvas.getContext("2d");
     const tinted = document.createElement("canvas"), tint = tinted.getContext("2d");
     const draw = () => {
@@ -154,13 +154,13 @@
     for (const [label, picture] of [["real", data.sector_real], ["synthetic", data.sector_synthetic]])
       byId("sectors").append(element("figure", {},
         element("div", { class: "outlined" }, sectorOutline(summary[label]),
-          element("img", { class: "picture", src: picture, alt: `First frame of the ${label} loop with its sector drawn in` })),
+          element("img", { class: "picture", src: picture, alt: `First frame of the ${label} loop with its sector` })),
         element("figcaption", {}, `${label}: sector as ${summary[label].sector.source}; flat grey is masked (colour, text)`)));
     showOverlay(player);
     const s = summary.space, b = summary.beam_space;
     page.facts(byId("space"), [["method", s.method], ["shift", `${fixed(s.shift_px[0], 2)}, ${fixed(s.shift_px[1], 2)} px of the real picture`],
       ["scale", fixed(s.scale, 4)], ["rotation", `${fixed(s.rotation_deg, 2)}°`],
-      ["used", s.used ? "yes" : "no: the sectors lie best as they are"],
+      ["used", s.used ? "yes" : "no: the unregistered sectors are best"],
       ["dissimilarity E", fixed(s.unlike, 3)],
       ["confidence", `${fixed(s.confidence, 3)}${s.at_limit_of_search ? ", at the limit of the search" : ""}`],
       ...s.rivals.map((r, i) => [`rival ${i + 1}`, `${fixed(r.shift_px[0], 1)}, ${fixed(r.shift_px[1], 1)} px, scale ${fixed(r.scale, 3)}, `
@@ -174,7 +174,7 @@
       ["frames", (l) => l.frames],
       ["repeated frames", (l) => (l.repeated_frames.length ? l.repeated_frames.join(", ") : "none")],
       ["frame rate", (l) => (l.frame_rate_hz ? `${number(l.frame_rate_hz, 5)} /s, ${l.frame_rate_source}` : "not known")
-        + (l.frame_rate_trusted ? "" : " (not taken for the acquisition's)")],
+        + (l.frame_rate_trusted ? "" : " (not used as the acquisition rate)")],
       ["scale", (l) => (l.mm_per_pixel ? `${number(l.mm_per_pixel)} mm per pixel, ${l.scale_source}` : "not known")],
       ["apex", (l) => `${fixed(l.sector.apex_px[0], 1)}, ${fixed(l.sector.apex_px[1], 1)} px`],
       ["edges", (l) => `${fixed(l.sector.first_deg, 2)}° to ${fixed(l.sector.last_deg, 2)}°`],

@@ -7,8 +7,8 @@ const showFit = (() => {
   page.tiltFacts = (t) => [["tilt about the lateral axis", `${fixed(t.tilt_deg, 1)}° of ±${fixed(t.most_deg, 1)}°, confidence ${fixed(t.tilt_confidence, 2)}`],
     ["rotation about the beam's axis", `${fixed(t.rotate_deg, 1)}° of ±${fixed(t.most_deg, 1)}°, confidence ${fixed(t.rotate_confidence, 2)}`
       + (t.at_limit_of_search ? "; at the limit of the search" : "")],
-    ["the model's discrepancy there", `${fixed(t.discrepancy, 4)}, ${fixed(t.discrepancy_untilted, 4)} untilted`],
-    ["planes that were tried", String(t.planes)]];
+    ["the model's discrepancy there", `${fixed(t.discrepancy, 4)}, ${fixed(t.discrepancy_untilted, 4)} without tilt`],
+    ["planes tried", String(t.planes)]];
 
   // How a loop was laid on a model, in space and in time.
   page.showPose = (parent, what, { pose, confidence, at_limit_of_search, rivals, tilt, beat }, anchor) => {
@@ -30,7 +30,7 @@ const showFit = (() => {
   };
   const kMaps = {
     boundary: { label: "boundary: mm along the normal", most: 4, unit: "mm",
-      says: "Red: edges lie outside the model's boundary, seen from blood; blue: inside. Faint where no edge is seen.",
+      says: "Red: edges lie outside the model's blood boundary; blue: inside. Faint: no visible edge.",
       draw(context, frame, size) {
         for (const [x, y, offset_mm, certainty] of frame.boundary) {
           context.globalAlpha = 0.15 + 0.85 * Math.min(1, 2 * certainty);
@@ -39,7 +39,7 @@ const showFit = (() => {
         }
       } },
     motion: { label: "motion: mm from frame to frame", most: 2, unit: "mm",
-      says: "The redder, the farther the model's displacement is from what block matching sees.",
+      says: "Red: difference between the model's displacement and block matching.",
       draw(context, frame, size) {
         for (const [x, y, , , motion_mm] of frame.boundary) {
           if (motion_mm < 0) continue;
@@ -47,8 +47,8 @@ const showFit = (() => {
           context.fillRect(x - size, y - size, 2 * size, 2 * size);
         }
       } },
-    region: { label: "region: grey that tissues leave", most: 3, unit: "standard deviations",
-      says: "Red: the loop is brighter than the model's tissue is elsewhere; blue: darker.",
+    region: { label: "region: residual grey level", most: 3, unit: "standard deviations",
+      says: "Red: the loop is brighter than the same tissue elsewhere; blue: darker.",
       draw(context, frame, size) {
         context.globalAlpha = 0.5;
         for (const [x, y, left] of frame.region) {

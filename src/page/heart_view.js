@@ -103,7 +103,7 @@ class HeartView {
     this.surfaces = view.structures.map((s, i) => new HeartSurface(s, HeartView.colourOf(i), view.phases));
     this.box = element("div", { class: "space-box" });
     this.words = element("p", { class: "space-words", role: "status" });
-    this.words.textContent = "Drag to turn, wheel or two fingers to zoom, click a mesh for its coordinates.";
+    this.words.textContent = "Drag to rotate, wheel or two fingers to zoom, click a mesh for its coordinates.";
     this.below = element("div");
     const left = element("div", {}, this.box, this.words);
     const legend = this.legend();
@@ -158,10 +158,10 @@ class HeartView {
   makeRenderer() {
     const { element } = page;
     this.canvas = element("canvas", { tabindex: "0", role: "application",
-      "aria-label": "Meshes and sector; arrow keys turn, plus and minus zoom, 0 goes back" });
+      "aria-label": "Meshes and sector; arrow keys rotate, plus and minus zoom, 0 resets" });
     const context = this.canvas.getContext("webgl2", { alpha: true, antialias: true, preserveDrawingBuffer: true });
     if (!context) {
-      this.missing("This browser shows no WebGL, so the picture in space is left out. Names, places and extents stand in the lists.");
+      this.missing("This browser has no WebGL, so the 3-D view is omitted. The lists have names, positions and extents.");
       return null;
     }
     this.box.append(this.canvas);
@@ -169,7 +169,7 @@ class HeartView {
     renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     renderer.localClippingEnabled = true;
     this.canvas.addEventListener("webglcontextlost", () =>
-      this.missing("The browser took WebGL away: load the page again for the picture in space."));
+      this.missing("The browser has lost WebGL: reload the page for the 3-D view."));
     return renderer;
   }
 

@@ -1,7 +1,6 @@
 #pragma once
-// Pages of results: ONE file of HTML that opens anywhere, offline, for as long as there are
-// browsers. Style, scripts, chart library, data and images stand in the file itself, and its
-// content policy forbids the browser to fetch anything.
+// Pages of results: a single HTML file that works offline. Style, scripts, chart library, data and
+// images are embedded, and its content policy prevents the browser from fetching anything.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -21,12 +20,12 @@ struct PageLook {
   std::vector<std::string_view> scripts;  // JavaScript, run in this order after body and data
 };
 
-// The look of all pages: common style, chart library, helpers (page.js), player and curves, then
-// `script` of the page itself. Both are texts that outlive the look.
+// The common parts of all pages: style, chart library, helpers (page.js), player and curves,
+// followed by the page's own `script`. Both texts must outlive the result.
 PageLook pageLook(std::string title, std::string_view body, std::string_view script);
 
-// Writes a page in one go through memory that does not grow with its images. Until finish() the
-// page stands in a part beside it; destroyed without it, nothing is left behind.
+// Writes a page sequentially; its memory does not grow with the images. Until finish() the page is
+// in a temporary file, which is removed if finish() is not called.
 class PageWriter {
  public:
   PageWriter(const std::filesystem::path& path, const PageLook& look);  // throws JobError
@@ -34,7 +33,7 @@ class PageWriter {
   // The next frame of a loop, JPEG or PNG; page.js finds it by frames(loop). Throws JobError.
   void addFrame(std::string_view loop, std::span<const std::byte> image);
 
-  // Data of the page, in JavaScript `page.data`. Not-a-number becomes null. Throws JobError.
+  // Data of the page, `page.data` in JavaScript. NaN becomes null. Throws JobError.
   void finish(const nlohmann::ordered_json& data);
 
  private:
@@ -46,11 +45,11 @@ class PageWriter {
   std::vector<std::string_view> scripts_;
 };
 
-// A page with frames shows each, or of long loops every second, third, ..., so that it stays of a
-// size that browsers open: 400 at most (our choice; 30 MB of pictures of 800 x 600).
+// A page shows each frame, or for long loops every second, third, ..., so that browsers can open
+// it: at most 400 (our choice; 30 MB of pictures of 800 x 600).
 int pageStride(int frames);
 
-// A page whose images, if any, stand in its data as dataUri(). Throws JobError.
+// A page whose images, if any, are in its data as dataUri(). Throws JobError.
 void writePage(const std::filesystem::path& path, const PageLook& look,
                const nlohmann::ordered_json& data);
 

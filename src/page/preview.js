@@ -15,9 +15,9 @@
 
   byId("title").textContent = `Preview of ${data.name}`;
   byId("subtitle").textContent = `${data.hearts} hearts, ${data.loops} loops as ${data.layouts.join(", ")}; about `
-    + `${duration(data.expected_s)} on this machine and ${size(data.expected_bytes)}, by the first heart`;
-  byId("counted").textContent = `First draws of ${data.counted} hearts, those that turn out impossible among them.`;
-  byId("foot").textContent = `EchoCine ${data.version}. The contact sheet lies beside this page as PNG.`;
+    + `${duration(data.expected_s)} on this machine and ${size(data.expected_bytes)}, extrapolated from the first heart`;
+  byId("counted").textContent = `First draws of ${data.counted} hearts, including impossible ones.`;
+  byId("foot").textContent = `EchoCine ${data.version}. The contact sheet is next to this page, as PNG.`;
 
   for (const g of data.previews) {
     const words = `${g.id}: ${g.population}, ejection fraction ${fixed(g.ef_percent, 0)} %, ${fixed(g.edv_ml, 0)} mL`

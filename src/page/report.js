@@ -39,7 +39,7 @@
     byId("subtitle").textContent =
       `${data.frames_done} of ${data.loop_frames} frames, ${number(data.acquisition.frame_rate_hz)} frames/s, ${bpm} beats/min`
       + (data.stride > 1 ? `; this page shows every ${data.stride}th frame` : "");
-    byId("foot").textContent = `EchoCine ${data.version}, scene ${data.scene_sha256}. All of this and more is in manifest.json.`;
+    byId("foot").textContent = `EchoCine ${data.version}, scene ${data.scene_sha256}. All of this is in manifest.json.`;
     if (!data.warnings.length) return;
     byId("warnings").hidden = false;
     byId("warnings").querySelector("ul").append(...data.warnings.map((w) => element("li", {}, w)));
@@ -105,7 +105,7 @@
     const describe = (k) => `frame ${frames.index[k]} · ${fixed(frames.time_s[k], 3)} s · phase ${fixed(frames.phase[k], 3)}`
       + (data.acquisition.beats > 1 ? ` · beat ${frames.beat[k] + 1}` : "");
     const player = new Player(byId("player"), {
-      loops: [{ label: images.length ? "" : "No pictures were asked for (output.cine, output.png).", images:
+      loops: [{ label: images.length ? "" : "No pictures were requested (output.cine, output.png).", images:
         images.length ? images : frames.index.map(() => null),
         over: data.truth && { images: page.frames("labels"), draw: drawTruth } }],
       rate_hz: data.acquisition.frame_rate_hz / data.stride, describe });
@@ -172,7 +172,7 @@
     const { plan } = data, t = plan.triangles;
     const facts = [["tracer", `${plan.tracer}: ${plan.tracer_reason}`],
       ["interface echoes", `${plan.interface_echo}: ${plan.interface_echo_reason}`],
-      ["triangles", `${t.given} given, ${t.kept} in structures that stay, ${t.met} met by the imaging plane`]];
+      ["triangles", `${t.given} given, ${t.kept} in structures in use, ${t.met} cut by the imaging plane`]];
     if (plan.left_out.length)
       facts.push(["left out", plan.left_out.map((i) => `${i.name}: ${i.reason}`).join("; ")]);
     page.facts(byId("plan"), facts).style.marginTop = "12px";

@@ -11,7 +11,7 @@
   function showHead() {
     byId("title").textContent = `${axes.map((a) => a.dial).join(", ")} against ${data.real}`;
     const best = points[data.best];
-    byId("subtitle").textContent = `least discrepancy ${fixed(best.discrepancy, 4)} at `
+    byId("subtitle").textContent = `lowest discrepancy ${fixed(best.discrepancy, 4)} at `
       + axes.map((a, i) => `${a.dial} ${number(best.values[i])}`).join(", ") + ` · ${points.length} evaluations, ${data.view}${data.caveats.map((text) => ` · ${text}`).join("")}`;
     byId("axis").textContent = others.length
       ? `Along ${last.dial}; a line for each ${others.map((a) => a.dial).join(", ")}.` : `Along ${last.dial}.`;
@@ -44,10 +44,10 @@
       a.curvature_per_step2 === null ? "–" : number(a.curvature_per_step2, 3)]) });
     const pairs = [];
     data.confounding.forEach((row, i) => row.forEach((value, j) => {
-      if (j < i) pairs.push([`${axes[j].dial} with ${axes[i].dial}`, `${fixed(value, 2)} (1 or -1: one makes good the other)`]);
+      if (j < i) pairs.push([`${axes[j].dial} with ${axes[i].dial}`, `${fixed(value, 2)} (1 or -1: one compensates the other)`]);
     }));
-    page.facts(byId("least"), [...pairs, ["one evaluation", `${number(data.cpu_ms.evaluation, 3)} ms of a core`],
-      ["recording hearts", `${number(data.cpu_ms.recording_hearts / 1000, 3)} s of a core`]]);
+    page.facts(byId("least"), [...pairs, ["one evaluation", `${number(data.cpu_ms.evaluation, 3)} ms of one core`],
+      ["computing hearts", `${number(data.cpu_ms.recording_hearts / 1000, 3)} s of one core`]]);
   }
 
   // Made when it is opened: thousands of rows cost a second.
@@ -62,6 +62,6 @@
   showCurves();
   showFit(data.fit);
   showLeast();
-  page.showPose(byId("pose"), "pose in the middle of the ranges", { ...data.centre, tilt: data.tilt, beat: data.beat }, data.beat_anchor);
+  page.showPose(byId("pose"), "pose at the centre of the ranges", { ...data.centre, tilt: data.tilt, beat: data.beat }, data.beat_anchor);
   byId("points").addEventListener("toggle", fillPoints, { once: true });
 })();

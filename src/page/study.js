@@ -20,7 +20,7 @@
   let picked = rows.find((row) => row.value === "scene") ?? rows[0];
 
   function showHead() {
-    byId("title").textContent = `What accuracy costs: ${data.scene}`;
+    byId("title").textContent = `Accuracy against time: ${data.scene}`;
     const m = data.machine;
     const count = (n, what) => `${n} ${what}${n === 1 ? "" : "s"}`;
     byId("subtitle").textContent = `${count(rows.length, "setting")}, ${count(data.frames.length, "probe frame")}, `

@@ -8,7 +8,7 @@
   function showHead() {
     byId("title").textContent = data.title;
     byId("subtitle").textContent = `${view.structures.length} structures in ${data.background}. `
-      + (view.sees_any ? view.sight : "The sector sees nothing.");
+      + (view.sees_any ? view.sight : "The sector shows no structure.");
     byId("foot").textContent = `EchoCine ${data.version}. Meshes are drawn with fewer triangles than are traced: the table says how many.`;
     if (!view.sees_any) {
       byId("blind").hidden = false;

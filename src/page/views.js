@@ -50,8 +50,8 @@
     page.facts(byId("heart"), [...Object.entries(best.dials).map(([key, value]) => [key, number(value, 4)]),
       ["hearts that were tried", String(best.hearts)],
       ["the middle heart's discrepancy", fixed(best.discrepancy_of_middle_heart, 4)],
-      ["recording hearts", `${number(data.cpu_ms.recording_hearts / 1000, 3)} s of a core`],
-      ["all of it", `${number(data.cpu_ms.all / 1000, 3)} s of a core`]]);
+      ["computing hearts", `${number(data.cpu_ms.recording_hearts / 1000, 3)} s of one core`],
+      ["all of it", `${number(data.cpu_ms.all / 1000, 3)} s of one core`]]);
   }
 
   showHead();

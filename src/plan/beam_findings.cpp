@@ -29,7 +29,7 @@ Finding findBeamWidth(const Scene& scene) {
                         "average is over the pulse alone",
                         scene.accuracy.rays_per_beam, millimetresFromMetres(scene.probe.aperture_m),
                         millimetresFromMetres(scene.probe.focus_m))};
-  if (!wantsPicture(scene)) return {false, "no picture is asked for"};
+  if (!wantsPicture(scene)) return {false, "no picture is requested"};
   const bool lateral = scene.signal.beam_width != BeamWidth::none && scene.probe.lines > 1;
   const double pulse_m = scene.signal.pulse_cycles * ScanGeometry(scene.probe).wavelength() / 2;
   if (lateral)
@@ -43,7 +43,7 @@ Finding findElevation(const Scene& scene) {
   const bool rays = severalRays(scene), slices = severalSlices(scene);
   if (scene.accuracy.rays_per_beam == 1 && scene.accuracy.elevation_slices == 1)
     return {false, "one ray per beam stays in the imaging plane"};
-  if (!rays && !slices) return {false, "no requested output holds intensities"};
+  if (!rays && !slices) return {false, "no requested output contains intensities"};
   return {true, fmt::format("{} over a lens of {:g} mm focused at {:g} mm",
                             rays ? fmt::format("{} rays", scene.accuracy.rays_per_beam)
                                  : fmt::format("{} slices", scene.accuracy.elevation_slices),

@@ -46,11 +46,11 @@ namespace {
 bool decide(EffectPlan& plan, Effect effect, Switch wanted, const Finding& found) {
   Finding decided = found;
   if (wanted == Switch::on)
-    decided = {true, found.on ? "the scene asks for it"
-                              : "the scene asks for it, although " + found.reason};
+    decided = {true, found.on ? "the scene requests it"
+                              : "the scene requests it, although " + found.reason};
   if (wanted == Switch::off)
-    decided = {false, found.on ? "the scene turns it off, although " + found.reason
-                               : "the scene turns it off"};
+    decided = {false, found.on ? "the scene disables it, although " + found.reason
+                               : "the scene disables it"};
   plan.decisions.push_back({effect, decided.on, decided.reason});
   return decided.on;
 }
@@ -64,7 +64,7 @@ Finding interfaces(const Scene& scene) {
 }
 
 Finding echoes(const Scene& scene) {
-  if (!wantsIntensity(scene, true)) return {false, "no requested output holds interface echoes"};
+  if (!wantsIntensity(scene, true)) return {false, "no requested output contains interface echoes"};
   return interfaces(scene);
 }
 
@@ -79,7 +79,7 @@ Finding lobes(const Scene& scene, bool reflection) {
 
 Finding losses(const Scene& scene) {
   if (!wantsIntensity(scene, true) && !wantsIntensity(scene, false))
-    return {false, "no requested output holds intensities"};
+    return {false, "no requested output contains intensities"};
   return interfaces(scene);
 }
 
@@ -97,7 +97,7 @@ Finding bending(const Scene& scene) {
 // Of what the interface law depends on the angle for.
 Finding snellAngles(const Scene& scene, const EffectPlan& plan) {
   if (!plan.reflection && !plan.transmission_loss)
-    return {false, "no angle of incidence is asked for"};
+    return {false, "no angle of incidence is requested"};
   const Finding bends = bending(scene);
   if (!bends.on) return bends;
   return {true, "straight rays meet interfaces at the angles of bent ones"};
@@ -112,7 +112,7 @@ Finding reflectionCap(const Scene& scene, const EffectPlan& plan) {
 
 Finding thinLayers(const Scene& scene, const EffectPlan& plan) {
   if (!plan.reflection && !plan.transmission_loss)
-    return {false, "no echo or loss of an interface is asked for"};
+    return {false, "no echo or loss of an interface is requested"};
   return {true, fmt::format("interfaces less than {:.2g} mm apart echo as one pulse",
                             millimetresFromMetres(scene.signal.pulse_cycles * kScannerSpeed /
                                                   scene.probe.frequency_hz / 2))};
@@ -132,11 +132,11 @@ Finding attenuating(const Scene& scene) {
             : scene.signal.tgc == Tgc::mean ? "the mean time gain undoes only what all lines share"
             : scene.signal.tgc == Tgc::nominal ? "the nominal gain undoes the same on all lines"
                                                : "a table of gains does not undo it exactly"};
-  return {false, "perfect TGC undoes it and no received intensity was asked for"};
+  return {false, "perfect TGC undoes it and no received intensity was requested"};
 }
 
 Finding scattering(const Scene& scene) {
-  if (!wantsIntensity(scene, false)) return {false, "no requested output holds backscatter"};
+  if (!wantsIntensity(scene, false)) return {false, "no requested output contains backscatter"};
   std::string kinds;
   for (const Medium* m : mediaInUse(scene))
     if (m->backscatter_per_m_sr > 0 && kinds.find(m->name) == std::string::npos)
@@ -150,32 +150,32 @@ Finding spreading(const Scene& scene, bool backscatter) {
   for (const Channel c : {Channel::y, Channel::unattenuated, Channel::backscatter})
     if (wants(scene, c)) return {true, fmt::format("channel {} holds it", channelName(c))};
   if (scene.signal.spread == Spread::keep) return {true, "signal.spread keeps it"};
-  return {false, "the display compensates it and no received intensity was asked for"};
+  return {false, "the display compensates it and no received intensity was requested"};
 }
 
 void add(EffectPlan& plan, Effect effect, bool on, std::string reason, Channel channel = {}) {
   plan.decisions.push_back({effect, on, std::move(reason), channel});
 }
 
-// A row for each kind of truth, and for each of its channels that is asked for.
+// A row for each kind of truth, and for each of its channels that is requested.
 void planTruth(const Scene& scene, EffectPlan& plan) {
   const TruthSettings& t = scene.truth;
   for (const auto& [effect, on] :
        {std::pair(Effect::truth_labels, t.labels), std::pair(Effect::truth_contours, t.contours),
         std::pair(Effect::truth_tracks, t.tracks), std::pair(Effect::truth_function, t.function)})
-    add(plan, effect, on, on ? "asked for in truth.write" : "not asked for");
+    add(plan, effect, on, on ? "requested in truth.write" : "not asked for");
   for (const Channel c : kTruthChannels)
-    if (wants(scene, c)) add(plan, Effect::channel, true, "asked for in output.channels", c);
+    if (wants(scene, c)) add(plan, Effect::channel, true, "requested in output.channels", c);
 }
 
 // A curve of depth that is applied to every line, and what asks for it.
 Finding timeGain(const Scene& scene, const EffectPlan& plan) {
-  if (!wantsPicture(scene)) return {false, "no picture is asked for"};
+  if (!wantsPicture(scene)) return {false, "no picture is requested"};
   switch (scene.signal.tgc) {
     case Tgc::perfect:
-      return {false, "perfect TGC is attenuation left out, not a gain to apply"};
+      return {false, "perfect TGC omits attenuation instead of applying a gain"};
     case Tgc::none:
-      return {false, "no time gain is asked for"};
+      return {false, "no time gain is requested"};
     case Tgc::table:
       return {true, "a table of gains over depth"};
     case Tgc::nominal:
@@ -192,7 +192,7 @@ void planRolling(const Scene& scene, EffectPlan& plan) {
   const int together = scene.accuracy.rolling_lines;
   plan.rolling = scene.acquisition.rolling && scene.probe.lines > together;
   add(plan, Effect::rolling, plan.rolling,
-      !scene.acquisition.rolling ? "acquisition.rolling asks for none"
+      !scene.acquisition.rolling ? "acquisition.rolling is off"
       : !plan.rolling            ? "all lines share one instant (accuracy.rolling_lines)"
       : together == 1            ? "each line at its own instant"
                       : fmt::format("each {} lines at the instant of their middle", together));
@@ -204,14 +204,14 @@ void planSignal(const Scene& scene, EffectPlan& plan) {
   add(plan, Effect::tgc, gain.on, gain.reason);
   add(plan, Effect::log_compression, picture,
       picture ? fmt::format("{:g} dB for the picture", scene.signal.dynamic_range_db)
-              : "no picture is asked for");
+              : "no picture is requested");
   const bool labels = wants(scene, Channel::medium);
   add(plan, Effect::labels, labels,
-      labels ? "channel medium.id is asked for" : "channel medium.id is not asked for");
+      labels ? "channel medium.id is requested" : "channel medium.id is not requested");
   for (const Channel c : kAllChannels) {
     if (c == Channel::medium || (c == Channel::y && !wants(scene, c))) continue;
     add(plan, Effect::channel, wants(scene, c),
-        wants(scene, c) ? "asked for in output.channels" : "not asked for", c);
+        wants(scene, c) ? "requested in output.channels" : "not asked for", c);
   }
   planTruth(scene, plan);
 }
@@ -230,7 +230,7 @@ EffectPlan planEffects(const Scene& scene) {
   // Where no speed differs bent rays are straight ones; those know the contour between lines.
   if (plan.refraction && !bending(scene).on) {
     plan.refraction = plan.decisions.back().on = false;
-    plan.decisions.back().reason = "the scene asks for it, but " + bending(scene).reason;
+    plan.decisions.back().reason = "the scene requests it, but " + bending(scene).reason;
   }
   plan.snell_angles =
       decide(plan, Effect::snell_angles, wanted.snell_angles, snellAngles(scene, plan));

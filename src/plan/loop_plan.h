@@ -1,5 +1,5 @@
 #pragma once
-// What a loop computes, and by which tracer: the record that the program follows, prints and keeps.
+// The plan of a loop, effects and tracer: the record that the program follows, prints and keeps.
 
 #include <string>
 #include <vector>

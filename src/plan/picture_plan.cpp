@@ -17,7 +17,7 @@ bool decidePicture(const Scene& scene, EffectPlan& plan, Effect effect, bool ask
   const bool decided = asked && possible && wantsPicture(scene);
   plan.decisions.push_back({effect, decided,
                             !asked                 ? "not asked for"
-                            : !wantsPicture(scene) ? "no picture is asked for"
+                            : !wantsPicture(scene) ? "no picture is requested"
                             : decided              ? on
                                                    : off});
   return decided;
@@ -28,7 +28,7 @@ void planTissue(const Scene& scene, EffectPlan& plan) {
   const std::string off = "there are no scatterers to carry it";
   plan.heterogeneity =
       decidePicture(scene, plan, Effect::heterogeneity, s.heterogeneity_db > 0, plan.speckle, off,
-                    fmt::format("{:g} dB from place to place of the tissue", s.heterogeneity_db));
+                    fmt::format("{:g} dB of variation within the tissue", s.heterogeneity_db));
   plan.anisotropy = decidePicture(
       scene, plan, Effect::anisotropy, s.anisotropy_db > 0, plan.speckle, off,
       fmt::format("muscle sends back {:g} dB less along its fibres", s.anisotropy_db));
@@ -50,7 +50,7 @@ void planTrabeculae(const Scene& scene, EffectPlan& plan) {
   plan.trabeculae = std::any_of(scene.structures.begin(), scene.structures.end(),
                                 [&](const Structure& s) { return hasTrabeculae(scene, s); });
   plan.decisions.push_back({Effect::trabeculae, plan.trabeculae,
-                            height_m == 0      ? "trabeculae.height_mm asks for none"
+                            height_m == 0      ? "trabeculae.height_mm is 0"
                             : !plan.trabeculae ? "no structure is a ventricle's cavity"
                                                : fmt::format("ridges of {:g} mm on the ventricles' "
                                                              "inner surfaces",
@@ -61,8 +61,8 @@ void planSpeckle(const Scene& scene, EffectPlan& plan) {
   plan.speckle = scene.speckle.on && wantsPicture(scene) && plan.contrast;
   plan.decisions.push_back(
       {Effect::speckle, plan.speckle,
-       !scene.speckle.on      ? "speckle.on asks for none"
-       : !wantsPicture(scene) ? "no picture is asked for"
+       !scene.speckle.on      ? "speckle.on is false"
+       : !wantsPicture(scene) ? "no picture is requested"
        : !plan.contrast       ? std::string(kNothingSeen)
                         : fmt::format("{:g} scatterers per resolution cell move with the tissue",
                                       scene.speckle.per_cell)});
@@ -72,7 +72,7 @@ void planSpeckle(const Scene& scene, EffectPlan& plan) {
 void planArtefacts(const Scene& scene, EffectPlan& plan) {
   const ArtefactSettings& a = scene.artefacts;
   const bool lines = scene.probe.lines > 1;
-  const std::string one = "there is one line alone";
+  const std::string one = "there is only one line";
   plan.dropout = decidePicture(scene, plan, Effect::dropout, a.dropout, lines, one,
                                fmt::format("outermost lines lose {:g} dB", a.dropout_db));
   plan.acoustic_window = decidePicture(
@@ -82,7 +82,7 @@ void planArtefacts(const Scene& scene, EffectPlan& plan) {
                             fmt::format("side lobes at {:g} dB", a.haze_db));
   plan.reverberation =
       decidePicture(scene, plan, Effect::reverberation, a.reverberation, scene.probe.samples > 1,
-                    "there is one sample alone",
+                    "there is only one sample",
                     fmt::format("a tail of {:g} dB behind every echo", a.reverberation_db));
   plan.clutter = decidePicture(scene, plan, Effect::clutter, a.clutter, true, "",
                                fmt::format("{:g} dB of white at the face", a.clutter_db));

@@ -1,5 +1,5 @@
 #pragma once
-// Our memory as NumPy arrays without copies, and arrays that come in.
+// C++ memory as NumPy arrays without copies, and checks of given arrays.
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -12,14 +12,14 @@ namespace echocine::python {
 
 namespace py = pybind11;
 
-// C order; `owner` lives as long as the array. An array without values has the shape all the same.
+// C order; the array keeps `owner` alive. An array without values keeps its shape.
 template <typename T>
 py::array viewOf(const T* data, const std::vector<py::ssize_t>& shape, const py::handle& owner) {
   return py::array(py::dtype::of<T>(), shape, data, owner);
 }
 
-// Line-major planes, `frames` of them one after the other, as (frames, depth, line); (depth, line)
-// where frames is below 0.
+// Line-major planes, `frames` of them in order, as (frames, depth, line); (depth, line) for frames
+// < 0.
 template <typename T>
 py::array planesView(const T* data, py::ssize_t frames, py::ssize_t lines, py::ssize_t samples,
                      const py::handle& owner) {
@@ -32,14 +32,14 @@ py::array planesView(const T* data, py::ssize_t frames, py::ssize_t lines, py::s
   return py::array(py::dtype::of<T>(), shape, strides, data, owner);
 }
 
-// Of its own memory.
+// An array with its own memory.
 py::array copyOf(const std::vector<double>& values);
 
 // "(24, 3), float64"
 std::string shown(const py::array& array);
 
-// An array to be filled: writeable, of that type and shape, any strides. Throws TypeError or
-// ValueError that name `argument`.
+// A writeable array of that type and shape, with any strides. Throws TypeError or ValueError naming
+// `argument`.
 py::array checkedOut(const std::string& argument, const py::object& given, const py::dtype& type,
                      const std::vector<py::ssize_t>& shape);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The parts of the compiled module; each source binds what its name says. The package of plain
-// Python beside them (echocine/) is what users see.
+// The parts of the compiled module, one source each. Users see the pure Python package beside it
+// (echocine/).
 
 #include <pybind11/pybind11.h>
 

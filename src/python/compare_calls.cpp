@@ -161,8 +161,7 @@ void bindCompare(py::module_& module) {
       .def_property_readonly(
           "overlap", [](const Distance& d) { return d.discrepancy.overlapShare(); },
           "Share of the sector that both loops show, 0 to 1.")
-      .def_readonly("tilt", &Distance::tilt,
-                    "The tilt that was found, as JSON; empty where none was asked for.");
+      .def_readonly("tilt", &Distance::tilt, "The tilt, as JSON; empty if not requested.");
 }
 
 }  // namespace echocine::python

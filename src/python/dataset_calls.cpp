@@ -69,13 +69,14 @@ py::dict preview(const std::optional<std::string>& text, const Path& file, const
 void bindDataset(py::module_& module) {
   module.def("make_dataset", &makePart, py::arg("text").none(true), py::arg("file"),
              py::arg("folder"), py::arg("task"), py::arg("threads"), py::arg("progress").none(true),
-             "Makes a part of the hearts; returns counts.");
+             "Renders a part of the hearts; returns counts.");
   module.def("merge_dataset", &mergeParts, py::arg("text").none(true), py::arg("file"),
              py::arg("folder"), py::arg("fast"), py::arg("threads"),
-             "Proves all hearts' files, writes tables and lists; returns counts.");
-  module.def("preview_dataset", &preview, py::arg("text").none(true), py::arg("file"),
-             py::arg("page"), py::arg("hearts"), py::arg("threads"), py::arg("progress").none(true),
-             "A page of some hearts; returns hearts, impossible, seconds and bytes of the whole.");
+             "Verifies all hearts' files, writes tables and lists; returns counts.");
+  module.def(
+      "preview_dataset", &preview, py::arg("text").none(true), py::arg("file"), py::arg("page"),
+      py::arg("hearts"), py::arg("threads"), py::arg("progress").none(true),
+      "A page of some hearts; returns hearts, impossible draws, expected seconds and bytes.");
 }
 
 }  // namespace echocine::python

@@ -31,7 +31,7 @@ Channel channelFrom(const std::string& name) {
   };
   if (const auto found = look(kAllChannels)) return *found;
   if (const auto found = look(kTruthChannels)) return *found;
-  throw SceneError(fmt::format("channel: \"{}\" is no channel, accepted: {}", name, accepted));
+  throw SceneError(fmt::format("channel: \"{}\" is not a channel, accepted: {}", name, accepted));
 }
 
 // Moves a vector into an array of its own.
@@ -84,7 +84,7 @@ std::pair<std::uint64_t, std::string> fileDigest(const Path& path) {
   const Unlocked released;
   const std::optional<dataset::FileMark> mark = dataset::markOf(path);
   if (!mark)
-    throw JobError(fmt::format("{}: cannot be read, or is no ordinary file", path.string()));
+    throw JobError(fmt::format("{}: cannot be read, or is not an ordinary file", path.string()));
   return {mark->bytes, mark->digest};
 }
 

@@ -23,7 +23,7 @@ struct Held {
 
 [[noreturn]] void absent(const char* what, const char* remedy) {
   throw py::value_error(
-      fmt::format("{}: the scene does not ask for it, accepted: {}", what, remedy));
+      fmt::format("{}: the scene does not request it, accepted: {}", what, remedy));
 }
 
 py::array intensities(const py::object& self) {
@@ -113,7 +113,7 @@ void bindFrame(py::module_& module) {
           "Instant from the loop's start, s.")
       .def_property_readonly(
           "phase", [](const NativeFrame& n) { return n.frame.time.phase; },
-          "Phase of the beat, 0 up to, without, 1; 0 at end-diastole.")
+          "Phase of the beat, 0 <= phase < 1; 0 at end-diastole.")
       .def_property_readonly(
           "beat", [](const NativeFrame& n) { return n.frame.time.beat; },
           "Beat of the loop, from 0.")

@@ -1,5 +1,5 @@
 #pragma once
-// A frame as Python holds it.
+// The frame object of Python.
 
 #include <pybind11/numpy.h>
 
@@ -12,8 +12,7 @@
 
 namespace echocine::python {
 
-// Its memory stays where it is while it lives: arrays are views of it, also after it was filled
-// again.
+// Its memory keeps its address: arrays are views of it, also after it is filled again.
 struct NativeFrame {
   Frame frame;
   int width = 0, height = 0;      // of its picture and labels, pixels
@@ -21,11 +20,11 @@ struct NativeFrame {
   std::atomic<bool> busy{false};  // being filled
 };
 
-// Into `to`'s own memory. Contours are new. Precondition: both are of one simulator.
+// Copies into `to`'s own memory. Contours are new. Precondition: both are of one simulator.
 void copyInPlace(const Frame& from, Frame& to);
 
-// Into arrays by name: "intensities", "greys", "image", "labels". Throws as checkedOut() does, and
-// ValueError for other names and for what the scene does not make.
+// Output arrays by name: "intensities", "greys", "image", "labels". Throws like checkedOut(), and
+// ValueError for other names and for outputs that the scene does not have.
 struct OutArray {
   std::string name;
   py::array array;

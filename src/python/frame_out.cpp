@@ -86,7 +86,7 @@ std::vector<OutArray> checkedOutArrays(const py::dict& given, const Scene& scene
           "out: \"{}\" is not known, accepted: \"intensities\", \"greys\", \"image\", \"labels\"",
           name));
     if (!isMade(name, scene))
-      throw py::value_error(fmt::format("out[\"{}\"]: the scene does not ask for it", name));
+      throw py::value_error(fmt::format("out[\"{}\"]: the scene does not request it", name));
     const auto array =
         checkedOut(fmt::format("out[\"{}\"]", name), py::reinterpret_borrow<py::object>(value),
                    is_polar ? py::dtype::of<float>() : py::dtype::of<std::uint8_t>(),

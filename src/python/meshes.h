@@ -1,5 +1,5 @@
 #pragma once
-// Keyframe meshes that Python holds in memory.
+// Keyframe meshes in Python's memory.
 
 #include "scene/scene.h"
 #include "scene/scene_reader.h"
@@ -10,7 +10,7 @@ struct Meshes {
   NamedMeshes named;
 };
 
-// Those that a scene was read with; none where its keyframes are files.
+// The meshes with which a scene was read; empty if its keyframes are files.
 Meshes meshesOf(const Scene& scene);
 
 }  // namespace echocine::python

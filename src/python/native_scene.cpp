@@ -167,21 +167,21 @@ py::list keyTable() {
 }  // namespace
 
 void bindScene(py::module_& module) {
-  py::class_<NativeScene>(module, "Scene", "What the reader made of a scene's text.")
+  py::class_<NativeScene>(module, "Scene", "The result of reading a scene's text.")
       .def(py::init(&read), py::arg("text"), py::arg("file"), py::arg("meshes").none(true),
            "Reads TOML; `meshes` None: keyframes are files beside `file`.")
-      .def_property_readonly("absent", &absentKeys, "Keys that are left out -> default, or None.")
+      .def_property_readonly("absent", &absentKeys, "Absent keys -> default, or None.")
       .def_property_readonly("structures", &structures, "One dict per structure, in order.")
       .def_property_readonly("probe", &probe, "The probe in SI.")
       .def_property_readonly(
           "warnings", [](const NativeScene& n) { return n.scene.warnings; },
-          "What is accepted but hardly meant, a line each.")
+          "Warnings about valid but unlikely input, a line each.")
       .def_property_readonly(
           "frame_count", [](const NativeScene& n) { return CardiacClock(n.scene).frameCount(); },
           "Frames of the loop.")
       .def_property_readonly(
           "json", [](const NativeScene& n) { return sceneJson(n.scene).dump(); },
-          "The scene as resolved, in SI, as the manifest has it.");
+          "The resolved scene in SI units, as in the manifest.");
   module.def("heart", &makeHeart, py::arg("view"), py::arg("dials"), py::arg("segments"),
              py::arg("keep_volumes"), py::arg("keyframes"), py::arg("even"), py::arg("threads"),
              py::arg("progress").none(true),

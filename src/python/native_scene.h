@@ -1,5 +1,5 @@
 #pragma once
-// A scene as Python holds it: what the one reader made of a text.
+// The scene object of Python: the result of the scene reader.
 
 #include <map>
 #include <string>

@@ -98,7 +98,7 @@ py::list contoursOfFrame(const NativeSimulator& native, const NativeFrame& frame
   checkMaker("contours: frame", native, frame);
   if (!frame.frame.truth || !native.simulator.scene().truth.contours)
     throw py::value_error(
-        "contours: the scene does not ask for it, accepted: truth.write with \"contours\"");
+        "contours: the scene does not request it, accepted: truth.write with \"contours\"");
   return contoursOf(frame.frame.truth->contours, native.simulator.scene());
 }
 
@@ -106,7 +106,7 @@ py::list contoursOfFrame(const NativeSimulator& native, const NativeFrame& frame
 
 void bindSimulator(py::module_& module) {
   py::class_<NativeSimulator, std::shared_ptr<NativeSimulator>>(module, "Simulator",
-                                                                "Makes frames of a scene.")
+                                                                "Renders frames of a scene.")
       .def(py::init(&make), py::arg("scene"))
       .def("frame", &newFrame, py::arg("time_s"), "A new frame at an instant of the loop, s.")
       .def("fill_frame", &fillFrame, py::arg("time_s"), py::arg("out"),
@@ -117,7 +117,7 @@ void bindSimulator(py::module_& module) {
       .def_property_readonly("times_s", &times, "(T,) float64: the loop's frames, s.")
       .def_property_readonly(
           "plan", [](const NativeSimulator& n) { return planSummary(n.simulator.plan()); },
-          "One line: tracer, what is on, what is off.")
+          "One line: tracer, enabled and disabled effects.")
       .def_property_readonly(
           "reference_intensity",
           [](const NativeSimulator& n) {

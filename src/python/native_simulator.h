@@ -1,5 +1,5 @@
 #pragma once
-// A simulator as Python holds it.
+// The simulator object of Python.
 
 #include <atomic>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace echocine::python {
 struct NativeSimulator {
   explicit NativeSimulator(const Scene& scene) : simulator(scene) {}
   const Simulator simulator;
-  const std::uint64_t number = next();  // of the process's simulators; frames keep it
+  const std::uint64_t number = next();  // unique in the process; frames store it
   std::mutex mutex;
   std::vector<std::unique_ptr<Frame>> scratch;
 

@@ -72,11 +72,10 @@ std::string study(const NativeScene& scene, const std::optional<std::filesystem:
 
 void bindPlan(py::module_& module) {
   module.def("plan", &plan, py::arg("scene"), py::arg("threads"), py::arg("progress").none(true),
-             "What a loop needs, why, and what it takes, as JSON.");
+             "The effects that a loop needs, reasons and expected cost, as JSON.");
   module.def("study", &study, py::arg("scene"), py::arg("folder").none(true), py::arg("frames"),
              py::arg("repeats"), py::arg("knobs"), py::arg("budget_s").none(true),
-             py::arg("threads"), py::arg("progress").none(true),
-             "What accuracy costs in time, as JSON.");
+             py::arg("threads"), py::arg("progress").none(true), "Accuracy against time, as JSON.");
 }
 
 }  // namespace echocine::python

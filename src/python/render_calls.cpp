@@ -25,9 +25,9 @@ void renderToFolder(const NativeScene& scene, const std::filesystem::path& folde
   runJob(progress, [&](const Monitor& monitor) {
     const RenderSummary summary = renderLoop(scene.scene, options, monitor);
     if (summary.frames_done < summary.frames_wanted)
-      throw JobError(
-          fmt::format("stopped: {} of {} frames are finished in {}; resume=True goes on from there",
-                      summary.frames_done, summary.frames_wanted, folder.string()));
+      throw JobError(fmt::format(
+          "stopped: {} of {} frames are finished in {}; resume=True continues from there",
+          summary.frames_done, summary.frames_wanted, folder.string()));
   });
 }
 

@@ -116,9 +116,9 @@ void FolderSink::takeEarlier(const FrameRecord& record, Finished& finished) cons
   if (!sha256.empty() && as_noted)
     finished.entry.exr_sha256 = std::move(sha256);
   else
-    finished.mended = fmt::format("{}: {}, it is made again", name,
+    finished.mended = fmt::format("{}: {}, it is rendered again", name,
                                   sha256.empty() ? "damaged, or not as this run would write it"
-                                                 : "not the file that the manifest tells of");
+                                                 : "not the file in the manifest");
 }
 
 std::shared_ptr<void> FolderSink::take(MadeFrame& frame) {

@@ -1,5 +1,5 @@
 #pragma once
-// The sink of a loop that goes into a folder: every frame to its files.
+// The sink of a loop that is written to a folder: every frame as files.
 
 #include <map>
 #include <memory>
@@ -18,7 +18,7 @@
 namespace echocine {
 
 // SHA-256 over the resolved scene, its media, its meshes and the program's version: equal for two
-// runs that must give the same files.
+// runs that must write the same files.
 std::string sceneSha256(const Scene& scene, const MeshMotion& motion);
 
 class FolderSink : public FrameSink {
@@ -29,27 +29,27 @@ class FolderSink : public FrameSink {
     const Monitor& monitor;
     ReportPage& report;
     bool resume;
-    std::map<std::string, std::string> earlier_hashes;  // on resuming, of an earlier manifest
+    std::map<std::string, std::string> earlier_hashes;  // when resuming: from an earlier manifest
   };
-  // Frames, file hashes and white go into `manifest`. References are kept.
+  // Adds frames, file hashes and white to `manifest`. References are kept.
   FolderSink(const Parts& parts, Manifest& manifest);
 
   void begin(double white) override;
   std::shared_ptr<void> take(MadeFrame& frame) override;
   void inOrder(void* taken) override;
 
-  // After the last frame: whole, or of a run that was stopped.
+  // After the last frame. whole: false for an interrupted run.
   void finish(bool whole);
-  // The run has failed: what of the cine is there may still play.
+  // The run has failed: makes the existing part of the cine playable.
   void endEarly();
 
  private:
   struct Finished {
     FrameEntry entry;
     std::vector<std::byte> cine_frame;
-    std::vector<std::byte> report_frame;  // where the cine's does not show in browsers
+    std::vector<std::byte> report_frame;  // if browsers cannot show the cine's frames
     std::string png_sha256;
-    std::string mended;               // why a frame that was there is made again; empty: it is not
+    std::string mended;               // reason for rendering an existing frame again; empty: kept
     std::optional<FrameTruth> truth;  // until it is written
     std::map<std::string, std::string> truth_files;  // name -> SHA-256
     PageTruth page_truth;

@@ -1,5 +1,5 @@
 #pragma once
-// report.html: a finished run on one page to look at.
+// report.html: a finished run on one page.
 
 #include <optional>
 #include <utility>
@@ -12,7 +12,7 @@
 
 namespace echocine {
 
-// A frame's truth as the page draws it over the picture.
+// A frame's truth for the page's overlay.
 struct PageTruth {
   struct Outline {
     std::size_t structure;
@@ -21,25 +21,24 @@ struct PageTruth {
   };
   std::vector<Outline> outlines;
   std::vector<float> tracks_px;   // x, y, x, y, ...
-  std::vector<std::byte> labels;  // PNG; empty where none are asked for
+  std::vector<std::byte> labels;  // PNG; empty if not requested
 };
 
-// Contours within the picture, without points that lie within a pixel and a half of the last, and
-// some hundred material points.
+// Contours within the picture, thinned to a pixel and a half, and some hundred material points.
 PageTruth pageTruth(const FrameTruth& truth, const Scene& scene, std::vector<std::byte> labels);
 
 class ReportPage {
  public:
-  // Of frames range.first up to, without, range.second. Does nothing where the scene asks for no
-  // report. Throws JobError, as all functions here do. The references must outlive the page.
+  // Page for frames range.first to range.second - 1. Does nothing if the scene requests no report.
+  // Throws JobError, as all functions here do. The references must outlive the page.
   ReportPage(const std::filesystem::path& path, const Scene& scene, const CardiacClock& clock,
              std::pair<int, int> range);
 
-  // Whether the page shows this frame (pageStride()).
+  // Does the page show this frame (pageStride())?
   bool shows(int frame) const;
   void addFrame(std::span<const std::byte> image);  // JPEG or PNG, in the order of frames
-  void addTruth(PageTruth truth);                   // of the frame that was added last
-  // With times and volumes filled in; shows the simulator's surfaces in space too.
+  void addTruth(PageTruth truth);                   // of the frame added last
+  // The manifest must have times and volumes. Also shows the simulator's surfaces in 3-D.
   void finish(const Manifest& manifest, const Simulator& simulator);
 
  private:
@@ -48,7 +47,7 @@ class ReportPage {
   std::pair<int, int> range_;
   int stride_;
   std::optional<PageWriter> writer_;
-  std::vector<PageTruth> truths_;  // by shown frame, without their labels
+  std::vector<PageTruth> truths_;  // by shown frame, without label pictures
 };
 
 }  // namespace echocine

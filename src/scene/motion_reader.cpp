@@ -16,7 +16,7 @@ void refuseEndAlone(TomlTable& table, const MotionSettings& m) {
   if (m.end_systole_phase && !m.keyframe_heart_rate_hz && !table.has(kInterval))
     table.fail(
         "end_systole_phase",
-        "says nothing alone, accepted: with keyframe_heart_rate_bpm or " + std::string(kInterval));
+        "has no effect alone, accepted: with keyframe_heart_rate_bpm or " + std::string(kInterval));
 }
 
 std::vector<double> readKeyframePhases(TomlTable& table) {
@@ -26,11 +26,11 @@ std::vector<double> readKeyframePhases(TomlTable& table) {
     if (phases[i] == 1 && i > 0)
       table.fail(key,
                  fmt::format("phase {} is 1, the beat's start again: drop the frame that closes "
-                             "the beat, the first follows the last by itself",
+                             "the beat, the first keyframe follows the last automatically",
                              i + 1));
     if (!(phases[i] >= 0 && phases[i] < 1))
-      table.fail(
-          key, fmt::format("phase {} is {}, accepted: from 0 up to, without, 1", i + 1, phases[i]));
+      table.fail(key,
+                 fmt::format("phase {} is {}, accepted: at least 0 and below 1", i + 1, phases[i]));
     if (i > 0 && !(phases[i] - phases[i - 1] >= ranges::kLeastPhaseStep))
       table.fail(key,
                  fmt::format("phase {} is {} after {}, accepted: ascending phases, {} apart or "
@@ -48,7 +48,7 @@ void readInterval(TomlTable& table, MotionKeys& keys) {
     if (table.has(other))
       table.fail(kInterval,
                  fmt::format("contradicts {}: the interval times the number of keyframes "
-                             "is the beat; leave out one of the two",
+                             "is the beat; omit one of the two",
                              other));
 }
 
@@ -81,7 +81,7 @@ std::optional<double> rateOfInterval(const MotionKeys& keys,
   for (const Structure& s : structures) {
     if (s.keyframes.size() < 2) continue;
     if (s.phases_given)
-      fail(fmt::format("contradicts the phases of {}: leave out one of the two", s.name));
+      fail(fmt::format("contradicts the phases of {}: omit one of the two", s.name));
     if (!moving) moving = &s;
     if (s.keyframes.size() != moving->keyframes.size())
       fail(fmt::format(
@@ -89,7 +89,7 @@ std::optional<double> rateOfInterval(const MotionKeys& keys,
           "many for each, or keyframe_heart_rate_bpm",
           moving->name, moving->keyframes.size(), s.name, s.keyframes.size()));
   }
-  if (!moving) fail("says nothing of structures with one keyframe: leave it out");
+  if (!moving) fail("has no effect on structures with one keyframe: omit it");
   const double beat_s = *keys.interval_s * static_cast<double>(moving->keyframes.size());
   if (!ranges::kHeartRates_bpm.contains(60 / beat_s))
     fail(fmt::format(

@@ -13,8 +13,8 @@
 
 namespace echocine {
 
-// cycle: from one keyframe to the next as the published volume curve goes, for hearts of which a
-// few instants are known.
+// cycle: from one keyframe to the next as the published volume curve goes, for hearts with a
+// few known instants.
 enum class Interpolation { linear, catmull_rom, spline, fourier, cycle };
 
 template <>

@@ -52,9 +52,8 @@ std::optional<ViewPlacement> readView(TomlTable& table) {
   for (const char* key : {"apex", "axis", "lateral"})
     if (table.has(key))
       table.fail(key,
-                 fmt::format("contradicts view = \"{}\", which finds the pose: leave out view, "
-                             "or apex, axis and lateral; shift_mm, tilt_deg and rotate_deg "
-                             "change what is found",
+                 fmt::format("contradicts view = \"{}\", which computes the pose: omit view, or "
+                             "apex, axis and lateral; shift_mm, tilt_deg and rotate_deg modify it",
                              keyOf(placement.view)));
   if (table.has("shift_mm"))
     placement.shift_m = metresFromMillimetres(1) * table.vector("shift_mm", ranges::kMostShift_mm);

@@ -49,7 +49,8 @@ inline constexpr double kMostShift_mm = 1000;  // of a probe, from its view's st
 
 inline constexpr NumberRange kMeshScale{.lo = 1e-6, .hi = 1e6};
 inline constexpr double kMostOffset_mm = 1e7;  // of meshes
-// Between keyframes: from 250 keyframes per beat at 1 bpm to a millisecond.
+// Between keyframes: from 4096 of a beat at 1000 per minute (0.015 ms) to two at 1 per minute (30
+// s).
 inline constexpr NumberRange kKeyframeInterval_ms{.lo = 0.01, .hi = 30000};
 
 // A coordinate in mesh units: its cube is still a float.

@@ -38,7 +38,7 @@ class ScanGeometry {
 
   bool angular() const { return angular_; }  // lines meet in the apex
 
-  // Of the outermost lines: rad, or m.
+  // Place of the first line: rad, or m.
   double firstPlace() const { return first_place_; }
   double lastPlace() const { return last_place_; }
   double placeOf(Vec3d point_m) const;  // of a point of the imaging plane

@@ -109,7 +109,7 @@ void readStructures(TomlTable& root, const MediaTable& table, MediaInUse& media,
     for (const Structure& other : scene.structures)
       if (other.name == structure.name)
         entry.fail("name",
-                   fmt::format("\"{}\" is taken, accepted: a name of its own", structure.name));
+                   fmt::format("\"{}\" is already used, accepted: a unique name", structure.name));
     scene.structures.push_back(std::move(structure));
     if (scene.structures.size() > kMaxSurfaces)
       entry.fail("name",

@@ -97,10 +97,11 @@ std::vector<Keyframe> readPhasedKeyframes(TomlTable& table, const MeshSource& so
                                                           : source.folder / named;
     const double phase = entry.number("phase", std::nullopt, {.lo = 0, .hi = 1});
     if (phase == 1)
-      entry.fail("phase", keyframes.empty()
-                              ? "is 1, accepted: from 0 up to, without, 1"
-                              : "is 1, the beat's start again: drop the frame that "
-                                "closes the beat, the first follows the last by itself");
+      entry.fail("phase",
+                 keyframes.empty()
+                     ? "is 1, accepted: at least 0 and below 1"
+                     : "is 1, the beat's start again: drop the frame that "
+                       "closes the beat, the first keyframe follows the last automatically");
     if (!keyframes.empty() && !(phase - keyframes.back().phase >= ranges::kLeastPhaseStep))
       entry.fail("phase",
                  fmt::format("is {} after {}, accepted: ascending phases, {} apart or more", phase,
@@ -121,7 +122,7 @@ std::vector<Keyframe> readPlainKeyframes(TomlTable& table, const MeshSource& sou
   const bool given = !phases.empty() && keyframes.size() > 1;
   if (given && phases.size() != keyframes.size())
     table.fail("keyframes", fmt::format("{} keyframes, accepted: as many as motion.keyframe_phases "
-                                        "has, {}, or one that stands still",
+                                        "has, {}, or one for a static structure",
                                         keyframes.size(), phases.size()));
   for (std::size_t i = 0; i < keyframes.size(); ++i)
     keyframes[i].phase =

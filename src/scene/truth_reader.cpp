@@ -35,7 +35,7 @@ void checkNumbers(const TomlTable& table, const TruthSettings& truth, const Scen
         });
     if (!known)
       table.fail("labels",
-                 fmt::format("{} is no closed structure of the scene, nor the role of one, "
+                 fmt::format("{} is not a closed structure of the scene, nor the role of one, "
                              "accepted: names and roles of closed structures",
                              name));
     for (std::size_t j = 0; j < i; ++j)
@@ -53,7 +53,7 @@ void readTruth(TomlTable table, Scene& scene) {
   const std::string unknown = switchOn(table.texts("write"), truth);
   if (!unknown.empty())
     table.fail("write",
-               fmt::format("\"{}\" is no kind of truth, accepted: {}", unknown, kTruthKinds));
+               fmt::format("\"{}\" is not a kind of truth, accepted: {}", unknown, kTruthKinds));
   const NumberRange numbers = sceneKey("truth", "labels").range;
   truth.label_numbers =
       table.namedIntegers("labels", static_cast<int>(numbers.lo), static_cast<int>(numbers.hi));

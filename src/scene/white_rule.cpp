@@ -63,7 +63,7 @@ std::string whiteWords(const Scene& scene) {
   const std::string percentile = fmt::format("percentile {:g} of all samples, near field left out",
                                              asked == kWhiteByMuscle ? kDefaultPercentile : asked);
   if (!isWhiteByMuscle(scene)) return percentile;
-  return fmt::format("median of the heart muscle at grey {:g}; with next to none in view {}",
+  return fmt::format("median of the heart muscle at grey {:g}; with hardly any in view {}",
                      kMuscleGrey, percentile);
 }
 

@@ -14,8 +14,8 @@ namespace echocine {
 // edges. The fourth power keeps the middle half within L / 16. Our choice.
 double dropoutFactor(double s, double loss_db);
 
-// Ribs at one depth d with a gap of width w. Of an aperture D at the start of a line, the fraction
-// f whose straight paths to a point pass the gap is open; paths through ribs keep the amplitude
+// Ribs at one depth d with a gap of width w. The fraction f of an aperture D at the start of a
+// line is open: its straight paths to a point pass the gap. Paths through ribs keep the amplitude
 // tau. Both ways: (f + (1 - f) tau)^4, with tau^4 the full shadow in intensity. 1 in front of the
 // ribs. Points in the probe frame, from the centre of the face.
 struct RibGap {

@@ -1,18 +1,18 @@
 #pragma once
-// How far one scatterer's echo reaches in beam space, by the model of this room's README.
+// Extent of one scatterer's echo in beam space, by the model of this room's README.
 //
 // Symbols: lambda wavelength, D aperture, z path length, w full width at -6 dB of the two-way
-// intensity profile, sigma standard deviation of the amplitude's bell. Lateral: a constant angle at
-// every depth, sigma = 0.3625 lambda z / D; defocus widens the beam, but not the speckle.
+// intensity profile, sigma standard deviation of the amplitude's Gaussian. Lateral: a constant
+// angle at every depth, sigma = 0.3625 lambda z / D; defocus widens the beam, but not the speckle.
 
 #include "scene/probe.h"
 
 namespace echocine {
 
-// Full width at half maximum of a bell, in deviations: sqrt(8 ln 2).
+// Full width at half maximum of a Gaussian, in standard deviations: sqrt(8 ln 2).
 inline constexpr double kWidthAtHalf = 2.3548200450309493;
 
-// exp(-(distance / deviation)^2 / 2); without a deviation 1 at its middle and 0 beside it.
+// exp(-(distance / deviation)^2 / 2); for deviation 0 it is 1 at the centre and 0 elsewhere.
 double bell(double distance, double deviation);
 
 struct PointSpread {
@@ -27,11 +27,12 @@ struct PointSpread {
 
   double lateralWidth(double path_m) const;    // w
   double elevationWidth(double path_m) const;  // w_e
-  // Volume of a resolution cell; held at 3 mm of path nearer to the probe, where it would vanish.
+  // Volume of a resolution cell; limited near the probe to its value at 3 mm of path, because it
+  // would vanish.
   double cellVolume(double path_m) const;
 };
 
-// The amplitude of the elevation's bell is left out beyond this part of w_e, where it is a tenth.
+// The Gaussian of the elevation is cut beyond this part of w_e, where the amplitude is a tenth.
 inline constexpr double kElevationCut = 0.9;
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// Which part of space the blocks of scatterers are searched in.
+// Region of space to search for blocks of scatterers.
 
 #include "scene/probe.h"
 

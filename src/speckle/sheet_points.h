@@ -1,6 +1,6 @@
 #pragma once
-// Scatterers of membranes: each is bound to its triangle and goes where that goes. A leaflet's
-// speckle then moves with it through blood that renews itself.
+// Scatterers of membranes, bound to their triangles. A leaflet's speckle thus moves with it through
+// blood that renews itself.
 
 #include <vector>
 
@@ -12,13 +12,15 @@ namespace echocine {
 
 class SheetPoints {
  public:
-  // Evenly by area at the reference phase, hashed from the seed; those that no beam comes near at
-  // any instant are left out. At 3 per resolution cell they stand half a pulse's width apart: many
-  // more to a cell than the blood about them, which then hardly shows in the sheet's echo.
+  // Uniform in area at the reference phase, hashed from the seed; those that no beam reaches at any
+  // instant are omitted. At 3 per resolution cell their spacing is half a pulse's width, so a cell
+  // contains many more of them than of the surrounding blood, which hardly contributes to the
+  // sheet's echo.
   SheetPoints(const Scene& scene, const MeshMotion& motion, double reference_phase);
 
   std::size_t count() const { return points_.size(); }
-  // Places at an instant, in the same order at all. Nothing of a frame without surfaces.
+  // Positions at an instant, always in the same order. Empty for a frame without
+  // surfaces.
   void at(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m) const;
 
  private:

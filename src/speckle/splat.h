@@ -1,5 +1,5 @@
 #pragma once
-// From scatterers to splats: where in beam space each one is now, its phase and its weight.
+// From scatterers to splats: current position in beam space, phase and weight of each.
 
 #include <cstdint>
 
@@ -8,11 +8,11 @@
 
 namespace echocine {
 
-// The Gaussian numbers of a batch at an instant: a mix of two draws, of variance 1.
+// The Gaussian numbers of a batch at an instant: a mixture of two draws, with variance 1.
 struct GaussianMix {
   const float *real_a, *imaginary_a, *real_b, *imaginary_b;
   float a = 1, b = 0;
-  // Factors of amplitude by scatterer, or none. What the ratio is normalised by is without them.
+  // Amplitude factors by scatterer, or none. The normaliser leaves these factors out.
   const float* strength = nullptr;
 
   Floats8 real(std::uint32_t j) const { return weighed(j, mixed(real_a + j, real_b + j)); }
@@ -29,26 +29,26 @@ struct GaussianMix {
   }
 };
 
-// Which draws: c(t) = cos(pi f/2) c_m + sin(pi f/2) c_(m+1) with m + f = t / tau + a batch's own
-// phase, so that no instant renews all at once. tau = 0: never renewed.
+// The mixture c(t) = cos(pi f/2) c_m + sin(pi f/2) c_(m+1) with m + f = t / tau + a batch's own
+// phase, so that renewals are not simultaneous. tau = 0: no renewal.
 GaussianMix mixAt(const GaussianTable& table, std::uint64_t pattern, double time_s, double tau_s);
 
 class Splatter {
  public:
   Splatter(const Probe& probe, const PointSpread& spread);
 
-  // The scatterers of a cube whose corners are here now. Phases hold the path and, across the
-  // imaging plane, the curvature of the lens's wave, which makes the correlation after a shift d
-  // exp(-d^2 / 2 s0^2) at every depth, s0 the deviation by diffraction alone.
+  // Adds the scatterers of a cube with the given current corners. Phases contain the path and,
+  // across the imaging plane, the curvature of the lens's wave. The correlation after a shift d is
+  // thus exp(-d^2 / 2 s0^2) at every depth, with s0 the standard deviation by diffraction alone.
   void add(const BeamCube& cube, const Scatterers& scatterers, const ScattererBatch& batch,
            const GaussianMix& mix, SplatLists& splats) const;
 
-  // Eight scatterers at their own places, with the mix's numbers from `j` on.
+  // Eight scatterers at their own places, with the mixture's numbers from `j` on.
   void addPlaces(const BeamCube& at, const GaussianMix& mix, std::uint32_t j,
                  SplatLists& splats) const;
 
  private:
-  // Turns that the lens adds at the cut, over a cube's samples.
+  // Turns of phase added by the lens at the cut, over a cube's samples.
   struct Bend {
     float first, slope;
   };

@@ -1,5 +1,5 @@
 #pragma once
-// What a frame costs by counted work: an order of settings that no clock disturbs.
+// Cost of a frame by counted work: a ranking of settings that does not depend on a clock.
 
 #include "core/work_counts.h"
 #include "plan/loop_plan.h"
@@ -7,10 +7,10 @@
 
 namespace echocine {
 
-// Milliseconds of one frame on one core, by the counts of its work (of one frame) and weights of
-// our choice, taken from the stage times of a study of the heart that ships. Another machine is
-// faster or slower as a whole; the order of settings, which is all that is used, is the same
-// everywhere, and with it what a tolerance chooses.
+// Milliseconds of one frame on one core, from its counted work and weights of our choice, taken
+// from the stage times of a study of the shipped heart. Another machine is faster or slower as a
+// whole. Only the ranking of settings is used, which is the same on every machine, and so is the
+// choice for a tolerance.
 double modelledCost_ms(const Scene& scene, const LoopPlan& plan, const WorkCounts& work,
                        std::size_t vertices);
 

@@ -72,7 +72,7 @@ void addSamples(const Scene& scene, KnobBuilder& table) {
 
 void addRefraction(const Scene& scene, const MeshMotion& motion, KnobBuilder& table) {
   if (scene.effects.refraction != Switch::automatic)
-    return table.leaveOut("refraction", "effects.refraction is not left to the program");
+    return table.leaveOut("refraction", "effects.refraction is not automatic");
   if (scene.accuracy.tracer == TracerChoice::slice)
     return table.leaveOut("refraction", "accuracy.tracer = \"slice\" bends no ray");
   if (!planEffects(scene).refraction)

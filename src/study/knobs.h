@@ -1,6 +1,6 @@
 #pragma once
-// The knobs that trade accuracy for time, each with its values from the roughest to the most
-// accurate, and the presets: one definition for `render --preset`, the study and the tolerance.
+// The knobs that trade accuracy for time, each with values from rough to accurate, and the presets:
+// one definition for `render --preset`, the study and the tolerance.
 
 #include <array>
 #include <cstddef>
@@ -18,19 +18,19 @@ inline constexpr std::array<const char*, kPresets> kPresetNames{"draft", "standa
                                                                 "reference"};
 
 struct KnobValue {
-  std::string label;  // as a scene file has it
+  std::string label;  // as in a scene file
   std::function<void(Scene&)> apply;
 };
 
-// A knob of one scene. Values run from rough to accurate where one can say so; the reference's is
-// among them.
+// A knob of one scene. Values are ordered from rough to accurate where that is defined, and include
+// the reference's.
 struct Knob {
   std::string name;  // of `--knobs`
   std::string key;   // of the scene file
   std::string meaning;
   std::vector<KnobValue> values;
   std::array<std::size_t, kPresets> of_preset{};  // index into values
-  // Values from rough to the reference's that save time, for who looks for the cheapest.
+  // Values from rough to the reference's that save time, for the search of the cheapest setting.
   std::vector<std::size_t> ladder{};
 
   std::size_t reference() const { return of_preset[kPresets - 1]; }
@@ -42,16 +42,16 @@ struct KnobLeftOut {
 
 struct KnobTable {
   std::vector<Knob> knobs;
-  std::vector<KnobLeftOut> left_out;  // what cannot apply to the scene, and why
+  std::vector<KnobLeftOut> left_out;  // inapplicable to the scene, with reasons
 };
 
 // One value of each knob: indices in the order of KnobTable::knobs.
 using Setting = std::vector<std::size_t>;
 
-// The knobs of a scene. Lines are counted by the beam (1 to 16 to its two-way width at the focus),
-// samples by the pulse (1 to 16 to half its length), which are what the picture can resolve.
-// Values and presets follow from the scene file and its meshes' sizes alone, never from a clock.
-// Reads the meshes once or twice. Throws SceneError as MeshMotion does.
+// The knobs of a scene. Lines are counted per beam (1 to 16 per two-way width at the focus),
+// samples per pulse (1 to 16 per half length): the resolution of the picture. Values and presets
+// follow from the scene file and the sizes of its meshes, never from a clock. Reads the meshes once
+// or twice. Throws SceneError like MeshMotion.
 KnobTable knobsOf(const Scene& scene);
 
 // All names that --knobs accepts.
@@ -62,7 +62,7 @@ Setting presetSetting(const KnobTable& table, Preset preset);
 // The scene with the setting's values.
 Scene sceneWith(const Scene& scene, const KnobTable& table, const Setting& setting);
 
-// "probe.lines = 224, probe.samples = 544, ...": as a scene file has it.
+// "probe.lines = 224, probe.samples = 544, ...", as in a scene file.
 std::string settingText(const KnobTable& table, const Setting& setting);
 
 }  // namespace echocine

@@ -5,7 +5,7 @@
 
 namespace echocine {
 
-std::string processorName();  // "unknown" where the system does not say
+std::string processorName();  // "unknown" if the system does not report it
 int processorCores();
 
 }  // namespace echocine

@@ -19,14 +19,14 @@ struct ModelSwitch {
 constexpr ModelSwitch kSwitches[] = {
     {"snell_angles", "effects.snell_angles", "straight rays meet interfaces at Snell's angles",
      Effect::snell_angles, &EffectSwitches::snell_angles},
-    {"reflection_cap", "effects.reflection_cap", "no wall outshines itself seen head-on",
+    {"reflection_cap", "effects.reflection_cap", "no wall reflects more than at normal incidence",
      Effect::reflection_cap, &EffectSwitches::reflection_cap},
-    {"thin_layers", "effects.thin_layers", "interfaces that one pulse holds echo coherently",
+    {"thin_layers", "effects.thin_layers", "interfaces within one pulse echo coherently",
      Effect::thin_layers, &EffectSwitches::thin_layers}};
 
 void addSwitch(const Scene& scene, const ModelSwitch& of, KnobBuilder& table) {
   if (scene.effects.*of.wanted != Switch::automatic)
-    return table.leaveOut(of.name, std::string(of.key) + " is not left to the program");
+    return table.leaveOut(of.name, std::string(of.key) + " is not automatic");
   const EffectPlan plan = planEffects(scene);
   if (!plan.decision(of.effect).on) return table.leaveOut(of.name, plan.decision(of.effect).reason);
   const auto value = [&](const char* label, Switch wanted) {

@@ -19,8 +19,7 @@ constexpr double kMostTriangles = 2e6;
 void addSubdivision(const Scene& scene, std::size_t triangles, KnobBuilder& table) {
   const int written = scene.motion.subdivision;
   if (written == 0)
-    return table.leaveOut("subdivision",
-                          "motion.subdivision = 0 takes the meshes as the surfaces themselves");
+    return table.leaveOut("subdivision", "motion.subdivision = 0 uses the meshes as surfaces");
   const double finest = 4.0 * static_cast<double>(triangles);
   const bool finer = finest <= kMostTriangles && written < 8;
   if (!finer)
@@ -43,8 +42,7 @@ std::string refusal(const Scene& scene) {
 
 void addNormals(const Scene& scene, KnobBuilder& table) {
   if (scene.motion.subdivision == 0 && scene.accuracy.normals != Normals::smooth)
-    return table.leaveOut("normals",
-                          "motion.subdivision = 0 takes the meshes as the surfaces themselves");
+    return table.leaveOut("normals", "motion.subdivision = 0 uses the meshes as surfaces");
   Scene smooth = scene;
   smooth.accuracy.normals = Normals::smooth;
   const std::string refused = refusal(smooth);

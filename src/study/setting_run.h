@@ -1,5 +1,5 @@
 #pragma once
-// One setting of a scene at work: its frames as pictures, its interfaces, and its time by stage.
+// Runs one setting of a scene: its frames as pictures, its interfaces, and its time by stage.
 
 #include <map>
 #include <memory>
@@ -15,7 +15,8 @@
 
 namespace echocine {
 
-// Keyframes are read once for each way of moving them: settings that differ in lines share one.
+// Cache of motions: keyframes are read once for each kind of motion, and settings that differ in
+// lines share one.
 class MotionShelf {
  public:
   std::shared_ptr<const MeshMotion> motionOf(const Scene& scene);
@@ -30,17 +31,16 @@ class MotionShelf {
   std::uint64_t uses_ = 0;
 };
 
-// Which intensities a picture is made of: those that were traced, or what is read back of them once
-// they are stored the way the scene stores its channels (output.exr_compression, exr_pixel; those
-// that were traced where it stores none).
+// Intensities used for a picture: those traced, or those read back after storage in the scene's EXR
+// format (output.exr_compression, exr_pixel; those traced if it stores none).
 enum class MadeOf { traced, stored };
 
-// A frame of one setting as it is compared.
+// A frame of one setting, for comparison.
 struct FramePicture {
   std::vector<float> grey;  // 0..1 before the grey map, -1 outside the sector
   GreyImage image;
   InterfaceMap interfaces;
-  std::size_t exr_bytes = 0;  // of its file in the intensity stack; of stored intensities alone
+  std::size_t exr_bytes = 0;  // of its file in the intensity stack; for MadeOf::stored only
 };
 
 // Milliseconds of one batch of frames, per frame.
@@ -49,39 +49,40 @@ struct StageTimes {
   double wall_ms = 0;
 };
 
-// The scene, made to show a picture if it asks for none: without one there is nothing to compare.
+// The scene with a picture enabled: without one there is nothing to compare.
 Scene showing(Scene scene);
 
 class SettingRun {
  public:
-  // The scene must make a picture. Throws SceneError when its meshes refuse the setting.
+  // The scene must have a picture. Throws SceneError if its meshes reject the setting.
   // Precondition: the shelf outlives the probe.
   SettingRun(Scene scene, MotionShelf& shelf);
 
   const Scene& scene() const { return scene_; }
   const LoopPlan& plan() const { return plan_; }
 
-  // Equal for two settings that compute the same: what "auto" became takes its place.
+  // Equal for two settings that compute the same, with every "auto" resolved.
   std::string signature() const;
 
-  // Traces the frame; nothing is written.
+  // Traces the frame; writes nothing.
   FramePicture picture(const FrameTime& time, double reference_intensity, bool with_interfaces,
                        MadeOf made_of = MadeOf::traced);
 
-  // The loop's white from these frames alone: absolute if the scene has it, else its percentile.
+  // The loop's white from these frames only: absolute if the scene has it, otherwise its
+  // percentile.
   double referenceIntensity(const std::vector<FrameTime>& times);
 
-  // Work of one frame, a mean over those traced so far.
+  // Mean work of the frames traced so far.
   WorkCounts workPerFrame() const;
-  std::size_t vertices() const { return vertices_; }  // of the structures that stay
+  std::size_t vertices() const { return vertices_; }  // of the structures in use
 
-  // Makes `frames` frames of the times, round and round, on the threads of withThreads(), from
-  // meshes to encoded and hashed files in memory. The time of a frame is the batch's over its
-  // frames, so on several threads it is that of a loop.
+  // Renders `frames` frames, cycling through the times, on the threads of withThreads(), from
+  // meshes to encoded and hashed files in memory. The time of a frame is that of the batch over its
+  // frames, so with several threads it is that of a loop.
   StageTimes timeBatch(const std::vector<FrameTime>& times, std::size_t frames,
                        double reference_intensity);
 
-  // Gives back what frames need while they are made; the next frame builds it anew.
+  // Releases working memory; the next frame allocates it again.
   void rest();
 
  private:

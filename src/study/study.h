@@ -1,5 +1,5 @@
 #pragma once
-// What each knob of a scene costs in time and leaves in error, measured here and now.
+// Cost and error of each knob of a scene, measured on this machine.
 
 #include <filesystem>
 #include <functional>
@@ -19,19 +19,19 @@ namespace echocine {
 
 struct StudyOptions {
   std::filesystem::path folder;
-  int threads = 1;                 // frames made at once while they are timed; 0: one per core
-  int frames = 4;                  // compared and timed, evenly over the first beat
+  int threads = 1;                 // frames in parallel during timing; 0: one per core
+  int frames = 4;                  // compared and timed, evenly spaced over the first beat
   int repeats = 3;                 // rounds over all settings
   std::vector<std::string> knobs;  // only these; empty: all
   double budget_s =
-      std::numeric_limits<double>::infinity();  // no round begins that would end later
+      std::numeric_limits<double>::infinity();  // a round that would end later is not started
 };
 
-// RMS errors that differ by less count as equal where settings are ranked: storing intensities
-// moves them by as much, up or down. Our choice.
+// RMS errors that differ by less count as equal in rankings: storing intensities changes them by as
+// much. Our choice.
 inline constexpr double kToldApart_db = 0.005;
 
-// Against the reference, over the probe frames.
+// Errors against the reference, over the test frames.
 struct StudyErrors {
   double rms_db = 0;        // over the pixels of all frames
   double worst_rms_db = 0;  // of the worst frame
@@ -40,16 +40,17 @@ struct StudyErrors {
   double interface_rms_mm = 0, interface_p95_mm = 0, interface_missed = 0;
 };
 
-// What was measured of one setting; rows that come to the same thing share it.
+// Measurements of one setting; rows with equal settings share it.
 struct StudyPoint {
   Scene scene;
   std::string keys;  // "probe.lines = 64, ...", or "as written"
   std::string tracer;
   StudyErrors errors;
-  WorkCounts work;                               // per frame
-  double exr_bytes = 0;                          // of the intensity stack, per frame; 0 without one
-  std::vector<StageTimes> times;                 // one for each round
-  std::vector<std::byte> thumbnail, difference;  // JPEG; brighter is farther from the reference
+  WorkCounts work;                // per frame
+  double exr_bytes = 0;           // of the intensity stack, per frame; 0 without one
+  std::vector<StageTimes> times;  // one for each round
+  std::vector<std::byte> thumbnail,
+      difference;  // JPEG; brighter is a larger difference from the reference
 
   Quartiles wall_ms() const;
   double stage_ms(Stage stage) const;  // median over the rounds
@@ -58,7 +59,7 @@ struct StudyPoint {
 // One line of the study.
 struct StudyRow {
   std::string sweep;        // "preset", "from draft", "from reference"
-  std::string knob, value;  // of a preset: "preset" and its name, or "scene"
+  std::string knob, value;  // for a preset: "preset" and its name, or "scene"
   std::size_t point = 0;    // index into StudyResult::points
 };
 
@@ -69,32 +70,32 @@ struct StudyResult {
   KnobTable table;
   std::vector<StudyPoint> points;  // the reference first
   std::vector<StudyRow> rows;
-  std::vector<KnobLeftOut> refused;  // rows that could not be made, and why
+  std::vector<KnobLeftOut> refused;  // rows that could not be rendered, with reasons
   int rounds = 0, threads = 1;
   bool complete = false;
 };
 
-// The probe frames: `count` of the first beat's, evenly spaced, all if there are fewer.
+// The test frames: `count` frames of the first beat, evenly spaced, or all if there are fewer.
 std::vector<FrameTime> probeFrames(const Scene& scene, int count);
 
-// Runs the study. Each round visits every setting, forwards and backwards in turn, so that a drift
-// of the clock cancels in the medians; the first also compares pictures. Rows without a time when
-// keep_going() said no are left out; `round_done` gets what there is after each. Throws SceneError
-// and JobError.
+// Runs the study. Each round visits every setting, alternately forwards and backwards, so that a
+// drift of the clock cancels in the medians; the first round also compares pictures. Rows without a
+// time when keep_going() became false are omitted; `round_done` receives the results after each
+// round. Throws SceneError and JobError.
 StudyResult runStudy(
     const Scene& scene, const StudyOptions& options, const Monitor& monitor,
     const std::function<void(const StudyResult&)>& round_done = [](const StudyResult&) {});
 
-// Of a sweep: a knob turned one step, in time and error.
+// One step of a knob in a sweep, in time and error.
 struct KnobStep {
   std::string knob, from, to;
   double added_ms = 0, error_drop_db = 0;
   bool worth() const { return error_drop_db > kToldApart_db; }
-  // dB per ms; a step that costs no time is counted as a hundredth of a millisecond.
+  // dB per ms; a step without measurable time counts as a hundredth of a millisecond.
   double perMillisecond() const;
 };
 
-// The largest drop of the error per millisecond that each knob buys when it alone is raised from
+// For each knob, the largest reduction of the error per millisecond when it alone is raised from
 // draft, best first.
 std::vector<KnobStep> bestBuys(const StudyResult& result);
 

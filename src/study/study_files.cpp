@@ -180,13 +180,13 @@ std::string studyTable(const StudyResult& result) {
         row.value, front[i] ? '*' : ' ', wall.median, wall.first_quartile, wall.third_quartile,
         e.rms_db, e.max_db, e.ssim, e.interface_rms_mm, e.interface_p95_mm, 1e-3 * point.exr_bytes);
   }
-  text += "* no other setting here is both faster and nearer to the reference\n";
+  text += "* no other setting is both faster and more accurate\n";
   for (const KnobLeftOut& l : result.table.left_out)
     text += fmt::format("left out: {}: {}\n", l.knob, l.reason);
   for (const KnobLeftOut& l : result.refused)
     text += fmt::format("refused: {}: {}\n", l.knob, l.reason);
   const std::vector<KnobStep> buys = bestBuys(result);
-  if (!buys.empty()) text += "from draft, dB of RMS error for a millisecond:";
+  if (!buys.empty()) text += "from draft, dB of RMS error per millisecond:";
   for (const KnobStep& b : buys)
     text += fmt::format("{} {} {} -> {} ({:.2f} dB for {:.2f} ms)", &b == &buys.front() ? "" : ",",
                         b.knob, b.from, b.to, b.error_drop_db, b.added_ms);

@@ -1,5 +1,5 @@
 #pragma once
-// study.html: the study as one page that opens anywhere.
+// study.html: the study as one self-contained page.
 
 #include <filesystem>
 

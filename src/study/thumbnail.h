@@ -11,8 +11,8 @@ namespace echocine {
 // A JPEG of the picture, at most 320 pixels wide.
 std::vector<std::byte> thumbnail(const GreyImage& image);
 
-// A JPEG of how far the setting's grey is from the reference's: black where equal, white from 6 dB
-// (our choice) up.
+// A JPEG of the setting's difference from the reference: black for equal, white from 6 dB on (our
+// choice).
 inline constexpr double kWhiteDifference_db = 6;
 std::vector<std::byte> differenceThumbnail(const FramePicture& setting,
                                            const FramePicture& reference, double dynamic_range_db);

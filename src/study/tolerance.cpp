@@ -151,7 +151,7 @@ AccuracyChoice Descent::run(const Scene& written) {
     }
   record_.setting = settingText(table_, setting_);
   record_.reason = fmt::format(
-      "errs by {:.3g} dB RMS in the worst of {} probe frames, accepted: {:.3g} ({:g} with a margin "
+      "error of {:.3g} dB RMS in the worst of {} test frames, accepted: {:.3g} ({:g} with a margin "
       "of {:g}); {} settings tried; {:.3g} times cheaper than the reference by counted work",
       here_.error_db, frames_.size(), limit_db_, *record_.tolerance_db, kToleranceSafety,
       record_.candidates.size(), reference_ms / here_.cost_ms);
@@ -173,7 +173,7 @@ AccuracyChoice atPreset(const Scene& scene, Preset preset) {
   AccuracyChoice choice{sceneWith(scene, table, setting), {}};
   choice.record.preset = kPresetNames[static_cast<std::size_t>(preset)];
   choice.record.setting = settingText(table, setting);
-  choice.record.reason = "the preset that was asked for";
+  choice.record.reason = "the requested preset";
   return choice;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The cheapest setting of a scene's knobs whose picture stays within a tolerance.
+// The cheapest setting of a scene's knobs within a tolerance of the picture.
 
 #include "core/monitor.h"
 #include "output/accuracy_record.h"
@@ -14,19 +14,18 @@ struct AccuracyChoice {
 };
 
 // The error of a setting: RMS over the sector, dB of the displayed range (picture_error.h), in the
-// worst probe frame, against the preset `reference`. It must stay under tolerance /
-// kToleranceSafety, since other frames may err more than those that are looked at. Our choices.
+// worst test frame, against the preset `reference`. It must stay below tolerance /
+// kToleranceSafety, because other frames may have larger errors. Our choices.
 inline constexpr double kToleranceSafety = 1.25;
 inline constexpr int kToleranceFrames = 4;
 
-// Goes down from the reference, one knob one step at a time: next is the step that saved most
-// modelled cost (cost_model.h) for the squared error it added when it was last tried; a step that
-// errs too much is never tried again. The cheapest of all that were tried and stay within is taken:
-// not exhaustive, but the reference itself always qualifies.
-// Costs are counted, not timed, and pictures do not depend on threads, so the same scene and
-// tolerance give the same choice in every run. All frames are compressed against one white: the
-// scene's, or its percentile over the probe frames at the reference.
-// Throws SceneError, and a JobError when keep_going() says no.
+// Starts at the reference and relaxes one knob by one step at a time: the step that saved most
+// modelled cost (cost_model.h) per added squared error when it was last tried. A step with too
+// large an error is not tried again. The result is the cheapest of all accepted trials; the search
+// is not exhaustive, but the reference always qualifies. Costs are counted, not timed, and pictures
+// do not depend on threads, so the same scene and tolerance give the same choice in every run. All
+// frames use one white: the scene's, or its percentile over the test frames at the reference.
+// Throws SceneError, and JobError when keep_going() becomes false.
 AccuracyChoice chooseWithin(const Scene& scene, double tolerance_db, int threads,
                             const Monitor& monitor);
 

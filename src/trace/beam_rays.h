@@ -11,7 +11,7 @@
 // transmit at their place: exp(-(q^2/2) rho(z)), rho = w_r^2 / w_t^2, 0 < rho <= 1. Normalised at
 // each depth this is the two-way bell, 1/w^2 = 1/w_t^2 + 1/w_r^2, at every depth.
 //
-// Elevation. One fixed lens, transmit and receive alike: w_e^2/2 = (1.207 lambda z / D_e)^2/2 +
+// Elevation. One fixed lens for transmit and receive: w_e^2/2 = (1.207 lambda z / D_e)^2/2 +
 // (D_e (1 - z/F_e))^2/2, which is the variance of the straight rays
 //   y(z) = p sigma_y (1 - z/F_e) + s sigma_s z,  sigma_y of D_e / sqrt 2,
 //   sigma_s of 1.207 lambda / D_e / sqrt 2,
@@ -74,7 +74,7 @@ class BeamRays {
   bool weighted() const { return spread_.lateral; }
   bool elevation() const { return spread_.elevation; }
 
-  // What the points of one line in one frame are drawn by.
+  // Seed of the points of one line in one frame.
   std::uint64_t pattern(int frame, int line) const;
 
   BeamRay ray(const LineGeometry& line, std::uint64_t pattern, int i) const;

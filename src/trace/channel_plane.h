@@ -1,5 +1,5 @@
 #pragma once
-// A channel of a frame, as file writers and callers read it.
+// A channel of a frame, for file writers and callers.
 
 #include <cstdint>
 #include <span>

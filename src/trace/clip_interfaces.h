@@ -1,6 +1,5 @@
 #pragma once
-// What the lines themselves met where a clip of contour is: the media and losses that it takes
-// over.
+// Media and losses of contour clips, from the hits of the lines at the same place.
 
 #include "scene/scan_geometry.h"
 #include "trace/edge_clips.h"
@@ -10,11 +9,11 @@
 
 namespace echocine {
 
-// Of each clip, in the same places of the rows.
+// Data of each clip, at the same row index.
 struct InterfaceRows {
   ClipRow<std::int64_t> seen;         // -1; or 0, with nothing in the others
   ClipRow<std::uint32_t> ends;        // 1: total reflection ended the line there; else 0
-  ClipRow<double> Z_1, Z_2, r, turn;  // of the media before and behind; r and turn: SpeedRatio
+  ClipRow<double> Z_1, Z_2, r, turn;  // of the media in front and behind; r and turn: SpeedRatio
   ClipRow<double> passed;             // prod (1-R)^2 before it times the gain
   ClipRow<double> lobe, membrane;     // n of cos^n; 1 or 0
   ClipRow<float> coherent_part;       // SurfaceTraits
@@ -24,13 +23,13 @@ struct InterfaceRows {
 
 class ClipInterfaces {
  public:
-  // Preconditions: the lines hold hits, and all arguments outlive this.
+  // Preconditions: the lines contain hits, and all arguments outlive this.
   ClipInterfaces(const Probe& probe, const TraceSettings& settings,
                  std::span<const LineTrace> lines);
 
-  // Of all clips of the edges. Clips on which the path length turns round become two, the second
-  // of which stands behind all others. normals: of each edge, or none where the facets' own count;
-  // the clips take them over.
+  // Finds the data of all clips of the edges. A clip on which the path length has a minimum becomes
+  // two; the second is placed after all others. normals: of each edge, or empty for facet normals;
+  // the clips use them.
   void find(std::span<const ContourEdge> edges, std::span<const EdgeNormals> normals,
             EdgeClips& clips, InterfaceRows& rows) const;
 

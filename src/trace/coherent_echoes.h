@@ -1,6 +1,6 @@
 #pragma once
-// What interfaces send back in phase with themselves: the part K / (1 + K) of their echoes, K the
-// structure's coherent_share. The rest is as random as that of tissue.
+// The coherent part of interface echoes: the fraction K / (1 + K), with K the structure's
+// coherent_share. The rest is random like that of tissue.
 
 #include <span>
 #include <vector>
@@ -11,8 +11,8 @@
 namespace echocine {
 
 struct CoherentEchoes {
-  // Line-major as the intensities that they are part of: the sum of the coherent parts, and that
-  // times exp(-2j k0 l), l each echo's own place. All empty where nothing is coherent.
+  // Line-major like the intensities that contain them: the sum of the coherent parts, and that
+  // times exp(-2j k0 l), with l the place of each echo. All are empty without coherent echoes.
   std::vector<float> intensity, real, imaginary;
 
   bool empty() const { return intensity.empty(); }
@@ -27,8 +27,8 @@ struct EchoPhase {
   double real, imaginary;
 };
 
-// Adds those of whole lines and of cells; one of both has none. Preconditions: coherent.clear() for
-// all samples; settings.coherent_echoes.
+// Adds the echoes of whole lines and of cells; one of the two is empty. Preconditions:
+// coherent.clear() for all samples; settings.coherent_echoes.
 void addCoherent(std::span<const LineTrace> lines, const CellEchoes& cells,
                  const TraceSettings& settings, const Sampling& sampling,
                  const IntensityTerms& parts, CoherentEchoes& coherent);

@@ -1,6 +1,6 @@
 #pragma once
-// What cell_echoes.cpp keeps of contour clips, a row for each number so that lanes of them are one
-// load, and the angle under which the transducer sees a part of a clip.
+// Rows of contour clips for cell_echoes.cpp, one row per quantity, so that lanes are one load; and
+// the angle that a part of a clip subtends at the transducer.
 
 #include <array>
 #include <cmath>
@@ -11,16 +11,17 @@
 
 namespace echocine {
 
-// What clips send back, and where. Along a clip `place` grows from place_a to place_b: the distance
-// from the foot of the perpendicular from the centre; of a linear probe the depth from a.
+// Echoes of clips, and their positions. Along a clip `place` increases from place_a to place_b: the
+// distance from the foot of the perpendicular from the centre; for a linear probe the depth from a.
 struct EchoRows {
   ClipRow<double> strength;          // of a clip as if it filled the cell, per unit of angle
   ClipRow<double> whole;             // of the clip
   ClipRow<double> k_a, k_b;          // its ends, in samples; within one of the image
   ClipRow<std::int32_t> first, end;  // the samples it spans
-  ClipRow<std::uint32_t> single;     // 1: that is one, and the clip ends there; else 0
-  ClipRow<double> zero_m, step_m;    // of sample k the nearer end is at zero + k step, as place
-  ClipRow<double> exponent, exponent_step;  // A in the middle of the first sample, and of one more
+  ClipRow<std::uint32_t> single;     // 1: a single one that contains the end of the clip; else 0
+  ClipRow<double> zero_m, step_m;    // for sample k the nearer end is at zero + k step, as place
+  ClipRow<double> exponent,
+      exponent_step;  // A at the centre of the first sample, and its increment per sample
   ClipRow<double> place_a, place_b;
   ClipRow<double> p;     // distance of the foot from the centre; of a linear probe |dx / dz|
   ClipRow<double> flat;  // of a linear probe: |dx| of a clip without extent in depth
@@ -41,7 +42,7 @@ inline Doubles4 smallAngle(Doubles4 tangent) {
   return tangent * (1 - t2 * (1.0 / 3 - t2 * (1.0 / 5)));
 }
 
-// Between two places on a line at the distance p from the centre, seen from there.
+// Angle between two places on a line at the distance p from the centre, seen from there.
 inline Doubles4 anglesBetween(Doubles4 begin, Doubles4 end, Doubles4 p) {
   const Doubles4 across = p * (end - begin), along = p * p + begin * end;
   const Doubles4 tangent = across / larger(along, kTiny);

@@ -10,20 +10,19 @@
 
 namespace echocine {
 
-// So many clips go through all steps together: what lies between these stays in the first-level
-// cache.
+// Number of clips processed together: their intermediate data fit the first-level cache.
 inline constexpr std::size_t kClips = 128;
-// A clip on which the path length turns round becomes two. One cache line more, lest the rows'
-// equal places share a set of the cache: without it 256 clips take twice the time.
+// A clip on which the path length has a minimum becomes two. One extra cache line, so that equal
+// indices of different rows do not share a cache set: without it 256 clips take twice the time.
 template <typename T>
 using ClipRow = std::array<T, 2 * kClips + 64 / sizeof(T)>;
 
-// Clips of contour, each inside the cell of one line; in rows, for lanes. Points and vectors are in
+// Clips of contour, each inside the cell of one line, in rows for lanes. Points and vectors are in
 // the imaging plane.
 struct EdgeClips {
   std::size_t count = 0;
   ClipRow<double> a_x, a_z, b_x, b_z;  // its ends; b is no nearer to the centre (no shallower)
-  ClipRow<double> to_x, to_z;          // direction in which its middle is seen, of any length
+  ClipRow<double> to_x, to_z;          // viewing direction of its centre, of any length
   ClipRow<double> normal_x, normal_y, normal_z;  // of the facet, of any length,
   ClipRow<double> normal_square;                 // and the square of that
   ClipRow<std::int64_t> entering;  // -1: seen so, the facet's outside is in front; else 0
@@ -31,10 +30,10 @@ struct EdgeClips {
   ClipRow<std::uint32_t> edge, line;
 };
 
-// Cuts edges in their order.
+// Cuts edges in the given order.
 class EdgeClipper {
  public:
-  // Preconditions: the probe has two lines at least; the edges outlive the clipper.
+  // Preconditions: the probe has at least two lines; the edges outlive the clipper.
   EdgeClipper(const Probe& probe, std::span<const ContourEdge> edges);
 
   // Width of a cell: an angle, or a length for a linear probe.
@@ -47,7 +46,7 @@ class EdgeClipper {
   struct Boundary {
     double sine, cosine;  // of a linear probe: its offset and 1
   };
-  // Ends of edges, in the cells begin to end; of these the sector has those from begin on.
+  // Ends of edges, in the cells begin to end; those in the sector start at begin.
   static constexpr std::size_t kEdges = 64;
   struct Ends {
     std::array<double, kEdges> a_x, a_z, b_x, b_z;
@@ -55,7 +54,7 @@ class EdgeClipper {
     std::array<std::uint32_t, kEdges> edge;
     std::size_t count = 0, done = 0;
   };
-  // What clips are cut from besides the ends of their edges.
+  // Sides of clips other than the ends of their edges.
   struct Sides {
     std::array<double, kClips> left_sine, left_cosine, right_sine, right_cosine;
   };

@@ -1,5 +1,5 @@
 #pragma once
-// The hits of a frame's lines, to be found by line, surface and way of crossing.
+// The hits of a frame's lines, indexed by line, surface and direction of crossing.
 
 #include <span>
 #include <vector>
@@ -13,8 +13,8 @@ class HitTable {
   // Precondition: `lines` outlive the table.
   HitTable(std::span<const LineTrace> lines, std::size_t surfaces);
 
-  // The hit nearest to a path length, or nothing where the line does not cross the surface so.
-  // path_m: a function that gives it; only asked when there are several.
+  // The hit nearest to a path length; none if the line does not cross the surface in that
+  // direction. path_m: a function that returns it; called only if there are several hits.
   template <typename PathLength>
   const InterfaceHit* nearest(std::size_t line, SurfaceId surface, bool entering,
                               PathLength&& path_m) const {

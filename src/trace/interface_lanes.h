@@ -5,10 +5,10 @@
 
 namespace echocine {
 
-// The speeds of two media, as Snell's law takes them.
+// The speeds of two media, for Snell's law.
 struct SpeedRatio {
-  double r = 1;     // c_2 / c_1, of equal speeds exactly 1
-  double turn = 0;  // 1 - r^2 as transmissionCosine() takes it: exact where the speeds are alike
+  double r = 1;     // c_2 / c_1; exactly 1 for equal speeds
+  double turn = 0;  // 1 - r^2 as in transmissionCosine(): exact for equal speeds
 };
 
 inline SpeedRatio speedRatio(double c_1, double c_2) {
@@ -23,8 +23,8 @@ inline Doubles4 reflectedAtEqualSpeeds(Doubles4 Z_1, Doubles4 Z_2) {
 }
 
 // InterfaceLaw::R of any media, to rounding. r, turn: their SpeedRatio; cos_i: 0..1. Both the plain
-// difference a - b and that of nearly equal media, by Z and by c as amplitudeDifference() takes it,
-// stand here times cos_i + cos_t, so that one division is enough.
+// difference a - b and that of nearly equal media (amplitudeDifference(), by Z and by c) are
+// multiplied by cos_i + cos_t here, so that one division suffices.
 inline Doubles4 reflectedShares(Doubles4 Z_1, Doubles4 Z_2, Doubles4 r, Doubles4 turn,
                                 Doubles4 cos_i) {
   const Doubles4 cos_t_squared = turn + r * r * cos_i * cos_i;
@@ -35,7 +35,7 @@ inline Doubles4 reflectedShares(Doubles4 Z_1, Doubles4 Z_2, Doubles4 r, Doubles4
                  by_c = -Z_1 * turn * (1 - cos_i) * (1 + cos_i);
   const Doubles4 difference =
       magnitude(by_Z) + magnitude(by_c) < sum ? by_Z + by_c : (a - b) * cosines;
-  const Mask4 any_angle = sum > 0;  // else both cosines are 0
+  const Mask4 any_angle = sum > 0;  // otherwise both cosines are 0
   const Doubles4 ratio = (any_angle ? difference : Z_2 - Z_1) / (any_angle ? sum : Z_2 + Z_1);
   const Mask4 total = (cos_t_squared <= 0) & (r > 1);
   return total ? Doubles4{} + 1 : ratio * ratio;

@@ -12,25 +12,25 @@ namespace echocine {
 struct Sampling {
   double min_depth_m = 0, spacing_m = 0;
   int samples = 0;
-  // Nearer than this 1/l^2 stays as it is there: a wavelength. Closer to the transducer there is no
-  // spherical wave, and the law's own value would only tell where the first sample happens to lie.
+  // At shorter paths 1/l^2 is constant: one wavelength. Closer to the transducer there is no
+  // spherical wave, and the value would depend on the position of the first sample.
   double spread_from_m = 0;
 
   double centre(double k) const { return min_depth_m + (k + 0.5) * spacing_m; }
 };
 
-// Which of the paper's factors the intensity of a sample holds.
+// The paper's factors contained in the intensity of a sample.
 struct IntensityTerms {
   bool reflection = true, backscatter = true;
   bool attenuation = true;
-  // 0: the backscattered part falls as 1/l^2. Else it stands as if every sample were at this path
+  // 0: the backscattered part falls as 1/l^2. Otherwise every sample is scaled as if at this path
   // length.
   double spread_undone_at_m = 0;
-  // An interface's echo is as long as the pulse: its sample holds so many times its intensity, the
-  // pulse's half length over the spacing, so that the average over the pulse is the intensity
-  // itself whatever the spacing. At least 1.
+  // An interface's echo has the length of the pulse: its sample contains its intensity times half
+  // the pulse's length over the spacing, so the average over the pulse is the intensity itself for
+  // any spacing. At least 1.
   double echo_samples = 1;
-  // Of interface echoes in the picture: a factor, and what it tends to; 0: no limit.
+  // For interface echoes in the picture: a factor, and an upper limit; 0: no limit.
   double echo_gain = 1, echo_limit = 0;
 
   template <typename Number>
@@ -42,7 +42,7 @@ struct IntensityTerms {
 
 // I_R of section 4.1 relative to I_S: eta_b V / l^2 exp(-A) prod (1-R)^2 at each sample's centre,
 // plus echo_samples times the echoes of the interfaces in its depth interval. Relative error of the
-// backscattered part under 1e-6. Behind the end of the ray every sample is exactly 0. values.size()
+// backscattered part below 1e-6. Behind the end of the ray every sample is exactly 0. values.size()
 // == sampling.samples.
 void sampleIntensity(const LineTrace& line, const Sampling& sampling, const IntensityTerms& parts,
                      std::span<float> values);

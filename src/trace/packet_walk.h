@@ -1,5 +1,5 @@
 #pragma once
-// Rays that go through the hierarchy together.
+// Rays traced together through the hierarchy.
 
 #include <span>
 
@@ -12,16 +12,16 @@ namespace echocine {
 
 inline constexpr std::size_t kPacket = 16;
 
-// A ray with the closed surfaces that hold its origin; path lengths count from start_m along it,
-// and what it meets before is no interface.
+// A ray with the closed surfaces that contain its origin. Path lengths count from start_m along it;
+// crossings before that are ignored.
 struct StartedRay {
   Ray ray;
   InsideSet inside;
   double start_m = 0;
 };
 
-// Follows up to kPacket rays through the media, one round per straight edge; traces[i] is that of
-// rays[i]. Neighbouring rays cost least.
+// Traces up to kPacket rays through the media, one round per straight segment; traces[i] belongs to
+// rays[i]. Neighbouring rays are fastest.
 WorkCounts walkTogether(const FrameGeometry& geometry, const TraceSettings& settings,
                         std::span<const StartedRay> rays, std::span<LineTrace> traces);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the trace stage hands on: one frame in beam space.
+// Output of the trace stage: one frame in beam space.
 
 #include <cstdint>
 #include <map>
@@ -17,11 +17,11 @@ namespace echocine {
 struct PolarFrame {
   int lines = 0, samples = 0;
   std::vector<LineTrace> traces;                 // of each line, before sampling
-  CellEchoes cell_echoes;                        // none unless they are integrated over cells
-  std::map<Channel, std::vector<float>> planes;  // the intensity channels that were asked for
-  std::vector<std::uint32_t> medium;             // Channel::medium, if asked for
-  Intensities intensities;                       // where the signal chain starts
-  CoherentEchoes coherent;                       // part of these; empty unless asked for
+  CellEchoes cell_echoes;                        // empty unless they are integrated over cells
+  std::map<Channel, std::vector<float>> planes;  // the requested intensity channels
+  std::vector<std::uint32_t> medium;             // Channel::medium, if requested
+  Intensities intensities;                       // input of the signal chain
+  CoherentEchoes coherent;                       // part of these; empty unless requested
 };
 
 }  // namespace echocine

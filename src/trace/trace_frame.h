@@ -10,7 +10,7 @@
 
 namespace echocine {
 
-// What is sampled of each line; decided once per loop.
+// The sampled planes of each line; decided once per loop.
 struct PlaneRequest {
   std::vector<Channel> channels;  // of the intensity stack, without Channel::display
   double spread_undone_at_m = 0;  // of the channels: 0 unless the scene turns the spread off
@@ -19,8 +19,8 @@ struct PlaneRequest {
   IntensityTerms intensity_terms;
 };
 
-// Of a frame that only some lines are taken from: those whose channels are, and of each line so
-// many of the samples of intensities, from the first.
+// For a frame of which only some lines are used: the lines of the channels, and for each line the
+// number of samples of intensities, from the first.
 struct NeededSamples {
   LineRange lines;
   std::vector<int> intensities;
@@ -30,21 +30,20 @@ PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan);
 
 Sampling samplingOf(const Probe& probe, const TraceSettings& settings);
 
-// What the samples of an intensity channel hold.
+// The parts of an intensity channel.
 IntensityTerms partsOf(Channel channel, bool attenuation, double spread_undone_at_m);
 
-// Gives the frame its size and room for what is asked for.
+// Sets the frame's size and allocates the requested planes.
 void reservePlanes(const Probe& probe, const PlaneRequest& request, PolarFrame& frame);
 
-// Follows all lines through the media, without sampling them.
+// Traces all lines through the media, without sampling them.
 WorkCounts walkLines(const FrameGeometry& geometry, const Probe& probe,
                      const TraceSettings& settings, std::vector<LineTrace>& traces);
 
-// Precondition of both: settings.cells is none, or what the tracer knows of walls between lines:
-// links through the hierarchy, contours through the slice; and then two lines at least.
-// Fills `frame` (its memory is used again) and returns the work. Lines are sampled in parallel;
-// each writes only its own column, so the result does not depend on the number of threads.
-// needed: what is sampled, with the same values; null: all.
+// Precondition of both: settings.cells is none, or the tracer's own kind (links for the hierarchy,
+// contours for the slice) with at least two lines. Fills `frame` (reusing its memory) and returns
+// the work. Lines are sampled in parallel; each writes only its own column, so the result does not
+// depend on the number of threads. needed: the planes to sample, with the same values; null: all.
 WorkCounts traceFrame(const FrameGeometry& geometry, const Probe& probe,
                       const TraceSettings& settings, const PlaneRequest& request, PolarFrame& frame,
                       const NeededSamples* needed = nullptr);

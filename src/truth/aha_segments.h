@@ -28,7 +28,8 @@ inline constexpr std::array<const char*, kAhaSegments> kAhaNames{"basal anterior
                                                                  "apical lateral",
                                                                  "apex"};
 
-// The left ventricle's own directions: units, the axis from base to apex, the others across it.
+// The left ventricle's directions: unit vectors, the axis from base to apex, the others
+// perpendicular to it.
 struct HeartAxes {
   Vec3d base_m, axis, septal, anterior;
   double length_m = 0;  // from the base to the apex

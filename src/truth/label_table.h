@@ -1,5 +1,5 @@
 #pragma once
-// Which number a structure has in the label pictures.
+// Labels of structures in the label pictures.
 
 #include <cstdint>
 #include <string>
@@ -10,7 +10,7 @@
 namespace echocine {
 
 struct LabelTable {
-  std::vector<std::uint8_t> numbers;  // by structure; 0: none of its own
+  std::vector<std::uint8_t> numbers;  // by structure; 0: no label of its own
   struct Entry {
     std::uint8_t number;
     std::string name;
@@ -18,8 +18,8 @@ struct LabelTable {
   std::vector<Entry> entries;  // ascending numbers; 0 is the background and outside the sector
 };
 
-// By truth.labels; without it closed structures from 1 in the scene's order. Throws SceneError
-// where that takes more than 8 bits have.
+// By truth.labels; without it closed structures from 1 in the scene's order. Throws SceneError if
+// more than 8 bits are needed.
 LabelTable labelTable(const Scene& scene);
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// Where one cavity opens into another: the ring of a valve, found from the meshes.
+// The opening between two cavities: the ring of a valve, detected from the meshes.
 
 #include <cstdint>
 #include <optional>
@@ -12,25 +12,24 @@
 
 namespace echocine {
 
-// A part of a cavity's surface and the edges that bound it: the ring where leaflets hinge.
+// A part of a cavity's surface and its boundary edges: the ring to which leaflets are attached.
 class Orifice {
  public:
   Orifice() = default;
-  // Of the triangles of which all corners are among `vertices`.
+  // Uses the triangles with all corners among `vertices`.
   Orifice(std::span<const Triangle> triangles, std::span<const std::uint32_t> vertices);
 
   bool empty() const { return rim_.empty(); }
 
-  // The middle of the ring, by length, when the surface's vertices stand at `positions_m`.
-  // Precondition: not empty.
+  // Centre of the ring, weighted by length, for vertices at `positions_m`. Precondition: not empty.
   Vec3d middle(std::span<const Vec3f> positions_m) const;
 
-  // The vertex of the ring that is farthest along `direction` from the ring's middle.
-  // Precondition: not empty.
+  // The vertex of the ring farthest along `direction` from the ring's centre. Precondition: not
+  // empty.
   std::uint32_t farthest(std::span<const Vec3f> positions_m, Vec3d direction) const;
 
-  // Where the ring cuts the imaging plane (y = 0): the two places farthest apart, the left one
-  // first.
+  // Intersection of the ring with the imaging plane (y = 0): the two places farthest apart, the
+  // left one first.
   std::optional<std::pair<Vec3d, Vec3d>> hinges(std::span<const Vec3f> positions_m) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// Which structure is where in the imaging plane: at the picture's pixels and at the samples of the
-// scan lines, each exactly at its centre, by the tracer's rule of priorities.
+// Structures in the imaging plane: at the picture's pixels and at the samples of the scan lines,
+// exactly at their centres, by the tracer's priority rule.
 
 #include <cstdint>
 #include <span>
@@ -25,7 +25,7 @@ struct PictureGrid {
 
 class PlaneLabels {
  public:
-  // 0 in the background, else a structure's place in the scene, from 1.
+  // 0 in the background, otherwise a structure's position in the scene, from 1.
   using Ids = std::vector<std::uint16_t>;
 
   PlaneLabels(const Scene& scene, const PictureGrid& grid);

@@ -1,5 +1,5 @@
 #pragma once
-// Volume by Simpson's rule of discs, as echo laboratories take it (Lang et al., J. Am. Soc.
+// Volume by Simpson's rule of discs, as in echo laboratories (Lang et al., J. Am. Soc.
 // Echocardiogr. 28, 1-39, 2015).
 
 #include <span>
@@ -17,13 +17,14 @@ struct LongAxis {
   Vec3d base_m, apex_m;
 };
 
-// Widths of a closed surface at the middles of the discs, in the plane through the axis and
-// `across`, m. Precondition: the axis has a length, and `across` is not along it.
+// Widths of a closed surface at the centres of the discs, in the plane through the axis and
+// `across`, m. Precondition: the axis has a length, and `across` is not parallel to it.
 std::vector<double> discWidths(std::span<const Triangle> triangles,
                                std::span<const Vec3f> positions_m, const LongAxis& axis,
                                Vec3d across);
 
-// Elliptical discs whose axes are the widths in two planes; the same twice for a single plane. m^3.
+// Elliptical discs whose axes are the widths in two planes; pass the same twice for a single plane.
+// m^3.
 double discVolume(double length_m, std::span<const double> a_m, std::span<const double> b_m);
 
 }  // namespace echocine

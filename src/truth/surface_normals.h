@@ -1,5 +1,5 @@
 #pragma once
-// Directions across surfaces and axes.
+// Normals of surfaces, and components perpendicular to axes.
 
 #include <span>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace echocine {
 
-// At each vertex the sum of its faces' normals, each twice its area long.
+// At each vertex the sum of its faces' normals, each with twice the face's area as its length.
 inline std::vector<Vec3d> vertexNormals(std::span<const Triangle> triangles,
                                         std::span<const Vec3f> p) {
   std::vector<Vec3d> normals(p.size());
@@ -20,7 +20,7 @@ inline std::vector<Vec3d> vertexNormals(std::span<const Triangle> triangles,
   return normals;
 }
 
-// The part of `v` across a unit axis.
+// The component of `v` perpendicular to a unit axis.
 inline Vec3d acrossAxis(Vec3d v, Vec3d axis) {
   return v - dot(v, axis) * axis;
 }

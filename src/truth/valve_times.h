@@ -1,5 +1,5 @@
 #pragma once
-// When the valves of the left ventricle open and close, from its volume.
+// Opening and closing times of the left ventricle's valves, from its volume.
 
 #include <optional>
 #include <span>
@@ -12,8 +12,8 @@ struct ValveTimes {
 };
 
 // volume_ml: of the cavity at even steps over one beat from phase 0. A valve is open while volume
-// passes it: the ventricle is full, and both are closed, within 1 % of the stroke volume of its
-// largest volume; empty within 0.2 % of its smallest. Nothing where the volume does not change.
+// passes it. Both are closed while the volume is within 1 % of the stroke volume of its maximum, or
+// within 0.2 % of its minimum. None if the volume is constant.
 std::optional<ValveTimes> valveTimes(std::span<const double> volume_ml);
 
 }  // namespace echocine

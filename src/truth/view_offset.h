@@ -1,5 +1,5 @@
 #pragma once
-// Which standard view the imaging plane is, and how far from it it lies.
+// The standard view of the imaging plane, and its deviation from it.
 
 #include <optional>
 #include <span>
@@ -9,31 +9,32 @@
 
 namespace echocine {
 
-// Angles are 0 and lengths 0 for the standard plane itself.
+// Angles and lengths are 0 for the standard plane itself.
 struct ViewOffset {
   // a4c, a2c, a3c, plax, psax-base, psax-mid, psax-apex, subcostal, other
   const char* label = "other";
-  // Of the ventricle's long axis out of the imaging plane; in short axes, out of its normal.
+  // Between the ventricle's long axis and the imaging plane; in short axes, the plane's normal.
   double tilt_deg = 0;
-  // About the long axis, from the standard plane; nothing in short axes.
+  // About the long axis, from the standard plane; none in short axes.
   std::optional<double> rotation_deg;
-  // Of the ventricle's middle from the imaging plane; in short axes along the long axis, from the
-  // middle of the third that is shown.
+  // Distance of the ventricle's centre from the imaging plane; in short axes along the long axis,
+  // from the centre of the visible third.
   double shift_mm = 0;
-  // Of the long axis as the plane shows it against the true one; nothing in short axes.
+  // The true long axis minus the one visible in the plane; none in short axes.
   std::optional<double> foreshortening_mm;
 };
 
-// Rings' middles as far as the heart has them.
+// Centres of the existing rings.
 struct ViewLandmarks {
   HeartAxes axes;
   std::optional<Vec3d> tricuspid_m, aortic_m;
 };
 
-// Standard planes hold the long axis. The four-chamber plane holds the middle of the tricuspid ring
-// too, or else the middle of the right ventricle; the two-chamber plane is turned by 60 degrees
-// from it; the long axis holds the middle of the aortic ring, or else is turned by -60 degrees.
-// Turns are from the lateral towards the anterior wall. `cavity` at `positions_m`, probe frame.
+// Standard planes contain the long axis. The four-chamber plane also contains the centre of the
+// tricuspid ring, or else of the right ventricle. The two-chamber plane is rotated by 60 degrees
+// from it. The long-axis plane contains the centre of the aortic ring, or else is rotated by -60
+// degrees. Rotations are from the lateral towards the anterior wall. `cavity` at `positions_m`,
+// probe frame.
 ViewOffset viewOffset(const ViewLandmarks& marks, const SurfaceTopology& cavity,
                       std::span<const Vec3f> positions_m);
 

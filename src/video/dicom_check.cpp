@@ -35,10 +35,11 @@ std::vector<std::byte> inflated(const std::string& name, std::span<const std::by
     state = inflate(&stream, Z_NO_FLUSH);
     const std::size_t made = block.size() - stream.avail_out;
     if (out.size() + made > kMaxInflatedBytes)
-      refuseDicom(name,
-                  fmt::format("its deflated data set is over {} MB; give it uncompressed, or a few "
-                              "beats cut out of it",
-                              kMaxInflatedBytes >> 20));
+      refuseDicom(
+          name,
+          fmt::format(
+              "its deflated data set is over {} MB; give it uncompressed, or a shorter part of it",
+              kMaxInflatedBytes >> 20));
     out.insert(out.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(made));
     if (made == 0 && stream.avail_in == 0) break;
   }

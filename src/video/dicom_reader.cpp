@@ -166,7 +166,7 @@ void addFrames(DcmDataset& data, std::int64_t frames, VideoBuilder& builder) {
       const std::size_t pixels = rgb.size() / 3;
       std::vector<std::uint8_t> grey(pixels);
       if (!image.getOutputData(grey.data(), grey.size(), 8))
-        refuseDicom(name, "its greys cannot be read");
+        refuseDicom(name, "its grey levels cannot be read");
       for (std::size_t p = 0; p < pixels; ++p)
         rgb[3 * p] = rgb[3 * p + 1] = rgb[3 * p + 2] = grey[p];
     } else if (!image.getOutputData(rgb.data(), rgb.size(), 8)) {

@@ -107,7 +107,7 @@ void Decoder::open() {
   av_dict_free(&options);
   if (opened < 0)
     refuse(
-        "is no video or picture that can be read; give an AVI, MP4, GIF, DICOM, or a folder of PNG "
+        "is not a readable video or picture; give an AVI, MP4, GIF, DICOM, or a folder of PNG "
         "or JPEG frames");
   stream = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   if (stream >= 0) {

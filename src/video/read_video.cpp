@@ -26,7 +26,7 @@ std::vector<std::byte> fileBytes(const std::filesystem::path& path) {
                     "of PNG or JPEG frames",
                     path.string()));
   if (size > kMaxFileBytes)
-    throw SceneError(fmt::format("{}: larger than {} bytes; give a few beats cut out of it",
+    throw SceneError(fmt::format("{}: larger than {} bytes; give a shorter part of it",
                                  path.string(), kMaxFileBytes));
   std::vector<std::byte> bytes(size);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));

@@ -78,16 +78,16 @@ void checkLoopSize(const std::string& name, std::int64_t width, std::int64_t hei
         "{}: frames of {} x {} pixels, accepted: up to {} a side; give a smaller picture", name,
         width, height, kMaxFrameSide));
   if (frames > kMaxLoopFrames)
-    throw SceneError(fmt::format("{}: more than {} frames; give a few beats cut out of it", name,
-                                 kMaxLoopFrames));
+    throw SceneError(
+        fmt::format("{}: more than {} frames; give a shorter part of it", name, kMaxLoopFrames));
   if (width * height > kMaxFramePixels)
     throw SceneError(fmt::format(
         "{}: frames of {} x {} pixels are beyond the limit of {} pixels; give a smaller picture",
         name, width, height, kMaxFramePixels));
   if (frames > kMaxLoopPixels / (width * height))
     throw SceneError(
-        fmt::format("{}: more than {} frames of {} x {} pixels; give a few beats cut out of it",
-                    name, kMaxLoopPixels / (width * height), width, height));
+        fmt::format("{}: more than {} frames of {} x {} pixels; give a shorter part of it", name,
+                    kMaxLoopPixels / (width * height), width, height));
 }
 
 namespace {
@@ -112,7 +112,7 @@ void VideoBuilder::expectBytes(std::size_t bytes) {
 void VideoBuilder::checkTime() const {
   if (threadSeconds() - from_s_ <= allowed_s_) return;
   throw SceneError(fmt::format(
-      "{}: takes longer than {:.0f} s to decode, {} frames so far; give a few beats cut out of it",
+      "{}: takes longer than {:.0f} s to decode, {} frames so far; give a shorter part of it",
       video_.name, allowed_s_, video_.frames.size()));
 }
 
@@ -213,7 +213,7 @@ Video VideoBuilder::finish() {
   // Not one frame differs from the one before.
   if (v.repeats.size() + 1 == v.frames.size())
     throw SceneError(fmt::format(
-        "{}: is a still image, its {} frames are all alike; give a loop that moves, better a whole "
+        "{}: is a still image, its {} frames are identical; give a loop that moves, better a whole "
         "beat",
         v.name, v.frames.size()));
   v.coloured = widened(v.coloured, v.width, v.height);

@@ -65,8 +65,8 @@ void tellSight(const Simulator& simulator, SceneView& view) {
   view.sees_any = seen > 0;
   view.sight =
       view.sees_any
-          ? fmt::format("The sector sees {} of {} structures.", seen, view.structures.size())
-          : fmt::format("The sector sees nothing: {}.",
+          ? fmt::format("The sector shows {} of {} structures.", seen, view.structures.size())
+          : fmt::format("The sector shows no structure: {}.",
                         describePlacement(simulator.scene(), meshesBox(simulator.motion())));
 }
 

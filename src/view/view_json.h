@@ -1,5 +1,5 @@
 #pragma once
-// A view as pages carry it: see assets heart_view.js, which reads it.
+// A view as JSON for pages; heart_view.js reads it.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -7,8 +7,8 @@
 
 namespace echocine {
 
-// Lengths in mm. Positions of a structure are 16-bit steps from a corner of its own box, little
-// endian and in base64, phase after phase; indices are 16-bit, or 32-bit beyond 65536 vertices.
+// Lengths in mm. Positions of a structure are 16-bit steps from a corner of its bounding box,
+// little endian and in base64, phase by phase. Indices are 16-bit, or 32-bit beyond 65536 vertices.
 nlohmann::ordered_json viewJson(const SceneView& view, const Scene& scene);
 
 }  // namespace echocine

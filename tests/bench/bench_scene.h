@@ -15,7 +15,7 @@ namespace echocine::bench {
 
 inline constexpr int kKeyframes = 8;
 
-// What a benchmark is asked for: state.range(0), (1) and (2).
+// Arguments of a benchmark: state.range(0), (1) and (2).
 struct Size {
   int triangles = 50000, lines = 256, samples = 1024;
 

@@ -102,7 +102,7 @@ class ViewPage(browser.PageTest):
         try:
             self.browser.open(self.path)
             words = self.run_script("return document.getElementById('space').innerText")
-            self.assertIn("shows no WebGL", words)
+            self.assertIn("has no WebGL", words)
             self.assertIn("lv_cavity", words)
             self.assertIn("lv_cavity", self.text("structures"))
             severe = [e for e in self.driver.get_log("browser") if e["level"] == "SEVERE"]

@@ -108,7 +108,7 @@ TEST(CycleInterpolationLaw, WhatLeavesItsKeyframesVolumesIsTold) {
   const std::vector<std::string> told = motionWarnings(scene, MeshMotion(scene));
   ASSERT_EQ(told.size(), 1u);
   EXPECT_NE(told[0].find(": lv: frame "), std::string::npos) << told[0];
-  EXPECT_NE(told[0].find(" mL over both keyframes beside it, "), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find(" mL over both adjacent keyframes, "), std::string::npos) << told[0];
   EXPECT_TRUE(
       told[0].ends_with("motion.interpolation = \"cycle\" or \"linear\" stays between them"))
       << told[0];

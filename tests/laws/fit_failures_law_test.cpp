@@ -102,7 +102,7 @@ TEST(FitFailures, WhatAReaderMustKnowStandsWithTheResult) {
   const std::vector<std::string> all = caveatsOf(real, beat, 0.5);
   ASSERT_EQ(all.size(), 2u);
   EXPECT_TRUE(all[0].starts_with("scale unknown"));
-  EXPECT_EQ(all[1], "the loop is taken for a beat");
+  EXPECT_EQ(all[1], "the loop is assumed to be one beat");
 }
 
 }  // namespace

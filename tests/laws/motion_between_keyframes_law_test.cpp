@@ -71,8 +71,8 @@ std::vector<std::vector<std::string>> toldOfEveryKind(Scene scene) {
 }
 
 bool isOfVolume(const std::string& warning) {
-  return warning.find(" mL over both keyframes beside it, ") != std::string::npos ||
-         warning.find(" mL under both keyframes beside it, ") != std::string::npos;
+  return warning.find(" mL over both adjacent keyframes, ") != std::string::npos ||
+         warning.find(" mL under both adjacent keyframes, ") != std::string::npos;
 }
 
 // Nothing folds, vanishes or collapses. A smooth kind that finds its extreme between two keyframes

@@ -143,7 +143,8 @@ TEST_F(MotionPatientLaw, SubdivisionKeepsTheVolume) {
 TEST_F(MotionPatientLaw, AnotherUnitIsNoticedWhenItIsImplausible) {
   Scene scene = patientScene(patientStructure({"lv_endo_closed"}));
   scene.motion.mesh_unit_m = 1;
-  EXPECT_NE(errorOf([&] { MeshMotion{scene}; }).find("mend motion.mesh_unit"), std::string::npos);
+  EXPECT_NE(errorOf([&] { MeshMotion{scene}; }).find("correct motion.mesh_unit"),
+            std::string::npos);
 }
 
 TEST_F(MotionPatientLaw, NastyMeshesAreRefusedAndCleanOnesRead) {

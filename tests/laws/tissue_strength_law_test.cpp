@@ -50,7 +50,7 @@ TEST(NormalField, IsTheSameInAnyOrder) {
       EXPECT_EQ(used.at(p), NormalField(4e-3, 9).at(p)) << i;
 }
 
-// Law of the log-normal: mean 1, and the decibels' deviation is what was asked for.
+// Law of the log-normal: mean 1, and the decibels' deviation is what was requested.
 TEST(Heterogeneity, HasMeanOneAndItsDecibels) {
   SpeckleSettings settings;
   settings.heterogeneity_db = 4;

@@ -103,7 +103,7 @@ def test_a_text_and_parts_give_the_same_bytes(data, folder, tmp_path):
 def test_the_command_goes_on_with_it(data, folder, tmp_path, program):
     (tmp_path / "dataset.toml").write_text(TEXT)
     ran = subprocess.run([program, "dataset", tmp_path / "dataset.toml", "-o", folder], capture_output=True, text=True)
-    assert ran.returncode == 0 and "3 hearts were there before" in ran.stdout, ran.stdout + ran.stderr
+    assert ran.returncode == 0 and "3 hearts were kept" in ran.stdout, ran.stdout + ran.stderr
     again = echocine.dataset(tmp_path / "dataset.toml", folder)
     assert again.made["kept"] == 3 and again.rows == data.rows
 

@@ -49,7 +49,7 @@ def test_arrays_are_filled(scene):
     ({"greys": np.zeros((64, 24))}, TypeError, "float64, accepted: .*float32"),
     ({"greys": [1, 2]}, TypeError, "is list, accepted"),
     ({"gray": np.zeros((64, 24), np.float32)}, ValueError, "\"gray\" is not known, accepted"),
-    ({"labels": np.zeros((90, 120), np.uint8)}, ValueError, "does not ask"),
+    ({"labels": np.zeros((90, 120), np.uint8)}, ValueError, "does not request"),
     (7, TypeError, "out: is int"),
 ])
 def test_bad_buffers_are_named(scene, out, error, words):
@@ -151,7 +151,7 @@ def test_without_stack_intensities_are_refused_by_name(scene):
     simulator = echocine.Simulator(scene)
     with pytest.raises(ValueError, match="intensities.*output.exr"):
         simulator.frame(0).intensities
-    with pytest.raises(ValueError, match=r'out\["intensities"\]: the scene does not ask for it'):
+    with pytest.raises(ValueError, match=r'out\["intensities"\]: the scene does not request it'):
         simulator.frame(0, out={"intensities": np.zeros((64, 24), np.float32)})
 
 

@@ -88,7 +88,7 @@ def test_truth_is_asked_for_by_name(scene):
     assert scene["truth.write"] is None  # the scene itself is as it was
     with pytest.raises(ValueError, match="tracks.*truth"):
         loop.tracks
-    with pytest.raises(echocine.SceneError, match="no kind of truth, accepted"):
+    with pytest.raises(echocine.SceneError, match="not a kind of truth, accepted"):
         echocine.render(scene, truth="depth")
 
 
@@ -106,7 +106,7 @@ def test_planes_without_a_stack(scene):
     asked.update({"output.channels": ["Y", "display.Y"], "output.exr": False})
     loop = echocine.render(asked, frames=(0, 2))
     assert loop.greys.shape == (2, 64, 24) and loop.images.shape == (2, 90, 120)
-    with pytest.raises(ValueError, match="Y: the scene does not ask for it, accepted: .*output.exr = true"):
+    with pytest.raises(ValueError, match="Y: the scene does not request it, accepted: .*output.exr = true"):
         loop.intensities
     asked["output.exr"] = True
     loop = echocine.render(asked, frames=(0, 2))

@@ -41,7 +41,7 @@ TEST(DatasetSpec, WhatIsWrongIsNamedWithWhatIsAccepted) {
   expectRefused(kStart + "[heart.segments.lap]\namplitude = 0\n", {"lap", "lad"});
   expectRefused(kStart + "[offset]\ntilt_deg = 80\n", {"offset.tilt_deg", "-60 to 60"});
   expectRefused(kStart + "[[correlated]]\nparameters = [\"heart.ef\", \"heart.hr\"]\n",
-                {"heart.ef", "drawn nowhere"});
+                {"heart.ef", "not drawn"});
 }
 
 TEST(DatasetSpec, SceneKeysAreTriedAtTheirEnds) {

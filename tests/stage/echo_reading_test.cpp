@@ -137,7 +137,7 @@ TEST_F(Reading, WhatIsNoLoopIsRefusedInOneLine) {
   expectRefusal(folder / "single", "one frame");
   expectRefusal(folder / "single/frame_0.png", "still image");
   expectRefusal(folder / "absent.mp4", "no such file");
-  expectRefusal(folder.write("words.avi", "no video at all, just words"), "no video");
+  expectRefusal(folder.write("words.avi", "no video at all, just words"), "not a readable video");
   std::filesystem::create_directories(folder / "empty");
   expectRefusal(folder / "empty", "manifest.json");
 }

@@ -131,7 +131,7 @@ TEST(EffectPlanOfBeams, SeveralRaysSpreadOverWhatIsNotTurnedOff) {
   scene.output.channels = {Channel::medium};
   plan = planEffects(scene);
   EXPECT_EQ(plan.rays_per_beam, 1);
-  EXPECT_EQ(plan.decision(Effect::elevation).reason, "no requested output holds intensities");
+  EXPECT_EQ(plan.decision(Effect::elevation).reason, "no requested output contains intensities");
 }
 
 // Rays are drawn across the plane themselves, so slices give way to them.

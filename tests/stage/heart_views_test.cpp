@@ -1,4 +1,4 @@
-// Where the probe is held: every standard view shows what defines it, the usual way round.
+// Every standard view shows its defining structures, in the conventional orientation.
 
 #include <gtest/gtest.h>
 

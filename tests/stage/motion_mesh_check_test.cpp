@@ -61,7 +61,7 @@ TEST(MotionMeshCheck, EdgesOfThreeFacesAreRefusedInMembranesToo) {
   fin.triangles.push_back({0, 2, 6});
   const std::string error =
       "a.obj: face 1: edge (2, 0, 0) - (0, 2, 0) belongs to 3 faces, the last is a.obj: face 9; at "
-      "most two are accepted: part the surfaces that meet there, or set repair = [\"split\"]";
+      "most two are accepted: separate the surfaces that meet there, or set repair = [\"split\"]";
   EXPECT_EQ(says({keyframeOf(fin)}), error);
   EXPECT_EQ(says({keyframeOf(fin)}, true), error);
 }
@@ -71,7 +71,8 @@ TEST(MotionMeshCheck, FacesOrientedAgainstEachOtherAreNamed) {
   std::swap(turned.triangles[0][1], turned.triangles[0][2]);
   const std::string error =
       "a.obj: face 1 and a.obj: face 5 run their common edge (2, 0, 0) - (0, 2, 0) in the same "
-      "direction; faces must be oriented alike: reverse one of them, or set repair = [\"orient\"]";
+      "direction; faces must be oriented consistently: reverse one of them, or set repair = "
+      "[\"orient\"]";
   EXPECT_EQ(says({keyframeOf(turned)}), error);
   EXPECT_EQ(says({keyframeOf(turned)}, true), "no error");  // a membrane has no outside
 }
@@ -88,15 +89,17 @@ TEST(MotionMeshCheck, InsideOutIsRefusedInTheFirstAndInLaterKeyframes) {
   EXPECT_EQ(
       says({keyframeOf(octahedron(1)), keyframeOf(mirrored, "b.obj")}),
       "b.obj encloses a volume of -1.333 cubic mesh units: this keyframe is turned inside out "
-      "or mirrored; mend its vertices");
+      "or mirrored; correct its vertices");
 }
 
 TEST(MotionMeshCheck, ImplausibleSizeNamesTheUnit) {
-  EXPECT_EQ(says({keyframeOf(octahedron(50))}, false, 1.0),
-            "a.obj measures 100 mesh units, which motion.mesh_unit makes 100 m; 1 mm to 2 m is "
-            "accepted: mend motion.mesh_unit or motion.mesh_scale (a chamber of 80 mm takes 0.8 mm "
-            "per mesh unit)");
-  EXPECT_NE(says({keyframeOf(octahedron(0.04))}).find("mend motion.mesh_unit"), std::string::npos);
+  EXPECT_EQ(
+      says({keyframeOf(octahedron(50))}, false, 1.0),
+      "a.obj measures 100 mesh units, which motion.mesh_unit makes 100 m; 1 mm to 2 m is "
+      "accepted: correct motion.mesh_unit or motion.mesh_scale (a chamber of 80 mm takes 0.8 mm "
+      "per mesh unit)");
+  EXPECT_NE(says({keyframeOf(octahedron(0.04))}).find("correct motion.mesh_unit"),
+            std::string::npos);
   EXPECT_EQ(says({keyframeOf(octahedron(50))}, false, 0.01), "no error");
 }
 

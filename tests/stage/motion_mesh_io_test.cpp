@@ -182,9 +182,9 @@ TEST(MotionMeshIo, WrongCoordinatesAndIndicesAreNumberedFromOne) {
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   EXPECT_EQ(says(corners + "f 1 2 3\n"), "no error");
   EXPECT_EQ(says(corners + "v nan 0 0\nf 1 2 3\n"),
-            "vertex 4 has a coordinate that is not finite; mend it");
+            "vertex 4 has a coordinate that is not finite; correct it");
   EXPECT_EQ(says(corners + "f 1 2 3\nf 1 2 9\n"),
-            "face 2 uses vertex 9, the file has 3 vertices; mend the face");
+            "face 2 uses vertex 9, the file has 3 vertices; correct the face");
   EXPECT_EQ(says(corners + "f 1 2 2\n"),
             "face 1 uses vertex 2 twice; remove the face, or set repair = [\"drop-degenerate\"]");
 }

@@ -27,7 +27,7 @@ std::vector<Case> cases() {
        "512 faces turned", 1},
       {"partly flipped", [] { return flipped(ball(), 5); },
        "run their common edge (2, 0, 0) - (1.96157, 0.390181, 0) in the same direction; faces must "
-       "be oriented alike: reverse one of them, or set repair = [\"orient\"]",
+       "be oriented consistently: reverse one of them, or set repair = [\"orient\"]",
        kOrient, "103 faces turned", 1},
       {"mostly flipped", [] { return flipped(flipped(ball(), 5), 1); }, "repair = [\"orient\"]",
        kOrient, "409 faces turned", 1},
@@ -77,7 +77,7 @@ std::vector<Case> cases() {
        "face 513 uses vertex 4 twice; remove the face, or set repair = [\"drop-degenerate\"]",
        kDrop, "1 face without area dropped", 1},
       {"flat face", [] { return withFlatFace(ball()); }, "", kDrop,
-       "1 flat face mended by turning an edge", 1},
+       "1 flat face repaired by flipping an edge", 1},
       {"needles", [] { return withNeedles(ball()); }, "", kDrop,
        "2 faces without area dropped, 1 unused vertex dropped", 1},
       {"three faces at an edge",
@@ -87,7 +87,7 @@ std::vector<Case> cases() {
          const Triangle t = mesh.triangles[0];
          return withFaces(mesh, {{t[0], t[1], 258}});
        },
-       "belongs to 3 faces, the last is a.obj: face 513; at most two are accepted: part the "
+       "belongs to 3 faces, the last is a.obj: face 513; at most two are accepted: separate the "
        "surfaces that meet there, or set repair = [\"split\"]",
        kAll, "!belongs to 3 faces", 0},
       {"bow tie", bowTie, "meet in the point (2, 0, 0) only", kWeld,
@@ -131,13 +131,13 @@ std::vector<Case> cases() {
          mesh.positions[9].y = std::nan("");
          return mesh;
        },
-       "vertex 10 has a coordinate that is not finite; mend it", kAll, "!vertex 10", 0},
+       "vertex 10 has a coordinate that is not finite; correct it", kAll, "!vertex 10", 0},
       {"a vertex that is not there",
        [] {
          return withFaces(ball(), {{0, 1, 999}});
        },
-       "face 513 uses vertex 1000, the file has 258 vertices; mend the face", kAll, "!vertex 1000",
-       0},
+       "face 513 uses vertex 1000, the file has 258 vertices; correct the face", kAll,
+       "!vertex 1000", 0},
       {"nothing but a fin",
        [] {
          TriangleMesh mesh = octahedron(2);

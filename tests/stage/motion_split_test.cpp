@@ -113,8 +113,8 @@ TEST(MotionSplit, WhatWasDoneIsSaid) {
   std::vector<KeyframeMesh> keyframes = keyframesOf({cubesAtAnEdge()});
   EXPECT_EQ(mend(named(kSplit), keyframes),
             objPlace() +
-                "repaired: 1 edge of more than two faces parted, 2 vertices added where "
-                "sheets were parted, 2 unused vertices dropped");
+                "repaired: 1 edge of more than two faces split, 2 vertices added where sheets were "
+                "separated, 2 unused vertices dropped");
 }
 
 // The second keyframe alone would be paired otherwise: the cubes stand turned into each other.

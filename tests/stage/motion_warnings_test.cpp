@@ -36,7 +36,7 @@ TEST(MotionWarnings, MirroredTriangleIsNamedWithStructureFrameFaceAndFiles) {
       onlyWarning(scene),
       "scene.toml:7: structure.keyframes: ball: frame 12: " + folder.path("ball_1.obj").string() +
           ": face 1 turns over between there and " + folder.path("ball_2.obj").string() +
-          ", in one of which it lies folded: mend one of the two files");
+          "; one of the two has it folded: correct one of the two files");
 }
 
 TEST(MotionWarnings, FurtherFacesAreCounted) {
@@ -84,7 +84,7 @@ TEST(MotionWarnings, InsideOutIsAFailedJob) {
               "scene.toml:7: structure.keyframes: ball: frame 9: encloses " +
                   std::string("-0.002414 mL between ") + folder.path("ball_2.obj").string() +
                   " and " + folder.path("ball_3.obj").string() +
-                  ": it turns inside out on the way, a volume over 0 is accepted: keyframes closer "
+                  ": it is inverted in between, a positive volume is accepted: keyframes closer "
                   "in time or motion.interpolation = \"linear\" avoid it");
   }
 }

@@ -53,9 +53,9 @@ TEST(ObjTags, BadOnesAreNamedWithTheirLine) {
   EXPECT_EQ(says("t crease 2/1/0 0 2 -1"), "15: sharpness -1" + range);
   EXPECT_EQ(says("t corner 1/1/0 0 nan"), "15: sharpness nan" + range);
   EXPECT_EQ(says("t crease 2/1/0 0 1 3"),
-            "15: crease 0 - 1 is no edge of a face; vertices count from 0 in tags");
+            "15: crease 0 - 1 is not an edge of a face; vertices count from 0 in tags");
   EXPECT_EQ(says("t crease 2/1/0 2 2 3"),
-            "15: crease 2 - 2 is no edge of a face; vertices count from 0 in tags");
+            "15: crease 2 - 2 is not an edge of a face; vertices count from 0 in tags");
   EXPECT_EQ(says("t corner 1/1/0 6 3"),
             "15: the tag names vertex 6; the file's 6 vertices count from 0 in tags");
   EXPECT_EQ(says("t crease 2/1/0 0 2 3\nt crease 2/1/0 2 0 4"),

@@ -165,7 +165,7 @@ TEST(ProbeView, GuessesAreWarnings) {
     return all;
   };
   EXPECT_NE(told({"lv"}).find("right heart"), std::string::npos);
-  EXPECT_NE(told({"lv", "rv"}).find("mitral ring"), std::string::npos);
+  EXPECT_NE(told({"lv", "rv"}).find("mitral valve"), std::string::npos);
 }
 
 TEST(ProbeView, MotionThatIsNotPlacedIsRefused) {

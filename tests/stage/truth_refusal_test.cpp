@@ -32,7 +32,7 @@ std::string truthRefusalOf(const SceneText& text, Vec3d middle_mm = {0, 0, 60},
   const NamedMeshes meshes{{"outer", ball(30, middle_mm)}, {"inner", ball(inner_mm, middle_mm)}};
   try {
     const Simulator simulator(parseScene(text.text(), "scene.toml", meshes));
-    return simulator.truth() != nullptr ? "" : "none was asked for";
+    return simulator.truth() != nullptr ? "" : "none was requested";
   } catch (const SceneError& error) {
     return error.what();
   }
@@ -47,12 +47,12 @@ void expectNames(const std::string& refusal, const std::vector<std::string>& wor
 TEST(TruthRefusal, WhatCanBeToldIs) {
   EXPECT_EQ(truthRefusalOf(ventricle("write = [\"all\"]\nlabels = {lv_cavity = 1, lv_wall = 2}")),
             "");
-  EXPECT_EQ(truthRefusalOf(ventricle("")), "none was asked for");
+  EXPECT_EQ(truthRefusalOf(ventricle("")), "none was requested");
 }
 
 TEST(TruthRefusal, LabelsOfARoleThatNothingHas) {
   expectNames(truthRefusalOf(ventricle("write = [\"labels\"]\nlabels = {la = 1}")),
-              {"scene.toml", "labels", "la is no closed structure"});
+              {"scene.toml", "labels", "la is not a closed structure"});
 }
 
 TEST(TruthRefusal, ANumberTwice) {

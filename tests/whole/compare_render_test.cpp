@@ -42,7 +42,7 @@ TEST(ComparedRender, ARenderAgainstItselfIsPerfectAndItsResultsAreWhole) {
   EXPECT_TRUE(std::filesystem::exists(folder / "out/sector_real.png"));
 }
 
-// Where no tilt is asked for nothing is written of one; where one is, it is told. A loop without
+// Where no tilt is requested nothing is written of one; where one is, it is told. A loop without
 // its scene has no other plane.
 TEST(ComparedRender, ATiltIsToldWhereItIsAskedFor) {
   TempFolder folder;

@@ -59,7 +59,7 @@ class DatasetRecords : public testing::Test {
     EXPECT_NE(merged.err.find(named), std::string::npos) << merged.err;
     const Outcome made = make("copy");
     EXPECT_EQ(made.code, 0) << made.err;
-    EXPECT_NE(made.err.find("was made anew: " + named), std::string::npos) << made.err;
+    EXPECT_NE(made.err.find("was rendered again: " + named), std::string::npos) << made.err;
     EXPECT_EQ(made.err.find("json.exception"), std::string::npos) << made.err;
     EXPECT_TRUE(filesOf(copy) == whole);
   }

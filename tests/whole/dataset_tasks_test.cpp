@@ -119,8 +119,7 @@ TEST_F(DatasetTasks, DamageIsNotPackedIntoAShard) {
   place->write("damaged/native/ec000002_a4c/loop.json", text);
   const Outcome merged = outcomeOf(making("damaged", {"--merge"}));
   EXPECT_EQ(merged.code, 1);
-  EXPECT_NE(merged.err.find("loop.json: has another byte than was written"), std::string::npos)
-      << merged.err;
+  EXPECT_NE(merged.err.find("loop.json: was modified"), std::string::npos) << merged.err;
   // By sizes alone the damage is met where the shard is packed.
   const Outcome fast = outcomeOf(making("damaged", {"--merge", "--fast"}));
   EXPECT_EQ(fast.code, 1);

@@ -177,7 +177,7 @@ TEST(EffectsCalledFor, ForcedOffIsSaidInTheManifest) {
   const Rendered run = render(folder, text, "off", true);
   EXPECT_FALSE(isOn(run, "reflection"));
   EXPECT_NE(run.manifest["effects"][0]["reason"].get<std::string>().find(
-                "the scene turns it off, although"),
+                "the scene disables it, although"),
             std::string::npos);
 }
 

@@ -117,15 +117,15 @@ TEST(CompareViewRanking, WhatCannotBeRankedIsRefusedInOneLine) {
   for (const auto& [line, says] : std::initializer_list<std::pair<const char*, const char*>>{
            {"real --views a4c,a5c", "\"a5c\" is not a view (nearest: a"},
            {"real --views a4c", "two views or more"},
-           {"real --views a4c,a2c,a4c", "a4c stands there twice"},
+           {"real --views a4c,a2c,a4c", "a4c is given twice"},
            {"real --views all --scan ef=0.3:0.5:0.1", "give one of the two"},
            {"real --views all --view a2c", "--view and --yes: belong to --scan"},
-           {"synthetic real --views all", "leave the synthetic one out"},
-           {"real --views all --scene scene.toml", "leave --scene out"},
-           {"real --scan ef=0.3:0.5:0.1 --scene scene.toml", "leave --scene out"},
+           {"synthetic real --views all", "omit the synthetic one"},
+           {"real --views all --scene scene.toml", "omit --scene"},
+           {"real --scan ef=0.3:0.5:0.1 --scene scene.toml", "omit --scene"},
            {"real --views all --dials eff=0.5", "is not a dial"},
            {"real --views all --tilt 21", "tilt"},
-           {"real", "with --scan or --views the real one alone"},
+           {"real", "with --scan or --views only the real one"},
            {"synthetic real --dials ef=0.5", "belongs to --scan and --views"},
            {"nowhere.avi --views all", "nowhere.avi"}}) {
     const Outcome outcome = runShell(std::string("%B compare ") + line + out);

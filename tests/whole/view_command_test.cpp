@@ -27,7 +27,7 @@ class ViewCommand : public ::testing::Test {
 TEST_F(ViewCommand, WritesAPageAndSaysWhatIsSeen) {
   const Outcome outcome = view(ballScene(4));
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("sees 3 of 3 structures"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("shows 3 of 3 structures"), std::string::npos) << outcome.out;
   const nlohmann::json data = dataOf(bytesOf(page));
   EXPECT_EQ(data["view"]["structures"].size(), 3u);
   EXPECT_EQ(data["view"]["structures"][1]["medium"], "blood");
@@ -37,7 +37,7 @@ TEST_F(ViewCommand, QuietSaysOnlyThatNothingIsSeen) {
   SceneText text = ballScene(4);
   text.setProbe("axis", "[0, 0, -1]");
   const Outcome loud = view(text);
-  EXPECT_NE(loud.out.find("The sector sees nothing: seen from the probe"), std::string::npos)
+  EXPECT_NE(loud.out.find("The sector shows no structure: seen from the probe"), std::string::npos)
       << loud.out;
   const Outcome quiet = view(text, "--quiet");
   EXPECT_EQ(quiet.code, 0);

@@ -47,7 +47,7 @@ TEST_F(Warnings, ATurnedTriangleIsOneLineAndStandsInTheManifest) {
   ASSERT_EQ(warnings.size(), 1u);
   const std::string warning = warnings[0].get<std::string>();
   for (const char* part : {"structure.keyframes: cavity: frame ", "cavity_2.obj: face ",
-                           "cavity_3.obj, in one of which it lies folded"})
+                           "cavity_3.obj; one of the two has it folded"})
     EXPECT_NE(warning.find(part), std::string::npos) << warning;
   // On the terminal files have their folders, in the manifest none.
   std::string told = outcome.err;
@@ -109,7 +109,7 @@ TEST_F(Warnings, InsideOutIsCodeOneAndWritesNothing) {
     EXPECT_EQ(outcome.code, 1);
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     for (const char* part : {"scene.toml:", "structure.keyframes: cavity: frame ", "encloses -",
-                             "beat_2.obj and ", "it turns inside out on the way"})
+                             "beat_2.obj and ", "it is inverted in between"})
       EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " in " << outcome.err;
   }
   EXPECT_FALSE(fs::exists(folder / "out"));
@@ -138,7 +138,7 @@ TEST_F(Warnings, TooFewKeyframesToJudgeIsNamed) {
   text.addStructure("wall", "blood", "\"wall_0.obj\"");
   const Outcome outcome = run("plan", text, "--interpolation --quiet");
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_NE(outcome.err.find("structure.keyframes: too few keyframes to leave some out, accepted: "
+  EXPECT_NE(outcome.err.find("structure.keyframes: too few keyframes to omit some, accepted: "
                              "four or more"),
             std::string::npos)
       << outcome.err;

@@ -147,7 +147,7 @@ class Dataset:
 
     Attributes:
         folder: its path.
-        made: what the call of `dataset` that returned it made or kept: loops, bytes, kept (hearts that were there before),
+        made: what the call of `dataset` that returned it made or kept: loops, bytes, kept (hearts already finished),
             impossible (draws), failed (hearts); empty of a folder that was opened.
     """
 

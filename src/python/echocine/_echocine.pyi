@@ -39,7 +39,7 @@ class Frame:
         """Instant from the loop's start, s."""
     @property
     def phase(self) -> float:
-        """Phase of the beat, 0 up to, without, 1; 0 at end-diastole."""
+        """Phase of the beat, 0 <= phase < 1; 0 at end-diastole."""
     @property
     def beat(self) -> int:
         """Beat of the loop, from 0."""

@@ -131,7 +131,7 @@ def compare(synthetic: Union[Loop, PathLike], real: PathLike, folder: Optional[P
             heart_rate_bpm, sector, ed_frame, es_frame, r_waves_s, read_ecg (False: no ECG is read from the pictures),
             label (what pages and JSON call the loop; without it they name no file).
         align_space: shift, scale and turn one sector onto the other.
-        scene: file of the scene of the render: metrics in bands about its boundaries.
+        scene: file of the scene of the render: metrics in bands around its boundaries.
         tilt_deg: by which the scene's plane may be tilted and rotated to where it fits best, either way, 0 to 20;
             ``summary["scene_fit"]["tilt"]`` tells it.
         threads: 0: one per core.

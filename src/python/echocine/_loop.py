@@ -60,7 +60,7 @@ class Loop:
         assert native is not None
         found = self._once("arrays", lambda: native.arrays).get(name)
         if found is None:
-            raise ValueError(f"{name}: the scene does not ask for it, accepted: {remedy}")
+            raise ValueError(f"{name}: the scene does not request it, accepted: {remedy}")
         return found
 
     def _truth_file(self, name: str, remedy: str) -> Path:
@@ -95,7 +95,7 @@ class Loop:
         planes = self._once("channels", lambda: native.channels)
         if name not in planes:
             known = "".join(f"{plane}, " for plane in planes) + ("or " if planes else "")
-            raise ValueError(f"{name}: the scene does not ask for it, accepted: {known}output.channels with \"{name}\" and "
+            raise ValueError(f"{name}: the scene does not request it, accepted: {known}output.channels with \"{name}\" and "
                              "output.exr = true")
         plane: NDArray[Any] = planes[name]
         return plane
@@ -189,7 +189,7 @@ class Loop:
             return strain
         found: Optional[NDArray[np.float64]] = self._once("strain", lambda: native.strain)
         if found is None:
-            raise ValueError("strain: the scene does not ask for it, accepted: truth=\"function\"")
+            raise ValueError("strain: the scene does not request it, accepted: truth=\"function\"")
         return found
 
     def _function(self) -> Any:
@@ -247,7 +247,7 @@ class Loop:
         if native is not None:
             listed: List[List[Dict[str, Any]]] = self._once("contours", lambda: native.contours)
             if not listed:
-                raise ValueError("contours: the scene does not ask for it, accepted: truth=\"contours\"")
+                raise ValueError("contours: the scene does not request it, accepted: truth=\"contours\"")
             return listed
         read = []
         for f in self._manifest["frames"]:
@@ -380,7 +380,7 @@ def _asking_for(scene: Scene, truth: Union[None, str, Sequence[str]]) -> Scene:
     kinds = [truth] if isinstance(truth, str) else list(truth or ())
     for kind in kinds:
         if kind not in _TRUTH:
-            raise SceneError(f"truth: \"{kind}\" is no kind of truth, accepted: {', '.join(_TRUTH)}")
+            raise SceneError(f"truth: \"{kind}\" is not a kind of truth, accepted: {', '.join(_TRUTH)}")
     if not kinds:
         return scene
     asked = scene.copy()

@@ -380,7 +380,7 @@ class Scene:
 
     @property
     def warnings(self) -> List[str]:
-        """What is accepted but hardly meant, a line each."""
+        """Warnings about valid but unlikely input, a line each."""
         return self._native.warnings
 
     @property
