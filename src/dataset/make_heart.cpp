@@ -16,6 +16,7 @@
 #include "dataset/redraw.h"
 #include "dataset/tracing.h"
 #include "frame/simulator.h"
+#include "loop/render_frames.h"
 #include "motion/cycle/ecg.h"
 #include "motion/heart/heart_scene.h"
 #include "output/truth_files.h"
@@ -43,19 +44,35 @@ void keepContours(const Scene& scene, std::vector<Contour>& contours) {
   });
 }
 
-LoopFrame frameOf(const Scene& scene, const SurfaceId cavity, Frame& made) {
-  LoopFrame frame;
-  frame.time = made.time;
-  std::swap(frame.image, made.image);
-  frame.labels = std::move(made.truth->labels);
-  frame.contours = std::move(made.truth->contours);
-  keepContours(scene, frame.contours);
-  frame.function = made.truth->function;
-  frame.tracks_m = std::move(made.truth->tracks_m);
-  for (const auto& [name, ml] : made.volumes_ml)
-    if (name == scene.structures[index(cavity)].name) frame.lv_ml = ml;
-  return frame;
-}
+// The sink of a loop that is a sample: pictures and truth of every frame, in order.
+class SampleSink : public FrameSink {
+ public:
+  SampleSink(Loop& loop, SurfaceId cavity)
+      : loop_(loop), cavity_(loop.scene.structures[index(cavity)].name) {}
+
+  std::shared_ptr<void> take(MadeFrame& made) override {
+    auto frame = std::make_shared<LoopFrame>();
+    frame->time = made.time;
+    std::swap(frame->image, made.workspace.image);
+    frame->labels = std::move(made.truth->labels);
+    frame->contours = std::move(made.truth->contours);
+    keepContours(loop_.scene, frame->contours);
+    frame->function = made.truth->function;
+    frame->tracks_m = std::move(made.truth->tracks_m);
+    for (const auto& [name, ml] : made.volumes_ml)
+      if (name == cavity_) frame->lv_ml = ml;
+    return frame;
+  }
+
+  void inOrder(void* taken) override {
+    const LoopFrame& frame = loop_.frames.emplace_back(std::move(*static_cast<LoopFrame*>(taken)));
+    loop_.ecg.push_back(ecgAmplitude(frame.time.time_in_beat_s, frame.time.beat_s));
+  }
+
+ private:
+  Loop& loop_;
+  const std::string cavity_;
+};
 
 // Within the first beat, and end-diastole before end-systole: CAMUS's half sequence runs from one
 // to the other.
@@ -129,14 +146,11 @@ Loop makeLoop(const Spec& spec, const Draw& draw, std::size_t view, Scene scene,
     throw SceneError(fmt::format("a loop of {} frames, \"myotracker\" needs {}", clock.frameCount(),
                                  kLeastTrackedFrames));
   const SurfaceId cavity = *structureOf(loop.scene, Role::lv_cavity);
-  Frame made;
-  for (int i = 0; i < clock.frameCount(); ++i) {
-    if (!monitor.keep_going()) throw JobError("stopped");
-    const FrameTime time = clock.at(i);
-    simulator.frame(time.time_s, made);
-    loop.frames.push_back(frameOf(loop.scene, cavity, made));
-    loop.ecg.push_back(ecgAmplitude(time.time_in_beat_s, time.beat_s));
-  }
+  SampleSink sink(loop, cavity);
+  Monitor stop;  // progress is counted in hearts
+  stop.keep_going = monitor.keep_going;
+  if (renderFrames(simulator, {0, clock.frameCount()}, sink, stop) < clock.frameCount())
+    throw JobError("stopped");
   loop.instants = instantsOf(loop.frames);
   traceInstants(simulator, cavity, marks_at, loop);
   loop.tracked = simulator.truth()->tracked();

@@ -23,7 +23,7 @@ std::shared_ptr<void> makeFrame(const Simulator& simulator, const FrameTime& tim
   if (!kept.take(time.frame, workspace->polar, made.volumes_ml))
     made.volumes_ml = simulator.trace(time, *workspace);
   simulator.picture(white, time, *workspace, output.cine || output.png);
-  if (simulator.truth() != nullptr)
+  if (sink.wantsTruth() && simulator.truth() != nullptr)
     made.truth = simulator.clock().time(Stage::truth,
                                         [&] { return simulator.truthAt(time, workspace.get()); });
   return sink.take(made);
@@ -51,7 +51,8 @@ int renderEach(const Simulator& simulator, std::span<const FrameTime> times, dou
 
 int renderFrames(const Simulator& simulator, std::pair<int, int> range, FrameSink& sink,
                  const Monitor& monitor) {
-  simulator.truth();  // refuses what it cannot tell before anything is traced
+  if (sink.wantsTruth())
+    simulator.truth();  // refuses what it cannot tell before anything is traced
   KeptFrames kept(range);
   // White goes by still frames: a rolling one is traced again.
   KeepTraced keep;

@@ -16,7 +16,7 @@ struct MadeFrame {
   FrameTime time;
   Workspace& workspace;             // channels, greys and picture
   Volumes volumes_ml;               // of closed structures, by name
-  std::optional<FrameTruth> truth;  // as requested by the scene
+  std::optional<FrameTruth> truth;  // as far as the scene and the sink ask
 };
 
 // Destination of the frames of a loop.
@@ -26,6 +26,9 @@ class FrameSink {
 
   // Once, before the first frame, with the loop's white (relative to I_S).
   virtual void begin(double /*white*/) {}
+
+  // Whether take() reads the frames' truth; without it none is made.
+  virtual bool wantsTruth() const { return true; }
 
   // Called from several threads. Returns data to be handled in order, or nullptr.
   virtual std::shared_ptr<void> take(MadeFrame& frame) = 0;

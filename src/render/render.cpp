@@ -1,4 +1,5 @@
-// The page that shows the whole program: scene -> motion -> geometry -> trace -> signal -> output.
+// The page that shows a run: scene -> motion -> plan -> frames into a folder -> manifest. The
+// stages of one frame are in frame/simulator.cpp.
 
 #include "render/render.h"
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/hash.h"
-#include "core/parallel.h"
 #include "frame/plan_loop.h"
+#include "loop/render_frames.h"
 #include "output/exr_plane.h"
 #include "scene/elevation_slices.h"
 #include "scene/scene_json.h"
@@ -155,35 +155,52 @@ double SettingRun::referenceIntensity(const std::vector<FrameTime>& times) {
   return *measureWhite(simulator(), times, {}, {});
 }
 
+namespace {
+
+// A render's files, made in memory: a study times the program, not the drive.
+class EncodingSink : public FrameSink {
+ public:
+  EncodingSink(const Simulator& simulator, double reference_intensity)
+      : clock_(simulator.clock()),
+        output_(simulator.scene().output),
+        stack_(exrStack(simulator.scene(), reference_intensity)),
+        overlay_(simulator.scene(), simulator.chain().geometry(), {}) {}
+
+  bool wantsTruth() const override { return false; }
+
+  std::shared_ptr<void> take(MadeFrame& made) override {
+    Workspace& w = made.workspace;
+    if (output_.exr)
+      clock_.time(Stage::exr, [&] {
+        sha256Hex(
+            stack_.encode({made.time.frame, 0, made.time.phase, 0}, channelPlanes(output_, w)));
+      });
+    if (output_.cine)
+      clock_.time(Stage::avi, [&] {
+        overlay_.draw(w.image, 0);
+        encodeCineFrame(w.image, output_.codec, output_.jpeg_quality);
+      });
+    return nullptr;
+  }
+
+ private:
+  StageClock& clock_;
+  const OutputSettings& output_;
+  const ExrStack stack_;
+  const Overlay overlay_;
+};
+
+}  // namespace
+
 StageTimes SettingRun::timeBatch(const std::vector<FrameTime>& times, std::size_t frames,
                                  double reference_intensity) {
   const Simulator& making = simulator();
-  const OutputSettings& o = scene_.output;
-  const ExrStack stack = exrStack(scene_, reference_intensity);
-  const Overlay overlay(scene_, making.chain().geometry(), {});
+  std::vector<FrameTime> batch;
+  for (std::size_t i = 0; i < frames; ++i) batch.push_back(times[i % times.size()]);
+  EncodingSink sink(making, reference_intensity);
   const std::array<double, kStages> before = making.clock().milliseconds();
   const auto start = std::chrono::steady_clock::now();
-  // The same loop as a render's, but for the disk: a study times the program, not the drive.
-  parallelOrdered(
-      0, frames, 2 * static_cast<std::size_t>(threadCount()), [] { return true; },
-      [&](std::size_t i) -> std::shared_ptr<void> {
-        const std::shared_ptr<Workspace> workspace = making.workspace();
-        const FrameTime& time = times[i % times.size()];
-        making.trace(time, *workspace);
-        GreyImage image = making.picture(reference_intensity, time, *workspace, true);
-        if (o.exr)
-          making.clock().time(Stage::exr, [&] {
-            sha256Hex(stack.encode({static_cast<int>(i), 0, time.phase, 0},
-                                   channelPlanes(o, *workspace)));
-          });
-        if (o.cine)
-          making.clock().time(Stage::avi, [&] {
-            overlay.draw(image, 0);
-            encodeCineFrame(image, o.codec, o.jpeg_quality);
-          });
-        return nullptr;
-      },
-      [](std::size_t, const std::shared_ptr<void>&) {});
+  renderFrames(making, batch, reference_intensity, sink, {});
   const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
   StageTimes taken{making.clock().milliseconds(), wall.count() / static_cast<double>(frames)};
   for (std::size_t s = 0; s < kStages; ++s)

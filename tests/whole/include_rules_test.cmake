@@ -1,5 +1,5 @@
 # Which room may use which, and which room is the door to which library. A room or a library that is not
-# listed here fails, and so does a file that outgrows one idea.
+# listed here fails, and so does a permission that no include needs, or a file that outgrows one idea.
 #   cmake -DROOT=<source folder> -P include_rules_test.cmake
 
 cmake_minimum_required(VERSION 3.24)
@@ -15,7 +15,7 @@ set(libraries
   "opensubdiv/=subdivision"
   "embree3/=geometry"
   "(OpenEXR/|Imath/|Imf.*\\.h$|half\\.h$)=output"
-  "opencv2/(core|imgproc)=signal,metrics,video,output,echo,fit,compare"
+  "opencv2/(core|imgproc)=metrics,output,echo,fit,compare"
   "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
   "zlib\\.h$=video,dataset"
   "hdf5\\.h$=dataset"
@@ -24,8 +24,7 @@ set(libraries
   "(pybind11/|Python\\.h$)=python"
   "fmt/=*"
   "[a-z_0-9]+(\\.h)?$=*"
-  "sys/=core,video,render"
-  "cxxabi\\.h$=core")
+  "sys/=core,video,render")
 
 # room = rooms that all of it may use | and its sources alone. Everybody may use core, and all but page and
 # core scene. Arrows run from right to left only: a room stands below those that it uses.
@@ -49,20 +48,20 @@ set(rooms
   "speckle=plan,trace,interior,surfaces"
   "signal=plan,trace|speckle"
   "frame=plan,surfaces,cycle,geometry,trace,speckle,signal,truth"
-  "loop=frame,surfaces,cycle,trace,truth"
+  "loop=frame,cycle"
   "metrics=signal,trace"
   "video=signal"
   "output=plan,trace,signal,surfaces,heart,truth|video"
-  "view=frame,mesh|cycle,geometry,signal,video,page"
+  "view=frame,mesh|geometry,signal,video,page"
   "echo=video|signal,metrics,output"
-  "fit=echo,heart,frame,surfaces,geometry,truth,signal,page|video"
+  "fit=echo,heart,surfaces,geometry,truth,signal,page|frame,video"
   "compare=echo,fit,metrics,signal,truth,page|surfaces,video"
   "render=loop,frame,cycle,output,page,video,truth|signal,surfaces,view"
-  "study=plan,frame,cycle,output,video,signal,metrics|surfaces,keyframes,render,page"
+  "study=plan,frame,cycle,output,video,metrics|loop,surfaces,keyframes,render,page"
   "echocine=render,loop,frame,heart"
-  "dataset=frame,output,surfaces,cycle,heart,truth,signal|views,video,page"
-  "python=loop,render,echo,fit,compare,study,dataset,frame,heart,cycle|output,video,surfaces,cycle,truth,signal,geometry"
-  "cli=render,echo,fit,compare,study,dataset,output,view,plan|video,frame,surfaces,keyframes,cycle,heart")
+  "dataset=output,surfaces,cycle,heart,truth,signal|frame,loop,views,video,page"
+  "python=frame|loop,render,fit,compare,study,dataset,heart,cycle,output,video,surfaces"
+  "cli=render,fit,compare,study,output,view,plan|dataset,video,frame,surfaces,keyframes,cycle,heart")
 
 function(room_of path out)
   string(REGEX REPLACE "^src/" "" path "${path}")
@@ -83,6 +82,7 @@ foreach(entry IN LISTS rooms)
   string(REPLACE "|" "," uses "${uses}")
   string(REPLACE "," ";" uses_${room} "${uses}")
   string(REPLACE "," ";" header_uses_${room} "${everywhere}")
+  set(listed_${room} ${uses_${room}})
   if(NOT room STREQUAL "core")
     list(APPEND uses_${room} core)
     list(APPEND header_uses_${room} core)
@@ -120,6 +120,7 @@ foreach(file IN LISTS files)
         string(REGEX REPLACE "=[^=]*$" "" pattern "${rule}")
         if(NOT doors AND "${path}" MATCHES "^${pattern}")
           string(REGEX REPLACE "^.*=" "" doors "${rule}")
+          list(APPEND used_rules "${rule}:${room}")
         endif()
       endforeach()
       string(REPLACE "," ";" door_list "${doors}")
@@ -133,12 +134,62 @@ foreach(file IN LISTS files)
     room_of("${path}" target)
     if(target STREQUAL room)
       continue()
-    elseif(NOT target IN_LIST known)
+    endif()
+    list(APPEND used_${room} ${target})
+    if(file MATCHES "\\.h$")
+      list(APPEND header_used_${room} ${target})
+    endif()
+    if(NOT target IN_LIST known)
       string(APPEND failures "${file}: includes ${path}, of no known room\n")
     elseif(NOT target IN_LIST uses_${room})
       string(APPEND failures "${file}: includes ${path}, but ${room} does not stand on ${target}\n")
     elseif(file MATCHES "\\.h$" AND NOT target IN_LIST header_uses_${room})
       string(APPEND failures "${file}: a header that includes ${path}; in ${room} only sources use ${target}\n")
+    endif()
+  endforeach()
+endforeach()
+
+# A row says what a room uses, no more. Core and scene are for all.
+foreach(room IN LISTS known)
+  foreach(target IN LISTS listed_${room})
+    if(NOT target IN_LIST used_${room})
+      string(APPEND failures "the table lets ${room} use ${target}, which it does not include\n")
+    elseif(target IN_LIST header_uses_${room} AND NOT target IN_LIST header_used_${room})
+      string(APPEND failures "the table lets headers of ${room} use ${target}, which only its sources include\n")
+    endif()
+  endforeach()
+endforeach()
+# src/README.md shows the same rows.
+file(READ ${ROOT}/src/README.md page)
+string(REPLACE ";" "," page "${page}")
+string(REGEX MATCHALL "\n\\| \\[[^\n]*" rows "${page}")
+set(shown "")
+foreach(row IN LISTS rows)
+  string(REGEX REPLACE "^\n\\| \\[([a-z/]+)\\].*$" "\\1" room "${row}")
+  string(REGEX REPLACE "^.*/" "" room "${room}")
+  string(REGEX REPLACE "^\n\\|[^|]*\\|[^|]*\\|([^|]*)\\|.*$" "\\1" uses "${row}")
+  string(REPLACE " " "" uses "${uses}")
+  string(REPLACE "," ";" uses "${uses}")
+  set(needed ${listed_${room}})
+  list(SORT uses)
+  list(SORT needed)
+  if(NOT "${uses}" STREQUAL "${needed}")
+    string(APPEND failures "src/README.md: ${room} uses ${needed}, the table shows ${uses}\n")
+  endif()
+  list(APPEND shown ${room})
+endforeach()
+foreach(room IN LISTS known)
+  if(NOT room IN_LIST shown)
+    string(APPEND failures "src/README.md: ${room} is not in the table\n")
+  endif()
+endforeach()
+
+foreach(rule IN LISTS libraries)
+  string(REGEX REPLACE "^.*=" "" doors "${rule}")
+  string(REPLACE "," ";" door_list "${doors}")
+  foreach(room IN LISTS door_list)
+    if(NOT room STREQUAL "*" AND NOT "${rule}:${room}" IN_LIST used_rules)
+      string(APPEND failures "the table lets ${room} include ${rule}, which it does not\n")
     endif()
   endforeach()
 endforeach()
