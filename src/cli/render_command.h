@@ -19,6 +19,8 @@ class RenderCommand {
   int run();                              // exit code
 
  private:
+  int renderAndTell();
+
   std::string scene_file_;
   std::string truth_;  // kinds, between commas
   std::string frames_;

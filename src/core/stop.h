@@ -4,7 +4,15 @@
 
 #include <functional>
 
+#include "core/error.h"
+
 namespace echocine {
+
+// Thrown by a checkpoint: the work was told to stop.
+class Stopped : public JobError {
+ public:
+  Stopped() : JobError("stopped") {}
+};
 
 using StopQuestion = std::function<bool()>;  // yes: stop
 
@@ -12,7 +20,11 @@ using StopQuestion = std::function<bool()>;  // yes: stop
 // (core/parallel.h), ask `wanted`, which any of them may call at any time.
 void stoppable(const StopQuestion& wanted, const std::function<void()>& body);
 
-// Throws JobError where the enclosing stoppable() answers yes; outside of one it does nothing. Each
+// Runs body without a question: its checkpoints pass. For short work that has to end whole, such as
+// the files of one frame.
+void unstoppable(const std::function<void()>& body);
+
+// Throws Stopped where the enclosing stoppable() answers yes; outside of one it does nothing. Each
 // block of a parallel loop begins with one. Costs nanoseconds: to be called every some ms of work.
 // Not for destructors, nor while files are half written in place.
 void checkpoint();

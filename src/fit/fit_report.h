@@ -27,8 +27,9 @@ struct SceneFit {
   BeatFound beat;
   PoseFound found;
   FitReport where;
-  std::optional<TiltFound> tilt;  // where one was asked for: found and where are of that plane
-  std::string tilted_probe;       // that plane, as keys of a scene's [probe]
+  std::optional<TiltFound> tilt;       // where one was asked for: found and where are of that plane
+  std::string tilted_probe;            // that plane, as keys of a scene's [probe]
+  std::vector<std::string> caveats{};  // caveats.h
 };
 // tilt_deg: by which the plane may be tilted and rotated, either way. Throws SceneError as
 // ModelDiscrepancy does, JobError when the monitor wants to stop. Precondition: the scene's probe

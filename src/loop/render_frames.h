@@ -35,9 +35,9 @@ class FrameSink {
 };
 
 // Makes the frames first up to, without, last of the loop, as many at once as the enclosing
-// withThreads() allows, and returns how many. There are fewer when monitor.keep_going() says no;
-// begin() is not called if it does so while white is measured. Frames that were traced for white
-// are not traced again. Throws what the simulator and the sink throw.
+// withThreads() allows, and returns how many. There are fewer when monitor.keep_going() says no, or
+// a checkpoint stops a frame; begin() is not called if that is while white is measured. Frames that
+// were traced for white are not traced again. Throws what the simulator and the sink throw.
 int renderFrames(const Simulator& simulator, std::pair<int, int> range, FrameSink& sink,
                  const Monitor& monitor);
 
