@@ -2,13 +2,13 @@
 
 from typing import Any, Tuple
 
-import torch  # type: ignore[import]
-from torch.utils.data import DataLoader, Dataset  # type: ignore[import]
+import torch
+from torch.utils.data import DataLoader, Dataset
 
 import echocine
 
 
-class Hearts(Dataset):  # type: ignore[misc]
+class Hearts(Dataset[Tuple[Any, float]]):
     """Pictures (T, H, W) and ejection fractions. Nothing is computed before a worker asks."""
 
     def __len__(self) -> int:

@@ -9,7 +9,6 @@
 #include "cli/documents.h"
 #include "cli/number_check.h"
 #include "cli/progress_line.h"
-#include "cli/stop_signal.h"
 #include "cli/view_list.h"
 #include "compare/results.h"
 #include "core/error.h"
@@ -151,7 +150,6 @@ CompareCommand::CompareCommand(CLI::App& app) {
 
 template <typename Make, typename Write>
 int CompareCommand::runAndTell(const Make& make, const Write& write) const {
-  listenForStop();
   ProgressLine line(quiet_);
   withThreads(threads_, [&] {
     const auto result = make(line.monitor());

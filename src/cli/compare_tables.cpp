@@ -26,6 +26,13 @@ void printCaveats(const std::vector<std::string>& caveats) {
   for (const std::string& caveat : caveats) fmt::print("  {}\n", caveat);
 }
 
+void printSceneFit(const fit::SceneFit& fit) {
+  fmt::print("  scene: discrepancy {:.4f} where it lies best, confidence {:.2f}\n",
+             fit.found.discrepancy, fit.found.confidence);
+  printCaveats(fit.caveats);
+  if (fit.tilt) printTilt(*fit.tilt);
+}
+
 void printBeat(const echo::EchoLoop& real) {
   fmt::print("  beat: {}", real.beat_anchor);
   if (real.ecg)
@@ -67,7 +74,7 @@ void printTable(const compare::Comparison& c, const std::filesystem::path& folde
       "{:.2f}\n",
       c.space.method, p.shift_x_px, p.shift_y_px, p.scale, p.rotation_rad / radiansFromDegrees(1),
       c.space.used ? "" : " not used", c.space.confidence);
-  if (c.scene_fit && c.scene_fit->tilt) printTilt(*c.scene_fit->tilt);
+  if (c.scene_fit) printSceneFit(*c.scene_fit);
   fmt::print(
       "  {}: compare.html, frames.csv, summary.json, side_by_side.avi, sector_real.png, "
       "sector_synthetic.png\n",

@@ -12,6 +12,7 @@
 #include "cli/warning_printer.h"
 #include "core/error.h"
 #include "core/run_script.h"
+#include "core/stop.h"
 #include "dataset/heart_cost.h"
 #include "dataset/make_dataset.h"
 #include "dataset/preview.h"
@@ -99,7 +100,14 @@ DatasetCommand::DatasetCommand(CLI::App& app) {
 }
 
 int DatasetCommand::run() {
-  listenForStop();
+  try {
+    return make();
+  } catch (const Stopped&) {
+    throw JobError("stopped: finished hearts are kept, the same command goes on");
+  }
+}
+
+int DatasetCommand::make() {
   const dataset::Spec spec = dataset::readSpec(spec_file_);
   if (preview_ > 0) return preview(spec);
   if (slurm_) return slurm(spec);

@@ -20,6 +20,7 @@ class DatasetCommand {
   int run();
 
  private:
+  int make();
   int preview(const dataset::Spec& spec) const;
   int slurm(const dataset::Spec& spec) const;
 

@@ -115,7 +115,6 @@ int HeartCommand::run() {
   wanted_.parameters.volumes_rule = rule_ == "volumes";
   for (const auto& [look, name] : NamesOf<Look>::kAll)
     if (look_ == name) wanted_.look = look;
-  listenForStop();
   writeHeart(wanted_, folder_, {.keep_going = [] { return !stopWanted(); }});
   if (!quiet_)
     fmt::print("{0} keyframes in {1}\n  echocine render {2} -o LOOP\n", wanted_.keyframes,

@@ -17,11 +17,13 @@
 #include "cli/render_command.h"
 #include "cli/self_description.h"
 #include "cli/standard_error.h"
+#include "cli/stop_signal.h"
 #include "cli/study_command.h"
 #include "cli/view_command.h"
 #include "core/error.h"
 #include "core/nearest_word.h"
 #include "core/out_of_memory.h"
+#include "core/stop.h"
 
 namespace {
 
@@ -94,13 +96,17 @@ int run(int argc, char** argv) {
       return 0;
     }
     app.parse(argc, argv);
-    const int code = app.got_subcommand("heart")     ? heart.run()
-                     : app.got_subcommand("view")    ? view.run()
-                     : app.got_subcommand("plan")    ? plan.run()
-                     : app.got_subcommand("study")   ? study.run()
-                     : app.got_subcommand("compare") ? compare.run()
-                     : app.got_subcommand("dataset") ? dataset.run()
-                                                     : render.run();
+    int code = 0;
+    echocine::listenForStop();
+    echocine::stoppable(echocine::stopWanted, [&] {
+      code = app.got_subcommand("heart")     ? heart.run()
+             : app.got_subcommand("view")    ? view.run()
+             : app.got_subcommand("plan")    ? plan.run()
+             : app.got_subcommand("study")   ? study.run()
+             : app.got_subcommand("compare") ? compare.run()
+             : app.got_subcommand("dataset") ? dataset.run()
+                                             : render.run();
+    });
     // A plan piped into a full disk has failed, though all was computed.
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       return failed(kJobFailed, "the output could not be written");

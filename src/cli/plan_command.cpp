@@ -101,11 +101,10 @@ PlanCommand::PlanCommand(CLI::App& app) {
 }
 
 int PlanCommand::run() {
-  if (interpolation_) {  // writes no file: a signal may end it anywhere
+  if (interpolation_) {
     printInterpolation(placed(readScene(scene_file_)), json_);
     return 0;
   }
-  listenForStop();
   Scene scene = placed(readScene(scene_file_));
   accuracy_.resolve(scene, threads_, quiet_);
   const Monitor monitor{.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)};

@@ -7,8 +7,8 @@
 
 #include "cli/documents.h"
 #include "cli/progress_line.h"
-#include "cli/stop_signal.h"
 #include "core/error.h"
+#include "core/stop.h"
 #include "frame/plan_loop.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/surfaces/probe_placement.h"
@@ -99,9 +99,17 @@ RenderCommand::RenderCommand(CLI::App& app) {
                   std::string(kDocuments));
 }
 
-// Signals first: a run that is stopped while it reads must end cleanly too.
 int RenderCommand::run() {
-  listenForStop();
+  try {
+    return renderAndTell();
+  } catch (const Stopped&) {
+    throw JobError(
+        fmt::format("stopped: the loop in {} is not finished; --resume goes on from there",
+                    options_.folder.string()));
+  }
+}
+
+int RenderCommand::renderAndTell() {
   Scene scene = placed(readScene(scene_file_));
   askForTruth(truth_, scene);
   if (!frames_.empty()) options_.frames = parseRange(frames_, CardiacClock(scene).frameCount());

@@ -19,6 +19,8 @@ class RenderCommand {
   int run();                              // exit code
 
  private:
+  int renderAndTell();
+
   std::string scene_file_;
   std::string truth_;  // kinds, comma-separated
   std::string frames_;

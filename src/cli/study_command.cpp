@@ -8,8 +8,8 @@
 #include "cli/documents.h"
 #include "cli/number_check.h"
 #include "cli/progress_line.h"
-#include "cli/stop_signal.h"
 #include "core/error.h"
+#include "core/stop.h"
 #include "motion/surfaces/probe_placement.h"
 #include "scene/scene_reader.h"
 #include "study/study_files.h"
@@ -78,16 +78,15 @@ StudyCommand::StudyCommand(CLI::App& app) {
 
 int StudyCommand::run() {
   refuseUnknownKnobs(options_.knobs);
-  listenForStop();
   const Scene scene = placed(readScene(scene_file_));
   ProgressLine line(quiet_);
-  const StudyResult result =
-      runStudy(scene, options_, line.monitor(),
-               [this](const StudyResult& r) { writeAll(r, options_.folder); });
+  const StudyResult result = runStudy(
+      scene, options_, line.monitor(),
+      [this](const StudyResult& r) { unstoppable([&] { writeAll(r, options_.folder); }); });
   line.finish();
   if (result.rows.empty())
     throw JobError("stopped before the first setting was measured: nothing is written");
-  writeAll(result, options_.folder);
+  unstoppable([&] { writeAll(result, options_.folder); });
   if (!quiet_) fmt::print("{}", studyTable(result));
   if (!result.complete)
     throw JobError(fmt::format("stopped: {} rows are finished in {}", result.rows.size(),

@@ -108,6 +108,7 @@ Json timeJson(const TimeAlignment& t) {
 Json sceneFitJson(const fit::SceneFit& fit) {
   Json json = fit::foundJson(fit.found);
   json["confidence"] = fit.found.confidence;
+  json["caveats"] = fit.caveats;
   json["beat"] = fit::beatJson(fit.beat);
   if (fit.tilt) json["tilt"] = fit::tiltJson(fit);
   json["curves"] = fit::structureCurvesJson(fit.where);

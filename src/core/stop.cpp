@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "core/error.h"
-
 namespace echocine {
 
 namespace {
@@ -28,8 +26,13 @@ void stoppable(const StopQuestion& wanted, const std::function<void()>& body) {
   body();
 }
 
+void unstoppable(const std::function<void()>& body) {
+  const StopScope unasked(nullptr);
+  body();
+}
+
 void checkpoint() {
-  if (this_question != nullptr && (*this_question)()) throw JobError("stopped");
+  if (this_question != nullptr && (*this_question)()) throw Stopped();
 }
 
 }  // namespace echocine

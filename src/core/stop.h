@@ -3,18 +3,29 @@
 
 #include <functional>
 
+#include "core/error.h"
+
 namespace echocine {
 
-using StopQuestion = std::function<bool()>;  // yes: stop
+// Thrown by a checkpoint when the predicate requests a stop.
+class Stopped : public JobError {
+ public:
+  Stopped() : JobError("stopped") {}
+};
+
+using StopQuestion = std::function<bool()>;  // true: stop
 
 // Runs body. The checkpoints of this thread, and of all threads in its parallel loops
 // (core/parallel.h), poll `wanted`, which must be thread-safe.
 void stoppable(const StopQuestion& wanted, const std::function<void()>& body);
 
-// Throws JobError if the predicate of the enclosing stoppable() is true; without one it does
-// nothing. Each block of a parallel loop starts with a checkpoint. A call costs nanoseconds and
-// should follow every few ms of work. Not for destructors, nor while a file is partly written in
-// place.
+// Runs body without a predicate: its checkpoints pass. For short work that must finish, such as the
+// files of one frame.
+void unstoppable(const std::function<void()>& body);
+
+// Throws Stopped if the predicate of the enclosing stoppable() is true; without one it does nothing.
+// Each block of a parallel loop starts with a checkpoint. A call costs nanoseconds and should follow
+// every few ms of work. Not for destructors, nor while a file is partly written in place.
 void checkpoint();
 
 // The predicate of this thread's checkpoints; nullptr: none.

@@ -67,7 +67,6 @@ void takeGeometry(const UnorderedJson& scene, EchoLoop& loop, const std::string&
                       (s.probe.face_radius_m + s.probe.max_depth_m) / g.metres_per_pixel};
 }
 
-// Frames per beat from the phases, which count on from frame to frame.
 // By the role that the manifest has, else by the name.
 std::string leftVentricle(const UnorderedJson& structures) {
   for (const UnorderedJson& structure : structures) {
@@ -80,12 +79,19 @@ std::string leftVentricle(const UnorderedJson& structures) {
   return "";
 }
 
+[[noreturn]] void failOfDamage(const std::string& name, const char* what) {
+  throw SceneError(fmt::format("{}: manifest.json is damaged ({}); render it again", name, what));
+}
+
+// Frames per beat from the phases, which count on from frame to frame.
 void takeFrames(const UnorderedJson& frames, EchoLoop& loop) {
   std::vector<double> times;
   for (const UnorderedJson& f : frames) {
     loop.phases.push_back(f.at("phase"));
     times.push_back(f.at("time_s"));
     std::size_t i = 0;
+    if (times.size() > 1 && f.at("volumes_ml").size() != loop.volumes_ml.size())
+      failOfDamage(loop.video.name, "its frames have other structures");
     for (const auto& [name, ml] : f.at("volumes_ml").items()) {
       if (loop.volumes_ml.size() <= i) loop.volumes_ml.push_back({name, {}});
       loop.volumes_ml[i++].second.push_back(ml);
@@ -97,10 +103,15 @@ void takeFrames(const UnorderedJson& frames, EchoLoop& loop) {
     const double step = loop.phases[i] - loop.phases[i - 1];
     turned += step - std::floor(step);
   }
-  if (turned > 0) loop.frames_per_beat = static_cast<double>(loop.phases.size() - 1) / turned;
-  if (times.size() > 1 && times.back() > times.front())
-    loop.video.rate = {static_cast<double>(times.size() - 1) / (times.back() - times.front()),
-                       "manifest", true};
+  constexpr double kMostOfBeat = 1e6;  // frames: a minute at the fastest rate. Our choice
+  const double steps = static_cast<double>(loop.phases.size()) - 1;
+  if (turned * kMostOfBeat > steps) loop.frames_per_beat = steps / turned;
+  if (times.size() < 2) return;
+  constexpr double kLeast_hz = 0.05, kMost_hz = 2e5;  // scenes have 0.1 to 1e5
+  const double hz = steps / (times.back() - times.front());
+  if (!(hz > kLeast_hz && hz < kMost_hz))
+    failOfDamage(loop.video.name, "its frames' times are no loop's");
+  loop.video.rate = {hz, "manifest", true};
 }
 
 // The exact greys, when every frame's EXR has them.
@@ -178,9 +189,8 @@ EchoLoop readRenderFolder(const std::filesystem::path& folder) {
     loop.scene_sha256 = manifest.at("scene_sha256");
     if (loop.phases.size() == loop.video.frames.size())
       takeTracedGreys(folder, manifest.at("scene"), loop);
-  } catch (const UnorderedJson::exception& error) {
-    throw SceneError(
-        fmt::format("{}: manifest.json is damaged ({}); render it again", name, error.what()));
+  } catch (const UnorderedJson::exception&) {  // its words are not for users
+    failOfDamage(name, "a key is absent or of another type");
   }
   if (loop.phases.size() != loop.video.frames.size())
     throw SceneError(fmt::format("{}: cine.avi has {} frames, manifest.json {}; render it again",

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
+#include "fit/caveats.h"
 #include "motion/surfaces/mesh_motion.h"
 #include "motion/surfaces/probe_placement.h"
 #include "page/assets.h"
@@ -52,6 +53,7 @@ SceneFit fitScene(const Scene& scene, const echo::EchoLoop& real, const echo::Si
   SceneFit fit;
   fit.beat = discrepancy.beat();
   fit.found = discrepancy.search(model);
+  fit.caveats = caveatsOf(real, fit.beat, fit.found.confidence);
   if (!(tilt_deg > 0)) {
     fit.where = fitReport(model, discrepancy, real, fit.found.pose);
     return fit;
@@ -60,6 +62,7 @@ SceneFit fitScene(const Scene& scene, const echo::EchoLoop& real, const echo::Si
   fit.tilt = searchTilt([&](const PlaneTilt& tilt) { return tiltable.at(tilt); }, discrepancy,
                         fit.found, tilt_deg, monitor);
   fit.found = fit.tilt->found;
+  fit.caveats = caveatsOf(real, fit.beat, fit.found.confidence);
   fit.where = fitReport(tiltable.at(fit.tilt->tilt), discrepancy, real, fit.found.pose);
   Scene tilted = scene;
   tilted.probe.pose =

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
+#include <limits>
 #include <new>
 #include <vector>
 
 #include "core/error.h"
 #include "core/out_of_memory.h"
 #include "core/parallel.h"
+#include "core/stop.h"
 #include "loop/kept_frames.h"
 
 namespace echocine {
@@ -26,25 +30,49 @@ std::shared_ptr<void> makeFrame(const Simulator& simulator, const FrameTime& tim
   if (sink.wantsTruth() && simulator.truth() != nullptr)
     made.truth = simulator.clock().time(Stage::truth,
                                         [&] { return simulator.truthAt(time, workspace.get()); });
-  return sink.take(made);
+  // A frame that is whole goes into the sink whole.
+  std::shared_ptr<void> taken;
+  unstoppable([&] { taken = sink.take(made); });
+  return taken;
 }
 
+// The least index of those that were given up.
+class FirstLeft {
+ public:
+  void leave(std::size_t index) {
+    std::size_t first = first_;
+    while (index < first && !first_.compare_exchange_weak(first, index)) {
+    }
+  }
+  std::size_t operator()() const { return first_; }
+
+ private:
+  std::atomic<std::size_t> first_{std::numeric_limits<std::size_t>::max()};
+};
+
+// A stop gives up the frames in the making; those before them are kept.
 int renderEach(const Simulator& simulator, std::span<const FrameTime> times, double white,
                KeptFrames& kept, FrameSink& sink, const Monitor& monitor) {
-  const auto make = [&](std::size_t i) {
+  FirstLeft left;
+  const auto make = [&](std::size_t i) -> std::shared_ptr<void> {
     try {
       return makeFrame(simulator, times[i], white, kept, sink);
+    } catch (const Stopped&) {
+      left.leave(i);
+      return nullptr;
     } catch (const std::bad_alloc&) {
       throw JobError(fmt::format("frame {}: {}", times[i].frame, kOutOfMemory));
     }
   };
   const auto collect = [&](std::size_t i, const std::shared_ptr<void>& taken) {
-    sink.inOrder(taken.get());
+    if (i >= left()) return;
+    unstoppable([&] { sink.inOrder(taken.get()); });
     monitor.tell({Task::rendering, i + 1, times.size()});
   };
-  return static_cast<int>(parallelOrdered(0, times.size(),
-                                          2 * static_cast<std::size_t>(threadCount()),
-                                          monitor.keep_going, make, collect));
+  const std::size_t made =
+      parallelOrdered(0, times.size(), 2 * static_cast<std::size_t>(threadCount()),
+                      monitor.keep_going, make, collect);
+  return static_cast<int>(std::min(made, left()));
 }
 
 }  // namespace

@@ -38,9 +38,9 @@ class FrameSink {
 };
 
 // Renders the frames first to last - 1 of the loop, as many at once as the enclosing withThreads()
-// allows, and returns their number. It is smaller if monitor.keep_going() becomes false; if that
-// happens during the measurement of white, begin() is not called. Frames traced for white are not
-// traced again. Throws what the simulator and the sink throw.
+// allows, and returns their number. It is smaller if monitor.keep_going() becomes false or a
+// checkpoint stops a frame; if that happens during the measurement of white, begin() is not called.
+// Frames traced for white are not traced again. Throws what the simulator and the sink throw.
 int renderFrames(const Simulator& simulator, std::pair<int, int> range, FrameSink& sink,
                  const Monitor& monitor);
 

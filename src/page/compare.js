@@ -25,7 +25,8 @@
     byId("definition").textContent = `Discrepancy: ${summary.discrepancy_definition}.`;
     byId("foot").textContent = `EchoCine ${summary.version}. The same numbers are in summary.json and frames.csv.`;
     // A loop's own notes return in the comparison's with its name before them.
-    const all = [...new Set([...summary.notes, ...summary.real.notes, ...summary.synthetic.notes])];
+    const caveats = (summary.scene_fit?.caveats ?? []).map((text) => `where the scene disagrees: ${text}`);
+    const all = [...new Set([...caveats, ...summary.notes, ...summary.real.notes, ...summary.synthetic.notes])];
     const notes = all.filter((note) => !all.some((other) => other !== note && other.endsWith(note)));
     byId("notes").hidden = !notes.length;
     byId("notes").querySelector("ul").append(...notes.map((note) => element("li", {}, note)));

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/shown_path.h"
+#include "core/stop.h"
 #include "frame/simulator.h"
 #include "frame/structure_volumes.h"
 #include "motion/surfaces/probe_placement.h"
@@ -116,7 +117,10 @@ RenderSummary renderLoop(const Scene& given, const RenderOptions& options, const
       sink.endEarly();
       throw;
     }
-    sink.finish(summary.frames_done == summary.frames_wanted);
+    if (summary.frames_done == summary.frames_wanted)
+      sink.finish(true);
+    else
+      unstoppable([&] { sink.finish(false); });  // what is finished stays playable
     summary.passes_s = secondsSince(start) - summary.setup_s;
     // No manifest: a folder without one is an unfinished run.
     if (summary.frames_done < summary.frames_wanted) return;

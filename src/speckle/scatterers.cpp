@@ -191,11 +191,12 @@ void Scatterers::dropUnseen(const BeamView& view, const Material& material) {
   std::vector<bool> seen(batches_.size());
   material.overTheBeat([&](const MaterialFrame& tissue) {
     looked = true;
-    checkpoint();
-    for (std::size_t b = 0; b < batches_.size(); ++b)
+    for (std::size_t b = 0; b < batches_.size(); ++b) {
+      if (b % 4096 == 0) checkpoint();
       seen[b] = seen[b] || view.sees(extentOf(tissue.corners(batches_[b].group, batches_[b].low_m,
                                                              batches_[b].edge_m),
                                               kBetweenInstants_m));
+    }
   });
   if (!looked) return;
   std::vector<ScattererBatch> all;

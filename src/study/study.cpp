@@ -10,6 +10,7 @@
 #include "core/file.h"
 #include "core/parallel.h"
 #include "core/shown_path.h"
+#include "core/stop.h"
 #include "core/units.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/surfaces/probe_placement.h"
@@ -41,7 +42,11 @@ class Study {
         start_(Clock::now()) {}
 
   StudyResult run() {
-    prepare();
+    try {
+      prepare();
+    } catch (const Stopped&) {
+      return finished();  // no row is timed yet
+    }
     for (int round = 0; round < options_.repeats; ++round) {
       const Clock::time_point begin = Clock::now();
       const bool whole = visitAll(round);
@@ -194,7 +199,11 @@ bool Study::visitAll(int round) {
   const std::size_t count = result_.points.size();
   for (std::size_t i = 0; i < count; ++i) {
     if (!monitor_.keep_going() || (visits_ > 0 && budgetSpent())) return false;
-    visit(round % 2 == 0 ? i : count - 1 - i, round);
+    try {
+      visit(round % 2 == 0 ? i : count - 1 - i, round);
+    } catch (const Stopped&) {
+      return false;
+    }
   }
   return true;
 }

@@ -9,7 +9,7 @@ build=../../build/dev
 work=$build/fuzz
 seconds=${1:-}
 targets=("${@:2}")
-[ ${#targets[@]} -gt 0 ] || targets=(exr lid obj off ply scene stl video)
+[ ${#targets[@]} -gt 0 ] || targets=(ecg exr folder lid obj off ply record scene spec stl video)
 
 # A file of a hundred bytes must not cost gigabytes. A library that asks for memory and takes no for an answer gets
 # none over 256 MB; one that does not, or more than 1 GB in all, is a finding. ASan's quarantine would count as held.
@@ -21,7 +21,7 @@ mkdir -p "$work/findings"
 for target in "${targets[@]}"; do
   dictionary=()
   case $target in
-    scene) dictionary=(-dict=toml.dict) ;;
+    scene | spec) dictionary=(-dict=toml.dict) ;;
     video) limits+=(-max_len=16384 -rss_limit_mb=2048) ;;
     lid | obj | off | ply | stl) dictionary=(-dict=mesh.dict) ;;
   esac

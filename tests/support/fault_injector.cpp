@@ -3,7 +3,7 @@
 // Steps of files are calls that change them, counted from 1. At step N, before the call,
 //   kill  the program ends as by kill -9; half  as well, after half of the bytes where it is a
 //   write full  this and all later calls that need space fail with ENOSPC int, term, hup  the
-//   signal arrives
+//   signal arrives hang  the call does not come back, as on a disk that is gone
 // Steps of memory are allocations made within main():
 //   memory   allocation N fails; shortage  all of 4 KiB or more from N on fail
 // ECHOCINE_FAULT_STEPS=FILE takes the number of both kinds of steps when the program ends, and of
@@ -59,6 +59,8 @@ bool full(bool needs_space) {
   if (now == step && is("int")) ::kill(::getpid(), SIGINT);
   if (now == step && is("term")) ::kill(::getpid(), SIGTERM);
   if (now == step && is("hup")) ::kill(::getpid(), SIGHUP);
+  if (now == step && is("hang"))
+    for (;;) ::pause();
   if (!needs_space || step == 0 || now < step || !is("full")) return false;
   errno = ENOSPC;
   return true;

@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <string>
 #include <vector>
@@ -59,6 +60,22 @@ inline Outcome outcomeOf(const FaultyRun& run, Steps* steps = nullptr) {
   if (steps) std::ifstream(counts) >> steps->files >> steps->memory >> steps->unsynced_renames;
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), bytesOf(out),
           bytesOf(err)};
+}
+
+inline bool hasEnded(pid_t child) {
+  siginfo_t info{};
+  return ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         info.si_pid == child;
+}
+
+// Processor time of a process that runs, s; below 0 when it has ended.
+inline double usedBy_s(pid_t child) {
+  clockid_t clock{};
+  timespec used{};
+  if (hasEnded(child) || ::clock_getcpuclockid(child, &clock) != 0 ||
+      ::clock_gettime(clock, &used) != 0)
+    return -1;
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
 }  // namespace echocine::support

