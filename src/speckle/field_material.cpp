@@ -86,6 +86,7 @@ FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion, const
                            surfaces.positions_m[index(relief.surface)],
                            field_.groupOf(relief.surface));
   }
+  reach_ = BlockReach(field_, kPhasesLookedAt);
   FieldFrame frame;
   float farthest_m2 = 0;
   for (int i = 0; i < kPhasesLookedAt; ++i) {

@@ -3,6 +3,7 @@
 
 #include "motion/surfaces/interior_motion.h"
 #include "motion/surfaces/trabeculae.h"
+#include "speckle/block_reach.h"
 #include "speckle/material.h"
 #include "speckle/tissue_strength.h"
 
@@ -28,6 +29,7 @@ class FieldMaterial : public Material {
   }
   double reachAcross_m() const override { return across_m_; }
   double reachAlong_m() const override { return along_m_; }
+  Box movesOver(Vec3f low_m) const override { return reach_.over(low_m, lattice_); }
 
   const MotionField& field() const { return field_; }
 
@@ -35,6 +37,7 @@ class FieldMaterial : public Material {
   struct Ridges;
   MotionField field_;
   std::vector<Ridges> ridges_;
+  BlockReach reach_;
   CubeLattice lattice_;
   std::vector<bool> blood_, coarse_;  // by group
   std::unique_ptr<const TissueStrength> strength_;

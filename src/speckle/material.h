@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 
+#include "core/box.h"
 #include "core/vec3.h"
 
 namespace echocine {
@@ -53,6 +54,12 @@ class Material {
   // The most that any tissue moves, from the reference: across the imaging plane and in it.
   virtual double reachAcross_m() const { return 0; }
   virtual double reachAlong_m() const { return 0; }
+  // Displacements of any tissue in the block that begins at low_m, at the instants of
+  // overTheBeat().
+  virtual Box movesOver(Vec3f /*low_m*/) const {
+    const Vec3d most{reachAlong_m(), reachAcross_m(), reachAlong_m()};
+    return {-most, most};
+  }
 };
 
 }  // namespace echocine

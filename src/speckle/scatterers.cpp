@@ -17,9 +17,10 @@ namespace echocine {
 
 namespace {
 
-constexpr double kMostScatterers = 5e7;  // 0.3 GB. Our choice
-constexpr double kMostBlocks = 2e7;      // looked at; under a second. Our choice
-constexpr std::size_t kMostKept = 3e6;   // of these, 0.3 GB. Our choice
+constexpr double kMostScatterers = 5e7;      // 0.3 GB. Our choice
+constexpr double kMostBlocks = 2e7;          // looked at; under a second. Our choice
+constexpr std::size_t kMostKept = 3e6;       // of these, 0.3 GB. Our choice
+constexpr double kBetweenInstants_m = 2e-3;  // tissue moves less to the nearest instant looked at
 
 // Purposes of hashed numbers.
 enum : std::uint64_t { kPlaces = 1, kCount = 2, kGauss = 3, kBatch = 4 };
@@ -53,6 +54,22 @@ BlockRange blocksOver(SectorBox::Range range, float origin_m, float edge_m) {
   const auto number = [](double at) { return static_cast<int>(std::clamp(at, -1e9, 1e9)); };
   return {number(std::floor((range.low_m - origin) / edge)),
           number(std::ceil((range.high_m - origin) / edge))};
+}
+
+// Whether what moves with the block may be seen at an instant that dropUnseen() looks at: false
+// only where that would drop all of it. A disc that holds every disc about a part of the moved
+// block has the sum of the half edges for its radius. Behind the probe angles wrap, and nothing is
+// left out.
+bool movesIntoView(const BeamView& view, const Material& material, Vec3f low_m, double edge_m) {
+  constexpr double kRounding_m = 1e-4;  // of angles, to 1e-4 rad at a sector's end, and of floats
+  const Box moves = material.movesOver(low_m);
+  const Vec3d low = toDouble(low_m) + moves.lo,
+              high = toDouble(low_m) + Vec3d{edge_m, edge_m, edge_m} + moves.hi;
+  const Vec3d middle = 0.5 * (low + high), half = 0.5 * (high - low);
+  if (middle.z <= 0) return true;
+  const double margin_m = kBetweenInstants_m + kRounding_m;
+  return view.sees(
+      Extent{middle.x, middle.z, half.x + half.z + margin_m, low.y - margin_m, high.y + margin_m});
 }
 
 double pathOf(const Probe& probe, Vec3d p) {
@@ -128,6 +145,7 @@ std::vector<Scatterers::Block> Scatterers::blocksInReach(const Probe& probe,
         if (!view.sees(Extent{middle.x, middle.z, ball_m, middle.y - 0.5 * edge_m - across_m,
                               middle.y + 0.5 * edge_m + across_m}))
           continue;
+        if (!movesIntoView(view, material, low, edge_m)) continue;
         const double wanted =
             settings.per_cell * edge_m * edge_m * edge_m / spread.cellVolume(pathOf(probe, middle));
         planned += wanted;
@@ -186,7 +204,6 @@ void Scatterers::weigh(const Material& material) {
 
 // Leaves out what no beam reaches at any instant: most tissue beside the plane does not move far.
 void Scatterers::dropUnseen(const BeamView& view, const Material& material) {
-  constexpr double kBetweenInstants_m = 2e-3;
   bool looked = false;
   std::vector<bool> seen(batches_.size());
   material.overTheBeat([&](const MaterialFrame& tissue) {
