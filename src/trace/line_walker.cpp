@@ -68,18 +68,21 @@ void LineWalker::walkTo(double distance_m) {
   }
   const double next_depth_m = alive_ ? end_depth_m : settings_.max_depth_m;
   const double eta_b = settings_.backscatter ? medium.backscatter_per_m_sr : 0.0;
-  trace_.segments.push_back({.begin_depth_m = depth_m_,
-                             .end_depth_m = next_depth_m,
-                             .begin_path_m = path_m_,
-                             .path_per_depth = path_per_depth,
-                             .begin_exponent = exponent_,
-                             .exponent_per_m = exponent_per_path * path_per_depth,
-                             .strength_m2_sr = eta_b * settings_.unit_volume_m3 * passed_,
-                             .medium = medium_});
+  trace_.segments.push_back(
+      {.begin_depth_m = depth_m_,
+       .end_depth_m = next_depth_m,
+       .begin_path_m = path_m_,
+       .path_per_depth = path_per_depth,
+       .begin_exponent = exponent_,
+       .exponent_per_m = exponent_per_path * path_per_depth,
+       .strength_m2_sr = eta_b * settings_.unit_volume_m3 * passed_,
+       .medium = medium_,
+       .structure = static_cast<std::uint16_t>(ruling_ == kNoSurface ? 0 : ruling_ + 1)});
   walked_m_ += step_m;
   path_m_ += step_m;
   depth_m_ = next_depth_m;
   exponent_ += exponent_per_path * step_m;
+  if (settings_.note_hits) trace_.end_m = query_.ray.origin + walked_m_ * query_.ray.direction;
 }
 
 // The crossing whose normal and lobe stand for a group of coincident surfaces.
@@ -147,6 +150,7 @@ void LineWalker::advance(const RayCrossings& met) {
   InsideSet inside = met.inside;
   const std::vector<Crossing>& all = met.crossings;
   const std::size_t first = path_m_ == 0 ? crossAtFace(all, inside) : 0;
+  if (settings_.note_hits && path_m_ == 0) trace_.inside = inside;
   findRuling(inside);
   medium_ = rulingMedium();
   const int bends_before = bends_;
@@ -154,9 +158,9 @@ void LineWalker::advance(const RayCrossings& met) {
     const double distance_m = all[begin].distance_m;
     end = begin + 1;
     while (end < all.size() && all[end].distance_m - distance_m <= settings_.thin_layer_m) ++end;
-    const bool lost = mirror_.met && !layer_.reaches(path_m_ + distance_m - walked_m_);
+    const bool lost = mirrored() && !layer_.reaches(path_m_ + distance_m - walked_m_);
     if (!lost) walkTo(distance_m);
-    if (mirror_.met && (lost || !alive_)) return endAtMirror();
+    if (mirrored() && (lost || !alive_)) return endAtMirror();
     if (!alive_) return;
     const Group group(&all[begin], end - begin);
     for (const Crossing& c : group) cross(c, inside);
@@ -176,7 +180,7 @@ void LineWalker::advance(const RayCrossings& met) {
       return;
     }
   }
-  if (mirror_.met) return endAtMirror();
+  if (mirrored()) return endAtMirror();
   walkTo(std::numeric_limits<double>::infinity());
 }
 
