@@ -43,7 +43,7 @@ void askForTruth(const std::string& list, Scene& scene) {
     end = std::min(list.find(',', begin), list.size());
     kinds.push_back(list.substr(begin, end - begin));
   }
-  const std::string unknown = switchOn(kinds, scene.truth);
+  const std::string unknown = switchOn(kinds, scene);
   if (!unknown.empty())
     throw SceneError(
         fmt::format("--truth: \"{}\" is no kind of truth, accepted: {}", unknown, kTruthKinds));
@@ -88,7 +88,8 @@ RenderCommand::RenderCommand(CLI::App& app) {
   command->add_option("--frames", frames_,
                       "Only frames A up to, without, B of the loop, counted from 0 (A:B, A:, :B)");
   command->add_option("--truth", truth_,
-                      "Write truth too, beside what the scene asks for: all, or some of labels, "
+                      "Write truth too, beside what the scene asks for: all that the scene has, or "
+                      "some of labels, "
                       "contours, tracks, function with commas between");
   accuracy_.addTo(*command);
   command->add_flag("--resume", options_.resume,

@@ -14,11 +14,9 @@
 
 namespace echocine {
 
-// What was written for a frame.
-struct TruthFrameFiles {
-  std::map<std::string, std::string> sha256;  // by name, relative to the run's folder
-  std::vector<std::byte> labels;              // the label picture; empty where none is asked for
-};
+// Labels as a PNG for the eye, in colours by number; empty where none are asked for. The files hold
+// greys.
+std::vector<std::byte> colouredLabels(const Scene& scene, const FrameTruth& truth);
 
 class TruthFiles {
  public:
@@ -26,7 +24,9 @@ class TruthFiles {
   TruthFiles(std::filesystem::path folder, const Scene& scene, const LabelTable& labels);
 
   // Writes a frame's files. Thread-safe. Throws JobError.
-  TruthFrameFiles write(const FrameRecord& record, const FrameTruth& truth) const;
+  // Returns their digests by name, relative to the run's folder.
+  std::map<std::string, std::string> write(const FrameRecord& record,
+                                           const FrameTruth& truth) const;
 
   // Keeps what goes into one file of the whole loop. One call at a time, in the order of the
   // frames.

@@ -13,7 +13,7 @@
 #include "scene/scan_geometry.h"
 #include "support/scene_text.h"
 
-namespace echocine {
+namespace echocine::shown_truth_law {
 namespace {
 
 using support::Mesh;
@@ -272,6 +272,29 @@ TEST(ShownTruthLaw, MotionIsThatOfTheMaterialShown) {
   expectMotion({true, 0.5, 1.2}, shownByWedge, 1.2);
 }
 
+// A sheet has one open contour; it lies on the sheet as travel times show it.
+TEST(ShownTruthLaw, AMembranesContourIsOpen) {
+  SceneText text;
+  text.motion = {{"mesh_unit", "\"mm\""}};
+  text.probe["depth_mm"] = "160";
+  text.effects["travel_time"] = "\"on\"";
+  text.structures =
+      "[[structure]]\nname = \"sheet\"\nmedium = \"valve\"\nmembrane = true\nkeyframes = "
+      "\"sheet\"\n";
+  const Mesh sheet{{{-30, -20, 80}, {40, -20, 110}, {40, 20, 110}, {-30, 20, 80}},
+                   {{0, 1, 2}, {0, 2, 3}}};
+  Scene scene = parseScene(text.text(), "in memory", {{"sheet", shared(sheet)}});
+  scene.truth.contours = true;
+  const std::vector<Contour> contours = Simulator(scene).frame(0).truth->contours;
+  ASSERT_EQ(contours.size(), 1u);
+  EXPECT_FALSE(contours[0].closed);
+  EXPECT_GT(length(contours[0].points_m.front() - contours[0].points_m.back()), 0.073);
+  for (const Vec3d p : contours[0].points_m) {
+    const Vec3d there = (1584.0 / 1540) * p;
+    EXPECT_NEAR(there.z, 0.08 + (there.x + 0.03) * 30 / 70, 0.02e-3);
+  }
+}
+
 // Material points and landmarks of a heart in media of one speed: 1540/1584 nearer to the probe.
 TEST(ShownTruthLaw, TracksAndLandmarksStandWhereTheyAreShown) {
   std::array<Frame, 2> frames;
@@ -308,4 +331,4 @@ TEST(ShownTruthLaw, TracksAndLandmarksStandWhereTheyAreShown) {
 }
 
 }  // namespace
-}  // namespace echocine
+}  // namespace echocine::shown_truth_law
