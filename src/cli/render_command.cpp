@@ -42,7 +42,7 @@ void askForTruth(const std::string& list, Scene& scene) {
     end = std::min(list.find(',', begin), list.size());
     kinds.push_back(list.substr(begin, end - begin));
   }
-  const std::string unknown = switchOn(kinds, scene.truth);
+  const std::string unknown = switchOn(kinds, scene);
   if (!unknown.empty())
     throw SceneError(
         fmt::format("--truth: \"{}\" is not a kind of truth, accepted: {}", unknown, kTruthKinds));
@@ -86,9 +86,10 @@ RenderCommand::RenderCommand(CLI::App& app) {
       ->check(CLI::Range(0, 4096));
   command->add_option("--frames", frames_,
                       "Only frames A to B - 1 of the loop, counted from 0 (A:B, A:, :B)");
-  command->add_option("--truth", truth_,
-                      "Write ground truth in addition to the scene's own: all, or a "
-                      "comma-separated list of labels, contours, tracks, function");
+  command->add_option(
+      "--truth", truth_,
+      "Write ground truth in addition to the scene's own: all that the scene has, or a "
+      "comma-separated list of labels, contours, tracks, function");
   accuracy_.addTo(*command);
   command->add_flag("--resume", options_.resume,
                     "Keep frames whose EXR is complete and of this scene");

@@ -23,9 +23,10 @@ void stoppable(const StopQuestion& wanted, const std::function<void()>& body);
 // files of one frame.
 void unstoppable(const std::function<void()>& body);
 
-// Throws Stopped if the predicate of the enclosing stoppable() is true; without one it does nothing.
-// Each block of a parallel loop starts with a checkpoint. A call costs nanoseconds and should follow
-// every few ms of work. Not for destructors, nor while a file is partly written in place.
+// Throws Stopped if the predicate of the enclosing stoppable() is true; without one it does
+// nothing. Each block of a parallel loop starts with a checkpoint. A call costs nanoseconds and
+// should follow every few ms of work. Not for destructors, nor while a file is partly written in
+// place.
 void checkpoint();
 
 // The predicate of this thread's checkpoints; nullptr: none.

@@ -27,8 +27,8 @@ struct SceneFit {
   BeatFound beat;
   PoseFound found;
   FitReport where;
-  std::optional<TiltFound> tilt;  // if requested; found and where are then of that plane
-  std::string tilted_probe;       // that plane as keys of [probe]
+  std::optional<TiltFound> tilt;       // if requested; found and where are then of that plane
+  std::string tilted_probe;            // that plane as keys of [probe]
   std::vector<std::string> caveats{};  // caveats.h
 };
 // tilt_deg: limit of tilt and rotation of the plane, either way. Throws SceneError like

@@ -193,7 +193,7 @@ Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, Loop
                                    })),
       persistence_(where<Persistence>(plan_.effects.persistence, scene_.artefacts.persistence,
                                       cardiac_clock_, scene_.acquisition.frame_rate_hz)),
-      truth_(scene_, *motion_, cardiac_clock_, rolling_.get(),
+      truth_(scene_, *motion_, cardiac_clock_, plan_, rolling_.get(),
              plan_.left_out.none() && !trabeculae_),
       workspaces_(scene_, *motion_, plan_) {}
 

@@ -4,22 +4,40 @@
 
 #include "frame/loop_instant.h"
 #include "frame/picture_grid.h"
+#include "trace/sound_path_tracer.h"
 
 namespace echocine {
+
+TruthSource::TruthSource(const Scene& scene, const MeshMotion& motion, const CardiacClock& clock,
+                         const LoopPlan& plan, const RollingLines* rolling, bool as_traced)
+    : scene_(scene),
+      motion_(motion),
+      clock_(clock),
+      rolling_(rolling),
+      as_traced_(as_traced),
+      normals_(plan.smooth_normals) {
+  if (plan.effects.refraction || plan.effects.travel_time)
+    bent_.emplace(soundPathSettings(scene, plan.effects));
+}
 
 const TruthMaker* TruthSource::maker() const {
   std::call_once(once_, [this] {
     if (TruthMaker::wanted(scene_))
       maker_ = std::make_unique<const TruthMaker>(scene_, motion_, pictureGrid(scene_),
-                                                  clock_.at(0).phase);
+                                                  clock_.at(0).phase, bent_.has_value());
   });
   return maker_.get();
 }
 
 // Velocity is taken from a millisecond before to one after, within the loop; rolling lines may
 // begin a little before it.
-FrameTruth TruthSource::ofInstant(const FrameTime& time, const TruthShared& shared,
+FrameTruth TruthSource::ofInstant(const FrameTime& time, TruthShared shared,
                                   bool planes_only) const {
+  std::shared_ptr<PathSpace> space;
+  if (bent_) {
+    space = pathSpace();
+    addPaths(time.phase, *space, shared);
+  }
   constexpr double kStep_s = 1e-3;
   const double end_s = clock_.frameCount() / scene_.acquisition.frame_rate_hz;
   const double before_s = std::max(time.time_s - kStep_s, std::min(time.time_s, 0.0)),
@@ -27,6 +45,35 @@ FrameTruth TruthSource::ofInstant(const FrameTime& time, const TruthShared& shar
   return maker()->at({time.phase, clock_.atTime(before_s).phase, clock_.atTime(after_s).phase,
                       after_s - before_s, planes_only},
                      shared);
+}
+
+std::shared_ptr<TruthSource::PathSpace> TruthSource::pathSpace() const {
+  std::unique_ptr<PathSpace> space;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!free_.empty()) {
+      space = std::move(free_.back());
+      free_.pop_back();
+    }
+  }
+  if (!space)
+    space = std::make_unique<PathSpace>(PathSpace{
+        {}, FrameGeometry(motion_.surfaces()), TruthMaker::pathsFor(scene_, pictureGrid(scene_))});
+  return {space.release(), [this](PathSpace* used) {
+            const std::lock_guard lock(mutex_);
+            free_.emplace_back(used);
+          }};
+}
+
+// Traced surfaces serve where they are there.
+void TruthSource::addPaths(double phase, PathSpace& space, TruthShared& shared) const {
+  if (shared.surfaces == nullptr) {
+    motion_.frameAt(phase, space.surfaces, normals_);
+    shared.surfaces = &space.surfaces;
+  }
+  space.geometry.update(*shared.surfaces);
+  traceSoundPaths(space.geometry, *bent_, space.paths);
+  shared.paths = &space.paths;
 }
 
 // Of rolling lines what stands at samples and pixels is that of each line's instant; the rest is

@@ -7,6 +7,7 @@
 #include "frame/rolling.h"
 #include "frame/workspace.h"
 #include "motion/cycle/cardiac_clock.h"
+#include "trace/trace_settings.h"
 #include "truth/frame_truth.h"
 
 namespace echocine {
@@ -14,10 +15,10 @@ namespace echocine {
 class TruthSource {
  public:
   // References are kept. Without a group of lines everything is at the frame's instant.
-  // `as_traced`: the traced slice is that of the smooth surfaces, and of all of them.
+  // `as_traced`: the traced slice is that of the smooth surfaces, and of all of them. If rays bend
+  // or depths follow the travel time, truth follows them through the smooth surfaces.
   TruthSource(const Scene& scene, const MeshMotion& motion, const CardiacClock& clock,
-              const RollingLines* rolling, bool as_traced)
-      : scene_(scene), motion_(motion), clock_(clock), rolling_(rolling), as_traced_(as_traced) {}
+              const LoopPlan& plan, const RollingLines* rolling, bool as_traced);
 
   // Fitted by the first call; nullptr if the scene requests no truth. Throws like TruthMaker.
   // Thread-safe.
@@ -28,15 +29,27 @@ class TruthSource {
   FrameTruth at(const FrameTime& time, const Workspace* traced) const;
 
  private:
-  FrameTruth ofInstant(const FrameTime& time, const TruthShared& shared, bool planes_only) const;
+  // The surfaces of an instant with its paths.
+  struct PathSpace {
+    SurfaceFrame surfaces;
+    FrameGeometry geometry;
+    SoundPaths paths;
+  };
+  FrameTruth ofInstant(const FrameTime& time, TruthShared shared, bool planes_only) const;
+  std::shared_ptr<PathSpace> pathSpace() const;
+  void addPaths(double phase, PathSpace& space, TruthShared& shared) const;
 
   const Scene& scene_;
   const MeshMotion& motion_;
   const CardiacClock& clock_;
   const RollingLines* rolling_;
-  const bool as_traced_;
+  const bool as_traced_, normals_;
+  std::optional<TraceSettings>
+      bent_;  // of the paths, where echoes stand at no straight path lengths
   mutable std::once_flag once_;
   mutable std::unique_ptr<const TruthMaker> maker_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<PathSpace>> free_;
 };
 
 }  // namespace echocine

@@ -52,6 +52,12 @@ std::span<const std::byte> bytesOf(const std::string& text) {
 
 }  // namespace
 
+std::vector<std::byte> colouredLabels(const Scene& scene, const FrameTruth& truth) {
+  static const std::vector<PaletteColour> kColours = palette();
+  if (!scene.truth.labels) return {};
+  return encodePng(GreyImage{scene.output.width, scene.output.height, truth.labels}, kColours);
+}
+
 TruthFiles::TruthFiles(std::filesystem::path folder, const Scene& scene, const LabelTable& labels)
     : folder_(std::move(folder)),
       scene_(scene),
@@ -72,8 +78,7 @@ std::string TruthFiles::put(const std::string& name, std::span<const std::byte> 
 }
 
 std::vector<std::byte> TruthFiles::labelPicture(const FrameTruth& truth) const {
-  static const std::vector<PaletteColour> kColours = palette();
-  return encodePng(GreyImage{scene_.output.width, scene_.output.height, truth.labels}, kColours);
+  return encodePng(GreyImage{scene_.output.width, scene_.output.height, truth.labels});
 }
 
 // Places in the imaging plane: x lateral and z depth in mm from the apex, and in the picture's
@@ -106,16 +111,16 @@ std::string TruthFiles::contoursText(const FrameRecord& record, const FrameTruth
   return json.dump() + "\n";
 }
 
-TruthFrameFiles TruthFiles::write(const FrameRecord& record, const FrameTruth& truth) const {
-  TruthFrameFiles files;
+std::map<std::string, std::string> TruthFiles::write(const FrameRecord& record,
+                                                     const FrameTruth& truth) const {
+  std::map<std::string, std::string> files;
   if (scene_.truth.labels) {
     const std::string name = fmt::format("labels_{:04}.png", record.frame);
-    files.labels = labelPicture(truth);
-    files.sha256["truth/" + name] = put(name, files.labels);
+    files["truth/" + name] = put(name, labelPicture(truth));
   }
   if (scene_.truth.contours) {
     const std::string name = fmt::format("contours_{:04}.json", record.frame);
-    files.sha256["truth/" + name] = put(name, bytesOf(contoursText(record, truth)));
+    files["truth/" + name] = put(name, bytesOf(contoursText(record, truth)));
   }
   return files;
 }

@@ -14,11 +14,8 @@
 
 namespace echocine {
 
-// The files written for a frame.
-struct TruthFrameFiles {
-  std::map<std::string, std::string> sha256;  // by name, relative to the run's folder
-  std::vector<std::byte> labels;              // the label picture; empty if not requested
-};
+// Labels as a coloured PNG for the page; empty if not requested. The files hold grey levels.
+std::vector<std::byte> colouredLabels(const Scene& scene, const FrameTruth& truth);
 
 class TruthFiles {
  public:
@@ -26,7 +23,9 @@ class TruthFiles {
   TruthFiles(std::filesystem::path folder, const Scene& scene, const LabelTable& labels);
 
   // Writes a frame's files. Thread-safe. Throws JobError.
-  TruthFrameFiles write(const FrameRecord& record, const FrameTruth& truth) const;
+  // Returns their digests by name, relative to the run's folder.
+  std::map<std::string, std::string> write(const FrameRecord& record,
+                                           const FrameTruth& truth) const;
 
   // Collects data for the files of the whole loop. One call at a time, in the order of the frames.
   void add(const FrameRecord& record, const FrameTruth& truth);

@@ -67,11 +67,10 @@ void FolderSink::begin(double white) {
 
 void FolderSink::writeTruth(Finished& finished) {
   const FrameRecord& record = finished.entry.record;
-  TruthFrameFiles files = truth_files_->write(record, *finished.truth);
-  finished.truth_files = std::move(files.sha256);
+  finished.truth_files = truth_files_->write(record, *finished.truth);
   if (!parts_.report.shows(record.frame)) return;
-  finished.page_truth =
-      pageTruth(*finished.truth, parts_.simulator.scene(), std::move(files.labels));
+  const Scene& scene = parts_.simulator.scene();
+  finished.page_truth = pageTruth(*finished.truth, scene, colouredLabels(scene, *finished.truth));
 }
 
 void FolderSink::writeExr(const FrameRecord& record, const Workspace& workspace,

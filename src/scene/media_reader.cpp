@@ -72,6 +72,7 @@ MediumSpec MediaTable::readMedium(const std::string& name, TomlTable& table) con
   const std::string word = backscatter.word("kind", "none", kinds);
   const auto kind = static_cast<Kind>(std::find(kinds.begin(), kinds.end(), word) - kinds.begin());
   noteOtherKinds(backscatter, kind);
+  spec.blood = table.boolean("blood", kind == Kind::blood);
   switch (kind) {
     case Kind::none:
       break;

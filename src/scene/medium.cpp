@@ -43,7 +43,7 @@ Medium resolveMedium(const MediumSpec& spec, double frequency_hz) {
           nepersPerMetre(spec.attenuation_db_cm_mhz, spec.attenuation_exponent, frequency_hz),
       .backscatter_per_m_sr =
           std::visit(BackscatterCoefficient{omega, omega / spec.sound_speed_m_s}, spec.backscatter),
-      .blood = std::holds_alternative<BloodBackscatter>(spec.backscatter),
+      .blood = spec.blood.value_or(std::holds_alternative<BloodBackscatter>(spec.backscatter)),
   };
 }
 

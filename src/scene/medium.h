@@ -2,6 +2,7 @@
 // A medium as the tracer uses it: numbers at the frequency of the run. Eqs. 5-7 and the unit
 // conversions are evaluated once, when the scene is read.
 
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -41,6 +42,7 @@ struct MediumSpec {
   double attenuation_db_cm_mhz = 0;  // a of alpha = a f^b, amplitude
   double attenuation_exponent = 1;   // b
   Backscatter backscatter;
+  std::optional<bool> blood;  // stated; else by the law of the backscatter
 };
 
 struct Medium {

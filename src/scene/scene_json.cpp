@@ -119,7 +119,8 @@ Json mediaJson(const Scene& scene) {
     media[m.name] = {{"Z", m.impedance_kg_m2_s},
                      {"c", m.sound_speed_m_s},
                      {"alpha_np_per_m", m.attenuation_np_per_m},
-                     {"eta_b_per_m_sr", m.backscatter_per_m_sr}};
+                     {"eta_b_per_m_sr", m.backscatter_per_m_sr},
+                     {"blood", m.blood}};
   return media;
 }
 

@@ -83,6 +83,7 @@ constexpr SceneKey kKeys[] = {
     {"media", "sound_speed_m_s", kSpeed, ranges::kSoundSpeed_m_s, "sound speed", AS(MediumSpec, sound_speed_m_s), kAlways},
     {"media", "attenuation_db_cm_mhz", kAttenuation, ranges::kAttenuation_db_cm_mhz, "a of alpha = a f^b, amplitude", AS(MediumSpec, attenuation_db_cm_mhz), kAlways},
     {"media", "attenuation_exponent", kNone, kAttenuationExponent, "b of alpha = a f^b", AS(MediumSpec, attenuation_exponent)},
+    {"media", "blood", kNone, kAny, "it flows: scatterers are not tied to walls, no displacement; if left out, by the law of the backscatter", kByHand},
     {"media.backscatter", "kind", kNone, kAny, "law of the backscatter: blood by Eqs. 5 and 6, tissue by Eq. 7", kLaws, kAlways},
     {"media.backscatter", "per_cm_sr", kScattering, ranges::kBackscatter_per_cm_sr, "eta_b of kind fixed", kByHand},
     {"media.backscatter", "velocity_variation", kNone, kShare, "mu of kind tissue", kByHand},

@@ -155,7 +155,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file, const Name
   if (root.has("truth")) readTruth(root.table("truth"), scene);
   root.finish();
   refuseContradictions(root, scene);
-  scene.warnings = keyframeWarnings(scene);
+  for (std::string& warning : keyframeWarnings(scene)) scene.warnings.push_back(std::move(warning));
   // Without attenuation there is no received intensity: the default channel is the one that is
   // true.
   if (scene.effects.attenuation == Switch::off && !scene.output.channels_given)

@@ -6,18 +6,40 @@
 
 #include "scene/key_reader.h"
 #include "scene/names.h"
+#include "scene/role.h"
 
 namespace echocine {
 
-std::string switchOn(const std::vector<std::string>& kinds, TruthSettings& truth) {
+namespace {
+
+// Tracks and function need both; what lacks is said once.
+bool hasVentricle(Scene& scene) {
+  std::string lacking;
+  for (const Role role : {Role::lv_cavity, Role::lv_wall})
+    if (!structureOf(scene, role))
+      lacking += (lacking.empty() ? "" : ", none is ") + std::string(nameOf(role));
+  if (lacking.empty()) return true;
+  const std::string warning = fmt::format(
+      "truth \"all\" leaves out tracks and function: no structure is {}; name one so with role",
+      lacking);
+  if (std::find(scene.warnings.begin(), scene.warnings.end(), warning) == scene.warnings.end())
+    scene.warnings.push_back(warning);
+  return false;
+}
+
+}  // namespace
+
+std::string switchOn(const std::vector<std::string>& kinds, Scene& scene) {
+  TruthSettings& truth = scene.truth;
   for (const std::string& kind : kinds) {
     const bool all = kind == "all";
     if (!all && kind != "labels" && kind != "contours" && kind != "tracks" && kind != "function")
       return kind;
     truth.labels |= all || kind == "labels";
     truth.contours |= all || kind == "contours";
-    truth.tracks |= all || kind == "tracks";
-    truth.function |= all || kind == "function";
+    const bool ventricle = all && hasVentricle(scene);
+    truth.tracks |= ventricle || kind == "tracks";
+    truth.function |= ventricle || kind == "function";
   }
   return {};
 }
@@ -50,7 +72,7 @@ void checkNumbers(const TomlTable& table, const TruthSettings& truth, const Scen
 
 void readTruth(TomlTable table, Scene& scene) {
   TruthSettings& truth = scene.truth;
-  const std::string unknown = switchOn(table.texts("write"), truth);
+  const std::string unknown = switchOn(table.texts("write"), scene);
   if (!unknown.empty())
     table.fail("write",
                fmt::format("\"{}\" is not a kind of truth, accepted: {}", unknown, kTruthKinds));

@@ -20,6 +20,8 @@ struct MediumSegment {
   double strength_m2_sr =
       0;  // eta_b V times the losses prod (1-R)^2: intensity times l^2, unattenuated
   MediumId medium{};
+  // The closed structure, from 1 in the scene's order; 0 in the background.
+  std::uint16_t structure = 0;
 };
 
 // Of walls, tan (84 degrees): those that lean more are taken for it. Our choice; of what leans more
@@ -87,6 +89,9 @@ struct LineTrace {
   std::vector<MediumSegment> segments;
   std::vector<Echo> echoes;
   std::vector<InterfaceHit> hits;  // in order; only on request
+  // With the hits: where the last segment ends, probe frame, and the closed surfaces at depth 0.
+  Vec3d end_m;
+  SurfaceSet inside;
 
   void clear() {
     segments.clear();

@@ -45,11 +45,13 @@ void LineWalker::walkTo(double distance_m) {
                              .begin_exponent = at_.exponent,
                              .exponent_per_m = exponent_per_path * path_per_depth,
                              .strength_m2_sr = eta_b * settings_.unit_volume_m3 * at_.passed,
-                             .medium = at_.medium});
+                             .medium = at_.medium,
+                             .structure = ruling_.structure()});
   at_.walked_m += step_m;
   at_.path_m += step_m;
   at_.depth_m = next_depth_m;
   at_.exponent += exponent_per_path * step_m;
+  if (settings_.note_hits) trace_.end_m = query_.ray.origin + at_.walked_m * query_.ray.direction;
 }
 
 // The crossing whose normal and lobe stand for a group of coincident surfaces.
@@ -117,6 +119,7 @@ void LineWalker::advance(const RayCrossings& met) {
   InsideSet inside = met.inside;
   const std::vector<Crossing>& all = met.crossings;
   const std::size_t first = at_.path_m == 0 ? crossAtFace(all, inside) : 0;
+  if (settings_.note_hits && at_.path_m == 0) trace_.inside = inside;
   ruling_.find(inside);
   at_.medium = ruling_.medium();
   const int bends_before = at_.bends;
@@ -124,9 +127,9 @@ void LineWalker::advance(const RayCrossings& met) {
     const double distance_m = all[begin].distance_m;
     end = begin + 1;
     while (end < all.size() && all[end].distance_m - distance_m <= settings_.thin_layer_m) ++end;
-    const bool lost = mirror_.met && !layer_.reaches(at_.path_m + distance_m - at_.walked_m);
+    const bool lost = mirrored() && !layer_.reaches(at_.path_m + distance_m - at_.walked_m);
     if (!lost) walkTo(distance_m);
-    if (mirror_.met && (lost || !at_.alive)) return endAtMirror();
+    if (mirrored() && (lost || !at_.alive)) return endAtMirror();
     if (!at_.alive) return;
     const Group group(&all[begin], end - begin);
     for (const Crossing& c : group)
@@ -148,7 +151,7 @@ void LineWalker::advance(const RayCrossings& met) {
       return;
     }
   }
-  if (mirror_.met) return endAtMirror();
+  if (mirrored()) return endAtMirror();
   walkTo(std::numeric_limits<double>::infinity());
 }
 

@@ -64,6 +64,7 @@ class LineWalker {
   void loseAt(const InterfaceLaw& law);
   void reflectAll(double speed_before_m_s);
   void endAtMirror();
+  bool mirrored() const { return mirror_.met && !settings_.beyond_mirrors; }
   LayerEchoes::Meeting meetingAt(const Crossing& crossing, const InterfaceLaw& law,
                                  const Medium& from, const Medium& to) const;
   void joinLayer(const LayerEchoes::Meeting& meeting, const InterfaceLaw& law,

@@ -65,6 +65,7 @@ void LineWalker::addEcho(double reflected, double passed, double cos_i, const Cr
 // Forward times backward transmission, T_12 T_21 = (1 - R)^2. Total reflection ends the ray
 // whatever effects are on: there is no direction in which it could go on.
 void LineWalker::loseAt(const InterfaceLaw& law) {
+  if (law.total && settings_.beyond_mirrors) return;
   if (law.total) {
     reflectAll(0);
     return endAtMirror();
@@ -146,7 +147,7 @@ void LineWalker::passInterface(Group group, MediumId after, std::size_t first_hi
   const InterfaceLaw law = lawAt(crossing, from, to);
   const LayerEchoes::Meeting meeting = meetingAt(crossing, law, from, to);
   const bool held = settings_.thin_layers && layer_.holds(meeting);
-  if (mirror_.met && !held) return endAtMirror();
+  if (mirrored() && !held) return endAtMirror();
   if (!held) layer_.clear(at_.passed);
   const std::size_t first_echo = trace_.echoes.size();
   addEcho(sentBack(law, from, to), layer_.passed(), meeting.cos_i, crossing, after);
@@ -169,7 +170,7 @@ void LineWalker::passInterface(Group group, MediumId after, std::size_t first_hi
 // Two interfaces of a sheet that is thin against a sample: both echoes arrive together, each with
 // its own angle. R is the same from the sheet outwards.
 void LineWalker::passMembrane(const Crossing& crossing) {
-  if (mirror_.met) return endAtMirror();
+  if (mirrored()) return endAtMirror();
   const SurfaceTraits& surface = settings_.surfaces[index(crossing.surface)];
   const Medium& around = settings_.media[index(at_.medium)];
   const Medium& sheet = settings_.media[index(surface.medium)];

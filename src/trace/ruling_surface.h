@@ -1,6 +1,8 @@
 #pragma once
 // Which closed surface rules at a point of a line, and so which medium is there.
 
+#include <cstdint>
+
 #include "trace/trace_settings.h"
 
 namespace echocine {
@@ -32,6 +34,10 @@ class RulingSurface {
 
   MediumId medium() const {
     return ruling_ == kNone ? settings_.background : settings_.surfaces[ruling_].medium;
+  }
+  // From 1 in the scene's order; 0 in the background.
+  std::uint16_t structure() const {
+    return static_cast<std::uint16_t>(ruling_ == kNone ? 0 : ruling_ + 1);
   }
 
  private:

@@ -44,6 +44,9 @@ struct TraceSettings {
   EchoCells cells = EchoCells::none;
   bool coherent_echoes = false;  // some structure's echoes have a coherent part, and it is wanted
   bool note_hits = false;        // keep what the walk judged of each crossing; contours need it
+  // A total reflection ends no line: it goes on straight, as in a thin layer. For what stands in
+  // the shadow behind it.
+  bool beyond_mirrors = false;
 };
 
 }  // namespace echocine

@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "motion/surfaces/interior_motion.h"
 #include "plan/effect_plan.h"
+#include "truth/shown_contours.h"
 
 namespace echocine {
 
@@ -23,6 +24,21 @@ constexpr float kFarAway = 1e9f;
 
 bool isVelocity(Channel channel) {
   return channel >= Channel::velocity_lateral;
+}
+
+// Tracks and landmarks, from where the heart has them to where the picture shows them.
+void showPlaces(const SoundPaths& paths, FrameTruth& truth) {
+  for (Vec3f& p : truth.tracks_m) p = toFloat(paths.shown(toDouble(p)));
+  if (!truth.function) return;
+  FunctionFrame& f = *truth.function;
+  for (Vec3d* const p : {&f.axis.base_m, &f.axis.apex_m}) *p = paths.shown(*p);
+  for (auto* const ring : {&f.mitral, &f.tricuspid, &f.aortic}) {
+    if (!*ring) continue;
+    (*ring)->middle_m = paths.shown((*ring)->middle_m);
+    if (!(*ring)->hinges_m) continue;
+    for (Vec3d* const p : {&(*ring)->hinges_m->first, &(*ring)->hinges_m->second})
+      *p = paths.shown(*p);
+  }
 }
 
 }  // namespace
@@ -42,12 +58,17 @@ std::span<const float> FrameTruth::values(Channel channel) const {
   return isVelocity(channel) ? motion.velocity_mm_s[axis] : motion.displacement_mm[axis];
 }
 
+SoundPaths TruthMaker::pathsFor(const Scene& scene, const PictureGrid& grid) {
+  constexpr double kAnyDistance_m = 1e9;  // samples stand on the scene's own lines
+  return emptyPaths(scene.probe, scene.truth.any() ? 0.5 * grid.metres_per_pixel : kAnyDistance_m);
+}
+
 bool TruthMaker::wanted(const Scene& scene) {
   return scene.truth.any() || wantsAny(scene, isTruth);
 }
 
 TruthMaker::TruthMaker(const Scene& scene, const MeshMotion& motion, const PictureGrid& grid,
-                       double first_phase)
+                       double first_phase, bool along_paths)
     : scene_(scene),
       motion_(motion),
       labels_(labelTable(scene)),
@@ -55,6 +76,7 @@ TruthMaker::TruthMaker(const Scene& scene, const MeshMotion& motion, const Pictu
       samples_(wantsAny(scene, isTruth)),
       motion_wanted_(wantsAny(scene, isMotion)),
       velocity_(wantsAny(scene, isVelocity)) {
+  if (along_paths) shown_.emplace(scene, grid, pathsFor(scene, grid));
   if (!motion_wanted_ && !scene.truth.tracks && !scene.truth.function) return;
   field_.emplace(interiorMotion(scene, motion));
   field_->at(first_phase, first_);
@@ -154,16 +176,31 @@ FieldPart TruthMaker::tissueInPlane() const {
   return part;
 }
 
-void TruthMaker::addMotion(const TruthTime& time, Space& space, FrameTruth& truth) const {
-  field_->at(time.phase, space.now, in_plane_);
+// Bent paths leave the imaging plane.
+FieldPart TruthMaker::partAround(const SoundPaths* paths) const {
+  FieldPart part = in_plane_;
+  if (paths == nullptr) return part;
+  float off_m = 0;
+  for (const SoundPath& path : paths->paths)
+    for (const SoundPath::Knot& knot : path.knots)
+      off_m = std::max(off_m, static_cast<float>(std::abs(knot.place_m.y)));
+  for (auto& range : part)
+    if (range) range.emplace(range->first - off_m, range->second + off_m);
+  return part;
+}
+
+void TruthMaker::addMotion(const TruthTime& time, const SoundPaths* paths, Space& space,
+                           FrameTruth& truth) const {
+  const FieldPart part = partAround(paths);
+  field_->at(time.phase, space.now, part);
   if (velocity_) {
-    field_->at(time.before, space.before, in_plane_);
-    field_->at(time.after, space.after, in_plane_);
+    field_->at(time.before, space.before, part);
+    field_->at(time.after, space.after, part);
   }
   const bool moved = first_.phase != field_->referencePhase();
   const FieldTimes times{moved ? &first_ : nullptr, space.now, velocity_ ? space.before : space.now,
                          velocity_ ? space.after : space.now, velocity_ ? time.seconds : 1};
-  motionPlanes(scene_, *field_, times, truth.sample_ids, velocity_, truth.motion);
+  motionPlanes(scene_, *field_, times, truth.sample_ids, velocity_, paths, truth.motion);
 }
 
 const PlaneSlice& TruthMaker::sliceOf(const SurfaceFrame& surfaces, const TruthShared& shared,
@@ -183,13 +220,7 @@ FrameTruth TruthMaker::at(const TruthTime& time, const TruthShared& shared) cons
   const std::shared_ptr<Space> s = space();
   if (shared.surfaces == nullptr) motion_.frameAt(time.phase, s->surfaces, false);
   const SurfaceFrame& surfaces = shared.surfaces != nullptr ? *shared.surfaces : s->surfaces;
-  if (wanted.labels || wanted.contours || samples_) {
-    const PlaneSlice& slice = sliceOf(surfaces, shared, *s);
-    if (wanted.labels) addLabels(slice, truth);
-    if (samples_) plane_.samples(slice.lines(), truth.sample_ids);
-    if (wanted.contours)
-      truth.contours = chainContours(slice.edges(), motion_.surfaces(), surfaces);
-  }
+  addPlanes(surfaces, wanted, shared, *s, truth);
   if (wanted.function) {
     field_->at(time.phase, s->now);
     truth.function = function_->at(surfaces, s->now);
@@ -197,12 +228,29 @@ FrameTruth TruthMaker::at(const TruthTime& time, const TruthShared& shared) cons
     field_->at(time.phase, s->now, about_tracks_);
   }
   if (wanted.tracks) addTracks(surfaces, *s, truth);
-  if (motion_wanted_) addMotion(time, *s, truth);
+  if (shared.paths != nullptr) showPlaces(*shared.paths, truth);
+  if (motion_wanted_) addMotion(time, shared.paths, *s, truth);
   return truth;
 }
 
-void TruthMaker::addLabels(const PlaneSlice& slice, FrameTruth& truth) const {
-  plane_.picture(slice.edges(), truth.picture_ids);
+void TruthMaker::addPlanes(const SurfaceFrame& surfaces, const TruthSettings& wanted,
+                           const TruthShared& shared, Space& space, FrameTruth& truth) const {
+  if (!wanted.labels && !wanted.contours && !samples_) return;
+  if (shared.paths != nullptr) {
+    if (wanted.labels) shown_->picture(*shared.paths, truth.picture_ids);
+    if (samples_) shown_->samples(*shared.paths, truth.sample_ids);
+    if (wanted.contours) truth.contours = shownContours(scene_, *shared.paths);
+  } else {
+    const PlaneSlice& slice = sliceOf(surfaces, shared, space);
+    if (wanted.labels) plane_.picture(slice.edges(), truth.picture_ids);
+    if (samples_) plane_.samples(slice.lines(), truth.sample_ids);
+    if (wanted.contours)
+      truth.contours = chainContours(slice.edges(), motion_.surfaces(), surfaces);
+  }
+  if (wanted.labels) numberLabels(truth);
+}
+
+void TruthMaker::numberLabels(FrameTruth& truth) const {
   std::vector<std::uint8_t> number_of{0};
   number_of.insert(number_of.end(), labels_.numbers.begin(), labels_.numbers.end());
   truth.labels.resize(truth.picture_ids.size());

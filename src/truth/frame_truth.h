@@ -13,16 +13,21 @@
 #include "truth/label_table.h"
 #include "truth/motion_planes.h"
 #include "truth/plane_labels.h"
+#include "truth/shown_labels.h"
 #include "truth/valve_times.h"
 #include "truth/view_offset.h"
 
 namespace echocine {
 
+// Places and planes are where the picture shows things: along the paths of its rays, at the depths
+// of their travel time, where it has such. Lengths, strains, volumes and displacements are the
+// heart's own.
 struct FrameTruth {
   PlaneLabels::Ids picture_ids;           // structures at the picture's pixels, from 1
   std::vector<std::uint8_t> labels;       // the same by the scene's numbers
   std::vector<std::uint32_t> sample_ids;  // structures at the samples
-  std::vector<Contour> contours;          // whole, before the sector cuts them
+  // Whole, before the sector cuts them; along sound paths as far as these reach.
+  std::vector<Contour> contours;
   MotionPlanes motion;
   std::optional<FunctionFrame> function;
   std::vector<Vec3f> tracks_m;  // material points, in the order of TruthMaker::tracked()
@@ -50,13 +55,15 @@ struct TruthTime {
 struct TruthShared {
   const SurfaceFrame* surfaces = nullptr;
   const PlaneSlice* slice = nullptr;  // of all surfaces
+  const SoundPaths* paths = nullptr;  // those that TruthMaker::pathsFor() names
 };
 
 class TruthMaker {
  public:
-  // References are kept. The field is fitted at once where motion is asked for.
+  // References are kept. The field is fitted at once where motion is asked for. along_paths: at()
+  // is always given paths.
   TruthMaker(const Scene& scene, const MeshMotion& motion, const PictureGrid& grid,
-             double first_phase);
+             double first_phase, bool along_paths = false);
   ~TruthMaker();
 
   const LabelTable& labels() const { return labels_; }
@@ -81,6 +88,10 @@ class TruthMaker {
 
   static bool wanted(const Scene& scene);
 
+  // Which paths at() needs where the picture does not show things at straight path lengths: as
+  // close as half a pixel at the deepest sample, so that labels are within a quarter of one.
+  static SoundPaths pathsFor(const Scene& scene, const PictureGrid& grid);
+
  private:
   struct Space;
   std::shared_ptr<Space> space() const;
@@ -88,15 +99,20 @@ class TruthMaker {
   void lookAtBeat();
   FieldPart tissueInPlane() const;
   void addTracks(const SurfaceFrame& surfaces, const Space& space, FrameTruth& truth) const;
-  void addLabels(const PlaneSlice& slice, FrameTruth& truth) const;
+  void numberLabels(FrameTruth& truth) const;
   const PlaneSlice& sliceOf(const SurfaceFrame& surfaces, const TruthShared& shared,
                             Space& space) const;
-  void addMotion(const TruthTime& time, Space& space, FrameTruth& truth) const;
+  void addPlanes(const SurfaceFrame& surfaces, const TruthSettings& wanted,
+                 const TruthShared& shared, Space& space, FrameTruth& truth) const;
+  FieldPart partAround(const SoundPaths* paths) const;
+  void addMotion(const TruthTime& time, const SoundPaths* paths, Space& space,
+                 FrameTruth& truth) const;
 
   const Scene& scene_;
   const MeshMotion& motion_;
   LabelTable labels_;
   PlaneLabels plane_;
+  std::optional<ShownLabels> shown_;
   bool samples_, motion_wanted_, velocity_;
   std::optional<MotionField> field_;
   std::optional<HeartFunction> function_;

@@ -10,6 +10,7 @@
 #include "core/units.h"
 #include "scene/names.h"
 #include "truth/surface_normals.h"
+#include "truth/surface_weights.h"
 
 namespace echocine {
 
@@ -24,12 +25,6 @@ SurfaceId required(const Scene& scene, Role role) {
                     "them out of truth.write",
                     nameOf(role))));
   return *found;
-}
-
-Vec3d middleOf(const std::vector<Vec3f>& points) {
-  Vec3d sum;
-  for (const Vec3f p : points) sum = sum + toDouble(p);
-  return (1.0 / static_cast<double>(points.size())) * sum;
 }
 
 // So far from a surface its neighbour is looked for. Our choice.
@@ -106,7 +101,7 @@ void HeartFunction::findBase(const SurfaceFrame& surfaces) {
     if (!papillary && beyond != wall_ && beyond != cavity_) base_.push_back(v);
   }
   if (base_.empty()) {
-    const Vec3d middle = middleOf(p);
+    const Vec3d middle = surfaceMiddle(surface.triangles, p);
     const auto far = std::max_element(p.begin(), p.end(), [&](Vec3f a, Vec3f b) {
       return length(toDouble(a) - middle) < length(toDouble(b) - middle);
     });
@@ -120,26 +115,24 @@ void HeartFunction::findAxes(const SurfaceFrame& surfaces) {
   axes_.base_m = axis.base_m;
   axes_.length_m = length(axis.apex_m - axis.base_m);
   axes_.axis = normalised(axis.apex_m - axis.base_m);
+  const auto middleOf = [&](SurfaceId s) {
+    return surfaceMiddle(motion_.surfaces()[index(s)].triangles, surfaces.positions_m[index(s)]);
+  };
   // The septum looks to the right ventricle; without one, to the left of the picture.
   Vec3d septal = acrossAxis({-1, 0, 0}, axes_.axis);
-  if (right_)
-    septal = acrossAxis(middleOf(surfaces.positions_m[index(*right_)]) -
-                            middleOf(surfaces.positions_m[index(cavity_)]),
-                        axes_.axis);
+  if (right_) septal = acrossAxis(middleOf(*right_) - middleOf(cavity_), axes_.axis);
   axes_.septal = length(septal) > 0 ? normalised(septal) : Vec3d{0, 1, 0};
   axes_.anterior = cross(axes_.septal, axes_.axis);
   if (hasRightHeart())
     lateral_ = tricuspid_.farthest(surfaces.positions_m[index(*right_)], axes_.septal);
 }
 
-// From the middle of the mitral ring to the farthest place of the cavity.
+// From the middle of the mitral ring to the farthest place of the cavity: as far as its farthest
+// vertex, in the direction of the area there.
 LongAxis HeartFunction::axisIn(const SurfaceFrame& surfaces) const {
   const std::vector<Vec3f>& p = surfaces.positions_m[index(cavity_)];
   const Vec3d base_m = mitral_.empty() ? toDouble(p[base_.front()]) : mitral_.middle(p);
-  const auto apex = std::max_element(p.begin(), p.end(), [&](Vec3f a, Vec3f b) {
-    return length(toDouble(a) - base_m) < length(toDouble(b) - base_m);
-  });
-  return {base_m, toDouble(*apex)};
+  return {base_m, farthestPlace(motion_.surfaces()[index(cavity_)].triangles, p, base_m)};
 }
 
 ViewLandmarks HeartFunction::landmarks(const SurfaceFrame& at_reference) const {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -38,10 +39,13 @@ struct RingFrame {
 };
 
 struct FunctionFrame {
-  double global_longitudinal_strain = 0;  // mean over the middle of the wall
+  // How the meridians in the middle of the wall change in length, all together: the mean of the
+  // strain along them by arc length.
+  double global_longitudinal_strain = 0;
   SegmentStrains segments{};
-  double view_longitudinal_strain = 0;  // the same of the wall in the imaging plane
-  SegmentStrains view_segments{};
+  // The same of the wall's middle where the imaging plane cuts it at the reference phase.
+  double view_longitudinal_strain = 0;
+  SegmentStrains view_segments{};   // all by arc length
   double length_mm = 0;             // from the middle of the mitral ring to the cavity's apex
   double base_descent_mm = 0;       // of that middle towards the apex, along the first axis
   double tricuspid_descent_mm = 0;  // of that ring's lateral end, along the same axis
@@ -74,13 +78,18 @@ class HeartFunction {
   struct Lengths {
     double longitudinal, circumferential, thickness;
   };
-  // Sums over columns, by segment.
+  // By which a column counts in means: areas and arc lengths of the wall's middle around it.
+  struct Weight {
+    double area_m2 = 0, meridians_m = 0, view_m = 0;
+  };
+  // Weighted sums over columns, by segment.
   struct Means {
     SegmentStrains sums{};
-    std::array<int, kAhaSegments> counts{};
-    double longitudinal = 0;
-    int count = 0;
-    void add(const WallColumn& column, const Lengths& now, const Lengths& first);
+    std::array<double, kAhaSegments> areas{}, lengths{};
+    double longitudinal = 0, length = 0;
+    // length: for longitudinal strain, area: for the rest.
+    void add(const WallColumn& column, double length, double area, const Lengths& now,
+             const Lengths& first);
     SegmentStrains segments() const;
     double global() const;
   };
@@ -88,6 +97,7 @@ class HeartFunction {
   Orifice orificeOf(SurfaceId cavity, Role beyond, const SurfaceFrame& surfaces) const;
   void findAxes(const SurfaceFrame& surfaces);
   void findColumns(const SurfaceFrame& surfaces);
+  void weighColumns(std::span<const Vec3d> normals, std::span<const Vec3f> endocardium);
   Lengths lengths(const WallColumn& column, const SurfaceFrame& surfaces,
                   const FieldFrame& field) const;
   LongAxis axisIn(const SurfaceFrame& surfaces) const;
@@ -108,6 +118,7 @@ class HeartFunction {
   LongAxis first_;             // at the first frame, as all that follows
   Vec3d first_lateral_m_;
   std::vector<WallColumn> columns_;
+  std::vector<Weight> weights_;  // by column
   std::vector<Lengths> first_lengths_;
   std::vector<double> first_rotations_;
 };

@@ -10,6 +10,7 @@
 #include "core/units.h"
 #include "truth/heart_function.h"
 #include "truth/surface_normals.h"
+#include "truth/surface_weights.h"
 
 namespace echocine {
 
@@ -18,9 +19,11 @@ namespace {
 // Half the base over which strain is measured, and the steps in which the wall is felt. Our
 // choices.
 constexpr float kReach_m = 1e-3f, kStep_m = 0.25e-3f, kThickest_m = 30e-3f;
-// Wall whose middle is this near to the imaging plane is in the view: about half a beam. Our
-// choice.
-constexpr float kInView_m = 3e-3f;
+// Across to the axis the direction along a meridian is not known, and at the apex it does not
+// matter.
+constexpr double kAcross = 0.2;
+// Planes through the long axis that the wall's meridians are taken from. Our choice.
+constexpr int kMeridianPlanes = 36;
 // Twist is measured above the cap, whose rotation is ill-defined.
 constexpr double kTwistZeta = 0.9;
 
@@ -38,13 +41,45 @@ void HeartFunction::findColumns(const SurfaceFrame& surfaces) {
     float thickness_m = kStep_m;
     while (thickness_m < kThickest_m && field_.surfaceAt(p[v] + thickness_m * n) == wall_)
       thickness_m += kStep_m;
-    const Vec3d along = acrossAxis(axes_.axis, radial);
-    if (thickness_m < 4 * kStep_m || thickness_m >= kThickest_m || length(along) < 0.2) continue;
+    Vec3d along = acrossAxis(axes_.axis, radial);
+    const bool across = length(along)<kAcross, apical = dot(radial, axes_.axis)> 0;
+    if (thickness_m < 4 * kStep_m || thickness_m >= kThickest_m || (across && !apical)) continue;
+    if (length(along) < 1e-3) along = acrossAxis(axes_.septal, radial);
     const Vec3d longitudinal = normalised(along);
     columns_.push_back({v, p[v], p[v] + 0.5f * thickness_m * n,
                         p[v] + (thickness_m - 0.5f * kStep_m) * n, n, toFloat(longitudinal),
                         toFloat(cross(radial, longitudinal)), ahaSegment(axes_, toDouble(p[v]))});
   }
+  weighColumns(normals, p);
+}
+
+// The middle of the wall is meshed as the endocardium is, half the thickness outside it; where no
+// column stands, by half the mean thickness. So triangles that reach beyond the columns count for
+// those that they hold.
+void HeartFunction::weighColumns(std::span<const Vec3d> normals,
+                                 std::span<const Vec3f> endocardium) {
+  const std::vector<Triangle>& triangles = motion_.surfaces()[index(cavity_)].triangles;
+  double half_m = 0;
+  for (const WallColumn& c : columns_)
+    half_m +=
+        static_cast<double>(length(c.mid_m - c.endo_m)) / static_cast<double>(columns_.size());
+  std::vector<Vec3d> middle_m;
+  for (std::size_t v = 0; v < endocardium.size(); ++v) {
+    const bool flat = !(length(normals[v]) > 0);
+    middle_m.push_back(toDouble(endocardium[v]) +
+                       (flat ? Vec3d{} : half_m * normalised(normals[v])));
+  }
+  for (const WallColumn& c : columns_) middle_m[c.vertex] = toDouble(c.mid_m);
+  const std::vector<double> areas = vertexAreas(triangles, middle_m);
+  std::vector<double> meridians(middle_m.size(), 0), view(middle_m.size(), 0);
+  for (int i = 0; i < kMeridianPlanes; ++i) {
+    const double turn = std::numbers::pi * (i + 0.5) / kMeridianPlanes;
+    addCutLengths(triangles, middle_m, axes_.base_m,
+                  std::cos(turn) * axes_.septal + std::sin(turn) * axes_.anterior, meridians);
+  }
+  addCutLengths(triangles, middle_m, {}, {0, 1, 0}, view);
+  for (const WallColumn& c : columns_)
+    weights_.push_back({areas[c.vertex], meridians[c.vertex], view[c.vertex]});
 }
 
 HeartFunction::Lengths HeartFunction::lengths(const WallColumn& c, const SurfaceFrame& surfaces,
@@ -72,33 +107,39 @@ std::vector<double> HeartFunction::rotations(const SurfaceFrame& surfaces) const
   return rotations;
 }
 
-void HeartFunction::Means::add(const WallColumn& column, const Lengths& now, const Lengths& first) {
+void HeartFunction::Means::add(const WallColumn& column, double by_length, double by_area,
+                               const Lengths& now, const Lengths& first) {
   const auto s = static_cast<std::size_t>(column.segment - 1);
   const double strain = now.longitudinal / first.longitudinal - 1;
-  longitudinal += strain;
-  ++count;
-  ++counts[s];
-  sums[s].longitudinal += strain;
-  sums[s].radial += now.thickness / first.thickness - 1;
-  sums[s].circumferential += now.circumferential / first.circumferential - 1;
-  sums[s].thickness_mm += millimetresFromMetres(now.thickness);
+  longitudinal += by_length * strain;
+  length += by_length;
+  lengths[s] += by_length;
+  areas[s] += by_area;
+  sums[s].longitudinal += by_length * strain;
+  sums[s].radial += by_area * (now.thickness / first.thickness - 1);
+  sums[s].circumferential += by_area * (now.circumferential / first.circumferential - 1);
+  sums[s].thickness_mm += by_area * millimetresFromMetres(now.thickness);
 }
 
 SegmentStrains HeartFunction::Means::segments() const {
   SegmentStrains means{};
   for (std::size_t s = 0; s < kAhaSegments; ++s) {
-    const double share = counts[s] > 0 ? 1.0 / counts[s] : std::numeric_limits<double>::quiet_NaN();
-    means[s] = {share * sums[s].longitudinal, share * sums[s].radial,
-                share * sums[s].circumferential, share * sums[s].thickness_mm};
+    const auto share = [](double weight) {
+      return weight > 0 ? 1 / weight : std::numeric_limits<double>::quiet_NaN();
+    };
+    const double of_area = share(areas[s]);
+    means[s] = {share(lengths[s]) * sums[s].longitudinal, of_area * sums[s].radial,
+                of_area * sums[s].circumferential, of_area * sums[s].thickness_mm};
   }
   return means;
 }
 
 double HeartFunction::Means::global() const {
-  return count > 0 ? longitudinal / count : std::numeric_limits<double>::quiet_NaN();
+  return length > 0 ? longitudinal / length : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Twist is the slope of the rotation over the length, by least squares, from base to apex.
+// Twist is the slope of the rotation over the length, by least squares over the wall's area, from
+// base to apex.
 void HeartFunction::addStrain(const SurfaceFrame& surfaces, const FieldFrame& field,
                               FunctionFrame& f) const {
   Means whole, view;
@@ -107,16 +148,17 @@ void HeartFunction::addStrain(const SurfaceFrame& surfaces, const FieldFrame& fi
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const WallColumn& column = columns_[i];
     const Lengths now = lengths(column, surfaces, field);
-    whole.add(column, now, first_lengths_[i]);
-    if (std::abs(column.mid_m.y) <= kInView_m) view.add(column, now, first_lengths_[i]);
+    const Weight& weight = weights_[i];
+    whole.add(column, weight.meridians_m, weight.area_m2, now, first_lengths_[i]);
+    view.add(column, weight.view_m, weight.view_m, now, first_lengths_[i]);
     const double zeta = axes_.zeta(toDouble(column.endo_m));
     if (zeta > kTwistZeta) continue;
     const double turn = std::remainder(turned[i] - first_rotations_[i], 2 * std::numbers::pi);
-    n += 1;
-    sum_z += zeta;
-    sum_zz += zeta * zeta;
-    sum_t += turn;
-    sum_zt += zeta * turn;
+    n += weight.area_m2;
+    sum_z += weight.area_m2 * zeta;
+    sum_zz += weight.area_m2 * zeta * zeta;
+    sum_t += weight.area_m2 * turn;
+    sum_zt += weight.area_m2 * zeta * turn;
   }
   f.segments = whole.segments();
   f.global_longitudinal_strain = whole.global();

@@ -130,7 +130,7 @@ class LinePainter {
 std::vector<bool> tissueOf(const Scene& scene) {
   std::vector<bool> tissue{false};
   for (const Structure& s : scene.structures)
-    tissue.push_back(!s.membrane && scene.medium(s.medium).name.find("blood") == std::string::npos);
+    tissue.push_back(!s.membrane && !scene.medium(s.medium).blood);
   return tissue;
 }
 
@@ -148,6 +148,37 @@ std::size_t runEnd(std::span<const std::uint32_t> ids, std::size_t begin) {
   return end;
 }
 
+// Samples that stand evenly on a straight piece: sample k at start + k step, up to before `end`.
+struct StraightPiece {
+  Vec3d start_m, step_m;
+  std::size_t end = 0;
+};
+
+StraightPiece wholeLine(const Probe& probe, int line) {
+  const LineGeometry along = lineGeometry(probe, line);
+  const double spacing_m = probe.sampleSpacing();
+  return {along.origin + (probe.min_depth_m + 0.5 * spacing_m) * along.direction,
+          spacing_m * along.direction, static_cast<std::size_t>(probe.samples)};
+}
+
+// The piece that holds sample k.
+StraightPiece pieceFrom(const SoundPath& path, const Probe& probe, std::size_t k) {
+  const ScanGeometry geometry(probe);
+  const auto depth = [&](std::size_t sample) {
+    return geometry.sampleDepth(static_cast<int>(sample));
+  };
+  const std::size_t at = path.pieceAt(depth(k));
+  const SoundPath::Knot &a = path.knots[at], &b = path.knots[at + 1];
+  const double run_m = b.depth_m - a.depth_m;
+  const Vec3d per_depth = run_m > 0 ? (1 / run_m) * (b.place_m - a.place_m) : Vec3d{};
+  StraightPiece piece{a.place_m + (depth(0) - a.depth_m) * per_depth,
+                      probe.sampleSpacing() * per_depth, k + 1};
+  const bool last = at + 2 == path.knots.size();
+  const auto samples = static_cast<std::size_t>(probe.samples);
+  while (piece.end < samples && (last || depth(piece.end) < b.depth_m)) ++piece.end;
+  return piece;
+}
+
 }  // namespace
 
 std::vector<bool> tissueGroups(const Scene& scene, const MotionField& field) {
@@ -159,7 +190,8 @@ std::vector<bool> tissueGroups(const Scene& scene, const MotionField& field) {
 }
 
 void motionPlanes(const Scene& scene, const MotionField& field, const FieldTimes& times,
-                  std::span<const std::uint32_t> ids, bool velocity, MotionPlanes& planes) {
+                  std::span<const std::uint32_t> ids, bool velocity, const SoundPaths* paths,
+                  MotionPlanes& planes) {
   const auto samples = static_cast<std::size_t>(scene.probe.samples);
   for (std::size_t i = 0; i < 3; ++i) {
     planes.displacement_mm[i].clear();
@@ -169,18 +201,22 @@ void motionPlanes(const Scene& scene, const MotionField& field, const FieldTimes
   }
   const std::vector<bool> tissue = tissueOf(scene);
   LinePainter painter(times, velocity, samples);
-  const double spacing_m = scene.probe.sampleSpacing();
   for (std::size_t first = 0; first < ids.size(); first += samples) {
-    const LineGeometry line = lineGeometry(scene.probe, static_cast<int>(first / samples));
-    const Vec3d start_m =
-                    line.origin + (scene.probe.min_depth_m + 0.5 * spacing_m) * line.direction,
-                step_m = spacing_m * line.direction;
+    const std::size_t line = first / samples;
+    const SoundPath* const path =
+        paths ? &paths->paths[line * static_cast<std::size_t>(paths->per_line)] : nullptr;
+    StraightPiece piece = wholeLine(scene.probe, static_cast<int>(line));
     const std::span<const std::uint32_t> of_line = ids.subspan(first, samples);
     for (std::size_t begin = 0, end = 0; begin < samples; begin = end) {
       const std::uint32_t id = of_line[begin];
       end = runEnd(of_line, begin);
+      if (path) {
+        piece = pieceFrom(*path, scene.probe, begin);
+        end = std::min(end, piece.end);
+      }
       if (tissue[id])
-        painter.paint(field.groupOf(static_cast<SurfaceId>(id - 1)), {begin, end}, start_m, step_m);
+        painter.paint(field.groupOf(static_cast<SurfaceId>(id - 1)), {begin, end}, piece.start_m,
+                      piece.step_m);
       else
         painter.fill({begin, end}, std::numeric_limits<float>::quiet_NaN());
     }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/sound_paths.h"
 #include "motion/interior/motion_field.h"
 #include "scene/scene.h"
 
@@ -28,8 +29,10 @@ struct FieldTimes {
 std::vector<bool> tissueGroups(const Scene& scene, const MotionField& field);
 
 // ids: every sample's structure, from 1. Blood and the background have no motion of their own: the
-// one is renewed, the other unknown.
+// one is renewed, the other unknown. Samples stand on their lines at straight path lengths, or on
+// `paths` where given: displacement is the heart's own, of the material that the sample shows.
 void motionPlanes(const Scene& scene, const MotionField& field, const FieldTimes& times,
-                  std::span<const std::uint32_t> ids, bool velocity, MotionPlanes& planes);
+                  std::span<const std::uint32_t> ids, bool velocity, const SoundPaths* paths,
+                  MotionPlanes& planes);
 
 }  // namespace echocine

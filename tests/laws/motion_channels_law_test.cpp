@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "motion/surfaces/interior_motion.h"
+#include "scene/role.h"
 #include "scene/scan_geometry.h"
 #include "scene/scene_reader.h"
 #include "support/paths.h"
@@ -25,6 +26,13 @@ std::optional<Vec3f> polishedReference(const GroupFrame& group, Vec3f place_m) {
     *reference = *reference + (place_m - group.place(*reference));
   if (!reference || group.volumeRatio(*reference) <= 0) return std::nullopt;
   return reference;
+}
+
+// What holds blood in a heart, by its anatomy.
+bool isLumen(Role role) {
+  constexpr Role kLumens[] = {Role::lv_cavity, Role::rv_cavity, Role::la,
+                              Role::ra,        Role::aorta,     Role::pulmonary_artery};
+  return std::find(std::begin(kLumens), std::end(kLumens), role) != std::end(kLumens);
 }
 
 struct Agreement {
@@ -53,7 +61,7 @@ Agreement agreementOf(Scene scene) {
       const std::uint32_t id = truth.sample_ids[i];
       if (id == 0) continue;
       const Structure& structure = scene.structures[id - 1];
-      if (scene.medium(structure.medium).name.find("blood") != std::string::npos) continue;
+      if (isLumen(roleOf(structure))) continue;
       const LineGeometry line = lineGeometry(scene.probe, static_cast<int>(i / samples));
       const double path_m = ScanGeometry(scene.probe).sampleDepth(static_cast<int>(i % samples));
       const Vec3f place = toFloat(line.origin + path_m * line.direction);

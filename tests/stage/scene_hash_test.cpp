@@ -37,6 +37,7 @@ std::optional<std::pair<std::string, std::string>> twoValuesOf(const std::string
       {"media.sound_speed_m_s", {"1500", "1501"}},
       {"media.attenuation_db_cm_mhz", {"0.5", "0.6"}},
       {"media.attenuation_exponent", {"1", "1.1"}},
+      {"media.blood", {"true", "false"}},
       {"media.backscatter.kind", {"\"none\"", "\"fixed\"\nper_cm_sr = 1e-4"}},
       {"media.backscatter.per_cm_sr", {"1e-4", "2e-4"}},
       {"media.backscatter.velocity_variation", {"0.01", "0.02"}},

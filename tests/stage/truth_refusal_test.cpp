@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "frame/simulator.h"
 #include "support/scene_text.h"
 
@@ -48,6 +50,26 @@ TEST(TruthRefusal, WhatCanBeToldIs) {
   EXPECT_EQ(truthRefusalOf(ventricle("write = [\"all\"]\nlabels = {lv_cavity = 1, lv_wall = 2}")),
             "");
   EXPECT_EQ(truthRefusalOf(ventricle("")), "none was requested");
+}
+
+// What the scene has is given, the rest is named by a warning; kinds by name are refused as ever.
+TEST(TruthRefusal, AllIsWhatTheSceneHas) {
+  const NamedMeshes meshes{{"outer", ball(30, {0, 0, 60})}, {"inner", ball(20, {0, 0, 60})}};
+  const Scene scene =
+      parseScene(ventricle("write = [\"all\"]", "rv_wall").text(), "scene.toml", meshes);
+  const auto told =
+      std::count_if(scene.warnings.begin(), scene.warnings.end(),
+                    [](const std::string& w) { return w.find("leaves out") != std::string::npos; });
+  ASSERT_EQ(told, 1);
+  expectNames(scene.warnings[0], {"tracks", "function", "lv_wall"});
+  EXPECT_EQ(scene.warnings[0].find("lv_cavity"), std::string::npos);
+  EXPECT_TRUE(scene.truth.labels && scene.truth.contours);
+  EXPECT_FALSE(scene.truth.tracks || scene.truth.function);
+  const Frame frame = Simulator(scene).frame(0);
+  EXPECT_FALSE(frame.truth->labels.empty());
+  EXPECT_EQ(frame.truth->contours.size(), 2u);
+  EXPECT_FALSE(frame.truth->function);
+  EXPECT_NE(truthRefusalOf(ventricle("write = [\"all\", \"tracks\"]", "rv_wall")), "");
 }
 
 TEST(TruthRefusal, LabelsOfARoleThatNothingHas) {

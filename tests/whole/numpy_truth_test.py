@@ -67,11 +67,11 @@ class Truth(unittest.TestCase):
             area = 0.5 * abs(numpy.dot(x, numpy.roll(z, 1)) - numpy.dot(z, numpy.roll(x, 1)))
             self.assertGreater(area, 1000)
 
-    def test_labels_are_pictures_of_8_bits_with_a_palette(self):
+    def test_labels_are_grey_pictures_of_8_bits(self):
         for k in range(FRAMES):
             with open(self.file(f"labels_{k:04}.png"), "rb") as file:
                 head = file.read(26)
-            self.assertEqual(struct.unpack(">IIBB", head[16:26]), (800, 600, 8, 3))
+            self.assertEqual(struct.unpack(">IIBB", head[16:26]), (800, 600, 8, 0))
         labels = self.json("labels.json")
         self.assertIn("lv_cavity", labels["labels"].values())
 

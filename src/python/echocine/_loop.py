@@ -322,7 +322,7 @@ def _npz(file: Path, name: str) -> Any:
 
 
 def _png(file: Path) -> NDArray[np.uint8]:
-    """Values of an 8-bit PNG with a palette or greys, as label pictures are."""
+    """Values of an 8-bit PNG of greys, or with a palette, as earlier label pictures had."""
     data = file.read_bytes()
     try:
         at, header, packed = 8, b"", b""
