@@ -243,11 +243,11 @@ TEST(CompareFit, DiscrepancyIsSmoothInTheModel) {
 // A mean of the terms: where all are alike it is what each is, whatever their weights.
 TEST(CompareFit, DiscrepancyIsAMeanOfItsTerms) {
   FitTerms terms;
-  terms.in_sight = 1;
+  terms.overlap = 1;
   terms.region = terms.boundary = terms.motion = 0.6;
   EXPECT_NEAR(fitDiscrepancy(terms), 0.6, 1e-12);
   EXPECT_NEAR(fitDiscrepancy(terms, {.region = 1, .boundary = 2, .motion = 5}), 0.6, 1e-12);
-  terms.in_sight = 0.5;  // what is out of sight is unrelated
+  terms.overlap = 0.5;  // what is out of sight is unrelated
   EXPECT_NEAR(fitDiscrepancy(terms), 0.8, 1e-12);
 }
 
