@@ -20,7 +20,9 @@ mkdir -p "$work/findings"
 
 for target in "${targets[@]}"; do
   dictionary=()
+  runs=5000
   case $target in
+    ecg) runs=500 ;;  # each run reads a loop of pictures
     scene | spec) dictionary=(-dict=toml.dict) ;;
     video) limits+=(-max_len=16384 -rss_limit_mb=2048) ;;
     lid | obj | off | ply | stl) dictionary=(-dict=mesh.dict) ;;
@@ -33,7 +35,7 @@ for target in "${targets[@]}"; do
     rm -rf "$work/short"
     mkdir -p "$work/short"
     folders=("$work/short" "corpus/$target")
-    length=(-runs=5000 -seed=1)
+    length=(-runs=$runs -seed=1)
   fi
   log=$work/$target.log
   if ! "$build/fuzz_$target" "${limits[@]}" "${dictionary[@]}" "${length[@]}" \
