@@ -12,8 +12,8 @@ namespace echocine {
 
 class SceneSpeckle {
  public:
-  SceneSpeckle(const Scene& scene, const MeshMotion& motion, const EffectPlan& plan,
-               const Trabeculae* trabeculae);
+  SceneSpeckle(const Scene& scene, const MeshMotion& motion, const SharedMotionField& field,
+               const EffectPlan& plan, const Trabeculae* trabeculae);
 
   // Of some lines the intensities after the average over the beam, in place, and what of them is
   // coherent. `surfaces` are those of the instant. Thread-safe; frames of equal time are equal.

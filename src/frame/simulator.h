@@ -134,6 +134,7 @@ class Simulator {
   const CardiacClock cardiac_clock_;
   const SignalChain chain_;
   const FrameRays rays_;
+  const SharedMotionField field_;  // of speckle and of truth
   // Null where the plan leaves the effect out.
   std::unique_ptr<const Trabeculae> trabeculae_;
   std::unique_ptr<const SceneSpeckle> speckle_;

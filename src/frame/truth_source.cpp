@@ -11,7 +11,7 @@ const TruthMaker* TruthSource::maker() const {
   std::call_once(once_, [this] {
     if (TruthMaker::wanted(scene_))
       maker_ = std::make_unique<const TruthMaker>(scene_, motion_, pictureGrid(scene_),
-                                                  clock_.at(0).phase);
+                                                  clock_.at(0).phase, &field_);
   });
   return maker_.get();
 }

@@ -15,9 +15,14 @@ class TruthSource {
  public:
   // References are kept. Without a group of lines all are of the frame's instant. `as_traced`: the
   // slice that is traced is that of the smooth surfaces, and of all of them.
-  TruthSource(const Scene& scene, const MeshMotion& motion, const CardiacClock& clock,
-              const RollingLines* rolling, bool as_traced)
-      : scene_(scene), motion_(motion), clock_(clock), rolling_(rolling), as_traced_(as_traced) {}
+  TruthSource(const Scene& scene, const MeshMotion& motion, const SharedMotionField& field,
+              const CardiacClock& clock, const RollingLines* rolling, bool as_traced)
+      : scene_(scene),
+        motion_(motion),
+        field_(field),
+        clock_(clock),
+        rolling_(rolling),
+        as_traced_(as_traced) {}
 
   // Fitted by the first call; nullptr where the scene asks for no truth. Errors: those of
   // TruthMaker. Thread-safe.
@@ -32,6 +37,7 @@ class TruthSource {
 
   const Scene& scene_;
   const MeshMotion& motion_;
+  const SharedMotionField& field_;
   const CardiacClock& clock_;
   const RollingLines* rolling_;
   const bool as_traced_;

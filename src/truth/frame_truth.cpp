@@ -47,7 +47,7 @@ bool TruthMaker::wanted(const Scene& scene) {
 }
 
 TruthMaker::TruthMaker(const Scene& scene, const MeshMotion& motion, const PictureGrid& grid,
-                       double first_phase)
+                       double first_phase, const SharedMotionField* shared)
     : scene_(scene),
       motion_(motion),
       labels_(labelTable(scene)),
@@ -56,7 +56,8 @@ TruthMaker::TruthMaker(const Scene& scene, const MeshMotion& motion, const Pictu
       motion_wanted_(wantsAny(scene, isMotion)),
       velocity_(wantsAny(scene, isVelocity)) {
   if (!motion_wanted_ && !scene.truth.tracks && !scene.truth.function) return;
-  field_.emplace(interiorMotion(scene, motion));
+  if (shared == nullptr) shared = &own_field_.emplace(scene, motion);
+  field_ = &shared->field();
   field_->at(first_phase, first_);
   in_plane_ = tissueInPlane();
   if (!scene.truth.tracks && !scene.truth.function) return;

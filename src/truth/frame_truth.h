@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "motion/interior/motion_field.h"
+#include "motion/interior_motion.h"
 #include "motion/mesh_motion.h"
 #include "truth/contour.h"
 #include "truth/heart_function.h"
@@ -54,13 +54,14 @@ struct TruthShared {
 
 class TruthMaker {
  public:
-  // References are kept. The field is fitted at once where motion is asked for.
+  // References are kept. The field is fitted at once where motion is asked for; null: by itself.
   TruthMaker(const Scene& scene, const MeshMotion& motion, const PictureGrid& grid,
-             double first_phase);
+             double first_phase, const SharedMotionField* shared = nullptr);
   ~TruthMaker();
 
   const LabelTable& labels() const { return labels_; }
-  const std::optional<MotionField>& field() const { return field_; }
+  // Null where nothing of truth moves.
+  const MotionField* field() const { return field_; }
 
   // The material points that are tracked: endocardium, middle and epicardium of so many columns
   // through the wall, those nearest to the imaging plane at the reference phase.
@@ -98,7 +99,8 @@ class TruthMaker {
   LabelTable labels_;
   PlaneLabels plane_;
   bool samples_, motion_wanted_, velocity_;
-  std::optional<MotionField> field_;
+  std::optional<SharedMotionField> own_field_;
+  const MotionField* field_ = nullptr;
   std::optional<HeartFunction> function_;
   std::vector<Tracked> tracked_;
   FieldPart in_plane_, about_tracks_;  // what a frame blends for motion and for tracks
