@@ -72,7 +72,8 @@ void settle(const EcgCurve& curve, const std::vector<bool>& used, bool pace_know
       ++n, f_sum += f, x_sum += c->first, ff += double(f) * f, fx += double(f) * c->first;
     }
     const double spread = n * ff - f_sum * f_sum;
-    if (!pace_known && n > 2 && spread > 0) pass.pace = (n * fx - f_sum * x_sum) / spread;
+    const double fitted = spread > 0 ? (n * fx - f_sum * x_sum) / spread : 0;
+    if (!pace_known && n > 2 && fitted >= kSlowest_px) pass.pace = fitted;
     if (n > 0) pass.at = (x_sum - pass.pace * f_sum) / n;
   }
   countFrames(curve, used, pass);
@@ -127,7 +128,8 @@ void leaveErasing(const EcgCurve& curve, const std::vector<bool>& used, Pass& pa
   }
 }
 
-// One pace for all passes, by least squares about the middle of each.
+// One pace for all passes, by least squares about the middle of each. Changes that no head makes
+// may fit a pace below the slowest, backwards too: then there are no passes.
 void settleTogether(const EcgCurve& curve, std::vector<Pass>& passes) {
   double spread = 0, together = 0;
   for (const Pass& pass : passes) {
@@ -141,6 +143,7 @@ void settleTogether(const EcgCurve& curve, std::vector<Pass>& passes) {
   }
   if (!(spread > 0)) return;
   const double pace = together / spread;
+  if (!(pace >= kSlowest_px)) return passes.clear();
   for (Pass& pass : passes) {  // turned about its middle frame
     const double middle = 0.5 * (pass.from + pass.to);
     pass.at += (pass.pace - pace) * middle;
