@@ -1,9 +1,6 @@
 #pragma once
 // Tissue as the motion field carries it: speckle and truth move by one field.
 
-#include <memory>
-#include <optional>
-
 #include "motion/surfaces/interior_motion.h"
 #include "motion/surfaces/trabeculae.h"
 #include "speckle/block_reach.h"
@@ -15,10 +12,9 @@ namespace echocine {
 class FieldMaterial : public Material {
  public:
   // Tissue is alike everywhere but where the plan has heterogeneity or anisotropy; no plan:
-  // neither. Trabeculae that stand in a cavity belong to the wall behind them. `shared` is kept by
-  // reference; null: a field of its own.
+  // neither. Trabeculae that stand in a cavity belong to the wall behind them.
   FieldMaterial(const Scene& scene, const MeshMotion& motion, const EffectPlan* plan = nullptr,
-                const Trabeculae* trabeculae = nullptr, const SharedMotionField* shared = nullptr);
+                const Trabeculae* trabeculae = nullptr);
   ~FieldMaterial() override;
 
   CubeLattice lattice() const override { return lattice_; }
@@ -39,8 +35,7 @@ class FieldMaterial : public Material {
 
  private:
   struct Ridges;
-  std::optional<SharedMotionField> own_field_;
-  const MotionField& field_;
+  MotionField field_;
   std::vector<Ridges> ridges_;
   BlockReach reach_;
   CubeLattice lattice_;
