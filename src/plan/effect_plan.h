@@ -52,6 +52,9 @@ struct EffectPlan {
   // Precondition: not Effect::channel.
   const EffectDecision& decision(Effect effect) const;
   EffectDecision& decision(Effect effect);
+
+  // Can a picture show anything? One medium alone shows its speckle.
+  bool shows() const { return contrast || speckle; }
 };
 
 // What the scene file alone decides. Refraction stays on here where any ray could bend; how far

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "speckle/coherent_ratio.h"
+#include "speckle/splat.h"
 #include "trace/coherent_echoes.h"
 
 namespace echocine {

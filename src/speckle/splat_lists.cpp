@@ -29,11 +29,16 @@ inline Floats8 fallingExp(Floats8 u) {
   return e * e;
 }
 
+// Places in steps between samples or lines.
+inline Ints8 stepsOf(const float* places) {
+  return __builtin_convertvector(kTapSteps * lanesAt(places), Ints8);
+}
+
 // By lane: its four numbers side by side.
 struct LaneSplats {
   Splat lane[kFloatLanes];
-  LaneSplats(Floats8 real, Floats8 imaginary, Floats8 squares, Ints8 samples) {
-    const Floats8 at = reinterpret_cast<Floats8>(samples);
+  LaneSplats(Floats8 real, Floats8 imaginary, Floats8 squares, Ints8 places) {
+    const Floats8 at = reinterpret_cast<Floats8>(places);
     const Floats8 a = __builtin_shufflevector(real, imaginary, 0, 8, 1, 9, 4, 12, 5, 13),
                   b = __builtin_shufflevector(real, imaginary, 2, 10, 3, 11, 6, 14, 7, 15),
                   c = __builtin_shufflevector(squares, at, 0, 8, 1, 9, 4, 12, 5, 13),
@@ -66,7 +71,7 @@ void SplatLists::sortWhole() {
   Waiting& w = waiting_;
   const std::size_t whole = w.count / kFloatLanes * kFloatLanes;
   for (std::size_t k = 0; k < whole; k += kFloatLanes) sort(k, kFloatLanes);
-  for (float* list : {w.q, w.turns, w.real, w.imaginary, w.at})
+  for (float* list : {w.q, w.turns, w.real, w.imaginary, w.line, w.sample})
     std::copy(list + whole, list + w.count, list);
   w.count -= whole;
 }
@@ -91,13 +96,13 @@ inline void SplatLists::sort(std::size_t first, std::size_t count) {
   const Floats8 sine = sineOfQuarters(4 * (part > 0.25f ? half - f : f));
   const Floats8 cosine = sineOfQuarters(1 - 4 * part);
   const Floats8 cr = lanesAt(w.real + first), ci = lanesAt(w.imaginary + first);
-  const Ints8 at = reinterpret_cast<Ints8>(lanesAt(w.at + first));
+  const Ints8 line = stepsOf(w.line + first), sample = stepsOf(w.sample + first);
   const LaneSplats splats(e * (cr * cosine + ci * sine), e * (ci * cosine - cr * sine), e * e,
-                          at & 0xffff);
+                          (line & (kTapSteps - 1)) << Splat::kLineBits | sample);
   std::uint32_t lines[kFloatLanes];
-  std::memcpy(lines, w.at + first, sizeof lines);
+  std::memcpy(lines, &line, sizeof lines);
   for (std::size_t i = 0; i < count; ++i) {
-    List& list = lists_[lines[i] >> 16];
+    List& list = lists_[lines[i] / kTapSteps];
     if (list.next == list.end) grow(list);
     *list.next++ = splats.lane[i];
     __builtin_prefetch(list.next + kAhead, 1);
