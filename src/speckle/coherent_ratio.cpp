@@ -10,10 +10,10 @@ namespace echocine {
 namespace {
 
 // What a line's rows are rounded up to.
-constexpr std::size_t kStep = 4 * kFloatLanes;
+constexpr std::size_t kRowStep = 4 * kFloatLanes;
 
 std::size_t lengthOf(int samples) {
-  return (static_cast<std::size_t>(samples) + kStep - 1) / kStep * kStep;
+  return (static_cast<std::size_t>(samples) + kRowStep - 1) / kRowStep * kRowStep;
 }
 
 float* floatsOf(std::vector<CacheLine>& lines) {

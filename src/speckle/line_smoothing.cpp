@@ -10,7 +10,6 @@ namespace echocine {
 
 namespace {
 
-constexpr double kCutDeviations = 2.5;
 // Bells of 8 blocks or more are taken of the means of blocks. By time, and within 1e-3.
 constexpr double kBlocksPerDeviation = 8;
 // Summed at once: four chains that do not wait for each other.

@@ -15,6 +15,9 @@ inline constexpr double kWidthAtHalf = 2.3548200450309493;
 // exp(-(distance / deviation)^2 / 2); without a deviation 1 at its middle and 0 beside it.
 double bell(double distance, double deviation);
 
+// Where bells are cut: 4 % of the amplitude. All sums are cut alike, so no law depends on it.
+inline constexpr double kCutDeviations = 2.5;
+
 struct PointSpread {
   // pulse_cycles: of the signal's pulse.
   PointSpread(const Probe& probe, double pulse_cycles);

@@ -10,20 +10,19 @@ namespace echocine {
 
 namespace {
 
-constexpr double kCutDeviations = 2.5;   // across the lines: 4 % of the amplitude
 constexpr double kRowsPerDeviation = 2;  // at half the depth. Our choice: see the README
 constexpr int kMostRowsPerLine = 8;
-constexpr double kLeastDeviation = 0.5;  // rows. Near a linear probe's face cells vanish
-constexpr int kFours = 4;                // lanes that axial taps are a multiple of
-constexpr std::ptrdiff_t kPlanes = 3;    // of a row: real, imaginary, squares
+constexpr double kLeastRows = 0.5;     // rows. Near a linear probe's face cells vanish
+constexpr int kFours = 4;              // lanes that axial taps are a multiple of
+constexpr std::ptrdiff_t kPlanes = 3;  // of a row: real, imaginary, squares
 constexpr std::ptrdiff_t kCacheLine = std::size(CacheLine{}.floats);
 
 // What is summed at once: chains that do not wait for each other.
-constexpr std::ptrdiff_t kLanes = kFloatLanes, kChains = 4, kStep = kChains * kLanes;
+constexpr std::ptrdiff_t kSumLanes = kFloatLanes, kSumChains = 4, kSumStep = kSumChains * kSumLanes;
 // Rows are summed piece by piece: what one line has read the next finds in the nearest cache.
 constexpr std::ptrdiff_t kPiece = 64;
 
-std::ptrdiff_t whole(std::ptrdiff_t floats, std::ptrdiff_t of) {
+std::ptrdiff_t roundedUp(std::ptrdiff_t floats, std::ptrdiff_t of) {
   return (floats + of - 1) / of * of;
 }
 
@@ -73,23 +72,26 @@ struct LateralTaps {
 SplatSums::SplatSums(const Probe& probe, const PointSpread& spread, const BeamView& view)
     : lines_(probe.lines),
       samples_(probe.samples),
-      length_(whole(probe.samples, kPiece)),
+      length_(roundedUp(probe.samples, kPiece)),
       axial_(spread.axial_m / probe.sampleSpacing(), kFours) {
   const ScanGeometry geometry(probe);
   const double middle = view.lateralLines(geometry.sampleDepth(samples_ / 2));
   rows_per_line_ = std::clamp(static_cast<int>(std::ceil(kRowsPerDeviation / middle)), 1,
                               lines_ > 1 ? kMostRowsPerLine : 1);
+  // Two rows widen the bell by t (1 - t), on average a sixth of a row squared.
+  constexpr double kWidened = 1.0 / 6;
   std::vector<double> deviations;
-  for (int k = 0; k < samples_; ++k)
-    deviations.push_back(
-        std::max(rows_per_line_ * view.lateralLines(geometry.sampleDepth(k)), kLeastDeviation));
+  for (int k = 0; k < samples_; ++k) {
+    const double rows = rows_per_line_ * view.lateralLines(geometry.sampleDepth(k));
+    deviations.push_back(std::sqrt(std::max(rows * rows - kWidened, kLeastRows * kLeastRows)));
+  }
   const auto [least, most] = std::minmax_element(deviations.begin(), deviations.end());
   even_ = *most - *least < 1e-6 * *most;
   taps_ =
       std::min(static_cast<int>(std::ceil(kCutDeviations * *most - 0.5)), lines_ * rows_per_line_);
-  pad_ = whole(axial_.taps(), kCacheLine);
+  pad_ = roundedUp(axial_.taps(), kCacheLine);
   // An odd number of cache lines: rows a power of two apart would share few sets of the cache.
-  stride_ = (whole(length_ + 2 * pad_, kCacheLine) / kCacheLine | 1) * kCacheLine;
+  stride_ = (roundedUp(length_ + 2 * pad_, kCacheLine) / kCacheLine | 1) * kCacheLine;
   const auto size = static_cast<std::size_t>(taps_ + 1) * static_cast<std::size_t>(length_);
   lateral_.resize(size);
   squares_.resize(size);
@@ -208,9 +210,9 @@ void SplatSums::sumRows(LineRange group, Rows& rows) const {
   };
   // Pairs of rows either side.
   const auto step = [&](const float* const* middle, std::ptrdiff_t k, float* to) {
-    Floats8 r[kChains], i[kChains], s[kChains];
-    for (std::ptrdiff_t c = 0; c < kChains; ++c) {
-      const std::ptrdiff_t at = k + c * kLanes;
+    Floats8 r[kSumChains], i[kSumChains], s[kSumChains];
+    for (std::ptrdiff_t c = 0; c < kSumChains; ++c) {
+      const std::ptrdiff_t at = k + c * kSumLanes;
       const float* row = *middle + at;
       r[c] = tap(lateral_, 0, at) * lanesAt(row);
       i[c] = tap(lateral_, 0, at) * lanesAt(row + next);
@@ -218,8 +220,8 @@ void SplatSums::sumRows(LineRange group, Rows& rows) const {
     }
     for (int t = 1; t <= taps_; ++t) {
       const float *below = *(middle - t), *above = *(middle + t);
-      for (std::ptrdiff_t c = 0; c < kChains; ++c) {
-        const std::ptrdiff_t at = k + c * kLanes;
+      for (std::ptrdiff_t c = 0; c < kSumChains; ++c) {
+        const std::ptrdiff_t at = k + c * kSumLanes;
         const Floats8 h = tap(lateral_, t, at);
         r[c] += h * (lanesAt(below + at) + lanesAt(above + at));
         i[c] += h * (lanesAt(below + next + at) + lanesAt(above + next + at));
@@ -227,8 +229,8 @@ void SplatSums::sumRows(LineRange group, Rows& rows) const {
                 (lanesAt(below + 2 * next + at) + lanesAt(above + 2 * next + at));
       }
     }
-    for (std::ptrdiff_t c = 0; c < kChains; ++c) {
-      const std::ptrdiff_t at = k + c * kLanes;
+    for (std::ptrdiff_t c = 0; c < kSumChains; ++c) {
+      const std::ptrdiff_t at = k + c * kSumLanes;
       store(r[c], to + at);
       store(i[c], to + next + at);
       store(s[c], to + 2 * next + at);
@@ -236,7 +238,7 @@ void SplatSums::sumRows(LineRange group, Rows& rows) const {
   };
   for (std::ptrdiff_t from = 0; from < length_; from += kPiece)
     for (int i = 0; i < group.count(); ++i)
-      for (std::ptrdiff_t k = from; k < from + kPiece; k += kStep)
+      for (std::ptrdiff_t k = from; k < from + kPiece; k += kSumStep)
         step(of_row.data() + taps_ + i * rows_per_line_, k,
              rows.sums.front().floats + i * 3 * stride_);
 }

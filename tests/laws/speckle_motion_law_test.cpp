@@ -13,8 +13,7 @@ using namespace support;
 constexpr int kSamples = 320, kFiner = 16, kFinerLines = 8;
 constexpr double kSpacing_m = 0.15625e-3;  // 1,024 samples in 16 cm
 
-// Law of a picture against the finer one at places that match: RMS of their ratio, dB, and
-// correlation.
+// Two pictures at places that match: RMS of their ratio, dB, and correlation.
 struct Agreement {
   double flicker_db = 0, correlation = 0;
 };
