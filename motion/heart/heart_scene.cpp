@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "motion/heart/recording.h"
 #include "motion/heart/units.h"
 #include "scene/names.h"
 #include "scene/role.h"

@@ -11,6 +11,8 @@
 
 namespace echocine {
 
+struct Workspace;
+
 // A frame on its way into a sink, which may move out of it what it keeps.
 struct MadeFrame {
   FrameTime time;

@@ -11,6 +11,7 @@
 #include "core/folder_lock.h"
 #include "core/parallel.h"
 #include "motion/heart/heart_scene.h"
+#include "motion/heart/recording.h"
 #include "motion/heart/truth.h"
 
 namespace echocine {

@@ -13,30 +13,11 @@
 #include "truth/label_table.h"
 #include "truth/motion_planes.h"
 #include "truth/plane_labels.h"
+#include "truth/truth_values.h"
 #include "truth/valve_times.h"
 #include "truth/view_offset.h"
 
 namespace echocine {
-
-struct FrameTruth {
-  PlaneLabels::Ids picture_ids;           // structures at the picture's pixels, from 1
-  std::vector<std::uint8_t> labels;       // the same by the scene's numbers
-  std::vector<std::uint32_t> sample_ids;  // structures at the samples
-  std::vector<Contour> contours;          // whole, before the sector cuts them
-  MotionPlanes motion;
-  std::optional<FunctionFrame> function;
-  std::vector<Vec3f> tracks_m;  // material points, in the order of TruthMaker::tracked()
-  // All but what a loop's own files collect.
-  void forgetPlanes() {
-    picture_ids = {};
-    labels = {};
-    sample_ids = {};
-    contours = {};
-    motion = {};
-  }
-  // A channel's plane; one of the two is empty.
-  std::span<const float> values(Channel channel) const;
-};
 
 // An instant and its neighbours, from which velocity is taken.
 // planes_only: what stands at pixels and samples; nothing of contours, function and tracks.
