@@ -80,8 +80,8 @@ Pairs pairsFrom(const std::vector<Leaf>& leaves, std::size_t start, double& angl
 }
 
 Pairs pairsByAngle(const std::vector<Leaf>& leaves) {
-  // With an even number there are two pairings; with an odd one as many as faces, of which only the
-  // first few are tried.
+  // An even number of faces has two pairings; an odd one has as many as faces, and only the first
+  // few are tried.
   constexpr std::size_t kMostTried = 16;
   const std::size_t tried = leaves.size() % 2 == 0 ? 2 : std::min(leaves.size(), kMostTried);
   double least = 0;

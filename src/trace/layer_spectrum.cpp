@@ -88,7 +88,7 @@ double ringing(const LayerFaces& faces) {
   return cycles;
 }
 
-// What turns back twice in each layer is so little that the first nodes hold all of it.
+// The wave reflected twice in each layer is so weak that the first nodes suffice.
 bool isWeak(const LayerFaces& faces) {
   constexpr double kWeakReflectance = 0.05;
   for (std::size_t i = 0; i < faces.layers; ++i)

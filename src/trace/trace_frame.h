@@ -19,8 +19,8 @@ struct PlaneRequest {
   IntensityTerms intensity_terms;
 };
 
-// For a frame of which only some lines are used: the lines of the channels, and for each line the
-// number of samples of intensities, from the first.
+// For a frame that uses only some lines: the lines of the channels, and for each line the number of
+// intensity samples, from the first.
 struct NeededSamples {
   LineRange lines;
   std::vector<int> intensities;

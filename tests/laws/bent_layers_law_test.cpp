@@ -30,7 +30,7 @@ struct FlatStack {
     }
     return scene;
   }
-  // What a ray meets beyond its origin. Surface l is layer l, closed by the plane behind it.
+  // Crossings of a ray beyond its origin. Surface l is layer l, closed by the plane behind it.
   std::vector<Crossing> crossings(const Ray& ray, double beyond_m) const {
     std::vector<Crossing> met;
     const Vec3d n = normal();

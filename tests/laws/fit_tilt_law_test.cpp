@@ -78,7 +78,7 @@ TEST(CompareTilt, TheLeastOfBothAnglesIsFound) {
     EXPECT_GE(valueAt(3, -2), found.found.discrepancy);
     EXPECT_LT(found.found.discrepancy, found.untilted);
     EXPECT_FALSE(found.at_limit);
-    // Beyond what was requested nothing is looked at, and that is told.
+    // The search stays within the requested limit and reports that it ends there.
     const TiltFound short_of = searched(d, 1.5);
     EXPECT_NEAR(degreesFromRadians(short_of.tilt.tilt_rad), 1.5, 1e-9);
     EXPECT_TRUE(short_of.at_limit);

@@ -28,7 +28,7 @@ std::optional<Vec3f> polishedReference(const GroupFrame& group, Vec3f place_m) {
   return reference;
 }
 
-// What holds blood in a heart, by its anatomy.
+// Whether a structure holds blood, by its anatomy.
 bool isLumen(Role role) {
   constexpr Role kLumens[] = {Role::lv_cavity, Role::rv_cavity, Role::la,
                               Role::ra,        Role::aorta,     Role::pulmonary_artery};
