@@ -1,5 +1,7 @@
 #include "motion/interior/folds.h"
 
+#include <algorithm>
+
 namespace echocine {
 
 namespace {
@@ -7,12 +9,15 @@ namespace {
 // A cell that keeps less than this part of its volume at a keyframe is about to fold: its
 // surroundings are made this much stiffer. Our choices.
 constexpr float kLeastVolume = 0.05f, kStiffer = 4;
+// One that keeps this part is not looked at in later rounds, which change little there. Our choice.
+constexpr float kSafeVolume = 0.5f;
 
-// Does the map turn over, or nearly, at a corner of the cell at any keyframe? Corner numbers have
-// bit 0 for x, 1 for z, 2 for y.
-bool folds(const GroupLattice& lattice, std::span<const PhaseClass> classes,
-           const std::uint32_t (&corners)[8]) {
+// The least part of its volume that a corner of the cell keeps at any keyframe; once it is about to
+// fold, no less is looked for. Corner numbers have bit 0 for x, 1 for z, 2 for y.
+float leastVolume(const GroupLattice& lattice, std::span<const PhaseClass> classes,
+                  const std::uint32_t (&corners)[8]) {
   const float h = lattice.grid.spacing_m;
+  float least = 1;
   for (std::size_t c = 0; c < classes.size(); ++c)
     for (std::size_t k = 0; k < classes[c].weights.keyframeCount(); ++k) {
       const std::vector<Vec3f>& row = lattice.rows_m[c][k];
@@ -22,16 +27,17 @@ bool folds(const GroupLattice& lattice, std::span<const PhaseClass> classes,
         const Vec3f x = Vec3f{h, 0, 0} + d[i | 1] - d[i & 6],
                     z = Vec3f{0, 0, h} + d[i | 2] - d[i & 5],
                     y = Vec3f{0, h, 0} + d[i | 4] - d[i & 3];
-        if (dot(x, cross(y, z)) < kLeastVolume * h * h * h) return true;
+        least = std::min(least, dot(x, cross(y, z)) / (h * h * h));
       }
+      if (least < kLeastVolume) return least;
     }
-  return false;
+  return least;
 }
 
 }  // namespace
 
 bool stiffenFolds(const GroupLattice& lattice, std::span<const PhaseClass> classes,
-                  const std::vector<bool>& used, std::span<float> stiffness) {
+                  std::vector<bool>& used, std::span<float> stiffness) {
   const LatticeGrid& grid = lattice.grid;
   std::vector<bool> stiffer(stiffness.size(), false);
   bool found = false;
@@ -46,7 +52,10 @@ bool stiffenFolds(const GroupLattice& lattice, std::span<const PhaseClass> class
           whole &= n >= 0;
           corners[i] = static_cast<std::uint32_t>(n);
         }
-        if (!whole || !used[corners[0]] || !folds(lattice, classes, corners)) continue;
+        if (!whole || !used[corners[0]]) continue;
+        const float least = leastVolume(lattice, classes, corners);
+        if (least > kSafeVolume) used[corners[0]] = false;
+        if (!(least < kLeastVolume)) continue;
         found = true;
         for (const std::uint32_t n : corners) stiffer[n] = true;
       }

@@ -10,8 +10,8 @@ namespace echocine {
 
 // Makes the corners of cells stiffer that lose nearly all their volume, or turn over, at a
 // keyframe. False when there is none. used: cells that count, by their first active node;
-// stiffness: by active node.
+// those that keep half of their volume are taken out. stiffness: by active node.
 bool stiffenFolds(const GroupLattice& lattice, std::span<const PhaseClass> classes,
-                  const std::vector<bool>& used, std::span<float> stiffness);
+                  std::vector<bool>& used, std::span<float> stiffness);
 
 }  // namespace echocine

@@ -27,6 +27,7 @@ class CellLayer {
   void layGrid();
   void activate();
   void activateInside(std::vector<bool>& active);
+  void markOwn();
   void makeSamples();
   void shareWeights();
   void inCell(Vec3f place_m, int (&cell)[3], float (&fraction)[3]) const;
@@ -37,6 +38,7 @@ class CellLayer {
   std::span<const Vec3f> points_m_;
   GroupCells cells_;
   std::vector<bool> inside_;  // cells with a node that the group wins, by node of the box
+  std::vector<bool> own_;     // nodes that the group wins, by node of the box
 };
 
 // Whole cells of the common lattice about the group's points; all of it for an open group.
@@ -80,18 +82,31 @@ void CellLayer::inCell(Vec3f p, int (&cell)[3], float (&fraction)[3]) const {
   }
 }
 
-// Nodes at which the group wins, and all about them.
-void CellLayer::activateInside(std::vector<bool>& active) {
+// Nodes that the group wins.
+void CellLayer::markOwn() {
   const LatticeGrid& grid = cells_.grid;
   const Vec3d origin = toDouble(grid.origin_m);
   const auto spacing = static_cast<double>(grid.spacing_m);
+  own_.assign(grid.count(), false);
   std::vector<std::int16_t> row(static_cast<std::size_t>(grid.nx));
   for (int y = 0; y < grid.ny; ++y)
     for (int z = 0; z < grid.nz; ++z) {
       winners_.alongX(origin.x, spacing, origin.y + y * spacing, origin.z + z * spacing, row);
       for (int x = 0; x < grid.nx; ++x) {
         const std::int16_t winner = row[static_cast<std::size_t>(x)];
-        if (winner < 0 || !members_.owns(static_cast<std::uint32_t>(winner))) continue;
+        own_[grid.at(x, y, z)] =
+            winner < 0 ? members_.background : members_.owns(static_cast<std::uint32_t>(winner));
+      }
+    }
+}
+
+// What is about the nodes that the group wins.
+void CellLayer::activateInside(std::vector<bool>& active) {
+  const LatticeGrid& grid = cells_.grid;
+  for (int y = 0; y < grid.ny; ++y)
+    for (int z = 0; z < grid.nz; ++z)
+      for (int x = 0; x < grid.nx; ++x) {
+        if (!own_[grid.at(x, y, z)]) continue;
         for (int corner = 0; corner < 8; ++corner)
           inside_[grid.at(std::max(x - (corner & 1), 0), std::max(y - (corner >> 2), 0),
                           std::max(z - (corner >> 1 & 1), 0))] = true;
@@ -100,24 +115,22 @@ void CellLayer::activateInside(std::vector<bool>& active) {
             for (int dx = std::max(x - 1, 0); dx <= std::min(x + 1, grid.nx - 1); ++dx)
               active[grid.at(dx, dy, dz)] = true;
       }
-    }
 }
 
 void CellLayer::activate() {
   const LatticeGrid& grid = cells_.grid;
-  std::vector<bool> active(grid.count(), members_.open);
-  inside_.assign(grid.count(), members_.open);
-  if (!members_.open) {
-    activateInside(active);
-    for (const Vec3f p : points_m_) {  // the cell of a point and one more all round
-      int cell[3];
-      float fraction[3];
-      inCell(p, cell, fraction);
-      for (int y = std::max(cell[1] - 1, 0); y <= std::min(cell[1] + 2, grid.ny - 1); ++y)
-        for (int z = std::max(cell[2] - 1, 0); z <= std::min(cell[2] + 2, grid.nz - 1); ++z)
-          for (int x = std::max(cell[0] - 1, 0); x <= std::min(cell[0] + 2, grid.nx - 1); ++x)
-            active[grid.at(x, y, z)] = true;
-    }
+  std::vector<bool> active(grid.count(), false);
+  inside_.assign(grid.count(), false);
+  markOwn();
+  activateInside(active);
+  for (const Vec3f p : points_m_) {  // the cell of a point and one more all round
+    int cell[3];
+    float fraction[3];
+    inCell(p, cell, fraction);
+    for (int y = std::max(cell[1] - 1, 0); y <= std::min(cell[1] + 2, grid.ny - 1); ++y)
+      for (int z = std::max(cell[2] - 1, 0); z <= std::min(cell[2] + 2, grid.nz - 1); ++z)
+        for (int x = std::max(cell[0] - 1, 0); x <= std::min(cell[0] + 2, grid.nx - 1); ++x)
+          active[grid.at(x, y, z)] = true;
   }
   ActiveNodes& nodes = cells_.nodes;
   nodes = {grid.nx, grid.ny, grid.nz, std::vector<std::int32_t>(grid.count(), -1), {}};
@@ -152,8 +165,10 @@ void CellLayer::makeSamples() {
 // A cell's samples weigh 1 together, however finely the surface is meshed.
 void CellLayer::shareWeights() {
   cells_.used.assign(cells_.nodes.nodes.size(), false);
-  for (std::size_t i = 0; i < cells_.used.size(); ++i)
+  for (std::size_t i = 0; i < cells_.used.size(); ++i) {
     cells_.used[i] = inside_[cells_.nodes.nodes[i]];
+    cells_.own.push_back(own_[cells_.nodes.nodes[i]]);
+  }
   for (const LatticeSample& sample : cells_.samples) cells_.used[sample.node[0]] = true;
   std::vector<std::uint32_t> in_cell(cells_.nodes.nodes.size(), 0);
   for (const LatticeSample& sample : cells_.samples) ++in_cell[sample.node[0]];
@@ -177,6 +192,17 @@ Vec3d GroupCells::placeOf(std::size_t node) const {
 GroupCells layCells(const FieldSpace& space, const GroupMembers& members, const Winners& winners,
                     std::span<const Vec3f> points_m) {
   return CellLayer(space, members, winners, points_m).lay();
+}
+
+std::vector<std::uint32_t> outermostNodes(const ActiveNodes& nodes) {
+  std::vector<std::uint32_t> outermost;
+  for (std::uint32_t n = 0; n < nodes.nodes.size(); ++n) {
+    const auto node = static_cast<int>(nodes.nodes[n]);
+    const int x = node % nodes.nx, z = node / nodes.nx % nodes.nz, y = node / (nodes.nx * nodes.nz);
+    if (x == 0 || y == 0 || z == 0 || x == nodes.nx - 1 || y == nodes.ny - 1 || z == nodes.nz - 1)
+      outermost.push_back(n);
+  }
+  return outermost;
 }
 
 }  // namespace echocine

@@ -24,6 +24,7 @@ struct FieldSpace {
 struct GroupMembers {
   std::vector<std::uint32_t> surfaces;  // numbers; the count of surfaces for the background
   bool open = false;  // the background, or still surroundings: rests beyond the margin
+  bool background = false;
   bool owns(std::uint32_t surface) const;
 };
 
@@ -34,6 +35,7 @@ struct GroupCells {
   std::vector<std::uint32_t> slab_starts;
   std::vector<LatticeSample> samples;  // of each point
   std::vector<bool> used;              // cells that hold something of the group, by first node
+  std::vector<bool> own;               // active nodes at which the group wins
 
   Vec3d placeOf(std::size_t node) const;  // of a node of the box, metres
 };
@@ -42,5 +44,8 @@ struct GroupCells {
 // part where the group wins, about its points, and everywhere of an open group.
 GroupCells layCells(const FieldSpace& space, const GroupMembers& members, const Winners& winners,
                     std::span<const Vec3f> points_m);
+
+// Active nodes on the sides of their box, by number.
+std::vector<std::uint32_t> outermostNodes(const ActiveNodes& nodes);
 
 }  // namespace echocine

@@ -2,22 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "motion/interior/affine_fit.h"
 #include "motion/interior/folds.h"
+#include "motion/interior/quadratic_fit.h"
 
 namespace echocine {
 
 namespace {
 
-// Of second differences against a cell's samples. Our choice, tried from 0.001 to 0.1: at 0.001 the
-// atrial walls keep 98 % of their points and not 95, but a ball that inflates is 0.13 mm off.
-constexpr float kStiffness = 0.01f;
 // Modes of what the affine part leaves that are smaller than this part of it, as root mean squares,
-// are left out: micrometres. Our choice.
-constexpr double kLeftOut = 0.004;
-// Steps of conjugate gradients; more change the fit by less than a hundredth of a millimetre.
-constexpr int kFirstSteps = 24, kMoreSteps = 12;
+// are left out: some hundredths of a millimetre at most. Our choice.
+constexpr double kLeftOut = 0.01;
+// Residuals, in parts of the right side: of fits that only decide what slides and what folds, and
+// of the field. Our choices.
+constexpr double kTrial = 1e-2, kConverged = 1e-6;
 // Rounds in which what folds is made stiffer, at most. Our choice.
 constexpr int kUnfoldings = 4;
 // A neighbour's surface that moves otherwise than the group's own, by this root mean square over
@@ -46,15 +46,22 @@ class GroupFitter {
     affine_ = affineFit(data_.places_m, data_.samples, data_.values, data_.columns);
     subtractAffine();
     keepFewModes();
-    resting_ = restingNodes();
-    stiffness_.assign(lattice_.nodes.nodes.size(), kStiffness);
-    std::vector<float> rest = solve({}, kFirstSteps);
-    if (letSlide(rest)) rest = solve(std::move(rest), kMoreSteps);
+    subtractQuadratic();
+    if (members_.open) resting_ = outermostNodes(lattice_.nodes);
+    stiffness_.assign(lattice_.nodes.nodes.size(), 1.0f);
+    equations_.emplace(lattice_.nodes, data_.samples, stiffness_, own_, resting_);
+    std::vector<float> rest = solve({}, kTrial);
+    if (letSlide(rest)) {
+      equations_->update(stiffness_);
+      rest = solve(std::move(rest), kTrial);
+    }
     fillRows(rest);
     for (int i = 0; i < kUnfoldings && stiffenFolds(lattice_, classes_, used_, stiffness_); ++i) {
-      rest = solve(std::move(rest), kMoreSteps);
+      equations_->update(stiffness_);
+      rest = solve(std::move(rest), kTrial);
       fillRows(rest);
     }
+    fillRows(solve(std::move(rest), kConverged));
     return std::move(lattice_);
   }
 
@@ -62,8 +69,8 @@ class GroupFitter {
   bool gather();
   void takeCells(GroupCells cells);
   void subtractAffine();
-  std::vector<std::uint32_t> restingNodes() const;
-  std::vector<float> solve(std::vector<float> start, int steps) const;
+  void subtractQuadratic();
+  std::vector<float> solve(std::vector<float> start, double tolerance);
   bool letSlide(const std::vector<float>& nodes);
   std::size_t keyframeCount() const;
   void keepFewModes();
@@ -81,11 +88,15 @@ class GroupFitter {
   FitData data_;
   AffineFit affine_;  // of all modes
   MotionModes few_;   // of what remains: the classes' modes take the keyframes' place
+  std::vector<float>
+      base_;  // columns values per active node; the lattice is fitted to what remains
   std::vector<std::uint32_t> resting_;
-  std::vector<float> stiffness_;      // by active node
-  std::vector<bool> used_;            // GroupCells::used
-  std::vector<Vec3d> node_places_m_;  // by active node
-  std::vector<double> fade_;          // of the affine part, by active node
+  std::optional<LatticeFit> equations_;  // of the weights and the stiffness as they are
+  std::vector<float> stiffness_;         // by active node, in parts of that of all
+  std::vector<bool> own_;                // GroupCells::own
+  std::vector<bool> used_;               // GroupCells::used
+  std::vector<Vec3d> node_places_m_;     // by active node
+  std::vector<double> fade_;             // of the affine part, by active node
 };
 
 // The points of this group and what each mode does to them; false when none of them moves.
@@ -119,6 +130,7 @@ void GroupFitter::takeCells(GroupCells cells) {
   for (const std::uint32_t node : cells.nodes.nodes) node_places_m_.push_back(cells.placeOf(node));
   data_.samples = std::move(cells.samples);
   used_ = std::move(cells.used);
+  own_ = std::move(cells.own);
   lattice_.grid = cells.grid;
   lattice_.nodes = std::move(cells.nodes);
   lattice_.slab_starts = std::move(cells.slab_starts);
@@ -172,24 +184,18 @@ void GroupFitter::keepFewModes() {
   few_.shapes_m = {};
 }
 
+void GroupFitter::subtractQuadratic() {
+  if (members_.open)
+    base_.assign(node_places_m_.size() * data_.columns, 0.0f);
+  else
+    base_ =
+        takeQuadratic(data_.places_m, data_.samples, node_places_m_, data_.columns, data_.values);
+}
+
 std::size_t GroupFitter::keyframeCount() const {
   std::size_t keyframes = 0;
   for (const PhaseClass& c : classes_) keyframes = std::max(keyframes, c.weights.keyframeCount());
   return keyframes;
-}
-
-// An open group's outermost nodes.
-std::vector<std::uint32_t> GroupFitter::restingNodes() const {
-  std::vector<std::uint32_t> resting;
-  if (!members_.open) return resting;
-  const LatticeGrid& grid = lattice_.grid;
-  for (std::uint32_t n = 0; n < lattice_.nodes.nodes.size(); ++n) {
-    const auto node = static_cast<int>(lattice_.nodes.nodes[n]);
-    const int x = node % grid.nx, z = node / grid.nx % grid.nz, y = node / (grid.nx * grid.nz);
-    if (x == 0 || y == 0 || z == 0 || x == grid.nx - 1 || y == grid.ny - 1 || z == grid.nz - 1)
-      resting.push_back(n);
-  }
-  return resting;
 }
 
 // Where a neighbour's surface and the group's own cannot both be met, they slide on one another:
@@ -218,9 +224,11 @@ bool GroupFitter::letSlide(const std::vector<float>& nodes) {
   return slides;
 }
 
-std::vector<float> GroupFitter::solve(std::vector<float> start, int steps) const {
-  return fitLattice(lattice_.nodes, data_.samples, data_.values, data_.columns, stiffness_,
-                    resting_, std::move(start), steps);
+std::vector<float> GroupFitter::solve(std::vector<float> start, double tolerance) {
+  LatticeFit::Solution solution =
+      equations_->solve(data_.values, data_.columns, std::move(start), tolerance);
+  lattice_.residual = solution.residual;
+  return std::move(solution.values);
 }
 
 // Back from modes to the rows that the weights ask for.
@@ -265,8 +273,9 @@ void GroupFitter::fillRow(const std::vector<double>& factors, const std::vector<
     row[n] = toFloat(fade_[n] * Vec3d{mean[0] + dot(slope[0], arm), mean[1] + dot(slope[1], arm),
                                       mean[2] + dot(slope[2], arm)});
     const float* from = &rest[n * data_.columns];
-    for (std::size_t k = 0; k < shares.size(); ++k, from += 3)
-      row[n] = row[n] + shares[k] * Vec3f{from[0], from[1], from[2]};
+    const float* base = &base_[n * data_.columns];
+    for (std::size_t k = 0; k < shares.size(); ++k, from += 3, base += 3)
+      row[n] = row[n] + shares[k] * Vec3f{base[0] + from[0], base[1] + from[1], base[2] + from[2]};
   }
 }
 

@@ -25,6 +25,7 @@ struct GroupLattice {
   std::vector<std::uint32_t> slab_starts;
   // By phase class, by row of its weights, by active node; empty where no keyframe moves the group.
   std::vector<std::vector<std::vector<Vec3f>>> rows_m;
+  double residual = 0;  // LatticeFit::Solution::residual
 };
 
 // Fits a group to the border points on either side of which it stands. Empty without one that

@@ -2,19 +2,25 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/check.h"
 #include "core/lanes.h"
 #include "core/parallel.h"
 #include "core/stop.h"
 #include "motion/interior/lattice_equations.h"
+#include "motion/interior/multigrid.h"
 
 namespace echocine {
 
 namespace {
 
-// Our choice: the residual falls to this part of the right-hand side, which leaves micrometres.
-constexpr double kTolerance = 1e-4;
+// What rounds of single precision leave is solved for again, in rounds that each gain this much,
+// at most so often. Our choices: two rounds reach 1e-6.
+constexpr double kRoundGain = 1e-3;
+constexpr int kMostRounds = 8;
+// Steps of a round, at most; 7 are enough for hearts.
+constexpr int kMostSteps = 60;
 
 // Columns that are solved together: as many as keep a node's sum in registers. Our choice.
 constexpr std::size_t kTogether = 3 * kFloatLanes;
@@ -24,40 +30,54 @@ struct FitProblem {
   std::span<const float> data;
   std::size_t columns;
   std::span<const std::uint32_t> fixed;
+  double tolerance;
 };
 
-// Conjugate gradients with the diagonal as preconditioner, for a few columns, each with its own
-// steps. Lanes beyond the columns stay 0.
+// Conjugate gradients with a cycle of multigrid as preconditioner, for a few columns, each with its
+// own steps. They run in single precision, and their result is refined in double: what a smooth
+// field leaves of the right side is too small a difference for floats. Lanes beyond the columns
+// stay 0.
 template <std::size_t kLanes>
 class ColumnSolver {
  public:
   static constexpr std::size_t kWidth = kLanes * kFloatLanes;
 
-  ColumnSolver(const LatticeEquations& equations, const FitProblem& problem, std::size_t first)
+  ColumnSolver(const LatticeEquations& equations, const Multigrid& grid, const FitProblem& problem,
+               std::size_t first)
       : equations_(equations),
+        rows_(grid.levels().front().rows),
+        cycle_(grid),
         problem_(problem),
         first_(first),
         count_(std::min(kWidth, problem.columns - first)),
-        x_(equations.size() * kWidth),
+        x_(equations.rows().size() * kWidth),
+        b_(x_.size()),
+        e_(x_.size()),
         r_(x_.size()),
+        z_(x_.size()),
         p_(x_.size()),
         product_(x_.size()) {}
 
-  // Replaces the columns of `all`, which are where it starts.
-  void solve(int steps, std::vector<float>& all) {
+  // Replaces the columns of `all`, which are where it starts. Returns the worst column's residual
+  // in parts of the right side.
+  double solve(std::vector<float>& all) {
     for (std::size_t n = 0; n < size(); ++n)
       std::copy_n(&all[n * problem_.columns + first_], count_, &x_[n * kWidth]);
     makeRightSide();
-    const Sums target = Sums::scaled(residual(), kTolerance * kTolerance);
-    const Factors none{};
-    Factors one;
-    one.fill(1);
-    multiply(x_);
-    rho_ = descend(one);
-    turn(none, none);
-    for (int i = 0; i < steps && rho_.over(target); ++i) step(target);
+    const double share = problem_.tolerance * problem_.tolerance;
+    const Sums target = Sums::scaled(squaresOf(b_), share);
+    Sums left = findResidual();
+    for (int round = 0; round < kMostRounds && left.over(target); ++round) {
+      refine(Sums::larger(Sums::scaled(target, 0.5), Sums::scaled(left, kRoundGain * kRoundGain)));
+      left = findResidual();
+    }
     for (std::size_t n = 0; n < size(); ++n)
-      std::copy_n(&x_[n * kWidth], count_, &all[n * problem_.columns + first_]);
+      for (std::size_t c = 0; c < count_; ++c)
+        all[n * problem_.columns + first_ + c] = static_cast<float>(x_[n * kWidth + c]);
+    double worst = 0;
+    for (std::size_t c = 0; c < count_; ++c)
+      if (target[c] > 0) worst = std::max(worst, std::sqrt(left[c] / target[c]));
+    return problem_.tolerance * worst;
   }
 
  private:
@@ -78,6 +98,11 @@ class ColumnSolver {
       for (Doubles4& part : sums.parts) part *= factor;
       return sums;
     }
+    static Sums larger(Sums a, const Sums& b) {
+      for (std::size_t i = 0; i < 2 * kLanes; ++i)
+        a.parts[i] = echocine::larger(a.parts[i], b.parts[i]);
+      return a;
+    }
     bool over(const Sums& target) const {
       for (std::size_t c = 0; c < kWidth; ++c)
         if ((*this)[c] > target[c]) return true;
@@ -85,122 +110,174 @@ class ColumnSolver {
     }
   };
 
-  std::size_t size() const { return equations_.size(); }
+  std::size_t size() const { return equations_.rows().size(); }
 
   void makeRightSide() {
     for (std::size_t j = 0; j < problem_.samples.size(); ++j) {
       const LatticeSample& sample = problem_.samples[j];
       const float* const data = &problem_.data[j * problem_.columns + first_];
       for (std::size_t i = 0; i < 8; ++i) {
-        const float factor = sample.weight * sample.share[i];
-        float* const to = &r_[sample.node[i] * kWidth];
-        for (std::size_t c = 0; c < count_; ++c) to[c] += factor * data[c];
+        const double factor =
+            static_cast<double>(sample.weight) * static_cast<double>(sample.share[i]);
+        double* const to = &b_[sample.node[i] * kWidth];
+        for (std::size_t c = 0; c < count_; ++c) to[c] += factor * static_cast<double>(data[c]);
       }
     }
-    for (const std::uint32_t n : problem_.fixed) std::fill_n(&r_[n * kWidth], kWidth, 0.0f);
+    for (const std::uint32_t n : problem_.fixed) std::fill_n(&b_[n * kWidth], kWidth, 0.0);
   }
 
-  // r . r over the diagonal.
-  Sums residual() const {
+  static Sums squaresOf(const std::vector<double>& values) {
     Sums sums;
-    for (std::size_t n = 0; n < size(); ++n)
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        const Floats8 r = lanesAt(&r_[n * kWidth + lane * kFloatLanes]);
-        sums.add(lane, r, r * equations_.inverseDiagonal()[n]);
+    for (std::size_t i = 0; i < values.size(); i += kWidth)
+      for (std::size_t part = 0; part < 2 * kLanes; ++part) {
+        const Doubles4 v = lanesAt(&values[i + part * kDoubleLanes]);
+        sums.parts[part] += v * v;
       }
     return sums;
   }
 
-  // product = A from; returns from . product.
-  Sums multiply(const std::vector<float>& from) {
+  // r = b - A x, from doubles. Returns r . r.
+  Sums findResidual() {
     Sums sums;
     for (std::size_t n = 0; n < size(); ++n) {
-      const LatticeEquations::Row row = equations_[n];
+      const auto row = equations_.rows()[n];
+      for (std::size_t part = 0; part < 2 * kLanes; ++part) {
+        const std::size_t i = part * kDoubleLanes;
+        Doubles4 r = lanesAt(&b_[n * kWidth + i]);
+        for (std::size_t m = 0; m < row.members.size(); ++m)
+          r -= row.values[m] * lanesAt(&x_[row.members[m] * kWidth + i]);
+        sums.parts[part] += r * r;
+        const Floats4 rounded = __builtin_convertvector(r, Floats4);
+        std::memcpy(&r_[n * kWidth + i], &rounded, sizeof rounded);
+      }
+    }
+    return sums;
+  }
+
+  // x += e, where A e = r until r . r is below the target.
+  void refine(const Sums& target) {
+    std::fill(e_.begin(), e_.end(), 0.0f);
+    std::fill(p_.begin(), p_.end(), 0.0f);
+    cycle_.apply(r_, z_);
+    rho_ = products(r_, z_);
+    turn(Factors{});
+    for (int i = 0; i < kMostSteps && !step(target); ++i) {
+    }
+    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += static_cast<double>(e_[i]);
+  }
+
+  static Sums products(const std::vector<float>& a, const std::vector<float>& b) {
+    Sums sums;
+    for (std::size_t i = 0; i < a.size(); i += kWidth)
+      for (std::size_t lane = 0; lane < kLanes; ++lane)
+        sums.add(lane, lanesAt(&a[i + lane * kFloatLanes]), lanesAt(&b[i + lane * kFloatLanes]));
+    return sums;
+  }
+
+  // product = A p; returns p . product.
+  Sums multiply() {
+    Sums sums;
+    for (std::size_t n = 0; n < size(); ++n) {
+      const auto row = rows_[n];
       Floats8 sum[kLanes]{};
       for (std::size_t m = 0; m < row.members.size(); ++m) {
-        const float* const at = &from[row.members[m] * kWidth];
+        const float* const at = &p_[row.members[m] * kWidth];
         for (std::size_t lane = 0; lane < kLanes; ++lane)
           sum[lane] += row.values[m] * lanesAt(at + lane * kFloatLanes);
       }
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         const std::size_t i = n * kWidth + lane * kFloatLanes;
         store(sum[lane], &product_[i]);
-        sums.add(lane, lanesAt(&from[i]), sum[lane]);
+        sums.add(lane, lanesAt(&p_[i]), sum[lane]);
       }
     }
     return sums;
   }
 
-  // r -= alpha product; returns r . r over the diagonal.
-  Sums descend(const Factors& alpha) {
+  // e += alpha p, r -= alpha product; returns r . r.
+  Sums advance(const Factors& alpha) {
     Sums sums;
-    for (std::size_t n = 0; n < size(); ++n)
+    for (std::size_t i = 0; i < r_.size(); i += kWidth)
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        const std::size_t i = n * kWidth + lane * kFloatLanes;
-        const Floats8 r =
-            lanesAt(&r_[i]) - lanesAt(&alpha[lane * kFloatLanes]) * lanesAt(&product_[i]);
-        store(r, &r_[i]);
-        sums.add(lane, r, r * equations_.inverseDiagonal()[n]);
+        const std::size_t at = i + lane * kFloatLanes;
+        const Floats8 factor = lanesAt(&alpha[lane * kFloatLanes]);
+        store(lanesAt(&e_[at]) + factor * lanesAt(&p_[at]), &e_[at]);
+        const Floats8 r = lanesAt(&r_[at]) - factor * lanesAt(&product_[at]);
+        store(r, &r_[at]);
+        sums.add(lane, r, r);
       }
     return sums;
   }
 
-  // x += alpha p; p = r over the diagonal + beta p.
-  void turn(const Factors& alpha, const Factors& beta) {
-    for (std::size_t n = 0; n < size(); ++n)
+  // p = z + beta p.
+  void turn(const Factors& beta) {
+    for (std::size_t i = 0; i < p_.size(); i += kWidth)
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        const std::size_t i = n * kWidth + lane * kFloatLanes;
-        const Floats8 p = lanesAt(&p_[i]);
-        store(lanesAt(&x_[i]) + lanesAt(&alpha[lane * kFloatLanes]) * p, &x_[i]);
-        store(lanesAt(&r_[i]) * equations_.inverseDiagonal()[n] +
-                  lanesAt(&beta[lane * kFloatLanes]) * p,
-              &p_[i]);
+        const std::size_t at = i + lane * kFloatLanes;
+        store(lanesAt(&z_[at]) + lanesAt(&beta[lane * kFloatLanes]) * lanesAt(&p_[at]), &p_[at]);
       }
   }
 
-  void step(const Sums& target) {
+  // True when all columns have come to the target.
+  bool step(const Sums& target) {
     checkpoint();
-    const Sums curvature = multiply(p_);
+    const Sums curvature = multiply();
     Factors alpha, beta;
-    for (std::size_t c = 0; c < kWidth; ++c) {
-      const bool done = rho_[c] <= target[c] || curvature[c] <= 0;
-      alpha[c] = done ? 0.0f : static_cast<float>(rho_[c] / curvature[c]);
-    }
-    const Sums rho = descend(alpha);
+    for (std::size_t c = 0; c < kWidth; ++c)
+      alpha[c] = curvature[c] > 0 ? static_cast<float>(rho_[c] / curvature[c]) : 0.0f;
+    if (!advance(alpha).over(target)) return true;
+    cycle_.apply(r_, z_);
+    const Sums rho = products(r_, z_);
     for (std::size_t c = 0; c < kWidth; ++c)
       beta[c] = rho_[c] > 0 ? static_cast<float>(rho[c] / rho_[c]) : 0.0f;
-    turn(alpha, beta);
+    turn(beta);
     rho_ = rho;
+    return false;
   }
 
   const LatticeEquations& equations_;
+  const SparseRows<float>& rows_;  // the same equations, rounded
+  MultigridCycle<kLanes> cycle_;
   const FitProblem& problem_;
   std::size_t first_, count_;
-  std::vector<float> x_, r_, p_, product_;  // kWidth values per node
-  Sums rho_;                                // r . r over the diagonal
+  std::vector<double> x_, b_;                   // kWidth values per node
+  std::vector<float> e_, r_, z_, p_, product_;  // of a round
+  Sums rho_;                                    // r . z
 };
 
 }  // namespace
 
-std::vector<float> fitLattice(const ActiveNodes& nodes, std::span<const LatticeSample> samples,
-                              std::span<const float> data, std::size_t columns,
-                              std::span<const float> stiffness,
-                              std::span<const std::uint32_t> fixed, std::vector<float> start,
-                              int steps) {
-  CHECK_EQ(data.size(), samples.size() * columns);
+LatticeFit::LatticeFit(const ActiveNodes& nodes, std::span<const LatticeSample> samples,
+                       std::span<const float> stiffness, const std::vector<bool>& own,
+                       std::span<const std::uint32_t> fixed)
+    : nodes_(nodes), samples_(samples), own_(own), fixed_(fixed.begin(), fixed.end()) {
+  update(stiffness);
+}
+
+void LatticeFit::update(std::span<const float> stiffness) {
   checkpoint();
-  const LatticeEquations equations(nodes, samples, stiffness, fixed);
-  const FitProblem problem{samples, data, columns, fixed};
-  start.resize(nodes.nodes.size() * columns);
+  equations_ = std::make_unique<LatticeEquations>(nodes_, samples_, stiffness, own_, fixed_);
+  grid_ = std::make_unique<Multigrid>(nodes_, equations_->rows());
+  checkpoint();
+}
+
+LatticeFit::~LatticeFit() = default;
+
+LatticeFit::Solution LatticeFit::solve(std::span<const float> data, std::size_t columns,
+                                       std::vector<float> start, double tolerance) const {
+  CHECK_EQ(data.size(), samples_.size() * columns);
+  const FitProblem problem{samples_, data, columns, fixed_, tolerance};
+  start.resize(equations_->rows().size() * columns);
+  std::vector<double> left(columns, 0.0);  // by first column of a block
   parallelBlocks(columns, kTogether, [&](std::size_t begin, std::size_t end) {
     if (end - begin > 2 * kFloatLanes)
-      ColumnSolver<3>(equations, problem, begin).solve(steps, start);
+      left[begin] = ColumnSolver<3>(*equations_, *grid_, problem, begin).solve(start);
     else if (end - begin > kFloatLanes)
-      ColumnSolver<2>(equations, problem, begin).solve(steps, start);
+      left[begin] = ColumnSolver<2>(*equations_, *grid_, problem, begin).solve(start);
     else
-      ColumnSolver<1>(equations, problem, begin).solve(steps, start);
+      left[begin] = ColumnSolver<1>(*equations_, *grid_, problem, begin).solve(start);
   });
-  return start;
+  return {std::move(start), columns > 0 ? *std::max_element(left.begin(), left.end()) : 0.0};
 }
 
 }  // namespace echocine

@@ -2,6 +2,7 @@
 // Many scalar fields on the nodes of one lattice, each the smoothest that meets its data.
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -35,16 +36,42 @@ struct LatticeSample {
   float weight = 1;
 };
 
-// Minimises for each of `columns` fields u separately
-//   sum_j weight_j (N_j u - data_j)^2 + sum_i stiffness_i |D^2 u|_i^2,   D^2 in units of the
-//   lattice,
-// by at most `steps` of conjugate gradients on all of them together, from `start` (columns values
-// per active node, or none: 0). data: columns values per sample; fixed nodes keep 0. Returns
-// columns values per active node.
-std::vector<float> fitLattice(const ActiveNodes& nodes, std::span<const LatticeSample> samples,
-                              std::span<const float> data, std::size_t columns,
-                              std::span<const float> stiffness,
-                              std::span<const std::uint32_t> fixed, std::vector<float> start,
-                              int steps);
+class LatticeEquations;
+class Multigrid;
+
+// Minimises for each of many fields u separately
+//   sum_j weight_j (N_j u - data_j)^2 + sum_i stiffness_i (L o_i (Lap u)_i^2 + B |D^2 u|_i^2)
+// over the active nodes i, in units of the lattice. o_i is 1 at the body's own nodes and 0
+// elsewhere. L and B are the constants of lattice_equations.cpp.
+class LatticeFit {
+ public:
+  struct Solution {
+    std::vector<float> values;  // columns values per active node
+    double residual = 0;  // what the solver left, in parts of the right side: the worst column
+  };
+
+  // Keeps references to nodes, samples and own. Fixed nodes keep 0.
+  LatticeFit(const ActiveNodes& nodes, std::span<const LatticeSample> samples,
+             std::span<const float> stiffness, const std::vector<bool>& own,
+             std::span<const std::uint32_t> fixed);
+  ~LatticeFit();
+
+  // Makes the equations anew, of the samples' weights as they are now.
+  void update(std::span<const float> stiffness);
+
+  // From `start` (columns values per active node, or none: 0) until the equations' residual is
+  // `tolerance` of their right side, as root mean squares, for each column. data: columns values
+  // per sample.
+  Solution solve(std::span<const float> data, std::size_t columns, std::vector<float> start,
+                 double tolerance) const;
+
+ private:
+  const ActiveNodes& nodes_;
+  std::span<const LatticeSample> samples_;
+  const std::vector<bool>& own_;
+  std::vector<std::uint32_t> fixed_;
+  std::unique_ptr<const LatticeEquations> equations_;
+  std::unique_ptr<const Multigrid> grid_;
+};
 
 }  // namespace echocine

@@ -77,7 +77,7 @@ void MotionField::State::number(const std::vector<InteriorSurface>& surfaces) {
     found->members.open &= surfaces[s].weights.keyframeCount() == 1;
     group_of[s] = static_cast<std::uint32_t>(found - groups.begin());
   }
-  groups.push_back({{{background}, true}, {}, 0});
+  groups.push_back({{{background}, true, true}, {}, 0});
   for (std::uint32_t& group : group_of)
     group = std::min(group, static_cast<std::uint32_t>(groups.size() - 1));
 }
@@ -191,6 +191,11 @@ double MotionField::referencePhase() const {
 }
 double MotionField::spacing() const {
   return state_->space.spacing_m;
+}
+double MotionField::residual() const {
+  double worst = 0;
+  for (const State::Group& group : state_->groups) worst = std::max(worst, group.lattice.residual);
+  return worst;
 }
 double MotionField::reachAcrossPlane() const {
   double most_m = 0;

@@ -110,7 +110,8 @@ class MotionField {
   GroupId groupOf(SurfaceId surface) const;  // of a membrane: the background
   bool moves(GroupId group) const;           // false: place() is the identity
   double referencePhase() const;
-  double spacing() const;  // between nodes, m
+  double spacing() const;   // between nodes, m
+  double residual() const;  // of the equations, in parts of their right side: the worst group's
 
   // The group whose material is at a reference place: that of the winning closed surface there.
   GroupId groupAt(Vec3f reference_m) const;

@@ -24,4 +24,11 @@ MotionField interiorMotion(const Scene& scene, const MeshMotion& motion,
   return MotionField(std::move(surfaces), settings);
 }
 
+const MotionField& SharedMotionField::field() const {
+  std::call_once(once_, [this] {
+    field_ = std::make_unique<const MotionField>(interiorMotion(scene_, motion_));
+  });
+  return *field_;
+}
+
 }  // namespace echocine

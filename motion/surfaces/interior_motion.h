@@ -1,6 +1,9 @@
 #pragma once
 // The material points of a scene's meshes.
 
+#include <memory>
+#include <mutex>
+
 #include "motion/interior/motion_field.h"
 #include "motion/surfaces/mesh_motion.h"
 
@@ -10,5 +13,22 @@ namespace echocine {
 // (refined). References to neither are kept.
 MotionField interiorMotion(const Scene& scene, const MeshMotion& motion,
                            const FieldSettings& settings = {});
+
+// The field of a scene for all that ask for it: fitted once, by the first call.
+class SharedMotionField {
+ public:
+  // References are kept until the field is fitted.
+  SharedMotionField(const Scene& scene, const MeshMotion& motion)
+      : scene_(scene), motion_(motion) {}
+
+  // Thread-safe. An error leaves the field to be fitted by the next call.
+  const MotionField& field() const;
+
+ private:
+  const Scene& scene_;
+  const MeshMotion& motion_;
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<const MotionField> field_;
+};
 
 }  // namespace echocine

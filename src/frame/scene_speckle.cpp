@@ -4,9 +4,10 @@
 
 namespace echocine {
 
-SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion, const EffectPlan& plan,
+SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion,
+                           const SharedMotionField& field, const EffectPlan& plan,
                            const Trabeculae* trabeculae)
-    : material_(scene, motion, &plan, trabeculae),
+    : material_(scene, motion, &plan, trabeculae, &field),
       sheets_(scene, motion, material_.field().referencePhase()),
       speckle_(scene.probe, scene.signal.pulse_cycles, scene.speckle, material_) {
   const auto half_m = static_cast<float>(speckle_.farthestAcross_m());

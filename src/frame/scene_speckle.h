@@ -12,8 +12,8 @@ namespace echocine {
 
 class SceneSpeckle {
  public:
-  SceneSpeckle(const Scene& scene, const MeshMotion& motion, const EffectPlan& plan,
-               const Trabeculae* trabeculae);
+  SceneSpeckle(const Scene& scene, const MeshMotion& motion, const SharedMotionField& field,
+               const EffectPlan& plan, const Trabeculae* trabeculae);
 
   // Applies speckle in place to the intensities of some lines after the beam average, and to their
   // coherent part. `surfaces` are those of the instant. Thread-safe; frames of equal time are

@@ -184,8 +184,9 @@ Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, Loop
       cardiac_clock_(scene_),
       chain_(scene_, plan_.effects),
       rays_(scene_, plan_),
+      field_(scene_, *motion_),
       trabeculae_(where<Trabeculae>(plan_.effects.trabeculae, scene_, *motion_, !plan_.slice)),
-      speckle_(where<SceneSpeckle>(plan_.effects.speckle, scene_, *motion_, plan_.effects,
+      speckle_(where<SceneSpeckle>(plan_.effects.speckle, scene_, *motion_, field_, plan_.effects,
                                    trabeculae_.get())),
       rolling_(where<RollingLines>(plan_.effects.rolling, scene_,
                                    [this](LineRange lines) {
@@ -193,7 +194,7 @@ Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, Loop
                                    })),
       persistence_(where<Persistence>(plan_.effects.persistence, scene_.artefacts.persistence,
                                       cardiac_clock_, scene_.acquisition.frame_rate_hz)),
-      truth_(scene_, *motion_, cardiac_clock_, plan_, rolling_.get(),
+      truth_(scene_, *motion_, field_, cardiac_clock_, plan_, rolling_.get(),
              plan_.left_out.none() && !trabeculae_),
       workspaces_(scene_, *motion_, plan_) {}
 

@@ -135,6 +135,7 @@ class Simulator {
   const CardiacClock cardiac_clock_;
   const SignalChain chain_;
   const FrameRays rays_;
+  const SharedMotionField field_;  // of speckle and of truth
   // Null if the plan disables the effect.
   std::unique_ptr<const Trabeculae> trabeculae_;
   std::unique_ptr<const SceneSpeckle> speckle_;

@@ -8,10 +8,12 @@
 
 namespace echocine {
 
-TruthSource::TruthSource(const Scene& scene, const MeshMotion& motion, const CardiacClock& clock,
+TruthSource::TruthSource(const Scene& scene, const MeshMotion& motion,
+                         const SharedMotionField& field, const CardiacClock& clock,
                          const LoopPlan& plan, const RollingLines* rolling, bool as_traced)
     : scene_(scene),
       motion_(motion),
+      field_(field),
       clock_(clock),
       rolling_(rolling),
       as_traced_(as_traced),
@@ -24,7 +26,7 @@ const TruthMaker* TruthSource::maker() const {
   std::call_once(once_, [this] {
     if (TruthMaker::wanted(scene_))
       maker_ = std::make_unique<const TruthMaker>(scene_, motion_, pictureGrid(scene_),
-                                                  clock_.at(0).phase, bent_.has_value());
+                                                  clock_.at(0).phase, bent_.has_value(), &field_);
   });
   return maker_.get();
 }

@@ -17,8 +17,9 @@ class TruthSource {
   // References are kept. Without a group of lines everything is at the frame's instant.
   // `as_traced`: the traced slice is that of the smooth surfaces, and of all of them. If rays bend
   // or depths follow the travel time, truth follows them through the smooth surfaces.
-  TruthSource(const Scene& scene, const MeshMotion& motion, const CardiacClock& clock,
-              const LoopPlan& plan, const RollingLines* rolling, bool as_traced);
+  TruthSource(const Scene& scene, const MeshMotion& motion, const SharedMotionField& field,
+              const CardiacClock& clock, const LoopPlan& plan, const RollingLines* rolling,
+              bool as_traced);
 
   // Fitted by the first call; nullptr if the scene requests no truth. Throws like TruthMaker.
   // Thread-safe.
@@ -41,6 +42,7 @@ class TruthSource {
 
   const Scene& scene_;
   const MeshMotion& motion_;
+  const SharedMotionField& field_;
   const CardiacClock& clock_;
   const RollingLines* rolling_;
   const bool as_traced_, normals_;

@@ -67,8 +67,8 @@ struct FieldMaterial::Ridges {
 FieldMaterial::~FieldMaterial() = default;
 
 FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion, const EffectPlan* plan,
-                             const Trabeculae* trabeculae)
-    : field_(interiorMotion(scene, motion)) {
+                             const Trabeculae* trabeculae, const SharedMotionField* shared)
+    : field_((shared ? *shared : own_field_.emplace(scene, motion)).field()) {
   if (plan && (plan->heterogeneity || plan->anisotropy))
     strength_ = std::make_unique<const TissueStrength>(scene, *plan, motion, field_);
   const std::size_t groups = field_.groupCount();

@@ -1,6 +1,9 @@
 #pragma once
 // Tissue as the motion field carries it: speckle and truth move by one field.
 
+#include <memory>
+#include <optional>
+
 #include "motion/surfaces/interior_motion.h"
 #include "motion/surfaces/trabeculae.h"
 #include "speckle/block_reach.h"
@@ -12,9 +15,10 @@ namespace echocine {
 class FieldMaterial : public Material {
  public:
   // Tissue is alike everywhere but where the plan has heterogeneity or anisotropy; no plan:
-  // neither. Trabeculae that stand in a cavity belong to the wall behind them.
+  // neither. Trabeculae that stand in a cavity belong to the wall behind them. `shared` is kept by
+  // reference; null: a field of its own.
   FieldMaterial(const Scene& scene, const MeshMotion& motion, const EffectPlan* plan = nullptr,
-                const Trabeculae* trabeculae = nullptr);
+                const Trabeculae* trabeculae = nullptr, const SharedMotionField* shared = nullptr);
   ~FieldMaterial() override;
 
   CubeLattice lattice() const override { return lattice_; }
@@ -35,7 +39,8 @@ class FieldMaterial : public Material {
 
  private:
   struct Ridges;
-  MotionField field_;
+  std::optional<SharedMotionField> own_field_;
+  const MotionField& field_;
   std::vector<Ridges> ridges_;
   BlockReach reach_;
   CubeLattice lattice_;

@@ -68,7 +68,7 @@ bool TruthMaker::wanted(const Scene& scene) {
 }
 
 TruthMaker::TruthMaker(const Scene& scene, const MeshMotion& motion, const PictureGrid& grid,
-                       double first_phase, bool along_paths)
+                       double first_phase, bool along_paths, const SharedMotionField* shared)
     : scene_(scene),
       motion_(motion),
       labels_(labelTable(scene)),
@@ -78,7 +78,8 @@ TruthMaker::TruthMaker(const Scene& scene, const MeshMotion& motion, const Pictu
       velocity_(wantsAny(scene, isVelocity)) {
   if (along_paths) shown_.emplace(scene, grid, pathsFor(scene, grid));
   if (!motion_wanted_ && !scene.truth.tracks && !scene.truth.function) return;
-  field_.emplace(interiorMotion(scene, motion));
+  if (shared == nullptr) shared = &own_field_.emplace(scene, motion);
+  field_ = &shared->field();
   field_->at(first_phase, first_);
   in_plane_ = tissueInPlane();
   if (!scene.truth.tracks && !scene.truth.function) return;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "motion/interior/motion_field.h"
+#include "motion/surfaces/interior_motion.h"
 #include "motion/surfaces/mesh_motion.h"
 #include "truth/contour.h"
 #include "truth/heart_function.h"
@@ -60,14 +60,16 @@ struct TruthShared {
 
 class TruthMaker {
  public:
-  // References are kept. The field is fitted at once where motion is asked for. along_paths: at()
-  // is always given paths.
+  // References are kept. The field is fitted at once where motion is asked for, without `shared` by
+  // this object. along_paths: at() is always given paths.
   TruthMaker(const Scene& scene, const MeshMotion& motion, const PictureGrid& grid,
-             double first_phase, bool along_paths = false);
+             double first_phase, bool along_paths = false,
+             const SharedMotionField* shared = nullptr);
   ~TruthMaker();
 
   const LabelTable& labels() const { return labels_; }
-  const std::optional<MotionField>& field() const { return field_; }
+  // Null where nothing of truth moves.
+  const MotionField* field() const { return field_; }
 
   // The material points that are tracked: endocardium, middle and epicardium of so many columns
   // through the wall, those nearest to the imaging plane at the reference phase.
@@ -114,7 +116,8 @@ class TruthMaker {
   PlaneLabels plane_;
   std::optional<ShownLabels> shown_;
   bool samples_, motion_wanted_, velocity_;
-  std::optional<MotionField> field_;
+  std::optional<SharedMotionField> own_field_;
+  const MotionField* field_ = nullptr;
   std::optional<HeartFunction> function_;
   std::vector<Tracked> tracked_;
   FieldPart in_plane_, about_tracks_;  // what a frame blends for motion and for tracks

@@ -18,12 +18,15 @@
 namespace echocine {
 namespace {
 
-// Where the material of a place was: Newton's method, and then steps that need no gradient. Nothing
-// where it is found turned over, beyond what the group holds.
+// Where the material of a place was: Newton's method, and then steps that need no gradient, as long
+// as they come closer. Nothing where it is found turned over, beyond what the group holds.
 std::optional<Vec3f> polishedReference(const GroupFrame& group, Vec3f place_m) {
   std::optional<Vec3f> reference = group.reference(place_m, place_m);
-  for (int i = 0; reference && i < 8; ++i)
-    *reference = *reference + (place_m - group.place(*reference));
+  for (int i = 0; reference && i < 8; ++i) {
+    const Vec3f left = place_m - group.place(*reference), next = *reference + left;
+    if (!(length(place_m - group.place(next)) < length(left))) break;
+    *reference = next;
+  }
   if (!reference || group.volumeRatio(*reference) <= 0) return std::nullopt;
   return reference;
 }

@@ -1,0 +1,200 @@
+#include "motion/interior/multigrid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace echocine {
+
+namespace {
+
+// The last level is solved by a dense factor. Our choice: it costs less than one more level.
+constexpr std::size_t kLastNodes = 160;
+
+// A coarse node is coupled with those up to two steps away: (1 + 2 + 1) / 2 where the finer rows
+// reach two and shares reach one.
+constexpr int kReach = 2, kSide = 2 * kReach + 1;
+using Slots = std::array<double, static_cast<std::size_t>(kSide* kSide* kSide)>;
+
+struct Place {
+  int x, y, z;
+};
+
+Place placeOf(const ActiveNodes& nodes, std::size_t number) {
+  const auto node = static_cast<int>(nodes.nodes[number]);
+  return {node % nodes.nx, node / (nodes.nx * nodes.nz), node / nodes.nx % nodes.nz};
+}
+
+// The slot of a neighbour is kMiddle and how much larger its key is.
+constexpr int kMiddle = (kReach * kSide + kReach) * kSide + kReach;
+int keyOf(Place at) {
+  return (at.y * kSide + at.z) * kSide + at.x;
+}
+
+// A lattice while its rows are made.
+struct Lattice {
+  ActiveNodes nodes;
+  SparseRows<double> rows;
+};
+
+// The nodes of the next lattice and each node's shares in them.
+class Coarsening {
+ public:
+  explicit Coarsening(const Lattice& fine) : fine_(fine) {
+    coarse_.nodes = {fine.nodes.nx / 2 + 1, fine.nodes.ny / 2 + 1, fine.nodes.nz / 2 + 1, {}, {}};
+    markNodes();
+    for (std::size_t n = 0; n < fine.rows.size(); ++n) {
+      if (isCoupled(n))
+        forParents(n, [&](int x, int y, int z, double share) {
+          parents_.add(static_cast<std::uint32_t>(coarse_.nodes.numberAt(x, y, z)), share);
+        });
+      parents_.endRow();
+    }
+  }
+
+  SparseRows<float> parents() const {
+    SparseRows<float> floats;
+    for (std::size_t n = 0; n < parents_.size(); ++n) {
+      const auto row = parents_[n];
+      for (std::size_t i = 0; i < row.members.size(); ++i)
+        floats.add(row.members[i], row.values[i]);
+      floats.endRow();
+    }
+    return floats;
+  }
+
+  // P^T A P with the rows A and the shares P.
+  Lattice coarse() {
+    std::vector<Slots> slots(coarse_.nodes.nodes.size(), Slots{});
+    product_.assign(slots.size(), 0.0);
+    for (std::size_t n = 0; n < slots.size(); ++n)
+      keys_.push_back(keyOf(placeOf(coarse_.nodes, n)));
+    for (std::size_t n = 0; n < fine_.rows.size(); ++n) addRow(n, slots);
+    for (std::size_t n = 0; n < slots.size(); ++n) {
+      const Place at = placeOf(coarse_.nodes, n);
+      std::size_t slot = 0;
+      for (int y = at.y - kReach; y <= at.y + kReach; ++y)
+        for (int z = at.z - kReach; z <= at.z + kReach; ++z)
+          for (int x = at.x - kReach; x <= at.x + kReach; ++x, ++slot)
+            if (slots[n][slot] != 0)
+              coarse_.rows.add(static_cast<std::uint32_t>(coarse_.nodes.numberAt(x, y, z)),
+                               slots[n][slot]);
+      coarse_.rows.endRow();
+    }
+    return std::move(coarse_);
+  }
+
+ private:
+  bool isCoupled(std::size_t n) const { return fine_.rows[n].members.size() > 1; }
+
+  // An even node stands on one node of the next lattice, an odd one between two, along each axis.
+  template <typename Visit>
+  void forParents(std::size_t n, const Visit& visit) const {
+    const Place at = placeOf(fine_.nodes, n);
+    const auto half = [](int i) { return (i & 1) != 0 ? 0.5 : 1.0; };
+    const double share = half(at.x) * half(at.y) * half(at.z);
+    for (int y = at.y / 2; y <= (at.y + 1) / 2; ++y)
+      for (int z = at.z / 2; z <= (at.z + 1) / 2; ++z)
+        for (int x = at.x / 2; x <= (at.x + 1) / 2; ++x) visit(x, y, z, share);
+  }
+
+  void markNodes() {
+    ActiveNodes& nodes = coarse_.nodes;
+    nodes.number.assign(nodes.at(nodes.nx - 1, nodes.ny - 1, nodes.nz - 1) + 1, -1);
+    for (std::size_t n = 0; n < fine_.rows.size(); ++n)
+      if (isCoupled(n))
+        forParents(n, [&](int x, int y, int z, double) { nodes.number[nodes.at(x, y, z)] = 0; });
+    for (std::size_t i = 0; i < nodes.number.size(); ++i) {
+      if (nodes.number[i] < 0) continue;
+      nodes.number[i] = static_cast<std::int32_t>(nodes.nodes.size());
+      nodes.nodes.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+
+  // A P of the row, then P^T of that.
+  void addRow(std::size_t n, std::vector<Slots>& slots) {
+    const auto row = fine_.rows[n];
+    const auto mine = parents_[n];
+    if (mine.members.empty()) return;
+    touched_.clear();
+    for (std::size_t i = 0; i < row.members.size(); ++i) {
+      const auto theirs = parents_[row.members[i]];
+      for (std::size_t b = 0; b < theirs.members.size(); ++b) {
+        const std::uint32_t to = theirs.members[b];
+        if (product_[to] == 0) touched_.push_back(to);
+        product_[to] += row.values[i] * theirs.values[b];
+      }
+    }
+    for (const std::uint32_t to : touched_) {
+      const double value = std::exchange(product_[to], 0.0);
+      for (std::size_t a = 0; a < mine.members.size(); ++a) {
+        const std::uint32_t from = mine.members[a];
+        slots[from][static_cast<std::size_t>(kMiddle + keys_[to] - keys_[from])] +=
+            mine.values[a] * value;
+      }
+    }
+  }
+
+  const Lattice& fine_;
+  Lattice coarse_;
+  SparseRows<double> parents_;
+  std::vector<int> keys_;  // by coarse node
+  // Of one row: the product by coarse node, 0 between rows, and the coarse nodes that it reaches.
+  std::vector<double> product_;
+  std::vector<std::uint32_t> touched_;
+};
+
+Multigrid::Level levelOf(const SparseRows<double>& rows) {
+  Multigrid::Level level;
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    const auto row = rows[n];
+    for (std::size_t i = 0; i < row.members.size(); ++i) {
+      level.rows.add(row.members[i], row.values[i]);
+      if (row.members[i] == n)
+        level.inverse_diagonal.push_back(static_cast<float>(1 / row.values[i]));
+    }
+    level.rows.endRow();
+  }
+  return level;
+}
+
+// Where rounding leaves no positive pivot, the node keeps its diagonal: the factor stays that of a
+// positive matrix.
+std::vector<float> choleskyFactor(const SparseRows<double>& rows) {
+  const std::size_t n = rows.size();
+  std::vector<double> l(n * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto row = rows[i];
+    for (std::size_t m = 0; m < row.members.size(); ++m) l[i * n + row.members[m]] = row.values[m];
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const double diagonal = l[i * n + i];
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = l[i * n + j];
+      for (std::size_t k = 0; k < j; ++k) sum -= l[i * n + k] * l[j * n + k];
+      if (i != j)
+        l[i * n + j] = sum * l[j * n + j];
+      else
+        l[i * n + i] = 1 / std::sqrt(sum > 1e-12 * diagonal ? sum : diagonal);
+    }
+  }
+  return {l.begin(), l.end()};
+}
+
+}  // namespace
+
+Multigrid::Multigrid(const ActiveNodes& nodes, const SparseRows<double>& rows) {
+  Lattice lattice{nodes, rows};
+  levels_.push_back(levelOf(lattice.rows));
+  while (lattice.rows.size() > kLastNodes) {
+    Coarsening coarsening(lattice);
+    levels_.back().parents = coarsening.parents();
+    Lattice next = coarsening.coarse();
+    lattice = std::move(next);
+    levels_.push_back(levelOf(lattice.rows));
+  }
+  last_factor_ = choleskyFactor(lattice.rows);
+}
+
+}  // namespace echocine

@@ -1,0 +1,37 @@
+#pragma once
+// A sparse square matrix by rows, whose members ascend.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace echocine {
+
+template <typename Number>
+class SparseRows {
+ public:
+  // (A x)_n = sum_i values[i] x[members[i]].
+  struct Row {
+    std::span<const std::uint32_t> members;
+    std::span<const Number> values;
+  };
+
+  void add(std::uint32_t member, double value) {
+    members_.push_back(member);
+    values_.push_back(static_cast<Number>(value));
+  }
+  void endRow() { starts_.push_back(static_cast<std::uint32_t>(members_.size())); }
+
+  std::size_t size() const { return starts_.size() - 1; }
+  Row operator[](std::size_t n) const {
+    const std::size_t first = starts_[n], count = starts_[n + 1] - first;
+    return {{members_.data() + first, count}, {values_.data() + first, count}};
+  }
+
+ private:
+  std::vector<std::uint32_t> starts_{0}, members_;
+  std::vector<Number> values_;
+};
+
+}  // namespace echocine
