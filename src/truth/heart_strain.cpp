@@ -54,8 +54,8 @@ void HeartFunction::findColumns(const SurfaceFrame& surfaces) {
 }
 
 // The middle of the wall is meshed as the endocardium is, half the thickness outside it; where no
-// column stands, by half the mean thickness. So triangles that reach beyond the columns count for
-// those that they hold.
+// column stands, by half the mean thickness. Triangles at the border of the columns count by their
+// part inside it.
 void HeartFunction::weighColumns(std::span<const Vec3d> normals,
                                  std::span<const Vec3f> endocardium) {
   const std::vector<Triangle>& triangles = motion_.surfaces()[index(cavity_)].triangles;
@@ -70,14 +70,23 @@ void HeartFunction::weighColumns(std::span<const Vec3d> normals,
                        (flat ? Vec3d{} : half_m * normalised(normals[v])));
   }
   for (const WallColumn& c : columns_) middle_m[c.vertex] = toDouble(c.mid_m);
-  const std::vector<double> areas = vertexAreas(triangles, middle_m);
+  // Over 0 where a direction along the meridian is known.
+  std::vector<double> known;
+  for (const Vec3d normal : normals) {
+    const bool flat = !(length(normal) > 0);
+    const Vec3d radial = flat ? normal : normalised(normal);
+    const bool taken = flat || dot(radial, axes_.axis) > 0;
+    known.push_back(taken ? 1 : length(acrossAxis(axes_.axis, radial)) - kAcross);
+  }
+  const SurfacePart wall{triangles, middle_m, known};
+  const std::vector<double> areas = vertexAreas(wall);
   std::vector<double> meridians(middle_m.size(), 0), view(middle_m.size(), 0);
   for (int i = 0; i < kMeridianPlanes; ++i) {
     const double turn = std::numbers::pi * (i + 0.5) / kMeridianPlanes;
-    addCutLengths(triangles, middle_m, axes_.base_m,
+    addCutLengths(wall, axes_.base_m,
                   std::cos(turn) * axes_.septal + std::sin(turn) * axes_.anterior, meridians);
   }
-  addCutLengths(triangles, middle_m, {}, {0, 1, 0}, view);
+  addCutLengths(wall, {}, {0, 1, 0}, view);
   for (const WallColumn& c : columns_)
     weights_.push_back({areas[c.vertex], meridians[c.vertex], view[c.vertex]});
 }

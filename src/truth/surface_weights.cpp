@@ -46,39 +46,80 @@ Part partAbove(const Corners& c, const std::array<double, 3>& height, double lea
 
 }  // namespace
 
-std::vector<double> vertexAreas(std::span<const Triangle> triangles,
-                                std::span<const Vec3d> points_m) {
-  std::vector<double> areas(points_m.size(), 0);
-  for (const Triangle& t : triangles) {
-    const double area = areaOf({points_m[t[0]], points_m[t[1]], points_m[t[2]]});
-    for (const std::uint32_t v : t) areas[v] += area / 3;
+namespace {
+
+// Shares of a triangle's vertices, of which those outside the part give theirs to the others.
+std::array<double, 3> keptShares(std::array<double, 3> shares,
+                                 const std::array<double, 3>& height) {
+  double kept = 0, whole = 0;
+  int inside = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    whole += shares[i];
+    if (height[i] < 0) continue;
+    kept += shares[i];
+    ++inside;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (height[i] < 0)
+      shares[i] = 0;
+    else
+      shares[i] = kept > 0 ? shares[i] * whole / kept : whole / inside;
+  }
+  return shares;
+}
+
+std::array<double, 3> heightsOf(const SurfacePart& part, const Triangle& t) {
+  return {part.heights[t[0]], part.heights[t[1]], part.heights[t[2]]};
+}
+
+// The share of a piece at heights of 0 or more, linear between its ends.
+double shareAbove(double a, double b) {
+  if (a >= 0 && b >= 0) return 1;
+  if (a < 0 && b < 0) return 0;
+  return std::max(a, b) / std::abs(a - b);
+}
+
+}  // namespace
+
+std::vector<double> vertexAreas(const SurfacePart& part) {
+  std::vector<double> areas(part.points_m.size(), 0);
+  for (const Triangle& t : part.triangles) {
+    const std::array<double, 3> heights = heightsOf(part, t);
+    const Corners corners{part.points_m[t[0]], part.points_m[t[1]], part.points_m[t[2]]};
+    const double third = partAbove(corners, heights, 0).area / 3;
+    const std::array<double, 3> shares = keptShares({third, third, third}, heights);
+    for (std::size_t i = 0; i < 3; ++i) areas[t[i]] += shares[i];
   }
   return areas;
 }
 
-void addCutLengths(std::span<const Triangle> triangles, std::span<const Vec3d> points_m, Vec3d on_m,
-                   Vec3d normal, std::vector<double>& weights_m) {
+void addCutLengths(const SurfacePart& part, Vec3d on_m, Vec3d normal,
+                   std::vector<double>& weights_m) {
   struct End {
     Vec3d at;
-    std::uint32_t from, to;
-    double share;  // of `to`
+    double height;
   };
-  for (const Triangle& t : triangles) {
+  for (const Triangle& t : part.triangles) {
+    const std::array<double, 3> heights = heightsOf(part, t);
     std::array<End, 2> ends{};
+    std::array<double, 3> shares{};
     std::size_t n = 0;
     for (std::size_t i = 0; i < 3 && n < 2; ++i) {
-      const std::uint32_t from = t[i], to = t[(i + 1) % 3];
-      const double a = dot(points_m[from] - on_m, normal), b = dot(points_m[to] - on_m, normal);
+      const std::size_t j = (i + 1) % 3;
+      const Vec3d from_m = part.points_m[t[i]], to_m = part.points_m[t[j]];
+      const double a = dot(from_m - on_m, normal), b = dot(to_m - on_m, normal);
       if ((a >= 0) == (b >= 0)) continue;
       const double share = a / (a - b);
-      ends[n++] = {points_m[from] + share * (points_m[to] - points_m[from]), from, to, share};
+      ends[n++] = {from_m + share * (to_m - from_m),
+                   heights[i] + share * (heights[j] - heights[i])};
+      shares[i] += 0.5 * (1 - share);
+      shares[j] += 0.5 * share;
     }
     if (n < 2) continue;
-    const double half_m = 0.5 * length(ends[1].at - ends[0].at);
-    for (const End& end : ends) {
-      weights_m[end.from] += (1 - end.share) * half_m;
-      weights_m[end.to] += end.share * half_m;
-    }
+    const double kept_m =
+        shareAbove(ends[0].height, ends[1].height) * length(ends[1].at - ends[0].at);
+    shares = keptShares(shares, heights);
+    for (std::size_t i = 0; i < 3; ++i) weights_m[t[i]] += kept_m * shares[i];
   }
 }
 

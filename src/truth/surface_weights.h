@@ -9,14 +9,21 @@
 
 namespace echocine {
 
-// A third of the area of each triangle around a vertex, m^2.
-std::vector<double> vertexAreas(std::span<const Triangle> triangles,
-                                std::span<const Vec3d> points_m);
+// A part of a surface: where a height, given by vertex and linear between, is 0 or more. What a
+// triangle has of it counts for those of its vertices that lie in it.
+struct SurfacePart {
+  std::span<const Triangle> triangles;
+  std::span<const Vec3d> points_m;
+  std::span<const double> heights;
+};
 
-// Adds the length of the surface's cut by a plane, m, to the vertices beside it: half of each piece
+// A share of the area of each triangle around a vertex, m^2: a third inside the part.
+std::vector<double> vertexAreas(const SurfacePart& part);
+
+// Adds the length of the part's cut by a plane, m, to the vertices beside it: half of each piece
 // goes to the ends of the edge that it ends on, the more the nearer. Normal: unit.
-void addCutLengths(std::span<const Triangle> triangles, std::span<const Vec3d> points_m, Vec3d on_m,
-                   Vec3d normal, std::vector<double>& weights_m);
+void addCutLengths(const SurfacePart& part, Vec3d on_m, Vec3d normal,
+                   std::vector<double>& weights_m);
 
 // The middle of a surface by its area. Precondition: it has an area.
 Vec3d surfaceMiddle(std::span<const Triangle> triangles, std::span<const Vec3f> points_m);
