@@ -19,7 +19,8 @@ bool severalSlices(const Scene& scene) {
 }
 
 bool lateralRays(const Scene& scene) {
-  return severalRays(scene) && scene.signal.beam_width == BeamWidth::focused;
+  return severalRays(scene) && (scene.signal.beam_width == BeamWidth::focused ||
+                                scene.signal.beam_width == BeamWidth::profile);
 }
 
 Finding findBeamWidth(const Scene& scene) {

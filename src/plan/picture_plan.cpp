@@ -78,8 +78,9 @@ void planArtefacts(const Scene& scene, EffectPlan& plan) {
   plan.acoustic_window = decidePicture(
       scene, plan, Effect::acoustic_window, a.acoustic_window, true, "",
       fmt::format("ribs leave {:g} mm open", millimetresFromMetres(a.window_width_m)));
-  plan.haze = decidePicture(scene, plan, Effect::haze, a.haze, lines, one,
-                            fmt::format("side lobes at {:g} dB", a.haze_db));
+  plan.haze =
+      decidePicture(scene, plan, Effect::haze, a.haze, lines, one,
+                    fmt::format("aberration and multiple scattering at {:g} dB", a.haze_db));
   plan.reverberation =
       decidePicture(scene, plan, Effect::reverberation, a.reverberation, scene.probe.samples > 1,
                     "there is only one sample",

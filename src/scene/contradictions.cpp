@@ -23,11 +23,12 @@ void refuseOfRays(TomlTable& root, const Scene& scene) {
         "interface_echo",
         fmt::format("\"cell\" excludes {}, accepted with it: \"auto\" | \"centre\"", rays));
   if (scene.signal.beam_width == BeamWidth::fixed)
-    signal.fail("beam_width", fmt::format("\"fixed\" excludes {}, whose beam follows aperture and "
-                                          "focus, accepted with it: \"focused\" | \"none\"",
-                                          rays));
+    signal.fail("beam_width",
+                fmt::format("\"fixed\" excludes {}, whose beam follows aperture and "
+                            "focus, accepted with it: \"focused\" | \"profile\" | \"none\"",
+                            rays));
   const bool lateral =
-      scene.signal.beam_width == BeamWidth::focused && scene.effects.beam_width != Switch::off;
+      scene.signal.beam_width != BeamWidth::none && scene.effects.beam_width != Switch::off;
   if (!lateral && scene.effects.elevation == Switch::off)
     accuracy.fail(
         "rays_per_beam",

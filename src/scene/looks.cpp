@@ -9,6 +9,7 @@ namespace {
 // their muscle: closed white outlines are a drawing's, not a scanner's.
 void applyClean(Scene& scene) {
   scene.accuracy.elevation_slices = 3;
+  scene.signal.beam_width = BeamWidth::profile;
   scene.trabeculae.deviation_m = 1e-3;
   scene.speckle.on = true;
   scene.speckle.smoothing_m = 0.62e-3;

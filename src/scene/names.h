@@ -56,8 +56,17 @@ struct NamesOf<Spread> {
 
 template <>
 struct NamesOf<BeamWidth> {
-  static constexpr Named<BeamWidth> kAll[] = {
-      {BeamWidth::focused, "focused"}, {BeamWidth::fixed, "fixed"}, {BeamWidth::none, "none"}};
+  static constexpr Named<BeamWidth> kAll[] = {{BeamWidth::focused, "focused"},
+                                              {BeamWidth::profile, "profile"},
+                                              {BeamWidth::fixed, "fixed"},
+                                              {BeamWidth::none, "none"}};
+};
+
+template <>
+struct NamesOf<Apodization> {
+  static constexpr Named<Apodization> kAll[] = {{Apodization::uniform, "uniform"},
+                                                {Apodization::hann, "hann"},
+                                                {Apodization::hamming, "hamming"}};
 };
 
 template <>

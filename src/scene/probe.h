@@ -10,6 +10,9 @@ namespace echocine {
 // The sound speed by which a scanner converts echo times to depths: the average of soft tissue.
 inline constexpr double kScannerSpeed = 1540;  // m/s
 
+// Weights of an aperture's elements.
+enum class Apodization { uniform, hann, hamming };
+
 struct Probe {
   ProbeKind kind = ProbeKind::phased;
   // World pose. The apex is the common point of the scan lines: the transducer for a phased array,
@@ -23,6 +26,10 @@ struct Probe {
   double frequency_hz = 0;
   double aperture_m = 0;  // active lateral aperture of a beam
   double focus_m = 0;     // depth of the focus
+  // Of the sampled profile: of the receiving aperture; the two-way -6 dB bandwidth over the centre
+  // frequency, 74 % for the array P4-2v (Verasonics).
+  Apodization receive_apodization = Apodization::uniform;
+  double bandwidth = 0.74;
   // The fixed lens across the imaging plane: our choice for an adult cardiac probe.
   double elevation_aperture_m = 0.013;
   double elevation_focus_m = 0.08;

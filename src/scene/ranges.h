@@ -10,6 +10,7 @@ inline constexpr NumberRange kSector_deg{.lo = 0.001, .hi = 180};
 inline constexpr NumberRange kExtent_mm{.lo = 0.001, .hi = 1e4};  // width, depth, apertures, beam
 inline constexpr NumberRange kNearEnd_mm{.lo = 0, .hi = 1e4};
 inline constexpr NumberRange kRadius_mm{.lo = 0.001, .hi = 1e6};  // of a face; of a focus
+inline constexpr NumberRange kBandwidth{.lo = 0.01, .hi = 2};
 inline constexpr NumberRange kUnitVolume_cm3{.lo = 1e-12, .hi = 1e12};
 inline constexpr NumberRange kReflectionGain{.lo = 0, .hi = 1e6};
 inline constexpr NumberRange kCoherentShare{.lo = 0};

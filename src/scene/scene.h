@@ -53,7 +53,7 @@ struct Structure {
 
 enum class Tgc { perfect, mean, table, none, nominal };
 enum class Spread { compensate, keep };
-enum class BeamWidth { focused, fixed, none };
+enum class BeamWidth { focused, profile, fixed, none };
 
 // Appearance of a picture: the paper's; with speckle and a scanner's grey map; also with its
 // artefacts. A look only sets other defaults (looks.h).
@@ -120,7 +120,7 @@ struct ArtefactSettings {
   double window_offset_m = 0;                      // of its middle, along the lateral axis
   double window_depth_m = 12e-3;                   // of the ribs, from the probe's face
   double window_shadow_db = 30;                    // loss in the full shadow, both ways
-  bool haze = false;                               // side lobes: across the lines
+  bool haze = false;                               // aberration, multiple scattering: across the lines
   double haze_db = -24;                            // relative to all its sources
   double haze_width_rad = 0.12217304763960307;     // where it has fallen to 1/e
   bool reverberation = false;                      // a tail behind every echo

@@ -17,14 +17,14 @@ constexpr int kSideBySide = 32;  // samples, or lines, that go through a recursi
 
 }  // namespace
 
-SideLobeHaze::SideLobeHaze(const Probe& probe, double level_db, double width_rad)
+LateralHaze::LateralHaze(const Probe& probe, double level_db, double width_rad)
     : lines_(probe.lines), samples_(probe.samples) {
   const double a = std::exp(-1 / ScanGeometry(probe).linesAcross(width_rad));
   decay_ = static_cast<float>(a);
   level_ = static_cast<float>(intensityFromDecibels(level_db) * (1 - a) / (1 + a));
 }
 
-void SideLobeHaze::add(std::span<float> plane) const {
+void LateralHaze::add(std::span<float> plane) const {
   const auto blocks = static_cast<std::size_t>((samples_ + kSideBySide - 1) / kSideBySide);
   parallelBlocks(blocks, 8, [&](std::size_t begin, std::size_t end) {
     thread_local std::vector<std::array<float, kSideBySide>> before;

@@ -1,6 +1,6 @@
 #pragma once
-// Misplaced echoes: lateral ones from side lobes, deeper ones from reverberation. Both are added
-// before speckle, so they are speckled like tissue.
+// Misplaced echoes: lateral ones from aberration and multiple scattering, deeper ones from
+// reverberation. Both are added before speckle, so they are speckled like tissue.
 
 #include <span>
 
@@ -11,9 +11,9 @@ namespace echocine {
 // Across the lines: adds level sum_j I_j a^|i - j| (1 - a)/(1 + a) to line i, itself included, with
 // a = exp(-pitch / width): a two-sided exponential whose weights sum to 1 over infinitely many
 // lines. There are no echoes beyond the sector's edges.
-class SideLobeHaze {
+class LateralHaze {
  public:
-  SideLobeHaze(const Probe& probe, double level_db, double width_rad);
+  LateralHaze(const Probe& probe, double level_db, double width_rad);
   void add(std::span<float> plane) const;
 
  private:

@@ -18,6 +18,10 @@ SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
                  scene.signal.grey_gamma, ScanConverter::averagedOver(scene, geometry_)) {
   SignalSettings average = scene.signal;
   if (plan.rays_per_beam > 1) average.beam_width = BeamWidth::none;  // the rays are the beam
+  if (plan.beam_width && average.beam_width == BeamWidth::profile && scene.probe.lines > 1) {
+    profile_.emplace(scene.probe, scene.signal.pulse_cycles);
+    average.beam_width = BeamWidth::none;
+  }
   if (plan.beam_width) beam_.emplace(scene.probe, average);
   if (settings_.tgc == Tgc::mean) gains_ = gainsAgainst(plan.mean_loss);
   if (settings_.tgc == Tgc::table) gains_ = timeGains(settings_.tgc_table, scene.probe);
@@ -34,7 +38,7 @@ SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
 
 void SignalChain::process(Intensities& intensities, LineRange lines) const {
   if (!gains_.empty()) applyTimeGains(gains_, intensities);
-  if (beam_) beam_->apply(intensities.values, haze_ ? all_lines_ : lines);
+  averageOverBeam(intensities.values, haze_ ? all_lines_ : lines);
   if (!losses_.empty()) applySectorLosses(losses_, intensities);
   if (haze_) haze_->add(intensities);
   if (!tail_) return;
@@ -44,10 +48,16 @@ void SignalChain::process(Intensities& intensities, LineRange lines) const {
                           static_cast<std::size_t>(lines.count()) * samples));
 }
 
+// Side lobes take in all lines.
+void SignalChain::averageOverBeam(std::vector<float>& plane, LineRange lines) const {
+  if (beam_) beam_->apply(plane, profile_ ? all_lines_ : lines);
+  if (profile_) profile_->apply(plane, lines);
+}
+
 std::vector<int> SignalChain::taken(LineRange lines) const {
   const auto all = static_cast<std::size_t>(all_lines_.end);
   const int samples = samples_;
-  if (haze_) return std::vector<int>(all, samples);
+  if (haze_ || profile_) return std::vector<int>(all, samples);
   if (beam_) return beam_->taken(lines);
   std::vector<int> taken(all, 0);
   std::fill(taken.begin() + lines.first, taken.begin() + lines.end, samples);
@@ -58,7 +68,7 @@ void SignalChain::process(CoherentEchoes& echoes, LineRange lines) const {
   if (echoes.empty()) return;
   for (std::vector<float>* plane : {&echoes.intensity, &echoes.real, &echoes.imaginary}) {
     if (!gains_.empty()) applyTimeGains(gains_, *plane);
-    if (beam_) beam_->apply(*plane, lines);
+    averageOverBeam(*plane, lines);
     if (!losses_.empty()) applySectorLosses(losses_, *plane);
   }
 }

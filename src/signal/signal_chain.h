@@ -12,6 +12,7 @@
 #include "signal/beam_width.h"
 #include "signal/haze.h"
 #include "signal/noise.h"
+#include "signal/profile_average.h"
 #include "signal/scan_conversion.h"
 #include "trace/coherent_echoes.h"
 
@@ -46,13 +47,16 @@ class SignalChain {
   }
 
  private:
+  void averageOverBeam(std::vector<float>& plane, LineRange lines) const;
+
   SignalSettings settings_;
   LineRange all_lines_;
   int samples_;
   std::vector<float> gains_;  // from a table or the mean; empty: none
   std::optional<BeamAverage> beam_;
-  std::vector<float> losses_;  // by drop-out and ribs; empty: none
-  std::optional<SideLobeHaze> haze_;
+  std::optional<ProfileAverage> profile_;  // across the lines, where beam_ is along them alone
+  std::vector<float> losses_;              // by drop-out and ribs; empty: none
+  std::optional<LateralHaze> haze_;
   std::optional<ReverberationTail> tail_;
   std::optional<NearFieldClutter> clutter_;
   std::optional<ReceiverNoise> noise_;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scene/beam_profile.h"
+#include "scene/sampled_beam.h"
 #include "scene/scan_geometry.h"
 
 namespace echocine {
@@ -30,7 +31,8 @@ PointSpread::PointSpread(const Probe& probe, double pulse_cycles)
       aperture_m(probe.elevation_aperture_m),
       focus_m(probe.elevation_focus_m) {
   axial_m = std::numbers::sqrt2 * axial_width_m / kWidthPerDeviation;
-  angle_rad = followedWidth(1, probe.aperture_m, wavelength_m) / kWidthPerDeviation;
+  angle_rad = speckleWidening(probe.receive_apodization) *
+              followedWidth(1, probe.aperture_m, wavelength_m) / kWidthPerDeviation;
 }
 
 double PointSpread::lateralWidth(double path_m) const {

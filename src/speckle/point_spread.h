@@ -3,7 +3,8 @@
 //
 // Symbols: lambda wavelength, D aperture, z path length, w full width at -6 dB of the two-way
 // intensity profile, sigma standard deviation of the amplitude's Gaussian. Lateral: a constant
-// angle at every depth, sigma = 0.3625 lambda z / D; defocus widens the beam, but not the speckle.
+// angle at every depth, sigma = 0.3625 lambda z / D times the widening by receive apodization at the
+// focus; defocus widens the beam, but not the speckle.
 
 #include "scene/probe.h"
 

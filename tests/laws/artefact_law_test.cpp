@@ -83,7 +83,7 @@ TEST(RibGap, TakesNothingInFrontOfTheRibsAndItsWholeShadowBehindThem) {
 
 TEST(Haze, IsATwoSidedExponentialAcrossTheLines) {
   const Probe probe = sector().probe;
-  const SideLobeHaze haze(probe, -20, 0.12);
+  const LateralHaze haze(probe, -20, 0.12);
   std::vector<float> plane = impulse(30, 77);
   haze.add(plane);
   const double a = std::exp(-pitch(probe) / 0.12);
@@ -98,7 +98,7 @@ TEST(Haze, IsATwoSidedExponentialAcrossTheLines) {
 TEST(Haze, OfAnEvenFieldIsItsLevelBesidesTheEdges) {
   Scene scene = sector();
   std::vector<float> plane(kSize, 2.0f);
-  SideLobeHaze(scene.probe, -13, 0.02).add(plane);
+  LateralHaze(scene.probe, -13, 0.02).add(plane);
   const double a = std::exp(-pitch(scene.probe) / 0.02);
   const double beyond = std::pow(a, 32) * 2 / (1 + a);  // what both edges cut off, about
   EXPECT_NEAR(plane[32 * kSamples + 5], 2 + 2 * std::pow(10, -1.3), 0.2 * beyond + 1e-5);

@@ -1,0 +1,39 @@
+#pragma once
+// Average across the lines over the sampled two-way beam (scene/sampled_beam.h), side lobes
+// included:
+//
+//   I'_i(z) = sum_j w_ij(z) I_j(z) / sum_j w_ij(z)                                        (B3)
+//   w_ij(z) = integral of P(u, q_i(z)) over the u between line j's borders                (B4)
+//
+// Lines within the main lobe enter one by one, those beyond it as means of a few neighbours, fewer
+// than a side lobe is wide. Sums end at the sector's edges, so a constant plane stays constant.
+// From 513 lines on, rows of neighbours stand for lines, and results are interpolated between rows.
+
+#include <vector>
+
+#include "core/beam_plane.h"
+#include "signal/profile_windows.h"
+
+namespace echocine {
+
+class ProfileAverage {
+ public:
+  // Precondition: at least two lines.
+  ProfileAverage(const Probe& probe, double pulse_cycles);
+
+  // Averages the lines of a line-major plane in place; reads all lines. Runs in parallel; the
+  // result does not depend on the threads.
+  void apply(std::vector<float>& plane, LineRange lines) const;
+
+ private:
+  struct Slab;
+
+  void averageSamples(const ProfileWindows::Zone& zone, int first, LineRange lines, Slab& slab,
+                      std::vector<float>& plane) const;
+  void storeLine(const Slab& slab, int line, int count, float* to) const;
+
+  int lines_, samples_;
+  ProfileWindows windows_;
+};
+
+}  // namespace echocine

@@ -1,0 +1,34 @@
+#pragma once
+// The weights of ProfileAverage, by depth and line.
+
+#include <cstddef>
+#include <vector>
+
+#include "scene/probe.h"
+
+namespace echocine {
+
+struct ProfileWindows {
+  // Adjacent samples that share their weights: 1/40 of the depth, at least 8 samples.
+  struct Zone {
+    int first, last;
+    std::size_t windows;  // place of its first row's window
+  };
+  // Of one row in one zone: weights of the groups before the main lobe, its rows, the groups behind
+  // it. Their sum is 1.
+  struct Window {
+    int first, end;  // rows one by one: whole groups
+    std::size_t weights;
+  };
+
+  // Precondition: at least two lines.
+  ProfileWindows(const Probe& probe, double pulse_cycles);
+
+  int in_row, rows;      // lines of a row; rows
+  int in_group, groups;  // rows that enter together beyond the main lobe; groups
+  std::vector<Zone> zones;
+  std::vector<Window> windows;  // by zone and row
+  std::vector<float> weights;
+};
+
+}  // namespace echocine
