@@ -14,6 +14,7 @@
 #include "motion/heart/heart_scene.h"
 #include "motion/surfaces/probe_placement.h"
 #include "scene/scan_geometry.h"
+#include "scene/view_names.h"
 #include "signal/signal_chain.h"
 
 namespace echocine {
