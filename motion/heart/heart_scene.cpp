@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "motion/heart/heart_units.h"
+#include "motion/heart/recording.h"
 #include "scene/names.h"
 #include "scene/role.h"
 

@@ -3,8 +3,14 @@
 #include <memory>
 
 #include "core/parallel.h"
+#include "core/stage_clock.h"
+#include "core/work_counts.h"
+#include "frame/making.h"
 #include "frame/simulator.h"
+#include "frame/workspace.h"
+#include "plan/loop_plan.h"
 #include "signal/reference.h"
+#include "trace/polar_frame.h"
 
 namespace echocine {
 
