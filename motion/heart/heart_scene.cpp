@@ -109,6 +109,7 @@ subdivision = {}   # the meshes are control meshes of Loop surfaces
 keyframe_heart_rate_bpm = {:g}   # another heart_rate_bpm above plays them with a diastole of other length
 end_systole_phase = {:.6f}
 keyframe_phases = {}
+interpolation = "cycle"   # between keyframes the heart follows its own volume curve and stays within them
 
 [signal]
 {}
