@@ -4,19 +4,11 @@
 #include <optional>
 #include <vector>
 
+#include "motion/cycle/frame_time.h"
 #include "motion/cycle/time_warp.h"
 #include "scene/scene.h"
 
 namespace echocine {
-
-struct FrameTime {
-  double time_s = 0;          // from the loop's start
-  double phase = 0;           // of the keyframes, [0, 1), 0 at end-diastole (the R wave)
-  int beat = 0;               // of the loop, from 0
-  double time_in_beat_s = 0;  // from its R wave
-  double beat_s = 0;          // duration of this beat, R wave to R wave
-  int frame = 0;              // of the loop, from 0; atTime() does not set it
-};
 
 class CardiacClock {
  public:

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "motion/heart/heart_units.h"
+#include "motion/heart/recording.h"
 #include "scene/names.h"
 #include "scene/role.h"
 
@@ -108,6 +109,7 @@ subdivision = {}   # the meshes are control meshes of Loop surfaces
 keyframe_heart_rate_bpm = {:g}   # another heart_rate_bpm above plays them with a diastole of other length
 end_systole_phase = {:.6f}
 keyframe_phases = {}
+interpolation = "cycle"   # between keyframes the heart follows its own volume curve and stays within them
 
 [signal]
 {}

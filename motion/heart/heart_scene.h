@@ -1,12 +1,17 @@
 #pragma once
 // A recorded heart as a scene: as text for files, or with meshes in memory.
 
+#include <cstddef>
 #include <string>
 
-#include "motion/heart/recording.h"
+#include "motion/heart/parameters.h"
 #include "scene/scene_reader.h"
 
 namespace echocine::heart {
+
+using echocine::View;
+struct RecordedPart;
+struct Recording;
 
 // The name of a part's keyframe: "lv_wall_07.obj"; "abdomen.obj" for a static part.
 std::string meshName(const RecordedPart& part, std::size_t keyframe);

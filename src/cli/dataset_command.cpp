@@ -103,7 +103,9 @@ int DatasetCommand::run() {
   try {
     return make();
   } catch (const Stopped&) {
-    throw JobError("stopped: finished hearts are kept, the same command goes on");
+    if (preview_ > 0) throw JobError("stopped: no preview was written");
+    if (slurm_) throw JobError("stopped: no jobs were written");
+    throw JobError("stopped: finished hearts are kept, the same command resumes");
   }
 }
 

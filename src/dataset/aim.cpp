@@ -8,6 +8,7 @@
 #include "dataset/dataset_loop.h"
 #include "dataset/user_scenes.h"
 #include "motion/heart/heart_scene.h"
+#include "motion/heart/recording.h"
 #include "scene/names.h"
 #include "scene/probe_pose.h"
 #include "scene/scene_reader.h"

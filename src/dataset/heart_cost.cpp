@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "core/stop.h"
 #include "dataset/make_dataset.h"
 
 namespace echocine::dataset {
@@ -27,6 +28,8 @@ HeartCost costOfAHeart(const Spec& spec, const std::filesystem::path& output,
     return {passed.count(), static_cast<double>(made.bytes)};
   } catch (...) {
     remove();
+    // Its hearts are gone, so a stopped run's word that they are kept would be wrong.
+    if (!monitor.keep_going()) throw Stopped();
     throw;
   }
 }

@@ -14,7 +14,7 @@ struct HeartCost {
 };
 
 // Renders the first heart completely beside `output` (a page or a folder) and deletes it. Throws
-// like makePart().
+// like makePart(), and Stopped when the monitor requests a stop.
 HeartCost costOfAHeart(const Spec& spec, const std::filesystem::path& output,
                        const Monitor& monitor);
 

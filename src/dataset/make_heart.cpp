@@ -16,11 +16,16 @@
 #include "dataset/redraw.h"
 #include "dataset/tracing.h"
 #include "frame/simulator.h"
+#include "frame/workspace.h"
 #include "loop/render_frames.h"
+#include "motion/cycle/cardiac_clock.h"
 #include "motion/cycle/ecg.h"
 #include "motion/heart/heart_scene.h"
+#include "motion/heart/recording.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "output/truth_files.h"
 #include "scene/view_names.h"
+#include "truth/frame_truth.h"
 
 namespace echocine::dataset {
 

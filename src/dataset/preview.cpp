@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
+#include "core/stop.h"
 #include "dataset/heart_cost.h"
 #include "dataset/preview_frames.h"
 #include "dataset/record.h"
@@ -110,7 +110,7 @@ PreviewSummary writePreview(const Spec& spec, const std::filesystem::path& page,
     };
     const auto in_flight = static_cast<std::size_t>(used) + 1;
     if (parallelOrdered(0, count, in_flight, monitor.keep_going, make, collect) < count)
-      throw JobError("stopped");
+      throw Stopped();
   });
   summary.pictures = hearts;
   const Json data{{"version", ECHOCINE_VERSION},

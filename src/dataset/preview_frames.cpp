@@ -6,7 +6,10 @@
 #include "dataset/aim.h"
 #include "dataset/redraw.h"
 #include "frame/simulator.h"
+#include "motion/cycle/cardiac_clock.h"
 #include "motion/heart/heart_scene.h"
+#include "motion/heart/recording.h"
+#include "motion/surfaces/mesh_motion.h"
 
 namespace echocine::dataset {
 

@@ -73,6 +73,7 @@ WorkFolder::WorkFolder(std::filesystem::path folder, const Spec& spec)
     throw SceneError(fmt::format("{}: is a link: choose a new or empty folder", work.string()));
   if (const std::optional<std::string> earlier = readText(mark)) {
     if (*earlier != markText(spec)) failOfOtherSpec(folder_);
+    keepSpec();
     return;
   }
   // A run that was killed at once leaves an empty work folder.
@@ -84,7 +85,13 @@ WorkFolder::WorkFolder(std::filesystem::path folder, const Spec& spec)
   const std::string own = markText(spec);
   if (!writeFileOnce(mark, std::as_bytes(std::span(own))) && readText(mark) != own)
     failOfOtherSpec(folder_);
-  writeText(folder_ / "spec.toml", spec.text);
+  keepSpec();
+}
+
+// A run that was killed after its mark has no copy of the spec, and a disk may damage one.
+void WorkFolder::keepSpec() const {
+  const std::filesystem::path copy = folder_ / "spec.toml";
+  if (readText(copy) != spec_.text) writeText(copy, spec_.text);
 }
 
 // A thousand to a folder: file systems are slow with more.

@@ -35,6 +35,7 @@ class WorkFolder {
   void removeParts() const;
 
  private:
+  void keepSpec() const;
   std::filesystem::path recordFile(int heart) const;
   std::filesystem::path folder_;
   const Spec& spec_;

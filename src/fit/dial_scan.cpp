@@ -13,6 +13,7 @@
 #include "fit/option_list.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/heart/parameters.h"
+#include "motion/heart/recording.h"
 #include "scene/view_names.h"
 
 namespace echocine::fit {

@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "motion/heart/heart_scene.h"
+#include "motion/heart/recording.h"
 
 namespace echocine::fit {
 

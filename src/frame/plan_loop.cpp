@@ -178,7 +178,9 @@ void chooseTracer(const Scene& scene, LoopPlan& plan) {
 }
 
 void lookAtFrames(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) {
-  PlaneSlice slice(motion.surfaces(), scene.probe, plan.left_out);
+  // The trace leaves out structures without an interface; their speckle still shows them.
+  const SurfaceSet unseen = plan.effects.contrast ? plan.left_out : SurfaceSet{};
+  PlaneSlice slice(motion.surfaces(), scene.probe, unseen);
   SurfaceFrame frame;
   std::size_t crossings = 0;
   for (const double phase : kProbePhases) {
@@ -187,10 +189,10 @@ void lookAtFrames(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) 
     plan.triangles_met = std::max(plan.triangles_met, slice.edges().size());
     for (const RayCrossings& line : slice.lines()) crossings += line.crossings.size();
   }
-  if (!plan.effects.contrast) {
+  if (!plan.effects.shows()) {
     plan.warnings.push_back(
         fmt::format("{}: all structures and their surroundings are of one medium", kNothingSeen));
-  } else if (plan.left_out.count() == scene.structures.size() ||
+  } else if (unseen.count() == scene.structures.size() ||
              (crossings == 0 && plan.effects.rays_per_beam == 1)) {
     plan.warnings.push_back(fmt::format(
         "{}: no scan line meets a structure in the frames examined; {} "

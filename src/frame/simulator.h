@@ -1,35 +1,33 @@
 #pragma once
 // One frame of a scene, from its instant to its pictures: the only place that combines the stages.
 
-#include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "core/beam_plane.h"
-#include "core/stage_clock.h"
-#include "core/work_counts.h"
-#include "frame/frame_rays.h"
-#include "frame/persistence.h"
-#include "frame/rolling.h"
-#include "frame/scene_speckle.h"
-#include "frame/truth_source.h"
+#include "core/monitor.h"
 #include "frame/white.h"
-#include "frame/work_tally.h"
-#include "frame/workspace.h"
-#include "motion/cycle/cardiac_clock.h"
-#include "motion/surfaces/mesh_motion.h"
-#include "motion/surfaces/trabeculae.h"
+#include "motion/cycle/frame_time.h"
 #include "motion/surfaces/volumes.h"
-#include "plan/loop_plan.h"
-#include "signal/signal_chain.h"
-#include "truth/frame_truth.h"
+#include "scene/scene.h"
+#include "signal/picture.h"
+#include "truth/truth_values.h"
 
 namespace echocine {
+
+class CardiacClock;
+class MeshMotion;
+class SignalChain;
+class StageClock;
+class TruthMaker;
+struct FrameStages;
+struct LoopPlan;
+struct Making;
+struct WorkCounts;
+struct Workspace;
 
 // A frame for callers. Planes are line-major: sample k of line i has the index i * samples + k;
 // scene().probe has their positions.
@@ -45,20 +43,6 @@ struct Frame {
   std::optional<FrameTruth> truth;                 // as requested by scene.truth and the channels
 };
 
-// The stages of a frame to run, and their options.
-struct Making {
-  bool traced = false;   // the workspace already has the frame's intensities: later stages only
-  bool still = false;    // all lines at the frame's instant, even if they roll
-  bool counted = true;   // counts as work of the loop
-  bool persists = true;  // mixes in earlier frames, if the scene has persistence
-  bool picture = false;  // runs scan conversion too
-  std::optional<double>
-      white{};  // of the log compression; without it the frame ends with intensities
-  // Receives the intensities of the lines before the signal chain; for rolling lines, whose groups
-  // pass the chain separately, after it.
-  std::function<void(Intensities&)> received{};
-};
-
 class Simulator {
  public:
   // Reads the scene's meshes or uses those in memory, places its probe for a view, and plans the
@@ -69,11 +53,15 @@ class Simulator {
   Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion);
   Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan);
 
-  const Scene& scene() const { return scene_; }
-  const MeshMotion& motion() const { return *motion_; }
-  const std::shared_ptr<const MeshMotion>& sharedMotion() const { return motion_; }
-  const LoopPlan& plan() const { return plan_; }
-  const CardiacClock& cardiacClock() const { return cardiac_clock_; }
+  Simulator(const Simulator&) = delete;
+  Simulator& operator=(const Simulator&) = delete;
+  ~Simulator();
+
+  const Scene& scene() const;
+  const MeshMotion& motion() const;
+  const std::shared_ptr<const MeshMotion>& sharedMotion() const;
+  const LoopPlan& plan() const;
+  const CardiacClock& cardiacClock() const;
 
   // The frame at an instant of the loop, from 0 s to its end; other instants are rejected with a
   // SceneError. Same bytes as `render` at that instant. Thread-safe; reuses the memory of `frame`
@@ -92,7 +80,7 @@ class Simulator {
 
   // Borrows a workspace for the lifetime of the pointer. Workspaces are created on demand and
   // reused.
-  std::shared_ptr<Workspace> workspace() const { return workspaces_.borrow(); }
+  std::shared_ptr<Workspace> workspace() const;
 
   // Computes a frame in a workspace: its polar frame and, if white is given, its grey levels and
   // picture. The grey levels reuse the memory of the intensities. Returns the volumes, empty if
@@ -100,53 +88,26 @@ class Simulator {
   Volumes make(const FrameTime& time, const Making& making, Workspace& workspace) const;
 
   // make() up to the intensities, and from the intensities to the picture.
-  Volumes trace(const FrameTime& time, Workspace& workspace) const {
-    return make(time, {}, workspace);
-  }
-  GreyImage& picture(double white, const FrameTime& time, Workspace& workspace, bool wanted) const {
-    make(time, {.traced = true, .picture = wanted, .white = white}, workspace);
-    return workspace.image;
-  }
+  Volumes trace(const FrameTime& time, Workspace& workspace) const;
+  GreyImage& picture(double white, const FrameTime& time, Workspace& workspace, bool wanted) const;
 
   // The maker of truth, fitted by the first call; nullptr if the scene requests no truth. Throws
   // like TruthMaker.
-  const TruthMaker* truth() const { return truth_.maker(); }
+  const TruthMaker* truth() const;
   // Reuses surfaces and slice of `traced` if it has exactly this phase. Precondition: truth() is
   // not nullptr.
-  FrameTruth truthAt(const FrameTime& time, const Workspace* traced = nullptr) const {
-    return truth_.at(time, traced);
-  }
+  FrameTruth truthAt(const FrameTime& time, const Workspace* traced = nullptr) const;
 
-  const SignalChain& chain() const { return chain_; }
-  StageClock& clock() const { return clock_; }
-  WorkCounts work() const { return tally_.work(); }
-  int tracedFrames() const { return tally_.frames(); }
+  const SignalChain& chain() const;
+  StageClock& clock() const;
+  WorkCounts work() const;
+  int tracedFrames() const;
 
  private:
   explicit Simulator(std::pair<Scene, std::shared_ptr<const MeshMotion>> read)
       : Simulator(std::move(read.first), std::move(read.second)) {}
-  void stand(const FrameTime& time, Workspace& workspace) const;
-  void process(const FrameTime& time, LineRange lines, Workspace& workspace) const;
-  Greys withoutPersistence(double white, const FrameTime& time) const;
 
-  const Scene scene_;
-  const std::shared_ptr<const MeshMotion> motion_;
-  const LoopPlan plan_;
-  const CardiacClock cardiac_clock_;
-  const SignalChain chain_;
-  const FrameRays rays_;
-  const SharedMotionField field_;  // of speckle and of truth
-  // Null if the plan disables the effect.
-  std::unique_ptr<const Trabeculae> trabeculae_;
-  std::unique_ptr<const SceneSpeckle> speckle_;
-  std::unique_ptr<const RollingLines> rolling_;
-  std::unique_ptr<const Persistence> persistence_;
-  const TruthSource truth_;
-  const WorkspacePool workspaces_;
-  mutable StageClock clock_;
-  mutable WorkTally tally_;
-  mutable std::mutex white_mutex_;
-  mutable std::optional<double> white_;  // once measured
+  const std::unique_ptr<const FrameStages> stages_;
 };
 
 }  // namespace echocine

@@ -3,8 +3,14 @@
 #include <memory>
 
 #include "core/parallel.h"
+#include "core/stage_clock.h"
+#include "core/work_counts.h"
+#include "frame/making.h"
 #include "frame/simulator.h"
+#include "frame/workspace.h"
+#include "plan/loop_plan.h"
 #include "signal/reference.h"
+#include "trace/polar_frame.h"
 
 namespace echocine {
 
@@ -21,7 +27,8 @@ std::optional<double> measureWhite(const Simulator& simulator, std::span<const F
                                    const Monitor& monitor, const KeepTraced& keep) {
   const Scene& scene = simulator.scene();
   if (scene.signal.reference_intensity) return scene.signal.reference_intensity;
-  if (!wantsPicture(scene) || !simulator.plan().effects.contrast) return 1;
+  const EffectPlan& effects = simulator.plan().effects;
+  if (!wantsPicture(scene) || !effects.shows()) return 1;
   WhiteMeasure white(scene);
   const auto work = [&](std::size_t i) -> std::shared_ptr<void> {
     const std::shared_ptr<Workspace> workspace = simulator.workspace();
@@ -41,7 +48,8 @@ std::optional<double> measureWhite(const Simulator& simulator, std::span<const F
       parallelOrdered(0, times.size(), 2 * static_cast<std::size_t>(threadCount()),
                       monitor.keep_going, work, collect);
   if (done < times.size()) return std::nullopt;
-  return simulator.work().crossings == 0 ? 1 : white.white();
+  const bool sees_structures = simulator.work().crossings > 0;
+  return sees_structures || !effects.contrast ? white.white() : 1;
 }
 
 }  // namespace echocine

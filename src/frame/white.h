@@ -6,13 +6,13 @@
 #include <span>
 
 #include "core/monitor.h"
-#include "motion/cycle/cardiac_clock.h"
+#include "motion/cycle/frame_time.h"
 #include "motion/surfaces/volumes.h"
-#include "trace/polar_frame.h"
 
 namespace echocine {
 
 class Simulator;
+struct PolarFrame;
 
 // Receives the traced frames by number, one at a time and in order.
 using KeepTraced = std::function<void(int frame, PolarFrame&& polar, Volumes&& volumes_ml)>;

@@ -6,7 +6,8 @@
 #include <mutex>
 #include <utility>
 
-#include "frame/simulator.h"
+#include "motion/surfaces/volumes.h"
+#include "trace/polar_frame.h"
 
 namespace echocine {
 

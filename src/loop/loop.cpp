@@ -6,7 +6,10 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "frame/workspace.h"
 #include "loop/render_frames.h"
+#include "motion/cycle/cardiac_clock.h"
+#include "truth/frame_truth.h"
 
 namespace echocine {
 

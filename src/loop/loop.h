@@ -8,7 +8,7 @@
 
 #include "core/monitor.h"
 #include "frame/simulator.h"
-#include "motion/cycle/cardiac_clock.h"
+#include "motion/cycle/frame_time.h"
 
 namespace echocine {
 

@@ -11,8 +11,12 @@
 #include "core/error.h"
 #include "core/out_of_memory.h"
 #include "core/parallel.h"
+#include "core/stage_clock.h"
 #include "core/stop.h"
+#include "frame/workspace.h"
 #include "loop/kept_frames.h"
+#include "motion/cycle/cardiac_clock.h"
+#include "plan/loop_plan.h"
 
 namespace echocine {
 

@@ -11,6 +11,8 @@
 
 namespace echocine {
 
+struct Workspace;
+
 // A rendered frame for a sink, which may move data out of it.
 struct MadeFrame {
   FrameTime time;

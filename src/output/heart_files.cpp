@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/heart/heart_truth.h"
+#include "motion/heart/recording.h"
 
 namespace echocine {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/stage_clock.h"
+#include "core/stage.h"
 #include "core/work_counts.h"
 #include "motion/surfaces/volumes.h"
 #include "output/accuracy_record.h"

@@ -52,6 +52,9 @@ struct EffectPlan {
   // Precondition: not Effect::channel.
   const EffectDecision& decision(Effect effect) const;
   EffectDecision& decision(Effect effect);
+
+  // True if the picture can show anything. A single medium shows its speckle.
+  bool shows() const { return contrast || speckle; }
 };
 
 // Decides from the scene file alone. Refraction stays on if any ray could bend; by how much depends

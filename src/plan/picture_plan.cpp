@@ -57,15 +57,17 @@ void planTrabeculae(const Scene& scene, EffectPlan& plan) {
                                                              millimetresFromMetres(height_m))});
 }
 
+// A single medium without contrast still shows its scatterers.
 void planSpeckle(const Scene& scene, EffectPlan& plan) {
-  plan.speckle = scene.speckle.on && wantsPicture(scene) && plan.contrast;
+  const bool echoes = plan.contrast || plan.backscatter;
+  plan.speckle = scene.speckle.on && wantsPicture(scene) && echoes;
   plan.decisions.push_back(
       {Effect::speckle, plan.speckle,
        !scene.speckle.on      ? "speckle.on is false"
        : !wantsPicture(scene) ? "no picture is requested"
-       : !plan.contrast       ? std::string(kNothingSeen)
-                        : fmt::format("{:g} scatterers per resolution cell move with the tissue",
-                                      scene.speckle.per_cell)});
+       : !echoes              ? std::string(kNothingSeen)
+                 : fmt::format("{:g} scatterers per resolution cell move with the tissue",
+                               scene.speckle.per_cell)});
   planTissue(scene, plan);
 }
 

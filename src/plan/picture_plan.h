@@ -9,8 +9,8 @@ namespace echocine {
 // The relief of the ventricles' inner surfaces.
 void planTrabeculae(const Scene& scene, EffectPlan& plan);
 
-// Speckle and the properties of scatterers and interfaces. Precondition: plan.contrast and
-// plan.reflection are decided.
+// Speckle and the properties of scatterers and interfaces. Precondition: plan.contrast,
+// plan.backscatter and plan.reflection are decided.
 void planSpeckle(const Scene& scene, EffectPlan& plan);
 
 // Drop-out, ribs, haze, reverberation, clutter, noise and persistence.

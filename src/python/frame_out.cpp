@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/check.h"
+#include "plan/effect_plan.h"
 #include "python/arrays.h"
 #include "python/frame.h"
 

@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/heart/heart_scene.h"
+#include "motion/heart/recording.h"
 #include "python/bindings.h"
 #include "python/job.h"
 #include "python/meshes.h"

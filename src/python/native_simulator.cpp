@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "frame/plan_loop.h"
+#include "motion/cycle/cardiac_clock.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/frame.h"

@@ -8,8 +8,13 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
+#include "core/stage_clock.h"
+#include "frame/workspace.h"
+#include "motion/cycle/cardiac_clock.h"
 #include "motion/cycle/ecg.h"
 #include "scene/scene_json.h"
+#include "signal/signal_chain.h"
+#include "truth/frame_truth.h"
 
 namespace echocine {
 

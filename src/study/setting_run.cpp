@@ -6,11 +6,16 @@
 #include <nlohmann/json.hpp>
 
 #include "core/hash.h"
+#include "core/stage_clock.h"
+#include "frame/making.h"
 #include "frame/plan_loop.h"
 #include "loop/render_frames.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "output/exr_plane.h"
 #include "scene/elevation_slices.h"
 #include "scene/scene_json.h"
+#include "signal/signal_chain.h"
+#include "trace/trace_frame.h"
 
 namespace echocine {
 

@@ -6,14 +6,20 @@
 #include <optional>
 #include <string>
 
+#include "core/stage.h"
+#include "core/work_counts.h"
 #include "frame/simulator.h"
+#include "frame/workspace.h"
 #include "metrics/interface_error.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "output/exr_stack.h"
 #include "output/overlay.h"
+#include "plan/loop_plan.h"
 #include "video/cine_writer.h"
 
 namespace echocine {
+
+class MeshMotion;
 
 // Cache of motions: keyframes are read once for each kind of motion, and settings that differ in
 // lines share one.

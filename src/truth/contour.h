@@ -7,19 +7,9 @@
 
 #include "geometry/plane_slice.h"
 #include "motion/surfaces/mesh_motion.h"
+#include "truth/truth_values.h"
 
 namespace echocine {
-
-// A contour in the imaging plane (y = 0), metres in the probe frame. Closed surfaces give closed
-// contours (the last point joins the first), and so may membranes; edges are joined over the
-// mesh's edges, not by nearness.
-struct Contour {
-  SurfaceId surface{};
-  bool closed = false;
-  std::vector<Vec3d> points_m;
-  // Of the edges given, the one that starts at each point; none at the last of an open contour.
-  std::vector<std::uint32_t> edges;
-};
 
 // All contours of the frame that `edges` were cut from, surface by surface.
 std::vector<Contour> chainContours(std::span<const ContourEdge> edges,

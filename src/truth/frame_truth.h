@@ -14,34 +14,11 @@
 #include "truth/motion_planes.h"
 #include "truth/plane_labels.h"
 #include "truth/shown_labels.h"
+#include "truth/truth_values.h"
 #include "truth/valve_times.h"
 #include "truth/view_offset.h"
 
 namespace echocine {
-
-// Places and planes are where the picture shows things: along the paths of its rays, at the depths
-// of their travel time, where it has such. Lengths, strains, volumes and displacements are the
-// heart's own.
-struct FrameTruth {
-  PlaneLabels::Ids picture_ids;           // structures at the picture's pixels, from 1
-  std::vector<std::uint8_t> labels;       // the same by the scene's numbers
-  std::vector<std::uint32_t> sample_ids;  // structures at the samples
-  // Whole, before the sector cuts them; along sound paths as far as these reach.
-  std::vector<Contour> contours;
-  MotionPlanes motion;
-  std::optional<FunctionFrame> function;
-  std::vector<Vec3f> tracks_m;  // material points, in the order of TruthMaker::tracked()
-  // All but what a loop's own files collect.
-  void forgetPlanes() {
-    picture_ids = {};
-    labels = {};
-    sample_ids = {};
-    contours = {};
-    motion = {};
-  }
-  // A channel's plane; one of the two is empty.
-  std::span<const float> values(Channel channel) const;
-};
 
 // An instant and its neighbours, from which velocity is taken.
 // planes_only: what stands at pixels and samples; nothing of contours, function and tracks.

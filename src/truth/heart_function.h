@@ -13,6 +13,7 @@
 #include "truth/aha_segments.h"
 #include "truth/orifice.h"
 #include "truth/simpson.h"
+#include "truth/truth_values.h"
 #include "truth/view_offset.h"
 
 namespace echocine {
@@ -23,39 +24,6 @@ struct WallColumn {
   Vec3f endo_m, mid_m, epi_m;
   Vec3f radial, longitudinal, circumferential;  // unit, at the middle
   int segment = 0;                              // 1 to 17, as the American Heart Association counts
-};
-
-// Parts of the first frame's lengths, radial that of the wall's thickness; not a number for a
-// segment without wall.
-struct SegmentStrain {
-  double longitudinal = 0, radial = 0, circumferential = 0, thickness_mm = 0;
-};
-using SegmentStrains = std::array<SegmentStrain, kAhaSegments>;
-
-// A valve's ring at one frame.
-struct RingFrame {
-  Vec3d middle_m;
-  std::optional<std::pair<Vec3d, Vec3d>> hinges_m;  // in the imaging plane, the left one first
-};
-
-struct FunctionFrame {
-  // How the meridians in the middle of the wall change in length, all together: the mean of the
-  // strain along them by arc length.
-  double global_longitudinal_strain = 0;
-  SegmentStrains segments{};
-  // The same of the wall's middle where the imaging plane cuts it at the reference phase.
-  double view_longitudinal_strain = 0;
-  SegmentStrains view_segments{};   // all by arc length
-  double length_mm = 0;             // from the middle of the mitral ring to the cavity's apex
-  double base_descent_mm = 0;       // of that middle towards the apex, along the first axis
-  double tricuspid_descent_mm = 0;  // of that ring's lateral end, along the same axis
-  double twist_deg = 0;   // of the apex against the base, counterclockwise seen from the apex
-  double sphericity = 0;  // cavity's volume over that of a ball as long
-  double volume_ml = 0;   // exact
-  double biplane_ml = 0;  // Simpson's rule, 20 discs, two apical planes across each other
-  std::optional<double> single_plane_ml;  // in the imaging plane, where it shows the long axis
-  LongAxis axis;
-  std::optional<RingFrame> mitral, tricuspid, aortic;
 };
 
 class HeartFunction {

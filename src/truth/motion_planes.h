@@ -9,14 +9,9 @@
 #include "geometry/sound_paths.h"
 #include "motion/interior/motion_field.h"
 #include "scene/scene.h"
+#include "truth/truth_values.h"
 
 namespace echocine {
-
-struct MotionPlanes {
-  // Line-major, lateral, axial (depth) and elevation of the probe frame; not a number outside
-  // tissue.
-  std::array<std::vector<float>, 3> displacement_mm, velocity_mm_s;
-};
 
 // The field at the first frame, at this one and a little before and after it.
 struct FieldTimes {

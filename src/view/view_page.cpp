@@ -4,8 +4,10 @@
 
 #include "core/parallel.h"
 #include "core/shown_path.h"
+#include "motion/cycle/cardiac_clock.h"
 #include "page/assets.h"
 #include "page/page.h"
+#include "plan/loop_plan.h"
 #include "scene/scene_json.h"
 #include "video/cine_writer.h"
 #include "view/view_json.h"

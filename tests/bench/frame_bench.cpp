@@ -13,6 +13,7 @@
 #include "bench/floor/bare_slice.h"
 #include "bench/rounds.h"
 #include "frame/simulator.h"
+#include "motion/cycle/cardiac_clock.h"
 #include "render/render.h"
 #include "scene/scene_reader.h"
 

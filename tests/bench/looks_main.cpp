@@ -27,6 +27,7 @@
 #include "scene/names.h"
 #include "scene/role.h"
 #include "scene/signal_reader.h"
+#include "signal/signal_chain.h"
 #include "texture_table.h"
 #include "truth/frame_truth.h"
 #include "video/read_video.h"

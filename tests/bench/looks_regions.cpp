@@ -13,7 +13,9 @@
 #include "echo/sector.h"
 #include "frame/simulator.h"
 #include "metrics/box_echo.h"
+#include "motion/cycle/cardiac_clock.h"
 #include "scene/scene_reader.h"
+#include "signal/signal_chain.h"
 #include "video/read_video.h"
 
 namespace echocine::bench {

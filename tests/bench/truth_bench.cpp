@@ -3,6 +3,7 @@
 
 #include "bench/rounds.h"
 #include "frame/simulator.h"
+#include "motion/cycle/cardiac_clock.h"
 #include "motion/surfaces/interior_motion.h"
 #include "scene/scene_reader.h"
 #include "support/paths.h"

@@ -257,19 +257,28 @@ TEST(CompareFit, LessThanHalfABeatIsRefused) {
   EXPECT_THROW(ModelDiscrepancy(loop, fromTheStart(), Phantom{}.model()), SceneError);
 }
 
-// What hearts are between: at a node the recorded one itself, between two nodes neither.
+// Between the nodes as at them, a family's heart is the one that is computed there: its blood has
+// the same area in the plane, in m2 up to a constant. A family keeps the first node's sector, whose
+// depth is the unit of the cells' areas.
 TEST(CompareFit, AFamilyHoldsItsHearts) {
   withThreads(2, [&] {
-    const std::vector<DialRange> ranges{{"ef", 0.4, 0.6}};
-    const HeartFamily family({}, ranges, heart::View::a4c, 4, 2);
-    const auto bloodOf = [&](double ef, std::size_t frame) {
-      return support::bloodOf(family.at({ef}), frame);
+    const auto areaOf = [](const HeartFamily& family, double ef, std::size_t frame) {
+      const ModelLoop loop = family.at({ef});
+      return bloodOf(loop, frame) * loop.far_m * loop.far_m;
     };
-    // Quarter of a beat: the ventricle is emptier the more it ejects.
-    EXPECT_GT(bloodOf(0.4, 1), bloodOf(0.5, 1));
-    EXPECT_GT(bloodOf(0.5, 1), bloodOf(0.6, 1));
-    EXPECT_NEAR(bloodOf(0.5, 1), 0.5 * (bloodOf(0.4, 1) + bloodOf(0.6, 1)), 0.02 * bloodOf(0.5, 1));
-    EXPECT_FALSE(family.at({0.5}).frames[1].boundary.empty());
+    for (const heart::View view : {heart::View::a4c, heart::View::psax_mid}) {
+      const HeartFamily family({}, {{"ef", 0.4, 0.6}}, view, 4, 3),
+          computed({}, {{"ef", 0.44, 0.57}}, view, 4, 2);  // both at nodes
+      for (const double ef : {0.44, 0.57})
+        for (std::size_t frame = 0; frame < 4; ++frame) {
+          const double wanted = areaOf(computed, ef, frame);
+          EXPECT_NEAR(areaOf(family, ef, frame), wanted, 2e-3 * wanted) << ef << ' ' << frame;
+        }
+      // Quarter of a beat: the ventricle is emptier the more it ejects.
+      EXPECT_GT(areaOf(family, 0.4, 1), areaOf(family, 0.5, 1));
+      EXPECT_GT(areaOf(family, 0.5, 1), areaOf(family, 0.6, 1));
+      EXPECT_FALSE(family.at({0.5}).frames[1].boundary.empty());
+    }
   });
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "motion/cycle/cardiac_timing.h"
+#include "motion/heart/heart.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/surfaces/interior_motion.h"
 #include "scene/scene_reader.h"

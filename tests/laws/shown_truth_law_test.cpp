@@ -9,6 +9,7 @@
 
 #include "frame/picture_grid.h"
 #include "frame/simulator.h"
+#include "plan/loop_plan.h"
 #include "scene/scan_geometry.h"
 #include "support/scene_text.h"
 

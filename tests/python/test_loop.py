@@ -1,5 +1,7 @@
 """Loops in memory, in folders, and as the program makes them."""
 
+import os
+import random
 import shutil
 import subprocess
 from pathlib import Path
@@ -210,3 +212,35 @@ def test_a_file_that_is_not_as_it_was_written_is_named(pair, tmp_path):
     with pytest.raises(echocine.JobError, match="cine.avi: is not as it was written"):
         echocine.open(copy).images
     assert np.array_equal(echocine.open(copy, verify=False).images, folder.images)
+
+
+def contents(loop):
+    """All that a folder's loop gives, as bytes or plain values."""
+    return [a.tobytes() for a in (loop.intensities, loop.greys, loop.images, loop.labels, loop.displacement, loop.tracks, loop.strain,
+                                  loop.times_s, loop.phases)] + [
+        {name: a.tobytes() for name, a in loop.volumes.items()}, {name: a.tobytes() for name, a in loop.curves.items()},
+        repr(loop.contours), loop.label_names, loop.reference_intensity, loop.manifest]
+
+
+def test_no_flipped_bit_is_believed(pair, tmp_path):
+    """ECHOCINE_FLIPS sets how many bits flip. report.html is not read."""
+    _, folder = pair
+    wanted = repr(contents(folder))
+    files = sorted(f for f in folder.folder.rglob("*") if f.is_file() and f.name != "report.html")
+    dice, copy, refused = random.Random(29), tmp_path / "copy", 0
+    shutil.copytree(folder.folder, copy)
+    flips = int(os.environ.get("ECHOCINE_FLIPS", "40"))
+    for n in range(flips):
+        # Every other flip is in the manifest, whose numbers nothing else proves.
+        file = copy / ("manifest.json" if n % 2 else dice.choice(files).relative_to(folder.folder))
+        whole = file.read_bytes()
+        bit = dice.randrange(8 * len(whole))
+        file.write_bytes(whole[:bit // 8] + bytes([whole[bit // 8] ^ 1 << bit % 8]) + whole[bit // 8 + 1:])
+        try:
+            assert repr(contents(echocine.open(copy))) == wanted, (file.name, bit)
+        except (echocine.JobError, echocine.SceneError) as error:
+            assert file.name in str(error)
+            refused += 1
+        file.write_bytes(whole)
+    print(f"{refused} of {flips} flips refused")
+    assert refused > flips // 2

@@ -111,6 +111,20 @@ TEST(EffectPlan, TheSceneHasTheLastWord) {
   EXPECT_FALSE(planEffects(sceneOf(kPlain, kPlain)).travel_time);
 }
 
+// Two lines are enough for what acts across lines; one line has no neighbour.
+TEST(EffectPlan, DropoutAndHazeNeedTwoLines) {
+  Scene scene = sceneOf(kPlain, medium("other", 1100, 1600, 5, 0.1));
+  scene.output.cine = true;
+  scene.artefacts.dropout = scene.artefacts.haze = true;
+  for (const int lines : {1, 2}) {
+    scene.probe.lines = lines;
+    for (const char* effect : {"dropout", "haze"}) {
+      EXPECT_EQ(decision(scene, effect).on, lines == 2) << effect << ", " << lines;
+      EXPECT_EQ(decision(scene, effect).reason == "there is only one line", lines == 1) << effect;
+    }
+  }
+}
+
 TEST(EffectPlanOfBeams, SeveralRaysSpreadOverWhatIsNotTurnedOff) {
   Scene scene = sceneOf(medium("a", 1000, 1540, 1, 1e-3), medium("b", 1100, 1540, 1, 1e-3));
   EffectPlan plan = planEffects(scene);

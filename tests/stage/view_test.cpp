@@ -7,6 +7,8 @@
 
 #include "core/parallel.h"
 #include "motion/mesh/surface_measure.h"
+#include "motion/surfaces/mesh_motion.h"
+#include "plan/loop_plan.h"
 #include "scene/scan_geometry.h"
 #include "support/loop_scene.h"
 #include "support/page_data.h"

@@ -19,6 +19,7 @@ inline std::string timelessManifest(const fs::path& file) {
   nlohmann::json json = nlohmann::json::parse(bytesOf(file), nullptr, false);
   if (json.is_discarded()) return "no JSON";
   json.erase("timings_ms_per_frame");
+  json.erase("manifest_sha256");
   for (nlohmann::json& effect : json["effects"]) effect.erase("time_share");
   json["files"].erase("report.html");
   return json.dump();

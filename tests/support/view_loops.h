@@ -15,6 +15,7 @@
 #include "frame/simulator.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/views/heart_marks.h"
+#include "signal/signal_chain.h"
 #include "support/patient_scene.h"
 #include "support/real_hearts.h"
 #include "support/scene_text.h"

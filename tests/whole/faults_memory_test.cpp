@@ -88,7 +88,8 @@ TEST_F(ShortOfMemory, AShortageThatLastsEndsInOneLine) {
 }
 
 // A limit on the address space, from the least that lets the program start to what a run needs.
-// Below that the system's loader refuses, which is no matter of the program's.
+// Below that the system's loader refuses, which is no matter of the program's. ECHOCINE_LIMITS sets
+// how many more limits are drawn.
 TEST_F(ShortOfMemory, EveryLimitOfAddressesEndsInOneLine) {
   const auto limited = [](std::vector<std::string> arguments, long megabytes) {
     FaultyRun run{std::move(arguments)};
@@ -116,6 +117,17 @@ TEST_F(ShortOfMemory, EveryLimitOfAddressesEndsInOneLine) {
   EXPECT_GT(failed, 0);
   EXPECT_EQ(run_at_all, 3);
   expectResumes();
+  const char* const wanted = std::getenv("ECHOCINE_LIMITS");
+  const int more = wanted ? std::atoi(wanted) : 0;
+  std::mt19937 random(10);
+  int refused_more = 0;
+  for (int i = 0; i < more; ++i) {
+    const long megabytes = starts + std::uniform_int_distribution<long>(2, 400)(random);
+    SCOPED_TRACE(megabytes);
+    fs::remove_all(out);
+    refused_more += expectOrderlyEnd(limited(rendering(out, {}, 4).arguments, megabytes));
+  }
+  if (more > 0) std::printf("%d of %d limits failed, from %ld MB\n", refused_more, more, starts);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "frame/simulator.h"
+#include "plan/effect_plan.h"
 #include "scene/scene_json.h"
 #include "support/loop_scene.h"
 

@@ -5,6 +5,7 @@
 #include "core/parallel.h"
 #include "frame/picture_grid.h"
 #include "frame/simulator.h"
+#include "motion/cycle/cardiac_clock.h"
 #include "render/render.h"
 #include "scene/scan_geometry.h"
 #include "support/exr_planes.h"

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "frame/simulator.h"
+#include "frame/workspace.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/surfaces/mesh_motion.h"
 #include "render/render.h"

@@ -4,8 +4,12 @@
 
 #include "core/parallel.h"
 #include "frame/simulator.h"
+#include "motion/cycle/cardiac_clock.h"
+#include "plan/loop_plan.h"
 #include "scene/scene_reader.h"
+#include "speckle/field_material.h"
 #include "speckle/sheet_points.h"
+#include "speckle/speckle.h"
 #include "support/loop_scene.h"
 
 namespace echocine {

@@ -6,11 +6,16 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "frame/making.h"
 #include "frame/simulator.h"
+#include "frame/workspace.h"
 #include "metrics/picture_error.h"
+#include "motion/cycle/cardiac_clock.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/surfaces/probe_placement.h"
 #include "scene/scan_geometry.h"
+#include "scene/view_names.h"
+#include "signal/signal_chain.h"
 
 namespace echocine {
 namespace {

@@ -18,7 +18,7 @@ from . import _echocine
 from ._errors import JobError, SceneError
 from ._progress import Progress, report_to
 from ._scene import Scene
-from ._verify import RenderFiles
+from ._verify import RenderFiles, is_sealed
 
 _TRUTH = ("all", "labels", "contours", "tracks", "function", "displacement", "velocity")
 _SIDES = ("lateral", "axial", "elevation")
@@ -39,7 +39,7 @@ class Loop:
         self._closed = False
         self._kept: Dict[str, Any] = {}
         if folder is not None:
-            self._manifest = _manifest(folder)
+            self._manifest = _manifest(folder, verify)
             self._files = RenderFiles(folder, self._manifest, verify)
 
     # Where things come from.
@@ -303,16 +303,19 @@ class Loop:
         return loop_html(self)
 
 
-def _manifest(folder: Path) -> Dict[str, Any]:
+def _manifest(folder: Path, verify: bool) -> Dict[str, Any]:
     file = folder / "manifest.json"
     try:
-        manifest: Dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+        text = file.read_bytes()
+        manifest: Dict[str, Any] = json.loads(text.decode("utf-8"))
         for key in ("scene", "frames", "scene_sha256"):
             manifest[key]
     except OSError as error:
         raise SceneError(f"{file}: cannot be read ({error.strerror}), accepted: the folder of a finished render") from None
     except (ValueError, KeyError, TypeError):
         raise SceneError(f"{file}: is damaged, accepted: the folder of a finished render") from None
+    if verify and not is_sealed(text):
+        raise JobError(f"{file}: is not as it was written, or of an earlier version: render it again, or open with verify=False")
     return manifest
 
 

@@ -13,6 +13,12 @@ from ._errors import JobError
 _PIECE = 1 << 20
 
 
+def is_sealed(manifest: bytes) -> bool:
+    """Whether the last key of a render's manifest is the digest of the bytes before it."""
+    before, key, after = manifest.rpartition(b",\n \"manifest_sha256\": ")
+    return bool(key) and after == b"\"" + hashlib.sha256(before).hexdigest().encode() + b"\"\n}\n"
+
+
 class RenderFiles:
     """Files of a render's folder, by the SHA-256 digests in its manifest. A file without one is passed as it is."""
 

@@ -1,0 +1,137 @@
+#include "frame/frame_stages.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/usable.h"
+#include "frame/loop_instant.h"
+#include "frame/structure_volumes.h"
+
+namespace echocine {
+
+namespace {
+
+// The intensity stack refuses what cannot be shown by itself; a run without one must not draw it
+// either.
+void refuseUnusable(double phase, const PolarFrame& polar) {
+  const std::optional<std::size_t> bad = firstUnusable(polar.intensities);
+  if (!bad) return;
+  const auto per_line = static_cast<std::size_t>(polar.samples);
+  throw JobError(
+      fmt::format("phase {}, line {}, sample {}: the intensity after time gain is {}: only finite "
+                  "values from 0 up are accepted",
+                  phase, *bad / per_line, *bad % per_line, polar.intensities[*bad]));
+}
+
+}  // namespace
+
+// All stages of a frame, in order: motion, geometry, trace, signal, speckle; then the picture.
+Volumes FrameStages::make(const FrameTime& time, const Making& making, Workspace& w) const {
+  Volumes volumes_ml;
+  if (!making.traced) {
+    const bool rolls = effects.rolling && !making.still;
+    if (w.polar.intensities.empty()) w.polar.intensities = Intensities(w.greys.release());
+    WorkCounts work;
+    // Near the probe the average over the beam takes in nearly all lines, deeper few of them; haze
+    // takes in all. What only a group's lines need is done for these alone.
+    for (std::size_t g = 0; rolls && g < effects.rolling->groups().size(); ++g) {
+      const RollingLines::Group& group = effects.rolling->groups()[g];
+      const FrameTime at = instantOf(cardiac_clock, scene, time.time_s + group.offset_s);
+      stand(at, w);
+      work += clock.time(Stage::trace, [&] { return rays.trace(at.frame, &group, w); });
+      process(at, group.lines, w);
+      effects.rolling->take(g, w.polar, w.rolled);
+    }
+    if (rolls) std::swap(w.polar, w.rolled);
+    stand(time, w);  // of a rolling frame for volumes and truth
+    if (!rolls) work = clock.time(Stage::trace, [&] { return rays.trace(time.frame, nullptr, w); });
+    if (making.counted) tally.addFrame(work);
+    if (making.received) making.received(w.polar.intensities);
+    if (!rolls) process(time, {0, scene.probe.lines}, w);
+    if (rays.receive() && !making.still) refuseUnusable(time.phase, w.polar);
+    volumes_ml =
+        clock.time(Stage::motion, [&] { return structureVolumes(scene, *motion, w.surfaces); });
+  }
+  if (!making.white || !rays.receive()) return volumes_ml;
+  clock.time(Stage::signal, [&] {
+    w.greys = chain.compress(std::move(w.polar.intensities), *making.white, time.time_s);
+  });
+  if (effects.persistence && making.persists)
+    effects.persistence->apply(*making.white, time, w.greys, [&](const FrameTime& earlier) {
+      return withoutPersistence(*making.white, earlier);
+    });
+  if (making.picture) clock.time(Stage::scan_conversion, [&] { chain.picture(w.greys, w.image); });
+  return volumes_ml;
+}
+
+// The surfaces of an instant, made ready for rays.
+void FrameStages::stand(const FrameTime& time, Workspace& w) const {
+  w.phase = -1;
+  clock.time(Stage::motion, [&] { motion->frameAt(time.phase, w.surfaces, plan.smooth_normals); });
+  clock.time(Stage::geometry, [&] {
+    if (effects.trabeculae) effects.trabeculae->raise(w.surfaces, w.smooth);
+    std::visit([&](auto& g) { g.update(w.surfaces); }, w.geometry);
+    if (w.sides) w.sides->update(w.surfaces);
+    if (effects.trabeculae) effects.trabeculae->lower(w.surfaces, w.smooth);
+  });
+  w.phase = time.phase;
+}
+
+// Time gain and beam width of some lines, and their speckle.
+void FrameStages::process(const FrameTime& time, LineRange lines, Workspace& w) const {
+  if (!rays.receive()) return;
+  PolarFrame& polar = w.polar;
+  clock.time(Stage::signal, [&] {
+    chain.process(polar.intensities, effects.speckle ? effects.speckle->reach(lines) : lines);
+    chain.process(polar.coherent, lines);
+  });
+  if (effects.speckle)
+    clock.time(Stage::speckle, [&] {
+      effects.speckle->apply(time, w.surfaces, polar.intensities, polar.coherent, lines);
+    });
+}
+
+// A frame that persists in a later one. It counts as no work of its own: how often it is made
+// depends on what is still known.
+Greys FrameStages::withoutPersistence(double white_at, const FrameTime& time) const {
+  const std::shared_ptr<Workspace> w = workspaces.borrow();
+  make(time, {.counted = false, .persists = false, .white = white_at}, *w);
+  return std::move(w->greys);
+}
+
+namespace {
+
+template <typename Part, typename... Arguments>
+std::unique_ptr<const Part> where(bool asked, Arguments&&... arguments) {
+  return asked ? std::make_unique<const Part>(std::forward<Arguments>(arguments)...) : nullptr;
+}
+
+}  // namespace
+
+FrameEffects::FrameEffects(const Scene& scene, const MeshMotion& motion,
+                           const SharedMotionField& field, const LoopPlan& plan,
+                           const CardiacClock& clock, const SignalChain& chain)
+    : trabeculae(where<Trabeculae>(plan.effects.trabeculae, scene, motion, !plan.slice)),
+      speckle(where<SceneSpeckle>(plan.effects.speckle, scene, motion, field, plan.effects,
+                                  trabeculae.get())),
+      rolling(where<RollingLines>(
+          plan.effects.rolling, scene,
+          [&](LineRange lines) { return chain.taken(speckle ? speckle->reach(lines) : lines); })),
+      persistence(where<Persistence>(plan.effects.persistence, scene.artefacts.persistence, clock,
+                                     scene.acquisition.frame_rate_hz)) {}
+
+FrameStages::FrameStages(Scene given, std::shared_ptr<const MeshMotion> given_motion,
+                         LoopPlan given_plan)
+    : scene(std::move(given)),
+      motion(std::move(given_motion)),
+      plan(std::move(given_plan)),
+      cardiac_clock(scene),
+      chain(scene, plan.effects),
+      rays(scene, plan),
+      field(scene, *motion),
+      effects(scene, *motion, field, plan, cardiac_clock, chain),
+      truth(scene, *motion, field, cardiac_clock, plan, effects.rolling.get(),
+            plan.left_out.none() && !effects.trabeculae),
+      workspaces(scene, *motion, plan) {}
+
+}  // namespace echocine
