@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "frame/plan_loop.h"
 #include "frame/simulator.h"
 #include "metrics/block_match.h"
 #include "metrics/statistics.h"
