@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "frame/plan_loop.h"
 #include "frame/simulator.h"
 #include "metrics/block_match.h"
 #include "metrics/statistics.h"
+#include "plan/loop_plan.h"
 #include "scene/scene_reader.h"
 #include "support/loop_scene.h"
 
