@@ -2,63 +2,18 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "core/lanes.h"
 #include "core/parallel.h"
 
 namespace echocine {
 
-ProfileAverage::ProfileAverage(const Probe& probe, double pulse_cycles)
-    : lines_(probe.lines), samples_(probe.samples), windows_(probe, pulse_cycles) {}
-
-// Eight samples of all rows, of all groups their mean, and of all rows their average.
-struct ProfileAverage::Slab {
-  std::vector<Floats8> rows, groups, averages;
-
-  explicit Slab(const ProfileAverage& average)
-      : rows(static_cast<std::size_t>(average.windows_.rows)),
-        groups(static_cast<std::size_t>(average.windows_.groups)),
-        averages(rows.size()),
-        average_(average) {}
-
-  // From the first line's samples.
-  void read(const float* plane, int count) {
-    readMeans(average_.lines_, average_.windows_.in_row, rows, [&](int line) {
-      Floats8 samples{};
-      std::memcpy(&samples, plane + std::ptrdiff_t{line} * average_.samples_,
-                  static_cast<std::size_t>(count) * sizeof(float));
-      return samples;
-    });
-    readMeans(average_.windows_.rows, average_.windows_.in_group, groups,
-              [&](int row) { return rows[static_cast<std::size_t>(row)]; });
-  }
-
- private:
-  template <typename At>
-  static void readMeans(int count, int together, std::vector<Floats8>& means, const At& at) {
-    for (int first = 0; first < count; first += together) {
-      const int end = std::min(first + together, count);
-      Floats8 sum{};
-      for (int i = first; i < end; ++i) sum += at(i);
-      means[static_cast<std::size_t>(first / together)] =
-          sum * (1.0f / static_cast<float>(end - first));
-    }
-  }
-
-  const ProfileAverage& average_;
-};
-
-void ProfileAverage::apply(std::vector<float>& plane, LineRange lines) const {
-  parallelBlocks(windows_.zones.size(), 4, [&](std::size_t begin, std::size_t end) {
-    Slab slab(*this);
-    for (std::size_t z = begin; z < end; ++z)
-      for (int first = windows_.zones[z].first; first < windows_.zones[z].last;
-           first += int{kFloatLanes})
-        averageSamples(windows_.zones[z], first, lines, slab, plane);
-  });
-}
-
 namespace {
+
+constexpr int kLanes = kFloatLanes;
+// Samples that are read and written together: whole cache lines of each line. Our choice.
+constexpr int kVectors = 8, kSlab = kVectors * kLanes;
 
 // Four sums that do not wait for each other.
 Floats8 weightedSum(const float* weights, const Floats8* rows, int count) {
@@ -70,39 +25,131 @@ Floats8 weightedSum(const float* weights, const Floats8* rows, int count) {
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
+bool isZero(Floats8 a) {
+  const Ints8 bits = reinterpret_cast<Ints8>(a);
+  constexpr std::int32_t kAllButTheSign = std::numeric_limits<std::int32_t>::max();
+  Ints8 any = bits & kAllButTheSign;
+  std::int32_t all = 0;
+  for (std::size_t i = 0; i < kFloatLanes; ++i) all |= any[i];
+  return all == 0;
+}
+
 }  // namespace
 
-void ProfileAverage::averageSamples(const ProfileWindows::Zone& zone, int first, LineRange lines,
-                                    Slab& slab, std::vector<float>& plane) const {
-  const int count = std::min(int{kFloatLanes}, zone.last - first);
-  slab.read(plane.data() + first, count);
+// Samples first to last - 1 of all lines: vectors of eight, each by row.
+struct ProfileAverage::Slab {
+  int first, last;
+  std::vector<Floats8> rows, averages;  // by vector and row
+  std::vector<Floats8> groups;          // means of one vector
+  std::vector<int> echoing;             // rows that are not 0, of one vector
+
+  Slab(const ProfileAverage& average, int first_sample)
+      : first(first_sample),
+        last(std::min(first_sample + kSlab, average.samples_)),
+        rows(static_cast<std::size_t>(kVectors * average.windows_.rows)),
+        averages(rows.size()),
+        groups(static_cast<std::size_t>(average.windows_.groups)) {}
+};
+
+ProfileAverage::ProfileAverage(const Probe& probe, double pulse_cycles)
+    : lines_(probe.lines), samples_(probe.samples), windows_(probe, pulse_cycles) {}
+
+void ProfileAverage::apply(std::vector<float>& plane, LineRange lines) const {
+  averageBy(plane, lines, &ProfileAverage::averageAll);
+}
+
+void ProfileAverage::applyMainLobe(std::vector<float>& plane, LineRange lines) const {
+  averageBy(plane, lines, &ProfileAverage::averageEchoing);
+}
+
+void ProfileAverage::averageBy(std::vector<float>& plane, LineRange lines,
+                               AverageOfRow averageOfRow) const {
+  const auto slabs = static_cast<std::size_t>((samples_ + kSlab - 1) / kSlab);
+  parallelBlocks(slabs, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Slab slab(*this, static_cast<int>(i) * kSlab);
+      read(plane.data(), slab);
+      for (int v = 0; slab.first + v * kLanes < slab.last; ++v)
+        averageVector(v, lines, averageOfRow, slab);
+      write(slab, lines, plane.data());
+    }
+  });
+}
+
+void ProfileAverage::read(const float* plane, Slab& slab) const {
+  const auto rows = static_cast<std::size_t>(windows_.rows);
+  const auto bytes = static_cast<std::size_t>(slab.last - slab.first) * sizeof(float);
+  for (int line = 0; line < lines_; ++line) {
+    Floats8 samples[kVectors]{};
+    std::memcpy(samples, plane + std::ptrdiff_t{line} * samples_ + slab.first, bytes);
+    const int row = line / windows_.in_row;
+    const int in_row = std::min(windows_.in_row, lines_ - row * windows_.in_row);
+    for (std::size_t v = 0; v < kVectors; ++v)
+      slab.rows[v * rows + static_cast<std::size_t>(row)] +=
+          samples[v] * (1.0f / static_cast<float>(in_row));
+  }
+}
+
+void ProfileAverage::averageVector(int vector, LineRange lines, AverageOfRow averageOfRow,
+                                   Slab& slab) const {
+  const std::size_t at = static_cast<std::size_t>(vector) * static_cast<std::size_t>(windows_.rows);
+  const Floats8* const rows = &slab.rows[at];
+  slab.echoing.clear();
+  for (int row = 0; row < windows_.rows; ++row)
+    if (!isZero(rows[row])) slab.echoing.push_back(row);
+  for (int g = 0; g < windows_.groups; ++g) {
+    const int first = g * windows_.in_group,
+              end = std::min(first + windows_.in_group, windows_.rows);
+    Floats8 sum{};
+    for (int row = first; row < end; ++row) sum += rows[row];
+    slab.groups[static_cast<std::size_t>(g)] = sum * (1.0f / static_cast<float>(end - first));
+  }
+  const ProfileWindows::Zone& zone = windows_.zoneOf(slab.first + vector * kLanes);
   // With the rows on both sides, between which lines are interpolated.
   const int first_row = std::max(lines.first / windows_.in_row - 1, 0);
   const int end_row = std::min(lines.end / windows_.in_row + 2, windows_.rows);
-  for (int row = first_row; row < end_row; ++row) {
-    const ProfileWindows::Window& window =
-        windows_.windows[zone.windows + static_cast<std::size_t>(row)];
-    const float* weights = &windows_.weights[window.weights];
-    const int before = window.first / windows_.in_group, own = window.end - window.first;
-    const int behind = (window.end + windows_.in_group - 1) / windows_.in_group;
-    slab.averages[static_cast<std::size_t>(row)] =
-        weightedSum(weights, slab.groups.data(), before) +
-        weightedSum(weights + before, slab.rows.data() + window.first, own) +
-        weightedSum(weights + before + own, slab.groups.data() + behind, windows_.groups - behind);
-  }
-  for (int line = lines.first; line < lines.end; ++line)
-    storeLine(slab, line, count, plane.data() + std::ptrdiff_t{line} * samples_ + first);
+  for (int row = first_row; row < end_row; ++row)
+    slab.averages[at + static_cast<std::size_t>(row)] = (this->*averageOfRow)(
+        windows_.windows[zone.windows + static_cast<std::size_t>(row)], rows, slab);
 }
 
-void ProfileAverage::storeLine(const Slab& slab, int line, int count, float* to) const {
-  const auto wanted = static_cast<std::size_t>(count);
-  if (windows_.in_row == 1)
-    return storeSome(slab.averages[static_cast<std::size_t>(line)], wanted, to);
-  const double place =
-      std::clamp((line - 0.5 * (windows_.in_row - 1)) / windows_.in_row, 0.0, windows_.rows - 1.0);
-  const auto row = std::min(static_cast<std::size_t>(place), slab.averages.size() - 2);
-  const auto part = static_cast<float>(place - static_cast<double>(row));
-  storeSome((1 - part) * slab.averages[row] + part * slab.averages[row + 1], wanted, to);
+Floats8 ProfileAverage::averageAll(const ProfileWindows::Window& window, const Floats8* rows,
+                                   const Slab& slab) const {
+  const float* weights = &windows_.weights[window.weights];
+  const int before = window.first / windows_.in_group, own = window.end - window.first;
+  const int behind = (window.end + windows_.in_group - 1) / windows_.in_group;
+  return weightedSum(weights, slab.groups.data(), before) +
+         weightedSum(weights + before, rows + window.first, own) +
+         weightedSum(weights + before + own, slab.groups.data() + behind, windows_.groups - behind);
+}
+
+Floats8 ProfileAverage::averageEchoing(const ProfileWindows::Window& window, const Floats8* rows,
+                                       const Slab& slab) const {
+  const float* weights = &windows_.weights[window.weights] + window.first / windows_.in_group;
+  Floats8 sum{};
+  for (auto row = std::lower_bound(slab.echoing.begin(), slab.echoing.end(), window.first);
+       row != slab.echoing.end() && *row < window.end; ++row)
+    sum += weights[*row - window.first] * rows[*row];
+  return sum;
+}
+
+void ProfileAverage::write(const Slab& slab, LineRange lines, float* plane) const {
+  const auto rows = static_cast<std::size_t>(windows_.rows);
+  const auto bytes = static_cast<std::size_t>(slab.last - slab.first) * sizeof(float);
+  for (int line = lines.first; line < lines.end; ++line) {
+    const int in_row = windows_.in_row;
+    const double place = std::clamp((line - 0.5 * (in_row - 1)) / in_row, 0.0, windows_.rows - 1.0);
+    const auto row = std::min(static_cast<std::size_t>(place), rows - 2);
+    const auto part = static_cast<float>(place - static_cast<double>(row));
+    Floats8 samples[kVectors];
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      const Floats8* const of_row = &slab.averages[v * rows + row];
+      samples[v] = part == 0   ? of_row[0]
+                   : part == 1 ? of_row[1]
+                               : (1 - part) * of_row[0] + part * of_row[1];
+    }
+    std::memcpy(plane + std::ptrdiff_t{line} * samples_ + slab.first, samples, bytes);
+  }
 }
 
 }  // namespace echocine

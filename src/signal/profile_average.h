@@ -5,13 +5,14 @@
 //   I'_i(z) = sum_j w_ij(z) I_j(z) / sum_j w_ij(z)                                        (B3)
 //   w_ij(z) = integral of P(u, q_i(z)) over the u between line j's borders                (B4)
 //
-// Lines within the main lobe enter one by one, those beyond it as means of a few neighbours, fewer
-// than a side lobe is wide. Sums end at the sector's edges, so a constant plane stays constant.
-// From 513 lines on, rows of neighbours stand for lines, and results are interpolated between rows.
+// Lines within the main lobe enter one by one, those beyond it as means of a few neighbours. Sums
+// end at the sector's edges, so a constant plane stays constant. From 513 lines on, rows of
+// neighbours stand for lines, and results are interpolated between rows.
 
 #include <vector>
 
 #include "core/beam_plane.h"
+#include "core/lanes.h"
 #include "signal/profile_windows.h"
 
 namespace echocine {
@@ -25,12 +26,22 @@ class ProfileAverage {
   // result does not depend on the threads.
   void apply(std::vector<float>& plane, LineRange lines) const;
 
+  // The same weights within the main lobe alone, for planes of few echoes.
+  void applyMainLobe(std::vector<float>& plane, LineRange lines) const;
+
  private:
   struct Slab;
+  using AverageOfRow = Floats8 (ProfileAverage::*)(const ProfileWindows::Window&, const Floats8*,
+                                                   const Slab&) const;
 
-  void averageSamples(const ProfileWindows::Zone& zone, int first, LineRange lines, Slab& slab,
-                      std::vector<float>& plane) const;
-  void storeLine(const Slab& slab, int line, int count, float* to) const;
+  void averageBy(std::vector<float>& plane, LineRange lines, AverageOfRow averageOfRow) const;
+  void read(const float* plane, Slab& slab) const;
+  void averageVector(int vector, LineRange lines, AverageOfRow averageOfRow, Slab& slab) const;
+  Floats8 averageAll(const ProfileWindows::Window& window, const Floats8* rows,
+                     const Slab& slab) const;
+  Floats8 averageEchoing(const ProfileWindows::Window& window, const Floats8* rows,
+                         const Slab& slab) const;
+  void write(const Slab& slab, LineRange lines, float* plane) const;
 
   int lines_, samples_;
   ProfileWindows windows_;

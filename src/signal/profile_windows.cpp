@@ -1,6 +1,7 @@
 #include "signal/profile_windows.h"
 
 #include <algorithm>
+#include <span>
 
 #include "core/lanes.h"
 #include "scene/sampled_beam.h"
@@ -12,9 +13,9 @@ namespace {
 
 // Length of a zone over its depth, in which widths change by as much. Our choice.
 constexpr double kZone = 0.025;
-// A group is this part of the first null's angle, lambda / D, unless there would be more than so
-// many. Our choices.
-constexpr double kGroup = 0.5;
+// A group is so many angles of the first null, lambda / D, wide, unless there would be more than so
+// many. Its weight is exact for an even group; of a bright point, side lobes blur. Our choices.
+constexpr double kGroup = 1.5;
 constexpr int kMostGroups = 128, kMostRows = 512;
 
 // The least whole number of parts.
@@ -37,24 +38,30 @@ Probe probeOfRows(const Probe& probe, int in_row) {
   return rows;
 }
 
-// The directions in which each line's aperture sees the others. Lines that leave one point are
-// steered from an array across the probe's axis; others leave their face at right angles.
+// The directions in which each line's aperture sees the borders between lines. Lines that leave one
+// point are steered from an array across the probe's axis; others leave their face at right angles.
 class Directions {
  public:
   explicit Directions(const Probe& probe) : steered_(probe.isFan() && probe.face_radius_m == 0) {
     for (int i = 0; i < probe.lines; ++i) lines_.push_back(lineGeometry(probe, i));
+    if (steered_) seeFrom(0, 1);
   }
 
-  int lines() const { return static_cast<int>(lines_.size()); }
   // Sine of a line's direction, from the normal of its aperture.
   double steering(int line) const { return dot(of(line).direction, along(line)); }
 
-  // Sine of the direction to the border before a line, less the beam's; `lines` has the border
-  // behind the last one.
-  double border(int line, int before, double path_m) const {
-    const int first = std::clamp(before - 1, 0, lines() - 2);
-    const double at_first = seen(line, first, path_m), at_next = seen(line, first + 1, path_m);
-    return at_first + (before - 0.5 - first) * (at_next - at_first) - steering(line);
+  // Sines of the directions to all borders, less the beam's: the one before each line, and the one
+  // behind the last.
+  std::span<const double> borders(int line, double path_m) {
+    if (!steered_) seeFrom(line, path_m);
+    borders_.clear();
+    const double own = steering(line);
+    for (std::size_t i = 0; i <= seen_.size(); ++i) {
+      const std::size_t first = std::clamp<std::size_t>(i, 1, seen_.size() - 1) - 1;
+      const double behind = static_cast<double>(i) - 0.5 - static_cast<double>(first);
+      borders_.push_back(seen_[first] + behind * (seen_[first + 1] - seen_[first]) - own);
+    }
+    return borders_;
   }
 
  private:
@@ -63,14 +70,18 @@ class Directions {
     const Vec3d d = of(line).direction;
     return steered_ ? Vec3d{1, 0, 0} : Vec3d{d.z, 0, -d.x};
   }
-  double seen(int line, int other, double path_m) const {
-    const Vec3d to = of(other).origin + path_m * of(other).direction - of(line).origin;
-    const double distance_m = length(to);
-    return distance_m > 0 ? dot(to, along(line)) / distance_m : 0;
+  void seeFrom(int line, double path_m) {
+    seen_.clear();
+    for (const LineGeometry& other : lines_) {
+      const Vec3d to = other.origin + path_m * other.direction - of(line).origin;
+      const double distance_m = length(to);
+      seen_.push_back(distance_m > 0 ? dot(to, along(line)) / distance_m : 0);
+    }
   }
 
   std::vector<LineGeometry> lines_;
   bool steered_;
+  std::vector<double> seen_, borders_;  // the sines of lines, and of borders
 };
 
 class WindowBuilder {
@@ -88,7 +99,8 @@ class WindowBuilder {
   void addWindow(int row, double path_m) {
     const SampledBeam::Profile profile = beam_.at(beam_.defocus(path_m, directions_.steering(row)));
     const int group = all_.in_group, rows = all_.rows;
-    const auto border = [&](int before) { return directions_.border(row, before, path_m); };
+    const std::span<const double> borders = directions_.borders(row, path_m);
+    const auto border = [&](int before) { return borders[static_cast<std::size_t>(before)]; };
     int first = row / group * group, end = std::min(first + group, rows);
     while (first > 0 && border(first) > -profile.mainLobe()) first -= group;
     while (end < rows && border(end) < profile.mainLobe()) end = std::min(end + group, rows);
@@ -138,6 +150,11 @@ ProfileWindows::ProfileWindows(const Probe& probe, double pulse_cycles)
     last = std::min(first + std::max(static_cast<int>(samples) / lanes, 1) * lanes, probe.samples);
     builder.addZone(first, last);
   }
+}
+
+const ProfileWindows::Zone& ProfileWindows::zoneOf(int sample) const {
+  return *std::upper_bound(zones.begin(), zones.end(), sample,
+                           [](int at, const Zone& zone) { return at < zone.last; });
 }
 
 }  // namespace echocine

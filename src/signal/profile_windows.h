@@ -24,6 +24,8 @@ struct ProfileWindows {
   // Precondition: at least two lines.
   ProfileWindows(const Probe& probe, double pulse_cycles);
 
+  const Zone& zoneOf(int sample) const;
+
   int in_row, rows;      // lines of a row; rows
   int in_group, groups;  // rows that enter together beyond the main lobe; groups
   std::vector<Zone> zones;

@@ -68,7 +68,8 @@ void SignalChain::process(CoherentEchoes& echoes, LineRange lines) const {
   if (echoes.empty()) return;
   for (std::vector<float>* plane : {&echoes.intensity, &echoes.real, &echoes.imaginary}) {
     if (!gains_.empty()) applyTimeGains(gains_, *plane);
-    averageOverBeam(*plane, lines);
+    if (beam_) beam_->apply(*plane, profile_ ? all_lines_ : lines);
+    if (profile_) profile_->applyMainLobe(*plane, lines);
     if (!losses_.empty()) applySectorLosses(losses_, *plane);
   }
 }

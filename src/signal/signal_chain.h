@@ -32,7 +32,7 @@ class SignalChain {
   // Number of samples of each line, from the first, that process() of some lines needs.
   std::vector<int> taken(LineRange lines) const;
 
-  // The same for the coherent part, without haze and tail, which are incoherent.
+  // The same for the coherent part, without side lobes, haze and tail, which are incoherent.
   void process(CoherentEchoes& echoes, LineRange lines) const;
 
   // Clutter, noise and log compression against the loop's single reference; noise is that of the
