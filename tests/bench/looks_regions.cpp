@@ -12,8 +12,8 @@
 #include "echo/beam_grid.h"
 #include "echo/sector.h"
 #include "frame/simulator.h"
-#include "metrics/box_echo.h"
 #include "scene/scene_reader.h"
+#include "texture/box_echo.h"
 #include "video/read_video.h"
 
 namespace echocine::bench {
