@@ -4,20 +4,11 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
 
+#include "core/stage.h"
+
 namespace echocine {
-
-// The timed stages, in the manifest's order.
-enum class Stage { motion, geometry, trace, speckle, signal, scan_conversion, truth, exr, avi };
-inline constexpr std::size_t kStages = 9;
-
-constexpr const char* stageName(Stage stage) {
-  constexpr std::array<const char*, kStages> kNames{
-      "motion", "geometry", "trace", "speckle", "signal", "scan_conversion", "truth", "exr", "avi"};
-  return kNames[static_cast<std::size_t>(stage)];
-}
 
 // Time spent in each stage, summed over threads.
 class StageClock {
