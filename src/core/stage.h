@@ -1,5 +1,5 @@
 #pragma once
-// The timed stages of a run.
+// The timed stages of a frame.
 
 #include <array>
 #include <cstddef>
