@@ -18,9 +18,8 @@ class VolumeCurve {
   // filling; once continuously differentiable, also between beats.
   double at(double phase) const;
 
-  // Fractions of the stroke volume filled during rapid filling, diastasis and the atrial kick.
+  // Fractions of the stroke volume filled during rapid filling and the atrial kick.
   double rapidShare() const { return 1 - diastasis_share_ - kick_share_; }
-  double diastasisShare() const { return diastasis_share_; }
   double kickShare() const { return kick_share_; }
 
  private:

@@ -186,10 +186,4 @@ std::vector<Vec3d> LoopFit::controlPoints(const std::vector<Vec3d>& points) cons
   return result;
 }
 
-std::vector<Vec3d> loopControlPoints(const std::vector<Vec3d>& points,
-                                     const std::vector<Face>& faces,
-                                     std::span<const std::uint32_t> corners) {
-  return LoopFit(points.size(), faces, corners).controlPoints(points);
-}
-
 }  // namespace echocine::heart

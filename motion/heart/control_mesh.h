@@ -64,9 +64,4 @@ class LoopFit {
   std::vector<std::uint32_t> corners_;
 };
 
-// The same for one surface.
-std::vector<Vec3d> loopControlPoints(const std::vector<Vec3d>& points,
-                                     const std::vector<Face>& faces,
-                                     std::span<const std::uint32_t> corners = {});
-
 }  // namespace echocine::heart

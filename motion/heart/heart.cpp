@@ -16,7 +16,7 @@
 namespace echocine::heart {
 namespace {
 
-// Cavities cut holes into walls. Of two touching walls or cavities, the left heart's or the rounder
+// Cavities cut holes into walls. If two walls or cavities touch, the left heart's or the rounder
 // one keeps its shape, so the septum belongs to the left ventricle and the right heart wraps around
 // it.
 void addChambers(const Instant& now, std::vector<Part>& parts) {

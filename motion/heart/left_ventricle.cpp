@@ -12,7 +12,7 @@
 namespace echocine::heart {
 namespace {
 
-// Of the apex towards the base at end-systole, of the length.
+// Motion of the apex towards the base at end-systole, as a share of the length.
 constexpr double kApexRise = 0.035;
 
 constexpr double kLargestStrain = 0.85, kWallDrift = 0.01;  // our choice

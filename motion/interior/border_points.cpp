@@ -54,7 +54,8 @@ class Candidates {
 
 std::vector<BorderPoint> borderPoints(std::span<const InteriorSurface> surfaces,
                                       std::span<const std::vector<Vec3f>> reference_m,
-                                      const Winners& winners, const Box& region, double spacing_m) {
+                                      const TopSurfaces& tops, const Box& region,
+                                      double spacing_m) {
   std::vector<BorderPoint> points;
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     if (surfaces[s].membrane) continue;
@@ -68,11 +69,11 @@ std::vector<BorderPoint> borderPoints(std::span<const InteriorSurface> surfaces,
     for (std::size_t i = begin; i < end; ++i) {
       BorderPoint& point = points[i];
       const Vec3d p = toDouble(point.reference_m);
-      if (winners.hides(p, point.surface)) {
+      if (tops.hides(p, point.surface)) {
         point.beyond = kHidden;
         continue;
       }
-      const auto beyond = winners.at(p, point.surface);
+      const auto beyond = tops.at(p, point.surface);
       point.beyond = static_cast<std::uint32_t>(beyond ? index(*beyond) : surfaces.size());
     }
   });

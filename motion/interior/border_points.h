@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "motion/interior/motion_field.h"
-#include "motion/interior/winners.h"
+#include "motion/interior/top_surfaces.h"
 
 namespace echocine {
 
@@ -27,7 +27,7 @@ struct BorderPoint {
 // vertices at the reference phase.
 std::vector<BorderPoint> borderPoints(std::span<const InteriorSurface> surfaces,
                                       std::span<const std::vector<Vec3f>> reference_m,
-                                      const Winners& winners, const Box& region, double spacing_m);
+                                      const TopSurfaces& tops, const Box& region, double spacing_m);
 
 // A point of a surface with its vertices at `positions_m`.
 inline Vec3f placeOf(const BorderPoint& point, std::span<const Vec3f> positions_m) {

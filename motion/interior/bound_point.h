@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/ids.h"
 #include "core/vec3.h"
@@ -20,10 +19,5 @@ struct BoundPoint {
 // Its position for vertices at `positions_m`.
 Vec3f place(const BoundPoint& point, std::span<const Triangle> triangles,
             std::span<const Vec3f> positions_m);
-
-// The nearest point of a surface to each of `points_m`. Precondition: at least one triangle.
-std::vector<BoundPoint> bindToSurface(SurfaceId surface, std::span<const Triangle> triangles,
-                                      std::span<const Vec3f> positions_m,
-                                      std::span<const Vec3f> points_m);
 
 }  // namespace echocine

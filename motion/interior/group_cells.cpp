@@ -12,9 +12,9 @@ constexpr int kOpenStride = 2;
 
 class CellLayer {
  public:
-  CellLayer(const FieldSpace& space, const GroupMembers& members, const Winners& winners,
+  CellLayer(const FieldSpace& space, const GroupMembers& members, const TopSurfaces& tops,
             std::span<const Vec3f> points_m)
-      : space_(space), members_(members), winners_(winners), points_m_(points_m) {}
+      : space_(space), members_(members), tops_(tops), points_m_(points_m) {}
 
   GroupCells lay() {
     layGrid();
@@ -34,7 +34,7 @@ class CellLayer {
 
   const FieldSpace& space_;
   const GroupMembers& members_;
-  const Winners& winners_;
+  const TopSurfaces& tops_;
   std::span<const Vec3f> points_m_;
   GroupCells cells_;
   std::vector<bool> inside_;  // cells with a node that the group wins, by node of the box
@@ -91,16 +91,16 @@ void CellLayer::markOwn() {
   std::vector<std::int16_t> row(static_cast<std::size_t>(grid.nx));
   for (int y = 0; y < grid.ny; ++y)
     for (int z = 0; z < grid.nz; ++z) {
-      winners_.alongX(origin.x, spacing, origin.y + y * spacing, origin.z + z * spacing, row);
+      tops_.alongX(origin.x, spacing, origin.y + y * spacing, origin.z + z * spacing, row);
       for (int x = 0; x < grid.nx; ++x) {
-        const std::int16_t winner = row[static_cast<std::size_t>(x)];
+        const std::int16_t top = row[static_cast<std::size_t>(x)];
         own_[grid.at(x, y, z)] =
-            winner < 0 ? members_.background : members_.owns(static_cast<std::uint32_t>(winner));
+            top < 0 ? members_.background : members_.owns(static_cast<std::uint32_t>(top));
       }
     }
 }
 
-// What is about the nodes that the group wins.
+// The cells around nodes where the group has the highest priority.
 void CellLayer::activateInside(std::vector<bool>& active) {
   const LatticeGrid& grid = cells_.grid;
   for (int y = 0; y < grid.ny; ++y)
@@ -189,9 +189,9 @@ Vec3d GroupCells::placeOf(std::size_t node) const {
   return toDouble(grid.origin_m) + static_cast<double>(grid.spacing_m) * at;
 }
 
-GroupCells layCells(const FieldSpace& space, const GroupMembers& members, const Winners& winners,
+GroupCells layCells(const FieldSpace& space, const GroupMembers& members, const TopSurfaces& tops,
                     std::span<const Vec3f> points_m) {
-  return CellLayer(space, members, winners, points_m).lay();
+  return CellLayer(space, members, tops, points_m).lay();
 }
 
 std::vector<std::uint32_t> outermostNodes(const ActiveNodes& nodes) {

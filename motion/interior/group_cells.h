@@ -9,7 +9,7 @@
 #include "core/box.h"
 #include "motion/interior/lattice_fit.h"
 #include "motion/interior/motion_field.h"
-#include "motion/interior/winners.h"
+#include "motion/interior/top_surfaces.h"
 
 namespace echocine {
 
@@ -40,9 +40,9 @@ struct GroupCells {
   Vec3d placeOf(std::size_t node) const;  // of a node of the box, metres
 };
 
-// points_m: the border points on either side of which the group stands, at least one. Nodes take
-// part where the group wins, about its points, and everywhere of an open group.
-GroupCells layCells(const FieldSpace& space, const GroupMembers& members, const Winners& winners,
+// points_m: at least one border point with the group on either side. Nodes take part where the
+// group has the highest priority and around its points; nodes of an open group everywhere.
+GroupCells layCells(const FieldSpace& space, const GroupMembers& members, const TopSurfaces& tops,
                     std::span<const Vec3f> points_m);
 
 // Active nodes on the sides of their box, by number.

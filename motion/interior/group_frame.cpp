@@ -72,7 +72,7 @@ Gradient gradientIn(const Corners& c, const InCell& in) {
   return {toDouble(x), toDouble(y), toDouble(z)};
 }
 
-// Of the map itself: the identity and the displacement's.
+// Gradient of the map itself: the identity plus that of the displacement.
 Gradient mapGradient(const GroupFrame& frame, const InCell& in) {
   Gradient g = gradientIn(cornersOf(frame, in.corner), in);
   const double per_m = 1.0 / static_cast<double>(frame.grid.spacing_m);

@@ -36,13 +36,13 @@ struct FitData {
 
 class GroupFitter {
  public:
-  GroupFitter(const FieldSpace& space, const GroupMembers& members, const Winners& winners,
+  GroupFitter(const FieldSpace& space, const GroupMembers& members, const TopSurfaces& tops,
               std::span<const BorderPoint> points, std::span<const PhaseClass> classes)
-      : space_(space), members_(members), winners_(winners), points_(points), classes_(classes) {}
+      : space_(space), members_(members), tops_(tops), points_(points), classes_(classes) {}
 
   GroupLattice fit() {
     if (!gather()) return {};
-    takeCells(layCells(space_, members_, winners_, data_.places_m));
+    takeCells(layCells(space_, members_, tops_, data_.places_m));
     affine_ = affineFit(data_.places_m, data_.samples, data_.values, data_.columns);
     subtractAffine();
     keepFewModes();
@@ -81,7 +81,7 @@ class GroupFitter {
 
   const FieldSpace& space_;
   const GroupMembers& members_;
-  const Winners& winners_;
+  const TopSurfaces& tops_;
   std::span<const BorderPoint> points_;
   std::span<const PhaseClass> classes_;
   GroupLattice lattice_;
@@ -146,8 +146,8 @@ double GroupFitter::fadeAt(Vec3d p) const {
   return 1 - t * t * (3 - 2 * t);
 }
 
-// The best affine function of place is taken from the data as its values at the nodes give it.
-// What is affine is met exactly and at any distance; the lattice is fitted to what remains.
+// The best affine function of place, by its values at the nodes, is subtracted from the data. So
+// affine motion is exact at any distance; the lattice is fitted to the remainder.
 void GroupFitter::subtractAffine() {
   for (const Vec3d at : node_places_m_) fade_.push_back(fadeAt(at));
   const std::size_t columns = data_.columns;
@@ -167,8 +167,8 @@ void GroupFitter::subtractAffine() {
   }
 }
 
-// What the affine part leaves of a group is mostly a few modes. Their columns take the data's
-// place.
+// The remainder without the affine part is mostly a few modes. Their columns replace those of the
+// data.
 void GroupFitter::keepFewModes() {
   std::vector<Vec3f> remains_m;
   remains_m.reserve(data_.values.size() / 3);
@@ -281,9 +281,9 @@ void GroupFitter::fillRow(const std::vector<double>& factors, const std::vector<
 
 }  // namespace
 
-GroupLattice fitGroup(const FieldSpace& space, const GroupMembers& members, const Winners& winners,
+GroupLattice fitGroup(const FieldSpace& space, const GroupMembers& members, const TopSurfaces& tops,
                       std::span<const BorderPoint> points, std::span<const PhaseClass> classes) {
-  return GroupFitter(space, members, winners, points, classes).fit();
+  return GroupFitter(space, members, tops, points, classes).fit();
 }
 
 }  // namespace echocine

@@ -28,9 +28,8 @@ struct GroupLattice {
   double residual = 0;  // LatticeFit::Solution::residual
 };
 
-// Fits a group to the border points on either side of which it stands. Empty without one that
-// moves.
-GroupLattice fitGroup(const FieldSpace& space, const GroupMembers& members, const Winners& winners,
+// Fits a group to the border points that have it on either side. Empty if none of them moves.
+GroupLattice fitGroup(const FieldSpace& space, const GroupMembers& members, const TopSurfaces& tops,
                       std::span<const BorderPoint> points, std::span<const PhaseClass> classes);
 
 }  // namespace echocine

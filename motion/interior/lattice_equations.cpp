@@ -12,10 +12,10 @@ namespace {
 // Holds nodes that no sample reaches. It is far below the bending of the smoothest field, whose
 // energy per node falls with the fourth power of the nodes across: 1e-6 for 30 of them.
 constexpr double kRidge = 1e-10;
-// Of a Laplacian and of second differences, against a cell's samples. Our choices: tissue is
-// harmonic where it is the body's own. Second differences carry the field beyond it and through
-// walls thinner than a cell, and take a tenth part inside, which keeps a ball that inflates to 0.02
-// mm.
+// Weights of the Laplacian and of second differences, relative to a cell's samples. Our choices:
+// the field is harmonic inside the group's own tissue. Second differences extend it outside and
+// through walls thinner than a cell. Inside they have a tenth of the weight, which keeps the error
+// of an inflating ball at 0.02 mm.
 constexpr double kLaplacian = 1e-2, kBending = 1e-3;
 
 struct Offset {

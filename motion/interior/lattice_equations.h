@@ -13,7 +13,7 @@ namespace echocine {
 
 class LatticeEquations {
  public:
-  // Of the sum that LatticeFit minimises.
+  // Normal equations of the sum that LatticeFit minimises.
   LatticeEquations(const ActiveNodes& nodes, std::span<const LatticeSample> samples,
                    std::span<const float> stiffness, const std::vector<bool>& own,
                    std::span<const std::uint32_t> fixed);

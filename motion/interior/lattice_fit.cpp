@@ -15,8 +15,8 @@ namespace echocine {
 
 namespace {
 
-// What rounds of single precision leave is solved for again, in rounds that each gain this much,
-// at most so often. Our choices: two rounds reach 1e-6.
+// The residual of a single-precision round is solved for in further rounds: gain of each round, and
+// largest number of rounds. Our choices: two rounds reach 1e-6.
 constexpr double kRoundGain = 1e-3;
 constexpr int kMostRounds = 8;
 // Steps of a round, at most; 7 are enough for hearts.

@@ -47,7 +47,7 @@ struct MotionField::State {
   };
   FieldSettings settings;
   FieldSpace space{};
-  std::unique_ptr<Winners> winners;
+  std::unique_ptr<TopSurfaces> tops;
   std::vector<std::uint32_t> group_of;  // by surface
   std::vector<Group> groups;
   std::vector<PhaseClass> classes;
@@ -136,7 +136,7 @@ void MotionField::State::findModes(const std::vector<InteriorSurface>& surfaces,
 void MotionField::State::fit(std::span<const BorderPoint> points) {
   parallelBlocks(groups.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t g = begin; g < end; ++g)
-      groups[g].lattice = fitGroup(space, groups[g].members, *winners, points, classes);
+      groups[g].lattice = fitGroup(space, groups[g].members, *tops, points, classes);
   });
   for (Group& group : groups)
     for (const auto& rows : group.lattice.rows_m)
@@ -151,7 +151,7 @@ MotionField::MotionField(std::vector<InteriorSurface> surfaces, const FieldSetti
   state.settings = settings;
   state.number(surfaces);
   std::vector<std::vector<Vec3f>> reference_m;
-  std::vector<Winners::Closed> closed;
+  std::vector<TopSurfaces::Closed> closed;
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     checkpoint();
     reference_m.push_back(positionsAt(surfaces[s], settings.reference_phase));
@@ -159,14 +159,14 @@ MotionField::MotionField(std::vector<InteriorSurface> surfaces, const FieldSetti
       closed.push_back({static_cast<SurfaceId>(s), surfaces[s].priority,
                         Columns(surfaces[s].triangles, reference_m[s])});
   }
-  state.winners = std::make_unique<Winners>(std::move(closed));
+  state.tops = std::make_unique<TopSurfaces>(std::move(closed));
   const std::vector<std::int32_t> class_of = state.classify(surfaces);
   if (!state.measure(surfaces, reference_m)) return;
   const double margin_m = state.space.margin_m;
   const Vec3d margin{margin_m, margin_m, margin_m};
   const Box region{state.space.moving.lo - margin, state.space.moving.hi + margin};
   const std::vector<BorderPoint> points =
-      borderPoints(surfaces, reference_m, *state.winners, region, state.space.spacing_m);
+      borderPoints(surfaces, reference_m, *state.tops, region, state.space.spacing_m);
   state.findModes(surfaces, class_of, points);
   state.fit(points);
 }
@@ -207,7 +207,7 @@ double MotionField::reachAcrossPlane(GroupId group) const {
 }
 
 std::optional<SurfaceId> MotionField::surfaceAt(Vec3f reference_m) const {
-  return state_->winners->at(toDouble(reference_m));
+  return state_->tops->at(toDouble(reference_m));
 }
 
 GroupId MotionField::groupAt(Vec3f reference_m) const {
@@ -220,9 +220,9 @@ void MotionField::groupsAt(std::span<const Vec3f> reference_m, std::span<GroupId
   Box box;
   for (const Vec3f p : reference_m) box.add(toDouble(p));
   if (reference_m.empty()) return;
-  const Winners::Within winners = state_->winners->within(box);
+  const TopSurfaces::Within tops = state_->tops->within(box);
   for (std::size_t i = 0; i < reference_m.size(); ++i) {
-    const auto surface = winners.at(toDouble(reference_m[i]));
+    const auto surface = tops.at(toDouble(reference_m[i]));
     groups[i] = surface ? groupOf(*surface) : background();
   }
 }

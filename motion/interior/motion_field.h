@@ -93,8 +93,8 @@ struct FieldFrame {
   const GroupFrame& operator[](GroupId group) const { return groups[index(group)]; }
 };
 
-// What of each group will be asked for, by GroupId: the lowest and the highest reference y, m;
-// nothing of a group that is not.
+// The part of each group that will be needed, by GroupId: the lowest and the highest reference y,
+// m; none for an unused group.
 using FieldPart = std::vector<std::optional<std::pair<float, float>>>;
 
 class MotionField {
@@ -125,8 +125,8 @@ class MotionField {
   void at(double phase, FieldFrame& frame) const;
   void at(double phase, FieldFrame& frame, const FieldPart& part) const;
 
-  // The most that any node moves along y, from the reference, at any keyframe: material that the
-  // imaging plane can show lies within this of it. m. Of all groups, or of one.
+  // Largest displacement of a node along y from the reference, over all keyframes, m: material that
+  // the imaging plane can show lies within this distance of it. For all groups, or for one.
   double reachAcrossPlane() const;
   double reachAcrossPlane(GroupId group) const;
 

@@ -140,7 +140,7 @@ class Coarsening {
   Lattice coarse_;
   SparseRows<double> parents_;
   std::vector<int> keys_;  // by coarse node
-  // Of one row: the product by coarse node, 0 between rows, and the coarse nodes that it reaches.
+  // For one row: the product by coarse node, 0 between rows, and the coarse nodes that it reaches.
   std::vector<double> product_;
   std::vector<std::uint32_t> touched_;
 };

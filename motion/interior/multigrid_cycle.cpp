@@ -56,7 +56,7 @@ struct Columns8 {
 
 }  // namespace
 
-// Gauss and Seidel's sweep upwards. What stands above is still 0.
+// Gauss-Seidel sweep upwards. The unknowns above are still 0.
 template <std::size_t kLanes>
 void MultigridCycle<kLanes>::smoothFromZero(const Multigrid::Level& level,
                                             const std::vector<float>& b,

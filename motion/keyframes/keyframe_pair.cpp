@@ -127,7 +127,7 @@ void KeyframePair::lookAtTriangles(const FramePhase& at, const Sides& sides,
   }
 }
 
-// Of two triangles folded onto each other, the inverted one is that whose direction differs from
+// If two triangles are folded onto each other, the inverted one has a direction that differs from
 // the keyframe in which they are unfolded. A vanishing triangle may have any direction.
 void KeyframePair::lookAtEdges(const FramePhase& at, const Sides& sides, SurfaceBreaks& breaks) {
   for (const OpenEdge& edge : open_edges_) {

@@ -5,7 +5,7 @@
 
 namespace echocine {
 
-// Of faces with the same corners the first stays. Both are removed if they are the two sides of a
+// If faces have the same corners, the first stays. Both are removed if they are the two sides of a
 // fin: opposite directions, on a surface that is complete without them. Returns the number removed.
 std::size_t dropDuplicates(RepairMesh& mesh);
 

@@ -33,7 +33,7 @@ std::vector<double> phasesOf(const Structure& structure) {
   return phases;
 }
 
-// The beat of the keyframes. Of two keyframes, one at the R wave, the other has the smallest
+// The beat of the keyframes. If there are two, one is at the R wave and the other has the smallest
 // volume, as in segmentations of two phases.
 HeartPace paceOf(const Scene& scene, const Structure& structure) {
   RecordedBeat beat{scene.motion.keyframe_heart_rate_hz.value_or(scene.acquisition.heart_rate_hz),

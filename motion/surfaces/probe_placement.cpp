@@ -24,7 +24,7 @@ bool hasVessel(const std::vector<RoleSurface>& surfaces) {
                      [](const RoleSurface& s) { return s.role == Role::aorta; });
 }
 
-// What the view is found from: the meshes of one instant, in the world.
+// Input of the search for a view: the meshes of one instant, in the world.
 struct Instant {
   std::vector<RoleSurface> surfaces;
   std::vector<std::vector<Triangle>> triangles;  // of each
@@ -38,7 +38,7 @@ Scene sceneOf(const Scene& scene, std::vector<Structure> structures) {
   return part;
 }
 
-// Of the largest left ventricle; 0 without one, or where it stands still.
+// Phase of the largest left ventricle; 0 without one, or if it does not move.
 double endDiastole(const Scene& scene) {
   auto ventricle = structureOf(scene, Role::lv_cavity);
   if (!ventricle) ventricle = structureOf(scene, Role::lv_wall);

@@ -16,7 +16,8 @@ namespace echocine {
 
 namespace {
 
-// Of the long axis: surfaces nearer than that touch, and what is so near belongs to the contact.
+// Shares of the long axis: surfaces closer than the first touch; vertices closer than the second
+// belong to the contact.
 constexpr double kTouching = 0.12, kContact = 0.04;
 // A wall whose middle is so far off the long axis, in its lengths, holds the right ventricle too.
 constexpr double kOffAxis = 0.10;
@@ -28,13 +29,13 @@ constexpr double kFlat = 0.35, kBelowRing = 0.06;
 constexpr Vec3d kAorticValve{-0.15, 0.26, 0.02}, kAorticFlow{-0.44, 0.46, -0.77};
 constexpr double kRightHeart_deg = 180, kRightVentricle_deg = 157, kAorticValve_deg = 120,
                  kAorta_deg = 126, kPulmonaryValve_deg = 104, kPulmonaryArtery_deg = 97;
-// Of the parametric heart's long axis: there the body's scale is 1.
+// Length of the parametric heart's long axis, at which the body's scale is 1.
 constexpr double kAdultLength_m = 0.0875;
 // Missing muscle, of the long axis: 9 mm of an adult's 90 mm (normal: 6 to 10 mm, Lang et al., J.
 // Am. Soc. Echocardiogr. 28, 1-39, 2015).
 constexpr double kWall = 0.10;
 
-// Something that stands at a known angle about the long axis.
+// A structure at a known angle about the long axis.
 struct Cue {
   Vec3d place;
   double angle_deg;
@@ -167,7 +168,7 @@ void Finder::refuseMixedSides() const {
                       millimetresFromMetres(marks_.frame.length_m)));
 }
 
-// The right heart, by what tells best where it is.
+// The right heart, by its most reliable structure.
 std::optional<Cue> Finder::rightCue() const {
   if (const auto valve = middle(Role::tricuspid_valve))
     return Cue{*valve, kRightHeart_deg, nameOfRole(Role::tricuspid_valve)};
@@ -184,7 +185,7 @@ std::optional<Cue> Finder::rightCue() const {
   return std::nullopt;
 }
 
-// What stands in front of a left ventricle.
+// The structure in front of a left ventricle.
 std::optional<Cue> Finder::anteriorCue() const {
   const std::pair<Role, double> known[] = {{Role::aortic_valve, kAorticValve_deg},
                                            {Role::aorta, kAorta_deg},

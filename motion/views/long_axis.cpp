@@ -11,8 +11,8 @@ namespace echocine {
 namespace {
 
 constexpr double kApexShare = 0.03;  // of the length; our choice
-// Of the length that is the base's or the apex's end, whose middle is half as far within: over four
-// hearts the axis then comes out 2 to 11 deg off. Our choice.
+// Share of the length that counts as the base's or the apex's end; the middle of an end is half as
+// far inside. The error of the axis is 2 to 11 deg over four hearts. Our choice.
 constexpr double kCapShare = 0.20;
 
 // The points between two heights along an axis.

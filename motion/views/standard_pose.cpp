@@ -15,7 +15,7 @@ constexpr double kBeam_m = 0.02, kFace_m = 0.01;
 constexpr double kBehind_m = 0.0144;  // of the image, behind the heart; our choice
 constexpr double kSector_deg = 80;
 
-// What a view looks at: the probe stands off `target` against `axis`.
+// Target of a view: the probe stands away from `target`, opposite to `axis`.
 struct Aim {
   Vec3d target, axis, lateral;
   double chest_m;  // skin to pericardium; our choice
@@ -116,7 +116,7 @@ double fittingDepth(std::span<const Vec3d> outside_m, const ProbePose& pose, dou
     if (std::abs(dot(from, up)) < kBeam_m * scale && std::abs(angle_rad) < half_rad)
       deepest_m = std::max(deepest_m, length(from));
   }
-  // Not in steps, as a scanner's: hearts that are nearly alike have pictures that are.
+  // Continuous, not in steps as on a scanner: similar hearts have similar pictures.
   return deepest_m + kBehind_m * scale;
 }
 

@@ -72,7 +72,7 @@ void addTimes(CLI::App& command, echo::SideOptions& side, const std::string& pre
       ->delimiter(',');
 }
 
-// What one option says of another: the parser looks at each alone.
+// Checks combinations of options, because the parser checks each of them alone.
 void checkOptions(const compare::CompareOptions& o) {
   if (o.contours && o.scene.empty())
     throw SceneError(

@@ -32,7 +32,7 @@ namespace {
 constexpr int kJobFailed = 1;
 constexpr int kUnusable = 2;
 
-// What a misspelt word was hardly meant to be: the nearest command, or option of the command.
+// Suggestion for a misspelt word: the nearest command, or option of the command.
 std::string nearestTo(const std::string& word, const CLI::App& app) {
   std::vector<std::string> known;
   if (word.starts_with("-")) {
@@ -44,7 +44,7 @@ std::string nearestTo(const std::string& word, const CLI::App& app) {
   return echocine::nearestWord(word.substr(0, word.find('=')), known);
 }
 
-// Of the first word that the parser did not take.
+// Suggestion for the first word that the parser rejected.
 std::string misspelt(int argc, char** argv, const CLI::App& app) {
   const CLI::App* command = nullptr;
   for (const CLI::App* one : app.get_subcommands({}))

@@ -28,7 +28,7 @@ std::string duration(double seconds) {
   return fmt::format("{:.0f} min", seconds / 60);
 }
 
-// A share of time only of what runs: "0 %" of what is off would say nothing.
+// Only effects that run have a share of time; "0 %" of the others would be uninformative.
 void printEffects(const Manifest& manifest) {
   fmt::print("{:<24} {:<4} {:>5}  {}\n", "effect", "", "time", "why");
   for (const EffectDecision& e : manifest.plan.effects.decisions) {
@@ -38,7 +38,7 @@ void printEffects(const Manifest& manifest) {
   }
 }
 
-// As a scene says it, to be pasted and edited.
+// In the syntax of a scene, to be pasted and edited.
 void printPose(const Scene& scene) {
   std::string head = "probe       ";
   std::istringstream lines(poseToml(scene));
@@ -64,7 +64,7 @@ void printRest(const Scene& scene, const Estimate& estimate) {
   fmt::print("memory      {:.0f} MB\n", estimate.memory_bytes * 1e-6);
 }
 
-// The manifest's own parts, so that scripts read plan and manifest alike.
+// The manifest's own parts, so that scripts can read both in the same way.
 void printJson(const Scene& scene, const Estimate& estimate) {
   nlohmann::ordered_json json = planJson(estimate.measured.plan);
   json["probe_toml"] = poseToml(scene);

@@ -36,7 +36,7 @@ void ProgressBar::finish() {
   open_ = false;
 }
 
-// Hours come out as minutes over 60: long runs are told apart at a glance.
+// Hours are shown as minutes above 60, so that long runs are easy to recognise.
 std::string minutesAndSeconds(double seconds) {
   const auto whole = static_cast<int>(seconds);
   return fmt::format("{}:{:02}", whole / 60, whole % 60);

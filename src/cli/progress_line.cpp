@@ -24,8 +24,8 @@ void ProgressLine::show(const Progress& progress) {
   const double elapsed_s = std::chrono::duration<double>(now - task_start_).count();
   const double per_second = elapsed_s > 0 ? static_cast<double>(progress.done) / elapsed_s : 0;
   const auto left = static_cast<double>(progress.total - progress.done);
-  // What the job says itself goes first: it knows that settings differ in cost. A rate of 0 says
-  // nothing yet.
+  // The job's own estimate has precedence, because it knows the cost of each setting. A rate of 0
+  // gives no estimate.
   const double left_s = progress.seconds_left >= 0 ? progress.seconds_left
                         : per_second > 0           ? left / per_second
                                                    : 0;

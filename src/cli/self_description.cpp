@@ -56,7 +56,7 @@ std::string roff(const std::string& text) {
   return safe.starts_with('.') || safe.starts_with('\'') ? "\\&" + safe : safe;
 }
 
-// What an option takes: of "INT:INT in [0 - 9]", its kind and what is accepted, the latter.
+// Accepted values of an option: the second part of "INT:INT in [0 - 9]", after its kind.
 std::string valueOf(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   return type.substr(type.find(':') + 1);

@@ -67,7 +67,7 @@ void endsFirst() noexcept {
   static std::atomic<pid_t> first{0};
   pid_t present = 0;
   if (first.compare_exchange_strong(present, ::gettid()) || present == ::gettid()) return;
-  // Another thread is ending the program: this one must say nothing and wait for the end.
+  // Another thread is ending the program: this one must print no line and wait for the end.
   for (;;) ::pause();
 }
 

@@ -167,7 +167,7 @@ GreyCurve CalibrationFit::solve(bool monotone) const {
   return curve;
 }
 
-// Knots where greys are: a curve cannot be told where no sample lies.
+// Knots at the quantiles of the greys: without samples a curve is undetermined.
 std::vector<double> quantileKnots(std::span<const std::vector<float>* const> frames,
                                   std::span<const float> weights, int count) {
   constexpr int kBins = 1024;

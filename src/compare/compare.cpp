@@ -132,7 +132,7 @@ std::string withoutName(std::string text, const echo::EchoLoop& loop) {
   return text;
 }
 
-// Metrics of frames stand without it.
+// Metrics of frames do not need it.
 void holdScene(const Scene& scene, const CompareOptions& options, const Monitor& monitor,
                Comparison& c) {
   try {

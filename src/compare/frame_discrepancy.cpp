@@ -30,8 +30,8 @@ FrameDiscrepancy::FrameDiscrepancy(const echo::EchoLoop& real, const Probe& prob
   echo::checkScale(real);
   if (!probe.isFan() || probe.lines < 8 || probe.samples < 16)
     throw SceneError("the discrepancy needs a sector of at least 8 lines and 16 samples");
-  // What the smoothing of 2 % of the depth leaves has under a hundred independent depths, so 384
-  // lose nothing and keep a call short. Our choice.
+  // After smoothing over 2 % of the depth there are fewer than a hundred independent depths, so
+  // 384 samples lose no information and keep a call short. Our choice.
   constexpr int kMostSamples = 384;
   per_sample_ = (probe.samples + kMostSamples - 1) / kMostSamples;
   grid_.metric = true;
@@ -44,7 +44,7 @@ FrameDiscrepancy::FrameDiscrepancy(const echo::EchoLoop& real, const Probe& prob
   const echo::BeamLoop beams = echo::resample(grid_, real, placement);
   const std::vector<float> weights = echo::areaWeights(grid_, beams.valid, beams.valid);
   const auto seen = std::count_if(weights.begin(), weights.end(), [](float w) { return w > 0; });
-  // A fifth, our choice: less says nothing of the heart.
+  // A fifth, our choice: a smaller part does not identify the heart.
   if (static_cast<double>(seen) < 0.2 * static_cast<double>(weights.size()))
     throw SceneError(
         fmt::format("{}: shows less than a fifth of the probe's sector; give a loop of the "

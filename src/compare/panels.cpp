@@ -117,7 +117,7 @@ GreyImage sectorPicture(const echo::EchoLoop& loop) {
   const Video& v = loop.video;
   GreyImage image{v.width, v.height, v.frames.front()};
   for (std::size_t p = 0; p < image.pixels.size(); ++p)
-    // What is masked shows as an even grey, so that a user sees what is not compared.
+    // The mask is shown in an even grey, so that a user sees which pixels are not compared.
     if (loop.overlay[p] != 0) image.pixels[p] = 160;
   const echo::Sector& s = loop.sector();
   const auto at = [&](double r, double angle) {

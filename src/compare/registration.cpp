@@ -48,7 +48,7 @@ std::vector<float> pairedFrame(const Comparison& c, const std::vector<std::vecto
                             c.time.periodic);
 }
 
-// Both loops stand in memory, resampled. Our choice: 2 GB, some 1300 frames of each.
+// Limit for both loops in memory, resampled. Our choice: 2 GB, some 1300 frames of each.
 void refuseTooLong(const Comparison& c) {
   constexpr double kMostBytes = 2e9;
   const auto frames =

@@ -36,7 +36,7 @@ Json ecgJson(const echo::EcgTrace& e, const FrameRate& rate) {
           {"confidence", e.confidence}};
 }
 
-// What was taken of each loop, and from where: a number whose source a reader cannot see is no
+// The values used of each loop, each with its source, so that a reader can judge the
 // result.
 Json loopJson(const echo::EchoLoop& l, const echo::BeatLength& beat) {
   const echo::Sector& s = l.sector();
@@ -147,7 +147,7 @@ void writeFrames(const Comparison& c, const PanelMaker& panels, const std::files
 }  // namespace
 
 Json metricsJson(const FrameMetrics& m) {
-  if (!(m.weight > 0)) {  // nothing was in sight: no score is not a score of 0
+  if (!(m.weight > 0)) {  // nothing was visible: a missing score differs from a score of 0
     Json none = Json::object();
     for (const Metric& metric : kMetrics) none[metric.key] = nullptr;
     return none;

@@ -67,7 +67,7 @@ WallEdges::WallEdges(const echo::BeamGrid& g, std::span<const float> weights)
   sample_block_ = block(sample, g.samples);
   lattice_.lines = g.lines / line_block_;
   lattice_.samples = g.samples / sample_block_;
-  first_line_ = (g.lines - lattice_.lines * line_block_) / 2;  // what is left over, on both sides
+  first_line_ = (g.lines - lattice_.lines * line_block_) / 2;  // the rest, on both sides
   first_sample_ = (g.samples - lattice_.samples * sample_block_) / 2;
   lattice_.first_rad = g.first_rad + line_rad * (first_line_ + 0.5 * (line_block_ - 1));
   lattice_.last_rad = lattice_.first_rad + line_rad * line_block_ * (lattice_.lines - 1);

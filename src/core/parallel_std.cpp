@@ -45,7 +45,7 @@ class Pool {
 
   int size() const { return static_cast<int>(helpers_.size()) + 1; }
 
-  void work(Loop& loop) {
+  void work(SharedLoop& loop) {
     Lock lock(mutex_);
     loops_.push_back(&loop);
     changed_.notify_all();
@@ -63,12 +63,12 @@ class Pool {
   // The newest loop first: it is a part of what an older one waits for.
   bool stepAny(Lock& lock) {
     return std::any_of(loops_.rbegin(), loops_.rend(),
-                       [&](Loop* loop) { return loop->step(lock); });
+                       [&](SharedLoop* loop) { return loop->step(lock); });
   }
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Loop*> loops_;
+  std::vector<SharedLoop*> loops_;
   bool ending_ = false;
   std::vector<std::thread> helpers_;
 };
@@ -97,7 +97,7 @@ void Pool::help() {
   }
 }
 
-void workAt(Loop& loop) {
+void workAt(SharedLoop& loop) {
   if (this_pool)
     this_pool->work(loop);
   else

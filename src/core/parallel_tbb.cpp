@@ -29,8 +29,8 @@ void execute(tbb::task_arena& arena, const std::function<void()>& body) {
   });
 }
 
-// Of a loop within another that failed oneTBB leaves out the rest in silence, and what comes after
-// it would take its work for done. A loop of its own context ends whole or by an exception.
+// If an outer loop fails, oneTBB silently skips the rest of the loop inside it, and the code after
+// that would take its work for done. A loop with its own context is complete or throws.
 tbb::task_group_context contextOfItsOwn() {
   return tbb::task_group_context(tbb::task_group_context::isolated);
 }

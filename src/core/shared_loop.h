@@ -25,7 +25,7 @@ struct Step {
 
 // A loop shared by several threads, step by step. The pool's one mutex guards its state: blocks and
 // frames are long compared with a lock.
-class Loop {
+class SharedLoop {
  public:
   // Takes a step if one is available. The caller's functions run without the lock.
   bool step(Lock& lock) {
@@ -54,7 +54,7 @@ class Loop {
   }
 
  protected:
-  ~Loop() = default;
+  ~SharedLoop() = default;
 
  private:
   virtual std::optional<Step> take() = 0;  // with the lock held, like the next two
@@ -67,7 +67,7 @@ class Loop {
   std::exception_ptr error_;
 };
 
-class BlockLoop final : public Loop {
+class BlockLoop final : public SharedLoop {
  public:
   BlockLoop(std::size_t count, std::size_t grain,
             const std::function<void(std::size_t, std::size_t)>& body)
@@ -96,7 +96,7 @@ struct OrderedCalls {
 };
 
 // An index is agreed, processed and drained; it is live from the agreement to the end of the drain.
-class OrderedLoop final : public Loop {
+class OrderedLoop final : public SharedLoop {
  public:
   OrderedLoop(std::size_t first, std::size_t last, std::size_t in_flight, const OrderedCalls& calls)
       : next_(first),

@@ -14,12 +14,12 @@ namespace echocine::dataset {
 
 namespace {
 
-const char* viewWord(const Loop& loop) {
+const char* viewWord(const LoopSample& loop) {
   return loop.view == View::a2c ? "2CH" : "4CH";
 }
 
 // Pixels of frames first to last, pictures or labels.
-std::vector<std::uint8_t> pixelsOf(const Loop& loop, int first, int last, bool labels) {
+std::vector<std::uint8_t> pixelsOf(const LoopSample& loop, int first, int last, bool labels) {
   std::vector<std::uint8_t> all;
   for (int f = first; f <= last; ++f) {
     const LoopFrame& frame = loop.frames[static_cast<std::size_t>(f)];
@@ -35,7 +35,7 @@ double biplaneOfViews(const Heart& heart, bool end_systole) {
   std::vector<double> widths[2];
   double length_m = 0;
   for (std::size_t v = 0; v < 2; ++v) {
-    const Loop& loop = heart.loops[v];
+    const LoopSample& loop = heart.loops[v];
     const int at = end_systole ? loop.instants.es : loop.instants.ed;
     const LoopFrame& frame = loop.frames[static_cast<std::size_t>(at)];
     if (frame.disc_widths_m.empty()) return 0;
@@ -51,7 +51,7 @@ std::string word(const Json& drawn, const char* key, const std::string& fallback
 
 // Exactly eight lines: the loaders split each at ": ". Numbers of frames are from 1 within the half
 // sequence.
-std::string infoText(const Loop& loop, const Json& entry, double ef_percent) {
+std::string infoText(const LoopSample& loop, const Json& entry, double ef_percent) {
   const Json& drawn = entry["drawn"];
   std::string quality = word(drawn, "scene.signal.quality", "good");
   quality[0] = static_cast<char>(quality[0] - 'a' + 'A');
@@ -63,7 +63,7 @@ std::string infoText(const Loop& loop, const Json& entry, double ef_percent) {
       quality, ef_percent, loop.scene.acquisition.frame_rate_hz);
 }
 
-void writeView(const Heart& heart, const Loop& loop, const Json& entry, double ef_percent,
+void writeView(const Heart& heart, const LoopSample& loop, const Json& entry, double ef_percent,
                Sink& sink) {
   const std::string start = fmt::format("camus/database_nifti/patient{0:04}/patient{0:04}_{1}_",
                                         heart.number, viewWord(loop));

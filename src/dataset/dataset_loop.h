@@ -41,7 +41,7 @@ struct Instants {
   int ed = 0, es = 0;
 };
 
-struct Loop {
+struct LoopSample {
   std::string id;  // "ec000012_a4c": unique, without dots
   View view = View::a4c;
   Scene scene;
@@ -62,13 +62,13 @@ struct Heart {
   int attempt = 0;  // impossible draws before this one
   std::string population;
   Split split = Split::train;
-  std::vector<Loop> loops;                // one for each view of the spec
+  std::vector<LoopSample> loops;          // one for each view of the spec
   std::vector<std::string> impossible{};  // reasons of the impossible draws
 };
 
 // Is a place near the imaging plane in the picture? It is if it lies within the sector, and no
 // farther from the plane than half the beam's thickness there (full width at half maximum).
-bool isShown(const Loop& loop, Vec3f place_m);
+bool isShown(const LoopSample& loop, Vec3f place_m);
 
 std::string loopId(int heart_number, View view);
 

@@ -91,29 +91,6 @@ TomlValue Distribution::quantile(double u) const {
   return items.front();
 }
 
-double Distribution::cumulative(double x) const {
-  switch (kind) {
-    case Kind::uniform:
-      return std::clamp((x - low) / (high - low), 0.0, 1.0);
-    case Kind::whole:
-      return std::clamp((std::floor(x) - low + 1) / (high - low + 1), 0.0, 1.0);
-    case Kind::normal: {
-      const auto [below, to] = kept(*this);
-      const double at = normalCumulative((x - mean) / sd);
-      return std::clamp((at - below) / (to - below), 0.0, 1.0);
-    }
-    case Kind::choice: {
-      double sum = 0;
-      for (std::size_t i = 0; i < weights.size(); ++i)
-        if (numberIn(items[i]).value_or(static_cast<double>(i)) <= x) sum += weights[i];
-      return sum;
-    }
-    case Kind::constant:
-      break;
-  }
-  return x >= numberIn(items.front()).value_or(0) ? 1 : 0;
-}
-
 std::optional<std::pair<double, double>> Distribution::range() const {
   if (kind != Kind::constant && kind != Kind::choice) return std::pair(low, high);
   std::optional<std::pair<double, double>> range;

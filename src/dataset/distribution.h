@@ -29,9 +29,6 @@ struct Distribution {
 
   // The value below which a fraction u of all draws lies. Precondition: 0 < u < 1.
   TomlValue quantile(double u) const;
-  // The fraction of draws at or below x; for values that are not numbers, by their order in the
-  // list.
-  double cumulative(double x) const;
   bool varies() const { return kind != Kind::constant; }
   // Smallest and largest number, if all values are numbers.
   std::optional<std::pair<double, double>> range() const;

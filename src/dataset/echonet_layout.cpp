@@ -25,7 +25,7 @@ Json rowsOf(const Tracing& tracing, const Square& square) {
 
 void writeEchonet(const Spec&, const Heart& heart, Sink& sink, Json& record) {
   for (std::size_t v = 0; v < heart.loops.size(); ++v) {
-    const Loop& loop = heart.loops[v];
+    const LoopSample& loop = heart.loops[v];
     const Square square = sectorSquare(loop.frames.front().image);
     std::vector<GreyImage> small;
     for (const LoopFrame& frame : loop.frames) small.push_back(shrunk(frame.image, square, kSide));

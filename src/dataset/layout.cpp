@@ -21,7 +21,7 @@ const char* nameOf(Split split) {
   return kNames[static_cast<std::size_t>(split)];
 }
 
-bool isShown(const Loop& loop, Vec3f place_m) {
+bool isShown(const LoopSample& loop, Vec3f place_m) {
   const Probe& probe = loop.scene.probe;
   const auto x = static_cast<double>(place_m.x), z = static_cast<double>(place_m.z);
   if (!inScanArea(probe, x, z)) return false;

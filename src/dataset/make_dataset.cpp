@@ -39,7 +39,7 @@ Done countsOf(const Json& record) {
   return done;
 }
 
-// What cannot be made is noted and the rest goes on; what cannot be written ends the run.
+// An impossible heart is recorded and the run continues; a failed write ends the run.
 std::optional<Heart> tryHeart(const Spec& spec, int heart, const Monitor& monitor,
                               std::string& reason) {
   try {
@@ -87,7 +87,7 @@ void add(const Done& done, MakeSummary& summary) {
   summary.failed += done.failed;
 }
 
-// Of a finished heart's files, those that a layout's merge reads: of many hearts they are many.
+// Keeps only those files of a finished heart that a layout's merge reads, to save memory.
 void keepFiles(const Spec& spec, Json& record) {
   if (isFailure(record)) return;
   Json kept = Json::object();

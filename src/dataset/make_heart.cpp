@@ -52,7 +52,7 @@ void keepContours(const Scene& scene, std::vector<Contour>& contours) {
 // The sink of a loop that is a sample: pictures and truth of every frame, in order.
 class SampleSink : public FrameSink {
  public:
-  SampleSink(Loop& loop, SurfaceId cavity)
+  SampleSink(LoopSample& loop, SurfaceId cavity)
       : loop_(loop), cavity_(loop.scene.structures[index(cavity)].name) {}
 
   std::shared_ptr<void> take(MadeFrame& made) override {
@@ -75,7 +75,7 @@ class SampleSink : public FrameSink {
   }
 
  private:
-  Loop& loop_;
+  LoopSample& loop_;
   const std::string cavity_;
 };
 
@@ -127,7 +127,7 @@ bool showsLongAxis(View view) {
 }
 
 void traceInstants(const Simulator& simulator, SurfaceId cavity, const MarksAt& marks_at,
-                   Loop& loop) {
+                   LoopSample& loop) {
   for (const auto& [number, tracing] : {std::pair(loop.instants.ed, &loop.ed_tracing),
                                         std::pair(loop.instants.es, &loop.es_tracing)}) {
     LoopFrame& frame = loop.frames[static_cast<std::size_t>(number)];
@@ -137,9 +137,9 @@ void traceInstants(const Simulator& simulator, SurfaceId cavity, const MarksAt& 
   }
 }
 
-Loop makeLoop(const Spec& spec, const Draw& draw, std::size_t view, Scene scene,
-              const MarksAt& marks_at, const Monitor& monitor) {
-  Loop loop;
+LoopSample makeLoop(const Spec& spec, const Draw& draw, std::size_t view, Scene scene,
+                    const MarksAt& marks_at, const Monitor& monitor) {
+  LoopSample loop;
   loop.view = spec.views[view];
   loop.id = loopId(draw.heart + 1, loop.view);
   loop.values = draw.valuesOf(view);

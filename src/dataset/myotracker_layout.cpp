@@ -11,7 +11,7 @@ namespace {
 
 // Its loader takes row before column, as shares of the picture's height and width, the centre of
 // pixel (0, 0) at (0, 0).
-std::vector<float> sharesOf(const Loop& loop) {
+std::vector<float> sharesOf(const LoopSample& loop) {
   std::vector<float> shares;
   for (const LoopFrame& frame : loop.frames)
     for (const Vec3f p : frame.tracks_m) {
@@ -24,7 +24,7 @@ std::vector<float> sharesOf(const Loop& loop) {
 
 // A folder for each loop: the loader takes exactly one file from each.
 void writeMyotracker(const Spec&, const Heart& heart, Sink& sink, Json&) {
-  for (const Loop& loop : heart.loops) {
+  for (const LoopSample& loop : heart.loops) {
     std::vector<std::uint8_t> pixels;
     for (const LoopFrame& frame : loop.frames)
       pixels.insert(pixels.end(), frame.image.pixels.begin(), frame.image.pixels.end());

@@ -17,7 +17,7 @@ namespace {
 
 using Arrays = std::vector<NamedArray>;
 
-void addCurves(const Loop& loop, Arrays& arrays) {
+void addCurves(const LoopSample& loop, Arrays& arrays) {
   std::vector<float> time_s, phase, volume_ml, ecg(loop.ecg.begin(), loop.ecg.end());
   for (const LoopFrame& frame : loop.frames) {
     time_s.push_back(static_cast<float>(frame.time.time_s));
@@ -32,7 +32,7 @@ void addCurves(const Loop& loop, Arrays& arrays) {
 }
 
 // labels [T, H, W].
-void addLabels(const Loop& loop, Arrays& arrays) {
+void addLabels(const LoopSample& loop, Arrays& arrays) {
   std::vector<std::uint8_t> all;
   for (const LoopFrame& frame : loop.frames)
     all.insert(all.end(), frame.labels.begin(), frame.labels.end());
@@ -41,9 +41,9 @@ void addLabels(const Loop& loop, Arrays& arrays) {
                                 static_cast<std::size_t>(loop.width())})});
 }
 
-// Of each role: contour_ROLE [P, 2] in pixels, contour by contour, and contour_ROLE_starts [C, 2],
-// the frame and the first point of each.
-void addContours(const Loop& loop, Arrays& arrays) {
+// For each role: contour_ROLE [P, 2] in pixels, contour by contour, and contour_ROLE_starts [C, 2],
+// the frame and the first point of each contour.
+void addContours(const LoopSample& loop, Arrays& arrays) {
   for (const Role role : kContourRoles) {
     std::vector<float> points;
     std::vector<std::int32_t> starts;
@@ -65,7 +65,7 @@ void addContours(const Loop& loop, Arrays& arrays) {
 
 // track_px [T, N, 2], track_out_of_plane_mm and track_visible [T, N], track_layer and
 // track_segment [N].
-void addTracks(const Loop& loop, Arrays& arrays) {
+void addTracks(const LoopSample& loop, Arrays& arrays) {
   const std::size_t frames = loop.frames.size(), points = loop.tracked.size();
   std::vector<float> px, away_mm;
   std::vector<std::uint8_t> visible, layers, segments;
@@ -87,7 +87,7 @@ void addTracks(const Loop& loop, Arrays& arrays) {
   arrays.push_back({"track_segment", npyBytes(segments, {points})});
 }
 
-std::vector<std::byte> truthFile(const Spec& spec, const Loop& loop) {
+std::vector<std::byte> truthFile(const Spec& spec, const LoopSample& loop) {
   Arrays arrays;
   addCurves(loop, arrays);
   if (spec.wants("labels")) addLabels(loop, arrays);
@@ -96,7 +96,7 @@ std::vector<std::byte> truthFile(const Spec& spec, const Loop& loop) {
   return compressedNpz(arrays);
 }
 
-std::string loopText(const Heart& heart, const Loop& loop, const Json& numbers) {
+std::string loopText(const Heart& heart, const LoopSample& loop, const Json& numbers) {
   Json json = numbers;
   json["heart"] = heart.number;
   json["population"] = heart.population;
@@ -116,7 +116,7 @@ std::string loopText(const Heart& heart, const Loop& loop, const Json& numbers) 
 
 void writeNative(const Spec& spec, const Heart& heart, Sink& sink, Json& record) {
   for (std::size_t v = 0; v < heart.loops.size(); ++v) {
-    const Loop& loop = heart.loops[v];
+    const LoopSample& loop = heart.loops[v];
     std::vector<const GreyImage*> images;
     for (const LoopFrame& frame : loop.frames) images.push_back(&frame.image);
     const std::string folder = fmt::format("native/{}/", loop.id);

@@ -21,7 +21,7 @@ std::string caseName(const std::string& id, int frame) {
 void writeNnunet(const Spec&, const Heart& heart, Sink& sink, Json& record) {
   const char* const part = heart.split == Split::test ? "Ts" : "Tr";
   for (std::size_t v = 0; v < heart.loops.size(); ++v) {
-    const Loop& loop = heart.loops[v];
+    const LoopSample& loop = heart.loops[v];
     Json cases = Json::array();
     for (const int number : {loop.instants.ed, loop.instants.es}) {
       const LoopFrame& frame = loop.frames[static_cast<std::size_t>(number)];

@@ -12,7 +12,7 @@ namespace {
 
 // Pixels with the centre of (0, 0) at (0, 0). Older releases read trajs_2d and visibilities, later
 // ones trajs_2d, visibs and valids, under another file name; both find what they look for.
-std::vector<std::byte> annotations(const Loop& loop) {
+std::vector<std::byte> annotations(const LoopSample& loop) {
   const std::size_t frames = loop.frames.size(), points = loop.tracked.size();
   std::vector<float> px, mm;
   std::vector<std::uint8_t> visible;
@@ -33,7 +33,7 @@ std::vector<std::byte> annotations(const Loop& loop) {
 }
 
 void writePointodyssey(const Spec&, const Heart& heart, Sink& sink, Json&) {
-  for (const Loop& loop : heart.loops) {
+  for (const LoopSample& loop : heart.loops) {
     const std::string folder = fmt::format("pointodyssey/{}/{}/", nameOf(heart.split), loop.id);
     for (std::size_t f = 0; f < loop.frames.size(); ++f)
       sink.write(fmt::format("{}rgbs/rgb_{:05}.jpg", folder, f),

@@ -19,7 +19,7 @@ struct Instant {
   double time_s = 0, ml = 0;
 };
 
-// Of the frames of the first beat, those of the largest and the smallest ventricle.
+// The frames of the largest and the smallest ventricle in the first beat.
 std::pair<Instant, Instant> extremesOf(const Simulator& simulator) {
   const CardiacClock& clock = simulator.cardiacClock();
   const SurfaceTopology& cavity =

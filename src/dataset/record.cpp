@@ -20,7 +20,7 @@ Json offsetJson(const std::optional<ViewOffset>& offset) {
   return json;
 }
 
-Json loopJson(const Loop& loop) {
+Json loopJson(const LoopSample& loop) {
   const LoopFrame& ed = loop.frames[static_cast<std::size_t>(loop.instants.ed)];
   const LoopFrame& es = loop.frames[static_cast<std::size_t>(loop.instants.es)];
   Json json{{"id", loop.id},
@@ -62,7 +62,7 @@ Json recordOf(const Spec& spec, const Heart& heart) {
       {"spec", spec.digest},          {"heart", heart.number},    {"population", heart.population},
       {"split", nameOf(heart.split)}, {"attempt", heart.attempt}, {"impossible", heart.impossible},
       {"loops", Json::array()}};
-  for (const Loop& loop : heart.loops) record["loops"].push_back(loopJson(loop));
+  for (const LoopSample& loop : heart.loops) record["loops"].push_back(loopJson(loop));
   return record;
 }
 

@@ -23,7 +23,7 @@ std::span<const std::byte> bytesOf(std::string_view text) {
 
 std::filesystem::path Sink::place(const std::string& name) const {
   const std::filesystem::path path = folder_ / name;
-  // What is written through a planted link lands elsewhere; a link in the file's own place is
+  // A planted link to a folder would redirect the file; a link in the file's own place is
   // replaced by the rename.
   const std::filesystem::path within = std::filesystem::path(name).parent_path();
   if (const std::filesystem::path link = linkBelow(folder_, within); !link.empty())

@@ -24,7 +24,7 @@ std::string quoted(const std::string& text) {
   return word + "'";
 }
 
-// What a job may be called: letters, digits, "-" and "_".
+// A valid name of a job: letters, digits, "-" and "_".
 std::string jobName(std::string name) {
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';

@@ -110,7 +110,7 @@ double endOf(const std::vector<Parameter>& parameters, const std::string& name, 
   return otherwise;
 }
 
-// Of the fastest heart at the lowest frame rate, in beats that do not vary.
+// Frames of the fastest heart at the lowest frame rate, in beats that do not vary.
 void checkFrames(const Spec& spec) {
   for (std::size_t i = 0; i < spec.populations.size(); ++i) {
     const Population& population = spec.populations[i];

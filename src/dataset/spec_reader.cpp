@@ -22,7 +22,7 @@ std::string joined(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-// What a drawn number may be.
+// Accepted range of a drawn number.
 struct Bounds {
   const char* key;
   double low, high;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostSceneBytes = std::size_t{16} << 20;
 
-// What a scene's own reader says, at the spec's key.
+// Reports the error of a scene's own reader at the spec's key.
 [[noreturn]] void failOfScenes(const Spec& spec, const std::string& what) {
   throw SceneError(atPlace({spec.file.string(), 0, "scenes"}, what));
 }

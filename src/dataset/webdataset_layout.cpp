@@ -16,7 +16,7 @@ namespace echocine::dataset {
 
 namespace {
 
-// A sample's members share the name up to the first dot and stand in the order of names.
+// A sample's members share the name up to the first dot and are in the order of names.
 constexpr std::pair<const char*, const char*> kMembers[] = {
     {"avi", "cine.avi"}, {"json", "loop.json"}, {"truth.npz", "truth.npz"}};
 
@@ -37,7 +37,7 @@ std::vector<Member> membersOf(const Json& record, const std::string& id,
   return members;
 }
 
-// A merge has looked at sizes only; what goes into a shard is looked at byte by byte.
+// A merge has checked sizes only; every byte of a shard is checked here.
 std::vector<std::byte> bytesOf(const Member& member) {
   std::vector<std::byte> bytes(member.noted->at("bytes").get<std::size_t>());
   std::ifstream file(member.file, std::ios::binary);

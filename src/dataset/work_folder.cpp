@@ -81,7 +81,7 @@ WorkFolder::WorkFolder(std::filesystem::path folder, const Spec& spec)
     throw SceneError(fmt::format("{}: holds files of something else: choose a new or empty folder",
                                  folder_.string()));
   makeFolder(work);
-  // Of tasks that begin together one writes the mark; the others find their own spec in it.
+  // If tasks begin together, one of them writes the mark; the others find their own spec in it.
   const std::string own = markText(spec);
   if (!writeFileOnce(mark, std::as_bytes(std::span(own))) && readText(mark) != own)
     failOfOtherSpec(folder_);

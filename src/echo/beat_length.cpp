@@ -49,8 +49,8 @@ BeatLength findBeatLength(const Features& features, double shortest) {
     const auto at = static_cast<std::size_t>(lag);
     if (lag >= first && d[at] < d[at - 1] && d[at] <= d[at + 1]) {
       const double drop = away > 0 ? (away - d[at]) / away : 0;
-      // A later beat must be clearly better, and a whole number of earlier ones much: two beats are
-      // more alike than one where breathing, or every other beat, differs.
+      // A later beat must be clearly better, and a whole number of earlier ones much better: with
+      // breathing or alternating beats, frames two beats apart match better than one beat apart.
       const double times = beat.frames > 0 ? lag / beat.frames : 0.5;
       const bool multiple = times > 1.5 && std::abs(times - std::round(times)) < 0.1;
       if (drop > (multiple ? kMuchBetter : kClearlyBetter) * best_drop && drop > 0.25) {

@@ -229,8 +229,8 @@ EcgCurve curveIn(const CurveBand& band, const Video& video, const Sector& sector
     }
     out.height_px.push_back(std::move(heights));
   }
-  // Of the curve's brightness over the background, our choice: above a codec's traces, below what
-  // appears or goes.
+  // Share of the curve's brightness over the background: above a codec's noise, below the steps of
+  // pixels that appear or vanish. Our choice.
   const double step = 0.4 * middleOf(brightness);
   out.changed.resize(video.frames.size());
   for (int f = 1; f < video.frameCount(); ++f)

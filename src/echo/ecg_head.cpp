@@ -115,7 +115,7 @@ Pass bestPass(const EcgCurve& curve, const std::vector<bool>& used, double pace)
   return best;
 }
 
-// What changes behind the head is the trace's own: of passes side by side the leftmost counts.
+// Changes behind the head belong to the trace: the leftmost of adjacent passes counts.
 void leaveErasing(const EcgCurve& curve, const std::vector<bool>& used, Pass& pass) {
   const Pass right = pass;
   for (double left = 1; left <= 0.3 * curve.band.columns(); ++left) {
@@ -210,8 +210,8 @@ class Heads {
     return moved > 0 ? explained / moved : 0;
   }
 
-  // What the head had reached in a frame changes in the next one: the last drawn column lies before
-  // the left end of that, the middle of a marker by half its width behind.
+  // The columns at the head of a frame change in the next one: the last drawn column lies before
+  // their left end, the middle of a marker half its width behind it.
   double instantOf(const Pass& pass, double column) const {
     return (column + 0.5 - 0.5 * width_ - pass.at) / pass.pace - 1;
   }

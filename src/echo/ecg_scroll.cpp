@@ -39,7 +39,7 @@ double likeness(const EcgCurve& curve, int lag, double shift) {
 std::optional<EcgSignal> signalOfScroll(const EcgCurve& curve) {
   const auto n = static_cast<int>(curve.height_px.size());
   const int columns = curve.band.columns();
-  // The least step by which frames are as alike as by any: a beat farther they are so again.
+  // The smallest of the steps with the best match; one beat farther frames match equally well.
   std::vector<double> by_step;
   for (double step = 0; step <= columns / 10.0; step += 0.5)
     by_step.push_back(likeness(curve, 1, step));
@@ -62,7 +62,7 @@ std::optional<EcgSignal> signalOfScroll(const EcgCurve& curve) {
   EcgSignal out;
   out.kind = "scrolling";
   out.px_per_frame = pace;
-  // By how much of what is left to gain over a trace that stands still.
+  // Share of the possible improvement over a static trace.
   const double moved = likeness(curve, lag, lag * pace), still = likeness(curve, lag, 0);
   out.confidence =
       std::clamp((moved - std::max(0.0, still)) / (1 - std::clamp(still, 0.0, 0.9)), 0.0, 1.0);

@@ -68,7 +68,7 @@ double medianOfAll(std::vector<double> values) {
 
 // Our choice of numbers: a T wave is a third as tall as the R wave and three times as wide.
 constexpr double kSharpPart = 0.4, kTallPart = 0.4, kMostWidth = 0.2;
-// Of the trace's own thickness.
+// In units of the trace's own thickness.
 constexpr double kLeastHeight = 4;
 // Part of the samples beside R waves that leave the usual height: a scale's ticks stand on a
 // straight line.
@@ -103,8 +103,8 @@ RWaves toOneSide(std::span<const double> heights, double thickness, double sign,
   sharpness = medianOfAll(sharp);
   const double step = steps.empty() ? static_cast<double>(y.size()) : medianOfAll(steps);
   if (medianOfAll(widths) > kMostWidth * step) return out;
-  // An early beat and the pause after it are regular enough: half of the steps are about alike.
-  // No heart beats twice in a third of its beat. Parts of the median step, our choice.
+  // An early beat and the pause after it are regular enough: half of the steps are similar.
+  // No heart beats twice in a third of its beat. Shares of the median step, our choice.
   constexpr double kMostOff = 0.5, kLeastStep = 0.35;
   std::vector<double> off;
   for (const double s : steps) {

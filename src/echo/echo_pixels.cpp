@@ -15,7 +15,8 @@ int backgroundGrey(const PixelPlane& highest) {
   return static_cast<int>(std::max_element(counts.begin(), counts.begin() + 64) - counts.begin());
 }
 
-// Of 8-connected parts: a scanner's logo, its scale bars and the ECG are smaller than its sector.
+// The largest 8-connected part: a scanner's logo, its scale bars and the ECG are smaller than its
+// sector.
 cv::Mat largestPart(const cv::Mat& mask) {
   cv::Mat labels, stats, centroids;
   const int parts = cv::connectedComponentsWithStats(mask, labels, stats, centroids, 8);

@@ -107,7 +107,7 @@ bool findSpread(Patch& p, double x_m, double z_m, double pixel_m) {
   if (!(det > 1e-9 * aa * bb)) return false;
   const double a = (ay * bb - by * ab) / det, b = (by * aa - ay * ab) / det;
   if (!(a > 0 && b > 0)) return false;
-  // In pixels. What pixels themselves spread, by their width, is grey and moves no edge.
+  // In pixels. The spread due to the width of pixels acts on grey levels and moves no edge.
   const auto width = [](double curvature) {
     return std::sqrt(std::max(0.0, kLogPower / (4 * curvature) - 1.0 / 12));
   };

@@ -17,8 +17,8 @@ double shortestBeat(const EchoLoop& loop) {
              : static_cast<double>(loop.video.frames.size()) / 8;
 }
 
-// What moves in a loop's own sector, whatever it is compared with. Features are coarse, so the grid
-// may be.
+// Motion in a loop's own sector, independent of the other loop. Features are coarse, so a coarse
+// grid is enough.
 Features ownFeatures(const EchoLoop& loop) {
   BeamGrid grid = commonGrid(loop, loop);
   grid.lines = std::min(grid.lines, 128);

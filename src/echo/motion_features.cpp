@@ -33,7 +33,7 @@ Features motionFeatures(const BeamGrid& grid, const BeamLoop& loop,
     }
     features.push_back(std::move(f));
   }
-  // What stands still says nothing of the time, and would drown what moves.
+  // Static parts have no information about time, and would hide the motion.
   for (std::vector<double>& f : features)
     for (std::size_t b = 0; b < blocks; ++b) f[b] -= mean[b];
   return features;

@@ -89,7 +89,7 @@ void noteColour(EchoLoop& loop) {
                     100 * coloured / inside));
 }
 
-// What is burnt in around the sector is a patient's name as likely as a scale: no output has it.
+// Text around the sector may be a patient's name, so no output contains it.
 void blankOutside(EchoLoop& loop) {
   constexpr double kMargin_px = 1.5;  // the edge's own pixels
   Sector kept = loop.sector();
@@ -128,9 +128,9 @@ bool insidePicture(const UltrasoundRegion& r, const Video& v) {
   return r.max_x < v.width && r.max_y < v.height && r.min_x <= r.max_x && r.min_y <= r.max_y;
 }
 
-// The region that holds the sector says how long a pixel is. A region that reaches outside the
-// picture is of a picture of another size: the factor by which it must shrink for its box to meet
-// the sector's tells the true scale.
+// The region that holds the sector has the size of a pixel. A region that extends outside the
+// picture belongs to a picture of another size: the factor that shrinks its box onto the sector's
+// box gives the true scale.
 void scaleFromRegions(EchoLoop& loop) {
   const Sector& s = loop.sector();
   Video& v = loop.video;

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kNoWidth = 1e-3;  // a Gaussian of no width is none
 
-// A Gaussian of half the spacing is what the coarser raster can hold; the finer one's own pixel has
-// half a pixel of it already, and variances subtract. In finer pixels, `ratio` of which are one
-// coarser.
+// The coarser raster can represent a Gaussian of half its spacing. A pixel of the finer one already
+// has half a pixel of it, and variances subtract. In finer pixels; `ratio` finer pixels are one
+// coarser pixel.
 double smoothingFor(double ratio) {
   return ratio > 1 ? 0.5 * std::sqrt(ratio * ratio - 1) : 0;
 }

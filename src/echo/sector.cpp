@@ -74,8 +74,8 @@ std::vector<EdgePoint> lowerArc(const EchoPixels& area, const Sector& s) {
 }
 
 // With pixels q times as high as wide the arc obeys X + q^2 Y = R^2 for the squares X and Y of the
-// distances from the apex: least squares for R^2 and q^2, twice without what lies off. 1 when the
-// arc is too short to tell.
+// distances from the apex: least squares for R^2 and q^2, twice without outliers. 1 if the arc is
+// too short.
 double aspectOfArc(const std::vector<EdgePoint>& arc, const Sector& s) {
   std::vector<EdgePoint> points = arc;
   double q2 = 1;
@@ -89,7 +89,7 @@ double aspectOfArc(const std::vector<EdgePoint>& arc, const Sector& s) {
       narrowest = std::min(narrowest, x2 / (s.r_max * s.r_max));
     }
     const double d = n * syy - sy * sy;
-    // Our choices: fewer points, or an arc so short that X and Y do not tell apart.
+    // Our choices: too few points, or an arc so short that X and Y are not separable.
     if (n < 40 || widest - narrowest < 0.1 || d <= 0) return 1;
     q2 = -(n * sxy - sx * sy) / d;
     const double r2 = (sx + q2 * sy) / n;
@@ -145,7 +145,7 @@ Attempt attempt(const Video& video, int moving) {
   for (int y = 0; y < video.height; ++y)
     for (int x = 0; x < video.width; ++x)
       if (area.at(x, y)) ++all, inside += s.contains(x + 0.5, y + 0.5) ? 1 : 0;
-  // What moves elsewhere (an ECG, a second sector) is allowed 15 %.
+  // Motion elsewhere (an ECG, a second sector) may have a share of 15 %.
   if (inside < 0.85 * all)
     return {{},
             fmt::format("{:.0f} % of the moving area lies outside the best fit",

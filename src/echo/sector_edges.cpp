@@ -8,8 +8,8 @@ namespace echocine::echo {
 
 namespace {
 
-// Of the points within the tolerance of a line that is nearly right. The regression runs from y to
-// x, since edges are steep.
+// Fit to the points within the tolerance of an approximate line. The regression is of x on y,
+// because edges are steep.
 EdgeLine leastSquares(const std::vector<EdgePoint>& points, const EdgeLine& near,
                       double tolerance) {
   double n = 0, sx = 0, sy = 0, syy = 0, sxy = 0;

@@ -75,7 +75,7 @@ void fitParaboloid(const std::vector<ScanAxis>& axes, DialGrid& grid) {
       hessian.at<double>(a, b) = hessian.at<double>(b, a) = x.at<double>(at) * (a == b ? 2 : 1);
   for (int a = 0; a < static_cast<int>(n); ++a) grid.curvature.push_back(hessian.at<double>(a, a));
   if (!cv::eigen(hessian, values) || !(values.at<double>(values.rows - 1) > 0)) return;
-  // Of the inverse: how errors of two dials go together.
+  // Correlations of the dials' errors, from the inverse.
   cv::Mat inverse;
   if (cv::invert(hessian, inverse) == 0 || !cv::checkRange(inverse)) return;
   for (int a = 0; a < static_cast<int>(n); ++a) {

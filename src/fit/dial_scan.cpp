@@ -113,7 +113,7 @@ void refuseUnusable(const ScanOptions& o) {
         fmt::format("--scan: {:.0f} evaluations, accepted: {:g}; use larger steps", count, kMost));
 }
 
-// Of the best heart itself, recorded at its own dials: with the segments of its wall.
+// Report on the best heart, recorded at its own dials, with the segments of its wall.
 FitReport whereBest(const DialScan& scan, const ModelDiscrepancy& discrepancy,
                     const echo::EchoLoop& real) {
   const ScanPoint& best = scan.points[scan.best];

@@ -9,7 +9,7 @@ namespace echocine::fit {
 
 namespace {
 
-// What tissues and gain leave of the grey of each cell, in standard deviations.
+// Residual of each cell's grey after the fit of tissues and gain, in standard deviations.
 std::vector<RegionLeft> leftOver(const ModelFrame& frame, const echo::EchoStack& real,
                                  const echo::BeatPlace& at, const PoseMapping& map,
                                  const TissueGreys::Fit& fit, double deviation) {

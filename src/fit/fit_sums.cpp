@@ -128,13 +128,13 @@ echo::BeatPlace placeOf(const ModelLoop& model, std::size_t frame, const FitPose
     }
   };
   if (pose.systole > 0) {
-    // Of a search for it: the quadratic B-spline. Two pictures have half the speckle of one, and
-    // blends would win by that; these have nearly as much anywhere between pictures.
+    // For a search: the quadratic B-spline. The mean of two pictures has half the speckle of one,
+    // so linear blends would win; these have nearly equal speckle at any fraction.
     const double middle = std::round(here), t = here - middle;
     fill(middle - 1, {0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)});
     return out;
   }
-  // What is a picture within rounding is no blend.
+  // A position that is a whole picture within rounding is not blended.
   constexpr double kRounding = 1e-6;
   const double whole = std::floor(here + kRounding), share = here - whole;
   if (share > kRounding)

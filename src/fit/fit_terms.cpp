@@ -64,7 +64,7 @@ struct TermSums {
     if (!(region.seen > 0)) return out;
     out.overlap = region.seen / region.all;
     out.region = region.greys.fit().ratio();
-    // Each sum has a little of the value that says nothing, so that terms stay continuous where
+    // Each sum has a small part of the baseline value, so that terms stay continuous where
     // boundaries leave the sector.
     constexpr double kLeast_m = 1e-3, kLeast_m3 = 1e-9;
     out.boundary = (boundary.square / kEven + kLeast_m) / (boundary.length + kLeast_m);

@@ -112,9 +112,9 @@ HeartFamily::HeartFamily(const HeartNodes& hearts, heart::View view, const Monit
   keepCoordinates(recorded);
 }
 
-// Of triangles, those that some heart between the recorded ones has on the plane: their corners'
-// heights are polynomials, which the recorded heights bound. Planes tilted by t and rotated by r
-// lie at y = x tan r + z tan t / cos r: that much nearer may a corner be to one of them.
+// The triangles that some heart between the recorded ones has on the plane: their corners' heights
+// are polynomials, which the recorded heights bound. Planes tilted by t and rotated by r
+// lie at y = x tan r + z tan t / cos r: a corner may be nearer to one of them by this.
 std::vector<char> HeartFamily::nearPlane(const SurfaceTopology& surface,
                                          const std::vector<Node>& recorded) const {
   const auto reach =

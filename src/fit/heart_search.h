@@ -13,8 +13,8 @@ std::vector<ScanAxis> populationWithout(const std::map<std::string, double>& giv
 struct HeartFound {
   std::vector<double> values;  // of the population's dials, in their order
   PoseFound found;
-  double coverage = 0;            // a of coverage.h, Eq. 11
-  double left = 1;                // V, Eq. 12
+  double coverage = 0;            // a of coverage.h, Eq. 12
+  double left = 1;                // V, Eq. 13
   double middle = 1;              // D of the heart at the centre of all ranges
   int hearts = 0;                 // hearts tried, each with its own pose
   std::optional<TiltFound> tilt;  // of that heart, if requested

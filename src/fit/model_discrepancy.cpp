@@ -123,7 +123,7 @@ void ModelDiscrepancy::findSystole(const echo::EchoLoop& real, const echo::SideO
   stack_.emplace(real, beat_.span, kFitFrames, first.far_m);
 }
 
-// Pose and start depend on each other little: walls stand about where they stand at any time. So
+// Pose and start depend little on each other: walls move little over the beat. So
 // one is sought with the other held, twice.
 void ModelDiscrepancy::findStart(const echo::EchoLoop& real, const ModelLoop& first) {
   PoseFound found = search(first);

@@ -9,7 +9,7 @@ namespace echocine::fit {
 
 namespace {
 
-// Of the points that belong to a part; nothing where no frame shows one.
+// Curve over the points that belong to a part; none if no frame shows such a point.
 template <typename Belongs>
 std::optional<OffsetCurve> curveOf(const FitMap& map, std::size_t part, const Belongs& belongs) {
   const auto mean = [](double sum, double weight) {

@@ -1,4 +1,4 @@
-// What a scan of dials leaves in its folder.
+// Output files of a scan of dials.
 
 #include <fmt/format.h>
 

@@ -68,7 +68,7 @@ TiltableModel::TiltableModel(const Scene& scene, const MeshMotion& motion, int f
       frames_(beatOf(motion, frames)),
       segments_(std::move(segments)),
       systole_(systoleOf(scene, motion, frames_)) {
-  // Of the plane as the scene has it alone.
+  // It holds for the scene's own plane only.
   for (SurfaceTopology& surface : surfaces_) surface.near_plane.reset();
 }
 

@@ -39,8 +39,8 @@ TissueGreys::Fit TissueGreys::solve(const std::vector<int>& group_of) const {
   cv::Mat ridged = a.clone();
   for (int i = 0; i < n; ++i) ridged.at<double>(i, i) += 1e-9 * weight_;
   if (!cv::solve(ridged, b, x, cv::DECOMP_CHOLESKY) || !cv::checkRange(x)) return fit;
-  // Of the sums themselves, not of the solver's own account. Below 0 by more than rounding: no
-  // least squares.
+  // From the sums themselves, not as reported by the solver. A value below 0 by more than rounding
+  // is no least-squares residual.
   const double residual = square_ - 2 * x.dot(b) + x.dot(a * x);
   if (!(residual >= -1e-9 * std::abs(square_))) return fit;
   fit.solved = true;

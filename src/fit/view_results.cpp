@@ -1,4 +1,4 @@
-// What a ranking of views leaves in its folder.
+// Output files of a ranking of views.
 
 #include <fmt/format.h>
 

@@ -16,11 +16,11 @@ namespace {
 
 constexpr int kLines = 128, kGroups = 8, kBands = 8;
 constexpr double kExceeding = 0.25;  // of a field's lines
-// Of the normal numbers that rays leave the imaging plane by: to both sides of the lens.
+// Elevations of the rays in standard deviations: in the plane, and to both sides of it.
 constexpr std::array<double, 3> kElevations{0, -1, 1};
 
-// What attenuation alone takes 120 dB from no scanner receives: what lies in lung or behind it.
-// Our choice; 160 mm of tissue take 40 to 60 dB.
+// No scanner receives echoes with an attenuation of 120 dB, as from inside or behind lung.
+// Our choice; 160 mm of tissue attenuate by 40 to 60 dB.
 constexpr double kLostExponent = 27.6;  // nepers of intensity
 
 // Where a line ends, or attenuation has taken what a scanner receives.
@@ -79,8 +79,8 @@ EchoShiftMeter::EchoShiftMeter(const Scene& scene, const EffectPlan& plan)
   plan_.snell_angles = true;  // straight rays end where bent ones would by their angles
 }
 
-// What two echoes side by side must be apart to be told from each other: the beam's width, and no
-// less than a wavelength, in which the formula loses its sense near the transducer.
+// Smallest lateral distance at which two echoes are resolved: the beam's width, but at least a
+// wavelength, because the formula does not hold near the transducer.
 double EchoShiftMeter::resolution(double depth_m) const {
   const Probe& probe = scene_.probe;
   const double wavelength_m = ScanGeometry(probe).wavelength();

@@ -32,8 +32,8 @@ Volumes FrameStages::make(const FrameTime& time, const Making& making, Workspace
     const bool rolls = effects.rolling && !making.still;
     if (w.polar.intensities.empty()) w.polar.intensities = Intensities(w.greys.release());
     WorkCounts work;
-    // Near the probe the average over the beam takes in nearly all lines, deeper few of them; haze
-    // takes in all. What only a group's lines need is done for these alone.
+    // Near the probe the average over the beam needs nearly all lines, deeper only a few; haze
+    // needs all. Work for a group's lines alone is done for these lines only.
     for (std::size_t g = 0; rolls && g < effects.rolling->groups().size(); ++g) {
       const RollingLines::Group& group = effects.rolling->groups()[g];
       const FrameTime at = instantOf(cardiac_clock, scene, time.time_s + group.offset_s);

@@ -17,19 +17,6 @@ std::string range(double from_m, double to_m) {
   return fmt::format("{:.0f} to {:.0f}", rounded(from_m), rounded(to_m));
 }
 
-// In the imaging plane: the outermost lines and the middle one reach farthest.
-Box sectorBox(const Probe& probe) {
-  Probe outline = probe;
-  outline.lines = 33;  // odd: with the middle
-  Box box;
-  for (int i = 0; i < outline.lines; ++i) {
-    const LineGeometry line = lineGeometry(outline, i);
-    box.add(line.origin + probe.min_depth_m * line.direction);
-    box.add(line.origin + probe.max_depth_m * line.direction);
-  }
-  return box;
-}
-
 }  // namespace
 
 Box meshesBox(const MeshMotion& motion) {
@@ -45,7 +32,7 @@ Box meshesBox(const MeshMotion& motion) {
 }
 
 std::string describePlacement(const Scene& scene, const Box& box_m) {
-  const Box sector = sectorBox(scene.probe);
+  const Box sector = scanBox(scene.probe);
   const Vec3d middle = 0.5 * (box_m.lo + box_m.hi);
   const Vec3d world = (1 / scene.motion.mesh_unit_m) * scene.probe.pose.toWorld(middle);
   return fmt::format(

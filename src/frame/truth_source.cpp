@@ -78,8 +78,8 @@ void TruthSource::addPaths(double phase, PathSpace& space, TruthShared& shared) 
   shared.paths = &space.paths;
 }
 
-// Of rolling lines what stands at samples and pixels is that of each line's instant; the rest is
-// that of the frame's time.
+// With rolling lines, values at samples and pixels are those of each line's instant; the others are
+// those of the frame's time.
 FrameTruth TruthSource::at(const FrameTime& time, const Workspace* traced) const {
   TruthShared shared;
   if (traced != nullptr && traced->phase == time.phase) {

@@ -105,7 +105,7 @@ LaneCrossings crossTriangles(const RayPlanes& ray, const std::array<Vec3<Floats4
                  v2 = dot(v_axis, p2 - origin);
   const Mask4 above0 = v0 >= zero, above1 = v1 >= zero, above2 = v2 >= zero;
   const Mask4 cut01 = above0 ^ above1, cut02 = above0 ^ above2;
-  // Of the edges 0-1, 1-2 and 2-0 two are cut: one of the first two, and one of the last two.
+  // Two of the edges 0-1, 1-2 and 2-0 are cut: one of the first two, and one of the last two.
   const Point one = cutPoint(p1, v1, choose(cut01, p0, p2), Doubles4(cut01 ? v0 : v2)) - origin;
   const Point other = cutPoint(p2, v2, choose(cut02, p0, p1), Doubles4(cut02 ? v0 : v1)) - origin;
   const Doubles4 u1 = dot(u_axis, one), u2 = dot(u_axis, other);

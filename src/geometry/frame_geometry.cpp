@@ -13,7 +13,7 @@
 
 namespace echocine {
 
-// All surfaces stand one after the other in one mesh: Embree then refits one hierarchy and builds
+// All surfaces are concatenated into one mesh: Embree then refits one hierarchy and builds
 // none, while over several meshes it builds one anew for each frame, which takes longer than to
 // refit 50 000 triangles and stops the program where triangles have shrunk to a point. In return
 // surfaces that slide against each other after the first frame loosen the boxes: measured on nested
@@ -86,7 +86,7 @@ void FrameGeometry::State::fillTriangles() {
   }
 }
 
-// Of the surface and the triangle at a place, as far as they alone say.
+// Crossing at a place, with the properties of its surface and triangle only.
 Crossing FrameGeometry::State::crossingAt(std::uint32_t place) const {
   Crossing crossing;
   crossing.surface = SurfaceId{surface_at[place]};
@@ -102,8 +102,8 @@ std::optional<Crossing> FrameGeometry::State::cross(const RayPlanes& ray,
                        at.triangle);
 }
 
-// Every triangle of a surface against the rule, without the hierarchy. Those wholly on one side of
-// the ray's plane are told by their vertices.
+// Every triangle of a surface against the rule, without the hierarchy. Triangles entirely on one
+// side of the ray's plane are recognised by their vertices.
 void FrameGeometry::State::crossAll(const RayPlanes& ray, std::uint32_t surface,
                                     std::vector<Crossing>& out) const {
   const SurfaceTopology& topology = surfaces[surface];
@@ -149,7 +149,7 @@ void FrameGeometry::State::crossFour(const RayPlanes& ray, std::span<const std::
   }
 }
 
-// Embree's candidates, each decided by the rule. What is found twice stays: proveStates() drops it.
+// Embree's candidates, each decided by the rule. Duplicates stay: proveStates() drops them.
 void FrameGeometry::State::crossCandidates(const RayQuery& query, const RayPlanes& planes,
                                            std::vector<std::uint32_t>& found,
                                            std::vector<Crossing>& out) const {
@@ -220,7 +220,7 @@ void FrameGeometry::State::proveStates(const RayQuery& query, RayCrossings& out)
   if (!statesAlternate(out.crossings, query.inside, membranes)) repairStates(query, out);
 }
 
-// What the crossings' normals are with smooth normals; nothing else of them changes.
+// Replaces the crossings' normals by smooth ones; their other members stay.
 void FrameGeometry::State::smoothNormals(const RayPlanes& planes,
                                          std::vector<Crossing>& crossings) const {
   for (Crossing& c : crossings) {

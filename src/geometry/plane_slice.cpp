@@ -108,8 +108,8 @@ void PlaneSlice::crossEdge(std::size_t number) {
   for (int i = begin; i < end; ++i) crossLine(number, i);
 }
 
-// Contours of closed surfaces close exactly, so the crossings of a line themselves tell where it
-// starts.
+// Contours of closed surfaces close exactly, so the crossings of a line determine the medium of
+// its start.
 void PlaneSlice::resolve(RayCrossings& line) const {
   thread_local std::vector<int> depth;
   depth.resize(surfaces_.size());

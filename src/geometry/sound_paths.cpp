@@ -40,14 +40,6 @@ std::size_t SoundPath::pieceAt(double depth_m) const {
   return static_cast<std::size_t>(behind - knots.begin()) - 1;
 }
 
-Vec3d SoundPath::placeAt(double depth_m) const {
-  const std::size_t k = pieceAt(depth_m);
-  const Knot &a = knots[k], &b = knots[k + 1];
-  const double run_m = b.depth_m - a.depth_m;
-  const double share = run_m > 0 ? (depth_m - a.depth_m) / run_m : 0;
-  return a.place_m + share * (b.place_m - a.place_m);
-}
-
 std::uint16_t SoundPath::idAt(double depth_m) const {
   const auto found =
       std::upper_bound(stretches.begin(), stretches.end(), depth_m,

@@ -37,7 +37,6 @@ struct SoundPath {
 
   // The first knot of the piece that holds a depth; the last piece goes on behind its end.
   std::size_t pieceAt(double depth_m) const;
-  Vec3d placeAt(double depth_m) const;
   std::uint16_t idAt(double depth_m) const;
 };
 

@@ -4,7 +4,7 @@ namespace echocine {
 
 namespace {
 
-// What a kept frame holds: its planes, by far the most of it.
+// Size of a kept frame: its planes, by far the largest part.
 std::size_t bytesOf(const PolarFrame& polar) {
   const std::size_t planes =
       polar.planes.size() + (polar.intensities.empty() ? 0 : 1) + (polar.medium.empty() ? 0 : 1);

@@ -84,7 +84,7 @@ int renderEach(const Simulator& simulator, std::span<const FrameTime> times, dou
 int renderFrames(const Simulator& simulator, std::pair<int, int> range, FrameSink& sink,
                  const Monitor& monitor) {
   if (sink.wantsTruth())
-    simulator.truth();  // refuses what it cannot tell before anything is traced
+    simulator.truth();  // rejects impossible requests before anything is traced
   KeptFrames kept(range);
   // White goes by still frames: a rolling one is traced again.
   KeepTraced keep;

@@ -100,16 +100,6 @@ double structuralSimilarity(const BeamPair& p) {
       .value_or(0);
 }
 
-double rmsDifference(const BeamPair& p) {
-  double n = 0, squares = 0;
-  for (std::size_t i = 0; i < p.x.size(); ++i) {
-    const double d = static_cast<double>(p.x[i]) - p.y[i];
-    n += p.weights[i];
-    squares += p.weights[i] * d * d;
-  }
-  return n > 0 ? std::sqrt(squares / n) : 0;
-}
-
 FrameMetrics frameMetrics(const BeamPair& p) {
   FrameMetrics m;
   double squares = 0, absolutes = 0;

@@ -62,7 +62,6 @@ struct BeamPair {
 };
 
 FrameMetrics frameMetrics(const BeamPair& pair);
-double rmsDifference(const BeamPair& pair);
 
 // metrics/structural_similarity.h over the samples; its window includes only those in the area.
 double structuralSimilarity(const BeamPair& pair);

@@ -45,7 +45,7 @@ bool isKnown(std::string_view type, std::size_t size) {
   });
 }
 
-// What is left of the header's bytes.
+// The unread bytes of the header.
 class Cursor {
  public:
   explicit Cursor(std::string_view bytes) : bytes_(bytes) {}

@@ -23,8 +23,8 @@
 namespace echocine {
 namespace {
 
-// What stands in a frame's place. Another scene's whole frame is a user's mistake and not to be
-// overwritten; damage is not.
+// Content of a frame's file. A complete frame of another scene is a user's mistake and must not be
+// overwritten; a damaged file may be.
 enum class Found { nothing, another_scene, this_frame };
 
 bool hasSize(const Imf::Header& header, const Probe& probe) {

@@ -35,8 +35,8 @@ void writeText(const fs::path& file, const std::string& text) {
   writeFileWhole(file, std::as_bytes(std::span(text)));
 }
 
-// A folder beside the wanted one, gone again unless it took its place. What a killed run left of
-// it is thrown away by the next.
+// A folder beside the target, removed unless it replaces the target. The next run removes what a
+// killed run left of it.
 class FolderInTheMaking {
  public:
   explicit FolderInTheMaking(const fs::path& folder) {

@@ -43,7 +43,6 @@ Json framesJson(const Manifest& manifest) {
   return frames;
 }
 
-// Grouped by structure, as curves are drawn.
 // Where the probe frame lies in the picture. Pixel (i, j) covers i..i+1, j..j+1.
 Json pictureJson(const Scene& scene) {
   const PictureGeometry g = pictureGeometry(scene);
@@ -101,11 +100,34 @@ Json curvesJson(const Manifest& manifest) {
   return curves;
 }
 
+// Grouped by structure, as curves are drawn.
 Json keyframesJson(const Manifest& manifest) {
   Json keyframes = Json::object();
   for (const KeyframeVolume& k : manifest.keyframes)
     keyframes[k.structure].push_back({{"phase", k.phase}, {"volume_ml", k.volume_ml}});
   return keyframes;
+}
+
+const EffectRow& rowOf(Effect effect) {
+  return *std::find_if(std::begin(kEffects), std::end(kEffects),
+                       [&](const EffectRow& row) { return row.effect == effect; });
+}
+
+// Relative time that an effect took: its costs times the work counted.
+double costOf(Effect effect, const Manifest& manifest) {
+  const EffectCost& cost = rowOf(effect).cost;
+  const WorkCounts& w = manifest.work;
+  const auto crossings = static_cast<double>(w.crossings), rays = static_cast<double>(w.rays),
+             scattered = static_cast<double>(w.samples_backscatter),
+             attenuated = static_cast<double>(w.samples_attenuated);
+  // The slice tracer bends no ray.
+  if (effect == Effect::refraction && manifest.plan.slice) return 0;
+  // Each slice beside the plane repeats all work of the plane.
+  const double beside = manifest.plan.effects.elevation_slices - 1;
+  if (effect == Effect::elevation && beside > 0)
+    return beside * (35 * crossings + 0.6 * scattered + 0.5 * attenuated);
+  return cost.crossing * crossings + cost.ray * rays + cost.scattered * scattered +
+         cost.attenuated * attenuated + cost.fixed;
 }
 
 }  // namespace
@@ -157,57 +179,12 @@ double timeShare(const EffectDecision& effect, const Manifest& manifest) {
   double total = 0;
   for (const double ms : manifest.stage_ms) total += ms;
   if (!effect.on || total <= 0) return 0;
-  const WorkCounts& w = manifest.work;
-  const auto crossings = static_cast<double>(w.crossings), rays = static_cast<double>(w.rays),
-             scattered = static_cast<double>(w.samples_backscatter),
-             attenuated = static_cast<double>(w.samples_attenuated);
-  // Slices beside the plane do all that the plane does once more each.
-  const double beside = manifest.plan.effects.elevation_slices - 1,
-               of_all = 35 * crossings + 0.6 * scattered + 0.5 * attenuated;
-  // Relative cost of a unit of each work: our choice, weighed by the operations of each, not timed.
-  struct Part {
-    Effect effect;
-    Stage stage;
-    double work;
-  };
-  const Part parts[] = {{Effect::reflection, Stage::trace, 20 * crossings},
-                        {Effect::lobe, Stage::trace, 5 * crossings},
-                        {Effect::transmission_loss, Stage::trace, 10 * crossings},
-                        {Effect::refraction, Stage::trace, manifest.plan.slice ? 0 : 200 * rays},
-                        {Effect::attenuation, Stage::trace, 0.5 * attenuated},
-                        {Effect::backscatter, Stage::trace, 0.3 * scattered},
-                        {Effect::spread, Stage::trace, 0.3 * scattered},
-                        {Effect::elevation, Stage::trace, beside > 0 ? beside * of_all : 20 * rays},
-                        {Effect::travel_time, Stage::trace, 2 * crossings},
-                        {Effect::labels, Stage::trace, 0.1 * scattered},
-                        {Effect::trabeculae, Stage::geometry, 1},
-                        {Effect::speckle, Stage::speckle, 1},
-                        {Effect::heterogeneity, Stage::speckle, 0.01},
-                        {Effect::anisotropy, Stage::speckle, 0.01},
-                        {Effect::coherent_echoes, Stage::speckle, 0.1},
-                        {Effect::dropout, Stage::signal, 0.05},
-                        {Effect::acoustic_window, Stage::signal, 0.05},
-                        {Effect::haze, Stage::signal, 0.3},
-                        {Effect::reverberation, Stage::signal, 0.2},
-                        {Effect::clutter, Stage::signal, 0.05},
-                        {Effect::noise, Stage::signal, 0.15},
-                        {Effect::beam_width, Stage::signal, 0.8},
-                        {Effect::tgc, Stage::signal, 0.05},
-                        {Effect::log_compression, Stage::signal, 0.2},
-                        {Effect::channel, Stage::exr, 1}};
-  const auto partOf = [&](const EffectDecision& decision) {
-    return std::find_if(std::begin(parts), std::end(parts),
-                        [&](const Part& p) { return p.effect == decision.effect; });
-  };
-  const Part* part = partOf(effect);
-  if (part == std::end(parts)) return 0;
+  const Stage stage = rowOf(effect.effect).stage;
   double of_stage = 0;
-  for (const EffectDecision& other : manifest.plan.effects.decisions) {
-    const Part* p = partOf(other);
-    if (other.on && p != std::end(parts) && p->stage == part->stage) of_stage += p->work;
-  }
-  const double stage_ms = manifest.stage_ms[static_cast<std::size_t>(part->stage)];
-  return of_stage > 0 ? stage_ms / total * part->work / of_stage : 0;
+  for (const EffectDecision& other : manifest.plan.effects.decisions)
+    if (other.on && rowOf(other.effect).stage == stage) of_stage += costOf(other.effect, manifest);
+  const double stage_ms = manifest.stage_ms[static_cast<std::size_t>(stage)];
+  return of_stage > 0 ? stage_ms / total * costOf(effect.effect, manifest) / of_stage : 0;
 }
 
 // Written last and whole: its presence says that the run is finished.

@@ -42,7 +42,7 @@ void removeFile(const fs::path& path) {
     throw JobError(fmt::format("{}: cannot be removed: {}", path.string(), failed.message()));
 }
 
-// Permissions do not tell (full disks, read-only mounts, a superuser), so a file is tried.
+// Permissions are not sufficient (full disks, read-only mounts, a superuser), so a file is written.
 void tryWriting(const fs::path& folder) {
   const fs::path name = folder / "write_test";
   removePartsOf(name);  // of a run that was killed here

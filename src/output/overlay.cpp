@@ -45,7 +45,7 @@ struct Label {
   }
 };
 
-// Lines enough for their ends to stand for the sector's arcs; the scene may have a single one.
+// Enough lines for their ends to form the sector's arcs; the scene may have a single one.
 Probe withDenseLines(Probe probe) {
   probe.lines = 257;
   return probe;
@@ -57,7 +57,7 @@ cv::Point2d inPicture(const PictureGeometry& geometry, const LineGeometry& line,
           geometry.origin_y_px + point.z / geometry.metres_per_pixel};
 }
 
-// Ticks stand on the right edge of the sector and point away from it, one per centimetre; every
+// Ticks are on the right edge of the sector and point away from it, one per centimetre; every
 // fifth is longer and numbered, the deepest number with its unit.
 void drawDepthTicks(cv::Mat& canvas, const Probe& probe, const PictureGeometry& geometry) {
   constexpr double kCentimetre = 0.01, kTolerance = 1e-9, kLeastPixelsApart = 4;

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Colours that neighbours tell apart: hues by the golden angle, black for 0. Our choice.
+// Colours that differ between neighbours: hues by the golden angle, black for 0. Our choice.
 std::vector<PaletteColour> palette() {
   std::vector<PaletteColour> colours(256);
   for (std::size_t i = 1; i < colours.size(); ++i) {

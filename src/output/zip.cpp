@@ -1,6 +1,7 @@
 #include "output/zip.h"
 
-#include <array>
+#include <zlib.h>
+
 #include <cstdint>
 
 #include "core/error.h"
@@ -11,24 +12,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-// CRC-32 of ISO 3309, bit-reversed, as zip has it.
-std::uint32_t crc32(std::span<const std::byte> bytes) {
-  static const std::array<std::uint32_t, 256> kTable = [] {
-    std::array<std::uint32_t, 256> table{};
-    for (std::uint32_t i = 0; i < table.size(); ++i) {
-      std::uint32_t c = i;
-      for (int bit = 0; bit < 8; ++bit) c = (c & 1u) != 0 ? 0xedb88320u ^ (c >> 1) : c >> 1;
-      table[i] = c;
-    }
-    return table;
-  }();
-  std::uint32_t crc = 0xffffffffu;
-  for (const std::byte b : bytes)
-    crc = kTable[(crc ^ std::to_integer<std::uint32_t>(b)) & 0xffu] ^ (crc >> 8);
-  return ~crc;
-}
-
-// What a local header and an entry of the directory share.
+// The fields that a local header shares with its entry in the directory.
 void appendCommon(Bytes& to, const ZipPart& part, std::uint32_t crc) {
   append(to, std::uint16_t{20});  // version that can read it
   append(to, std::uint16_t{0});   // flags
@@ -49,7 +33,8 @@ std::vector<std::byte> zipBytes(std::span<const ZipPart> parts) {
   for (const ZipPart& part : parts) {
     if (file.size() + part.packed.size() > 0xf0000000u)
       throw JobError("the arrays are over 4 GiB, which no .npz holds: fewer tracks or frames");
-    const std::uint32_t crc = crc32(part.whole);
+    const auto crc = static_cast<std::uint32_t>(
+        crc32_z(0, reinterpret_cast<const Bytef*>(part.whole.data()), part.whole.size()));
     append(directory, std::uint32_t{0x02014b50});
     append(directory, std::uint16_t{20});
     appendCommon(directory, part, crc);

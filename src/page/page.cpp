@@ -35,7 +35,7 @@ std::string escapedHtml(std::string_view text) {
   return out;
 }
 
-// JSON that may stand in a <script>: without "<" neither "</script" nor "<!--" can end or change
+// JSON that is safe in a <script>: without "<" neither "</script" nor "<!--" can end or change
 // it, and the two line separators that JavaScript once took for line ends are escaped. All three
 // occur within strings only. Bytes that are not UTF-8 (names of files) become U+FFFD.
 std::string scriptJson(const nlohmann::ordered_json& data) {

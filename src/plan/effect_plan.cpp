@@ -94,7 +94,7 @@ Finding bending(const Scene& scene) {
   return {false, "every structure has the sound speed of its surroundings, so no ray bends"};
 }
 
-// Of what the interface law depends on the angle for.
+// The angles that the interface law depends on.
 Finding snellAngles(const Scene& scene, const EffectPlan& plan) {
   if (!plan.reflection && !plan.transmission_loss)
     return {false, "no angle of incidence is requested"};

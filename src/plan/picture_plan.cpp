@@ -11,7 +11,7 @@ namespace echocine {
 
 namespace {
 
-// What changes nothing but the picture.
+// Decides an effect that changes only the picture.
 bool decidePicture(const Scene& scene, EffectPlan& plan, Effect effect, bool asked, bool possible,
                    const std::string& off, const std::string& on) {
   const bool decided = asked && possible && wantsPicture(scene);

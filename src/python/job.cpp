@@ -119,8 +119,8 @@ void issueWarnings(const std::vector<std::string>& lines) {
     if (PyErr_WarnEx(type.ptr(), line.c_str(), 2) != 0) throw py::error_already_set();
 }
 
-// Looks for signals from inside work. Only the process's first thread is told of them: it looks,
-// and what helps it reads what it has seen. No other thread waits for the interpreter's lock.
+// Polls for signals from inside work. Only the process's first thread receives them: it polls, and
+// its helper threads read the result. No other thread waits for the interpreter's lock.
 class SignalWatch {
  public:
   bool stopWanted() {
@@ -134,7 +134,7 @@ class SignalWatch {
     }
     return stop_;
   }
-  // Of the thread that began, after the work.
+  // For the thread that began, after the work.
   const std::optional<py::error_already_set>& raised() const { return raised_; }
 
  private:

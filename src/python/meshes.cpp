@@ -93,7 +93,7 @@ py::tuple get(const Meshes& meshes, const std::string& name) {
   return py::make_tuple(points, faces);
 }
 
-// What pickle keeps of a mesh: its numbers as bytes.
+// The pickled form of a mesh: its numbers as bytes.
 template <typename T>
 py::bytes bytesOf(const std::vector<T>& values) {
   static_assert(std::is_trivially_copyable_v<T>);

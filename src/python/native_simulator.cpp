@@ -33,7 +33,7 @@ class Scratch {
   NativeSimulator& simulator_;
 };
 
-// Of one frame, while it is filled.
+// Marks a frame as busy while it is filled.
 class Busy {
  public:
   explicit Busy(NativeFrame& native) : native_(native) {

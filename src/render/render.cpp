@@ -103,13 +103,13 @@ RenderSummary renderLoop(const Scene& given, const RenderOptions& options, const
   if (options.resume)
     earlier = earlierHashes(options.folder / "manifest.json", manifest.scene_sha256);
   withThreads(options.threads, [&] {
-    // What has to be computed at all, and how; then motion -> geometry -> trace -> signal of a
+    // Decides which effects are computed, and how; then motion -> geometry -> trace -> signal of a
     // frame.
     const Simulator simulator(scene, motion);
     manifest.plan = simulator.plan();
     warn(manifest.plan.warnings, scene, monitor, manifest);
     if (!monitor.keep_going()) return;
-    simulator.truth();  // refuses what it cannot tell before anything is written
+    simulator.truth();  // rejects impossible requests before anything is written
     const OutputFolder folder(options.folder, scene.output, options.resume);
     folder.removeStale(manifest.loop_frames);
     summary.setup_s = secondsSince(start);

@@ -211,7 +211,7 @@ void FolderSink::finishTruth() {
 
 void FolderSink::finish(bool whole) {
   if (!cine_) return;  // stopped before the first frame
-  // A part of a loop may not take the place of a longer cine that stands there.
+  // A part of a loop must not replace an existing longer cine.
   if (parts_.simulator.scene().output.cine && !manifest_.frames.empty()) {
     parts_.simulator.clock().time(Stage::avi,
                                   [&] { whole ? cine_->finish() : cine_->finishEarly(); });

@@ -37,7 +37,7 @@ std::string titleOf(const Scene& scene) {
   return (file.parent_path().filename() / file.filename()).string();
 }
 
-// What a reader asks of a structure; the rest is in the manifest.
+// The main properties of a structure; the rest is in the manifest.
 Json structuresJson(const Scene& scene) {
   Json list = Json::array();
   for (const Structure& s : scene.structures)
@@ -96,7 +96,7 @@ Json curvesJson(const Manifest& manifest, const ReportPage& page) {
   return curves;
 }
 
-// What differs from run to run stands apart, last on the page.
+// Values that differ from run to run are separate, last on the page.
 Json measuredJson(const Manifest& manifest) {
   Json timings = stageTimesJson(manifest), shares = Json::object();
   timings["wall"] = manifest.wall_ms;

@@ -9,7 +9,7 @@ namespace echocine {
 
 namespace {
 
-// What several rays per beam cannot do.
+// Rejects keys that contradict several rays per beam.
 void refuseOfRays(TomlTable& root, const Scene& scene) {
   const AccuracySettings& a = scene.accuracy;
   const TomlTable accuracy = root.table("accuracy"), signal = root.table("signal");
@@ -39,8 +39,8 @@ void refuseOfRays(TomlTable& root, const Scene& scene) {
                                                             : "signal.beam_width = \"none\""));
 }
 
-// What several slices across the plane cannot do. A look's slices give way instead, and all give
-// way to several rays per beam, which are drawn across the plane themselves.
+// Rejects keys that contradict several slices across the plane. Slices from a look are dropped
+// instead, as are all slices with several rays per beam, which sample that direction themselves.
 void refuseOfSlices(TomlTable& root, const Scene& scene) {
   const AccuracySettings& a = scene.accuracy;
   const TomlTable accuracy = root.table("accuracy");

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kFewestDigits = 6, kMostDigits = 17;
 
-// What the decimal with so many places is, read again.
+// The value that a decimal with so many places has when it is read again.
 double rounded(double value, int places) {
   return std::strtod(fmt::format("{:.{}f}", value, places).c_str(), nullptr);
 }
@@ -49,7 +49,7 @@ std::string shortest(double value, double unit) {
   return fmt::format("{:.17g}", value / unit);
 }
 
-// Without zeros that say nothing.
+// Without trailing zeros.
 std::string decimal(double value, int places) {
   std::string text = fmt::format("{:.{}f}", value, places);
   text.erase(text.find_last_not_of('0') + 1);

@@ -53,6 +53,18 @@ std::vector<Vec3d> sectorOutline(const Probe& probe) {
   return outline;
 }
 
+Box scanBox(const Probe& probe) {
+  Probe outline = probe;
+  outline.lines = 257;  // odd: the middle line reaches deepest
+  Box box;
+  for (int i = 0; i < outline.lines; ++i) {
+    const LineGeometry line = lineGeometry(outline, i);
+    box.add(line.origin + probe.min_depth_m * line.direction);
+    box.add(line.origin + probe.max_depth_m * line.direction);
+  }
+  return box;
+}
+
 ScanGeometry::ScanGeometry(const Probe& probe)
     : probe_(probe),
       angular_(probe.isFan()),

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/box.h"
 #include "core/vec3.h"
 #include "scene/probe.h"
 
@@ -31,6 +32,9 @@ bool inScanArea(const Probe& probe, double x_m, double z_m);
 // Outline of the scan area, clockwise in the picture: convex for sectors up to 180 degrees; the arc
 // of the deepest samples is a fine polygon. The arc of the face is omitted.
 std::vector<Vec3d> sectorOutline(const Probe& probe);
+
+// Box of the scan area, from the first to the last samples, in the probe frame.
+Box scanBox(const Probe& probe);
 
 class ScanGeometry {
  public:

@@ -111,32 +111,6 @@ struct SpeckleSettings {
       1.0471975511965976;  // at the endocardium; the negative at the epicardium
 };
 
-// Artefacts of a scanner, independent of each other. Levels are intensities.
-struct ArtefactSettings {
-  bool dropout = false;                            // lines at the sector's edges lose contact
-  double dropout_db = 12;                          // on the outermost lines
-  bool acoustic_window = false;                    // ribs shade part of the aperture
-  double window_width_m = 24e-3;                   // between them
-  double window_offset_m = 0;                      // of its middle, along the lateral axis
-  double window_depth_m = 12e-3;                   // of the ribs, from the probe's face
-  double window_shadow_db = 30;                    // loss in the full shadow, both ways
-  bool haze = false;                               // aberration, multiple scattering: across the lines
-  double haze_db = -24;                            // relative to all its sources
-  double haze_width_rad = 0.12217304763960307;     // where it has fallen to 1/e
-  bool reverberation = false;                      // a tail behind every echo
-  double reverberation_db = -27;                   // relative to the echo
-  double reverberation_length_m = 6e-3;            // where it has fallen to 1/e
-  bool clutter = false;                            // of the near field, static
-  double clutter_db = -28;                         // relative to white, at the face
-  double clutter_length_m = 6e-3;                  // where it has fallen to 1/e
-  double clutter_width_rad = 0.15707963267948966;  // of its speckle, full width at half maximum
-  int clutter_seed = 1;
-  bool noise = false;     // of the receiver, before the time gain
-  double noise_db = -55;  // relative to white, at the depth of the largest gain
-  int noise_seed = 1;
-  double persistence = 0;  // weight of each frame relative to the next one; 0: none
-};
-
 enum class TracerChoice { automatic, slice, embree };
 enum class InterfaceEcho { automatic, centre, cell };
 enum class Normals { automatic, facet, smooth };

@@ -190,8 +190,8 @@ constexpr SceneKey kKeys[] = {
 // The rows of kEffectSwitches as keys of [effects].
 template <std::size_t... kRows>
 std::vector<SceneKey> effectKeys(std::index_sequence<kRows...>) {
-  return {{"effects", kEffectSwitches[kRows].key, kNone, kAny, kEffectSwitches[kRows].meaning,
-           key_field::of<kEffectSwitches[kRows].wanted>(kEffectSwitches[kRows].key)}...};
+  return {{"effects", kEffectSwitches[kRows].name, kNone, kAny, kEffectSwitches[kRows].meaning,
+           key_field::of<kEffectSwitches[kRows].wanted>(kEffectSwitches[kRows].name)}...};
 }
 
 std::vector<SceneKey> allKeys() {

@@ -44,10 +44,9 @@ struct SceneKey {
   KeyUse use{};
   std::optional<double> fallback{};  // in the file's unit, if the member has no initial value
 
-  std::string fullName() const;                                // "probe.depth_mm"
-  bool applies(const KeyOwner& owner) const;                   // does it have an effect there?
-  std::string accepted() const;                                // "a number from 1 to 2"
-  std::optional<double> defaultNumber(const KeyOwner&) const;  // in the file's unit
+  std::string fullName() const;               // "probe.depth_mm"
+  bool applies(const KeyOwner& owner) const;  // does it have an effect there?
+  std::string accepted() const;               // "a number from 1 to 2"
 };
 
 // All keys, by table, in the order of the reference scene.

@@ -63,7 +63,7 @@ std::vector<fs::path> matchingMeshes(const TomlTable& table, std::string_view ke
   return names;
 }
 
-// The files that a pattern names, sorted; wild cards stand in the file name only.
+// The files that match a pattern, sorted; wild cards are allowed in the file name only.
 std::vector<fs::path> matchingFiles(const TomlTable& table, std::string_view key,
                                     const MeshSource& source, const std::string& pattern) {
   if (source.in_memory) return matchingMeshes(table, key, *source.in_memory, pattern);

@@ -1,4 +1,4 @@
-// What the average over the beam takes in for some lines alone.
+// Samples that the average over the beam needs for a subset of the lines.
 
 #include <algorithm>
 

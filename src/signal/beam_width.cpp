@@ -82,9 +82,9 @@ void BeamAverage::prepareLateral(const std::vector<double>& half_width_lines) {
 
 struct BeamAverage::Workspace {
   std::vector<float> padded;  // a line's part of the block with what the pulse reaches beside it
-  // Of the lines that windows reach, the sums of 2^level lines from a line on, averaged along: line
-  // i stands in row i modulo rows, a power of two. Nothing is ever taken away, so a bright echo
-  // leaves nothing behind in the blood beside it.
+  // Sums of 2^level lines from a line on, averaged along the line, for the lines that windows
+  // reach: line i is in row i modulo rows, a power of two. No sum is a difference, so a bright echo
+  // leaves no rounding error in the blood beside it.
   std::vector<float> sums;
   std::size_t rows = 0;
   int levels = 0;
@@ -112,7 +112,7 @@ struct BeamAverage::Workspace {
   }
 };
 
-// What the pulse reaches over the borders between blocks, as it was before any block was averaged
+// Samples within the pulse of the borders between blocks, before any block was averaged
 // in place: for each border and line `reach` samples before it and `reach` behind it, 0 beyond the
 // line's end.
 struct BeamAverage::Borders {
@@ -179,8 +179,8 @@ void BeamAverage::averageAlong(const float* plane, int line, int first, int coun
 
 namespace {
 
-// What a window adds up: whole lines, as sums of powers of two of them, and parts of the two at its
-// ends.
+// The lines that a window sums: whole lines, as sums of powers of two of them, and parts of the two
+// lines at its ends.
 struct Window {
   const float *below, *part_below, *above, *part_above, *scale;
   std::array<const float*, std::numeric_limits<int>::digits> whole;

@@ -63,8 +63,4 @@ void compressIntensities(std::span<const float> intensities, double reference,
   storeSome(compression.grey(rest), grey.size() - i, &grey[i]);
 }
 
-double expandGrey(double grey, double reference, double dynamic_range_db) {
-  return reference * intensityFromDecibels((grey - 1) * dynamic_range_db);
-}
-
 }  // namespace echocine

@@ -11,7 +11,4 @@ namespace echocine {
 void compressIntensities(std::span<const float> intensities, double reference,
                          double dynamic_range_db, std::span<float> grey);
 
-// The intensity that compresses to a grey level between 0 and 1, both exclusive.
-double expandGrey(double grey, double reference, double dynamic_range_db);
-
 }  // namespace echocine

@@ -35,7 +35,7 @@ void IntensityHistogram::count(std::span<const float> plane, const Counts& count
     for (int k = first_sample_; k < samples_; ++k) {
       const std::size_t at = line + static_cast<std::size_t>(k);
       if (!counts(at)) continue;
-      // What is infinite or not a number is refused when it is written; here it must not leave the
+      // Infinities and NaN are rejected when they are written; here they must stay within the
       // bins.
       ++local[std::min<std::size_t>(std::bit_cast<std::uint32_t>(plane[at]) >> kShift, kBins - 1)];
     }

@@ -22,30 +22,6 @@ constexpr int kStrip = 64;
 
 using ByteLanes = std::uint8_t __attribute__((vector_size(kFloatLanes)));
 
-struct Area {
-  double x_lo = 0, x_hi = 0, z_lo = 0, z_hi = 0;
-  void add(Vec3d p) {
-    x_lo = std::min(x_lo, p.x);
-    x_hi = std::max(x_hi, p.x);
-    z_lo = std::min(z_lo, p.z);
-    z_hi = std::max(z_hi, p.z);
-  }
-};
-
-Area scanArea(const Probe& probe) {
-  constexpr int kSteps = 257;  // odd: the middle line reaches deepest
-  const LineGeometry first = lineGeometry(probe, 0);
-  Area area{first.origin.x, first.origin.x, first.origin.z, first.origin.z};
-  Probe outline = probe;
-  outline.lines = kSteps;
-  for (int i = 0; i < kSteps; ++i) {
-    const LineGeometry line = lineGeometry(outline, i);
-    area.add(line.origin + probe.min_depth_m * line.direction);
-    area.add(line.origin + probe.max_depth_m * line.direction);
-  }
-  return area;
-}
-
 }  // namespace
 
 PictureGeometry pictureGeometry(const Scene& scene) {
@@ -55,13 +31,14 @@ PictureGeometry pictureGeometry(const Scene& scene) {
   const double margin = 0.02 * o.height;
   const double tick_room =
       o.depth_ticks ? 0.05 * o.width : 0;  // on both sides, so the sector stays centred
-  const Area area = scanArea(scene.probe);
+  Box area = scanBox(scene.probe);
+  area.add(lineGeometry(scene.probe, 0).origin);
   const double wide = o.width - 2 * margin - 2 * tick_room;
   const double high = o.height - g.ecg_strip_px - 2 * margin;
-  g.metres_per_pixel = std::max((area.x_hi - area.x_lo) / wide, (area.z_hi - area.z_lo) / high);
+  g.metres_per_pixel = std::max((area.hi.x - area.lo.x) / wide, (area.hi.z - area.lo.z) / high);
   if (g.metres_per_pixel <= 0) g.metres_per_pixel = scene.probe.max_depth_m / high;
-  g.origin_x_px = o.width / 2.0 - (area.x_lo + area.x_hi) / 2 / g.metres_per_pixel;
-  g.origin_y_px = margin + high / 2 - (area.z_lo + area.z_hi) / 2 / g.metres_per_pixel;
+  g.origin_x_px = o.width / 2.0 - (area.lo.x + area.hi.x) / 2 / g.metres_per_pixel;
+  g.origin_y_px = margin + high / 2 - (area.lo.z + area.hi.z) / 2 / g.metres_per_pixel;
   return g;
 }
 

@@ -10,7 +10,7 @@ namespace echocine {
 
 namespace {
 
-// Where bells are cut: 4 % of the amplitude. Both sums are cut alike, so no law depends on it.
+// Bells end where they have 4 % of the amplitude. Both sums end there, so no law depends on it.
 constexpr double kCutDeviations = 2.5;
 constexpr std::size_t kMostTaps = 64;
 constexpr std::size_t kPad = kMostTaps + 2 * kFloatLanes;  // of a row, either end
@@ -19,7 +19,7 @@ std::size_t tapsOf(double deviation) {
   return std::min(static_cast<std::size_t>(std::ceil(kCutDeviations * deviation)), kMostTaps);
 }
 
-// What is summed at once: four chains that do not wait for each other.
+// Four independent sums at once.
 constexpr std::size_t kChains = 4, kStep = kChains * kFloatLanes;
 
 // Lines are smeared across by groups, piece by piece: what one has read the next finds in the
@@ -163,7 +163,7 @@ void CoherentRatio::alongLine(std::span<const Splat> scattered, const float* int
   smear(squares, length_, axial_squares_, to(out + 2 * stride_));
 }
 
-// What of a line's samples is coherent. Rounding may leave q a little over 1.
+// The coherent part of a line's samples. Rounding may leave q slightly above 1.
 void CoherentRatio::shareOut(const CoherentEchoes& echoes, int line, const float* intensities,
                              float* rest) const {
   const std::size_t first = static_cast<std::size_t>(line) * static_cast<std::size_t>(samples_);

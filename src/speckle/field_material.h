@@ -14,8 +14,8 @@ namespace echocine {
 
 class FieldMaterial : public Material {
  public:
-  // Tissue is alike everywhere but where the plan has heterogeneity or anisotropy; no plan:
-  // neither. Trabeculae that stand in a cavity belong to the wall behind them. `shared` is kept by
+  // Tissue is uniform unless the plan has heterogeneity or anisotropy; no plan: neither.
+  // Trabeculae that stand in a cavity belong to the wall behind them. `shared` is kept by
   // reference; null: a field of its own.
   FieldMaterial(const Scene& scene, const MeshMotion& motion, const EffectPlan* plan = nullptr,
                 const Trabeculae* trabeculae = nullptr, const SharedMotionField* shared = nullptr);

@@ -1,7 +1,7 @@
 #pragma once
-// What the scatterers ask of the tissue that carries them: in what groups it moves, and where the
-// corners of a small cube of it are at an instant. Within a cube places are trilinear, which any
-// affine motion and the lattice of the motion field are exactly.
+// The tissue as the scatterers see it: its groups of motion, and the positions of the corners of
+// a small cube of it at an instant. Positions within a cube are trilinear, which is exact for any
+// affine motion and for the lattice of the motion field.
 
 #include <array>
 #include <cstdint>

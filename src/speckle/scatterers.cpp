@@ -233,7 +233,7 @@ void Scatterers::dropUnseen(const BeamView& view, const Material& material) {
 }
 
 // By group and half block: small cubes are left out sooner. Points of a cube ascend across the
-// imaging plane, so that those beyond the beam stand together.
+// imaging plane, so that those beyond the beam are contiguous.
 void Scatterers::addBlock(const Block& block, const Material& material) {
   std::map<std::uint32_t, std::vector<Vec3f>> parts;
   const float half_m = 0.5f * block.edge_m;

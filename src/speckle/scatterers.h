@@ -31,7 +31,7 @@ struct EightPlaces {
 };
 inline constexpr std::uint16_t kCubeEdge = 65535;
 
-// Complex numbers with zero mean and variance 1, any run of which serves as a batch's.
+// Complex numbers with zero mean and variance 1. A batch uses any run of them.
 class GaussianTable {
  public:
   explicit GaussianTable(int seed);

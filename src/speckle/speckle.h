@@ -19,7 +19,6 @@ class Speckle {
 
   const PointSpread& spread() const { return spread_; }
   std::size_t scatterers() const { return scatterers_.count(); }
-  std::size_t batchCount() const { return scatterers_.batches().size(); }
   // Reference places of scatterers lie within this of the imaging plane.
   double farthestAcross_m() const;
 

@@ -12,8 +12,8 @@ namespace echocine {
 
 namespace {
 
-// What is trilinear in a cube, as sums over 1, u, v, uv, w, uw, vw, uvw, of places as they are
-// stored.
+// A trilinear function in a cube, as a sum over 1, u, v, uv, w, uw, vw, uvw of stored
+// positions.
 struct Trilinear {
   Floats8 c[8];  // each in all lanes
   // From the values at the corners: along each axis in turn the upper end less the lower.

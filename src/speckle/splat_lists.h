@@ -12,7 +12,7 @@
 
 namespace echocine {
 
-// Of one scatterer: c e exp(-2j k0 r), its real and imaginary part, and e^2.
+// For one scatterer: the real and imaginary part of c e exp(-2j k0 r), and e^2.
 struct Splat {
   float real, imaginary, square;
   std::int32_t sample;
@@ -46,8 +46,8 @@ class SplatLists {
   // No splats yet; from now on those of some of the lines are kept.
   void start(int lines, LineRange kept);
 
-  // Of the lanes in the mask that lie in kept lines. Without a branch on what is seen, which no
-  // processor foresees.
+  // Adds the lanes in the mask that lie in kept lines. Without a branch on visibility, which no
+  // processor predicts.
   void add(const BeamPlaces& places, Ints8 seen) {
     const unsigned bits = bitsOf(seen & (places.line >= first_) & (places.line < end_));
     Shorts8 lanes;

@@ -13,7 +13,7 @@ namespace echocine {
 
 namespace {
 
-// Of all structures at the finest level: a frame in flight takes about 200 bytes for each.
+// Limit over all structures at the finest level: a frame in flight takes about 200 bytes for each.
 constexpr double kMostTriangles = 2e6;
 
 void addSubdivision(const Scene& scene, std::size_t triangles, KnobBuilder& table) {
@@ -30,7 +30,7 @@ void addSubdivision(const Scene& scene, std::size_t triangles, KnobBuilder& tabl
                    [](Scene& s, int n) { s.motion.subdivision = n; });
 }
 
-// What speaks against reading the meshes of a scene; empty when nothing does.
+// Reason not to read the meshes of a scene; empty if there is none.
 std::string refusal(const Scene& scene) {
   try {
     const MeshMotion motion(scene);

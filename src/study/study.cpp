@@ -181,7 +181,7 @@ void Study::prepare() {
 }
 
 void Study::tell() {
-  // What was not visited yet is taken to last as long as the mean of what was.
+  // Each setting still to be visited is assumed to take the mean time of the visited ones.
   double known = 0;
   std::size_t count = 0;
   for (const double s : visit_s_)

@@ -86,7 +86,7 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-// Errors are rounded to what can be told apart: storing intensities alone moves them by as much.
+// Errors are rounded to their resolution: the storage of intensities alone changes them by as much.
 std::vector<bool> rowsOnFront(const StudyResult& result) {
   std::vector<CostAndError> points;
   for (const StudyRow& row : result.rows) {
@@ -97,7 +97,7 @@ std::vector<bool> rowsOnFront(const StudyResult& result) {
   return paretoFront(points);
 }
 
-// What a clock has touched stands under "machine" and "timing" alone, so that two studies of a
+// Values that depend on a clock are under "machine" and "timing" only, so that two studies of a
 // scene can be compared as text.
 Json studyJson(const StudyResult& result) {
   const std::vector<bool> front = rowsOnFront(result);
@@ -135,7 +135,7 @@ Json studyJson(const StudyResult& result) {
             {"best_buys", buysJson(result)}}}};
 }
 
-// Times in ms with their quartiles, lengths in mm: units stand in the names of the columns.
+// Times in ms with their quartiles, lengths in mm: the columns' names have the units.
 std::string studyCsv(const StudyResult& result) {
   const std::vector<bool> front = rowsOnFront(result);
   std::string text =

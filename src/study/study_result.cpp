@@ -1,4 +1,4 @@
-// What a study's measurements come to: medians, and which knob buys most accuracy for its time.
+// Summary of a study's measurements: medians, and the knob with the most accuracy for its time.
 
 #include <algorithm>
 

@@ -223,7 +223,7 @@ class CellEchoMaker {
     }
   }
 
-  // Of the cell, by each interval.
+  // The share of the cell that each interval covers.
   void takeShares() {
     for (std::size_t i = 0; i < intervals_.count; i += kDoubleLanes) {
       const Doubles4 share = angular_ ? anglesOf(i) : widthsOf(i);

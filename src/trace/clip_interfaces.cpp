@@ -55,7 +55,7 @@ ClipInterfaces::ClipInterfaces(const Probe& probe, const TraceSettings& settings
       speeds_.push_back(speedRatio(from.sound_speed_m_s, to.sound_speed_m_s));
 }
 
-// Which way an edge is crossed is the facet's business. Of several hits the nearest in depth.
+// The facet decides in which direction an edge is crossed. The nearest of several hits counts.
 void ClipInterfaces::find(std::span<const ContourEdge> edges, std::span<const EdgeNormals> normals,
                           EdgeClips& clips, InterfaceRows& rows) const {
   const std::size_t count = clips.count;

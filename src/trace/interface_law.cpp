@@ -38,9 +38,9 @@ double nonSpecularReturn(double W, double cos_i, double n) {
 
 namespace {
 
-// Z_2 cos_i - Z_1 cos_t. Of nearly equal media it is the sum of what the impedances and what the
-// speeds make of it: (Z_2 - Z_1) cos_i + Z_1 (cos_i - cos_t), where cos_i^2 - cos_t^2 is
-// (r^2 - 1) sin^2. Each form is taken where its terms, and with them its rounding, are the smaller.
+// Z_2 cos_i - Z_1 cos_t. For nearly equal media it is the sum of a part from the impedances and one
+// from the speeds: (Z_2 - Z_1) cos_i + Z_1 (cos_i - cos_t), where cos_i^2 - cos_t^2 is
+// (r^2 - 1) sin^2. The form with the smaller terms, and so the smaller rounding error, is used.
 double amplitudeDifference(double Z_1, double c_1, double Z_2, double c_2, double cos_i,
                            double cos_t) {
   const double plain = Z_2 * cos_i - Z_1 * cos_t;

@@ -28,7 +28,7 @@ double square(double x) {
   return x * x;
 }
 
-// Of an evanescent wave after so many decay lengths.
+// Weight of an evanescent wave after so many decay lengths.
 double felt(double decay) {
   return 1 - smoothStep((decay - kDecayTo) / (kDecayEnd - kDecayTo));
 }
@@ -104,7 +104,7 @@ void LayerEchoes::add(const Meeting& meeting, const Face& face) {
   last_ = meeting;
 }
 
-// Of the sum, in any unit. Far apart the faces' echoes are those behind each other's losses.
+// Shares of the sum, in any unit. If faces are far apart, each echo has the losses before it.
 std::array<double, LayerEchoes::kMostFaces> LayerEchoes::shares() const {
   std::array<double, kMostFaces> share{};
   for (std::size_t i = 0; i < count_; ++i) {
@@ -121,8 +121,8 @@ std::array<double, LayerEchoes::kMostFaces> LayerEchoes::shares() const {
   return share;
 }
 
-// What the whole stack sends back, dealt out. A face from which the last one is further than the
-// pulse is long keeps what it had; what turns back behind it comes later.
+// Distributes the echo of the whole stack. A face farther from the last one than the pulse length
+// keeps its own echo; echoes from behind it arrive later.
 void LayerEchoes::deal(double reflected) {
   const std::array<double, kMostFaces> share = shares();
   std::array<double, kMostFaces> open{};

@@ -71,7 +71,7 @@ class LayerEchoes {
   void add(const Meeting& meeting, const Face& face);
   std::span<const Face> faces() const { return std::span(faces_).first(count_); }
 
-  // What the pulse gets back from all faces.
+  // Echo of the pulse from all faces.
   struct Together {
     std::array<double, kMostFaces> scale{};  // of each face's base
     double passed_twice = 1;

@@ -78,7 +78,7 @@ struct WeighedSum {
 };
 
 // How long, in cycles, the stack still rings: each layer's delay for as often as it is gone
-// through until what is left is small.
+// through until the rest is small.
 double ringing(const LayerFaces& faces) {
   double cycles = 0;
   for (std::size_t i = 0; i < faces.layers; ++i) {

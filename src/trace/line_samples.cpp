@@ -34,7 +34,7 @@ struct SamplePowers {
   double block = 1;
 };
 
-// Of the few media that a line goes through, each worked out once.
+// Powers for the few media that a line passes, each computed once.
 class PowerTable {
  public:
   explicit PowerTable(double spacing_m) : spacing_m_(spacing_m) {}

@@ -1,5 +1,5 @@
 #pragma once
-// What one scan line met, before it is sampled: a few segments of constant medium and a few
+// A traced scan line before it is sampled: a few segments of constant medium and a few
 // echoes. `Depth` is the position on the image's depth axis: the path length, or 1540 m/s times
 // half the travel time.
 
@@ -24,8 +24,8 @@ struct MediumSegment {
   std::uint16_t structure = 0;
 };
 
-// Of walls, tan (84 degrees): those that lean more are taken for it. Our choice; of what leans more
-// the lobe cos^2 leaves under a hundredth.
+// Steepest lean of a wall, tan (84 degrees); steeper ones are limited to it. Our choice; the lobe
+// cos^2 leaves under a hundredth of the echo of steeper walls.
 inline constexpr double kSteepestLean = 10;
 
 // The echo of one interface.

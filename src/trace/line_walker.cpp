@@ -54,7 +54,7 @@ void LineWalker::walkTo(double distance_m) {
   if (settings_.note_hits) trace_.end_m = query_.ray.origin + at_.walked_m * query_.ray.direction;
 }
 
-// The crossing whose normal and lobe stand for a group of coincident surfaces.
+// The crossing whose normal and lobe represent a group of coincident surfaces.
 const Crossing& LineWalker::deciding(Group group) const {
   if (group.size() == 1) return group.front();
   return *std::max_element(
@@ -66,8 +66,8 @@ const Crossing& LineWalker::deciding(Group group) const {
       });
 }
 
-// For integration over cells: every crossing with the media and losses of this line. Of coincident
-// surfaces the deciding one is seen.
+// For integration over cells: every crossing with the media and losses of this line. If surfaces
+// coincide, only the deciding one is visible.
 void LineWalker::noteHits(Group group, MediumId after) {
   const Medium& medium = settings_.media[index(at_.medium)];
   const Crossing& decided = deciding(group);

@@ -55,7 +55,7 @@ class LineWalker {
   void passInterface(Group group, MediumId after, std::size_t first_hit);
   void passMembrane(const Crossing& crossing);
   void noteHits(Group group, MediumId after);
-  // Of a crossing: Snell's direction there, and the law by it.
+  // For a crossing: Snell's direction there, and the interface law for it.
   Vec3d incidentAt(const Crossing& crossing);
   InterfaceLaw lawAt(const Crossing& crossing, const Medium& from, const Medium& to);
   void addEcho(double reflected, double passed, double cos_i, const Crossing& crossing,

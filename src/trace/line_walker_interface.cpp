@@ -1,4 +1,4 @@
-// What an interface does to the line that meets it: the angle of incidence, the echo, the loss, and
+// Effect of an interface on the line that meets it: the angle of incidence, the echo, the loss, and
 // the direction behind it.
 
 #include <algorithm>
@@ -42,13 +42,13 @@ InterfaceLaw LineWalker::lawAt(const Crossing& crossing, const Medium& from, con
                       to.sound_speed_m_s, cos_i);
 }
 
-// What of R comes back: section 2.1's W without the structure's gain.
+// The part of R that comes back: section 2.1's W without the structure's gain.
 double LineWalker::sentBack(const InterfaceLaw& law, const Medium& from, const Medium& to) const {
   if (!settings_.reflection_cap) return law.R;
   return cappedReflectance(law.R, from.impedance_kg_m2_s, to.impedance_kg_m2_s);
 }
 
-// What the interface sends to the transducer behind losses of `passed`.
+// Adds the echo that the interface sends to the transducer behind losses of `passed`.
 void LineWalker::addEcho(double reflected, double passed, double cos_i, const Crossing& crossing,
                          MediumId after) {
   if (!settings_.reflection || settings_.cells == EchoCells::contours || reflected == 0) return;

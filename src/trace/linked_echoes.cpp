@@ -52,7 +52,7 @@ class Pairing {
   }
 
  private:
-  // Of the ways to link the first i of one line with the first j of the other, the best.
+  // The best way to link the first i of one line with the first j of the other.
   struct Rating {
     int links = 0;
     double apart_m = 0;
@@ -119,7 +119,7 @@ class ChordSampler {
     return {placeOf(a.depth_m), -lean * across, a.intensity, 0, a.exponent, 0, a.surface};
   }
 
-  // What lies in s of [from, to].
+  // Adds the part of the chord with s in [from, to].
   void add(std::size_t line, const Chord& chord, double from, double to) {
     const double one = sampleAt(chord, from), other = sampleAt(chord, to);
     const bool deeper = other >= one;
@@ -156,7 +156,7 @@ class ChordSampler {
   }
 
  private:
-  // What is linear in s along a chord, growing with depth.
+  // A quantity that is linear in s along a chord and grows with depth.
   double placeOf(double depth_m) const {
     return angular_ ? -1 / (depth_m + to_centre_m_) : depth_m;
   }
@@ -170,7 +170,7 @@ class ChordSampler {
   double sampleAt(const Chord& chord, double s) const { return std::floor(placesAt(chord, s)); }
   double sampleOf(double depth_m) const { return std::floor(placesOf(depth_m)); }
 
-  // Of the samples from first to last, those in the image.
+  // The samples from first to last that are in the image.
   template <typename Each>
   void overSamples(double first, double last, const Each& each) {
     const double begin = std::max(first, 0.0), end = std::min(last, samples_ - 1.0);
@@ -205,7 +205,7 @@ bool turnsRound(const Echo& a, const Echo& b) {
          inTangentPlane(chord, b);
 }
 
-// What the echoes of a line have on one side.
+// The neighbours of a line's echoes on one side.
 struct Side {
   std::vector<std::size_t> other;  // the neighbour's echo, or kNone
   Vec3d towards;                   // unit vector across the line to the neighbour

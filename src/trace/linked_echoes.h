@@ -16,14 +16,14 @@
 // s. So a chord sends back the mean of both crossings.
 //
 // A side without a link: where the line leaves through the same surface by which it came in, and
-// neither crossing has a link on that side, wall turns round between this line and the next. Of a
-// bend with an even radius, q the distance along the line from the middle of both crossings over
-// that at the crossing, the angle grows as q^2 and the lobe cos^2 as q^2; so the crossing's echo,
+// neither crossing has a link on that side, the wall turns round between this line and the next.
+// For a bend of constant radius let q be the distance along the line from the middle of both
+// crossings over that at the crossing. The angle and the lobe cos^2 grow as q^2; so the echo,
 // whose bend reaches two thirds of a cell on the mean over all places of the line, is spread as
 // I/3 d(q^4). Elsewhere wall goes on in the crossing's tangent plane through half of the cell, and
 // leans of tan over 10 (84 degrees) are taken for 10.
 //
-// Limits: what no line crosses sends nothing back; virtual sources of refracted rays are taken for
+// Limits: a wall that no line crosses has no echo. Virtual sources of refracted rays are taken for
 // the apex, which moves echo along a chord by the share that refraction changes its length.
 
 #include <span>

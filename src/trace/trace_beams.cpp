@@ -19,7 +19,7 @@ constexpr std::size_t kRaysOfBlock = 64;  // shared among threads at least so ma
 struct Wanted {
   IntensityTerms parts;
   std::vector<float>* plane;
-  // Of a plane of CoherentEchoes: which one.
+  // The plane of CoherentEchoes, if it is one.
   std::vector<float> CoherentEchoes::*coherent = nullptr;
 };
 
@@ -98,7 +98,7 @@ void overStratum(const Echo& echo, const BeamRay& ray, const Sampling& sampling,
   }
 }
 
-// What a plane takes of an echo at a place in samples.
+// The part of an echo that a plane records, at a place in samples.
 double coherentPart(std::vector<float> CoherentEchoes::*plane, const TraceSettings& settings,
                     const Sampling& sampling, const Echo& echo, double place) {
   if (!plane) return 1;
@@ -165,7 +165,7 @@ class BeamSums {
   std::vector<std::vector<double>> of_planes_;
 };
 
-// What the rays of a frame need, for all threads.
+// Data that the rays of a frame need, for all threads.
 class BeamFrame {
  public:
   BeamFrame(const FrameGeometry& geometry, const Probe& probe, const TraceSettings& settings,

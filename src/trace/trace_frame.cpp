@@ -104,7 +104,7 @@ class LineSampler {
     }
   }
 
-  // Of all lines, by what each plane takes.
+  // Work of all lines, by the planes that they fill.
   WorkCounts work() const {
     WorkCounts work;
     const int lines = needed_ ? needed_->lines.count() : frame_.lines;

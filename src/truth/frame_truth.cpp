@@ -43,7 +43,7 @@ void showPlaces(const SoundPaths& paths, FrameTruth& truth) {
 
 }  // namespace
 
-// What a frame's truth is made in, used again from frame to frame.
+// Working memory for a frame's truth, reused from frame to frame.
 struct TruthMaker::Space {
   explicit Space(const MeshMotion& motion, const Probe& probe) : slice(motion.surfaces(), probe) {}
   SurfaceFrame surfaces;

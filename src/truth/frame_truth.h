@@ -28,7 +28,7 @@ struct TruthTime {
   bool planes_only = false;
 };
 
-// What the tracer has made of the same phase already; null where it has not.
+// Results that the tracer already has for the same phase; null if it has none.
 struct TruthShared {
   const SurfaceFrame* surfaces = nullptr;
   const PlaneSlice* slice = nullptr;  // of all surfaces
@@ -57,8 +57,8 @@ class TruthMaker {
   };
   const std::vector<Tracked>& tracked() const { return tracked_; }
 
-  // Of the whole loop, where function is asked for: the left ventricle's valves, none where its
-  // volume does not change, and the view at the reference phase.
+  // For the whole loop, if function is requested: the left ventricle's valves (none if its
+  // volume does not change), and the view at the reference phase.
   const std::optional<ValveTimes>& valves() const { return valves_; }
   const std::optional<ViewOffset>& view() const { return view_; }
 

@@ -20,7 +20,7 @@ struct FieldTimes {
   double seconds = 0;  // from before to after
 };
 
-// By group: whether it is tissue, of which motionPlanes() tells.
+// For each group: whether it is tissue, whose motion motionPlanes() reports.
 std::vector<bool> tissueGroups(const Scene& scene, const MotionField& field);
 
 // ids: every sample's structure, from 1. Blood and the background have no motion of their own: the

@@ -23,7 +23,7 @@ struct Contour {
   SurfaceId surface{};
   bool closed = false;
   std::vector<Vec3d> points_m;
-  // Of the edges given, the one that starts at each point; none at the last of an open contour.
+  // The given edge that starts at each point; none at the last point of an open contour.
   std::vector<std::uint32_t> edges;
 };
 

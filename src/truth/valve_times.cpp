@@ -7,8 +7,8 @@ namespace echocine {
 
 namespace {
 
-// Of the stroke volume. Our choices: ejection begins fast, with wobbles of interpolation before it,
-// while it fades out slowly.
+// Shares of the stroke volume. Our choices: ejection begins fast, after ripples of interpolation,
+// and ends slowly.
 constexpr double kFull = 0.01, kEmpty = 0.002;
 
 // From step `from` forwards or backwards, round the beat: where the volume first is on the other

@@ -21,7 +21,7 @@ double planeTurn(double degrees) {
   return turn <= -90 ? turn + 180 : turn;
 }
 
-// Of a direction across the axis, from the four-chamber plane.
+// Angle of a direction across the axis, from the four-chamber plane.
 class Turns {
  public:
   explicit Turns(const ViewLandmarks& marks) {

@@ -41,8 +41,8 @@ struct CompressorFree {
   void operator()(void* compressor) const { tjDestroy(compressor); }
 };
 
-// Brightness in full and two colours of nothing: of a colour JPEG players know that black is 0 and
-// white 255, of a grey one FFmpeg says that the range is unknown. The accurate transform: the fast
+// Luma at full resolution, and empty chroma: players take a colour JPEG's range as 0 to 255, while
+// FFmpeg reports an unknown range for a grey one. The accurate transform is used, because the fast
 // one differs between processors, and the same scene must give the same bytes.
 std::vector<std::byte> encodeJpeg(const GreyImage& image, int quality) {
   const std::unique_ptr<void, CompressorFree> compressor(tjInitCompress());

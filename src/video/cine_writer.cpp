@@ -46,7 +46,7 @@ Rational rationalFrameRate(double frame_rate_hz) {
 }
 
 // libavformat's muxer over a file descriptor of our own, so that the system's reason for a failed
-// write is known, and the file is whole before it bears its name.
+// write is known, and the file is complete before it has its final name.
 struct CineWriter::Muxer {
   std::filesystem::path path;
   std::string part;

@@ -145,7 +145,7 @@ std::optional<DicomElement> DicomElements::next() {
     return e;
   }
   if (length > data_.size() - at_) {
-    // The last element may be cut short: the reader tells how much is missing.
+    // The last element may be cut short: the reader reports how much is missing.
     if (!open_.empty() || start == 0) return giveUp();
     length = static_cast<std::uint32_t>(data_.size() - at_);
   }

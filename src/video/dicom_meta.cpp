@@ -79,7 +79,7 @@ DicomMeta libraryMeta(const std::string& name, std::span<const std::byte> bytes)
 
 DicomMeta readDicomMeta(const std::string& name, std::span<const std::byte> bytes) {
   const DicomMeta meta = walkMeta(name, bytes);
-  // What is walked holds no sequence, so the library does not recurse.
+  // The walked elements contain no sequence, so the library does not recurse.
   const DicomMeta library = libraryMeta(name, bytes.first(meta.data_at));
   if (library.transfer_syntax != meta.transfer_syntax || library.data_at != meta.data_at)
     refuseMeta(name, "can be read in two ways");

@@ -63,7 +63,8 @@ std::vector<double> numbersOf(DcmItem& item, const DcmTagKey& key, std::size_t m
   return values;
 }
 
-// The rate, or the mean interval between R waves, ms. What no heart does is told and left out.
+// The rate, or the mean interval between R waves, ms. Impossible values give a warning and are
+// omitted.
 void takeHeartRate(DcmDataset& data, Video& video) {
   const auto take = [&](const DcmTagKey& key, const char* name, bool is_interval) {
     OFString text;
@@ -80,7 +81,7 @@ void takeHeartRate(DcmDataset& data, Video& video) {
   take(DCM_NominalInterval, "NominalInterval", true);
 }
 
-// What no scanner does is told and left out.
+// Impossible values give a warning and are omitted.
 void takeRate(double hz, const char* source, Video& video) {
   if (video.rate.hz > 0 || !(hz > 0)) return;
   if (hz >= kLeastFrameRate_hz && hz <= kMostFrameRate_hz)

@@ -117,8 +117,8 @@ void VideoBuilder::checkTime() const {
 }
 
 // Some scanners tint their grey scale: each luma then has one colour, the same all over the
-// picture, which is grey to us. The median over a frame tells it from markers and Doppler boxes,
-// the mean over neighbours from dithering.
+// picture, and counts as grey here. The median over a frame separates it from markers and Doppler
+// boxes, the mean over neighbours from dithering.
 void VideoBuilder::learnTint(const std::uint8_t* rgb, std::ptrdiff_t stride) {
   std::array<std::vector<int>, 17> red, blue;
   std::int64_t lit = 0, tinted = 0;

@@ -29,7 +29,7 @@ std::size_t mostTriangles(const ViewBudget& budget, const MeshMotion& motion) {
   return budget.triangles_per_structure;
 }
 
-// Of the control mesh where the surface is subdivided: its vertices come first in the surface, and
+// Uses the control mesh if the surface is subdivided: its vertices come first in the surface, and
 // collapsing a quarter of the triangles takes a quarter of the time.
 DecimatedMesh coarseMesh(const ControlMotion& control, const std::vector<Vec3f>& positions_m,
                          std::size_t most_triangles) {

@@ -32,7 +32,7 @@ std::string titleOf(const Scene& scene) {
   return (file.parent_path().filename() / file.filename()).string();
 }
 
-// Of the loop's first beat.
+// Frames of the loop's first beat.
 Json framesJson(const CardiacClock& clock) {
   int count = 0;
   while (count < clock.frameCount() && clock.at(count).beat == 0) ++count;
@@ -56,7 +56,7 @@ PageLook lookOf(const Scene& scene) {
            pageAsset("heart_view.js"), pageAsset("view.js")}};
 }
 
-// A page may be passed on: it tells no folders.
+// A page may be passed on, so it names no folders.
 Json shownWarnings(const Scene& scene, const LoopPlan& plan) {
   Json shown = Json::array();
   for (const std::vector<std::string>& warnings : {scene.warnings, plan.warnings})

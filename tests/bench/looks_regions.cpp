@@ -12,10 +12,10 @@
 #include "echo/beam_grid.h"
 #include "echo/sector.h"
 #include "frame/simulator.h"
-#include "metrics/box_echo.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "scene/scene_reader.h"
 #include "signal/signal_chain.h"
+#include "texture/box_echo.h"
 #include "video/read_video.h"
 
 namespace echocine::bench {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "metrics/echo_texture.h"
+#include "texture/echo_texture.h"
 
 namespace echocine::bench {
 

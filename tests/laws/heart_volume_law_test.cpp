@@ -24,8 +24,13 @@ struct Extremes {
 
 Mesh writtenMesh(const std::vector<heart::Part>& parts, const char* name) {
   const heart::Part& part = partOf(parts, name);
-  return meshOfObj(heartMesh(
-      {part.kind, part.faces, {}, {heart::loopControlPoints(part.points, part.faces)}, {}}, 0));
+  return meshOfObj(
+      heartMesh({part.kind,
+                 part.faces,
+                 {},
+                 {heart::LoopFit(part.points.size(), part.faces).controlPoints(part.points)},
+                 {}},
+                0));
 }
 
 CavityVolumes volumesOf(const Extremes& heart, const char* part, bool subdivide) {

@@ -8,10 +8,10 @@
 #include <map>
 
 #include "core/hash_random.h"
-#include "motion/interior/bound_point.h"
-#include "motion/interior/winners.h"
+#include "motion/interior/top_surfaces.h"
 #include "motion/surfaces/interior_motion.h"
 #include "scene/scene_reader.h"
+#include "support/bind_to_surface.h"
 #include "support/meshes.h"
 #include "support/paths.h"
 #include "support/patient_scene.h"
@@ -160,13 +160,13 @@ bool onBorder(SurfaceId id, const std::vector<SurfaceTopology>& surfaces, const 
   return length(place(bound, triangles, positions_m) - place_m) < kBorder_m;
 }
 
-Winners winnersOf(const Scene& scene, const MeshMotion& motion, const SurfaceFrame& frame) {
-  std::vector<Winners::Closed> closed;
+TopSurfaces topSurfacesOf(const Scene& scene, const MeshMotion& motion, const SurfaceFrame& frame) {
+  std::vector<TopSurfaces::Closed> closed;
   for (const SurfaceTopology& s : motion.surfaces())
     if (!s.membrane)
       closed.push_back({s.id, scene.structures[index(s.id)].priority,
                         Columns(s.triangles, frame.positions_m[index(s.id)])});
-  return Winners(std::move(closed));
+  return TopSurfaces(std::move(closed));
 }
 
 Agreement agreementOf(const Scene& scene) {
@@ -174,14 +174,14 @@ Agreement agreementOf(const Scene& scene) {
   const MotionField field = interiorMotion(scene, motion);
   SurfaceFrame at_reference, now;
   motion.frameAt(0, at_reference);
-  const Winners reference = winnersOf(scene, motion, at_reference);
+  const TopSurfaces reference = topSurfacesOf(scene, motion, at_reference);
   Agreement result;
   FieldFrame frame;
   for (int i = 0; i < 20; ++i) {
     const double phase = (i + 0.37) / 20;
     field.at(phase, frame);
     motion.frameAt(phase, now);
-    const Winners winners = winnersOf(scene, motion, now);
+    const TopSurfaces tops = topSurfacesOf(scene, motion, now);
     for (const SurfaceTopology& s : motion.surfaces()) {
       if (s.membrane || s.still) continue;
       const GroupFrame& group = frame[field.groupOf(s.id)];
@@ -204,13 +204,13 @@ Agreement agreementOf(const Scene& scene) {
         Agreement::Staying& of_wall = result.walls[name];
         ++of_wall.points;
         const Vec3f placed = group.place(toFloat(p));
-        const auto winner = winners.at(toDouble(placed));
-        if (winner == s.id)
+        const auto top = tops.at(toDouble(placed));
+        if (top == s.id)
           ++of_wall.stay;
-        else if (winners.hides(toDouble(carriedBySurface(s, toFloat(p), at_reference, now)), s.id))
+        else if (tops.hides(toDouble(carriedBySurface(s, toFloat(p), at_reference, now)), s.id))
           ++of_wall.covered;
         else
-          of_wall.near += onBorder(winners.hides(toDouble(placed), s.id) ? *winner : s.id,
+          of_wall.near += onBorder(tops.hides(toDouble(placed), s.id) ? *top : s.id,
                                    motion.surfaces(), now, placed);
       }
     }

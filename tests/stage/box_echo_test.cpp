@@ -1,7 +1,7 @@
 // A box of a loop in beam space: the widths of a known grain, what follows a motion and what does
 // not, and how fast a grain that fades is forgotten.
 
-#include "metrics/box_echo.h"
+#include "texture/box_echo.h"
 
 #include <gtest/gtest.h>
 

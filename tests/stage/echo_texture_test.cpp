@@ -1,7 +1,7 @@
 // Texture of pictures whose texture is known: grains of a known width, greys of a known
 // distribution, edges of a known slope.
 
-#include "metrics/echo_texture.h"
+#include "texture/echo_texture.h"
 
 #include <gtest/gtest.h>
 

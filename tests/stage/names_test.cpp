@@ -46,7 +46,7 @@ TEST(Names, AreWhole) {
 
 TEST(Names, EverySwitchIsOfItsEffect) {
   std::set<Effect> switched;
-  for (const EffectSwitch& s : kEffectSwitches) EXPECT_TRUE(switched.insert(s.effect).second);
+  for (const EffectRow& s : kEffectSwitches) EXPECT_TRUE(switched.insert(s.effect).second);
   EXPECT_FALSE(switched.contains(Effect::channel));
 }
 

@@ -17,7 +17,7 @@ set(libraries
   "(OpenEXR/|Imath/|Imf.*\\.h$|half\\.h$)=output"
   "opencv2/(core|imgproc)=metrics,output,echo,fit,compare"
   "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
-  "zlib\\.h$=video,dataset"
+  "zlib\\.h$=video,output,dataset"
   "hdf5\\.h$=dataset"
   "CLI/=cli"
   "nlohmann/=scene,heart,output,page,view,echo,fit,compare,render,study,dataset,cli,python"

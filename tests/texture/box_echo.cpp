@@ -1,4 +1,4 @@
-#include "metrics/box_echo.h"
+#include "texture/box_echo.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "motion/interior/winners.h"
+#include "motion/interior/top_surfaces.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace echocine {
 
-Winners::Winners(std::vector<Closed> closed) : closed_(std::move(closed)) {
+TopSurfaces::TopSurfaces(std::vector<Closed> closed) : closed_(std::move(closed)) {
   std::sort(closed_.begin(), closed_.end(), [](const Closed& a, const Closed& b) {
     return a.priority != b.priority ? a.priority > b.priority : a.id > b.id;
   });
@@ -16,13 +16,13 @@ Winners::Winners(std::vector<Closed> closed) : closed_(std::move(closed)) {
   }
 }
 
-std::optional<SurfaceId> Winners::at(Vec3d place_m, std::optional<SurfaceId> without) const {
+std::optional<SurfaceId> TopSurfaces::at(Vec3d place_m, std::optional<SurfaceId> without) const {
   for (const Closed& surface : closed_)
     if (surface.id != without && surface.columns.contains(place_m)) return surface.id;
   return std::nullopt;
 }
 
-Winners::Within Winners::within(const Box& box_m) const {
+TopSurfaces::Within TopSurfaces::within(const Box& box_m) const {
   Within within;
   for (const Closed& surface : closed_) {
     if (surface.columns.mayPass(box_m)) {
@@ -35,21 +35,21 @@ Winners::Within Winners::within(const Box& box_m) const {
   return within;
 }
 
-std::optional<SurfaceId> Winners::Within::at(Vec3d place_m) const {
+std::optional<SurfaceId> TopSurfaces::Within::at(Vec3d place_m) const {
   for (const Closed* surface : asked_)
     if (surface->columns.contains(place_m)) return surface->id;
   return else_;
 }
 
-bool Winners::hides(Vec3d place_m, SurfaceId surface) const {
+bool TopSurfaces::hides(Vec3d place_m, SurfaceId surface) const {
   for (std::size_t i = 0; i < rank_[index(surface)]; ++i)
     if (closed_[i].columns.contains(place_m)) return true;
   return false;
 }
 
 // Weakest first, each over what the weaker left.
-void Winners::alongX(double start, double step, double y, double z,
-                     std::span<std::int16_t> row) const {
+void TopSurfaces::alongX(double start, double step, double y, double z,
+                         std::span<std::int16_t> row) const {
   std::fill(row.begin(), row.end(), kNone);
   const auto last = static_cast<double>(row.size());
   thread_local std::vector<Columns::Crossing> crossings;

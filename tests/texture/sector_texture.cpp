@@ -3,8 +3,8 @@
 #include <limits>
 #include <optional>
 
-#include "metrics/box_means.h"
-#include "metrics/echo_texture.h"
+#include "texture/box_means.h"
+#include "texture/echo_texture.h"
 
 namespace echocine {
 

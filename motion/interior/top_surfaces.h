@@ -1,5 +1,5 @@
 #pragma once
-// The winning closed surface at a place, by the scene's priorities at the reference phase.
+// The closed surface of highest priority at a place of the reference phase.
 
 #include <memory>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace echocine {
 
-class Winners {
+class TopSurfaces {
  public:
   struct Closed {
     SurfaceId id;
@@ -20,9 +20,9 @@ class Winners {
   };
 
   // In any order. Among equal priorities the later surface wins.
-  explicit Winners(std::vector<Closed> closed);
+  explicit TopSurfaces(std::vector<Closed> closed);
 
-  // The winner at a place, ignoring `without`.
+  // The top surface at a place, ignoring `without`.
   std::optional<SurfaceId> at(Vec3d place_m, std::optional<SurfaceId> without = {}) const;
 
   // For places within one box: tests only surfaces with a border there.
@@ -32,21 +32,21 @@ class Winners {
     std::optional<SurfaceId> at(Vec3d place_m) const;
 
    private:
-    friend class Winners;
-    std::vector<const Closed*> asked_;  // strongest first
+    friend class TopSurfaces;
+    std::vector<const Closed*> asked_;  // highest priority first
     std::optional<SurfaceId> else_;     // if none of them contains the place
   };
   Within within(const Box& box_m) const;
 
-  // Does a stronger surface than `surface` contain the place?
+  // Does a surface of higher priority than `surface` contain the place?
   bool hides(Vec3d place_m, SurfaceId surface) const;
 
-  // The winners of a row of places x = start + i step, by index; kNone in the background.
+  // The top surfaces of a row of places x = start + i step, by index; kNone in the background.
   static constexpr std::int16_t kNone = -1;
   void alongX(double start, double step, double y, double z, std::span<std::int16_t> row) const;
 
  private:
-  std::vector<Closed> closed_;     // strongest first
+  std::vector<Closed> closed_;     // highest priority first
   std::vector<std::size_t> rank_;  // by SurfaceId; beyond the last for a membrane
 };
 

@@ -4,8 +4,8 @@
 #include <tuple>
 #include <utility>
 
-#include "metrics/box_means.h"
-#include "metrics/echo_texture.h"
+#include "texture/box_means.h"
+#include "texture/echo_texture.h"
 
 namespace echocine {
 
