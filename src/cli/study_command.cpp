@@ -9,6 +9,7 @@
 #include "cli/number_check.h"
 #include "cli/progress_line.h"
 #include "core/error.h"
+#include "core/part_file.h"
 #include "core/stop.h"
 #include "motion/surfaces/probe_placement.h"
 #include "scene/scene_reader.h"
@@ -79,6 +80,8 @@ StudyCommand::StudyCommand(CLI::App& app) {
 int StudyCommand::run() {
   refuseUnknownKnobs(options_.knobs);
   const Scene scene = placed(readScene(scene_file_));
+  for (const char* name : {"study.json", "study.csv", "study.html"})
+    removePartsOf(options_.folder / name);  // of a run that was killed here
   ProgressLine line(quiet_);
   const StudyResult result = runStudy(
       scene, options_, line.monitor(),

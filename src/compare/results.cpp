@@ -227,6 +227,9 @@ void writeResults(const Comparison& c, const CompareOptions& options,
                                error ? error.message() : "a file stands there"));
   for (const char* name : {"summary.json", "compare.html"})  // a folder without them is unfinished
     std::filesystem::remove(folder / name, error);
+  for (const char* name : {"summary.json", "compare.html", "frames.csv", "side_by_side.avi",
+                           "sector_real.png", "sector_synthetic.png"})
+    removePartsOf(folder / name);  // of a run that was killed here
   PanelMaker panels(c);
   std::optional<BoundaryBands> bands;
   if (options.contours && !options.scene.empty()) {

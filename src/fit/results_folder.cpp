@@ -14,7 +14,10 @@ ResultsFolder::ResultsFolder(std::filesystem::path folder, std::initializer_list
   if (error || !std::filesystem::is_directory(folder_, error))
     throw JobError(fmt::format("{}: the folder cannot be made: {}", folder_.string(),
                                error ? error.message() : "a file stands there"));
-  for (const char* name : last) std::filesystem::remove(folder_ / name, error);
+  for (const char* name : last) {
+    std::filesystem::remove(folder_ / name, error);
+    removePartsOf(folder_ / name);  // of a run that was killed here
+  }
 }
 
 void ResultsFolder::write(const char* name, const std::string& content) const {

@@ -227,6 +227,17 @@ TEST(InterfaceLaw, OfFourInterfacesOfNearlyEqualMediaKeepsItsDigits) {
   }
 }
 
+// Aside of the normal an echo is no stronger than the impedances alone make it, and a weaker one
+// stays as it is.
+TEST(InterfaceLaw, TheCapIsTheReflectanceOfNormalIncidence) {
+  for (const Pair& p : kPairs) {
+    const double normal = reflectance(p.Z_1, p.Z_2, 1, 1);
+    for (const double share : {0.0, 0.5, 1.0})
+      EXPECT_DOUBLE_EQ(cappedReflectance(share * normal, p.Z_1, p.Z_2), share * normal);
+    EXPECT_DOUBLE_EQ(cappedReflectance(1, p.Z_1, p.Z_2), normal);
+  }
+}
+
 // Section 2.1: W cos^n theta_i.
 TEST(InterfaceLaw, LobeIsWAtNormalIncidenceAndFollowsItsExponent) {
   for (const double n : {0.0, 0.5, 1.0, 2.0, 7.3}) {

@@ -121,6 +121,15 @@ TEST(HeartViews, TheParasternalLongAxisHasTheAortaRightAndTheAtriumDeep) {
   EXPECT_LT(image.sliceOf("rv_cavity").z, image.sliceOf("lv_cavity").z);
 }
 
+// The beam's middle meets the ventricle's long axis at the tips of the mitral leaflets, a sixth of
+// the way from the ring to the apex.
+TEST(HeartViews, TheParasternalLongAxisIsAimedAtTheTipsOfTheLeaflets) {
+  const Image image(View::plax);
+  const heart::Landmarks marks = defaultHeart().landmarksAt(0);
+  const double ring = image.of(marks.mitral).x, apex = image.of(marks.apex).x;
+  EXPECT_NEAR(ring / (ring - apex), 1.0 / 6, 0.04);
+}
+
 TEST(HeartViews, ShortAxesHaveTheRightVentricleLeftAndLookFromTheApex) {
   for (const View view : {View::psax_mid, View::psax_apex}) {
     const Image image(view);

@@ -126,6 +126,19 @@ TEST(LineWalker, CoincidentWallsAreOneInterfaceOfTheOuterMedia) {
     }
 }
 
+// Of surfaces that meet, the one with the higher priority gives the echo its normal.
+TEST(LineWalker, OfCoincidentWallsTheHigherPriorityHasTheNormal) {
+  Scene scene = heartScene();
+  addStructure(scene, kMuscle, 1);
+  addStructure(scene, kBlood, 2);
+  const TraceSettings settings = straightSettings(scene);
+  const Crossing muscle = crossingAt(0.04, 0, true), blood = crossingAt(0.04, 1, true, 0.9);
+  const double wanted = walkStraight(settings, {blood}).echoes.at(0).intensity;
+  EXPECT_LT(wanted, 0.95 * reflectanceOf(scene, kOutside, kBlood));
+  for (const std::vector<Crossing>& met : {std::vector{muscle, blood}, std::vector{blood, muscle}})
+    EXPECT_DOUBLE_EQ(walkStraight(settings, met).echoes.at(0).intensity, wanted);
+}
+
 TEST(LineWalker, TouchingStructuresPassTheRayWithoutAGap) {
   Scene scene = heartScene();
   addStructure(scene, kMuscle, 1);

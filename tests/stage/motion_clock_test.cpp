@@ -136,6 +136,25 @@ TEST(MotionClock, VariedBeatsWarpEachByItsOwnLength) {
 }
 
 // One to a thousand beats a minute, frames from 10 s down to 10 us apart.
+// Within a billionth of a beat before the next R wave it is the R wave: warped and varied too.
+TEST(MotionClock, NoPhaseLiesWithinABillionthOfTheNextBeat) {
+  for (const double variability : {0.0, 0.2})
+    for (const double keyframes : {40.0, 65.0, 140.0})
+      for (const double bpm : {45.0, 65.0, 130.0}) {
+        Acquisition acquisition = acquisitionOf(bpm, 50, 12);
+        acquisition.rr_variability = variability;
+        const CardiacClock clock(acquisition, recordedAt(keyframes));
+        double end_s = 0;
+        for (int beat = 0; beat < 12; ++beat) {
+          end_s += clock.atTime(end_s + 0.1).beat_s;
+          for (int i = 1; i <= 60; ++i) {
+            const double phase = clock.atTime(end_s - 5e-11 * i * 60 / bpm).phase;
+            ASSERT_LT(phase, 1 - 1e-9) << bpm << ' ' << keyframes << ' ' << beat << ' ' << i;
+          }
+        }
+      }
+}
+
 TEST(MotionClock, ExtremeSettingsStayFiniteAndInTheBeat) {
   for (const double bpm : {1.0, 30.0, 1000.0})
     for (const double variability : {0.0, 0.3})

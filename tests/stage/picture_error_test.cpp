@@ -76,6 +76,11 @@ TEST(PictureErrorLaw, OutsideTheSectorNothingCounts) {
   a[4] = -1;  // outside in one of them alone
   b[4] = 1;
   EXPECT_EQ(pictureError(a, b, kRange_db).max_db, 0);
+  // An offset's mean is over the pixels inside.
+  for (std::size_t i = 0; i < b.size(); i += 2) a[i] = 0.5f, b[i] = -1;
+  for (std::size_t i = 1; i < b.size(); i += 2) b[i] = 0.55f;
+  a[3] = 0.5f;
+  EXPECT_NEAR(pictureError(a, b, kRange_db).rms_db, 3, 1e-5);
   std::vector<float> none = plane(-1);
   EXPECT_EQ(pictureError(none, b, kRange_db).rms_db, 0);
   GreyImage black = imageOf(plane(0)), white = imageOf(plane(1));

@@ -8,6 +8,7 @@
 #include "compare/compare.h"
 #include "core/parallel.h"
 #include "support/cine_frames.h"
+#include "support/echo_video.h"
 #include "support/loop_scene.h"
 #include "support/run_program.h"
 
@@ -40,6 +41,32 @@ TEST(ComparedRender, ARenderAgainstItselfIsPerfectAndItsResultsAreWhole) {
   const std::string csv = bytesOf(folder / "out/frames.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 9);
   EXPECT_TRUE(std::filesystem::exists(folder / "out/sector_real.png"));
+}
+
+// A ball lies anywhere about its axis, so where its scene fits is only a hint: in the terminal, in
+// JSON and in the page's data. A scene is in mm, so a loop without a scale is refused.
+TEST(ComparedRender, AFitOfASceneSaysWhatAReaderMustKnow) {
+  TempFolder folder;
+  ASSERT_EQ(renderScene(writeBall(folder, ballScene(8)), folder / "loop").code, 0);
+  const auto quoted = [&](const char* name) { return " '" + (folder / name).string() + "'"; };
+  const std::string scene = " --scene" + quoted("scene.toml"), hint = "only a hint: its confidence";
+  const Outcome o =
+      runShell("%B compare" + quoted("loop") + quoted("loop") + " -o" + quoted("out") + scene);
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto fit = nlohmann::json::parse(bytesOf(folder / "out/summary.json")).at("scene_fit");
+  EXPECT_LT(fit.at("confidence").get<double>(), 0.1);
+  EXPECT_NE(o.out.find(hint), std::string::npos) << o.out;
+  ASSERT_EQ(fit.at("caveats").size(), 1u) << fit.at("caveats");
+  EXPECT_TRUE(fit.at("caveats")[0].get<std::string>().starts_with(hint));
+  EXPECT_NE(bytesOf(folder / "out/compare.html").find(hint), std::string::npos);
+  Drawing rings;
+  rings.frames = 12;
+  writeLossless(folder / "rings.avi", rings);
+  const Outcome drawn =
+      runShell("%B compare" + quoted("loop") + quoted("rings.avi") + " -o" + quoted("none") +
+               scene + " --quiet --real-ed 0 --sector=160,5,-40,40,12,225");
+  EXPECT_EQ(drawn.code, 2) << drawn.err;
+  EXPECT_NE(drawn.err.find("no length scale; give --scale"), std::string::npos) << drawn.err;
 }
 
 // Where no tilt is requested nothing is written of one; where one is, it is told. A loop without

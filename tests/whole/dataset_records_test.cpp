@@ -1,5 +1,5 @@
 // What a dataset's folder says is believed only as far as it is proven: damaged, edited and forged
-// records, planted links and pipes, tasks that begin at the same moment.
+// records, planted links and pipes.
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -198,33 +198,6 @@ TEST_F(DatasetRecords, LinksAndPipesAreNeitherFollowedNorReplaced) {
   EXPECT_EQ(made.code, 1);
   EXPECT_NE(made.err.find("native: is a link"), std::string::npos) << made.err;
   EXPECT_TRUE(fs::is_empty(elsewhere));
-}
-
-TEST_F(DatasetRecords, EightTasksThatBeginTogetherWorkAsOne) {
-  for (int round = 0; round < 3; ++round) {
-    const std::string name = "together" + std::to_string(round), folder = (*place / name).string();
-    std::string script =
-        "pids=; for k in 1 2 3 4 5 6 7 8; do %B dataset '" + spec_file.string() + "' -o '" +
-        folder +
-        "' --threads 1 --quiet --task $k/8 & pids=\"$pids $!\"; "
-        "done; failed=0; for p in $pids; do wait $p || failed=1; done; exit $failed";
-    const Outcome tasks = runShell(script);
-    EXPECT_EQ(tasks.code, 0) << tasks.err;
-    // What a task that was killed left goes with the merge.
-    std::ofstream(*place / name / "native/ec000001_a4c/cine.avi.0123abcd.part") << "half";
-    EXPECT_EQ(make(name, "--merge").code, 0);
-    auto files = filesOf(*place / name);
-    EXPECT_TRUE(files == whole);
-  }
-}
-
-TEST_F(DatasetRecords, TwoSpecsThatRaceForAFolderDoNotMix) {
-  const fs::path other = place->write("other.toml", "seed = 2\n" + bytesOf(spec_file));
-  const std::string folder = (*place / "race").string();
-  const Outcome both = runShell("for s in '" + spec_file.string() + "' '" + other.string() +
-                                "'; do (%B dataset $s -o '" + folder +
-                                "' --threads 1 --quiet; echo $?) & done; wait");
-  EXPECT_TRUE(both.out == "2\n0\n" || both.out == "0\n2\n") << both.out << both.err;
 }
 
 }  // namespace

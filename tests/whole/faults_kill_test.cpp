@@ -99,5 +99,42 @@ TEST_F(KilledLoop, AtSeededMomentsResumesToTheSameBytes) {
   std::printf("%d runs were killed before their end and resumed\n", killed);
 }
 
+// A study has times, so its bytes differ from run to run: what bears a file's name is whole, and
+// the same command in the same folder then leaves the same names and rows. ECHOCINE_KILLS sets how
+// many.
+TEST_F(KilledLoop, AStudyLeavesWholeFilesAndRunsAgain) {
+  const FaultyRun study{{"study", scene, "-o", out, "--frames", "1", "--repeats", "1", "--knobs",
+                         "lines,refraction", "--quiet", "--threads", "1"}};
+  const auto wholeFiles = [&] {
+    std::map<std::string, std::string> found = leftIn(out);
+    for (auto& [name, bytes] : found) {
+      if (isPart(name)) continue;
+      EXPECT_TRUE(!name.ends_with(".json") || nlohmann::json::accept(bytes)) << name;
+      EXPECT_TRUE(!name.ends_with(".html") || bytes.ends_with("</html>\n")) << name;
+      const auto lines = std::count(bytes.begin(), bytes.end(), '\n');
+      bytes = name.ends_with(".csv") ? std::to_string(lines) + " lines" : "";
+    }
+    return found;
+  };
+  Steps all;
+  ASSERT_EQ(outcomeOf(study, &all).code, 0);
+  const auto whole = wholeFiles();
+  ASSERT_TRUE(whole.contains("study.json") && whole.contains("study.csv"));
+  const char* wanted = std::getenv("ECHOCINE_KILLS");
+  const int kills = wanted ? std::atoi(wanted) : 3;
+  std::mt19937 random(15);
+  for (int i = 0; i < kills; ++i) {
+    fs::remove_all(out);
+    FaultyRun run = study;
+    run.fault = "half:" + std::to_string(std::uniform_int_distribution<long>(1, all.files)(random));
+    SCOPED_TRACE(run.fault);
+    EXPECT_EQ(outcomeOf(run).code, 128 + SIGKILL);
+    for (const auto& [name, lines] : wholeFiles())
+      EXPECT_TRUE(isPart(name) || whole.at(name) == lines) << name;
+    EXPECT_EQ(outcomeOf(study).code, 0);
+    EXPECT_EQ(wholeFiles(), whole);
+  }
+}
+
 }  // namespace
 }  // namespace echocine
