@@ -189,19 +189,19 @@ TEST(CompareTilt, AFamilyKeepsWhatItsTiltsCut) {
   });
 }
 
-// Under another speckle and look, by what ModelDiscrepancy looks at. Found in the bench within 0.8
-// degrees (README).
+// Under another speckle and look, by what ModelDiscrepancy looks at. The rotation is weakly
+// determined: its confidence is about 0.1.
 TEST(CompareTilt, APlantedTiltIsFoundUnderAnotherLook) {
   withThreads(2, [] {
     const Simulator heart(parametricHeart());
-    const ModelDiscrepancy d(scannedLoop(held(heart.scene(), 6, 0), 24, 3), fromTheStart(),
+    const ModelDiscrepancy d(scannedLoop(held(heart.scene(), -6, 0), 24, 3), fromTheStart(),
                              modelLoop(heart.scene(), heart.motion(), kFitFrames));
     const TiltFound found = searchTilt(heart, d, 10);
-    std::printf("6 degrees found as %.2f, rotation %.2f, D %.4f from %.4f\n",
+    std::printf("-6 degrees found as %.2f, rotation %.2f, D %.4f from %.4f\n",
                 degreesFromRadians(found.tilt.tilt_rad), degreesFromRadians(found.tilt.rotate_rad),
                 found.found.discrepancy, found.untilted);
-    EXPECT_NEAR(degreesFromRadians(found.tilt.tilt_rad), 6, 1.5);
-    EXPECT_NEAR(degreesFromRadians(found.tilt.rotate_rad), 0, 1);
+    EXPECT_NEAR(degreesFromRadians(found.tilt.tilt_rad), -6, 1);
+    EXPECT_NEAR(degreesFromRadians(found.tilt.rotate_rad), 0, 2);
     EXPECT_LT(found.found.discrepancy, found.untilted - 0.05);
     EXPECT_GT(found.tilt_confidence, 0.1);
   });
