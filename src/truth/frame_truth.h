@@ -81,7 +81,7 @@ class TruthMaker {
   const std::vector<Tracked>& tracked() const { return tracked_; }
 
   // Of the whole loop, where function is asked for: the left ventricle's valves, none where its
-  // volume does not change, and the view at the reference phase.
+  // volume does not change, and the view at end-diastole, none without the roles of a heart.
   const std::optional<ValveTimes>& valves() const { return valves_; }
   const std::optional<ViewOffset>& view() const { return view_; }
 

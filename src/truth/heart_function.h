@@ -13,7 +13,6 @@
 #include "truth/aha_segments.h"
 #include "truth/orifice.h"
 #include "truth/simpson.h"
-#include "truth/view_offset.h"
 
 namespace echocine {
 
@@ -70,7 +69,6 @@ class HeartFunction {
   SurfaceId wall() const { return wall_; }
   const HeartAxes& axes() const { return axes_; }             // at the reference phase
   bool hasRightHeart() const { return !tricuspid_.empty(); }  // and a ring between its cavities
-  ViewLandmarks landmarks(const SurfaceFrame& at_reference) const;
 
   FunctionFrame at(const SurfaceFrame& surfaces, const FieldFrame& field) const;
 
