@@ -1,34 +1,20 @@
 #include "motion/heart/heart_poses.h"
 
+#include "motion/heart/recording.h"
+#include "motion/views/heart_marks.h"
+
 namespace echocine::heart {
-namespace {
 
-HeartFrame heartFrame(const ParametricHeart& heart, const Landmarks& marks) {
-  HeartFrame frame;
-  frame.length_m = heart.lvLength();
-  frame.scale = heart.parameters().body_scale;
-  frame.apex = marks.apex;
-  frame.mitral = marks.mitral;
-  frame.aortic = marks.aortic;
-  frame.aortic_flow = marks.aortic_flow;
-  return frame;
-}
-
-}  // namespace
-
-HeartFrame frameOf(const ParametricHeart& heart) {
-  return heartFrame(heart, heart.landmarksAt(0));
-}
-
-ProbePose poseOf(View view, const ParametricHeart& heart) {
-  return poseOf(view, heart, heart.shapeAt(0));
-}
-
-ProbePose poseOf(View view, const ParametricHeart& heart, const Shape& at_end_diastole) {
-  std::vector<Vec3d> sac;
-  for (const Part& part : at_end_diastole.parts)
-    if (part.kind.name == "pericardium") sac = part.points;
-  return standardPose(view, heartFrame(heart, at_end_diastole.places), sac);
+ProbePose poseOf(View view, const Recording& recording) {
+  std::vector<RoleSurface> surfaces;
+  for (const RecordedPart& part : recording.parts) {
+    const Role role = guessRole(part.kind.name);
+    if (role == Role::none || role == Role::surroundings || part.control_m.size() == 1) continue;
+    surfaces.push_back({role, part.kind.name, part.control_m.front(), part.faces});
+  }
+  HeartMarks marks = findHeart(surfaces, {});
+  marks.frame.scale = recording.body_scale;
+  return standardPose(view, marks.frame, marks.outside_m, marks.wall_m, marks.front_m);
 }
 
 }  // namespace echocine::heart

@@ -10,12 +10,11 @@ namespace echocine::heart {
 using echocine::ProbePose, echocine::View, echocine::ViewName;
 using echocine::viewNames, echocine::viewOf;
 
-// Its axes in the form that the view rules need: heart coordinates, m.
-HeartFrame frameOf(const ParametricHeart& heart);
+struct Recording;
 
-// For the heart at end-diastole; the probe is static over the beat. Heart coordinates.
-ProbePose poseOf(View view, const ParametricHeart& heart);
-// The same with a given shape at end-diastole.
-ProbePose poseOf(View view, const ParametricHeart& heart, const Shape& at_end_diastole);
+// The probe of a view of a recorded heart, in heart coordinates: the rules of standardPose() for
+// the axes found in the meshes at end-diastole (findHeart()), at the body's scale. A scene of these
+// meshes with `view` of a body of scale 1 has the same. The probe is static over the beat.
+ProbePose poseOf(View view, const Recording& recording);
 
 }  // namespace echocine::heart

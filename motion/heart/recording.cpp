@@ -150,7 +150,6 @@ Recording recordBeat(const ParametricHeart& heart, View view, int keyframes,
   const std::vector<Shape> shapes = shapesAt(heart, phases, monitor);
   const std::array sacs{&shapes.front(), &shapes.back()};
   recording.sac_reach_m = reachOfSac(heart, sacs);
-  recording.pose = poseOf(view, heart, shapes.front());
   for (const Part& part : shapes.front().parts)
     recording.parts.push_back({part.kind, part.faces, tagsOf(part), {}, {}});
   parallelBlocks(recording.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -163,6 +162,8 @@ Recording recordBeat(const ParametricHeart& heart, View view, int keyframes,
   for (std::size_t k = 0; k < recording.phases.size(); ++k)
     recording.places.push_back(shapes[k].places);
   finish(recording);
+  recording.body_scale = heart.parameters().body_scale;
+  recording.pose = poseOf(view, recording);
   return recording;
 }
 

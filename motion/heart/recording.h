@@ -27,6 +27,7 @@ struct Recording {
 
   ProbePose pose;
   std::vector<double> phases;     // of the keyframes, ascending from 0
+  double body_scale = 1;          // 1: an adult's
   double end_systole_phase = 0;   // closure of the aortic valve
   std::size_t end_systole = 0;    // the keyframe at that phase, or the nearest of even ones
   std::vector<Landmarks> places;  // one per keyframe

@@ -80,7 +80,7 @@ Instant heartAtEndDiastole(const Scene& scene) {
   Instant instant;
   for (std::size_t s = 0; s < heart.structures.size(); ++s) {
     const TriangleMesh& mesh = set.structures[s].front().mesh;
-    RoleSurface surface{roleOf(heart.structures[s]), heart.structures[s].name, {}};
+    RoleSurface surface{roleOf(heart.structures[s]), heart.structures[s].name, {}, mesh.triangles};
     for (const Vec3d& p : mesh.positions) surface.points_m.push_back(worldPlace(scene.motion, p));
     instant.surfaces.push_back(std::move(surface));
     instant.triangles.push_back(mesh.triangles);

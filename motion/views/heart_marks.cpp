@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "core/units.h"
+#include "motion/views/contact.h"
 #include "motion/views/long_axis.h"
-#include "motion/views/point_cloud.h"
-#include "motion/views/role_points.h"
+#include "motion/views/role_surfaces.h"
 #include "scene/names.h"
 
 namespace echocine {
@@ -62,9 +62,9 @@ class Finder {
  private:
   [[noreturn]] void fail(const std::string& what) const { throw SceneError(atPlace(place_, what)); }
 
-  std::vector<Vec3d> points(Role role) const { return pointsOf(surfaces_, role); }
+  Facets facets(Role role) const { return facetsOf(surfaces_, role); }
   std::optional<Vec3d> middle(Role role) const {
-    const std::vector<Vec3d> all = points(role);
+    const Facets all = meshedFacetsOf(surfaces_, role);
     return all.empty() ? std::nullopt : std::optional(middleOf(all));
   }
   std::string nameOfRole(Role role) const { return namedRole(surfaces_, role); }
@@ -83,13 +83,13 @@ class Finder {
 
   const std::vector<RoleSurface>& surfaces_;
   const SourcePlace& place_;
-  std::vector<Vec3d> cavity_;
+  Facets cavity_;
   HeartMarks marks_;
 };
 
 void Finder::ventricle() {
-  cavity_ = points(Role::lv_cavity);
-  if (cavity_.empty()) cavity_ = points(Role::lv_wall);
+  cavity_ = facets(Role::lv_cavity);
+  if (cavity_.empty()) cavity_ = facets(Role::lv_wall);
   if (cavity_.size() < 4)
     fail(
         fmt::format("is found from structures with roles; {}; accepted: role = \"lv_cavity\" (or "
@@ -102,7 +102,8 @@ Vec3d Finder::towardsBase() const {
   const Vec3d from = middleOf(cavity_);
   const Vec3d axis = principalAxis(cavity_);
   double extent = 0;
-  for (const Vec3d p : cavity_) extent = std::max(extent, 2 * std::abs(dot(p - from, axis)));
+  for (const Facet& f : cavity_)
+    for (const Vec3d p : f) extent = std::max(extent, 2 * std::abs(dot(p - from, axis)));
   Vec3d first{};
   Role first_role = Role::none;
   for (const Role role : {Role::mitral_valve, Role::la, Role::la_wall, Role::aortic_valve,
@@ -129,7 +130,7 @@ void Finder::findAxis() {
   bool ring_known = true;
   if (const auto valve = middle(Role::mitral_valve)) {
     axis = axisFromBase(cavity_, *valve);
-  } else if (const std::vector<Vec3d> atrium = points(Role::la); atrium.empty()) {
+  } else if (const Facets atrium = facets(Role::la); atrium.empty()) {
     ring_known = false;
   } else {
     const Contact ring = contactOf(cavity_, atrium, margin);
@@ -172,7 +173,7 @@ void Finder::refuseMixedSides() const {
 std::optional<Cue> Finder::rightCue() const {
   if (const auto valve = middle(Role::tricuspid_valve))
     return Cue{*valve, kRightHeart_deg, nameOfRole(Role::tricuspid_valve)};
-  const std::vector<Vec3d> rv = points(Role::rv_cavity), ra = points(Role::ra);
+  const Facets rv = facets(Role::rv_cavity), ra = facets(Role::ra);
   if (!rv.empty() && !ra.empty()) {
     const Contact ring = contactOf(rv, ra, kContact * marks_.frame.length_m);
     if (ring.gap < kTouching * marks_.frame.length_m)
@@ -251,8 +252,8 @@ void Finder::findAorta() {
   const double l = f.length_m;
   f.aortic = f.at(l * kAorticValve);
   f.aortic_flow = normalised(f.at(kAorticFlow) - f.origin);
-  std::vector<Vec3d> aorta = points(Role::aorta);
-  if (aorta.empty()) aorta = points(Role::aortic_wall);
+  Facets aorta = facets(Role::aorta);
+  if (aorta.empty()) aorta = facets(Role::aortic_wall);
   if (const auto valve = middle(Role::aortic_valve)) {
     f.aortic = *valve;
     marks_.aortic_found = true;
@@ -262,9 +263,8 @@ void Finder::findAorta() {
     if (marks_.aortic_found) f.aortic = root.middle;
   }
   // Into the root, where there is one: the vessel bends farther up.
-  std::vector<Vec3d> root;
-  for (const Vec3d p : aorta)
-    if (length(p - f.aortic) < 0.45 * l) root.push_back(p);
+  const Facets root = partAbove(
+      aorta, [&](Vec3d p) { return -length(p - f.aortic); }, -0.45 * l);
   if (root.empty()) return lookFromBelow();
   const Vec3d flow = middleOf(root) - f.aortic;
   if (dot(flow, f.apical) < 0 && length(flow) > 0.05 * l) f.aortic_flow = normalised(flow);
@@ -274,13 +274,14 @@ void Finder::findAorta() {
 // it is below the ring.
 void Finder::lookFromBelow() {
   HeartFrame& f = marks_.frame;
-  if (const std::vector<Vec3d> ring = points(Role::aortic_valve); ring.size() > 3) {
+  if (const Facets ring = facets(Role::aortic_valve); !ring.empty()) {
     const Vec3d widest = principalAxis(ring), next = principalAxis(ring, widest);
     const Vec3d flow = normalised(cross(widest, next));
     double along = 0, aside = 0;
-    for (const Vec3d p : ring) {
-      along += std::abs(dot(p - f.aortic, flow));
-      aside += std::abs(dot(p - f.aortic, next));
+    for (const Facet& facet : ring) {
+      const Vec3d from = (1.0 / 3) * (facet[0] + facet[1] + facet[2]) - f.aortic;
+      along += areaOf(facet) * std::abs(dot(from, flow));
+      aside += areaOf(facet) * std::abs(dot(from, next));
     }
     if (along < kFlat * aside) f.aortic_flow = dot(flow, f.apical) < 0 ? flow : -flow;
   }

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/vec3.h"
-#include "motion/views/role_points.h"
+#include "motion/views/role_surfaces.h"
 #include "motion/views/standard_pose.h"
 
 namespace echocine {
@@ -15,9 +15,9 @@ namespace echocine {
 struct HeartMarks {
   HeartFrame frame;
   bool aortic_found = false;      // false: placed as in an average heart
-  std::vector<Vec3d> outside_m;   // points of the heart without the great vessels
-  std::vector<Vec3d> front_m;     // the same without the atria, whose appendages lie beside a probe
-  double wall_m = 0;              // thickness of a missing wall around these points
+  Facets outside_m;               // the heart without the great vessels
+  Facets front_m;                 // the same without the atria, whose appendages lie beside a probe
+  double wall_m = 0;              // thickness of a missing wall around these surfaces
   std::vector<std::string> told;  // guesses due to missing roles, in words
 };
 

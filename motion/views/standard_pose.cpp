@@ -81,14 +81,44 @@ Aim aimOf(View view, const HeartFrame& heart) {
   return {};
 }
 
-// How far the points before the target reach towards the probe, in the beam's middle.
-double reachBefore(const Aim& aim, std::span<const Vec3d> outside_m, double beam_m) {
-  double reach_m = 0;
-  for (const Vec3d point : outside_m) {
-    const Vec3d from = point - aim.target;
-    const double back_m = -dot(from, aim.axis);
-    if (length(from + back_m * aim.axis) < beam_m) reach_m = std::max(reach_m, back_m);
+// Largest height of a facet within `radius` of the z axis. Heights are linear, so it is at a
+// corner, where an edge or the facet itself leaves the cylinder.
+double highestWithin(const Facet& f, double radius, double least) {
+  const auto inside = [&](Vec3d p) { return p.x * p.x + p.y * p.y <= radius * radius; };
+  double most = least;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d a = f[k], along = f[(k + 1) % 3] - a;
+    if (inside(a)) most = std::max(most, a.z);
+    const double square = along.x * along.x + along.y * along.y;
+    const double half = a.x * along.x + a.y * along.y;
+    const double under = half * half - square * (a.x * a.x + a.y * a.y - radius * radius);
+    if (!(square > 0 && under >= 0)) continue;
+    for (const double root : {-std::sqrt(under), std::sqrt(under)})
+      if (const double t = (root - half) / square; t >= 0 && t <= 1)
+        most = std::max(most, a.z + t * along.z);
   }
+  // The steepest way up: where it leaves the cylinder within the facet.
+  const Vec3d normal = cross(f[1] - f[0], f[2] - f[0]);
+  const double steep = std::hypot(normal.x, normal.y);
+  if (!(std::abs(normal.z) > 0 && steep > 0)) return most;
+  const double way = -radius * (normal.z > 0 ? 1 : -1) / steep;
+  Vec3d at{way * normal.x, way * normal.y, 0};
+  at.z = f[0].z - ((at.x - f[0].x) * normal.x + (at.y - f[0].y) * normal.y) / normal.z;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!(dot(cross(f[(k + 1) % 3] - f[k], at - f[k]), normal) >= 0)) return most;
+  return std::max(most, at.z);
+}
+
+// How far the surface before the target reaches towards the probe, in the beam's middle.
+double reachBefore(const Aim& aim, std::span<const Facet> outside_m, double beam_m) {
+  const Vec3d up = cross(aim.axis, aim.lateral);
+  const auto seen = [&](Vec3d p) {
+    const Vec3d from = p - aim.target;
+    return Vec3d{dot(from, aim.lateral), dot(from, up), -dot(from, aim.axis)};
+  };
+  double reach_m = 0;
+  for (const Facet& f : outside_m)
+    reach_m = highestWithin({seen(f[0]), seen(f[1]), seen(f[2])}, beam_m, reach_m);
   return reach_m;
 }
 
@@ -106,22 +136,40 @@ Vec3d HeartFrame::at(Vec3d p) const {
   return origin + p.x * lateral + p.y * anterior + p.z * apical;
 }
 
-double fittingDepth(std::span<const Vec3d> outside_m, const ProbePose& pose, double half_rad,
-                    double scale) {
-  const Vec3d up = cross(pose.axis, pose.lateral);
-  double deepest_m = 0;
-  for (const Vec3d point : outside_m) {
-    const Vec3d from = point - pose.apex;
-    const double angle_rad = std::atan2(dot(from, pose.lateral), dot(from, pose.axis));
-    if (std::abs(dot(from, up)) < kBeam_m * scale && std::abs(angle_rad) < half_rad)
-      deepest_m = std::max(deepest_m, length(from));
-  }
-  // Continuous, not in steps as on a scanner: similar hearts have similar pictures.
-  return deepest_m + kBehind_m * scale;
+StandardPlane standardPlane(View view, const HeartFrame& heart) {
+  const Aim aim = aimOf(view, heart);
+  StandardPlane plane{normalised(cross(aim.axis, aim.lateral)), aim.axis, aim.target};
+  plane.short_axis = view == View::psax_base || view == View::psax_mid || view == View::psax_apex;
+  if (plane.short_axis) return plane;
+  const Vec3d middle = 0.5 * (heart.origin + heart.apex);
+  plane.centre = middle - dot(middle - aim.target, plane.normal) * plane.normal;
+  return plane;
 }
 
-ProbePose standardPose(View view, const HeartFrame& heart, std::span<const Vec3d> outside_m,
-                       double wall_m, std::span<const Vec3d> front_m) {
+// A distance is largest at a corner of what the image holds of a facet.
+double fittingDepth(std::span<const Facet> outside_m, const ProbePose& pose, double half_rad,
+                    double scale) {
+  const Vec3d up = cross(pose.axis, pose.lateral);
+  const double sine = std::sin(half_rad), cosine = std::cos(half_rad), beam_m = kBeam_m * scale;
+  Facets shown{outside_m.begin(), outside_m.end()};
+  shown = partAbove(
+      shown, [&](Vec3d p) { return dot(p - pose.apex, up); }, -beam_m);
+  shown = partAbove(
+      shown, [&](Vec3d p) { return -dot(p - pose.apex, up); }, -beam_m);
+  for (const double side : {-1.0, 1.0})
+    shown = partAbove(
+        shown,
+        [&](Vec3d p) {
+          return sine * dot(p - pose.apex, pose.axis) +
+                 side * cosine * dot(p - pose.apex, pose.lateral);
+        },
+        0);
+  // Not in steps, as a scanner's: hearts that are nearly alike have pictures that are.
+  return farthestFrom(shown, pose.apex) + kBehind_m * scale;
+}
+
+ProbePose standardPose(View view, const HeartFrame& heart, std::span<const Facet> outside_m,
+                       double wall_m, std::span<const Facet> front_m) {
   const Aim aim = aimOf(view, heart);
   const bool front = aim.beside_sternum && !front_m.empty();
   const double to_surface_m =

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/vec3.h"
+#include "motion/views/facets.h"
 #include "scene/view_placement.h"
 
 namespace echocine {
@@ -38,16 +39,25 @@ struct ProbePose {
   double chest_m = 0;  // from the skin to the pericardium, at end-diastole
 };
 
-// The probe on the skin: at the thickness of the chest in front of the outermost of `outside_m` in
-// the centre of the beam, and deep enough for all of them in the image. wall_m: thickness between
-// these points and the heart's surface. front_m: points in front of a parasternal probe, instead of
-// all.
-ProbePose standardPose(View view, const HeartFrame& heart, std::span<const Vec3d> outside_m,
-                       double wall_m = 0, std::span<const Vec3d> front_m = {});
+// The imaging plane of a view.
+struct StandardPlane {
+  Vec3d normal, axis;  // unit: across the plane; of the beam, in it
+  // In the plane: of a long axis, the place nearest to the middle of the ventricle; of a short
+  // axis, the place that the view looks at.
+  Vec3d centre;
+  bool short_axis = false;  // if not, the plane is parallel to the long axis
+};
+StandardPlane standardPlane(View view, const HeartFrame& heart);
 
-// The path length from the apex that contains all points in the image, within `half_rad` of the
-// axis.
-double fittingDepth(std::span<const Vec3d> outside_m, const ProbePose& pose, double half_rad,
+// The probe on the skin: at the thickness of the chest in front of the outermost of `outside_m` in
+// the centre of the beam, and deep enough for all of it in the image. wall_m: thickness between
+// this surface and the heart's. front_m: what lies in front of a parasternal probe, instead of all.
+ProbePose standardPose(View view, const HeartFrame& heart, std::span<const Facet> outside_m,
+                       double wall_m = 0, std::span<const Facet> front_m = {});
+
+// The path length from the apex that contains the surface in the image, within `half_rad` of the
+// axis, at most a right angle.
+double fittingDepth(std::span<const Facet> outside_m, const ProbePose& pose, double half_rad,
                     double scale);
 
 }  // namespace echocine

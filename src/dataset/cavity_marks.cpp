@@ -29,7 +29,7 @@ CavityMarks marksOf(const Scene& scene, const MeshMotion& motion, double phase) 
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     const Role role = roleOf(scene.structures[s]);
     if (role == Role::none || role == Role::surroundings) continue;
-    RoleSurface part{role, scene.structures[s].name, {}};
+    RoleSurface part{role, scene.structures[s].name, {}, motion.surfaces()[s].triangles};
     for (const Vec3f p : surfaces.positions_m[s])
       part.points_m.push_back(scene.probe.pose.toWorld(toDouble(p)));
     parts.push_back(std::move(part));

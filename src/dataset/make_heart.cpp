@@ -181,7 +181,7 @@ void addLoops(const Spec& spec, const Draw& draw, const Monitor& monitor, Heart&
     if (v == 0)
       recording = recordBeat(model, spec.views[v], spec.keyframes);
     else
-      recording.pose = poseOf(spec.views[v], model);  // the same beat from elsewhere
+      recording.pose = poseOf(spec.views[v], recording);  // the same beat from elsewhere
     surroundProbe(spec, draw, v, model, recording);
     Scene scene = sceneOf(spec, draw, v, model.parameters(), recording);
     made.loops.push_back(makeLoop(spec, draw, v, std::move(scene), marks_at, monitor));

@@ -74,7 +74,7 @@ Scene HeartNodes::sceneOf(std::size_t heart, heart::View view) const {
   const Heart& h = hearts_[heart];
   const heart::ParametricHeart model(h.parameters);
   heart::Recording recording = h.beat;
-  recording.pose = heart::poseOf(view, model);
+  recording.pose = heart::poseOf(view, recording);
   heart::surround(view, recording.pose, model, recording);
   return heart::sceneOf(view, h.parameters, recording);
 }

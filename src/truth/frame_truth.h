@@ -58,7 +58,7 @@ class TruthMaker {
   const std::vector<Tracked>& tracked() const { return tracked_; }
 
   // For the whole loop, if function is requested: the left ventricle's valves (none if its
-  // volume does not change), and the view at the reference phase.
+  // volume does not change), and the view at end-diastole (none without the roles of a heart).
   const std::optional<ValveTimes>& valves() const { return valves_; }
   const std::optional<ViewOffset>& view() const { return view_; }
 

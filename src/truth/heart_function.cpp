@@ -135,14 +135,6 @@ LongAxis HeartFunction::axisIn(const SurfaceFrame& surfaces) const {
   return {base_m, farthestPlace(motion_.surfaces()[index(cavity_)].triangles, p, base_m)};
 }
 
-ViewLandmarks HeartFunction::landmarks(const SurfaceFrame& at_reference) const {
-  ViewLandmarks marks{axes_, {}, {}};
-  if (hasRightHeart())
-    marks.tricuspid_m = tricuspid_.middle(at_reference.positions_m[index(*right_)]);
-  if (!aortic_.empty()) marks.aortic_m = aortic_.middle(at_reference.positions_m[index(cavity_)]);
-  return marks;
-}
-
 void HeartFunction::addRings(const SurfaceFrame& surfaces, FunctionFrame& f) const {
   const auto ring = [&](const Orifice& orifice, SurfaceId cavity) -> std::optional<RingFrame> {
     if (orifice.empty()) return std::nullopt;

@@ -14,7 +14,6 @@
 #include "truth/orifice.h"
 #include "truth/simpson.h"
 #include "truth/truth_values.h"
-#include "truth/view_offset.h"
 
 namespace echocine {
 
@@ -38,7 +37,6 @@ class HeartFunction {
   SurfaceId wall() const { return wall_; }
   const HeartAxes& axes() const { return axes_; }             // at the reference phase
   bool hasRightHeart() const { return !tricuspid_.empty(); }  // and a ring between its cavities
-  ViewLandmarks landmarks(const SurfaceFrame& at_reference) const;
 
   FunctionFrame at(const SurfaceFrame& surfaces, const FieldFrame& field) const;
 

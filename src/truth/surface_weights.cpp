@@ -4,49 +4,15 @@
 #include <array>
 #include <cmath>
 
+#include "motion/views/facets.h"
+
 namespace echocine {
 
 namespace {
 
-using Corners = std::array<Vec3d, 3>;
-
-Corners cornersOf(const Triangle& t, std::span<const Vec3f> p) {
+Facet facetOf(const Triangle& t, std::span<const Vec3f> p) {
   return {toDouble(p[t[0]]), toDouble(p[t[1]]), toDouble(p[t[2]])};
 }
-
-double areaOf(const Corners& c) {
-  return 0.5 * length(cross(c[1] - c[0], c[2] - c[0]));
-}
-
-// The part of a triangle at heights over `least`, heights linear between the corners: its area and
-// its middle times that.
-struct Part {
-  double area = 0;
-  Vec3d moment{};
-};
-
-Part partAbove(const Corners& c, const std::array<double, 3>& height, double least) {
-  std::array<Vec3d, 4> kept{};
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const double a = height[i] - least, b = height[j] - least;
-    if (a >= 0) kept[n++] = c[i];
-    if ((a >= 0) != (b >= 0)) kept[n++] = c[i] + (a / (a - b)) * (c[j] - c[i]);
-  }
-  Part part;
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    const Corners piece{kept[0], kept[i], kept[i + 1]};
-    const double area = areaOf(piece);
-    part.area += area;
-    part.moment = part.moment + (area / 3) * (piece[0] + piece[1] + piece[2]);
-  }
-  return part;
-}
-
-}  // namespace
-
-namespace {
 
 // Shares of a triangle's vertices, of which those outside the part give theirs to the others.
 std::array<double, 3> keptShares(std::array<double, 3> shares,
@@ -85,8 +51,10 @@ std::vector<double> vertexAreas(const SurfacePart& part) {
   std::vector<double> areas(part.points_m.size(), 0);
   for (const Triangle& t : part.triangles) {
     const std::array<double, 3> heights = heightsOf(part, t);
-    const Corners corners{part.points_m[t[0]], part.points_m[t[1]], part.points_m[t[2]]};
-    const double third = partAbove(corners, heights, 0).area / 3;
+    Facets inside;
+    addPartAbove({part.points_m[t[0]], part.points_m[t[1]], part.points_m[t[2]]}, heights, inside);
+    double third = 0;
+    for (const Facet& facet : inside) third += areaOf(facet) / 3;
     const std::array<double, 3> shares = keptShares({third, third, third}, heights);
     for (std::size_t i = 0; i < 3; ++i) areas[t[i]] += shares[i];
   }
@@ -124,15 +92,9 @@ void addCutLengths(const SurfacePart& part, Vec3d on_m, Vec3d normal,
 }
 
 Vec3d surfaceMiddle(std::span<const Triangle> triangles, std::span<const Vec3f> points_m) {
-  Vec3d sum;
-  double area = 0;
-  for (const Triangle& t : triangles) {
-    const Corners c = cornersOf(t, points_m);
-    const double of_this = areaOf(c);
-    sum = sum + (of_this / 3) * (c[0] + c[1] + c[2]);
-    area += of_this;
-  }
-  return (1 / area) * sum;
+  Facets facets;
+  for (const Triangle& t : triangles) facets.push_back(facetOf(t, points_m));
+  return middleOf(facets);
 }
 
 Vec3d farthestPlace(std::span<const Triangle> triangles, std::span<const Vec3f> points_m,
@@ -140,17 +102,17 @@ Vec3d farthestPlace(std::span<const Triangle> triangles, std::span<const Vec3f> 
   constexpr double kApexShare = 0.03;
   double farthest_m = 0;
   for (const Vec3f p : points_m) farthest_m = std::max(farthest_m, length(toDouble(p) - base_m));
-  Part whole;
+  const double least_m = (1 - kApexShare) * farthest_m;
+  Facets tip;
   for (const Triangle& t : triangles) {
-    const Corners c = cornersOf(t, points_m);
-    std::array<double, 3> from_base{};
-    for (std::size_t i = 0; i < 3; ++i) from_base[i] = length(c[i] - base_m);
-    const Part part = partAbove(c, from_base, (1 - kApexShare) * farthest_m);
-    whole.area += part.area;
-    whole.moment = whole.moment + part.moment;
+    const Facet f = facetOf(t, points_m);
+    addPartAbove(f,
+                 {length(f[0] - base_m) - least_m, length(f[1] - base_m) - least_m,
+                  length(f[2] - base_m) - least_m},
+                 tip);
   }
-  if (!(whole.area > 0)) return base_m;
-  return base_m + farthest_m * normalised((1 / whole.area) * whole.moment - base_m);
+  if (tip.empty()) return base_m;
+  return base_m + farthest_m * normalised(middleOf(tip) - base_m);
 }
 
 }  // namespace echocine

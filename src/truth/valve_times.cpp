@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace echocine {
 
@@ -30,6 +31,16 @@ double crossing(std::span<const double> volume_ml, std::size_t from, int way, do
   return 0;
 }
 
+// The phase at which flow begins, or ends if looked at backwards. Flow grows linearly at first, so
+// the share of the stroke volume that has passed grows as the square of time, and its root, known
+// at two shares, leads back to 0. step_ml: one share, negative if the volume falls.
+double onset(std::span<const double> volume_ml, std::size_t from, int way, double step_ml) {
+  const double first = crossing(volume_ml, from, way, volume_ml[from] + step_ml),
+               second = crossing(volume_ml, from, way, volume_ml[from] + 2 * step_ml);
+  const double phase = first - std::remainder(second - first, 1.0) / (std::numbers::sqrt2 - 1);
+  return phase - std::floor(phase);
+}
+
 }  // namespace
 
 std::optional<ValveTimes> valveTimes(std::span<const double> volume_ml) {
@@ -39,10 +50,10 @@ std::optional<ValveTimes> valveTimes(std::span<const double> volume_ml) {
   if (!(stroke_ml > 1e-3 * *most)) return std::nullopt;
   const auto full = static_cast<std::size_t>(most - volume_ml.begin()),
              empty = static_cast<std::size_t>(least - volume_ml.begin());
-  const double full_ml = *most - kFull * stroke_ml, empty_ml = *least + kEmpty * stroke_ml;
-  return ValveTimes{crossing(volume_ml, full, -1, full_ml), crossing(volume_ml, full, 1, full_ml),
-                    crossing(volume_ml, empty, -1, empty_ml),
-                    crossing(volume_ml, empty, 1, empty_ml)};
+  return ValveTimes{onset(volume_ml, full, -1, -kFull * stroke_ml),
+                    onset(volume_ml, full, 1, -kFull * stroke_ml),
+                    crossing(volume_ml, empty, -1, *least + kEmpty * stroke_ml),
+                    onset(volume_ml, empty, 1, kEmpty * stroke_ml)};
 }
 
 }  // namespace echocine

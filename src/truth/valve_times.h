@@ -12,8 +12,10 @@ struct ValveTimes {
 };
 
 // volume_ml: of the cavity at even steps over one beat from phase 0. A valve is open while volume
-// passes it. Both are closed while the volume is within 1 % of the stroke volume of its maximum, or
-// within 0.2 % of its minimum. None if the volume is constant.
+// passes it. The aortic valve closes where the volume is within 0.2 % of the stroke volume of its
+// minimum. The other times are extrapolated to no flow from 1 and 2 % below the maximum and from
+// 0.2 and 0.4 % above the minimum, for flow that begins and ends linearly in time. None if the
+// volume is constant.
 std::optional<ValveTimes> valveTimes(std::span<const double> volume_ml);
 
 }  // namespace echocine

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "motion/surfaces/surface_frame.h"
-#include "truth/aha_segments.h"
+#include "motion/views/heart_marks.h"
 
 namespace echocine {
 
@@ -13,29 +13,23 @@ namespace echocine {
 struct ViewOffset {
   // a4c, a2c, a3c, plax, psax-base, psax-mid, psax-apex, subcostal, other
   const char* label = "other";
-  // Between the ventricle's long axis and the imaging plane; in short axes, the plane's normal.
+  // Between the ventricle's long axis and the imaging plane; in short axes, between the normals of
+  // the standard and of the imaging plane.
   double tilt_deg = 0;
   // About the long axis, from the standard plane; none in short axes.
   std::optional<double> rotation_deg;
-  // Distance of the ventricle's centre from the imaging plane; in short axes along the long axis,
-  // from the centre of the visible third.
+  // Distance of the standard plane's centre from the imaging plane. In short axes along the
+  // standard plane's normal, positive if the imaging plane is nearer to the apex.
   double shift_mm = 0;
-  // The true long axis minus the one visible in the plane; none in short axes.
+  // The long axis that the standard plane shows minus the one that the imaging plane shows; none in
+  // short axes.
   std::optional<double> foreshortening_mm;
 };
 
-// Centres of the existing rings.
-struct ViewLandmarks {
-  HeartAxes axes;
-  std::optional<Vec3d> tricuspid_m, aortic_m;
-};
-
-// Standard planes contain the long axis. The four-chamber plane also contains the centre of the
-// tricuspid ring, or else of the right ventricle. The two-chamber plane is rotated by 60 degrees
-// from it. The long-axis plane contains the centre of the aortic ring, or else is rotated by -60
-// degrees. Rotations are from the lateral towards the anterior wall. `cavity` at `positions_m`,
-// probe frame.
-ViewOffset viewOffset(const ViewLandmarks& marks, const SurfaceTopology& cavity,
+// Against the planes that place a probe (standardPlane()). `heart` is at end-diastole, in the probe
+// frame; `cavity` of the left ventricle at `positions_m`, in the same instant and frame.
+// "psax-base" needs an aortic valve.
+ViewOffset viewOffset(const HeartMarks& heart, const SurfaceTopology& cavity,
                       std::span<const Vec3f> positions_m);
 
 }  // namespace echocine

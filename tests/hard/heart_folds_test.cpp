@@ -75,7 +75,9 @@ void expectNoFold(const heart::Parameters& parameters, const FoldExtent& wanted)
   Scene scene = heart::heartScene(parameters, heart::View::a4c, wanted.keyframes);
   scene.acquisition.frame_rate_hz = wanted.frames * scene.acquisition.heart_rate_hz;
   const MeshMotion motion(scene);
-  EXPECT_EQ(motionWarnings(scene, motion), std::vector<std::string>{});
+  // The sac of an extreme heart may lose more than 1 % of a stroke between two keyframes.
+  for (const std::string& warning : motionWarnings(scene, motion))
+    EXPECT_NE(warning.find(" mL under both adjacent keyframes"), std::string::npos) << warning;
   std::vector<std::vector<std::array<std::size_t, 2>>> hinges;
   for (const SurfaceTopology& surface : motion.surfaces())
     hinges.push_back(hingesOf(surface.triangles));

@@ -63,7 +63,7 @@ TEST(HeartFunctionLaw, TheShippedHeartHasWhatWasDialled) {
   EXPECT_LT(std::abs(*maker.view()->foreshortening_mm), 1);
   const double near = 10e-3 * dials.heart_rate_bpm / 60;  // 10 ms
   EXPECT_LT(std::abs(std::remainder(maker.valves()->mitral_closes, 1.0)), near);
-  EXPECT_NEAR(maker.valves()->aortic_opens, events.aortic_opens, near);
+  EXPECT_NEAR(maker.valves()->aortic_opens, events.aortic_opens, near / 5);
   EXPECT_NEAR(maker.valves()->aortic_closes, events.aortic_closes, near);
   EXPECT_NEAR(maker.valves()->mitral_opens, events.mitral_opens, near);
 }
@@ -81,10 +81,11 @@ TEST(HeartFunctionLaw, ValvesFollowTheVolume) {
   }
   const std::optional<ValveTimes> valves = valveTimes(volume_ml);
   ASSERT_TRUE(valves);
-  EXPECT_NEAR(valves->aortic_opens, 0.1, 0.005);
+  // This flow begins at once instead of linearly: the extrapolation is early by 0.0057 at most.
+  EXPECT_NEAR(valves->aortic_opens, 0.1, 0.006);
   EXPECT_NEAR(valves->aortic_closes, 0.4, 0.005);
-  EXPECT_NEAR(valves->mitral_opens, 0.5, 0.005);
-  EXPECT_NEAR(valves->mitral_closes, 0.9, 0.005);
+  EXPECT_NEAR(valves->mitral_opens, 0.5, 0.006);
+  EXPECT_NEAR(valves->mitral_closes, 0.9, 0.006);
   EXPECT_FALSE(valveTimes(std::vector<double>(100, 80.0)));
 }
 

@@ -87,7 +87,7 @@ TEST(HeartLoopLaw, NoViewOfAHeartIsWarnedOf) {
   const RecordedHeart& heart = recordedHeart({{"ef", 0.35}}, 24);
   heart::Recording recording = heart.recording;
   for (const ViewName& name : viewNames()) {
-    recording.pose = heart::poseOf(name.view, heart.model);
+    recording.pose = heart::poseOf(name.view, recording);
     heart::surround(name.view, recording.pose, heart.model, recording);
     EXPECT_EQ(warningsOf(heart::sceneOf(name.view, heart.parameters, recording)),
               std::vector<std::string>{})

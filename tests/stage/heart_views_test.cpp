@@ -23,7 +23,7 @@ heart::ProbePose poseOnce(View view) {
   static std::map<View, heart::ProbePose> poses;
   const auto known = poses.find(view);
   if (known != poses.end()) return known->second;
-  return poses[view] = heart::poseOf(view, defaultHeart());
+  return poses[view] = heart::poseOf(view, recordedHeart({}, 4).recording);
 }
 
 // A view of the heart: image coordinates of points, x to the right, z deep, y out of the plane.
@@ -174,7 +174,7 @@ TEST(HeartViews, TheDepthFollowsTheEjectionFractionWithoutSteps) {
   double last_m = 0;
   for (int i = 0; i <= 6; ++i) {
     const heart::ParametricHeart model(heart::parametersFrom({{"ef", 0.60 - 0.01 * i}}));
-    const double depth_m = heart::poseOf(View::a4c, model).depth_m;
+    const double depth_m = heart::poseOf(View::a4c, heart::recordBeat(model, View::a4c, 4)).depth_m;
     if (i > 0) {
       EXPECT_NEAR(depth_m, last_m, 1e-3) << i;
       EXPECT_NE(depth_m, last_m) << i;
@@ -186,7 +186,7 @@ TEST(HeartViews, TheDepthFollowsTheEjectionFractionWithoutSteps) {
 TEST(HeartViews, AreAimedAtAnyHeart) {
   const heart::ParametricHeart small(heart::parametersFrom({{"body-scale", 0.6}}));
   const heart::Landmarks marks = small.landmarksAt(0);
-  const heart::ProbePose pose = heart::poseOf(View::a4c, small);
+  const heart::ProbePose pose = heart::poseOf(View::a4c, heart::recordBeat(small, View::a4c, 4));
   EXPECT_LT(pose.depth_m, 0.75 * Image(View::a4c).pose.depth_m);
   EXPECT_LT(std::abs(dot(marks.mitral - pose.apex, cross(pose.axis, pose.lateral))), 2e-3);
 }

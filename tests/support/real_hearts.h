@@ -35,7 +35,7 @@ struct RealHeart {
   void add(Role role, const std::filesystem::path& file, double metres_per_unit) {
     Sha256 digest;
     const TriangleMesh mesh = readMesh(file, digest);
-    RoleSurface surface{role, file.stem().string(), {}};
+    RoleSurface surface{role, file.stem().string(), {}, mesh.triangles};
     for (const Vec3d p : mesh.positions) surface.points_m.push_back(metres_per_unit * p);
     surfaces.push_back(surface);
     triangles.push_back(mesh.triangles);

@@ -14,9 +14,11 @@ namespace echocine::support {
 inline HeartMarks marksIn(const std::vector<RoleSurface>& surfaces) {
   return findHeart(surfaces, {});
 }
-inline ProbePose poseIn(View view, const std::vector<RoleSurface>& surfaces) {
-  const HeartMarks marks = marksIn(surfaces);
+inline ProbePose poseIn(View view, const HeartMarks& marks) {
   return standardPose(view, marks.frame, marks.outside_m, marks.wall_m, marks.front_m);
+}
+inline ProbePose poseIn(View view, const std::vector<RoleSurface>& surfaces) {
+  return poseIn(view, marksIn(surfaces));
 }
 
 inline void expectNear(const ProbePose& pose, const ProbePose& wanted, double most_deg,

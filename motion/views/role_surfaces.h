@@ -1,11 +1,13 @@
 #pragma once
-// The vertices of structures by role.
+// The surfaces of structures by role.
 
 #include <string>
 #include <vector>
 
 #include "core/vec3.h"
+#include "motion/views/facets.h"
 #include "scene/role.h"
+#include "scene/triangle_mesh.h"
 
 namespace echocine {
 
@@ -14,11 +16,15 @@ struct RoleSurface {
   Role role = Role::none;
   std::string name;
   std::vector<Vec3d> points_m;  // vertices, world
+  std::vector<Triangle> triangles;
 };
 
-// Points of all surfaces with the role, thinned: enough for a millimetre, few enough for all
-// pairwise distances.
-std::vector<Vec3d> pointsOf(const std::vector<RoleSurface>& surfaces, Role role);
+// All surfaces with the role, as meshed.
+Facets meshedFacetsOf(const std::vector<RoleSurface>& surfaces, Role role);
+
+// The same with no edge over 3 % of its extent (our choice): heights that are
+// taken as linear within a facet are then within 0.1 mm.
+Facets facetsOf(const std::vector<RoleSurface>& surfaces, Role role);
 
 // "lv (role lv_cavity)": the first structure of a role, for messages; the role alone if there is
 // none.
@@ -27,11 +33,11 @@ std::string namedRole(const std::vector<RoleSurface>& surfaces, Role role);
 // "there are la, ra", each role once.
 std::string rolesThere(const std::vector<RoleSurface>& surfaces);
 
-// All vertices of the heart without the great vessels.
-std::vector<Vec3d> outsideOf(const std::vector<RoleSurface>& surfaces);
+// The heart without the great vessels, as meshed.
+Facets outsideOf(const std::vector<RoleSurface>& surfaces);
 
 // The same without the atria: what lies behind the chest beside the sternum.
-std::vector<Vec3d> frontOf(const std::vector<RoleSurface>& surfaces);
+Facets frontOf(const std::vector<RoleSurface>& surfaces);
 
 // Is there a surface around the left ventricle's muscle?
 bool hasWall(const std::vector<RoleSurface>& surfaces);

@@ -1,17 +1,16 @@
-#include "motion/views/role_points.h"
+#include "motion/views/role_surfaces.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "motion/views/point_cloud.h"
 #include "scene/names.h"
 
 namespace echocine {
 
 namespace {
 
-constexpr std::size_t kMostPoints = 2000;
+constexpr double kFinest = 0.03;  // edge of a refined surface, of its extent
 
 bool isAmong(Role role, std::initializer_list<Role> roles) {
   return std::find(roles.begin(), roles.end(), role) != roles.end();
@@ -27,17 +26,27 @@ bool isAtrium(Role role) {
 }
 
 template <typename Wanted>
-std::vector<Vec3d> pointsWhere(const std::vector<RoleSurface>& surfaces, Wanted wanted) {
-  std::vector<Vec3d> all;
-  for (const RoleSurface& s : surfaces)
-    if (wanted(s.role)) all.insert(all.end(), s.points_m.begin(), s.points_m.end());
+Facets facetsWhere(const std::vector<RoleSurface>& surfaces, Wanted wanted) {
+  Facets all;
+  for (const RoleSurface& s : surfaces) {
+    if (!wanted(s.role)) continue;
+    for (const Triangle& t : s.triangles)
+      all.push_back({s.points_m[t[0]], s.points_m[t[1]], s.points_m[t[2]]});
+  }
   return all;
 }
 
 }  // namespace
 
-std::vector<Vec3d> pointsOf(const std::vector<RoleSurface>& surfaces, Role role) {
-  return thinned(pointsWhere(surfaces, [role](Role other) { return other == role; }), kMostPoints);
+Facets meshedFacetsOf(const std::vector<RoleSurface>& surfaces, Role role) {
+  return facetsWhere(surfaces, [role](Role other) { return other == role; });
+}
+
+Facets facetsOf(const std::vector<RoleSurface>& surfaces, Role role) {
+  const Facets all = meshedFacetsOf(surfaces, role);
+  if (all.empty()) return all;
+  const double extent = 2 * farthestFrom(all, middleOf(all));
+  return extent > 0 ? refined(all, kFinest * extent) : all;
 }
 
 std::string namedRole(const std::vector<RoleSurface>& surfaces, Role role) {
@@ -57,12 +66,12 @@ std::string rolesThere(const std::vector<RoleSurface>& surfaces) {
   return roles.empty() ? "no structure has one" : "there are " + roles;
 }
 
-std::vector<Vec3d> outsideOf(const std::vector<RoleSurface>& surfaces) {
-  return pointsWhere(surfaces, isOfHeart);
+Facets outsideOf(const std::vector<RoleSurface>& surfaces) {
+  return facetsWhere(surfaces, isOfHeart);
 }
 
-std::vector<Vec3d> frontOf(const std::vector<RoleSurface>& surfaces) {
-  return pointsWhere(surfaces, [](Role role) { return isOfHeart(role) && !isAtrium(role); });
+Facets frontOf(const std::vector<RoleSurface>& surfaces) {
+  return facetsWhere(surfaces, [](Role role) { return isOfHeart(role) && !isAtrium(role); });
 }
 
 bool hasWall(const std::vector<RoleSurface>& surfaces) {
