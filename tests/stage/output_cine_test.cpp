@@ -6,6 +6,7 @@
 #include <cstring>
 #include <thread>
 
+#include "core/part_file.h"
 #include "output_fixture.h"
 
 extern "C" {
