@@ -218,6 +218,23 @@ TEST(CompareMetrics, WhatRegistrationMovesOutOfSightCountsAsUnlike) {
   EXPECT_EQ(overlapShare(all, half, 2), 1);  // twice as large: the same half fills all
 }
 
+// By hand, and of a straight line that the curve had no part in making.
+TEST(GreyCalibration, TheCurveIsLinearBetweenItsKnots) {
+  const GreyCurve curve{{0, 100, 200}, {10, 50, 250}};
+  for (const auto& [grey, wanted] : std::initializer_list<std::pair<double, double>>{
+           {-5, 10}, {0, 10}, {25, 20}, {100, 50}, {175, 200}, {200, 250}, {300, 250}})
+    EXPECT_NEAR(curve(grey), wanted, 1e-12) << grey;
+  std::vector<float> synthetic, real;
+  for (int grey = 0; grey <= 200; ++grey) {
+    synthetic.push_back(static_cast<float>(grey));
+    real.push_back(static_cast<float>(3 + 0.5 * grey));
+  }
+  CalibrationFit fit({0, 60, 200});
+  fit.add(synthetic, real, std::vector<float>(synthetic.size(), 1));
+  const GreyCurve line = fit.solve(false);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(line.values[k], 3 + 0.5 * line.knots[k], 1e-6);
+}
+
 // Least squares without noise give back the curve itself.
 TEST(GreyCalibration, AKnownCurveIsFoundAgain) {
   const GreyCurve truth{{0, 60, 130, 200, 255}, {12, 90, 70, 180, 240}};

@@ -4,82 +4,53 @@
     tests/mutation/run.py [--only ROOM ...] [--sample N] [--again]
     tests/mutation/run.py --check       # only whether each defect still has its place in the sources
 
-The list is mutations.txt. The copy and its build lie in build/mutation; results.tsv there keeps what is known, so a
-run that was ended goes on. A defect whose file changed since is tried anew. Environment: ECHOCINE_MUTATION_PREFIX
-stands before each command (such as `nice`).
+The list is mutations.txt. The copy and its build lie in build/mutation; results.tsv there keeps the results, so a
+run that was ended goes on. A defect whose file or tests changed since is tried again. A whole run rewrites TABLE.md.
+The build compiles each listed file alone, so one defect costs one file and a link. A defect in a header would cost
+the whole tree: its tests are compiled alone instead, and need no library. Environment: ECHOCINE_MUTATION_PREFIX
+stands before each command (such as `nice`), ECHOCINE_MUTATION_CMAKE adds options of CMake.
 """
 
 import argparse
-import hashlib
+import datetime
 import os
 import re
 import shutil
 import shlex
+import signal
 import subprocess
 import sys
 import time
-from dataclasses import dataclass
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from planted import ROOT, fault_of, read_list
+
 WORK = ROOT / "build" / "mutation"
-SOURCE, BUILD, RESULTS = WORK / "source", WORK / "build", WORK / "results.tsv"
+SOURCE, RESULTS = WORK / "source", WORK / "results.tsv"
+BUILD = SOURCE / "build" / "mutation"  # as deep as other builds, so that a compiler cache knows the tests
+TABLE = ROOT / "tests" / "mutation" / "TABLE.md"
 PREFIX = shlex.split(os.environ.get("ECHOCINE_MUTATION_PREFIX", ""))
+SURVIVED = "SURVIVED"
 RUN_S = 600  # of the tests of one defect: one that makes them hang is noticed
 
 
-@dataclass
-class Mutation:
-    file: str
-    old: str
-    new: str
-    tests: list  # test sources, which the filter of suites is made of
-
-    @property
-    def room(self):
-        parts = Path(self.file).parts
-        return parts[1] if parts[0] == "src" else parts[0]
-
-    def key(self, text):
-        """Of this defect in this very file."""
-        return hashlib.sha256("\0".join([self.file, self.old, self.new, text]).encode()).hexdigest()[:16]
-
-
-def read_list():
-    """Blocks between empty lines: FILE, `- old`, `+ new`, `= tests`; old and new are parts of one line."""
-    mutations = []
-    text = (ROOT / "tests" / "mutation" / "mutations.txt").read_text()
-    for block in re.split(r"\n\s*\n", text):
-        lines = [line for line in block.split("\n") if line and not line.startswith("#")]
-        if not lines:
-            continue
-        if len(lines) != 4 or [line[:2] for line in lines[1:]] != ["- ", "+ ", "= "]:
-            sys.exit(f"mutations.txt: a block is not FILE, - OLD, + NEW, = TESTS: {block!r}")
-        mutations.append(Mutation(lines[0], lines[1][2:], lines[2][2:], lines[3][2:].split()))
-    return mutations
-
-
-def fault_of(mutation):
-    """Why a defect cannot be planted; empty where it can."""
-    file = ROOT / mutation.file
-    if not file.is_file():
-        return "no such file"
-    count = file.read_text().count(mutation.old)
-    if count != 1:
-        return f"{count} places, accepted: one"
-    missing = [t for t in mutation.tests if not (ROOT / "tests" / t).is_file()]
-    return f"no test {missing[0]}" if missing else ""
-
-
-def run(command, **options):
-    return subprocess.run([*PREFIX, *map(str, command)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
+def run(command, timeout=None, **options):
+    """A command and what it prints; after the timeout it ends with all its children."""
+    with subprocess.Popen([*PREFIX, *map(str, command)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          errors="replace", start_new_session=True, **options) as child:
+        try:
+            out, _ = child.communicate(timeout=timeout)
+        except BaseException:
+            os.killpg(child.pid, signal.SIGKILL)
+            raise
+    return subprocess.CompletedProcess(command, child.returncode, out)
 
 
 def copy_tree():
     """Files that differ, so that a build has little to do."""
     wanted = set()
     for folder, folders, files in os.walk(ROOT):
-        folders[:] = [f for f in folders if not (f in ("build", ".git") and Path(folder) == ROOT)]
+        folders[:] = [f for f in folders if f not in ("build", ".git") or Path(folder) != ROOT]
         for name in files:
             file = (Path(folder) / name).relative_to(ROOT)
             wanted.add(file)
@@ -89,21 +60,58 @@ def copy_tree():
             there.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(ROOT / file, there)
             there.touch()
-    for there in [p for p in SOURCE.rglob("*") if p.is_file() and p.relative_to(SOURCE) not in wanted]:
-        there.unlink()
+    for folder, folders, files in os.walk(SOURCE):
+        folders[:] = [f for f in folders if Path(folder) != SOURCE or f != "build"]
+        for name in files:
+            if (Path(folder) / name).relative_to(SOURCE) not in wanted:
+                (Path(folder) / name).unlink()
+
+
+def write_alone(mutations):
+    """What CMake reads before the project's own file: the listed sources outside unity builds, and a fast build."""
+    lines = ["function(build_for_mutations)"]
+    for file in sorted({m.file for m in mutations if not m.in_header}):
+        folder = Path(file).parent
+        while not (ROOT / folder / "CMakeLists.txt").is_file():
+            folder = folder.parent
+        lines.append(f"  set_source_files_properties({SOURCE / file} DIRECTORY {SOURCE / folder} "
+                     "PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)")
+    lines += ["  get_property(rooms GLOBAL PROPERTY ECHOCINE_ROOMS)",
+              "  foreach(room IN LISTS rooms)",
+              "    target_compile_options(echocine_${room} PRIVATE -O1 -w)",
+              "  endforeach()", "endfunction()", "cmake_language(DEFER CALL build_for_mutations)"]
+    (WORK / "alone.cmake").write_text("\n".join(lines) + "\n")
+
+
+def configure():
+    return run(["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
+                "-DCMAKE_UNITY_BUILD_BATCH_SIZE=24", f"-DCMAKE_PROJECT_echocine_INCLUDE={WORK / 'alone.cmake'}",
+                *(["-DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=lld"] if shutil.which("ld.lld") else []),
+                *shlex.split(os.environ.get("ECHOCINE_MUTATION_CMAKE", ""))])
 
 
 def prepare(mutations):
-    """The copy as the tree is, and its build of the tests that the list names."""
+    """The copy as the tree is, and its build."""
     copy_tree()
-    tests = sorted({t for m in mutations for t in m.tests})
-    made = run(["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DECHOCINE_ARCH=x86-64-v3",
-                f"-DECHOCINE_TEST_FILES={';'.join(tests)}"])
+    write_alone(mutations)
+    made = configure()
     made = made if made.returncode else build()
     if made.returncode:
         sys.exit(made.stdout[-4000:])
-    seen = test_run(tests)
+
+
+def check_killers(mutations, verdicts):
+    """Without a defect the tests that noticed one pass: else they prove nothing."""
+    made = build()
+    if made.returncode:
+        sys.exit(made.stdout[-4000:])
+    names = {v.removeprefix("killed by ") for v in verdicts if v.startswith("killed by ")}
+    patterns = sorted(n for n in names if "." in n)
+    seen = run_filter(patterns) if patterns else ""
+    unnamed = [t for m, v in zip(mutations, verdicts) if v.startswith("killed by ") and "." not in v for t in m.tests]
+    seen = seen or (test_run(unnamed) if unnamed else "")
     if seen:
+        RESULTS.unlink(missing_ok=True)
         sys.exit(f"without a defect a test fails: {seen}")
 
 
@@ -120,9 +128,12 @@ def suites(tests):
 
 def test_run(tests):
     """The first test that fails, or what else ended the run; empty where all pass."""
-    names = [pattern for s in suites(tests) for pattern in (f"{s}.*", f"*/{s}.*")]
+    return run_filter([pattern for s in suites(tests) for pattern in (f"{s}.*", f"*/{s}.*")])
+
+
+def run_filter(patterns, program="echocine_tests"):
     try:
-        ran = run([BUILD / "echocine_tests", "--gtest_fail_fast", f"--gtest_filter={':'.join(names)}"], timeout=RUN_S, cwd=BUILD)
+        ran = run([BUILD / program, "--gtest_fail_fast", f"--gtest_filter={':'.join(patterns)}"], timeout=RUN_S, cwd=BUILD)
     except subprocess.TimeoutExpired:
         return "no end"
     if ran.returncode == 0:
@@ -131,16 +142,37 @@ def test_run(tests):
     return failed.group(1).rstrip(",") if failed else f"code {ran.returncode}"
 
 
-def verdict_of(mutation, everything):
-    """Killed by its own tests, else by any of the list; survived; or not compiled."""
+def try_alone(mutation):
+    """The first failure of a header's tests, compiled without the project's libraries; None where they do not compile."""
+    made = run(["c++", "-std=c++20", "-O1", "-I", SOURCE / "src", "-I", SOURCE, *[SOURCE / "tests" / t for t in mutation.tests],
+                "-lgtest", "-lgtest_main", "-lfmt", "-o", BUILD / "alone"])
+    return None if made.returncode else run_filter(["*"], "alone")
+
+
+def header_verdict(mutation):
+    file = SOURCE / mutation.file
+    text = file.read_text()
+    without = try_alone(mutation)
+    if without != "":
+        sys.exit(f"{mutation.file}: without a defect its tests do not pass alone: {without}")
+    file.write_text(text.replace(mutation.old, mutation.new))
+    try:
+        seen = try_alone(mutation)
+        return "not compiled" if seen is None else f"killed by {seen}" if seen else SURVIVED
+    finally:
+        file.write_text(text)
+
+
+def verdict_of(mutation, tests):
+    """Killed by one of the tests, survived, or not compiled."""
     file = SOURCE / mutation.file
     text = file.read_text()
     file.write_text(text.replace(mutation.old, mutation.new))
     try:
         if build().returncode:
             return "not compiled"
-        seen = test_run(mutation.tests) or test_run(everything)
-        return f"killed by {seen}" if seen else "SURVIVED"
+        seen = test_run(tests)
+        return f"killed by {seen}" if seen else SURVIVED
     finally:
         file.write_text(text)
 
@@ -151,13 +183,52 @@ def known():
     return dict(line.split("\t", 1) for line in RESULTS.read_text().splitlines())
 
 
-def print_table(rows):
-    print("\n| file | planted | instead of | result |\n|---|---|---|---|")
+def table_of(rows):
+    out = ["| file | planted | instead of | result |", "|---|---|---|---|"]
     for mutation, verdict in rows:
         cells = [mutation.file, f"`{mutation.new}`", f"`{mutation.old}`", verdict]
-        print("| " + " | ".join(c.replace("|", "\\|") for c in cells) + " |")
+        out.append("| " + " | ".join(c.replace("|", "\\|") for c in cells) + " |")
     killed = sum(v.startswith("killed") for _, v in rows)
-    print(f"\n{killed} of {len(rows)} killed")
+    return "\n".join([*out, "", f"{killed} of {len(rows)} killed"])
+
+
+def write_table(rows):
+    version = re.search(r"project\(echocine VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
+    head = f"# Planted defects and their killers\n\nVersion {version}, {datetime.date.today()}, by `tests/mutation/run.py`.\n\n"
+    TABLE.write_text(head + table_of(rows) + "\n")
+
+
+def note(mutation, key, verdict, start):
+    with RESULTS.open("a") as file:
+        file.write(f"{key}\t{verdict}\n")
+    print(f"{mutation.file}: {verdict} ({time.monotonic() - start:.0f} s)", flush=True)
+
+
+def try_headers(mutations, keys, results):
+    for mutation in [m for m in mutations if keys[id(m)] not in results]:
+        start, key = time.monotonic(), keys[id(mutation)]
+        results[key] = header_verdict(mutation)
+        note(mutation, key, results[key], start)
+
+
+def try_all(mutations, keys, results):
+    """Adds to `results` what is not yet known of the mutations: first by their own tests, then by all of the list."""
+    missing = [m for m in mutations if keys[id(m)] not in results]
+    everything = sorted({t for m in mutations for t in m.tests})
+    verdicts = {}
+    for last in (False, True):
+        for mutation in missing:
+            key = keys[id(mutation)]
+            if verdicts.get(key, SURVIVED) != SURVIVED:
+                continue
+            start = time.monotonic()
+            verdicts[key] = verdict_of(mutation, everything if last else mutation.tests)
+            if last or verdicts[key] != SURVIVED:
+                note(mutation, key, verdicts[key], start)
+            else:
+                print(f"{mutation.file}: not noticed by its own tests", flush=True)
+        check_killers(missing, [verdicts[keys[id(m)]] for m in missing])
+    results.update(verdicts)
 
 
 def main():
@@ -179,20 +250,16 @@ def main():
         mutations = mutations[::max(1, len(mutations) // asked.sample)][:asked.sample]
     if asked.again:
         RESULTS.unlink(missing_ok=True)
-    results, rows = known(), []
-    keys = [m.key((ROOT / m.file).read_text()) for m in mutations]
-    if any(key not in results for key in keys):
+    results = known()
+    keys = {id(m): m.key() for m in mutations}
+    if any(key not in results for key in keys.values()):
         prepare(mutations)
-    everything = sorted({t for m in mutations for t in m.tests})
-    for mutation, key in zip(mutations, keys):
-        if key not in results:
-            start = time.monotonic()
-            results[key] = verdict_of(mutation, everything)
-            with RESULTS.open("a") as file:
-                file.write(f"{key}\t{results[key]}\n")
-            print(f"{mutation.file}: {results[key]} ({time.monotonic() - start:.0f} s)", flush=True)
-        rows.append((mutation, results[key]))
-    print_table(rows)
+        try_headers([m for m in mutations if m.in_header], keys, results)
+        try_all([m for m in mutations if not m.in_header], keys, results)
+    rows = [(m, results[keys[id(m)]]) for m in mutations]
+    print(table_of(rows))
+    if not asked.only and not asked.sample and not stale:
+        write_table(rows)
     return 0 if all(v.startswith("killed") for _, v in rows) else 1
 
 
