@@ -62,7 +62,8 @@ Volumes Simulator::make(const FrameTime& time, const Making& making, Workspace& 
   }
   if (!making.white || !rays_.receive()) return volumes_ml;
   clock_.time(Stage::signal, [&] {
-    w.greys = chain_.compress(std::move(w.polar.intensities), *making.white, time.time_s);
+    w.greys =
+        chain_.compress(std::move(w.polar.intensities), *making.white, time.time_s, w.polar.field);
   });
   if (persistence_ && making.persists)
     persistence_->apply(*making.white, time, w.greys, [&](const FrameTime& earlier) {
@@ -95,10 +96,11 @@ void Simulator::process(const FrameTime& time, LineRange lines, Workspace& w) co
     chain_.process(polar.intensities, speckle_ ? speckle_->reach(lines) : lines);
     chain_.process(polar.coherent, lines);
   });
-  if (speckle_)
-    clock_.time(Stage::speckle, [&] {
-      speckle_->apply(time, w.surfaces, polar.intensities, polar.coherent, lines);
-    });
+  if (!speckle_) return;
+  if (chain_.addsFields()) polar.field.resize(polar.intensities.size());
+  clock_.time(Stage::speckle, [&] {
+    speckle_->apply(time, w.surfaces, polar.intensities, polar.coherent, lines, polar.field);
+  });
 }
 
 // A frame that persists in a later one. It counts as no work of its own: how often it is made

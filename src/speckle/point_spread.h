@@ -15,6 +15,9 @@ inline constexpr double kWidthAtHalf = 2.3548200450309493;
 // exp(-(distance / deviation)^2 / 2); for deviation 0 it is 1 at the centre and 0 elsewhere.
 double bell(double distance, double deviation);
 
+// Gaussians are cut where 4 % of the amplitude remains.
+inline constexpr double kCutDeviations = 2.5;
+
 struct PointSpread {
   // pulse_cycles: of the signal's pulse.
   PointSpread(const Probe& probe, double pulse_cycles);
