@@ -26,6 +26,11 @@ inline Floats8 lanesAt(const float* from) {
   std::memcpy(&lanes, from, sizeof lanes);
   return lanes;
 }
+inline Floats4 fourAt(const float* from) {
+  Floats4 lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
 inline Doubles4 lanesAt(const double* from) {
   Doubles4 lanes;
   std::memcpy(&lanes, from, sizeof lanes);

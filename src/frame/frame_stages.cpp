@@ -54,7 +54,8 @@ Volumes FrameStages::make(const FrameTime& time, const Making& making, Workspace
   }
   if (!making.white || !rays.receive()) return volumes_ml;
   clock.time(Stage::signal, [&] {
-    w.greys = chain.compress(std::move(w.polar.intensities), *making.white, time.time_s);
+    w.greys =
+        chain.compress(std::move(w.polar.intensities), *making.white, time.time_s, w.polar.field);
   });
   if (effects.persistence && making.persists)
     effects.persistence->apply(*making.white, time, w.greys, [&](const FrameTime& earlier) {
@@ -85,10 +86,11 @@ void FrameStages::process(const FrameTime& time, LineRange lines, Workspace& w) 
     chain.process(polar.intensities, effects.speckle ? effects.speckle->reach(lines) : lines);
     chain.process(polar.coherent, lines);
   });
-  if (effects.speckle)
-    clock.time(Stage::speckle, [&] {
-      effects.speckle->apply(time, w.surfaces, polar.intensities, polar.coherent, lines);
-    });
+  if (!effects.speckle) return;
+  if (chain.addsFields()) polar.field.resize(polar.intensities.size());
+  clock.time(Stage::speckle, [&] {
+    effects.speckle->apply(time, w.surfaces, polar.intensities, polar.coherent, lines, polar.field);
+  });
 }
 
 // A frame that persists in a later one. It counts as no work of its own: how often it is made

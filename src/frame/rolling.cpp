@@ -60,6 +60,9 @@ void RollingLines::take(std::size_t group, const PolarFrame& from, PolarFrame& t
     takeLines(lines, samples_, plane, to.planes[channel]);
   takeLines(lines, samples_, from.medium, to.medium);
   takeLines(lines, samples_, from.intensities.values, to.intensities.values);
+  takeLines(lines, samples_, from.field.mean, to.field.mean);
+  takeLines(lines, samples_, from.field.real, to.field.real);
+  takeLines(lines, samples_, from.field.imaginary, to.field.imaginary);
 }
 
 void RollingLines::take(std::size_t group, const FrameTruth& from, FrameTruth& to) const {

@@ -16,12 +16,13 @@ SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion,
 
 void SceneSpeckle::apply(const FrameTime& time, const SurfaceFrame& surfaces,
                          Intensities& intensities, const CoherentEchoes& echoes,
-                         LineRange lines) const {
+                         LineRange lines, EchoField& field) const {
   thread_local std::vector<Vec3f> on_sheets_m;
   sheets_.at(surfaces, on_sheets_m);
   thread_local FieldFrame frame;
   material_.field().at(time.phase, frame, about_plane_);
-  speckle_.apply(FieldMaterialFrame(frame, on_sheets_m), time.time_s, intensities, echoes, lines);
+  speckle_.apply(FieldMaterialFrame(frame, on_sheets_m), time.time_s, intensities, echoes, lines,
+                 &field);
 }
 
 }  // namespace echocine

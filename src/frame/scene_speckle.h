@@ -16,10 +16,10 @@ class SceneSpeckle {
                const EffectPlan& plan, const Trabeculae* trabeculae);
 
   // Applies speckle in place to the intensities of some lines after the beam average, and to their
-  // coherent part. `surfaces` are those of the instant. Thread-safe; frames of equal time are
-  // equal.
+  // coherent part. `surfaces` are those of the instant. field: unless empty, receives the field of
+  // these lines. Thread-safe; frames of equal time are equal.
   void apply(const FrameTime& time, const SurfaceFrame& surfaces, Intensities& intensities,
-             const CoherentEchoes& echoes, LineRange lines) const;
+             const CoherentEchoes& echoes, LineRange lines, EchoField& field) const;
   // Lines whose intensities affect those of a range.
   LineRange reach(LineRange lines) const { return speckle_.reach(lines); }
 

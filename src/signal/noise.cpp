@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 
 #include "core/hash_random.h"
-#include "core/parallel.h"
+#include "core/lanes.h"
+#include "core/normal_lanes.h"
 #include "core/units.h"
 #include "scene/scan_geometry.h"
 #include "speckle/point_spread.h"
@@ -15,135 +15,123 @@ namespace echocine {
 
 namespace {
 
-// A random plane is no smaller: shifted parts of it then hardly ever meet. Our choice.
-constexpr int kLeastLines = 128, kLeastSamples = 512;
+constexpr std::uint64_t kClutter = 5;  // purpose of hashed numbers
+constexpr int kLanes = static_cast<int>(kFloatLanes);
+// Longer pulses are filtered from white numbers that are several samples apart, and at least this
+// part of sigma: the power then varies by under 1e-6.
+constexpr double kLeastNodes = 1.3;
 
-// Purposes of hashed numbers.
-enum : std::uint64_t { kReal = 1, kImaginary = 2, kLineShift = 3, kSampleShift = 4, kClutter = 5 };
-
-// White as a float that leaves room for products.
-float heldWhite(double white) {
-  return static_cast<float>(std::min(white, 1e30));
+std::vector<float> rootsOf(const std::vector<float>& levels) {
+  std::vector<float> out;
+  for (const float level : levels) out.push_back(std::sqrt(level));
+  return out;
 }
 
-std::vector<float> bellTaps(double deviation, int most) {
-  const int reach = std::clamp(static_cast<int>(std::ceil(3 * deviation)), 0, most);
-  std::vector<float> taps;
-  for (int t = 0; t <= reach; ++t) taps.push_back(static_cast<float>(bell(t, deviation)));
-  return taps;
-}
-
-// A plane that repeats, smeared along its lines (step 1) or across them (step samples).
-void smear(std::vector<float>& plane, int lines, int samples, const std::vector<float>& taps,
-           bool along) {
-  if (taps.size() == 1) return;
-  std::vector<float> out(plane.size());
-  const int period = along ? samples : lines;
-  for (int i = 0; i < lines; ++i)
-    for (int t = 1 - static_cast<int>(taps.size()); t < static_cast<int>(taps.size()); ++t) {
-      const float tap = taps[static_cast<std::size_t>(std::abs(t))];
-      float* to = out.data() + static_cast<std::ptrdiff_t>(i) * samples;
-      const int shift = (t % period + period) % period;
-      const int from_line = along ? i : (i + shift) % lines,
-                split = along ? samples - shift : samples;
-      const float* from = plane.data() + static_cast<std::ptrdiff_t>(from_line) * samples;
-      const int offset = along ? shift : 0;
-      for (int k = 0; k < split; ++k) to[k] += tap * from[k + offset];
-      for (int k = split; k < samples; ++k) to[k] += tap * from[k - split];
-    }
-  plane = std::move(out);
+int samplesPerNode(double deviation) {
+  int out = 1;
+  while (deviation >= kLeastNodes * kLanes && deviation >= 2 * kLeastNodes * out) out *= 2;
+  return out;
 }
 
 }  // namespace
 
-RandomPlane::RandomPlane(int lines, int samples, const Grain& grain, std::uint64_t seed)
-    : lines_(lines), samples_(samples) {
-  const std::vector<float> across = bellTaps(grain.lateral_lines, lines / 2 - 1),
-                           along = bellTaps(grain.axial_samples, samples / 2 - 1),
-                           smoothing = bellTaps(grain.smoothing_samples, samples / 2 - 1);
-  values_.resize(static_cast<std::size_t>(lines) * static_cast<std::size_t>(samples));
-  for (const std::uint64_t part : {kReal, kImaginary}) {
-    std::vector<float> field(values_.size());
-    for (std::size_t i = 0; i < field.size(); ++i)
-      field[i] =
-          static_cast<float>(normalFromHashes(hashOf(seed, part, i, 0), hashOf(seed, part, i, 1)));
-    smear(field, lines, samples, along, true);
-    smear(field, lines, samples, across, false);
-    for (std::size_t i = 0; i < field.size(); ++i) values_[i] += field[i] * field[i];
-  }
-  smear(values_, lines, samples, smoothing, true);
-  double sum = 0;
-  for (const float value : values_) sum += static_cast<double>(value);
-  const auto scale = static_cast<float>(static_cast<double>(values_.size()) / sum);
-  for (float& value : values_) value *= scale;
-}
-
-Grain grainOf(const Scene& scene, double width_rad) {
-  const Probe& probe = scene.probe;
-  const PointSpread spread(probe, scene.signal.pulse_cycles);
-  // A bell of amplitude with deviation s leaves intensities that correlate by exp(-d^2 / 2 s^2).
-  const double angle_rad = std::max(spread.angle_rad, width_rad / kWidthAtHalf);
-  Grain grain;
-  if (probe.lines > 1) grain.lateral_lines = ScanGeometry(probe).linesAcross(angle_rad);
-  grain.axial_samples = spread.axial_m / probe.sampleSpacing();
-  grain.smoothing_samples = scene.speckle.smoothing_m / kWidthAtHalf / probe.sampleSpacing();
-  return grain;
+float heldWhite(double white) {
+  return static_cast<float>(std::min(white, 1e30));
 }
 
 ReceiverNoise::ReceiverNoise(const Scene& scene, std::span<const float> gains)
-    : lines_(scene.probe.lines),
-      samples_(scene.probe.samples),
-      seed_(scene.artefacts.noise_seed),
-      random_(std::max(lines_, kLeastLines), std::max(samples_, kLeastSamples), grainOf(scene),
-              hashOf(seed_)) {
+    : samples_(scene.probe.samples), seed_(scene.artefacts.noise_seed) {
   const double level = intensityFromDecibels(scene.artefacts.noise_db);
   const double most =
       gains.empty() ? 1 : static_cast<double>(*std::max_element(gains.begin(), gains.end()));
   for (std::size_t k = 0; k < static_cast<std::size_t>(samples_); ++k)
     levels_.push_back(static_cast<float>(
         level * (gains.empty() || !(most > 0) ? 1 : static_cast<double>(gains[k]) / most)));
+  amplitudes_ = rootsOf(levels_);
+  const double samples = grainOf(scene).axial_samples;
+  per_node_ = samplesPerNode(samples);
+  const double deviation = samples / per_node_;
+  reach_ = static_cast<int>(std::ceil(3 * deviation));
+  for (int phase = 0; phase < per_node_; ++phase) {
+    double power = 0;
+    const auto at = [&](int t) {
+      return bell(t - static_cast<double>(phase) / per_node_, deviation);
+    };
+    for (int t = -reach_; t <= reach_ + 1; ++t) power += at(t) * at(t);
+    for (int t = -reach_; t <= reach_ + 1; ++t)
+      taps_.push_back(static_cast<float>(at(t) / std::sqrt(power)));
+  }
 }
 
-void ReceiverNoise::add(double white, double time_s, std::span<float> plane) const {
-  const std::uint64_t instant = hashOf(seed_, std::bit_cast<std::uint64_t>(time_s + 0.0));
-  const auto first_line =
-      static_cast<int>(hashOf(instant, kLineShift) % static_cast<std::uint64_t>(random_.lines()));
-  const auto first = static_cast<int>(hashOf(instant, kSampleShift) %
-                                      static_cast<std::uint64_t>(random_.samples()));
-  const float scale = heldWhite(white);
-  for (int i = 0; i < lines_; ++i) {
-    const float* from = random_.line((i + first_line) % random_.lines());
-    float* to = plane.data() + static_cast<std::ptrdiff_t>(i) * samples_;
-    const int split = std::min(samples_, random_.samples() - first);
-    for (int k = 0; k < split; ++k)
-      to[k] += scale * levels_[static_cast<std::size_t>(k)] * from[k + first];
-    for (int k = split; k < samples_; ++k)
-      to[k] += scale * levels_[static_cast<std::size_t>(k)] * from[k - split];
+// Eight samples of the filtered noise.
+ComplexLanes ReceiverNoise::filtered(const float* real, const float* imaginary, int sample) const {
+  const int taps = 2 * reach_ + 2, node = sample / per_node_, phase = sample % per_node_;
+  ComplexLanes sum{};
+  for (int t = 0; t < taps; ++t) {
+    if (per_node_ == 1) {
+      const float h = taps_[static_cast<std::size_t>(t)];
+      sum.real += h * lanesAt(real + node + t);
+      sum.imaginary += h * lanesAt(imaginary + node + t);
+    } else {
+      Floats8 h;
+      for (int i = 0; i < kLanes; ++i)
+        h[i] = taps_[static_cast<std::size_t>((phase + i) * taps + t)];
+      sum.real += h * real[node + t];
+      sum.imaginary += h * imaginary[node + t];
+    }
+  }
+  return sum;
+}
+
+void ReceiverNoise::add(double white, double time_s, int line, float* real,
+                        float* imaginary) const {
+  const std::uint64_t key = hashOf(seed_, std::bit_cast<std::uint64_t>(time_s + 0.0), line);
+  const int nodes = samples_ / per_node_ + 2 * reach_ + 2 + 2 * kLanes;
+  thread_local std::vector<float> white_real, white_imaginary;
+  white_real.resize(static_cast<std::size_t>(nodes + kLanes));
+  white_imaginary.resize(white_real.size());
+  for (int n = 0; n < nodes; n += kLanes) {
+    const ComplexLanes z = complexNormals(key, static_cast<std::uint32_t>(n));
+    store(z.real, white_real.data() + n);
+    store(z.imaginary, white_imaginary.data() + n);
+  }
+  const float scale = std::sqrt(heldWhite(white));
+  for (int k = 0; k < samples_; k += kLanes) {
+    const ComplexLanes noise = filtered(white_real.data(), white_imaginary.data(), k);
+    const auto count = static_cast<std::size_t>(std::min(kLanes, samples_ - k));
+    Floats8 amplitude{};
+    std::memcpy(&amplitude, amplitudes_.data() + k, count * sizeof(float));
+    amplitude *= scale;
+    for (const auto& [to, part] :
+         {std::pair(real, noise.real), std::pair(imaginary, noise.imaginary)}) {
+      Floats8 before{};
+      std::memcpy(&before, to + k, count * sizeof(float));
+      storeSome(before + amplitude * part, count, to + k);
+    }
   }
 }
 
 NearFieldClutter::NearFieldClutter(const Scene& scene)
-    : lines_(scene.probe.lines),
-      samples_(scene.probe.samples),
-      random_(std::max(lines_, kLeastLines), std::max(samples_, kLeastSamples),
+    : random_(std::max(scene.probe.lines, 128), std::max(scene.probe.samples, 512),
               grainOf(scene, scene.artefacts.clutter_width_rad),
               hashOf(scene.artefacts.clutter_seed, kClutter)) {
   constexpr double kLeast = 1e-6;
   const double level = intensityFromDecibels(scene.artefacts.clutter_db);
   const ScanGeometry geometry(scene.probe);
-  for (int k = 0; k < samples_; ++k) {
+  for (int k = 0; k < scene.probe.samples; ++k) {
     const double falls = std::exp(-geometry.sampleDepth(k) / scene.artefacts.clutter_length_m);
     if (falls < kLeast) break;
     levels_.push_back(static_cast<float>(level * falls));
   }
+  amplitudes_ = rootsOf(levels_);
 }
 
-void NearFieldClutter::add(double white, std::span<float> plane) const {
-  const float scale = heldWhite(white);
-  for (int i = 0; i < lines_; ++i) {
-    const float* from = random_.line(i);
-    float* to = plane.data() + static_cast<std::ptrdiff_t>(i) * samples_;
-    for (std::size_t k = 0; k < levels_.size(); ++k) to[k] += scale * levels_[k] * from[k];
+void NearFieldClutter::add(double white, int line, float* real, float* imaginary) const {
+  const float scale = std::sqrt(heldWhite(white));
+  const float *re = random_.real(line), *im = random_.imaginary(line);
+  for (std::size_t k = 0; k < amplitudes_.size(); ++k) {
+    real[k] += scale * amplitudes_[k] * re[k];
+    imaginary[k] += scale * amplitudes_[k] * im[k];
   }
 }
 

@@ -1,63 +1,56 @@
 #pragma once
-// Receiver noise and near-field clutter: random intensities with the grain of the scanner's
-// filters, independent of the tissue.
+// Receiver noise and near-field clutter: fields that add to the echoes' field before the envelope.
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/normal_lanes.h"
 #include "scene/scene.h"
+#include "signal/random_plane.h"
 
 namespace echocine {
 
-// Filtered complex Gaussian noise, squared: a plane of intensities with mean 1, periodic in both
-// directions. Its amplitude is white noise filtered by Gaussians of these deviations; smoothing (of
-// the intensity, along the line) is that of the speckle.
-struct Grain {
-  double lateral_lines = 0, axial_samples = 0, smoothing_samples = 0;  // standard deviations
-};
-class RandomPlane {
- public:
-  RandomPlane(int lines, int samples, const Grain& grain, std::uint64_t seed);
-  int lines() const { return lines_; }
-  int samples() const { return samples_; }
-  const float* line(int i) const {
-    return values_.data() + static_cast<std::ptrdiff_t>(i) * samples_;
-  }
+// White as a float that leaves room for products.
+float heldWhite(double white);
 
- private:
-  int lines_, samples_;
-  std::vector<float> values_;
-};
-
-// The grain of speckle at a depth, which noise shares, for a scene's probe and pulse. width_rad > 0
-// widens it across the lines: full width at half maximum, in intensity.
-Grain grainOf(const Scene& scene, double width_rad = 0);
-
-// Noise that is white before the time gain; after it the mean intensity is level gain_k / max(gain)
-// at sample k. Each instant draws a part of one random plane by a hash of seed and time. Without
-// gains it is uniform in depth.
+// Complex Gaussian noise of the receiver. Before the time gain it is white in depth and of equal
+// power at all depths; the filter of the pulse limits its band, as it does that of the echoes.
+// Lines are received one after the other, so their noise is independent, as is that of two frames:
+// each number is a hash of seed, instant, line and sample. The mean power at sample k is
+// level white gain_k / max(gain); without gains it is uniform in depth.
 class ReceiverNoise {
  public:
   ReceiverNoise(const Scene& scene, std::span<const float> gains);
-  void add(double white, double time_s, std::span<float> plane) const;
+
+  // Mean power over white, by sample.
+  const std::vector<float>& levels() const { return levels_; }
+
+  // Adds a line's noise to the real and imaginary part of its field.
+  void add(double white, double time_s, int line, float* real, float* imaginary) const;
 
  private:
-  int lines_, samples_, seed_;
-  std::vector<float> levels_;  // relative to white, by sample
-  RandomPlane random_;
+  ComplexLanes filtered(const float* real, const float* imaginary, int sample) const;
+
+  int samples_, seed_;
+  int per_node_;  // samples per white number: 1, or 8 or more where the pulse is that long
+  int reach_;     // of the filter, in nodes
+  // Filter by distance; with several samples per node, by sample between two nodes, then distance.
+  std::vector<float> taps_;
+  std::vector<float> levels_, amplitudes_;
 };
 
-// Reverberation between face and chest wall: mean level exp(-r / length) at the path length r,
-// static while the heart beats. It ends 60 dB below its level.
+// Reverberation between face and chest wall: mean power level white exp(-r / length) at the path
+// length r. It stands still with the probe while the heart beats. It ends 60 dB below its level.
 class NearFieldClutter {
  public:
   explicit NearFieldClutter(const Scene& scene);
-  void add(double white, std::span<float> plane) const;
+
+  const std::vector<float>& levels() const { return levels_; }  // up to its end
+  void add(double white, int line, float* real, float* imaginary) const;
 
  private:
-  int lines_, samples_;
-  std::vector<float> levels_;  // relative to white, by sample, down to its end
+  std::vector<float> levels_, amplitudes_;
   RandomPlane random_;
 };
 

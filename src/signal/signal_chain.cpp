@@ -9,10 +9,25 @@
 
 namespace echocine {
 
+namespace {
+
+std::vector<float> gainsOf(const Scene& scene, const EffectPlan& plan) {
+  const SignalSettings& s = scene.signal;
+  if (s.tgc == Tgc::mean) return gainsAgainst(plan.mean_loss);
+  if (s.tgc == Tgc::table) return timeGains(s.tgc_table, scene.probe);
+  if (s.tgc == Tgc::nominal && plan.attenuation)
+    return nominalGains(s.nominal_gain_np_per_m_hz * scene.probe.frequency_hz, scene.probe);
+  return {};
+}
+
+}  // namespace
+
 SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
     : settings_(scene.signal),
       all_lines_{0, scene.probe.lines},
       samples_(scene.probe.samples),
+      gains_(gainsOf(scene, plan)),
+      fields_(scene, plan, gains_),
       geometry_(pictureGeometry(scene)),
       converter_(scene.probe, geometry_, scene.output.width, scene.output.height,
                  scene.signal.grey_gamma, ScanConverter::averagedOver(scene, geometry_)) {
@@ -23,17 +38,10 @@ SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
     average.beam_width = BeamWidth::none;
   }
   if (plan.beam_width) beam_.emplace(scene.probe, average);
-  if (settings_.tgc == Tgc::mean) gains_ = gainsAgainst(plan.mean_loss);
-  if (settings_.tgc == Tgc::table) gains_ = timeGains(settings_.tgc_table, scene.probe);
-  if (settings_.tgc == Tgc::nominal && plan.attenuation)
-    gains_ =
-        nominalGains(settings_.nominal_gain_np_per_m_hz * scene.probe.frequency_hz, scene.probe);
   const ArtefactSettings& a = scene.artefacts;
   losses_ = sectorLosses(scene.probe, a, plan);
   if (plan.haze) haze_.emplace(scene.probe, a.haze_db, a.haze_width_rad);
   if (plan.reverberation) tail_.emplace(scene.probe, a.reverberation_db, a.reverberation_length_m);
-  if (plan.clutter) clutter_.emplace(scene);
-  if (plan.noise) noise_.emplace(scene, gains_);
 }
 
 void SignalChain::process(Intensities& intensities, LineRange lines) const {
@@ -74,12 +82,11 @@ void SignalChain::process(CoherentEchoes& echoes, LineRange lines) const {
   }
 }
 
-Greys SignalChain::compress(Intensities&& intensities, double reference_intensity,
-                            double time_s) const {
+Greys SignalChain::compress(Intensities&& intensities, double reference_intensity, double time_s,
+                            const EchoField& field) const {
   const double white = reference_intensity * intensityFromDecibels(-settings_.gain_db);
   Greys greys(intensities.release());
-  if (clutter_) clutter_->add(white, greys);
-  if (noise_) noise_->add(white, time_s, greys);
+  if (fields_.adds()) fields_.add(white, time_s, field, greys);
   compressIntensities(greys, white, settings_.dynamic_range_db, greys);
   return greys;
 }

@@ -10,8 +10,8 @@
 #include "core/beam_plane.h"
 #include "plan/effect_plan.h"
 #include "signal/beam_width.h"
+#include "signal/field_sum.h"
 #include "signal/haze.h"
-#include "signal/noise.h"
 #include "signal/profile_average.h"
 #include "signal/scan_conversion.h"
 #include "trace/coherent_echoes.h"
@@ -35,9 +35,14 @@ class SignalChain {
   // The same for the coherent part, without side lobes, haze and tail, which are incoherent.
   void process(CoherentEchoes& echoes, LineRange lines) const;
 
+  // True if compress() needs the field of intensities with speckle.
+  bool addsFields() const { return fields_.adds(); }
+
   // Clutter, noise and log compression against the loop's single reference; noise is that of the
-  // instant. The grey levels reuse the intensities' memory.
-  Greys compress(Intensities&& intensities, double reference_intensity, double time_s = 0) const;
+  // instant. field: of the same intensities, empty without speckle. The grey levels reuse the
+  // intensities' memory.
+  Greys compress(Intensities&& intensities, double reference_intensity, double time_s = 0,
+                 const EchoField& field = {}) const;
 
   // Scan conversion and grey map.
   void picture(const Greys& greys, GreyImage& image) const { converter_.convert(greys, image); }
@@ -58,8 +63,7 @@ class SignalChain {
   std::vector<float> losses_;              // by drop-out and ribs; empty: none
   std::optional<LateralHaze> haze_;
   std::optional<ReverberationTail> tail_;
-  std::optional<NearFieldClutter> clutter_;
-  std::optional<ReceiverNoise> noise_;
+  FieldSum fields_;
   PictureGeometry geometry_;
   ScanConverter converter_;
 };

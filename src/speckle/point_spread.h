@@ -3,8 +3,8 @@
 //
 // Symbols: lambda wavelength, D aperture, z path length, w full width at -6 dB of the two-way
 // intensity profile, sigma standard deviation of the amplitude's Gaussian. Lateral: a constant
-// angle at every depth, sigma = 0.3625 lambda z / D times the widening by receive apodization at the
-// focus; defocus widens the beam, but not the speckle.
+// angle at every depth, sigma = 0.3625 lambda z / D times the widening by receive apodization at
+// the focus; defocus widens the beam, but not the speckle.
 
 #include "scene/probe.h"
 
@@ -15,6 +15,9 @@ inline constexpr double kWidthAtHalf = 2.3548200450309493;
 
 // exp(-(distance / deviation)^2 / 2); for deviation 0 it is 1 at the centre and 0 elsewhere.
 double bell(double distance, double deviation);
+
+// Gaussians are cut where 4 % of the amplitude remains.
+inline constexpr double kCutDeviations = 2.5;
 
 struct PointSpread {
   // pulse_cycles: of the signal's pulse.

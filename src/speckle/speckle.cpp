@@ -59,11 +59,11 @@ void Speckle::addSheets(std::span<const Vec3f> places_m, double time_s, SplatLis
 }
 
 void Speckle::apply(const MaterialFrame& tissue, double time_s, std::span<float> intensities,
-                    const CoherentEchoes& echoes, LineRange lines) const {
+                    const CoherentEchoes& echoes, LineRange lines, EchoField* field) const {
   thread_local SplatLists splats;
   thread_local CoherentRatio::Rows rows;
   addUp(tissue, time_s, reach(lines), splats);
-  ratio_.apply(splats, rows, intensities, echoes, lines);
+  ratio_.apply(splats, rows, intensities, echoes, lines, field);
 }
 
 }  // namespace echocine

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "speckle/coherent_ratio.h"
+#include "speckle/splat.h"
 #include "trace/coherent_echoes.h"
 
 namespace echocine {
@@ -29,9 +30,10 @@ class Speckle {
              const CoherentEchoes& echoes = {}) const {
     apply(tissue, time_s, intensities, echoes, {0, lines_});
   }
-  // The same of some lines; those within their reach have to be as without speckle.
+  // The same of some lines; those within their reach have to be as without speckle. field: if not
+  // null and not empty, receives the field of these lines.
   void apply(const MaterialFrame& tissue, double time_s, std::span<float> intensities,
-             const CoherentEchoes& echoes, LineRange lines) const;
+             const CoherentEchoes& echoes, LineRange lines, EchoField* field = nullptr) const;
   LineRange reach(LineRange lines) const { return ratio_.reach(lines); }
 
  private:

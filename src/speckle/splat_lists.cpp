@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/normal_lanes.h"
 #include "speckle/point_spread.h"
 
 namespace echocine {
@@ -14,12 +15,6 @@ inline Floats8 nearest(Floats8 a) {
   return (a + kMagic) - kMagic;
 }
 
-// sin(pi x / 2) for |x| <= 1, to 1e-6 (Hastings, "Approximations for Digital Computers", 1955).
-inline Floats8 sineOfQuarters(Floats8 x) {
-  const Floats8 x2 = x * x;
-  return x * (1.570794852f + x2 * (-0.645920978f + x2 * (0.079487663f + x2 * -0.004362476f)));
-}
-
 // exp(-u) for 0 <= u <= 2.3, to 2e-5: the eighth power of a short series.
 inline Floats8 fallingExp(Floats8 u) {
   const Floats8 v = u * -0.125f;
@@ -29,11 +24,16 @@ inline Floats8 fallingExp(Floats8 u) {
   return e * e;
 }
 
+// Places in steps between samples or lines.
+inline Ints8 stepsOf(const float* places) {
+  return __builtin_convertvector(kSplineSteps * lanesAt(places), Ints8);
+}
+
 // By lane: its four numbers side by side.
 struct LaneSplats {
   Splat lane[kFloatLanes];
-  LaneSplats(Floats8 real, Floats8 imaginary, Floats8 squares, Ints8 samples) {
-    const Floats8 at = reinterpret_cast<Floats8>(samples);
+  LaneSplats(Floats8 real, Floats8 imaginary, Floats8 squares, Ints8 places) {
+    const Floats8 at = reinterpret_cast<Floats8>(places);
     const Floats8 a = __builtin_shufflevector(real, imaginary, 0, 8, 1, 9, 4, 12, 5, 13),
                   b = __builtin_shufflevector(real, imaginary, 2, 10, 3, 11, 6, 14, 7, 15),
                   c = __builtin_shufflevector(squares, at, 0, 8, 1, 9, 4, 12, 5, 13),
@@ -66,7 +66,7 @@ void SplatLists::sortWhole() {
   Waiting& w = waiting_;
   const std::size_t whole = w.count / kFloatLanes * kFloatLanes;
   for (std::size_t k = 0; k < whole; k += kFloatLanes) sort(k, kFloatLanes);
-  for (float* list : {w.q, w.turns, w.real, w.imaginary, w.at})
+  for (float* list : {w.q, w.turns, w.real, w.imaginary, w.line, w.sample})
     std::copy(list + whole, list + w.count, list);
   w.count -= whole;
 }
@@ -84,20 +84,16 @@ inline void SplatLists::sort(std::size_t first, std::size_t count) {
   constexpr std::ptrdiff_t kAhead = 12;
   const Waiting& w = waiting_;
   const Floats8 e = fallingExp(kBell * lanesAt(w.q + first));
-  // exp(-2 pi j turns); folded to a quarter turn either side of 0.
   const Floats8 turns = lanesAt(w.turns + first);
-  const Floats8 f = turns - nearest(turns), part = f < 0 ? -f : f;
-  const Floats8 half = f < 0 ? Floats8{} - 0.5f : Floats8{} + 0.5f;
-  const Floats8 sine = sineOfQuarters(4 * (part > 0.25f ? half - f : f));
-  const Floats8 cosine = sineOfQuarters(1 - 4 * part);
+  const auto [cosine, sine] = phasor(turns - nearest(turns));
   const Floats8 cr = lanesAt(w.real + first), ci = lanesAt(w.imaginary + first);
-  const Ints8 at = reinterpret_cast<Ints8>(lanesAt(w.at + first));
+  const Ints8 line = stepsOf(w.line + first), sample = stepsOf(w.sample + first);
   const LaneSplats splats(e * (cr * cosine + ci * sine), e * (ci * cosine - cr * sine), e * e,
-                          at & 0xffff);
+                          (line & (kSplineSteps - 1)) << Splat::kLineBits | sample);
   std::uint32_t lines[kFloatLanes];
-  std::memcpy(lines, w.at + first, sizeof lines);
+  std::memcpy(lines, &line, sizeof lines);
   for (std::size_t i = 0; i < count; ++i) {
-    List& list = lists_[lines[i] >> 16];
+    List& list = lists_[lines[i] / kSplineSteps];
     if (list.next == list.end) grow(list);
     *list.next++ = splats.lane[i];
     __builtin_prefetch(list.next + kAhead, 1);

@@ -1,5 +1,5 @@
 #pragma once
-// Splats sorted by line, each at the sample nearest to its scatterer: what the point spread
+// Splats sorted by line, each with its place between lines and samples: what the point spread
 // function then smears.
 
 #include <array>
@@ -9,13 +9,19 @@
 
 #include "core/beam_plane.h"
 #include "core/lanes.h"
+#include "speckle/spline_taps.h"
 
 namespace echocine {
 
-// For one scatterer: the real and imaginary part of c e exp(-2j k0 r), and e^2.
+// For one scatterer: the real and imaginary part of c e exp(-2j k0 r), e^2, and its place.
 struct Splat {
   float real, imaginary, square;
-  std::int32_t sample;
+  std::int32_t at;  // 6 bits of the place between samples, 16 of the sample, 6 between lines
+
+  int sample() const { return at / kSplineSteps & 0xffff; }
+  int sampleAt() const { return at & 0x3fffff; }  // in steps
+  int lineStep() const { return at >> kLineBits; }
+  static constexpr int kLineBits = 22;
 };
 
 // By a mask's bits: the numbers of its lanes, then whatever.
@@ -53,15 +59,14 @@ class SplatLists {
     Shorts8 lanes;
     std::memcpy(&lanes, kLaneOrders.of[bits].data(), sizeof lanes);
     const Ints8 order = __builtin_convertvector(lanes, Ints8);
-    const Ints8 at = __builtin_convertvector(places.line, Ints8) << 16 |
-                     __builtin_convertvector(places.sample, Ints8);
     Waiting& w = waiting_;
     const std::size_t n = w.count;
     store(reordered(places.q, order), w.q + n);
     store(reordered(places.turns, order), w.turns + n);
     store(reordered(places.real, order), w.real + n);
     store(reordered(places.imaginary, order), w.imaginary + n);
-    store(reordered(reinterpret_cast<Floats8>(at), order), w.at + n);
+    store(reordered(places.line, order), w.line + n);
+    store(reordered(places.sample, order), w.sample + n);
     w.count = n + static_cast<std::size_t>(__builtin_popcount(bits));
     if (w.count > kMostWaiting - kFloatLanes) sortWhole();
   }
@@ -84,7 +89,7 @@ class SplatLists {
   struct Waiting {
     std::size_t count = 0;
     alignas(32) float q[kMostWaiting], turns[kMostWaiting], real[kMostWaiting],
-        imaginary[kMostWaiting], at[kMostWaiting];  // at: bits of line and sample
+        imaginary[kMostWaiting], line[kMostWaiting], sample[kMostWaiting];
   };
   void sortWhole();
   void sort(std::size_t first, std::size_t count);

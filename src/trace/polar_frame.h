@@ -8,6 +8,7 @@
 #include "core/beam_plane.h"
 #include "scene/scene.h"
 #include "trace/coherent_echoes.h"
+#include "trace/echo_field.h"
 #include "trace/line_trace.h"
 
 namespace echocine {
@@ -22,6 +23,7 @@ struct PolarFrame {
   std::vector<std::uint32_t> medium;             // Channel::medium, if requested
   Intensities intensities;                       // input of the signal chain
   CoherentEchoes coherent;                       // part of these; empty unless requested
+  EchoField field;                               // of the intensities with speckle, if requested
 };
 
 }  // namespace echocine

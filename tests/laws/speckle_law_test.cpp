@@ -181,8 +181,7 @@ TEST(SpeckleLaw, AcrossThePlaneItFadesByDiffractionAloneAtEveryDepth) {
 
 // Scatterers at a distance d from what rests have moved by s d, and those within one cell have
 // turned their phases against each other: exp(-(s d)^2 / 2 sigma^2) exp(-(2 k s sigma)^2 / 2).
-// Within 1.5 mm that is 0.95 and 0.84 for strains of 5 and 10 %. Rounding scatterers to samples
-// takes its share: 0.956 and 0.855 with samples of 0.05 mm, 0.921 and 0.819 with 0.2 mm.
+// Within 1.5 mm that is 0.95 and 0.84 for strains of 5 and 10 %.
 TEST(SpeckleLaw, StrainAlongTheBeamTakesItsCorrelationAway) {
   SpeckleBed bed(ProbeKind::linear, 600, 200, 0.07, 0.09);
   const Speckle speckle = bed.speckle();
