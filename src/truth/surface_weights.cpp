@@ -48,7 +48,7 @@ Part partAbove(const Corners& c, const std::array<double, 3>& height, double lea
 
 namespace {
 
-// Shares of a triangle's vertices, of which those outside the part give theirs to the others.
+// Shares of a triangle's vertices; vertices outside the part pass theirs on to the others.
 std::array<double, 3> keptShares(std::array<double, 3> shares,
                                  const std::array<double, 3>& height) {
   double kept = 0, whole = 0;
