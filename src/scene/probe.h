@@ -26,8 +26,8 @@ struct Probe {
   double frequency_hz = 0;
   double aperture_m = 0;  // active lateral aperture of a beam
   double focus_m = 0;     // depth of the focus
-  // Of the sampled profile: of the receiving aperture; the two-way -6 dB bandwidth over the centre
-  // frequency, 74 % for the array P4-2v (Verasonics).
+  // For the sampled profile: apodization of the receiving aperture; and the two-way -6 dB bandwidth
+  // over the centre frequency, 74 % for the array P4-2v (Verasonics).
   Apodization receive_apodization = Apodization::uniform;
   double bandwidth = 0.74;
   // The fixed lens across the imaging plane: our choice for an adult cardiac probe.

@@ -27,7 +27,7 @@ constexpr std::size_t kMostElements = 512, kLeastElements = 2, kMostDefocuses = 
 
 constexpr double kMainLobeEnd = 1e-3;
 
-// Of the centre: spectra of less than a cycle reach down to 0. Our choice.
+// Share of the centre frequency: spectra of less than a cycle reach down to 0. Our choice.
 constexpr double kLeastFrequency = 0.1;
 
 // Amplitude of an element at a place from -1 to 1 of the aperture.

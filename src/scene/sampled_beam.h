@@ -38,7 +38,7 @@ double spectrumDeviation(double pulse_cycles, double bandwidth);
 double speckleWidening(Apodization receive);
 
 class SampledBeam {
-  // Of one u: the integral of P from 0 to it, and P per step of the table.
+  // For one u: the integral of P from 0 to it, and P per step of the table.
   struct Entry {
     double integral, power;
   };

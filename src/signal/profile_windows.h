@@ -14,8 +14,8 @@ struct ProfileWindows {
     int first, last;
     std::size_t windows;  // place of its first row's window
   };
-  // Of one row in one zone: weights of the groups before the main lobe, its rows, the groups behind
-  // it. Their sum is 1.
+  // For one row in one zone: weights of the groups before the main lobe, its rows, the groups
+  // behind it. Their sum is 1.
   struct Window {
     int first, end;  // rows one by one: whole groups
     std::size_t weights;

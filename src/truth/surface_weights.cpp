@@ -14,7 +14,7 @@ Facet facetOf(const Triangle& t, std::span<const Vec3f> p) {
   return {toDouble(p[t[0]]), toDouble(p[t[1]]), toDouble(p[t[2]])};
 }
 
-// Shares of a triangle's vertices, of which those outside the part give theirs to the others.
+// Shares of a triangle's vertices; vertices outside the part pass theirs on to the others.
 std::array<double, 3> keptShares(std::array<double, 3> shares,
                                  const std::array<double, 3>& height) {
   double kept = 0, whole = 0;

@@ -9,8 +9,8 @@
 
 namespace echocine {
 
-// A part of a surface: where a height, given by vertex and linear between, is 0 or more. What a
-// triangle has of it counts for those of its vertices that lie in it.
+// A part of a surface: where a height, given by vertex and linear between, is 0 or more. The
+// area of a triangle in the part counts for its vertices in the part.
 struct SurfacePart {
   std::span<const Triangle> triangles;
   std::span<const Vec3d> points_m;

@@ -1,5 +1,4 @@
-// The sampled two-way beam, against sums over the elements of an array and against
-// the widths of a linear array simulator.
+// The sampled two-way beam, against sums over elements and the widths of an array simulator.
 
 #include <gtest/gtest.h>
 
