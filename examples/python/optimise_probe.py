@@ -12,7 +12,7 @@ scene.update({"probe.lines": 48, "probe.samples": 128, "output.width": 320, "out
 target = scene.copy()
 target.signal.dynamic_range_db = 50
 echocine.render(target, Path("target"))
-distance = echocine.Discrepancy(Path("target"), scene)
+distance = echocine.FrameDiscrepancy(Path("target"), scene)
 
 
 def cost(range_db: float) -> float:

@@ -9,19 +9,20 @@
 namespace echocine {
 
 // Unit of the progress.
-enum class Task { reference, rendering, settings, accuracy, keyframes, comparing };
+enum class Task { reference, rendering, settings, accuracy, keyframes, comparing, hearts };
 
 // "rendering 3/46 frames".
 struct TaskWords {
   const char *doing, *unit;
 };
 constexpr TaskWords wordsOf(Task task) {
-  constexpr std::array<TaskWords, 6> kWords{{{"measuring the loop's reference,", "frames"},
+  constexpr std::array<TaskWords, 7> kWords{{{"measuring the loop's reference,", "frames"},
                                              {"rendering", "frames"},
                                              {"measuring", "settings"},
                                              {"trying", "settings"},
                                              {"making", "keyframes"},
-                                             {"comparing", "steps"}}};
+                                             {"comparing", "steps"},
+                                             {"computing", "hearts"}}};
   return kWords[static_cast<std::size_t>(task)];
 }
 

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/nearest_word.h"
 #include "fit/caveats.h"
 #include "fit/cpu_seconds.h"
 #include "fit/option_list.h"
@@ -30,27 +29,6 @@ double numberOf(const std::string& option, const std::string& text) {
   return value;
 }
 
-const heart::Dial& dialOf(const std::string& option, const std::string& key) {
-  std::vector<std::string> known;
-  for (const heart::Dial& dial : heart::dials()) {
-    if (key == dial.key) return dial;
-    known.emplace_back(dial.key);
-  }
-  std::string list;
-  for (const std::string& k : known) list += (list.empty() ? "" : ", ") + k;
-  const std::string nearest = nearestWord(key, known);
-  throw SceneError(fmt::format("{}: \"{}\" is not a dial of the heart{}, accepted: {}", option, key,
-                               nearest.empty() ? "" : fmt::format(" (nearest: {})", nearest),
-                               list));
-}
-
-void checkRange(const std::string& option, const heart::Dial& dial, double value) {
-  if (!(value >= dial.low && value <= dial.high))
-    throw SceneError(fmt::format(
-        "{}: {} is {:g}, accepted: {:g} to {:g}{}{}", option, dial.key, value, dial.low, dial.high,
-        std::string(dial.unit) == "1" ? "" : " ", std::string(dial.unit) == "1" ? "" : dial.unit));
-}
-
 }  // namespace
 
 std::vector<ScanAxis> parseScan(const std::string& text) {
@@ -64,8 +42,8 @@ std::vector<ScanAxis> parseScan(const std::string& text) {
     const heart::Dial& dial = dialOf("--scan", sides[0]);
     ScanAxis axis{{sides[0], numberOf("--scan", numbers[0]), numberOf("--scan", numbers[1])},
                   numberOf("--scan", numbers[2])};
-    checkRange("--scan", dial, axis.range.low);
-    checkRange("--scan", dial, axis.range.high);
+    checkDial("--scan", dial, axis.range.low);
+    checkDial("--scan", dial, axis.range.high);
     if (!(axis.step > 0 && axis.range.low + axis.step <= axis.range.high * (1 + 1e-9)))
       throw SceneError(fmt::format(
           "--scan: {} must go up by a step of at most its range, such as ef=0.3:0.75:0.05", part));
@@ -88,7 +66,7 @@ std::map<std::string, double> parseDials(const std::string& text) {
       throw SceneError(fmt::format(
           "--dials: \"{}\" is not accepted: DIAL=VALUE, such as hr=72,wall-thickness=11", part));
     const double value = numberOf("--dials", sides[1]);
-    checkRange("--dials", dialOf("--dials", sides[0]), value);
+    checkDial("--dials", dialOf("--dials", sides[0]), value);
     out[sides[0]] = value;
   }
   return out;

@@ -1,5 +1,7 @@
 #include "fit/heart_family.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -43,30 +45,39 @@ double mostOvershoot(int nodes) {
   return 1 + 2 / std::numbers::pi * std::log(static_cast<double>(nodes));
 }
 
+void checkAngle(const char* argument, double angle_rad, double most_rad) {
+  if (!(std::abs(angle_rad) <= most_rad * (1 + 1e-12)))
+    throw SceneError(fmt::format("{}: is {:g}, accepted: up to {:g} either way, the family's limit",
+                                 argument, degreesFromRadians(angle_rad),
+                                 degreesFromRadians(most_rad)));
+}
+
 }  // namespace
 
-HeartNodes::HeartNodes(const std::map<std::string, double>& given,
+HeartNodes::HeartNodes(const std::map<std::string, double>& dials,
                        const std::vector<DialRange>& ranges, int frames, int nodes,
                        const Monitor& monitor)
     : ranges_(ranges), nodes_(nodes), frames_(frames) {
+  checkFamily(dials, ranges, nodes);
   std::size_t count = 1;
   for (std::size_t r = 0; r < ranges.size(); ++r) count *= static_cast<std::size_t>(nodes);
   for (std::size_t n = 0; n < count; ++n) {
     if (!monitor.keep_going()) throw JobError("stopped while hearts were computed");
-    std::map<std::string, double> dials = given;
+    std::map<std::string, double> here = dials;
     std::size_t rest = n;
     for (const DialRange& range : ranges) {
-      dials[range.key] =
+      here[range.key] =
           nodeOf(range, static_cast<int>(rest % static_cast<std::size_t>(nodes)), nodes);
       rest /= static_cast<std::size_t>(nodes);
     }
-    const heart::Parameters parameters = heart::parametersFrom(dials);
+    const heart::Parameters parameters = heart::parametersFrom(here);
     if (const std::string fault = heart::faultOf(parameters); !fault.empty())
       throw SceneError("heart: " + fault);
     // Its view is that of the probe alone, which sceneOf() aims anew.
     hearts_.push_back(
         {parameters, heart::recordBeat(heart::ParametricHeart(parameters), heart::View::a4c, frames,
                                        heart::KeyframeSpacing::even)});
+    monitor.tell({Task::hearts, n + 1, count});
   }
 }
 
@@ -79,14 +90,17 @@ Scene HeartNodes::sceneOf(std::size_t heart, heart::View view) const {
   return heart::sceneOf(view, h.parameters, recording);
 }
 
-HeartFamily::HeartFamily(const std::map<std::string, double>& given,
+HeartFamily::HeartFamily(const std::map<std::string, double>& dials,
                          const std::vector<DialRange>& ranges, heart::View view, int frames,
                          int nodes, const Monitor& monitor, double tilt_deg)
-    : HeartFamily(HeartNodes(given, ranges, frames, nodes, monitor), view, monitor, tilt_deg) {}
+    : HeartFamily(HeartNodes(dials, ranges, frames, nodes, monitor), view, monitor, tilt_deg) {}
 
 HeartFamily::HeartFamily(const HeartNodes& hearts, heart::View view, const Monitor& monitor,
                          double tilt_deg)
     : ranges_(hearts.ranges()), nodes_(hearts.nodes()), tilt_rad_(radiansFromDegrees(tilt_deg)) {
+  if (!(tilt_deg >= 0 && tilt_deg <= kMostTilt_deg))
+    throw SceneError(
+        fmt::format("tilt_deg: is {:g}, accepted: 0 to {:g}", tilt_deg, kMostTilt_deg));
   const int frames = hearts.frames();
   std::vector<SurfaceTopology> all;
   std::vector<Node> recorded(hearts.size(), Node(static_cast<std::size_t>(frames)));
@@ -208,7 +222,7 @@ std::vector<float> HeartFamily::shares(const std::vector<double>& values) const 
 }
 
 std::vector<SurfaceFrame> HeartFamily::surfacesAt(const std::vector<double>& values) const {
-  CHECK_EQ(values.size(), ranges_.size());
+  checkValues(ranges_, values);
   static_assert(sizeof(Vec3f) == 3 * sizeof(float));
   const std::vector<float> share = shares(values);
   std::vector<SurfaceFrame> frames(coordinates_.size());
@@ -231,7 +245,8 @@ std::vector<SurfaceFrame> HeartFamily::surfacesAt(const std::vector<double>& val
 }
 
 ModelLoop HeartFamily::at(const std::vector<double>& values, const PlaneTilt& tilt) const {
-  CHECK_LE(std::max(std::abs(tilt.tilt_rad), std::abs(tilt.rotate_rad)), tilt_rad_ * (1 + 1e-12));
+  checkAngle("tilt_deg", tilt.tilt_rad, tilt_rad_);
+  checkAngle("rotate_deg", tilt.rotate_rad, tilt_rad_);
   std::vector<SurfaceFrame> surfaces = surfacesAt(values);
   if (tilt_rad_ > 0) tiltSurfaces(tilt, surfaces);
   ModelLoop loop = ModelPlane(scene_, surfaces_).cut(surfaces);

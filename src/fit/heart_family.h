@@ -7,23 +7,19 @@
 #include <vector>
 
 #include "core/monitor.h"
+#include "fit/dial_checks.h"
 #include "fit/plane_tilt.h"
 #include "motion/heart/recording.h"
 
 namespace echocine::fit {
 
-// A dial and its range.
-struct DialRange {
-  std::string key;  // of heart::dials()
-  double low = 0, high = 0;
-};
-
 // Hearts computed at Chebyshev-Lobatto nodes of each dial, shared by all views.
 class HeartNodes {
  public:
-  // `given`: fixed dials. Computes nodes^(number of ranges) hearts. Runs in parallel. Throws
-  // SceneError for impossible hearts, JobError when the monitor requests a stop.
-  HeartNodes(const std::map<std::string, double>& given, const std::vector<DialRange>& ranges,
+  // `dials`: fixed dials. Computes nodes^(number of ranges) hearts. Runs in parallel. Throws
+  // SceneError like checkFamily() and for impossible hearts, JobError when the monitor requests a
+  // stop.
+  HeartNodes(const std::map<std::string, double>& dials, const std::vector<DialRange>& ranges,
              int frames, int nodes, const Monitor& monitor = {});
 
   const std::vector<DialRange>& ranges() const { return ranges_; }
@@ -47,17 +43,17 @@ class HeartNodes {
 // view follows each heart, so the plane moves with the dials as in `echocine heart`.
 class HeartFamily {
  public:
-  // tilt_deg: limit of tilt and rotation of the plane, either way. Throws JobError when the monitor
-  // requests a stop.
+  // tilt_deg: limit of tilt and rotation of the plane, either way, 0 to kMostTilt_deg. Throws
+  // SceneError for another, JobError when the monitor requests a stop.
   HeartFamily(const HeartNodes& hearts, heart::View view, const Monitor& monitor = {},
               double tilt_deg = 0);
   // A family of one view; computes its hearts, 0.8 s of one core each. Throws like HeartNodes.
-  HeartFamily(const std::map<std::string, double>& given, const std::vector<DialRange>& ranges,
+  HeartFamily(const std::map<std::string, double>& dials, const std::vector<DialRange>& ranges,
               heart::View view, int frames, int nodes, const Monitor& monitor = {},
               double tilt_deg = 0);
 
-  // A beat of the heart at one value per range, in the order of the ranges. Thread-safe.
-  // Precondition: both angles of the tilt are within the tilt_deg of the constructor.
+  // A beat of the heart at one value per range, in the order of the ranges. Thread-safe. Throws
+  // SceneError like checkValues(), and for an angle beyond the tilt_deg of the constructor.
   ModelLoop at(const std::vector<double>& values, const PlaneTilt& tilt = {}) const;
   // The surfaces' vertices near the plane, from which `at` cuts the beat.
   std::vector<SurfaceFrame> surfacesAt(const std::vector<double>& values) const;

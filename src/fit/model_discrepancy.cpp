@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "echo/beat_length.h"
 #include "fit/descent.h"
+#include "fit/dial_checks.h"
 #include "frame/simulator.h"
 
 namespace echocine::fit {
@@ -44,6 +45,7 @@ ModelDiscrepancy::ModelDiscrepancy(const echo::EchoLoop& real, const echo::SideO
                                    const ModelLoop& first, const FitSettings& settings)
     : settings_(settings) {
   CHECK_EQ(first.frames.size(), static_cast<std::size_t>(kFitFrames));
+  checkWeights(settings.weights);
   echo::checkSide(side);
   echo::checkScale(real);
   if (!real.metres_per_pixel) settings_.limits.scale_free = true;
@@ -166,6 +168,8 @@ PoseFound ModelDiscrepancy::search(const ModelLoop& model) const {
 
 PoseFound ModelDiscrepancy::refine(const ModelLoop& model,
                                    const std::vector<FitPose>& starts) const {
+  if (starts.empty()) throw SceneError("starts: holds no pose, accepted: one or more");
+  for (const FitPose& start : starts) checkPose(start);
   return refinePose(model, *stack_, settings_.weights, settings_.limits, starts);
 }
 
@@ -185,10 +189,24 @@ PoseFound ModelDiscrepancy::search(const Simulator& model) const {
 }
 
 PoseFound ModelDiscrepancy::at(const ModelLoop& model, const FitPose& pose) const {
+  checkPose(pose);
   PoseFound out;
   out.pose = pose;
   out.terms = fitTerms(model, *stack_, pose);
   out.discrepancy = fitDiscrepancy(out.terms, settings_.weights);
+  return out;
+}
+
+std::vector<FitTerms> ModelDiscrepancy::terms(const ModelLoop& model,
+                                              const std::vector<FitPose>& poses) const {
+  for (const FitPose& pose : poses) checkPose(pose);
+  constexpr std::size_t kTogether = 8;  // poses that share the reading of a picture; our choice
+  std::vector<FitTerms> out(poses.size());
+  parallelBlocks(poses.size(), kTogether, [&](std::size_t begin, std::size_t end) {
+    const std::vector<FitTerms> some =
+        fitTerms(model, *stack_, std::span(poses).subspan(begin, end - begin), {});
+    std::copy(some.begin(), some.end(), out.begin() + static_cast<std::ptrdiff_t>(begin));
+  });
   return out;
 }
 

@@ -40,20 +40,24 @@ class ModelDiscrepancy {
  public:
   // `first`: a model of roughly the right heart and view. It determines the start of the beat if
   // neither the file nor `side` (the user) gives R waves or end-diastole, and the depth of a loop
-  // without scale. Throws SceneError for less than half a beat. Runs in parallel.
+  // without scale. Throws SceneError for less than half a beat, or weights that are negative or
+  // all 0. Runs in parallel.
   ModelDiscrepancy(const echo::EchoLoop& real, const echo::SideOptions& side,
                    const ModelLoop& first, const FitSettings& settings = {});
 
   // The pose of lowest D, searched globally or near given poses, with its D and terms. Thread-safe.
-  // Precondition: the model has kFitFrames frames.
+  // Throws SceneError without a start, or for one beyond the limits of checkPose(). Precondition:
+  // the model has kFitFrames frames.
   PoseFound search(const ModelLoop& model) const;
   PoseFound refine(const ModelLoop& model, const std::vector<FitPose>& starts) const;
   // Global search plus the given starts: no lower minimum near a start is missed.
   PoseFound searchAlsoFrom(const ModelLoop& model, const std::vector<FitPose>& starts) const;
   // The same for a simulator's heart. Lines and signal chain of its scene are not used.
   PoseFound search(const Simulator& model) const;
-  // Evaluates one pose without a search.
+  // Evaluates poses without a search. Throws SceneError like checkPose(). The second runs in
+  // parallel.
   PoseFound at(const ModelLoop& model, const FitPose& pose) const;
+  std::vector<FitTerms> terms(const ModelLoop& model, const std::vector<FitPose>& poses) const;
 
   FitMap map(const ModelLoop& model, const FitPose& pose) const;
   const BeatFound& beat() const { return beat_; }

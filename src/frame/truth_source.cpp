@@ -50,21 +50,10 @@ FrameTruth TruthSource::ofInstant(const FrameTime& time, TruthShared shared,
 }
 
 std::shared_ptr<TruthSource::PathSpace> TruthSource::pathSpace() const {
-  std::unique_ptr<PathSpace> space;
-  {
-    const std::lock_guard lock(mutex_);
-    if (!free_.empty()) {
-      space = std::move(free_.back());
-      free_.pop_back();
-    }
-  }
-  if (!space)
-    space = std::make_unique<PathSpace>(PathSpace{
+  return spaces_.borrow([this] {
+    return std::make_unique<PathSpace>(PathSpace{
         {}, FrameGeometry(motion_.surfaces()), TruthMaker::pathsFor(scene_, pictureGrid(scene_))});
-  return {space.release(), [this](PathSpace* used) {
-            const std::lock_guard lock(mutex_);
-            free_.emplace_back(used);
-          }};
+  });
 }
 
 // Traced surfaces serve where they are there.

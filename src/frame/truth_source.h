@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 
+#include "core/free_list.h"
 #include "frame/rolling.h"
 #include "frame/workspace.h"
 #include "motion/cycle/cardiac_clock.h"
@@ -50,8 +51,7 @@ class TruthSource {
       bent_;  // of the paths, where echoes stand at no straight path lengths
   mutable std::once_flag once_;
   mutable std::unique_ptr<const TruthMaker> maker_;
-  mutable std::mutex mutex_;
-  mutable std::vector<std::unique_ptr<PathSpace>> free_;
+  mutable FreeList<PathSpace> spaces_;
 };
 
 }  // namespace echocine

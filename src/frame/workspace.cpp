@@ -29,19 +29,7 @@ std::unique_ptr<Workspace> WorkspacePool::made() const {
 }
 
 std::shared_ptr<Workspace> WorkspacePool::borrow() const {
-  std::unique_ptr<Workspace> space;
-  {
-    const std::lock_guard lock(mutex_);
-    if (!free_.empty()) {
-      space = std::move(free_.back());
-      free_.pop_back();
-    }
-  }
-  if (!space) space = made();
-  return {space.release(), [this](Workspace* used) {
-            const std::lock_guard lock(mutex_);
-            free_.emplace_back(used);
-          }};
+  return list_.borrow([this] { return made(); });
 }
 
 }  // namespace echocine

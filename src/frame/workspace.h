@@ -2,12 +2,12 @@
 // Buffers of one frame.
 
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <variant>
 #include <vector>
 
 #include "core/beam_plane.h"
+#include "core/free_list.h"
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
 #include "geometry/side_slices.h"
@@ -52,8 +52,7 @@ class WorkspacePool {
   const Scene& scene_;
   const MeshMotion& motion_;
   const LoopPlan& plan_;
-  mutable std::mutex mutex_;
-  mutable std::vector<std::unique_ptr<Workspace>> free_;
+  mutable FreeList<Workspace> list_;
 };
 
 }  // namespace echocine

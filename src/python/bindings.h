@@ -17,6 +17,8 @@ void bindLoop(py::module_& module);
 void bindRender(py::module_& module);
 void bindPlan(py::module_& module);
 void bindCompare(py::module_& module);
+void bindModels(py::module_& module);
+void bindFit(py::module_& module);
 void bindDataset(py::module_& module);
 void bindFiles(py::module_& module);
 

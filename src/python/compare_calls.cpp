@@ -19,6 +19,7 @@
 #include "python/fork_guard.h"
 #include "python/job.h"
 #include "python/native_scene.h"
+#include "python/side_options.h"
 #include "python/unlocked.h"
 
 namespace echocine::python {
@@ -26,47 +27,6 @@ namespace echocine::python {
 namespace {
 
 using Path = std::filesystem::path;
-
-// As the command's options have them; None leaves one out.
-echo::SideOptions sideOf(const py::dict& given, const char* argument) {
-  echo::SideOptions side;
-  for (const auto& [key, value] : given) {
-    const auto name = py::str(key).cast<std::string>();
-    if (name == "fps")
-      side.fps = value.cast<double>();
-    else if (name == "mm_per_pixel")
-      side.mm_per_pixel = value.cast<double>();
-    else if (name == "pixel_aspect")
-      side.pixel_aspect = value.cast<double>();
-    else if (name == "heart_rate_bpm")
-      side.heart_rate_bpm = value.cast<double>();
-    else if (name == "sector")
-      side.sector = value.cast<std::string>();
-    else if (name == "ed_frame")
-      side.ed_frame = value.cast<double>();
-    else if (name == "es_frame")
-      side.es_frame = value.cast<double>();
-    else if (name == "r_waves_s")
-      side.r_waves_s = value.cast<std::vector<double>>();
-    else if (name == "label")
-      side.label = value.cast<std::string>();
-    else if (name == "read_ecg")
-      side.read_ecg = value.cast<bool>();
-    else
-      throw py::value_error(
-          fmt::format("{}: \"{}\" is not known, accepted: fps, mm_per_pixel, pixel_aspect, "
-                      "heart_rate_bpm, sector, ed_frame, es_frame, r_waves_s, read_ecg, label",
-                      argument, name));
-  }
-  return side;
-}
-
-double tiltOf(double tilt_deg) {
-  if (!(tilt_deg >= 0 && tilt_deg <= fit::kMostTilt_deg))
-    throw py::value_error(
-        fmt::format("tilt_deg: is {:g}, accepted: 0 to {:g}", tilt_deg, fit::kMostTilt_deg));
-  return tilt_deg;
-}
 
 py::tuple compareFiles(const Path& synthetic, const Path& real, const std::optional<Path>& folder,
                        const py::dict& real_side, const py::dict& synthetic_side, bool align_space,
@@ -149,7 +109,7 @@ void bindCompare(py::module_& module) {
              py::arg("align_space"), py::arg("scene").none(true), py::arg("tilt_deg"),
              py::arg("threads"), py::arg("progress").none(true),
              "summary.json and frames.csv as texts.");
-  py::class_<Distance, std::shared_ptr<Distance>>(module, "Discrepancy",
+  py::class_<Distance, std::shared_ptr<Distance>>(module, "FrameDiscrepancy",
                                                   "Distance of frames to a real loop.")
       .def(py::init(&makeDistance), py::arg("real"), py::arg("scene"), py::arg("side"),
            py::arg("tilt_deg"))

@@ -19,6 +19,8 @@ PYBIND11_MODULE(_echocine, module) {
   bindRender(module);
   bindPlan(module);
   bindCompare(module);
+  bindModels(module);
+  bindFit(module);
   bindDataset(module);
   bindFiles(module);
 }

@@ -84,13 +84,17 @@ py::dict probe(const NativeScene& native) {
   return entry;
 }
 
-heart::View viewFrom(const std::string& key) {
+}  // namespace
+
+View viewFrom(const std::string& argument, const std::string& key) {
   if (const auto view = heart::viewOf(key)) return *view;
   std::string accepted;
   for (const heart::ViewName& name : heart::viewNames())
     accepted += fmt::format("{}\"{}\"", accepted.empty() ? "" : " | ", name.key);
-  throw SceneError(fmt::format("heart: view: is \"{}\", accepted: {}", key, accepted));
+  throw SceneError(fmt::format("{}: is \"{}\", accepted: {}", argument, key, accepted));
 }
+
+namespace {
 
 // Dials by the names that Python has for them: underscores for hyphens.
 heart::Parameters parametersFrom(const std::map<std::string, double>& dials,
@@ -130,7 +134,7 @@ heart::Parameters parametersFrom(const std::map<std::string, double>& dials,
 py::tuple makeHeart(const std::string& view_key, const std::map<std::string, double>& dials,
                     const std::map<int, std::pair<double, double>>& segments, bool keep_volumes,
                     int keyframes, bool even, int threads, const py::object& progress) {
-  const heart::View view = viewFrom(view_key);
+  const heart::View view = viewFrom("heart: view", view_key);
   const heart::Parameters parameters = parametersFrom(dials, segments, keep_volumes);
   if (keyframes < 4 || keyframes > 100)
     throw SceneError(fmt::format("heart: keyframes: is {}, accepted: 4 to 100", keyframes));

@@ -14,4 +14,7 @@ struct NativeScene {
   std::map<std::string, KeyDefault> absent;  // keys that the text leaves out
 };
 
+// The view of a key. Throws SceneError naming the argument.
+View viewFrom(const std::string& argument, const std::string& key);
+
 }  // namespace echocine::python

@@ -151,19 +151,7 @@ void TruthMaker::addTracks(const SurfaceFrame& surfaces, const Space& space,
 }
 
 std::shared_ptr<TruthMaker::Space> TruthMaker::space() const {
-  std::unique_ptr<Space> space;
-  {
-    const std::lock_guard lock(mutex_);
-    if (!free_.empty()) {
-      space = std::move(free_.back());
-      free_.pop_back();
-    }
-  }
-  if (!space) space = std::make_unique<Space>(motion_, scene_.probe);
-  return {space.release(), [this](Space* used) {
-            const std::lock_guard lock(mutex_);
-            free_.emplace_back(used);
-          }};
+  return spaces_.borrow([this] { return std::make_unique<Space>(motion_, scene_.probe); });
 }
 
 // Only what the imaging plane can show of tissue is blended.

@@ -2,10 +2,10 @@
 // The truth of one frame, as far as the scene asks for it.
 
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <vector>
 
+#include "core/free_list.h"
 #include "motion/surfaces/interior_motion.h"
 #include "motion/surfaces/mesh_motion.h"
 #include "truth/contour.h"
@@ -101,8 +101,7 @@ class TruthMaker {
   std::optional<ValveTimes> valves_;
   std::optional<ViewOffset> view_;
   FieldFrame first_;  // the loop's first frame
-  mutable std::mutex mutex_;
-  mutable std::vector<std::unique_ptr<Space>> free_;
+  mutable FreeList<Space> spaces_;
 };
 
 }  // namespace echocine

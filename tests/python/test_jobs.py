@@ -90,7 +90,7 @@ def test_compare_and_discrepancy_with_itself(heart, tmp_path):
     itself = echocine.compare(loop, tmp_path / "loop" / "cine.avi", tmp_path / "comparison",
                               real_side={"fps": 10.0, "read_ecg": False}, align_space=False)
     assert itself.discrepancy < 0.2 and (tmp_path / "comparison" / "summary.json").exists()
-    distance = echocine.Discrepancy(tmp_path / "loop", heart)
+    distance = echocine.FrameDiscrepancy(tmp_path / "loop", heart)
     assert distance.real_frames == len(loop)
     near, far = distance(0, loop.greys[0]), distance(0, loop.greys[len(loop) // 2])
     assert near < 0.05 < far
@@ -101,7 +101,7 @@ def test_compare_and_discrepancy_with_itself(heart, tmp_path):
     with pytest.raises(ValueError, match="nan"):
         distance(0, np.full_like(loop.greys[0], np.nan))
     assert distance.tilt is None
-    tilted = echocine.Discrepancy(tmp_path / "loop", heart, tilt_deg=2)
+    tilted = echocine.FrameDiscrepancy(tmp_path / "loop", heart, tilt_deg=2)
     assert abs(tilted.tilt["tilt_deg"]) <= 2 and tilted.tilt["discrepancy"] <= tilted.tilt["discrepancy_untilted"]
     assert tilted.tilt["probe_toml"].startswith("apex = ")
     with pytest.raises(ValueError, match="tilt_deg: is 30, accepted: 0 to 20"):

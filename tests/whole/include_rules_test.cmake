@@ -60,7 +60,7 @@ set(rooms
   "study=plan,frame,cycle,output,video,metrics|loop,surfaces,keyframes,trace,signal,render,page"
   "echocine=render,loop,frame,heart"
   "dataset=output,surfaces,cycle,heart,truth,signal|frame,loop,views,video,page"
-  "python=frame|plan,loop,render,fit,compare,study,dataset,heart,cycle,output,video,surfaces"
+  "python=frame,echo|plan,loop,render,fit,compare,study,dataset,heart,cycle,output,video,surfaces"
   "cli=render,fit,compare,study,output,view,plan|dataset,video,frame,surfaces,keyframes,cycle,heart")
 
 function(room_of path out)

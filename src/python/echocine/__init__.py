@@ -11,18 +11,20 @@
     loop.times_s                    # (T,) float64, s
 
 Scenes have the keys of scene files; `Scene.keys()` lists them, `dials()` those of hearts. Another heart is another scene:
-`heart(ef=0.3)`. `Simulator` makes single frames, `dataset` many loops, `open` reads a render's folder. Errors are SceneError (what was given cannot be used)
+`heart(ef=0.3)`. `HeartFamily` changes dials in milliseconds, and `ModelDiscrepancy` compares its hearts with a real loop. `Simulator` makes single frames, `dataset` many loops, `open` reads a render's folder. Errors are SceneError (what was given cannot be used)
 and JobError (the work failed).
 """
 
 from ._echocine import Frame, __version__
 from ._dataset import Dataset, DatasetLoop, dataset, preview_dataset
 from ._errors import JobError, SceneError, SceneWarning
-from ._jobs import Comparison, Discrepancy, Plan, compare, plan, study
+from ._fit import HeartFamily, ModelDiscrepancy, ModelLoop, PoseFound
+from ._jobs import Comparison, FrameDiscrepancy, Plan, compare, plan, study
 from ._loop import Loop, open, render
 from ._scene import Scene, Table, dials, heart, scene_keys
 from ._simulator import Simulator
 
-__all__ = ["Comparison", "Dataset", "DatasetLoop", "Discrepancy", "Frame", "JobError", "Loop", "Plan", "Scene", "SceneError",
-           "SceneWarning", "Simulator", "Table", "__version__", "compare", "dataset", "dials", "heart", "open", "plan",
+__all__ = ["Comparison", "Dataset", "DatasetLoop", "Frame", "FrameDiscrepancy", "HeartFamily", "JobError", "Loop",
+           "ModelDiscrepancy", "ModelLoop", "Plan", "PoseFound", "Scene", "SceneError", "SceneWarning", "Simulator", "Table",
+           "__version__", "compare", "dataset", "dials", "heart", "open", "plan",
            "preview_dataset", "render", "scene_keys", "study"]

@@ -161,8 +161,9 @@ def _as_files(loop: Union[Loop, PathLike], spare: Path, threads: int) -> Path:
     return spare
 
 
-class Discrepancy:
+class FrameDiscrepancy:
     """One number for optimisers: how far a frame's greys are from a real frame. Built once from the real loop.
+    `ModelDiscrepancy` compares a model instead, without its greys.
 
     Args:
         real: AVI, MP4, GIF, DICOM, or a folder of frames.
@@ -176,7 +177,7 @@ class Discrepancy:
     """
 
     def __init__(self, real: PathLike, scene: Scene, side: Optional[Mapping[str, Any]] = None, tilt_deg: float = 0) -> None:
-        self._native = _echocine.Discrepancy(Path(real), _scene(scene), dict(side or {}), tilt_deg)
+        self._native = _echocine.FrameDiscrepancy(Path(real), _scene(scene), dict(side or {}), tilt_deg)
         self.tilt: Optional[Dict[str, Any]] = json.loads(self._native.tilt) if self._native.tilt else None
 
     def __call__(self, frame: int, greys: NDArray[np.float32]) -> float:

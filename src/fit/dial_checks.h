@@ -1,0 +1,52 @@
+#pragma once
+// Checks of dials, ranges, places and poses from a caller. Every message starts with the name of
+// the argument and ends with the accepted values.
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fit/fit_terms.h"
+#include "motion/heart/parameters.h"
+
+namespace echocine::fit {
+
+// A dial and its range.
+struct DialRange {
+  std::string key;  // of heart::dials()
+  double low = 0, high = 0;
+};
+
+// Hearts that a family may compute, and nodes of each of its dials. Our choice: 125 hearts take two
+// minutes of one core.
+inline constexpr int kLeastNodes = 2, kMostNodes = 9;
+inline constexpr std::size_t kMostHearts = 125;
+
+// The dial of a key. Throws SceneError for an unknown one.
+const heart::Dial& dialOf(const std::string& argument, const std::string& key);
+// Throws SceneError unless the value is within the dial's range.
+void checkDial(const std::string& argument, const heart::Dial& dial, double value);
+
+// A family's input. `ranges`: different dials, low below high, within the range of the dial.
+// `dials`: values within their ranges, of none of the dials in `ranges`. nodes^ranges hearts are at
+// most kMostHearts. Throws SceneError.
+void checkFamily(const std::map<std::string, double>& dials, const std::vector<DialRange>& ranges,
+                 int nodes);
+
+// One value per range, within it to rounding: beyond its nodes a polynomial is no heart. Throws
+// SceneError.
+void checkValues(const std::vector<DialRange>& ranges, std::span<const double> values);
+
+// Limits of a pose that is evaluated. Our choice: beyond them a model of a heart leaves every real
+// sector. A search has the narrower PoseLimits.
+inline constexpr double kMostShift_m = 0.5, kLeastScale = 0.2, kMostScale = 5;
+inline constexpr int kMostLag = 1000;
+inline constexpr double kEarliestSystole = 0.05, kLatestSystole = 0.95;  // or 0: that of the stack
+// Throws SceneError for a pose beyond the limits, or with a number that is not finite.
+void checkPose(const FitPose& pose);
+
+// Throws SceneError unless all are finite and from 0 up, and one is above 0.
+void checkWeights(const FitWeights& weights);
+
+}  // namespace echocine::fit

@@ -1,0 +1,152 @@
+// Models of hearts in their imaging plane, for comparisons with a real loop.
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <tuple>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/units.h"
+#include "fit/dial_checks.h"
+#include "fit/dial_grid.h"
+#include "fit/heart_family.h"
+#include "fit/model_discrepancy.h"
+#include "motion/surfaces/mesh_motion.h"
+#include "motion/surfaces/probe_placement.h"
+#include "python/arrays.h"
+#include "python/bindings.h"
+#include "python/job.h"
+#include "python/native_scene.h"
+#include "python/side_options.h"
+
+namespace echocine::python {
+
+namespace {
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Model = std::shared_ptr<fit::ModelLoop>;
+using Ranges = std::vector<std::tuple<std::string, double, double>>;
+
+std::shared_ptr<fit::HeartFamily> makeFamily(const Ranges& ranges, const std::string& view_key,
+                                             const std::map<std::string, double>& dials,
+                                             std::optional<int> nodes, double tilt_deg, int threads,
+                                             const py::object& progress) {
+  const heart::View view = viewFrom("view", view_key);
+  tiltOf(tilt_deg);
+  std::vector<fit::DialRange> by_key;
+  for (const auto& [key, low, high] : ranges) by_key.push_back({key, low, high});
+  if (by_key.size() > fit::kMostAxes)
+    throw SceneError(
+        fmt::format("ranges: holds {}, accepted: up to {}", by_key.size(), fit::kMostAxes));
+  std::shared_ptr<fit::HeartFamily> family;
+  runJob(progress, [&](const Monitor& monitor) {
+    withThreads(threads, [&] {
+      family = std::make_shared<fit::HeartFamily>(dials, by_key, view, fit::kFitFrames,
+                                                  nodes.value_or(fit::nodesFor(by_key.size())),
+                                                  monitor, tilt_deg);
+    });
+  });
+  return family;
+}
+
+Model modelAt(const fit::HeartFamily& family, const Doubles& values, double tilt_deg,
+              double rotate_deg, int threads) {
+  if (values.ndim() != 1)
+    throw py::value_error(fmt::format("values: is {}, accepted: ({},), float64", shown(values),
+                                      family.ranges().size()));
+  const std::vector<double> places(values.data(), values.data() + values.size());
+  Model model;
+  runJob(py::none(), [&](const Monitor&) {
+    withThreads(threads, [&] {
+      model = std::make_shared<fit::ModelLoop>(
+          family.at(places, {.tilt_rad = radiansFromDegrees(tilt_deg),
+                             .rotate_rad = radiansFromDegrees(rotate_deg)}));
+    });
+  });
+  return model;
+}
+
+Model modelOf(const NativeScene& native, int threads) {
+  Model model;
+  runJob(py::none(), [&](const Monitor&) {
+    withThreads(threads, [&] {
+      const Scene scene = placed(native.scene);
+      model = std::make_shared<fit::ModelLoop>(
+          fit::modelLoop(scene, MeshMotion(scene), fit::kFitFrames));
+    });
+  });
+  return model;
+}
+
+py::array tissuePlanes(const fit::ModelLoop& model) {
+  py::array_t<std::uint8_t> out({static_cast<py::ssize_t>(model.frames.size()),
+                                 static_cast<py::ssize_t>(model.cells_across),
+                                 static_cast<py::ssize_t>(model.cells_along)});
+  std::uint8_t* to = out.mutable_data();
+  for (const fit::ModelFrame& frame : model.frames)
+    for (const fit::TissueCell& cell : frame.cells)
+      *to++ = cell.share < 0.5f ? cell.second : cell.first;
+  return out;
+}
+
+// Centres of the cells, (across, along, 2): x and z, mm.
+py::array cellPlaces(const fit::ModelLoop& model) {
+  py::array_t<float> out({static_cast<py::ssize_t>(model.cells_across),
+                          static_cast<py::ssize_t>(model.cells_along), py::ssize_t{2}});
+  float* to = out.mutable_data();
+  for (const fit::TissueCell& cell : model.frames.front().cells) {
+    *to++ = 1e3f * cell.x_m;
+    *to++ = 1e3f * cell.z_m;
+  }
+  return out;
+}
+
+py::tuple boundaryOf(const fit::ModelLoop& model, int frame) {
+  const int frames = static_cast<int>(model.frames.size());
+  if (frame < 0 || frame >= frames)
+    throw py::index_error(fmt::format("frame: is {}, accepted: 0 to {}", frame, frames - 1));
+  const auto& pieces = model.frames[static_cast<std::size_t>(frame)].boundary;
+  const auto count = static_cast<py::ssize_t>(pieces.size());
+  py::array_t<float> points({count, py::ssize_t{2}});
+  py::array_t<std::uint16_t> structures(count);
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const fit::BoundaryPoint& piece = pieces[static_cast<std::size_t>(i)];
+    points.mutable_at(i, 0) = 1e3f * piece.x_m;
+    points.mutable_at(i, 1) = 1e3f * piece.z_m;
+    structures.mutable_at(i) = piece.surface;
+  }
+  return py::make_tuple(points, structures);
+}
+
+py::list rangesOf(const fit::HeartFamily& family) {
+  py::list out;
+  for (const fit::DialRange& range : family.ranges())
+    out.append(py::make_tuple(range.key, range.low, range.high));
+  return out;
+}
+
+}  // namespace
+
+void bindModels(py::module_& module) {
+  py::class_<fit::HeartFamily, std::shared_ptr<fit::HeartFamily>>(
+      module, "HeartFamily", "Parametric hearts interpolated between computed ones.")
+      .def(py::init(&makeFamily), py::arg("ranges"), py::arg("view"), py::arg("dials"),
+           py::arg("nodes").none(true), py::arg("tilt_deg"), py::arg("threads"),
+           py::arg("progress").none(true))
+      .def("at", &modelAt, py::arg("values"), py::arg("tilt_deg"), py::arg("rotate_deg"),
+           py::arg("threads"), "The beat of one heart.")
+      .def_property_readonly("ranges", &rangesOf, "Key, least and most of each range.")
+      .def_property_readonly("nodes", &fit::HeartFamily::nodes, "Computed hearts per range.");
+  py::class_<fit::ModelLoop, std::shared_ptr<fit::ModelLoop>>(
+      module, "ModelLoop", "A beat of a model in its imaging plane.")
+      .def(py::init(&modelOf), py::arg("scene"), py::arg("threads"))
+      .def_readonly("tissues", &fit::ModelLoop::tissues, "Media by number.")
+      .def_readonly("structures", &fit::ModelLoop::structures, "Structures by number.")
+      .def_readonly("systole", &fit::ModelLoop::systole, "End-systole, a fraction of the beat.")
+      .def_property_readonly("tissue", &tissuePlanes, "(frames, across, along) uint8.")
+      .def_property_readonly("cells_mm", &cellPlaces, "(across, along, 2) float32.")
+      .def("boundary", &boundaryOf, py::arg("frame"), "Points and structures.");
+}
+
+}  // namespace echocine::python
