@@ -11,9 +11,9 @@ namespace echocine {
 
 namespace {
 
-constexpr int kLanes = kFloatLanes;
+constexpr int kAtOnce = kFloatLanes;
 // Samples that are read and written together: whole cache lines of each line. Our choice.
-constexpr int kVectors = 8, kSlab = kVectors * kLanes;
+constexpr int kVectors = 8, kSlab = kVectors * kAtOnce;
 
 // Four sums that do not wait for each other.
 Floats8 weightedSum(const float* weights, const Floats8* rows, int count) {
@@ -69,7 +69,7 @@ void ProfileAverage::averageBy(std::vector<float>& plane, LineRange lines,
     for (std::size_t i = begin; i < end; ++i) {
       Slab slab(*this, static_cast<int>(i) * kSlab);
       read(plane.data(), slab);
-      for (int v = 0; slab.first + v * kLanes < slab.last; ++v)
+      for (int v = 0; slab.first + v * kAtOnce < slab.last; ++v)
         averageVector(v, lines, averageOfRow, slab);
       write(slab, lines, plane.data());
     }
@@ -104,7 +104,7 @@ void ProfileAverage::averageVector(int vector, LineRange lines, AverageOfRow ave
     for (int row = first; row < end; ++row) sum += rows[row];
     slab.groups[static_cast<std::size_t>(g)] = sum * (1.0f / static_cast<float>(end - first));
   }
-  const ProfileWindows::Zone& zone = windows_.zoneOf(slab.first + vector * kLanes);
+  const ProfileWindows::Zone& zone = windows_.zoneOf(slab.first + vector * kAtOnce);
   // With the rows on both sides, between which lines are interpolated.
   const int first_row = std::max(lines.first / windows_.in_row - 1, 0);
   const int end_row = std::min(lines.end / windows_.in_row + 2, windows_.rows);
