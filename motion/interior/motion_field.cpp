@@ -37,6 +37,27 @@ bool samePhases(const KeyframeWeights& a, const KeyframeWeights& b) {
   return std::equal(a.phases().begin(), a.phases().end(), b.phases().begin(), b.phases().end());
 }
 
+// The most that a node moves along y over the beat. Between keyframes a class's displacement may
+// leave their range by KeyframeWeights::overshoot(); rows beyond the keyframes are no places.
+double reachAcross(const GroupLattice& lattice, std::span<const PhaseClass> classes) {
+  std::vector<double> most_m;  // by active node, the sum over classes
+  for (std::size_t c = 0; c < lattice.rows_m.size(); ++c) {
+    const KeyframeWeights& weights = classes[c].weights;
+    const double beyond = weights.overshoot();
+    const auto& rows = lattice.rows_m[c];
+    if (!rows.empty()) most_m.resize(rows.front().size());
+    for (std::size_t i = 0; i < most_m.size() && !rows.empty(); ++i) {
+      double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;
+      for (std::size_t k = 0; k < weights.keyframeCount(); ++k) {
+        low_m = std::min(low_m, static_cast<double>(rows[k][i].y));
+        high_m = std::max(high_m, static_cast<double>(rows[k][i].y));
+      }
+      most_m[i] += std::max(-low_m, high_m) + beyond * (high_m - low_m);
+    }
+  }
+  return most_m.empty() ? 0 : *std::max_element(most_m.begin(), most_m.end());
+}
+
 }  // namespace
 
 struct MotionField::State {
@@ -138,11 +159,7 @@ void MotionField::State::fit(std::span<const BorderPoint> points) {
     for (std::size_t g = begin; g < end; ++g)
       groups[g].lattice = fitGroup(space, groups[g].members, *tops, points, classes);
   });
-  for (Group& group : groups)
-    for (const auto& rows : group.lattice.rows_m)
-      for (const auto& row : rows)
-        for (const Vec3f d : row)
-          group.reach_across_m = std::max(group.reach_across_m, std::abs(static_cast<double>(d.y)));
+  for (Group& group : groups) group.reach_across_m = reachAcross(group.lattice, classes);
 }
 
 MotionField::MotionField(std::vector<InteriorSurface> surfaces, const FieldSettings& settings)

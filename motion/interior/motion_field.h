@@ -125,8 +125,9 @@ class MotionField {
   void at(double phase, FieldFrame& frame) const;
   void at(double phase, FieldFrame& frame, const FieldPart& part) const;
 
-  // Largest displacement of a node along y from the reference, over all keyframes, m: material that
-  // the imaging plane can show lies within this distance of it. For all groups, or for one.
+  // A bound of the displacement of any node along y from the reference over the beat, m: material
+  // that the imaging plane can show lies within it of the plane. Between keyframes it includes the
+  // overshoot of the interpolation. For all groups, or for one.
   double reachAcrossPlane() const;
   double reachAcrossPlane(GroupId group) const;
 

@@ -236,5 +236,29 @@ TEST(InteriorMotionLaw, TheFieldIsTheSameForAnyNumberOfThreads) {
   }
 }
 
+// Rows of a spline's second derivatives, dozens of times the motion, are no displacements.
+TEST(InteriorMotionLaw, TheReachAcrossThePlaneHoldsTheBeatAndLittleMore) {
+  const double phases[] = {0.0, 0.3, 0.5, 0.8};
+  for (const Interpolation kind : {Interpolation::linear, Interpolation::spline}) {
+    InteriorSurface block = movingBlock([](Vec3d p) { return p + Vec3d{0, 0.004, 0}; });
+    const std::vector<Vec3f> at_rest = block.keyframes_m[0], moved = block.keyframes_m[1];
+    block.weights = KeyframeWeights(phases, kind);
+    block.keyframes_m = {at_rest, moved, moved, at_rest};
+    const MotionField field({block});
+    double most_m = 0;
+    FieldFrame frame;
+    constexpr int kPhases = 200;
+    for (int i = 0; i < kPhases; ++i) {
+      field.at(static_cast<double>(i) / kPhases, frame);
+      for (const GroupFrame& group : frame.groups)
+        for (const Vec3f d : group.displacement_m)
+          most_m = std::max(most_m, std::abs(static_cast<double>(d.y)));
+    }
+    EXPECT_GT(most_m, 3.9e-3);
+    EXPECT_GE(field.reachAcrossPlane(), most_m);
+    EXPECT_LE(field.reachAcrossPlane(), 2 * most_m);
+  }
+}
+
 }  // namespace
 }  // namespace echocine
