@@ -154,6 +154,28 @@ bool writeFileOnce(const std::filesystem::path& path, std::span<const std::byte>
   return file.finishOnce();
 }
 
+void writeNewFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  const auto fail = [&](int reason) {
+    throw JobError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(reason)));
+  };
+  const int descriptor =
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
+  if (descriptor < 0) fail(errno);
+  const int reason = writeAll(descriptor, bytes) ? 0 : errno;
+  if (::close(descriptor) != 0 && reason == 0) fail(errno);
+  if (reason != 0) fail(reason);
+}
+
+void syncAllOf(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  int reason = descriptor < 0 ? errno : 0;
+  if (descriptor >= 0 && ::syncfs(descriptor) != 0) reason = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (reason != 0 && reason != EROFS)
+    throw JobError(
+        fmt::format("{}: cannot be written: {}", folder.string(), std::strerror(reason)));
+}
+
 void writeFileWhole(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   WholeFile file(path);
   file.write(bytes);

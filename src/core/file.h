@@ -22,6 +22,14 @@ bool syncFile(int descriptor);
 // Flushes the names in a file's folder to disk, if the file system can; for use after a rename.
 void syncFolderOf(const std::filesystem::path& path);
 
+// Writes a new file into a folder that gets its name later: neither synced nor renamed. Throws
+// JobError, also if the file exists.
+void writeNewFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+// Flushes the file system of a folder to the disk: all files and names below it with one call.
+// Throws JobError.
+void syncAllOf(const std::filesystem::path& folder);
+
 // A file written in pieces under a temporary name and renamed at the end, so the target is either
 // unchanged or complete. Destroyed without finish() it leaves no file.
 class WholeFile {

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -32,7 +33,17 @@ void appendMillimetres(std::string& text, double metres) {
 }
 
 void writeText(const fs::path& file, const std::string& text) {
-  writeFileWhole(file, std::as_bytes(std::span(text)));
+  writeNewFile(file, std::as_bytes(std::span(text)));
+}
+
+// All keyframes of a part. Texts are made on all threads, files are written in order.
+void writePart(const fs::path& folder, const RecordedPart& part) {
+  std::vector<std::string> texts(part.control_m.size());
+  parallelBlocks(texts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) texts[k] = heartMesh(part, k);
+  });
+  for (std::size_t k = 0; k < texts.size(); ++k)
+    writeText(folder / heart::meshName(part, k), texts[k]);
 }
 
 // A folder beside the target, removed unless it replaces the target. The next run removes what a
@@ -67,12 +78,16 @@ class FolderInTheMaking {
     if (!part_.empty()) fs::remove_all(part_, ignored);
   }
   const fs::path& path() const { return part_; }
+  // The files reach the disk before the folder's name does, so that no power loss leaves a heart
+  // with half a mesh.
   void finish() {
+    syncAllOf(part_);
     std::error_code failed;
     fs::rename(part_, folder_, failed);  // an empty folder makes way
     if (failed)
       throw JobError(fmt::format("{}: cannot be made: {}", folder_.string(), failed.message()));
     part_.clear();
+    syncFolderOf(folder_);
   }
 
  private:
@@ -107,11 +122,10 @@ void writeHeart(const HeartFiles& wanted, const fs::path& folder, const Monitor&
     const heart::ParametricHeart model(wanted.parameters);
     const Recording recording =
         heart::record(model, wanted.view, wanted.keyframes, wanted.spacing, monitor);
-    for (const RecordedPart& part : recording.parts)
-      for (std::size_t k = 0; k < part.control_m.size(); ++k) {
-        if (!monitor.keep_going()) throw JobError("stopped");
-        writeText(making.path() / heart::meshName(part, k), heartMesh(part, k));
-      }
+    for (const RecordedPart& part : recording.parts) {
+      if (!monitor.keep_going()) throw JobError("stopped");
+      writePart(making.path(), part);
+    }
     writeText(making.path() / "truth.json", heart::truthText(model, recording));
     writeText(making.path() / "scene.toml",
               heart::sceneText(wanted.view, wanted.parameters, recording, "", wanted.look));

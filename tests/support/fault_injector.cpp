@@ -136,6 +136,12 @@ int fsync(int file) {
   return real(file);
 }
 
+int syncfs(int file) noexcept {
+  static const auto real = REAL(syncfs);
+  unsynced = false;
+  return real(file);
+}
+
 int rename(const char* from, const char* to) noexcept {
   static const auto real = REAL(rename);
   if (in_main && unsynced) ++unsynced_renames;

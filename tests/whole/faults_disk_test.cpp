@@ -57,6 +57,16 @@ TEST_F(FullDiskLoop, NoFileIsRenamedBeforeItIsSynced) {
   EXPECT_EQ(counted.unsynced_renames, 0);
 }
 
+TEST(FullDiskHeart, TheFolderIsNamedAfterItsFilesReachTheDisk) {
+  const TempFolder folder;
+  Steps counted;
+  const Outcome outcome =
+      outcomeOf({{"heart", "--quiet", "--keyframes", "4", "-o", folder / "heart"}}, &counted);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_GT(counted.files, 100);
+  EXPECT_EQ(counted.unsynced_renames, 0);
+}
+
 // What comes after the frames that were finished fails; their pictures play.
 TEST_F(FullDiskLoop, ALimitOfFileSizesLeavesWholeFramesOnly) {
   for (const long bytes : {0, 1, 512, 3000, 5000, 9000, 20000}) {
