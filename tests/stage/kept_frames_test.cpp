@@ -31,10 +31,10 @@ TEST(KeptFrames, HoldsTheFramesOfItsRangeAndGivesEachOnce) {
 }
 
 TEST(KeptFrames, HoldsTheFirstFramesThatFit) {
-  constexpr int kSide = 4096;  // 64 MiB a frame
-  static_assert(kKeptBytes == 2 * sizeof(float) * kSide * kSide);
+  constexpr int kWide = 4096;  // 64 MiB a frame
+  static_assert(kKeptBytes == 2 * sizeof(float) * kWide * kWide);
   KeptFrames kept({0, 4});
-  for (int frame = 0; frame < 4; ++frame) kept.keep(frame, frameOf(kSide, kSide), {});
+  for (int frame = 0; frame < 4; ++frame) kept.keep(frame, frameOf(kWide, kWide), {});
   for (int frame = 0; frame < 4; ++frame) EXPECT_EQ(taken(kept, frame), frame < 2) << frame;
 }
 
