@@ -46,9 +46,9 @@ struct NoisyBed {
   }
 };
 
-struct Moments {
+struct FieldMoments {
   double mean = 0, envelope_snr = 0;
-  explicit Moments(const std::vector<float>& plane) {
+  explicit FieldMoments(const std::vector<float>& plane) {
     double a = 0;
     for (const float v : plane) mean += v, a += std::sqrt(static_cast<double>(v));
     const double n = static_cast<double>(plane.size());
@@ -91,7 +91,7 @@ TEST(NoiseLaw, SpeckleAndNoiseTogetherAreRayleigh) {
           noisy.sum(noisy.bed.speckle(), tissue, 0.02 * noisy.bed.settings.seed);
       all.insert(all.end(), one.begin(), one.end());
     }
-    const Moments m(all);
+    const FieldMoments m(all);
     EXPECT_NEAR(m.envelope_snr / 1.913, 1, 0.01) << tissue;
     EXPECT_NEAR(10 * std::log10(m.mean / (1 + static_cast<double>(tissue))), 0, 0.05) << tissue;
   }
@@ -110,7 +110,7 @@ TEST(NoiseLaw, ClutterIsAFieldTooAndStandsStill) {
     const std::vector<float> one = noisy.sum(noisy.bed.speckle(), 1);
     all.insert(all.end(), one.begin(), one.end());
   }
-  EXPECT_NEAR(Moments(all).envelope_snr / 1.913, 1, 0.02);
+  EXPECT_NEAR(FieldMoments(all).envelope_snr / 1.913, 1, 0.02);
 }
 
 // Over shifts of up to 24 lines and 48 samples either way, lines that wrap round included.
