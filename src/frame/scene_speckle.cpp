@@ -15,8 +15,8 @@ SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion,
 }
 
 void SceneSpeckle::apply(const FrameTime& time, const SurfaceFrame& surfaces,
-                         Intensities& intensities, const CoherentEchoes& echoes,
-                         LineRange lines, EchoField& field) const {
+                         Intensities& intensities, const CoherentEchoes& echoes, LineRange lines,
+                         EchoField& field) const {
   thread_local std::vector<Vec3f> on_sheets_m;
   sheets_.at(surfaces, on_sheets_m);
   thread_local FieldFrame frame;
