@@ -94,8 +94,8 @@ TEST(CompareViews, AStillSegmentIsWhereTheSceneDisagrees) {
         next = sum;
     }
     std::printf("still segment %+.1f mm, the next one %+.1f mm\n", planted, next);
-    EXPECT_GT(planted, 2.2);
-    EXPECT_LT(next, planted - 1);
+    EXPECT_GT(planted, 1.2);
+    EXPECT_LT(next, planted - 0.4);
   });
 }
 
