@@ -186,8 +186,8 @@ class ModelDiscrepancy:
 
     def terms(self, model: ModelLoop, poses: ArrayLike) -> NDArray[np.float64]:
         """The terms at poses, (P, 4) float64 in the order of `TERMS`; of one pose (4,). Thread-safe."""
-        values = self._native.terms(_model("model", model), _numbers("poses", poses))[:, 1:]
-        return values[0] if np.ndim(poses) == 1 else values
+        values: NDArray[np.float64] = self._native.terms(_model("model", model), _numbers("poses", poses))
+        return values[0, 1:] if np.ndim(poses) == 1 else values[:, 1:]
 
     def search(self, model: ModelLoop, starts: Optional[ArrayLike] = None, *, threads: int = 0) -> PoseFound:
         """The pose of lowest D, searched everywhere and from `starts` (P, 6). Thread-safe."""
