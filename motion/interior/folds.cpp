@@ -6,31 +6,69 @@ namespace echocine {
 
 namespace {
 
-// A cell that keeps less than this part of its volume at a keyframe is about to fold: its
+// A cell that keeps less than this part of its volume is about to fold: its
 // surroundings are made this much stiffer. Our choices.
 constexpr float kLeastVolume = 0.05f, kStiffer = 4;
 // One that keeps this part is not looked at in later rounds, which change little there. Our choice.
 constexpr float kSafeVolume = 0.5f;
 
-// The least part of its volume that a corner of the cell keeps at any keyframe; once it is about to
-// fold, no less is looked for. Corner numbers have bit 0 for x, 1 for z, 2 for y.
-float leastVolume(const GroupLattice& lattice, std::span<const PhaseClass> classes,
+// The instants at which cells are looked at, and the rows of each class that make them.
+struct Instants {
+  std::vector<std::vector<std::vector<KeyframeWeights::Term>>> terms;  // by instant and class
+
+  Instants(std::span<const PhaseClass> classes, std::span<const double> phases) {
+    for (const double phase : phases) {
+      terms.emplace_back(classes.size());
+      for (std::size_t c = 0; c < classes.size(); ++c)
+        classes[c].weights.termsAt(phase, terms.back()[c]);
+    }
+  }
+};
+
+// The keyframes of all classes.
+std::vector<double> keyframePhases(std::span<const PhaseClass> classes) {
+  std::vector<double> phases;
+  for (const PhaseClass& c : classes)
+    phases.insert(phases.end(), c.weights.phases().begin(), c.weights.phases().end());
+  std::sort(phases.begin(), phases.end());
+  phases.erase(std::unique(phases.begin(), phases.end()), phases.end());
+  return phases;
+}
+
+// Two instants between each keyframe and the next.
+std::vector<double> phasesBetween(std::span<const double> keyframes) {
+  std::vector<double> phases;
+  for (std::size_t k = 0; k < keyframes.size(); ++k) {
+    const double from = keyframes[k];
+    const double to = k + 1 < keyframes.size() ? keyframes[k + 1] : keyframes[0] + 1;
+    for (const double part : {1.0 / 3, 2.0 / 3}) phases.push_back(from + part * (to - from));
+  }
+  return phases;
+}
+
+// The least part of its volume that a corner of the cell keeps at any instant, all classes
+// together; once it is about to fold, no less is looked for. Corner numbers have bit 0 for x, 1 for
+// z, 2 for y.
+float leastVolume(const GroupLattice& lattice, const Instants& instants,
                   const std::uint32_t (&corners)[8]) {
   const float h = lattice.grid.spacing_m;
   float least = 1;
-  for (std::size_t c = 0; c < classes.size(); ++c)
-    for (std::size_t k = 0; k < classes[c].weights.keyframeCount(); ++k) {
-      const std::vector<Vec3f>& row = lattice.rows_m[c][k];
-      Vec3f d[8];
-      for (std::size_t i = 0; i < 8; ++i) d[i] = row[corners[i]];
-      for (std::size_t i = 0; i < 8; ++i) {
-        const Vec3f x = Vec3f{h, 0, 0} + d[i | 1] - d[i & 6],
-                    z = Vec3f{0, 0, h} + d[i | 2] - d[i & 5],
-                    y = Vec3f{0, h, 0} + d[i | 4] - d[i & 3];
-        least = std::min(least, dot(x, cross(y, z)) / (h * h * h));
+  for (const auto& terms : instants.terms) {
+    Vec3f d[8]{};
+    for (std::size_t c = 0; c < terms.size(); ++c)
+      for (const KeyframeWeights::Term& term : terms[c]) {
+        const std::vector<Vec3f>& row = lattice.rows_m[c][term.row];
+        for (std::size_t i = 0; i < 8; ++i)
+          d[i] = d[i] + static_cast<float>(term.weight) * row[corners[i]];
       }
-      if (least < kLeastVolume) return least;
+    for (std::size_t i = 0; i < 8; ++i) {
+      const Vec3f x = Vec3f{h, 0, 0} + d[i | 1] - d[i & 6],
+                  z = Vec3f{0, 0, h} + d[i | 2] - d[i & 5],
+                  y = Vec3f{0, h, 0} + d[i | 4] - d[i & 3];
+      least = std::min(least, dot(x, cross(y, z)) / (h * h * h));
     }
+    if (least < kLeastVolume) return least;
+  }
   return least;
 }
 
@@ -39,6 +77,8 @@ float leastVolume(const GroupLattice& lattice, std::span<const PhaseClass> class
 bool stiffenFolds(const GroupLattice& lattice, std::span<const PhaseClass> classes,
                   std::vector<bool>& used, std::span<float> stiffness) {
   const LatticeGrid& grid = lattice.grid;
+  const std::vector<double> phases = keyframePhases(classes);
+  const Instants at_keyframes(classes, phases), between(classes, phasesBetween(phases));
   std::vector<bool> stiffer(stiffness.size(), false);
   bool found = false;
   for (int y = 0; y + 1 < grid.ny; ++y)
@@ -53,8 +93,10 @@ bool stiffenFolds(const GroupLattice& lattice, std::span<const PhaseClass> class
           corners[i] = static_cast<std::uint32_t>(n);
         }
         if (!whole || !used[corners[0]]) continue;
-        const float least = leastVolume(lattice, classes, corners);
+        float least = leastVolume(lattice, at_keyframes, corners);
         if (least > kSafeVolume) used[corners[0]] = false;
+        if (least > kLeastVolume && least <= kSafeVolume)
+          least = std::min(least, leastVolume(lattice, between, corners));
         if (!(least < kLeastVolume)) continue;
         found = true;
         for (const std::uint32_t n : corners) stiffer[n] = true;

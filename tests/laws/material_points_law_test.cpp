@@ -128,8 +128,8 @@ TEST(MaterialPointsLaw, PointsBoundToASurfaceStayOnIt) {
 
 // What the field leaves on a scene over 20 phases between the keyframes.
 struct Agreement {
-  std::vector<float> miss_m;  // of vertices that could be seen at the reference phase
-  double least_volume = 1;
+  std::vector<float> miss_m;      // of vertices that could be seen at the reference phase
+  double folded = 0, points = 0;  // places that turned over, of all
   struct Staying {
     // covered: by the meshes themselves, where a stronger structure now hides the place of the
     // wall's surface that was nearest; near: out of the wall by less than kBorder_m.
@@ -198,7 +198,8 @@ Agreement agreementOf(const Scene& scene) {
                       box.lo.y + uniformFromHash(hashOf(j, 2)) * (box.hi.y - box.lo.y),
                       box.lo.z + uniformFromHash(hashOf(j, 3)) * (box.hi.z - box.lo.z)};
         if (reference.at(p) != s.id) continue;
-        result.least_volume = std::min(result.least_volume, group.volumeRatio(toFloat(p)));
+        ++result.points;
+        result.folded += group.volumeRatio(toFloat(p)) <= 0 ? 1 : 0;
         const std::string& name = scene.structures[index(s.id)].name;
         if (name.find("wall") == std::string::npos) continue;
         Agreement::Staying& of_wall = result.walls[name];
@@ -229,7 +230,8 @@ void expectAgreement(const Agreement& a, double rms_m) {
   ::testing::Test::RecordProperty("rms_um", static_cast<int>(1e6 * rootMeanSquare(a.miss_m)));
   EXPECT_LT(rootMeanSquare(a.miss_m), rms_m);
   EXPECT_LT(a.miss_m[a.miss_m.size() * 99 / 100], 1e-3f);
-  EXPECT_GT(a.least_volume, 0);
+  std::printf("%.0f of %.0f places turned over\n", a.folded, a.points);
+  EXPECT_LE(a.folded, 1e-4 * a.points);  // in layers thinner than a cell
   for (const auto& [name, wall] : a.walls) {
     std::printf("%s: %.2f %% of its points stay, %.2f %% are on its border, %.2f %% covered\n",
                 name.c_str(), 100 * wall.stay / wall.points, 100 * wall.near / wall.points,
