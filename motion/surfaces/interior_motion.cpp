@@ -24,11 +24,11 @@ MotionField interiorMotion(const Scene& scene, const MeshMotion& motion,
   return MotionField(std::move(surfaces), settings);
 }
 
-const MotionField& SharedMotionField::field() const {
+const std::shared_ptr<const MotionField>& SharedMotionField::shared() const {
   std::call_once(once_, [this] {
-    field_ = std::make_unique<const MotionField>(interiorMotion(scene_, motion_));
+    field_ = std::make_shared<const MotionField>(interiorMotion(scene_, motion_));
   });
-  return *field_;
+  return field_;
 }
 
 }  // namespace echocine

@@ -22,13 +22,15 @@ class SharedMotionField {
       : scene_(scene), motion_(motion) {}
 
   // Thread-safe. An error leaves the field to be fitted by the next call.
-  const MotionField& field() const;
+  const MotionField& field() const { return *shared(); }
+  // The same, for an owner that outlives this.
+  const std::shared_ptr<const MotionField>& shared() const;
 
  private:
   const Scene& scene_;
   const MeshMotion& motion_;
   mutable std::once_flag once_;
-  mutable std::unique_ptr<const MotionField> field_;
+  mutable std::shared_ptr<const MotionField> field_;
 };
 
 }  // namespace echocine

@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <optional>
 
 #include "cli/documents.h"
 #include "cli/number_check.h"
@@ -30,11 +32,25 @@ void refuseUnknownKnobs(const std::vector<std::string>& wanted) {
           fmt::format("--knobs: \"{}\" is not a knob, accepted: {}", knob, fmt::join(names, ", ")));
 }
 
-// Written anew after every round: what a stopped study leaves is whole as far as it goes.
-void writeAll(const StudyResult& result, const std::filesystem::path& folder) {
-  writeStudyFiles(result, folder);
-  writeStudyPage(result, folder / "study.html");
-}
+// Written anew after every row: what a stopped study leaves is whole as far as it goes. The page
+// holds all pictures, so it follows every few seconds (our choice).
+class FilesSoFar {
+ public:
+  explicit FilesSoFar(const std::filesystem::path& folder) : folder_(folder) {}
+  void write(const StudyResult& result, bool last) {
+    unstoppable([&] {
+      writeStudyFiles(result, folder_);
+      const auto now = std::chrono::steady_clock::now();
+      if (!last && page_ && now - *page_ < std::chrono::seconds(5)) return;
+      writeStudyPage(result, folder_ / "study.html");
+      page_ = now;
+    });
+  }
+
+ private:
+  const std::filesystem::path& folder_;
+  std::optional<std::chrono::steady_clock::time_point> page_;
+};
 
 }  // namespace
 
@@ -83,13 +99,13 @@ int StudyCommand::run() {
   for (const char* name : {"study.json", "study.csv", "study.html"})
     removePartsOf(options_.folder / name);  // of a run that was killed here
   ProgressLine line(quiet_);
-  const StudyResult result = runStudy(
-      scene, options_, line.monitor(),
-      [this](const StudyResult& r) { unstoppable([&] { writeAll(r, options_.folder); }); });
+  FilesSoFar files(options_.folder);
+  const StudyResult result = runStudy(scene, options_, line.monitor(),
+                                      [&](const StudyResult& r) { files.write(r, false); });
   line.finish();
   if (result.rows.empty())
     throw JobError("stopped before the first setting was measured: nothing is written");
-  unstoppable([&] { writeAll(result, options_.folder); });
+  files.write(result, true);
   if (!quiet_) fmt::print("{}", studyTable(result));
   if (!result.complete)
     throw JobError(fmt::format("stopped: {} rows are finished in {}", result.rows.size(),

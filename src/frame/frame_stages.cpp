@@ -112,10 +112,12 @@ std::unique_ptr<const Part> where(bool asked, Arguments&&... arguments) {
 
 FrameEffects::FrameEffects(const Scene& scene, const MeshMotion& motion,
                            const SharedMotionField& field, const LoopPlan& plan,
-                           const CardiacClock& clock, const SignalChain& chain)
+                           const CardiacClock& clock, const SignalChain& chain,
+                           const SceneSpeckle* source)
     : trabeculae(where<Trabeculae>(plan.effects.trabeculae, scene, motion, !plan.slice)),
-      speckle(where<SceneSpeckle>(plan.effects.speckle, scene, motion, field, plan.effects,
-                                  trabeculae.get())),
+      speckle(source ? where<SceneSpeckle>(plan.effects.speckle, scene, *source)
+                     : where<SceneSpeckle>(plan.effects.speckle, scene, motion, field, plan.effects,
+                                           trabeculae.get())),
       rolling(where<RollingLines>(
           plan.effects.rolling, scene,
           [&](LineRange lines) { return chain.taken(speckle ? speckle->reach(lines) : lines); })),
@@ -123,7 +125,7 @@ FrameEffects::FrameEffects(const Scene& scene, const MeshMotion& motion,
                                      scene.acquisition.frame_rate_hz)) {}
 
 FrameStages::FrameStages(Scene given, std::shared_ptr<const MeshMotion> given_motion,
-                         LoopPlan given_plan)
+                         LoopPlan given_plan, const SceneSpeckle* source)
     : scene(std::move(given)),
       motion(std::move(given_motion)),
       plan(std::move(given_plan)),
@@ -131,7 +133,7 @@ FrameStages::FrameStages(Scene given, std::shared_ptr<const MeshMotion> given_mo
       chain(scene, plan.effects),
       rays(scene, plan),
       field(scene, *motion),
-      effects(scene, *motion, field, plan, cardiac_clock, chain),
+      effects(scene, *motion, field, plan, cardiac_clock, chain, source),
       truth(scene, *motion, field, cardiac_clock, plan, effects.rolling.get(),
             plan.left_out.none() && !effects.trabeculae),
       workspaces(scene, *motion, plan) {}

@@ -23,19 +23,22 @@
 
 namespace echocine {
 
-// Effects between trace and picture. Null if the plan disables the effect.
+// Effects between trace and picture. Null if the plan disables the effect. `source`: as
+// Simulator's, null: none.
 struct FrameEffects {
   FrameEffects(const Scene& scene, const MeshMotion& motion, const SharedMotionField& field,
-               const LoopPlan& plan, const CardiacClock& clock, const SignalChain& chain);
+               const LoopPlan& plan, const CardiacClock& clock, const SignalChain& chain,
+               const SceneSpeckle* source);
 
   std::unique_ptr<const Trabeculae> trabeculae;
-  std::unique_ptr<const SceneSpeckle> speckle;
+  std::shared_ptr<const SceneSpeckle> speckle;
   std::unique_ptr<const RollingLines> rolling;
   std::unique_ptr<const Persistence> persistence;
 };
 
 struct FrameStages {
-  FrameStages(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan);
+  FrameStages(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan,
+              const SceneSpeckle* source = nullptr);
 
   // As Simulator::make().
   Volumes make(const FrameTime& time, const Making& making, Workspace& workspace) const;

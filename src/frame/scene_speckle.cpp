@@ -4,23 +4,35 @@
 
 namespace echocine {
 
+SceneSpeckle::SceneSpeckle(const Scene& scene, std::shared_ptr<const Tissue> tissue,
+                           std::shared_ptr<const Scatterers> drawn)
+    : tissue_(std::move(tissue)),
+      speckle_(scene.probe, scene.signal.pulse_cycles, scene.speckle, tissue_->material,
+               std::move(drawn)) {
+  const auto half_m = static_cast<float>(speckle_.farthestAcross_m());
+  about_plane_.assign(tissue_->field->groupCount(), std::pair(-half_m, half_m));
+}
+
 SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion,
                            const SharedMotionField& field, const EffectPlan& plan,
                            const Trabeculae* trabeculae)
-    : material_(scene, motion, &plan, trabeculae, &field),
-      sheets_(scene, motion, material_.field().referencePhase()),
-      speckle_(scene.probe, scene.signal.pulse_cycles, scene.speckle, material_) {
-  const auto half_m = static_cast<float>(speckle_.farthestAcross_m());
-  about_plane_.assign(material_.field().groupCount(), std::pair(-half_m, half_m));
-}
+    : SceneSpeckle(scene,
+                   std::shared_ptr<const Tissue>(
+                       new Tissue{field.shared(),
+                                  {scene, motion, &plan, trabeculae, &field},
+                                  {scene, motion, field.field().referencePhase()}}),
+                   nullptr) {}
+
+SceneSpeckle::SceneSpeckle(const Scene& scene, const SceneSpeckle& source)
+    : SceneSpeckle(scene, source.tissue_, source.speckle_.drawn()) {}
 
 void SceneSpeckle::apply(const FrameTime& time, const SurfaceFrame& surfaces,
                          Intensities& intensities, const CoherentEchoes& echoes, LineRange lines,
                          EchoField& field) const {
   thread_local std::vector<Vec3f> on_sheets_m;
-  sheets_.at(surfaces, on_sheets_m);
+  tissue_->sheets.at(surfaces, on_sheets_m);
   thread_local FieldFrame frame;
-  material_.field().at(time.phase, frame, about_plane_);
+  tissue_->field->at(time.phase, frame, about_plane_);
   speckle_.apply(FieldMaterialFrame(frame, on_sheets_m), time.time_s, intensities, echoes, lines,
                  &field);
 }

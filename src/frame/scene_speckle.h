@@ -1,6 +1,8 @@
 #pragma once
 // The speckle of a scene's frames: scatterers and the tissue that moves them.
 
+#include <memory>
+
 #include "core/beam_plane.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "plan/effect_plan.h"
@@ -14,6 +16,9 @@ class SceneSpeckle {
  public:
   SceneSpeckle(const Scene& scene, const MeshMotion& motion, const SharedMotionField& field,
                const EffectPlan& plan, const Trabeculae* trabeculae);
+  // Shares field and scatterers. Preconditions: `source` is of the same motion, which outlives
+  // this, and of a scene that differs at most in lines, samples and what no scatterer depends on.
+  SceneSpeckle(const Scene& scene, const SceneSpeckle& source);
 
   // Applies speckle in place to the intensities of some lines after the beam average, and to their
   // coherent part. `surfaces` are those of the instant. field: unless empty, receives the field of
@@ -23,11 +28,19 @@ class SceneSpeckle {
   // Lines whose intensities affect those of a range.
   LineRange reach(LineRange lines) const { return speckle_.reach(lines); }
 
-  std::size_t scatterers() const { return speckle_.scatterers() + sheets_.count(); }
+  std::size_t scatterers() const { return speckle_.scatterers() + tissue_->sheets.count(); }
 
  private:
-  FieldMaterial material_;
-  SheetPoints sheets_;
+  // The same for all numbers of lines and samples.
+  struct Tissue {
+    std::shared_ptr<const MotionField> field;  // referred to by the material
+    FieldMaterial material;
+    SheetPoints sheets;
+  };
+  SceneSpeckle(const Scene& scene, std::shared_ptr<const Tissue> tissue,
+               std::shared_ptr<const Scatterers> drawn);
+
+  std::shared_ptr<const Tissue> tissue_;
   Speckle speckle_;
   FieldPart about_plane_;  // region of the scatterers
 };

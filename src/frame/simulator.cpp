@@ -75,9 +75,10 @@ Simulator::Simulator(Scene scene)
 Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion)
     : Simulator(scene, motion, planLoop(scene, *motion)) {}
 
-Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan)
+Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan,
+                     const SceneSpeckle* source)
     : stages_(std::make_unique<const FrameStages>(std::move(scene), std::move(motion),
-                                                  std::move(plan))) {}
+                                                  std::move(plan), source)) {}
 
 Simulator::~Simulator() = default;
 
@@ -105,6 +106,10 @@ const MeshMotion& Simulator::motion() const {
 
 const std::shared_ptr<const MeshMotion>& Simulator::sharedMotion() const {
   return stages_->motion;
+}
+
+const std::shared_ptr<const SceneSpeckle>& Simulator::sharedSpeckle() const {
+  return stages_->effects.speckle;
 }
 
 const LoopPlan& Simulator::plan() const {

@@ -20,6 +20,7 @@ namespace echocine {
 
 class CardiacClock;
 class MeshMotion;
+class SceneSpeckle;
 class SignalChain;
 class StageClock;
 class TruthMaker;
@@ -51,7 +52,10 @@ class Simulator {
   explicit Simulator(Scene scene);
   // Shares the motion with other simulators. Precondition: it was made from this scene.
   Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion);
-  Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan);
+  // `source`: speckle of another simulator of this motion, whose field and scatterers are shared;
+  // its precondition is that of SceneSpeckle.
+  Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan,
+            const SceneSpeckle* source = nullptr);
 
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
@@ -60,6 +64,7 @@ class Simulator {
   const Scene& scene() const;
   const MeshMotion& motion() const;
   const std::shared_ptr<const MeshMotion>& sharedMotion() const;
+  const std::shared_ptr<const SceneSpeckle>& sharedSpeckle() const;  // null without speckle
   const LoopPlan& plan() const;
   const CardiacClock& cardiacClock() const;
 

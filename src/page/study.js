@@ -170,7 +170,8 @@
   function showKnobs() {
     page.table(byId("knobs"), { columns: ["Key", "draft", "standard", "fine", "reference", "values"].map((label) => ({ label })),
       rows: data.knobs.map((k) => [k.key, k.presets.draft, k.presets.standard, k.presets.fine, k.presets.reference, k.values.join(", ")]) });
-    const out = [...data.left_out, ...data.refused];
+    const refused = data.refused.map((r) => ({ knob: [`${r.knob} ${r.value}`.trim(), r.sweep].filter(Boolean).join(", "), reason: r.reason }));
+    const out = [...data.left_out, ...refused];
     if (out.length) byId("left-out").append(element("h2", {}, "Left out"),
       element("ul", {}, ...out.map((l) => element("li", {}, `${l.knob}: ${l.reason}`))));
     page.facts(byId("run"), [["White", `${number(data.reference_intensity)} of the transmitted intensity`],

@@ -40,8 +40,9 @@ struct EffectPlan {
   bool coherent_echoes = false;                    // interfaces keep part of their phase
   bool dropout = false, acoustic_window = false, haze = false, reverberation = false;
   bool clutter = false, noise = false, persistence = false;
-  bool rolling = false;                          // groups of lines have their own instants
-  int rays_per_beam = 1;                         // that are traced
+  bool averaged = false;  // clutter and noise add their mean power; planned by src/study alone
+  bool rolling = false;   // groups of lines have their own instants
+  int rays_per_beam = 1;  // that are traced
   bool lateral_rays = false, elevation = false;  // dimensions sampled by several rays
   int elevation_slices = 1;                      // slices that represent the beam across the plane
   // For signal.tgc = "mean": the loop's mean attenuation factor at the depth of each sample, 0..1.

@@ -10,17 +10,29 @@ namespace echocine {
 FieldSum::FieldSum(const Scene& scene, const EffectPlan& plan, std::span<const float> gains)
     : lines_(scene.probe.lines),
       samples_(scene.probe.samples),
+      adds_(plan.clutter || plan.noise),
       smoothing_(samples_, scene.speckle.smoothing_m / kWidthAtHalf / scene.probe.sampleSpacing()) {
+  levels_.assign(static_cast<std::size_t>(samples_), 0.0f);
+  if (plan.noise) levels_ = noiseLevels(scene, gains);
+  if (plan.clutter) {
+    const std::vector<float> clutter = clutterLevels(scene);
+    for (std::size_t k = 0; k < clutter.size(); ++k) levels_[k] += clutter[k];
+  }
+  if (plan.averaged) return;
   if (plan.clutter) clutter_.emplace(scene);
   if (plan.noise) noise_.emplace(scene, gains);
-  levels_.assign(static_cast<std::size_t>(samples_), 0.0f);
-  if (noise_) levels_ = noise_->levels();
-  for (std::size_t k = 0; clutter_ && k < clutter_->levels().size(); ++k)
-    levels_[k] += clutter_->levels()[k];
+}
+
+void FieldSum::addMean(double white, std::span<float> intensities) const {
+  const float scale = heldWhite(white);
+  const auto samples = static_cast<std::size_t>(samples_);
+  for (std::size_t i = 0; i < intensities.size(); ++i)
+    intensities[i] += scale * levels_[i % samples];
 }
 
 void FieldSum::add(double white, double time_s, const EchoField& field,
                    std::span<float> intensities) const {
+  if (!draws()) return addMean(white, intensities);
   constexpr std::size_t kStep = 4 * kFloatLanes;
   const auto samples = static_cast<std::size_t>(samples_);
   const auto margin = static_cast<std::size_t>(smoothing_.margin());

@@ -6,6 +6,7 @@
 // so the mean is Ibar + C + N. Without smoothing the sum of speckle and noise is Rayleigh
 // distributed, as each of them is. Without speckle the echoes have no phase: the picture is their
 // mean, and clutter and noise are an intensity of their own, I = Ibar + (C + N) smooth(...).
+// The mean over seeds of clutter and noise (plan.averaged) is I + C + N.
 
 #include <optional>
 #include <span>
@@ -23,14 +24,19 @@ class FieldSum {
   // Without clutter and noise it adds nothing.
   FieldSum(const Scene& scene, const EffectPlan& plan, std::span<const float> gains);
 
-  bool adds() const { return clutter_ || noise_; }
+  bool adds() const { return adds_; }
+  // True if add() draws fields, and so needs that of the echoes.
+  bool draws() const { return clutter_ || noise_; }
 
   // Intensities relative to the transmitted one, in place. field: that of the same intensities, or
   // empty without speckle.
   void add(double white, double time_s, const EchoField& field, std::span<float> intensities) const;
 
  private:
+  void addMean(double white, std::span<float> intensities) const;
+
   int lines_, samples_;
+  bool adds_;
   std::optional<NearFieldClutter> clutter_;
   std::optional<ReceiverNoise> noise_;
   std::vector<float> levels_;  // mean power of both over white

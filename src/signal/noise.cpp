@@ -39,15 +39,34 @@ float heldWhite(double white) {
   return static_cast<float>(std::min(white, 1e30));
 }
 
-ReceiverNoise::ReceiverNoise(const Scene& scene, std::span<const float> gains)
-    : samples_(scene.probe.samples), seed_(scene.artefacts.noise_seed) {
+std::vector<float> noiseLevels(const Scene& scene, std::span<const float> gains) {
   const double level = intensityFromDecibels(scene.artefacts.noise_db);
   const double most =
       gains.empty() ? 1 : static_cast<double>(*std::max_element(gains.begin(), gains.end()));
-  for (std::size_t k = 0; k < static_cast<std::size_t>(samples_); ++k)
-    levels_.push_back(static_cast<float>(
+  std::vector<float> levels;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(scene.probe.samples); ++k)
+    levels.push_back(static_cast<float>(
         level * (gains.empty() || !(most > 0) ? 1 : static_cast<double>(gains[k]) / most)));
-  amplitudes_ = rootsOf(levels_);
+  return levels;
+}
+
+std::vector<float> clutterLevels(const Scene& scene) {
+  constexpr double kLeast = 1e-6;
+  const double level = intensityFromDecibels(scene.artefacts.clutter_db);
+  const ScanGeometry geometry(scene.probe);
+  std::vector<float> levels;
+  for (int k = 0; k < scene.probe.samples; ++k) {
+    const double falls = std::exp(-geometry.sampleDepth(k) / scene.artefacts.clutter_length_m);
+    if (falls < kLeast) break;
+    levels.push_back(static_cast<float>(level * falls));
+  }
+  return levels;
+}
+
+ReceiverNoise::ReceiverNoise(const Scene& scene, std::span<const float> gains)
+    : samples_(scene.probe.samples),
+      seed_(scene.artefacts.noise_seed),
+      amplitudes_(rootsOf(noiseLevels(scene, gains))) {
   const double samples = grainOf(scene).axial_samples;
   per_node_ = samplesPerNode(samples);
   const double deviation = samples / per_node_;
@@ -112,19 +131,10 @@ void ReceiverNoise::add(double white, double time_s, int line, float* real,
 }
 
 NearFieldClutter::NearFieldClutter(const Scene& scene)
-    : random_(std::max(scene.probe.lines, 128), std::max(scene.probe.samples, 512),
+    : amplitudes_(rootsOf(clutterLevels(scene))),
+      random_(std::max(scene.probe.lines, 128), std::max(scene.probe.samples, 512),
               grainOf(scene, scene.artefacts.clutter_width_rad),
-              hashOf(scene.artefacts.clutter_seed, kClutter)) {
-  constexpr double kLeast = 1e-6;
-  const double level = intensityFromDecibels(scene.artefacts.clutter_db);
-  const ScanGeometry geometry(scene.probe);
-  for (int k = 0; k < scene.probe.samples; ++k) {
-    const double falls = std::exp(-geometry.sampleDepth(k) / scene.artefacts.clutter_length_m);
-    if (falls < kLeast) break;
-    levels_.push_back(static_cast<float>(level * falls));
-  }
-  amplitudes_ = rootsOf(levels_);
-}
+              hashOf(scene.artefacts.clutter_seed, kClutter)) {}
 
 void NearFieldClutter::add(double white, int line, float* real, float* imaginary) const {
   const float scale = std::sqrt(heldWhite(white));

@@ -14,6 +14,11 @@ namespace echocine {
 // White as a float that leaves room for products.
 float heldWhite(double white);
 
+// Mean powers over white, by sample: of the receiver's noise, and of the near-field clutter up to
+// its end. Their classes below have the equations.
+std::vector<float> noiseLevels(const Scene& scene, std::span<const float> gains);
+std::vector<float> clutterLevels(const Scene& scene);
+
 // Complex Gaussian noise of the receiver. Before the time gain it is white in depth and of equal
 // power at all depths; the filter of the pulse limits its band, as it does that of the echoes.
 // Lines are received one after the other, so their noise is independent, as is that of two frames:
@@ -22,9 +27,6 @@ float heldWhite(double white);
 class ReceiverNoise {
  public:
   ReceiverNoise(const Scene& scene, std::span<const float> gains);
-
-  // Mean power over white, by sample.
-  const std::vector<float>& levels() const { return levels_; }
 
   // Adds a line's noise to the real and imaginary part of its field.
   void add(double white, double time_s, int line, float* real, float* imaginary) const;
@@ -37,7 +39,7 @@ class ReceiverNoise {
   int reach_;     // of the filter, in nodes
   // Filter by distance; with several samples per node, by sample between two nodes, then distance.
   std::vector<float> taps_;
-  std::vector<float> levels_, amplitudes_;
+  std::vector<float> amplitudes_;
 };
 
 // Reverberation between face and chest wall: mean power level white exp(-r / length) at the path
@@ -46,11 +48,10 @@ class NearFieldClutter {
  public:
   explicit NearFieldClutter(const Scene& scene);
 
-  const std::vector<float>& levels() const { return levels_; }  // up to its end
   void add(double white, int line, float* real, float* imaginary) const;
 
  private:
-  std::vector<float> levels_, amplitudes_;
+  std::vector<float> amplitudes_;  // up to its end
   RandomPlane random_;
 };
 

@@ -36,7 +36,7 @@ class SignalChain {
   void process(CoherentEchoes& echoes, LineRange lines) const;
 
   // True if compress() needs the field of intensities with speckle.
-  bool addsFields() const { return fields_.adds(); }
+  bool addsFields() const { return fields_.draws(); }
 
   // Clutter, noise and log compression against the loop's single reference; noise is that of the
   // instant. field: of the same intensities, empty without speckle. The grey levels reuse the

@@ -2,25 +2,28 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/hash_random.h"
 
 namespace echocine {
 
 Speckle::Speckle(const Probe& probe, double pulse_cycles, const SpeckleSettings& settings,
-                 const Material& material)
+                 const Material& material, std::shared_ptr<const Scatterers> drawn)
     : settings_(settings),
       lines_(probe.lines),
       spread_(probe, pulse_cycles),
       view_(probe, spread_),
       gaussian_(settings.seed),
-      scatterers_(probe, spread_, view_, settings, material),
+      scatterers_(
+          drawn ? std::move(drawn)
+                : std::make_shared<const Scatterers>(probe, spread_, view_, settings, material)),
       splatter_(probe, spread_),
       ratio_(probe, spread_, view_, settings.smoothing_m) {}
 
 double Speckle::farthestAcross_m() const {
   double farthest_m = 0;
-  for (const ScattererBatch& batch : scatterers_.batches())
+  for (const ScattererBatch& batch : scatterers_->batches())
     farthest_m = std::max({farthest_m, static_cast<double>(-batch.low_m.y),
                            static_cast<double>(batch.low_m.y + batch.edge_m)});
   return farthest_m;
@@ -29,13 +32,13 @@ double Speckle::farthestAcross_m() const {
 void Speckle::addUp(const MaterialFrame& tissue, double time_s, LineRange lines,
                     SplatLists& splats) const {
   splats.start(lines_, lines);
-  for (const ScattererBatch& batch : scatterers_.batches()) {
+  for (const ScattererBatch& batch : scatterers_->batches()) {
     const BeamCube cube = view_.cubeOf(tissue.corners(batch.group, batch.low_m, batch.edge_m));
     if (!view_.sees(cube, lines)) continue;
     GaussianMix mix = mixAt(gaussian_, batch.pattern, time_s,
                             batch.blood ? settings_.blood_time_s : settings_.tissue_time_s);
-    mix.strength = scatterers_.strength(batch);
-    splatter_.add(cube, scatterers_, batch, mix, splats);
+    mix.strength = scatterers_->strength(batch);
+    splatter_.add(cube, *scatterers_, batch, mix, splats);
   }
   addSheets(tissue.onSheets(), time_s, splats);
   splats.settle();

@@ -13,13 +13,15 @@ namespace echocine {
 
 class Speckle {
  public:
-  // Draws the scatterers. Uses the threads of the enclosing withThreads(); the same for any number.
+  // Draws the scatterers, or shares those of another speckle whose probe differs in lines and
+  // samples alone. Uses the threads of the enclosing withThreads(); the same for any number.
   Speckle(const Probe& probe, double pulse_cycles, const SpeckleSettings& settings,
-          const Material& material);
+          const Material& material, std::shared_ptr<const Scatterers> drawn = nullptr);
   Speckle(Speckle&&) = delete;
 
   const PointSpread& spread() const { return spread_; }
-  std::size_t scatterers() const { return scatterers_.count(); }
+  const std::shared_ptr<const Scatterers>& drawn() const { return scatterers_; }
+  std::size_t scatterers() const { return scatterers_->count(); }
   // Reference places of scatterers lie within this of the imaging plane.
   double farthestAcross_m() const;
 
@@ -45,7 +47,7 @@ class Speckle {
   PointSpread spread_;
   BeamView view_;
   GaussianTable gaussian_;
-  Scatterers scatterers_;
+  std::shared_ptr<const Scatterers> scatterers_;
   Splatter splatter_;
   CoherentRatio ratio_;
 };

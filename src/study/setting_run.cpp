@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "core/hash.h"
@@ -44,12 +45,12 @@ std::size_t trianglesOf(const MeshMotion& motion) {
 
 }  // namespace
 
-std::shared_ptr<const MeshMotion> MotionShelf::motionOf(const Scene& scene) {
+MotionShelf::Entry& MotionShelf::entryOf(const Scene& scene) {
   // Motions know the triangles that any slice can reach.
   const std::string key = motionJson(scene).dump() + fmt::format("{}", elevationReach(scene));
   Entry& entry = shelf_[key];
   entry.last_used = ++uses_;
-  if (entry.motion) return entry.motion;
+  if (entry.motion) return entry;
   try {
     entry.motion = std::make_shared<const MeshMotion>(scene);
   } catch (...) {
@@ -57,23 +58,42 @@ std::shared_ptr<const MeshMotion> MotionShelf::motionOf(const Scene& scene) {
     throw;
   }
   entry.triangles = trianglesOf(*entry.motion);
-  const std::shared_ptr<const MeshMotion> made = entry.motion;
   const auto total = [this] {
     std::size_t sum = 0;
     for (const auto& [name, e] : shelf_) sum += e.triangles;
     return sum;
   };
-  // The least recently used goes first. Who still uses it holds its own pointer.
+  // The least recently used goes first, never this one. Who still uses it holds its own pointer.
   while (shelf_.size() > 1 && total() > kShelvedTriangles)
     shelf_.erase(std::min_element(shelf_.begin(), shelf_.end(), [](const auto& a, const auto& b) {
       return a.second.last_used < b.second.last_used;
     }));
+  return entry;
+}
+
+std::shared_ptr<const MeshMotion> MotionShelf::motionOf(const Scene& scene) {
+  return entryOf(scene).motion;
+}
+
+std::unique_ptr<const Simulator> MotionShelf::simulatorOf(const Scene& scene,
+                                                          const LoopPlan& plan) {
+  Entry& entry = entryOf(scene);
+  auto made = std::make_unique<const Simulator>(scene, entry.motion, plan, entry.speckle.get());
+  if (!entry.speckle) entry.speckle = made->sharedSpeckle();
   return made;
 }
 
 Scene showing(Scene scene) {
   if (!wantsPicture(scene)) scene.output.cine = true;
   return scene;
+}
+
+// All other decisions are those of the plan: none is taken twice.
+LoopPlan meanOverSeeds(LoopPlan plan) {
+  EffectPlan& effects = plan.effects;
+  effects.speckle = effects.heterogeneity = effects.anisotropy = effects.coherent_echoes = false;
+  effects.averaged = true;
+  return plan;
 }
 
 // The motion is let go again: hundreds of settings wait, and one is at work at a time.
@@ -93,18 +113,25 @@ std::string SettingRun::signature() const {
 }
 
 const Simulator& SettingRun::simulator() {
-  if (!simulator_)
-    simulator_ = std::make_unique<const Simulator>(scene_, shelf_->motionOf(scene_), plan_);
+  if (!simulator_) simulator_ = shelf_->simulatorOf(scene_, plan_);
   return *simulator_;
+}
+
+const Simulator& SettingRun::averaged() {
+  const EffectPlan& effects = plan_.effects;
+  if (!effects.speckle && !effects.noise && !effects.clutter) return simulator();
+  if (!averaged_) averaged_ = shelf_->simulatorOf(scene_, meanOverSeeds(plan_));
+  return *averaged_;
 }
 
 void SettingRun::rest() {
   simulator_.reset();
+  averaged_.reset();
 }
 
-WorkCounts SettingRun::workPerFrame() const {
-  WorkCounts mean = work_;
-  const auto frames = static_cast<std::uint64_t>(std::max(worked_frames_, 1));
+WorkCounts SettingRun::workPerFrame() {
+  WorkCounts mean = averaged().work();
+  const auto frames = static_cast<std::uint64_t>(std::max(averaged().tracedFrames(), 1));
   for (std::uint64_t* count : {&mean.bvh_updates, &mean.facets_sliced, &mean.rays, &mean.crossings,
                                &mean.samples_backscatter, &mean.samples_attenuated})
     // To the nearest whole; counts are of whole things.
@@ -127,8 +154,7 @@ InterfaceMap SettingRun::interfacesOf(Workspace& workspace) const {
 
 FramePicture SettingRun::picture(const FrameTime& time, double reference_intensity,
                                  bool with_interfaces, MadeOf made_of) {
-  const Simulator& making = simulator();
-  const WorkCounts before = making.work();
+  const Simulator& making = averaged();
   const std::shared_ptr<Workspace> workspace = making.workspace();
   const bool stored = made_of == MadeOf::stored && scene_.output.exr;
   const ExrStack stack = exrStack(scene_, reference_intensity);
@@ -142,22 +168,12 @@ FramePicture SettingRun::picture(const FrameTime& time, double reference_intensi
   FramePicture picture;
   picture.image = making.picture(reference_intensity, time, *workspace, true);
   making.chain().picture(workspace->greys, picture.grey);
-  if (stored)
-    picture.exr_bytes = stack.encode(record, channelPlanes(scene_.output, *workspace)).size();
   if (with_interfaces) picture.interfaces = interfacesOf(*workspace);
-  WorkCounts after = making.work();
-  work_.bvh_updates += after.bvh_updates - before.bvh_updates;
-  work_.facets_sliced += after.facets_sliced - before.facets_sliced;
-  work_.rays += after.rays - before.rays;
-  work_.crossings += after.crossings - before.crossings;
-  work_.samples_backscatter += after.samples_backscatter - before.samples_backscatter;
-  work_.samples_attenuated += after.samples_attenuated - before.samples_attenuated;
-  ++worked_frames_;
   return picture;
 }
 
 double SettingRun::referenceIntensity(const std::vector<FrameTime>& times) {
-  return *measureWhite(simulator(), times, {}, {});
+  return *measureWhite(averaged(), times, {}, {});
 }
 
 namespace {
@@ -177,8 +193,11 @@ class EncodingSink : public FrameSink {
     Workspace& w = made.workspace;
     if (output_.exr)
       clock_.time(Stage::exr, [&] {
-        sha256Hex(
-            stack_.encode({made.time.frame, 0, made.time.phase, 0}, channelPlanes(output_, w)));
+        const auto file =
+            stack_.encode({made.time.frame, 0, made.time.phase, 0}, channelPlanes(output_, w));
+        sha256Hex(file);
+        const std::lock_guard lock(mutex_);
+        exr_bytes_[made.time.frame] = file.size();
       });
     if (output_.cine)
       clock_.time(Stage::avi, [&] {
@@ -188,7 +207,16 @@ class EncodingSink : public FrameSink {
     return nullptr;
   }
 
+  // Mean over the different frames.
+  double exrBytes() const {
+    double sum = 0;
+    for (const auto& [frame, bytes] : exr_bytes_) sum += static_cast<double>(bytes);
+    return exr_bytes_.empty() ? 0 : sum / static_cast<double>(exr_bytes_.size());
+  }
+
  private:
+  std::mutex mutex_;
+  std::map<int, std::size_t> exr_bytes_;
   StageClock& clock_;
   const OutputSettings& output_;
   const ExrStack stack_;
@@ -197,7 +225,7 @@ class EncodingSink : public FrameSink {
 
 }  // namespace
 
-StageTimes SettingRun::timeBatch(const std::vector<FrameTime>& times, std::size_t frames,
+StageTimes SettingRun::timeBatch(std::span<const FrameTime> times, std::size_t frames,
                                  double reference_intensity) {
   const Simulator& making = simulator();
   std::vector<FrameTime> batch;
@@ -207,7 +235,8 @@ StageTimes SettingRun::timeBatch(const std::vector<FrameTime>& times, std::size_
   const auto start = std::chrono::steady_clock::now();
   renderFrames(making, batch, reference_intensity, sink, {});
   const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
-  StageTimes taken{making.clock().milliseconds(), wall.count() / static_cast<double>(frames)};
+  StageTimes taken{making.clock().milliseconds(), wall.count() / static_cast<double>(frames),
+                   sink.exrBytes()};
   for (std::size_t s = 0; s < kStages; ++s)
     taken.stage_ms[s] = (taken.stage_ms[s] - before[s]) / static_cast<double>(frames);
   return taken;

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "core/stage.h"
@@ -22,17 +23,24 @@ namespace echocine {
 class MeshMotion;
 
 // Cache of motions: keyframes are read once for each kind of motion, and settings that differ in
-// lines share one.
+// lines share one. They share its field and its scatterers too.
 class MotionShelf {
  public:
   std::shared_ptr<const MeshMotion> motionOf(const Scene& scene);
 
+  // A simulator of the motion. Precondition: all scenes with speckle of one shelf differ in nothing
+  // that scatterers depend on but the motion.
+  std::unique_ptr<const Simulator> simulatorOf(const Scene& scene, const LoopPlan& plan);
+
  private:
   struct Entry {
     std::shared_ptr<const MeshMotion> motion;
+    std::shared_ptr<const SceneSpeckle> speckle;  // of the first simulator that has some
     std::size_t triangles = 0;
     std::uint64_t last_used = 0;
   };
+  Entry& entryOf(const Scene& scene);
+
   std::map<std::string, Entry> shelf_;
   std::uint64_t uses_ = 0;
 };
@@ -46,17 +54,22 @@ struct FramePicture {
   std::vector<float> grey;  // 0..1 before the grey map, -1 outside the sector
   GreyImage image;
   InterfaceMap interfaces;
-  std::size_t exr_bytes = 0;  // of its file in the intensity stack; for MadeOf::stored only
 };
 
-// Milliseconds of one batch of frames, per frame.
+// One batch of frames, per frame.
 struct StageTimes {
   std::array<double, kStages> stage_ms{};  // summed over threads
   double wall_ms = 0;
+  double exr_bytes = 0;  // of its file in the intensity stack, mean over the times; 0 without one
 };
 
 // The scene with a picture enabled: without one there is nothing to compare.
 Scene showing(Scene scene);
+
+// The plan whose intensities are the mean over all seeds of speckle, noise and clutter: without
+// speckle, with noise and clutter at their mean level. Spatial variation of backscatter, a constant
+// factor of each place, is left out with the speckle.
+LoopPlan meanOverSeeds(LoopPlan plan);
 
 class SettingRun {
  public:
@@ -70,22 +83,27 @@ class SettingRun {
   // Equal for two settings that compute the same, with every "auto" resolved.
   std::string signature() const;
 
-  // Traces the frame; writes nothing.
+  // Traces the frame of meanOverSeeds(); writes nothing. Thread-safe after the first call.
   FramePicture picture(const FrameTime& time, double reference_intensity, bool with_interfaces,
                        MadeOf made_of = MadeOf::traced);
 
-  // The loop's white from these frames only: absolute if the scene has it, otherwise its
-  // percentile.
+  // Build what picture() or timeBatch() would build at its first call. Throw SceneError and
+  // JobError if the setting cannot be rendered.
+  void preparePictures() { averaged(); }
+  void prepareTiming() { simulator(); }
+
+  // The loop's white of meanOverSeeds() from these frames only: absolute if the scene has it,
+  // otherwise its percentile.
   double referenceIntensity(const std::vector<FrameTime>& times);
 
-  // Mean work of the frames traced so far.
-  WorkCounts workPerFrame() const;
+  // Mean work of the frames that the simulator of picture() traced since rest().
+  WorkCounts workPerFrame();
   std::size_t vertices() const { return vertices_; }  // of the structures in use
 
   // Renders `frames` frames, cycling through the times, on the threads of withThreads(), from
   // meshes to encoded and hashed files in memory. The time of a frame is that of the batch over its
   // frames, so with several threads it is that of a loop.
-  StageTimes timeBatch(const std::vector<FrameTime>& times, std::size_t frames,
+  StageTimes timeBatch(std::span<const FrameTime> times, std::size_t frames,
                        double reference_intensity);
 
   // Releases working memory; the next frame allocates it again.
@@ -93,14 +111,13 @@ class SettingRun {
 
  private:
   const Simulator& simulator();
+  const Simulator& averaged();
   InterfaceMap interfacesOf(Workspace& workspace) const;
 
   Scene scene_;
   MotionShelf* shelf_;
   LoopPlan plan_;
-  std::unique_ptr<const Simulator> simulator_;
-  WorkCounts work_;
-  int worked_frames_ = 0;
+  std::unique_ptr<const Simulator> simulator_, averaged_;  // averaged_: if it differs
   std::size_t vertices_ = 0;
 };
 

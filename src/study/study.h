@@ -19,7 +19,8 @@ namespace echocine {
 
 struct StudyOptions {
   std::filesystem::path folder;
-  int threads = 1;                 // frames in parallel during timing; 0: one per core
+  int threads = 1;                 // frames in parallel during timing; 0: one per core. Pictures
+                                   // are compared on all cores
   int frames = 4;                  // compared and timed, evenly spaced over the first beat
   int repeats = 3;                 // rounds over all settings
   std::vector<std::string> knobs;  // only these; empty: all
@@ -31,7 +32,8 @@ struct StudyOptions {
 // much. Our choice.
 inline constexpr double kToldApart_db = 0.005;
 
-// Errors against the reference, over the test frames.
+// Errors of the mean over seeds (as meanOverSeeds() of setting_run.h plans it) against the
+// reference's, over the test frames: no two settings need the same speckle or noise for it.
 struct StudyErrors {
   double rms_db = 0;        // over the pixels of all frames
   double worst_rms_db = 0;  // of the worst frame
@@ -56,6 +58,11 @@ struct StudyPoint {
   double stage_ms(Stage stage) const;  // median over the rounds
 };
 
+// A line of the study that could not be rendered.
+struct RefusedRow {
+  std::string sweep, knob, value, reason;
+};
+
 // One line of the study.
 struct StudyRow {
   std::string sweep;        // "preset", "from draft", "from reference"
@@ -70,7 +77,7 @@ struct StudyResult {
   KnobTable table;
   std::vector<StudyPoint> points;  // the reference first
   std::vector<StudyRow> rows;
-  std::vector<KnobLeftOut> refused;  // rows that could not be rendered, with reasons
+  std::vector<RefusedRow> refused;
   int rounds = 0, threads = 1;
   bool complete = false;
 };
@@ -78,13 +85,15 @@ struct StudyResult {
 // The test frames: `count` frames of the first beat, evenly spaced, or all if there are fewer.
 std::vector<FrameTime> probeFrames(const Scene& scene, int count);
 
-// Runs the study. Each round visits every setting, alternately forwards and backwards, so that a
-// drift of the clock cancels in the medians; the first round also compares pictures. Rows without a
-// time when keep_going() became false are omitted; `round_done` receives the results after each
-// round. Throws SceneError and JobError.
+// Runs the study. The first round compares and times each setting and hands over the results after
+// each row. Later rounds time the settings again, alternately backwards and forwards, so that a
+// drift of the clock cancels in the medians; those whose frames took over a second together are
+// timed once. A setting that cannot be rendered becomes a refused row; without the reference there
+// is no study. `row_done` receives the rows so far, after each row and each later round. Throws
+// SceneError and JobError.
 StudyResult runStudy(
     const Scene& scene, const StudyOptions& options, const Monitor& monitor,
-    const std::function<void(const StudyResult&)>& round_done = [](const StudyResult&) {});
+    const std::function<void(const StudyResult&)>& row_done = [](const StudyResult&) {});
 
 // One step of a knob in a sweep, in time and error.
 struct KnobStep {

@@ -37,6 +37,19 @@ Json leftOutJson(const std::vector<KnobLeftOut>& list) {
   return json;
 }
 
+Json refusedJson(const std::vector<RefusedRow>& rows) {
+  Json json = Json::array();
+  for (const RefusedRow& r : rows)
+    json.push_back(
+        {{"sweep", r.sweep}, {"knob", r.knob}, {"value", r.value}, {"reason", r.reason}});
+  return json;
+}
+
+// "interpolation spline, from draft".
+std::string nameOf(const RefusedRow& r) {
+  return r.knob + (r.value.empty() ? "" : " " + r.value) + (r.sweep.empty() ? "" : ", " + r.sweep);
+}
+
 Json framesJson(const std::vector<FrameTime>& frames) {
   Json json = Json::array();
   for (const FrameTime& f : frames) json.push_back({{"time_s", f.time_s}, {"phase", f.phase}});
@@ -124,7 +137,7 @@ Json studyJson(const StudyResult& result) {
           {"frames", framesJson(result.frames)},
           {"knobs", knobsJson(result.table)},
           {"left_out", leftOutJson(result.table.left_out)},
-          {"refused", leftOutJson(result.refused)},
+          {"refused", refusedJson(result.refused)},
           {"rows", rows},
           {"machine",
            {{"processor", processorName()},
@@ -143,7 +156,7 @@ std::string studyCsv(const StudyResult& result) {
       "interface_missed,exr_bytes_per_frame,ms_per_frame,first_quartile_ms,third_quartile_ms";
   for (std::size_t s = 0; s < kStages; ++s)
     text += fmt::format(",{}_ms", stageName(static_cast<Stage>(s)));
-  text += ",pareto,tracer,setting\n";
+  text += ",pareto,tracer,setting,refused\n";
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const StudyRow& row = result.rows[i];
     const StudyPoint& point = result.points[row.point];
@@ -156,8 +169,13 @@ std::string studyCsv(const StudyResult& result) {
         wall.median, wall.first_quartile, wall.third_quartile);
     for (std::size_t s = 0; s < kStages; ++s)
       text += fmt::format(",{:.6g}", point.stage_ms(static_cast<Stage>(s)));
-    text += fmt::format(",{},{},{}\n", front[i] ? 1 : 0, point.tracer, quoted(point.keys));
+    text += fmt::format(",{},{},{},\n", front[i] ? 1 : 0, point.tracer, quoted(point.keys));
   }
+  // Without numbers: the columns between a row's name and its reason are empty.
+  constexpr std::size_t kNumbers = 11, kAfterTimes = 3;
+  for (const RefusedRow& r : result.refused)
+    text += fmt::format("{},{},{},{}{}\n", quoted(r.sweep), quoted(r.knob), quoted(r.value),
+                        std::string(kNumbers + kStages + kAfterTimes, ','), quoted(r.reason));
   return text;
 }
 
@@ -183,8 +201,8 @@ std::string studyTable(const StudyResult& result) {
   text += "* no other setting is both faster and more accurate\n";
   for (const KnobLeftOut& l : result.table.left_out)
     text += fmt::format("left out: {}: {}\n", l.knob, l.reason);
-  for (const KnobLeftOut& l : result.refused)
-    text += fmt::format("refused: {}: {}\n", l.knob, l.reason);
+  for (const RefusedRow& l : result.refused)
+    text += fmt::format("refused: {}: {}\n", nameOf(l), l.reason);
   const std::vector<KnobStep> buys = bestBuys(result);
   if (!buys.empty()) text += "from draft, dB of RMS error per millisecond:";
   for (const KnobStep& b : buys)

@@ -113,6 +113,36 @@ TEST(NoiseLaw, ClutterIsAFieldTooAndStandsStill) {
   EXPECT_NEAR(FieldMoments(all).envelope_snr / 1.913, 1, 0.02);
 }
 
+// Averaged, the sum is what draws tend to: with the mean power of both, and of no seed or instant.
+TEST(NoiseLaw, AveragedIsTheMeanOfTheDraws) {
+  NoisyBed noisy;
+  noisy.plan.clutter = true;
+  noisy.scene.artefacts.noise_db = -3;
+  noisy.scene.artefacts.clutter_length_m = 0.05;
+  constexpr int kDraws = 24;
+  constexpr float kTissue = 0.2f;
+  std::vector<double> drawn(kSamples);
+  for (int seed = 1; seed <= kDraws; ++seed) {
+    noisy.scene.artefacts.clutter_seed = noisy.scene.artefacts.noise_seed = seed;
+    std::vector<float> plane = noisy.bed.even(kTissue);
+    FieldSum(noisy.scene, noisy.plan, {}).add(0.5, 0, {}, plane);
+    for (std::size_t i = 0; i < plane.size(); ++i) drawn[i % kSamples] += plane[i];
+  }
+  noisy.plan.averaged = true;
+  const FieldSum sum(noisy.scene, noisy.plan, {});
+  EXPECT_TRUE(sum.adds());
+  std::vector<float> mean = noisy.bed.even(kTissue), other = mean;
+  sum.add(0.5, 0, {}, mean);
+  noisy.scene.artefacts.clutter_seed = noisy.scene.artefacts.noise_seed = 7;
+  FieldSum(noisy.scene, noisy.plan, {}).add(0.5, 0.3, {}, other);
+  EXPECT_EQ(mean, other);
+  for (std::size_t k = 10; k < kSamples; k += 97) {
+    const double added = static_cast<double>(mean[k]) - static_cast<double>(kTissue);
+    EXPECT_GT(added, 0.2) << k;
+    EXPECT_NEAR((drawn[k] / (kDraws * kLines) - static_cast<double>(kTissue)) / added, 1, 0.1) << k;
+  }
+}
+
 // Over shifts of up to 24 lines and 48 samples either way, lines that wrap round included.
 double bestShift(const std::vector<float>& a, const std::vector<float>& b) {
   double best = -1;

@@ -5,6 +5,7 @@
 #include "frame/simulator.h"
 #include "metrics/block_match.h"
 #include "metrics/statistics.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "plan/loop_plan.h"
 #include "scene/scene_reader.h"
 #include "support/loop_scene.h"
