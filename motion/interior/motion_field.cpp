@@ -21,8 +21,8 @@ constexpr double kSpacings = 48, kMarginSpacings = 10, kModeTolerance = 3e-6;
 std::vector<Vec3f> positionsAt(const InteriorSurface& surface, double phase) {
   std::vector<double> weights(surface.weights.keyframeCount());
   surface.weights.at(phase, weights);
-  for (std::size_t k = 0; k < weights.size(); ++k)
-    if (weights[k] == 1) return surface.keyframes_m[k];
+  if (const auto k = std::find(weights.begin(), weights.end(), 1.0); k != weights.end())
+    return surface.keyframes_m[static_cast<std::size_t>(k - weights.begin())];
   std::vector<Vec3f> positions(surface.keyframes_m.front().size());
   for (std::size_t v = 0; v < positions.size(); ++v) {
     Vec3d sum;
@@ -37,21 +37,20 @@ bool samePhases(const KeyframeWeights& a, const KeyframeWeights& b) {
   return std::equal(a.phases().begin(), a.phases().end(), b.phases().begin(), b.phases().end());
 }
 
-// The most that a node moves along y over the beat. Between keyframes a class's displacement may
-// leave their range by KeyframeWeights::overshoot(); rows beyond the keyframes are no places.
+// The most that a node moves along y, with the interpolation's overshoot between keyframes.
 double reachAcross(const GroupLattice& lattice, std::span<const PhaseClass> classes) {
   std::vector<double> most_m;  // by active node, the sum over classes
   for (std::size_t c = 0; c < lattice.rows_m.size(); ++c) {
     const KeyframeWeights& weights = classes[c].weights;
-    const double beyond = weights.overshoot();
     const auto& rows = lattice.rows_m[c];
-    if (!rows.empty()) most_m.resize(rows.front().size());
-    for (std::size_t i = 0; i < most_m.size() && !rows.empty(); ++i) {
-      double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;
-      for (std::size_t k = 0; k < weights.keyframeCount(); ++k) {
-        low_m = std::min(low_m, static_cast<double>(rows[k][i].y));
-        high_m = std::max(high_m, static_cast<double>(rows[k][i].y));
-      }
+    if (rows.empty()) continue;
+    const std::span keyframes = std::span(rows).first(weights.keyframeCount());
+    const double beyond = weights.overshoot();
+    most_m.resize(rows.front().size());
+    for (std::size_t i = 0; i < most_m.size(); ++i) {
+      const auto y = [i](const std::vector<Vec3f>& row) { return double{row[i].y}; };
+      const auto [low, high] = std::ranges::minmax_element(keyframes, {}, y);
+      const double low_m = y(*low), high_m = y(*high);
       most_m[i] += std::max(-low_m, high_m) + beyond * (high_m - low_m);
     }
   }

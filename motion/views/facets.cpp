@@ -7,7 +7,7 @@ namespace echocine {
 
 namespace {
 
-// Sides that are equal within rounding count as equal, so that a turned surface is split alike.
+// Sides that are equal within rounding count as equal, so that a turned surface is split equally.
 constexpr double kEqual = 1e-6;
 
 void addHalves(const Facet& facet, double edge, Facets& to) {

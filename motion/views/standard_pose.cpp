@@ -164,7 +164,7 @@ double fittingDepth(std::span<const Facet> outside_m, const ProbePose& pose, dou
                  side * cosine * dot(p - pose.apex, pose.lateral);
         },
         0);
-  // Not in steps, as a scanner's: hearts that are nearly alike have pictures that are.
+  // Continuous, not in steps as on a scanner: similar hearts have similar pictures.
   return farthestFrom(shown, pose.apex) + kBehind_m * scale;
 }
 

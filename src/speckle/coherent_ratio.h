@@ -24,7 +24,7 @@ class CoherentRatio {
   CoherentRatio(const Probe& probe, const PointSpread& spread, const BeamView& view,
                 double smoothing_m);
 
-  // Of one frame in progress.
+  // Memory of one frame in progress.
   struct Rows {
     SplatGrid::Rows grid;
     std::vector<CacheLine> sums;    // of a group of lines

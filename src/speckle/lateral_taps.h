@@ -38,7 +38,7 @@ class LateralTaps {
     std::size_t first;  // of its taps
   };
   std::vector<Phase> phases_;
-  // Of each row: h, h, h_m^2, h_m h_(m+1) twice, or by node.
+  // For each row: h, h, h_m^2, h_m h_(m+1) twice, or by node.
   std::vector<CacheLine> even_taps_;
   std::vector<Floats4> taps_;
 };

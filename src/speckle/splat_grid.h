@@ -28,7 +28,7 @@ struct alignas(64) CacheLine {
   float floats[16];
 };
 
-// Of a grid relative to lines or samples. One of the two is 1.
+// A grid relative to lines or samples. One of the two is 1.
 struct GridSpacing {
   int finer = 1;    // nodes per sample, or rows per line
   int coarser = 1;  // samples per node, or lines per row
@@ -42,7 +42,7 @@ class SplatGrid {
  public:
   SplatGrid(const Probe& probe, const PointSpread& spread, const BeamView& view);
 
-  // Of one frame in progress.
+  // Memory of one frame in progress.
   struct Rows {
     std::vector<CacheLine> ring;
     std::vector<float> amplitudes;  // roots of the picture, of four lines

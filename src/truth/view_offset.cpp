@@ -32,7 +32,7 @@ double betweenPlanes_deg(Vec3d a, Vec3d b) {
   return std::min(angle_deg, 180 - angle_deg);
 }
 
-// Of a plane that holds the long axis, from lateral towards anterior.
+// The turn of a plane that holds the long axis, from lateral towards anterior.
 double turnOf(const HeartFrame& heart, Vec3d normal) {
   return degreesFromRadians(std::atan2(-dot(normal, heart.lateral), dot(normal, heart.anterior)));
 }

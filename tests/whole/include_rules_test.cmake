@@ -46,7 +46,7 @@ set(rooms
   "truth=geometry,surfaces,interior,views|plan"
   "trace=plan,geometry"
   "speckle=plan,trace,interior,surfaces"
-  "signal=plan,trace|speckle"
+  "signal=plan,trace,speckle"
   "frame=plan,surfaces,cycle,geometry,trace,speckle,signal,truth"
   "loop=frame,cycle,surfaces,trace|plan,truth"
   "metrics=signal,trace"
