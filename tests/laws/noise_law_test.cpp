@@ -120,24 +120,24 @@ TEST(NoiseLaw, AveragedIsTheMeanOfTheDraws) {
   noisy.scene.artefacts.noise_db = -3;
   noisy.scene.artefacts.clutter_length_m = 0.05;
   constexpr int kDraws = 24;
-  constexpr float kTissue = 0.2f;
+  constexpr float kEven = 0.2f;
   std::vector<double> drawn(kSamples);
   for (int seed = 1; seed <= kDraws; ++seed) {
     noisy.scene.artefacts.clutter_seed = noisy.scene.artefacts.noise_seed = seed;
-    std::vector<float> plane = noisy.bed.even(kTissue);
+    std::vector<float> plane = noisy.bed.even(kEven);
     FieldSum(noisy.scene, noisy.plan, {}).add(0.5, 0, {}, plane);
     for (std::size_t i = 0; i < plane.size(); ++i) drawn[i % kSamples] += plane[i];
   }
   noisy.plan.averaged = true;
   const FieldSum sum(noisy.scene, noisy.plan, {});
   EXPECT_TRUE(sum.adds());
-  std::vector<float> mean = noisy.bed.even(kTissue), other = mean;
+  std::vector<float> mean = noisy.bed.even(kEven), other = mean;
   sum.add(0.5, 0, {}, mean);
   noisy.scene.artefacts.clutter_seed = noisy.scene.artefacts.noise_seed = 7;
   FieldSum(noisy.scene, noisy.plan, {}).add(0.5, 0.3, {}, other);
   EXPECT_EQ(mean, other);
   for (std::size_t k = 10; k < kSamples; k += 97) {
-    const double added = static_cast<double>(mean[k]) - static_cast<double>(kTissue);
+    const double added = static_cast<double>(mean[k]) - static_cast<double>(kEven);
     EXPECT_GT(added, 0.2) << k;
     EXPECT_NEAR((drawn[k] / (kDraws * kLines) - static_cast<double>(kTissue)) / added, 1, 0.1) << k;
   }
