@@ -119,7 +119,8 @@ float* SplatGrid::row(Rows& rows, int number) const {
   const std::ptrdiff_t slots =
       static_cast<std::ptrdiff_t>(rows.ring.size()) * kLineFloats / stride_;
   const std::ptrdiff_t slot = (number % slots + slots) % slots;
-  return rows.ring.front().floats + slot * stride_ + margin_ * kNodeFloats;
+  float* const first = rows.ring.front().floats;
+  return first + slot * stride_ + margin_ * kNodeFloats;
 }
 
 void SplatGrid::start(int first_row, int rows_in_use, Rows& rows) const {
