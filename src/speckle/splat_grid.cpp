@@ -47,6 +47,11 @@ int floorDivided(int a, int b) {
   return a >= 0 ? a / b : -((b - 1 - a) / b);
 }
 
+bool isEven(const std::vector<double>& deviations) {
+  const auto [least, most] = std::minmax_element(deviations.begin(), deviations.end());
+  return *most - *least < 1e-6 * *most;
+}
+
 void setFour(float* to, double value) {
   std::fill(to, to + kNodeFloats, static_cast<float>(value));
 }
@@ -76,11 +81,11 @@ SplatGrid::SplatGrid(const Probe& probe, const PointSpread& spread, const BeamVi
 
 // lines: sigma across the lines, by sample.
 void SplatGrid::setAcross(std::vector<double> lines) {
-  const auto [least, most] = std::minmax_element(lines.begin(), lines.end());
-  even_ = *most - *least < 1e-6 * *most;
+  even_ = isEven(lines);
   across_ = lateralSpacing(lines[lines.size() / 4]);
   if (!even_) across_.coarser = std::min(across_.coarser, kMostLinesPerRow);
   for (double& deviation : lines) deviation = std::max(across_.nodes(deviation), kFloor);
+  even_ = isEven(lines);  // also where all are that narrow
   for (int n = 0; n < static_cast<int>(nodes_); ++n)
     deviations_.push_back(
         lines[static_cast<std::size_t>(std::min(n * along_.coarser / along_.finer, samples_ - 1))]);
