@@ -23,7 +23,9 @@ constexpr double kMostU = 2;
 // defocuses: linear interpolation is then within 1 % of the peak's thousandth part. Our choices.
 constexpr double kStepsPerWidth = 16, kEdgePhase = std::numbers::pi / 8;
 // Bounds of the table for apertures of very many wavelengths or very few. Our choices.
-constexpr std::size_t kMostElements = 512, kLeastElements = 2, kMostDefocuses = 1024;
+constexpr std::size_t kMostElements = 128, kLeastElements = 2, kMostDefocuses = 256;
+// Of the first grating lobe of elements that stand farther apart: beyond it P counts as 0.
+constexpr double kGratingShare = 0.9;
 
 constexpr double kMainLobeEnd = 1e-3;
 
@@ -93,9 +95,10 @@ SampledBeam::SampledBeam(const Probe& probe, double pulse_cycles)
   defocuses_ = 2 + static_cast<std::size_t>(
                        std::min((last - first_defocus_) / step, double{kMostDefocuses}));
   defocus_step_ = std::max((last - first_defocus_) / static_cast<double>(defocuses_ - 1), 1e-9);
-  const double widths = std::clamp(aperture_m_ / wavelength_m, 1.0, kMostElements / 2.0);
-  steps_ = static_cast<std::size_t>(std::ceil(kMostU * kStepsPerWidth * widths)) + 1;
-  steps_per_u_ = static_cast<double>(steps_ - 1) / kMostU;
+  const double widths = std::max(aperture_m_ / wavelength_m, 1.0);
+  const double most_u = std::min(kMostU, kGratingShare * double{kMostElements} / widths);
+  steps_ = static_cast<std::size_t>(std::ceil(most_u * kStepsPerWidth * widths)) + 1;
+  steps_per_u_ = static_cast<double>(steps_ - 1) / most_u;
   fill(probe, pulse_cycles);
 }
 
@@ -128,41 +131,37 @@ class FrequencyPowers {
  public:
   FrequencyPowers(const HalfAperture& aperture, double wave_number, std::size_t steps,
                   double steps_per_u)
-      : aperture_(aperture), wave_number_(wave_number), cosines_(steps * aperture.size()) {
-    for (std::size_t s = 0; s < steps; ++s) {
-      const double across = wave_number * static_cast<double>(s) / steps_per_u;
-      double receive = 0;
-      for (std::size_t n = 0; n < aperture.size(); ++n) {
+      : aperture_(aperture), wave_number_(wave_number), receive_(steps, 0.0) {
+    for (std::size_t n = 0; n < aperture.size(); ++n)
+      for (std::size_t s = 0; s < steps; ++s) {
+        const double across = wave_number * static_cast<double>(s) / steps_per_u;
         const double cosine = std::cos(across * aperture.places_m[n]);
-        cosines_[s * aperture.size() + n] = cosine * aperture.transmit[n];
-        receive += cosine * aperture.receive[n];
+        cosines_.push_back(cosine * aperture.transmit[n]);
+        receive_[s] += cosine * aperture.receive[n];
       }
-      receive_.push_back(receive * receive);
-    }
+    for (double& power : receive_) power *= power;
   }
 
   void add(double defocus, double weight, double* powers) const {
-    std::vector<double> real, imaginary;
-    for (const double x : aperture_.places_m) {
-      const double phase = 0.5 * wave_number_ * x * x * defocus;
-      real.push_back(std::cos(phase));
-      imaginary.push_back(-std::sin(phase));
-    }
-    for (std::size_t s = 0; s < receive_.size(); ++s) {
-      const double* const cosines = &cosines_[s * real.size()];
-      double re = 0, im = 0;
-      for (std::size_t n = 0; n < real.size(); ++n) {
-        re += cosines[n] * real[n];
-        im += cosines[n] * imaginary[n];
+    const std::size_t steps = receive_.size();
+    std::vector<double> real(steps, 0.0), imaginary(steps, 0.0);
+    for (std::size_t n = 0; n < aperture_.size(); ++n) {
+      const double x = aperture_.places_m[n], phase = 0.5 * wave_number_ * x * x * defocus;
+      const double cosine = std::cos(phase), sine = std::sin(phase);
+      const double* const across = &cosines_[n * steps];
+      for (std::size_t s = 0; s < steps; ++s) {
+        real[s] += across[s] * cosine;
+        imaginary[s] -= across[s] * sine;
       }
-      powers[s] += weight * (re * re + im * im) * receive_[s];
     }
+    for (std::size_t s = 0; s < steps; ++s)
+      powers[s] += weight * (real[s] * real[s] + imaginary[s] * imaginary[s]) * receive_[s];
   }
 
  private:
   const HalfAperture& aperture_;
   double wave_number_;
-  std::vector<double> cosines_, receive_;
+  std::vector<double> cosines_, receive_;  // by element and u; by u
 };
 
 }  // namespace
