@@ -24,7 +24,7 @@ constexpr double kMostU = 2;
 constexpr double kStepsPerWidth = 16, kEdgePhase = std::numbers::pi / 8;
 // Bounds of the table for apertures of very many wavelengths or very few. Our choices.
 constexpr std::size_t kMostElements = 128, kLeastElements = 2, kMostDefocuses = 256;
-// Of the first grating lobe of elements that stand farther apart: beyond it P counts as 0.
+// Share of the first grating lobe of elements that stand farther apart; P counts as 0 beyond it.
 constexpr double kGratingShare = 0.9;
 
 constexpr double kMainLobeEnd = 1e-3;

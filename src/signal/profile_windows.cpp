@@ -113,6 +113,8 @@ class WindowBuilder {
     for (int i = end; i < rows; i += group) addUntil(border(std::min(i + group, rows)), profile);
     double sum = 0;
     for (const double weight : weights_) sum += weight;
+    // Lines too near to one another for the table: each stands for itself.
+    if (!(sum > 0)) sum = weights_[static_cast<std::size_t>(first / group + row - first)] = 1;
     for (const double weight : weights_) all_.weights.push_back(static_cast<float>(weight / sum));
   }
 
@@ -120,7 +122,7 @@ class WindowBuilder {
   void addUntil(double u, const SampledBeam::Profile& profile) {
     at_ = std::max(at_, u);
     const double until = profile.integral(at_);
-    weights_.push_back(until - before_);
+    weights_.push_back(std::max(until - before_, 0.0));  // rounding may leave less
     before_ = until;
   }
 

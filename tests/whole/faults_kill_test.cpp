@@ -111,6 +111,7 @@ TEST_F(KilledLoop, AStudyLeavesWholeFilesAndRunsAgain) {
       if (isPart(name)) continue;
       EXPECT_TRUE(!name.ends_with(".json") || nlohmann::json::accept(bytes)) << name;
       EXPECT_TRUE(!name.ends_with(".html") || bytes.ends_with("</html>\n")) << name;
+      EXPECT_TRUE(!name.ends_with(".csv") || bytes.ends_with("\n")) << name;
       const auto lines = std::count(bytes.begin(), bytes.end(), '\n');
       bytes = name.ends_with(".csv") ? std::to_string(lines) + " lines" : "";
     }
@@ -129,8 +130,10 @@ TEST_F(KilledLoop, AStudyLeavesWholeFilesAndRunsAgain) {
     run.fault = "half:" + std::to_string(std::uniform_int_distribution<long>(1, all.files)(random));
     SCOPED_TRACE(run.fault);
     EXPECT_EQ(outcomeOf(run).code, 128 + SIGKILL);
-    for (const auto& [name, lines] : wholeFiles())
-      EXPECT_TRUE(isPart(name) || whole.at(name) == lines) << name;
+    for (const auto& [name, lines] : wholeFiles()) {  // rows stand as they come
+      if (isPart(name)) continue;
+      EXPECT_LE(std::atoi(lines.c_str()), std::atoi(whole.at(name).c_str())) << name;
+    }
     EXPECT_EQ(outcomeOf(study).code, 0);
     EXPECT_EQ(wholeFiles(), whole);
   }
