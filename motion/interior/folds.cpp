@@ -6,8 +6,8 @@ namespace echocine {
 
 namespace {
 
-// A cell that keeps less than this part of its volume is about to fold: its
-// surroundings are made this much stiffer. Our choices.
+// A cell that keeps less than this part of its volume is about to fold: its surroundings are made
+// this much stiffer. Our choices.
 constexpr float kLeastVolume = 0.05f, kStiffer = 4;
 // One that keeps this part is not looked at in later rounds, which change little there. Our choice.
 constexpr float kSafeVolume = 0.5f;

@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "motion/mesh/mesh_check.h"
 #include "motion/mesh/world_place.h"
+#include "motion/surfaces/end_diastole.h"
 #include "motion/surfaces/keyframe_set.h"
 #include "motion/views/heart_marks.h"
 #include "scene/probe_pose.h"
@@ -24,12 +25,6 @@ bool hasVessel(const std::vector<RoleSurface>& surfaces) {
                      [](const RoleSurface& s) { return s.role == Role::aorta; });
 }
 
-// Input of the search for a view: the meshes of one instant, in the world.
-struct Instant {
-  std::vector<RoleSurface> surfaces;
-  std::vector<std::vector<Triangle>> triangles;  // of each
-};
-
 // The scene with some of its structures alone.
 Scene sceneOf(const Scene& scene, std::vector<Structure> structures) {
   Scene part;
@@ -40,36 +35,26 @@ Scene sceneOf(const Scene& scene, std::vector<Structure> structures) {
 
 // Phase of the largest left ventricle; 0 without one, or if it does not move.
 double endDiastole(const Scene& scene) {
-  auto ventricle = structureOf(scene, Role::lv_cavity);
-  if (!ventricle) ventricle = structureOf(scene, Role::lv_wall);
+  const auto ventricle = ventricleOf(scene);
   if (!ventricle) return 0;
   const Structure& structure = scene.structures[index(*ventricle)];
   if (structure.keyframes.size() < 2) return structure.keyframes.front().phase;
   const KeyframeSet set = readKeyframes(sceneOf(scene, {structure}));
-  std::size_t largest = 0;
-  double most = 0;
-  for (std::size_t k = 0; k < structure.keyframes.size(); ++k) {
-    const double volume = std::abs(signedVolume(set.structures.front()[k].mesh));
-    if (volume > most) {
-      most = volume;
-      largest = k;
-    }
-  }
+  const std::size_t largest = largestKeyframe(structure.keyframes.size(), [&](std::size_t k) {
+    return signedVolume(set.structures.front()[k].mesh);
+  });
   return structure.keyframes[largest].phase;
 }
 
 Structure atPhase(Structure structure, double phase) {
-  const auto apart = [&](const Keyframe& k) {
-    return std::abs(std::remainder(k.phase - phase, 1));
-  };
-  const Keyframe nearest =
-      *std::min_element(structure.keyframes.begin(), structure.keyframes.end(),
-                        [&](const Keyframe& a, const Keyframe& b) { return apart(a) < apart(b); });
-  structure.keyframes = {nearest};
+  std::vector<double> phases;
+  for (const Keyframe& k : structure.keyframes) phases.push_back(k.phase);
+  structure.keyframes = {Keyframe(structure.keyframes[nearestKeyframe(phase, phases)])};
   return structure;
 }
 
-Instant heartAtEndDiastole(const Scene& scene) {
+// Input of the search for a view: the meshes of one instant, in the world.
+std::vector<RoleSurface> heartAtEndDiastole(const Scene& scene) {
   const double phase = endDiastole(scene);
   std::vector<Structure> parts;
   for (const Structure& structure : scene.structures)
@@ -77,15 +62,14 @@ Instant heartAtEndDiastole(const Scene& scene) {
       parts.push_back(atPhase(structure, phase));
   const Scene heart = sceneOf(scene, std::move(parts));
   const KeyframeSet set = readKeyframes(heart);
-  Instant instant;
+  std::vector<RoleSurface> surfaces;
   for (std::size_t s = 0; s < heart.structures.size(); ++s) {
     const TriangleMesh& mesh = set.structures[s].front().mesh;
     RoleSurface surface{roleOf(heart.structures[s]), heart.structures[s].name, {}, mesh.triangles};
     for (const Vec3d& p : mesh.positions) surface.points_m.push_back(worldPlace(scene.motion, p));
-    instant.surfaces.push_back(std::move(surface));
-    instant.triangles.push_back(mesh.triangles);
+    surfaces.push_back(std::move(surface));
   }
-  return instant;
+  return surfaces;
 }
 
 Pose frameOf(const ProbePose& pose) {
@@ -101,11 +85,11 @@ Pose moved(const Pose& pose, const ViewPlacement& by) {
 }
 
 // An edge of a mesh meets the imaging plane within the sector.
-bool cuts(const Probe& probe, const Instant& heart) {
-  for (std::size_t s = 0; s < heart.surfaces.size(); ++s) {
+bool cuts(const Probe& probe, const std::vector<RoleSurface>& heart) {
+  for (const RoleSurface& surface : heart) {
     std::vector<Vec3d> at;
-    for (const Vec3d p : heart.surfaces[s].points_m) at.push_back(probe.pose.fromWorld(p));
-    for (const Triangle& t : heart.triangles[s])
+    for (const Vec3d p : surface.points_m) at.push_back(probe.pose.fromWorld(p));
+    for (const Triangle& t : surface.triangles)
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec3d a = at[t[k]], b = at[t[(k + 1) % 3]];
         if ((a.y < 0) == (b.y < 0)) continue;
@@ -134,9 +118,9 @@ void place(const ViewPlacement& placement, const HeartMarks& marks, double mesh_
   if (probe.focus_m == 0) probe.focus_m = defaultFocus(probe.max_depth_m);
 }
 
-std::string whereTheyAre(const Probe& probe, const Instant& heart) {
+std::string whereTheyAre(const Probe& probe, const std::vector<RoleSurface>& heart) {
   Box box;
-  for (const RoleSurface& s : heart.surfaces)
+  for (const RoleSurface& s : heart)
     for (const Vec3d p : s.points_m) box.add(probe.pose.fromWorld(p));
   const auto mm = [](double m) { return std::round(millimetresFromMetres(m)); };
   return fmt::format(
@@ -146,7 +130,8 @@ std::string whereTheyAre(const Probe& probe, const Instant& heart) {
 }
 
 // The first view that cuts a mesh, this one before the others.
-std::string viewThatCuts(const Scene& scene, const HeartMarks& marks, const Instant& heart) {
+std::string viewThatCuts(const Scene& scene, const HeartMarks& marks,
+                         const std::vector<RoleSurface>& heart) {
   std::vector<View> views{scene.view->view};
   for (const ViewName& name : viewNames()) views.push_back(name.view);
   for (const View view : views) {
@@ -180,13 +165,13 @@ void tellGuesses(const HeartMarks& marks, Scene& scene) {
 Scene placed(Scene scene) {
   if (!scene.view) return scene;
   const ViewPlacement placement = *scene.view;
-  const Instant heart = heartAtEndDiastole(scene);
-  const HeartMarks marks = findHeart(heart.surfaces, placement.place);
+  const std::vector<RoleSurface> heart = heartAtEndDiastole(scene);
+  const HeartMarks marks = findHeart(heart, placement.place);
   const auto fail = [&](const std::string& what) {
     throw SceneError(atPlace(placement.place, what));
   };
   if (placement.view == View::psax_base && !marks.aortic_found)
-    fail(hasVessel(heart.surfaces)
+    fail(hasVessel(heart)
              ? "the structure with role aorta does not reach the left ventricle, so its valve is "
                "not "
                "found; accepted: one that does, or role = \"aortic_valve\" of another"

@@ -56,6 +56,13 @@ void store(Ints4 lanes, Number* to) {
   static_assert(sizeof(Number) == sizeof(std::int32_t));
   std::memcpy(to, &lanes, sizeof lanes);
 }
+// The first `count` lanes, the others 0; all of them by a plain load.
+inline Floats8 someLanesAt(const float* from, std::size_t count) {
+  if (count >= kFloatLanes) return lanesAt(from);
+  Floats8 lanes{};
+  std::memcpy(&lanes, from, count * sizeof(float));
+  return lanes;
+}
 // The first `count` lanes; all of them by a plain store.
 inline void storeSome(Floats8 lanes, std::size_t count, float* to) {
   if (count >= kFloatLanes)

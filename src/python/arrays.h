@@ -12,6 +12,9 @@ namespace echocine::python {
 
 namespace py = pybind11;
 
+// A given array, converted to float64 in C order where it is not.
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
 // C order; the array keeps `owner` alive. An array without values keeps its shape.
 template <typename T>
 py::array viewOf(const T* data, const std::vector<py::ssize_t>& shape, const py::handle& owner) {

@@ -20,7 +20,6 @@ namespace echocine::python {
 namespace {
 
 using Path = std::filesystem::path;
-using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 // Columns of a pose.
 constexpr const char* kPoseColumns = "shift_x_mm, shift_z_mm, turn_deg, scale, lag, systole";

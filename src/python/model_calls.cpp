@@ -24,7 +24,6 @@ namespace echocine::python {
 
 namespace {
 
-using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Model = std::shared_ptr<fit::ModelLoop>;
 using Ranges = std::vector<std::tuple<std::string, double, double>>;
 

@@ -12,13 +12,14 @@
 // five frequencies, a Gaussian about the centre. Transmit has no apodization; receive is focused at
 // every depth. Its energy over the pulse, not the peak of the envelope.
 //
-// Limits: paraxial in q, so paths nearer than half the aperture keep the value there. Full widths
-// differ from a sum over the elements with exact distances by at most 10 % (-6 dB) and 20 % (-20
-// dB) for 64 elements of 0.3 mm focused at 80 mm, at 30 to 140 mm and 0 to 38 degrees. For
-// apertures of 12 to 24 mm, foci of 50 to 120 mm and apodized receive it is 15 %, steered at 30 mm
-// up to 25 %. Against a linear array simulator (SIMUS: Garcia, Comput. Methods Programs Biomed.
-// 218, 2022): 4 % (-6 dB) and 15 % (-20 dB), except where a shoulder of the defocused beam lies
-// near -20 dB.
+// Limits: an aperture over 64 wavelengths has 128 elements, farther apart; beyond 0.9 of the u of
+// their first grating lobe P counts as 0. Paraxial in q, so paths nearer than half the aperture
+// keep the value there. Full widths differ from a sum over the elements with exact distances by at
+// most 10 % (-6 dB) and 20 % (-20 dB) for 64 elements of 0.3 mm focused at 80 mm, at 30 to 140 mm
+// and 0 to 38 degrees. For apertures of 12 to 24 mm, foci of 50 to 120 mm and apodized receive it
+// is 15 %, steered at 30 mm up to 25 %. Against a linear array simulator (SIMUS: Garcia, Comput.
+// Methods Programs Biomed. 218, 2022): 4 % (-6 dB) and 15 % (-20 dB), except where a shoulder of
+// the defocused beam lies near -20 dB.
 
 #include <cstddef>
 #include <span>

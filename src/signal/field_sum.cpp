@@ -10,11 +10,10 @@ namespace echocine {
 FieldSum::FieldSum(const Scene& scene, const EffectPlan& plan, std::span<const float> gains)
     : lines_(scene.probe.lines),
       samples_(scene.probe.samples),
-      adds_(plan.clutter || plan.noise),
       smoothing_(samples_, scene.speckle.smoothing_m / kWidthAtHalf / scene.probe.sampleSpacing()) {
-  levels_.assign(static_cast<std::size_t>(samples_), 0.0f);
   if (plan.noise) levels_ = noiseLevels(scene, gains);
   if (plan.clutter) {
+    levels_.resize(static_cast<std::size_t>(samples_));
     const std::vector<float> clutter = clutterLevels(scene);
     for (std::size_t k = 0; k < clutter.size(); ++k) levels_[k] += clutter[k];
   }
@@ -32,11 +31,11 @@ void FieldSum::addMean(double white, std::span<float> intensities) const {
 
 void FieldSum::add(double white, double time_s, const EchoField& field,
                    std::span<float> intensities) const {
+  if (!adds()) return;
   if (!draws()) return addMean(white, intensities);
-  constexpr std::size_t kStep = 4 * kFloatLanes;
   const auto samples = static_cast<std::size_t>(samples_);
   const auto margin = static_cast<std::size_t>(smoothing_.margin());
-  const std::size_t length = (samples + kStep - 1) / kStep * kStep;
+  const auto length = static_cast<std::size_t>(smoothing_.length());
   thread_local std::vector<float> real, imaginary, ratios, smooth, coarse;
   ratios.assign(length + 2 * margin, 1.0f);
   smooth.resize(length);

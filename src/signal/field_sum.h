@@ -24,7 +24,7 @@ class FieldSum {
   // Without clutter and noise it adds nothing.
   FieldSum(const Scene& scene, const EffectPlan& plan, std::span<const float> gains);
 
-  bool adds() const { return adds_; }
+  bool adds() const { return !levels_.empty(); }
   // True if add() draws fields, and so needs that of the echoes.
   bool draws() const { return clutter_ || noise_; }
 
@@ -36,10 +36,9 @@ class FieldSum {
   void addMean(double white, std::span<float> intensities) const;
 
   int lines_, samples_;
-  bool adds_;
   std::optional<NearFieldClutter> clutter_;
   std::optional<ReceiverNoise> noise_;
-  std::vector<float> levels_;  // mean power of both over white
+  std::vector<float> levels_;  // mean power of both over white; empty without them
   LineSmoothing smoothing_;
 };
 

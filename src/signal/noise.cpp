@@ -118,15 +118,10 @@ void ReceiverNoise::add(double white, double time_s, int line, float* real,
   for (int k = 0; k < samples_; k += kLanes) {
     const ComplexLanes noise = filtered(white_real.data(), white_imaginary.data(), k);
     const auto count = static_cast<std::size_t>(std::min(kLanes, samples_ - k));
-    Floats8 amplitude{};
-    std::memcpy(&amplitude, amplitudes_.data() + k, count * sizeof(float));
-    amplitude *= scale;
+    const Floats8 amplitude = scale * someLanesAt(amplitudes_.data() + k, count);
     for (const auto& [to, part] :
-         {std::pair(real, noise.real), std::pair(imaginary, noise.imaginary)}) {
-      Floats8 before{};
-      std::memcpy(&before, to + k, count * sizeof(float));
-      storeSome(before + amplitude * part, count, to + k);
-    }
+         {std::pair(real, noise.real), std::pair(imaginary, noise.imaginary)})
+      storeSome(someLanesAt(to + k, count) + amplitude * part, count, to + k);
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 
 #include "core/lanes.h"
 #include "core/parallel.h"
@@ -26,12 +25,7 @@ Floats8 weightedSum(const float* weights, const Floats8* rows, int count) {
 }
 
 bool isZero(Floats8 a) {
-  const Ints8 bits = reinterpret_cast<Ints8>(a);
-  constexpr std::int32_t kAllButTheSign = std::numeric_limits<std::int32_t>::max();
-  Ints8 any = bits & kAllButTheSign;
-  std::int32_t all = 0;
-  for (std::size_t i = 0; i < kFloatLanes; ++i) all |= any[i];
-  return all == 0;
+  return bitsOf(a != 0) == 0;
 }
 
 }  // namespace
@@ -54,23 +48,14 @@ struct ProfileAverage::Slab {
 ProfileAverage::ProfileAverage(const Probe& probe, double pulse_cycles)
     : lines_(probe.lines), samples_(probe.samples), windows_(probe, pulse_cycles) {}
 
-void ProfileAverage::apply(std::vector<float>& plane, LineRange lines) const {
-  averageBy(plane, lines, &ProfileAverage::averageAll);
-}
-
-void ProfileAverage::applyMainLobe(std::vector<float>& plane, LineRange lines) const {
-  averageBy(plane, lines, &ProfileAverage::averageEchoing);
-}
-
-void ProfileAverage::averageBy(std::vector<float>& plane, LineRange lines,
-                               AverageOfRow averageOfRow) const {
+void ProfileAverage::apply(std::vector<float>& plane, LineRange lines, BeamPart part) const {
   const auto slabs = static_cast<std::size_t>((samples_ + kSlab - 1) / kSlab);
   parallelBlocks(slabs, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Slab slab(*this, static_cast<int>(i) * kSlab);
       read(plane.data(), slab);
       for (int v = 0; slab.first + v * kAtOnce < slab.last; ++v)
-        averageVector(v, lines, averageOfRow, slab);
+        averageVector(v, lines, part, slab);
       write(slab, lines, plane.data());
     }
   });
@@ -90,13 +75,14 @@ void ProfileAverage::read(const float* plane, Slab& slab) const {
   }
 }
 
-void ProfileAverage::averageVector(int vector, LineRange lines, AverageOfRow averageOfRow,
-                                   Slab& slab) const {
-  const std::size_t at = static_cast<std::size_t>(vector) * static_cast<std::size_t>(windows_.rows);
-  const Floats8* const rows = &slab.rows[at];
+// Rows that are not 0.
+void ProfileAverage::findEchoing(const Floats8* rows, Slab& slab) const {
   slab.echoing.clear();
   for (int row = 0; row < windows_.rows; ++row)
     if (!isZero(rows[row])) slab.echoing.push_back(row);
+}
+
+void ProfileAverage::findGroups(const Floats8* rows, Slab& slab) const {
   for (int g = 0; g < windows_.groups; ++g) {
     const int first = g * windows_.in_group,
               end = std::min(first + windows_.in_group, windows_.rows);
@@ -104,13 +90,23 @@ void ProfileAverage::averageVector(int vector, LineRange lines, AverageOfRow ave
     for (int row = first; row < end; ++row) sum += rows[row];
     slab.groups[static_cast<std::size_t>(g)] = sum * (1.0f / static_cast<float>(end - first));
   }
+}
+
+void ProfileAverage::averageVector(int vector, LineRange lines, BeamPart part, Slab& slab) const {
+  const std::size_t at = static_cast<std::size_t>(vector) * static_cast<std::size_t>(windows_.rows);
+  const Floats8* const rows = &slab.rows[at];
+  const bool whole = part == BeamPart::whole;
+  whole ? findGroups(rows, slab) : findEchoing(rows, slab);
   const ProfileWindows::Zone& zone = windows_.zoneOf(slab.first + vector * kAtOnce);
   // With the rows on both sides, between which lines are interpolated.
   const int first_row = std::max(lines.first / windows_.in_row - 1, 0);
   const int end_row = std::min(lines.end / windows_.in_row + 2, windows_.rows);
-  for (int row = first_row; row < end_row; ++row)
-    slab.averages[at + static_cast<std::size_t>(row)] = (this->*averageOfRow)(
-        windows_.windows[zone.windows + static_cast<std::size_t>(row)], rows, slab);
+  for (int row = first_row; row < end_row; ++row) {
+    const ProfileWindows::Window& window =
+        windows_.windows[zone.windows + static_cast<std::size_t>(row)];
+    slab.averages[at + static_cast<std::size_t>(row)] =
+        whole ? averageAll(window, rows, slab) : averageEchoing(window, rows, slab);
+  }
 }
 
 Floats8 ProfileAverage::averageAll(const ProfileWindows::Window& window, const Floats8* rows,

@@ -17,26 +17,25 @@
 
 namespace echocine {
 
+enum class BeamPart { whole, main_lobe };
+
 class ProfileAverage {
  public:
   // Precondition: at least two lines.
   ProfileAverage(const Probe& probe, double pulse_cycles);
 
-  // Averages the lines of a line-major plane in place; reads all lines. Runs in parallel; the
-  // result does not depend on the threads.
-  void apply(std::vector<float>& plane, LineRange lines) const;
-
-  // The same weights within the main lobe alone, for planes of few echoes.
-  void applyMainLobe(std::vector<float>& plane, LineRange lines) const;
+  // Averages the lines of a line-major plane in place; reads all lines. The main lobe alone has the
+  // same weights, without those of the side lobes; it is for planes of few echoes. Runs in
+  // parallel; the result does not depend on the threads.
+  void apply(std::vector<float>& plane, LineRange lines, BeamPart part = BeamPart::whole) const;
 
  private:
   struct Slab;
-  using AverageOfRow = Floats8 (ProfileAverage::*)(const ProfileWindows::Window&, const Floats8*,
-                                                   const Slab&) const;
 
-  void averageBy(std::vector<float>& plane, LineRange lines, AverageOfRow averageOfRow) const;
   void read(const float* plane, Slab& slab) const;
-  void averageVector(int vector, LineRange lines, AverageOfRow averageOfRow, Slab& slab) const;
+  void findEchoing(const Floats8* rows, Slab& slab) const;
+  void findGroups(const Floats8* rows, Slab& slab) const;
+  void averageVector(int vector, LineRange lines, BeamPart part, Slab& slab) const;
   Floats8 averageAll(const ProfileWindows::Window& window, const Floats8* rows,
                      const Slab& slab) const;
   Floats8 averageEchoing(const ProfileWindows::Window& window, const Floats8* rows,

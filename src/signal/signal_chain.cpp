@@ -46,7 +46,7 @@ SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
 
 void SignalChain::process(Intensities& intensities, LineRange lines) const {
   if (!gains_.empty()) applyTimeGains(gains_, intensities);
-  averageOverBeam(intensities.values, haze_ ? all_lines_ : lines);
+  averageOverBeam(intensities.values, haze_ ? all_lines_ : lines, BeamPart::whole);
   if (!losses_.empty()) applySectorLosses(losses_, intensities);
   if (haze_) haze_->add(intensities);
   if (!tail_) return;
@@ -57,9 +57,9 @@ void SignalChain::process(Intensities& intensities, LineRange lines) const {
 }
 
 // Side lobes take in all lines.
-void SignalChain::averageOverBeam(std::vector<float>& plane, LineRange lines) const {
+void SignalChain::averageOverBeam(std::vector<float>& plane, LineRange lines, BeamPart part) const {
   if (beam_) beam_->apply(plane, profile_ ? all_lines_ : lines);
-  if (profile_) profile_->apply(plane, lines);
+  if (profile_) profile_->apply(plane, lines, part);
 }
 
 std::vector<int> SignalChain::taken(LineRange lines) const {
@@ -76,8 +76,7 @@ void SignalChain::process(CoherentEchoes& echoes, LineRange lines) const {
   if (echoes.empty()) return;
   for (std::vector<float>* plane : {&echoes.intensity, &echoes.real, &echoes.imaginary}) {
     if (!gains_.empty()) applyTimeGains(gains_, *plane);
-    if (beam_) beam_->apply(*plane, profile_ ? all_lines_ : lines);
-    if (profile_) profile_->applyMainLobe(*plane, lines);
+    averageOverBeam(*plane, lines, BeamPart::main_lobe);
     if (!losses_.empty()) applySectorLosses(losses_, *plane);
   }
 }

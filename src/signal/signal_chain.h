@@ -52,7 +52,7 @@ class SignalChain {
   }
 
  private:
-  void averageOverBeam(std::vector<float>& plane, LineRange lines) const;
+  void averageOverBeam(std::vector<float>& plane, LineRange lines, BeamPart part) const;
 
   SignalSettings settings_;
   LineRange all_lines_;

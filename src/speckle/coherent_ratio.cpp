@@ -13,11 +13,6 @@ namespace {
 // nearest cache. By time.
 constexpr int kGroup = 4;
 constexpr float kNothing = 1e-35f;  // power where no scatterer is in reach
-constexpr std::ptrdiff_t kRowStep = 4 * kFloatLanes;
-
-std::ptrdiff_t lengthOf(int samples) {
-  return (samples + kRowStep - 1) / kRowStep * kRowStep;
-}
 
 float* floatsOf(std::vector<CacheLine>& lines) {
   return lines.front().floats;
@@ -32,13 +27,6 @@ Floats8 roots(Floats8 a) {
   return out;
 }
 
-Floats8 someLanesAt(const float* from, int count) {
-  if (count >= static_cast<int>(kFloatLanes)) return lanesAt(from);
-  Floats8 lanes{};
-  std::memcpy(&lanes, from, static_cast<std::size_t>(count) * sizeof(float));
-  return lanes;
-}
-
 // A row reaches the splats of these lines to either side; splines are four rows wide.
 int linesBeside(const GridSpacing& across, TapRange taps) {
   const int reach = std::max(-taps.first, taps.first + taps.count) + 2;
@@ -51,11 +39,11 @@ CoherentRatio::CoherentRatio(const Probe& probe, const PointSpread& spread, cons
                              double smoothing_m)
     : lines_(probe.lines),
       samples_(probe.samples),
-      length_(lengthOf(probe.samples)),
       grid_(probe, spread, view),
       lateral_(grid_),
       axial_(grid_, grid_.axialSamples()),
       smoothing_(probe.samples, smoothing_m / kWidthAtHalf / probe.sampleSpacing()),
+      length_(smoothing_.length()),
       beside_(linesBeside(grid_.across(), lateral_.rows())) {}
 
 LineRange CoherentRatio::within(LineRange lines, int beside) const {
@@ -158,9 +146,8 @@ void CoherentRatio::finish(Rows& rows, float* intensities) const {
   float *of = ratio(rows), *smooth = of + length_ + smoothing_.margin();
   smoothing_.apply(of, rows.coarse, smooth);
   for (int k = 0; k < samples_; k += kFloatLanes) {
-    const int left = samples_ - k;
-    storeSome(someLanesAt(intensities + k, left) * lanesAt(smooth + k),
-              static_cast<std::size_t>(left), intensities + k);
+    const auto left = static_cast<std::size_t>(samples_ - k);
+    storeSome(someLanesAt(intensities + k, left) * lanesAt(smooth + k), left, intensities + k);
   }
 }
 

@@ -56,12 +56,12 @@ class CoherentRatio {
   float* ratio(Rows& rows) const;
 
   int lines_, samples_;
-  std::ptrdiff_t length_;  // of a row of samples: whole groups of lanes
   SplatGrid grid_;
   LateralTaps lateral_;
   AxialSums axial_;
   LineSmoothing smoothing_;
-  int beside_;  // lines to either side whose splats a line takes
+  std::ptrdiff_t length_;  // of a row of samples: that of a smoothed line
+  int beside_;             // lines to either side whose splats a line takes
 };
 
 }  // namespace echocine

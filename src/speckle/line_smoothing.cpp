@@ -46,6 +46,10 @@ LineSmoothing::LineSmoothing(int samples, double deviation_samples)
   margin_ = (reach + 2) * block_ + kStep;
 }
 
+int LineSmoothing::length() const {
+  return (samples_ + kStep - 1) / kStep * kStep;
+}
+
 // `to` takes whole steps.
 void LineSmoothing::smear(const float* from, int count, float* to) const {
   for (int k = 0; k < count; k += kStep) {

@@ -12,8 +12,11 @@ class LineSmoothing {
   // Floats required before the first sample of a line and behind its last one.
   int margin() const { return margin_; }
 
-  // Samples from `line` to `out`, which takes whole groups of 32. The margins are
-  // overwritten: ends are mirrored, so that the mean stays. coarse: memory of a line in the making.
+  // Floats that apply() writes to `out`: the samples, rounded up to whole groups of lanes.
+  int length() const;
+
+  // Samples from `line` to `out`. The margins are overwritten: ends are mirrored, so that the mean
+  // stays. coarse: memory of a line in the making.
   void apply(float* line, std::vector<float>& coarse, float* out) const;
 
  private:

@@ -1,5 +1,5 @@
-// What an optimiser may ask of hearts and poses: the rest is refused in one line that names the
-// argument.
+// Requests of an optimiser for hearts and poses: those out of range are refused in one line that
+// names the argument.
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kDraws = 200000;
 
-// Of n draws the mean errs by 1/sqrt(n), the variance by sqrt(2/n), the fourth moment by
+// The mean of n draws errs by 1/sqrt(n), the variance by sqrt(2/n), the fourth moment by
 // sqrt(96/n): four times that is accepted.
 TEST(HashRandomLaw, NormalNumbersHaveTheMomentsOfTheNormalDistribution) {
   double sum = 0, squares = 0, fourth = 0;

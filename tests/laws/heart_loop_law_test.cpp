@@ -29,7 +29,7 @@ int inwardFaces(const SurfaceTopology& surface, const std::vector<Vec3f>& points
       }));
 }
 
-// What a loop of kInstants frames shows.
+// Measures of a loop of kInstants frames.
 struct Beat {
   double ejection_fraction = 0;
   int inward_faces = 0;  // of grooves and pericardium, in the worst frame

@@ -82,7 +82,7 @@ void expectWhole(const Scene& scene) {
     for (const std::string& warning : told) EXPECT_TRUE(isOfVolume(warning)) << warning;
 }
 
-// Nothing at all is told of the kind that the scene has, nor of the default.
+// Neither the interpolation of the scene nor the default one gives a warning.
 void expectSilent(Scene scene) {
   scene.acquisition = {.heart_rate_hz = 1, .frame_rate_hz = kPhases, .beats = 1};
   EXPECT_EQ(motionWarnings(scene, MeshMotion(scene)), std::vector<std::string>{});

@@ -126,7 +126,7 @@ TEST(LineWalker, CoincidentWallsAreOneInterfaceOfTheOuterMedia) {
     }
 }
 
-// Of surfaces that meet, the one with the higher priority gives the echo its normal.
+// Where surfaces coincide, the echo has the normal of the one with the higher priority.
 TEST(LineWalker, OfCoincidentWallsTheHigherPriorityHasTheNormal) {
   Scene scene = heartScene();
   addStructure(scene, kMuscle, 1);

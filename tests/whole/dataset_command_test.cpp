@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "support/page_data.h"
+#include "support/run_files.h"
 #include "support/run_program.h"
 
 namespace echocine {
@@ -22,15 +23,6 @@ hearts = 2
 views = ["a4c"]
 layouts = ["native", "echonet"]
 )";
-
-// Every file but the book-keeping of tasks, which differs by how a run was cut into parts.
-std::map<std::string, std::string> filesOf(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file())
-      files[fs::relative(entry.path(), folder).string()] = bytesOf(entry.path());
-  return files;
-}
 
 std::vector<std::string> fieldsOf(const std::string& line) {
   std::vector<std::string> fields;

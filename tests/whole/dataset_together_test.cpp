@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "support/run_files.h"
 #include "support/run_program.h"
 
 namespace echocine {
@@ -21,14 +22,6 @@ hearts = 3
 views = ["a4c"]
 layouts = ["native", "echonet"]
 )";
-
-std::map<std::string, std::string> filesOf(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file())
-      files[fs::relative(entry.path(), folder).string()] = bytesOf(entry.path());
-  return files;
-}
 
 class DatasetTogether : public testing::Test {
  protected:
