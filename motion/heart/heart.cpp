@@ -117,7 +117,7 @@ Parameters withSegmentsRuling(Parameters parameters) {
   const double left = LeftVentricle::ejectionFractionOf(parameters);
   if (!(left >= kLeast))
     throw SceneError(
-        fmt::format("segment: with these the left ventricle ejects {:.3f} of its "
+        fmt::format("segment: with these values the left ventricle ejects {:.3f} of its "
                     "volume, accepted: {} or more",
                     left, kLeast));
   parameters.ejection_fraction = left;

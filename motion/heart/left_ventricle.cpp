@@ -59,8 +59,8 @@ LeftVentricle::LeftVentricle(const Parameters& parameters) : parameters_(paramet
   const double ef = parameters.ejection_fraction;
   if (!(ef >= least && ef <= most))
     throw SceneError(fmt::format(
-        "ef: {:g} is not possible with mapse {:.3g} mm and these segments; accepted are {:.3f} to "
-        "{:.3f}, or change those",
+        "ef: {:g} is not possible with mapse {:.3g} mm and these segments; accepted: {:.3f} to "
+        "{:.3f}; or change mapse or the segments",
         ef, parameters.mapse_mm, std::max(least, 0.0), most));
   strain_ = solve(0, kLargestStrain, -esv_m3, kVolumeTolerance * edv_m3_, emptied);
   contract({});

@@ -88,11 +88,12 @@ void checkExtent(const Structure& structure, const KeyframeMesh& keyframe, doubl
   const double extent_m = extent * mesh_unit_m;
   if (!(extent_m >= kMinExtentMetres && extent_m <= kMaxExtentMetres))
     fail(structure,
-         fmt::format("{} measures {:.4g} mesh units, which motion.mesh_unit makes "
-                     "{:.4g} m; 1 mm to 2 m is accepted: correct motion.mesh_unit or "
-                     "motion.mesh_scale (a chamber of "
-                     "80 mm takes {:.2g} mm per mesh unit)",
-                     keyframe.parts.front().file.string(), extent, extent_m, 80 / extent));
+         fmt::format(
+             "{} measures {:.4g} mesh units, "
+             "{:.4g} m by motion.mesh_unit; 1 mm to 2 m is accepted: correct motion.mesh_unit or "
+             "motion.mesh_scale (a chamber of "
+             "80 mm takes {:.2g} mm per mesh unit)",
+             keyframe.parts.front().file.string(), extent, extent_m, 80 / extent));
 }
 
 void checkVolume(const Structure& structure, const KeyframeMesh& keyframe, bool is_first) {

@@ -131,7 +131,7 @@ void parse(const std::string& bytes, const std::string& extension, PlainImporter
   const bool good = om::IO::IOManager().read(stream, extension, importer, options);
   // The reader of STL text reads to the end of the file, or stops at text that is not a number.
   const bool stopped_early = stl && !options.check(om::IO::Options::Binary) && !stream.eof();
-  if (!good || stopped_early) throw SceneError("is damaged or no such file");
+  if (!good || stopped_early) throw SceneError("is damaged, or not a file of this format");
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ void checkCorners(const Structure& structure, const KeyframeMesh& keyframe) {
     const Triangle& c = triangles[t];
     if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0])
       fail(structure,
-           fmt::format("{} has two corners in one vertex: remove it", faceName(keyframe, t)),
+           fmt::format("{} uses one vertex for two corners: remove it", faceName(keyframe, t)),
            offerOf(structure.repair.drop_degenerate, "drop-degenerate"));
   }
 }
@@ -158,8 +158,8 @@ void checkPieces(const Structure& structure, const KeyframeMesh& keyframe) {
     if (depth >= 0) continue;
     const std::vector<std::uint32_t>& faces = nesting.trianglesOf(piece);
     fail(structure,
-         fmt::format("{} and the {} others of its separate surface look inward, and it "
-                     "is no cavity of another; accepted: outward: reverse them",
+         fmt::format("{} and the {} others of its separate surface look inward, but it "
+                     "is not a cavity of another surface: reverse them",
                      faceName(keyframe, faces.front()), faces.size() - 1),
          offerOf(structure.repair.orient, "orient"));
   }

@@ -69,7 +69,7 @@ std::vector<Vec3d> probePositions(const Structure& structure, const KeyframeMesh
       throw SceneError(atPlace(
           structure.place,
           fmt::format("{}: {} reaches {:.4g} m from the probe's apex, at most {:g} m is accepted: "
-                      "correct motion.mesh_unit, motion.mesh_scale or the probe's place",
+                      "correct motion.mesh_unit, motion.mesh_scale or the probe's position",
                       structure.name, keyframe.parts.front().file.string(), length(p),
                       kMaxDistanceMetres)));
     positions_m.push_back(p);
@@ -217,8 +217,8 @@ MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
       input_sha256_(set.sha256) {
   CHECK_EQ(set.structures.size(), scene.structures.size());
   if (scene.view)
-    throw SceneError(
-        atPlace(scene.view->place, "is not found yet, accepted: the scene as placed()"));
+    throw SceneError(atPlace(scene.view->place,
+                             "is not computed yet, accepted: the scene that placed() returns"));
   const double slices_m = elevationReach(scene);
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     checkpoint();

@@ -43,14 +43,14 @@ std::string triangleWords(const ControlMotion& motion, const SurfaceBreaks& brea
   std::string words;
   switch (first.kind) {
     case TriangleBreak::mirrored:
-      words = fmt::format("{} turns over between there and {}; one of the two has it folded", face,
-                          next);
+      words = fmt::format("{} turns over between this file and {}; it is folded in one of the two",
+                          face, next);
       break;
     case TriangleBreak::turned:
-      words = fmt::format("{} is turned over on the way to {}", face, next);
+      words = fmt::format("{} is inverted between this file and {}", face, next);
       break;
     case TriangleBreak::vanished:
-      words = fmt::format("{} vanishes on the way to {}", face, next);
+      words = fmt::format("{} vanishes between this file and {}", face, next);
       break;
   }
   if (breaks.triangles > 1)

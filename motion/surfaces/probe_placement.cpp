@@ -171,16 +171,16 @@ Scene placed(Scene scene) {
     throw SceneError(atPlace(placement.place, what));
   };
   if (placement.view == View::psax_base && !marks.aortic_found)
-    fail(hasVessel(heart)
-             ? "the structure with role aorta does not reach the left ventricle, so its valve is "
-               "not "
-               "found; accepted: one that does, or role = \"aortic_valve\" of another"
-             : "\"psax-base\" is found from the aortic valve, accepted: role = \"aortic_valve\" or "
-               "\"aorta\" of one structure, or view = \"psax-mid\"");
+    fail(
+        hasVessel(heart)
+            ? "the structure with role aorta does not reach the left ventricle, so its valve is "
+              "not found; accepted: an aorta that does, or a structure with role = \"aortic_valve\""
+            : "\"psax-base\" is found from the aortic valve, accepted: role = \"aortic_valve\" or "
+              "\"aorta\" of one structure, or view = \"psax-mid\"");
   Probe probe = scene.probe;
   place(placement, marks, scene.motion.mesh_unit_m, probe);
   if (!cuts(probe, heart))
-    fail(fmt::format("\"{}\" as it is moved cuts none of the meshes with roles: {}; {}",
+    fail(fmt::format("\"{}\" as shifted and rotated cuts none of the meshes with roles: {}; {}",
                      keyOf(placement.view), whereTheyAre(probe, heart),
                      viewThatCuts(scene, marks, heart)));
   tellGuesses(marks, scene);

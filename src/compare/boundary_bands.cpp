@@ -42,7 +42,7 @@ BoundaryBands::BoundaryBands(const std::filesystem::path& scene, const echo::Ech
                               1);
   if (!(off < 1e-6))
     throw SceneError(
-        fmt::format("--scene: {} has another sector than {}; give the scene it was rendered from",
+        fmt::format("--scene: the sectors of {} and {} differ; give the scene it was rendered from",
                     scene.string(), synthetic.video.name));
 }
 

@@ -223,8 +223,8 @@ void writeResults(const Comparison& c, const CompareOptions& options,
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder, error))
-    throw JobError(fmt::format("{}: the folder cannot be made: {}", folder.string(),
-                               error ? error.message() : "a file stands there"));
+    throw JobError(fmt::format("{}: the folder cannot be created: {}", folder.string(),
+                               error ? error.message() : "a file has this name"));
   for (const char* name : {"summary.json", "compare.html"})  // a folder without them is unfinished
     std::filesystem::remove(folder / name, error);
   for (const char* name : {"summary.json", "compare.html", "frames.csv", "side_by_side.avi",

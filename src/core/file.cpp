@@ -20,7 +20,7 @@ std::string readTextFile(const std::filesystem::path& path, std::size_t max_byte
     throw SceneError(fmt::format("{}: is a folder, a file is needed", path.string()));
   // A pipe that nobody fills would have us wait for ever.
   if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed))
-    throw SceneError(fmt::format("{}: is not an ordinary file, such as is needed", path.string()));
+    throw SceneError(fmt::format("{}: is not a regular file", path.string()));
   std::ifstream file(path, std::ios::binary);
   if (!file && errno == ENOMEM) throw std::bad_alloc();
   if (!file)
@@ -58,7 +58,7 @@ void makeFolder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw JobError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+    throw JobError(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
 }
 
 bool syncFile(int descriptor) {

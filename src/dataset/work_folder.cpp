@@ -54,7 +54,7 @@ std::string flawOfFile(const std::filesystem::path& folder, const std::string& n
                        const Json& noted, WorkFolder::Look look) {
   if (!linkBelow(folder, name).empty()) return "is reached through a link";
   const std::filesystem::path file = folder / name;
-  if (!isOrdinaryFile(file)) return "is missing or not an ordinary file";
+  if (!isOrdinaryFile(file)) return "is missing or not a regular file";
   std::error_code failed;
   if (std::filesystem::file_size(file, failed) != noted["bytes"].get<std::uint64_t>() || failed)
     return "has another size than recorded";
@@ -115,7 +115,7 @@ WorkFolder::Finished WorkFolder::finished(int heart, Look look) const {
     return {};
   const std::string name = std::filesystem::relative(file, folder_).string();
   const std::optional<std::string> text = readText(file);
-  if (!text) return {std::nullopt, name + ": cannot be read, or is not an ordinary file"};
+  if (!text) return {std::nullopt, name + ": cannot be read, or is not a regular file"};
   CheckedRecord checked = checkRecord(*text, spec_, heart);
   if (!checked.flaw.empty()) return {std::nullopt, name + ": " + checked.flaw};
   if (isFailure(checked.record)) return {std::move(checked.record), ""};

@@ -168,7 +168,7 @@ PoseFound ModelDiscrepancy::search(const ModelLoop& model) const {
 
 PoseFound ModelDiscrepancy::refine(const ModelLoop& model,
                                    const std::vector<FitPose>& starts) const {
-  if (starts.empty()) throw SceneError("starts: holds no pose, accepted: one or more");
+  if (starts.empty()) throw SceneError("starts: contains no pose, accepted: one or more");
   for (const FitPose& start : starts) checkPose(start);
   return refinePose(model, *stack_, settings_.weights, settings_.limits, starts);
 }

@@ -45,7 +45,7 @@ TiltFound searchTilt(const ModelAtTilt& model, const ModelDiscrepancy& discrepan
   const double since = cpuSeconds();
   std::atomic<int> planes = 0;
   const PoseFunction least = oneByOne([&](const Unknowns& u) {
-    if (!monitor.keep_going()) throw JobError("stopped while the plane was tilted");
+    if (!monitor.keep_going()) throw JobError("stopped during the search for the tilt");
     ++planes;
     return discrepancy.refine(model(tiltAt(u)), {start.pose}).discrepancy;
   });

@@ -12,8 +12,8 @@ ResultsFolder::ResultsFolder(std::filesystem::path folder, std::initializer_list
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error || !std::filesystem::is_directory(folder_, error))
-    throw JobError(fmt::format("{}: the folder cannot be made: {}", folder_.string(),
-                               error ? error.message() : "a file stands there"));
+    throw JobError(fmt::format("{}: the folder cannot be created: {}", folder_.string(),
+                               error ? error.message() : "a file has this name"));
   for (const char* name : last) {
     std::filesystem::remove(folder_ / name, error);
     removePartsOf(folder_ / name);  // of a run that was killed here

@@ -66,7 +66,7 @@ class FolderInTheMaking {
     const fs::path part = folder_.string() + ".echocine-part";
     fs::create_directories(part, failed);
     if (failed)
-      throw JobError(fmt::format("{}: cannot be made: {}", folder.string(), failed.message()));
+      throw JobError(fmt::format("{}: cannot be created: {}", folder.string(), failed.message()));
     lock_.emplace(part);
     lock_->checkStillThere();  // the run that held it before may just have finished
     part_ = part;
@@ -85,7 +85,7 @@ class FolderInTheMaking {
     std::error_code failed;
     fs::rename(part_, folder_, failed);  // an empty folder makes way
     if (failed)
-      throw JobError(fmt::format("{}: cannot be made: {}", folder_.string(), failed.message()));
+      throw JobError(fmt::format("{}: cannot be created: {}", folder_.string(), failed.message()));
     part_.clear();
     syncFolderOf(folder_);
   }

@@ -23,7 +23,7 @@ fs::path madeFolder(const fs::path& folder) {
   fs::create_directories(folder, failed);
   if (failed)
     throw JobError(
-        fmt::format("{}: cannot be made a folder: {}", folder.string(), failed.message()));
+        fmt::format("{}: the folder cannot be created: {}", folder.string(), failed.message()));
   return folder;
 }
 

@@ -69,7 +69,7 @@ TruthFiles::TruthFiles(std::filesystem::path folder, const Scene& scene, const L
   std::filesystem::create_directories(folder_, failed);
   if (failed)
     throw JobError(
-        fmt::format("{}: cannot be made a folder: {}", folder_.string(), failed.message()));
+        fmt::format("{}: the folder cannot be created: {}", folder_.string(), failed.message()));
 }
 
 std::string TruthFiles::put(const std::string& name, std::span<const std::byte> bytes) const {

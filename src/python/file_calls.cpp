@@ -84,7 +84,7 @@ std::pair<std::uint64_t, std::string> fileDigest(const Path& path) {
   const Unlocked released;
   const std::optional<dataset::FileMark> mark = dataset::markOf(path);
   if (!mark)
-    throw JobError(fmt::format("{}: cannot be read, or is not an ordinary file", path.string()));
+    throw JobError(fmt::format("{}: cannot be read, or is not a regular file", path.string()));
   return {mark->bytes, mark->digest};
 }
 

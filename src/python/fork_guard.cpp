@@ -21,10 +21,11 @@ void watchForks() {
 void beginWork() {
   if (orphaned)
     throw JobError(
-        "this process was forked from one that had used echocine, whose threads it does not have, "
-        "accepted: the start method \"spawn\" or \"forkserver\" (multiprocessing.get_context), or "
-        "a "
-        "first use of echocine after the fork");
+        "this process was forked after echocine was used, so echocine's threads are missing; "
+        "accepted: "
+        "the start method \"spawn\" or \"forkserver\" (multiprocessing.get_context), or a first "
+        "use "
+        "of echocine after the fork");
   worked = true;
 }
 

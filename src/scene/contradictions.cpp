@@ -32,8 +32,8 @@ void refuseOfRays(TomlTable& root, const Scene& scene) {
   if (!lateral && scene.effects.elevation == Switch::off)
     accuracy.fail(
         "rays_per_beam",
-        fmt::format("is {}, which effects.elevation = \"off\" and {} leave nothing to "
-                    "spread over, accepted with them: 1",
+        fmt::format("is {}, but with effects.elevation = \"off\" and {} the beam has no width, "
+                    "accepted with them: 1",
                     a.rays_per_beam,
                     scene.effects.beam_width == Switch::off ? "effects.beam_width = \"off\""
                                                             : "signal.beam_width = \"none\""));
@@ -61,8 +61,8 @@ void refuseOfSpeckle(TomlTable& root, const Scene& scene) {
                               "0 excludes speckle.on = true, accepted with it: a number over 0");
   if (scene.probe.max_depth_m > 0 && pulse_m > scene.probe.max_depth_m - scene.probe.min_depth_m)
     root.table("signal").fail(
-        "pulse_cycles", fmt::format("makes a pulse of {:.3g} mm, longer than the depth that "
-                                    "speckle.on = true would fill, accepted with it: a shorter one",
+        "pulse_cycles", fmt::format("makes a pulse of {:.3g} mm, longer than the sampled depth, "
+                                    "accepted with speckle.on = true: a shorter one",
                                     millimetresFromMetres(pulse_m)));
 }
 

@@ -34,8 +34,8 @@ void warnOfSwallowed(const std::vector<Structure>& structures, std::vector<std::
         continue;
       warnings.push_back(warningOf(
           structures[a],
-          fmt::format("its {} keyframes take in all {} of structure {}, such as {}: a pattern that "
-                      "names fewer files (? stands for one character) keeps them apart",
+          fmt::format("its {} keyframes include all {} of structure {}, such as {}: a pattern that "
+                      "matches fewer files (? is one character) separates them",
                       files[a].size(), files[b].size(), structures[b].name,
                       files[b].begin()->string())));
     }
@@ -58,7 +58,7 @@ void warnOfCounts(const std::vector<Structure>& structures, std::vector<std::str
         s.keyframes.size() != usual->keyframes.size())
       warnings.push_back(warningOf(
           s, fmt::format("has {} keyframes, structure {} has {}: each is spread evenly over the "
-                         "beat, so they are taken at different instants; {{file, phase}} says when",
+                         "beat, so their instants differ; {{file, phase}} sets them",
                          s.keyframes.size(), usual->name, usual->keyframes.size())));
 }
 

@@ -168,7 +168,7 @@ Repairs readRepairs(TomlTable& table, bool membrane) {
   }
   if (membrane && repairs.fill_holes)
     table.fail("repair",
-               "holds \"fill-holes\", which would close an open sheet, accepted of a membrane: "
+               "holds \"fill-holes\", which would close an open sheet, accepted for a membrane: "
                "\"weld\" | \"orient\" | \"drop-degenerate\" | \"split\"");
   return repairs;
 }

@@ -72,7 +72,7 @@ std::vector<TomlValue> TomlTable::values(std::string_view key) {
   for (const toml::node& item : *list) {
     const std::optional<TomlValue> scalar = scalarOf(item);
     if (!scalar)
-      fail(key, fmt::format("entry {} is no such value, {}", result.size() + 1, accepted));
+      fail(key, fmt::format("entry {} has the wrong type, {}", result.size() + 1, accepted));
     result.push_back(*scalar);
   }
   return result;

@@ -17,11 +17,10 @@ bool hasVentricle(Scene& scene) {
   std::string lacking;
   for (const Role role : {Role::lv_cavity, Role::lv_wall})
     if (!structureOf(scene, role))
-      lacking += (lacking.empty() ? "" : ", none is ") + std::string(nameOf(role));
+      lacking += (lacking.empty() ? "" : ", none has the role ") + std::string(nameOf(role));
   if (lacking.empty()) return true;
   const std::string warning = fmt::format(
-      "truth \"all\" leaves out tracks and function: no structure is {}; name one so with role",
-      lacking);
+      "truth \"all\" omits tracks and function: no structure has the role {}; set role", lacking);
   if (std::find(scene.warnings.begin(), scene.warnings.end(), warning) == scene.warnings.end())
     scene.warnings.push_back(warning);
   return false;

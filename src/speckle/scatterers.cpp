@@ -126,9 +126,8 @@ std::vector<Scatterers::Block> Scatterers::blocksInReach(const Probe& probe,
   const BlockRange zs = blocksOver(box.z, lattice.origin_m.z, lattice.block_m);
   const auto tooLarge = [&](double number) {
     return SceneError(fmt::format(
-        "[speckle]: the sector and what moves into it take over {:.0f} blocks of {:.2g} mm, more "
-        "than memory is meant for: a smaller sector (probe.depth_mm, probe.face_radius_mm) is "
-        "accepted",
+        "[speckle]: the sector and the tissue that moves into it need over {:.0f} blocks of {:.2g} "
+        "mm, the memory limit: use a smaller sector (probe.depth_mm, probe.face_radius_mm)",
         number, edge_m * 1e3));
   };
   if (xs.count() * ys.count() * zs.count() > kMostBlocks) throw tooLarge(kMostBlocks);
@@ -150,10 +149,10 @@ std::vector<Scatterers::Block> Scatterers::blocksInReach(const Probe& probe,
             settings.per_cell * edge_m * edge_m * edge_m / spread.cellVolume(pathOf(probe, middle));
         planned += wanted;
         if (planned > kMostScatterers)
-          throw SceneError(fmt::format(
-              "speckle.per_cell = {:g} takes over {:g} scatterers, more than memory is meant for: "
-              "fewer are accepted",
-              settings.per_cell, kMostScatterers));
+          throw SceneError(
+              fmt::format("speckle.per_cell = {:g} needs over {:g} scatterers, the memory limit: "
+                          "use a lower value",
+                          settings.per_cell, kMostScatterers));
         if (blocks.size() == kMostKept) throw tooLarge(kMostKept);
         blocks.push_back(
             {low, lattice.block_m, hashOf(settings.seed, kPlaces, ix, iy, iz), wanted, {}, {}});

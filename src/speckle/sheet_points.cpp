@@ -50,8 +50,8 @@ void SheetPoints::draw(const SurfaceTopology& sheet, const std::vector<Vec3f>& p
   for (const Triangle& t : sheet.triangles) planned += per_m2 * areaOf(t, positions_m);
   if (!(planned <= kMostPoints))
     throw SceneError(fmt::format(
-        "speckle.per_cell = {:g} puts over {:g} scatterers on membranes, more than memory is meant "
-        "for: fewer are accepted",
+        "speckle.per_cell = {:g} needs over {:g} scatterers on membranes, the memory limit: use a "
+        "lower value",
         settings.per_cell, kMostPoints));
   const int seed = settings.seed;
   const std::uint64_t surface = index(sheet.id);

@@ -21,8 +21,8 @@ SurfaceId required(const Scene& scene, Role role) {
   if (!found)
     throw SceneError(atPlace(
         scene.truth.function_place,
-        fmt::format("tracks and function need a structure that is {}: name one so, or leave "
-                    "them out of truth.write",
+        fmt::format("tracks and function need a structure with role = \"{}\": set the role, or "
+                    "omit them from truth.write",
                     nameOf(role))));
   return *found;
 }
@@ -58,7 +58,7 @@ HeartFunction::HeartFunction(const Scene& scene, const MeshMotion& motion, const
   if (columns_.empty())
     throw SceneError(atPlace(
         scene.truth.function_place,
-        fmt::format("{} has no wall of {} round it: strain has nothing to be measured in",
+        fmt::format("{} has no wall of {} around it, so strain cannot be measured",
                     scene.structures[index(cavity_)].name, scene.structures[index(wall_)].name)));
   FieldFrame first;
   field.at(first_phase, first);

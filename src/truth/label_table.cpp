@@ -31,10 +31,11 @@ LabelTable labelTable(const Scene& scene) {
     int number = 0;
     if (!s.membrane) number = truth.label_numbers.empty() ? ++next : numberOf(s, truth);
     if (number > 255)
-      throw SceneError(atPlace(
-          truth.labels_place, fmt::format("{} would be label {}, pictures of 8 bits have 255: name "
-                                          "those that are wanted in truth.labels",
-                                          s.name, number)));
+      throw SceneError(
+          atPlace(truth.labels_place,
+                  fmt::format("{} would be label {}, but 8-bit pictures end at 255: list "
+                              "the wanted structures in truth.labels",
+                              s.name, number)));
     table.numbers.push_back(static_cast<std::uint8_t>(number));
     if (number > 0 && truth.label_numbers.empty())
       table.entries.push_back({static_cast<std::uint8_t>(number), s.name});

@@ -97,7 +97,7 @@ TEST(FitChecksLaw, PosesAndWeightsThatMeanNothingAreRefused) {
     expectRefused([&] { d.at(model, {.lag = 1001}); }, "pose: lag is 1001");
     expectRefused([&] { d.at(model, {.systole = 1}); }, "pose: systole is 1");
     expectRefused([&] { d.terms(model, {{}, {.scale = kInfinite}}); }, "pose: scale is inf");
-    expectRefused([&] { d.refine(model, {}); }, "starts: holds no pose");
+    expectRefused([&] { d.refine(model, {}); }, "starts: contains no pose");
     expectRefused([&] { d.refine(model, {{.scale = -1}}); }, "pose: scale is -1");
     for (const FitWeights weights :
          {FitWeights{0, 0, 0}, FitWeights{-1, 2, 2}, FitWeights{kNaN, 1, 1}, {kInfinite, 1, 1}})

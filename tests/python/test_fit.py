@@ -148,7 +148,7 @@ def other(at, value):
     (lambda f, m, r: m(f.at([0.5]), other(4, 0.5)), "poses: lag is 0.5, accepted: a whole number"),
     (lambda f, m, r: m(f.at([0.5]), other(4, 1e18)), "poses: lag is 1e.18, accepted"),
     (lambda f, m, r: m(f.at([0.5]), other(5, 1.0)), "systole is 1, accepted: 0.05 to 0.95"),
-    (lambda f, m, r: m.refine(f.at([0.5]), np.empty((0, 6))), "starts: holds no pose"),
+    (lambda f, m, r: m.refine(f.at([0.5]), np.empty((0, 6))), "starts: contains no pose"),
     (lambda f, m, r: m.refine(f.at([0.5]), other(3, -1)), "scale is -1, accepted"),
     (lambda f, m, r: m(f, POSE), "model: is HeartFamily, accepted: an echocine.ModelLoop"),
     (lambda f, m, r: echocine.ModelDiscrepancy(r / "loop", 3), "first: is int, accepted"),

@@ -50,15 +50,14 @@ TEST_F(KeyframeWarnings, APatternThatTakesAnotherStructuresFilesNamesBoth) {
   const std::vector<std::string> warnings = warningsOf(text);
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_EQ(warnings[0], place(text, 1) +
-                             "la: its 8 keyframes take in all 4 of structure la_wall, "
+                             "la: its 8 keyframes include all 4 of structure la_wall, "
                              "such as " +
                              (folder / "la_wall_0.obj").string() +
-                             ": a pattern that names fewer files (? stands for one character) "
-                             "keeps them apart");
+                             ": a pattern that matches fewer files (? is one character) separates "
+                             "them");
   EXPECT_EQ(warnings[1], place(text, 1) +
                              "la: has 8 keyframes, structure la_wall has 4: each is spread evenly "
-                             "over the beat, so they are taken at different instants; {file, "
-                             "phase} says when");
+                             "over the beat, so their instants differ; {file, phase} sets them");
 }
 
 TEST_F(KeyframeWarnings, TheOddOneOutOfManyIsNamed) {

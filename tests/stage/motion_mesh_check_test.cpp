@@ -95,7 +95,7 @@ TEST(MotionMeshCheck, InsideOutIsRefusedInTheFirstAndInLaterKeyframes) {
 TEST(MotionMeshCheck, ImplausibleSizeNamesTheUnit) {
   EXPECT_EQ(
       says({keyframeOf(octahedron(50))}, false, 1.0),
-      "a.obj measures 100 mesh units, which motion.mesh_unit makes 100 m; 1 mm to 2 m is "
+      "a.obj measures 100 mesh units, 100 m by motion.mesh_unit; 1 mm to 2 m is "
       "accepted: correct motion.mesh_unit or motion.mesh_scale (a chamber of 80 mm takes 0.8 mm "
       "per mesh unit)");
   EXPECT_NE(says({keyframeOf(octahedron(0.04))}).find("correct motion.mesh_unit"),

@@ -150,7 +150,7 @@ TEST(MotionSplit, AFaceIsNotNamedAgainstItself) {
   mesh.positions[1] = mesh.positions[0];
   std::vector<KeyframeMesh> keyframes = keyframesOf({mesh});
   const std::string error = errorOf([&] { mend(named(kWeld), keyframes); });
-  EXPECT_NE(error.find("a.obj: face 1 has two corners in one vertex: remove it, or set repair = "
+  EXPECT_NE(error.find("a.obj: face 1 uses one vertex for two corners: remove it, or set repair = "
                        "[\"drop-degenerate\"]"),
             std::string::npos)
       << error;

@@ -35,8 +35,8 @@ TEST(MotionWarnings, MirroredTriangleIsNamedWithStructureFrameFaceAndFiles) {
   EXPECT_EQ(
       onlyWarning(scene),
       "scene.toml:7: structure.keyframes: ball: frame 12: " + folder.path("ball_1.obj").string() +
-          ": face 1 turns over between there and " + folder.path("ball_2.obj").string() +
-          "; one of the two has it folded: correct one of the two files");
+          ": face 1 turns over between this file and " + folder.path("ball_2.obj").string() +
+          "; it is folded in one of the two: correct one of the two files");
 }
 
 TEST(MotionWarnings, FurtherFacesAreCounted) {
@@ -49,7 +49,7 @@ TEST(MotionWarnings, OvershootOffersTheLinearKind) {
   const TestFolder folder;
   Scene scene = slipScene(folder, {0, 0, 1.75, 1.75}, Interpolation::catmull_rom);
   const std::string warning = onlyWarning(scene);
-  EXPECT_NE(warning.find(" is turned over on the way to "), std::string::npos) << warning;
+  EXPECT_NE(warning.find(" is inverted between this file and "), std::string::npos) << warning;
   EXPECT_TRUE(
       warning.ends_with(": keyframes closer in time or motion.interpolation = \"linear\" avoid it"))
       << warning;

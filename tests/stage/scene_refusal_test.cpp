@@ -199,7 +199,7 @@ const std::vector<Bad> kBad{
        t.effects["elevation"] = "\"off\"";
      },
      "accuracy.rays_per_beam", "rays_per_beam",
-     "effects.elevation = \"off\" and signal.beam_width = \"none\" leave nothing to spread over, "
+     "effects.elevation = \"off\" and signal.beam_width = \"none\" the beam has no width, "
      "accepted with them: 1"},
     {"rays over nothing by effects",
      [](SceneText& t) {
@@ -238,7 +238,7 @@ const std::vector<Bad> kBad{
      "structure.repair", "repair", "accepted: strings"},
     {"filled membrane",
      structure("valve", "\"a.obj\"", "membrane = true\nrepair = [\"fill-holes\"]"),
-     "structure.repair", "repair", "accepted of a membrane: \"weld\""},
+     "structure.repair", "repair", "accepted for a membrane: \"weld\""},
     {"hematocrit of a fixed scatterer",
      extra("[media.ink]\ndensity_kg_m3 = 1000\nsound_speed_m_s = 1500\nattenuation_db_cm_mhz = 0\n"
            "backscatter = { kind = \"fixed\", per_cm_sr = 1e-3, hematocrit = 0.4 }\n"),

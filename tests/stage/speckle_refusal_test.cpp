@@ -80,7 +80,7 @@ TEST(SpeckleRefusal, MoreScatterersThanMemoryIsMeantFor) {
     const Speckle speckle(probe, 2, settings, support::OneGroup{});
     FAIL() << speckle.scatterers();
   } catch (const SceneError& error) {
-    EXPECT_NE(std::string(error.what()).find("speckle.per_cell = 100000 takes over"),
+    EXPECT_NE(std::string(error.what()).find("speckle.per_cell = 100000 needs over"),
               std::string::npos)
         << error.what();
   }

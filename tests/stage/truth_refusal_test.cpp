@@ -57,9 +57,9 @@ TEST(TruthRefusal, AllIsWhatTheSceneHas) {
   const NamedMeshes meshes{{"outer", ball(30, {0, 0, 60})}, {"inner", ball(20, {0, 0, 60})}};
   const Scene scene =
       parseScene(ventricle("write = [\"all\"]", "rv_wall").text(), "scene.toml", meshes);
-  const auto told =
-      std::count_if(scene.warnings.begin(), scene.warnings.end(),
-                    [](const std::string& w) { return w.find("leaves out") != std::string::npos; });
+  const auto told = std::count_if(
+      scene.warnings.begin(), scene.warnings.end(),
+      [](const std::string& w) { return w.find("omits tracks") != std::string::npos; });
   ASSERT_EQ(told, 1);
   expectNames(scene.warnings[0], {"tracks", "function", "lv_wall"});
   EXPECT_EQ(scene.warnings[0].find("lv_cavity"), std::string::npos);

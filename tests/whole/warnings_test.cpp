@@ -47,7 +47,7 @@ TEST_F(Warnings, ATurnedTriangleIsOneLineAndStandsInTheManifest) {
   ASSERT_EQ(warnings.size(), 1u);
   const std::string warning = warnings[0].get<std::string>();
   for (const char* part : {"structure.keyframes: cavity: frame ", "cavity_2.obj: face ",
-                           "cavity_3.obj; one of the two has it folded"})
+                           "cavity_3.obj; it is folded in one of the two"})
     EXPECT_NE(warning.find(part), std::string::npos) << warning;
   // On the terminal files have their folders, in the manifest none.
   std::string told = outcome.err;
@@ -89,7 +89,7 @@ TEST_F(Warnings, ASceneIsDoubtedBeforeItsMeshesAreRefused) {
   const Outcome outcome = run("render", text, out());
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find("warning: "), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("wall: its 16 keyframes take in all 8 of structure wall_x"),
+  EXPECT_NE(outcome.err.find("wall: its 16 keyframes include all 8 of structure wall_x"),
             std::string::npos)
       << outcome.err;
   EXPECT_FALSE(fs::exists(folder / "out"));
