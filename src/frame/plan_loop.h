@@ -8,7 +8,7 @@
 
 namespace echocine {
 
-// Throws JobError when a frame between keyframes is inside out.
+// Throws JobError if a surface is inverted between keyframes.
 LoopPlan planLoop(const Scene& scene, const MeshMotion& motion);
 
 // One line for the terminal: tracer, enabled and disabled effects.

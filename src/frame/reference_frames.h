@@ -10,7 +10,8 @@ namespace echocine {
 inline constexpr int kReferenceFrames = 64;
 
 // Frame numbers in ascending order: all frames of a loop of up to kReferenceFrames, otherwise that
-// many spread over it; loops that are hardly longer repeat some. They depend on the count only.
+// many spread over it. Slightly longer loops repeat some frames. The numbers depend on the count
+// only.
 std::vector<int> referenceFrames(int frame_count);
 
 }  // namespace echocine

@@ -1,10 +1,10 @@
 #pragma once
 // Lines acquired one after the other.
 //
-// Of N lines, line l is acquired at t + ((l + 1/2) / N - 1/2) s T, with t the frame's time (that of
-// its middle line), T the frame interval, and s the share of it in which lines are acquired. Groups
-// of accuracy.rolling_lines neighbours share the instant of their middle. A line of a rolling frame
-// equals that of the still frame at its group's instant.
+// Line l of N is acquired at t + ((l + 1/2) / N - 1/2) s T. t is the frame's time (that of its
+// middle), T the frame interval, and s the share of T in which lines are acquired. Groups of
+// accuracy.rolling_lines neighbours share the instant of their middle. A line of a rolling frame
+// equals the same line of a still frame at its group's instant.
 
 #include <cstdint>
 #include <functional>

@@ -47,8 +47,8 @@ struct Frame {
 class Simulator {
  public:
   // Reads the scene's meshes or uses those in memory, places its probe for a view, and plans the
-  // loop. Throws SceneError that names the scene's key, file and face; JobError if frames between
-  // keyframes are inside out.
+  // loop. Throws SceneError that names the scene's key, file and face; JobError if a surface is
+  // inverted between keyframes.
   explicit Simulator(Scene scene);
   // Shares the motion with other simulators. Precondition: it was made from this scene.
   Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion);

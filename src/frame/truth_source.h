@@ -47,8 +47,7 @@ class TruthSource {
   const CardiacClock& clock_;
   const RollingLines* rolling_;
   const bool as_traced_, normals_;
-  std::optional<TraceSettings>
-      bent_;  // of the paths, where echoes stand at no straight path lengths
+  std::optional<TraceSettings> bent_;  // of the paths, if echoes are not at straight path lengths
   mutable std::once_flag once_;
   mutable std::unique_ptr<const TruthMaker> maker_;
   mutable FreeList<PathSpace> spaces_;

@@ -18,7 +18,7 @@ struct Loop {
   int frames = 0, lines = 0, samples = 0, width = 0, height = 0;
   std::vector<FrameTime> times;
   std::map<Channel, std::vector<float>> planes;       // T x lines x samples
-  std::map<Channel, std::vector<std::uint32_t>> ids;  // the same of whole numbers
+  std::map<Channel, std::vector<std::uint32_t>> ids;  // the same for integers
   std::vector<float> greys;                           // T x lines x samples
   std::vector<std::uint8_t> images, labels;           // T x height x width
   // T x 3 x lines x samples: lateral, axial, elevation; mm and mm/s.

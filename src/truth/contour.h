@@ -16,8 +16,8 @@ std::vector<Contour> chainContours(std::span<const ContourEdge> edges,
                                    const std::vector<SurfaceTopology>& surfaces,
                                    const SurfaceFrame& frame);
 
-// All contours in the probe's plane at a phase, which may be any number of beats. Allocates all it
-// needs: for a few frames, where TruthMaker is for a loop. Thread-safe.
+// All contours in the probe's plane at a phase, which may be beyond one beat. Allocates its memory
+// in each call, so it suits a few frames; TruthMaker suits a loop. Thread-safe.
 std::vector<Contour> contoursAt(const MeshMotion& motion, const Probe& probe, double phase);
 
 }  // namespace echocine

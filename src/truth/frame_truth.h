@@ -1,5 +1,5 @@
 #pragma once
-// The truth of one frame, as far as the scene asks for it.
+// The ground truth of one frame that the scene requests.
 
 #include <memory>
 #include <optional>
@@ -21,7 +21,7 @@
 namespace echocine {
 
 // An instant and its neighbours, from which velocity is taken.
-// planes_only: what stands at pixels and samples; nothing of contours, function and tracks.
+// planes_only: values at pixels and samples; no contours, function or tracks.
 struct TruthTime {
   double phase = 0, before = 0, after = 0;  // phases of the keyframes, [0, 1)
   double seconds = 0;                       // from before to after
@@ -37,19 +37,19 @@ struct TruthShared {
 
 class TruthMaker {
  public:
-  // References are kept. The field is fitted at once where motion is asked for, without `shared` by
-  // this object. along_paths: at() is always given paths.
+  // References are kept. If motion is requested and `shared` is absent, the constructor fits the
+  // field. along_paths: every call of at() gives paths.
   TruthMaker(const Scene& scene, const MeshMotion& motion, const PictureGrid& grid,
              double first_phase, bool along_paths = false,
              const SharedMotionField* shared = nullptr);
   ~TruthMaker();
 
   const LabelTable& labels() const { return labels_; }
-  // Null where nothing of truth moves.
+  // Null if no requested truth needs motion.
   const MotionField* field() const { return field_; }
 
-  // The material points that are tracked: endocardium, middle and epicardium of so many columns
-  // through the wall, those nearest to the imaging plane at the reference phase.
+  // The tracked material points: endocardium, middle and epicardium of the wall columns that are
+  // nearest to the imaging plane at the reference phase.
   struct Tracked {
     std::uint8_t layer;    // 0 endocardium, 1 middle, 2 epicardium
     std::uint8_t segment;  // 1 to 17
@@ -67,8 +67,8 @@ class TruthMaker {
 
   static bool wanted(const Scene& scene);
 
-  // Which paths at() needs where the picture does not show things at straight path lengths: as
-  // close as half a pixel at the deepest sample, so that labels are within a quarter of one.
+  // The paths that at() needs if the picture does not show echoes at straight path lengths. They
+  // are at most half a pixel apart at the deepest sample, so labels are within a quarter pixel.
   static SoundPaths pathsFor(const Scene& scene, const PictureGrid& grid);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// How the left ventricle works, from its meshes and its material: strain, thickness, length,
-// excursion of the valve rings, and volumes as an echo laboratory would measure them.
+// Function of the left ventricle from its meshes and material points: strain, thickness, length,
+// excursion of the valve rings, and volumes by the methods of echo laboratories.
 
 #include <array>
 #include <optional>
@@ -27,8 +27,8 @@ struct WallColumn {
 
 class HeartFunction {
  public:
-  // References are kept. Throws SceneError where the scene has no left ventricle or no wall round
-  // it. first_phase: of the frame that strains count from.
+  // References are kept. Throws SceneError if the scene has no left ventricle or no wall around
+  // it. first_phase: of the reference frame of the strains.
   HeartFunction(const Scene& scene, const MeshMotion& motion, const MotionField& field,
                 double first_phase);
 
@@ -44,7 +44,7 @@ class HeartFunction {
   struct Lengths {
     double longitudinal, circumferential, thickness;
   };
-  // By which a column counts in means: areas and arc lengths of the wall's middle around it.
+  // Weights of a column in means: area and arc length of the wall's middle around it.
   struct Weight {
     double area_m2 = 0, meridians_m = 0, view_m = 0;
   };

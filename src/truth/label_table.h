@@ -18,8 +18,8 @@ struct LabelTable {
   std::vector<Entry> entries;  // ascending numbers; 0 is the background and outside the sector
 };
 
-// By truth.labels; without it closed structures from 1 in the scene's order. Throws SceneError if
-// more than 8 bits are needed.
+// Numbers of truth.labels; without it, closed structures are numbered from 1 in the scene's order.
+// Throws SceneError if more than 8 bits are needed.
 LabelTable labelTable(const Scene& scene);
 
 }  // namespace echocine

@@ -1,5 +1,5 @@
 #pragma once
-// How the material at every sample has moved since the reference frame, and how fast it moves.
+// Displacement of the material at every sample since the reference frame, and its velocity.
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace echocine {
 
-// The field at the first frame, at this one and a little before and after it.
+// The field at the first frame, at this frame, and shortly before and after it.
 struct FieldTimes {
   const FieldFrame* first;  // null where its phase is the reference phase: nothing has moved
   const FieldFrame &now, &before, &after;
@@ -23,9 +23,9 @@ struct FieldTimes {
 // For each group: whether it is tissue, whose motion motionPlanes() reports.
 std::vector<bool> tissueGroups(const Scene& scene, const MotionField& field);
 
-// ids: every sample's structure, from 1. Blood and the background have no motion of their own: the
-// one is renewed, the other unknown. Samples stand on their lines at straight path lengths, or on
-// `paths` where given: displacement is the heart's own, of the material that the sample shows.
+// ids: every sample's structure, from 1. Blood and the background have no motion, because blood is
+// renewed and the background is unknown. Samples lie on their lines at straight path lengths, or on
+// `paths` if given. Displacement is the true one, of the material that the sample shows.
 void motionPlanes(const Scene& scene, const MotionField& field, const FieldTimes& times,
                   std::span<const std::uint32_t> ids, bool velocity, const SoundPaths* paths,
                   MotionPlanes& planes);

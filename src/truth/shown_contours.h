@@ -1,5 +1,5 @@
 #pragma once
-// Contours where the picture shows them along sound paths, not at straight path lengths.
+// Contours at their positions in the picture, along sound paths instead of straight path lengths.
 
 #include <vector>
 
@@ -9,11 +9,11 @@
 
 namespace echocine {
 
-// Contours in the picture's plane, surface by surface. A closed structure's are closed, at the
-// edges of the sector too: what the paths do not reach is not known. They are joined over the
-// stretches of neighbouring paths that overlap. A membrane's are open: its crossings are joined to
-// those on the next path that lie within 10 times the paths' distance (84 degrees) of them in
-// depth, the nearest first; what leans more is in several parts. Contour::edges is empty.
+// Contours in the picture's plane, surface by surface. Contours of closed structures are closed,
+// also along the edges of the sector, because paths do not reach further. Their intervals on
+// neighbouring paths are joined where they overlap. Contours of membranes are open. A crossing is
+// joined to the nearest one on the next path if their depths differ by less than 10 times the
+// distance of the paths (84 degrees); steeper sheets are in several parts. Contour::edges is empty.
 std::vector<Contour> shownContours(const Scene& scene, const SoundPaths& paths);
 
 }  // namespace echocine

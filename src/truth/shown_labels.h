@@ -1,5 +1,5 @@
 #pragma once
-// Labels where the picture shows things along sound paths, not at straight path lengths.
+// Labels at their positions in the picture, along sound paths instead of straight path lengths.
 
 #include <cstdint>
 #include <vector>
@@ -12,7 +12,7 @@ namespace echocine {
 
 class ShownLabels {
  public:
-  // `paths` says which lines the paths will run along.
+  // `paths` defines the directions of the paths.
   ShownLabels(const Scene& scene, const PictureGrid& grid, const SoundPaths& paths);
 
   // Every pixel's structure by the path nearest to it, rows from the top; 0 outside the scan area.

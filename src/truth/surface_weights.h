@@ -1,5 +1,5 @@
 #pragma once
-// Weights of a surface's vertices, so that means over it do not depend on how finely it is meshed.
+// Weights of a surface's vertices that make means over it independent of the mesh density.
 
 #include <span>
 #include <vector>
@@ -9,27 +9,30 @@
 
 namespace echocine {
 
-// A part of a surface: where a height, given by vertex and linear between, is 0 or more. The
-// area of a triangle in the part counts for its vertices in the part.
+// A part of a surface: the region in which a height is 0 or more. The height is given at vertices
+// and linear between them. The area of a triangle within the part is assigned to its vertices
+// there.
 struct SurfacePart {
   std::span<const Triangle> triangles;
   std::span<const Vec3d> points_m;
   std::span<const double> heights;
 };
 
-// A share of the area of each triangle around a vertex, m^2: a third inside the part.
+// The area assigned to each vertex, m^2: inside the part, a third of each triangle around it.
 std::vector<double> vertexAreas(const SurfacePart& part);
 
-// Adds the length of the part's cut by a plane, m, to the vertices beside it: half of each piece
-// goes to the ends of the edge that it ends on, the more the nearer. Normal: unit.
+// Adds the length of the part's cut by a plane, m, to the vertices beside it. Each half of a piece
+// is divided between the ends of the edge on which it ends; the nearer vertex gets more. `normal`
+// is a unit vector.
 void addCutLengths(const SurfacePart& part, Vec3d on_m, Vec3d normal,
                    std::vector<double>& weights_m);
 
-// The middle of a surface by its area. Precondition: it has an area.
+// The area-weighted centre of a surface. Precondition: it has an area.
 Vec3d surfaceMiddle(std::span<const Triangle> triangles, std::span<const Vec3f> points_m);
 
-// The mean direction from `base_m` of the surface that is farthest from it, by area: the last 3 %
-// of the distance, our choice. With the distance of the farthest vertex it is the apex.
+// The area-weighted mean direction from `base_m` to the farthest part of the surface: the last 3 %
+// of the distance, our choice. The apex lies in this direction, at the distance of the farthest
+// vertex.
 Vec3d farthestPlace(std::span<const Triangle> triangles, std::span<const Vec3f> points_m,
                     Vec3d base_m);
 

@@ -16,9 +16,9 @@
 
 namespace echocine {
 
-// A contour in the imaging plane (y = 0), metres in the probe frame. Closed surfaces give closed
-// contours (the last point joins the first), and so may membranes; edges are joined over the
-// mesh's edges, not by nearness.
+// A contour in the imaging plane (y = 0), metres in the probe frame. Closed surfaces have closed
+// contours: the last point joins the first. Contours of membranes can be closed too. Pieces are
+// joined across mesh edges, not by distance.
 struct Contour {
   SurfaceId surface{};
   bool closed = false;
@@ -27,14 +27,14 @@ struct Contour {
   std::vector<std::uint32_t> edges;
 };
 
-// How the material at every sample has moved since the reference frame, and how fast it moves.
+// Displacement of the material at every sample since the reference frame, and its velocity.
 struct MotionPlanes {
   // Line-major, lateral, axial (depth) and elevation of the probe frame; not a number outside
   // tissue.
   std::array<std::vector<float>, 3> displacement_mm, velocity_mm_s;
 };
 
-// Parts of the first frame's lengths, radial that of the wall's thickness; not a number for a
+// Strain relative to the first frame; radial strain is that of the wall thickness. NaN for a
 // segment without wall.
 struct SegmentStrain {
   double longitudinal = 0, radial = 0, circumferential = 0, thickness_mm = 0;
@@ -48,11 +48,11 @@ struct RingFrame {
 };
 
 struct FunctionFrame {
-  // How the meridians in the middle of the wall change in length, all together: the mean of the
-  // strain along them by arc length.
+  // Change in the total length of the meridians in the middle of the wall: the mean of the strain
+  // along them, by arc length.
   double global_longitudinal_strain = 0;
   SegmentStrains segments{};
-  // The same of the wall's middle where the imaging plane cuts it at the reference phase.
+  // The same along the cut of the wall's middle by the imaging plane at the reference phase.
   double view_longitudinal_strain = 0;
   SegmentStrains view_segments{};   // all by arc length
   double length_mm = 0;             // from the middle of the mitral ring to the cavity's apex
@@ -67,19 +67,18 @@ struct FunctionFrame {
   std::optional<RingFrame> mitral, tricuspid, aortic;
 };
 
-// Places and planes are where the picture shows things: along the paths of its rays, at the depths
-// of their travel time, where it has such. Lengths, strains, volumes and displacements are the
-// heart's own.
+// Positions and planes are those in the picture. With bent rays or travel times these lie along the
+// sound paths. Lengths, strains, volumes and displacements are true values.
 struct FrameTruth {
   std::vector<std::uint16_t> picture_ids;  // structures at the picture's pixels, from 1
   std::vector<std::uint8_t> labels;        // the same by the scene's numbers
   std::vector<std::uint32_t> sample_ids;   // structures at the samples
-  // Whole, before the sector cuts them; along sound paths as far as these reach.
+  // Complete, not cut by the sector; along sound paths, as far as the paths reach.
   std::vector<Contour> contours;
   MotionPlanes motion;
   std::optional<FunctionFrame> function;
   std::vector<Vec3f> tracks_m;  // material points, in the order of TruthMaker::tracked()
-  // All but what a loop's own files collect.
+  // Clears all but function and tracks, which are written to files of the whole loop.
   void forgetPlanes() {
     picture_ids = {};
     labels = {};

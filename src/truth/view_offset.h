@@ -26,9 +26,9 @@ struct ViewOffset {
   std::optional<double> foreshortening_mm;
 };
 
-// Against the planes that place a probe (standardPlane()). `heart` is at end-diastole, in the probe
-// frame; `cavity` of the left ventricle at `positions_m`, in the same instant and frame.
-// "psax-base" needs an aortic valve.
+// The deviation from the planes that place a probe (standardPlane()). `heart` is at end-diastole,
+// in the probe frame. `cavity` is that of the left ventricle at `positions_m`, at the same instant
+// and in the same frame. "psax-base" needs an aortic valve.
 ViewOffset viewOffset(const HeartMarks& heart, const SurfaceTopology& cavity,
                       std::span<const Vec3f> positions_m);
 
