@@ -120,8 +120,8 @@ CompareCommand::CompareCommand(CLI::App& app) {
   command
       ->add_option(
           "--tilt", options_.tilt_deg,
-          fmt::format("Search the best tilt and rotation of the plane of --scene, or of the hearts "
-                      "of --scan or --views: limit in degrees either way, 0 to {:g}",
+          fmt::format("Largest tilt and rotation of the imaging plane to search, degrees either "
+                      "way, 0 to {:g}; with --scene, --scan or --views",
                       fit::kMostTilt_deg))
       ->check(within(0, fit::kMostTilt_deg))
       ->type_name("NUMBER")
@@ -135,8 +135,9 @@ CompareCommand::CompareCommand(CLI::App& app) {
                       "or at least two of " +
                           viewList());
   command->add_option("--dials", dials_text_,
-                      "Fixed dials of that heart, such as hr=72,wall-thickness=11");
-  command->add_option("--view", view_text_, "View of that heart, as in `echocine heart`")
+                      "Fixed dials of the hearts of --scan or --views, such as "
+                      "hr=72,wall-thickness=11");
+  command->add_option("--view", view_text_, "View of the hearts of --scan, as in `echocine heart`")
       ->type_name(viewChoice())
       ->capture_default_str();
   command->add_flag("--yes", scan_.yes,

@@ -81,16 +81,16 @@ HeartCommand::HeartCommand(CLI::App& app) {
   command
       ->add_option("--rule", rule_,
                    "Priority if --segment makes walls akinetic: segments (the ejection fraction "
-                   "falls) or volumes (it stays as dialled)")
+                   "falls) or volumes (it keeps its dial)")
       ->check(CLI::IsMember({"segments", "volumes"}))
       ->capture_default_str();
   command
       ->add_option("--look", look_,
-                   "Look of the scene's pictures: paper (the paper's, without speckle), clean "
-                   "(speckle and a grey map), scanner (with its artefacts too)")
+                   "Look of the scene's pictures: paper (the published model, without speckle), "
+                   "clean (speckle and a grey map), scanner (clean, with scanner artefacts)")
       ->check(CLI::IsMember(lookNames()))
       ->capture_default_str();
-  command->add_option("--keyframes", wanted_.keyframes, "Keyframes a beat")
+  command->add_option("--keyframes", wanted_.keyframes, "Keyframes per beat")
       ->check(CLI::Range(4, 100))
       ->capture_default_str();
   command->add_flag(

@@ -90,7 +90,7 @@ PlanCommand::PlanCommand(CLI::App& app) {
       ->check(CLI::Range(0, 4096));
   accuracy_.addTo(*command);
   command->add_flag("--interpolation", interpolation_,
-                    "Print instead the errors of each kind of motion.interpolation at omitted "
+                    "Print only the errors of each kind of motion.interpolation at omitted "
                     "keyframes, mm and mL");
   command->add_option(
       "--page", page_,

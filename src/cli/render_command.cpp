@@ -75,7 +75,7 @@ void printSummary(const RenderSummary& summary, const RenderOptions& options, co
 
 RenderCommand::RenderCommand(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("render", "Trace a scene's cine loop into EXR intensities and an AVI");
+      app.add_subcommand("render", "Render a scene's cine loop: EXR intensities and an AVI");
   command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")
       ->required();
   command
@@ -88,11 +88,11 @@ RenderCommand::RenderCommand(CLI::App& app) {
                       "Only frames A to B - 1 of the loop, counted from 0 (A:B, A:, :B)");
   command->add_option(
       "--truth", truth_,
-      "Write ground truth in addition to the scene's own: all that the scene has, or a "
+      "Write more ground truth than the scene requests: all (as far as its structures allow), or a "
       "comma-separated list of labels, contours, tracks, function");
   accuracy_.addTo(*command);
   command->add_flag("--resume", options_.resume,
-                    "Keep frames whose EXR is complete and of this scene");
+                    "Keep frames whose EXR is complete and belongs to this scene");
   command->add_flag("--overwrite", options_.overwrite,
                     "Replace the loop of another scene in the folder");
   command->add_flag("--quiet", quiet_, "Print errors only");
