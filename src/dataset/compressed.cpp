@@ -17,7 +17,7 @@ constexpr int kGzip = 15 + 16;  // the same with gzip's
 constexpr std::size_t kMost = 0xf0000000u;
 
 Bytes deflated(std::span<const std::byte> bytes, int window_bits) {
-  if (bytes.size() > kMost) throw JobError("over 4 GiB in one file: fewer frames, or smaller ones");
+  if (bytes.size() > kMost) throw JobError("a file exceeds 4 GiB: use fewer or smaller frames");
   z_stream stream{};
   constexpr int kMemory = 8;  // zlib's own
   if (deflateInit2(&stream, kLevel, Z_DEFLATED, window_bits, kMemory, Z_DEFAULT_STRATEGY) != Z_OK)

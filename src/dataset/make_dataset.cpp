@@ -200,7 +200,7 @@ MakeSummary mergeParts(const Spec& spec, const std::filesystem::path& folder,
   } catch (const Json::exception&) {
     // A record with a sound digest that is not of this program: made by hand.
     throw JobError(
-        fmt::format("{}: its records are not as this program writes them: delete the "
+        fmt::format("{}: its records have another format than those of this program: delete the "
                     "folder's work/ and run the same command again",
                     folder.string()));
   }

@@ -75,7 +75,8 @@ void checkUserScenes(const Spec& spec) {
   for (const Parameter& p : spec.parameters)
     for (const char* key : {"view", "shift_mm", "tilt_deg", "rotate_deg"})
       if (!spec.scenes.empty() && p.name == fmt::format("scene.probe.{}", key))
-        throw SceneError(atPlace(p.place, "is the spec's own, accepted: views and [offset]"));
+        throw SceneError(
+            atPlace(p.place, "cannot be set with scenes, accepted: views and [offset]"));
   for (const UserScene& mine : spec.scenes) {
     const Scene scene = parseScene(mine.text, mine.file);
     for (const View view : spec.views) {

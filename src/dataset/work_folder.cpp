@@ -78,8 +78,8 @@ WorkFolder::WorkFolder(std::filesystem::path folder, const Spec& spec)
   }
   // A run that was killed at once leaves an empty work folder.
   if (!isEmptyFolder(folder_) && !std::filesystem::exists(work, failed))
-    throw SceneError(fmt::format("{}: holds files of something else: choose a new or empty folder",
-                                 folder_.string()));
+    throw SceneError(
+        fmt::format("{}: holds unrelated files: choose a new or empty folder", folder_.string()));
   makeFolder(work);
   // If tasks begin together, one of them writes the mark; the others find their own spec in it.
   const std::string own = markText(spec);

@@ -31,8 +31,8 @@ void makeSquare(Video& video, double aspect) {
   for (PixelPlane& frame : video.frames) stretch(frame, cv::INTER_LINEAR);
   stretch(video.coloured, cv::INTER_NEAREST);
   video.height = height;
-  video.notes.push_back(
-      fmt::format("pixels {} times as high as wide, as given: stretched", aspect));
+  video.notes.push_back(fmt::format(
+      "pixels are {} times as high as wide, as given: the picture is stretched", aspect));
 }
 
 // A sector that was given is taken as it is, but has to lie in the picture; one that is found must

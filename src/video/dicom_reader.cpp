@@ -74,7 +74,8 @@ void takeHeartRate(DcmDataset& data, Video& video) {
       video.heart_rate_bpm = bpm;
       video.heart_rate_source = fmt::format("DICOM {}", name);
     } else {
-      video.notes.push_back(fmt::format("its {} tag says {}: no heart rate", name, text.c_str()));
+      video.notes.push_back(
+          fmt::format("its {} tag says {}: not a heart rate, not used", name, text.c_str()));
     }
   };
   take(DCM_HeartRate, "HeartRate", false);

@@ -235,9 +235,8 @@ void readByLibav(std::span<const std::byte> bytes, VideoBuilder& builder) {
     builder.video().notes.push_back(
         fmt::format("it is cut off after {} frames: its end is missing", frames));
   else if (stream.nb_frames > frames)
-    builder.video().notes.push_back(
-        fmt::format("it is cut off: {} of the {} frames that its header tells of are there", frames,
-                    stream.nb_frames));
+    builder.video().notes.push_back(fmt::format(
+        "it is cut off: {} of the {} frames in its header are present", frames, stream.nb_frames));
 }
 
 }  // namespace echocine

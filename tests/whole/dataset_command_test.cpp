@@ -100,7 +100,7 @@ TEST_F(DatasetCommand, AnotherSpecsFolderIsLeftAlone) {
   folder.write("other/letter.txt", "mine");
   const Outcome outcome = make("other");
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_NE(outcome.err.find("holds files of something else"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("holds unrelated files"), std::string::npos) << outcome.err;
   EXPECT_EQ(filesOf(folder / "other").size(), 1u);
   for (const char* const task : {"0/2", "3/2", "1", "a/b"})
     EXPECT_EQ(make("new", std::string("--task ") + task).code, 2) << task;
