@@ -105,7 +105,7 @@
     const t = summary.time;
     page.facts(byId("time"), [["method", t.method], ["shift", `${number(t.shift_frames)} synthetic frames`],
       ["pace", `${number(t.synthetic_frames_per_real_frame)} synthetic frames per real frame`],
-      ["largest warp", `${number(t.largest_warp_frames)} frames`], ["correlation of what moves", number(t.correlation)],
+      ["largest warp", `${number(t.largest_warp_frames)} frames`], ["correlation of moving parts", number(t.correlation)],
       ["confidence", fixed(t.confidence, 3)]]);
   }
 
