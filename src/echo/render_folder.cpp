@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/hash.h"
 #include "core/parallel.h"
+#include "core/seal.h"
 #include "output/exr_plane.h"
 #include "output/exr_stack.h"
 #include "scene/names.h"
@@ -114,9 +118,29 @@ void takeFrames(const UnorderedJson& frames, EchoLoop& loop) {
   loop.video.rate = {hz, "manifest", true};
 }
 
+// The files of a folder, by the digests in its manifest.
+class RenderedFiles {
+ public:
+  RenderedFiles(std::filesystem::path folder, const UnorderedJson& digests)
+      : folder_(std::move(folder)), digests_(digests.get<std::map<std::string, std::string>>()) {}
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+  // Is the file there with the bytes that were written?
+  bool holds(const std::string& name) const {
+    const auto noted = digests_.find(name);
+    std::error_code failed;
+    return noted != digests_.end() && std::filesystem::is_regular_file(folder_ / name, failed) &&
+           sha256HexOfFile(folder_ / name) == noted->second;
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::map<std::string, std::string> digests_;
+};
+
 // The exact greys, when every frame's EXR has them.
-void takeTracedGreys(const std::filesystem::path& folder, const UnorderedJson& scene,
-                     EchoLoop& loop) {
+void takeTracedGreys(const RenderedFiles& files, const UnorderedJson& scene, EchoLoop& loop) {
   loop.grey_source = "cine.avi";
   const UnorderedJson &p = scene.at("probe"), &channels = scene.at("output").at("channels");
   if (std::find(channels.begin(), channels.end(), channelName(Channel::display)) ==
@@ -139,9 +163,11 @@ void takeTracedGreys(const std::filesystem::path& folder, const UnorderedJson& s
   parallelBlocks(t.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end && unread < 0; ++f) {
       const int frame = static_cast<int>(f);
-      std::optional<std::vector<float>> plane =
-          readExrPlane(folder / "intensity" / ExrStack::fileName(frame),
-                       {Channel::display, loop.scene_sha256, frame, t.lines, t.samples});
+      const std::string exr = "intensity/" + ExrStack::fileName(frame);
+      std::optional<std::vector<float>> plane;
+      if (files.holds(exr))
+        plane = readExrPlane(files.folder() / exr,
+                             {Channel::display, loop.scene_sha256, frame, t.lines, t.samples});
       if (!plane) {
         unread = frame;
         return;
@@ -152,7 +178,7 @@ void takeTracedGreys(const std::filesystem::path& folder, const UnorderedJson& s
   });
   if (unread >= 0) {
     loop.video.notes.push_back(
-        "EXR files are missing or incomplete: grey levels are those of cine.avi");
+        "EXR files are missing or not as they were written: grey levels are those of cine.avi");
     return;
   }
   loop.grey_source = "EXR display.Y";
@@ -177,8 +203,12 @@ EchoLoop readRenderFolder(const std::filesystem::path& folder) {
         fmt::format("{}: has no cine.avi; render the scene with output.cine = true", name));
   EchoLoop loop;
   try {
-    const UnorderedJson manifest =
-        UnorderedJson::parse(readTextFile(folder / "manifest.json", kMaxManifest));
+    const std::string text = readTextFile(folder / "manifest.json", kMaxManifest);
+    if (!isSealed(text)) failOfDamage(name, "it is not as it was written");
+    const UnorderedJson manifest = UnorderedJson::parse(text);
+    const RenderedFiles files(folder, manifest.at("files"));
+    if (!files.holds("cine.avi"))
+      throw SceneError(fmt::format("{}: cine.avi is not as it was written; render it again", name));
     loop.video = readVideo(folder / "cine.avi");
     loop.video.name = name;
     loop.video.format = "render folder";
@@ -188,7 +218,7 @@ EchoLoop readRenderFolder(const std::filesystem::path& folder) {
     loop.lv_cavity = leftVentricle(manifest.at("scene").at("structures"));
     loop.scene_sha256 = manifest.at("scene_sha256");
     if (loop.phases.size() == loop.video.frames.size())
-      takeTracedGreys(folder, manifest.at("scene"), loop);
+      takeTracedGreys(files, manifest.at("scene"), loop);
   } catch (const UnorderedJson::exception&) {  // its words are not for users
     failOfDamage(name, "a key is absent or of another type");
   }

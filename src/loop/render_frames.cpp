@@ -13,6 +13,7 @@
 #include "core/parallel.h"
 #include "core/stage_clock.h"
 #include "core/stop.h"
+#include "frame/making.h"
 #include "frame/workspace.h"
 #include "loop/kept_frames.h"
 #include "motion/cycle/cardiac_clock.h"
@@ -29,7 +30,7 @@ std::shared_ptr<void> makeFrame(const Simulator& simulator, const FrameTime& tim
   const std::shared_ptr<Workspace> workspace = simulator.workspace();
   MadeFrame made{time, *workspace, {}, {}};
   if (!kept.take(time.frame, workspace->polar, made.volumes_ml))
-    made.volumes_ml = simulator.trace(time, *workspace);
+    made.volumes_ml = simulator.make(time, {.received = sink.receiver(time)}, *workspace);
   simulator.picture(white, time, *workspace, output.cine || output.png);
   if (sink.wantsTruth() && simulator.truth() != nullptr)
     made.truth = simulator.clock().time(Stage::truth,

@@ -1,6 +1,7 @@
 #pragma once
 // One loop: white is measured once, then every frame is passed to a sink.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -31,6 +32,10 @@ class FrameSink {
 
   // Whether take() reads the frames' truth; without it none is made.
   virtual bool wantsTruth() const { return true; }
+
+  // Receives the intensities of a frame before the signal chain, as Making::received; none by
+  // default. Called from several threads, not for frames that were traced for white.
+  virtual std::function<void(Intensities&)> receiver(const FrameTime& /*time*/) { return {}; }
 
   // Called from several threads. Returns data to be handled in order, or nullptr.
   virtual std::shared_ptr<void> take(MadeFrame& frame) = 0;

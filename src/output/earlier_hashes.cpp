@@ -4,18 +4,21 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/seal.h"
 
 namespace echocine {
 
 namespace {
 
-// Null when there is none, or none that can be read.
+// Null when there is none, or none as a run wrote it.
 nlohmann::json manifestAt(const std::filesystem::path& file) {
   constexpr std::size_t kMaxBytes = std::size_t{1} << 30;  // a million frames are 300 MB
   std::error_code absent;
   if (!std::filesystem::is_regular_file(file, absent)) return {};
   try {
-    auto json = nlohmann::json::parse(readTextFile(file, kMaxBytes), nullptr, false);
+    const std::string text = readTextFile(file, kMaxBytes);
+    if (!isSealed(text)) return {};
+    auto json = nlohmann::json::parse(text, nullptr, false);
     return json.is_object() ? json : nlohmann::json();
   } catch (const SceneError&) {
     return {};

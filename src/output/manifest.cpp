@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
-#include "core/hash.h"
+#include "core/seal.h"
 #include "core/units.h"
 #include "output/exr_stack.h"
 #include "scene/probe_pose.h"
@@ -212,11 +212,7 @@ void writeManifest(const std::filesystem::path& path, const Scene& scene,
                   {"timings_ms_per_frame", timings},
                   {"work", workJson(manifest.work)},
                   {"files", manifest.files}};
-  // The last key is the digest of what stands before it, so that no flipped bit is believed.
-  std::string text = json.dump(1);
-  text.resize(text.size() - 2);  // "\n}"
-  text += fmt::format(",\n \"manifest_sha256\": \"{}\"\n}}\n",
-                      sha256Hex(std::as_bytes(std::span(text))));
+  const std::string text = sealed(json.dump(1));
   writeFileWhole(path, std::as_bytes(std::span(text)));
 }
 

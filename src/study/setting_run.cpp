@@ -8,7 +8,7 @@
 
 #include "core/hash.h"
 #include "core/stage_clock.h"
-#include "frame/making.h"
+#include "core/stop.h"
 #include "frame/plan_loop.h"
 #include "loop/render_frames.h"
 #include "motion/surfaces/mesh_motion.h"
@@ -139,10 +139,12 @@ WorkCounts SettingRun::workPerFrame() {
   return mean;
 }
 
+namespace {
+
 // A second walk that keeps what it judged of each crossing, and samples nothing.
-InterfaceMap SettingRun::interfacesOf(Workspace& workspace) const {
-  const Probe& probe = scene_.probe;
-  TraceSettings settings(scene_, plan_.effects);
+InterfaceMap interfacesOf(const Scene& scene, const EffectPlan& effects, Workspace& workspace) {
+  const Probe& probe = scene.probe;
+  TraceSettings settings(scene, effects);
   settings.note_hits = true;
   PlaneRequest nothing;
   nothing.intensities = false;
@@ -152,24 +154,58 @@ InterfaceMap SettingRun::interfacesOf(Workspace& workspace) const {
   return interfaceMap(probe, walked.traces);
 }
 
-FramePicture SettingRun::picture(const FrameTime& time, double reference_intensity,
-                                 bool with_interfaces, MadeOf made_of) {
-  const Simulator& making = averaged();
-  const std::shared_ptr<Workspace> workspace = making.workspace();
-  const bool stored = made_of == MadeOf::stored && scene_.output.exr;
-  const ExrStack stack = exrStack(scene_, reference_intensity);
-  const FrameRecord record{0, 0, time.phase, 0};
-  Making how;
-  if (stored)
-    how.received = [&](Intensities& received) {
-      received.values = readBack(stack.encode(record, {{Channel::y, received, {}}}), Channel::y);
+// Pictures in memory, of intensities as a file would keep them if `stored`.
+class PictureSink : public FrameSink {
+ public:
+  PictureSink(const Simulator& simulator, double reference_intensity, bool with_interfaces,
+              bool stored)
+      : simulator_(simulator),
+        stack_(exrStack(simulator.scene(), reference_intensity)),
+        with_interfaces_(with_interfaces),
+        stored_(stored) {}
+
+  bool wantsTruth() const override { return false; }
+
+  std::function<void(Intensities&)> receiver(const FrameTime& time) override {
+    if (!stored_) return {};
+    return [this, phase = time.phase](Intensities& received) {
+      const FrameRecord record{0, 0, phase, 0};
+      received.values = readBack(stack_.encode(record, {{Channel::y, received, {}}}), Channel::y);
     };
-  making.make(time, how, *workspace);
-  FramePicture picture;
-  picture.image = making.picture(reference_intensity, time, *workspace, true);
-  making.chain().picture(workspace->greys, picture.grey);
-  if (with_interfaces) picture.interfaces = interfacesOf(*workspace);
-  return picture;
+  }
+
+  std::shared_ptr<void> take(MadeFrame& made) override {
+    auto picture = std::make_shared<FramePicture>();
+    picture->image = made.workspace.image;
+    simulator_.chain().picture(made.workspace.greys, picture->grey);
+    if (with_interfaces_)
+      picture->interfaces =
+          interfacesOf(simulator_.scene(), simulator_.plan().effects, made.workspace);
+    return picture;
+  }
+
+  void inOrder(void* taken) override {
+    pictures.push_back(std::move(*static_cast<FramePicture*>(taken)));
+  }
+
+  std::vector<FramePicture> pictures;
+
+ private:
+  const Simulator& simulator_;
+  const ExrStack stack_;
+  const bool with_interfaces_, stored_;
+};
+
+}  // namespace
+
+std::vector<FramePicture> SettingRun::pictures(std::span<const FrameTime> times,
+                                               double reference_intensity, bool with_interfaces,
+                                               MadeOf made_of) {
+  const bool stored = made_of == MadeOf::stored && scene_.output.exr;
+  PictureSink sink(averaged(), reference_intensity, with_interfaces, stored);
+  renderFrames(averaged(), times, reference_intensity, sink, {});
+  if (sink.pictures.size() < times.size()) throw Stopped();
+  return std::move(sink.pictures);
 }
 
 double SettingRun::referenceIntensity(const std::vector<FrameTime>& times) {

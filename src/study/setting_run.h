@@ -83,20 +83,20 @@ class SettingRun {
   // Equal for two settings that compute the same, with every "auto" resolved.
   std::string signature() const;
 
-  // Traces the frame of meanOverSeeds(); writes nothing. Thread-safe after the first call.
-  FramePicture picture(const FrameTime& time, double reference_intensity, bool with_interfaces,
-                       MadeOf made_of = MadeOf::traced);
+  // Renders the frames of meanOverSeeds() on the threads of withThreads(); writes nothing. Throws
+  // Stopped at a stop.
+  std::vector<FramePicture> pictures(std::span<const FrameTime> times, double reference_intensity,
+                                     bool with_interfaces, MadeOf made_of = MadeOf::traced);
 
-  // Build what picture() or timeBatch() would build at its first call. Throw SceneError and
-  // JobError if the setting cannot be rendered.
-  void preparePictures() { averaged(); }
+  // Builds what timeBatch() would build at its first call. Throws SceneError and JobError if the
+  // setting cannot be rendered.
   void prepareTiming() { simulator(); }
 
   // The loop's white of meanOverSeeds() from these frames only: absolute if the scene has it,
   // otherwise its percentile.
   double referenceIntensity(const std::vector<FrameTime>& times);
 
-  // Mean work of the frames that the simulator of picture() traced since rest().
+  // Mean work of the frames that the simulator of pictures() traced since rest().
   WorkCounts workPerFrame();
   std::size_t vertices() const { return vertices_; }  // of the structures in use
 
@@ -112,7 +112,6 @@ class SettingRun {
  private:
   const Simulator& simulator();
   const Simulator& averaged();
-  InterfaceMap interfacesOf(Workspace& workspace) const;
 
   Scene scene_;
   MotionShelf* shelf_;

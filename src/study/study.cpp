@@ -73,7 +73,6 @@ class Study {
   void measure(const RowWanted& row);
   void refuse(const RowWanted& row, const std::string& reason);
   void takeReference(SettingRun& probe);
-  std::vector<FramePicture> picturesOf(SettingRun& probe, MadeOf made_of) const;
   void compare(SettingRun& probe, StudyPoint& point);
   StageTimes timeOf(SettingRun& probe);
   void visited(Clock::time_point since, std::size_t left);
@@ -202,24 +201,15 @@ void Study::takeReference(SettingRun& probe) {
     white.signal.reference_intensity = result_.reference_intensity;
     probe = SettingRun(std::move(white), shelf_);
   }
-  reference_ = picturesOf(probe, MadeOf::traced);
-}
-
-std::vector<FramePicture> Study::picturesOf(SettingRun& probe, MadeOf made_of) const {
-  probe.preparePictures();
-  std::vector<FramePicture> pictures(result_.frames.size());
-  parallelBlocks(pictures.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f)
-      pictures[f] = probe.picture(result_.frames[f], result_.reference_intensity, true, made_of);
-  });
-  return pictures;
+  reference_ = probe.pictures(result_.frames, result_.reference_intensity, true);
 }
 
 void Study::compare(SettingRun& probe, StudyPoint& point) {
   // The reference's own pictures are known, unless its files lose some of them.
   const bool known = result_.points.empty() && storesAll(probe.scene().output);
   std::vector<FramePicture> made;
-  if (!known) made = picturesOf(probe, MadeOf::stored);
+  if (!known)
+    made = probe.pictures(result_.frames, result_.reference_intensity, true, MadeOf::stored);
   compareWith(reference_, known ? reference_ : made, result_.dynamic_range_db, point);
   point.work = probe.workPerFrame();
 }

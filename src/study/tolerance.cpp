@@ -79,15 +79,13 @@ Tried Descent::tryOut(const Setting& setting, bool reference) {
   }
   const auto start = std::chrono::steady_clock::now();
   Tried tried;
-  for (std::size_t f = 0; f < frames_.size(); ++f) {
-    FramePicture picture = probe.picture(frames_[f], *scene_.signal.reference_intensity, false);
-    if (reference)
-      reference_.push_back(std::move(picture));
-    else
-      tried.error_db = std::max(
-          tried.error_db,
-          pictureError(picture.grey, reference_[f].grey, scene_.signal.dynamic_range_db).rms_db);
-  }
+  std::vector<FramePicture> pictures =
+      probe.pictures(frames_, *scene_.signal.reference_intensity, false);
+  if (reference) reference_ = pictures;
+  for (std::size_t f = 0; f < frames_.size(); ++f)
+    tried.error_db = std::max(
+        tried.error_db,
+        pictureError(pictures[f].grey, reference_[f].grey, scene_.signal.dynamic_range_db).rms_db);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   tried.cost_ms =
       modelledCost_ms(probe.scene(), probe.plan(), probe.workPerFrame(), probe.vertices());

@@ -6,6 +6,8 @@
 
 #include <random>
 
+#include "core/error.h"
+#include "echo/render_folder.h"
 #include "support/faulty_run.h"
 #include "support/loop_output.h"
 #include "support/loop_scene.h"
@@ -115,6 +117,35 @@ TEST_F(FlippedBits, AMergeNamesTheFileAndARunMakesTheSameDataset) {
   }
   EXPECT_GT(named, flips / 4);
   std::printf("%d flips of a dataset, %d named by a merge\n", flips, named);
+}
+
+TEST_F(FlippedBits, AReaderOfARenderBelievesNone) {
+  SceneText text = ballScene(3);
+  text.probe["lines"] = "16";
+  text.output["channels"] = R"(["Y", "display.Y"])";
+  const std::string scene = writeBall(folder, text);
+  ASSERT_EQ(run({"render", scene, "-o", folder / "whole"}).code, 0);
+  const echo::EchoLoop wanted = echo::readRenderFolder(folder / "whole");
+  ASSERT_EQ(wanted.grey_source, "EXR display.Y");
+  const int flips = flipCount(24);
+  int refused = 0, left_out = 0;
+  for (int i = 0; i < flips; ++i) {
+    const std::string flipped = flipOne(folder / "whole");
+    SCOPED_TRACE(flipped);
+    if (flipped.starts_with("manifest.json") || flipped.starts_with("cine.avi")) {
+      EXPECT_THROW(echo::readRenderFolder(copy), SceneError);
+      ++refused;
+      continue;
+    }
+    const echo::EchoLoop read = echo::readRenderFolder(copy);
+    const bool exr = flipped.starts_with("intensity/");
+    EXPECT_EQ(read.grey_source, exr ? "cine.avi" : wanted.grey_source);
+    EXPECT_EQ(read.video.frames, wanted.video.frames);
+    EXPECT_EQ(read.volumes_ml, wanted.volumes_ml);
+    left_out += exr;
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_GT(left_out, 0);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 
 #include "core/parallel.h"
@@ -60,7 +61,8 @@ class OtherFrames {
       const FrameTime time = clock.at(i);
       if (std::none_of(probed.begin(), probed.end(),
                        [&](const FrameTime& p) { return p.phase == time.phase; }))
-        frames_.push_back({time, reference.picture(time, white_, false).grey});
+        frames_.push_back(
+            {time, reference.pictures(std::span(&time, 1), white_, false).front().grey});
     }
   }
 
@@ -69,9 +71,10 @@ class OtherFrames {
     SettingRun chosen(choice.scene, shelf_);
     double worst = 0;
     for (const auto& [time, grey] : frames_)
-      worst = std::max(worst, pictureError(chosen.picture(time, white_, false).grey, grey,
-                                           scene_.signal.dynamic_range_db)
-                                  .rms_db);
+      worst = std::max(
+          worst, pictureError(chosen.pictures(std::span(&time, 1), white_, false).front().grey,
+                              grey, scene_.signal.dynamic_range_db)
+                     .rms_db);
     return worst;
   }
 
