@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/lanes.h"
+#include "core/parallel.h"
 #include "speckle/point_spread.h"
 
 namespace echocine {
@@ -29,41 +30,58 @@ void FieldSum::addMean(double white, std::span<float> intensities) const {
     intensities[i] += scale * levels_[i % samples];
 }
 
+// Memory of a line in the making.
+struct FieldSum::Line {
+  std::vector<float> real, imaginary, total, ratios, smooth, coarse;
+};
+
 void FieldSum::add(double white, double time_s, const EchoField& field,
                    std::span<float> intensities) const {
   if (!adds()) return;
   if (!draws()) return addMean(white, intensities);
+  constexpr std::size_t kAtOnce = 8;  // lines. Our choice, by time
+  parallelBlocks(static_cast<std::size_t>(lines_), kAtOnce,
+                 [&](std::size_t begin, std::size_t end) {
+                   thread_local Line line;
+                   for (std::size_t i = begin; i < end; ++i)
+                     addLine(white, time_s, static_cast<int>(i), field, line, intensities);
+                 });
+}
+
+void FieldSum::addLine(double white, double time_s, int number, const EchoField& field, Line& line,
+                       std::span<float> intensities) const {
   const auto samples = static_cast<std::size_t>(samples_);
-  const auto margin = static_cast<std::size_t>(smoothing_.margin());
+  const std::size_t first = static_cast<std::size_t>(number) * samples;
   const auto length = static_cast<std::size_t>(smoothing_.length());
-  thread_local std::vector<float> real, imaginary, ratios, smooth, coarse;
-  ratios.assign(length + 2 * margin, 1.0f);
-  smooth.resize(length);
-  float* ratio = ratios.data() + margin;
-  const float scale = heldWhite(white);
-  for (int i = 0; i < lines_; ++i) {
-    const std::size_t first = static_cast<std::size_t>(i) * samples;
-    const auto copied = [&](const std::vector<float>& plane, std::vector<float>& to) {
-      if (field.empty())
-        to.assign(samples, 0.0f);
-      else
-        to.assign(plane.begin() + static_cast<std::ptrdiff_t>(first),
-                  plane.begin() + static_cast<std::ptrdiff_t>(first + samples));
-    };
-    copied(field.real, real);
-    copied(field.imaginary, imaginary);
-    if (clutter_) clutter_->add(white, i, real.data(), imaginary.data());
-    if (noise_) noise_->add(white, time_s, i, real.data(), imaginary.data());
-    const float* mean = field.empty() ? nullptr : field.mean.data() + first;
-    const auto total = [&](std::size_t k) { return (mean ? mean[k] : 0) + scale * levels_[k]; };
-    for (std::size_t k = 0; k < samples; ++k) {
-      const float of = total(k);
-      ratio[k] = of > 0 ? (real[k] * real[k] + imaginary[k] * imaginary[k]) / of : 1;
-    }
-    smoothing_.apply(ratio, coarse, smooth.data());
-    float* to = intensities.data() + first;
-    for (std::size_t k = 0; k < samples; ++k) to[k] = (mean ? 0 : to[k]) + total(k) * smooth[k];
+  const auto copied = [&](const std::vector<float>& plane, std::vector<float>& to) {
+    to.resize(length);
+    const std::size_t count = field.empty() ? 0 : samples;
+    std::copy_n(plane.data() + (field.empty() ? 0 : first), count, to.data());
+    std::fill(to.begin() + static_cast<std::ptrdiff_t>(count), to.end(), 0.0f);
+  };
+  copied(field.real, line.real);
+  copied(field.imaginary, line.imaginary);
+  copied(field.mean, line.total);
+  if (clutter_) clutter_->add(white, number, line.real.data(), line.imaginary.data());
+  if (noise_) noise_->add(white, time_s, number, line.real.data(), line.imaginary.data());
+  const auto margin = static_cast<std::size_t>(smoothing_.margin());
+  line.ratios.resize(length + 2 * margin);
+  line.smooth.resize(length);
+  float* const ratio = line.ratios.data() + margin;
+  const Floats8 scale = Floats8{} + heldWhite(white), one = Floats8{} + 1;
+  for (std::size_t k = 0; k < samples; k += kFloatLanes) {
+    const std::size_t left = samples - k;
+    const Floats8 total = lanesAt(&line.total[k]) + scale * someLanesAt(&levels_[k], left);
+    const Floats8 re = lanesAt(&line.real[k]), im = lanesAt(&line.imaginary[k]);
+    const Ints8 some = total > 0;
+    const Floats8 of = (re * re + im * im) / (some ? total : one);
+    store(total, &line.total[k]);
+    storeSome(some ? of : one, left, ratio + k);
   }
+  smoothing_.apply(ratio, line.coarse, line.smooth.data());
+  float* const to = intensities.data() + first;
+  for (std::size_t k = 0; k < samples; ++k)
+    to[k] = (field.empty() ? to[k] : 0) + line.total[k] * line.smooth[k];
 }
 
 }  // namespace echocine

@@ -29,11 +29,15 @@ class FieldSum {
   bool draws() const { return clutter_ || noise_; }
 
   // Intensities relative to the transmitted one, in place. field: that of the same intensities, or
-  // empty without speckle.
+  // empty without speckle. Runs in parallel; the result does not depend on the threads.
   void add(double white, double time_s, const EchoField& field, std::span<float> intensities) const;
 
  private:
+  struct Line;
+
   void addMean(double white, std::span<float> intensities) const;
+  void addLine(double white, double time_s, int number, const EchoField& field, Line& line,
+               std::span<float> intensities) const;
 
   int lines_, samples_;
   std::optional<NearFieldClutter> clutter_;

@@ -16,7 +16,7 @@ namespace echocine {
 namespace {
 
 constexpr std::uint64_t kClutter = 5;  // purpose of hashed numbers
-constexpr int kLanes = static_cast<int>(kFloatLanes);
+constexpr int kLanes = static_cast<int>(kFloatLanes), kChains = 4, kStep = kChains * kLanes;
 // Longer pulses are filtered from white numbers that are several samples apart, and at least this
 // part of sigma: the power then varies by under 1e-6.
 constexpr double kLeastNodes = 1.3;
@@ -82,46 +82,52 @@ ReceiverNoise::ReceiverNoise(const Scene& scene, std::span<const float> gains)
   }
 }
 
-// Eight samples of the filtered noise.
-ComplexLanes ReceiverNoise::filtered(const float* real, const float* imaginary, int sample) const {
-  const int taps = 2 * reach_ + 2, node = sample / per_node_, phase = sample % per_node_;
-  ComplexLanes sum{};
-  for (int t = 0; t < taps; ++t) {
-    if (per_node_ == 1) {
-      const float h = taps_[static_cast<std::size_t>(t)];
-      sum.real += h * lanesAt(real + node + t);
-      sum.imaginary += h * lanesAt(imaginary + node + t);
-    } else {
+// White numbers of each sample. Four groups of lanes at once do not wait for each other.
+void ReceiverNoise::filterEach(const float* from, float* to) const {
+  for (int k = 0; k < samples_; k += kStep) {
+    Floats8 sums[kChains]{};
+    for (std::size_t t = 0; t < taps_.size(); ++t)
+      for (int c = 0; c < kChains; ++c) sums[c] += taps_[t] * lanesAt(from + k + t + c * kLanes);
+    for (int c = 0; c < kChains; ++c) store(sums[c], to + k + c * kLanes);
+  }
+}
+
+// White numbers of nodes. The samples between two nodes are a whole number of groups of lanes.
+void ReceiverNoise::filterBetween(const float* from, float* to) const {
+  const int taps = 2 * reach_ + 2;
+  for (int k = 0; k < samples_; k += kLanes) {
+    const int node = k / per_node_, phase = k % per_node_;
+    Floats8 sum{};
+    for (int t = 0; t < taps; ++t) {
       Floats8 h;
       for (int i = 0; i < kLanes; ++i)
         h[i] = taps_[static_cast<std::size_t>((phase + i) * taps + t)];
-      sum.real += h * real[node + t];
-      sum.imaginary += h * imaginary[node + t];
+      sum += h * from[node + t];
     }
+    store(sum, to + k);
   }
-  return sum;
 }
 
 void ReceiverNoise::add(double white, double time_s, int line, float* real,
                         float* imaginary) const {
   const std::uint64_t key = hashOf(seed_, std::bit_cast<std::uint64_t>(time_s + 0.0), line);
-  const int nodes = samples_ / per_node_ + 2 * reach_ + 2 + 2 * kLanes;
-  thread_local std::vector<float> white_real, white_imaginary;
+  const int steps = (samples_ + kStep - 1) / kStep;
+  const int nodes = steps * kStep / per_node_ + 2 * reach_ + 2;
+  thread_local std::vector<float> white_real, white_imaginary, filtered;
   white_real.resize(static_cast<std::size_t>(nodes + kLanes));
   white_imaginary.resize(white_real.size());
+  filtered.resize(static_cast<std::size_t>(steps * kStep));
   for (int n = 0; n < nodes; n += kLanes) {
     const ComplexLanes z = complexNormals(key, static_cast<std::uint32_t>(n));
     store(z.real, white_real.data() + n);
     store(z.imaginary, white_imaginary.data() + n);
   }
   const float scale = std::sqrt(heldWhite(white));
-  for (int k = 0; k < samples_; k += kLanes) {
-    const ComplexLanes noise = filtered(white_real.data(), white_imaginary.data(), k);
-    const auto count = static_cast<std::size_t>(std::min(kLanes, samples_ - k));
-    const Floats8 amplitude = scale * someLanesAt(amplitudes_.data() + k, count);
-    for (const auto& [to, part] :
-         {std::pair(real, noise.real), std::pair(imaginary, noise.imaginary)})
-      storeSome(someLanesAt(to + k, count) + amplitude * part, count, to + k);
+  for (const auto& [from, to] :
+       {std::pair(white_real.data(), real), std::pair(white_imaginary.data(), imaginary)}) {
+    per_node_ == 1 ? filterEach(from, filtered.data()) : filterBetween(from, filtered.data());
+    for (std::size_t k = 0; k < amplitudes_.size(); ++k)
+      to[k] += scale * amplitudes_[k] * filtered[k];
   }
 }
 

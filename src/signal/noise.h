@@ -32,7 +32,8 @@ class ReceiverNoise {
   void add(double white, double time_s, int line, float* real, float* imaginary) const;
 
  private:
-  ComplexLanes filtered(const float* real, const float* imaginary, int sample) const;
+  void filterEach(const float* from, float* to) const;
+  void filterBetween(const float* from, float* to) const;
 
   int samples_, seed_;
   int per_node_;  // samples per white number: 1, or 8 or more where the pulse is that long

@@ -46,7 +46,10 @@ struct ProfileAverage::Slab {
 };
 
 ProfileAverage::ProfileAverage(const Probe& probe, double pulse_cycles)
-    : lines_(probe.lines), samples_(probe.samples), windows_(probe, pulse_cycles) {}
+    : lines_(probe.lines),
+      samples_(probe.samples),
+      shared_(sharedProfileWindows(probe, pulse_cycles)),
+      windows_(*shared_) {}
 
 void ProfileAverage::apply(std::vector<float>& plane, LineRange lines, BeamPart part) const {
   const auto slabs = static_cast<std::size_t>((samples_ + kSlab - 1) / kSlab);

@@ -9,6 +9,7 @@
 // end at the sector's edges, so a constant plane stays constant. From 513 lines on, rows of
 // neighbours stand for lines, and results are interpolated between rows.
 
+#include <memory>
 #include <vector>
 
 #include "core/beam_plane.h"
@@ -43,7 +44,8 @@ class ProfileAverage {
   void write(const Slab& slab, LineRange lines, float* plane) const;
 
   int lines_, samples_;
-  ProfileWindows windows_;
+  std::shared_ptr<const ProfileWindows> shared_;
+  const ProfileWindows& windows_;
 };
 
 }  // namespace echocine

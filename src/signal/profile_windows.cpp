@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <span>
+#include <tuple>
 
 #include "core/lanes.h"
+#include "core/recent_values.h"
 #include "scene/sampled_beam.h"
 #include "scene/scan_geometry.h"
 
@@ -152,6 +154,30 @@ ProfileWindows::ProfileWindows(const Probe& probe, double pulse_cycles)
     last = std::min(first + std::max(static_cast<int>(samples) / lanes, 1) * lanes, probe.samples);
     builder.addZone(first, last);
   }
+}
+
+namespace {
+
+// All of a probe that windows depend on: not its pose or its lens. A new member of Probe does not
+// compile until it stands here.
+auto keyOf(const Probe& probe, double pulse_cycles) {
+  const auto& [kind, pose, first_angle, last_angle, face_radius, first_offset, last_offset,
+               min_depth, max_depth, frequency, aperture, focus, apodization, bandwidth,
+               elevation_aperture, elevation_focus, line_count, sample_count] = probe;
+  return std::tuple(kind, first_angle, last_angle, face_radius, first_offset, last_offset,
+                    min_depth, max_depth, frequency, aperture, focus, apodization, bandwidth,
+                    line_count, sample_count, pulse_cycles);
+}
+
+}  // namespace
+
+// Windows of 256 lines by 1024 samples are some megabytes. Our choice: a run has one or two probes.
+std::shared_ptr<const ProfileWindows> sharedProfileWindows(const Probe& probe,
+                                                           double pulse_cycles) {
+  constexpr std::size_t kMostKept = 2;
+  static RecentValues<decltype(keyOf(probe, pulse_cycles)), ProfileWindows> recent(kMostKept);
+  return recent.get(keyOf(probe, pulse_cycles),
+                    [&] { return ProfileWindows(probe, pulse_cycles); });
 }
 
 const ProfileWindows::Zone& ProfileWindows::zoneOf(int sample) const {

@@ -2,6 +2,7 @@
 // The weights of ProfileAverage, by depth and line.
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "scene/probe.h"
@@ -32,5 +33,9 @@ struct ProfileWindows {
   std::vector<Window> windows;  // by zone and row
   std::vector<float> weights;
 };
+
+// Those of a probe, wherever it stands. Simulators of equal probes share them, at once or one after
+// the other: the windows of the last few probes are kept. Thread-safe.
+std::shared_ptr<const ProfileWindows> sharedProfileWindows(const Probe& probe, double pulse_cycles);
 
 }  // namespace echocine

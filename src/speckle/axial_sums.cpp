@@ -25,4 +25,39 @@ AxialSums::AxialSums(const SplatGrid& grid, double deviation_samples)
   }
 }
 
+template <typename Load>
+void AxialSums::smearBy(const float* nodes, int samples, const Load& load, float* out) const {
+  const int phases = std::max(coarser_ / 2, 1);
+  for (int k = 0; k < samples; k += 2 * kPairs) {
+    Floats8 sums[kPairs] = {};
+    const float* from[kPairs];
+    const Floats8* taps[kPairs];
+    for (int p = 0; p < kPairs; ++p) {
+      const int sample = k + 2 * p;
+      from[p] = nodes + kNodeFloats * (sample * finer_ / coarser_ + range_.first);
+      taps[p] = taps_.data() + sample / 2 % phases * range_.count;
+    }
+    for (int t = 0; t < range_.count; ++t)
+      for (int p = 0; p < kPairs; ++p) sums[p] += taps[p][t] * load(from[p] + kNodeFloats * t);
+    for (int p = 0; p < kPairs; ++p) store(sums[p], out + kNodeFloats * (k + 2 * p));
+  }
+}
+
+void AxialSums::smear(const float* nodes, int samples, float* out) const {
+  const auto joined = [](Floats4 a, Floats4 b) {
+    return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+  };
+  if (coarser_ > 1)
+    smearBy(
+        nodes, samples, [&](const float* at) { return joined(fourAt(at), fourAt(at)); }, out);
+  else if (finer_ == 1)
+    smearBy(
+        nodes, samples, [](const float* at) { return lanesAt(at); }, out);
+  else
+    smearBy(
+        nodes, samples,
+        [&](const float* at) { return joined(fourAt(at), fourAt(at + kNodeFloats * finer_)); },
+        out);
+}
+
 }  // namespace echocine

@@ -17,14 +17,24 @@ constexpr float kNothing = 1e-35f;  // power where no scatterer is in reach
 float* floatsOf(std::vector<CacheLine>& lines) {
   return lines.front().floats;
 }
+std::size_t linesOf(std::ptrdiff_t floats) {
+  return static_cast<std::size_t>(floats) / std::size(CacheLine{}.floats) + 1;
+}
 void setFloats(std::vector<CacheLine>& lines, std::ptrdiff_t count) {
-  lines.assign(static_cast<std::size_t>(count) / std::size(CacheLine{}.floats) + 1, {});
+  lines.assign(linesOf(count), {});
 }
 
 Floats8 roots(Floats8 a) {
   Floats8 out;
   for (std::size_t i = 0; i < kFloatLanes; ++i) out[i] = std::sqrt(a[i]);
   return out;
+}
+
+// Whole eights of samples, and an odd number of cache lines: rows a power of two apart would share
+// few sets of the cache.
+std::ptrdiff_t strideOf(int samples) {
+  constexpr std::ptrdiff_t kLine = std::size(CacheLine{}.floats), kLanes = kFloatLanes;
+  return (kNodeFloats * ((samples + kLanes - 1) / kLanes * kLanes) / kLine | 1) * kLine;
 }
 
 // A row reaches the splats of these lines to either side; splines are four rows wide.
@@ -40,10 +50,12 @@ CoherentRatio::CoherentRatio(const Probe& probe, const PointSpread& spread, cons
     : lines_(probe.lines),
       samples_(probe.samples),
       grid_(probe, spread, view),
-      lateral_(grid_),
+      lateral_(grid_, probe.samples),
       axial_(grid_, grid_.axialSamples()),
       smoothing_(probe.samples, smoothing_m / kWidthAtHalf / probe.sampleSpacing()),
       length_(smoothing_.length()),
+      stride_(strideOf(probe.samples)),
+      slots_((kGroup / grid_.across().coarser + 1) * grid_.across().finer + lateral_.rows().count),
       beside_(linesBeside(grid_.across(), lateral_.rows())) {}
 
 LineRange CoherentRatio::within(LineRange lines, int beside) const {
@@ -61,12 +73,28 @@ void CoherentRatio::start(LineRange lines, Rows& rows) const {
                             grid_.rowBefore(kGroup + beside_) + grid_.across().finer + 4);
   grid_.start(first, most - std::min(lateral_.firstRow(0), grid_.rowBefore(-beside_) - 1) + 2,
               rows.grid);
-  rows.sums.resize(static_cast<std::size_t>(kGroup * grid_.stride()) /
-                   std::size(CacheLine{}.floats));
-  std::fill(rows.sums.begin(), rows.sums.end(), CacheLine{});  // margins
+  rows.smeared.resize(linesOf(slots_ * stride_));
+  rows.next_smeared = lateral_.firstRow(lines.first);
+  rows.sums.resize(linesOf(3 * kGroup * length_));
   setFloats(rows.ratio, 2 * (length_ + smoothing_.margin()));
   setFloats(rows.echoes, 3 * length_);
   setFloats(rows.field, 2 * length_);
+}
+
+// Smears it if it is not yet. A group takes its rows in ascending order, after all splats that
+// reach them.
+const float* CoherentRatio::smearedRow(int row, Rows& rows) const {
+  float* const slot = floatsOf(rows.smeared) + (row % slots_ + slots_) % slots_ * stride_;
+  if (row >= rows.next_smeared) {
+    axial_.smear(grid_.row(rows.grid, row), samples_, slot);
+    rows.next_smeared = row + 1;
+  }
+  return slot;
+}
+
+LineSums CoherentRatio::sumsOf(int line_of_group, Rows& rows) const {
+  float* const real = floatsOf(rows.sums) + 3 * length_ * line_of_group;
+  return {real, real + length_, real + 2 * length_};
 }
 
 void CoherentRatio::sumGroup(LineRange group, Rows& rows) const {
@@ -75,14 +103,12 @@ void CoherentRatio::sumGroup(LineRange group, Rows& rows) const {
   grid_.clearUpTo(end - 1, rows.grid);
   thread_local std::vector<const float*> of_row;
   of_row.clear();
-  for (int m = first; m < end; ++m) of_row.push_back(grid_.row(rows.grid, m));
-  const std::ptrdiff_t nodes_end = grid_.nodes() + LateralTaps::kBeside;
-  for (std::ptrdiff_t from = -LateralTaps::kBeside; from < nodes_end; from += LateralTaps::kPiece)
+  for (int m = first; m < end; ++m) of_row.push_back(smearedRow(m, rows));
+  for (std::ptrdiff_t from = 0; from < samples_; from += LateralTaps::kPiece)
     for (int i = group.first; i < group.end; ++i)
-      lateral_.sum(
-          of_row.data() + (lateral_.firstRow(i) - first), i, from,
-          std::min(from + LateralTaps::kPiece, nodes_end),
-          floatsOf(rows.sums) + (i - group.first) * grid_.stride() + grid_.margin() * kNodeFloats);
+      lateral_.sum(of_row.data() + (lateral_.firstRow(i) - first), i, from,
+                   std::min<std::ptrdiff_t>(from + LateralTaps::kPiece, samples_),
+                   sumsOf(i - group.first, rows));
 }
 
 // The coherent part of a line's samples. Rounding may leave q a little over 1.
@@ -102,23 +128,25 @@ void CoherentRatio::shareOut(const CoherentEchoes& echoes, int line, const float
 }
 
 // |g|^2 / w of a line, 1 where no scatterer is in reach.
-void CoherentRatio::ratioOf(const float* sums, float* ratio) const {
+void CoherentRatio::ratioOf(const LineSums& sums, float* ratio) const {
   const Floats8 one = Floats8{} + 1;
-  axial_.each(sums, samples_, [&](const EightSums& s, std::ptrdiff_t k) {
-    const Floats8 w = s.power > kNothing ? s.power : one;
-    const Floats8 of = (s.real * s.real + s.imaginary * s.imaginary) / w;
-    store(s.power > kNothing ? of : one, ratio + k);
-  });
+  for (int k = 0; k < samples_; k += kFloatLanes) {
+    const Floats8 re = lanesAt(sums.real + k), im = lanesAt(sums.imaginary + k),
+                  power = lanesAt(sums.power + k);
+    const Floats8 of = (re * re + im * im) / (power > kNothing ? power : one);
+    store(power > kNothing ? of : one, ratio + k);
+  }
 }
 
 // The same by way of the field of unit mean power, with its coherent part.
-void CoherentRatio::fieldOf(const float* sums, const float* echoes, float* ratio,
+void CoherentRatio::fieldOf(const LineSums& sums, const float* echoes, float* ratio,
                             float* field) const {
   const Floats8 one = Floats8{} + 1;
-  axial_.each(sums, samples_, [&](const EightSums& s, std::ptrdiff_t k) {
-    const Ints8 some = s.power > kNothing;
-    const Floats8 rest = (echoes ? lanesAt(echoes + k) : one) / roots(some ? s.power : one);
-    Floats8 re = rest * s.real, im = rest * s.imaginary;
+  for (int k = 0; k < samples_; k += kFloatLanes) {
+    const Floats8 power = lanesAt(sums.power + k);
+    const Ints8 some = power > kNothing;
+    const Floats8 rest = (echoes ? lanesAt(echoes + k) : one) / roots(some ? power : one);
+    Floats8 re = rest * lanesAt(sums.real + k), im = rest * lanesAt(sums.imaginary + k);
     if (echoes) {
       re += lanesAt(echoes + k + length_);
       im += lanesAt(echoes + k + 2 * length_);
@@ -128,7 +156,7 @@ void CoherentRatio::fieldOf(const float* sums, const float* echoes, float* ratio
     store(re, field + k);
     store(im, field + k + length_);
     store(re * re + im * im, ratio + k);
-  });
+  }
 }
 
 void CoherentRatio::keep(const float* unit, int line, const float* intensities,
@@ -170,8 +198,7 @@ void CoherentRatio::apply(const SplatLists& scattered, Rows& rows, std::span<flo
     }
     sumGroup(group, rows);
     for (int i = group.first; i < group.end; ++i) {
-      const float* sums =
-          floatsOf(rows.sums) + (i - first) * grid_.stride() + grid_.margin() * kNodeFloats;
+      const LineSums sums = sumsOf(i - first, rows);
       if (!echoes.empty()) shareOut(echoes, i, plane(i), floatsOf(rows.echoes));
       if (keeps || !echoes.empty())
         fieldOf(sums, echoes.empty() ? nullptr : floatsOf(rows.echoes), ratio(rows),

@@ -27,10 +27,12 @@ class CoherentRatio {
   // Memory of one frame in progress.
   struct Rows {
     SplatGrid::Rows grid;
-    std::vector<CacheLine> sums;    // of a group of lines
-    std::vector<CacheLine> ratio;   // of one line, with margins, and smoothed
-    std::vector<CacheLine> echoes;  // its sqrt(1 - q), and real and imaginary part of sqrt(q)
-    std::vector<CacheLine> field;   // its real and imaginary part of the sum, of unit mean power
+    std::vector<CacheLine> smeared;  // along the lines: a ring of rows
+    int next_smeared = 0;            // the first row that is not
+    std::vector<CacheLine> sums;     // of a group of lines
+    std::vector<CacheLine> ratio;    // of one line, with margins, and smoothed
+    std::vector<CacheLine> echoes;   // its sqrt(1 - q), and real and imaginary part of sqrt(q)
+    std::vector<CacheLine> field;    // its real and imaginary part of the sum, of unit mean power
     std::vector<float> coarse;
   };
 
@@ -47,10 +49,12 @@ class CoherentRatio {
   LineRange within(LineRange lines, int beside) const;
   void start(LineRange lines, Rows& rows) const;
   void sumGroup(LineRange group, Rows& rows) const;
+  const float* smearedRow(int row, Rows& rows) const;
+  LineSums sumsOf(int line_of_group, Rows& rows) const;
   void shareOut(const CoherentEchoes& echoes, int line, const float* intensities,
                 float* shares) const;
-  void ratioOf(const float* sums, float* ratio) const;
-  void fieldOf(const float* sums, const float* echoes, float* ratio, float* field) const;
+  void ratioOf(const LineSums& sums, float* ratio) const;
+  void fieldOf(const LineSums& sums, const float* echoes, float* ratio, float* field) const;
   void keep(const float* unit, int line, const float* intensities, EchoField& field) const;
   void finish(Rows& rows, float* intensities) const;
   float* ratio(Rows& rows) const;
@@ -61,6 +65,8 @@ class CoherentRatio {
   AxialSums axial_;
   LineSmoothing smoothing_;
   std::ptrdiff_t length_;  // of a row of samples: that of a smoothed line
+  std::ptrdiff_t stride_;  // floats of a smeared row
+  int slots_;              // smeared rows that a group of lines takes
   int beside_;             // lines to either side whose splats a line takes
 };
 

@@ -34,6 +34,8 @@ GridSpacing lateralSpacing(double lines) {
   GridSpacing out;
   if (lines < kLeastRowsOnLines)
     out.finer = std::min(static_cast<int>(std::ceil(kLeastRows / lines)), kMostRowsPerLine);
+  else if (lines >= 1.5 * kLeastRows && lines < 2 * kLeastRows)
+    out = {2, 3};
   else
     out.coarser = std::max(static_cast<int>(lines / kLeastRows), 1);
   return out;
@@ -50,6 +52,10 @@ int floorDivided(int a, int b) {
 bool isEven(const std::vector<double>& deviations) {
   const auto [least, most] = std::minmax_element(deviations.begin(), deviations.end());
   return *most - *least < 1e-6 * *most;
+}
+
+Floats8 inBothHalves(Floats4 a) {
+  return __builtin_shufflevector(a, a, 0, 1, 2, 3, 0, 1, 2, 3);
 }
 
 void setFour(float* to, double value) {
@@ -86,13 +92,11 @@ void SplatGrid::setAcross(std::vector<double> lines) {
   if (!even_) across_.coarser = std::min(across_.coarser, kMostLinesPerRow);
   for (double& deviation : lines) deviation = std::max(across_.nodes(deviation), kFloor);
   even_ = isEven(lines);  // also where all are that narrow
-  for (int n = 0; n < static_cast<int>(nodes_); ++n)
-    deviations_.push_back(
-        lines[static_cast<std::size_t>(std::min(n * along_.coarser / along_.finer, samples_ - 1))]);
   for (std::size_t k = 0; k < (even_ ? 1 : lines.size()); ++k) {
     const auto q = static_cast<float>(std::exp(-1 / (lines[k] * lines[k] - 1.0 / 3)));
     couplings_.push_back(Floats4{0, 0, q, q * q});
   }
+  deviations_ = std::move(lines);
 }
 
 void SplatGrid::setWeights() {
@@ -112,6 +116,10 @@ void SplatGrid::setWeights() {
     coupled[8 + 2] = static_cast<float>(2 * b[1] * b[3]);
     if (!even_) continue;
     for (std::size_t i = 4; i < 12; ++i) by_row[i] += couplings_[0][i % 4] * coupled[i];
+    const CacheLine all = lateral_[2 * step];
+    for (std::size_t m = 0; m < 4; ++m)
+      store(inBothHalves(fourAt(all.floats + 4 * m)),
+            lateral_[2 * step + m / 2].floats + m % 2 * kFloatLanes);
   }
 }
 
@@ -158,14 +166,21 @@ namespace {
 constexpr int kHalf = kSplineSteps / 2;
 constexpr float kPerStep = 1.0f / kSplineSteps;
 
+// By step between two samples or lines: its place in parts of their distance.
+struct StepParts {
+  float of[kSplineSteps];
+  constexpr StepParts() : of{} {
+    for (int step = 0; step < kSplineSteps; ++step)
+      of[step] = (static_cast<float>(step) + 0.5f) * kPerStep;
+  }
+};
+constexpr StepParts kParts;
+
 // The picture's amplitude at a splat, between four samples of three neighbouring lines.
 inline float amplitudeAt(const Splat& splat, const float* const (&amplitudes)[3]) {
   const auto along = static_cast<unsigned>(splat.sampleAt() + kHalf),
              beside = static_cast<unsigned>(splat.lineStep() + kHalf);
-  const auto partOf = [](unsigned at) {
-    return (static_cast<float>(static_cast<int>(at % kSplineSteps)) + 0.5f) * kPerStep;
-  };
-  const float t = partOf(along), s = partOf(beside);
+  const float t = kParts.of[along % kSplineSteps], s = kParts.of[beside % kSplineSteps];
   const float *one = amplitudes[beside / kSplineSteps] + along / kSplineSteps,
               *two = amplitudes[beside / kSplineSteps + 1] + along / kSplineSteps;
   const float a1 = one[0] + t * (one[1] - one[0]), a2 = two[0] + t * (two[1] - two[0]);
@@ -173,6 +188,40 @@ inline float amplitudeAt(const Splat& splat, const float* const (&amplitudes)[3]
 }
 
 }  // namespace
+
+namespace {
+
+inline Floats4 valueOf(const Splat& splat, float amplitude) {
+  const float power = amplitude * amplitude;
+  return Floats4{splat.real, splat.imaginary, splat.square, splat.square} *
+         Floats4{amplitude, amplitude, power, power};
+}
+
+// A node's factors of one of the four rows, twice. q: the couplings at the splat, unless even.
+template <bool even>
+inline Floats8 factorsOf(const CacheLine* lateral, int row, Floats4 q) {
+  if (even) return lanesAt(lateral[row / 2].floats + row % 2 * 8);
+  const Floats4 own = fourAt(lateral->floats + 4 * row);
+  const bool coupled = row == 1 || row == 2;
+  return inBothHalves(coupled ? own + q * fourAt(lateral[1].floats + 4 * row) : own);
+}
+
+}  // namespace
+
+// The rows of a line's splats, by step between two lines.
+struct SplatGrid::LineSteps {
+  int row[kSplineSteps], step[kSplineSteps];  // from the first row on; between two rows
+
+  LineSteps(const GridSpacing& across, int line, int first_row) {
+    const auto per_step = static_cast<float>(across.nodes(kPerStep));
+    const float lowest = static_cast<float>(across.nodes(line - 0.5) - first_row) + 0.5f * per_step;
+    for (int i = 0; i < kSplineSteps; ++i) {
+      const float at = lowest + per_step * static_cast<float>(i);
+      row[i] = static_cast<int>(at);
+      step[i] = static_cast<int>(kSplineSteps * (at - static_cast<float>(row[i])));
+    }
+  }
+};
 
 void SplatGrid::add(std::span<const Splat> splats, int line, Rows& rows) const {
   even_ ? addAll<true>(splats, line, rows) : addAll<false>(splats, line, rows);
@@ -185,8 +234,7 @@ void SplatGrid::addAll(std::span<const Splat> splats, int line, Rows& rows) cons
   clearUpTo(first - 1 + reached, rows);
   float* of_row[kMostRowsPerLine + 6];
   for (int m = 0; m <= reached; ++m) of_row[m] = row(rows, first - 1 + m);
-  const auto per_step = static_cast<float>(across_.nodes(kPerStep));
-  const float lowest = static_cast<float>(across_.nodes(line - 0.5) - first) + 0.5f * per_step;
+  const LineSteps steps(across_, line, first);
   const float* amplitudes[3];
   for (int i = 0; i < 3; ++i) amplitudes[i] = amplitudesOf(rows, line - 1 + i);
   // Copies: a store of floats might change what the members point to.
@@ -196,29 +244,22 @@ void SplatGrid::addAll(std::span<const Splat> splats, int line, Rows& rows) cons
   for (const Splat& stored : splats) {
     __builtin_prefetch(&stored + kAhead);
     const Splat splat = stored;
-    const float amplitude = amplitudeAt(splat, amplitudes), power = amplitude * amplitude;
-    const Floats4 value = Floats4{splat.real, splat.imaginary, splat.square, splat.square} *
-                          Floats4{amplitude, amplitude, power, power};
+    const Floats8 value = inBothHalves(valueOf(splat, amplitudeAt(splat, amplitudes)));
     const int node = ((2 * (splat.sampleAt() - kHalf) + 1) << up) >> down;
     const float* axial = axials[node & (kSplineSteps - 1)].floats;
     const Floats8 near = lanesAt(axial), far = lanesAt(axial + 8);
-    const float at = lowest + per_step * static_cast<float>(splat.lineStep());
-    const int m = static_cast<int>(at);
-    const int step = static_cast<int>(kSplineSteps * (at - static_cast<float>(m)));
-    const float *lateral = laterals[2 * step].floats, *coupled = laterals[2 * step + 1].floats;
+    const auto line_step = static_cast<unsigned>(splat.lineStep());
+    const int m = steps.row[line_step];
+    const CacheLine* lateral = laterals + 2 * steps.step[line_step];
     const Floats4 q = even ? Floats4{} : couplings[splat.sample()];
     const std::ptrdiff_t from = kNodeFloats * ((node >> kStepBits) - 1);
-    const auto addRow = [&](int r, Floats4 by) {
-      const Floats4 v = value * by;
-      const Floats8 both = __builtin_shufflevector(v, v, 0, 1, 2, 3, 0, 1, 2, 3);
+    const auto addRow = [&](int r, Floats8 by) {
+      const Floats8 both = value * by;
       float* to = of_row[m + r] + from;
       store(lanesAt(to) + both * near, to);
       store(lanesAt(to + 8) + both * far, to + 8);
     };
-    addRow(0, fourAt(lateral));
-    addRow(1, even ? fourAt(lateral + 4) : fourAt(lateral + 4) + q * fourAt(coupled + 4));
-    addRow(2, even ? fourAt(lateral + 8) : fourAt(lateral + 8) + q * fourAt(coupled + 8));
-    addRow(3, fourAt(lateral + 12));
+    for (int r = 0; r < 4; ++r) addRow(r, factorsOf<even>(lateral, r, q));
   }
 }
 

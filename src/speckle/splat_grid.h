@@ -28,10 +28,10 @@ struct alignas(64) CacheLine {
   float floats[16];
 };
 
-// A grid relative to lines or samples. One of the two is 1.
+// A grid relative to lines or samples. One of the two is 1, or there are two rows for three lines.
 struct GridSpacing {
-  int finer = 1;    // nodes per sample, or rows per line
-  int coarser = 1;  // samples per node, or lines per row
+  int finer = 1;    // so many nodes or rows
+  int coarser = 1;  // for so many samples or lines
   double nodes(double samples) const { return samples * finer / coarser; }
 };
 
@@ -55,9 +55,9 @@ class SplatGrid {
   std::ptrdiff_t stride() const { return stride_; }  // floats of a row, a multiple of 16
   // Nodes before the first sample's and behind the last one's.
   std::ptrdiff_t margin() const { return margin_; }
-  // Sigma across the lines at a node, in rows.
+  // Sigma across the lines by sample, in rows.
   const std::vector<double>& deviations() const { return deviations_; }
-  bool even() const { return even_; }                     // the same sigma at all nodes
+  bool even() const { return even_; }                     // the same sigma at all samples
   double axialSamples() const { return axial_samples_; }  // sigma along a line, in samples
 
   // rows: the number that one line's sum takes. Lines are added in ascending order from `first_row`
@@ -75,6 +75,8 @@ class SplatGrid {
   int rowBefore(int line) const;
 
  private:
+  struct LineSteps;
+
   template <bool even>
   void addAll(std::span<const Splat> splats, int line, Rows& rows) const;
   void setAcross(std::vector<double> lines);
@@ -88,8 +90,9 @@ class SplatGrid {
   std::ptrdiff_t nodes_ = 0, margin_ = 0, stride_ = 0;
   bool even_ = false;
   std::vector<double> deviations_;
-  std::vector<CacheLine> axial_;    // by step: the weight of each of four nodes, four times
-  std::vector<CacheLine> lateral_;  // by step: a node's factors of four rows, then those of q, q^2
+  std::vector<CacheLine> axial_;  // by step: the weight of each of four nodes, four times
+  // By step: a node's factors of four rows, then those of q, q^2; if even, both together, twice.
+  std::vector<CacheLine> lateral_;
   std::vector<Floats4> couplings_;  // 0, 0, q, q^2 by sample, or one for all
 };
 

@@ -143,6 +143,16 @@ TEST(NoiseLaw, AveragedIsTheMeanOfTheDraws) {
   }
 }
 
+TEST(NoiseLaw, AnyNumberOfThreadsGivesTheSameBytes) {
+  NoisyBed noisy(0.6e-3);
+  noisy.plan.clutter = true;
+  const Speckle speckle = noisy.bed.speckle();
+  std::vector<float> one;
+  withThreads(1, [&] { one = noisy.sum(speckle, 1, 0.1); });
+  for (const int threads : {2, 4})
+    withThreads(threads, [&] { EXPECT_EQ(noisy.sum(speckle, 1, 0.1), one) << threads; });
+}
+
 // Over shifts of up to 24 lines and 48 samples either way, lines that wrap round included.
 double bestShift(const std::vector<float>& a, const std::vector<float>& b) {
   double best = -1;
