@@ -50,6 +50,14 @@ Json viewsJson(const HeartFit& fit, const std::vector<std::string>& labels) {
   return out;
 }
 
+// Subtracted from the dials.
+Json ownErrorJson(const HeartFit& fit) {
+  Json out = Json::object();
+  for (const auto& [key, error] : fit.own_error)
+    if (fit.edv_ml || std::string(dialOf("dials", key).unit) == "1") out[key] = error;
+  return out;
+}
+
 Json rivalsJson(const HeartFit& fit) {
   Json out = Json::array();
   for (const HeartRival& rival : fit.rivals) {
@@ -70,6 +78,7 @@ Json fitJsonOf(const HeartFit& fit, const std::vector<std::string>& labels) {
             {"refusal", fit.refusal.empty() ? Json() : Json(fit.refusal)},
             {"hints", fit.hints},
             {"dials", dialsJson(fit)},
+            {"own_error", ownErrorJson(fit)},
             {"views", viewsJson(fit, labels)},
             {"rivals", rivalsJson(fit)},
             {"assumptions", assumptionsOf(fit)},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <memory>
 
 #include "core/error.h"
 #include "core/units.h"
@@ -12,6 +13,7 @@
 #include "fit/cpu_seconds.h"
 #include "fit/fit_descent.h"
 #include "fit/fit_interval.h"
+#include "fit/own_loop.h"
 
 namespace echocine::fit {
 
@@ -76,23 +78,25 @@ std::optional<double> rateOf(const std::vector<FitLoop>& loops, HeartFit& fit) {
 
 // Families and comparisons of all views.
 struct FittedSides {
-  std::deque<HeartFamily> families;
+  std::vector<std::shared_ptr<const HeartFamily>> families;
   std::deque<ModelDiscrepancy> discrepancies;
 
+  FittedSides() = default;
   FittedSides(const std::vector<FitLoop>& loops, const HeartNodes& hearts, double tilt_deg,
               const Monitor& monitor) {
-    for (const FitLoop& one : loops) families.emplace_back(hearts, one.view, monitor, tilt_deg);
+    for (const FitLoop& one : loops)
+      families.push_back(std::make_shared<const HeartFamily>(hearts, one.view, monitor, tilt_deg));
   }
   // With models of these dials, which find the beat.
   void compare(const std::vector<FitLoop>& loops, const std::vector<double>& dials) {
     discrepancies.clear();
     for (std::size_t v = 0; v < loops.size(); ++v)
-      discrepancies.emplace_back(loops[v].loop, loops[v].side, families[v].at(dials));
+      discrepancies.emplace_back(loops[v].loop, loops[v].side, families[v]->at(dials));
   }
   std::vector<FitSide> refer() const {
     std::vector<FitSide> out;
     for (std::size_t v = 0; v < families.size(); ++v)
-      out.push_back({&families[v], &discrepancies[v]});
+      out.push_back({families[v].get(), &discrepancies[v]});
     return out;
   }
 };
@@ -128,8 +132,17 @@ struct FitProgress {
   void tell(std::size_t starts_done, std::size_t rounds_done) const {
     const std::size_t per = kStartsPerRound;
     monitor.tell({Task::settings, starts_done + per * rounds_done,
-                  starts + per * descents * static_cast<std::size_t>(kMostFitRounds)});
+                  starts + per * (descents + 1) * static_cast<std::size_t>(kMostFitRounds)});
   }
+  // The monitor of a descent after `before` others.
+  Monitor ofDescent(std::size_t before) const {
+    Monitor one = monitor;
+    one.tell = [this, before](const Progress& p) {
+      tell(starts, before * static_cast<std::size_t>(kMostFitRounds) + p.done);
+    };
+    return one;
+  }
+  Monitor ofLast() const { return ofDescent(descents); }
 };
 
 std::vector<FitPlace> startPlaces(const FitCost& cost, const FitProgress& progress, HeartFit& fit) {
@@ -154,11 +167,7 @@ std::vector<FitDescent> descentsFrom(const FitCost& cost, const std::vector<FitP
                                      const FitProgress& progress, HeartFit& fit) {
   std::vector<FitDescent> out;
   for (std::size_t d = 0; d < std::min(progress.descents, starts.size()) && !fit.stopped; ++d) {
-    Monitor one = progress.monitor;
-    one.tell = [&](const Progress& p) {
-      progress.tell(progress.starts, d * static_cast<std::size_t>(kMostFitRounds) + p.done);
-    };
-    out.push_back(descendFit(cost, starts[d], one));
+    out.push_back(descendFit(cost, starts[d], progress.ofDescent(d)));
     fit.stopped = out.back().stopped;
   }
   std::stable_sort(out.begin(), out.end(), [](const FitDescent& a, const FitDescent& b) {
@@ -180,6 +189,53 @@ void addViews(const std::vector<FitLoop>& loops, const FittedSides& sides, const
       view.tilt = {radiansFromDegrees(best.at[cost.dials() + 2 * v]),
                    radiansFromDegrees(best.at[cost.dials() + 2 * v + 1])};
     fit.views.push_back(std::move(view));
+  }
+}
+
+// Dials of the heart at a place.
+std::map<std::string, double> dialsOf(const FitCost& cost, const HeartFit& fit,
+                                      const FitPlace& place) {
+  std::map<std::string, double> out = fit.dials;
+  for (std::size_t i = 0; i < cost.dials(); ++i) out[cost.unknowns()[i].name] = place.at[i];
+  return out;
+}
+
+// Error of a fit of the best heart's own loops, by dial: found minus rendered.
+std::vector<double> ownError(const std::vector<FitLoop>& loops, const FittedSides& sides,
+                             const FitCost& cost, const FitPlace& best, double tilt_deg,
+                             const HeartFit& fit, const Monitor& monitor) {
+  constexpr int kSeed = 71;
+  FittedSides own;
+  own.families = sides.families;
+  const std::vector<double> dials(best.at.begin(),
+                                  best.at.begin() + static_cast<std::ptrdiff_t>(cost.dials()));
+  for (std::size_t v = 0; v < loops.size(); ++v) {
+    PlaneTilt tilt;
+    if (tilt_deg > 0)
+      tilt = {radiansFromDegrees(best.at[cost.dials() + 2 * v]),
+              radiansFromDegrees(best.at[cost.dials() + 2 * v + 1])};
+    const echo::EchoLoop loop = ownLoop(dialsOf(cost, fit, best), loops[v].view, tilt, kFitFrames,
+                                        kSeed + static_cast<int>(v));
+    echo::SideOptions side;
+    side.ed_frame = 0;
+    own.discrepancies.emplace_back(loop, side, own.families[v]->at(dials, tilt));
+  }
+  const FitCost again(own.refer(), fit.dials, tilt_deg);
+  const FitDescent found = descendFit(again, {best.at, {}, 0}, monitor);
+  if (found.stopped) return {};
+  std::vector<double> error;
+  for (std::size_t i = 0; i < cost.dials(); ++i) error.push_back(found.best.at[i] - best.at[i]);
+  return error;
+}
+
+// Subtracts the error of the comparison itself from the hearts that were found.
+void correct(const FitCost& cost, const std::vector<double>& error,
+             std::vector<FitDescent>& descents, HeartFit& fit) {
+  for (std::size_t i = 0; i < error.size(); ++i) {
+    const FitUnknown& u = cost.unknowns()[i];
+    fit.own_error[u.name] = error[i];
+    for (FitDescent& descent : descents)
+      descent.best.at[i] = std::clamp(descent.best.at[i] - error[i], u.low, u.high);
   }
 }
 
@@ -212,6 +268,12 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
     descents = descentsFrom(cost, starts, progress, fit);
   }
   addViews(loops, sides, cost, descents.front().best, fit);
+  if (!fit.stopped && options.own_loops) {
+    const std::vector<double> error = ownError(loops, sides, cost, descents.front().best,
+                                               options.tilt_deg, fit, progress.ofLast());
+    fit.stopped = error.empty();
+    correct(cost, error, descents, fit);
+  }
   concludeFit(cost, descents, fit);
   fit.cpu_ms = 1e3 * (cpuSeconds() - since);
   return fit;

@@ -25,6 +25,8 @@ struct HeartFitOptions {
   double tilt_deg = 12;  // limit of tilt and rotation of each plane; 0: planes as the view has them
   int starts = 12;       // hearts that are compared first: the groups' means, then draws
   int descents = 2;      // from the best of them
+  // Fits the found heart's own rendered loops too, and subtracts the error that this has.
+  bool own_loops = true;
 };
 
 // At 90 %.
@@ -60,8 +62,9 @@ struct HeartFit {
   std::vector<DialFound> found;         // searched dials
   // Empty if the loops do not determine the ejection fraction: `refusal` has the reason.
   std::optional<Estimate> ef;
-  std::optional<Estimate> edv_ml, esv_ml;  // empty without a length scale too
-  std::vector<ViewFitted> views;
+  std::optional<Estimate> edv_ml, esv_ml;   // empty without a length scale too
+  std::map<std::string, double> own_error;  // subtracted, by dial
+  std::vector<ViewFitted> views;            // as they fitted before
   std::vector<HeartRival> rivals;
   std::vector<std::string> hints;  // why the result is uncertain and what would help
   std::string refusal;
