@@ -11,6 +11,7 @@
 
 #include "cli/compare_command.h"
 #include "cli/dataset_command.h"
+#include "cli/fit_command.h"
 #include "cli/heart_command.h"
 #include "cli/one_line.h"
 #include "cli/plan_command.h"
@@ -88,6 +89,7 @@ int run(int argc, char** argv) {
   echocine::StudyCommand study(app);
   echocine::HeartCommand heart(app);
   echocine::CompareCommand compare(app);
+  echocine::FitCommand fit(app);
   echocine::DatasetCommand dataset(app);
   try {
     // For the build alone, so not among what help lists: man pages and completions.
@@ -104,6 +106,7 @@ int run(int argc, char** argv) {
              : app.got_subcommand("plan")    ? plan.run()
              : app.got_subcommand("study")   ? study.run()
              : app.got_subcommand("compare") ? compare.run()
+             : app.got_subcommand("fit")     ? fit.run()
              : app.got_subcommand("dataset") ? dataset.run()
                                              : render.run();
     });

@@ -1,7 +1,6 @@
 #include "dataset/draws.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/hash_random.h"
 
@@ -88,18 +87,6 @@ Draw drawOf(const Spec& spec, int heart, int attempt) {
           valueAt({spec, heart, attempt, static_cast<int>(spec.views[v])}, parameter);
   }
   return draw;
-}
-
-std::vector<double> choleskyFactor(const std::vector<double>& correlations, std::size_t size) {
-  std::vector<double> factor(size * size, 0);
-  for (std::size_t i = 0; i < size; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      double rest = correlations[i * size + j];
-      for (std::size_t k = 0; k < j; ++k) rest -= factor[i * size + k] * factor[j * size + k];
-      if (i == j && !(rest > 1e-12)) return {};
-      factor[i * size + j] = i == j ? std::sqrt(rest) : rest / factor[j * size + j];
-    }
-  return factor;
 }
 
 }  // namespace echocine::dataset

@@ -30,8 +30,4 @@ Draw drawOf(const Spec& spec, int heart, int attempt);
 std::uint64_t hashFor(const Spec& spec, std::string_view purpose, int heart, int attempt,
                       int view = -1);
 
-// The lower Cholesky factor of a correlation matrix, row by row; empty if it is not positive
-// definite. Precondition: size * size entries.
-std::vector<double> choleskyFactor(const std::vector<double>& correlations, std::size_t size);
-
 }  // namespace echocine::dataset

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/cholesky.h"
 #include "core/file.h"
 #include "core/hash.h"
 #include "core/nearest_word.h"

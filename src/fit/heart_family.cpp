@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/check.h"
 #include "core/error.h"
@@ -18,33 +17,6 @@ namespace echocine::fit {
 
 namespace {
 
-// Chebyshev-Lobatto: ends included, dense towards them, so the polynomial stays tame.
-double nodeOf(const DialRange& range, int node, int nodes) {
-  const double t = std::cos(std::numbers::pi * (nodes - 1 - node) / (nodes - 1));
-  return 0.5 * (range.low + range.high) + 0.5 * (range.high - range.low) * t;
-}
-
-// Lagrange's polynomials of the nodes at x.
-std::vector<double> lagrange(const DialRange& range, int nodes, double x) {
-  std::vector<double> out;
-  for (int i = 0; i < nodes; ++i) {
-    double product = 1;
-    for (int j = 0; j < nodes; ++j)
-      if (j != i)
-        product *=
-            (x - nodeOf(range, j, nodes)) / (nodeOf(range, i, nodes) - nodeOf(range, j, nodes));
-    out.push_back(product);
-  }
-  return out;
-}
-
-// How far a polynomial through nodes may leave the middle of its values there, over half their
-// range: a bound of Lebesgue's constant for these nodes (Trefethen, Approximation Theory and
-// Approximation Practice, 2013, theorem 15.2).
-double mostOvershoot(int nodes) {
-  return 1 + 2 / std::numbers::pi * std::log(static_cast<double>(nodes));
-}
-
 void checkAngle(const char* argument, double angle_rad, double most_rad) {
   if (!(std::abs(angle_rad) <= most_rad * (1 + 1e-12)))
     throw SceneError(fmt::format("{}: is {:g}, accepted: up to {:g} either way, the family's limit",
@@ -57,28 +29,48 @@ void checkAngle(const char* argument, double angle_rad, double most_rad) {
 HeartNodes::HeartNodes(const std::map<std::string, double>& dials,
                        const std::vector<DialRange>& ranges, int frames, int nodes,
                        const Monitor& monitor)
-    : ranges_(ranges), nodes_(nodes), frames_(frames) {
+    : frames_(frames) {
   checkFamily(dials, ranges, nodes);
-  std::size_t count = 1;
-  for (std::size_t r = 0; r < ranges.size(); ++r) count *= static_cast<std::size_t>(nodes);
-  for (std::size_t n = 0; n < count; ++n) {
+  design_ = HeartDesign::grid(ranges, nodes);
+  compute(dials, monitor);
+}
+
+HeartNodes::HeartNodes(const std::map<std::string, double>& dials, HeartDesign design, int frames,
+                       const Monitor& monitor)
+    : design_(std::move(design)), frames_(frames) {
+  checkFamily(dials, design_.ranges(), kLeastNodes);
+  compute(dials, monitor);
+}
+
+void HeartNodes::compute(const std::map<std::string, double>& dials, const Monitor& monitor) {
+  constexpr int kMostMoves = 6;
+  for (std::size_t n = 0; n < design_.size(); ++n) {
     if (!monitor.keep_going()) throw JobError("stopped while hearts were computed");
-    std::map<std::string, double> here = dials;
-    std::size_t rest = n;
-    for (const DialRange& range : ranges) {
-      here[range.key] =
-          nodeOf(range, static_cast<int>(rest % static_cast<std::size_t>(nodes)), nodes);
-      rest /= static_cast<std::size_t>(nodes);
+    for (int moves = 0;; ++moves) {
+      try {
+        hearts_.push_back(computed(dials, n));
+        break;
+      } catch (const SceneError&) {
+        if (design_.nodes() > 0 || moves == kMostMoves) throw;
+        design_.moveIn(n);
+      }
     }
-    const heart::Parameters parameters = heart::parametersFrom(here);
-    if (const std::string fault = heart::faultOf(parameters); !fault.empty())
-      throw SceneError("heart: " + fault);
-    // Its view is that of the probe alone, which sceneOf() aims anew.
-    hearts_.push_back(
-        {parameters, heart::recordBeat(heart::ParametricHeart(parameters), heart::View::a4c, frames,
-                                       heart::KeyframeSpacing::even)});
-    monitor.tell({Task::hearts, n + 1, count});
+    monitor.tell({Task::hearts, n + 1, design_.size()});
   }
+  if (design_.nodes() == 0) design_.settle();
+}
+
+HeartNodes::Heart HeartNodes::computed(const std::map<std::string, double>& dials,
+                                       std::size_t place) const {
+  std::map<std::string, double> here = dials;
+  const std::vector<double> values = design_.at(place);
+  for (std::size_t r = 0; r < values.size(); ++r) here[ranges()[r].key] = values[r];
+  const heart::Parameters parameters = heart::parametersFrom(here);
+  if (const std::string fault = heart::faultOf(parameters); !fault.empty())
+    throw SceneError("heart: " + fault);
+  // Its view is that of the probe alone, which sceneOf() aims anew.
+  return {parameters, heart::recordBeat(heart::ParametricHeart(parameters), heart::View::a4c,
+                                        frames_, heart::KeyframeSpacing::even)};
 }
 
 Scene HeartNodes::sceneOf(std::size_t heart, heart::View view) const {
@@ -97,7 +89,7 @@ HeartFamily::HeartFamily(const std::map<std::string, double>& dials,
 
 HeartFamily::HeartFamily(const HeartNodes& hearts, heart::View view, const Monitor& monitor,
                          double tilt_deg)
-    : ranges_(hearts.ranges()), nodes_(hearts.nodes()), tilt_rad_(radiansFromDegrees(tilt_deg)) {
+    : design_(hearts.design()), tilt_rad_(radiansFromDegrees(tilt_deg)) {
   if (!(tilt_deg >= 0 && tilt_deg <= kMostTilt_deg))
     throw SceneError(
         fmt::format("tilt_deg: is {:g}, accepted: 0 to {:g}", tilt_deg, kMostTilt_deg));
@@ -131,8 +123,7 @@ HeartFamily::HeartFamily(const HeartNodes& hearts, heart::View view, const Monit
 // lie at y = x tan r + z tan t / cos r: a corner may be nearer to one of them by this.
 std::vector<char> HeartFamily::nearPlane(const SurfaceTopology& surface,
                                          const std::vector<Node>& recorded) const {
-  const auto reach =
-      static_cast<float>(std::pow(mostOvershoot(nodes_), static_cast<double>(ranges_.size())));
+  const auto reach = static_cast<float>(design_.overshoot());
   constexpr float kRounding_m = 1e-6f;
   const auto aside = static_cast<float>(std::tan(tilt_rad_)),
              below = static_cast<float>(std::tan(tilt_rad_) / std::cos(tilt_rad_));
@@ -209,22 +200,10 @@ void HeartFamily::keepCoordinates(const std::vector<Node>& recorded) {
     }
 }
 
-// Products of the polynomials of each dial, node by node.
-std::vector<float> HeartFamily::shares(const std::vector<double>& values) const {
-  std::vector<double> out{1};
-  for (std::size_t r = 0; r < ranges_.size(); ++r) {
-    std::vector<double> next;
-    for (const double own : lagrange(ranges_[r], nodes_, values[r]))
-      for (const double before : out) next.push_back(own * before);
-    out = std::move(next);
-  }
-  return {out.begin(), out.end()};
-}
-
 std::vector<SurfaceFrame> HeartFamily::surfacesAt(const std::vector<double>& values) const {
-  checkValues(ranges_, values);
+  checkValues(ranges(), values);
   static_assert(sizeof(Vec3f) == 3 * sizeof(float));
-  const std::vector<float> share = shares(values);
+  const std::vector<float> share = design_.shares(values);
   std::vector<SurfaceFrame> frames(coordinates_.size());
   for (std::size_t f = 0; f < frames.size(); ++f)
     for (std::size_t s = 0; s < surfaces_.size(); ++s) {
@@ -250,7 +229,7 @@ ModelLoop HeartFamily::at(const std::vector<double>& values, const PlaneTilt& ti
   std::vector<SurfaceFrame> surfaces = surfacesAt(values);
   if (tilt_rad_ > 0) tiltSurfaces(tilt, surfaces);
   ModelLoop loop = ModelPlane(scene_, surfaces_).cut(surfaces);
-  const std::vector<float> share = shares(values);
+  const std::vector<float> share = design_.shares(values);
   for (std::size_t n = 0; n < share.size(); ++n)
     loop.systole += static_cast<double>(share[n]) * systoles_[n];
   return loop;

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "core/monitor.h"
-#include "fit/dial_checks.h"
+#include "fit/heart_design.h"
 #include "fit/plane_tilt.h"
 #include "motion/heart/recording.h"
 
 namespace echocine::fit {
 
-// Hearts computed at Chebyshev-Lobatto nodes of each dial, shared by all views.
+// Hearts computed at the places of a design, shared by all views.
 class HeartNodes {
  public:
   // `dials`: fixed dials. Computes nodes^(number of ranges) hearts. Runs in parallel. Throws
@@ -22,8 +22,13 @@ class HeartNodes {
   HeartNodes(const std::map<std::string, double>& dials, const std::vector<DialRange>& ranges,
              int frames, int nodes, const Monitor& monitor = {});
 
-  const std::vector<DialRange>& ranges() const { return ranges_; }
-  int nodes() const { return nodes_; }  // for each dial
+  // Hearts at the places of a polynomial; an impossible one moves towards the centre. Throws like
+  // the other.
+  HeartNodes(const std::map<std::string, double>& dials, HeartDesign design, int frames,
+             const Monitor& monitor = {});
+
+  const HeartDesign& design() const { return design_; }
+  const std::vector<DialRange>& ranges() const { return design_.ranges(); }
   int frames() const { return frames_; }
   std::size_t size() const { return hearts_.size(); }
   // A heart as a scene of a view, computed at the phases of the frames.
@@ -34,12 +39,15 @@ class HeartNodes {
     heart::Parameters parameters;
     heart::Recording beat;  // without the surroundings of the heart
   };
-  std::vector<DialRange> ranges_;
-  int nodes_, frames_;
-  std::vector<Heart> hearts_;  // the first dial fastest
+  void compute(const std::map<std::string, double>& dials, const Monitor& monitor);
+  Heart computed(const std::map<std::string, double>& dials, std::size_t place) const;
+
+  HeartDesign design_;
+  int frames_;
+  std::vector<Heart> hearts_;  // by place of the design
 };
 
-// Between nodes, every surface point is the interpolating polynomial, in the probe's frame. The
+// Between nodes, every surface point is the design's polynomial, in the probe's frame. The
 // view follows each heart, so the plane moves with the dials as in `echocine heart`.
 class HeartFamily {
  public:
@@ -59,22 +67,19 @@ class HeartFamily {
   std::vector<SurfaceFrame> surfacesAt(const std::vector<double>& values) const;
 
   const Scene& scene() const { return scene_; }
-  const std::vector<DialRange>& ranges() const { return ranges_; }
-  int nodes() const { return nodes_; }
+  const std::vector<DialRange>& ranges() const { return design_.ranges(); }
 
  private:
   using Node = std::vector<SurfaceFrame>;  // a computed heart
-  std::vector<float> shares(const std::vector<double>& values) const;
   std::vector<char> nearPlane(const SurfaceTopology& surface,
                               const std::vector<Node>& recorded) const;
   void keepNearPlane(const std::vector<SurfaceTopology>& all, const std::vector<Node>& recorded);
   void keepCoordinates(const std::vector<Node>& recorded);
 
-  std::vector<DialRange> ranges_;
+  HeartDesign design_;
   std::vector<double> systoles_;  // end-systole of each computed heart, as a fraction of its beat
-  int nodes_;
-  double tilt_rad_;  // limit of tilt and rotation, either way
-  Scene scene_;      // of the first node, without meshes
+  double tilt_rad_;               // limit of tilt and rotation, either way
+  Scene scene_;                   // of the first node, without meshes
   std::vector<SurfaceTopology> surfaces_;
   std::vector<std::vector<std::uint32_t>> kept_;  // vertices, by surface
   // By frame and surface: eight coordinates of the first node, then the same eight of each other

@@ -12,8 +12,8 @@ namespace {
 
 using namespace support;
 
-const std::vector<std::string> kCommands{"render", "view",    "plan",   "study",
-                                         "heart",  "dataset", "compare"};
+const std::vector<std::string> kCommands{"render", "view",    "plan",    "study",
+                                         "heart",  "dataset", "compare", "fit"};
 
 std::string helpOf(const std::string& command) {
   return runShell("%B " + command + " --help").out;

@@ -1,0 +1,173 @@
+#include "cli/fit_command.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <deque>
+#include <string_view>
+
+#include "cli/documents.h"
+#include "cli/number_check.h"
+#include "cli/progress_line.h"
+#include "cli/stop_signal.h"
+#include "cli/view_list.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/stop.h"
+#include "fit/dial_scan.h"
+#include "fit/fit_results.h"
+#include "output/heart_files.h"
+#include "video/video.h"
+
+namespace echocine {
+
+namespace {
+
+struct ViewText {
+  heart::View view{};
+  std::string rest;
+};
+
+// "a4c=REST".
+ViewText namedIn(const char* option, const std::string& text, const char* example) {
+  const std::size_t at = text.find('=');
+  const auto view = heart::viewOf(text.substr(0, at));
+  if (at == std::string::npos || !view || at + 1 == text.size())
+    throw SceneError(fmt::format("{}: \"{}\" is not accepted: VIEW={}, VIEW one of {}", option,
+                                 text, example, viewList()));
+  return {*view, text.substr(at + 1)};
+}
+
+void printFit(const fit::HeartFit& fit, const std::filesystem::path& folder) {
+  const auto row = [](const char* name, const std::optional<fit::Estimate>& e, const char* unit,
+                      int digits) {
+    if (e)
+      fmt::print("  {:<4} {:.{}f} ({:.{}f} to {:.{}f} at 90 %){}\n", name, e->value, digits, e->low,
+                 digits, e->high, digits, unit);
+  };
+  fmt::print("{}{}\n", fit.stopped ? "stopped: the best heart so far, in " : "", folder.string());
+  row("EF", fit.ef, "", 3);
+  row("EDV", fit.edv_ml, " mL", 1);
+  row("ESV", fit.esv_ml, " mL", 1);
+  for (const std::string& hint : fit.hints) fmt::print("  {}\n", hint);
+}
+
+}  // namespace
+
+FitCommand::FitCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "fit", "Fit a beating heart with an error bar to one to three echo videos");
+  command
+      ->add_option("--view", views_,
+                   "A loop and its view, VIEW=FILE: a video, DICOM, folder of frames or of a "
+                   "render; VIEW one of " +
+                       viewList())
+      ->required()
+      ->type_name("VIEW=FILE");
+  command->add_option("-o,--output", folder_, "Folder for the results")->required();
+  command
+      ->add_option("--scale", scales_,
+                   "Length scale of a loop, VIEW=NUMBER in cm per pixel, 0.0001 to 10; without a "
+                   "scale no mL")
+      ->type_name("VIEW=CM");
+  command->add_option("--ed", ends_of_diastole_, "Frame of end-diastole, VIEW=NUMBER, from 0")
+      ->type_name("VIEW=FRAME");
+  command->add_option("--es", ends_of_systole_, "Frame of end-systole, VIEW=NUMBER, from 0")
+      ->type_name("VIEW=FRAME");
+  command->add_option("--fps", rates_, "Frame rate of a loop, VIEW=NUMBER, 0.5 to 10000")
+      ->type_name("VIEW=FPS");
+  command->add_option("--dials", dials_,
+                      "Fixed dials of the heart, such as hr=72,wall-thickness=11");
+  command
+      ->add_option("--tilt", tilt_deg_,
+                   fmt::format("Limit of tilt and rotation of each plane, degrees, 0 to {:g}",
+                               fit::kMostTilt_deg))
+      ->check(within(0, fit::kMostTilt_deg))
+      ->type_name("NUMBER")
+      ->capture_default_str();
+  command->add_flag("--no-ecg", no_ecg_, "Do not read an ECG from the pictures");
+  command->add_option("--threads", threads_, "Threads; default 0: one per core")
+      ->check(CLI::Range(0, 4096));
+  command->add_flag("--quiet", quiet_, "Print errors only");
+  command->footer(
+      "Example: echocine fit --view a4c=four.mp4 --scale a4c=0.021 --view a2c=two.dcm -o heart\n" +
+      std::string(kDocuments));
+}
+
+void FitCommand::setNumbers(const char* option, const std::vector<std::string>& given, double low,
+                            double high, std::vector<Side>& sides,
+                            std::optional<double> echo::SideOptions::*member, double unit) {
+  for (const std::string& text : given) {
+    const ViewText named = namedIn(option, text, "NUMBER");
+    const auto side = std::find_if(sides.begin(), sides.end(),
+                                   [&](const Side& s) { return s.view == named.view; });
+    if (side == sides.end())
+      throw SceneError(fmt::format("{}: {} has no loop; give --view {}=FILE", option,
+                                   keyOf(named.view), keyOf(named.view)));
+    double value = 0;
+    if (!CLI::detail::lexical_cast(named.rest, value) || !(value >= low && value <= high))
+      throw SceneError(fmt::format("{}: {} is not accepted: a number from {:g} to {:g}", option,
+                                   text, low, high));
+    side->options.*member = value * unit;
+  }
+}
+
+std::vector<FitCommand::Side> FitCommand::sides() const {
+  std::vector<Side> out;
+  for (const std::string& text : views_) {
+    const ViewText named = namedIn("--view", text, "FILE");
+    for (const Side& other : out)
+      if (other.view == named.view)
+        throw SceneError(fmt::format("--view: {} is given twice", keyOf(named.view)));
+    out.push_back({named.view, named.rest, {}});
+    out.back().options.read_ecg = !no_ecg_;
+  }
+  if (out.size() > fit::kMostLoops)
+    throw SceneError(
+        fmt::format("--view: {} loops, accepted: 1 to {}", out.size(), fit::kMostLoops));
+  constexpr double kMmPerCm = 10;
+  setNumbers("--scale", scales_, echo::kLeastScale_mm / kMmPerCm, echo::kMostScale_mm / kMmPerCm,
+             out, &echo::SideOptions::mm_per_pixel, kMmPerCm);
+  setNumbers("--ed", ends_of_diastole_, 0, echo::kMostFrame, out, &echo::SideOptions::ed_frame);
+  setNumbers("--es", ends_of_systole_, 0, echo::kMostFrame, out, &echo::SideOptions::es_frame);
+  setNumbers("--fps", rates_, kLeastFrameRate_hz, kMostFrameRate_hz, out, &echo::SideOptions::fps);
+  return out;
+}
+
+int FitCommand::run() {
+  const std::vector<Side> given = sides();
+  fit::HeartFitOptions options;
+  options.dials = fit::parseDials(dials_);
+  options.tilt_deg = tilt_deg_;
+  const std::filesystem::path heart = folder_ / "heart";
+  std::error_code error;
+  if (std::filesystem::exists(heart, error))
+    throw SceneError(fmt::format("{}: exists; remove it or give another -o", heart.string()));
+  std::deque<echo::EchoLoop> read;
+  std::vector<fit::FitLoop> loops;
+  std::vector<std::string> labels;
+  for (const Side& side : given) {
+    read.push_back(echo::readLoop(side.file, side.options, true));
+    loops.push_back({side.view, read.back(), side.options});
+    labels.push_back(read.back().label);
+  }
+  ProgressLine line(quiet_);
+  fit::HeartFit fit;
+  withThreads(threads_, [&] { fit = fitHeart(loops, options, line.monitor()); });
+  line.finish();
+  // A stopped fit keeps its best heart.
+  unstoppable([&] {
+    if (fit.ef)
+      writeHeart({.parameters = heart::parametersFrom(fit.dials), .view = given.front().view},
+                 heart);
+    writeFit(fit, labels, folder_);
+  });
+  if (!fit.refusal.empty()) throw JobError("no result: " + fit.refusal);
+  if (!quiet_) printFit(fit, folder_);
+  if (fit.stopped)
+    throw JobError(fmt::format("stopped: {} has the best heart so far", folder_.string()));
+  return 0;
+}
+
+}  // namespace echocine

@@ -1,0 +1,42 @@
+#pragma once
+// echocine fit --view a4c=FILE --view a2c=FILE -o DIR
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fit/heart_fit.h"
+
+namespace CLI {
+class App;
+}
+
+namespace echocine {
+
+// A beating heart from one to three echo loops.
+class FitCommand {
+ public:
+  explicit FitCommand(CLI::App& app);  // adds the sub-command
+  int run();                           // exit code; throws JobError for a refused result
+
+ private:
+  struct Side {
+    heart::View view{};
+    std::filesystem::path file;
+    echo::SideOptions options;
+  };
+  std::vector<Side> sides() const;
+  // Sets one member of the named view's options from each VIEW=NUMBER.
+  static void setNumbers(const char* option, const std::vector<std::string>& given, double low,
+                         double high, std::vector<Side>& sides,
+                         std::optional<double> echo::SideOptions::*member, double unit = 1);
+
+  std::vector<std::string> views_, scales_, ends_of_diastole_, ends_of_systole_, rates_;
+  std::string dials_;
+  double tilt_deg_ = fit::HeartFitOptions{}.tilt_deg;
+  std::filesystem::path folder_;
+  int threads_ = 0;
+  bool quiet_ = false, no_ecg_ = false;
+};
+
+}  // namespace echocine

@@ -1,0 +1,82 @@
+#pragma once
+// The cost of a heart in one to three views: one function for starts, steps, stop and intervals.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fit/heart_family.h"
+#include "fit/heart_prior.h"
+#include "fit/quadratic.h"
+
+namespace echocine::fit {
+
+// A dial, or the tilt or rotation of a view's plane in degrees.
+struct FitUnknown {
+  std::string name;
+  double low = 0, high = 0;
+  double step = 1;  // of differences: about an SD of what a loop leaves
+};
+
+struct FitPlace {
+  std::vector<double> at;        // by unknown
+  std::vector<PoseFound> found;  // by view
+  double cost = 0;
+};
+
+// A loop's model and its comparison, which must outlive the cost.
+struct FitSide {
+  const HeartFamily* family;
+  const ModelDiscrepancy* discrepancy;
+};
+
+// Independent samples of a loop in Eq. 14. Our choice: with 200, the prior moved EF of planted
+// hearts by up to 0.02.
+inline constexpr double kLoopSamples = 1000;
+// SD of tilt and rotation of a plane about its view. Our choice: planes of the same view by
+// different people are a few degrees apart.
+inline constexpr double kTiltSd_deg = 4, kRotateSd_deg = 5;
+
+// (14)  J = sum over views of N/2 ln D + (tilt/4)^2/2 + (rotate/5)^2/2,  minus ln p(dials)
+// with D at the pose of lowest D. If D is a share of variance, N/2 ln D is minus the log-likelihood
+// of N independent samples of unknown variance. N: kLoopSamples; p: HeartPrior.
+class FitCost {
+ public:
+  // `dials`: fixed ones. `tilt_deg`: limit of tilt and rotation; 0: not unknown. Precondition: all
+  // families have the same ranges.
+  FitCost(std::vector<FitSide> sides, const std::map<std::string, double>& dials, double tilt_deg);
+
+  const std::vector<FitUnknown>& unknowns() const { return unknowns_; }
+  std::size_t dials() const { return dials_; }  // the first unknowns
+  std::size_t views() const { return sides_.size(); }
+
+  // Poses near those of `from`, or searched globally if it is empty. Runs in parallel.
+  FitPlace at(const std::vector<double>& at, const std::vector<PoseFound>& from) const;
+  double priorCost(const std::vector<double>& at) const;
+  // Differences with `part` of each unknown's step about a place, in these steps; `middle` receives
+  // their centre, which keeps them within the limits. Runs in parallel.
+  Quadratic around(const FitPlace& place, double part, std::vector<double>& middle,
+                   const Monitor& monitor) const;
+  // Values of the unknowns, given in steps from a place.
+  std::vector<double> moved(const std::vector<double>& from, const std::vector<double>& steps,
+                            double part) const;
+
+ private:
+  std::vector<std::size_t> unknownsOf(std::size_t view) const;
+  PoseFound viewAt(std::size_t view, const std::vector<double>& at, const PoseFound* from) const;
+  Quadratic viewAround(std::size_t view, const PoseFound& from, const std::vector<double>& middle,
+                       double part, const Monitor& monitor) const;
+  Quadratic priorAround(const std::vector<double>& middle, double part) const;
+
+  std::vector<FitSide> sides_;
+  std::map<std::string, double> fixed_;
+  std::vector<FitUnknown> unknowns_;
+  std::size_t dials_ = 0;
+  bool tilts_ = false;
+  HeartPrior prior_;
+};
+
+// Dials of the prior's table for a heart with these dials.
+PriorDials priorDialsOf(const std::map<std::string, double>& dials);
+
+}  // namespace echocine::fit

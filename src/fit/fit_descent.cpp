@@ -1,0 +1,67 @@
+#include "fit/fit_descent.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace echocine::fit {
+
+namespace {
+
+constexpr int kMostHalvings = 3;
+constexpr double kLeastGain = 0.1;
+constexpr double kMostSteps = 2;      // of each unknown in a round
+constexpr double kLeastCurve = 0.04;  // J per square of a step: an SD of five steps
+
+// The best of a straight way from the place to the quadratic's minimum.
+FitPlace taken(const FitCost& cost, const FitPlace& from, const Quadratic& q,
+               const std::vector<double>& middle) {
+  std::vector<double> low, high;
+  for (std::size_t i = 0; i < middle.size(); ++i) {
+    const FitUnknown& u = cost.unknowns()[i];
+    low.push_back(std::max(-kMostSteps, (u.low - middle[i]) / u.step));
+    high.push_back(std::min(kMostSteps, (u.high - middle[i]) / u.step));
+  }
+  const std::vector<double> to = cost.moved(middle, minimumWithin(q, low, high), 1);
+  FitPlace best = from;
+  double share = 1;
+  for (int halving = 0; halving <= kMostHalvings; ++halving, share /= 2) {
+    std::vector<double> at = from.at;
+    for (std::size_t i = 0; i < at.size(); ++i) at[i] += share * (to[i] - from.at[i]);
+    FitPlace place = cost.at(at, from.found);
+    if (place.cost < best.cost)
+      best = std::move(place);
+    else if (best.cost < from.cost)
+      break;
+  }
+  return best;
+}
+
+}  // namespace
+
+FitDescent descendFit(const FitCost& cost, const FitPlace& start, const Monitor& monitor) {
+  FitDescent out{start, {}, false};
+  try {
+    out.best = cost.at(start.at, {});
+    for (int round = 0; round < kMostFitRounds; ++round) {
+      std::vector<double> middle;
+      const Quadratic q = convex(cost.around(out.best, 1, middle, monitor), kLeastCurve);
+      out.covariance = covarianceOf(q);
+      for (std::size_t i = 0; i < middle.size(); ++i)
+        for (std::size_t j = 0; j < middle.size(); ++j)
+          out.covariance[i * middle.size() + j] *=
+              cost.unknowns()[i].step * cost.unknowns()[j].step;
+      FitPlace next = taken(cost, out.best, q, middle);
+      const double gain = out.best.cost - next.cost;
+      out.best = std::move(next);
+      monitor.tell({Task::settings, static_cast<std::size_t>(round) + 1, kMostFitRounds});
+      if (gain < kLeastGain) break;
+    }
+  } catch (const JobError&) {
+    if (monitor.keep_going()) throw;
+    out.stopped = true;
+  }
+  return out;
+}
+
+}  // namespace echocine::fit

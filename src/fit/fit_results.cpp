@@ -1,0 +1,135 @@
+#include "fit/fit_results.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/units.h"
+#include "fit/fit_report.h"
+#include "fit/results_folder.h"
+#include "motion/heart/heart_cycle.h"
+
+namespace echocine::fit {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json estimateJson(const std::optional<Estimate>& e) {
+  if (!e) return {};
+  return {{"value", e->value}, {"low", e->low}, {"high", e->high}};
+}
+
+Json dialsJson(const HeartFit& fit) {
+  Json out = Json::array();
+  for (const DialFound& dial : fit.found) {
+    // Without a length scale no mL and no mm.
+    if (!fit.edv_ml && std::string(dialOf("dials", dial.key).unit) != "1") continue;
+    out.push_back({{"dial", dial.key},
+                   {"value", dial.value},
+                   {"sd", dial.sd},
+                   {"prior_sd", dial.prior_sd},
+                   {"told", dial.told},
+                   {"at_limit", dial.at_limit}});
+  }
+  return out;
+}
+
+Json viewsJson(const HeartFit& fit, const std::vector<std::string>& labels) {
+  Json out = Json::array();
+  for (std::size_t v = 0; v < fit.views.size(); ++v) {
+    const ViewFitted& view = fit.views[v];
+    Json json{{"view", keyOf(view.view)}, {"loop", labels[v]}, {"has_scale", view.scaled}};
+    json["fit"] = foundJson(view.found);
+    json["tilt_deg"] = degreesFromRadians(view.tilt.tilt_rad);
+    json["rotate_deg"] = degreesFromRadians(view.tilt.rotate_rad);
+    json["beat"] = beatJson(view.beat);
+    out.push_back(std::move(json));
+  }
+  return out;
+}
+
+// Subtracted from the dials.
+Json ownErrorJson(const HeartFit& fit) {
+  Json out = Json::object();
+  for (const auto& [key, error] : fit.own_error)
+    if (fit.edv_ml || std::string(dialOf("dials", key).unit) == "1") out[key] = error;
+  return out;
+}
+
+Json rivalsJson(const HeartFit& fit) {
+  Json out = Json::array();
+  for (const HeartRival& rival : fit.rivals) {
+    Json json{{"ef", rival.ef}, {"cost_above", rival.cost_above}};
+    if (fit.edv_ml) json["dials"] = rival.dials;
+    out.push_back(std::move(json));
+  }
+  return out;
+}
+
+Json fitJsonOf(const HeartFit& fit, const std::vector<std::string>& labels) {
+  Json json{{"version", ECHOCINE_VERSION},
+            {"result",
+             {{"interval", 0.9},
+              {"ef", estimateJson(fit.ef)},
+              {"edv_ml", estimateJson(fit.edv_ml)},
+              {"esv_ml", estimateJson(fit.esv_ml)}}},
+            {"refusal", fit.refusal.empty() ? Json() : Json(fit.refusal)},
+            {"hints", fit.hints},
+            {"dials", dialsJson(fit)},
+            {"own_error", ownErrorJson(fit)},
+            {"views", viewsJson(fit, labels)},
+            {"rivals", rivalsJson(fit)},
+            {"assumptions", assumptionsOf(fit)},
+            {"stopped", fit.stopped},
+            {"cost", fit.cost},
+            {"cpu_s", 1e-3 * fit.cpu_ms}};
+  return json;
+}
+
+// V(t) = EDV (1 - EF e(t)), e: share of the stroke volume ejected so far. The interval scales the
+// relative SD of EDV and ESV between end-diastole and end-systole.
+std::string curvesCsv(const HeartFit& fit) {
+  constexpr int kInstants = 50;
+  const heart::Parameters parameters = heart::parametersFrom(fit.dials);
+  const heart::Cycle cycle(parameters);
+  const double edv = fit.edv_ml ? fit.edv_ml->value : 1;
+  std::string text = fit.edv_ml ? "phase,lv_ml,low_ml,high_ml\n" : "phase,lv_per_edv,low,high\n";
+  const Estimate end =
+      fit.esv_ml ? *fit.esv_ml : Estimate{1 - fit.ef->value, 1 - fit.ef->high, 1 - fit.ef->low};
+  const Estimate rest = fit.edv_ml.value_or(Estimate{1, 1, 1});
+  for (int i = 0; i < kInstants; ++i) {
+    const double phase = static_cast<double>(i) / kInstants;
+    const double ejected = cycle.at(phase).left.ejected;
+    text += fmt::format("{:.3f},{:.6g},{:.6g},{:.6g}\n", phase, edv * (1 - fit.ef->value * ejected),
+                        rest.low + ejected * (end.low - rest.low),
+                        rest.high + ejected * (end.high - rest.high));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> assumptionsOf(const HeartFit& fit) {
+  std::vector<std::string> out{
+      "the heart is one of the parametric family: other shapes and still walls are not fitted",
+      "the prior is that of people with and without an infarct, in equal parts",
+      "the interval holds the noise of the loops and the error of the model on planted hearts"};
+  for (const ViewFitted& view : fit.views) {
+    if (view.beat.length_source == kLoopIsBeat)
+      out.push_back(fmt::format("{}: {}", keyOf(view.view), kLoopIsBeat));
+    if (!view.scaled)
+      out.push_back(fmt::format("{}: the sector has the model's depth", keyOf(view.view)));
+  }
+  return out;
+}
+
+void writeFit(const HeartFit& fit, const std::vector<std::string>& labels,
+              const std::filesystem::path& folder) {
+  const ResultsFolder results(folder, {"fit.json", "curves.csv"});
+  if (fit.ef) results.write("curves.csv", curvesCsv(fit));
+  results.write("fit.json", fitJsonOf(fit, labels).dump(1) + "\n");
+}
+
+}  // namespace echocine::fit

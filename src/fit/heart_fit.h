@@ -1,0 +1,85 @@
+#pragma once
+// A heart from one to three echo loops: its dials, ejection fraction and volumes with intervals.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fit/fit_cost.h"
+
+namespace echocine::fit {
+
+// A loop of a named view. The reference must outlive the fit.
+struct FitLoop {
+  heart::View view{};
+  const echo::EchoLoop& loop;
+  echo::SideOptions side{};
+};
+inline constexpr std::size_t kMostLoops = 3;
+
+struct HeartFitOptions {
+  std::map<std::string, double> dials;  // fixed; other dials follow them
+  // Searched dials, of kPriorDials.
+  std::vector<std::string> searched{kPriorDials.begin(), kPriorDials.end()};
+  double tilt_deg = 12;  // limit of tilt and rotation of each plane; 0: planes as the view has them
+  int starts = 12;       // hearts that are compared first: the groups' means, then draws
+  int descents = 2;      // from the best of them
+  // Fits the found heart's own rendered loops too, and subtracts the error that this has.
+  bool own_loops = true;
+};
+
+// At 90 %.
+struct Estimate {
+  double value = 0, low = 0, high = 0;
+};
+
+struct DialFound {
+  std::string key;
+  double value = 0, sd = 0, prior_sd = 0;
+  bool at_limit = false;
+  bool told = true;  // false: no narrower than the prior, which the value then is
+};
+
+// One view of the fitted heart.
+struct ViewFitted {
+  heart::View view{};
+  BeatFound beat;
+  PlaneTilt tilt;
+  PoseFound found;
+  bool scaled = true;  // the loop has a length scale
+};
+
+// Another descent's end.
+struct HeartRival {
+  std::map<std::string, double> dials;
+  double ef = 0, edv_ml = 0;
+  double cost_above = 0;  // J minus that of the best
+};
+
+struct HeartFit {
+  std::map<std::string, double> dials;  // of the heart: fixed and found
+  std::vector<DialFound> found;         // searched dials
+  // Empty if the loops do not determine the ejection fraction: `refusal` has the reason.
+  std::optional<Estimate> ef;
+  std::optional<Estimate> edv_ml, esv_ml;   // empty without a length scale too
+  std::map<std::string, double> own_error;  // subtracted, by dial
+  std::vector<ViewFitted> views;            // as they fitted before
+  std::vector<HeartRival> rivals;
+  std::vector<std::string> hints;  // why the result is uncertain and what would help
+  std::string refusal;
+  bool stopped = false;  // the best so far
+  double cost = 0;       // J of Eq. 14
+  double cpu_ms = 0;
+};
+
+// Fits by Eq. 14: starts from the prior, then steps to the minimum of a quadratic through
+// differences of J, from the best starts. Poses, tilts and dials are estimated jointly; the start
+// and the end-systole of each loop's beat once, with the best start. Intervals: fit_interval.h.
+// Throws SceneError for no loop, more than kMostLoops, a view given twice, options out of range, or
+// a loop that ModelDiscrepancy refuses; JobError if it is stopped before a start is known. Runs in
+// parallel; the result does not depend on the threads.
+HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& options = {},
+                  const Monitor& monitor = {});
+
+}  // namespace echocine::fit

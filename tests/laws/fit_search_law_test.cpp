@@ -1,0 +1,111 @@
+// What a fit of dials stands on: places of hearts, shares between them, and a quadratic's minimum.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/hash_random.h"
+#include "fit/heart_design.h"
+#include "fit/quadratic.h"
+
+namespace echocine::fit {
+namespace {
+
+const std::vector<DialRange>& fiveDials() {
+  static const std::vector<DialRange> kRanges{{"ef", 0.15, 0.75},
+                                              {"edv", 50, 280},
+                                              {"wall-thickness", 5, 15},
+                                              {"sphericity", 0.46, 0.78},
+                                              {"mapse", 3, 20}};
+  return kRanges;
+}
+
+std::vector<double> drawnWithin(const std::vector<DialRange>& ranges, int n) {
+  std::vector<double> out;
+  for (const DialRange& range : ranges)
+    out.push_back(range.low + (range.high - range.low) *
+                                  uniformFromHash(hashOf(n, static_cast<int>(out.size()), 5)));
+  return out;
+}
+
+// A cubic in the first two dials and a quadratic in all is reproduced everywhere, also after places
+// have moved.
+TEST(FitDesign, PolynomialsAreReproduced) {
+  const auto f = [](const std::vector<double>& v) {
+    const double e = v[0], d = v[1] / 100;
+    return 3 + 2 * e - e * e * e + e * d * d - 0.3 * d * d * d + 0.1 * v[2] * v[3] + v[4] * e -
+           0.02 * v[4] * v[4];
+  };
+  HeartDesign design = HeartDesign::polynomial(fiveDials());
+  EXPECT_EQ(design.size(), 30u);  // 25 terms and a fifth more
+  for (int round = 0; round < 2; ++round) {
+    for (int n = 0; n < 50; ++n) {
+      const std::vector<double> at = drawnWithin(fiveDials(), n);
+      const std::vector<float> shares = design.shares(at);
+      double sum = 0, one = 0, size = 0;
+      for (std::size_t i = 0; i < shares.size(); ++i) {
+        sum += static_cast<double>(shares[i]) * f(design.at(i));
+        one += static_cast<double>(shares[i]);
+        size += std::abs(static_cast<double>(shares[i]));
+      }
+      EXPECT_NEAR(sum, f(at), 1e-4);
+      EXPECT_NEAR(one, 1, 1e-5);
+      EXPECT_LE(size, design.overshoot());
+    }
+    design.moveIn(7);
+    design.moveIn(19);
+    design.settle();
+  }
+}
+
+TEST(FitDesign, AGridInterpolatesAtItsPlaces) {
+  const HeartDesign grid = HeartDesign::grid({{"ef", 0.3, 0.7}, {"edv", 80, 220}}, 3);
+  ASSERT_EQ(grid.size(), 9u);
+  for (std::size_t n = 0; n < grid.size(); ++n) {
+    const std::vector<float> shares = grid.shares(grid.at(n));
+    for (std::size_t i = 0; i < shares.size(); ++i)
+      EXPECT_NEAR(shares[i], i == n ? 1 : 0, 1e-6) << n << " " << i;
+  }
+  EXPECT_NEAR(grid.at(1)[0], 0.5, 1e-12);  // the first dial fastest
+  EXPECT_NEAR(grid.at(1)[1], 80, 1e-12);
+}
+
+Quadratic bowl() {
+  Quadratic q(2);
+  q.gradient = {-3, 1};
+  q.hessian = {2, 0.8, 0.8, 1};
+  return q;
+}
+
+// The minimum solves H u = -g; at a limit the other unknown has its own minimum there.
+TEST(FitQuadratic, TheMinimumIsThatOfTheSystem) {
+  const Quadratic q = convex(bowl(), 1e-6);
+  const double determinant = 2 * 1 - 0.8 * 0.8;
+  const std::vector<double> u = minimumWithin(q, {-9, -9}, {9, 9});
+  EXPECT_NEAR(u[0], (1 * 3 + 0.8 * 1) / determinant, 1e-6);
+  EXPECT_NEAR(u[1], (-0.8 * 3 - 2 * 1) / determinant, 1e-6);
+  const std::vector<double> held = minimumWithin(q, {-1, -9}, {1, 9});
+  EXPECT_EQ(held[0], 1);
+  EXPECT_NEAR(held[1], -1 - 0.8, 1e-9);
+  EXPECT_LT(q.at(u), q.at(held));
+}
+
+TEST(FitQuadratic, CovarianceIsTheInverseCurvature) {
+  const std::vector<double> c = covarianceOf(convex(bowl(), 1e-6));
+  const double determinant = 2 * 1 - 0.8 * 0.8;
+  EXPECT_NEAR(c[0], 1 / determinant, 1e-9);
+  EXPECT_NEAR(c[1], -0.8 / determinant, 1e-9);
+  EXPECT_NEAR(c[3], 2 / determinant, 1e-9);
+}
+
+// A saddle gets the least curvature along its falling direction and keeps the other.
+TEST(FitQuadratic, ASaddleBecomesConvex) {
+  Quadratic q(2);
+  q.hessian = {0, 2, 2, 0};  // eigenvalues 2 and -2
+  const Quadratic mended = convex(q, 0.1);
+  EXPECT_NEAR(mended.hessian[0], (2 + 0.1) / 2, 1e-9);
+  EXPECT_NEAR(mended.hessian[1], (2 - 0.1) / 2, 1e-9);
+}
+
+}  // namespace
+}  // namespace echocine::fit
