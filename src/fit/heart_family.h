@@ -68,6 +68,7 @@ class HeartFamily {
 
   const Scene& scene() const { return scene_; }
   const std::vector<DialRange>& ranges() const { return design_.ranges(); }
+  int nodes() const { return design_.nodes(); }  // of each dial in a grid; 0: a polynomial
 
  private:
   using Node = std::vector<SurfaceFrame>;  // a computed heart
