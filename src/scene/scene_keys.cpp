@@ -178,6 +178,7 @@ constexpr SceneKey kKeys[] = {
     {"output", "png", kNone, kAny, "png/frame_*.png", AT(OutputSettings, png)},
     {"output", "dicom", kNone, kAny, "cine.dcm: DICOM Ultrasound Multi-frame", AT(OutputSettings, dicom)},
     {"output", "report", kNone, kAny, "report.html: the run on one page", AT(OutputSettings, report)},
+    {"output", "volumes", kNone, kAny, "volumes.csv: volumes of chambers and strain by frame", AT(OutputSettings, volumes)},
     {"output", "width", kPx, kPixels, "of the picture", AT(OutputSettings, width)},
     {"output", "height", kPx, kPixels, "of the picture", AT(OutputSettings, height)},
     {"output", "ecg", kNone, kAny, "the ECG below the picture", AT(OutputSettings, ecg)},
