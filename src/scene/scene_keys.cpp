@@ -157,7 +157,9 @@ constexpr SceneKey kKeys[] = {
     {"signal", "gain_db", kDb, ranges::kPictureGain_db, "of the picture: white is so far below the reference", AT(SignalSettings, gain_db)},
     {"signal", "interface_gain_db", kDb, ranges::kPictureGain_db, "of interface echoes against tissue, in the picture alone", AT(SignalSettings, interface_gain_db)},
     {"signal", "interface_limit_db", kDb, ranges::kLevel_db, "echoes E become E / (1 + E / limit) in the picture, limit relative to I_S; no limit if left out", AT(SignalSettings, interface_limit_db)},
-    {"signal", "grey_gamma", kNone, ranges::kGamma, "grey = (position in the dynamic range)^gamma", AT(SignalSettings, grey_gamma)},
+    {"signal", "grey_gamma", kNone, ranges::kGamma, "grey = c^gamma, c the position in the dynamic range, bent by toe and shoulder", AT(SignalSettings, grey_gamma)},
+    {"signal", "grey_toe", kNone, ranges::kGreyToe, "lowest share of the dynamic range that is black", AT(SignalSettings, grey_toe)},
+    {"signal", "grey_shoulder", kNone, ranges::kGreyShoulder, "highest share of the dynamic range, over which the slope falls to 0 at white", AT(SignalSettings, grey_shoulder)},
 
     {"accuracy", "rays_per_beam", kNone, kRays, "from 2 on averaged over the beam's profile across and along the lines, in Y too; embree only", AT(AccuracySettings, rays_per_beam)},
     {"accuracy", "elevation_slices", kNone, kSlices, "1, 3 or 5 slices across the plane, averaged over the beam of the lens; plane slice only", AT(AccuracySettings, elevation_slices)},
