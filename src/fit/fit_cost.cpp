@@ -90,10 +90,23 @@ std::vector<std::size_t> FitCost::unknownsOf(std::size_t view) const {
   return out;
 }
 
-double FitCost::priorCost(const std::vector<double>& at) const {
+std::vector<double> FitCost::searchedAt(const std::vector<double>& at) const {
+  return {at.begin(), at.begin() + static_cast<std::ptrdiff_t>(dials_)};
+}
+
+std::map<std::string, double> FitCost::dialsAt(const std::vector<double>& at) const {
   std::map<std::string, double> dials = fixed_;
   for (std::size_t i = 0; i < dials_; ++i) dials[unknowns_[i].name] = at[i];
-  double cost = -prior_.logDensity(priorDialsOf(dials));
+  return dials;
+}
+
+PlaneTilt FitCost::tiltAt(const std::vector<double>& at, std::size_t view) const {
+  if (!tilts_) return {};
+  return {radiansFromDegrees(at[dials_ + 2 * view]), radiansFromDegrees(at[dials_ + 2 * view + 1])};
+}
+
+double FitCost::priorCost(const std::vector<double>& at) const {
+  double cost = -prior_.logDensity(priorDialsOf(dialsAt(at)));
   for (std::size_t i = dials_; i < at.size(); i += 2)
     cost += 0.5 * std::pow(at[i] / kTiltSd_deg, 2) + 0.5 * std::pow(at[i + 1] / kRotateSd_deg, 2);
   return cost;
@@ -102,12 +115,7 @@ double FitCost::priorCost(const std::vector<double>& at) const {
 PoseFound FitCost::viewAt(std::size_t view, const std::vector<double>& at,
                           const PoseFound* from) const {
   const FitSide& side = sides_[view];
-  const std::vector<double> dials(at.begin(), at.begin() + static_cast<std::ptrdiff_t>(dials_));
-  PlaneTilt tilt;
-  if (tilts_)
-    tilt = {radiansFromDegrees(at[dials_ + 2 * view]),
-            radiansFromDegrees(at[dials_ + 2 * view + 1])};
-  const ModelLoop model = side.family->at(dials, tilt);
+  const ModelLoop model = side.family->at(searchedAt(at), tiltAt(at, view));
   return from != nullptr ? side.discrepancy->refine(model, {from->pose})
                          : side.discrepancy->search(model);
 }

@@ -52,6 +52,13 @@ class FitCost {
 
   // Poses near those of `from`, or searched globally if it is empty. Runs in parallel.
   FitPlace at(const std::vector<double>& at, const std::vector<PoseFound>& from) const;
+  // Parts of a place: values of the searched dials, all dials with the fixed ones, and the tilt of
+  // a view's plane (none if tilts are not unknown).
+  std::vector<double> searchedAt(const std::vector<double>& at) const;
+  std::map<std::string, double> dialsAt(const std::vector<double>& at) const;
+  PlaneTilt tiltAt(const std::vector<double>& at, std::size_t view) const;
+
+  const HeartPrior& prior() const { return prior_; }
   double priorCost(const std::vector<double>& at) const;
   // Differences with `part` of each unknown's step about a place, in these steps; `middle` receives
   // their centre, which keeps them within the limits. Runs in parallel.

@@ -34,13 +34,6 @@ double covarianceAt(const FitDescent& d, std::size_t i, std::size_t j) {
   return i < n && j < n && !d.covariance.empty() ? d.covariance[i * n + j] : 0;
 }
 
-std::map<std::string, double> dialsAt(const FitCost& cost, const std::map<std::string, double>& all,
-                                      const FitPlace& place) {
-  std::map<std::string, double> out = all;
-  for (std::size_t i = 0; i < cost.dials(); ++i) out[cost.unknowns()[i].name] = place.at[i];
-  return out;
-}
-
 Estimate estimateOf(double value, double variance) {
   const double half = kNinety * std::sqrt(std::max(0.0, variance));
   return {value, value - half, value + half};
@@ -52,12 +45,10 @@ void widen(Estimate& e, double other) {
 }
 
 void addDials(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
-  const HeartPrior prior;
   for (std::size_t i = 0; i < cost.dials(); ++i) {
     const FitUnknown& u = cost.unknowns()[i];
     DialFound dial{u.name, best.best.at[i], std::sqrt(covarianceAt(best, i, i)), 0, false, true};
-    for (std::size_t p = 0; p < kPriorDialCount; ++p)
-      if (u.name == kPriorDials[p]) dial.prior_sd = prior.sd()[p];
+    if (const auto p = priorDialOf(u.name)) dial.prior_sd = cost.prior().sd()[*p];
     if (best.covariance.empty()) dial.sd = dial.prior_sd;
     const double near = 1e-3 * (u.high - u.low);
     dial.at_limit = dial.value < u.low + near || dial.value > u.high - near;
@@ -108,10 +99,8 @@ void addResults(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
   const double ef = dials[kEf], edv = dials[kEdv_ml];
   Spread s{covarianceAt(best, e, e) + error.ef * error.ef,
            covarianceAt(best, v, v) + std::pow(error.edv * edv, 2), covarianceAt(best, e, v)};
-  if (best.covariance.empty()) {
-    const HeartPrior prior;
-    s = {std::pow(prior.sd()[kEf], 2), std::pow(prior.sd()[kEdv_ml], 2), 0};
-  }
+  if (best.covariance.empty())
+    s = {std::pow(cost.prior().sd()[kEf], 2), std::pow(cost.prior().sd()[kEdv_ml], 2), 0};
   fit.ef = estimateOf(ef, s.ef);
   const bool scaled = std::all_of(fit.views.begin(), fit.views.end(),
                                   [](const ViewFitted& view) { return view.scaled; });
@@ -128,7 +117,7 @@ void addRivals(const FitCost& cost, const std::vector<FitDescent>& descents, Hea
   const Estimate ef = fit.ef.value_or(Estimate{});
   for (std::size_t i = 1; i < descents.size(); ++i) {
     const FitPlace& other = descents[i].best;
-    HeartRival rival{dialsAt(cost, fit.dials, other), 0, 0, other.cost - fit.cost};
+    HeartRival rival{cost.dialsAt(other.at), 0, 0, other.cost - fit.cost};
     const PriorDials dials = priorDialsOf(rival.dials);
     rival.ef = dials[kEf], rival.edv_ml = dials[kEdv_ml];
     fit.rivals.push_back(rival);
@@ -154,7 +143,7 @@ ModelError modelErrorOf(std::size_t views) {
 void concludeFit(const FitCost& cost, const std::vector<FitDescent>& descents, HeartFit& fit) {
   const FitDescent& best = descents.front();
   fit.cost = best.best.cost;
-  fit.dials = dialsAt(cost, fit.dials, best.best);
+  fit.dials = cost.dialsAt(best.best.at);
   addDials(cost, best, fit);
   addHints(fit);
   fit.refusal = refusalOf(fit);

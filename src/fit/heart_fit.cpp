@@ -19,16 +19,6 @@ namespace echocine::fit {
 
 namespace {
 
-// Adult hearts, failing to vigorous. Our choice.
-const std::vector<DialRange>& searchedRanges() {
-  static const std::vector<DialRange> kRanges{{"ef", 0.15, 0.75},
-                                              {"edv", 50, 280},
-                                              {"wall-thickness", 5, 15},
-                                              {"sphericity", 0.46, 0.78},
-                                              {"mapse", 3, 20}};
-  return kRanges;
-}
-
 std::vector<DialRange> rangesOf(const HeartFitOptions& options) {
   std::vector<DialRange> out;
   for (const DialRange& range : searchedRanges()) {
@@ -104,18 +94,18 @@ struct FittedSides {
 // The healthy mean, the mean of those with an infarct, then draws; moved into the ranges. Planes
 // are those of the view.
 std::vector<std::vector<double>> startsOf(const FitCost& cost, int count) {
-  const HeartPrior prior;
   constexpr std::uint64_t kSeed = 34;
   std::vector<std::vector<double>> out;
   for (int n = 0; n < count; ++n) {
     const auto number = static_cast<std::size_t>(n);
-    const PriorDials dials = HeartPrior::dialsOf(
-        number < heartGroups().size() ? heartGroups()[number].mean : prior.draw(kSeed, number));
+    const PriorDials dials =
+        HeartPrior::dialsOf(number < heartGroups().size() ? heartGroups()[number].mean
+                                                          : cost.prior().draw(kSeed, number));
     std::vector<double> at(cost.unknowns().size(), 0);
     for (std::size_t i = 0; i < cost.dials(); ++i) {
       const FitUnknown& u = cost.unknowns()[i];
-      for (std::size_t p = 0; p < kPriorDialCount; ++p)
-        if (u.name == kPriorDials[p]) at[i] = std::clamp(dials[p], u.low + u.step, u.high - u.step);
+      if (const auto p = priorDialOf(u.name))
+        at[i] = std::clamp(dials[*p], u.low + u.step, u.high - u.step);
     }
     out.push_back(std::move(at));
   }
@@ -178,26 +168,9 @@ std::vector<FitDescent> descentsFrom(const FitCost& cost, const std::vector<FitP
 
 void addViews(const std::vector<FitLoop>& loops, const FittedSides& sides, const FitCost& cost,
               const FitPlace& best, HeartFit& fit) {
-  const bool tilts = cost.unknowns().size() > cost.dials();
-  for (std::size_t v = 0; v < loops.size(); ++v) {
-    ViewFitted view{loops[v].view,
-                    sides.discrepancies[v].beat(),
-                    {},
-                    best.found[v],
-                    loops[v].loop.metres_per_pixel.has_value()};
-    if (tilts)
-      view.tilt = {radiansFromDegrees(best.at[cost.dials() + 2 * v]),
-                   radiansFromDegrees(best.at[cost.dials() + 2 * v + 1])};
-    fit.views.push_back(std::move(view));
-  }
-}
-
-// Dials of the heart at a place.
-std::map<std::string, double> dialsOf(const FitCost& cost, const HeartFit& fit,
-                                      const FitPlace& place) {
-  std::map<std::string, double> out = fit.dials;
-  for (std::size_t i = 0; i < cost.dials(); ++i) out[cost.unknowns()[i].name] = place.at[i];
-  return out;
+  for (std::size_t v = 0; v < loops.size(); ++v)
+    fit.views.push_back({loops[v].view, sides.discrepancies[v].beat(), cost.tiltAt(best.at, v),
+                         best.found[v], loops[v].loop.metres_per_pixel.has_value()});
 }
 
 // Error of a fit of the best heart's own loops, by dial: found minus rendered.
@@ -207,18 +180,13 @@ std::vector<double> ownError(const std::vector<FitLoop>& loops, const FittedSide
   constexpr int kSeed = 71;
   FittedSides own;
   own.families = sides.families;
-  const std::vector<double> dials(best.at.begin(),
-                                  best.at.begin() + static_cast<std::ptrdiff_t>(cost.dials()));
   for (std::size_t v = 0; v < loops.size(); ++v) {
-    PlaneTilt tilt;
-    if (tilt_deg > 0)
-      tilt = {radiansFromDegrees(best.at[cost.dials() + 2 * v]),
-              radiansFromDegrees(best.at[cost.dials() + 2 * v + 1])};
-    const echo::EchoLoop loop = ownLoop(dialsOf(cost, fit, best), loops[v].view, tilt, kFitFrames,
+    const PlaneTilt tilt = cost.tiltAt(best.at, v);
+    const echo::EchoLoop loop = ownLoop(cost.dialsAt(best.at), loops[v].view, tilt, kFitFrames,
                                         kSeed + static_cast<int>(v));
     echo::SideOptions side;
     side.ed_frame = 0;
-    own.discrepancies.emplace_back(loop, side, own.families[v]->at(dials, tilt));
+    own.discrepancies.emplace_back(loop, side, own.families[v]->at(cost.searchedAt(best.at), tilt));
   }
   const FitCost again(own.refer(), fit.dials, tilt_deg);
   const FitDescent found = descendFit(again, {best.at, {}, 0}, monitor);
@@ -241,6 +209,16 @@ void correct(const FitCost& cost, const std::vector<double>& error,
 
 }  // namespace
 
+// Adult hearts, failing to vigorous. Our choice.
+const std::vector<DialRange>& searchedRanges() {
+  static const std::vector<DialRange> kRanges{{"ef", 0.15, 0.75},
+                                              {"edv", 50, 280},
+                                              {"wall-thickness", 5, 15},
+                                              {"sphericity", 0.46, 0.78},
+                                              {"mapse", 3, 20}};
+  return kRanges;
+}
+
 HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& options,
                   const Monitor& monitor) {
   checkLoops(loops, options);
@@ -262,8 +240,7 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
   std::vector<FitDescent> descents{{starts.front(), {}, true}};
   if (!fit.stopped) {
     // The best start finds the beat anew.
-    const std::vector<double>& at = starts.front().at;
-    sides.compare(loops, {at.begin(), at.begin() + static_cast<std::ptrdiff_t>(cost.dials())});
+    sides.compare(loops, cost.searchedAt(starts.front().at));
     cost = FitCost(sides.refer(), fit.dials, options.tilt_deg);
     descents = descentsFrom(cost, starts, progress, fit);
   }

@@ -18,6 +18,9 @@ struct FitLoop {
 };
 inline constexpr std::size_t kMostLoops = 3;
 
+// Ranges of the dials that a fit can search.
+const std::vector<DialRange>& searchedRanges();
+
 struct HeartFitOptions {
   std::map<std::string, double> dials;  // fixed; other dials follow them
   // Searched dials, of kPriorDials.

@@ -87,6 +87,12 @@ PriorDials HeartPrior::dialsOf(const HeartIndices& indices, double body_surface_
   return d;
 }
 
+std::optional<std::size_t> priorDialOf(const std::string& key) {
+  const auto found = std::find(kPriorDials.begin(), kPriorDials.end(), key);
+  if (found == kPriorDials.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - kPriorDials.begin());
+}
+
 HeartPrior::HeartPrior() {
   for (std::size_t g = 0; g < heartGroups().size(); ++g) {
     const std::vector<double> all = covarianceOf(heartGroups()[g]);

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace echocine::fit {
@@ -49,6 +51,9 @@ inline constexpr double kBodySurface_m2 = 1.85, kBodySurfaceSd_m2 = 0.22;
 // the outline of the heart's wall; p is the posterior wall relative to the septum, a the rise of
 // the apex relative to L. Precondition: dials above 0.
 PriorDials indicesOf(const PriorDials& dials);
+
+// The number of a dial in kPriorDials; none for a dial without a prior.
+std::optional<std::size_t> priorDialOf(const std::string& key);
 
 class HeartPrior {
  public:

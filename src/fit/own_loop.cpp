@@ -1,5 +1,7 @@
 #include "fit/own_loop.h"
 
+#include <utility>
+
 #include "core/parallel.h"
 #include "frame/simulator.h"
 #include "motion/surfaces/probe_placement.h"
@@ -7,12 +9,7 @@
 
 namespace echocine::fit {
 
-namespace {
-
-Scene sceneFor(const std::map<std::string, double>& dials, heart::View view, const PlaneTilt& tilt,
-               int frames, int seed) {
-  Scene scene = heart::heartScene(heart::parametersFrom(dials), view, frames, Look::scanner);
-  scene.probe.pose = turnedAndTilted(scene.probe.pose, tilt.rotate_rad, tilt.tilt_rad);
+echo::EchoLoop renderedBeat(Scene scene, int frames, int seed) {
   scene.speckle.seed = scene.speckle.heterogeneity_seed = seed;
   scene.artefacts.noise_seed = scene.artefacts.clutter_seed = seed;
   scene.acquisition.frame_rate_hz = frames * scene.acquisition.heart_rate_hz;
@@ -21,19 +18,11 @@ Scene sceneFor(const std::map<std::string, double>& dials, heart::View view, con
   scene.output.width = 360;
   scene.output.height = 300;
   scene.output.ecg = scene.output.depth_ticks = false;
-  return scene;
-}
-
-}  // namespace
-
-echo::EchoLoop ownLoop(const std::map<std::string, double>& dials, heart::View view,
-                       const PlaneTilt& tilt, int frames, int seed) {
-  const Simulator simulator(sceneFor(dials, view, tilt, frames, seed));
-  const Scene& scene = simulator.scene();
-  const Probe& p = scene.probe;
+  const Simulator simulator(scene);
+  const Probe& p = simulator.scene().probe;
   const PictureGeometry& g = simulator.chain().geometry();
   echo::EchoLoop loop;
-  loop.video.name = "the model's own loop";
+  loop.video.name = "rendered beat";
   loop.video.width = scene.output.width;
   loop.video.height = scene.output.height;
   loop.video.rate = {scene.acquisition.frame_rate_hz, "own", true};
@@ -55,6 +44,13 @@ echo::EchoLoop ownLoop(const std::map<std::string, double>& dials, heart::View v
   loop.overlay.assign(loop.video.frames.front().size(), 0);
   loop.video.coloured.assign(loop.overlay.size(), 0);
   return loop;
+}
+
+echo::EchoLoop ownLoop(const std::map<std::string, double>& dials, heart::View view,
+                       const PlaneTilt& tilt, int frames, int seed) {
+  Scene scene = heart::heartScene(heart::parametersFrom(dials), view, frames, Look::scanner);
+  scene.probe.pose = turnedAndTilted(scene.probe.pose, tilt.rotate_rad, tilt.tilt_rad);
+  return renderedBeat(std::move(scene), frames, seed);
 }
 
 }  // namespace echocine::fit

@@ -11,8 +11,12 @@
 
 namespace echocine::fit {
 
-// One beat of `frames` pictures from end-diastole, look scanner, with the plane tilted. The seed is
-// that of speckle, noise and clutter. Throws SceneError for impossible dials. Runs in parallel.
+// One beat of a scene as an echo loop of `frames` pictures from end-diastole, 360 x 300 pixels. The
+// seed is that of speckle, noise and clutter. Throws like Simulator. Runs in parallel.
+echo::EchoLoop renderedBeat(Scene scene, int frames, int seed);
+
+// renderedBeat() of a heart in the look scanner, with the plane tilted. Throws SceneError for
+// impossible dials.
 echo::EchoLoop ownLoop(const std::map<std::string, double>& dials, heart::View view,
                        const PlaneTilt& tilt, int frames, int seed);
 

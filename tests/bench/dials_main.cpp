@@ -11,6 +11,7 @@
 #include <functional>
 
 #include "bench/cpu_time.h"
+#include "core/parallel.h"
 #include "core/units.h"
 #include "fit/dial_scan.h"
 #include "metrics/statistics.h"

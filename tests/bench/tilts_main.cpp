@@ -7,6 +7,7 @@
 #include <array>
 #include <cstring>
 
+#include "core/parallel.h"
 #include "core/units.h"
 #include "fit/plane_tilt.h"
 #include "motion/surfaces/probe_placement.h"

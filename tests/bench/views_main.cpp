@@ -10,6 +10,7 @@
 #include <cstring>
 #include <map>
 
+#include "core/parallel.h"
 #include "fit/coverage.h"
 #include "fit/view_ranking.h"
 #include "support/view_loops.h"

@@ -1,4 +1,4 @@
-// What a fit of dials stands on: places of hearts, shares between them, and a quadratic's minimum.
+// Parts of a fit of dials: designs of hearts, shares of hearts, and the minimum of a quadratic.
 
 #include <gtest/gtest.h>
 
@@ -6,19 +6,11 @@
 
 #include "core/hash_random.h"
 #include "fit/heart_design.h"
+#include "fit/heart_fit.h"
 #include "fit/quadratic.h"
 
 namespace echocine::fit {
 namespace {
-
-const std::vector<DialRange>& fiveDials() {
-  static const std::vector<DialRange> kRanges{{"ef", 0.15, 0.75},
-                                              {"edv", 50, 280},
-                                              {"wall-thickness", 5, 15},
-                                              {"sphericity", 0.46, 0.78},
-                                              {"mapse", 3, 20}};
-  return kRanges;
-}
 
 std::vector<double> drawnWithin(const std::vector<DialRange>& ranges, int n) {
   std::vector<double> out;
@@ -36,11 +28,11 @@ TEST(FitDesign, PolynomialsAreReproduced) {
     return 3 + 2 * e - e * e * e + e * d * d - 0.3 * d * d * d + 0.1 * v[2] * v[3] + v[4] * e -
            0.02 * v[4] * v[4];
   };
-  HeartDesign design = HeartDesign::polynomial(fiveDials());
+  HeartDesign design = HeartDesign::polynomial(searchedRanges());
   EXPECT_EQ(design.size(), 30u);  // 25 terms and a fifth more
   for (int round = 0; round < 2; ++round) {
     for (int n = 0; n < 50; ++n) {
-      const std::vector<double> at = drawnWithin(fiveDials(), n);
+      const std::vector<double> at = drawnWithin(searchedRanges(), n);
       const std::vector<float> shares = design.shares(at);
       double sum = 0, one = 0, size = 0;
       for (std::size_t i = 0; i < shares.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "fit/heart_family.h"
 #include "fit/plane_tilt.h"
+#include "frame/simulator.h"
 #include "motion/surfaces/probe_placement.h"
 #include "support/drawn_heart.h"
 #include "support/view_loops.h"

@@ -10,12 +10,10 @@
 
 #include "core/error.h"
 #include "core/hash_random.h"
-#include "core/parallel.h"
 #include "echo/echo_loop.h"
-#include "frame/simulator.h"
+#include "fit/own_loop.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/views/heart_marks.h"
-#include "signal/signal_chain.h"
 #include "support/patient_scene.h"
 #include "support/real_hearts.h"
 #include "support/scene_text.h"
@@ -106,39 +104,7 @@ inline echo::EchoLoop scannedLoop(Scene scene, int frames, int seed) {
   scene.signal.gain_db += drawn(-6, 6);
   scene.signal.grey_gamma *= drawn(0.8, 1.25);
   scene.signal.dynamic_range_db += drawn(-8, 8);
-  scene.speckle.seed = scene.speckle.heterogeneity_seed = seed;
-  scene.artefacts.noise_seed = scene.artefacts.clutter_seed = seed;
-  scene.acquisition.frame_rate_hz = frames * scene.acquisition.heart_rate_hz;
-  scene.acquisition.beats = 1;
-  scene.output.width = 360;
-  scene.output.height = 300;
-  scene.output.ecg = scene.output.depth_ticks = false;
-  const Simulator simulator(scene);
-  const Probe& p = simulator.scene().probe;
-  const PictureGeometry& g = simulator.chain().geometry();
-  echo::EchoLoop loop;
-  loop.video.name = "scanned";
-  loop.video.width = scene.output.width;
-  loop.video.height = scene.output.height;
-  loop.video.rate = {scene.acquisition.frame_rate_hz, "drawn", true};
-  loop.metres_per_pixel = g.metres_per_pixel;
-  loop.frames_per_beat = frames;
-  loop.find.sector = {g.origin_x_px,
-                      g.origin_y_px,
-                      p.first_angle_rad,
-                      p.last_angle_rad,
-                      (p.face_radius_m + p.min_depth_m) / g.metres_per_pixel,
-                      (p.face_radius_m + p.max_depth_m) / g.metres_per_pixel};
-  loop.video.frames.resize(static_cast<std::size_t>(frames));
-  simulator.referenceIntensity();
-  parallelBlocks(loop.video.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      loop.video.frames[i] =
-          simulator.frame(static_cast<double>(i) / scene.acquisition.frame_rate_hz).image.pixels;
-  });
-  loop.overlay.assign(loop.video.frames.front().size(), 0);
-  loop.video.coloured.assign(loop.overlay.size(), 0);
-  return loop;
+  return fit::renderedBeat(std::move(scene), frames, seed);
 }
 
 }  // namespace echocine::support
