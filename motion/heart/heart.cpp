@@ -137,6 +137,8 @@ Landmarks landmarksOf(const Instant& now) {
   marks.apex = {0, 0, now.left().apexZ()};
   marks.mitral = now.mitral().centre;
   marks.tricuspid = now.tricuspid().centre;
+  marks.tricuspid_lateral =
+      now.tricuspid().centre - now.tricuspid().radius_m * now.tricuspid().side;
   marks.aortic = now.aortic().centre;
   marks.pulmonary = now.pulmonary().centre;
   marks.aortic_flow = now.aortic().flow;

@@ -29,6 +29,7 @@ struct Part {
 struct Landmarks {
   Vec3d apex;                                  // of the left ventricle's cavity
   Vec3d mitral, tricuspid, aortic, pulmonary;  // centres of the valve rings
+  Vec3d tricuspid_lateral;                     // end of that ring on the free wall, for TAPSE
   Vec3d aortic_flow;                           // unit, from the ventricle into the aorta
   double mitral_radius_m = 0, tricuspid_radius_m = 0;
   double twist_rad = 0;                              // of the apex relative to the base

@@ -79,7 +79,7 @@ Json leftVentricleJson(const Recording& recording) {
            {{"end_diastole", inMillimetres(at_ed.apex.z - at_ed.mitral.z)},
             {"end_systole", inMillimetres(at_es.apex.z - at_es.mitral.z)}}},
           {"mapse_mm", inMillimetres(length(at_es.mitral - at_ed.mitral))},
-          {"tapse_mm", inMillimetres(at_es.tricuspid.z - at_ed.tricuspid.z)},
+          {"tapse_mm", inMillimetres(at_es.tricuspid_lateral.z - at_ed.tricuspid_lateral.z)},
           {"twist_deg", inDegrees(at_es.twist_rad - at_ed.twist_rad)},
           {"wall_volume_ml",
            {{"end_diastole", inMillilitres(outer[0] - cavity[0])},

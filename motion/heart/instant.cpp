@@ -221,7 +221,7 @@ void Instant::buildAtria(const Parameters& parameters) {
       inflate(la_, atrialVolume(parameters.la_volume_ml, state_.atria_filled), "la-volume",
               [&](std::vector<Vec3d>& points) { aorta_->pushOut(clear_of_aorta_m, points); });
 
-  tricuspid_ = ringAt(right_->ringCentre(), {0.12, 0.05, 1}, right_->ringRadius());
+  tricuspid_ = ringAt(right_->ringCentre(), right_->ringFlow(), right_->ringRadius());
   ra_.outline = &atriumOutline();
   ra_.ring = tricuspid_.centre;
   ra_.roof = {-0.56 * l, 0.02 * l,

@@ -36,18 +36,20 @@ class RightVentricle {
 
   // Centre of the tricuspid valve.
   Vec3d ringCentre() const { return ring_centre_; }
+  Vec3d ringFlow() const { return ring_flow_; }            // unit, normal to its plane
   double restingRingZ() const { return resting_ring_z_; }  // at end-diastole
   double ringRadius() const { return ring_radius_; }
   // Centre of the outflow's upper end, below the pulmonary valve.
   Vec3d outflow() const;
 
  private:
-  double heightAlong(double t, double x) const;
+  double heightAlong(double t, double x, double inflow) const;
 
   const Epicardium* epicardium_;
   double arch_m_ = 0;
   double base_z_ = 0, apex_z_ = 0, tilt_m_ = 0, resting_ring_z_ = 0;
-  Vec3d ring_centre_;
+  double free_descent_m_ = 0;  // of the inflow's free wall, beyond that of the septum
+  Vec3d ring_centre_, ring_flow_;
   double ring_radius_ = 0;
 };
 
