@@ -58,6 +58,7 @@ Floats8 floatsAt(const std::uint16_t* from) {
   return __builtin_convertvector(__builtin_convertvector(lanes, Ints8), Floats8);
 }
 
+constexpr float kLeastDepth_m = 1e-4f;       // of a scatterer, for the lens's phase
 constexpr std::ptrdiff_t kPlacesAhead = 16;  // eights that memory is asked for. Our choice, by time
 
 }  // namespace
@@ -100,7 +101,6 @@ Splatter::Splatter(const Probe& probe, const PointSpread& spread)
 // q = y^2 / w_e^2, the wave's curvature adds (c / d) 8 ln2 q / 4 pi turns. c / d as a line between
 // the cube's ends, which is off by under a per cent over its depth.
 inline Splatter::Bend Splatter::bendOf(Floats8 sample) const {
-  constexpr float kLeastDepth_m = 1e-4f;
   const auto pairs = [](Floats8 a) {
     return __builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3);
   };
@@ -119,12 +119,11 @@ inline Splatter::Bend Splatter::bendOf(Floats8 sample) const {
   return {at_first - slope * first, slope};
 }
 
-inline void Splatter::addLanes(const BeamCube& at, const Bend& bend, const GaussianMix& mix,
+inline void Splatter::addLanes(const BeamCube& at, Floats8 lens_turns, const GaussianMix& mix,
                                std::uint32_t j, std::uint32_t count, SplatLists& splats) const {
   constexpr Ints8 kLane{0, 1, 2, 3, 4, 5, 6, 7};
   const Floats8 q = at.across * at.across;
-  const Floats8 turns =
-      (turns_before_ + at.sample * turns_per_sample_) + q * (bend.first + at.sample * bend.slope);
+  const Floats8 turns = (turns_before_ + at.sample * turns_per_sample_) + q * lens_turns;
   splats.add({at.line, at.sample, q, turns, mix.real(j), mix.imaginary(j)},
              (q <= 1) & (at.sample >= 0) & (at.sample < samples_) &
                  (kLane < static_cast<std::int32_t>(count - j)));
@@ -145,14 +144,17 @@ void Splatter::add(const BeamCube& cube, const Scatterers& scatterers, const Sca
     if (n > 0 && static_cast<float>(highest[n - 1]) > range.last) break;
     const Floats8 u = floatsAt(places[n].u), v = floatsAt(places[n].v), w = floatsAt(places[n].w);
     __builtin_prefetch(places + n + kPlacesAhead);
-    addLanes({lines.at(u, v, w), samples.at(u, v, w), acrosses.at(u, v, w)}, bend, mix,
+    const Floats8 sample = samples.at(u, v, w);
+    addLanes({lines.at(u, v, w), sample, acrosses.at(u, v, w)}, bend.at(sample), mix,
              n * kFloatLanes, batch.count, splats);
   }
 }
 
 void Splatter::addPlaces(const BeamCube& at, const GaussianMix& mix, std::uint32_t j,
                          SplatLists& splats) const {
-  addLanes(at, bendOf(at.sample), mix, j, j + kFloatLanes, splats);
+  // They may lie anywhere on a sheet, so each takes its own depth.
+  const Floats8 depth_m = larger(min_depth_m_ + at.sample * spacing_m_, Floats8{} + kLeastDepth_m);
+  addLanes(at, bend_ / depth_m - bend_at_focus_, mix, j, j + kFloatLanes, splats);
 }
 
 }  // namespace echocine

@@ -51,9 +51,10 @@ class Splatter {
   // Turns of phase added by the lens at the cut, over a cube's samples.
   struct Bend {
     float first, slope;
+    Floats8 at(Floats8 sample) const { return first + sample * slope; }
   };
   Bend bendOf(Floats8 sample) const;
-  void addLanes(const BeamCube& at, const Bend& bend, const GaussianMix& mix, std::uint32_t j,
+  void addLanes(const BeamCube& at, Floats8 lens_turns, const GaussianMix& mix, std::uint32_t j,
                 std::uint32_t count, SplatLists& splats) const;
 
   float samples_;
