@@ -89,25 +89,26 @@ class CellEchoMaker {
   }
 
   // As the walk along a line does it: Eq. 1 and the lobe; a membrane echoes twice, each time by its
-  // own angle. Mostly the angle counts in the lobe cos^2 alone, which needs no root.
+  // own angle, the second time by (1 - R)/(1 + R) of the first. Mostly the angle counts in the lobe
+  // cos^2 alone, which needs no root.
   Doubles4 strengthOf(const EdgeClips& clips, const InterfaceRows& f, std::size_t i) const {
     const Doubles4 cos_square = incidence(clips, f, i);
     const Doubles4 Z_1 = lanesAt(&f.Z_1[i]), Z_2 = lanesAt(&f.Z_2[i]), r = lanesAt(&f.r[i]);
     const Doubles4 n = lanesAt(&f.lobe[i]), passed = lanesAt(&f.passed[i]),
                    membrane = lanesAt(&f.membrane[i]);
     const Doubles4 upright = reflectedAtEqualSpeeds(Z_1, Z_2);
-    const auto throughOnce = [&](Doubles4 R) {
-      return settings_.transmission_loss ? (1 - R) * (1 - R) : Doubles4{} + 1;
+    const auto second = [&](Doubles4 R) {
+      return settings_.transmission_loss ? (1 - R) / (1 + R) : Doubles4{} + 1;
     };
     if (!any((r != 1) | (n != 2)))
-      return passed * upright * (1 + membrane * throughOnce(upright)) * cos_square;
+      return passed * upright * (1 + membrane * second(upright)) * cos_square;
     const Doubles4 turn = lanesAt(&f.turn[i]);
     const Doubles4 R = reflectedShares(Z_1, Z_2, r, turn, squareRoot(cos_square));
     const Doubles4 back = settings_.reflection_cap ? smaller(R, upright) : R;
     Doubles4 lobes = lobeOf(n, cos_square);
     if (any(membrane != 0)) {
       const Doubles4 cos_t_square = clamped(turn + r * r * cos_square, Doubles4{}, Doubles4{} + 1);
-      lobes += membrane * throughOnce(R) * lobeOf(n, cos_t_square);
+      lobes += membrane * second(R) * lobeOf(n, cos_t_square);
     }
     return passed * back * lobes;
   }

@@ -61,7 +61,7 @@ class LineWalker {
   void addEcho(double reflected, double passed, double cos_i, const Crossing& crossing,
                MediumId after);
   double sentBack(const InterfaceLaw& law, const Medium& from, const Medium& to) const;
-  void loseAt(const InterfaceLaw& law);
+  void loseAt(const InterfaceLaw& law, double through);
   void reflectAll(double speed_before_m_s);
   void endAtMirror();
   bool mirrored() const { return mirror_.met && !settings_.beyond_mirrors; }

@@ -62,15 +62,15 @@ void LineWalker::addEcho(double reflected, double passed, double cos_i, const Cr
                            query_.ray.origin + at_.walked_m * query_.ray.direction});
 }
 
-// Forward times backward transmission, T_12 T_21 = (1 - R)^2. Total reflection ends the ray
-// whatever effects are on: there is no direction in which it could go on.
-void LineWalker::loseAt(const InterfaceLaw& law) {
+// `through`: forward times backward transmission. Total reflection ends the ray whatever effects
+// are on: there is no direction in which it could go on.
+void LineWalker::loseAt(const InterfaceLaw& law, double through) {
   if (law.total && settings_.beyond_mirrors) return;
   if (law.total) {
     reflectAll(0);
     return endAtMirror();
   }
-  if (settings_.transmission_loss) at_.passed *= law.through * law.through;
+  if (settings_.transmission_loss) at_.passed *= through;
 }
 
 // Total reflection. Where a layer begins here the line goes on until it is known how thick that is.
@@ -155,7 +155,7 @@ void LineWalker::passInterface(Group group, MediumId after, std::size_t first_hi
   if (settings_.thin_layers)
     joinLayer(meeting, law, first_hit, first_echo);
   else
-    loseAt(law);
+    loseAt(law, law.through * law.through);  // T_12 T_21
   if (!at_.alive) return;
   const double c_from = mirror_.met ? mirror_.speed_before_m_s : from.sound_speed_m_s;
   mirror_.met = false;
@@ -168,7 +168,10 @@ void LineWalker::passInterface(Group group, MediumId after, std::size_t first_hi
 }
 
 // Two interfaces of a sheet that is thin against a sample: both echoes arrive together, each with
-// its own angle. R is the same from the sheet outwards.
+// its own angle. R is the same from the sheet outwards. Sound reverberates between the faces; its
+// intensities add, since no thickness is stated that could fix a phase. The second face's echoes
+// sum to R (1-R)^2 (1 + R^2 + R^4 + ...) = R (1-R)/(1+R), and what goes through to (1-R)/(1+R) per
+// way.
 void LineWalker::passMembrane(const Crossing& crossing) {
   if (mirrored()) return endAtMirror();
   const SurfaceTraits& surface = settings_.surfaces[index(crossing.surface)];
@@ -176,13 +179,14 @@ void LineWalker::passMembrane(const Crossing& crossing) {
   const Medium& sheet = settings_.media[index(surface.medium)];
   const double cos_i = std::min(std::abs(dot(incidentAt(crossing), crossing.normal)), 1.0);
   const InterfaceLaw law = lawAt(crossing, around, sheet);
+  const double through = law.through / (1 + law.R);
   addEcho(sentBack(law, around, sheet), at_.passed, cos_i, crossing, surface.medium);
-  loseAt(law);
+  loseAt(law, through);
   if (!at_.alive) return;
   const double cos_t =
       transmissionCosine(cos_i, around.sound_speed_m_s, sheet.sound_speed_m_s).value_or(0);
   addEcho(sentBack(law, around, sheet), at_.passed, cos_t, crossing, surface.medium);
-  loseAt(law);
+  loseAt(law, through);
   layer_.clear(at_.passed);  // the sheet's loss lies between what is before it and behind
 }
 

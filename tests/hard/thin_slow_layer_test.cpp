@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
+#include "scene/scan_geometry.h"
 #include "support/plain_scene.h"
 #include "support/world.h"
 
@@ -94,6 +97,44 @@ TEST(ThinSlowLayer, AShellOfFat) {
   RecordProperty("unequal", std::to_string(found.unequal));
   EXPECT_LT(found.unequal, 0.02);
   EXPECT_LT(found.rms_db, 1);
+}
+
+// RMS over lines near the middle of the difference of their echoes' sums, straight against bent,
+// dB.
+double echoDifference(const World& world, double within_m) {
+  EffectPlan plan = planEffects(world.scene);
+  plan.refraction = true;
+  const PolarFrame bent = traceWorld(world, plan, Tracer::embree);
+  plan.refraction = false;
+  const PolarFrame straight = traceWorld(world, plan, Tracer::slice);
+  const auto sumOf = [&](const PolarFrame& frame, int line) {
+    const auto first = frame.planes.at(Channel::reflection).begin() + line * 1024;
+    return std::accumulate(first, first + 1024, 0.0);
+  };
+  double squares = 0, lines = 0;
+  for (int line = 0; line < world.scene.probe.lines; ++line) {
+    if (std::abs(lineGeometry(world.scene.probe, line).origin.x) > within_m) continue;
+    const double a = sumOf(bent, line), b = sumOf(straight, line);
+    if (!(a > 0 && b > 0)) continue;
+    squares += std::pow(10 * std::log10(a / b), 2);
+    lines += 1;
+  }
+  return std::sqrt(squares / lines);
+}
+
+// The same shell's echoes. Rays that graze its limb leave it elsewhere when they bend.
+TEST(ThinSlowLayer, AShellsEchoesAreThoseOfBentRaysButAtItsLimb) {
+  constexpr double kRadius_m = 0.015;
+  for (const double f : {2.5e6, 5e6})
+    for (const double thickness_m : {0.3e-3, 0.5e-3}) {
+      SCOPED_TRACE(testing::Message() << f << " Hz, " << thickness_m << " m");
+      World world = fatWorld(icosphere(6, kRadius_m + thickness_m).moved({0, 0, 0.05}),
+                             {icosphere(6, kRadius_m).moved({0, 0, 0.05})});
+      world.scene.probe.frequency_hz = f;
+      world.scene.output.channels = {Channel::reflection};
+      EXPECT_LT(echoDifference(world, kRadius_m * std::sin(radiansFromDegrees(75))), 0.25);
+      EXPECT_LT(echoDifference(world, kRadius_m + thickness_m), 2);
+    }
 }
 
 }  // namespace

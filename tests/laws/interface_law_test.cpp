@@ -247,5 +247,16 @@ TEST(InterfaceLaw, LobeIsWAtNormalIncidenceAndFollowsItsExponent) {
   }
 }
 
+// The lobe is not normalised: W is the return at normal incidence for any n, so walls of all
+// orientations together return W / (n + 1).
+TEST(InterfaceLaw, TheMeanReturnOverOrientationsFallsWithTheExponent) {
+  for (const double n : {0.0, 1.0, 2.0, 8.0}) {
+    constexpr int kSteps = 200000;  // cos of uniform orientations in a hemisphere is uniform
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) sum += nonSpecularReturn(0.3, (i + 0.5) / kSteps, n);
+    EXPECT_NEAR(sum / kSteps * (n + 1) / 0.3, 1, 1e-6) << n;
+  }
+}
+
 }  // namespace
 }  // namespace echocine

@@ -206,7 +206,47 @@ TEST(Membrane, EachOfItsEchoesHasItsOwnAngle) {
   const LineTrace line = walkStraight(straightSettings(scene), {crossingAt(0.05, 0, true, cos_i)});
   ASSERT_EQ(line.echoes.size(), 2u);
   EXPECT_NEAR(line.echoes[0].intensity, back * cos_i * cos_i, 1e-15);
-  EXPECT_NEAR(line.echoes[1].intensity, (1 - R) * (1 - R) * back * cos_t * cos_t, 1e-15);
+  EXPECT_NEAR(line.echoes[1].intensity, (1 - R) / (1 + R) * back * cos_t * cos_t, 1e-15);
+}
+
+// What a sheet sends back and lets through, followed from face to face: intensities that add.
+struct SheetEnergy {
+  double back = 0, through = 0;
+};
+SheetEnergy reverberated(double R) {
+  SheetEnergy sum{R, 0};
+  double inside = 1 - R;
+  for (int face = 1; face < 400; ++face) {
+    (face % 2 == 1 ? sum.through : sum.back) += inside * (1 - R);
+    inside *= R;
+  }
+  return sum;
+}
+
+// Calcified leaflets too, whose faces are strong; up to near the critical angle of 29.7 degrees.
+TEST(Membrane, SoundReverberatesBetweenItsFaces) {
+  for (const Medium& sheet : {medium("valve", 1120, 1584), medium("calcified", 1862, 3194)}) {
+    Scene scene = plainScene({medium("blood", 1060, 1584, 0, 1e-3), sheet});
+    addStructure(scene, 1, 0, true);
+    scene.structures[0].reflection_exponent = 0;
+    TraceSettings settings = straightSettings(scene);
+    settings.reflection_cap = false;
+    for (const double degrees : {0.0, 6.0, 15.0, 25.0, 29.0}) {
+      const double cos_i = std::cos(radiansFromDegrees(degrees));
+      const double R = std::pow(
+          amplitude(scene.media[0], sheet, cos_i, refractedCosine(cos_i, scene.media[0], sheet)),
+          2);
+      const SheetEnergy exact = reverberated(R);
+      EXPECT_NEAR(exact.back + exact.through, 1, 1e-12);
+      const LineTrace line = walkStraight(settings, {crossingAt(0.05, 0, true, cos_i)});
+      ASSERT_EQ(line.echoes.size(), 2u);
+      const double back = line.echoes[0].intensity + line.echoes[1].intensity;
+      EXPECT_NEAR(back / exact.back, 1, 1e-9) << sheet.name << ' ' << degrees;
+      const double lost =
+          line.segments.back().strength_m2_sr / line.segments.front().strength_m2_sr;
+      EXPECT_NEAR(lost / (exact.through * exact.through), 1, 1e-9) << sheet.name << ' ' << degrees;
+    }
+  }
 }
 
 }  // namespace

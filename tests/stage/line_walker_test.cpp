@@ -168,9 +168,10 @@ TEST(LineWalker, AMembraneReflectsTwiceAndEnclosesNothing) {
     const double sin_t = std::sqrt(1 - 0.81) * 1580 / 1540, cos_t2 = 1 - sin_t * sin_t;
     ASSERT_EQ(line.echoes.size(), 2u);
     EXPECT_DOUBLE_EQ(line.echoes[0].intensity, W * 0.81);
-    EXPECT_NEAR(line.echoes[1].intensity, W * cos_t2 * (1 - R) * (1 - R), 1e-15);
+    EXPECT_NEAR(line.echoes[1].intensity, W * cos_t2 * (1 - R) / (1 + R), 1e-15);
     EXPECT_EQ(mediaOf(line), (Ids{kOutside, kOutside}));
-    EXPECT_NEAR(line.segments[1].strength_m2_sr, 0.1 * 1e-6 * std::pow(1 - R, 4), 1e-20);
+    EXPECT_NEAR(line.segments[1].strength_m2_sr, 0.1 * 1e-6 * std::pow((1 - R) / (1 + R), 2),
+                1e-20);
   }
 }
 
