@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "core/hash_random.h"
-#include "core/nearest_vertex.h"
 #include "scene/role.h"
 #include "scene/scan_geometry.h"
+#include "speckle/nearest_on_surface.h"
 
 namespace echocine {
 
@@ -79,7 +79,7 @@ double fibreFactor(Vec3d fibre, Vec3d beam, double anisotropy_db) {
 
 struct TissueStrength::Wall {
   std::uint16_t group;
-  NearestVertex endocardium, epicardium;
+  NearestOnSurface endocardium, epicardium;
   Vec3d axis;
 };
 
@@ -94,11 +94,12 @@ TissueStrength::TissueStrength(const Scene& scene, const EffectPlan& plan, const
   const std::vector<Vec3f>& inner = frame.positions_m[index(*cavity)];
   const auto atrium = structureOf(scene, Role::la), valve = structureOf(scene, Role::mitral_valve);
   const auto base = valve ? valve : atrium;
-  wall_ = std::make_unique<const Wall>(
-      Wall{static_cast<std::uint16_t>(index(field.groupOf(*wall))), NearestVertex(inner),
-           NearestVertex(frame.positions_m[index(*wall)]),
-           longAxis(inner, base ? std::span<const Vec3f>(frame.positions_m[index(*base)])
-                                : std::span<const Vec3f>())});
+  wall_ = std::make_unique<const Wall>(Wall{
+      static_cast<std::uint16_t>(index(field.groupOf(*wall))),
+      NearestOnSurface(motion.surfaces()[index(*cavity)].triangles, inner),
+      NearestOnSurface(motion.surfaces()[index(*wall)].triangles, frame.positions_m[index(*wall)]),
+      longAxis(inner, base ? std::span<const Vec3f>(frame.positions_m[index(*base)])
+                           : std::span<const Vec3f>())});
 }
 
 TissueStrength::~TissueStrength() = default;
@@ -110,9 +111,8 @@ void TissueStrength::amplitudes(std::span<const Vec3f> reference_m, std::uint16_
   for (std::size_t i = 0; i < out.size(); ++i) {
     double factor = blood || settings_.heterogeneity_db == 0 ? 1 : heterogeneity.at(reference_m[i]);
     if (wall_ && group == wall_->group) {
-      const Vec3d p = toDouble(reference_m[i]),
-                  in = toDouble(wall_->endocardium.to(reference_m[i])),
-                  out_m = toDouble(wall_->epicardium.to(reference_m[i]));
+      const Vec3d p = toDouble(reference_m[i]), in = wall_->endocardium.to(reference_m[i]),
+                  out_m = wall_->epicardium.to(reference_m[i]);
       const double inside = std::sqrt(dot(p - in, p - in)),
                    outside = std::sqrt(dot(p - out_m, p - out_m));
       const Vec3d beam = !probe_.isFan() ? parallel : unitOf(p);
