@@ -128,8 +128,9 @@ TEST(MaterialPointsLaw, PointsBoundToASurfaceStayOnIt) {
 
 // What the field leaves on a scene over 20 phases between the keyframes.
 struct Agreement {
-  std::vector<float> miss_m;      // of vertices that could be seen at the reference phase
-  double folded = 0, points = 0;  // places that turned over, of all
+  std::vector<float> miss_m;         // of vertices that could be seen at the reference phase
+  std::vector<float> groove_miss_m;  // the same of the tissue that fills the grooves
+  double folded = 0, points = 0;     // places that turned over, of all
   struct Staying {
     // covered: by the meshes themselves, where a stronger structure now hides the place of the
     // wall's surface that was nearest; near: out of the wall by less than kBorder_m.
@@ -190,8 +191,9 @@ Agreement agreementOf(const Scene& scene) {
       for (std::size_t v = 0; v < positions_m.size(); v += 3) {
         box.add(toDouble(positions_m[v]));
         if (reference.hides(toDouble(positions_m[v]), s.id)) continue;
-        result.miss_m.push_back(
-            length(group.place(positions_m[v]) - now.positions_m[index(s.id)][v]));
+        const bool grooves = scene.structures[index(s.id)].name == "grooves";
+        (grooves ? result.groove_miss_m : result.miss_m)
+            .push_back(length(group.place(positions_m[v]) - now.positions_m[index(s.id)][v]));
       }
       for (std::uint64_t j = 0; j < 3000; ++j) {
         const Vec3d p{box.lo.x + uniformFromHash(hashOf(j, 1)) * (box.hi.x - box.lo.x),
@@ -217,6 +219,7 @@ Agreement agreementOf(const Scene& scene) {
     }
   }
   std::sort(result.miss_m.begin(), result.miss_m.end());
+  std::sort(result.groove_miss_m.begin(), result.groove_miss_m.end());
   return result;
 }
 
@@ -229,7 +232,11 @@ double rootMeanSquare(const std::vector<float>& values) {
 void expectAgreement(const Agreement& a, double rms_m) {
   ::testing::Test::RecordProperty("rms_um", static_cast<int>(1e6 * rootMeanSquare(a.miss_m)));
   EXPECT_LT(rootMeanSquare(a.miss_m), rms_m);
-  EXPECT_LT(a.miss_m[a.miss_m.size() * 99 / 100], 1e-3f);
+  EXPECT_LT(a.miss_m[a.miss_m.size() * 99 / 100], 0.5e-3f);
+  // They slide along the walls, and their layer is thinner than a cell of the field.
+  if (const auto& g = a.groove_miss_m; !g.empty()) {
+    EXPECT_LT(g[g.size() * 9 / 10], 1.6e-3f);
+  }
   std::printf("%.0f of %.0f places turned over\n", a.folded, a.points);
   EXPECT_LE(a.folded, 1e-4 * a.points);  // in layers thinner than a cell
   for (const auto& [name, wall] : a.walls) {
