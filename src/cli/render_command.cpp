@@ -64,6 +64,7 @@ void printSummary(const RenderSummary& summary, const RenderOptions& options, co
   const auto add = [&](const std::string& part) { parts += (parts.empty() ? "" : ", ") + part; };
   if (scene.output.exr) add("intensity/frame_*.exr");
   if (scene.output.cine) add("cine.avi");
+  if (scene.output.dicom) add("cine.dcm");
   if (scene.output.png) add("png/frame_*.png");
   if (scene.truth.any()) add("truth/");
   if (scene.output.report) add("report.html");
@@ -90,6 +91,8 @@ RenderCommand::RenderCommand(CLI::App& app) {
       "--truth", truth_,
       "Write more ground truth than the scene requests: all (as far as its structures allow), or a "
       "comma-separated list of labels, contours, tracks, function");
+  command->add_flag("--dicom", dicom_,
+                    "Write cine.dcm too, a DICOM ultrasound loop (output.dicom = true)");
   accuracy_.addTo(*command);
   command->add_flag("--resume", options_.resume,
                     "Keep frames whose EXR is complete and belongs to this scene");
@@ -113,6 +116,7 @@ int RenderCommand::run() {
 int RenderCommand::renderAndTell() {
   Scene scene = placed(readScene(scene_file_));
   askForTruth(truth_, scene);
+  scene.output.dicom |= dicom_;
   if (!frames_.empty()) options_.frames = parseRange(frames_, CardiacClock(scene).frameCount());
   options_.accuracy = accuracy_.resolve(scene, options_.threads, quiet_);
   ProgressLine line(quiet_);

@@ -24,7 +24,7 @@ class RenderCommand {
   std::string scene_file_;
   std::string truth_;  // kinds, comma-separated
   std::string frames_;
-  bool quiet_ = false;
+  bool dicom_ = false, quiet_ = false;
   RenderOptions options_;
   AccuracyOptions accuracy_;
 };

@@ -42,7 +42,7 @@ void reserve(const Simulator& simulator, Loop& loop) {
   if (displacement) loop.displacement_mm.resize(frames * 3 * plane);
   if (velocity) loop.velocity_mm_s.resize(frames * 3 * plane);
   if (wantsPicture(loop.scene)) loop.greys.resize(frames * plane);
-  if (output.cine || output.png) loop.images.resize(frames * picture);
+  if (output.pictures()) loop.images.resize(frames * picture);
   if (const TruthMaker* truth = simulator.truth()) {
     if (loop.scene.truth.labels) loop.labels.resize(frames * picture);
     if (loop.scene.truth.contours) loop.contours.resize(frames);

@@ -31,7 +31,7 @@ std::shared_ptr<void> makeFrame(const Simulator& simulator, const FrameTime& tim
   MadeFrame made{time, *workspace, {}, {}};
   if (!kept.take(time.frame, workspace->polar, made.volumes_ml))
     made.volumes_ml = simulator.make(time, {.received = sink.receiver(time)}, *workspace);
-  simulator.picture(white, time, *workspace, output.cine || output.png);
+  simulator.picture(white, time, *workspace, output.pictures());
   if (sink.wantsTruth() && simulator.truth() != nullptr)
     made.truth = simulator.clock().time(Stage::truth,
                                         [&] { return simulator.truthAt(time, workspace.get()); });

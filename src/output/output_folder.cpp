@@ -90,6 +90,7 @@ void removeFrames(const fs::path& folder, const FrameNames& names, int first) {
 OutputFolder::OutputFolder(fs::path folder, const OutputSettings& settings, bool resume)
     : folder_(madeFolder(folder)), lock_(folder_), resume_(resume), exr_(settings.exr) {
   if (settings.cine) refuseFolderAt(cine());
+  if (settings.dicom) refuseFolderAt(dicom());
   refuseFolderAt(manifest());
   tryWriting(folder_);
   // Only folders that this run fills: others may be links to places that take no files.
@@ -121,8 +122,10 @@ void OutputFolder::removeStale(int frame_count) const {
   removeFrames(intensity(), {"frame_", ".exr"}, first);
   removeFrames(png(), {"frame_", ".png"}, exr_ ? first : 0);
   removeTruth(exr_ ? first : 0);
-  if (!resume_) removeFile(cine());
-  removePartsOf(cine());
+  for (const fs::path& loop : {cine(), dicom()}) {
+    if (!resume_) removeFile(loop);
+    removePartsOf(loop);
+  }
   removePartsOf(manifest());
 }
 

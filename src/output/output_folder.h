@@ -29,6 +29,7 @@ class OutputFolder {
   std::filesystem::path png() const { return folder_ / "png"; }
   std::filesystem::path truth() const { return folder_ / "truth"; }
   std::filesystem::path cine() const { return folder_ / "cine.avi"; }
+  std::filesystem::path dicom() const { return folder_ / "cine.dcm"; }
   std::filesystem::path report() const { return folder_ / "report.html"; }
   std::filesystem::path manifest() const { return folder_ / "manifest.json"; }
 

@@ -19,7 +19,7 @@ bool wants(const Scene& scene, Channel channel) {
 }
 
 bool wantsPicture(const Scene& scene) {
-  return scene.output.cine || scene.output.png || wants(scene, Channel::display);
+  return scene.output.pictures() || wants(scene, Channel::display);
 }
 
 bool wantsIntensity(const Scene& scene, bool reflected) {

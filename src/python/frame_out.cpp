@@ -59,7 +59,7 @@ bool shareMemory(const py::array& a, const py::array& b) {
 bool isMade(const std::string& name, const Scene& scene) {
   if (name == "intensities") return wants(scene, Channel::y);
   if (name == "labels") return scene.truth.labels;
-  return wantsPicture(scene) && (name == "greys" || scene.output.cine || scene.output.png);
+  return wantsPicture(scene) && (name == "greys" || scene.output.pictures());
 }
 
 }  // namespace

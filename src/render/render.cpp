@@ -24,6 +24,7 @@
 #include "plan/loop_plan.h"
 #include "render/render_pass.h"
 #include "render/report.h"
+#include "video/dicom_writer.h"
 
 namespace echocine {
 
@@ -98,6 +99,7 @@ RenderSummary renderLoop(const Scene& given, const RenderOptions& options, const
   manifest.accuracy = options.accuracy;
   manifest.loop_frames = CardiacClock(scene).frameCount();
   manifest.scene_sha256 = sceneSha256(scene, *motion);
+  refuseLargeDicom(scene.output, summary.frames_wanted);
   refuseOtherScene(scene, options, manifest);
   std::map<std::string, std::string> earlier;
   if (options.resume)
@@ -114,7 +116,7 @@ RenderSummary renderLoop(const Scene& given, const RenderOptions& options, const
     folder.removeStale(manifest.loop_frames);
     summary.setup_s = secondsSince(start);
     ReportPage report(folder.report(), scene, simulator.cardiacClock(), range);
-    FolderSink sink({simulator, folder, monitor, report, options.resume, earlier}, manifest);
+    FolderSink sink({simulator, folder, monitor, report, range, options.resume, earlier}, manifest);
     try {
       summary.frames_done = renderFrames(simulator, range, sink, monitor);
     } catch (...) {

@@ -63,7 +63,7 @@ void FolderSink::begin(double white) {
                    scene.output.ecg
                        ? loopEcg(simulator.cardiacClock(), scene.acquisition.frame_rate_hz)
                        : std::vector<double>{});
-  cine_.emplace(parts_.folder.cine(), scene.output, scene.acquisition.frame_rate_hz);
+  loop_.emplace(parts_.folder, simulator, parts_.range, manifest_.scene_sha256);
   const TruthMaker* const truth = simulator.truth();
   if (truth == nullptr) return;
   truth_files_.emplace(parts_.folder.truth(), scene, truth->labels());
@@ -96,7 +96,7 @@ void FolderSink::writePictures(GreyImage& image, Finished& finished) {
   const OutputSettings& o = parts_.simulator.scene().output;
   const int frame = finished.entry.record.frame;
   overlay_->draw(image, static_cast<double>(frame) / parts_.simulator.cardiacClock().frameCount());
-  if (o.cine) finished.cine_frame = encodeCineFrame(image, o.codec, o.jpeg_quality);
+  finished.loop = loop_->encode(image);
   const bool shown = parts_.report.shows(frame) && !(o.cine && o.codec == CineCodec::mjpg);
   if (shown && !o.png)
     finished.report_frame = encodeCineFrame(image, CineCodec::mjpg, o.jpeg_quality);
@@ -137,7 +137,7 @@ std::shared_ptr<void> FolderSink::take(MadeFrame& frame) {
   if (truth_files_) clock.time(Stage::truth, [&] { writeTruth(*finished); });
   clock.time(Stage::exr, [&] { writeExr(record, frame.workspace, *finished); });
   if (finished->truth) finished->truth->forgetPlanes();
-  if (o.cine || o.png)
+  if (o.pictures())
     clock.time(Stage::avi, [&] { writePictures(frame.workspace.image, *finished); });
   return finished;
 }
@@ -151,11 +151,11 @@ void FolderSink::inOrder(void* taken) {
   const int frame = entry.record.frame;
   const OutputSettings& o = parts_.simulator.scene().output;
   if (!finished.mended.empty()) parts_.monitor.warn(finished.mended);
-  if (o.cine || o.png) {
+  if (o.pictures()) {
     parts_.simulator.clock().time(Stage::avi, [&] {
-      if (o.cine) cine_->add(finished.cine_frame);
+      loop_->add(finished.loop);
       if (parts_.report.shows(frame))
-        parts_.report.addFrame(finished.report_frame.empty() ? finished.cine_frame
+        parts_.report.addFrame(finished.report_frame.empty() ? finished.loop.cine
                                                              : finished.report_frame);
     });
   }
@@ -173,7 +173,7 @@ void FolderSink::inOrder(void* taken) {
 
 void FolderSink::endEarly() {
   try {
-    if (cine_) cine_->finishEarly();
+    if (loop_) loop_->finishEarly();
   } catch (const std::exception&) {  // the first failure is the one to report
   }
 }
@@ -210,13 +210,14 @@ void FolderSink::finishTruth() {
 }
 
 void FolderSink::finish(bool whole) {
-  if (!cine_) return;  // stopped before the first frame
-  // A part of a loop must not replace an existing longer cine.
-  if (parts_.simulator.scene().output.cine && !manifest_.frames.empty()) {
-    parts_.simulator.clock().time(Stage::avi,
-                                  [&] { whole ? cine_->finish() : cine_->finishEarly(); });
-    if (whole) manifest_.files["cine.avi"] = sha256HexOfFile(parts_.folder.cine());
-  }
+  if (!loop_) return;  // stopped before the first frame
+  if (!manifest_.frames.empty())
+    parts_.simulator.clock().time(Stage::avi, [&] {
+      if (whole)
+        manifest_.files.merge(loop_->finish());
+      else
+        loop_->finishEarly();
+    });
   if (whole && truth_files_) finishTruth();
 }
 

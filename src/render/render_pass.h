@@ -11,9 +11,9 @@
 #include "output/output_folder.h"
 #include "output/overlay.h"
 #include "output/truth_files.h"
+#include "render/loop_files.h"
 #include "render/render.h"
 #include "render/report.h"
-#include "video/cine_writer.h"
 
 namespace echocine {
 
@@ -28,6 +28,7 @@ class FolderSink : public FrameSink {
     const OutputFolder& folder;
     const Monitor& monitor;
     ReportPage& report;
+    std::pair<int, int> range;  // first frame and one past the last
     bool resume;
     std::map<std::string, std::string> earlier_hashes;  // when resuming: from an earlier manifest
   };
@@ -46,7 +47,7 @@ class FolderSink : public FrameSink {
  private:
   struct Finished {
     FrameEntry entry;
-    std::vector<std::byte> cine_frame;
+    LoopFiles::Frame loop;
     std::vector<std::byte> report_frame;  // if browsers cannot show the cine's frames
     std::string png_sha256;
     std::string mended;               // reason for rendering an existing frame again; empty: kept
@@ -66,7 +67,7 @@ class FolderSink : public FrameSink {
   // From begin() on.
   std::optional<ExrStack> exr_;
   std::optional<Overlay> overlay_;
-  std::optional<CineWriter> cine_;
+  std::optional<LoopFiles> loop_;
   std::optional<TruthFiles> truth_files_;
 };
 

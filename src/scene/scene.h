@@ -140,6 +140,7 @@ enum class CineCodec { mjpg, ffv1 };
 
 struct OutputSettings {
   bool exr = true, cine = true, png = false, report = true;
+  bool dicom = false;
   std::vector<Channel> channels{Channel::y};
   bool channels_given = false;  // by the scene
   ExrCompression exr_compression = ExrCompression::none;
@@ -148,6 +149,8 @@ struct OutputSettings {
   int jpeg_quality = 95;
   int width = 800, height = 600;  // pixels
   bool ecg = true, depth_ticks = true;
+
+  bool pictures() const { return cine || png || dicom; }  // scan-converted frames are made
 };
 
 // Ground truth of every frame, written beside its picture; only what is requested is computed.

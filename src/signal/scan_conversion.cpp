@@ -27,7 +27,7 @@ using ByteLanes = std::uint8_t __attribute__((vector_size(kFloatLanes)));
 PictureGeometry pictureGeometry(const Scene& scene) {
   const OutputSettings& o = scene.output;
   PictureGeometry g;
-  g.ecg_strip_px = o.ecg && (o.cine || o.png) ? o.height / 8 : 0;
+  g.ecg_strip_px = o.ecg && o.pictures() ? o.height / 8 : 0;
   const double margin = 0.02 * o.height;
   const double tick_room =
       o.depth_ticks ? 0.05 * o.width : 0;  // on both sides, so the sector stays centred

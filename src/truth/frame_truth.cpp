@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "motion/surfaces/interior_motion.h"
-#include "motion/surfaces/rest_marks.h"
 #include "plan/effect_plan.h"
 #include "truth/shown_contours.h"
 
@@ -133,10 +132,7 @@ void TruthMaker::lookAtBeat() {
   valves_ = valveTimes(volume_ml);
   if (valves_ && scene_.motion.end_systole_phase)
     valves_->aortic_closes = *scene_.motion.end_systole_phase;
-  const std::optional<RestMarks> rest = restMarks(scene_, motion_);
-  if (!rest) return;
-  motion_.frameAt(rest->phase, surfaces, false);
-  view_ = viewOffset(rest->heart, cavity, surfaces.positions_m[index(function_->cavity())]);
+  view_ = viewOffset(scene_, motion_);
 }
 
 void TruthMaker::addTracks(const SurfaceFrame& surfaces, const Space& space,

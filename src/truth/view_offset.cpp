@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "motion/surfaces/end_diastole.h"
+#include "motion/surfaces/rest_marks.h"
 #include "scene/names.h"
 #include "scene/view_names.h"
 
@@ -113,6 +115,16 @@ ViewOffset viewOffset(const HeartMarks& marks, const SurfaceTopology& cavity,
       nearest.label = "other";
   }
   return nearest;
+}
+
+std::optional<ViewOffset> viewOffset(const Scene& scene, const MeshMotion& motion) {
+  const auto ventricle = ventricleOf(scene);
+  const std::optional<RestMarks> rest = restMarks(scene, motion);
+  if (!ventricle || !rest) return std::nullopt;
+  SurfaceFrame surfaces;
+  motion.frameAt(rest->phase, surfaces, false);
+  return viewOffset(rest->heart, motion.surfaces()[index(*ventricle)],
+                    surfaces.positions_m[index(*ventricle)]);
 }
 
 }  // namespace echocine

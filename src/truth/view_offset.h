@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "motion/surfaces/mesh_motion.h"
 #include "motion/surfaces/surface_frame.h"
 #include "motion/views/heart_marks.h"
 
@@ -31,5 +32,9 @@ struct ViewOffset {
 // and in the same frame. "psax-base" needs an aortic valve.
 ViewOffset viewOffset(const HeartMarks& heart, const SurfaceTopology& cavity,
                       std::span<const Vec3f> positions_m);
+
+// The same of a scene; none without the roles of a heart. Precondition: the motion is in the probe
+// frame.
+std::optional<ViewOffset> viewOffset(const Scene& scene, const MeshMotion& motion);
 
 }  // namespace echocine

@@ -7,6 +7,7 @@
 
 #include "core/check.h"
 #include "video/cine_writer.h"
+#include "video/dicom_writer.h"
 #include "video/ffv1_encoder.h"
 
 extern "C" {
@@ -44,22 +45,21 @@ struct CompressorFree {
 // Luma at full resolution, and empty chroma: players take a colour JPEG's range as 0 to 255, while
 // FFmpeg reports an unknown range for a grey one. The accurate transform is used, because the fast
 // one differs between processors, and the same scene must give the same bytes.
-std::vector<std::byte> encodeJpeg(const GreyImage& image, int quality) {
+std::vector<std::byte> encodeJpeg(const GreyImage& image, int quality, TJSAMP layout) {
   const std::unique_ptr<void, CompressorFree> compressor(tjInitCompress());
   if (!compressor) throw std::bad_alloc();
-  constexpr int kLayout = TJSAMP_420;
   constexpr std::uint8_t kNoColour = 128;
-  unsigned long size = tjBufSize(image.width, image.height, kLayout);
+  unsigned long size = tjBufSize(image.width, image.height, layout);
   thread_local std::vector<std::uint8_t> room, colour;  // fresh pages cost as much as the encoding
   room.resize(size);
-  const int colour_width = tjPlaneWidth(1, image.width, kLayout);
+  const int colour_width = tjPlaneWidth(1, image.width, layout);
   colour.resize(static_cast<std::size_t>(colour_width) *
-                    static_cast<std::size_t>(tjPlaneHeight(1, image.height, kLayout)),
+                    static_cast<std::size_t>(tjPlaneHeight(1, image.height, layout)),
                 kNoColour);
   const std::uint8_t* planes[3] = {image.pixels.data(), colour.data(), colour.data()};
   const int strides[3] = {image.width, colour_width, colour_width};
   std::uint8_t* to = room.data();
-  if (tjCompressFromYUVPlanes(compressor.get(), planes, image.width, strides, image.height, kLayout,
+  if (tjCompressFromYUVPlanes(compressor.get(), planes, image.width, strides, image.height, layout,
                               &to, &size, quality, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT) != 0) {
     const std::string reason = tjGetErrorStr2(compressor.get());
     // The library has one code for all errors; what is short of memory must end as such.
@@ -133,7 +133,17 @@ CodecContext openFfv1(int width, int height) {
 std::vector<std::byte> encodeCineFrame(const GreyImage& image, CineCodec codec, int jpeg_quality) {
   checkSize(image);
   if (codec == CineCodec::ffv1) return encodeFfv1(image);
-  return encodeJpeg(image, jpeg_quality);
+  return encodeJpeg(image, jpeg_quality, TJSAMP_420);
+}
+
+// The chroma of YBR_FULL_422 is subsampled along rows alone.
+std::vector<std::byte> encodeDicomFrame(const GreyImage& image, const OutputSettings& output) {
+  checkSize(image);
+  if (!isPlainDicom(output)) return encodeJpeg(image, output.jpeg_quality, TJSAMP_422);
+  std::vector<std::byte> rgb;
+  rgb.reserve(3 * image.pixels.size());
+  for (const std::uint8_t grey : image.pixels) rgb.insert(rgb.end(), 3, std::byte{grey});
+  return rgb;
 }
 
 namespace {

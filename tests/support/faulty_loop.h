@@ -15,6 +15,7 @@ class FaultyLoop : public ::testing::Test {
     SceneText text = ballScene(frames);
     text.probe["lines"] = "16";
     text.output["png"] = "true";
+    text.output["dicom"] = "true";
     return text;
   }
   explicit FaultyLoop(const SceneText& text = sceneText()) {

@@ -33,6 +33,7 @@ TEST(SameBytes, OneTwoAndFourThreadsWriteTheSameFiles) {
     text.accuracy["rays_per_beam"] = rays;
     text.accuracy["elevation_slices"] = slices;
     text.output["png"] = "true";
+    text.output["dicom"] = "true";
     text.output["channels"] =
         "[\"Y\", \"unattenuated.Y\", \"attenuation.A\", \"reflection.Y\", "
         "\"backscatter.Y\", \"medium.id\", \"display.Y\"]";
@@ -42,7 +43,7 @@ TEST(SameBytes, OneTwoAndFourThreadsWriteTheSameFiles) {
       const std::filesystem::path out = folder / (name + std::to_string(threads));
       renderLoop(scene, {.folder = out, .threads = threads, .frames = {}}, {});
       const std::map<std::string, std::string> files = lastingFiles(out);
-      EXPECT_EQ(files.size(), 14u);
+      EXPECT_EQ(files.size(), 15u);
       if (threads == 1) one = files;
       for (const auto& [file, bytes] : one) {
         ASSERT_TRUE(files.contains(file)) << file;
