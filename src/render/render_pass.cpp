@@ -211,7 +211,7 @@ void FolderSink::finishTruth() {
 
 void FolderSink::finish(bool whole) {
   if (!loop_) return;  // stopped before the first frame
-  if (!manifest_.frames.empty())
+  if (parts_.simulator.scene().output.pictures() && !manifest_.frames.empty())
     parts_.simulator.clock().time(Stage::avi, [&] {
       if (whole)
         manifest_.files.merge(loop_->finish());
