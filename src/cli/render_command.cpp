@@ -12,6 +12,7 @@
 #include "frame/plan_loop.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/surfaces/probe_placement.h"
+#include "output/volumes_csv.h"
 #include "scene/scene_reader.h"
 #include "scene/truth_reader.h"
 
@@ -67,6 +68,7 @@ void printSummary(const RenderSummary& summary, const RenderOptions& options, co
   if (scene.output.dicom) add("cine.dcm");
   if (scene.output.png) add("png/frame_*.png");
   if (scene.truth.any()) add("truth/");
+  if (scene.output.volumes && hasChambers(scene)) add("volumes.csv");
   if (scene.output.report) add("report.html");
   add("manifest.json");
   fmt::print("  {}\n", parts);

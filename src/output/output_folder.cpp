@@ -91,6 +91,7 @@ OutputFolder::OutputFolder(fs::path folder, const OutputSettings& settings, bool
     : folder_(madeFolder(folder)), lock_(folder_), resume_(resume), exr_(settings.exr) {
   if (settings.cine) refuseFolderAt(cine());
   if (settings.dicom) refuseFolderAt(dicom());
+  if (settings.volumes) refuseFolderAt(volumes());
   refuseFolderAt(manifest());
   tryWriting(folder_);
   // Only folders that this run fills: others may be links to places that take no files.
@@ -126,6 +127,8 @@ void OutputFolder::removeStale(int frame_count) const {
     if (!resume_) removeFile(loop);
     removePartsOf(loop);
   }
+  removeFile(volumes());
+  removePartsOf(volumes());
   removePartsOf(manifest());
 }
 

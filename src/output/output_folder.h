@@ -30,6 +30,7 @@ class OutputFolder {
   std::filesystem::path truth() const { return folder_ / "truth"; }
   std::filesystem::path cine() const { return folder_ / "cine.avi"; }
   std::filesystem::path dicom() const { return folder_ / "cine.dcm"; }
+  std::filesystem::path volumes() const { return folder_ / "volumes.csv"; }
   std::filesystem::path report() const { return folder_ / "report.html"; }
   std::filesystem::path manifest() const { return folder_ / "manifest.json"; }
 

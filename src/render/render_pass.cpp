@@ -12,6 +12,7 @@
 #include "frame/workspace.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/cycle/ecg.h"
+#include "output/volumes_csv.h"
 #include "scene/scene_json.h"
 #include "signal/signal_chain.h"
 #include "truth/frame_truth.h"
@@ -219,6 +220,12 @@ void FolderSink::finish(bool whole) {
         loop_->finishEarly();
     });
   if (whole && truth_files_) finishTruth();
+  const Scene& scene = parts_.simulator.scene();
+  if (!whole || !scene.output.volumes || !hasChambers(scene)) return;
+  const std::string table = volumesCsv(scene, manifest_);
+  const auto bytes = std::as_bytes(std::span(table));
+  writeFileWhole(parts_.folder.volumes(), bytes);
+  manifest_.files["volumes.csv"] = sha256Hex(bytes);
 }
 
 }  // namespace echocine

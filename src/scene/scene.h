@@ -140,7 +140,7 @@ enum class CineCodec { mjpg, ffv1 };
 
 struct OutputSettings {
   bool exr = true, cine = true, png = false, report = true;
-  bool dicom = false;
+  bool dicom = false, volumes = true;
   std::vector<Channel> channels{Channel::y};
   bool channels_given = false;  // by the scene
   ExrCompression exr_compression = ExrCompression::none;

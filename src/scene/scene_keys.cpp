@@ -178,6 +178,7 @@ constexpr SceneKey kKeys[] = {
     {"output", "png", kNone, kAny, "writes png/frame_*.png", AT(OutputSettings, png)},
     {"output", "dicom", kNone, kAny, "writes cine.dcm, a DICOM Ultrasound Multi-frame file", AT(OutputSettings, dicom)},
     {"output", "report", kNone, kAny, "writes report.html, the run on one page", AT(OutputSettings, report)},
+    {"output", "volumes", kNone, kAny, "writes volumes.csv: chamber volumes and strain in each frame", AT(OutputSettings, volumes)},
     {"output", "width", kPx, kPixels, "width of the picture", AT(OutputSettings, width)},
     {"output", "height", kPx, kPixels, "height of the picture", AT(OutputSettings, height)},
     {"output", "ecg", kNone, kAny, "draws the ECG below the picture", AT(OutputSettings, ecg)},

@@ -43,7 +43,7 @@ TEST(SameBytes, OneTwoAndFourThreadsWriteTheSameFiles) {
       const std::filesystem::path out = folder / (name + std::to_string(threads));
       renderLoop(scene, {.folder = out, .threads = threads, .frames = {}}, {});
       const std::map<std::string, std::string> files = lastingFiles(out);
-      EXPECT_EQ(files.size(), 15u);
+      EXPECT_EQ(files.size(), 16u);
       if (threads == 1) one = files;
       for (const auto& [file, bytes] : one) {
         ASSERT_TRUE(files.contains(file)) << file;
