@@ -215,7 +215,7 @@
     const facts = [["heart rate", `${fixed(60 * a.heart_rate_hz, 1)} beats/min`], ["frame rate", `${number(a.frame_rate_hz)} frames/s`],
       ["beats", number(a.beats)], ["R-R variability", percent(a.rr_variability)], ["interpolation", m.interpolation], ["subdivision", m.subdivision],
       ["TGC", s.tgc], ["spread", s.spread], ["beam width", s.beam_width], ["dynamic range", `${number(s.dynamic_range_db)} dB`],
-      ["white at", `${data.reference_intensity.toExponential(3)} of I_S`], ["gamma", number(s.grey_gamma)],
+      ["white at", `${data.reference_intensity.toExponential(3)} of I_S`], ["gamma", number(s.grey_gamma)], ["toe, shoulder", `${number(s.grey_toe)}, ${number(s.grey_shoulder)}`],
       ["rays per beam", accuracy.rays_per_beam], ["normals", accuracy.normals],
       ["picture", `${o.width} × ${o.height}, ${o.codec}${o.codec === "mjpg" ? `, quality ${o.jpeg_quality}` : ""}`]];
     page.facts(byId("run"), facts);

@@ -205,6 +205,7 @@ void planSignal(const Scene& scene, EffectPlan& plan) {
   add(plan, Effect::log_compression, picture,
       picture ? fmt::format("{:g} dB for the picture", scene.signal.dynamic_range_db)
               : "no picture is requested");
+  planGreyMap(scene, plan);
   const bool labels = wants(scene, Channel::medium);
   add(plan, Effect::labels, labels,
       labels ? "channel medium.id is requested" : "channel medium.id is not requested");

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/units.h"
+#include "scene/grey_curve.h"
 #include "scene/role.h"
 
 namespace echocine {
@@ -44,6 +45,14 @@ void planTissue(const Scene& scene, EffectPlan& plan) {
 }
 
 }  // namespace
+
+void planGreyMap(const Scene& scene, EffectPlan& plan) {
+  const SignalSettings& s = scene.signal;
+  decidePicture(scene, plan, Effect::grey_map, !GreyCurve(s).isIdentity(), true, "",
+                fmt::format("gamma {:g}; the lowest {:g} % of the dynamic range are black, the "
+                            "highest {:g} % bend to white",
+                            s.grey_gamma, 100 * s.grey_toe, 100 * s.grey_shoulder));
+}
 
 void planTrabeculae(const Scene& scene, EffectPlan& plan) {
   const double height_m = scene.trabeculae.deviation_m;

@@ -1,12 +1,14 @@
 #pragma once
-// The part of the plan that does not affect truth: trabeculae, speckle and its tissue properties,
-// artefacts.
+// The part of the plan that does not affect truth: grey map, trabeculae, speckle and its tissue
+// properties, artefacts.
 
 #include "plan/effect_plan.h"
 
 namespace echocine {
 
 // The relief of the ventricles' inner surfaces.
+// The curve from decibels to grey.
+void planGreyMap(const Scene& scene, EffectPlan& plan);
 void planTrabeculae(const Scene& scene, EffectPlan& plan);
 
 // Speckle and the properties of scatterers and interfaces. Precondition: plan.contrast,

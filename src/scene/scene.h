@@ -79,7 +79,8 @@ struct SignalSettings {
   // Interface echoes E become E / (1 + E / limit), in dB of the transmitted intensity. None:
   // unchanged.
   std::optional<double> interface_limit_db;
-  double grey_gamma = 1;  // grey = (position in the dynamic range)^gamma
+  // The grey map (grey_curve.h). Toe and shoulder: shares of the dynamic range.
+  double grey_gamma = 1, grey_toe = 0, grey_shoulder = 0;
 };
 
 // Relief of the ventricles' inner surfaces, in the picture only (motion/surfaces/trabeculae.h).

@@ -157,7 +157,9 @@ constexpr SceneKey kKeys[] = {
     {"signal", "gain_db", kDb, ranges::kPictureGain_db, "gain of the picture; lowers the intensity of white", AT(SignalSettings, gain_db)},
     {"signal", "interface_gain_db", kDb, ranges::kPictureGain_db, "gain of interface echoes relative to tissue, in the picture only", AT(SignalSettings, interface_gain_db)},
     {"signal", "interface_limit_db", kDb, ranges::kLevel_db, "limits interface echoes E to E / (1 + E / limit) in the picture; relative to I_S; no limit if left out", AT(SignalSettings, interface_limit_db)},
-    {"signal", "grey_gamma", kNone, ranges::kGamma, "grey = (position in the dynamic range)^gamma", AT(SignalSettings, grey_gamma)},
+    {"signal", "grey_gamma", kNone, ranges::kGamma, "grey = c^gamma; c is the position in the dynamic range after toe and shoulder", AT(SignalSettings, grey_gamma)},
+    {"signal", "grey_toe", kNone, ranges::kGreyToe, "lowest fraction of the dynamic range that is black", AT(SignalSettings, grey_toe)},
+    {"signal", "grey_shoulder", kNone, ranges::kGreyShoulder, "highest fraction of the dynamic range, over which the slope falls to 0 at white", AT(SignalSettings, grey_shoulder)},
 
     {"accuracy", "rays_per_beam", kNone, kRays, "2 or more: average over the beam's profile, also in Y; embree only", AT(AccuracySettings, rays_per_beam)},
     {"accuracy", "elevation_slices", kNone, kSlices, "1, 3 or 5 slices across the plane, averaged over the lens's beam; plane slice only", AT(AccuracySettings, elevation_slices)},

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/units.h"
+#include "scene/grey_curve.h"
 #include "scene/role.h"
 
 namespace echocine {
@@ -68,7 +68,7 @@ std::string whiteWords(const Scene& scene) {
 }
 
 double whiteOverMuscle(const SignalSettings& signal) {
-  const double place = std::pow(kMuscleGrey / 255, 1 / signal.grey_gamma);  // in the dynamic range
+  const double place = GreyCurve(signal).inverse(kMuscleGrey / 255);  // in the dynamic range
   return intensityFromDecibels((1 - place) * signal.dynamic_range_db);
 }
 

@@ -43,7 +43,7 @@ PictureGeometry pictureGeometry(const Scene& scene) {
 }
 
 ScanConverter::ScanConverter(const Probe& probe, const PictureGeometry& geometry, int width,
-                             int height, double grey_gamma, int averaged)
+                             int height, const GreyCurve& grey_curve, int averaged)
     : width_(width),
       height_(height),
       next_line_(probe.lines > 1 ? static_cast<std::size_t>(std::max(probe.samples, 2)) : 0),
@@ -51,16 +51,16 @@ ScanConverter::ScanConverter(const Probe& probe, const PictureGeometry& geometry
       averaged_(averaged) {
   for (int x = 0; x < width; x += kStrip)
     for (int y = 0; y < height; ++y) addRow(probe, geometry, x, std::min(x + kStrip, width), y);
-  for (int i = 0; grey_gamma != 1 && i <= kGreySteps; ++i)
+  for (int i = 0; !grey_curve.isIdentity() && i <= kGreySteps; ++i)
     grey_map_.push_back(static_cast<std::uint8_t>(
-        std::lround(255 * std::pow(static_cast<double>(i) / kGreySteps, grey_gamma))));
+        std::lround(255 * grey_curve.at(static_cast<double>(i) / kGreySteps))));
   if (averaged == 1) return;
   PictureGeometry fine = geometry;
   fine.metres_per_pixel /= averaged;
   fine.origin_x_px *= averaged;
   fine.origin_y_px *= averaged;
-  fine_ =
-      std::make_unique<const ScanConverter>(probe, fine, width * averaged, height * averaged, 1.0);
+  fine_ = std::make_unique<const ScanConverter>(probe, fine, width * averaged, height * averaged,
+                                                GreyCurve());
 }
 
 int ScanConverter::averagedOver(const Scene& scene, const PictureGeometry& geometry) {

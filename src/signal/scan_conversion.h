@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/lanes.h"
+#include "scene/grey_curve.h"
 #include "scene/scene.h"
 #include "signal/picture.h"
 
@@ -14,10 +15,10 @@ namespace echocine {
 
 class ScanConverter {
  public:
-  // grey_gamma: the last step, pixel = 255 (grey)^gamma, also as a table. averaged: values along a
-  // pixel's side.
+  // grey_curve: the last step, pixel = 255 g, also as a table. averaged: values along a pixel's
+  // side.
   ScanConverter(const Probe& probe, const PictureGeometry& geometry, int width, int height,
-                double grey_gamma, int averaged = 1);
+                const GreyCurve& grey_curve, int averaged = 1);
 
   // Bilinear between lines and samples of a line-major grey plane (0..1). Pixels whose centre is
   // outside the scan area stay exactly 0. A pixel larger than the plane's resolution (averagedOver)

@@ -30,7 +30,7 @@ SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
       fields_(scene, plan, gains_),
       geometry_(pictureGeometry(scene)),
       converter_(scene.probe, geometry_, scene.output.width, scene.output.height,
-                 scene.signal.grey_gamma, ScanConverter::averagedOver(scene, geometry_)) {
+                 GreyCurve(scene.signal), ScanConverter::averagedOver(scene, geometry_)) {
   SignalSettings average = scene.signal;
   if (plan.rays_per_beam > 1) average.beam_width = BeamWidth::none;  // the rays are the beam
   if (plan.beam_width && average.beam_width == BeamWidth::profile && scene.probe.lines > 1) {

@@ -2,6 +2,7 @@
 //   echo_looks [--hearts N] [--quality good|medium|poor] [--with TOML] [--save FOLDER]
 //   echo_looks --measure FILE MILLIMETRES_PER_PIXEL     frame 0 of a real loop
 //   echo_looks --real FILE=MILLIMETRES_PER_PIXEL [--real ...] [--hearts N]     a linear classifier
+//   echo_looks --greys 1 [--hearts N] [--look NAME] [--view NAME] [--with TOML] [--save FOLDER]
 //   echo_looks --regions CSV --loop SCENE_OR_VIDEO [--pixel MILLIMETRES] [--save PGM]
 
 #include <fmt/format.h>
@@ -15,65 +16,36 @@
 #include <map>
 #include <string>
 
-#include "core/file.h"
 #include "core/parallel.h"
 #include "frame/simulator.h"
 #include "looks_classifier.h"
+#include "looks_greys.h"
 #include "looks_regions.h"
+#include "looks_scene.h"
 #include "metrics/statistics.h"
 #include "motion/heart/heart_scene.h"
-#include "motion/heart/parameters.h"
-#include "scene/key_reader.h"
 #include "scene/names.h"
 #include "scene/role.h"
-#include "scene/signal_reader.h"
 #include "signal/signal_chain.h"
 #include "texture_table.h"
-#include "truth/frame_truth.h"
 #include "video/read_video.h"
 
 namespace echocine::bench {
 namespace {
 
-struct Options {
-  int hearts = 12;
-  Quality quality = Quality::medium;
-  std::string save, measure, with;  // with: a scene file's [signal], [speckle], [artefacts]
+struct Options : LookHearts {
+  bool greys = false;
+  std::string measure;
   std::string regions, loop;
   std::vector<std::pair<std::string, double>> real;  // loops, and how large their pixels are
   double mm_per_pixel = 0;
 };
 
-// Dials spread evenly over healthy and ill adults: an additive sequence.
-heart::Parameters parametersOf(int number) {
-  const auto between = [&](double low, double high, double step) {
-    const double at = 0.5 + step * number;
-    return low + (high - low) * (at - std::floor(at));
-  };
-  return heart::parametersFrom({{"edv", between(90, 180, 0.7549)},
-                                {"ef", between(0.35, 0.68, 0.5698)},
-                                {"wall-thickness", between(8, 12, 0.4302)},
-                                {"hr", between(55, 90, 0.3247)}});
-}
-
-void savePgm(const std::string& path, const GreyImage& image) {
-  std::ofstream out(path, std::ios::binary);
-  out << "P5\n" << image.width << " " << image.height << "\n255\n";
-  out.write(reinterpret_cast<const char*>(image.pixels.data()),
-            static_cast<std::streamsize>(image.pixels.size()));
-}
-
 // Papillary muscles count as cavity, as those who trace ventricles have them.
 std::vector<std::uint8_t> labelsOf(const Simulator& simulator, double phase) {
-  Scene scene = simulator.scene();
-  scene.truth.labels = true;
-  const PictureGeometry g = simulator.chain().geometry();
-  const PictureGrid grid{scene.output.width, scene.output.height, g.origin_x_px, g.origin_y_px,
-                         g.metres_per_pixel};
-  const TruthMaker truth(scene, simulator.motion(), grid, phase);
-  const FrameTruth at = truth.at({phase, phase, phase, 1});
+  const Scene& scene = simulator.scene();
   std::vector<std::uint8_t> labels;
-  for (const std::uint16_t id : at.picture_ids) {
+  for (const std::uint16_t id : idsOf(simulator, phase)) {
     const Role role = id == 0 ? Role::none : roleOf(scene.structures[id - 1u]);
     labels.push_back(role == Role::lv_cavity || role == Role::papillary_muscle ? 1
                      : role == Role::lv_wall                                   ? 2
@@ -100,37 +72,13 @@ Measured measure(const Simulator& simulator, double time_s, const std::string& s
   return {sectorTexture(picture), regionTexture(picture)};
 }
 
-// The look "scanner", or what a file says instead.
-void takeTables(const Options& options, Scene& scene) {
-  const SignalSettings before = scene.signal;
-  scene.signal = {};
-  scene.trabeculae = {};
-  scene.speckle = {};
-  scene.artefacts = {};
-  scene.signal.look = Look::scanner;
-  scene.signal.quality = options.quality;
-  const std::string text =
-      options.with.empty() ? "" : readTextFile(options.with, std::size_t{1} << 20);
-  TomlTable root = TomlTable::parse(text, options.with);
-  takeLook(root.table("signal"), scene);
-  readSignal(root.table("signal"), scene);
-  for (const char* name : {"trabeculae", "speckle", "artefacts"}) {
-    TomlTable table = root.table(name);
-    readKeys(table, name, {&scene});
-  }
-  if (!scene.signal.reference_intensity)
-    scene.signal.reference_intensity = before.reference_intensity;
-}
-
 using Column = std::vector<Measured>;
 
 void addHeart(int number, const Options& options, std::map<int, Column>& columns) {
   for (const heart::View view : {heart::View::a4c, heart::View::a2c}) {
     Scene scene = heart::heartScene(parametersOf(number), view, 12);
     takeTables(options, scene);
-    scene.speckle.seed = number + 1;
-    scene.artefacts.noise_seed = scene.artefacts.clutter_seed = number + 1;
-    scene.speckle.heterogeneity_seed = scene.trabeculae.seed = number + 1;
+    seedScene(number, scene);
     const double es_s =
         scene.motion.end_systole_phase.value_or(0.35) / scene.acquisition.heart_rate_hz;
     const Simulator simulator(std::move(scene));
@@ -248,6 +196,9 @@ int run(int count, char** words) {
     if (key == "--hearts") options.hearts = std::atoi(words[i + 1]);
     if (key == "--quality")
       options.quality = valueOf<Quality>(words[i + 1]).value_or(options.quality);
+    if (key == "--look") options.look = valueOf<Look>(words[i + 1]).value_or(options.look);
+    if (key == "--greys") options.greys = true;
+    if (key == "--view") options.view = words[i + 1];
     if (key == "--with") options.with = words[i + 1];
     if (key == "--save") options.save = words[i + 1];
     if (const std::string word = words[i + 1]; key == "--real")
@@ -271,6 +222,10 @@ int run(int count, char** words) {
   }
   if (!options.real.empty()) {
     classify(options);
+    return 0;
+  }
+  if (options.greys) {
+    printGreys(options);
     return 0;
   }
   std::map<int, Column> columns;

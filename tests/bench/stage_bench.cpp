@@ -138,9 +138,9 @@ void smallPicture(benchmark::State& state) {
   Scene& scene = t.scene.scene;
   scene.output.width = scene.output.height = kSize;
   const PictureGeometry geometry = pictureGeometry(scene);
-  const ScanConverter ours(scene.probe, geometry, kSize, kSize, 1,
+  const ScanConverter ours(scene.probe, geometry, kSize, kSize, GreyCurve(),
                            ScanConverter::averagedOver(scene, geometry)),
-      centres(scene.probe, geometry, kSize, kSize, 1);
+      centres(scene.probe, geometry, kSize, kSize, GreyCurve());
   const Greys greys = t.chain.compress(std::move(t.polar.intensities), kStageReference);
   GreyImage image;
   overFloor(

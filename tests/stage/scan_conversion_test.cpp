@@ -31,10 +31,17 @@ Scene sceneOf(ProbeKind kind, int lines, int samples) {
   return scene;
 }
 
+GreyCurve gammaOf(double gamma) {
+  SignalSettings signal;
+  signal.grey_gamma = gamma;
+  return GreyCurve(signal);
+}
+
 struct Converted {
   Scene scene;
   PictureGeometry geometry = pictureGeometry(scene);
-  ScanConverter converter{scene.probe, geometry, scene.output.width, scene.output.height, 1};
+  ScanConverter converter{scene.probe, geometry, scene.output.width, scene.output.height,
+                          GreyCurve()};
 
   GreyImage image(const std::vector<float>& grey) const {
     GreyImage result;
@@ -155,7 +162,7 @@ TEST(ScanConversion, OneLineOrOneSampleFillTheScanArea) {
 
 TEST(ScanConversion, GammaIsTheLastStep) {
   const Scene scene = sceneOf(ProbeKind::linear, 3, 3);
-  const ScanConverter converter(scene.probe, pictureGeometry(scene), 800, 600, 2);
+  const ScanConverter converter(scene.probe, pictureGeometry(scene), 800, 600, gammaOf(2));
   GreyImage image;
   converter.convert(std::vector<float>(9, 0.5f), image);
   EXPECT_EQ(*std::max_element(image.pixels.begin(), image.pixels.end()), 64);
@@ -170,8 +177,8 @@ struct Small {
     averaged = ScanConverter::averagedOver(scene, geometry);
   }
   std::vector<float> picture(const std::vector<float>& grey, int over) const {
-    const ScanConverter converter(scene.probe, geometry, scene.output.width, scene.output.height, 1,
-                                  over);
+    const ScanConverter converter(scene.probe, geometry, scene.output.width, scene.output.height,
+                                  GreyCurve(), over);
     std::vector<float> values;
     converter.convert(grey, values);
     return values;
@@ -253,7 +260,8 @@ TEST(ScanConversion, AveragedGreysAreTheMeanThroughTheGreyMap) {
   const Small small(112);
   const std::vector<float> grey = small.plane(
       [](int line, int k) { return static_cast<float>((line * 7 + k * 13) % 101) / 100; });
-  const ScanConverter converter(small.scene.probe, small.geometry, 112, 112, 2, small.averaged);
+  const ScanConverter converter(small.scene.probe, small.geometry, 112, 112, gammaOf(2),
+                                small.averaged);
   GreyImage image;
   std::vector<float> values;
   converter.convert(grey, image);
