@@ -12,6 +12,7 @@
 
 #include "scene/scan_geometry.h"
 #include "signal/picture.h"
+#include "video/dicom_dictionary.h"
 #include "video/dicom_put.h"
 #include "video/dicom_uid.h"
 
@@ -196,6 +197,7 @@ bool isPlainDicom(const OutputSettings& output) {
 }
 
 std::vector<std::byte> dicomHeader(const DicomLoop& loop) {
+  loadDicomDictionary();
   const Scene& scene = loop.scene;
   DcmFileFormat file;
   DcmDataset& data = *file.getDataset();

@@ -19,6 +19,7 @@
 
 #include "core/error.h"
 #include "video/dicom_check.h"
+#include "video/dicom_dictionary.h"
 #include "video/dicom_pixels.h"
 #include "video/read_video.h"
 #include "video/video_builder.h"
@@ -29,6 +30,7 @@ namespace {
 
 // DCMTK keeps its decoders in global tables, which must not be filled twice.
 void setUpOnce() {
+  loadDicomDictionary();
   static std::once_flag once;
   std::call_once(once, [] {
     OFLog::configure(OFLogger::OFF_LOG_LEVEL);  // errors come back as values
