@@ -36,7 +36,9 @@ AccuracyChoice choose(const Scene& scene, double tolerance_db, int threads, bool
 }  // namespace
 
 void AccuracyOptions::addTo(CLI::App& command) {
-  command.add_option("--preset", preset_, "Set all accuracy knobs of `echocine study`")
+  command
+      .add_option("--preset", preset_,
+                  "Preset of all accuracy settings that `echocine study` varies")
       ->type_name(fmt::format("{{{}}}", fmt::join(kPresetNames, ",")));
   command
       .add_option("--tolerance-db", tolerance_db_,

@@ -100,20 +100,23 @@ CompareCommand::CompareCommand(CLI::App& app) {
   addTimes(*command, options_.real_side, "real", "real");
   addSide(*command, options_.synthetic_side, "synthetic-", "synthetic");
   addTimes(*command, options_.synthetic_side, "synthetic", "synthetic");
-  command->add_flag("--sectors-only", no_space_,
-                    "Register by the sectors only, without shift, scale and rotation");
+  command->add_flag(
+      "--sectors-only", no_space_,
+      "Align the loops by their sectors only; do not search shift, scale and rotation");
   command->add_flag("--no-ecg", no_ecg_, "Do not read an ECG from the pictures");
-  command->add_flag("--monotone", options_.monotone, "Monotone grey calibration");
-  command->add_option("--knot-count", options_.knot_count, "Knots of the grey calibration")
+  command->add_flag("--monotone", options_.monotone, "Use a monotone grey calibration");
+  command
+      ->add_option("--knot-count", options_.knot_count, "Number of knots of the grey calibration")
       ->check(CLI::Range(2, 64))
       ->capture_default_str();
   command->add_option("--knots", options_.knots, "Synthetic grey levels (0 to 255) of the knots")
       ->delimiter(',')
       ->check(within(0, 255))
       ->type_name("NUMBER");
-  command->add_option("--scene", options_.scene,
-                      "Scene of the render: metrics in bands around its boundaries");
-  command->add_option("--band-mm", options_.band_mm, "Full width of a band, mm")
+  command->add_option(
+      "--scene", options_.scene,
+      "Scene of the render: adds metrics in bands around its boundaries, and finds its best pose");
+  command->add_option("--band-mm", options_.band_mm, "Full width of these bands, mm")
       ->check(within(0.1, 100))
       ->type_name("NUMBER")
       ->capture_default_str();
@@ -127,13 +130,15 @@ CompareCommand::CompareCommand(CLI::App& app) {
       ->type_name("NUMBER")
       ->capture_default_str();
   command->add_flag("--contours", options_.contours, "Draw the scene's contours into the pictures");
-  command->add_option("--scan", scan_text_,
-                      "Instead of a synthetic loop: scan up to three dials of a parametric heart, "
-                      "such as ef=0.3:0.75:0.05,edv=120:230:20");
-  command->add_option("--views", views_text_,
-                      "Instead of a synthetic loop: rank these views and fit a heart in each; all, "
-                      "or at least two of " +
-                          viewList());
+  command->add_option(
+      "--scan", scan_text_,
+      "Instead of a synthetic loop: evaluate a grid of up to three dials of a parametric heart, "
+      "such as ef=0.3:0.75:0.05,edv=120:230:20");
+  command->add_option(
+      "--views", views_text_,
+      "Instead of a synthetic loop: fit a heart in each of these views and rank them; all, "
+      "or at least two of " +
+          viewList());
   command->add_option("--dials", dials_text_,
                       "Fixed dials of the hearts of --scan or --views, such as "
                       "hr=72,wall-thickness=11");
@@ -163,7 +168,7 @@ int CompareCommand::runAndTell(const Make& make, const Write& write) const {
 
 int CompareCommand::run() {
   if (!scan_text_.empty() && !views_text_.empty())
-    throw SceneError("--views: --scan scans one view; give one of the two");
+    throw SceneError("--views: cannot be combined with --scan; give one of the two");
   if (!scan_text_.empty()) return runScan();
   for (const bool given : {scan_.yes, view_text_ != "a4c"})
     if (given) throw SceneError("--view and --yes: belong to --scan");
@@ -171,7 +176,7 @@ int CompareCommand::run() {
   if (options_.real.empty())
     throw SceneError(
         "compare: needs two loops, SYNTHETIC and REAL; with --scan or --views only the real one");
-  if (!dials_text_.empty()) throw SceneError("--dials: belongs to --scan and --views");
+  if (!dials_text_.empty()) throw SceneError("--dials: is accepted with --scan or --views only");
   // A flag that leaves out reads better than one that turns on what is on.
   options_.align_space = !no_space_;
   options_.real_side.read_ecg = options_.synthetic_side.read_ecg = !no_ecg_;

@@ -27,7 +27,7 @@ void printCaveats(const std::vector<std::string>& caveats) {
 }
 
 void printSceneFit(const fit::SceneFit& fit) {
-  fmt::print("  scene: discrepancy {:.4f} where it lies best, confidence {:.2f}\n",
+  fmt::print("  scene: discrepancy {:.4f} at its best pose, confidence {:.2f}\n",
              fit.found.discrepancy, fit.found.confidence);
   printCaveats(fit.caveats);
   if (fit.tilt) printTilt(*fit.tilt);
@@ -61,7 +61,7 @@ void printTable(const compare::Comparison& c, const std::filesystem::path& folde
       if (*metric.column) line += fmt::format("{:8.{}f}", m.*metric.value, metric.decimals);
     fmt::print("{}\n", line);
   };
-  row("greys as they are", c.mean_before);
+  row("greys as displayed", c.mean_before);
   row("greys calibrated", c.mean_after);
   for (const auto& band : c.mean_bands)
     if (band.metrics.weight > 0) row("  band: " + band.structure, band.metrics);
@@ -93,7 +93,7 @@ void printTable(const fit::DialScan& scan, const std::filesystem::path& folder) 
   printCaveats(scan.caveats);
   const fit::FitTerms& t = best.found.terms;
   fmt::print("discrepancy {:.4f} at {}{}\n", best.found.discrepancy, where,
-             between.empty() ? "" : "; minimum between the steps at " + between);
+             between.empty() ? "" : "; minimum between the grid points at " + between);
   fmt::print("  region {:.3f}, boundary {:.3f}, motion {:.3f}, {:.0f} % overlap\n", t.region,
              t.boundary, t.motion, 100 * t.overlap);
   const fit::FitPose& p = best.found.pose;
@@ -109,7 +109,7 @@ void printTable(const fit::DialScan& scan, const std::filesystem::path& folder) 
 
 void printTable(const fit::ViewRanking& ranking, const std::filesystem::path& folder) {
   const fit::ViewFound& best = ranking.views.front();
-  fmt::print("view {}, margin {:.4f} before {}, confidence {:.2f}\n", keyOf(best.view),
+  fmt::print("best view {}; V is {:.4f} lower than for {}, confidence {:.2f}\n", keyOf(best.view),
              ranking.margin, keyOf(ranking.views[1].view), ranking.confidence);
   printCaveats(ranking.caveats);
   std::string head = fmt::format("  {:<10}", "");

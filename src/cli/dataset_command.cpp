@@ -46,8 +46,9 @@ DatasetCommand::DatasetCommand(CLI::App& app) {
       "Generate many loops with ground truth from a spec of distributions, in common layouts");
   command->add_option("spec", spec_file_, "Spec of the dataset (TOML)")->required();
   command
-      ->add_option("-o,--output", folder_,
-                   "Folder of the dataset, which is resumed if it exists; with --preview the page")
+      ->add_option(
+          "-o,--output", folder_,
+          "Folder of the dataset; an existing one is resumed. With --preview: the page to write")
       ->required();
   command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
@@ -78,10 +79,10 @@ DatasetCommand::DatasetCommand(CLI::App& app) {
   command
       ->add_option(
           "--tasks", tasks_,
-          "With --slurm: tasks of the array; default: about half an hour each, by the first heart")
+          "With --slurm: number of tasks of the array; by default a task takes about half an hour")
       ->check(CLI::Range(1, 1000000))
       ->needs(slurm);
-  command->add_option("--cores", cores_, "With --slurm: cores of a task; default 4")
+  command->add_option("--cores", cores_, "With --slurm: cores per task; default 4")
       ->check(CLI::Range(1, 4096))
       ->needs(slurm);
   command
@@ -131,9 +132,11 @@ int DatasetCommand::make() {
     const dataset::MakeSummary made = dataset::makePart(spec, options, monitor);
     bar.finish();
     if (!quiet_)
-      fmt::print("{} loops, {:.1f} MB; {} hearts were kept, {} failed, {} draws impossible\n",
-                 made.loops, static_cast<double>(made.bytes) * 1e-6, made.kept, made.failed,
-                 made.impossible);
+      fmt::print(
+          "{} loops, {:.1f} MB; {} hearts were kept from earlier runs, {} failed, {} impossible "
+          "draws\n",
+          made.loops, static_cast<double>(made.bytes) * 1e-6, made.kept, made.failed,
+          made.impossible);
     if (!task_.empty()) return 0;
   }
   // A run without --merge has just proven the bytes of what it kept.
@@ -188,8 +191,9 @@ int DatasetCommand::slurm(const dataset::Spec& spec) const {
                submit.parent_path().string(), options.tasks, options.cores, options.minutes);
   std::fflush(stdout);
   if (!no_submit_ && !runScript(submit))
-    throw JobError(fmt::format("{}: submitting failed; the jobs are written: submit them with it",
-                               submit.string()));
+    throw JobError(
+        fmt::format("{}: sbatch failed; the jobs are written, run this script to submit them",
+                    submit.string()));
   return 0;
 }
 

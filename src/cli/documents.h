@@ -4,8 +4,7 @@
 namespace echocine {
 
 inline constexpr const char* kDocuments =
-    "Documents: man echocine; README.md of the source or in share/doc/echocine; every scene key "
-    "with "
-    "its default: examples/every_key/scene.toml there";
+    "Documents: man echocine; README.md; examples/every_key/scene.toml (every scene key with its "
+    "default). The files are in the source folder or in share/doc/echocine.";
 
 }  // namespace echocine

@@ -53,11 +53,11 @@ void applySegment(const std::string& text, heart::Parameters& parameters) {
 
 HeartCommand::HeartCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "heart", "Write a parametric beating heart: keyframe meshes, a scene, the truth");
+      "heart", "Write a parametric beating heart: keyframe meshes, a scene, ground truth");
   command
       ->add_option("-o,--output", folder_, "New folder for the meshes, scene.toml and truth.json")
       ->required();
-  command->add_option("--view", view_, "View of the probe")
+  command->add_option("--view", view_, "Standard view of the probe")
       ->type_name(viewChoice())
       ->capture_default_str();
   const heart::Parameters defaults;
@@ -80,8 +80,8 @@ HeartCommand::HeartCommand(CLI::App& app) {
       "0 akinetic, below 0 dyskinetic; may be repeated");
   command
       ->add_option("--rule", rule_,
-                   "Priority if --segment makes walls akinetic: segments (the ejection fraction "
-                   "falls) or volumes (it keeps its dial)")
+                   "If --segment reduces wall motion: segments (the ejection fraction falls) or "
+                   "volumes (the ejection fraction stays that of --ef)")
       ->check(CLI::IsMember({"segments", "volumes"}))
       ->capture_default_str();
   command
@@ -95,7 +95,7 @@ HeartCommand::HeartCommand(CLI::App& app) {
       ->capture_default_str();
   command->add_flag(
       "--even", even_,
-      "Space keyframes evenly, not by motion; end-systole then lies between two of them");
+      "Space keyframes evenly in time, not by motion; end-systole then lies between two keyframes");
   command->add_option("--threads", wanted_.threads, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--quiet", quiet_, "Print errors only");

@@ -79,7 +79,7 @@ int failed(int code, std::string_view what) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"EchoCine: ultrasound cine loops ray-traced from a beating-heart mesh sequence"};
+  CLI::App app{"EchoCine: ultrasound cine loops of a beating heart, ray-traced from its meshes"};
   app.set_version_flag("--version", std::string("echocine ") + ECHOCINE_VERSION);
   app.require_subcommand(1);
   app.fallthrough(false);

@@ -82,8 +82,7 @@ void printJson(const Scene& scene, const Estimate& estimate) {
 
 PlanCommand::PlanCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "plan",
-      "List the effects that a scene's loop needs, with reasons and the expected time and memory");
+      "plan", "List the effects that a scene needs, with reasons, expected time and memory");
   command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")
       ->required();
   command->add_option("--threads", threads_, "Threads; default 0: one per core")

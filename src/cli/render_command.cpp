@@ -94,7 +94,7 @@ RenderCommand::RenderCommand(CLI::App& app) {
       "Write more ground truth than the scene requests: all (as far as its structures allow), or a "
       "comma-separated list of labels, contours, tracks, function");
   command->add_flag("--dicom", dicom_,
-                    "Write cine.dcm too, a DICOM ultrasound loop (output.dicom = true)");
+                    "Also write cine.dcm, a DICOM ultrasound loop (output.dicom = true)");
   accuracy_.addTo(*command);
   command->add_flag("--resume", options_.resume,
                     "Keep frames whose EXR is complete and belongs to this scene");
@@ -110,7 +110,7 @@ int RenderCommand::run() {
     return renderAndTell();
   } catch (const Stopped&) {
     throw JobError(
-        fmt::format("stopped: the loop in {} is not finished; --resume goes on from there",
+        fmt::format("stopped: the loop in {} is not finished; --resume continues from there",
                     options_.folder.string()));
   }
 }

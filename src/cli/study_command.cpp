@@ -56,7 +56,8 @@ class FilesSoFar {
 
 StudyCommand::StudyCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "study", "Measure the time (ms) and the error (dB, mm) of each accuracy knob of a scene");
+      "study",
+      "Measure computing time (ms) and image error (dB, mm) of each accuracy setting of a scene");
   command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")
       ->required();
   command
@@ -70,7 +71,7 @@ StudyCommand::StudyCommand(CLI::App& app) {
       ->capture_default_str();
   command
       ->add_option("--repeats", options_.repeats,
-                   "Rounds over all settings; times are medians over them")
+                   "Number of time measurements of each setting; the median is reported")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command
@@ -79,7 +80,7 @@ StudyCommand::StudyCommand(CLI::App& app) {
       ->delimiter(',');
   command
       ->add_option("--budget-s", options_.budget_s,
-                   "Start no setting later than this many seconds after the start")
+                   "Start no further measurement after this many seconds")
       ->check(within(1e-3, 1e9))
       ->type_name("SECONDS");
   command

@@ -15,7 +15,7 @@ namespace echocine {
 
 ViewCommand::ViewCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "view", "Write a page that shows a scene's meshes and its sector in 3-D, before any render");
+      "view", "Write a page that shows a scene's meshes and imaging plane in 3-D");
   command->add_option("scene", scene_file_, "Scene file (TOML; each key carries its unit)")
       ->required();
   command
@@ -30,8 +30,9 @@ ViewCommand::ViewCommand(CLI::App& app) {
       ->check(CLI::Range(100, 1000000))
       ->capture_default_str();
   command
-      ->add_option("--phases", budget_.phases,
-                   "Instants of the beat on the page; linear in between")
+      ->add_option(
+          "--phases", budget_.phases,
+          "Instants of the beat on the page; positions are interpolated linearly between them")
       ->check(CLI::Range(1, 200))
       ->capture_default_str();
   command->add_option("--threads", threads_, "Threads; default 0: one per core")
