@@ -34,9 +34,8 @@ ViewText namedIn(const char* option, const std::string& text, const char* exampl
   const std::size_t at = text.find('=');
   const auto view = heart::viewOf(text.substr(0, at));
   if (at == std::string::npos || !view || at + 1 == text.size())
-    throw SceneError(
-        fmt::format("{}: \"{}\" is not accepted: give VIEW={}, where VIEW is one of {}", option,
-                    text, example, viewList()));
+    throw SceneError(fmt::format("{}: \"{}\" is not accepted: VIEW={}, VIEW one of {}", option,
+                                 text, example, viewList()));
   return {*view, text.substr(at + 1)};
 }
 
@@ -58,34 +57,32 @@ void printFit(const fit::HeartFit& fit, const std::filesystem::path& folder) {
 
 FitCommand::FitCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "fit", "Fit a beating heart to one to three echo videos, with 90 % intervals");
+      "fit", "Fit a beating heart with an error bar to one to three echo videos");
   command
-      ->add_option(
-          "--view", views_,
-          "An echo loop and its view. FILE is a video, a DICOM file, a folder of frames or "
-          "of a render; VIEW is one of " +
-              viewList())
+      ->add_option("--view", views_,
+                   "A loop and its view, VIEW=FILE: a video, DICOM, folder of frames or of a "
+                   "render; VIEW one of " +
+                       viewList())
       ->required()
       ->type_name("VIEW=FILE");
   command->add_option("-o,--output", folder_, "Folder for the results")->required();
   command
       ->add_option("--scale", scales_,
-                   "Length scale of a loop, cm per pixel, 0.0001 to 10; without it volumes are "
-                   "omitted")
+                   "Length scale of a loop, VIEW=NUMBER in cm per pixel, 0.0001 to 10; without a "
+                   "scale no mL")
       ->type_name("VIEW=CM");
-  command->add_option("--ed", ends_of_diastole_, "Frame of end-diastole of a loop, from 0")
+  command->add_option("--ed", ends_of_diastole_, "Frame of end-diastole, VIEW=NUMBER, from 0")
       ->type_name("VIEW=FRAME");
-  command->add_option("--es", ends_of_systole_, "Frame of end-systole of a loop, from 0")
+  command->add_option("--es", ends_of_systole_, "Frame of end-systole, VIEW=NUMBER, from 0")
       ->type_name("VIEW=FRAME");
-  command->add_option("--fps", rates_, "Frame rate of a loop, frames/s, 0.5 to 10000")
+  command->add_option("--fps", rates_, "Frame rate of a loop, VIEW=NUMBER, 0.5 to 10000")
       ->type_name("VIEW=FPS");
   command->add_option("--dials", dials_,
                       "Fixed dials of the heart, such as hr=72,wall-thickness=11");
   command
-      ->add_option(
-          "--tilt", tilt_deg_,
-          fmt::format("Largest tilt and rotation of each imaging plane, degrees, 0 to {:g}",
-                      fit::kMostTilt_deg))
+      ->add_option("--tilt", tilt_deg_,
+                   fmt::format("Limit of tilt and rotation of each plane, degrees, 0 to {:g}",
+                               fit::kMostTilt_deg))
       ->check(within(0, fit::kMostTilt_deg))
       ->type_name("NUMBER")
       ->capture_default_str();
