@@ -75,7 +75,8 @@ void bindPlan(py::module_& module) {
              "The effects that a loop needs, reasons and expected cost, as JSON.");
   module.def("study", &study, py::arg("scene"), py::arg("folder").none(true), py::arg("frames"),
              py::arg("repeats"), py::arg("knobs"), py::arg("budget_s").none(true),
-             py::arg("threads"), py::arg("progress").none(true), "Image error against computing time, as JSON.");
+             py::arg("threads"), py::arg("progress").none(true),
+             "Image error against computing time, as JSON.");
 }
 
 }  // namespace echocine::python
