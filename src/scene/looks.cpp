@@ -20,7 +20,7 @@ void applyClean(Scene& scene) {
   scene.signal.grey_gamma = 1.2;
   scene.signal.gain_db = -0.5;
   scene.signal.interface_gain_db = -24;
-  scene.signal.interface_limit_db = -64;
+  scene.signal.interface_limit_db = -57;
 }
 
 // The gap between ribs lies to the left of the picture's middle: apical walls on its right, the

@@ -22,6 +22,7 @@ class CellEchoMaker {
         echoes_(echoes),
         angular_(ScanGeometry(probe).angular()),
         face_radius_m_(probe.face_radius_m),
+        width_(cell_width),
         per_width_(1 / cell_width),
         min_depth_m_(probe.min_depth_m),
         spacing_m_(probe.sampleSpacing()),
@@ -175,6 +176,7 @@ class CellEchoMaker {
     std::uint32_t* at = echoes_.at.data() + echoes_.count;
     double* intensity = echoes_.intensity.data() + echoes_.count;
     double* exponent = echoes_.exponent.data() + echoes_.count;
+    double* filled = echoes_.filled.data() + echoes_.count;
     std::size_t singles = 0, others = 0;
     for (std::size_t i = 0; i < clips.count; ++i) {
       const std::uint32_t line = clips.line[i];
@@ -184,6 +186,7 @@ class CellEchoMaker {
       at[singles] = line * static_cast<std::uint32_t>(samples_) + static_cast<std::uint32_t>(first);
       intensity[singles] = rows_.whole[i];
       exponent[singles] = std::max(rows_.exponent[i], 0.0);
+      filled[singles] = rows_.strength[i] * width_;
       longer[others] = static_cast<std::uint32_t>(i);
       if (settings_.coherent_echoes) {
         echoes_.coherent_part[echoes_.count + singles] = interfaces.coherent_part[i];
@@ -215,6 +218,7 @@ class CellEchoMaker {
       intervals_.p[i] = rows_.p[clip];
       intervals_.flat[i] = rows_.flat[clip];
       echoes_.at[to] = line_at + static_cast<std::uint32_t>(k);
+      echoes_.filled[to] = rows_.strength[clip] * width_;
       echoes_.exponent[to] =
           std::max(rows_.exponent[clip] + (k - first) * rows_.exponent_step[clip], 0.0);
       if (!settings_.coherent_echoes) continue;
@@ -253,7 +257,7 @@ class CellEchoMaker {
   const TraceSettings& settings_;
   CellEchoes& echoes_;
   bool angular_;
-  double face_radius_m_, per_width_, min_depth_m_, spacing_m_, per_spacing_;
+  double face_radius_m_, width_, per_width_, min_depth_m_, spacing_m_, per_spacing_;
   int samples_;
   bool any_power_ = false;
   // By line: samples before its end; and before what the wall that ended it fills of its cell.

@@ -163,7 +163,7 @@ void sampleIntensity(const LineTrace& line, const Sampling& sampling, const Inte
     if (k < 0 || k >= sampling.samples) continue;
     const double lost = parts.attenuation ? std::exp(-echo.exponent) : 1.0;
     values[static_cast<std::size_t>(k)] +=
-        static_cast<float>(parts.echo_samples * parts.shown(echo.intensity) * lost);
+        static_cast<float>(parts.echo_samples * parts.shown(echo.intensity, echo.intensity) * lost);
   }
 }
 
@@ -196,7 +196,9 @@ void addToSamples(const CellEchoes& echoes, const IntensityTerms& parts, std::sp
   for (std::size_t first = 0; first < echoes.count; first += kTogether) {
     const std::size_t count = std::min(kTogether, echoes.count - first);
     for (std::size_t j = 0; j < count; j += kDoubleLanes) {
-      Doubles4 value = parts.shown(lanesAt(&echoes.intensity[first + j])) * parts.echo_samples;
+      const Doubles4 filled = lanesAt(&echoes.filled[first + j]);
+      Doubles4 value =
+          parts.shown(lanesAt(&echoes.intensity[first + j]), filled) * parts.echo_samples;
       if (parts.attenuation) value *= expOfMinus(lanesAt(&echoes.exponent[first + j]));
       store(value, &values[j]);
     }

@@ -33,10 +33,13 @@ struct IntensityTerms {
   // For interface echoes in the picture: a factor, and an upper limit; 0: no limit.
   double echo_gain = 1, echo_limit = 0;
 
+  // The echo of a part of an interface, where the whole interface has the echo `filled`. The limit
+  // is that of the whole, so a wall's brightness does not depend on the parts into which samples,
+  // lines and facets divide it.
   template <typename Number>
-  Number shown(Number echo) const {
+  Number shown(Number echo, Number filled) const {
     const Number gained = echo * echo_gain;
-    return echo_limit > 0 ? gained / (1 + gained / echo_limit) : gained;
+    return echo_limit > 0 ? gained / (1 + filled * (echo_gain / echo_limit)) : gained;
   }
 };
 

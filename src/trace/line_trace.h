@@ -50,6 +50,7 @@ struct CellEchoes {
   std::size_t count = 0;
   std::vector<std::uint32_t> at;            // line * samples + sample
   std::vector<double> intensity, exponent;  // as of an Echo in the middle of its sample
+  std::vector<double> filled;  // intensity if the interface filled the cell, within this sample
   // Where echoes have a coherent part: that part, and the place in the sample, 0 to 1.
   std::vector<float> coherent_part, place;
 
@@ -61,6 +62,7 @@ struct CellEchoes {
     at.resize(size);
     intensity.resize(size);
     exponent.resize(size);
+    filled.resize(size);
     coherent_part.resize(size);
     place.resize(size);
   }

@@ -132,7 +132,8 @@ class ChordSampler {
     overSamples(first, last, [&](double k) {
       const double begin = k == first ? near : reach(k), end = k == last ? far : reach(k + 1);
       const double middle = (begin + end) / 2;
-      put(line, k, std::abs(end - begin) * (chord.intensity + middle * chord.intensity_per_s),
+      const double filled = chord.intensity + middle * chord.intensity_per_s;
+      put(line, k, std::abs(end - begin) * filled, filled,
           chord.exponent + middle * chord.exponent_per_s, chord.surface,
           placesAt(chord, middle) - k);
     });
@@ -151,7 +152,7 @@ class ChordSampler {
       const double begin_m = min_depth_m_ + k * spacing_m_;
       const double share =
           first == last ? 1 : std::abs(before(begin_m + spacing_m_) - before(begin_m));
-      put(line, k, share / 3 * echo.intensity, echo.exponent, echo.surface, 0.5);
+      put(line, k, share / 3 * echo.intensity, echo.intensity, echo.exponent, echo.surface, 0.5);
     });
   }
 
@@ -179,12 +180,13 @@ class ChordSampler {
     for (double k = begin; k <= end; ++k) each(k);
   }
 
-  void put(std::size_t line, double k, double intensity, double exponent, SurfaceId surface,
-           double place) {
+  void put(std::size_t line, double k, double intensity, double filled, double exponent,
+           SurfaceId surface, double place) {
     const std::size_t i = echoes_.count++;
     echoes_.at[i] = static_cast<std::uint32_t>(line * static_cast<std::size_t>(samples_)) +
                     static_cast<std::uint32_t>(k);
     echoes_.intensity[i] = intensity;
+    echoes_.filled[i] = filled;
     echoes_.exponent[i] = exponent;
     echoes_.coherent_part[i] = static_cast<float>(settings_.surfaces[index(surface)].coherent_part);
     echoes_.place[i] = static_cast<float>(place);

@@ -141,7 +141,8 @@ class BeamSums {
       if (!parts.reflection) continue;
       for (const Echo& echo : trace.echoes) {
         const double lost = parts.attenuation ? std::exp(-echo.exponent) : 1.0;
-        const double intensity = parts.echo_samples * parts.shown(echo.intensity) * lost;
+        const double intensity =
+            parts.echo_samples * parts.shown(echo.intensity, echo.intensity) * lost;
         overStratum(echo, ray, sampling, [&](std::size_t k, double share, double middle) {
           sums[k] += static_cast<double>(weight[k]) * intensity * share *
                      coherentPart(wanted[p].coherent, settings, sampling, echo, middle);

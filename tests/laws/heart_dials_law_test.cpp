@@ -11,6 +11,7 @@
 #include "motion/heart/heart_scene.h"
 #include "motion/surfaces/interior_motion.h"
 #include "scene/scene_reader.h"
+#include "support/measured.h"
 #include "support/paths.h"
 #include "truth/frame_truth.h"
 
@@ -63,6 +64,8 @@ TEST(HeartFunctionLaw, TheShippedHeartHasWhatWasDialled) {
   EXPECT_LT(std::abs(*maker.view()->foreshortening_mm), 1);
   const double near = 10e-3 * dials.heart_rate_bpm / 60;  // 10 ms
   EXPECT_LT(std::abs(std::remainder(maker.valves()->mitral_closes, 1.0)), near);
+  support::Largest("aortic opening off by", "ms")(
+      1e3 * 60 / dials.heart_rate_bpm * (maker.valves()->aortic_opens - events.aortic_opens));
   EXPECT_NEAR(maker.valves()->aortic_opens, events.aortic_opens, near / 5);
   EXPECT_NEAR(maker.valves()->aortic_closes, events.aortic_closes, near);
   EXPECT_NEAR(maker.valves()->mitral_opens, events.mitral_opens, near);

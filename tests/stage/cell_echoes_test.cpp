@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/measured.h"
 #include "support/plain_scene.h"
 #include "support/surfaces.h"
 
@@ -40,7 +41,7 @@ Mesh steepSlab(double angle_deg, double through_m) {
   return m;
 }
 
-std::vector<float> echoesOf(const Scene& scene, const Mesh& mesh, bool cells) {
+PolarFrame traced(const Scene& scene, const Mesh& mesh, bool cells, bool picture) {
   std::vector<SurfaceTopology> topology{
       {SurfaceId{0}, mesh.triangles, static_cast<std::uint32_t>(mesh.points.size()), false, false}};
   SurfaceFrame frame{{{}}};
@@ -51,11 +52,15 @@ std::vector<float> echoesOf(const Scene& scene, const Mesh& mesh, bool cells) {
   plan.refraction = false;
   PolarFrame polar;
   PlaneRequest request = planeRequest(scene, plan);
-  request.intensities = false;
+  request.intensities = picture;
   traceFrame(slice, scene.probe,
              TraceSettings(scene, plan, cells ? EchoCells::contours : EchoCells::none), request,
              polar);
-  return polar.planes.at(Channel::unattenuated);
+  return polar;
+}
+
+std::vector<float> echoesOf(const Scene& scene, const Mesh& mesh, bool cells) {
+  return traced(scene, mesh, cells, false).planes.at(Channel::unattenuated);
 }
 
 // Echo energy at each depth: the sum over lines.
@@ -122,6 +127,33 @@ TEST_P(SteepWall, KeepsItsEnergyAtEveryAngle) {
     const double cells = total(true), centres = total(false);
     ASSERT_GT(centres, 0);
     EXPECT_NEAR(cells / centres, 1, 0.02) << angle << " degrees";
+  }
+}
+
+// signal.interface_limit_db limits a wall's echo, however samples, lines and facets divide the
+// wall.
+TEST_P(SteepWall, HasOneLimitForAnySamplesAndLines) {
+  Scene scene = wallScene(GetParam());
+  support::Largest off("echo over that at the centres, less 1,", "");
+  scene.signal.interface_limit_db = -60;  // the wall sends back -35 dB across the beam
+  const auto mean = [&](const Mesh& slab, bool cells) {  // of a line, per metre of depth
+    double sum = 0;
+    for (const float echo : traced(scene, slab, cells, true).intensities) sum += echo;
+    return sum * scene.probe.sampleSpacing() / scene.probe.lines;
+  };
+  for (const double angle : {10.0, 30.0, 60.0}) {
+    const Mesh slab = steepSlab(angle, 0.08);
+    scene.probe.lines = 512;
+    scene.probe.samples = 1024;
+    const double expected = mean(slab, false);  // each line meets the whole wall
+    ASSERT_GT(expected, 0);
+    for (const int lines : {64, 512})
+      for (const int samples : {320, 4096}) {
+        scene.probe.lines = lines;
+        scene.probe.samples = samples;
+        EXPECT_NEAR(off(mean(slab, true) / expected - 1), 0, 0.02)
+            << angle << " degrees, " << lines << " x " << samples;
+      }
   }
 }
 
