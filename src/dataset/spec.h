@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,8 @@ struct Population {
   std::string name;
   double weight = 1;
   std::vector<Parameter> parameters;  // "heart." each
+  // Group in heart::heartGroups() of jointly drawn dials (index_draws.h), beside the parameters.
+  std::optional<std::size_t> group{};
 };
 
 // A scene of the user, with its own heart.

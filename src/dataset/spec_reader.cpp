@@ -104,6 +104,7 @@ Population builtIn(const std::string& name) {
   Population population{name, 1, {}};
   for (const auto& [dial, distribution] : builtInPopulation(name))
     population.parameters.push_back({"heart." + dial, distribution, {}});
+  population.group = indexGroupOf(name);
   return population;
 }
 
@@ -170,9 +171,10 @@ void readCorrelated(TomlTable& file, Spec& spec) {
                          std::any_of(spec.populations.begin(), spec.populations.end(),
                                      [&](const Population& p) { return has(p.parameters); });
       if (!known)
-        table.fail("parameters", fmt::format("\"{}\" is not drawn in this spec, accepted: "
-                                             "names such as heart.edv",
-                                             name));
+        table.fail("parameters",
+                   fmt::format("\"{}\" is not drawn by itself in this spec, accepted: names "
+                               "of its distributions, such as offset.tilt_deg",
+                               name));
       if (std::find(taken.begin(), taken.end(), name) != taken.end())
         table.fail("parameters", fmt::format("\"{}\" is correlated twice, accepted: once", name));
       if (isOfHeart(name) != isOfHeart(group.names.front()))
