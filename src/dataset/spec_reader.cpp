@@ -216,6 +216,21 @@ std::vector<std::string> readWords(TomlTable& file, const char* key,
   return words;
 }
 
+// [ef] LAYOUT = "tracing" | "exact", for layouts that have an ejection fraction of their own.
+void readEf(TomlTable table, Spec& spec) {
+  for (const char* layout : {"camus", "echonet"}) {
+    if (!table.has(layout)) continue;
+    if (!spec.has(layout))
+      table.fail(layout,
+                 fmt::format("is not among the layouts, accepted: layouts = [\"{}\"]", layout));
+    const std::string word = table.text(layout);
+    if (word != "tracing" && word != "exact")
+      table.fail(layout, fmt::format("is \"{}\", accepted: \"tracing\" | \"exact\"", word));
+    if (word == "exact") spec.exact_ef.emplace_back(layout);
+  }
+  table.finish();
+}
+
 void readSplit(TomlTable split, Spec& spec) {
   if (split.keys().empty()) return;
   std::vector<double> shares;
@@ -260,6 +275,7 @@ Spec parseSpec(std::string_view text, const std::filesystem::path& path) {
   spec.keyframes = file.integer("keyframes", spec.keyframes, 8, 100);
   spec.picture_px = file.integer("picture_px", spec.picture_px, 56, 4032);
   spec.resolution_mm = file.number("resolution_mm", 0.0, {.lo = 0, .hi = 10});
+  readEf(file.table("ef"), spec);
   readSplit(file.table("split"), spec);
   spec.parameters = readHeart(file.table("heart"));
   readOffsets(file.table("offset"), spec.parameters);
