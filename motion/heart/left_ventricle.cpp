@@ -6,14 +6,12 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "motion/heart/heart_indices.h"
 #include "motion/heart/heart_units.h"
 #include "motion/heart/solve.h"
 
 namespace echocine::heart {
 namespace {
-
-// Motion of the apex towards the base at end-systole, as a share of the length.
-constexpr double kApexRise = 0.035;
 
 constexpr double kLargestStrain = 0.85, kWallDrift = 0.01;  // our choice
 constexpr double kVolumeTolerance = 1e-5;  // of solved volumes, as a share of the end-diastolic one

@@ -18,6 +18,7 @@ namespace echocine::dataset {
 namespace {
 
 constexpr std::string_view kHeart = "heart.", kScene = "scene.", kSegments = "segments.";
+constexpr const char* kRule = "heart.rule";  // "volumes", as in `echocine heart --rule`
 
 double numberAt(const Values& values, const std::string& name, double fallback) {
   const auto found = values.find(name);
@@ -123,9 +124,11 @@ void straightenRays(const Values& all, Scene& scene) {
 heart::Parameters parametersOf(const Values& values) {
   std::map<std::string, double> dials;
   for (const auto& [name, value] : values)
-    if (name.starts_with(kHeart) && !name.substr(kHeart.size()).starts_with(kSegments))
+    if (name.starts_with(kHeart) && !name.substr(kHeart.size()).starts_with(kSegments) &&
+        name != kRule)
       dials[name.substr(kHeart.size())] = numberIn(value).value();
   heart::Parameters parameters = heart::parametersFrom(dials);
+  parameters.volumes_rule = values.count(kRule) > 0;
   for (const auto& [name, value] : values)
     if (name.starts_with(kHeart) && name.substr(kHeart.size()).starts_with(kSegments))
       setSegments(std::string_view(name).substr(kHeart.size() + kSegments.size()),

@@ -8,6 +8,7 @@
 #include "dataset/clean_labels.h"
 #include "dataset/layout.h"
 #include "dataset/nifti.h"
+#include "dataset/record.h"
 #include "truth/simpson.h"
 
 namespace echocine::dataset {
@@ -85,12 +86,16 @@ void writeView(const Heart& heart, const LoopSample& loop, const Json& entry, do
       infoText(loop, entry, ef_percent));
 }
 
-void writeCamus(const Spec&, const Heart& heart, Sink& sink, Json& record) {
+void writeCamus(const Spec& spec, const Heart& heart, Sink& sink, Json& record) {
   const double ed_ml = biplaneOfViews(heart, false), es_ml = biplaneOfViews(heart, true);
   for (std::size_t v = 0; v < heart.loops.size(); ++v) {
     Json& entry = record["loops"][v];
-    entry["camus"] = {{"edv_views_ml", ed_ml}, {"esv_views_ml", es_ml}};
-    writeView(heart, heart.loops[v], entry, entry["ef_percent"].get<double>(), sink);
+    const double of_views = ejectedPercent(ed_ml, es_ml);
+    entry["camus"] = {
+        {"edv_views_ml", ed_ml}, {"esv_views_ml", es_ml}, {"ef_views_percent", of_views}};
+    const bool exact = spec.hasExactEf("camus") || ed_ml == 0;  // planes without a long axis
+    writeView(heart, heart.loops[v], entry, exact ? entry["ef_percent"].get<double>() : of_views,
+              sink);
   }
 }
 

@@ -1,8 +1,10 @@
 #include "dataset/draws.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/hash_random.h"
+#include "dataset/index_draws.h"
 
 namespace echocine::dataset {
 
@@ -13,6 +15,11 @@ std::uint64_t numberOf(std::string_view name) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
   return hash;
+}
+
+bool isGiven(const Spec& spec, const std::string& name) {
+  return std::any_of(spec.parameters.begin(), spec.parameters.end(),
+                     [&](const Parameter& p) { return p.name == name; });
 }
 
 struct Place {
@@ -48,6 +55,37 @@ TomlValue valueAt(const Place& place, const Parameter& parameter) {
   const std::optional<double> share = correlatedShare(place, parameter.name);
   return parameter.distribution.quantile(share ? *share
                                                : uniformFromHash(place.hash(parameter.name)));
+}
+
+// The values of an infarct's segments: a copula with the ejection fraction, because small infarcts
+// leave a better ventricle. The correlation is our choice.
+double infarctShare(const Place& place, const std::string& name, double ejection_score) {
+  constexpr double kCorrelation = 0.8;
+  return normalCumulative(kCorrelation * ejection_score +
+                          std::sqrt(1 - kCorrelation * kCorrelation) * place.normal(name));
+}
+
+// Adds the jointly drawn dials, the body surface and the sex, except what the spec itself gives.
+// The ejection fraction is that of the whole ventricle: other segments compensate for an infarct.
+void addIndexDraws(const Place& place, const Population& population, Values& values) {
+  const auto sex = values.try_emplace(
+      "subject.sex", std::string(uniformFromHash(place.hash("subject.sex")) < 0.5 ? "F" : "M"));
+  const bool woman = sex.first->second == TomlValue(std::string("F"));
+  const IndexDraws::Drawn drawn =
+      IndexDraws::of(*population.group)
+          .draw(woman ? kWomenSurface_m2 : kMenSurface_m2, [&](std::size_t number) {
+            return place.normal("index/" + std::to_string(number));
+          });
+  for (std::size_t i = 0; i < heart::kIndexDialCount; ++i)
+    values.try_emplace(std::string("heart.") + heart::kIndexDials[i], drawn.dials[i]);
+  values.try_emplace("heart.body-scale", std::sqrt(drawn.body_surface_m2 / heart::kBodySurface_m2));
+  values["subject.body_surface_m2"] = drawn.body_surface_m2;
+  for (const Parameter& p : population.parameters)
+    if (p.name.starts_with("heart.segments.")) {
+      values["heart.rule"] = std::string("volumes");
+      if (!isGiven(place.spec, p.name))
+        values[p.name] = p.distribution.quantile(infarctShare(place, p.name, drawn.ejection_score));
+    }
 }
 
 const Population& populationAt(const Spec& spec, int heart, int attempt) {
@@ -86,6 +124,8 @@ Draw drawOf(const Spec& spec, int heart, int attempt) {
       draw.view_values[v][parameter.name] =
           valueAt({spec, heart, attempt, static_cast<int>(spec.views[v])}, parameter);
   }
+  if (draw.population->group)
+    addIndexDraws({spec, heart, attempt, -1}, *draw.population, draw.values);
   return draw;
 }
 

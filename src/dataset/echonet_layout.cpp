@@ -33,7 +33,10 @@ void writeEchonet(const Spec&, const Heart& heart, Sink& sink, Json& record) {
     for (const GreyImage& image : small) images.push_back(&image);
     sink.writeCine(fmt::format("echonet/Videos/{}.avi", loop.id), images,
                    loop.scene.acquisition.frame_rate_hz);
-    record["loops"][v]["echonet"] = {{"ed", rowsOf(loop.ed_tracing, square)},
+    // The part of the picture that the video shows, in pixels of the picture; its side is kSide.
+    const Json crop{{"x_px", square.x}, {"y_px", square.y}, {"side_px", square.side}};
+    record["loops"][v]["echonet"] = {{"crop", crop},
+                                     {"ed", rowsOf(loop.ed_tracing, square)},
                                      {"es", rowsOf(loop.es_tracing, square)}};
   }
 }
@@ -48,20 +51,31 @@ void addTracing(const Json& loop, const char* instant, std::string& text) {
                     row.at(3).get<double>(), loop.at(fmt::format("{}_frame", instant)).get<int>());
 }
 
+// EF,ESV,EDV of a loop, from the keys that start with ef_, esv_ and edv_.
+std::string volumesOf(const Json& loop, const char* ef, const char* esv, const char* edv) {
+  return fmt::format("{:.4f},{:.4f},{:.4f}", loop.at(ef).get<double>(), loop.at(esv).get<double>(),
+                     loop.at(edv).get<double>());
+}
+
 const char* splitWord(const std::string& split) {
   return split == "train" ? "TRAIN" : split == "val" ? "VAL" : "TEST";
 }
 
-void mergeEchonet(const Spec&, std::span<const Json> records, Sink& sink) {
-  std::string list = "FileName,EF,ESV,EDV,FrameHeight,FrameWidth,FPS,NumberOfFrames,Split\n";
+// The loader takes columns by name, so those of both kinds of volumes follow its nine.
+void mergeEchonet(const Spec& spec, std::span<const Json> records, Sink& sink) {
+  std::string list =
+      "FileName,EF,ESV,EDV,FrameHeight,FrameWidth,FPS,NumberOfFrames,Split,"
+      "EFTracing,ESVTracing,EDVTracing,EFExact,ESVExact,EDVExact\n";
   std::string tracings = "FileName,X1,Y1,X2,Y2,Frame\n";
   for (const Json& record : records)
     for (const Json& loop : record.at("loops")) {
-      list += fmt::format(
-          "{},{:.4f},{:.4f},{:.4f},{},{},{:g},{},{}\n", loop.at("id").get<std::string>(),
-          loop.at("ef_percent").get<double>(), loop.at("esv_ml").get<double>(),
-          loop.at("edv_ml").get<double>(), kSide, kSide, loop.at("frame_rate_hz").get<double>(),
-          loop.at("frames").get<int>(), splitWord(record.at("split").get<std::string>()));
+      const std::string exact = volumesOf(loop, "ef_percent", "esv_ml", "edv_ml"),
+                        traced = volumesOf(loop, "ef_single_plane_percent", "esv_single_plane_ml",
+                                           "edv_single_plane_ml");
+      list += fmt::format("{},{},{},{},{:g},{},{},{},{}\n", loop.at("id").get<std::string>(),
+                          spec.hasExactEf("echonet") ? exact : traced, kSide, kSide,
+                          loop.at("frame_rate_hz").get<double>(), loop.at("frames").get<int>(),
+                          splitWord(record.at("split").get<std::string>()), traced, exact);
       addTracing(loop, "es", tracings);
       addTracing(loop, "ed", tracings);
     }

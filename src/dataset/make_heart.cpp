@@ -26,6 +26,7 @@
 #include "output/truth_files.h"
 #include "scene/view_names.h"
 #include "truth/frame_truth.h"
+#include "truth/view_offset.h"
 
 namespace echocine::dataset {
 
@@ -159,7 +160,8 @@ LoopSample makeLoop(const Spec& spec, const Draw& draw, std::size_t view, Scene 
   loop.instants = instantsOf(loop.frames);
   traceInstants(simulator, cavity, marks_at, loop);
   loop.tracked = simulator.truth()->tracked();
-  loop.offset = simulator.truth()->view();
+  loop.offset = simulator.truth()->view();  // there with functional truth only
+  if (!loop.offset) loop.offset = viewOffset(simulator.scene(), simulator.motion());
   return loop;
 }
 

@@ -6,17 +6,19 @@ namespace echocine::dataset {
 
 namespace {
 
-// The ejection fraction of two volumes, percent.
-double ejected(double ed_ml, double es_ml) {
-  return ed_ml > 0 ? 100 * (1 - es_ml / ed_ml) : 0;
-}
-
 Json offsetJson(const std::optional<ViewOffset>& offset) {
-  if (!offset) return nullptr;
-  Json json{{"label", offset->label}, {"tilt_deg", offset->tilt_deg}};
-  json["rotation_deg"] = offset->rotation_deg ? Json(*offset->rotation_deg) : Json();
+  Json json{{"label", nullptr},
+            {"tilt_deg", nullptr},
+            {"rotation_deg", nullptr},
+            {"shift_mm", nullptr},
+            {"foreshortening_mm", nullptr}};
+  if (!offset) return json;
+  json["label"] = offset->label;
+  if (json["label"] == "other") return json;  // no standard view to compare with
+  json["tilt_deg"] = offset->tilt_deg;
   json["shift_mm"] = offset->shift_mm;
-  json["foreshortening_mm"] = offset->foreshortening_mm ? Json(*offset->foreshortening_mm) : Json();
+  if (offset->rotation_deg) json["rotation_deg"] = *offset->rotation_deg;
+  if (offset->foreshortening_mm) json["foreshortening_mm"] = *offset->foreshortening_mm;
   return json;
 }
 
@@ -34,13 +36,13 @@ Json loopJson(const LoopSample& loop) {
             {"es_frame", loop.instants.es},
             {"edv_ml", ed.lv_ml},
             {"esv_ml", es.lv_ml},
-            {"ef_percent", ejected(ed.lv_ml, es.lv_ml)},
+            {"ef_percent", ejectedPercent(ed.lv_ml, es.lv_ml)},
             {"edv_biplane_ml", ed.biplane_ml},
             {"esv_biplane_ml", es.biplane_ml},
-            {"ef_biplane_percent", ejected(ed.biplane_ml, es.biplane_ml)},
+            {"ef_biplane_percent", ejectedPercent(ed.biplane_ml, es.biplane_ml)},
             {"edv_single_plane_ml", ed.single_plane_ml},
             {"esv_single_plane_ml", es.single_plane_ml},
-            {"ef_single_plane_percent", ejected(ed.single_plane_ml, es.single_plane_ml)},
+            {"ef_single_plane_percent", ejectedPercent(ed.single_plane_ml, es.single_plane_ml)},
             {"length_in_plane_mm", 1e3 * ed.traced_length_m}};
   // Measured; what was drawn for it is "offset".
   json["view_offset"] = offsetJson(loop.offset);
@@ -49,6 +51,10 @@ Json loopJson(const LoopSample& loop) {
 }
 
 }  // namespace
+
+double ejectedPercent(double ed_ml, double es_ml) {
+  return ed_ml > 0 ? 100 * (1 - es_ml / ed_ml) : 0;
+}
 
 Json jsonOf(const Values& values) {
   Json json = Json::object();

@@ -12,6 +12,9 @@ Json recordOf(const Spec& spec, const Heart& heart);
 Json failureOf(const Spec& spec, int heart, const std::string& reason);
 bool isFailure(const Json& record);
 
+// The ejection fraction of two volumes, percent; 0 without a volume.
+double ejectedPercent(double ed_ml, double es_ml);
+
 // As JSON.
 Json jsonOf(const Values& values);
 

@@ -18,6 +18,10 @@ bool Spec::wants(std::string_view truth_kind) const {
   return std::find(truth.begin(), truth.end(), truth_kind) != truth.end();
 }
 
+bool Spec::hasExactEf(std::string_view layout) const {
+  return std::find(exact_ef.begin(), exact_ef.end(), layout) != exact_ef.end();
+}
+
 bool Spec::wantsTracks() const {
   return wants("tracks") || has("pointodyssey") || has("myotracker");
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,8 @@ struct Population {
   std::string name;
   double weight = 1;
   std::vector<Parameter> parameters;  // "heart." each
+  // Group in heart::heartGroups() of jointly drawn dials (index_draws.h), beside the parameters.
+  std::optional<std::size_t> group{};
 };
 
 // A scene of the user, with its own heart.
@@ -61,6 +64,8 @@ struct Spec {
   double resolution_mm = 0;  // largest pixel; 0: determined by picture_px
   std::vector<std::string> truth;
   int track_count = 300;
+  // Layouts whose ejection fraction is of the exact volumes; the others have that of the tracings.
+  std::vector<std::string> exact_ef;
   int shard_mb = 1000;                // of WebDataset, 10^6 bytes; a larger loop has its own shard
   std::vector<Parameter> parameters;  // of all hearts; they override the populations'
   std::vector<UserScene> scenes;      // instead of the parametric heart; may be empty
@@ -70,6 +75,7 @@ struct Spec {
   std::size_t loops() const { return static_cast<std::size_t>(hearts) * views.size(); }
   bool has(std::string_view layout) const;
   bool wants(std::string_view truth_kind) const;
+  bool hasExactEf(std::string_view layout) const;
   bool wantsTracks() const;  // as truth, or for a layout
   // Splits by the order of hearts: train, then validation, then test. Hearts are independent draws,
   // and some loaders split by number. All draws of one user's scene are in one split.

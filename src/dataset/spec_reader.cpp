@@ -104,6 +104,7 @@ Population builtIn(const std::string& name) {
   Population population{name, 1, {}};
   for (const auto& [dial, distribution] : builtInPopulation(name))
     population.parameters.push_back({"heart." + dial, distribution, {}});
+  population.group = indexGroupOf(name);
   return population;
 }
 
@@ -170,9 +171,10 @@ void readCorrelated(TomlTable& file, Spec& spec) {
                          std::any_of(spec.populations.begin(), spec.populations.end(),
                                      [&](const Population& p) { return has(p.parameters); });
       if (!known)
-        table.fail("parameters", fmt::format("\"{}\" is not drawn in this spec, accepted: "
-                                             "names such as heart.edv",
-                                             name));
+        table.fail("parameters",
+                   fmt::format("\"{}\" is not drawn by itself in this spec, accepted: names "
+                               "of its distributions, such as offset.tilt_deg",
+                               name));
       if (std::find(taken.begin(), taken.end(), name) != taken.end())
         table.fail("parameters", fmt::format("\"{}\" is correlated twice, accepted: once", name));
       if (isOfHeart(name) != isOfHeart(group.names.front()))
@@ -212,6 +214,21 @@ std::vector<std::string> readWords(TomlTable& file, const char* key,
   std::sort(words.begin(), words.end());
   words.erase(std::unique(words.begin(), words.end()), words.end());
   return words;
+}
+
+// [ef] LAYOUT = "tracing" | "exact", for layouts that have an ejection fraction of their own.
+void readEf(TomlTable table, Spec& spec) {
+  for (const char* layout : {"camus", "echonet"}) {
+    if (!table.has(layout)) continue;
+    if (!spec.has(layout))
+      table.fail(layout,
+                 fmt::format("is not among the layouts, accepted: layouts = [\"{}\"]", layout));
+    const std::string word = table.text(layout);
+    if (word != "tracing" && word != "exact")
+      table.fail(layout, fmt::format("is \"{}\", accepted: \"tracing\" | \"exact\"", word));
+    if (word == "exact") spec.exact_ef.emplace_back(layout);
+  }
+  table.finish();
 }
 
 void readSplit(TomlTable split, Spec& spec) {
@@ -258,6 +275,7 @@ Spec parseSpec(std::string_view text, const std::filesystem::path& path) {
   spec.keyframes = file.integer("keyframes", spec.keyframes, 8, 100);
   spec.picture_px = file.integer("picture_px", spec.picture_px, 56, 4032);
   spec.resolution_mm = file.number("resolution_mm", 0.0, {.lo = 0, .hi = 10});
+  readEf(file.table("ef"), spec);
   readSplit(file.table("split"), spec);
   spec.parameters = readHeart(file.table("heart"));
   readOffsets(file.table("offset"), spec.parameters);

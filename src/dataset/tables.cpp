@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "dataset/index_draws.h"
+
 namespace echocine::dataset {
 
 namespace {
@@ -116,11 +118,26 @@ Json countsOf(std::span<const Json> records, std::span<const Json> failures) {
   return counts;
 }
 
+// The distribution behind index_draws.h.
+Json jointlyJson(const heart::HeartGroup& group) {
+  return {
+      {"indices",
+       {"end-diastolic volume / body surface, mL/m2", "sphericity, %", "ejection fraction, %",
+        "relative wall thickness, %", "conicity, %", "longitudinal shortening, %"}},
+      {"mean", group.mean},
+      {"sd", group.sd},
+      {"correlation", group.correlation},
+      {"body_surface_m2", {{"F", kWomenSurface_m2}, {"M", kMenSurface_m2}, {"sd", kSurfaceSd_m2}}},
+      {"dials", heart::kIndexDials},
+      {"source", heart::kIndexSource}};
+}
+
 Json distributionsJson(const Spec& spec) {
   Json all = Json::object();
   for (const Population& population : spec.populations) {
     Json& one = all[population.name];
     one["weight"] = population.weight;
+    if (population.group) one["jointly"] = jointlyJson(heart::heartGroups()[*population.group]);
     for (const Parameter& p : spec.parametersOf(population)) {
       one["parameters"][p.name] = p.distribution.text();
       if (!p.distribution.source.empty()) one["sources"][p.name] = p.distribution.source;

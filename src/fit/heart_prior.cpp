@@ -8,32 +8,13 @@
 #include "core/cholesky.h"
 #include "core/hash_random.h"
 #include "fit/dial_checks.h"
-#include "motion/heart/wall_place.h"
 
 namespace echocine::fit {
 
 namespace {
 
 constexpr std::size_t kN = kPriorDialCount;
-// The parametric heart's mid inferolateral wall relative to its septum at end-diastole, and the
-// rise of its apex relative to the long axis.
-constexpr double kPosteriorShare = 0.85, kApexRise = 0.035;
-// The indices that dials have, by row of indicesOf().
-constexpr std::array<std::size_t, kN> kIndexOfRow{kVolumeIndex, kSphericityIndex, kEjectionIndex,
-                                                  kWallIndex, kShorteningIndex};
 enum Row : std::size_t { kV, kS, kE, kW, kB };
-
-// c and k of indicesOf().
-double volumeShare() {
-  const heart::Meridian& outline = heart::wallOutline();
-  return outline.volume() / (4 * outline.widest() * outline.widest());
-}
-double sphereShare() {
-  return volumeShare() * 6 / std::numbers::pi;
-}
-double length_mm(double edv_ml, double sphericity) {
-  return std::cbrt(1e3 * edv_ml / (volumeShare() * sphericity * sphericity));
-}
 
 std::vector<double> covarianceOf(const HeartGroup& group) {
   std::vector<double> out(group.correlation.begin(), group.correlation.end());
@@ -44,48 +25,6 @@ std::vector<double> covarianceOf(const HeartGroup& group) {
 }
 
 }  // namespace
-
-const std::array<HeartGroup, 2>& heartGroups() {
-  static const std::array<HeartGroup, 2> kGroups{{{"healthy",
-                                                   0.5,
-                                                   {67.8, 37.6, 62.9, 39.7, 74.4, 13.4},
-                                                   {13.3, 7.8, 7.3, 9.5, 7.7, 3.6},
-                                                   {1,     0.20,  -0.29, -0.33, 0,    0.04,  //
-                                                    0.20,  1,     0,     -0.23, 0,    0,     //
-                                                    -0.29, 0,     1,     0.06,  0.25, 0.34,  //
-                                                    -0.33, -0.23, 0.06,  1,     0.29, 0,     //
-                                                    0,     0,     0.25,  0.29,  1,    0.25,  //
-                                                    0.04,  0,     0.34,  0,     0.25, 1}},
-                                                  {"infarct",
-                                                   0.5,
-                                                   {96.5, 41.3, 41.3, 35.2, 70.3, 8.1},
-                                                   {25.0, 8.6, 11.0, 8.4, 7.9, 3.3},
-                                                   {1,     0.39,  -0.61, -0.46, 0,     -0.48,  //
-                                                    0.39,  1,     -0.19, -0.48, -0.48, 0,      //
-                                                    -0.61, -0.19, 1,     0.32,  0,     0.76,   //
-                                                    -0.46, -0.48, 0.32,  1,     0.41,  0,      //
-                                                    0,     -0.48, 0,     0.41,  1,     0,      //
-                                                    -0.48, 0,     0.76,  0,     0,     1}}}};
-  return kGroups;
-}
-
-PriorDials indicesOf(const PriorDials& d) {
-  const double s = d[kSphericity], length = length_mm(d[kEdv_ml], s);
-  return {d[kEdv_ml] / kBodySurface_m2, 100 * sphereShare() * s * s, 100 * d[kEf],
-          200 * kPosteriorShare * d[kWall_mm] / (s * length),
-          100 * (d[kMapse_mm] / length + kApexRise)};
-}
-
-PriorDials HeartPrior::dialsOf(const HeartIndices& indices, double body_surface_m2) {
-  PriorDials d{};
-  d[kEf] = indices[kEjectionIndex] / 100;
-  d[kEdv_ml] = indices[kVolumeIndex] * body_surface_m2;
-  d[kSphericity] = std::sqrt(std::max(0.0, indices[kSphericityIndex]) / (100 * sphereShare()));
-  const double length = length_mm(d[kEdv_ml], d[kSphericity]);
-  d[kWall_mm] = indices[kWallIndex] * d[kSphericity] * length / (200 * kPosteriorShare);
-  d[kMapse_mm] = length * (indices[kShorteningIndex] / 100 - kApexRise);
-  return d;
-}
 
 std::optional<std::size_t> priorDialOf(const std::string& key) {
   const auto found = std::find(kPriorDials.begin(), kPriorDials.end(), key);
@@ -111,9 +50,10 @@ HeartPrior::Normal HeartPrior::normalOf(const HeartGroup& group,
       {},
       std::vector<double>(kN * kN)};
   for (std::size_t i = 0; i < kN; ++i) {
-    normal.mean[i] = group.mean[kIndexOfRow[i]];
+    normal.mean[i] = group.mean[heart::kIndexOfRow[i]];
     for (std::size_t j = 0; j < kN; ++j)
-      normal.factor[i * kN + j] = covariance[kIndexOfRow[i] * kHeartIndices + kIndexOfRow[j]];
+      normal.factor[i * kN + j] =
+          covariance[heart::kIndexOfRow[i] * kHeartIndices + heart::kIndexOfRow[j]];
   }
   // Variance of a product of independent numbers. Covariances with the other indices stay.
   normal.factor[0] =
@@ -130,7 +70,7 @@ void HeartPrior::findMoments() {
   for (std::uint64_t n = 0; n < kDraws; ++n) {
     const double body =
         kBodySurface_m2 + kBodySurfaceSd_m2 * normalFromHashes(hashOf(n, 71), hashOf(n, 72));
-    const PriorDials d = dialsOf(draw(0, n), body);
+    const PriorDials d = heart::dialsOf(draw(0, n), body);
     bool inside = true;
     for (std::size_t i = 0; i < kN; ++i) {
       const heart::Dial& dial = dialOf("prior", kPriorDials[i]);
@@ -170,10 +110,10 @@ double HeartPrior::logDensity(const PriorDials& d, PriorDials* gradient) const {
   for (std::size_t g = 0; g < 2; ++g) logs[g] = normals_[g].logAt(x, slopes[g]);
   const double most = std::max(logs[0], logs[1]),
                total = most + std::log(std::exp(logs[0] - most) + std::exp(logs[1] - most));
-  const double edv = d[kEdv_ml], s = d[kSphericity], length = length_mm(edv, s);
+  const double edv = d[kEdv_ml], s = d[kSphericity], length = heart::longAxis_mm(edv, s);
   // The Jacobian is triangular: its determinant is a constant over L^2.
-  const double constant =
-      std::log(200 * sphereShare() * 100 * 200 * kPosteriorShare * 100 / kBodySurface_m2);
+  const double constant = std::log(200 * heart::sphereShare() * 100 * 200 * heart::kPosteriorShare *
+                                   100 / kBodySurface_m2);
   if (gradient != nullptr) {
     PriorDials in_x{};
     for (std::size_t g = 0; g < 2; ++g)

@@ -9,48 +9,20 @@
 #include <string>
 #include <vector>
 
+#include "motion/heart/heart_indices.h"
+
 namespace echocine::fit {
 
-// Indices of a left ventricle. Means, SD and correlations are those of 1,991 healthy people and 300
-// with an infarct: Cardiac Atlas Project, github.com/CardiacAtlasProject/lv-ortho-modes,
-// clinical_index.csv. That repository states no licence; only these statistics are used, none of
-// its records. Correlations of at most 0.15 are set to 0.
-enum HeartIndex : std::size_t {
-  kVolumeIndex,      // end-diastolic volume / body surface, mL/m2
-  kSphericityIndex,  // end-diastolic volume / sphere on the long axis, %
-  kEjectionIndex,    // ejection fraction, %
-  kWallIndex,        // 2 x posterior wall / short-axis diameter at end-diastole, %
-  kConicityIndex,    // apical / basal diameter, %; no dial of the parametric heart changes it
-  kShorteningIndex,  // of the distance from base to apex, %
-  kHeartIndices
-};
-using HeartIndices = std::array<double, kHeartIndices>;
+using heart::HeartGroup, heart::heartGroups, heart::HeartIndices, heart::indicesOf;
+using heart::kBodySurface_m2, heart::kBodySurfaceSd_m2;
+using heart::kEf, heart::kEdv_ml, heart::kWall_mm, heart::kSphericity, heart::kMapse_mm;
+using heart::kVolumeIndex, heart::kSphericityIndex, heart::kEjectionIndex, heart::kWallIndex,
+    heart::kConicityIndex, heart::kShorteningIndex, heart::kHeartIndices;
 
-// The dials of the parametric heart that follow from indices, in the order of kPriorDials.
-enum PriorDial : std::size_t { kEf, kEdv_ml, kWall_mm, kSphericity, kMapse_mm, kPriorDialCount };
-using PriorDials = std::array<double, kPriorDialCount>;
-inline constexpr std::array<const char*, kPriorDialCount> kPriorDials{"ef", "edv", "wall-thickness",
-                                                                      "sphericity", "mapse"};
-
-// A group of people: means and SD of their indices, correlations row by row.
-struct HeartGroup {
-  const char* name;
-  double share;  // of the mixture; our choice: equal parts, as people sent for an echo
-  HeartIndices mean, sd;
-  std::array<double, kHeartIndices * kHeartIndices> correlation;
-};
-const std::array<HeartGroup, 2>& heartGroups();
-
-// Body surface: mean and SD in m2, independent of the indices. Our choice: adults.
-inline constexpr double kBodySurface_m2 = 1.85, kBodySurfaceSd_m2 = 0.22;
-
-// Indices, without conicity, of the parametric heart with these dials and the mean body surface:
-//   V = edv/b,   S = 100 k s^2,   E = 100 ef,   W = 200 p h / (s L),   B = 100 (m/L + a),
-//   L^3 = edv / (c s^2):  the long axis at end-diastole,
-// s: sphericity dial, h: septum, m: excursion of the ring, b: kBodySurface_m2. k and c follow from
-// the outline of the heart's wall; p is the posterior wall relative to the septum, a the rise of
-// the apex relative to L. Precondition: dials above 0.
-PriorDials indicesOf(const PriorDials& dials);
+// The dials that follow from indices, in the order of kPriorDials.
+inline constexpr std::size_t kPriorDialCount = heart::kIndexDialCount;
+using PriorDials = heart::IndexDials;
+inline constexpr std::array<const char*, kPriorDialCount> kPriorDials = heart::kIndexDials;
 
 // The number of a dial in kPriorDials; none for a dial without a prior.
 std::optional<std::size_t> priorDialOf(const std::string& key);
@@ -68,7 +40,9 @@ class HeartPrior {
   HeartIndices draw(std::uint64_t seed, std::uint64_t number) const;
   HeartIndices draw(std::size_t group, std::uint64_t seed, std::uint64_t number) const;
   // The dials of drawn indices; body surface in m2. Inverse of indicesOf() for the mean surface.
-  static PriorDials dialsOf(const HeartIndices& indices, double body_surface_m2 = kBodySurface_m2);
+  static PriorDials dialsOf(const HeartIndices& indices, double body_surface_m2 = kBodySurface_m2) {
+    return heart::dialsOf(indices, body_surface_m2);
+  }
 
   // Mean and SD of each dial over 4,000 draws within the dials' ranges, for comparison with a
   // posterior.

@@ -44,6 +44,17 @@ TEST(DatasetSpec, WhatIsWrongIsNamedWithWhatIsAccepted) {
                 {"heart.ef", "not drawn"});
 }
 
+TEST(DatasetSpec, EjectionFractionsAreThoseOfTracingsUnlessExact) {
+  EXPECT_FALSE(parseSpec(kStart + "layouts = [\"echonet\"]\n", "spec.toml").hasExactEf("echonet"));
+  EXPECT_TRUE(
+      parseSpec(kStart + "layouts = [\"echonet\"]\n[ef]\nechonet = \"exact\"\n", "spec.toml")
+          .hasExactEf("echonet"));
+  expectRefused(kStart + "layouts = [\"echonet\"]\n[ef]\nechonet = \"best\"\n",
+                {"ef.echonet", "tracing", "exact"});
+  expectRefused(kStart + "[ef]\nechonet = \"exact\"\n", {"ef.echonet", "layouts"});
+  expectRefused(kStart + "[ef]\nnative = \"exact\"\n", {"native"});
+}
+
 TEST(DatasetSpec, SceneKeysAreTriedAtTheirEnds) {
   expectRefused(kStart + "[scene.signal]\ngain_db = { uniform = [0, 500] }\n",
                 {"spec.toml:4", "signal.gain_db", "500", "accepted"});

@@ -53,13 +53,15 @@ std::uint32_t framesInHeader(const std::string& avi) {
 void expectEchonet(const fs::path& root) {
   const std::vector<std::string> list = linesOf(bytesOf(root / "echonet/FileList.csv"));
   ASSERT_EQ(list.size(), 3u);
-  EXPECT_EQ(list[0], "FileName,EF,ESV,EDV,FrameHeight,FrameWidth,FPS,NumberOfFrames,Split");
+  EXPECT_EQ(list[0],
+            "FileName,EF,ESV,EDV,FrameHeight,FrameWidth,FPS,NumberOfFrames,Split,EFTracing,"
+            "ESVTracing,EDVTracing,EFExact,ESVExact,EDVExact");
   const std::vector<std::string> tracings = linesOf(bytesOf(root / "echonet/VolumeTracings.csv"));
   ASSERT_EQ(tracings.size(), 1 + 2 * 2 * 21u);
   EXPECT_EQ(tracings[0], "FileName,X1,Y1,X2,Y2,Frame");
   for (std::size_t v = 0; v < 2; ++v) {
     const std::vector<std::string> row = fieldsOf(list[v + 1]);
-    ASSERT_EQ(row.size(), 9u);
+    ASSERT_EQ(row.size(), 15u);
     EXPECT_EQ(row[0].find('.'), std::string::npos);
     const double ef = std::stod(row[1]), esv = std::stod(row[2]), edv = std::stod(row[3]);
     EXPECT_NEAR(ef, 100 * (1 - esv / edv), 1e-3);

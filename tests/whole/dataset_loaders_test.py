@@ -124,7 +124,8 @@ class Echonet(Loaders):
 
     def test_list(self):
         with open(self.path("echonet/FileList.csv")) as file:
-            self.assertEqual(file.readline(), "FileName,EF,ESV,EDV,FrameHeight,FrameWidth,FPS,NumberOfFrames,Split\n")
+            self.assertEqual(file.readline(), "FileName,EF,ESV,EDV,FrameHeight,FrameWidth,FPS,NumberOfFrames,Split,"
+                             "EFTracing,ESVTracing,EDVTracing,EFExact,ESVExact,EDVExact\n")
         table = pandas.read_csv(self.path("echonet/FileList.csv"))
         self.assertEqual(len(table), len(self.loops))
         self.assertEqual(set(table["Split"]), {"TRAIN", "VAL", "TEST"})
@@ -136,6 +137,37 @@ class Echonet(Loaders):
             self.assertEqual(row["Split"], of_table["split"].upper())
             self.assertEqual(row["NumberOfFrames"], int(of_table["frames"]))
             self.assertEqual(row["FPS"], 32)
+            for kind, key in (("Exact", ""), ("Tracing", "_single_plane")):
+                self.assertAlmostEqual(row["EF" + kind], float(of_table[f"ef{key}_percent"]), 3)
+                self.assertAlmostEqual(row["EDV" + kind], float(of_table[f"edv{key}_ml"]), 3)
+                self.assertAlmostEqual(row["ESV" + kind], float(of_table[f"esv{key}_ml"]), 3)
+            for name in ("EF", "ESV", "EDV"):
+                self.assertEqual(row[name], row[name + "Tracing"])
+
+    def test_tracings_give_the_listed_ejection_fraction(self):
+        """Discs between neighbouring chords, as wide as their mean square: lengths cancel but for the two axes."""
+        table = pandas.read_csv(self.path("echonet/FileList.csv")).set_index("FileName")
+        away = []
+        for name, frames in self.traced().items():
+            volumes = []
+            for rows in frames.values():  # end-systole first
+                axis, chords = numpy.array(rows[0]), numpy.array(rows[1:])
+                squared = ((chords[:, 2:] - chords[:, :2]) ** 2).sum(axis=1)
+                length = numpy.hypot(*(axis[2:] - axis[:2]))
+                volumes.append(length * (squared[:-1] + squared[1:]).sum() / 2)
+            away.append(100 * (1 - volumes[0] / volumes[1]) - table.loc[os.path.splitext(name)[0], "EF"])
+        print(f"echonet: EF of the tracings minus the listed one: {min(away):.2f} to {max(away):.2f} points")
+        self.assertLess(max(abs(a) for a in away), 1.0)
+
+    def test_the_crop_is_in_the_loop(self):
+        for name in self.loops:
+            with open(self.path("native", name, "loop.json")) as file:
+                loop = json.load(file)
+            side = loop["width"]
+            crop = loop["echonet"]["crop"]
+            self.assertAlmostEqual(crop["x_px"], 0.02 * side)
+            self.assertAlmostEqual(crop["y_px"], 0.02 * side)
+            self.assertAlmostEqual(crop["side_px"], 0.96 * side)
 
     def test_videos(self):
         for name, row in self.loops.items():
@@ -298,7 +330,7 @@ class Camus(Loaders):
             self.assertIn(info["Sex"], ("F", "M"))
             self.assertEqual(int(info["Age"]), int(row["subject.age"]))
             self.assertIn(info["ImageQuality"], ("Good", "Medium", "Poor"))
-            self.assertEqual(int(info["EF"]), round(float(row["ef_percent"])))
+            self.assertEqual(int(info["EF"]), round(float(row["camus.ef_views_percent"])))
             self.assertEqual(float(info["FrameRate"]), 32)
 
     def test_masks_give_back_biplane_volumes(self):
