@@ -4,20 +4,15 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <deque>
 #include <string_view>
 
 #include "cli/documents.h"
 #include "cli/number_check.h"
 #include "cli/progress_line.h"
-#include "cli/stop_signal.h"
 #include "cli/view_list.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "core/stop.h"
 #include "fit/dial_scan.h"
-#include "fit/fit_results.h"
-#include "output/heart_files.h"
 #include "video/video.h"
 
 namespace echocine {
@@ -58,25 +53,38 @@ void printFit(const fit::HeartFit& fit, const std::filesystem::path& folder) {
 FitCommand::FitCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "fit", "Fit a beating heart with an error bar to one to three echo videos");
+  command->add_option("files", files_,
+                      "Loops of unknown view: each view is ranked, and refused if it is unclear; "
+                      "2 minutes of one core each");
   command
       ->add_option("--view", views_,
                    "A loop and its view, VIEW=FILE: a video, DICOM, folder of frames or of a "
                    "render; VIEW one of " +
                        viewList())
-      ->required()
+      ->allow_extra_args(false)
       ->type_name("VIEW=FILE");
   command->add_option("-o,--output", folder_, "Folder for the results")->required();
   command
       ->add_option("--scale", scales_,
-                   "Length scale of a loop, VIEW=NUMBER in cm per pixel, 0.0001 to 10; without a "
-                   "scale no mL")
-      ->type_name("VIEW=CM");
-  command->add_option("--ed", ends_of_diastole_, "Frame of end-diastole, VIEW=NUMBER, from 0")
-      ->type_name("VIEW=FRAME");
-  command->add_option("--es", ends_of_systole_, "Frame of end-systole, VIEW=NUMBER, from 0")
-      ->type_name("VIEW=FRAME");
-  command->add_option("--fps", rates_, "Frame rate of a loop, VIEW=NUMBER, 0.5 to 10000")
-      ->type_name("VIEW=FPS");
+                   "Length scale of a loop, VIEW=NUMBER in cm per pixel, 0.0001 to 10, or NUMBER "
+                   "for all; without a scale no mL")
+      ->allow_extra_args(false)
+      ->type_name("[VIEW=]CM");
+  command
+      ->add_option("--ed", ends_of_diastole_,
+                   "Frame of end-diastole, VIEW=NUMBER, from 0, or NUMBER for all")
+      ->allow_extra_args(false)
+      ->type_name("[VIEW=]FRAME");
+  command
+      ->add_option("--es", ends_of_systole_,
+                   "Frame of end-systole, VIEW=NUMBER, from 0, or NUMBER for all")
+      ->allow_extra_args(false)
+      ->type_name("[VIEW=]FRAME");
+  command
+      ->add_option("--fps", rates_,
+                   "Frame rate of a loop, VIEW=NUMBER, 0.5 to 10000, or NUMBER for all")
+      ->allow_extra_args(false)
+      ->type_name("[VIEW=]FPS");
   command->add_option("--dials", dials_,
                       "Fixed dials of the heart, such as hr=72,wall-thickness=11");
   command
@@ -95,37 +103,47 @@ FitCommand::FitCommand(CLI::App& app) {
       std::string(kDocuments));
 }
 
+namespace {
+
+double numberIn(const char* option, const std::string& whole, const std::string& text, double low,
+                double high) {
+  double value = 0;
+  if (!CLI::detail::lexical_cast(text, value) || !(value >= low && value <= high))
+    throw SceneError(fmt::format("{}: {} is not accepted: a number from {:g} to {:g}", option,
+                                 whole, low, high));
+  return value;
+}
+
+}  // namespace
+
 void FitCommand::setNumbers(const char* option, const std::vector<std::string>& given, double low,
-                            double high, std::vector<Side>& sides,
+                            double high, std::vector<fit::FitFile>& files,
                             std::optional<double> echo::SideOptions::*member, double unit) {
   for (const std::string& text : given) {
+    if (text.find('=') == std::string::npos) {
+      const double value = numberIn(option, text, text, low, high);
+      for (fit::FitFile& file : files) file.side.*member = value * unit;
+      continue;
+    }
     const ViewText named = namedIn(option, text, "NUMBER");
-    const auto side = std::find_if(sides.begin(), sides.end(),
-                                   [&](const Side& s) { return s.view == named.view; });
-    if (side == sides.end())
+    const auto file = std::find_if(files.begin(), files.end(),
+                                   [&](const fit::FitFile& f) { return f.view == named.view; });
+    if (file == files.end())
       throw SceneError(fmt::format("{}: {} has no loop; give --view {}=FILE", option,
                                    keyOf(named.view), keyOf(named.view)));
-    double value = 0;
-    if (!CLI::detail::lexical_cast(named.rest, value) || !(value >= low && value <= high))
-      throw SceneError(fmt::format("{}: {} is not accepted: a number from {:g} to {:g}", option,
-                                   text, low, high));
-    side->options.*member = value * unit;
+    file->side.*member = numberIn(option, text, named.rest, low, high) * unit;
   }
 }
 
-std::vector<FitCommand::Side> FitCommand::sides() const {
-  std::vector<Side> out;
+std::vector<fit::FitFile> FitCommand::filesGiven() const {
+  std::vector<fit::FitFile> out;
   for (const std::string& text : views_) {
     const ViewText named = namedIn("--view", text, "FILE");
-    for (const Side& other : out)
-      if (other.view == named.view)
-        throw SceneError(fmt::format("--view: {} is given twice", keyOf(named.view)));
     out.push_back({named.view, named.rest, {}});
-    out.back().options.read_ecg = !no_ecg_;
   }
-  if (out.size() > fit::kMostLoops)
-    throw SceneError(
-        fmt::format("--view: {} loops, accepted: 1 to {}", out.size(), fit::kMostLoops));
+  for (const std::string& file : files_) out.push_back({std::nullopt, file, {}});
+  if (out.empty()) throw SceneError("fit: give a loop: --view VIEW=FILE, or FILE");
+  for (fit::FitFile& file : out) file.side.read_ecg = !no_ecg_;
   constexpr double kMmPerCm = 10;
   setNumbers("--scale", scales_, echo::kLeastScale_mm / kMmPerCm, echo::kMostScale_mm / kMmPerCm,
              out, &echo::SideOptions::mm_per_pixel, kMmPerCm);
@@ -136,33 +154,14 @@ std::vector<FitCommand::Side> FitCommand::sides() const {
 }
 
 int FitCommand::run() {
-  const std::vector<Side> given = sides();
+  const std::vector<fit::FitFile> files = filesGiven();
   fit::HeartFitOptions options;
   options.dials = fit::parseDials(dials_);
   options.tilt_deg = tilt_deg_;
-  const std::filesystem::path heart = folder_ / "heart";
-  std::error_code error;
-  if (std::filesystem::exists(heart, error))
-    throw SceneError(fmt::format("{}: exists; remove it or give another -o", heart.string()));
-  std::deque<echo::EchoLoop> read;
-  std::vector<fit::FitLoop> loops;
-  std::vector<std::string> labels;
-  for (const Side& side : given) {
-    read.push_back(echo::readLoop(side.file, side.options, true));
-    loops.push_back({side.view, read.back(), side.options});
-    labels.push_back(read.back().label);
-  }
   ProgressLine line(quiet_);
   fit::HeartFit fit;
-  withThreads(threads_, [&] { fit = fitHeart(loops, options, line.monitor()); });
+  withThreads(threads_, [&] { fit = fitFiles(files, options, folder_, line.monitor()).fit; });
   line.finish();
-  // A stopped fit keeps its best heart.
-  unstoppable([&] {
-    if (fit.ef)
-      writeHeart({.parameters = heart::parametersFrom(fit.dials), .view = given.front().view},
-                 heart);
-    writeFit(fit, labels, folder_);
-  });
   if (!fit.refusal.empty()) throw JobError("no result: " + fit.refusal);
   if (!quiet_) printFit(fit, folder_);
   if (fit.stopped)

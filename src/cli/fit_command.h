@@ -1,11 +1,12 @@
 #pragma once
 // echocine fit --view a4c=FILE --view a2c=FILE -o DIR
+// echocine fit FILE FILE -o DIR
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "fit/heart_fit.h"
+#include "fit/fit_files.h"
 
 namespace CLI {
 class App;
@@ -20,18 +21,13 @@ class FitCommand {
   int run();                           // exit code; throws JobError for a refused result
 
  private:
-  struct Side {
-    heart::View view{};
-    std::filesystem::path file;
-    echo::SideOptions options;
-  };
-  std::vector<Side> sides() const;
-  // Sets one member of the named view's options from each VIEW=NUMBER.
+  std::vector<fit::FitFile> filesGiven() const;
+  // Sets one member of the named view's options from each VIEW=NUMBER, of all loops from NUMBER.
   static void setNumbers(const char* option, const std::vector<std::string>& given, double low,
-                         double high, std::vector<Side>& sides,
+                         double high, std::vector<fit::FitFile>& files,
                          std::optional<double> echo::SideOptions::*member, double unit = 1);
 
-  std::vector<std::string> views_, scales_, ends_of_diastole_, ends_of_systole_, rates_;
+  std::vector<std::string> files_, views_, scales_, ends_of_diastole_, ends_of_systole_, rates_;
   std::string dials_;
   double tilt_deg_ = fit::HeartFitOptions{}.tilt_deg;
   std::filesystem::path folder_;

@@ -6,19 +6,11 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "fit/searched_dials.h"
 
 namespace echocine::fit {
 
 namespace {
-
-// Step of a dial, about an SD of what one loop leaves in planted hearts; else a tenth of the range.
-double stepOf(const DialRange& range) {
-  static const std::map<std::string, double> kSteps{
-      {"ef", 0.025}, {"edv", 10}, {"wall-thickness", 1}, {"sphericity", 0.03}, {"mapse", 1.5}};
-  const auto known = kSteps.find(range.key);
-  const double whole = range.high - range.low;
-  return known == kSteps.end() ? whole / 10 : std::min(known->second, whole / 4);
-}
 
 // Minus the log-likelihood. D is never 0: no loop is without noise.
 double lossOf(double discrepancy) {

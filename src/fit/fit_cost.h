@@ -49,6 +49,7 @@ class FitCost {
   const std::vector<FitUnknown>& unknowns() const { return unknowns_; }
   std::size_t dials() const { return dials_; }  // the first unknowns
   std::size_t views() const { return sides_.size(); }
+  const std::map<std::string, double>& fixed() const { return fixed_; }
 
   // Poses near those of `from`, or searched globally if it is empty. Runs in parallel.
   FitPlace at(const std::vector<double>& at, const std::vector<PoseFound>& from) const;

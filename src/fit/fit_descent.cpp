@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "fit/fit_progress.h"
 
 namespace echocine::fit {
 
@@ -54,7 +55,8 @@ FitDescent descendFit(const FitCost& cost, const FitPlace& start, const Monitor&
       FitPlace next = taken(cost, out.best, q, middle);
       const double gain = out.best.cost - next.cost;
       out.best = std::move(next);
-      monitor.tell({Task::settings, static_cast<std::size_t>(round) + 1, kMostFitRounds});
+      monitor.tell({Task::settings, static_cast<std::size_t>(round) + 1,
+                    static_cast<std::size_t>(kUsualRounds)});
       if (gain < kLeastGain) break;
     }
   } catch (const JobError&) {

@@ -5,17 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/caveats.h"
+#include "fit/fit_doubts.h"
 
 namespace echocine::fit {
 
 namespace {
 
 constexpr double kNinety = 1.645;  // SD of a normal distribution's central 90 %
-constexpr double kRival = 3;       // J: a rival a twentieth as likely still counts
-// D above which a model explains hardly more than none. Our choice.
-constexpr double kMostD = 0.9;
-constexpr double kLeastInSight = 0.6;
 // A posterior of more than this part of the prior's SD is not narrower. Our choice.
 constexpr double kNarrower = 0.9;
 
@@ -39,11 +35,6 @@ Estimate estimateOf(double value, double variance) {
   return {value, value - half, value + half};
 }
 
-void widen(Estimate& e, double other) {
-  e.low = std::min(e.low, other);
-  e.high = std::max(e.high, other);
-}
-
 void addDials(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
   for (std::size_t i = 0; i < cost.dials(); ++i) {
     const FitUnknown& u = cost.unknowns()[i];
@@ -52,44 +43,11 @@ void addDials(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
     if (best.covariance.empty()) dial.sd = dial.prior_sd;
     const double near = 1e-3 * (u.high - u.low);
     dial.at_limit = dial.value < u.low + near || dial.value > u.high - near;
-    dial.told = dial.prior_sd == 0 || dial.sd < kNarrower * dial.prior_sd;
+    // A fit that was stopped before is no statement on the loops.
+    dial.told =
+        best.covariance.empty() || dial.prior_sd == 0 || dial.sd < kNarrower * dial.prior_sd;
     fit.found.push_back(dial);
   }
-}
-
-void addHints(HeartFit& fit) {
-  const auto hint = [&](const std::string& text) { fit.hints.push_back(text); };
-  for (const DialFound& dial : fit.found) {
-    if (dial.at_limit)
-      hint(
-          fmt::format("{} is at its limit {:.4g}: the heart may lie beyond", dial.key, dial.value));
-    if (!dial.told)
-      hint(
-          fmt::format("{} is not determined by the loops: its value is the prior's; another view "
-                      "would help",
-                      dial.key));
-  }
-  for (const ViewFitted& view : fit.views) {
-    const char* name = keyOf(view.view);
-    if (view.beat.confidence < kLeastConfidence)
-      hint(fmt::format("{}: the start of the beat is ambiguous: give end-diastole", name));
-    if (view.found.terms.overlap < kLeastInSight)
-      hint(fmt::format("{}: shows only {:.0f} % of the heart", name,
-                       100 * view.found.terms.overlap));
-    if (view.found.at_limit) hint(fmt::format("{}: the pose is at the limit of its search", name));
-  }
-}
-
-// One line; empty if the loops determine the ejection fraction.
-std::string refusalOf(const HeartFit& fit) {
-  for (const ViewFitted& view : fit.views)
-    if (view.found.discrepancy > kMostD)
-      return fmt::format("{}: no heart explains this loop (D {:.2f}): is it this view, and a beat?",
-                         keyOf(view.view), view.found.discrepancy);
-  for (const DialFound& dial : fit.found)
-    if (dial.key == "ef" && !dial.told)
-      return "the loops do not determine the ejection fraction: another view would help";
-  return {};
 }
 
 void addResults(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
@@ -104,27 +62,31 @@ void addResults(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
   fit.ef = estimateOf(ef, s.ef);
   const bool scaled = std::all_of(fit.views.begin(), fit.views.end(),
                                   [](const ViewFitted& view) { return view.scaled; });
-  if (!scaled) {
-    fit.hints.push_back("a loop has no length scale: volumes are left out; give its scale");
-    return;
-  }
+  if (!scaled) return;
   fit.edv_ml = estimateOf(edv, s.edv);
   fit.esv_ml = estimateOf(
       edv * (1 - ef), (1 - ef) * (1 - ef) * s.edv + edv * edv * s.ef - 2 * edv * (1 - ef) * s.both);
 }
 
 void addRivals(const FitCost& cost, const std::vector<FitDescent>& descents, HeartFit& fit) {
-  const Estimate ef = fit.ef.value_or(Estimate{});
   for (std::size_t i = 1; i < descents.size(); ++i) {
     const FitPlace& other = descents[i].best;
     HeartRival rival{cost.dialsAt(other.at), 0, 0, other.cost - fit.cost};
     const PriorDials dials = priorDialsOf(rival.dials);
     rival.ef = dials[kEf], rival.edv_ml = dials[kEdv_ml];
     fit.rivals.push_back(rival);
+  }
+}
+
+void widen(Estimate& e, double other) {
+  e.low = std::min(e.low, other);
+  e.high = std::max(e.high, other);
+}
+
+// By rivals that fit nearly as well.
+void widenByRivals(HeartFit& fit) {
+  for (const HeartRival& rival : fit.rivals) {
     if (!fit.ef || rival.cost_above > kRival) continue;
-    if (rival.ef < ef.low || rival.ef > ef.high)
-      fit.hints.push_back(fmt::format(
-          "another heart with EF {:.2f} fits nearly as well: another view would help", rival.ef));
     widen(*fit.ef, rival.ef);
     if (!fit.edv_ml) continue;
     widen(*fit.edv_ml, rival.edv_ml);
@@ -145,10 +107,11 @@ void concludeFit(const FitCost& cost, const std::vector<FitDescent>& descents, H
   fit.cost = best.best.cost;
   fit.dials = cost.dialsAt(best.best.at);
   addDials(cost, best, fit);
-  addHints(fit);
+  addRivals(cost, descents, fit);
   fit.refusal = refusalOf(fit);
   if (fit.refusal.empty()) addResults(cost, best, fit);
-  addRivals(cost, descents, fit);
+  addHints(fit);
+  widenByRivals(fit);
 }
 
 }  // namespace echocine::fit

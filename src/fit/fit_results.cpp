@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
+#include "fit/fit_page.h"
 #include "fit/fit_report.h"
 #include "fit/results_folder.h"
 #include "motion/heart/heart_cycle.h"
@@ -45,6 +46,10 @@ Json viewsJson(const HeartFit& fit, const std::vector<std::string>& labels) {
     json["tilt_deg"] = degreesFromRadians(view.tilt.tilt_rad);
     json["rotate_deg"] = degreesFromRadians(view.tilt.rotate_rad);
     json["beat"] = beatJson(view.beat);
+    if (view.controls)
+      json["controls"] = {{"own", view.controls->own},
+                          {"mirrored", view.controls->mirrored},
+                          {"shuffled", view.controls->shuffled}};
     out.push_back(std::move(json));
   }
   return out;
@@ -68,7 +73,9 @@ Json rivalsJson(const HeartFit& fit) {
   return out;
 }
 
-Json fitJsonOf(const HeartFit& fit, const std::vector<std::string>& labels) {
+}  // namespace
+
+Json fitJson(const HeartFit& fit, const std::vector<std::string>& labels) {
   Json json{{"version", ECHOCINE_VERSION},
             {"result",
              {{"interval", 0.9},
@@ -88,34 +95,62 @@ Json fitJsonOf(const HeartFit& fit, const std::vector<std::string>& labels) {
   return json;
 }
 
+namespace {
+
 // V(t) = EDV (1 - EF e(t)), e: share of the stroke volume ejected so far. The interval scales the
 // relative SD of EDV and ESV between end-diastole and end-systole.
-std::string curvesCsv(const HeartFit& fit) {
+struct VolumeAt {
+  double phase, value, low, high;
+};
+
+std::vector<VolumeAt> volumeOf(const HeartFit& fit) {
   constexpr int kInstants = 50;
-  const heart::Parameters parameters = heart::parametersFrom(fit.dials);
-  const heart::Cycle cycle(parameters);
+  const heart::Cycle cycle(heart::parametersFrom(fit.dials));
   const double edv = fit.edv_ml ? fit.edv_ml->value : 1;
-  std::string text = fit.edv_ml ? "phase,lv_ml,low_ml,high_ml\n" : "phase,lv_per_edv,low,high\n";
   const Estimate end =
       fit.esv_ml ? *fit.esv_ml : Estimate{1 - fit.ef->value, 1 - fit.ef->high, 1 - fit.ef->low};
   const Estimate rest = fit.edv_ml.value_or(Estimate{1, 1, 1});
+  std::vector<VolumeAt> out;
   for (int i = 0; i < kInstants; ++i) {
     const double phase = static_cast<double>(i) / kInstants;
     const double ejected = cycle.at(phase).left.ejected;
-    text += fmt::format("{:.3f},{:.6g},{:.6g},{:.6g}\n", phase, edv * (1 - fit.ef->value * ejected),
-                        rest.low + ejected * (end.low - rest.low),
-                        rest.high + ejected * (end.high - rest.high));
+    out.push_back({phase, edv * (1 - fit.ef->value * ejected),
+                   rest.low + ejected * (end.low - rest.low),
+                   rest.high + ejected * (end.high - rest.high)});
   }
-  return text;
+  return out;
 }
 
 }  // namespace
+
+std::string curvesCsv(const HeartFit& fit) {
+  std::string text = fit.edv_ml ? "phase,lv_ml,low_ml,high_ml\n" : "phase,lv_per_edv,low,high\n";
+  for (const VolumeAt& at : volumeOf(fit))
+    text += fmt::format("{:.3f},{:.6g},{:.6g},{:.6g}\n", at.phase, at.value, at.low, at.high);
+  return text;
+}
+
+Json volumeJson(const HeartFit& fit) {
+  Json out{{"unit", fit.edv_ml ? "mL" : "of end-diastole"}};
+  for (const VolumeAt& at : volumeOf(fit)) {
+    out["phase"].push_back(at.phase);
+    out["value"].push_back(at.value);
+    out["low"].push_back(at.low);
+    out["high"].push_back(at.high);
+  }
+  return out;
+}
+
+std::string fitText(const HeartFit& fit, const std::vector<std::string>& labels) {
+  return fitJson(fit, labels).dump(1) + "\n";
+}
 
 std::vector<std::string> assumptionsOf(const HeartFit& fit) {
   std::vector<std::string> out{
       "the heart is one of the parametric family: other shapes and still walls are not fitted",
       "the prior is that of people with and without an infarct, in equal parts",
       "the interval holds the noise of the loops and the error of the model on planted hearts"};
+  out.insert(out.end(), fit.assumed.begin(), fit.assumed.end());
   for (const ViewFitted& view : fit.views) {
     if (view.beat.length_source == kLoopIsBeat)
       out.push_back(fmt::format("{}: {}", keyOf(view.view), kLoopIsBeat));
@@ -127,9 +162,10 @@ std::vector<std::string> assumptionsOf(const HeartFit& fit) {
 
 void writeFit(const HeartFit& fit, const std::vector<std::string>& labels,
               const std::filesystem::path& folder) {
-  const ResultsFolder results(folder, {"fit.json", "curves.csv"});
+  const ResultsFolder results(folder, {"fit.json", "curves.csv", "fit.html"});
   if (fit.ef) results.write("curves.csv", curvesCsv(fit));
-  results.write("fit.json", fitJsonOf(fit, labels).dump(1) + "\n");
+  if (!fit.stopped) writeFitPage(fit, labels, folder / "fit.html");
+  results.write("fit.json", fitText(fit, labels));
 }
 
 }  // namespace echocine::fit

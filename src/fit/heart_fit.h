@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "fit/fit_controls.h"
 #include "fit/fit_cost.h"
+#include "fit/fit_report.h"
 
 namespace echocine::fit {
 
@@ -18,12 +20,12 @@ struct FitLoop {
 };
 inline constexpr std::size_t kMostLoops = 3;
 
-// Ranges of the dials that a fit can search.
-const std::vector<DialRange>& searchedRanges();
+// Throws SceneError unless there are 1 to kMostLoops different views.
+void checkFitViews(const std::vector<heart::View>& views);
 
 struct HeartFitOptions {
   std::map<std::string, double> dials;  // fixed; other dials follow them
-  // Searched dials, of kPriorDials.
+  // Keys of searchedDials().
   std::vector<std::string> searched{kPriorDials.begin(), kPriorDials.end()};
   double tilt_deg = 12;  // limit of tilt and rotation of each plane; 0: planes as the view has them
   int starts = 12;       // hearts that are compared first: the groups' means, then draws
@@ -51,6 +53,10 @@ struct ViewFitted {
   PlaneTilt tilt;
   PoseFound found;
   bool scaled = true;  // the loop has a length scale
+  FitReport report;    // of the best heart
+  // D of the best heart in loops that do not show it; none if the fit was stopped.
+  std::optional<ControlFits> controls{};
+  std::optional<FitReport> own{};  // of the best heart in its own rendered loop, if that is fitted
 };
 
 // Another descent's end.
@@ -69,7 +75,8 @@ struct HeartFit {
   std::map<std::string, double> own_error;  // subtracted, by dial
   std::vector<ViewFitted> views;            // as they fitted before
   std::vector<HeartRival> rivals;
-  std::vector<std::string> hints;  // why the result is uncertain and what would help
+  std::vector<std::string> hints;    // why the result is uncertain and what would help
+  std::vector<std::string> assumed;  // of these loops
   std::string refusal;
   bool stopped = false;  // the best so far
   double cost = 0;       // J of Eq. 14
@@ -79,8 +86,8 @@ struct HeartFit {
 // Fits by Eq. 14: starts from the prior, then steps to the minimum of a quadratic through
 // differences of J, from the best starts. Poses, tilts and dials are estimated jointly; the start
 // and the end-systole of each loop's beat once, with the best start. Intervals: fit_interval.h.
-// Throws SceneError for no loop, more than kMostLoops, a view given twice, options out of range, or
-// a loop that ModelDiscrepancy refuses; JobError if it is stopped before a start is known. Runs in
+// Throws SceneError for views that checkFitViews() refuses, options out of range, or a loop that
+// ModelDiscrepancy refuses; JobError if it is stopped before a start is known. Runs in
 // parallel; the result does not depend on the threads.
 HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& options = {},
                   const Monitor& monitor = {});

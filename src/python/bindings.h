@@ -19,6 +19,7 @@ void bindPlan(py::module_& module);
 void bindCompare(py::module_& module);
 void bindModels(py::module_& module);
 void bindFit(py::module_& module);
+void bindHeartFit(py::module_& module);
 void bindDataset(py::module_& module);
 void bindFiles(py::module_& module);
 

@@ -21,6 +21,7 @@ PYBIND11_MODULE(_echocine, module) {
   bindCompare(module);
   bindModels(module);
   bindFit(module);
+  bindHeartFit(module);
   bindDataset(module);
   bindFiles(module);
 }

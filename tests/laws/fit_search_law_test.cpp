@@ -6,8 +6,9 @@
 
 #include "core/hash_random.h"
 #include "fit/heart_design.h"
-#include "fit/heart_fit.h"
+#include "fit/heart_prior.h"
 #include "fit/quadratic.h"
+#include "fit/searched_dials.h"
 
 namespace echocine::fit {
 namespace {
@@ -20,6 +21,24 @@ std::vector<double> drawnWithin(const std::vector<DialRange>& ranges, int n) {
   return out;
 }
 
+std::vector<DialRange> searchedRanges() {
+  std::vector<DialRange> out;
+  for (const SearchedDial& dial : searchedDials()) out.push_back(dial.range);
+  return out;
+}
+
+// The prior has each searched dial, and a step is a part of its range also in a narrow one.
+TEST(FitDesign, SearchedDialsHaveAPriorAndAStep) {
+  ASSERT_EQ(searchedDials().size(), kPriorDials.size());
+  for (std::size_t i = 0; i < kPriorDials.size(); ++i) {
+    const SearchedDial& dial = searchedDials()[i];
+    EXPECT_EQ(dial.range.key, kPriorDials[i]);
+    EXPECT_EQ(stepOf(dial.range), dial.step);
+    EXPECT_EQ(stepOf({dial.range.key, 0, dial.step}), dial.step / 4);
+  }
+  EXPECT_NEAR(stepOf({"hr", 60, 80}), 2, 1e-12);
+}
+
 // A cubic in the first two dials and a quadratic in all is reproduced everywhere, also after places
 // have moved.
 TEST(FitDesign, PolynomialsAreReproduced) {
@@ -28,11 +47,12 @@ TEST(FitDesign, PolynomialsAreReproduced) {
     return 3 + 2 * e - e * e * e + e * d * d - 0.3 * d * d * d + 0.1 * v[2] * v[3] + v[4] * e -
            0.02 * v[4] * v[4];
   };
-  HeartDesign design = HeartDesign::polynomial(searchedRanges());
+  const std::vector<DialRange> ranges = searchedRanges();
+  HeartDesign design = HeartDesign::polynomial(ranges);
   EXPECT_EQ(design.size(), 30u);  // 25 terms and a fifth more
   for (int round = 0; round < 2; ++round) {
     for (int n = 0; n < 50; ++n) {
-      const std::vector<double> at = drawnWithin(searchedRanges(), n);
+      const std::vector<double> at = drawnWithin(ranges, n);
       const std::vector<float> shares = design.shares(at);
       double sum = 0, one = 0, size = 0;
       for (std::size_t i = 0; i < shares.size(); ++i) {

@@ -68,6 +68,10 @@ TEST(HeartFit, APlantedHeartIsFound) {
     EXPECT_EQ(file["result"]["edv_ml"]["low"], fit.edv_ml->low);
     EXPECT_EQ(file["views"][0]["view"], "a4c");
     EXPECT_NE(bytesOf(folder / "fit/curves.csv").find("lv_ml"), std::string::npos);
+    EXPECT_NE(bytesOf(folder / "fit/fit.html").find("a4c twin"), std::string::npos);
+    ASSERT_TRUE(fit.views[0].controls);
+    std::printf("D own %.3f, mirrored %.3f, shuffled %.3f\n", fit.views[0].controls->own,
+                fit.views[0].controls->mirrored, fit.views[0].controls->shuffled);
 
     // The same without a length scale: no mL anywhere.
     HeartFit unscaled = fit;
@@ -77,6 +81,29 @@ TEST(HeartFit, APlantedHeartIsFound) {
     EXPECT_TRUE(nlohmann::json::parse(text)["result"]["edv_ml"].is_null());
     EXPECT_EQ(text.find("\"edv\""), std::string::npos);
     EXPECT_EQ(bytesOf(folder / "unscaled/curves.csv").find("ml"), std::string::npos);
+  });
+}
+
+// A loop that was flipped left to right, and one whose pictures are out of order.
+TEST(HeartFit, AFlippedAndAShuffledLoopAreRefused) {
+  withThreads(2, [] {
+    const std::map<std::string, double> dials{{"ef", 0.55}, {"edv", 130}, {"hr", 72}};
+    Scene scene = heart::heartScene(heart::parametersFrom(dials), View::a4c, 12, Look::scanner);
+    scene.probe.lines = 96;
+    const EchoLoop loop = scannedLoop(scene, 20, 5);
+    HeartFitOptions options;
+    options.searched = {"ef"};
+    options.dials = {{"hr", 72}};
+    options.tilt_deg = 0;
+    options.starts = options.descents = 1;
+    options.own_loops = false;
+    const auto refusal = [&](const EchoLoop& given) {
+      const HeartFit fit = fitHeart({{View::a4c, given, fromFirst()}}, options);
+      EXPECT_EQ(fit.refusal.empty(), fit.ef.has_value());
+      return fit.refusal;
+    };
+    EXPECT_NE(refusal(mirrored(loop)).find("mirror"), std::string::npos);
+    EXPECT_NE(refusal(shuffled(loop)).find("shuffled"), std::string::npos);
   });
 }
 

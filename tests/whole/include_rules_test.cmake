@@ -54,7 +54,7 @@ set(rooms
   "output=plan,trace,signal,surfaces,heart,truth|video"
   "view=frame,mesh|plan,cycle,geometry,signal,video,page"
   "echo=video|signal,metrics,output"
-  "fit=echo,heart,surfaces,geometry,truth,signal,page|frame,video"
+  "fit=echo,heart,surfaces,geometry,truth,signal,page|frame,video,output,view"
   "compare=echo,fit,metrics,signal,truth,page|surfaces,video"
   "render=loop,frame,cycle,output,page,video,truth|plan,signal,surfaces,view"
   "study=plan,frame,cycle,output,video,metrics|loop,surfaces,keyframes,trace,signal,render,page"

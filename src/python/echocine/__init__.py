@@ -11,7 +11,8 @@
     loop.times_s                    # (T,) float64, s
 
 Scenes have the keys of scene files; `Scene.keys()` lists them, `dials()` those of hearts. Another heart is another scene:
-`heart(ef=0.3)`. `HeartFamily` changes dials in milliseconds, and `ModelDiscrepancy` compares its hearts with a real loop. `Simulator` makes single frames, `dataset` many loops, `open` reads a render's folder. Errors are SceneError (what was given cannot be used)
+`heart(ef=0.3)`. `HeartFamily` changes dials in milliseconds, and `ModelDiscrepancy` compares its hearts with a real loop.
+`fit` finds a heart from one to three echo loops. `Simulator` makes single frames, `dataset` many loops, `open` reads a render's folder. Errors are SceneError (what was given cannot be used)
 and JobError (the work failed).
 """
 
@@ -19,12 +20,13 @@ from ._echocine import Frame, __version__
 from ._dataset import Dataset, DatasetLoop, dataset, preview_dataset
 from ._errors import JobError, SceneError, SceneWarning
 from ._fit import HeartFamily, ModelDiscrepancy, ModelLoop, PoseFound
+from ._heart_fit import HeartFit, Interval, fit
 from ._jobs import Comparison, FrameDiscrepancy, Plan, compare, plan, study
 from ._loop import Loop, open, render
 from ._scene import Scene, Table, dials, heart, scene_keys
 from ._simulator import Simulator
 
-__all__ = ["Comparison", "Dataset", "DatasetLoop", "Frame", "FrameDiscrepancy", "HeartFamily", "JobError", "Loop",
+__all__ = ["Comparison", "Dataset", "DatasetLoop", "Frame", "FrameDiscrepancy", "HeartFamily", "HeartFit", "Interval", "JobError", "Loop",
            "ModelDiscrepancy", "ModelLoop", "Plan", "PoseFound", "Scene", "SceneError", "SceneWarning", "Simulator", "Table",
-           "__version__", "compare", "dataset", "dials", "heart", "open", "plan",
+           "__version__", "compare", "dataset", "dials", "fit", "heart", "open", "plan",
            "preview_dataset", "render", "scene_keys", "study"]

@@ -1,0 +1,26 @@
+#pragma once
+// Why a fit's result is refused or uncertain, and what would help.
+
+#include "fit/heart_fit.h"
+
+namespace echocine::fit {
+
+// J by which another fit must be worse to be told apart: one a twentieth as likely still counts.
+inline constexpr double kRival = 3;
+// D above which a model explains hardly more than none. Our choice.
+inline constexpr double kMostD = 0.9;
+// Least share of the heart in the picture without a hint. Our choice.
+inline constexpr double kLeastInSight = 0.6;
+
+// One line with the reason and what would help; empty if the loops determine the ejection fraction.
+// Refused are: a view with D above kMostD; a view whose mirror image or shuffled pictures the heart
+// fits as well as the loop itself, to kRival; an ejection fraction no narrower than its prior.
+std::string refusalOf(const HeartFit& fit);
+
+// Adds one line for each: a dial at its limit, or no narrower than its prior; by view an ambiguous
+// start of the beat, less than kLeastInSight of the heart in the picture, a pose at its limit; no
+// length scale; a rival within kRival whose ejection fraction is outside the interval.
+// Precondition: intervals are not yet widened by rivals.
+void addHints(HeartFit& fit);
+
+}  // namespace echocine::fit

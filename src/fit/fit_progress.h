@@ -1,0 +1,53 @@
+#pragma once
+// One counter for all stages of a fit, so that the time left follows from its pace.
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/monitor.h"
+
+namespace echocine::fit {
+
+// Units are about 0.1 s of one core; measured, rounded.
+inline constexpr double kHeartUnits = 8;          // a computed heart
+inline constexpr double kFamilyUnits = 30;        // the hearts of a view
+inline constexpr double kStartUnits = 4;          // a start in a view
+inline constexpr double kEvaluationUnits = 0.75;  // a heart at a known pose in a view
+inline constexpr double kOwnLoopUnits = 60;       // a rendered loop
+inline constexpr double kUsualRounds = 4;         // of a descent
+
+class FitProgress {
+ public:
+  FitProgress(const Monitor& monitor, double total) : monitor_(monitor), total_(total) {}
+
+  // The monitor of the next stage, which takes so many units. It must not outlive this.
+  Monitor next(double units) {
+    Monitor one = monitor_;
+    const double from = used_;
+    used_ += units;
+    one.tell = [this, from, units](const Progress& p) {
+      const double share =
+          p.total > 0 ? static_cast<double>(p.done) / static_cast<double>(p.total) : 0;
+      tell(from + units * std::min(1.0, share));
+    };
+    return one;
+  }
+  void finish() const { tell(total_); }
+
+ private:
+  void tell(double units) const {
+    monitor_.tell({Task::settings, static_cast<std::size_t>(std::lround(std::min(units, total_))),
+                   static_cast<std::size_t>(std::lround(total_))});
+  }
+
+  const Monitor& monitor_;
+  double total_ = 0, used_ = 0;
+};
+
+// Units of a descent with so many unknowns of each view: differences of a quadratic, four steps.
+inline double descentUnits(double views, double unknowns) {
+  return kUsualRounds * views * kEvaluationUnits *
+         (5 + 2 * unknowns + unknowns * (unknowns - 1) / 2);
+}
+
+}  // namespace echocine::fit

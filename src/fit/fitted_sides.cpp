@@ -1,0 +1,84 @@
+#include "fit/fitted_sides.h"
+
+#include "core/error.h"
+#include "fit/fit_descent.h"
+#include "fit/own_loop.h"
+#include "motion/heart/heart.h"
+
+namespace echocine::fit {
+
+namespace {
+
+bool exists(const std::map<std::string, double>& dials) {
+  const heart::Parameters parameters = heart::parametersFrom(dials);
+  if (!heart::faultOf(parameters).empty()) return false;
+  try {
+    const heart::ParametricHeart heart(parameters);
+    return true;
+  } catch (const SceneError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+FittedSides::FittedSides(const std::vector<FitLoop>& loops, const HeartNodes& hearts,
+                         double tilt_deg, const Monitor& monitor) {
+  for (const FitLoop& one : loops)
+    families.push_back(std::make_shared<const HeartFamily>(hearts, one.view, monitor, tilt_deg));
+}
+
+void FittedSides::compare(const std::vector<FitLoop>& loops, const std::vector<double>& dials) {
+  std::deque<ModelDiscrepancy> made;
+  for (std::size_t v = 0; v < loops.size(); ++v)
+    made.emplace_back(loops[v].loop, loops[v].side, families[v]->at(dials));
+  discrepancies = std::move(made);
+}
+
+std::vector<FitSide> FittedSides::refer() const {
+  std::vector<FitSide> out;
+  for (std::size_t v = 0; v < families.size(); ++v)
+    out.push_back({families[v].get(), &discrepancies[v]});
+  return out;
+}
+
+std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
+                                  const std::vector<heart::View>& views, const FitPlace& best,
+                                  double tilt_deg, const Monitor& monitor) {
+  constexpr int kSeed = 71;
+  FittedSides own;
+  own.families = sides.families;
+  OwnFit out;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    if (!monitor.keep_going()) return std::nullopt;
+    const PlaneTilt tilt = cost.tiltAt(best.at, v);
+    const echo::EchoLoop loop =
+        ownLoop(cost.dialsAt(best.at), views[v], tilt, kFitFrames, kSeed + static_cast<int>(v));
+    echo::SideOptions side;
+    side.ed_frame = 0;
+    const ModelLoop model = own.families[v]->at(cost.searchedAt(best.at), tilt);
+    own.discrepancies.emplace_back(loop, side, model);
+    const ModelDiscrepancy& discrepancy = own.discrepancies.back();
+    const FitPose pose = discrepancy.refine(model, {FitPose{}}).pose;
+    out.report.push_back(fitReport(model, discrepancy, loop, pose));
+  }
+  const FitCost again(own.refer(), cost.fixed(), tilt_deg);
+  const FitDescent found = descendFit(again, {best.at, {}, 0}, monitor);
+  if (found.stopped) return std::nullopt;
+  for (std::size_t i = 0; i < cost.dials(); ++i) out.error.push_back(found.best.at[i] - best.at[i]);
+  return out;
+}
+
+bool makePossible(const FitCost& cost, std::vector<double>& at) {
+  constexpr int kMostMoves = 16;  // to a hundredth of the distance
+  constexpr double kPart = 0.25;
+  int moves = 0;
+  for (; moves < kMostMoves && !exists(cost.dialsAt(at)); ++moves)
+    for (std::size_t i = 0; i < cost.dials(); ++i) {
+      const FitUnknown& u = cost.unknowns()[i];
+      at[i] += kPart * (0.5 * (u.low + u.high) - at[i]);
+    }
+  return moves > 0;
+}
+
+}  // namespace echocine::fit

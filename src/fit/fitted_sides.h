@@ -1,0 +1,40 @@
+#pragma once
+// Families and comparisons of all views of a fit, and what the found heart shows against itself.
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "fit/heart_fit.h"
+
+namespace echocine::fit {
+
+struct FittedSides {
+  std::vector<std::shared_ptr<const HeartFamily>> families;
+  std::deque<ModelDiscrepancy> discrepancies;
+
+  FittedSides() = default;
+  FittedSides(const std::vector<FitLoop>& loops, const HeartNodes& hearts, double tilt_deg,
+              const Monitor& monitor);
+  // With models of these dials, which find the beat. Costs of the earlier ones are invalid then. If
+  // it throws, nothing has changed.
+  void compare(const std::vector<FitLoop>& loops, const std::vector<double>& dials);
+  std::vector<FitSide> refer() const;
+};
+
+// A fit of the best heart's own rendered loops.
+struct OwnFit {
+  std::vector<double> error;      // found minus rendered, by dial
+  std::vector<FitReport> report;  // by view: the heart against its own loop
+};
+
+// None if the monitor stopped it. Throws SceneError for an impossible heart. Runs in parallel.
+std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
+                                  const std::vector<heart::View>& views, const FitPlace& best,
+                                  double tilt_deg, const Monitor& monitor);
+
+// Moves the dials of a place towards the middle of their ranges by a quarter of the distance until
+// a heart has them. False if nothing was moved.
+bool makePossible(const FitCost& cost, std::vector<double>& at);
+
+}  // namespace echocine::fit

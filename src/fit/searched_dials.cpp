@@ -1,0 +1,25 @@
+#include "fit/searched_dials.h"
+
+#include <algorithm>
+
+namespace echocine::fit {
+
+const std::vector<SearchedDial>& searchedDials() {
+  static const std::vector<SearchedDial> kDials{{{"ef", 0.15, 0.75}, 0.025},
+                                                {{"edv", 50, 280}, 10},
+                                                {{"wall-thickness", 5, 15}, 1},
+                                                {{"sphericity", 0.46, 0.78}, 0.03},
+                                                {{"mapse", 3, 20}, 1.5}};
+  return kDials;
+}
+
+double stepOf(const DialRange& range) {
+  const double whole = range.high - range.low;
+  const auto& dials = searchedDials();
+  const auto known = std::find_if(dials.begin(), dials.end(), [&](const SearchedDial& dial) {
+    return dial.range.key == range.key;
+  });
+  return known == dials.end() ? whole / 10 : std::min(known->step, whole / 4);
+}
+
+}  // namespace echocine::fit
