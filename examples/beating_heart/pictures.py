@@ -90,9 +90,12 @@ class Pictures:
         return self.made("heart", "render", HERE / "scene.toml", "--truth", "labels,contours")
 
     def screenshot(self, page, name, size):
+        whole = self.work / name
         run("chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
             "--virtual-time-budget=20000", f"--window-size={size[0]},{size[1]}",
-            f"--screenshot={HERE / name}", page)
+            f"--screenshot={whole}", page)
+        run("ffmpeg", "-v", "error", "-y", "-i", whole, "-filter_complex",
+            "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none", HERE / name)
 
     def loop(self):
         plain = self.made("plain", "heart", "--look", "paper")
