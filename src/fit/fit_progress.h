@@ -1,5 +1,5 @@
 #pragma once
-// One counter for all stages of a fit, so that the time left follows from its pace.
+// One counter for all stages of a job, so that the time left follows from its pace. It never falls.
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +14,7 @@ inline constexpr double kFamilyUnits = 30;        // the hearts of a view
 inline constexpr double kStartUnits = 4;          // a start in a view
 inline constexpr double kEvaluationUnits = 0.75;  // a heart at a known pose in a view
 inline constexpr double kOwnLoopUnits = 60;       // a rendered loop
+inline constexpr double kViewUnits = 140;         // a view of a ranking
 inline constexpr double kUsualRounds = 4;         // of a descent
 
 class FitProgress {
@@ -32,16 +33,17 @@ class FitProgress {
     };
     return one;
   }
-  void finish() const { tell(total_); }
+  void finish() { tell(total_); }
 
  private:
-  void tell(double units) const {
-    monitor_.tell({Task::settings, static_cast<std::size_t>(std::lround(std::min(units, total_))),
+  void tell(double units) {
+    told_ = std::max(told_, std::min(units, total_));
+    monitor_.tell({Task::settings, static_cast<std::size_t>(std::lround(told_)),
                    static_cast<std::size_t>(std::lround(total_))});
   }
 
   const Monitor& monitor_;
-  double total_ = 0, used_ = 0;
+  double total_ = 0, used_ = 0, told_ = 0;
 };
 
 // Units of a descent with so many unknowns of each view: differences of a quadratic, four steps.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/check.h"
 #include "core/error.h"
@@ -10,6 +11,7 @@
 #include "fit/caveats.h"
 #include "fit/cpu_seconds.h"
 #include "fit/descent.h"
+#include "fit/fit_progress.h"
 #include "fit/option_list.h"
 
 namespace echocine::fit {
@@ -110,19 +112,19 @@ ViewRanking rankViews(const echo::EchoLoop& real, const ViewsOptions& options,
   ranking.beat_anchor = real.beat_anchor;
   std::vector<DialRange> ranges;
   for (const ScanAxis& axis : ranking.population) ranges.push_back(axis.range);
-  const HeartNodes hearts(options.dials, ranges, kFitFrames, nodesFor(ranges.size()), monitor);
+  const int nodes = nodesFor(ranges.size());
+  const double making = kHeartUnits * std::pow(nodes, static_cast<double>(ranges.size()));
+  FitProgress progress(monitor, making + kViewUnits * static_cast<double>(options.views.size()));
+  const HeartNodes hearts(options.dials, ranges, kFitFrames, nodes, progress.next(making));
   ranking.nodes_ms = 1e3 * (cpuSeconds() - since);
   // One at a time: families are large.
   for (const heart::View view : options.views) {
-    Monitor one = monitor;
-    one.tell = [&](const Progress& p) {
-      monitor.tell(
-          {p.task, ranking.views.size() * p.total + p.done, options.views.size() * p.total});
-    };
+    const Monitor one = progress.next(kViewUnits);
     ranking.views.push_back(searchView(view, HeartFamily(hearts, view, one, options.tilt_deg),
                                        ranking.population, real, options.side, options.tilt_deg,
                                        one));
   }
+  progress.finish();
   orderViews(ranking);
   ranking.label = real.label;
   ranking.caveats = caveatsOf(real, ranking.views.front().beat, ranking.confidence);

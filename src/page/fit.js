@@ -56,7 +56,8 @@
     byId("loops-words").textContent = "Disagreement is the distance of edges from the heart's boundaries along their normals"
       + (own ? ", beyond what the heart shows against its own synthetic loop" : "")
       + `. Red: edges lie outside; blue: inside; full colour from ${kFull_mm} mm on; faint: no visible edge.`
-      + (own ? " Twins have the sector of the model." : "");
+      + (own ? " Twins have the sector of the model." : "")
+      + (views.every((v) => v.has_scale) ? "" : " All lengths in mm on this page assume the model's depth: a loop has no length scale.");
     return new Player(byId("fit-loops"), { loops: views.flatMap(loopsOf), rate_hz: 20,
       describe: (k) => `picture ${k} of ${pictures} of the beat, from end-diastole` });
   }

@@ -137,10 +137,11 @@ TEST(FitProgress, OneCounterForAllStages) {
   Monitor first = progress.next(40), second = progress.next(60);
   first.tell({Task::hearts, 1, 2});
   first.tell({Task::hearts, 5, 2});
+  first.tell({Task::hearts, 1, 2});  // a part that begins anew
   second.tell({Task::settings, 0, 0});
   second.tell({Task::settings, 3, 6});
   progress.finish();
-  EXPECT_EQ(told, (std::vector<std::size_t>{20, 40, 40, 70, 100}));
+  EXPECT_EQ(told, (std::vector<std::size_t>{20, 40, 40, 40, 70, 100}));
 }
 
 EchoLoop drawnBeat() {

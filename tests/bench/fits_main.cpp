@@ -1,0 +1,99 @@
+// fit_table VIEWS HEARTS [FIRST [DEGREES]]: fits of planted hearts, one line each, then bias, RMS,
+// the model error of Eq. 15 and how many intervals hold the planted value.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "core/parallel.h"
+#include "support/planted_fits.h"
+
+namespace echocine::bench {
+namespace {
+
+using namespace fit;
+using namespace support;
+
+// Errors of one number over hearts.
+struct Errors {
+  const char* name;
+  double sum = 0, squares = 0, noise = 0;  // noise: sum of variances by curvature
+  int count = 0, held = 0;
+
+  void add(double error, double sd, bool within) {
+    sum += error;
+    squares += error * error;
+    noise += sd * sd;
+    ++count;
+    held += within ? 1 : 0;
+  }
+  void print() const {
+    if (count == 0) return;
+    const double mean = sum / count, rms = std::sqrt(squares / count);
+    const double model = std::sqrt(std::max(0.0, (squares - noise) / count));
+    fmt::print(
+        "{}: {} hearts, bias {:+.4f}, RMS {:.4f}, SD by curvature {:.4f}, model error {:.4f}, "
+        "{} intervals of 90 % hold\n",
+        name, count, mean, rms, std::sqrt(noise / count), model, held);
+  }
+};
+
+double sdOf(const HeartFit& fit, const char* key) {
+  for (const DialFound& dial : fit.found)
+    if (dial.key == key) return dial.sd;
+  return 0;
+}
+
+void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& options, Errors& ef,
+             Errors& edv) {
+  const HeartFit fit = fitHeart(heart.given(), options);
+  const double true_ef = heart.dials.at("ef"), true_edv = heart.dials.at("edv");
+  if (!fit.ef || !fit.edv_ml) {
+    fmt::print("{}: refused: {}\n", number, fit.refusal);
+    return;
+  }
+  const double ef_error = fit.ef->value - true_ef, edv_error = fit.edv_ml->value / true_edv - 1;
+  const auto within = [](const Estimate& e, double value) {
+    return value >= e.low && value <= e.high;
+  };
+  ef.add(ef_error, sdOf(fit, "ef"), within(*fit.ef, true_ef));
+  edv.add(edv_error, sdOf(fit, "edv") / true_edv, within(*fit.edv_ml, true_edv));
+  const auto own = [&](const char* key) {
+    return fit.own_error.contains(key) ? fit.own_error.at(key) : 0;
+  };
+  fmt::print(
+      "{}: EF {:.3f} for {:.3f}: {:+.3f}, {:+.3f} without the correction; EDV {:.1f} for {:.1f}: "
+      "{:+.1f} %, {:+.1f} % without; {:.0f} s\n",
+      number, fit.ef->value, true_ef, ef_error, ef_error + own("ef"), fit.edv_ml->value, true_edv,
+      100 * edv_error, 100 * (edv_error + own("edv") / true_edv), 1e-3 * fit.cpu_ms);
+  for (const std::string& hint : fit.hints) fmt::print("  {}\n", hint);
+  std::fflush(stdout);
+}
+
+int run(int argc, char** argv) {
+  if (argc < 3) {
+    fmt::print("fit_table VIEWS HEARTS [FIRST [DEGREES]]\n");
+    return 2;
+  }
+  const auto views = static_cast<std::size_t>(std::clamp(std::atoi(argv[1]), 1, 3));
+  const int hearts = std::atoi(argv[2]), first = argc > 3 ? std::atoi(argv[3]) : 0;
+  const double most_deg = argc > 4 ? std::atof(argv[4]) : 8;
+  Errors ef{"EF"}, edv{"EDV, relative"};
+  withThreads(0, [&] {
+    for (int n = first; n < first + hearts; ++n)
+      tellFit(n, plantedHeart(n, views, most_deg), {}, ef, edv);
+  });
+  ef.print();
+  edv.print();
+  return 0;
+}
+
+}  // namespace
+}  // namespace echocine::bench
+
+int main(int argc, char** argv) {
+  return echocine::bench::run(argc, argv);
+}

@@ -1,0 +1,63 @@
+#pragma once
+// Random hearts as loops, for fits: dials that a fit searches and dials that it does not, planes
+// off their views, and another scanner's media and look.
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/hash_random.h"
+#include "core/units.h"
+#include "fit/heart_fit.h"
+#include "motion/surfaces/probe_placement.h"
+#include "support/view_loops.h"
+
+namespace echocine::support {
+
+inline constexpr View kPlantedViews[] = {View::a4c, View::a2c, View::plax};
+
+struct PlantedHeart {
+  std::map<std::string, double> dials;
+  std::vector<echo::EchoLoop> loops;  // of the first kPlantedViews; the first frame is end-diastole
+
+  std::vector<fit::FitLoop> given() const {
+    std::vector<fit::FitLoop> out;
+    for (std::size_t v = 0; v < loops.size(); ++v) {
+      out.push_back({kPlantedViews[v], loops[v], {}});
+      out.back().side.ed_frame = 0;
+    }
+    return out;
+  }
+};
+
+// Heart `number` of an endless list in 1 to 3 views, with tilt and rotation of each plane within
+// +-most_deg.
+inline PlantedHeart plantedHeart(int number, std::size_t views, double most_deg) {
+  const auto drawn = [&](int k, double low, double high) {
+    return low + (high - low) * uniformFromHash(hashOf(number, k, 911));
+  };
+  PlantedHeart out;
+  out.dials = {{"ef", drawn(1, 0.25, 0.68)},
+               {"edv", drawn(2, 85, 210)},
+               {"wall-thickness", drawn(3, 7, 12)},
+               {"sphericity", drawn(4, 0.53, 0.68)},
+               {"hr", drawn(5, 60, 85)},
+               {"la-volume", drawn(7, 40, 75)},
+               {"twist", drawn(9, 6, 15)}};
+  auto& dials = out.dials;
+  dials["mapse"] = 13 * dials["ef"] / 0.6 * drawn(6, 0.8, 1.2);
+  dials["rv-edv"] = dials["edv"] * std::max(drawn(8, 0.9, 1.2), 1.2 * dials["ef"]);
+  for (std::size_t v = 0; v < views; ++v) {
+    Scene scene =
+        heart::heartScene(heart::parametersFrom(dials), kPlantedViews[v], 20, Look::scanner);
+    const int k = static_cast<int>(v);
+    scene.probe.pose =
+        turnedAndTilted(scene.probe.pose, radiansFromDegrees(drawn(30 + k, -most_deg, most_deg)),
+                        radiansFromDegrees(drawn(20 + k, -most_deg, most_deg)));
+    out.loops.push_back(scannedLoop(scene, 20, 100 + 7 * number + k));
+  }
+  return out;
+}
+
+}  // namespace echocine::support
