@@ -83,8 +83,9 @@ inline constexpr KeyUse kWithCurve WITH("kind = \"curvilinear\"",
 inline constexpr KeyUse kWithWidth WITH("kind = \"linear\"", !o.scene->probe.isFan());
 inline constexpr KeyUse kClosed WITH("membrane = false: a membrane encloses nothing",
                                      !o.structure->membrane);
-inline constexpr KeyUse kWithQuality WITH("look = \"scanner\"",
-                                          o.scene->signal.look == Look::scanner);
+inline constexpr KeyUse kWithQuality
+    WITH("a scanner's look: scanner | smooth | contrast | sharp | portable",
+         isScanner(o.scene->signal.look));
 inline constexpr KeyUse kWithNominal WITH("tgc = \"nominal\"", o.scene->signal.tgc == Tgc::nominal);
 inline constexpr KeyUse kWithTable WITH("tgc = \"table\"", o.scene->signal.tgc == Tgc::table);
 inline constexpr KeyUse kWithFixed WITH("beam_width = \"fixed\"",

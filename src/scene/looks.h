@@ -7,8 +7,8 @@
 namespace echocine {
 
 // "paper" changes nothing. "clean" turns on trabeculae and speckle, with a scanner's grey map and
-// weaker interface echoes. "scanner" adds nominal gain, noise and artefacts, stronger for poorer
-// quality. Only "scanner" reads the quality.
+// weaker interface echoes. The looks of scanners add an even time gain, noise and artefacts,
+// stronger for poorer quality. They differ in pulse, grey map, smoothing and persistence.
 void applyLook(Look look, Quality quality, Scene& scene);
 
 }  // namespace echocine

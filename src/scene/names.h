@@ -38,8 +38,10 @@ struct NamesOf<Tgc> {
 
 template <>
 struct NamesOf<Look> {
-  static constexpr Named<Look> kAll[] = {
-      {Look::paper, "paper"}, {Look::clean, "clean"}, {Look::scanner, "scanner"}};
+  static constexpr Named<Look> kAll[] = {{Look::paper, "paper"},       {Look::clean, "clean"},
+                                         {Look::scanner, "scanner"},   {Look::smooth, "smooth"},
+                                         {Look::contrast, "contrast"}, {Look::sharp, "sharp"},
+                                         {Look::portable, "portable"}};
 };
 
 template <>

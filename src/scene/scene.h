@@ -55,14 +55,17 @@ enum class Tgc { perfect, mean, table, none, nominal };
 enum class Spread { compensate, keep };
 enum class BeamWidth { focused, profile, fixed, none };
 
-// Appearance of a picture: the paper's; with speckle and a scanner's grey map; also with its
-// artefacts. A look only sets other defaults (looks.h).
-enum class Look { paper, clean, scanner };
+// Appearance of a picture: the paper's; with speckle and a scanner's grey map; those of several
+// scanners, with artefacts. A look only sets other defaults (looks.h).
+enum class Look { paper, clean, scanner, smooth, contrast, sharp, portable };
+constexpr bool isScanner(Look look) {
+  return look != Look::paper && look != Look::clean;
+}
 enum class Quality { good, medium, poor };
 
 struct SignalSettings {
   Look look = Look::paper;
-  Quality quality = Quality::medium;  // of the look "scanner"
+  Quality quality = Quality::medium;  // of a scanner's look
   Tgc tgc = Tgc::perfect;
   std::vector<std::pair<double, double>> tgc_table;  // (depth m, gain dB), ascending depths
   // For Tgc::nominal: 0.76 of soft tissue's 0.54 dB/(cm MHz), so that lung stays dark. Our choice.

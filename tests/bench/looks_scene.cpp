@@ -52,11 +52,11 @@ void takeTables(const LookHearts& options, Scene& scene) {
   scene.signal.quality = options.quality;
   std::string text = options.with.empty() ? "" : readTextFile(options.with, std::size_t{1} << 20);
   if (text.find("[signal]") == std::string::npos) text += "\n[signal]\n";
-  text.insert(text.find("[signal]") + 8,
-              fmt::format("\nlook = \"{}\"\n", nameOf(options.look)) +
-                  (options.look == Look::scanner
-                       ? fmt::format("quality = \"{}\"\n", nameOf(options.quality))
-                       : ""));
+  text.insert(
+      text.find("[signal]") + 8,
+      fmt::format("\nlook = \"{}\"\n", nameOf(options.look)) +
+          (isScanner(options.look) ? fmt::format("quality = \"{}\"\n", nameOf(options.quality))
+                                   : ""));
   TomlTable root = TomlTable::parse(text, options.with);
   takeLook(root.table("signal"), scene);
   readSignal(root.table("signal"), scene);

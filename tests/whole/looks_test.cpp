@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <set>
 
 #include "core/parallel.h"
 #include "frame/simulator.h"
@@ -121,7 +122,26 @@ TEST_F(Looks, LeaveTheReceivedIntensitiesOfThePlaneAlone) {
   EXPECT_NE(received("\"scanner\"", {}), received("\"paper\"", {}));
 }
 
-TEST_F(Looks, QualityIsOfTheScannerAlone) {
+TEST_F(Looks, ScannersDifferAndTakeQuality) {
+  std::set<double> ranges, pulses, smoothings;
+  for (const char* look : {"scanner", "smooth", "contrast", "sharp", "portable"}) {
+    const std::string quoted = std::string("\"") + look + "\"";
+    const Scene scene = sceneWith({{"look", quoted}});
+    for (const Effect effect : kArtefacts) EXPECT_TRUE(on(scene, effect)) << look;
+    EXPECT_EQ(scene.signal.tgc, Tgc::mean) << look;
+    EXPECT_GT(sceneWith({{"look", quoted}, {"quality", "\"poor\""}}).artefacts.haze_db,
+              scene.artefacts.haze_db)
+        << look;
+    ranges.insert(scene.signal.dynamic_range_db);
+    pulses.insert(scene.signal.pulse_cycles);
+    smoothings.insert(scene.speckle.smoothing_m);
+  }
+  EXPECT_EQ(ranges.size(), 5u);
+  EXPECT_EQ(pulses.size(), 3u);
+  EXPECT_EQ(smoothings.size(), 4u);
+}
+
+TEST_F(Looks, QualityIsOfScannersAlone) {
   SceneText text = SceneText::oneBox("blood");
   text.signal["quality"] = "\"good\"";
   EXPECT_NE(refusalOf(text.text()).find("quality"), std::string::npos);
