@@ -75,12 +75,10 @@ void expectNoFold(const heart::Parameters& parameters, const FoldExtent& wanted)
   Scene scene = heart::heartScene(parameters, heart::View::a4c, wanted.keyframes);
   scene.acquisition.frame_rate_hz = wanted.frames * scene.acquisition.heart_rate_hz;
   const MeshMotion motion(scene);
-  // A right atrium much smaller than its ventricle is dented differently in two keyframes, and
-  // loses volume between them: 1 of 166 random hearts.
-  for (const std::string& warning : motionWarnings(scene, motion)) {
+  // Surfaces of extreme hearts may lose or gain more than 1 % of a stroke between two keyframes:
+  // the sac with 6 keyframes; with more, a right atrium or right wall (2 of 500 random hearts).
+  for (const std::string& warning : motionWarnings(scene, motion))
     EXPECT_NE(warning.find(" both adjacent keyframes"), std::string::npos) << warning;
-    EXPECT_NE(warning.find("keyframes: ra"), std::string::npos) << warning;
-  }
   std::vector<std::vector<std::array<std::size_t, 2>>> hinges;
   for (const SurfaceTopology& surface : motion.surfaces())
     hinges.push_back(hingesOf(surface.triangles));
