@@ -13,10 +13,12 @@
 #include "core/error.h"
 #include "core/run_script.h"
 #include "core/stop.h"
+#include "dataset/growth.h"
 #include "dataset/heart_cost.h"
 #include "dataset/make_dataset.h"
 #include "dataset/preview.h"
 #include "dataset/slurm.h"
+#include "dataset/status.h"
 
 namespace echocine {
 
@@ -44,12 +46,14 @@ DatasetCommand::DatasetCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "dataset",
       "Generate many loops with ground truth from a spec of distributions, in common layouts");
-  command->add_option("spec", spec_file_, "Spec of the dataset (TOML)")->required();
-  command
-      ->add_option(
-          "-o,--output", folder_,
-          "Folder of the dataset; an existing one is resumed. With --preview: the page to write")
-      ->required();
+  command->add_option("spec", spec_file_,
+                      "Spec of the dataset (TOML); default: the spec in the folder");
+  command->add_option(
+      "-o,--output", folder_,
+      "Folder of the dataset; an existing one is resumed. With --preview: the page to write");
+  command->add_option("--status", status_, "Print the state of a dataset's folder");
+  command->add_option("--diff", other_spec_,
+                      "Print the keys that differ between this spec and another spec or folder");
   command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   CLI::Option* task = command->add_option(
@@ -111,7 +115,11 @@ int DatasetCommand::run() {
 }
 
 int DatasetCommand::make() {
-  const dataset::Spec spec = dataset::readSpec(spec_file_);
+  if (!status_.empty()) return status();
+  if (!other_spec_.empty()) return difference();
+  if (folder_.empty()) throw SceneError("--output: is required, accepted: a folder");
+  const dataset::Spec spec =
+      dataset::readSpec(spec_file_.empty() ? folder_ / "spec.toml" : spec_file_);
   if (preview_ > 0) return preview(spec);
   if (slurm_) return slurm(spec);
   dataset::MakeOptions options{folder_, threads_};
@@ -143,9 +151,33 @@ int DatasetCommand::make() {
   const dataset::MakeSummary merged = dataset::mergeParts(
       spec, folder_, {.fast = fast_ || !merge_, .threads = threads_},
       {.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)});
+  if (merged.failed > 0)
+    fmt::print(stderr, "{} of {} hearts failed: {}\n", merged.failed, spec.hearts,
+               (folder_ / "failed.csv").string());
   if (!quiet_)
     fmt::print("{} hearts, {} loops in {}: README.md describes them\n", merged.merged, merged.loops,
                folder_.string());
+  return 0;
+}
+
+int DatasetCommand::status() const {
+  const dataset::Status now = dataset::statusOf(status_);
+  fmt::print("{}: {} of {} hearts finished, {} failed, {} missing{}; {}\n", now.name, now.finished,
+             now.hearts, now.failed, now.hearts - now.finished - now.failed,
+             now.damaged > 0 ? fmt::format(" ({} damaged)", now.damaged) : "",
+             now.merged ? "merged" : "not merged");
+  if (!now.first_failure.empty()) fmt::print("first failure: {}\n", now.first_failure);
+  if (!now.running.empty()) fmt::print("running: {}\n", fmt::join(now.running, ", "));
+  return 0;
+}
+
+int DatasetCommand::difference() const {
+  const auto textOf = [](std::filesystem::path file) {
+    if (std::filesystem::is_directory(file)) file /= "spec.toml";
+    return dataset::readSpec(file).text;
+  };
+  for (const std::string& line : dataset::differencesOf(textOf(spec_file_), textOf(other_spec_)))
+    fmt::print("{}\n", line);
   return 0;
 }
 
@@ -177,14 +209,18 @@ int DatasetCommand::slurm(const dataset::Spec& spec) const {
   options.more = sbatch_;
   options.tasks = tasks_;
   options.minutes = minutes_;
+  dataset::HeartCost cost;
   if (tasks_ == 0 || minutes_ == 0) {
-    const double heart_s =
-        dataset::costOfAHeart(spec, folder_, {.keep_going = [] { return !stopWanted(); }}).seconds;
+    cost = dataset::costOfAHeart(spec, folder_, {.keep_going = [] { return !stopWanted(); }});
+    const double heart_s = cost.seconds;
     if (tasks_ == 0) options.tasks = dataset::slurmTasks(spec.hearts, heart_s, cores_);
     if (minutes_ == 0)
       options.minutes = dataset::slurmMinutes(spec.hearts, heart_s, cores_, options.tasks);
   }
   options.tasks = std::min(options.tasks, spec.hearts);
+  options.cores = dataset::slurmCores(spec.hearts, options.tasks, cores_);
+  if (cost.memory_mb > 0)
+    options.memory_mb = dataset::slurmMemory_mb(cost.memory_mb, options.cores);
   const std::filesystem::path submit = dataset::writeSlurmJobs(spec, options);
   if (!quiet_)
     fmt::print("{}: {} tasks of {} cores and at most {} minutes, then a merge\n",

@@ -23,8 +23,10 @@ class DatasetCommand {
   int make();
   int preview(const dataset::Spec& spec) const;
   int slurm(const dataset::Spec& spec) const;
+  int status() const;
+  int difference() const;
 
-  std::filesystem::path spec_file_, folder_;
+  std::filesystem::path spec_file_, folder_, status_, other_spec_;
   std::string task_, sbatch_;
   int threads_ = 0, preview_ = 0;
   int tasks_ = 0, cores_ = 4, minutes_ = 0;  // of Slurm's jobs; 0: derived from the first heart

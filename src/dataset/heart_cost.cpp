@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "core/peak_memory.h"
 #include "core/stop.h"
 #include "dataset/make_dataset.h"
 
@@ -25,7 +26,8 @@ HeartCost costOfAHeart(const Spec& spec, const std::filesystem::path& output,
     const MakeSummary made = makePart(one, {scratch, 1, 1, 1}, quiet);
     remove();
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-    return {passed.count(), static_cast<double>(made.bytes)};
+    constexpr double kMegabyte = 1 << 20;
+    return {passed.count(), static_cast<double>(made.bytes), peakMemory_bytes() / kMegabyte};
   } catch (...) {
     remove();
     // Its hearts are gone, so a stopped run's word that they are kept would be wrong.

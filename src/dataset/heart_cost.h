@@ -9,8 +9,9 @@
 namespace echocine::dataset {
 
 struct HeartCost {
-  double seconds = 0;  // on one core
-  double bytes = 0;    // of its files
+  double seconds = 0;    // on one core
+  double bytes = 0;      // of its files
+  double memory_mb = 0;  // largest resident memory of this process up to its end, 2^20 bytes
 };
 
 // Renders the first heart completely beside `output` (a page or a folder) and deletes it. Throws

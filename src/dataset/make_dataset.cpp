@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/folder_lock.h"
+#include "core/file_lock.h"
 #include "core/out_of_memory.h"
 #include "core/parallel.h"
 #include "dataset/make_heart.h"
@@ -101,10 +101,8 @@ void keepFiles(const Spec& spec, Json& record) {
 
 MakeSummary makePart(const Spec& spec, const MakeOptions& options, const Monitor& monitor) {
   const WorkFolder work(options.folder, spec);
-  const std::filesystem::path own =
-      options.folder / "work" / fmt::format("task_{}_of_{}", options.task, options.tasks);
-  makeFolder(own);
-  const FolderLock lock(own);
+  const FileLock lock(options.folder / "work" /
+                      fmt::format("task_{}_of_{}", options.task, options.tasks) / kLockName);
   MakeSummary summary;
   const auto first = static_cast<std::size_t>(options.task - 1),
              step = static_cast<std::size_t>(options.tasks),
@@ -189,6 +187,7 @@ Records provenRecords(const Spec& spec, const WorkFolder& work, const MergeOptio
 MakeSummary mergeParts(const Spec& spec, const std::filesystem::path& folder,
                        const MergeOptions& options, const Monitor& monitor) {
   const WorkFolder work(folder, spec);
+  const FileLock lock(folder / "work/merge" / kLockName);
   MakeSummary summary;
   const Records records = provenRecords(spec, work, options, monitor, summary);
   work.removeParts();
@@ -205,6 +204,9 @@ MakeSummary mergeParts(const Spec& spec, const std::filesystem::path& folder,
                     folder.string()));
   }
   summary.merged = records.finished.size();
+  if (records.finished.empty())
+    throw JobError(fmt::format("all {} hearts failed, the first because of {}", spec.hearts,
+                               records.failed.front().at("failed").get<std::string>()));
   return summary;
 }
 

@@ -34,8 +34,8 @@ struct MergeOptions {
 };
 
 // Writes tables, splits, card and the layouts' own lists from all records, after verification of
-// all records and files. Throws JobError naming missing or damaged hearts; monitor.warn() names the
-// damaged files.
+// all records and files. Throws JobError naming missing or damaged hearts, if all hearts failed,
+// and while another merge runs; monitor.warn() names the damaged files.
 MakeSummary mergeParts(const Spec& spec, const std::filesystem::path& folder,
                        const MergeOptions& options = {}, const Monitor& monitor = {});
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "dataset/layout.h"
 #include "video/cine_writer.h"
 
@@ -10,7 +12,7 @@ namespace echocine::dataset {
 namespace {
 
 constexpr const char* kFolder = "nnunet/nnUNet_raw/Dataset501_EchoCine";
-constexpr int kFolds = 5;  // of its cross-validation
+constexpr int kFolds = 5;  // of its cross-validation; fewer if there are fewer hearts
 
 std::string caseName(const std::string& id, int frame) {
   return fmt::format("{}_f{:03}", id, frame);
@@ -51,8 +53,11 @@ void mergeNnunet(const Spec&, std::span<const Json> records, Sink& sink) {
       {"numTraining", cases.size()},
       {"file_ending", ".png"}};
   sink.write(fmt::format("{}/dataset.json", kFolder), dataset.dump(1) + "\n");
+  // A fold without validation cases ends nnU-Net, and a heart in both parts would be a leak. With
+  // one heart there are no folds.
+  if (hearts < 2) return;
   Json folds = Json::array();
-  for (int fold = 0; fold < kFolds; ++fold) {
+  for (int fold = 0; fold < std::min(kFolds, hearts); ++fold) {
     Json one{{"train", Json::array()}, {"val", Json::array()}};
     for (const auto& [of, name] : cases) one[of == fold ? "val" : "train"].push_back(name);
     folds.push_back(std::move(one));

@@ -1,4 +1,5 @@
-// PointOdyssey: SPLIT/ID/rgbs/rgb_00000.jpg and annotations of material points.
+// PointOdyssey: SPLIT/ID/rgbs/rgb_00000.jpg, masks/mask_00000.png with the numbers of structures,
+// and annotations of material points.
 
 #include <fmt/format.h>
 
@@ -38,6 +39,9 @@ void writePointodyssey(const Spec&, const Heart& heart, Sink& sink, Json&) {
     for (std::size_t f = 0; f < loop.frames.size(); ++f)
       sink.write(fmt::format("{}rgbs/rgb_{:05}.jpg", folder, f),
                  encodeCineFrame(loop.frames[f].image, CineCodec::mjpg, kJpegQuality));
+    for (std::size_t f = 0; f < loop.frames.size(); ++f)
+      sink.write(fmt::format("{}masks/mask_{:05}.png", folder, f),
+                 encodePng(GreyImage{loop.width(), loop.height(), loop.frames[f].labels}));
     const std::vector<std::byte> npz = annotations(loop);
     sink.write(folder + "annotations.npz", npz);
     sink.write(folder + "anno.npz", npz);

@@ -64,16 +64,17 @@ Json jsonOf(const Values& values) {
 }
 
 Json recordOf(const Spec& spec, const Heart& heart) {
-  Json record{
-      {"spec", spec.digest},          {"heart", heart.number},    {"population", heart.population},
-      {"split", nameOf(heart.split)}, {"attempt", heart.attempt}, {"impossible", heart.impossible},
-      {"loops", Json::array()}};
+  Json record{{"spec", spec.heart_digest},      {"heart", heart.number},
+              {"population", heart.population}, {"split", nameOf(heart.split)},
+              {"attempt", heart.attempt},       {"impossible", heart.impossible},
+              {"layouts", spec.layouts},        {"loops", Json::array()}};
   for (const LoopSample& loop : heart.loops) record["loops"].push_back(loopJson(loop));
   return record;
 }
 
 Json failureOf(const Spec& spec, int heart, const std::string& reason) {
-  return {{"spec", spec.digest}, {"heart", heart + 1}, {"seed", spec.seed}, {"failed", reason}};
+  return {
+      {"spec", spec.heart_digest}, {"heart", heart + 1}, {"seed", spec.seed}, {"failed", reason}};
 }
 
 bool isFailure(const Json& record) {

@@ -53,6 +53,7 @@ constexpr Key kOfHeart[] = {{"population", &Json::is_string},
                             {"split", &Json::is_string},
                             {"attempt", &Json::is_number_unsigned},
                             {"impossible", &Json::is_array},
+                            {"layouts", &Json::is_array},
                             {"loops", &Json::is_array},
                             {"files", &Json::is_object}};
 constexpr Key kOfLoop[] = {{"id", &Json::is_string},
@@ -123,7 +124,7 @@ std::string flawOf(const Json& record, const Spec& spec, int heart) {
     const auto found = record.find(key);
     return found != record.end() && *found == value;
   };
-  if (!has("spec", spec.digest)) return "it belongs to another spec or program version";
+  if (!has("spec", spec.heart_digest)) return "it belongs to another spec or program version";
   if (!has("heart", heart + 1)) return "it is of another heart";
   if (isFailure(record))
     return record["failed"].is_string() && has("seed", spec.seed)
@@ -142,6 +143,18 @@ std::string flawOf(const Json& record, const Spec& spec, int heart) {
   return loops.empty() ? flawOfFiles(record) : loops;
 }
 
+// Has the record all views and layouts of the spec?
+bool isOutgrown(const Json& record, const Spec& spec) {
+  if (!record.contains("loops") || !record.contains("layouts")) return false;
+  const Json &loops = record["loops"], &layouts = record["layouts"];
+  if (!loops.is_array() || !layouts.is_array()) return false;
+  const bool lacks =
+      std::any_of(spec.layouts.begin(), spec.layouts.end(), [&](const std::string& layout) {
+        return std::find(layouts.begin(), layouts.end(), layout) == layouts.end();
+      });
+  return (!loops.empty() && loops.size() < spec.views.size()) || lacks;
+}
+
 }  // namespace
 
 std::string sealedText(const Json& record) {
@@ -154,13 +167,19 @@ std::string sealedText(const Json& record) {
 CheckedRecord checkRecord(std::string_view text, const Spec& spec, int heart) {
   if (text.size() < kSealSize ||
       text.substr(text.size() - kSealSize) != sealOf(text.substr(0, text.size() - kSealSize)))
-    return {nullptr, "it is truncated or modified"};
+    return {nullptr, false, "it is truncated or modified"};
   Json record = isShallow(text) ? Json::parse(text, nullptr, false) : Json();
-  if (!record.is_object()) return {nullptr, "it is not JSON of this program"};
+  if (!record.is_object()) return {nullptr, false, "it is not JSON of this program"};
   record.erase(kSeal);
+  const auto has = [&](const char* key, const Json& value) {
+    const auto found = record.find(key);
+    return found != record.end() && *found == value;
+  };
+  if (has("spec", spec.heart_digest) && has("heart", heart + 1) && isOutgrown(record, spec))
+    return {nullptr, true, ""};
   std::string flaw = flawOf(record, spec, heart);
-  if (!flaw.empty()) return {nullptr, std::move(flaw)};
-  return {std::move(record), ""};
+  if (!flaw.empty()) return {nullptr, false, std::move(flaw)};
+  return {std::move(record), false, ""};
 }
 
 }  // namespace echocine::dataset

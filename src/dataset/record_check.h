@@ -9,7 +9,9 @@ namespace echocine::dataset {
 std::string sealedText(const Json& record);
 
 struct CheckedRecord {
-  Json record;       // without its digest; null with a flaw
+  Json record;  // without its digest; null with a flaw
+  // Sound, but of an earlier spec with fewer views or layouts: its heart is to be rendered again.
+  bool outgrown = false;
   std::string flaw;  // such as "another byte than was written"; empty for a valid record
 };
 

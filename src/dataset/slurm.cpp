@@ -32,9 +32,23 @@ std::string jobName(std::string name) {
 }
 
 std::string command(const Spec& spec, const SlurmOptions& options) {
-  return fmt::format("exec {} dataset {} -o {} --quiet", quoted(options.program.string()),
-                     quoted(std::filesystem::absolute(spec.file).string()),
-                     quoted(std::filesystem::absolute(options.folder).string()));
+  const std::filesystem::path folder = std::filesystem::absolute(options.folder);
+  const std::filesystem::path file =
+      spec.scenes.empty() ? folder / "spec.toml" : std::filesystem::absolute(spec.file);
+  return fmt::format("{} dataset {} -o {} --quiet", quoted(options.program.string()),
+                     quoted(file.string()), quoted(folder.string()));
+}
+
+// sbatch replaces %A, %a, ... in the names of logs, whatever folder they are in.
+std::string logName(const SlurmOptions& options, const char* name) {
+  std::string folder;
+  for (const char c : std::filesystem::absolute(options.folder / "slurm").string())
+    folder += c == '%' ? std::string("%%") : std::string(1, c);
+  return quoted(folder + "/" + name);
+}
+
+std::string memoryLine(const SlurmOptions& options) {
+  return options.memory_mb > 0 ? fmt::format("#SBATCH --mem={}M\n", options.memory_mb) : "";
 }
 
 std::string arrayText(const Spec& spec, const SlurmOptions& options) {
@@ -46,13 +60,30 @@ std::string arrayText(const Spec& spec, const SlurmOptions& options) {
 #SBATCH --array=1-{}
 #SBATCH --cpus-per-task={}
 #SBATCH --time={}
-#SBATCH --requeue
+{}#SBATCH --requeue
+#SBATCH --signal=B:USR1@60
 #SBATCH --open-mode=append
-#SBATCH --output=array_%a.log
-{} --threads "${{SLURM_CPUS_PER_TASK:-0}}" --task "$SLURM_ARRAY_TASK_ID/{}"
+# Close to the time limit: stop, keep finished hearts and queue again.
+stop() {{
+  [ -z "$made" ] || kill -TERM "$made" 2>/dev/null
+  wait
+}}
+again() {{
+  stop
+  [ "${{SLURM_RESTART_COUNT:-0}}" -lt 20 ] || exit 1
+  scontrol requeue "${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID" || exit 1
+  sleep 300  # until Slurm ends this run: its own end would count as that of the queued one
+  exit 1
+}}
+made=
+trap again USR1
+trap 'stop; exit 1' TERM
+{} --threads "${{SLURM_CPUS_PER_TASK:-0}}" --task "$SLURM_ARRAY_TASK_ID/{}" &
+made=$!
+wait "$made"
 )",
-      jobName(spec.name), options.tasks, options.cores, options.minutes, command(spec, options),
-      options.tasks);
+      jobName(spec.name), options.tasks, options.cores, options.minutes, memoryLine(options),
+      command(spec, options), options.tasks);
 }
 
 std::string mergeText(const Spec& spec, const SlurmOptions& options) {
@@ -64,8 +95,7 @@ std::string mergeText(const Spec& spec, const SlurmOptions& options) {
 #SBATCH --time={}
 #SBATCH --requeue
 #SBATCH --open-mode=append
-#SBATCH --output=merge.log
-{} --merge
+exec {} --merge
 )",
       jobName(spec.name), std::max(options.minutes, kLeastMinutes), command(spec, options));
 }
@@ -77,11 +107,18 @@ std::string submitText(const SlurmOptions& options) {
 # Submits the array, and the merge for when all its tasks have ended: it says which hearts are missing, if any.
 set -e
 cd {}
-array=$(sbatch --parsable {}array.sh)
-merge=$(sbatch --parsable {}--dependency="afterany:${{array%%;*}}" merge.sh)
-echo "array ${{array%%;*}}, merge ${{merge%%;*}}"
+array=$(sbatch --parsable --output={} {}array.sh)
+array=${{array%%;*}}
+printf 'array %s, ' "$array"
+merge=$(sbatch --parsable --output={} {}--dependency="afterany:$array" merge.sh) || {{
+  scancel "$array"
+  echo "canceled: its merge was refused"
+  exit 1
+}}
+echo "merge ${{merge%%;*}}"
 )",
-      quoted(std::filesystem::absolute(options.folder / "slurm").string()), more, more);
+      quoted(std::filesystem::absolute(options.folder / "slurm").string()),
+      logName(options, "array_%A_%a.log"), more, logName(options, "merge_%j.log"), more);
 }
 
 }  // namespace
@@ -96,6 +133,14 @@ int slurmMinutes(int hearts, double heart_s, int cores, int tasks) {
   const int each = (hearts + tasks - 1) / tasks;
   const double rounds = std::ceil(static_cast<double>(each) / cores);
   return std::max(kLeastMinutes, static_cast<int>(std::ceil(3 * rounds * heart_s / 60)));
+}
+
+int slurmCores(int hearts, int tasks, int cores) {
+  return std::clamp((hearts + tasks - 1) / tasks, 1, cores);
+}
+
+int slurmMemory_mb(double heart_mb, int cores) {
+  return static_cast<int>(std::ceil(1.5 * heart_mb * std::max(2, cores))) + 256;
 }
 
 std::filesystem::path writeSlurmJobs(const Spec& spec, const SlurmOptions& options) {

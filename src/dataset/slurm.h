@@ -14,6 +14,7 @@ struct SlurmOptions {
   int tasks = 1;                  // of the array
   int cores = 4;                  // of a task
   int minutes = 60;               // time limit of a task
+  int memory_mb = 0;              // of a task, 2^20 bytes; 0: the cluster's default
   std::string more;               // options of sbatch for every job, such as "--partition=cpu"
 };
 
@@ -26,8 +27,17 @@ int slurmTasks(int hearts, double heart_s, int cores);
 // choice.
 int slurmMinutes(int hearts, double heart_s, int cores, int tasks);
 
+// Cores that a task of `tasks` can use: a heart runs on one.
+int slurmCores(int hearts, int tasks, int cores);
+
+// One and a half times what `cores` hearts need at once, by the memory of a process with one, plus
+// 256 MB for the page cache; our choice. Never less than for two.
+int slurmMemory_mb(double heart_mb, int cores);
+
 // Writes array.sh, merge.sh and submit.sh into `folder`/slurm, in a readable form, and returns
-// submit.sh. A killed or requeued task resumes where it stopped. Throws SceneError if the folder
+// submit.sh. A killed or requeued task resumes where it stopped;
+// a minute before its time limit it requeues itself, at most 20 times (our choice). The jobs read
+// the spec in the folder, or the given file if it names scenes. Throws SceneError if the folder
 // belongs to another spec, JobError if files cannot be written.
 std::filesystem::path writeSlurmJobs(const Spec& spec, const SlurmOptions& options);
 

@@ -27,8 +27,13 @@ bool Spec::wantsTracks() const {
 }
 
 Split Spec::splitOf(int heart) const {
-  const int all = scenes.empty() ? hearts : static_cast<int>(scenes.size());
-  const int number = scenes.empty() ? heart : heart % all;
+  int all = scenes.empty() ? hearts : static_cast<int>(scenes.size());
+  int number = scenes.empty() ? heart : heart % all;
+  if (scenes.empty() && blocks.size() > 1) {
+    std::size_t block = 0;
+    while (block + 1 < blocks.size() && number >= blocks[block]) number -= blocks[block++];
+    all = blocks[block];
+  }
   const auto until = [all](double share) { return std::llround(share * all); };
   if (number < until(split[0])) return Split::train;
   return number < until(split[0] + split[1]) ? Split::val : Split::test;

@@ -51,11 +51,13 @@ enum class Split { train, val, test };
 
 struct Spec {
   std::filesystem::path file;
-  std::string digest;  // SHA-256 of the file's content and of the program's version
-  std::string text;    // of the file
+  std::string digest;        // SHA-256 of the file's content and of the program's version
+  std::string heart_digest;  // the same without the keys that can grow (growth.h)
+  std::string text;          // of the file
   std::string name, licence;
   std::uint64_t seed = 1;
   int hearts = 0;
+  std::vector<int> blocks;  // hearts by block, in the order of growth; at least one
   std::vector<View> views;
   std::vector<std::string> layouts;
   std::array<double, 3> split{0.8, 0.1, 0.1};  // shares by heart: train, val, test
@@ -77,8 +79,9 @@ struct Spec {
   bool wants(std::string_view truth_kind) const;
   bool hasExactEf(std::string_view layout) const;
   bool wantsTracks() const;  // as truth, or for a layout
-  // Splits by the order of hearts: train, then validation, then test. Hearts are independent draws,
-  // and some loaders split by number. All draws of one user's scene are in one split.
+  // Splits by the order of hearts in their block: train, then validation, then test. Hearts are
+  // independent draws, and some loaders split by number. All draws of one user's scene are in one
+  // split.
   Split splitOf(int heart) const;
   // The scene of a heart, cyclically. Precondition: the spec has scenes.
   const UserScene& sceneOf(int heart) const;

@@ -1,16 +1,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
-#include "core/cholesky.h"
 #include "core/file.h"
 #include "core/hash.h"
 #include "core/nearest_word.h"
+#include "dataset/correlated_reader.h"
 #include "dataset/draws.h"
+#include "dataset/growth.h"
 #include "dataset/spec.h"
 #include "dataset/user_scenes.h"
 #include "motion/heart/heart_poses.h"
 #include "motion/heart/parameters.h"
+#include "scene/toml_flat.h"
 
 namespace echocine::dataset {
 
@@ -138,55 +141,26 @@ void readPopulations(TomlTable& file, Spec& spec) {
   for (std::size_t i = 0; i < given.size(); ++i) spec.populations[i].weight = given[i];
 }
 
-// Above the diagonal, row by row; a single one for all pairs.
-std::vector<double> readFactor(TomlTable& table, std::size_t n) {
-  std::vector<double> upper = table.numbers("correlations");
-  if (upper.size() == 1) upper.assign(n * (n - 1) / 2, upper.front());
-  if (upper.size() != n * (n - 1) / 2)
-    table.fail("correlations", fmt::format("are {}, accepted: 1, or {}, one for each pair: of the "
-                                           "first with all that follow, of the second, ...",
-                                           upper.size(), n * (n - 1) / 2));
-  std::vector<double> matrix(n * n, 1);
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 1; j < n; ++j) matrix[i * n + j] = matrix[j * n + i] = upper[at++];
-  std::vector<double> factor = choleskyFactor(matrix, n);
-  if (factor.empty())
-    table.fail("correlations", "contradict each other, or are not within -1 and 1: lower them");
-  return factor;
-}
-
-void readCorrelated(TomlTable& file, Spec& spec) {
-  std::vector<std::string> taken;
-  for (TomlTable& table : file.tables("correlated")) {
-    CorrelatedGroup group;
-    group.names = table.texts("parameters");
-    if (group.names.size() < 2) table.fail("parameters", "are fewer than two, accepted: names");
-    for (const std::string& name : group.names) {
-      const auto has = [&](const std::vector<Parameter>& list) {
-        return std::any_of(list.begin(), list.end(),
-                           [&](const Parameter& p) { return p.name == name; });
-      };
-      const bool known = has(spec.parameters) ||
-                         std::any_of(spec.populations.begin(), spec.populations.end(),
-                                     [&](const Population& p) { return has(p.parameters); });
-      if (!known)
-        table.fail("parameters",
-                   fmt::format("\"{}\" is not drawn by itself in this spec, accepted: names "
-                               "of its distributions, such as offset.tilt_deg",
-                               name));
-      if (std::find(taken.begin(), taken.end(), name) != taken.end())
-        table.fail("parameters", fmt::format("\"{}\" is correlated twice, accepted: once", name));
-      if (isOfHeart(name) != isOfHeart(group.names.front()))
-        table.fail("parameters", fmt::format("\"{}\" and \"{}\" are not drawn together: one is the "
-                                             "heart's, the other a view's",
-                                             name, group.names.front()));
-      taken.push_back(name);
-    }
-    group.factor = readFactor(table, group.names.size());
-    table.finish();
-    spec.correlated.push_back(std::move(group));
+// hearts = 100, or [100, 400]: a first block, and one by which the dataset has grown.
+void readHearts(TomlTable& file, bool blocks, Spec& spec) {
+  const auto scenes = static_cast<int>(spec.scenes.size());
+  if (!blocks) {
+    spec.hearts = file.integer("hearts", scenes > 0 ? std::optional(scenes) : std::nullopt,
+                               std::max(1, scenes), kMostHearts);
+    spec.blocks = {spec.hearts};
+    return;
   }
+  for (const double block : file.numbers("hearts")) {
+    if (!(block >= 1 && block <= kMostHearts - spec.hearts && block == std::floor(block)))
+      file.fail("hearts",
+                fmt::format("has the block {:g}, accepted: whole numbers from 1, {} in all", block,
+                            kMostHearts));
+    spec.blocks.push_back(static_cast<int>(block));
+    spec.hearts += spec.blocks.back();
+  }
+  if (spec.blocks.empty() || spec.hearts < scenes)
+    file.fail("hearts",
+              fmt::format("are {}, accepted: {} or more", spec.hearts, std::max(1, scenes)));
 }
 
 void readViews(TomlTable& file, Spec& spec) {
@@ -255,6 +229,11 @@ Spec parseSpec(std::string_view text, const std::filesystem::path& path) {
   Sha256 digest;
   digest.update(ECHOCINE_VERSION);
   digest.update(withValues(text, path.string(), {}));  // whatever its comments are
+  const auto keys = flatValues(text, path.string());
+  Sha256 heart_digest;
+  heart_digest.update(ECHOCINE_VERSION);
+  for (const auto& [key, value] : keys)
+    if (!canGrow(key)) heart_digest.update(key + "=" + value + "\n");
   spec.name = file.text("name", path.stem().string());
   spec.licence = file.text("licence", "CC0-1.0");
   spec.seed = static_cast<std::uint64_t>(file.integer("seed", 1, 0, 2147483647));
@@ -267,11 +246,14 @@ Spec parseSpec(std::string_view text, const std::filesystem::path& path) {
     spec.shard_mb = file.integer("shard_mb", spec.shard_mb, 1, 100000);
   else
     file.unused("shard_mb", "layouts = [\"native\", \"webdataset\"]");
-  readUserScenes(file, spec, digest);
+  Sha256 scenes_digest;
+  readUserScenes(file, spec, scenes_digest);
+  const std::string of_scenes = scenes_digest.hex();
+  digest.update(of_scenes);
+  heart_digest.update(of_scenes);
   spec.digest = digest.hex();
-  const auto scenes = static_cast<int>(spec.scenes.size());
-  spec.hearts = file.integer("hearts", scenes > 0 ? std::optional(scenes) : std::nullopt,
-                             std::max(1, scenes), kMostHearts);
+  spec.heart_digest = heart_digest.hex();
+  readHearts(file, keys.count("hearts") > 0 && keys.at("hearts").starts_with('['), spec);
   spec.keyframes = file.integer("keyframes", spec.keyframes, 8, 100);
   spec.picture_px = file.integer("picture_px", spec.picture_px, 56, 4032);
   spec.resolution_mm = file.number("resolution_mm", 0.0, {.lo = 0, .hi = 10});

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/folder_lock.h"
+#include "core/file_lock.h"
+#include "dataset/growth.h"
 #include "dataset/record.h"
 #include "dataset/record_check.h"
 
@@ -40,13 +42,24 @@ bool isEmptyFolder(const std::filesystem::path& folder) {
 }
 
 std::string markText(const Spec& spec) {
-  return Json{{"digest", spec.digest}, {"name", spec.name}}.dump() + "\n";
+  return Json{{"digest", spec.heart_digest}}.dump() + "\n";
 }
 
-[[noreturn]] void failOfOtherSpec(const std::filesystem::path& folder) {
-  throw SceneError(
-      fmt::format("{}: holds the dataset of another spec or program version: choose another folder",
-                  folder.string()));
+[[noreturn]] void failOfOtherSpec(const std::filesystem::path& folder, const std::string& fault) {
+  throw SceneError(fmt::format(
+      "{}: holds the dataset of another spec or program version{}: choose another folder",
+      folder.string(), fault.empty() ? "" : fmt::format(" ({})", fault)));
+}
+
+// The spec of the folder's copy; none if it is missing or damaged.
+std::optional<Spec> specOfFolder(const std::filesystem::path& folder, const Spec& like) {
+  const std::optional<std::string> text = readText(folder / "spec.toml");
+  if (!text) return std::nullopt;
+  try {
+    return parseSpec(*text, like.file);  // scenes are relative to it
+  } catch (const SceneError&) {
+    return std::nullopt;
+  }
 }
 
 // Why a file is not as its record has it; empty where it is.
@@ -72,7 +85,13 @@ WorkFolder::WorkFolder(std::filesystem::path folder, const Spec& spec)
   if (std::filesystem::is_symlink(work, failed))
     throw SceneError(fmt::format("{}: is a link: choose a new or empty folder", work.string()));
   if (const std::optional<std::string> earlier = readText(mark)) {
-    if (*earlier != markText(spec)) failOfOtherSpec(folder_);
+    const bool same = *earlier == markText(spec);
+    const std::optional<Spec> before = same && readText(folder_ / "spec.toml") == spec.text
+                                           ? std::nullopt
+                                           : specOfFolder(folder_, spec);
+    const std::string fault = before ? growthFault(*before, spec) : "";
+    const bool damaged = before && markText(*before) != *earlier;
+    if (!same || (!fault.empty() && !damaged)) failOfOtherSpec(folder_, fault);
     keepSpec();
     return;
   }
@@ -84,7 +103,7 @@ WorkFolder::WorkFolder(std::filesystem::path folder, const Spec& spec)
   // If tasks begin together, one of them writes the mark; the others find their own spec in it.
   const std::string own = markText(spec);
   if (!writeFileOnce(mark, std::as_bytes(std::span(own))) && readText(mark) != own)
-    failOfOtherSpec(folder_);
+    failOfOtherSpec(folder_, "");
   keepSpec();
 }
 
@@ -117,6 +136,7 @@ WorkFolder::Finished WorkFolder::finished(int heart, Look look) const {
   const std::optional<std::string> text = readText(file);
   if (!text) return {std::nullopt, name + ": cannot be read, or is not a regular file"};
   CheckedRecord checked = checkRecord(*text, spec_, heart);
+  if (checked.outgrown) return {};
   if (!checked.flaw.empty()) return {std::nullopt, name + ": " + checked.flaw};
   if (isFailure(checked.record)) return {std::move(checked.record), ""};
   for (const auto& [noted_name, noted] : checked.record["files"].items())
@@ -132,10 +152,24 @@ void WorkFolder::removeParts() const {
        it.increment(failed))
     if (!targetOfPart(it->path().filename().string()).empty() && isOrdinaryFile(it->path()))
       parts.push_back(it->path());
-  if (parts.empty()) return;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "work", failed))
-    if (entry.path().filename().string().starts_with("task_") && isLocked(entry.path())) return;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "work", failed)) {
+    if (!entry.path().filename().string().starts_with("task_")) continue;
+    if (isFileLocked(entry.path() / kLockName)) return;
+    parts.push_back(entry.path() / kLockName);  // of a killed task, if any
+  }
   for (const std::filesystem::path& part : parts) std::filesystem::remove(part, failed);
+}
+
+std::vector<std::string> WorkFolder::runningTasks() const {
+  std::vector<std::string> running;
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "work", failed)) {
+    std::string name = entry.path().filename().string();
+    if (name.starts_with("task_") && isFileLocked(entry.path() / kLockName))
+      running.push_back(std::move(name));
+  }
+  std::sort(running.begin(), running.end());
+  return running;
 }
 
 }  // namespace echocine::dataset

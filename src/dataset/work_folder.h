@@ -5,10 +5,15 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "dataset/layout.h"
 
 namespace echocine::dataset {
+
+// The lock of a task is in work/task_K_of_N, that of a merge in work/merge (core/file_lock.h).
+inline constexpr const char* kLockName = "lock";
 
 class WorkFolder {
  public:
@@ -31,8 +36,11 @@ class WorkFolder {
   };
   Finished finished(int heart, Look look) const;
 
-  // Removes temporary files of killed tasks. Removes nothing while a task is running.
+  // Removes temporary files and locks of killed tasks. Removes nothing while a task is running.
   void removeParts() const;
+
+  // Names of the tasks that run now, such as "task_3_of_8".
+  std::vector<std::string> runningTasks() const;
 
  private:
   void keepSpec() const;

@@ -50,7 +50,7 @@ void record(std::string_view bytes) {
   if (!json.is_object()) return;
   Json unsealed = json;
   unsealed.erase("record_digest");
-  unsealed["spec"] = recordSpec().digest;
+  unsealed["spec"] = recordSpec().heart_digest;
   if (unsealed.empty()) return;
   try {
     checkOne(dataset::sealedText(unsealed));

@@ -109,8 +109,11 @@ TEST_F(DatasetCommand, AnotherSpecsFolderIsLeftAlone) {
   EXPECT_FALSE(fs::exists(folder / "new"));
 }
 
-TEST_F(DatasetCommand, HeartsThatFailAreListedAndEndNothing) {
-  ASSERT_EQ(make("failing", "", "ECHOCINE_FAILING_HEARTS=1").code, 0);
+// The lists are there, but a dataset without a heart is a failure.
+TEST_F(DatasetCommand, HeartsThatFailAreListed) {
+  const Outcome made = make("failing", "", "ECHOCINE_FAILING_HEARTS=1");
+  EXPECT_EQ(made.code, 1);
+  EXPECT_NE(made.err.find("all 2 hearts failed"), std::string::npos) << made.err;
   const std::vector<std::string> lines = linesOf(bytesOf(folder / "failing/failed.csv"));
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[1], "1,1,made to fail by ECHOCINE_FAILING_HEARTS");
@@ -180,10 +183,11 @@ TEST_F(DatasetCommand, JobsOfSlurmMakeTheSameBytes) {
       make("by slurm", "--slurm --tasks 2 --cores 1 --minutes 5 --sbatch '--partition=cpu --nice'",
            before);
   ASSERT_EQ(made.code, 0) << made.err;
+  const std::string logs = "--parsable --output=" + (folder / "by slurm/slurm").string();
   EXPECT_EQ(linesOf(bytesOf(folder / "jobs")),
             (std::vector<std::string>{
-                "--parsable --partition=cpu --nice array.sh",
-                "--parsable --partition=cpu --nice --dependency=afterany:17 merge.sh"}));
+                logs + "/array_%A_%a.log --partition=cpu --nice array.sh",
+                logs + "/merge_%j.log --partition=cpu --nice --dependency=afterany:17 merge.sh"}));
   ASSERT_EQ(make("at once").code, 0);
   const auto ofTheDataset = [&](const char* name) {
     std::map<std::string, std::string> files = filesOf(folder / name);
@@ -204,6 +208,7 @@ TEST_F(DatasetCommand, JobsThatCannotBeSubmittedAreWritten) {
   EXPECT_NE(array.find("#SBATCH --array=1-2\n"), std::string::npos)
       << array;  // no more than hearts
   EXPECT_NE(array.find("#SBATCH --time=7\n"), std::string::npos);
+  EXPECT_NE(array.find("#SBATCH --cpus-per-task=1\n"), std::string::npos);  // no more than hearts
   EXPECT_EQ(make("own", "--no-submit").code, 2);
   EXPECT_EQ(make("own", "--tasks 3").code, 2);
 }

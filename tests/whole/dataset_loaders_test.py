@@ -384,7 +384,9 @@ class Nnunet(Loaders):
                     self.assertTrue((truth["labels"][int(frame)] == label).all())
         with open(self.path("nnunet/nnUNet_preprocessed/Dataset501_EchoCine/splits_final.json")) as file:
             folds = json.load(file)
+        self.assertEqual(len(folds), min(5, len({case[:8] for case in training})))
         for fold in folds:
+            self.assertTrue(fold["train"] and fold["val"])
             self.assertEqual(set(fold["train"]) | set(fold["val"]), training)
             hearts = [{case[:8] for case in fold[side]} for side in ("train", "val")]
             self.assertFalse(hearts[0] & hearts[1])
@@ -401,7 +403,12 @@ class PointOdyssey(Loaders):
             self.assertEqual(pictures, [f"rgb_{i:05}.jpg" for i in range(frames)])
             picture = cv2.imread(os.path.join(folder, "rgbs", pictures[0]), cv2.IMREAD_UNCHANGED)
             self.assertEqual(picture.shape, (side, side, 3))
+            masks = sorted(os.listdir(os.path.join(folder, "masks")))
+            self.assertEqual(masks, [f"mask_{i:05}.png" for i in range(frames)])
             with self.truth(name) as truth:
+                for mask, labels in zip(masks, truth["labels"]):
+                    there = cv2.imread(os.path.join(folder, "masks", mask), cv2.IMREAD_UNCHANGED)
+                    self.assertTrue((there == labels).all())
                 exact = truth["track_px"]
                 for file in ("annotations.npz", "anno.npz"):
                     with numpy.load(os.path.join(folder, file), allow_pickle=False) as notes:

@@ -1,4 +1,6 @@
-"""A dataset made by a real Slurm of this machine alone, a task of it killed and requeued: slurm_test.py ECHOCINE"""
+"""Datasets made by a real Slurm of this machine alone, with tasks that stop in every way: slurm_test.py ECHOCINE
+
+ECHOCINE_SLURM=1 adds the longer cases."""
 
 import os
 import shutil
@@ -44,7 +46,9 @@ SelectTypeParameters=CR_Core
 ReturnToService=2
 JobRequeue=1
 MpiDefault=none
-NodeName={host} NodeAddr=127.0.0.1 CPUs={cores} State=UNKNOWN
+SchedulerParameters=batch_sched_delay=0,sched_interval=1,bf_interval=1,sched_min_interval=0
+KillWait=1
+NodeName={host} NodeAddr=127.0.0.1 CPUs={cores} RealMemory=4000 State=UNKNOWN
 PartitionName=all Nodes={host} Default=YES MaxTime=INFINITE State=UP
 """
 
@@ -124,25 +128,128 @@ def files_of(folder):
 
 
 class Slurm(unittest.TestCase):
-    def test_an_array_with_a_task_killed_and_requeued_makes_the_same_bytes(self):
-        with tempfile.TemporaryDirectory(prefix="echocine_slurm_data_") as folder, Cluster() as cluster:
-            spec = os.path.join(folder, "spec.toml")
-            with open(spec, "w") as file, open(SMALL_LOOPS) as rest:
-                file.write(SPEC_HEAD + rest.read())
-            whole, parts = os.path.join(folder, "whole"), os.path.join(folder, "parts")
-            subprocess.run([PROGRAM, "dataset", spec, "-o", whole, "--quiet"], check=True)
-            text = cluster.run(PROGRAM, "dataset", spec, "-o", parts, "--quiet", "--slurm", "--tasks", "2", "--cores", "1",
-                               "--minutes", "5", check=True)
-            array, merge = text.replace(",", "").split()[1::2]
-            log = os.path.join(parts, "slurm", "array_1.log")
-            wait_for(lambda: os.path.exists(log), "the first task")
-            cluster.run("scontrol", "requeue", array + "_1")
-            wait_for(lambda: "PENDING" in cluster.run("scontrol", "show", "job", array + "_1"), "the requeued task")
-            cluster.run("scontrol", "update", f"jobid={array}_1", "StartTime=now")
-            wait_for(lambda: not cluster.run("squeue", "-h", "-j", f"{array},{merge}").strip(), "the jobs' end")
-            self.assertIn("Restarts=1", cluster.run("scontrol", "show", "job", array + "_1"))
-            self.assertEqual(files_of(parts).keys(), files_of(whole).keys())
-            self.assertEqual(files_of(parts), files_of(whole))
+    @classmethod
+    def setUpClass(cls):
+        cls.cluster = cls.enterClassContext(Cluster()) if hasattr(cls, "enterClassContext") else cls.entered(Cluster())
+        cls.run_in = cls.cluster.run
+
+    @classmethod
+    def entered(cls, context):  # before Python 3.11
+        cls.addClassCleanup(context.__exit__, None, None, None)
+        return context.__enter__()
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="echocine_slurm_data_")
+        self.addCleanup(temporary.cleanup)
+        self.folder = temporary.name
+        self.spec = os.path.join(self.folder, "spec.toml")
+        with open(self.spec, "w") as file, open(SMALL_LOOPS) as rest:
+            file.write(SPEC_HEAD + rest.read())
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def whole(self):
+        """The files of a run without Slurm."""
+        if not os.path.exists(self.path("whole")):
+            subprocess.run([PROGRAM, "dataset", self.spec, "-o", self.path("whole"), "--quiet"], check=True)
+        return files_of(self.path("whole"))
+
+    def submit(self, name, *more, tasks=2):
+        """Array and merge of a submitted dataset."""
+        text = self.run_in(PROGRAM, "dataset", self.spec, "-o", self.path(name), "--quiet", "--slurm", "--tasks", str(tasks),
+                           "--cores", "1", "--minutes", "5", *more, check=True)
+        return text.replace(",", "").split()[1::2]
+
+    def state(self, job):
+        found = [word for word in self.run_in("scontrol", "show", "job", job).split() if word.startswith("JobState=")]
+        return found[0][len("JobState="):] if found else ""
+
+    def wait_for_end(self, *jobs):
+        def ended(job):
+            states = self.run_in("squeue", "-h", "-t", "all", "-r", "-o", "%T", "-j", job).split()
+            return states and set(states) <= {"COMPLETED", "FAILED", "CANCELLED"}
+        wait_for(lambda: all(ended(job) for job in jobs), "the jobs' end")
+
+    def wait_for_log(self, name, array, task):
+        wait_for(lambda: os.path.exists(self.path(name, "slurm", f"array_{array}_{task}.log")), "a task")
+
+    def release(self, task):
+        wait_for(lambda: "PENDING" in self.run_in("scontrol", "show", "job", task), "the requeued task")
+        time.sleep(2)  # credentials are revoked by whole seconds; Slurm itself waits two minutes
+        self.run_in("scontrol", "update", "jobid=" + task, "StartTime=now")
+
+    def assert_merged(self, name, merge):
+        logs = {}
+        for file in sorted(os.listdir(self.path(name, "slurm"))):
+            if file.endswith(".log"):
+                with open(self.path(name, "slurm", file)) as log:
+                    logs[file] = log.read()
+        self.assertEqual((self.state(merge), logs[f"merge_{merge}.log"]), ("COMPLETED", ""), logs)
+        made = files_of(self.path(name))
+        self.assertEqual(made.keys(), self.whole().keys())
+        self.assertEqual(made, self.whole())
+
+    def test_a_task_killed_and_requeued_makes_the_same_bytes(self):
+        array, merge = self.submit("parts")
+        self.wait_for_log("parts", array, 1)
+        self.run_in("scontrol", "requeue", array + "_1")
+        self.release(array + "_1")
+        self.wait_for_end(array, merge)
+        self.assertIn("Restarts=1", self.run_in("scontrol", "show", "job", array + "_1"))
+        self.assert_merged("parts", merge)
+
+    def test_a_task_near_its_time_limit_requeues_itself_whatever_the_folder_is_called(self):
+        name = "50%a of it's %A"
+        array, merge = self.submit(name)
+        self.wait_for_log(name, array, 1)
+        wait_for(lambda: os.path.exists(self.path(name, "work/task_1_of_2/lock")), "the first task's program")
+        self.run_in("scancel", "--batch", "--signal=USR1", array + "_1")  # as Slurm does by --signal=B:USR1@60
+        self.release(array + "_1")
+        self.wait_for_end(array, merge)
+        self.assertIn("Restarts=1", self.run_in("scontrol", "show", "job", array + "_1"))
+        self.assert_merged(name, merge)
+
+    @unittest.skipUnless(os.environ.get("ECHOCINE_SLURM"), "a longer test: set ECHOCINE_SLURM")
+    def test_a_cancelled_task_is_missed_by_the_merge_and_made_by_the_next_array(self):
+        array, merge = self.submit("parts")
+        self.wait_for_log("parts", array, 1)
+        self.run_in("scancel", array + "_1")
+        self.wait_for_end(array, merge)
+        with open(self.path("parts/slurm", f"merge_{merge}.log")) as log:
+            self.assertIn("hearts are missing", log.read())
+        self.assertEqual(self.state(merge), "FAILED")
+        again, second_merge = self.submit("parts")
+        self.wait_for_end(again, second_merge)
+        self.assert_merged("parts", second_merge)
+
+    @unittest.skipUnless(os.environ.get("ECHOCINE_SLURM"), "a longer test: set ECHOCINE_SLURM")
+    def test_two_submissions_do_not_write_at_once(self):
+        first, second = self.submit("parts"), self.submit("parts")
+        self.wait_for_end(*first, *second)
+        last, merge = self.submit("parts")
+        self.wait_for_end(last, merge)
+        self.assert_merged("parts", merge)
+
+    def test_no_heart_at_all_is_a_failure(self):
+        array, merge = self.submit("parts", "--sbatch", "--export=ALL,ECHOCINE_FAILING_HEARTS=1")
+        self.wait_for_end(array, merge)
+        self.assertEqual(self.state(merge), "FAILED")
+        with open(self.path("parts/slurm", f"merge_{merge}.log")) as log:
+            self.assertIn("all 6 hearts failed", log.read())
+        status = self.run_in(PROGRAM, "dataset", "--status", self.path("parts"), check=True)
+        self.assertIn("0 of 6 hearts finished, 6 failed, 0 missing", status)
+
+    def test_the_array_is_cancelled_when_its_merge_is_refused(self):
+        subprocess.run([PROGRAM, "dataset", self.spec, "-o", self.path("parts"), "--quiet", "--slurm", "--tasks", "2",
+                        "--minutes", "5", "--no-submit"], check=True)
+        with open(self.path("parts/slurm/merge.sh"), "w") as merge:
+            merge.write("#!/bin/sh\n#SBATCH --partition=absent\n")
+        refused = subprocess.run(["sh", self.path("parts/slurm/submit.sh")], env=self.cluster.environment,
+                                 capture_output=True, text=True)
+        self.assertNotEqual(refused.returncode, 0)
+        self.assertIn("its merge was refused", refused.stdout)
+        self.wait_for_end(refused.stdout.split()[1].rstrip(","))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,38 @@
+#include "dataset/status.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "dataset/record.h"
+#include "dataset/work_folder.h"
+
+namespace echocine::dataset {
+
+Status statusOf(const std::filesystem::path& folder) {
+  std::error_code failed;
+  if (!std::filesystem::exists(folder / "work/spec.json", failed) ||
+      !std::filesystem::exists(folder / "spec.toml", failed))
+    throw SceneError(fmt::format("{}: holds no dataset", folder.string()));
+  const Spec spec = readSpec(folder / "spec.toml");
+  const WorkFolder work(folder, spec);
+  Status status;
+  status.name = spec.name;
+  status.hearts = spec.hearts;
+  for (int heart = 0; heart < spec.hearts; ++heart) {
+    const WorkFolder::Finished one = work.finished(heart, WorkFolder::Look::sizes);
+    status.damaged += !one.flaw.empty();
+    if (!one.record) continue;
+    if (!isFailure(*one.record)) {
+      ++status.finished;
+      continue;
+    }
+    ++status.failed;
+    if (status.first_failure.empty())
+      status.first_failure = one.record->at("failed").get<std::string>();
+  }
+  status.merged = std::filesystem::exists(folder / "dataset.json", failed);
+  status.running = work.runningTasks();
+  return status;
+}
+
+}  // namespace echocine::dataset
