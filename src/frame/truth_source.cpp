@@ -4,7 +4,9 @@
 
 #include "frame/loop_instant.h"
 #include "frame/picture_grid.h"
+#include "plan/effect_plan.h"
 #include "trace/sound_path_tracer.h"
+#include "truth/visible_border.h"
 
 namespace echocine {
 
@@ -81,6 +83,12 @@ FrameTruth TruthSource::at(const FrameTime& time, const Workspace* traced) const
     const FrameTime instant = instantOf(clock_, scene_, time.time_s + offset_s);
     rolling_->take(g, ofInstant(instant, {}, true), truth);
   }
+  const auto samples =
+      static_cast<std::size_t>(scene_.probe.lines) * static_cast<std::size_t>(scene_.probe.samples);
+  if (traced != nullptr && wantsPicture(scene_) && traced->greys.size() == samples)
+    for (Contour& contour : truth.contours)
+      contour.visible =
+          visiblePoints(contour, scene_.probe, traced->greys, scene_.signal.dynamic_range_db);
   return truth;
 }
 

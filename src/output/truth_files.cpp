@@ -97,6 +97,8 @@ std::string TruthFiles::contoursText(const FrameRecord& record, const FrameTruth
                {"closed", contour.closed},
                {"points_mm", pointsJson(contour.points_m, mm)},
                {"points_px", pointsJson(contour.points_m, px)}};
+    if (!contour.visible.empty())
+      entry["visible"] = std::vector<int>(contour.visible.begin(), contour.visible.end());
     if (contour.closed) {
       const std::vector<Vec3d> shown = clipped(contour.points_m, outline_);
       entry["in_sector_mm"] = pointsJson(shown, mm);

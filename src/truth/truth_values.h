@@ -25,6 +25,8 @@ struct Contour {
   std::vector<Vec3d> points_m;
   // The given edge that starts at each point; none at the last point of an open contour.
   std::vector<std::uint32_t> edges;
+  // By point, 1 if the picture shows the border there (visible_border.h); empty without a picture.
+  std::vector<char> visible = {};
 };
 
 // Displacement of the material at every sample since the reference frame, and its velocity.
