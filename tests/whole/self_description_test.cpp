@@ -81,7 +81,8 @@ TEST_F(SelfDescription, CompletionOffersTheValuesOfChoices) {
   const std::string views = "a4c a2c a3c plax psax-base psax-mid psax-apex subcostal\n";
   EXPECT_EQ(offered(bash, "heart", "--view"), views);
   EXPECT_EQ(offered(bash, "compare", "--view"), views);
-  EXPECT_EQ(offered(bash, "heart", "--look"), "paper clean scanner smooth contrast sharp portable\n");
+  EXPECT_EQ(offered(bash, "heart", "--look"),
+            "paper clean scanner smooth contrast sharp portable\n");
   EXPECT_EQ(offered(bash, "render", "--preset"), "draft standard fine reference\n");
   EXPECT_EQ(offered(bash, "plan", "--preset"), "draft standard fine reference\n");
   const std::string zsh = text("_echocine");
