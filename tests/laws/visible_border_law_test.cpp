@@ -63,8 +63,12 @@ TEST(VisibleBorderLaw, AStepOnOneSideOfABallIsSeenThereAlone) {
       const std::vector<char> visible = visiblePoints(ball, probe, greys, kRange_db);
       ASSERT_EQ(visible.size(), ball.points_m.size());
       for (std::size_t i = 0; i < visible.size(); ++i) {
-        if (ball.points_m[i].x < -4e-3) EXPECT_EQ(visible[i], 1) << i;
-        if (ball.points_m[i].x > 4e-3) EXPECT_EQ(visible[i], 0) << i;
+        if (ball.points_m[i].x < -4e-3) {
+          EXPECT_EQ(visible[i], 1) << i;
+        }
+        if (ball.points_m[i].x > 4e-3) {
+          EXPECT_EQ(visible[i], 0) << i;
+        }
       }
     }
   }
@@ -80,7 +84,9 @@ TEST(VisibleBorderLaw, NothingOutsideTheSectorIsSeen) {
   int inside = 0;
   for (std::size_t i = 0; i < visible.size(); ++i) {
     const Vec3d p = ball.points_m[i];
-    if (!inScanArea(probe, p.x, p.z)) EXPECT_EQ(visible[i], 0) << i;
+    if (!inScanArea(probe, p.x, p.z)) {
+      EXPECT_EQ(visible[i], 0) << i;
+    }
     inside += visible[i];
   }
   EXPECT_GT(inside, 80);
@@ -96,8 +102,12 @@ TEST(VisibleBorderLaw, ASheetIsSeenWhereItExceedsBothSides) {
   });
   const std::vector<char> visible = visiblePoints(sheet, probe, greys, kRange_db);
   for (std::size_t i = 0; i < visible.size(); ++i) {
-    if (sheet.points_m[i].x < -4e-3) EXPECT_EQ(visible[i], 1) << i;
-    if (sheet.points_m[i].x > 4e-3) EXPECT_EQ(visible[i], 0) << i;
+    if (sheet.points_m[i].x < -4e-3) {
+      EXPECT_EQ(visible[i], 1) << i;
+    }
+    if (sheet.points_m[i].x > 4e-3) {
+      EXPECT_EQ(visible[i], 0) << i;
+    }
   }
 }
 
