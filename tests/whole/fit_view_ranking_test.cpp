@@ -126,7 +126,7 @@ TEST(CompareViewRanking, WhatCannotBeRankedIsRefusedInOneLine) {
            {"real --views all --dials eff=0.5", "is not a dial"},
            {"real --views all --tilt 21", "tilt"},
            {"real", "with --scan or --views only the real one"},
-           {"synthetic real --dials ef=0.5", "belongs to --scan and --views"},
+           {"synthetic real --dials ef=0.5", "is accepted with --scan or --views only"},
            {"nowhere.avi --views all", "nowhere.avi"}}) {
     const Outcome outcome = runShell(std::string("%B compare ") + line + out);
     EXPECT_EQ(outcome.code, 2) << line << "\n" << outcome.err;
