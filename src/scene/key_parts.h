@@ -84,7 +84,7 @@ inline constexpr KeyUse kWithWidth WITH("kind = \"linear\"", !o.scene->probe.isF
 inline constexpr KeyUse kClosed WITH("membrane = false: a membrane encloses nothing",
                                      !o.structure->membrane);
 inline constexpr KeyUse kWithQuality
-    WITH("a scanner's look: scanner | smooth | contrast | sharp | portable",
+    WITH("look = \"scanner\" | \"smooth\" | \"contrast\" | \"sharp\" | \"portable\"",
          isScanner(o.scene->signal.look));
 inline constexpr KeyUse kWithNominal WITH("tgc = \"nominal\"", o.scene->signal.tgc == Tgc::nominal);
 inline constexpr KeyUse kWithTable WITH("tgc = \"table\"", o.scene->signal.tgc == Tgc::table);

@@ -143,7 +143,7 @@ constexpr SceneKey kKeys[] = {
     {"truth", "tracks", kNone, kTracks, "number of material points", AT(TruthSettings, track_count)},
 
     {"signal", "look", kNone, kAny, "selects the defaults of [signal], [trabeculae], [speckle], [artefacts] and accuracy.elevation_slices; keys in the scene override them", AT(SignalSettings, look)},
-    {"signal", "quality", kNone, kAny, "level of the artefacts in a scanner's look", AT(SignalSettings, quality), kOptional, kWithQuality},
+    {"signal", "quality", kNone, kAny, "strength of the artefacts in the looks of scanners", AT(SignalSettings, quality), kOptional, kWithQuality},
     {"signal", "tgc", kNone, kAny, "time gain: perfect compensates each path's attenuation, mean the loop's mean at each depth, nominal that of soft tissue", AT(SignalSettings, tgc)},
     {"signal", "tgc_nominal_db_cm_mhz", kNominalGain, ranges::kNominalGain_db_cm_mhz, "attenuation that the nominal gain compensates", AT(SignalSettings, nominal_gain_np_per_m_hz), kOptional, kWithNominal},
     {"signal", "tgc_table_mm_db", kNone, kAny, "pairs of depth and gain", kByHand, kAlways, kWithTable},
