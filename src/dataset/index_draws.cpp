@@ -124,8 +124,8 @@ const IndexDraws& IndexDraws::of(std::size_t group) {
 }
 
 IndexDraws::Drawn IndexDraws::draw(double surface_m2, const Normals& normals) const {
-  constexpr std::size_t kMost = 1000, kEach = kHeartIndices + 1;
-  for (std::size_t tried = 0; tried < kMost; ++tried) {
+  constexpr std::size_t kMostDraws = 1000, kEach = kHeartIndices + 1;
+  for (std::size_t tried = 0; tried < kMostDraws; ++tried) {
     heart::HeartIndices z{};
     for (std::size_t i = 0; i < kHeartIndices; ++i) z[i] = normals(tried * kEach + i);
     Drawn drawn;

@@ -84,8 +84,9 @@ std::vector<char> visiblePoints(const Contour& contour, const Probe& probe,
   std::vector<char> visible(contour.points_m.size(), 0);
   for (std::size_t i = 0; i < visible.size(); ++i) {
     const Vec3d p = contour.points_m[i];
-    constexpr double kReach_m = 2e-3;
-    const Vec3d chord = placeAlong(contour, i, 1, kReach_m) - placeAlong(contour, i, -1, kReach_m);
+    constexpr double kHalfChord_m = 2e-3;
+    const Vec3d chord =
+        placeAlong(contour, i, 1, kHalfChord_m) - placeAlong(contour, i, -1, kHalfChord_m);
     if (length(chord) < 1e-9 || !levels.at(p)) continue;
     const Vec3d tangent = normalised(chord);
     const Vec3d outside = turn * Vec3d{tangent.z, 0, -tangent.x};
