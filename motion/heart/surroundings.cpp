@@ -97,8 +97,6 @@ void addLungs(const ParametricHeart& heart, std::vector<Part>& parts) {
   };
   add("lung_left", {1.35, -0.25, 0.1}, {1.25, 1.9, 2.2});
   add("lung_right", {-2.05, -0.1, -0.1}, {1.25, 1.6, 2.2});
-  // Behind the atria the lungs meet. The tissue between them ends across the beams, not along them.
-  add("lung_behind", {-0.35, -0.1, -1.85}, {1.3, 1.6, 1.3});
 }
 
 // Behind the left atrium, along the spine: from head to foot, perpendicular to the view's long
