@@ -11,6 +11,7 @@ import argparse
 import base64
 import json
 import pathlib
+import shutil
 import subprocess
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -76,14 +77,16 @@ def run(*command):
 
 class Pictures:
     def __init__(self, program, work):
-        self.program, self.work = program, work
+        self.program, self.work, self.ready = program, work, set()
         work.mkdir(parents=True, exist_ok=True)
 
     def made(self, name, *arguments):
-        """The folder of a command of the program, made unless an earlier run left it."""
+        """The folder of a command of the program, which runs once for all pictures."""
         folder = self.work / name
-        if not folder.exists():
+        if name not in self.ready:
+            shutil.rmtree(folder, ignore_errors=True)
             run(self.program, *arguments, "-o", folder, "--quiet")
+            self.ready.add(name)
         return folder
 
     def shipped(self):
