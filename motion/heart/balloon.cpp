@@ -34,6 +34,14 @@ Vec3d Balloon::centre(double zeta) const {
   return ring + zeta * (roof - ring) + middle * bow;
 }
 
+double Balloon::radiusTowards(Vec3d point, double zeta) const {
+  const Axes a = axes();
+  const Vec3d to = point - centre(zeta);
+  const double x = dot(to, a.u), y = dot(to, a.v);
+  return radius(zeta, outline->rhoAt(zeta), a.length_m) * std::hypot(x, y) /
+         std::max(std::hypot(x / aspect, y * aspect), 1e-9);
+}
+
 std::vector<Vec3d> Balloon::points(std::span<const Bearing> bearings) const {
   const Axes a = axes();
   std::vector<Vec3d> points;

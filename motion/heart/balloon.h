@@ -30,6 +30,9 @@ struct Balloon {
   std::vector<Vec3d> points(std::span<const Bearing> bearings) const;  // of its own outline
   // Moves each point away from the axis until it is at least `gap_m` outside.
   void pushOut(double gap_m, std::vector<Vec3d>& points) const;
+  // Of the section at zeta: its centre, and its radius in the direction of a point.
+  Vec3d centre(double zeta) const;
+  double radiusTowards(Vec3d point, double zeta) const;
 
  private:
   struct Axes {
@@ -38,7 +41,6 @@ struct Balloon {
   };
   Axes axes() const;
   double radius(double zeta, double rho, double length_m) const;
-  Vec3d centre(double zeta) const;
   Vec3d pushedOut(Vec3d p, double gap_m, const Axes& a) const;
 };
 

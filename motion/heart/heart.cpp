@@ -52,7 +52,7 @@ void addChambers(const Instant& now, std::vector<Part>& parts) {
   addPoints("ra_wall", "myocardium", 25, kAtrium, now.rightAtrium(wall.atrium_m));
 }
 
-// Connective tissue fills the grooves between the walls; the sac encloses everything.
+// Epicardial fat fills the grooves between the walls; the sac encloses everything.
 void addSac(Vec3d centre, double scale, std::vector<Part>& parts) {
   constexpr double kSac_m = 1.5e-3, kLoose_m = 0.8e-3;  // our choice
   std::vector<Vec3d> outside;
@@ -67,7 +67,7 @@ void addSac(Vec3d centre, double scale, std::vector<Part>& parts) {
                      envelope.points(gap_m * scale),
                      geodesicSphere(Envelope::kFrequency).faces});
   };
-  add("grooves", "soft_tissue", 22, kLoose_m);
+  add("grooves", "epicardial_fat", 22, kLoose_m);
   add("pericardium", "pericardium", 20, kLoose_m + kSac_m);
 }
 

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/stop.h"
 #include "motion/heart/heart_units.h"
+#include "motion/heart/smooth.h"
 #include "motion/heart/solve.h"
 
 // Positions without a source are our choice, modelled on hearts segmented from CT and fitted to
@@ -217,9 +218,12 @@ void Instant::buildAtria(const Parameters& parameters) {
   la_.ring_zone = kRingZone;
   la_.bow = {-0.03 * l, -0.03 * l, 0};
   const double clear_of_aorta_m = walls_.vessel_m + kClearance_m;
-  la_points_ =
-      inflate(la_, atrialVolume(parameters.la_volume_ml, state_.atria_filled), "la-volume",
-              [&](std::vector<Vec3d>& points) { aorta_->pushOut(clear_of_aorta_m, points); });
+  const auto inflateLeft = [&] {
+    la_points_ =
+        inflate(la_, atrialVolume(parameters.la_volume_ml, state_.atria_filled), "la-volume",
+                [&](std::vector<Vec3d>& points) { aorta_->pushOut(clear_of_aorta_m, points); });
+  };
+  inflateLeft();
 
   tricuspid_ = ringAt(right_->ringCentre(), right_->ringFlow(), right_->ringRadius());
   ra_.outline = &atriumOutline();
@@ -230,12 +234,31 @@ void Instant::buildAtria(const Parameters& parameters) {
   ra_.aspect = 0.98;
   ra_.ring_zone = kRingZone;
   ra_.bow = {-0.03 * l, 0, 0};
-  ra_points_ = inflate(ra_, atrialVolume(parameters.ra_volume_ml, state_.atria_filled), "ra-volume",
-                       [&](std::vector<Vec3d>& points) {
-                         aorta_->pushOut(clear_of_aorta_m, points);
-                         for (Vec3d& p : points) p = epicardium_->pushedOut(p, kClearance_m);
-                         la_.pushOut(walls_.atrium_m + kClearance_m, points);
-                       });
+  const auto inflateRight = [&] {
+    ra_points_ = inflate(ra_, atrialVolume(parameters.ra_volume_ml, state_.atria_filled),
+                         "ra-volume", [&](std::vector<Vec3d>& points) {
+                           aorta_->pushOut(clear_of_aorta_m, points);
+                           for (Vec3d& p : points) p = epicardium_->pushedOut(p, kClearance_m);
+                           la_.pushOut(walls_.atrium_m + kClearance_m, points);
+                         });
+  };
+  inflateRight();
+  joinAtria();
+  inflateLeft();
+  inflateRight();
+}
+
+// The septum between the atria is thin also while they are small: their axes bend towards each
+// other until both chambers flatten against the left one's wall.
+void Instant::joinAtria() {
+  constexpr double kMiddle = 0.5, kFlattened_m = 5e-3, kLeftShare = 0.4, kRounding_m = 2e-3;
+  const Vec3d left = la_.centre(kMiddle), right = ra_.centre(kMiddle);
+  const Vec3d across{left.x - right.x, left.y - right.y, 0};
+  const double apart_m = length(across) - la_.radiusTowards(right, kMiddle) -
+                         ra_.radiusTowards(left, kMiddle) - walls_.atrium_m + kFlattened_m;
+  const Vec3d bend = smoothMax(apart_m, 0, kRounding_m) * normalised(across);
+  la_.bow = la_.bow - kLeftShare * bend;
+  ra_.bow = ra_.bow + (1 - kLeftShare) * bend;
 }
 
 // From the wall at mid-height towards the commissures of the mitral valve.

@@ -50,6 +50,7 @@ class Instant {
   void buildRightVentricle(const Parameters& parameters);
   void buildVessels();
   void buildAtria(const Parameters& parameters);
+  void joinAtria();
   void buildPapillaries();
 
   State state_;

@@ -85,7 +85,7 @@ void addMediastinum(const ProbePose& pose, const ParametricHeart& heart,
     points.push_back(centre + std::lerp(around_m, std::max(probe_m, around_m), open) *
                                   kAround.directions[i]);
   }
-  parts.push_back(closedPart("mediastinum", "soft_tissue", 6, std::move(points), kAround));
+  parts.push_back(closedPart("mediastinum", "mediastinum", 6, std::move(points), kAround));
 }
 
 void addLungs(const ParametricHeart& heart, std::vector<Part>& parts) {

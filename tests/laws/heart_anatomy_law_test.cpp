@@ -179,6 +179,27 @@ std::vector<Row> measured(const Anatomy& it) {
   return rows;
 }
 
+// Points of one surface within a distance of the other.
+std::ptrdiff_t countNear(const Points& from, const Points& to, double apart_m) {
+  return std::count_if(from.begin(), from.end(), [&](Vec3d p) {
+    return std::any_of(to.begin(), to.end(), [&](Vec3d q) { return length(p - q) < apart_m; });
+  });
+}
+
+// Over an area; our choice. The wall between the chambers is 2 mm thick.
+TEST(HeartAnatomyLaw, TheSeptumBetweenTheAtriaIsThinThroughoutTheBeat) {
+  const heart::ParametricHeart made(heart::parametersFrom({}));
+  for (const double phase : {0.0, 0.2, 0.36, 0.5, 0.75, 0.95}) {
+    const std::vector<heart::Part> parts = made.at(phase);
+    const Points &left = partOf(parts, "la").points, &right = partOf(parts, "ra").points;
+    const auto near = countNear(right, left, 6e-3);
+    std::printf("phase %.2f: %d points of the right atrium within 6 mm of the left one\n", phase,
+                static_cast<int>(near));
+    EXPECT_GE(near, 8) << phase;
+    EXPECT_EQ(countNear(right, left, 1.5e-3), 0) << phase;
+  }
+}
+
 // The static heart is another person's: these are bounds for one kind.
 constexpr double kAngle_deg = 25, kRatio = 0.35;
 
