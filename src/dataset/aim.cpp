@@ -81,6 +81,7 @@ void setSeeds(const Spec& spec, const Draw& draw, int view, const Values& given,
   set("scene.speckle.seed", scene.speckle.seed, view);
   set("scene.artefacts.clutter_seed", scene.artefacts.clutter_seed, view);
   set("scene.artefacts.noise_seed", scene.artefacts.noise_seed, view);
+  set("scene.artefacts.shading_seed", scene.artefacts.shading_seed, view);
 }
 
 // The picture is the sector's bounding square, fine enough for the resolution that the spec asks

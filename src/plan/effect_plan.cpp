@@ -249,6 +249,7 @@ EffectPlan planEffects(const Scene& scene) {
   if (elevation && severalSlices(scene)) plan.elevation_slices = scene.accuracy.elevation_slices;
   plan.travel_time = decide(plan, Effect::travel_time, wanted.travel_time,
                             {false, "echoes are placed at their path length"});
+  planPulse(scene, plan);
   planTrabeculae(scene, plan);
   planSpeckle(scene, plan);
   planArtefacts(scene, plan);

@@ -38,7 +38,10 @@ struct EffectPlan {
   bool speckle = false;
   bool heterogeneity = false, anisotropy = false;  // of the scatterers
   bool coherent_echoes = false;                    // interfaces keep part of their phase
-  bool dropout = false, acoustic_window = false, haze = false, reverberation = false;
+  bool dropout = false, acoustic_window = false, shading = false;
+  bool haze = false, reverberation = false;
+  bool harmonic = false, downshift = false;  // of the sampled beam
+  bool edge_enhancement = false;
   bool clutter = false, noise = false, persistence = false;
   bool averaged = false;  // clutter and noise add their mean power; planned by src/study alone
   bool rolling = false;   // groups of lines have their own instants

@@ -46,8 +46,25 @@ void planTissue(const Scene& scene, EffectPlan& plan) {
 
 }  // namespace
 
+void planPulse(const Scene& scene, EffectPlan& plan) {
+  const SignalSettings& s = scene.signal;
+  const bool sampled = plan.beam_width && s.beam_width == BeamWidth::profile &&
+                       plan.rays_per_beam == 1 && scene.probe.lines > 1;
+  const std::string off = "the beam is not the sampled profile";
+  const double mhz = 1e-6 * scene.probe.frequency_hz;
+  plan.harmonic =
+      decidePicture(scene, plan, Effect::harmonic, s.harmonic, sampled, off,
+                    fmt::format("sent at {:g} MHz, received at {:g} MHz", mhz / 2, mhz));
+  plan.downshift = decidePicture(scene, plan, Effect::downshift, s.downshift, sampled, off,
+                                 "attenuation takes more of the high frequencies");
+}
+
 void planGreyMap(const Scene& scene, EffectPlan& plan) {
   const SignalSettings& s = scene.signal;
+  plan.edge_enhancement =
+      decidePicture(scene, plan, Effect::edge_enhancement, s.edge_enhancement > 0, true, "",
+                    fmt::format("differences from the mean over {:g} mm grow by {:g} %",
+                                millimetresFromMetres(s.edge_size_m), 100 * s.edge_enhancement));
   decidePicture(scene, plan, Effect::grey_map, !GreyCurve(s).isIdentity(), true, "",
                 fmt::format("gamma {:g}; the lowest {:g} % of the dynamic range are black, the "
                             "highest {:g} % bend to white",
@@ -89,6 +106,9 @@ void planArtefacts(const Scene& scene, EffectPlan& plan) {
   plan.acoustic_window = decidePicture(
       scene, plan, Effect::acoustic_window, a.acoustic_window, true, "",
       fmt::format("ribs leave {:g} mm open", millimetresFromMetres(a.window_width_m)));
+  plan.shading = decidePicture(scene, plan, Effect::shading, a.shading, true, "",
+                               fmt::format("patches of {:g} mm in the chest wall vary by {:g} dB",
+                                           millimetresFromMetres(a.shading_grain_m), a.shading_db));
   plan.haze =
       decidePicture(scene, plan, Effect::haze, a.haze, lines, one,
                     fmt::format("aberration and multiple scattering at {:g} dB", a.haze_db));

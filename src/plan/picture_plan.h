@@ -16,6 +16,9 @@ void planTrabeculae(const Scene& scene, EffectPlan& plan);
 void planSpeckle(const Scene& scene, EffectPlan& plan);
 
 // Drop-out, ribs, haze, reverberation, clutter, noise and persistence.
+// Second harmonic and downshift. Precondition: plan.beam_width is decided.
+void planPulse(const Scene& scene, EffectPlan& plan);
+
 void planArtefacts(const Scene& scene, EffectPlan& plan);
 
 }  // namespace echocine

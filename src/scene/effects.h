@@ -35,14 +35,18 @@ enum class Effect {
   coherent_echoes,
   dropout,
   acoustic_window,
+  shading,
   haze,
   reverberation,
   clutter,
   noise,
   persistence,
   rolling,
+  harmonic,
+  downshift,
   tgc,
   log_compression,
+  edge_enhancement,
   grey_map,
   labels,
   truth_labels,
@@ -71,13 +75,18 @@ struct EffectSwitches {
 
 // Artefacts of a scanner, independent of each other. Levels are intensities.
 struct ArtefactSettings {
-  bool dropout = false;                         // lines at the sector's edges lose contact
-  double dropout_db = 12;                       // on the outermost lines
-  bool acoustic_window = false;                 // ribs shade part of the aperture
-  double window_width_m = 24e-3;                // between them
-  double window_offset_m = 0;                   // of its middle, along the lateral axis
-  double window_depth_m = 12e-3;                // of the ribs, from the probe's face
-  double window_shadow_db = 30;                 // loss in the full shadow, both ways
+  bool dropout = false;            // lines at the sector's edges lose contact
+  double dropout_db = 12;          // on the outermost lines
+  bool acoustic_window = false;    // ribs shade part of the aperture
+  double window_width_m = 24e-3;   // between them
+  double window_offset_m = 0;      // of its middle, along the lateral axis
+  double window_depth_m = 12e-3;   // of the ribs, from the probe's face
+  double window_shadow_db = 30;    // loss in the full shadow, both ways
+  bool shading = false;            // the chest wall transmits unevenly
+  double shading_db = 3;           // standard deviation of one passage
+  double shading_grain_m = 10e-3;  // size of its patches
+  double shading_depth_m = 20e-3;  // from the probe's face
+  int shading_seed = 1;
   bool haze = false;                            // aberration, multiple scattering: across the lines
   double haze_db = -24;                         // relative to all its sources
   double haze_width_rad = 0.12217304763960307;  // where it has fallen to 1/e
@@ -134,14 +143,18 @@ inline constexpr EffectRow kEffects[] = {
     {Effect::coherent_echoes, "coherent_echoes", Stage::speckle, {.fixed = 0.1}},
     {Effect::dropout, "dropout", Stage::signal, {.fixed = 0.05}},
     {Effect::acoustic_window, "acoustic_window", Stage::signal, {.fixed = 0.05}},
+    {Effect::shading, "shading", Stage::signal, {.fixed = 0.05}},
     {Effect::haze, "haze", Stage::signal, {.fixed = 0.3}},
     {Effect::reverberation, "reverberation", Stage::signal, {.fixed = 0.2}},
     {Effect::clutter, "clutter", Stage::signal, {.fixed = 0.05}},
     {Effect::noise, "noise", Stage::signal, {.fixed = 0.15}},
     {Effect::persistence, "persistence", Stage::signal},
     {Effect::rolling, "rolling", Stage::motion},
+    {Effect::harmonic, "harmonic", Stage::signal, {.fixed = 0.02}},
+    {Effect::downshift, "downshift", Stage::signal},
     {Effect::tgc, "tgc", Stage::signal, {.fixed = 0.05}},
     {Effect::log_compression, "log_compression", Stage::signal, {.fixed = 0.2}},
+    {Effect::edge_enhancement, "edge_enhancement", Stage::signal, {.fixed = 0.1}},
     {Effect::grey_map, "grey_map", Stage::signal},
     {Effect::labels, "labels", Stage::trace, {.scattered = 0.1}},
     {Effect::truth_labels, "truth labels", Stage::truth},

@@ -25,6 +25,7 @@ inline constexpr NumberRange kDynamicRange_db{.lo = 0.01, .hi = 1000};
 inline constexpr NumberRange kReferenceIntensity{.lo = 1e-37, .hi = 1e37};  // floats
 inline constexpr NumberRange kGamma{.lo = 0.01, .hi = 100};
 inline constexpr NumberRange kGreyToe{.lo = 0, .hi = 0.3}, kGreyShoulder{.lo = 0, .hi = 0.4};
+inline constexpr NumberRange kEdge{.lo = 0, .hi = 4};
 inline constexpr NumberRange kToleranceLines{.lo = 0, .hi = 1e6};
 inline constexpr NumberRange kTolerance_db{.lo = 1e-6, .hi = 1000};
 inline constexpr NumberRange kLevel_db{.lo = -200, .hi = 60};  // of an artefact

@@ -83,7 +83,16 @@ double speckleWidening(Apodization receive) {
              : deviationOfPupil(Apodization::uniform) / deviationOfPupil(receive);
 }
 
-SampledBeam::SampledBeam(const Probe& probe, double pulse_cycles)
+double downshiftOf(const Probe& probe, double pulse_cycles, double attenuation_np_per_m_hz,
+                   double path_m) {
+  constexpr double kLeast = 0.5;
+  const double deviation = spectrumDeviation(pulse_cycles, probe.bandwidth);
+  return std::max(
+      1 - 4 * attenuation_np_per_m_hz * path_m * deviation * deviation * probe.frequency_hz,
+      kLeast);
+}
+
+SampledBeam::SampledBeam(const Probe& probe, double pulse_cycles, bool harmonic)
     : aperture_m_(probe.aperture_m), focus_m_(probe.focus_m) {
   const double wavelength_m = ScanGeometry(probe).wavelength(), half_m = 0.5 * aperture_m_;
   const double nearest_m = std::max(probe.min_depth_m, nearestPath(aperture_m_));
@@ -99,7 +108,7 @@ SampledBeam::SampledBeam(const Probe& probe, double pulse_cycles)
   const double most_u = std::min(kMostU, kGratingShare * double{kMostElements} / widths);
   steps_ = static_cast<std::size_t>(std::ceil(most_u * kStepsPerWidth * widths)) + 1;
   steps_per_u_ = static_cast<double>(steps_ - 1) / most_u;
-  fill(probe, pulse_cycles);
+  fill(probe, pulse_cycles, harmonic);
 }
 
 namespace {
@@ -129,15 +138,19 @@ struct HalfAperture {
 // Powers of a frequency by u, for any defocus.
 class FrequencyPowers {
  public:
-  FrequencyPowers(const HalfAperture& aperture, double wave_number, std::size_t steps,
-                  double steps_per_u)
-      : aperture_(aperture), wave_number_(wave_number), receive_(steps, 0.0) {
+  FrequencyPowers(const HalfAperture& aperture, double wave_number, bool harmonic,
+                  std::size_t steps, double steps_per_u)
+      : aperture_(aperture),
+        sent_wave_number_(harmonic ? 0.5 * wave_number : wave_number),
+        harmonic_(harmonic),
+        receive_(steps, 0.0) {
     for (std::size_t n = 0; n < aperture.size(); ++n)
       for (std::size_t s = 0; s < steps; ++s) {
         const double across = wave_number * static_cast<double>(s) / steps_per_u;
-        const double cosine = std::cos(across * aperture.places_m[n]);
-        cosines_.push_back(cosine * aperture.transmit[n]);
-        receive_[s] += cosine * aperture.receive[n];
+        const double received = std::cos(across * aperture.places_m[n]);
+        const double sent = harmonic ? std::cos(0.5 * across * aperture.places_m[n]) : received;
+        cosines_.push_back(sent * aperture.transmit[n]);
+        receive_[s] += received * aperture.receive[n];
       }
     for (double& power : receive_) power *= power;
   }
@@ -146,7 +159,7 @@ class FrequencyPowers {
     const std::size_t steps = receive_.size();
     std::vector<double> real(steps, 0.0), imaginary(steps, 0.0);
     for (std::size_t n = 0; n < aperture_.size(); ++n) {
-      const double x = aperture_.places_m[n], phase = 0.5 * wave_number_ * x * x * defocus;
+      const double x = aperture_.places_m[n], phase = 0.5 * sent_wave_number_ * x * x * defocus;
       const double cosine = std::cos(phase), sine = std::sin(phase);
       const double* const across = &cosines_[n * steps];
       for (std::size_t s = 0; s < steps; ++s) {
@@ -154,19 +167,22 @@ class FrequencyPowers {
         imaginary[s] -= across[s] * sine;
       }
     }
-    for (std::size_t s = 0; s < steps; ++s)
-      powers[s] += weight * (real[s] * real[s] + imaginary[s] * imaginary[s]) * receive_[s];
+    for (std::size_t s = 0; s < steps; ++s) {
+      const double sent = real[s] * real[s] + imaginary[s] * imaginary[s];
+      powers[s] += weight * (harmonic_ ? sent * sent : sent) * receive_[s];
+    }
   }
 
  private:
   const HalfAperture& aperture_;
-  double wave_number_;
+  double sent_wave_number_;
+  bool harmonic_;
   std::vector<double> cosines_, receive_;  // by element and u; by u
 };
 
 }  // namespace
 
-void SampledBeam::fill(const Probe& probe, double pulse_cycles) {
+void SampledBeam::fill(const Probe& probe, double pulse_cycles, bool harmonic) {
   const double wavelength_m = ScanGeometry(probe).wavelength();
   const HalfAperture aperture(probe, wavelength_m);
   const double deviation = spectrumDeviation(pulse_cycles, probe.bandwidth);
@@ -175,7 +191,7 @@ void SampledBeam::fill(const Probe& probe, double pulse_cycles) {
     const double away = f - kFrequencies / 2;
     const double relative = std::max(kCentre + away * deviation, kLeastFrequency);
     const FrequencyPowers of_frequency(aperture, 2 * std::numbers::pi / wavelength_m * relative,
-                                       steps_, steps_per_u_);
+                                       harmonic, steps_, steps_per_u_);
     parallelBlocks(defocuses_, 4, [&](std::size_t begin, std::size_t end) {
       for (std::size_t d = begin; d < end; ++d)
         of_frequency.add(first_defocus_ + static_cast<double>(d) * defocus_step_,

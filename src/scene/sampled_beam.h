@@ -12,6 +12,10 @@
 // five frequencies, a Gaussian about the centre. Transmit has no apodization; receive is focused at
 // every depth. Its energy over the pulse, not the peak of the envelope.
 //
+// Second-harmonic imaging (signal/harmonic.h) sends at half the frequency, and the harmonic has the
+// square of the sent intensity: the first sum is then |sum_n exp(j k_f u x_n / 2) ...|^4, with k_f
+// / 2 in its defocus too.
+//
 // Limits: an aperture over 64 wavelengths has 128 elements, farther apart; beyond 0.9 of the u of
 // their first grating lobe P counts as 0. Paraxial in q, so paths nearer than half the aperture
 // keep the value there. Full widths differ from a sum over the elements with exact distances by at
@@ -38,6 +42,14 @@ double spectrumDeviation(double pulse_cycles, double bandwidth);
 // Zernike); widths are inverse to the deviation of |H|^2.
 double speckleWidening(Apodization receive);
 
+// Centre frequency of the echo from a path length over that of the pulse: attenuation alpha f,
+// alpha in Np/(m Hz) of amplitude, moves the centre of a Gaussian spectrum to
+//   f0 - 4 alpha z sigma^2                                                                     (B5)
+// with sigma the deviation of its intensity, in Hz. Limit: at least 0.5. Widths grow as its
+// inverse.
+double downshiftOf(const Probe& probe, double pulse_cycles, double attenuation_np_per_m_hz,
+                   double path_m);
+
 class SampledBeam {
   // For one u: the integral of P from 0 to it, and P per step of the table.
   struct Entry {
@@ -45,7 +57,7 @@ class SampledBeam {
   };
 
  public:
-  SampledBeam(const Probe& probe, double pulse_cycles);
+  SampledBeam(const Probe& probe, double pulse_cycles, bool harmonic = false);
 
   // Of (B2); steering: sin(theta).
   double defocus(double path_m, double steering) const;
@@ -69,7 +81,7 @@ class SampledBeam {
   Profile at(double defocus) const;
 
  private:
-  void fill(const Probe& probe, double pulse_cycles);
+  void fill(const Probe& probe, double pulse_cycles, bool harmonic);
   void integrate(std::span<const double> powers);
 
   double aperture_m_, focus_m_;

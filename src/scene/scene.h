@@ -84,6 +84,10 @@ struct SignalSettings {
   std::optional<double> interface_limit_db;
   // The grey map (grey_curve.h). Toe and shoulder: shares of the dynamic range.
   double grey_gamma = 1, grey_toe = 0, grey_shoulder = 0;
+  bool harmonic = false;   // echoes of the second harmonic, sent at half the probe's frequency
+  bool downshift = false;  // attenuation lowers the centre frequency with depth
+  // Unsharp masking of grey levels: 0 none; size of its box.
+  double edge_enhancement = 0, edge_size_m = 3e-3;
 };
 
 // Relief of the ventricles' inner surfaces, in the picture only (motion/surfaces/trabeculae.h).

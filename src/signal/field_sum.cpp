@@ -15,11 +15,11 @@ FieldSum::FieldSum(const Scene& scene, const EffectPlan& plan, std::span<const f
   if (plan.noise) levels_ = noiseLevels(scene, gains);
   if (plan.clutter) {
     levels_.resize(static_cast<std::size_t>(samples_));
-    const std::vector<float> clutter = clutterLevels(scene);
+    const std::vector<float> clutter = clutterLevels(scene, plan.harmonic);
     for (std::size_t k = 0; k < clutter.size(); ++k) levels_[k] += clutter[k];
   }
   if (plan.averaged) return;
-  if (plan.clutter) clutter_.emplace(scene);
+  if (plan.clutter) clutter_.emplace(scene, plan.harmonic);
   if (plan.noise) noise_.emplace(scene, gains);
 }
 

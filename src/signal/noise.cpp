@@ -9,6 +9,7 @@
 #include "core/normal_lanes.h"
 #include "core/units.h"
 #include "scene/scan_geometry.h"
+#include "signal/harmonic.h"
 #include "speckle/point_spread.h"
 
 namespace echocine {
@@ -50,7 +51,7 @@ std::vector<float> noiseLevels(const Scene& scene, std::span<const float> gains)
   return levels;
 }
 
-std::vector<float> clutterLevels(const Scene& scene) {
+std::vector<float> clutterLevels(const Scene& scene, bool harmonic) {
   constexpr double kLeast = 1e-6;
   const double level = intensityFromDecibels(scene.artefacts.clutter_db);
   const ScanGeometry geometry(scene.probe);
@@ -60,6 +61,9 @@ std::vector<float> clutterLevels(const Scene& scene) {
     if (falls < kLeast) break;
     levels.push_back(static_cast<float>(level * falls));
   }
+  if (!harmonic) return levels;
+  const std::vector<float> built = buildUps(scene.probe), gains = gainsOfBuildUp(scene.probe);
+  for (std::size_t k = 0; k < levels.size(); ++k) levels[k] *= built[k] * gains[k];
   return levels;
 }
 
@@ -131,8 +135,8 @@ void ReceiverNoise::add(double white, double time_s, int line, float* real,
   }
 }
 
-NearFieldClutter::NearFieldClutter(const Scene& scene)
-    : amplitudes_(rootsOf(clutterLevels(scene))),
+NearFieldClutter::NearFieldClutter(const Scene& scene, bool harmonic)
+    : amplitudes_(rootsOf(clutterLevels(scene, harmonic))),
       random_(std::max(scene.probe.lines, 128), std::max(scene.probe.samples, 512),
               grainOf(scene, scene.artefacts.clutter_width_rad),
               hashOf(scene.artefacts.clutter_seed, kClutter)) {}

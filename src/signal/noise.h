@@ -17,7 +17,7 @@ float heldWhite(double white);
 // Mean powers over white, by sample: of the receiver's noise, and of the near-field clutter up to
 // its end. Their classes below have the equations.
 std::vector<float> noiseLevels(const Scene& scene, std::span<const float> gains);
-std::vector<float> clutterLevels(const Scene& scene);
+std::vector<float> clutterLevels(const Scene& scene, bool harmonic = false);
 
 // Complex Gaussian noise of the receiver. Before the time gain it is white in depth and of equal
 // power at all depths; the filter of the pulse limits its band, as it does that of the echoes.
@@ -45,9 +45,11 @@ class ReceiverNoise {
 
 // Reverberation between face and chest wall: mean power level white exp(-r / length) at the path
 // length r. It stands still with the probe while the heart beats. It ends 60 dB below its level.
+// The second harmonic has hardly built up there: its clutter is weaker by the build-up and its gain
+// (harmonic.h).
 class NearFieldClutter {
  public:
-  explicit NearFieldClutter(const Scene& scene);
+  explicit NearFieldClutter(const Scene& scene, bool harmonic = false);
 
   void add(double white, int line, float* real, float* imaginary) const;
 

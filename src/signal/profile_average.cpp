@@ -45,10 +45,10 @@ struct ProfileAverage::Slab {
         groups(static_cast<std::size_t>(average.windows_.groups)) {}
 };
 
-ProfileAverage::ProfileAverage(const Probe& probe, double pulse_cycles)
+ProfileAverage::ProfileAverage(const Probe& probe, const BeamPulse& pulse)
     : lines_(probe.lines),
       samples_(probe.samples),
-      shared_(sharedProfileWindows(probe, pulse_cycles)),
+      shared_(sharedProfileWindows(probe, pulse)),
       windows_(*shared_) {}
 
 void ProfileAverage::apply(std::vector<float>& plane, LineRange lines, BeamPart part) const {

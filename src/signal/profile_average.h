@@ -23,7 +23,7 @@ enum class BeamPart { whole, main_lobe };
 class ProfileAverage {
  public:
   // Precondition: at least two lines.
-  ProfileAverage(const Probe& probe, double pulse_cycles);
+  ProfileAverage(const Probe& probe, const BeamPulse& pulse);
 
   // Averages the lines of a line-major plane in place; reads all lines. The main lobe alone has the
   // same weights, without those of the side lobes; it is for planes of few echoes. Runs in

@@ -88,28 +88,37 @@ class Directions {
 
 class WindowBuilder {
  public:
-  WindowBuilder(ProfileWindows& all, const Probe& rows, double pulse_cycles)
-      : all_(all), geometry_(rows), directions_(rows), beam_(rows, pulse_cycles) {}
+  WindowBuilder(ProfileWindows& all, const Probe& rows, const BeamPulse& pulse)
+      : all_(all),
+        probe_(rows),
+        pulse_(pulse),
+        geometry_(rows),
+        directions_(rows),
+        beam_(rows, pulse.cycles, pulse.harmonic) {}
 
   void addZone(int first, int last) {
     all_.zones.push_back({first, last, all_.windows.size()});
     const double path_m = 0.5 * (geometry_.sampleDepth(first) + geometry_.sampleDepth(last - 1));
+    // P depends on u k_f and q k_f, so a lower frequency scales both.
+    scale_ = downshiftOf(probe_, pulse_.cycles, pulse_.downshift_np_per_m_hz, path_m);
     for (int row = 0; row < all_.rows; ++row) addWindow(row, path_m);
   }
 
  private:
   void addWindow(int row, double path_m) {
-    const SampledBeam::Profile profile = beam_.at(beam_.defocus(path_m, directions_.steering(row)));
+    const SampledBeam::Profile profile =
+        beam_.at(scale_ * beam_.defocus(path_m, directions_.steering(row)));
     const int group = all_.in_group, rows = all_.rows;
     const std::span<const double> borders = directions_.borders(row, path_m);
     const auto border = [&](int before) { return borders[static_cast<std::size_t>(before)]; };
     int first = row / group * group, end = std::min(first + group, rows);
-    while (first > 0 && border(first) > -profile.mainLobe()) first -= group;
-    while (end < rows && border(end) < profile.mainLobe()) end = std::min(end + group, rows);
+    while (first > 0 && scale_ * border(first) > -profile.mainLobe()) first -= group;
+    while (end < rows && scale_ * border(end) < profile.mainLobe())
+      end = std::min(end + group, rows);
     all_.windows.push_back({first, end, all_.weights.size()});
     weights_.clear();
     at_ = border(0);
-    before_ = profile.integral(at_);
+    before_ = profile.integral(scale_ * at_);
     for (int i = group; i <= first; i += group) addUntil(border(i), profile);
     for (int i = first + 1; i <= end; ++i) addUntil(border(i), profile);
     for (int i = end; i < rows; i += group) addUntil(border(std::min(i + group, rows)), profile);
@@ -123,12 +132,15 @@ class WindowBuilder {
   // Beyond a right angle the sine falls again; such lines weigh nothing.
   void addUntil(double u, const SampledBeam::Profile& profile) {
     at_ = std::max(at_, u);
-    const double until = profile.integral(at_);
+    const double until = profile.integral(scale_ * at_);
     weights_.push_back(std::max(until - before_, 0.0));  // rounding may leave less
     before_ = until;
   }
 
   ProfileWindows& all_;
+  const Probe& probe_;
+  const BeamPulse& pulse_;
+  double scale_ = 1;  // centre frequency at the depth of a zone, over that of the pulse
   ScanGeometry geometry_;
   Directions directions_;
   SampledBeam beam_;
@@ -138,7 +150,7 @@ class WindowBuilder {
 
 }  // namespace
 
-ProfileWindows::ProfileWindows(const Probe& probe, double pulse_cycles)
+ProfileWindows::ProfileWindows(const Probe& probe, const BeamPulse& pulse)
     : in_row(atLeast(probe.lines, kMostRows)) {
   const Probe probe_of_rows = probeOfRows(probe, in_row);
   const ScanGeometry geometry(probe_of_rows);
@@ -147,7 +159,7 @@ ProfileWindows::ProfileWindows(const Probe& probe, double pulse_cycles)
   in_group = static_cast<int>(
       std::clamp(kGroup * in_null, double{1} * atLeast(rows, kMostGroups), double{1} * rows));
   groups = atLeast(rows, in_group);
-  WindowBuilder builder(*this, probe_of_rows, pulse_cycles);
+  WindowBuilder builder(*this, probe_of_rows, pulse);
   const int lanes = kFloatLanes;
   for (int first = 0, last = 0; first < probe.samples; first = last) {
     const double samples = kZone * geometry.sampleDepth(first) / probe.sampleSpacing();
@@ -160,24 +172,24 @@ namespace {
 
 // All of a probe that windows depend on: not its pose or its lens. A new member of Probe does not
 // compile until it stands here.
-auto keyOf(const Probe& probe, double pulse_cycles) {
+auto keyOf(const Probe& probe, const BeamPulse& pulse) {
   const auto& [kind, pose, first_angle, last_angle, face_radius, first_offset, last_offset,
                min_depth, max_depth, frequency, aperture, focus, apodization, bandwidth,
                elevation_aperture, elevation_focus, line_count, sample_count] = probe;
   return std::tuple(kind, first_angle, last_angle, face_radius, first_offset, last_offset,
                     min_depth, max_depth, frequency, aperture, focus, apodization, bandwidth,
-                    line_count, sample_count, pulse_cycles);
+                    line_count, sample_count, pulse.cycles, pulse.harmonic,
+                    pulse.downshift_np_per_m_hz);
 }
 
 }  // namespace
 
 // Windows of 256 lines by 1024 samples are some megabytes. Our choice: a run has one or two probes.
 std::shared_ptr<const ProfileWindows> sharedProfileWindows(const Probe& probe,
-                                                           double pulse_cycles) {
+                                                           const BeamPulse& pulse) {
   constexpr std::size_t kMostKept = 2;
-  static RecentValues<decltype(keyOf(probe, pulse_cycles)), ProfileWindows> recent(kMostKept);
-  return recent.get(keyOf(probe, pulse_cycles),
-                    [&] { return ProfileWindows(probe, pulse_cycles); });
+  static RecentValues<decltype(keyOf(probe, pulse)), ProfileWindows> recent(kMostKept);
+  return recent.get(keyOf(probe, pulse), [&] { return ProfileWindows(probe, pulse); });
 }
 
 const ProfileWindows::Zone& ProfileWindows::zoneOf(int sample) const {

@@ -9,6 +9,18 @@
 
 namespace echocine {
 
+// What the beam depends on besides its probe. The attenuation of (B5) is 0 without downshift.
+struct BeamPulse {
+  // A length alone is a fundamental pulse.
+  BeamPulse(double length_cycles, bool second_harmonic = false, double attenuation_np_per_m_hz = 0)
+      : cycles(length_cycles),
+        harmonic(second_harmonic),
+        downshift_np_per_m_hz(attenuation_np_per_m_hz) {}
+  double cycles;
+  bool harmonic;
+  double downshift_np_per_m_hz;
+};
+
 struct ProfileWindows {
   // Adjacent samples that share their weights: 1/40 of the depth, at least 8 samples.
   struct Zone {
@@ -23,7 +35,7 @@ struct ProfileWindows {
   };
 
   // Precondition: at least two lines.
-  ProfileWindows(const Probe& probe, double pulse_cycles);
+  ProfileWindows(const Probe& probe, const BeamPulse& pulse);
 
   const Zone& zoneOf(int sample) const;
 
@@ -36,6 +48,7 @@ struct ProfileWindows {
 
 // Those of a probe, wherever it stands. Simulators of equal probes share them, at once or one after
 // the other: the windows of the last few probes are kept. Thread-safe.
-std::shared_ptr<const ProfileWindows> sharedProfileWindows(const Probe& probe, double pulse_cycles);
+std::shared_ptr<const ProfileWindows> sharedProfileWindows(const Probe& probe,
+                                                           const BeamPulse& pulse);
 
 }  // namespace echocine

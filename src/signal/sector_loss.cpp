@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/units.h"
 #include "scene/scan_geometry.h"
+#include "signal/chest_screen.h"
 
 namespace echocine {
 
@@ -31,9 +33,11 @@ double RibGap::factor(double start_x_m, double x_m, double z_m) const {
 
 std::vector<float> sectorLosses(const Probe& probe, const ArtefactSettings& settings,
                                 const EffectPlan& plan) {
-  if (!plan.dropout && !plan.acoustic_window) return {};
+  if (!plan.dropout && !plan.acoustic_window && !plan.shading) return {};
   const RibGap gap{probe.aperture_m, settings.window_width_m, settings.window_offset_m,
                    settings.window_depth_m, settings.window_shadow_db};
+  std::optional<ChestScreen> screen;
+  if (plan.shading) screen.emplace(probe, settings);
   const ScanGeometry geometry(probe);
   std::vector<float> factors;
   for (int i = 0; i < probe.lines; ++i) {
@@ -44,7 +48,9 @@ std::vector<float> sectorLosses(const Probe& probe, const ArtefactSettings& sett
       const Vec3d at = line.origin + geometry.sampleDepth(k) * line.direction;
       const double ribs =
           plan.acoustic_window ? gap.factor(line.origin.x, at.x, at.z - probe.face_radius_m) : 1;
-      factors.push_back(static_cast<float>(edge * ribs));
+      const double patches =
+          screen ? screen->factor(line.origin.x, at.x, at.z - probe.face_radius_m) : 1;
+      factors.push_back(static_cast<float>(edge * ribs * patches));
     }
   }
   return factors;

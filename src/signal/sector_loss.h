@@ -1,6 +1,6 @@
 #pragma once
-// Losses of a scan line in the patient's chest: lost contact towards the sector's edges, and ribs
-// that shade part of the aperture.
+// Losses of a scan line in the patient's chest: lost contact towards the sector's edges, ribs that
+// shade part of the aperture, and patches of the chest wall (chest_screen.h).
 
 #include <span>
 #include <vector>
@@ -24,7 +24,7 @@ struct RibGap {
   double factor(double start_x_m, double x_m, double z_m) const;
 };
 
-// Factors of all samples, line-major; empty if the plan has neither effect.
+// Factors of all samples, line-major; empty if the plan has none of these effects.
 std::vector<float> sectorLosses(const Probe& probe, const ArtefactSettings& settings,
                                 const EffectPlan& plan);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/units.h"
+#include "signal/harmonic.h"
 #include "signal/log_compression.h"
 #include "signal/sector_loss.h"
 #include "signal/time_gain.h"
@@ -11,13 +12,35 @@ namespace echocine {
 
 namespace {
 
-std::vector<float> gainsOf(const Scene& scene, const EffectPlan& plan) {
+std::vector<float> gainsOfPath(const Scene& scene, const EffectPlan& plan) {
   const SignalSettings& s = scene.signal;
   if (s.tgc == Tgc::mean) return gainsAgainst(plan.mean_loss);
   if (s.tgc == Tgc::table) return timeGains(s.tgc_table, scene.probe);
   if (s.tgc == Tgc::nominal && plan.attenuation)
     return nominalGains(s.nominal_gain_np_per_m_hz * scene.probe.frequency_hz, scene.probe);
   return {};
+}
+
+// The examiner evens the build-up of the second harmonic, unless the gain is stated.
+std::vector<float> gainsOf(const Scene& scene, const EffectPlan& plan) {
+  std::vector<float> gains = gainsOfPath(scene, plan);
+  const Tgc tgc = scene.signal.tgc;
+  if (!plan.harmonic || (tgc != Tgc::mean && tgc != Tgc::perfect)) return gains;
+  const std::vector<float> evening = gainsOfBuildUp(scene.probe);
+  if (gains.empty()) return evening;
+  for (std::size_t k = 0; k < gains.size(); ++k) gains[k] *= evening[k];
+  return gains;
+}
+
+// Haze comes in equal parts from the sent and the received wave. The harmonic of a weak wave is
+// its square, so the sent half is lost.
+double hazeLevel(const ArtefactSettings& artefacts, const EffectPlan& plan) {
+  return artefacts.haze_db - (plan.harmonic ? decibelsFromIntensity(2) : 0);
+}
+
+BeamPulse pulseOf(const Scene& scene, const EffectPlan& plan) {
+  const SignalSettings& s = scene.signal;
+  return {s.pulse_cycles, plan.harmonic, plan.downshift ? s.nominal_gain_np_per_m_hz : 0};
 }
 
 }  // namespace
@@ -34,17 +57,20 @@ SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
   SignalSettings average = scene.signal;
   if (plan.rays_per_beam > 1) average.beam_width = BeamWidth::none;  // the rays are the beam
   if (plan.beam_width && average.beam_width == BeamWidth::profile && scene.probe.lines > 1) {
-    profile_.emplace(scene.probe, scene.signal.pulse_cycles);
+    profile_.emplace(scene.probe, pulseOf(scene, plan));
     average.beam_width = BeamWidth::none;
   }
   if (plan.beam_width) beam_.emplace(scene.probe, average);
   const ArtefactSettings& a = scene.artefacts;
+  if (plan.edge_enhancement) edges_.emplace(scene.probe, scene.signal);
   losses_ = sectorLosses(scene.probe, a, plan);
-  if (plan.haze) haze_.emplace(scene.probe, a.haze_db, a.haze_width_rad);
+  if (plan.harmonic) build_up_ = buildUps(scene.probe);
+  if (plan.haze) haze_.emplace(scene.probe, hazeLevel(a, plan), a.haze_width_rad);
   if (plan.reverberation) tail_.emplace(scene.probe, a.reverberation_db, a.reverberation_length_m);
 }
 
 void SignalChain::process(Intensities& intensities, LineRange lines) const {
+  if (!build_up_.empty()) applyTimeGains(build_up_, intensities);
   if (!gains_.empty()) applyTimeGains(gains_, intensities);
   averageOverBeam(intensities.values, haze_ ? all_lines_ : lines, BeamPart::whole);
   if (!losses_.empty()) applySectorLosses(losses_, intensities);
@@ -75,6 +101,7 @@ std::vector<int> SignalChain::taken(LineRange lines) const {
 void SignalChain::process(CoherentEchoes& echoes, LineRange lines) const {
   if (echoes.empty()) return;
   for (std::vector<float>* plane : {&echoes.intensity, &echoes.real, &echoes.imaginary}) {
+    if (!build_up_.empty()) applyTimeGains(build_up_, *plane);
     if (!gains_.empty()) applyTimeGains(gains_, *plane);
     averageOverBeam(*plane, lines, BeamPart::main_lobe);
     if (!losses_.empty()) applySectorLosses(losses_, *plane);
@@ -87,6 +114,7 @@ Greys SignalChain::compress(Intensities&& intensities, double reference_intensit
   Greys greys(intensities.release());
   if (fields_.adds()) fields_.add(white, time_s, field, greys);
   compressIntensities(greys, white, settings_.dynamic_range_db, greys);
+  if (edges_) edges_->apply(greys);
   return greys;
 }
 

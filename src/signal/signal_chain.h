@@ -1,8 +1,8 @@
 #pragma once
 // The scanner's signal processing, the same in every frame of a loop: time gain -> beam width ->
-// drop-out, ribs, haze, reverberation -> (speckle) -> clutter, noise -> log compression -> scan
-// conversion -> grey map. The tracer handles the spread, because it knows the scattered part, by
-// the intensity_terms of its request.
+// drop-out, ribs, patches, haze, reverberation -> (speckle) -> clutter, noise -> log compression ->
+// scan conversion -> grey map. The tracer handles the spread, because it knows the scattered part,
+// by the intensity_terms of its request.
 
 #include <optional>
 #include <vector>
@@ -10,6 +10,7 @@
 #include "core/beam_plane.h"
 #include "plan/effect_plan.h"
 #include "signal/beam_width.h"
+#include "signal/edge_enhancement.h"
 #include "signal/field_sum.h"
 #include "signal/haze.h"
 #include "signal/profile_average.h"
@@ -61,9 +62,11 @@ class SignalChain {
   std::optional<BeamAverage> beam_;
   std::optional<ProfileAverage> profile_;  // across the lines, where beam_ is along them alone
   std::vector<float> losses_;              // by drop-out and ribs; empty: none
+  std::vector<float> build_up_;            // of the second harmonic; empty: none
   std::optional<LateralHaze> haze_;
   std::optional<ReverberationTail> tail_;
   FieldSum fields_;
+  std::optional<EdgeEnhancement> edges_;
   PictureGeometry geometry_;
   ScanConverter converter_;
 };
