@@ -1,6 +1,6 @@
 #pragma once
-// How well a straight line through texture statistics tells simulated pictures from real ones, and
-// which statistics give a picture away.
+// How well a linear and a boosted classifier of texture statistics tell simulated pictures
+// from real ones, and which statistics give a picture away.
 
 #include <string>
 #include <vector>
@@ -17,9 +17,9 @@ struct PictureGroup {
 // Frames of a loop, every third: neighbours are nearly equal.
 PictureGroup framesOf(const std::string& video, double mm_per_pixel);
 
-// Fisher's linear discriminant over the statistics that need no labels. Prints the area under the
-// ROC curve of the pictures it was fitted to and of those held out (each real loop in turn, with
-// every other heart), and the two statistics of the greatest weight, in standard deviations.
+// Fisher's linear discriminant and boosted stumps over the statistics that need no labels. Prints
+// the area under the ROC curve of the pictures that they were fitted to and of those held out (each
+// real loop in turn, with every other heart), and the two statistics of the greatest weight.
 void printClassifier(const std::vector<PictureGroup>& simulated,
                      const std::vector<PictureGroup>& real);
 

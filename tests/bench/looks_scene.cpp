@@ -71,6 +71,7 @@ void takeTables(const LookHearts& options, Scene& scene) {
 void seedScene(int number, Scene& scene) {
   scene.speckle.seed = number + 1;
   scene.artefacts.noise_seed = scene.artefacts.clutter_seed = number + 1;
+  scene.artefacts.shading_seed = number + 1;
   scene.speckle.heterogeneity_seed = scene.trabeculae.seed = number + 1;
 }
 
