@@ -30,7 +30,7 @@ struct Balloon {
   std::vector<Vec3d> points(std::span<const Bearing> bearings) const;  // of its own outline
   // Moves each point away from the axis until it is at least `gap_m` outside.
   void pushOut(double gap_m, std::vector<Vec3d>& points) const;
-  // Of the section at zeta: its centre, and its radius in the direction of a point.
+  // Centre of the section at zeta, and its radius in the direction of a point.
   Vec3d centre(double zeta) const;
   double radiusTowards(Vec3d point, double zeta) const;
 

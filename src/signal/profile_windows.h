@@ -9,7 +9,7 @@
 
 namespace echocine {
 
-// What the beam depends on besides its probe. The attenuation of (B5) is 0 without downshift.
+// Properties of the pulse that shape the beam. The attenuation of (B5) is 0 without downshift.
 struct BeamPulse {
   // A length alone is a fundamental pulse.
   BeamPulse(double length_cycles, bool second_harmonic = false, double attenuation_np_per_m_hz = 0)
