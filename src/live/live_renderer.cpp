@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "frame/frame_stages.h"
 #include "frame/making.h"
 #include "frame/plan_loop.h"
 #include "frame/workspace.h"
@@ -44,16 +45,14 @@ FrameTime instant(const CardiacClock& clock, int frame) {
   return clock.at(frame);
 }
 
-Overlay overlayOf(const Simulator& simulator) {
-  const Scene& scene = simulator.scene();
-  return {scene, simulator.chain().geometry(),
-          scene.output.ecg ? loopEcg(simulator.cardiacClock(), scene.acquisition.frame_rate_hz)
-                           : std::vector<double>{}};
+Overlay overlayOf(const Scene& scene, const SignalChain& chain, const CardiacClock& clock) {
+  return {
+      scene, chain.geometry(),
+      scene.output.ecg ? loopEcg(clock, scene.acquisition.frame_rate_hz) : std::vector<double>{}};
 }
 
-void drawOverlay(const Overlay& overlay, const Simulator& simulator, LivePicture& picture) {
-  overlay.draw(picture.image,
-               static_cast<double>(picture.time.frame) / simulator.cardiacClock().frameCount());
+void drawOverlay(const Overlay& overlay, LivePicture& picture) {
+  overlay.draw(picture.image, static_cast<double>(picture.time.frame) / picture.frames);
 }
 
 Scene withLessEffort(const Scene& scene) {
@@ -67,6 +66,7 @@ Scene withLessEffort(const Scene& scene) {
   less.speckle.on = false;
   less.artefacts.persistence = 0;
   less.trabeculae.deviation_m = 0;
+  less.motion.subdivision = 0;  // the meshes of the instant are refined already
   // One keyframe for each structure: the meshes of the instant.
   for (Structure& structure : less.structures) structure.keyframes.resize(1);
   return less;
@@ -109,7 +109,7 @@ struct LiveRenderer::Still {
   Still(std::string given_name, const Scene& scene, const KeyframeSet& keyframes)
       : name(std::move(given_name)),
         simulator(pictureOnly(scene), std::make_shared<const MeshMotion>(keyframes, scene)),
-        overlay(overlayOf(simulator)) {}
+        overlay(overlayOf(simulator.scene(), simulator.chain(), simulator.cardiacClock())) {}
 
   std::string name;
   Simulator simulator;
@@ -147,24 +147,22 @@ LivePicture LiveRenderer::still(const Scene& scene, const std::string& name, int
   const std::shared_ptr<Workspace> workspace = simulator.workspace();
   picture.volumes_ml = simulator.trace(picture.time, *workspace);
   picture.image = simulator.picture(*white_, picture.time, *workspace, true);
-  drawOverlay(still.overlay, simulator, picture);
+  drawOverlay(still.overlay, picture);
   picture.milliseconds = watch.ms();
   if (still.kept.size() < kKeptPictures) still.kept.emplace(frame, picture);
   return picture;
 }
 
-// The control meshes at a phase, in mesh units: one keyframe for each structure.
-KeyframeSet LiveRenderer::meshesAt(double phase) const {
+// The refined meshes at a phase, in mesh units: one keyframe for each structure.
+KeyframeSet LiveRenderer::meshesAt(double phase) {
   KeyframeSet set;
+  motion_->frameAt(phase, surfaces_, false);
   const double per_metre = 1 / metresPerMeshUnit(motion_settings_);
-  std::vector<Vec3f> positions_m;
   for (std::size_t s = 0; s < keyframes_.structures.size(); ++s) {
-    const ControlMotion& control = motion_->control(static_cast<SurfaceId>(s));
-    control.at(phase, positions_m);
-    const KeyframeMesh& given = keyframes_.structures[s].front();
-    KeyframeMesh mesh{{{}, given.mesh.triangles, given.mesh.tags, {}}, {given.parts.front()}};
-    mesh.mesh.positions.reserve(positions_m.size());
-    for (const Vec3f p : positions_m)
+    const std::vector<MeshPart>& parts = keyframes_.structures[s].front().parts;
+    KeyframeMesh mesh{{{}, motion_->surfaces()[s].triangles, {}, {}}, {parts.front()}};
+    mesh.mesh.positions.reserve(surfaces_.positions_m[s].size());
+    for (const Vec3f p : surfaces_.positions_m[s])
       mesh.mesh.positions.push_back(
           per_metre * (motion_pose_.toWorld(toDouble(p)) - motion_settings_.mesh_offset_m));
     set.structures.push_back({std::move(mesh)});
@@ -172,7 +170,7 @@ KeyframeSet LiveRenderer::meshesAt(double phase) const {
   return set;
 }
 
-LivePicture LiveRenderer::moving(const Scene& scene, int frame) {
+LivePicture LiveRenderer::moving(const Scene& scene, const std::string& settings, int frame) {
   const Watch watch;
   const Scene less = withLessEffort(scene);
   LivePicture picture;
@@ -180,18 +178,26 @@ LivePicture LiveRenderer::moving(const Scene& scene, int frame) {
   picture.time = instant(clock, frame);
   picture.frames = clock.frameCount();
   if (!white_ && !scene.signal.reference_intensity)
-    white_ = stillOf(scene, "").simulator.referenceIntensity({}, {});
+    white_ = stillOf(scene, settings).simulator.referenceIntensity({}, {});
   auto motion = std::make_shared<const MeshMotion>(meshesAt(picture.time.phase), less);
   const LoopPlan plan = planWithoutMeshes(less, still_ ? still_->simulator.plan() : LoopPlan{});
-  const Simulator simulator(less, std::move(motion), plan);
-  const Overlay overlay = overlayOf(simulator);
+  const std::string chain_name = settings + (still_ ? still_->name : "");
+  const bool known = chain_ && settings_ == chain_name;
+  const FrameStages stages(less, std::move(motion), plan, nullptr, known ? chain_ : nullptr);
+  if (!known) {
+    settings_ = chain_name;
+    chain_ = stages.shared_chain;
+    overlay_.emplace(overlayOf(less, *chain_, clock));
+  }
   picture.prepared_ms = watch.ms();
   const double white = scene.signal.reference_intensity.value_or(white_.value_or(0));
-  const std::shared_ptr<Workspace> workspace = simulator.workspace();
-  simulator.make(picture.time, {.still = true, .persists = false, .picture = true, .white = white},
-                 *workspace);
-  picture.image = std::move(workspace->image);
-  drawOverlay(overlay, simulator, picture);
+  {
+    const std::shared_ptr<Workspace> workspace = stages.workspaces.borrow();
+    stages.make(picture.time, {.still = true, .persists = false, .picture = true, .white = white},
+                *workspace);
+    picture.image = std::move(workspace->image);
+  }
+  drawOverlay(*overlay_, picture);
   picture.milliseconds = watch.ms();
   return picture;
 }

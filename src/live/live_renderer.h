@@ -8,6 +8,7 @@
 
 #include "frame/simulator.h"
 #include "motion/surfaces/keyframe_set.h"
+#include "motion/surfaces/surface_frame.h"
 #include "output/overlay.h"
 #include "plan/loop_plan.h"
 #include "scene/scene.h"
@@ -41,9 +42,10 @@ class LiveRenderer {
   // also if the frame is not in the loop, and JobError.
   LivePicture still(const Scene& scene, const std::string& name, int frame);
 
-  // The same frame with less effort. White of the log compression is that of the scene, or else of
-  // the last still picture.
-  LivePicture moving(const Scene& scene, int frame);
+  // The same frame with less effort. `settings` identifies all of the scene but the probe's pose:
+  // with those of the last moving picture its signal chain is reused. White of the log compression
+  // is that of the scene, or else of the last still picture.
+  LivePicture moving(const Scene& scene, const std::string& settings, int frame);
 
   // Contours of the meshes in the imaging plane, from the motion of the last still picture's scene,
   // which this prepares if necessary.
@@ -55,7 +57,7 @@ class LiveRenderer {
  private:
   struct Still;
   Still& stillOf(const Scene& scene, const std::string& name);
-  KeyframeSet meshesAt(double phase) const;
+  KeyframeSet meshesAt(double phase);
 
   KeyframeSet keyframes_;
   std::shared_ptr<const MeshMotion> motion_;  // of the first pose, for meshes of an instant
@@ -63,6 +65,11 @@ class LiveRenderer {
   MotionSettings motion_settings_;
   std::unique_ptr<Still> still_;
   std::optional<double> white_;  // last one that was measured
+  SurfaceFrame surfaces_;        // scratch memory of meshesAt()
+  // Of the last moving picture.
+  std::string settings_;
+  std::shared_ptr<const SignalChain> chain_;
+  std::optional<Overlay> overlay_;
 };
 
 // What a picture of this effort shows of the scene, in words.

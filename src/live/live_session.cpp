@@ -82,6 +82,29 @@ Json poseJson(const Scene& scene) {
           {"probe.lateral", listOf(pose.x_axis)}};
 }
 
+bool isPoseKey(std::string_view key) {
+  return key == "probe.apex" || key == "probe.axis" || key == "probe.lateral";
+}
+
+// A pose of three lists of three numbers, if it is one; otherwise the scene's reader says why not.
+std::optional<Pose> poseFrom(const Json& keys, const std::optional<Scene>& scene) {
+  if (!scene) return std::nullopt;
+  std::array<Vec3d, 3> vectors;
+  std::size_t count = 0;
+  for (const char* key : {"probe.apex", "probe.axis", "probe.lateral"}) {
+    const Json& list = keys.at(key);
+    const bool numbers = list.is_array() && list.size() == 3 && list[0].is_number() &&
+                         list[1].is_number() && list[2].is_number();
+    if (!numbers) return std::nullopt;
+    const Vec3d v{list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
+    if (!isFinite(v) || std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) > 1e4)
+      return std::nullopt;
+    vectors[count++] = v;
+  }
+  if (vectors[1] == Vec3d{} || vectors[2] == Vec3d{}) return std::nullopt;
+  return poseOf(scene->motion.mesh_unit_m * vectors[0], vectors[1], vectors[2]);
+}
+
 // A file name without folders that ends in .toml.
 bool isSceneName(const std::string& name) {
   const auto plain = [](char c) {
@@ -142,15 +165,35 @@ std::variant<HttpResponse, LiveJob> LiveSession::answer(const HttpRequest& reque
   return job;
 }
 
+// The scene of a moving picture. Without a change of settings only the pose is read anew.
+const Scene& LiveSession::withPose(const Json& keys) {
+  Json settings = Json::object(), pose = Json::object();
+  for (const auto& [key, value] : keys.items()) (isPoseKey(key) ? pose : settings)[key] = value;
+  const std::string name = settings.dump(-1, ' ', true, Json::error_handler_t::replace);
+  const std::optional<Pose> quick =
+      pose.size() == 3 ? poseFrom(pose, scene_of_settings_) : std::nullopt;
+  if (!scene_of_settings_ || settings_ != name || !quick) {
+    scene_of_settings_ = scene_.read(scene_.textWith(keys));
+    settings_ = name;
+  } else {
+    scene_of_settings_->probe.pose = *quick;
+  }
+  return *scene_of_settings_;
+}
+
 HttpResponse LiveSession::picture(const Json& body) {
-  const std::string text = scene_.textWith(keysOf(body));
+  const Json& keys = keysOf(body);
+  if (body.value("effort", "still") == "moving") {
+    const Scene& scene = withPose(keys);
+    return {
+        200, "application/octet-stream",
+        pictureBytes(renderer_->moving(scene, settings_, frameOf(body)), scene, Effort::moving)};
+  }
+  const std::string text = scene_.textWith(keys);
   const Scene scene = scene_.read(text);
-  const bool moves = body.value("effort", "still") == "moving";
-  const LivePicture made = moves ? renderer_->moving(scene, frameOf(body))
-                                 : renderer_->still(scene, text, frameOf(body));
-  if (!moves) record(text);
-  return {200, "application/octet-stream",
-          pictureBytes(made, scene, moves ? Effort::moving : Effort::still)};
+  const LivePicture made = renderer_->still(scene, text, frameOf(body));
+  record(text);
+  return {200, "application/octet-stream", pictureBytes(made, scene, Effort::still)};
 }
 
 HttpResponse LiveSession::png(const Json& body) {

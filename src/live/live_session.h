@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -40,6 +41,7 @@ class LiveSession {
   HttpResponse truth(const Json& body);
   HttpResponse effects(const Json& body);
   void record(const std::string& text);
+  const Scene& withPose(const Json& keys);
 
   LiveScene scene_;
   std::unique_ptr<LiveRenderer> renderer_;
@@ -47,6 +49,8 @@ class LiveSession {
   std::string page_;
   std::filesystem::path record_folder_;  // empty: no record
   std::string recorded_;                 // the last recorded text
+  std::string settings_;                 // keys but the pose, of the last moving picture
+  std::optional<Scene> scene_of_settings_;
   int records_ = 0;
 };
 
