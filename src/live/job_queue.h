@@ -1,5 +1,5 @@
 #pragma once
-// Jobs of a session, one at a time on a thread of their own. Of pictures only the newest matters.
+// Jobs of a session, one at a time on a thread of their own. The newest picture supersedes others.
 
 #include <condition_variable>
 #include <deque>

@@ -66,16 +66,16 @@ class LiveRenderer {
   std::unique_ptr<Still> still_;
   std::optional<double> white_;  // last one that was measured
   SurfaceFrame surfaces_;        // scratch memory of meshesAt()
-  // Of the last moving picture.
+  // These belong to the last moving picture.
   std::string settings_;
   std::shared_ptr<const SignalChain> chain_;
   std::optional<Overlay> overlay_;
 };
 
-// What a picture of this effort shows of the scene, in words.
+// The quality of a picture, in words.
 std::string qualityWords(const Scene& scene, Effort effort);
 
-// What both efforts leave out: files and truth. The picture does not depend on them.
+// The scene without files and truth, which neither effort needs.
 Scene pictureOnly(Scene scene);
 
 }  // namespace echocine::live
