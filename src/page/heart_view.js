@@ -207,7 +207,7 @@ class HeartView {
     this.lamp = new THREE.DirectionalLight(0xffffff, 1.6);
     this.camera.add(this.lamp);
     this.scene.add(this.camera);
-    this.rig = new THREE.Group();  // sector, probe and picture
+    this.rig = new THREE.Scene();  // a group: sector, probe and picture
     this.scene.add(this.rig);
     const halves = this.halves = [-1, 1].map((side) => new THREE.Plane(new THREE.Vector3(0, 0, side), 0));
     this.surfaces.forEach((s) => { s.addTo(this.scene, halves); s.show(s.tick.checked, false); });

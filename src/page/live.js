@@ -65,7 +65,7 @@
   // The frame that the clock wants.
   function wanted(now) {
     if (!state.playing) return state.frame;
-    state.frame = Math.floor(state.started_at + (now - state.started_ms) / 1000 * data.frame_rate_hz) % state.frames;
+    state.frame = Math.floor(state.started_at + Math.max(0, now - state.started_ms) / 1000 * data.frame_rate_hz) % state.frames;
     return state.frame;
   }
 

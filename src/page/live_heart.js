@@ -22,7 +22,7 @@ class LiveHeart extends HeartView {
 
   matrixOf(pose) {
     const depth = this.direction(pose.depth).negate();
-    return new THREE.Matrix4().makeBasis(this.direction(pose.lateral), depth, this.direction(pose.elevation))
+    return this.rig.matrix.clone().makeBasis(this.direction(pose.lateral), depth, this.direction(pose.elevation))
       .setPosition(this.fromScene(pose.origin_mm));
   }
 
