@@ -53,7 +53,7 @@
     picture.dataset.frame = made.frame;
     byId("quality").textContent = `${made.quality} · ${fixed(made.ms, 0)} ms`;
     heart.showPhase(made.phase);
-    if (heart.picture_wanted) heart.setPicture(picture);
+    heart.follow(picture);
     drawEcg();
     drawOver();
     scrubber.value = made.frame;

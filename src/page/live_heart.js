@@ -74,6 +74,33 @@ class LiveHeart extends HeartView {
     this.render();
   }
 
+  // The picture on the plane, taken when the drawing is made.
+  follow(source) {
+    this.source = source;
+    this.render();
+  }
+
+  // A machine without a graphics card draws slowly: at most a quarter of the time goes into drawings.
+  render() {
+    const wait_ms = (this.drawn_ms ?? 0) + 3 * (this.cost_ms ?? 0) - performance.now();
+    if (this.drawing || this.later) return;
+    if (wait_ms <= 0) { super.render(); return; }
+    this.later = setTimeout(() => { this.later = 0; super.render(); }, wait_ms);
+  }
+
+  renderNow() {
+    const begun_ms = performance.now();
+    this.drawing = true;
+    if (this.source && this.picture_wanted) this.setPicture(this.source);
+    this.source = null;
+    super.renderNow();
+    this.drawing = false;
+    requestAnimationFrame(() => {
+      this.drawn_ms = performance.now();
+      this.cost_ms = Math.min(500, this.drawn_ms - begun_ms);
+    });
+  }
+
   rayOf(event) {
     const { left, top, width, height } = this.canvas.getBoundingClientRect();
     const ray = new THREE.Raycaster();
