@@ -13,6 +13,7 @@
 #include "cli/dataset_command.h"
 #include "cli/fit_command.h"
 #include "cli/heart_command.h"
+#include "cli/live_command.h"
 #include "cli/one_line.h"
 #include "cli/plan_command.h"
 #include "cli/render_command.h"
@@ -91,6 +92,7 @@ int run(int argc, char** argv) {
   echocine::CompareCommand compare(app);
   echocine::FitCommand fit(app);
   echocine::DatasetCommand dataset(app);
+  echocine::LiveCommand live(app);
   try {
     // For the build alone, so not among what help lists: man pages and completions.
     if (argc == 3 && std::string_view(argv[1]) == "--describe-into") {
@@ -108,6 +110,7 @@ int run(int argc, char** argv) {
              : app.got_subcommand("compare") ? compare.run()
              : app.got_subcommand("fit")     ? fit.run()
              : app.got_subcommand("dataset") ? dataset.run()
+             : app.got_subcommand("live")    ? live.run()
                                              : render.run();
     });
     // A plan piped into a full disk has failed, though all was computed.

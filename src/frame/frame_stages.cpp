@@ -125,12 +125,15 @@ FrameEffects::FrameEffects(const Scene& scene, const MeshMotion& motion,
                                      scene.acquisition.frame_rate_hz)) {}
 
 FrameStages::FrameStages(Scene given, std::shared_ptr<const MeshMotion> given_motion,
-                         LoopPlan given_plan, const SceneSpeckle* source)
+                         LoopPlan given_plan, const SceneSpeckle* source,
+                         std::shared_ptr<const SignalChain> given_chain)
     : scene(std::move(given)),
       motion(std::move(given_motion)),
       plan(std::move(given_plan)),
       cardiac_clock(scene),
-      chain(scene, plan.effects),
+      shared_chain(given_chain ? std::move(given_chain)
+                               : std::make_shared<const SignalChain>(scene, plan.effects)),
+      chain(*shared_chain),
       rays(scene, plan),
       field(scene, *motion),
       effects(scene, *motion, field, plan, cardiac_clock, chain, source),

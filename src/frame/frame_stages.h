@@ -37,8 +37,11 @@ struct FrameEffects {
 };
 
 struct FrameStages {
+  // `source`: as Simulator's. `chain`: that of other stages, whose scene and plan differ at most in
+  // structures and in the probe's pose; null: made here.
   FrameStages(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan,
-              const SceneSpeckle* source = nullptr);
+              const SceneSpeckle* source = nullptr,
+              std::shared_ptr<const SignalChain> chain = nullptr);
 
   // As Simulator::make().
   Volumes make(const FrameTime& time, const Making& making, Workspace& workspace) const;
@@ -47,7 +50,8 @@ struct FrameStages {
   const std::shared_ptr<const MeshMotion> motion;
   const LoopPlan plan;
   const CardiacClock cardiac_clock;
-  const SignalChain chain;
+  const std::shared_ptr<const SignalChain> shared_chain;
+  const SignalChain& chain;
   const FrameRays rays;
   const SharedMotionField field;  // of speckle and of truth
   const FrameEffects effects;

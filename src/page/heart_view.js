@@ -34,19 +34,20 @@ class HeartSurface {
     return true;
   }
 
-  // Ends of the segments in which the triangles meet the imaging plane, z = 0; how many numbers.
-  cut(out) {
+  // Ends of the segments in which the triangles meet the imaging plane; how many numbers.
+  cut(out, { normal, constant }) {
     const { indices, positions: p } = this;
+    const height = (i) => normal.x * p[i] + normal.y * p[i + 1] + normal.z * p[i + 2] + constant;
     let n = 0;
     for (let t = 0; t < indices.length && n + 6 <= out.length; t += 3) {
       const start = n;
       for (let e = 0; e < 3 && n - start < 6; ++e) {
-        const i = 3 * indices[t + e], j = 3 * indices[t + ((e + 1) % 3)], zi = p[i + 2], zj = p[j + 2];
+        const i = 3 * indices[t + e], j = 3 * indices[t + ((e + 1) % 3)], zi = height(i), zj = height(j);
         if (zi < 0 === zj < 0) continue;
         const s = zi / (zi - zj);
         out[n] = p[i] + s * (p[j] - p[i]);
         out[n + 1] = p[i + 1] + s * (p[j + 1] - p[i + 1]);
-        out[n + 2] = 0;
+        out[n + 2] = p[i + 2] + s * (p[j + 2] - p[i + 2]);
         n += 3;
       }
       if (n - start !== 6) n = start;
@@ -76,13 +77,17 @@ class HeartSurface {
   }
 
   // To where `phase` has it.
-  draw(phase) {
-    if (!this.place(phase)) return;
-    const { position } = this.geometry.attributes, contour = this.contour.attributes.position;
-    position.needsUpdate = contour.needsUpdate = true;
-    this.geometry.computeVertexNormals();
-    this.geometry.computeBoundingSphere();  // for picking
-    this.contour.setDrawRange(0, this.cut(contour.array) / 3);
+  draw(phase, plane) {
+    const moved = this.place(phase), { position } = this.geometry.attributes, contour = this.contour.attributes.position;
+    if (moved) {
+      position.needsUpdate = true;
+      this.geometry.computeVertexNormals();
+      this.geometry.computeBoundingSphere();  // for picking
+    }
+    if (!moved && this.cut_at === plane.version) return;
+    this.cut_at = plane.version;
+    contour.needsUpdate = true;
+    this.contour.setDrawRange(0, this.cut(contour.array, plane) / 3);
   }
 
   // cut: without the half that stands before the plane as the picture looks at it.
@@ -202,7 +207,9 @@ class HeartView {
     this.lamp = new THREE.DirectionalLight(0xffffff, 1.6);
     this.camera.add(this.lamp);
     this.scene.add(this.camera);
-    const halves = [-1, 1].map((side) => new THREE.Plane(new THREE.Vector3(0, 0, side), 0));
+    this.rig = new THREE.Scene();  // a group: sector, probe and picture
+    this.scene.add(this.rig);
+    const halves = this.halves = [-1, 1].map((side) => new THREE.Plane(new THREE.Vector3(0, 0, side), 0));
     this.surfaces.forEach((s) => { s.addTo(this.scene, halves); s.show(s.tick.checked, false); });
     this.addSector();
     this.addProbe();
@@ -219,7 +226,7 @@ class HeartView {
     const geometry = new THREE.BufferGeometry().setFromPoints(points.map(([x, z]) => new THREE.Vector3(x, -z, 0)));
     const line = pairs ? new THREE.LineSegments(geometry, material) : new THREE.Line(geometry, material);
     line.renderOrder = 4;
-    this.scene.add(line);
+    this.rig.add(line);
     return line;
   }
 
@@ -239,7 +246,7 @@ class HeartView {
     geometry.setIndex(faces);
     this.veil = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.14, depthWrite: false, side: THREE.DoubleSide }));
     this.veil.renderOrder = 1;
-    this.scene.add(this.veil);
+    this.rig.add(this.veil);
     const ticks = [], top = Math.min(...near.map((p) => p[1])), deepest = Math.max(...sector_mm.map((p) => p[1]));
     for (let z = 10 * Math.ceil(top / 10); z <= deepest; z += 10) {
       const half = z % 50 ? 1 : 3;
@@ -260,7 +267,7 @@ class HeartView {
     const dot = new THREE.Mesh(new THREE.SphereGeometry(2.5, 16, 12), this.mark);
     dot.position.set(width / 2, high / 2 - this.face_mm, 0);
     this.probe = [body, dot];
-    this.scene.add(body, dot);
+    this.rig.add(body, dot);
   }
 
   // Of the scene file's coordinates, at the corner of all meshes.
@@ -383,7 +390,7 @@ class HeartView {
     const ray = new THREE.Raycaster();
     ray.setFromCamera(new THREE.Vector2(2 * (event.clientX - left) / width - 1, 1 - 2 * (event.clientY - top) / height), this.camera);
     const hits = ray.intersectObjects(this.surfaces.filter((s) => s.visible).map((s) => s.halves[0]));
-    const hit = hits.find((h) => !this.cut_open || h.point.z <= 0);
+    const hit = hits.find((h) => !this.cut_open || this.halves[1].distanceToPoint(h.point) <= 0);
     if (!hit) return;
     const at = this.toScene(hit.point).map((x) => Number((x / this.view.unit_mm).toPrecision(4))), p = hit.point;
     this.words.textContent = `${hit.object.userData.surface.given.name} at [${at.join(", ")}] in the units of probe.apex; from the probe `
@@ -427,7 +434,7 @@ class HeartView {
       this.plane = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ map: this.texture, transparent: true, opacity: 0.92,
         side: THREE.DoubleSide, depthWrite: false }));
       this.plane.renderOrder = 2;
-      this.scene.add(this.plane);
+      this.rig.add(this.plane);
     }
     const context = this.paper.getContext("2d");
     context.clearRect(0, 0, width, height);
@@ -475,9 +482,9 @@ class HeartView {
   renderNow() {
     cancelAnimationFrame(this.due);
     this.due = 0;
-    const before = this.camera.position.z >= 0;  // of the two halves, which is farther away
+    const before = this.halves[1].distanceToPoint(this.camera.position) >= 0;  // of the two halves, which is farther away
     for (const surface of this.surfaces) {
-      if (surface.visible) surface.draw(this.phase);
+      if (surface.visible) surface.draw(this.phase, this.halves[1]);
       surface.halves[0].renderOrder = before ? 0 : 5;
       surface.halves[1].renderOrder = before ? 5 : 0;
     }

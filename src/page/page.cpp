@@ -17,6 +17,8 @@ constexpr std::size_t kBufferBytes = 1 << 18;
 constexpr std::string_view kPolicy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
     "img-src data: blob:";
+// A page of a server may ask that server.
+constexpr std::string_view kAsksItsServer = "; connect-src 'self'";
 
 std::string escapedHtml(std::string_view text) {
   std::string out;
@@ -64,6 +66,35 @@ std::string_view mediaType(std::span<const std::byte> image) {
   return jpeg ? "image/jpeg" : "image/png";
 }
 
+// All that stands before frames and data.
+std::string headOf(const PageLook& look, std::string_view more_policy) {
+  std::string out =
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"";
+  out += kPolicy;
+  out += more_policy;
+  out +=
+      "\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<link rel=\"icon\" href=\"data:,\">\n<title>";
+  out += escapedHtml(look.title) + "</title>\n";
+  for (const std::string_view style : look.styles) {
+    CHECK_EQ(style.find("</style"), std::string_view::npos);
+    out.append("<style>\n").append(style).append("</style>\n");
+  }
+  return out.append("</head>\n<body>\n").append(look.body);
+}
+
+// Data and scripts.
+std::string tailOf(const nlohmann::ordered_json& data, std::span<const std::string_view> scripts) {
+  std::string out =
+      "<script type=\"application/json\" id=\"data\">" + scriptJson(data) + "</script>\n";
+  for (const std::string_view script : scripts) {
+    CHECK_EQ(script.find("</script"), std::string_view::npos);
+    out.append("<script>\n").append(script).append("</script>\n");
+  }
+  return out + "</body>\n</html>\n";
+}
+
 }  // namespace
 
 PageLook pageLook(std::string title, std::string_view body, std::string_view script) {
@@ -76,21 +107,7 @@ PageLook pageLook(std::string title, std::string_view body, std::string_view scr
 
 PageWriter::PageWriter(const std::filesystem::path& path, const PageLook& look)
     : file_(path), scripts_(look.scripts) {
-  put("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
-  put("<meta http-equiv=\"Content-Security-Policy\" content=\"");
-  put(kPolicy);
-  put("\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<link rel=\"icon\" href=\"data:,\">\n<title>");
-  put(escapedHtml(look.title));
-  put("</title>\n");
-  for (const std::string_view style : look.styles) {
-    CHECK_EQ(style.find("</style"), std::string_view::npos);
-    put("<style>\n");
-    put(style);
-    put("</style>\n");
-  }
-  put("</head>\n<body>\n");
-  put(look.body);
+  put(headOf(look, ""));
 }
 
 void PageWriter::put(std::string_view text) {
@@ -115,18 +132,13 @@ void PageWriter::addFrame(std::string_view loop, std::span<const std::byte> imag
 }
 
 void PageWriter::finish(const nlohmann::ordered_json& data) {
-  put("<script type=\"application/json\" id=\"data\">");
-  put(scriptJson(data));
-  put("</script>\n");
-  for (const std::string_view script : scripts_) {
-    CHECK_EQ(script.find("</script"), std::string_view::npos);
-    put("<script>\n");
-    put(script);
-    put("</script>\n");
-  }
-  put("</body>\n</html>\n");
+  put(tailOf(data, scripts_));
   flush();
   file_.finish();
+}
+
+std::string servedPage(const PageLook& look, const nlohmann::ordered_json& data) {
+  return headOf(look, kAsksItsServer) + tailOf(data, look.scripts);
 }
 
 int pageStride(int frames) {

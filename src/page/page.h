@@ -53,6 +53,9 @@ int pageStride(int frames);
 void writePage(const std::filesystem::path& path, const PageLook& look,
                const nlohmann::ordered_json& data);
 
+// The same as text, for a server: its scripts may ask the server that has sent the page.
+std::string servedPage(const PageLook& look, const nlohmann::ordered_json& data);
+
 // "data:image/png;base64,..." for the src of an <img>. Precondition: JPEG or PNG.
 std::string dataUri(std::span<const std::byte> image);
 

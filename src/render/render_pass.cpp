@@ -11,7 +11,7 @@
 #include "core/stage_clock.h"
 #include "frame/workspace.h"
 #include "motion/cycle/cardiac_clock.h"
-#include "motion/cycle/ecg.h"
+#include "motion/cycle/loop_ecg.h"
 #include "output/volumes_csv.h"
 #include "scene/scene_json.h"
 #include "signal/signal_chain.h"
@@ -24,20 +24,6 @@ namespace {
 // "frame_0012.png" beside "frame_0012.exr".
 std::string frameName(int frame, const char* extension) {
   return std::filesystem::path(ExrStack::fileName(frame)).replace_extension(extension).string();
-}
-
-// The lead over the whole loop, finer than a picture is wide and than a QRS complex.
-std::vector<double> loopEcg(const CardiacClock& clock, double frame_rate_hz) {
-  constexpr double kLeastPoints = 4096, kMostPoints = 1 << 18, kPointRate_hz = 200;
-  const double loop_s = clock.frameCount() / frame_rate_hz;
-  const auto points =
-      static_cast<int>(std::clamp(loop_s * kPointRate_hz, kLeastPoints, kMostPoints));
-  std::vector<double> lead;
-  for (int i = 0; i < points; ++i) {
-    const FrameTime time = clock.atTime(loop_s * i / (points - 1));
-    lead.push_back(ecgAmplitude(time.time_in_beat_s, time.beat_s));
-  }
-  return lead;
 }
 
 }  // namespace

@@ -13,21 +13,22 @@ void obj(std::string_view bytes);    // meshes, from the reader to the traced fr
 void ply(std::string_view bytes);
 void off(std::string_view bytes);
 void stl(std::string_view bytes);
-void lid(std::string_view bytes);     // an OBJ mesh and its lid, one after the other
-void exr(std::string_view bytes);     // a frame that an earlier run left behind
-void video(std::string_view bytes);   // a loop to compare with
-void ecg(std::string_view bytes);     // pictures with an ECG, drawn from the bytes
-void folder(std::string_view bytes);  // the manifest of a render's folder
-void record(std::string_view bytes);  // what a dataset notes of a heart
-void spec(std::string_view bytes);    // the spec of a dataset
+void lid(std::string_view bytes);      // an OBJ mesh and its lid, one after the other
+void exr(std::string_view bytes);      // a frame that an earlier run left behind
+void video(std::string_view bytes);    // a loop to compare with
+void ecg(std::string_view bytes);      // pictures with an ECG, drawn from the bytes
+void folder(std::string_view bytes);   // the manifest of a render's folder
+void record(std::string_view bytes);   // what a dataset notes of a heart
+void spec(std::string_view bytes);     // the spec of a dataset
+void request(std::string_view bytes);  // what a client sends to a live session
 
 struct Target {
   const char* name;  // of its corpus too
   void (*run)(std::string_view);
 };
-inline constexpr Target kTargets[] = {{"scene", scene},   {"obj", obj},       {"ply", ply},
-                                      {"off", off},       {"stl", stl},       {"lid", lid},
-                                      {"exr", exr},       {"video", video},   {"ecg", ecg},
-                                      {"folder", folder}, {"record", record}, {"spec", spec}};
+inline constexpr Target kTargets[] = {
+    {"scene", scene},   {"obj", obj},   {"ply", ply},        {"off", off}, {"stl", stl},
+    {"lid", lid},       {"exr", exr},   {"video", video},    {"ecg", ecg}, {"folder", folder},
+    {"record", record}, {"spec", spec}, {"request", request}};
 
 }  // namespace echocine::fuzz

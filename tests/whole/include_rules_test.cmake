@@ -20,11 +20,12 @@ set(libraries
   "zlib\\.h$=video,output,dataset"
   "hdf5\\.h$=dataset"
   "CLI/=cli"
-  "nlohmann/=scene,heart,output,page,view,echo,fit,compare,render,study,dataset,cli,python"
+  "nlohmann/=scene,heart,output,page,view,echo,fit,compare,render,study,dataset,live,cli,python"
   "(pybind11/|Python\\.h$)=python"
   "fmt/=*"
   "[a-z_0-9]+(\\.h)?$=*"
-  "sys/=core,video,render")
+  "(netinet|arpa)/=live"
+  "sys/=core,video,render,live")
 
 # room = rooms that all of it may use | and its sources alone. Everybody may use core, and all but page and
 # core scene. Arrows run from right to left only: a room stands below those that it uses.
@@ -60,8 +61,9 @@ set(rooms
   "study=plan,frame,cycle,output,video,metrics|loop,surfaces,keyframes,trace,signal,render,page"
   "echocine=render,loop,frame,heart"
   "dataset=output,surfaces,cycle,heart,truth,signal|frame,loop,views,video,page"
+  "live=frame,surfaces,output,plan,truth|cycle,mesh,signal,video,view,page"
   "python=frame,echo|plan,loop,render,fit,compare,study,dataset,heart,cycle,output,video,surfaces"
-  "cli=render,fit,compare,study,output,view,plan|dataset,video,frame,surfaces,keyframes,cycle,heart")
+  "cli=render,fit,compare,study,output,view,plan,live|dataset,video,frame,surfaces,keyframes,cycle,heart")
 
 function(room_of path out)
   string(REGEX REPLACE "^src/" "" path "${path}")

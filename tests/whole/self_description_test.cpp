@@ -12,7 +12,7 @@ namespace {
 
 using namespace support;
 
-const std::vector<std::string> kCommands{"render", "view",    "plan",    "study",
+const std::vector<std::string> kCommands{"render", "view",    "plan",    "study", "live",
                                          "heart",  "dataset", "compare", "fit"};
 
 std::string helpOf(const std::string& command) {

@@ -1,0 +1,25 @@
+#pragma once
+// echocine live: a session served on this machine until it is stopped.
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace echocine::live {
+
+struct LiveOptions {
+  std::filesystem::path scene;
+  std::filesystem::path record;  // folder for a scene of each pose at rest; empty: none
+  int port = 0;                  // 0: any free one
+  int threads = 0;               // 0: one per core
+};
+
+// Serves the scene on 127.0.0.1 until `stop` is true, which is polled every 50 ms. `listening` is
+// called once with the link of the page, `warn` with each warning about the scene. Throws
+// SceneError and JobError, also if the port is taken.
+void serveLive(const LiveOptions& options,
+               const std::function<void(const std::string& link)>& listening,
+               const std::function<void(const std::string&)>& warn,
+               const std::function<bool()>& stop);
+
+}  // namespace echocine::live

@@ -1,0 +1,22 @@
+#pragma once
+// The page of a session, and the parts of its data that also accompany later answers.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "frame/simulator.h"
+#include "live/live_scene.h"
+
+namespace echocine::live {
+
+// HTML. The simulator is that of the session's first pose.
+std::string pageOf(const Simulator& simulator, const LiveScene& scene);
+
+// Full key -> value, in the units of scene files, of all keys that can be changed live and have an
+// effect in this scene; null without a value. Lists such as the pose are left out.
+nlohmann::ordered_json keyValues(const Scene& scene);
+
+// The sector in the imaging plane (mm), its picture, and the pose, for the 3-D view.
+nlohmann::ordered_json sectorJson(const Scene& scene);
+
+}  // namespace echocine::live

@@ -1,0 +1,497 @@
+// The page of `echocine live`: a probe in the hand, its echo, and the settings.
+"use strict";
+
+(() => {
+  const { data, byId, element, fixed } = page;
+  const token = new URLSearchParams(location.search).get("token") ?? "";
+  const kRest_ms = 220;  // without a change the probe is at rest
+  const state = {
+    pose: probePose.squared(data.sector.pose), start: probePose.squared(data.sector.pose), reference: null, reference_name: "the start",
+    keys: {}, values: data.values, version: 0, changed_ms: -1e9, held: false,
+    frames: data.frames, frame: 0, playing: true, started_ms: performance.now(), started_at: 0,
+    shown: null, kept: new Map(), busy: false, tool: "tilt", mm: [], m_line: null, contours: false, last_key: "",
+  };
+  state.reference = state.start;
+  page.parts.live = state;
+  const { unit_mm } = data.view;
+  const allKeys = () => ({ ...state.keys, ...probePose.keys(state.pose, unit_mm) });
+
+  // Answers: { ok, status, response }. Refusals are lines of text.
+  async function ask(path, body) {
+    return fetch(path, { method: "POST", headers: { "Content-Type": "application/json", "Echocine-Token": token }, body: JSON.stringify(body) });
+  }
+
+  function refuse(line) {
+    byId("refusal").textContent = line.trim();
+    dials.refuse(state.last_key, line.trim());
+  }
+
+  // ---- The picture
+
+  const picture = byId("picture"), over = byId("over"), pen = picture.getContext("2d");
+  let pixels = null;
+
+  function parse(buffer) {
+    const size = new DataView(buffer).getUint32(0, true);
+    const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, size)));
+    return { ...head, greys: new Uint8Array(buffer, 4 + size) };
+  }
+
+  function show(made) {
+    state.shown = made;
+    const { width, height, greys } = made;
+    if (picture.width !== width || picture.height !== height || !pixels) {
+      for (const canvas of [picture, over]) Object.assign(canvas, { width, height });
+      pixels = pen.createImageData(width, height);
+      pixels.data.fill(255);
+    }
+    const words = new Uint32Array(pixels.data.buffer);
+    for (let i = 0; i < greys.length; ++i) words[i] = 0xff000000 | greys[i] * 0x010101;
+    pen.putImageData(pixels, 0, 0);
+    picture.dataset.version = made.version;
+    picture.dataset.effort = made.effort;
+    picture.dataset.frame = made.frame;
+    byId("quality").textContent = `${made.quality} · ${fixed(made.ms, 0)} ms`;
+    heart.showPhase(made.phase);
+    heart.follow(picture);
+    drawEcg();
+    drawOver();
+    scrubber.value = made.frame;
+    const chambers = Object.entries(made.volumes_ml).filter(([name]) => /cavity|^la$|^ra$/.test(name));
+    readout.textContent = `frame ${made.frame} · ${fixed(made.time_s, 3)} s · phase ${fixed(made.phase, 3)}`
+      + chambers.map(([name, ml]) => ` · ${name} ${fixed(ml, 0)} mL`).join("");
+  }
+
+  // The frame that the clock wants.
+  function wanted(now) {
+    if (!state.playing) return state.frame;
+    state.frame = Math.floor(state.started_at + Math.max(0, now - state.started_ms) / 1000 * data.frame_rate_hz) % state.frames;
+    return state.frame;
+  }
+
+  // One request at a time: the newest pose with less effort while it changes, the complete picture at rest.
+  async function tick(now) {
+    const frame = wanted(now), rests = !state.held && now - state.changed_ms > kRest_ms;
+    const kept = rests && state.kept.get(frame);
+    if (kept && (state.shown !== kept)) show(kept);
+    if (!state.busy && state.refused !== state.version) {
+      const shown = state.shown, stale = !shown || shown.version !== state.version;
+      if (!rests ? stale || state.playing && shown.frame !== frame : !kept) fetchPicture(frame, rests ? "still" : "moving");
+      else if (rests && state.kept.size < state.frames && state.playing) fetchPicture(nextMissing(frame), "still", true);
+    }
+    requestAnimationFrame(tick);
+  }
+
+  function nextMissing(from) {
+    for (let i = 0; i < state.frames; ++i) if (!state.kept.has((from + i) % state.frames)) return (from + i) % state.frames;
+    return from;
+  }
+
+  async function fetchPicture(frame, effort, ahead = false) {
+    const version = state.version;
+    state.busy = true;
+    try {
+      const response = await ask("/picture", { keys: allKeys(), frame, effort });
+      if (response.status === 204) return;
+      if (!response.ok) {
+        if (version === state.version) state.refused = version;
+        refuse(await response.text());
+        return;
+      }
+      const made = parse(await response.arrayBuffer());
+      made.version = version;
+      state.frames = made.frames;
+      scrubber.max = made.frames - 1;
+      if (version === state.version) {
+        refuse("");
+        if (effort === "still") state.kept.set(frame, made);
+        if (state.m_line) drawM();
+      }
+      if (!ahead && (version === state.version || state.held)) show(made);
+    } catch (error) {
+      byId("refusal").textContent = "The program does not answer: it has ended, or the connection is lost.";
+      await new Promise((done) => setTimeout(done, 1000));
+    } finally {
+      state.busy = false;
+    }
+  }
+
+  function changed() {
+    ++state.version;
+    state.changed_ms = performance.now();
+    state.kept.clear();
+    state.contour_of = null;
+    showPose();
+    refreshScene();
+  }
+
+  // ---- Pose
+
+  function setPose(pose) {
+    state.pose = pose;
+    heart.setPose(pose);
+    changed();
+  }
+
+  const move = {
+    rock: (d) => setPose(probePose.rocked(state.pose, d)), tilt: (d) => setPose(probePose.tilted(state.pose, d)),
+    rotate: (d) => setPose(probePose.rotated(state.pose, d)), slide: (x, y) => setPose(probePose.shifted(state.pose, { x, y })),
+    press: (z) => setPose(probePose.shifted(state.pose, { z })),
+  };
+  const kNumbers = [["x", "slide lateral, mm"], ["y", "slide across, mm"], ["z", "press, mm"], ["rotate", "rotate, °"], ["tilt", "tilt, °"], ["rock", "rock, °"]];
+  const numbers = {};
+
+  function makePose() {
+    for (const [name, label] of kNumbers) {
+      const id = `pose-${name}`;
+      numbers[name] = element("input", { type: "number", id, step: "any", change: () => {
+        const offsets = probePose.offsets(state.pose, state.reference);
+        offsets[name] = Number(numbers[name].value);
+        setPose(probePose.moved(state.reference, offsets));
+      } });
+      byId("pose").append(element("div", { class: "dial" }, element("label", { for: id }, label), numbers[name]));
+    }
+    const view = ({ key, meaning }, i) => element("button", { type: "button", title: meaning, click: () => goTo(key) }, `${i + 1} ${key}`);
+    byId("views").append(...data.views.map(view), element("button", { type: "button", click: () => goTo("") }, "0 start"));
+  }
+
+  function showPose() {
+    const offsets = probePose.offsets(state.pose, state.reference);
+    for (const [name] of kNumbers)
+      if (document.activeElement !== numbers[name]) numbers[name].value = Number(offsets[name].toFixed(2));
+    const mm = Math.hypot(offsets.x, offsets.y, offsets.z), degrees = Math.hypot(offsets.rotate, offsets.tilt, offsets.rock);
+    byId("off").textContent = `From ${state.reference_name} (orange outline): ${fixed(mm, 1)} mm and ${fixed(degrees, 1)}°.`;
+  }
+
+  async function goTo(key) {
+    let pose = state.start;
+    if (key) {
+      const response = await ask("/view", { view: key });
+      if (!response.ok) { state.last_key = ""; refuse(await response.text()); return; }
+      pose = probePose.fromKeys((await response.json()).keys, unit_mm);
+    }
+    Object.assign(state, { reference: pose, reference_name: key || "the start" });
+    heart.setGhost(pose);
+    setPose(pose);
+  }
+
+  // ---- Hand: pointer, wheel and keys
+
+  function listen() {
+    let last = null;
+    const hold = (on) => { state.held = on; state.changed_ms = performance.now(); };
+    picture.addEventListener("pointerdown", (event) => {
+      if (event.button) return;
+      if (state.tool === "measure") return measure(event);
+      if (state.tool === "line") return chooseLine(event);
+      last = event;
+      hold(true);
+      picture.setPointerCapture(event.pointerId);
+    });
+    picture.addEventListener("pointermove", (event) => {
+      if (!last) return;
+      const scale = picture.width / picture.clientWidth, dx = (event.clientX - last.clientX) * scale, dy = (event.clientY - last.clientY) * scale;
+      last = event;
+      const tool = event.shiftKey ? "rotate" : event.altKey || event.ctrlKey ? "slide" : state.tool, mm = state.sector.picture.mm_per_px;
+      if (tool === "rotate") move.rotate(0.2 * dx);
+      else if (tool === "slide") setPose(probePose.shifted(state.pose, { x: -mm * dx, z: -mm * dy }));
+      else state.pose = probePose.rocked(state.pose, -0.12 * dx), move.tilt(0.12 * dy);
+    });
+    for (const end of ["pointerup", "pointercancel"]) picture.addEventListener(end, () => { last = null; hold(false); });
+    picture.addEventListener("wheel", (event) => { event.preventDefault(); move.press(event.deltaY > 0 ? -1 : 1); }, { passive: false });
+    document.addEventListener("keydown", key);
+  }
+
+  function key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.("input, select, textarea")) return;
+    if (event.key === " " && event.target.closest?.("button, summary")) return;
+    const step = event.shiftKey ? 0.25 : 1;
+    const actions = { ArrowLeft: () => move.rock(-2 * step), ArrowRight: () => move.rock(2 * step), ArrowUp: () => move.tilt(2 * step),
+      ArrowDown: () => move.tilt(-2 * step), q: () => move.rotate(-3 * step), e: () => move.rotate(3 * step), a: () => move.slide(-2 * step, 0),
+      d: () => move.slide(2 * step, 0), w: () => move.slide(0, 2 * step), s: () => move.slide(0, -2 * step), r: () => move.press(2 * step),
+      f: () => move.press(-2 * step), 0: () => goTo(""), " ": toggle, "[": () => stepTo(state.frame - 1), "]": () => stepTo(state.frame + 1) };
+    const view = data.views[Number(event.key) - 1];
+    const action = view ? () => goTo(view.key) : actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  }
+
+  // ---- Player and ECG
+
+  const scrubber = element("input", { type: "range", min: 0, max: data.frames - 1, value: 0, "aria-label": "Frame", input: () => stepTo(Number(scrubber.value)) });
+  const play = element("button", { type: "button", click: () => toggle() });
+  const readout = byId("readout"), ecg = byId("ecg");
+
+  function toggle() {
+    state.playing = !state.playing;
+    Object.assign(state, { started_ms: performance.now(), started_at: state.frame });
+    showPlaying();
+  }
+
+  function showPlaying() {
+    const label = state.playing ? "Freeze" : "Play";
+    play.textContent = state.playing ? "❚❚" : "▶";
+    play.setAttribute("aria-label", label);
+    play.title = label;
+  }
+
+  function stepTo(frame) {
+    if (state.playing) toggle();
+    state.frame = (frame + state.frames) % state.frames;
+  }
+
+  function drawEcg() {
+    const width = ecg.width = Math.max(100, ecg.clientWidth), height = ecg.height, context = ecg.getContext("2d");
+    const low = Math.min(...data.ecg), high = Math.max(...data.ecg), at = (v) => height - 6 - (v - low) / (high - low) * (height - 12);
+    context.strokeStyle = page.colour("muted");
+    context.beginPath();
+    data.ecg.forEach((v, i) => context.lineTo(i / (data.ecg.length - 1) * width, at(v)));
+    context.stroke();
+    if (!state.shown) return;
+    const x = state.shown.frame / state.shown.frames * width;
+    context.strokeStyle = page.colour("accent");
+    context.beginPath();
+    context.moveTo(x, 0);
+    context.lineTo(x, height);
+    context.stroke();
+  }
+
+  // ---- Truth, callipers, M-mode
+
+  function drawOver() {
+    const context = over.getContext("2d");
+    context.clearRect(0, 0, over.width, over.height);
+    const { origin_px: [ox, oy], mm_per_px } = state.sector.picture, at = ([x, z]) => [ox + x / mm_per_px, oy + z / mm_per_px];
+    context.lineWidth = 1.5;
+    if (state.contours && state.shown?.effort === "still") {
+      const name = `${state.version} ${state.shown.frame}`;
+      if (state.contour_of?.name === name) {
+        context.save();
+        context.beginPath();
+        state.sector.sector_mm.forEach((p) => context.lineTo(...at(p)));
+        context.clip();
+        for (const { structure, points_mm } of state.contour_of.contours) {
+          context.strokeStyle = HeartView.colourOf(structure);
+          context.beginPath();
+          points_mm.forEach((p) => context.lineTo(...at(p)));
+          context.stroke();
+        }
+        context.restore();
+      } else if (!state.playing || state.kept.size >= state.frames) fetchContours(name, state.shown.frame);
+    }
+    context.strokeStyle = context.fillStyle = "#e5b25d";
+    context.font = "16px system-ui, sans-serif";
+    for (let i = 0; i + 1 < state.mm.length; i += 2) {
+      const [a, b] = [state.mm[i], state.mm[i + 1]];
+      context.beginPath();
+      context.moveTo(...a);
+      context.lineTo(...b);
+      context.stroke();
+      context.fillText(`${fixed(mm_per_px * Math.hypot(a[0] - b[0], a[1] - b[1]), 1)} mm`, b[0] + 8, b[1] - 8);
+    }
+    for (const [x, y] of state.mm) context.fillRect(x - 3, y - 3, 6, 6);
+    if (!state.m_line) return;
+    context.setLineDash([6, 6]);
+    context.beginPath();
+    for (const [x, y] of state.m_line) context.lineTo(x, y);
+    context.stroke();
+    context.setLineDash([]);
+  }
+
+  async function fetchContours(name, frame) {
+    if (state.contours_busy) return;
+    state.contours_busy = true;
+    try {
+      const response = await ask("/truth", { keys: allKeys(), frame });
+      if (response.ok) state.contour_of = { name, ...(await response.json()) };
+    } finally {
+      state.contours_busy = false;
+    }
+    drawOver();
+  }
+
+  function placeOf(event) {
+    const { left, top, width, height } = picture.getBoundingClientRect();
+    return [(event.clientX - left) / width * picture.width, (event.clientY - top) / height * picture.height];
+  }
+
+  function measure(event) {
+    if (state.mm.length >= 8) state.mm = [];
+    state.mm.push(placeOf(event));
+    drawOver();
+  }
+
+  // From the apex through the point to the end of the depth; for parallel lines, straight down.
+  function chooseLine(event) {
+    const [x, y] = placeOf(event), { origin_px: [ox, oy], mm_per_px } = state.sector.picture, length = state.sector.depth_mm / mm_per_px;
+    const r = Math.hypot(x - ox, y - oy), parallel = state.values["probe.width_mm"] != null && !state.values["probe.sector_deg"];
+    const d = parallel ? [0, 1] : [(x - ox) / r, (y - oy) / r], from = parallel ? [x, oy] : [ox, oy];
+    state.m_line = [from, [from[0] + length * d[0], from[1] + length * d[1]]];
+    drawOver();
+    drawM();
+  }
+
+  // A column for each frame that is known at this pose.
+  function drawM() {
+    const figure = byId("m-mode"), canvas = figure.querySelector("canvas"), [a, b] = state.m_line, rows = 300;
+    figure.hidden = false;
+    Object.assign(canvas, { width: state.frames, height: rows });
+    const context = canvas.getContext("2d"), image = context.createImageData(state.frames, rows);
+    for (const [frame, { greys, width, height }] of state.kept)
+      for (let row = 0; row < rows; ++row) {
+        const s = row / (rows - 1), x = Math.round(a[0] + s * (b[0] - a[0])), y = Math.round(a[1] + s * (b[1] - a[1]));
+        const grey = x >= 0 && y >= 0 && x < width && y < height ? greys[y * width + x] : 0, i = 4 * (row * state.frames + frame);
+        image.data.set([grey, grey, grey, 255], i);
+      }
+    context.putImageData(image, 0, 0);
+    figure.querySelector("figcaption").textContent =
+      `M-mode of the dashed line: ${state.kept.size} of ${state.frames} frames, ${fixed(state.sector.depth_mm, 0)} mm deep.`;
+  }
+
+  function makeTools() {
+    const tools = [["tilt", "Tilt and rock"], ["rotate", "Rotate"], ["slide", "Slide and press"], ["measure", "Measure"], ["line", "M-mode"]];
+    const buttons = tools.map(([name, label]) => element("button", { type: "button", "aria-pressed": String(name === state.tool), click: () => {
+      state.tool = name;
+      buttons.forEach((b, i) => b.setAttribute("aria-pressed", String(tools[i][0] === name)));
+    } }, label));
+    const box = element("input", { type: "checkbox", id: "contours", change: () => { state.contours = box.checked; drawOver(); } });
+    byId("tools").append(...buttons, element("button", { type: "button", click: () => {
+      Object.assign(state, { mm: [], m_line: null });
+      byId("m-mode").hidden = true;
+      drawOver();
+    } }, "Clear"), element("label", { for: "contours" }, box, " true contours"));
+    byId("player").append(play, element("button", { type: "button", "aria-label": "Previous frame", click: () => stepTo(state.frame - 1) }, "◂"),
+      element("button", { type: "button", "aria-label": "Next frame", click: () => stepTo(state.frame + 1) }, "▸"), scrubber);
+    ecg.addEventListener("click", (event) => stepTo(Math.floor(event.offsetX / ecg.clientWidth * state.frames)));
+  }
+
+  // ---- Settings and saving
+
+  const dials = new LiveDials(data.keys, (name, value) => setKey(name, value));
+
+  function setKey(name, value) {
+    state.last_key = name;
+    state.keys[name] = value;
+    changed();
+  }
+
+  // Values, sector and changes of the scene, once changes pause.
+  function refreshScene() {
+    clearTimeout(state.refresh);
+    state.refresh = setTimeout(async () => {
+      const version = state.version, response = await ask("/scene", { keys: allKeys() });
+      if (!response.ok) { refuse(await response.text()); return; }
+      const scene = await response.json();
+      if (version !== state.version) return;
+      showScene(scene);
+    }, 120);
+  }
+
+  function showScene(scene) {
+    state.values = scene.values;
+    if (JSON.stringify(scene.sector.sector_mm) !== JSON.stringify(state.sector.sector_mm)) {
+      heart.setSector(scene.sector);
+      heart.setGhost(state.reference);
+    }
+    state.sector = scene.sector;
+    dials.show(state.values, state.keys);
+    byId("pose-keys").textContent = scene.pose;
+    byId("changes").replaceChildren();
+    if (scene.changes.length)
+      page.table(byId("changes"), { caption: "Changes of the scene file", columns: [{ label: "key" }, { label: "from" }, { label: "to" }],
+        rows: scene.changes.map(({ key, from, to }) => [key, from || "–", to || "–"]) });
+    if (byId("effects").open) showEffects();
+  }
+
+  async function showEffects() {
+    const response = await ask("/effects", { keys: allKeys() });
+    if (!response.ok) return;
+    const { effects, stage_ms } = await response.json(), box = byId("effects").querySelector("div");
+    const of = (name) => (data.keys.some((k) => k.key === `effects.${name}`) ? `effects.${name}` : `artefacts.${name}`);
+    const control = (name) => {
+      const key = data.keys.find((k) => k.key === of(name));
+      if (!key) return "–";
+      const current = state.values[key.key];
+      if (key.kind === "flag") return element("input", { type: "checkbox", "aria-label": name, checked: current === true, change: (e) => setKey(key.key, e.target.checked) });
+      if (key.kind !== "word") return "–";
+      return element("select", { "aria-label": name, change: (e) => setKey(key.key, e.target.value) },
+        ...key.words.map((w) => element("option", { value: w, selected: w === current }, w)));
+    };
+    box.replaceChildren();
+    page.table(box, { columns: [{ label: "effect" }, { label: "now" }, { label: "switch" }, { label: "reason" }],
+      rows: effects.map(({ name, on, reason }) => [name, on ? "on" : "off", control(name), reason]) });
+    page.table(box, { caption: "Time of a complete frame by stage, on one thread", columns: [{ label: "stage" }, { label: "ms", number: true }],
+      rows: Object.entries(stage_ms).filter(([, ms]) => ms > 0).map(([stage, ms]) => [stage, fixed(ms, 2)]) });
+  }
+
+  // Eight sliders over the depth, as scanners have them.
+  function makeGain() {
+    const box = byId("gain").querySelector("div"), count = 8, gains = new Array(count).fill(0);
+    const apply = () => {
+      const depth = state.sector.depth_mm, points = gains.map((g, i) => [Number((i / (count - 1) * depth).toFixed(2)), g]);
+      state.keys["signal.tgc"] = "table";
+      setKey("signal.tgc_table_mm_db", points);
+    };
+    for (let i = 0; i < count; ++i) {
+      const id = `gain-${i}`, bar = element("input", { type: "range", id, min: -20, max: 80, step: 1, value: 0,
+        change: () => { gains[i] = Number(bar.value); apply(); } });
+      box.append(element("div", { class: "dial" }, element("label", { for: id }, `gain at ${Math.round(100 * i / (count - 1))} % of the depth, dB`), bar));
+    }
+  }
+
+  function download(blob, name) {
+    const link = element("a", { href: URL.createObjectURL(blob), download: name });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  }
+
+  function makeOut() {
+    const say = (words) => { byId("saved").textContent = words; };
+    const name = element("input", { type: "text", id: "save-name", value: data.file.replace(/\.toml$/, "_live.toml") });
+    const replace = element("input", { type: "checkbox", id: "replace" });
+    byId("out").append(element("label", { for: "save-name" }, "file beside the scene"), name,
+      element("label", { for: "replace" }, replace, " replace"),
+      element("button", { type: "button", click: async () => {
+        const response = await ask("/save", { keys: allKeys(), name: name.value, replace: replace.checked });
+        say(response.ok ? `Saved: ${(await response.json()).saved}. Render it: echocine render ${name.value} -o loop` : await response.text());
+      } }, "Save scene"),
+      element("button", { type: "button", click: async () => {
+        const response = await ask("/png", { keys: allKeys(), frame: state.frame });
+        if (response.ok) download(await response.blob(), `frame_${state.frame}.png`);
+        else say(await response.text());
+      } }, "Save PNG"),
+      element("button", { type: "button", click: async () => {
+        const response = await ask("/scene", { keys: allKeys() });
+        if (!response.ok) return say(await response.text());
+        const { pose } = await response.json();
+        byId("pose-keys").textContent = pose;
+        await navigator.clipboard.writeText(pose).then(() => say("The pose is copied."), () => say("The pose is listed below."));
+      } }, "Copy pose"));
+  }
+
+  byId("title").textContent = data.title;
+  byId("subtitle").textContent = `${data.view.structures.length} structures. Drag in the echo or in 3-D, or use the keys.`;
+  byId("foot").textContent = `EchoCine ${data.version}. The picture at rest is the one that echocine render writes.`;
+  state.sector = data.sector;
+  const heart = new LiveHeart(byId("space"), data.view, {
+    start: () => { state.held = true; state.grabbed = state.pose; },
+    slide: (x, y) => setPose(probePose.shifted(state.grabbed, { x, y })),
+    end: () => { state.held = false; state.changed_ms = performance.now(); } });
+  page.parts.space = heart;
+  for (const name of LiveDials.kFirst) dials.add(byId("dials"), name);
+  const more = byId("all-keys").querySelector("div");
+  for (const { key: name } of data.keys) if (!LiveDials.kFirst.includes(name)) dials.add(more, name);
+  byId("effects").addEventListener("toggle", () => { if (byId("effects").open) showEffects(); });
+  makePose();
+  makeTools();
+  makeGain();
+  makeOut();
+  showPlaying();
+  listen();
+  heart.setPose(state.pose);
+  heart.setGhost(state.reference);
+  dials.show(state.values, state.keys);
+  changed();
+  requestAnimationFrame(tick);
+})();
