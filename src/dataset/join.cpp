@@ -130,14 +130,21 @@ DatasetFacts factsOfAll(const std::vector<JoinPart>& parts, const Spec& all) {
   return facts;
 }
 
+bool isIn(const std::filesystem::path& folder, const std::filesystem::path& outer) {
+  std::error_code failed;
+  const std::filesystem::path inner = std::filesystem::weakly_canonical(folder, failed),
+                              whole = std::filesystem::canonical(outer, failed);
+  return std::mismatch(whole.begin(), whole.end(), inner.begin(), inner.end()).first == whole.end();
+}
+
 // A new or empty folder, or one of the same join.
 void claimFolder(const std::filesystem::path& folder, const std::vector<JoinPart>& parts,
                  const Spec& all) {
   std::error_code failed;
   for (const JoinPart& part : parts)
-    if (std::filesystem::equivalent(part.folder, folder, failed))
-      throw SceneError(fmt::format("--output: {} is one of the parts, accepted: another folder",
-                                   folder.string()));
+    if (isIn(folder, part.folder))
+      throw SceneError(fmt::format("--output: {} is in the part {}, accepted: another folder",
+                                   folder.string(), part.folder.string()));
   const std::filesystem::path mark = folder / kJoinedMark;
   const std::string own = Json{{"digest", all.digest}, {"layouts", all.layouts}}.dump() + "\n";
   if (isOrdinaryFile(mark)) {

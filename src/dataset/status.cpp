@@ -11,6 +11,9 @@ namespace echocine::dataset {
 
 Status statusOf(const std::filesystem::path& folder) {
   std::error_code failed;
+  if (isJoined(folder))
+    throw SceneError(fmt::format("{}: holds joined datasets, accepted: the folder of one spec",
+                                 folder.string()));
   if (!std::filesystem::exists(folder / "work/spec.json", failed) ||
       !std::filesystem::exists(folder / "spec.toml", failed))
     throw SceneError(fmt::format("{}: holds no dataset", folder.string()));

@@ -147,6 +147,9 @@ TEST_F(DatasetJoin, AnInterruptedJoinResumesToTheSameBytes) {
                                (*place / "joined").string() + "'");
   EXPECT_EQ(run.code, 2);
   EXPECT_NE(run.err.find("holds joined datasets"), std::string::npos) << run.err;
+  const Outcome status = runShell("%B dataset --status '" + (*place / "joined").string() + "'");
+  EXPECT_EQ(status.code, 2);
+  EXPECT_NE(status.err.find("holds joined datasets"), std::string::npos) << status.err;
 }
 
 TEST_F(DatasetJoin, ClashesAreRefusedByName) {
@@ -158,6 +161,12 @@ TEST_F(DatasetJoin, ClashesAreRefusedByName) {
       "");
   expectRefused("two look one", "heart 1 of look and heart 1 of one are the same heart");
   expectRefused("one one", "one twice");
+  for (const char* inside : {"one", "one/joined", "two/../two/native"}) {
+    const Outcome outcome = join("one two", inside);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.err.find("is in the part"), std::string::npos) << outcome.err;
+  }
+  EXPECT_FALSE(fs::exists(*place / "one/joined"));
   expectRefused("one", "--join");
   expectRefused("one absent", "absent holds no dataset");
   ASSERT_EQ(make("exact", "seed = 3\nhearts = 1\nviews = [\"a4c\"]\nlayouts = [\"echonet\"]\n",
