@@ -13,8 +13,10 @@
 #include "core/error.h"
 #include "core/run_script.h"
 #include "core/stop.h"
+#include "dataset/folder_spec.h"
 #include "dataset/growth.h"
 #include "dataset/heart_cost.h"
+#include "dataset/join.h"
 #include "dataset/make_dataset.h"
 #include "dataset/preview.h"
 #include "dataset/slurm.h"
@@ -54,6 +56,10 @@ DatasetCommand::DatasetCommand(CLI::App& app) {
   command->add_option("--status", status_, "Print the state of a dataset's folder");
   command->add_option("--diff", other_spec_,
                       "Print the keys that differ between this spec and another spec or folder");
+  command
+      ->add_option("--join", joined_,
+                   "Join the finished datasets in these folders into the folder of --output")
+      ->expected(2, 1000);
   command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   CLI::Option* task = command->add_option(
@@ -110,6 +116,7 @@ int DatasetCommand::run() {
   } catch (const Stopped&) {
     if (preview_ > 0) throw JobError("stopped: no preview was written");
     if (slurm_) throw JobError("stopped: no jobs were written");
+    if (!joined_.empty()) throw JobError("stopped: the same command resumes");
     throw JobError("stopped: finished hearts are kept, the same command resumes");
   }
 }
@@ -118,8 +125,9 @@ int DatasetCommand::make() {
   if (!status_.empty()) return status();
   if (!other_spec_.empty()) return difference();
   if (folder_.empty()) throw SceneError("--output: is required, accepted: a folder");
+  if (!joined_.empty()) return join();
   const dataset::Spec spec =
-      dataset::readSpec(spec_file_.empty() ? folder_ / "spec.toml" : spec_file_);
+      spec_file_.empty() ? dataset::readFolderSpec(folder_) : dataset::readSpec(spec_file_);
   if (preview_ > 0) return preview(spec);
   if (slurm_) return slurm(spec);
   dataset::MakeOptions options{folder_, threads_};
@@ -172,12 +180,32 @@ int DatasetCommand::status() const {
 }
 
 int DatasetCommand::difference() const {
-  const auto textOf = [](std::filesystem::path file) {
-    if (std::filesystem::is_directory(file)) file /= "spec.toml";
-    return dataset::readSpec(file).text;
+  const auto textOf = [](const std::filesystem::path& file) {
+    return std::filesystem::is_directory(file) ? dataset::readFolderSpec(file).text
+                                               : dataset::readSpec(file).text;
   };
   for (const std::string& line : dataset::differencesOf(textOf(spec_file_), textOf(other_spec_)))
     fmt::print("{}\n", line);
+  return 0;
+}
+
+int DatasetCommand::join() const {
+  if (!spec_file_.empty())
+    throw SceneError(fmt::format("spec: \"{}\" is not used, accepted with --join: folders only",
+                                 spec_file_.string()));
+  ProgressBar bar(quiet_);
+  Monitor monitor{.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)};
+  monitor.tell = [&](const Progress& p) {
+    if (bar.due(p.done, p.total))
+      bar.draw(p.done, p.total, fmt::format("{}/{} hearts", p.done, p.total));
+  };
+  const dataset::JoinSummary made = dataset::joinDatasets(joined_, folder_, monitor);
+  bar.finish();
+  if (!quiet_ && !made.left_out.empty())
+    fmt::print("left out, because not all parts have them: {}\n", fmt::join(made.left_out, ", "));
+  if (!quiet_)
+    fmt::print("{} hearts, {} loops in {}: README.md describes them\n", made.hearts, made.loops,
+               folder_.string());
   return 0;
 }
 

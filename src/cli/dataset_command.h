@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -25,8 +26,10 @@ class DatasetCommand {
   int slurm(const dataset::Spec& spec) const;
   int status() const;
   int difference() const;
+  int join() const;
 
   std::filesystem::path spec_file_, folder_, status_, other_spec_;
+  std::vector<std::filesystem::path> joined_;
   std::string task_, sbatch_;
   int threads_ = 0, preview_ = 0;
   int tasks_ = 0, cores_ = 4, minutes_ = 0;  // of Slurm's jobs; 0: derived from the first heart

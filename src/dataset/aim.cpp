@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "dataset/cavity_marks.h"
 #include "dataset/dataset_loop.h"
+#include "dataset/structure_labels.h"
 #include "dataset/user_scenes.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/heart/recording.h"
@@ -103,6 +104,10 @@ void setOutput(const Spec& spec, Scene& scene) {
   scene.truth.labels = scene.truth.contours = true;
   scene.truth.papillary_in_cavity = true;  // as laboratories trace it
   scene.truth.label_numbers = {{"lv_cavity", 1}, {"lv_wall", 2}, {"la", 3}};
+  if (spec.nnunet_all) {  // reduced to those three in each frame
+    scene.truth.papillary_in_cavity = false;
+    scene.truth.label_numbers = structureNumbers();
+  }
   scene.truth.tracks = spec.wantsTracks();
   scene.truth.function = spec.wants("function");
   scene.truth.track_count = spec.track_count;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "dataset/card_texture.h"
 #include "dataset/tables.h"
 
 namespace echocine::dataset {
@@ -24,6 +25,8 @@ Numbers numbersOf(std::span<const Json> records) {
     for (const Json& loop : record.at("loops")) {
       for (const char* name : {"ef_percent", "edv_ml", "esv_ml", "frames", "mm_per_pixel"})
         take(name, loop.at(name));
+      for (const char* name : {"border_visible_ed", "border_visible_es", "tracks_visible"})
+        take(name, loop.value(name, Json()));
       if (loop.at("view_offset").is_object())
         for (const auto& [name, value] : loop.at("view_offset").items())
           take("view_offset." + name, value);
@@ -84,15 +87,31 @@ std::string countsText(const Json& counts, const char* what) {
   return text;
 }
 
+constexpr const char* kClosing = R"(
+## Limits
+
+- Pictures are simulated. Results on them do not replace a test on clinical loops.
+- Echoes are those of rays with a point spread. Nonlinear propagation is absent, and aberration is modelled as haze only.
+- All hearts of the parametric model share one topology. Congenital defects, pacing leads and prostheses are absent.
+- Splits keep hearts apart, but all hearts come from one simulator. Test scores are optimistic for other domains.
+
+## Citation
+
+{0}. EchoCine {1}, spec SHA-256 {2}. Licence: {3}.
+
+Cite the sources of the distributions in `dataset.json` too.
+)";
+
 }  // namespace
 
-void writeCard(const Spec& spec, std::span<const Json> records, const Json& counts, Sink& sink) {
+void writeCard(const DatasetFacts& facts, std::span<const Json> records, const Json& counts,
+               Sink& sink) {
   const Numbers numbers = numbersOf(records);
   std::string text = fmt::format(
       R"(# {0}
 
 Simulated cardiac ultrasound: {1} loops of {2} hearts, {3} frames, made by EchoCine {4}.
-No picture is of a person. What is known of every loop stands in `loops.csv`, a row each.
+No picture is of a person. `loops.csv` has a row of numbers per loop.
 
 | | |
 |---|---|
@@ -102,24 +121,29 @@ No picture is of a person. What is known of every loop stands in `loops.csv`, a 
 | impossible draws, drawn again | {8} (`impossible.csv`) |
 | hearts that failed | {9} (`failed.csv`) |
 | licence | {10} |
-| made again, byte for byte, by | `echocine dataset spec.toml -o FOLDER` |
-| spec | `spec.toml`, SHA-256 {11} |
-
+{11}
 Splits are by heart: all views of a heart are in the same one.
-Distributions with their sources stand in `dataset.json`.
 
-| what varies | least | median | most | |
+## Distributions
+
+`dataset.json` has the distributions that were drawn from, with their sources. This table has the values of the loops.
+`border_visible_ed` and `_es` are the shares of the left ventricle's outline that the picture shows.
+`tracks_visible` is the share of tracked points within the thickness of the imaging plane.
+
+| quantity | least | median | most | |
 |---|---|---|---|---|
 )",
-      spec.name, counts.at("loops").get<int>(), counts.at("hearts").get<int>(),
+      facts.name, counts.at("loops").get<int>(), counts.at("hearts").get<int>(),
       counts.at("frames").get<int>(), ECHOCINE_VERSION,
-      fmt::format("{}", fmt::join(spec.layouts, ", ")), countsText(counts, "hearts_by_split"),
+      fmt::format("{}", fmt::join(facts.layouts, ", ")), countsText(counts, "hearts_by_split"),
       countsText(counts, "hearts_by_population"), counts.at("impossible_draws").get<int>(),
-      counts.at("failed_hearts").get<int>(), spec.licence, spec.digest);
+      counts.at("failed_hearts").get<int>(), facts.licence, facts.again);
   for (const auto& [name, values] : numbers) {
     text += row(name, values);
     sink.write(fileName(name), histogram(name, values));
   }
+  text += decorrelationText(records, sink);
+  text += fmt::format(kClosing, facts.name, ECHOCINE_VERSION, facts.digest, facts.licence);
   sink.write("README.md", text);
 }
 

@@ -17,7 +17,9 @@ struct LoopFrame {
   FrameTime time;
   GreyImage image;                   // without ECG and ticks
   std::vector<std::uint8_t> labels;  // CAMUS's: 0 background, 1 LV cavity, 2 LV wall, 3 left atrium
-  double lv_ml = 0;                  // exact, from the mesh
+  // Those of structure_labels.h if nnU-Net shows all structures, at the two instants; else empty.
+  std::vector<std::uint8_t> structure_labels{};
+  double lv_ml = 0;       // exact, from the mesh
   double biplane_ml = 0;  // at the two instants: Simpson's rule in two planes through the long axis
   double single_plane_ml = 0;  // the same in the imaging plane only
   // At the two instants, as traced: widths of the discs, and the axis in the imaging plane.

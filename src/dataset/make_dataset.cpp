@@ -195,7 +195,7 @@ MakeSummary mergeParts(const Spec& spec, const std::filesystem::path& folder,
   try {
     for (const Layout* layout : layoutsOf(spec))
       if (layout->merge != nullptr) layout->merge(spec, records.finished, sink);
-    writeTables(spec, records.finished, records.failed, sink);
+    writeTables(factsOf(spec), records.finished, records.failed, sink);
   } catch (const Json::exception&) {
     // A record with a sound digest that is not of this program: made by hand.
     throw JobError(

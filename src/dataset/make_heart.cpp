@@ -14,6 +14,7 @@
 #include "dataset/aim.h"
 #include "dataset/cavity_marks.h"
 #include "dataset/redraw.h"
+#include "dataset/structure_labels.h"
 #include "dataset/tracing.h"
 #include "frame/simulator.h"
 #include "frame/workspace.h"
@@ -53,14 +54,18 @@ void keepContours(const Scene& scene, std::vector<Contour>& contours) {
 // The sink of a loop that is a sample: pictures and truth of every frame, in order.
 class SampleSink : public FrameSink {
  public:
-  SampleSink(LoopSample& loop, SurfaceId cavity)
-      : loop_(loop), cavity_(loop.scene.structures[index(cavity)].name) {}
+  SampleSink(LoopSample& loop, SurfaceId cavity, bool all_labels)
+      : loop_(loop), cavity_(loop.scene.structures[index(cavity)].name), all_labels_(all_labels) {}
 
   std::shared_ptr<void> take(MadeFrame& made) override {
     auto frame = std::make_shared<LoopFrame>();
     frame->time = made.time;
     std::swap(frame->image, made.workspace.image);
     frame->labels = std::move(made.truth->labels);
+    if (all_labels_) {
+      frame->structure_labels = frame->labels;
+      for (std::uint8_t& label : frame->labels) label = camusLabel(label);
+    }
     frame->contours = std::move(made.truth->contours);
     keepContours(loop_.scene, frame->contours);
     frame->function = made.truth->function;
@@ -78,6 +83,7 @@ class SampleSink : public FrameSink {
  private:
   LoopSample& loop_;
   const std::string cavity_;
+  const bool all_labels_;
 };
 
 // Within the first beat, and end-diastole before end-systole: CAMUS's half sequence runs from one
@@ -152,12 +158,15 @@ LoopSample makeLoop(const Spec& spec, const Draw& draw, std::size_t view, Scene 
     throw SceneError(fmt::format("a loop of {} frames, \"myotracker\" needs {}", clock.frameCount(),
                                  kLeastTrackedFrames));
   const SurfaceId cavity = *structureOf(loop.scene, Role::lv_cavity);
-  SampleSink sink(loop, cavity);
+  SampleSink sink(loop, cavity, spec.nnunet_all);
   Monitor stop;  // progress is counted in hearts
   stop.keep_going = monitor.keep_going;
   if (renderFrames(simulator, {0, clock.frameCount()}, sink, stop) < clock.frameCount())
     throw JobError("stopped");
   loop.instants = instantsOf(loop.frames);
+  for (int f = 0; f < static_cast<int>(loop.frames.size()); ++f)
+    if (f != loop.instants.ed && f != loop.instants.es)
+      loop.frames[static_cast<std::size_t>(f)].structure_labels = {};
   traceInstants(simulator, cavity, marks_at, loop);
   loop.tracked = simulator.truth()->tracked();
   loop.offset = simulator.truth()->view();  // there with functional truth only

@@ -41,12 +41,14 @@ void addLabels(const LoopSample& loop, Arrays& arrays) {
                                 static_cast<std::size_t>(loop.width())})});
 }
 
-// For each role: contour_ROLE [P, 2] in pixels, contour by contour, and contour_ROLE_starts [C, 2],
-// the frame and the first point of each contour.
+// For each role: contour_ROLE [P, 2] in pixels, contour by contour, contour_ROLE_starts [C, 2], the
+// frame and the first point of each contour, and contour_ROLE_visible [P], 1 if the picture shows
+// the border at the point.
 void addContours(const LoopSample& loop, Arrays& arrays) {
   for (const Role role : kContourRoles) {
     std::vector<float> points;
     std::vector<std::int32_t> starts;
+    std::vector<std::uint8_t> visible;
     for (std::size_t f = 0; f < loop.frames.size(); ++f)
       for (const Contour& contour : loop.frames[f].contours) {
         if (roleOf(loop.scene.structures[index(contour.surface)]) != role) continue;
@@ -56,10 +58,12 @@ void addContours(const LoopSample& loop, Arrays& arrays) {
           const PixelPoint at = pixelOf(loop.geometry, p);
           points.insert(points.end(), {static_cast<float>(at.x), static_cast<float>(at.y)});
         }
+        visible.insert(visible.end(), contour.visible.begin(), contour.visible.end());
       }
     const std::string name = fmt::format("contour_{}", nameOf(role));
     arrays.push_back({name, npyBytes(points, {points.size() / 2, 2})});
     arrays.push_back({name + "_starts", npyBytes(starts, {starts.size() / 2, 2})});
+    arrays.push_back({name + "_visible", npyBytes(visible, {visible.size()})});
   }
 }
 

@@ -8,6 +8,10 @@ namespace echocine::dataset {
 // Everything except files: numbers of the heart and of each loop, and all drawn values.
 Json recordOf(const Spec& spec, const Heart& heart);
 
+// Hearts that must not be separated in a cross-validation: one parametric heart, or all draws of
+// one scene.
+std::string groupOf(const Json& record);
+
 // Record of a heart whose rendering failed.
 Json failureOf(const Spec& spec, int heart, const std::string& reason);
 bool isFailure(const Json& record);
@@ -17,5 +21,6 @@ double ejectedPercent(double ed_ml, double es_ml);
 
 // As JSON.
 Json jsonOf(const Values& values);
+Json marksJson(const std::map<std::string, FileMark>& files);  // a record's "files"
 
 }  // namespace echocine::dataset

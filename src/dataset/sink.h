@@ -29,6 +29,9 @@ class Sink {
   void writeCine(const std::string& name, std::span<const GreyImage* const> images,
                  double frame_rate_hz);
 
+  // Notes a file that is already there with this mark.
+  void note(const std::string& name, const FileMark& mark) { files_[name] = mark; }
+
   const std::filesystem::path& folder() const { return folder_; }
   // Path of a file; creates its folders.
   std::filesystem::path place(const std::string& name) const;

@@ -31,12 +31,9 @@ std::string jobName(std::string name) {
   return name;
 }
 
-std::string command(const Spec& spec, const SlurmOptions& options) {
-  const std::filesystem::path folder = std::filesystem::absolute(options.folder);
-  const std::filesystem::path file =
-      spec.scenes.empty() ? folder / "spec.toml" : std::filesystem::absolute(spec.file);
-  return fmt::format("{} dataset {} -o {} --quiet", quoted(options.program.string()),
-                     quoted(file.string()), quoted(folder.string()));
+std::string command(const SlurmOptions& options) {
+  return fmt::format("{} dataset -o {} --quiet", quoted(options.program.string()),
+                     quoted(std::filesystem::absolute(options.folder).string()));
 }
 
 // sbatch replaces %A, %a, ... in the names of logs, whatever folder they are in.
@@ -83,7 +80,7 @@ made=$!
 wait "$made"
 )",
       jobName(spec.name), options.tasks, options.cores, options.minutes, memoryLine(options),
-      command(spec, options), options.tasks);
+      command(options), options.tasks);
 }
 
 std::string mergeText(const Spec& spec, const SlurmOptions& options) {
@@ -97,7 +94,7 @@ std::string mergeText(const Spec& spec, const SlurmOptions& options) {
 #SBATCH --open-mode=append
 exec {} --merge
 )",
-      jobName(spec.name), std::max(options.minutes, kLeastMinutes), command(spec, options));
+      jobName(spec.name), std::max(options.minutes, kLeastMinutes), command(options));
 }
 
 std::string submitText(const SlurmOptions& options) {

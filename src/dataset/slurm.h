@@ -37,7 +37,7 @@ int slurmMemory_mb(double heart_mb, int cores);
 // Writes array.sh, merge.sh and submit.sh into `folder`/slurm, in a readable form, and returns
 // submit.sh. A killed or requeued task resumes where it stopped;
 // a minute before its time limit it requeues itself, at most 20 times (our choice). The jobs read
-// the spec in the folder, or the given file if it names scenes. Throws SceneError if the folder
+// the spec in the folder. Throws SceneError if the folder
 // belongs to another spec, JobError if files cannot be written.
 std::filesystem::path writeSlurmJobs(const Spec& spec, const SlurmOptions& options);
 

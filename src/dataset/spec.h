@@ -68,6 +68,7 @@ struct Spec {
   int track_count = 300;
   // Layouts whose ejection fraction is of the exact volumes; the others have that of the tracings.
   std::vector<std::string> exact_ef;
+  bool nnunet_all = false;            // nnU-Net's labels are those of structure_labels.h
   int shard_mb = 1000;                // of WebDataset, 10^6 bytes; a larger loop has its own shard
   std::vector<Parameter> parameters;  // of all hearts; they override the populations'
   std::vector<UserScene> scenes;      // instead of the parametric heart; may be empty

@@ -205,6 +205,16 @@ void readEf(TomlTable table, Spec& spec) {
   table.finish();
 }
 
+// [nnunet] structures = "camus" | "all".
+void readNnunet(TomlTable table, Spec& spec) {
+  if (table.has("structures")) {
+    if (!spec.has("nnunet"))
+      table.fail("structures", "is not used, accepted with layouts = [\"nnunet\"]");
+    spec.nnunet_all = table.word("structures", "camus", {"camus", "all"}) == "all";
+  }
+  table.finish();
+}
+
 void readSplit(TomlTable split, Spec& spec) {
   if (split.keys().empty()) return;
   std::vector<double> shares;
@@ -258,6 +268,7 @@ Spec parseSpec(std::string_view text, const std::filesystem::path& path) {
   spec.picture_px = file.integer("picture_px", spec.picture_px, 56, 4032);
   spec.resolution_mm = file.number("resolution_mm", 0.0, {.lo = 0, .hi = 10});
   readEf(file.table("ef"), spec);
+  readNnunet(file.table("nnunet"), spec);
   readSplit(file.table("split"), spec);
   spec.parameters = readHeart(file.table("heart"));
   readOffsets(file.table("offset"), spec.parameters);

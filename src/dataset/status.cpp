@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "dataset/folder_spec.h"
 #include "dataset/record.h"
 #include "dataset/work_folder.h"
 
@@ -10,10 +11,13 @@ namespace echocine::dataset {
 
 Status statusOf(const std::filesystem::path& folder) {
   std::error_code failed;
+  if (isJoined(folder))
+    throw SceneError(fmt::format("{}: holds joined datasets, accepted: the folder of one spec",
+                                 folder.string()));
   if (!std::filesystem::exists(folder / "work/spec.json", failed) ||
       !std::filesystem::exists(folder / "spec.toml", failed))
     throw SceneError(fmt::format("{}: holds no dataset", folder.string()));
-  const Spec spec = readSpec(folder / "spec.toml");
+  const Spec spec = readFolderSpec(folder);
   const WorkFolder work(folder, spec);
   Status status;
   status.name = spec.name;

@@ -132,6 +132,8 @@ Json jointlyJson(const heart::HeartGroup& group) {
       {"source", heart::kIndexSource}};
 }
 
+}  // namespace
+
 Json distributionsJson(const Spec& spec) {
   Json all = Json::object();
   for (const Population& population : spec.populations) {
@@ -146,25 +148,30 @@ Json distributionsJson(const Spec& spec) {
   return all;
 }
 
-}  // namespace
+DatasetFacts factsOf(const Spec& spec) {
+  return {spec.name,
+          spec.licence,
+          spec.digest,
+          spec.layouts,
+          {{"seed", spec.seed}, {"distributions", distributionsJson(spec)}},
+          fmt::format("| reproduced, byte for byte, by | `echocine dataset spec.toml -o FOLDER` |\n"
+                      "| spec | `spec.toml`, SHA-256 {} |\n",
+                      spec.digest)};
+}
 
-void writeTables(const Spec& spec, std::span<const Json> records, std::span<const Json> failures,
-                 Sink& sink) {
+void writeTables(const DatasetFacts& facts, std::span<const Json> records,
+                 std::span<const Json> failures, Sink& sink) {
   const Json counts = countsOf(records, failures);
   sink.write("loops.csv", loopsTable(records));
   sink.write("splits.json", splitsText(records));
   sink.write("impossible.csv", impossibleTable(records));
   sink.write("failed.csv", failedTable(failures));
-  const Json dataset{{"name", spec.name},
-                     {"licence", spec.licence},
-                     {"version", ECHOCINE_VERSION},
-                     {"spec_sha256", spec.digest},
-                     {"seed", spec.seed},
-                     {"layouts", spec.layouts},
-                     {"counts", counts},
-                     {"distributions", distributionsJson(spec)}};
+  Json dataset{{"name", facts.name},          {"licence", facts.licence},
+               {"version", ECHOCINE_VERSION}, {"spec_sha256", facts.digest},
+               {"layouts", facts.layouts},    {"counts", counts}};
+  dataset.update(facts.origin);
   sink.write("dataset.json", dataset.dump(1) + "\n");
-  writeCard(spec, records, counts, sink);
+  writeCard(facts, records, counts, sink);
 }
 
 }  // namespace echocine::dataset

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/file_lock.h"
+#include "dataset/folder_spec.h"
 #include "dataset/growth.h"
 #include "dataset/record.h"
 #include "dataset/record_check.h"
@@ -84,6 +85,9 @@ WorkFolder::WorkFolder(std::filesystem::path folder, const Spec& spec)
   std::error_code failed;
   if (std::filesystem::is_symlink(work, failed))
     throw SceneError(fmt::format("{}: is a link: choose a new or empty folder", work.string()));
+  if (isJoined(folder_))
+    throw SceneError(
+        fmt::format("{}: holds joined datasets: choose another folder", folder_.string()));
   if (const std::optional<std::string> earlier = readText(mark)) {
     const bool same = *earlier == markText(spec);
     const std::optional<Spec> before = same && readText(folder_ / "spec.toml") == spec.text
@@ -92,7 +96,7 @@ WorkFolder::WorkFolder(std::filesystem::path folder, const Spec& spec)
     const std::string fault = before ? growthFault(*before, spec) : "";
     const bool damaged = before && markText(*before) != *earlier;
     if (!same || (!fault.empty() && !damaged)) failOfOtherSpec(folder_, fault);
-    keepSpec();
+    keepFolderSpec(folder_, spec);
     return;
   }
   // A run that was killed at once leaves an empty work folder.
@@ -104,31 +108,29 @@ WorkFolder::WorkFolder(std::filesystem::path folder, const Spec& spec)
   const std::string own = markText(spec);
   if (!writeFileOnce(mark, std::as_bytes(std::span(own))) && readText(mark) != own)
     failOfOtherSpec(folder_, "");
-  keepSpec();
-}
-
-// A run that was killed after its mark has no copy of the spec, and a disk may damage one.
-void WorkFolder::keepSpec() const {
-  const std::filesystem::path copy = folder_ / "spec.toml";
-  if (readText(copy) != spec_.text) writeText(copy, spec_.text);
+  // A run that was killed after its mark has no copy of the spec, and a disk may damage one.
+  keepFolderSpec(folder_, spec);
 }
 
 // A thousand to a folder: file systems are slow with more.
-std::filesystem::path WorkFolder::recordFile(int heart) const {
+std::filesystem::path recordFile(const std::filesystem::path& folder, int heart) {
   const int number = heart + 1;
-  return folder_ / "work" / fmt::format("{:04}", number / 1000) / fmt::format("{:07}.json", number);
+  return folder / "work" / fmt::format("{:04}", number / 1000) / fmt::format("{:07}.json", number);
+}
+
+bool isJoined(const std::filesystem::path& folder) {
+  std::error_code failed;
+  return std::filesystem::exists(folder / kJoinedMark, failed);
 }
 
 void WorkFolder::finish(int heart, Json record,
                         const std::map<std::string, FileMark>& files) const {
-  record["files"] = Json::object();
-  for (const auto& [name, mark] : files)
-    record["files"][name] = {{"bytes", mark.bytes}, {"digest", mark.digest}};
-  writeText(recordFile(heart), sealedText(record));
+  record["files"] = marksJson(files);
+  writeText(recordFile(folder_, heart), sealedText(record));
 }
 
 WorkFolder::Finished WorkFolder::finished(int heart, Look look) const {
-  const std::filesystem::path file = recordFile(heart);
+  const std::filesystem::path file = recordFile(folder_, heart);
   std::error_code failed;
   if (std::filesystem::symlink_status(file, failed).type() == std::filesystem::file_type::not_found)
     return {};

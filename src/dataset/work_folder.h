@@ -15,6 +15,13 @@ namespace echocine::dataset {
 // The lock of a task is in work/task_K_of_N, that of a merge in work/merge (core/file_lock.h).
 inline constexpr const char* kLockName = "lock";
 
+// Present in folders of joined datasets (join.h).
+inline constexpr const char* kJoinedMark = "work/joined.json";
+bool isJoined(const std::filesystem::path& folder);
+
+// The record of a heart, from 0.
+std::filesystem::path recordFile(const std::filesystem::path& folder, int heart);
+
 class WorkFolder {
  public:
   // Creates the folder or opens that of an earlier run of the same spec; another process may create
@@ -43,8 +50,6 @@ class WorkFolder {
   std::vector<std::string> runningTasks() const;
 
  private:
-  void keepSpec() const;
-  std::filesystem::path recordFile(int heart) const;
   std::filesystem::path folder_;
   const Spec& spec_;
 };

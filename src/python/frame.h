@@ -32,7 +32,8 @@ struct OutArray {
 std::vector<OutArray> checkedOutArrays(const py::dict& given, const Scene& scene);
 void copyInto(const Frame& frame, const std::vector<OutArray>& out);
 
-// Contours of a frame as a list of dicts: structure, closed, points_mm (n, 2): lateral and depth.
+// Contours of a frame as a list of dicts: structure, closed, points_mm (n, 2): lateral and depth,
+// visible (n,): by point, whether the picture shows the border; None if unknown.
 py::list contoursOf(const std::vector<Contour>& contours, const Scene& scene);
 
 }  // namespace echocine::python

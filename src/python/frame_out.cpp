@@ -126,6 +126,9 @@ py::list contoursOf(const std::vector<Contour>& contours, const Scene& scene) {
     entry["structure"] = scene.structures[index(contour.surface)].name;
     entry["closed"] = contour.closed;
     entry["points_mm"] = points;
+    py::array_t<bool> visible(static_cast<py::ssize_t>(contour.visible.size()));
+    std::copy(contour.visible.begin(), contour.visible.end(), visible.mutable_data());
+    entry["visible"] = contour.visible.empty() ? py::object(py::none()) : py::object(visible);
     list.append(entry);
   }
   return list;

@@ -55,6 +55,10 @@ def test_truth_is_the_same(pair):
     for ours, theirs in zip(memory.contours, folder.contours):
         assert [c["structure"] for c in ours] == [c["structure"] for c in theirs]
         assert np.allclose(ours[0]["points_mm"], theirs[0]["points_mm"], atol=1e-3)
+        for a, b in zip(ours, theirs):
+            assert a["visible"].dtype == bool and a["visible"].shape == a["points_mm"].shape[:1]
+            assert np.array_equal(a["visible"], b["visible"])
+    assert any(c["visible"].any() and not c["visible"].all() for frame in memory.contours for c in frame)
 
 
 def test_displacement_comes_back_from_files(pair):

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "dataset/spec.h"
+#include "dataset/structure_labels.h"
 #include "support/paths.h"
 
 namespace echocine::dataset {
@@ -53,6 +54,31 @@ TEST(DatasetSpec, EjectionFractionsAreThoseOfTracingsUnlessExact) {
                 {"ef.echonet", "tracing", "exact"});
   expectRefused(kStart + "[ef]\nechonet = \"exact\"\n", {"ef.echonet", "layouts"});
   expectRefused(kStart + "[ef]\nnative = \"exact\"\n", {"native"});
+}
+
+TEST(DatasetSpec, NnunetCanHaveAllStructures) {
+  const std::string nnunet = kStart + "layouts = [\"nnunet\"]\n";
+  EXPECT_FALSE(parseSpec(nnunet, "spec.toml").nnunet_all);
+  EXPECT_FALSE(parseSpec(nnunet + "[nnunet]\nstructures = \"camus\"\n", "spec.toml").nnunet_all);
+  EXPECT_TRUE(parseSpec(nnunet + "[nnunet]\nstructures = \"all\"\n", "spec.toml").nnunet_all);
+  expectRefused(nnunet + "[nnunet]\nstructures = \"most\"\n",
+                {"nnunet.structures", "camus", "all"});
+  expectRefused(nnunet + "[nnunet]\nlabels = \"all\"\n", {"nnunet.labels", "structures"});
+  expectRefused(kStart + "[nnunet]\nstructures = \"all\"\n", {"nnunet.structures", "layouts"});
+}
+
+TEST(DatasetSpec, LabelsOfAllStructuresStartWithThoseOfCamus) {
+  const auto names = structureLabelNames();
+  const auto numbers = structureNumbers();
+  ASSERT_EQ(names.size(), numbers.size() + 1);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    EXPECT_EQ(numbers[i].second, static_cast<int>(i) + 1);
+  for (const int label : {0, 1, 2, 3})
+    EXPECT_EQ(camusLabel(static_cast<std::uint8_t>(label)), label);
+  for (std::size_t label = 4; label < names.size(); ++label)
+    EXPECT_EQ(camusLabel(static_cast<std::uint8_t>(label)),
+              std::string(names[label]) == "papillary_muscle" ? 1 : 0)
+        << names[label];
 }
 
 TEST(DatasetSpec, SceneKeysAreTriedAtTheirEnds) {

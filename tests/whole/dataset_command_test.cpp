@@ -199,6 +199,38 @@ TEST_F(DatasetCommand, JobsOfSlurmMakeTheSameBytes) {
   EXPECT_EQ(ofTheDataset("by slurm"), ofTheDataset("at once"));
 }
 
+// The program is a shell script here in the place of a container's runtime.
+TEST_F(DatasetCommand, TheRecipeForContainersMakesTheSameBytes) {
+  fs::create_directory(folder / "bin");
+  folder.write("bin/sbatch", kSbatch);
+  const std::string page = bytesOf(fs::path(kSourceDir) / "src/dataset/README.md");
+  const std::string start = "    sed -i 's#^";
+  const std::size_t at = page.find(start);
+  ASSERT_NE(at, std::string::npos);
+  std::string recipe = page.substr(at, page.find('\n', at) - at);
+  const std::string in = (folder / "in").string(), word = "FOLDER";
+  for (std::size_t found = 0; (found = recipe.find(word, found)) != std::string::npos;)
+    recipe.replace(found, word.size(), in);
+  folder.write("bin/apptainer",
+               "#!/bin/sh\necho \"$1 $2 $3\" >> \"$JOBS\"\nshift 3\nexec \"$PROGRAM\" \"$@\"\n");
+  for (const char* name : {"bin/sbatch", "bin/apptainer"})
+    fs::permissions(folder / name, fs::perms::owner_all);
+  ASSERT_EQ(make("in", "--slurm --no-submit --tasks 2 --minutes 5").code, 0);
+  const Outcome made = runShell(recipe + " && PROGRAM=%B PATH='" + (folder / "bin").string() +
+                                "':\"$PATH\" JOBS='" + (folder / "jobs").string() + "' sh '" +
+                                (folder / "in/slurm/submit.sh").string() + "'");
+  ASSERT_EQ(made.code, 0) << made.err;
+  const std::string jobs = bytesOf(folder / "jobs");
+  const std::string call = "exec /path/to/echocine.sif echocine\n";
+  std::size_t calls = 0;
+  for (std::size_t found = 0; (found = jobs.find(call, found)) != std::string::npos; ++found)
+    ++calls;
+  EXPECT_EQ(calls, 4u) << jobs;  // the first task twice, the second, the merge
+  ASSERT_EQ(make("at once").code, 0);
+  EXPECT_EQ(bytesOf(folder / "in/loops.csv"), bytesOf(folder / "at once/loops.csv"));
+  EXPECT_EQ(bytesOf(folder / "in/README.md"), bytesOf(folder / "at once/README.md"));
+}
+
 TEST_F(DatasetCommand, JobsThatCannotBeSubmittedAreWritten) {
   const Outcome made = make("own", "--slurm --tasks 5 --minutes 7", "PATH=/nowhere");
   EXPECT_EQ(made.code, 1);

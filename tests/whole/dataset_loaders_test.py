@@ -55,7 +55,8 @@ frame_rate_hz = 32
 look = "scanner"
 quality = { choice = ["good", "medium", "poor"] }
 """
-HEARTS, DISCS = 3, 20
+DISCS = 20
+CAMUS_OF_PAPILLARY = 13  # its label among all structures; it counts as cavity in CAMUS's
 
 
 def iou(a, b):
@@ -81,7 +82,7 @@ def rows_of(path):
 
 
 class Loaders(unittest.TestCase):
-    folder = None
+    folder, hearts = None, 3
 
     @classmethod
     def setUpClass(cls):
@@ -99,7 +100,7 @@ class Native(Loaders):
     """The tables, and the program's own arrays."""
 
     def test_every_loop_is_in_the_table(self):
-        self.assertEqual(len(self.loops), 2 * HEARTS)
+        self.assertEqual(len(self.loops), 2 * self.hearts)
         self.assertEqual({row["split"] for row in self.loops.values()}, {"train", "val", "test"})
         self.assertEqual(len(rows_of(self.path("failed.csv"))), 0)
         with open(self.path("loops.csv"), newline="") as file:
@@ -117,6 +118,49 @@ class Native(Loaders):
                 volumes = truth["lv_volume_ml"]
                 self.assertAlmostEqual(volumes[int(row["ed_frame"])], float(row["edv_ml"]), 3)
                 self.assertAlmostEqual(volumes[int(row["es_frame"])], float(row["esv_ml"]), 3)
+
+
+    def test_contours_state_where_the_picture_shows_the_border(self):
+        for name, row in self.loops.items():
+            with self.truth(name) as truth:
+                for role in ("lv_cavity", "lv_wall", "la"):
+                    visible = truth[f"contour_{role}_visible"]
+                    self.assertEqual((visible.dtype, visible.shape), (numpy.uint8, truth[f"contour_{role}"].shape[:1]))
+                    self.assertEqual(set(numpy.unique(visible)), {0, 1})
+                points, visible = truth["contour_lv_cavity"], truth["contour_lv_cavity_visible"]
+                starts = truth["contour_lv_cavity_starts"]
+                for instant in ("ed", "es"):
+                    lengths = numpy.zeros(2)  # all, visible
+                    for k in numpy.flatnonzero(starts[:, 0] == int(row[f"{instant}_frame"])):
+                        piece = slice(starts[k, 1], starts[k + 1, 1] if k + 1 < len(starts) else None)
+                        edges = numpy.hypot(*(points[piece] - numpy.roll(points[piece], 1, axis=0)).T)
+                        both = visible[piece] + numpy.roll(visible[piece], 1).astype(float)
+                        lengths += edges.sum(), (edges * both).sum() / 2
+                    self.assertAlmostEqual(lengths[1] / lengths[0], float(row[f"border_visible_{instant}"]), 4)
+                self.assertAlmostEqual(truth["track_visible"].mean(), float(row["tracks_visible"]), 9)
+
+    def test_all_png_files_are_8_bit_grey(self):
+        count = 0
+        for root, _, names in os.walk(self.folder):
+            for name in names:
+                if name.endswith(".png"):
+                    with open(os.path.join(root, name), "rb") as file:
+                        header = file.read(29)
+                    self.assertEqual(header[12:16], b"IHDR")
+                    self.assertEqual(tuple(header[24:26]), (8, 0), name)  # bits, colour type (W3C, PNG, 11.2.2)
+                    count += 1
+        self.assertGreater(count, 4 * 2 * self.hearts)
+
+    def test_the_card_has_the_decorrelation_of_muscle(self):
+        with open(self.path("README.md")) as file:
+            card = file.read()
+        for heading in ("## Distributions", "## Decorrelation of muscle", "## Limits", "## Citation", "| tracks_visible |"):
+            self.assertIn(heading, card)
+        rows = [line.split("|") for line in card.split("out of plane, mm |\n")[1].split("\n\n")[0].splitlines()[1:]]
+        medians = [float(row[4]) for row in rows]
+        self.assertEqual((float(rows[0][1]), medians[0]), (0, 1))
+        self.assertLess(medians[3], medians[1])
+        self.assertTrue(os.path.exists(self.path("figures/decorrelation.svg")))
 
 
 class Echonet(Loaders):
@@ -255,7 +299,7 @@ class Camus(Loaders):
     KINDS = ("ED", "ED_gt", "ES", "ES_gt", "half_sequence", "half_sequence_gt")
 
     def patients(self):
-        for number in range(1, HEARTS + 1):
+        for number in range(1, self.hearts + 1):
             for word, view in (("2CH", "a2c"), ("4CH", "a4c")):
                 patient = f"patient{number:04}"
                 folder = self.path("camus/database_nifti", patient)
@@ -337,7 +381,7 @@ class Camus(Loaders):
         """Of the two planes that are shown. Those of the heart's own planes, biplane_ml, are other ones."""
         away, own = [], []
         for kind in ("ED", "ES"):
-            for number in range(1, HEARTS + 1):
+            for number in range(1, self.hearts + 1):
                 patient = f"patient{number:04}"
                 masks = []
                 for word in ("2CH", "4CH"):
@@ -390,6 +434,40 @@ class Nnunet(Loaders):
             self.assertEqual(set(fold["train"]) | set(fold["val"]), training)
             hearts = [{case[:8] for case in fold[side]} for side in ("train", "val")]
             self.assertFalse(hearts[0] & hearts[1])
+
+
+class NnunetOfAllStructures(unittest.TestCase):
+    def test_labels(self):
+        """The same numbers in all views; reduced to CAMUS's they are those without the option."""
+        with tempfile.TemporaryDirectory() as temporary:
+            names = ("camus", "all")
+            made = {}
+            for name in names:
+                text = SPEC.replace("hearts = 3", "hearts = 1").replace("resolution_mm = 0.3", "picture_px = 224")
+                text = text.replace(text[text.index("layouts"):text.index("track_count")],
+                                    'layouts = ["native", "nnunet"]\ntruth = ["labels"]\n')
+                made[name] = make(PROGRAM, os.path.join(temporary, name),
+                                  text + f"[nnunet]\nstructures = \"{name}\"\n")
+            root = "nnunet/nnUNet_raw/Dataset501_EchoCine"
+            with open(os.path.join(made["all"], root, "dataset.json")) as file:
+                labels = json.load(file)["labels"]
+            self.assertEqual(list(labels.values()), list(range(len(labels))))
+            self.assertEqual(list(labels)[:4], ["background", "lv_cavity", "lv_myocardium", "la_cavity"])
+            self.assertEqual(labels["papillary_muscle"], CAMUS_OF_PAPILLARY)
+            part = next(p for p in ("labelsTr", "labelsTs") if os.path.exists(os.path.join(made["all"], root, p)))
+            seen = {}
+            for case in os.listdir(os.path.join(made["all"], root, part)):
+                both = [cv2.imread(os.path.join(made[name], root, part, case), cv2.IMREAD_UNCHANGED) for name in names]
+                reduced = numpy.where(both[1] == CAMUS_OF_PAPILLARY, 1, numpy.where(both[1] <= 3, both[1], 0))
+                self.assertTrue((reduced == both[0]).all())
+                seen.setdefault(case.split("_")[1], set()).update(numpy.unique(both[1]))
+            print(f"nnunet: {len(set.union(*seen.values()))} of {len(labels)} labels in two views")
+            for view in ("a2c", "a4c"):
+                self.assertLessEqual({labels[n] for n in ("lv_cavity", "lv_myocardium", "la_cavity", "la_wall")}, seen[view])
+            self.assertLessEqual({labels[n] for n in ("rv_cavity", "rv_wall", "ra_cavity")}, seen["a4c"])
+            for loop in os.listdir(os.path.join(made["all"], "native")):
+                arrays = [numpy.load(os.path.join(made[name], "native", loop, "truth.npz"))["labels"] for name in names]
+                self.assertTrue((arrays[0] == arrays[1]).all())
 
 
 class PointOdyssey(Loaders):
@@ -473,20 +551,33 @@ class WebDataset(Loaders):
                 subprocess.run(["tar", "tf", path], check=True, capture_output=True)
         expected = [(row["split"], name, ending) for name, row in self.loops.items()
                     for ending in ("avi", "json", "truth.npz")]
-        self.assertEqual(found, expected)  # the table's order
+        expected.sort(key=lambda member: ("train", "val", "test").index(member[0]))
+        self.assertEqual(found, expected)  # the table's order in each split
 
 
-def make(program, folder):
+def make(program, folder, text=SPEC):
     spec = os.path.join(folder, "loaders.toml")
     made = os.path.join(folder, "made")
     os.makedirs(folder, exist_ok=True)
     with open(spec, "w") as file:
-        file.write(SPEC)
+        file.write(text)
     subprocess.run([program, "dataset", spec, "-o", made, "--quiet"], check=True)
     return made
 
 
+def tested(folder, hearts):
+    Loaders.folder, Loaders.hearts = folder, hearts
+    return unittest.main(argv=sys.argv[:1], exit=False).result.wasSuccessful()
+
+
 if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv[1])
     with tempfile.TemporaryDirectory() as temporary:
-        Loaders.folder = make(sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else temporary)
-        unittest.main(argv=sys.argv[:1])
+        first = make(PROGRAM, sys.argv[2] if len(sys.argv) > 2 else temporary)
+        passed = tested(first, 3)
+        print("joined with another dataset:", flush=True)
+        second = make(PROGRAM, os.path.join(temporary, "second"), SPEC.replace("hearts = 3", "hearts = 1\nseed = 5"))
+        joined = os.path.join(temporary, "joined")
+        subprocess.run([PROGRAM, "dataset", "--join", first, second, "-o", joined, "--quiet"], check=True)
+        del NnunetOfAllStructures  # is not of this folder
+        sys.exit(0 if tested(joined, 4) and passed else 1)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -114,6 +115,48 @@ TEST_F(DatasetScenes, TakeTurnsAndEachHasItsOwnSplit) {
   const std::string table = bytesOf(*place / "made/loops.csv");
   ASSERT_EQ(make(kSpec, "made").code, 0);
   EXPECT_EQ(bytesOf(*place / "made/loops.csv"), table);
+}
+
+TEST_F(DatasetScenes, TheFolderKnowsWhereItsScenesAre) {
+  const std::string text = with("hearts = 4", "hearts = 2");
+  ASSERT_EQ(make(text, "known").code, 0);
+  const std::string folder = "'" + (*place / "known").string() + "'";
+  const Outcome status = runShell("cd / && %B dataset --status " + folder);
+  EXPECT_EQ(status.code, 0) << status.err;
+  EXPECT_NE(status.out.find("spec: 2 of 2 hearts finished, 0 failed, 0 missing; merged"),
+            std::string::npos)
+      << status.out;
+  const std::string card = bytesOf(*place / "known/README.md");
+  const Outcome merged = runShell("cd / && %B dataset -o " + folder + " --merge --quiet");
+  EXPECT_EQ(merged.code, 0) << merged.err;
+  EXPECT_EQ(bytesOf(*place / "known/README.md"), card);
+  const Outcome same = runShell("cd / && %B dataset --diff " + folder + " '" +
+                                (*place / "spec.toml").string() + "'");
+  EXPECT_EQ(same.code, 0) << same.err;
+  EXPECT_EQ(same.out, "");
+  const std::string mesh = bytesOf(*place / "small/scene.toml");
+  fs::remove(*place / "small/scene.toml");
+  const Outcome moved = runShell("%B dataset --status " + folder);
+  place->write("small/scene.toml", mesh);
+  EXPECT_EQ(moved.code, 2);
+  EXPECT_NE(moved.err.find("small/scene.toml"), std::string::npos) << moved.err;
+}
+
+// All draws of a scene are in the same fold.
+TEST_F(DatasetScenes, FoldsKeepScenesTogether) {
+  std::string text = with("[\"echonet\", \"native\"]", "[\"nnunet\"]");
+  text.replace(text.find("train = 50\ntest = 50"), 20, "train = 100\ntest = 0");
+  ASSERT_EQ(make(text, "folds").code, 0);
+  const auto folds = nlohmann::json::parse(
+      bytesOf(*place / "folds/nnunet/nnUNet_preprocessed/Dataset501_EchoCine/splits_final.json"));
+  ASSERT_EQ(folds.size(), 2u);
+  for (const auto& fold : folds) {
+    std::set<int> scenes;
+    for (const auto& name : fold["val"])
+      scenes.insert(std::stoi(name.get<std::string>().substr(2, 6)) % 2);
+    EXPECT_EQ(fold["val"].size(), 4u);
+    EXPECT_EQ(scenes.size(), 1u);
+  }
 }
 
 TEST_F(DatasetScenes, OtherMeshesAreAnotherDataset) {

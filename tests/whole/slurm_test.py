@@ -4,6 +4,7 @@ ECHOCINE_SLURM=1 adds the longer cases."""
 
 import os
 import shutil
+import signal
 import socket
 import subprocess
 import sys
@@ -30,13 +31,13 @@ SlurmdUser=root
 AuthType=auth/munge
 AuthInfo=socket={folder}/munge.socket
 SlurmctldPort={ctld_port}
-SlurmdPort={d_port}
 SlurmctldPidFile={folder}/slurmctld.pid
-SlurmdPidFile={folder}/slurmd.pid
+SlurmdPidFile={folder}/slurmd.%n.pid
 SlurmctldLogFile={folder}/slurmctld.log
-SlurmdLogFile={folder}/slurmd.log
+SlurmdLogFile={folder}/slurmd.%n.log
 StateSaveLocation={folder}/state
-SlurmdSpoolDir={folder}/spool
+SlurmdSpoolDir={folder}/spool.%n
+SlurmdTimeout=9
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
 JobAcctGatherType=jobacct_gather/none
@@ -48,9 +49,9 @@ JobRequeue=1
 MpiDefault=none
 SchedulerParameters=batch_sched_delay=0,sched_interval=1,bf_interval=1,sched_min_interval=0
 KillWait=1
-NodeName={host} NodeAddr=127.0.0.1 CPUs={cores} RealMemory=4000 State=UNKNOWN
-PartitionName=all Nodes={host} Default=YES MaxTime=INFINITE State=UP
+PartitionName=all Nodes={names} Default=YES MaxTime=INFINITE State=UP
 """
+NODE = "NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={port} CPUs={cores} RealMemory=4000 State=UNKNOWN\n"
 
 
 def free_port():
@@ -67,31 +68,55 @@ def wait_for(condition, what, patience_s=PATIENCE_S):
         time.sleep(0.2)
 
 
+def processes():
+    """Process id -> arguments and environment of all processes that can be read."""
+    for entry in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{entry}/cmdline", "rb") as line, open(f"/proc/{entry}/environ", "rb") as environment:
+                yield int(entry), line.read().decode(errors="replace").split("\0"), environment.read().decode(errors="replace").split("\0")
+        except OSError:
+            pass  # it has ended
+
+
+def status_of(process, key):
+    with open(f"/proc/{process}/status") as status:
+        return next(line.split()[1] for line in status if line.startswith(key + ":"))
+
+
 class Cluster:
-    """munged, slurmctld and slurmd of this user, in a folder of their own; use with `with`."""
+    """munged, slurmctld and virtual nodes (slurmd) of this user, in a folder of their own; use with `with`."""
+
+    def __init__(self, nodes=1):
+        self.names = [f"node{number}" for number in range(1, nodes + 1)]
+        self.cores = os.cpu_count() if nodes == 1 else 1
 
     def __enter__(self):
         self.folder = tempfile.mkdtemp(prefix="echocine_slurm_")
         os.chmod(self.folder, 0o755)
         place = lambda name: os.path.join(self.folder, name)
-        for name in ("state", "spool"):
+        for name in ["state"] + ["spool." + node for node in self.names]:
             os.mkdir(place(name))
         with open(place("munge.key"), "wb") as key:
             key.write(os.urandom(1024))
         os.chmod(place("munge.key"), 0o600)
         with open(place("slurm.conf"), "w") as conf:
-            conf.write(CONF.format(host=socket.gethostname().split(".")[0], folder=self.folder, cores=os.cpu_count(),
-                                   ctld_port=free_port(), d_port=free_port()))
+            host = socket.gethostname().split(".")[0]
+            for name in self.names:
+                conf.write(NODE.format(name=name, host=host, port=free_port(), cores=self.cores))
+            conf.write(CONF.format(host=host, folder=self.folder, ctld_port=free_port(), names=",".join(self.names)))
         self.environment = {**os.environ, "SLURM_CONF": place("slurm.conf")}
-        self.daemons = []
+        self.daemons, self.nodes = [], {}
         try:
             self.daemons.append(self.start(
                 "munged", "--foreground", "--force", "--key-file=" + place("munge.key"), "--socket=" + place("munge.socket"),
                 "--pid-file=" + place("munge.pid"), "--log-file=" + place("munge.log"), "--seed-file=" + place("munge.seed")))
             wait_for(lambda: os.path.exists(place("munge.socket")), "munge does not come up", START_S)
-            self.daemons += [self.start("slurmctld", "-D", "-c", "-f", place("slurm.conf")),
-                             self.start("slurmd", "-D", "-f", place("slurm.conf"))]
-            wait_for(lambda: "idle" in self.run("sinfo", "-h", "-o", "%t"), "Slurm does not come up", START_S)
+            self.daemons.append(self.start("slurmctld", "-D", "-c", "-f", place("slurm.conf")))
+            for name in self.names:
+                self.nodes[name] = self.start("slurmd", "-D", "-N", name, "-f", place("slurm.conf"))
+                self.daemons.append(self.nodes[name])
+            wait_for(lambda: self.run("sinfo", "-h", "-N", "-o", "%t").split() == ["idle"] * len(self.names),
+                     "Slurm does not come up", START_S)
         except TimeoutError as error:  # a machine that lets no scheduler start
             self.__exit__()
             raise unittest.SkipTest(str(error)) from error
@@ -102,6 +127,31 @@ class Cluster:
 
     def run(self, *command, check=False):
         return subprocess.run(command, env=self.environment, check=check, capture_output=True, text=True).stdout
+
+    def lose(self, name):
+        """Kills a node's daemon and all processes of its jobs, as a loss of power does."""
+        self.nodes[name].kill()
+        steps = set()
+        for process, _, environment in processes():
+            if "SLURMD_NODENAME=" + name in environment and "SLURM_CONF=" + self.environment["SLURM_CONF"] in environment:
+                try:
+                    parent = int(status_of(process, "PPid"))
+                    if status_of(parent, "Name").startswith("slurmstepd"):
+                        steps.add(parent)
+                    os.kill(process, signal.SIGKILL)
+                except (OSError, StopIteration):
+                    pass
+        for step in steps:
+            try:
+                os.kill(step, signal.SIGKILL)
+            except OSError:
+                pass
+
+    def restart(self, name):
+        self.nodes[name].wait(20)
+        self.nodes[name] = self.start("slurmd", "-D", "-N", name, "-f", self.environment["SLURM_CONF"])
+        self.daemons.append(self.nodes[name])
+        wait_for(lambda: self.run("sinfo", "-h", "-n", name, "-o", "%t").split() == ["idle"], f"{name} does not come back", START_S)
 
     def __exit__(self, *_):
         self.run("scancel", "--user=root")
@@ -127,10 +177,14 @@ def files_of(folder):
     return found
 
 
-class Slurm(unittest.TestCase):
+class OnSlurm:
+    """A cluster per class, a folder per test."""
+
+    nodes, hearts = 1, 6
+
     @classmethod
     def setUpClass(cls):
-        cls.cluster = cls.enterClassContext(Cluster()) if hasattr(cls, "enterClassContext") else cls.entered(Cluster())
+        cls.cluster = cls.enterClassContext(Cluster(cls.nodes)) if hasattr(cls, "enterClassContext") else cls.entered(Cluster(cls.nodes))
         cls.run_in = cls.cluster.run
 
     @classmethod
@@ -144,7 +198,7 @@ class Slurm(unittest.TestCase):
         self.folder = temporary.name
         self.spec = os.path.join(self.folder, "spec.toml")
         with open(self.spec, "w") as file, open(SMALL_LOOPS) as rest:
-            file.write(SPEC_HEAD + rest.read())
+            file.write(SPEC_HEAD.replace("hearts = 6", f"hearts = {self.hearts}") + rest.read())
 
     def path(self, *names):
         return os.path.join(self.folder, *names)
@@ -155,10 +209,10 @@ class Slurm(unittest.TestCase):
             subprocess.run([PROGRAM, "dataset", self.spec, "-o", self.path("whole"), "--quiet"], check=True)
         return files_of(self.path("whole"))
 
-    def submit(self, name, *more, tasks=2):
+    def submit(self, name, *more, tasks=2, minutes=5):
         """Array and merge of a submitted dataset."""
         text = self.run_in(PROGRAM, "dataset", self.spec, "-o", self.path(name), "--quiet", "--slurm", "--tasks", str(tasks),
-                           "--cores", "1", "--minutes", "5", *more, check=True)
+                           "--cores", "1", "--minutes", str(minutes), *more, check=True)
         return text.replace(",", "").split()[1::2]
 
     def state(self, job):
@@ -190,6 +244,15 @@ class Slurm(unittest.TestCase):
         self.assertEqual(made.keys(), self.whole().keys())
         self.assertEqual(made, self.whole())
 
+    def program_of(self, name, task):
+        """The process of a running task's program."""
+        def found():
+            return [process for process, arguments, _ in processes() if self.path(name) in arguments and task in arguments]
+        wait_for(found, f"the program of task {task}")
+        return found()[0]
+
+
+class Slurm(OnSlurm, unittest.TestCase):
     def test_a_task_killed_and_requeued_makes_the_same_bytes(self):
         array, merge = self.submit("parts")
         self.wait_for_log("parts", array, 1)
@@ -250,6 +313,59 @@ class Slurm(unittest.TestCase):
         self.assertNotEqual(refused.returncode, 0)
         self.assertIn("its merge was refused", refused.stdout)
         self.wait_for_end(refused.stdout.split()[1].rstrip(","))
+
+
+@unittest.skipUnless(os.environ.get("ECHOCINE_SLURM"), "longer tests: set ECHOCINE_SLURM")
+class SlurmOfTwoNodes(OnSlurm, unittest.TestCase):
+    nodes, hearts = 2, 40
+
+    def setUp(self):
+        super().setUp()
+        self.whole()
+
+    def nodes_of(self, array):
+        return {word for job in (array + "_1", array + "_2") for word in self.run_in("scontrol", "show", "job", job).split()
+                if word.startswith("BatchHost=")}
+
+    def test_both_nodes_work_in_one_folder(self):
+        array, merge = self.submit("parts")
+        self.wait_for_end(array, merge)
+        self.assertEqual(self.nodes_of(array), {"BatchHost=node1", "BatchHost=node2"})
+        self.assert_merged("parts", merge)
+
+    def test_tasks_of_a_lost_node_are_made_by_the_other(self):
+        array, merge = self.submit("parts")
+        for task in ("1/2", "2/2"):
+            os.kill(self.program_of("parts", task), signal.SIGSTOP)  # in the midst of its work
+        lost = next(task for task in (1, 2)
+                    if "BatchHost=node2" in self.run_in("scontrol", "show", "job", f"{array}_{task}"))
+        self.cluster.lose("node2")
+        os.kill(self.program_of("parts", f"{3 - lost}/2"), signal.SIGCONT)
+        self.release(f"{array}_{lost}")
+        self.wait_for_end(array, merge)
+        self.assertEqual(self.nodes_of(array), {"BatchHost=node1"})
+        self.assertIn("Restarts=1", self.run_in("scontrol", "show", "job", f"{array}_{lost}"))
+        self.assert_merged("parts", merge)
+        self.cluster.restart("node2")
+
+
+@unittest.skipUnless(os.environ.get("ECHOCINE_SLURM"), "longer tests: set ECHOCINE_SLURM")
+class SlurmTimeLimit(OnSlurm, unittest.TestCase):
+    hearts = 40
+
+    def test_a_task_that_meets_its_time_limit_is_requeued_and_resumes(self):
+        """Slurm itself sends USR1 a minute before the limit. The task's program is halted until then."""
+        self.whole()
+        array, merge = self.submit("parts", minutes=2)
+        program = self.program_of("parts", "1/2")
+        os.kill(program, signal.SIGSTOP)
+        pending = lambda: int(status_of(program, "ShdPnd"), 16) | int(status_of(program, "SigPnd"), 16)
+        wait_for(lambda: pending() & 1 << (signal.SIGTERM - 1), "USR1 and its SIGTERM")
+        os.kill(program, signal.SIGCONT)
+        self.release(array + "_1")
+        self.wait_for_end(array, merge)
+        self.assertIn("Restarts=1", self.run_in("scontrol", "show", "job", array + "_1"))
+        self.assert_merged("parts", merge)
 
 
 if __name__ == "__main__":

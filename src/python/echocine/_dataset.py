@@ -85,7 +85,8 @@ class DatasetLoop:
         """Every array of truth.npz by name.
 
         time_s, phase, lv_volume_ml, ecg (T,) float32; labels (T, H, W) uint8; of each role contour_ROLE (P, 2) float32,
-        pixels, and contour_ROLE_starts (C, 2) int32, the frame and the first point of each contour; track_px (T, N, 2) float32,
+        pixels, contour_ROLE_starts (C, 2) int32, the frame and the first point of each contour, and contour_ROLE_visible (P,)
+        uint8, 1 where the picture shows the border; track_px (T, N, 2) float32,
         track_out_of_plane_mm (T, N) float32, track_visible (T, N) uint8, track_layer and track_segment (N,) uint8.
         """
         def read() -> Dict[str, NDArray[Any]]:

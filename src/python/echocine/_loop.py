@@ -242,7 +242,8 @@ class Loop:
 
     @property
     def contours(self) -> List[List[Dict[str, Any]]]:
-        """Per frame a list of dicts: structure, closed, and points_mm (n, 2) float64, lateral and depth from the apex."""
+        """Per frame a list of dicts: structure, closed, points_mm (n, 2) float64, lateral and depth from the apex, and visible (n,)
+        bool, whether the picture shows the border at the point; None without a picture."""
         native = self._source()
         if native is not None:
             listed: List[List[Dict[str, Any]]] = self._once("contours", lambda: native.contours)
@@ -252,7 +253,8 @@ class Loop:
         read = []
         for f in self._manifest["frames"]:
             entries = json.loads(self._truth_file(f"contours_{f['index']:04d}.json", "truth=\"contours\"").read_text())["contours"]
-            read.append([{"structure": e["structure"], "closed": e["closed"], "points_mm": np.array(e["points_mm"])} for e in entries])
+            read.append([{"structure": e["structure"], "closed": e["closed"], "points_mm": np.array(e["points_mm"]),
+                          "visible": np.array(e["visible"], bool) if "visible" in e else None} for e in entries])
         return read
 
     @property

@@ -64,7 +64,8 @@ class Simulator:
         return out
 
     def contours(self, frame: Frame) -> List[Dict[str, Any]]:
-        """A frame's contours: dicts of structure, closed, and points_mm (n, 2) float64, lateral and depth from the apex."""
+        """A frame's contours: dicts of structure, closed, points_mm (n, 2) float64, lateral and depth from the apex, and visible (n,)
+        bool, whether the picture shows the border at the point; None without a picture."""
         return self._native.contours(frame)
 
     @property
