@@ -45,6 +45,7 @@ void printFit(const fit::HeartFit& fit, const std::filesystem::path& folder) {
   row("EF", fit.ef, "", 3);
   row("EDV", fit.edv_ml, " mL", 1);
   row("ESV", fit.esv_ml, " mL", 1);
+  row("GLS", fit.gls, "", 3);
   for (const std::string& hint : fit.hints) fmt::print("  {}\n", hint);
 }
 

@@ -113,8 +113,8 @@ void noteAssumptions(Comparison& c) {
                       beat == &c.real_beat ? c.real.label : c.synthetic.label));
   if (c.time.confidence < kDoubtfulConfidence)
     say(
-        fmt::format("the temporal alignment is ambiguous (confidence {:.2f}): give --real-ed and "
-                    "--real-es, or R waves",
+        fmt::format("the temporal alignment is ambiguous (confidence {:.2f}): give the frames of "
+                    "end-diastole and end-systole, or R waves",
                     c.time.confidence));
   if (c.scene_fit && c.scene_fit->tilt && c.scene_fit->tilt->at_limit)
     say(

@@ -247,8 +247,8 @@ EchoLoop readLoop(const std::filesystem::path& path, const SideOptions& side, bo
   if (v.rate.hz > 0 && !v.rate.trusted)
     v.notes.push_back(
         fmt::format("{:.4g} frames/s is the container's playback rate, not used as the acquisition "
-                    "rate; {} sets it",
-                    v.rate.hz, is_real ? "--fps" : "--synthetic-fps"));
+                    "rate; give the frame rate",
+                    v.rate.hz));
   if (!v.repeats.empty()) {
     std::string list;
     for (const int r : v.repeats) list += fmt::format("{}{}", list.empty() ? "" : ", ", r);

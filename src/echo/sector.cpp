@@ -174,7 +174,7 @@ SectorFind findSector(const Video& video) {
   }
   if (!best || best->edge_inliers < 0.2)
     throw SceneError(
-        fmt::format("{}: no sector found ({}); give it by --sector or --synthetic-sector "
+        fmt::format("{}: no sector found ({}); give it as "
                     "apex_x,apex_y,first_deg,last_deg,r_min,r_max",
                     video.name, best ? "its edges are hardly visible" : failure));
   return *best;

@@ -145,7 +145,7 @@ DialScan scanDials(const ScanOptions& options, const Monitor& monitor) {
   scan.caveats = caveatsOf(real, scan.beat, scan.centre.confidence);
   for (const std::string& note : real.video.notes) scan.notes.push_back(note);
   if (scan.beat.confidence < kLeastConfidence)
-    scan.notes.push_back("the start of the beat is ambiguous: give --real-ed");
+    scan.notes.push_back("the start of the beat is ambiguous: give the frame of end-diastole");
   if (scan.centre.at_limit)
     scan.notes.push_back("the pose is at the limit of its search: a better one may lie beyond");
   if (scan.tilt && scan.tilt->at_limit)

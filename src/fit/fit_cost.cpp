@@ -17,41 +17,6 @@ double lossOf(double discrepancy) {
   return 0.5 * kLoopSamples * std::log(std::max(discrepancy, 1e-3));
 }
 
-// Central differences of a function of the listed unknowns in units of a step.
-template <typename Values>
-Quadratic differencesOf(std::size_t all, const std::vector<std::size_t>& of, const Values& values) {
-  std::vector<std::vector<double>> places{std::vector<double>(all, 0)};
-  const auto add = [&](std::size_t i, double a, std::size_t j, double b) {
-    places.emplace_back(all, 0);
-    places.back()[i] += a;
-    places.back()[j] += b;
-  };
-  for (const std::size_t i : of) add(i, 1, i, 0), add(i, -1, i, 0);
-  for (std::size_t a = 0; a < of.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b) add(of[a], 1, of[b], 1);
-  const std::vector<double> y = values(places);
-  Quadratic out(all);
-  out.value = y[0];
-  for (std::size_t a = 0; a < of.size(); ++a) {
-    out.gradient[of[a]] = 0.5 * (y[1 + 2 * a] - y[2 + 2 * a]);
-    out.bend(of[a], of[a]) = y[1 + 2 * a] - 2 * y[0] + y[2 + 2 * a];
-  }
-  std::size_t next = 1 + 2 * of.size();
-  for (std::size_t a = 0; a < of.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b, ++next) {
-      const std::size_t i = of[a], j = of[b];
-      out.bend(i, j) = out.bend(j, i) = y[next] - y[0] - out.gradient[i] - out.gradient[j] -
-                                        0.5 * (out.hessian[i * all + i] + out.hessian[j * all + j]);
-    }
-  return out;
-}
-
-void addTo(Quadratic& sum, const Quadratic& one) {
-  sum.value += one.value;
-  for (std::size_t i = 0; i < sum.gradient.size(); ++i) sum.gradient[i] += one.gradient[i];
-  for (std::size_t i = 0; i < sum.hessian.size(); ++i) sum.hessian[i] += one.hessian[i];
-}
-
 }  // namespace
 
 PriorDials priorDialsOf(const std::map<std::string, double>& dials) {
@@ -68,7 +33,7 @@ FitCost::FitCost(std::vector<FitSide> sides, const std::map<std::string, double>
   for (const DialRange& range : sides_.front().family->ranges())
     unknowns_.push_back({range.key, range.low, range.high, stepOf(range)});
   dials_ = unknowns_.size();
-  constexpr double kTiltStep_deg = 1.5, kRotateStep_deg = 2.5;
+  constexpr double kTiltStep_deg = 2.5, kRotateStep_deg = 4;
   for (std::size_t v = 0; tilts_ && v < sides_.size(); ++v) {
     unknowns_.push_back({"tilt", -tilt_deg, tilt_deg, kTiltStep_deg});
     unknowns_.push_back({"rotate", -tilt_deg, tilt_deg, kRotateStep_deg});
@@ -123,52 +88,95 @@ FitPlace FitCost::at(const std::vector<double>& at, const std::vector<PoseFound>
 }
 
 std::vector<double> FitCost::moved(const std::vector<double>& from,
-                                   const std::vector<double>& steps, double part) const {
+                                   const std::vector<double>& steps) const {
   std::vector<double> out = from;
   for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = std::clamp(out[i] + part * unknowns_[i].step * steps[i], unknowns_[i].low,
-                        unknowns_[i].high);
+    out[i] = std::clamp(out[i] + unknowns_[i].step * steps[i], unknowns_[i].low, unknowns_[i].high);
   return out;
 }
 
-Quadratic FitCost::viewAround(std::size_t view, const PoseFound& from,
-                              const std::vector<double>& middle, double part,
-                              const Monitor& monitor) const {
-  return differencesOf(
-      unknowns_.size(), unknownsOf(view), [&](const std::vector<std::vector<double>>& places) {
-        std::vector<double> values(places.size());
-        parallelBlocks(places.size(), 1, [&](std::size_t begin, std::size_t end) {
-          for (std::size_t i = begin; i < end; ++i) {
-            if (!monitor.keep_going()) throw JobError("stopped while a heart was fitted");
-            values[i] = lossOf(viewAt(view, moved(middle, places[i], part), &from).discrepancy);
-          }
-        });
-        return values;
-      });
+std::vector<double> FitCost::middleOf(const std::vector<double>& at) const {
+  std::vector<double> middle = at;
+  for (std::size_t i = 0; i < middle.size(); ++i) {
+    const FitUnknown& u = unknowns_[i];
+    middle[i] = std::clamp(middle[i], u.low + u.step, u.high - u.step);
+  }
+  return middle;
 }
 
-Quadratic FitCost::priorAround(const std::vector<double>& middle, double part) const {
+Quadratic FitCost::viewAround(std::size_t view, const PoseFound& from,
+                              const std::vector<double>& middle, const Quadratic* mixed,
+                              const Monitor& monitor) const {
+  const auto values = [&](const std::vector<std::vector<double>>& places) {
+    std::vector<double> out(places.size());
+    parallelBlocks(places.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!monitor.keep_going()) throw JobError("stopped while a heart was fitted");
+        out[i] = lossOf(viewAt(view, moved(middle, places[i]), &from).discrepancy);
+      }
+    });
+    return out;
+  };
+  return differencesOf(unknowns_.size(), unknownsOf(view), values, mixed);
+}
+
+std::vector<Quadratic> FitCost::viewsAround(const FitPlace& place,
+                                            const std::vector<Quadratic>& mixed,
+                                            const Monitor& monitor) const {
+  const std::vector<double> middle = middleOf(place.at);
+  std::vector<Quadratic> out;
+  for (std::size_t v = 0; v < sides_.size(); ++v)
+    out.push_back(
+        viewAround(v, place.found[v], middle, mixed.empty() ? nullptr : &mixed[v], monitor));
+  return out;
+}
+
+// In units of the prior's SD no curvature is below 1.
+Quadratic FitCost::priorAround(const std::vector<double>& middle) const {
+  const std::size_t n = unknowns_.size();
   std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < unknowns_.size(); ++i) all.push_back(i);
-  return differencesOf(unknowns_.size(), all, [&](const std::vector<std::vector<double>>& places) {
+  std::vector<double> scale;
+  for (std::size_t i = 0; i < n; ++i) {
+    all.push_back(i);
+    scale.push_back(priorSd(i) / unknowns_[i].step);
+  }
+  Quadratic q = differencesOf(n, all, [&](const std::vector<std::vector<double>>& places) {
     std::vector<double> values;
     for (const std::vector<double>& place : places)
-      values.push_back(priorCost(moved(middle, place, part)));
+      values.push_back(priorCost(moved(middle, place)));
     return values;
   });
+  const auto rescale = [&](bool into) {
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) {
+        const double both = scale[i] * scale[j];
+        q.bend(i, j) *= into ? both : 1 / both;
+      }
+  };
+  rescale(true);
+  q = convex(q, 1);
+  rescale(false);
+  return q;
 }
 
-Quadratic FitCost::around(const FitPlace& place, double part, std::vector<double>& middle,
-                          const Monitor& monitor) const {
-  middle = place.at;
-  for (std::size_t i = 0; i < middle.size(); ++i) {
-    const double step = part * unknowns_[i].step;
-    middle[i] = std::clamp(middle[i], unknowns_[i].low + step, unknowns_[i].high - step);
-  }
-  Quadratic sum = priorAround(middle, part);
-  for (std::size_t v = 0; v < sides_.size(); ++v)
-    addTo(sum, viewAround(v, place.found[v], middle, part, monitor));
-  return sum;
+double FitCost::priorSd(std::size_t unknown) const {
+  const FitUnknown& u = unknowns_[unknown];
+  if (unknown >= dials_) return (unknown - dials_) % 2 == 0 ? kTiltSd_deg : kRotateSd_deg;
+  const auto p = priorDialOf(u.name);
+  return p ? prior_.sd()[*p] : (u.high - u.low) / std::sqrt(12.0);
+}
+
+Quadratic FitCost::sumOf(const std::vector<Quadratic>& views,
+                         const std::vector<double>& middle) const {
+  return sumOfViews(priorAround(middle), views);
+}
+
+std::vector<double> FitCost::covariance(const Quadratic& q) const {
+  std::vector<double> out = covarianceOf(q);
+  for (std::size_t i = 0; i < q.size(); ++i)
+    for (std::size_t j = 0; j < q.size(); ++j)
+      out[i * q.size() + j] *= unknowns_[i].step * unknowns_[j].step;
+  return out;
 }
 
 }  // namespace echocine::fit

@@ -15,7 +15,9 @@ namespace echocine::fit {
 struct FitUnknown {
   std::string name;
   double low = 0, high = 0;
-  double step = 1;  // of differences: about an SD of what a loop leaves
+  // Of differences: J rises by several units, well above its noise of 0.5 (D changes by 0.0004 with
+  // the refined pose).
+  double step = 1;
 };
 
 struct FitPlace {
@@ -61,20 +63,27 @@ class FitCost {
 
   const HeartPrior& prior() const { return prior_; }
   double priorCost(const std::vector<double>& at) const;
-  // Differences with `part` of each unknown's step about a place, in these steps; `middle` receives
-  // their centre, which keeps them within the limits. Runs in parallel.
-  Quadratic around(const FitPlace& place, double part, std::vector<double>& middle,
-                   const Monitor& monitor) const;
+  // A view's part of J without the prior, by differences about middleOf() a place, in steps. The
+  // mixed derivatives of earlier ones are kept; empty: all are computed. Runs in parallel.
+  std::vector<Quadratic> viewsAround(const FitPlace& place, const std::vector<Quadratic>& mixed,
+                                     const Monitor& monitor) const;
+  // The nearest place whose differences stay within the limits.
+  std::vector<double> middleOf(const std::vector<double>& at) const;
+  // sumOfViews() with the prior, of which no curvature is below its inverse variance.
+  Quadratic sumOf(const std::vector<Quadratic>& views, const std::vector<double>& middle) const;
+  // Inverse of H in the units of the unknowns, row by row.
+  std::vector<double> covariance(const Quadratic& q) const;
   // Values of the unknowns, given in steps from a place.
-  std::vector<double> moved(const std::vector<double>& from, const std::vector<double>& steps,
-                            double part) const;
+  std::vector<double> moved(const std::vector<double>& from,
+                            const std::vector<double>& steps) const;
 
  private:
   std::vector<std::size_t> unknownsOf(std::size_t view) const;
   PoseFound viewAt(std::size_t view, const std::vector<double>& at, const PoseFound* from) const;
   Quadratic viewAround(std::size_t view, const PoseFound& from, const std::vector<double>& middle,
-                       double part, const Monitor& monitor) const;
-  Quadratic priorAround(const std::vector<double>& middle, double part) const;
+                       const Quadratic* mixed, const Monitor& monitor) const;
+  Quadratic priorAround(const std::vector<double>& middle) const;
+  double priorSd(std::size_t unknown) const;
 
   std::vector<FitSide> sides_;
   std::map<std::string, double> fixed_;

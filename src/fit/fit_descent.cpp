@@ -1,6 +1,7 @@
 #include "fit/fit_descent.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "fit/fit_progress.h"
@@ -10,9 +11,9 @@ namespace echocine::fit {
 namespace {
 
 constexpr int kMostHalvings = 3;
-constexpr double kLeastGain = 0.1;
-constexpr double kMostSteps = 2;      // of each unknown in a round
-constexpr double kLeastCurve = 0.04;  // J per square of a step: an SD of five steps
+constexpr double kNoise = 0.5;    // of J between places a fifth of a step apart; measured
+constexpr double kMostSteps = 2;  // of each unknown in a round
+constexpr double kFarther = 1;    // steps, beyond which mixed derivatives are computed anew
 
 // The best of a straight way from the place to the quadratic's minimum.
 FitPlace taken(const FitCost& cost, const FitPlace& from, const Quadratic& q,
@@ -23,19 +24,27 @@ FitPlace taken(const FitCost& cost, const FitPlace& from, const Quadratic& q,
     low.push_back(std::max(-kMostSteps, (u.low - middle[i]) / u.step));
     high.push_back(std::min(kMostSteps, (u.high - middle[i]) / u.step));
   }
-  const std::vector<double> to = cost.moved(middle, minimumWithin(q, low, high), 1);
+  const std::vector<double> to = cost.moved(middle, minimumWithin(q, low, high));
   FitPlace best = from;
-  double share = 1;
+  double share = 1, most = from.cost + kNoise;
   for (int halving = 0; halving <= kMostHalvings; ++halving, share /= 2) {
     std::vector<double> at = from.at;
     for (std::size_t i = 0; i < at.size(); ++i) at[i] += share * (to[i] - from.at[i]);
     FitPlace place = cost.at(at, from.found);
-    if (place.cost < best.cost)
+    const bool better = place.cost < most;
+    most = std::min(from.cost, better ? place.cost : most);
+    if (better)
       best = std::move(place);
     else if (best.cost < from.cost)
       break;
   }
   return best;
+}
+
+bool isFar(const FitCost& cost, const std::vector<double>& a, const std::vector<double>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::abs(a[i] - b[i]) > kFarther * cost.unknowns()[i].step) return true;
+  return false;
 }
 
 }  // namespace
@@ -44,20 +53,23 @@ FitDescent descendFit(const FitCost& cost, const FitPlace& start, const Monitor&
   FitDescent out{start, {}, false};
   try {
     out.best = cost.at(start.at, {});
+    std::vector<Quadratic> views;
+    std::vector<double> mixed_at;
     for (int round = 0; round < kMostFitRounds; ++round) {
-      std::vector<double> middle;
-      const Quadratic q = convex(cost.around(out.best, 1, middle, monitor), kLeastCurve);
-      out.covariance = covarianceOf(q);
-      for (std::size_t i = 0; i < middle.size(); ++i)
-        for (std::size_t j = 0; j < middle.size(); ++j)
-          out.covariance[i * middle.size() + j] *=
-              cost.unknowns()[i].step * cost.unknowns()[j].step;
+      const std::vector<double> middle = cost.middleOf(out.best.at);
+      if (mixed_at.empty() || isFar(cost, middle, mixed_at)) {
+        views.clear();
+        mixed_at = middle;
+      }
+      views = cost.viewsAround(out.best, views, monitor);
+      const Quadratic q = cost.sumOf(views, middle);
+      out.covariance = cost.covariance(q);
       FitPlace next = taken(cost, out.best, q, middle);
       const double gain = out.best.cost - next.cost;
       out.best = std::move(next);
       monitor.tell({Task::settings, static_cast<std::size_t>(round) + 1,
                     static_cast<std::size_t>(kUsualRounds)});
-      if (gain < kLeastGain) break;
+      if (gain < kNoise) break;
     }
   } catch (const JobError&) {
     if (monitor.keep_going()) throw;

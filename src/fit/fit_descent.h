@@ -15,8 +15,10 @@ inline constexpr int kMostFitRounds = 6;
 
 // Poses are searched globally at the start. Each round takes the minimum of a quadratic through
 // differences of the cost, at most two steps of each unknown away, and halves the way until the
-// cost falls. It ends when a round gains less than 0.1 or after kMostFitRounds. Stops without an
-// error when the monitor requests it.
+// cost falls. Mixed derivatives are computed anew where an unknown has moved by more than a step.
+// It ends when a round gains less than the noise of the cost or after kMostFitRounds. The last
+// round may raise the cost by that noise: the minimum of the quadratic has less noise than a single
+// cost. Stops without an error when the monitor requests it.
 FitDescent descendFit(const FitCost& cost, const FitPlace& start, const Monitor& monitor);
 
 }  // namespace echocine::fit

@@ -41,7 +41,7 @@ void addDialHints(HeartFit& fit) {
       fit.hints.push_back(fmt::format(
           "{} is at its limit {:.4g}: the heart may lie beyond; another view would help", dial.key,
           dial.value));
-    if (!dial.told)
+    if (!dial.determined)
       fit.hints.push_back(
           fmt::format("{} is not determined by the loops: its value is the prior's; another view "
                       "would help",
@@ -70,7 +70,7 @@ std::string refusalOf(const HeartFit& fit) {
   for (const ViewFitted& view : fit.views)
     if (std::string text = refusalOfView(view); !text.empty()) return text;
   for (const DialFound& dial : fit.found)
-    if (dial.key == "ef" && !dial.told)
+    if (dial.key == "ef" && !dial.determined)
       return "the loops do not determine the ejection fraction: another view would help";
   return {};
 }

@@ -5,7 +5,8 @@
 
 namespace echocine::fit {
 
-// J by which another fit must be worse to be told apart: one a twentieth as likely still counts.
+// J by which another fit must be worse to count as different: one a twentieth as likely still
+// counts.
 inline constexpr double kRival = 3;
 // D above which a model explains hardly more than none. Our choice.
 inline constexpr double kMostD = 0.9;

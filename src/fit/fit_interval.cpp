@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "fit/fit_doubts.h"
+#include "fit/fit_strain.h"
+#include "motion/heart/heart.h"
 
 namespace echocine::fit {
 
@@ -44,10 +47,53 @@ void addDials(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
     const double near = 1e-3 * (u.high - u.low);
     dial.at_limit = dial.value < u.low + near || dial.value > u.high - near;
     // A fit that was stopped before is no statement on the loops.
-    dial.told =
+    dial.determined =
         best.covariance.empty() || dial.prior_sd == 0 || dial.sd < kNarrower * dial.prior_sd;
     fit.found.push_back(dial);
   }
+}
+
+std::optional<double> strainAt(const std::map<std::string, double>& dials) {
+  try {
+    const heart::Parameters parameters = heart::parametersFrom(dials);
+    if (!heart::faultOf(parameters).empty()) return std::nullopt;
+    return longitudinalStrainOf(parameters);
+  } catch (const SceneError&) {
+    return std::nullopt;
+  }
+}
+
+// g C g with the gradient g of the strain by dial.
+double strainVariance(const FitCost& cost, const FitDescent& best, double value) {
+  std::vector<double> slope;
+  for (std::size_t i = 0; i < cost.dials(); ++i) {
+    const FitUnknown& u = cost.unknowns()[i];
+    std::vector<double> low = best.best.at, high = low;
+    low[i] = std::max(u.low, low[i] - 0.5 * u.step);
+    high[i] = std::min(u.high, high[i] + 0.5 * u.step);
+    // A side without a heart is left out.
+    const std::optional<double> below = strainAt(cost.dialsAt(low)),
+                                above = strainAt(cost.dialsAt(high));
+    const double rise = above.value_or(value) - below.value_or(value),
+                 run = (above ? high[i] : best.best.at[i]) - (below ? low[i] : best.best.at[i]);
+    slope.push_back(run > 0 ? rise / run : 0);
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < slope.size(); ++i)
+    for (std::size_t j = 0; j < slope.size(); ++j)
+      sum += slope[i] * slope[j] * covarianceAt(best, i, j);
+  return sum;
+}
+
+void addStrain(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
+  const std::optional<double> value = strainAt(fit.dials);
+  if (!value) return;
+  // Only for a fit that was stopped. Our choice.
+  constexpr double kPriorSd = 0.04;
+  const double model = modelErrorOf(fit.views.size()).gls;
+  fit.gls = estimateOf(*value, best.covariance.empty()
+                                   ? kPriorSd * kPriorSd
+                                   : strainVariance(cost, best, *value) + model * model);
 }
 
 void addResults(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
@@ -60,6 +106,7 @@ void addResults(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
   if (best.covariance.empty())
     s = {std::pow(cost.prior().sd()[kEf], 2), std::pow(cost.prior().sd()[kEdv_ml], 2), 0};
   fit.ef = estimateOf(ef, s.ef);
+  addStrain(cost, best, fit);
   const bool scaled = std::all_of(fit.views.begin(), fit.views.end(),
                                   [](const ViewFitted& view) { return view.scaled; });
   if (!scaled) return;
@@ -71,7 +118,8 @@ void addResults(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
 void addRivals(const FitCost& cost, const std::vector<FitDescent>& descents, HeartFit& fit) {
   for (std::size_t i = 1; i < descents.size(); ++i) {
     const FitPlace& other = descents[i].best;
-    HeartRival rival{cost.dialsAt(other.at), 0, 0, other.cost - fit.cost};
+    HeartRival rival{cost.dialsAt(other.at), 0, 0, {}, other.cost - fit.cost};
+    rival.gls = strainAt(rival.dials);
     const PriorDials dials = priorDialsOf(rival.dials);
     rival.ef = dials[kEf], rival.edv_ml = dials[kEdv_ml];
     fit.rivals.push_back(rival);
@@ -88,6 +136,7 @@ void widenByRivals(HeartFit& fit) {
   for (const HeartRival& rival : fit.rivals) {
     if (!fit.ef || rival.cost_above > kRival) continue;
     widen(*fit.ef, rival.ef);
+    if (fit.gls && rival.gls) widen(*fit.gls, *rival.gls);
     if (!fit.edv_ml) continue;
     widen(*fit.edv_ml, rival.edv_ml);
     widen(*fit.esv_ml, rival.edv_ml * (1 - rival.ef));
@@ -97,9 +146,9 @@ void widenByRivals(HeartFit& fit) {
 }  // namespace
 
 ModelError modelErrorOf(std::size_t views) {
-  return views <= 1   ? ModelError{0.040, 0.08}
-         : views == 2 ? ModelError{0.035, 0.06}
-                      : ModelError{0.030, 0.05};
+  return views <= 1   ? ModelError{0.040, 0.08, 0.02}
+         : views == 2 ? ModelError{0.035, 0.06, 0.02}
+                      : ModelError{0.030, 0.05, 0.02};
 }
 
 void concludeFit(const FitCost& cost, const std::vector<FitDescent>& descents, HeartFit& fit) {

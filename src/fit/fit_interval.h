@@ -10,7 +10,7 @@ namespace echocine::fit {
 // The model error is that of planted hearts with other atria, right ventricles, twist, rates, media
 // and looks than the models' (README.md), as SD. For three views it is our choice.
 struct ModelError {
-  double ef, edv;  // SD; that of EDV is relative
+  double ef, edv, gls;  // SD; that of EDV is relative
 };
 ModelError modelErrorOf(std::size_t views);
 

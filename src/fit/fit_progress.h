@@ -46,10 +46,15 @@ class FitProgress {
   double total_ = 0, used_ = 0, told_ = 0;
 };
 
-// Units of a descent with so many unknowns of each view: differences of a quadratic, four steps.
+// Units of a descent with so many unknowns of each view: four rounds, two of them with mixed
+// derivatives.
 inline double descentUnits(double views, double unknowns) {
-  return kUsualRounds * views * kEvaluationUnits *
-         (5 + 2 * unknowns + unknowns * (unknowns - 1) / 2);
+  return views * kEvaluationUnits * (kUsualRounds * (5 + 2 * unknowns) + unknowns * (unknowns - 1));
+}
+
+// Units of two draws of rendered loops, with a gradient each.
+inline double ownUnits(double views, double unknowns) {
+  return 2 * views * (kOwnLoopUnits + kEvaluationUnits * (1 + 2 * unknowns));
 }
 
 }  // namespace echocine::fit

@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "fit/fit_page.h"
 #include "fit/fit_report.h"
+#include "fit/fit_strain.h"
 #include "fit/results_folder.h"
 #include "motion/heart/heart_cycle.h"
 
@@ -31,7 +32,7 @@ Json dialsJson(const HeartFit& fit) {
                    {"value", dial.value},
                    {"sd", dial.sd},
                    {"prior_sd", dial.prior_sd},
-                   {"told", dial.told},
+                   {"determined", dial.determined},
                    {"at_limit", dial.at_limit}});
   }
   return out;
@@ -67,6 +68,7 @@ Json rivalsJson(const HeartFit& fit) {
   Json out = Json::array();
   for (const HeartRival& rival : fit.rivals) {
     Json json{{"ef", rival.ef}, {"cost_above", rival.cost_above}};
+    if (rival.gls) json["gls"] = *rival.gls;
     if (fit.edv_ml) json["dials"] = rival.dials;
     out.push_back(std::move(json));
   }
@@ -81,7 +83,8 @@ Json fitJson(const HeartFit& fit, const std::vector<std::string>& labels) {
              {{"interval", 0.9},
               {"ef", estimateJson(fit.ef)},
               {"edv_ml", estimateJson(fit.edv_ml)},
-              {"esv_ml", estimateJson(fit.esv_ml)}}},
+              {"esv_ml", estimateJson(fit.esv_ml)},
+              {"gls", estimateJson(fit.gls)}}},
             {"refusal", fit.refusal.empty() ? Json() : Json(fit.refusal)},
             {"hints", fit.hints},
             {"dials", dialsJson(fit)},
@@ -121,12 +124,36 @@ std::vector<VolumeAt> volumeOf(const HeartFit& fit) {
   return out;
 }
 
+// Eq. 18 over the beat; the interval scales that at end-systole.
+std::vector<Estimate> strainsOf(const HeartFit& fit, const std::vector<VolumeAt>& at) {
+  if (!fit.gls) return {};
+  std::vector<double> phases;
+  for (const VolumeAt& one : at) phases.push_back(one.phase);
+  std::vector<Estimate> out;
+  for (const double strain : longitudinalStrains(heart::parametersFrom(fit.dials), phases)) {
+    const double share = strain / fit.gls->value,
+                 half = 0.5 * std::abs(share) * (fit.gls->high - fit.gls->low),
+                 middle = 0.5 * share * (fit.gls->high + fit.gls->low);
+    out.push_back({strain, middle - half, middle + half});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string curvesCsv(const HeartFit& fit) {
-  std::string text = fit.edv_ml ? "phase,lv_ml,low_ml,high_ml\n" : "phase,lv_per_edv,low,high\n";
-  for (const VolumeAt& at : volumeOf(fit))
-    text += fmt::format("{:.3f},{:.6g},{:.6g},{:.6g}\n", at.phase, at.value, at.low, at.high);
+  std::string text = fit.edv_ml ? "phase,lv_ml,low_ml,high_ml" : "phase,lv_per_edv,low,high";
+  text += fit.gls ? ",gls,gls_low,gls_high\n" : "\n";
+  const std::vector<VolumeAt> volumes = volumeOf(fit);
+  const std::vector<Estimate> strains = strainsOf(fit, volumes);
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    const VolumeAt& at = volumes[i];
+    text += fmt::format("{:.3f},{:.6g},{:.6g},{:.6g}", at.phase, at.value, at.low, at.high);
+    if (fit.gls)
+      text +=
+          fmt::format(",{:.6g},{:.6g},{:.6g}", strains[i].value, strains[i].low, strains[i].high);
+    text += "\n";
+  }
   return text;
 }
 

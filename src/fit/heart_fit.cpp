@@ -78,11 +78,10 @@ struct FitStages {
     families = kFamilyUnits * n;
     starts = kStartUnits * n * options.starts;
     descent = descentUnits(n, static_cast<double>(dials) + (options.tilt_deg > 0 ? 2 : 0));
-    own = options.own_loops ? kOwnLoopUnits * n : 0;
+    own = options.own_loops ? ownUnits(n, static_cast<double>(dials) + 2) : 0;
   }
   double all() const {
-    return hearts + families + starts + descent * static_cast<double>(descents) + own +
-           (own > 0 ? descent : 0);
+    return hearts + families + starts + descent * static_cast<double>(descents) + own;
   }
 };
 
@@ -155,7 +154,7 @@ void correctByOwnLoops(const FittedSides& sides, const FitCost& cost, double til
                        const Monitor& monitor, std::vector<FitDescent>& descents, HeartFit& fit) {
   std::vector<heart::View> views;
   for (const ViewFitted& view : fit.views) views.push_back(view.view);
-  auto own = fitOwnLoops(sides, cost, views, descents.front().best, tilt_deg, monitor);
+  auto own = fitOwnLoops(sides, cost, views, descents.front(), tilt_deg, monitor);
   fit.stopped = !own;
   if (!own) return;
   for (std::size_t v = 0; v < views.size(); ++v) fit.views[v].own = std::move(own->report[v]);
@@ -211,8 +210,7 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
   unlessStopped(monitor, fit, [&] { addControls(loops, sides, cost, best, fit); });
   unlessStopped(monitor, fit, [&] {
     if (options.own_loops)
-      correctByOwnLoops(sides, cost, options.tilt_deg, progress.next(stages.own + stages.descent),
-                        descents, fit);
+      correctByOwnLoops(sides, cost, options.tilt_deg, progress.next(stages.own), descents, fit);
   });
   concludeFit(cost, descents, fit);
   if (!fit.stopped) progress.finish();

@@ -43,7 +43,7 @@ struct DialFound {
   std::string key;
   double value = 0, sd = 0, prior_sd = 0;
   bool at_limit = false;
-  bool told = true;  // false: no narrower than the prior, which the value then is
+  bool determined = true;  // false: no narrower than the prior, which the value then is
 };
 
 // One view of the fitted heart.
@@ -63,7 +63,8 @@ struct ViewFitted {
 struct HeartRival {
   std::map<std::string, double> dials;
   double ef = 0, edv_ml = 0;
-  double cost_above = 0;  // J minus that of the best
+  std::optional<double> gls;  // none if no heart has these dials
+  double cost_above = 0;      // J minus that of the best
 };
 
 struct HeartFit {
@@ -72,6 +73,7 @@ struct HeartFit {
   // Empty if the loops do not determine the ejection fraction: `refusal` has the reason.
   std::optional<Estimate> ef;
   std::optional<Estimate> edv_ml, esv_ml;   // empty without a length scale too
+  std::optional<Estimate> gls;              // Eq. 18 at end-systole; negative
   std::map<std::string, double> own_error;  // subtracted, by dial
   std::vector<ViewFitted> views;            // as they fitted before
   std::vector<HeartRival> rivals;

@@ -83,8 +83,8 @@ void ModelDiscrepancy::findSystole(const echo::EchoLoop& real, const echo::SideO
     beat_.systole_source = "given";
     if (!(beat_.span.systole >= kEarliest && beat_.span.systole <= kLatest))
       throw SceneError(fmt::format(
-          "--real-es: frame {:g} lies at {:.2f} of the beat from end-diastole, accepted: {:g} to "
-          "{:g}; give another, or --real-ed",
+          "end-systole: frame {:g} lies at {:.2f} of the beat from end-diastole, accepted: {:g} to "
+          "{:g}; give another frame for it, or for end-diastole",
           *side.es_frame, beat_.span.systole, kEarliest, kLatest));
   } else {
     FitPose pose = search(first).pose;

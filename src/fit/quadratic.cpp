@@ -15,6 +15,36 @@ double Quadratic::at(const std::vector<double>& u) const {
   return sum;
 }
 
+Quadratic differencesOf(std::size_t all, const std::vector<std::size_t>& of, const ValuesAt& values,
+                        const Quadratic* mixed) {
+  std::vector<std::vector<double>> places{std::vector<double>(all, 0)};
+  const auto add = [&](std::size_t i, double a, std::size_t j, double b) {
+    places.emplace_back(all, 0);
+    places.back()[i] += a;
+    places.back()[j] += b;
+  };
+  for (const std::size_t i : of) add(i, 1, i, 0), add(i, -1, i, 0);
+  for (std::size_t a = 0; mixed == nullptr && a < of.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) add(of[a], 1, of[b], 1);
+  const std::vector<double> y = values(places);
+  Quadratic out(all);
+  out.value = y[0];
+  for (std::size_t a = 0; a < of.size(); ++a) {
+    out.gradient[of[a]] = 0.5 * (y[1 + 2 * a] - y[2 + 2 * a]);
+    out.bend(of[a], of[a]) = y[1 + 2 * a] - 2 * y[0] + y[2 + 2 * a];
+  }
+  std::size_t next = 1 + 2 * of.size();
+  for (std::size_t a = 0; a < of.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b, ++next) {
+      const std::size_t i = of[a], j = of[b];
+      out.bend(i, j) = out.bend(j, i) =
+          mixed != nullptr ? mixed->hessian[i * all + j]
+                           : y[next] - y[0] - out.gradient[i] - out.gradient[j] -
+                                 0.5 * (out.hessian[i * all + i] + out.hessian[j * all + j]);
+    }
+  return out;
+}
+
 Quadratic convex(const Quadratic& q, double least) {
   const int n = static_cast<int>(q.size());
   const cv::Mat hessian = cv::Mat(q.hessian, true).reshape(1, n);
@@ -25,6 +55,17 @@ Quadratic convex(const Quadratic& q, double least) {
   Quadratic out = q;
   out.hessian.assign(all.begin<double>(), all.end<double>());
   return out;
+}
+
+Quadratic sumOfViews(const Quadratic& prior, const std::vector<Quadratic>& views) {
+  Quadratic sum = prior;
+  for (const Quadratic& view : views) {
+    const Quadratic one = convex(view, 0);
+    sum.value += one.value;
+    for (std::size_t i = 0; i < sum.gradient.size(); ++i) sum.gradient[i] += one.gradient[i];
+    for (std::size_t i = 0; i < sum.hessian.size(); ++i) sum.hessian[i] += one.hessian[i];
+  }
+  return sum;
 }
 
 std::vector<double> minimumWithin(const Quadratic& q, const std::vector<double>& low,

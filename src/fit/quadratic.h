@@ -2,6 +2,7 @@
 // A quadratic function of several unknowns: its minimum in a box and its inverse curvature.
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace echocine::fit {
@@ -18,9 +19,24 @@ struct Quadratic {
   double at(const std::vector<double>& u) const;
 };
 
+// A function's values at places, each given in steps of every unknown.
+using ValuesAt = std::function<std::vector<double>(const std::vector<std::vector<double>>&)>;
+
+// Central differences of a function of the listed unknowns, out of `all`, in units of a step. With
+// `mixed`, its mixed derivatives are kept: 2 n + 1 values of n unknowns instead of
+// (n^2 + 3 n + 2) / 2.
+Quadratic differencesOf(std::size_t all, const std::vector<std::size_t>& of, const ValuesAt& values,
+                        const Quadratic* mixed = nullptr);
+
 // The same with curvatures of at least `least` in all directions: those below it, negative ones
 // too, become it. Differences of a noisy function may have no minimum.
 Quadratic convex(const Quadratic& q, double least);
+
+// (16)  H = H_prior + sum over views of H_view
+// and the sum of values and gradients. Negative curvatures of a view, which are noise, become 0
+// first. So no view makes the inverse of H larger in any direction. Precondition: the prior is
+// convex.
+Quadratic sumOfViews(const Quadratic& prior, const std::vector<Quadratic>& views);
 
 // The minimum within low and high, by descent along one unknown at a time. Precondition: convex.
 std::vector<double> minimumWithin(const Quadratic& q, const std::vector<double>& low,

@@ -5,11 +5,11 @@
 namespace echocine::fit {
 
 const std::vector<SearchedDial>& searchedDials() {
-  static const std::vector<SearchedDial> kDials{{{"ef", 0.15, 0.75}, 0.025},
+  static const std::vector<SearchedDial> kDials{{{"ef", 0.15, 0.75}, 0.05},
                                                 {{"edv", 50, 280}, 10},
-                                                {{"wall-thickness", 5, 15}, 1},
-                                                {{"sphericity", 0.46, 0.78}, 0.03},
-                                                {{"mapse", 3, 20}, 1.5}};
+                                                {{"wall-thickness", 5, 15}, 1.5},
+                                                {{"sphericity", 0.46, 0.78}, 0.04},
+                                                {{"mapse", 3, 20}, 2.5}};
   return kDials;
 }
 

@@ -44,7 +44,7 @@ void noteLimits(ViewRanking& ranking) {
     say(fmt::format("{} and {} are hardly distinguishable (confidence {:.2f})", keyOf(best.view),
                     keyOf(ranking.views[1].view), ranking.confidence));
   if (best.beat.confidence < kLeastConfidence)
-    say("the start of the beat is ambiguous: give --real-ed");
+    say("the start of the beat is ambiguous: give the frame of end-diastole");
   if (best.heart.found.at_limit)
     say("the pose is at the limit of its search: a better one may lie beyond");
   if (best.heart.tilt && best.heart.tilt->at_limit)

@@ -11,7 +11,7 @@
   function showHead() {
     byId("title").textContent = `A heart fitted to ${views.map((v) => `${v.view}: ${v.loop}`).join(", ")}`;
     byId("subtitle").textContent = [result.ef && `EF ${range(result.ef, 3)}`, result.edv_ml && `EDV ${range(result.edv_ml, 0)} mL`,
-      result.esv_ml && `ESV ${range(result.esv_ml, 0)} mL`, result.ef ? `intervals at ${100 * result.interval} %` : "no result",
+      result.esv_ml && `ESV ${range(result.esv_ml, 0)} mL`, result.gls && `GLS ${range(result.gls, 3)}`, result.ef ? `intervals at ${100 * result.interval} %` : "no result",
       data.stopped && "stopped"].filter(Boolean).join(" · ");
     byId("refusal").hidden = !data.refusal;
     byId("refusal").querySelector("p").textContent = data.refusal ?? "";
@@ -104,7 +104,7 @@
     page.table(byId("result"), { columns: [{ label: "dial" }, ...["value", "SD", "SD of the prior", "own error"]
       .map((label) => ({ label, number: true })), { label: "" }],
     rows: data.dials.map((d) => [d.dial, number(d.value), number(d.sd, 2), number(d.prior_sd, 2), number(data.own_error[d.dial], 2),
-      [d.at_limit && "at its limit", !d.told && "not determined"].filter(Boolean).join(", ")]) });
+      [d.at_limit && "at its limit", !d.determined && "not determined"].filter(Boolean).join(", ")]) });
     page.table(byId("views"), { columns: [{ label: "view" }, { label: "loop" }, ...["D", "mirrored", "shuffled", "in the picture, %",
       "tilt, °", "rotation, °", "start's confidence"].map((label) => ({ label, number: true }))],
     rows: views.map((v) => [v.view, v.loop, fixed(v.fit.discrepancy, 3), fixed(v.controls?.mirrored, 3), fixed(v.controls?.shuffled, 3),

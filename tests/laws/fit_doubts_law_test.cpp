@@ -27,7 +27,7 @@ HeartFit soundFit() {
   view.found.terms.overlap = 0.9;
   view.controls = ControlFits{0.3, 0.5, 0.4};
   fit.views = {view};
-  fit.rivals = {{{}, 0.3, 130, 10}};
+  fit.rivals = {{{}, 0.3, 130, {}, 10}};
   return fit;
 }
 
@@ -52,11 +52,11 @@ TEST(FitDoubts, EachReasonRefuses) {
             std::string::npos);
   EXPECT_NE(refused([](HeartFit& f) { f.views[0].controls->shuffled = 0.2; }).find("shuffled"),
             std::string::npos);
-  EXPECT_NE(refused([](HeartFit& f) { f.found[0].told = false; }).find("another view"),
+  EXPECT_NE(refused([](HeartFit& f) { f.found[0].determined = false; }).find("another view"),
             std::string::npos);
   // A control clearly worse, another dial that the loops do not tell, and a stopped fit: no reason.
   EXPECT_EQ(refused([](HeartFit& f) { f.views[0].controls->mirrored = 0.303; }), "");
-  EXPECT_EQ(refused([](HeartFit& f) { f.found[1].told = false; }), "");
+  EXPECT_EQ(refused([](HeartFit& f) { f.found[1].determined = false; }), "");
   EXPECT_EQ(refused([](HeartFit& f) { f.views[0].controls.reset(); }), "");
 }
 
@@ -70,7 +70,7 @@ TEST(FitDoubts, EachDoubtIsOneHint) {
   };
   EXPECT_NE(hinted([](HeartFit& f) { f.found[1].at_limit = true; }).find("mapse is at its limit"),
             std::string::npos);
-  EXPECT_NE(hinted([](HeartFit& f) { f.found[1].told = false; }).find("mapse is not determined"),
+  EXPECT_NE(hinted([](HeartFit& f) { f.found[1].determined = false; }).find("mapse is not determined"),
             std::string::npos);
   EXPECT_NE(hinted([](HeartFit& f) { f.views[0].beat.confidence = 0.05; }).find("--ed"),
             std::string::npos);

@@ -5,10 +5,15 @@
 #include <cmath>
 
 #include "core/hash_random.h"
+#include "fit/fit_strain.h"
 #include "fit/heart_design.h"
 #include "fit/heart_prior.h"
 #include "fit/quadratic.h"
 #include "fit/searched_dials.h"
+#include "motion/heart/heart_cycle.h"
+#include "motion/heart/heart_scene.h"
+#include "motion/surfaces/interior_motion.h"
+#include "truth/frame_truth.h"
 
 namespace echocine::fit {
 namespace {
@@ -110,6 +115,58 @@ TEST(FitQuadratic, CovarianceIsTheInverseCurvature) {
   EXPECT_NEAR(c[3], 2 / determinant, 1e-9);
 }
 
+// Differences of a quadratic function are exact. With kept mixed derivatives the rest is anew.
+TEST(FitQuadratic, DifferencesOfAQuadraticAreExact) {
+  Quadratic q(3);
+  q.value = 5;
+  q.gradient = {-3, 0, 1};
+  q.hessian = {2, 0, 0.8, 0, 0, 0, 0.8, 0, 1};
+  std::size_t evaluations = 0;
+  const auto values = [&](const std::vector<std::vector<double>>& places) {
+    std::vector<double> out;
+    for (const std::vector<double>& place : places) out.push_back(q.at(place));
+    evaluations = places.size();
+    return out;
+  };
+  const Quadratic found = differencesOf(3, {0, 2}, values);
+  EXPECT_EQ(evaluations, 6u);
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(found.hessian[i], q.hessian[i], 1e-12);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found.gradient[i], q.gradient[i], 1e-12);
+  q.hessian = {4, 0, 0.1, 0, 0, 0, 0.1, 0, 1};
+  const Quadratic kept = differencesOf(3, {0, 2}, values, &found);
+  EXPECT_EQ(evaluations, 5u);
+  EXPECT_NEAR(kept.hessian[0], 4, 1e-12);
+  EXPECT_NEAR(kept.hessian[2], 0.8, 1e-12);
+}
+
+// Views with noisy curvatures, some negative: no further view widens the SD of any unknown.
+TEST(FitQuadratic, AFurtherViewNeverWidens) {
+  constexpr std::size_t kN = 6;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Quadratic prior(kN);
+    for (std::size_t i = 0; i < kN; ++i) prior.bend(i, i) = 0.3;
+    std::vector<Quadratic> views;
+    std::vector<double> before = covarianceOf(prior);
+    bool saddle = false;
+    for (std::uint64_t v = 0; v < 3; ++v) {
+      Quadratic view(kN);
+      for (std::size_t i = 0; i < kN; ++i)
+        for (std::size_t j = 0; j <= i; ++j)
+          view.bend(i, j) = view.bend(j, i) =
+              (i == j ? 1 : 0) + 4 * uniformFromHash(hashOf(seed, v, i, j)) - 2;
+      saddle = saddle || convex(view, 0).hessian != view.hessian;
+      views.push_back(view);
+      const std::vector<double> after = covarianceOf(sumOfViews(prior, views));
+      for (std::size_t i = 0; i < kN; ++i) {
+        EXPECT_GT(after[i * kN + i], 0);
+        EXPECT_LE(after[i * kN + i], before[i * kN + i] * (1 + 1e-9));
+      }
+      before = after;
+    }
+    EXPECT_TRUE(saddle);
+  }
+}
+
 // A saddle gets the least curvature along its falling direction and keeps the other.
 TEST(FitQuadratic, ASaddleBecomesConvex) {
   Quadratic q(2);
@@ -117,6 +174,44 @@ TEST(FitQuadratic, ASaddleBecomesConvex) {
   const Quadratic mended = convex(q, 0.1);
   EXPECT_NEAR(mended.hessian[0], (2 + 0.1) / 2, 1e-9);
   EXPECT_NEAR(mended.hessian[1], (2 - 0.1) / 2, 1e-9);
+}
+
+// That of the ground truth, from meshes and material points.
+double strainOfMeshes(const heart::Parameters& parameters) {
+  Scene scene = heart::heartScene(parameters, heart::View::a4c, 12, Look::paper);
+  scene.truth.function = true;
+  const MeshMotion motion(scene);
+  const MotionField field = interiorMotion(scene, motion);
+  const HeartFunction function(scene, motion, field, 0);
+  SurfaceFrame surfaces;
+  FieldFrame frame;
+  const double end_systole = scene.motion.end_systole_phase.value();
+  motion.frameAt(end_systole, surfaces);
+  field.at(end_systole, frame);
+  return function.at(surfaces, frame).global_longitudinal_strain;
+}
+
+TEST(FitStrain, IsCloseToTheGroundTruthOfMeshes) {
+  for (const auto& dials :
+       {std::map<std::string, double>{}, {{"ef", 0.35}, {"edv", 180}, {"mapse", 7}}}) {
+    const heart::Parameters parameters = heart::parametersFrom(dials);
+    const double strain = longitudinalStrainOf(parameters), truth = strainOfMeshes(parameters);
+    EXPECT_NEAR(strain, truth, 0.015);
+    EXPECT_LT(strain, -0.05);
+  }
+}
+
+// 0 at end-diastole, most negative near end-systole, and more negative with more excursion.
+TEST(FitStrain, FollowsTheBeat) {
+  const heart::Parameters parameters = heart::parametersFrom({{"ef", 0.6}});
+  const double end = heart::Cycle(parameters).events().aortic_closes;
+  const std::vector<double> strains = longitudinalStrains(parameters, {0, 0.5 * end, end});
+  EXPECT_EQ(strains[0], 0);
+  EXPECT_LT(strains[1], 0);
+  EXPECT_LT(strains[2], strains[1]);
+  EXPECT_EQ(strains[2], longitudinalStrainOf(parameters));
+  EXPECT_LT(longitudinalStrainOf(heart::parametersFrom({{"ef", 0.6}, {"mapse", 15}})),
+            longitudinalStrainOf(heart::parametersFrom({{"ef", 0.6}, {"mapse", 10}})));
 }
 
 }  // namespace

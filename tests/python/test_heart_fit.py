@@ -35,6 +35,9 @@ def test_the_heart_is_found_and_kept(fitted):
     assert fit.refusal == "" and not fit.stopped
     assert ef.value == pytest.approx(0.5, abs=0.03) and ef.low < ef.value < ef.high
     assert edv.value == 130 and esv.value == pytest.approx(130 * (1 - ef.value))
+    gls = fit.result["gls"]
+    assert -0.3 < gls.low < gls.value < gls.high < 0
+    assert fit.curves["gls"].min() == pytest.approx(gls.value, abs=0.005) and fit.curves["gls"][0] == 0
     assert fit.dials["ef"] == ef.value and fit.dials["wall_thickness"] == 9
     assert list(fit.intervals) == ["ef"] and fit.intervals["ef"].value == ef.value
     assert len(fit.views) == 1 and fit.views[0]["view"] == "a4c"

@@ -33,8 +33,8 @@ class HeartFit:
     """A heart fitted to echo loops.
 
     Attributes:
-        result: "ef", "edv_ml" and "esv_ml" -> Interval. None where the loops do not determine it: then `refusal` has the
-            reason, or a loop has no length scale.
+        result: "ef", "edv_ml", "esv_ml" and "gls" (global longitudinal strain, negative) -> Interval. None where the loops
+            do not determine it: then `refusal` has the reason, or a loop has no length scale.
         dials: dial -> value of the found heart, searched and fixed ones.
         intervals: searched dial -> Interval. Without a length scale only dials that are ratios.
         rivals: other hearts, each a dict: "ef", "cost_above" (J above the best), and "dials" with a length scale.
@@ -42,7 +42,8 @@ class HeartFit:
         refusal: why there is no result; empty with one.
         stopped: the fit was stopped: the best heart until then.
         curves: "phase", and the volume of the left ventricle with its interval, (50,) float64: "lv_ml", "low_ml" and
-            "high_ml"; without a length scale "lv_per_edv", "low" and "high". Empty without a result.
+            "high_ml"; without a length scale "lv_per_edv", "low" and "high". The same of the strain: "gls", "gls_low",
+            "gls_high". Empty without a result.
         views: dict of each loop: its fit, plane and beat, as in fit.json.
         details: all of it, as in fit.json.
     """
@@ -51,7 +52,7 @@ class HeartFit:
         self.details = details
         numbers: Dict[str, Any] = details["result"]
         self.result: Dict[str, Optional[Interval]] = {
-            key: None if numbers[key] is None else Interval(**numbers[key]) for key in ("ef", "edv_ml", "esv_ml")}
+            key: None if numbers[key] is None else Interval(**numbers[key]) for key in ("ef", "edv_ml", "esv_ml", "gls")}
         self.dials: Dict[str, float] = {key.replace("-", "_"): value for key, value in dials.items()}
         self.intervals: Dict[str, Interval] = {
             dial["dial"].replace("-", "_"): Interval(dial["value"], dial["value"] - _NINETY * dial["sd"],
