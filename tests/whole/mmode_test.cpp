@@ -117,22 +117,22 @@ TEST(MMode, AMovingPlateIsWhereItsClosedFormSays) {
 
 // A bright line on a dark ground is followed by fractions of a sample, up to 0.4 m/s.
 TEST(MMode, ABrightLineIsFollowedByFractionsOfASample) {
-  constexpr int kColumns = 60, kSamples = 400;
-  constexpr double kSample_m = 2e-4, kColumn_s = 0.005;
+  constexpr int kLineColumns = 60, kLineSamples = 400;
+  constexpr double kLineSample_m = 2e-4, kLineColumn_s = 0.005;
   for (const double velocity : {0.0, 0.013, 0.1, -0.25}) {
     std::vector<float> greys;
-    for (int t = 0; t < kColumns; ++t)
-      for (int k = 0; k < kSamples; ++k) {
-        const double from_line =
-            ((k + 0.5) * kSample_m - (0.04 - 0.02 * std::sin(velocity * t * kColumn_s / 0.02))) /
-            1e-3;
+    for (int t = 0; t < kLineColumns; ++t)
+      for (int k = 0; k < kLineSamples; ++k) {
+        const double from_line = ((k + 0.5) * kLineSample_m -
+                                  (0.04 - 0.02 * std::sin(velocity * t * kLineColumn_s / 0.02))) /
+                                 1e-3;
         greys.push_back(static_cast<float>(0.2 + 0.7 * std::exp(-0.5 * from_line * from_line)));
       }
     const std::vector<double> moved =
-        followEcho({greys, kColumns, kSamples, kSample_m, kColumn_s}, 0.041);
-    for (int t = 0; t < kColumns; ++t)
+        followEcho({greys, kLineColumns, kLineSamples, kLineSample_m, kLineColumn_s}, 0.041);
+    for (int t = 0; t < kLineColumns; ++t)
       EXPECT_NEAR(moved[static_cast<std::size_t>(t)],
-                  0.02 * std::sin(velocity * t * kColumn_s / 0.02), 5e-6)
+                  0.02 * std::sin(velocity * t * kLineColumn_s / 0.02), 5e-6)
           << velocity << " " << t;
   }
 }
