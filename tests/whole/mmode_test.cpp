@@ -71,14 +71,14 @@ TEST(MMode, AColumnIsTheLineOfAStillFrame) {
 // A plate that moves along the central line as z = 60 mm + 5 mm (1 - cos(2 pi phase)) / 2: its
 // border is where the closed form says, and the echo is followed by its motion.
 TEST(MMode, AMovingPlateIsWhereItsClosedFormSays) {
-  constexpr int kKeyframes = 40;
+  constexpr int kPlateFrames = 40;
   constexpr double kStroke_mm = 8;
   const auto up_mm = [&](double phase) {
     return 0.5 * kStroke_mm * (1 - std::cos(2 * std::numbers::pi * phase));
   };
   TempFolder folder;
-  for (int i = 0; i < kKeyframes; ++i) {
-    const double z_cm = 6 - 0.1 * up_mm(static_cast<double>(i) / kKeyframes);
+  for (int i = 0; i < kPlateFrames; ++i) {
+    const double z_cm = 6 - 0.1 * up_mm(static_cast<double>(i) / kPlateFrames);
     writeObj(box({-3, -3, z_cm}, {3, 3, z_cm + 1}),
              folder / ("plate_" + std::string(i < 10 ? "0" : "") + std::to_string(i) + ".obj"));
   }
