@@ -14,6 +14,7 @@
 #include "cli/fit_command.h"
 #include "cli/heart_command.h"
 #include "cli/live_command.h"
+#include "cli/mmode_command.h"
 #include "cli/one_line.h"
 #include "cli/plan_command.h"
 #include "cli/render_command.h"
@@ -85,6 +86,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough(false);
   echocine::RenderCommand render(app);
+  echocine::MModeCommand mmode(app);
   echocine::ViewCommand view(app);
   echocine::PlanCommand plan(app);
   echocine::StudyCommand study(app);
@@ -104,6 +106,7 @@ int run(int argc, char** argv) {
     echocine::listenForStop();
     echocine::stoppable(echocine::stopWanted, [&] {
       code = app.got_subcommand("heart")     ? heart.run()
+             : app.got_subcommand("mmode")   ? mmode.run()
              : app.got_subcommand("view")    ? view.run()
              : app.got_subcommand("plan")    ? plan.run()
              : app.got_subcommand("study")   ? study.run()

@@ -29,7 +29,10 @@ void refuseUnusable(double phase, const PolarFrame& polar) {
 Volumes FrameStages::make(const FrameTime& time, const Making& making, Workspace& w) const {
   Volumes volumes_ml;
   if (!making.traced) {
-    const bool rolls = effects.rolling && !making.still;
+    const bool rolls = effects.rolling && !making.still && !making.lines;
+    const LineRange lines = making.lines.value_or(LineRange{0, scene.probe.lines});
+    std::optional<LineGroup> some;
+    if (making.lines) some = lineGroup(lines, 0, takenBy(lines));
     if (w.polar.intensities.empty()) w.polar.intensities = Intensities(w.greys.release());
     WorkCounts work;
     // Near the probe the average over the beam needs nearly all lines, deeper only a few; haze
@@ -44,10 +47,11 @@ Volumes FrameStages::make(const FrameTime& time, const Making& making, Workspace
     }
     if (rolls) std::swap(w.polar, w.rolled);
     stand(time, w);  // of a rolling frame for volumes and truth
-    if (!rolls) work = clock.time(Stage::trace, [&] { return rays.trace(time.frame, nullptr, w); });
+    const LineGroup* only = some ? &*some : nullptr;
+    if (!rolls) work = clock.time(Stage::trace, [&] { return rays.trace(time.frame, only, w); });
     if (making.counted) tally.addFrame(work);
     if (making.received) making.received(w.polar.intensities);
-    if (!rolls) process(time, {0, scene.probe.lines}, w);
+    if (!rolls) process(time, lines, w);
     if (rays.receive() && !making.still) refuseUnusable(time.phase, w.polar);
     volumes_ml =
         clock.time(Stage::motion, [&] { return structureVolumes(scene, *motion, w.surfaces); });
@@ -63,6 +67,11 @@ Volumes FrameStages::make(const FrameTime& time, const Making& making, Workspace
     });
   if (making.picture) clock.time(Stage::scan_conversion, [&] { chain.picture(w.greys, w.image); });
   return volumes_ml;
+}
+
+// The samples of each line that some lines need.
+std::vector<int> FrameStages::takenBy(LineRange lines) const {
+  return chain.taken(effects.speckle ? effects.speckle->reach(lines) : lines);
 }
 
 // The surfaces of an instant, made ready for rays.

@@ -67,6 +67,7 @@ struct FrameStages {
   } white;  // of the log compression
 
  private:
+  std::vector<int> takenBy(LineRange lines) const;
   void stand(const FrameTime& time, Workspace& workspace) const;
   void process(const FrameTime& time, LineRange lines, Workspace& workspace) const;
   Greys withoutPersistence(double white_at, const FrameTime& time) const;

@@ -13,6 +13,8 @@ struct Making {
   bool still = false;    // all lines at the frame's instant, even if they roll
   bool counted = true;   // counts as work of the loop
   bool persists = true;  // mixes in earlier frames, if the scene has persistence
+  // Only these lines, all at the frame's instant; the content of the others is undefined.
+  std::optional<LineRange> lines{};
   bool picture = false;  // runs scan conversion too
   std::optional<double>
       white{};  // of the log compression; without it the frame ends with intensities

@@ -8,6 +8,17 @@
 
 namespace echocine {
 
+LineGroup lineGroup(LineRange lines, double offset_s, std::vector<int> taken) {
+  const int count = static_cast<int>(taken.size());
+  LineGroup group{lines, offset_s, {lines, std::move(taken)}, lines};
+  const std::vector<int>& samples = group.traced.intensities;
+  while (group.beams.first > 0 && samples[static_cast<std::size_t>(group.beams.first - 1)] > 0)
+    --group.beams.first;
+  while (group.beams.end < count && samples[static_cast<std::size_t>(group.beams.end)] > 0)
+    ++group.beams.end;
+  return group;
+}
+
 RollingLines::RollingLines(const Scene& scene,
                            const std::function<std::vector<int>(LineRange)>& taken)
     : lines_(scene.probe.lines), samples_(scene.probe.samples) {
@@ -17,13 +28,7 @@ RollingLines::RollingLines(const Scene& scene,
     const LineRange lines{first, std::min(first + together, lines_)};
     // Exactly 0 of the middle: its instant is the frame's very time.
     const double from_middle = 0.5 * (lines.first + lines.end - lines_) / lines_;
-    Group group{lines, from_middle * whole_s, {lines, taken(lines)}, lines};
-    const std::vector<int>& samples = group.traced.intensities;
-    while (group.beams.first > 0 && samples[static_cast<std::size_t>(group.beams.first - 1)] > 0)
-      --group.beams.first;
-    while (group.beams.end < lines_ && samples[static_cast<std::size_t>(group.beams.end)] > 0)
-      ++group.beams.end;
-    groups_.push_back(std::move(group));
+    groups_.push_back(lineGroup(lines, from_middle * whole_s, taken(lines)));
   }
   if (!scene.truth.labels) return;
   const PictureGrid grid = pictureGrid(scene);

@@ -18,17 +18,23 @@
 
 namespace echocine {
 
+// Lines acquired at one instant, and what must be traced for them.
+struct LineGroup {
+  LineRange lines;
+  double offset_s = 0;     // from the frame's time
+  NeededSamples traced{};  // for these lines
+  LineRange beams{};       // that hold all these samples
+};
+
+// The group of some lines. taken: the samples of each line that these lines need.
+LineGroup lineGroup(LineRange lines, double offset_s, std::vector<int> taken);
+
 class RollingLines {
  public:
   // taken: the samples of each line that some lines need.
   RollingLines(const Scene& scene, const std::function<std::vector<int>(LineRange)>& taken);
 
-  struct Group {
-    LineRange lines;
-    double offset_s = 0;     // from the frame's time
-    NeededSamples traced{};  // for these lines
-    LineRange beams{};       // that hold all these samples
-  };
+  using Group = LineGroup;
   const std::vector<Group>& groups() const { return groups_; }
 
   // Copies the lines of a group, for all existing planes. `to` has room after the first.

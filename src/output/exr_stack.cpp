@@ -4,7 +4,6 @@
 #include <ImfDoubleAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
@@ -13,14 +12,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "core/check.h"
 #include "core/file.h"
 #include "core/hash.h"
 #include "core/usable.h"
 #include "output/exr_digest.h"
+#include "output/exr_memory.h"
 #include "output/half_plane.h"
 #include "output/polar_plane.h"
 #include "scene/names.h"
@@ -28,34 +26,6 @@
 
 namespace echocine {
 namespace {
-
-// Collects a file in memory, so that it is hashed and written in one piece. The memory is the
-// thread's own and used again: fresh pages cost as much as the encoding.
-class MemoryOutput : public Imf::OStream {
- public:
-  MemoryOutput(const std::string& name, std::vector<std::byte>& bytes)
-      : OStream(name.c_str()), bytes_(bytes) {
-    bytes_.clear();
-  }
-
-  void write(const char data[], int size) override {
-    const auto* from = reinterpret_cast<const std::byte*>(data);
-    // The library goes back once, to fill in the table of line offsets.
-    const std::size_t over = std::min(bytes_.size() - position_, static_cast<std::size_t>(size));
-    if (over > 0) std::memcpy(bytes_.data() + position_, from, over);
-    bytes_.insert(bytes_.end(), from + over, from + size);
-    position_ += static_cast<std::size_t>(size);
-  }
-  std::uint64_t tellp() override { return position_; }
-  void seekp(std::uint64_t position) override {
-    CHECK_LE(position, bytes_.size());
-    position_ = position;
-  }
-
- private:
-  std::vector<std::byte>& bytes_;
-  std::size_t position_ = 0;
-};
 
 // As many as a scene may ask for.
 constexpr int kMostLines = 1 << 16, kMostSamples = 1 << 16;
@@ -191,7 +161,7 @@ std::span<const std::byte> ExrStack::encode(const FrameRecord& record,
   // Per sample row: its place in the table of offsets, its number and its size, 16 bytes together.
   const std::size_t around = 4096 + 16 * static_cast<std::size_t>(probe.samples);
   bytes.reserve(planes.size() * pixels * sizeof(std::uint32_t) + around);
-  MemoryOutput stream(path.string(), bytes);
+  ExrMemory stream(path.string(), bytes);
   try {
     Imf::OutputFile file(stream, header, 0);
     file.setFrameBuffer(buffer);

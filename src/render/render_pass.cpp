@@ -7,13 +7,11 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/hash.h"
 #include "core/stage_clock.h"
 #include "frame/workspace.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/cycle/loop_ecg.h"
 #include "output/volumes_csv.h"
-#include "scene/scene_json.h"
 #include "signal/signal_chain.h"
 #include "truth/frame_truth.h"
 
@@ -27,16 +25,6 @@ std::string frameName(int frame, const char* extension) {
 }
 
 }  // namespace
-
-// The version counts, for two versions may differ in a last digit; where files lie does not.
-std::string sceneSha256(const Scene& scene, const MeshMotion& motion) {
-  Sha256 hash;
-  hash.update(ECHOCINE_VERSION);
-  hash.update(sceneJson(scene).dump());
-  hash.update(mediaJson(scene).dump());
-  hash.update(motion.inputSha256());
-  return hash.hex();
-}
 
 FolderSink::FolderSink(const Parts& parts, Manifest& manifest)
     : parts_(parts), manifest_(manifest) {}

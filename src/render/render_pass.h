@@ -10,16 +10,13 @@
 #include "output/exr_stack.h"
 #include "output/output_folder.h"
 #include "output/overlay.h"
+#include "output/scene_sha256.h"
 #include "output/truth_files.h"
 #include "render/loop_files.h"
 #include "render/render.h"
 #include "render/report.h"
 
 namespace echocine {
-
-// SHA-256 over the resolved scene, its media, its meshes and the program's version: equal for two
-// runs that must write the same files.
-std::string sceneSha256(const Scene& scene, const MeshMotion& motion);
 
 class FolderSink : public FrameSink {
  public:

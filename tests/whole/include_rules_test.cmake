@@ -20,7 +20,7 @@ set(libraries
   "zlib\\.h$=video,output,dataset"
   "hdf5\\.h$=dataset"
   "CLI/=cli"
-  "nlohmann/=scene,heart,output,page,view,echo,fit,compare,render,study,dataset,live,cli,python"
+  "nlohmann/=scene,heart,output,mmode,page,view,echo,fit,compare,render,study,dataset,live,cli,python"
   "(pybind11/|Python\\.h$)=python"
   "fmt/=*"
   "[a-z_0-9]+(\\.h)?$=*"
@@ -53,6 +53,7 @@ set(rooms
   "metrics=signal,trace"
   "video=signal"
   "output=plan,trace,signal,surfaces,heart,truth|video"
+  "mmode=frame,cycle,truth,signal|surfaces,output,video"
   "view=frame,mesh|plan,cycle,geometry,signal,video,page"
   "echo=video|signal,metrics,output"
   "fit=echo,heart,surfaces,geometry,truth,signal,page|frame,video,output,view"
@@ -63,7 +64,7 @@ set(rooms
   "dataset=output,surfaces,cycle,heart,truth,signal|frame,loop,views,video,page"
   "live=frame,surfaces,output,plan,truth|cycle,mesh,signal,video,view,page"
   "python=frame,echo|plan,loop,render,fit,compare,study,dataset,heart,cycle,output,video,surfaces"
-  "cli=render,fit,compare,study,output,view,plan,live|dataset,video,frame,surfaces,keyframes,cycle,heart")
+  "cli=render,fit,compare,study,output,view,plan,mmode,live|dataset,video,frame,surfaces,keyframes,cycle,heart")
 
 function(room_of path out)
   string(REGEX REPLACE "^src/" "" path "${path}")
