@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kStep_s = 0.005, kMostVelocity = 0.4;  // m/s
 constexpr double kStart_m = 3e-3, kMean_m = 1e-3;
+constexpr double kClimb_m = 1.5e-3;
 constexpr double kUsualVelocity = 0.15, kCost = 0.2;  // m/s, grey levels
 
 // The mean over `half` samples on either side, as far as the line reaches.
@@ -25,12 +26,12 @@ std::vector<double> smoothed(std::span<const float> line, int half) {
   return out;
 }
 
-// The maximum next to sample k, at most 3 samples away.
-int climbed(const std::vector<double>& line, int k) {
+// The maximum next to sample k, at most `most` samples away.
+int climbed(const std::vector<double>& line, int k, int most) {
   const auto at = [&](int i) {
     return i < 0 || i >= static_cast<int>(line.size()) ? -1 : line[static_cast<std::size_t>(i)];
   };
-  for (int steps = 0; steps < 3; ++steps) {
+  for (int steps = 0; steps < most; ++steps) {
     const int up = at(k + 1) > at(k) ? k + 1 : k;
     k = at(k - 1) > at(up) ? k - 1 : up;
   }
@@ -103,7 +104,7 @@ std::vector<double> followEcho(const EchoColumns& in, double start_m) {
 
   std::vector<double> depth_m, moved(static_cast<std::size_t>(in.columns), 0.0);
   for (std::size_t i = 0; i < path.size(); ++i) {
-    const int peak = climbed(lines[i], path[i]);
+    const int peak = climbed(lines[i], path[i], inSamples(kClimb_m));
     depth_m.push_back((peak + peakOffset(lines[i], peak)) * in.sample_m);
   }
   for (std::size_t i = 0; i + 1 < at.size(); ++i)
