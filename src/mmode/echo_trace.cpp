@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kStep_s = 0.005, kMostVelocity = 0.4;  // m/s
 constexpr double kStart_m = 3e-3, kMean_m = 1e-3;
+constexpr double kClimb_m = 1.5e-3;
 constexpr double kUsualVelocity = 0.15, kCost = 0.2;  // m/s, grey levels
 
 // The mean over `half` samples on either side, as far as the line reaches.
@@ -23,6 +24,18 @@ std::vector<double> smoothed(std::span<const float> line, int half) {
     out.push_back(sum / (last - first + 1));
   }
   return out;
+}
+
+// The maximum next to sample k, at most `most` samples away.
+int climbed(const std::vector<double>& line, int k, int most) {
+  const auto at = [&](int i) {
+    return i < 0 || i >= static_cast<int>(line.size()) ? -1 : line[static_cast<std::size_t>(i)];
+  };
+  for (int steps = 0; steps < most; ++steps) {
+    const int up = at(k + 1) > at(k) ? k + 1 : k;
+    k = at(k - 1) > at(up) ? k - 1 : up;
+  }
+  return k;
 }
 
 // Where the parabola through three values has its maximum, in samples from the middle one.
@@ -90,8 +103,10 @@ std::vector<double> followEcho(const EchoColumns& in, double start_m) {
   const std::vector<int> path = bestPath(lines, start, std::max(1, inSamples(kStart_m)), costs);
 
   std::vector<double> depth_m, moved(static_cast<std::size_t>(in.columns), 0.0);
-  for (std::size_t i = 0; i < path.size(); ++i)
-    depth_m.push_back((path[i] + peakOffset(lines[i], path[i])) * in.sample_m);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const int peak = climbed(lines[i], path[i], inSamples(kClimb_m));
+    depth_m.push_back((peak + peakOffset(lines[i], peak)) * in.sample_m);
+  }
   for (std::size_t i = 0; i + 1 < at.size(); ++i)
     for (int t = at[i] + 1; t <= at[i + 1]; ++t) {
       const double share = static_cast<double>(t - at[i]) / (at[i + 1] - at[i]);

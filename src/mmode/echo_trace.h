@@ -21,7 +21,7 @@ struct EchoColumns {
 // with |v| <= 0.4 m/s and |z(0) - start| <= 3 mm, by dynamic programming on samples, for columns
 // dt = 5 ms apart (or 1 / rate, if larger). g is the grey level, averaged over 1 mm. The second
 // term keeps the path from jumping to a brighter wall: a healthy ring moves at 0.05 to 0.15 m/s. A
-// parabola through g at the path's sample and its neighbours gives fractions of a sample. Columns
+// parabola through the maximum of g within 1.5 mm of the path gives fractions of a sample. Columns
 // between are interpolated linearly. All values are our choice. Precondition: at least one column.
 std::vector<double> followEcho(const EchoColumns& columns, double start_m);
 
