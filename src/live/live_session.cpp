@@ -51,7 +51,9 @@ constexpr Field kFields[] = {
 // Empty, or why the body is refused.
 std::string faultOf(const Json& body) {
   if (!body.is_object()) return "the body is not a JSON object";
-  for (const auto& [name, value] : body.items()) {
+  for (const auto& entry : body.items()) {
+    const std::string& name = entry.key();
+    const Json& value = entry.value();
     const auto* field = std::find_if(std::begin(kFields), std::end(kFields),
                                      [&](const Field& f) { return name == f.name; });
     if (field == std::end(kFields)) return fmt::format("{}: is not a known field", name);

@@ -45,9 +45,12 @@ class HeartSurface {
         const i = 3 * indices[t + e], j = 3 * indices[t + ((e + 1) % 3)], zi = height(i), zj = height(j);
         if (zi < 0 === zj < 0) continue;
         const s = zi / (zi - zj);
-        out[n] = p[i] + s * (p[j] - p[i]);
-        out[n + 1] = p[i + 1] + s * (p[j + 1] - p[i + 1]);
-        out[n + 2] = p[i + 2] + s * (p[j + 2] - p[i + 2]);
+        const at = [0, 1, 2].map((k) => p[i + k] + s * (p[j + k] - p[i + k]));
+        // Rounding lifts the point off the plane.
+        const off = normal.x * at[0] + normal.y * at[1] + normal.z * at[2] + constant;
+        out[n] = at[0] - off * normal.x;
+        out[n + 1] = at[1] - off * normal.y;
+        out[n + 2] = at[2] - off * normal.z;
         n += 3;
       }
       if (n - start !== 6) n = start;

@@ -6,15 +6,16 @@
   const token = new URLSearchParams(location.search).get("token") ?? "";
   const kRest_ms = 220;  // without a change the probe is at rest
   const state = {
-    pose: probePose.squared(data.sector.pose), start: probePose.squared(data.sector.pose), reference: null, reference_name: "the start",
+    start: probePose.squared(data.sector.pose), reference: null, reference_name: "the start",
     keys: {}, values: data.values, version: 0, changed_ms: -1e9, held: false,
     frames: data.frames, frame: 0, playing: true, started_ms: performance.now(), started_at: 0,
     shown: null, kept: new Map(), busy: false, tool: "tilt", mm: [], m_line: null, contours: false, last_key: "",
   };
-  state.reference = state.start;
+  state.pose = state.reference = state.start;
   page.parts.live = state;
   const { unit_mm } = data.view;
-  const allKeys = () => ({ ...state.keys, ...probePose.keys(state.pose, unit_mm) });
+  // At the start the pose is that of the file, to the last digit.
+  const allKeys = () => ({ ...state.keys, ...(state.pose === state.start ? {} : probePose.keys(state.pose, unit_mm)) });
 
   // Answers: { ok, status, response }. Refusals are lines of text.
   async function ask(path, body) {

@@ -1,4 +1,4 @@
-"""Times of the live page in headless Chromium: live_moves.py ECHOCINE SCENE [MOVES [KEY=VALUE ...]]
+"""Times of the live page of build/release/echocine in headless Chromium: live_moves.py SCENE [MOVES [KEY=VALUE ...]]
 
 Each move is a key press. Its time ends when the canvas has the picture of the new pose. Memory is that of the program.
 """
@@ -43,7 +43,8 @@ def memory_mb(pid):
         return next(int(line.split()[1]) for line in status if line.startswith("VmRSS")) / 1024
 
 
-def main(program, scene, moves=200, *keys):
+def main(scene, moves=200, *keys):
+    program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../build/release/echocine")
     server = subprocess.Popen([program, "live", scene, "--no-browser", "--quiet"], stdout=subprocess.PIPE, text=True)
     link = server.stdout.readline().strip()
     with browser.Browser() as chromium:

@@ -1,9 +1,11 @@
 """The page of `live` through the real server: live_page_test.py ECHOCINE SOURCE_FOLDER"""
 
 import base64
+import http.client
 import os
 import re
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -186,6 +188,37 @@ class LivePageTest(unittest.TestCase):
             self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), 390)
         finally:
             self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+    def test_other_requests_are_refused_and_the_page_goes_on(self):
+        host, token = self.link.split("/")[2], self.link.split("=")[1]
+        good = {"Content-Type": "application/json", "Echocine-Token": token}
+
+        def status(method, path, body=None, **headers):
+            connection = http.client.HTTPConnection(host, timeout=browser.PATIENCE_S)
+            connection.request(method, path, body, {k.replace("_", "-"): v for k, v in headers.items()})
+            answer = connection.getresponse()
+            lines = answer.read().decode().splitlines()
+            connection.close()
+            return answer.status, len(lines)
+
+        self.assertEqual(status("GET", "/"), (403, 1))
+        self.assertEqual(status("GET", f"/?token={token}", Host="echocine.example"), (403, 1))
+        self.assertEqual(status("GET", f"/?token={token}", Origin="http://elsewhere.example"), (403, 1))
+        self.assertEqual(status("GET", f"/passwd?token={token}"), (404, 1))
+        self.assertEqual(status("DELETE", f"/?token={token}"), (405, 1))
+        self.assertEqual(status("POST", "/picture", "{}", **{**good, "Echocine-Token": "0" * 32}), (403, 1))
+        self.assertEqual(status("POST", "/picture", "{}", **{**good, "Content-Type": "text/plain"}), (415, 1))
+        self.assertEqual(status("POST", "/picture", "{", **good), (400, 1))
+        self.assertEqual(status("POST", "/picture", '{"keys": {"probe.depth": 1}}', **good), (422, 1))
+        self.assertEqual(status("POST", "/picture", "", **{**good, "Content-Length": str(10**9)}), (413, 1))
+        self.assertEqual(status("POST", "/picture", "x" * 10**7, **good), (413, 1))
+        name, port = host.split(":")
+        idle = [socket.create_connection((name, int(port))) for _ in range(100)]  # over the bound
+        idle[0].sendall(b"GET / HT")
+        for one in idle:
+            one.close()
+        self.press(browser.Keys.ARROW_LEFT)
+        self.wait_for_rest()
 
     def test_every_control_has_a_name_and_the_keyboard_reaches_it(self):
         self.assertEqual(self.js("""return Array.from(document.querySelectorAll("button, input, select, canvas:not([aria-hidden])"))

@@ -1,5 +1,6 @@
 // A live session without sockets: its pictures, its scene, and its refusals.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
