@@ -47,7 +47,7 @@ namespace {
 
 // Minus C g: where the gradient of J without the prior moves the unknowns. In their units.
 std::vector<double> ownStep(const FitCost& cost, const FitDescent& best,
-                               const std::vector<Quadratic>& views) {
+                            const std::vector<Quadratic>& views) {
   constexpr double kMostOwnSteps = 2;
   const std::size_t n = best.best.at.size();
   std::vector<double> out(n, 0);
@@ -104,7 +104,8 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
       const std::vector<double> step = ownStep(
           cost, best,
           again.viewsAround(place, std::vector<Quadratic>(views.size(), Quadratic(n)), monitor));
-      for (std::size_t i = 0; i < cost.dials(); ++i) out.error[i] += step[i] / kOwnDraws;
+      for (std::size_t i = 0; i < cost.dials(); ++i)
+        out.error[i] += kOwnShare * step[i] / kOwnDraws;
       monitor.tell({Task::settings, static_cast<std::size_t>(draw) + 1,
                     static_cast<std::size_t>(kOwnDraws)});
     }

@@ -24,6 +24,8 @@ struct FittedSides {
 };
 
 inline constexpr int kOwnDraws = 2;  // of speckle; our choice
+// Our choice, with one planted heart in one and in three views: the whole error overshot there.
+inline constexpr double kOwnShare = 0.5;
 
 // The best heart against its own rendered loops.
 struct OwnFit {
@@ -32,7 +34,7 @@ struct OwnFit {
   std::vector<FitReport> report;  // by view, in the first draw
 };
 
-// (17)  error = -C mean over draws of g_own
+// (18)  error = -C mean over draws of g_own / 2
 // C: the covariance of the descent; g_own: the gradient of J without the prior at the rendered
 // heart, which would be 0 without an error of the comparison. At most two steps of each unknown.
 // None if the monitor stopped it. Throws SceneError for an impossible heart. Runs in parallel.
