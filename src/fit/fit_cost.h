@@ -15,8 +15,8 @@ namespace echocine::fit {
 struct FitUnknown {
   std::string name;
   double low = 0, high = 0;
-  // Of differences: J rises by several units, well above its noise of 0.5 (D changes by 0.0004 with
-  // the refined pose).
+  // For differences: J rises by several units, well above its noise of 0.5 (D changes by 0.0004
+  // with the refined pose).
   double step = 1;
 };
 
@@ -69,7 +69,7 @@ class FitCost {
                                      const Monitor& monitor) const;
   // The nearest place whose differences stay within the limits.
   std::vector<double> middleOf(const std::vector<double>& at) const;
-  // sumOfViews() with the prior, of which no curvature is below its inverse variance.
+  // sumOfViews() with the prior. No curvature of the prior is below its inverse variance.
   Quadratic sumOf(const std::vector<Quadratic>& views, const std::vector<double>& middle) const;
   // Inverse of H in the units of the unknowns, row by row.
   std::vector<double> covariance(const Quadratic& q) const;

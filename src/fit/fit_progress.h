@@ -52,9 +52,4 @@ inline double descentUnits(double views, double unknowns) {
   return views * kEvaluationUnits * (kUsualRounds * (5 + 2 * unknowns) + unknowns * (unknowns - 1));
 }
 
-// Units of two draws of rendered loops, with a gradient each.
-inline double ownUnits(double views, double unknowns) {
-  return 2 * views * (kOwnLoopUnits + kEvaluationUnits * (1 + 2 * unknowns));
-}
-
 }  // namespace echocine::fit

@@ -124,7 +124,7 @@ std::vector<VolumeAt> volumeOf(const HeartFit& fit) {
   return out;
 }
 
-// Eq. 18 over the beat; the interval scales that at end-systole.
+// Eq. 17 over the beat; the interval scales that at end-systole.
 std::vector<Estimate> strainsOf(const HeartFit& fit, const std::vector<VolumeAt>& at) {
   if (!fit.gls) return {};
   std::vector<double> phases;

@@ -7,7 +7,7 @@
 
 namespace echocine::fit {
 
-// (18)  GLS(t) = L(t) / L(0) - 1
+// (17)  GLS(t) = L(t) / L(0) - 1
 // L: mean length of 36 meridians in the middle of the left ventricle's wall, from the mitral ring
 // to the apex. The middle is that at end-diastole, of muscle that keeps its volume. The truth of a
 // render (src/truth) is the mean of local strains, without places beside the valves. For two hearts

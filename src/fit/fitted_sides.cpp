@@ -1,8 +1,7 @@
 #include "fit/fitted_sides.h"
 
-#include <algorithm>
-
 #include "core/error.h"
+#include "fit/fit_descent.h"
 #include "fit/own_loop.h"
 #include "motion/heart/heart.h"
 
@@ -43,75 +42,30 @@ std::vector<FitSide> FittedSides::refer() const {
   return out;
 }
 
-namespace {
-
-// Minus C g: where the gradient of J without the prior moves the unknowns. In their units.
-std::vector<double> ownStep(const FitCost& cost, const FitDescent& best,
-                               const std::vector<Quadratic>& views) {
-  constexpr double kMostOwnSteps = 2;
-  const std::size_t n = best.best.at.size();
-  std::vector<double> out(n, 0);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (const Quadratic& view : views)
-      for (std::size_t j = 0; j < n; ++j)
-        out[i] -= best.covariance[i * n + j] * view.gradient[j] / cost.unknowns()[j].step;
-    const double most = kMostOwnSteps * cost.unknowns()[i].step;
-    out[i] = std::clamp(out[i], -most, most);
-  }
-  return out;
-}
-
-// Renders the loops of the best heart and compares it with them.
-FittedSides ownSides(const FittedSides& sides, const FitCost& cost,
-                     const std::vector<heart::View>& views, const FitPlace& best, int seed,
-                     FitPlace& place, std::vector<FitReport>* reports) {
+std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
+                                  const std::vector<heart::View>& views, const FitPlace& best,
+                                  double tilt_deg, const Monitor& monitor) {
+  constexpr int kSeed = 71;
   FittedSides own;
   own.families = sides.families;
-  place.at = best.at;
+  OwnFit out;
   for (std::size_t v = 0; v < views.size(); ++v) {
+    if (!monitor.keep_going()) return std::nullopt;
     const PlaneTilt tilt = cost.tiltAt(best.at, v);
     const echo::EchoLoop loop =
-        ownLoop(cost.dialsAt(best.at), views[v], tilt, kFitFrames, seed + static_cast<int>(v));
+        ownLoop(cost.dialsAt(best.at), views[v], tilt, kFitFrames, kSeed + static_cast<int>(v));
     echo::SideOptions side;
     side.ed_frame = 0;
     const ModelLoop model = own.families[v]->at(cost.searchedAt(best.at), tilt);
     own.discrepancies.emplace_back(loop, side, model);
     const ModelDiscrepancy& discrepancy = own.discrepancies.back();
-    place.found.push_back(discrepancy.refine(model, {FitPose{}}));
-    if (reports != nullptr)
-      reports->push_back(fitReport(model, discrepancy, loop, place.found.back().pose));
+    const FitPose pose = discrepancy.refine(model, {FitPose{}}).pose;
+    out.report.push_back(fitReport(model, discrepancy, loop, pose));
   }
-  return own;
-}
-
-}  // namespace
-
-std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
-                                  const std::vector<heart::View>& views, const FitDescent& best,
-                                  double tilt_deg, const Monitor& monitor) {
-  constexpr int kSeed = 71;
-  OwnFit out;
-  out.error.assign(cost.dials(), 0);
-  const std::size_t n = cost.unknowns().size();
-  try {
-    for (int draw = 0; draw < kOwnDraws; ++draw) {
-      if (!monitor.keep_going()) return std::nullopt;
-      FitPlace place;
-      const FittedSides own =
-          ownSides(sides, cost, views, best.best, kSeed + static_cast<int>(kMostLoops) * draw,
-                   place, draw == 0 ? &out.report : nullptr);
-      const FitCost again(own.refer(), cost.fixed(), tilt_deg);
-      const std::vector<double> step = ownStep(
-          cost, best,
-          again.viewsAround(place, std::vector<Quadratic>(views.size(), Quadratic(n)), monitor));
-      for (std::size_t i = 0; i < cost.dials(); ++i) out.error[i] += step[i] / kOwnDraws;
-      monitor.tell({Task::settings, static_cast<std::size_t>(draw) + 1,
-                    static_cast<std::size_t>(kOwnDraws)});
-    }
-  } catch (const JobError&) {
-    if (monitor.keep_going()) throw;
-    return std::nullopt;
-  }
+  const FitCost again(own.refer(), cost.fixed(), tilt_deg);
+  const FitDescent found = descendFit(again, {best.at, {}, 0}, monitor);
+  if (found.stopped) return std::nullopt;
+  for (std::size_t i = 0; i < cost.dials(); ++i) out.error.push_back(found.best.at[i] - best.at[i]);
   return out;
 }
 

@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "fit/fit_descent.h"
 #include "fit/heart_fit.h"
 
 namespace echocine::fit {
@@ -23,22 +22,15 @@ struct FittedSides {
   std::vector<FitSide> refer() const;
 };
 
-inline constexpr int kOwnDraws = 2;  // of speckle; our choice
-
-// The best heart against its own rendered loops.
+// A fit of the best heart's own rendered loops.
 struct OwnFit {
-  // By dial: where these loops move the heart from its known place.
-  std::vector<double> error;
-  std::vector<FitReport> report;  // by view, in the first draw
+  std::vector<double> error;      // found minus rendered, by dial
+  std::vector<FitReport> report;  // by view: the heart against its own loop
 };
 
-// (17)  error = -C mean over draws of g_own
-// C: the covariance of the descent; g_own: the gradient of J without the prior at the rendered
-// heart, which would be 0 without an error of the comparison. At most two steps of each unknown.
 // None if the monitor stopped it. Throws SceneError for an impossible heart. Runs in parallel.
-// Precondition: the descent has a covariance.
 std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
-                                  const std::vector<heart::View>& views, const FitDescent& best,
+                                  const std::vector<heart::View>& views, const FitPlace& best,
                                   double tilt_deg, const Monitor& monitor);
 
 // Moves the dials of a place towards the middle of their ranges by a quarter of the distance until

@@ -78,7 +78,7 @@ struct FitStages {
     families = kFamilyUnits * n;
     starts = kStartUnits * n * options.starts;
     descent = descentUnits(n, static_cast<double>(dials) + (options.tilt_deg > 0 ? 2 : 0));
-    own = options.own_loops ? ownUnits(n, static_cast<double>(dials) + 2) : 0;
+    own = options.own_loops ? kOwnLoopUnits * n + descent : 0;
   }
   double all() const {
     return hearts + families + starts + descent * static_cast<double>(descents) + own;
@@ -154,7 +154,7 @@ void correctByOwnLoops(const FittedSides& sides, const FitCost& cost, double til
                        const Monitor& monitor, std::vector<FitDescent>& descents, HeartFit& fit) {
   std::vector<heart::View> views;
   for (const ViewFitted& view : fit.views) views.push_back(view.view);
-  auto own = fitOwnLoops(sides, cost, views, descents.front(), tilt_deg, monitor);
+  auto own = fitOwnLoops(sides, cost, views, descents.front().best, tilt_deg, monitor);
   fit.stopped = !own;
   if (!own) return;
   for (std::size_t v = 0; v < views.size(); ++v) fit.views[v].own = std::move(own->report[v]);

@@ -73,7 +73,7 @@ struct HeartFit {
   // Empty if the loops do not determine the ejection fraction: `refusal` has the reason.
   std::optional<Estimate> ef;
   std::optional<Estimate> edv_ml, esv_ml;   // empty without a length scale too
-  std::optional<Estimate> gls;              // Eq. 18 at end-systole; negative
+  std::optional<Estimate> gls;              // Eq. 17 at end-systole; negative
   std::map<std::string, double> own_error;  // subtracted, by dial
   std::vector<ViewFitted> views;            // as they fitted before
   std::vector<HeartRival> rivals;

@@ -9,6 +9,8 @@
 #include <cstdlib>
 
 #include "core/parallel.h"
+#include "fit/fit_interval.h"
+#include "fit/fit_strain.h"
 #include "support/planted_fits.h"
 
 namespace echocine::bench {
@@ -48,7 +50,7 @@ double sdOf(const HeartFit& fit, const char* key) {
 }
 
 void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& options, Errors& ef,
-             Errors& edv) {
+             Errors& edv, Errors& gls) {
   const HeartFit fit = fitHeart(heart.given(), options);
   const double true_ef = heart.dials.at("ef"), true_edv = heart.dials.at("edv");
   if (!fit.ef || !fit.edv_ml) {
@@ -61,6 +63,14 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
   };
   ef.add(ef_error, sdOf(fit, "ef"), within(*fit.ef, true_ef));
   edv.add(edv_error, sdOf(fit, "edv") / true_edv, within(*fit.edv_ml, true_edv));
+  if (fit.gls) {
+    const double true_gls = longitudinalStrainOf(heart::parametersFrom(heart.dials));
+    // From the interval of Eq. 15, without the model error.
+    const double sd = (fit.gls->high - fit.gls->low) / (2 * 1.645),
+                 model = modelErrorOf(fit.views.size()).gls;
+    gls.add(fit.gls->value - true_gls, std::sqrt(std::max(0.0, sd * sd - model * model)),
+            within(*fit.gls, true_gls));
+  }
   const auto own = [&](const char* key) {
     return fit.own_error.contains(key) ? fit.own_error.at(key) : 0;
   };
@@ -81,13 +91,14 @@ int run(int argc, char** argv) {
   const auto views = static_cast<std::size_t>(std::clamp(std::atoi(argv[1]), 1, 3));
   const int hearts = std::atoi(argv[2]), first = argc > 3 ? std::atoi(argv[3]) : 0;
   const double most_deg = argc > 4 ? std::atof(argv[4]) : 8;
-  Errors ef{"EF"}, edv{"EDV, relative"};
+  Errors ef{"EF"}, edv{"EDV, relative"}, gls{"GLS"};
   withThreads(0, [&] {
     for (int n = first; n < first + hearts; ++n)
-      tellFit(n, plantedHeart(n, views, most_deg), {}, ef, edv);
+      tellFit(n, plantedHeart(n, views, most_deg), {}, ef, edv, gls);
   });
   ef.print();
   edv.print();
+  gls.print();
   return 0;
 }
 
