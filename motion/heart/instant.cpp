@@ -251,12 +251,17 @@ void Instant::buildAtria(const Parameters& parameters) {
 // The septum between the atria is thin also while they are small: their axes bend towards each
 // other until both chambers flatten against the left one's wall.
 void Instant::joinAtria() {
-  constexpr double kMiddle = 0.5, kFlattened_m = 5e-3, kLeftShare = 0.4, kRounding_m = 2e-3;
+  constexpr double kMiddle = 0.5, kFlattened_m = 5e-3, kLeftShare = 0.4, kRounding_m = 2e-3,
+                   kMostBend = 0.35;
   const Vec3d left = la_.centre(kMiddle), right = ra_.centre(kMiddle);
   const Vec3d across{left.x - right.x, left.y - right.y, 0};
   const double apart_m = length(across) - la_.radiusTowards(right, kMiddle) -
                          ra_.radiusTowards(left, kMiddle) - walls_.atrium_m + kFlattened_m;
-  const Vec3d bend = smoothMax(apart_m, 0, kRounding_m) * normalised(across);
+  // Small atria far apart keep their shape: a stronger bend would fold them.
+  const double most_m =
+      kMostBend * std::min(length(la_.roof - la_.ring), length(ra_.roof - ra_.ring));
+  const double wanted_m = smoothMax(apart_m, 0, kRounding_m);
+  const Vec3d bend = -smoothMax(-wanted_m, -most_m, kRounding_m) * normalised(across);
   la_.bow = la_.bow - kLeftShare * bend;
   ra_.bow = ra_.bow + (1 - kLeftShare) * bend;
 }

@@ -29,7 +29,7 @@ void applyClean(Scene& scene) {
 // ribs lies to the left of the picture's middle: apical walls on its right, the lateral and the
 // anterior one, lie under ribs and lung and are darker (septum less lateral wall 35 and 24 greys at
 // end-diastole and end-systole of those stills).
-constexpr double kWindowOffset_m = -6e-3;
+constexpr double kWindowOffset_m = -4e-3;
 
 struct Grade {
   double haze_db, reverberation_db, clutter_db, noise_db, dropout_db, window_width_m, shading_db;
