@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/lanes.h"
+#include "core/parallel.h"
 #include "core/recent_values.h"
 #include "scene/sampled_beam.h"
 #include "scene/scan_geometry.h"
@@ -88,12 +89,13 @@ class Directions {
 
 class WindowBuilder {
  public:
-  WindowBuilder(ProfileWindows& all, const Probe& rows, double pulse_cycles)
-      : all_(all), geometry_(rows), directions_(rows), beam_(rows, pulse_cycles) {}
+  WindowBuilder(const ProfileWindows& all, ProfileWindows::Part& part, const Probe& rows,
+                const SampledBeam& beam)
+      : all_(all), part_(part), geometry_(rows), directions_(rows), beam_(beam) {}
 
-  void addZone(int first, int last) {
-    all_.zones.push_back({first, last, all_.windows.size()});
-    const double path_m = 0.5 * (geometry_.sampleDepth(first) + geometry_.sampleDepth(last - 1));
+  void addZone(const ProfileWindows::Zone& zone) {
+    const double path_m =
+        0.5 * (geometry_.sampleDepth(zone.first) + geometry_.sampleDepth(zone.last - 1));
     for (int row = 0; row < all_.rows; ++row) addWindow(row, path_m);
   }
 
@@ -106,7 +108,7 @@ class WindowBuilder {
     int first = row / group * group, end = std::min(first + group, rows);
     while (first > 0 && border(first) > -profile.mainLobe()) first -= group;
     while (end < rows && border(end) < profile.mainLobe()) end = std::min(end + group, rows);
-    all_.windows.push_back({first, end, all_.weights.size()});
+    part_.windows.push_back({first, end, part_.weights.size()});
     weights_.clear();
     at_ = border(0);
     before_ = profile.integral(at_);
@@ -117,7 +119,7 @@ class WindowBuilder {
     for (const double weight : weights_) sum += weight;
     // Lines too near to one another for the table: each stands for itself.
     if (!(sum > 0)) sum = weights_[static_cast<std::size_t>(first / group + row - first)] = 1;
-    for (const double weight : weights_) all_.weights.push_back(static_cast<float>(weight / sum));
+    for (const double weight : weights_) part_.weights.push_back(static_cast<float>(weight / sum));
   }
 
   // Beyond a right angle the sine falls again; such lines weigh nothing.
@@ -128,10 +130,11 @@ class WindowBuilder {
     before_ = until;
   }
 
-  ProfileWindows& all_;
+  const ProfileWindows& all_;
+  ProfileWindows::Part& part_;
   ScanGeometry geometry_;
   Directions directions_;
-  SampledBeam beam_;
+  const SampledBeam& beam_;
   std::vector<double> weights_;  // of a window
   double at_ = 0, before_ = 0;   // its last border, and the integral until there
 };
@@ -147,12 +150,32 @@ ProfileWindows::ProfileWindows(const Probe& probe, double pulse_cycles)
   in_group = static_cast<int>(
       std::clamp(kGroup * in_null, double{1} * atLeast(rows, kMostGroups), double{1} * rows));
   groups = atLeast(rows, in_group);
-  WindowBuilder builder(*this, probe_of_rows, pulse_cycles);
   const int lanes = kFloatLanes;
   for (int first = 0, last = 0; first < probe.samples; first = last) {
     const double samples = kZone * geometry.sampleDepth(first) / probe.sampleSpacing();
     last = std::min(first + std::max(static_cast<int>(samples) / lanes, 1) * lanes, probe.samples);
-    builder.addZone(first, last);
+    zones.push_back({first, last, 0});
+  }
+  fill(probe_of_rows, pulse_cycles);
+}
+
+void ProfileWindows::fill(const Probe& probe_of_rows, double pulse_cycles) {
+  constexpr std::size_t kTogether = 16;  // zones. Our choice
+  const SampledBeam beam(probe_of_rows, pulse_cycles);
+  std::vector<Part> parts((zones.size() + kTogether - 1) / kTogether);
+  parallelBlocks(zones.size(), kTogether, [&](std::size_t begin, std::size_t end) {
+    WindowBuilder builder(*this, parts[begin / kTogether], probe_of_rows, beam);
+    for (std::size_t z = begin; z < end; ++z) builder.addZone(zones[z]);
+  });
+  for (std::size_t z = 0; z < zones.size(); ++z)
+    zones[z].windows = z * static_cast<std::size_t>(rows);
+  for (Part& part : parts) {
+    for (Window window : part.windows) {
+      window.weights += weights.size();
+      windows.push_back(window);
+    }
+    weights.insert(weights.end(), part.weights.begin(), part.weights.end());
+    part = {};
   }
 }
 
