@@ -14,20 +14,20 @@
 namespace echocine {
 namespace {
 
-constexpr int kSide = 14;
+constexpr int kBedSide = 14;
 
 // A box of nodes with a round hole, samples all over it, and a few nodes that are held.
-struct Bed {
-  ActiveNodes nodes{kSide, kSide, kSide, {}, {}};
+struct LatticeBed {
+  ActiveNodes nodes{kBedSide, kBedSide, kBedSide, {}, {}};
   std::vector<LatticeSample> samples;
   std::vector<float> stiffness;
   std::vector<bool> own;
   std::vector<std::uint32_t> fixed;
 
-  Bed() {
-    for (int y = 0; y < kSide; ++y)
-      for (int z = 0; z < kSide; ++z)
-        for (int x = 0; x < kSide; ++x) {
+  LatticeBed() {
+    for (int y = 0; y < kBedSide; ++y)
+      for (int z = 0; z < kBedSide; ++z)
+        for (int x = 0; x < kBedSide; ++x) {
           const bool hole = std::hypot(x - 4, y - 9, z - 5) < 2.5;
           nodes.number.push_back(hole ? -1 : static_cast<std::int32_t>(nodes.nodes.size()));
           if (!hole) nodes.nodes.push_back(static_cast<std::uint32_t>(nodes.at(x, y, z)));
@@ -41,7 +41,7 @@ struct Bed {
   }
 
   void addSample(std::uint64_t s) {
-    const auto at = [&](int axis) { return (kSide - 1) * uniformFromHash(hashOf(s, axis, 2)); };
+    const auto at = [&](int axis) { return (kBedSide - 1) * uniformFromHash(hashOf(s, axis, 2)); };
     const double place[3] = {at(0), at(1), at(2)};
     LatticeSample sample{};
     for (int corner = 0; corner < 8; ++corner) {
@@ -49,7 +49,7 @@ struct Bed {
       int node[3];
       double share = 1;
       for (int axis = 0; axis < 3; ++axis) {
-        const int low = std::min(static_cast<int>(place[axis]), kSide - 2);
+        const int low = std::min(static_cast<int>(place[axis]), kBedSide - 2);
         node[axis] = low + bits[axis];
         share *= bits[axis] ? place[axis] - low : 1 - (place[axis] - low);
       }
@@ -67,8 +67,9 @@ struct Bed {
     std::vector<float> changed = stiffness;
     const auto place = [&](std::uint32_t n) {
       const auto node = static_cast<int>(nodes.nodes[n]);
-      return Vec3d{static_cast<double>(node % kSide), static_cast<double>(node / (kSide * kSide)),
-                   static_cast<double>(node / kSide % kSide)};
+      return Vec3d{static_cast<double>(node % kBedSide),
+                   static_cast<double>(node / (kBedSide * kBedSide)),
+                   static_cast<double>(node / kBedSide % kBedSide)};
     };
     for (std::uint32_t n = 0; n < changed.size(); ++n)
       if (length(place(n) - place(about)) <= radius) changed[n] *= 4;
@@ -77,7 +78,7 @@ struct Bed {
 };
 
 template <typename Number>
-void expectSameRows(const SparseRows<Number>& a, const SparseRows<Number>& b) {
+void expectSameLatticeRows(const SparseRows<Number>& a, const SparseRows<Number>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t n = 0; n < a.size(); ++n) {
     ASSERT_TRUE(std::ranges::equal(a[n].members, b[n].members)) << n;
@@ -86,7 +87,7 @@ void expectSameRows(const SparseRows<Number>& a, const SparseRows<Number>& b) {
 }
 
 TEST(LatticeUpdateLaw, RowsAndCoarseRowsAreThoseOfNewEquations) {
-  const Bed bed;
+  const LatticeBed bed;
   const LatticeEquations before(bed.nodes, bed.samples, bed.stiffness, bed.own, bed.fixed);
   const Multigrid grid(bed.nodes, before.rows());
   for (const auto& [about, radius] : {std::pair(0u, 0.5), {700u, 0.0}, {1300u, 2.0}, {90u, 30.0}}) {
@@ -95,14 +96,14 @@ TEST(LatticeUpdateLaw, RowsAndCoarseRowsAreThoseOfNewEquations) {
     for (std::size_t n = 0; n < changed.size(); ++n) changed[n] = stiffness[n] != bed.stiffness[n];
     const LatticeEquations anew(bed.nodes, bed.samples, stiffness, bed.own, bed.fixed),
         updated(bed.nodes, bed.samples, stiffness, bed.own, bed.fixed, before, changed);
-    expectSameRows(updated.rows(), anew.rows());
+    expectSameLatticeRows(updated.rows(), anew.rows());
     const Multigrid grid_anew(bed.nodes, anew.rows()),
         grid_updated(bed.nodes, updated.rows(), &grid, changed);
     ASSERT_EQ(grid_updated.levels().size(), 3u);
     ASSERT_EQ(grid_anew.levels().size(), 3u);
     for (std::size_t l = 0; l < 3; ++l) {
-      expectSameRows(grid_updated.levels()[l].rows, grid_anew.levels()[l].rows);
-      expectSameRows(grid_updated.levels()[l].parents, grid_anew.levels()[l].parents);
+      expectSameLatticeRows(grid_updated.levels()[l].rows, grid_anew.levels()[l].rows);
+      expectSameLatticeRows(grid_updated.levels()[l].parents, grid_anew.levels()[l].parents);
       EXPECT_EQ(grid_updated.levels()[l].inverse_diagonal, grid_anew.levels()[l].inverse_diagonal);
     }
     EXPECT_TRUE(std::ranges::equal(grid_updated.lastFactor(), grid_anew.lastFactor()));
@@ -111,7 +112,7 @@ TEST(LatticeUpdateLaw, RowsAndCoarseRowsAreThoseOfNewEquations) {
 
 // A change that reaches the rows is one that the test could miss.
 TEST(LatticeUpdateLaw, AChangeOfStiffnessChangesTheRowsAboutIt) {
-  const Bed bed;
+  const LatticeBed bed;
   const LatticeEquations before(bed.nodes, bed.samples, bed.stiffness, bed.own, bed.fixed);
   const std::vector<float> stiffness = bed.stiffer(1300, 0);
   std::vector<bool> changed(stiffness.size());
@@ -130,7 +131,7 @@ TEST(LatticeUpdateLaw, AChangeOfStiffnessChangesTheRowsAboutIt) {
 
 // Weights of samples that differ make all rows anew; so does LatticeFit.
 TEST(LatticeUpdateLaw, AFitAfterUpdatesIsTheFitOfNewEquations) {
-  Bed bed;
+  LatticeBed bed;
   std::vector<float> data;
   for (std::size_t i = 0; i < 5 * bed.samples.size(); ++i)
     data.push_back(static_cast<float>(uniformFromHash(hashOf(i, 4)) - 0.5));
