@@ -160,11 +160,11 @@ ProfileWindows::ProfileWindows(const Probe& probe, double pulse_cycles)
 }
 
 void ProfileWindows::fill(const Probe& probe_of_rows, double pulse_cycles) {
-  constexpr std::size_t kTogether = 16;  // zones. Our choice
+  constexpr std::size_t kZonesTogether = 16;  // zones. Our choice
   const SampledBeam beam(probe_of_rows, pulse_cycles);
-  std::vector<Part> parts((zones.size() + kTogether - 1) / kTogether);
-  parallelBlocks(zones.size(), kTogether, [&](std::size_t begin, std::size_t end) {
-    WindowBuilder builder(*this, parts[begin / kTogether], probe_of_rows, beam);
+  std::vector<Part> parts((zones.size() + kZonesTogether - 1) / kZonesTogether);
+  parallelBlocks(zones.size(), kZonesTogether, [&](std::size_t begin, std::size_t end) {
+    WindowBuilder builder(*this, parts[begin / kZonesTogether], probe_of_rows, beam);
     for (std::size_t z = begin; z < end; ++z) builder.addZone(zones[z]);
   });
   for (std::size_t z = 0; z < zones.size(); ++z)
