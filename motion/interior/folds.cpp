@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/lanes.h"
+
 namespace echocine {
 
 namespace {
@@ -46,6 +48,46 @@ std::vector<double> phasesBetween(std::span<const double> keyframes) {
   return phases;
 }
 
+// Vectors at the corners of a cell, or from corner to corner; lane i has corner i.
+struct CellVectors {
+  Floats8 x{}, y{}, z{};
+
+  void add(float weight, const std::vector<Vec3f>& row, const std::uint32_t (&corners)[8]) {
+    Floats8 dx{}, dy{}, dz{};
+    for (std::size_t i = 0; i < kFloatLanes; ++i) {
+      const Vec3f at = row[corners[i]];
+      dx[i] = at.x;
+      dy[i] = at.y;
+      dz[i] = at.z;
+    }
+    x += weight * dx;
+    y += weight * dy;
+    z += weight * dz;
+  }
+  // Edges at each corner: from their low end to their high end.
+  CellVectors alongX(float h) const {
+    const auto edge = [](Floats8 d, float length) {
+      return length + __builtin_shufflevector(d, d, 1, 1, 3, 3, 5, 5, 7, 7) -
+             __builtin_shufflevector(d, d, 0, 0, 2, 2, 4, 4, 6, 6);
+    };
+    return {edge(x, h), edge(y, 0), edge(z, 0)};
+  }
+  CellVectors alongZ(float h) const {
+    const auto edge = [](Floats8 d, float length) {
+      return length + __builtin_shufflevector(d, d, 2, 3, 2, 3, 6, 7, 6, 7) -
+             __builtin_shufflevector(d, d, 0, 1, 0, 1, 4, 5, 4, 5);
+    };
+    return {edge(x, 0), edge(y, 0), edge(z, h)};
+  }
+  CellVectors alongY(float h) const {
+    const auto edge = [](Floats8 d, float length) {
+      return length + __builtin_shufflevector(d, d, 4, 5, 6, 7, 4, 5, 6, 7) -
+             __builtin_shufflevector(d, d, 0, 1, 2, 3, 0, 1, 2, 3);
+    };
+    return {edge(x, 0), edge(y, h), edge(z, 0)};
+  }
+};
+
 // The least part of its volume that a corner of the cell keeps at any instant, all classes
 // together; once it is about to fold, no less is looked for. Corner numbers have bit 0 for x, 1 for
 // z, 2 for y.
@@ -54,19 +96,15 @@ float leastVolume(const GroupLattice& lattice, const Instants& instants,
   const float h = lattice.grid.spacing_m;
   float least = 1;
   for (const auto& terms : instants.terms) {
-    Vec3f d[8]{};
+    CellVectors d;
     for (std::size_t c = 0; c < terms.size(); ++c)
-      for (const KeyframeWeights::Term& term : terms[c]) {
-        const std::vector<Vec3f>& row = lattice.rows_m[c][term.row];
-        for (std::size_t i = 0; i < 8; ++i)
-          d[i] = d[i] + static_cast<float>(term.weight) * row[corners[i]];
-      }
-    for (std::size_t i = 0; i < 8; ++i) {
-      const Vec3f x = Vec3f{h, 0, 0} + d[i | 1] - d[i & 6],
-                  z = Vec3f{0, 0, h} + d[i | 2] - d[i & 5],
-                  y = Vec3f{0, h, 0} + d[i | 4] - d[i & 3];
-      least = std::min(least, dot(x, cross(y, z)) / (h * h * h));
-    }
+      for (const KeyframeWeights::Term& term : terms[c])
+        d.add(static_cast<float>(term.weight), lattice.rows_m[c][term.row], corners);
+    const CellVectors x = d.alongX(h), y = d.alongY(h), z = d.alongZ(h);
+    const Floats8 volume = (x.x * (y.y * z.z - y.z * z.y) + x.y * (y.z * z.x - y.x * z.z) +
+                            x.z * (y.x * z.y - y.y * z.x)) /
+                           (h * h * h);
+    for (std::size_t i = 0; i < kFloatLanes; ++i) least = std::min(least, volume[i]);
     if (least < kLeastVolume) return least;
   }
   return least;

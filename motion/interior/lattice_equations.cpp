@@ -83,7 +83,32 @@ constexpr Offset kAxes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 LatticeEquations::LatticeEquations(const ActiveNodes& nodes, std::span<const LatticeSample> samples,
                                    std::span<const float> stiffness, const std::vector<bool>& own,
                                    std::span<const std::uint32_t> fixed)
-    : nodes_(nodes), slots_(nodes.nodes.size()) {
+    : nodes_(nodes),
+      wanted_(nodes.nodes.size(), true),
+      entering_(wanted_),
+      slots_(nodes.nodes.size()) {
+  addAll(samples, stiffness, own);
+  compress(fixed, nullptr);
+}
+
+// A term's nodes are neighbours, along axes and diagonals. So a node's stiffness enters the rows
+// about it, and terms of the nodes about a row enter that row. Each row is the sum of the same
+// terms in the same order.
+LatticeEquations::LatticeEquations(const ActiveNodes& nodes, std::span<const LatticeSample> samples,
+                                   std::span<const float> stiffness, const std::vector<bool>& own,
+                                   std::span<const std::uint32_t> fixed,
+                                   const LatticeEquations& earlier, std::vector<bool>& changed)
+    : nodes_(nodes),
+      wanted_(about(changed)),
+      entering_(about(wanted_)),
+      slots_(nodes.nodes.size()) {
+  changed = wanted_;
+  addAll(samples, stiffness, own);
+  compress(fixed, &earlier);
+}
+
+void LatticeEquations::addAll(std::span<const LatticeSample> samples,
+                              std::span<const float> stiffness, const std::vector<bool>& own) {
   addSamples(samples);
   checkpoint();
   addLaplacians(stiffness, own);
@@ -91,8 +116,21 @@ LatticeEquations::LatticeEquations(const ActiveNodes& nodes, std::span<const Lat
   addBending(stiffness);
   checkpoint();
   for (auto& row : slots_) row[slotOf({0, 0, 0})] += kRidge;
-  compress(fixed);
-  slots_ = {};
+}
+
+// These nodes and their 26 neighbours.
+std::vector<bool> LatticeEquations::about(const std::vector<bool>& some) const {
+  std::vector<bool> near(some.size(), false);
+  for (std::uint32_t n = 0; n < some.size(); ++n) {
+    if (!some[n]) continue;
+    const Place at = placeOf(n);
+    for (int y = at.y - 1; y <= at.y + 1; ++y)
+      for (int z = at.z - 1; z <= at.z + 1; ++z)
+        for (int x = at.x - 1; x <= at.x + 1; ++x)
+          if (const std::int32_t number = nodes_.numberAt(x, y, z); number >= 0)
+            near[static_cast<std::size_t>(number)] = true;
+  }
+  return near;
 }
 
 LatticeEquations::Place LatticeEquations::placeOf(std::uint32_t number) const {
@@ -103,6 +141,7 @@ LatticeEquations::Place LatticeEquations::placeOf(std::uint32_t number) const {
 void LatticeEquations::addSamples(std::span<const LatticeSample> samples) {
   const Pattern<8> cell = cellPattern();
   for (const LatticeSample& sample : samples) {
+    if (std::ranges::none_of(sample.node, [&](std::uint32_t n) { return wanted_[n]; })) continue;
     double factors[8];
     for (std::size_t i = 0; i < 8; ++i) factors[i] = sample.share[i];
     cell.addProduct(sample.node, factors, sample.weight, slots_);
@@ -116,7 +155,7 @@ void LatticeEquations::addLaplacians(std::span<const float> stiffness,
       {Offset{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}});
   constexpr double kFactors[7] = {-6, 1, 1, 1, 1, 1, 1};
   for (std::uint32_t n = 0; n < slots_.size(); ++n) {
-    if (!own[n]) continue;
+    if (!own[n] || !entering_[n]) continue;
     const Place at = placeOf(n);
     std::uint32_t numbers[7];
     bool whole = true;
@@ -138,6 +177,7 @@ void LatticeEquations::addBending(std::span<const float> stiffness) {
   const auto addAll = [&](const auto& pattern, const auto& factors, double times) {
     std::uint32_t numbers[std::extent_v<std::remove_reference_t<decltype(factors)>>];
     for (std::uint32_t n = 0; n < slots_.size(); ++n) {
+      if (!entering_[n]) continue;
       const Place at = placeOf(n);
       bool whole = true;
       for (std::size_t i = 0; i < pattern.offsets.size(); ++i) {
@@ -159,11 +199,17 @@ void LatticeEquations::addBending(std::span<const float> stiffness) {
 }
 
 // To lists of neighbours that matter. A fixed node's row and column become those of u = 0.
-void LatticeEquations::compress(std::span<const std::uint32_t> fixed) {
+void LatticeEquations::compress(std::span<const std::uint32_t> fixed,
+                                const LatticeEquations* earlier) {
   std::vector<bool> held(slots_.size(), false);
   for (const std::uint32_t n : fixed) held[n] = true;
   const auto offsets = stencilOffsets();
+  rows_.reserve(slots_.size(), slots_.size() * kSlots);
   for (std::uint32_t n = 0; n < slots_.size(); ++n) {
+    if (!wanted_[n]) {
+      rows_.add(earlier->rows()[n]);
+      continue;
+    }
     const Place at = placeOf(n);
     for (const Offset o : offsets) {
       const double value = slots_[n][slotOf(o)];
@@ -174,6 +220,8 @@ void LatticeEquations::compress(std::span<const std::uint32_t> fixed) {
     }
     rows_.endRow();
   }
+  slots_ = {};
+  wanted_ = entering_ = {};
 }
 
 }  // namespace echocine

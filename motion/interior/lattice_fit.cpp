@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/check.h"
 #include "core/lanes.h"
@@ -256,8 +257,22 @@ LatticeFit::LatticeFit(const ActiveNodes& nodes, std::span<const LatticeSample> 
 
 void LatticeFit::update(std::span<const float> stiffness) {
   checkpoint();
-  equations_ = std::make_unique<LatticeEquations>(nodes_, samples_, stiffness, own_, fixed_);
-  grid_ = std::make_unique<Multigrid>(nodes_, equations_->rows());
+  std::vector<float> weights;
+  weights.reserve(samples_.size());
+  for (const LatticeSample& sample : samples_) weights.push_back(sample.weight);
+  if (equations_ && weights == weights_) {
+    std::vector<bool> changed(stiffness.size());
+    for (std::size_t n = 0; n < changed.size(); ++n) changed[n] = stiffness[n] != stiffness_[n];
+    auto equations = std::make_unique<LatticeEquations>(nodes_, samples_, stiffness, own_, fixed_,
+                                                        *equations_, changed);
+    grid_ = std::make_unique<Multigrid>(nodes_, equations->rows(), grid_.get(), std::move(changed));
+    equations_ = std::move(equations);
+  } else {
+    equations_ = std::make_unique<LatticeEquations>(nodes_, samples_, stiffness, own_, fixed_);
+    grid_ = std::make_unique<Multigrid>(nodes_, equations_->rows());
+  }
+  stiffness_.assign(stiffness.begin(), stiffness.end());
+  weights_ = std::move(weights);
   checkpoint();
 }
 

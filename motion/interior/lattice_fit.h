@@ -56,7 +56,8 @@ class LatticeFit {
              std::span<const std::uint32_t> fixed);
   ~LatticeFit();
 
-  // Makes the equations anew, of the samples' weights as they are now.
+  // Makes the equations anew, of the samples' weights as they are now. If only the stiffness of
+  // some nodes differs, only what depends on it is computed; the bits are the same.
   void update(std::span<const float> stiffness);
 
   // From `start` (columns values per active node, or none: 0) until the equations' residual is
@@ -70,6 +71,7 @@ class LatticeFit {
   std::span<const LatticeSample> samples_;
   const std::vector<bool>& own_;
   std::vector<std::uint32_t> fixed_;
+  std::vector<float> stiffness_, weights_;  // of the equations as they are
   std::unique_ptr<const LatticeEquations> equations_;
   std::unique_ptr<const Multigrid> grid_;
 };

@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/stop.h"
 #include "motion/interior/group_lattice.h"
+#include "motion/interior/reach_across.h"
 
 namespace echocine {
 
@@ -35,26 +36,6 @@ std::vector<Vec3f> positionsAt(const InteriorSurface& surface, double phase) {
 
 bool samePhases(const KeyframeWeights& a, const KeyframeWeights& b) {
   return std::equal(a.phases().begin(), a.phases().end(), b.phases().begin(), b.phases().end());
-}
-
-// The most that a node moves along y, with the interpolation's overshoot between keyframes.
-double reachAcross(const GroupLattice& lattice, std::span<const PhaseClass> classes) {
-  std::vector<double> most_m;  // by active node, the sum over classes
-  for (std::size_t c = 0; c < lattice.rows_m.size(); ++c) {
-    const KeyframeWeights& weights = classes[c].weights;
-    const auto& rows = lattice.rows_m[c];
-    if (rows.empty()) continue;
-    const std::span keyframes = std::span(rows).first(weights.keyframeCount());
-    const double beyond = weights.overshoot();
-    most_m.resize(rows.front().size());
-    for (std::size_t i = 0; i < most_m.size(); ++i) {
-      const auto y = [i](const std::vector<Vec3f>& row) { return double{row[i].y}; };
-      const auto [low, high] = std::ranges::minmax_element(keyframes, {}, y);
-      const double low_m = y(*low), high_m = y(*high);
-      most_m[i] += std::max(-low_m, high_m) + beyond * (high_m - low_m);
-    }
-  }
-  return most_m.empty() ? 0 : *std::max_element(most_m.begin(), most_m.end());
 }
 
 }  // namespace
@@ -166,15 +147,16 @@ MotionField::MotionField(std::vector<InteriorSurface> surfaces, const FieldSetti
   State& state = *state_;
   state.settings = settings;
   state.number(surfaces);
-  std::vector<std::vector<Vec3f>> reference_m;
+  std::vector<std::vector<Vec3f>> reference_m(surfaces.size());
+  std::vector<std::optional<Columns>> columns(surfaces.size());
+  parallelBlocks(surfaces.size(), 1, [&](std::size_t s, std::size_t) {
+    reference_m[s] = positionsAt(surfaces[s], settings.reference_phase);
+    if (!surfaces[s].membrane) columns[s].emplace(surfaces[s].triangles, reference_m[s]);
+  });
   std::vector<TopSurfaces::Closed> closed;
-  for (std::size_t s = 0; s < surfaces.size(); ++s) {
-    checkpoint();
-    reference_m.push_back(positionsAt(surfaces[s], settings.reference_phase));
-    if (!surfaces[s].membrane)
-      closed.push_back({static_cast<SurfaceId>(s), surfaces[s].priority,
-                        Columns(surfaces[s].triangles, reference_m[s])});
-  }
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+    if (columns[s])
+      closed.push_back({static_cast<SurfaceId>(s), surfaces[s].priority, std::move(*columns[s])});
   state.tops = std::make_unique<TopSurfaces>(std::move(closed));
   const std::vector<std::int32_t> class_of = state.classify(surfaces);
   if (!state.measure(surfaces, reference_m)) return;
@@ -241,6 +223,15 @@ void MotionField::groupsAt(std::span<const Vec3f> reference_m, std::span<GroupId
     const auto surface = tops.at(toDouble(reference_m[i]));
     groups[i] = surface ? groupOf(*surface) : background();
   }
+}
+
+std::vector<GroupId> MotionField::groupsIn(const Box& reference_m) const {
+  std::vector<GroupId> groups;
+  for (const auto surface : state_->tops->within(reference_m).surfaces()) {
+    const GroupId group = surface ? groupOf(*surface) : background();
+    if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
+  }
+  return groups;
 }
 
 namespace {

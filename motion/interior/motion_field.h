@@ -117,6 +117,8 @@ class MotionField {
   GroupId groupAt(Vec3f reference_m) const;
   // The same for places that are near each other: faster the smaller the box about them.
   void groupsAt(std::span<const Vec3f> reference_m, std::span<GroupId> groups) const;
+  // All groups that have places in a box, perhaps more. None twice.
+  std::vector<GroupId> groupsIn(const Box& reference_m) const;
   // The winning closed surface at a reference place; nothing in the background.
   std::optional<SurfaceId> surfaceAt(Vec3f reference_m) const;
 

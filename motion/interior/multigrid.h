@@ -3,6 +3,7 @@
 // columns at once. It is symmetric and positive, as conjugate gradients need it.
 
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,10 @@ class Multigrid {
  public:
   // rows: symmetric, positive definite, by active node.
   Multigrid(const ActiveNodes& nodes, const SparseRows<double>& rows);
+  // The same if rows differ from those of `earlier` only where `changed` is true: coarse rows that
+  // these do not enter are taken from there. Same bits as the constructor above.
+  Multigrid(const ActiveNodes& nodes, const SparseRows<double>& rows, const Multigrid* earlier,
+            std::vector<bool> changed);
 
   // One lattice. Each next one has every second node along each axis.
   struct Level {
@@ -28,8 +33,15 @@ class Multigrid {
   // Cholesky's factor of the last level, L L^T, row by row; the diagonal is inverted.
   std::span<const float> lastFactor() const { return last_factor_; }
 
+  // Rows of a lattice in double precision.
+  struct Lattice {
+    ActiveNodes nodes;
+    SparseRows<double> rows;
+  };
+
  private:
   std::vector<Level> levels_;
+  std::deque<Lattice> coarse_;  // from the second level on
   std::vector<float> last_factor_;
 };
 

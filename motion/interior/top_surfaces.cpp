@@ -41,6 +41,13 @@ std::optional<SurfaceId> TopSurfaces::Within::at(Vec3d place_m) const {
   return else_;
 }
 
+std::vector<std::optional<SurfaceId>> TopSurfaces::Within::surfaces() const {
+  std::vector<std::optional<SurfaceId>> surfaces;
+  for (const Closed* surface : asked_) surfaces.emplace_back(surface->id);
+  surfaces.push_back(else_);
+  return surfaces;
+}
+
 bool TopSurfaces::hides(Vec3d place_m, SurfaceId surface) const {
   for (std::size_t i = 0; i < rank_[index(surface)]; ++i)
     if (closed_[i].columns.contains(place_m)) return true;

@@ -30,6 +30,8 @@ class TopSurfaces {
    public:
     // Precondition: place_m is in the box.
     std::optional<SurfaceId> at(Vec3d place_m) const;
+    // All that at() may return, perhaps more.
+    std::vector<std::optional<SurfaceId>> surfaces() const;
 
    private:
     friend class TopSurfaces;

@@ -1,26 +1,47 @@
 #include "motion/surfaces/interior_motion.h"
 
 #include <map>
+#include <utility>
+#include <vector>
+
+#include "core/parallel.h"
 
 namespace echocine {
+
+namespace {
+
+// A keyframe of a surface.
+struct Shown {
+  std::size_t surface, keyframe;
+};
+
+}  // namespace
 
 // Structures mostly share their phases, so every phase is made once.
 MotionField interiorMotion(const Scene& scene, const MeshMotion& motion,
                            const FieldSettings& settings) {
   std::vector<InteriorSurface> surfaces;
-  std::map<double, std::vector<std::size_t>> shown;  // phase -> surfaces with a keyframe there
+  std::map<double, std::vector<Shown>> at_phase;
   for (const SurfaceTopology& topology : motion.surfaces()) {
     const Structure& structure = scene.structures[index(topology.id)];
     const KeyframeWeights& weights = motion.control(topology.id).weights;
-    for (const double phase : weights.phases()) shown[phase].push_back(surfaces.size());
-    surfaces.push_back(
-        {structure.name, topology.triangles, weights, {}, topology.membrane, structure.priority});
+    const std::span<const double> phases = weights.phases();
+    for (std::size_t k = 0; k < phases.size(); ++k)
+      at_phase[phases[k]].push_back({surfaces.size(), k});
+    surfaces.push_back({structure.name, topology.triangles, weights,
+                        std::vector<std::vector<Vec3f>>(phases.size()), topology.membrane,
+                        structure.priority});
   }
-  SurfaceFrame frame;
-  for (const auto& [phase, which] : shown) {
-    motion.frameAt(phase, frame);
-    for (const std::size_t s : which) surfaces[s].keyframes_m.push_back(frame.positions_m[s]);
-  }
+  const std::vector<std::pair<double, std::vector<Shown>>> wanted(at_phase.begin(), at_phase.end());
+  constexpr std::size_t kTogether = 4;  // share a frame, in which still surfaces stay. Our choice
+  parallelBlocks(wanted.size(), kTogether, [&](std::size_t begin, std::size_t end) {
+    SurfaceFrame frame;
+    for (std::size_t i = begin; i < end; ++i) {
+      motion.frameAt(wanted[i].first, frame);
+      for (const Shown& shown : wanted[i].second)
+        surfaces[shown.surface].keyframes_m[shown.keyframe] = frame.positions_m[shown.surface];
+    }
+  });
   return MotionField(std::move(surfaces), settings);
 }
 

@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
+#include "core/free_list.h"
+#include "core/parallel.h"
 #include "core/units.h"
 #include "frame/echo_shift.h"
 #include "frame/mean_loss.h"
@@ -119,6 +123,30 @@ std::set<double> lookedAt(const Scene& scene) {
   return phases;
 }
 
+// Among equal shifts that of the earliest phase.
+EchoShift worstShift(const Scene& scene, const MeshMotion& motion, const LoopPlan& plan) {
+  struct Space {
+    FrameGeometry geometry;
+    SurfaceFrame surfaces;
+  };
+  const std::set<double> in_order = lookedAt(scene);
+  const std::vector<double> phases(in_order.begin(), in_order.end());
+  const EchoShiftMeter meter(scene, plan.effects);
+  std::vector<EchoShift> shifts(phases.size());
+  FreeList<Space> spaces;
+  parallelBlocks(phases.size(), 1, [&](std::size_t begin, std::size_t end) {
+    const std::shared_ptr<Space> space = spaces.borrow([&] {
+      return std::make_unique<Space>(Space{FrameGeometry(motion.surfaces(), plan.left_out), {}});
+    });
+    for (std::size_t i = begin; i < end; ++i) {
+      motion.frameAt(phases[i], space->surfaces);
+      space->geometry.update(space->surfaces);
+      shifts[i] = meter.measure(space->geometry, phases[i]);
+    }
+  });
+  return *std::max_element(shifts.begin(), shifts.end());
+}
+
 // Traces some frames with refraction and leaves it out when the image could hardly show it.
 void decideRefraction(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) {
   if (!plan.effects.refraction || scene.effects.refraction != Switch::automatic) return;
@@ -128,15 +156,7 @@ void decideRefraction(const Scene& scene, const MeshMotion& motion, LoopPlan& pl
     decision.reason = "accuracy.tracer selects the plane slice, whose rays are straight";
     return;
   }
-  FrameGeometry geometry(motion.surfaces(), plan.left_out);
-  const EchoShiftMeter meter(scene, plan.effects);
-  EchoShift worst;
-  SurfaceFrame frame;
-  for (const double phase : lookedAt(scene)) {
-    motion.frameAt(phase, frame);
-    geometry.update(frame);
-    worst = std::max(worst, meter.measure(geometry, phase));
-  }
+  const EchoShift worst = worstShift(scene, motion, plan);
   const double tolerance = scene.accuracy.refraction_tolerance_beam_widths;
   plan.effects.refraction = decision.on = worst.beam_widths >= tolerance && worst.metres > 0;
   decision.reason =

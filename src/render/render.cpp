@@ -13,6 +13,7 @@
 #include "core/shown_path.h"
 #include "core/stage_clock.h"
 #include "core/stop.h"
+#include "core/together.h"
 #include "frame/simulator.h"
 #include "frame/structure_volumes.h"
 #include "motion/cycle/cardiac_clock.h"
@@ -118,7 +119,8 @@ RenderSummary renderLoop(const Scene& given, const RenderOptions& options, const
     ReportPage report(folder.report(), scene, simulator.cardiacClock(), range);
     FolderSink sink({simulator, folder, monitor, report, range, options.resume, earlier}, manifest);
     try {
-      summary.frames_done = renderFrames(simulator, range, sink, monitor);
+      together([&] { summary.frames_done = renderFrames(simulator, range, sink, monitor); },
+               [&] { report.prepareView(simulator); });
     } catch (...) {
       sink.endEarly();
       throw;

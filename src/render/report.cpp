@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <nlohmann/json.hpp>
 
 #include "motion/cycle/ecg.h"
@@ -159,6 +160,8 @@ ReportPage::ReportPage(const std::filesystem::path& path, const Scene& scene,
   writer_.emplace(path, look);
 }
 
+ReportPage::~ReportPage() = default;
+
 bool ReportPage::shows(int frame) const {
   return writer_ && (frame - range_.first) % stride_ == 0;
 }
@@ -172,6 +175,14 @@ void ReportPage::addTruth(PageTruth truth) {
   if (!truth.labels.empty()) writer_->addFrame("labels", truth.labels);
   truth.labels = {};
   truths_.push_back(std::move(truth));
+}
+
+void ReportPage::prepareView(const Simulator& simulator) {
+  if (!writer_) return;
+  try {
+    view_ = std::make_unique<const SceneView>(viewScene(simulator));
+  } catch (const std::exception&) {
+  }
 }
 
 void ReportPage::finish(const Manifest& manifest, const Simulator& simulator) {
@@ -206,7 +217,8 @@ void ReportPage::finish(const Manifest& manifest, const Simulator& simulator) {
                      {"tracks_px", tracks},
                      {"curves", curvesJson(manifest, *this)}};
   }
-  data["view"] = viewJson(viewScene(simulator), scene_);
+  if (!view_) view_ = std::make_unique<const SceneView>(viewScene(simulator));
+  data["view"] = viewJson(*view_, scene_);
   data["measured"] = measuredJson(manifest);
   writer_->finish(data);
 }

@@ -1,6 +1,7 @@
 #pragma once
 // report.html: a finished run on one page.
 
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -11,6 +12,8 @@
 #include "truth/frame_truth.h"
 
 namespace echocine {
+
+struct SceneView;
 
 // A frame's truth for the page's overlay.
 struct PageTruth {
@@ -33,11 +36,15 @@ class ReportPage {
   // Throws JobError, as all functions here do. The references must outlive the page.
   ReportPage(const std::filesystem::path& path, const Scene& scene, const CardiacClock& clock,
              std::pair<int, int> range);
+  ~ReportPage();
 
   // Does the page show this frame (pageStride())?
   bool shows(int frame) const;
   void addFrame(std::span<const std::byte> image);  // JPEG or PNG, in the order of frames
   void addTruth(PageTruth truth);                   // of the frame added last
+  // Prepares the 3-D view, which finish() otherwise does. May run beside addFrame() and addTruth().
+  // Throws nothing: finish() meets an error again.
+  void prepareView(const Simulator& simulator);
   // The manifest must have times and volumes. Also shows the simulator's surfaces in 3-D.
   void finish(const Manifest& manifest, const Simulator& simulator);
 
@@ -48,6 +55,7 @@ class ReportPage {
   int stride_;
   std::optional<PageWriter> writer_;
   std::vector<PageTruth> truths_;  // by shown frame, without label pictures
+  std::unique_ptr<const SceneView> view_;
 };
 
 }  // namespace echocine

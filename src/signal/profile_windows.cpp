@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/lanes.h"
+#include "core/parallel.h"
 #include "core/recent_values.h"
 #include "scene/sampled_beam.h"
 #include "scene/scan_geometry.h"
@@ -88,17 +89,19 @@ class Directions {
 
 class WindowBuilder {
  public:
-  WindowBuilder(ProfileWindows& all, const Probe& rows, const BeamPulse& pulse)
+  WindowBuilder(const ProfileWindows& all, ProfileWindows::Part& part, const Probe& rows,
+                const BeamPulse& pulse, const SampledBeam& beam)
       : all_(all),
+        part_(part),
         probe_(rows),
         pulse_(pulse),
         geometry_(rows),
         directions_(rows),
-        beam_(rows, pulse.cycles, pulse.harmonic) {}
+        beam_(beam) {}
 
-  void addZone(int first, int last) {
-    all_.zones.push_back({first, last, all_.windows.size()});
-    const double path_m = 0.5 * (geometry_.sampleDepth(first) + geometry_.sampleDepth(last - 1));
+  void addZone(const ProfileWindows::Zone& zone) {
+    const double path_m =
+        0.5 * (geometry_.sampleDepth(zone.first) + geometry_.sampleDepth(zone.last - 1));
     // P depends on u k_f and q k_f, so a lower frequency scales both.
     scale_ = downshiftOf(probe_, pulse_.cycles, pulse_.downshift_np_per_m_hz, path_m);
     for (int row = 0; row < all_.rows; ++row) addWindow(row, path_m);
@@ -115,7 +118,7 @@ class WindowBuilder {
     while (first > 0 && scale_ * border(first) > -profile.mainLobe()) first -= group;
     while (end < rows && scale_ * border(end) < profile.mainLobe())
       end = std::min(end + group, rows);
-    all_.windows.push_back({first, end, all_.weights.size()});
+    part_.windows.push_back({first, end, part_.weights.size()});
     weights_.clear();
     at_ = border(0);
     before_ = profile.integral(scale_ * at_);
@@ -126,7 +129,7 @@ class WindowBuilder {
     for (const double weight : weights_) sum += weight;
     // Lines too near to one another for the table: each stands for itself.
     if (!(sum > 0)) sum = weights_[static_cast<std::size_t>(first / group + row - first)] = 1;
-    for (const double weight : weights_) all_.weights.push_back(static_cast<float>(weight / sum));
+    for (const double weight : weights_) part_.weights.push_back(static_cast<float>(weight / sum));
   }
 
   // Beyond a right angle the sine falls again; such lines weigh nothing.
@@ -137,13 +140,14 @@ class WindowBuilder {
     before_ = until;
   }
 
-  ProfileWindows& all_;
+  const ProfileWindows& all_;
+  ProfileWindows::Part& part_;
   const Probe& probe_;
   const BeamPulse& pulse_;
   double scale_ = 1;  // centre frequency at the depth of a zone, over that of the pulse
   ScanGeometry geometry_;
   Directions directions_;
-  SampledBeam beam_;
+  const SampledBeam& beam_;
   std::vector<double> weights_;  // of a window
   double at_ = 0, before_ = 0;   // its last border, and the integral until there
 };
@@ -159,12 +163,33 @@ ProfileWindows::ProfileWindows(const Probe& probe, const BeamPulse& pulse)
   in_group = static_cast<int>(
       std::clamp(kGroup * in_null, double{1} * atLeast(rows, kMostGroups), double{1} * rows));
   groups = atLeast(rows, in_group);
-  WindowBuilder builder(*this, probe_of_rows, pulse);
   const int lanes = kFloatLanes;
   for (int first = 0, last = 0; first < probe.samples; first = last) {
     const double samples = kZone * geometry.sampleDepth(first) / probe.sampleSpacing();
     last = std::min(first + std::max(static_cast<int>(samples) / lanes, 1) * lanes, probe.samples);
-    builder.addZone(first, last);
+    zones.push_back({first, last, 0});
+  }
+  fill(probe_of_rows, pulse);
+}
+
+void ProfileWindows::fill(const Probe& probe_of_rows, const BeamPulse& pulse) {
+  constexpr std::size_t kZonesTogether = 16;  // zones. Our choice
+  const SampledBeam beam(probe_of_rows, pulse.cycles, pulse.harmonic);
+  std::vector<Part> parts((zones.size() + kZonesTogether - 1) / kZonesTogether);
+  parallelBlocks(zones.size(), kZonesTogether, [&](std::size_t begin, std::size_t end) {
+    WindowBuilder builder(*this, parts[begin / kZonesTogether], probe_of_rows, pulse,
+                          beam);
+    for (std::size_t z = begin; z < end; ++z) builder.addZone(zones[z]);
+  });
+  for (std::size_t z = 0; z < zones.size(); ++z)
+    zones[z].windows = z * static_cast<std::size_t>(rows);
+  for (Part& part : parts) {
+    for (Window window : part.windows) {
+      window.weights += weights.size();
+      windows.push_back(window);
+    }
+    weights.insert(weights.end(), part.weights.begin(), part.weights.end());
+    part = {};
   }
 }
 

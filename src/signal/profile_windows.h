@@ -34,6 +34,12 @@ struct ProfileWindows {
     std::size_t weights;
   };
 
+  // Windows of some zones; their weights are numbered from 0.
+  struct Part {
+    std::vector<Window> windows;
+    std::vector<float> weights;
+  };
+
   // Precondition: at least two lines.
   ProfileWindows(const Probe& probe, const BeamPulse& pulse);
 
@@ -44,6 +50,9 @@ struct ProfileWindows {
   std::vector<Zone> zones;
   std::vector<Window> windows;  // by zone and row
   std::vector<float> weights;
+
+ private:
+  void fill(const Probe& probe_of_rows, const BeamPulse& pulse);
 };
 
 // Those of a probe, wherever it stands. Simulators of equal probes share them, at once or one after

@@ -25,25 +25,46 @@ NodeRange nodesAbout(float low_m, float edge_m, float origin_m, float spacing_m,
 
 }  // namespace
 
-BlockReach::BlockReach(const MotionField& field, int phases) : groups_(field.groupCount()) {
-  FieldFrame frame;
-  for (int i = 0; i < phases; ++i) {
-    field.at(static_cast<double>(i) / phases, frame);
-    parallelBlocks(groups_.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t g = begin; g < end; ++g) {
-        const std::vector<Vec3f>& d_m = frame.groups[g].displacement_m;
-        groups_[g].grid = frame.groups[g].grid;
-        groups_[g].of_node.resize(d_m.size());
-        for (std::size_t n = 0; n < d_m.size(); ++n) groups_[g].of_node[n].add(d_m[n]);
-      }
-    });
-  }
-  std::erase_if(groups_, [](const GroupMoves& g) { return g.of_node.empty(); });
+// Least and greatest values do not depend on the order of the phases.
+BlockReach::BlockReach(const MotionField& field, int phases) {
+  constexpr int kTogether = 8;
+  std::vector<BlockReach> parts(static_cast<std::size_t>((phases + kTogether - 1) / kTogether));
+  parallelBlocks(static_cast<std::size_t>(phases), kTogether,
+                 [&](std::size_t begin, std::size_t end) {
+                   BlockReach& part = parts[begin / kTogether];
+                   FieldFrame frame;
+                   for (std::size_t i = begin; i < end; ++i) {
+                     field.at(static_cast<double>(i) / phases, frame);
+                     part.add(frame);
+                   }
+                 });
+  for (const BlockReach& part : parts) add(part);
 }
 
-Box BlockReach::over(Vec3f low_m, const CubeLattice& lattice) const {
+void BlockReach::add(const FieldFrame& frame) {
+  groups_.resize(frame.groups.size());
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const std::vector<Vec3f>& d_m = frame.groups[g].displacement_m;
+    groups_[g].grid = frame.groups[g].grid;
+    groups_[g].of_node.resize(d_m.size());
+    for (std::size_t n = 0; n < d_m.size(); ++n) {
+      groups_[g].of_node[n].add(d_m[n]);
+      farthest_m2_ = std::max(farthest_m2_, d_m[n].x * d_m[n].x + d_m[n].z * d_m[n].z);
+    }
+  }
+}
+
+void BlockReach::add(const BlockReach& other) {
+  farthest_m2_ = std::max(farthest_m2_, other.farthest_m2_);
+  if (groups_.empty()) groups_ = other.groups_;
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    for (std::size_t n = 0; n < groups_[g].of_node.size(); ++n)
+      groups_[g].of_node[n].add(other.groups_[g].of_node[n]);
+}
+
+Box BlockReach::over(Vec3f low_m, const CubeLattice& lattice, std::uint16_t group_number) const {
   Moves all;
-  for (const GroupMoves& group : groups_) {
+  if (const GroupMoves& group = groups_[group_number]; !group.of_node.empty()) {
     const LatticeGrid& grid = group.grid;
     const auto about = [&](float low, float origin, int count) {
       return nodesAbout(low, lattice.block_m, origin, grid.spacing_m, count);

@@ -3,6 +3,8 @@
 // are filled with scatterers.
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "core/box.h"
@@ -17,9 +19,11 @@ class BlockReach {
   // By the field at this many equally spaced phases from 0 on.
   BlockReach(const MotionField& field, int phases);
 
-  // Displacements in the block by the field of any group: low and high along each axis, m. The
-  // block of the lattice that begins at low_m.
-  Box over(Vec3f low_m, const CubeLattice& lattice) const;
+  // Displacements by a group's field in the block of the lattice that begins at low_m: low and high
+  // along each axis, m.
+  Box over(Vec3f low_m, const CubeLattice& lattice, std::uint16_t group) const;
+  // The most that any node moves in the imaging plane, m.
+  double alongPlane() const { return std::sqrt(static_cast<double>(farthest_m2_)); }
 
  private:
   // Low and high displacements of a node over the beat.
@@ -39,7 +43,11 @@ class BlockReach {
     std::vector<Moves> of_node;
   };
 
-  std::vector<GroupMoves> groups_;  // those that move
+  void add(const FieldFrame& frame);
+  void add(const BlockReach& other);
+
+  std::vector<GroupMoves> groups_;  // by group; no nodes: it does not move
+  float farthest_m2_ = 0;
 };
 
 }  // namespace echocine

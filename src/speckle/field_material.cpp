@@ -87,18 +87,12 @@ FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion, const
                            field_.groupOf(relief.surface));
   }
   reach_ = BlockReach(field_, kPhasesLookedAt);
-  FieldFrame frame;
-  float farthest_m2 = 0;
-  for (int i = 0; i < kPhasesLookedAt; ++i) {
-    field_.at(static_cast<double>(i) / kPhasesLookedAt, frame);
-    for (const GroupFrame& group : frame.groups)
-      for (const Vec3f d : group.displacement_m)
-        farthest_m2 = std::max(farthest_m2, d.x * d.x + d.z * d.z);
-  }
-  along_m_ = kBetweenPhases * std::sqrt(static_cast<double>(farthest_m2));
+  along_m_ = kBetweenPhases * reach_.alongPlane();
   across_m_ = kBetweenPhases * field_.reachAcrossPlane();
   const float fine_m = static_cast<float>(field_.spacing());
   lattice_.block_m = fine_m > 0 ? 2 * fine_m : kStillBlock_m;
+  FieldFrame frame;
+  field_.at(0, frame);
   // Blocks are the cells of the coarse lattice where there is one, else pairs of the fine one's.
   float coarsest_m = 0;
   for (const GroupFrame& group : frame.groups)
@@ -116,6 +110,25 @@ void FieldMaterial::overTheBeat(const std::function<void(const MaterialFrame&)>&
     field_.at(static_cast<double>(i) / kPhasesLookedAt, frame);
     look(FieldMaterialFrame(frame));
   }
+}
+
+// A place in a ridge of a cavity belongs to the wall behind it.
+std::vector<std::uint16_t> FieldMaterial::groupsIn(Vec3f low_m) const {
+  constexpr double kRounding_m = 1e-6;
+  const double edge_m = static_cast<double>(lattice_.block_m) + kRounding_m;
+  const Vec3d low = toDouble(low_m);
+  const Box block{low - kRounding_m * Vec3d{1, 1, 1}, low + edge_m * Vec3d{1, 1, 1}};
+  std::vector<GroupId> ids = field_.groupsIn(block);
+  const auto has = [&](GroupId id) { return std::ranges::find(ids, id) != ids.end(); };
+  for (const Ridges& ridges : ridges_) {
+    if (!has(ridges.cavity)) continue;
+    const Vec3d behind = static_cast<double>(ridges.reach_m + kBehind_m) * Vec3d{1, 1, 1};
+    for (const GroupId wall : field_.groupsIn({block.lo - behind, block.hi + behind}))
+      if (!blood_[index(wall)] && !has(wall)) ids.push_back(wall);
+  }
+  std::vector<std::uint16_t> groups;
+  for (const GroupId id : ids) groups.push_back(static_cast<std::uint16_t>(index(id)));
+  return groups;
 }
 
 void FieldMaterial::groupsAt(std::span<const Vec3f> reference_m,

@@ -24,6 +24,7 @@ class FieldMaterial : public Material {
   CubeLattice lattice() const override { return lattice_; }
   bool blood(std::uint16_t group) const override { return blood_[group]; }
   bool coarse(std::uint16_t group) const override { return coarse_[group]; }
+  std::vector<std::uint16_t> groupsIn(Vec3f low_m) const override;
   void groupsAt(std::span<const Vec3f> reference_m, std::span<std::uint16_t> groups) const override;
   void overTheBeat(const std::function<void(const MaterialFrame&)>& look) const override;
   bool differs() const override { return strength_ != nullptr; }
@@ -33,7 +34,9 @@ class FieldMaterial : public Material {
   }
   double reachAcross_m() const override { return across_m_; }
   double reachAlong_m() const override { return along_m_; }
-  Box movesOver(Vec3f low_m) const override { return reach_.over(low_m, lattice_); }
+  Box movesOver(Vec3f low_m, std::uint16_t group) const override {
+    return reach_.over(low_m, lattice_, group);
+  }
 
   const MotionField& field() const { return field_; }
 

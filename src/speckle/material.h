@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "core/box.h"
 #include "core/vec3.h"
@@ -40,6 +41,8 @@ class Material {
   virtual bool blood(std::uint16_t /*group*/) const { return false; }
   // Is the group trilinear within whole blocks?
   virtual bool coarse(std::uint16_t /*group*/) const { return false; }
+  // Groups with places in the block that begins at low_m: all of them, perhaps more.
+  virtual std::vector<std::uint16_t> groupsIn(Vec3f /*low_m*/) const { return {0}; }
   virtual void groupsAt(std::span<const Vec3f> reference_m, std::span<std::uint16_t> groups) const {
     for (std::size_t i = 0; i < reference_m.size(); ++i) groups[i] = 0;
   }
@@ -54,9 +57,8 @@ class Material {
   // The most that any tissue moves, from the reference: across the imaging plane and in it.
   virtual double reachAcross_m() const { return 0; }
   virtual double reachAlong_m() const { return 0; }
-  // Displacements of any tissue in the block that begins at low_m, at the instants of
-  // overTheBeat().
-  virtual Box movesOver(Vec3f /*low_m*/) const {
+  // Displacements of a group in the block that begins at low_m, at the instants of overTheBeat().
+  virtual Box movesOver(Vec3f /*low_m*/, std::uint16_t /*group*/) const {
     const Vec3d most{reachAlong_m(), reachAcross_m(), reachAlong_m()};
     return {-most, most};
   }

@@ -64,16 +64,10 @@ class Scatterers {
   }
 
  private:
-  struct Block;
-  static std::vector<Block> blocksInReach(const Probe& probe, const PointSpread& spread,
-                                          const BeamView& view, const SpeckleSettings& settings,
-                                          const Material& material);
+  struct Drawn;
   static std::size_t eightOf(const ScattererBatch& b) { return b.first / kFloatLanes; }
   void weigh(const Material& material);
-  void addBlock(const Block& block, const Material& material);
-  void dropUnseen(const BeamView& view, const Material& material);
-  void addBatch(std::span<const Vec3f> places_m, Vec3f low_m, float edge_m, std::uint16_t group,
-                bool blood, std::uint64_t pattern);
+  void take(Drawn& drawn);
 
   std::vector<ScattererBatch> batches_;
   std::vector<EightPlaces> places_;
