@@ -177,8 +177,7 @@ void ProfileWindows::fill(const Probe& probe_of_rows, const BeamPulse& pulse) {
   const SampledBeam beam(probe_of_rows, pulse.cycles, pulse.harmonic);
   std::vector<Part> parts((zones.size() + kZonesTogether - 1) / kZonesTogether);
   parallelBlocks(zones.size(), kZonesTogether, [&](std::size_t begin, std::size_t end) {
-    WindowBuilder builder(*this, parts[begin / kZonesTogether], probe_of_rows, pulse,
-                          beam);
+    WindowBuilder builder(*this, parts[begin / kZonesTogether], probe_of_rows, pulse, beam);
     for (std::size_t z = begin; z < end; ++z) builder.addZone(zones[z]);
   });
   for (std::size_t z = 0; z < zones.size(); ++z)

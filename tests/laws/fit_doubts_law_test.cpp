@@ -70,8 +70,9 @@ TEST(FitDoubts, EachDoubtIsOneHint) {
   };
   EXPECT_NE(hinted([](HeartFit& f) { f.found[1].at_limit = true; }).find("mapse is at its limit"),
             std::string::npos);
-  EXPECT_NE(hinted([](HeartFit& f) { f.found[1].determined = false; }).find("mapse is not determined"),
-            std::string::npos);
+  EXPECT_NE(
+      hinted([](HeartFit& f) { f.found[1].determined = false; }).find("mapse is not determined"),
+      std::string::npos);
   EXPECT_NE(hinted([](HeartFit& f) { f.views[0].beat.confidence = 0.05; }).find("--ed"),
             std::string::npos);
   EXPECT_NE(hinted([](HeartFit& f) { f.views[0].found.terms.overlap = 0.5; }).find("only 50 %"),
