@@ -16,11 +16,14 @@ namespace echocine {
 
 namespace {
 
-// Fetched once per process. The fetch leaves an error queue in the calling thread; a worker thread
+// Fetched once per process, in a context of its own: OpenSSL crashes where an allocation of its
+// default context failed. The fetch leaves an error queue in the calling thread; a worker thread
 // that ends after OpenSSL's clean-up at exit would leak it, so it is freed here.
 const EVP_MD* sha256Algorithm() {
   static const EVP_MD* const algorithm = [] {
-    const EVP_MD* const fetched = EVP_MD_fetch(nullptr, "SHA256", nullptr);
+    static OSSL_LIB_CTX* const context = OSSL_LIB_CTX_new();
+    const EVP_MD* const fetched =
+        context == nullptr ? nullptr : EVP_MD_fetch(context, "SHA256", nullptr);
     OPENSSL_thread_stop();
     return fetched;
   }();

@@ -71,31 +71,40 @@ TEST(CompareViews, DiscrepancyIsSmoothInADial) {
   });
 }
 
-// A wall that stands still in the loop and moves in the model, the mid anterolateral one: at the
-// end of systole its edges lie out of the model's chamber, by far more than those of any other
-// segment.
+// Offsets in mm at the end of systole where segment `still` of the loop does not move and the
+// model's does: of that segment, and the largest of the others.
+std::pair<double, double> offsetsWithStill(std::size_t still, Look look) {
+  heart::Parameters planted = heart::parametersFrom({{"ef", 0.5}});
+  planted.segments[still - 1].amplitude = 0;
+  const EchoLoop loop = scannedLoop(heart::heartScene(planted, View::a4c, 16, look), 16, 23);
+  SideOptions side;
+  side.ed_frame = 0;
+  const SceneFit fit =
+      fitScene(heart::heartScene(heart::parametersFrom({}), View::a4c, 20, look), loop, side);
+  double found = 0, next = 0;
+  for (const OffsetCurve& curve : segmentCurves(fit.where.map)) {
+    double mean = 0;
+    for (std::size_t n = 5; n < 9; ++n) mean += curve.offset_mm[n] / 4;
+    if (static_cast<std::size_t>(curve.part) == still)
+      found = mean;
+    else
+      next = std::max(next, mean);
+  }
+  std::printf("segment %zu stands still: %+.1f mm, the next one %+.1f mm\n", still, found, next);
+  return {found, next};
+}
+
+// A wall that stands still in the loop and moves in the model: at the end of systole its edges lie
+// outside the model's chamber, by far more than those of any other segment. With whole borders that
+// holds for the mid anterolateral wall (12); behind an uneven chest wall, which hides that one, for
+// the mid inferoseptal wall (9).
 TEST(CompareViews, AStillSegmentIsWhereTheSceneDisagrees) {
   withThreads(2, [] {
-    heart::Parameters still = heart::parametersFrom({{"ef", 0.5}});
-    still.segments[11].amplitude = 0;
-    const EchoLoop loop =
-        scannedLoop(heart::heartScene(still, View::a4c, 16, Look::scanner), 16, 23);
-    SideOptions side;
-    side.ed_frame = 0;
-    const SceneFit fit = fitScene(
-        heart::heartScene(heart::parametersFrom({}), View::a4c, 20, Look::scanner), loop, side);
-    double planted = 0, next = 0;
-    for (const OffsetCurve& curve : segmentCurves(fit.where.map)) {
-      double sum = 0;
-      for (std::size_t n = 5; n < 9; ++n) sum += curve.offset_mm[n] / 4;
-      if (curve.part == 12)
-        planted = sum;
-      else if (sum > next)
-        next = sum;
+    for (const auto& [segment, look] : {std::pair{12u, Look::clean}, {9u, Look::scanner}}) {
+      const auto [found, next] = offsetsWithStill(segment, look);
+      EXPECT_GT(found, 1.8);
+      EXPECT_LT(next, found - 0.8);
     }
-    std::printf("still segment %+.1f mm, the next one %+.1f mm\n", planted, next);
-    EXPECT_GT(planted, 1.2);
-    EXPECT_LT(next, planted - 0.4);
   });
 }
 
