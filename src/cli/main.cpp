@@ -11,6 +11,7 @@
 
 #include "cli/compare_command.h"
 #include "cli/dataset_command.h"
+#include "cli/export_command.h"
 #include "cli/fit_command.h"
 #include "cli/heart_command.h"
 #include "cli/live_command.h"
@@ -93,6 +94,7 @@ int run(int argc, char** argv) {
   echocine::HeartCommand heart(app);
   echocine::CompareCommand compare(app);
   echocine::FitCommand fit(app);
+  echocine::ExportCommand exporting(app);
   echocine::DatasetCommand dataset(app);
   echocine::LiveCommand live(app);
   try {
@@ -112,6 +114,7 @@ int run(int argc, char** argv) {
              : app.got_subcommand("study")   ? study.run()
              : app.got_subcommand("compare") ? compare.run()
              : app.got_subcommand("fit")     ? fit.run()
+             : app.got_subcommand("export")  ? exporting.run()
              : app.got_subcommand("dataset") ? dataset.run()
              : app.got_subcommand("live")    ? live.run()
                                              : render.run();

@@ -9,6 +9,7 @@
 #include "video/cine_writer.h"
 #include "video/dicom_writer.h"
 #include "video/ffv1_encoder.h"
+#include "video/libav_owner.h"
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -17,13 +18,6 @@ extern "C" {
 
 namespace echocine {
 namespace {
-
-struct FrameFree {
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-};
-struct PacketFree {
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-};
 
 // Precondition of all encoders, which read width * height bytes.
 void checkSize(const GreyImage& image) {
@@ -75,8 +69,8 @@ std::vector<std::byte> encodeFfv1(const GreyImage& image) {
   thread_local CodecContext codec;
   if (!codec || codec->width != image.width || codec->height != image.height)
     codec = openFfv1(image.width, image.height);
-  const std::unique_ptr<AVFrame, FrameFree> frame(av_frame_alloc());
-  const std::unique_ptr<AVPacket, PacketFree> packet(av_packet_alloc());
+  const FrameOwner frame(av_frame_alloc());
+  const PacketOwner packet(av_packet_alloc());
   if (!frame || !packet) throw std::bad_alloc();
   frame->format = AV_PIX_FMT_GRAY8;
   frame->width = image.width;

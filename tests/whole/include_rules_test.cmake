@@ -56,6 +56,7 @@ set(rooms
   "mmode=frame,cycle,truth,signal|surfaces,output,video"
   "view=frame,mesh|plan,cycle,geometry,signal,video,page"
   "echo=video|signal,metrics,output"
+  "export=video|echo"
   "fit=echo,heart,surfaces,geometry,truth,signal,page|frame,video,output,view"
   "compare=echo,fit,metrics,signal,truth,page|surfaces,video"
   "render=loop,frame,cycle,output,page,video,truth|plan,signal,surfaces,view"
@@ -64,7 +65,7 @@ set(rooms
   "dataset=output,surfaces,cycle,heart,truth,signal|frame,loop,views,video,page"
   "live=frame,surfaces,output,plan,truth|cycle,mesh,signal,video,view,page"
   "python=frame,echo|plan,loop,render,fit,compare,study,dataset,heart,cycle,output,video,surfaces"
-  "cli=render,fit,compare,study,output,view,plan,mmode,live|dataset,video,frame,surfaces,keyframes,cycle,heart")
+  "cli=render,fit,compare,study,output,view,plan,mmode,export,live|dataset,video,frame,surfaces,keyframes,cycle,heart")
 
 function(room_of path out)
   string(REGEX REPLACE "^src/" "" path "${path}")

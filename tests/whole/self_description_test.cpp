@@ -12,8 +12,8 @@ namespace {
 
 using namespace support;
 
-const std::vector<std::string> kCommands{"render", "view",  "plan",    "study",   "live",
-                                         "mmode",  "heart", "dataset", "compare", "fit"};
+const std::vector<std::string> kCommands{"render", "view",    "plan",    "study", "live",  "mmode",
+                                         "heart",  "dataset", "compare", "fit",   "export"};
 
 std::string helpOf(const std::string& command) {
   return runShell("%B " + command + " --help").out;
