@@ -6,12 +6,14 @@
 
 #include "core/error.h"
 #include "dataset/sink.h"
+#include "export/export_loops.h"
 #include "output/exr_plane.h"
 #include "output/exr_stack.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/job.h"
 #include "python/unlocked.h"
+#include "scene/names.h"
 #include "video/read_video.h"
 
 namespace echocine::python {
@@ -88,12 +90,36 @@ std::pair<std::uint64_t, std::string> fileDigest(const Path& path) {
   return {mark->bytes, mark->digest};
 }
 
+// (codec, width, height, frames, frame_rate_hz)
+py::tuple exportTo(const std::vector<Path>& loops, const Path& output,
+                   const std::vector<std::string>& captions, int columns, int width, int repeats,
+                   double speed, std::optional<double> fps, const std::string& tint, int threads,
+                   const py::object& progress) {
+  ExportOptions options{loops, output, captions, columns, width, repeats, speed, fps};
+  options.threads = threads;
+  const std::optional<Tint> known = valueOf<Tint>(tint);
+  if (!known)
+    throw SceneError(fmt::format("tint: \"{}\", accepted: none, sepia, blue", tint));
+  options.tint = *known;
+  Exported exported;
+  runJob(progress, [&](const Monitor& monitor) {
+    exported = exportLoops(options);
+    for (const std::string& note : exported.notes) monitor.warn(note);
+  });
+  return py::make_tuple(exported.codec, exported.width, exported.height, exported.frames,
+                        exported.frame_rate_hz);
+}
+
 }  // namespace
 
 void bindFiles(py::module_& module) {
   module.def("read_exr", &readExr, py::arg("folder"), py::arg("frame"), py::arg("channel"),
              py::arg("scene_sha256"), py::arg("lines"), py::arg("samples"),
              "One channel of an intensity EXR, (depth, line) float32 or uint32.");
+  module.def("export_loops", &exportTo, py::arg("loops"), py::arg("output"), py::arg("captions"),
+             py::arg("columns"), py::arg("width"), py::arg("repeats"), py::arg("speed"),
+             py::arg("fps"), py::arg("tint"), py::arg("threads"), py::arg("progress"),
+             "Loops as MP4, GIF or WebP.");
   module.def("file_digest", &fileDigest, py::arg("path"), "(bytes, digest) of a file.");
   module.def("read_video", &readFrames, py::arg("path"), "(T, H, W) uint8 greys of a video.");
 }

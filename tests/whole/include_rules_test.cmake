@@ -64,7 +64,7 @@ set(rooms
   "echocine=render,loop,frame,heart"
   "dataset=output,surfaces,cycle,heart,truth,signal|frame,loop,views,video,page"
   "live=frame,surfaces,output,plan,truth|cycle,mesh,signal,video,view,page"
-  "python=frame,echo|plan,loop,render,fit,compare,study,dataset,heart,cycle,output,video,surfaces"
+  "python=frame,echo|plan,loop,render,export,fit,compare,study,dataset,heart,cycle,output,video,surfaces"
   "cli=render,fit,compare,study,output,view,plan,mmode,export,live|dataset,video,frame,surfaces,keyframes,cycle,heart")
 
 function(room_of path out)

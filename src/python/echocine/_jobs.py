@@ -8,7 +8,7 @@ import json
 import os
 import tempfile
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -159,6 +159,48 @@ def _as_files(loop: Union[Loop, PathLike], spare: Path, threads: int) -> Path:
                                                {"Y", "display.Y"})})
     render(lossless, spare, threads=threads)
     return spare
+
+
+class Exported(NamedTuple):
+    """A file that `export` has written.
+
+    Attributes:
+        codec: "H.264", "MPEG-4 part 2", "GIF" or "WebP".
+        width, height: pixels.
+        frames: all repeats included.
+        frame_rate_hz: of playback, 1/s.
+    """
+
+    codec: str
+    width: int
+    height: int
+    frames: int
+    frame_rate_hz: float
+
+
+def export(loops: Union[Loop, PathLike, Sequence[Union[Loop, PathLike]]], output: PathLike, *, captions: Sequence[str] = (),
+           columns: int = 0, width: int = 0, repeats: int = 1, speed: float = 1, fps: Optional[float] = None, tint: str = "none",
+           threads: int = 0) -> Exported:
+    """Writes loops as MP4, GIF or animated WebP, side by side, as ``echocine export`` does.
+
+    Args:
+        loops: one or several, up to 16: folders of renders, videos, DICOM files, or loops. A loop in memory is rendered into
+            a folder that is removed. Of videos only the sector is shown.
+        output: .mp4, .gif or .webp; an existing file is replaced.
+        captions: one per loop.
+        columns: of the grid; 0: nearly square.
+        width: of each loop, pixels; 0: that of the first one.
+        repeats: number of times that an MP4 shows the loop, 1 to 100; GIF and WebP repeat without end.
+        speed: of playback, 0.01 to 10.
+        fps: frame rate of the loops, 1/s; None: that of each file.
+        tint: colour of the grey levels: none, sepia or blue.
+        threads: 0: one per core.
+    """
+    given = [loops] if isinstance(loops, (Loop, str, os.PathLike)) else list(loops)
+    with tempfile.TemporaryDirectory(prefix="echocine-") as spare:
+        files = [_as_files(loop, Path(spare) / str(i), threads) for i, loop in enumerate(given)]
+        return Exported(*_echocine.export_loops(files, Path(output), list(captions), columns, width, repeats, speed, fps, tint, threads,
+                                                None))
 
 
 class FrameDiscrepancy:
