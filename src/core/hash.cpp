@@ -14,16 +14,31 @@
 
 namespace echocine {
 
+struct DigestFree {
+  void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
+};
+using DigestContext = std::unique_ptr<EVP_MD_CTX, DigestFree>;
+
 namespace {
 
-// Fetched once per process, in a context of its own: OpenSSL crashes where an allocation of its
-// default context failed. The fetch leaves an error queue in the calling thread; a worker thread
-// that ends after OpenSSL's clean-up at exit would leak it, so it is freed here.
+// Null where memory is short. In a context of its own: OpenSSL crashes where an allocation of its
+// default context failed.
+const EVP_MD* fetchSha256() {
+  static OSSL_LIB_CTX* const library = OSSL_LIB_CTX_new();
+  if (library == nullptr) return nullptr;
+  const EVP_MD* const algorithm = EVP_MD_fetch(library, "SHA256", nullptr);
+  const DigestContext first(EVP_MD_CTX_new());
+  const bool works = algorithm != nullptr && first != nullptr &&
+                     EVP_DigestInit_ex(first.get(), algorithm, nullptr) == 1;
+  return works ? algorithm : nullptr;
+}
+
+// Fetched once per process. The fetch and the first digest leave an error queue in the calling
+// thread; a worker thread that ends after OpenSSL's clean-up at exit would leak it, so it is freed
+// here.
 const EVP_MD* sha256Algorithm() {
   static const EVP_MD* const algorithm = [] {
-    static OSSL_LIB_CTX* const context = OSSL_LIB_CTX_new();
-    const EVP_MD* const fetched =
-        context == nullptr ? nullptr : EVP_MD_fetch(context, "SHA256", nullptr);
+    const EVP_MD* const fetched = fetchSha256();
     OPENSSL_thread_stop();
     return fetched;
   }();
@@ -33,14 +48,13 @@ const EVP_MD* sha256Algorithm() {
 }  // namespace
 
 struct Sha256::State {
-  EVP_MD_CTX* context = EVP_MD_CTX_new();
-  ~State() { EVP_MD_CTX_free(context); }
+  DigestContext context{EVP_MD_CTX_new()};
 };
 
 Sha256::Sha256() : state_(std::make_unique<State>()) {
   if (state_->context == nullptr) throw std::bad_alloc();
   const EVP_MD* const algorithm = sha256Algorithm();
-  if (algorithm == nullptr || EVP_DigestInit_ex(state_->context, algorithm, nullptr) != 1)
+  if (algorithm == nullptr || EVP_DigestInit_ex(state_->context.get(), algorithm, nullptr) != 1)
     throw JobError("SHA-256: the installed OpenSSL does not have it, or is out of memory");
 }
 Sha256::~Sha256() = default;
@@ -48,7 +62,7 @@ Sha256::Sha256(Sha256&&) noexcept = default;
 Sha256& Sha256::operator=(Sha256&&) noexcept = default;
 
 void Sha256::update(std::span<const std::byte> bytes) {
-  EVP_DigestUpdate(state_->context, bytes.data(), bytes.size());
+  EVP_DigestUpdate(state_->context.get(), bytes.data(), bytes.size());
 }
 
 void Sha256::update(std::string_view text) {
@@ -58,7 +72,7 @@ void Sha256::update(std::string_view text) {
 std::string Sha256::hex() {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned size = 0;
-  EVP_DigestFinal_ex(state_->context, digest.data(), &size);
+  EVP_DigestFinal_ex(state_->context.get(), digest.data(), &size);
   std::string text;
   for (unsigned i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
   return text;

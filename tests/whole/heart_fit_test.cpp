@@ -140,7 +140,7 @@ std::string refusalOfFit(const std::vector<FitLoop>& loops, const HeartFitOption
   return what;
 }
 
-TEST(HeartFit, UnusableInputIsOneLine) {
+TEST(HeartFitRefusal, UnusableInputIsOneLine) {
   const EchoLoop loop = draw(Phantom{}, {}, 20, 3);
   const FitLoop one{View::a4c, loop, fromFirst()};
   EXPECT_NE(refusalOfFit({}).find("0 loops"), std::string::npos);

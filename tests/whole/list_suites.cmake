@@ -14,7 +14,7 @@ foreach(suite IN LISTS suites)
   # The longest ones first, so that none is left to run alone.
   if(suite MATCHES "^(DatasetCommand|NumberSweep|SimulatorFrame|VideoWithEcg|ComparedRender)$")
     set(cost 100)
-  elseif(suite MATCHES "^(CompareFit|CompareSystole|CompareTilt|CompareViewRanking|CompareViews|HeartMotionWhole|PatientAgainstVideos|Planted|StudyCommandTest|Tolerance|EachFamily/ToleranceOfHeart|Trabeculae)$")
+  elseif(suite MATCHES "^(CompareFit|CompareSystole|CompareTilt|CompareViewRanking|CompareViews|HeartFit|HeartMotionWhole|PatientAgainstVideos|Planted|StudyCommandTest|Tolerance|EachFamily/ToleranceOfHeart|Trabeculae)$")
     set(cost 200)
     set(labels "LABELS long")  # searches and tables: minutes under sanitizers, over code that other suites run too
   endif()
