@@ -24,7 +24,7 @@ ExportCommand::ExportCommand(CLI::App& app) {
       app.add_subcommand("export", "Write loops as MP4, GIF or animated WebP, side by side");
   command
       ->add_option("loops", options_.loops,
-                   "Folders of renders, videos or DICOM files; of videos only the sector is shown")
+                   "Folders of renders, videos or DICOM files; videos show the sector only")
       ->required();
   command
       ->add_option("-o,--output", options_.output,

@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kLargestSide = 8192;  // px; our choice, that of readVideo()
 constexpr int kCaptionGrey = 200;
+constexpr double kRounding = 1e-9;  // frames: an instant on a frame's start shows that frame
 
 // Area means when shrinking: single pixels of speckle would flicker.
 GreyImage scaled(const GreyImage& image, int width, int height) {
@@ -79,7 +80,8 @@ GreyImage Montage::at(double phase) const {
   for (std::size_t i = 0; i < loops_.size(); ++i) {
     const MontageLoop& loop = loops_[i];
     const auto count = static_cast<double>(loop.frames.size());
-    const auto n = static_cast<std::size_t>(std::clamp(std::floor(phase * count), 0.0, count - 1));
+    const auto n =
+        static_cast<std::size_t>(std::clamp(std::floor(phase * count + kRounding), 0.0, count - 1));
     const GreyImage& frame = loop.frames[n];
     const int place = static_cast<int>(i);
     cv::Mat cell = canvas({(place % columns_) * cell_width_, (place / columns_) * cell_height_,

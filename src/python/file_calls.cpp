@@ -98,8 +98,7 @@ py::tuple exportTo(const std::vector<Path>& loops, const Path& output,
   ExportOptions options{loops, output, captions, columns, width, repeats, speed, fps};
   options.threads = threads;
   const std::optional<Tint> known = valueOf<Tint>(tint);
-  if (!known)
-    throw SceneError(fmt::format("tint: \"{}\", accepted: none, sepia, blue", tint));
+  if (!known) throw SceneError(fmt::format("tint: \"{}\", accepted: none, sepia, blue", tint));
   options.tint = *known;
   Exported exported;
   runJob(progress, [&](const Monitor& monitor) {

@@ -41,7 +41,7 @@ struct YuvColour {
 
 namespace {
 
-// What libavcodec calls an encoder, and what users call its format.
+// An encoder's name in libavcodec, and the format's name for users.
 struct Encoder {
   const char *name, *title;
 };

@@ -124,3 +124,16 @@ def test_notebook(scene):
     player = loop._repr_html_()
     assert player.count("data:image/png;base64,") == 3 and "http" not in player
     assert scene._repr_html_().count("<path") == 2  # the sector and the ball
+
+
+def test_loops_become_a_file_for_slides(scene, tmp_path):
+    loop = echocine.render(scene)
+    made = echocine.export([loop, loop], tmp_path / "pair.gif", captions=["first", "second"], width=80)
+    assert made.codec == "GIF" and (tmp_path / "pair.gif").read_bytes()[:6] == b"GIF89a"
+    assert made.width == 160 and 1 <= made.frames <= scene.frame_count
+    assert echocine.export(loop, tmp_path / "one.mp4", repeats=2, tint="blue").frames == 2 * scene.frame_count
+    with pytest.raises(echocine.SceneError, match="accepted: .mp4, .gif, .webp"):
+        echocine.export(loop, tmp_path / "loop.mkv")
+    with pytest.raises(echocine.SceneError, match="tint"):
+        echocine.export(loop, tmp_path / "loop.mp4", tint="green")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["one.mp4", "pair.gif"]

@@ -105,10 +105,15 @@ TEST(Export, AWebpHasTheFramesAndTimesOfTheLoop) {
   unsigned duration_ms = 0;
   for (std::size_t at = 12; at + 8 <= bytes.size();) {
     const std::string kind = bytes.substr(at, 4);
-    if (kind == "VP8X") EXPECT_EQ(number(at + 12, 3), 63u);  // width - 1
-    if (kind == "VP8X") EXPECT_EQ(number(at + 15, 3), 47u);
-    if (kind == "ANIM") EXPECT_EQ(number(at + 12, 2), 0u);
-    if (kind == "ANMF") ++frames, duration_ms += number(at + 20, 3);
+    if (kind == "VP8X") {
+      EXPECT_EQ(number(at + 12, 3), 63u);  // width - 1
+      EXPECT_EQ(number(at + 15, 3), 47u);
+    } else if (kind == "ANIM") {
+      EXPECT_EQ(number(at + 12, 2), 0u);
+    } else if (kind == "ANMF") {
+      ++frames;
+      duration_ms += number(at + 20, 3);
+    }
     const unsigned size = number(at + 4, 4);
     at += 8 + size + size % 2;
   }
