@@ -91,7 +91,8 @@ constexpr const char* kClosing = R"(
 ## Limits
 
 - Pictures are simulated. Results on them do not replace a test on clinical loops.
-- Echoes are those of rays with a point spread. Nonlinear propagation is absent, and aberration is modelled as haze only.
+- Echoes are those of rays with a point spread. Second-harmonic imaging changes pulse, beam and haze; nonlinear propagation is not computed.
+- Aberration by the chest wall is modelled as haze and as patches that weaken parts of the aperture.
 - All hearts of the parametric model share one topology. Congenital defects, pacing leads and prostheses are absent.
 - Splits keep hearts apart, but all hearts come from one simulator. Test scores are optimistic for other domains.
 
