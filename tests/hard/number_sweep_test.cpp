@@ -173,24 +173,16 @@ tgc_table_mm_db = [[1, 0], [160, 40]]
 reference_intensity = 1e-6
 )";
 
-const std::vector<std::string> kValues{"5e-324",
-                                       "1e-300",
-                                       "-0.0",
-                                       "0.0",
-                                       "-1.0",
-                                       "1e-7",
-                                       "0.001",
-                                       "1000.0",
-                                       "1e5",
-                                       "1e6",
-                                       "1e9",
-                                       "1e60",
-                                       "1e308",
-                                       "nan",
-                                       "inf",
-                                       "-inf",
-                                       "9223372036854775807",
-                                       "-1"};
+// With sanitizers one value in three of each key, another third for the next key.
+#ifdef ECHOCINE_SANITIZED
+constexpr int kStep = 3;
+#else
+constexpr int kStep = 1;
+#endif
+
+const std::string kValues =
+    "5e-324 1e-300 -0.0 0.0 -1.0 1e-7 0.001 1000.0 1e5 1e6 1e9 1e60 1e308 nan inf -inf "
+    "9223372036854775807 -1";
 
 class NumberSweep : public ::testing::Test {
  protected:
@@ -230,7 +222,11 @@ class NumberSweep : public ::testing::Test {
       if (line.find_first_of("0123456789", from) != from) continue;
       const std::size_t to = std::min(line.find_first_of(",]", from), line.size());
       const std::string key = line.substr(0, equals);
-      for (const std::string& value : kValues) {
+      ++keys;
+      std::istringstream values(kValues);
+      int index = 0;
+      for (std::string value; values >> value;) {
+        if ((index++ + keys) % kStep != 0) continue;
         std::string changed = line;
         changed.replace(from, to - from, value);
         std::string whole = text;
@@ -252,8 +248,8 @@ class NumberSweep : public ::testing::Test {
   void expectBothEnds(int least_runs, int least_accepted) {
     RecordProperty("runs", runs);
     RecordProperty("accepted", accepted);
-    EXPECT_GT(runs, least_runs);
-    EXPECT_GT(accepted, least_accepted);
+    EXPECT_GT(runs, least_runs / kStep);
+    EXPECT_GT(accepted, least_accepted / kStep);
   }
 
   static std::string with(std::string text, const std::string& medium) {
@@ -261,7 +257,7 @@ class NumberSweep : public ::testing::Test {
   }
 
   TempFolder folder;
-  int runs = 0, accepted = 0;
+  int keys = 0, runs = 0, accepted = 0;
 };
 
 TEST_F(NumberSweep, EveryKeyOfALoopIsAPictureOrARefusalThatNamesIt) {

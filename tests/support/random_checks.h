@@ -14,8 +14,10 @@
 
 namespace echocine::support {
 
-#ifdef NDEBUG
+#if defined(NDEBUG)
 inline constexpr std::uint64_t kScenes = 10000;
+#elif defined(ECHOCINE_SANITIZED)
+inline constexpr std::uint64_t kScenes = 200;
 #else
 inline constexpr std::uint64_t kScenes = 500;
 #endif

@@ -68,9 +68,11 @@ TEST_F(Privacy, NoTagAndNoFolderIsInAnyOutput) {
   }
 }
 
+class SearchPrivacy : public Privacy {};
+
 // A file's name may be a patient's: no output has it, whichever of the three kinds of comparison
 // wrote it; the label that was given stands there instead.
-TEST_F(Privacy, NoFileNameIsInAnyOutput) {
+TEST_F(SearchPrivacy, NoFileNameIsInAnyOutput) {
   fs::create_directories(folder / "QUILLFEATHER_JANE");
   const fs::path real = folder / "QUILLFEATHER_JANE" / "QUILLFEATHER_1950.dcm",
                  drawn = folder / "QUILLFEATHER_JANE" / "QUILLFEATHER.avi";

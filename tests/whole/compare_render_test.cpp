@@ -45,7 +45,7 @@ TEST(ComparedRender, ARenderAgainstItselfIsPerfectAndItsResultsAreWhole) {
 
 // A ball lies anywhere about its axis, so where its scene fits is only a hint: in the terminal, in
 // JSON and in the page's data. A scene is in mm, so a loop without a scale is refused.
-TEST(ComparedRender, AFitOfASceneSaysWhatAReaderMustKnow) {
+TEST(FittedRender, AFitOfASceneSaysWhatAReaderMustKnow) {
   TempFolder folder;
   ASSERT_EQ(renderScene(writeBall(folder, ballScene(8)), folder / "loop").code, 0);
   const auto quoted = [&](const char* name) { return " '" + (folder / name).string() + "'"; };
@@ -71,7 +71,7 @@ TEST(ComparedRender, AFitOfASceneSaysWhatAReaderMustKnow) {
 
 // Where no tilt is requested nothing is written of one; where one is, it is told. A loop without
 // its scene has no other plane.
-TEST(ComparedRender, ATiltIsToldWhereItIsAskedFor) {
+TEST(FittedRender, ATiltIsToldWhereItIsAskedFor) {
   TempFolder folder;
   ASSERT_EQ(renderScene(writeBall(folder, ballScene(8)), folder / "loop").code, 0);
   const auto quoted = [&](const char* name) { return " '" + (folder / name).string() + "'"; };

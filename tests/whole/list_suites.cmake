@@ -12,9 +12,9 @@ foreach(suite IN LISTS suites)
   set(cost 1)
   set(labels "")
   # The longest ones first, so that none is left to run alone.
-  if(suite MATCHES "^(DatasetCommand|NumberSweep|SimulatorFrame|VideoWithEcg|ComparedRender)$")
+  if(suite MATCHES "^(DatasetCommand|NumberSweep|SimulatorFrame|ComparedRender)$")
     set(cost 100)
-  elseif(suite MATCHES "^(CompareFit|CompareSystole|CompareTilt|CompareViewRanking|CompareViews|HeartFit|HeartMotionWhole|PatientAgainstVideos|Planted|StudyCommandTest|Tolerance|EachFamily/ToleranceOfHeart|Trabeculae)$")
+  elseif(suite MATCHES "^(CompareFit|CompareSystole|CompareTilt|CompareViewRanking|CompareViews|DicomViews|FittedRender|HeartFit|HeartMMode|HeartMotionWhole|LooksLaw|PatientAgainstVideos|Planted|SearchPrivacy|StudyCommandTest|StudySeeds|Tolerance|EachFamily/ToleranceOfHeart|Trabeculae|VideoWithEcg)$")
     set(cost 200)
     set(labels "LABELS long")  # searches and tables: minutes under sanitizers, over code that other suites run too
   endif()

@@ -139,7 +139,7 @@ TEST(MMode, ABrightLineIsFollowedByFractionsOfASample) {
 }
 
 // TAPSE of the shipped heart: along the line the ring moves as the picture shows.
-TEST(MMode, TheShippedHeartsRingMovesAsItsPictureShows) {
+TEST(HeartMMode, TheShippedHeartsRingMovesAsItsPictureShows) {
   const TempFolder folder;
   const std::string scene =
       (std::filesystem::path(kSourceDir) / "examples/beating_heart/scene.toml").string();

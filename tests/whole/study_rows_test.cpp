@@ -11,10 +11,11 @@ using namespace support;
 namespace fs = std::filesystem;
 
 class StudyRows : public StudiedBall {};
+class StudySeeds : public StudiedBall {};
 
 // A law of the mean over seeds: no error depends on the numbers that were drawn, so finer presets
 // err less in a picture full of speckle and noise too.
-TEST_F(StudyRows, ErrorsDependOnNoSeedInALookWithSpeckleAndNoise) {
+TEST_F(StudySeeds, ErrorsDependOnNoSeedInALookWithSpeckleAndNoise) {
   Json errors[2];
   for (const int seed : {1, 2}) {
     SceneText text = studiedBall();
