@@ -24,7 +24,7 @@ constexpr double kMostU = 2;
 constexpr double kStepsPerWidth = 16, kEdgePhase = std::numbers::pi / 8;
 // Bounds of the table for apertures of very many wavelengths or very few. Our choices.
 constexpr std::size_t kMostElements = 128, kLeastElements = 2, kMostDefocuses = 256;
-// Share of the first grating lobe of elements that stand farther apart; P counts as 0 beyond it.
+// Share of the u of the first grating lobe that lines reach at most; P counts as 0 beyond it.
 constexpr double kGratingShare = 0.9;
 
 constexpr double kMainLobeEnd = 1e-3;
@@ -44,6 +44,11 @@ double weightOf(Apodization apodization, double place) {
       return 0.08 + 0.92 * bell;
   }
   return 1;
+}
+
+// The highest frequency of the sum over the centre frequency.
+double highestFrequency(const Probe& probe, double pulse_cycles) {
+  return kCentre + (kFrequencies / 2) * spectrumDeviation(pulse_cycles, probe.bandwidth);
 }
 
 double nearestPath(double aperture_m) {
@@ -105,7 +110,8 @@ SampledBeam::SampledBeam(const Probe& probe, double pulse_cycles, bool harmonic)
                        std::min((last - first_defocus_) / step, double{kMostDefocuses}));
   defocus_step_ = std::max((last - first_defocus_) / static_cast<double>(defocuses_ - 1), 1e-9);
   const double widths = std::max(aperture_m_ / wavelength_m, 1.0);
-  const double most_u = std::min(kMostU, kGratingShare * double{kMostElements} / widths);
+  const double shortest = widths * highestFrequency(probe, pulse_cycles);  // in the aperture
+  const double most_u = std::min(kMostU, kGratingShare * double{kMostElements} / shortest);
   steps_ = static_cast<std::size_t>(std::ceil(most_u * kStepsPerWidth * widths)) + 1;
   steps_per_u_ = static_cast<double>(steps_ - 1) / most_u;
   fill(probe, pulse_cycles, harmonic);
@@ -117,8 +123,8 @@ namespace {
 struct HalfAperture {
   std::vector<double> places_m, transmit, receive;  // by element
 
-  HalfAperture(const Probe& probe, double wavelength_m) {
-    const double wanted = std::round(2 * probe.aperture_m / wavelength_m);
+  HalfAperture(const Probe& probe, double shortest_m) {
+    const double wanted = std::ceil(kMostU / kGratingShare * probe.aperture_m / shortest_m);
     const auto elements =
         static_cast<std::size_t>(std::clamp(wanted, double{kLeastElements}, double{kMostElements}));
     const double middle = 0.5 * static_cast<double>(elements - 1);
@@ -184,7 +190,7 @@ class FrequencyPowers {
 
 void SampledBeam::fill(const Probe& probe, double pulse_cycles, bool harmonic) {
   const double wavelength_m = ScanGeometry(probe).wavelength();
-  const HalfAperture aperture(probe, wavelength_m);
+  const HalfAperture aperture(probe, wavelength_m / highestFrequency(probe, pulse_cycles));
   const double deviation = spectrumDeviation(pulse_cycles, probe.bandwidth);
   std::vector<double> powers(defocuses_ * steps_, 0.0);
   for (int f = 0; f < kFrequencies; ++f) {
@@ -204,7 +210,9 @@ void SampledBeam::fill(const Probe& probe, double pulse_cycles, bool harmonic) {
 // Appends a row.
 void SampledBeam::integrate(std::span<const double> powers) {
   const double peak = *std::max_element(powers.begin(), powers.end());
-  std::size_t last = powers.size() - 1;
+  // The main lobe ends in the nearer half, or nowhere: a defocused grating lobe may reach the end.
+  std::size_t last = powers.size() / 2;
+  if (powers[last] >= kMainLobeEnd * peak) last = powers.size() - 1;
   while (last > 0 && powers[last] < kMainLobeEnd * peak) --last;
   main_lobes_.push_back(static_cast<double>(last + 1) / steps_per_u_);
   std::vector<double> sums{0.0};

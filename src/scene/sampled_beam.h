@@ -8,22 +8,22 @@
 //
 // Symbols: u sine of a direction less that of the beam, both from the normal of the aperture; q
 // defocus of the transmitted beam, 1/m; theta steering angle; z path length; F focus; x_n places of
-// the elements, half a wavelength apart; a_n receive apodization; k_f = 2 pi f / c; g_f weights of
-// five frequencies, a Gaussian about the centre. Transmit has no apodization; receive is focused at
-// every depth. Its energy over the pulse, not the peak of the envelope.
+// the elements, at most 0.45 of the shortest wavelength apart; a_n receive apodization; k_f = 2 pi
+// f / c; g_f weights of five frequencies, a Gaussian about the centre. Transmit has no apodization;
+// receive is focused at every depth. Its energy over the pulse, not the peak of the envelope.
 //
 // Second-harmonic imaging (signal/harmonic.h) sends at half the frequency, and the harmonic has the
 // square of the sent intensity: the first sum is then |sum_n exp(j k_f u x_n / 2) ...|^4, with k_f
 // / 2 in its defocus too.
 //
-// Limits: an aperture over 64 wavelengths has 128 elements, farther apart; beyond 0.9 of the u of
-// their first grating lobe P counts as 0. Paraxial in q, so paths nearer than half the aperture
-// keep the value there. Full widths differ from a sum over the elements with exact distances by at
-// most 10 % (-6 dB) and 20 % (-20 dB) for 64 elements of 0.3 mm focused at 80 mm, at 30 to 140 mm
-// and 0 to 38 degrees. For apertures of 12 to 24 mm, foci of 50 to 120 mm and apodized receive it
-// is 15 %, steered at 30 mm up to 25 %. Against a linear array simulator (SIMUS: Garcia, Comput.
-// Methods Programs Biomed. 218, 2022): 4 % (-6 dB) and 15 % (-20 dB), except where a shoulder of
-// the defocused beam lies near -20 dB.
+// Limits: an aperture over 57 shortest wavelengths has 128 elements, farther apart; beyond 0.9 of
+// the u of their first grating lobe P counts as 0. Paraxial in q, so paths nearer than half the
+// aperture keep the value there. Full widths differ from a sum over the elements with exact
+// distances by at most 10 % (-6 dB) and 20 % (-20 dB) for 64 elements of 0.3 mm focused at 80 mm,
+// at 30 to 140 mm and 0 to 38 degrees. For apertures of 12 to 24 mm, foci of 50 to 120 mm and
+// apodized receive it is 15 %, steered at 30 mm up to 25 %. Against a linear array simulator
+// (SIMUS: Garcia, Comput. Methods Programs Biomed. 218, 2022): 4 % (-6 dB) and 15 % (-20 dB),
+// except where a shoulder of the defocused beam lies near -20 dB.
 
 #include <cstddef>
 #include <span>
@@ -67,7 +67,7 @@ class SampledBeam {
    public:
     // Integral of P from 0 to u over that from -1 to 1; odd in u. Limit: |u| beyond 2 counts as 2.
     double integral(double u) const;
-    // P is less than a thousandth of its peak beyond this u.
+    // P is less than a thousandth of its peak beyond this u, except in a defocused grating lobe.
     double mainLobe() const { return main_lobe_; }
 
    private:
