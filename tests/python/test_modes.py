@@ -17,7 +17,7 @@ def plate_scene(amplitude_mm=4.0):
     return echocine.Scene({"background": "blood",
                            "probe": {"kind": "phased", "apex": [0, 0, 0], "axis": [0, 0, 1], "lateral": [1, 0, 0], "sector_deg": 20,
                                      "depth_mm": 100, "frequency_mhz": 2.5, "lines": 16, "samples": 256},
-                           "acquisition": {"frame_rate_hz": 10.0}, "motion": {"interpolation": "fourier"},
+                           "acquisition": {"heart_rate_bpm": 60.0, "frame_rate_hz": 10.0}, "motion": {"interpolation": "fourier"},
                            "output": {"width": 120, "height": 90, "report": False},
                            "structure": [{"name": "ball", "medium": "myocardium", "keyframes": (beat, faces)}]})
 

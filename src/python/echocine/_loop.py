@@ -174,7 +174,8 @@ class Loop:
     def velocity_beam(self) -> NDArray[np.float32]:
         """(T, depth, line) float32, m/s along the scan line, positive towards the probe; NaN where nothing is known to move."""
         if self._source() is None:
-            return self._once("velocity_beam", lambda: self.channel("velocity.beam"))
+            read: NDArray[np.float32] = self._once("velocity_beam", lambda: self.channel("velocity.beam"))
+            return read
         planes: NDArray[np.float32] = self._named("velocity_beam", "truth=\"velocity_beam\"")
         return planes
 
