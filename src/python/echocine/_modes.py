@@ -175,5 +175,6 @@ def doppler(scene: Scene, folder: Optional[PathLike] = None, *, prf_hz: float = 
         velocities = made["nyquist_m_s"] * (2 * (np.arange(bins) + 0.5) / bins - 1)
         spectrum = Spectrum(times_s, phases, velocities, power, mean, exact, peak, exact_peak)
     times_s, phases = made["times"]
+    bias_m_s, rms_m_s, aliased_share = made["against_truth"]
     return Doppler(made["nyquist_m_s"], times_s, phases, made["velocity"], made["variance"], made["power"], made["exact"],
-                   *made["against_truth"], spectrum)
+                   bias_m_s, rms_m_s, aliased_share, spectrum)
