@@ -42,8 +42,8 @@ std::vector<PulseField> packet(const SpeckleBed& bed, const Speckle& speckle, in
   return fields;
 }
 
-VelocityPlanes measured(const SpeckleBed& bed, const std::vector<PulseField>& pulses,
-                        WallFilterKind wall = WallFilterKind::none, double gate_m = 1e-3) {
+VelocityPlanes estimated(const SpeckleBed& bed, const std::vector<PulseField>& pulses,
+                         WallFilterKind wall = WallFilterKind::none, double gate_m = 1e-3) {
   VelocityPlanes planes;
   withThreads(1, [&] {
     planes = estimateVelocity(pulses, WallFilter(wall, static_cast<int>(pulses.size())), bed.probe,
@@ -87,10 +87,10 @@ TEST(DopplerLaw, AMovingPlateHasItsVelocity) {
   for (const double of_nyquist : {0.0, 0.05, -0.3, 0.6, 0.95, -0.95, 1.2, -1.7}) {
     const double away = -of_nyquist * nyquist;  // along z
     const Off off = offFrom(bed,
-                            measured(bed, packet(bed, speckle, 4,
-                                                 [&](double t) {
-                                                   return shifted({0, 0, away * t});
-                                                 })),
+                            estimated(bed, packet(bed, speckle, 4,
+                                                  [&](double t) {
+                                                    return shifted({0, 0, away * t});
+                                                  })),
                             [&](Vec3d, Vec3d direction) { return -away * direction.z; });
     EXPECT_LT(std::abs(bias(off.bias)), 0.01) << of_nyquist;
     // Speckle decorrelates with the motion from pulse to pulse.
@@ -104,9 +104,9 @@ TEST(DopplerLaw, AliasingIsWhereItMustBe) {
   const Speckle speckle = bed.speckle();
   const double nyquist = nyquistVelocity(bed.probe, kDopplerPrf_hz);
   const auto shown = [&](double velocity) {
-    const VelocityPlanes planes = measured(bed, packet(bed, speckle, 4, [&](double t) {
-                                             return shifted({0, 0, -velocity * t});
-                                           }));
+    const VelocityPlanes planes = estimated(bed, packet(bed, speckle, 4, [&](double t) {
+                                              return shifted({0, 0, -velocity * t});
+                                            }));
     double sum = 0;
     constexpr int kMiddle = kDopplerLines / 2;
     for (int k = 20; k < kDopplerSamples - 20; ++k)
@@ -134,12 +134,12 @@ TEST(DopplerLaw, ATurningDiscHasTheVelocityOfEachPlace) {
       map.shift = centre - moved;
       return map;
     };
-    const Off off =
-        offFrom(bed, measured(bed, packet(bed, speckle, 4, at)), [&](Vec3d place, Vec3d direction) {
-          const Vec3d from = place - centre;
-          const Vec3d velocity{omega * from.z, 0, -omega * from.x};
-          return -dot(velocity, direction);
-        });
+    const Off off = offFrom(bed, estimated(bed, packet(bed, speckle, 4, at)),
+                            [&](Vec3d place, Vec3d direction) {
+                              const Vec3d from = place - centre;
+                              const Vec3d velocity{omega * from.z, 0, -omega * from.x};
+                              return -dot(velocity, direction);
+                            });
     EXPECT_LT(std::abs(bias(off.bias)), 0.01) << turns_s;
     EXPECT_LT(rms(off.rms), 0.08) << turns_s;
   }
@@ -162,7 +162,7 @@ TEST(DopplerLaw, AContractingShellHasTheVelocityOfEachPlace) {
       return map;
     };
     const Off off = offFrom(
-        bed, measured(bed, packet(bed, speckle, 4, at)),
+        bed, estimated(bed, packet(bed, speckle, 4, at)),
         [&](Vec3d place, Vec3d direction) { return -dot(rate_s * (place - middle), direction); });
     EXPECT_LT(std::abs(bias(off.bias)), 0.02) << rate_s;
     EXPECT_LT(rms(off.rms), 0.1) << rate_s;
@@ -189,7 +189,7 @@ TEST(DopplerLaw, TheSpreadFallsWithPulsesAndVarianceTellsOfNoise) {
         field.real[i] += drawn();
         field.imaginary[i] += drawn();
       }
-    const VelocityPlanes planes = measured(bed, fields, WallFilterKind::none, 0);
+    const VelocityPlanes planes = estimated(bed, fields, WallFilterKind::none, 0);
     spread.push_back(offFrom(bed, planes, [](Vec3d, Vec3d d) { return 0.03 * d.z; }).rms);
     double sum = 0;
     for (const float v : planes.variance_m2_s2) sum += static_cast<double>(v);
@@ -199,9 +199,9 @@ TEST(DopplerLaw, TheSpreadFallsWithPulsesAndVarianceTellsOfNoise) {
               spread[1], spread[2]);
   EXPECT_LT(spread[1], 0.8 * spread[0]);
   EXPECT_LT(spread[2], 0.6 * spread[1]);
-  const VelocityPlanes clean = measured(bed, packet(bed, speckle, 16, [&](double t) {
-                                          return shifted({0, 0, -0.03 * t});
-                                        }));
+  const VelocityPlanes clean = estimated(bed, packet(bed, speckle, 16, [&](double t) {
+                                           return shifted({0, 0, -0.03 * t});
+                                         }));
   double sum = 0;
   for (const float v : clean.variance_m2_s2) sum += static_cast<double>(v);
   EXPECT_LT(sum / static_cast<double>(clean.variance_m2_s2.size()), 0.3 * variance[2]);
@@ -247,8 +247,8 @@ TEST(DopplerLaw, TheWallFilterShowsTissueBehindStillEchoes) {
       field.imaginary[i] += 3 * still.imaginary[i];
     }
   const auto exact = [&](Vec3d, Vec3d d) { return 0.6 * nyquist * d.z; };
-  EXPECT_LT(offFrom(bed, measured(bed, fields), exact).bias, -0.4);
-  EXPECT_LT(std::abs(offFrom(bed, measured(bed, fields, WallFilterKind::mean), exact).bias), 0.05);
+  EXPECT_LT(offFrom(bed, estimated(bed, fields), exact).bias, -0.4);
+  EXPECT_LT(std::abs(offFrom(bed, estimated(bed, fields, WallFilterKind::mean), exact).bias), 0.05);
 }
 
 // The field against the plain sum of README (1): phases and envelope of every scatterer.
@@ -262,7 +262,7 @@ TEST(DopplerLaw, PhasesTurnByTwoPiPerHalfWavelengthOfMotion) {
     const auto fields = packet(bed, speckle, 2, [&](double t) {
       return shifted({0, 0, shift_m * t * kDopplerPrf_hz});
     });
-    const VelocityPlanes planes = measured(bed, fields);
+    const VelocityPlanes planes = estimated(bed, fields);
     double sum = 0;
     constexpr int kMiddle = kDopplerLines / 2;
     for (int k = 20; k < kDopplerSamples - 20; ++k)
