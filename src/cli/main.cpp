@@ -9,8 +9,10 @@
 #include <new>
 #include <string_view>
 
+#include "cli/archive_command.h"
 #include "cli/compare_command.h"
 #include "cli/dataset_command.h"
+#include "cli/doppler_command.h"
 #include "cli/export_command.h"
 #include "cli/fit_command.h"
 #include "cli/heart_command.h"
@@ -88,6 +90,7 @@ int run(int argc, char** argv) {
   app.fallthrough(false);
   echocine::RenderCommand render(app);
   echocine::MModeCommand mmode(app);
+  echocine::DopplerCommand doppler(app);
   echocine::ViewCommand view(app);
   echocine::PlanCommand plan(app);
   echocine::StudyCommand study(app);
@@ -95,6 +98,7 @@ int run(int argc, char** argv) {
   echocine::CompareCommand compare(app);
   echocine::FitCommand fit(app);
   echocine::ExportCommand exporting(app);
+  echocine::ArchiveCommand archive(app);
   echocine::DatasetCommand dataset(app);
   echocine::LiveCommand live(app);
   try {
@@ -109,6 +113,8 @@ int run(int argc, char** argv) {
     echocine::stoppable(echocine::stopWanted, [&] {
       code = app.got_subcommand("heart")     ? heart.run()
              : app.got_subcommand("mmode")   ? mmode.run()
+             : app.got_subcommand("doppler") ? doppler.run()
+             : app.got_subcommand("archive") ? archive.run()
              : app.got_subcommand("view")    ? view.run()
              : app.got_subcommand("plan")    ? plan.run()
              : app.got_subcommand("study")   ? study.run()

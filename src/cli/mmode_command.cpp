@@ -5,9 +5,7 @@
 
 #include "cli/documents.h"
 #include "cli/progress_line.h"
-#include "core/error.h"
 #include "core/stop.h"
-#include "core/units.h"
 #include "scene/names.h"
 #include "scene/scene_reader.h"
 
@@ -62,12 +60,7 @@ int MModeCommand::run() {
   MModeRequest& request = options_.request;
   if (!through_.empty()) request.through = valueOf<MModeTarget>(through_);
   const Scene scene = readScene(scene_file_);
-  if (angle_deg_ && !scene.probe.isFan())
-    throw SceneError("--angle: the lines of a linear probe are parallel; use --offset");
-  if (offset_mm_ && scene.probe.isFan())
-    throw SceneError("--offset: the lines of this probe form a fan; use --angle");
-  if (angle_deg_) request.place = radiansFromDegrees(*angle_deg_);
-  if (offset_mm_) request.place = metresFromMillimetres(*offset_mm_);
+  request.place = placeGiven(scene.probe, angle_deg_, offset_mm_);
   ProgressLine progress(quiet_);
   const MMode mode = writeMMode(scene, options_, progress.monitor());
   progress.finish();

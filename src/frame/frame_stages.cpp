@@ -42,7 +42,7 @@ Volumes FrameStages::make(const FrameTime& time, const Making& making, Workspace
       const FrameTime at = instantOf(cardiac_clock, scene, time.time_s + group.offset_s);
       stand(at, w);
       work += clock.time(Stage::trace, [&] { return rays.trace(at.frame, &group, w); });
-      process(at, group.lines, w);
+      process(at, group.lines, making.keeps_field, w);
       effects.rolling->take(g, w.polar, w.rolled);
     }
     if (rolls) std::swap(w.polar, w.rolled);
@@ -51,7 +51,7 @@ Volumes FrameStages::make(const FrameTime& time, const Making& making, Workspace
     if (!rolls) work = clock.time(Stage::trace, [&] { return rays.trace(time.frame, only, w); });
     if (making.counted) tally.addFrame(work);
     if (making.received) making.received(w.polar.intensities);
-    if (!rolls) process(time, lines, w);
+    if (!rolls) process(time, lines, making.keeps_field, w);
     if (rays.receive() && !making.still) refuseUnusable(time.phase, w.polar);
     volumes_ml =
         clock.time(Stage::motion, [&] { return structureVolumes(scene, *motion, w.surfaces); });
@@ -88,7 +88,8 @@ void FrameStages::stand(const FrameTime& time, Workspace& w) const {
 }
 
 // Time gain and beam width of some lines, and their speckle.
-void FrameStages::process(const FrameTime& time, LineRange lines, Workspace& w) const {
+void FrameStages::process(const FrameTime& time, LineRange lines, bool keeps_field,
+                          Workspace& w) const {
   if (!rays.receive()) return;
   PolarFrame& polar = w.polar;
   clock.time(Stage::signal, [&] {
@@ -96,7 +97,7 @@ void FrameStages::process(const FrameTime& time, LineRange lines, Workspace& w) 
     chain.process(polar.coherent, lines);
   });
   if (!effects.speckle) return;
-  if (chain.addsFields()) polar.field.resize(polar.intensities.size());
+  if (chain.addsFields() || keeps_field) polar.field.resize(polar.intensities.size());
   clock.time(Stage::speckle, [&] {
     effects.speckle->apply(time, w.surfaces, polar.intensities, polar.coherent, lines, polar.field);
   });

@@ -69,7 +69,8 @@ struct FrameStages {
  private:
   std::vector<int> takenBy(LineRange lines) const;
   void stand(const FrameTime& time, Workspace& workspace) const;
-  void process(const FrameTime& time, LineRange lines, Workspace& workspace) const;
+  void process(const FrameTime& time, LineRange lines, bool keeps_field,
+               Workspace& workspace) const;
   Greys withoutPersistence(double white_at, const FrameTime& time) const;
 };
 

@@ -15,7 +15,8 @@ struct Making {
   bool persists = true;  // mixes in earlier frames, if the scene has persistence
   // Only these lines, all at the frame's instant; the content of the others is undefined.
   std::optional<LineRange> lines{};
-  bool picture = false;  // runs scan conversion too
+  bool picture = false;      // runs scan conversion too
+  bool keeps_field = false;  // leaves the field of echoes with speckle in polar.field
   std::optional<double>
       white{};  // of the log compression; without it the frame ends with intensities
   // Receives the intensities of the lines before the signal chain; for rolling lines, whose groups

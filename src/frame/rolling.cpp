@@ -77,6 +77,7 @@ void RollingLines::take(std::size_t group, const FrameTruth& from, FrameTruth& t
     takeLines(lines, samples_, from.motion.displacement_mm[axis], to.motion.displacement_mm[axis]);
     takeLines(lines, samples_, from.motion.velocity_mm_s[axis], to.motion.velocity_mm_s[axis]);
   }
+  takeLines(lines, samples_, from.motion.beam_m_s, to.motion.beam_m_s);
   to.picture_ids.resize(from.picture_ids.size());
   to.labels.resize(from.labels.size());
   for (std::size_t i = 0; i < from.picture_ids.size(); ++i) {

@@ -29,11 +29,12 @@ void reserve(const Simulator& simulator, Loop& loop) {
       static_cast<std::size_t>(loop.lines) * static_cast<std::size_t>(loop.samples);
   const std::size_t picture =
       static_cast<std::size_t>(output.width) * static_cast<std::size_t>(output.height);
-  bool displacement = false, velocity = false;
+  bool displacement = false, velocity = false, beam = false;
   for (const Channel channel : output.channels) {
     if (!wants(loop.scene, channel)) continue;  // planes are made for the stack alone
-    displacement |= isMotion(channel) && channel < Channel::velocity_lateral;
-    velocity |= channel >= Channel::velocity_lateral;
+    displacement |= isMotion(channel) && !isVelocity(channel);
+    beam |= channel == Channel::velocity_beam;
+    velocity |= isVelocity(channel) && channel != Channel::velocity_beam;
     if (isLabel(channel))
       loop.ids[channel].resize(frames * plane);
     else if (!isMotion(channel) && channel != Channel::display)
@@ -41,6 +42,7 @@ void reserve(const Simulator& simulator, Loop& loop) {
   }
   if (displacement) loop.displacement_mm.resize(frames * 3 * plane);
   if (velocity) loop.velocity_mm_s.resize(frames * 3 * plane);
+  if (beam) loop.velocity_beam_m_s.resize(frames * plane);
   if (wantsPicture(loop.scene)) loop.greys.resize(frames * plane);
   if (output.pictures()) loop.images.resize(frames * picture);
   if (const TruthMaker* truth = simulator.truth()) {
@@ -66,6 +68,7 @@ void putTruth(FrameTruth truth, std::size_t frame, Loop& loop) {
     if (!loop.velocity_mm_s.empty())
       put(loop.velocity_mm_s, 3 * frame + i, truth.motion.velocity_mm_s[i]);
   }
+  if (!loop.velocity_beam_m_s.empty()) put(loop.velocity_beam_m_s, frame, truth.motion.beam_m_s);
   std::size_t at = frame * truth.tracks_m.size() * 3;
   if (!loop.tracks_mm.empty())
     for (const Vec3f p : truth.tracks_m)

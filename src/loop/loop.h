@@ -23,8 +23,9 @@ struct Loop {
   std::vector<std::uint8_t> images, labels;           // T x height x width
   // T x 3 x lines x samples: lateral, axial, elevation; mm and mm/s.
   std::vector<float> displacement_mm, velocity_mm_s;
-  std::vector<float> tracks_mm;                          // T x N x 3: lateral, elevation, depth
-  std::vector<std::uint8_t> track_layer, track_segment;  // N
+  std::vector<float> velocity_beam_m_s;  // T x lines x samples: positive towards the probe
+  std::vector<float> tracks_mm;          // T x N x 3: lateral, elevation, depth
+  std::vector<std::uint8_t> track_layer, track_segment;                 // N
   std::vector<std::pair<std::string, std::vector<double>>> volumes_ml;  // structure -> T
   std::vector<FunctionFrame> function;                                  // T, if requested
   std::vector<std::vector<Contour>> contours;                           // T, if requested

@@ -65,6 +65,17 @@ std::optional<Vec3d> targetIn(const FrameTruth& truth, const Scene& scene, MMode
   return {};
 }
 
+std::optional<double> placeGiven(const Probe& probe, std::optional<double> angle_deg,
+                                 std::optional<double> offset_mm) {
+  if (angle_deg && !probe.isFan())
+    throw SceneError("--angle: the lines of a linear probe are parallel; use --offset");
+  if (offset_mm && probe.isFan())
+    throw SceneError("--offset: the lines of this probe form a fan; use --angle");
+  if (angle_deg) return radiansFromDegrees(*angle_deg);
+  if (offset_mm) return metresFromMillimetres(*offset_mm);
+  return {};
+}
+
 int lineAt(const Probe& probe, double place, const char* option) {
   const ScanGeometry geometry(probe);
   if (probe.lines == 1) return 0;

@@ -40,6 +40,11 @@ constexpr bool isRing(MModeTarget target) {
 // the plane does not cut the valve.
 std::optional<Vec3d> targetIn(const FrameTruth& truth, const Scene& scene, MModeTarget target);
 
+// The place given as an angle or as an offset, in degrees or mm; none for neither. Throws
+// SceneError for the one that the probe's lines do not have.
+std::optional<double> placeGiven(const Probe& probe, std::optional<double> angle_deg,
+                                 std::optional<double> offset_mm);
+
 // The scan line nearest to an angle (rad; linear probes: an offset, m). Throws SceneError, named by
 // `option`, for a place outside the sector by more than half the spacing of lines.
 int lineAt(const Probe& probe, double place, const char* option);

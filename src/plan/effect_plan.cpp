@@ -165,7 +165,12 @@ void planTruth(const Scene& scene, EffectPlan& plan) {
         std::pair(Effect::truth_tracks, t.tracks), std::pair(Effect::truth_function, t.function)})
     add(plan, effect, on, on ? "requested in truth.write" : "not asked for");
   for (const Channel c : kTruthChannels)
-    if (wants(scene, c)) add(plan, Effect::channel, true, "requested in output.channels", c);
+    if (wants(scene, c))
+      add(plan, Effect::channel, true,
+          isVelocity(c)
+              ? "requested in output.channels; blood has no flow field, so it is NaN there"
+              : "requested in output.channels",
+          c);
 }
 
 // A curve of depth that is applied to every line, and what asks for it.

@@ -15,6 +15,7 @@ void bindFrame(py::module_& module);
 void bindSimulator(py::module_& module);
 void bindLoop(py::module_& module);
 void bindRender(py::module_& module);
+void bindModes(py::module_& module);
 void bindPlan(py::module_& module);
 void bindCompare(py::module_& module);
 void bindModels(py::module_& module);

@@ -28,6 +28,7 @@ void copyTruth(const FrameTruth& from, FrameTruth& to) {
     copyPlane(from.motion.displacement_mm[i], to.motion.displacement_mm[i]);
     copyPlane(from.motion.velocity_mm_s[i], to.motion.velocity_mm_s[i]);
   }
+  copyPlane(from.motion.beam_m_s, to.motion.beam_m_s);
   copyPlane(from.tracks_m, to.tracks_m);
   to.contours = from.contours;
   to.function = from.function;

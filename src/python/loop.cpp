@@ -67,6 +67,9 @@ py::dict arrays(const py::object& self) {
           py::array(py::dtype::of<float>(),
                     {t, py::ssize_t{3}, py::ssize_t{loop.samples}, py::ssize_t{loop.lines}},
                     {3 * plane, plane, kItem, loop.samples * kItem}, values->data(), self);
+  if (!loop.velocity_beam_m_s.empty())
+    named["velocity_beam"] =
+        planesView(loop.velocity_beam_m_s.data(), t, loop.lines, loop.samples, self);
   return named;
 }
 

@@ -17,6 +17,7 @@ PYBIND11_MODULE(_echocine, module) {
   bindSimulator(module);
   bindLoop(module);
   bindRender(module);
+  bindModes(module);
   bindPlan(module);
   bindCompare(module);
   bindModels(module);

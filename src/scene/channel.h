@@ -22,6 +22,7 @@ enum class Channel {
   velocity_lateral,  // mm/s
   velocity_axial,
   velocity_elevation,
+  velocity_beam,  // along the line, positive towards the probe, m/s
 };
 
 inline constexpr std::array kAllChannels{
@@ -32,7 +33,7 @@ inline constexpr std::array kTruthChannels{
     Channel::structure,          Channel::displacement_lateral,
     Channel::displacement_axial, Channel::displacement_elevation,
     Channel::velocity_lateral,   Channel::velocity_axial,
-    Channel::velocity_elevation};
+    Channel::velocity_elevation, Channel::velocity_beam};
 
 constexpr bool isTruth(Channel channel) {
   return channel >= Channel::structure;
@@ -40,6 +41,9 @@ constexpr bool isTruth(Channel channel) {
 // Motion of the material: NaN where no motion is defined.
 constexpr bool isMotion(Channel channel) {
   return channel > Channel::structure;
+}
+constexpr bool isVelocity(Channel channel) {
+  return channel >= Channel::velocity_lateral;
 }
 // Channels of whole numbers.
 constexpr bool isLabel(Channel channel) {
@@ -61,7 +65,8 @@ constexpr const char* channelName(Channel channel) {
                               "displacement.elevation",
                               "velocity.lateral",
                               "velocity.axial",
-                              "velocity.elevation"};
+                              "velocity.elevation",
+                              "velocity.beam"};
   return kNames[static_cast<std::size_t>(channel)];
 }
 

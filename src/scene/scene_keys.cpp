@@ -180,7 +180,7 @@ constexpr SceneKey kKeys[] = {
     {"accuracy", "tolerance_db", kDb, ranges::kTolerance_db, "selects the cheapest lines, samples and accuracy within this RMS error of the finest picture", kByHand},
 
     {"output", "exr", kNone, kAny, "writes intensity/frame_*.exr", AT(OutputSettings, exr)},
-    {"output", "channels", kNone, kAny, "list of channels of the EXR; those from structure.id on are ground truth, in mm and mm/s", kChannels},
+    {"output", "channels", kNone, kAny, "list of channels of the EXR; those from structure.id on are ground truth, in mm and mm/s; velocity.beam: towards the probe, m/s", kChannels},
     {"output", "exr_compression", kNone, kAny, "pxr24 stores 24-bit floats, with errors up to 2^-16", AT(OutputSettings, exr_compression)},
     {"output", "exr_pixel", kNone, kAny, "half has errors up to 2^-11, down to 84 dB below the channel's largest value", AT(OutputSettings, exr_pixel)},
     {"output", "cine", kNone, kAny, "writes cine.avi", AT(OutputSettings, cine)},

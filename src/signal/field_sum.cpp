@@ -48,6 +48,34 @@ void FieldSum::add(double white, double time_s, const EchoField& field,
                  });
 }
 
+void FieldSum::addDrawn(double white, double time_s, int number, float* real,
+                        float* imaginary) const {
+  if (clutter_) clutter_->add(white, number, real, imaginary);
+  if (noise_) noise_->add(white, time_s, number, real, imaginary);
+}
+
+// Lines are padded: noise comes in whole lanes.
+void FieldSum::addTo(EchoField& field, double white, double time_s, LineRange lines) const {
+  if (!draws()) return;
+  const auto samples = static_cast<std::size_t>(samples_);
+  const auto length = static_cast<std::size_t>(smoothing_.length());
+  parallelBlocks(static_cast<std::size_t>(lines.count()), 8,
+                 [&](std::size_t begin, std::size_t end) {
+                   std::vector<float> real, imaginary;
+                   for (std::size_t i = begin; i < end; ++i) {
+                     const int number = lines.first + static_cast<int>(i);
+                     const std::size_t first = static_cast<std::size_t>(number) * samples;
+                     real.assign(length, 0.0f);
+                     imaginary.assign(length, 0.0f);
+                     addDrawn(white, time_s, number, real.data(), imaginary.data());
+                     for (std::size_t k = 0; k < samples; ++k) {
+                       field.real[first + k] += real[k];
+                       field.imaginary[first + k] += imaginary[k];
+                     }
+                   }
+                 });
+}
+
 void FieldSum::addLine(double white, double time_s, int number, const EchoField& field, Line& line,
                        std::span<float> intensities) const {
   const auto samples = static_cast<std::size_t>(samples_);
@@ -62,8 +90,7 @@ void FieldSum::addLine(double white, double time_s, int number, const EchoField&
   copied(field.real, line.real);
   copied(field.imaginary, line.imaginary);
   copied(field.mean, line.total);
-  if (clutter_) clutter_->add(white, number, line.real.data(), line.imaginary.data());
-  if (noise_) noise_->add(white, time_s, number, line.real.data(), line.imaginary.data());
+  addDrawn(white, time_s, number, line.real.data(), line.imaginary.data());
   const auto margin = static_cast<std::size_t>(smoothing_.margin());
   line.ratios.resize(length + 2 * margin);
   line.smooth.resize(length);

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "core/beam_plane.h"
 #include "plan/effect_plan.h"
 #include "signal/noise.h"
 #include "speckle/line_smoothing.h"
@@ -32,9 +33,14 @@ class FieldSum {
   // empty without speckle. Runs in parallel; the result does not depend on the threads.
   void add(double white, double time_s, const EchoField& field, std::span<float> intensities) const;
 
+  // Adds clutter and noise to the field of echoes with speckle, for some lines; its mean stays that
+  // of the echoes. Runs in parallel, as add().
+  void addTo(EchoField& field, double white, double time_s, LineRange lines) const;
+
  private:
   struct Line;
 
+  void addDrawn(double white, double time_s, int number, float* real, float* imaginary) const;
   void addMean(double white, std::span<float> intensities) const;
   void addLine(double white, double time_s, int number, const EchoField& field, Line& line,
                std::span<float> intensities) const;

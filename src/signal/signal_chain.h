@@ -39,6 +39,9 @@ class SignalChain {
   // True if compress() needs the field of intensities with speckle.
   bool addsFields() const { return fields_.draws(); }
 
+  // Adds clutter and noise of an instant to the field of some lines; `white` is the loop's.
+  void addFields(double white, double time_s, LineRange lines, EchoField& field) const;
+
   // Clutter, noise and log compression against the loop's single reference; noise is that of the
   // instant. field: of the same intensities, empty without speckle. The grey levels reuse the
   // intensities' memory.

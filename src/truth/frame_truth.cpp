@@ -22,10 +22,6 @@ bool wantsAny(const Scene& scene, bool (*kind)(Channel)) {
 
 constexpr float kFarAway = 1e9f;
 
-bool isVelocity(Channel channel) {
-  return channel >= Channel::velocity_lateral;
-}
-
 // Tracks and landmarks, from where the heart has them to where the picture shows them.
 void showPlaces(const SoundPaths& paths, FrameTruth& truth) {
   for (Vec3f& p : truth.tracks_m) p = toFloat(paths.shown(toDouble(p)));
@@ -52,6 +48,7 @@ struct TruthMaker::Space {
 };
 
 std::span<const float> FrameTruth::values(Channel channel) const {
+  if (channel == Channel::velocity_beam) return motion.beam_m_s;
   const auto first =
       isVelocity(channel) ? Channel::velocity_lateral : Channel::displacement_lateral;
   const auto axis = static_cast<std::size_t>(channel) - static_cast<std::size_t>(first);

@@ -51,6 +51,7 @@ class LinePainter {
     for (std::vector<float>& plane : displacement_mm_) plane.resize(samples + kFloatLanes);
     if (velocity)
       for (std::vector<float>& plane : velocity_mm_s_) plane.resize(samples + kFloatLanes);
+    if (velocity) beam_m_s_.resize(samples);
   }
 
   // start_m, step_m: of the line, from sample to sample.
@@ -70,11 +71,21 @@ class LinePainter {
         if (!plane.empty()) std::fill(&plane[run.begin], &plane[run.end], value);
   }
 
+  // The part of the velocity along the sound's path; step_m: away from the probe.
+  void project(const SampleRun& run, Vec3d step_m) {
+    if (!velocity_) return;
+    const Vec3f towards = toFloat((-1e-3 / length(step_m)) * step_m);
+    for (std::size_t k = run.begin; k < run.end; ++k)
+      beam_m_s_[k] = towards.x * velocity_mm_s_[0][k] + towards.z * velocity_mm_s_[1][k] +
+                     towards.y * velocity_mm_s_[2][k];
+  }
+
   void append(MotionPlanes& planes) const {
     for (std::size_t i = 0; i < 3; ++i) {
       append(displacement_mm_[i], planes.displacement_mm[i]);
       if (velocity_) append(velocity_mm_s_[i], planes.velocity_mm_s[i]);
     }
+    planes.beam_m_s.insert(planes.beam_m_s.end(), beam_m_s_.begin(), beam_m_s_.end());
   }
 
  private:
@@ -123,6 +134,7 @@ class LinePainter {
   const FieldTimes& times_;
   bool velocity_;
   LinePlanes displacement_mm_, velocity_mm_s_;
+  std::vector<float> beam_m_s_;
   std::vector<Vec3f> offsets_m_;  // by group: from a place to its reference
 };
 
@@ -199,6 +211,7 @@ void motionPlanes(const Scene& scene, const MotionField& field, const FieldTimes
     planes.velocity_mm_s[i].clear();
     if (velocity) planes.velocity_mm_s[i].reserve(ids.size());
   }
+  planes.beam_m_s.clear();
   const std::vector<bool> tissue = tissueOf(scene);
   LinePainter painter(times, velocity, samples);
   for (std::size_t first = 0; first < ids.size(); first += samples) {
@@ -219,6 +232,7 @@ void motionPlanes(const Scene& scene, const MotionField& field, const FieldTimes
                       piece.step_m);
       else
         painter.fill({begin, end}, std::numeric_limits<float>::quiet_NaN());
+      painter.project({begin, end}, piece.step_m);
     }
     painter.append(planes);
   }

@@ -25,7 +25,8 @@ std::vector<bool> tissueGroups(const Scene& scene, const MotionField& field);
 
 // ids: every sample's structure, from 1. Blood and the background have no motion, because blood is
 // renewed and the background is unknown. Samples lie on their lines at straight path lengths, or on
-// `paths` if given. Displacement is the true one, of the material that the sample shows.
+// `paths` if given. velocity: makes it too, with its part along the line. Displacement is the true
+// one, of the material that the sample shows.
 void motionPlanes(const Scene& scene, const MotionField& field, const FieldTimes& times,
                   std::span<const std::uint32_t> ids, bool velocity, const SoundPaths* paths,
                   MotionPlanes& planes);

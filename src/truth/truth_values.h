@@ -34,6 +34,8 @@ struct MotionPlanes {
   // Line-major, lateral, axial (depth) and elevation of the probe frame; not a number outside
   // tissue.
   std::array<std::vector<float>, 3> displacement_mm, velocity_mm_s;
+  // Velocity along the sound's path, positive towards the probe.
+  std::vector<float> beam_m_s;
 };
 
 // Strain relative to the first frame; radial strain is that of the wall thickness. NaN for a

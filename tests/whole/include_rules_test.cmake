@@ -15,12 +15,12 @@ set(libraries
   "opensubdiv/=subdivision"
   "embree3/=geometry"
   "(OpenEXR/|Imath/|Imf.*\\.h$|half\\.h$)=output"
-  "opencv2/(core|imgproc)=metrics,output,echo,export,fit,compare"
+  "opencv2/(core|imgproc)=metrics,output,doppler,echo,export,fit,compare"
   "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
-  "zlib\\.h$=video,output,dataset"
-  "hdf5\\.h$=dataset"
+  "zlib\\.h$=video,output,archive,dataset"
+  "hdf5\\.h$=archive,dataset"
   "CLI/=cli"
-  "nlohmann/=scene,heart,output,mmode,page,view,echo,fit,compare,render,study,dataset,live,cli,python"
+  "nlohmann/=scene,heart,output,mmode,doppler,archive,page,view,echo,fit,compare,render,study,dataset,live,cli,python"
   "(pybind11/|Python\\.h$)=python"
   "fmt/=*"
   "[a-z_0-9]+(\\.h)?$=*"
@@ -54,9 +54,11 @@ set(rooms
   "video=signal"
   "output=plan,trace,signal,surfaces,heart,truth|video"
   "mmode=frame,cycle,truth,signal|surfaces,output,video"
+  "doppler=frame,cycle,signal,mmode,output,video|surfaces,truth"
   "view=frame,mesh|plan,cycle,geometry,signal,video,page"
   "echo=video|signal,metrics,output"
   "export=video,signal|echo"
+  "archive=loop|surfaces,cycle,truth,output"
   "fit=echo,heart,surfaces,geometry,truth,signal,page|frame,video,output,view"
   "compare=echo,fit,metrics,signal,truth,page|surfaces,video"
   "render=loop,frame,cycle,output,page,video,truth|plan,signal,surfaces,view"
@@ -64,8 +66,8 @@ set(rooms
   "echocine=render,loop,frame,heart"
   "dataset=output,surfaces,cycle,heart,truth,signal|frame,loop,views,video,page"
   "live=frame,surfaces,output,plan,truth|cycle,mesh,signal,video,view,page"
-  "python=frame,echo|plan,loop,render,export,fit,compare,study,dataset,heart,cycle,output,video,surfaces"
-  "cli=render,fit,compare,study,output,view,plan,mmode,export,live|dataset,video,frame,surfaces,keyframes,cycle,heart")
+  "python=frame,echo|plan,loop,mmode,doppler,render,export,fit,compare,study,dataset,heart,cycle,output,video,surfaces"
+  "cli=render,fit,compare,study,output,view,plan,mmode,doppler,export,live|archive,dataset,video,frame,surfaces,keyframes,cycle,heart")
 
 function(room_of path out)
   string(REGEX REPLACE "^src/" "" path "${path}")

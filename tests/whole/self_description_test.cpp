@@ -12,8 +12,9 @@ namespace {
 
 using namespace support;
 
-const std::vector<std::string> kCommands{"render", "view",    "plan",    "study", "live",  "mmode",
-                                         "heart",  "dataset", "compare", "fit",   "export"};
+const std::vector<std::string> kCommands{"render", "view",    "plan",    "study",   "live",
+                                         "mmode",  "heart",   "dataset", "compare", "fit",
+                                         "export", "doppler", "archive"};
 
 std::string helpOf(const std::string& command) {
   return runShell("%B " + command + " --help").out;

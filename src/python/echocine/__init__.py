@@ -12,7 +12,7 @@
 
 Scenes have the keys of scene files; `Scene.keys()` lists them, `dials()` those of hearts. Another heart is another scene:
 `heart(ef=0.3)`. `HeartFamily` changes dials in milliseconds, and `ModelDiscrepancy` compares its hearts with a real loop.
-`fit` finds a heart from one to three echo loops. `Simulator` makes single frames, `dataset` many loops, `open` reads a render's folder. Errors are SceneError (what was given cannot be used)
+`fit` finds a heart from one to three echo loops. `Simulator` makes single frames, `mmode` a line over time, `doppler` velocities, `dataset` many loops, `open` reads a render's folder. Errors are SceneError (what was given cannot be used)
 and JobError (the work failed).
 """
 
@@ -23,10 +23,11 @@ from ._fit import HeartFamily, ModelDiscrepancy, ModelLoop, PoseFound
 from ._heart_fit import HeartFit, Interval, fit
 from ._jobs import Comparison, Exported, FrameDiscrepancy, Plan, compare, export, plan, study
 from ._loop import Loop, open, render
+from ._modes import Border, Doppler, MMode, Ring, Spectrum, doppler, mmode
 from ._scene import Scene, Table, dials, heart, scene_keys
 from ._simulator import Simulator
 
-__all__ = ["Comparison", "Dataset", "DatasetLoop", "Exported", "Frame", "FrameDiscrepancy", "HeartFamily", "HeartFit", "Interval", "JobError", "Loop",
-           "ModelDiscrepancy", "ModelLoop", "Plan", "PoseFound", "Scene", "SceneError", "SceneWarning", "Simulator", "Table",
-           "__version__", "compare", "dataset", "dials", "export", "fit", "heart", "open", "plan",
+__all__ = ["Border", "Comparison", "Dataset", "DatasetLoop", "Doppler", "Exported", "Frame", "FrameDiscrepancy", "HeartFamily", "HeartFit", "Interval", "JobError", "Loop",
+           "MMode", "ModelDiscrepancy", "ModelLoop", "Plan", "PoseFound", "Ring", "Scene", "SceneError", "SceneWarning", "Simulator", "Spectrum", "Table",
+           "__version__", "compare", "dataset", "dials", "doppler", "export", "fit", "heart", "mmode", "open", "plan",
            "preview_dataset", "render", "scene_keys", "study"]

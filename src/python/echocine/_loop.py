@@ -20,7 +20,7 @@ from ._progress import Progress, report_to
 from ._scene import Scene
 from ._verify import RenderFiles, is_sealed
 
-_TRUTH = ("all", "labels", "contours", "tracks", "function", "displacement", "velocity")
+_TRUTH = ("all", "labels", "contours", "tracks", "function", "displacement", "velocity", "velocity_beam")
 _SIDES = ("lateral", "axial", "elevation")
 
 
@@ -169,6 +169,15 @@ class Loop:
     def velocity(self) -> NDArray[np.float32]:
         """(T, 3, depth, line) float32, mm/s: lateral, axial, elevation; NaN where nothing is known to move."""
         return self._motion("velocity")
+
+    @property
+    def velocity_beam(self) -> NDArray[np.float32]:
+        """(T, depth, line) float32, m/s along the scan line, positive towards the probe; NaN where nothing is known to move."""
+        if self._source() is None:
+            read: NDArray[np.float32] = self._once("velocity_beam", lambda: self.channel("velocity.beam"))
+            return read
+        planes: NDArray[np.float32] = self._named("velocity_beam", "truth=\"velocity_beam\"")
+        return planes
 
     @property
     def tracks(self) -> NDArray[np.float32]:
@@ -390,11 +399,13 @@ def _asking_for(scene: Scene, truth: Union[None, str, Sequence[str]]) -> Scene:
         return scene
     asked = scene.copy()
     changes: Dict[str, Any] = {}
-    files = [k for k in kinds if k not in ("displacement", "velocity")]
+    files = [k for k in kinds if k not in ("displacement", "velocity", "velocity_beam")]
     if files:
         was = scene["truth.write"] or []
         changes["truth.write"] = sorted({*([was] if isinstance(was, str) else was), *files})
     planes = [f"{k}.{side}" for k in ("displacement", "velocity") if k in kinds for side in _SIDES]
+    if "velocity_beam" in kinds:
+        planes.append("velocity.beam")
     if planes:
         changes["output.channels"] = [*(scene["output.channels"] or ["Y"]), *planes]
     asked.update(changes)
@@ -411,7 +422,7 @@ def render(scene: Scene, folder: Union[None, str, "os.PathLike[str]"] = None, *,
         folder: where files go, as of the command ``echocine render``; None: into memory.
         frames: (A, B): only frames A up to, without, B, from 0.
         truth: besides what the scene asks for: "all", "labels", "contours", "tracks", "function", "displacement",
-            "velocity", or several of them.
+            "velocity", "velocity_beam", or several of them.
         threads: 0: one per core. The values do not depend on it.
         resume: keep a folder's frames that are whole and of this very scene.
         overwrite: replace the loop of another scene in the folder.
