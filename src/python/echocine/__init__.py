@@ -17,7 +17,7 @@ and JobError (the work failed).
 """
 
 from ._echocine import Frame, __version__
-from ._dataset import Dataset, DatasetLoop, dataset, preview_dataset
+from ._dataset import Dataset, DatasetLoop, dataset, join_datasets, preview_dataset
 from ._errors import JobError, SceneError, SceneWarning
 from ._fit import HeartFamily, ModelDiscrepancy, ModelLoop, PoseFound
 from ._heart_fit import HeartFit, Interval, fit
@@ -28,5 +28,5 @@ from ._simulator import Simulator
 
 __all__ = ["Comparison", "Dataset", "DatasetLoop", "Exported", "Frame", "FrameDiscrepancy", "HeartFamily", "HeartFit", "Interval", "JobError", "Loop",
            "ModelDiscrepancy", "ModelLoop", "Plan", "PoseFound", "Scene", "SceneError", "SceneWarning", "Simulator", "Table",
-           "__version__", "compare", "dataset", "dials", "export", "fit", "heart", "open", "plan",
+           "__version__", "compare", "dataset", "dials", "export", "fit", "heart", "join_datasets", "open", "plan",
            "preview_dataset", "render", "scene_keys", "study"]
