@@ -42,6 +42,23 @@ std::pair<int, int> parseTask(const std::string& text) {
   return task;
 }
 
+// "loop.avi=0.31": a loop, and the side of its square pixels.
+dataset::RealLoop parseRealLoop(const std::string& text) {
+  constexpr double kLeast_mm = 0.01, kMost_mm = 10;
+  const std::size_t sign = text.rfind('=');
+  double mm = 0;
+  const char* const end = text.data() + text.size();
+  const auto read = sign == std::string::npos || sign == 0
+                        ? std::from_chars_result{end, std::errc::invalid_argument}
+                        : std::from_chars(text.data() + sign + 1, end, mm);
+  if (read.ec != std::errc() || read.ptr != end || !(mm >= kLeast_mm && mm <= kMost_mm))
+    throw SceneError(fmt::format(
+        "--real: \"{}\" is not a loop and a number of {:g} to {:g} mm per pixel, accepted: "
+        "FILE=MM, such as real.avi=0.31",
+        text, kLeast_mm, kMost_mm));
+  return {text.substr(0, sign), mm};
+}
+
 }  // namespace
 
 DatasetCommand::DatasetCommand(CLI::App& app) {
@@ -56,10 +73,15 @@ DatasetCommand::DatasetCommand(CLI::App& app) {
   command->add_option("--status", status_, "Print the state of a dataset's folder");
   command->add_option("--diff", other_spec_,
                       "Print the keys that differ between this spec and another spec or folder");
+  CLI::Option* joining =
+      command
+          ->add_option("--join", joined_,
+                       "Join the finished datasets in these folders into the folder of --output")
+          ->expected(2, 1000);
   command
-      ->add_option("--join", joined_,
-                   "Join the finished datasets in these folders into the folder of --output")
-      ->expected(2, 1000);
+      ->add_option("--name", join_name_,
+                   "With --join: name of the joined dataset; default: the names of its parts")
+      ->needs(joining);
   command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   CLI::Option* task = command->add_option(
@@ -70,6 +92,12 @@ DatasetCommand::DatasetCommand(CLI::App& app) {
                      "Render nothing: verify that all parts exist and write the tables")
           ->excludes(task);
   command->add_flag("--fast", fast_, "With --merge: verify files by size only, not by content")
+      ->needs(merge);
+  command
+      ->add_option("--real", real_,
+                   "With --merge: real loops and their mm per pixel (FILE=MM); the dataset's card "
+                   "states how well a linear classifier distinguishes the dataset from them")
+      ->expected(1, 1000)
       ->needs(merge);
   command
       ->add_option("--preview", preview_,
@@ -156,8 +184,10 @@ int DatasetCommand::make() {
     if (!task_.empty()) return 0;
   }
   // A run without --merge has just proven the bytes of what it kept.
+  dataset::MergeOptions merging{.fast = fast_ || !merge_, .threads = threads_};
+  for (const std::string& loop : real_) merging.real.push_back(parseRealLoop(loop));
   const dataset::MakeSummary merged = dataset::mergeParts(
-      spec, folder_, {.fast = fast_ || !merge_, .threads = threads_},
+      spec, folder_, merging,
       {.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)});
   if (merged.failed > 0)
     fmt::print(stderr, "{} of {} hearts failed: {}\n", merged.failed, spec.hearts,
@@ -199,7 +229,7 @@ int DatasetCommand::join() const {
     if (bar.due(p.done, p.total))
       bar.draw(p.done, p.total, fmt::format("{}/{} hearts", p.done, p.total));
   };
-  const dataset::JoinSummary made = dataset::joinDatasets(joined_, folder_, monitor);
+  const dataset::JoinSummary made = dataset::joinDatasets(joined_, folder_, {join_name_}, monitor);
   bar.finish();
   if (!quiet_ && !made.left_out.empty())
     fmt::print("left out, because not all parts have them: {}\n", fmt::join(made.left_out, ", "));

@@ -2,6 +2,7 @@
 // echocine dataset: a spec in, a folder of many loops with ground truth out.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ class DatasetCommand {
 
   std::filesystem::path spec_file_, folder_, status_, other_spec_;
   std::vector<std::filesystem::path> joined_;
+  std::vector<std::string> real_;
+  std::optional<std::string> join_name_;
   std::string task_, sbatch_;
   int threads_ = 0, preview_ = 0;
   int tasks_ = 0, cores_ = 4, minutes_ = 0;  // of Slurm's jobs; 0: derived from the first heart

@@ -144,6 +144,7 @@ Splits are by heart: all views of a heart are in the same one.
     sink.write(fileName(name), histogram(name, values));
   }
   text += decorrelationText(records, sink);
+  text += facts.real_loops;
   text += fmt::format(kClosing, facts.name, ECHOCINE_VERSION, facts.digest, facts.licence);
   sink.write("README.md", text);
 }

@@ -51,8 +51,10 @@ void addTracing(const Json& loop, const char* instant, std::string& text) {
                     row.at(3).get<double>(), loop.at(fmt::format("{}_frame", instant)).get<int>());
 }
 
-// EF,ESV,EDV of a loop, from the keys that start with ef_, esv_ and edv_.
+// EF,ESV,EDV of a loop, from the keys that start with ef_, esv_ and edv_; empty cells where a plane
+// of a user's scene shows no long axis.
 std::string volumesOf(const Json& loop, const char* ef, const char* esv, const char* edv) {
+  if (loop.at(ef).is_null()) return ",,";
   return fmt::format("{:.4f},{:.4f},{:.4f}", loop.at(ef).get<double>(), loop.at(esv).get<double>(),
                      loop.at(edv).get<double>());
 }
@@ -72,10 +74,11 @@ void mergeEchonet(const Spec& spec, std::span<const Json> records, Sink& sink) {
       const std::string exact = volumesOf(loop, "ef_percent", "esv_ml", "edv_ml"),
                         traced = volumesOf(loop, "ef_single_plane_percent", "esv_single_plane_ml",
                                            "edv_single_plane_ml");
-      list += fmt::format("{},{},{},{},{:g},{},{},{},{}\n", loop.at("id").get<std::string>(),
-                          spec.hasExactEf("echonet") ? exact : traced, kSide, kSide,
-                          loop.at("frame_rate_hz").get<double>(), loop.at("frames").get<int>(),
-                          splitWord(record.at("split").get<std::string>()), traced, exact);
+      list +=
+          fmt::format("{},{},{},{},{:g},{},{},{},{}\n", loop.at("id").get<std::string>(),
+                      spec.hasExactEf("echonet") || traced == ",," ? exact : traced, kSide, kSide,
+                      loop.at("frame_rate_hz").get<double>(), loop.at("frames").get<int>(),
+                      splitWord(record.at("split").get<std::string>()), traced, exact);
       addTracing(loop, "es", tracings);
       addTracing(loop, "ed", tracings);
     }

@@ -86,10 +86,20 @@ std::string joinedWords(const std::vector<JoinPart>& parts, const char* between,
   return fmt::format("{}", fmt::join(words, between));
 }
 
-Spec specOfAll(const std::vector<JoinPart>& parts, const std::vector<std::string>& layouts) {
+// The card and the citation have the name on one line.
+void checkName(const JoinOptions& options) {
+  const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  if (options.name &&
+      (options.name->empty() || std::any_of(options.name->begin(), options.name->end(), control)))
+    throw SceneError("--name: is empty or has control characters, accepted: a line of text");
+}
+
+Spec specOfAll(const std::vector<JoinPart>& parts, const std::vector<std::string>& layouts,
+               const JoinOptions& options) {
   const Spec& first = parts.front().spec;
   Spec all;
-  all.name = joinedWords(parts, " + ", [](const JoinPart& part) { return part.spec.name; });
+  all.name = options.name.value_or(
+      joinedWords(parts, " + ", [](const JoinPart& part) { return part.spec.name; }));
   all.licence = joinedWords(parts, " AND ", [](const JoinPart& part) { return part.spec.licence; });
   all.layouts = layouts;
   all.exact_ef = first.exact_ef;
@@ -167,13 +177,15 @@ void forgetFiles(const Spec& all, Json& record) {
 }  // namespace
 
 JoinSummary joinDatasets(const std::vector<std::filesystem::path>& folders,
-                         const std::filesystem::path& folder, const Monitor& monitor) {
+                         const std::filesystem::path& folder, const JoinOptions& options,
+                         const Monitor& monitor) {
   JoinSummary summary;
+  checkName(options);
   const std::vector<JoinPart> parts = readParts(folders);
   const std::vector<std::string> layouts = commonLayouts(parts, summary.left_out);
   checkMeanings(parts, layouts);
   checkNoHeartTwice(parts);
-  const Spec all = specOfAll(parts, layouts);
+  const Spec all = specOfAll(parts, layouts, options);
   claimFolder(folder, parts, all);
   const FileLock lock(folder / "work/merge" / kLockName);
   const auto hearts = static_cast<std::size_t>(parts.back().before + parts.back().spec.hearts);

@@ -182,6 +182,19 @@ Records provenRecords(const Spec& spec, const WorkFolder& work, const MergeOptio
   return records;
 }
 
+// Into the card and dataset.json.
+void addRealLoops(const Spec& spec, const WorkFolder& work, const MergeOptions& options,
+                  const Monitor& monitor, std::span<const Json> records, DatasetFacts& facts) {
+  if (!spec.has("native"))
+    throw SceneError("--real: the dataset has no layout \"native\", accepted: a dataset with it");
+  withThreads(options.threads, [&] {
+    const RealComparison comparison =
+        compareWithReal(work.folder(), records, options.real, monitor);
+    facts.real_loops = realLoopsText(comparison);
+    facts.origin["real_loops"] = realLoopsJson(comparison);
+  });
+}
+
 }  // namespace
 
 MakeSummary mergeParts(const Spec& spec, const std::filesystem::path& folder,
@@ -190,12 +203,14 @@ MakeSummary mergeParts(const Spec& spec, const std::filesystem::path& folder,
   const FileLock lock(folder / "work/merge" / kLockName);
   MakeSummary summary;
   const Records records = provenRecords(spec, work, options, monitor, summary);
+  DatasetFacts facts = factsOf(spec);
+  if (!options.real.empty()) addRealLoops(spec, work, options, monitor, records.finished, facts);
   work.removeParts();
   Sink sink(folder);
   try {
     for (const Layout* layout : layoutsOf(spec))
       if (layout->merge != nullptr) layout->merge(spec, records.finished, sink);
-    writeTables(factsOf(spec), records.finished, records.failed, sink);
+    writeTables(facts, records.finished, records.failed, sink);
   } catch (const Json::exception&) {
     // A record with a sound digest that is not of this program: made by hand.
     throw JobError(

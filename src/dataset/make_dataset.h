@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/monitor.h"
+#include "dataset/real_loops.h"
 #include "dataset/spec.h"
 
 namespace echocine::dataset {
@@ -29,13 +30,15 @@ struct MakeSummary {
 MakeSummary makePart(const Spec& spec, const MakeOptions& options, const Monitor& monitor);
 
 struct MergeOptions {
-  bool fast = false;  // compares the sizes of files only, not their bytes
-  int threads = 0;    // 0: one per core
+  bool fast = false;             // compares the sizes of files only, not their bytes
+  int threads = 0;               // 0: one per core
+  std::vector<RealLoop> real{};  // the card compares the dataset with them; needs "native"
 };
 
 // Writes tables, splits, card and the layouts' own lists from all records, after verification of
 // all records and files. Throws JobError naming missing or damaged hearts, if all hearts failed,
-// and while another merge runs; monitor.warn() names the damaged files.
+// and while another merge runs; SceneError for real loops that cannot be compared, before anything
+// is written. monitor.warn() names the damaged files.
 MakeSummary mergeParts(const Spec& spec, const std::filesystem::path& folder,
                        const MergeOptions& options = {}, const Monitor& monitor = {});
 

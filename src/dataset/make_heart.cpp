@@ -106,7 +106,7 @@ Tracing inPixels(const PlaneTracing& traced, const PictureGeometry& geometry) {
 
 // Volumes by Simpson's rule, and the tracing, of a frame at which the landmarks are known.
 Tracing measure(const Simulator& simulator, SurfaceId cavity, const CavityMarks& marks,
-                const PictureGeometry& geometry, LoopFrame& frame) {
+                const PictureGeometry& geometry, bool is_short_axis, LoopFrame& frame) {
   const Pose& pose = simulator.scene().probe.pose;
   SurfaceFrame surfaces;
   simulator.motion().frameAt(frame.time.phase, surfaces, false);
@@ -120,6 +120,7 @@ Tracing measure(const Simulator& simulator, SurfaceId cavity, const CavityMarks&
   const double length_m = length(axis.apex_m - axis.base_m);
   frame.biplane_ml = millilitresFromCubicMetres(
       discVolume(length_m, widths(marks.lateral), widths(marks.anterior)));
+  if (is_short_axis) return {};
   const auto traced = traceCavity(longestContour(frame.contours, cavity), axis.base_m);
   if (!traced) return {};
   frame.disc_widths_m = traced->disc_widths_m;
@@ -133,13 +134,18 @@ bool showsLongAxis(View view) {
   return view == View::a4c || view == View::a2c || view == View::a3c || view == View::plax;
 }
 
+// The outline of a short axis gives no volume, although it may come near the mitral ring.
+bool isShortAxis(View view) {
+  return view == View::psax_base || view == View::psax_mid || view == View::psax_apex;
+}
+
 void traceInstants(const Simulator& simulator, SurfaceId cavity, const MarksAt& marks_at,
                    LoopSample& loop) {
   for (const auto& [number, tracing] : {std::pair(loop.instants.ed, &loop.ed_tracing),
                                         std::pair(loop.instants.es, &loop.es_tracing)}) {
     LoopFrame& frame = loop.frames[static_cast<std::size_t>(number)];
     const CavityMarks marks = marks_at(simulator, frame.time.phase);
-    Tracing made = measure(simulator, cavity, marks, loop.geometry, frame);
+    Tracing made = measure(simulator, cavity, marks, loop.geometry, isShortAxis(loop.view), frame);
     if (showsLongAxis(loop.view)) *tracing = std::move(made);
   }
 }

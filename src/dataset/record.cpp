@@ -77,13 +77,19 @@ Json loopJson(const LoopSample& loop) {
             {"edv_biplane_ml", ed.biplane_ml},
             {"esv_biplane_ml", es.biplane_ml},
             {"ef_biplane_percent", ejectedPercent(ed.biplane_ml, es.biplane_ml)},
-            {"edv_single_plane_ml", ed.single_plane_ml},
-            {"esv_single_plane_ml", es.single_plane_ml},
-            {"ef_single_plane_percent", ejectedPercent(ed.single_plane_ml, es.single_plane_ml)},
-            {"length_in_plane_mm", 1e3 * ed.traced_length_m},
+            {"edv_single_plane_ml", nullptr},
+            {"esv_single_plane_ml", nullptr},
+            {"ef_single_plane_percent", nullptr},
+            {"length_in_plane_mm", nullptr},
             {"border_visible_ed", visibleShare(loop, ed)},
             {"border_visible_es", visibleShare(loop, es)},
             {"tracks_visible", shownShare(loop)}};
+  if (ed.traced_length_m > 0 && es.traced_length_m > 0) {
+    json["edv_single_plane_ml"] = ed.single_plane_ml;
+    json["esv_single_plane_ml"] = es.single_plane_ml;
+    json["ef_single_plane_percent"] = ejectedPercent(ed.single_plane_ml, es.single_plane_ml);
+    json["length_in_plane_mm"] = 1e3 * ed.traced_length_m;
+  }
   json["decorrelation"] = decorrelationJson(loop);
   // Measured; what was drawn for it is "offset".
   json["view_offset"] = offsetJson(loop.offset);

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "dataset/layout.h"
+#include "dataset/real_loops.h"
 
 namespace echocine::dataset {
 
@@ -14,6 +15,7 @@ struct DatasetFacts {
   std::vector<std::string> layouts;
   Json origin;        // further keys of dataset.json: seed and distributions
   std::string again;  // rows of the card's first table: how the dataset is made again
+  std::string real_loops = realLoopsText({});  // the card's section about real loops
 };
 
 DatasetFacts factsOf(const Spec& spec);

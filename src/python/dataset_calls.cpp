@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "dataset/join.h"
 #include "dataset/make_dataset.h"
 #include "dataset/preview.h"
 #include "python/bindings.h"
@@ -41,13 +42,31 @@ py::dict makePart(const std::optional<std::string>& text, const Path& file, cons
 }
 
 py::dict mergeParts(const std::optional<std::string>& text, const Path& file, const Path& folder,
-                    bool fast, int threads) {
+                    bool fast, int threads, const std::vector<std::pair<Path, double>>& real) {
   dataset::MakeSummary merged;
   runJob(py::none(), [&](const Monitor& monitor) {
     const dataset::Spec spec = specOf(text, file);
-    merged = dataset::mergeParts(spec, folder, {fast, threads}, monitor);
+    dataset::MergeOptions options{fast, threads};
+    for (const auto& [loop, mm_per_pixel] : real) options.real.push_back({loop, mm_per_pixel});
+    merged = dataset::mergeParts(spec, folder, options, monitor);
   });
   return dictOf(merged);
+}
+
+// Counts, and the layouts that not all parts have.
+std::pair<py::dict, std::vector<std::string>> joinParts(const std::vector<Path>& parts,
+                                                        const Path& folder,
+                                                        const std::optional<std::string>& name,
+                                                        const py::object& progress) {
+  dataset::JoinSummary joined;
+  runJob(progress, [&](const Monitor& monitor) {
+    joined = dataset::joinDatasets(parts, folder, {name}, monitor);
+  });
+  py::dict counts;
+  counts["hearts"] = joined.hearts;
+  counts["loops"] = joined.loops;
+  counts["failed"] = joined.failed;
+  return {counts, joined.left_out};
 }
 
 py::dict preview(const std::optional<std::string>& text, const Path& file, const Path& page,
@@ -71,8 +90,11 @@ void bindDataset(py::module_& module) {
              py::arg("folder"), py::arg("task"), py::arg("threads"), py::arg("progress").none(true),
              "Renders a part of the hearts; returns counts.");
   module.def("merge_dataset", &mergeParts, py::arg("text").none(true), py::arg("file"),
-             py::arg("folder"), py::arg("fast"), py::arg("threads"),
+             py::arg("folder"), py::arg("fast"), py::arg("threads"), py::arg("real"),
              "Verifies all hearts' files, writes tables and lists; returns counts.");
+  module.def("join_datasets", &joinParts, py::arg("parts"), py::arg("folder"),
+             py::arg("name").none(true), py::arg("progress").none(true),
+             "Joins finished datasets; returns counts, and the layouts that were left out.");
   module.def(
       "preview_dataset", &preview, py::arg("text").none(true), py::arg("file"), py::arg("page"),
       py::arg("hearts"), py::arg("threads"), py::arg("progress").none(true),

@@ -108,6 +108,58 @@ def test_the_command_goes_on_with_it(data, folder, tmp_path, program):
     assert again.made["kept"] == 3 and again.rows == data.rows
 
 
+def test_datasets_are_joined_as_by_the_command(data, folder, tmp_path, program):
+    other = tmp_path / "other"
+    echocine.dataset({**SPEC, "seed": 5, "hearts": 1, "layouts": ["echonet"], "split": {"train": 0.0, "val": 0.0, "test": 1.0}}, other)
+    seen = []
+    with pytest.warns(echocine.SceneWarning, match="left out.*native"):
+        both = echocine.join_datasets([folder, other], tmp_path / "both", name="both", progress=lambda done, total: seen.append((done, total)))
+    assert both.made == {"hearts": 4, "loops": 4, "failed": 0} and seen[-1] == (4, 4)
+    assert list(both.table["split"]) == ["train", "train", "val", "test"] and list(both.table["joined.part"]) == [1, 1, 1, 2]
+    assert list(both.table["ef_percent"][:3]) == list(data.table["ef_percent"]) and both.details["name"] == "both"
+    assert np.array_equal(both["ec000004_a4c"].images, echocine.Dataset(other)[0].images)
+    ran = subprocess.run([program, "dataset", "--join", folder, other, "-o", tmp_path / "same", "--name", "both"], capture_output=True, text=True)
+    assert ran.returncode == 0, ran.stderr
+    assert digests(tmp_path / "same") == digests(tmp_path / "both")
+
+
+def test_joins_are_refused_as_by_the_command(data, folder, tmp_path, program):
+    def refused(parts, words, **more):
+        with pytest.raises(echocine.SceneError, match=words) as caught:
+            echocine.join_datasets(parts, tmp_path / "x", **more)
+        assert not (tmp_path / "x").exists()
+        name = ["--name", more["name"]] if "name" in more else []
+        ran = subprocess.run([program, "dataset", "--join", *parts, "-o", tmp_path / "x", *name], capture_output=True, text=True)
+        assert ran.returncode == 2 and str(caught.value) in ran.stderr, ran.stderr
+
+    copy = tmp_path / "copy"
+    shutil.copytree(folder, copy)
+    refused([folder, copy], "the same heart")
+    refused([folder, folder], "twice")
+    refused([folder, tmp_path], "holds no dataset")
+    refused([folder, copy], "--name: is empty", name="")
+    with pytest.raises(echocine.SceneError, match="one folder, accepted: two"):
+        echocine.join_datasets([folder], tmp_path / "x")
+    with pytest.raises(TypeError, match="parts: is one path"):
+        echocine.join_datasets(str(folder), tmp_path / "x")
+
+
+def test_the_card_compares_with_real_loops(data, folder, tmp_path):
+    copy = tmp_path / "copy"
+    shutil.copytree(folder, copy)
+    real = {folder / "native" / loop.id / "cine.avi": loop.row["mm_per_pixel"] for loop in (data[0], data[2])}
+    compared = echocine.dataset(TEXT, copy, merge=True, real=real)
+    loops = compared.details["real_loops"]["loops"]
+    assert [loop["frames"] for loop in loops] == [-(-data[k].row["frames"] // 3) for k in (0, 2)]
+    assert all(0 <= loop["auc"] <= 1 for loop in loops) and "mean of 2 loops" in (copy / "README.md").read_text()
+    with pytest.raises(ValueError, match="real: .*mm per pixel"):
+        echocine.dataset(TEXT, copy, merge=True, real={"a.avi": 0})
+    with pytest.raises(ValueError, match="merge=True"):
+        echocine.dataset(TEXT, copy, real=real)
+    with pytest.raises(echocine.SceneError, match="two or more"):
+        echocine.dataset(TEXT, copy, merge=True, real=dict([*real.items()][:1]))
+
+
 def test_bad_specs_are_named(tmp_path):
     with pytest.raises(echocine.SceneError, match="hearts") as caught:
         echocine.dataset({"views": ["a4c"]}, tmp_path / "x")

@@ -1,4 +1,5 @@
-// The measured deviations from the standard view, in loops without functional truth.
+// What is measured in the imaging plane of a loop without functional truth: deviations from the
+// standard view, volumes.
 
 #include <gtest/gtest.h>
 
@@ -8,18 +9,21 @@
 namespace echocine::dataset {
 namespace {
 
-// The view_offset of each view, with an [offset].
-Json offsetsWith(const std::string& offset) {
+// The loops of each view, with an [offset].
+Json loopsWith(const std::string& offset) {
   const Spec spec = parseSpec(
       "hearts = 1\nviews = [\"a2c\", \"a4c\", \"psax-mid\"]\nkeyframes = 8\npicture_px = 56\n"
       "[scene.probe]\nlines = 16\nsamples = 32\n[scene.acquisition]\nframe_rate_hz = 4\n"
       "[scene.signal]\nlook = \"paper\"\n[offset]\n" +
           offset,
       "spec.toml");
-  Json offsets;
   const Heart heart = makeHeart(spec, 0, {});
-  const Json record = recordOf(spec, heart);
-  for (const Json& loop : record.at("loops")) offsets.push_back(loop.at("view_offset"));
+  return recordOf(spec, heart).at("loops");
+}
+
+Json offsetsWith(const std::string& offset) {
+  Json offsets;
+  for (const Json& loop : loopsWith(offset)) offsets.push_back(loop.at("view_offset"));
   return offsets;
 }
 
@@ -43,6 +47,19 @@ TEST(DatasetOffset, DrawnOffsetsAreMeasured) {
   EXPECT_NEAR(turned[0].at("rotation_deg").get<double>(), -12, 0.05);
   EXPECT_NEAR(turned[0].at("tilt_deg").get<double>(), 0, 0.05);
   EXPECT_NEAR(turned[2].at("tilt_deg").get<double>(), 12, 0.05);
+}
+
+// A short axis shows no long axis, so it has no volume by discs.
+TEST(DatasetOffset, OnlyViewsOfTheLongAxisHaveSinglePlaneVolumes) {
+  for (const Json& loop : loopsWith("shift_elevation_mm = 3\n"))
+    for (const char* name : {"edv_single_plane_ml", "esv_single_plane_ml",
+                             "ef_single_plane_percent", "length_in_plane_mm"}) {
+      if (loop.at("view") == "psax-mid") {
+        EXPECT_TRUE(loop.at(name).is_null()) << name;
+      } else {
+        EXPECT_GT(loop.at(name).get<double>(), 0) << name;
+      }
+    }
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "texture/box_means.h"
+#include "metrics/box_means.h"
 #include "texture/echo_texture.h"
 
 namespace echocine {

@@ -130,6 +130,27 @@ TEST_F(DatasetJoin, TablesAndFoldsNameThePart) {
                            (name.get<std::string>() + ".png")));
 }
 
+TEST_F(DatasetJoin, ANameReplacesThoseOfTheParts) {
+  const Outcome made = join("one two --name 'Both \"hands\"'", "named");
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(nlohmann::json::parse(text("named/dataset.json"))["name"], "Both \"hands\"");
+  EXPECT_EQ(lines("named/README.md").front(), "# Both \"hands\"");
+  // Only the documents of the whole have the name: another one resumes the join.
+  Files named = filesOf(*place / "named");
+  ASSERT_EQ(join("one two", "named").code, 0);
+  Files unnamed = filesOf(*place / "named");
+  for (const char* name : {"README.md", "dataset.json"}) {
+    EXPECT_NE(named.at(name), unnamed.at(name));
+    named.erase(name), unnamed.erase(name);
+  }
+  EXPECT_EQ(named, unnamed);
+  expectRefused("one two --name ''", "--name: is empty");
+  expectRefused("one two --name \"$(printf 'a\\nb')\"", "--name: is empty or has control");
+  const Outcome alone = runShell("%B dataset --name x -o y");
+  EXPECT_EQ(alone.code, 2) << alone.err;
+  EXPECT_NE(alone.err.find("--join"), std::string::npos) << alone.err;
+}
+
 TEST_F(DatasetJoin, AnInterruptedJoinResumesToTheSameBytes) {
   ASSERT_EQ(join("one two", "joined").code, 0);
   const Files wanted = filesOf(*place / "joined");

@@ -154,7 +154,7 @@ class Native(Loaders):
     def test_the_card_has_the_decorrelation_of_muscle(self):
         with open(self.path("README.md")) as file:
             card = file.read()
-        for heading in ("## Distributions", "## Decorrelation of muscle", "## Limits", "## Citation", "| tracks_visible |"):
+        for heading in ("## Distributions", "## Decorrelation of muscle", "## Comparison with real loops", "## Limits", "## Citation", "| tracks_visible |"):
             self.assertIn(heading, card)
         rows = [line.split("|") for line in card.split("out of plane, mm |\n")[1].split("\n\n")[0].splitlines()[1:]]
         medians = [float(row[4]) for row in rows]

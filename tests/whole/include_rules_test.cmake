@@ -64,7 +64,7 @@ set(rooms
   "render=loop,frame,cycle,output,page,video,truth|plan,signal,surfaces,view"
   "study=plan,frame,cycle,output,video,metrics|loop,surfaces,keyframes,trace,signal,render,page"
   "echocine=render,loop,frame,heart"
-  "dataset=output,surfaces,cycle,heart,truth,signal|frame,loop,views,video,page"
+  "dataset=output,surfaces,cycle,heart,truth,signal|frame,loop,views,video,page,metrics,echo"
   "live=frame,surfaces,output,plan,truth|cycle,mesh,signal,video,view,page"
   "python=frame,echo|plan,loop,mmode,doppler,render,export,fit,compare,study,dataset,heart,cycle,output,video,surfaces"
   "cli=render,fit,compare,study,output,view,plan,mmode,doppler,export,live|archive,dataset,video,frame,surfaces,keyframes,cycle,heart")

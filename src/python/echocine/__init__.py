@@ -17,7 +17,7 @@ and JobError (the work failed).
 """
 
 from ._echocine import Frame, __version__
-from ._dataset import Dataset, DatasetLoop, dataset, preview_dataset
+from ._dataset import Dataset, DatasetLoop, dataset, join_datasets, preview_dataset
 from ._errors import JobError, SceneError, SceneWarning
 from ._fit import HeartFamily, ModelDiscrepancy, ModelLoop, PoseFound
 from ._heart_fit import HeartFit, Interval, fit
@@ -29,5 +29,5 @@ from ._simulator import Simulator
 
 __all__ = ["Border", "Comparison", "Dataset", "DatasetLoop", "Doppler", "Exported", "Frame", "FrameDiscrepancy", "HeartFamily", "HeartFit", "Interval", "JobError", "Loop",
            "MMode", "ModelDiscrepancy", "ModelLoop", "Plan", "PoseFound", "Ring", "Scene", "SceneError", "SceneWarning", "Simulator", "Spectrum", "Table",
-           "__version__", "compare", "dataset", "dials", "doppler", "export", "fit", "heart", "mmode", "open", "plan",
+           "__version__", "compare", "dataset", "dials", "doppler", "export", "fit", "heart", "join_datasets", "mmode", "open", "plan",
            "preview_dataset", "render", "scene_keys", "study"]

@@ -5,14 +5,15 @@ from __future__ import annotations
 import csv
 import json
 import os
+import warnings
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple, Union
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _echocine, _toml
-from ._errors import SceneError
+from ._errors import SceneError, SceneWarning
 from ._progress import Progress, report_to
 from ._verify import HeartFiles
 
@@ -149,7 +150,7 @@ class Dataset:
     Attributes:
         folder: its path.
         made: what the call of `dataset` that returned it made or kept: loops, bytes, kept (hearts already finished),
-            impossible (draws), failed (hearts); empty of a folder that was opened.
+            impossible (draws), failed (hearts); of `join_datasets`: hearts, loops, failed. Empty of a folder that was opened.
     """
 
     def __init__(self, folder: PathLike, *, verify: bool = True) -> None:
@@ -271,8 +272,14 @@ def _whole(name: str, value: Any, least: int, most: int) -> None:
         raise ValueError(f"{name}: is {value!r}, accepted: a whole number from {least} to {most}")
 
 
-def dataset(spec: Spec, folder: PathLike, *, task: Optional[Tuple[int, int]] = None, merge: bool = False, fast: bool = False, threads: int = 0,
-            progress: Progress = None) -> Dataset:
+def _pixel_mm(loop: PathLike, mm: Any) -> float:
+    if isinstance(mm, bool) or not isinstance(mm, (int, float)) or not 0.01 <= mm <= 10:
+        raise ValueError(f"real: {loop} has {mm!r}, accepted: 0.01 to 10 mm per pixel")
+    return float(mm)
+
+
+def dataset(spec: Spec, folder: PathLike, *, task: Optional[Tuple[int, int]] = None, merge: bool = False, fast: bool = False,
+            real: Optional[Mapping[PathLike, float]] = None, threads: int = 0, progress: Progress = None) -> Dataset:
     """Makes many loops with truth, drawn from a spec, as ``echocine dataset`` does.
 
     The same call again goes on where one was stopped: hearts that are finished are kept. A draw depends on no thread, task
@@ -292,12 +299,17 @@ def dataset(spec: Spec, folder: PathLike, *, task: Optional[Tuple[int, int]] = N
         task: (k, n): only the k-th of n parts, from 1. Tables wait for the merge.
         merge: make nothing: prove that all parts are there, byte by byte, and write tables and lists.
         fast: with merge, prove files by their sizes alone.
+        real: with merge, real loops and their mm per pixel: {"real.avi": 0.31, ...}, two or more. The card and ``details["real_loops"]``
+            state how well a linear classifier distinguishes the dataset from them.
         threads: 0: one per core.
         progress: None, True, a function (done, total) that counts hearts, or a bar as tqdm makes them.
 
     Raises SceneError (the spec, or a folder of another spec) and JobError (files cannot be written, hearts are missing).
     """
     _whole("threads", threads, 0, 4096)
+    if real is not None and not merge:
+        raise ValueError("real: is given without merge, accepted: with merge=True")
+    loops = [(Path(loop), _pixel_mm(loop, mm)) for loop, mm in (real or {}).items()]
     if task is not None:
         if merge:
             raise ValueError("merge: is True and a task is given, accepted: one of them")
@@ -313,13 +325,42 @@ def dataset(spec: Spec, folder: PathLike, *, task: Optional[Tuple[int, int]] = N
             part = (1, 1) if task is None else (task[0], task[1])
             made = _echocine.make_dataset(text, file, path, part, threads, report_to(progress))
         if task is None:
-            merged = _echocine.merge_dataset(text, file, path, fast or not merge, threads)
+            merged = _echocine.merge_dataset(text, file, path, fast or not merge, threads, loops)
             made = made or merged
     except SceneError as error:
         raise (error.without_line() if isinstance(spec, Mapping) else error) from None
     found = Dataset(path)
     found.made = made
     return found
+
+
+def join_datasets(parts: Sequence[PathLike], folder: PathLike, *, name: Optional[str] = None, progress: Progress = None) -> Dataset:
+    """Joins finished datasets of different specs or seeds in a new folder, as ``echocine dataset --join`` does.
+
+        both = echocine.join_datasets(["healthy", "infarcts"], "both", name="healthy and infarcts")
+        both.table["joined.part"]           # 1 or 2
+
+    Hearts of the first part keep their numbers, those of the next part follow. Splits are kept; the parts are not changed.
+    The same call resumes an interrupted join. A SceneWarning names the layouts that not all parts have: they are left out.
+
+    Args:
+        parts: two or more folders of finished datasets of this program version.
+        folder: of the joined dataset: new, empty, or of an interrupted join of the same parts.
+        name: of the joined dataset, one line; None: the names of the parts, joined by " + ".
+        progress: None, True, a function (done, total) that counts hearts, or a bar as tqdm makes them.
+
+    Raises SceneError before anything is written (parts that share a heart, have no common layout, another kind of EF or of
+    nnU-Net labels, or missing hearts) and JobError (a damaged file, a folder that cannot be written, a stop).
+    """
+    if isinstance(parts, (str, bytes, os.PathLike)):
+        raise TypeError("parts: is one path, accepted: a list of two or more folders")
+    path = Path(folder)
+    made, left_out = _echocine.join_datasets([Path(part) for part in parts], path, name, report_to(progress))
+    if left_out:
+        warnings.warn(f"left out, because not all parts have them: {', '.join(left_out)}", SceneWarning, stacklevel=2)
+    joined = Dataset(path)
+    joined.made = made
+    return joined
 
 
 def preview_dataset(spec: Spec, page: PathLike, hearts: int = 16, *, threads: int = 0, progress: Progress = None) -> Dict[str, float]:

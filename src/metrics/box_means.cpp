@@ -1,4 +1,4 @@
-#include "texture/box_means.h"
+#include "metrics/box_means.h"
 
 #include <algorithm>
 #include <cmath>

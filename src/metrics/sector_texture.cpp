@@ -1,10 +1,11 @@
+#include "metrics/sector_texture.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "texture/box_means.h"
-#include "texture/echo_texture.h"
+#include "metrics/box_means.h"
 
 namespace echocine {
 
@@ -204,6 +205,23 @@ SectorTexture sectorTexture(const EchoPicture& picture) {
   sector.edges(texture);
   sector.correlations(texture);
   return texture;
+}
+
+std::span<const SectorStatistic> sectorStatistics() {
+  using Texture = const SectorTexture&;
+  static constexpr SectorStatistic kAll[] = {
+      {"localStd", [](Texture t) { return t.local_std; }},
+      {"detrendedStd", [](Texture t) { return t.detrended_std; }},
+      {"gradientP50", [](Texture t) { return t.gradient_p50; }},
+      {"gradientP95", [](Texture t) { return t.gradient_p95; }},
+      {"ridgeFraction", [](Texture t) { return t.ridge_fraction; }},
+      {"radialCorr1", [](Texture t) { return t.radial[0]; }},
+      {"radialCorr2", [](Texture t) { return t.radial[1]; }},
+      {"radialCorr4", [](Texture t) { return t.radial[2]; }},
+      {"tangentialCorr1", [](Texture t) { return t.tangential[0]; }},
+      {"tangentialCorr2", [](Texture t) { return t.tangential[1]; }},
+      {"tangentialCorr4", [](Texture t) { return t.tangential[2]; }}};
+  return kAll;
 }
 
 }  // namespace echocine
