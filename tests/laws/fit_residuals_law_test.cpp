@@ -41,7 +41,9 @@ TEST(FitResiduals, TheirSquaresSumToTheDiscrepancy) {
         EXPECT_NEAR(squareOf(r), 1 + drawnLoop().at(model, pose).discrepancy, 1e-9);
         // The rest has little more than its constant, so what fits is in the residuals.
         EXPECT_NEAR(r.back() * r.back(), 1, 0.35);
-        if (size > 0) EXPECT_EQ(r.size(), size);
+        if (size > 0) {
+          EXPECT_EQ(r.size(), size);
+        }
         size = r.size();
       }
     EXPECT_EQ(size,
