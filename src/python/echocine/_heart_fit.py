@@ -120,7 +120,7 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
 
 def _cache_folder(cache: Union[bool, PathLike]) -> Optional[Path]:
     if isinstance(cache, bool):
-        folder = _echocine.heart_cache() if cache else Path()
+        folder = Path(_echocine.heart_cache()) if cache else Path()
         return folder if folder != Path() else None
     return Path(cache)
 
