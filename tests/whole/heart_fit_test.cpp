@@ -54,6 +54,7 @@ TEST(HeartFit, APlantedHeartIsFound) {
     tell("one view, two dials", fit, dials);
     ASSERT_TRUE(fit.ef && fit.edv_ml && fit.esv_ml);
     EXPECT_EQ(fit.refusal, "");
+    EXPECT_FALSE(fit.views[0].better);
     EXPECT_NEAR(fit.ef->value, 0.45, 0.03);
     EXPECT_NEAR(fit.edv_ml->value, 150, 0.08 * 150);
     EXPECT_NEAR(fit.esv_ml->value, fit.edv_ml->value * (1 - fit.ef->value), 1e-9);
