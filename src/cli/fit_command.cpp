@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "fit/dial_scan.h"
+#include "fit/fit_resamples.h"
 #include "video/video.h"
 
 namespace echocine {
@@ -95,6 +96,16 @@ FitCommand::FitCommand(CLI::App& app) {
       ->check(within(0, fit::kMostTilt_deg))
       ->type_name("NUMBER")
       ->capture_default_str();
+  command
+      ->add_option("--resamples", resamples_,
+                   fmt::format("Fit again without each of so many blocks of the beat, {} to {}: "
+                               "intervals include their spread; 0: none",
+                               fit::kLeastResamples, fit::kMostResamples))
+      ->type_name("NUMBER")
+      ->capture_default_str();
+  command->add_flag("--resume", resume_, "Continue a stopped fit in the folder");
+  command->add_flag("--no-cache", no_cache_,
+                    "Neither read nor keep computed hearts in the user's cache folder");
   command->add_flag("--no-ecg", no_ecg_, "Do not read an ECG from the pictures");
   command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
@@ -159,14 +170,21 @@ int FitCommand::run() {
   fit::HeartFitOptions options;
   options.dials = fit::parseDials(dials_);
   options.tilt_deg = tilt_deg_;
+  options.resamples = resamples_;
+  if (!no_cache_) options.heart_cache = fit::userHeartCache();
   ProgressLine line(quiet_);
   fit::HeartFit fit;
-  withThreads(threads_, [&] { fit = fitFiles(files, options, folder_, line.monitor()).fit; });
+  withThreads(threads_,
+              [&] { fit = fitFiles(files, options, folder_, line.monitor(), resume_).fit; });
   line.finish();
-  if (!fit.refusal.empty()) throw JobError("no result: " + fit.refusal);
+  if (!fit.refusal.empty())
+    throw JobError(fmt::format("no result: {}{}", fit.refusal,
+                               fit.hints.empty() ? "" : " (fit.json has more hints)"));
   if (!quiet_) printFit(fit, folder_);
   if (fit.stopped)
-    throw JobError(fmt::format("stopped: {} has the best heart so far", folder_.string()));
+    throw JobError(fmt::format(
+        "stopped: {} has the best heart so far; the same command with --resume continues",
+        folder_.string()));
   return 0;
 }
 

@@ -31,8 +31,8 @@ class FitCommand {
   std::string dials_;
   double tilt_deg_ = fit::HeartFitOptions{}.tilt_deg;
   std::filesystem::path folder_;
-  int threads_ = 0;
-  bool quiet_ = false, no_ecg_ = false;
+  int threads_ = 0, resamples_ = 0;
+  bool quiet_ = false, no_ecg_ = false, no_cache_ = false, resume_ = false;
 };
 
 }  // namespace echocine

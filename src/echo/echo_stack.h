@@ -69,6 +69,10 @@ class EchoStack {
       if (at.shares[i] > 0 && !seen(at.pictures[i])) return false;
     return true;
   }
+  // Pictures from `first` to before `end` are no longer seen.
+  void hide(int first, int end) {
+    for (int n = first; n < end; ++n) planes_[static_cast<std::size_t>(n)].clear();
+  }
   double systole() const { return systole_; }  // of the pictures; 0: unknown
   int pictures() const { return static_cast<int>(planes_.size()); }
   double metresPerPixel() const { return metres_per_pixel_; }  // of the real loop

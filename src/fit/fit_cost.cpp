@@ -28,8 +28,8 @@ PriorDials priorDialsOf(const std::map<std::string, double>& dials) {
 }
 
 FitCost::FitCost(std::vector<FitSide> sides, const std::map<std::string, double>& dials,
-                 double tilt_deg)
-    : sides_(std::move(sides)), fixed_(dials), tilts_(tilt_deg > 0) {
+                 double tilt_deg, FitMemory memory)
+    : sides_(std::move(sides)), fixed_(dials), tilts_(tilt_deg > 0), memory_(std::move(memory)) {
   for (const DialRange& range : sides_.front().family->ranges())
     unknowns_.push_back({range.key, range.low, range.high, stepOf(range)});
   dials_ = unknowns_.size();
@@ -71,8 +71,21 @@ double FitCost::priorCost(const std::vector<double>& at) const {
 
 PoseFound FitCost::viewAt(std::size_t view, const std::vector<double>& at,
                           const PoseFound* from) const {
+  const std::vector<double> values = searchedAt(at);
+  const PlaneTilt tilt = tiltAt(at, view);
+  if (!memory_.journal) return evaluated(view, values, tilt, from);
+  const std::string key =
+      FitJournal::keyOf(memory_.stage, view, values, tilt, from != nullptr ? &from->pose : nullptr);
+  if (auto known = memory_.journal->find(key)) return *known;
+  const PoseFound found = evaluated(view, values, tilt, from);
+  memory_.journal->add(key, found);
+  return found;
+}
+
+PoseFound FitCost::evaluated(std::size_t view, const std::vector<double>& values,
+                             const PlaneTilt& tilt, const PoseFound* from) const {
   const FitSide& side = sides_[view];
-  const ModelLoop model = side.family->at(searchedAt(at), tiltAt(at, view));
+  const ModelLoop model = side.family->at(values, tilt);
   return from != nullptr ? side.discrepancy->refine(model, {from->pose})
                          : side.discrepancy->search(model);
 }

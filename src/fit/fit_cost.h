@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/fit_journal.h"
 #include "fit/heart_family.h"
 #include "fit/heart_prior.h"
 #include "fit/quadratic.h"
@@ -45,8 +46,9 @@ inline constexpr double kTiltSd_deg = 4, kRotateSd_deg = 5;
 class FitCost {
  public:
   // `dials`: fixed ones. `tilt_deg`: limit of tilt and rotation; 0: not unknown. Precondition: all
-  // families have the same ranges.
-  FitCost(std::vector<FitSide> sides, const std::map<std::string, double>& dials, double tilt_deg);
+  // families have the same ranges. Evaluations that the memory has are not repeated.
+  FitCost(std::vector<FitSide> sides, const std::map<std::string, double>& dials, double tilt_deg,
+          FitMemory memory = {});
 
   const std::vector<FitUnknown>& unknowns() const { return unknowns_; }
   std::size_t dials() const { return dials_; }  // the first unknowns
@@ -80,6 +82,8 @@ class FitCost {
  private:
   std::vector<std::size_t> unknownsOf(std::size_t view) const;
   PoseFound viewAt(std::size_t view, const std::vector<double>& at, const PoseFound* from) const;
+  PoseFound evaluated(std::size_t view, const std::vector<double>& values, const PlaneTilt& tilt,
+                      const PoseFound* from) const;
   Quadratic viewAround(std::size_t view, const PoseFound& from, const std::vector<double>& middle,
                        const Quadratic* mixed, const Monitor& monitor) const;
   Quadratic priorAround(const std::vector<double>& middle) const;
@@ -91,6 +95,7 @@ class FitCost {
   std::size_t dials_ = 0;
   bool tilts_ = false;
   HeartPrior prior_;
+  FitMemory memory_;
 };
 
 // Dials of the prior's table for a heart with these dials.

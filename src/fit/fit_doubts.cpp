@@ -22,6 +22,13 @@ std::string refusalOfView(const ViewFitted& view) {
     return fmt::format("{}: no heart explains this loop (D {:.2f}): is it this view, and a beat?",
                        name, view.found.discrepancy);
   if (!view.controls) return {};
+  const bool fits_others = asGood(view.controls->shuffled, view.controls->own) ||
+                           asGood(view.controls->mirrored, view.controls->own);
+  if (fits_others && view.beat.length_source == kLoopIsBeat)
+    return fmt::format(
+        "{}: the heart fits changed pictures as well (D mirrored {:.3f}, shuffled {:.3f}, own "
+        "{:.3f}), and the loop does not close: give a loop of a whole beat",
+        name, view.controls->mirrored, view.controls->shuffled, view.controls->own);
   if (asGood(view.controls->shuffled, view.controls->own))
     return fmt::format(
         "{}: the heart fits the shuffled pictures as well (D {:.3f}, own {:.3f}): does the loop "
@@ -56,6 +63,15 @@ void addViewHints(const ViewFitted& view, HeartFit& fit) {
   };
   if (view.beat.confidence < kLeastConfidence)
     hint("the start of the beat is ambiguous: give its end-diastole (--ed, ed_frame)");
+  if (view.beat.length_source == kLoopIsBeat)
+    hint(
+        "the length of the beat is unknown and the loop does not close: a part of a beat? Give a "
+        "loop of a whole beat");
+  if (view.better)
+    hint(
+        fmt::format("the heart in {} explains this loop better (V {:.3f}, in {} {:.3f}): is it "
+                    "this view?",
+                    keyOf(view.better->view), view.better->other, name, view.better->own));
   if (view.found.terms.overlap < kLeastInSight)
     hint(fmt::format("shows only {:.0f} % of the heart: a loop with the whole ventricle would help",
                      100 * view.found.terms.overlap));

@@ -18,10 +18,10 @@ inline constexpr double kLeastInSight = 0.6;
 // fits as well as the loop itself, to kRival; an ejection fraction no narrower than its prior.
 std::string refusalOf(const HeartFit& fit);
 
-// Adds one line for each: a dial at its limit, or no narrower than its prior; by view an ambiguous
-// start of the beat, less than kLeastInSight of the heart in the picture, a pose at its limit; no
-// length scale; a rival within kRival whose ejection fraction is outside the interval.
-// Precondition: intervals are not yet widened by rivals.
+// Adds one line for each: a dial at its limit, or no narrower than its prior; by view an unknown
+// length or an ambiguous start of the beat, another view that fits better, less than kLeastInSight
+// of the heart in the picture, a pose at its limit; no length scale; a rival within kRival whose
+// ejection fraction is outside the interval. Precondition: intervals are not yet widened by rivals.
 void addHints(HeartFit& fit);
 
 }  // namespace echocine::fit

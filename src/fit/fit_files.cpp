@@ -9,6 +9,7 @@
 #include "core/stop.h"
 #include "fit/caveats.h"
 #include "fit/fit_results.h"
+#include "fit/packed_bytes.h"
 #include "output/heart_files.h"
 
 namespace echocine::fit {
@@ -17,13 +18,63 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder within the output that is written once.
-fs::path newHeart(const fs::path& folder) {
+constexpr const char* kJournal = "fit.journal";
+
+// A folder within the output that is written once; that of a stopped fit is replaced.
+fs::path newHeart(const fs::path& folder, bool resume) {
   const fs::path heart = folder / "heart";
   std::error_code error;
-  if (fs::exists(heart, error))
+  if (!fs::exists(heart, error)) return heart;
+  if (!fs::exists(folder / kJournal, error))
     throw SceneError(fmt::format("{}: exists; remove it or give another folder", heart.string()));
+  if (!resume)
+    throw SceneError(fmt::format(
+        "{}: is of a stopped fit; give --resume (resume), remove it or give another folder",
+        heart.string()));
   return heart;
+}
+
+// Everything that evaluations depend on.
+std::string digestOf(const std::vector<FitLoop>& loops, const HeartFitOptions& options) {
+  PackedBytes all;
+  all.putText(ownProgramDigest());
+  for (const auto& [key, value] : options.dials) {
+    all.putText(key);
+    all.put(value);
+  }
+  for (const std::string& key : options.searched) all.putText(key);
+  all.put(options.tilt_deg);
+  all.put(options.starts);
+  all.put(options.descents);
+  all.put(options.own_loops);
+  all.put(options.resamples);
+  all.put(options.other_views);
+  for (const FitLoop& one : loops) {
+    const echo::EchoLoop& loop = one.loop;
+    all.put(one.view);
+    all.put(one.side.ed_frame.value_or(-1));
+    all.put(one.side.es_frame.value_or(-1));
+    all.put(loop.video.width);
+    all.put(loop.video.rate.hz);
+    all.put(loop.metres_per_pixel.value_or(-1));
+    all.put(loop.frames_per_beat);
+    all.putAll(loop.rWaveFrames());
+    const echo::Sector& s = loop.sector();
+    for (const double number : {s.apex_x, s.apex_y, s.first_rad, s.last_rad, s.r_min, s.r_max})
+      all.put(number);
+    for (const PixelPlane& frame : loop.video.frames) all.putAll(frame);
+    all.putAll(loop.overlay);
+  }
+  return digestOfBytes(all.all());
+}
+
+void writeFound(const FittedFiles& made, heart::View view, const fs::path& folder,
+                const fs::path& heart) {
+  std::error_code error;
+  fs::remove_all(heart, error);  // newHeart() found none, or that of a stopped fit
+  if (made.fit.ef)
+    writeHeart({.parameters = heart::parametersFrom(made.fit.dials), .view = view}, heart);
+  writeFit(made.fit, made.labels, folder);
 }
 
 // Views that are known before any loop is read; others stand for themselves.
@@ -65,9 +116,9 @@ heart::View clearView(const std::string& file, const ViewRanking& ranking) {
 }
 
 FittedFiles fitFiles(const std::vector<FitFile>& files, const HeartFitOptions& options,
-                     const std::optional<fs::path>& folder, const Monitor& monitor) {
+                     const std::optional<fs::path>& folder, const Monitor& monitor, bool resume) {
   checkNamed(files);
-  const fs::path heart = folder ? newHeart(*folder) : fs::path{};
+  const fs::path heart = folder ? newHeart(*folder, resume) : fs::path{};
   std::deque<echo::EchoLoop> read;
   std::vector<FitLoop> loops;
   std::vector<heart::View> views;
@@ -80,15 +131,23 @@ FittedFiles fitFiles(const std::vector<FitFile>& files, const HeartFitOptions& o
     loops.push_back({views.back(), read.back(), file.side});
     out.labels.push_back(read.back().label);
   }
-  out.fit = fitHeart(loops, options, monitor);
+  HeartFitOptions kept = options;
+  kept.journal.reset();
+  if (folder) {
+    std::error_code error;
+    if (!resume && fs::exists(*folder / kJournal, error)) {
+      const FileLock own(*folder / FitJournal::kLock);
+      fs::remove(*folder / kJournal, error);
+    }
+    kept.journal = std::make_shared<FitJournal>(*folder / kJournal, digestOf(loops, options));
+  }
+  out.fit = fitHeart(loops, kept, monitor);
   out.fit.assumed = assumed;
   if (!folder) return out;
   // A stopped fit keeps its best heart.
   unstoppable([&] {
-    if (out.fit.ef)
-      writeHeart({.parameters = heart::parametersFrom(out.fit.dials), .view = views.front()},
-                 heart);
-    writeFit(out.fit, out.labels, *folder);
+    writeFound(out, views.front(), *folder, heart);
+    if (!out.fit.stopped) kept.journal->finish();
   });
   return out;
 }

@@ -28,11 +28,13 @@ heart::View clearView(const std::string& file, const ViewRanking& ranking);
 
 // Reads the loops, ranks the views of those without one, and fits. With a folder, writes the files
 // of writeFit() there, and the heart's meshes and scene in heart/ unless the result is refused;
-// also if the fit is stopped after a start is known. Throws SceneError for an existing heart/, a
-// view of low confidence, and like readLoop() and fitHeart(); JobError if the folder cannot be
-// written.
+// also if the fit is stopped after a start is known. A stopped fit leaves fit.journal in the
+// folder; `resume` continues it, and begins a fit without one. Throws SceneError for an existing
+// heart/ without a journal to resume, a journal of another fit, a view of low confidence, and like
+// readLoop() and fitHeart(); JobError if the folder cannot be written. `options.journal` is not
+// used.
 FittedFiles fitFiles(const std::vector<FitFile>& files, const HeartFitOptions& options,
                      const std::optional<std::filesystem::path>& folder,
-                     const Monitor& monitor = {});
+                     const Monitor& monitor = {}, bool resume = false);
 
 }  // namespace echocine::fit

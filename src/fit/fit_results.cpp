@@ -34,6 +34,8 @@ Json dialsJson(const HeartFit& fit) {
                    {"prior_sd", dial.prior_sd},
                    {"determined", dial.determined},
                    {"at_limit", dial.at_limit}});
+    if (const auto sd = fit.resampled_sd.find(dial.key); sd != fit.resampled_sd.end())
+      out.back()["resampled_sd"] = sd->second;
   }
   return out;
 }
@@ -177,6 +179,9 @@ std::vector<std::string> assumptionsOf(const HeartFit& fit) {
       "the heart is one of the parametric family: other shapes and still walls are not fitted",
       "the prior is that of people with and without an infarct, in equal parts",
       "the interval holds the noise of the loops and the error of the model on planted hearts"};
+  if (fit.views.size() > 1)
+    out.emplace_back(
+        "the loops are of one heart in one state: only their heart rates are compared");
   out.insert(out.end(), fit.assumed.begin(), fit.assumed.end());
   for (const ViewFitted& view : fit.views) {
     if (view.beat.length_source == kLoopIsBeat)

@@ -66,7 +66,7 @@ MotionPair motionOf(const BoundaryPoint& p, const echo::EchoStack& real, const e
   return {ax * ax + az * az,
           ux * ux + uz * uz + static_cast<double>(v.dx_m) * v.dx_m +
               static_cast<double>(v.dz_m) * v.dz_m,
-          v.weight};
+          v.weight, ax, az};
 }
 
 void addCells(const ModelLoop& model, const ModelFrame& frame, const echo::EchoStack& real,

@@ -58,6 +58,7 @@ double seenBeside(const echo::EchoStack& real, double x, double z, double nx, do
 // u - v|^2 and |u|^2 + |v|^2 of Eq. 5; weight 0 without tracking.
 struct MotionPair {
   double apart = 0, together = 0, weight = 0;
+  double dx = 0, dz = 0;  // u - v
 };
 MotionPair motionOf(const BoundaryPoint& p, const echo::EchoStack& real, const echo::BeatPlace& at,
                     const PoseMapping& map, double x, double z, double nx, double nz);

@@ -44,7 +44,8 @@ std::vector<FitSide> FittedSides::refer() const {
 
 std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
                                   const std::vector<heart::View>& views, const FitPlace& best,
-                                  double tilt_deg, const Monitor& monitor) {
+                                  double tilt_deg, const Monitor& monitor,
+                                  const std::shared_ptr<FitJournal>& journal) {
   constexpr int kSeed = 71;
   FittedSides own;
   own.families = sides.families;
@@ -62,7 +63,7 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
     const FitPose pose = discrepancy.refine(model, {FitPose{}}).pose;
     out.report.push_back(fitReport(model, discrepancy, loop, pose));
   }
-  const FitCost again(own.refer(), cost.fixed(), tilt_deg);
+  const FitCost again(own.refer(), cost.fixed(), tilt_deg, {journal, "own loops"});
   const FitDescent found = descendFit(again, {best.at, {}, 0}, monitor);
   if (found.stopped) return std::nullopt;
   for (std::size_t i = 0; i < cost.dials(); ++i) out.error.push_back(found.best.at[i] - best.at[i]);

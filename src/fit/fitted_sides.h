@@ -31,7 +31,8 @@ struct OwnFit {
 // None if the monitor stopped it. Throws SceneError for an impossible heart. Runs in parallel.
 std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
                                   const std::vector<heart::View>& views, const FitPlace& best,
-                                  double tilt_deg, const Monitor& monitor);
+                                  double tilt_deg, const Monitor& monitor,
+                                  const std::shared_ptr<FitJournal>& journal = {});
 
 // Moves the dials of a place towards the middle of their ranges by a quarter of the distance until
 // a heart has them. False if nothing was moved.

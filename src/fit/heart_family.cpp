@@ -32,23 +32,26 @@ HeartNodes::HeartNodes(const std::map<std::string, double>& dials,
     : frames_(frames) {
   checkFamily(dials, ranges, nodes);
   design_ = HeartDesign::grid(ranges, nodes);
-  compute(dials, monitor);
+  HeartCache none;
+  compute(dials, monitor, none);
 }
 
 HeartNodes::HeartNodes(const std::map<std::string, double>& dials, HeartDesign design, int frames,
-                       const Monitor& monitor)
+                       const Monitor& monitor, HeartCache cache)
     : design_(std::move(design)), frames_(frames) {
   checkFamily(dials, design_.ranges(), kLeastNodes);
-  compute(dials, monitor);
+  compute(dials, monitor, cache);
+  cache.prune();
 }
 
-void HeartNodes::compute(const std::map<std::string, double>& dials, const Monitor& monitor) {
+void HeartNodes::compute(const std::map<std::string, double>& dials, const Monitor& monitor,
+                         HeartCache& cache) {
   constexpr int kMostMoves = 6;
   for (std::size_t n = 0; n < design_.size(); ++n) {
     if (!monitor.keep_going()) throw JobError("stopped while hearts were computed");
     for (int moves = 0;; ++moves) {
       try {
-        hearts_.push_back(computed(dials, n));
+        hearts_.push_back(computed(dials, n, cache));
         break;
       } catch (const SceneError&) {
         if (design_.nodes() > 0 || moves == kMostMoves) throw;
@@ -61,16 +64,19 @@ void HeartNodes::compute(const std::map<std::string, double>& dials, const Monit
 }
 
 HeartNodes::Heart HeartNodes::computed(const std::map<std::string, double>& dials,
-                                       std::size_t place) const {
+                                       std::size_t place, HeartCache& cache) const {
   std::map<std::string, double> here = dials;
   const std::vector<double> values = design_.at(place);
   for (std::size_t r = 0; r < values.size(); ++r) here[ranges()[r].key] = values[r];
   const heart::Parameters parameters = heart::parametersFrom(here);
   if (const std::string fault = heart::faultOf(parameters); !fault.empty())
     throw SceneError("heart: " + fault);
+  if (auto kept = cache.find(here, frames_)) return {parameters, std::move(*kept)};
   // Its view is that of the probe alone, which sceneOf() aims anew.
-  return {parameters, heart::recordBeat(heart::ParametricHeart(parameters), heart::View::a4c,
-                                        frames_, heart::KeyframeSpacing::even)};
+  Heart made{parameters, heart::recordBeat(heart::ParametricHeart(parameters), heart::View::a4c,
+                                           frames_, heart::KeyframeSpacing::even)};
+  cache.keep(here, frames_, made.beat);
+  return made;
 }
 
 Scene HeartNodes::sceneOf(std::size_t heart, heart::View view) const {

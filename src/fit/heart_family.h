@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/monitor.h"
+#include "fit/heart_cache.h"
 #include "fit/heart_design.h"
 #include "fit/plane_tilt.h"
 #include "motion/heart/recording.h"
@@ -22,10 +23,10 @@ class HeartNodes {
   HeartNodes(const std::map<std::string, double>& dials, const std::vector<DialRange>& ranges,
              int frames, int nodes, const Monitor& monitor = {});
 
-  // Hearts at the places of a polynomial; an impossible one moves towards the centre. Throws like
-  // the other.
+  // Hearts at the places of a polynomial; an impossible one moves towards the centre. Hearts that
+  // the cache has are read, others are kept there. Throws like the other.
   HeartNodes(const std::map<std::string, double>& dials, HeartDesign design, int frames,
-             const Monitor& monitor = {});
+             const Monitor& monitor = {}, HeartCache cache = {});
 
   const HeartDesign& design() const { return design_; }
   const std::vector<DialRange>& ranges() const { return design_.ranges(); }
@@ -39,8 +40,10 @@ class HeartNodes {
     heart::Parameters parameters;
     heart::Recording beat;  // without the surroundings of the heart
   };
-  void compute(const std::map<std::string, double>& dials, const Monitor& monitor);
-  Heart computed(const std::map<std::string, double>& dials, std::size_t place) const;
+  void compute(const std::map<std::string, double>& dials, const Monitor& monitor,
+               HeartCache& cache);
+  Heart computed(const std::map<std::string, double>& dials, std::size_t place,
+                 HeartCache& cache) const;
 
   HeartDesign design_;
   int frames_;

@@ -11,8 +11,10 @@
 #include "echo/beat_length.h"
 #include "fit/cpu_seconds.h"
 #include "fit/fit_descent.h"
+#include "fit/fit_input.h"
 #include "fit/fit_interval.h"
 #include "fit/fit_progress.h"
+#include "fit/fit_resamples.h"
 #include "fit/fit_starts.h"
 #include "fit/fitted_sides.h"
 #include "fit/searched_dials.h"
@@ -44,6 +46,8 @@ void checkInput(const std::vector<FitLoop>& loops, const HeartFitOptions& option
   if (options.starts < 1 || options.descents < 1)
     throw SceneError("fit: starts and descents must be 1 or more");
   checkTilt(options.tilt_deg);
+  checkResamples(options.resamples);
+  for (const FitLoop& one : loops) checkMoves(one);
 }
 
 // The mean over loops that have one, within the models' range.
@@ -68,7 +72,7 @@ std::optional<double> rateOf(const std::vector<FitLoop>& loops, HeartFit& fit) {
 
 // Stages of a fit, with the units of FitProgress.
 struct FitStages {
-  double hearts, families, starts, descent, own;
+  double hearts, families, starts, descent, resamples, own;
   std::size_t descents;
   FitStages(std::size_t views, std::size_t hearts_made, std::size_t dials,
             const HeartFitOptions& options)
@@ -78,10 +82,11 @@ struct FitStages {
     families = kFamilyUnits * n;
     starts = kStartUnits * n * options.starts;
     descent = descentUnits(n, static_cast<double>(dials) + (options.tilt_deg > 0 ? 2 : 0));
+    resamples = descent * options.resamples;
     own = options.own_loops ? kOwnLoopUnits * n + descent : 0;
   }
   double all() const {
-    return hearts + families + starts + descent * static_cast<double>(descents) + own;
+    return hearts + families + starts + descent * static_cast<double>(descents) + resamples + own;
   }
 };
 
@@ -126,6 +131,21 @@ void addControls(const std::vector<FitLoop>& loops, const FittedSides& sides, co
   }
 }
 
+// Without a heart of these dials, or after a stop, nothing is known of other views.
+void addOtherViews(const FittedSides& sides, const FitCost& cost, const FitPlace& best,
+                   const Monitor& monitor, HeartFit& fit) {
+  for (std::size_t v = 0; v < fit.views.size(); ++v) {
+    ViewFitted& view = fit.views[v];
+    const ModelLoop own = sides.families[v]->at(cost.searchedAt(best.at), view.tilt);
+    try {
+      view.better = betterView(cost.dialsAt(best.at), view.view, sides.discrepancies[v], own,
+                               view.found.pose, monitor);
+    } catch (const SceneError&) {
+      return;
+    }
+  }
+}
+
 // Work on a fit that a stop ends, and that then stays as it is.
 void unlessStopped(const Monitor& monitor, HeartFit& fit, const std::function<void()>& work) {
   if (fit.stopped) return;
@@ -135,6 +155,11 @@ void unlessStopped(const Monitor& monitor, HeartFit& fit, const std::function<vo
     if (monitor.keep_going()) throw;
     fit.stopped = true;
   }
+}
+
+HeartCache cacheOf(const HeartFitOptions& options, const Monitor& monitor) {
+  if (options.heart_cache.empty()) return {};
+  return HeartCache(options.heart_cache, kMostCacheBytes, monitor.warn);
 }
 
 std::vector<double> middleOf(const std::vector<DialRange>& ranges) {
@@ -150,11 +175,13 @@ void keepPossible(const FitCost& cost, FitDescent& best, HeartFit& fit) {
 }
 
 // Subtracts the error of the comparison itself from the hearts that were found.
-void correctByOwnLoops(const FittedSides& sides, const FitCost& cost, double tilt_deg,
-                       const Monitor& monitor, std::vector<FitDescent>& descents, HeartFit& fit) {
+void correctByOwnLoops(const FittedSides& sides, const FitCost& cost,
+                       const HeartFitOptions& options, const Monitor& monitor,
+                       std::vector<FitDescent>& descents, HeartFit& fit) {
   std::vector<heart::View> views;
   for (const ViewFitted& view : fit.views) views.push_back(view.view);
-  auto own = fitOwnLoops(sides, cost, views, descents.front().best, tilt_deg, monitor);
+  auto own = fitOwnLoops(sides, cost, views, descents.front().best, options.tilt_deg, monitor,
+                         options.journal);
   fit.stopped = !own;
   if (!own) return;
   for (std::size_t v = 0; v < views.size(); ++v) fit.views[v].own = std::move(own->report[v]);
@@ -165,6 +192,16 @@ void correctByOwnLoops(const FittedSides& sides, const FitCost& cost, double til
       descent.best.at[i] = std::clamp(descent.best.at[i] - own->error[i], u.low, u.high);
   }
   keepPossible(cost, descents.front(), fit);
+}
+
+// Intervals that are no narrower than the spread over parts of the loops.
+void resample(const FittedSides& sides, const FitCost& cost, const HeartFitOptions& options,
+              const Monitor& monitor, FitDescent& best, HeartFit& fit) {
+  const std::vector<double> sds = resampledSds(sides.refer(), cost, best.best, options.tilt_deg,
+                                               options.resamples, options.journal, monitor);
+  fit.stopped = sds.empty();
+  for (std::size_t i = 0; i < sds.size(); ++i) fit.resampled_sd[cost.unknowns()[i].name] = sds[i];
+  widenBy(sds, best.covariance);
 }
 
 }  // namespace
@@ -184,22 +221,25 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
   const double since = cpuSeconds();
   HeartFit fit;
   fit.dials = options.dials;
+  for (const FitLoop& one : loops)
+    for (std::string& note : notesOf(one)) fit.hints.push_back(std::move(note));
   if (const auto rate = rateOf(loops, fit); rate && !fit.dials.contains("hr"))
     fit.dials["hr"] = *rate;
   const HeartDesign design = HeartDesign::polynomial(rangesOf(options));
   const FitStages stages(loops.size(), design.size(), design.ranges().size(), options);
   FitProgress progress(monitor, stages.all());
-  const HeartNodes hearts(fit.dials, design, kFitFrames, progress.next(stages.hearts));
+  const HeartNodes hearts(fit.dials, design, kFitFrames, progress.next(stages.hearts),
+                          cacheOf(options, monitor));
   FittedSides sides(loops, hearts, options.tilt_deg, progress.next(stages.families));
   sides.compare(loops, middleOf(hearts.ranges()));
-  FitCost cost(sides.refer(), fit.dials, options.tilt_deg);
+  FitCost cost(sides.refer(), fit.dials, options.tilt_deg, {options.journal, "starts"});
   const FitStarts starts = startPlaces(cost, options.starts, progress.next(stages.starts));
   fit.stopped = starts.stopped;
   std::vector<FitDescent> descents{{starts.places.front(), {}, true}};
   unlessStopped(monitor, fit, [&] {
     // The best start finds the beat anew.
     sides.compare(loops, cost.searchedAt(starts.places.front().at));
-    cost = FitCost(sides.refer(), fit.dials, options.tilt_deg);
+    cost = FitCost(sides.refer(), fit.dials, options.tilt_deg, {options.journal, "descents"});
     descents = descentsFrom(cost, starts.places, stages, progress);
     fit.stopped = std::any_of(descents.begin(), descents.end(),
                               [](const FitDescent& descent) { return descent.stopped; });
@@ -209,8 +249,15 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
   unstoppable([&] { addViews(loops, sides, cost, best, fit); });
   unlessStopped(monitor, fit, [&] { addControls(loops, sides, cost, best, fit); });
   unlessStopped(monitor, fit, [&] {
+    if (options.other_views) addOtherViews(sides, cost, best, monitor, fit);
+  });
+  unlessStopped(monitor, fit, [&] {
+    if (options.resamples > 0)
+      resample(sides, cost, options, progress.next(stages.resamples), descents.front(), fit);
+  });
+  unlessStopped(monitor, fit, [&] {
     if (options.own_loops)
-      correctByOwnLoops(sides, cost, options.tilt_deg, progress.next(stages.own), descents, fit);
+      correctByOwnLoops(sides, cost, options, progress.next(stages.own), descents, fit);
   });
   concludeFit(cost, descents, fit);
   if (!fit.stopped) progress.finish();

@@ -1,7 +1,9 @@
 #pragma once
 // A heart from one to three echo loops: its dials, ejection fraction and volumes with intervals.
 
+#include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "fit/fit_controls.h"
 #include "fit/fit_cost.h"
 #include "fit/fit_report.h"
+#include "fit/view_check.h"
 
 namespace echocine::fit {
 
@@ -32,6 +35,11 @@ struct HeartFitOptions {
   int descents = 2;      // from the best of them
   // Fits the found heart's own rendered loops too, and subtracts the error that this has.
   bool own_loops = true;
+  bool other_views = true;  // compares the found heart in other views (view_check.h)
+  int resamples = 0;  // blocks of the beat that are left out in turn (fit_resamples.h); 0: none
+  std::filesystem::path heart_cache{};  // folder of computed hearts (HeartCache); empty: none
+  // Keeps evaluations, so that a stopped fit resumes; none: nothing is kept.
+  std::shared_ptr<FitJournal> journal{};
 };
 
 // At 90 %.
@@ -56,6 +64,7 @@ struct ViewFitted {
   FitReport report;    // of the best heart
   // D of the best heart in loops that do not show it; none if the fit was stopped.
   std::optional<ControlFits> controls{};
+  std::optional<ViewRival> better{};  // another view that fits better
   std::optional<FitReport> own{};  // of the best heart in its own rendered loop, if that is fitted
 };
 
@@ -75,7 +84,9 @@ struct HeartFit {
   std::optional<Estimate> edv_ml, esv_ml;   // empty without a length scale too
   std::optional<Estimate> gls;              // Eq. 17 at end-systole; negative
   std::map<std::string, double> own_error;  // subtracted, by dial
-  std::vector<ViewFitted> views;            // as they fitted before
+  // By dial, Eq. 19; no SD is smaller. Empty without resamples.
+  std::map<std::string, double> resampled_sd;
+  std::vector<ViewFitted> views;  // as they fitted before
   std::vector<HeartRival> rivals;
   std::vector<std::string> hints;    // why the result is uncertain and what would help
   std::vector<std::string> assumed;  // of these loops

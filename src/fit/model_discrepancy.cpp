@@ -210,6 +210,12 @@ std::vector<FitTerms> ModelDiscrepancy::terms(const ModelLoop& model,
   return out;
 }
 
+ModelDiscrepancy ModelDiscrepancy::without(int first, int end) const {
+  ModelDiscrepancy out = *this;
+  out.stack_->hide(first, end);
+  return out;
+}
+
 FitMap ModelDiscrepancy::map(const ModelLoop& model, const FitPose& pose) const {
   return fitMap(model, *stack_, pose);
 }

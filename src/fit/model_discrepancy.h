@@ -59,6 +59,9 @@ class ModelDiscrepancy {
   PoseFound at(const ModelLoop& model, const FitPose& pose) const;
   std::vector<FitTerms> terms(const ModelLoop& model, const std::vector<FitPose>& poses) const;
 
+  // The same without the pictures from `first` to before `end`, of kFitFrames.
+  ModelDiscrepancy without(int first, int end) const;
+
   FitMap map(const ModelLoop& model, const FitPose& pose) const;
   const BeatFound& beat() const { return beat_; }
   const echo::EchoStack& stack() const { return *stack_; }

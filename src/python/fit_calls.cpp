@@ -4,11 +4,13 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/parallel.h"
 #include "core/units.h"
 #include "fit/dial_checks.h"
+#include "fit/fit_residuals.h"
 #include "fit/model_discrepancy.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
@@ -123,6 +125,18 @@ py::array termsAt(const Measure& measure, const fit::ModelLoop& model, const Dou
   return out;
 }
 
+// Eq. 18.
+py::array residualsAt(const Measure& measure, const fit::ModelLoop& model, const Doubles& given) {
+  if (given.ndim() != 1)
+    throw py::value_error(fmt::format("pose: is {}, accepted: ({},)", shown(given), kPoseNumbers));
+  const fit::FitPose pose = posesOf(given, "pose").front();
+  std::vector<double> values;
+  runHere([&] { inThisThread([&] { values = fit::residualsOf(measure, model, pose); }); });
+  py::array_t<double> out(static_cast<py::ssize_t>(values.size()));
+  std::copy(values.begin(), values.end(), out.mutable_data());
+  return out;
+}
+
 py::dict search(const Measure& measure, const fit::ModelLoop& model,
                 const std::optional<Doubles>& starts, bool global, int threads) {
   const std::vector<fit::FitPose> from =
@@ -160,6 +174,7 @@ void bindFit(py::module_& module) {
       .def(py::init(&makeMeasure), py::arg("real"), py::arg("first"), py::arg("side"),
            py::arg("weights"), py::arg("threads"), py::arg("progress").none(true))
       .def("terms", &termsAt, py::arg("model"), py::arg("poses"), "D and its terms.")
+      .def("residuals", &residualsAt, py::arg("model"), py::arg("pose"), "D as residuals.")
       .def("search", &search, py::arg("model"), py::arg("starts").none(true), py::arg("everywhere"),
            py::arg("threads"), "The pose of lowest D.")
       .def_property_readonly("beat", &beatOf, "Start and length of the real beat.");

@@ -57,7 +57,7 @@ def make_page(folder):
     with open(os.path.join(heart, "small.toml"), "w") as file:
         file.write(text)
     run("render", os.path.join(heart, "small.toml"), "-o", loop)
-    run("fit", "--view", f"a4c={loop}", "--tilt", "0", "--dials", DIALS, "-o", out)
+    run("fit", "--no-cache", "--view", f"a4c={loop}", "--tilt", "0", "--dials", DIALS, "-o", out)
     PAGE.append(os.path.join(out, "fit.html"))
     return PAGE[0]
 

@@ -54,6 +54,11 @@ TEST(FitDoubts, EachReasonRefuses) {
             std::string::npos);
   EXPECT_NE(refused([](HeartFit& f) { f.found[0].determined = false; }).find("another view"),
             std::string::npos);
+  EXPECT_NE(refused([](HeartFit& f) {
+              f.views[0].controls->mirrored = 0.2;
+              f.views[0].beat.length_source = kLoopIsBeat;
+            }).find("give a loop of a whole beat"),
+            std::string::npos);
   // A control clearly worse, another dial that the loops do not tell, and a stopped fit: no reason.
   EXPECT_EQ(refused([](HeartFit& f) { f.views[0].controls->mirrored = 0.303; }), "");
   EXPECT_EQ(refused([](HeartFit& f) { f.found[1].determined = false; }), "");
@@ -75,7 +80,15 @@ TEST(FitDoubts, EachDoubtIsOneHint) {
       std::string::npos);
   EXPECT_NE(hinted([](HeartFit& f) { f.views[0].beat.confidence = 0.05; }).find("--ed"),
             std::string::npos);
+  EXPECT_NE(hinted([](HeartFit& f) {
+              f.views[0].beat.length_source = kLoopIsBeat;
+            }).find("does not close"),
+            std::string::npos);
   EXPECT_NE(hinted([](HeartFit& f) { f.views[0].found.terms.overlap = 0.5; }).find("only 50 %"),
+            std::string::npos);
+  EXPECT_NE(hinted([](HeartFit& f) {
+              f.views[0].better = ViewRival{heart::View::a2c, 0.7, 0.6};
+            }).find("the heart in a2c explains"),
             std::string::npos);
   EXPECT_NE(hinted([](HeartFit& f) { f.views[0].found.at_limit = true; }).find("--scale"),
             std::string::npos);

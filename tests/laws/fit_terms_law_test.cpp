@@ -13,6 +13,7 @@
 #include "fit/dial_scan.h"
 #include "fit/model_discrepancy.h"
 #include "fit/tissue_greys.h"
+#include "support/all_cases.h"
 #include "support/drawn_heart.h"
 
 namespace echocine::fit {
@@ -120,7 +121,7 @@ TEST(CompareFit, APoseToldWithConfidenceIsRight) {
   constexpr double kConfident = 0.1;
   int confident = 0;
   withThreads(2, [&] {
-    for (const double contrast : {1.0, 0.5, 0.25, 0.12, 0.06, 0.0}) {
+    for (const double contrast : casesOf<double>({0.06, 0.0, 1.0, 0.5, 0.25, 0.12}, 2)) {
       EchoLoop real = draw(Phantom{}, planted, 20, 40);
       for (std::size_t n = 0; n < real.video.frames.size(); ++n)
         for (std::size_t i = 0; i < real.video.frames[n].size(); ++i) {
@@ -141,14 +142,15 @@ TEST(CompareFit, APoseToldWithConfidenceIsRight) {
       EXPECT_NEAR(degreesFromRadians(found.pose.turn_rad - planted.turn_rad), 0, 2) << contrast;
     }
   });
-  EXPECT_GE(confident, 2);
+  EXPECT_GE(confident, allCases() ? 2 : 1);
 }
 
 TEST(CompareFit, PlantedPosesAreFound) {
   const ModelLoop model = Phantom{}.model();
   std::uint64_t seed = 5;
-  for (const FitPose planted : {FitPose{0.011, -0.007, radiansFromDegrees(6), 1},
-                                FitPose{-0.018, 0.009, radiansFromDegrees(-11), 1}}) {
+  for (const FitPose planted : casesOf<FitPose>(
+           {{0.011, -0.007, radiansFromDegrees(6), 1}, {-0.018, 0.009, radiansFromDegrees(-11), 1}},
+           1)) {
     withThreads(2, [&] {
       const ModelDiscrepancy d(draw(Phantom{}, planted, 20, ++seed), fromTheStart(), model);
       const PoseFound found = d.search(model);
@@ -266,9 +268,9 @@ TEST(CompareFit, AFamilyHoldsItsHearts) {
       const ModelLoop loop = family.at({ef});
       return bloodOf(loop, frame) * loop.far_m * loop.far_m;
     };
+    const HeartNodes three({}, {{"ef", 0.4, 0.6}}, 4, 3), two({}, {{"ef", 0.44, 0.57}}, 4, 2);
     for (const heart::View view : {heart::View::a4c, heart::View::psax_mid}) {
-      const HeartFamily family({}, {{"ef", 0.4, 0.6}}, view, 4, 3),
-          computed({}, {{"ef", 0.44, 0.57}}, view, 4, 2);  // both at nodes
+      const HeartFamily family(three, view), computed(two, view);  // both at nodes
       for (const double ef : {0.44, 0.57})
         for (std::size_t frame = 0; frame < 4; ++frame) {
           const double wanted = areaOf(computed, ef, frame);

@@ -12,9 +12,12 @@
 #include "motion/surfaces/trabeculae.h"
 #include "scene/role.h"
 #include "speckle/field_material.h"
+#include "support/all_cases.h"
 
 namespace echocine {
 namespace {
+
+using support::allCases, support::casesOf;
 
 constexpr int kKeyframes = 8;
 
@@ -132,7 +135,7 @@ TEST(Trabeculae, GiveTheSmoothFrameBack) {
 TEST(Trabeculae, TurnNoFaceOver) {
   const Rough rough(heartWith(4));
   SurfaceFrame frame;
-  for (int i = 0; i < 32; ++i) {
+  for (int i = 0; i < 32; i += allCases() ? 1 : 3) {
     const SurfaceFrame raised = rough.at(i / 32.0);
     rough.motion.frameAt(i / 32.0, frame, false);
     int turned = 0;
@@ -152,7 +155,8 @@ TEST(Trabeculae, TurnNoFaceOver) {
 
 // What is shown of a slice is the same whether all vertices move or those about the plane.
 TEST(Trabeculae, AboutThePlaneAreThoseOfTheWholeSurface) {
-  for (const heart::View view : {heart::View::a4c, heart::View::psax_mid}) {
+  for (const heart::View view :
+       casesOf<heart::View>({heart::View::psax_mid, heart::View::a4c}, 1)) {
     const Scene scene = heartWith(1.5, view);
     const Rough all(scene, true), some(scene, false);
     PlaneSlice one(all.motion.surfaces(), scene.probe, {}),
@@ -189,6 +193,8 @@ TEST(Trabeculae, ChangeThePictureAndNoTruth) {
     Scene scene = heartWith(height_mm);
     scene.truth.labels = scene.truth.contours = scene.truth.tracks = scene.truth.function = true;
     scene.signal.reference_intensity = 4e-4;
+    scene.probe.lines = 96;
+    scene.probe.samples = 384;
     return scene;
   };
   const Simulator smooth(made(0)), rough(made(1));

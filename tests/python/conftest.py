@@ -3,11 +3,16 @@
 import os
 import subprocess
 import sys
+import tempfile
 
 import numpy as np
 import pytest
 
 import echocine
+
+# Not the user's: hearts that fits compute are kept there.
+_cache = tempfile.TemporaryDirectory()
+os.environ["XDG_CACHE_HOME"] = _cache.name
 
 SMALL = {"probe.lines": 24, "probe.samples": 64, "output.width": 120, "output.height": 90, "output.ecg": False,
          "output.depth_ticks": False, "output.codec": "ffv1", "output.report": False, "acquisition.frame_rate_hz": 10}

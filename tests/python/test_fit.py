@@ -84,6 +84,34 @@ def test_poses_as_arrays(measure, family):
     assert measure.beat["end_diastole"] == 0 and measure.beat["frames"] > 10
 
 
+def test_residuals_suit_a_least_squares_optimiser(measure, family):
+    found = measure.search(family.at([0.45]))
+    start = np.array([0.45, *found.pose[:3]])
+
+    def placed(x):
+        return family.at(x[:1]), [*x[1:4], *found.pose[3:]]
+
+    residuals = measure.residuals(*placed(start))
+    assert np.sum(residuals**2) == pytest.approx(1 + measure(*placed(start)), abs=1e-9)
+    assert measure.residuals(family.at([0.55]), found.pose).shape == residuals.shape
+
+    def columns(x):
+        return measure.residual_columns(family.at, x[:1], [0.01], placed(x)[1])[1][:, :4]
+
+    # A column is the slope of the residuals.
+    slope = 2 * columns(start).T @ residuals
+    for unknown, step in enumerate((0.015, 0.7, 0.7, 0.7)):
+        move = np.zeros(4)
+        move[unknown] = step
+        wanted = (measure(*placed(start + move)) - measure(*placed(start - move))) / (2 * step)
+        assert slope[unknown] == pytest.approx(wanted, rel=0.25, abs=0.003 / step)
+    optimize = pytest.importorskip("scipy.optimize")
+    best = optimize.least_squares(lambda x: measure.residuals(*placed(x)), start, columns, bounds=([0.4, -20, -20, -20], [0.6, 20, 20, 20]),
+                                  x_scale=[0.05, 1, 1, 1], max_nfev=8)
+    assert 2 * best.cost - 1 < measure(*placed(start)) - 1e-3
+    assert best.x[0] == pytest.approx(0.5, abs=0.03)
+
+
 def test_threads_share_a_measure(measure, family):
     model, pose = family.at([0.45]), [0, 0, 0, 1, 0, 0]
     alone, together = measure(model, pose), [None] * 4
@@ -148,6 +176,8 @@ def other(at, value):
     (lambda f, m, r: m(f.at([0.5]), other(4, 0.5)), "poses: lag is 0.5, accepted: a whole number"),
     (lambda f, m, r: m(f.at([0.5]), other(4, 1e18)), "poses: lag is 1e.18, accepted"),
     (lambda f, m, r: m(f.at([0.5]), other(5, 1.0)), "systole is 1, accepted: 0.05 to 0.95"),
+    (lambda f, m, r: m.residuals(f.at([0.5]), [POSE]), r"pose: is \(1, 6\), float64, accepted: \(6,\)"),
+    (lambda f, m, r: m.residual_columns(f.at, [0.5], [0.0], POSE), "steps: accepted: 1 positive numbers"),
     (lambda f, m, r: m.refine(f.at([0.5]), np.empty((0, 6))), "starts: contains no pose"),
     (lambda f, m, r: m.refine(f.at([0.5]), other(3, -1)), "scale is -1, accepted"),
     (lambda f, m, r: m(f, POSE), "model: is HeartFamily, accepted: an echocine.ModelLoop"),

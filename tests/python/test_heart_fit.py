@@ -26,7 +26,7 @@ def real(tmp_path_factory):
 @pytest.fixture(scope="module")
 def fitted(real, tmp_path_factory):
     folder = tmp_path_factory.mktemp("fitted")
-    return folder, echocine.fit({"a4c": real}, folder, side=SIDE, tilt_deg=0, **FIXED)
+    return folder, echocine.fit({"a4c": real}, folder, side=SIDE, tilt_deg=0, cache=folder / "hearts", **FIXED)
 
 
 def test_the_heart_is_found_and_kept(fitted):
@@ -51,7 +51,7 @@ def test_the_heart_is_found_and_kept(fitted):
 
 def test_the_program_has_the_same_numbers(real, fitted, program, tmp_path):
     dials = ",".join(f"{name.replace('_', '-')}={value}" for name, value in FIXED.items())
-    asked = [program, "fit", "--view", f"a4c={real}", "--ed", "a4c=0", "--no-ecg", "--tilt", "0", "--dials", dials, "-o", tmp_path / "fit"]
+    asked = [program, "fit", "--no-cache", "--view", f"a4c={real}", "--ed", "a4c=0", "--no-ecg", "--tilt", "0", "--dials", dials, "-o", tmp_path / "fit"]
     ran = subprocess.run(asked, capture_output=True, text=True)
     assert ran.returncode == 0, ran.stderr
     mine, its = dict(fitted[1].details), json.loads((tmp_path / "fit" / "fit.json").read_text())
@@ -60,6 +60,15 @@ def test_the_program_has_the_same_numbers(real, fitted, program, tmp_path):
     assert (tmp_path / "fit" / "heart" / "scene.toml").read_bytes() == (fitted[0] / "heart" / "scene.toml").read_bytes()
     again = subprocess.run(asked, capture_output=True, text=True)
     assert again.returncode == 2 and "exists" in again.stderr
+
+
+def test_hearts_are_kept_and_a_finished_fit_is_not_resumed(real, fitted):
+    folder, _ = fitted
+    kept = sorted((folder / "hearts").iterdir())
+    assert kept and all(path.name.startswith("heart_") and path.suffix == ".bin" for path in kept)
+    assert not (folder / "fit.journal").exists()
+    with pytest.raises(ValueError, match="heart: exists"):
+        echocine.fit({"a4c": real}, folder, side=SIDE, resume=True, **FIXED)
 
 
 def test_a_stop_comes_out(real):
@@ -86,6 +95,7 @@ def test_a_stop_comes_out(real):
     (None, {"side": 3}, "side: is int, accepted: view -> options"),
     (None, {"side": {"a4c": {"sid": 1}}}, "side: \"sid\" is not known"),
     (None, {"tilt_deg": 21}, "tilt_deg: is 21, accepted: 0 to 20"),
+    (None, {"resamples": 3}, "resamples: is 3, accepted: 0, or 4 to 10"),
     (None, {"starts": 0}, "starts and descents must be 1 or more"),
     (None, {"searched": ["hr"]}, "searched: names no dial, accepted: one of ef, edv"),
     (None, {"searched": ["ef"], "ef": 0.5}, "searched: names no dial"),

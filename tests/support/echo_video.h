@@ -33,30 +33,38 @@ struct Drawing {
   echo::Sector sector{160, 5, -0.7, 0.7, 12, 225};
 };
 
-inline double ringGrey(const Drawing& d, double x, double y, double phase) {
+inline double beatOfRing(double phase) {
+  return std::cos(2 * 3.14159265358979323846 * phase) -
+         0.3 * std::sin(4 * 3.14159265358979323846 * phase);
+}
+
+inline double ringGreyAtBeat(const Drawing& d, double x, double y, double beat) {
   if (!d.sector.contains(x, y)) return 0;
-  const double beat = std::cos(2 * 3.14159265358979323846 * phase) -
-                      0.3 * std::sin(4 * 3.14159265358979323846 * phase);
-  const auto bump = [](double t) { return std::exp(-t * t); };
+  const auto bump = [](double t) { return t * t < 40 ? std::exp(-t * t) : 0; };
+  const auto size = [](double a, double b) { return std::sqrt(a * a + b * b); };
   const double u = x - 165, v = y - 115;
-  const double ring = bump((std::hypot(u, 0.8 * v) - 45 - 8 * beat) / 7);
+  const double ring = bump((size(u, 0.8 * v) - 45 - 8 * beat) / 7);
   const double wall = bump((y - 190 - 4 * beat + 0.002 * u * u) / 9);
-  const double spot = bump(std::hypot(x - 120 + 5 * beat, y - 70) / 9);
+  const double spot = bump(size(x - 120 + 5 * beat, y - 70) / 9);
   const double texture = 0.06 * std::sin(0.31 * x + 0.17 * y) * std::sin(0.23 * y - 0.11 * x);
   return std::clamp(0.12 + 0.75 * ring + 0.55 * wall + 0.6 * spot + texture, 0.0, 1.0);
 }
 
+inline double ringGrey(const Drawing& d, double x, double y, double phase) {
+  return ringGreyAtBeat(d, x, y, beatOfRing(phase));
+}
+
 inline PixelPlane drawnFrame(const Drawing& d, int frame) {
   PixelPlane out;
-  const double phase = (frame + d.time_shift) / d.frames_per_beat;
+  const double beat = beatOfRing((frame + d.time_shift) / d.frames_per_beat);
   for (int y = 0; y < d.height; ++y)
     for (int x = 0; x < d.width; ++x) {
       // Four points a pixel, so that edges are as smooth as a scanner's.
       double sum = 0;
       for (const double a : {0.25, 0.75})
         for (const double b : {0.25, 0.75})
-          sum += 255 * std::pow(ringGrey(d, (x + a - d.shift_x) / d.scale,
-                                         (y + b - d.shift_y) / d.scale, phase),
+          sum += 255 * std::pow(ringGreyAtBeat(d, (x + a - d.shift_x) / d.scale,
+                                               (y + b - d.shift_y) / d.scale, beat),
                                 d.gamma);
       sum /= 4;
       if (sum > 0 && d.noise > 0)

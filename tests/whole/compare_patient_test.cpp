@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "render/render.h"
+#include "support/all_cases.h"
 #include "support/patient_scene.h"
 #include "support/run_program.h"
 #include "support/temp_folder.h"
@@ -51,13 +52,16 @@ class PatientAgainstVideos : public ::testing::Test {
         c.mean_after.mutual_information, c.time.correlation);
     return c;
   }
+  static std::vector<const char*> videos() {
+    return casesOf<const char*>({"a4c_sonosite_30f.dcm", "a4c_echotracker_45f.mp4"}, 1);
+  }
   TempFolder folder;
 };
 
 // Margins are half of what was measured (README).
 TEST_F(PatientAgainstVideos, TheViewThatTheyShowIsNearestToBoth) {
   const auto right = render("apical", poseApical), wrong = render("short_axis", poseShortAxis);
-  for (const char* video : {"a4c_echotracker_45f.mp4", "a4c_sonosite_30f.dcm"}) {
+  for (const char* video : videos()) {
     const Comparison apical = compareWith(right, video), across = compareWith(wrong, video);
     EXPECT_LT(apical.discrepancy, across.discrepancy - 0.04) << video;
     // What moves was not asked where the view lies, and agrees.
@@ -77,7 +81,7 @@ TEST_F(PatientAgainstVideos, TheShippedHeartsFourChamberViewIsNearestToBoth) {
     return loop;
   };
   const auto right = rendered("a4c"), wrong = rendered("psax-mid");
-  for (const char* video : {"a4c_echotracker_45f.mp4", "a4c_sonosite_30f.dcm"})
+  for (const char* video : videos())
     EXPECT_LT(compareWith(right, video).discrepancy, compareWith(wrong, video).discrepancy - 0.07)
         << video;
 }

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "core/digest.h"
 #include "core/parallel.h"
 #include "fit/fit_results.h"
 #include "fit/heart_fit.h"
@@ -41,17 +42,19 @@ void tell(const char* what, const HeartFit& fit, const std::map<std::string, dou
 TEST(HeartFit, APlantedHeartIsFound) {
   withThreads(2, [] {
     const std::map<std::string, double> dials{{"ef", 0.45}, {"edv", 150}, {"hr", 72}};
-    const EchoLoop loop = scannedLoop(
-        heart::heartScene(heart::parametersFrom(dials), View::a4c, 20, Look::scanner), 20, 3);
+    Scene scene = heart::heartScene(heart::parametersFrom(dials), View::a4c, 20, Look::scanner);
+    scene.probe.lines = 128;
+    const EchoLoop loop = scannedLoop(scene, 20, 3);
     HeartFitOptions options;
     options.searched = {"ef", "edv"};
     options.tilt_deg = 0;
-    options.starts = 3;
+    options.starts = 2;
     options.descents = 1;
     const HeartFit fit = fitHeart({{View::a4c, loop, fromFirst()}}, options);
     tell("one view, two dials", fit, dials);
     ASSERT_TRUE(fit.ef && fit.edv_ml && fit.esv_ml);
     EXPECT_EQ(fit.refusal, "");
+    EXPECT_FALSE(fit.views[0].better);
     EXPECT_NEAR(fit.ef->value, 0.45, 0.03);
     EXPECT_NEAR(fit.edv_ml->value, 150, 0.08 * 150);
     EXPECT_NEAR(fit.esv_ml->value, fit.edv_ml->value * (1 - fit.ef->value), 1e-9);
@@ -84,9 +87,11 @@ TEST(HeartFit, APlantedHeartIsFound) {
   });
 }
 
-// A loop that was flipped left to right, and one whose pictures are out of order.
-TEST(HeartFit, AFlippedAndAShuffledLoopAreRefused) {
+// A loop that was flipped left to right, and one whose pictures are out of order. A fit that was
+// killed, here of the flipped loop, resumes to the same end.
+TEST(HeartFit, AFlippedAndAShuffledLoopAreRefusedAndAKilledFitResumes) {
   withThreads(2, [] {
+    TempFolder folder;
     const std::map<std::string, double> dials{{"ef", 0.55}, {"edv", 130}, {"hr", 72}};
     Scene scene = heart::heartScene(heart::parametersFrom(dials), View::a4c, 12, Look::scanner);
     scene.probe.lines = 96;
@@ -96,14 +101,33 @@ TEST(HeartFit, AFlippedAndAShuffledLoopAreRefused) {
     options.dials = {{"hr", 72}};
     options.tilt_deg = 0;
     options.starts = options.descents = 1;
-    options.own_loops = false;
-    const auto refusal = [&](const EchoLoop& given) {
-      const HeartFit fit = fitHeart({{View::a4c, given, fromFirst()}}, options);
+    options.own_loops = options.other_views = false;
+    options.heart_cache = folder / "hearts";
+    const auto fitted = [&](const EchoLoop& given) {
+      HeartFit fit = fitHeart({{View::a4c, given, fromFirst()}}, options);
       EXPECT_EQ(fit.refusal.empty(), fit.ef.has_value());
-      return fit.refusal;
+      return fit;
     };
-    EXPECT_NE(refusal(mirrored(loop)).find("mirror"), std::string::npos);
-    EXPECT_NE(refusal(shuffled(loop)).find("shuffled"), std::string::npos);
+    EXPECT_NE(fitted(shuffled(loop)).refusal.find("shuffled"), std::string::npos);
+
+    const auto file = folder / "fit.journal";
+    const auto withJournal = [&] {
+      options.journal = std::make_shared<FitJournal>(file, std::string(Digest::kDigits, 'a'));
+      const std::size_t before = options.journal->size();
+      HeartFit fit = fitted(mirrored(loop));
+      EXPECT_GT(options.journal->size(), before);
+      options.journal.reset();
+      return fit;
+    };
+    const HeartFit whole = withJournal();
+    EXPECT_NE(whole.refusal.find("mirror"), std::string::npos);
+    const auto size = std::filesystem::file_size(file);
+    std::filesystem::resize_file(file, size * 3 / 4);
+    const HeartFit resumed = withJournal();
+    EXPECT_EQ(std::filesystem::file_size(file), size);
+    EXPECT_EQ(resumed.dials, whole.dials);
+    EXPECT_EQ(resumed.cost, whole.cost);
+    EXPECT_EQ(resumed.refusal, whole.refusal);
   });
 }
 

@@ -5,6 +5,7 @@
 #include "motion/mesh/surface_measure.h"
 #include "motion/surfaces/motion_warnings.h"
 #include "scene/scene_reader.h"
+#include "support/all_cases.h"
 #include "support/paths.h"
 #include "support/recorded_heart.h"
 #include "support/temp_folder.h"
@@ -14,7 +15,7 @@ namespace {
 
 using namespace support;
 
-constexpr int kFrames = 200;  // of a beat
+const int kFrames = allCases() ? 200 : 60;  // of a beat
 // Of a leaflet's area, midway between a keyframe where it is closed and one where it is open: a
 // straight path from one to the other is shorter than the leaflet. Our choice.
 constexpr double kLeastLeaflet = 0.75;

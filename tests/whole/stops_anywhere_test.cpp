@@ -114,7 +114,7 @@ class StopsAnywhere : public testing::Test {
         {"compare with hearts", {"compare", cine, "-o", "OUT", "--scan", "ef=0.4:0.6:0.1"}, 2},
         {"compare with views", {"compare", cine, "-o", "OUT", "--views", "a4c,plax"}, 2},
         {"fit",
-         {"fit", "--view", "a4c=" + cine, "--tilt", "0", "-o", "OUT", "--dials",
+         {"fit", "--no-cache", "--view", "a4c=" + cine, "--tilt", "0", "-o", "OUT", "--dials",
           "edv=130,wall-thickness=9,sphericity=0.6,mapse=13"},
          8},
         {"heart", {"heart", "-o", "OUT/heart", "--keyframes", "24"}, 0.5},

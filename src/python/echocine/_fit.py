@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -188,6 +188,41 @@ class ModelDiscrepancy:
         """The terms at poses, (P, 4) float64 in the order of `TERMS`; of one pose (4,). Thread-safe."""
         values: NDArray[np.float64] = self._native.terms(_model("model", model), _numbers("poses", poses))
         return values[0, 1:] if np.ndim(poses) == 1 else values[:, 1:]
+
+    def residuals(self, model: ModelLoop, pose: ArrayLike) -> NDArray[np.float64]:
+        """D at one pose (6,) as residuals: the sum of their squares is 1 + D. Thread-safe.
+
+        Their number is the same for all models of one family, so a least-squares optimiser can use them.
+        """
+        return self._native.residuals(_model("model", model), _numbers("pose", pose))
+
+    def residual_columns(self, model_of: Callable[[NDArray[np.float64]], ModelLoop], values: ArrayLike, steps: ArrayLike,
+                         pose: ArrayLike) -> Tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Residuals of ``model_of(values)`` at a pose, and their columns (residuals, values + 4).
+
+        Columns are the derivatives by each value, then by shift_x_mm, shift_z_mm, turn_deg and scale: central differences of
+        width 2 * step. Tissues of cells change in steps, so a step must move a boundary by about half a millimetre.
+
+        Args:
+            model_of: any shape model: values (V,) -> ModelLoop, all with the same structures, such as ``family.at``.
+            values: (V,) float64.
+            steps: (V,) float64, positive.
+            pose: (6,) float64.
+        """
+        at, step, place = _numbers("values", values), _numbers("steps", steps), _numbers("pose", pose)
+        if step.shape != at.shape or at.ndim != 1 or not np.all(step > 0):
+            raise ValueError(f"steps: accepted: {at.size} positive numbers, one for each value")
+        middle = model_of(at)
+        columns: List[NDArray[np.float64]] = []
+        for column, width in enumerate(step):
+            move = np.zeros_like(at)
+            move[column] = width
+            columns.append((self.residuals(model_of(at + move), place) - self.residuals(model_of(at - move), place)) / (2 * width))
+        for column, width in enumerate((0.5, 0.5, 0.5, 0.005)):
+            move = np.zeros(6)
+            move[column] = width
+            columns.append((self.residuals(middle, place + move) - self.residuals(middle, place - move)) / (2 * width))
+        return self.residuals(middle, place), np.stack(columns, axis=1)
 
     def search(self, model: ModelLoop, starts: Optional[ArrayLike] = None, *, threads: int = 0) -> PoseFound:
         """The pose of lowest D, searched everywhere and from `starts` (P, 6). Thread-safe."""

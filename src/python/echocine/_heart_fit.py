@@ -85,8 +85,8 @@ Sides = Union[None, Mapping[str, Mapping[str, Any]], Sequence[Mapping[str, Any]]
 
 
 def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
-        searched: Optional[Sequence[str]] = None, tilt_deg: float = 12, starts: int = 12, descents: int = 2, own_loops: bool = True,
-        threads: int = 0, progress: Progress = None, **dials: float) -> HeartFit:
+        searched: Optional[Sequence[str]] = None, tilt_deg: float = 12, starts: int = 12, descents: int = 2, own_loops: bool = True, resamples: int = 0,
+        cache: Union[bool, PathLike] = True, resume: bool = False, threads: int = 0, progress: Progress = None, **dials: float) -> HeartFit:
     """Fits a beating heart to one to three echo loops, as ``echocine fit`` does.
 
     Args:
@@ -100,6 +100,9 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
         starts: hearts that are compared first.
         descents: searches, from the best of them.
         own_loops: fits the found heart's own rendered loops too, and subtracts the error of this.
+        resamples: fits again without each of so many blocks of the beat, 4 to 10: intervals include their spread; 0: none.
+        cache: keeps computed hearts in the user's cache folder and reads them there; a path: in this folder; False: does neither.
+        resume: continues a stopped fit in the folder.
         threads: 0: one per core.
         progress: None, True, a function (done, total), or a bar as tqdm makes them.
         dials: fixed dials, such as ``hr=72``; they are not searched.
@@ -111,8 +114,15 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
     fixed = {name.replace("_", "-"): _number(f"dials: {name}", value) for name, value in dials.items()}
     keys = None if searched is None else [str(name).replace("_", "-") for name in searched]
     text, curves, found = _echocine.fit(given, None if folder is None else Path(folder), fixed, keys, tilt_deg, starts, descents,
-                                        own_loops, threads, report_to(progress))
+                                        own_loops, resamples, _cache_folder(cache), resume, threads, report_to(progress))
     return HeartFit(json.loads(text), curves, found)
+
+
+def _cache_folder(cache: Union[bool, PathLike]) -> Optional[Path]:
+    if isinstance(cache, bool):
+        folder = Path(_echocine.heart_cache()) if cache else Path()
+        return folder if folder != Path() else None
+    return Path(cache)
 
 
 def _given(loops: Loops, side: Sides) -> List[Tuple[Optional[str], Path, Dict[str, Any]]]:

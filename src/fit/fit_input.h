@@ -1,0 +1,26 @@
+#pragma once
+// Loops that cannot be fitted, and what is odd about loops that can.
+
+#include <string>
+#include <vector>
+
+#include "fit/heart_fit.h"
+
+namespace echocine::fit {
+
+// Variance over time, as a part of the variance over the picture, below which a loop is a still.
+// Our choice: loops of hearts have 0.05 or more, compressed stills less than 1e-4.
+inline constexpr double kLeastMotion = 1e-3;
+
+// Mean over the sector's pixels of the variance of a pixel over time, divided by the variance of
+// the mean picture; 0 for a sector without pixels.
+double motionOf(const echo::EchoLoop& loop);
+
+// Throws SceneError for a loop whose pictures do not change.
+void checkMoves(const FitLoop& one);
+
+// One line for each anomaly that reading a loop noted, such as colour over its sector, with its
+// view.
+std::vector<std::string> notesOf(const FitLoop& one);
+
+}  // namespace echocine::fit
