@@ -25,9 +25,9 @@ void serveLive(const LiveOptions& options,
       return lineResponse(refusal->status, refusal->reason);
     return session->answer(request);
   };
-  JobQueue queue(options.threads);
+  JobQueues queues(options.threads);
   listening(fmt::format("http://127.0.0.1:{}/?token={}", access.port, access.token));
-  server.run(handler, queue, stop);
+  server.run(handler, queues, stop);
 }
 
 }  // namespace echocine::live

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <numeric>
 #include <utility>
 
 #include "core/error.h"
@@ -14,8 +16,8 @@
 #include "motion/cycle/loop_ecg.h"
 #include "motion/mesh/world_place.h"
 #include "motion/surfaces/mesh_motion.h"
+#include "core/stage_clock.h"
 #include "signal/signal_chain.h"
-#include "truth/contour.h"
 
 namespace echocine::live {
 
@@ -202,11 +204,23 @@ LivePicture LiveRenderer::moving(const Scene& scene, const std::string& settings
   return picture;
 }
 
-std::vector<Contour> LiveRenderer::contours(const Scene& scene, const std::string& name,
-                                            int frame) {
-  const Simulator& simulator = prepared(scene, name);
+double LiveRenderer::cost_ms(const Scene& scene, int frame) const {
+  const Simulator simulator(pictureOnly(scene), std::make_shared<const MeshMotion>(keyframes_, scene));
   const FrameTime time = instant(simulator.cardiacClock(), frame);
-  return contoursAt(simulator.motion(), simulator.scene().probe, time.phase);
+  const double white = scene.signal.reference_intensity.value_or(white_.value_or(1));
+  const std::shared_ptr<Workspace> workspace = simulator.workspace();
+  std::array<double, 3> spent_ms{};
+  double before = 0;
+  for (int i = -1; i < 3; ++i) {  // the first one fills caches
+    simulator.trace(time, *workspace);
+    simulator.picture(white, time, *workspace, true);
+    const auto stages = simulator.clock().milliseconds();
+    const double now = std::accumulate(stages.begin(), stages.end(), 0.0);
+    if (i >= 0) spent_ms[static_cast<std::size_t>(i)] = now - before;
+    before = now;
+  }
+  std::sort(spent_ms.begin(), spent_ms.end());
+  return spent_ms[1];
 }
 
 }  // namespace echocine::live

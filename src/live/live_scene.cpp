@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
 #include "core/nearest_word.h"
 #include "motion/surfaces/probe_placement.h"
 #include "scene/probe_pose.h"
-#include "scene/scene_reader.h"
 #include "scene/toml_edit.h"
 #include "scene/toml_flat.h"
 
@@ -95,6 +95,9 @@ LiveScene::LiveScene(const std::filesystem::path& file)
   text_ = withEdits(text_, edits, file_.string());
 }
 
+LiveScene::LiveScene(const LiveScene& of, std::string text, NamedMeshes meshes)
+    : file_(of.file_), given_(of.given_), text_(std::move(text)), meshes_(std::move(meshes)) {}
+
 std::string LiveScene::textWith(const Json& keys) const {
   if (!keys.is_object()) throw SceneError("keys: accepted: an object of key and value");
   std::vector<TomlEdit> edits;
@@ -107,7 +110,7 @@ std::string LiveScene::textWith(const Json& keys) const {
 }
 
 Scene LiveScene::read(const std::string& text) const {
-  return parseScene(text, file_);
+  return meshes_.empty() ? parseScene(text, file_) : parseScene(text, file_, meshes_);
 }
 
 std::vector<LiveScene::Change> LiveScene::changes(const std::string& text) const {

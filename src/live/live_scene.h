@@ -8,6 +8,7 @@
 
 #include "scene/scene.h"
 #include "scene/scene_keys.h"
+#include "scene/scene_reader.h"
 
 namespace echocine::live {
 
@@ -19,6 +20,8 @@ class LiveScene {
   // Reads the file. A probe placed by probe.view gets its pose as apex, axis and lateral, so that
   // it can be moved. Throws SceneError like readScene() and placed().
   explicit LiveScene(const std::filesystem::path& file);
+  // Another text in place of that of `of`, with its meshes in memory.
+  LiveScene(const LiveScene& of, std::string text, NamedMeshes meshes);
 
   const std::filesystem::path& file() const { return file_; }
   const std::string& text() const { return text_; }  // with the pose as keys
@@ -41,6 +44,7 @@ class LiveScene {
  private:
   std::filesystem::path file_;
   std::string given_, text_;  // of the file, and with the pose as keys
+  NamedMeshes meshes_;        // empty: in files
 };
 
 }  // namespace echocine::live

@@ -163,7 +163,7 @@ class LivePageTest(unittest.TestCase):
     def test_true_contours_lie_over_the_picture(self):
         self.freeze()
         self.assertFalse(self.js("const c = document.getElementById('over'); return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some(x => x)"))
-        self.driver.find_element(browser.By.ID, "contours").click()
+        self.driver.find_element(browser.By.ID, "truth-contours").click()
         self.wait(lambda: self.js("const c = document.getElementById('over'); return c.getContext('2d')"
                                   ".getImageData(0, 0, c.width, c.height).data.some(x => x)"), "no contours come")
 
