@@ -111,7 +111,8 @@ bool isOnPage(const heart::Dial& dial) {
 std::string HeartChange::name() const {
   std::string name;
   for (const auto& [key, value] : dials) name += fmt::format("{}={} ", key, value);
-  for (const auto& [segment, amplitude] : segments) name += fmt::format("{}:{} ", segment, amplitude);
+  for (const auto& [segment, amplitude] : segments)
+    name += fmt::format("{}:{} ", segment, amplitude);
   return name;
 }
 
@@ -187,8 +188,7 @@ heart::Parameters HeartDials::parametersWith(const HeartChange& change) const {
 const HeartDials::Own& HeartDials::own() const {
   std::call_once(own_->once, [&] {
     const heart::ParametricHeart model(parameters_);
-    heart::Recording recording =
-        heart::recordBeat(model, heart::View::a4c, keyframes_, spacing_);
+    heart::Recording recording = heart::recordBeat(model, heart::View::a4c, keyframes_, spacing_);
     double least = INFINITY;
     for (const ViewName& name : viewNames()) {
       const heart::ProbePose pose = heart::poseOf(name.view, recording);
@@ -214,11 +214,11 @@ OtherHeart HeartDials::made(const HeartChange& change, const std::string& text) 
   for (const double phase : recording.phases)
     phases += fmt::format("{}{:.6f}", phases.empty() ? "" : ", ", phase);
   OtherHeart other;
-  other.text = withEdits(
-      withFolder(text, ""),
-      {{"motion.end_systole_phase", fmt::format("{:.6f}", recording.end_systole_phase)},
-       {"motion.keyframe_phases", "[" + phases + "]"}},
-      file_);
+  other.text =
+      withEdits(withFolder(text, ""),
+                {{"motion.end_systole_phase", fmt::format("{:.6f}", recording.end_systole_phase)},
+                 {"motion.keyframe_phases", "[" + phases + "]"}},
+                file_);
   other.meshes = heart::meshesOf(recording);
   other.standard = recording.pose;
   return other;

@@ -26,9 +26,9 @@ struct HeartChange {
 
 // A heart in place of the scene's own.
 struct OtherHeart {
-  std::string text;            // of the scene, with meshes named without a folder
-  NamedMeshes meshes;          // by these names
-  heart::ProbePose standard;   // of the scene's view, on this heart. World, m
+  std::string text;           // of the scene, with meshes named without a folder
+  NamedMeshes meshes;         // by these names
+  heart::ProbePose standard;  // of the scene's view, on this heart. World, m
 };
 
 class HeartDials {
@@ -68,8 +68,8 @@ class HeartDials {
   heart::Parameters parameters_;
   heart::KeyframeSpacing spacing_ = heart::KeyframeSpacing::by_motion;
   int keyframes_ = 0;
-  Pose pose_;             // of the scene's probe
-  std::string file_;      // of the scene, in messages
+  Pose pose_;         // of the scene's probe
+  std::string file_;  // of the scene, in messages
   std::shared_ptr<Own> own_ = std::make_shared<Own>();
 };
 

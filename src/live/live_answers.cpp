@@ -80,8 +80,7 @@ HttpResponse LiveSession::picture(const Json& body) {
   if (body.value("effort", "still") == "moving") {
     const std::shared_ptr<Subject> subject = subjectOf(body);
     const Scene& scene = subject->withPose(keysOf(body));
-    const LivePicture made =
-        subject->renderer.moving(scene, subject->settings, frameOf(body));
+    const LivePicture made = subject->renderer.moving(scene, subject->settings, frameOf(body));
     return {200, "application/octet-stream", pictureBytes(made, scene, Effort::moving)};
   }
   const Asked asked = this->asked(body);
@@ -101,11 +100,11 @@ HttpResponse LiveSession::loop(const Json& body) {
   const Asked asked = this->asked(body);
   const std::string word = body.value("format", "mp4");
   const AnimationFormat format = *animationFormatOf("loop." + word);
-  const std::vector<std::byte> bytes = encodeLoop(
-      format, CardiacClock(asked.scene).frameCount(), asked.scene.acquisition.frame_rate_hz,
-      [&](int frame) {
-        return asked.subject->renderer.still(asked.scene, asked.text, frame).image;
-      });
+  const std::vector<std::byte> bytes =
+      encodeLoop(format, CardiacClock(asked.scene).frameCount(),
+                 asked.scene.acquisition.frame_rate_hz, [&](int frame) {
+                   return asked.subject->renderer.still(asked.scene, asked.text, frame).image;
+                 });
   return bytesResponse(format == AnimationFormat::mp4   ? "video/mp4"
                        : format == AnimationFormat::gif ? "image/gif"
                                                         : "image/webp",
@@ -131,9 +130,8 @@ HttpResponse LiveSession::save(const Json& body) {
   std::error_code failed;
   if (!replaces && fs::exists(path, failed))
     return lineResponse(409, fmt::format("{} exists already", name));
-  const std::string text =
-      textFor(*asked.subject, asked.text, folder,
-              freeFolder(folder, name.substr(0, name.size() - 5) + "_heart"));
+  const std::string text = textFor(*asked.subject, asked.text, folder,
+                                   freeFolder(folder, name.substr(0, name.size() - 5) + "_heart"));
   const auto bytes = std::as_bytes(std::span(text));
   if (replaces)
     writeFileWhole(path, bytes);
@@ -192,10 +190,14 @@ HttpResponse LiveSession::cost(const Json& body) {
 
 std::string LiveSession::textFor(const Subject& subject, const std::string& text,
                                  const fs::path& folder, const std::string& heart_folder) const {
+  if (own_->scene.isInMemory())
+    throw SceneError(
+        "the meshes of this scene are in memory, which a file cannot name: copy the pose");
   if (subject.change.name().empty())
     return withMeshesFrom(text, own_->scene.file().parent_path(), folder);
   std::error_code failed;
-  if (!fs::exists(folder / heart_folder, failed)) dials_->write(subject.change, folder / heart_folder);
+  if (!fs::exists(folder / heart_folder, failed))
+    dials_->write(subject.change, folder / heart_folder);
   return HeartDials::withFolder(text, heart_folder + "/");
 }
 
@@ -206,9 +208,8 @@ void LiveSession::record(const Asked& asked) {
   const std::string heart = asked.subject->change.name();
   auto known = std::find(recorded_hearts_.begin(), recorded_hearts_.end(), heart);
   if (known == recorded_hearts_.end()) known = recorded_hearts_.insert(known, heart);
-  const std::string text =
-      textFor(*asked.subject, asked.text, record_folder_,
-              fmt::format("heart_{:03}", known - recorded_hearts_.begin()));
+  const std::string text = textFor(*asked.subject, asked.text, record_folder_,
+                                   fmt::format("heart_{:03}", known - recorded_hearts_.begin()));
   const fs::path path = record_folder_ / fmt::format("pose_{:05}.toml", records_++);
   writeFileWhole(path, std::as_bytes(std::span(text)));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "scene/probe_pose.h"
 
@@ -31,9 +32,8 @@ bool isWordOf(const Json& value, std::initializer_list<const char*> words) {
 
 bool areNumbers(const Json& value, std::size_t most) {
   return value.is_object() && value.size() <= most &&
-         std::all_of(value.begin(), value.end(), [](const Json& v) {
-           return v.is_number() && std::isfinite(v.get<double>());
-         });
+         std::all_of(value.begin(), value.end(),
+                     [](const Json& v) { return v.is_number() && std::isfinite(v.get<double>()); });
 }
 
 // From "1", so that they can be object keys.
@@ -51,25 +51,49 @@ bool areSegments(const Json& value) {
 
 bool areLayers(const Json& value) {
   return value.is_array() && value.size() <= 2 &&
-         std::all_of(value.begin(), value.end(),
-                     [](const Json& v) { return isWordOf(v, {"labels", "wall"}); });
+         std::all_of(value.begin(), value.end(), [](const Json& v) {
+           return isWordOf(v, {"labels", "wall"});
+         });
 }
 
 constexpr Field kFields[] = {
     {"keys", [](const Json& v) { return v.is_object() && v.size() <= 200; }, "an object"},
     {"frame", &isFrame, "a whole number from 0"},
-    {"effort", [](const Json& v) { return isWordOf(v, {"moving", "still"}); },
+    {"effort",
+     [](const Json& v) {
+       return isWordOf(v, {"moving", "still"});
+     },
      "\"moving\" | \"still\""},
     {"name", [](const Json& v) { return v.is_string(); }, "a file name"},
     {"replace", [](const Json& v) { return v.is_boolean(); }, "true | false"},
     {"view", [](const Json& v) { return v.is_string(); }, "a standard view"},
     {"dials", [](const Json& v) { return areNumbers(v, 32); }, "an object of numbers"},
     {"segments", &areSegments, "an object of amplitudes by segment"},
-    {"format", [](const Json& v) { return isWordOf(v, {"mp4", "gif", "webp"}); },
+    {"format",
+     [](const Json& v) {
+       return isWordOf(v, {"mp4", "gif", "webp"});
+     },
      "\"mp4\" | \"gif\" | \"webp\""},
     {"layers", &areLayers, "a list of \"labels\" | \"wall\""}};
 
 }  // namespace
+
+std::optional<Json> jsonOf(const std::string& body) {
+  constexpr int kMostDepth = 16;  // our choice: bodies of the page have 4
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    const char c = body[i];
+    if (in_text && c == '\\') ++i;
+    if (c == '"') in_text = !in_text;
+    if (in_text) continue;
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    if (depth > kMostDepth) return std::nullopt;
+  }
+  Json json = Json::parse(body, nullptr, false);
+  return json.is_discarded() ? std::nullopt : std::optional(std::move(json));
+}
 
 std::string faultOf(const Json& body) {
   if (!body.is_object()) return "the body is not a JSON object";

@@ -12,6 +12,9 @@ namespace echocine::live {
 
 using LiveJson = nlohmann::ordered_json;
 
+// The body as JSON; none if it is not, or is nested so deeply that reading it takes the stack.
+std::optional<LiveJson> jsonOf(const std::string& body);
+
 // Empty, or why the body is refused: an unknown field, or a value of another kind. All fields are
 // optional for this function.
 std::string faultOf(const LiveJson& body);

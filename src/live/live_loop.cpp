@@ -46,8 +46,8 @@ std::vector<std::byte> encodeLoop(AnimationFormat format, int frames, double rat
     if (!encoder) {
       width = std::max(2, image.width / 2 * 2);
       height = std::max(2, image.height / 2 * 2);
-      encoder.emplace(AnimationSettings{format, width, height, shown / duration_s,
-                                        coloursOf(Tint::none)});
+      encoder.emplace(
+          AnimationSettings{format, width, height, shown / duration_s, coloursOf(Tint::none)});
     }
     encoder->add(cropped(image, width, height));
   }

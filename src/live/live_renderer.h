@@ -9,8 +9,8 @@
 #include "frame/simulator.h"
 #include "motion/surfaces/keyframe_set.h"
 #include "motion/surfaces/surface_frame.h"
-#include "output/overlay.h"
 #include "motion/surfaces/volumes.h"
+#include "output/overlay.h"
 #include "plan/loop_plan.h"
 #include "scene/scene.h"
 
@@ -47,7 +47,7 @@ class LiveRenderer {
   // is that of the scene, or else of the last still picture.
   LivePicture moving(const Scene& scene, const std::string& settings, int frame);
 
-  // Computing time of frame `frame`, on one thread, without its preparation. The median of three.
+  // CPU time of frame `frame` on one thread, without its preparation. The least of three.
   double cost_ms(const Scene& scene, int frame) const;
 
   // Of the session's first pose.

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/file.h"
 #include "core/nearest_word.h"
@@ -86,7 +86,10 @@ bool isLiveKey(const SceneKey& key) {
 }
 
 LiveScene::LiveScene(const std::filesystem::path& file)
-    : file_(file), given_(readTextFile(file, kMostTextBytes)), text_(given_) {
+    : LiveScene(file, readTextFile(file, kMostTextBytes), {}) {}
+
+LiveScene::LiveScene(std::filesystem::path file, std::string text, NamedMeshes meshes)
+    : file_(std::move(file)), given_(std::move(text)), text_(given_), meshes_(std::move(meshes)) {
   const Scene scene = read(text_);
   if (!scene.view) return;
   std::vector<TomlEdit> edits;

@@ -22,15 +22,19 @@ struct GoneError {};
 
 LiveSession::LiveSession(const std::filesystem::path& scene_file,
                          std::filesystem::path record_folder)
-    : own_(std::make_shared<Subject>(LiveScene(scene_file))),
-      record_folder_(std::move(record_folder)) {
+    : LiveSession(LiveScene(scene_file), std::move(record_folder)) {}
+
+LiveSession::LiveSession(LiveScene given, std::filesystem::path record_folder)
+    : own_(std::make_shared<Subject>(std::move(given))), record_folder_(std::move(record_folder)) {
   const LiveScene& live = own_->scene;
+  if (!record_folder_.empty() && live.isInMemory())
+    throw SceneError("record: the meshes of this scene are in memory, which files cannot name");
   const Scene scene = live.read(live.text());
   const Simulator& simulator = own_->renderer.prepared(scene, live.text());
   warnings_ = scene.warnings;
   warnings_.insert(warnings_.end(), simulator.plan().warnings.begin(),
                    simulator.plan().warnings.end());
-  dials_ = HeartDials::of(scene, live.text());
+  if (!live.isInMemory()) dials_ = HeartDials::of(scene, live.text());
   own_view_ = viewScene(simulator);
   page_ = pageOf(simulator, own_view_, live, dials_ ? &*dials_ : nullptr);
   if (!record_folder_.empty()) makeFolder(record_folder_);
@@ -48,16 +52,18 @@ std::variant<HttpResponse, LiveJob> LiveSession::answer(const HttpRequest& reque
     const char* path;
     Answer answer;
   };
-  constexpr Route kRoutes[] = {{"/picture", &LiveSession::picture}, {"/png", &LiveSession::png},
-                               {"/loop", &LiveSession::loop},       {"/scene", &LiveSession::sceneText},
-                               {"/save", &LiveSession::save},       {"/view", &LiveSession::view},
-                               {"/truth", &LiveSession::truth},     {"/effects", &LiveSession::effects},
-                               {"/cost", &LiveSession::cost},       {"/heart", &LiveSession::heart}};
+  constexpr Route kRoutes[] = {
+      {"/picture", &LiveSession::picture}, {"/png", &LiveSession::png},
+      {"/loop", &LiveSession::loop},       {"/scene", &LiveSession::sceneText},
+      {"/save", &LiveSession::save},       {"/view", &LiveSession::view},
+      {"/truth", &LiveSession::truth},     {"/effects", &LiveSession::effects},
+      {"/cost", &LiveSession::cost},       {"/heart", &LiveSession::heart}};
   const auto* route = std::find_if(std::begin(kRoutes), std::end(kRoutes),
                                    [&](const Route& r) { return request.path == r.path; });
   if (route == std::end(kRoutes)) return lineResponse(404, "not found");
-  Json body = Json::parse(request.body, nullptr, false);
-  if (body.is_discarded()) return lineResponse(400, "the body is not JSON");
+  std::optional<Json> read = jsonOf(request.body);
+  if (!read) return lineResponse(400, "the body is not JSON, or is nested too deeply");
+  Json& body = *read;
   if (const std::string fault = faultOf(body); !fault.empty()) return lineResponse(400, fault);
   LiveJob job;
   const bool makes_heart = request.path == "/heart";
@@ -106,8 +112,8 @@ HttpResponse LiveSession::heart(const Json& body) {
   } else {
     OtherHeart other = dials_->made(change, live.text());
     standard = other.standard;
-    auto subject = std::make_shared<Subject>(
-        LiveScene(live, std::move(other.text), std::move(other.meshes)));
+    auto subject =
+        std::make_shared<Subject>(LiveScene(live, std::move(other.text), std::move(other.meshes)));
     subject->change = change;
     const Scene scene = subject->scene.read(subject->scene.text());
     const SceneView view = viewScene(scene, subject->renderer.motion(), {}, &own_view_);
@@ -117,8 +123,7 @@ HttpResponse LiveSession::heart(const Json& body) {
   const auto poseOf = [&](const heart::ProbePose& pose) {
     return poseJson(pose.apex, pose.axis, pose.lateral, own);
   };
-  return {200,
-          "application/json",
+  return {200, "application/json",
           Json({{"structures", structures},
                 {"heart", dials_->json(change)},
                 {"standard", poseOf(standard)},

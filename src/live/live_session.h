@@ -20,6 +20,7 @@ class LiveSession {
   // Reads scene and meshes and makes the page. Runs inside withThreads(). Throws SceneError and
   // JobError.
   LiveSession(const std::filesystem::path& scene_file, std::filesystem::path record_folder);
+  LiveSession(LiveScene scene, std::filesystem::path record_folder);
   ~LiveSession();
 
   // Warnings about the scene, a line each.

@@ -8,8 +8,7 @@
 
 namespace echocine::live {
 
-Subject::Subject(LiveScene given)
-    : scene(std::move(given)), renderer(scene.read(scene.text())) {}
+Subject::Subject(LiveScene given) : scene(std::move(given)), renderer(scene.read(scene.text())) {}
 
 const Scene& Subject::withPose(const LiveJson& keys) {
   LiveJson others = LiveJson::object(), pose = LiveJson::object();

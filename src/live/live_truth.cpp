@@ -96,7 +96,8 @@ void LiveTruth::prepare(const Simulator& still, const std::string& name, bool wa
   no_wall_.clear();
   first_tracks_m_.clear();
   const auto make = [&](bool with_wall) {
-    simulator_ = std::make_unique<const Simulator>(withTruth(still, with_wall), still.sharedMotion());
+    simulator_ =
+        std::make_unique<const Simulator>(withTruth(still, with_wall), still.sharedMotion());
     simulator_->truth();
   };
   try {
@@ -118,8 +119,7 @@ LiveTruth::Layers LiveTruth::at(const Simulator& still, const std::string& name,
                                 bool wall) {
   const CardiacClock& clock = still.cardiacClock();
   if (frame < 0 || frame >= clock.frameCount())
-    throw SceneError(
-        fmt::format("frame: is {}, accepted: 0 to {}", frame, clock.frameCount() - 1));
+    throw SceneError(fmt::format("frame: is {}, accepted: 0 to {}", frame, clock.frameCount() - 1));
   prepare(still, name, wall);
   return {simulator_->truthAt(clock.at(frame)), first_tracks_m_, simulator_->truth(), no_wall_};
 }

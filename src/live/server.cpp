@@ -99,9 +99,9 @@ void Server::Parts::handle(Connection& connection, const Handler& handler, JobQu
     connection.waits = true;
     connection.closes = !keep_alive;
     queues.push(std::move(std::get<LiveJob>(reply)),
-               [box = mailbox, id = connection.id](HttpResponse response) {
-                 box->put(id, std::move(response));
-               });
+                [box = mailbox, id = connection.id](HttpResponse response) {
+                  box->put(id, std::move(response));
+                });
   }
 }
 

@@ -18,6 +18,8 @@ class LiveModel {
     for (const dial of heart.dials) if (!LiveModel.kFirst.includes(dial.key)) this.addDial(more, dial);
     this.addSegments(heart.segments);
     this.words = page.byId("heart-words");
+    // The first heart of a session takes longer, because the file's own one is made for comparison.
+    setTimeout(() => { if (!this.asked) this.live.ask("/heart", {}); }, 2500);
   }
 
   addInput(parent, name, label, title, { lo, hi, step, value }, set) {

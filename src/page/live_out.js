@@ -90,26 +90,28 @@ class LiveOut {
       rows: Object.entries(stage_ms).filter(([, ms]) => ms > 0).map(([stage, ms]) => [stage, fixed(ms, 2)]) });
   }
 
-  // Two frames for each effect: with it and without it.
+  // CPU time of a frame with an effect less the time without it. Effects that need others include them.
   async measure(effects, cells, button) {
     const { state } = this.live, { version, frame } = state, body = this.live.body({ frame });
     const timeOf = async (keys) => {
       const response = await this.live.ask("/cost", { ...body, keys: { ...body.keys, ...keys } });
       return response.status === 200 ? (await response.json()).ms : null;
     };
+    const switched = effects.filter(({ name }) => LiveOut.keyOf(name) && state.values[LiveOut.keyOf(name).key] !== undefined);
     button.disabled = true;
     state.costs = { version };
-    for (const { name, on } of effects) {
-      const key = LiveOut.keyOf(name);
-      if (!key || state.values[key.key] === undefined) continue;
+    const now = await timeOf({});
+    for (const [i, { name, on }] of switched.entries()) {
       if (state.version !== version) break;
+      button.textContent = `Measured ${i} of ${switched.length} ...`;
+      const key = LiveOut.keyOf(name);
       const value = (wanted) => (key.kind === "flag" ? wanted : wanted ? "on" : "off");
-      const now = await timeOf({}), other = await timeOf({ [key.key]: value(!on) });
+      const other = await timeOf({ [key.key]: value(!on) });
       const words = now === null || other === null ? "–" : `${page.fixed(Math.max(0, on ? now - other : other - now), 1)}`;
       state.costs[name] = on ? words : `(${words})`;
       cells.get(name).textContent = state.costs[name];
     }
-    button.textContent = "Milliseconds of a complete frame on one thread; in brackets: if it were on. Measure again";
+    button.textContent = "Measure again (ms of a complete frame on one thread; in brackets: if the effect were on)";
     button.disabled = false;
   }
 }

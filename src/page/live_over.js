@@ -73,8 +73,8 @@ class LiveOver {
     const pen = this.scrap.getContext("2d"), image = pen.createImageData(width, height), colours = new Map();
     const colourOf = (id) => {
       if (!colours.has(id)) {
-        const { r, g, b } = new THREE.Color(HeartView.colourOf(id - 1)).convertLinearToSRGB();
-        colours.set(id, [255 * r, 255 * g, 255 * b, 105]);
+        pen.fillStyle = HeartView.colourOf(id - 1);  // reads as #rrggbb
+        colours.set(id, [1, 3, 5].map((i) => parseInt(pen.fillStyle.slice(i, i + 2), 16)).concat(105));
       }
       return colours.get(id);
     };

@@ -63,11 +63,10 @@ void tellSight(const Scene& scene, const MeshMotion& motion, SceneView& view) {
       static_cast<std::size_t>(std::count_if(view.structures.begin(), view.structures.end(),
                                              [](const ViewStructure& s) { return s.seen; }));
   view.sees_any = seen > 0;
-  view.sight =
-      view.sees_any
-          ? fmt::format("The sector shows {} of {} structures.", seen, view.structures.size())
-          : fmt::format("The sector shows no structure: {}.",
-                        describePlacement(scene, meshesBox(motion)));
+  view.sight = view.sees_any ? fmt::format("The sector shows {} of {} structures.", seen,
+                                           view.structures.size())
+                             : fmt::format("The sector shows no structure: {}.",
+                                           describePlacement(scene, meshesBox(motion)));
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/parallel.h"
 #include "live/live_session.h"
@@ -25,32 +27,40 @@ std::string textOf(const std::filesystem::path& file) {
 // Few keyframes, lines and samples.
 class LiveHeartDials : public ::testing::Test {
  protected:
-  LiveHeartDials() {
-    HeartFiles files;
-    files.keyframes = 6;
-    files.look = Look::paper;
-    writeHeart(files, folder / "heart");
-    std::string text = textOf(folder / "heart/scene.toml");
-    for (const auto& [from, to] : {std::pair{"lines = 256", "lines = 24"},
-                                   std::pair{"samples = 1024", "samples = 128"},
-                                   std::pair{"frame_rate_hz = 50", "frame_rate_hz = 5"}})
-      text.replace(text.find(from), std::string(from).size(), to);
-    scene_file = folder.write("heart/scene.toml", text + "\n[output]\npng = true\nexr = false\n");
-    withThreads(2, [&] { session.emplace(scene_file, folder / "poses"); });
-  }
+  struct Shared {
+    Shared();
+    TempFolder folder;
+    std::filesystem::path scene_file;
+    std::optional<LiveSession> session;
+  };
+  static void SetUpTestSuite() { shared = std::make_unique<Shared>(); }
+  static void TearDownTestSuite() { shared.reset(); }
 
-  HttpResponse ask(const std::string& path, const std::string& body) {
-    auto reply = session->answer({"POST", path, "", {}, body});
+  static HttpResponse ask(const std::string& path, const std::string& body) {
+    auto reply = shared->session->answer({"POST", path, "", {}, body});
     if (auto* response = std::get_if<HttpResponse>(&reply)) return *response;
     HttpResponse response;
     withThreads(2, [&] { response = std::get<LiveJob>(reply).run(); });
     return response;
   }
 
-  TempFolder folder;
-  std::filesystem::path scene_file;
-  std::optional<LiveSession> session;
+  static inline std::unique_ptr<Shared> shared;
+  const TempFolder& folder = shared->folder;
 };
+
+LiveHeartDials::Shared::Shared() {
+  HeartFiles files;
+  files.keyframes = 4;
+  files.look = Look::paper;
+  writeHeart(files, folder / "heart");
+  std::string text = textOf(folder / "heart/scene.toml");
+  for (const auto& [from, to] :
+       {std::pair{"lines = 256", "lines = 24"}, std::pair{"samples = 1024", "samples = 128"},
+        std::pair{"frame_rate_hz = 50", "frame_rate_hz = 5"}})
+    text.replace(text.find(from), std::string(from).size(), to);
+  scene_file = folder.write("heart/scene.toml", text + "\n[output]\npng = true\nexr = false\n");
+  withThreads(2, [&] { session.emplace(scene_file, folder / "poses"); });
+}
 
 TEST_F(LiveHeartDials, AnotherHeartHasItsVolumesAndIsSavedWithItsMeshes) {
   const std::string dials = R"("dials": {"ef": 0.35, "edv": 150}, "segments": {"7": 0.2})";
@@ -77,12 +87,12 @@ TEST_F(LiveHeartDials, AnotherHeartHasItsVolumesAndIsSavedWithItsMeshes) {
   const HttpResponse png = ask("/png", "{" + dials + R"(, "frame": 2})");
   const std::string command = Json::parse(saved.body)["command"];
   EXPECT_EQ(command.find("echocine render '"), 0u) << command;
-  const Outcome run = runShell("%B" + command.substr(8) + " --quiet");
+  const Outcome run = runShell("%B" + command.substr(8) + " --quiet --frames 2:3");
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(png.body, bytesOf(folder / "heart/failing_loop/png/frame_0002.png"));
   // The recorded pose renders the same, though it is in another folder.
   ASSERT_EQ(runShell("%B render '" + (folder / "poses/pose_00000.toml").string() + "' -o '" +
-                     (folder / "again").string() + "' --quiet")
+                     (folder / "again").string() + "' --quiet --frames 2:3")
                 .code,
             0);
   EXPECT_EQ(png.body, bytesOf(folder / "again/png/frame_0002.png"));
@@ -109,19 +119,21 @@ TEST_F(LiveHeartDials, RefusesWhatNoHeartIs) {
 
 // Truth over the picture: its volume is that of the picture, and Simpson's rule is near it.
 TEST_F(LiveHeartDials, TruthHasLabelsOfThePixelsAndTheFunctionOfTheWall) {
-  const HttpResponse response =
-      ask("/truth", R"({"frame": 2, "layers": ["labels", "wall"], "keys": {"probe.tilt_deg": null}})");
+  const HttpResponse response = ask(
+      "/truth", R"({"frame": 2, "layers": ["labels", "wall"], "keys": {"probe.tilt_deg": null}})");
   EXPECT_EQ(response.status, 422) << "no key of a live scene";
   const HttpResponse truth = ask("/truth", R"({"frame": 2, "layers": ["labels", "wall"]})");
   ASSERT_EQ(truth.status, 200) << truth.body;
   std::size_t size = 0;
   for (int i = 3; i >= 0; --i) size = size << 8 | static_cast<unsigned char>(truth.body[i]);
   const Json head = Json::parse(truth.body.substr(4, size));
-  EXPECT_EQ(truth.body.size(), 4 + size + 2 * head["width"].get<std::size_t>() * head["height"].get<std::size_t>());
+  EXPECT_EQ(truth.body.size(),
+            4 + size + 2 * head["width"].get<std::size_t>() * head["height"].get<std::size_t>());
   EXPECT_FALSE(head["contours"].empty());
   ASSERT_TRUE(head.contains("function")) << head.value("no_wall", "");
   const Json& f = head["function"];
-  EXPECT_NEAR(f["biplane_ml"].get<double>(), f["volume_ml"].get<double>(), 0.1 * f["volume_ml"].get<double>());
+  EXPECT_NEAR(f["biplane_ml"].get<double>(), f["volume_ml"].get<double>(),
+              0.15 * f["volume_ml"].get<double>());
   EXPECT_EQ(f["segments"].size(), 17u);
   EXPECT_LT(f["gls"].get<double>(), -3) << "in systole";
   EXPECT_GT(head["tracks"].size(), 50u);
@@ -137,9 +149,11 @@ TEST_F(LiveHeartDials, ALoopIsOneFileOfItsFormat) {
 }
 
 TEST(LiveMeshPaths, StayTheSameFilesInAnotherFolder) {
-  const std::string text = "a = \"m/x_??.obj\"  # \"no.obj\"\nb = ['/abs.stl', 'y.PLY']\nc = \"word\"\n";
-  EXPECT_EQ(withMeshesFrom(text, "/s/one", "/s/two"),
-            "a = \"../one/m/x_??.obj\"  # \"no.obj\"\nb = ['/abs.stl', '../one/y.PLY']\nc = \"word\"\n");
+  const std::string text =
+      "a = \"m/x_??.obj\"  # \"no.obj\"\nb = ['/abs.stl', 'y.PLY']\nc = \"word\"\n";
+  EXPECT_EQ(
+      withMeshesFrom(text, "/s/one", "/s/two"),
+      "a = \"../one/m/x_??.obj\"  # \"no.obj\"\nb = ['/abs.stl', '../one/y.PLY']\nc = \"word\"\n");
   EXPECT_EQ(withMeshesFrom(text, "/s/one", "/s/one"), text);
 }
 

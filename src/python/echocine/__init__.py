@@ -22,11 +22,12 @@ from ._errors import JobError, SceneError, SceneWarning
 from ._fit import HeartFamily, ModelDiscrepancy, ModelLoop, PoseFound
 from ._heart_fit import HeartFit, Interval, fit
 from ._jobs import Comparison, Exported, FrameDiscrepancy, Plan, compare, export, plan, study
+from ._live import LivePage
 from ._loop import Loop, open, render
 from ._scene import Scene, Table, dials, heart, scene_keys
 from ._simulator import Simulator
 
-__all__ = ["Comparison", "Dataset", "DatasetLoop", "Exported", "Frame", "FrameDiscrepancy", "HeartFamily", "HeartFit", "Interval", "JobError", "Loop",
+__all__ = ["Comparison", "Dataset", "DatasetLoop", "Exported", "Frame", "FrameDiscrepancy", "HeartFamily", "HeartFit", "Interval", "JobError", "LivePage", "Loop",
            "ModelDiscrepancy", "ModelLoop", "Plan", "PoseFound", "Scene", "SceneError", "SceneWarning", "Simulator", "Table",
            "__version__", "compare", "dataset", "dials", "export", "fit", "heart", "open", "plan",
            "preview_dataset", "render", "scene_keys", "study"]
