@@ -50,7 +50,7 @@ class LiveRenderer {
   // CPU time of frame `frame` on one thread, without its preparation. The least of three.
   double cost_ms(const Scene& scene, int frame) const;
 
-  // Of the session's first pose.
+  // The motion in the frame of the session's first pose.
   const MeshMotion& motion() const { return *motion_; }
 
   // The plan and the simulator of the last still picture, prepared if necessary.

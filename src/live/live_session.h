@@ -34,7 +34,7 @@ class LiveSession {
 
  private:
   using Json = nlohmann::ordered_json;
-  // What a request is about: a heart, its text with the request's keys, and both as a scene.
+  // The heart of a request, its text with the request's keys, and both as a scene.
   struct Asked {
     std::shared_ptr<Subject> subject;
     std::string text;

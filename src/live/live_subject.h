@@ -1,5 +1,5 @@
 #pragma once
-// What a session shows: the scene's own meshes, or other hearts that its dials make.
+// The hearts of a session: the scene's own meshes, and others that its dials make.
 
 #include <list>
 #include <memory>
