@@ -332,6 +332,9 @@
     }, 120);
   }
 
+  // 5.3864000000000001 -> 5.3864
+  const shortNumbers = (text) => text.replace(/-?\d+\.\d{6,}/g, (digits) => String(Number(Number(digits).toFixed(5))));
+
   function showScene(scene) {
     state.values = scene.values;
     if (JSON.stringify(scene.sector.sector_mm) !== JSON.stringify(state.sector.sector_mm)) {
@@ -344,7 +347,7 @@
     byId("changes").replaceChildren();
     if (scene.changes.length)
       page.table(byId("changes"), { caption: "Changes of the scene file", columns: [{ label: "key" }, { label: "from" }, { label: "to" }],
-        rows: scene.changes.map(({ key, from, to }) => [key, from || "–", to || "–"]) });
+        rows: scene.changes.map(({ key, from, to }) => [key, shortNumbers(from) || "–", shortNumbers(to) || "–"]) });
     if (byId("effects").open) out.showEffects();
   }
 
