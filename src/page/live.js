@@ -22,7 +22,7 @@
   // Answers: { ok, status, response }. Refusals are lines of text.
   async function ask(path, body) {
     const response = await fetch(path, { method: "POST", headers: { "Content-Type": "application/json", "Echocine-Token": token }, body: JSON.stringify(body) });
-    if (response.status === 410) model.apply();  // it is made again
+    if (response.status === 410) model.again();
     return response;
   }
 

@@ -82,6 +82,17 @@ class LiveModel {
     }
   }
 
+  // The heart that is shown, where the program has not kept it.
+  async again() {
+    if (this.remaking) return;
+    this.remaking = true;
+    try {
+      await this.live.ask("/heart", this.live.state.wish);
+    } finally {
+      this.remaking = false;
+    }
+  }
+
   // The newest wish wins. Refused dials leave the heart that beats as it is.
   async apply() {
     const number = ++this.asked, wish = { dials: { ...this.dials }, segments: { ...this.segments } }, begun = performance.now();
