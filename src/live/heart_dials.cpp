@@ -166,8 +166,8 @@ heart::Parameters HeartDials::parametersWith(const HeartChange& change) const {
   std::map<std::string, double> given = given_;
   const auto dials = heart::dials();
   for (const auto& [key, value] : change.dials) {
-    const auto dial =
-        std::find_if(dials.begin(), dials.end(), [&](const auto& d) { return key == d.key; });
+    const auto dial = std::find_if(dials.begin(), dials.end(),
+                                   [&key = key](const auto& d) { return key == d.key; });
     if (dial == dials.end() || !isOnPage(*dial))
       throw SceneError(fmt::format("dials: {} is not a dial of the heart", key));
     given[key] = value;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <span>
 
+#include "core/digest.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/shown_path.h"
@@ -201,17 +203,20 @@ std::string LiveSession::textFor(const Subject& subject, const std::string& text
   return HeartDials::withFolder(text, heart_folder + "/");
 }
 
-// A scene for each pose at which the probe came to rest.
+// A scene for each pose at which the probe came to rest. The folder may hold those of earlier
+// sessions.
 void LiveSession::record(const Asked& asked) {
   if (record_folder_.empty() || asked.text == recorded_) return;
   recorded_ = asked.text;
-  const std::string heart = asked.subject->change.name();
-  auto known = std::find(recorded_hearts_.begin(), recorded_hearts_.end(), heart);
-  if (known == recorded_hearts_.end()) known = recorded_hearts_.insert(known, heart);
-  const std::string text = textFor(*asked.subject, asked.text, record_folder_,
-                                   fmt::format("heart_{:03}", known - recorded_hearts_.begin()));
-  const fs::path path = record_folder_ / fmt::format("pose_{:05}.toml", records_++);
-  writeFileWhole(path, std::as_bytes(std::span(text)));
+  // Equal names are equal hearts, also in another session.
+  const std::string all = own_->scene.text() + asked.subject->change.name();
+  Digest digest;
+  digest.update(std::as_bytes(std::span(all)));
+  const std::string text =
+      textFor(*asked.subject, asked.text, record_folder_, "heart_" + digest.hex().substr(0, 16));
+  const auto bytes = std::as_bytes(std::span(text));
+  while (!writeFileOnce(record_folder_ / fmt::format("pose_{:05}.toml", records_++), bytes)) {
+  }
 }
 
 }  // namespace echocine::live

@@ -68,8 +68,7 @@ class LiveSession {
   std::string page_;
   std::filesystem::path record_folder_;  // empty: no record
   std::string recorded_;                 // the last recorded text
-  std::vector<std::string> recorded_hearts_;
-  int records_ = 0;
+  int records_ = 0;                      // numbers of poses that are taken
 };
 
 }  // namespace echocine::live

@@ -29,9 +29,6 @@ struct Subject {
 
   // The scene of a moving picture. Without a change of settings only the pose is read anew.
   const Scene& withPose(const nlohmann::ordered_json& keys);
-  const Simulator& simulator(const Scene& scene_now, const std::string& text) {
-    return renderer.prepared(scene_now, text);
-  }
 };
 
 // The hearts that were used last. Thread-safe.
