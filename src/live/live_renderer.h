@@ -47,7 +47,8 @@ class LiveRenderer {
   // is that of the scene, or else of the last still picture.
   LivePicture moving(const Scene& scene, const std::string& settings, int frame);
 
-  // CPU time of frame `frame` on one thread, without its preparation. The least of three.
+  // CPU time of a frame, without its preparation: the least of the three frames after
+  // `frame`.
   double cost_ms(const Scene& scene, int frame) const;
 
   // The motion in the frame of the session's first pose.

@@ -111,7 +111,7 @@ class LiveOut {
       state.costs[name] = on ? words : `(${words})`;
       cells.get(name).textContent = state.costs[name];
     }
-    button.textContent = "Measure again (ms of a complete frame on one thread; in brackets: if the effect were on)";
+    button.textContent = "Measure again (ms of processor time of a complete frame; in brackets: if the effect were on)";
     button.disabled = false;
   }
 }
