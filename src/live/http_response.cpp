@@ -24,6 +24,8 @@ const char* statusWords(int status) {
       return "Request Timeout";
     case 409:
       return "Conflict";
+    case 410:
+      return "Gone";
     case 413:
       return "Content Too Large";
     case 415:
@@ -63,8 +65,12 @@ std::string responseBytes(const HttpResponse& response, bool keep_alive) {
     bytes += fmt::format("Content-Type: {}\r\nContent-Length: {}\r\n", response.type,
                          response.body.size());
   bytes +=
-      "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nX-Frame-Options: DENY\r\n"
+      "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\n"
       "Referrer-Policy: no-referrer\r\nCross-Origin-Resource-Policy: same-origin\r\n";
+  // The ports of notebooks are not known. A frame shows the page only by its link with the token.
+  bytes += response.framed ? "Content-Security-Policy: frame-ancestors 'self' http://localhost:* "
+                             "http://127.0.0.1:*\r\n"
+                           : "X-Frame-Options: DENY\r\n";
   bytes += keep_alive ? "Connection: keep-alive\r\n\r\n" : "Connection: close\r\n\r\n";
   if (has_body) bytes += response.body;
   return bytes;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "core/stop.h"
 #include "live/http_response.h"
@@ -15,6 +16,9 @@ namespace echocine::live {
 // Waiting jobs that are not superseded. Our choice: more than a page ever has.
 inline constexpr std::size_t kMostWaitingJobs = 16;
 
+// Which queue a job waits in: hearts are made beside the pictures, so that the old one beats on.
+enum class Lane { pictures, hearts };
+
 struct LiveJob {
   // Computes the response. May be cancelled by Stopped; other exceptions are not expected.
   std::function<HttpResponse()> run;
@@ -22,6 +26,7 @@ struct LiveJob {
   bool picture = false;
   // A later picture also cancels it while it runs.
   bool gives_way = false;
+  Lane lane = Lane::pictures;
 };
 
 // 204: the picture was replaced by a newer request. No error, so that browsers do not report one.
@@ -57,6 +62,19 @@ class JobQueue {
   std::deque<Entry> waiting_;
   bool ends_ = false, superseded_ = false, gives_way_ = false;  // of the job that runs
   std::thread thread_;
+};
+
+// A queue for each lane.
+class JobQueues {
+ public:
+  explicit JobQueues(int threads) : pictures_(threads), hearts_(threads) {}
+  void push(LiveJob job, JobQueue::Answer answer) {
+    JobQueue& queue = job.lane == Lane::hearts ? hearts_ : pictures_;
+    queue.push(std::move(job), std::move(answer));
+  }
+
+ private:
+  JobQueue pictures_, hearts_;
 };
 
 }  // namespace echocine::live

@@ -3,15 +3,21 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+
+#include "scene/scene_reader.h"
 
 namespace echocine::live {
 
 struct LiveOptions {
   std::filesystem::path scene;
-  std::filesystem::path record;  // folder for a scene of each pose at rest; empty: none
-  int port = 0;                  // 0: any free one
-  int threads = 0;               // 0: one per core
+  std::optional<std::string> text;  // of the scene, in place of the file's
+  NamedMeshes meshes;               // of that text; empty: in files
+  std::filesystem::path record;     // folder for a scene of each pose at rest; empty: none
+  int port = 0;                     // 0: any free one
+  int threads = 0;                  // 0: one per core
+  bool framed = false;  // other pages of this machine, such as a notebook, may show the page
 };
 
 // Serves the scene on 127.0.0.1 until `stop` is true, which is polled every 50 ms. `listening` is

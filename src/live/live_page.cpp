@@ -12,7 +12,7 @@
 #include "scene/scene_keys.h"
 #include "scene/view_names.h"
 #include "signal/picture.h"
-#include "view/scene_view.h"
+#include "truth/aha_segments.h"
 #include "view/view_json.h"
 
 namespace echocine::live {
@@ -131,16 +131,17 @@ Json sectorJson(const Scene& scene) {
             {"mm_per_px", millimetresFromMetres(g.metres_per_pixel)}}}};
 }
 
-std::string pageOf(const Simulator& simulator, const LiveScene& live) {
+std::string pageOf(const Simulator& simulator, const SceneView& view, const LiveScene& live,
+                   const HeartDials* dials) {
   const Scene& scene = simulator.scene();
-  const SceneView view = viewScene(simulator);
   const CardiacClock& clock = simulator.cardiacClock();
   const PageLook look{"EchoCine live: " + titleOf(live.file()),
                       {pageAsset("page.css"), pageAsset("heart_view.css"), pageAsset("live.css")},
                       pageAsset("live.html"),
                       {pageAsset("three.min.js"), pageAsset("page.js"), pageAsset("heart_view.js"),
                        pageAsset("live_heart.js"), pageAsset("live_probe.js"),
-                       pageAsset("live_dials.js"), pageAsset("live.js")}};
+                       pageAsset("live_dials.js"), pageAsset("live_over.js"),
+                       pageAsset("live_model.js"), pageAsset("live_out.js"), pageAsset("live.js")}};
   return servedPage(look, {{"version", ECHOCINE_VERSION},
                            {"title", titleOf(live.file())},
                            {"file", live.file().filename().string()},
@@ -151,6 +152,8 @@ std::string pageOf(const Simulator& simulator, const LiveScene& live) {
                            {"frames", clock.frameCount()},
                            {"frame_rate_hz", scene.acquisition.frame_rate_hz},
                            {"ecg", ecgJson(clock, scene.acquisition.frame_rate_hz)},
+                           {"heart", dials ? dials->json() : Json()},
+                           {"segment_names", kAhaNames},
                            {"view", viewJson(view, scene)}});
 }
 

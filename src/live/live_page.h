@@ -5,12 +5,16 @@
 #include <string>
 
 #include "frame/simulator.h"
+#include "live/heart_dials.h"
 #include "live/live_scene.h"
+#include "view/scene_view.h"
 
 namespace echocine::live {
 
-// HTML. The simulator is that of the session's first pose.
-std::string pageOf(const Simulator& simulator, const LiveScene& scene);
+// HTML. Simulator and view are those of the session's first pose; `dials`: of a parametric heart,
+// null: none.
+std::string pageOf(const Simulator& simulator, const SceneView& view, const LiveScene& scene,
+                   const HeartDials* dials);
 
 // Full key -> value, in the units of scene files, of all keys that can be changed live and have an
 // effect in this scene; null without a value. Lists such as the pose are left out.

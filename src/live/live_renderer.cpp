@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <ctime>
 #include <utility>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "frame/frame_stages.h"
 #include "frame/making.h"
 #include "frame/plan_loop.h"
@@ -15,7 +18,6 @@
 #include "motion/mesh/world_place.h"
 #include "motion/surfaces/mesh_motion.h"
 #include "signal/signal_chain.h"
-#include "truth/contour.h"
 
 namespace echocine::live {
 
@@ -38,6 +40,13 @@ class Watch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+// CPU time of the program, also of a library's own threads: other programs do not add to it.
+double processorTime_ms() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
 
 FrameTime instant(const CardiacClock& clock, int frame) {
   if (frame < 0 || frame >= clock.frameCount())
@@ -202,11 +211,27 @@ LivePicture LiveRenderer::moving(const Scene& scene, const std::string& settings
   return picture;
 }
 
-std::vector<Contour> LiveRenderer::contours(const Scene& scene, const std::string& name,
-                                            int frame) {
-  const Simulator& simulator = prepared(scene, name);
-  const FrameTime time = instant(simulator.cardiacClock(), frame);
-  return contoursAt(simulator.motion(), simulator.scene().probe, time.phase);
+double LiveRenderer::cost_ms(const Scene& scene, int frame) const {
+  const Simulator simulator(pictureOnly(scene),
+                            std::make_shared<const MeshMotion>(keyframes_, scene));
+  const int frames = simulator.cardiacClock().frameCount();
+  instant(simulator.cardiacClock(), frame);  // is it in the loop?
+  const double white = scene.signal.reference_intensity.value_or(white_.value_or(1));
+  const std::shared_ptr<Workspace> workspace = simulator.workspace();
+  double least_ms = INFINITY;
+  inThisThread([&] {
+    // The first one fills caches. A frame that a workspace holds already is not traced again, so
+    // the next ones follow.
+    for (int i = 0; i < 4; ++i) {
+      const FrameTime time = instant(simulator.cardiacClock(), (frame + i) % frames);
+      const double before_ms = processorTime_ms();
+      simulator.trace(time, *workspace);
+      simulator.picture(white, time, *workspace, true);
+      if (i > 0 || frames == 1) least_ms = std::min(least_ms, processorTime_ms() - before_ms);
+      if (frames == 1) break;
+    }
+  });
+  return least_ms;
 }
 
 }  // namespace echocine::live

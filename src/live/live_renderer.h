@@ -9,10 +9,10 @@
 #include "frame/simulator.h"
 #include "motion/surfaces/keyframe_set.h"
 #include "motion/surfaces/surface_frame.h"
+#include "motion/surfaces/volumes.h"
 #include "output/overlay.h"
 #include "plan/loop_plan.h"
 #include "scene/scene.h"
-#include "truth/truth_values.h"
 
 namespace echocine::live {
 
@@ -47,9 +47,12 @@ class LiveRenderer {
   // is that of the scene, or else of the last still picture.
   LivePicture moving(const Scene& scene, const std::string& settings, int frame);
 
-  // Contours of the meshes in the imaging plane, from the motion of the last still picture's scene,
-  // which this prepares if necessary.
-  std::vector<Contour> contours(const Scene& scene, const std::string& name, int frame);
+  // CPU time of a frame, without its preparation: the least of the three frames after
+  // `frame`.
+  double cost_ms(const Scene& scene, int frame) const;
+
+  // The motion in the frame of the session's first pose.
+  const MeshMotion& motion() const { return *motion_; }
 
   // The plan and the simulator of the last still picture, prepared if necessary.
   const Simulator& prepared(const Scene& scene, const std::string& name);

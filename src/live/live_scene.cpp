@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/file.h"
 #include "core/nearest_word.h"
 #include "motion/surfaces/probe_placement.h"
 #include "scene/probe_pose.h"
-#include "scene/scene_reader.h"
 #include "scene/toml_edit.h"
 #include "scene/toml_flat.h"
 
@@ -86,7 +86,10 @@ bool isLiveKey(const SceneKey& key) {
 }
 
 LiveScene::LiveScene(const std::filesystem::path& file)
-    : file_(file), given_(readTextFile(file, kMostTextBytes)), text_(given_) {
+    : LiveScene(file, readTextFile(file, kMostTextBytes), {}) {}
+
+LiveScene::LiveScene(std::filesystem::path file, std::string text, NamedMeshes meshes)
+    : file_(std::move(file)), given_(std::move(text)), text_(given_), meshes_(std::move(meshes)) {
   const Scene scene = read(text_);
   if (!scene.view) return;
   std::vector<TomlEdit> edits;
@@ -94,6 +97,9 @@ LiveScene::LiveScene(const std::filesystem::path& file)
   addPose(poseToml(placed(scene)), edits);
   text_ = withEdits(text_, edits, file_.string());
 }
+
+LiveScene::LiveScene(const LiveScene& of, std::string text, NamedMeshes meshes)
+    : file_(of.file_), given_(of.given_), text_(std::move(text)), meshes_(std::move(meshes)) {}
 
 std::string LiveScene::textWith(const Json& keys) const {
   if (!keys.is_object()) throw SceneError("keys: accepted: an object of key and value");
@@ -107,7 +113,7 @@ std::string LiveScene::textWith(const Json& keys) const {
 }
 
 Scene LiveScene::read(const std::string& text) const {
-  return parseScene(text, file_);
+  return meshes_.empty() ? parseScene(text, file_) : parseScene(text, file_, meshes_);
 }
 
 std::vector<LiveScene::Change> LiveScene::changes(const std::string& text) const {

@@ -8,6 +8,7 @@
 
 #include "scene/scene.h"
 #include "scene/scene_keys.h"
+#include "scene/scene_reader.h"
 
 namespace echocine::live {
 
@@ -19,9 +20,15 @@ class LiveScene {
   // Reads the file. A probe placed by probe.view gets its pose as apex, axis and lateral, so that
   // it can be moved. Throws SceneError like readScene() and placed().
   explicit LiveScene(const std::filesystem::path& file);
+  // A text in memory. `file` is its name in messages and the base of its paths; `meshes` are its
+  // meshes, empty: in files.
+  LiveScene(std::filesystem::path file, std::string text, NamedMeshes meshes);
+  // Another text in place of that of `of`, with its meshes in memory.
+  LiveScene(const LiveScene& of, std::string text, NamedMeshes meshes);
 
   const std::filesystem::path& file() const { return file_; }
   const std::string& text() const { return text_; }  // with the pose as keys
+  bool isInMemory() const { return !meshes_.empty(); }
 
   // The text with keys changed: a JSON object of full key -> value in the key's unit; null removes
   // the key, so that its default applies. Accepted are the keys of probe, acquisition, effects,
@@ -41,6 +48,7 @@ class LiveScene {
  private:
   std::filesystem::path file_;
   std::string given_, text_;  // of the file, and with the pose as keys
+  NamedMeshes meshes_;        // empty: in files
 };
 
 }  // namespace echocine::live

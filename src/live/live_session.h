@@ -7,11 +7,11 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "live/access.h"
 #include "live/job_queue.h"
-#include "live/live_renderer.h"
-#include "live/live_scene.h"
+#include "live/live_subject.h"
 
 namespace echocine::live {
 
@@ -20,6 +20,7 @@ class LiveSession {
   // Reads scene and meshes and makes the page. Runs inside withThreads(). Throws SceneError and
   // JobError.
   LiveSession(const std::filesystem::path& scene_file, std::filesystem::path record_folder);
+  LiveSession(LiveScene scene, std::filesystem::path record_folder);
   ~LiveSession();
 
   // Warnings about the scene, a line each.
@@ -27,31 +28,47 @@ class LiveSession {
 
   // Decides on a request that has passed refusalOf(): a response at once (the page, and refusals
   // of what is no valid request: 400, 404), or a job. Jobs answer 422 with one line for a key or a
-  // value that the scene refuses. Jobs refer to the session and run one at a time.
+  // value that the scene refuses, and 410 for a heart that is not kept any more. Jobs refer to the
+  // session. Those of a lane run one at a time, those of both lanes beside each other.
   std::variant<HttpResponse, LiveJob> answer(const HttpRequest& request);
 
  private:
   using Json = nlohmann::ordered_json;
-  struct Routes;
+  // The heart of a request, its text with the request's keys, and both as a scene.
+  struct Asked {
+    std::shared_ptr<Subject> subject;
+    std::string text;
+    Scene scene;
+  };
+  std::shared_ptr<Subject> subjectOf(const Json& body);
+  Asked asked(const Json& body);
+
   HttpResponse picture(const Json& body);
   HttpResponse png(const Json& body);
+  HttpResponse loop(const Json& body);
   HttpResponse sceneText(const Json& body);
   HttpResponse save(const Json& body);
   HttpResponse view(const Json& body);
   HttpResponse truth(const Json& body);
   HttpResponse effects(const Json& body);
-  void record(const std::string& text);
-  const Scene& withPose(const Json& keys);
+  HttpResponse cost(const Json& body);
+  HttpResponse heart(const Json& body);
 
-  LiveScene scene_;
-  std::unique_ptr<LiveRenderer> renderer_;
+  // The text as a file in `folder`, to which it refers to its meshes. The meshes of another heart
+  // are written into `heart_folder` of it, unless they are there.
+  std::string textFor(const Subject& subject, const std::string& text,
+                      const std::filesystem::path& folder, const std::string& heart_folder) const;
+  void record(const Asked& asked);
+
+  std::shared_ptr<Subject> own_;
+  std::optional<HeartDials> dials_;  // of a parametric heart
+  SceneView own_view_;
+  Subjects others_;
   std::vector<std::string> warnings_;
   std::string page_;
   std::filesystem::path record_folder_;  // empty: no record
   std::string recorded_;                 // the last recorded text
-  std::string settings_;                 // keys but the pose, of the last moving picture
-  std::optional<Scene> scene_of_settings_;
-  int records_ = 0;
+  int records_ = 0;                      // numbers of poses that are taken
 };
 
 }  // namespace echocine::live

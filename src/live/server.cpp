@@ -57,9 +57,9 @@ struct Server::Parts {
   }
 
   void accept();
-  void handle(Connection& connection, const Handler& handler, JobQueue& queue);
+  void handle(Connection& connection, const Handler& handler, JobQueues& queues);
   void deliver();
-  void step(const Handler& handler, JobQueue& queue);
+  void step(const Handler& handler, JobQueues& queues);
   void dropOverdue();
   std::vector<pollfd> wishes() const;
 
@@ -82,7 +82,7 @@ void Server::Parts::accept() {
 }
 
 // Requests of one connection are answered one after the other.
-void Server::Parts::handle(Connection& connection, const Handler& handler, JobQueue& queue) {
+void Server::Parts::handle(Connection& connection, const Handler& handler, JobQueues& queues) {
   while (!connection.waits && !connection.closes && !connection.in.empty()) {
     auto parsed = parseRequest(connection.in);
     if (std::holds_alternative<MoreNeeded>(parsed)) return;
@@ -98,10 +98,10 @@ void Server::Parts::handle(Connection& connection, const Handler& handler, JobQu
     }
     connection.waits = true;
     connection.closes = !keep_alive;
-    queue.push(std::move(std::get<LiveJob>(reply)),
-               [box = mailbox, id = connection.id](HttpResponse response) {
-                 box->put(id, std::move(response));
-               });
+    queues.push(std::move(std::get<LiveJob>(reply)),
+                [box = mailbox, id = connection.id](HttpResponse response) {
+                  box->put(id, std::move(response));
+                });
   }
 }
 
@@ -136,7 +136,7 @@ void Server::Parts::dropOverdue() {
   std::erase_if(connections, [](const Connection& connection) { return connection.lost; });
 }
 
-void Server::Parts::step(const Handler& handler, JobQueue& queue) {
+void Server::Parts::step(const Handler& handler, JobQueues& queues) {
   std::vector<pollfd> polled = wishes();
   const int ready = ::poll(polled.data(), polled.size(), kPoll_ms);
   if (ready < 0 && errno != EINTR) fail("poll", errno);
@@ -151,7 +151,7 @@ void Server::Parts::step(const Handler& handler, JobQueue& queue) {
   }
   for (Connection& connection : connections) {
     if (connection.lost) continue;
-    handle(connection, handler, queue);
+    handle(connection, handler, queues);
     if (!connection.out.empty()) transmit(connection);
   }
   if (polled[1].revents & POLLIN) accept();
@@ -165,8 +165,8 @@ int Server::port() const {
   return parts_->port;
 }
 
-void Server::run(const Handler& handler, JobQueue& queue, const std::function<bool()>& stop) {
-  while (!stop()) parts_->step(handler, queue);
+void Server::run(const Handler& handler, JobQueues& queues, const std::function<bool()>& stop) {
+  while (!stop()) parts_->step(handler, queues);
 }
 
 }  // namespace echocine::live

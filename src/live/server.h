@@ -32,7 +32,7 @@ class Server {
 
   // Serves until `stop` is true; it is polled every 50 ms. Refused and broken requests close their
   // connection only. A connection beyond the bound is closed at once.
-  void run(const Handler& handler, JobQueue& queue, const std::function<bool()>& stop);
+  void run(const Handler& handler, JobQueues& queues, const std::function<bool()>& stop);
 
  private:
   struct Parts;

@@ -9,17 +9,21 @@
     start: probePose.squared(data.sector.pose), reference: null, reference_name: "the start",
     keys: {}, values: data.values, version: 0, changed_ms: -1e9, held: false,
     frames: data.frames, frame: 0, playing: true, started_ms: performance.now(), started_at: 0,
-    shown: null, kept: new Map(), busy: false, tool: "tilt", mm: [], m_line: null, contours: false, last_key: "",
+    shown: null, kept: new Map(), busy: false, tool: "tilt", mm: [], trace: [], m_line: null, cursor: null, last_key: "",
+    wish: { dials: {}, segments: {} }, standard: null, sector: data.sector,
   };
-  state.pose = state.reference = state.start;
+  state.own_start = state.pose = state.reference = state.start;
   page.parts.live = state;
   const { unit_mm } = data.view;
   // At the start the pose is that of the file, to the last digit.
-  const allKeys = () => ({ ...state.keys, ...(state.pose === state.start ? {} : probePose.keys(state.pose, unit_mm)) });
+  const allKeys = () => ({ ...state.keys, ...(state.pose === state.own_start ? {} : probePose.keys(state.pose, unit_mm)) });
+  const body = (more = {}) => ({ keys: allKeys(), ...state.wish, ...more });
 
   // Answers: { ok, status, response }. Refusals are lines of text.
   async function ask(path, body) {
-    return fetch(path, { method: "POST", headers: { "Content-Type": "application/json", "Echocine-Token": token }, body: JSON.stringify(body) });
+    const response = await fetch(path, { method: "POST", headers: { "Content-Type": "application/json", "Echocine-Token": token }, body: JSON.stringify(body) });
+    if (response.status === 410) model.again();
+    return response;
   }
 
   function refuse(line) {
@@ -56,11 +60,19 @@
     heart.showPhase(made.phase);
     heart.follow(picture);
     drawEcg();
-    drawOver();
+    overlay.draw();
     scrubber.value = made.frame;
     const chambers = Object.entries(made.volumes_ml).filter(([name]) => /cavity|^la$|^ra$/.test(name));
     readout.textContent = `frame ${made.frame} · ${fixed(made.time_s, 3)} s · phase ${fixed(made.phase, 3)}`
-      + chambers.map(([name, ml]) => ` · ${name} ${fixed(ml, 0)} mL`).join("");
+      + chambers.map(([name, ml]) => ` · ${name} ${fixed(ml, 0)} mL`).join("") + ejection();
+  }
+
+  // Exact volumes of the left ventricle over the loop, once all frames are there.
+  function ejection() {
+    const volumes = [...state.kept.values()].map((made) => made.volumes_ml.lv_cavity).filter((ml) => ml > 0);
+    if (volumes.length < state.frames) return "";
+    const most = Math.max(...volumes), least = Math.min(...volumes);
+    return ` · exact EF ${fixed(100 * (1 - least / most), 1)} % (${fixed(most, 1)} to ${fixed(least, 1)} mL)`;
   }
 
   // The frame that the clock wants.
@@ -92,8 +104,8 @@
     const version = state.version;
     state.busy = true;
     try {
-      const response = await ask("/picture", { keys: allKeys(), frame, effort });
-      if (response.status === 204) return;
+      const response = await ask("/picture", body({ frame, effort }));
+      if (response.status === 204 || response.status === 410) return;
       if (!response.ok) {
         if (version === state.version) state.refused = version;
         refuse(await response.text());
@@ -106,7 +118,7 @@
       if (version === state.version) {
         refuse("");
         if (effort === "still") state.kept.set(frame, made);
-        if (state.m_line) drawM();
+        if (state.m_line) overlay.drawM();
       }
       if (!ahead && (version === state.version || state.held)) show(made);
     } catch (error) {
@@ -121,7 +133,7 @@
     ++state.version;
     state.changed_ms = performance.now();
     state.kept.clear();
-    state.contour_of = null;
+    overlay.forget();
     showPose();
     refreshScene();
   }
@@ -167,7 +179,7 @@
   async function goTo(key) {
     let pose = state.start;
     if (key) {
-      const response = await ask("/view", { view: key });
+      const response = await ask("/view", { ...state.wish, view: key });
       if (!response.ok) { state.last_key = ""; refuse(await response.text()); return; }
       pose = probePose.fromKeys((await response.json()).keys, unit_mm);
     }
@@ -183,13 +195,13 @@
     const hold = (on) => { state.held = on; state.changed_ms = performance.now(); };
     picture.addEventListener("pointerdown", (event) => {
       if (event.button) return;
-      if (state.tool === "measure") return measure(event);
-      if (state.tool === "line") return chooseLine(event);
+      if (kPointTools.includes(state.tool)) return overlay.put(placeOf(event));
       last = event;
       hold(true);
       picture.setPointerCapture(event.pointerId);
     });
     picture.addEventListener("pointermove", (event) => {
+      if (state.tool === "line" && state.m_line) overlay.chooseLine(placeOf(event));
       if (!last) return;
       const scale = picture.width / picture.clientWidth, dx = (event.clientX - last.clientX) * scale, dy = (event.clientY - last.clientY) * scale;
       last = event;
@@ -206,6 +218,7 @@
   function key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.("input, select, textarea")) return;
     if (event.key === " " && event.target.closest?.("button, summary")) return;
+    if (kPointTools.includes(state.tool) && (event.target === picture || event.key !== "Enter") && keyOfCross(event)) { event.preventDefault(); return; }
     const step = event.shiftKey ? 0.25 : 1;
     const actions = { ArrowLeft: () => move.rock(-2 * step), ArrowRight: () => move.rock(2 * step), ArrowUp: () => move.tilt(2 * step),
       ArrowDown: () => move.tilt(-2 * step), q: () => move.rotate(-3 * step), e: () => move.rotate(3 * step), a: () => move.slide(-2 * step, 0),
@@ -258,113 +271,42 @@
     context.stroke();
   }
 
-  // ---- Truth, callipers, M-mode
-
-  function drawOver() {
-    const context = over.getContext("2d");
-    context.clearRect(0, 0, over.width, over.height);
-    const { origin_px: [ox, oy], mm_per_px } = state.sector.picture, at = ([x, z]) => [ox + x / mm_per_px, oy + z / mm_per_px];
-    context.lineWidth = 1.5;
-    if (state.contours && state.shown?.effort === "still") {
-      const name = `${state.version} ${state.shown.frame}`;
-      if (state.contour_of?.name === name) {
-        context.save();
-        context.beginPath();
-        state.sector.sector_mm.forEach((p) => context.lineTo(...at(p)));
-        context.clip();
-        for (const { structure, points_mm } of state.contour_of.contours) {
-          context.strokeStyle = HeartView.colourOf(structure);
-          context.beginPath();
-          points_mm.forEach((p) => context.lineTo(...at(p)));
-          context.stroke();
-        }
-        context.restore();
-      } else if (!state.playing || state.kept.size >= state.frames) fetchContours(name, state.shown.frame);
-    }
-    context.strokeStyle = context.fillStyle = "#e5b25d";
-    context.font = "16px system-ui, sans-serif";
-    for (let i = 0; i + 1 < state.mm.length; i += 2) {
-      const [a, b] = [state.mm[i], state.mm[i + 1]];
-      context.beginPath();
-      context.moveTo(...a);
-      context.lineTo(...b);
-      context.stroke();
-      context.fillText(`${fixed(mm_per_px * Math.hypot(a[0] - b[0], a[1] - b[1]), 1)} mm`, b[0] + 8, b[1] - 8);
-    }
-    for (const [x, y] of state.mm) context.fillRect(x - 3, y - 3, 6, 6);
-    if (!state.m_line) return;
-    context.setLineDash([6, 6]);
-    context.beginPath();
-    for (const [x, y] of state.m_line) context.lineTo(x, y);
-    context.stroke();
-    context.setLineDash([]);
-  }
-
-  async function fetchContours(name, frame) {
-    if (state.contours_busy) return;
-    state.contours_busy = true;
-    try {
-      const response = await ask("/truth", { keys: allKeys(), frame });
-      if (response.ok) state.contour_of = { name, ...(await response.json()) };
-    } finally {
-      state.contours_busy = false;
-    }
-    drawOver();
-  }
+  // ---- Tools
 
   function placeOf(event) {
     const { left, top, width, height } = picture.getBoundingClientRect();
     return [(event.clientX - left) / width * picture.width, (event.clientY - top) / height * picture.height];
   }
 
-  function measure(event) {
-    if (state.mm.length >= 8) state.mm = [];
-    state.mm.push(placeOf(event));
-    drawOver();
-  }
+  const kPointTools = ["measure", "trace", "line"];  // their keys move a cross
 
-  // From the apex through the point to the end of the depth; for parallel lines, straight down.
-  function chooseLine(event) {
-    const [x, y] = placeOf(event), { origin_px: [ox, oy], mm_per_px } = state.sector.picture, length = state.sector.depth_mm / mm_per_px;
-    const r = Math.hypot(x - ox, y - oy), parallel = state.values["probe.width_mm"] != null && !state.values["probe.sector_deg"];
-    const d = parallel ? [0, 1] : [(x - ox) / r, (y - oy) / r], from = parallel ? [x, oy] : [ox, oy];
-    state.m_line = [from, [from[0] + length * d[0], from[1] + length * d[1]]];
-    drawOver();
-    drawM();
-  }
-
-  // A column for each frame that is known at this pose.
-  function drawM() {
-    const figure = byId("m-mode"), canvas = figure.querySelector("canvas"), [a, b] = state.m_line, rows = 300;
-    figure.hidden = false;
-    Object.assign(canvas, { width: state.frames, height: rows });
-    const context = canvas.getContext("2d"), image = context.createImageData(state.frames, rows);
-    for (const [frame, { greys, width, height }] of state.kept)
-      for (let row = 0; row < rows; ++row) {
-        const s = row / (rows - 1), x = Math.round(a[0] + s * (b[0] - a[0])), y = Math.round(a[1] + s * (b[1] - a[1]));
-        const grey = x >= 0 && y >= 0 && x < width && y < height ? greys[y * width + x] : 0, i = 4 * (row * state.frames + frame);
-        image.data.set([grey, grey, grey, 255], i);
-      }
-    context.putImageData(image, 0, 0);
-    figure.querySelector("figcaption").textContent =
-      `M-mode of the dashed line: ${state.kept.size} of ${state.frames} frames, ${fixed(state.sector.depth_mm, 0)} mm deep.`;
+  function keyOfCross(event) {
+    const step = event.shiftKey ? 2 : 12, by = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[event.key];
+    const [x, y] = state.cursor ?? [picture.width / 2, picture.height / 2];
+    if (by) state.cursor = [Math.max(0, Math.min(picture.width, x + by[0])), Math.max(0, Math.min(picture.height, y + by[1]))];
+    else if (event.key === "Enter") overlay.put([x, y]);
+    else return false;
+    if (by && state.tool === "line") overlay.chooseLine(state.cursor);
+    overlay.draw();
+    return true;
   }
 
   function makeTools() {
-    const tools = [["tilt", "Tilt and rock"], ["rotate", "Rotate"], ["slide", "Slide and press"], ["measure", "Measure"], ["line", "M-mode"]];
+    const tools = [["tilt", "Tilt and rock"], ["rotate", "Rotate"], ["slide", "Slide and press"], ["measure", "Measure mm"], ["trace", "Trace mL"], ["line", "M-mode"]];
+    const hints = { measure: "Click two points.", trace: "Click along the border of a cavity, from one side of the valve to the other.", line: "The line follows the pointer." };
     const buttons = tools.map(([name, label]) => element("button", { type: "button", "aria-pressed": String(name === state.tool), click: () => {
-      state.tool = name;
+      Object.assign(state, { tool: name, cursor: null });
       buttons.forEach((b, i) => b.setAttribute("aria-pressed", String(tools[i][0] === name)));
+      byId("hint").textContent = hints[name] ? `${hints[name]} By keys: arrows move a cross, Enter sets a point.` : "";
+      overlay.draw();
     } }, label));
-    const box = element("input", { type: "checkbox", id: "contours", change: () => { state.contours = box.checked; drawOver(); } });
-    byId("tools").append(...buttons, element("button", { type: "button", click: () => {
-      Object.assign(state, { mm: [], m_line: null });
-      byId("m-mode").hidden = true;
-      drawOver();
-    } }, "Clear"), element("label", { for: "contours" }, box, " true contours"));
+    byId("tools").append(...buttons, element("button", { type: "button", click: () => overlay.clear() }, "Clear"));
+    overlay.makeControls(byId("truth"));
     byId("player").append(play, element("button", { type: "button", "aria-label": "Previous frame", click: () => stepTo(state.frame - 1) }, "◂"),
       element("button", { type: "button", "aria-label": "Next frame", click: () => stepTo(state.frame + 1) }, "▸"), scrubber);
     ecg.addEventListener("click", (event) => stepTo(Math.floor(event.offsetX / ecg.clientWidth * state.frames)));
+    for (const scrolled of [ecg, scrubber])  // cine scroll
+      scrolled.addEventListener("wheel", (event) => { event.preventDefault(); stepTo(state.frame + (event.deltaY > 0 ? 1 : -1)); }, { passive: false });
   }
 
   // ---- Settings and saving
@@ -381,13 +323,17 @@
   function refreshScene() {
     clearTimeout(state.refresh);
     state.refresh = setTimeout(async () => {
-      const version = state.version, response = await ask("/scene", { keys: allKeys() });
+      const version = state.version, response = await ask("/scene", body());
+      if (response.status === 410) return;
       if (!response.ok) { refuse(await response.text()); return; }
       const scene = await response.json();
       if (version !== state.version) return;
       showScene(scene);
     }, 120);
   }
+
+  // 5.3864000000000001 -> 5.3864
+  const shortNumbers = (text) => text.replace(/-?\d+\.\d{6,}/g, (digits) => String(Number(Number(digits).toFixed(5))));
 
   function showScene(scene) {
     state.values = scene.values;
@@ -401,29 +347,8 @@
     byId("changes").replaceChildren();
     if (scene.changes.length)
       page.table(byId("changes"), { caption: "Changes of the scene file", columns: [{ label: "key" }, { label: "from" }, { label: "to" }],
-        rows: scene.changes.map(({ key, from, to }) => [key, from || "–", to || "–"]) });
-    if (byId("effects").open) showEffects();
-  }
-
-  async function showEffects() {
-    const response = await ask("/effects", { keys: allKeys() });
-    if (!response.ok) return;
-    const { effects, stage_ms } = await response.json(), box = byId("effects").querySelector("div");
-    const of = (name) => (data.keys.some((k) => k.key === `effects.${name}`) ? `effects.${name}` : `artefacts.${name}`);
-    const control = (name) => {
-      const key = data.keys.find((k) => k.key === of(name));
-      if (!key) return "–";
-      const current = state.values[key.key];
-      if (key.kind === "flag") return element("input", { type: "checkbox", "aria-label": name, checked: current === true, change: (e) => setKey(key.key, e.target.checked) });
-      if (key.kind !== "word") return "–";
-      return element("select", { "aria-label": name, change: (e) => setKey(key.key, e.target.value) },
-        ...key.words.map((w) => element("option", { value: w, selected: w === current }, w)));
-    };
-    box.replaceChildren();
-    page.table(box, { columns: [{ label: "effect" }, { label: "now" }, { label: "switch" }, { label: "reason" }],
-      rows: effects.map(({ name, on, reason }) => [name, on ? "on" : "off", control(name), reason]) });
-    page.table(box, { caption: "Time of a complete frame by stage, on one thread", columns: [{ label: "stage" }, { label: "ms", number: true }],
-      rows: Object.entries(stage_ms).filter(([, ms]) => ms > 0).map(([stage, ms]) => [stage, fixed(ms, 2)]) });
+        rows: scene.changes.map(({ key, from, to }) => [key, shortNumbers(from) || "–", shortNumbers(to) || "–"]) });
+    if (byId("effects").open) out.showEffects();
   }
 
   // Eight sliders over the depth, as scanners have them.
@@ -441,40 +366,25 @@
     }
   }
 
-  function download(blob, name) {
-    const link = element("a", { href: URL.createObjectURL(blob), download: name });
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-  }
+  // ---- Another heart
 
-  function makeOut() {
-    const say = (words) => { byId("saved").textContent = words; };
-    const name = element("input", { type: "text", id: "save-name", value: data.file.replace(/\.toml$/, "_live.toml") });
-    const replace = element("input", { type: "checkbox", id: "replace" });
-    byId("out").append(element("label", { for: "save-name" }, "file beside the scene"), name,
-      element("label", { for: "replace" }, replace, " replace"),
-      element("button", { type: "button", click: async () => {
-        const response = await ask("/save", { keys: allKeys(), name: name.value, replace: replace.checked });
-        say(response.ok ? `Saved: ${(await response.json()).saved}. Render it: echocine render ${name.value} -o loop` : await response.text());
-      } }, "Save scene"),
-      element("button", { type: "button", click: async () => {
-        const response = await ask("/png", { keys: allKeys(), frame: state.frame });
-        if (response.ok) download(await response.blob(), `frame_${state.frame}.png`);
-        else say(await response.text());
-      } }, "Save PNG"),
-      element("button", { type: "button", click: async () => {
-        const response = await ask("/scene", { keys: allKeys() });
-        if (!response.ok) return say(await response.text());
-        const { pose } = await response.json();
-        byId("pose-keys").textContent = pose;
-        await navigator.clipboard.writeText(pose).then(() => say("The pose is copied."), () => say("The pose is listed below."));
-      } }, "Copy pose"));
+  // The probe keeps its place relative to the standard view of the heart.
+  function setHeart(wish, { structures, standard, own_standard }) {
+    const from = probePose.fromKeys(state.standard ?? own_standard, unit_mm), to = probePose.fromKeys(standard, unit_mm);
+    const carried = (pose) => probePose.moved(to, probePose.offsets(pose, from));
+    const own = !Object.keys(wish.dials).length && !Object.keys(wish.segments).length, at_start = state.pose === state.start;
+    const start = own ? state.own_start : carried(state.start);
+    const pose = at_start ? start : carried(state.pose), reference = state.reference === state.start ? start : carried(state.reference);
+    Object.assign(state, { wish, standard, start, reference, pose });
+    heart.setStructures(structures);
+    heart.setGhost(reference);
+    setPose(pose);
   }
 
   byId("title").textContent = data.title;
   byId("subtitle").textContent = `${data.view.structures.length} structures. Drag in the echo or in 3-D, or use the keys.`;
   byId("foot").textContent = `EchoCine ${data.version}. The picture at rest is the one that echocine render writes.`;
-  state.sector = data.sector;
+  const live = { state, ask, body, setKey, setHeart }, overlay = new LiveOver(live), model = new LiveModel(live), out = new LiveOut(live);
   const heart = new LiveHeart(byId("space"), data.view, {
     start: () => { state.held = true; state.grabbed = state.pose; },
     slide: (x, y) => setPose(probePose.shifted(state.grabbed, { x, y })),
@@ -483,11 +393,9 @@
   for (const name of LiveDials.kFirst) dials.add(byId("dials"), name);
   const more = byId("all-keys").querySelector("div");
   for (const { key: name } of data.keys) if (!LiveDials.kFirst.includes(name)) dials.add(more, name);
-  byId("effects").addEventListener("toggle", () => { if (byId("effects").open) showEffects(); });
   makePose();
   makeTools();
   makeGain();
-  makeOut();
   showPlaying();
   listen();
   heart.setPose(state.pose);

@@ -58,6 +58,34 @@ class LiveHeart extends HeartView {
     this.render();
   }
 
+  setOpacity(opacity) {
+    this.opacity = opacity;
+    super.setOpacity(opacity);
+  }
+
+  // Other meshes of the same structures.
+  setStructures(structures) {
+    this.view.structures = structures;
+    this.surfaces = this.surfaces.map((old, i) => {
+      const surface = new HeartSurface(structures[i], old.colour, this.view.phases);
+      surface.tick = old.tick;
+      surface.tick.closest("li").querySelectorAll(".what")[1].textContent = `${HeartView.extent(structures[i])} mm`;
+      if (!this.gl) return surface;
+      for (const object of [...old.halves, old.line]) {
+        this.scene.remove(object);
+        object.material.dispose();
+      }
+      old.geometry.dispose();
+      old.contour.dispose();
+      surface.addTo(this.scene, this.halves);
+      surface.show(surface.tick.checked, this.cut_open);
+      return surface;
+    });
+    if (!this.gl) return;
+    this.setOpacity(this.opacity);
+    this.render();
+  }
+
   // The outline of a standard view, dashed by its faintness alone; null: none.
   setGhost(pose) {
     if (!this.gl) return;

@@ -23,5 +23,6 @@ void bindFit(py::module_& module);
 void bindHeartFit(py::module_& module);
 void bindDataset(py::module_& module);
 void bindFiles(py::module_& module);
+void bindLive(py::module_& module);
 
 }  // namespace echocine::python

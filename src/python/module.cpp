@@ -25,4 +25,5 @@ PYBIND11_MODULE(_echocine, module) {
   bindHeartFit(module);
   bindDataset(module);
   bindFiles(module);
+  bindLive(module);
 }

@@ -58,16 +58,15 @@ void noteSeen(const PlaneSlice& slice, const Probe& probe, SceneView& view) {
   }
 }
 
-void tellSight(const Simulator& simulator, SceneView& view) {
+void tellSight(const Scene& scene, const MeshMotion& motion, SceneView& view) {
   const std::size_t seen =
       static_cast<std::size_t>(std::count_if(view.structures.begin(), view.structures.end(),
                                              [](const ViewStructure& s) { return s.seen; }));
   view.sees_any = seen > 0;
-  view.sight =
-      view.sees_any
-          ? fmt::format("The sector shows {} of {} structures.", seen, view.structures.size())
-          : fmt::format("The sector shows no structure: {}.",
-                        describePlacement(simulator.scene(), meshesBox(simulator.motion())));
+  view.sight = view.sees_any ? fmt::format("The sector shows {} of {} structures.", seen,
+                                           view.structures.size())
+                             : fmt::format("The sector shows no structure: {}.",
+                                           describePlacement(scene, meshesBox(motion)));
 }
 
 }  // namespace
@@ -90,17 +89,28 @@ std::vector<Vec3d> scanAreaOutline(const Probe& probe) {
 }
 
 SceneView viewScene(const Simulator& simulator, const ViewBudget& budget) {
-  const std::vector<SurfaceTopology>& surfaces = simulator.motion().surfaces();
-  const Probe& probe = simulator.scene().probe;
+  return viewScene(simulator.scene(), simulator.motion(), budget);
+}
+
+SceneView viewScene(const Scene& scene, const MeshMotion& motion, const ViewBudget& budget,
+                    const SceneView* like) {
+  const std::vector<SurfaceTopology>& surfaces = motion.surfaces();
+  const Probe& probe = scene.probe;
   SceneView view;
   view.phases = budget.phases;
   view.sector_m = scanAreaOutline(probe);
   view.structures.resize(surfaces.size());
-  const std::size_t most = mostTriangles(budget, simulator.motion());
+  const std::size_t most = mostTriangles(budget, motion);
+  const auto meshOf = [&](std::size_t s, const std::vector<Vec3f>& positions_m) {
+    const bool known = like != nullptr && s < like->structures.size() &&
+                       like->structures[s].triangles_given == surfaces[s].triangles.size();
+    return known ? like->structures[s].mesh
+                 : coarseMesh(motion.control(surfaces[s].id), positions_m, most);
+  };
   PlaneSlice slice(surfaces, probe);
   SurfaceFrame frame;
   for (int i = 0; i < budget.phases; ++i) {
-    simulator.motion().frameAt(static_cast<double>(i) / budget.phases, frame, false);
+    motion.frameAt(static_cast<double>(i) / budget.phases, frame, false);
     slice.update(frame);
     parallelBlocks(surfaces.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
@@ -108,15 +118,14 @@ SceneView viewScene(const Simulator& simulator, const ViewBudget& budget) {
         if (i > 0 && surfaces[s].still) continue;
         if (i == 0) {
           structure.triangles_given = surfaces[s].triangles.size();
-          structure.mesh =
-              coarseMesh(simulator.motion().control(surfaces[s].id), frame.positions_m[s], most);
+          structure.mesh = meshOf(s, frame.positions_m[s]);
         }
         addPhase(frame.positions_m[s], probe.pose, structure);
       }
     });
     noteSeen(slice, probe, view);
   }
-  tellSight(simulator, view);
+  tellSight(scene, motion, view);
   return view;
 }
 

@@ -7,6 +7,7 @@
 #include "core/box.h"
 #include "frame/simulator.h"
 #include "motion/mesh/decimate.h"
+#include "motion/surfaces/mesh_motion.h"
 
 namespace echocine {
 
@@ -38,6 +39,11 @@ struct SceneView {
 // Decimates each surface once, at phase 0, and moves its vertices. Runs in parallel; the result
 // does not depend on the threads. Throws like Simulator.
 SceneView viewScene(const Simulator& simulator, const ViewBudget& budget = {});
+
+// The same without a simulator. `like`: a view of surfaces with the same faces, whose decimated
+// meshes are taken over; null: none.
+SceneView viewScene(const Scene& scene, const MeshMotion& motion, const ViewBudget& budget,
+                    const SceneView* like = nullptr);
 
 // The scan area: along the face from the first line to the last, and back along the ends of the
 // deepest samples. If lines meet in a point, the face at the smallest depth is an arc.

@@ -2,6 +2,7 @@
 
 import base64
 import http.client
+import json
 import os
 import re
 import signal
@@ -160,20 +161,65 @@ class LivePageTest(unittest.TestCase):
         self.wait_for_rest()
         self.assertEqual(self.js("return document.getElementById('refusal').textContent"), "")
 
-    def test_true_contours_lie_over_the_picture(self):
+    def set(self, name, value):
+        self.js("const e = document.getElementById(arguments[0]); e.value = arguments[1]; e.dispatchEvent(new Event('change'))", name, value)
+
+    def test_a_dial_makes_another_heart_and_a_refused_one_is_reported_there(self):
+        self.freeze()
+        volume = "return page.parts.live.shown.volumes_ml.lv_cavity"
+        self.assertAlmostEqual(self.js(volume), 120, delta=1.5)
+        self.set("heart-edv", 160)
+        self.wait(lambda: "took" in self.js("return document.getElementById('heart-words').textContent"), "no heart comes")
+        self.wait_for_rest()
+        self.assertAlmostEqual(self.js(volume), 160, delta=2)
+        # The probe has moved with the skin: the view is the same, on another heart.
+        self.assertIn("0.0 mm and 0.0°", self.js("return document.getElementById('off').textContent"))
+        self.assertNotEqual(self.js("return page.parts.live.pose.origin_mm"), self.js("return page.parts.live.own_start.origin_mm"))
+        self.set("heart-ef", 0.99)
+        self.wait(lambda: not self.js("return document.getElementById('heart-ef').closest('.dial').querySelector('.bad').hidden"), "nothing is refused")
+        self.assertIn("0.05 to 0.85", self.js("return document.getElementById('heart-ef').closest('.dial').textContent"))
+        # Other pages' hearts take the place of this one: it is made again.
+        host, token = self.link.split("/")[2], self.link.split("=")[1]
+        for ef in (0.3, 0.4, 0.5):
+            connection = http.client.HTTPConnection(host, timeout=browser.PATIENCE_S)
+            connection.request("POST", "/heart", json.dumps({"dials": {"ef": ef}}), {"Content-Type": "application/json", "Echocine-Token": token})
+            self.assertEqual(connection.getresponse().status, 200)
+            connection.close()
+        self.press(browser.Keys.ARROW_LEFT)
+        self.wait_for_rest()
+        self.assertAlmostEqual(self.js(volume), 160, delta=2)
+
+    def test_marks_and_true_contours_lie_over_the_picture(self):
         self.freeze()
         self.assertFalse(self.js("const c = document.getElementById('over'); return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some(x => x)"))
-        self.driver.find_element(browser.By.ID, "contours").click()
+        self.driver.find_element(browser.By.ID, "truth-contours").click()
         self.wait(lambda: self.js("const c = document.getElementById('over'); return c.getContext('2d')"
                                   ".getImageData(0, 0, c.width, c.height).data.some(x => x)"), "no contours come")
+        self.driver.find_element(browser.By.XPATH, "//button[text()='Measure mm']").click()
+        picture = self.driver.find_element(browser.By.ID, "picture")
+        pose = self.js("return page.parts.live.version")
+        picture.send_keys(browser.Keys.ARROW_LEFT, browser.Keys.ENTER, browser.Keys.ARROW_DOWN, browser.Keys.ARROW_DOWN, browser.Keys.ENTER)
+        (x0, y0), (x1, y1) = self.js("return page.parts.live.mm")
+        self.assertEqual((x1 - x0, y1 - y0), (0, 24))
+        self.assertEqual(self.js("return page.parts.live.version"), pose, "the probe has moved")
+        # Simpson's rule of a circle of radius 20 mm with the base at one end of a diameter.
+        made = self.js("const points = Array.from({ length: 720 }, (_, i) => [20 * Math.cos(i / 719.5 * 2 * Math.PI), 20 * Math.sin(i / 719.5 * 2 * Math.PI)]);"
+                       "return LiveOver.discs(points)")
+        self.assertAlmostEqual(made["volume_ml"], 33.510, delta=0.05)
+        self.assertAlmostEqual(made["area_mm2"], 1256.6, delta=0.5)
+        self.assertAlmostEqual(made["length_mm"], 40, delta=0.01)
 
-    def test_says_nothing_to_the_console_and_asks_its_server_only(self):
+    def test_says_nothing_to_the_console_asks_its_server_only_and_names_its_controls(self):
         self.press(browser.Keys.ARROW_LEFT)
         self.wait_for_rest()
         said = [e for e in self.driver.get_log("browser") if "GL Driver Message (OpenGL, Performance" not in e["message"]]
         self.assertEqual(said, [])
         asked = self.js("return performance.getEntriesByType('resource').map(e => new URL(e.name).host)")
         self.assertEqual(set(asked) - {self.link.split("/")[2]}, set())
+        self.assertEqual(self.js("""return Array.from(document.querySelectorAll("button, input, select, canvas:not([aria-hidden])"))
+            .filter((e) => !(e.ariaLabel || e.labels?.length || e.textContent.trim())).map((e) => e.outerHTML)"""), [])
+        self.assertEqual(self.js("""return Array.from(document.querySelectorAll("button, input, select"))
+            .filter((e) => e.tabIndex < 0).map((e) => e.outerHTML)"""), [])
 
     def test_fits_a_phone_and_a_desk(self):
         for width in (1280, 500):
@@ -219,12 +265,6 @@ class LivePageTest(unittest.TestCase):
             one.close()
         self.press(browser.Keys.ARROW_LEFT)
         self.wait_for_rest()
-
-    def test_every_control_has_a_name_and_the_keyboard_reaches_it(self):
-        self.assertEqual(self.js("""return Array.from(document.querySelectorAll("button, input, select, canvas:not([aria-hidden])"))
-            .filter((e) => !(e.ariaLabel || e.labels?.length || e.textContent.trim())).map((e) => e.outerHTML)"""), [])
-        self.assertEqual(self.js("""return Array.from(document.querySelectorAll("button, input, select"))
-            .filter((e) => e.tabIndex < 0).map((e) => e.outerHTML)"""), [])
 
 
 if __name__ == "__main__":

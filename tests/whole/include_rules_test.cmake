@@ -55,7 +55,7 @@ set(rooms
   "output=plan,trace,signal,surfaces,heart,truth|video"
   "mmode=frame,cycle,truth,signal|surfaces,output,video"
   "doppler=frame,cycle,signal,mmode,output,video|surfaces,truth"
-  "view=frame,mesh|plan,cycle,geometry,signal,video,page"
+  "view=frame,mesh,surfaces|plan,cycle,geometry,signal,video,page"
   "echo=video|signal,metrics,output"
   "export=video,signal|echo"
   "archive=loop|surfaces,cycle,truth,output"
@@ -65,8 +65,8 @@ set(rooms
   "study=plan,frame,cycle,output,video,metrics|loop,surfaces,keyframes,trace,signal,render,page"
   "echocine=render,loop,frame,heart"
   "dataset=output,surfaces,cycle,heart,truth,signal|frame,loop,views,video,page,metrics,echo"
-  "live=frame,surfaces,output,plan,truth|cycle,mesh,signal,video,view,page"
-  "python=frame,echo|plan,loop,mmode,doppler,render,export,fit,compare,study,dataset,heart,cycle,output,video,surfaces"
+  "live=frame,surfaces,output,plan,truth,heart,view,signal,video|cycle,mesh,page,export"
+  "python=frame,echo|plan,loop,mmode,doppler,render,export,fit,compare,study,dataset,heart,cycle,output,video,surfaces,live"
   "cli=render,fit,compare,study,output,view,plan,mmode,doppler,export,live|archive,dataset,video,frame,surfaces,keyframes,cycle,heart")
 
 function(room_of path out)

@@ -22,12 +22,13 @@ from ._errors import JobError, SceneError, SceneWarning
 from ._fit import HeartFamily, ModelDiscrepancy, ModelLoop, PoseFound
 from ._heart_fit import HeartFit, Interval, fit
 from ._jobs import Comparison, Exported, FrameDiscrepancy, Plan, compare, export, plan, study
+from ._live import LivePage
 from ._loop import Loop, open, render
 from ._modes import Border, Doppler, MMode, Ring, Spectrum, doppler, mmode
 from ._scene import Scene, Table, dials, heart, scene_keys
 from ._simulator import Simulator
 
-__all__ = ["Border", "Comparison", "Dataset", "DatasetLoop", "Doppler", "Exported", "Frame", "FrameDiscrepancy", "HeartFamily", "HeartFit", "Interval", "JobError", "Loop",
+__all__ = ["Border", "Comparison", "Dataset", "DatasetLoop", "Doppler", "Exported", "Frame", "FrameDiscrepancy", "HeartFamily", "HeartFit", "Interval", "JobError", "LivePage", "Loop",
            "MMode", "ModelDiscrepancy", "ModelLoop", "Plan", "PoseFound", "Ring", "Scene", "SceneError", "SceneWarning", "Simulator", "Spectrum", "Table",
            "__version__", "compare", "dataset", "dials", "doppler", "export", "fit", "heart", "join_datasets", "mmode", "open", "plan",
            "preview_dataset", "render", "scene_keys", "study"]

@@ -7,7 +7,7 @@ import difflib
 import os
 import tomllib
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Set, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, Optional, Set, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,9 @@ from numpy.typing import NDArray
 from . import _echocine, _meshes, _toml
 from ._errors import SceneError
 from ._progress import Progress, report_to
+
+if TYPE_CHECKING:
+    from ._live import LivePage, PathLike
 
 # Full keys of the reader's table: "probe.depth_mm", "structure.priority".
 _KEYS = frozenset(row[0] for row in _echocine.scene_keys())
@@ -387,6 +390,26 @@ class Scene:
     def frame_count(self) -> int:
         """Frames of the loop."""
         return self._native.frame_count
+
+    def live(self, *, record: Optional[PathLike] = None, port: int = 0, threads: int = 0) -> "LivePage":
+        """Serves the page of ``echocine live`` for this scene, on this machine; a notebook shows it.
+
+        The page has the scene as it is now. Changes in the page do not change the scene: copy the pose, or save the scene there.
+
+        Args:
+            record: folder for a scene file of each pose at which the probe comes to rest; not for meshes in memory.
+            port: of 127.0.0.1; 0: any free one.
+            threads: at most; 0: one per core.
+
+        Returns:
+            A page with ``link``, served until ``close()`` or the end of the program.
+
+        Raises:
+            SceneError: the scene cannot be shown.
+            JobError: the port is taken.
+        """
+        from ._live import LivePage
+        return LivePage(self._text, self._file, self._meshes, record, port, threads)
 
     def __repr__(self) -> str:
         probe = self._native.probe
