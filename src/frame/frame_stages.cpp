@@ -92,7 +92,8 @@ void FrameStages::process(const FrameTime& time, LineRange lines, Workspace& w) 
   if (!rays.receive()) return;
   PolarFrame& polar = w.polar;
   clock.time(Stage::signal, [&] {
-    chain.process(polar.intensities, effects.speckle ? effects.speckle->reach(lines) : lines);
+    chain.process(polar.intensities, effects.speckle ? effects.speckle->reach(lines) : lines,
+                  polar.medium);
     chain.process(polar.coherent, lines);
   });
   if (!effects.speckle) return;
