@@ -1,6 +1,6 @@
 #pragma once
-// What a scanner shows beyond the surface of air-filled lung. Almost all sound is reflected there,
-// so the echoes beyond are reverberations: sound meets the tissue in front of the surface a second
+// Echoes that a scanner shows beyond the surface of air-filled lung. Almost all sound is reflected
+// there, so they are reverberations: sound meets the tissue in front of the surface a second
 // time. The tissue appears mirrored and fades, and a face near the surface repeats it (A-lines).
 //
 //   I'(m) = I(m) + h exp(-m / L) mean of I(s) over |s - d(m)| <= w(m)                         (L1)
@@ -9,8 +9,8 @@
 // Symbols: m distance beyond the surface along the line; s distance in front of it; D distance of
 // the surface from the first sample; h level; L length of the fade; w blur by the curved surface
 // and by multiple scattering, our choice, cut at the surface and at the first sample. Constant
-// tissue I in front gives h I exp(-m / L), without a step for h = 1. Mirrored echoes and A-lines of
-// the pleura: Lichtenstein et al., Intensive Care Med. 25, 955-958, 1999.
+// tissue I in front gives h I exp(-m / L), without a step for h = 1. A-lines: Lichtenstein and
+// Meziere, Chest 134(1), 117-125, 2008.
 //
 // Limits: the mirror is normal to each line; the reflections at the face and at the surface count
 // as complete, and all loss is in the fade. A line has its first surface only. The mirrored
