@@ -23,7 +23,7 @@ Scene lungScene(double level_db) {
   scene.probe.lines = kLines;
   scene.probe.samples = kSamples;
   scene.probe.min_depth_m = 0;
-  scene.probe.max_depth_m = kStep_m * (kSamples - 1);
+  scene.probe.max_depth_m = kStep_m * kSamples;
   scene.artefacts.lung = true;
   scene.artefacts.lung_db = level_db;
   scene.artefacts.lung_length_m = kLength_m;
