@@ -93,7 +93,8 @@ void FrameStages::process(const FrameTime& time, LineRange lines, bool keeps_fie
   if (!rays.receive()) return;
   PolarFrame& polar = w.polar;
   clock.time(Stage::signal, [&] {
-    chain.process(polar.intensities, effects.speckle ? effects.speckle->reach(lines) : lines);
+    chain.process(polar.intensities, effects.speckle ? effects.speckle->reach(lines) : lines,
+                  polar.medium);
     chain.process(polar.coherent, lines);
   });
   if (!effects.speckle) return;

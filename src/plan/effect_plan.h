@@ -38,7 +38,7 @@ struct EffectPlan {
   bool speckle = false;
   bool heterogeneity = false, anisotropy = false;  // of the scatterers
   bool coherent_echoes = false;                    // interfaces keep part of their phase
-  bool dropout = false, acoustic_window = false, shading = false;
+  bool dropout = false, acoustic_window = false, shading = false, lung = false;
   bool haze = false, reverberation = false;
   bool harmonic = false, downshift = false;  // of the sampled beam
   bool edge_enhancement = false;

@@ -23,4 +23,14 @@ bool speedsDiffer(const Scene& scene) {
   });
 }
 
+bool isAirFilled(const Medium& medium) {
+  constexpr double kDensity_kg_m3 = 700;
+  return medium.impedance_kg_m2_s < kDensity_kg_m3 * medium.sound_speed_m_s;
+}
+
+bool holdsAir(const Scene& scene) {
+  const std::vector<const Medium*> used = mediaInUse(scene);
+  return std::any_of(used.begin(), used.end(), [](const Medium* m) { return isAirFilled(*m); });
+}
+
 }  // namespace echocine

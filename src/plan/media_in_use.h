@@ -15,4 +15,9 @@ std::vector<const Medium*> mediaInUse(const Scene& scene);
 bool mediaDiffer(const Scene& scene);
 bool speedsDiffer(const Scene& scene);
 
+// Is the medium filled with air? Density below 700 kg/m^3: our choice, between lung and fat.
+bool isAirFilled(const Medium& medium);
+// Is any medium in use filled with air?
+bool holdsAir(const Scene& scene);
+
 }  // namespace echocine

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/units.h"
+#include "plan/media_in_use.h"
 #include "scene/grey_curve.h"
 #include "scene/role.h"
 
@@ -109,6 +110,10 @@ void planArtefacts(const Scene& scene, EffectPlan& plan) {
   plan.shading = decidePicture(scene, plan, Effect::shading, a.shading, true, "",
                                fmt::format("patches of {:g} mm in the chest wall vary by {:g} dB",
                                            millimetresFromMetres(a.shading_grain_m), a.shading_db));
+  plan.lung = decidePicture(scene, plan, Effect::lung, a.lung, holdsAir(scene),
+                            "no medium is filled with air",
+                            fmt::format("mirrored tissue from {:g} dB on, fading over {:g} mm",
+                                        a.lung_db, millimetresFromMetres(a.lung_length_m)));
   plan.haze =
       decidePicture(scene, plan, Effect::haze, a.haze, lines, one,
                     fmt::format("aberration and multiple scattering at {:g} dB", a.haze_db));

@@ -36,6 +36,7 @@ enum class Effect {
   dropout,
   acoustic_window,
   shading,
+  lung,
   haze,
   reverberation,
   clutter,
@@ -87,6 +88,9 @@ struct ArtefactSettings {
   double shading_grain_m = 10e-3;  // size of its patches
   double shading_depth_m = 20e-3;  // from the probe's face
   int shading_seed = 1;
+  bool lung = false;                            // reverberations beyond air-filled lung's surface
+  double lung_db = -3;                          // relative to the tissue in front of it
+  double lung_length_m = 20e-3;                 // where they have fallen to 1/e
   bool haze = false;                            // aberration, multiple scattering: across the lines
   double haze_db = -24;                         // relative to all its sources
   double haze_width_rad = 0.12217304763960307;  // where it has fallen to 1/e
@@ -144,6 +148,7 @@ inline constexpr EffectRow kEffects[] = {
     {Effect::dropout, "dropout", Stage::signal, {.fixed = 0.05}},
     {Effect::acoustic_window, "acoustic_window", Stage::signal, {.fixed = 0.05}},
     {Effect::shading, "shading", Stage::signal, {.fixed = 0.05}},
+    {Effect::lung, "lung", Stage::signal, {.fixed = 0.05}},
     {Effect::haze, "haze", Stage::signal, {.fixed = 0.3}},
     {Effect::reverberation, "reverberation", Stage::signal, {.fixed = 0.2}},
     {Effect::clutter, "clutter", Stage::signal, {.fixed = 0.05}},

@@ -60,11 +60,26 @@ struct Scanner {
   Grade offset;  // added to the grade of the quality
 };
 
-// Our choice, by planted hearts (tests/bench): "scanner" and "smooth" within the texture and greys
-// of those stills; the others within the greys of loops of other scanners, which show 5 to 51 % of
-// the sector under grey 10 and a gradient of 46 to 56 grey levels per mm.
+// Our choice, by planted hearts (tests/bench): "scanner" and "smooth" within the texture of those
+// stills, "smooth" within their greys too. The others have the greys of loops of other scanners,
+// which show 5 to 51 % of the sector under grey 10; their gradient is 46 to 56 grey levels per mm.
 constexpr Scanner kScanners[] = {
-    {Look::scanner, 2, 0.62e-3, 0, 80, 1.2, 0, 0, -0.5, -24, -57, 4.5, 10, false, 0, {}},
+    {Look::scanner,
+     2,
+     0.66e-3,
+     0,
+     78,
+     1.6,
+     0.06,
+     0.1,
+     10.5,
+     -22,
+     -48,
+     4.5,
+     10,
+     true,
+     0,
+     {-3, 0, 13, -4, 3, -6e-3, 1}},
     {Look::smooth, 2, 0.75e-3, 0.35, 84, 1.15, 0, 0.3, -6, -26, -59, 4.5, 12, true, 0, {}},
     {Look::contrast,
      2,
@@ -127,7 +142,7 @@ void applyProcessing(const Scanner& scanner, Scene& scene) {
   s.interface_gain_db = scanner.interface_gain_db;
   s.interface_limit_db = scanner.interface_limit_db;
   s.harmonic = scanner.harmonic;
-  s.downshift = scanner.look != Look::scanner;
+  s.downshift = true;
   s.edge_enhancement = scanner.edge_enhancement;
   scene.speckle.smoothing_m = scanner.smoothing_m;
   scene.speckle.heterogeneity_db = scanner.heterogeneity_db;
@@ -140,7 +155,8 @@ void applyProcessing(const Scanner& scanner, Scene& scene) {
 void applyArtefacts(const Grade& grade, const Grade& offset, Scene& scene) {
   ArtefactSettings& a = scene.artefacts;
   scene.signal.tgc = Tgc::mean;
-  a.dropout = a.acoustic_window = a.shading = a.haze = a.reverberation = a.clutter = a.noise = true;
+  a.dropout = a.acoustic_window = a.shading = a.lung = a.haze = a.reverberation = a.clutter =
+      a.noise = true;
   a.haze_db = grade.haze_db + offset.haze_db;
   a.reverberation_db = grade.reverberation_db + offset.reverberation_db;
   a.clutter_db = grade.clutter_db + offset.clutter_db;

@@ -65,13 +65,16 @@ SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
   if (plan.edge_enhancement) edges_.emplace(scene.probe, scene.signal);
   losses_ = sectorLosses(scene.probe, a, plan);
   if (plan.harmonic) build_up_ = buildUps(scene.probe);
+  if (plan.lung) lung_.emplace(scene);
   if (plan.haze) haze_.emplace(scene.probe, hazeLevel(a, plan), a.haze_width_rad);
   if (plan.reverberation) tail_.emplace(scene.probe, a.reverberation_db, a.reverberation_length_m);
 }
 
-void SignalChain::process(Intensities& intensities, LineRange lines) const {
+void SignalChain::process(Intensities& intensities, LineRange lines,
+                          std::span<const std::uint32_t> media) const {
   if (!build_up_.empty()) applyTimeGains(build_up_, intensities);
   if (!gains_.empty()) applyTimeGains(gains_, intensities);
+  if (lung_ && !media.empty()) lung_->add(media, intensities.values);
   averageOverBeam(intensities.values, haze_ ? all_lines_ : lines, BeamPart::whole);
   if (!losses_.empty()) applySectorLosses(losses_, intensities);
   if (haze_) haze_->add(intensities);

@@ -1,10 +1,12 @@
 #pragma once
-// The scanner's signal processing, the same in every frame of a loop: time gain -> beam width ->
-// drop-out, ribs, patches, haze, reverberation -> (speckle) -> clutter, noise -> log compression ->
-// scan conversion -> grey map. The tracer handles the spread, because it knows the scattered part,
-// by the intensity_terms of its request.
+// The scanner's signal processing, the same in every frame of a loop: time gain -> lung -> beam
+// width -> drop-out, ribs, patches, haze, reverberation -> (speckle) -> clutter, noise -> log
+// compression -> scan conversion -> grey map. The tracer handles the spread, because it knows the
+// scattered part, by the intensity_terms of its request.
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/beam_plane.h"
@@ -13,6 +15,7 @@
 #include "signal/edge_enhancement.h"
 #include "signal/field_sum.h"
 #include "signal/haze.h"
+#include "signal/lung_echo.h"
 #include "signal/profile_average.h"
 #include "signal/scan_conversion.h"
 #include "trace/coherent_echoes.h"
@@ -29,7 +32,9 @@ class SignalChain {
   void process(Intensities& intensities) const { process(intensities, all_lines_); }
   // The same for some lines. The content of the others is undefined afterwards. The lines that it
   // reads must be as received.
-  void process(Intensities& intensities, LineRange lines) const;
+  // media: PolarFrame::medium, read only by plan.lung; empty: no lung.
+  void process(Intensities& intensities, LineRange lines,
+               std::span<const std::uint32_t> media = {}) const;
   // Number of samples of each line, from the first, that process() of some lines needs.
   std::vector<int> taken(LineRange lines) const;
 
@@ -66,6 +71,7 @@ class SignalChain {
   std::optional<ProfileAverage> profile_;  // across the lines, where beam_ is along them alone
   std::vector<float> losses_;              // by drop-out and ribs; empty: none
   std::vector<float> build_up_;            // of the second harmonic; empty: none
+  std::optional<LungEcho> lung_;
   std::optional<LateralHaze> haze_;
   std::optional<ReverberationTail> tail_;
   FieldSum fields_;

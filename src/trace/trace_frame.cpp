@@ -201,8 +201,8 @@ PlaneRequest planeRequest(const Scene& scene, const EffectPlan& plan) {
   const auto asked = [&](Channel c) {
     return std::find(request.channels.begin(), request.channels.end(), c) != request.channels.end();
   };
-  // White goes by the samples of muscle, so they have to be known.
-  if (request.intensities && isWhiteByMuscle(scene) && !asked(Channel::medium))
+  // White goes by the samples of muscle, lung by those of air.
+  if (request.intensities && (plan.lung || isWhiteByMuscle(scene)) && !asked(Channel::medium))
     request.channels.push_back(Channel::medium);
   request.intensity_terms.attenuation = plan.attenuation && scene.signal.tgc != Tgc::perfect;
   request.echo_samples = echoSamples(scene);

@@ -1,7 +1,7 @@
 // echo_looks: texture of simulated apical stills beside that of clinical ones.
 //   echo_looks [--hearts N] [--quality good|medium|poor] [--with TOML] [--save FOLDER]
 //   echo_looks --measure FILE MILLIMETRES_PER_PIXEL     frame 0 of a real loop
-//   echo_looks --real FILE=MILLIMETRES_PER_PIXEL [--real ...] [--hearts N]     a linear classifier
+//   echo_looks --real FILE=MILLIMETRES_PER_PIXEL [--real ...] [--hearts N] [--view a4c|a2c]
 //   echo_looks --greys 1 [--hearts N] [--look NAME] [--view NAME] [--with TOML] [--save FOLDER]
 //   echo_looks --regions CSV --loop SCENE_OR_VIDEO [--pixel MILLIMETRES] [--save PGM]
 
@@ -76,6 +76,8 @@ using Column = std::vector<Measured>;
 
 void addHeart(int number, const Options& options, std::map<int, Column>& columns) {
   for (const heart::View view : {heart::View::a4c, heart::View::a2c}) {
+    if (!options.view.empty() && options.view != (view == heart::View::a4c ? "a4c" : "a2c"))
+      continue;
     Scene scene = heart::heartScene(parametersOf(number), view, 12);
     takeTables(options, scene);
     seedScene(number, scene);
