@@ -38,7 +38,7 @@ class LiveOver {
 
   get wallWanted() { return ["segments", "strain", "arrows"].some((name) => this.layers.has(name)); }
 
-  async fetch(name, frame) {
+  async request(name, frame) {
     if (this.busy) return;
     this.busy = true;
     const layers = [...(this.layers.has("labels") ? ["labels"] : []), ...(this.wallWanted ? ["wall"] : [])];
@@ -64,7 +64,7 @@ class LiveOver {
     const name = `${version} ${shown.frame}`, known = this.known.get(name);
     const enough = known && (!this.layers.has("labels") || known.layers.includes("labels")) && (!this.wallWanted || known.layers.includes("wall"));
     if (enough) return known;
-    if (!playing || kept.size >= frames) this.fetch(name, shown.frame);
+    if (!playing || kept.size >= frames) this.request(name, shown.frame);
     return null;
   }
 
