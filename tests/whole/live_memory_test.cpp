@@ -26,7 +26,7 @@ double residentMegabytes() {
 }
 
 TEST(LiveMemory, StaysFlatWhileTheProbeMoves) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef ECHOCINE_SANITIZED
   GTEST_SKIP() << "a sanitizer keeps freed memory";
 #endif
   const TempFolder folder;
