@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "dataset/hdf5_file.h"
 #include "dataset/layout.h"
+#include "hdf/hdf5_file.h"
 
 namespace echocine::dataset {
 
@@ -33,7 +33,8 @@ void writeMyotracker(const Spec&, const Heart& heart, Sink& sink, Json&) {
     const Hdf5Array arrays[] = {
         {"frames",
          {frames, static_cast<std::size_t>(loop.height()), static_cast<std::size_t>(loop.width())},
-         std::span<const std::uint8_t>(pixels)},
+         std::span<const std::uint8_t>(pixels),
+         true},
         {"meshes", {frames, loop.tracked.size(), 2}, std::span<const float>(shares)}};
     sink.write(fmt::format("myotracker/{0}/{1}/{1}.h5", nameOf(heart.split), loop.id),
                hdf5Bytes(arrays));

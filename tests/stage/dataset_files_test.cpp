@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "dataset/hdf5_file.h"
 #include "dataset/ustar.h"
+#include "hdf/hdf5_file.h"
 #include "support/temp_folder.h"
 
 namespace echocine::dataset {
@@ -14,7 +14,7 @@ using support::bytesOf;
 TEST(DatasetFiles, Hdf5HasItsSignatureAndNoTimes) {
   const std::vector<std::uint8_t> pixels(2 * 3 * 4, 7);
   const std::vector<float> places(2 * 5 * 2, 0.5f);
-  const Hdf5Array arrays[] = {{"frames", {2, 3, 4}, std::span<const std::uint8_t>(pixels)},
+  const Hdf5Array arrays[] = {{"frames", {2, 3, 4}, std::span<const std::uint8_t>(pixels), true},
                               {"meshes", {2, 5, 2}, std::span<const float>(places)}};
   const std::vector<std::byte> bytes = hdf5Bytes(arrays);
   ASSERT_GT(bytes.size(), 8u);
