@@ -7,6 +7,7 @@
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/cycle/ecg.h"
 #include "motion/surfaces/probe_placement.h"
+#include "output/polar_plane.h"
 #include "output/scene_sha256.h"
 #include "scene/role.h"
 #include "scene/view_names.h"
@@ -28,14 +29,16 @@ Scene archiveScene(Scene scene) {
 }
 
 // From lines of samples to rows of equal depth, frame by frame.
-std::vector<float> rowsFirst(const std::vector<float>& planes, const BeamLoop& loop) {
+std::vector<float> rowsFirst(std::span<const float> planes, const BeamLoop& loop) {
   const auto lines = static_cast<std::size_t>(loop.lines);
   const auto samples = static_cast<std::size_t>(loop.samples);
-  std::vector<float> rows(planes.size());
-  for (std::size_t first = 0; first < planes.size(); first += lines * samples)
-    for (std::size_t i = 0; i < lines; ++i)
-      for (std::size_t k = 0; k < samples; ++k)
-        rows[first + k * lines + i] = planes[first + i * samples + k];
+  std::vector<float> rows;
+  rows.reserve(planes.size());
+  for (std::size_t first = 0; first < planes.size(); first += lines * samples) {
+    const std::vector<float> frame =
+        rowsFromLines(planes.subspan(first, lines * samples), lines, samples);
+    rows.insert(rows.end(), frame.begin(), frame.end());
+  }
   return rows;
 }
 

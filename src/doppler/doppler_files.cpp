@@ -42,12 +42,8 @@ std::span<const std::byte> bytesOf(const std::string& text) {
 }
 
 std::vector<float> rowsOf(std::span<const float> plane, const Probe& probe) {
-  std::vector<float> rows(plane.size());
-  const auto lines = static_cast<std::size_t>(probe.lines);
-  const auto samples = static_cast<std::size_t>(probe.samples);
-  for (std::size_t i = 0; i < lines; ++i)
-    for (std::size_t k = 0; k < samples; ++k) rows[k * lines + i] = plane[i * samples + k];
-  return rows;
+  return rowsFromLines(plane, static_cast<std::size_t>(probe.lines),
+                       static_cast<std::size_t>(probe.samples));
 }
 
 std::vector<std::byte> exrOf(const DopplerFrame& frame, const Probe& probe,

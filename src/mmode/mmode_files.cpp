@@ -33,12 +33,8 @@ std::span<const std::byte> bytesOf(const std::string& text) {
 
 // Rows of equal depth from the columns of an M-mode.
 std::vector<float> rowsOf(std::span<const float> plane, const MMode& mode) {
-  std::vector<float> rows(plane.size());
-  const auto columns = static_cast<std::size_t>(mode.columns);
-  const auto samples = static_cast<std::size_t>(mode.samples);
-  for (std::size_t t = 0; t < columns; ++t)
-    for (std::size_t k = 0; k < samples; ++k) rows[k * columns + t] = plane[t * samples + k];
-  return rows;
+  return rowsFromLines(plane, static_cast<std::size_t>(mode.columns),
+                       static_cast<std::size_t>(mode.samples));
 }
 
 std::vector<std::byte> exrOf(const MMode& mode, const Scene& scene, double rate_hz) {

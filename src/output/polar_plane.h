@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace echocine {
 
@@ -12,5 +13,8 @@ void rowsFromLines(std::span<const float> in, std::size_t lines, std::size_t sam
                    std::uint32_t* out);
 void rowsFromLines(std::span<const std::uint32_t> in, std::size_t lines, std::size_t samples,
                    std::uint32_t* out);
+
+// The rows themselves.
+std::vector<float> rowsFromLines(std::span<const float> in, std::size_t lines, std::size_t samples);
 
 }  // namespace echocine
