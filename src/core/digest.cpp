@@ -45,4 +45,10 @@ std::string Digest::hex() {
   return text;
 }
 
+std::string digestOfBytes(std::span<const std::byte> bytes) {
+  Digest digest;
+  digest.update(bytes);
+  return digest.hex();
+}
+
 }  // namespace echocine

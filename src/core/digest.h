@@ -25,4 +25,7 @@ class Digest {
   std::uint64_t size_ = 0;
 };
 
+// The digest of all bytes.
+std::string digestOfBytes(std::span<const std::byte> bytes);
+
 }  // namespace echocine

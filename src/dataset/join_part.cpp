@@ -56,10 +56,8 @@ std::string wholeFile(const JoinPart& part, const std::string& name, const Json&
   } catch (const SceneError& error) {
     throw JobError(error.what());
   }
-  Digest digest;
-  digest.update(std::as_bytes(std::span(bytes)));
   if (bytes.size() != noted.at("bytes").get<std::size_t>() ||
-      digest.hex() != noted.at("digest").get<std::string>())
+      digestOfBytes(std::as_bytes(std::span(bytes))) != noted.at("digest").get<std::string>())
     throw JobError(fmt::format("{}: was modified: run the part's command again", file.string()));
   return bytes;
 }

@@ -18,9 +18,7 @@ constexpr std::size_t kSealSize = sizeof(",\"record_digest\":\"\"}\n") - 1 + Dig
 
 // The end of a record's text: the digest of what stands before it.
 std::string sealOf(std::string_view text) {
-  Digest digest;
-  digest.update(std::as_bytes(std::span(text)));
-  return fmt::format(",\"{}\":\"{}\"}}\n", kSeal, digest.hex());
+  return fmt::format(",\"{}\":\"{}\"}}\n", kSeal, digestOfBytes(std::as_bytes(std::span(text))));
 }
 
 // JSON nested deeper than a record would exhaust the stack where it is written again.

@@ -34,9 +34,7 @@ std::filesystem::path Sink::place(const std::string& name) const {
 
 void Sink::write(const std::string& name, std::span<const std::byte> bytes) {
   writeFileWhole(place(name), bytes);
-  Digest digest;
-  digest.update(bytes);
-  files_[name] = {bytes.size(), digest.hex()};
+  files_[name] = {bytes.size(), digestOfBytes(bytes)};
 }
 
 void Sink::write(const std::string& name, std::string_view text) {

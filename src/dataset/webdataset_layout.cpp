@@ -42,9 +42,7 @@ std::vector<std::byte> bytesOf(const Member& member) {
   std::vector<std::byte> bytes(member.noted->at("bytes").get<std::size_t>());
   std::ifstream file(member.file, std::ios::binary);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  Digest digest;
-  digest.update(bytes);
-  if (!file || digest.hex() != member.noted->at("digest").get<std::string>())
+  if (!file || digestOfBytes(bytes) != member.noted->at("digest").get<std::string>())
     throw JobError(
         fmt::format("{}: is not as it was written: run the same command again without "
                     "--merge",

@@ -4,6 +4,7 @@
 
 #include <deque>
 
+#include "core/digest.h"
 #include "core/error.h"
 #include "core/shown_path.h"
 #include "core/stop.h"

@@ -4,6 +4,7 @@
 
 #include <iterator>
 
+#include "core/digest.h"
 #include "core/error.h"
 #include "fit/packed_bytes.h"
 

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <vector>
 
+#include "core/digest.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "fit/packed_bytes.h"

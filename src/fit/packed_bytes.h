@@ -9,8 +9,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/digest.h"
-
 namespace echocine::fit {
 
 class PackedBytes {
@@ -77,11 +75,5 @@ class UnpackedBytes {
   std::size_t at_ = 0;
   bool good_ = true;
 };
-
-inline std::string digestOfBytes(std::span<const std::byte> bytes) {
-  Digest digest;
-  digest.update(bytes);
-  return digest.hex();
-}
 
 }  // namespace echocine::fit

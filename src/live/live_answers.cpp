@@ -210,10 +210,8 @@ void LiveSession::record(const Asked& asked) {
   recorded_ = asked.text;
   // Equal names are equal hearts, also in another session.
   const std::string all = own_->scene.text() + asked.subject->change.name();
-  Digest digest;
-  digest.update(std::as_bytes(std::span(all)));
-  const std::string text =
-      textFor(*asked.subject, asked.text, record_folder_, "heart_" + digest.hex().substr(0, 16));
+  const std::string heart = digestOfBytes(std::as_bytes(std::span(all))).substr(0, 16);
+  const std::string text = textFor(*asked.subject, asked.text, record_folder_, "heart_" + heart);
   const auto bytes = std::as_bytes(std::span(text));
   while (!writeFileOnce(record_folder_ / fmt::format("pose_{:05}.toml", records_++), bytes)) {
   }
