@@ -47,12 +47,7 @@ std::vector<BoundaryOffset> offsetsOf(const ModelFrame& frame, const echo::EchoS
                                       const echo::BeatPlace& at, const PoseMapping& map) {
   std::vector<BoundaryOffset> out;
   for (const BoundaryPoint& p : frame.boundary) {
-    double x, z, nx, nz;
-    map.place(p.x_m, p.z_m, x, z);
-    map.turn(p.nx, p.nz, nx, nz);
-    const double beside = p.of_blood ? seenBeside(real, x, z, nx, nz) : 0;
-    const EdgeProfile edge =
-        edgeProfileAt(real, at, x - beside * nx, z - beside * nz, nx, nz, p.of_blood);
+    const auto [x, z, nx, nz, beside, edge] = placedEdge(p, real, at, map);
     if (!(edge.visible > 0)) continue;
     const MotionPair m = motionOf(p, real, at, map, x, z, nx, nz);
     const bool tracked = p.of_blood && m.weight > 0;

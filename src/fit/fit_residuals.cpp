@@ -83,12 +83,7 @@ class ResidualBuilder {
     const double per_m2 = cellsPerArea(model_, {});
     for (const BoundaryPoint& p : frame.boundary) {
       if (!p.of_blood) continue;
-      double x, z, nx, nz;
-      map_.place(p.x_m, p.z_m, x, z);
-      map_.turn(p.nx, p.nz, nx, nz);
-      const double beside = seenBeside(real_, x, z, nx, nz);
-      const EdgeProfile edge =
-          edgeProfileAt(real_, at, x - beside * nx, z - beside * nz, nx, nz, true);
+      const auto [x, z, nx, nz, beside, edge] = placedEdge(p, real_, at, map_);
       const double length = p.length_m * edge.visible;
       if (!(length > 0)) continue;
       addStrip(p, real_, at, x, z, nx, nz, beside, per_m2, sums_);

@@ -56,6 +56,17 @@ double seenBeside(const echo::EchoStack& real, double x, double z, double nx, do
   return r > 0 ? real.spread().shift(r, (nx * x + nz * z) / r) : 0;
 }
 
+PlacedEdge placedEdge(const BoundaryPoint& p, const echo::EchoStack& real,
+                      const echo::BeatPlace& at, const PoseMapping& map) {
+  PlacedEdge out;
+  map.place(p.x_m, p.z_m, out.x, out.z);
+  map.turn(p.nx, p.nz, out.nx, out.nz);
+  if (p.of_blood) out.beside = seenBeside(real, out.x, out.z, out.nx, out.nz);
+  out.edge = edgeProfileAt(real, at, out.x - out.beside * out.nx, out.z - out.beside * out.nz,
+                           out.nx, out.nz, p.of_blood);
+  return out;
+}
+
 MotionPair motionOf(const BoundaryPoint& p, const echo::EchoStack& real, const echo::BeatPlace& at,
                     const PoseMapping& map, double x, double z, double nx, double nz) {
   const echo::EchoMotion v = real.motionAt(at, x + kIntoWall_m * nx, z + kIntoWall_m * nz);

@@ -55,6 +55,15 @@ EdgeProfile edgeProfileAt(const echo::EchoStack& real, const echo::BeatPlace& at
 // Displacement into the blood at which a boundary is visible: Eq. 9.
 double seenBeside(const echo::EchoStack& real, double x, double z, double nx, double nz);
 
+// A boundary point under a pose, and the edge where it is visible.
+struct PlacedEdge {
+  double x = 0, z = 0, nx = 0, nz = 0;
+  double beside = 0;  // of Eq. 9; 0 without blood
+  EdgeProfile edge;
+};
+PlacedEdge placedEdge(const BoundaryPoint& p, const echo::EchoStack& real,
+                      const echo::BeatPlace& at, const PoseMapping& map);
+
 // u - v|^2 and |u|^2 + |v|^2 of Eq. 5; weight 0 without tracking.
 struct MotionPair {
   double apart = 0, together = 0, weight = 0;

@@ -27,12 +27,7 @@ void addBoundary(const ModelFrame& frame, const echo::EchoStack& real, const ech
   for (std::size_t i = 0; i < frame.boundary.size(); i += static_cast<std::size_t>(stride)) {
     const BoundaryPoint& p = frame.boundary[i];
     if (!p.of_blood) continue;
-    double x, z, nx, nz;
-    map.place(p.x_m, p.z_m, x, z);
-    map.turn(p.nx, p.nz, nx, nz);
-    const double beside = seenBeside(real, x, z, nx, nz);
-    const EdgeProfile edge =
-        edgeProfileAt(real, at, x - beside * nx, z - beside * nz, nx, nz, true);
+    const auto [x, z, nx, nz, beside, edge] = placedEdge(p, real, at, map);
     const double length = p.length_m * edge.visible;
     if (!(length > 0)) continue;
     addStrip(p, real, at, x, z, nx, nz, beside, cells_per_m2, region);
