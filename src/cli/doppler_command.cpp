@@ -4,23 +4,13 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/documents.h"
+#include "cli/enum_names.h"
 #include "cli/progress_line.h"
 #include "core/units.h"
 #include "scene/names.h"
 #include "scene/scene_reader.h"
 
 namespace echocine {
-
-namespace {
-
-template <typename Enum>
-std::vector<std::string> wordsOf() {
-  std::vector<std::string> words;
-  for (const auto& one : NamesOf<Enum>::kAll) words.emplace_back(one.name);
-  return words;
-}
-
-}  // namespace
 
 DopplerCommand::DopplerCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
@@ -39,7 +29,7 @@ DopplerCommand::DopplerCommand(CLI::App& app) {
       ->add_option("--gate", gate_mm_, "Length along the line over which a velocity averages, mm")
       ->capture_default_str();
   command->add_option("--wall-filter", wall_, "Polynomial that is removed from each packet")
-      ->check(CLI::IsMember(wordsOf<WallFilterKind>()))
+      ->check(CLI::IsMember(enumNames<WallFilterKind>()))
       ->capture_default_str();
   CLI::Option* depth = command->add_option(
       "--depth", depth_mm_, "Depth of a place on the line, mm; writes a spectrum there");
@@ -51,7 +41,7 @@ DopplerCommand::DopplerCommand(CLI::App& app) {
       command
           ->add_option("--through", through_,
                        "Place of the heart at end-diastole; writes a spectrum there")
-          ->check(CLI::IsMember(wordsOf<MModeTarget>()));
+          ->check(CLI::IsMember(enumNames<MModeTarget>()));
   angle->excludes(offset)->needs(depth);
   offset->needs(depth);
   through->excludes(angle)->excludes(offset)->excludes(depth);

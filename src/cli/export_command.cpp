@@ -4,20 +4,11 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/documents.h"
+#include "cli/enum_names.h"
 #include "cli/warning_printer.h"
 #include "scene/names.h"
 
 namespace echocine {
-
-namespace {
-
-std::vector<std::string> tintNames() {
-  std::vector<std::string> names;
-  for (const auto& tint : NamesOf<Tint>::kAll) names.emplace_back(tint.name);
-  return names;
-}
-
-}  // namespace
 
 ExportCommand::ExportCommand(CLI::App& app) {
   CLI::App* command =
@@ -46,7 +37,7 @@ ExportCommand::ExportCommand(CLI::App& app) {
   command->add_option("--fps", options_.fps,
                       "Frame rate of the loops, frames/s; default: that of each file");
   command->add_option("--tint", tint_, "Colour of the grey levels")
-      ->check(CLI::IsMember(tintNames()))
+      ->check(CLI::IsMember(enumNames<Tint>()))
       ->capture_default_str();
   command->add_option("--threads", options_.threads, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "cli/documents.h"
+#include "cli/enum_names.h"
 #include "cli/stop_signal.h"
 #include "cli/view_list.h"
 #include "core/error.h"
@@ -14,12 +15,6 @@
 namespace echocine {
 
 namespace {
-
-std::vector<std::string> lookNames() {
-  std::vector<std::string> names;
-  for (const Named<Look>& look : NamesOf<Look>::kAll) names.emplace_back(look.name);
-  return names;
-}
 
 // "N:AMPLITUDE" or "N:AMPLITUDE:DELAY_MS".
 void applySegment(const std::string& text, heart::Parameters& parameters) {
@@ -88,7 +83,7 @@ HeartCommand::HeartCommand(CLI::App& app) {
       ->add_option("--look", look_,
                    "Look of the scene's pictures: paper (the published model, without speckle), "
                    "clean (speckle and a grey map), scanner (clean, with scanner artefacts)")
-      ->check(CLI::IsMember(lookNames()))
+      ->check(CLI::IsMember(enumNames<Look>()))
       ->capture_default_str();
   command->add_option("--keyframes", wanted_.keyframes, "Keyframes per beat")
       ->check(CLI::Range(4, 100))

@@ -4,22 +4,13 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/documents.h"
+#include "cli/enum_names.h"
 #include "cli/progress_line.h"
 #include "core/stop.h"
 #include "scene/names.h"
 #include "scene/scene_reader.h"
 
 namespace echocine {
-
-namespace {
-
-std::vector<std::string> targetNames() {
-  std::vector<std::string> names;
-  for (const auto& target : NamesOf<MModeTarget>::kAll) names.emplace_back(target.name);
-  return names;
-}
-
-}  // namespace
 
 MModeCommand::MModeCommand(CLI::App& app) {
   CLI::App* command =
@@ -41,7 +32,7 @@ MModeCommand::MModeCommand(CLI::App& app) {
           ->add_option("--through", through_,
                        "Line through this place of the heart at end-diastole; for a ring, the "
                        "excursion is measured")
-          ->check(CLI::IsMember(targetNames()));
+          ->check(CLI::IsMember(enumNames<MModeTarget>()));
   angle->excludes(offset)->excludes(through);
   offset->excludes(through);
   command->add_option("--rate", options_.request.rate_hz, "Lines a second, Hz")
