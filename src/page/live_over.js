@@ -1,4 +1,4 @@
-// What lies over the echo: ground truth, callipers, a traced cavity, and the line of the M-mode.
+// Layers over the echo: ground truth, callipers, a traced cavity, and the line of the M-mode.
 "use strict";
 
 // new LiveOver(live): live has { state, ask(path, body), body(more), shown(made) } and the canvases.
@@ -57,7 +57,7 @@ class LiveOver {
     this.draw();
   }
 
-  // Of the picture that is shown, if it is known.
+  // The truth of the current picture, if it has arrived.
   truth() {
     const { shown, version, playing, kept, frames } = this.live.state;
     if (!this.layers.size || shown?.effort !== "still" || shown.version !== version) return null;

@@ -15,7 +15,7 @@ namespace {
 
 using namespace support;
 
-// Of means, the jackknife is the SD of a mean: s / sqrt(n).
+// The jackknife SD of a mean equals its standard error, s / sqrt(n).
 TEST(FitResamples, OfAMeanItIsItsStandardError) {
   constexpr int kCount = 8;
   std::vector<double> numbers, without;

@@ -3,22 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include "core/units.h"
 #include "scene/sampled_beam.h"
 #include "scene/scan_geometry.h"
+#include "support/array_probe.h"
 
 namespace echocine {
 namespace {
 
 // In focus a beam falls below a thousandth within three lambda / D, however wide its spectrum.
 TEST(GratingLobeLaw, NoFrequencyOfThePulseHasOne) {
-  Probe probe;
-  probe.first_angle_rad = radiansFromDegrees(-45);
-  probe.last_angle_rad = radiansFromDegrees(45);
-  probe.max_depth_m = 0.15;
-  probe.frequency_hz = 2.72e6;
-  probe.aperture_m = 0.0192;
-  probe.focus_m = 0.08;
+  Probe probe = support::arrayProbe();
   const double null = ScanGeometry(probe).wavelength() / probe.aperture_m;
   for (const double cycles : {0.7, 1.0, 2.0, 6.0})
     for (const Apodization receive : {Apodization::uniform, Apodization::hann})

@@ -37,7 +37,7 @@ TEST(AreaUnderCurve, IsTheShareOfPairsInOrder) {
   EXPECT_DOUBLE_EQ(areaUnderCurve(a, b) + areaUnderCurve(b, a), 1);
 }
 
-// Of equal covariances 1 the weights are the difference of the means over 1 + 0.1.
+// If both covariances are the identity, the weights are the difference of the means over 1 + 0.1.
 TEST(LinearDiscriminant, WeightsAreTheDifferenceOfTheMeans) {
   const LinearDiscriminant classifier(rowsAt({1.5, 0, -0.7}, 20000, 1),
                                       rowsAt({0, 0, 0}, 20000, 2));

@@ -14,26 +14,14 @@
 #include "scene/sampled_beam.h"
 #include "scene/scan_geometry.h"
 #include "signal/profile_average.h"
+#include "support/array_probe.h"
 
 namespace echocine {
 namespace {
 
-constexpr double kCycles = 2;
+using support::arrayProbe;
 
-// 64 elements, 0.3 mm apart, and the focus of the simulator's runs.
-Probe array() {
-  Probe probe;
-  probe.first_angle_rad = radiansFromDegrees(-45);
-  probe.last_angle_rad = radiansFromDegrees(45);
-  probe.min_depth_m = 0.01;
-  probe.max_depth_m = 0.15;
-  probe.frequency_hz = 2.72e6;
-  probe.aperture_m = 64 * 0.3e-3;
-  probe.focus_m = 0.08;
-  probe.lines = 361;
-  probe.samples = 560;
-  return probe;
-}
+constexpr double kCycles = 2;
 
 // Energy of a point's echo by u: exact distances, the pulse's spectrum at 13 frequencies.
 class ElementSum {
@@ -123,7 +111,7 @@ TEST(SampledBeamLaw, WidthsAreThoseOfASumOverTheElements) {
     for (const double focus_mm : {50.0, 80.0, 120.0})
       for (const Apodization receive :
            {Apodization::uniform, Apodization::hann, Apodization::hamming}) {
-        Probe probe = array();
+        Probe probe = arrayProbe();
         probe.aperture_m = metresFromMillimetres(aperture_mm);
         probe.focus_m = metresFromMillimetres(focus_mm);
         probe.receive_apodization = receive;
@@ -134,8 +122,9 @@ TEST(SampledBeamLaw, WidthsAreThoseOfASumOverTheElements) {
             const ElementSum elements(probe, z, a);
             const auto exact = [&](double u) { return elements.at(u); };
             const auto ours = sampled(beam, z, a);
-            const bool own = probe.aperture_m == array().aperture_m &&
-                             probe.focus_m == array().focus_m && receive == Apodization::uniform;
+            const bool own = probe.aperture_m == arrayProbe().aperture_m &&
+                             probe.focus_m == arrayProbe().focus_m &&
+                             receive == Apodization::uniform;
             const double six = widthOf(ours, -6) / widthOf(exact, -6) - 1;
             worst6 = std::max(worst6, std::abs(six));
             // The cubic phase of a steered, defocused aperture is left out; it counts most nearby.
@@ -164,7 +153,7 @@ TEST(SampledBeamLaw, WidthsAreThoseOfALinearArraySimulator) {
   const double depths_m[] = {0.03, 0.05, 0.08, 0.11, 0.14};
   const double six[] = {1.14, 1.81, 2.14, 3.09, 4.29}, steered[] = {1.23, 1.80, 2.35, 3.35, 4.51};
   const double twenty[] = {3.47, 3.25, 3.82, 5.54, 7.56};
-  const SampledBeam beam(array(), kCycles);
+  const SampledBeam beam(arrayProbe(), kCycles);
   const double angle = radiansFromDegrees(25);
   for (std::size_t i = 0; i < 5; ++i) {
     const double z = depths_m[i], mm = millimetresFromMetres(z);
@@ -186,7 +175,7 @@ std::vector<float> constant(const Probe& probe) {
 TEST(SampledBeamLaw, AConstantPlaneStaysConstant) {
   for (const ProbeKind kind : {ProbeKind::phased, ProbeKind::curvilinear, ProbeKind::linear})
     for (const int lines : {2, 3, 96, 300, 513, 1100}) {
-      Probe probe = array();
+      Probe probe = arrayProbe();
       probe.kind = kind;
       probe.lines = lines;
       probe.samples = 203;
@@ -205,7 +194,7 @@ TEST(SampledBeamLaw, AConstantPlaneStaysConstant) {
 // Law: what lines show of a bright point is the beam, also between rows of many lines.
 TEST(SampledBeamLaw, ABrightLineShowsTheBeam) {
   for (const int lines : {181, 361, 1443}) {
-    Probe probe = array();
+    Probe probe = arrayProbe();
     probe.lines = lines;
     probe.samples = 140;
     const ProfileAverage average(probe, kCycles);
@@ -241,7 +230,7 @@ TEST(SampledBeamLaw, ABrightLineShowsTheBeam) {
 TEST(SampledBeamLaw, ACystHasTheFloorOfItsSideLobes) {
   for (const Apodization receive : {Apodization::uniform, Apodization::hann})
     for (const double depth_m : {0.05, 0.10}) {
-      Probe probe = array();
+      Probe probe = arrayProbe();
       probe.receive_apodization = receive;
       const ScanGeometry geometry(probe);
       std::vector<float> plane = constant(probe);
@@ -275,7 +264,7 @@ TEST(SampledBeamLaw, ACystHasTheFloorOfItsSideLobes) {
 }
 
 TEST(SampledBeamLaw, SomeLinesAreThoseOfTheWhole) {
-  Probe probe = array();
+  Probe probe = arrayProbe();
   std::vector<float> whole(static_cast<std::size_t>(probe.lines * probe.samples));
   for (std::size_t i = 0; i < whole.size(); ++i) whole[i] = static_cast<float>(i * 7919 % 1009);
   const ProfileAverage average(probe, kCycles);

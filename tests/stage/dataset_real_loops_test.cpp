@@ -99,7 +99,7 @@ TEST_F(RealLoops, OfAnotherGrainAreRecognised) {
   for (const RealComparison::Loop& loop : mixed.loops) EXPECT_LT(loop.area, 0.5);
 }
 
-// What is beside the sector does not tell real from simulated.
+// Pixels outside the sector do not affect the comparison.
 TEST_F(RealLoops, PixelsOutsideTheSectorDoNotCount) {
   const RealComparison plain = compare({draw("a.avi", 11, 3), draw("b.avi", 12, 3)});
   const RealComparison text = compare({draw("c.avi", 11, 3, 250), draw("d.avi", 12, 3, 250)});

@@ -1,5 +1,5 @@
 #pragma once
-// Sweeps of which the usual run takes a part, as every case takes seconds.
+// Long sweeps: a normal run takes only some of their cases, because each takes seconds.
 
 #include <cstddef>
 #include <cstdlib>

@@ -12,6 +12,7 @@
 #include "motion/cycle/cardiac_clock.h"
 #include "support/exr_planes.h"
 #include "support/loop_scene.h"
+#include "support/moving_plate.h"
 #include "support/run_program.h"
 
 namespace echocine {
@@ -23,11 +24,7 @@ using namespace support;
 constexpr int kPlateKeys = 20;
 
 Scene plateScene(const TempFolder& folder, double stroke_mm, const std::string& extra = "") {
-  for (int i = 0; i < kPlateKeys; ++i) {
-    const double up_cm = 0.05 * stroke_mm * (1 - std::cos(2 * std::numbers::pi * i / kPlateKeys));
-    writeObj(box({-3, -3, 6 - up_cm}, {3, 3, 7.5 - up_cm}),
-             folder / ("plate_" + std::string(i < 10 ? "0" : "") + std::to_string(i) + ".obj"));
-  }
+  writePlates(folder, kPlateKeys, stroke_mm, 1.5);
   SceneText text;
   text.background = "blood";
   text.probe["lines"] = "24";

@@ -11,6 +11,7 @@
 #include "mmode/mmode_files.h"
 #include "scene/scan_geometry.h"
 #include "support/loop_scene.h"
+#include "support/moving_plate.h"
 #include "support/paths.h"
 #include "support/run_program.h"
 
@@ -77,11 +78,7 @@ TEST(MMode, AMovingPlateIsWhereItsClosedFormSays) {
     return 0.5 * kStroke_mm * (1 - std::cos(2 * std::numbers::pi * phase));
   };
   TempFolder folder;
-  for (int i = 0; i < kPlateFrames; ++i) {
-    const double z_cm = 6 - 0.1 * up_mm(static_cast<double>(i) / kPlateFrames);
-    writeObj(box({-3, -3, z_cm}, {3, 3, z_cm + 0.1}),
-             folder / ("plate_" + std::string(i < 10 ? "0" : "") + std::to_string(i) + ".obj"));
-  }
+  writePlates(folder, kPlateFrames, kStroke_mm, 0.1);
   for (const bool speckle : {false, true}) {
     SCOPED_TRACE(speckle ? "speckle" : "smooth");
     SceneText text;
