@@ -100,10 +100,24 @@ double differenceOf(const Pose& pose, const heart::ProbePose& other) {
          (angle(pose.z_axis, other.axis) + angle(pose.x_axis, other.lateral)) / 0.1745;
 }
 
-// Dials of the scene's acquisition or of the whole body are none of a page.
+// A dial of the whole body is none of a page.
 bool isOnPage(const heart::Dial& dial) {
-  const std::string_view key = dial.key;
-  return key != "hr" && key != "body-scale";
+  return std::string_view(dial.key) != "body-scale";
+}
+
+// The timing of a recording as keys. The scene keeps its own rate unless a rate is asked for.
+std::vector<TomlEdit> timingOf(const heart::Recording& recording, std::optional<double> rate_bpm) {
+  std::string phases;
+  for (const double phase : recording.phases)
+    phases += fmt::format("{}{:.6f}", phases.empty() ? "" : ", ", phase);
+  std::vector<TomlEdit> edits{
+      {"motion.end_systole_phase", fmt::format("{:.6f}", recording.end_systole_phase)},
+      {"motion.keyframe_phases", "[" + phases + "]"}};
+  if (!rate_bpm) return edits;
+  const std::string rate = fmt::format("{}", *rate_bpm);
+  edits.push_back({"acquisition.heart_rate_bpm", rate});
+  edits.push_back({"motion.keyframe_heart_rate_bpm", rate});
+  return edits;
 }
 
 }  // namespace
@@ -210,15 +224,12 @@ OtherHeart HeartDials::made(const HeartChange& change, const std::string& text) 
   const heart::Parameters parameters = parametersWith(change);
   const heart::ParametricHeart model(parameters);
   const heart::Recording recording = heart::record(model, own().view, keyframes_, spacing_);
-  std::string phases;
-  for (const double phase : recording.phases)
-    phases += fmt::format("{}{:.6f}", phases.empty() ? "" : ", ", phase);
+  const auto rate = change.dials.find("hr");
   OtherHeart other;
-  other.text =
-      withEdits(withFolder(text, ""),
-                {{"motion.end_systole_phase", fmt::format("{:.6f}", recording.end_systole_phase)},
-                 {"motion.keyframe_phases", "[" + phases + "]"}},
-                file_);
+  other.text = withEdits(
+      withFolder(text, ""),
+      timingOf(recording, rate == change.dials.end() ? std::nullopt : std::optional(rate->second)),
+      file_);
   other.meshes = heart::meshesOf(recording);
   other.standard = recording.pose;
   return other;
