@@ -20,9 +20,10 @@ struct LiveOptions {
   bool framed = false;  // other pages of this machine, such as a notebook, may show the page
 };
 
-// Serves the scene on 127.0.0.1 until `stop` is true, which is polled every 50 ms. `listening` is
-// called once with the link of the page, `warn` with each warning about the scene. Throws
-// SceneError and JobError, also if the port is taken.
+// Serves the scene on 127.0.0.1 until `stop` is true, which is polled every 50 ms and must be
+// thread-safe. `listening` is called once with the link of the page, `warn` with each warning about
+// the scene. Throws SceneError and JobError, also if the port is taken, and Stopped before the page
+// is served.
 void serveLive(const LiveOptions& options,
                const std::function<void(const std::string& link)>& listening,
                const std::function<void(const std::string&)>& warn,
