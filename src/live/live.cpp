@@ -23,7 +23,8 @@ void serveLive(const LiveOptions& options,
     withThreads(options.threads, [&] {
       LiveScene scene = options.text ? LiveScene(options.scene, *options.text, options.meshes)
                                      : LiveScene(options.scene);
-      session = std::make_unique<LiveSession>(std::move(scene), options.record);
+      session =
+          std::make_unique<LiveSession>(std::move(scene), options.record, options.heart_truth);
     });
   });
   for (const std::string& warning : session->warnings()) warn(warning);

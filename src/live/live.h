@@ -14,6 +14,7 @@ struct LiveOptions {
   std::filesystem::path scene;
   std::optional<std::string> text;  // of the scene, in place of the file's
   NamedMeshes meshes;               // of that text; empty: in files
+  std::string heart_truth;          // truth.json of these meshes; empty: no parametric heart
   std::filesystem::path record;     // folder for a scene of each pose at rest; empty: none
   int port = 0;                     // 0: any free one
   int threads = 0;                  // 0: one per core

@@ -201,10 +201,11 @@ HttpResponse LiveSession::cost(const Json& body) {
 
 std::string LiveSession::textFor(const Subject& subject, const std::string& text,
                                  const fs::path& folder, const std::string& heart_folder) const {
-  if (own_->scene.isInMemory())
+  const bool in_memory = own_->scene.isInMemory();
+  if (in_memory && !dials_)
     throw SceneError(
         "the meshes of this scene are in memory, which a file cannot name: copy the pose");
-  if (subject.change.name().empty())
+  if (subject.change.name().empty() && !in_memory)
     return withMeshesFrom(text, own_->scene.file().parent_path(), folder);
   std::error_code failed;
   if (!fs::exists(folder / heart_folder, failed))
