@@ -110,7 +110,7 @@ TEST_F(LiveHeartDials, ARateChangesTheBeatItsEcgAndItsTiming) {
   const Json own = Json::parse(ask("/scene", "{}").body);
   const Json fast = Json::parse(ask("/scene", "{" + dials + "}").body);
   EXPECT_EQ(own["loop"]["frames"], 5) << "at 65 beats a minute and 5 frames per second";
-  EXPECT_EQ(fast["loop"]["frames"], 3) << "60 / 120 s, rounded up";
+  EXPECT_EQ(fast["loop"]["frames"], 3) << "2.5, rounded";
   EXPECT_NE(own["loop"]["ecg"], fast["loop"]["ecg"]);
   HeartFiles files;
   files.keyframes = 4;
@@ -180,6 +180,9 @@ TEST_F(LiveHeartDials, TruthHasLabelsOfThePixelsAndTheFunctionOfTheWall) {
 TEST_F(LiveHeartDials, ALoopIsOneFileOfItsFormat) {
   EXPECT_EQ(ask("/loop", R"({"format": "gif"})").body.substr(0, 6), "GIF89a");
   EXPECT_EQ(ask("/loop", R"({"format": "mp4"})").body.substr(4, 4), "ftyp");
+  const std::string webp = ask("/loop", R"({"format": "webp"})").body;
+  EXPECT_EQ(webp.substr(0, 4) + webp.substr(8, 4), "RIFFWEBP");
+  EXPECT_NE(webp.find("ANIM"), std::string::npos);
   EXPECT_EQ(ask("/loop", R"({"format": "avi"})").status, 400);
   const Json cost = Json::parse(ask("/cost", "{}").body);
   EXPECT_GT(cost["ms"].get<double>(), 0);
