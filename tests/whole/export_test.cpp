@@ -14,6 +14,7 @@
 #include "support/run_program.h"
 #include "support/temp_folder.h"
 #include "video/read_video.h"
+#include "video/video_builder.h"
 
 namespace echocine {
 namespace {
