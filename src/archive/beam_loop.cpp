@@ -44,12 +44,15 @@ std::vector<float> rowsFirst(std::span<const float> planes, const BeamLoop& loop
 
 std::vector<float> ecgOf(const Scene& scene, const CardiacClock& clock) {
   std::vector<float> ecg;
+  // Beyond the loop the first and the last beat go on.
   const double end_s = (clock.frameCount() - 0.5) / scene.acquisition.frame_rate_hz;
-  for (int i = 0; i / kEcgRate_hz <= end_s; ++i) {
-    const FrameTime at = clock.atTime(i / kEcgRate_hz);
-    ecg.push_back(static_cast<float>(ecgAmplitude(at.time_in_beat_s, at.beat_s)));
+  for (int i = 0;; ++i) {
+    const double time_s = i / kEcgRate_hz - kEcgMargin_s, inside_s = std::clamp(time_s, 0.0, end_s);
+    if (time_s > end_s + kEcgMargin_s) return ecg;
+    const FrameTime at = clock.atTime(inside_s);
+    ecg.push_back(
+        static_cast<float>(ecgAmplitude(at.time_in_beat_s + time_s - inside_s, at.beat_s)));
   }
-  return ecg;
 }
 
 std::size_t nearestTo(const std::vector<Vec3d>& points, Vec3d place) {

@@ -18,8 +18,10 @@ struct BeamLoop {
   std::vector<float> times_s;
   std::vector<float> greys;     // channel display.Y, 0 to 1
   std::vector<float> beam_m_s;  // channel velocity.beam; NaN where no motion is defined
-  std::vector<float> ecg;       // the lead, R wave = 1, at kEcgRate_hz from the first frame
-  std::optional<View> view;     // the standard view of the imaging plane, if it is one
+  // The lead, R wave = 1, at kEcgRate_hz. It starts kEcgMargin_s before the first frame and ends as
+  // long after the last one's interval, so the R waves at both ends of a beat are whole.
+  std::vector<float> ecg;
+  std::optional<View> view;  // the standard view of the imaging plane, if it is one
   // The endocardium of the left ventricle from the left mitral hinge over the apex to the right
   // one: kContourPoints places evenly along it, T x P x 2, lateral and depth, m. Empty if the plane
   // does not cut both hinges.
@@ -28,7 +30,7 @@ struct BeamLoop {
   std::vector<float> strain_percent;
 };
 
-inline constexpr double kEcgRate_hz = 500;
+inline constexpr double kEcgRate_hz = 500, kEcgMargin_s = 0.1;
 inline constexpr int kContourPoints = 65;  // our choice
 
 // Renders the loop with the channels and truth that an archive needs, into memory. Throws

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "archive/zarr_store.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/folder_lock.h"
 #include "core/stop.h"
 #include "scene/scan_geometry.h"
 #include "scene/view_names.h"
+#include "zarr/zarr_store.h"
 
 namespace echocine {
 
@@ -178,7 +178,7 @@ void writeEchoXFlow(const BeamLoop& loop, const fs::path& root, const std::strin
   const std::vector<float> velocities = finiteOf(loop.beam_m_s);
   std::vector<float> ecg_s;
   for (std::size_t i = 0; i < loop.ecg.size(); ++i)
-    ecg_s.push_back(static_cast<float>(static_cast<double>(i) / kEcgRate_hz));
+    ecg_s.push_back(static_cast<float>(static_cast<double>(i) / kEcgRate_hz - kEcgMargin_s));
   std::vector<ZarrArray> arrays{{"data/2d_brightness_mode", {t, z, x}, greys},
                                 {"data/tissue_doppler", {t, z, x}, velocities},
                                 {"data/ecg", {loop.ecg.size()}, loop.ecg},

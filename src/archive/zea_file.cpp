@@ -13,6 +13,9 @@ namespace echocine {
 
 namespace {
 
+// The release whose layout this is, as files of that release state it.
+constexpr char kZeaVersion[] = "0.1.0";
+
 // Centres of the samples: lateral, elevation, depth in the probe frame.
 std::vector<float> coordinatesOf(const BeamLoop& loop) {
   const ScanGeometry geometry(loop.scene.probe);
@@ -36,7 +39,8 @@ void writeZea(const BeamLoop& loop, const std::filesystem::path& file, const std
   const std::vector<float> coordinates = coordinatesOf(loop);
   const std::vector<std::uint8_t> greys = bytesOfGreys(loop);
   const float frame_rate_hz = static_cast<float>(loop.scene.acquisition.frame_rate_hz),
-              ecg_rate_hz = static_cast<float>(kEcgRate_hz), start_s = 0;
+              ecg_rate_hz = static_cast<float>(kEcgRate_hz), start_s = 0,
+              ecg_start_s = static_cast<float>(-kEcgMargin_s);
   const auto floats = [](std::span<const float> values) { return values; };
   const auto one = [](const float& value) { return std::span(&value, 1); };
   const std::string image = "tracks/track_0/data/image/", ecg = "metadata/ecg/",
@@ -45,20 +49,24 @@ void writeZea(const BeamLoop& loop, const std::filesystem::path& file, const std
   std::vector<Hdf5Array> arrays{
       {image + "values", {t, z, x}, std::span<const std::uint8_t>(greys), true},
       {image + "coordinates", {z, x, 3}, floats(coordinates), true},
+      {image + "timestamps", {t}, floats(loop.times_s)},
+      {image + "start_time_offset", {}, one(start_s)},
       {doppler + "values", {t, z, x}, floats(loop.beam_m_s), true},
       {doppler + "coordinates", {z, x, 3}, floats(coordinates), true},
+      {doppler + "timestamps", {t}, floats(loop.times_s)},
+      {doppler + "start_time_offset", {}, one(start_s)},
       {doppler + "unit", {}, std::string("m/s")},
       {"metadata/subject/id", {}, subject},
       {ecg + "samples", {loop.ecg.size()}, floats(loop.ecg)},
       {ecg + "sampling_frequency", {}, one(ecg_rate_hz)},
-      {ecg + "start_time_offset", {}, one(start_s)}};
+      {ecg + "start_time_offset", {}, one(ecg_start_s)}};
   if (!loop.strain_percent.empty()) {
     arrays.push_back({strain + "samples", {t}, floats(loop.strain_percent)});
     arrays.push_back({strain + "sampling_frequency", {}, one(frame_rate_hz)});
     arrays.push_back({strain + "start_time_offset", {}, one(start_s)});
   }
   const Hdf5Attribute attributes[] = {
-      {"zea_version", "dev"},
+      {"zea_version", kZeaVersion},
       {"probe_name", "generic"},
       {"description", fmt::format("EchoCine {}, scene {}", ECHOCINE_VERSION, loop.scene_sha256)}};
   writeFileWhole(file, hdf5Bytes(arrays, attributes));

@@ -9,10 +9,11 @@
 namespace echocine {
 
 // Writes one file; an existing one is replaced.
-//   tracks/track_0/data/image            values uint8 [T, z, x], coordinates [z, x, 3] m
-//   tracks/track_0/data/tissue_doppler   values float32 m/s, positive towards the probe
+//   tracks/track_0/data/image            values uint8 [T, z, x], coordinates [z, x, 3] m,
+//                                        timestamps [T] s, start_time_offset s
+//   tracks/track_0/data/tissue_doppler   values float32 m/s, positive towards the probe; the same
 //   metadata/ecg, metadata/subject/id, metadata/longitudinal_strain
-// Attributes of the root: zea_version "dev" (the value for no release), probe_name, description.
+// Attributes of the root: zea_version "0.1.0", probe_name, description.
 // subject: not empty. Throws SceneError, JobError.
 void writeZea(const BeamLoop& loop, const std::filesystem::path& file, const std::string& subject);
 

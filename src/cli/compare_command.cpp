@@ -93,8 +93,9 @@ CompareCommand::CompareCommand(CLI::App& app) {
       ->add_option("synthetic", options_.synthetic,
                    "Folder of a render, or any video; omitted with --scan and --views")
       ->required();
-  command->add_option("real", options_.real,
-                      "AVI, MP4, GIF, DICOM, or a folder of PNG or JPEG frames");
+  command->add_option(
+      "real", options_.real,
+      "AVI, MP4, GIF, DICOM, a folder of PNG or JPEG frames, EchoXFlow (.zarr), or zea (.hdf5)");
   command->add_option("-o,--output", folder_, "Folder for the results")->required();
   addSide(*command, options_.real_side, "", "real");
   addTimes(*command, options_.real_side, "real", "real");

@@ -61,7 +61,7 @@ FitCommand::FitCommand(CLI::App& app) {
   command
       ->add_option("--view", views_,
                    "A loop and its view, VIEW=FILE: a video, DICOM, folder of frames or of a "
-                   "render; VIEW one of " +
+                   "render, EchoXFlow (.zarr), or zea (.hdf5); VIEW one of " +
                        viewList())
       ->allow_extra_args(false)
       ->type_name("VIEW=FILE");

@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
+#include "echo/beam_recording.h"
 #include "echo/render_folder.h"
 #include "video/read_video.h"
 
@@ -111,11 +112,13 @@ void blankOutside(EchoLoop& loop) {
 
 // The user's word first, then the file's, then the picture's: before what is burnt in around the
 // sector is blanked.
-void anchorBeat(EchoLoop& loop, const SideOptions& side, bool folder) {
+void anchorBeat(EchoLoop& loop, const SideOptions& side, bool folder, bool recording) {
   if (side.ed_frame || !side.r_waves_s.empty()) {
     loop.beat_anchor = "given";
   } else if (folder) {
     loop.beat_anchor = "manifest";
+  } else if (recording) {
+    return;  // its ECG is no picture
   } else if (!loop.video.r_waves_s.empty()) {
     loop.beat_anchor = "DICOM R waves";
   } else if (side.read_ecg) {
@@ -215,10 +218,13 @@ void checkScale(const EchoLoop& loop) {
 // sector.
 EchoLoop readLoop(const std::filesystem::path& path, const SideOptions& side, bool is_real) {
   checkSide(side);
-  const bool folder = isRenderFolder(path);
+  const bool folder = isRenderFolder(path), recording = !folder && isBeamRecording(path);
+  const bool exact = folder || recording;  // sector and scale are known
   EchoLoop loop;
   if (folder) {
     loop = readRenderFolder(path);
+  } else if (recording) {
+    loop = readBeamRecording(path);
   } else {
     loop.video = readVideo(path);
     if (side.pixel_aspect) makeSquare(loop.video, *side.pixel_aspect);
@@ -231,9 +237,9 @@ EchoLoop readLoop(const std::filesystem::path& path, const SideOptions& side, bo
     v.heart_rate_source = is_real ? "--heart-rate" : "--synthetic-heart-rate";
   }
   if (!side.r_waves_s.empty()) v.r_waves_s = side.r_waves_s;
-  if (!folder || side.sector) findWhere(loop, side, is_real);
-  anchorBeat(loop, side, folder);
-  if (!folder) {
+  if (!exact || side.sector) findWhere(loop, side, is_real);
+  anchorBeat(loop, side, folder, recording);
+  if (!exact) {
     loop.overlay = overlayMask(v, loop.sector());
     noteColour(loop);
     blankOutside(loop);
@@ -241,7 +247,7 @@ EchoLoop readLoop(const std::filesystem::path& path, const SideOptions& side, bo
   if (side.mm_per_pixel) {
     loop.metres_per_pixel = 1e-3 * *side.mm_per_pixel;
     loop.scale_source = is_real ? "--scale" : "--synthetic-scale";
-  } else if (!folder) {
+  } else if (!exact) {
     scaleFromRegions(loop);
   }
   if (v.rate.hz > 0 && !v.rate.trusted)

@@ -72,14 +72,9 @@ ReadLoop readLoop(const fs::path& path, const ExportOptions& options) {
   return read;
 }
 
-}  // namespace
-
-Exported exportLoops(const ExportOptions& options) {
-  checkOptions(options);
-  const AnimationFormat format = *animationFormatOf(options.output);
-  Exported exported;
-  double rate_hz = 0, first_s = 0;
-  std::vector<MontageLoop> loops;
+// One loop after the other. The frame rate is that of the fastest one as played.
+void addLoops(const ExportOptions& options, Montage& montage, double& first_s, double& rate_hz,
+              std::vector<std::string>& notes) {
   for (std::size_t i = 0; i < options.loops.size(); ++i) {
     checkpoint();
     ReadLoop read = readLoop(options.loops[i], options);
@@ -87,12 +82,20 @@ Exported exportLoops(const ExportOptions& options) {
     if (i == 0) first_s = read.loop.duration_s;
     const double stretch = first_s / read.loop.duration_s;
     if (std::abs(stretch - 1) > 0.02)
-      exported.notes.push_back(fmt::format("{}: {:.3g} s are played in {:.3g} s, to stay in phase",
-                                           options.loops[i].string(), read.loop.duration_s,
-                                           first_s));
+      notes.push_back(fmt::format("{}: {:.3g} s are played in {:.3g} s, to stay in phase",
+                                  options.loops[i].string(), read.loop.duration_s, first_s));
     rate_hz = std::max(rate_hz, read.rate_hz / stretch * options.speed);
-    loops.push_back(std::move(read.loop));
+    montage.add(std::move(read.loop));
   }
+}
+
+Exported exportWithThreads(const ExportOptions& options) {
+  const AnimationFormat format = *animationFormatOf(options.output);
+  Exported exported;
+  double rate_hz = 0, first_s = 0;
+  Montage montage(options.loops.size(), options.columns, options.width,
+                  fs::absolute(options.output).parent_path());
+  addLoops(options, montage, first_s, rate_hz, exported.notes);
   const double most_hz = format == AnimationFormat::gif ? kMostGifRate_hz : kMostScreenRate_hz;
   if (rate_hz > most_hz) {
     exported.notes.push_back(fmt::format(
@@ -103,21 +106,27 @@ Exported exportLoops(const ExportOptions& options) {
   const double once_s = first_s / options.speed;
   const int once = std::max(1, static_cast<int>(std::lround(once_s * rate_hz)));
   rate_hz = once / once_s;  // a whole number of frames per loop, so that repeats do not jump
-  withThreads(options.threads, [&] {
-    const Montage montage(std::move(loops), options.columns, options.width);
-    AnimationEncoder encoder(
-        {format, montage.width(), montage.height(), rate_hz, coloursOf(options.tint)});
-    exported.frames = once * (format == AnimationFormat::mp4 ? options.repeats : 1);
-    for (int i = 0; i < exported.frames; ++i) {
-      checkpoint();
-      encoder.add(montage.at((i % once + 0.5) / once));
-    }
-    exported.codec = encoder.codec();
-    exported.width = montage.width();
-    exported.height = montage.height();
-    writeFileWhole(options.output, encoder.finish());
-  });
+  AnimationEncoder encoder(
+      {format, montage.width(), montage.height(), rate_hz, coloursOf(options.tint)});
+  exported.frames = once * (format == AnimationFormat::mp4 ? options.repeats : 1);
+  for (int i = 0; i < exported.frames; ++i) {
+    checkpoint();
+    encoder.add(montage.at((i % once + 0.5) / once));
+  }
+  exported.codec = encoder.codec();
+  exported.width = montage.width();
+  exported.height = montage.height();
+  writeFileWhole(options.output, encoder.finish());
   exported.frame_rate_hz = rate_hz;
+  return exported;
+}
+
+}  // namespace
+
+Exported exportLoops(const ExportOptions& options) {
+  checkOptions(options);
+  Exported exported;
+  withThreads(options.threads, [&] { exported = exportWithThreads(options); });
   return exported;
 }
 

@@ -1,42 +1,14 @@
 #include "hdf/hdf5_file.h"
 
-#include <hdf5.h>
-
 #include <functional>
-#include <mutex>
 #include <numeric>
 
 #include "core/check.h"
-#include "core/error.h"
+#include "hdf/hdf5_library.h"
 
 namespace echocine {
 
 namespace {
-
-// Debian's library may be used by one thread at a time.
-std::mutex& hdf5Mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
-
-hid_t checked(hid_t id) {
-  if (id < 0) throw JobError("HDF5 has no memory for a file");
-  return id;
-}
-
-// Closes what it holds.
-class Hdf5Handle {
- public:
-  Hdf5Handle(hid_t id, herr_t (*close)(hid_t)) : id_(checked(id)), close_(close) {}
-  ~Hdf5Handle() { close_(id_); }
-  Hdf5Handle(const Hdf5Handle&) = delete;
-  Hdf5Handle& operator=(const Hdf5Handle&) = delete;
-  operator hid_t() const { return id_; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
 
 class MemoryFile {
  public:
@@ -46,11 +18,11 @@ class MemoryFile {
         links_(H5Pcreate(H5P_LINK_CREATE), H5Pclose),
         text_(H5Tcopy(H5T_C_S1), H5Tclose) {
     constexpr std::size_t kGrow = std::size_t{1} << 20;
-    checked(H5Pset_fapl_core(access_, kGrow, false));
-    checked(H5Pset_create_intermediate_group(links_, 1));
-    checked(H5Tset_size(text_, H5T_VARIABLE));
-    checked(H5Tset_cset(text_, H5T_CSET_UTF8));
-    file_ = checked(H5Fcreate("memory.h5", H5F_ACC_TRUNC, H5P_DEFAULT, access_));
+    checkedHdf5(H5Pset_fapl_core(access_, kGrow, false));
+    checkedHdf5(H5Pset_create_intermediate_group(links_, 1));
+    checkedHdf5(H5Tset_size(text_, H5T_VARIABLE));
+    checkedHdf5(H5Tset_cset(text_, H5T_CSET_UTF8));
+    file_ = checkedHdf5(H5Fcreate("memory.h5", H5F_ACC_TRUNC, H5P_DEFAULT, access_));
   }
   ~MemoryFile() { H5Fclose(file_); }
   MemoryFile(const MemoryFile&) = delete;
@@ -62,7 +34,7 @@ class MemoryFile {
         H5Acreate2(file_, attribute.name.c_str(), text_, space, H5P_DEFAULT, H5P_DEFAULT),
         H5Aclose);
     const char* const data = attribute.text.c_str();
-    checked(H5Awrite(made, text_, static_cast<const void*>(&data)));
+    checkedHdf5(H5Awrite(made, text_, static_cast<const void*>(&data)));
   }
 
   void add(const Hdf5Array& array) {
@@ -75,10 +47,10 @@ class MemoryFile {
   }
 
   std::vector<std::byte> bytes() const {
-    checked(H5Fflush(file_, H5F_SCOPE_GLOBAL));
+    checkedHdf5(H5Fflush(file_, H5F_SCOPE_GLOBAL));
     std::vector<std::byte> bytes(
-        static_cast<std::size_t>(checked(H5Fget_file_image(file_, nullptr, 0))));
-    checked(H5Fget_file_image(file_, bytes.data(), bytes.size()));
+        static_cast<std::size_t>(checkedHdf5(H5Fget_file_image(file_, nullptr, 0))));
+    checkedHdf5(H5Fget_file_image(file_, bytes.data(), bytes.size()));
     return bytes;
   }
 
@@ -94,17 +66,17 @@ class MemoryFile {
         shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(dimensions, shape.data(), nullptr),
         H5Sclose);
     const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    checked(H5Pset_obj_track_times(properties, false));
+    checkedHdf5(H5Pset_obj_track_times(properties, false));
     if (array.compressed && count > 0) {
       constexpr unsigned kDeflate = 6;  // zlib's own
       shape.front() = 1;
-      checked(H5Pset_chunk(properties, dimensions, shape.data()));
-      checked(H5Pset_deflate(properties, kDeflate));
+      checkedHdf5(H5Pset_chunk(properties, dimensions, shape.data()));
+      checkedHdf5(H5Pset_deflate(properties, kDeflate));
     }
     const Hdf5Handle set(
         H5Dcreate2(file_, array.name.c_str(), stored, space, links_, properties, H5P_DEFAULT),
         H5Dclose);
-    checked(H5Dwrite(set, native, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
+    checkedHdf5(H5Dwrite(set, native, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
   }
 
   Hdf5Handle access_, links_, text_;

@@ -183,6 +183,8 @@ void AnimationEncoder::Impl::setQuality() {
   if (codec->codec_id == AV_CODEC_ID_H264) {
     av_opt_set(codec->priv_data, "crf", "18", 0);
     av_opt_set(codec->priv_data, "preset", "medium", 0);
+    // Its lookahead reads memory that it has not set: coloured loops got other bytes.
+    av_opt_set(codec->priv_data, "mbtree", "0", 0);
   } else {
     codec->flags |= AV_CODEC_FLAG_QSCALE;
     codec->global_quality = 3 * FF_QP2LAMBDA;

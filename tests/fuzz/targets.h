@@ -21,14 +21,15 @@ void folder(std::string_view bytes);   // the manifest of a render's folder
 void record(std::string_view bytes);   // what a dataset notes of a heart
 void spec(std::string_view bytes);     // the spec of a dataset
 void request(std::string_view bytes);  // what a client sends to a live session
+void zarr(std::string_view bytes);     // an array of a zarr store: metadata and a chunk
 
 struct Target {
   const char* name;  // of its corpus too
   void (*run)(std::string_view);
 };
 inline constexpr Target kTargets[] = {
-    {"scene", scene},   {"obj", obj},   {"ply", ply},        {"off", off}, {"stl", stl},
-    {"lid", lid},       {"exr", exr},   {"video", video},    {"ecg", ecg}, {"folder", folder},
-    {"record", record}, {"spec", spec}, {"request", request}};
+    {"scene", scene},   {"obj", obj},   {"ply", ply},         {"off", off},  {"stl", stl},
+    {"lid", lid},       {"exr", exr},   {"video", video},     {"ecg", ecg},  {"folder", folder},
+    {"record", record}, {"spec", spec}, {"request", request}, {"zarr", zarr}};
 
 }  // namespace echocine::fuzz

@@ -156,7 +156,7 @@ class Archive(unittest.TestCase):
     def test_zea(self):
         exr = self.rendered()
         with h5py.File(self.path("loop.hdf5"), "r") as file:
-            self.assertEqual(file.attrs["zea_version"], "dev")
+            self.assertEqual(file.attrs["zea_version"], "0.1.0")
             self.assertEqual(file.attrs["probe_name"], "generic")
             data = file["tracks/track_0/data"]
             self.assertEqual(set(data), {"image", "tissue_doppler"})
@@ -167,6 +167,10 @@ class Archive(unittest.TestCase):
             numpy.testing.assert_array_equal(doppler["values"][()], exr["velocity.beam"])
             self.assertEqual(doppler["unit"].asstr()[()], "m/s")
             for group in (image, doppler):
+                times = group["timestamps"][()]
+                self.assertEqual(times.dtype, numpy.float32)
+                numpy.testing.assert_allclose(times, numpy.arange(len(times)) / 8, atol=1e-6)
+                self.assertEqual(float(group["start_time_offset"][()]), 0)
                 places = group["coordinates"][()]
                 self.assertEqual(places.shape, (SAMPLES, LINES, 3))
                 self.assertTrue((places[..., 1] == 0).all())
@@ -177,7 +181,9 @@ class Archive(unittest.TestCase):
             ecg = file["metadata/ecg"]
             self.assertEqual(ecg["samples"].dtype, numpy.float32)
             self.assertEqual(float(ecg["sampling_frequency"][()]), 500)
-            self.assertEqual(float(ecg["start_time_offset"][()]), 0)
+            self.assertAlmostEqual(float(ecg["start_time_offset"][()]), -0.1, places=6)
+            samples = ecg["samples"][()]
+            self.assertEqual(int(numpy.argmax(samples[:100])), 50)  # the R wave at the first frame
             self.assertAlmostEqual(float(ecg["samples"][()].max()), 1, delta=0.05)
             self.assertEqual(file["metadata/subject/id"].asstr()[()], "ec01")
             strain = file["metadata/longitudinal_strain/samples"][()]

@@ -14,6 +14,7 @@
 #include "support/run_program.h"
 #include "support/temp_folder.h"
 #include "video/read_video.h"
+#include "video/video_builder.h"
 
 namespace echocine {
 namespace {
@@ -150,9 +151,17 @@ TEST(Export, AMontageShowsAllLoopsAtOnePhase) {
                                                        static_cast<std::uint8_t>(first + i))});
     return loop;
   };
+  const TempFolder folder;
+  const auto montageOf = [&](std::vector<MontageLoop> loops, int columns, int width) {
+    auto montage = std::make_unique<Montage>(loops.size(), columns, width, folder.path());
+    for (MontageLoop& loop : loops) montage->add(std::move(loop));
+    return montage;
+  };
   withThreads(2, [&] {
-    const Montage montage({loopOf(10, 40, 30, 20), loopOf(20, 20, 30, 100), loopOf(7, 80, 20, 200)},
-                          0, 0);
+    const auto made =
+        montageOf({loopOf(10, 40, 30, 20), loopOf(20, 20, 30, 100), loopOf(7, 80, 20, 200)}, 0, 0);
+    const Montage& montage = *made;
+    EXPECT_TRUE(fs::is_empty(folder.path()));  // its file has no name
     EXPECT_EQ(montage.width(), 80);
     EXPECT_EQ(montage.height(), 60);
     for (int i = 0; i < 40; ++i) {
@@ -169,10 +178,10 @@ TEST(Export, AMontageShowsAllLoopsAtOnePhase) {
       EXPECT_EQ(at(20, 39), 0);
       EXPECT_EQ(at(60, 45), 0);  // no fourth loop
     }
-    EXPECT_EQ(Montage({loopOf(2, 41, 31, 20)}, 0, 0).width(), 42);  // even
-    EXPECT_EQ(Montage({loopOf(2, 40, 30, 0), loopOf(2, 40, 30, 0)}, 1, 20).height(), 30);
+    EXPECT_EQ(montageOf({loopOf(2, 41, 31, 20)}, 0, 0)->width(), 42);  // even
+    EXPECT_EQ(montageOf({loopOf(2, 40, 30, 0), loopOf(2, 40, 30, 0)}, 1, 20)->height(), 30);
     EXPECT_THROW(
-        Montage({loopOf(2, 4000, 30, 0), loopOf(2, 40, 30, 0), loopOf(2, 40, 30, 0)}, 3, 0),
+        montageOf({loopOf(2, 4000, 30, 0), loopOf(2, 40, 30, 0), loopOf(2, 40, 30, 0)}, 3, 0),
         SceneError);
   });
 }

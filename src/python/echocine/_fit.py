@@ -157,7 +157,7 @@ class ModelDiscrepancy:
     """The discrepancy D between a real loop and models: built once, called for each model and pose. Grey levels of models are not used.
 
     Args:
-        real: AVI, MP4, GIF, DICOM, a render's folder, or a folder of frames.
+        real: a loop that ``compare`` reads, or a render's folder.
         first: a model of roughly the right heart and view. It gives the start of the beat where neither the file nor `side` has it.
         side: what is known better than the file tells, as for `compare`.
         weights: of the terms region, boundary and motion in D.

@@ -90,7 +90,7 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
     """Fits a beating heart to one to three echo loops, as ``echocine fit`` does.
 
     Args:
-        loops: view -> AVI, MP4, GIF, DICOM, a render's folder, or a folder of frames, such as ``{"a4c": "a4c.dcm"}``.
+        loops: view -> a loop that ``compare`` reads, such as ``{"a4c": "a4c.dcm"}``.
             Or a list of them: their views are ranked, 2 minutes of one core each, and refused if they are unclear.
         folder: for fit.json, curves.csv and heart/ (meshes and scene); None: no files.
         side: view -> what is known better than the file tells, as for `compare`: mm_per_pixel, fps, ed_frame, ...

@@ -125,7 +125,7 @@ def compare(synthetic: Union[Loop, PathLike], real: PathLike, folder: Optional[P
 
     Args:
         synthetic: a loop, a render's folder, or a video. A loop in memory is rendered into a folder that is removed.
-        real: AVI, MP4, GIF, DICOM, or a folder of PNG or JPEG frames.
+        real: AVI, MP4, GIF, DICOM, a folder of PNG or JPEG frames, EchoXFlow (.zarr), or zea (.hdf5).
         folder: for compare.html, frames.csv and pictures; None: no files.
         real_side, synthetic_side: what is known better than the files tell: fps (1/s), mm_per_pixel, pixel_aspect,
             heart_rate_bpm, sector, ed_frame, es_frame, r_waves_s, read_ecg (False: no ECG is read from the pictures),
@@ -208,7 +208,7 @@ class FrameDiscrepancy:
     `ModelDiscrepancy` compares a model instead, without its greys.
 
     Args:
-        real: AVI, MP4, GIF, DICOM, or a folder of frames.
+        real: AVI, MP4, GIF, DICOM, a folder of frames, EchoXFlow (.zarr), or zea (.hdf5).
         scene: its probe says which lines and depths greys have.
         side: what is known better than the file tells, as for `compare`.
         tilt_deg: by which the scene's plane may be tilted and rotated to where it fits best, either way, 0 to 20.

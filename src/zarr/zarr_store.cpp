@@ -1,4 +1,4 @@
-#include "archive/zarr_store.h"
+#include "zarr/zarr_store.h"
 
 #include <fmt/format.h>
 #include <zlib.h>
