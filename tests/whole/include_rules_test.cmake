@@ -17,7 +17,7 @@ set(libraries
   "(OpenEXR/|Imath/|Imf.*\\.h$|half\\.h$)=output"
   "opencv2/(core|imgproc)=metrics,output,doppler,echo,export,fit,compare"
   "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
-  "zlib\\.h$=video,output,archive,dataset"
+  "zlib\\.h$=core,video,output,archive,dataset"
   "hdf5\\.h$=hdf"
   "CLI/=cli"
   "nlohmann/=scene,heart,output,mmode,doppler,archive,page,view,echo,fit,compare,render,study,dataset,live,cli,python"
