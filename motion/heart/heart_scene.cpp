@@ -34,7 +34,8 @@ const char* meaningOf(View view) {
   return "";
 }
 
-std::string structureText(const RecordedPart& part, const std::string& mesh_folder) {
+std::string structureText(const RecordedPart& part, const std::string& mesh_folder,
+                          MeshFormat format) {
   std::string text = fmt::format("\n[[structure]]\nname = \"{}\"\nmedium = \"{}\"\n",
                                  part.kind.name, part.kind.medium);
   text +=
@@ -43,6 +44,8 @@ std::string structureText(const RecordedPart& part, const std::string& mesh_fold
     text += fmt::format("role = \"{}\"\n", nameOf(role));
   if (part.kind.reflection_gain != 1)
     text += fmt::format("reflection_gain = {:g}\n", part.kind.reflection_gain);
+  if (format == MeshFormat::npz)
+    return text + fmt::format("keyframes = \"{}{}.npz\"\n", mesh_folder, part.kind.name);
   const bool still = part.control_m.size() == 1;
   return text + fmt::format("keyframes = \"{}{}{}.obj\"\n", mesh_folder, part.kind.name,
                             still ? "" : "_??");
@@ -76,7 +79,7 @@ std::string meshName(const RecordedPart& part, std::size_t keyframe) {
 }
 
 std::string sceneText(View view, const Parameters& parameters, const Recording& recording,
-                      const std::string& mesh_folder, Look look) {
+                      const std::string& mesh_folder, Look look, MeshFormat format) {
   const ProbePose& pose = recording.pose;
   const double hr_bpm = parameters.heart_rate_bpm;
   std::string text = fmt::format(
@@ -120,7 +123,7 @@ interpolation = "cycle"   # between keyframes the heart follows its own volume c
       vectorText(pose.lateral, 1), pose.sector_deg, std::round(pose.depth_m * 1e4) * 0.1, hr_bpm,
       Recording::kLevels, hr_bpm, recording.end_systole_phase, listText(recording.phases),
       signalText(look));
-  for (const RecordedPart& part : recording.parts) text += structureText(part, mesh_folder);
+  for (const RecordedPart& part : recording.parts) text += structureText(part, mesh_folder, format);
   return text;
 }
 

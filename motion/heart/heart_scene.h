@@ -13,13 +13,17 @@ using echocine::View;
 struct RecordedPart;
 struct Recording;
 
+// Files of the keyframes: an OBJ file for each, or a NumPy file for each part.
+enum class MeshFormat { obj, npz };
+
 // The name of a part's keyframe: "lv_wall_07.obj"; "abdomen.obj" for a static part.
 std::string meshName(const RecordedPart& part, std::size_t keyframe);
 
 // The scene that renders a recording, as TOML. Meshes are under `mesh_folder` ("" for the scene's
 // own folder, otherwise with a trailing slash).
 std::string sceneText(View view, const Parameters& parameters, const Recording& recording,
-                      const std::string& mesh_folder, Look look = Look::scanner);
+                      const std::string& mesh_folder, Look look = Look::scanner,
+                      MeshFormat format = MeshFormat::obj);
 
 // The keyframes of a recording by their names in sceneText().
 NamedMeshes meshesOf(const Recording& recording);

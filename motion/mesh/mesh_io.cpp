@@ -12,9 +12,11 @@
 #include "core/file.h"
 #include "motion/mesh/mesh_check.h"
 #include "motion/mesh/mesh_fault.h"
+#include "motion/mesh/npz_meshes.h"
 #include "motion/mesh/obj_reader.h"
 #include "motion/mesh/openmesh_reader.h"
 #include "motion/mesh/tag_join.h"
+#include "scene/npz_keyframe.h"
 
 namespace echocine {
 
@@ -74,21 +76,64 @@ void addBytes(const std::vector<T>& values, Sha256& digest) {
   digest.update(std::as_bytes(std::span(values)));
 }
 
-TriangleMesh digested(const TriangleMesh& mesh, Sha256& digest) {
+void addMesh(const TriangleMesh& mesh, Sha256& digest) {
   addBytes(mesh.positions, digest);
   addBytes(mesh.triangles, digest);
   addBytes(mesh.tags.edges, digest);
   addBytes(mesh.tags.vertices, digest);
-  return mesh;
 }
 
-KeyframeMesh joinFiles(const Keyframe& keyframe, bool degenerate, Sha256& digest) {
+bool inMemory(const Keyframe& keyframe, std::size_t file) {
+  return file < keyframe.meshes.size() && keyframe.meshes[file];
+}
+
+std::string extensionOfMesh(const std::filesystem::path& file) {
+  std::string extension = extensionOf(file);
+  if (extension != "obj" && extension != "ply" && extension != "off" && extension != "stl")
+    throw SceneError(fmt::format(
+        "{}: unknown kind of mesh file; obj, ply, off, stl and npz are accepted", file.string()));
+  return extension;
+}
+
+TriangleMesh parseMesh(const std::filesystem::path& file, const std::string& extension,
+                       const std::string& bytes) {
+  if (bytes.empty()) throw SceneError(fmt::format("{}: the file is empty", file.string()));
+  if (extension != "obj") {
+    try {
+      return parseWithOpenMesh(bytes, extension);
+    } catch (const SceneError& error) {
+      throw SceneError(fmt::format("{}: {}", file.string(), error.what()));
+    }
+  }
+  try {
+    return parseObj(bytes);
+  } catch (const SceneError& error) {
+    throw SceneError(fmt::format("{}:{}", file.string(), error.what()));
+  }
+}
+
+TriangleMesh readMesh(const std::filesystem::path& file, std::string& bytes) {
+  const std::string extension = extensionOfMesh(file);
+  bytes = readTextFile(file, kMaxFileBytes);
+  return parseMesh(file, extension, bytes);
+}
+
+// From memory, from a .npz file, or from a file of its own.
+TriangleMesh meshOf(const Keyframe& keyframe, std::size_t file, const NpzFiles& npz,
+                    std::string& text) {
+  if (inMemory(keyframe, file)) return *keyframe.meshes[file];
+  const std::filesystem::path& name = keyframe.files[file];
+  return npzKeyframeOf(name) ? npz.mesh(name, text) : readMesh(name, text);
+}
+
+KeyframeMesh joinFiles(const Keyframe& keyframe, bool degenerate, const NpzFiles& npz,
+                       std::vector<std::string>& texts) {
+  texts.assign(keyframe.files.size(), {});
   KeyframeMesh joined;
   VertexAt vertex_at;
   for (std::size_t i = 0; i < keyframe.files.size(); ++i) {
     const std::filesystem::path& file = keyframe.files[i];
-    const bool in_memory = i < keyframe.meshes.size() && keyframe.meshes[i];
-    TriangleMesh mesh = in_memory ? digested(*keyframe.meshes[i], digest) : readMesh(file, digest);
+    TriangleMesh mesh = meshOf(keyframe, i, npz, texts[i]);
     checkFile(mesh, file, degenerate);
     joined.parts.push_back(
         {file, joined.mesh.triangles.size(), joined.mesh.positions.size(), std::move(mesh.faces)});
@@ -109,35 +154,38 @@ KeyframeMesh joinFiles(const Keyframe& keyframe, bool degenerate, Sha256& digest
 }  // namespace
 
 TriangleMesh readMesh(const std::filesystem::path& file, Sha256& digest) {
-  const std::string extension = extensionOf(file);
-  if (extension != "obj" && extension != "ply" && extension != "off" && extension != "stl")
-    throw SceneError(fmt::format(
-        "{}: unknown kind of mesh file; obj, ply, off and stl are accepted", file.string()));
-  const std::string bytes = readTextFile(file, kMaxFileBytes);
-  if (bytes.empty()) throw SceneError(fmt::format("{}: the file is empty", file.string()));
+  std::string bytes;
+  TriangleMesh mesh = readMesh(file, bytes);
   digest.update(std::string_view(bytes));
-  if (extension != "obj") {
-    try {
-      return parseWithOpenMesh(bytes, extension);
-    } catch (const SceneError& error) {
-      throw SceneError(fmt::format("{}: {}", file.string(), error.what()));
-    }
-  }
-  try {
-    return parseObj(bytes);
-  } catch (const SceneError& error) {
-    throw SceneError(fmt::format("{}:{}", file.string(), error.what()));
-  }
+  return mesh;
 }
 
 KeyframeMesh readKeyframe(const Keyframe& keyframe, const Structure& structure, Sha256& digest) {
+  std::vector<std::string> texts;
+  Structure alone;
+  alone.keyframes = {keyframe};
+  KeyframeMesh mesh = readKeyframe(keyframe, structure, NpzFiles({&alone, 1}), texts);
+  addToDigest(keyframe, texts, digest);
+  return mesh;
+}
+
+KeyframeMesh readKeyframe(const Keyframe& keyframe, const Structure& structure, const NpzFiles& npz,
+                          std::vector<std::string>& texts) {
   try {
-    return joinFiles(keyframe, structure.repair.drop_degenerate, digest);
+    return joinFiles(keyframe, structure.repair.drop_degenerate, npz, texts);
   } catch (const MeshFault& fault) {
     throw fault.at(atPlace(structure.place, structure.name + ": "));
   } catch (const SceneError& error) {
     throw SceneError(atPlace(structure.place, fmt::format("{}: {}", structure.name, error.what())));
   }
+}
+
+void addToDigest(const Keyframe& keyframe, std::span<const std::string> texts, Sha256& digest) {
+  for (std::size_t i = 0; i < keyframe.files.size(); ++i)
+    if (inMemory(keyframe, i))
+      addMesh(*keyframe.meshes[i], digest);
+    else
+      digest.update(std::string_view(texts[i]));
 }
 
 }  // namespace echocine

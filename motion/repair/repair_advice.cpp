@@ -9,6 +9,7 @@
 
 #include "motion/mesh/mesh_check.h"
 #include "motion/mesh/mesh_io.h"
+#include "motion/mesh/npz_meshes.h"
 #include "motion/repair/mesh_repair.h"
 
 namespace echocine {
@@ -78,10 +79,11 @@ bool mends(Structure structure, const Repairs& repair, std::vector<KeyframeMesh>
 std::vector<KeyframeMesh> rawKeyframes(Structure structure) {
   structure.repair.drop_degenerate = true;  // also reads faces that would be dropped
   std::vector<KeyframeMesh> keyframes;
-  Sha256 digest;
+  const NpzFiles npz({&structure, 1});
+  std::vector<std::string> texts;
   try {
     for (const Keyframe& keyframe : structure.keyframes)
-      keyframes.push_back(readKeyframe(keyframe, structure, digest));
+      keyframes.push_back(readKeyframe(keyframe, structure, npz, texts));
     checkSameConnectivity(structure, keyframes);
   } catch (const SceneError&) {
     return {};

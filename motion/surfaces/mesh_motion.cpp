@@ -1,21 +1,21 @@
 #include "motion/surfaces/mesh_motion.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <memory>
+#include <numeric>
 #include <optional>
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/stop.h"
-#include "motion/keyframes/interpolation.h"
 #include "motion/mesh/surface_measure.h"
-#include "motion/mesh/world_place.h"
 #include "motion/subdivision/limit_normals.h"
 #include "motion/subdivision/shared_subdivision.h"
 #include "motion/surfaces/near_plane.h"
+#include "motion/surfaces/placed_control.h"
 #include "plan/effect_plan.h"
 #include "scene/elevation_slices.h"
 #include "scene/role.h"
@@ -23,26 +23,6 @@
 namespace echocine {
 
 namespace {
-
-// Single precision is good to a micrometre within this distance of the probe. Our choice.
-constexpr double kMaxDistanceMetres = 10;
-
-std::vector<double> phasesOf(const Structure& structure) {
-  std::vector<double> phases;
-  for (const Keyframe& keyframe : structure.keyframes) phases.push_back(keyframe.phase);
-  return phases;
-}
-
-// The beat of the keyframes. If there are two, one is at the R wave and the other has the smallest
-// volume, as in segmentations of two phases.
-HeartPace paceOf(const Scene& scene, const Structure& structure) {
-  RecordedBeat beat{scene.motion.keyframe_heart_rate_hz.value_or(scene.acquisition.heart_rate_hz),
-                    scene.motion.end_systole_phase};
-  const std::vector<Keyframe>& keyframes = structure.keyframes;
-  if (!beat.end_systole_phase && keyframes.size() == 2 && keyframes[0].phase == 0)
-    beat.end_systole_phase = endSystoleAround(keyframes[1].phase, beat.heart_rate_hz);
-  return HeartPace(beat);
-}
 
 // A frame with left-handed axes mirrors space, which inverts every face.
 bool mirrors(const Pose& pose) {
@@ -58,68 +38,11 @@ SurfaceTopology controlTopology(const Structure& structure, SurfaceId id, const 
   return topology;
 }
 
-// Mesh units in the world -> metres in the probe frame, in double until the apex is the origin.
-std::vector<Vec3d> probePositions(const Structure& structure, const KeyframeMesh& keyframe,
-                                  const Scene& scene) {
-  std::vector<Vec3d> positions_m;
-  positions_m.reserve(keyframe.mesh.positions.size());
-  for (const Vec3d& world : keyframe.mesh.positions) {
-    const Vec3d p = scene.probe.pose.fromWorld(worldPlace(scene.motion, world));
-    if (!(length(p) <= kMaxDistanceMetres))
-      throw SceneError(atPlace(
-          structure.place,
-          fmt::format("{}: {} reaches {:.4g} m from the probe's apex, at most {:g} m is accepted: "
-                      "correct motion.mesh_unit, motion.mesh_scale or the probe's position",
-                      structure.name, keyframe.parts.front().file.string(), length(p),
-                      kMaxDistanceMetres)));
-    positions_m.push_back(p);
-  }
-  return positions_m;
-}
-
-// To single precision. A coordinate within rounding (a picometre) of a coordinate plane becomes
-// exactly 0, so vertices that a mesh puts on the imaging plane stay there after the rotation into
-// the probe frame.
-std::vector<Vec3f> narrowed(const std::vector<Vec3d>& values) {
-  const auto onPlane = [](double c) { return std::abs(c) < 1e-12 ? 0.0 : c; };
-  std::vector<Vec3f> floats(values.size());
-  std::transform(values.begin(), values.end(), floats.begin(), [&](Vec3d v) {
-    return toFloat({onPlane(v.x), onPlane(v.y), onPlane(v.z)});
-  });
-  return floats;
-}
-
-std::vector<Vec3d> weightedSum(std::span<const double> weights,
-                               const std::vector<std::vector<Vec3d>>& keyframes) {
-  std::vector<Vec3d> sum(keyframes.front().size());
-  for (std::size_t k = 0; k < keyframes.size(); ++k)
-    for (std::size_t v = 0; v < sum.size(); ++v) sum[v] = sum[v] + weights[k] * keyframes[k][v];
-  return sum;
-}
-
-Box loopBox(const std::vector<std::vector<Vec3d>>& keyframes_m, double overshoot, double aside_m) {
-  Box box;
-  for (const std::vector<Vec3d>& positions : keyframes_m)
-    for (const Vec3d& p : positions) box.add(p);
-  const Vec3d widen = overshoot * (box.hi - box.lo) + aside_m * Vec3d{1, 1, 1};
-  return {box.lo - widen, box.hi + widen};
-}
-
-ControlMotion controlMotion(KeyframeWeights weights, const SurfaceTopology& topology,
-                            const std::vector<KeyframeMesh>& keyframes,
-                            const std::vector<std::vector<Vec3d>>& positions_m) {
-  ControlMotion control{std::move(weights), topology.triangles, {}, {}, topology.membrane};
-  for (const KeyframeMesh& keyframe : keyframes) control.parts.push_back(keyframe.parts);
-  for (const std::vector<Vec3d>& positions : positions_m)
-    control.rows_m.push_back(narrowed(positions));
-  for (std::size_t row = keyframes.size(); row < control.weights.rowCount(); ++row)
-    control.rows_m.push_back(narrowed(weightedSum(control.weights.rowWeights(row), positions_m)));
-  return control;
-}
-
 }  // namespace
 
 struct MeshMotion::MovingSurface {
+  explicit MovingSurface(ControlMotion placed) : control(std::move(placed)) {}
+
   ControlMotion control;
   std::shared_ptr<const Subdivision> subdivision{};
   std::shared_ptr<const LimitNormals> limit_normals{};
@@ -198,16 +121,56 @@ bool smoothNormalsOf(const Scene& scene) {
 
 }  // namespace
 
-// Unless requested, all surfaces use facet normals if one has no smooth normals.
-void MeshMotion::offerNormals(MovingSurface& moving, SurfaceTopology& topology,
-                              const MeshTags& tags, const Scene& scene) {
+// One structure, prepared by one thread.
+struct MeshMotion::Prepared {
+  SurfaceTopology topology;
+  Box loop_box_m;
+  MovingSurface moving;
+  bool unsmooth = false;  // smooth normals are wanted but impossible here
+
+  Prepared(const std::vector<KeyframeMesh>& keyframes, const Scene& scene,
+           const Structure& structure, SurfaceId id, double aside_m)
+      : topology(controlTopology(structure, id, keyframes.front().mesh, scene.probe.pose)),
+        moving(placedControl(keyframes, scene, structure, topology, aside_m, loop_box_m)) {}
+  void smooth(const MeshTags& tags, const Scene& scene);
+  void subdivide(const MeshTags& tags, const Scene& scene, double aside_m);
+};
+
+void MeshMotion::Prepared::smooth(const MeshTags& tags, const Scene& scene) {
   try {
     moving.smooth(topology, tags, scene);
   } catch (const SceneError&) {
     if (scene.accuracy.normals == Normals::smooth) throw;
-    smooth_normals_ = false;
+    unsmooth = true;
   }
 }
+
+void MeshMotion::Prepared::subdivide(const MeshTags& tags, const Scene& scene, double aside_m) {
+  if (scene.motion.subdivision > 0) moving.subdivide(topology, tags, scene.motion);
+  if (topology.still) {
+    std::vector<Vec3f> still_m, normals;
+    moving.frameAt(0, still_m, &normals);
+    moving.still_volume_m3 = enclosedVolume(topology, still_m);
+  } else if (!topology.membrane) {
+    moving.volume = VolumeSum(topology.triangles);
+  }
+  if (!topology.still) topology.near_plane = moving.nearPlane(topology, aside_m);
+}
+
+namespace {
+
+// Structures by descending size, so that none is left to a single thread at the end.
+std::vector<std::size_t> largestFirst(const KeyframeSet& set) {
+  std::vector<std::size_t> order(set.structures.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return set.structures[a].front().mesh.triangles.size() >
+           set.structures[b].front().mesh.triangles.size();
+  });
+  return order;
+}
+
+}  // namespace
 
 MeshMotion::MeshMotion(const Scene& scene) : MeshMotion(readKeyframes(scene), scene) {}
 
@@ -220,34 +183,31 @@ MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
     throw SceneError(atPlace(scene.view->place,
                              "is not computed yet, accepted: the scene that placed() returns"));
   const double slices_m = elevationReach(scene);
-  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-    checkpoint();
-    const Structure& structure = scene.structures[s];
-    KeyframeWeights weights(phasesOf(structure), scene.motion.interpolation, structure.place,
-                            paceOf(scene, structure));
-    const std::vector<KeyframeMesh>& keyframes = set.structures[s];
-    SurfaceTopology topology = controlTopology(structure, static_cast<SurfaceId>(s),
-                                               keyframes.front().mesh, scene.probe.pose);
-    std::vector<std::vector<Vec3d>> positions_m;
-    positions_m.reserve(keyframes.size());
-    for (const KeyframeMesh& keyframe : keyframes)
-      positions_m.push_back(probePositions(structure, keyframe, scene));
-    const double aside_m = trabeculaeReach(scene, structure) + slices_m;
-    loop_boxes_m_.push_back(loopBox(positions_m, weights.overshoot(), aside_m));
-    MovingSurface moving{controlMotion(std::move(weights), topology, keyframes, positions_m)};
-    const MeshTags& tags = keyframes.front().mesh.tags;
-    if (smooth_normals_) offerNormals(moving, topology, tags, scene);
-    if (scene.motion.subdivision > 0) moving.subdivide(topology, tags, scene.motion);
-    if (topology.still) {
-      std::vector<Vec3f> still_m, normals;
-      moving.frameAt(0, still_m, &normals);
-      moving.still_volume_m3 = enclosedVolume(topology, still_m);
-    } else if (!topology.membrane) {
-      moving.volume = VolumeSum(topology.triangles);
+  // In parallel, with the first error in the scene's order for any number of threads.
+  const std::size_t count = scene.structures.size();
+  std::vector<std::optional<Prepared>> prepared(count);
+  std::vector<std::exception_ptr> refusals(count);
+  const std::vector<std::size_t> order = largestFirst(set);
+  parallelBlocks(count, 1, [&](std::size_t i, std::size_t) {
+    const std::size_t s = order[i];
+    try {
+      const Structure& structure = scene.structures[s];
+      const double aside_m = trabeculaeReach(scene, structure) + slices_m;
+      const MeshTags& tags = set.structures[s].front().mesh.tags;
+      prepared[s].emplace(set.structures[s], scene, structure, static_cast<SurfaceId>(s), aside_m);
+      if (smooth_normals_) prepared[s]->smooth(tags, scene);
+      prepared[s]->subdivide(tags, scene, aside_m);
+    } catch (const SceneError&) {
+      refusals[s] = std::current_exception();
     }
-    if (!topology.still) topology.near_plane = moving.nearPlane(topology, aside_m);
-    surfaces_.push_back(std::move(topology));
-    moving_.push_back(std::move(moving));
+  });
+  for (std::size_t s = 0; s < count; ++s) {
+    if (refusals[s]) std::rethrow_exception(refusals[s]);
+    // Unless requested, all surfaces use facet normals if one has no smooth normals.
+    if (prepared[s]->unsmooth) smooth_normals_ = false;
+    loop_boxes_m_.push_back(prepared[s]->loop_box_m);
+    surfaces_.push_back(std::move(prepared[s]->topology));
+    moving_.push_back(std::move(prepared[s]->moving));
   }
 }
 

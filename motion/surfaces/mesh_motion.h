@@ -51,8 +51,7 @@ class MeshMotion {
 
  private:
   struct MovingSurface;
-  void offerNormals(MovingSurface& moving, SurfaceTopology& topology, const MeshTags& tags,
-                    const Scene& scene);
+  struct Prepared;
   std::vector<SurfaceTopology> surfaces_;
   std::vector<MovingSurface> moving_;
   std::vector<Box> loop_boxes_m_;

@@ -91,6 +91,12 @@ HeartCommand::HeartCommand(CLI::App& app) {
   command->add_flag(
       "--even", even_,
       "Space keyframes evenly in time, not by motion; end-systole then lies between two keyframes");
+  command
+      ->add_option("--format", format_,
+                   "Files of the keyframes: obj (one per structure and keyframe) or npz (one NumPy "
+                   "file per structure: points [K, V, 3] and faces [F, 3])")
+      ->check(CLI::IsMember({"obj", "npz"}))
+      ->capture_default_str();
   command->add_option("--threads", wanted_.threads, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--quiet", quiet_, "Print errors only");
@@ -110,6 +116,7 @@ int HeartCommand::run() {
   wanted_.parameters.volumes_rule = rule_ == "volumes";
   for (const auto& [look, name] : NamesOf<Look>::kAll)
     if (look_ == name) wanted_.look = look;
+  if (format_ == "npz") wanted_.format = heart::MeshFormat::npz;
   writeHeart(wanted_, folder_, {.keep_going = [] { return !stopWanted(); }});
   if (!quiet_)
     fmt::print("{0} keyframes in {1}\n  echocine render {2} -o LOOP\n", wanted_.keyframes,

@@ -24,7 +24,7 @@ class HeartCommand {
   std::filesystem::path folder_;
   // By the dial's key; other dials follow.
   std::map<std::string, double> given_;
-  std::string view_ = "a4c", rule_ = "segments", look_ = "scanner";
+  std::string view_ = "a4c", rule_ = "segments", look_ = "scanner", format_ = "obj";
   std::vector<std::string> segments_;
   bool even_ = false, quiet_ = false;
 };

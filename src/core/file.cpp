@@ -166,6 +166,16 @@ void writeNewFile(const std::filesystem::path& path, std::span<const std::byte> 
   if (reason != 0) fail(reason);
 }
 
+std::string writePart(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  const PartFile part = makePart(path);
+  int reason = part.descriptor < 0 ? errno : 0;
+  if (reason == 0 && !writeAll(part.descriptor, bytes)) reason = errno;
+  if (part.descriptor >= 0 && ::close(part.descriptor) != 0 && reason == 0) reason = errno;
+  if (reason == 0) return part.name;
+  if (part.descriptor >= 0) ::unlink(part.name.c_str());
+  throw JobError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(reason)));
+}
+
 void syncAllOf(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   int reason = descriptor < 0 ? errno : 0;

@@ -26,6 +26,10 @@ void syncFolderOf(const std::filesystem::path& path);
 // JobError, also if the file exists.
 void writeNewFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
+// Writes the bytes to a new part of `path`, not synced. Returns its name. Throws JobError; no part
+// is left then.
+std::string writePart(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
 // Flushes the file system of a folder to the disk: all files and names below it with one call.
 // Throws JobError.
 void syncAllOf(const std::filesystem::path& folder);

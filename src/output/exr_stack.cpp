@@ -182,4 +182,11 @@ std::string ExrStack::write(const FrameRecord& record,
   return sha256Hex(bytes);
 }
 
+PendingFile ExrStack::prepare(const FrameRecord& record, const std::vector<ChannelPlane>& planes,
+                              std::string& sha256) const {
+  const std::span<const std::byte> bytes = encode(record, planes);
+  sha256 = sha256Hex(bytes);
+  return {folder_ / fileName(record.frame), bytes};
+}
+
 }  // namespace echocine

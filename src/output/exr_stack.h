@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/file_group.h"
 #include "output/frame_record.h"
 #include "scene/scene.h"
 #include "trace/channel_plane.h"
@@ -33,6 +34,10 @@ class ExrStack {
   // Encodes, writes a temporary file and renames it. Returns the SHA-256 of the file. Thread-safe.
   // Throws JobError like encode(), and if the file cannot be written.
   std::string write(const FrameRecord& record, const std::vector<ChannelPlane>& planes) const;
+
+  // The same, up to the renaming: the file gets its name with a FileGroup.
+  PendingFile prepare(const FrameRecord& record, const std::vector<ChannelPlane>& planes,
+                      std::string& sha256) const;
 
   // The SHA-256 of an existing complete file of this scene and frame. Empty if it is absent,
   // truncated, changed in any byte, or of another size, frame, channel list, reference or program

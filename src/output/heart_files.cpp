@@ -14,6 +14,7 @@
 #include "motion/heart/heart_scene.h"
 #include "motion/heart/heart_truth.h"
 #include "motion/heart/recording.h"
+#include "output/npy.h"
 
 namespace echocine {
 
@@ -23,10 +24,15 @@ namespace fs = std::filesystem;
 using heart::RecordedPart;
 using heart::Recording;
 
-// Micrometres, in any locale. Never "-0.000".
+// Rounded to a micrometre. Never -0.
+double millimetres(double metres) {
+  return std::round(metres * 1e6) / 1e3 + 0.0;
+}
+
+// In any locale.
 void appendMillimetres(std::string& text, double metres) {
   char digits[32];
-  const double mm = std::round(metres * 1e6) / 1e3 + 0.0;
+  const double mm = millimetres(metres);
   const auto end = std::to_chars(digits, digits + sizeof digits, mm, std::chars_format::fixed, 3);
   text += ' ';
   text.append(digits, end.ptr);
@@ -44,6 +50,15 @@ void writePart(const fs::path& folder, const RecordedPart& part) {
   });
   for (std::size_t k = 0; k < texts.size(); ++k)
     writeText(folder / heart::meshName(part, k), texts[k]);
+}
+
+// Files are made on all threads, and written in order.
+void writeNpz(const fs::path& folder, const std::vector<RecordedPart>& parts) {
+  std::vector<std::vector<std::byte>> files(parts.size());
+  parallelBlocks(parts.size(), 1,
+                 [&](std::size_t i, std::size_t) { files[i] = heartNpz(parts[i]); });
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    writeNewFile(folder / (parts[i].kind.name + std::string(".npz")), files[i]);
 }
 
 // A folder beside the target, removed unless it replaces the target. The next run removes what a
@@ -114,6 +129,30 @@ std::string heartMesh(const RecordedPart& part, std::size_t keyframe) {
   return text;
 }
 
+std::vector<std::byte> heartNpz(const RecordedPart& part) {
+  const std::size_t keyframes = part.control_m.size(), vertices = part.control_m.front().size();
+  std::vector<double> points;
+  points.reserve(3 * keyframes * vertices);
+  for (const std::vector<Vec3d>& keyframe : part.control_m)
+    for (const Vec3d& p : keyframe)
+      points.insert(points.end(), {millimetres(p.x), millimetres(p.y), millimetres(p.z)});
+  std::vector<std::int32_t> faces, corners;
+  std::vector<float> sharpness;
+  for (const heart::Face& face : part.faces)
+    for (const auto vertex : face) faces.push_back(static_cast<std::int32_t>(vertex));
+  for (const SharpVertex& corner : part.tags.vertices) {
+    corners.push_back(static_cast<std::int32_t>(corner.v));
+    sharpness.push_back(corner.sharpness);
+  }
+  std::vector<NamedArray> arrays{{"points", npyBytes(points, {keyframes, vertices, 3})},
+                                 {"faces", npyBytes(faces, {part.faces.size(), 3})}};
+  if (!corners.empty()) {
+    arrays.push_back({"corners", npyBytes(corners, {corners.size()})});
+    arrays.push_back({"corner_sharpness", npyBytes(sharpness, {sharpness.size()})});
+  }
+  return npzBytes(arrays);
+}
+
 void writeHeart(const HeartFiles& wanted, const fs::path& folder, const Monitor& monitor) {
   if (const std::string fault = heart::faultOf(wanted.parameters); !fault.empty())
     throw SceneError("heart: " + fault);
@@ -122,13 +161,18 @@ void writeHeart(const HeartFiles& wanted, const fs::path& folder, const Monitor&
     const heart::ParametricHeart model(wanted.parameters);
     const Recording recording =
         heart::record(model, wanted.view, wanted.keyframes, wanted.spacing, monitor);
-    for (const RecordedPart& part : recording.parts) {
-      if (!monitor.keep_going()) throw JobError("stopped");
-      writePart(making.path(), part);
+    if (wanted.format == heart::MeshFormat::npz) {
+      writeNpz(making.path(), recording.parts);
+    } else {
+      for (const RecordedPart& part : recording.parts) {
+        if (!monitor.keep_going()) throw JobError("stopped");
+        writePart(making.path(), part);
+      }
     }
     writeText(making.path() / "truth.json", heart::truthText(model, recording));
     writeText(making.path() / "scene.toml",
-              heart::sceneText(wanted.view, wanted.parameters, recording, "", wanted.look));
+              heart::sceneText(wanted.view, wanted.parameters, recording, "", wanted.look,
+                               wanted.format));
   });
   making.finish();
 }

@@ -34,6 +34,10 @@ std::vector<std::byte> npyBytes(std::span<const float> values, std::vector<std::
   return npyOf("<f4", std::as_bytes(values), shape);
 }
 
+std::vector<std::byte> npyBytes(std::span<const double> values, std::vector<std::size_t> shape) {
+  return npyOf("<f8", std::as_bytes(values), shape);
+}
+
 std::vector<std::byte> npyBytes(std::span<const std::uint8_t> values,
                                 std::vector<std::size_t> shape) {
   return npyOf("|u1", std::as_bytes(values), shape);

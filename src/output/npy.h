@@ -12,6 +12,7 @@ namespace echocine {
 
 // A complete .npy file (format 1.0). Precondition: the number of values matches the shape.
 std::vector<std::byte> npyBytes(std::span<const float> values, std::vector<std::size_t> shape);
+std::vector<std::byte> npyBytes(std::span<const double> values, std::vector<std::size_t> shape);
 std::vector<std::byte> npyBytes(std::span<const std::uint8_t> values,
                                 std::vector<std::size_t> shape);
 std::vector<std::byte> npyBytes(std::span<const std::int32_t> values,

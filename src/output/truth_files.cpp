@@ -114,16 +114,17 @@ std::string TruthFiles::contoursText(const FrameRecord& record, const FrameTruth
 }
 
 std::map<std::string, std::string> TruthFiles::write(const FrameRecord& record,
-                                                     const FrameTruth& truth) const {
+                                                     const FrameTruth& truth,
+                                                     std::vector<PendingFile>& pending) const {
   std::map<std::string, std::string> files;
-  if (scene_.truth.labels) {
-    const std::string name = fmt::format("labels_{:04}.png", record.frame);
-    files["truth/" + name] = put(name, labelPicture(truth));
-  }
-  if (scene_.truth.contours) {
-    const std::string name = fmt::format("contours_{:04}.json", record.frame);
-    files["truth/" + name] = put(name, bytesOf(contoursText(record, truth)));
-  }
+  const auto prepare = [&](const std::string& name, std::span<const std::byte> bytes) {
+    files["truth/" + name] = sha256Hex(bytes);
+    pending.emplace_back(folder_ / name, bytes);
+  };
+  if (scene_.truth.labels)
+    prepare(fmt::format("labels_{:04}.png", record.frame), labelPicture(truth));
+  if (scene_.truth.contours)
+    prepare(fmt::format("contours_{:04}.json", record.frame), bytesOf(contoursText(record, truth)));
   return files;
 }
 

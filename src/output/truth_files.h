@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/file_group.h"
 #include "output/frame_record.h"
 #include "output/function_json.h"
 #include "signal/picture.h"
@@ -22,10 +23,10 @@ class TruthFiles {
   // Creates `folder` if the scene requests truth files. References are kept.
   TruthFiles(std::filesystem::path folder, const Scene& scene, const LabelTable& labels);
 
-  // Writes a frame's files. Thread-safe. Throws JobError.
+  // Writes a frame's files, which get their names with a FileGroup. Thread-safe. Throws JobError.
   // Returns their digests by name, relative to the run's folder.
-  std::map<std::string, std::string> write(const FrameRecord& record,
-                                           const FrameTruth& truth) const;
+  std::map<std::string, std::string> write(const FrameRecord& record, const FrameTruth& truth,
+                                           std::vector<PendingFile>& pending) const;
 
   // Collects data for the files of the whole loop. One call at a time, in the order of the frames.
   void add(const FrameRecord& record, const FrameTruth& truth);

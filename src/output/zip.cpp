@@ -32,7 +32,8 @@ std::vector<std::byte> zipBytes(std::span<const ZipPart> parts) {
   Bytes file, directory;
   for (const ZipPart& part : parts) {
     if (file.size() + part.packed.size() > 0xf0000000u)
-      throw JobError("the arrays exceed 4 GiB, the limit of .npz: use fewer tracks or frames");
+      throw JobError(
+          "the arrays exceed 4 GiB, the limit of .npz: use fewer tracks, frames or keyframes");
     const auto crc = static_cast<std::uint32_t>(
         crc32_z(0, reinterpret_cast<const Bytef*>(part.whole.data()), part.whole.size()));
     append(directory, std::uint32_t{0x02014b50});

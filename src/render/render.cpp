@@ -90,10 +90,14 @@ void noteCosts(const Simulator& simulator, RenderSummary& summary) {
 
 RenderSummary renderLoop(const Scene& given, const RenderOptions& options, const Monitor& monitor) {
   const auto start = std::chrono::steady_clock::now();
-  const Scene scene = placed(given);
+  Scene scene;
+  std::shared_ptr<const MeshMotion> motion;  // keyframes, ready to interpolate
   RenderSummary summary;
-  warn(scene.warnings, scene, monitor, summary.manifest);
-  const auto motion = std::make_shared<const MeshMotion>(scene);  // keyframes, ready to interpolate
+  withThreads(options.threads, [&] {
+    scene = placed(given);
+    warn(scene.warnings, scene, monitor, summary.manifest);
+    motion = std::make_shared<const MeshMotion>(scene);
+  });
   const std::pair range = frameRange(options, CardiacClock(scene).frameCount());
   summary.frames_wanted = range.second - range.first;
   Manifest& manifest = summary.manifest;

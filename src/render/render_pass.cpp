@@ -47,7 +47,7 @@ void FolderSink::begin(double white) {
 
 void FolderSink::writeTruth(Finished& finished) {
   const FrameRecord& record = finished.entry.record;
-  finished.truth_files = truth_files_->write(record, *finished.truth);
+  finished.truth_files = truth_files_->write(record, *finished.truth, finished.files);
   if (!parts_.report.shows(record.frame)) return;
   const Scene& scene = parts_.simulator.scene();
   finished.page_truth = pageTruth(*finished.truth, scene, colouredLabels(scene, *finished.truth));
@@ -63,7 +63,7 @@ void FolderSink::writeExr(const FrameRecord& record, const Workspace& workspace,
       planes.push_back({channel, {}, finished.truth->sample_ids});
     else if (isMotion(channel))
       planes.push_back({channel, finished.truth->values(channel), {}});
-  finished.entry.exr_sha256 = exr_->write(record, planes);
+  finished.files.push_back(exr_->prepare(record, planes, finished.entry.exr_sha256));
 }
 
 // Browsers show JPEG and PNG, but no FFV1: then the report needs pictures of its own.
@@ -77,7 +77,7 @@ void FolderSink::writePictures(GreyImage& image, Finished& finished) {
     finished.report_frame = encodeCineFrame(image, CineCodec::mjpg, o.jpeg_quality);
   if (!o.png) return;
   std::vector<std::byte> png = encodePng(image);
-  writeFileWhole(parts_.folder.png() / frameName(frame, ".png"), png);
+  finished.files.emplace_back(parts_.folder.png() / frameName(frame, ".png"), png);
   finished.png_sha256 = sha256Hex(png);
   if (shown) finished.report_frame = std::move(png);
 }
@@ -125,6 +125,8 @@ void FolderSink::inOrder(void* taken) {
   const FrameEntry& entry = finished.entry;
   const int frame = entry.record.frame;
   const OutputSettings& o = parts_.simulator.scene().output;
+  for (PendingFile& file : finished.files) group_.add(std::move(file));
+  if (group_.isDue()) parts_.simulator.clock().time(Stage::exr, [&] { group_.finish(); });
   if (!finished.mended.empty()) parts_.monitor.warn(finished.mended);
   if (o.pictures()) {
     parts_.simulator.clock().time(Stage::avi, [&] {
@@ -147,10 +149,16 @@ void FolderSink::inOrder(void* taken) {
 }
 
 void FolderSink::endEarly() {
-  try {
+  const auto tried = [](const auto& end) {
+    try {
+      end();
+    } catch (const std::exception&) {  // the first failure is the one to report
+    }
+  };
+  tried([&] { group_.finish(); });
+  tried([&] {
     if (loop_) loop_->finishEarly();
-  } catch (const std::exception&) {  // the first failure is the one to report
-  }
+  });
 }
 
 namespace {
@@ -186,6 +194,12 @@ void FolderSink::finishTruth() {
 
 void FolderSink::finish(bool whole) {
   if (!loop_) return;  // stopped before the first frame
+  try {
+    parts_.simulator.clock().time(Stage::exr, [&] { group_.finish(); });
+  } catch (...) {
+    endEarly();
+    throw;
+  }
   if (parts_.simulator.scene().output.pictures() && !manifest_.frames.empty())
     parts_.simulator.clock().time(Stage::avi, [&] {
       if (whole)

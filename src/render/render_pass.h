@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "core/file_group.h"
 #include "frame/simulator.h"
 #include "loop/render_frames.h"
 #include "output/exr_stack.h"
@@ -51,6 +52,7 @@ class FolderSink : public FrameSink {
     std::optional<FrameTruth> truth;  // until it is written
     std::map<std::string, std::string> truth_files;  // name -> SHA-256
     PageTruth page_truth;
+    std::vector<PendingFile> files;  // get their names in the order of frames
   };
 
   void takeEarlier(const FrameRecord& record, Finished& finished) const;
@@ -66,6 +68,7 @@ class FolderSink : public FrameSink {
   std::optional<Overlay> overlay_;
   std::optional<LoopFiles> loop_;
   std::optional<TruthFiles> truth_files_;
+  FileGroup group_;
 };
 
 }  // namespace echocine

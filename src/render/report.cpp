@@ -180,7 +180,7 @@ void ReportPage::addTruth(PageTruth truth) {
 void ReportPage::prepareView(const Simulator& simulator) {
   if (!writer_) return;
   try {
-    view_ = std::make_unique<const SceneView>(viewScene(simulator));
+    view_ = std::make_unique<const Json>(viewJson(viewScene(simulator), scene_));
   } catch (const std::exception&) {
   }
 }
@@ -217,8 +217,7 @@ void ReportPage::finish(const Manifest& manifest, const Simulator& simulator) {
                      {"tracks_px", tracks},
                      {"curves", curvesJson(manifest, *this)}};
   }
-  if (!view_) view_ = std::make_unique<const SceneView>(viewScene(simulator));
-  data["view"] = viewJson(*view_, scene_);
+  data["view"] = view_ ? *view_ : viewJson(viewScene(simulator), scene_);
   data["measured"] = measuredJson(manifest);
   writer_->finish(data);
 }

@@ -2,6 +2,7 @@
 // report.html: a finished run on one page.
 
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <utility>
 
@@ -12,8 +13,6 @@
 #include "truth/frame_truth.h"
 
 namespace echocine {
-
-struct SceneView;
 
 // A frame's truth for the page's overlay.
 struct PageTruth {
@@ -55,7 +54,7 @@ class ReportPage {
   int stride_;
   std::optional<PageWriter> writer_;
   std::vector<PageTruth> truths_;  // by shown frame, without label pictures
-  std::unique_ptr<const SceneView> view_;
+  std::unique_ptr<const nlohmann::ordered_json> view_;
 };
 
 }  // namespace echocine

@@ -74,7 +74,7 @@ constexpr SceneKey kKeys[] = {
     {"structure", "role", kNone, kAny, "anatomical role; guessed from the name if left out", AT(Structure, role), kFound},
     {"structure", "membrane", kNone, kAny, "an open sheet of thin material: it has two faces that reflect, and no inside", AT(Structure, membrane)},
     {"structure", "priority", kNone, kPriority, "where closed structures overlap, the highest priority wins; among equals, the later structure", AT(Structure, priority), kOptional, kClosed},
-    {"structure", "keyframes", kNone, kPhase, "mesh files over the beat, or a list of { file, phase }", kByHand, kAlways},
+    {"structure", "keyframes", kNone, kPhase, "mesh files over the beat, a NumPy file of all keyframes, or a list of { file, phase }", kByHand, kAlways},
     {"structure", "lids", kNone, kAny, "meshes that close each keyframe, welded at their rims", kByHand},
     {"structure", "reflection_gain", kNone, ranges::kReflectionGain, "factor of R in the wall's reflection W cos^n", AT(Structure, reflection_gain)},
     {"structure", "reflection_exponent", kNone, kExponent, "exponent n of W cos^n", AT(Structure, reflection_exponent)},

@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "scene/key_reader.h"
+#include "scene/npz_keyframe.h"
 #include "scene/ranges.h"
 
 namespace echocine {
@@ -63,12 +64,34 @@ std::vector<fs::path> matchingMeshes(const TomlTable& table, std::string_view ke
   return names;
 }
 
+// A .npz file is replaced by the names of its keyframes.
+std::vector<fs::path> keyframesIn(const TomlTable& table, std::string_view key,
+                                  const std::vector<fs::path>& files) {
+  std::vector<fs::path> names;
+  for (const fs::path& file : files) {
+    const auto npz = npzKeyframeOf(file);
+    if (!npz || npz->keyframe) {
+      names.push_back(file);
+      continue;
+    }
+    try {
+      const std::vector<fs::path> all = npzKeyframeNames(file);
+      names.insert(names.end(), all.begin(), all.end());
+    } catch (const SceneError& error) {
+      table.fail(key, error.what());
+    }
+  }
+  return names;
+}
+
 // The files that match a pattern, sorted; wild cards are allowed in the file name only.
 std::vector<fs::path> matchingFiles(const TomlTable& table, std::string_view key,
                                     const MeshSource& source, const std::string& pattern) {
   if (source.in_memory) return matchingMeshes(table, key, *source.in_memory, pattern);
   const fs::path& folder = source.folder;
   const fs::path full = fs::path(pattern).is_absolute() ? fs::path(pattern) : folder / pattern;
+  if (npzKeyframeOf(full) && full.filename().string().find_first_of("*?") == std::string::npos)
+    return keyframesIn(table, key, {full});
   if (full.filename().string().find_first_of("*?[") == std::string::npos) return {full};
   std::error_code failed;
   std::vector<fs::path> files;
@@ -84,7 +107,7 @@ std::vector<fs::path> matchingFiles(const TomlTable& table, std::string_view key
                                 failed.message()));
   if (files.empty()) table.fail(key, fmt::format("no file matches {}", full.string()));
   sortNaturally(files);
-  return files;
+  return keyframesIn(table, key, files);
 }
 
 std::vector<Keyframe> readPhasedKeyframes(TomlTable& table, const MeshSource& source) {

@@ -4,12 +4,15 @@
 
 #include "motion/surfaces/mesh_motion.h"
 #include "promises.h"
+#include "scene/npz_keyframe.h"
 #include "support/plain_scene.h"
 #include "targets.h"
 
 namespace echocine::fuzz {
 
 namespace {
+
+constexpr std::size_t kMostKeyframes = 8;  // more cost time and find nothing
 
 // The file as the only keyframe of the only structure, 4 lines through it.
 Scene sceneOf(std::vector<std::filesystem::path> files) {
@@ -86,6 +89,18 @@ void off(std::string_view bytes) {
 }
 void stl(std::string_view bytes) {
   mesh("mesh.stl", bytes);
+}
+
+// Every keyframe of a NumPy file, as a loop.
+void npz(std::string_view bytes) {
+  const std::filesystem::path file = scratchFile("mesh.npz", bytes);
+  std::vector<std::filesystem::path> names;
+  if (!accepts([&] { names = npzKeyframeNames(file); }) || names.size() > kMostKeyframes) return;
+  Scene scene = sceneOf({names.front()});
+  for (std::size_t k = 1; k < names.size(); ++k)
+    scene.structures[0].keyframes.push_back(
+        {{names[k]}, static_cast<double>(k) / static_cast<double>(names.size())});
+  everyWay(scene);
 }
 
 // Two files in one, parted by a line of dashes.

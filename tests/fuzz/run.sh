@@ -9,7 +9,7 @@ build=../../build/dev
 work=$build/fuzz
 seconds=${1:-}
 targets=("${@:2}")
-[ ${#targets[@]} -gt 0 ] || targets=(ecg exr folder lid obj off ply record request scene spec stl video zarr)
+[ ${#targets[@]} -gt 0 ] || targets=(ecg exr folder lid npz obj off ply record request scene spec stl video zarr)
 
 # A file of a hundred bytes must not cost gigabytes. A library that asks for memory and takes no for an answer gets
 # none over 256 MB; one that does not, or more than 1 GB in all, is a finding. ASan's quarantine would count as held.

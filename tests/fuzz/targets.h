@@ -13,6 +13,7 @@ void obj(std::string_view bytes);    // meshes, from the reader to the traced fr
 void ply(std::string_view bytes);
 void off(std::string_view bytes);
 void stl(std::string_view bytes);
+void npz(std::string_view bytes);      // all keyframes in one NumPy file
 void lid(std::string_view bytes);      // an OBJ mesh and its lid, one after the other
 void exr(std::string_view bytes);      // a frame that an earlier run left behind
 void video(std::string_view bytes);    // a loop to compare with
@@ -28,8 +29,8 @@ struct Target {
   void (*run)(std::string_view);
 };
 inline constexpr Target kTargets[] = {
-    {"scene", scene},   {"obj", obj},   {"ply", ply},         {"off", off},  {"stl", stl},
-    {"lid", lid},       {"exr", exr},   {"video", video},     {"ecg", ecg},  {"folder", folder},
-    {"record", record}, {"spec", spec}, {"request", request}, {"zarr", zarr}};
+    {"scene", scene},   {"obj", obj},       {"ply", ply},   {"off", off},         {"stl", stl},
+    {"lid", lid},       {"npz", npz},       {"exr", exr},   {"video", video},     {"ecg", ecg},
+    {"folder", folder}, {"record", record}, {"spec", spec}, {"request", request}, {"zarr", zarr}};
 
 }  // namespace echocine::fuzz

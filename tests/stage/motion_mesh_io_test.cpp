@@ -150,7 +150,7 @@ TEST(MotionMeshIo, UnusableFilesAreRefusedAtTheirPlace) {
   };
   const std::string place = "scene.toml:7: structure.keyframes: ball: " + folder.path("").string();
   EXPECT_EQ(says(folder.write("a.vtk", "x")),
-            place + "a.vtk: unknown kind of mesh file; obj, ply, off and stl are accepted");
+            place + "a.vtk: unknown kind of mesh file; obj, ply, off, stl and npz are accepted");
   EXPECT_EQ(says(folder.write("empty.obj", "")), place + "empty.obj: the file is empty");
   EXPECT_EQ(says(folder.write("bare.obj", "# nothing\n")),
             place + "bare.obj: a surface is needed, the file has 0 vertices and 0 faces");

@@ -7,10 +7,11 @@
 // Steps of memory are allocations made within main():
 //   memory   allocation N fails; shortage  all of 4 KiB or more from N on fail
 // ECHOCINE_FAULT_STEPS=FILE takes the number of both kinds of steps when the program ends, and of
-// files renamed by a thread that had not synced what it wrote last.
+// files renamed before what was written to them was synced.
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -31,7 +32,56 @@ void* __libc_memalign(size_t, size_t);
 namespace {
 
 std::atomic<long> file_steps{0}, memory_steps{0}, unsynced_renames{0};
-thread_local bool unsynced = false;
+
+// Files by inode that were written and not synced since. A fixed table: allocations are steps.
+constexpr size_t kMostFiles = 4096;
+ino_t unsynced[kMostFiles];
+size_t unsynced_count = 0;
+std::atomic_flag unsynced_lock = ATOMIC_FLAG_INIT;
+
+template <typename Body>
+void withUnsynced(const Body& body) {
+  while (unsynced_lock.test_and_set(std::memory_order_acquire)) {
+  }
+  body();
+  unsynced_lock.clear(std::memory_order_release);
+}
+
+ino_t* unsyncedPlace(ino_t inode) {
+  ino_t* const end = unsynced + unsynced_count;
+  for (ino_t* at = unsynced; at != end; ++at)
+    if (*at == inode) return at;
+  return nullptr;
+}
+
+void markWritten(int file) {
+  struct stat status {};
+  if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) return;
+  withUnsynced([&] {
+    if (unsyncedPlace(status.st_ino) != nullptr) return;
+    if (unsynced_count == kMostFiles) std::abort();
+    unsynced[unsynced_count++] = status.st_ino;
+  });
+}
+
+void markSynced(int file) {
+  struct stat status {};
+  if (::fstat(file, &status) != 0) return;
+  withUnsynced([&] {
+    if (ino_t* const at = unsyncedPlace(status.st_ino)) *at = unsynced[--unsynced_count];
+  });
+}
+
+bool isUnsynced(const char* path) {
+  struct stat status {};
+  bool found = false;
+  if (::lstat(path, &status) == 0)
+    withUnsynced([&] {
+      found = S_ISDIR(status.st_mode) ? unsynced_count > 0  // it holds all files of the run
+                                      : unsyncedPlace(status.st_ino) != nullptr;
+    });
+  return found;
+}
 std::atomic<bool> in_main{false};
 char kind[16] = "";
 long step = 0;
@@ -125,26 +175,26 @@ int open(const char* path, int flags, ...) {
 ssize_t write(int file, const void* bytes, size_t size) {
   static const auto real = REAL(write);
   if (file <= STDERR_FILENO) return real(file, bytes, size);
-  unsynced = true;
+  markWritten(file);
   if (in_main && is("half") && file_steps + 1 == step) (void)!real(file, bytes, size / 2);
   return full(true) ? -1 : real(file, bytes, size);
 }
 
 int fsync(int file) {
   static const auto real = REAL(fsync);
-  unsynced = false;
+  markSynced(file);
   return real(file);
 }
 
 int syncfs(int file) noexcept {
   static const auto real = REAL(syncfs);
-  unsynced = false;
+  withUnsynced([] { unsynced_count = 0; });
   return real(file);
 }
 
 int rename(const char* from, const char* to) noexcept {
   static const auto real = REAL(rename);
-  if (in_main && unsynced) ++unsynced_renames;
+  if (in_main && isUnsynced(from)) ++unsynced_renames;
   return full(false) ? -1 : real(from, to);
 }
 

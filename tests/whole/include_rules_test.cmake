@@ -17,7 +17,7 @@ set(libraries
   "(OpenEXR/|Imath/|Imf.*\\.h$|half\\.h$)=output"
   "opencv2/(core|imgproc)=metrics,output,doppler,echo,export,fit,compare"
   "(dcmtk/|libav|libswscale|turbojpeg\\.h$|png\\.h$)=video"
-  "zlib\\.h$=video,output,zarr,dataset"
+  "zlib\\.h$=core,video,output,zarr,dataset"
   "zstd\\.h$=zarr"
   "hdf5\\.h$=hdf"
   "CLI/=cli"
