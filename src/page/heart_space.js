@@ -41,19 +41,31 @@ class HeartSpace {
     this.lamp = new THREE.DirectionalLight(0xffffff, 1.6);
     this.camera.add(this.lamp);
     this.scene.add(this.camera);
+    this.makeOrbit();
+  }
+
+  // Controls keep the upward direction that the camera has at this instant.
+  makeOrbit() {
+    this.orbit?.dispose();
     this.orbit = new THREE.OrbitControls(this.camera, this.canvas);
     this.orbit.addEventListener("change", () => this.render());
   }
 
-  // "aside", "picture": as the picture shows it, "probe": from where the probe is.
+  // "aside", "picture": as the picture shows it, "probe": from where the probe is. By the axes of the
+  // rig, which holds the probe.
   look(name) {
     this.measure();
-    const { camera, orbit } = this;
+    const { camera, rig } = this, up = new THREE.Vector3(0, 1, 0).transformDirection(rig.matrix);
+    if (camera.up.distanceTo(up) > 1e-6) {
+      camera.up.copy(up);
+      this.makeOrbit();
+    }
+    const { orbit } = this;
     const from = { aside: [0.75, 0.35, 1], picture: [0, 0, 1], probe: [0, 1, 1e-3] }[name];
     const half = 0.5 * camera.fov * Math.PI / 180;
     const fit = Math.min(half, Math.atan(Math.tan(half) * Math.max(0.2, camera.aspect)));
-    const distance = 0.85 * this.radius / Math.sin(fit);
-    camera.position.copy(this.middle).addScaledVector(new THREE.Vector3(...from).normalize(), distance);
+    const distance = 0.95 * this.radius / Math.sin(fit);
+    camera.position.copy(this.middle).addScaledVector(new THREE.Vector3(...from).transformDirection(rig.matrix), distance);
     camera.near = distance / 100;
     camera.far = distance + 20 * this.radius;
     camera.updateProjectionMatrix();
@@ -103,9 +115,10 @@ class HeartSpace {
   }
 
   turn(around, up) {
-    const { camera, orbit } = this, d = camera.position.clone().sub(orbit.target), r = d.length();
-    const azimuth = Math.atan2(d.x, d.z) - around, polar = Math.min(Math.PI - 0.01, Math.max(0.01, Math.acos(d.y / r) - up));
-    camera.position.set(r * Math.sin(polar) * Math.sin(azimuth), r * Math.cos(polar), r * Math.sin(polar) * Math.cos(azimuth)).add(orbit.target);
+    const { camera, orbit } = this, d = camera.position.clone().sub(orbit.target).applyAxisAngle(camera.up, -around);
+    const polar = d.angleTo(camera.up), wanted = Math.min(Math.PI - 0.01, Math.max(0.01, polar - up));
+    d.applyAxisAngle(camera.up.clone().cross(d).normalize(), wanted - polar);
+    camera.position.copy(orbit.target).add(d);
     this.looked = "";
     orbit.update();
     this.render();

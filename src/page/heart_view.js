@@ -177,8 +177,9 @@ class HeartView extends HeartSpace {
     const add = (p) => p.forEach((x, i) => { box.lo[i] = Math.min(box.lo[i], x); box.hi[i] = Math.max(box.hi[i], x); });
     for (const { given, tick } of this.surfaces)
       if (tick.checked) for (const [x, y, z] of given.probe_box_mm) add([x, -z, y]);
-    for (const [x, z] of this.view.sector_mm) add([x, -z, 0]);
-    add([0, 24 - this.face_mm, 0]);
+    const ofProbe = (x, y) => { const p = new THREE.Vector3(x, y, 0).applyMatrix4(this.rig.matrix); add([p.x, p.y, p.z]); };
+    for (const [x, z] of this.view.sector_mm) ofProbe(x, -z);
+    ofProbe(0, 24 - this.face_mm);
     this.middle = new THREE.Vector3(...box.lo.map((x, i) => (x + box.hi[i]) / 2));
     this.radius = 0.5 * Math.hypot(...box.hi.map((x, i) => x - box.lo[i]));
   }
@@ -191,7 +192,7 @@ class HeartView extends HeartSpace {
     const hits = ray.intersectObjects(this.surfaces.filter((s) => s.visible).map((s) => s.halves[0]));
     const hit = hits.find((h) => !this.cut_open || this.halves[1].distanceToPoint(h.point) <= 0);
     if (!hit) return;
-    const at = this.toScene(hit.point).map((x) => Number((x / this.view.unit_mm).toPrecision(4))), p = hit.point;
+    const at = this.toScene(hit.point).map((x) => Number((x / this.view.unit_mm).toPrecision(4))), p = this.rig.worldToLocal(hit.point.clone());
     this.words.textContent = `${hit.object.userData.surface.given.name} at [${at.join(", ")}] in the units of probe.apex; from the probe `
       + `x ${page.fixed(p.x, 1)}, y ${page.fixed(p.z, 1)}, z ${page.fixed(-p.y, 1)} mm`;
   }

@@ -12,6 +12,9 @@ class LivePicture {
     this.pen = this.canvas.getContext("2d");
     this.pixels = null;
     this.busy = false;
+    const { structures } = page.data.view;
+    this.chambers = structures.filter(({ role }) => /_cavity$|^la$|^ra$/.test(role)).map(({ name }) => name);
+    this.ventricle = structures.find(({ role }) => role === "lv_cavity")?.name;
   }
 
   // From a place in the window to one in the picture.
@@ -42,15 +45,22 @@ class LivePicture {
     live.heart.follow(canvas);
     live.player.show(made);
     live.overlay.draw();
-    const chambers = Object.entries(made.volumes_ml).filter(([name]) => /cavity|^la$|^ra$/.test(name));
-    byId("readout").textContent = `frame ${made.frame} · ${fixed(made.time_s, 3)} s · phase ${fixed(made.phase, 3)}`
-      + chambers.map(([name, ml]) => ` · ${name} ${fixed(ml, 0)} mL`).join("") + this.ejection();
+    const volumes = this.chambers.filter((name) => name in made.volumes_ml).map((name) => ` · ${name} ${fixed(made.volumes_ml[name], 0)} mL`);
+    byId("readout").textContent = `frame ${made.frame} · ${fixed(made.time_s, 3)} s · phase ${fixed(made.phase, 3)}${volumes.join("")}${this.ejection()}`;
+    if (made.effort === "still") this.warn(made.warnings);
+  }
+
+  // About the pose of a picture at rest.
+  warn(warnings) {
+    const words = (w) => (w.startsWith("nothing can be seen") ? "No scan line meets a structure: choose a standard view, or move the probe to the heart." : w);
+    const text = warnings.map(words).join(" ");
+    if (page.byId("warnings").textContent !== text) page.byId("warnings").textContent = text;
   }
 
   // Exact volumes of the left ventricle over the loop, once all frames are there.
   ejection() {
     const { state } = this.live, { fixed } = page;
-    const volumes = [...state.kept.values()].map((made) => made.volumes_ml.lv_cavity).filter((ml) => ml > 0);
+    const volumes = [...state.kept.values()].map((made) => made.volumes_ml[this.ventricle]).filter((ml) => ml > 0);
     if (volumes.length < state.frames) return "";
     const most = Math.max(...volumes), least = Math.min(...volumes);
     return ` · exact EF ${fixed(100 * (1 - least / most), 1)} % (${fixed(most, 1)} to ${fixed(least, 1)} mL)`;

@@ -4,6 +4,9 @@
 class LivePose {
   static kNumbers = [["x", "slide lateral, mm"], ["y", "slide across, mm"], ["z", "press, mm"], ["rotate", "rotate, °"], ["tilt", "tilt, °"], ["rock", "rock, °"]];
 
+  static kViews = { a4c: "apical 4-chamber", a2c: "apical 2-chamber", a3c: "apical 3-chamber", plax: "long axis", "psax-base": "short axis, base",
+    "psax-mid": "short axis, middle", "psax-apex": "short axis, apex", subcostal: "subcostal" };
+
   // live: { state, ask, refuse, changed, heart }
   constructor(live) {
     const { byId, element, data } = page;
@@ -13,7 +16,7 @@ class LivePose {
       this.numbers[name] = input;
       byId("pose").append(element("div", { class: "dial" }, element("label", { for: id }, label), input));
     }
-    const view = ({ key, meaning }, i) => element("button", { type: "button", title: meaning, click: () => this.goTo(key) }, `${i + 1} ${key}`);
+    const view = ({ key, meaning }, i) => element("button", { type: "button", title: `${key}: ${meaning}`, click: () => this.goTo(key) }, `${i + 1} ${LivePose.kViews[key] ?? key}`);
     byId("views").append(...data.views.map(view), element("button", { type: "button", click: () => this.goTo("") }, "0 start"));
   }
 
@@ -54,6 +57,7 @@ class LivePose {
     Object.assign(state, { reference: pose, reference_name: key || "the start" });
     live.heart.setGhost(pose);
     this.set(pose);
+    live.heart.refit();
   }
 
   // On another heart the probe keeps its place relative to the standard view of the heart.
