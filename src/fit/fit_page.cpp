@@ -22,8 +22,8 @@ PageLook lookOf(const HeartFit& fit) {
                                                     : "EchoCine: a heart fitted to loops",
                               "fit");
   look.styles.push_back(pageAsset("heart_view.css"));
-  look.scripts.insert(look.scripts.begin(), pageAsset("three.min.js"));
-  look.scripts.insert(look.scripts.end() - 1, pageAsset("heart_view.js"));
+  const std::vector<std::string_view> drawing = heartViewScripts();
+  look.scripts.insert(look.scripts.end() - 1, drawing.begin(), drawing.end());
   return look;
 }
 

@@ -99,6 +99,21 @@ Json vectorOf(Vec3d v) {
   return {v.x, v.y, v.z};
 }
 
+PageLook lookOf(const std::string& title) {
+  PageLook look{"EchoCine live: " + title,
+                {pageAsset("page.css"), pageAsset("heart_view.css"), pageAsset("live.css")},
+                pageAsset("live.html"),
+                {pageAsset("page.js")}};
+  const std::vector<std::string_view> drawing = heartViewScripts();
+  look.scripts.insert(look.scripts.end(), drawing.begin(), drawing.end());
+  for (const char* name :
+       {"live_server.js", "live_probe.js", "live_pose.js", "live_hand.js", "live_picture.js",
+        "live_player.js", "live_heart.js", "live_dials.js", "live_settings.js", "live_model.js",
+        "live_over.js", "live_out.js", "live.js"})
+    look.scripts.push_back(pageAsset(name));
+  return look;
+}
+
 }  // namespace
 
 Json keyValues(const Scene& given) {
@@ -141,13 +156,7 @@ Json loopJson(const Scene& scene) {
 std::string pageOf(const Simulator& simulator, const SceneView& view, const LiveScene& live,
                    const HeartDials* dials) {
   const Scene& scene = simulator.scene();
-  const PageLook look{"EchoCine live: " + titleOf(live.file()),
-                      {pageAsset("page.css"), pageAsset("heart_view.css"), pageAsset("live.css")},
-                      pageAsset("live.html"),
-                      {pageAsset("three.min.js"), pageAsset("page.js"), pageAsset("heart_view.js"),
-                       pageAsset("live_heart.js"), pageAsset("live_probe.js"),
-                       pageAsset("live_dials.js"), pageAsset("live_over.js"),
-                       pageAsset("live_model.js"), pageAsset("live_out.js"), pageAsset("live.js")}};
+  const PageLook look = lookOf(titleOf(live.file()));
   return servedPage(look, {{"version", ECHOCINE_VERSION},
                            {"title", titleOf(live.file())},
                            {"file", live.file().filename().string()},

@@ -154,6 +154,7 @@ LivePicture LiveRenderer::still(const Scene& scene, const std::string& name, int
   white_ = simulator.referenceIntensity({}, {});
   picture.prepared_ms = watch.ms();
   const std::shared_ptr<Workspace> workspace = simulator.workspace();
+  picture.warnings = simulator.plan().warnings;
   picture.volumes_ml = simulator.trace(picture.time, *workspace);
   picture.image = simulator.picture(*white_, picture.time, *workspace, true);
   drawOverlay(still.overlay, picture);

@@ -23,10 +23,11 @@ enum class Effort { moving, still };
 struct LivePicture {
   GreyImage image;  // with ECG and depth ticks, as in render's PNG
   FrameTime time;
-  int frames = 0;           // of the loop
-  double milliseconds = 0;  // spent on it
-  double prepared_ms = 0;   // of these on what does not depend on the frame
-  Volumes volumes_ml{};     // of a still picture
+  int frames = 0;                     // of the loop
+  double milliseconds = 0;            // spent on it
+  double prepared_ms = 0;             // of these on what does not depend on the frame
+  Volumes volumes_ml{};               // of a still picture
+  std::vector<std::string> warnings;  // of a still picture: what its pose and settings leave unseen
 };
 
 // Not thread-safe: one renderer serves one job at a time. All functions run inside withThreads()

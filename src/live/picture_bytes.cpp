@@ -30,6 +30,7 @@ std::string pictureBytes(const LivePicture& picture, const Scene& scene, Effort 
                                  {"quality", qualityWords(scene, effort)},
                                  {"ms", picture.milliseconds},
                                  {"prepared_ms", picture.prepared_ms},
+                                 {"warnings", picture.warnings},
                                  {"volumes_ml", volumesJson(picture.volumes_ml)}})
                                .dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string bytes;

@@ -1,116 +1,17 @@
-// Meshes and sector in space, with three.js. A HeartView draws what viewJson() (src/view) gives.
-// Its axes: x the probe's lateral axis, y against its depth, z its elevation axis, mm: from +z one
-// sees the imaging plane as the picture shows it.
+// Meshes and sector in space, with three.js. A HeartView draws what viewJson() (src/view) gives: from
+// +z one sees the imaging plane as the picture shows it.
 "use strict";
-
-// The meshes of one structure: 16-bit steps per phase, and what three.js draws of them.
-class HeartSurface {
-  constructor(given, colour, phases) {
-    Object.assign(this, { given, colour, phases: given.positions ? phases : 0 });
-    const indices = HeartView.bytes(given.indices), steps = HeartView.bytes(given.positions);
-    const many = given.vertices > 65536;
-    this.indices = many ? new Uint32Array(indices.buffer) : new Uint16Array(indices.buffer);
-    this.steps = new Uint16Array(steps.buffer);
-    this.still = this.steps.length === 3 * given.vertices;
-    this.positions = new Float32Array(3 * given.vertices);
-    this.phase = -1;
-  }
-
-  // Between two phases each vertex goes straight. Whether anything moved.
-  place(phase) {
-    if (this.phase === phase || (this.still && this.phase >= 0)) return false;
-    this.phase = phase;
-    const at = this.still ? 0 : (((phase % 1) + 1) % 1) * this.phases;
-    const first = Math.floor(at) % Math.max(1, this.phases), share = at - Math.floor(at);
-    const second = this.still ? 0 : (first + 1) % this.phases;
-    const { from_mm, step_mm } = this.given, { steps, positions } = this;
-    const n = positions.length, a = this.still ? 0 : first * n, b = second * n;
-    for (let i = 0; i < n; i += 3) {
-      const mix = (k) => from_mm[k] + step_mm[k] * (steps[a + i + k] * (1 - share) + steps[b + i + k] * share);
-      positions[i] = mix(0);
-      positions[i + 1] = -mix(2);
-      positions[i + 2] = mix(1);
-    }
-    return true;
-  }
-
-  // Ends of the segments in which the triangles meet the imaging plane; how many numbers.
-  cut(out, { normal, constant }) {
-    const { indices, positions: p } = this;
-    const height = (i) => normal.x * p[i] + normal.y * p[i + 1] + normal.z * p[i + 2] + constant;
-    let n = 0;
-    for (let t = 0; t < indices.length && n + 6 <= out.length; t += 3) {
-      const start = n;
-      for (let e = 0; e < 3 && n - start < 6; ++e) {
-        const i = 3 * indices[t + e], j = 3 * indices[t + ((e + 1) % 3)], zi = height(i), zj = height(j);
-        if (zi < 0 === zj < 0) continue;
-        const s = zi / (zi - zj);
-        const at = [0, 1, 2].map((k) => p[i + k] + s * (p[j + k] - p[i + k]));
-        // Rounding lifts the point off the plane.
-        const off = normal.x * at[0] + normal.y * at[1] + normal.z * at[2] + constant;
-        out[n] = at[0] - off * normal.x;
-        out[n + 1] = at[1] - off * normal.y;
-        out[n + 2] = at[2] - off * normal.z;
-        n += 3;
-      }
-      if (n - start !== 6) n = start;
-    }
-    return n;
-  }
-
-  // What is translucent has to be drawn from back to front, so the halves on both sides of the
-  // imaging plane, cut by `halves`, are drawn apart, and what lies in the plane between them.
-  addTo(scene, halves) {
-    const { colour } = this;
-    this.geometry = new THREE.BufferGeometry();
-    this.geometry.setAttribute("position", new THREE.BufferAttribute(this.positions, 3));
-    this.geometry.setIndex(new THREE.BufferAttribute(this.indices, 1));
-    this.halves = halves.map((plane) => {
-      const mesh = new THREE.Mesh(this.geometry, new THREE.MeshLambertMaterial(
-        { color: colour, side: THREE.DoubleSide, clippingPlanes: [plane] }));
-      mesh.userData.surface = this;
-      return mesh;
-    });
-    this.contour = new THREE.BufferGeometry();
-    this.contour.setAttribute("position", new THREE.BufferAttribute(new Float32Array(2 * this.indices.length), 3));
-    this.line = new THREE.LineSegments(this.contour, new THREE.LineBasicMaterial({ color: colour }));
-    this.line.renderOrder = 6;
-    for (const object of [...this.halves, this.line]) object.frustumCulled = false;
-    scene.add(...this.halves, this.line);
-  }
-
-  // To where `phase` has it.
-  draw(phase, plane) {
-    const moved = this.place(phase), { position } = this.geometry.attributes, contour = this.contour.attributes.position;
-    if (moved) {
-      position.needsUpdate = true;
-      this.geometry.computeVertexNormals();
-      this.geometry.computeBoundingSphere();  // for picking
-    }
-    if (!moved && this.cut_at === plane.version) return;
-    this.cut_at = plane.version;
-    contour.needsUpdate = true;
-    this.contour.setDrawRange(0, this.cut(contour.array, plane) / 3);
-  }
-
-  // cut: without the half that stands before the plane as the picture looks at it.
-  show(on, cut) {
-    this.visible = this.line.visible = this.halves[0].visible = on;
-    this.halves[1].visible = on && !cut;
-  }
-}
 
 // new HeartView(root, view): canvas, controls and legend go into root. `below` is room under the
 // canvas for a player. What the heart lies in is hidden at first. Without WebGL a line says so, and
 // the legend stays.
-class HeartView {
+class HeartView extends HeartSpace {
   constructor(root, view) {
+    super("Meshes and sector; arrow keys rotate, plus and minus zoom, 0 resets");
     const { element } = page;
     this.view = view;
     this.phase = 0;
     this.surfaces = view.structures.map((s, i) => new HeartSurface(s, HeartView.colourOf(i), view.phases));
-    this.box = element("div", { class: "space-box" });
-    this.words = element("p", { class: "space-words", role: "status" });
     this.words.textContent = "Drag to rotate, wheel or two fingers to zoom, click a mesh for its coordinates.";
     this.below = element("div");
     const left = element("div", {}, this.box, this.words);
@@ -163,30 +64,6 @@ class HeartView {
       element("ul", {}, ...this.surfaces.map(item)));
   }
 
-  makeRenderer() {
-    const { element } = page;
-    this.canvas = element("canvas", { tabindex: "0", role: "application",
-      "aria-label": "Meshes and sector; arrow keys rotate, plus and minus zoom, 0 resets" });
-    const context = this.canvas.getContext("webgl2", { alpha: true, antialias: true, preserveDrawingBuffer: true });
-    if (!context) {
-      this.missing("This browser has no WebGL, so the 3-D view is omitted. The lists have names, positions and extents.");
-      return null;
-    }
-    this.box.append(this.canvas);
-    const renderer = new THREE.WebGLRenderer({ canvas: this.canvas, context });
-    renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
-    renderer.localClippingEnabled = true;
-    this.canvas.addEventListener("webglcontextlost", () =>
-      this.missing("The browser has lost WebGL: reload the page for the 3-D view."));
-    return renderer;
-  }
-
-  missing(words) {
-    this.words.textContent = "";
-    this.box.style.height = "auto";
-    this.box.replaceChildren(page.element("p", { class: "missing" }, words));
-  }
-
   controls() {
     const { element } = page;
     const button = (text, name) => element("button", { type: "button", click: () => this.look(name) }, text);
@@ -204,12 +81,7 @@ class HeartView {
   }
 
   makeScene() {
-    this.scene = new THREE.Scene();
-    this.camera = new THREE.PerspectiveCamera(32, 1, 1, 5000);
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8899aa, 2.2));
-    this.lamp = new THREE.DirectionalLight(0xffffff, 1.6);
-    this.camera.add(this.lamp);
-    this.scene.add(this.camera);
+    this.makeCamera();
     this.rig = new THREE.Scene();  // a group: sector, probe and picture
     this.scene.add(this.rig);
     const halves = this.halves = [-1, 1].map((side) => new THREE.Plane(new THREE.Vector3(0, 0, side), 0));
@@ -219,8 +91,6 @@ class HeartView {
     this.addAxes();
     this.setOpacity(0.3);
     this.picture_wanted = true;
-    this.orbit = new THREE.OrbitControls(this.camera, this.canvas);
-    this.orbit.addEventListener("change", () => this.render());
     this.tint();
   }
 
@@ -307,84 +177,11 @@ class HeartView {
     const add = (p) => p.forEach((x, i) => { box.lo[i] = Math.min(box.lo[i], x); box.hi[i] = Math.max(box.hi[i], x); });
     for (const { given, tick } of this.surfaces)
       if (tick.checked) for (const [x, y, z] of given.probe_box_mm) add([x, -z, y]);
-    for (const [x, z] of this.view.sector_mm) add([x, -z, 0]);
-    add([0, 24 - this.face_mm, 0]);
+    const ofProbe = (x, y) => { const p = new THREE.Vector3(x, y, 0).applyMatrix4(this.rig.matrix); add([p.x, p.y, p.z]); };
+    for (const [x, z] of this.view.sector_mm) ofProbe(x, -z);
+    ofProbe(0, 24 - this.face_mm);
     this.middle = new THREE.Vector3(...box.lo.map((x, i) => (x + box.hi[i]) / 2));
     this.radius = 0.5 * Math.hypot(...box.hi.map((x, i) => x - box.lo[i]));
-  }
-
-  // "aside", "picture": as the picture shows it, "probe": from where the probe is.
-  look(name) {
-    this.measure();
-    const { camera, orbit } = this;
-    const from = { aside: [0.75, 0.35, 1], picture: [0, 0, 1], probe: [0, 1, 1e-3] }[name];
-    const half = 0.5 * camera.fov * Math.PI / 180;
-    const fit = Math.min(half, Math.atan(Math.tan(half) * Math.max(0.2, camera.aspect)));
-    const distance = 0.85 * this.radius / Math.sin(fit);
-    camera.position.copy(this.middle).addScaledVector(new THREE.Vector3(...from).normalize(), distance);
-    camera.near = distance / 100;
-    camera.far = distance + 20 * this.radius;
-    camera.updateProjectionMatrix();
-    orbit.minDistance = 0.05 * this.radius;
-    orbit.maxDistance = 12 * this.radius;
-    orbit.target.copy(this.middle);
-    orbit.update();
-    this.looked = name;
-    this.render();
-  }
-
-  listen() {
-    new ResizeObserver(() => this.resize()).observe(this.box);
-    this.resize();
-    this.canvas.addEventListener("keydown", (event) => this.key(event));
-    let down = null;
-    this.canvas.addEventListener("pointerdown", (event) => { down = event; });
-    this.canvas.addEventListener("pointerup", (event) => {
-      if (down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < 4) this.pick(event);
-      down = null;
-    });
-    for (const media of ["print", "(prefers-color-scheme: light)"])
-      window.matchMedia(media).addEventListener("change", () => { this.tint(); this.renderNow(); });
-  }
-
-  resize() {
-    const { clientWidth: width, clientHeight: height } = this.box;
-    if (!width || !height) return;
-    this.gl.setSize(width, height, false);
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
-    if (this.looked) this.look(this.looked);
-    this.renderNow();
-  }
-
-  // Turns by hand, as long as the canvas has the keys.
-  key(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const step = Math.PI / 24;
-    const action = { ArrowLeft: () => this.turn(step, 0), ArrowRight: () => this.turn(-step, 0), ArrowUp: () => this.turn(0, step),
-      ArrowDown: () => this.turn(0, -step), "+": () => this.zoom(1 / 1.15), "=": () => this.zoom(1 / 1.15), "-": () => this.zoom(1.15),
-      0: () => this.look("aside") }[event.key];
-    if (!action) return;
-    event.preventDefault();
-    event.stopPropagation();  // the player takes arrows too
-    action();
-  }
-
-  turn(around, up) {
-    const { camera, orbit } = this, d = camera.position.clone().sub(orbit.target), r = d.length();
-    const azimuth = Math.atan2(d.x, d.z) - around, polar = Math.min(Math.PI - 0.01, Math.max(0.01, Math.acos(d.y / r) - up));
-    camera.position.set(r * Math.sin(polar) * Math.sin(azimuth), r * Math.cos(polar), r * Math.sin(polar) * Math.cos(azimuth)).add(orbit.target);
-    this.looked = "";
-    orbit.update();
-    this.render();
-  }
-
-  zoom(factor) {
-    const { camera, orbit } = this;
-    camera.position.sub(orbit.target).multiplyScalar(factor).add(orbit.target);
-    this.looked = "";
-    orbit.update();
-    this.render();
   }
 
   // The point of a mesh under the pointer, in the scene's and in the probe's coordinates.
@@ -395,7 +192,7 @@ class HeartView {
     const hits = ray.intersectObjects(this.surfaces.filter((s) => s.visible).map((s) => s.halves[0]));
     const hit = hits.find((h) => !this.cut_open || this.halves[1].distanceToPoint(h.point) <= 0);
     if (!hit) return;
-    const at = this.toScene(hit.point).map((x) => Number((x / this.view.unit_mm).toPrecision(4))), p = hit.point;
+    const at = this.toScene(hit.point).map((x) => Number((x / this.view.unit_mm).toPrecision(4))), p = this.rig.worldToLocal(hit.point.clone());
     this.words.textContent = `${hit.object.userData.surface.given.name} at [${at.join(", ")}] in the units of probe.apex; from the probe `
       + `x ${page.fixed(p.x, 1)}, y ${page.fixed(p.z, 1)}, z ${page.fixed(-p.y, 1)} mm`;
   }
@@ -474,12 +271,6 @@ class HeartView {
   showPhase(phase) {
     this.phase = phase;
     this.render();
-  }
-
-  // At the next frame of the screen, however often it is asked for.
-  render() {
-    if (!this.gl || this.due) return;
-    this.due = requestAnimationFrame(() => this.renderNow());
   }
 
   renderNow() {

@@ -4,7 +4,8 @@
 class LiveHeart extends HeartView {
   // grab: { start(), slide(x_mm, y_mm), end() } for a probe pulled by the pointer.
   constructor(root, view, grab) {
-    super(root, view);
+    // What the sector shows changes with the pose.
+    super(root, { ...view, sees_any: true, structures: view.structures.map((s) => ({ ...s, seen: true })) });
     this.grab = grab;
     this.halves?.forEach((half) => { half.version = 0; });
     if (!this.gl) return;
@@ -42,6 +43,9 @@ class LiveHeart extends HeartView {
     ++this.halves[1].version;
     this.render();
   }
+
+  // Probe and heart in the middle, after the probe has moved far.
+  refit() { if (this.gl) this.look(this.looked || "aside"); }
 
   // Another sector: drawn anew, at the same pose.
   setSector(sector) {

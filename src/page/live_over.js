@@ -45,9 +45,8 @@ class LiveOver {
     try {
       const response = await this.live.ask("/truth", this.live.body({ frame, layers }));
       if (response.status === 200) {
-        const buffer = await response.arrayBuffer(), size = new DataView(buffer).getUint32(0, true);
-        const truth = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, size)));
-        if (layers.includes("labels")) truth.labels = new Uint8Array(buffer.slice(4 + size));
+        const [truth, labels] = LiveServer.parts(await response.arrayBuffer());
+        if (layers.includes("labels")) truth.labels = labels;
         if (this.known.size > 240) this.known.clear();
         this.known.set(name, { ...truth, layers });
       } else this.known.set(name, { layers, contours: [], refused: (await response.text()).trim() });

@@ -97,6 +97,11 @@ std::string tailOf(const nlohmann::ordered_json& data, std::span<const std::stri
 
 }  // namespace
 
+std::vector<std::string_view> heartViewScripts() {
+  return {pageAsset("three.min.js"), pageAsset("heart_surface.js"), pageAsset("heart_space.js"),
+          pageAsset("heart_view.js")};
+}
+
 PageLook pageLook(std::string title, std::string_view body, std::string_view script) {
   return {std::move(title),
           {pageAsset("page.css")},

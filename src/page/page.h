@@ -24,6 +24,10 @@ struct PageLook {
 // followed by the page's own `script`. Both texts must outlive the result.
 PageLook pageLook(std::string title, std::string_view body, std::string_view script);
 
+// The scripts of HeartView: three.js, and the 3-D drawing of meshes and sector. They run after
+// page.js.
+std::vector<std::string_view> heartViewScripts();
+
 // Writes a page sequentially; its memory does not grow with the images. Until finish() the page is
 // in a temporary file, which is removed if finish() is not called.
 class PageWriter {

@@ -155,8 +155,8 @@ ReportPage::ReportPage(const std::filesystem::path& path, const Scene& scene,
   PageLook look =
       pageLook("EchoCine: " + titleOf(scene), pageAsset("report.html"), pageAsset("report.js"));
   look.styles.push_back(pageAsset("heart_view.css"));
-  look.scripts.insert(look.scripts.end() - 1,
-                      {pageAsset("three.min.js"), pageAsset("heart_view.js")});
+  const std::vector<std::string_view> drawing = heartViewScripts();
+  look.scripts.insert(look.scripts.end() - 1, drawing.begin(), drawing.end());
   writer_.emplace(path, look);
 }
 

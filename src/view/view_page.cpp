@@ -49,11 +49,14 @@ Json framesJson(const CardiacClock& clock) {
 }
 
 PageLook lookOf(const Scene& scene) {
-  return {"EchoCine view: " + titleOf(scene),
-          {pageAsset("page.css"), pageAsset("heart_view.css")},
-          pageAsset("view.html"),
-          {pageAsset("three.min.js"), pageAsset("page.js"), pageAsset("player.js"),
-           pageAsset("heart_view.js"), pageAsset("view.js")}};
+  PageLook look{"EchoCine view: " + titleOf(scene),
+                {pageAsset("page.css"), pageAsset("heart_view.css")},
+                pageAsset("view.html"),
+                {pageAsset("page.js"), pageAsset("player.js")}};
+  const std::vector<std::string_view> drawing = heartViewScripts();
+  look.scripts.insert(look.scripts.end(), drawing.begin(), drawing.end());
+  look.scripts.push_back(pageAsset("view.js"));
+  return look;
 }
 
 // A page may be passed on, so it names no folders.

@@ -116,7 +116,8 @@ TEST(Page, AssetsFetchNothingAndCannotEndTheirElement) {
     if (name.ends_with(".min.js")) continue;  // other people's
     for (const char* fetching : {"@import", "url(", "fetch(", "XMLHttpRequest", "importScripts",
                                  "\nimport ", "src=\"", "href=\"http"}) {
-      const bool asks_its_server = name == "live.js" && fetching == std::string_view("fetch(");
+      const bool asks_its_server =
+          name == "live_server.js" && fetching == std::string_view("fetch(");
       EXPECT_EQ(text.find(fetching) == std::string::npos, !asks_its_server) << name << fetching;
     }
   }
