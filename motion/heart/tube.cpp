@@ -55,6 +55,10 @@ Tube::Tube(const std::vector<Station>& stations) {
     sections_.push_back({fine[i - 1].centre + t * (fine[i].centre - fine[i - 1].centre), u,
                          cross(tangent, u), std::lerp(fine[i - 1].radius_m, fine[i].radius_m, t)});
   }
+  for (const Section& section : sections_) {
+    centres_m_.add(section.centre);
+    most_radius_m_ = std::max(most_radius_m_, section.radius_m);
+  }
   for (std::size_t i = 0; i < sections_.size(); i += 4) {
     Four& four = fours_.emplace_back(Four{{kFar, kFar, kFar, kFar}, {}, {}});
     for (std::size_t lane = 0; lane < 4 && i + lane < sections_.size(); ++lane) {
@@ -111,7 +115,11 @@ const Tube::Section& Tube::nearest(Vec3d point) const {
 
 void Tube::pushOut(double gap_m, std::vector<Vec3d>& points) const {
   constexpr double kRounding_m = 4e-3;
+  const double far_m = most_radius_m_ + gap_m + 10 * kRounding_m;
+  const Vec3d margin{far_m, far_m, far_m};
+  const Box within{centres_m_.lo - margin, centres_m_.hi + margin};
   for (Vec3d& point : points) {
+    if (!within.contains(point)) continue;
     const Section& section = nearest(point);
     const Vec3d away = point - section.centre;
     const double distance_m = length(away), limit_m = section.radius_m + gap_m;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/box.h"
 #include "core/vec3.h"
 
 namespace echocine::heart {
@@ -41,6 +42,8 @@ class Tube {
   std::vector<Section> sections_;  // evenly spaced by arc length
   std::vector<Four> fours_;        // unused lanes of the last one lie at infinity
   double length_m_ = 0;
+  Box centres_m_;
+  double most_radius_m_ = 0;
 };
 
 }  // namespace echocine::heart

@@ -14,9 +14,9 @@ namespace echocine {
 
 namespace {
 
-// Our choices, measured in tests/laws: the spacing in parts of the moving surfaces' diagonal, the
-// margin in spacings, and the modes' tolerance in parts of the diagonal.
-constexpr double kSpacings = 48, kMarginSpacings = 10, kModeTolerance = 3e-6;
+// Our choices, measured in tests/laws: the margin in spacings, and the modes' tolerance in parts of
+// the moving surfaces' diagonal.
+constexpr double kMarginSpacings = 10, kModeTolerance = 3e-6;
 
 // The surface's vertices at a phase; exactly those of a keyframe where it is one.
 std::vector<Vec3f> positionsAt(const InteriorSurface& surface, double phase) {
@@ -107,7 +107,7 @@ bool MotionField::State::measure(const std::vector<InteriorSurface>& surfaces,
       for (const Vec3f p : reference_m[s]) space.moving.add(toDouble(p));
   if (!(space.moving.hi.x >= space.moving.lo.x)) return false;
   const double diagonal_m = length(space.moving.hi - space.moving.lo);
-  space.spacing_m = settings.spacing_m > 0 ? settings.spacing_m : diagonal_m / kSpacings;
+  space.spacing_m = diagonal_m / settings.cells;
   space.margin_m = kMarginSpacings * space.spacing_m;
   return space.spacing_m > 0;
 }

@@ -42,8 +42,7 @@ enum class GroupId : std::uint16_t {};
 
 struct FieldSettings {
   double reference_phase = 0;  // where material points have their names
-  // Between nodes; 0: the moving surfaces' diagonal / 48. Our choice, see README.
-  double spacing_m = 0;
+  int cells = 48;              // along the moving surfaces' diagonal. Our choice, see README
 };
 
 // Nodes of a group's lattice. All groups' nodes stand on one lattice of the scene; those of the

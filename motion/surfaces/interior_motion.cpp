@@ -18,8 +18,7 @@ struct Shown {
 }  // namespace
 
 // Structures mostly share their phases, so every phase is made once.
-MotionField interiorMotion(const Scene& scene, const MeshMotion& motion,
-                           const FieldSettings& settings) {
+MotionField interiorMotion(const Scene& scene, const MeshMotion& motion) {
   std::vector<InteriorSurface> surfaces;
   std::map<double, std::vector<Shown>> at_phase;
   for (const SurfaceTopology& topology : motion.surfaces()) {
@@ -42,7 +41,7 @@ MotionField interiorMotion(const Scene& scene, const MeshMotion& motion,
         surfaces[shown.surface].keyframes_m[shown.keyframe] = frame.positions_m[shown.surface];
     }
   });
-  return MotionField(std::move(surfaces), settings);
+  return MotionField(std::move(surfaces), {.cells = scene.accuracy.motion_field_cells});
 }
 
 const std::shared_ptr<const MotionField>& SharedMotionField::shared() const {

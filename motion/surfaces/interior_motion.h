@@ -10,9 +10,8 @@
 namespace echocine {
 
 // The field of everything that the scene's surfaces move, fitted to them as they are drawn
-// (refined). References to neither are kept.
-MotionField interiorMotion(const Scene& scene, const MeshMotion& motion,
-                           const FieldSettings& settings = {});
+// (refined), with `accuracy.motion_field_cells`. References to neither are kept.
+MotionField interiorMotion(const Scene& scene, const MeshMotion& motion);
 
 // The field of a scene for all that ask for it: fitted once, by the first call.
 class SharedMotionField {

@@ -6,19 +6,28 @@
 
 namespace echocine {
 
+NormalField::NormalField(double scale_m, std::uint64_t seed)
+    : scale_m_(scale_m), seed_(seed), nodes_(4096) {}
+
+double NormalField::normalOf(const std::array<std::int64_t, 3>& node) {
+  Node& kept =
+      nodes_[static_cast<std::size_t>((node[0] & 15) | (node[1] & 15) << 4 | (node[2] & 15) << 8)];
+  if (kept.known && kept.node == node) return kept.normal;
+  std::uint64_t hash = seed_;
+  for (const std::int64_t axis : node) hash = hashOf(hash, axis);
+  kept = {node, true, normalFromHashes(hashOf(hash, 0), hashOf(hash, 1))};
+  return kept.normal;
+}
+
 const NormalField::Cell& NormalField::cellOf(const std::array<std::int64_t, 3>& node) {
   Cell& cell =
       cells_[static_cast<std::size_t>((node[0] & 3) | (node[1] & 3) << 2 | (node[2] & 3) << 4)];
   if (cell.known && cell.node == node) return cell;
   cell.node = node;
   cell.known = true;
-  for (int corner = 0; corner < 8; ++corner) {
-    std::uint64_t hash = seed_;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      hash = hashOf(hash, node[axis] + (corner >> axis & 1));
-    cell.normals[static_cast<std::size_t>(corner)] =
-        normalFromHashes(hashOf(hash, 0), hashOf(hash, 1));
-  }
+  for (int corner = 0; corner < 8; ++corner)
+    cell.normals[static_cast<std::size_t>(corner)] = normalOf(
+        {node[0] + (corner & 1), node[1] + (corner >> 1 & 1), node[2] + (corner >> 2 & 1)});
   return cell;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "core/vec3.h"
 
@@ -10,10 +11,10 @@ namespace echocine {
 
 // A standard normal field, smooth over `scale_m`: normals hashed on a lattice of that spacing,
 // blended with smooth weights and normalised to variance 1 at every place. Fast for nearby places,
-// because it caches cells. Not thread-safe.
+// because it keeps cells and nodes. Not thread-safe.
 class NormalField {
  public:
-  NormalField(double scale_m, std::uint64_t seed) : scale_m_(scale_m), seed_(seed) {}
+  NormalField(double scale_m, std::uint64_t seed);
   double at(Vec3f place_m);
 
  private:
@@ -22,11 +23,18 @@ class NormalField {
     bool known = false;
     std::array<double, 8> normals;
   };
+  struct Node {
+    std::array<std::int64_t, 3> node;
+    bool known = false;
+    double normal;
+  };
   const Cell& cellOf(const std::array<std::int64_t, 3>& node);
+  double normalOf(const std::array<std::int64_t, 3>& node);
 
   double scale_m_;
   std::uint64_t seed_;
   std::array<Cell, 64> cells_{};  // by the last two bits of their nodes. Our choice
+  std::vector<Node> nodes_;       // by their last four bits: neighbouring cells share them
 };
 
 }  // namespace echocine

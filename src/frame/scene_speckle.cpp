@@ -7,7 +7,7 @@ namespace echocine {
 SceneSpeckle::SceneSpeckle(const Scene& scene, std::shared_ptr<const Tissue> tissue,
                            std::shared_ptr<const Scatterers> drawn)
     : tissue_(std::move(tissue)),
-      speckle_(scene.probe, scene.signal.pulse_cycles, scene.speckle, tissue_->material,
+      speckle_(scene.probe, PointSpread(scene), scene.speckle, tissue_->material,
                std::move(drawn)) {
   const auto half_m = static_cast<float>(speckle_.farthestAcross_m());
   about_plane_.assign(tissue_->field->groupCount(), std::pair(-half_m, half_m));

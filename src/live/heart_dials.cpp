@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "motion/heart/left_ventricle.h"
 #include "output/heart_files.h"
 #include "scene/toml_edit.h"
 
@@ -49,16 +51,25 @@ std::vector<FolderPlace> folderPlaces(const std::string& text) {
   return places;
 }
 
-// The folder of all keyframes, if it is one and holds the truth of a parametric heart.
+// The folder of all keyframes, if it is one.
 std::optional<fs::path> folderOf(const Scene& scene, const std::string& text) {
   const std::vector<FolderPlace> places = folderPlaces(text);
   if (places.empty() || places.size() != scene.structures.size()) return std::nullopt;
   const std::string first = text.substr(places.front().at, places.front().size);
   for (const FolderPlace& place : places)
     if (text.substr(place.at, place.size) != first) return std::nullopt;
-  const fs::path folder = scene.file.parent_path() / first;
+  return scene.file.parent_path() / first;
+}
+
+// Empty without a file that can be read.
+std::string truthIn(const fs::path& folder) {
   std::error_code failed;
-  return fs::is_regular_file(folder / "truth.json", failed) ? std::optional(folder) : std::nullopt;
+  if (!fs::is_regular_file(folder / "truth.json", failed)) return {};
+  try {
+    return readTextFile(folder / "truth.json", kMostTruthBytes);
+  } catch (const SceneError&) {
+    return {};
+  }
 }
 
 std::optional<std::map<std::string, double>> dialsOf(const Json& parameters) {
@@ -69,6 +80,24 @@ std::optional<std::map<std::string, double>> dialsOf(const Json& parameters) {
     if (!entry.is_null()) values[dial.key] = entry.at("value").get<double>();
   }
   return values;
+}
+
+// The dialled ejection fraction of a heart that ejects `ejected` because of its segments: a truth
+// has the latter. Secant steps; the ejected fraction grows with the dialled one.
+double dialledEjection(heart::Parameters parameters, double ejected) {
+  const auto excess = [&](double dialled) {
+    parameters.ejection_fraction = dialled;
+    return heart::LeftVentricle::ejectionFractionOf(parameters) - ejected;
+  };
+  double before = ejected, excess_before = excess(before), dialled = before - excess_before;
+  for (int i = 0; i < 8 && std::abs(dialled - before) > 1e-7; ++i) {
+    const double here = excess(dialled);
+    if (here == excess_before) break;
+    const double next = dialled - here * (dialled - before) / (here - excess_before);
+    before = std::exchange(dialled, next);
+    excess_before = here;
+  }
+  return std::round(1e5 * dialled) / 1e5;
 }
 
 // Without dials that follow others, so that they follow a change, too.
@@ -100,10 +129,24 @@ double differenceOf(const Pose& pose, const heart::ProbePose& other) {
          (angle(pose.z_axis, other.axis) + angle(pose.x_axis, other.lateral)) / 0.1745;
 }
 
-// Dials of the scene's acquisition or of the whole body are none of a page.
+// A dial of the whole body is none of a page.
 bool isOnPage(const heart::Dial& dial) {
-  const std::string_view key = dial.key;
-  return key != "hr" && key != "body-scale";
+  return std::string_view(dial.key) != "body-scale";
+}
+
+// The timing of a recording as keys. The scene keeps its own rate unless a rate is asked for.
+std::vector<TomlEdit> timingOf(const heart::Recording& recording, std::optional<double> rate_bpm) {
+  std::string phases;
+  for (const double phase : recording.phases)
+    phases += fmt::format("{}{:.6f}", phases.empty() ? "" : ", ", phase);
+  std::vector<TomlEdit> edits{
+      {"motion.end_systole_phase", fmt::format("{:.6f}", recording.end_systole_phase)},
+      {"motion.keyframe_phases", "[" + phases + "]"}};
+  if (!rate_bpm) return edits;
+  const std::string rate = fmt::format("{}", *rate_bpm);
+  edits.push_back({"acquisition.heart_rate_bpm", rate});
+  edits.push_back({"motion.keyframe_heart_rate_bpm", rate});
+  return edits;
 }
 
 }  // namespace
@@ -116,29 +159,40 @@ std::string HeartChange::name() const {
   return name;
 }
 
-std::optional<HeartDials> HeartDials::of(const Scene& scene, const std::string& text) {
+bool HeartDials::readTruth(const std::string& truth) {
+  try {
+    const Json parameters = Json::parse(truth).at("parameters");
+    auto values = dialsOf(parameters);
+    if (!values) return false;
+    heart::Parameters read = heart::parametersFrom(*values);
+    const Json& segments = parameters.at("segments");
+    for (std::size_t s = 0; s < heart::kSegments; ++s)
+      read.segments[s] = {segments.at(s).at("amplitude").get<double>(),
+                          1e-3 * segments.at(s).at("delay_ms").get<double>()};
+    read.volumes_rule = parameters.at("rule") == "volumes";
+    if (!read.volumes_rule && std::any_of(read.segments.begin(), read.segments.end(),
+                                          [](const auto& s) { return s.amplitude != 1; }))
+      (*values)["ef"] = dialledEjection(read, read.ejection_fraction);
+    given_ = withoutFollowers(*values);
+    parameters_ = heart::parametersFrom(given_);
+    parameters_.segments = read.segments;
+    parameters_.volumes_rule = read.volumes_rule;
+  } catch (const std::exception&) {  // JSON of another kind
+    return false;
+  }
+  return heart::faultOf(parameters_).empty();
+}
+
+std::optional<HeartDials> HeartDials::of(const Scene& scene, const std::string& text,
+                                         const std::string& truth) {
   const std::optional<fs::path> folder = folderOf(scene, text);
   if (!folder || scene.motion.mesh_unit_m != 1e-3 || scene.motion.mesh_offset_m != Vec3d{})
     return std::nullopt;
   HeartDials made;
-  try {
-    const Json parameters =
-        Json::parse(readTextFile(*folder / "truth.json", kMostTruthBytes)).at("parameters");
-    const auto values = dialsOf(parameters);
-    if (!values) return std::nullopt;
-    made.given_ = withoutFollowers(*values);
-    made.parameters_ = heart::parametersFrom(made.given_);
-    const Json& segments = parameters.at("segments");
-    for (std::size_t s = 0; s < heart::kSegments; ++s)
-      made.parameters_.segments[s] = {segments.at(s).at("amplitude").get<double>(),
-                                      1e-3 * segments.at(s).at("delay_ms").get<double>()};
-    made.parameters_.volumes_rule = parameters.at("rule") == "volumes";
-  } catch (const std::exception&) {  // the truth of something else
-    return std::nullopt;
-  }
+  if (!made.readTruth(truth.empty() ? truthIn(*folder) : truth)) return std::nullopt;
   for (const Structure& structure : scene.structures)
     made.keyframes_ = std::max(made.keyframes_, static_cast<int>(structure.keyframes.size()));
-  if (made.keyframes_ < 4 || !heart::faultOf(made.parameters_).empty()) return std::nullopt;
+  if (made.keyframes_ < 4) return std::nullopt;
   if (isEven(scene.motion.keyframe_phases)) made.spacing_ = heart::KeyframeSpacing::even;
   made.pose_ = scene.probe.pose;
   made.file_ = scene.file.string();
@@ -210,15 +264,12 @@ OtherHeart HeartDials::made(const HeartChange& change, const std::string& text) 
   const heart::Parameters parameters = parametersWith(change);
   const heart::ParametricHeart model(parameters);
   const heart::Recording recording = heart::record(model, own().view, keyframes_, spacing_);
-  std::string phases;
-  for (const double phase : recording.phases)
-    phases += fmt::format("{}{:.6f}", phases.empty() ? "" : ", ", phase);
+  const auto rate = change.dials.find("hr");
   OtherHeart other;
-  other.text =
-      withEdits(withFolder(text, ""),
-                {{"motion.end_systole_phase", fmt::format("{:.6f}", recording.end_systole_phase)},
-                 {"motion.keyframe_phases", "[" + phases + "]"}},
-                file_);
+  other.text = withEdits(
+      withFolder(text, ""),
+      timingOf(recording, rate == change.dials.end() ? std::nullopt : std::optional(rate->second)),
+      file_);
   other.meshes = heart::meshesOf(recording);
   other.standard = recording.pose;
   return other;

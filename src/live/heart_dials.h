@@ -35,8 +35,10 @@ struct OtherHeart {
 class HeartDials {
  public:
   // None unless all keyframes of the scene are patterns in one folder with a truth.json that
-  // `echocine heart` wrote, in mm. `text` is the scene's.
-  static std::optional<HeartDials> of(const Scene& scene, const std::string& text);
+  // `echocine heart` wrote, in mm. `text` is the scene's. `truth` replaces this file for meshes in
+  // memory; empty: the file.
+  static std::optional<HeartDials> of(const Scene& scene, const std::string& text,
+                                      const std::string& truth = {});
 
   // Key, unit, lo, hi, value and meaning of each dial after a change, since some follow others, and
   // the amplitudes of the segments. Throws SceneError for an unknown dial and a value out of range.
@@ -62,6 +64,7 @@ class HeartDials {
     heart::View view = heart::View::a4c;
     heart::ProbePose standard;
   };
+  bool readTruth(const std::string& truth);  // false: of something else
   heart::Parameters parametersWith(const HeartChange& change) const;
   const Own& own() const;
 

@@ -14,12 +14,16 @@ HttpResponse supersededResponse() {
 JobQueue::JobQueue(int threads) : threads_(threads), thread_([this] { work(); }) {}
 
 JobQueue::~JobQueue() {
+  end();
+  thread_.join();
+}
+
+void JobQueue::end() {
   {
     const std::lock_guard lock(mutex_);
     ends_ = true;
   }
   wake_.notify_all();
-  thread_.join();
 }
 
 void JobQueue::push(LiveJob job, Answer answer) {

@@ -38,7 +38,7 @@ class JobQueue {
 
   // Jobs run with `threads` threads (0: one per core).
   explicit JobQueue(int threads);
-  // Cancels the job that runs, drops those that wait, and waits for the thread.
+  // end(), and waits for the thread.
   ~JobQueue();
   JobQueue(const JobQueue&) = delete;
   JobQueue& operator=(const JobQueue&) = delete;
@@ -46,6 +46,9 @@ class JobQueue {
   // Thread-safe. `answer` is called exactly once, from the queue's thread or from within this
   // function, unless the queue ends first. With too many waiting jobs the answer is 503.
   void push(LiveJob job, Answer answer);
+
+  // Cancels the job that runs and drops those that wait. Returns at once.
+  void end();
 
  private:
   struct Entry {
@@ -68,6 +71,11 @@ class JobQueue {
 class JobQueues {
  public:
   explicit JobQueues(int threads) : pictures_(threads), hearts_(threads) {}
+  // The jobs of both lanes end beside each other.
+  ~JobQueues() {
+    pictures_.end();
+    hearts_.end();
+  }
   void push(LiveJob job, JobQueue::Answer answer) {
     JobQueue& queue = job.lane == Lane::hearts ? hearts_ : pictures_;
     queue.push(std::move(job), std::move(answer));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "core/stop.h"
 #include "live/access.h"
 #include "live/job_queue.h"
 #include "live/live_session.h"
@@ -18,10 +19,13 @@ void serveLive(const LiveOptions& options,
                const std::function<bool()>& stop) {
   Server server(options.port);  // first: a taken port costs no reading of meshes
   std::unique_ptr<LiveSession> session;
-  withThreads(options.threads, [&] {
-    LiveScene scene = options.text ? LiveScene(options.scene, *options.text, options.meshes)
-                                   : LiveScene(options.scene);
-    session = std::make_unique<LiveSession>(std::move(scene), options.record);
+  stoppable(stop, [&] {
+    withThreads(options.threads, [&] {
+      LiveScene scene = options.text ? LiveScene(options.scene, *options.text, options.meshes)
+                                     : LiveScene(options.scene);
+      session =
+          std::make_unique<LiveSession>(std::move(scene), options.record, options.heart_truth);
+    });
   });
   for (const std::string& warning : session->warnings()) warn(warning);
   const Access access{server.port(), randomToken()};

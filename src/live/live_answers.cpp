@@ -76,17 +76,25 @@ std::string freeFolder(const fs::path& folder, const std::string& name) {
   throw SceneError(fmt::format("{}: exists 999 times", name));
 }
 
+// The frame of a request, which may count on into the next rounds of the loop.
+int frameIn(const Scene& scene, const LiveJson& body) {
+  const int frame = frameOf(body);
+  return body.value("wrap", false) ? frame % CardiacClock(scene).frameCount() : frame;
+}
+
 }  // namespace
 
 HttpResponse LiveSession::picture(const Json& body) {
   if (body.value("effort", "still") == "moving") {
     const std::shared_ptr<Subject> subject = subjectOf(body);
     const Scene& scene = subject->withPose(keysOf(body));
-    const LivePicture made = subject->renderer.moving(scene, subject->settings, frameOf(body));
+    const LivePicture made =
+        subject->renderer.moving(scene, subject->settings, frameIn(scene, body));
     return {200, "application/octet-stream", pictureBytes(made, scene, Effort::moving)};
   }
   const Asked asked = this->asked(body);
-  const LivePicture made = asked.subject->renderer.still(asked.scene, asked.text, frameOf(body));
+  const LivePicture made =
+      asked.subject->renderer.still(asked.scene, asked.text, frameIn(asked.scene, body));
   record(asked);
   return {200, "application/octet-stream", pictureBytes(made, asked.scene, Effort::still)};
 }
@@ -119,7 +127,8 @@ HttpResponse LiveSession::sceneText(const Json& body) {
                        {"pose", poseToml(asked.scene)},
                        {"changes", changesJson(*asked.subject, asked.text)},
                        {"values", keyValues(asked.scene)},
-                       {"sector", sectorJson(asked.scene)}});
+                       {"sector", sectorJson(asked.scene)},
+                       {"loop", loopJson(asked.scene)}});
 }
 
 HttpResponse LiveSession::save(const Json& body) {
@@ -192,10 +201,11 @@ HttpResponse LiveSession::cost(const Json& body) {
 
 std::string LiveSession::textFor(const Subject& subject, const std::string& text,
                                  const fs::path& folder, const std::string& heart_folder) const {
-  if (own_->scene.isInMemory())
+  const bool in_memory = own_->scene.isInMemory();
+  if (in_memory && !dials_)
     throw SceneError(
         "the meshes of this scene are in memory, which a file cannot name: copy the pose");
-  if (subject.change.name().empty())
+  if (subject.change.name().empty() && !in_memory)
     return withMeshesFrom(text, own_->scene.file().parent_path(), folder);
   std::error_code failed;
   if (!fs::exists(folder / heart_folder, failed))

@@ -59,6 +59,7 @@ bool areLayers(const Json& value) {
 constexpr Field kFields[] = {
     {"keys", [](const Json& v) { return v.is_object() && v.size() <= 200; }, "an object"},
     {"frame", &isFrame, "a whole number from 0"},
+    {"wrap", [](const Json& v) { return v.is_boolean(); }, "true | false"},
     {"effort",
      [](const Json& v) {
        return isWordOf(v, {"moving", "still"});

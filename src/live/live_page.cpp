@@ -131,10 +131,16 @@ Json sectorJson(const Scene& scene) {
             {"mm_per_px", millimetresFromMetres(g.metres_per_pixel)}}}};
 }
 
+Json loopJson(const Scene& scene) {
+  const CardiacClock clock(scene);
+  const double rate_hz = scene.acquisition.frame_rate_hz;
+  return {
+      {"frames", clock.frameCount()}, {"frame_rate_hz", rate_hz}, {"ecg", ecgJson(clock, rate_hz)}};
+}
+
 std::string pageOf(const Simulator& simulator, const SceneView& view, const LiveScene& live,
                    const HeartDials* dials) {
   const Scene& scene = simulator.scene();
-  const CardiacClock& clock = simulator.cardiacClock();
   const PageLook look{"EchoCine live: " + titleOf(live.file()),
                       {pageAsset("page.css"), pageAsset("heart_view.css"), pageAsset("live.css")},
                       pageAsset("live.html"),
@@ -149,9 +155,7 @@ std::string pageOf(const Simulator& simulator, const SceneView& view, const Live
                            {"keys", keysJson()},
                            {"values", keyValues(scene)},
                            {"sector", sectorJson(scene)},
-                           {"frames", clock.frameCount()},
-                           {"frame_rate_hz", scene.acquisition.frame_rate_hz},
-                           {"ecg", ecgJson(clock, scene.acquisition.frame_rate_hz)},
+                           {"loop", loopJson(scene)},
                            {"heart", dials ? dials->json() : Json()},
                            {"segment_names", kAhaNames},
                            {"view", viewJson(view, scene)}});

@@ -23,4 +23,8 @@ nlohmann::ordered_json keyValues(const Scene& scene);
 // The sector in the imaging plane (mm), its picture, and the pose, for the 3-D view.
 nlohmann::ordered_json sectorJson(const Scene& scene);
 
+// The loop of the scene's heart rate and beats: frames, frame_rate_hz, and its ECG as evenly spaced
+// values.
+nlohmann::ordered_json loopJson(const Scene& scene);
+
 }  // namespace echocine::live

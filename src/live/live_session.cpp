@@ -24,17 +24,19 @@ LiveSession::LiveSession(const std::filesystem::path& scene_file,
                          std::filesystem::path record_folder)
     : LiveSession(LiveScene(scene_file), std::move(record_folder)) {}
 
-LiveSession::LiveSession(LiveScene given, std::filesystem::path record_folder)
+LiveSession::LiveSession(LiveScene given, std::filesystem::path record_folder,
+                         const std::string& heart_truth)
     : own_(std::make_shared<Subject>(std::move(given))), record_folder_(std::move(record_folder)) {
   const LiveScene& live = own_->scene;
-  if (!record_folder_.empty() && live.isInMemory())
-    throw SceneError("record: the meshes of this scene are in memory, which files cannot name");
   const Scene scene = live.read(live.text());
+  if (!live.isInMemory() || !heart_truth.empty())
+    dials_ = HeartDials::of(scene, live.text(), heart_truth);
+  if (!record_folder_.empty() && live.isInMemory() && !dials_)
+    throw SceneError("record: the meshes of this scene are in memory, which files cannot name");
   const Simulator& simulator = own_->renderer.prepared(scene, live.text());
   warnings_ = scene.warnings;
   warnings_.insert(warnings_.end(), simulator.plan().warnings.begin(),
                    simulator.plan().warnings.end());
-  if (!live.isInMemory()) dials_ = HeartDials::of(scene, live.text());
   own_view_ = viewScene(simulator);
   page_ = pageOf(simulator, own_view_, live, dials_ ? &*dials_ : nullptr);
   if (!record_folder_.empty()) makeFolder(record_folder_);

@@ -20,7 +20,9 @@ class LiveSession {
   // Reads scene and meshes and makes the page. Runs inside withThreads(). Throws SceneError and
   // JobError.
   LiveSession(const std::filesystem::path& scene_file, std::filesystem::path record_folder);
-  LiveSession(LiveScene scene, std::filesystem::path record_folder);
+  // `heart_truth`: the truth.json of a parametric heart whose meshes are in memory; empty: none.
+  LiveSession(LiveScene scene, std::filesystem::path record_folder,
+              const std::string& heart_truth = {});
   ~LiveSession();
 
   // Warnings about the scene, a line each.
@@ -54,8 +56,8 @@ class LiveSession {
   HttpResponse cost(const Json& body);
   HttpResponse heart(const Json& body);
 
-  // The text as a file in `folder`, to which it refers to its meshes. The meshes of another heart
-  // are written into `heart_folder` of it, unless they are there.
+  // The text as a file in `folder`, to which it refers to its meshes. The meshes of another heart,
+  // and of a heart in memory, are written into `heart_folder` of it, unless they are there.
   std::string textFor(const Subject& subject, const std::string& text,
                       const std::filesystem::path& folder, const std::string& heart_folder) const;
   void record(const Asked& asked);

@@ -8,7 +8,7 @@
   const state = {
     start: probePose.squared(data.sector.pose), reference: null, reference_name: "the start",
     keys: {}, values: data.values, version: 0, changed_ms: -1e9, held: false,
-    frames: data.frames, frame: 0, playing: true, started_ms: performance.now(), started_at: 0,
+    loop: data.loop, frames: data.loop.frames, frame: 0, playing: true, started_ms: performance.now(), started_at: 0,
     shown: null, kept: new Map(), busy: false, tool: "tilt", mm: [], trace: [], m_line: null, cursor: null, last_key: "",
     wish: { dials: {}, segments: {} }, standard: null, sector: data.sector,
   };
@@ -78,7 +78,7 @@
   // The frame that the clock wants.
   function wanted(now) {
     if (!state.playing) return state.frame;
-    state.frame = Math.floor(state.started_at + Math.max(0, now - state.started_ms) / 1000 * data.frame_rate_hz) % state.frames;
+    state.frame = Math.floor(state.started_at + Math.max(0, now - state.started_ms) / 1000 * state.loop.frame_rate_hz) % state.frames;
     return state.frame;
   }
 
@@ -104,7 +104,7 @@
     const version = state.version;
     state.busy = true;
     try {
-      const response = await ask("/picture", body({ frame, effort }));
+      const response = await ask("/picture", body({ frame, wrap: true, effort }));
       if (response.status === 204 || response.status === 410) return;
       if (!response.ok) {
         if (version === state.version) state.refused = version;
@@ -117,7 +117,7 @@
       scrubber.max = made.frames - 1;
       if (version === state.version) {
         refuse("");
-        if (effort === "still") state.kept.set(frame, made);
+        if (effort === "still") state.kept.set(made.frame, made);
         if (state.m_line) overlay.drawM();
       }
       if (!ahead && (version === state.version || state.held)) show(made);
@@ -233,7 +233,7 @@
 
   // ---- Player and ECG
 
-  const scrubber = element("input", { type: "range", min: 0, max: data.frames - 1, value: 0, "aria-label": "Frame", input: () => stepTo(Number(scrubber.value)) });
+  const scrubber = element("input", { type: "range", min: 0, max: data.loop.frames - 1, value: 0, "aria-label": "Frame", input: () => stepTo(Number(scrubber.value)) });
   const play = element("button", { type: "button", click: () => toggle() });
   const readout = byId("readout"), ecg = byId("ecg");
 
@@ -257,10 +257,10 @@
 
   function drawEcg() {
     const width = ecg.width = Math.max(100, ecg.clientWidth), height = ecg.height, context = ecg.getContext("2d");
-    const low = Math.min(...data.ecg), high = Math.max(...data.ecg), at = (v) => height - 6 - (v - low) / (high - low) * (height - 12);
+    const lead = state.loop.ecg, low = Math.min(...lead), high = Math.max(...lead), at = (v) => height - 6 - (v - low) / (high - low) * (height - 12);
     context.strokeStyle = page.colour("muted");
     context.beginPath();
-    data.ecg.forEach((v, i) => context.lineTo(i / (data.ecg.length - 1) * width, at(v)));
+    lead.forEach((v, i) => context.lineTo(i / (lead.length - 1) * width, at(v)));
     context.stroke();
     if (!state.shown) return;
     const x = state.shown.frame / state.shown.frames * width;
@@ -341,7 +341,10 @@
       heart.setSector(scene.sector);
       heart.setGhost(state.reference);
     }
-    state.sector = scene.sector;
+    Object.assign(state, { sector: scene.sector, loop: scene.loop, frames: scene.loop.frames });
+    if (!state.playing) state.frame %= state.frames;
+    scrubber.max = state.frames - 1;
+    drawEcg();
     dials.show(state.values, state.keys);
     byId("pose-keys").textContent = scene.pose;
     byId("changes").replaceChildren();

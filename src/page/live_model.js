@@ -4,7 +4,8 @@
 
 // new LiveModel(live): live has { state, ask, body, setHeart(answer) }.
 class LiveModel {
-  static kFirst = ["ef", "edv", "wall-thickness", "sphericity", "mapse", "twist"];
+  static kFirst = ["ef", "edv", "wall-thickness", "hr", "sphericity", "mapse", "twist"];
+  static kNames = { ef: "ejection fraction (EF)", edv: "end-diastolic volume (EDV)", hr: "heart rate", mapse: "excursion of the mitral ring" };
   // Coronary territories (Cerqueira et al., 2002).
   static kTerritories = [["LAD", [1, 2, 7, 8, 13, 14, 17]], ["RCA", [3, 4, 9, 10, 15]], ["LCx", [5, 6, 11, 12, 16]]];
 
@@ -34,7 +35,7 @@ class LiveModel {
   }
 
   addDial(parent, { key, unit, lo, hi, value, meaning }) {
-    const step = 10 ** Math.floor(Math.log10((hi - lo) / 50)), label = key.replace(/-/g, " ") + (unit === "1" ? "" : `, ${unit}`);
+    const step = 10 ** Math.floor(Math.log10((hi - lo) / 50)), label = (LiveModel.kNames[key] ?? key.replace(/-/g, " ")) + (unit === "1" ? "" : `, ${unit}`);
     this.addInput(parent, key, label, meaning, { lo, hi, step, value }, (number) => {
       if (number === null) delete this.dials[key];
       else this.dials[key] = number;
@@ -103,11 +104,15 @@ class LiveModel {
     if (!response.ok) {
       const line = (await response.text()).trim();
       this.refuse(line);
+      const { dials, segments } = this.live.state.wish;  // a refused value is in no later wish
+      Object.assign(this, { dials: { ...dials }, segments: { ...segments } });
       this.words.textContent = "The heart before it beats on.";
       return;
     }
     this.refuse("");
     const answer = await response.json();
+    // The rate of the heart replaces a rate that was set as a key of the scene.
+    if (this.last === "hr") delete this.live.state.keys["acquisition.heart_rate_bpm"];
     this.live.setHeart(wish, answer);
     for (const { key, value } of answer.heart.dials) this.showValue(key, value);
     answer.heart.segments.forEach((value, i) => this.showValue(`segment-${i + 1}`, value));

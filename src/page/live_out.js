@@ -6,15 +6,15 @@ class LiveOut {
   constructor(live) {
     this.live = live;
     const { element, byId, data } = page;
-    const name = element("input", { type: "text", id: "save-name", value: data.file.replace(/\.toml$/, "_live.toml") });
+    const stem = data.file.replace(/\.toml$/, "");
+    const name = element("input", { type: "text", id: "save-name", value: `${stem}_live.toml` });
     const replace = element("input", { type: "checkbox", id: "replace" });
     const button = (label, click) => element("button", { type: "button", click }, label);
-    const stem = data.file.replace(/\.toml$/, "");
     byId("out").append(element("label", { for: "save-name" }, "file beside the scene"), name,
       element("label", { for: "replace" }, replace, " replace"),
       button("Save scene", () => this.save(name.value, replace.checked)),
       button("Save PNG", () => this.fetchFile("/png", { frame: live.state.frame }, `${stem}_${live.state.frame}.png`)),
-      ...["mp4", "gif"].map((format) => button(`Save ${format.toUpperCase()}`, () => this.fetchFile("/loop", { format }, `${stem}.${format}`))),
+      ...[["mp4", "MP4"], ["gif", "GIF"], ["webp", "WebP"]].map(([format, word]) => button(`Save ${word}`, () => this.fetchFile("/loop", { format }, `${stem}.${format}`))),
       button("Copy pose", () => this.copyPose()));
     byId("effects").addEventListener("toggle", () => { if (byId("effects").open) this.showEffects(); });
   }

@@ -26,11 +26,15 @@ class LiveServer {
     live::LiveOptions options{.scene = file,
                               .text = text,
                               .meshes = {},
+                              .heart_truth = {},
                               .record = record,
                               .port = port,
                               .threads = threads,
                               .framed = true};
-    if (meshes) options.meshes = meshes->named;
+    if (meshes) {
+      options.meshes = meshes->named;
+      options.heart_truth = meshes->heart_truth;
+    }
     std::promise<std::string> listening;
     std::future<std::string> heard = listening.get_future();
     thread_ = std::thread([this, options, &listening] { serve(options, listening); });

@@ -57,6 +57,7 @@ void add(Meshes& meshes, const std::string& name, const Points& points, const Fa
   mesh->positions = positionsOf(name, points);
   mesh->triangles = trianglesOf(name, faces, mesh->positions.size());
   meshes.named[name] = std::move(mesh);
+  meshes.heart_truth.clear();
 }
 
 // With tags, whatever they are to subdivision.
@@ -71,6 +72,7 @@ void addLike(Meshes& meshes, const std::string& name, const std::string& like,
     throw py::value_error(fmt::format("{}: points: {} rows, accepted: {}, as its faces have", name,
                                       mesh->positions.size(), found->second->positions.size()));
   meshes.named[name] = std::move(mesh);
+  meshes.heart_truth.clear();
 }
 
 py::tuple get(const Meshes& meshes, const std::string& name) {
@@ -109,8 +111,9 @@ std::vector<T> valuesOf(const py::handle& bytes) {
 }
 
 py::tuple stateOf(const Meshes& meshes) {
-  py::tuple state(meshes.named.size());
-  std::size_t i = 0;
+  py::tuple state(1 + meshes.named.size());
+  state[0] = meshes.heart_truth;
+  std::size_t i = 1;
   for (const auto& [name, mesh] : meshes.named)
     state[i++] = py::make_tuple(name, bytesOf(mesh->positions), bytesOf(mesh->triangles),
                                 bytesOf(mesh->tags.edges), bytesOf(mesh->tags.vertices));
@@ -119,8 +122,9 @@ py::tuple stateOf(const Meshes& meshes) {
 
 Meshes fromState(const py::tuple& state) {
   Meshes meshes;
-  for (const py::handle item : state) {
-    const auto parts = item.cast<py::tuple>();
+  meshes.heart_truth = state[0].cast<std::string>();
+  for (std::size_t i = 1; i < state.size(); ++i) {
+    const auto parts = state[i].cast<py::tuple>();
     auto mesh = std::make_shared<TriangleMesh>();
     mesh->positions = valuesOf<Vec3d>(parts[1]);
     mesh->triangles = valuesOf<Triangle>(parts[2]);

@@ -1,6 +1,8 @@
 #pragma once
 // Keyframe meshes in Python's memory.
 
+#include <string>
+
 #include "scene/scene.h"
 #include "scene/scene_reader.h"
 
@@ -8,6 +10,7 @@ namespace echocine::python {
 
 struct Meshes {
   NamedMeshes named;
+  std::string heart_truth;  // truth.json of the parametric heart that these are; empty: another's
 };
 
 // The meshes with which a scene was read; empty if its keyframes are files.

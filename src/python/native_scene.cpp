@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/heart/heart_scene.h"
+#include "motion/heart/heart_truth.h"
 #include "motion/heart/recording.h"
 #include "python/bindings.h"
 #include "python/job.h"
@@ -148,6 +149,7 @@ py::tuple makeHeart(const std::string& view_key, const std::map<std::string, dou
           even ? heart::KeyframeSpacing::even : heart::KeyframeSpacing::by_motion, monitor);
       text = heart::sceneText(view, parameters, recording, "");
       meshes = meshesOf(heart::sceneOf(view, parameters, recording));
+      meshes.heart_truth = heart::truthText(model, recording);
     });
   });
   return py::make_tuple(text, std::move(meshes));

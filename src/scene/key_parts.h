@@ -63,7 +63,8 @@ inline constexpr NumberRange kAny{}, kSeed{.lo = 0, .hi = kIntMost}, kPixels{.lo
     kPerCell{.lo = 0.1, .hi = 1000},  // statistics converge from 3 on. Our choice
     kSmoothing_mm{.lo = 0, .hi = 100}, kLabel{.lo = 1, .hi = 255}, kTracks{.lo = 1, .hi = 1000000},
     kPulse{.lo = 0, .hi = 1000}, kPercentileRange{.lo = 0, .hi = 100, .lo_open = true},
-    kRays{.lo = 1, .hi = 4096},  // errors are then far below a picture's. Our choice
+    kRays{.lo = 1, .hi = 4096},       // errors are then far below a picture's. Our choice
+    kFieldCells{.lo = 12, .hi = 96},  // coarser, walls vanish; finer takes gigabytes
     kSlices{.lo = 1, .hi = kMostElevationSlices}, kQuality{.lo = 1, .hi = 100};
 
 inline constexpr KeyNeed kAlways = KeyNeed::always, kUnlessView = KeyNeed::unless_view,

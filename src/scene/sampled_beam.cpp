@@ -67,13 +67,14 @@ double spectrumDeviation(double pulse_cycles, double bandwidth) {
 
 namespace {
 
-double deviationOfPupil(Apodization receive) {
+double deviationOfPupil(Apodization receive, bool harmonic) {
   constexpr int kElements = 128;
+  const auto placeOf = [](int n) { return (2 * n + 1.0) / kElements - 1; };
   double sum = 0, squares = 0;
   for (int shift = -kElements + 1; shift < kElements; ++shift) {
-    double both = 0;  // H: a uniform aperture over a weighted one
+    double both = 0;  // H: the sent aperture over the receiving one
     for (int n = std::max(shift, 0); n < kElements + std::min(shift, 0); ++n)
-      both += weightOf(receive, (2 * n + 1.0) / kElements - 1);
+      both += weightOf(receive, placeOf(n)) * (harmonic ? 1 - std::abs(placeOf(n - shift)) : 1);
     sum += both * both;
     squares += both * both * shift * shift;
   }
@@ -82,10 +83,10 @@ double deviationOfPupil(Apodization receive) {
 
 }  // namespace
 
-double speckleWidening(Apodization receive) {
-  return receive == Apodization::uniform
+double speckleWidening(Apodization receive, bool harmonic) {
+  return receive == Apodization::uniform && !harmonic
              ? 1
-             : deviationOfPupil(Apodization::uniform) / deviationOfPupil(receive);
+             : deviationOfPupil(Apodization::uniform, false) / deviationOfPupil(receive, harmonic);
 }
 
 double downshiftOf(const Probe& probe, double pulse_cycles, double attenuation_np_per_m_hz,

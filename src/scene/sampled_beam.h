@@ -39,8 +39,10 @@ double spectrumDeviation(double pulse_cycles, double bandwidth);
 
 // Lateral width of a speckle cell over that of a uniform receiving aperture, at the focus. The
 // field's correlation is the transform of |H|^2, H the convolution of both apertures (van Cittert,
-// Zernike); widths are inverse to the deviation of |H|^2.
-double speckleWidening(Apodization receive);
+// Zernike); widths are inverse to the deviation of |H|^2. The second harmonic is the square of a
+// wave of half the frequency, so the sent aperture is a triangle: the convolution of a uniform one
+// of half the width with itself.
+double speckleWidening(Apodization receive, bool harmonic = false);
 
 // Centre frequency of the echo from a path length over that of the pulse: attenuation alpha f,
 // alpha in Np/(m Hz) of amplitude, moves the centre of a Gaussian spectrum to

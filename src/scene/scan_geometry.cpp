@@ -79,11 +79,30 @@ double ScanGeometry::pathOf(Vec3d p) const {
   return angular_ ? length(p) - probe_.face_radius_m : p.z;
 }
 
-std::optional<ScanGeometry::BeamPosition> ScanGeometry::beamPosition(double x_m, double z_m) const {
-  const double t = (placeOf({x_m, 0, z_m}) - first_place_) / (last_place_ - first_place_);
+std::optional<ScanGeometry::BeamPosition> ScanGeometry::at(double place, double path_m) const {
+  const double t = (place - first_place_) / (last_place_ - first_place_);
   if (!(t >= 0 && t <= 1)) return std::nullopt;
-  const double last = probe_.lines - 1;
-  return BeamPosition{t * last, angular_ ? std::hypot(x_m, z_m) - probe_.face_radius_m : z_m};
+  return BeamPosition{t * (probe_.lines - 1), path_m};
+}
+
+std::optional<ScanGeometry::BeamPosition> ScanGeometry::beamPosition(double x_m, double z_m) const {
+  return at(placeOf({x_m, 0, z_m}), angular_ ? std::hypot(x_m, z_m) - probe_.face_radius_m : z_m);
+}
+
+std::optional<ScanGeometry::BeamPosition> ScanGeometry::beamPositionBeside(Vec3d known_m,
+                                                                           double known_place,
+                                                                           Vec3d point_m) const {
+  if (!angular_) return at(point_m.x, point_m.z);
+  // tan(difference of the angles); its arc tangent by five terms of the power series.
+  const double cosine = known_m.x * point_m.x + known_m.z * point_m.z;
+  const double tangent = (known_m.z * point_m.x - known_m.x * point_m.z) / cosine;
+  constexpr double kLargest = 0.1;  // the sixth term is 1e-12
+  if (!(cosine > 0 && std::abs(tangent) <= kLargest)) return beamPosition(point_m.x, point_m.z);
+  const double square = tangent * tangent;
+  const double angle_rad =
+      tangent * (1 - square * (1. / 3 - square * (1. / 5 - square * (1. / 7 - square * (1. / 9)))));
+  return at(known_place + angle_rad,
+            std::sqrt(point_m.x * point_m.x + point_m.z * point_m.z) - probe_.face_radius_m);
 }
 
 }  // namespace echocine

@@ -65,6 +65,10 @@ class ScanGeometry {
     double line = 0, path_m = 0;  // line: lines from the first
   };
   std::optional<BeamPosition> beamPosition(double x_m, double z_m) const;
+  // The same for a point beside another one whose place is known: within 1e-11 rad of it, and
+  // faster, because a small angle needs no arc tangent.
+  std::optional<BeamPosition> beamPositionBeside(Vec3d known_m, double known_place,
+                                                 Vec3d point_m) const;
 
   // The depth of a sample's centre: min_depth + (k + 1/2) spacing.
   double sampleDepth(int sample) const {
@@ -75,6 +79,8 @@ class ScanGeometry {
   double wavelength() const { return kScannerSpeed / probe_.frequency_hz; }
 
  private:
+  std::optional<BeamPosition> at(double place, double path_m) const;
+
   Probe probe_;
   bool angular_;
   double first_place_, last_place_;

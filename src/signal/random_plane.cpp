@@ -67,7 +67,7 @@ RandomPlane::RandomPlane(int lines, int samples, const Grain& grain, std::uint64
 
 Grain grainOf(const Scene& scene, double width_rad) {
   const Probe& probe = scene.probe;
-  const PointSpread spread(probe, scene.signal.pulse_cycles);
+  const PointSpread spread(scene);
   // A Gaussian of the amplitude with deviation s leaves intensities that correlate by
   // exp(-d^2 / 2 s^2).
   const double angle_rad = std::max(spread.angle_rad, width_rad / kWidthAtHalf);

@@ -25,15 +25,21 @@ double bell(double distance, double deviation) {
   return std::exp(-0.5 * away * away);
 }
 
-PointSpread::PointSpread(const Probe& probe, double pulse_cycles)
+PointSpread::PointSpread(const Probe& probe, double pulse_cycles, bool harmonic)
     : wavelength_m(ScanGeometry(probe).wavelength()),
       axial_width_m(kWidthPerPulse * pulse_cycles * wavelength_m / 2),
       aperture_m(probe.elevation_aperture_m),
       focus_m(probe.elevation_focus_m) {
   axial_m = std::numbers::sqrt2 * axial_width_m / kWidthPerDeviation;
-  angle_rad = speckleWidening(probe.receive_apodization) *
+  angle_rad = speckleWidening(probe.receive_apodization, harmonic) *
               followedWidth(1, probe.aperture_m, wavelength_m) / kWidthPerDeviation;
 }
+
+// The harmonic is a part of the sampled beam (planPulse()).
+PointSpread::PointSpread(const Scene& scene)
+    : PointSpread(scene.probe, scene.signal.pulse_cycles,
+                  scene.signal.harmonic && scene.signal.beam_width == BeamWidth::profile &&
+                      scene.accuracy.rays_per_beam == 1) {}
 
 double PointSpread::lateralWidth(double path_m) const {
   return angle_rad * kWidthPerDeviation / std::numbers::sqrt2 * path_m;

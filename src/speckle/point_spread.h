@@ -3,10 +3,10 @@
 //
 // Symbols: lambda wavelength, D aperture, z path length, w full width at -6 dB of the two-way
 // intensity profile, sigma standard deviation of the amplitude's Gaussian. Lateral: a constant
-// angle at every depth, sigma = 0.3625 lambda z / D times the widening by receive apodization at
-// the focus; defocus widens the beam, but not the speckle.
+// angle at every depth, sigma = 0.3625 lambda z / D times the widening by receive apodization and
+// by harmonic imaging at the focus; defocus widens the beam, but not the speckle.
 
-#include "scene/probe.h"
+#include "scene/scene.h"
 
 namespace echocine {
 
@@ -21,7 +21,9 @@ inline constexpr double kCutDeviations = 2.5;
 
 struct PointSpread {
   // pulse_cycles: of the signal's pulse.
-  PointSpread(const Probe& probe, double pulse_cycles);
+  PointSpread(const Probe& probe, double pulse_cycles, bool harmonic = false);
+  // By the probe and the signal of a scene.
+  explicit PointSpread(const Scene& scene);
 
   double wavelength_m = 0;
   double axial_m = 0;                  // sigma

@@ -31,7 +31,7 @@ SheetPoints::SheetPoints(const Scene& scene, const MeshMotion& motion, double re
   const auto& surfaces = motion.surfaces();
   if (std::none_of(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.membrane; }))
     return;
-  const PointSpread spread(scene.probe, scene.signal.pulse_cycles);
+  const PointSpread spread(scene);
   const double apart_m = kApartPerWidth * spread.axial_width_m;
   const double per_m2 = scene.speckle.per_cell / kOrdinaryPerCell / (apart_m * apart_m);
   SurfaceFrame frame;

@@ -8,11 +8,11 @@
 
 namespace echocine {
 
-Speckle::Speckle(const Probe& probe, double pulse_cycles, const SpeckleSettings& settings,
+Speckle::Speckle(const Probe& probe, const PointSpread& spread, const SpeckleSettings& settings,
                  const Material& material, std::shared_ptr<const Scatterers> drawn)
     : settings_(settings),
       lines_(probe.lines),
-      spread_(probe, pulse_cycles),
+      spread_(spread),
       view_(probe, spread_),
       gaussian_(settings.seed),
       scatterers_(

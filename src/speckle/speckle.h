@@ -15,7 +15,7 @@ class Speckle {
  public:
   // Draws the scatterers, or shares those of another speckle whose probe differs in lines and
   // samples alone. Uses the threads of the enclosing withThreads(); the same for any number.
-  Speckle(const Probe& probe, double pulse_cycles, const SpeckleSettings& settings,
+  Speckle(const Probe& probe, const PointSpread& spread, const SpeckleSettings& settings,
           const Material& material, std::shared_ptr<const Scatterers> drawn = nullptr);
   Speckle(Speckle&&) = delete;
 

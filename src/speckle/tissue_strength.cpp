@@ -107,9 +107,11 @@ TissueStrength::~TissueStrength() = default;
 void TissueStrength::amplitudes(std::span<const Vec3f> reference_m, std::uint16_t group, bool blood,
                                 std::span<float> out) const {
   const Vec3d parallel = lineGeometry(probe_, probe_.lines / 2).direction;
-  Heterogeneity heterogeneity(settings_, probe_);
+  const auto heterogeneity =
+      heterogeneities_.borrow([&] { return std::make_unique<Heterogeneity>(settings_, probe_); });
   for (std::size_t i = 0; i < out.size(); ++i) {
-    double factor = blood || settings_.heterogeneity_db == 0 ? 1 : heterogeneity.at(reference_m[i]);
+    double factor =
+        blood || settings_.heterogeneity_db == 0 ? 1 : heterogeneity->at(reference_m[i]);
     if (wall_ && group == wall_->group) {
       const Vec3d p = toDouble(reference_m[i]), in = wall_->endocardium.to(reference_m[i]),
                   out_m = wall_->epicardium.to(reference_m[i]);

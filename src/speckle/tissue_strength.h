@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 
+#include "core/free_list.h"
 #include "core/normal_field.h"
 #include "motion/interior/motion_field.h"
 #include "motion/surfaces/mesh_motion.h"
@@ -57,6 +58,7 @@ class TissueStrength {
   SpeckleSettings settings_;
   Probe probe_;
   std::unique_ptr<const Wall> wall_;  // none without fibres
+  mutable FreeList<Heterogeneity> heterogeneities_;
 };
 
 }  // namespace echocine

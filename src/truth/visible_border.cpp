@@ -12,17 +12,18 @@ namespace echocine {
 
 namespace {
 
-// Levels of a frame, and places in it.
+// Levels of a frame about a point of a contour.
 struct Levels {
   const Probe& probe;
-  ScanGeometry geometry;
+  const ScanGeometry& geometry;
   std::span<const float> greys;
+  Vec3d point_m;
+  double place = geometry.placeOf(point_m);
 
   // The level of the nearest sample; none outside the scan area.
   std::optional<double> at(Vec3d p) const {
-    if (!inScanArea(probe, p.x, p.z)) return {};
-    const auto beam = geometry.beamPosition(p.x, p.z);
-    if (!beam) return {};
+    const auto beam = geometry.beamPositionBeside(point_m, place, p);
+    if (!beam || beam->path_m < probe.min_depth_m || beam->path_m > probe.max_depth_m) return {};
     const double sample = (beam->path_m - probe.min_depth_m) / probe.sampleSpacing() - 0.5;
     const auto line = static_cast<std::size_t>(
         std::clamp(static_cast<int>(std::lround(beam->line)), 0, probe.lines - 1));
@@ -32,14 +33,14 @@ struct Levels {
   }
 
   // Mean over 6 mm along the tangent, at offsets along the normal; none if half of it is outside.
-  std::optional<double> mean(Vec3d p, Vec3d tangent, Vec3d normal,
+  std::optional<double> mean(Vec3d tangent, Vec3d normal,
                              std::initializer_list<double> offsets_m) const {
     double sum = 0;
     int inside = 0, all = 0;
     for (const double across_m : offsets_m)
       for (int i = -3; i <= 3; ++i) {
         ++all;
-        if (const auto level = at(p + 1e-3 * i * tangent + across_m * normal))
+        if (const auto level = at(point_m + 1e-3 * i * tangent + across_m * normal))
           sum += *level, ++inside;
       }
     if (2 * inside < all) return {};
@@ -78,25 +79,25 @@ Vec3d placeAlong(const Contour& contour, std::size_t i, int step, double reach_m
 
 std::vector<char> visiblePoints(const Contour& contour, const Probe& probe,
                                 std::span<const float> greys, double range_db) {
-  const Levels levels{probe, ScanGeometry(probe), greys};
+  const ScanGeometry geometry(probe);
   const double turn = turnOf(contour.points_m) > 0 ? 1 : -1;
   const double least = kVisibleStep_dB / range_db;
   std::vector<char> visible(contour.points_m.size(), 0);
   for (std::size_t i = 0; i < visible.size(); ++i) {
-    const Vec3d p = contour.points_m[i];
+    const Levels levels{probe, geometry, greys, contour.points_m[i]};
     constexpr double kHalfChord_m = 2e-3;
     const Vec3d chord =
         placeAlong(contour, i, 1, kHalfChord_m) - placeAlong(contour, i, -1, kHalfChord_m);
-    if (length(chord) < 1e-9 || !levels.at(p)) continue;
+    if (length(chord) < 1e-9 || !levels.at(contour.points_m[i])) continue;
     const Vec3d tangent = normalised(chord);
     const Vec3d outside = turn * Vec3d{tangent.z, 0, -tangent.x};
-    const auto inner = levels.mean(p, tangent, outside, {-1e-3, -2e-3, -3e-3});
+    const auto inner = levels.mean(tangent, outside, {-1e-3, -2e-3, -3e-3});
     if (contour.closed) {
-      const auto outer = levels.mean(p, tangent, outside, {0.75e-3, 1.5e-3, 2.25e-3});
+      const auto outer = levels.mean(tangent, outside, {0.75e-3, 1.5e-3, 2.25e-3});
       visible[i] = inner && outer && std::abs(*outer - *inner) >= least;
     } else {
-      const auto outer = levels.mean(p, tangent, outside, {1e-3, 2e-3, 3e-3});
-      const auto sheet = levels.mean(p, tangent, outside, {-0.25e-3, 0, 0.25e-3});
+      const auto outer = levels.mean(tangent, outside, {1e-3, 2e-3, 3e-3});
+      const auto sheet = levels.mean(tangent, outside, {-0.25e-3, 0, 0.25e-3});
       visible[i] = inner && outer && sheet && *sheet - std::max(*inner, *outer) >= least;
     }
   }

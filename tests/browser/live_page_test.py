@@ -175,6 +175,15 @@ class LivePageTest(unittest.TestCase):
         # The probe has moved with the skin: the view is the same, on another heart.
         self.assertIn("0.0 mm and 0.0°", self.js("return document.getElementById('off').textContent"))
         self.assertNotEqual(self.js("return page.parts.live.pose.origin_mm"), self.js("return page.parts.live.own_start.origin_mm"))
+        # A slower beat has more frames, another ECG, and the picture follows.
+        frames, lead = self.js("return [page.parts.live.frames, page.parts.live.loop.ecg]")
+        self.set("heart-hr", 40)
+        self.wait(lambda: self.js("return page.parts.live.loop.ecg") != lead, "the ECG stays")
+        self.wait_for_rest()
+        self.assertGreater(self.js("return page.parts.live.shown.frames"), frames)
+        self.assertEqual(int(self.js("return document.querySelector('input[aria-label=Frame]').max")), self.js("return page.parts.live.frames") - 1)
+        self.set("heart-hr", 500)
+        self.wait(lambda: "30 to 200" in self.js("return document.getElementById('heart-hr').closest('.dial').textContent"), "nothing is refused")
         self.set("heart-ef", 0.99)
         self.wait(lambda: not self.js("return document.getElementById('heart-ef').closest('.dial').querySelector('.bad').hidden"), "nothing is refused")
         self.assertIn("0.05 to 0.85", self.js("return document.getElementById('heart-ef').closest('.dial').textContent"))

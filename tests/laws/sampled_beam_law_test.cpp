@@ -284,5 +284,13 @@ TEST(SampledBeamLaw, ApodizationWidensSpeckleAsInASimulator) {
   EXPECT_NEAR(speckleWidening(Apodization::hann), 2.37 / 2.05, 0.08);
 }
 
+// With a uniform receiving aperture from -1 to 1, H is 2 - x over 0 <= x <= 2 for the fundamental;
+// the harmonic's is 1 - x^2 / 2 up to 1 and (2 - x)^2 / 2 beyond. The variances of H^2 are 2/5 and
+// 50/161.
+TEST(SampledBeamLaw, TheHarmonicWidensSpeckle) {
+  EXPECT_NEAR(speckleWidening(Apodization::uniform, true), std::sqrt(0.4 * 161 / 50), 1e-3);
+  EXPECT_GT(speckleWidening(Apodization::hann, true), speckleWidening(Apodization::hann));
+}
+
 }  // namespace
 }  // namespace echocine

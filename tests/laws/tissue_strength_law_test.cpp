@@ -112,7 +112,7 @@ TEST(Strength, ScalesTheMeanOfTheSpeckleAndNothingElse) {
   constexpr int kSeeds = 12;
   for (bed.settings.seed = 1; bed.settings.seed <= kSeeds; ++bed.settings.seed) {
     const Weighted weighted;
-    const Speckle with(bed.probe, 2, bed.settings, weighted);
+    const Speckle with(bed.probe, PointSpread(bed.probe, 2), bed.settings, weighted);
     const std::vector<float> picture = bed.picture(with), plain = bed.picture(bed.speckle());
     for (std::size_t i = 0; i < picture.size(); ++i) {
       const std::size_t k = i % 400;

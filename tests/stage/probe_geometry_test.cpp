@@ -55,6 +55,33 @@ TEST(LinearProbe, LinesAreParallelAndSpanTheWidthEdgesIncluded) {
   EXPECT_NEAR(lineSpacing(probe, 0.1), 0.01, 1e-15);
 }
 
+// At steps over four decades about places from near the apex to the deepest, and across it.
+TEST(AnyProbe, APositionBesideAKnownOneIsThatOfItsOwn) {
+  const Probe probes[] = {
+      probeOf({{"lines", "64"}, {"sector_deg", "80"}}),
+      probeOf({{"kind", "\"curvilinear\""}, {"face_radius_mm", "50"}, {"lines", "64"}}),
+      probeOf({{"kind", "\"linear\""}, {"width_mm", "40"}, {"lines", "64"}})};
+  for (const Probe& probe : probes) {
+    const ScanGeometry geometry(probe);
+    int shown = 0;
+    for (const Vec3d known :
+         {Vec3d{0, 0, 0.002}, {0.01, 0, 0.03}, {-0.03, 0, 0.07}, {0.001, 0, 0.15}})
+      for (double step_m = 1e-6; step_m < 0.02; step_m *= 3)
+        for (int turn = 0; turn < 8; ++turn) {
+          const double angle_rad = turn * std::numbers::pi / 4;
+          const Vec3d p = known + step_m * Vec3d{std::cos(angle_rad), 0, std::sin(angle_rad)};
+          const auto right = geometry.beamPosition(p.x, p.z);
+          const auto found = geometry.beamPositionBeside(known, geometry.placeOf(known), p);
+          ASSERT_EQ(found.has_value(), right.has_value()) << p.x << " " << p.z;
+          if (!right) continue;
+          ++shown;
+          EXPECT_NEAR(found->line, right->line, 1e-11 * probe.lines);
+          EXPECT_NEAR(found->path_m, right->path_m, 1e-15);
+        }
+    EXPECT_GT(shown, 100);
+  }
+}
+
 TEST(AnyProbe, ASingleLineStandsInTheMiddle) {
   EXPECT_NEAR(angleOf(lineGeometry(probeOf({{"lines", "1"}}), 0)), 0, 1e-15);
   EXPECT_EQ(lineSpacing(probeOf({{"lines", "1"}}), 0.1), 0);

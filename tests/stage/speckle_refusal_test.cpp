@@ -77,7 +77,7 @@ TEST(SpeckleRefusal, MoreScatterersThanMemoryIsMeantFor) {
   settings.on = true;
   settings.per_cell = 100000;
   try {
-    const Speckle speckle(probe, 2, settings, support::OneGroup{});
+    const Speckle speckle(probe, PointSpread(probe, 2), settings, support::OneGroup{});
     FAIL() << speckle.scatterers();
   } catch (const SceneError& error) {
     EXPECT_NE(std::string(error.what()).find("speckle.per_cell = 100000 needs over"),
@@ -102,16 +102,16 @@ TEST(SpeckleRefusal, AFarApexTakesTheBlocksOfItsSectorAlone) {
   settings.per_cell = 0.1;
   FineGroup fine;
   fine.reach_m = 0;
-  const std::size_t narrow = Speckle(probe, 2, settings, fine).scatterers();
+  const std::size_t narrow = Speckle(probe, PointSpread(probe, 2), settings, fine).scatterers();
   EXPECT_GT(narrow, 1000u);
   probe.first_angle_rad = -0.6;
   probe.last_angle_rad = 0.6;
-  const std::size_t wide = Speckle(probe, 2, settings, fine).scatterers();
+  const std::size_t wide = Speckle(probe, PointSpread(probe, 2), settings, fine).scatterers();
   EXPECT_GT(wide, 10 * narrow);
   EXPECT_LT(wide, 30 * narrow);
   fine.block_m = 1e-4f;
   try {
-    const Speckle speckle(probe, 2, settings, fine);
+    const Speckle speckle(probe, PointSpread(probe, 2), settings, fine);
     FAIL() << speckle.scatterers();
   } catch (const SceneError& error) {
     EXPECT_NE(std::string(error.what()).find("probe.face_radius_mm"), std::string::npos)
@@ -124,9 +124,10 @@ TEST(SpeckleRefusal, AStopEndsTheSearchForBlocks) {
   SpeckleSettings settings;
   settings.on = true;
   int asked = 0;
-  EXPECT_THROW(stoppable([&] { return ++asked > 20; },
-                         [&] { const Speckle made(probe, 2, settings, FineGroup{}); }),
-               JobError);
+  EXPECT_THROW(
+      stoppable([&] { return ++asked > 20; },
+                [&] { const Speckle made(probe, PointSpread(probe, 2), settings, FineGroup{}); }),
+      JobError);
 }
 
 }  // namespace

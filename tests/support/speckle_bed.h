@@ -86,7 +86,7 @@ struct SpeckleBed {
     settings.smoothing_m = 0;
   }
 
-  Speckle speckle() const { return Speckle(probe, 2, settings, material); }
+  Speckle speckle() const { return Speckle(probe, PointSpread(probe, 2), settings, material); }
   std::size_t size() const {
     return static_cast<std::size_t>(probe.lines) * static_cast<std::size_t>(probe.samples);
   }

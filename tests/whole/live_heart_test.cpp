@@ -11,6 +11,7 @@
 #include "live/live_session.h"
 #include "live/mesh_paths.h"
 #include "output/heart_files.h"
+#include "scene/scene_reader.h"
 #include "support/run_program.h"
 #include "support/temp_folder.h"
 
@@ -102,6 +103,40 @@ TEST_F(LiveHeartDials, AnotherHeartHasItsVolumesAndIsSavedWithItsMeshes) {
   EXPECT_EQ(own["standard"], own["own_standard"]);
 }
 
+// The loop has a beat of the new rate, and keyframes as `heart` spaces them at this rate.
+TEST_F(LiveHeartDials, ARateChangesTheBeatItsEcgAndItsTiming) {
+  const std::string dials = R"("dials": {"hr": 120, "ef": 0.5})";
+  ASSERT_EQ(ask("/heart", "{" + dials + "}").status, 200);
+  const Json own = Json::parse(ask("/scene", "{}").body);
+  const Json fast = Json::parse(ask("/scene", "{" + dials + "}").body);
+  EXPECT_EQ(own["loop"]["frames"], 5) << "at 65 beats a minute and 5 frames per second";
+  EXPECT_EQ(fast["loop"]["frames"], 3) << "2.5, rounded";
+  EXPECT_NE(own["loop"]["ecg"], fast["loop"]["ecg"]);
+  HeartFiles files;
+  files.keyframes = 4;
+  files.look = Look::paper;
+  files.parameters.heart_rate_bpm = 120;
+  files.parameters.ejection_fraction = 0.5;
+  writeHeart(files, folder / "fast");
+  const Scene written = readScene(folder / "fast/scene.toml"),
+              live = parseScene(fast["text"].get<std::string>(), folder / "fast/scene.toml");
+  EXPECT_EQ(live.acquisition.heart_rate_hz, written.acquisition.heart_rate_hz);
+  EXPECT_EQ(live.motion.keyframe_heart_rate_hz, written.motion.keyframe_heart_rate_hz);
+  EXPECT_EQ(live.motion.keyframe_phases, written.motion.keyframe_phases);
+  EXPECT_EQ(live.motion.end_systole_phase, written.motion.end_systole_phase);
+
+  // A key of the scene plays the same keyframes at another rate. A page counts frames on over a
+  // change of the loop.
+  const Json slow = Json::parse(
+      ask("/scene", "{" + dials + R"(, "keys": {"acquisition.heart_rate_bpm": 60}})").body);
+  EXPECT_EQ(slow["loop"]["frames"], 5);
+  const std::string late = "{" + dials + R"(, "frame": 4, "effort": "moving")";
+  EXPECT_EQ(ask("/picture", late + "}").status, 422);
+  const HttpResponse wrapped = ask("/picture", late + R"(, "wrap": true})");
+  ASSERT_EQ(wrapped.status, 200);
+  EXPECT_NE(wrapped.body.find(R"("frame":1,)"), std::string::npos);
+}
+
 TEST_F(LiveHeartDials, RefusesWhatNoHeartIs) {
   const auto refused = [&](const std::string& body, int status, const std::string& words) {
     const HttpResponse response = ask("/heart", body);
@@ -109,6 +144,8 @@ TEST_F(LiveHeartDials, RefusesWhatNoHeartIs) {
     EXPECT_NE(response.body.find(words), std::string::npos) << response.body;
   };
   refused(R"({"dials": {"ef": 0.99}})", 422, "accepted are 0.05 to 0.85");
+  refused(R"({"dials": {"hr": 20}})", 422, "accepted are 30 to 200 bpm");
+  refused(R"({"dials": {"body-scale": 1}})", 422, "body-scale is not a dial");
   refused(R"({"dials": {"edv": 400, "ef": 0.8, "rv-edv": 100}})", 422, "raise rv-edv");
   refused(R"({"dials": {"size": 1}})", 422, "size is not a dial");
   refused(R"({"dials": {"ef": "a"}})", 400, "accepted: an object of numbers");
@@ -143,6 +180,9 @@ TEST_F(LiveHeartDials, TruthHasLabelsOfThePixelsAndTheFunctionOfTheWall) {
 TEST_F(LiveHeartDials, ALoopIsOneFileOfItsFormat) {
   EXPECT_EQ(ask("/loop", R"({"format": "gif"})").body.substr(0, 6), "GIF89a");
   EXPECT_EQ(ask("/loop", R"({"format": "mp4"})").body.substr(4, 4), "ftyp");
+  const std::string webp = ask("/loop", R"({"format": "webp"})").body;
+  EXPECT_EQ(webp.substr(0, 4) + webp.substr(8, 4), "RIFFWEBP");
+  EXPECT_NE(webp.find("ANIM"), std::string::npos);
   EXPECT_EQ(ask("/loop", R"({"format": "avi"})").status, 400);
   const Json cost = Json::parse(ask("/cost", "{}").body);
   EXPECT_GT(cost["ms"].get<double>(), 0);

@@ -53,7 +53,7 @@ TEST_F(SpeckleScene, TheMeanOverSeedsIsTheFrameWithout) {
   scene.speckle.smoothing_m = 0;
   std::vector<double> sum(expected.size());
   for (scene.speckle.seed = 1; scene.speckle.seed <= kSeeds; ++scene.speckle.seed) {
-    const Speckle speckle(scene.probe, scene.signal.pulse_cycles, scene.speckle, material);
+    const Speckle speckle(scene.probe, PointSpread(scene), scene.speckle, material);
     Intensities speckled = expected;
     speckle.apply(FieldMaterialFrame(field), kTime_s, speckled);
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += static_cast<double>(speckled[i]);

@@ -395,9 +395,12 @@ class Scene:
         """Serves the page of ``echocine live`` for this scene, on this machine; a notebook shows it.
 
         The page has the scene as it is now. Changes in the page do not change the scene: copy the pose, or save the scene there.
+        The page of a `heart()` has its dials, and saves it with its meshes into the working folder. Other meshes in memory
+        cannot be saved.
 
         Args:
-            record: folder for a scene file of each pose at which the probe comes to rest; not for meshes in memory.
+            record: folder for a scene file of each pose at which the probe comes to rest; of meshes in memory only those
+                of a `heart()`.
             port: of 127.0.0.1; 0: any free one.
             threads: at most; 0: one per core.
 
