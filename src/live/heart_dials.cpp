@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "live/mesh_paths.h"
 #include "motion/heart/left_ventricle.h"
 #include "output/heart_files.h"
 #include "scene/toml_edit.h"
@@ -28,7 +29,7 @@ struct FolderPlace {
   std::size_t at = 0, size = 0;
 };
 
-// One for each line `keyframes = "FOLDER/PATTERN.obj"`.
+// One for each line `keyframes = "FOLDER/PATTERN.obj"` or `keyframes = "FOLDER/NAME.npz"`.
 std::vector<FolderPlace> folderPlaces(const std::string& text) {
   std::vector<FolderPlace> places;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -267,7 +268,7 @@ OtherHeart HeartDials::made(const HeartChange& change, const std::string& text) 
   const auto rate = change.dials.find("hr");
   OtherHeart other;
   other.text = withEdits(
-      withFolder(text, ""),
+      withNamesInMemory(withFolder(text, ""), recording),
       timingOf(recording, rate == change.dials.end() ? std::nullopt : std::optional(rate->second)),
       file_);
   other.meshes = heart::meshesOf(recording);

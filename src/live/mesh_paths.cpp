@@ -1,8 +1,13 @@
 #include "live/mesh_paths.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string_view>
+
+#include "motion/heart/recording.h"
+#include "scene/npz_keyframe.h"
 
 namespace echocine::live {
 
@@ -11,6 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 bool isRelativeMesh(std::string_view word) {
+  if (npzKeyframeOf(fs::path(word))) return !word.starts_with('/');
   constexpr std::array<std::string_view, 4> kEnds{".obj", ".ply", ".stl", ".off"};
   return !word.starts_with('/') && std::any_of(kEnds.begin(), kEnds.end(), [&](auto end) {
     if (word.size() < end.size()) return false;
@@ -45,6 +51,17 @@ std::string withMeshesFrom(const std::string& text, const fs::path& from, const 
     i = end;
   }
   return made;
+}
+
+std::string withNamesInMemory(std::string text, const heart::Recording& recording) {
+  for (const heart::RecordedPart& part : recording.parts) {
+    const std::string from = fmt::format("\"{}.npz\"", part.kind.name);
+    const std::string to =
+        fmt::format("\"{}{}.obj\"", part.kind.name, part.control_m.size() == 1 ? "" : "_??");
+    if (const std::size_t at = text.find(from); at != std::string::npos)
+      text.replace(at, from.size(), to);
+  }
+  return text;
 }
 
 }  // namespace echocine::live

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/parallel.h"
+#include "live/heart_dials.h"
 #include "live/live_session.h"
 #include "live/mesh_paths.h"
 #include "output/heart_files.h"
@@ -188,6 +189,27 @@ TEST_F(LiveHeartDials, ALoopIsOneFileOfItsFormat) {
   EXPECT_GT(cost["ms"].get<double>(), 0);
 }
 
+TEST(LiveNumpyHeart, HasTheDialsOfTheObjFiles) {
+  const TempFolder folder;
+  HeartFiles files;
+  files.keyframes = 4;
+  HeartChange change;
+  change.dials["ef"] = 0.35;
+  std::vector<std::string> texts;
+  for (const auto& [name, format] :
+       {std::pair{"obj", heart::MeshFormat::obj}, std::pair{"npz", heart::MeshFormat::npz}}) {
+    files.format = format;
+    writeHeart(files, folder / name);
+    const std::filesystem::path file = folder / name / "scene.toml";
+    const auto dials = HeartDials::of(readScene(file), textOf(file));
+    ASSERT_TRUE(dials) << name;
+    const OtherHeart other = dials->made(change, textOf(file));
+    texts.push_back(other.text);
+    EXPECT_EQ(parseScene(other.text, "heart", other.meshes).structures[0].keyframes.size(), 4u);
+  }
+  EXPECT_EQ(texts[0], texts[1]);
+}
+
 TEST(LiveMeshPaths, StayTheSameFilesInAnotherFolder) {
   const std::string text =
       "a = \"m/x_??.obj\"  # \"no.obj\"\nb = ['/abs.stl', 'y.PLY']\nc = \"word\"\n";
@@ -195,6 +217,8 @@ TEST(LiveMeshPaths, StayTheSameFilesInAnotherFolder) {
       withMeshesFrom(text, "/s/one", "/s/two"),
       "a = \"../one/m/x_??.obj\"  # \"no.obj\"\nb = ['/abs.stl', '../one/y.PLY']\nc = \"word\"\n");
   EXPECT_EQ(withMeshesFrom(text, "/s/one", "/s/one"), text);
+  EXPECT_EQ(withMeshesFrom("a = ['m/x.npz', \"x.npz[3]\", '/x.npz']\n", "/s/one", "/s/two"),
+            "a = ['../one/m/x.npz', \"../one/x.npz[3]\", '/x.npz']\n");
 }
 
 }  // namespace
