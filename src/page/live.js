@@ -32,6 +32,7 @@
       live.overlay.forget();
       live.pose.show();
       live.settings.refresh();
+      live.picture.tick(performance.now());  // at once, not with the screen's next frame
     },
     setKey: (name, value) => live.settings.set(name, value),
     setHeart: (wish, answer) => live.pose.setHeart(wish, answer),

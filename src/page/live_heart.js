@@ -106,18 +106,22 @@ class LiveHeart extends HeartView {
     this.render();
   }
 
-  // The picture on the plane, taken when the drawing is made.
-  follow(source) {
+  // The picture on the plane, taken when the drawing is made. moves: the hand moves the probe.
+  follow(source, moves) {
     this.source = source;
+    this.moves = moves;
     this.render();
   }
 
-  // A machine without a graphics card draws slowly: at most a quarter of the time goes into drawings.
+  // A machine without a graphics card draws slowly: at most a quarter of the time goes into drawings,
+  // and a twentieth while a hand in the echo waits for its picture.
   render() {
-    const wait_ms = (this.drawn_ms ?? 0) + 3 * (this.cost_ms ?? 0) - performance.now();
-    if (this.drawing || this.later) return;
-    if (wait_ms <= 0) { super.render(); return; }
-    this.later = setTimeout(() => { this.later = 0; super.render(); }, wait_ms);
+    const factor = this.moves && !this.held && this.cost_ms > 25 ? 20 : 3;
+    const wait_ms = (this.drawn_ms ?? 0) + factor * (this.cost_ms ?? 0) - performance.now();
+    if (this.drawing) return;
+    clearTimeout(this.later);
+    if (wait_ms <= 0) super.render();
+    else this.later = setTimeout(() => super.render(), wait_ms);
   }
 
   renderNow() {

@@ -42,7 +42,7 @@ class LivePicture {
     Object.assign(canvas.dataset, { version: made.version, effort: made.effort, frame: made.frame });
     byId("quality").textContent = `${made.quality} · ${fixed(made.ms, 0)} ms`;
     live.heart.showPhase(made.phase);
-    live.heart.follow(canvas);
+    live.heart.follow(canvas, made.effort === "moving");
     live.player.show(made);
     live.overlay.draw();
     const volumes = this.chambers.filter((name) => name in made.volumes_ml).map((name) => ` · ${name} ${fixed(made.volumes_ml[name], 0)} mL`);
@@ -87,6 +87,7 @@ class LivePicture {
 
   async request(frame, effort, ahead = false) {
     const { live } = this, { state } = live, { version } = state;
+    let newer = false;
     this.busy = true;
     try {
       const response = await live.ask("/picture", live.body({ frame, wrap: true, effort }));
@@ -104,11 +105,13 @@ class LivePicture {
         if (state.m_line) live.overlay.drawM();
       }
       if (!ahead && (version === state.version || state.held)) this.show(made);
+      newer = version !== state.version;
     } catch {
       page.byId("refusal").textContent = "The program does not answer: it has ended, or the connection is lost.";
       await new Promise((done) => setTimeout(done, 1000));
     } finally {
       this.busy = false;
     }
+    if (newer) this.tick(performance.now());  // a hand does not wait for the screen
   }
 }
