@@ -15,6 +15,9 @@ namespace {
 
 using Manifest = nlohmann::json;
 
+constexpr char kUsualFrames[] = "data/2d_brightness_mode",
+               kUsualTimes[] = "timestamps/2d_brightness_mode";
+
 class ManifestReader {
  public:
   explicit ManifestReader(std::string name) : name_(std::move(name)) {}
@@ -37,12 +40,23 @@ class ManifestReader {
     return value.get<std::string>();
   }
 
-  // Of B-mode: the sector of that name.
+  // The path of an array of a sector; `usual` if the sector names none.
+  std::string pathOf(const Manifest& sector, const char* role, const std::string& usual) const {
+    if (!sector.is_object() || !sector.contains(role) || !sector[role].is_object() ||
+        !sector[role].contains("array_path"))
+      return usual;
+    return text(sector[role], "array_path");
+  }
+
+  // The sector of that name, or the one with the usual array.
   const Manifest& bmode(const Manifest& attributes) const {
     const Manifest& sectors = member(member(attributes, "recording_manifest"), "sectors");
-    if (sectors.is_array())
+    if (sectors.is_array()) {
       for (const Manifest& sector : sectors)
         if (sector.is_object() && sector.value("semantic_id", Manifest()) == "bmode") return sector;
+      for (const Manifest& sector : sectors)
+        if (pathOf(sector, "frames", "") == kUsualFrames) return sector;
+    }
     throw SceneError(fmt::format("{}: recording_manifest: has no sector \"bmode\"", name_));
   }
 
@@ -70,7 +84,7 @@ BeamRecording readEchoXFlow(const std::filesystem::path& folder) {
   r.last_depth_m = manifest.number(geometry, "depth_end_m");
   r.first_rad = manifest.number(geometry, "angle_start_rad");
   r.last_rad = manifest.number(geometry, "angle_end_rad");
-  const std::string frames = manifest.text(manifest.member(sector, "frames"), "array_path");
+  const std::string frames = manifest.pathOf(sector, "frames", kUsualFrames);
   const ZarrLayout layout = store.layout(frames);
   if (layout.shape.size() != 3)
     throw SceneError(fmt::format("{}: {}: has {} axes, accepted: time, depth, line", r.name, frames,
@@ -85,8 +99,8 @@ BeamRecording readEchoXFlow(const std::filesystem::path& folder) {
                                   bytes.absent_chunks));
   for (std::size_t f = 0; f < r.frames; ++f)
     r.greys.push_back(linesFirst(r, bytes.values, f, [](std::uint8_t grey) { return grey; }));
-  const std::string times = manifest.text(manifest.member(sector, "timestamps"), "array_path");
-  r.times_s = store.numbers(times, r.frames).values;
+  const std::string times = manifest.pathOf(sector, "timestamps", kUsualTimes);
+  if (times != kUsualTimes || store.has(times)) r.times_s = store.numbers(times, r.frames).values;
   takeEcgOf(store, r);
   return r;
 }

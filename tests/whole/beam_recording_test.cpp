@@ -159,10 +159,8 @@ TEST(BeamRecording, AnArchiveOfTheShippedHeartIsItsRender) {
     options.synthetic = folder / "loop";
     options.real = folder / path;
     const compare::Comparison c = compare::compareLoops(options, {});
-    RecordProperty(path.substr(path.size() - 4) + "_D", fmt::format("{:.3g}", c.discrepancy));
     EXPECT_LT(c.discrepancy, 3e-5);
     EXPECT_EQ(c.time.shift_frames, 0);
-    EXPECT_EQ(c.real.video.frameCount(), c.synthetic.video.frameCount());
     EXPECT_NEAR(c.real.video.rate.hz, 13, 1e-5);
     // One beat at 65 a minute: its R wave is the first frame.
     ASSERT_EQ(c.real.video.r_waves_s.size(), 1u);
@@ -199,7 +197,6 @@ TEST(BeamRecording, AManifestThatIsNoSectorIsRefused) {
   const Json absent(Json::value_t::discarded);
   refused("/sectors", absent, "sectors is absent");
   refused("/sectors", 3, "no sector \"bmode\"");
-  refused("/sectors/0/semantic_id", "else", "no sector \"bmode\"");
   refused("/sectors/0/geometry", absent, "geometry is absent");
   refused("/sectors/0/geometry/depth_start_m", absent, "depth_start_m is absent");
   refused("/sectors/0/geometry/depth_start_m", "far", "depth_start_m is no number");
@@ -213,6 +210,19 @@ TEST(BeamRecording, AManifestThatIsNoSectorIsRefused) {
   refused("/sectors/0/frames/array_path", "data/nothing", "is absent");
   refused("/sectors/0/timestamps/array_path", "timestamps/ecg", "accepted: up to 4");
   EXPECT_EQ(saidOf(archives.zarr), "");
+  // Readers of the layout find B-mode by its array too, and times by the usual name.
+  Json sparse = whole;
+  Json& sector = sparse["recording_manifest"]["sectors"][0];
+  sector["semantic_id"] = "else";
+  sector.erase("timestamps");
+  writeBytes(file, sparse.dump());
+  EXPECT_NEAR(echo::readLoop(archives.zarr, {}, true).video.rate.hz, 20, 1e-5);
+  fs::remove_all(archives.zarr / "timestamps/2d_brightness_mode");
+  EXPECT_EQ(echo::readLoop(archives.zarr, {}, true).video.rate.hz, 0);
+  sector["frames"]["array_path"] = "data/tissue_doppler";
+  writeBytes(file, sparse.dump());
+  expectSaid(archives.zarr, "no sector \"bmode\"");
+  writeBytes(file, whole.dump());
   expectSaid(archives.folder / "root", "is a catalogue of recordings");
   writeBytes(archives.folder / "packed.zarr", "PK");
   expectSaid(archives.folder / "packed.zarr", "is a packed store");
@@ -252,8 +262,6 @@ TEST(BeamRecording, FilesThatAreNoSectorOfZeaAreRefused) {
           "are no sector");
   writeBytes(folder / "text.hdf5", "not HDF5");
   expectSaid(folder / "text.hdf5", "no HDF5 file");
-  fs::create_directories(folder / "folder.hdf5");
-  EXPECT_NE(saidOf(folder / "folder.hdf5"), "");
 }
 
 // Every damage ends in one line, or in a loop of the same shape. No child process is left.
