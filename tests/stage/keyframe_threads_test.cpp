@@ -15,7 +15,7 @@ namespace {
 
 using namespace motion_test;
 
-constexpr int kStructures = 4, kKeyframes = 9;
+constexpr int kStructures = 4, kInstants = 9;
 
 class ReadingKeyframes : public testing::Test {
  protected:
@@ -29,7 +29,7 @@ class ReadingKeyframes : public testing::Test {
   }
   Structure ball(int s) const {
     std::vector<std::filesystem::path> files;
-    for (int k = 0; k < kKeyframes; ++k)
+    for (int k = 0; k < kInstants; ++k)
       files.push_back(folder.write(name(s, k), objText(sphere(2 + 0.01 * k + 0.1 * s, 2))));
     return structureOf(files);
   }
@@ -54,7 +54,7 @@ TEST_F(ReadingKeyframes, GivesTheSameMeshesAndDigestForAnyNumberOfThreads) {
   // The digest is that of the files' bytes in the scene's order.
   Sha256 digest;
   for (int s = 0; s < kStructures; ++s)
-    for (int k = 0; k < kKeyframes; ++k)
+    for (int k = 0; k < kInstants; ++k)
       digest.update(std::string_view(support::bytesOf(folder.path(name(s, k)))));
   EXPECT_EQ(one.sha256, digest.hex());
   for (const int threads : {2, 3, 8}) {
@@ -62,7 +62,7 @@ TEST_F(ReadingKeyframes, GivesTheSameMeshesAndDigestForAnyNumberOfThreads) {
     EXPECT_EQ(other.sha256, one.sha256);
     ASSERT_EQ(other.structures.size(), one.structures.size());
     for (std::size_t s = 0; s < kStructures; ++s)
-      for (std::size_t k = 0; k < kKeyframes; ++k) {
+      for (std::size_t k = 0; k < kInstants; ++k) {
         EXPECT_EQ(other.structures[s][k].mesh.positions, one.structures[s][k].mesh.positions);
         EXPECT_EQ(other.structures[s][k].mesh.triangles, one.structures[s][k].mesh.triangles);
       }
@@ -79,7 +79,7 @@ TEST_F(ReadingKeyframes, TheFirstOfSeveralUnusableFilesIsNamed) {
 TEST_F(ReadingKeyframes, AFaultOfAnEarlierStructureComesBeforeALaterUnusableFile) {
   TriangleMesh inward = sphere(2.1, 2);
   for (Triangle& t : inward.triangles) std::swap(t[1], t[2]);
-  for (int k = 0; k < kKeyframes; ++k) folder.write(name(1, k), objText(inward));
+  for (int k = 0; k < kInstants; ++k) folder.write(name(1, k), objText(inward));
   folder.write(name(2, 0), "");
   expectError("its faces look inward");
 }
@@ -94,7 +94,7 @@ TEST_F(ReadingKeyframes, AnErrorOfTheMotionIsThatOfTheFirstStructure) {
   for (const int s : {1, 3}) {
     TriangleMesh far = sphere(2, 2);
     for (Vec3d& p : far.positions) p.x += 2000;
-    for (int k = 0; k < kKeyframes; ++k) folder.write(name(s, k), objText(far));
+    for (int k = 0; k < kInstants; ++k) folder.write(name(s, k), objText(far));
   }
   const auto make = [&](int threads) {
     return errorOf([&] { withThreads(threads, [&] { const MeshMotion motion(scene); }); });

@@ -24,6 +24,7 @@ namespace echocine {
 namespace {
 
 using namespace motion_test;
+using motion_test::errorOf, motion_test::sceneOf;  // tests beside this one have others
 
 using Bytes = std::vector<std::byte>;
 

@@ -53,6 +53,7 @@ TEST(ExportLimits, OneLoopIsInMemoryAtATime) {
 }
 #endif
 
+#if defined(__GLIBC__) && !defined(ECHOCINE_SANITIZED)
 // Colours over greys, with edges, motion and noise: blocks of every kind for the encoder.
 GreyImage colouredPicture(int width, int height, int frame) {
   GreyImage image{width, height, {}};
@@ -92,7 +93,6 @@ std::vector<std::byte> colouredLoop(AnimationFormat format) {
   return encoder.finish();
 }
 
-#if defined(__GLIBC__) && !defined(ECHOCINE_SANITIZED)
 // The allocator fills fresh memory with a byte of our choice.
 TEST(ExportLimits, EqualLoopsHaveEqualBytesWhateverTheHeapHolds) {
   for (const AnimationFormat format :
