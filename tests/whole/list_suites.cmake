@@ -17,9 +17,9 @@ foreach(suite IN LISTS suites)
   elseif(suite MATCHES "^(CompareFit|CompareSystole|CompareTilt|CompareViewRanking|CompareViews|DicomViews|FittedRender|HeartFit|HeartMMode|HeartMotionWhole|LooksLaw|PatientAgainstVideos|Planted|SearchPrivacy|StudyCommandTest|StudySeeds|Tolerance|EachFamily/ToleranceOfHeart|Trabeculae|VideoWithEcg)$")
     set(cost 200)
     set(labels "LABELS long")  # searches and tables: minutes under sanitizers, over code that other suites run too
-  elseif(suite MATCHES "^(CompareEcg|DatasetPopulation|DecorrelationLaw|GratingLobeLaw|HeartLoopLaw|HeartPrior|HeartTapseLaw|LayerStack|SampledBeamLaw|StraightRays)$")
+  elseif(suite MATCHES "^(CompareEcg|DatasetPopulation|DecorrelationLaw|DopplerHeart|GratingLobeLaw|HeartAnatomyLaw|HeartLoopLaw|HeartPatientLaw|HeartPrior|HeartTapseLaw|InteriorMotionLaw|LayerStack|MaterialPointsLaw|MotionBetweenKeyframes|SampledBeamLaw|StraightRays|ViewOffsetLaw|ViewPoseLaw)$")
     set(cost 20)
-    set(labels "LABELS long")  # numbers of closed forms: sums that take a minute under sanitizers
+    set(labels "LABELS long")  # numbers of closed forms and of many hearts: half a minute or more under sanitizers
   endif()
   string(APPEND tests "add_test([=[${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
                       "set_tests_properties([=[${suite}]=] PROPERTIES TIMEOUT ${SECONDS} COST ${cost} ${labels})\n")
