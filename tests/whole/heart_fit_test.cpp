@@ -109,7 +109,9 @@ TEST(HeartFit, AFlippedAndAShuffledLoopAreRefusedAndAKilledFitResumes) {
       EXPECT_EQ(fit.refusal.empty(), fit.ef.has_value());
       return fit;
     };
-    if (allCases()) EXPECT_NE(fitted(shuffled(loop)).refusal.find("shuffled"), std::string::npos);
+    if (allCases()) {
+      EXPECT_NE(fitted(shuffled(loop)).refusal.find("shuffled"), std::string::npos);
+    }
 
     const auto file = folder / "fit.journal";
     const auto withJournal = [&] {
