@@ -36,6 +36,14 @@ std::string command(const SlurmOptions& options) {
                      quoted(std::filesystem::absolute(options.folder).string()));
 }
 
+// sbatch replaces %A, %a, ... in the names of logs, whatever folder they are in.
+std::string logName(const SlurmOptions& options, const char* name) {
+  std::string folder;
+  for (const char c : std::filesystem::absolute(options.folder / "slurm").string())
+    folder += c == '%' ? std::string("%%") : std::string(1, c);
+  return quoted(folder + "/" + name);
+}
+
 std::string memoryLine(const SlurmOptions& options) {
   return options.memory_mb > 0 ? fmt::format("#SBATCH --mem={}M\n", options.memory_mb) : "";
 }
@@ -94,20 +102,20 @@ std::string submitText(const SlurmOptions& options) {
   return fmt::format(
       R"(#!/bin/sh
 # Submits the array, and the merge for when all its tasks have ended: it says which hearts are missing, if any.
-# Names of logs are relative: Slurm replaces %A, %a and backslashes in them, but not in the folder they are in.
 set -e
 cd {}
-array=$(sbatch --parsable --output=array_%A_%a.log {}array.sh)
+array=$(sbatch --parsable --output={} {}array.sh)
 array=${{array%%;*}}
 printf 'array %s, ' "$array"
-merge=$(sbatch --parsable --output=merge_%j.log {}--dependency="afterany:$array" merge.sh) || {{
+merge=$(sbatch --parsable --output={} {}--dependency="afterany:$array" merge.sh) || {{
   scancel "$array"
   echo "canceled: its merge was refused"
   exit 1
 }}
 echo "merge ${{merge%%;*}}"
 )",
-      quoted(std::filesystem::absolute(options.folder / "slurm").string()), more, more);
+      quoted(std::filesystem::absolute(options.folder / "slurm").string()),
+      logName(options, "array_%A_%a.log"), more, logName(options, "merge_%j.log"), more);
 }
 
 }  // namespace

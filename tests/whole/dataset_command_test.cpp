@@ -183,11 +183,11 @@ TEST_F(DatasetCommand, JobsOfSlurmMakeTheSameBytes) {
       make("by slurm", "--slurm --tasks 2 --cores 1 --minutes 5 --sbatch '--partition=cpu --nice'",
            before);
   ASSERT_EQ(made.code, 0) << made.err;
+  const std::string logs = "--parsable --output=" + (folder / "by slurm/slurm").string();
   EXPECT_EQ(linesOf(bytesOf(folder / "jobs")),
             (std::vector<std::string>{
-                "--parsable --output=array_%A_%a.log --partition=cpu --nice array.sh",
-                "--parsable --output=merge_%j.log --partition=cpu --nice "
-                "--dependency=afterany:17 merge.sh"}));
+                logs + "/array_%A_%a.log --partition=cpu --nice array.sh",
+                logs + "/merge_%j.log --partition=cpu --nice --dependency=afterany:17 merge.sh"}));
   ASSERT_EQ(make("at once").code, 0);
   const auto ofTheDataset = [&](const char* name) {
     std::map<std::string, std::string> files = filesOf(folder / name);

@@ -263,7 +263,7 @@ class Slurm(OnSlurm, unittest.TestCase):
         self.assert_merged("parts", merge)
 
     def test_a_task_near_its_time_limit_requeues_itself_whatever_the_folder_is_called(self):
-        name = "50%a of it's \\ %A"
+        name = "50%a of it's %A"
         array, merge = self.submit(name)
         self.wait_for_log(name, array, 1)
         wait_for(lambda: os.path.exists(self.path(name, "work/task_1_of_2/lock")), "the first task's program")
