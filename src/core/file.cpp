@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/file_target.h"
 
 namespace echocine {
 
@@ -69,7 +70,7 @@ bool syncFile(int descriptor) {
 }
 
 void syncFolderOf(const std::filesystem::path& path) {
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const std::filesystem::path folder = folderOf(path);
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
   ::fsync(descriptor);
@@ -92,7 +93,7 @@ void WholeFile::discard() {
 
 void WholeFile::fail(int reason) {
   discard();
-  throw JobError(fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(reason)));
+  failWriting(path_, reason);
 }
 
 void WholeFile::write(std::span<const std::byte> bytes) {
@@ -155,15 +156,12 @@ bool writeFileOnce(const std::filesystem::path& path, std::span<const std::byte>
 }
 
 void writeNewFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  const auto fail = [&](int reason) {
-    throw JobError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(reason)));
-  };
   const int descriptor =
       ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
-  if (descriptor < 0) fail(errno);
+  if (descriptor < 0) failWriting(path, errno);
   const int reason = writeAll(descriptor, bytes) ? 0 : errno;
-  if (::close(descriptor) != 0 && reason == 0) fail(errno);
-  if (reason != 0) fail(reason);
+  if (::close(descriptor) != 0 && reason == 0) failWriting(path, errno);
+  if (reason != 0) failWriting(path, reason);
 }
 
 std::string writePart(const std::filesystem::path& path, std::span<const std::byte> bytes) {
@@ -173,7 +171,7 @@ std::string writePart(const std::filesystem::path& path, std::span<const std::by
   if (part.descriptor >= 0 && ::close(part.descriptor) != 0 && reason == 0) reason = errno;
   if (reason == 0) return part.name;
   if (part.descriptor >= 0) ::unlink(part.name.c_str());
-  throw JobError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(reason)));
+  failWriting(path, reason);
 }
 
 void syncAllOf(const std::filesystem::path& folder) {
@@ -181,9 +179,7 @@ void syncAllOf(const std::filesystem::path& folder) {
   int reason = descriptor < 0 ? errno : 0;
   if (descriptor >= 0 && ::syncfs(descriptor) != 0) reason = errno;
   if (descriptor >= 0) ::close(descriptor);
-  if (reason != 0 && reason != EROFS)
-    throw JobError(
-        fmt::format("{}: cannot be written: {}", folder.string(), std::strerror(reason)));
+  if (reason != 0 && reason != EROFS) failWriting(folder, reason);
 }
 
 void writeFileWhole(const std::filesystem::path& path, std::span<const std::byte> bytes) {

@@ -1,19 +1,17 @@
 #include "core/file_group.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <map>
 #include <set>
 #include <utility>
 
-#include "core/error.h"
 #include "core/file.h"
+#include "core/file_target.h"
 
 namespace echocine {
 
@@ -26,14 +24,6 @@ constexpr std::chrono::seconds kLongestWait{2};
 // of other programs.
 constexpr std::size_t kFewFiles = 2;
 
-[[noreturn]] void fail(const std::filesystem::path& path, int reason) {
-  throw JobError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(reason)));
-}
-
-std::filesystem::path folderOf(const std::filesystem::path& path) {
-  return path.has_parent_path() ? path.parent_path() : ".";
-}
-
 // A folder may be a link to another file system.
 dev_t deviceOf(const std::filesystem::path& folder) {
   struct stat status {};
@@ -42,10 +32,10 @@ dev_t deviceOf(const std::filesystem::path& folder) {
 
 void syncOne(const std::string& part, const std::filesystem::path& path) {
   const int descriptor = ::open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
-  if (descriptor < 0) fail(path, errno);
+  if (descriptor < 0) failWriting(path, errno);
   const int reason = syncFile(descriptor) ? 0 : errno;
   ::close(descriptor);
-  if (reason != 0) fail(path, reason);
+  if (reason != 0) failWriting(path, reason);
 }
 
 }  // namespace
@@ -97,7 +87,7 @@ void FileGroup::finish() {
     else
       for (const PendingFile* file : members) syncOne(file->part_, file->path_);
   for (PendingFile& file : files) {
-    if (::rename(file.part_.c_str(), file.path_.c_str()) != 0) fail(file.path_, errno);
+    if (::rename(file.part_.c_str(), file.path_.c_str()) != 0) failWriting(file.path_, errno);
     file.part_.clear();
   }
   for (const std::filesystem::path& folder : folders) syncFolderOf(folder / "file");

@@ -16,7 +16,7 @@ bool same(const std::array<std::int64_t, 3>& a, const std::array<std::int64_t, 3
 }  // namespace
 
 NormalField::NormalField(double scale_m, std::uint64_t seed)
-    : scale_m_(scale_m), seed_(seed), nodes_(4096) {}
+    : scale_m_(scale_m), seed_(seed), nodes_(16 * 16 * 16) {}
 
 double NormalField::normalOf(const std::array<std::int64_t, 3>& node) {
   Node& kept =

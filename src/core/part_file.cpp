@@ -9,6 +9,7 @@
 #include <chrono>
 #include <vector>
 
+#include "core/file_target.h"
 #include "core/hash_random.h"
 
 namespace echocine {
@@ -56,7 +57,7 @@ std::string_view targetOfPart(std::string_view name) {
 
 // Listed first and removed then: what a directory iterator sees while files vanish is not defined.
 void removePartsOf(const std::filesystem::path& path) {
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const std::filesystem::path folder = folderOf(path);
   const std::string target = path.filename().string();
   std::vector<std::filesystem::path> parts;
   std::error_code failed;

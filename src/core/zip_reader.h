@@ -29,7 +29,6 @@ class ZipReader {
   ZipReader& operator=(const ZipReader&) = delete;
 
   const std::vector<ZipEntry>& entries() const { return entries_; }
-  std::uint64_t archiveBytes() const { return size_; }
 
   // The content of an entry. Its CRC-32 is verified. Thread-safe.
   std::vector<std::byte> content(const ZipEntry& entry) const;

@@ -4,7 +4,7 @@
 class LiveHeart extends HeartView {
   // grab: { start(), slide(x_mm, y_mm), end() } for a probe pulled by the pointer.
   constructor(root, view, grab) {
-    // What the sector shows changes with the pose.
+    // The probe moves, so every structure may come into the picture.
     super(root, { ...view, sees_any: true, structures: view.structures.map((s) => ({ ...s, seen: true })) });
     this.grab = grab;
     this.halves?.forEach((half) => { half.version = 0; });

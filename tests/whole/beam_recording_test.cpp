@@ -29,8 +29,8 @@ using namespace support;
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-// What is said of a path; empty if it is read.
-std::string saidOf(const fs::path& path) {
+// The error message of reading a path; empty if it is read.
+std::string readingErrorOf(const fs::path& path) {
   try {
     echo::readLoop(path, {}, true);
   } catch (const SceneError& error) {
@@ -40,9 +40,9 @@ std::string saidOf(const fs::path& path) {
   return "";
 }
 
-void expectSaid(const fs::path& path, const std::string& part) {
-  const std::string said = saidOf(path);
-  EXPECT_NE(said.find(part), std::string::npos) << part << ": " << said;
+void expectReadingError(const fs::path& path, const std::string& part) {
+  const std::string error = readingErrorOf(path);
+  EXPECT_NE(error.find(part), std::string::npos) << part << ": " << error;
 }
 
 // Both archives of one loop.
@@ -191,7 +191,7 @@ TEST(BeamRecording, AManifestThatIsNoSectorIsRefused) {
     else
       changed[at] = value;
     writeBytes(file, changed.dump());
-    expectSaid(archives.zarr, part);
+    expectReadingError(archives.zarr, part);
     writeBytes(file, whole.dump());
   };
   const Json absent(Json::value_t::discarded);
@@ -209,7 +209,7 @@ TEST(BeamRecording, AManifestThatIsNoSectorIsRefused) {
   refused("/sectors/0/frames/array_path", "data/tissue_doppler", "holds no bytes");
   refused("/sectors/0/frames/array_path", "data/nothing", "is absent");
   refused("/sectors/0/timestamps/array_path", "timestamps/ecg", "accepted: up to 4");
-  EXPECT_EQ(saidOf(archives.zarr), "");
+  EXPECT_EQ(readingErrorOf(archives.zarr), "");
   // Readers of the layout find B-mode by its array too, and times by the usual name.
   Json sparse = whole;
   Json& sector = sparse["recording_manifest"]["sectors"][0];
@@ -221,13 +221,13 @@ TEST(BeamRecording, AManifestThatIsNoSectorIsRefused) {
   EXPECT_EQ(echo::readLoop(archives.zarr, {}, true).video.rate.hz, 0);
   sector["frames"]["array_path"] = "data/tissue_doppler";
   writeBytes(file, sparse.dump());
-  expectSaid(archives.zarr, "no sector \"bmode\"");
+  expectReadingError(archives.zarr, "no sector \"bmode\"");
   writeBytes(file, whole.dump());
-  expectSaid(archives.folder / "root", "is a catalogue of recordings");
+  expectReadingError(archives.folder / "root", "is a catalogue of recordings");
   writeBytes(archives.folder / "packed.zarr", "PK");
-  expectSaid(archives.folder / "packed.zarr", "is a packed store");
+  expectReadingError(archives.folder / "packed.zarr", "is a packed store");
   fs::remove(archives.zarr / ".zgroup");
-  expectSaid(archives.zarr, ".zgroup");
+  expectReadingError(archives.zarr, ".zgroup");
 }
 
 TEST(BeamRecording, FilesThatAreNoSectorOfZeaAreRefused) {
@@ -245,7 +245,7 @@ TEST(BeamRecording, FilesThatAreNoSectorOfZeaAreRefused) {
     const Hdf5Attribute zea{"zea_version", "0.1.0"};
     const std::vector<std::byte> bytes = hdf5Bytes(arrays, std::span(&zea, version ? 1u : 0u));
     writeBytes(folder / "file.hdf5", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    expectSaid(folder / "file.hdf5", part);
+    expectReadingError(folder / "file.hdf5", part);
   };
   refused({values, places}, false, "no attribute zea_version");
   refused({places}, true, "has no image");
@@ -261,7 +261,7 @@ TEST(BeamRecording, FilesThatAreNoSectorOfZeaAreRefused) {
   refused({values, {image + "coordinates", {4, 5, 3}, std::span<const float>(nan)}}, true,
           "are no sector");
   writeBytes(folder / "text.hdf5", "not HDF5");
-  expectSaid(folder / "text.hdf5", "no HDF5 file");
+  expectReadingError(folder / "text.hdf5", "no HDF5 file");
 }
 
 // Every damage ends in one line, or in a loop of the same shape. No child process is left.
@@ -292,7 +292,7 @@ TEST(BeamRecording, DamagedFilesEndInOneLine) {
   }
   EXPECT_GT(refused, 100);
   EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
-  for (const fs::path& path : archives.both()) EXPECT_EQ(saidOf(path), "");
+  for (const fs::path& path : archives.both()) EXPECT_EQ(readingErrorOf(path), "");
 }
 
 }  // namespace
