@@ -71,6 +71,13 @@ std::string signalText(Look look) {
       nameOf(look), look == Look::paper ? "dynamic_range_db = 58\n" : "");
 }
 
+// A transoesophageal probe is near the heart: its frequency is higher, and no ribs are before it.
+std::string artefactsText(View view) {
+  return isTransoesophageal(view) ? "\n[artefacts]   # there is no chest wall before this probe\n"
+                                    "acoustic_window = false\nshading = false\n"
+                                  : "";
+}
+
 }  // namespace
 
 std::string meshName(const RecordedPart& part, std::size_t keyframe) {
@@ -97,7 +104,7 @@ lateral = {}
 sector_deg = {:g}
 min_depth_mm = 2
 depth_mm = {:g}
-frequency_mhz = 2.5
+frequency_mhz = {:g}
 lines = 256
 samples = 1024
 
@@ -115,14 +122,15 @@ keyframe_phases = {}
 interpolation = "cycle"   # between keyframes the heart follows its own volume curve and stays within them
 
 [signal]
-{}
+{}{}
 # Where structures overlap the highest priority wins. Cavities pierce walls; the septum belongs to the
 # left ventricle and the right heart is wrapped round it.
 )",
       meaningOf(view), hr_bpm, vectorText(pose.apex, kMillimetre), vectorText(pose.axis, 1),
-      vectorText(pose.lateral, 1), pose.sector_deg, std::round(pose.depth_m * 1e4) * 0.1, hr_bpm,
-      Recording::kLevels, hr_bpm, recording.end_systole_phase, listText(recording.phases),
-      signalText(look));
+      vectorText(pose.lateral, 1), pose.sector_deg, std::round(pose.depth_m * 1e4) * 0.1,
+      isTransoesophageal(view) ? 5.0 : 2.5, hr_bpm, Recording::kLevels, hr_bpm,
+      recording.end_systole_phase, listText(recording.phases), signalText(look),
+      artefactsText(view));
   for (const RecordedPart& part : recording.parts) text += structureText(part, mesh_folder, format);
   return text;
 }

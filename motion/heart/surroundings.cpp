@@ -58,6 +58,12 @@ void addChestWall(const ProbePose& pose, double scale, std::vector<Part>& parts)
             parts);
 }
 
+// The wall of the oesophagus round a transoesophageal probe: 3 mm of muscle.
+void addOesophagus(const ProbePose& pose, double scale, std::vector<Part>& parts) {
+  addShells(pose, scale, {{"oesophagus", "muscle", 8, std::min(0.003 * scale, 0.6 * pose.chest_m)}},
+            parts);
+}
+
 // In front of the liver, where a probe is pressed in.
 void addAbdominalWall(const ProbePose& pose, double scale, std::vector<Part>& parts) {
   addShells(pose, scale,
@@ -159,7 +165,8 @@ std::vector<Part> surroundingsOf(View view, const ProbePose& pose, const Paramet
     addAbdominalWall(pose, heart.parameters().body_scale, parts);
     addLiver(pose, heart, parts);
   } else {
-    addChestWall(pose, heart.parameters().body_scale, parts);
+    (isTransoesophageal(view) ? addOesophagus : addChestWall)(pose, heart.parameters().body_scale,
+                                                              parts);
     addAbdomen(heart, parts);
   }
   // Not in apical views.

@@ -185,6 +185,9 @@ Scene placed(Scene scene) {
                      viewThatCuts(scene, marks, heart)));
   tellGuesses(marks, scene);
   scene.probe = probe;
+  // There is no chest wall between this probe and the heart.
+  if (isTransoesophageal(placement.view))
+    scene.artefacts.acoustic_window = scene.artefacts.shading = false;
   scene.view.reset();
   return scene;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/units.h"
 
@@ -54,6 +55,14 @@ Aim subcostal(const HeartFrame& heart, Vec3d target) {
           0.045 * heart.scale};
 }
 
+// From the oesophagus behind the left atrium, through the plane of the apical four-chamber view, to
+// the apex: mid-oesophageal, 0 degrees (Hahn, J. Am. Soc. Echocardiogr. 26, 2013). A wall of 3 mm
+// and tissue of 2 mm lie before the atrium, our choice.
+Aim transoesophageal(const HeartFrame& heart, Vec3d base_point) {
+  Aim aim = apical(heart, 0, base_point);
+  return {base_point, -aim.axis, aim.lateral, 0.005 * heart.scale};
+}
+
 Aim aimOf(View view, const HeartFrame& heart) {
   const double l = heart.length_m;
   // The long axes pass through the aortic valve.
@@ -77,6 +86,8 @@ Aim aimOf(View view, const HeartFrame& heart) {
       return parasternal(heart, heart.at({0, 0, 0.80 * l}) - 0.05 * l * across, -out, across);
     case View::subcostal:
       return subcostal(heart, heart.at({-0.15 * l, 0, 0.22 * l}));
+    case View::tee_4c:
+      return transoesophageal(heart, heart.at({-0.20 * l, 0, 0}));
   }
   return {};
 }
@@ -156,7 +167,9 @@ double fittingDepth(std::span<const Facet> outside_m, const ProbePose& pose, dou
       shown, [&](Vec3d p) { return dot(p - pose.apex, up); }, -beam_m);
   shown = partAbove(
       shown, [&](Vec3d p) { return -dot(p - pose.apex, up); }, -beam_m);
-  for (const double side : {-1.0, 1.0})
+  const bool all_round = half_rad >= std::numbers::pi;
+  for (const double side : {-1.0, 1.0}) {
+    if (all_round) break;
     shown = partAbove(
         shown,
         [&](Vec3d p) {
@@ -164,6 +177,7 @@ double fittingDepth(std::span<const Facet> outside_m, const ProbePose& pose, dou
                  side * cosine * dot(p - pose.apex, pose.lateral);
         },
         0);
+  }
   // Continuous, not in steps as on a scanner: similar hearts have similar pictures.
   return farthestFrom(shown, pose.apex) + kBehind_m * scale;
 }

@@ -33,7 +33,7 @@ struct HeartFrame {
 // left ventricle on the right, parasternal long axes the aorta on the right, and short axes the
 // septum on the left, seen from the apex.
 struct ProbePose {
-  Vec3d apex;           // of the sector, on the skin
+  Vec3d apex;           // of the sector, on the skin or in the oesophagus
   Vec3d axis, lateral;  // unit, orthogonal
   double depth_m = 0, sector_deg = 0;
   double chest_m = 0;  // from the skin to the pericardium, at end-diastole
@@ -56,7 +56,7 @@ ProbePose standardPose(View view, const HeartFrame& heart, std::span<const Facet
                        double wall_m = 0, std::span<const Facet> front_m = {});
 
 // The path length from the apex that contains the surface in the image, within `half_rad` of the
-// axis, at most a right angle.
+// axis: at most a right angle, or pi for all round.
 double fittingDepth(std::span<const Facet> outside_m, const ProbePose& pose, double half_rad,
                     double scale);
 

@@ -14,13 +14,13 @@ T roughArctangent(T q) {
          (0.9998660 + q2 * (-0.3302995 + q2 * (0.1801410 + q2 * (-0.0851330 + q2 * 0.0208351))));
 }
 
-// atan2(x, z) for z >= 0, to 1e-5 rad: a first guess that an exact comparison then corrects. x = z
-// = 0 gives 0.
+// atan2(x, z) to 1e-5 rad: a first guess that an exact comparison then corrects. x = z = 0 gives 0.
 inline double roughAngle(double x, double z) {
-  const double ax = std::abs(x), large = std::max(ax, z), small = std::min(ax, z);
+  const double ax = std::abs(x), az = std::abs(z);
+  const double large = std::max(ax, az), small = std::min(ax, az);
   const double q = large > 0 ? small / large : 0;
-  const double angle = roughArctangent(q);
-  return std::copysign(ax > z ? std::numbers::pi / 2 - angle : angle, x);
+  const double angle = roughArctangent(q), ahead = ax > az ? std::numbers::pi / 2 - angle : angle;
+  return std::copysign(z < 0 ? std::numbers::pi - ahead : ahead, x);
 }
 
 }  // namespace echocine

@@ -32,11 +32,11 @@ using UnorderedJson = nlohmann::json;
 void takeGeometry(const UnorderedJson& scene, EchoLoop& loop, const std::string& name) {
   const UnorderedJson &p = scene.at("probe"), &o = scene.at("output");
   const auto kind = valueOf<ProbeKind>(p.at("kind").get<std::string>());
-  if (!kind || !layoutOf(*kind).fan)
+  if (!kind || !layoutOf(*kind).fan || layoutOf(*kind).full_turn)
     throw SceneError(
-        fmt::format("{}: a linear probe has no sector; render the view with a phased or "
+        fmt::format("{}: a {} probe has no sector; render the view with a phased or "
                     "curvilinear one",
-                    name));
+                    name, kind ? nameOf(*kind) : "linear"));
   Scene s;  // what the picture's geometry depends on
   s.probe.kind = *kind;
   s.probe.first_angle_rad = p.at("first_angle_rad");

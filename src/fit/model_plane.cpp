@@ -1,11 +1,14 @@
 #include "fit/model_plane.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "scene/names.h"
 #include "truth/contour.h"
 
 namespace echocine::fit {
@@ -130,8 +133,10 @@ ModelPlane::ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& s
       coarse_(withCoarseLines(scene)),
       labels_(coarse_, PictureGrid{}),
       cells_(cellsAt(coarse_.probe)) {
-  if (!scene.probe.isFan())
-    throw SceneError("a linear probe has no sector to compare; give a phased or curvilinear one");
+  if (!scene.probe.isFan() || scene.probe.isFullTurn())
+    throw SceneError(
+        fmt::format("a {} probe has no sector to compare; give a phased or curvilinear one",
+                    nameOf(scene.probe.kind)));
   const auto tissue = [&](MediumId id) {
     const std::string& name = scene.medium(id).name;
     const auto at = std::find(empty_.tissues.begin(), empty_.tissues.end(), name);

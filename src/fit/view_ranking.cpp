@@ -75,7 +75,8 @@ ViewFound searchView(heart::View view, const HeartFamily& family,
 std::vector<heart::View> parseViews(const std::string& text) {
   std::vector<heart::View> views;
   if (text == "all") {
-    for (const heart::ViewName& name : heart::viewNames()) views.push_back(name.view);
+    for (const heart::ViewName& name : heart::viewNames())
+      if (!isTransoesophageal(name.view)) views.push_back(name.view);
     return views;
   }
   for (const std::string& name : splitOption(text, ',')) {

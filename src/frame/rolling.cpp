@@ -37,9 +37,9 @@ RollingLines::RollingLines(const Scene& scene,
   for (int row = 0; row < grid.height; ++row)
     for (int column = 0; column < grid.width; ++column) {
       const double place = geometry.placeOf({grid.xOf(column), 0, grid.zOf(row)});
-      const double line =
-          std::clamp((place - geometry.firstPlace()) / geometry.cellWidth(), 0.0, last);
-      group_of_pixel_.push_back(static_cast<std::uint16_t>(std::lround(line) / together));
+      const int line = geometry.nearestLine(
+          std::clamp((place - geometry.firstPlace()) / geometry.cellWidth(), -1.0, last + 1));
+      group_of_pixel_.push_back(static_cast<std::uint16_t>(line / together));
     }
 }
 

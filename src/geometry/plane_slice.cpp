@@ -25,8 +25,7 @@ PlaneSlice::PlaneSlice(const std::vector<SurfaceTopology>& surfaces, const Probe
   const ScanGeometry geometry(probe);
   angular_ = geometry.angular();
   first_place_ = geometry.firstPlace();
-  lines_per_place_ =
-      probe.lines > 1 ? (probe.lines - 1) / (geometry.lastPlace() - first_place_) : 0;
+  lines_per_place_ = probe.lines > 1 ? 1 / geometry.cellWidth() : 0;
   for (std::size_t s = 0; s < surfaces.size(); ++s) membranes_[s] = surfaces[s].membrane;
 }
 
@@ -96,6 +95,7 @@ void PlaneSlice::crossLine(std::size_t number, int line) {
 // A edge meets the lines between its ends. Where it reaches behind the plane z = 0 of the
 // transducer every line is asked, since there its ends may lie more than half a turn apart.
 void PlaneSlice::crossEdge(std::size_t number) {
+  if (probe_.isFullTurn()) return crossEdgeAround(number);
   const ContourEdge& edge = edges_[number];
   const bool behind1 = edge.cut.from.z < 0, behind2 = edge.cut.to.z < 0;
   if (behind1 && behind2) return;  // lines never point backwards
@@ -106,6 +106,23 @@ void PlaneSlice::crossEdge(std::size_t number) {
     end = std::max(n1, n2);
   }
   for (int i = begin; i < end; ++i) crossLine(number, i);
+}
+
+// An edge spans less than half a turn: the lines of the short way from end to end, and one more on
+// both sides because directions are approximate. Each line decides for itself.
+void PlaneSlice::crossEdgeAround(std::size_t number) {
+  const ContourEdge& edge = edges_[number];
+  const int lines = probe_.lines;
+  const auto place = [&](Vec3d p) {
+    return (roughAngle(p.x, p.z) - first_place_) * lines_per_place_;
+  };
+  const double from = place(edge.cut.from);
+  const double way = std::remainder(place(edge.cut.to) - from, lines);
+  const int first = static_cast<int>(std::floor(std::min(from, from + way))) - 1;
+  const int last = static_cast<int>(std::ceil(std::max(from, from + way))) + 1;
+  // An edge that nearly meets the apex may pass it on either side.
+  const int count = last - first + 1 >= lines / 2 ? lines : last - first + 1;
+  for (int i = 0; i < count; ++i) crossLine(number, ((first + i) % lines + lines) % lines);
 }
 
 // Contours of closed surfaces close exactly, so the crossings of a line determine the medium of

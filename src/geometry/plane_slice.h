@@ -52,6 +52,7 @@ class PlaneSlice {
   void addNormals(const SurfaceFrame& frame, std::span<const ContourEdge> edges,
                   std::vector<EdgeNormals>& normals) const;
   void crossEdge(std::size_t edge);
+  void crossEdgeAround(std::size_t edge);
   void crossLine(std::size_t edge, int line);
   void resolve(RayCrossings& line) const;
   int linesRightOf(Vec3d point) const;

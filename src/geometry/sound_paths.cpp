@@ -53,9 +53,33 @@ Vec3d SoundPaths::shownAt(std::size_t line, double depth_m) const {
   return geometry.origin + depth_m * geometry.direction;
 }
 
+// Over a full turn, the pair around the place is found from the straight line through it, a step to
+// one side after the other.
+Vec3d SoundPaths::shownAround(Vec3d place_m) const {
+  const auto count = static_cast<int>(paths.size());
+  const auto path = [&](int i) { return static_cast<std::size_t>((i % count + count) % count); };
+  const ScanGeometry geometry(probe);
+  int left = static_cast<int>(geometry.beamPosition(place_m.x, place_m.z)->line);
+  Beside a = besidePath(paths[path(left)], place_m);
+  for (int step = 0; a.right_m < 0 && step < count / 4; ++step)
+    a = besidePath(paths[path(--left)], place_m);
+  Beside b = besidePath(paths[path(left + 1)], place_m);
+  for (int step = 0; b.right_m > 0 && step < count / 4; ++step) {
+    a = b;
+    ++left;
+    b = besidePath(paths[path(left + 1)], place_m);
+  }
+  const double apart_m = a.right_m - b.right_m;
+  const double share = apart_m > 0 ? std::clamp(a.right_m / apart_m, 0.0, 1.0) : 0;
+  Vec3d at = shownAt(path(left), a.depth_m);
+  at = at + share * (shownAt(path(left + 1), b.depth_m) - at);
+  return {at.x, place_m.y, at.z};
+}
+
 // Places to the right of a path stay there from path to path, so the pair around the place is found
 // by bisection; where bent paths cross one another it is one of several.
 Vec3d SoundPaths::shown(Vec3d place_m) const {
+  if (probe.isFullTurn()) return shownAround(place_m);
   std::size_t left = 0, right = paths.size() - 1;
   Beside a = besidePath(paths[left], place_m), b = besidePath(paths[right], place_m);
   const auto shifted = [&](std::size_t line, const Beside& at) {
@@ -82,7 +106,12 @@ SoundPaths emptyPaths(const Probe& probe, double spacing_m) {
   if (probe.lines < 2) return paths;
   const double apart = std::ceil(lineSpacing(probe, probe.max_depth_m) / spacing_m);
   paths.per_line = static_cast<int>(std::clamp(apart, 1.0, kMostPerLine));
-  paths.probe.lines = (probe.lines - 1) * paths.per_line + 1;
+  if (probe.isFullTurn()) {
+    paths.per_line |= 1;  // odd: the scene's lines are the middle ones
+    paths.probe.lines = probe.lines * paths.per_line;
+  } else {
+    paths.probe.lines = (probe.lines - 1) * paths.per_line + 1;
+  }
   return paths;
 }
 

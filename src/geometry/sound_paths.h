@@ -43,8 +43,14 @@ struct SoundPath {
 // The paths of a frame along lines that stand closer than the probe's own.
 struct SoundPaths {
   Probe probe;       // of the paths: more lines, else the scene's
-  int per_line = 1;  // path i * per_line is that of the scene's line i
+  int per_line = 1;  // paths from one line of the scene to the next
   std::vector<SoundPath> paths;
+
+  // The path of a line of the scene: the first of its own, over a full turn the middle one.
+  std::size_t pathOfLine(std::size_t line) const {
+    const auto apart = static_cast<std::size_t>(per_line);
+    return line * apart + (probe.isFullTurn() ? apart / 2 : 0);
+  }
 
   // The place of a depth in the picture, on path `line`.
   Vec3d shownAt(std::size_t line, double depth_m) const;
@@ -53,6 +59,9 @@ struct SoundPaths {
   // path through (x, z) is sought; beside the sector the outermost path's shift counts.
   // Precondition: there are paths.
   Vec3d shown(Vec3d place_m) const;
+
+ private:
+  Vec3d shownAround(Vec3d place_m) const;
 };
 
 // The scene's probe with lines no further apart than `spacing_m` at the deepest sample, but 64

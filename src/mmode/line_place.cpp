@@ -80,6 +80,7 @@ int lineAt(const Probe& probe, double place, const char* option) {
   const ScanGeometry geometry(probe);
   if (probe.lines == 1) return 0;
   const double line = (place - geometry.firstPlace()) / geometry.cellWidth();
+  if (geometry.fullTurn()) return geometry.nearestLine(std::remainder(line, probe.lines));
   if (line >= -0.5 && line <= probe.lines - 0.5)
     return std::clamp(static_cast<int>(std::lround(line)), 0, probe.lines - 1);
   const auto shown = [&](double at) {
@@ -91,9 +92,10 @@ int lineAt(const Probe& probe, double place, const char* option) {
 }
 
 int lineThrough(const Probe& probe, Vec3d point_m, MModeTarget target) {
-  if (const auto at = ScanGeometry(probe).beamPosition(point_m.x, point_m.z))
+  const ScanGeometry geometry(probe);
+  if (const auto at = geometry.beamPosition(point_m.x, point_m.z))
     if (at->path_m >= probe.min_depth_m && at->path_m <= probe.max_depth_m)
-      return static_cast<int>(std::lround(at->line));
+      return geometry.nearestLine(at->line);
   throw SceneError(fmt::format(
       "--through {}: is outside the sector, {:.1f} mm lateral of the apex and {:.1f} mm deep",
       nameOf(target), millimetresFromMetres(point_m.x), millimetresFromMetres(point_m.z)));

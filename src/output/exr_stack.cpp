@@ -22,6 +22,7 @@
 #include "output/half_plane.h"
 #include "output/polar_plane.h"
 #include "scene/names.h"
+#include "scene/scan_geometry.h"
 #include "video/cine_writer.h"
 
 namespace echocine {
@@ -56,8 +57,9 @@ std::string probeJson(const Probe& probe) {
   json["lateral"] = triple(probe.pose.x_axis);
   json["elevation"] = triple(probe.pose.y_axis);
   json["depth"] = triple(probe.pose.z_axis);
-  json["first_angle_rad"] = probe.first_angle_rad;
-  json["last_angle_rad"] = probe.last_angle_rad;
+  const ScanGeometry geometry(probe);
+  json["first_angle_rad"] = probe.isFan() ? geometry.firstPlace() : probe.first_angle_rad;
+  json["last_angle_rad"] = probe.isFan() ? geometry.lastPlace() : probe.last_angle_rad;
   json["face_radius_m"] = probe.face_radius_m;
   json["first_offset_m"] = probe.first_offset_m;
   json["last_offset_m"] = probe.last_offset_m;

@@ -50,7 +50,7 @@ Json pictureJson(const Scene& scene) {
   Json edges = Json::array();
   Probe outer = scene.probe;
   outer.lines = 2;
-  for (int i = 0; i < outer.lines; ++i) {
+  for (int i = 0; i < outer.lines && !outer.isFullTurn(); ++i) {
     const LineGeometry line = lineGeometry(outer, i);
     const auto px = [&](double path_m) {
       const PixelPoint at = pixelOf(g, line.origin + path_m * line.direction);

@@ -57,13 +57,21 @@ cv::Point2d inPicture(const PictureGeometry& geometry, const LineGeometry& line,
           geometry.origin_y_px + point.z / geometry.metres_per_pixel};
 }
 
-// Ticks are on the right edge of the sector and point away from it, one per centimetre; every
-// fifth is longer and numbered, the deepest number with its unit.
+// The line along which depths are marked: the right edge of the sector; of a full turn a line
+// beside the circle, from the height of the face downwards.
+LineGeometry markedLine(const Probe& probe) {
+  if (probe.isFullTurn())
+    return {{probe.face_radius_m + probe.max_depth_m, 0, probe.face_radius_m}, {0, 0, 1}};
+  const Probe dense = withDenseLines(probe);
+  return lineGeometry(dense, dense.lines - 1);
+}
+
+// Ticks point away from the sector, one per centimetre; every fifth is longer and numbered, the
+// deepest number with its unit.
 void drawDepthTicks(cv::Mat& canvas, const Probe& probe, const PictureGeometry& geometry) {
   constexpr double kCentimetre = 0.01, kTolerance = 1e-9, kLeastPixelsApart = 4;
   const double unit = sizeUnit(canvas.rows);
-  const Probe dense = withDenseLines(probe);
-  const LineGeometry edge = lineGeometry(dense, dense.lines - 1);
+  const LineGeometry edge = markedLine(probe);
   const cv::Point2d outward(edge.direction.z, -edge.direction.x);
   const int free_rows = canvas.rows - geometry.ecg_strip_px;
 
@@ -94,12 +102,18 @@ void drawDepthTicks(cv::Mat& canvas, const Probe& probe, const PictureGeometry& 
 // Nothing of the overlay may cover the image, whatever the shape of the sector.
 void clearSector(cv::Mat& canvas, const Probe& probe, const PictureGeometry& geometry) {
   const Probe dense = withDenseLines(probe);
-  std::vector<cv::Point> outline;
-  for (int line = 0; line < dense.lines; ++line)
-    outline.push_back(subpixel(inPicture(geometry, lineGeometry(dense, line), dense.min_depth_m)));
-  for (int line = dense.lines - 1; line >= 0; --line)
-    outline.push_back(subpixel(inPicture(geometry, lineGeometry(dense, line), dense.max_depth_m)));
-  cv::fillPoly(canvas, std::vector<std::vector<cv::Point>>{outline}, 0, cv::LINE_8, kSubpixelBits);
+  std::vector<cv::Point> near, far;
+  for (int line = 0; line < dense.lines; ++line) {
+    const LineGeometry at = lineGeometry(dense, line);
+    near.push_back(subpixel(inPicture(geometry, at, dense.min_depth_m)));
+    far.push_back(subpixel(inPicture(geometry, at, dense.max_depth_m)));
+  }
+  std::vector<std::vector<cv::Point>> outline{near, far};  // of a full turn: what is between both
+  if (!probe.isFullTurn()) {
+    outline[0].insert(outline[0].end(), far.rbegin(), far.rend());
+    outline.pop_back();
+  }
+  cv::fillPoly(canvas, outline, 0, cv::LINE_8, kSubpixelBits);
 }
 
 // Where the trace runs in the picture.

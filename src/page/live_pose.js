@@ -5,7 +5,8 @@ class LivePose {
   static kNumbers = [["x", "slide lateral, mm"], ["y", "slide across, mm"], ["z", "press, mm"], ["rotate", "rotate, °"], ["tilt", "tilt, °"], ["rock", "rock, °"]];
 
   static kViews = { a4c: "apical 4-chamber", a2c: "apical 2-chamber", a3c: "apical 3-chamber", plax: "long axis", "psax-base": "short axis, base",
-    "psax-mid": "short axis, middle", "psax-apex": "short axis, apex", subcostal: "subcostal" };
+    "psax-mid": "short axis, middle", "psax-apex": "short axis, apex", subcostal: "subcostal",
+    "tee-4c": "transoesophageal" };
 
   // live: { state, ask, refuse, changed, heart }
   constructor(live) {

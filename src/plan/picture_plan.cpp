@@ -101,13 +101,16 @@ void planSpeckle(const Scene& scene, EffectPlan& plan) {
 void planArtefacts(const Scene& scene, EffectPlan& plan) {
   const ArtefactSettings& a = scene.artefacts;
   const bool lines = scene.probe.lines > 1;
-  const std::string one = "there is only one line";
-  plan.dropout = decidePicture(scene, plan, Effect::dropout, a.dropout, lines, one,
+  const std::string one = "there is only one line",
+                    inside = "a radial probe is inside the chest wall";
+  const bool turn = scene.probe.isFullTurn();
+  plan.dropout = decidePicture(scene, plan, Effect::dropout, a.dropout, lines && !turn,
+                               turn ? "a radial probe has no outermost lines" : one,
                                fmt::format("outermost lines lose {:g} dB", a.dropout_db));
   plan.acoustic_window = decidePicture(
-      scene, plan, Effect::acoustic_window, a.acoustic_window, true, "",
+      scene, plan, Effect::acoustic_window, a.acoustic_window, !turn, inside,
       fmt::format("ribs leave {:g} mm open", millimetresFromMetres(a.window_width_m)));
-  plan.shading = decidePicture(scene, plan, Effect::shading, a.shading, true, "",
+  plan.shading = decidePicture(scene, plan, Effect::shading, a.shading, !turn, inside,
                                fmt::format("patches of {:g} mm in the chest wall vary by {:g} dB",
                                            millimetresFromMetres(a.shading_grain_m), a.shading_db));
   plan.lung = decidePicture(scene, plan, Effect::lung, a.lung, holdsAir(scene),

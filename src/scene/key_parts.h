@@ -78,8 +78,8 @@ inline constexpr KeyField kByHand{};
 
 inline constexpr KeyUse kWithView WITH("view", o.scene->view.has_value());
 inline constexpr KeyUse kWithAngle WITH("kind = \"phased\" | \"curvilinear\"",
-                                        o.scene->probe.isFan());
-inline constexpr KeyUse kWithCurve WITH("kind = \"curvilinear\"",
+                                        o.scene->probe.isFan() && !o.scene->probe.isFullTurn());
+inline constexpr KeyUse kWithCurve WITH("kind = \"curvilinear\" | \"radial\"",
                                         layoutOf(o.scene->probe.kind).curved_face);
 inline constexpr KeyUse kWithWidth WITH("kind = \"linear\"", !o.scene->probe.isFan());
 inline constexpr KeyUse kClosed WITH("membrane = false: a membrane encloses nothing",

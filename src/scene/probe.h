@@ -16,13 +16,15 @@ enum class Apodization { uniform, hann, hamming };
 struct Probe {
   ProbeKind kind = ProbeKind::phased;
   // World pose. The apex is the common point of the scan lines: the transducer for a phased array,
-  // the centre of curvature behind the face for a curvilinear one, the centre of the face for a
-  // linear one.
+  // the centre of curvature behind the face for a curvilinear one, the axis of the catheter for a
+  // radial one, the centre of the face for a linear one.
   Pose pose;
-  double first_angle_rad = 0, last_angle_rad = 0;  // of the outermost lines, from z towards x
-  double face_radius_m = 0;                        // curvilinear: apex to face; others 0
-  double first_offset_m = 0, last_offset_m = 0;    // linear: lateral start of the outermost lines
-  double min_depth_m = 0, max_depth_m = 0;         // path lengths from the face
+  // Of the outermost lines, from z towards x; of a radial probe -pi and pi, half a cell beyond
+  // them.
+  double first_angle_rad = 0, last_angle_rad = 0;
+  double face_radius_m = 0;                      // curvilinear, radial: apex to face; others 0
+  double first_offset_m = 0, last_offset_m = 0;  // linear: lateral start of the outermost lines
+  double min_depth_m = 0, max_depth_m = 0;       // path lengths from the face
   double frequency_hz = 0;
   double aperture_m = 0;  // active lateral aperture of a beam
   double focus_m = 0;     // depth of the focus
@@ -36,6 +38,7 @@ struct Probe {
   int lines = 0, samples = 0;
 
   bool isFan() const { return layoutOf(kind).fan; }  // otherwise its lines are parallel
+  bool isFullTurn() const { return layoutOf(kind).full_turn; }
   double sampleSpacing() const { return (max_depth_m - min_depth_m) / samples; }
   double middleDepth() const { return 0.5 * (min_depth_m + max_depth_m); }
 };

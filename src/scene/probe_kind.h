@@ -5,13 +5,14 @@
 
 namespace echocine {
 
-enum class ProbeKind { phased, curvilinear, linear };
+enum class ProbeKind { phased, curvilinear, linear, radial };
 
 // Arrangement of a kind's lines: a fan from the apex, or parallel. No other code asks for the kind
 // of a probe. A kind of another arrangement needs new code in scan_geometry.cpp.
 struct LineLayout {
-  bool fan;          // lines meet in the apex; key sector_deg, otherwise width_mm
-  bool curved_face;  // the apex lies behind the face; key face_radius_mm
+  bool fan;                // lines meet in the apex; key sector_deg, otherwise width_mm
+  bool curved_face;        // the apex lies behind the face; key face_radius_mm
+  bool full_turn = false;  // a fan of 360 degrees: the last line is a neighbour of the first
 };
 
 template <>
@@ -21,7 +22,8 @@ struct NamesOf<ProbeKind> {
   };
   static constexpr Row kAll[] = {{{ProbeKind::phased, "phased"}, {true, false}},
                                  {{ProbeKind::curvilinear, "curvilinear"}, {true, true}},
-                                 {{ProbeKind::linear, "linear"}, {false, false}}};
+                                 {{ProbeKind::linear, "linear"}, {false, false}},
+                                 {{ProbeKind::radial, "radial"}, {true, true, true}}};
 };
 
 constexpr LineLayout layoutOf(ProbeKind kind) {

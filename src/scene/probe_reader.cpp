@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "core/units.h"
 #include "scene/key_reader.h"
 #include "scene/limits.h"
@@ -12,6 +14,8 @@
 namespace echocine {
 
 namespace {
+
+constexpr int kLeastLinesOfTurn = 16;  // so that a cell is far less than a right angle. Our choice
 
 Vec3d readDirection(TomlTable& table, std::string_view key) {
   const Vec3d v = table.vector(key);
@@ -68,6 +72,13 @@ void readProbe(TomlTable table, Scene& scene) {
   scene.view = readView(table);
   if (!scene.view) probe.pose = readPose(table, scene.motion.mesh_unit_m);
   readKeys(table, "probe", {&scene});
+  if (probe.isFullTurn()) {
+    probe.first_angle_rad = -std::numbers::pi;
+    probe.last_angle_rad = std::numbers::pi;
+    if (probe.lines < kLeastLinesOfTurn)
+      table.fail("lines", fmt::format("is {}, accepted for kind = \"radial\": {} and more",
+                                      probe.lines, kLeastLinesOfTurn));
+  }
   // A view finds the depth where none is given; 0 until then.
   if (probe.max_depth_m <= probe.min_depth_m && !(scene.view && probe.max_depth_m == 0))
     table.fail("depth_mm", fmt::format("is not over min_depth_mm = {}",

@@ -1,12 +1,17 @@
 #include "scene/scan_geometry.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace echocine {
 
 namespace {
 
+constexpr double kTurn = 2 * std::numbers::pi;
+
 double lineFraction(const Probe& probe, int line) {
+  if (probe.isFullTurn()) return (line + 0.5) / probe.lines;
   return probe.lines > 1 ? static_cast<double>(line) / (probe.lines - 1) : 0.5;
 }
 
@@ -22,6 +27,7 @@ LineGeometry lineGeometry(const Probe& probe, int line) {
 
 double lineSpacing(const Probe& probe, double depth_m) {
   if (probe.lines < 2) return 0;
+  if (probe.isFullTurn()) return kTurn / probe.lines * (probe.face_radius_m + depth_m);
   const double angle = (probe.last_angle_rad - probe.first_angle_rad) / (probe.lines - 1);
   const double offset = (probe.last_offset_m - probe.first_offset_m) / (probe.lines - 1);
   return angle * (probe.face_radius_m + depth_m) + offset;
@@ -43,7 +49,8 @@ std::vector<Vec3d> sectorOutline(const Probe& probe) {
             {probe.last_offset_m, 0, probe.max_depth_m},
             {probe.first_offset_m, 0, probe.max_depth_m}};
   constexpr int kArcPoints = 257;
-  std::vector<Vec3d> outline{{0, 0, 0}};
+  std::vector<Vec3d> outline;
+  if (!probe.isFullTurn()) outline.push_back({0, 0, 0});
   const double radius_m = probe.face_radius_m + probe.max_depth_m;
   for (int i = 0; i < kArcPoints; ++i) {
     const double angle = probe.last_angle_rad +
@@ -69,7 +76,22 @@ ScanGeometry::ScanGeometry(const Probe& probe)
     : probe_(probe),
       angular_(probe.isFan()),
       first_place_(angular_ ? probe.first_angle_rad : probe.first_offset_m),
-      last_place_(angular_ ? probe.last_angle_rad : probe.last_offset_m) {}
+      last_place_(angular_ ? probe.last_angle_rad : probe.last_offset_m) {
+  if (!fullTurn()) return;
+  first_place_ += cellWidth() / 2;
+  last_place_ -= cellWidth() / 2;
+}
+
+double ScanGeometry::cellWidth() const {
+  if (fullTurn()) return kTurn / probe_.lines;
+  return (last_place_ - first_place_) / (probe_.lines - 1);
+}
+
+int ScanGeometry::nearestLine(double line) const {
+  const int nearest = static_cast<int>(std::lround(line));
+  if (fullTurn()) return (nearest % probe_.lines + probe_.lines) % probe_.lines;
+  return std::clamp(nearest, 0, probe_.lines - 1);
+}
 
 double ScanGeometry::placeOf(Vec3d p) const {
   return angular_ ? std::atan2(p.x, p.z) : p.x;
@@ -80,6 +102,11 @@ double ScanGeometry::pathOf(Vec3d p) const {
 }
 
 std::optional<ScanGeometry::BeamPosition> ScanGeometry::at(double place, double path_m) const {
+  if (fullTurn()) {
+    const double turns = (place - first_place_) / kTurn;
+    const double line = (turns - std::floor(turns)) * probe_.lines;
+    return BeamPosition{line < probe_.lines ? line : 0, path_m};
+  }
   const double t = (place - first_place_) / (last_place_ - first_place_);
   if (!(t >= 0 && t <= 1)) return std::nullopt;
   return BeamPosition{t * (probe_.lines - 1), path_m};

@@ -19,7 +19,7 @@ struct LineGeometry {
 };
 
 // Line i of N has the place first + i (last - first)/(N - 1), edges included; a single line is in
-// the middle.
+// the middle. Line i of a full turn has the angle -pi + (i + 1/2) 2 pi/N.
 LineGeometry lineGeometry(const Probe& probe, int line);
 
 // Distance between neighbouring scan lines at a path length; 0 for a single line.
@@ -29,8 +29,8 @@ double lineSpacing(const Probe& probe, double depth_m);
 // samples?
 bool inScanArea(const Probe& probe, double x_m, double z_m);
 
-// Outline of the scan area, clockwise in the picture: convex for sectors up to 180 degrees; the arc
-// of the deepest samples is a fine polygon. The arc of the face is omitted.
+// Outline of the scan area, clockwise in the picture: convex for sectors up to 180 degrees and for
+// a full turn; the arc of the deepest samples is a fine polygon. The arc of the face is omitted.
 std::vector<Vec3d> sectorOutline(const Probe& probe);
 
 // Box of the scan area, from the first to the last samples, in the probe frame.
@@ -41,6 +41,8 @@ class ScanGeometry {
   explicit ScanGeometry(const Probe& probe);
 
   bool angular() const { return angular_; }  // lines meet in the apex
+  // The last line is a neighbour of the first.
+  bool fullTurn() const { return probe_.isFullTurn(); }
 
   // Place of the first line: rad, or m.
   double firstPlace() const { return first_place_; }
@@ -50,7 +52,7 @@ class ScanGeometry {
   double pathOf(Vec3d point_m) const;
 
   // Spacing of lines: the width of a beam's cell. Precondition: at least two lines.
-  double cellWidth() const { return (last_place_ - first_place_) / (probe_.lines - 1); }
+  double cellWidth() const;
   // An angle across the lines, in lines. For parallel lines it is an arc at the middle depth.
   // Precondition: at least two lines.
   double linesAcross(double angle_rad) const {
@@ -60,11 +62,14 @@ class ScanGeometry {
   // last cell.
   double cellBorder(int line) const { return first_place_ + (line - 0.5) * cellWidth(); }
 
-  // Fractional line (0 to lines - 1) and path length of a point; none outside the lines.
+  // Fractional line (0 to lines - 1) and path length of a point; none outside the lines. Over a
+  // full turn lines count up to, but not including, `lines`, which is line 0 again.
   struct BeamPosition {
     double line = 0, path_m = 0;  // line: lines from the first
   };
   std::optional<BeamPosition> beamPosition(double x_m, double z_m) const;
+  // The number of the line nearest to a fractional one.
+  int nearestLine(double line) const;
   // The same for a point beside another one whose place is known: within 1e-11 rad of it, and
   // faster, because a small angle needs no arc tangent.
   std::optional<BeamPosition> beamPositionBeside(Vec3d known_m, double known_place,

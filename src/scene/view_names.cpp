@@ -16,6 +16,7 @@ constexpr ViewName kViews[] = {
     {View::psax_mid, "psax-mid", "parasternal short axis at the papillary muscles"},
     {View::psax_apex, "psax-apex", "parasternal short axis near the apex"},
     {View::subcostal, "subcostal", "subcostal four-chamber"},
+    {View::tee_4c, "tee-4c", "transoesophageal four-chamber (mid-oesophageal, 0 degrees)"},
 };
 
 }  // namespace

@@ -7,7 +7,12 @@
 namespace echocine {
 
 // The standard views of echocardiography.
-enum class View { a4c, a2c, a3c, plax, psax_base, psax_mid, psax_apex, subcostal };
+enum class View { a4c, a2c, a3c, plax, psax_base, psax_mid, psax_apex, subcostal, tee_4c };
+
+// The probe is in the oesophagus, not on the chest.
+inline bool isTransoesophageal(View view) {
+  return view == View::tee_4c;
+}
 
 // The pose of a standard view, computed from structures with roles, and its modification: a shift
 // along the probe's lateral, elevation and depth axes, then rotations about its apex.

@@ -34,7 +34,7 @@ std::vector<float> boxTaps(double width) {
 
 }  // namespace
 
-BeamAverage::BeamAverage(const Probe& probe, const SignalSettings& settings)
+BeamAverage::BeamAverage(const Probe& probe, const SignalSettings& settings, double most_half_lines)
     : lines_(probe.lines), samples_(probe.samples) {
   const ScanGeometry geometry(probe);
   const double wavelength_m = geometry.wavelength();
@@ -57,7 +57,8 @@ BeamAverage::BeamAverage(const Probe& probe, const SignalSettings& settings)
             : focusedBeamWidth(depth_m, probe.aperture_m, probe.focus_m, wavelength_m);
     const double half = width_m / lineSpacing(probe, depth_m) / 2;
     // Half a line is the line itself; a window of twice the image is all of it everywhere.
-    half_width_lines.push_back(std::clamp(half, 0.5, 2.0 * lines_));
+    half_width_lines.push_back(
+        std::clamp(half, 0.5, most_half_lines > 0 ? most_half_lines : 2.0 * lines_));
   }
   prepareLateral(half_width_lines);
 }

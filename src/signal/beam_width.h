@@ -12,7 +12,8 @@ namespace echocine {
 
 class BeamAverage {
  public:
-  BeamAverage(const Probe& probe, const SignalSettings& settings);
+  // most_half_lines: bounds half the width of a window, in lines; 0: twice the image.
+  BeamAverage(const Probe& probe, const SignalSettings& settings, double most_half_lines = 0);
 
   // Averages a line-major plane in place. Windows are cut at the image's edges and renormalised: a
   // constant plane stays constant. Runs in parallel; the result does not depend on the threads.

@@ -18,7 +18,7 @@ constexpr int kSideBySide = 32;  // samples, or lines, that go through a recursi
 }  // namespace
 
 LateralHaze::LateralHaze(const Probe& probe, double level_db, double width_rad)
-    : lines_(probe.lines), samples_(probe.samples) {
+    : lines_(probe.lines), samples_(probe.samples), full_turn_(probe.isFullTurn()) {
   const double a = std::exp(-1 / ScanGeometry(probe).linesAcross(width_rad));
   decay_ = static_cast<float>(a);
   level_ = static_cast<float>(intensityFromDecibels(level_db) * (1 - a) / (1 + a));
@@ -35,12 +35,24 @@ void LateralHaze::add(std::span<float> plane) const {
       const auto row = [&](int line) {
         return plane.data() + static_cast<std::ptrdiff_t>(line) * samples_ + first;
       };
-      std::array<float, kSideBySide> sum{};
+      // The sums at the seam, where a turn's recursions start: those of all lines over 1 - a^N.
+      std::array<float, kSideBySide> sum{}, seam{};
+      if (full_turn_) {
+        const float per_turn = 1 / (1 - std::pow(decay_, static_cast<float>(lines_)));
+        for (int i = 0; i < lines_; ++i)
+          for (int k = 0; k < count; ++k) sum[k] = row(i)[k] + decay_ * sum[k];
+        for (int i = lines_ - 1; i >= 0; --i)
+          for (int k = 0; k < count; ++k) seam[k] = decay_ * (row(i)[k] + seam[k]);
+        for (int k = 0; k < count; ++k) {
+          sum[k] *= per_turn;
+          seam[k] *= per_turn;
+        }
+      }
       for (int i = 0; i < lines_; ++i) {
         for (int k = 0; k < count; ++k) sum[k] = row(i)[k] + decay_ * sum[k];
         before[static_cast<std::size_t>(i)] = sum;
       }
-      sum = {};
+      sum = seam;
       for (int i = lines_ - 1; i >= 0; --i)
         for (int k = 0; k < count; ++k) {
           const float own = row(i)[k];

@@ -10,7 +10,7 @@ namespace echocine {
 
 // Across the lines: adds level sum_j I_j a^|i - j| (1 - a)/(1 + a) to line i, itself included, with
 // a = exp(-pitch / width): a two-sided exponential whose weights sum to 1 over infinitely many
-// lines. There are no echoes beyond the sector's edges.
+// lines. There are no echoes beyond the sector's edges; a full turn goes on across its seam.
 class LateralHaze {
  public:
   LateralHaze(const Probe& probe, double level_db, double width_rad);
@@ -18,6 +18,7 @@ class LateralHaze {
 
  private:
   int lines_, samples_;
+  bool full_turn_;
   float decay_, level_;
 };
 

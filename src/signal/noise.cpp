@@ -137,8 +137,9 @@ void ReceiverNoise::add(double white, double time_s, int line, float* real,
 
 NearFieldClutter::NearFieldClutter(const Scene& scene, bool harmonic)
     : amplitudes_(rootsOf(clutterLevels(scene, harmonic))),
-      random_(std::max(scene.probe.lines, 128), std::max(scene.probe.samples, 512),
-              grainOf(scene, scene.artefacts.clutter_width_rad),
+      // The plane repeats: over a full turn, after as many lines as there are.
+      random_(scene.probe.isFullTurn() ? scene.probe.lines : std::max(scene.probe.lines, 128),
+              std::max(scene.probe.samples, 512), grainOf(scene, scene.artefacts.clutter_width_rad),
               hashOf(scene.artefacts.clutter_seed, kClutter)) {}
 
 void NearFieldClutter::add(double white, int line, float* real, float* imaginary) const {

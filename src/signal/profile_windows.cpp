@@ -1,6 +1,8 @@
 #include "signal/profile_windows.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <span>
 #include <tuple>
 
@@ -20,6 +22,7 @@ constexpr double kZone = 0.025;
 // many. Its weight is exact for an even group; of a bright point, side lobes blur. Our choices.
 constexpr double kGroup = 1.5;
 constexpr int kMostGroups = 128, kMostRows = 512;
+constexpr double kRightAngle = std::numbers::pi / 2;
 
 // The least whole number of parts.
 int atLeast(int count, int part) {
@@ -45,7 +48,9 @@ Probe probeOfRows(const Probe& probe, int in_row) {
 // point are steered from an array across the probe's axis; others leave their face at right angles.
 class Directions {
  public:
-  explicit Directions(const Probe& probe) : steered_(probe.isFan() && probe.face_radius_m == 0) {
+  explicit Directions(const Probe& probe)
+      : steered_(probe.isFan() && probe.face_radius_m == 0),
+        step_rad_((probe.last_angle_rad - probe.first_angle_rad) / std::max(probe.lines - 1, 1)) {
     for (int i = 0; i < probe.lines; ++i) lines_.push_back(lineGeometry(probe, i));
     if (steered_) seeFrom(0, 1);
   }
@@ -75,15 +80,22 @@ class Directions {
   }
   void seeFrom(int line, double path_m) {
     seen_.clear();
-    for (const LineGeometry& other : lines_) {
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const LineGeometry& other = lines_[i];
       const Vec3d to = other.origin + path_m * other.direction - of(line).origin;
       const double distance_m = length(to);
-      seen_.push_back(distance_m > 0 ? dot(to, along(line)) / distance_m : 0);
+      double sine = distance_m > 0 ? dot(to, along(line)) / distance_m : 0;
+      // Behind the aperture the sine would fall again, and rise again a turn farther.
+      const double apart_rad = (static_cast<double>(i) - line) * step_rad_;
+      if (!steered_ && (std::abs(apart_rad) > kRightAngle || dot(to, of(line).direction) < 0))
+        sine = apart_rad < 0 ? -1 : 1;
+      seen_.push_back(sine);
     }
   }
 
   std::vector<LineGeometry> lines_;
   bool steered_;
+  double step_rad_;                     // from line to line
   std::vector<double> seen_, borders_;  // the sines of lines, and of borders
 };
 
@@ -132,7 +144,7 @@ class WindowBuilder {
     for (const double weight : weights_) part_.weights.push_back(static_cast<float>(weight / sum));
   }
 
-  // Beyond a right angle the sine falls again; such lines weigh nothing.
+  // Beyond a right angle there is no more of the integral; such lines weigh nothing.
   void addUntil(double u, const SampledBeam::Profile& profile) {
     at_ = std::max(at_, u);
     const double until = profile.integral(scale_ * at_);

@@ -48,6 +48,7 @@ ScanConverter::ScanConverter(const Probe& probe, const PictureGeometry& geometry
       height_(height),
       next_line_(probe.lines > 1 ? static_cast<std::size_t>(std::max(probe.samples, 2)) : 0),
       single_sample_(probe.samples == 1),
+      full_turn_(probe.isFullTurn()),
       averaged_(averaged) {
   for (int x = 0; x < width; x += kStrip)
     for (int y = 0; y < height; ++y) addRow(probe, geometry, x, std::min(x + kStrip, width), y);
@@ -93,7 +94,7 @@ void ScanConverter::addRow(const Probe& probe, const PictureGeometry& geometry, 
 }
 
 void ScanConverter::setEntry(const Probe& probe, double line, double path_m, Block& block,
-                             int lane) {
+                             int lane) const {
   const auto split = [](double position, int count, std::uint32_t& weight) {
     const double inside = std::clamp(position, 0.0, count - 1.0);
     const double whole = std::min(std::floor(inside), std::max(count - 2.0, 0.0));
@@ -101,7 +102,8 @@ void ScanConverter::setEntry(const Probe& probe, double line, double path_m, Blo
     return static_cast<std::uint32_t>(whole);
   };
   std::uint32_t across = 0, along = 0;
-  const std::uint32_t left = split(line, probe.lines, across);
+  // Over a full turn, line 0 follows the last one.
+  const std::uint32_t left = split(line, probe.lines + (full_turn_ ? 1 : 0), across);
   const double sample = (path_m - probe.min_depth_m) / probe.sampleSpacing() - 0.5;
   const std::uint32_t above = split(sample, probe.samples, along);
   block.weights[lane] = across << 16 | along;
@@ -155,7 +157,14 @@ ByteLanes greysOf(Ints8 steps) {
 // Calls put(pixel, values, count) for every eight pixels of a run, `count` of them its own.
 template <typename Put>
 void ScanConverter::forRuns(std::span<const float> grey, const Put& put) const {
-  std::vector<float> doubled;
+  std::vector<float> turn, doubled;
+  if (full_turn_) {
+    turn.reserve(grey.size() + next_line_);
+    turn.assign(grey.begin(), grey.end());
+    const std::size_t samples = single_sample_ ? 1 : next_line_;
+    turn.insert(turn.end(), grey.begin(), grey.begin() + static_cast<std::ptrdiff_t>(samples));
+    grey = turn;
+  }
   if (single_sample_)
     for (const float g : grey) doubled.insert(doubled.end(), {g, g});
   const float* left = single_sample_ ? doubled.data() : grey.data();

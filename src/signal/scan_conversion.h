@@ -48,7 +48,7 @@ class ScanConverter {
   };
   // Row y of the strip, with columns begin to end - 1.
   void addRow(const Probe& probe, const PictureGeometry& geometry, int begin, int end, int y);
-  static void setEntry(const Probe& probe, double line, double path_m, Block& block, int lane);
+  void setEntry(const Probe& probe, double line, double path_m, Block& block, int lane) const;
   void averageFine(std::span<const float> grey, std::vector<float>& picture) const;
   void mapGreys(std::span<const float> picture, GreyImage& image) const;
   template <typename Put>
@@ -57,6 +57,7 @@ class ScanConverter {
   int width_, height_;
   std::size_t next_line_;  // step in the plane; 0 for a single line
   bool single_sample_;     // per line
+  bool full_turn_;
   std::vector<Run> runs_;
   std::vector<Block> blocks_;  // the last one of a run is padded with zeros
   std::vector<std::uint8_t> grey_map_;

@@ -54,15 +54,17 @@ SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
       geometry_(pictureGeometry(scene)),
       converter_(scene.probe, geometry_, scene.output.width, scene.output.height,
                  GreyCurve(scene.signal), ScanConverter::averagedOver(scene, geometry_)) {
+  if (scene.probe.isFullTurn()) turn_.emplace(scene.probe, (scene.probe.lines + 1) / 2);
+  const Probe& probe = turn_ ? turn_->probe() : scene.probe;
   SignalSettings average = scene.signal;
   if (plan.rays_per_beam > 1) average.beam_width = BeamWidth::none;  // the rays are the beam
   if (plan.beam_width && average.beam_width == BeamWidth::profile && scene.probe.lines > 1) {
-    profile_.emplace(scene.probe, pulseOf(scene, plan));
+    profile_.emplace(probe, pulseOf(scene, plan));
     average.beam_width = BeamWidth::none;
   }
-  if (plan.beam_width) beam_.emplace(scene.probe, average);
+  if (plan.beam_width) beam_.emplace(probe, average, turn_ ? 0.5 * scene.probe.lines : 0);
   const ArtefactSettings& a = scene.artefacts;
-  if (plan.edge_enhancement) edges_.emplace(scene.probe, scene.signal);
+  if (plan.edge_enhancement) edges_.emplace(probe, scene.signal);
   losses_ = sectorLosses(scene.probe, a, plan);
   if (plan.harmonic) build_up_ = buildUps(scene.probe);
   if (plan.lung) lung_.emplace(scene);
@@ -87,14 +89,31 @@ void SignalChain::process(Intensities& intensities, LineRange lines,
 
 // Side lobes take in all lines.
 void SignalChain::averageOverBeam(std::vector<float>& plane, LineRange lines, BeamPart part) const {
+  if (!beam_ && !profile_) return;
+  if (turn_) {
+    std::vector<float> sector;
+    turn_->unroll(plane, sector);
+    const LineRange all{0, turn_->probe().lines}, some = turn_->unrolled(lines);
+    if (beam_) beam_->apply(sector, profile_ ? all : some);
+    if (profile_) profile_->apply(sector, some, part);
+    return turn_->take(sector, lines, plane.data());
+  }
   if (beam_) beam_->apply(plane, profile_ ? all_lines_ : lines);
   if (profile_) profile_->apply(plane, lines, part);
+}
+
+void SignalChain::enhanceEdges(Greys& greys) const {
+  if (!turn_) return edges_->apply(greys);
+  std::vector<float> sector;
+  turn_->unroll(greys.values, sector);
+  edges_->apply(sector);
+  turn_->take(sector, all_lines_, greys.values.data());
 }
 
 std::vector<int> SignalChain::taken(LineRange lines) const {
   const auto all = static_cast<std::size_t>(all_lines_.end);
   const int samples = samples_;
-  if (haze_ || profile_) return std::vector<int>(all, samples);
+  if (haze_ || profile_ || turn_) return std::vector<int>(all, samples);
   if (beam_) return beam_->taken(lines);
   std::vector<int> taken(all, 0);
   std::fill(taken.begin() + lines.first, taken.begin() + lines.end, samples);
@@ -121,7 +140,7 @@ Greys SignalChain::compress(Intensities&& intensities, double reference_intensit
   Greys greys(intensities.release());
   if (fields_.adds()) fields_.add(white, time_s, field, greys);
   compressIntensities(greys, white, settings_.dynamic_range_db, greys);
-  if (edges_) edges_->apply(greys);
+  if (edges_) enhanceEdges(greys);
   return greys;
 }
 

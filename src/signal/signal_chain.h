@@ -11,6 +11,7 @@
 
 #include "core/beam_plane.h"
 #include "plan/effect_plan.h"
+#include "scene/unrolled_turn.h"
 #include "signal/beam_width.h"
 #include "signal/edge_enhancement.h"
 #include "signal/field_sum.h"
@@ -62,11 +63,13 @@ class SignalChain {
 
  private:
   void averageOverBeam(std::vector<float>& plane, LineRange lines, BeamPart part) const;
+  void enhanceEdges(Greys& greys) const;
 
   SignalSettings settings_;
   LineRange all_lines_;
   int samples_;
-  std::vector<float> gains_;  // from a table or the mean; empty: none
+  std::vector<float> gains_;          // from a table or the mean; empty: none
+  std::optional<UnrolledTurn> turn_;  // for windows across the seam of a full turn
   std::optional<BeamAverage> beam_;
   std::optional<ProfileAverage> profile_;  // across the lines, where beam_ is along them alone
   std::vector<float> losses_;              // by drop-out and ribs; empty: none

@@ -6,15 +6,16 @@
 
 #include "core/rough_angle.h"
 #include "scene/beam_profile.h"
+#include "scene/scan_geometry.h"
 
 namespace echocine {
 
 BeamView::BeamView(const Probe& probe, const PointSpread& spread)
-    : probe_(probe), spread_(spread), linear_(!probe.isFan()) {
+    : probe_(probe), spread_(spread), linear_(!probe.isFan()), full_turn_(probe.isFullTurn()) {
+  const ScanGeometry geometry(probe);
   const double lines = std::max(probe.lines - 1, 1);
-  const double span = linear_ ? probe.last_offset_m - probe.first_offset_m
-                              : probe.last_angle_rad - probe.first_angle_rad;
-  double first = linear_ ? probe.first_offset_m : probe.first_angle_rad;
+  double first = geometry.firstPlace();
+  const double span = geometry.lastPlace() - first;
   pitch_ = span / lines;
   if (probe.lines == 1) {  // a line alone takes in what lies within a deviation's width
     first += 0.5 * span;
@@ -54,6 +55,13 @@ Floats8 angleOf(Floats8 x, Floats8 z) {
   return x < 0 ? -angle : angle;
 }
 
+// The same all round.
+Floats8 angleAround(Floats8 x, Floats8 z) {
+  const Floats8 ahead = angleOf(x, z < 0 ? -z : z);
+  const float pi = static_cast<float>(std::numbers::pi);
+  return z < 0 ? (x < 0 ? -pi - ahead : pi - ahead) : ahead;
+}
+
 // The bits that all lanes have.
 std::int32_t shared(Ints8 bits) {
   bits &= __builtin_shufflevector(bits, bits, 4, 5, 6, 7, 0, 1, 2, 3);
@@ -72,7 +80,12 @@ BeamCube BeamView::cubeOf(const CubeCorners& c) const {
     line = (x - z * tangent_ - first_) * per_pitch_;
     path_m = z * per_cosine_;
   } else {
-    line = (angleOf(x, z) - first_) * per_pitch_;
+    line = ((full_turn_ ? angleAround(x, z) : angleOf(x, z)) - first_) * per_pitch_;
+    if (full_turn_) {  // corners within half a turn of the first one
+      const float turn = static_cast<float>(probe_.lines);
+      line = line - line[0] > 0.5f * turn ? line - turn : line;
+      line = line - line[0] < -0.5f * turn ? line + turn : line;
+    }
     path_m = root(x * x + z * z) - face_radius_m_;
   }
   const Floats8 held = path_m > 1e-4f ? path_m : Floats8{} + 1e-4f;
@@ -83,9 +96,9 @@ BeamCube BeamView::cubeOf(const CubeCorners& c) const {
 // Cohen and Sutherland's codes: one bit for each side that a corner lies beyond.
 bool BeamView::sees(const BeamCube& c, LineRange lines) const {
   const auto first = static_cast<float>(lines.first), end = static_cast<float>(lines.end);
-  const Ints8 beyond = ((c.line < first) & 1) | ((c.line >= end) & 2) | ((c.sample < 0) & 4) |
-                       ((c.sample >= samples_) & 8) | ((c.across < -1) & 16) |
-                       ((c.across > 1) & 32);
+  Ints8 beyond = ((c.sample < 0) & 4) | ((c.sample >= samples_) & 8) | ((c.across < -1) & 16) |
+                 ((c.across > 1) & 32);
+  if (!full_turn_) beyond |= ((c.line < first) & 1) | ((c.line >= end) & 2);
   return shared(beyond) == 0;
 }
 
@@ -125,7 +138,7 @@ bool BeamView::sees(const Extent& e) const {
     const double at_m = e.x_m - e.z_m * static_cast<double>(tangent_);
     return at_m + reach_m >= low && at_m - reach_m <= high;
   }
-  if (r <= e.radius_m) return true;
+  if (full_turn_ || r <= e.radius_m) return true;
   // The disc's half angle: asin q <= q / sqrt(1 - q^2).
   const double q = e.radius_m / r, half = q / std::sqrt(1 - q * q) + 1e-4;
   const double at = e.z_m > 0 ? roughAngle(e.x_m, e.z_m) : std::atan2(e.x_m, e.z_m);

@@ -47,7 +47,7 @@ class BeamView {
   double cutSquared(double path_m) const;
   Probe probe_;
   PointSpread spread_;
-  bool linear_ = false;
+  bool linear_ = false, full_turn_ = false;
   double diffraction_ = 0;  // part of w_e proportional to the path length
   double pitch_ = 0;        // between lines: rad, or m of a linear probe
   float first_ = 0, per_pitch_ = 0, face_radius_m_ = 0, tangent_ = 0, per_cosine_ = 1;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace echocine {
 
 SectorBox sectorBox(const Probe& probe, double disc_m, double moves_m, double edge_m) {
   const double reach_m = probe.face_radius_m + probe.max_depth_m;
-  const SectorBox::Range deep{-moves_m, reach_m + moves_m};
+  const double behind_m = probe.isFullTurn() ? reach_m : 0;
+  const SectorBox::Range deep{-behind_m - moves_m, reach_m + moves_m};
   if (!probe.isFan()) {
     const double half_m = moves_m + edge_m +
                           std::max(std::abs(probe.first_offset_m), std::abs(probe.last_offset_m)) +
@@ -21,10 +23,12 @@ SectorBox sectorBox(const Probe& probe, double disc_m, double moves_m, double ed
   const double about_m = nearest_m <= 3 * disc_m ? 2 * disc_m : 0;
   const double beside_rad =
       probe.lines > 1 ? (probe.last_angle_rad - probe.first_angle_rad) / (probe.lines - 1) : 0.1;
+  constexpr double kRight = std::numbers::pi / 2;
   SectorBox::Range x{-about_m, about_m}, z{about_m > 0 ? -about_m : reach_m, about_m};
   const double first = probe.first_angle_rad - beside_rad;
   const double last = probe.last_angle_rad + beside_rad;
-  for (const double angle : {first, std::clamp(0.0, first, last), last})
+  for (const double angle : {first, std::clamp(-kRight, first, last), std::clamp(0.0, first, last),
+                             std::clamp(kRight, first, last), last})
     for (const double r_m : {nearest_m, reach_m}) {
       const double across_m = r_m * std::sin(angle), along_m = r_m * std::cos(angle);
       x = {std::min(x.low_m, across_m), std::max(x.high_m, across_m)};

@@ -8,10 +8,20 @@
 
 namespace echocine {
 
+namespace {
+
+std::optional<UnrolledTurn> turnOf(const Probe& probe) {
+  if (!probe.isFullTurn()) return std::nullopt;
+  return UnrolledTurn(probe, (probe.lines + 1) / 2);
+}
+
+}  // namespace
+
 Speckle::Speckle(const Probe& probe, const PointSpread& spread, const SpeckleSettings& settings,
                  const Material& material, std::shared_ptr<const Scatterers> drawn)
     : settings_(settings),
       lines_(probe.lines),
+      turn_(turnOf(probe)),
       spread_(spread),
       view_(probe, spread_),
       gaussian_(settings.seed),
@@ -19,7 +29,7 @@ Speckle::Speckle(const Probe& probe, const PointSpread& spread, const SpeckleSet
           drawn ? std::move(drawn)
                 : std::make_shared<const Scatterers>(probe, spread_, view_, settings, material)),
       splatter_(probe, spread_),
-      ratio_(probe, spread_, view_, settings.smoothing_m) {}
+      ratio_(turn_ ? turn_->probe() : probe, spread_, view_, settings.smoothing_m) {}
 
 double Speckle::farthestAcross_m() const {
   double farthest_m = 0;
@@ -31,7 +41,7 @@ double Speckle::farthestAcross_m() const {
 
 void Speckle::addUp(const MaterialFrame& tissue, double time_s, LineRange lines,
                     SplatLists& splats) const {
-  splats.start(lines_, lines);
+  turn_ ? splats.startTurn(lines_, turn_->beside()) : splats.start(lines_, lines);
   for (const ScattererBatch& batch : scatterers_->batches()) {
     const BeamCube cube = view_.cubeOf(tissue.corners(batch.group, batch.low_m, batch.edge_m));
     if (!view_.sees(cube, lines)) continue;
@@ -63,10 +73,35 @@ void Speckle::addSheets(std::span<const Vec3f> places_m, double time_s, SplatLis
 
 void Speckle::apply(const MaterialFrame& tissue, double time_s, std::span<float> intensities,
                     const CoherentEchoes& echoes, LineRange lines, EchoField* field) const {
+  if (turn_) return applyAround(tissue, time_s, intensities, echoes, lines, field);
   thread_local SplatLists splats;
   thread_local CoherentRatio::Rows rows;
   addUp(tissue, time_s, reach(lines), splats);
   ratio_.apply(splats, rows, intensities, echoes, lines, field);
+}
+
+// The sums of a full turn, as those of a sector that repeats the lines on both sides of the seam.
+void Speckle::applyAround(const MaterialFrame& tissue, double time_s, std::span<float> intensities,
+                          const CoherentEchoes& echoes, LineRange lines, EchoField* field) const {
+  thread_local SplatLists splats;
+  thread_local CoherentRatio::Rows rows;
+  addUp(tissue, time_s, {0, lines_}, splats);
+  std::vector<float> sector;
+  turn_->unroll(intensities, sector);
+  CoherentEchoes around;
+  if (!echoes.empty()) {
+    turn_->unroll(echoes.intensity, around.intensity);
+    turn_->unroll(echoes.real, around.real);
+    turn_->unroll(echoes.imaginary, around.imaginary);
+  }
+  EchoField of_sector;
+  if (field && !field->empty()) of_sector.resize(sector.size());
+  ratio_.apply(splats, rows, sector, around, turn_->unrolled(lines), &of_sector);
+  turn_->take(sector, lines, intensities.data());
+  if (of_sector.empty()) return;
+  turn_->take(of_sector.mean, lines, field->mean.data());
+  turn_->take(of_sector.real, lines, field->real.data());
+  turn_->take(of_sector.imaginary, lines, field->imaginary.data());
 }
 
 }  // namespace echocine

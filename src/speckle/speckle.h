@@ -3,8 +3,10 @@
 // phase. The mean over seeds is the picture without speckle, for any beam model.
 
 #include <memory>
+#include <optional>
 #include <span>
 
+#include "scene/unrolled_turn.h"
 #include "speckle/coherent_ratio.h"
 #include "speckle/splat.h"
 #include "trace/coherent_echoes.h"
@@ -36,14 +38,19 @@ class Speckle {
   // null and not empty, receives the field of these lines.
   void apply(const MaterialFrame& tissue, double time_s, std::span<float> intensities,
              const CoherentEchoes& echoes, LineRange lines, EchoField* field = nullptr) const;
-  LineRange reach(LineRange lines) const { return ratio_.reach(lines); }
+  LineRange reach(LineRange lines) const {
+    return turn_ ? LineRange{0, lines_} : ratio_.reach(lines);
+  }
 
  private:
+  void applyAround(const MaterialFrame& tissue, double time_s, std::span<float> intensities,
+                   const CoherentEchoes& echoes, LineRange lines, EchoField* field) const;
   void addUp(const MaterialFrame& tissue, double time_s, LineRange lines, SplatLists& splats) const;
   void addSheets(std::span<const Vec3f> places_m, double time_s, SplatLists& splats) const;
 
   SpeckleSettings settings_;
   int lines_;
+  std::optional<UnrolledTurn> turn_;
   PointSpread spread_;
   BeamView view_;
   GaussianTable gaussian_;

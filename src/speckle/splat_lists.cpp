@@ -59,7 +59,15 @@ void SplatLists::start(int lines, LineRange kept) {
   for (List& list : lists_) list.next = list.memory.data();
   first_ = static_cast<float>(kept.first);
   end_ = static_cast<float>(kept.end);
+  turn_ = 0;
+  before_ = 0;
   waiting_.count = 0;
+}
+
+void SplatLists::startTurn(int lines, int beside) {
+  start(lines, {0, lines});
+  turn_ = static_cast<float>(lines);
+  before_ = static_cast<std::size_t>((lines - beside % lines) % lines);
 }
 
 void SplatLists::sortWhole() {

@@ -51,11 +51,19 @@ class SplatLists {
  public:
   // No splats yet; from now on those of some of the lines are kept.
   void start(int lines, LineRange kept);
+  // The same for a full turn, in which line n is line n + lines. Its lists are then read as an
+  // unrolled turn's: list i is that of line i - beside.
+  void startTurn(int lines, int beside);
 
   // Adds the lanes in the mask that lie in kept lines. Without a branch on visibility, which no
   // processor predicts.
   void add(const BeamPlaces& places, Ints8 seen) {
-    const unsigned bits = bitsOf(seen & (places.line >= first_) & (places.line < end_));
+    Floats8 line = places.line;
+    if (turn_ > 0) {
+      line = line < 0 ? line + turn_ : line;
+      line = line >= turn_ ? line - turn_ : line;
+    }
+    const unsigned bits = bitsOf(seen & (line >= first_) & (line < end_));
     Shorts8 lanes;
     std::memcpy(&lanes, kLaneOrders.of[bits].data(), sizeof lanes);
     const Ints8 order = __builtin_convertvector(lanes, Ints8);
@@ -65,7 +73,7 @@ class SplatLists {
     store(reordered(places.turns, order), w.turns + n);
     store(reordered(places.real, order), w.real + n);
     store(reordered(places.imaginary, order), w.imaginary + n);
-    store(reordered(places.line, order), w.line + n);
+    store(reordered(line, order), w.line + n);
     store(reordered(places.sample, order), w.sample + n);
     w.count = n + static_cast<std::size_t>(__builtin_popcount(bits));
     if (w.count > kMostWaiting - kFloatLanes) sortWhole();
@@ -74,7 +82,8 @@ class SplatLists {
   void settle();
 
   std::span<const Splat> line(int i) const {
-    const List& list = lists_[static_cast<std::size_t>(i)];
+    const std::size_t at = static_cast<std::size_t>(i) + before_;
+    const List& list = lists_[at < lists_.size() ? at : at % lists_.size()];
     return {list.memory.data(), list.next};
   }
 
@@ -97,6 +106,8 @@ class SplatLists {
 
   std::vector<List> lists_;
   float first_ = 0, end_ = 0;
+  float turn_ = 0;          // lines of a full turn; 0: a sector
+  std::size_t before_ = 0;  // the line of list 0
   Waiting waiting_;
 };
 

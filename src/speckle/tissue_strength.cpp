@@ -50,6 +50,7 @@ Heterogeneity::Heterogeneity(const SpeckleSettings& settings, const Probe& probe
       middle_m_(probe.face_radius_m + probe.middleDepth()),
       tangent_(std::tan(probe.first_angle_rad)),
       linear_(!probe.isFan()),
+      full_turn_(probe.isFullTurn()),
       fine_(settings.heterogeneity_fine_m, hashOf(settings.heterogeneity_seed, kFine)),
       layers_(1, hashOf(settings.heterogeneity_seed, kLayers)) {}
 
@@ -61,8 +62,21 @@ Vec3f Heterogeneity::inLayers(Vec3f place_m) const {
   return toFloat({across_m / extent_m_, p.y / extent_m_, along_m * per_thickness_});
 }
 
+// Over a full turn, the last quarter passes over to the pattern at the seam's other side. Weights
+// whose squares sum to 1 keep the variance.
+double Heterogeneity::layersAt(Vec3f place_m) {
+  constexpr double kQuarter = std::numbers::pi / 2;
+  const Vec3f at = inLayers(place_m);
+  const double own = layers_.at(at);
+  const double angle = full_turn_ ? std::atan2(place_m.x, place_m.z) : 0;
+  if (angle <= kQuarter) return own;
+  const double turn = 2 * std::numbers::pi * middle_m_ / extent_m_;
+  const double beyond = layers_.at(at - Vec3f{static_cast<float>(turn), 0, 0});
+  return std::cos(angle - kQuarter) * own + std::sin(angle - kQuarter) * beyond;
+}
+
 double Heterogeneity::at(Vec3f place_m) {
-  const double n = (fine_.at(place_m) + layers_.at(inLayers(place_m))) / std::numbers::sqrt2;
+  const double n = (fine_.at(place_m) + layersAt(place_m)) / std::numbers::sqrt2;
   return std::exp(s_ * n - s_ * s_ / 2);
 }
 

@@ -26,9 +26,11 @@ class Heterogeneity {
 
  private:
   Vec3f inLayers(Vec3f place_m) const;
+  double layersAt(Vec3f place_m);
 
   double s_, extent_m_, per_thickness_, middle_m_, tangent_;
   bool linear_;
+  bool full_turn_;
   NormalField fine_, layers_;
 };
 

@@ -78,7 +78,8 @@ const InterfaceHit* ClipInterfaces::besideTheLine(const ContourEdge& edge, const
   const double path_m = geometry_.pathOf(middleOf(clips, i));
   const InterfaceHit* best = nullptr;
   for (const int side : {-1, 1}) {
-    const int line = static_cast<int>(clips.line[i]) + side;
+    int line = static_cast<int>(clips.line[i]) + side;
+    if (geometry_.fullTurn()) line = (line + lines_) % lines_;
     if (line < 0 || line >= lines_) continue;
     const InterfaceHit* hit = table_.nearest(static_cast<std::size_t>(line), edge.surface,
                                              clips.entering[i] != 0, [&] { return path_m; });

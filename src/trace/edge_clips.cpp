@@ -15,9 +15,11 @@ namespace {
 // roughAngle() of four points, to kRough.
 constexpr double kRough = 2e-5;  // rad
 Doubles4 roughAngles(Doubles4 x, Doubles4 z) {
-  const Doubles4 ax = magnitude(x), large = larger(ax, z), small = smaller(ax, z);
+  const Doubles4 ax = magnitude(x), az = magnitude(z);
+  const Doubles4 large = larger(ax, az), small = smaller(ax, az);
   const Doubles4 angle = roughArctangent(small / larger(large, kTiny));
-  const Doubles4 to_x = ax > z ? std::numbers::pi / 2 - angle : angle;
+  const Doubles4 ahead = ax > az ? std::numbers::pi / 2 - angle : angle;
+  const Doubles4 to_x = z < 0 ? std::numbers::pi - ahead : ahead;
   return x < 0 ? -to_x : to_x;
 }
 
@@ -26,6 +28,7 @@ Doubles4 roughAngles(Doubles4 x, Doubles4 z) {
 EdgeClipper::EdgeClipper(const Probe& probe, std::span<const ContourEdge> edges)
     : edges_(edges),
       angular_(ScanGeometry(probe).angular()),
+      full_turn_(probe.isFullTurn()),
       lines_(probe.lines),
       first_(ScanGeometry(probe).firstPlace()),
       width_(ScanGeometry(probe).cellWidth()),
@@ -35,6 +38,7 @@ EdgeClipper::EdgeClipper(const Probe& probe, std::span<const ContourEdge> edges)
     const double at = ScanGeometry(probe).cellBorder(i);
     boundaries_.push_back(angular_ ? Boundary{std::sin(at), std::cos(at)} : Boundary{at, 1});
   }
+  if (full_turn_) boundaries_.back() = boundaries_.front();
 }
 
 void EdgeClipper::next(EdgeClips& clips) {
@@ -50,26 +54,45 @@ void EdgeClipper::next(EdgeClips& clips) {
   cutAtBoundaries(clips);
 }
 
-// The ends of what lies in front of the transducer: lines never point backwards, so what lies
+void EdgeClipper::takeOne(Vec3d a, Vec3d b) {
+  const std::size_t n = ends_.count++;
+  ends_.a_x[n] = a.x;
+  ends_.a_z[n] = a.z;
+  ends_.b_x[n] = b.x;
+  ends_.b_z[n] = b.z;
+  ends_.edge[n] = static_cast<std::uint32_t>(taken_);
+}
+
+// What lies in front of the transducer: lines of a sector never point backwards, so what lies
 // behind z = 0 is in no cell.
-void EdgeClipper::takeEnds() {
-  std::size_t n = 0;
-  for (; taken_ < edges_.size() && n < kEdges; ++taken_) {
-    Vec3d a = edges_[taken_].cut.from, b = edges_[taken_].cut.to;
-    if (a.z < 0 || b.z < 0) {
-      if (a.z < 0 && b.z < 0) continue;
-      Vec3d& behind = a.z < 0 ? a : b;
-      behind.x = a.x + (b.x - a.x) * (a.z / (a.z - b.z));
-      behind.z = 0;
-    }
-    ends_.a_x[n] = a.x;
-    ends_.a_z[n] = a.z;
-    ends_.b_x[n] = b.x;
-    ends_.b_z[n] = b.z;
-    ends_.edge[n++] = static_cast<std::uint32_t>(taken_);
+void EdgeClipper::takeOneAhead(Vec3d a, Vec3d b) {
+  if (a.z < 0 && b.z < 0) return;
+  if (a.z < 0 || b.z < 0) {
+    Vec3d& behind = a.z < 0 ? a : b;
+    behind.x = a.x + (b.x - a.x) * (a.z / (a.z - b.z));
+    behind.z = 0;
   }
-  ends_.count = n;
-  ends_.done = 0;
+  takeOne(a, b);
+}
+
+// An edge over more than a right angle becomes two, divided at the place nearest to the centre:
+// within each part, the sign of the sine tells which side of a boundary a place lies on.
+void EdgeClipper::takeOneAround(Vec3d a, Vec3d b) {
+  if (a.x * b.x + a.z * b.z >= 0) return takeOne(a, b);
+  const double dx = b.x - a.x, dz = b.z - a.z;
+  const double t = -(a.x * dx + a.z * dz) / (dx * dx + dz * dz);
+  const Vec3d nearest{a.x + t * dx, 0, a.z + t * dz};
+  takeOne(a, nearest);
+  takeOne(nearest, b);
+}
+
+void EdgeClipper::takeEnds() {
+  ends_.count = ends_.done = 0;
+  const std::size_t most_of_edge = full_turn_ ? 2 : 1;
+  for (; taken_ < edges_.size() && ends_.count + most_of_edge <= kEdges; ++taken_) {
+    const Vec3d a = edges_[taken_].cut.from, b = edges_[taken_].cut.to;
+    full_turn_ ? takeOneAround(a, b) : takeOneAhead(a, b);
+  }
 }
 
 // How many boundaries a point has on its left or on it, by and large.
@@ -94,12 +117,21 @@ void EdgeClipper::findCells() {
     cells(&ends_.a_x[i], &ends_.a_z[i], &ends_.begin[i]);
     cells(&ends_.b_x[i], &ends_.b_z[i], &ends_.end[i]);
   }
+  const auto swapEnds = [&](std::size_t i) {
+    std::swap(ends_.a_x[i], ends_.b_x[i]);
+    std::swap(ends_.a_z[i], ends_.b_z[i]);
+    std::swap(ends_.begin[i], ends_.end[i]);
+  };
   for (std::size_t i = 0; i < ends_.count; ++i) {
-    if (ends_.begin[i] > ends_.end[i]) {
-      std::swap(ends_.a_x[i], ends_.b_x[i]);
-      std::swap(ends_.a_z[i], ends_.b_z[i]);
-      std::swap(ends_.begin[i], ends_.end[i]);
+    if (full_turn_) {
+      // The short way round from begin to end.
+      ends_.begin[i] = (ends_.begin[i] + lines_) % lines_;
+      ends_.end[i] = (ends_.end[i] + lines_) % lines_;
+      if ((ends_.end[i] - ends_.begin[i] + lines_) % lines_ > lines_ / 2) swapEnds(i);
+      if (ends_.end[i] < ends_.begin[i]) ends_.end[i] += lines_;
+      continue;
     }
+    if (ends_.begin[i] > ends_.end[i]) swapEnds(i);
     ends_.begin[i] = std::max(ends_.begin[i], 0);
     ends_.end[i] = std::min(ends_.end[i], lines_ - 1);
   }
@@ -115,6 +147,11 @@ double EdgeClipper::rightOf(double x, double z, int boundary) const {
 }
 
 int EdgeClipper::cellOf(double x, double z, int guess) const {
+  if (full_turn_) {  // the cell before the guess, the guess, or the one behind
+    const int cell = (guess - 1 + lines_) % lines_;
+    if (rightOf(x, z, cell) < 0) return (cell - 1 + lines_) % lines_;
+    return rightOf(x, z, cell + 1) >= 0 ? (cell + 1) % lines_ : cell;
+  }
   int n = guess;
   while (n <= lines_ && rightOf(x, z, n) >= 0) ++n;
   while (n > 0 && rightOf(x, z, n - 1) < 0) --n;
@@ -137,7 +174,8 @@ void EdgeClipper::intoCells(EdgeClips& clips) {
       normal_square = 1;
     }
     for (; cell < end; ++cell, ++clip) {
-      const Boundary* side = &boundaries_[static_cast<std::size_t>(cell)];
+      const int line = cell < lines_ ? cell : cell - lines_;
+      const Boundary* side = &boundaries_[static_cast<std::size_t>(line)];
       clips.a_x[clip] = ends_.a_x[i];
       clips.a_z[clip] = ends_.a_z[i];
       clips.b_x[clip] = ends_.b_x[i];
@@ -151,7 +189,7 @@ void EdgeClipper::intoCells(EdgeClips& clips) {
       clips.normal_z[clip] = normal.z;
       clips.normal_square[clip] = normal_square;
       clips.edge[clip] = ends_.edge[i];
-      clips.line[clip] = static_cast<std::uint32_t>(cell);
+      clips.line[clip] = static_cast<std::uint32_t>(line);
     }
     ends_.begin[i] = cell;
     if (cell <= ends_.end[i]) break;  // no room for the rest

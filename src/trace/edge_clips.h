@@ -46,7 +46,8 @@ class EdgeClipper {
   struct Boundary {
     double sine, cosine;  // of a linear probe: its offset and 1
   };
-  // Ends of edges, in the cells begin to end; those in the sector start at begin.
+  // Ends of edges, in the cells begin to end; those in the sector start at begin. Over a full turn
+  // the end may be a turn farther: cell n + lines is cell n.
   static constexpr std::size_t kEdges = 64;
   struct Ends {
     std::array<double, kEdges> a_x, a_z, b_x, b_z;
@@ -60,6 +61,9 @@ class EdgeClipper {
   };
 
   void takeEnds();
+  void takeOneAhead(Vec3d a, Vec3d b);
+  void takeOneAround(Vec3d a, Vec3d b);
+  void takeOne(Vec3d a, Vec3d b);
   void findCells();
   Doubles4 placeOf(Doubles4 x, Doubles4 z) const;
   double rightOf(double x, double z, int boundary) const;
@@ -70,7 +74,7 @@ class EdgeClipper {
 
   std::span<const ContourEdge> edges_;
   std::size_t taken_ = 0;  // of the edges
-  bool angular_;
+  bool angular_, full_turn_;
   int lines_;
   double first_, width_, per_width_;
   double unsure_;                     // error of a place, in cells

@@ -250,25 +250,41 @@ void linkEchoes(const Probe& probe, const TraceSettings& settings, std::span<Lin
   ChordSampler sampler(probe, settings, echoes);
   Pairing pairing;
   Side left, right;
-  std::vector<std::size_t> waiting;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
+  std::vector<std::size_t> waiting, next_left;
+  const std::size_t count = lines.size();
+  const bool full_turn = probe.isFullTurn();
+  const Echoes none;
+  // Links the echoes of a line with those of the next one, and notes what is linked on both sides.
+  const auto link = [&](std::size_t i, const Echoes& next) {
     const Echoes& here = lines[i].echoes;
-    const Echoes none, &next = i + 1 < lines.size() ? lines[i + 1].echoes : none;
+    pairing.find(here, next, right.other);
+    next_left.assign(next.size(), kNone);
+    for (std::size_t e = 0; e < here.size(); ++e)
+      if (right.other[e] != kNone) next_left[right.other[e]] = e;
+  };
+  if (full_turn) {  // what the first line has on its left
+    link(count - 1, lines[0].echoes);
+    left.other = next_left;
+  } else {
+    left.other.assign(lines.empty() ? 0 : lines[0].echoes.size(), kNone);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool last = i + 1 == count;
+    const std::size_t beside = last ? 0 : i + 1;
+    const Echoes &here = lines[i].echoes, &next = last && !full_turn ? none : lines[beside].echoes;
     const Vec3d along = lineGeometry(probe, static_cast<int>(i)).direction;
     right.towards = cross(Vec3d{0, 1, 0}, along);
     left.towards = -right.towards;
-    left.other.resize(here.size(), kNone);  // of the first line
-    pairing.find(here, next, right.other);
+    link(i, next);
     addLonely(i, here, left, sampler, waiting);
     addLonely(i, here, right, sampler, waiting);
-    left.other.assign(next.size(), kNone);
     for (std::size_t e = 0; e < here.size(); ++e) {
       if (right.other[e] == kNone) continue;
-      left.other[right.other[e]] = e;
       const Chord chord = sampler.between(here[e], next[right.other[e]]);
       sampler.add(i, chord, 0, 0.5);
-      sampler.add(i + 1, chord, 0.5, 1);
+      sampler.add(beside, chord, 0.5, 1);
     }
+    std::swap(left.other, next_left);
   }
   for (LineTrace& line : lines) line.echoes.clear();
 }

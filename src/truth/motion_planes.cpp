@@ -216,8 +216,7 @@ void motionPlanes(const Scene& scene, const MotionField& field, const FieldTimes
   LinePainter painter(times, velocity, samples);
   for (std::size_t first = 0; first < ids.size(); first += samples) {
     const std::size_t line = first / samples;
-    const SoundPath* const path =
-        paths ? &paths->paths[line * static_cast<std::size_t>(paths->per_line)] : nullptr;
+    const SoundPath* const path = paths ? &paths->paths[paths->pathOfLine(line)] : nullptr;
     StraightPiece piece = wholeLine(scene.probe, static_cast<int>(line));
     const std::span<const std::uint32_t> of_line = ids.subspan(first, samples);
     for (std::size_t begin = 0, end = 0; begin < samples; begin = end) {

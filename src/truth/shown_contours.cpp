@@ -123,17 +123,21 @@ void joinStretches(const std::vector<Inside>& left, const std::vector<Inside>& r
 
 void addBody(const SoundPaths& paths, SurfaceId surface, std::vector<Contour>& contours) {
   Joins joins(paths);
-  std::vector<Inside> before, now;
-  for (std::size_t p = 0; p <= paths.paths.size(); ++p) {
-    now.clear();
-    if (p < paths.paths.size()) now = insideOf(paths.paths[p], surface);
+  const bool full_turn = paths.probe.isFullTurn();
+  std::vector<Inside> before, now, behind_last;
+  for (std::size_t p = 0; p < paths.paths.size(); ++p) {
+    now = insideOf(paths.paths[p], surface);
     for (Inside& stretch : now) {
       stretch.begin = joins.add(p, stretch.begin_m);
       stretch.end = joins.add(p, stretch.end_m);
     }
-    joinStretches(before, now, joins);
+    if (full_turn && p == 0)
+      behind_last = now;
+    else
+      joinStretches(before, now, joins);
     std::swap(before, now);
   }
+  joinStretches(before, behind_last, joins);
   joins.chain(surface, contours);
 }
 
@@ -171,15 +175,17 @@ void joinPasses(const std::vector<Pass>& left, const std::vector<Pass>& right, c
 
 void addSheet(const SoundPaths& paths, SurfaceId surface, std::vector<Contour>& contours) {
   Joins joins(paths);
-  std::vector<Pass> before, now;
+  std::vector<Pass> before, now, first;
   for (std::size_t p = 0; p < paths.paths.size(); ++p) {
     now.clear();
     for (const SoundPath::Wall& wall : paths.paths[p].walls)
       if (wall.surface == surface)
         now.push_back({wall.depth_m, wall.entering, joins.add(p, wall.depth_m)});
     joinPasses(before, now, paths.probe, joins);
+    if (p == 0) first = now;
     std::swap(before, now);
   }
+  if (paths.probe.isFullTurn()) joinPasses(before, first, paths.probe, joins);
   joins.chain(surface, contours);
 }
 

@@ -16,7 +16,7 @@ ShownLabels::ShownLabels(const Scene& scene, const PictureGrid& grid, const Soun
       const double x = grid.xOf(column), z = grid.zOf(row);
       if (!inScanArea(probe_, x, z)) continue;
       const auto place = geometry.beamPosition(x, z);  // nothing where all lines are one
-      const double path = place ? std::round(place->line) : 0;
+      const int path = place ? geometry.nearestLine(place->line) : 0;
       pixels_.push_back(
           {at, static_cast<std::uint32_t>(path), static_cast<float>(geometry.pathOf({x, 0, z}))});
     }
@@ -34,7 +34,7 @@ void ShownLabels::samples(const SoundPaths& paths, std::vector<std::uint32_t>& i
   ids.reserve(static_cast<std::size_t>(probe_.lines) * count);
   const ScanGeometry geometry(probe_);
   for (std::size_t i = 0; i < static_cast<std::size_t>(probe_.lines); ++i) {
-    const SoundPath& path = paths.paths[i * static_cast<std::size_t>(paths.per_line)];
+    const SoundPath& path = paths.paths[paths.pathOfLine(i)];
     for (std::size_t k = 0; k < count; ++k)
       ids.push_back(path.idAt(geometry.sampleDepth(static_cast<int>(k))));
   }

@@ -25,8 +25,7 @@ struct Levels {
     const auto beam = geometry.beamPositionBeside(point_m, place, p);
     if (!beam || beam->path_m < probe.min_depth_m || beam->path_m > probe.max_depth_m) return {};
     const double sample = (beam->path_m - probe.min_depth_m) / probe.sampleSpacing() - 0.5;
-    const auto line = static_cast<std::size_t>(
-        std::clamp(static_cast<int>(beam->line + 0.5), 0, probe.lines - 1));
+    const auto line = static_cast<std::size_t>(geometry.nearestLine(beam->line));
     const auto k =
         static_cast<std::size_t>(std::clamp(static_cast<int>(sample + 0.5), 0, probe.samples - 1));
     return static_cast<double>(greys[line * static_cast<std::size_t>(probe.samples) + k]);

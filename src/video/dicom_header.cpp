@@ -36,12 +36,13 @@ std::string wholeString(double value) {
 }
 
 struct Code {
-  const char* value;  // SNOMED CT
+  const char* value;
   const char* meaning;
+  const char* scheme = "SCT";  // SNOMED CT
 };
 
-// Echocardiography views: PS3.16, context group 12226. The short axis near the apex has no code of
-// its own, so it takes that of all short axes.
+// Echocardiography views: PS3.16, context groups 12226 and 12343. The short axis near the apex has
+// no code of its own, so it takes that of all short axes.
 Code viewCode(View view) {
   switch (view) {
     case View::a4c:
@@ -60,6 +61,8 @@ Code viewCode(View view) {
       return {"399306005", "Parasternal short axis"};
     case View::subcostal:
       return {"399310008", "Subcostal long axis"};
+    case View::tee_4c:
+      return {"131100", "Mid-esophageal 0 degree TEE", "DCM"};
   }
   return {"", ""};
 }
@@ -67,7 +70,7 @@ Code viewCode(View view) {
 void putCode(DcmItem& to, const DcmTagKey& sequence, const Code& code) {
   DcmItem& item = addItem(to, sequence);
   put(item, DCM_CodeValue, EVR_SH, code.value);
-  put(item, DCM_CodingSchemeDesignator, EVR_SH, "SCT");
+  put(item, DCM_CodingSchemeDesignator, EVR_SH, code.scheme);
   put(item, DCM_CodeMeaning, EVR_LO, code.meaning);
 }
 
@@ -136,8 +139,8 @@ void putTimes(DcmItem& data, const DicomLoop& loop) {
 }
 
 // One region (PS3.3 C.8.5.5): the box of the scan area, ends included. Its reference pixel, counted
-// from the region's corner, holds the middle of the face; physical values are those of the pixel's
-// centre.
+// from the region's corner, holds the middle of the face, or the axis of a radial probe; physical
+// values are those of the pixel's centre.
 void putRegion(DcmItem& data, const Scene& scene) {
   constexpr int kTissue = 1, kPlane = 1, kCentimetres = 3;
   const PictureGeometry g = pictureGeometry(scene);
@@ -149,7 +152,8 @@ void putRegion(DcmItem& data, const Scene& scene) {
   const int left = pixel(lo.x, scene.output.width), top = pixel(lo.y, scene.output.height);
   Probe middle = scene.probe;
   middle.lines = 1;
-  const PixelPoint face = pixelOf(g, lineGeometry(middle, 0).origin);
+  const PixelPoint face =
+      pixelOf(g, middle.isFullTurn() ? Vec3d{} : lineGeometry(middle, 0).origin);
   const double face_x = std::floor(face.x), face_y = std::floor(face.y);
   const double delta_cm = 100 * g.metres_per_pixel;
   DcmItem& region = addItem(data, DCM_SequenceOfUltrasoundRegions);

@@ -76,14 +76,21 @@ std::vector<Vec3d> scanAreaOutline(const Probe& probe) {
   Probe outline = probe;
   if (probe.lines > 1) outline.lines = kArcLines;
   std::vector<Vec3d> points_m;
+  // Over a full turn each circle ends where it began.
+  const auto close = [&](std::size_t first) {
+    if (probe.isFullTurn()) points_m.push_back(Vec3d(points_m[first]));
+  };
   for (int i = 0; i < outline.lines; ++i) {
     const LineGeometry line = lineGeometry(outline, i);
     points_m.push_back(line.origin + probe.min_depth_m * line.direction);
   }
+  close(0);
+  const std::size_t far = points_m.size();
   for (int i = outline.lines - 1; i >= 0; --i) {
     const LineGeometry line = lineGeometry(outline, i);
     points_m.push_back(line.origin + probe.max_depth_m * line.direction);
   }
+  close(far);
   points_m.push_back(points_m.front());
   return points_m;
 }

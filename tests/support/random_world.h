@@ -4,6 +4,7 @@
 // absurd; every effect and signal setting.
 
 #include <cstdint>
+#include <numbers>
 
 #include "core/hash_random.h"
 #include "support/plain_scene.h"
@@ -53,8 +54,9 @@ inline std::vector<Medium> randomMedia(Dice& dice) {
 
 inline Probe randomProbe(Dice& dice) {
   Probe p;
-  p.kind = static_cast<ProbeKind>(dice.whole(0, 2));
-  p.lines = dice.chance(0.1) ? 1 : dice.whole(2, 9);
+  p.kind = static_cast<ProbeKind>(dice.whole(0, 3));
+  const bool radial = p.kind == ProbeKind::radial;
+  p.lines = radial ? dice.whole(16, 25) : dice.chance(0.1) ? 1 : dice.whole(2, 9);
   p.samples = dice.chance(0.1) ? 1 : dice.whole(2, 64);
   p.min_depth_m = dice.chance(0.5) ? 0 : dice.number(0, 0.01);
   p.max_depth_m = p.min_depth_m + dice.decade(1e-3, 0.2);
@@ -64,6 +66,10 @@ inline Probe randomProbe(Dice& dice) {
   if (p.kind == ProbeKind::linear) {
     p.first_offset_m = -dice.number(0.001, 0.04);
     p.last_offset_m = -p.first_offset_m;
+  } else if (radial) {
+    p.last_angle_rad = std::numbers::pi;
+    p.first_angle_rad = -p.last_angle_rad;
+    p.face_radius_m = dice.number(0.001, 0.02);
   } else {
     const double half = dice.chance(0.1) ? 90 : dice.number(5, 80);
     p.first_angle_rad = radiansFromDegrees(-half);
