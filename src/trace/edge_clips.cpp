@@ -63,8 +63,8 @@ void EdgeClipper::takeOne(Vec3d a, Vec3d b) {
   ends_.edge[n] = static_cast<std::uint32_t>(taken_);
 }
 
-// What lies in front of the transducer: lines of a sector never point backwards, so what lies
-// behind z = 0 is in no cell.
+// The part in front of the transducer: lines of a sector never point backwards, so a part behind
+// z = 0 is in no cell.
 void EdgeClipper::takeOneAhead(Vec3d a, Vec3d b) {
   if (a.z < 0 && b.z < 0) return;
   if (a.z < 0 || b.z < 0) {

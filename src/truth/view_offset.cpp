@@ -98,7 +98,6 @@ ViewOffset viewOffset(const HeartMarks& marks, const SurfaceTopology& cavity,
   double least = 1e9;
   for (const ViewName& name : viewNames()) {
     if (name.view == View::psax_base && !marks.aortic_found) continue;
-    if (isTransoesophageal(name.view)) continue;  // its plane is that of a4c
     const StandardPlane plane = standardPlane(name.view, heart);
     const std::optional<double> difference = differenceFrom(plane, heart);
     if (!difference || *difference >= least) continue;

@@ -12,7 +12,7 @@ namespace echocine {
 
 // Angles and lengths are 0 for the standard plane itself.
 struct ViewOffset {
-  // a4c, a2c, a3c, plax, psax-base, psax-mid, psax-apex, subcostal, other
+  // a4c, a2c, a3c, plax, psax-base, psax-mid, psax-apex, subcostal, tee-4c, other
   const char* label = "other";
   // Between the ventricle's long axis and the imaging plane; in short axes, between the normals of
   // the standard and of the imaging plane.

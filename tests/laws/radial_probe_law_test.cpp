@@ -192,6 +192,33 @@ TEST(RadialProbe, TheSignalChainHasNoSeam) {
   }
 }
 
+// Lines behind an aperture weigh nothing on either side: a wide curved array is its own mirror.
+TEST(CurvilinearProbe, ProfilesOfAWideSectorAreAlikeOnBothSides) {
+  Scene scene = plainScene({medium("water", 1000, 1540, 0, 1e-3)});
+  scene.probe = radialProbe(61, 64);
+  scene.probe.kind = ProbeKind::curvilinear;
+  scene.probe.first_angle_rad = -radiansFromDegrees(85);
+  scene.probe.last_angle_rad = radiansFromDegrees(85);
+  scene.signal.beam_width = BeamWidth::profile;
+  EffectPlan plan = planEffects(scene);
+  plan.beam_width = true;
+  const SignalChain chain(scene, plan);
+  const auto made = [&](int line) {
+    std::vector<float> plane(61 * 64, 0.0f);
+    for (int k = 0; k < 64; ++k) plane[static_cast<std::size_t>(line * 64 + k)] = 1;
+    Intensities intensities(std::move(plane));
+    chain.process(intensities);
+    return intensities.values;
+  };
+  const std::vector<float> left = made(4), right = made(56);
+  for (int i = 0; i < 61; ++i)
+    for (int k = 0; k < 64; ++k) {
+      const double one = left[static_cast<std::size_t>(i * 64 + k)],
+                   other = right[static_cast<std::size_t>((60 - i) * 64 + k)];
+      ASSERT_NEAR(one, other, 1e-4 * one + 1e-7) << i << " " << k;
+    }
+}
+
 // A constant plane stays constant: no window loses weight at the seam.
 TEST(RadialProbe, AConstantPlaneStaysConstant) {
   Scene scene = plainScene({medium("water", 1000, 1540, 0, 1e-3)});

@@ -185,7 +185,8 @@ const std::vector<Seen> kSeen = {
     {View::psax_base, {Role::rv_cavity, Role::la, Role::ra, Role::aorta}, {}},
     {View::psax_mid, {Role::lv_cavity, Role::rv_cavity}, {Role::la, Role::ra, Role::aorta}},
     {View::psax_apex, {Role::lv_cavity}, {Role::la, Role::ra, Role::aorta}},
-    {View::subcostal, {Role::lv_cavity, Role::rv_cavity, Role::la, Role::ra}, {}}};
+    {View::subcostal, {Role::lv_cavity, Role::rv_cavity, Role::la, Role::ra}, {}},
+    {View::tee_4c, {Role::lv_cavity, Role::rv_cavity, Role::la, Role::mitral_valve}, {}}};
 
 void expectSeen(const RealHeart& heart) {
   const HeartMarks marks = marksIn(heart.surfaces);

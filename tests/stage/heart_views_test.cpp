@@ -45,10 +45,11 @@ struct Image {
   }
 };
 
-constexpr View kAllViews[] = {View::a4c,       View::a2c,      View::a3c,       View::plax,
-                              View::psax_base, View::psax_mid, View::psax_apex, View::subcostal};
+constexpr View kAllViews[] = {View::a4c,       View::a2c,       View::a3c,
+                              View::plax,      View::psax_base, View::psax_mid,
+                              View::psax_apex, View::subcostal, View::tee_4c};
 
-TEST(HeartViews, AreEightWithKeysThatLeadBackToThem) {
+TEST(HeartViews, HaveKeysThatLeadBackToThem) {
   EXPECT_EQ(heart::viewNames().size(), std::size(kAllViews));
   for (const View view : kAllViews) EXPECT_EQ(heart::viewOf(keyOf(view)), view);
   EXPECT_EQ(heart::viewOf("a5c"), std::nullopt);

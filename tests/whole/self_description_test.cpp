@@ -79,7 +79,7 @@ std::string offered(const std::filesystem::path& script, const std::string& comm
 
 TEST_F(SelfDescription, CompletionOffersTheValuesOfChoices) {
   const std::filesystem::path bash = *folder_ / "echocine.bash";
-  const std::string views = "a4c a2c a3c plax psax-base psax-mid psax-apex subcostal\n";
+  const std::string views = "a4c a2c a3c plax psax-base psax-mid psax-apex subcostal tee-4c\n";
   EXPECT_EQ(offered(bash, "heart", "--view"), views);
   EXPECT_EQ(offered(bash, "compare", "--view"), views);
   EXPECT_EQ(offered(bash, "heart", "--look"),
@@ -87,7 +87,7 @@ TEST_F(SelfDescription, CompletionOffersTheValuesOfChoices) {
   EXPECT_EQ(offered(bash, "render", "--preset"), "draft standard fine reference\n");
   EXPECT_EQ(offered(bash, "plan", "--preset"), "draft standard fine reference\n");
   const std::string zsh = text("_echocine");
-  EXPECT_NE(zsh.find(":value:(a4c a2c a3c plax psax-base psax-mid psax-apex subcostal)"),
+  EXPECT_NE(zsh.find(":value:(a4c a2c a3c plax psax-base psax-mid psax-apex subcostal tee-4c)"),
             std::string::npos);
   EXPECT_NE(zsh.find(":value:(draft standard fine reference)"), std::string::npos);
 }
