@@ -19,8 +19,8 @@ struct Probe {
   // the centre of curvature behind the face for a curvilinear one, the axis of the catheter for a
   // radial one, the centre of the face for a linear one.
   Pose pose;
-  // Of the outermost lines, from z towards x; of a radial probe -pi and pi, half a cell beyond
-  // them.
+  // The outermost lines, from z towards x; for a radial probe -pi and pi, half a cell beyond its
+  // outermost lines.
   double first_angle_rad = 0, last_angle_rad = 0;
   double face_radius_m = 0;                      // curvilinear, radial: apex to face; others 0
   double first_offset_m = 0, last_offset_m = 0;  // linear: lateral start of the outermost lines
