@@ -21,6 +21,7 @@ struct Aim {
   Vec3d target, axis, lateral;
   double chest_m;  // skin to pericardium; our choice
   bool beside_sternum = false;
+  double least_m = 0;  // from the target to the surface before it
 };
 
 // Through the apex, looking at a point of the base; the image plane holds the long axis and the
@@ -57,10 +58,11 @@ Aim subcostal(const HeartFrame& heart, Vec3d target) {
 
 // From the oesophagus behind the left atrium, through the plane of the apical four-chamber view, to
 // the apex: mid-oesophageal, 0 degrees (Hahn, J. Am. Soc. Echocardiogr. 26, 2013). A wall of 3 mm
-// and tissue of 2 mm lie before the atrium, our choice.
+// and tissue of 2 mm lie before the atrium. Half the ventricle's length stands for an atrium that
+// the meshes lack. Our choices.
 Aim transoesophageal(const HeartFrame& heart, Vec3d base_point) {
   Aim aim = apical(heart, 0, base_point);
-  return {base_point, -aim.axis, aim.lateral, 0.005 * heart.scale};
+  return {base_point, -aim.axis, aim.lateral, 0.005 * heart.scale, false, 0.5 * heart.length_m};
 }
 
 Aim aimOf(View view, const HeartFrame& heart) {
@@ -186,8 +188,8 @@ ProbePose standardPose(View view, const HeartFrame& heart, std::span<const Facet
                        double wall_m, std::span<const Facet> front_m) {
   const Aim aim = aimOf(view, heart);
   const bool front = aim.beside_sternum && !front_m.empty();
-  const double to_surface_m =
-      reachBefore(aim, front ? front_m : outside_m, kFace_m * heart.scale) + wall_m;
+  const double to_surface_m = std::max(
+      aim.least_m, reachBefore(aim, front ? front_m : outside_m, kFace_m * heart.scale) + wall_m);
   ProbePose pose{aim.target - (to_surface_m + aim.chest_m) * aim.axis,
                  aim.axis,
                  aim.lateral,

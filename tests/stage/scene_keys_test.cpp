@@ -107,8 +107,10 @@ KeyScene withValue(const SceneKey& key, const std::string& value) {
     return KeyScene(sceneKey("probe", "width_mm"));
   KeyScene text(key);
   text.set(key.fullName(), value);
+  if (value == "\"radial\"") text.remove("probe.sector_deg");
   const std::map<std::string, std::pair<std::string, std::string>> companions{
       {"\"curvilinear\"", {"probe.face_radius_mm", "60"}},
+      {"\"radial\"", {"probe.face_radius_mm", "2"}},
       {"\"table\"", {"signal.tgc_table_mm_db", "[[0, 0]]"}},
       {"\"fixed\"", {"signal.beam_width_mm", "2"}},
       {"\"on\"", {"accuracy.rays_per_beam", "2"}}};

@@ -37,6 +37,7 @@ class KeyScene {
   }
 
   void set(const std::string& key, const std::string& value) { values_[key] = value; }
+  void remove(const std::string& key) { values_.erase(key); }
 
   std::string text() const {
     std::map<std::string, std::string> tables;
