@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "echo/r_wave_beats.h"
 
 namespace echocine::compare {
 
@@ -66,16 +67,19 @@ std::vector<Anchor> byMarks(const Cardinal& s, const Cardinal& r, double beat,
 }
 
 // Empty where either side knows no R wave. Phase 0 of a render is its R wave.
-std::vector<Anchor> byRWaves(double synthetic_beat, const echo::EchoLoop& synthetic,
-                             const echo::EchoLoop& real) {
+std::vector<Anchor> byRWaves(double synthetic_beat, double real_beat,
+                             const echo::EchoLoop& synthetic, const echo::EchoLoop& real) {
   const std::vector<double> waves = real.rWaveFrames(), own = synthetic.rWaveFrames();
   std::vector<Anchor> anchors;
   if (waves.empty() || (synthetic.phases.empty() && own.empty()) || !(synthetic_beat > 0))
     return anchors;
   const double at_r =
       synthetic.phases.empty() ? own.front() : -synthetic.phases.front() * synthetic_beat;
-  for (std::size_t i = 0; i < waves.size(); ++i)
-    anchors.push_back({waves[i], at_r + static_cast<double>(i) * synthetic_beat});
+  double beats = 0;
+  for (std::size_t i = 0; i < waves.size(); ++i) {
+    if (i > 0) beats += echo::beatsBetween(waves[i] - waves[i - 1], real_beat);
+    anchors.push_back({waves[i], at_r + beats * synthetic_beat});
+  }
   return anchors;
 }
 
@@ -97,7 +101,8 @@ TimeAlignment alignByWhatIsKnown(const CompareOptions& options, const TimeProble
     return alignBy("ED and ES frames as given", problem,
                    byMarks(s, r, problem.synthetic_beat, synthetic.video.name));
   }
-  const std::vector<Anchor> waves = byRWaves(problem.synthetic_beat, synthetic, real);
+  const std::vector<Anchor> waves =
+      byRWaves(problem.synthetic_beat, problem.real_beat, synthetic, real);
   return waves.empty()
              ? alignInTime(problem)
              : alignBy(real.ecg ? "R waves of the ECG in the picture" : "R waves", problem, waves);

@@ -20,7 +20,16 @@ double parabolaOffset(double left, double middle, double right) {
 }
 
 // Our choice.
-constexpr double kClearlyBetter = 1.15, kMuchBetter = 1.6;
+constexpr double kClearlyBetter = 1.15, kLeastDrop = 0.25;
+// d of unrelated frames. Frames half or a third of a beat apart differ more, because the
+// fundamental is the strongest part of a heart's motion; frames a beat apart differ less.
+constexpr double kUnrelated = 1;
+
+// 2 or more if `later` is as many times `earlier`, within a tenth (our choice); else 1.
+double timesOf(double later, double earlier) {
+  const double times = std::round(later / earlier);
+  return times > 1 && std::abs(later / earlier / times - 1) < 0.1 ? times : 1;
+}
 
 }  // namespace
 
@@ -44,18 +53,18 @@ BeatLength findBeatLength(const Features& features, double shortest) {
   const int last = n - 2, first = std::max(3, static_cast<int>(std::ceil(shortest)));
   if (last <= first) return beat;
   // The greatest rise before a lag says how far the loop went away before it came back.
-  double away = 0, best_drop = 0;
+  double away = 0, best_drop = 0, best_d = kUnrelated;
   for (int lag = 1; lag <= last; ++lag) {
     const auto at = static_cast<std::size_t>(lag);
     if (lag >= first && d[at] < d[at - 1] && d[at] <= d[at + 1]) {
       const double drop = away > 0 ? (away - d[at]) / away : 0;
-      // A later beat must be clearly better, and a whole number of earlier ones much better: with
-      // breathing or alternating beats, frames two beats apart match better than one beat apart.
-      const double times = beat.frames > 0 ? lag / beat.frames : 0.5;
-      const bool multiple = times > 1.5 && std::abs(times - std::round(times)) < 0.1;
-      if (drop > (multiple ? kMuchBetter : kClearlyBetter) * best_drop && drop > 0.25) {
+      // A later beat must be clearly better. A multiple of a beat only refines it: breathing and
+      // alternating beats make frames two or three beats apart match better than one beat apart.
+      if (drop > kClearlyBetter * best_drop && drop > kLeastDrop) {
+        const double times = best_d < kUnrelated ? timesOf(lag, beat.frames) : 1;
+        if (times == 1) best_d = d[at];
         best_drop = drop;
-        beat.frames = lag + parabolaOffset(d[at - 1], d[at], d[at + 1]);
+        beat.frames = (lag + parabolaOffset(d[at - 1], d[at], d[at + 1])) / times;
       }
     }
     away = std::max(away, d[at]);

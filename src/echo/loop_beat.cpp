@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "echo/beat_length.h"
+#include "echo/r_wave_beats.h"
 #include "echo/resample.h"
 
 namespace echocine::echo {
@@ -40,11 +41,10 @@ BeatLength beatOf(const EchoLoop& loop) {
   if (loop.frames_per_beat > 0)
     known(loop.frames_per_beat, "manifest");
   else if (v.r_waves_s.size() > 1 && v.rate.hz > 0)
-    known((v.r_waves_s.back() - v.r_waves_s.front()) / static_cast<double>(v.r_waves_s.size() - 1) *
-              v.rate.hz,
-          "R waves");
+    known(beatOfRWaves(v.r_waves_s, beat.frames / v.rate.hz).mean * v.rate.hz, "R waves");
   else if (loop.ecg && loop.ecg->beat_frames > 0 && v.heart_rate_source != "--heart-rate")
-    beat = {loop.ecg->beat_frames, loop.ecg->confidence, loop.beat_anchor, beat.dissimilarity};
+    beat = {beatOfRWaves(loop.ecg->r_frames, beat.frames).median, loop.ecg->confidence,
+            loop.beat_anchor, beat.dissimilarity};
   else if (v.heart_rate_bpm && v.rate.trusted)
     known(60 / *v.heart_rate_bpm * v.rate.hz, v.heart_rate_source);
   return beat;

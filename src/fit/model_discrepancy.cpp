@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "echo/beat_length.h"
+#include "echo/r_wave_beats.h"
 #include "fit/descent.h"
 #include "fit/dial_checks.h"
 #include "frame/simulator.h"
@@ -60,10 +61,14 @@ ModelDiscrepancy::ModelDiscrepancy(const echo::EchoLoop& real, const echo::SideO
   beat_.span.end_diastole = start.value_or(0);
   if (real.ecg && !side.ed_frame) {  // not an early beat, where the trace shows a usual one
     beat_.confidence = real.ecg->confidence;
-    const auto beat = echo::usualBeat(*real.ecg, real.video.frameCount());
+    echo::EcgTrace trace = *real.ecg;
+    trace.beat_frames = length.frames;
+    const auto beat = echo::usualBeat(trace, real.video.frameCount());
     if (beat && beat_.length_source == real.beat_anchor)
-      beat_.span = {
-          .end_diastole = beat->r_frame, .frames = beat->frames, .systole = 0, .shown_systole = 0};
+      beat_.span = {.end_diastole = beat->r_frame,
+                    .frames = beat->frames / echo::beatsBetween(beat->frames, length.frames),
+                    .systole = 0,
+                    .shown_systole = 0};
   }
   stack_.emplace(real, beat_.span, kFitFrames, first.far_m);
   if (!start) findStart(real, first);

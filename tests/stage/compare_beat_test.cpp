@@ -21,7 +21,7 @@ struct PlantedBeat {
   int frames = 70;
   double second_harmonic = 0.4;  // two bumps a beat, as filling has
   double alternans = 0;          // every other beat differs by this share
-  double breathing = 0;          // over four beats
+  double breathing = 0, breath_beats = 4;
   double noise = 0;
   std::uint64_t seed = 1;
   double begin = 0;  // beats
@@ -37,7 +37,7 @@ Features featuresOf(const PlantedBeat& b) {
       const double at = static_cast<double>(i) / kBlocks;
       frame[i] = std::cos(turn + 3 * at) + b.second_harmonic * std::cos(2 * turn + 7 * at) +
                  b.alternans * std::cos(turn / 2 + 5 * at) +
-                 b.breathing * std::cos(turn / 4 + 2 * at) +
+                 b.breathing * std::cos(turn / b.breath_beats + 2 * at) +
                  b.noise * normalFromHashes(hashOf(b.seed, std::uint64_t(f), i, 1),
                                             hashOf(b.seed, std::uint64_t(f), i, 2));
     }
@@ -76,6 +76,24 @@ TEST(BeatLengthFound, IsThatOfEveryBeatCountFromOneAndAThird) {
     b.frames = static_cast<int>(std::lround(beats * b.frames_per_beat));
     EXPECT_NEAR(findBeatLength(featuresOf(b), 5).frames, b.frames_per_beat, 0.3) << beats;
   }
+}
+
+// Frames a breath apart match best, although that is two or three beats. Frames half or a third of
+// a beat apart match less than unrelated ones, whatever the second harmonic below the first.
+TEST(BeatLengthFound, IsNoBreathOfTwoOrThreeBeats) {
+  for (const double length : {14.3, 20.0, 27.6})
+    for (const double breath : {2.0, 3.0})
+      for (const double second : {0.0, 0.9}) {
+        PlantedBeat b;
+        b.frames_per_beat = length;
+        b.frames = static_cast<int>(3.8 * length);
+        b.second_harmonic = second;
+        b.breathing = breath == 2 ? 0.6 : 0.7;
+        b.breath_beats = breath;
+        b.noise = 0.1;
+        EXPECT_NEAR(findBeatLength(featuresOf(b), 5).frames, length, 0.03 * length)
+            << length << ' ' << breath << ' ' << second;
+      }
 }
 
 TEST(BeatLengthFound, NoiseHasNone) {

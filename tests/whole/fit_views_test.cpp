@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/parallel.h"
 #include "fit/dial_scan.h"
 #include "fit/heart_family.h"
 #include "fit/model_discrepancy.h"
