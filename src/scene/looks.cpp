@@ -66,21 +66,21 @@ struct Scanner {
 constexpr Scanner kScanners[] = {
     {Look::scanner,
      2,
-     0.72e-3,
+     0.68e-3,
      0,
-     78,
+     80,
      1.3,
      0.03,
      0.1,
      2.5,
      -23,
      -53,
-     4.5,
+     3.5,
      10,
      false,
      0,
      {-2, 0, 2, -6, 2, -4e-3, 1}},
-    {Look::smooth, 2, 0.75e-3, 0.35, 84, 1.15, 0, 0.3, -6, -26, -59, 4.5, 12, true, 0, {}},
+    {Look::smooth, 2, 0.7e-3, 0.35, 84, 1.15, 0, 0.34, -6, -26, -55, 3.5, 12, true, 0, {}},
     {Look::contrast,
      2,
      0.75e-3,
@@ -146,6 +146,7 @@ void applyProcessing(const Scanner& scanner, Scene& scene) {
   s.edge_enhancement = scanner.edge_enhancement;
   scene.speckle.smoothing_m = scanner.smoothing_m;
   scene.speckle.heterogeneity_db = scanner.heterogeneity_db;
+  scene.speckle.heterogeneity_coarse_m = 9e-3;  // downshift widens the cells beside it
   scene.speckle.anisotropy_db = scanner.anisotropy_db;
   scene.artefacts.persistence = scanner.persistence;
 }

@@ -169,7 +169,7 @@ constexpr SceneKey kKeys[] = {
     {"signal", "grey_toe", kNone, ranges::kGreyToe, "lowest fraction of the dynamic range that is black", AT(SignalSettings, grey_toe)},
     {"signal", "grey_shoulder", kNone, ranges::kGreyShoulder, "highest fraction of the dynamic range, over which the slope falls to 0 at white", AT(SignalSettings, grey_shoulder)},
     {"signal", "harmonic", kNone, kAny, "second-harmonic imaging: sent at half of probe.frequency_mhz; for beam_width = \"profile\"", AT(SignalSettings, harmonic)},
-    {"signal", "downshift", kNone, kAny, "attenuation lowers the centre frequency with depth, which widens the beam; for beam_width = \"profile\"", AT(SignalSettings, downshift)},
+    {"signal", "downshift", kNone, kAny, "attenuation lowers the centre frequency with depth, which widens beam and speckle cells; for beam_width = \"profile\"", AT(SignalSettings, downshift)},
     {"signal", "edge_enhancement", kNone, ranges::kEdge, "unsharp masking of grey levels: factor of their difference from the mean", AT(SignalSettings, edge_enhancement)},
     {"signal", "edge_size_mm", kMm, ranges::kArtefactLength_mm, "size of the box of that mean", AT(SignalSettings, edge_size_m)},
 

@@ -4,10 +4,17 @@
 
 namespace echocine {
 
-AxialSums::AxialSums(const SplatGrid& grid, double deviation_samples)
+AxialSums::AxialSums(const SplatGrid& grid, int samples)
     : finer_(grid.along().finer), coarser_(grid.along().coarser) {
-  const double deviation = grid.along().nodes(deviation_samples);
-  range_ = tapRange(deviation, 0, 1 - 1.0 / coarser_);
+  range_ = tapRange(grid.along().nodes(grid.mostAxialSamples()), 0, 1 - 1.0 / coarser_);
+  if (grid.axialSamples(0) != grid.mostAxialSamples()) pieces_ = (samples + kPiece - 1) / kPiece;
+  for (int piece = 0; piece < pieces_; ++piece) {
+    const int middle = std::min(piece * kPiece + kPiece / 2, samples - 1);
+    addTaps(grid.along().nodes(grid.axialSamples(pieces_ == 1 ? 0 : middle)));
+  }
+}
+
+void AxialSums::addTaps(double deviation) {
   std::vector<std::vector<double>> amplitudes, powers;
   for (int phase = 0; phase < coarser_; ++phase) {
     amplitudes.push_back(amplitudeTaps(deviation, static_cast<double>(phase) / coarser_, range_));
@@ -28,14 +35,16 @@ AxialSums::AxialSums(const SplatGrid& grid, double deviation_samples)
 template <typename Load>
 void AxialSums::smearBy(const float* nodes, int samples, const Load& load, float* out) const {
   const int phases = std::max(coarser_ / 2, 1);
+  static_assert(kPiece % (2 * kPairs) == 0);
   for (int k = 0; k < samples; k += 2 * kPairs) {
+    const int piece = std::min(k / kPiece, pieces_ - 1);
     Floats8 sums[kPairs] = {};
     const float* from[kPairs];
     const Floats8* taps[kPairs];
     for (int p = 0; p < kPairs; ++p) {
       const int sample = k + 2 * p;
       from[p] = nodes + kNodeFloats * (sample * finer_ / coarser_ + range_.first);
-      taps[p] = taps_.data() + sample / 2 % phases * range_.count;
+      taps[p] = taps_.data() + (piece * phases + sample / 2 % phases) * range_.count;
     }
     for (int t = 0; t < range_.count; ++t)
       for (int p = 0; p < kPairs; ++p) sums[p] += taps[p][t] * load(from[p] + kNodeFloats * t);

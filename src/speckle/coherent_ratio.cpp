@@ -51,7 +51,7 @@ CoherentRatio::CoherentRatio(const Probe& probe, const PointSpread& spread, cons
       samples_(probe.samples),
       grid_(probe, spread, view),
       lateral_(grid_, probe.samples),
-      axial_(grid_, grid_.axialSamples()),
+      axial_(grid_, probe.samples),
       smoothing_(probe.samples, smoothing_m / kWidthAtHalf / probe.sampleSpacing()),
       length_(smoothing_.length()),
       stride_(strideOf(probe.samples)),

@@ -29,17 +29,30 @@ PointSpread::PointSpread(const Probe& probe, double pulse_cycles, bool harmonic)
     : wavelength_m(ScanGeometry(probe).wavelength()),
       axial_width_m(kWidthPerPulse * pulse_cycles * wavelength_m / 2),
       aperture_m(probe.elevation_aperture_m),
-      focus_m(probe.elevation_focus_m) {
+      focus_m(probe.elevation_focus_m),
+      probe_(probe),
+      pulse_cycles_(pulse_cycles) {
   axial_m = std::numbers::sqrt2 * axial_width_m / kWidthPerDeviation;
   angle_rad = speckleWidening(probe.receive_apodization, harmonic) *
               followedWidth(1, probe.aperture_m, wavelength_m) / kWidthPerDeviation;
 }
 
-// The harmonic is a part of the sampled beam (planPulse()).
+// Harmonic and downshift belong to the sampled beam (planPulse()).
 PointSpread::PointSpread(const Scene& scene)
     : PointSpread(scene.probe, scene.signal.pulse_cycles,
                   scene.signal.harmonic && scene.signal.beam_width == BeamWidth::profile &&
-                      scene.accuracy.rays_per_beam == 1) {}
+                      scene.accuracy.rays_per_beam == 1) {
+  const SignalSettings& s = scene.signal;
+  if (s.downshift && s.beam_width == BeamWidth::profile && scene.accuracy.rays_per_beam == 1 &&
+      scene.probe.lines > 1)
+    attenuation_np_per_m_hz_ = s.nominal_gain_np_per_m_hz;
+}
+
+double PointSpread::widening(double path_m) const {
+  return attenuation_np_per_m_hz_ > 0
+             ? 1 / downshiftOf(probe_, pulse_cycles_, attenuation_np_per_m_hz_, path_m)
+             : 1;
+}
 
 double PointSpread::lateralWidth(double path_m) const {
   return angle_rad * kWidthPerDeviation / std::numbers::sqrt2 * path_m;

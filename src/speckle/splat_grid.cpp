@@ -73,16 +73,21 @@ SplatGrid::SplatGrid(const Probe& probe, const PointSpread& spread, const BeamVi
   while (1 << down_ < along_.coarser) ++down_;
   constexpr int kBeyond = kFloatLanes - 1;  // samples that sums of eight read
   nodes_ = roundedUp(static_cast<std::ptrdiff_t>(along_.nodes(samples_ + kBeyond)) + 2, 8);
-  const TapRange taps = tapRange(along_.nodes(axial_samples_), 0, 1);
+  const ScanGeometry geometry(probe);
+  for (int k = 0; k < samples_; ++k) widenings_.push_back(spread.widening(geometry.sampleDepth(k)));
+  const TapRange taps = tapRange(along_.nodes(mostAxialSamples()), 0, 1);
   margin_ = roundedUp(std::max(taps.count + taps.first, -taps.first) + 4, 16);
   // An odd number of cache lines: rows a power of two apart would share few sets of the cache.
   stride_ = (kNodeFloats * (nodes_ + 2 * margin_) / kLineFloats | 1) * kLineFloats;
-  const ScanGeometry geometry(probe);
   std::vector<double> lines;
   for (int k = 0; k < samples_; ++k)
     lines.push_back(std::min(view.lateralLines(geometry.sampleDepth(k)), kMostSectors * lines_));
   setAcross(std::move(lines));
   setWeights();
+}
+
+double SplatGrid::mostAxialSamples() const {
+  return axial_samples_ * *std::max_element(widenings_.begin(), widenings_.end());
 }
 
 // lines: sigma across the lines, by sample.

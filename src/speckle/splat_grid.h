@@ -57,8 +57,10 @@ class SplatGrid {
   std::ptrdiff_t margin() const { return margin_; }
   // Sigma across the lines by sample, in rows.
   const std::vector<double>& deviations() const { return deviations_; }
-  bool even() const { return even_; }                     // the same sigma at all samples
-  double axialSamples() const { return axial_samples_; }  // sigma along a line, in samples
+  bool even() const { return even_; }  // the same sigma at all samples
+  // Sigma along a line at a sample, in samples, and the largest of all.
+  double axialSamples(int sample) const { return axial_samples_ * widenings_[sample]; }
+  double mostAxialSamples() const;
 
   // rows: the number that one line's sum takes. Lines are added in ascending order from `first_row`
   // on.
@@ -84,7 +86,8 @@ class SplatGrid {
   float* amplitudesOf(Rows& rows, int line) const;
 
   int lines_, samples_;
-  double axial_samples_;
+  double axial_samples_;           // without downshift
+  std::vector<double> widenings_;  // by sample
   GridSpacing across_, along_;
   int up_ = 0, down_ = 0;  // of a sample's step to a node's: bits
   std::ptrdiff_t nodes_ = 0, margin_ = 0, stride_ = 0;

@@ -4,82 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 
-#include "core/hash_random.h"
+#include "looks_labelled.h"
 #include "metrics/statistics.h"
 #include "motion/heart/heart_scene.h"
 #include "scene/grey_curve.h"
-#include "scene/role.h"
 #include "scene/view_names.h"
-#include "signal/signal_chain.h"
 
 namespace echocine::bench {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-struct GreyMeasures {
-  double black = 0, p1 = 0, p50 = 0, p95 = 0, p999 = 0;  // of the sector; black: share under 10
-  double lv = kNone, la = kNone, ra = kNone, rv = kNone, wall = kNone, pericardium = kNone;
+struct GreyMeasures : FibrousGreys {
+  double black = 0, p1 = 0, p50 = 0, p95 = 0, p99 = 0,
+         p999 = 0;  // of the sector; black: share under 10
+  double lv = kNone, la = kNone, ra = kNone, rv = kNone, wall = kNone;
   double near_field = kNone;  // first 15 mm
   double lung = kNone;
   double lost = kNone;  // share of the endocardium that is less than 3 dB brighter than blood
 };
-
-double quantile(std::vector<double> values, double q) {
-  if (values.size() < 50) return kNone;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
-}
-
-// A picture with the structure of each pixel, and places in it by mm.
-struct Labelled {
-  const Simulator& simulator;
-  const GreyImage& image;
-  const std::vector<std::uint16_t>& ids;
-
-  double mm() const { return 1e3 * simulator.chain().geometry().metres_per_pixel; }
-  std::size_t at(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-           static_cast<std::size_t>(x);
-  }
-  bool inside(int x, int y) const {
-    return x >= 0 && y >= 0 && x < image.width && y < image.height;
-  }
-  const Structure* structure(int x, int y) const {
-    const std::uint16_t id = ids[at(x, y)];
-    return id == 0 ? nullptr : &simulator.scene().structures[id - 1u];
-  }
-  Role role(int x, int y) const {
-    const Structure* s = structure(x, y);
-    return s ? roleOf(*s) : Role::none;
-  }
-  double depth_mm(int x, int y) const {
-    const PictureGeometry& g = simulator.chain().geometry();
-    return mm() * std::hypot(x + 0.5 - g.origin_x_px, y + 0.5 - g.origin_y_px);
-  }
-  bool inSector(int x, int y) const {
-    const PictureGeometry& g = simulator.chain().geometry();
-    const Probe& p = simulator.scene().probe;
-    const double angle = std::atan2(x + 0.5 - g.origin_x_px, y + 0.5 - g.origin_y_px);
-    const double r = depth_mm(x, y);
-    return angle > p.first_angle_rad && angle < p.last_angle_rad && r > 1e3 * p.min_depth_m &&
-           r < 1e3 * p.max_depth_m;
-  }
-};
-
-std::vector<double> greysWhere(const Labelled& picture,
-                               const std::function<bool(int, int)>& counts) {
-  std::vector<double> greys;
-  for (int y = 0; y < picture.image.height; ++y)
-    for (int x = 0; x < picture.image.width; ++x)
-      if (picture.inSector(x, y) && counts(x, y))
-        greys.push_back(picture.image.pixels[picture.at(x, y)]);
-  return greys;
-}
 
 // Mean level, dB above black, of the pixels within 1 mm that have the role; NaN with hardly any.
 double levelAround(const Labelled& picture, double x, double y, Role role) {
@@ -138,7 +81,7 @@ GreyMeasures greysOf(const Labelled& picture) {
                 std::count_if(sector.begin(), sector.end(), [](double v) { return v < 10; })) /
             static_cast<double>(sector.size());
   g.p1 = quantile(sector, 0.01), g.p50 = quantile(sector, 0.5);
-  g.p95 = quantile(sector, 0.95), g.p999 = quantile(sector, 0.999);
+  g.p95 = quantile(sector, 0.95), g.p99 = quantile(sector, 0.99), g.p999 = quantile(sector, 0.999);
   const auto median = [&](Role role) {
     return quantile(greysWhere(picture, [&](int x, int y) { return picture.role(x, y) == role; }),
                     0.5);
@@ -147,12 +90,7 @@ GreyMeasures greysOf(const Labelled& picture) {
   g.rv = median(Role::rv_cavity), g.wall = median(Role::lv_wall);
   g.near_field =
       quantile(greysWhere(picture, [&](int x, int y) { return picture.depth_mm(x, y) < 15; }), 0.5);
-  g.pericardium = quantile(greysWhere(picture,
-                                      [&](int x, int y) {
-                                        const Structure* s = picture.structure(x, y);
-                                        return s && s->name == "grooves";
-                                      }),
-                           0.9);
+  static_cast<FibrousGreys&>(g) = fibrousGreys(picture);
   g.lung = quantile(greysWhere(picture,
                                [&](int x, int y) {
                                  const Structure* s = picture.structure(x, y);
@@ -167,21 +105,28 @@ struct GreyColumn {
   const char* name;
   double GreyMeasures::*value;
   int digits;
+  double scale = 100;  // of a value with a digit: shares are percentages
 };
-constexpr GreyColumn kGreyColumns[] = {{"< 10, %", &GreyMeasures::black, 1},
-                                       {"p1", &GreyMeasures::p1, 0},
-                                       {"p50", &GreyMeasures::p50, 0},
-                                       {"p95", &GreyMeasures::p95, 0},
-                                       {"p99.9", &GreyMeasures::p999, 0},
-                                       {"LV", &GreyMeasures::lv, 0},
-                                       {"LA", &GreyMeasures::la, 0},
-                                       {"RA", &GreyMeasures::ra, 0},
-                                       {"RV", &GreyMeasures::rv, 0},
-                                       {"wall", &GreyMeasures::wall, 0},
-                                       {"grooves p90", &GreyMeasures::pericardium, 0},
-                                       {"near field", &GreyMeasures::near_field, 0},
-                                       {"lung", &GreyMeasures::lung, 0},
-                                       {"border lost, %", &GreyMeasures::lost, 1}};
+constexpr GreyColumn kGreyColumns[] = {
+    {"< 10, %", &GreyMeasures::black, 1},
+    {"p1", &GreyMeasures::p1, 0},
+    {"p50", &GreyMeasures::p50, 0},
+    {"p95", &GreyMeasures::p95, 0},
+    {"p99", &GreyMeasures::p99, 0},
+    {"p99.9", &GreyMeasures::p999, 0},
+    {"LV", &GreyMeasures::lv, 0},
+    {"LA", &GreyMeasures::la, 0},
+    {"RA", &GreyMeasures::ra, 0},
+    {"RV", &GreyMeasures::rv, 0},
+    {"wall", &GreyMeasures::wall, 0},
+    {"pericardium p90", &GreyMeasures::pericardium, 0},
+    {"pleura p90", &GreyMeasures::pleura, 0},
+    {"hinge p90", &GreyMeasures::hinge, 0},
+    {"brightest at these, %", &GreyMeasures::brightest, 1},
+    {"pericardium / wall, dB", &GreyMeasures::above_wall_db, 1, 1},
+    {"near field", &GreyMeasures::near_field, 0},
+    {"lung", &GreyMeasures::lung, 0},
+    {"border lost, %", &GreyMeasures::lost, 1}};
 
 void printRow(const std::string& name, const std::vector<GreyMeasures>& hearts) {
   fmt::print("| {} |", name);
@@ -194,7 +139,7 @@ void printRow(const std::string& name, const std::vector<GreyMeasures>& hearts) 
       continue;
     }
     const double median = quartilesOf(values).median;
-    fmt::print(" {:.{}f} |", column.digits == 1 ? 100 * median : median, column.digits);
+    fmt::print(" {:.{}f} |", column.digits == 1 ? column.scale * median : median, column.digits);
   }
   fmt::print("\n");
 }

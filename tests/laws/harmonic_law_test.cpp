@@ -11,6 +11,7 @@
 #include "signal/noise.h"
 #include "signal/profile_average.h"
 #include "support/plain_scene.h"
+#include "support/speckle_bed.h"
 
 namespace echocine::harmonic_law {
 namespace {
@@ -184,6 +185,46 @@ TEST(DownshiftLaw, WidensTheBeamAsALowerFrequencyDoes) {
                low = spreadOf(lower, 2 * factor);
   EXPECT_GT(shifted, 1.05 * plain);
   EXPECT_NEAR(shifted, low, 0.04 * low);
+}
+
+// Widths of speckle's intensity correlation, in samples and in lines, about a depth: the mean over
+// seeds.
+std::pair<double, double> cellOf(const SpeckleBed& bed, const PointSpread& spread, double path_m) {
+  std::vector<double> along(10), across(10);
+  const int k = static_cast<int>((path_m - bed.probe.min_depth_m) / bed.probe.sampleSpacing());
+  const Window window{0, bed.probe.lines - 10, k - 60, k + 60};
+  SpeckleSettings settings = bed.settings;
+  for (settings.seed = 1; settings.seed <= 6; ++settings.seed) {
+    const std::vector<float> picture =
+        bed.picture(Speckle(bed.probe, spread, settings, bed.material));
+    for (int lag = 0; lag < 10; ++lag) {
+      const auto at = static_cast<std::size_t>(lag);
+      along[at] += correlation(picture, picture, bed.probe.samples, window, 0, lag) / 6;
+      across[at] += correlation(picture, picture, bed.probe.samples, window, lag, 0) / 6;
+    }
+  }
+  return {widthAtHalf(along), widthAtHalf(across)};
+}
+
+// Cells of the same scatterers with and without downshift, next to the inverse of the closed form.
+TEST(DownshiftLaw, WidensSpeckleCellsBothWaysAsTheWavelengthGrows) {
+  SpeckleBed bed(ProbeKind::phased, 128, 1000, 0.01, 0.16);
+  bed.material.reach_m = 0.003;
+  Scene scene = plainScene({medium("tissue", 1060, 1540, 15, 0.1)});
+  scene.probe = bed.probe;
+  scene.signal.beam_width = BeamWidth::profile;
+  const PointSpread plain(scene);
+  scene.signal.downshift = true;
+  scene.signal.nominal_gain_np_per_m_hz = 7e-6;
+  const PointSpread shifted(scene);
+  for (const double path_m : {0.03, 0.14}) {
+    const double sigma_hz = spectrumDeviation(2, bed.probe.bandwidth) * bed.probe.frequency_hz;
+    const double wider = 1 / (1 - 4 * 7e-6 * path_m * sigma_hz * sigma_hz / bed.probe.frequency_hz);
+    const auto [axial, lateral] = cellOf(bed, plain, path_m);
+    const auto [axial_shifted, lateral_shifted] = cellOf(bed, shifted, path_m);
+    EXPECT_NEAR(axial_shifted / axial, wider, 0.02 * wider) << path_m;
+    EXPECT_NEAR(lateral_shifted / lateral, wider, 0.02 * wider) << path_m;
+  }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "metrics/statistics.h"
+#include "scene/sampled_beam.h"
 #include "speckle/coherent_ratio.h"
 #include "speckle/spline_taps.h"
 #include "support/speckle_bed.h"
@@ -77,20 +78,35 @@ struct SumCase {
   ProbeKind kind;
   int lines;
   double spacing_m;
+  double shift_np_per_m_hz = 0;  // attenuation of the downshift
 };
+
+PointSpread spreadOf(const Probe& probe, double shift_np_per_m_hz) {
+  Scene scene = plainScene({medium("tissue", 1050, 1540)});
+  scene.probe = probe;
+  scene.signal.pulse_cycles = 2;
+  scene.signal.beam_width = BeamWidth::profile;
+  scene.signal.downshift = shift_np_per_m_hz > 0;
+  scene.signal.nominal_gain_np_per_m_hz = shift_np_per_m_hz;
+  return PointSpread(scene);
+}
 
 class SpeckleSumLaw : public testing::TestWithParam<SumCase> {};
 
 TEST_P(SpeckleSumLaw, SumsOnTheGridAreSumsOfGaussians) {
   const SumCase& c = GetParam();
   const SpeckleBed bed = bedOf(c.kind, c.lines, static_cast<int>(0.02 / c.spacing_m), c.spacing_m);
-  const PointSpread spread(bed.probe, 2);
+  const PointSpread spread = spreadOf(bed.probe, c.shift_np_per_m_hz);
   const BeamView view(bed.probe, spread);
-  const double axial = spread.axial_m / bed.probe.sampleSpacing();
-  const auto lateral = [&](int k) {
-    return view.lateralLines(bed.probe.min_depth_m + (k + 0.5) * bed.probe.sampleSpacing());
+  const auto pathOf = [&](int k) {
+    return bed.probe.min_depth_m + (k + 0.5) * bed.probe.sampleSpacing();
   };
-  const std::vector<Point> points = randomPoints(bed.probe, 0.6, axial * lateral(0));
+  const auto axial = [&](int k) {
+    return spread.axial_m / bed.probe.sampleSpacing() /
+           downshiftOf(bed.probe, 2, c.shift_np_per_m_hz, pathOf(k));
+  };
+  const auto lateral = [&](int k) { return view.lateralLines(pathOf(k)); };
+  const std::vector<Point> points = randomPoints(bed.probe, 0.6, axial(0) * lateral(0));
   const CoherentRatio ratio(bed.probe, spread, view, 0);
   std::vector<float> seen = bed.even();
   CoherentRatio::Rows rows;
@@ -99,7 +115,7 @@ TEST_P(SpeckleSumLaw, SumsOnTheGridAreSumsOfGaussians) {
   std::vector<double> errors_db;
   for (int i = 0; i < bed.probe.lines; i += 7)
     for (int k = 0; k < bed.probe.samples; k += 1 + bed.probe.samples / 60) {
-      const double expected = plainRatio(points, i, k, lateral(k), axial);
+      const double expected = plainRatio(points, i, k, lateral(k), axial(k));
       const double error =
           static_cast<double>(seen[static_cast<std::size_t>(i * bed.probe.samples + k)]) - expected;
       squares += error * error, n += 1;
@@ -132,6 +148,9 @@ INSTANTIATE_TEST_SUITE_P(Grids, SpeckleSumLaw,
                                          SumCase{ProbeKind::phased, 256, 0.15625e-3},
                                          SumCase{ProbeKind::phased, 256, 0.3125e-3},
                                          SumCase{ProbeKind::phased, 600, 0.04e-3},
+                                         SumCase{ProbeKind::phased, 256, 0.15625e-3, 12e-6},
+                                         SumCase{ProbeKind::phased, 128, 0.3125e-3, 6e-6},
+                                         SumCase{ProbeKind::linear, 60, 0.15625e-3, 6e-6},
                                          SumCase{ProbeKind::linear, 60, 0.15625e-3},
                                          SumCase{ProbeKind::linear, 96, 0.05e-3},
                                          SumCase{ProbeKind::curvilinear, 128, 0.1e-3}));

@@ -138,7 +138,7 @@ TEST_F(Looks, ScannersDifferAndTakeQuality) {
   }
   EXPECT_EQ(ranges.size(), 5u);
   EXPECT_EQ(pulses.size(), 3u);
-  EXPECT_EQ(smoothings.size(), 4u);
+  EXPECT_EQ(smoothings.size(), 5u);
 }
 
 TEST_F(Looks, QualityIsOfScannersAlone) {
