@@ -10,8 +10,8 @@ namespace echocine::dataset {
 
 std::vector<const Layout*> layoutsOf(const Spec& spec) {
   std::vector<const Layout*> wanted;
-  for (const Layout* layout :
-       {&kCamus, &kEchonet, &kMyotracker, &kNative, &kNnunet, &kPointodyssey, &kWebdataset})
+  for (const Layout* layout : {&kCamus, &kDicom, &kEchonet, &kMyotracker, &kNative, &kNnunet,
+                               &kPointodyssey, &kWebdataset})
     if (spec.has(layout->name)) wanted.push_back(layout);
   return wanted;
 }

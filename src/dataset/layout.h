@@ -26,7 +26,8 @@ struct Layout {
 // The layouts of a spec, ordered by name.
 std::vector<const Layout*> layoutsOf(const Spec& spec);
 
-extern const Layout kNative, kEchonet, kCamus, kMyotracker, kNnunet, kPointodyssey, kWebdataset;
+extern const Layout kNative, kEchonet, kCamus, kDicom, kMyotracker, kNnunet, kPointodyssey,
+    kWebdataset;
 
 const char* nameOf(Split split);  // "train", "val", "test"
 

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "video/cine_writer.h"
+#include "video/dicom_writer.h"
 
 namespace echocine::dataset {
 
@@ -50,6 +51,16 @@ void Sink::writeCine(const std::string& name, std::span<const GreyImage* const> 
   CineWriter writer(path, settings, frame_rate_hz);
   for (const GreyImage* image : images)
     writer.add(encodeCineFrame(*image, settings.codec, kJpegQuality));
+  writer.finish();
+  files_[name] = markOf(path).value_or(FileMark{});
+}
+
+void Sink::writeDicom(const std::string& name, const DicomLoop& header,
+                      const std::function<const GreyImage&(std::size_t)>& picture) {
+  const std::filesystem::path path = place(name);
+  DicomWriter writer(path, header);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(header.frames); ++i)
+    writer.add(encodeDicomFrame(picture(i), header.scene.output));
   writer.finish();
   files_[name] = markOf(path).value_or(FileMark{});
 }

@@ -2,10 +2,12 @@
 // Writes a heart's files, and records a mark of each, by which a later run verifies them.
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 
 #include "dataset/dataset_loop.h"
+#include "video/dicom_header.h"
 
 namespace echocine::dataset {
 
@@ -28,6 +30,10 @@ class Sink {
   // Motion JPEG of frames of equal size. Throws JobError.
   void writeCine(const std::string& name, std::span<const GreyImage* const> images,
                  double frame_rate_hz);
+
+  // A DICOM loop of `header.frames` pictures. Throws JobError.
+  void writeDicom(const std::string& name, const DicomLoop& header,
+                  const std::function<const GreyImage&(std::size_t)>& picture);
 
   // Notes a file that is already there with this mark.
   void note(const std::string& name, const FileMark& mark) { files_[name] = mark; }

@@ -1,9 +1,8 @@
 #include "render/loop_files.h"
 
-#include <algorithm>
-
 #include "core/hash.h"
 #include "motion/cycle/cardiac_clock.h"
+#include "motion/cycle/r_waves.h"
 #include "scene/view_names.h"
 #include "truth/view_offset.h"
 
@@ -11,20 +10,10 @@ namespace echocine {
 
 namespace {
 
-// R waves of the beats that the frames belong to, s from the first frame.
-std::vector<double> rWaves(const CardiacClock& clock, std::pair<int, int> range) {
-  constexpr double kRounding_s = 1e-9;
-  std::vector<double> waves_s;
-  const double start_s = clock.at(range.first).time_s;
-  int beat = -1;
-  for (int frame = range.first; frame < range.second; ++frame) {
-    const FrameTime time = clock.at(frame);
-    if (time.beat == beat) continue;
-    beat = time.beat;
-    const double wave_s = time.time_s - time.time_in_beat_s - start_s;
-    if (wave_s > -kRounding_s) waves_s.push_back(std::max(0.0, wave_s));
-  }
-  return waves_s;
+std::vector<double> rWavesOf(const CardiacClock& clock, std::pair<int, int> range) {
+  std::vector<FrameTime> times;
+  for (int frame = range.first; frame < range.second; ++frame) times.push_back(clock.at(frame));
+  return rWaves(times);
 }
 
 // By the plane's position in the heart, so it does not matter how the scene places the probe.
@@ -43,7 +32,7 @@ LoopFiles::LoopFiles(const OutputFolder& folder, const Simulator& simulator,
   if (output_.dicom)
     dicom_.emplace(dicom_path_,
                    DicomLoop{scene, scene_sha256, range.first, range.second - range.first,
-                             rWaves(simulator.cardiacClock(), range), shownView(simulator)});
+                             rWavesOf(simulator.cardiacClock(), range), shownView(simulator)});
 }
 
 LoopFiles::Frame LoopFiles::encode(const GreyImage& image) const {

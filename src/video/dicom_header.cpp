@@ -77,20 +77,21 @@ void putCode(DcmItem& to, const DcmTagKey& sequence, const Code& code) {
 // Patient, study, series and equipment. Elements that must be there and have no value are empty.
 void putOrigin(DcmItem& data, const DicomLoop& loop) {
   const std::string& hash = loop.scene_sha256;
+  const std::string& exam = loop.examination_sha256.empty() ? hash : loop.examination_sha256;
   put(data, DCM_SOPClassUID, EVR_UI, UID_UltrasoundMultiframeImageStorage);
   put(data, DCM_SOPInstanceUID, EVR_UI,
       dicomUid(fmt::format("instance {} {} {}", hash, loop.first_frame, loop.frames)));
-  put(data, DCM_StudyInstanceUID, EVR_UI, dicomUid("study " + hash));
+  put(data, DCM_StudyInstanceUID, EVR_UI, dicomUid("study " + exam));
   put(data, DCM_SeriesInstanceUID, EVR_UI, dicomUid("series " + hash));
   put(data, DCM_PatientName, EVR_PN, "Synthetic^EchoCine");
-  put(data, DCM_PatientID, EVR_LO, "ECHOCINE-" + hash.substr(0, 16));
+  put(data, DCM_PatientID, EVR_LO, "ECHOCINE-" + exam.substr(0, 16));
   put(data, DCM_PatientBirthDate, EVR_DA, "");
   put(data, DCM_PatientSex, EVR_CS, "");
   put(data, DCM_StudyDate, EVR_DA, "");
   put(data, DCM_StudyTime, EVR_TM, "");
   put(data, DCM_AccessionNumber, EVR_SH, "");
   put(data, DCM_ReferringPhysicianName, EVR_PN, "");
-  put(data, DCM_StudyID, EVR_SH, hash.substr(0, 16));
+  put(data, DCM_StudyID, EVR_SH, exam.substr(0, 16));
   put(data, DCM_Modality, EVR_CS, "US");
   put(data, DCM_SeriesNumber, EVR_IS, "1");
   put(data, DCM_InstanceNumber, EVR_IS, "1");

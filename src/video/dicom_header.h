@@ -19,6 +19,9 @@ struct DicomLoop {
   int frames = 0;                 // at least 1
   std::vector<double> r_waves_s;  // from the first frame
   std::optional<View> view;       // the standard view of the imaging plane, if it is one
+  // What loops of one examination share: identifiers of patient and study are made of it. Empty: of
+  // the scene.
+  std::string examination_sha256{};
 };
 
 // Ultrasound Multi-frame Image (PS3.3 A.7): preamble, file meta information and the data set up to

@@ -183,7 +183,7 @@ TEST_F(DicomLoopFile, TheOptionAndTheKeyWriteTheSameFile) {
 class DicomViews : public DicomLoopFile {};
 
 // dicom3tools has the rules of the standard for this kind of object. The codes are those of context
-// group 12226 (PS3.16).
+// group 12226 (PS3.16), which includes 12343.
 TEST_F(DicomViews, StandardViewsPassTheValidatorAndAreCoded) {
   if (runShell("command -v dciodvfy").code != 0) GTEST_SKIP() << "no dciodvfy";
   ASSERT_EQ(runShell("%B heart -o" + quoted("heart")).code, 0);
@@ -191,7 +191,8 @@ TEST_F(DicomViews, StandardViewsPassTheValidatorAndAreCoded) {
   const std::size_t probe = heart.find("[probe]"), after = heart.find("[acquisition]");
   for (const auto& [view, code, codec] :
        {std::tuple{"a4c", "399214001", "mjpg"}, std::tuple{"a2c", "399232001", "mjpg"},
-        std::tuple{"plax", "399139001", "mjpg"}, std::tuple{"plax", "399139001", "ffv1"}}) {
+        std::tuple{"plax", "399139001", "mjpg"}, std::tuple{"tee-4c", "131100", "mjpg"},
+        std::tuple{"plax", "399139001", "ffv1"}}) {
     const std::string name = std::string(view) + codec;
     folder.write("heart/" + name + ".toml",
                  heart.substr(0, probe) + "[probe]\nkind = \"phased\"\nview = \"" + view +
