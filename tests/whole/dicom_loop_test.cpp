@@ -1,4 +1,4 @@
-// The loop as DICOM: read back by our reader, by pydicom, and checked by dciodvfy.
+// The loop as DICOM: read back by our reader, by pydicom and by GDCM, and checked by dciodvfy.
 
 #include <gtest/gtest.h>
 
@@ -238,6 +238,20 @@ assert abs(x + w / 2) <= r.PhysicalDeltaX, (x, w)
 )");
   const Outcome o = runShell("/usr/bin/python3" + quoted("read.py") + quoted("loop/cine.dcm"));
   EXPECT_EQ(o.code, 0) << o.err;
+}
+
+// GDCM, an independent reader: size, scale, and the pixels that it decodes.
+TEST_F(DicomLoopFile, GdcmReadsTheLoop) {
+  if (runShell("command -v gdcmconv").code != 0) GTEST_SKIP() << "no gdcm";
+  const Scene scene = render(dicomScene(), "loop");
+  const Outcome told = runShell("gdcminfo" + quoted("loop/cine.dcm"));
+  EXPECT_NE(told.out.find("Dimensions: (160,120,48)"), std::string::npos) << told.out;
+  const std::size_t spacing = told.out.find("Spacing: (");
+  ASSERT_NE(spacing, std::string::npos) << told.out;
+  EXPECT_NEAR(std::stod(told.out.substr(spacing + 10)),
+              1e3 * pictureGeometry(scene).metres_per_pixel, 1e-4);
+  ASSERT_EQ(runShell("gdcmconv --raw" + quoted("loop/cine.dcm") + quoted("raw.dcm")).code, 0);
+  EXPECT_LE(worstDifference(readVideo(folder / "raw.dcm"), readVideo(folder / "loop/cine.dcm")), 2);
 }
 
 }  // namespace
