@@ -7,7 +7,10 @@
 #include <string>
 
 #include "dataset/dataset_loop.h"
-#include "video/dicom_header.h"
+
+namespace echocine {
+struct DicomLoop;
+}
 
 namespace echocine::dataset {
 

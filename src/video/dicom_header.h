@@ -19,8 +19,8 @@ struct DicomLoop {
   int frames = 0;                 // at least 1
   std::vector<double> r_waves_s;  // from the first frame
   std::optional<View> view;       // the standard view of the imaging plane, if it is one
-  // What loops of one examination share: identifiers of patient and study are made of it. Empty: of
-  // the scene.
+  // The same for all loops of an examination: identifiers of patient and study are made of it.
+  // Empty: made of the scene.
   std::string examination_sha256{};
 };
 
