@@ -276,8 +276,7 @@ TEST(BeamRecording, DamagedFilesEndInOneLine) {
   for (const fs::path& file : files) {
     const bool zea = file == archives.zea;
     const std::string whole = bytesOf(file);
-    const std::uint64_t seeds = (zea ? 80u : 3u) * (allCases() ? 3u : 1u);
-    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    for (std::uint64_t seed = 0; seed < (zea ? 80 : 3) * (allCases() ? 3u : 1u); ++seed) {
       SCOPED_TRACE(fmt::format("{} {}", file.filename().string(), seed));
       writeBytes(file, damaged(whole, seed));
       try {
