@@ -282,8 +282,7 @@ TEST(BeamRecording, DamagedFilesEndInOneLine) {
       try {
         const echo::EchoLoop read = echo::readLoop(zea ? archives.zea : archives.zarr, {}, true);
         for (const std::vector<float>& frame : read.traced.frames)
-          EXPECT_EQ(frame.size(), static_cast<std::size_t>(read.traced.lines) *
-                                      static_cast<std::size_t>(read.traced.samples));
+          EXPECT_EQ(std::ssize(frame), read.traced.lines * read.traced.samples);
       } catch (const SceneError& error) {
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
         ++refused;
