@@ -54,7 +54,7 @@ std::vector<BoundaryOffset> offsetsOf(const ModelFrame& frame, const echo::EchoS
     out.push_back({static_cast<float>(x), static_cast<float>(z),
                    static_cast<float>(1e3 * edge.mean_m), static_cast<float>(edge.certainty()),
                    static_cast<float>(tracked ? 1e3 * std::sqrt(m.apart) : -1), p.surface,
-                   p.segment});
+                   p.segment, p.of_blood});
   }
   return out;
 }

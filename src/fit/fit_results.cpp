@@ -53,6 +53,7 @@ Json viewsJson(const HeartFit& fit, const std::vector<std::string>& labels) {
       json["controls"] = {{"own", view.controls->own},
                           {"mirrored", view.controls->mirrored},
                           {"shuffled", view.controls->shuffled}};
+    json["regions"] = regionsJson(view.regions);
     out.push_back(std::move(json));
   }
   return out;

@@ -78,6 +78,7 @@ struct BoundaryOffset {
   float motion_mm = 0;  // |u - v|; negative without tracking
   std::uint16_t surface = 0;
   std::uint8_t segment = 0;  // of the left ventricle's wall; 0: none
+  bool of_blood = false;     // blood on exactly one side
 };
 // Residual of the real grey level in a cell, in standard deviations.
 struct RegionLeft {
@@ -97,6 +98,7 @@ struct OffsetCurve {
   std::size_t part = 0;                        // a structure, or a segment of 1 to 17
   std::vector<double> offset_mm, distance_mm;  // by frame: mean offset, mean absolute offset
   std::vector<double> motion_mm;               // mean of |u - v|, unweighted
+  double pieces = 0, certainty = 0;  // of the boundary, a frame; mean certainty of a piece
 };
 // Curves of structures with a visible boundary, and of such segments of the left ventricle's wall.
 std::vector<OffsetCurve> offsetCurves(const FitMap& map, std::size_t structures);

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "fit/fit_descent.h"
+#include "fit/fit_regions.h"
 #include "fit/own_loop.h"
 #include "motion/heart/heart.h"
 
@@ -20,12 +21,24 @@ bool exists(const std::map<std::string, double>& dials) {
   }
 }
 
+// The seed of an own loop of a view.
+int seedOf(std::size_t view, int twin) {
+  return 71 + static_cast<int>(view) + 100 * twin;
+}
+
+echo::SideOptions fromFirst() {
+  echo::SideOptions side;
+  side.ed_frame = 0;
+  return side;
+}
+
 }  // namespace
 
 FittedSides::FittedSides(const std::vector<FitLoop>& loops, const HeartNodes& hearts,
                          double tilt_deg, const Monitor& monitor) {
   for (const FitLoop& one : loops)
-    families.push_back(std::make_shared<const HeartFamily>(hearts, one.view, monitor, tilt_deg));
+    families.push_back(
+        std::make_shared<const HeartFamily>(hearts, one.view, monitor, tilt_deg, true));
 }
 
 void FittedSides::compare(const std::vector<FitLoop>& loops, const std::vector<double>& dials) {
@@ -46,27 +59,37 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
                                   const std::vector<heart::View>& views, const FitPlace& best,
                                   double tilt_deg, const Monitor& monitor,
                                   const std::shared_ptr<FitJournal>& journal) {
-  constexpr int kSeed = 71;
   FittedSides own;
   own.families = sides.families;
   OwnFit out;
+  std::vector<std::vector<echo::EchoLoop>> loops;
+  std::vector<std::deque<ModelDiscrepancy>> others;  // than the first loop
   for (std::size_t v = 0; v < views.size(); ++v) {
-    if (!monitor.keep_going()) return std::nullopt;
     const PlaneTilt tilt = cost.tiltAt(best.at, v);
-    const echo::EchoLoop loop =
-        ownLoop(cost.dialsAt(best.at), views[v], tilt, kFitFrames, kSeed + static_cast<int>(v));
-    echo::SideOptions side;
-    side.ed_frame = 0;
     const ModelLoop model = own.families[v]->at(cost.searchedAt(best.at), tilt);
-    own.discrepancies.emplace_back(loop, side, model);
-    const ModelDiscrepancy& discrepancy = own.discrepancies.back();
-    const FitPose pose = discrepancy.refine(model, {FitPose{}}).pose;
-    out.report.push_back(fitReport(model, discrepancy, loop, pose));
+    loops.emplace_back();
+    others.emplace_back();
+    for (int twin = 0; twin < kTwins; ++twin) {
+      if (!monitor.keep_going()) return std::nullopt;
+      loops[v].push_back(
+          ownLoop(cost.dialsAt(best.at), views[v], tilt, kFitFrames, seedOf(v, twin)));
+      (twin == 0 ? own.discrepancies : others[v]).emplace_back(loops[v].back(), fromFirst(), model);
+    }
   }
   const FitCost again(own.refer(), cost.fixed(), tilt_deg, {journal, "own loops"});
   const FitDescent found = descendFit(again, {best.at, {}, 0}, monitor);
   if (found.stopped) return std::nullopt;
   for (std::size_t i = 0; i < cost.dials(); ++i) out.error.push_back(found.best.at[i] - best.at[i]);
+  // With the dials that the fit finds: maps of the real loops have the same bias.
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const ModelLoop model =
+        own.families[v]->at(cost.searchedAt(found.best.at), cost.tiltAt(found.best.at, v));
+    const FitPose pose = own.discrepancies[v].refine(model, {FitPose{}}).pose;
+    out.report.push_back(fitReport(model, own.discrepancies[v], loops[v].front(), pose));
+    out.twins.push_back({out.report.back().map});
+    for (const ModelDiscrepancy& other : others[v])
+      out.twins.back().push_back(other.map(model, other.refine(model, {FitPose{}}).pose));
+  }
   return out;
 }
 

@@ -24,8 +24,11 @@ struct FittedSides {
 
 // A fit of the best heart's own rendered loops.
 struct OwnFit {
-  std::vector<double> error;      // found minus rendered, by dial
-  std::vector<FitReport> report;  // by view: the heart against its own loop
+  std::vector<double> error;  // found minus rendered, by dial
+  // By view: the heart that the fit finds in its own loop, against this loop; then against kTwins
+  // own loops, the first included. They have the bias of the fit.
+  std::vector<FitReport> report;
+  std::vector<std::vector<FitMap>> twins;
 };
 
 // None if the monitor stopped it. Throws SceneError for an impossible heart. Runs in parallel.

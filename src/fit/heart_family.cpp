@@ -94,7 +94,7 @@ HeartFamily::HeartFamily(const std::map<std::string, double>& dials,
     : HeartFamily(HeartNodes(dials, ranges, frames, nodes, monitor), view, monitor, tilt_deg) {}
 
 HeartFamily::HeartFamily(const HeartNodes& hearts, heart::View view, const Monitor& monitor,
-                         double tilt_deg)
+                         double tilt_deg, bool segments)
     : design_(hearts.design()), tilt_rad_(radiansFromDegrees(tilt_deg)) {
   if (!(tilt_deg >= 0 && tilt_deg <= kMostTilt_deg))
     throw SceneError(
@@ -111,6 +111,7 @@ HeartFamily::HeartFamily(const HeartNodes& hearts, heart::View view, const Monit
       if (n == 0) {
         scene_ = scene;
         all = motion.surfaces();
+        if (segments) segments_ = wallSegments(scene, motion);
       }
       systoles_[n] = scene.motion.end_systole_phase.value_or(0);
       for (int i = 0; i < frames; ++i)
@@ -182,6 +183,11 @@ void HeartFamily::keepNearPlane(const std::vector<SurfaceTopology>& all,
       surface.triangles.push_back(triangle);
     }
     surface.vertex_count = static_cast<std::uint32_t>(kept.size());
+    if (segments_ && index(whole.id) == segments_->surface) {
+      std::vector<std::uint8_t> of_kept;
+      for (const std::uint32_t v : kept) of_kept.push_back(segments_->of_vertex[v]);
+      segments_->of_vertex = std::move(of_kept);
+    }
     surfaces_.push_back(std::move(surface));
     kept_.push_back(std::move(kept));
   }
@@ -234,7 +240,7 @@ ModelLoop HeartFamily::at(const std::vector<double>& values, const PlaneTilt& ti
   checkAngle("rotate_deg", tilt.rotate_rad, tilt_rad_);
   std::vector<SurfaceFrame> surfaces = surfacesAt(values);
   if (tilt_rad_ > 0) tiltSurfaces(tilt, surfaces);
-  ModelLoop loop = ModelPlane(scene_, surfaces_).cut(surfaces);
+  ModelLoop loop = ModelPlane(scene_, surfaces_, segments_).cut(surfaces);
   const std::vector<float> share = design_.shares(values);
   for (std::size_t n = 0; n < share.size(); ++n)
     loop.systole += static_cast<double>(share[n]) * systoles_[n];

@@ -54,10 +54,11 @@ class HeartNodes {
 // view follows each heart, so the plane moves with the dials as in `echocine heart`.
 class HeartFamily {
  public:
-  // tilt_deg: limit of tilt and rotation of the plane, either way, 0 to kMostTilt_deg. Throws
-  // SceneError for another, JobError when the monitor requests a stop.
+  // tilt_deg: limit of tilt and rotation of the plane, either way, 0 to kMostTilt_deg. segments:
+  // of the left ventricle's wall are known too, which takes a second of one core. Throws
+  // SceneError for another limit, JobError when the monitor requests a stop.
   HeartFamily(const HeartNodes& hearts, heart::View view, const Monitor& monitor = {},
-              double tilt_deg = 0);
+              double tilt_deg = 0, bool segments = false);
   // A family of one view; computes its hearts, 0.8 s of one core each. Throws like HeartNodes.
   HeartFamily(const std::map<std::string, double>& dials, const std::vector<DialRange>& ranges,
               heart::View view, int frames, int nodes, const Monitor& monitor = {},
@@ -84,6 +85,7 @@ class HeartFamily {
   std::vector<double> systoles_;  // end-systole of each computed heart, as a fraction of its beat
   double tilt_rad_;               // limit of tilt and rotation, either way
   Scene scene_;                   // of the first node, without meshes
+  std::optional<WallSegments> segments_;  // of the first node's material, which all share
   std::vector<SurfaceTopology> surfaces_;
   std::vector<std::vector<std::uint32_t>> kept_;  // vertices, by surface
   // By frame and surface: eight coordinates of the first node, then the same eight of each other

@@ -10,7 +10,7 @@
 
 #include "fit/fit_controls.h"
 #include "fit/fit_cost.h"
-#include "fit/fit_report.h"
+#include "fit/fit_regions.h"
 #include "fit/view_check.h"
 
 namespace echocine::fit {
@@ -66,6 +66,7 @@ struct ViewFitted {
   std::optional<ControlFits> controls{};
   std::optional<ViewRival> better{};  // another view that fits better
   std::optional<FitReport> own{};  // of the best heart in its own rendered loop, if that is fitted
+  std::vector<RegionFinding> regions{};  // the same; empty without own loops
 };
 
 // Another descent's end.

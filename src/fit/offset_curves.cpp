@@ -16,12 +16,14 @@ std::optional<OffsetCurve> curveOf(const FitMap& map, std::size_t part, const Be
     return weight > 0 ? sum / weight : std::numeric_limits<double>::quiet_NaN();
   };
   OffsetCurve curve{part, {}, {}, {}};
+  double pieces = 0, certain = 0;
   bool seen = false;
   for (const std::vector<BoundaryOffset>& frame : map.boundary) {
     double weight = 0, offset = 0, distance = 0, tracked = 0, motion = 0;
     for (const BoundaryOffset& p : frame) {
       if (!belongs(p)) continue;
       const double w = p.certainty, mm = p.offset_mm;
+      ++pieces, certain += w;
       weight += w, offset += w * mm, distance += w * std::abs(mm);
       if (p.motion_mm >= 0) tracked += 1, motion += static_cast<double>(p.motion_mm);
     }
@@ -30,6 +32,8 @@ std::optional<OffsetCurve> curveOf(const FitMap& map, std::size_t part, const Be
     curve.distance_mm.push_back(mean(distance, weight));
     curve.motion_mm.push_back(mean(motion, tracked));
   }
+  curve.pieces = mean(pieces, static_cast<double>(map.boundary.size()));
+  curve.certainty = mean(certain, pieces);
   return seen ? std::optional(std::move(curve)) : std::nullopt;
 }
 

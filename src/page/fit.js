@@ -100,6 +100,19 @@
     }
   }
 
+  // Without own loops nothing is known of regions.
+  function showRegions() {
+    const all = views.flatMap(({ view, regions }) => regions.map((r) => ({ view, ...r }))), shown = all.filter((r) => r.visible), found = all.filter((r) => r.significant);
+    byId("regions").hidden = !all.length;
+    byId("regions").querySelector("p").textContent = (found.length ? `${found.length} of ${shown.length} visible regions differ` : `None of ${shown.length} visible regions differs`)
+      + " by more than a perfect model would. Offset: mean over the beat. Change: offset at end-systole minus that at end-diastole, positive where a wall moves less."
+      + " In brackets: standard deviation for a perfect model. Positive offsets lie outside the heart's chamber.";
+    page.table(byId("regions").querySelector("div"), { columns: [{ label: "view" }, { label: "region" },
+      ...["offset, mm", "change, mm"].map((label) => ({ label, number: true })), { label: "" }],
+    rows: [...found, ...all.filter((r) => !r.significant)].map((r) => [r.view, r.segment ?? r.structure,
+      `${fixed(r.offset_mm, 1)} (${fixed(r.offset_sd_mm, 1)})`, `${fixed(r.motion_mm, 1)} (${fixed(r.motion_sd_mm, 1)})`, r.significant ? "differs" : r.visible ? "" : "hardly visible"]) });
+  }
+
   function showTables() {
     page.table(byId("result"), { columns: [{ label: "dial" }, ...["value", "SD", "SD of the prior", "own error"]
       .map((label) => ({ label, number: true })), { label: "" }],
@@ -122,5 +135,6 @@
   showHeart(player);
   showVolume(player);
   showOffsets(player);
+  showRegions();
   showTables();
 })();

@@ -80,6 +80,13 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
       number, fit.ef->value, true_ef, ef_error, ef_error + own("ef"), fit.edv_ml->value, true_edv,
       100 * edv_error, 100 * (edv_error + own("edv") / true_edv), 1e-3 * fit.cpu_ms);
   for (const std::string& hint : fit.hints) fmt::print("  {}\n", hint);
+  for (const ViewFitted& view : fit.views)
+    for (const RegionFinding& r : view.regions)
+      fmt::print(
+          "  {} {}: offset {:+.2f} ({:.2f}) mm, motion {:+.2f} ({:.2f}) mm, {:.0f} pieces, "
+          "certainty {:.2f}{}\n",
+          keyOf(view.view), r.name, r.offset_mm, r.offset_sd_mm, r.motion_mm, r.motion_sd_mm,
+          r.pieces, r.certainty, r.significant ? ", significant" : "");
   std::fflush(stdout);
 }
 

@@ -32,6 +32,13 @@ class FitPage(browser.PageTest):
         self.assertEqual(self.run_script("return page.parts.player.index"), 8)
         self.assertAlmostEqual(self.run_script("return page.parts.space.phase"), 8 / 20)
 
+    def test_regions_of_the_file_are_listed(self):
+        with open(os.path.join(os.path.dirname(PAGE[0]), "fit.json")) as file:
+            regions = json.load(file)["views"][0]["regions"]
+        self.assertIn("mid inferoseptal", [region.get("segment") for region in regions])
+        rows = self.run_script("return Array.from(document.querySelectorAll('#regions tbody tr'), (row) => [row.cells[1].textContent, row.cells[4].textContent])")
+        self.assertEqual(sorted(rows), sorted([region.get("segment", region.get("structure")), "differs" if region["significant"] else "" if region["visible"] else "hardly visible"] for region in regions))
+
     def test_the_band_holds_the_volume(self):
         low, width, value = self.run_script("""
             return page.parts.charts[0].getOption().series.map((s) => s.data.map((p) => p[1]));""")

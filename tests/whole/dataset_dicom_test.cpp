@@ -39,8 +39,8 @@ class DatasetDicom : public testing::Test {
 TEST_F(DatasetDicom, LoopsAreThoseOfTheNativeLayout) {
   make();
   for (const std::string id : {"ec000001_a4c", "ec000001_plax"}) {
-    const echo::EchoLoop dicom = echo::readLoop(fileOf(id), {}),
-                         cine = echo::readLoop(folder / "data/native" / id / "cine.avi", {});
+    const echo::EchoLoop dicom = echo::readLoop(fileOf(id), {}, true),
+                         cine = echo::readLoop(folder / "data/native" / id / "cine.avi", {}, true);
     ASSERT_EQ(dicom.video.frameCount(), cine.video.frameCount());
     EXPECT_NEAR(dicom.video.rate.hz, cine.video.rate.hz, 1e-3);
     int worst = 0;

@@ -1,0 +1,118 @@
+// Defects of the septum are found where they are; a perfect model shows nothing. More hearts and
+// looks: tests/bench/defects_main.cpp.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/parallel.h"
+#include "fit/fit_regions.h"
+#include "support/planted_defects.h"
+
+namespace echocine::fit {
+namespace {
+
+using namespace support;
+
+Scene small(Scene scene) {
+  scene.probe.lines = 80;
+  scene.probe.samples = 384;
+  return scene;
+}
+
+TEST(FitRegions, DefectsOfTheSeptumAreFoundInItAndAPerfectModelShowsNone) {
+  withThreads(2, [] {
+    const std::map<std::string, double> dials{{"ef", 0.55}, {"edv", 140}};
+    constexpr int kKeyframes = 10;
+    const Scene healthy =
+        small(defectScene(dials, Defect::none, View::a4c, kKeyframes, Look::scanner));
+    const PerfectModel perfect(healthy);
+    int seed = 300;
+    for (const Defect defect : kDefects) {
+      const Scene scene =
+          defect == Defect::none
+              ? healthy
+              : small(defectScene(dials, defect, View::a4c, kKeyframes, Look::scanner));
+      const std::vector<RegionFinding> regions =
+          perfect.against(scannedLoop(scene, kFitFrames, ++seed));
+      const Detected detected = detectedBy(regions);
+      EXPECT_EQ(detected.in_septum, defect != Defect::none) << nameOf(defect);
+      if (defect == Defect::none) {
+        EXPECT_EQ(detected.significant, 0);
+      }
+      for (const RegionFinding& r : regions)
+        if (r.segment == 9) {
+          std::printf("%s: %s: %+.1f mm, change %+.1f mm\n", nameOf(defect), r.name.c_str(),
+                      r.offset_mm, r.motion_mm);
+          // Thick: the edges lie inside the chamber; a hole: outside; still: outside at
+          // end-systole.
+          EXPECT_EQ(r.offset_mm < -1, defect == Defect::thick);
+          EXPECT_EQ(r.motion_mm > 2, defect == Defect::still);
+        }
+    }
+  });
+}
+
+// A map of one structure with a segment: 12 pieces with an offset that changes over the beat.
+FitMap mapOf(double at_rest_mm, double at_systole_mm, float certainty, int pieces = 12) {
+  FitMap map;
+  for (int n = 0; n < kFitFrames; ++n) {
+    const double phase = static_cast<double>(n) / kFitFrames,
+                 mm = phase > 0.2 && phase < 0.6 ? at_systole_mm : at_rest_mm;
+    map.boundary.emplace_back(
+        static_cast<std::size_t>(pieces),
+        BoundaryOffset{0, 0, static_cast<float>(mm), certainty, -1, 0, 9, true});
+  }
+  return map;
+}
+
+std::vector<RegionFinding> findingsOf(const FitMap& loop, const std::vector<FitMap>& twins) {
+  FitReport report;
+  report.map = loop;
+  report.structures = {"cavity"};
+  return regionFindings(report, 0.4, twins, kKnownDials);
+}
+
+// Closed forms: the twins' mean is subtracted, their spread widens the standard deviation.
+TEST(FitRegions, TheMeanOfTheTwinsIsSubtractedAndTheirSpreadIsNoise) {
+  const std::vector<FitMap> equal(3, mapOf(-3, -3, 0.5F)),
+      apart{mapOf(-4, -4, 0.5F), mapOf(-3, -3, 0.5F), mapOf(-2, -2, 0.5F)};
+  for (const RegionFinding& r : findingsOf(mapOf(-3, -3, 0.5F), equal)) {
+    EXPECT_NEAR(r.offset_mm, 0, 1e-6);
+    EXPECT_NEAR(r.motion_mm, 0, 1e-6);
+    EXPECT_FALSE(r.significant);
+  }
+  const auto still = findingsOf(mapOf(-3, 2, 0.5F), equal),
+             noisy = findingsOf(mapOf(-3, 2, 0.5F), apart);
+  ASSERT_EQ(still.size(), 2u);  // the structure, then the segment
+  EXPECT_EQ(still[0].name, "cavity");
+  EXPECT_EQ(still[1].segment, 9u);
+  EXPECT_EQ(still[1].name, "mid inferoseptal");
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(still[i].motion_mm, 5, 1e-6);
+    EXPECT_NEAR(still[i].offset_mm, 5 * 7 / 20.0, 1e-6);  // frames 5 to 11
+    EXPECT_TRUE(still[i].significant);
+    // Variance 1 of the twins, 1/3 of their mean.
+    EXPECT_NEAR(noisy[i].offset_sd_mm * noisy[i].offset_sd_mm -
+                    still[i].offset_sd_mm * still[i].offset_sd_mm,
+                4.0 / 3, 1e-6);
+    EXPECT_NEAR(noisy[i].motion_sd_mm, still[i].motion_sd_mm, 1e-6);
+  }
+}
+
+TEST(FitRegions, WhatIsHardlyVisibleIsNotSignificant) {
+  const std::vector<FitMap> twins(2, mapOf(-3, -3, 0.5F));
+  for (const FitMap& loop : {mapOf(0, 30, 0.05F), mapOf(0, 30, 0.5F, 4)})
+    for (const RegionFinding& r : findingsOf(loop, twins)) {
+      EXPECT_GT(r.deviations(), kRegionSds);
+      EXPECT_FALSE(r.visible);
+      EXPECT_FALSE(r.significant);
+    }
+  const nlohmann::ordered_json json = regionsJson(findingsOf(mapOf(0, 9, 0.5F), twins));
+  EXPECT_EQ(json[0]["structure"], "cavity");
+  EXPECT_EQ(json[1]["segment"], "mid inferoseptal");
+  EXPECT_EQ(json[1]["significant"], true);
+}
+
+}  // namespace
+}  // namespace echocine::fit
