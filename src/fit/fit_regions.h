@@ -32,11 +32,11 @@ inline constexpr int kTwins = 3;
 
 // Standard deviations that the own loops of a perfect model do not show: other media, gain and
 // looks, and for fitted dials the error of the fit. From planted hearts (tests/bench/fit); those of
-// fitted dials from one heart only.
+// fitted dials from few hearts.
 struct RegionFloor {
   double segment_mm = 0, structure_mm = 0;
 };
-inline constexpr RegionFloor kKnownDials{0.4, 0.5}, kFittedDials{0.8, 0.9};
+inline constexpr RegionFloor kKnownDials{0.4, 0.5}, kFittedDials{0.9, 1.0};
 
 // Findings of all structures beside blood and all segments that the loop and all twins show, the
 // structures first. A twin is the map of the heart against one of its own rendered loops.
