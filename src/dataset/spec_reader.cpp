@@ -228,7 +228,8 @@ void readSplit(TomlTable split, Spec& spec) {
 }  // namespace
 
 std::vector<std::string> layoutNames() {
-  return {"camus", "dicom", "echonet", "myotracker", "native", "nnunet", "pointodyssey", "webdataset"};
+  return {"camus",  "dicom",  "echonet",      "myotracker",
+          "native", "nnunet", "pointodyssey", "webdataset"};
 }
 
 Spec parseSpec(std::string_view text, const std::filesystem::path& path) {
