@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the pictures of this folder again: loop.gif, views.png, truth.png, report.png and study.png.
+"""Draws the pictures of this folder again: loop.gif, views.png, probes.png, truth.png, report.png and study.png.
 
     examples/beating_heart/pictures.py [--program build/release/echocine] [--work FOLDER] [NAME ...]
 
@@ -16,6 +16,21 @@ import subprocess
 
 HERE = pathlib.Path(__file__).resolve().parent
 VIEWS = ["a4c", "a2c", "a3c", "plax", "psax-base", "psax-mid", "psax-apex", "subcostal"]
+CATHETER = """[probe]
+kind = "radial"
+apex = [0, 0, -22]
+axis = [0, 0, 1]
+lateral = [1, 0, 0]
+face_radius_mm = 1.7
+min_depth_mm = 1
+depth_mm = 65
+frequency_mhz = 5
+aperture_mm = 3
+elevation_aperture_mm = 3
+elevation_focus_mm = 25
+lines = 360
+
+"""
 END_SYSTOLE = 15  # frame of the shipped heart at 50 frames per second
 TRUTH_FRAMES = [0, 9, 18, 30]
 CROP = (40, 0, 720, 508)  # of a cine of 800 x 600: left, top, width, height; without the ECG
@@ -122,6 +137,20 @@ class Pictures:
             f"{small}{tiles}xstack=inputs={count}:layout={places},format=gray", "-frames:v", "1",
             HERE / "views.png")
 
+    def probes(self):
+        """Transoesophageal, and a catheter in the left atrium."""
+        tee = self.made("heart_tee", "heart", "--view", "tee-4c")
+        text = (tee / "scene.toml").read_text()
+        begin, end = text.index("[probe]"), text.index("[acquisition]")
+        (tee / "catheter.toml").write_text(text[:begin] + CATHETER + text[end:])
+        inputs = []
+        for scene in ("scene", "catheter"):
+            loop = self.made(f"probes_{scene}", "render", tee / f"{scene}.toml", "--frames", "0:1")
+            inputs += ["-i", loop / "cine.avi"]
+        run("ffmpeg", "-v", "error", "-y", *inputs, "-filter_complex",
+            "[0]scale=600:450:flags=area[a];[1]scale=600:450:flags=area[b];[a][b]hstack,format=gray",
+            "-frames:v", "1", HERE / "probes.png")
+
     def truth(self):
         folder = self.shipped()
         frames = []
@@ -153,7 +182,7 @@ def data_url(path):
 
 
 def main():
-    names = ["loop", "views", "truth", "report", "study"]
+    names = ["loop", "views", "probes", "truth", "report", "study"]
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(names))
     parser.add_argument("--program", type=pathlib.Path, default="build/release/echocine")
