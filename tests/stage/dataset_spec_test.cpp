@@ -92,7 +92,7 @@ TEST(DatasetSpec, SceneKeysAreTriedAtTheirEnds) {
 
 TEST(DatasetSpec, LayoutsThatCannotHoldTheLoopsAreRefused) {
   expectRefused(kStart + "layouts = [\"camus\"]\n", {"camus", "a2c"});
-  expectRefused(kStart + "layouts = [\"dicom\"]\n", {"dicom", "echonet"});
+  expectRefused(kStart + "layouts = [\"minc\"]\n", {"minc", "echonet"});
   expectRefused("hearts = 4\nviews = [\"psax-mid\"]\nlayouts = [\"echonet\"]\n",
                 {"echonet", "a4c"});
 }
