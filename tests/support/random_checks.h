@@ -15,7 +15,7 @@
 namespace echocine::support {
 
 #if defined(NDEBUG)
-inline constexpr std::uint64_t kScenes = 4000;
+inline constexpr std::uint64_t kScenes = 2500;
 #elif defined(ECHOCINE_SANITIZED)
 inline constexpr std::uint64_t kScenes = 200;
 #else
