@@ -169,9 +169,7 @@ double fittingDepth(std::span<const Facet> outside_m, const ProbePose& pose, dou
       shown, [&](Vec3d p) { return dot(p - pose.apex, up); }, -beam_m);
   shown = partAbove(
       shown, [&](Vec3d p) { return -dot(p - pose.apex, up); }, -beam_m);
-  const bool all_round = half_rad >= std::numbers::pi;
-  for (const double side : {-1.0, 1.0}) {
-    if (all_round) break;
+  const auto beside = [&](double side) {
     shown = partAbove(
         shown,
         [&](Vec3d p) {
@@ -179,6 +177,10 @@ double fittingDepth(std::span<const Facet> outside_m, const ProbePose& pose, dou
                  side * cosine * dot(p - pose.apex, pose.lateral);
         },
         0);
+  };
+  if (half_rad < std::numbers::pi) {
+    beside(-1);
+    beside(1);
   }
   // Continuous, not in steps as on a scanner: similar hearts have similar pictures.
   return farthestFrom(shown, pose.apex) + kBehind_m * scale;

@@ -21,7 +21,11 @@ std::string identity(const Spec& spec, const std::string& name) {
 void writeDicom(const Spec& spec, const Heart& heart, Sink& sink, Json&) {
   for (const LoopSample& loop : heart.loops) {
     std::vector<FrameTime> times;
-    for (const LoopFrame& frame : loop.frames) times.push_back(frame.time);
+    std::vector<const GreyImage*> images;
+    for (const LoopFrame& frame : loop.frames) {
+      times.push_back(frame.time);
+      images.push_back(&frame.image);
+    }
     DicomLoop header{loop.scene,
                      identity(spec, loop.id),
                      0,
@@ -32,8 +36,7 @@ void writeDicom(const Spec& spec, const Heart& heart, Sink& sink, Json&) {
     OutputSettings& output = header.scene.output;
     output.codec = CineCodec::mjpg;
     output.jpeg_quality = kJpegQuality;
-    sink.writeDicom(fmt::format("dicom/{}/{}.dcm", nameOf(heart.split), loop.id), header,
-                    [&](std::size_t i) -> const GreyImage& { return loop.frames[i].image; });
+    sink.writeDicom(fmt::format("dicom/{}/{}.dcm", nameOf(heart.split), loop.id), images, header);
   }
 }
 

@@ -55,12 +55,11 @@ void Sink::writeCine(const std::string& name, std::span<const GreyImage* const> 
   files_[name] = markOf(path).value_or(FileMark{});
 }
 
-void Sink::writeDicom(const std::string& name, const DicomLoop& header,
-                      const std::function<const GreyImage&(std::size_t)>& picture) {
+void Sink::writeDicom(const std::string& name, std::span<const GreyImage* const> images,
+                      const DicomLoop& header) {
   const std::filesystem::path path = place(name);
   DicomWriter writer(path, header);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(header.frames); ++i)
-    writer.add(encodeDicomFrame(picture(i), header.scene.output));
+  for (const GreyImage* image : images) writer.add(encodeDicomFrame(*image, header.scene.output));
   writer.finish();
   files_[name] = markOf(path).value_or(FileMark{});
 }

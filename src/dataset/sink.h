@@ -2,7 +2,6 @@
 // Writes a heart's files, and records a mark of each, by which a later run verifies them.
 
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <string>
 
@@ -34,9 +33,9 @@ class Sink {
   void writeCine(const std::string& name, std::span<const GreyImage* const> images,
                  double frame_rate_hz);
 
-  // A DICOM loop of `header.frames` pictures. Throws JobError.
-  void writeDicom(const std::string& name, const DicomLoop& header,
-                  const std::function<const GreyImage&(std::size_t)>& picture);
+  // A DICOM loop of as many pictures as the header states. Throws JobError.
+  void writeDicom(const std::string& name, std::span<const GreyImage* const> images,
+                  const DicomLoop& header);
 
   // Notes a file that is already there with this mark.
   void note(const std::string& name, const FileMark& mark) { files_[name] = mark; }

@@ -104,8 +104,7 @@ double RegionFinding::deviations() const {
   return std::max(std::abs(offset_mm) / offset_sd_mm, std::abs(motion_mm) / motion_sd_mm);
 }
 
-std::vector<RegionFinding> regionFindings(const FitReport& loop, double systole,
-                                          const std::vector<FitMap>& twins,
+std::vector<RegionFinding> regionFindings(const FitReport& loop, const std::vector<FitMap>& twins,
                                           const RegionFloor& floor) {
   const std::size_t structures = loop.structures.size();
   const FitMap seen = besideBlood(loop.map);
@@ -117,12 +116,13 @@ std::vector<RegionFinding> regionFindings(const FitReport& loop, double systole,
   std::vector<RegionFinding> out;
   const Curves of_structures = offsetCurves(seen, structures), of_segments = segmentCurves(seen);
   for (std::size_t s = 0; s < structures; ++s)
-    if (auto finding = findingOf(of_structures, own_structures, s, floor.structure_mm, systole)) {
+    if (auto finding =
+            findingOf(of_structures, own_structures, s, floor.structure_mm, loop.systole)) {
       finding->name = loop.structures[s];
       out.push_back(std::move(*finding));
     }
   for (std::size_t s = 1; s <= kAhaSegments; ++s)
-    if (auto finding = findingOf(of_segments, own_segments, s, floor.segment_mm, systole)) {
+    if (auto finding = findingOf(of_segments, own_segments, s, floor.segment_mm, loop.systole)) {
       finding->segment = s;
       finding->name = kAhaNames[s - 1];
       out.push_back(std::move(*finding));

@@ -40,10 +40,8 @@ inline constexpr RegionFloor kKnownDials{0.4, 0.5}, kFittedDials{0.9, 1.0};
 
 // Findings of all structures beside blood and all segments that the loop and all twins show, the
 // structures first. A twin is the map of the heart against one of its own rendered loops.
-// `systole`: end-systole of the model. Precondition: two twins or more; all maps have the same
-// structures and frames.
-std::vector<RegionFinding> regionFindings(const FitReport& loop, double systole,
-                                          const std::vector<FitMap>& twins,
+// Precondition: two twins or more; all maps have the same structures and frames.
+std::vector<RegionFinding> regionFindings(const FitReport& loop, const std::vector<FitMap>& twins,
                                           const RegionFloor& floor);
 
 nlohmann::ordered_json regionsJson(const std::vector<RegionFinding>& regions);

@@ -27,6 +27,7 @@ FitReport fitReport(const ModelLoop& model, const ModelDiscrepancy& discrepancy,
   FitReport out;
   out.map = discrepancy.map(model, pose);
   out.structures = model.structures;
+  out.systole = model.systole;
   out.metres_per_pixel = discrepancy.stack().metresPerPixel();
   out.apex_x_px = real.sector().apex_x;
   out.apex_y_px = real.sector().apex_y;

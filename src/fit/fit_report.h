@@ -17,6 +17,7 @@ struct FitReport {
   std::vector<std::string> structures;
   std::vector<GreyImage> pictures;  // of the real loop, nearest to each frame of the beat
   double apex_x_px = 0, apex_y_px = 0, metres_per_pixel = 1;
+  double systole = 0;  // end-systole of the model, as a fraction of the beat
 };
 
 FitReport fitReport(const ModelLoop& model, const ModelDiscrepancy& discrepancy,

@@ -185,10 +185,7 @@ void correctByOwnLoops(const FittedSides& sides, const FitCost& cost,
   fit.stopped = !own;
   if (!own) return;
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const ModelLoop model =
-        sides.families[v]->at(cost.searchedAt(descents.front().best.at), fit.views[v].tilt);
-    fit.views[v].regions =
-        regionFindings(fit.views[v].report, model.systole, own->twins[v], kFittedDials);
+    fit.views[v].regions = regionFindings(fit.views[v].report, own->twins[v], kFittedDials);
     fit.views[v].own = std::move(own->report[v]);
   }
   for (std::size_t i = 0; i < own->error.size(); ++i) {

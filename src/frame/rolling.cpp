@@ -1,7 +1,6 @@
 #include "frame/rolling.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "frame/picture_grid.h"
 #include "scene/scan_geometry.h"
@@ -33,12 +32,10 @@ RollingLines::RollingLines(const Scene& scene,
   if (!scene.truth.labels) return;
   const PictureGrid grid = pictureGrid(scene);
   const ScanGeometry geometry(scene.probe);
-  const double last = lines_ - 1.0;
   for (int row = 0; row < grid.height; ++row)
     for (int column = 0; column < grid.width; ++column) {
       const double place = geometry.placeOf({grid.xOf(column), 0, grid.zOf(row)});
-      const int line = geometry.nearestLine(
-          std::clamp((place - geometry.firstPlace()) / geometry.cellWidth(), -1.0, last + 1));
+      const int line = geometry.nearestLine((place - geometry.firstPlace()) / geometry.cellWidth());
       group_of_pixel_.push_back(static_cast<std::uint16_t>(line / together));
     }
 }

@@ -81,8 +81,7 @@ int lineAt(const Probe& probe, double place, const char* option) {
   if (probe.lines == 1) return 0;
   const double line = (place - geometry.firstPlace()) / geometry.cellWidth();
   if (geometry.fullTurn()) return geometry.nearestLine(std::remainder(line, probe.lines));
-  if (line >= -0.5 && line <= probe.lines - 0.5)
-    return std::clamp(static_cast<int>(std::lround(line)), 0, probe.lines - 1);
+  if (line >= -0.5 && line <= probe.lines - 0.5) return geometry.nearestLine(line);
   const auto shown = [&](double at) {
     return geometry.angular() ? degreesFromRadians(at) : millimetresFromMetres(at);
   };

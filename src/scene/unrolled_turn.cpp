@@ -4,8 +4,12 @@
 
 namespace echocine {
 
-UnrolledTurn::UnrolledTurn(const Probe& probe, int beside)
-    : lines_(probe.lines), beside_(std::min(beside, probe.lines)), probe_(probe) {
+std::optional<UnrolledTurn> UnrolledTurn::of(const Probe& probe) {
+  return probe.isFullTurn() ? std::optional(UnrolledTurn(probe)) : std::nullopt;
+}
+
+UnrolledTurn::UnrolledTurn(const Probe& probe)
+    : lines_(probe.lines), beside_((probe.lines + 1) / 2), probe_(probe) {
   const ScanGeometry turn(probe);
   probe_.kind = ProbeKind::curvilinear;
   probe_.lines = lines_ + 2 * beside_;

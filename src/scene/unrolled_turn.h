@@ -3,6 +3,7 @@
 // behind it before it. Code for sectors then needs no rule for the seam.
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,8 +14,8 @@ namespace echocine {
 
 class UnrolledTurn {
  public:
-  // beside: lines that are repeated on each side, at most all. Precondition: probe.isFullTurn().
-  UnrolledTurn(const Probe& probe, int beside);
+  // Repeats half a turn on each side. None for a probe of another kind.
+  static std::optional<UnrolledTurn> of(const Probe& probe);
 
   // Line i of the turn is its line i + beside().
   const Probe& probe() const { return probe_; }
@@ -38,6 +39,8 @@ class UnrolledTurn {
   }
 
  private:
+  explicit UnrolledTurn(const Probe& probe);
+
   int lines_, beside_;
   Probe probe_;
 };

@@ -49,12 +49,12 @@ SignalChain::SignalChain(const Scene& scene, const EffectPlan& plan)
     : settings_(scene.signal),
       all_lines_{0, scene.probe.lines},
       samples_(scene.probe.samples),
+      turn_(UnrolledTurn::of(scene.probe)),
       gains_(gainsOf(scene, plan)),
       fields_(scene, plan, gains_),
       geometry_(pictureGeometry(scene)),
       converter_(scene.probe, geometry_, scene.output.width, scene.output.height,
                  GreyCurve(scene.signal), ScanConverter::averagedOver(scene, geometry_)) {
-  if (scene.probe.isFullTurn()) turn_.emplace(scene.probe, (scene.probe.lines + 1) / 2);
   const Probe& probe = turn_ ? turn_->probe() : scene.probe;
   SignalSettings average = scene.signal;
   if (plan.rays_per_beam > 1) average.beam_width = BeamWidth::none;  // the rays are the beam

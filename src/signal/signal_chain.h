@@ -68,8 +68,8 @@ class SignalChain {
   SignalSettings settings_;
   LineRange all_lines_;
   int samples_;
-  std::vector<float> gains_;          // from a table or the mean; empty: none
   std::optional<UnrolledTurn> turn_;  // for windows across the seam of a full turn
+  std::vector<float> gains_;          // from a table or the mean; empty: none
   std::optional<BeamAverage> beam_;
   std::optional<ProfileAverage> profile_;  // across the lines, where beam_ is along them alone
   std::vector<float> losses_;              // by drop-out and ribs; empty: none

@@ -37,14 +37,20 @@ PointSpread::PointSpread(const Probe& probe, double pulse_cycles, bool harmonic)
               followedWidth(1, probe.aperture_m, wavelength_m) / kWidthPerDeviation;
 }
 
+namespace {
+
 // Harmonic and downshift belong to the sampled beam (planPulse()).
+bool isSampled(const Scene& scene) {
+  return scene.signal.beam_width == BeamWidth::profile && scene.accuracy.rays_per_beam == 1;
+}
+
+}  // namespace
+
 PointSpread::PointSpread(const Scene& scene)
     : PointSpread(scene.probe, scene.signal.pulse_cycles,
-                  scene.signal.harmonic && scene.signal.beam_width == BeamWidth::profile &&
-                      scene.accuracy.rays_per_beam == 1) {
+                  scene.signal.harmonic && isSampled(scene)) {
   const SignalSettings& s = scene.signal;
-  if (s.downshift && s.beam_width == BeamWidth::profile && scene.accuracy.rays_per_beam == 1 &&
-      scene.probe.lines > 1)
+  if (s.downshift && isSampled(scene) && scene.probe.lines > 1)
     attenuation_np_per_m_hz_ = s.nominal_gain_np_per_m_hz;
 }
 

@@ -8,20 +8,11 @@
 
 namespace echocine {
 
-namespace {
-
-std::optional<UnrolledTurn> turnOf(const Probe& probe) {
-  if (!probe.isFullTurn()) return std::nullopt;
-  return UnrolledTurn(probe, (probe.lines + 1) / 2);
-}
-
-}  // namespace
-
 Speckle::Speckle(const Probe& probe, const PointSpread& spread, const SpeckleSettings& settings,
                  const Material& material, std::shared_ptr<const Scatterers> drawn)
     : settings_(settings),
       lines_(probe.lines),
-      turn_(turnOf(probe)),
+      turn_(UnrolledTurn::of(probe)),
       spread_(spread),
       view_(probe, spread_),
       gaussian_(settings.seed),

@@ -82,7 +82,8 @@ struct PerfectModel {
     fit::FitReport report;
     report.map = d.map(model, d.search(model).pose);
     report.structures = model.structures;
-    return fit::regionFindings(report, model.systole, twins, fit::kKnownDials);
+    report.systole = model.systole;
+    return fit::regionFindings(report, twins, fit::kKnownDials);
   }
 
  private:
@@ -98,7 +99,7 @@ struct PerfectModel {
   }
 };
 
-// What findings say of a defect of the septum.
+// Detection of a defect of the septum by the findings.
 struct Detected {
   int significant = 0;     // regions
   bool in_septum = false;  // the segment of the largest deviation is septal, and significant

@@ -70,7 +70,8 @@ std::vector<RegionFinding> findingsOf(const FitMap& loop, const std::vector<FitM
   FitReport report;
   report.map = loop;
   report.structures = {"cavity"};
-  return regionFindings(report, 0.4, twins, kKnownDials);
+  report.systole = 0.4;
+  return regionFindings(report, twins, kKnownDials);
 }
 
 // Closed forms: the twins' mean is subtracted, their spread widens the standard deviation.
