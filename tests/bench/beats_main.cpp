@@ -56,7 +56,7 @@ void run(int loops) {
   struct Group {
     const char* name;
     double least, most;
-    // Of all R waves in the loop those that are known.
+    // Selects the known R waves from all of the loop.
     std::vector<double> (*known)(const std::vector<double>&);
   };
   using Waves = std::vector<double>;

@@ -24,10 +24,7 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 Probe radialProbe(int lines, int samples = 200) {
   Probe probe = plainScene({medium("water", 1000, 1540)}).probe;
-  probe.kind = ProbeKind::radial;
-  probe.first_angle_rad = -std::numbers::pi;
-  probe.last_angle_rad = std::numbers::pi;
-  probe.face_radius_m = 0.004;
+  support::lookAllRound(0.004, probe);
   probe.min_depth_m = 0.001;
   probe.max_depth_m = 0.06;
   probe.frequency_hz = 6e6;

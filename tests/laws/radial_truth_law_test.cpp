@@ -23,26 +23,25 @@ std::shared_ptr<const TriangleMesh> shared(const Mesh& mesh) {
   return std::make_shared<TriangleMesh>(TriangleMesh{mesh.points, mesh.triangles, {}, {}});
 }
 
-// A ball behind a slanting block, before the probe or behind it.
-Scene ballScene(bool before, const char* bends) {
+SceneText radialText(int lines) {
   SceneText text;
   text.motion = {{"mesh_unit", "\"mm\""}};
   text.probe.erase("sector_deg");
   text.probe["kind"] = "\"radial\"";
   text.probe["face_radius_mm"] = "4";
   text.probe["depth_mm"] = "60";
-  text.probe["lines"] = std::to_string(kLines);
+  text.probe["lines"] = std::to_string(lines);
+  return text;
+}
+
+// A ball behind a slanting block, before the probe or behind it.
+Scene ballScene(bool before, const char* bends) {
+  SceneText text = radialText(kLines);
   text.probe["samples"] = "256";
   text.probe["axis"] = before ? "[0, 0, 1]" : "[0, 0, -1]";
   text.probe["lateral"] = before ? "[1, 0, 0]" : "[-1, 0, 0]";
   text.output = {{"width", "300"}, {"height", "300"}, {"ecg", "false"}};
-  text.media =
-      "[media.gel]\ndensity_kg_m3 = 1050\nsound_speed_m_s = 1584\nattenuation_db_cm_mhz = 0\n"
-      "backscatter = { kind = \"fixed\", per_cm_sr = 1e-6 }\n"
-      "[media.oil]\ndensity_kg_m3 = 1150\nsound_speed_m_s = 1440\nattenuation_db_cm_mhz = 0\n"
-      "backscatter = { kind = \"none\" }\n"
-      "[media.meat]\ndensity_kg_m3 = 1300\nsound_speed_m_s = 1584\nattenuation_db_cm_mhz = 0\n"
-      "backscatter = { kind = \"fixed\", per_cm_sr = 1e-4 }\n";
+  text.media = support::kGelOilMeat;
   text.background = "gel";
   text.addStructure("ball", "meat", "\"ball\"", 2);
   text.addStructure("block", "oil", "\"block\"", 1);
@@ -125,13 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Rays, RadialTruth, testing::Values("", "travel_time", "
 // A shell about the probe crosses every line; its contours are closed rings.
 TEST(RadialContours, AShellAboutTheProbeHasClosedRings) {
   const Simulator simulator([] {
-    SceneText text;
-    text.motion = {{"mesh_unit", "\"mm\""}};
-    text.probe.erase("sector_deg");
-    text.probe["kind"] = "\"radial\"";
-    text.probe["face_radius_mm"] = "4";
-    text.probe["depth_mm"] = "60";
-    text.probe["lines"] = "96";
+    SceneText text = radialText(96);
     text.background = "blood";
     text.addStructure("wall", "myocardium", "\"wall\"", 1);
     text.addStructure("cavity", "blood", "\"cavity\"", 2);

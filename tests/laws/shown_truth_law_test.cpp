@@ -91,13 +91,7 @@ Scene ballScene(bool behind_wedge) {
   text.probe["samples"] = "512";
   text.acquisition = {{"heart_rate_bpm", "60"}, {"frame_rate_hz", "10"}};
   text.output = {{"width", "400"}, {"height", "300"}, {"ecg", "false"}};
-  text.media =
-      "[media.gel]\ndensity_kg_m3 = 1050\nsound_speed_m_s = 1584\nattenuation_db_cm_mhz = 0\n"
-      "backscatter = { kind = \"fixed\", per_cm_sr = 1e-6 }\n"
-      "[media.oil]\ndensity_kg_m3 = 1150\nsound_speed_m_s = 1440\nattenuation_db_cm_mhz = 0\n"
-      "backscatter = { kind = \"none\" }\n"
-      "[media.meat]\ndensity_kg_m3 = 1300\nsound_speed_m_s = 1584\nattenuation_db_cm_mhz = 0\n"
-      "backscatter = { kind = \"fixed\", per_cm_sr = 1e-4 }\n";
+  text.media = support::kGelOilMeat;
   text.background = "gel";
   text.accuracy["interface_echo"] = "\"centre\"";
   text.effects["beam_width"] = "\"off\"";

@@ -1,6 +1,8 @@
 #pragma once
 // Scenes built in memory, without files, for the trace and signal stages.
 
+#include <numbers>
+
 #include "core/units.h"
 #include "plan/effect_plan.h"
 #include "trace/line_walker.h"
@@ -26,6 +28,14 @@ inline Scene plainScene(const std::vector<Medium>& media) {
   scene.probe.lines = 1;
   scene.probe.samples = 160;
   return scene;
+}
+
+// As the reader makes a radial probe.
+inline void lookAllRound(double face_radius_m, Probe& probe) {
+  probe.kind = ProbeKind::radial;
+  probe.first_angle_rad = -std::numbers::pi;
+  probe.last_angle_rad = std::numbers::pi;
+  probe.face_radius_m = face_radius_m;
 }
 
 inline void addStructure(Scene& scene, std::size_t medium_index, int priority,

@@ -11,7 +11,7 @@
 
 namespace echocine::support {
 
-// What is drawn for one loop.
+// Random parameters of one loop.
 struct BeatDraw {
   std::vector<double> phases;   // of each frame, in beats from the first R wave before the loop
   std::vector<double> r_waves;  // within the loop, in frames

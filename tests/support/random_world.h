@@ -4,7 +4,6 @@
 // absurd; every effect and signal setting.
 
 #include <cstdint>
-#include <numbers>
 
 #include "core/hash_random.h"
 #include "support/plain_scene.h"
@@ -67,9 +66,7 @@ inline Probe randomProbe(Dice& dice) {
     p.first_offset_m = -dice.number(0.001, 0.04);
     p.last_offset_m = -p.first_offset_m;
   } else if (radial) {
-    p.last_angle_rad = std::numbers::pi;
-    p.first_angle_rad = -p.last_angle_rad;
-    p.face_radius_m = dice.number(0.001, 0.02);
+    lookAllRound(dice.number(0.001, 0.02), p);
   } else {
     const double half = dice.chance(0.1) ? 90 : dice.number(5, 80);
     p.first_angle_rad = radiansFromDegrees(-half);

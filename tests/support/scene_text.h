@@ -83,4 +83,13 @@ inline int lineOf(const std::string& text, const std::string& start) {
   return 0;
 }
 
+// Media that differ in sound speed, impedance and backscatter, and attenuate nothing.
+inline constexpr const char* kGelOilMeat =
+    "[media.gel]\ndensity_kg_m3 = 1050\nsound_speed_m_s = 1584\nattenuation_db_cm_mhz = 0\n"
+    "backscatter = { kind = \"fixed\", per_cm_sr = 1e-6 }\n"
+    "[media.oil]\ndensity_kg_m3 = 1150\nsound_speed_m_s = 1440\nattenuation_db_cm_mhz = 0\n"
+    "backscatter = { kind = \"none\" }\n"
+    "[media.meat]\ndensity_kg_m3 = 1300\nsound_speed_m_s = 1584\nattenuation_db_cm_mhz = 0\n"
+    "backscatter = { kind = \"fixed\", per_cm_sr = 1e-4 }\n";
+
 }  // namespace echocine::support

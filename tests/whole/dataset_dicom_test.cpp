@@ -8,6 +8,7 @@
 #include "echo/read_loop.h"
 #include "support/run_files.h"
 #include "support/run_program.h"
+#include "support/video_difference.h"
 
 namespace echocine {
 namespace {
@@ -43,11 +44,7 @@ TEST_F(DatasetDicom, LoopsAreThoseOfTheNativeLayout) {
                          cine = echo::readLoop(folder / "data/native" / id / "cine.avi", {}, true);
     ASSERT_EQ(dicom.video.frameCount(), cine.video.frameCount());
     EXPECT_NEAR(dicom.video.rate.hz, cine.video.rate.hz, 1e-3);
-    int worst = 0;
-    for (std::size_t f = 0; f < cine.video.frames.size(); ++f)
-      for (std::size_t p = 0; p < cine.video.frames[f].size(); ++p)
-        worst = std::max(worst, std::abs(cine.video.frames[f][p] - dicom.video.frames[f][p]));
-    EXPECT_LE(worst, 2);
+    EXPECT_LE(worstDifference(cine.video, dicom.video), 2);
     const auto record = nlohmann::json::parse(bytesOf(folder / "data/native" / id / "loop.json"));
     ASSERT_TRUE(dicom.metres_per_pixel);
     EXPECT_NEAR(1e3 * *dicom.metres_per_pixel, record.at("mm_per_pixel").get<double>(), 1e-6);

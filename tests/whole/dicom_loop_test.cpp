@@ -1,5 +1,6 @@
 // The loop as DICOM: read back by our reader, by pydicom and by GDCM, and checked by dciodvfy.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include "support/loop_scene.h"
 #include "support/run_files.h"
 #include "support/run_program.h"
+#include "support/video_difference.h"
 #include "video/dicom_uid.h"
 #include "video/dicom_writer.h"
 #include "video/read_video.h"
@@ -43,14 +45,6 @@ class DicomLoopFile : public ::testing::Test {
     const Scene scene = readScene(writeBall(folder, text));
     renderLoop(scene, {.folder = folder / out, .threads = 1, .frames = frames}, {});
     return placed(scene);
-  }
-  static int worstDifference(const Video& a, const Video& b) {
-    if (a.frameCount() != b.frameCount() || a.width != b.width || a.height != b.height) return 256;
-    int worst = 0;
-    for (std::size_t f = 0; f < a.frames.size(); ++f)
-      for (std::size_t p = 0; p < a.frames[f].size(); ++p)
-        worst = std::max(worst, std::abs(a.frames[f][p] - b.frames[f][p]));
-    return worst;
   }
   std::string quoted(const std::string& name) const {
     return " '" + (folder / name).string() + "'";
@@ -248,7 +242,7 @@ TEST_F(DicomLoopFile, GdcmReadsTheLoop) {
   EXPECT_NE(told.out.find("Dimensions: (160,120,48)"), std::string::npos) << told.out;
   const std::size_t spacing = told.out.find("Spacing: (");
   ASSERT_NE(spacing, std::string::npos) << told.out;
-  // Of the region, in its unit: centimetres.
+  // GDCM takes the spacing from the ultrasound region, whose unit is centimetres.
   EXPECT_NEAR(std::stod(told.out.substr(spacing + 10)),
               1e2 * pictureGeometry(scene).metres_per_pixel, 1e-5);
   ASSERT_EQ(runShell("gdcmconv --raw" + quoted("loop/cine.dcm") + quoted("raw.dcm")).code, 0);
