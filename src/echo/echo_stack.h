@@ -48,6 +48,8 @@ struct EchoMotion {
   float weight = 0;  // 0..1: the correlation of the blocks; 0: no match
 };
 
+class EchoInstant;
+
 class EchoStack {
  public:
   // `pictures` evenly spaced pictures of the beat, the first at end-diastole. The sector of a loop
@@ -80,35 +82,13 @@ class EchoStack {
   double far() const { return far_m_; }
   const EchoSpread& spread() const { return spread_; }
 
-  // At a place, lateral and depth from the apex; visible is 0 outside the picture. Precondition:
-  // seen(instant).
-  Sample at(const BeatPlace& instant, double x_m, double z_m) const {
-    const double u = x_m / kEchoPixel_m + origin_x_, v = z_m / kEchoPixel_m + origin_z_;
-    if (!(u > 0 && v > 0 && u < width_ && v < height_)) return {};
-    const PixelPlace p = pixelPlace(width_, height_, u, v);
-    Floats4 sum = instant.shares[0] * blended(instant.pictures[0], p);
-    for (int i = 1; i < 3; ++i)
-      if (instant.shares[i] > 0) sum += instant.shares[i] * blended(instant.pictures[i], p);
-    return {sum[0], sum[1], sum[2], sum[3]};
-  }
-  // Weight 0 outside.
+  // An instant of the beat for look-ups. The stack must outlive it.
+  EchoInstant instant(const BeatPlace& place) const;
+  // Motion from one picture to the next; weight 0 outside.
   EchoMotion motionAt(int picture, double x_m, double z_m) const;
-  // Over a step of the model, by its pace.
-  EchoMotion motionAt(const BeatPlace& instant, double x_m, double z_m) const;
 
  private:
-  // The four numbers of a sample at once: fits spend most of their time here.
-  Floats4 blended(int picture, const PixelPlace& p) const {
-    const Sample* from = planes_[static_cast<std::size_t>(picture)].data() + p.at;
-    const auto lanes = [](const Sample* sample) {
-      Floats4 out;
-      std::memcpy(&out, sample, sizeof out);
-      return out;
-    };
-    return (1 - p.right) * (1 - p.low) * lanes(from) + p.right * (1 - p.low) * lanes(from + 1) +
-           (1 - p.right) * p.low * lanes(from + width_) +
-           p.right * p.low * lanes(from + width_ + 1);
-  }
+  friend class EchoInstant;
   void makePictures(const EchoLoop& real, const BeatSpan& beat);
   void markInside(const EchoLoop& real);
   void trackOne(std::size_t picture);
@@ -124,5 +104,60 @@ class EchoStack {
   int blocks_across_ = 0, blocks_down_ = 0;
   std::vector<std::vector<EchoMotion>> motion_;
 };
+
+// The loop at an instant of the beat.
+class EchoInstant {
+ public:
+  EchoInstant(const EchoStack& stack, const BeatPlace& place);
+  EchoInstant(EchoInstant&&) = default;
+
+  const EchoStack& stack() const { return *stack_; }
+  // False where a picture of the instant is outside the loop. Precondition of all that follows.
+  bool seen() const { return seen_; }
+  // Replaces the sum of pictures by one picture of its own: worth it for more look-ups than it has
+  // pixels.
+  void blend();
+
+  // At a place, lateral and depth from the apex; visible is 0 outside the picture.
+  EchoStack::Sample at(double x_m, double z_m) const {
+    const double u = x_m / kEchoPixel_m + stack_->origin_x_,
+                 v = z_m / kEchoPixel_m + stack_->origin_z_;
+    if (!(u > 0 && v > 0 && u < stack_->width_ && v < stack_->height_)) return {};
+    const PixelPlace p = pixelPlace(stack_->width_, stack_->height_, u, v);
+    Floats4 sum = shares_[0] * blended(planes_[0], p);
+    for (int i = 1; i < count_; ++i) sum += shares_[i] * blended(planes_[i], p);
+    return {sum[0], sum[1], sum[2], sum[3]};
+  }
+  // The same for eight places, in less time. Places have the precision of a float.
+  void at(Floats8 x_m, Floats8 z_m, EchoStack::Sample out[kFloatLanes]) const;
+  // Over a step of the model, by its pace; weight 0 outside.
+  EchoMotion motionAt(double x_m, double z_m) const;
+
+ private:
+  // The four numbers of a sample at once: fits spend most of their time here.
+  Floats4 blended(const EchoStack::Sample* plane, const PixelPlace& p) const {
+    const EchoStack::Sample* from = plane + p.at;
+    const auto lanes = [](const EchoStack::Sample* sample) {
+      Floats4 out;
+      std::memcpy(&out, sample, sizeof out);
+      return out;
+    };
+    return (1 - p.right) * (1 - p.low) * lanes(from) + p.right * (1 - p.low) * lanes(from + 1) +
+           (1 - p.right) * p.low * lanes(from + stack_->width_) +
+           p.right * p.low * lanes(from + stack_->width_ + 1);
+  }
+
+  const EchoStack* stack_;
+  BeatPlace place_;
+  bool seen_;
+  int count_ = 0;
+  const EchoStack::Sample* planes_[3] = {};
+  float shares_[3] = {};
+  std::vector<EchoStack::Sample> own_;
+};
+
+inline EchoInstant EchoStack::instant(const BeatPlace& place) const {
+  return {*this, place};
+}
 
 }  // namespace echocine::echo

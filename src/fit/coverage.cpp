@@ -10,30 +10,30 @@ namespace echocine::fit {
 namespace {
 
 // Places of the sector do not change their sight over the beat.
-echo::BeatPlace anyPicture(const echo::EchoStack& real) {
+echo::EchoInstant anyPicture(const echo::EchoStack& real) {
   echo::BeatPlace at;
   for (int p = 0; p < real.pictures(); ++p)
     if (real.seen(p)) {
       at.pictures[0] = p;
       break;
     }
-  return at;
+  return real.instant(at);
 }
 
-double sectorArea(const echo::EchoStack& real, const echo::BeatPlace& at) {
+double sectorArea(const echo::EchoInstant& at) {
   constexpr double kStep_m = 3e-3;
-  const int steps = static_cast<int>(std::ceil(real.far() / kStep_m));
+  const int steps = static_cast<int>(std::ceil(at.stack().far() / kStep_m));
   double area = 0;
   for (int i = -steps; i <= steps; ++i)
     for (int k = 0; k <= steps; ++k)
-      area += static_cast<double>(real.at(at, kStep_m * i, kStep_m * k).visible);
+      area += static_cast<double>(at.at(kStep_m * i, kStep_m * k).visible);
   return area * kStep_m * kStep_m;
 }
 
 }  // namespace
 
 double coverageOf(const ModelLoop& model, const echo::EchoStack& real, const FitPose& pose) {
-  const echo::BeatPlace at = anyPicture(real);
+  const echo::EchoInstant at = anyPicture(real);
   const PoseMapping map(pose, model.far_m);
   double cells = 0;
   for (const ModelFrame& frame : model.frames)
@@ -41,9 +41,9 @@ double coverageOf(const ModelLoop& model, const echo::EchoStack& real, const Fit
       if (!(cell.area > 0)) continue;
       double x, z;
       map.place(cell.x_m, cell.z_m, x, z);
-      cells += static_cast<double>(cell.area * real.at(at, x, z).visible);
+      cells += static_cast<double>(cell.area * at.at(x, z).visible);
     }
-  const double sector = sectorArea(real, at),
+  const double sector = sectorArea(at),
                coverage = cells / static_cast<double>(model.frames.size()) /
                           cellsPerArea(model, {}) * map.scale() * map.scale();
   return sector > 0 ? std::clamp(coverage / sector, 0.0, 1.0) : 0;

@@ -145,7 +145,9 @@ Descent descend(const PoseFunction& f, const Unknowns& start, const SearchBox& b
   Descent best{start, valueAt(start)};
   const int n = static_cast<int>(unknowns.size());
   Local local{cv::Mat::zeros(n, 1, CV_64F), cv::Mat::zeros(n, n, CV_64F)};
-  constexpr double kWide = 1, kNarrow = 0.25;  // of the differences: far from the bottom, and near
+  // Widths of the differences far from the bottom and near it; steps that need mixed derivatives
+  // anew.
+  constexpr double kWide = 1, kNarrow = 0.25, kFar = 1;
   double width = kWide;
   bool crossed = true;
   for (int iteration = 0; iteration < 12; ++iteration) {
@@ -168,11 +170,13 @@ Descent descend(const PoseFunction& f, const Unknowns& start, const SearchBox& b
         length = std::sqrt(square);
       }
     }
-    if (!better && width == kNarrow) break;
-    // A fortieth of a unit is 50 micrometres in 15 cm. There mixed derivatives no longer change.
-    crossed = width != kNarrow;
+    const bool narrow = width == kNarrow;
+    if (!better && narrow) break;
+    // A fortieth of a unit is 50 micrometres in 15 cm. Within a unit mixed derivatives hardly
+    // change.
+    crossed = better && length > kFar;
     if (!better || length < 0.3) width = kNarrow;
-    if (better && length < 0.025 && !crossed) break;
+    if (narrow && length < 0.025) break;
   }
   return best;
 }

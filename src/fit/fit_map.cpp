@@ -10,17 +10,18 @@ namespace echocine::fit {
 namespace {
 
 // Residual of each cell's grey after the fit of tissues and gain, in standard deviations.
-std::vector<RegionLeft> leftOver(const ModelFrame& frame, const echo::EchoStack& real,
-                                 const echo::BeatPlace& at, const PoseMapping& map,
-                                 const TissueGreys::Fit& fit, double deviation) {
+std::vector<RegionLeft> leftOver(const ModelFrame& frame, const echo::EchoInstant& at,
+                                 const PoseMapping& map, const TissueGreys::Fit& fit,
+                                 double deviation) {
   std::vector<RegionLeft> left;
   for (const TissueCell& cell : frame.cells) {
     if (!(cell.area > 0)) continue;
     double x, z;
     map.place(cell.x_m, cell.z_m, x, z);
-    const echo::EchoStack::Sample s = real.at(at, x, z);
+    const echo::EchoStack::Sample s = at.at(x, z);
     if (!(s.visible > 0)) continue;
-    const double place = std::clamp(std::hypot(x, z) / real.far(), 0.0, 1.0) * (kGainKnots - 1);
+    const double place =
+        std::clamp(std::hypot(x, z) / at.stack().far(), 0.0, 1.0) * (kGainKnots - 1);
     const int knot = std::min(static_cast<int>(place), kGainKnots - 2);
     const double gain = fit.gain[knot] + (place - knot) * (fit.gain[knot + 1] - fit.gain[knot]);
     const double grey =
@@ -32,24 +33,24 @@ std::vector<RegionLeft> leftOver(const ModelFrame& frame, const echo::EchoStack&
   return left;
 }
 
-void addStrips(const ModelFrame& frame, const echo::EchoStack& real, const echo::BeatPlace& at,
-               const PoseMapping& map, double cells_per_m2, RegionSums& sums) {
+void addStrips(const ModelFrame& frame, const echo::EchoInstant& at, const PoseMapping& map,
+               double cells_per_m2, RegionSums& sums) {
   for (const BoundaryPoint& p : frame.boundary) {
     if (!p.of_blood) continue;
     double x, z, nx, nz;
     map.place(p.x_m, p.z_m, x, z);
     map.turn(p.nx, p.nz, nx, nz);
-    addStrip(p, real, at, x, z, nx, nz, seenBeside(real, x, z, nx, nz), cells_per_m2, sums);
+    addStrip(p, at, x, z, nx, nz, seenBeside(at.stack(), x, z, nx, nz), cells_per_m2, sums);
   }
 }
 
-std::vector<BoundaryOffset> offsetsOf(const ModelFrame& frame, const echo::EchoStack& real,
-                                      const echo::BeatPlace& at, const PoseMapping& map) {
+std::vector<BoundaryOffset> offsetsOf(const ModelFrame& frame, const echo::EchoInstant& at,
+                                      const PoseMapping& map) {
   std::vector<BoundaryOffset> out;
   for (const BoundaryPoint& p : frame.boundary) {
-    const auto [x, z, nx, nz, beside, edge] = placedEdge(p, real, at, map);
+    const auto [x, z, nx, nz, beside, edge] = placedEdge(p, at, map);
     if (!(edge.visible > 0)) continue;
-    const MotionPair m = motionOf(p, real, at, map, x, z, nx, nz);
+    const MotionPair m = motionOf(p, at, map, x, z, nx, nz);
     const bool tracked = p.of_blood && m.weight > 0;
     out.push_back({static_cast<float>(x), static_cast<float>(z),
                    static_cast<float>(1e3 * edge.mean_m), static_cast<float>(edge.certainty()),
@@ -64,11 +65,13 @@ std::vector<BoundaryOffset> offsetsOf(const ModelFrame& frame, const echo::EchoS
 FitMap fitMap(const ModelLoop& model, const echo::EchoStack& real, const FitPose& pose) {
   const PoseMapping map(pose, model.far_m);
   RegionSums sums{TissueGreys(model.blood)};
-  const auto picture = [&](std::size_t n) { return placeOf(model, n, pose, real); };
+  std::vector<echo::EchoInstant> at;
   for (std::size_t n = 0; n < model.frames.size(); ++n)
-    if (real.seen(picture(n))) {
-      addCells(model, model.frames[n], real, picture(n), map, 1, sums);
-      addStrips(model.frames[n], real, picture(n), map, cellsPerArea(model, {}), sums);
+    at.push_back(real.instant(placeOf(model, n, pose, real)));
+  for (std::size_t n = 0; n < at.size(); ++n)
+    if (at[n].seen()) {
+      addCells(model.frames[n].cells, at[n], map, sums);
+      addStrips(model.frames[n], at[n], map, cellsPerArea(model, {}), sums);
     }
   FitMap out;
   if (!(sums.seen > 0)) return out;
@@ -76,11 +79,11 @@ FitMap fitMap(const ModelLoop& model, const echo::EchoStack& real, const FitPose
   if (!fit.solved) return out;
   const double deviation = std::sqrt(std::max(1e-9, fit.residual / sums.seen));
   out.tissue_grey = fit.grey;
-  for (std::size_t n = 0; n < model.frames.size(); ++n) {
-    const bool seen = real.seen(picture(n));
-    out.region.push_back(seen ? leftOver(model.frames[n], real, picture(n), map, fit, deviation)
+  for (std::size_t n = 0; n < at.size(); ++n) {
+    const bool seen = at[n].seen();
+    out.region.push_back(seen ? leftOver(model.frames[n], at[n], map, fit, deviation)
                               : std::vector<RegionLeft>{});
-    out.boundary.push_back(seen ? offsetsOf(model.frames[n], real, picture(n), map)
+    out.boundary.push_back(seen ? offsetsOf(model.frames[n], at[n], map)
                                 : std::vector<BoundaryOffset>{});
   }
   return out;

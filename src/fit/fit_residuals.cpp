@@ -45,16 +45,14 @@ class ResidualBuilder {
  public:
   ResidualBuilder(const ModelLoop& model, const echo::EchoStack& real, const FitPose& pose)
       : model_(model),
-        real_(real),
-        pose_(pose),
         map_(pose, model.far_m),
         sides_(model.frames.size() * model.structures.size() * kSides),
         sums_{TissueGreys(model.blood)} {
     for (std::size_t n = 0; n < model.frames.size(); ++n) {
-      const echo::BeatPlace at = placeOf(model, n, pose, real);
-      if (!real.seen(at)) continue;
-      addCells(model, model.frames[n], real, at, map_, 1, sums_);
-      addSides(n, at);
+      at_.push_back(real.instant(placeOf(model, n, pose, real)));
+      if (!at_[n].seen()) continue;
+      addCells(model.frames[n].cells, at_[n], map_, sums_);
+      addSides(n, at_[n]);
     }
   }
 
@@ -77,17 +75,17 @@ class ResidualBuilder {
   }
 
  private:
-  void addSides(std::size_t n, const echo::BeatPlace& at) {
+  void addSides(std::size_t n, const echo::EchoInstant& at) {
     const ModelFrame& frame = model_.frames[n];
     const std::vector<Middle> middles = middlesOf(frame, model_.structures.size());
     const double per_m2 = cellsPerArea(model_, {});
     for (const BoundaryPoint& p : frame.boundary) {
       if (!p.of_blood) continue;
-      const auto [x, z, nx, nz, beside, edge] = placedEdge(p, real_, at, map_);
+      const auto [x, z, nx, nz, beside, edge] = placedEdge(p, at, map_);
       const double length = p.length_m * edge.visible;
       if (!(length > 0)) continue;
-      addStrip(p, real_, at, x, z, nx, nz, beside, per_m2, sums_);
-      const MotionPair m = motionOf(p, real_, at, map_, x, z, nx, nz);
+      addStrip(p, at, x, z, nx, nz, beside, per_m2, sums_);
+      const MotionPair m = motionOf(p, at, map_, x, z, nx, nz);
       length_ += length;
       together_ += length * m.weight * m.together;
       const Middle& middle = middles[p.surface];
@@ -113,8 +111,8 @@ class ResidualBuilder {
     const TissueGreys::Fit fit = sums_.greys.fit();
     const bool known = sums_.seen > 0 && fit.solved && fit.total > 0;
     for (std::size_t n = 0; n < model_.frames.size(); ++n) {
-      const echo::BeatPlace at = placeOf(model_, n, pose_, real_);
-      if (!known || !real_.seen(at)) {
+      const echo::EchoInstant& at = at_[n];
+      if (!known || !at.seen()) {
         out.insert(out.end(), cells, 0.0);
         continue;
       }
@@ -123,14 +121,15 @@ class ResidualBuilder {
     }
   }
   // Square root of the seen area, times grey minus that of the cell's tissues and the gain.
-  double leftOf(const TissueCell& cell, const echo::BeatPlace& at,
+  double leftOf(const TissueCell& cell, const echo::EchoInstant& at,
                 const TissueGreys::Fit& fit) const {
     if (!(cell.area > 0)) return 0;
     double x, z;
     map_.place(cell.x_m, cell.z_m, x, z);
-    const echo::EchoStack::Sample s = real_.at(at, x, z);
+    const echo::EchoStack::Sample s = at.at(x, z);
     if (!(s.visible > 0)) return 0;
-    const double place = std::clamp(std::hypot(x, z) / real_.far(), 0.0, 1.0) * (kGainKnots - 1);
+    const double place =
+        std::clamp(std::hypot(x, z) / at.stack().far(), 0.0, 1.0) * (kGainKnots - 1);
     const int knot = std::min(static_cast<int>(place), kGainKnots - 2);
     const double gain = fit.gain[knot] + (place - knot) * (fit.gain[knot + 1] - fit.gain[knot]);
     const double share = cell.share, grey = share * fit.grey[cell.first] +
@@ -145,10 +144,9 @@ class ResidualBuilder {
   static constexpr double kEven = (kProfileSteps + 1.0) / (kProfileSteps - 1.0) / 3;
 
   const ModelLoop& model_;
-  const echo::EchoStack& real_;
-  FitPose pose_;
   PoseMapping map_;
-  std::vector<SideSums> sides_;  // by frame, structure and direction
+  std::vector<echo::EchoInstant> at_;  // by frame
+  std::vector<SideSums> sides_;        // by frame, structure and direction
   RegionSums sums_;
   double length_ = kLeast_m, together_ = kLeast_m3;
 };

@@ -21,22 +21,26 @@ double EdgeProfile::certainty() const {
   return 1 - entropy / std::log(static_cast<double>(kProfileSteps));
 }
 
-EdgeProfile edgeProfileAt(const echo::EchoStack& real, const echo::BeatPlace& at, double x,
-                          double z, double nx, double nz, bool of_blood) {
+EdgeProfile edgeProfileAt(const echo::EchoInstant& at, double x, double z, double nx, double nz,
+                          bool of_blood) {
   EdgeProfile out;
-  const double per_scale = kSharpness / real.edgeScale();
+  const double per_scale = kSharpness / at.stack().edgeScale();
   float e[2 * kFloatLanes] = {};
-  static_assert(kProfileSteps <= std::size(e));
+  static_assert(kProfileSteps == kFloatLanes + 1);
+  constexpr auto kReach = static_cast<float>(kProfileReach_m);
+  constexpr Floats8 kSteps{-1, -0.75f, -0.5f, -0.25f, 0, 0.25f, 0.5f, 0.75f};
+  echo::EchoStack::Sample samples[kProfileSteps];
+  at.at(static_cast<float>(x) + static_cast<float>(nx) * kReach * kSteps,
+        static_cast<float>(z) + static_cast<float>(nz) * kReach * kSteps, samples);
+  samples[kFloatLanes] = at.at(x + kProfileReach_m * nx, z + kProfileReach_m * nz);
   for (int i = 0; i < kProfileSteps; ++i) {
-    const double s = kProfileReach_m * (2.0 * i / (kProfileSteps - 1) - 1);
-    const double px = x + s * nx, pz = z + s * nz;
     // The sector's end shows no edge.
-    const echo::EchoStack::Sample g = real.at(at, px, pz);
+    const echo::EchoStack::Sample& g = samples[i];
     const double edge = (nx * static_cast<double>(g.gx) + nz * static_cast<double>(g.gz)) *
                         static_cast<double>(g.visible);
     e[i] = static_cast<float>(per_scale * (of_blood ? edge : std::abs(edge)));
-    if (2 * i == kProfileSteps - 1) out.visible = g.visible;
   }
+  out.visible = samples[kProfileSteps / 2].visible;
   for (std::size_t i = 0; i < std::size(e); i += kFloatLanes)
     store(exponential(lanesAt(e + i)), e + i);
   double sum = 0;
@@ -56,20 +60,19 @@ double seenBeside(const echo::EchoStack& real, double x, double z, double nx, do
   return r > 0 ? real.spread().shift(r, (nx * x + nz * z) / r) : 0;
 }
 
-PlacedEdge placedEdge(const BoundaryPoint& p, const echo::EchoStack& real,
-                      const echo::BeatPlace& at, const PoseMapping& map) {
+PlacedEdge placedEdge(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map) {
   PlacedEdge out;
   map.place(p.x_m, p.z_m, out.x, out.z);
   map.turn(p.nx, p.nz, out.nx, out.nz);
-  if (p.of_blood) out.beside = seenBeside(real, out.x, out.z, out.nx, out.nz);
-  out.edge = edgeProfileAt(real, at, out.x - out.beside * out.nx, out.z - out.beside * out.nz,
-                           out.nx, out.nz, p.of_blood);
+  if (p.of_blood) out.beside = seenBeside(at.stack(), out.x, out.z, out.nx, out.nz);
+  out.edge = edgeProfileAt(at, out.x - out.beside * out.nx, out.z - out.beside * out.nz, out.nx,
+                           out.nz, p.of_blood);
   return out;
 }
 
-MotionPair motionOf(const BoundaryPoint& p, const echo::EchoStack& real, const echo::BeatPlace& at,
-                    const PoseMapping& map, double x, double z, double nx, double nz) {
-  const echo::EchoMotion v = real.motionAt(at, x + kIntoWall_m * nx, z + kIntoWall_m * nz);
+MotionPair motionOf(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map,
+                    double x, double z, double nx, double nz) {
+  const echo::EchoMotion v = at.motionAt(x + kIntoWall_m * nx, z + kIntoWall_m * nz);
   double ux, uz;
   map.turn(p.dx_m, p.dz_m, ux, uz);
   ux *= map.scale(), uz *= map.scale();
@@ -80,31 +83,45 @@ MotionPair motionOf(const BoundaryPoint& p, const echo::EchoStack& real, const e
           v.weight, ax, az};
 }
 
-void addCells(const ModelLoop& model, const ModelFrame& frame, const echo::EchoStack& real,
-              const echo::BeatPlace& at, const PoseMapping& map, int stride, RegionSums& sums) {
-  for (int i = stride / 2; i < model.cells_across; i += stride)
-    for (int k = stride / 2; k < model.cells_along; k += stride) {
-      const TissueCell& cell = frame.cells[static_cast<std::size_t>(i * model.cells_along + k)];
-      if (!(cell.area > 0)) continue;
-      double x, z;
-      map.place(cell.x_m, cell.z_m, x, z);
-      const echo::EchoStack::Sample s = real.at(at, x, z);
-      const double area = cell.area, seen = area * static_cast<double>(s.visible);
+void addCells(std::span<const TissueCell> cells, const echo::EchoInstant& at,
+              const PoseMapping& map, RegionSums& sums) {
+  const TissueCell* some[kFloatLanes];
+  std::size_t count = 0;
+  const auto add = [&] {
+    Floats8 x{}, z{};
+    for (std::size_t lane = 0; lane < count; ++lane)
+      x[lane] = some[lane]->x_m, z[lane] = some[lane]->z_m;
+    map.place(x, z);
+    echo::EchoStack::Sample samples[kFloatLanes];
+    at.at(x, z, samples);
+    const Floats8 squares = x * x + z * z;
+    const double per_far = 1 / at.stack().far();
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const TissueCell& cell = *some[lane];
+      const double area = cell.area, seen = area * static_cast<double>(samples[lane].visible);
       sums.all += area;
       if (!(seen > 0)) continue;
       sums.seen += seen;
-      const double depth = std::sqrt(x * x + z * z) / real.far();
-      sums.greys.add(cell.first, cell.second, cell.share, depth, s.grey, seen);
+      sums.greys.add(cell.first, cell.second, cell.share,
+                     per_far * static_cast<double>(std::sqrt(squares[lane])), samples[lane].grey,
+                     seen);
     }
+    count = 0;
+  };
+  for (const TissueCell& cell : cells) {
+    if (!(cell.area > 0)) continue;
+    some[count++] = &cell;
+    if (count == kFloatLanes) add();
+  }
+  if (count > 0) add();
 }
 
-void addStrip(const BoundaryPoint& p, const echo::EchoStack& real, const echo::BeatPlace& at,
-              double x, double z, double nx, double nz, double beside, double cells_per_m2,
-              RegionSums& sums) {
+void addStrip(const BoundaryPoint& p, const echo::EchoInstant& at, double x, double z, double nx,
+              double nz, double beside, double cells_per_m2, RegionSums& sums) {
   const double hx = x - 0.5 * beside * nx, hz = z - 0.5 * beside * nz;
-  const echo::EchoStack::Sample strip = real.at(at, hx, hz);
+  const echo::EchoStack::Sample strip = at.at(hx, hz);
   const double weight = cells_per_m2 * p.length_m * beside * static_cast<double>(strip.visible),
-               depth = std::sqrt(hx * hx + hz * hz) / real.far();
+               depth = std::sqrt(hx * hx + hz * hz) / at.stack().far();
   sums.greys.add(p.blood, p.blood, 1, depth, strip.grey, -weight);
   sums.greys.add(p.beside, p.beside, 1, depth, strip.grey, weight);
 }

@@ -3,7 +3,9 @@
 // levels.
 
 #include <cmath>
+#include <span>
 
+#include "core/lanes.h"
 #include "fit/fit_terms.h"
 #include "fit/tissue_greys.h"
 
@@ -29,6 +31,14 @@ class PoseMapping {
     rx = x_ + c_ * x + s_ * dz;
     rz = middle_ + z_ - s_ * x + c_ * dz;
   }
+  // Eight places, in the precision of a float.
+  void place(Floats8& x, Floats8& z) const {
+    const auto middle = static_cast<float>(middle_), c = static_cast<float>(c_),
+               s = static_cast<float>(s_);
+    const Floats8 dz = z - middle, from = x;
+    x = static_cast<float>(x_) + c * from + s * dz;
+    z = static_cast<float>(middle_ + z_) - s * from + c * dz;
+  }
   void turn(double x, double z, double& rx, double& rz) const {
     rx = turn_c_ * x + turn_s_ * z;
     rz = -turn_s_ * x + turn_c_ * z;
@@ -49,8 +59,8 @@ struct EdgeProfile {
 };
 
 // The edge profile along a unit normal at a place of the real plane.
-EdgeProfile edgeProfileAt(const echo::EchoStack& real, const echo::BeatPlace& at, double x,
-                          double z, double nx, double nz, bool of_blood);
+EdgeProfile edgeProfileAt(const echo::EchoInstant& at, double x, double z, double nx, double nz,
+                          bool of_blood);
 
 // Displacement into the blood at which a boundary is visible: Eq. 9.
 double seenBeside(const echo::EchoStack& real, double x, double z, double nx, double nz);
@@ -61,16 +71,15 @@ struct PlacedEdge {
   double beside = 0;  // of Eq. 9; 0 without blood
   EdgeProfile edge;
 };
-PlacedEdge placedEdge(const BoundaryPoint& p, const echo::EchoStack& real,
-                      const echo::BeatPlace& at, const PoseMapping& map);
+PlacedEdge placedEdge(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map);
 
 // u - v|^2 and |u|^2 + |v|^2 of Eq. 5; weight 0 without tracking.
 struct MotionPair {
   double apart = 0, together = 0, weight = 0;
   double dx = 0, dz = 0;  // u - v
 };
-MotionPair motionOf(const BoundaryPoint& p, const echo::EchoStack& real, const echo::BeatPlace& at,
-                    const PoseMapping& map, double x, double z, double nx, double nz);
+MotionPair motionOf(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map,
+                    double x, double z, double nx, double nz);
 
 // Sums of Eq. 3.
 struct RegionSums {
@@ -78,14 +87,13 @@ struct RegionSums {
   double seen = 0, all = 0;  // areas
 };
 
-// Adds the cells of a frame.
-void addCells(const ModelLoop& model, const ModelFrame& frame, const echo::EchoStack& real,
-              const echo::BeatPlace& at, const PoseMapping& map, int stride, RegionSums& sums);
+// Adds cells of a frame; those without an area are skipped.
+void addCells(std::span<const TissueCell> cells, const echo::EchoInstant& at,
+              const PoseMapping& map, RegionSums& sums);
 // Adds the strip between a boundary of blood and its visible position, as the tissue beside the
 // blood.
-void addStrip(const BoundaryPoint& p, const echo::EchoStack& real, const echo::BeatPlace& at,
-              double x, double z, double nx, double nz, double beside, double cells_per_m2,
-              RegionSums& sums);
+void addStrip(const BoundaryPoint& p, const echo::EchoInstant& at, double x, double z, double nx,
+              double nz, double beside, double cells_per_m2, RegionSums& sums);
 // Number of cells at the largest depth per square metre; a cell there has an area of 1. Only every
 // `stride.cell`-th cell and every `stride.piece`-th piece is evaluated.
 double cellsPerArea(const ModelLoop& model, const FitStride& stride);

@@ -21,22 +21,17 @@ struct BoundarySums {
   double apart = 0, together = 0;  // of Eq. 5
 };
 
-void addBoundary(const ModelFrame& frame, const echo::EchoStack& real, const echo::BeatPlace& at,
-                 const PoseMapping& map, int stride, double cells_per_m2, RegionSums& region,
-                 BoundarySums& sums) {
-  for (std::size_t i = 0; i < frame.boundary.size(); i += static_cast<std::size_t>(stride)) {
-    const BoundaryPoint& p = frame.boundary[i];
-    if (!p.of_blood) continue;
-    const auto [x, z, nx, nz, beside, edge] = placedEdge(p, real, at, map);
-    const double length = p.length_m * edge.visible;
-    if (!(length > 0)) continue;
-    addStrip(p, real, at, x, z, nx, nz, beside, cells_per_m2, region);
-    sums.square += length * edge.square;
-    sums.length += length;
-    const MotionPair m = motionOf(p, real, at, map, x, z, nx, nz);
-    sums.apart += length * m.weight * m.apart;
-    sums.together += length * m.weight * m.together;
-  }
+void addBoundary(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map,
+                 double cells_per_m2, RegionSums& region, BoundarySums& sums) {
+  const auto [x, z, nx, nz, beside, edge] = placedEdge(p, at, map);
+  const double length = p.length_m * edge.visible;
+  if (!(length > 0)) return;
+  addStrip(p, at, x, z, nx, nz, beside, cells_per_m2, region);
+  sums.square += length * edge.square;
+  sums.length += length;
+  const MotionPair m = motionOf(p, at, map, x, z, nx, nz);
+  sums.apart += length * m.weight * m.apart;
+  sums.together += length * m.weight * m.together;
 }
 
 }  // namespace
@@ -70,18 +65,36 @@ struct TermSums {
 
 }  // namespace
 
-std::vector<FitTerms> fitTerms(const ModelLoop& model, const echo::EchoStack& real,
-                               std::span<const FitPose> poses, const FitStride& stride) {
-  std::vector<TermSums> sums(poses.size(), TermSums{{TissueGreys(model.blood)}, {}});
-  const double per_m2 = cellsPerArea(model, stride);
-  for (std::size_t n = 0; n < model.frames.size(); n += static_cast<std::size_t>(stride.picture))
+PlacedBeat::PlacedBeat(const ModelLoop& model, const echo::EchoStack& real, const FitPose& time,
+                       const FitStride& stride)
+    : blood_(model.blood), far_m_(model.far_m), per_m2_(cellsPerArea(model, stride)) {
+  for (std::size_t n = 0; n < model.frames.size(); n += static_cast<std::size_t>(stride.picture)) {
+    Frame frame{real.instant(placeOf(model, n, time, real)), {}, {}};
+    if (!frame.at.seen()) continue;
+    const ModelFrame& from = model.frames[n];
+    for (int i = stride.cell / 2; i < model.cells_across; i += stride.cell)
+      for (int k = stride.cell / 2; k < model.cells_along; k += stride.cell) {
+        const TissueCell& cell = from.cells[static_cast<std::size_t>(i * model.cells_along + k)];
+        if (cell.area > 0) frame.cells.push_back(cell);
+      }
+    for (std::size_t i = 0; i < from.boundary.size(); i += static_cast<std::size_t>(stride.piece))
+      if (from.boundary[i].of_blood) frame.boundary.push_back(from.boundary[i]);
+    frames_.push_back(std::move(frame));
+  }
+}
+
+void PlacedBeat::blend() {
+  for (Frame& frame : frames_) frame.at.blend();
+}
+
+std::vector<FitTerms> PlacedBeat::terms(std::span<const FitPose> poses) const {
+  std::vector<TermSums> sums(poses.size(), TermSums{{TissueGreys(blood_)}, {}});
+  for (const Frame& frame : frames_)
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      const PoseMapping map(poses[i], model.far_m);
-      const echo::BeatPlace at = placeOf(model, n, poses[i], real);
-      if (!real.seen(at)) continue;
-      addCells(model, model.frames[n], real, at, map, stride.cell, sums[i].region);
-      addBoundary(model.frames[n], real, at, map, stride.piece, per_m2, sums[i].region,
-                  sums[i].boundary);
+      const PoseMapping map(poses[i], far_m_);
+      addCells(frame.cells, frame.at, map, sums[i].region);
+      for (const BoundaryPoint& p : frame.boundary)
+        addBoundary(p, frame.at, map, per_m2_, sums[i].region, sums[i].boundary);
     }
   std::vector<FitTerms> out;
   for (const TermSums& sum : sums) out.push_back(sum.terms());
@@ -90,7 +103,7 @@ std::vector<FitTerms> fitTerms(const ModelLoop& model, const echo::EchoStack& re
 
 FitTerms fitTerms(const ModelLoop& model, const echo::EchoStack& real, const FitPose& pose,
                   const FitStride& stride) {
-  return fitTerms(model, real, std::span(&pose, 1), stride).front();
+  return PlacedBeat(model, real, pose, stride).terms({&pose, 1}).front();
 }
 
 }  // namespace echocine::fit

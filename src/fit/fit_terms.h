@@ -65,9 +65,31 @@ double fitDiscrepancy(const FitTerms& terms, const FitWeights& weights = {});
 // for equal, 1 for unrelated, 2 for opposite motion.
 FitTerms fitTerms(const ModelLoop& model, const echo::EchoStack& real, const FitPose& pose,
                   const FitStride& stride = {});
-// The terms of several poses; faster than single calls, because each picture is read once.
-std::vector<FitTerms> fitTerms(const ModelLoop& model, const echo::EchoStack& real,
-                               std::span<const FitPose> poses, const FitStride& stride);
+
+// A model's frames at their instants of a loop: what poses of one time share. References to the
+// loop's pictures are kept.
+class PlacedBeat {
+ public:
+  // The time of a pose: its `lag` and `systole`.
+  PlacedBeat(const ModelLoop& model, const echo::EchoStack& real, const FitPose& time,
+             const FitStride& stride = {});
+
+  // Blends the pictures of each instant once: worth it for ten poses or more.
+  void blend();
+
+  // Thread-safe. Each picture is read once for all poses, which have the beat's time.
+  std::vector<FitTerms> terms(std::span<const FitPose> poses) const;
+
+ private:
+  struct Frame {
+    echo::EchoInstant at;
+    std::vector<TissueCell> cells;
+    std::vector<BoundaryPoint> boundary;  // of blood
+  };
+  std::vector<Frame> frames_;
+  std::vector<bool> blood_;
+  double far_m_, per_m2_;
+};
 
 // The disagreement of the model: the terms, place by place.
 struct BoundaryOffset {

@@ -208,9 +208,14 @@ std::vector<FitTerms> ModelDiscrepancy::terms(const ModelLoop& model,
   constexpr std::size_t kTogether = 8;  // poses that share the reading of a picture; our choice
   std::vector<FitTerms> out(poses.size());
   parallelBlocks(poses.size(), kTogether, [&](std::size_t begin, std::size_t end) {
-    const std::vector<FitTerms> some =
-        fitTerms(model, *stack_, std::span(poses).subspan(begin, end - begin), {});
-    std::copy(some.begin(), some.end(), out.begin() + static_cast<std::ptrdiff_t>(begin));
+    for (std::size_t first = begin, last = begin; first < end; first = last) {
+      while (last < end && poses[last].lag == poses[first].lag &&
+             poses[last].systole == poses[first].systole)
+        ++last;
+      const std::vector<FitTerms> some = PlacedBeat(model, *stack_, poses[first])
+                                             .terms(std::span(poses).subspan(first, last - first));
+      std::copy(some.begin(), some.end(), out.begin() + static_cast<std::ptrdiff_t>(first));
+    }
   });
   return out;
 }

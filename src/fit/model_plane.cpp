@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
+#include "core/lanes.h"
 #include "core/parallel.h"
+#include "core/rough_angle.h"
 #include "scene/names.h"
 #include "truth/contour.h"
 
@@ -24,30 +27,41 @@ Scene withCoarseLines(Scene scene) {
 // The tissue at a place of the plane, by the sample nearest to it; nothing outside the sector.
 class TissueAt {
  public:
-  TissueAt(const Probe& probe, const std::vector<std::uint32_t>& ids,
+  TissueAt(const Probe& p, const std::vector<std::uint32_t>& ids,
            const std::vector<std::uint8_t>& tissue_of)
-      : p_(probe), ids_(ids), tissue_of_(tissue_of) {}
+      : ids_(ids),
+        tissue_of_(tissue_of),
+        lines_(p.lines),
+        samples_(p.samples),
+        first_rad_(p.first_angle_rad),
+        lines_per_rad_((p.lines - 1) / (p.last_angle_rad - p.first_angle_rad)),
+        near_m_(p.face_radius_m + p.min_depth_m),
+        samples_per_m_(1 / p.sampleSpacing()) {}
 
+  // An angle's error of 1e-5 rad is a thousandth of the lines' spacing at most.
   int operator()(double x_m, double z_m) const {
-    const double line = (std::atan2(x_m, z_m) - p_.first_angle_rad) /
-                        (p_.last_angle_rad - p_.first_angle_rad) * (p_.lines - 1);
-    const double sample =
-        (std::hypot(x_m, z_m) - p_.face_radius_m - p_.min_depth_m) / p_.sampleSpacing();
-    const auto i = static_cast<std::ptrdiff_t>(std::lround(line)),
-               k = static_cast<std::ptrdiff_t>(std::floor(sample));
-    if (i < 0 || k < 0 || i >= p_.lines || k >= p_.samples) return -1;
-    return tissue_of_[ids_[static_cast<std::size_t>(i * p_.samples + k)]];
+    const double line = std::floor((roughAngle(x_m, z_m) - first_rad_) * lines_per_rad_ + 0.5),
+                 sample = std::floor((std::sqrt(x_m * x_m + z_m * z_m) - near_m_) * samples_per_m_);
+    if (!(line >= 0 && sample >= 0 && line < lines_ && sample < samples_)) return -1;
+    return tissue_of_[ids_[static_cast<std::size_t>(line * samples_ + sample)]];
   }
 
  private:
-  const Probe& p_;
   const std::vector<std::uint32_t>& ids_;
   const std::vector<std::uint8_t>& tissue_of_;
+  double lines_, samples_, first_rad_, lines_per_rad_, near_m_, samples_per_m_;
 };
+
+bool allEqual(const std::uint32_t* ids) {
+  static_assert(kSamplesPerCell == sizeof(Uints8) / sizeof(std::uint32_t));
+  Uints8 lanes;
+  std::memcpy(&lanes, ids, sizeof lanes);
+  return bitsOf(lanes == Uints8{} + ids[0]) == 0xff;
+}
 
 // The two tissues of most samples.
 void fill(TissueCell& cell, const std::uint32_t* ids, const std::vector<std::uint8_t>& tissue_of) {
-  if (std::equal(ids + 1, ids + kSamplesPerCell, ids)) {
+  if (allEqual(ids)) {
     cell.first = cell.second = tissue_of[ids[0]];
     return;
   }
@@ -219,7 +233,8 @@ void ModelPlane::addPiece(const ContourEdge& cut, Vec3d at, double length_m,
                           const TissueAtPlace& tissueAt, const SurfaceFrame& now,
                           const SurfaceFrame& next, std::vector<BoundaryPoint>& pieces) const {
   constexpr double kStep_m = 1.2e-3;  // to either side: beyond a sample, within any wall
-  const double across = std::hypot(cut.area_normal.x, cut.area_normal.z);
+  const double across =
+      std::sqrt(cut.area_normal.x * cut.area_normal.x + cut.area_normal.z * cut.area_normal.z);
   if (!(across > 0)) return;
   const double nx = cut.area_normal.x / across, nz = cut.area_normal.z / across;
   const Sides sides{tissueAt(at.x - kStep_m * nx, at.z - kStep_m * nz),

@@ -1,6 +1,7 @@
 #include "fit/pose_search.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "core/units.h"
 #include "fit/descent.h"
@@ -40,19 +41,29 @@ SearchBox boxOf(const PoseLimits& limits, double far_m) {
   return box;
 }
 
-// D at the poses of unknowns.
-PoseFunction discrepancyAt(const ModelLoop& model, const echo::EchoStack& real,
-                           const FitWeights& weights, const FitPose& held,
-                           const FitStride& stride) {
-  return [&model, &real, &weights, held, stride](std::span<const Unknowns> places) {
+// D at the poses of unknowns, all of one time.
+class DiscrepancyAt {
+ public:
+  DiscrepancyAt(const ModelLoop& model, const echo::EchoStack& real, const FitWeights& weights,
+                const FitPose& held, const FitStride& stride)
+      : weights_(weights), held_(held), beat_(model, real, held, stride) {
+    beat_.blend();
+  }
+
+  std::vector<double> operator()(std::span<const Unknowns> places) const {
     std::vector<FitPose> poses;
-    for (const Unknowns& u : places) poses.push_back(poseAt(u, held));
+    for (const Unknowns& u : places) poses.push_back(poseAt(u, held_));
     std::vector<double> values;
-    for (const FitTerms& terms : fitTerms(model, real, poses, stride))
-      values.push_back(fitDiscrepancy(terms, weights));
+    for (const FitTerms& terms : beat_.terms(poses))
+      values.push_back(fitDiscrepancy(terms, weights_));
     return values;
-  };
-}
+  }
+
+ private:
+  FitWeights weights_;
+  FitPose held_;
+  PlacedBeat beat_;
+};
 
 }  // namespace
 
@@ -62,8 +73,9 @@ PoseFound refinePose(const ModelLoop& model, const echo::EchoStack& real, const 
   const FitPose held = starts.front();
   std::vector<Descent> from;
   for (const FitPose& start : starts) from.push_back({unknownsOf(start)});
-  const std::vector<Descent> hills = leastApart(
-      descendAll(discrepancyAt(model, real, weights, held, kFine), from, box), from.size());
+  const DiscrepancyAt fine(model, real, weights, held, kFine);
+  const std::vector<Descent> hills =
+      leastApart(descendAll(std::cref(fine), from, box), from.size());
   PoseFound out;
   out.pose = poseAt(hills.front().at, held);
   out.terms = fitTerms(model, real, out.pose);
@@ -76,8 +88,8 @@ PoseFound refinePose(const ModelLoop& model, const echo::EchoStack& real, const 
 
 PoseFound searchPose(const ModelLoop& model, const echo::EchoStack& real, const FitWeights& weights,
                      const PoseLimits& limits) {
-  std::vector<Descent> all = lattice(discrepancyAt(model, real, weights, {}, kCoarse),
-                                     boxOf(limits, model.far_m), {4, 4, 2, 2});
+  const DiscrepancyAt coarse(model, real, weights, {}, kCoarse);
+  std::vector<Descent> all = lattice(std::cref(coarse), boxOf(limits, model.far_m), {4, 4, 2, 2});
   constexpr std::size_t kStarts = 5;
   std::vector<FitPose> starts;
   for (const Descent& d : leastApart(all, kStarts)) starts.push_back(poseAt(d.at, {}));

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/lanes.h"
+
 namespace echocine::fit {
 
 inline constexpr int kGainKnots = 4;  // knots of the piecewise linear gain; our choice
@@ -22,21 +24,14 @@ class TissueGreys {
                      : place < 0             ? 0
                                              : static_cast<int>(place);
     const double high = place - knot;
-    // Cells of one tissue have no second: it comes last, and is skipped.
-    const int at[4] = {tissues_ + knot, tissues_ + knot + 1, first, second};
-    const bool whole = first == second || share >= 1;
-    const double value[4] = {1 - high, high, whole ? 1 : share, 1 - share};
-    const int parts = whole ? 3 : 4;
-    for (int a = 0; a < parts; ++a) {
-      const double wa = weight * value[a];
-      double* row = normal_.data() + at[a] * unknowns_;
-      for (int b = 0; b <= a; ++b) row[at[b]] += wa * value[b];
-      right_[static_cast<std::size_t>(at[a])] += wa * g;
+    if (first == second || share >= 1) {
+      double* m = moments_.data() + (first * (kGainKnots - 1) + knot) * kMoments;
+      store(lanesAt(m) + weight * Doubles4{1, high, high * high, g}, m);
+      store(lanesAt(m + kDoubleLanes) + weight * Doubles4{high * g, g * g, 0, 0}, m + kDoubleLanes);
+    } else {
+      addMixed(first, second, share, knot, high, g, weight);
     }
-    weight_ += weight;
-    square_ += weight * g * g;
   }
-  double weight() const { return weight_; }
 
   struct Fit {
     bool solved = false;             // false: the normal equations have no solution
@@ -49,13 +44,26 @@ class TissueGreys {
   Fit fit() const;
 
  private:
-  Fit solve(const std::vector<int>& group_of) const;
+  // Pairs of unknowns, stored once: the sum of an unordered pair is that of both places.
+  struct Sums {
+    std::vector<double> normal, right;
+    double weight = 0, square = 0;
+
+    // Adds `parts` unknowns of these values.
+    void add(const int* at, const double* value, int parts, int unknowns, double g, double weight);
+  };
+  void addMixed(int first, int second, double share, int knot, double high, double g,
+                double weight);
+  Sums all() const;
+  Fit solve(const Sums& sums, const std::vector<int>& group_of) const;
 
   std::vector<bool> blood_;
   int tissues_, unknowns_;
-  // Pairs of unknowns, stored once: the sum of an unordered pair is that of both places.
-  std::vector<double> normal_, right_;
-  double weight_ = 0, square_ = 0;
+  // Of cells of one tissue, by tissue and knot: sums of 1, h, h^2, g, h g, g^2, where h is the
+  // place between the knot and the next.
+  static constexpr std::size_t kMoments = 2 * kDoubleLanes;
+  std::vector<double> moments_;
+  Sums mixed_;  // of cells of two tissues
 };
 
 }  // namespace echocine::fit
