@@ -59,7 +59,7 @@ class TissueGreys {
 
   std::vector<bool> blood_;
   int tissues_, unknowns_;
-  // Of cells of one tissue, by tissue and knot: sums of 1, h, h^2, g, h g, g^2, where h is the
+  // For cells of one tissue, by tissue and knot: sums of 1, h, h^2, g, h g, g^2, where h is the
   // place between the knot and the next.
   static constexpr std::size_t kMoments = 2 * kDoubleLanes;
   std::vector<double> moments_;
