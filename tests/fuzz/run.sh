@@ -38,7 +38,7 @@ for target in "${targets[@]}"; do
     length=(-runs=$runs -seed=1)
   fi
   log=$work/$target.log
-  if ! "$build/fuzz_$target" "${limits[@]}" "${dictionary[@]}" "${length[@]}" \
+  if ! ECHOCINE_FUZZ_TARGET=$target "$build/fuzzer" "${limits[@]}" "${dictionary[@]}" "${length[@]}" \
     -artifact_prefix="$work/findings/$target-" "${folders[@]}" 2>"$log"; then
     tail -n 60 "$log" >&2
     exit 1
