@@ -10,7 +10,7 @@ namespace {
 
 // A cell that keeps less than this part of its volume is about to fold: its surroundings are made
 // this much stiffer. Our choices.
-constexpr float kLeastVolume = 0.05f, kStiffer = 4;
+constexpr float kLeastVolume = 0.05f, kStiffer = 16;
 // One that keeps this part is not looked at in later rounds, which change little there. Our choice.
 constexpr float kSafeVolume = 0.5f;
 

@@ -19,7 +19,7 @@ constexpr double kLeftOut = 0.01;
 // of the field. Our choices.
 constexpr double kTrial = 1e-2, kConverged = 1e-6;
 // Rounds in which what folds is made stiffer, at most. Our choice.
-constexpr int kUnfoldings = 4;
+constexpr int kUnfoldings = 2;
 // A neighbour's surface that moves otherwise than the group's own, by this root mean square over
 // the keyframes, slides on it: its samples lose three quarters of their weight at twice of it. Our
 // choice.
@@ -56,8 +56,9 @@ class GroupFitter {
       rest = solve(std::move(rest), kTrial);
     }
     fillRows(rest);
-    for (int i = 0; i < kUnfoldings && stiffenFolds(lattice_, classes_, used_, stiffness_); ++i) {
+    for (int i = 1; stiffenFolds(lattice_, classes_, used_, stiffness_); ++i) {
       equations_->update(stiffness_);
+      if (i == kUnfoldings) break;
       rest = solve(std::move(rest), kTrial);
       fillRows(rest);
     }

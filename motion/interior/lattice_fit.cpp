@@ -6,11 +6,12 @@
 #include <utility>
 
 #include "core/check.h"
-#include "core/lanes.h"
 #include "core/parallel.h"
 #include "core/stop.h"
+#include "motion/interior/column_sums.h"
 #include "motion/interior/lattice_equations.h"
 #include "motion/interior/multigrid.h"
+#include "motion/interior/node_columns.h"
 
 namespace echocine {
 
@@ -60,17 +61,19 @@ class ColumnSolver {
         product_(x_.size()) {}
 
   // Replaces the columns of `all`, which are where it starts. Returns the worst column's residual
-  // in parts of the right side.
-  double solve(std::vector<float>& all) {
-    for (std::size_t n = 0; n < size(); ++n)
+  // in parts of the right side. If it is not started, they are 0.
+  double solve(std::vector<float>& all, bool started) {
+    for (std::size_t n = 0; started && n < size(); ++n)
       std::copy_n(&all[n * problem_.columns + first_], count_, &x_[n * kWidth]);
     makeRightSide();
     const double share = problem_.tolerance * problem_.tolerance;
     const Sums target = Sums::scaled(squaresOf(b_), share);
-    Sums left = findResidual();
+    Sums left = started ? findResidual() : takeRightSide();
     for (int round = 0; round < kMostRounds && left.over(target); ++round) {
-      refine(Sums::larger(Sums::scaled(target, 0.5), Sums::scaled(left, kRoundGain * kRoundGain)));
-      left = findResidual();
+      const Sums reached = refine(
+          Sums::larger(Sums::scaled(target, 0.5), Sums::scaled(left, kRoundGain * kRoundGain)));
+      // A single-precision round knows its residual well enough for a coarse tolerance.
+      left = problem_.tolerance > kRoundGain ? reached : findResidual();
     }
     for (std::size_t n = 0; n < size(); ++n)
       for (std::size_t c = 0; c < count_; ++c)
@@ -83,33 +86,7 @@ class ColumnSolver {
 
  private:
   using Factors = std::array<float, kWidth>;  // one per column
-  // One double per column.
-  struct Sums {
-    Doubles4 parts[2 * kLanes]{};
-    double operator[](std::size_t c) const { return parts[c / kDoubleLanes][c % kDoubleLanes]; }
-    void add(std::size_t lane, Floats8 a, Floats8 b) {
-      Floats4 halves[2][2];
-      std::memcpy(halves[0], &a, sizeof a);
-      std::memcpy(halves[1], &b, sizeof b);
-      for (std::size_t h = 0; h < 2; ++h)
-        parts[2 * lane + h] += __builtin_convertvector(halves[0][h], Doubles4) *
-                               __builtin_convertvector(halves[1][h], Doubles4);
-    }
-    static Sums scaled(Sums sums, double factor) {
-      for (Doubles4& part : sums.parts) part *= factor;
-      return sums;
-    }
-    static Sums larger(Sums a, const Sums& b) {
-      for (std::size_t i = 0; i < 2 * kLanes; ++i)
-        a.parts[i] = echocine::larger(a.parts[i], b.parts[i]);
-      return a;
-    }
-    bool over(const Sums& target) const {
-      for (std::size_t c = 0; c < kWidth; ++c)
-        if ((*this)[c] > target[c]) return true;
-      return false;
-    }
-  };
+  using Sums = ColumnSums<kLanes>;
 
   std::size_t size() const { return equations_.rows().size(); }
 
@@ -137,34 +114,47 @@ class ColumnSolver {
     return sums;
   }
 
+  // r = b, which is the residual where x is 0. Returns r . r.
+  Sums takeRightSide() {
+    std::transform(b_.begin(), b_.end(), r_.begin(),
+                   [](double b) { return static_cast<float>(b); });
+    return squaresOf(b_);
+  }
+
   // r = b - A x, from doubles. Returns r . r.
   Sums findResidual() {
     Sums sums;
     for (std::size_t n = 0; n < size(); ++n) {
       const auto row = equations_.rows()[n];
+      Doubles4 r[2 * kLanes];
+      for (std::size_t part = 0; part < 2 * kLanes; ++part)
+        r[part] = lanesAt(&b_[n * kWidth + part * kDoubleLanes]);
+      for (std::size_t m = 0; m < row.members.size(); ++m) {
+        const double* const at = &x_[row.members[m] * kWidth];
+        for (std::size_t part = 0; part < 2 * kLanes; ++part)
+          r[part] -= row.values[m] * lanesAt(at + part * kDoubleLanes);
+      }
       for (std::size_t part = 0; part < 2 * kLanes; ++part) {
-        const std::size_t i = part * kDoubleLanes;
-        Doubles4 r = lanesAt(&b_[n * kWidth + i]);
-        for (std::size_t m = 0; m < row.members.size(); ++m)
-          r -= row.values[m] * lanesAt(&x_[row.members[m] * kWidth + i]);
-        sums.parts[part] += r * r;
-        const Floats4 rounded = __builtin_convertvector(r, Floats4);
-        std::memcpy(&r_[n * kWidth + i], &rounded, sizeof rounded);
+        sums.parts[part] += r[part] * r[part];
+        const Floats4 rounded = __builtin_convertvector(r[part], Floats4);
+        std::memcpy(&r_[n * kWidth + part * kDoubleLanes], &rounded, sizeof rounded);
       }
     }
     return sums;
   }
 
-  // x += e, where A e = r until r . r is below the target.
-  void refine(const Sums& target) {
+  // x += e, where A e = r until r . r is below the target. Returns r . r as the steps update it.
+  Sums refine(const Sums& target) {
     std::fill(e_.begin(), e_.end(), 0.0f);
     std::fill(p_.begin(), p_.end(), 0.0f);
     cycle_.apply(r_, z_);
     rho_ = products(r_, z_);
     turn(Factors{});
-    for (int i = 0; i < kMostSteps && !step(target); ++i) {
+    Sums left;
+    for (int i = 0; i < kMostSteps && !step(target, left); ++i) {
     }
     for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += static_cast<double>(e_[i]);
+    return left;
   }
 
   static Sums products(const std::vector<float>& a, const std::vector<float>& b) {
@@ -180,17 +170,10 @@ class ColumnSolver {
     Sums sums;
     for (std::size_t n = 0; n < size(); ++n) {
       const auto row = rows_[n];
-      Floats8 sum[kLanes]{};
-      for (std::size_t m = 0; m < row.members.size(); ++m) {
-        const float* const at = &p_[row.members[m] * kWidth];
-        for (std::size_t lane = 0; lane < kLanes; ++lane)
-          sum[lane] += row.values[m] * lanesAt(at + lane * kFloatLanes);
-      }
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        const std::size_t i = n * kWidth + lane * kFloatLanes;
-        store(sum[lane], &product_[i]);
-        sums.add(lane, lanesAt(&p_[i]), sum[lane]);
-      }
+      const auto sum = NodeColumns<kLanes>::product(row, 0, row.members.size(), p_);
+      sum.putTo(product_, n);
+      for (std::size_t lane = 0; lane < kLanes; ++lane)
+        sums.add(lane, lanesAt(&p_[n * kWidth + lane * kFloatLanes]), sum.lanes[lane]);
     }
     return sums;
   }
@@ -219,14 +202,15 @@ class ColumnSolver {
       }
   }
 
-  // True when all columns have come to the target.
-  bool step(const Sums& target) {
+  // True when all columns have come to the target. left: r . r after the step.
+  bool step(const Sums& target, Sums& left) {
     checkpoint();
     const Sums curvature = multiply();
     Factors alpha, beta;
     for (std::size_t c = 0; c < kWidth; ++c)
       alpha[c] = curvature[c] > 0 ? static_cast<float>(rho_[c] / curvature[c]) : 0.0f;
-    if (!advance(alpha).over(target)) return true;
+    left = advance(alpha);
+    if (!left.over(target)) return true;
     cycle_.apply(r_, z_);
     const Sums rho = products(r_, z_);
     for (std::size_t c = 0; c < kWidth; ++c)
@@ -282,15 +266,16 @@ LatticeFit::Solution LatticeFit::solve(std::span<const float> data, std::size_t 
                                        std::vector<float> start, double tolerance) const {
   CHECK_EQ(data.size(), samples_.size() * columns);
   const FitProblem problem{samples_, data, columns, fixed_, tolerance};
+  const bool started = !start.empty();
   start.resize(equations_->rows().size() * columns);
   std::vector<double> left(columns, 0.0);  // by first column of a block
   parallelBlocks(columns, kTogether, [&](std::size_t begin, std::size_t end) {
     if (end - begin > 2 * kFloatLanes)
-      left[begin] = ColumnSolver<3>(*equations_, *grid_, problem, begin).solve(start);
+      left[begin] = ColumnSolver<3>(*equations_, *grid_, problem, begin).solve(start, started);
     else if (end - begin > kFloatLanes)
-      left[begin] = ColumnSolver<2>(*equations_, *grid_, problem, begin).solve(start);
+      left[begin] = ColumnSolver<2>(*equations_, *grid_, problem, begin).solve(start, started);
     else
-      left[begin] = ColumnSolver<1>(*equations_, *grid_, problem, begin).solve(start);
+      left[begin] = ColumnSolver<1>(*equations_, *grid_, problem, begin).solve(start, started);
   });
   return {std::move(start), columns > 0 ? *std::max_element(left.begin(), left.end()) : 0.0};
 }

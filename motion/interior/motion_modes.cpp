@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/lanes.h"
+
 namespace echocine {
 
 namespace {
@@ -43,24 +45,93 @@ Matrix diagonalise(Matrix& a) {
   return vectors;
 }
 
-Matrix gram(std::span<const Vec3f> displacement_m, std::size_t keyframes) {
-  Matrix products(keyframes, std::vector<double>(keyframes, 0.0));
-  std::vector<double> x(keyframes), y(keyframes), z(keyframes);
-  for (std::size_t start = 0; start < displacement_m.size(); start += keyframes) {
-    for (std::size_t k = 0; k < keyframes; ++k) {
-      const Vec3d d = toDouble(displacement_m[start + k]);
+// Numbers in whole lanes.
+std::size_t padded(std::size_t count) {
+  return (count + kDoubleLanes - 1) / kDoubleLanes * kDoubleLanes;
+}
+
+// Coordinates of a point at each keyframe, or of each mode; 0 in the lanes beyond.
+struct Course {
+  std::vector<double> x, y, z;
+
+  explicit Course(std::size_t count) : x(padded(count)), y(padded(count)), z(padded(count)) {}
+  void set(std::span<const Vec3f> displacement_m) {
+    for (std::size_t k = 0; k < displacement_m.size(); ++k) {
+      const Vec3d d = toDouble(displacement_m[k]);
       x[k] = d.x;
       y[k] = d.y;
       z[k] = d.z;
     }
-    for (std::size_t i = 0; i < keyframes; ++i) {
-      double* const to = products[i].data();
-      for (std::size_t j = i; j < keyframes; ++j) to[j] += x[i] * x[j] + y[i] * y[j] + z[i] * z[j];
-    }
   }
+};
+
+// Adds the products of kPoints points, one after the other: each sum is loaded and stored once. Of
+// the rows of `products` only the part from the diagonal on is whole.
+template <std::size_t kPoints>
+void addProducts(const Course* courses, std::size_t keyframes, std::vector<double>& products) {
+  const std::size_t row = padded(keyframes);
   for (std::size_t i = 0; i < keyframes; ++i)
-    for (std::size_t j = 0; j < i; ++j) products[i][j] = products[j][i];
+    for (std::size_t j = i / kDoubleLanes * kDoubleLanes; j < row; j += kDoubleLanes) {
+      Doubles4 sum = lanesAt(&products[i * row + j]);
+      for (std::size_t p = 0; p < kPoints; ++p) {
+        const Course& at = courses[p];
+        sum +=
+            at.x[i] * lanesAt(&at.x[j]) + at.y[i] * lanesAt(&at.y[j]) + at.z[i] * lanesAt(&at.z[j]);
+      }
+      store(sum, &products[i * row + j]);
+    }
+}
+
+Matrix gram(std::span<const Vec3f> displacement_m, std::size_t keyframes) {
+  constexpr std::size_t kPointsTogether = 4;
+  Matrix products(keyframes, std::vector<double>(keyframes, 0.0));
+  if (keyframes == 0) return products;
+  const std::size_t row = padded(keyframes);
+  std::vector<double> sums(keyframes * row);
+  std::vector<Course> courses(kPointsTogether, Course(keyframes));
+  std::size_t held = 0;
+  for (std::size_t start = 0; start < displacement_m.size(); start += keyframes) {
+    courses[held++].set(displacement_m.subspan(start, keyframes));
+    if (held < kPointsTogether) continue;
+    addProducts<kPointsTogether>(courses.data(), keyframes, sums);
+    held = 0;
+  }
+  for (std::size_t p = 0; p < held; ++p) addProducts<1>(&courses[p], keyframes, sums);
+  for (std::size_t i = 0; i < keyframes; ++i)
+    for (std::size_t j = i; j < keyframes; ++j) products[i][j] = products[j][i] = sums[i * row + j];
   return products;
+}
+
+// The displacements of each point as sums of the modes' parts: `mode_from_keyframe` has a row per
+// keyframe.
+std::vector<Vec3f> shapesOf(std::span<const Vec3f> displacement_m,
+                            const Matrix& mode_from_keyframe) {
+  const std::size_t keyframes = mode_from_keyframe.size(), modes = mode_from_keyframe[0].size(),
+                    row = padded(modes);
+  std::vector<double> factors(keyframes * row);
+  for (std::size_t k = 0; k < keyframes; ++k)
+    std::ranges::copy(mode_from_keyframe[k],
+                      factors.begin() + static_cast<std::ptrdiff_t>(k * row));
+  std::vector<Vec3f> shapes_m(displacement_m.size() / keyframes * modes);
+  Course course(keyframes), sum(modes);
+  for (std::size_t start = 0, to = 0; start < displacement_m.size(); start += keyframes) {
+    course.set(displacement_m.subspan(start, keyframes));
+    for (std::size_t m = 0; m < row; m += kDoubleLanes) {
+      Doubles4 x{}, y{}, z{};
+      for (std::size_t k = 0; k < keyframes; ++k) {
+        const Doubles4 factor = lanesAt(&factors[k * row + m]);
+        x += factor * course.x[k];
+        y += factor * course.y[k];
+        z += factor * course.z[k];
+      }
+      store(x, &sum.x[m]);
+      store(y, &sum.y[m]);
+      store(z, &sum.z[m]);
+    }
+    for (std::size_t m = 0; m < modes; ++m)
+      shapes_m[to++] = toFloat(Vec3d{sum.x[m], sum.y[m], sum.z[m]});
+  }
+  return shapes_m;
 }
 
 }  // namespace
@@ -82,13 +153,7 @@ MotionModes motionModes(std::span<const Vec3f> displacement_m, std::size_t keyfr
     std::vector<double>& row = modes.keyframe_from_mode.emplace_back();
     for (const std::size_t m : kept) row.push_back(vectors[k][m]);
   }
-  for (std::size_t start = 0; start < displacement_m.size(); start += keyframes)
-    for (const std::size_t m : kept) {
-      Vec3d sum;
-      for (std::size_t k = 0; k < keyframes; ++k)
-        sum = sum + vectors[k][m] * toDouble(displacement_m[start + k]);
-      modes.shapes_m.push_back(toFloat(sum));
-    }
+  if (keyframes > 0) modes.shapes_m = shapesOf(displacement_m, modes.keyframe_from_mode);
   return modes;
 }
 

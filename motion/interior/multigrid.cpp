@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/lanes.h"
+
 namespace echocine {
 
 namespace {
@@ -26,10 +28,13 @@ Place placeOf(const ActiveNodes& nodes, std::size_t number) {
   return {node % nodes.nx, node / (nodes.nx * nodes.nz), node / nodes.nx % nodes.nz};
 }
 
-// The slot of a neighbour is kMiddle and how much larger its key is.
-constexpr int kMiddle = (kReach * kSide + kReach) * kSide + kReach;
+// A row's members and their parents stand among 4 x 4 x 4 coarse nodes from this far below half of
+// its own place; its own parents are the middle ones of these.
+constexpr int kBelow = 1, kNear = 4;
+using Near = std::array<double, static_cast<std::size_t>(kNear* kNear* kNear)>;
+// Places in Near differ by what their keys differ by.
 int keyOf(Place at) {
-  return (at.y * kSide + at.z) * kSide + at.x;
+  return (at.y * kNear + at.z) * kNear + at.x;
 }
 
 using Lattice = Multigrid::Lattice;
@@ -51,17 +56,7 @@ class Coarsening {
     }
   }
 
-  SparseRows<float> parents() const {
-    SparseRows<float> floats;
-    floats.reserve(parents_.size(), parents_.memberCount());
-    for (std::size_t n = 0; n < parents_.size(); ++n) {
-      const auto row = parents_[n];
-      for (std::size_t i = 0; i < row.members.size(); ++i)
-        floats.add(row.members[i], row.values[i]);
-      floats.endRow();
-    }
-    return floats;
-  }
+  SparseRows<float> parents() const { return SparseRows<float>(parents_); }
 
   // P^T A P with the rows A and the shares P. A coarse row is the sum over the fine nodes that have
   // it for a parent. If none of them has changed, the row is that of `earlier`, which has the same
@@ -73,7 +68,6 @@ class Coarsening {
       if (changed[n])
         for (const std::uint32_t parent : parents_[n].members) wanted_[parent] = true;
     std::vector<Slots> slots(size, Slots{});
-    product_.assign(size, 0.0);
     for (std::size_t n = 0; n < size; ++n) keys_.push_back(keyOf(placeOf(coarse_.nodes, n)));
     for (std::size_t n = 0; n < rows_.size(); ++n) addRow(n, slots);
     coarse_.rows.reserve(size, size * std::tuple_size_v<Slots> / 2);
@@ -133,23 +127,29 @@ class Coarsening {
     const auto row = rows_[n];
     const auto mine = parents_[n];
     if (std::ranges::none_of(mine.members, [&](std::uint32_t at) { return wanted_[at]; })) return;
-    touched_.clear();
+    const Place at = placeOf(nodes_, n);
+    const int first = keyOf({at.x / 2 - kBelow, at.y / 2 - kBelow, at.z / 2 - kBelow});
+    Near near{};
     for (std::size_t i = 0; i < row.members.size(); ++i) {
       const auto theirs = parents_[row.members[i]];
-      for (std::size_t b = 0; b < theirs.members.size(); ++b) {
-        const std::uint32_t to = theirs.members[b];
-        if (product_[to] == 0) touched_.push_back(to);
-        product_[to] += row.values[i] * theirs.values[b];
-      }
+      for (std::size_t b = 0; b < theirs.members.size(); ++b)
+        near[static_cast<std::size_t>(keys_[theirs.members[b]] - first)] +=
+            row.values[i] * theirs.values[b];
     }
-    for (const std::uint32_t to : touched_) {
-      const double value = std::exchange(product_[to], 0.0);
-      for (std::size_t a = 0; a < mine.members.size(); ++a) {
-        const std::uint32_t from = mine.members[a];
-        slots[from][static_cast<std::size_t>(kMiddle + keys_[to] - keys_[from])] +=
-            mine.values[a] * value;
+    for (std::size_t a = 0; a < mine.members.size(); ++a)
+      addNear(near, keys_[mine.members[a]] - first, mine.values[a], slots[mine.members[a]]);
+  }
+
+  // The products with the nodes of `near`, by the share of the one with this place in it.
+  static void addNear(const Near& near, int place, double share, Slots& slots) {
+    const int x = place % kNear, z = place / kNear % kNear, y = place / (kNear * kNear);
+    for (int ny = 0; ny < kNear; ++ny)
+      for (int nz = 0; nz < kNear; ++nz) {
+        const double* const from = &near[static_cast<std::size_t>(keyOf({0, ny, nz}))];
+        double* const to = &slots[static_cast<std::size_t>(
+            ((ny - y + kReach) * kSide + nz - z + kReach) * kSide - x + kReach)];
+        store(lanesAt(to) + share * lanesAt(from), to);
       }
-    }
   }
 
   const ActiveNodes& nodes_;
@@ -158,23 +158,19 @@ class Coarsening {
   std::vector<bool> wanted_;  // coarse rows; slots of others are incomplete
   SparseRows<double> parents_;
   std::vector<int> keys_;  // by coarse node
-  // For one row: the product by coarse node, 0 between rows, and the coarse nodes that it reaches.
-  std::vector<double> product_;
-  std::vector<std::uint32_t> touched_;
 };
 
 Multigrid::Level levelOf(const SparseRows<double>& rows) {
   Multigrid::Level level;
-  level.rows.reserve(rows.size(), rows.memberCount());
+  level.rows = SparseRows<float>(rows);
   level.inverse_diagonal.reserve(rows.size());
+  level.diagonal_at.reserve(rows.size());
   for (std::size_t n = 0; n < rows.size(); ++n) {
     const auto row = rows[n];
-    for (std::size_t i = 0; i < row.members.size(); ++i) {
-      level.rows.add(row.members[i], row.values[i]);
-      if (row.members[i] == n)
-        level.inverse_diagonal.push_back(static_cast<float>(1 / row.values[i]));
-    }
-    level.rows.endRow();
+    const auto at = static_cast<std::size_t>(
+        std::lower_bound(row.members.begin(), row.members.end(), n) - row.members.begin());
+    level.inverse_diagonal.push_back(static_cast<float>(1 / row.values[at]));
+    level.diagonal_at.push_back(static_cast<std::uint8_t>(at));
   }
   return level;
 }

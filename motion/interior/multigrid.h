@@ -25,6 +25,7 @@ class Multigrid {
   struct Level {
     SparseRows<float> rows;
     std::vector<float> inverse_diagonal;
+    std::vector<std::uint8_t> diagonal_at;  // by row, the place of the diagonal among its members
     // By node, the nodes of the next level between which it stands, and their trilinear shares;
     // a node that is coupled with none has none. Empty on the last level.
     SparseRows<float> parents;

@@ -2,6 +2,7 @@
 
 #include "core/lanes.h"
 #include "motion/interior/multigrid.h"
+#include "motion/interior/node_columns.h"
 
 namespace echocine {
 
@@ -31,40 +32,14 @@ void MultigridCycle<kLanes>::descend(std::size_t l, const std::vector<float>& b,
   smoothBack(level, b, x);
 }
 
-namespace {
-
-// A node's columns.
-template <std::size_t kLanes>
-struct Columns8 {
-  Floats8 lanes[kLanes];
-
-  static Columns8 at(const std::vector<float>& from, std::size_t node) {
-    Columns8 columns;
-    for (std::size_t i = 0; i < kLanes; ++i)
-      columns.lanes[i] = lanesAt(&from[(node * kLanes + i) * kFloatLanes]);
-    return columns;
-  }
-  void add(float factor, const std::vector<float>& from, std::size_t node) {
-    for (std::size_t i = 0; i < kLanes; ++i)
-      lanes[i] += factor * lanesAt(&from[(node * kLanes + i) * kFloatLanes]);
-  }
-  void putTo(std::vector<float>& to, std::size_t node, float factor = 1) const {
-    for (std::size_t i = 0; i < kLanes; ++i)
-      store(factor * lanes[i], &to[(node * kLanes + i) * kFloatLanes]);
-  }
-};
-
-}  // namespace
-
 // Gauss-Seidel sweep upwards. The unknowns above are still 0.
 template <std::size_t kLanes>
 void MultigridCycle<kLanes>::smoothFromZero(const Multigrid::Level& level,
                                             const std::vector<float>& b,
                                             std::vector<float>& x) const {
   for (std::size_t n = 0; n < level.rows.size(); ++n) {
-    const auto row = level.rows[n];
-    auto sum = Columns8<kLanes>::at(b, n);
-    for (std::size_t i = 0; row.members[i] < n; ++i) sum.add(-row.values[i], x, row.members[i]);
+    auto sum = NodeColumns<kLanes>::at(b, n);
+    sum.subtract(NodeColumns<kLanes>::product(level.rows[n], 0, level.diagonal_at[n], x));
     sum.putTo(x, n, level.inverse_diagonal[n]);
   }
 }
@@ -77,14 +52,13 @@ void MultigridCycle<kLanes>::restrictResidual(const Multigrid::Level& level,
   std::fill(coarse_b.begin(), coarse_b.end(), 0.0f);
   for (std::size_t n = 0; n < level.rows.size(); ++n) {
     const auto row = level.rows[n];
-    Columns8<kLanes> residual{};
-    for (std::size_t i = row.members.size(); row.members[--i] > n;)
-      residual.add(-row.values[i], x, row.members[i]);
+    const auto added =
+        NodeColumns<kLanes>::product(row, level.diagonal_at[n] + 1u, row.members.size(), x);
     const auto parents = level.parents[n];
     for (std::size_t i = 0; i < parents.members.size(); ++i) {
-      auto to = Columns8<kLanes>::at(coarse_b, parents.members[i]);
+      auto to = NodeColumns<kLanes>::at(coarse_b, parents.members[i]);
       for (std::size_t lane = 0; lane < kLanes; ++lane)
-        to.lanes[lane] += parents.values[i] * residual.lanes[lane];
+        to.lanes[lane] -= parents.values[i] * added.lanes[lane];
       to.putTo(coarse_b, parents.members[i]);
     }
   }
@@ -96,7 +70,7 @@ void MultigridCycle<kLanes>::addCoarse(const Multigrid::Level& level,
                                        std::vector<float>& x) const {
   for (std::size_t n = 0; n < level.rows.size(); ++n) {
     const auto parents = level.parents[n];
-    auto sum = Columns8<kLanes>::at(x, n);
+    auto sum = NodeColumns<kLanes>::at(x, n);
     for (std::size_t i = 0; i < parents.members.size(); ++i)
       sum.add(parents.values[i], coarse_x, parents.members[i]);
     sum.putTo(x, n);
@@ -109,9 +83,10 @@ void MultigridCycle<kLanes>::smoothBack(const Multigrid::Level& level, const std
                                         std::vector<float>& x) const {
   for (std::size_t n = level.rows.size(); n-- > 0;) {
     const auto row = level.rows[n];
-    auto sum = Columns8<kLanes>::at(b, n);
-    for (std::size_t i = 0; i < row.members.size(); ++i)
-      if (row.members[i] != n) sum.add(-row.values[i], x, row.members[i]);
+    const std::size_t at = level.diagonal_at[n];
+    auto sum = NodeColumns<kLanes>::at(b, n);
+    sum.subtract(NodeColumns<kLanes>::product(row, 0, at, x));
+    sum.subtract(NodeColumns<kLanes>::productBack(row, at + 1, row.members.size(), x));
     sum.putTo(x, n, level.inverse_diagonal[n]);
   }
 }
@@ -121,12 +96,12 @@ void MultigridCycle<kLanes>::solveLast(const std::vector<float>& b, std::vector<
   const std::span<const float> l = grid_.lastFactor();
   const std::size_t count = grid_.levels().back().rows.size();
   for (std::size_t n = 0; n < count; ++n) {
-    auto sum = Columns8<kLanes>::at(b, n);
+    auto sum = NodeColumns<kLanes>::at(b, n);
     for (std::size_t m = 0; m < n; ++m) sum.add(-l[n * count + m], x, m);
     sum.putTo(x, n, l[n * count + n]);
   }
   for (std::size_t n = count; n-- > 0;) {
-    auto sum = Columns8<kLanes>::at(x, n);
+    auto sum = NodeColumns<kLanes>::at(x, n);
     for (std::size_t m = n + 1; m < count; ++m) sum.add(-l[m * count + n], x, m);
     sum.putTo(x, n, l[n * count + n]);
   }

@@ -17,6 +17,15 @@ class SparseRows {
     std::span<const Number> values;
   };
 
+  SparseRows() = default;
+  // Rounded.
+  template <typename Other>
+  explicit SparseRows(const SparseRows<Other>& other)
+      : starts_(other.starts_), members_(other.members_) {
+    values_.reserve(other.values_.size());
+    for (const Other value : other.values_) values_.push_back(static_cast<Number>(value));
+  }
+
   void reserve(std::size_t rows, std::size_t members) {
     starts_.reserve(rows + 1);
     members_.reserve(members);
@@ -42,6 +51,8 @@ class SparseRows {
   }
 
  private:
+  template <typename>
+  friend class SparseRows;
   std::vector<std::uint32_t> starts_{0}, members_;
   std::vector<Number> values_;
 };

@@ -36,7 +36,7 @@ MotionField interiorMotion(const Scene& scene, const MeshMotion& motion) {
   parallelBlocks(wanted.size(), kTogether, [&](std::size_t begin, std::size_t end) {
     SurfaceFrame frame;
     for (std::size_t i = begin; i < end; ++i) {
-      motion.frameAt(wanted[i].first, frame);
+      motion.frameAt(wanted[i].first, frame, false);
       for (const Shown& shown : wanted[i].second)
         surfaces[shown.surface].keyframes_m[shown.keyframe] = frame.positions_m[shown.surface];
     }

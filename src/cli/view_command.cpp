@@ -45,7 +45,7 @@ int ViewCommand::run() {
   const Scene scene = placed(readScene(scene_file_));
   // The default of one structure is for the default of all.
   budget_.triangles_per_structure =
-      std::max(budget_.triangles_per_structure, budget_.triangles / 12);
+      std::max(budget_.triangles_per_structure, budget_.triangles / 16);
   const ViewSummary summary =
       writeViewPage(scene, page_, threads_, warningPrinter(quiet_), budget_);
   if (quiet_) return 0;

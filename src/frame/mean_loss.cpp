@@ -24,7 +24,7 @@ std::vector<double> meanLoss(const Scene& scene, const MeshMotion& motion, const
   SurfaceFrame surfaces;
   PolarFrame frame;
   for (int i = 0; i < kPhases; ++i) {
-    motion.frameAt(static_cast<double>(i) / kPhases, surfaces);
+    motion.frameAt(static_cast<double>(i) / kPhases, surfaces, false);
     slice.update(surfaces);
     traceFrame(slice, scene.probe, settings, request, frame);
     const std::vector<float>& exponents = frame.planes.at(Channel::attenuation);

@@ -204,7 +204,7 @@ void lookAtFrames(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) 
   SurfaceFrame frame;
   std::size_t crossings = 0;
   for (const double phase : kProbePhases) {
-    motion.frameAt(phase, frame);
+    motion.frameAt(phase, frame, false);
     slice.update(frame);
     plan.triangles_met = std::max(plan.triangles_met, slice.edges().size());
     for (const RayCrossings& line : slice.lines()) crossings += line.crossings.size();

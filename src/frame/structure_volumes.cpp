@@ -26,7 +26,7 @@ std::vector<KeyframeVolume> keyframeVolumes(const Scene& scene, const MeshMotion
     for (const Keyframe& keyframe : structure.keyframes) {
       Volumes& all = by_phase[keyframe.phase];
       if (all.empty()) {
-        motion.frameAt(keyframe.phase, surfaces);
+        motion.frameAt(keyframe.phase, surfaces, false);
         all = structureVolumes(scene, motion, surfaces);
       }
       for (const auto& [name, ml] : all)

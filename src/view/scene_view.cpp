@@ -13,20 +13,25 @@ namespace echocine {
 
 namespace {
 
+// The most of one structure, however many there are.
+std::size_t mostAlone(const ViewBudget& budget, const SurfaceTopology& surface) {
+  return (surface.still ? 4 : 1) * budget.triangles_per_structure;
+}
+
 // The most that each may have for all to keep within the budget: small ones leave theirs to others.
 std::size_t mostTriangles(const ViewBudget& budget, const MeshMotion& motion) {
   std::vector<std::size_t> sizes;
   for (const SurfaceTopology& surface : motion.surfaces())
-    sizes.push_back(motion.control(surface.id).triangles.size());
+    sizes.push_back(
+        std::min(motion.control(surface.id).triangles.size(), mostAlone(budget, surface)));
   std::sort(sizes.begin(), sizes.end());
   std::size_t left = budget.triangles;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const std::size_t share = left / (sizes.size() - i);
-    const std::size_t size = std::min(sizes[i], budget.triangles_per_structure);
-    if (size > share) return share;
-    left -= size;
+    if (sizes[i] > share) return share;
+    left -= sizes[i];
   }
-  return budget.triangles_per_structure;
+  return budget.triangles;
 }
 
 // Uses the control mesh if the surface is subdivided: its vertices come first in the surface, and
@@ -112,7 +117,8 @@ SceneView viewScene(const Scene& scene, const MeshMotion& motion, const ViewBudg
     const bool known = like != nullptr && s < like->structures.size() &&
                        like->structures[s].triangles_given == surfaces[s].triangles.size();
     return known ? like->structures[s].mesh
-                 : coarseMesh(motion.control(surfaces[s].id), positions_m, most);
+                 : coarseMesh(motion.control(surfaces[s].id), positions_m,
+                              std::min(most, mostAlone(budget, surfaces[s])));
   };
   PlaneSlice slice(surfaces, probe);
   SurfaceFrame frame;
