@@ -1,5 +1,7 @@
 #include "frame/frame_rays.h"
 
+#include <limits>
+
 #include "trace/thick_slice.h"
 #include "trace/trace_beams.h"
 
@@ -12,11 +14,22 @@ EchoCells echoCells(const LoopPlan& plan) {
   return plan.slice ? EchoCells::contours : EchoCells::links;
 }
 
+// Bodies of leaflets pierce all other structures.
+TraceSettings settingsOf(const Scene& scene, const LoopPlan& plan, const LeafletBodies* bodies) {
+  TraceSettings settings(scene, plan.effects, echoCells(plan));
+  for (std::size_t s = 0; bodies && s < settings.surfaces.size(); ++s) {
+    if (!bodies->isBody(static_cast<SurfaceId>(s))) continue;
+    settings.surfaces[s].membrane = false;
+    settings.surfaces[s].priority = std::numeric_limits<int>::max();
+  }
+  return settings;
+}
+
 }  // namespace
 
-FrameRays::FrameRays(const Scene& scene, const LoopPlan& plan)
+FrameRays::FrameRays(const Scene& scene, const LoopPlan& plan, const LeafletBodies* bodies)
     : probe_(scene.probe),
-      settings_(scene, plan.effects, echoCells(plan)),
+      settings_(settingsOf(scene, plan, bodies)),
       request_(planeRequest(scene, plan.effects)) {
   if (plan.effects.rays_per_beam > 1)
     beams_.emplace(probe_, beamSpread(plan.effects, scene.acquisition.seed));

@@ -13,8 +13,8 @@ namespace echocine {
 
 class FrameRays {
  public:
-  // The scene is kept by reference.
-  FrameRays(const Scene& scene, const LoopPlan& plan);
+  // The scene is kept by reference. `bodies` replace leaflets; null: none.
+  FrameRays(const Scene& scene, const LoopPlan& plan, const LeafletBodies* bodies);
 
   // Does an output need intensities?
   bool receive() const { return request_.intensities; }

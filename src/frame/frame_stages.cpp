@@ -80,8 +80,10 @@ void FrameStages::stand(const FrameTime& time, Workspace& w) const {
   clock.time(Stage::motion, [&] { motion->frameAt(time.phase, w.surfaces, plan.smooth_normals); });
   clock.time(Stage::geometry, [&] {
     if (effects.trabeculae) effects.trabeculae->raise(w.surfaces, w.smooth);
+    if (leaflets) leaflets->thicken(w.surfaces, w.sheets);
     std::visit([&](auto& g) { g.update(w.surfaces); }, w.geometry);
     if (w.sides) w.sides->update(w.surfaces);
+    if (leaflets) leaflets->thin(w.surfaces, w.sheets);
     if (effects.trabeculae) effects.trabeculae->lower(w.surfaces, w.smooth);
   });
   w.phase = time.phase;
@@ -124,11 +126,12 @@ std::unique_ptr<const Part> where(bool asked, Arguments&&... arguments) {
 FrameEffects::FrameEffects(const Scene& scene, const MeshMotion& motion,
                            const SharedMotionField& field, const LoopPlan& plan,
                            const CardiacClock& clock, const SignalChain& chain,
-                           const SceneSpeckle* source)
+                           const SceneSpeckle* source,
+                           std::shared_ptr<const LeafletBodies> leaflets)
     : trabeculae(where<Trabeculae>(plan.effects.trabeculae, scene, motion, !plan.slice)),
       speckle(source ? where<SceneSpeckle>(plan.effects.speckle, scene, *source)
                      : where<SceneSpeckle>(plan.effects.speckle, scene, motion, field, plan.effects,
-                                           trabeculae.get())),
+                                           trabeculae.get(), std::move(leaflets))),
       rolling(where<RollingLines>(
           plan.effects.rolling, scene,
           [&](LineRange lines) { return chain.taken(speckle ? speckle->reach(lines) : lines); })),
@@ -145,11 +148,13 @@ FrameStages::FrameStages(Scene given, std::shared_ptr<const MeshMotion> given_mo
       shared_chain(given_chain ? std::move(given_chain)
                                : std::make_shared<const SignalChain>(scene, plan.effects)),
       chain(*shared_chain),
-      rays(scene, plan),
+      leaflets(plan.effects.leaflets ? std::make_shared<const LeafletBodies>(scene, *motion)
+                                     : nullptr),
+      rays(scene, plan, leaflets.get()),
       field(scene, *motion),
-      effects(scene, *motion, field, plan, cardiac_clock, chain, source),
+      effects(scene, *motion, field, plan, cardiac_clock, chain, source, leaflets),
       truth(scene, *motion, field, cardiac_clock, plan, effects.rolling.get(),
-            plan.left_out.none() && !effects.trabeculae),
-      workspaces(scene, *motion, plan) {}
+            plan.left_out.none() && !effects.trabeculae && !leaflets),
+      workspaces(scene, leaflets ? leaflets->surfaces() : motion->surfaces(), plan) {}
 
 }  // namespace echocine

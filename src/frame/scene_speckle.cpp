@@ -15,12 +15,13 @@ SceneSpeckle::SceneSpeckle(const Scene& scene, std::shared_ptr<const Tissue> tis
 
 SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion,
                            const SharedMotionField& field, const EffectPlan& plan,
-                           const Trabeculae* trabeculae)
+                           const Trabeculae* trabeculae,
+                           std::shared_ptr<const LeafletBodies> leaflets)
     : SceneSpeckle(scene,
-                   std::shared_ptr<const Tissue>(
-                       new Tissue{field.shared(),
-                                  {scene, motion, &plan, trabeculae, &field},
-                                  {scene, motion, field.field().referencePhase()}}),
+                   std::shared_ptr<const Tissue>(new Tissue{
+                       field.shared(),
+                       {scene, motion, &plan, trabeculae, &field},
+                       {scene, motion, field.field().referencePhase(), std::move(leaflets)}}),
                    nullptr) {}
 
 SceneSpeckle::SceneSpeckle(const Scene& scene, const SceneSpeckle& source)

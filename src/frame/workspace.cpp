@@ -20,11 +20,10 @@ std::vector<ChannelPlane> channelPlanes(const OutputSettings& output, const Work
 std::unique_ptr<Workspace> WorkspacePool::made() const {
   if (!plan_.slice)
     return std::make_unique<Workspace>(
-        Workspace{-1, {}, {}, FrameGeometry(motion_.surfaces(), plan_.left_out), {}});
+        Workspace{-1, {}, {}, {}, FrameGeometry(surfaces_, plan_.left_out), {}});
   auto space = std::make_unique<Workspace>(
-      Workspace{-1, {}, {}, PlaneSlice(motion_.surfaces(), scene_.probe, plan_.left_out), {}});
-  if (plan_.effects.elevation_slices > 1)
-    space->sides.emplace(motion_.surfaces(), scene_, plan_.left_out);
+      Workspace{-1, {}, {}, {}, PlaneSlice(surfaces_, scene_.probe, plan_.left_out), {}});
+  if (plan_.effects.elevation_slices > 1) space->sides.emplace(surfaces_, scene_, plan_.left_out);
   return space;
 }
 

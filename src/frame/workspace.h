@@ -11,6 +11,7 @@
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
 #include "geometry/side_slices.h"
+#include "motion/surfaces/leaflet_bodies.h"
 #include "motion/surfaces/mesh_motion.h"
 #include "motion/surfaces/trabeculae.h"
 #include "plan/loop_plan.h"
@@ -24,6 +25,7 @@ struct Workspace {
   double phase = -1;  // of surfaces and geometry
   SurfaceFrame surfaces;
   Trabeculae::Smooth smooth{};                       // smooth surfaces, while others are displayed
+  LeafletBodies::Sheets sheets{};                    // leaflets without thickness, likewise
   std::variant<PlaneSlice, FrameGeometry> geometry;  // by the planned tracer
   PolarFrame polar;
   std::optional<SideSlices> sides{};  // of a beam with several elevation slices
@@ -39,9 +41,10 @@ std::vector<ChannelPlane> channelPlanes(const OutputSettings& output, const Work
 // A pool of workspaces: one per frame in flight.
 class WorkspacePool {
  public:
-  // References are kept.
-  WorkspacePool(const Scene& scene, const MeshMotion& motion, const LoopPlan& plan)
-      : scene_(scene), motion_(motion), plan_(plan) {}
+  // References are kept. `surfaces`: those that the picture shows.
+  WorkspacePool(const Scene& scene, const std::vector<SurfaceTopology>& surfaces,
+                const LoopPlan& plan)
+      : scene_(scene), surfaces_(surfaces), plan_(plan) {}
 
   // Borrowed for the lifetime of the pointer, which must end before the pool's. Thread-safe.
   std::shared_ptr<Workspace> borrow() const;
@@ -50,7 +53,7 @@ class WorkspacePool {
   std::unique_ptr<Workspace> made() const;
 
   const Scene& scene_;
-  const MeshMotion& motion_;
+  const std::vector<SurfaceTopology>& surfaces_;
   const LoopPlan& plan_;
   mutable FreeList<Workspace> list_;
 };

@@ -26,9 +26,9 @@ constexpr std::array kOfView{"view", "shift_mm", "rotate_deg", "tilt_deg"};
 
 // Tables whose keys neither change meshes nor files.
 bool isLiveTable(std::string_view table) {
-  constexpr std::array<std::string_view, 8> kTables{"probe",     "acquisition", "effects",
-                                                    "signal",    "speckle",     "trabeculae",
-                                                    "artefacts", "accuracy"};
+  constexpr std::array<std::string_view, 9> kTables{"probe",    "acquisition", "effects",
+                                                    "signal",   "speckle",     "trabeculae",
+                                                    "leaflets", "artefacts",   "accuracy"};
   return std::find(kTables.begin(), kTables.end(), table) != kTables.end();
 }
 

@@ -256,6 +256,7 @@ EffectPlan planEffects(const Scene& scene) {
                             {false, "echoes are placed at their path length"});
   planPulse(scene, plan);
   planTrabeculae(scene, plan);
+  planLeaflets(scene, plan);
   planSpeckle(scene, plan);
   planArtefacts(scene, plan);
   planRolling(scene, plan);

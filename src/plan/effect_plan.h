@@ -35,6 +35,7 @@ struct EffectPlan {
   bool beam_width = true;
   bool travel_time = false;
   bool trabeculae = false;  // relief of the ventricles' inner surfaces
+  bool leaflets = false;    // mitral and tricuspid ones have thickness
   bool speckle = false;
   bool heterogeneity = false, anisotropy = false;  // of the scatterers
   bool coherent_echoes = false;                    // interfaces keep part of their phase

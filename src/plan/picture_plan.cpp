@@ -84,6 +84,19 @@ void planTrabeculae(const Scene& scene, EffectPlan& plan) {
                                                              millimetresFromMetres(height_m))});
 }
 
+void planLeaflets(const Scene& scene, EffectPlan& plan) {
+  const double thickness_m = scene.leaflets.thickness_m;
+  plan.leaflets = std::any_of(scene.structures.begin(), scene.structures.end(),
+                              [&](const Structure& s) { return hasThickness(scene, s); });
+  plan.decisions.push_back(
+      {Effect::leaflets, plan.leaflets,
+       thickness_m == 0 ? "leaflets.thickness_mm is 0"
+       : !plan.leaflets ? "no membrane is a mitral or tricuspid leaflet"
+                        : fmt::format("leaflets are {:g} mm thick, up to {:g} mm at the free edge",
+                                      millimetresFromMetres(thickness_m),
+                                      millimetresFromMetres(2 * thickness_m))});
+}
+
 // A single medium without contrast still shows its scatterers.
 void planSpeckle(const Scene& scene, EffectPlan& plan) {
   const bool echoes = plan.contrast || plan.backscatter;

@@ -6,10 +6,12 @@
 
 namespace echocine {
 
-// The relief of the ventricles' inner surfaces.
 // The curve from decibels to grey.
 void planGreyMap(const Scene& scene, EffectPlan& plan);
+// The relief of the ventricles' inner surfaces.
 void planTrabeculae(const Scene& scene, EffectPlan& plan);
+// The thickness of leaflets.
+void planLeaflets(const Scene& scene, EffectPlan& plan);
 
 // Speckle and the properties of scatterers and interfaces. Precondition: plan.contrast,
 // plan.backscatter and plan.reflection are decided.

@@ -77,6 +77,9 @@ inline TruthSettings& partOf(const KeyOwner& o, TruthSettings*) {
 inline TrabeculaeSettings& partOf(const KeyOwner& o, TrabeculaeSettings*) {
   return o.scene->trabeculae;
 }
+inline LeafletSettings& partOf(const KeyOwner& o, LeafletSettings*) {
+  return o.scene->leaflets;
+}
 inline Structure& partOf(const KeyOwner& o, Structure*) {
   return *o.structure;
 }

@@ -11,6 +11,7 @@ void applyClean(Scene& scene) {
   scene.accuracy.elevation_slices = 3;
   scene.signal.beam_width = BeamWidth::profile;
   scene.trabeculae.deviation_m = 1e-3;
+  scene.leaflets.thickness_m = 1.5e-3;  // 3 mm at the edge; from 5 mm on leaflets are thickened
   scene.speckle.on = true;
   scene.speckle.smoothing_m = 0.62e-3;
   scene.speckle.heterogeneity_db = 4.5;

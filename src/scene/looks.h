@@ -1,6 +1,6 @@
 #pragma once
-// Looks: sets of defaults for [signal], [trabeculae], [speckle] and [artefacts]. Keys in the scene
-// override them.
+// Looks: sets of defaults for [signal], [trabeculae], [leaflets], [speckle] and [artefacts]. Keys
+// in the scene override them.
 
 #include "scene/scene.h"
 

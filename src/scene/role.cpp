@@ -82,6 +82,12 @@ bool hasTrabeculae(const Scene& scene, const Structure& structure) {
   return role == Role::lv_cavity || role == Role::rv_cavity;
 }
 
+bool hasThickness(const Scene& scene, const Structure& structure) {
+  if (!(scene.leaflets.thickness_m > 0) || !structure.membrane) return false;
+  const Role role = roleOf(structure);
+  return role == Role::mitral_valve || role == Role::tricuspid_valve;
+}
+
 double trabeculaeReach(const Scene& scene, const Structure& structure) {
   const Role role = roleOf(structure);
   const bool wall = role == Role::lv_wall || role == Role::rv_wall;

@@ -50,6 +50,10 @@ std::optional<SurfaceId> structureOf(const Scene& scene, Role role);
 // the scene asks for trabeculae.
 bool hasTrabeculae(const Scene& scene, const Structure& structure);
 
+// Does the picture show the structure as a body with thickness? Leaflets of the mitral and the
+// tricuspid valve are, if the scene asks for it.
+bool hasThickness(const Scene& scene, const Structure& structure);
+
 // Largest displacement of its vertices by trabeculae, m: vertices of the ventricles' walls follow
 // those of a cavity at the same place.
 double trabeculaeReach(const Scene& scene, const Structure& structure);

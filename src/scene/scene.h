@@ -98,6 +98,12 @@ struct TrabeculaeSettings {
   double most_m() const { return 2 * deviation_m; }  // largest height. Our choice
 };
 
+// Leaflets of the mitral and tricuspid valves as bodies, in the picture only
+// (motion/surfaces/leaflet_bodies.h).
+struct LeafletSettings {
+  double thickness_m = 0;  // at the hinge; 0: sheets without thickness
+};
+
 // Coherent echoes of material scatterers (src/speckle).
 struct SpeckleSettings {
   bool on = false;
@@ -192,6 +198,7 @@ struct Scene {
   std::vector<Structure> structures;
   EffectSwitches effects;
   TrabeculaeSettings trabeculae;
+  LeafletSettings leaflets;
   SpeckleSettings speckle;
   ArtefactSettings artefacts;
   SignalSettings signal;

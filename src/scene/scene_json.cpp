@@ -130,7 +130,7 @@ Json sceneJson(const Scene& scene) {
   Json json{{"background", scene.medium(scene.background).name}};
   addKeys("", {&fields}, json);
   for (const char* table : {"probe", "acquisition", "motion", "effects", "signal", "accuracy",
-                            "output", "truth", "trabeculae", "speckle", "artefacts"}) {
+                            "output", "truth", "trabeculae", "leaflets", "speckle", "artefacts"}) {
     json[table] = Json::object();
     addKeys(table, {&fields}, json[table]);
   }

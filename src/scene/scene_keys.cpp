@@ -114,6 +114,8 @@ constexpr SceneKey kKeys[] = {
     {"trabeculae", "scale_mm", kMm, ranges::kTrabeculaeScale_mm, "size of a ridge; at least two mesh edges", AT(TrabeculaeSettings, scale_m)},
     {"trabeculae", "seed", kNone, kSeed, "seed of the relief", AT(TrabeculaeSettings, seed)},
 
+    {"leaflets", "thickness_mm", kMm, ranges::kLeaflet_mm, "thickness of mitral and tricuspid leaflets near the hinge; the free edge has up to twice as much", AT(LeafletSettings, thickness_m)},
+
     {"artefacts", "dropout", kNone, kAny, "loss of contact towards the sector's edges", AT(ArtefactSettings, dropout)},
     {"artefacts", "dropout_db", kDb, ranges::kLoss_db, "loss on the outermost lines", AT(ArtefactSettings, dropout_db)},
     {"artefacts", "acoustic_window", kNone, kAny, "ribs shade part of the aperture", AT(ArtefactSettings, acoustic_window)},
@@ -150,7 +152,7 @@ constexpr SceneKey kKeys[] = {
     {"truth", "papillary", kNone, kAny, "class of the papillary muscles in the label pictures", kPapillary},
     {"truth", "tracks", kNone, kTracks, "number of material points", AT(TruthSettings, track_count)},
 
-    {"signal", "look", kNone, kAny, "selects the defaults of [signal], [trabeculae], [speckle], [artefacts] and accuracy.elevation_slices; keys in the scene override them", AT(SignalSettings, look)},
+    {"signal", "look", kNone, kAny, "selects the defaults of [signal], [trabeculae], [leaflets], [speckle], [artefacts] and accuracy.elevation_slices; keys in the scene override them", AT(SignalSettings, look)},
     {"signal", "quality", kNone, kAny, "strength of the artefacts in the looks of scanners", AT(SignalSettings, quality), kOptional, kWithQuality},
     {"signal", "tgc", kNone, kAny, "time gain: perfect compensates each path's attenuation, mean the loop's mean at each depth, nominal that of soft tissue", AT(SignalSettings, tgc)},
     {"signal", "tgc_nominal_db_cm_mhz", kNominalGain, ranges::kNominalGain_db_cm_mhz, "attenuation that the nominal gain compensates", AT(SignalSettings, nominal_gain_np_per_m_hz), kOptional, kWithNominal},

@@ -147,7 +147,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file, const Name
   readKeys(root, "", {&scene});
   readPlain(root.table("effects"), "effects", scene);
   takeLook(root.table("signal"), scene);
-  for (const char* of_look : {"trabeculae", "speckle", "artefacts"})
+  for (const char* of_look : {"trabeculae", "leaflets", "speckle", "artefacts"})
     readPlain(root.table(of_look), of_look, scene);
   readSignal(root.table("signal"), scene);
   readAccuracy(root.table("accuracy"), scene);

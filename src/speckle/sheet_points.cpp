@@ -18,7 +18,7 @@ constexpr int kSheetPhases = 32;
 constexpr double kBetweenPhases_m = 2e-3;
 
 // Purposes of hashed numbers.
-enum : std::uint64_t { kSheetCount = 11, kSheetPlace = 12 };
+enum : std::uint64_t { kSheetCount = 11, kSheetPlace = 12, kSheetThrough = 17 };
 
 double areaOf(const Triangle& t, const std::vector<Vec3f>& at) {
   return 0.5 * static_cast<double>(length(cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]])));
@@ -26,8 +26,9 @@ double areaOf(const Triangle& t, const std::vector<Vec3f>& at) {
 
 }  // namespace
 
-SheetPoints::SheetPoints(const Scene& scene, const MeshMotion& motion, double reference_phase)
-    : motion_(motion) {
+SheetPoints::SheetPoints(const Scene& scene, const MeshMotion& motion, double reference_phase,
+                         std::shared_ptr<const LeafletBodies> leaflets)
+    : motion_(motion), leaflets_(std::move(leaflets)) {
   const auto& surfaces = motion.surfaces();
   if (std::none_of(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.membrane; }))
     return;
@@ -69,6 +70,8 @@ void SheetPoints::draw(const SurfaceTopology& sheet, const std::vector<Vec3f>& p
         b2 = 1 - b2;
       }
       points_.push_back({.surface = sheet.id, .triangle = t, .b1 = b1, .b2 = b2});
+      through_.push_back(
+          static_cast<float>(2 * uniformFromHash(hashOf(seed, kSheetThrough, surface, t, j)) - 1));
     }
   }
 }
@@ -85,16 +88,30 @@ void SheetPoints::dropUnseen(const MeshMotion& motion, double reach_m) {
   }
   std::size_t kept = 0;
   for (std::size_t p = 0; p < seen.size(); ++p)
-    if (seen[p]) points_[kept++] = points_[p];
+    if (seen[p]) {
+      through_[kept] = through_[p];
+      points_[kept++] = points_[p];
+    }
   points_.resize(kept);
+  through_.resize(kept);
 }
 
 void SheetPoints::at(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m) const {
   places_m.clear();
   if (surfaces.positions_m.empty()) return;
-  for (const BoundPoint& point : points_)
-    places_m.push_back(place(point, motion_.surfaces()[index(point.surface)].triangles,
-                             surfaces.positions_m[index(point.surface)]));
+  thread_local std::vector<std::vector<Vec3f>> front_m;
+  front_m.resize(surfaces.positions_m.size());
+  for (const SurfaceTopology& sheet : motion_.surfaces())
+    if (leaflets_ && leaflets_->isBody(sheet.id))
+      leaflets_->toFront(sheet.id, surfaces.positions_m[index(sheet.id)], front_m[index(sheet.id)]);
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const std::size_t s = index(points_[p].surface);
+    const std::vector<Triangle>& faces = motion_.surfaces()[s].triangles;
+    const Vec3f on_sheet_m = place(points_[p], faces, surfaces.positions_m[s]);
+    const bool thick = leaflets_ && leaflets_->isBody(points_[p].surface);
+    places_m.push_back(thick ? on_sheet_m + through_[p] * place(points_[p], faces, front_m[s])
+                             : on_sheet_m);
+  }
 }
 
 }  // namespace echocine

@@ -2,9 +2,11 @@
 // Scatterers of membranes, bound to their triangles. A leaflet's speckle thus moves with it through
 // blood that renews itself.
 
+#include <memory>
 #include <vector>
 
 #include "motion/interior/bound_point.h"
+#include "motion/surfaces/leaflet_bodies.h"
 #include "motion/surfaces/mesh_motion.h"
 #include "speckle/point_spread.h"
 
@@ -16,7 +18,9 @@ class SheetPoints {
   // instant are omitted. At 3 per resolution cell their spacing is half a pulse's width, so a cell
   // contains many more of them than of the surrounding blood, which hardly contributes to the
   // sheet's echo.
-  SheetPoints(const Scene& scene, const MeshMotion& motion, double reference_phase);
+  // Those of a leaflet with thickness are spread evenly through its body.
+  SheetPoints(const Scene& scene, const MeshMotion& motion, double reference_phase,
+              std::shared_ptr<const LeafletBodies> leaflets = nullptr);
 
   std::size_t count() const { return points_.size(); }
   // Positions at an instant, always in the same order. Empty for a frame without
@@ -29,7 +33,9 @@ class SheetPoints {
   void dropUnseen(const MeshMotion& motion, double reach_m);
 
   const MeshMotion& motion_;
+  std::shared_ptr<const LeafletBodies> leaflets_;
   std::vector<BoundPoint> points_;
+  std::vector<float> through_;  // of each: -1 at the back of its body to 1 at the front
 };
 
 }  // namespace echocine

@@ -50,6 +50,7 @@ constexpr AddedEffect kRemoved[] = {
     {"heterogeneity", [](Scene& s, const Scene&) { s.speckle.heterogeneity_db = 0; }},
     {"anisotropy", [](Scene& s, const Scene&) { s.speckle.anisotropy_db = 0; }},
     {"trabeculae", [](Scene& s, const Scene&) { s.trabeculae.deviation_m = 0; }},
+    {"leaflets", [](Scene& s, const Scene&) { s.leaflets.thickness_m = 0; }},
     {"elevation slices", [](Scene& s, const Scene&) { s.accuracy.elevation_slices = 1; }},
     {"beam profile", [](Scene& s, const Scene&) { s.signal.beam_width = BeamWidth::focused; }},
     {"speckle", [](Scene& s, const Scene&) { s.speckle.on = false; }},

@@ -347,6 +347,11 @@ class Scene:
         return Table(self, "trabeculae")
 
     @property
+    def leaflets(self) -> Table:
+        """Thickness of the leaflets of mitral and tricuspid valve."""
+        return Table(self, "leaflets")
+
+    @property
     def artefacts(self) -> Table:
         """What a scanner adds to the picture."""
         return Table(self, "artefacts")
