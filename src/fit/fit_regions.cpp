@@ -50,41 +50,82 @@ std::optional<Summary> summaryOf(const Curves& curves, std::size_t part, double 
 struct TwinSpread {
   double mean = 0, variance = 0;
 };
-TwinSpread spreadOf(const std::vector<Summary>& twins, double Summary::*value) {
+TwinSpread spreadOf(const std::vector<double>& twins) {
   const auto n = static_cast<double>(twins.size());
   TwinSpread out;
-  for (const Summary& one : twins) out.mean += one.*value / n;
-  for (const Summary& one : twins)
-    out.variance += (one.*value - out.mean) * (one.*value - out.mean) / (n - 1) * (1 + 1 / n);
+  for (const double one : twins) out.mean += one / n;
+  for (const double one : twins)
+    out.variance += (one - out.mean) * (one - out.mean) / (n - 1) * (1 + 1 / n);
   return out;
 }
 
-std::optional<RegionFinding> findingOf(const Curves& loop, const std::vector<Curves>& twins,
-                                       std::size_t part, double floor_mm, double systole) {
+// A part of the boundaries, and what the loop and the twins show of it.
+struct Part {
+  RegionFinding finding;
+  double here = 0;          // offset in the loop, mm
+  std::vector<double> own;  // and in each twin
+  double faint = 1;         // factor of the standard deviations
+};
+
+std::optional<Part> partOf(const Curves& loop, const std::vector<Curves>& twins, std::size_t part,
+                           double floor_mm, double systole) {
   const auto curve = std::find_if(loop.begin(), loop.end(),
                                   [&](const OffsetCurve& one) { return one.part == part; });
   if (curve == loop.end()) return std::nullopt;
   const std::optional<Summary> here = summaryOf(curve->offset_mm, systole);
   if (!here) return std::nullopt;
-  std::vector<Summary> own;
+  Part out;
+  std::vector<double> motions;
   for (const Curves& twin : twins) {
     const std::optional<Summary> one = summaryOf(twin, part, systole);
     if (!one) return std::nullopt;
-    own.push_back(*one);
+    out.own.push_back(one->offset);
+    motions.push_back(one->motion);
   }
-  const TwinSpread offset = spreadOf(own, &Summary::offset),
-                   motion = spreadOf(own, &Summary::motion);
-  RegionFinding out;
-  out.pieces = curve->pieces, out.certainty = curve->certainty;
-  const double other_mm =
-      floor_mm * std::max(1.0, kUsualCertainty / std::max(out.certainty, kTiny));
-  out.offset_mm = here->offset - offset.mean;
-  out.motion_mm = here->motion - motion.mean;
-  out.offset_sd_mm = std::sqrt(offset.variance + other_mm * other_mm);
-  out.motion_sd_mm = std::sqrt(motion.variance + other_mm * other_mm);
-  out.visible = out.pieces >= kLeastPieces && out.certainty >= kLeastCertainty;
-  out.significant = out.visible && out.deviations() > kRegionSds;
+  out.here = here->offset;
+  RegionFinding& f = out.finding;
+  f.pieces = curve->pieces, f.certainty = curve->certainty;
+  out.faint = std::max(1.0, kUsualCertainty / std::max(f.certainty, kTiny));
+  const TwinSpread offset = spreadOf(out.own), motion = spreadOf(motions);
+  f.offset_mm = here->offset - offset.mean;
+  f.motion_mm = here->motion - motion.mean;
+  f.offset_sd_mm = std::hypot(std::sqrt(offset.variance), floor_mm * out.faint);
+  f.motion_sd_mm = std::hypot(std::sqrt(motion.variance), floor_mm * out.faint);
+  f.visible = f.pieces >= kLeastPieces && f.certainty >= kLeastCertainty;
   return out;
+}
+
+bool areNeighbours(std::size_t a, std::size_t b) {
+  if (a > b) std::swap(a, b);
+  const auto inRing = [&](std::size_t first, std::size_t last) {
+    return a >= first && b <= last && (b - a == 1 || (a == first && b == last));
+  };
+  if (inRing(1, 6) || inRing(7, 12) || inRing(13, 16)) return true;
+  if (b == 17) return a >= 13;
+  if (b <= 12) return a <= 6 && b == a + 6;
+  constexpr std::size_t kApical[] = {13, 14, 14, 15, 16, 16};  // of the mid segments
+  return a >= 7 && a <= 12 && kApical[a - 7] == b;
+}
+
+// The offset of a segment minus the mean of its neighbours: of two or more, all visible.
+void addLocal(const std::vector<Part>& segments, double floor_mm, Part& part) {
+  std::vector<const Part*> beside;
+  for (const Part& other : segments)
+    if (other.finding.visible && areNeighbours(other.finding.segment, part.finding.segment))
+      beside.push_back(&other);
+  if (beside.size() < 2) return;
+  const double share = 1 / static_cast<double>(beside.size());
+  double here = part.here, square = part.faint * part.faint;
+  std::vector<double> own = part.own;
+  for (const Part* other : beside) {
+    here -= share * other->here;
+    square += share * share * other->faint * other->faint;
+    for (std::size_t t = 0; t < own.size(); ++t) own[t] -= share * other->own[t];
+  }
+  const TwinSpread spread = spreadOf(own);
+  part.finding.local_mm = here - spread.mean;
+  part.finding.local_sd_mm =
+      std::sqrt(spread.variance + floor_mm * floor_mm * square / (1 + share));
 }
 
 // Pieces beside blood only: other edges have no known sign.
@@ -101,7 +142,8 @@ FitMap besideBlood(const FitMap& map) {
 }  // namespace
 
 double RegionFinding::deviations() const {
-  return std::max(std::abs(offset_mm) / offset_sd_mm, std::abs(motion_mm) / motion_sd_mm);
+  return std::max({std::abs(offset_mm) / offset_sd_mm, std::abs(motion_mm) / motion_sd_mm,
+                   local_mm ? std::abs(*local_mm) / local_sd_mm : 0});
 }
 
 std::vector<RegionFinding> regionFindings(const FitReport& loop, const std::vector<FitMap>& twins,
@@ -113,20 +155,26 @@ std::vector<RegionFinding> regionFindings(const FitReport& loop, const std::vect
     own_structures.push_back(offsetCurves(besideBlood(twin), structures));
     own_segments.push_back(segmentCurves(twin));
   }
-  std::vector<RegionFinding> out;
   const Curves of_structures = offsetCurves(seen, structures), of_segments = segmentCurves(seen);
+  std::vector<Part> parts, segments;
   for (std::size_t s = 0; s < structures; ++s)
-    if (auto finding =
-            findingOf(of_structures, own_structures, s, floor.structure_mm, loop.systole)) {
-      finding->name = loop.structures[s];
-      out.push_back(std::move(*finding));
+    if (auto part = partOf(of_structures, own_structures, s, floor.structure_mm, loop.systole)) {
+      part->finding.name = loop.structures[s];
+      parts.push_back(std::move(*part));
     }
   for (std::size_t s = 1; s <= kAhaSegments; ++s)
-    if (auto finding = findingOf(of_segments, own_segments, s, floor.segment_mm, loop.systole)) {
-      finding->segment = s;
-      finding->name = kAhaNames[s - 1];
-      out.push_back(std::move(*finding));
+    if (auto part = partOf(of_segments, own_segments, s, floor.segment_mm, loop.systole)) {
+      part->finding.segment = s;
+      part->finding.name = kAhaNames[s - 1];
+      segments.push_back(std::move(*part));
     }
+  for (Part& part : segments) addLocal(segments, floor.local_mm, part);
+  parts.insert(parts.end(), segments.begin(), segments.end());
+  std::vector<RegionFinding> out;
+  for (Part& part : parts) {
+    part.finding.significant = part.finding.visible && part.finding.deviations() > kRegionSds;
+    out.push_back(std::move(part.finding));
+  }
   return out;
 }
 
@@ -138,6 +186,8 @@ nlohmann::ordered_json regionsJson(const std::vector<RegionFinding>& regions) {
                    {"offset_sd_mm", r.offset_sd_mm},
                    {"motion_mm", r.motion_mm},
                    {"motion_sd_mm", r.motion_sd_mm},
+                   {"local_mm", r.local_mm ? nlohmann::ordered_json(*r.local_mm) : nullptr},
+                   {"local_sd_mm", r.local_mm ? nlohmann::ordered_json(r.local_sd_mm) : nullptr},
                    {"certainty", r.certainty},
                    {"visible", r.visible},
                    {"significant", r.significant}});

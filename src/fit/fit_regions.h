@@ -1,6 +1,7 @@
 #pragma once
 // Where a loop differs from the fitted heart by more than a perfect model does.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,16 @@ struct RegionFinding {
   std::string name;         // of the structure or segment
   double offset_mm = 0;     // mean over the beat
   double motion_mm = 0;  // at end-systole minus at end-diastole: positive where a wall moves less
-  double offset_sd_mm = 0, motion_sd_mm = 0;  // of a perfect model; larger for faint edges
-  double pieces = 0, certainty = 0;           // of its boundary in the loop (OffsetCurve)
-  bool visible = false;                       // enough pieces that are certain enough
-  bool significant = false;  // visible, and either is beyond kRegionSds standard deviations
+  // The offset minus the mean of the adjacent visible segments, if there are two or more: a fit
+  // spreads its error over the wall, a defect does not.
+  std::optional<double> local_mm;
+  // For a perfect model; larger for faint edges.
+  double offset_sd_mm = 0, motion_sd_mm = 0, local_sd_mm = 0;
+  double pieces = 0, certainty = 0;  // of its boundary in the loop (OffsetCurve)
+  bool visible = false;              // enough pieces that are certain enough
+  bool significant = false;  // visible, and one of them is beyond kRegionSds standard deviations
 
-  double deviations() const;  // the larger one, in standard deviations
+  double deviations() const;  // the largest one, in standard deviations
 };
 
 // Our choice, with the standard deviations, from planted hearts (tests/bench/fit).
@@ -34,9 +39,9 @@ inline constexpr int kTwins = 3;
 // looks, and for fitted dials the error of the fit. From planted hearts (tests/bench/fit); those of
 // fitted dials from few hearts.
 struct RegionFloor {
-  double segment_mm = 0, structure_mm = 0;
+  double segment_mm = 0, structure_mm = 0, local_mm = 0;
 };
-inline constexpr RegionFloor kKnownDials{0.4, 0.5}, kFittedDials{0.9, 1.0};
+inline constexpr RegionFloor kKnownDials{0.4, 0.5, 0.5}, kFittedDials{0.9, 1.0, 0.5};
 
 // Findings of all structures beside blood and all segments that the loop and all twins show, the
 // structures first. A twin is the map of the heart against one of its own rendered loops.

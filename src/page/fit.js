@@ -106,11 +106,13 @@
     byId("regions").hidden = !all.length;
     byId("regions").querySelector("p").textContent = (found.length ? `${found.length} of ${shown.length} visible regions differ` : `None of ${shown.length} visible regions differs`)
       + " by more than a perfect model would. Offset: mean over the beat. Change: offset at end-systole minus that at end-diastole, positive where a wall moves less."
+      + " Local: offset of a segment minus the mean of its visible neighbours."
       + " In brackets: standard deviation for a perfect model. Positive offsets lie outside the heart's chamber.";
     page.table(byId("regions").querySelector("div"), { columns: [{ label: "view" }, { label: "region" },
-      ...["offset, mm", "change, mm"].map((label) => ({ label, number: true })), { label: "" }],
+      ...["offset, mm", "change, mm", "local, mm"].map((label) => ({ label, number: true })), { label: "" }],
     rows: [...found, ...all.filter((r) => !r.significant)].map((r) => [r.view, r.segment ?? r.structure,
-      `${fixed(r.offset_mm, 1)} (${fixed(r.offset_sd_mm, 1)})`, `${fixed(r.motion_mm, 1)} (${fixed(r.motion_sd_mm, 1)})`, r.significant ? "differs" : r.visible ? "" : "hardly visible"]) });
+      `${fixed(r.offset_mm, 1)} (${fixed(r.offset_sd_mm, 1)})`, `${fixed(r.motion_mm, 1)} (${fixed(r.motion_sd_mm, 1)})`,
+      r.local_mm === null ? "" : `${fixed(r.local_mm, 1)} (${fixed(r.local_sd_mm, 1)})`, r.significant ? "differs" : r.visible ? "" : "hardly visible"]) });
   }
 
   function showTables() {

@@ -46,9 +46,11 @@ void tell(const std::string& what, const std::vector<RegionFinding>& regions, Co
   fmt::print("{}\n", what);
   for (const RegionFinding& r : regions)
     if (r.segment > 0 || r.significant)
-      fmt::print("  {}: {:+.2f} ({:.2f}) mm, change {:+.2f} ({:.2f}) mm, certainty {:.2f}{}\n",
-                 r.name, r.offset_mm, r.offset_sd_mm, r.motion_mm, r.motion_sd_mm, r.certainty,
-                 r.significant ? ", significant" : "");
+      fmt::print(
+          "  {}: {:+.2f} ({:.2f}) mm, change {:+.2f} ({:.2f}) mm, local {:+.2f} ({:.2f}) mm, "
+          "certainty {:.2f}{}\n",
+          r.name, r.offset_mm, r.offset_sd_mm, r.motion_mm, r.motion_sd_mm, r.local_mm.value_or(0),
+          r.local_sd_mm, r.certainty, r.significant ? ", significant" : "");
   std::fflush(stdout);
 }
 

@@ -1,5 +1,7 @@
 // fit_table VIEWS HEARTS [FIRST [DEGREES]]: fits of planted hearts, one line each, then bias, RMS,
-// the model error of Eq. 15 and how many intervals hold the planted value.
+// the model error of Eq. 15 and how many intervals hold the planted value. DEGREES limits tilts and
+// rotations of the planes.
+// fit_table VIEWS foreign [DEGREES]: the same for meshes of other people.
 
 #include <fmt/format.h>
 
@@ -7,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "core/parallel.h"
 #include "fit/fit_interval.h"
@@ -63,7 +66,7 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
   };
   ef.add(ef_error, sdOf(fit, "ef"), within(*fit.ef, true_ef));
   edv.add(edv_error, sdOf(fit, "edv") / true_edv, within(*fit.edv_ml, true_edv));
-  if (fit.gls) {
+  if (fit.gls && heart.dials.contains("twist")) {  // of a parametric heart
     const double true_gls = longitudinalStrainOf(heart::parametersFrom(heart.dials));
     // From the interval of Eq. 15, without the model error.
     const double sd = (fit.gls->high - fit.gls->low) / (2 * 1.645),
@@ -83,23 +86,37 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
   for (const ViewFitted& view : fit.views)
     for (const RegionFinding& r : view.regions)
       fmt::print(
-          "  {} {}: offset {:+.2f} ({:.2f}) mm, motion {:+.2f} ({:.2f}) mm, {:.0f} pieces, "
+          "  {} {}: offset {:+.2f} ({:.2f}) mm, motion {:+.2f} ({:.2f}) mm, local {:+.2f} ({:.2f}) "
+          "mm, {:.0f} pieces, "
           "certainty {:.2f}{}\n",
           keyOf(view.view), r.name, r.offset_mm, r.offset_sd_mm, r.motion_mm, r.motion_sd_mm,
-          r.pieces, r.certainty, r.significant ? ", significant" : "");
+          r.local_mm.value_or(0), r.local_sd_mm, r.pieces, r.certainty,
+          r.significant ? ", significant" : "");
   std::fflush(stdout);
 }
 
 int run(int argc, char** argv) {
   if (argc < 3) {
-    fmt::print("fit_table VIEWS HEARTS [FIRST [DEGREES]]\n");
+    fmt::print("fit_table VIEWS HEARTS [FIRST [DEGREES]], or fit_table VIEWS foreign [DEGREES]\n");
     return 2;
   }
   const auto views = static_cast<std::size_t>(std::clamp(std::atoi(argv[1]), 1, 3));
+  const bool foreign = std::strcmp(argv[2], "foreign") == 0;
   const int hearts = std::atoi(argv[2]), first = argc > 3 ? std::atoi(argv[3]) : 0;
   const double most_deg = argc > 4 ? std::atof(argv[4]) : 8;
   Errors ef{"EF"}, edv{"EDV, relative"}, gls{"GLS"};
   withThreads(0, [&] {
+    if (foreign) {
+      const double off_deg = argc > 3 ? std::atof(argv[3]) : 5;
+      int n = 0;
+      for (const double deg : {0.0, off_deg})
+        for (const Family family : {Family::patient, Family::whole}) {
+          fmt::print("{}, planes off by up to {:g} degrees\n", nameOf(family), deg);
+          tellFit(n, foreignHeart(family, n, views, deg), {}, ef, edv, gls);
+          ++n;
+        }
+      return;
+    }
     for (int n = first; n < first + hearts; ++n)
       tellFit(n, plantedHeart(n, views, most_deg), {}, ef, edv, gls);
   });

@@ -36,7 +36,7 @@ class FitPage(browser.PageTest):
         with open(os.path.join(os.path.dirname(PAGE[0]), "fit.json")) as file:
             regions = json.load(file)["views"][0]["regions"]
         self.assertIn("mid inferoseptal", [region.get("segment") for region in regions])
-        rows = self.run_script("return Array.from(document.querySelectorAll('#regions tbody tr'), (row) => [row.cells[1].textContent, row.cells[4].textContent])")
+        rows = self.run_script("return Array.from(document.querySelectorAll('#regions tbody tr'), (row) => [row.cells[1].textContent, row.cells[5].textContent])")
         self.assertEqual(sorted(rows), sorted([region.get("segment", region.get("structure")), "differs" if region["significant"] else "" if region["visible"] else "hardly visible"] for region in regions))
 
     def test_the_band_holds_the_volume(self):

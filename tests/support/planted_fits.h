@@ -10,6 +10,7 @@
 #include "core/hash_random.h"
 #include "core/units.h"
 #include "fit/heart_fit.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "motion/surfaces/probe_placement.h"
 #include "support/view_loops.h"
 
@@ -30,6 +31,23 @@ struct PlantedHeart {
     return out;
   }
 };
+
+// Volumes of the left ventricle, mL, over the beat from its start. The whole heart's meshes have
+// numbers for names.
+inline std::vector<double> volumesOf(const Scene& scene) {
+  const MeshMotion motion(scene);
+  std::optional<SurfaceId> cavity = structureOf(scene, Role::lv_cavity);
+  for (std::size_t s = 0; s < scene.structures.size() && !cavity; ++s)
+    if (scene.structures[s].name == "region_3") cavity = SurfaceId(s);
+  constexpr int kSteps = 100;
+  std::vector<double> ml;
+  SurfaceFrame frame;
+  for (int i = 0; i < kSteps; ++i) {
+    motion.frameAt(static_cast<double>(i) / kSteps, frame, false);
+    ml.push_back(1e6 * motion.volumeIn(frame, motion.surfaces()[index(cavity.value())]));
+  }
+  return ml;
+}
 
 // Heart `number` of an endless list in 1 to 3 views, with tilt and rotation of each plane within
 // +-most_deg.
@@ -56,6 +74,28 @@ inline PlantedHeart plantedHeart(int number, std::size_t views, double most_deg)
         turnedAndTilted(scene.probe.pose, radiansFromDegrees(drawn(30 + k, -most_deg, most_deg)),
                         radiansFromDegrees(drawn(20 + k, -most_deg, most_deg)));
     out.loops.push_back(scannedLoop(scene, 20, 100 + 7 * number + k));
+  }
+  return out;
+}
+
+// Meshes of another person, outside the models' family: their EF and EDV are those of the meshes.
+// `number` draws tilts, rotations, media and speckle.
+inline PlantedHeart foreignHeart(Family family, int number, std::size_t views, double most_deg) {
+  const auto drawn = [&](int k) {
+    return most_deg * (2 * uniformFromHash(hashOf(number, k, 919)) - 1);
+  };
+  PlantedHeart out;
+  for (std::size_t v = 0; v < views; ++v) {
+    Scene scene = sceneOf(family, kPlantedViews[v]);
+    if (v == 0) {
+      const std::vector<double> ml = volumesOf(scene);
+      out.dials["edv"] = ml.front();
+      out.dials["ef"] = 1 - *std::min_element(ml.begin(), ml.end()) / ml.front();
+    }
+    const int k = static_cast<int>(v);
+    scene.probe.pose = turnedAndTilted(scene.probe.pose, radiansFromDegrees(drawn(2 * k)),
+                                       radiansFromDegrees(drawn(2 * k + 1)));
+    out.loops.push_back(scannedLoop(std::move(scene), 25, 500 + 7 * number + k));
   }
   return out;
 }

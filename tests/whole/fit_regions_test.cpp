@@ -101,6 +101,48 @@ TEST(FitRegions, TheMeanOfTheTwinsIsSubtractedAndTheirSpreadIsNoise) {
   }
 }
 
+// Twelve pieces of each segment, with one offset over the beat.
+FitMap segmentsOf(const std::map<int, double>& offsets_mm) {
+  FitMap map;
+  for (int n = 0; n < kFitFrames; ++n) {
+    map.boundary.emplace_back();
+    for (const auto& [segment, mm] : offsets_mm)
+      for (int i = 0; i < 12; ++i)
+        map.boundary.back().push_back(
+            {0, 0, static_cast<float>(mm), 0.5F, -1, 0, static_cast<std::uint8_t>(segment), true});
+  }
+  return map;
+}
+
+// A segment against the mean of its neighbours along the wall or round it, if it has two.
+TEST(FitRegions, ASegmentIsComparedWithItsNeighbours) {
+  struct Case {
+    std::map<int, double> loop;
+    std::map<int, double> local;
+  };
+  for (const Case& c :
+       {Case{{{3, 1}, {9, 4}, {14, 2}, {17, 1}, {16, 0}, {12, 1}, {6, 1}},  // four chambers
+             {{9, 2.5}, {14, -0.5}, {17, 0}, {16, -1}, {12, 0.5}}},
+        Case{{{7, 1}, {8, 5}, {9, 1}, {10, 1}, {11, 1}, {12, 3}},  // short axis
+             {{7, -3}, {8, 4}, {9, -2}, {10, 0}, {11, -1}, {12, 2}}},
+        Case{{{13, 1}, {14, 2}, {15, 3}, {16, 6}}, {{13, -3}, {14, 0}, {15, -1}, {16, 4}}}}) {
+    std::map<int, double> twin = c.loop;
+    for (auto& [segment, mm] : twin) mm = 0;
+    const std::vector<FitMap> twins(3, segmentsOf(twin));
+    for (const RegionFinding& r : findingsOf(segmentsOf(c.loop), twins)) {
+      if (r.segment == 0) {
+        EXPECT_FALSE(r.local_mm);
+        continue;
+      }
+      const auto wanted = c.local.find(static_cast<int>(r.segment));
+      ASSERT_EQ(r.local_mm.has_value(), wanted != c.local.end()) << r.name;
+      if (!r.local_mm) continue;
+      EXPECT_NEAR(*r.local_mm, wanted->second, 1e-5) << r.name;
+      EXPECT_NEAR(r.local_sd_mm, kKnownDials.local_mm, 1e-6);
+    }
+  }
+}
+
 TEST(FitRegions, WhatIsHardlyVisibleIsNotSignificant) {
   const std::vector<FitMap> twins(2, mapOf(-3, -3, 0.5F));
   for (const FitMap& loop : {mapOf(0, 30, 0.05F), mapOf(0, 30, 0.5F, 4)})
