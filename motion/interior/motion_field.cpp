@@ -9,6 +9,7 @@
 #include "core/stop.h"
 #include "motion/interior/group_lattice.h"
 #include "motion/interior/reach_across.h"
+#include "motion/interior/top_surfaces_at.h"
 
 namespace echocine {
 
@@ -215,14 +216,10 @@ GroupId MotionField::groupAt(Vec3f reference_m) const {
 
 void MotionField::groupsAt(std::span<const Vec3f> reference_m, std::span<GroupId> groups) const {
   CHECK_EQ(reference_m.size(), groups.size());
-  Box box;
-  for (const Vec3f p : reference_m) box.add(toDouble(p));
-  if (reference_m.empty()) return;
-  const TopSurfaces::Within tops = state_->tops->within(box);
-  for (std::size_t i = 0; i < reference_m.size(); ++i) {
-    const auto surface = tops.at(toDouble(reference_m[i]));
-    groups[i] = surface ? groupOf(*surface) : background();
-  }
+  std::vector<std::optional<SurfaceId>> tops(reference_m.size());
+  topSurfacesAt(*state_->tops, reference_m, tops);
+  for (std::size_t i = 0; i < tops.size(); ++i)
+    groups[i] = tops[i] ? groupOf(*tops[i]) : background();
 }
 
 std::vector<GroupId> MotionField::groupsIn(const Box& reference_m) const {
