@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 #include "core/check.h"
 #include "core/parallel.h"
@@ -135,10 +137,20 @@ void MotionField::State::findModes(const std::vector<InteriorSurface>& surfaces,
   }
 }
 
+// Groups with many points take longest and are begun first, so threads end together.
 void MotionField::State::fit(std::span<const BorderPoint> points) {
+  std::vector<std::size_t> sizes(groups.size(), 0), order(groups.size());
+  for (const BorderPoint& point : points) {
+    ++sizes[group_of[index(point.surface)]];
+    ++sizes[point.beyond < group_of.size() ? group_of[point.beyond] : groups.size() - 1];
+  }
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t g) { return sizes[g]; });
   parallelBlocks(groups.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t g = begin; g < end; ++g)
-      groups[g].lattice = fitGroup(space, groups[g].members, *tops, points, classes);
+    for (std::size_t i = begin; i < end; ++i) {
+      Group& group = groups[order[i]];
+      group.lattice = fitGroup(space, group.members, *tops, points, classes);
+    }
   });
   for (Group& group : groups) group.reach_across_m = reachAcross(group.lattice, classes);
 }
