@@ -14,7 +14,7 @@ namespace {
 
 // Modes of what the affine part leaves that are smaller than this part of it, as root mean squares,
 // are left out: some hundredths of a millimetre at most. Our choice.
-constexpr double kLeftOut = 0.01;
+constexpr double kLeftOut = 0.02;
 // Residuals, in parts of the right side: of fits that only decide what slides and what folds, and
 // of the field. Our choices.
 constexpr double kTrial = 1e-2, kConverged = 1e-6;

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 #include "core/check.h"
 #include "core/parallel.h"
 #include "core/stop.h"
 #include "motion/interior/group_lattice.h"
 #include "motion/interior/reach_across.h"
+#include "motion/interior/top_surfaces_at.h"
 
 namespace echocine {
 
@@ -134,10 +137,20 @@ void MotionField::State::findModes(const std::vector<InteriorSurface>& surfaces,
   }
 }
 
+// Groups with many points take longest and are begun first, so threads end together.
 void MotionField::State::fit(std::span<const BorderPoint> points) {
+  std::vector<std::size_t> sizes(groups.size(), 0), order(groups.size());
+  for (const BorderPoint& point : points) {
+    ++sizes[group_of[index(point.surface)]];
+    ++sizes[point.beyond < group_of.size() ? group_of[point.beyond] : groups.size() - 1];
+  }
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t g) { return sizes[g]; });
   parallelBlocks(groups.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t g = begin; g < end; ++g)
-      groups[g].lattice = fitGroup(space, groups[g].members, *tops, points, classes);
+    for (std::size_t i = begin; i < end; ++i) {
+      Group& group = groups[order[i]];
+      group.lattice = fitGroup(space, group.members, *tops, points, classes);
+    }
   });
   for (Group& group : groups) group.reach_across_m = reachAcross(group.lattice, classes);
 }
@@ -215,14 +228,10 @@ GroupId MotionField::groupAt(Vec3f reference_m) const {
 
 void MotionField::groupsAt(std::span<const Vec3f> reference_m, std::span<GroupId> groups) const {
   CHECK_EQ(reference_m.size(), groups.size());
-  Box box;
-  for (const Vec3f p : reference_m) box.add(toDouble(p));
-  if (reference_m.empty()) return;
-  const TopSurfaces::Within tops = state_->tops->within(box);
-  for (std::size_t i = 0; i < reference_m.size(); ++i) {
-    const auto surface = tops.at(toDouble(reference_m[i]));
-    groups[i] = surface ? groupOf(*surface) : background();
-  }
+  std::vector<std::optional<SurfaceId>> tops(reference_m.size());
+  topSurfacesAt(*state_->tops, reference_m, tops);
+  for (std::size_t i = 0; i < tops.size(); ++i)
+    groups[i] = tops[i] ? groupOf(*tops[i]) : background();
 }
 
 std::vector<GroupId> MotionField::groupsIn(const Box& reference_m) const {

@@ -22,16 +22,29 @@ std::optional<SurfaceId> TopSurfaces::at(Vec3d place_m, std::optional<SurfaceId>
   return std::nullopt;
 }
 
+// False where the surface holds the whole box, which hides all weaker ones.
+bool TopSurfaces::Within::add(const Closed& surface, const Box& box_m) {
+  if (surface.columns.mayPass(box_m)) {
+    asked_.push_back(&surface);
+  } else if (surface.columns.contains(box_m.lo)) {
+    else_ = surface.id;
+    return false;
+  }
+  return true;
+}
+
 TopSurfaces::Within TopSurfaces::within(const Box& box_m) const {
   Within within;
-  for (const Closed& surface : closed_) {
-    if (surface.columns.mayPass(box_m)) {
-      within.asked_.push_back(&surface);
-    } else if (surface.columns.contains(box_m.lo)) {
-      within.else_ = surface.id;
-      break;
-    }
-  }
+  for (const Closed& surface : closed_)
+    if (!within.add(surface, box_m)) break;
+  return within;
+}
+
+TopSurfaces::Within TopSurfaces::Within::within(const Box& box_m) const {
+  Within within;
+  for (const Closed* surface : asked_)
+    if (!within.add(*surface, box_m)) return within;
+  within.else_ = else_;
   return within;
 }
 

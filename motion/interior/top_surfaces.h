@@ -32,9 +32,13 @@ class TopSurfaces {
     std::optional<SurfaceId> at(Vec3d place_m) const;
     // All that at() may return, perhaps more.
     std::vector<std::optional<SurfaceId>> surfaces() const;
+    // For places within a box in the box: tests only those of these surfaces with a border there.
+    Within within(const Box& box_m) const;
+    bool isOne() const { return asked_.empty(); }  // at() is the same everywhere
 
    private:
     friend class TopSurfaces;
+    bool add(const Closed& surface, const Box& box_m);
     std::vector<const Closed*> asked_;  // highest priority first
     std::optional<SurfaceId> else_;     // if none of them contains the place
   };

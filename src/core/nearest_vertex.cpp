@@ -90,13 +90,23 @@ std::optional<std::uint32_t> NearestVertex::placeOf(Vec3f place_m, float reach_m
       }
     }
   };
+  // No point of the bins with this number along an axis is nearer along it. Rounding moves a point
+  // by far less than the margin.
+  const auto along = [&](float at, float low, int bin) {
+    const float in = at - low - edge_m_ * static_cast<float>(bin);
+    return std::max(std::max(-in, in - edge_m_) - 1e-3f * edge_m_, 0.0f);
+  };
   for (int shell = 0; shell <= std::max({nx_, ny_, nz_}); ++shell) {
     const float least =
         shell == 0 ? 0 : std::max(static_cast<float>(shell - 1) * edge_m_ + inside - outside, 0.0f);
     if (best2 < least * least) break;
     const int x0 = cx - shell, x1 = cx + shell;
-    for (int z = std::max(cz - shell, 0); z <= std::min(cz + shell, nz_ - 1); ++z)
+    for (int z = std::max(cz - shell, 0); z <= std::min(cz + shell, nz_ - 1); ++z) {
+      const float off_z = along(place_m.z, low_m_.z, z);
+      if (off_z * off_z > best2) continue;
       for (int y = std::max(cy - shell, 0); y <= std::min(cy + shell, ny_ - 1); ++y) {
+        const float off_y = along(place_m.y, low_m_.y, y);
+        if (off_y * off_y + off_z * off_z > best2) continue;
         if (std::abs(z - cz) == shell || std::abs(y - cy) == shell) {  // a row's bins are one run
           look(bin(std::max(x0, 0), y, z), bin(std::min(x1, nx_ - 1), y, z));
           continue;
@@ -104,6 +114,7 @@ std::optional<std::uint32_t> NearestVertex::placeOf(Vec3f place_m, float reach_m
         if (x0 >= 0) look(bin(x0, y, z), bin(x0, y, z));
         if (x1 < nx_) look(bin(x1, y, z), bin(x1, y, z));
       }
+    }
   }
   return best;
 }

@@ -2,38 +2,85 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "core/free_list.h"
+#include "core/parallel.h"
 #include "geometry/plane_slice.h"
 #include "trace/trace_frame.h"
 
 namespace echocine {
 
+namespace {
+
+constexpr int kPhases =
+    16;  // our choice: the heart moves less between two than its walls are thick
+constexpr double kLeast = 1e-20, kNone = -1;
+
+// The factor of attenuation at each sample of a phase; kNone where no medium is. Thread-safe.
+class LossTracer {
+ public:
+  LossTracer(const Scene& scene, const MeshMotion& motion, const LoopPlan& plan)
+      : scene_(scene), motion_(motion), plan_(plan), settings_(scene, straight(plan.effects)) {
+    request_.channels = {Channel::attenuation, Channel::medium};
+    request_.intensities = false;
+  }
+
+  std::vector<double> leftAt(double phase) const {
+    const std::shared_ptr<Space> space = spaces_.borrow([&] {
+      return std::make_unique<Space>(
+          Space{PlaneSlice(motion_.surfaces(), scene_.probe, plan_.left_out), {}, {}});
+    });
+    motion_.frameAt(phase, space->surfaces, false);
+    space->slice.update(space->surfaces);
+    traceFrame(space->slice, scene_.probe, settings_, request_, space->frame);
+    const PolarFrame& frame = space->frame;
+    const std::vector<float>& exponents = frame.planes.at(Channel::attenuation);
+    std::vector<double> left(exponents.size(), kNone);
+    for (std::size_t at = 0; at < left.size(); ++at)
+      if (frame.medium[at] != kNoMedium) left[at] = std::exp(-static_cast<double>(exponents[at]));
+    return left;
+  }
+
+ private:
+  struct Space {
+    PlaneSlice slice;
+    SurfaceFrame surfaces;
+    PolarFrame frame;
+  };
+  static EffectPlan straight(EffectPlan effects) {
+    effects.refraction = false;
+    return effects;
+  }
+
+  const Scene& scene_;
+  const MeshMotion& motion_;
+  const LoopPlan& plan_;
+  const TraceSettings settings_;
+  PlaneRequest request_;
+  mutable FreeList<Space> spaces_;
+};
+
+}  // namespace
+
 std::vector<double> meanLoss(const Scene& scene, const MeshMotion& motion, const LoopPlan& plan) {
-  constexpr int kPhases =
-      16;  // our choice: the heart moves less between two than its walls are thick
-  constexpr double kLeast = 1e-20;
-  EffectPlan effects = plan.effects;
-  effects.refraction = false;
-  const TraceSettings settings(scene, effects);
-  PlaneRequest request;
-  request.channels = {Channel::attenuation, Channel::medium};
-  request.intensities = false;
+  const LossTracer tracer(scene, motion, plan);
   const auto samples = static_cast<std::size_t>(scene.probe.samples);
   std::vector<double> sums(samples), counts(samples);
-  PlaneSlice slice(motion.surfaces(), scene.probe, plan.left_out);
-  SurfaceFrame surfaces;
-  PolarFrame frame;
-  for (int i = 0; i < kPhases; ++i) {
-    motion.frameAt(static_cast<double>(i) / kPhases, surfaces, false);
-    slice.update(surfaces);
-    traceFrame(slice, scene.probe, settings, request, frame);
-    const std::vector<float>& exponents = frame.planes.at(Channel::attenuation);
-    for (std::size_t at = 0; at < exponents.size(); ++at) {
-      if (frame.medium[at] == kNoMedium) continue;
-      sums[at % samples] += std::exp(-static_cast<double>(exponents[at]));
+  const auto trace = [&](std::size_t i) -> std::shared_ptr<void> {
+    return std::make_shared<std::vector<double>>(tracer.leftAt(static_cast<double>(i) / kPhases));
+  };
+  // In the order of the phases: the sums do not depend on the threads.
+  const auto add = [&](std::size_t, const std::shared_ptr<void>& traced) {
+    const auto& left = *static_cast<const std::vector<double>*>(traced.get());
+    for (std::size_t at = 0; at < left.size(); ++at) {
+      if (left[at] == kNone) continue;
+      sums[at % samples] += left[at];
       counts[at % samples] += 1;
     }
-  }
+  };
+  parallelOrdered(
+      0, kPhases, static_cast<std::size_t>(threadCount()), [] { return true; }, trace, add);
   std::vector<double> loss(samples);
   double last = 1;
   for (std::size_t k = 0; k < samples; ++k) {

@@ -64,7 +64,7 @@ TEST(MaterialPointsLaw, OneAffineMapMovesEveryPoint) {
   }
 }
 
-// Boxes of all sizes: inside, outside and across both balls' borders.
+// Boxes of all sizes, also of none: inside, outside and across both balls' borders.
 TEST(MaterialPointsLaw, PlacesTogetherHaveTheGroupsOfEachAlone) {
   const MotionField field(nestedBalls({}));
   for (std::uint64_t box = 0; box < 400; ++box) {
@@ -72,7 +72,7 @@ TEST(MaterialPointsLaw, PlacesTogetherHaveTheGroupsOfEachAlone) {
       return half_m * (2 * uniformFromHash(hashOf(box, n)) - 1);
     };
     const Vec3d middle{in(1, 0.05), in(2, 0.05), 0.08 + in(3, 0.05)};
-    const double half_m = 0.02 * uniformFromHash(hashOf(box, 4));
+    const double half_m = box % 20 == 0 ? 0 : 0.02 * uniformFromHash(hashOf(box, 4));
     std::vector<Vec3f> places;
     for (std::uint64_t i = 0; i < 60; ++i)
       places.push_back(toFloat(
