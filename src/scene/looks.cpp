@@ -1,5 +1,7 @@
 #include "scene/looks.h"
 
+#include <numbers>
+
 namespace echocine {
 
 namespace {
@@ -26,12 +28,9 @@ void applyClean(Scene& scene) {
 
 // Observers missed 49 % of the endocardium in apical views without harmonic imaging, and 29 % with
 // it; 28 % and 10 % in parasternal views (Pyles, Sawada, Feigenbaum and Segar, "Enhanced
-// endocardial visualization using harmonic imaging without contrast", 26 patients). The gap between
-// ribs lies to the left of the picture's middle: apical walls on its right, the lateral and the
-// anterior one, lie under ribs and lung and are darker (septum less lateral wall 35 and 24 greys at
-// end-diastole and end-systole of those stills).
-constexpr double kWindowOffset_m = -4e-3;
-
+// endocardial visualization using harmonic imaging without contrast", 26 patients). The probe
+// stands in the middle of the gap between ribs: apical views are then 45 and 36 greys darker on the
+// lateral wall than on the septum at end-diastole and end-systole (35 and 24 in those stills).
 struct Grade {
   double haze_db, reverberation_db, clutter_db, noise_db, dropout_db, window_width_m, shading_db;
 };
@@ -59,15 +58,17 @@ struct Scanner {
   bool harmonic;
   double edge_enhancement;
   Grade offset;  // added to the grade of the quality
+  double clutter_length_m, clutter_width_rad;
 };
 
 // Our choice, by planted hearts (tests/bench): "scanner" and "smooth" within the texture of those
 // stills, "smooth" within their greys too. The others have the greys of loops of other scanners,
 // which show 5 to 51 % of the sector under grey 10; their gradient is 46 to 56 grey levels per mm.
+constexpr double kNarrow_rad = 3 * std::numbers::pi / 180;
 constexpr Scanner kScanners[] = {
     {Look::scanner,
      2,
-     0.68e-3,
+     0.77e-3,
      0,
      80,
      1.3,
@@ -80,8 +81,27 @@ constexpr Scanner kScanners[] = {
      10,
      false,
      0,
-     {-2, 0, 2, -6, 2, -4e-3, 1}},
-    {Look::smooth, 2, 0.7e-3, 0.35, 84, 1.15, 0, 0.34, -6, -26, -55, 3.5, 12, true, 0, {}},
+     {-2, 0, 2, -6, -2, 16e-3, 1},
+     12e-3,
+     kNarrow_rad},
+    {Look::smooth,
+     2,
+     0.72e-3,
+     0.35,
+     84,
+     1.15,
+     0,
+     0.34,
+     -6,
+     -26,
+     -55,
+     3.5,
+     12,
+     true,
+     0,
+     {},
+     10e-3,
+     kNarrow_rad},
     {Look::contrast,
      2,
      0.75e-3,
@@ -97,7 +117,9 @@ constexpr Scanner kScanners[] = {
      12,
      true,
      0.5,
-     {-3, 0, -3, -7, 0, 0, 0}},
+     {-3, 0, 3, -7, 0, 0, 1},
+     12e-3,
+     kNarrow_rad},
     {Look::sharp,
      1.5,
      0.55e-3,
@@ -113,7 +135,9 @@ constexpr Scanner kScanners[] = {
      12,
      true,
      0.8,
-     {1, 0, -3, -3, 0, 0, 0}},
+     {1, 0, 3, -3, 0, 0, 1},
+     12e-3,
+     kNarrow_rad},
     {Look::portable,
      2.5,
      0.8e-3,
@@ -129,7 +153,9 @@ constexpr Scanner kScanners[] = {
      12,
      false,
      0,
-     {0, 0, -4, -1, 6, -6e-3, 1}},
+     {0, 0, 2, -1, 6, -6e-3, 2},
+     15e-3,
+     kNarrow_rad},
 };
 
 void applyProcessing(const Scanner& scanner, Scene& scene) {
@@ -154,7 +180,8 @@ void applyProcessing(const Scanner& scanner, Scene& scene) {
 
 // The examiner's time gain makes the loop even over depth. A gain for soft tissue brightens blood
 // behind blood: 0.41 dB/(cm MHz) are compensated where 0.15 are lost, 5.8 dB over an atrium.
-void applyArtefacts(const Grade& grade, const Grade& offset, Scene& scene) {
+void applyArtefacts(const Grade& grade, const Scanner& scanner, Scene& scene) {
+  const Grade& offset = scanner.offset;
   ArtefactSettings& a = scene.artefacts;
   scene.signal.tgc = Tgc::mean;
   a.dropout = a.acoustic_window = a.shading = a.lung = a.haze = a.reverberation = a.clutter =
@@ -162,10 +189,11 @@ void applyArtefacts(const Grade& grade, const Grade& offset, Scene& scene) {
   a.haze_db = grade.haze_db + offset.haze_db;
   a.reverberation_db = grade.reverberation_db + offset.reverberation_db;
   a.clutter_db = grade.clutter_db + offset.clutter_db;
+  a.clutter_length_m = scanner.clutter_length_m;
+  a.clutter_width_rad = scanner.clutter_width_rad;
   a.noise_db = grade.noise_db + offset.noise_db;
   a.dropout_db = grade.dropout_db + offset.dropout_db;
   a.window_width_m = grade.window_width_m + offset.window_width_m;
-  a.window_offset_m = kWindowOffset_m;
   a.shading_db = grade.shading_db + offset.shading_db;
 }
 
@@ -177,7 +205,7 @@ void applyLook(Look look, Quality quality, Scene& scene) {
   for (const Scanner& scanner : kScanners) {
     if (scanner.look != look) continue;
     applyProcessing(scanner, scene);
-    applyArtefacts(gradeOf(quality), scanner.offset, scene);
+    applyArtefacts(gradeOf(quality), scanner, scene);
   }
 }
 

@@ -46,6 +46,7 @@ void takeTables(const LookHearts& options, Scene& scene) {
   const SignalSettings before = scene.signal;
   scene.signal = {};
   scene.trabeculae = {};
+  scene.leaflets = {};
   scene.speckle = {};
   scene.artefacts = {};
   scene.signal.look = options.look;
@@ -60,7 +61,7 @@ void takeTables(const LookHearts& options, Scene& scene) {
   TomlTable root = TomlTable::parse(text, options.with);
   takeLook(root.table("signal"), scene);
   readSignal(root.table("signal"), scene);
-  for (const char* name : {"trabeculae", "speckle", "artefacts"}) {
+  for (const char* name : {"trabeculae", "leaflets", "speckle", "artefacts"}) {
     TomlTable table = root.table(name);
     readKeys(table, name, {&scene});
   }

@@ -3,24 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 
 #include "frame/simulator.h"
 #include "geometry/plane_slice.h"
-#include "motion/heart/heart_scene.h"
-#include "motion/surfaces/leaflet_bodies.h"
 #include "plan/effect_plan.h"
 #include "scene/role.h"
 #include "scene/scan_geometry.h"
 #include "scene/scene_reader.h"
 #include "speckle/sheet_points.h"
-#include "support/all_cases.h"
 #include "support/loop_scene.h"
+#include "support/thick_leaflets.h"
 
 namespace echocine {
 namespace {
 
-using support::allCases, support::casesOf;
+using support::Thick, support::thickLeaflets;
 
 // The ball's flat leaflet, across the beam and at rest, as a mitral one. The folder holds its
 // meshes.
@@ -30,19 +27,6 @@ Scene flatLeaflet(const support::TempFolder& folder, double thickness_m) {
   scene.leaflets.thickness_m = thickness_m;
   return scene;
 }
-
-struct Thick {
-  explicit Thick(const Scene& scene) : motion(scene), bodies(scene, motion) {}
-  SurfaceFrame at(double phase) const {
-    SurfaceFrame frame;
-    LeafletBodies::Sheets sheets;
-    motion.frameAt(phase, frame, false);
-    bodies.thicken(frame, sheets);
-    return frame;
-  }
-  MeshMotion motion;
-  LeafletBodies bodies;
-};
 
 // Law: a flat sheet at rest becomes a slab of the thickness asked for.
 TEST(LeafletBodies, AFlatSheetIsAsThickAsAsked) {
@@ -90,60 +74,11 @@ TEST(LeafletBodies, AFlatSheetHasTheVolumeOfPrisms) {
   EXPECT_NEAR(volume_m3, prisms_m3, 1e-4 * prisms_m3);
 }
 
-Scene heartWith(const std::map<std::string, double>& dials, double thickness_m) {
-  Scene scene = heart::heartScene(heart::parametersFrom(dials), heart::View::a4c, 8);
-  scene.leaflets.thickness_m = thickness_m;
-  return scene;
-}
-
-// No face of a body looks against its sheet in the whole beat, and every body is closed.
-void expectSound(const Scene& scene) {
-  const Thick thick(scene);
-  int bodies = 0;
-  SurfaceFrame sheet;
-  for (const SurfaceTopology& body : thick.bodies.surfaces()) {
-    const std::size_t s = index(body.id);
-    if (!thick.bodies.isBody(body.id)) continue;
-    ++bodies;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, int> runs;
-    for (const Triangle& t : body.triangles)
-      for (std::size_t k = 0; k < 3; ++k) ++runs[{t[k], t[(k + 1) % 3]}];
-    for (const auto& [edge, count] : runs) {
-      ASSERT_EQ(count, 1);
-      ASSERT_TRUE(runs.contains({edge.second, edge.first}));
-    }
-    const std::vector<Triangle>& flat = thick.motion.surfaces()[s].triangles;
-    for (int i = 0; i < 40; ++i) {
-      thick.motion.frameAt(i / 40.0, sheet, false);
-      const std::vector<Vec3f> body_m = thick.at(i / 40.0).positions_m[s];
-      const auto normalOf = [](const Triangle& t, const std::vector<Vec3f>& p) {
-        return toDouble(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
-      };
-      for (std::size_t t = 0; t < flat.size(); ++t) {
-        const Vec3d n = normalOf(flat[t], sheet.positions_m[s]);
-        ASSERT_GT(dot(normalOf(body.triangles[t], body_m), n), 0) << scene.structures[s].name;
-        ASSERT_LT(dot(normalOf(body.triangles[t + flat.size()], body_m), n), 0);
-      }
-      ASSERT_GT(enclosedVolume(body, body_m), 0);
-    }
-  }
-  EXPECT_EQ(bodies, 4);  // two leaflets of each inflow valve
-}
-
-TEST(LeafletBodies, OfHeartsAreClosedAndTurnNoFaceOver) {
-  expectSound(heartWith({}, 1.5e-3));
-  expectSound(heartWith({}, 3e-3));
-  expectSound(heartWith({{"edv", 70}, {"body-scale", 0.8}}, 1.5e-3));
-  if (!allCases()) return;
-  expectSound(heartWith({{"edv", 220}, {"ef", 0.2}, {"mitral-opening", 0.2}}, 1.5e-3));
-  expectSound(heartWith({{"hr", 120}, {"mapse", 6}}, 1.5e-3));
-}
-
 // Law: thickest at the free edge, which moves most; thinnest at the hinge; never above twice the
 // thickness asked for. Few vertices are thinner than half of it.
 TEST(LeafletBodies, AreThickerTowardsTheFreeEdge) {
   constexpr double kThickness_m = 1.5e-3;
-  const Scene scene = heartWith({}, kThickness_m);
+  const Scene scene = thickLeaflets({}, kThickness_m);
   const Thick thick(scene);
   SurfaceFrame sheet;
   thick.motion.frameAt(0.5, sheet, false);
@@ -165,7 +100,7 @@ TEST(LeafletBodies, AreThickerTowardsTheFreeEdge) {
 }
 
 TEST(LeafletBodies, GiveTheSheetsBack) {
-  const Scene scene = heartWith({}, 1.5e-3);
+  const Scene scene = thickLeaflets({}, 1.5e-3);
   const Thick thick(scene);
   SurfaceFrame frame;
   LeafletBodies::Sheets sheets;
@@ -222,7 +157,7 @@ TEST(LeafletBodies, ScatterersFillTheBody) {
 // scatters. Beside an open leaflet of an apical view this is what shows it.
 TEST(LeafletBodies, AnOpenLeafletOfAnApicalViewShows) {
   const auto brightest = [](double thickness_m) {
-    Scene scene = heartWith({}, thickness_m);
+    Scene scene = thickLeaflets({}, thickness_m);
     scene.speckle.on = false;
     scene.artefacts = {};
     scene.probe.lines = 128;
@@ -255,7 +190,7 @@ TEST(LeafletBodies, AnOpenLeafletOfAnApicalViewShows) {
 
 TEST(LeafletBodies, ChangeThePictureAndNoTruth) {
   const auto made = [](double thickness_m) {
-    Scene scene = heartWith({}, thickness_m);
+    Scene scene = thickLeaflets({}, thickness_m);
     scene.truth.labels = scene.truth.contours = scene.truth.tracks = scene.truth.function = true;
     scene.signal.reference_intensity = 4e-4;
     scene.probe.lines = 96;
@@ -274,7 +209,7 @@ TEST(LeafletBodies, ChangeThePictureAndNoTruth) {
 }
 
 TEST(LeafletBodies, AreOfInflowValvesAndOfLooksButThePaper) {
-  Scene scene = heartWith({}, 0);
+  Scene scene = thickLeaflets({}, 0);
   EXPECT_FALSE(planEffects(scene).leaflets);
   scene.leaflets.thickness_m = 1e-3;
   EXPECT_TRUE(planEffects(scene).leaflets);

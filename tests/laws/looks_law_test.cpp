@@ -91,6 +91,8 @@ TEST(LooksLaw, ScannersShowBloodDarkAndMuscleGrey) {
     EXPECT_GT(white, 165) << name;
     if (look == Look::smooth) {
       EXPECT_LT(black, 0.01) << name;
+    } else if (look == Look::scanner) {  // between those stills and the loop of the first scanner
+      EXPECT_LT(black, 0.07) << name;
     } else {
       EXPECT_GT(black, 0.05) << name;
       EXPECT_LT(black, 0.51) << name;
@@ -99,15 +101,64 @@ TEST(LooksLaw, ScannersShowBloodDarkAndMuscleGrey) {
 }
 
 // In 20 healthy people at 2.25 MHz, the integrated backscatter of the posterior wall is 17 +- 3 %
-// of the pericardium's. The two looks made after clinical stills, without heterogeneity, whose mean
-// is 1.
+// of the pericardium's. The looks made after clinical stills are in this range, the others below
+// it. Without heterogeneity, whose mean is 1.
 TEST(LooksLaw, PericardiumExceedsThePosteriorWallAsInHealthyPeople) {
-  for (const Look look : {Look::scanner, Look::smooth}) {
+  for (const Look look :
+       {Look::scanner, Look::smooth, Look::contrast, Look::sharp, Look::portable}) {
     const LookGreys greys = greysOf(look, heart::View::plax, false, 0);
     const double share = greys.posterior.at(Role::lv_wall) / greys.posterior.at(Role::pericardium);
     std::printf("  %-8s wall / pericardium %.3f\n", std::string(nameOf(look)).c_str(), share);
-    EXPECT_GT(share, 0.13) << nameOf(look);
     EXPECT_LT(share, 0.21) << nameOf(look);
+    const bool clinical = look == Look::scanner || look == Look::smooth;
+    EXPECT_GT(share, clinical ? 0.13 : 0.05) << nameOf(look);
+  }
+}
+
+// Septum less lateral wall, medians of their grey levels, at half the height of the cavity.
+// Clinical four-chamber stills at end-diastole: quartiles 13 and 53 (288 patients of CAMUS). The
+// mean over chest walls is within them for the looks made after these stills.
+TEST(LooksLaw, TheLateralWallOfAnApicalViewIsNotMuchDarkerThanTheSeptum) {
+  constexpr int kChestWalls = 4, kLines = 96, kSamples = 384;
+  for (const Look look : {Look::scanner, Look::smooth}) {
+    double sum = 0;
+    for (int seed = 1; seed <= kChestWalls; ++seed) {
+      Scene scene = heart::heartScene(heart::parametersFrom({}), heart::View::a4c, 4, look);
+      scene.artefacts.shading_seed = seed;
+      scene.probe.lines = kLines;
+      scene.probe.samples = kSamples;
+      scene.output.channels = {Channel::structure};
+      const Simulator simulator(std::move(scene));
+      const Frame frame = simulator.frame(0);
+      const GreyCurve curve(simulator.scene().signal);
+      const auto roleAt = [&](int line, int sample) {
+        const std::uint32_t id =
+            frame.truth->sample_ids[static_cast<std::size_t>(line * kSamples + sample)];
+        return id == 0 ? Role::none : roleOf(simulator.scene().structures[id - 1u]);
+      };
+      std::vector<double> depths;
+      for (int i = 0; i < kLines * kSamples; ++i)
+        if (roleAt(i / kSamples, i % kSamples) == Role::lv_cavity) depths.push_back(i % kSamples);
+      const double top = quantileOf(depths, 0.01), bottom = quantileOf(depths, 0.99);
+      std::vector<double> septum, lateral;
+      for (int k = static_cast<int>(top + 0.3 * (bottom - top)); k < top + 0.7 * (bottom - top);
+           ++k) {
+        bool seen = false;  // the cavity: the septum is before it
+        for (int line = 0; line < kLines; ++line) {
+          const Role role = roleAt(line, k);
+          seen = seen || role == Role::lv_cavity;
+          if (role != Role::lv_wall) continue;
+          const auto at = static_cast<std::size_t>(line * kSamples + k);
+          (seen ? lateral : septum).push_back(255 * curve.at(static_cast<double>(frame.greys[at])));
+        }
+      }
+      sum += quantileOf(septum, 0.5) - quantileOf(lateral, 0.5);
+    }
+    const double darker = sum / kChestWalls;
+    std::printf("  %-8s septum less lateral wall %.0f\n", std::string(nameOf(look)).c_str(),
+                darker);
+    EXPECT_GT(darker, 13) << nameOf(look);
+    EXPECT_LT(darker, 53) << nameOf(look);
   }
 }
 

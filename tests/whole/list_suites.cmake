@@ -14,7 +14,7 @@ foreach(suite IN LISTS suites)
   # The longest ones first, so that none is left to run alone.
   if(suite MATCHES "^(DatasetCommand|NumberSweep|SimulatorFrame|ComparedRender)$")
     set(cost 100)
-  elseif(suite MATCHES "^(CompareFit|CompareSpread|CompareSystole|CompareTilt|CompareViewRanking|CompareViews|DicomViews|FitRegions|FittedRender|FitStrain|HeartFit|HeartMMode|HeartMotionWhole|LeafletBodies|LooksLaw|PatientAgainstVideos|Planted|SearchPrivacy|StudyCommandTest|StudySeeds|Tolerance|EachFamily/ToleranceOfHeart|Trabeculae|VideoWithEcg)$")
+  elseif(suite MATCHES "^(CompareFit|CompareSpread|CompareSystole|CompareTilt|CompareViewRanking|CompareViews|DicomViews|FitRegions|FittedRender|FitStrain|HeartFit|HeartMMode|HeartMotionWhole|LeafletBodies|LeafletHearts|LooksLaw|PatientAgainstVideos|Planted|SearchPrivacy|StudyCommandTest|StudySeeds|Tolerance|EachFamily/ToleranceOfHeart|Trabeculae|VideoWithEcg)$")
     set(cost 200)
     set(labels "LABELS long")  # searches and tables: minutes under sanitizers, over code that other suites run too
   elseif(suite MATCHES "^(CompareEcg|DatasetPopulation|DecorrelationLaw|DopplerHeart|GratingLobeLaw|HeartAnatomyLaw|HeartFolds|HeartLoopLaw|HeartPatientLaw|HeartPrior|HeartTapseLaw|InteriorMotionLaw|LayerStack|MaterialPointsLaw|MotionBetweenKeyframes|SampledBeamLaw|StraightRays|ViewOffsetLaw|ViewPoseLaw)$")
