@@ -162,6 +162,32 @@ TEST(LooksLaw, TheLateralWallOfAnApicalViewIsNotMuchDarkerThanTheSeptum) {
   }
 }
 
+TEST(LooksLaw, PortablePericardiumIsWhiterThanThePosteriorWall) {
+  for (const double edv_ml : {90.0, 130.0, 170.0})
+    for (const double time_s : {0.0, 0.33, 0.7}) {
+      Scene scene = heart::heartScene(heart::parametersFrom({{"edv", edv_ml}}), heart::View::plax,
+                                      6, Look::portable);
+      scene.probe.lines = 96;
+      scene.probe.samples = 384;
+      scene.output.channels = {Channel::structure};
+      scene.speckle.seed = scene.artefacts.shading_seed = static_cast<int>(edv_ml);
+      const Simulator simulator(std::move(scene));
+      const Frame frame = simulator.frame(time_s);
+      const GreyCurve curve(simulator.scene().signal);
+      std::map<Role, std::vector<double>> greys;  // in the middle half of the sector, behind
+      for (std::size_t line = 24; line < 72; ++line)
+        for (std::size_t i = line * 384 + 192; i < (line + 1) * 384; ++i)
+          if (const std::uint32_t id = frame.truth->sample_ids[i]; id != 0)
+            greys[roleOf(simulator.scene().structures[id - 1u])].push_back(
+                255 * curve.at(static_cast<double>(frame.greys[i])));
+      const double wall = quantileOf(greys[Role::lv_wall], 0.5),
+                   pericardium = quantileOf(greys[Role::pericardium], 0.5);
+      std::printf("  EDV %.0f, %.2f s: wall %.0f, pericardium %.0f\n", edv_ml, time_s, wall,
+                  pericardium);
+      EXPECT_GT(pericardium, wall + 15) << edv_ml << " mL, " << time_s << " s";
+    }
+}
+
 TEST(LooksLaw, DatasetsDrawOverLooks) {
   std::string names;
   for (const auto& [look, name] : NamesOf<Look>::kAll)
