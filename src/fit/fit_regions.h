@@ -41,7 +41,7 @@ inline constexpr int kTwins = 3;
 struct RegionFloor {
   double segment_mm = 0, structure_mm = 0, local_mm = 0;
 };
-inline constexpr RegionFloor kKnownDials{0.4, 0.5, 0.5}, kFittedDials{0.9, 1.0, 0.5};
+inline constexpr RegionFloor kKnownDials{0.4, 0.5, 0.35}, kFittedDials{0.9, 1.0, 0.5};
 
 // Findings of all structures beside blood and all segments that the loop and all twins show, the
 // structures first. A twin is the map of the heart against one of its own rendered loops.

@@ -13,7 +13,7 @@ namespace echocine {
 
 namespace {
 
-constexpr int kPhases =
+constexpr int kMeanPhases =
     16;  // our choice: the heart moves less between two than its walls are thick
 constexpr double kLeast = 1e-20, kNone = -1;
 
@@ -68,7 +68,7 @@ std::vector<double> meanLoss(const Scene& scene, const MeshMotion& motion, const
   const auto samples = static_cast<std::size_t>(scene.probe.samples);
   std::vector<double> sums(samples), counts(samples);
   const auto trace = [&](std::size_t i) -> std::shared_ptr<void> {
-    return std::make_shared<std::vector<double>>(tracer.leftAt(static_cast<double>(i) / kPhases));
+    return std::make_shared<std::vector<double>>(tracer.leftAt(static_cast<double>(i) / kMeanPhases));
   };
   // In the order of the phases: the sums do not depend on the threads.
   const auto add = [&](std::size_t, const std::shared_ptr<void>& traced) {
@@ -80,7 +80,7 @@ std::vector<double> meanLoss(const Scene& scene, const MeshMotion& motion, const
     }
   };
   parallelOrdered(
-      0, kPhases, static_cast<std::size_t>(threadCount()), [] { return true; }, trace, add);
+      0, kMeanPhases, static_cast<std::size_t>(threadCount()), [] { return true; }, trace, add);
   std::vector<double> loss(samples);
   double last = 1;
   for (std::size_t k = 0; k < samples; ++k) {
