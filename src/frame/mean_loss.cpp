@@ -68,7 +68,8 @@ std::vector<double> meanLoss(const Scene& scene, const MeshMotion& motion, const
   const auto samples = static_cast<std::size_t>(scene.probe.samples);
   std::vector<double> sums(samples), counts(samples);
   const auto trace = [&](std::size_t i) -> std::shared_ptr<void> {
-    return std::make_shared<std::vector<double>>(tracer.leftAt(static_cast<double>(i) / kMeanPhases));
+    return std::make_shared<std::vector<double>>(
+        tracer.leftAt(static_cast<double>(i) / kMeanPhases));
   };
   // In the order of the phases: the sums do not depend on the threads.
   const auto add = [&](std::size_t, const std::shared_ptr<void>& traced) {
