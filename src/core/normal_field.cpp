@@ -6,34 +6,40 @@
 
 namespace echocine {
 
-namespace {
-
-// Faster than ==, which is a call.
-bool same(const std::array<std::int64_t, 3>& a, const std::array<std::int64_t, 3>& b) {
-  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
-
-}  // namespace
-
 NormalField::NormalField(double scale_m, std::uint64_t seed)
     : scale_m_(scale_m), seed_(seed), nodes_(16 * 16 * 16) {}
 
-double NormalField::normalOf(const std::array<std::int64_t, 3>& node) {
-  Node& kept =
-      nodes_[static_cast<std::size_t>((node[0] & 15) | (node[1] & 15) << 4 | (node[2] & 15) << 8)];
-  if (kept.known && same(kept.node, node)) return kept.normal;
+NormalField::Key NormalField::keyOf(const std::array<std::int64_t, 3>& node) {
+  constexpr std::int64_t kHalf = 1 << 20;
+  Key key = 0;
+  for (const std::int64_t axis : node) {
+    if (axis < -kHalf || axis >= kHalf) return kNone;
+    key = key << 21 | static_cast<Key>(axis + kHalf);
+  }
+  return key;
+}
+
+double NormalField::drawn(const std::array<std::int64_t, 3>& node) const {
   std::uint64_t hash = seed_;
   for (const std::int64_t axis : node) hash = hashOf(hash, axis);
-  kept = {node, true, normalFromHashes(hashOf(hash, 0), hashOf(hash, 1))};
+  return normalFromHashes(hashOf(hash, 0), hashOf(hash, 1));
+}
+
+double NormalField::normalOf(const std::array<std::int64_t, 3>& node) {
+  const Key key = keyOf(node);
+  if (key == kNone) return drawn(node);
+  Node& kept =
+      nodes_[static_cast<std::size_t>((node[0] & 15) | (node[1] & 15) << 4 | (node[2] & 15) << 8)];
+  if (kept.key != key) kept = {key, drawn(node)};
   return kept.normal;
 }
 
 const NormalField::Cell& NormalField::cellOf(const std::array<std::int64_t, 3>& node) {
+  const Key key = keyOf(node);
   Cell& cell =
       cells_[static_cast<std::size_t>((node[0] & 3) | (node[1] & 3) << 2 | (node[2] & 3) << 4)];
-  if (cell.known && same(cell.node, node)) return cell;
-  cell.node = node;
-  cell.known = true;
+  if (key != kNone && cell.key == key) return cell;
+  cell.key = key;
   for (int corner = 0; corner < 8; ++corner)
     cell.normals[static_cast<std::size_t>(corner)] = normalOf(
         {node[0] + (corner & 1), node[1] + (corner >> 1 & 1), node[2] + (corner >> 2 & 1)});

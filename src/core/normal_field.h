@@ -18,18 +18,21 @@ class NormalField {
   double at(Vec3f place_m);
 
  private:
+  // A node's number along each axis, in one word; kNone of nodes too far out to be kept.
+  using Key = std::uint64_t;
+  static constexpr Key kNone = ~Key{0};
   struct Cell {
-    std::array<std::int64_t, 3> node;
-    bool known = false;
+    Key key = kNone;
     std::array<double, 8> normals;
   };
   struct Node {
-    std::array<std::int64_t, 3> node;
-    bool known = false;
+    Key key = kNone;
     double normal;
   };
+  static Key keyOf(const std::array<std::int64_t, 3>& node);
   const Cell& cellOf(const std::array<std::int64_t, 3>& node);
   double normalOf(const std::array<std::int64_t, 3>& node);
+  double drawn(const std::array<std::int64_t, 3>& node) const;
 
   double scale_m_;
   std::uint64_t seed_;

@@ -5,10 +5,21 @@
 #include "frame/loop_instant.h"
 #include "frame/picture_grid.h"
 #include "plan/effect_plan.h"
+#include "scene/role.h"
 #include "trace/sound_path_tracer.h"
 #include "truth/visible_border.h"
 
 namespace echocine {
+
+namespace {
+
+bool wantsVisible(const Scene& scene, SurfaceId surface) {
+  const std::vector<Role>& roles = scene.truth.visible_roles;
+  return roles.empty() ||
+         std::ranges::find(roles, roleOf(scene.structures[index(surface)])) != roles.end();
+}
+
+}  // namespace
 
 TruthSource::TruthSource(const Scene& scene, const MeshMotion& motion,
                          const SharedMotionField& field, const CardiacClock& clock,
@@ -87,8 +98,9 @@ FrameTruth TruthSource::at(const FrameTime& time, const Workspace* traced) const
       static_cast<std::size_t>(scene_.probe.lines) * static_cast<std::size_t>(scene_.probe.samples);
   if (traced != nullptr && wantsPicture(scene_) && traced->greys.size() == samples)
     for (Contour& contour : truth.contours)
-      contour.visible =
-          visiblePoints(contour, scene_.probe, traced->greys, scene_.signal.dynamic_range_db);
+      if (wantsVisible(scene_, contour.surface))
+        contour.visible =
+            visiblePoints(contour, scene_.probe, traced->greys, scene_.signal.dynamic_range_db);
   return truth;
 }
 

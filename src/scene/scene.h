@@ -181,6 +181,8 @@ struct TruthSettings {
   std::vector<std::pair<std::string, int>> label_numbers;
   bool papillary_in_cavity = false;  // papillary muscles count as cavity in the label pictures
   int track_count = 1000;            // material points
+  // Contours whose visible points are computed; empty: all. Not a key.
+  std::vector<Role> visible_roles{};
   SourcePlace labels_place, tracks_place, function_place;
 
   bool any() const { return labels || contours || tracks || function; }
