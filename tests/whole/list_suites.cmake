@@ -17,7 +17,7 @@ foreach(suite IN LISTS suites)
   elseif(suite MATCHES "^(CompareFit|CompareSpread|CompareSystole|CompareTilt|CompareViewRanking|CompareViews|DicomViews|FitRegions|FittedRender|FitStrain|HeartFit|HeartMMode|HeartMotionWhole|LeafletBodies|LeafletHearts|LooksLaw|PatientAgainstVideos|Planted|SearchPrivacy|StudyCommandTest|StudySeeds|Tolerance|EachFamily/ToleranceOfHeart|Trabeculae|VideoWithEcg)$")
     set(cost 200)
     set(labels "LABELS long")  # searches and tables: minutes under sanitizers, over code that other suites run too
-  elseif(suite MATCHES "^(CompareEcg|DatasetPopulation|DecorrelationLaw|DopplerHeart|GratingLobeLaw|HeartAnatomyLaw|HeartFolds|HeartLoopLaw|HeartPatientLaw|HeartPrior|HeartTapseLaw|InteriorMotionLaw|LayerStack|MaterialPointsLaw|MotionBetweenKeyframes|SampledBeamLaw|StraightRays|ViewOffsetLaw|ViewPoseLaw)$")
+  elseif(suite MATCHES "^(BlockReach|CompareEcg|DatasetPopulation|DatasetScenes|DecorrelationLaw|Doppler|DopplerHeart|FitResiduals|GratingLobeLaw|HeartAnatomyLaw|HeartFolds|HeartFunctionLaw|HeartLoopLaw|HeartPatientLaw|HeartPrior|HeartTapseLaw|InteriorMotionLaw|LayerStack|MaterialPointsLaw|MotionBetweenKeyframes|NoiseLaw|ProbeView|SampledBeamLaw|SpeckleLaw|StraightRays|ViewOffsetLaw|ViewPoseLaw|VisibleBorderLaw)$")
     set(cost 20)
     set(labels "LABELS long")  # numbers of closed forms and of many hearts: half a minute or more under sanitizers
   endif()
