@@ -44,7 +44,7 @@ void forRandomWorlds(std::uint64_t count, Check&& check) {
       failed = result->total_part_count();
     }
   });
-  EXPECT_LT(slowest_s, 5);  // seconds; they take milliseconds: one that hangs shows
+  EXPECT_LT(slowest_s, 60);  // seconds; they take milliseconds, so one that hangs shows
   std::printf("%llu random worlds in %.1f s, the slowest %.3f s\n",
               static_cast<unsigned long long>(count),
               std::chrono::duration<double>(Clock::now() - start).count(), slowest_s);
