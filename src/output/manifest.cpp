@@ -100,11 +100,14 @@ Json curvesJson(const Manifest& manifest) {
   return curves;
 }
 
-// Grouped by structure, as curves are drawn.
+// Grouped by structure, as curves are drawn. Lists are made before they are filled: push_back() on
+// null, short of memory, leaves a list without its place, which is then destroyed.
 Json keyframesJson(const Manifest& manifest) {
   Json keyframes = Json::object();
   for (const KeyframeVolume& k : manifest.keyframes)
-    keyframes[k.structure].push_back({{"phase", k.phase}, {"volume_ml", k.volume_ml}});
+    keyframes.emplace(k.structure, Json::array())
+        .first.value()
+        .push_back({{"phase", k.phase}, {"volume_ml", k.volume_ml}});
   return keyframes;
 }
 
