@@ -17,11 +17,11 @@ constexpr float kOutline = 0.5f;  // of the thickness: a rounded edge. Our choic
 
 // Directed boundary edges of an oriented sheet; empty if the mesh is closed or an edge is used
 // twice in one direction.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> outlineOf(const std::vector<Triangle>& faces) {
+LeafletBodies::Outline outlineOf(const std::vector<Triangle>& faces) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> runs;
   for (const Triangle& t : faces)
     for (std::size_t k = 0; k < 3; ++k) ++runs[{t[k], t[(k + 1) % 3]}];
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> outline;
+  LeafletBodies::Outline outline;
   for (const auto& [edge, count] : runs) {
     if (count > 1) return {};
     if (!runs.contains({edge.second, edge.first})) outline.push_back(edge);
@@ -88,7 +88,7 @@ LeafletBodies::LeafletBodies(const Scene& scene, const MeshMotion& motion)
   for (const SurfaceTopology& surface : motion.surfaces()) {
     const std::size_t s = index(surface.id);
     if (!hasThickness(scene, scene.structures[s])) continue;
-    const auto outline = outlineOf(surface.triangles);
+    const Outline outline = outlineOf(surface.triangles);
     if (outline.empty()) continue;
     std::vector<const std::vector<Vec3f>*> instants;
     for (const SurfaceFrame& frame : frames) instants.push_back(&frame.positions_m[s]);
@@ -102,12 +102,12 @@ LeafletBodies::LeafletBodies(const Scene& scene, const MeshMotion& motion)
         thinned |= thinOut(surface.triangles, *at_m, half_m_[s]);
       if (!thinned) break;
     }
-    addBody(surface);
+    addBody(surface, outline);
   }
 }
 
 // Front, back and rim. Normals of the rim are those of its facets: that of index 2 n is zero.
-void LeafletBodies::addBody(const SurfaceTopology& sheet) {
+void LeafletBodies::addBody(const SurfaceTopology& sheet, const Outline& outline) {
   const std::uint32_t n = sheet.vertex_count;
   SurfaceTopology& body = surfaces_[index(sheet.id)];
   body.membrane = false;
@@ -118,7 +118,7 @@ void LeafletBodies::addBody(const SurfaceTopology& sheet) {
     body.triangles.push_back({t[0] + n, t[2] + n, t[1] + n});
     body.normal_corners.push_back(body.triangles.back());
   }
-  for (const auto& [from, to] : outlineOf(sheet.triangles)) {
+  for (const auto& [from, to] : outline) {
     body.triangles.push_back({to, from, from + n});
     body.triangles.push_back({to, from + n, to + n});
     body.normal_corners.insert(body.normal_corners.end(), 2, Triangle{2 * n, 2 * n, 2 * n});

@@ -3,6 +3,8 @@
 // mesh of a leaflet is the middle surface of its body. Contours, labels and motion are those of the
 // mesh; a leaflet has no volume there.
 
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "motion/surfaces/mesh_motion.h"
@@ -12,6 +14,9 @@ namespace echocine {
 
 class LeafletBodies {
  public:
+  // Directed edges of a sheet's boundary, as pairs of vertices.
+  using Outline = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
   // For the scene's leaflets (hasThickness()). Those whose mesh is closed or branches stay sheets.
   // The thickness is LeafletSettings::thickness_m where a leaflet moves least, and twice that where
   // it moves most, at its free edge. It is halved at the outline, and locally where a face would be
@@ -36,7 +41,7 @@ class LeafletBodies {
                std::vector<Vec3f>& front_m) const;
 
  private:
-  void addBody(const SurfaceTopology& sheet);
+  void addBody(const SurfaceTopology& sheet, const Outline& outline);
 
   std::vector<SurfaceTopology> surfaces_;
   std::vector<std::vector<Triangle>> sheets_;  // faces of the leaflets, by surface

@@ -20,15 +20,10 @@ std::vector<RegionLeft> leftOver(const ModelFrame& frame, const echo::EchoInstan
     map.place(cell.x_m, cell.z_m, x, z);
     const echo::EchoStack::Sample s = at.at(x, z);
     if (!(s.visible > 0)) continue;
-    const double place =
-        std::clamp(std::hypot(x, z) / at.stack().far(), 0.0, 1.0) * (kGainKnots - 1);
-    const int knot = std::min(static_cast<int>(place), kGainKnots - 2);
-    const double gain = fit.gain[knot] + (place - knot) * (fit.gain[knot + 1] - fit.gain[knot]);
-    const double grey =
-        cell.share * fit.grey[cell.first] +
-        (cell.share < 1 ? (1 - static_cast<double>(cell.share)) * fit.grey[cell.second] : 0);
-    left.push_back({static_cast<float>(x), static_cast<float>(z),
-                    static_cast<float>((s.grey - grey - gain) / deviation)});
+    const double more =
+        fit.left(cell.first, cell.second, cell.share, std::hypot(x, z) / at.stack().far(), s.grey);
+    left.push_back(
+        {static_cast<float>(x), static_cast<float>(z), static_cast<float>(more / deviation)});
   }
   return left;
 }

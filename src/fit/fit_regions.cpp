@@ -95,23 +95,11 @@ std::optional<Part> partOf(const Curves& loop, const std::vector<Curves>& twins,
   return out;
 }
 
-bool areNeighbours(std::size_t a, std::size_t b) {
-  if (a > b) std::swap(a, b);
-  const auto inRing = [&](std::size_t first, std::size_t last) {
-    return a >= first && b <= last && (b - a == 1 || (a == first && b == last));
-  };
-  if (inRing(1, 6) || inRing(7, 12) || inRing(13, 16)) return true;
-  if (b == 17) return a >= 13;
-  if (b <= 12) return a <= 6 && b == a + 6;
-  constexpr std::size_t kApical[] = {13, 14, 14, 15, 16, 16};  // of the mid segments
-  return a >= 7 && a <= 12 && kApical[a - 7] == b;
-}
-
 // The offset of a segment minus the mean of its neighbours: of two or more, all visible.
 void addLocal(const std::vector<Part>& segments, double floor_mm, Part& part) {
   std::vector<const Part*> beside;
   for (const Part& other : segments)
-    if (other.finding.visible && areNeighbours(other.finding.segment, part.finding.segment))
+    if (other.finding.visible && areAdjacent(other.finding.segment, part.finding.segment))
       beside.push_back(&other);
   if (beside.size() < 2) return;
   const double share = 1 / static_cast<double>(beside.size());

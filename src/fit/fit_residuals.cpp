@@ -128,14 +128,9 @@ class ResidualBuilder {
     map_.place(cell.x_m, cell.z_m, x, z);
     const echo::EchoStack::Sample s = at.at(x, z);
     if (!(s.visible > 0)) return 0;
-    const double place =
-        std::clamp(std::hypot(x, z) / at.stack().far(), 0.0, 1.0) * (kGainKnots - 1);
-    const int knot = std::min(static_cast<int>(place), kGainKnots - 2);
-    const double gain = fit.gain[knot] + (place - knot) * (fit.gain[knot + 1] - fit.gain[knot]);
-    const double share = cell.share, grey = share * fit.grey[cell.first] +
-                                            (share < 1 ? (1 - share) * fit.grey[cell.second] : 0);
-    const double left = std::sqrt(static_cast<double>(cell.area) * static_cast<double>(s.visible)) *
-                        (static_cast<double>(s.grey) - grey - gain);
+    const double left =
+        std::sqrt(static_cast<double>(cell.area) * static_cast<double>(s.visible)) *
+        fit.left(cell.first, cell.second, cell.share, std::hypot(x, z) / at.stack().far(), s.grey);
     return std::isfinite(left) ? left : 0;  // a tissue that is hardly seen has no grey
   }
 

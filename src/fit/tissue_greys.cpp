@@ -63,6 +63,15 @@ TissueGreys::Sums TissueGreys::all() const {
   return out;
 }
 
+double TissueGreys::Fit::left(int first, int second, double share, double depth, double g) const {
+  const double place = std::clamp(depth, 0.0, 1.0) * (kGainKnots - 1);
+  const int knot = std::min(static_cast<int>(place), kGainKnots - 2);
+  const double gain_here = gain[knot] + (place - knot) * (gain[knot + 1] - gain[knot]);
+  const double of_tissues = share * grey[static_cast<std::size_t>(first)] +
+                            (share < 1 ? (1 - share) * grey[static_cast<std::size_t>(second)] : 0);
+  return g - of_tissues - gain_here;
+}
+
 // Least squares with tissues that share a group sharing their grey. Gains add up to what greys do
 // too: a ridge of 1e-9 of the weight decides between them and changes nothing that is seen.
 TissueGreys::Fit TissueGreys::solve(const Sums& sums, const std::vector<int>& group_of) const {

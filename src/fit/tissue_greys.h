@@ -38,6 +38,8 @@ class TissueGreys {
     double residual = 0, total = 0;  // sums of squares
     std::vector<double> grey;        // by tissue; NaN for an invisible tissue
     double gain[kGainKnots] = {};    // by knot, with mean 0
+    // The residual of a cell of grey level g, as in add(); NaN if a tissue of it is invisible.
+    double left(int first, int second, double share, double depth, double g) const;
     // 0 to 1; 1, the worst, without a solution.
     double ratio() const { return solved && total > 0 ? std::min(1.0, residual / total) : 1; }
   };

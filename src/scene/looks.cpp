@@ -58,13 +58,13 @@ struct Scanner {
   bool harmonic;
   double edge_enhancement;
   Grade offset;  // added to the grade of the quality
-  double clutter_length_m, clutter_width_rad;
+  double clutter_length_m;
 };
 
 // Our choice, by planted hearts (tests/bench): "scanner" and "smooth" within the texture of those
 // stills, "smooth" within their greys too. The others have the greys of loops of other scanners,
 // which show 5 to 51 % of the sector under grey 10; their gradient is 46 to 56 grey levels per mm.
-constexpr double kNarrow_rad = 3 * std::numbers::pi / 180;
+constexpr double kClutterWidth_rad = 3 * std::numbers::pi / 180;
 constexpr Scanner kScanners[] = {
     {Look::scanner,
      2,
@@ -82,26 +82,8 @@ constexpr Scanner kScanners[] = {
      false,
      0,
      {-2, 0, 2, -6, -2, 16e-3, 1},
-     12e-3,
-     kNarrow_rad},
-    {Look::smooth,
-     2,
-     0.72e-3,
-     0.35,
-     84,
-     1.15,
-     0,
-     0.34,
-     -6,
-     -26,
-     -55,
-     3.5,
-     12,
-     true,
-     0,
-     {},
-     10e-3,
-     kNarrow_rad},
+     12e-3},
+    {Look::smooth, 2, 0.72e-3, 0.35, 84, 1.15, 0, 0.34, -6, -26, -55, 3.5, 12, true, 0, {}, 10e-3},
     {Look::contrast,
      2,
      0.75e-3,
@@ -118,8 +100,7 @@ constexpr Scanner kScanners[] = {
      true,
      0.5,
      {-3, 0, 3, -7, 0, 0, 1},
-     12e-3,
-     kNarrow_rad},
+     12e-3},
     {Look::sharp,
      1.5,
      0.55e-3,
@@ -136,8 +117,7 @@ constexpr Scanner kScanners[] = {
      true,
      0.8,
      {1, 0, 3, -3, 0, 0, 1},
-     12e-3,
-     kNarrow_rad},
+     12e-3},
     {Look::portable,
      2.5,
      0.8e-3,
@@ -154,8 +134,7 @@ constexpr Scanner kScanners[] = {
      false,
      0,
      {0, 0, 2, -1, 6, -6e-3, 2},
-     15e-3,
-     kNarrow_rad},
+     15e-3},
 };
 
 void applyProcessing(const Scanner& scanner, Scene& scene) {
@@ -190,7 +169,7 @@ void applyArtefacts(const Grade& grade, const Scanner& scanner, Scene& scene) {
   a.reverberation_db = grade.reverberation_db + offset.reverberation_db;
   a.clutter_db = grade.clutter_db + offset.clutter_db;
   a.clutter_length_m = scanner.clutter_length_m;
-  a.clutter_width_rad = scanner.clutter_width_rad;
+  a.clutter_width_rad = kClutterWidth_rad;
   a.noise_db = grade.noise_db + offset.noise_db;
   a.dropout_db = grade.dropout_db + offset.dropout_db;
   a.window_width_m = grade.window_width_m + offset.window_width_m;

@@ -1,6 +1,7 @@
 #include "truth/aha_segments.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/units.h"
 
@@ -23,6 +24,18 @@ int ahaSegment(const HeartAxes& axes, Vec3d place_m) {
   if (degrees > -60 && degrees <= 0) return ring + 3;
   if (degrees > -120 && degrees <= -60) return ring + 4;
   return ring + (degrees <= -120 ? 5 : 6);
+}
+
+bool areAdjacent(std::size_t a, std::size_t b) {
+  if (a > b) std::swap(a, b);
+  const auto inRing = [&](std::size_t first, std::size_t last) {
+    return a >= first && b <= last && (b - a == 1 || (a == first && b == last));
+  };
+  if (inRing(1, 6) || inRing(7, 12) || inRing(13, 16)) return true;
+  if (b == kAhaSegments) return a >= 13;
+  if (b <= 12) return a <= 6 && b == a + 6;
+  constexpr std::size_t kApical[] = {13, 14, 14, 15, 16, 16};  // of the mid segments
+  return a >= 7 && a <= 12 && kApical[a - 7] == b;
 }
 
 }  // namespace echocine

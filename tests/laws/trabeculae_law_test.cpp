@@ -13,6 +13,7 @@
 #include "scene/role.h"
 #include "speckle/field_material.h"
 #include "support/all_cases.h"
+#include "support/picture_only.h"
 
 namespace echocine {
 namespace {
@@ -189,23 +190,7 @@ TEST(Trabeculae, AreTheSameFromEverywhere) {
 
 // Law: truth is that of the smooth surface; the picture is not.
 TEST(Trabeculae, ChangeThePictureAndNoTruth) {
-  const auto made = [](double height_mm) {
-    Scene scene = heartWith(height_mm);
-    scene.truth.labels = scene.truth.contours = scene.truth.tracks = scene.truth.function = true;
-    scene.signal.reference_intensity = 4e-4;
-    scene.probe.lines = 96;
-    scene.probe.samples = 384;
-    return scene;
-  };
-  const Simulator smooth(made(0)), rough(made(1));
-  for (const double time_s : {0.0, 0.31}) {
-    const Frame a = smooth.frame(time_s), b = rough.frame(time_s);
-    EXPECT_EQ(a.volumes_ml, b.volumes_ml);
-    EXPECT_EQ(a.truth->labels, b.truth->labels);
-    EXPECT_EQ(a.truth->tracks_m, b.truth->tracks_m);
-    ASSERT_EQ(a.truth->contours.size(), b.truth->contours.size());
-    EXPECT_NE(a.image.pixels, b.image.pixels);
-  }
+  support::expectPictureOnly(heartWith(0), heartWith(1));
 }
 
 // Law: what stands in a ridge is wall and moves with it; what stands beside it is blood.

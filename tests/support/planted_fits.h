@@ -44,7 +44,8 @@ inline std::vector<double> volumesOf(const Scene& scene) {
   SurfaceFrame frame;
   for (int i = 0; i < kSteps; ++i) {
     motion.frameAt(static_cast<double>(i) / kSteps, frame, false);
-    ml.push_back(1e6 * motion.volumeIn(frame, motion.surfaces()[index(cavity.value())]));
+    ml.push_back(millilitresFromCubicMetres(
+        motion.volumeIn(frame, motion.surfaces()[index(cavity.value())])));
   }
   return ml;
 }
