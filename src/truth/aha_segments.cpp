@@ -27,6 +27,7 @@ int ahaSegment(const HeartAxes& axes, Vec3d place_m) {
 }
 
 bool areAdjacent(std::size_t a, std::size_t b) {
+  if (a == b) return false;
   if (a > b) std::swap(a, b);
   const auto inRing = [&](std::size_t first, std::size_t last) {
     return a >= first && b <= last && (b - a == 1 || (a == first && b == last));

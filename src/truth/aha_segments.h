@@ -42,7 +42,7 @@ struct HeartAxes {
 // 1 to 17: thirds of the length, six sectors, four at the apex, and a cap, here the last tenth.
 int ahaSegment(const HeartAxes& axes, Vec3d place_m);
 
-// Do two different segments, 1 to 17, share a border, in a ring or along the wall?
+// Do two segments, 1 to 17, share a border, in a ring or along the wall? None does with itself.
 bool areAdjacent(std::size_t a, std::size_t b);
 
 }  // namespace echocine

@@ -125,6 +125,7 @@ TEST(FitRegions, ASegmentIsComparedWithItsNeighbours) {
              {{9, 2.5}, {14, -0.5}, {17, 0}, {16, -1}, {12, 0.5}}},
         Case{{{7, 1}, {8, 5}, {9, 1}, {10, 1}, {11, 1}, {12, 3}},  // short axis
              {{7, -3}, {8, 4}, {9, -2}, {10, 0}, {11, -1}, {12, 2}}},
+        Case{{{14, 1}, {17, 4}, {16, 0}}, {{17, 3.5}}},  // the apex is not its own neighbour
         Case{{{13, 1}, {14, 2}, {15, 3}, {16, 6}}, {{13, -3}, {14, 0}, {15, -1}, {16, 4}}}}) {
     std::map<int, double> twin = c.loop;
     for (auto& [segment, mm] : twin) mm = 0;
