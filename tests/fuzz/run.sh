@@ -18,30 +18,35 @@ export ASAN_OPTIONS=quarantine_size_mb=16:max_allocation_size_mb=256:allocator_m
 [ ! -d /dev/shm ] || export TMPDIR=/dev/shm  # for readers that take a path
 mkdir -p "$work/findings"
 
-for target in "${targets[@]}"; do
-  dictionary=()
-  runs=5000
-  case $target in
-    ecg) runs=500 ;;  # each run reads a loop of pictures
-    scene | spec) dictionary=(-dict=toml.dict) ;;
-    video) limits+=(-max_len=16384 -rss_limit_mb=2048) ;;
-    lid | obj | off | ply | stl) dictionary=(-dict=mesh.dict) ;;
-  esac
-  if [ -n "$seconds" ]; then
-    mkdir -p "$work/corpus/$target"
-    folders=("$work/corpus/$target" "corpus/$target")
-    length=(-max_total_time="$seconds" -print_final_stats=1)
-  else
-    rm -rf "$work/short"
-    mkdir -p "$work/short"
-    folders=("$work/short" "corpus/$target")
-    length=(-runs=$runs -seed=1)
-  fi
-  log=$work/$target.log
-  if ! ECHOCINE_FUZZ_TARGET=$target "$build/fuzzer" "${limits[@]}" "${dictionary[@]}" "${length[@]}" \
-    -artifact_prefix="$work/findings/$target-" "${folders[@]}" 2>"$log"; then
-    tail -n 60 "$log" >&2
-    exit 1
-  fi
-  echo "fuzz $target: $(grep -E '^#[0-9]+.*DONE' "$log" | tail -n 1)"
-done
+# Targets run side by side, each in a process of this script.
+if [ ${#targets[@]} -gt 1 ]; then
+  printf '%s\n' "${targets[@]}" | xargs -P "$(nproc)" -n 1 ./run.sh "$seconds"
+  exit
+fi
+
+target=${targets[0]}
+dictionary=()
+runs=5000
+case $target in
+  ecg) runs=500 ;;  # each run reads a loop of pictures
+  scene | spec) dictionary=(-dict=toml.dict) ;;
+  video) limits+=(-max_len=16384 -rss_limit_mb=2048) ;;
+  lid | obj | off | ply | stl) dictionary=(-dict=mesh.dict) ;;
+esac
+if [ -n "$seconds" ]; then
+  mkdir -p "$work/corpus/$target"
+  folders=("$work/corpus/$target" "corpus/$target")
+  length=(-max_total_time="$seconds" -print_final_stats=1)
+else
+  rm -rf "$work/short/$target"
+  mkdir -p "$work/short/$target"
+  folders=("$work/short/$target" "corpus/$target")
+  length=(-runs=$runs -seed=1)
+fi
+log=$work/$target.log
+if ! ECHOCINE_FUZZ_TARGET=$target "$build/fuzzer" "${limits[@]}" "${dictionary[@]}" "${length[@]}" \
+  -artifact_prefix="$work/findings/$target-" "${folders[@]}" 2>"$log"; then
+  tail -n 60 "$log" >&2
+  exit 1
+fi
+echo "fuzz $target: $(grep -E '^#[0-9]+.*DONE' "$log" | tail -n 1)"

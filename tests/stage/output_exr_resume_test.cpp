@@ -77,7 +77,12 @@ TEST_F(ExrStackTest, ResumeTakesNoFileWithAnyByteFlippedWhateverTheCompression) 
       ASSERT_EQ(stack().existing(record), sha256);
       const std::string whole = test::bytesOf(file());
       // All of the header and of the table of offsets, then a sample of the chunks.
-      for (std::size_t at = 0; at < whole.size(); at += at < 2400 ? 1 : 29) {
+#ifdef ECHOCINE_SANITIZED
+      constexpr std::size_t kStep = 5;
+#else
+      constexpr std::size_t kStep = 1;
+#endif
+      for (std::size_t at = 0; at < whole.size(); at += at < 2400 ? kStep : 29) {
         std::string damaged = whole;
         const char flips[] = {'\x01', '\x20', '\x80', '\xff'};
         damaged[at] = static_cast<char>(damaged[at] ^ flips[at % 4]);

@@ -87,7 +87,12 @@ TEST(SimulatorFrame, OfALongLoopHasTheWhiteOfItsRender) {
   scene.acquisition.frame_rate_hz = 160;
   scene.signal.reference_intensity.reset();
   const auto motion = std::make_shared<const MeshMotion>(scene);
-  for (const double percentile : {40.0, 60.0, 80.0, 90.0}) {
+#ifdef ECHOCINE_SANITIZED
+  const std::vector<double> percentiles{60.0};
+#else
+  const std::vector<double> percentiles{40.0, 60.0, 80.0, 90.0};
+#endif
+  for (const double percentile : percentiles) {
     scene.signal.reference_percentile = percentile;
     const Simulator simulator(scene, motion);
     ASSERT_GT(simulator.cardiacClock().frameCount(), 2 * kReferenceFrames);
