@@ -28,7 +28,7 @@ FrameDiscrepancy::FrameDiscrepancy(const echo::EchoLoop& real, const Probe& prob
     throw SceneError(
         fmt::format("{}: has no length scale; give --scale in mm per pixel", real.video.name));
   echo::checkScale(real);
-  if (!probe.isFan() || probe.isFullTurn() || probe.lines < 8 || probe.samples < 16)
+  if (!probe.isSector() || probe.lines < 8 || probe.samples < 16)
     throw SceneError("the discrepancy needs a sector of at least 8 lines and 16 samples");
   // After smoothing over 2 % of the depth there are fewer than a hundred independent depths, so
   // 384 samples lose no information and keep a call short. Our choice.

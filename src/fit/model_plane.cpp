@@ -147,7 +147,7 @@ ModelPlane::ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& s
       coarse_(withCoarseLines(scene)),
       labels_(coarse_, PictureGrid{}),
       cells_(cellsAt(coarse_.probe)) {
-  if (!scene.probe.isFan() || scene.probe.isFullTurn())
+  if (!scene.probe.isSector())
     throw SceneError(
         fmt::format("a {} probe has no sector to compare; give a phased or curvilinear one",
                     nameOf(scene.probe.kind)));

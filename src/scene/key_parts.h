@@ -78,7 +78,7 @@ inline constexpr KeyField kByHand{};
 
 inline constexpr KeyUse kWithView WITH("view", o.scene->view.has_value());
 inline constexpr KeyUse kWithAngle WITH("kind = \"phased\" | \"curvilinear\"",
-                                        o.scene->probe.isFan() && !o.scene->probe.isFullTurn());
+                                        o.scene->probe.isSector());
 inline constexpr KeyUse kWithCurve WITH("kind = \"curvilinear\" | \"radial\"",
                                         layoutOf(o.scene->probe.kind).curved_face);
 inline constexpr KeyUse kWithWidth WITH("kind = \"linear\"", !o.scene->probe.isFan());

@@ -39,6 +39,7 @@ struct Probe {
 
   bool isFan() const { return layoutOf(kind).fan; }  // otherwise its lines are parallel
   bool isFullTurn() const { return layoutOf(kind).full_turn; }
+  bool isSector() const { return isFan() && !isFullTurn(); }
   double sampleSpacing() const { return (max_depth_m - min_depth_m) / samples; }
   double middleDepth() const { return 0.5 * (min_depth_m + max_depth_m); }
 };
