@@ -174,7 +174,7 @@ void planTruth(const Scene& scene, EffectPlan& plan) {
 }
 
 // A curve of depth that is applied to every line, and what asks for it.
-Finding timeGain(const Scene& scene, const EffectPlan& plan) {
+Finding pathGain(const Scene& scene, const EffectPlan& plan) {
   if (!wantsPicture(scene)) return {false, "no picture is requested"};
   switch (scene.signal.tgc) {
     case Tgc::perfect:
@@ -191,6 +191,14 @@ Finding timeGain(const Scene& scene, const EffectPlan& plan) {
   if (scene.signal.tgc == Tgc::nominal)
     return {true, "one curve of depth, by a nominal attenuation"};
   return {true, "one curve of depth that undoes the loop's mean attenuation"};
+}
+
+Finding timeGain(const Scene& scene, const EffectPlan& plan) {
+  Finding gain = pathGain(scene, plan);
+  const SignalSettings& s = scene.signal;
+  if (s.near_gain_db == 0 || !wantsPicture(scene)) return gain;
+  return {true, fmt::format("{}; {:g} dB at the face (signal.near_gain_db)", gain.reason,
+                            s.near_gain_db)};
 }
 
 void planRolling(const Scene& scene, EffectPlan& plan) {

@@ -68,6 +68,8 @@ struct SignalSettings {
   Quality quality = Quality::medium;  // of a scanner's look
   Tgc tgc = Tgc::perfect;
   std::vector<std::pair<double, double>> tgc_table;  // (depth m, gain dB), ascending depths
+  // The examiner's gain of the near field: added at the face, straight in dB to 0 at this depth.
+  double near_gain_db = 0, near_gain_depth_m = 25e-3;
   // For Tgc::nominal: 0.76 of soft tissue's 0.54 dB/(cm MHz), so that lung stays dark. Our choice.
   double nominal_gain_np_per_m_hz = 4.72e-6;
   Spread spread = Spread::compensate;

@@ -157,6 +157,8 @@ constexpr SceneKey kKeys[] = {
     {"signal", "tgc", kNone, kAny, "time gain: perfect compensates each path's attenuation, mean the loop's mean at each depth, nominal that of soft tissue", AT(SignalSettings, tgc)},
     {"signal", "tgc_nominal_db_cm_mhz", kNominalGain, ranges::kNominalGain_db_cm_mhz, "attenuation that the nominal gain compensates", AT(SignalSettings, nominal_gain_np_per_m_hz), kOptional, kWithNominal},
     {"signal", "tgc_table_mm_db", kNone, kAny, "pairs of depth and gain", kByHand, kAlways, kWithTable},
+    {"signal", "near_gain_db", kDb, ranges::kPictureGain_db, "gain added at the face, falling linearly in dB to 0 at near_gain_depth_mm", AT(SignalSettings, near_gain_db)},
+    {"signal", "near_gain_depth_mm", kMm, ranges::kArtefactLength_mm, "depth from which the near field's gain is 0", AT(SignalSettings, near_gain_depth_m)},
     {"signal", "spread", kNone, kAny, "whether the picture compensates the factor 1/l^2 of backscatter", AT(SignalSettings, spread)},
     {"signal", "beam_width", kNone, kAny, "focused: by aperture, frequency and focus; profile: the sampled two-way beam with its side lobes", AT(SignalSettings, beam_width)},
     {"signal", "beam_width_mm", kMm, ranges::kExtent_mm, "width of a fixed beam", AT(SignalSettings, beam_width_m), kAlways, kWithFixed},

@@ -12,6 +12,11 @@ namespace echocine {
 
 namespace {
 
+void multiply(std::vector<float>& gains, const std::vector<float>& by) {
+  if (gains.empty()) gains.assign(by.size(), 1);
+  for (std::size_t k = 0; k < gains.size(); ++k) gains[k] *= by[k];
+}
+
 std::vector<float> gainsOfPath(const Scene& scene, const EffectPlan& plan) {
   const SignalSettings& s = scene.signal;
   if (s.tgc == Tgc::mean) return gainsAgainst(plan.mean_loss);
@@ -24,11 +29,11 @@ std::vector<float> gainsOfPath(const Scene& scene, const EffectPlan& plan) {
 // The examiner evens the build-up of the second harmonic, unless the gain is stated.
 std::vector<float> gainsOf(const Scene& scene, const EffectPlan& plan) {
   std::vector<float> gains = gainsOfPath(scene, plan);
-  const Tgc tgc = scene.signal.tgc;
-  if (!plan.harmonic || (tgc != Tgc::mean && tgc != Tgc::perfect)) return gains;
-  const std::vector<float> evening = gainsOfBuildUp(scene.probe);
-  if (gains.empty()) return evening;
-  for (std::size_t k = 0; k < gains.size(); ++k) gains[k] *= evening[k];
+  const SignalSettings& s = scene.signal;
+  if (s.near_gain_db != 0)
+    multiply(gains, timeGains({{0, s.near_gain_db}, {s.near_gain_depth_m, 0}}, scene.probe));
+  if (plan.harmonic && (s.tgc == Tgc::mean || s.tgc == Tgc::perfect))
+    multiply(gains, gainsOfBuildUp(scene.probe));
   return gains;
 }
 

@@ -171,6 +171,8 @@ const std::string kFixed = R"(
 beam_width = "fixed"
 beam_width_mm = 2.0
 edge_enhancement = 0.5
+near_gain_db = -10.0
+near_gain_depth_mm = 30.0
 tgc = "table"
 tgc_table_mm_db = [[1, 0], [160, 40]]
 reference_intensity = 1e-6
@@ -254,7 +256,6 @@ class NumberSweep : public ::testing::Test {
     EXPECT_GT(runs, least_runs / kStep);
     EXPECT_GT(accepted, least_accepted / kStep);
   }
-
   static std::string with(std::string text, const std::string& medium) {
     return text.replace(text.find("MEDIUM"), 6, medium);
   }

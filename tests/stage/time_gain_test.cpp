@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "plan/effect_plan.h"
+#include "signal/signal_chain.h"
 #include "support/plain_scene.h"
 
 namespace echocine {
@@ -48,6 +50,31 @@ TEST(TimeGain, MultipliesEveryLine) {
   std::vector<float> plane{1, 1, 1, 3, 0, 5};
   applyTimeGains(gains, plane);
   EXPECT_EQ(plane, (std::vector<float>{1, 2, 4, 3, 0, 20}));
+}
+
+// In dB straight from the face to the depth where it ends, and nothing deeper; also on top of a
+// table.
+TEST(TimeGain, TheNearFieldsGainEndsAtItsDepth) {
+  for (const bool with_table : {false, true}) {
+    Scene scene = support::plainScene({support::medium("m", 1000, 1500)});
+    scene.probe = gainProbe();
+    scene.probe.lines = 2;
+    scene.signal.beam_width = BeamWidth::none;
+    scene.signal.tgc = with_table ? Tgc::table : Tgc::none;
+    if (with_table) scene.signal.tgc_table = {{0, 3}};
+    scene.signal.near_gain_db = -16;
+    scene.signal.near_gain_depth_m = 0.04;
+    EffectPlan plan = planEffects(scene);
+    plan.beam_width = false;
+    Intensities plane(std::vector<float>(200, 1.0f));
+    SignalChain(scene, plan).process(plane, {0, 2}, {});
+    for (int line = 0; line < 2; ++line)
+      for (const int mm : {1, 10, 20, 39, 40, 41, 100}) {
+        const double db = mm < 40 ? -16 * (1 - mm / 40.0) : 0;
+        const float intensity = plane.values[static_cast<std::size_t>(100 * line + mm - 1)];
+        EXPECT_NEAR(10 * std::log10(intensity), db + (with_table ? 3 : 0), 1e-4) << mm;
+      }
+  }
 }
 
 }  // namespace
