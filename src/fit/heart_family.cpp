@@ -7,7 +7,6 @@
 
 #include "core/check.h"
 #include "core/error.h"
-#include "core/lanes.h"
 #include "core/parallel.h"
 #include "core/units.h"
 #include "motion/heart/heart_scene.h"
@@ -122,7 +121,7 @@ HeartFamily::HeartFamily(const HeartNodes& hearts, heart::View view, const Monit
   });
   for (Structure& structure : scene_.structures) structure.keyframes.clear();
   keepNearPlane(all, recorded);
-  keepCoordinates(recorded);
+  keepModes(recorded);
 }
 
 // The triangles that some heart between the recorded ones has on the plane: their corners' heights
@@ -167,21 +166,18 @@ void HeartFamily::keepNearPlane(const std::vector<SurfaceTopology>& all,
                                 const std::vector<Node>& recorded) {
   for (const SurfaceTopology& whole : all) {
     const std::vector<char> near = nearPlane(whole, recorded);
-    constexpr std::uint32_t kLeftOut = 0xffffffff;
-    std::vector<std::uint32_t> number(whole.vertex_count, kLeftOut), kept;
     SurfaceTopology surface{whole.id, {}, 0, whole.membrane, false};
+    std::vector<std::uint32_t> kept;
     for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
       if (near[t] == 0) continue;
-      Triangle triangle = whole.triangles[t];
-      for (std::uint32_t& v : triangle) {
-        if (number[v] == kLeftOut) {
-          number[v] = static_cast<std::uint32_t>(kept.size());
-          kept.push_back(v);
-        }
-        v = number[v];
-      }
-      surface.triangles.push_back(triangle);
+      surface.triangles.push_back(whole.triangles[t]);
+      kept.insert(kept.end(), whole.triangles[t].begin(), whole.triangles[t].end());
     }
+    orderByPlace(recorded.front().front().positions_m[index(whole.id)], kept);
+    std::vector<std::uint32_t> number(whole.vertex_count);
+    for (std::uint32_t i = 0; i < kept.size(); ++i) number[kept[i]] = i;
+    for (Triangle& triangle : surface.triangles)
+      for (std::uint32_t& v : triangle) v = number[v];
     surface.vertex_count = static_cast<std::uint32_t>(kept.size());
     if (segments_ && index(whole.id) == segments_->surface) {
       std::vector<std::uint8_t> of_kept;
@@ -193,55 +189,34 @@ void HeartFamily::keepNearPlane(const std::vector<SurfaceTopology>& all,
   }
 }
 
-void HeartFamily::keepCoordinates(const std::vector<Node>& recorded) {
-  coordinates_.assign(recorded.front().size(), {});
-  for (std::size_t f = 0; f < coordinates_.size(); ++f)
-    for (std::size_t s = 0; s < kept_.size(); ++s) {
-      const std::size_t numbers = 3 * kept_[s].size(), block = kFloatLanes * recorded.size();
-      std::vector<float> all((numbers + kFloatLanes - 1) / kFloatLanes * block, 0);
-      for (std::size_t n = 0; n < recorded.size(); ++n)
-        for (std::size_t v = 0; v < kept_[s].size(); ++v) {
-          const Vec3f p = recorded[n][f].positions_m[s][kept_[s][v]];
-          std::size_t i = 3 * v;
-          for (const float number : {p.x, p.y, p.z}) {
-            all[i / kFloatLanes * block + n * kFloatLanes + i % kFloatLanes] = number;
-            ++i;
-          }
-        }
-      coordinates_[f].push_back(std::move(all));
+void HeartFamily::keepModes(const std::vector<Node>& recorded) {
+  std::vector<std::optional<SurfaceModes>> modes(recorded.front().size());
+  const SurfacePatches patches = patchesOf(surfaces_);
+  parallelBlocks(modes.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      std::vector<const SurfaceFrame*> hearts;
+      for (const Node& node : recorded) hearts.push_back(&node[f]);
+      modes[f].emplace(hearts, kept_, patches);
     }
+  });
+  for (std::optional<SurfaceModes>& frame : modes) modes_.push_back(std::move(*frame));
 }
 
 std::vector<SurfaceFrame> HeartFamily::surfacesAt(const std::vector<double>& values) const {
   checkValues(ranges(), values);
-  static_assert(sizeof(Vec3f) == 3 * sizeof(float));
-  const std::vector<float> share = design_.shares(values);
-  std::vector<SurfaceFrame> frames(coordinates_.size());
-  for (std::size_t f = 0; f < frames.size(); ++f)
-    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-      std::vector<Vec3f> positions(kept_[s].size());
-      const std::size_t numbers = 3 * positions.size();
-      const float* from = coordinates_[f][s].data();
-      for (std::size_t i = 0; i < numbers; i += kFloatLanes) {
-        Floats8 sum{};
-        for (const float own : share) {
-          sum += own * lanesAt(from);
-          from += kFloatLanes;
-        }
-        storeSome(sum, numbers - i, reinterpret_cast<float*>(positions.data()) + i);
-      }
-      frames[f].positions_m.push_back(std::move(positions));
-    }
+  const std::vector<float> shares = design_.shares(values);
+  std::vector<SurfaceFrame> frames;
+  for (const SurfaceModes& modes : modes_) frames.push_back(modes.blend(shares));
   return frames;
 }
 
 ModelLoop HeartFamily::at(const std::vector<double>& values, const PlaneTilt& tilt) const {
   checkAngle("tilt_deg", tilt.tilt_rad, tilt_rad_);
   checkAngle("rotate_deg", tilt.rotate_rad, tilt_rad_);
-  std::vector<SurfaceFrame> surfaces = surfacesAt(values);
-  if (tilt_rad_ > 0) tiltSurfaces(tilt, surfaces);
-  ModelLoop loop = ModelPlane(scene_, surfaces_, segments_).cut(surfaces);
+  checkValues(ranges(), values);
   const std::vector<float> share = design_.shares(values);
+  ModelLoop loop =
+      ModelPlane(scene_, surfaces_, segments_).cut(blendNearPlane(modes_, share, tilt));
   for (std::size_t n = 0; n < share.size(); ++n)
     loop.systole += static_cast<double>(share[n]) * systoles_[n];
   return loop;

@@ -10,6 +10,7 @@
 #include "fit/heart_cache.h"
 #include "fit/heart_design.h"
 #include "fit/plane_tilt.h"
+#include "fit/surface_modes.h"
 #include "motion/heart/recording.h"
 
 namespace echocine::fit {
@@ -79,7 +80,7 @@ class HeartFamily {
   std::vector<char> nearPlane(const SurfaceTopology& surface,
                               const std::vector<Node>& recorded) const;
   void keepNearPlane(const std::vector<SurfaceTopology>& all, const std::vector<Node>& recorded);
-  void keepCoordinates(const std::vector<Node>& recorded);
+  void keepModes(const std::vector<Node>& recorded);
 
   HeartDesign design_;
   std::vector<double> systoles_;  // end-systole of each computed heart, as a fraction of its beat
@@ -88,9 +89,7 @@ class HeartFamily {
   std::optional<WallSegments> segments_;  // of the first node's material, which all share
   std::vector<SurfaceTopology> surfaces_;
   std::vector<std::vector<std::uint32_t>> kept_;  // vertices, by surface
-  // By frame and surface: eight coordinates of the first node, then the same eight of each other
-  // node, then the next eight. A blend reads them once, in order.
-  std::vector<std::vector<std::vector<float>>> coordinates_;
+  std::vector<SurfaceModes> modes_;               // by frame
 };
 
 }  // namespace echocine::fit

@@ -62,7 +62,7 @@ set(rooms
   "echo=video|hdf,zarr,signal,metrics,output"
   "export=video,signal|echo"
   "archive=loop|hdf,zarr,surfaces,cycle,truth,output"
-  "fit=echo,heart,surfaces,geometry,truth,signal,page|frame,video,output,view"
+  "fit=echo,heart,surfaces,geometry,truth,signal,page|interior,frame,video,output,view"
   "compare=echo,fit,metrics,signal,truth,page|surfaces,video"
   "render=loop,frame,cycle,output,page,video,truth|plan,signal,surfaces,view"
   "study=plan,frame,cycle,output,video,metrics|loop,surfaces,keyframes,trace,signal,render,page"
