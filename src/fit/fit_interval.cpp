@@ -149,7 +149,7 @@ void widenByRivals(HeartFit& fit) {
 ModelError modelErrorOf(std::size_t views) {
   return views <= 1   ? ModelError{0.040, 0.08, 0.02}
          : views == 2 ? ModelError{0.035, 0.06, 0.02}
-                      : ModelError{0.030, 0.08, 0.02};
+                      : ModelError{0.045, 0.08, 0.02};
 }
 
 void concludeFit(const FitCost& cost, const std::vector<FitDescent>& descents, HeartFit& fit) {
