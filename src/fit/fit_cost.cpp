@@ -54,6 +54,7 @@ std::vector<double> FitCost::searchedAt(const std::vector<double>& at) const {
 std::map<std::string, double> FitCost::dialsAt(const std::vector<double>& at) const {
   std::map<std::string, double> dials = fixed_;
   for (std::size_t i = 0; i < dials_; ++i) dials[unknowns_[i].name] = at[i];
+  addFollowers(dials);
   return dials;
 }
 
@@ -64,6 +65,11 @@ PlaneTilt FitCost::tiltAt(const std::vector<double>& at, std::size_t view) const
 
 double FitCost::priorCost(const std::vector<double>& at) const {
   double cost = -prior_.logDensity(priorDialsOf(dialsAt(at)));
+  for (std::size_t i = 0; i < dials_; ++i)
+    if (unknowns_[i].name == kAtrialPrior.key) {
+      const double z = std::log(at[i] / kAtrialPrior.median) / kAtrialPrior.log_sd;
+      cost += 0.5 * z * z + std::log(at[i]);
+    }
   for (std::size_t i = dials_; i < at.size(); i += 2)
     cost += 0.5 * std::pow(at[i] / kTiltSd_deg, 2) + 0.5 * std::pow(at[i + 1] / kRotateSd_deg, 2);
   return cost;
@@ -175,6 +181,7 @@ Quadratic FitCost::priorAround(const std::vector<double>& middle) const {
 double FitCost::priorSd(std::size_t unknown) const {
   const FitUnknown& u = unknowns_[unknown];
   if (unknown >= dials_) return (unknown - dials_) % 2 == 0 ? kTiltSd_deg : kRotateSd_deg;
+  if (u.name == kAtrialPrior.key) return kAtrialPrior.sd();
   const auto p = priorDialOf(u.name);
   return p ? prior_.sd()[*p] : (u.high - u.low) / std::sqrt(12.0);
 }

@@ -43,6 +43,7 @@ void addDials(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
     const FitUnknown& u = cost.unknowns()[i];
     DialFound dial{u.name, best.best.at[i], std::sqrt(covarianceAt(best, i, i)), 0, false, true};
     if (const auto p = priorDialOf(u.name)) dial.prior_sd = cost.prior().sd()[*p];
+    if (u.name == kAtrialPrior.key) dial.prior_sd = kAtrialPrior.sd();
     if (best.covariance.empty()) dial.sd = dial.prior_sd;
     const double near = 1e-3 * (u.high - u.low);
     dial.at_limit = dial.value < u.low + near || dial.value > u.high - near;
@@ -148,7 +149,7 @@ void widenByRivals(HeartFit& fit) {
 ModelError modelErrorOf(std::size_t views) {
   return views <= 1   ? ModelError{0.040, 0.08, 0.02}
          : views == 2 ? ModelError{0.035, 0.06, 0.02}
-                      : ModelError{0.030, 0.08, 0.02};
+                      : ModelError{0.045, 0.08, 0.02};
 }
 
 void concludeFit(const FitCost& cost, const std::vector<FitDescent>& descents, HeartFit& fit) {

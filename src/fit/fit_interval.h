@@ -8,7 +8,7 @@ namespace echocine::fit {
 
 // (15)  SD^2 = inverse curvature of J + model error
 // The model error is that of planted hearts with other atria, right ventricles, twist, rates, media
-// and looks than the models' (README.md), as SD. For three views it is our choice.
+// and looks than the models' (README.md), as SD. EF of three views: of one patient.
 struct ModelError {
   double ef, edv, gls;  // SD; that of EDV is relative
 };

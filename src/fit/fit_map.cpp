@@ -4,17 +4,18 @@
 #include <cmath>
 
 #include "fit/fit_sums.h"
+#include "fit/seen_cells.h"
 
 namespace echocine::fit {
 
 namespace {
 
 // Residual of each cell's grey after the fit of tissues and gain, in standard deviations.
-std::vector<RegionLeft> leftOver(const ModelFrame& frame, const echo::EchoInstant& at,
+std::vector<RegionLeft> leftOver(const std::vector<TissueCell>& cells, const echo::EchoInstant& at,
                                  const PoseMapping& map, const TissueGreys::Fit& fit,
                                  double deviation) {
   std::vector<RegionLeft> left;
-  for (const TissueCell& cell : frame.cells) {
+  for (const TissueCell& cell : cells) {
     if (!(cell.area > 0)) continue;
     double x, z;
     map.place(cell.x_m, cell.z_m, x, z);
@@ -28,15 +29,17 @@ std::vector<RegionLeft> leftOver(const ModelFrame& frame, const echo::EchoInstan
   return left;
 }
 
-void addStrips(const ModelFrame& frame, const echo::EchoInstant& at, const PoseMapping& map,
-               double cells_per_m2, RegionSums& sums) {
+std::vector<TissueCell> seenIn(const ModelFrame& frame, const echo::EchoInstant& at,
+                               const PoseMapping& map, SeenCells& seen) {
+  seen.start(frame.cells);
   for (const BoundaryPoint& p : frame.boundary) {
     if (!p.of_blood) continue;
     double x, z, nx, nz;
     map.place(p.x_m, p.z_m, x, z);
     map.turn(p.nx, p.nz, nx, nz);
-    addStrip(p, at, x, z, nx, nz, seenBeside(at.stack(), x, z, nx, nz), cells_per_m2, sums);
+    if (at.at(x, z).visible > 0) seen.take(p, seenBeside(at.stack(), x, z, nx, nz) / map.scale());
   }
+  return {seen.cells().begin(), seen.cells().end()};
 }
 
 std::vector<BoundaryOffset> offsetsOf(const ModelFrame& frame, const echo::EchoInstant& at,
@@ -63,10 +66,12 @@ FitMap fitMap(const ModelLoop& model, const echo::EchoStack& real, const FitPose
   std::vector<echo::EchoInstant> at;
   for (std::size_t n = 0; n < model.frames.size(); ++n)
     at.push_back(real.instant(placeOf(model, n, pose, real)));
+  SeenCells seen(model);
+  std::vector<std::vector<TissueCell>> cells(at.size());
   for (std::size_t n = 0; n < at.size(); ++n)
     if (at[n].seen()) {
-      addCells(model.frames[n].cells, at[n], map, sums);
-      addStrips(model.frames[n], at[n], map, cellsPerArea(model, {}), sums);
+      cells[n] = seenIn(model.frames[n], at[n], map, seen);
+      addCells(cells[n], at[n], map, sums);
     }
   FitMap out;
   if (!(sums.seen > 0)) return out;
@@ -75,11 +80,11 @@ FitMap fitMap(const ModelLoop& model, const echo::EchoStack& real, const FitPose
   const double deviation = std::sqrt(std::max(1e-9, fit.residual / sums.seen));
   out.tissue_grey = fit.grey;
   for (std::size_t n = 0; n < at.size(); ++n) {
-    const bool seen = at[n].seen();
-    out.region.push_back(seen ? leftOver(model.frames[n], at[n], map, fit, deviation)
-                              : std::vector<RegionLeft>{});
-    out.boundary.push_back(seen ? offsetsOf(model.frames[n], at[n], map)
-                                : std::vector<BoundaryOffset>{});
+    const bool shown = at[n].seen();
+    out.region.push_back(shown ? leftOver(cells[n], at[n], map, fit, deviation)
+                               : std::vector<RegionLeft>{});
+    out.boundary.push_back(shown ? offsetsOf(model.frames[n], at[n], map)
+                                 : std::vector<BoundaryOffset>{});
   }
   return out;
 }

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "fit/fit_sums.h"
+#include "fit/seen_cells.h"
 
 namespace echocine::fit {
 
@@ -50,9 +51,13 @@ class ResidualBuilder {
         sums_{TissueGreys(model.blood)} {
     for (std::size_t n = 0; n < model.frames.size(); ++n) {
       at_.push_back(real.instant(placeOf(model, n, pose, real)));
+      seen_.emplace_back(model.frames[n].cells);
       if (!at_[n].seen()) continue;
-      addCells(model.frames[n].cells, at_[n], map_, sums_);
-      addSides(n, at_[n]);
+      SeenCells seen(model);
+      seen.start(model.frames[n].cells);
+      addSides(n, at_[n], seen);
+      seen_[n].assign(seen.cells().begin(), seen.cells().end());
+      addCells(seen_[n], at_[n], map_, sums_);
     }
   }
 
@@ -75,16 +80,15 @@ class ResidualBuilder {
   }
 
  private:
-  void addSides(std::size_t n, const echo::EchoInstant& at) {
+  void addSides(std::size_t n, const echo::EchoInstant& at, SeenCells& seen) {
     const ModelFrame& frame = model_.frames[n];
     const std::vector<Middle> middles = middlesOf(frame, model_.structures.size());
-    const double per_m2 = cellsPerArea(model_, {});
     for (const BoundaryPoint& p : frame.boundary) {
       if (!p.of_blood) continue;
       const auto [x, z, nx, nz, beside, edge] = placedEdge(p, at, map_);
       const double length = p.length_m * edge.visible;
       if (!(length > 0)) continue;
-      addStrip(p, at, x, z, nx, nz, beside, per_m2, sums_);
+      seen.take(p, beside / map_.scale());
       const MotionPair m = motionOf(p, at, map_, x, z, nx, nz);
       length_ += length;
       together_ += length * m.weight * m.together;
@@ -116,7 +120,7 @@ class ResidualBuilder {
         out.insert(out.end(), cells, 0.0);
         continue;
       }
-      for (const TissueCell& cell : model_.frames[n].cells)
+      for (const TissueCell& cell : seen_[n])
         out.push_back(factor * std::sqrt(1 / fit.total) * leftOf(cell, at, fit));
     }
   }
@@ -140,8 +144,9 @@ class ResidualBuilder {
 
   const ModelLoop& model_;
   PoseMapping map_;
-  std::vector<echo::EchoInstant> at_;  // by frame
-  std::vector<SideSums> sides_;        // by frame, structure and direction
+  std::vector<echo::EchoInstant> at_;          // by frame
+  std::vector<std::vector<TissueCell>> seen_;  // cells of each frame
+  std::vector<SideSums> sides_;                // by frame, structure and direction
   RegionSums sums_;
   double length_ = kLeast_m, together_ = kLeast_m3;
 };

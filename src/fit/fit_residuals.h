@@ -15,9 +15,8 @@ namespace echocine::fit {
 //   3 F S kSides   for each frame and structure, kSides directions from the middle of its boundary:
 //                  the mean signed distance of the edges (Eq. 4), then both components of the mean
 //                  of u - v (Eq. 5), times square roots of their weights;
-//   1              the square root of the rest of 1 + D: spread within the directions, strips
-//   beside
-//                  the blood, area out of the sector. It is about 1 and changes little.
+//   1              the square root of the rest of 1 + D: spread within the directions, area out
+//                  of the sector. It is about 1 and changes little.
 // W: w_R + w_B + w_M; c: overlap. Their number depends on F, C and S only, so that models of other
 // dials are comparable residual by residual. Pieces of boundary count for the two nearest
 // directions by linear shares, so residuals are continuous.

@@ -116,16 +116,6 @@ void addCells(std::span<const TissueCell> cells, const echo::EchoInstant& at,
   if (count > 0) add();
 }
 
-void addStrip(const BoundaryPoint& p, const echo::EchoInstant& at, double x, double z, double nx,
-              double nz, double beside, double cells_per_m2, RegionSums& sums) {
-  const double hx = x - 0.5 * beside * nx, hz = z - 0.5 * beside * nz;
-  const echo::EchoStack::Sample strip = at.at(hx, hz);
-  const double weight = cells_per_m2 * p.length_m * beside * static_cast<double>(strip.visible),
-               depth = std::sqrt(hx * hx + hz * hz) / at.stack().far();
-  sums.greys.add(p.blood, p.blood, 1, depth, strip.grey, -weight);
-  sums.greys.add(p.beside, p.beside, 1, depth, strip.grey, weight);
-}
-
 double cellsPerArea(const ModelLoop& model, const FitStride& stride) {
   const std::vector<TissueCell>& cells = model.frames.front().cells;
   const TissueCell &a = cells[0], &b = cells[1],

@@ -90,10 +90,6 @@ struct RegionSums {
 // Adds cells of a frame; those without an area are skipped.
 void addCells(std::span<const TissueCell> cells, const echo::EchoInstant& at,
               const PoseMapping& map, RegionSums& sums);
-// Adds the strip between a boundary of blood and its visible position, as the tissue beside the
-// blood.
-void addStrip(const BoundaryPoint& p, const echo::EchoInstant& at, double x, double z, double nx,
-              double nz, double beside, double cells_per_m2, RegionSums& sums);
 // Number of cells at the largest depth per square metre; a cell there has an area of 1. Only every
 // `stride.cell`-th cell and every `stride.piece`-th piece is evaluated.
 double cellsPerArea(const ModelLoop& model, const FitStride& stride);

@@ -1,6 +1,7 @@
 #include "fit/fit_terms.h"
 
 #include "fit/fit_sums.h"
+#include "fit/seen_cells.h"
 
 namespace echocine::fit {
 
@@ -22,11 +23,11 @@ struct BoundarySums {
 };
 
 void addBoundary(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map,
-                 double cells_per_m2, RegionSums& region, BoundarySums& sums) {
+                 SeenCells& cells, BoundarySums& sums) {
   const auto [x, z, nx, nz, beside, edge] = placedEdge(p, at, map);
   const double length = p.length_m * edge.visible;
   if (!(length > 0)) return;
-  addStrip(p, at, x, z, nx, nz, beside, cells_per_m2, region);
+  cells.take(p, beside / map.scale());
   sums.square += length * edge.square;
   sums.length += length;
   const MotionPair m = motionOf(p, at, map, x, z, nx, nz);
@@ -67,15 +68,19 @@ struct TermSums {
 
 PlacedBeat::PlacedBeat(const ModelLoop& model, const echo::EchoStack& real, const FitPose& time,
                        const FitStride& stride)
-    : blood_(model.blood), far_m_(model.far_m), per_m2_(cellsPerArea(model, stride)) {
+    : blood_(model.blood), far_m_(model.far_m), seen_(std::make_shared<SeenCells>(model, stride)) {
   for (std::size_t n = 0; n < model.frames.size(); n += static_cast<std::size_t>(stride.picture)) {
-    Frame frame{real.instant(placeOf(model, n, time, real)), {}, {}};
+    Frame frame{real.instant(placeOf(model, n, time, real)), {}, {}, {}};
     if (!frame.at.seen()) continue;
     const ModelFrame& from = model.frames[n];
+    int number = -1;
     for (int i = stride.cell / 2; i < model.cells_across; i += stride.cell)
       for (int k = stride.cell / 2; k < model.cells_along; k += stride.cell) {
         const TissueCell& cell = from.cells[static_cast<std::size_t>(i * model.cells_along + k)];
-        if (cell.area > 0) frame.cells.push_back(cell);
+        ++number;
+        if (!(cell.area > 0)) continue;
+        frame.cells.push_back(cell);
+        frame.number.push_back(number);
       }
     for (std::size_t i = 0; i < from.boundary.size(); i += static_cast<std::size_t>(stride.piece))
       if (from.boundary[i].of_blood) frame.boundary.push_back(from.boundary[i]);
@@ -89,12 +94,14 @@ void PlacedBeat::blend() {
 
 std::vector<FitTerms> PlacedBeat::terms(std::span<const FitPose> poses) const {
   std::vector<TermSums> sums(poses.size(), TermSums{{TissueGreys(blood_)}, {}});
+  SeenCells seen = *seen_;
   for (const Frame& frame : frames_)
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const PoseMapping map(poses[i], far_m_);
-      addCells(frame.cells, frame.at, map, sums[i].region);
+      seen.start(frame.cells, frame.number);
       for (const BoundaryPoint& p : frame.boundary)
-        addBoundary(p, frame.at, map, per_m2_, sums[i].region, sums[i].boundary);
+        addBoundary(p, frame.at, map, seen, sums[i].boundary);
+      addCells(seen.cells(), frame.at, map, sums[i].region);
     }
   std::vector<FitTerms> out;
   for (const TermSums& sum : sums) out.push_back(sum.terms());

@@ -2,6 +2,7 @@
 // The discrepancy between a model and a real loop, term by term.
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -49,7 +50,8 @@ double fitDiscrepancy(const FitTerms& terms, const FitWeights& weights = {});
 // et al., MICCAI 1998, extended to cells of two tissues). The gain is continuous and linear between
 // four depths. Blood never gets a brighter grey level than another tissue: it scatters 20 to 30 dB
 // less, and no display inverts that. A boundary of blood is visible displaced by the loop's spread
-// of echoes (Eq. 9 of echo_spread.h). The strip between counts as the tissue beside the blood.
+// of echoes (Eq. 9 of echo_spread.h). The strip between counts as the tissue beside the blood
+// (SeenCells).
 //
 // (4)  B = < sum_s p(s) (s/S)^2 > / < (s/S)^2 >,   p(s) = exp(2 e(s)/E) / sum exp(2 e(s)/E)
 // is the mean over pieces of blood boundary, by length. Other boundaries have edges of unknown sign
@@ -65,6 +67,8 @@ double fitDiscrepancy(const FitTerms& terms, const FitWeights& weights = {});
 // for equal, 1 for unrelated, 2 for opposite motion.
 FitTerms fitTerms(const ModelLoop& model, const echo::EchoStack& real, const FitPose& pose,
                   const FitStride& stride = {});
+
+class SeenCells;
 
 // A model's frames at their instants of a loop: what poses of one time share. References to the
 // loop's pictures are kept.
@@ -84,11 +88,13 @@ class PlacedBeat {
   struct Frame {
     echo::EchoInstant at;
     std::vector<TissueCell> cells;
+    std::vector<int> number;              // of a cell, as in SeenCells
     std::vector<BoundaryPoint> boundary;  // of blood
   };
   std::vector<Frame> frames_;
   std::vector<bool> blood_;
-  double far_m_, per_m2_;
+  double far_m_;
+  std::shared_ptr<const SeenCells> seen_;  // without cells
 };
 
 // The disagreement of the model: the terms, place by place.

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "fit/searched_dials.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/heart/recording.h"
 
@@ -67,6 +68,7 @@ HeartNodes::Heart HeartNodes::computed(const std::map<std::string, double>& dial
   std::map<std::string, double> here = dials;
   const std::vector<double> values = design_.at(place);
   for (std::size_t r = 0; r < values.size(); ++r) here[ranges()[r].key] = values[r];
+  addFollowers(here);
   const heart::Parameters parameters = heart::parametersFrom(here);
   if (const std::string fault = heart::faultOf(parameters); !fault.empty())
     throw SceneError("heart: " + fault);

@@ -27,6 +27,16 @@ inline constexpr std::array<const char*, kPriorDialCount> kPriorDials = heart::k
 // The number of a dial in kPriorDials; none for a dial without a prior.
 std::optional<std::size_t> priorDialOf(const std::string& key);
 
+// A dial with a log-normal prior of its own: the largest volume of the left atrium. Healthy adults
+// have 25 +- 7 mL/m2 and up to 34; 48 is severely enlarged (Lang et al., J. Am. Soc. Echocardiogr.
+// 28, 2015). The spread, which covers both, is our choice.
+struct LonePrior {
+  const char* key;
+  double median, log_sd;
+  double sd() const { return median * log_sd; }
+};
+inline constexpr LonePrior kAtrialPrior{"la-volume", 55, 0.35};
+
 class HeartPrior {
  public:
   HeartPrior();

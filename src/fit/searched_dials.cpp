@@ -5,12 +5,17 @@
 namespace echocine::fit {
 
 const std::vector<SearchedDial>& searchedDials() {
-  static const std::vector<SearchedDial> kDials{{{"ef", 0.15, 0.75}, 0.05},
-                                                {{"edv", 50, 280}, 10},
-                                                {{"wall-thickness", 5, 15}, 1.5},
-                                                {{"sphericity", 0.46, 0.78}, 0.04},
-                                                {{"mapse", 3, 20}, 2.5}};
+  static const std::vector<SearchedDial> kDials{
+      {{"ef", 0.15, 0.75}, 0.05},         {{"edv", 50, 280}, 10},  {{"wall-thickness", 5, 15}, 1.5},
+      {{"sphericity", 0.46, 0.78}, 0.04}, {{"mapse", 3, 20}, 2.5}, {{"la-volume", 20, 130}, 8}};
   return kDials;
+}
+
+void addFollowers(std::map<std::string, double>& dials) {
+  const auto left = dials.find("la-volume");
+  if (left == dials.end() || dials.contains("ra-volume")) return;
+  const heart::Parameters healthy;
+  dials["ra-volume"] = healthy.ra_volume_ml / healthy.la_volume_ml * left->second;
 }
 
 double stepOf(const DialRange& range) {

@@ -1,6 +1,8 @@
 #pragma once
 // The dials that a fit can search.
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "fit/dial_checks.h"
@@ -12,8 +14,12 @@ struct SearchedDial {
   double step = 0;  // of differences: about an SD of what one loop leaves in planted hearts
 };
 
-// Adult hearts, failing to vigorous. Our choice. The same keys in the same order as kPriorDials.
+// Adult hearts, failing to vigorous. Our choice. The keys of kPriorDials in their order, then the
+// left atrium, which the right one follows.
 const std::vector<SearchedDial>& searchedDials();
+
+// Adds dials that follow searched ones: the right atrium's volume the left one's.
+void addFollowers(std::map<std::string, double>& dials);
 
 // Step of a dial in a range: that of the table, at most a quarter of the range. A tenth of the
 // range for other dials.

@@ -78,7 +78,6 @@ TissueGreys::Fit TissueGreys::solve(const Sums& sums, const std::vector<int>& gr
   const int groups = *std::max_element(group_of.begin(), group_of.end()) + 1,
             n = groups + kGainKnots;
   cv::Mat a = cv::Mat::zeros(n, n, CV_64F), b = cv::Mat::zeros(n, 1, CV_64F), x;
-  // Strips take weight from blood, so the sums of a wrong model may be of no least squares at all.
   Fit fit;
   fit.residual = std::numeric_limits<double>::infinity();
   fit.grey.assign(static_cast<std::size_t>(tissues_), std::numeric_limits<double>::quiet_NaN());

@@ -15,6 +15,7 @@
 #include "fit/fit_interval.h"
 #include "fit/fit_strain.h"
 #include "support/planted_fits.h"
+#include "support/whole_patient.h"
 
 namespace echocine::bench {
 namespace {
@@ -45,6 +46,15 @@ struct Errors {
         name, count, mean, rms, std::sqrt(noise / count), model, held);
   }
 };
+
+struct ForeignHeart {
+  const char* name;
+  Scene (*in)(View);
+};
+constexpr ForeignHeart kForeignHearts[] = {
+    {"patient with atria", &wholePatientScene},
+    {"whole heart", &wholeHeartScene},
+    {"patient's ventricles alone", [](View view) { return sceneOf(Family::patient, view); }}};
 
 double sdOf(const HeartFit& fit, const char* key) {
   for (const DialFound& dial : fit.found)
@@ -110,9 +120,9 @@ int run(int argc, char** argv) {
       const double off_deg = argc > 3 ? std::atof(argv[3]) : 5;
       int n = 0;
       for (const double deg : {0.0, off_deg})
-        for (const Family family : {Family::patient, Family::whole}) {
-          fmt::print("{}, planes off by up to {:g} degrees\n", nameOf(family), deg);
-          tellFit(n, foreignHeart(family, n, views, deg), {}, ef, edv, gls);
+        for (const ForeignHeart& heart : kForeignHearts) {
+          fmt::print("{}, planes off by up to {:g} degrees\n", heart.name, deg);
+          tellFit(n, foreignHeart(heart.in, n, views, deg), {}, ef, edv, gls);
           ++n;
         }
       return;

@@ -34,7 +34,8 @@ std::vector<DialRange> searchedRanges() {
 
 // The prior has each searched dial, and a step is a part of its range also in a narrow one.
 TEST(FitDesign, SearchedDialsHaveAPriorAndAStep) {
-  ASSERT_EQ(searchedDials().size(), kPriorDials.size());
+  ASSERT_EQ(searchedDials().size(), kPriorDials.size() + 1);
+  EXPECT_EQ(searchedDials().back().range.key, kAtrialPrior.key);
   for (std::size_t i = 0; i < kPriorDials.size(); ++i) {
     const SearchedDial& dial = searchedDials()[i];
     EXPECT_EQ(dial.range.key, kPriorDials[i]);
@@ -44,17 +45,28 @@ TEST(FitDesign, SearchedDialsHaveAPriorAndAStep) {
   EXPECT_NEAR(stepOf({"hr", 60, 80}), 2, 1e-12);
 }
 
+// The right atrium follows the left one, unless it is given.
+TEST(FitDesign, TheRightAtriumFollowsTheLeft) {
+  std::map<std::string, double> none{{"ef", 0.5}}, healthy{{"la-volume", 55}},
+      large{{"la-volume", 110}}, given{{"la-volume", 110}, {"ra-volume", 40}};
+  for (auto* dials : {&none, &healthy, &large, &given}) addFollowers(*dials);
+  EXPECT_FALSE(none.contains("ra-volume"));
+  EXPECT_EQ(healthy.at("ra-volume"), heart::Parameters{}.ra_volume_ml);
+  EXPECT_NEAR(large.at("ra-volume"), 2 * healthy.at("ra-volume"), 1e-12);
+  EXPECT_EQ(given.at("ra-volume"), 40);
+}
+
 // A cubic in the first two dials and a quadratic in all is reproduced everywhere, also after places
 // have moved.
 TEST(FitDesign, PolynomialsAreReproduced) {
   const auto f = [](const std::vector<double>& v) {
     const double e = v[0], d = v[1] / 100;
     return 3 + 2 * e - e * e * e + e * d * d - 0.3 * d * d * d + 0.1 * v[2] * v[3] + v[4] * e -
-           0.02 * v[4] * v[4];
+           0.02 * v[4] * v[4] + 1e-4 * v[5] * v[5] - 1e-3 * v[5] * v[2];
   };
   const std::vector<DialRange> ranges = searchedRanges();
   HeartDesign design = HeartDesign::polynomial(ranges);
-  EXPECT_EQ(design.size(), 30u);  // 25 terms and a fifth more
+  EXPECT_EQ(design.size(), 39u);  // 32 terms and a fifth more
   for (int round = 0; round < 2; ++round) {
     for (int n = 0; n < 50; ++n) {
       const std::vector<double> at = drawnWithin(ranges, n);

@@ -79,15 +79,16 @@ inline PlantedHeart plantedHeart(int number, std::size_t views, double most_deg)
   return out;
 }
 
-// Meshes of another person, outside the models' family: their EF and EDV are those of the meshes.
-// `number` draws tilts, rotations, media and speckle.
-inline PlantedHeart foreignHeart(Family family, int number, std::size_t views, double most_deg) {
+// Meshes of another person, outside the models' family: `sceneIn` shows them in a view. EF and EDV
+// are those of the meshes. `number` draws tilts, rotations, media and speckle.
+inline PlantedHeart foreignHeart(Scene (*sceneIn)(View), int number, std::size_t views,
+                                 double most_deg) {
   const auto drawn = [&](int k) {
     return most_deg * (2 * uniformFromHash(hashOf(number, k, 919)) - 1);
   };
   PlantedHeart out;
   for (std::size_t v = 0; v < views; ++v) {
-    Scene scene = sceneOf(family, kPlantedViews[v]);
+    Scene scene = sceneIn(kPlantedViews[v]);
     if (v == 0) {
       const std::vector<double> ml = volumesOf(scene);
       out.dials["edv"] = ml.front();

@@ -95,7 +95,7 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
         folder: for fit.json, curves.csv and heart/ (meshes and scene); None: no files.
         side: view -> what is known better than the file tells, as for `compare`: mm_per_pixel, fps, ed_frame, ...
             For a list of loops, a list.
-        searched: dials that are searched, of ef, edv, wall_thickness, sphericity and mapse; None: all.
+        searched: dials that are searched, of ef, edv, wall_thickness, sphericity, mapse and la_volume; None: all but la_volume.
         tilt_deg: limit of tilt and rotation of each plane, either way, 0 (none) to 20.
         starts: hearts that are compared first.
         descents: searches, from the best of them.
