@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/parallel.h"
 #include "fit/dial_scan.h"
 #include "fit/view_ranking.h"
 #include "support/all_cases.h"
