@@ -43,9 +43,9 @@ double coverageOf(const ModelLoop& model, const echo::EchoStack& real, const Fit
       map.place(cell.x_m, cell.z_m, x, z);
       cells += static_cast<double>(cell.area * at.at(x, z).visible);
     }
-  const double sector = sectorArea(at),
-               coverage = cells / static_cast<double>(model.frames.size()) /
-                          cellsPerArea(model, {}) * map.scale() * map.scale();
+  const double sector = sectorArea(at), coverage = cells /
+                                                   static_cast<double>(model.frames.size()) /
+                                                   cellsPerArea(model) * map.scale() * map.scale();
   return sector > 0 ? std::clamp(coverage / sector, 0.0, 1.0) : 0;
 }
 

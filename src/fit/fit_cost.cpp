@@ -181,9 +181,7 @@ Quadratic FitCost::priorAround(const std::vector<double>& middle) const {
 double FitCost::priorSd(std::size_t unknown) const {
   const FitUnknown& u = unknowns_[unknown];
   if (unknown >= dials_) return (unknown - dials_) % 2 == 0 ? kTiltSd_deg : kRotateSd_deg;
-  if (u.name == kAtrialPrior.key) return kAtrialPrior.sd();
-  const auto p = priorDialOf(u.name);
-  return p ? prior_.sd()[*p] : (u.high - u.low) / std::sqrt(12.0);
+  return prior_.sdOf(u.name).value_or((u.high - u.low) / std::sqrt(12.0));
 }
 
 Quadratic FitCost::sumOf(const std::vector<Quadratic>& views,

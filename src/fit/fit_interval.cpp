@@ -42,8 +42,7 @@ void addDials(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
   for (std::size_t i = 0; i < cost.dials(); ++i) {
     const FitUnknown& u = cost.unknowns()[i];
     DialFound dial{u.name, best.best.at[i], std::sqrt(covarianceAt(best, i, i)), 0, false, true};
-    if (const auto p = priorDialOf(u.name)) dial.prior_sd = cost.prior().sd()[*p];
-    if (u.name == kAtrialPrior.key) dial.prior_sd = kAtrialPrior.sd();
+    dial.prior_sd = cost.prior().sdOf(u.name).value_or(0);
     if (best.covariance.empty()) dial.sd = dial.prior_sd;
     const double near = 1e-3 * (u.high - u.low);
     dial.at_limit = dial.value < u.low + near || dial.value > u.high - near;

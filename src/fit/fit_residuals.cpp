@@ -47,13 +47,13 @@ class ResidualBuilder {
   ResidualBuilder(const ModelLoop& model, const echo::EchoStack& real, const FitPose& pose)
       : model_(model),
         map_(pose, model.far_m),
+        seen_(model.frames.size()),
         sides_(model.frames.size() * model.structures.size() * kSides),
         sums_{TissueGreys(model.blood)} {
+    SeenCells seen(model);
     for (std::size_t n = 0; n < model.frames.size(); ++n) {
       at_.push_back(real.instant(placeOf(model, n, pose, real)));
-      seen_.emplace_back(model.frames[n].cells);
       if (!at_[n].seen()) continue;
-      SeenCells seen(model);
       seen.start(model.frames[n].cells);
       addSides(n, at_[n], seen);
       seen_[n].assign(seen.cells().begin(), seen.cells().end());
@@ -145,7 +145,7 @@ class ResidualBuilder {
   const ModelLoop& model_;
   PoseMapping map_;
   std::vector<echo::EchoInstant> at_;          // by frame
-  std::vector<std::vector<TissueCell>> seen_;  // cells of each frame
+  std::vector<std::vector<TissueCell>> seen_;  // cells of each frame in view
   std::vector<SideSums> sides_;                // by frame, structure and direction
   RegionSums sums_;
   double length_ = kLeast_m, together_ = kLeast_m3;

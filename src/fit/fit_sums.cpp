@@ -116,13 +116,13 @@ void addCells(std::span<const TissueCell> cells, const echo::EchoInstant& at,
   if (count > 0) add();
 }
 
-double cellsPerArea(const ModelLoop& model, const FitStride& stride) {
+double cellsPerArea(const ModelLoop& model) {
   const std::vector<TissueCell>& cells = model.frames.front().cells;
   const TissueCell &a = cells[0], &b = cells[1],
                    &c = cells[static_cast<std::size_t>(model.cells_along)];
   const double along = std::hypot(b.x_m - a.x_m, b.z_m - a.z_m),
                turn = std::abs(std::atan2(a.x_m, a.z_m) - std::atan2(c.x_m, c.z_m));
-  return stride.piece / (stride.cell * stride.cell * along * turn * model.far_m);
+  return 1 / (along * turn * model.far_m);
 }
 
 echo::BeatPlace placeOf(const ModelLoop& model, std::size_t frame, const FitPose& pose,

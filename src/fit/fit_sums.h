@@ -90,9 +90,8 @@ struct RegionSums {
 // Adds cells of a frame; those without an area are skipped.
 void addCells(std::span<const TissueCell> cells, const echo::EchoInstant& at,
               const PoseMapping& map, RegionSums& sums);
-// Number of cells at the largest depth per square metre; a cell there has an area of 1. Only every
-// `stride.cell`-th cell and every `stride.piece`-th piece is evaluated.
-double cellsPerArea(const ModelLoop& model, const FitStride& stride);
+// Number of cells at the largest depth per square metre; a cell there has an area of 1.
+double cellsPerArea(const ModelLoop& model);
 
 // The instant of a model's frame in the beat.
 echo::BeatPlace placeOf(const ModelLoop& model, std::size_t frame, const FitPose& pose,

@@ -32,6 +32,12 @@ std::optional<std::size_t> priorDialOf(const std::string& key) {
   return static_cast<std::size_t>(found - kPriorDials.begin());
 }
 
+std::optional<double> HeartPrior::sdOf(const std::string& key) const {
+  if (key == kAtrialPrior.key) return kAtrialPrior.sd();
+  const auto p = priorDialOf(key);
+  return p ? std::optional(sd_[*p]) : std::nullopt;
+}
+
 HeartPrior::HeartPrior() {
   for (std::size_t g = 0; g < heartGroups().size(); ++g) {
     const std::vector<double> all = covarianceOf(heartGroups()[g]);

@@ -58,6 +58,8 @@ class HeartPrior {
   // posterior.
   const PriorDials& mean() const { return mean_; }
   const PriorDials& sd() const { return sd_; }
+  // SD of a dial, also of the left atrium's volume; none for a dial without a prior.
+  std::optional<double> sdOf(const std::string& key) const;
 
  private:
   struct Normal {
