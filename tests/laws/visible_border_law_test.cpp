@@ -111,15 +111,8 @@ TEST(VisibleBorderLaw, ASheetIsSeenWhereItExceedsBothSides) {
   }
 }
 
-// A share of the endocardium drops out, more in a poorer picture.
-double lostEndocardium(Look look, Quality quality) {
-  Scene scene = heart::heartScene(heart::parametersFrom({}), heart::View::a4c, 6, look);
-  scene.probe.lines = 96;
-  scene.probe.samples = 384;
-  scene.truth.contours = true;
-  if (quality == Quality::poor) scene.artefacts.noise_db = -30, scene.artefacts.haze_db = -6;
-  const Simulator simulator(std::move(scene));
-  const Frame frame = simulator.frame(0);
+double lostAt(const Simulator& simulator, double time_s) {
+  const Frame frame = simulator.frame(time_s);
   double lost = 0, all = 0;
   for (const Contour& contour : frame.truth->contours) {
     EXPECT_EQ(contour.visible.size(), contour.points_m.size());
@@ -130,12 +123,46 @@ double lostEndocardium(Look look, Quality quality) {
   return lost / all;
 }
 
+Scene scannerHeart(heart::View view) {
+  Scene scene = heart::heartScene(heart::parametersFrom({}), view, 6, Look::scanner);
+  scene.probe.lines = 96;
+  scene.probe.samples = 384;
+  scene.truth.contours = true;
+  return scene;
+}
+
 TEST(VisibleBorderLaw, AShareOfTheEndocardiumDropsOutMoreInNoise) {
-  const double lost = lostEndocardium(Look::scanner, Quality::medium),
-               noisy = lostEndocardium(Look::scanner, Quality::poor);
+  Scene noise = scannerHeart(heart::View::a4c);
+  noise.artefacts.noise_db = -30, noise.artefacts.haze_db = -6;
+  const double lost = lostAt(Simulator(scannerHeart(heart::View::a4c)), 0),
+               noisy = lostAt(Simulator(std::move(noise)), 0);
   std::printf("  endocardium lost: %.3f, with more noise and haze %.3f\n", lost, noisy);
   EXPECT_LT(lost, 0.4);
   EXPECT_GT(noisy, lost + 0.05);
+}
+
+// Subendocardial fibres are longitudinal. In apical views they run along the beam, in parasternal
+// views across it. Mean of end-diastole and end-systole.
+double lostBorder(heart::View view, bool fibres) {
+  Scene scene = scannerHeart(view);
+  if (!fibres) scene.speckle.anisotropy_db = 0;
+  const double es_s =
+      scene.motion.end_systole_phase.value_or(0.35) / scene.acquisition.heart_rate_hz;
+  const Simulator simulator(std::move(scene));
+  return (lostAt(simulator, 0) + lostAt(simulator, es_s)) / 2;
+}
+
+TEST(VisibleBorderLaw, FibresAlongTheBeamLoseBordersOfApicalViews) {
+  const double apical = lostBorder(heart::View::a4c, true),
+               apical_even = lostBorder(heart::View::a4c, false),
+               parasternal = lostBorder(heart::View::plax, true),
+               parasternal_even = lostBorder(heart::View::plax, false);
+  std::printf("  lost: a4c %.3f, plax %.3f; without fibres %.3f, %.3f\n", apical, parasternal,
+              apical_even, parasternal_even);
+  EXPECT_GT(apical, 0.15);
+  EXPECT_LT(apical, 0.4);
+  EXPECT_GT(apical - apical_even, 0.05);
+  EXPECT_GT(apical - apical_even, parasternal - parasternal_even);
 }
 
 }  // namespace
