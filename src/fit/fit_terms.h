@@ -90,6 +90,7 @@ class PlacedBeat {
     std::vector<TissueCell> cells;
     std::vector<int> number;              // of a cell, as in SeenCells
     std::vector<BoundaryPoint> boundary;  // of blood
+    std::vector<double> angles_rad;       // of the boundary, as in SeenCells
   };
   std::vector<Frame> frames_;
   std::vector<bool> blood_;
