@@ -1,6 +1,8 @@
 #include "motion/heart/wall_place.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/check.h"
 #include "core/monotone_cubic.h"
@@ -88,7 +90,9 @@ WallPlace placeOf(double phi_rad, double zeta, double rho) {
                   thickness()(zeta),
                   thicknessAbout(phi_rad),
                   0,
-                  0,
+                  leanOf(zeta),
+                  {},
+                  {},
                   {},
                   {}};
   const std::array<double, kSegments> shares = segmentShares(phi_rad, zeta);
@@ -124,6 +128,55 @@ const Meridian& wallOutline() {
   return table;
 }
 
+double leanOf(double zeta) {
+  return std::sin(std::numbers::pi * (zeta - 0.5));
+}
+
+double outlineConicity() {
+  static const double ratio =
+      wallOutline().rhoAt(kApicalHeight) / wallOutline().rhoAt(kBasalHeight);
+  return ratio;
+}
+
+OutlineSize outlineSize(double taper) {
+  // Sums over places that are dense where the outline closes. Shares of the sum at taper 0, so that
+  // it has the outline's own size.
+  struct Place {
+    double lean, rho, weight;
+  };
+  static const std::vector<Place> places = [] {
+    constexpr int kPlaces = 512;
+    const double low = wallOutline().lowest(), high = 1;
+    std::vector<Place> made;
+    double sum = 0;
+    for (int i = 1; i < kPlaces; ++i) {
+      const double angle = std::numbers::pi * i / kPlaces;
+      const double zeta = 0.5 * (low + high) + 0.5 * (high - low) * std::cos(angle);
+      const double rho = wallOutline().rhoAt(zeta);
+      made.push_back({leanOf(zeta), rho, rho * rho * std::sin(angle)});
+      sum += made.back().weight;
+    }
+    const auto widest = std::max_element(
+        made.begin(), made.end(), [](const Place& a, const Place& b) { return a.rho < b.rho; });
+    const double rho = widest->rho;
+    for (Place& place : made) place.weight /= sum, place.rho /= rho;
+    return made;
+  }();
+  double volume = 0, volume_slope = 0;
+  OutlineSize size{0, 0, 0, 0};
+  for (const Place& place : places) {
+    const double wider = std::exp(taper * place.lean), share = place.weight * wider * wider;
+    volume += share;
+    volume_slope += 2 * place.lean * share;
+    if (place.rho * wider > size.widest)
+      size.widest = place.rho * wider, size.widest_slope = place.lean;
+  }
+  size.volume = volume * wallOutline().volume();
+  size.volume_slope = volume_slope / volume;
+  size.widest *= wallOutline().widest();
+  return size;
+}
+
 WallPlace wallPlaceOf(Vec3d direction) {
   const double share = shareOf(direction);
   const Meridian::Point at = wallOutline().at(share);
@@ -134,10 +187,9 @@ WallPlace wallPlaceOf(Vec3d direction) {
   const Meridian::Point before = wallOutline().at(std::abs(share - kStep));
   const Meridian::Point after = wallOutline().at(1 - std::abs(1 - share - kStep));
   // Beyond either end the outline continues on the other side.
-  const double rho_before = share < kStep ? -before.rho : before.rho;
-  const double rho_after = share > 1 - kStep ? -after.rho : after.rho;
+  place.before = {share < kStep ? -before.rho : before.rho, leanOf(before.zeta)};
+  place.after = {share > 1 - kStep ? -after.rho : after.rho, leanOf(after.zeta)};
   place.outward = before.zeta - after.zeta;
-  place.rise = rho_after - rho_before;
   return place;
 }
 
