@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/check.h"
 #include "core/monotone_cubic.h"
@@ -106,6 +107,48 @@ WallPlace placeOf(double phi_rad, double zeta, double rho) {
   return place;
 }
 
+// Size of a tapered outline over that of the table's: logarithms, and their derivatives by the
+// taper.
+struct TaperedSize {
+  double log_volume, volume_slope, log_widest, widest_slope;
+};
+constexpr double kLeastTaper = -2, kMostTaper = 1, kTapersPerUnit = 64;
+
+TaperedSize taperedSize(double taper) {
+  constexpr int kPlaces = 512;  // dense where the outline closes
+  const double low = wallOutline().lowest(), high = 1;
+  double volume = 0, own = 0, moment = 0, widest = 0, own_widest = 0;
+  TaperedSize size{};
+  for (int i = 1; i < kPlaces; ++i) {
+    const double angle = std::numbers::pi * i / kPlaces;
+    const double zeta = 0.5 * (low + high) + 0.5 * (high - low) * std::cos(angle);
+    const double rho = wallOutline().rhoAt(zeta), lean = leanOf(zeta);
+    const double wider = rho * std::exp(taper * lean);
+    own += rho * rho * std::sin(angle);
+    volume += wider * wider * std::sin(angle);
+    moment += 2 * lean * wider * wider * std::sin(angle);
+    own_widest = std::max(own_widest, rho);
+    if (wider > widest) widest = wider, size.widest_slope = lean;
+  }
+  size.log_volume = std::log(volume / own);
+  size.volume_slope = moment / volume;
+  size.log_widest = std::log(widest / own_widest);
+  return size;
+}
+
+std::vector<TaperedSize> taperedSizes() {
+  std::vector<TaperedSize> all;
+  const int count = static_cast<int>((kMostTaper - kLeastTaper) * kTapersPerUnit);
+  for (int i = 0; i <= count; ++i) all.push_back(taperedSize(kLeastTaper + i / kTapersPerUnit));
+  return all;
+}
+
+// Cubic between values a and b with slopes by t at 0 and 1: its value and slope at t.
+std::pair<double, double> hermite(double a, double slope_a, double b, double slope_b, double t) {
+  const double c = 3 * (b - a) - 2 * slope_a - slope_b, d = slope_a + slope_b - 2 * (b - a);
+  return {a + t * (slope_a + t * (c + t * d)), slope_a + t * (2 * c + 3 * t * d)};
+}
+
 }  // namespace
 
 const Meridian& wallOutline() {
@@ -139,42 +182,18 @@ double outlineConicity() {
 }
 
 OutlineSize outlineSize(double taper) {
-  // Sums over places that are dense where the outline closes. Shares of the sum at taper 0, so that
-  // it has the outline's own size.
-  struct Place {
-    double lean, rho, weight;
+  static const std::vector<TaperedSize> table = taperedSizes();
+  const double step = (std::clamp(taper, kLeastTaper, kMostTaper) - kLeastTaper) * kTapersPerUnit;
+  const std::size_t i = std::min(static_cast<std::size_t>(step), table.size() - 2);
+  const double t = step - static_cast<double>(i);
+  const auto logOf = [&](double TaperedSize::*value, double TaperedSize::*slope) {
+    return hermite(table[i].*value, table[i].*slope / kTapersPerUnit, table[i + 1].*value,
+                   table[i + 1].*slope / kTapersPerUnit, t);
   };
-  static const std::vector<Place> places = [] {
-    constexpr int kPlaces = 512;
-    const double low = wallOutline().lowest(), high = 1;
-    std::vector<Place> made;
-    double sum = 0;
-    for (int i = 1; i < kPlaces; ++i) {
-      const double angle = std::numbers::pi * i / kPlaces;
-      const double zeta = 0.5 * (low + high) + 0.5 * (high - low) * std::cos(angle);
-      const double rho = wallOutline().rhoAt(zeta);
-      made.push_back({leanOf(zeta), rho, rho * rho * std::sin(angle)});
-      sum += made.back().weight;
-    }
-    const auto widest = std::max_element(
-        made.begin(), made.end(), [](const Place& a, const Place& b) { return a.rho < b.rho; });
-    const double rho = widest->rho;
-    for (Place& place : made) place.weight /= sum, place.rho /= rho;
-    return made;
-  }();
-  double volume = 0, volume_slope = 0;
-  OutlineSize size{0, 0, 0, 0};
-  for (const Place& place : places) {
-    const double wider = std::exp(taper * place.lean), share = place.weight * wider * wider;
-    volume += share;
-    volume_slope += 2 * place.lean * share;
-    if (place.rho * wider > size.widest)
-      size.widest = place.rho * wider, size.widest_slope = place.lean;
-  }
-  size.volume = volume * wallOutline().volume();
-  size.volume_slope = volume_slope / volume;
-  size.widest *= wallOutline().widest();
-  return size;
+  const auto [volume, volume_slope] = logOf(&TaperedSize::log_volume, &TaperedSize::volume_slope);
+  const auto [widest, widest_slope] = logOf(&TaperedSize::log_widest, &TaperedSize::widest_slope);
+  return {wallOutline().volume() * std::exp(volume), wallOutline().widest() * std::exp(widest),
+          kTapersPerUnit * volume_slope, kTapersPerUnit * widest_slope};
 }
 
 WallPlace wallPlaceOf(Vec3d direction) {

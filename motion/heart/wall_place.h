@@ -43,8 +43,9 @@ double leanOf(double zeta);
 inline constexpr double kBasalHeight = 1.0 / 3, kApicalHeight = 2.0 / 3;
 double outlineConicity();
 
-// The outline of a taper: volume and largest radius, relative to the length, and their derivatives
-// by the taper, as shares of themselves.
+// The outline of a taper from -2 to 1 (beyond, that of the limit): volume and largest radius,
+// relative to the length, and the derivatives of their logarithms by the taper. Tabulated: within
+// 1e-6 of a sum over 511 heights.
 struct OutlineSize {
   double volume, widest;
   double volume_slope, widest_slope;

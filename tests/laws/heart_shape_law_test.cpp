@@ -71,8 +71,8 @@ TEST(HeartShape, TheSizeOfATaperedOutlineIsThatOfItsMeridian) {
     constexpr double kStep = 1e-5;
     const heart::OutlineSize more = heart::outlineSize(taper + kStep),
                              less = heart::outlineSize(taper - kStep);
-    EXPECT_NEAR(size.volume_slope, std::log(more.volume / less.volume) / (2 * kStep), 1e-7);
-    EXPECT_NEAR(size.widest_slope, std::log(more.widest / less.widest) / (2 * kStep), 0.02);
+    EXPECT_NEAR(size.volume_slope, std::log(more.volume / less.volume) / (2 * kStep), 1e-6);
+    EXPECT_NEAR(size.widest_slope, std::log(more.widest / less.widest) / (2 * kStep), 1e-4);
   }
 }
 
