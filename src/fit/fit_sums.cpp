@@ -23,7 +23,8 @@ double EdgeProfile::certainty() const {
 
 double seenBeside(const echo::EchoStack& real, double x, double z, double nx, double nz) {
   const double r = std::sqrt(x * x + z * z);
-  return r > 0 ? real.spread().shift(r, (nx * x + nz * z) / r) : 0;
+  if (!(r > 0) || real.spread().patches == 0) return 0;
+  return real.spread().shift(r, (nx * x + nz * z) / r) + kReliefSeen_m;
 }
 
 PlacedEdge placedEdge(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map) {

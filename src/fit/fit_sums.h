@@ -59,13 +59,20 @@ struct EdgeProfile {
   double certainty() const;  // 1 - entropy of p / entropy of an even p
 };
 
-// Displacement into the blood at which a boundary is visible: Eq. 9.
+// What Eq. 9 lacks of the displacement, m: trabeculae, and boundaries that curve within the
+// thickness of the slice. Calibrated on five planted hearts with known dials and planes in the look
+// `scanner`, where edges lay 1.1 mm inside the left ventricle's visible boundary, 0.85 mm inside
+// the left atrium's and 0.2 mm inside the right ventricle's. The other looks need 0 to 0.4 mm more.
+inline constexpr double kReliefSeen_m = 1e-3;
+
+// Displacement into the blood at which a boundary is visible: Eq. 9, and kReliefSeen_m if the loop
+// has speckle.
 double seenBeside(const echo::EchoStack& real, double x, double z, double nx, double nz);
 
 // A boundary point under a pose, and the edge where it is visible.
 struct PlacedEdge {
   double x = 0, z = 0, nx = 0, nz = 0;
-  double beside = 0;  // of Eq. 9; 0 without blood
+  double beside = 0;  // of seenBeside(); 0 without blood
   EdgeProfile edge;
 };
 PlacedEdge placedEdge(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map);
