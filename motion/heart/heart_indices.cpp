@@ -9,20 +9,25 @@
 namespace echocine::heart {
 namespace {
 
-// c of indicesOf().
-double volumeShare() {
-  const Meridian& outline = wallOutline();
-  return outline.volume() / (4 * outline.widest() * outline.widest());
+OutlineSize sizeOf(double conicity) {
+  return outlineSize(std::log(conicity / outlineConicity()));
 }
 
 }  // namespace
 
-double sphereShare() {
-  return volumeShare() * 6 / std::numbers::pi;
+double sphereShare(double conicity) {
+  const OutlineSize outline = sizeOf(conicity);
+  return outline.volume / (4 * outline.widest * outline.widest) * 6 / std::numbers::pi;
 }
 
-double longAxis_mm(double edv_ml, double sphericity) {
-  return std::cbrt(1e3 * edv_ml / (volumeShare() * sphericity * sphericity));
+double sphereShareSlope(double conicity) {
+  const OutlineSize outline = sizeOf(conicity);
+  return (outline.volume_slope - 2 * outline.widest_slope) / conicity;
+}
+
+double longAxis_mm(double edv_ml, double sphericity, double conicity) {
+  return std::cbrt(1e3 * edv_ml * 6 /
+                   (std::numbers::pi * sphereShare(conicity) * sphericity * sphericity));
 }
 
 const std::array<HeartGroup, 2>& heartGroups() {
@@ -50,18 +55,25 @@ const std::array<HeartGroup, 2>& heartGroups() {
 }
 
 IndexDials indicesOf(const IndexDials& d, double body_surface_m2) {
-  const double s = d[kSphericity], length = longAxis_mm(d[kEdv_ml], s);
-  return {d[kEdv_ml] / body_surface_m2, 100 * sphereShare() * s * s, 100 * d[kEf],
+  const double s = d[kSphericity], length = longAxis_mm(d[kEdv_ml], s, d[kConicity]);
+  return {d[kEdv_ml] / body_surface_m2,
+          100 * sphereShare(d[kConicity]) * s * s,
+          100 * d[kEf],
           200 * kPosteriorShare * d[kWall_mm] / (s * length),
-          100 * (d[kMapse_mm] / length + kApexRise)};
+          100 * (d[kMapse_mm] / length + kApexRise),
+          100 * d[kConicity]};
 }
 
 IndexDials dialsOf(const HeartIndices& indices, double body_surface_m2) {
   IndexDials d{};
   d[kEf] = indices[kEjectionIndex] / 100;
   d[kEdv_ml] = indices[kVolumeIndex] * body_surface_m2;
-  d[kSphericity] = std::sqrt(std::max(0.0, indices[kSphericityIndex]) / (100 * sphereShare()));
-  const double length = longAxis_mm(d[kEdv_ml], d[kSphericity]);
+  // A drawn index may be beyond what an outline can have.
+  constexpr double kLeastConicity = 0.1;
+  d[kConicity] = std::max(indices[kConicityIndex] / 100, kLeastConicity);
+  d[kSphericity] =
+      std::sqrt(std::max(0.0, indices[kSphericityIndex]) / (100 * sphereShare(d[kConicity])));
+  const double length = longAxis_mm(d[kEdv_ml], d[kSphericity], d[kConicity]);
   d[kWall_mm] = indices[kWallIndex] * d[kSphericity] * length / (200 * kPosteriorShare);
   d[kMapse_mm] = length * (indices[kShorteningIndex] / 100 - kApexRise);
   return d;

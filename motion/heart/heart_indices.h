@@ -16,7 +16,7 @@ enum HeartIndex : std::size_t {
   kSphericityIndex,  // end-diastolic volume / sphere on the long axis, %
   kEjectionIndex,    // ejection fraction, %
   kWallIndex,        // 2 x posterior wall / short-axis diameter at end-diastole, %
-  kConicityIndex,    // apical / basal diameter, %; no dial of the parametric heart changes it
+  kConicityIndex,    // apical / basal diameter, %
   kShorteningIndex,  // of the distance from base to apex, %
   kHeartIndices
 };
@@ -26,10 +26,18 @@ inline constexpr const char* kIndexSource =
 using HeartIndices = std::array<double, kHeartIndices>;
 
 // The dials of the parametric heart that follow from indices, in the order of kIndexDials.
-enum IndexDial : std::size_t { kEf, kEdv_ml, kWall_mm, kSphericity, kMapse_mm, kIndexDialCount };
+enum IndexDial : std::size_t {
+  kEf,
+  kEdv_ml,
+  kWall_mm,
+  kSphericity,
+  kMapse_mm,
+  kConicity,
+  kIndexDialCount
+};
 using IndexDials = std::array<double, kIndexDialCount>;
-inline constexpr std::array<const char*, kIndexDialCount> kIndexDials{"ef", "edv", "wall-thickness",
-                                                                      "sphericity", "mapse"};
+inline constexpr std::array<const char*, kIndexDialCount> kIndexDials{
+    "ef", "edv", "wall-thickness", "sphericity", "mapse", "conicity"};
 
 // A group of people: means and SD of their indices, correlations row by row.
 struct HeartGroup {
@@ -47,18 +55,20 @@ inline constexpr double kBodySurface_m2 = 1.85, kBodySurfaceSd_m2 = 0.22;
 // the motion of the apex towards the base at end-systole relative to the long axis.
 inline constexpr double kPosteriorShare = 0.85, kApexRise = 0.035;
 
-// k and L of indicesOf().
-double sphereShare();
-double longAxis_mm(double edv_ml, double sphericity);
+// k and L of indicesOf(), and the derivative of log k by the conicity.
+double sphereShare(double conicity);
+double sphereShareSlope(double conicity);
+double longAxis_mm(double edv_ml, double sphericity, double conicity);
 
-// Indices, without conicity, of the parametric heart with these dials, in the order V, S, E, W, B:
+// Indices of the parametric heart with these dials, in the order V, S, E, W, B, C:
 //   V = edv/b,   S = 100 k s^2,   E = 100 ef,   W = 200 p h / (s L),   B = 100 (m/L + a),
-//   L^3 = edv / (c s^2):  the long axis at end-diastole,
-// s: sphericity dial, h: septum, m: excursion of the ring, b: body surface. k and c follow from the
-// outline of the heart's wall; p is kPosteriorShare, a kApexRise. Precondition: dials above 0.
+//   C = 100 q,   L^3 = 6 edv / (pi k s^2):  the long axis at end-diastole,
+// s: sphericity dial, h: septum, m: excursion of the ring, q: conicity, b: body surface. k follows
+// from the outline of the heart's wall and q; p is kPosteriorShare, a kApexRise. Precondition:
+// dials above 0.
 IndexDials indicesOf(const IndexDials& dials, double body_surface_m2 = kBodySurface_m2);
 inline constexpr std::array<HeartIndex, kIndexDialCount> kIndexOfRow{
-    kVolumeIndex, kSphericityIndex, kEjectionIndex, kWallIndex, kShorteningIndex};
+    kVolumeIndex, kSphericityIndex, kEjectionIndex, kWallIndex, kShorteningIndex, kConicityIndex};
 
 // The dials of indices; inverse of indicesOf().
 IndexDials dialsOf(const HeartIndices& indices, double body_surface_m2 = kBodySurface_m2);

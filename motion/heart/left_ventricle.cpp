@@ -14,6 +14,7 @@ namespace echocine::heart {
 namespace {
 
 constexpr double kLargestStrain = 0.85, kWallDrift = 0.01;  // our choice
+constexpr double kLeastShare = 0.02;       // of a radius at end-diastole; our choice
 constexpr double kVolumeTolerance = 1e-5;  // of solved volumes, as a share of the end-diastolic one
 
 // The twist of the apex is shared with the base, which rotates the other way; our choice, after the
@@ -33,13 +34,16 @@ Contraction contractionBy(const Parameters& parameters) {
 
 LeftVentricle::LeftVentricle(const Parameters& parameters) : parameters_(parameters) {
   edv_m3_ = parameters.edv_ml * kMillilitre;
-  // Volume = length^3 girth^2 wallOutline().volume(); sphericity = 2 girth wallOutline().widest().
+  if (parameters.conicity) taper_ = std::log(*parameters.conicity / outlineConicity());
+  gradient_ = std::log(parameters.apical_motion);
+  // Volume = length^3 girth^2 outline.volume; sphericity = 2 girth outline.widest.
+  const OutlineSize outline = outlineSize(taper_);
   if (parameters.lv_length_mm) {
     length_ = *parameters.lv_length_mm * kMillimetre;
-    girth_ = std::sqrt(edv_m3_ / (std::pow(length_, 3) * wallOutline().volume()));
+    girth_ = std::sqrt(edv_m3_ / (std::pow(length_, 3) * outline.volume));
   } else {
-    girth_ = parameters.sphericity / (2 * wallOutline().widest());
-    length_ = std::cbrt(edv_m3_ / (girth_ * girth_ * wallOutline().volume()));
+    girth_ = parameters.sphericity / (2 * outline.widest);
+    length_ = std::cbrt(edv_m3_ / (girth_ * girth_ * outline.volume));
   }
   set({});
   cavity_gauge_.emplace(kFrequency, [this](Vec3d d) { return cavityPoint(d); });
@@ -117,12 +121,17 @@ LeftVentricle::Turned LeftVentricle::turnedOf(const WallPlace& at) const {
   double inward = 0;
   for (std::size_t i = 0; i < at.segment.size(); ++i)
     inward += at.share[i] * contraction_.segments[at.segment[i]];
-  return {std::cos(phi_rad), std::sin(phi_rad), inward};
+  if (gradient_ != 0) inward *= std::exp(gradient_ * at.lean);
+  return {std::cos(phi_rad), std::sin(phi_rad), inward, widerAt(at.lean)};
+}
+
+double LeftVentricle::widerAt(double lean) const {
+  return taper_ == 0 ? 1 : std::exp(taper_ * lean);
 }
 
 double LeftVentricle::radius(const WallPlace& at, const Turned& turned) const {
   const double share = 1 - at.participation * (strain_ * turned.inward + correction_);
-  return girth_ * length_ * at.rho * share;
+  return girth_ * length_ * at.rho * turned.wider * std::max(share, kLeastShare);
 }
 
 Vec3d LeftVentricle::placed(const WallPlace& at, const Turned& turned) const {
@@ -156,7 +165,7 @@ double LeftVentricle::wallThicknessAt(double phi_rad, double zeta) const {
 // shrinks, r being the cavity's radius and h the wall's thickness.
 double LeftVentricle::unscaledThickness(const WallPlace& at, const Turned& turned) const {
   const double h0 = parameters_.wall_thickness_mm * kMillimetre * at.thickness * at.thickness_about;
-  const double r0 = girth_ * length_ * at.rho;
+  const double r0 = girth_ * length_ * at.rho * turned.wider;
   const double r = radius(at, turned);
   const double section = h0 * (2 * r0 + h0) * length_ / (apex_z_ - ring_z_);
   const double grown = std::sqrt(r * r + section) - r;
@@ -166,8 +175,10 @@ double LeftVentricle::unscaledThickness(const WallPlace& at, const Turned& turne
 // The wall grows along normals of the outline rotated about a straight axis, which is convex. The
 // cavity's own normals would intersect where the septum is concave.
 LeftVentricle::Grown LeftVentricle::grown(const WallPlace& at, const Turned& turned) const {
+  const double rise =
+      at.after.rho * widerAt(at.after.lean) - at.before.rho * widerAt(at.before.lean);
   const Vec3d normal =
-      normalised(Vec3d{at.outward * turned.cos_phi, at.outward * turned.sin_phi, girth_ * at.rise});
+      normalised(Vec3d{at.outward * turned.cos_phi, at.outward * turned.sin_phi, girth_ * rise});
   return {placed(at, turned), normal, unscaledThickness(at, turned)};
 }
 

@@ -59,8 +59,8 @@ class LeftVentricle {
   double wallThicknessAt(double phi_rad, double zeta) const;
 
  private:
-  struct Turned {  // a place at one instant
-    double cos_phi, sin_phi, inward;
+  struct Turned {                            // a place at one instant
+    double cos_phi, sin_phi, inward, wider;  // wider: by the taper
   };
   struct Grown {  // the wall over a place, before `thickening_`
     Vec3d from, normal;
@@ -69,6 +69,7 @@ class LeftVentricle {
   void set(const Contraction& contraction);
   Turned turnedOf(const WallPlace& at) const;
   WallPlace untwisted(double phi_rad, double zeta) const;
+  double widerAt(double lean) const;
   double radius(const WallPlace& at, const Turned& turned) const;
   Vec3d placed(const WallPlace& at, const Turned& turned) const;
   double unscaledThickness(const WallPlace& at, const Turned& turned) const;
@@ -78,6 +79,8 @@ class LeftVentricle {
 
   Parameters parameters_;
   double length_ = 0, girth_ = 1;  // of the table's radii
+  double taper_ = 0;               // of the outline
+  double gradient_ = 0;            // of the inward motion, as the taper of the radii
   double ring_z_ = 0, apex_z_ = 0, twist_rad_ = 0;
   double strain_ = 0, correction_ = 0, thickening_ = 1;
   double edv_m3_ = 0, wall_m3_ = 0;

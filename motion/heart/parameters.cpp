@@ -33,6 +33,13 @@ constexpr Dial kDials[] = {
      ECHOCINE_DIAL(lv_length_mm)},
     {"sphericity", "1", 0.40, 0.90, 0, "short-axis diameter / length of the left ventricle",
      ECHOCINE_DIAL(sphericity)},
+    {"conicity", "1", 0.50, 1.00, 0,
+     "diameter of the left ventricle at 2/3 of its length / at 1/3; default: 0.71, that of the "
+     "model",
+     ECHOCINE_DIAL(conicity)},
+    {"apical-motion", "1", 0.6, 1.6, 0,
+     "inward motion / radius of the left ventricle at 2/3 of its length / the same at 1/3",
+     ECHOCINE_DIAL(apical_motion)},
     {"wall-thickness", "mm", 3, 20, 1, "thickness of the septum at end-diastole",
      ECHOCINE_DIAL(wall_thickness_mm)},
     {"mapse", "mm", 0, 30, 1, "systolic excursion of the mitral ring; default: proportional to ef",

@@ -26,9 +26,12 @@ struct Parameters {
   double la_volume_ml = 55, ra_volume_ml = 52;  // largest, at end-systole
   std::optional<double> lv_length_mm;  // mitral ring to apex at end-diastole; else from sphericity
   double sphericity = 0.60;            // short-axis diameter / length at end-diastole
-  double wall_thickness_mm = 9;        // septum at end-diastole
-  double mapse_mm = 13;                // systolic excursion of the mitral ring
-  double twist_deg = 12;               // of the apex relative to the base at end-systole
+  // Apical / basal diameter at end-diastole, at 2/3 and 1/3 of the length; else the outline's own.
+  std::optional<double> conicity;
+  double apical_motion = 1;      // inward motion / radius at 2/3 of the length, over that at 1/3
+  double wall_thickness_mm = 9;  // septum at end-diastole
+  double mapse_mm = 13;          // systolic excursion of the mitral ring
+  double twist_deg = 12;         // of the apex relative to the base at end-systole
   std::optional<double> atrial_share;  // fraction of the stroke volume filled by the atrial kick;
                                        // default by heart rate
   double mitral_opening = 1, tricuspid_opening = 1, aortic_opening = 1;  // 1: healthy

@@ -1,6 +1,9 @@
 #include "motion/heart/wall_place.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "core/check.h"
 #include "core/monotone_cubic.h"
@@ -88,7 +91,9 @@ WallPlace placeOf(double phi_rad, double zeta, double rho) {
                   thickness()(zeta),
                   thicknessAbout(phi_rad),
                   0,
-                  0,
+                  leanOf(zeta),
+                  {},
+                  {},
                   {},
                   {}};
   const std::array<double, kSegments> shares = segmentShares(phi_rad, zeta);
@@ -100,6 +105,48 @@ WallPlace placeOf(double phi_rad, double zeta, double rho) {
     place.share[count++] = shares[s];
   }
   return place;
+}
+
+// Size of a tapered outline over that of the table's: logarithms, and their derivatives by the
+// taper.
+struct TaperedSize {
+  double log_volume, volume_slope, log_widest, widest_slope;
+};
+constexpr double kLeastTaper = -2, kMostTaper = 1, kTapersPerUnit = 64;
+
+TaperedSize taperedSize(double taper) {
+  constexpr int kPlaces = 512;  // dense where the outline closes
+  const double low = wallOutline().lowest(), high = 1;
+  double volume = 0, own = 0, moment = 0, widest = 0, own_widest = 0;
+  TaperedSize size{};
+  for (int i = 1; i < kPlaces; ++i) {
+    const double angle = std::numbers::pi * i / kPlaces;
+    const double zeta = 0.5 * (low + high) + 0.5 * (high - low) * std::cos(angle);
+    const double rho = wallOutline().rhoAt(zeta), lean = leanOf(zeta);
+    const double wider = rho * std::exp(taper * lean);
+    own += rho * rho * std::sin(angle);
+    volume += wider * wider * std::sin(angle);
+    moment += 2 * lean * wider * wider * std::sin(angle);
+    own_widest = std::max(own_widest, rho);
+    if (wider > widest) widest = wider, size.widest_slope = lean;
+  }
+  size.log_volume = std::log(volume / own);
+  size.volume_slope = moment / volume;
+  size.log_widest = std::log(widest / own_widest);
+  return size;
+}
+
+std::vector<TaperedSize> taperedSizes() {
+  std::vector<TaperedSize> all;
+  const int count = static_cast<int>((kMostTaper - kLeastTaper) * kTapersPerUnit);
+  for (int i = 0; i <= count; ++i) all.push_back(taperedSize(kLeastTaper + i / kTapersPerUnit));
+  return all;
+}
+
+// Cubic between values a and b with slopes by t at 0 and 1: its value and slope at t.
+std::pair<double, double> hermite(double a, double slope_a, double b, double slope_b, double t) {
+  const double c = 3 * (b - a) - 2 * slope_a - slope_b, d = slope_a + slope_b - 2 * (b - a);
+  return {a + t * (slope_a + t * (c + t * d)), slope_a + t * (2 * c + 3 * t * d)};
 }
 
 }  // namespace
@@ -124,6 +171,31 @@ const Meridian& wallOutline() {
   return table;
 }
 
+double leanOf(double zeta) {
+  return std::sin(std::numbers::pi * (zeta - 0.5));
+}
+
+double outlineConicity() {
+  static const double ratio =
+      wallOutline().rhoAt(kApicalHeight) / wallOutline().rhoAt(kBasalHeight);
+  return ratio;
+}
+
+OutlineSize outlineSize(double taper) {
+  static const std::vector<TaperedSize> table = taperedSizes();
+  const double step = (std::clamp(taper, kLeastTaper, kMostTaper) - kLeastTaper) * kTapersPerUnit;
+  const std::size_t i = std::min(static_cast<std::size_t>(step), table.size() - 2);
+  const double t = step - static_cast<double>(i);
+  const auto logOf = [&](double TaperedSize::*value, double TaperedSize::*slope) {
+    return hermite(table[i].*value, table[i].*slope / kTapersPerUnit, table[i + 1].*value,
+                   table[i + 1].*slope / kTapersPerUnit, t);
+  };
+  const auto [volume, volume_slope] = logOf(&TaperedSize::log_volume, &TaperedSize::volume_slope);
+  const auto [widest, widest_slope] = logOf(&TaperedSize::log_widest, &TaperedSize::widest_slope);
+  return {wallOutline().volume() * std::exp(volume), wallOutline().widest() * std::exp(widest),
+          kTapersPerUnit * volume_slope, kTapersPerUnit * widest_slope};
+}
+
 WallPlace wallPlaceOf(Vec3d direction) {
   const double share = shareOf(direction);
   const Meridian::Point at = wallOutline().at(share);
@@ -134,10 +206,9 @@ WallPlace wallPlaceOf(Vec3d direction) {
   const Meridian::Point before = wallOutline().at(std::abs(share - kStep));
   const Meridian::Point after = wallOutline().at(1 - std::abs(1 - share - kStep));
   // Beyond either end the outline continues on the other side.
-  const double rho_before = share < kStep ? -before.rho : before.rho;
-  const double rho_after = share > 1 - kStep ? -after.rho : after.rho;
+  place.before = {share < kStep ? -before.rho : before.rho, leanOf(before.zeta)};
+  place.after = {share > 1 - kStep ? -after.rho : after.rho, leanOf(after.zeta)};
   place.outward = before.zeta - after.zeta;
-  place.rise = rho_after - rho_before;
   return place;
 }
 

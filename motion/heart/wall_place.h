@@ -17,7 +17,14 @@ struct WallPlace {
   double flat;                        // sqrt of the ratio of the section's semi-axes, x to y
   double participation;               // in the contraction; the ring is stiff
   double thickness, thickness_about;  // relative to the septum, by height and by angle
-  double outward, rise;               // of the outline's normal, for girth 1
+  double outward;                     // of the outline's normal, for girth 1
+  // How far the place is towards the apex: -1 at the mitral ring, 1 at the apex, and -1/2 and 1/2
+  // at the two heights that conicity compares.
+  double lean;
+  // Of the outline on either side of the place, for its normal; rho is negative beyond an end.
+  struct Beside {
+    double rho, lean;
+  } before, after;
   // Segments with a weight, in their order, and the weights. Unused entries have weight 0.
   std::array<std::uint8_t, 4> segment;
   std::array<double, 4> share;
@@ -26,8 +33,24 @@ struct WallPlace {
 // Meshes of the ventricle's surfaces are geodesicSphere(kWallFrequency).
 inline constexpr int kWallFrequency = 12;
 
-// The outline of the cavity at end-diastole, over zeta.
+// The outline of the cavity at end-diastole, over zeta, of a heart with the outline's own conicity.
+// Another conicity multiplies its radii by exp(taper lean).
 const Meridian& wallOutline();
+double leanOf(double zeta);
+
+// Heights of the diameters that conicity compares, apical / basal: zeta. Our choice; the outline's
+// own ratio is then near the mean of the source of heart_indices.h.
+inline constexpr double kBasalHeight = 1.0 / 3, kApicalHeight = 2.0 / 3;
+double outlineConicity();
+
+// The outline of a taper from -2 to 1 (beyond, that of the limit): volume and largest radius,
+// relative to the length, and the derivatives of their logarithms by the taper. Tabulated: within
+// 1e-6 of a sum over 511 heights.
+struct OutlineSize {
+  double volume, widest;
+  double volume_slope, widest_slope;
+};
+OutlineSize outlineSize(double taper);
 
 WallPlace wallPlaceOf(Vec3d direction);              // of the unit sphere, (0, 0, 1) being the apex
 WallPlace wallPlaceAt(double phi_rad, double zeta);  // without normal

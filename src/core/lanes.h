@@ -106,6 +106,20 @@ inline Doubles4 wholeOf(Doubles4 a) {
   return __builtin_convertvector(__builtin_convertvector(a, Ints4), Doubles4);
 }
 
+// The first four lanes, or the last four, in double precision; and back.
+inline Doubles4 lowHalf(Floats8 a) {
+  return __builtin_convertvector(__builtin_shufflevector(a, a, 0, 1, 2, 3), Doubles4);
+}
+inline Doubles4 highHalf(Floats8 a) {
+  return __builtin_convertvector(__builtin_shufflevector(a, a, 4, 5, 6, 7), Doubles4);
+}
+inline Floats8 joined(Floats4 low, Floats4 high) {
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+inline Floats8 joined(Doubles4 low, Doubles4 high) {
+  return joined(__builtin_convertvector(low, Floats4), __builtin_convertvector(high, Floats4));
+}
+
 // e^x with a relative error of 2e-7: e^x = 2^n e^r with |r| <= ln 2 / 2, e^r by the polynomial of
 // Cephes' expf (Moshier 1989). Clamped beyond +-87.
 inline Floats8 exponential(Floats8 x) {

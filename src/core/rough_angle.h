@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/lanes.h"
+
 namespace echocine {
 
 // The arctangent of 0..1 to 1e-5 rad (Abramowitz and Stegun, 4.4.49), for scalars or lanes.
@@ -21,6 +23,16 @@ inline double roughAngle(double x, double z) {
   const double q = large > 0 ? small / large : 0;
   const double angle = roughArctangent(q), ahead = ax > az ? std::numbers::pi / 2 - angle : angle;
   return std::copysign(z < 0 ? std::numbers::pi - ahead : ahead, x);
+}
+
+// The same in lanes.
+inline Doubles4 roughAngle(Doubles4 x, Doubles4 z) {
+  const Doubles4 ax = magnitude(x), az = magnitude(z), none{};
+  const Doubles4 large = larger(ax, az), small = smaller(ax, az);
+  const Doubles4 angle = roughArctangent(large > 0 ? small / large : none),
+                 ahead = ax > az ? std::numbers::pi / 2 - angle : angle,
+                 turned = z < 0 ? std::numbers::pi - ahead : ahead;
+  return x < 0 ? -turned : turned;
 }
 
 }  // namespace echocine

@@ -17,7 +17,6 @@ namespace echocine::echo {
 
 namespace {
 
-constexpr int kBlockStep = 6;  // pixels between blocks; our choice
 // Blocks of 9 mm are moved by up to 6 mm: a wall's thickness, and its way within a twentieth of a
 // beat. Our choice.
 constexpr BlockMatchSettings kBlock{4, 4, 6, 6};
@@ -202,28 +201,6 @@ void EchoStack::trackOne(std::size_t picture) {
           static_cast<float>(found->lines * kEchoPixel_m),
           static_cast<float>(std::clamp(found->correlation, 0.0, 1.0))};
     }
-}
-
-EchoMotion EchoStack::motionAt(int picture, double x_m, double z_m) const {
-  const std::vector<EchoMotion>& field = motion_[static_cast<std::size_t>(picture)];
-  const double u = (x_m / kEchoPixel_m + origin_x_ - 0.5) / kBlockStep,
-               v = (z_m / kEchoPixel_m + origin_z_ - 0.5) / kBlockStep;
-  if (field.empty() || !(u >= 0 && v >= 0 && u < blocks_across_ - 1 && v < blocks_down_ - 1))
-    return {};
-  const auto i = static_cast<std::size_t>(u), j = static_cast<std::size_t>(v);
-  const auto fu = static_cast<float>(u - static_cast<double>(i)),
-             fv = static_cast<float>(v - static_cast<double>(j));
-  const EchoMotion* m = field.data() + j * static_cast<std::size_t>(blocks_across_) + i;
-  EchoMotion out;
-  for (const auto& [at, share] : {std::pair<std::ptrdiff_t, float>{0, (1 - fu) * (1 - fv)},
-                                  {1, fu * (1 - fv)},
-                                  {blocks_across_, (1 - fu) * fv},
-                                  {blocks_across_ + 1, fu * fv}}) {
-    const float w = share * m[at].weight;
-    out.dx_m += w * m[at].dx_m, out.dz_m += w * m[at].dz_m, out.weight += w;
-  }
-  if (out.weight > 0) out.dx_m /= out.weight, out.dz_m /= out.weight;
-  return out;
 }
 
 }  // namespace echocine::echo

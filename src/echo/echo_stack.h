@@ -17,6 +17,7 @@ namespace echocine::echo {
 // our choice.
 inline constexpr double kEchoSmoothing_m = 2e-3;
 inline constexpr double kEchoPixel_m = 1e-3;
+inline constexpr int kBlockStep = 6;  // pixels between matched blocks; our choice
 
 // The frames of a loop that form a beat.
 struct BeatSpan {
@@ -84,8 +85,6 @@ class EchoStack {
 
   // An instant of the beat for look-ups. The stack must outlive it.
   EchoInstant instant(const BeatPlace& place) const;
-  // Motion from one picture to the next; weight 0 outside.
-  EchoMotion motionAt(int picture, double x_m, double z_m) const;
 
  private:
   friend class EchoInstant;
@@ -103,6 +102,11 @@ class EchoStack {
   std::vector<std::vector<float>> sharp_;  // for block matching only
   int blocks_across_ = 0, blocks_down_ = 0;
   std::vector<std::vector<EchoMotion>> motion_;
+};
+
+// Samples of eight places.
+struct SampleLanes {
+  Floats8 grey, gx, gz, visible;
 };
 
 // The loop at an instant of the beat.
@@ -129,7 +133,7 @@ class EchoInstant {
     return {sum[0], sum[1], sum[2], sum[3]};
   }
   // The same for eight places, in less time. Places have the precision of a float.
-  void at(Floats8 x_m, Floats8 z_m, EchoStack::Sample out[kFloatLanes]) const;
+  SampleLanes at(Floats8 x_m, Floats8 z_m) const;
   // Over a step of the model, by its pace; weight 0 outside.
   EchoMotion motionAt(double x_m, double z_m) const;
 

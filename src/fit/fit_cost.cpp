@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "fit/searched_dials.h"
+#include "motion/heart/wall_place.h"
 
 namespace echocine::fit {
 
@@ -23,7 +24,7 @@ PriorDials priorDialsOf(const std::map<std::string, double>& dials) {
   const heart::Parameters parameters = heart::parametersFrom(dials);
   PriorDials out{};
   for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = dialOf("dials", kPriorDials[i]).get(parameters).value_or(0);
+    out[i] = dialOf("dials", kPriorDials[i]).get(parameters).value_or(heart::outlineConicity());
   return out;
 }
 
@@ -66,10 +67,7 @@ PlaneTilt FitCost::tiltAt(const std::vector<double>& at, std::size_t view) const
 double FitCost::priorCost(const std::vector<double>& at) const {
   double cost = -prior_.logDensity(priorDialsOf(dialsAt(at)));
   for (std::size_t i = 0; i < dials_; ++i)
-    if (unknowns_[i].name == kAtrialPrior.key) {
-      const double z = std::log(at[i] / kAtrialPrior.median) / kAtrialPrior.log_sd;
-      cost += 0.5 * z * z + std::log(at[i]);
-    }
+    if (const LonePrior* lone = lonePriorOf(unknowns_[i].name)) cost -= lone->logDensity(at[i]);
   for (std::size_t i = dials_; i < at.size(); i += 2)
     cost += 0.5 * std::pow(at[i] / kTiltSd_deg, 2) + 0.5 * std::pow(at[i + 1] / kRotateSd_deg, 2);
   return cost;

@@ -21,8 +21,8 @@ std::vector<std::vector<double>> startsOf(const FitCost& cost, int count) {
       const FitUnknown& u = cost.unknowns()[i];
       if (const auto p = priorDialOf(u.name))
         at[i] = std::clamp(dials[*p], u.low + u.step, u.high - u.step);
-      else if (u.name == kAtrialPrior.key)
-        at[i] = kAtrialPrior.median;
+      else if (const LonePrior* lone = lonePriorOf(u.name))
+        at[i] = lone->median;
     }
     out.push_back(std::move(at));
   }

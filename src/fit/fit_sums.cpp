@@ -21,53 +21,99 @@ double EdgeProfile::certainty() const {
   return 1 - entropy / std::log(static_cast<double>(kProfileSteps));
 }
 
-EdgeProfile edgeProfileAt(const echo::EchoInstant& at, double x, double z, double nx, double nz,
-                          bool of_blood) {
-  EdgeProfile out;
-  const double per_scale = kSharpness / at.stack().edgeScale();
-  float e[2 * kFloatLanes] = {};
-  static_assert(kProfileSteps == kFloatLanes + 1);
-  constexpr auto kReach = static_cast<float>(kProfileReach_m);
-  constexpr Floats8 kSteps{-1, -0.75f, -0.5f, -0.25f, 0, 0.25f, 0.5f, 0.75f};
-  echo::EchoStack::Sample samples[kProfileSteps];
-  at.at(static_cast<float>(x) + static_cast<float>(nx) * kReach * kSteps,
-        static_cast<float>(z) + static_cast<float>(nz) * kReach * kSteps, samples);
-  samples[kFloatLanes] = at.at(x + kProfileReach_m * nx, z + kProfileReach_m * nz);
-  for (int i = 0; i < kProfileSteps; ++i) {
-    // The sector's end shows no edge.
-    const echo::EchoStack::Sample& g = samples[i];
-    const double edge = (nx * static_cast<double>(g.gx) + nz * static_cast<double>(g.gz)) *
-                        static_cast<double>(g.visible);
-    e[i] = static_cast<float>(per_scale * (of_blood ? edge : std::abs(edge)));
-  }
-  out.visible = samples[kProfileSteps / 2].visible;
-  for (std::size_t i = 0; i < std::size(e); i += kFloatLanes)
-    store(exponential(lanesAt(e + i)), e + i);
-  double sum = 0;
-  for (int i = 0; i < kProfileSteps; ++i) sum += static_cast<double>(e[i]);
-  for (int i = 0; i < kProfileSteps; ++i) out.p[i] = static_cast<double>(e[i]) / sum;
-  out.square = 0;
-  for (int i = 0; i < kProfileSteps; ++i) {
-    const double t = 2.0 * i / (kProfileSteps - 1) - 1;
-    out.mean_m += out.p[i] * t * kProfileReach_m;
-    out.square += out.p[i] * t * t;
-  }
-  return out;
-}
-
 double seenBeside(const echo::EchoStack& real, double x, double z, double nx, double nz) {
   const double r = std::sqrt(x * x + z * z);
-  return r > 0 ? real.spread().shift(r, (nx * x + nz * z) / r) : 0;
+  if (!(r > 0) || real.spread().patches == 0) return 0;
+  return real.spread().shift(r, (nx * x + nz * z) / r) + kReliefSeen_m;
 }
 
 PlacedEdge placedEdge(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map) {
-  PlacedEdge out;
-  map.place(p.x_m, p.z_m, out.x, out.z);
-  map.turn(p.nx, p.nz, out.nx, out.nz);
-  if (p.of_blood) out.beside = seenBeside(at.stack(), out.x, out.z, out.nx, out.nz);
-  out.edge = edgeProfileAt(at, out.x - out.beside * out.nx, out.z - out.beside * out.nz, out.nx,
-                           out.nz, p.of_blood);
+  PlacedEdge out[kFloatLanes];
+  placedEdges({&p, 1}, at, map, out);
+  return out[0];
+}
+
+namespace {
+
+// Places where four boundary points are visible, and their normals.
+struct FourEdges {
+  Doubles4 x{}, z{}, nx{}, nz{};
+  Mask4 of_blood{};
+};
+
+// Gradients out of blood, or their magnitudes. The sector's end shows no edge.
+Doubles4 edgesOf(const FourEdges& four, Doubles4 gx, Doubles4 gz, Doubles4 visible) {
+  const Doubles4 edge = (four.nx * gx + four.nz * gz) * visible;
+  return four.of_blood ? edge : magnitude(edge);
+}
+
+// Samples at the far end of the profiles, in double precision.
+echo::SampleLanes farEndsOf(std::size_t count, const FourEdges halves[2],
+                            const echo::EchoInstant& at) {
+  echo::SampleLanes out{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const FourEdges& four = halves[i / kDoubleLanes];
+    const std::size_t lane = i % kDoubleLanes;
+    const echo::EchoStack::Sample g = at.at(four.x[lane] + kProfileReach_m * four.nx[lane],
+                                            four.z[lane] + kProfileReach_m * four.nz[lane]);
+    out.gx[i] = g.gx, out.gz[i] = g.gz, out.visible[i] = g.visible;
+  }
   return out;
+}
+
+// e: e^(2 e(s)/E) of Eq. 4, by step. Precondition: all are positive.
+void fillProfiles(const Doubles4 e[kProfileSteps], PlacedEdge out[kDoubleLanes]) {
+  Doubles4 sum{}, mean{}, square{};
+  for (int i = 0; i < kProfileSteps; ++i) sum += e[i];
+  for (int i = 0; i < kProfileSteps; ++i) {
+    const Doubles4 p = e[i] / sum;
+    const double t = 2.0 * i / (kProfileSteps - 1) - 1;
+    mean += p * t * kProfileReach_m;
+    square += p * t * t;
+    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) out[lane].edge.p[i] = p[lane];
+  }
+  for (std::size_t lane = 0; lane < kDoubleLanes; ++lane)
+    out[lane].edge.mean_m = mean[lane], out[lane].edge.square = square[lane];
+}
+
+}  // namespace
+
+void placedEdges(std::span<const BoundaryPoint> points, const echo::EchoInstant& at,
+                 const PoseMapping& map, PlacedEdge out[kFloatLanes]) {
+  FourEdges halves[2];
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const BoundaryPoint& p = points[i];
+    PlacedEdge& o = out[i];
+    map.place(p.x_m, p.z_m, o.x, o.z);
+    map.turn(p.nx, p.nz, o.nx, o.nz);
+    o.beside = p.of_blood ? seenBeside(at.stack(), o.x, o.z, o.nx, o.nz) : 0;
+    FourEdges& four = halves[i / kDoubleLanes];
+    const std::size_t lane = i % kDoubleLanes;
+    four.x[lane] = o.x - o.beside * o.nx, four.z[lane] = o.z - o.beside * o.nz;
+    four.nx[lane] = o.nx, four.nz[lane] = o.nz;
+    four.of_blood[lane] = p.of_blood ? -1 : 0;
+  }
+  const auto& [low, high] = halves;
+  const double per_scale = kSharpness / at.stack().edgeScale();
+  constexpr auto kReach = static_cast<float>(kProfileReach_m);
+  const Floats8 x = joined(low.x, high.x), z = joined(low.z, high.z),
+                along_x = joined(low.nx, high.nx) * kReach,
+                along_z = joined(low.nz, high.nz) * kReach;
+  Doubles4 e[2][kProfileSteps];
+  for (int i = 0; i < kProfileSteps; ++i) {
+    const float t = 2.0f * static_cast<float>(i) / (kProfileSteps - 1) - 1;
+    const echo::SampleLanes g = i + 1 < kProfileSteps ? at.at(x + along_x * t, z + along_z * t)
+                                                      : farEndsOf(points.size(), halves, at);
+    const Floats8 scaled = exponential(
+        joined(per_scale * edgesOf(low, lowHalf(g.gx), lowHalf(g.gz), lowHalf(g.visible)),
+               per_scale * edgesOf(high, highHalf(g.gx), highHalf(g.gz), highHalf(g.visible))));
+    e[0][i] = lowHalf(scaled), e[1][i] = highHalf(scaled);
+    if (i == kProfileSteps / 2)
+      for (std::size_t lane = 0; lane < kFloatLanes; ++lane)
+        out[lane].edge.visible = g.visible[lane];
+  }
+  fillProfiles(e[0], out);
+  fillProfiles(e[1], out + kDoubleLanes);
 }
 
 MotionPair motionOf(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map,
@@ -92,18 +138,17 @@ void addCells(std::span<const TissueCell> cells, const echo::EchoInstant& at,
     for (std::size_t lane = 0; lane < count; ++lane)
       x[lane] = some[lane]->x_m, z[lane] = some[lane]->z_m;
     map.place(x, z);
-    echo::EchoStack::Sample samples[kFloatLanes];
-    at.at(x, z, samples);
+    const echo::SampleLanes samples = at.at(x, z);
     const Floats8 squares = x * x + z * z;
     const double per_far = 1 / at.stack().far();
     for (std::size_t lane = 0; lane < count; ++lane) {
       const TissueCell& cell = *some[lane];
-      const double area = cell.area, seen = area * static_cast<double>(samples[lane].visible);
+      const double area = cell.area, seen = area * static_cast<double>(samples.visible[lane]);
       sums.all += area;
       if (!(seen > 0)) continue;
       sums.seen += seen;
       sums.greys.add(cell.first, cell.second, cell.share,
-                     per_far * static_cast<double>(std::sqrt(squares[lane])), samples[lane].grey,
+                     per_far * static_cast<double>(std::sqrt(squares[lane])), samples.grey[lane],
                      seen);
     }
     count = 0;

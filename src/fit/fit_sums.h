@@ -24,7 +24,8 @@ class PoseMapping {
         c_(p.scale * std::cos(p.turn_rad)),
         s_(p.scale * std::sin(p.turn_rad)),
         turn_c_(std::cos(p.turn_rad)),
-        turn_s_(std::sin(p.turn_rad)) {}
+        turn_s_(std::sin(p.turn_rad)),
+        scale_(std::hypot(c_, s_)) {}
   // Positive angles rotate depth towards lateral, like Placement's rotation.
   void place(double x, double z, double& rx, double& rz) const {
     const double dz = z - middle_;
@@ -43,10 +44,10 @@ class PoseMapping {
     rx = turn_c_ * x + turn_s_ * z;
     rz = -turn_s_ * x + turn_c_ * z;
   }
-  double scale() const { return std::hypot(c_, s_); }
+  double scale() const { return scale_; }
 
  private:
-  double middle_, x_, z_, c_, s_, turn_c_, turn_s_;
+  double middle_, x_, z_, c_, s_, turn_c_, turn_s_, scale_;
 };
 
 // p(s) of Eq. 4 as its first two moments, and its certainty.
@@ -58,20 +59,26 @@ struct EdgeProfile {
   double certainty() const;  // 1 - entropy of p / entropy of an even p
 };
 
-// The edge profile along a unit normal at a place of the real plane.
-EdgeProfile edgeProfileAt(const echo::EchoInstant& at, double x, double z, double nx, double nz,
-                          bool of_blood);
+// What Eq. 9 lacks of the displacement, m: trabeculae, and boundaries that curve within the
+// thickness of the slice. Calibrated on five planted hearts with known dials and planes in the look
+// `scanner`, where edges lay 1.1 mm inside the left ventricle's visible boundary, 0.85 mm inside
+// the left atrium's and 0.2 mm inside the right ventricle's. The other looks need 0 to 0.4 mm more.
+inline constexpr double kReliefSeen_m = 1e-3;
 
-// Displacement into the blood at which a boundary is visible: Eq. 9.
+// Displacement into the blood at which a boundary is visible: Eq. 9, and kReliefSeen_m if the loop
+// has speckle.
 double seenBeside(const echo::EchoStack& real, double x, double z, double nx, double nz);
 
 // A boundary point under a pose, and the edge where it is visible.
 struct PlacedEdge {
   double x = 0, z = 0, nx = 0, nz = 0;
-  double beside = 0;  // of Eq. 9; 0 without blood
+  double beside = 0;  // of seenBeside(); 0 without blood
   EdgeProfile edge;
 };
 PlacedEdge placedEdge(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map);
+// The same of up to eight points, in little more than the time of two.
+void placedEdges(std::span<const BoundaryPoint> points, const echo::EchoInstant& at,
+                 const PoseMapping& map, PlacedEdge out[kFloatLanes]);
 
 // u - v|^2 and |u|^2 + |v|^2 of Eq. 5; weight 0 without tracking.
 struct MotionPair {

@@ -1,5 +1,7 @@
 #include "fit/fit_terms.h"
 
+#include <algorithm>
+
 #include "fit/fit_sums.h"
 #include "fit/seen_cells.h"
 
@@ -22,17 +24,30 @@ struct BoundarySums {
   double apart = 0, together = 0;  // of Eq. 5
 };
 
-void addBoundary(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map,
-                 SeenCells& cells, BoundarySums& sums) {
-  const auto [x, z, nx, nz, beside, edge] = placedEdge(p, at, map);
+void addBoundary(const BoundaryPoint& p, double angle_rad, const PlacedEdge& placed,
+                 const echo::EchoInstant& at, const PoseMapping& map, SeenCells& cells,
+                 BoundarySums& sums) {
+  const auto& [x, z, nx, nz, beside, edge] = placed;
   const double length = p.length_m * edge.visible;
   if (!(length > 0)) return;
-  cells.take(p, beside / map.scale());
+  cells.take(p, angle_rad, beside / map.scale());
   sums.square += length * edge.square;
   sums.length += length;
   const MotionPair m = motionOf(p, at, map, x, z, nx, nz);
   sums.apart += length * m.weight * m.apart;
   sums.together += length * m.weight * m.together;
+}
+
+void addBoundaries(std::span<const BoundaryPoint> points, std::span<const double> angles_rad,
+                   const echo::EchoInstant& at, const PoseMapping& map, SeenCells& cells,
+                   BoundarySums& sums) {
+  PlacedEdge placed[kFloatLanes];
+  for (std::size_t first = 0; first < points.size(); first += kFloatLanes) {
+    const auto some = points.subspan(first, std::min(kFloatLanes, points.size() - first));
+    placedEdges(some, at, map, placed);
+    for (std::size_t i = 0; i < some.size(); ++i)
+      addBoundary(some[i], angles_rad[first + i], placed[i], at, map, cells, sums);
+  }
 }
 
 }  // namespace
@@ -70,10 +85,13 @@ PlacedBeat::PlacedBeat(const ModelLoop& model, const echo::EchoStack& real, cons
                        const FitStride& stride)
     : blood_(model.blood), far_m_(model.far_m), seen_(std::make_shared<SeenCells>(model, stride)) {
   for (std::size_t n = 0; n < model.frames.size(); n += static_cast<std::size_t>(stride.picture)) {
-    Frame frame{real.instant(placeOf(model, n, time, real)), {}, {}, {}};
+    Frame frame{real.instant(placeOf(model, n, time, real)), {}, {}, {}, {}};
     if (!frame.at.seen()) continue;
     const ModelFrame& from = model.frames[n];
     int number = -1;
+    const std::size_t most =
+        from.cells.size() / static_cast<std::size_t>(stride.cell * stride.cell);
+    frame.cells.reserve(most), frame.number.reserve(most);
     for (int i = stride.cell / 2; i < model.cells_across; i += stride.cell)
       for (int k = stride.cell / 2; k < model.cells_along; k += stride.cell) {
         const TissueCell& cell = from.cells[static_cast<std::size_t>(i * model.cells_along + k)];
@@ -83,7 +101,10 @@ PlacedBeat::PlacedBeat(const ModelLoop& model, const echo::EchoStack& real, cons
         frame.number.push_back(number);
       }
     for (std::size_t i = 0; i < from.boundary.size(); i += static_cast<std::size_t>(stride.piece))
-      if (from.boundary[i].of_blood) frame.boundary.push_back(from.boundary[i]);
+      if (from.boundary[i].of_blood) {
+        frame.boundary.push_back(from.boundary[i]);
+        frame.angles_rad.push_back(SeenCells::angleOf(from.boundary[i]));
+      }
     frames_.push_back(std::move(frame));
   }
 }
@@ -94,15 +115,17 @@ void PlacedBeat::blend() {
 
 std::vector<FitTerms> PlacedBeat::terms(std::span<const FitPose> poses) const {
   std::vector<TermSums> sums(poses.size(), TermSums{{TissueGreys(blood_)}, {}});
+  std::vector<PoseMapping> maps;
+  for (const FitPose& pose : poses) maps.emplace_back(pose, far_m_);
   SeenCells seen = *seen_;
-  for (const Frame& frame : frames_)
+  for (const Frame& frame : frames_) {
+    seen.start(frame.cells, frame.number);
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      const PoseMapping map(poses[i], far_m_);
-      seen.start(frame.cells, frame.number);
-      for (const BoundaryPoint& p : frame.boundary)
-        addBoundary(p, frame.at, map, seen, sums[i].boundary);
-      addCells(seen.cells(), frame.at, map, sums[i].region);
+      if (i > 0) seen.restart(frame.cells);
+      addBoundaries(frame.boundary, frame.angles_rad, frame.at, maps[i], seen, sums[i].boundary);
+      addCells(seen.cells(), frame.at, maps[i], sums[i].region);
     }
+  }
   std::vector<FitTerms> out;
   for (const TermSums& sum : sums) out.push_back(sum.terms());
   return out;

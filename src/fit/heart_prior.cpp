@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "core/check.h"
@@ -14,7 +15,7 @@ namespace echocine::fit {
 namespace {
 
 constexpr std::size_t kN = kPriorDialCount;
-enum Row : std::size_t { kV, kS, kE, kW, kB };
+enum Row : std::size_t { kV, kS, kE, kW, kB, kC };
 
 std::vector<double> covarianceOf(const HeartGroup& group) {
   std::vector<double> out(group.correlation.begin(), group.correlation.end());
@@ -32,8 +33,19 @@ std::optional<std::size_t> priorDialOf(const std::string& key) {
   return static_cast<std::size_t>(found - kPriorDials.begin());
 }
 
+double LonePrior::logDensity(double value) const {
+  const double z = std::log(value / median) / log_sd;
+  return -0.5 * z * z - std::log(value);
+}
+
+const LonePrior* lonePriorOf(const std::string& key) {
+  const auto* found = std::find_if(std::begin(kLonePriors), std::end(kLonePriors),
+                                   [&](const LonePrior& prior) { return prior.key == key; });
+  return found == std::end(kLonePriors) ? nullptr : found;
+}
+
 std::optional<double> HeartPrior::sdOf(const std::string& key) const {
-  if (key == kAtrialPrior.key) return kAtrialPrior.sd();
+  if (const LonePrior* lone = lonePriorOf(key)) return lone->sd();
   const auto p = priorDialOf(key);
   return p ? std::optional(sd_[*p]) : std::nullopt;
 }
@@ -116,19 +128,23 @@ double HeartPrior::logDensity(const PriorDials& d, PriorDials* gradient) const {
   for (std::size_t g = 0; g < 2; ++g) logs[g] = normals_[g].logAt(x, slopes[g]);
   const double most = std::max(logs[0], logs[1]),
                total = most + std::log(std::exp(logs[0] - most) + std::exp(logs[1] - most));
-  const double edv = d[kEdv_ml], s = d[kSphericity], length = heart::longAxis_mm(edv, s);
-  // The Jacobian is triangular: its determinant is a constant over L^2.
-  const double constant = std::log(200 * heart::sphereShare() * 100 * 200 * heart::kPosteriorShare *
-                                   100 / kBodySurface_m2);
+  const double edv = d[kEdv_ml], s = d[kSphericity], q = d[kConicity],
+               length = heart::longAxis_mm(edv, s, q);
+  // The Jacobian is triangular: its determinant is a constant times k / L^2.
+  const double share = heart::sphereShare(q);
+  const double constant =
+      std::log(200 * share * 100 * 200 * heart::kPosteriorShare * 100 * 100 / kBodySurface_m2);
   if (gradient != nullptr) {
     PriorDials in_x{};
     for (std::size_t g = 0; g < 2; ++g)
       for (std::size_t i = 0; i < kN; ++i) in_x[i] += std::exp(logs[g] - total) * slopes[g][i];
     const double walls = in_x[kW] * x[kW], excursion = in_x[kB] * 100 * d[kMapse_mm] / length;
-    // L goes as edv^(1/3) s^(-2/3).
-    *gradient = {100 * in_x[kE], in_x[kV] / kBodySurface_m2 - (walls + excursion + 2) / (3 * edv),
-                 walls / d[kWall_mm], (2 * in_x[kS] * x[kS] + (2 * excursion - walls + 4) / 3) / s,
-                 100 * in_x[kB] / length};
+    // L goes as edv^(1/3) s^(-2/3) k^(-1/3).
+    const double by_share = in_x[kS] * x[kS] + (walls + excursion + 5) / 3;
+    *gradient = {
+        100 * in_x[kE],          in_x[kV] / kBodySurface_m2 - (walls + excursion + 2) / (3 * edv),
+        walls / d[kWall_mm],     (2 * in_x[kS] * x[kS] + (2 * excursion - walls + 4) / 3) / s,
+        100 * in_x[kB] / length, 100 * in_x[kC] + heart::sphereShareSlope(q) * by_share};
   }
   return total + constant - 2 * std::log(length);
 }

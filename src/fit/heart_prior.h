@@ -15,7 +15,8 @@ namespace echocine::fit {
 
 using heart::HeartGroup, heart::heartGroups, heart::HeartIndices, heart::indicesOf;
 using heart::kBodySurface_m2, heart::kBodySurfaceSd_m2;
-using heart::kEf, heart::kEdv_ml, heart::kWall_mm, heart::kSphericity, heart::kMapse_mm;
+using heart::kEf, heart::kEdv_ml, heart::kWall_mm, heart::kSphericity, heart::kMapse_mm,
+    heart::kConicity;
 using heart::kVolumeIndex, heart::kSphericityIndex, heart::kEjectionIndex, heart::kWallIndex,
     heart::kConicityIndex, heart::kShorteningIndex, heart::kHeartIndices;
 
@@ -27,23 +28,27 @@ inline constexpr std::array<const char*, kPriorDialCount> kPriorDials = heart::k
 // The number of a dial in kPriorDials; none for a dial without a prior.
 std::optional<std::size_t> priorDialOf(const std::string& key);
 
-// A dial with a log-normal prior of its own: the largest volume of the left atrium. Healthy adults
-// have 25 +- 7 mL/m2 and up to 34; 48 is severely enlarged (Lang et al., J. Am. Soc. Echocardiogr.
-// 28, 2015). The spread, which covers both, is our choice.
+// A dial with a log-normal prior of its own, independent of the others.
 struct LonePrior {
   const char* key;
   double median, log_sd;
   double sd() const { return median * log_sd; }
+  // Log of the density, without its constant.
+  double logDensity(double value) const;
 };
-inline constexpr LonePrior kAtrialPrior{"la-volume", 55, 0.35};
+// Largest volume of the left atrium, mL. Healthy adults have 25 +- 7 mL/m2 and up to 34; 48 is
+// severely enlarged (Lang et al., J. Am. Soc. Echocardiogr. 28, 2015). The spread, which covers
+// both, is our choice. Inward motion towards the apex relative to the base: our choice.
+inline constexpr LonePrior kLonePriors[] = {{"la-volume", 55, 0.35}, {"apical-motion", 1, 0.2}};
+const LonePrior* lonePriorOf(const std::string& key);  // null: none
 
 class HeartPrior {
  public:
   HeartPrior();
 
-  // Log of the density of the dials: of the mixture's normal distributions of V, S, E, W, B, times
-  // the Jacobian of indicesOf(). V has the mean and the covariances of a volume index times an
-  // unknown body surface. gradient: of the result, by dial; may be null.
+  // Log of the density of the dials: of the mixture's normal distributions of V, S, E, W, B, C,
+  // times the Jacobian of indicesOf(). V has the mean and the covariances of a volume index times
+  // an unknown body surface. gradient: of the result, by dial; may be null.
   double logDensity(const PriorDials& dials, PriorDials* gradient = nullptr) const;
 
   // A draw is a hash of seed and number. It is a normal one: an index may lie beyond the dials.
@@ -58,7 +63,7 @@ class HeartPrior {
   // posterior.
   const PriorDials& mean() const { return mean_; }
   const PriorDials& sd() const { return sd_; }
-  // SD of a dial, also of the left atrium's volume; none for a dial without a prior.
+  // SD of a dial, also of kLonePriors; none for a dial without a prior.
   std::optional<double> sdOf(const std::string& key) const;
 
  private:

@@ -24,7 +24,7 @@ Scene withCoarseLines(Scene scene) {
   return scene;
 }
 
-// The tissue at a place of the plane, by the sample nearest to it; nothing outside the sector.
+// Tissues at places of the plane, by the sample nearest to each; -1 outside the sector.
 class TissueAt {
  public:
   TissueAt(const Probe& p, const std::vector<std::uint32_t>& ids,
@@ -39,11 +39,15 @@ class TissueAt {
         samples_per_m_(1 / p.sampleSpacing()) {}
 
   // An angle's error of 1e-5 rad is a thousandth of the lines' spacing at most.
-  int operator()(double x_m, double z_m) const {
-    const double line = std::floor((roughAngle(x_m, z_m) - first_rad_) * lines_per_rad_ + 0.5),
-                 sample = std::floor((std::sqrt(x_m * x_m + z_m * z_m) - near_m_) * samples_per_m_);
-    if (!(line >= 0 && sample >= 0 && line < lines_ && sample < samples_)) return -1;
-    return tissue_of_[ids_[static_cast<std::size_t>(line * samples_ + sample)]];
+  Ints4 operator()(Doubles4 x_m, Doubles4 z_m) const {
+    const Doubles4 line = (roughAngle(x_m, z_m) - first_rad_) * lines_per_rad_ + 0.5,
+                   sample = (squareRoot(x_m * x_m + z_m * z_m) - near_m_) * samples_per_m_;
+    const Mask4 inside = (line >= 0) & (sample >= 0) & (line < lines_) & (sample < samples_);
+    const Doubles4 at = inside ? wholeOf(line) * samples_ + wholeOf(sample) : Doubles4{};
+    Ints4 out;
+    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane)
+      out[lane] = inside[lane] ? tissue_of_[ids_[static_cast<std::size_t>(at[lane])]] : -1;
+    return out;
   }
 
  private:
@@ -94,11 +98,12 @@ std::vector<TissueCell> cellsAt(const Probe& p) {
   for (int i = 0; i < kCellLines; ++i) {
     const double angle =
         p.first_angle_rad + (p.last_angle_rad - p.first_angle_rad) * i / (kCellLines - 1);
+    const double across = std::sin(angle), down = std::cos(angle);
     for (int k = 0; k < kCellsAlong; ++k) {
       const double r = near + (k + 0.5) * step;
       TissueCell cell;
-      cell.x_m = static_cast<float>(r * std::sin(angle));
-      cell.z_m = static_cast<float>(r * std::cos(angle));
+      cell.x_m = static_cast<float>(r * across);
+      cell.z_m = static_cast<float>(r * down);
       cell.area = static_cast<float>(r / (p.face_radius_m + p.max_depth_m));
       cells.push_back(cell);
     }
@@ -173,16 +178,15 @@ ModelPlane::ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& s
 
 namespace {
 
-// Which sides show: stepping to both sides of a boundary, another tissue must lie there.
-struct Sides {
-  int inner = -1, outer = -1;
-  bool differ() const { return inner >= 0 && outer >= 0 && inner != outer; }
+// A place on a contour and the unit normal of its facet in the plane.
+struct Place {
+  const ContourEdge* cut;
+  double x_m, z_m, length_m, nx, nz;
 };
 
-// Places at even steps along a contour: the cut that each lies on. A sum over them is the integral
-// along the contour to far better than the step, wherever the first one lies.
-template <typename Body>
-void stepAlong(const Contour& c, double step_m, const Body& body) {
+// Adds places at even steps along a contour. A sum over them is the integral along the contour to
+// far better than the step, wherever the first one lies.
+void stepAlong(const Contour& c, std::span<const ContourEdge> edges, std::vector<Place>& places) {
   const std::size_t cuts = c.edges.size();
   thread_local std::vector<double> lengths;
   lengths.clear();
@@ -194,15 +198,35 @@ void stepAlong(const Contour& c, double step_m, const Body& body) {
     lengths.push_back(std::sqrt(dx * dx + dz * dz));
     length += lengths.back();
   }
-  const double pieces = std::max(1.0, std::round(length / step_m)), piece = length / pieces;
+  const double pieces = std::max(1.0, std::round(length / kBoundaryPiece_m)),
+               piece = length / pieces;
   double next = piece / 2, so_far = 0;
   for (std::size_t i = 0; i < cuts; ++i) {
+    const ContourEdge& cut = edges[c.edges[i]];
+    const Vec3d n = cut.area_normal;
     for (; next < so_far + lengths[i]; next += piece) {
-      const double t = (next - so_far) / lengths[i];
-      body(c.edges[i], from(i) + t * (to(i) - from(i)), piece);
+      const double across = std::sqrt(n.x * n.x + n.z * n.z);
+      if (!(across > 0)) continue;
+      const Vec3d at = from(i) + (next - so_far) / lengths[i] * (to(i) - from(i));
+      places.push_back({&cut, at.x, at.z, piece, n.x / across, n.z / across});
     }
     so_far += lengths[i];
   }
+}
+
+// Steps to both sides of four places and calls body(place, inner, outer) where two tissues of the
+// sector differ: there a boundary is visible.
+template <typename Body>
+void whereTissuesDiffer(std::span<const Place> four, const TissueAt& tissueAt, const Body& body) {
+  constexpr double kStep_m = 1.2e-3;  // to either side: beyond a sample, within any wall
+  Doubles4 x{}, z{}, nx{}, nz{};
+  for (std::size_t i = 0; i < four.size(); ++i) {
+    x[i] = four[i].x_m, z[i] = four[i].z_m;
+    nx[i] = kStep_m * four[i].nx, nz[i] = kStep_m * four[i].nz;
+  }
+  const Ints4 inner = tissueAt(x - nx, z - nz), outer = tissueAt(x + nx, z + nz);
+  for (std::size_t i = 0; i < four.size(); ++i)
+    if (inner[i] >= 0 && outer[i] >= 0 && inner[i] != outer[i]) body(four[i], inner[i], outer[i]);
 }
 
 }  // namespace
@@ -218,46 +242,41 @@ ModelFrame ModelPlane::cutOne(const SurfaceFrame& now, const SurfaceFrame& next,
     fill(frame.cells[c], ids.data() + c * kSamplesPerCell, tissue_of_);
   weighByBlood(empty_, frame);
   const TissueAt tissueAt(coarse_.probe, ids, tissue_of_);
-  for (const Contour& contour : chainContours(slice.edges(), surfaces_, now)) {
-    const std::size_t s = index(contour.surface);
-    if (surfaces_[s].membrane) continue;
-    stepAlong(contour, kBoundaryPiece_m, [&](std::uint32_t edge, Vec3d at, double length_m) {
-      addPiece(slice.edges()[edge], at, length_m, tissueAt, now, next, frame.boundary);
-    });
-  }
+  thread_local std::vector<Place> places;
+  places.clear();
+  for (const Contour& contour : chainContours(slice.edges(), surfaces_, now))
+    if (!surfaces_[index(contour.surface)].membrane) stepAlong(contour, slice.edges(), places);
+  frame.boundary.reserve(places.size());
+  for (std::size_t first = 0; first < places.size(); first += kDoubleLanes)
+    whereTissuesDiffer(
+        std::span(places).subspan(first, std::min(kDoubleLanes, places.size() - first)), tissueAt,
+        [&](const Place& place, int inner, int outer) {
+          frame.boundary.push_back(pieceAt(*place.cut, inner, outer, now, next));
+          BoundaryPoint& p = frame.boundary.back();
+          const double sign = p.of_blood && p.blood == outer ? -1 : 1;
+          p.x_m = static_cast<float>(place.x_m), p.z_m = static_cast<float>(place.z_m);
+          p.nx = static_cast<float>(sign * place.nx), p.nz = static_cast<float>(sign * place.nz);
+          p.length_m = static_cast<float>(place.length_m);
+        });
   return frame;
 }
 
-template <typename TissueAtPlace>
-void ModelPlane::addPiece(const ContourEdge& cut, Vec3d at, double length_m,
-                          const TissueAtPlace& tissueAt, const SurfaceFrame& now,
-                          const SurfaceFrame& next, std::vector<BoundaryPoint>& pieces) const {
-  constexpr double kStep_m = 1.2e-3;  // to either side: beyond a sample, within any wall
-  const double across =
-      std::sqrt(cut.area_normal.x * cut.area_normal.x + cut.area_normal.z * cut.area_normal.z);
-  if (!(across > 0)) return;
-  const double nx = cut.area_normal.x / across, nz = cut.area_normal.z / across;
-  const Sides sides{tissueAt(at.x - kStep_m * nx, at.z - kStep_m * nz),
-                    tissueAt(at.x + kStep_m * nx, at.z + kStep_m * nz)};
-  if (!sides.differ()) return;
-  const bool blood_in = empty_.blood[static_cast<std::size_t>(sides.inner)],
-             blood_out = empty_.blood[static_cast<std::size_t>(sides.outer)];
-  const double sign = blood_out && !blood_in ? -1 : 1;
+// All but the place along the cut and its normal.
+BoundaryPoint ModelPlane::pieceAt(const ContourEdge& cut, int inner, int outer,
+                                  const SurfaceFrame& now, const SurfaceFrame& next) const {
+  const bool blood_in = empty_.blood[static_cast<std::size_t>(inner)],
+             blood_out = empty_.blood[static_cast<std::size_t>(outer)];
   const std::size_t s = index(cut.surface);
-  const Vec3d d =
-      displacementOf(surfaces_[s].triangles[cut.triangle], now.positions_m[s], next.positions_m[s]);
+  const Triangle& t = surfaces_[s].triangles[cut.triangle];
+  const Vec3d d = displacementOf(t, now.positions_m[s], next.positions_m[s]);
   BoundaryPoint p;
-  p.x_m = static_cast<float>(at.x), p.z_m = static_cast<float>(at.z);
-  p.nx = static_cast<float>(sign * nx), p.nz = static_cast<float>(sign * nz);
-  p.length_m = static_cast<float>(length_m);
   p.dx_m = static_cast<float>(d.x), p.dz_m = static_cast<float>(d.z);
   p.surface = static_cast<std::uint16_t>(s);
   p.of_blood = blood_in != blood_out;
-  if (segments_ && segments_->surface == s && p.of_blood)
-    p.segment = segments_->of_vertex[surfaces_[s].triangles[cut.triangle][0]];
-  p.blood = static_cast<std::uint8_t>(blood_in ? sides.inner : sides.outer);
-  p.beside = static_cast<std::uint8_t>(blood_in ? sides.outer : sides.inner);
-  pieces.push_back(p);
+  if (segments_ && segments_->surface == s && p.of_blood) p.segment = segments_->of_vertex[t[0]];
+  p.blood = static_cast<std::uint8_t>(blood_in ? inner : outer);
+  p.beside = static_cast<std::uint8_t>(blood_in ? outer : inner);
+  return p;
 }
 
 ModelLoop ModelPlane::cut(const std::vector<SurfaceFrame>& frames) const {

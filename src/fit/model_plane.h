@@ -82,10 +82,8 @@ class ModelPlane {
 
  private:
   ModelFrame cutOne(const SurfaceFrame& now, const SurfaceFrame& next, PlaneSlice& slice) const;
-  template <typename TissueAtPlace>
-  void addPiece(const ContourEdge& cut, Vec3d at, double length_m, const TissueAtPlace& tissueAt,
-                const SurfaceFrame& now, const SurfaceFrame& next,
-                std::vector<BoundaryPoint>& pieces) const;
+  BoundaryPoint pieceAt(const ContourEdge& cut, int inner, int outer, const SurfaceFrame& now,
+                        const SurfaceFrame& next) const;
 
   const std::vector<SurfaceTopology>& surfaces_;
   std::optional<WallSegments> segments_;

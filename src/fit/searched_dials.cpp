@@ -6,8 +6,10 @@ namespace echocine::fit {
 
 const std::vector<SearchedDial>& searchedDials() {
   static const std::vector<SearchedDial> kDials{
-      {{"ef", 0.15, 0.75}, 0.05},         {{"edv", 50, 280}, 10},  {{"wall-thickness", 5, 15}, 1.5},
-      {{"sphericity", 0.46, 0.78}, 0.04}, {{"mapse", 3, 20}, 2.5}, {{"la-volume", 20, 130}, 8}};
+      {{"ef", 0.15, 0.75}, 0.05},       {{"edv", 50, 280}, 10},
+      {{"wall-thickness", 5, 15}, 1.5}, {{"sphericity", 0.46, 0.78}, 0.04},
+      {{"mapse", 3, 20}, 2.5},          {{"conicity", 0.55, 0.95}, 0.05},
+      {{"la-volume", 20, 130}, 8},      {{"apical-motion", 0.65, 1.5}, 0.12}};
   return kDials;
 }
 

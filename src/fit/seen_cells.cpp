@@ -6,7 +6,7 @@
 namespace echocine::fit {
 
 SeenCells::SeenCells(const ModelLoop& model, const FitStride& stride)
-    : blood_(model.blood), cell_(stride.cell), piece_(stride.piece) {
+    : blood_(model.blood.begin(), model.blood.end()), cell_(stride.cell), piece_(stride.piece) {
   const auto counted = [&](int all) { return (all - cell_ / 2 + cell_ - 1) / cell_; };
   across_ = counted(model.cells_across);
   along_ = counted(model.cells_along);
@@ -31,25 +31,43 @@ void SeenCells::start(std::span<const TissueCell> cells, std::span<const int> nu
 
 double SeenCells::bloodOf(const TissueCell& cell) const {
   const double share = cell.share;
-  return (blood_[cell.first] ? share : 0) + (blood_[cell.second] ? 1 - share : 0);
+  return share * blood_[cell.first] + (1 - share) * blood_[cell.second];
 }
 
 void SeenCells::turn(TissueCell& cell, double share, std::uint8_t tissue) const {
-  if (blood_[cell.first] && (cell.share >= 1 || blood_[cell.second])) {
+  const bool first = blood_[cell.first] > 0;
+  if (first && (cell.share >= 1 || blood_[cell.second] > 0)) {
     cell.second = tissue;
     cell.share = static_cast<float>(1 - share);
   } else {
-    const double change = blood_[cell.first] ? -share : share;
+    const double change = first ? -share : share;
     cell.share = static_cast<float>(std::clamp(cell.share + change, 0.0, 1.0));
   }
 }
 
+namespace {
+
+// The arctangent of a tangent of small angles: the error is below 1e-15 rad.
+double smallAngle(double tangent) {
+  if (std::abs(tangent) > 0.05) return std::atan(tangent);
+  const double square = tangent * tangent;
+  return tangent * (1 - square * (1.0 / 3 - square * (1.0 / 5 - square * (1.0 / 7 - square / 9))));
+}
+
+}  // namespace
+
+double SeenCells::angleOf(const BoundaryPoint& p) {
+  return std::atan2(double{p.x_m}, double{p.z_m});
+}
+
 // The middle of the strip lies between four cells, which lose in proportion to their nearness and
 // blood: D is then continuous in the place.
-void SeenCells::take(const BoundaryPoint& p, double beside_m) {
-  const double x = p.x_m - 0.5 * beside_m * p.nx, z = p.z_m - 0.5 * beside_m * p.nz,
-               r = std::hypot(x, z), u = (std::atan2(x, z) - first_rad_) / turn_rad_,
-               v = (r - near_m_) / step_m_;
+void SeenCells::take(const BoundaryPoint& p, double angle_rad, double beside_m) {
+  const double dx = -0.5 * beside_m * p.nx, dz = -0.5 * beside_m * p.nz, x = p.x_m + dx,
+               z = p.z_m + dz, ahead = x * p.x_m + z * p.z_m, r = std::sqrt(x * x + z * z),
+               angle = ahead > 0 ? angle_rad + smallAngle((dx * p.z_m - dz * p.x_m) / ahead)
+                                 : std::atan2(x, z),
+               u = (angle - first_rad_) / turn_rad_, v = (r - near_m_) / step_m_;
   const double fu = std::floor(u), fv = std::floor(v);
   TissueCell* near[4];
   double share[4], sum = 0;

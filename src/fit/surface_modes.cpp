@@ -169,10 +169,14 @@ SurfaceFrame SurfaceModes::blend(std::span<const float> shares, std::span<const 
   const std::vector<float> factors = factorsOf(shares);
   SurfaceFrame frame;
   for (const std::size_t vertices : vertices_) frame.positions_m.emplace_back(vertices);
-  for (std::size_t p = 0; p < sides.size(); ++p) {
+  for (std::size_t p = 0, end = 0; p < sides.size(); p = end) {
     const SurfacePatch& patch = (*patches_)[p];
-    const auto out_m =
-        std::span(frame.positions_m[patch.surface]).subspan(patch.first, patch.end - patch.first);
+    const auto joins = [&](std::size_t other) {
+      return sides[other] == sides[p] && (*patches_)[other].surface == patch.surface;
+    };
+    for (end = p + 1; end < sides.size() && joins(end);) ++end;
+    const auto out_m = std::span(frame.positions_m[patch.surface])
+                           .subspan(patch.first, (*patches_)[end - 1].end - patch.first);
     if (sides[p] == Side::near)
       sum(surfaces_m_[patch.surface], factors, patch.first, out_m);
     else
@@ -217,6 +221,7 @@ std::vector<SurfaceFrame> blendNearPlane(std::span<const SurfaceModes> frames,
     for (std::size_t p = 0; p < sides.size(); ++p)
       if (before[p] == Side::near) sides[p] = Side::near;
     out[f] = frames[f].blend(shares, sides);
+    if (tilt.rotate_rad == 0 && tilt.tilt_rad == 0) return;
     for (std::size_t p = 0; p < sides.size(); ++p) {
       if (sides[p] != Side::near) continue;
       const SurfacePatch& patch = frames[f].patches()[p];

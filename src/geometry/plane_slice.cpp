@@ -29,12 +29,11 @@ PlaneSlice::PlaneSlice(const std::vector<SurfaceTopology>& surfaces, const Probe
   for (std::size_t s = 0; s < surfaces.size(); ++s) membranes_[s] = surfaces[s].membrane;
 }
 
-// A facet costs three heights unless it is cut.
+// A facet costs three sides unless it is cut.
 void PlaneSlice::cutSurface(const SurfaceTopology& surface, const std::vector<Vec3f>& positions,
                             std::vector<ContourEdge>& edges) {
   const Vec3f* position = positions.data();
-  const auto above = [&](std::uint32_t v) { return position[v].y >= 0 ? 1 : 0; };
-  const auto cut = [&](const Triangle& corner, std::uint32_t number) {
+  const auto cut = [&](const Triangle& corner, std::uint32_t number, const auto& above) {
     const int sides = above(corner[0]) + above(corner[1]) + above(corner[2]);
     if (sides == 0 || sides == 3) return;
     const Vec3d p0 = toDouble(position[corner[0]]), p1 = toDouble(position[corner[1]]),
@@ -43,11 +42,17 @@ void PlaneSlice::cutSurface(const SurfaceTopology& surface, const std::vector<Ve
         {*cutTriangle(p0, p1, p2, p0.y, p1.y, p2.y), areaNormal(p0, p1, p2), surface.id, number});
   };
   if (surface.near_plane) {
-    for (const NumberedTriangle& t : *surface.near_plane) cut(t.corners, t.number);
+    for (const NumberedTriangle& t : *surface.near_plane)
+      cut(t.corners, t.number, [&](std::uint32_t v) { return position[v].y >= 0 ? 1 : 0; });
     return;
   }
+  // Each vertex serves six facets.
+  thread_local std::vector<std::uint8_t> above;
+  above.resize(positions.size());
+  for (std::size_t v = 0; v < above.size(); ++v) above[v] = position[v].y >= 0 ? 1 : 0;
   const auto count = static_cast<std::uint32_t>(surface.triangles.size());
-  for (std::uint32_t t = 0; t < count; ++t) cut(surface.triangles[t], t);
+  for (std::uint32_t t = 0; t < count; ++t)
+    cut(surface.triangles[t], t, [from = above.data()](std::uint32_t v) { return int{from[v]}; });
 }
 
 void PlaneSlice::addNormals(const SurfaceFrame& frame, std::span<const ContourEdge> edges,
@@ -68,10 +73,15 @@ void PlaneSlice::addNormals(const SurfaceFrame& frame, std::span<const ContourEd
 // exact by the rule itself. Precondition: z >= 0, where u >= 0 changes once over a sector of up to
 // 180 degrees.
 int PlaneSlice::linesRightOf(Vec3d point) const {
-  const int lines = probe_.lines;
   const double place = angular_ ? roughAngle(point.x, point.z) : point.x;
   const double guess = std::floor((place - first_place_) * lines_per_place_) + 1;
-  int n = static_cast<int>(std::clamp(guess, 0.0, static_cast<double>(lines)));
+  return linesRightOf(point,
+                      static_cast<int>(std::clamp(guess, 0.0, static_cast<double>(probe_.lines))));
+}
+
+int PlaneSlice::linesRightOf(Vec3d point, int guess) const {
+  const int lines = probe_.lines;
+  int n = guess;
   const auto right = [&](int line) {
     const RayPlanes& ray = rays_[static_cast<std::size_t>(line)];
     return dot(ray.u_axis, point - ray.origin) >= 0;
@@ -101,7 +111,8 @@ void PlaneSlice::crossEdge(std::size_t number) {
   if (behind1 && behind2) return;  // lines never point backwards
   int begin = 0, end = probe_.lines;
   if (!behind1 && !behind2) {
-    const int n1 = linesRightOf(edge.cut.from), n2 = linesRightOf(edge.cut.to);
+    // Each line between the ends is crossed, so the walk from one end to the other is short.
+    const int n1 = linesRightOf(edge.cut.from), n2 = linesRightOf(edge.cut.to, n1);
     begin = std::min(n1, n2);
     end = std::max(n1, n2);
   }

@@ -56,6 +56,7 @@ class PlaneSlice {
   void crossLine(std::size_t edge, int line);
   void resolve(RayCrossings& line) const;
   int linesRightOf(Vec3d point) const;
+  int linesRightOf(Vec3d point, int guess) const;
 
   const std::vector<SurfaceTopology>& surfaces_;
   Probe probe_;

@@ -73,10 +73,18 @@ std::string truthIn(const fs::path& folder) {
   }
 }
 
+// Dials that files of version 0.1 do not have. Their defaults are the shape of its hearts.
+bool isOfLaterVersion(std::string_view key) {
+  return key == "conicity" || key == "apical-motion";
+}
+
 std::optional<std::map<std::string, double>> dialsOf(const Json& parameters) {
   std::map<std::string, double> values;
   for (const heart::Dial& dial : heart::dials()) {
-    if (!parameters.contains(dial.key)) return std::nullopt;
+    if (!parameters.contains(dial.key)) {
+      if (isOfLaterVersion(dial.key)) continue;
+      return std::nullopt;
+    }
     const Json& entry = parameters[dial.key];
     if (!entry.is_null()) values[dial.key] = entry.at("value").get<double>();
   }

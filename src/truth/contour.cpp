@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/hash_random.h"
-
 namespace echocine {
 
 namespace {
@@ -21,93 +19,111 @@ struct EdgeEnds {
   EdgeKey from, to;
 };
 
-// The edges that a triangle's cut runs between, in the cut's direction.
+// The edges that a triangle's cut runs between, in the cut's direction: those of the vertex alone
+// on its side to the two others. By which vertices are above; a table, since no branch could be
+// foretold.
+struct Turn {
+  std::uint8_t alone, from, to;
+};
+constexpr Turn kTurns[8] = {{},        {0, 1, 2}, {1, 2, 0}, {2, 1, 0},
+                            {2, 0, 1}, {1, 0, 2}, {0, 2, 1}, {}};
+
 EdgeEnds endsOf(const Triangle& t, const std::vector<Vec3f>& positions) {
-  const bool above[3] = {positions[t[0]].y >= 0, positions[t[1]].y >= 0, positions[t[2]].y >= 0};
-  const std::size_t k = above[1] == above[2] ? 0 : above[0] == above[2] ? 1 : 2;
-  const EdgeKey first = edgeKey(t[k], t[(k + 1) % 3]), second = edgeKey(t[k], t[(k + 2) % 3]);
-  return above[k] ? EdgeEnds{first, second} : EdgeEnds{second, first};
+  const unsigned above = (positions[t[0]].y >= 0 ? 1u : 0u) | (positions[t[1]].y >= 0 ? 2u : 0u) |
+                         (positions[t[2]].y >= 0 ? 4u : 0u);
+  const Turn turn = kTurns[above];
+  return {edgeKey(t[turn.alone], t[turn.from]), edgeKey(t[turn.alone], t[turn.to])};
 }
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+constexpr std::uint32_t kNone = static_cast<std::uint32_t>(-1);
 
 // Which edge starts at a key; the first where several do. A table at most half full.
 class EdgeStarts {
  public:
-  explicit EdgeStarts(const std::vector<EdgeEnds>& ends)
-      : mask_(std::bit_ceil(2 * ends.size() + 1) - 1), slots_(mask_ + 1, {0, kNone}) {
-    for (std::size_t i = 0; i < ends.size(); ++i) {
+  void fill(std::span<const EdgeEnds> ends) {
+    const std::size_t slots = std::bit_ceil(2 * ends.size() + 1);
+    shift_ = 64 - std::countr_zero(slots);
+    mask_ = slots - 1;
+    slots_.assign(slots, {0, kNone});
+    for (std::uint32_t i = 0; i < ends.size(); ++i) {
       Slot& slot = slots_[find(ends[i].from)];
       if (slot.edge == kNone) slot = {ends[i].from, i};
     }
   }
   // kNone where none starts.
-  std::size_t at(EdgeKey key) const { return slots_[find(key)].edge; }
+  std::uint32_t at(EdgeKey key) const { return slots_[find(key)].edge; }
 
  private:
   struct Slot {
     EdgeKey key;
-    std::size_t edge;
+    std::uint32_t edge;
   };
   // The key's slot, or the empty one where it would stand.
   std::size_t find(EdgeKey key) const {
-    std::size_t i = mixBits(key) & mask_;
+    std::size_t i = (key * 0x9E3779B97F4A7C15u) >> shift_;  // Fibonacci hashing
     while (slots_[i].edge != kNone && slots_[i].key != key) i = (i + 1) & mask_;
     return i;
   }
 
-  std::size_t mask_;
+  int shift_ = 0;
+  std::size_t mask_ = 0;
   std::vector<Slot> slots_;
 };
 
 // Chains the edges of one surface. Its triangles run the same way round, so an edge starts at most
 // one edge and ends at most one: following an edge's end to the edge that starts there never
-// branches.
+// branches. Memory is reused from surface to surface.
 class Chainer {
  public:
   // `first`: the number of the first edge.
-  Chainer(std::span<const ContourEdge> edges, std::size_t first, std::vector<EdgeEnds> ends)
-      : edges_(edges),
-        first_(first),
-        ends_(std::move(ends)),
-        used_(ends_.size(), false),
-        follows_(ends_.size(), false) {
-    const EdgeStarts starts(ends_);
+  void run(std::span<const ContourEdge> edges, std::size_t first, const SurfaceTopology& surface,
+           const std::vector<Vec3f>& positions, std::vector<Contour>& out) {
+    ends_.clear();
+    for (const ContourEdge& edge : edges)
+      ends_.push_back(endsOf(surface.triangles[edge.triangle], positions));
+    starts_.fill(ends_);
+    used_.assign(ends_.size(), 0);
+    follows_.assign(ends_.size(), 0);
+    next_.clear();
     for (const EdgeEnds& edge : ends_) {
-      next_.push_back(starts.at(edge.to));
-      if (next_.back() != kNone) follows_[next_.back()] = true;
+      next_.push_back(starts_.at(edge.to));
+      if (next_.back() != kNone) follows_[next_.back()] = 1;
     }
-  }
-
-  void run(std::vector<Contour>& out) {
-    for (std::size_t i = 0; i < ends_.size(); ++i)
-      if (!follows_[i]) follow(i, out);  // open chains first, from their ends
-    for (std::size_t i = 0; i < ends_.size(); ++i)
-      if (!used_[i]) follow(i, out);
+    const auto count = static_cast<std::uint32_t>(edges.size());
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (follows_[i] == 0) follow(edges, first, i, out);  // open chains first, from their ends
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (used_[i] == 0) follow(edges, first, i, out);
   }
 
  private:
-  void follow(std::size_t first, std::vector<Contour>& out) {
-    Contour contour{edges_[first].surface, false, {edges_[first].cut.from}, {}};
-    for (std::size_t i = first;;) {
-      used_[i] = true;
-      contour.edges.push_back(static_cast<std::uint32_t>(first_ + i));
-      const std::size_t next = next_[i];
-      contour.closed = next == first;
-      if (contour.closed) break;
-      contour.points_m.push_back(edges_[i].cut.to);
-      if (next == kNone || used_[next]) break;
-      i = next;
+  void follow(std::span<const ContourEdge> edges, std::size_t first, std::uint32_t begin,
+              std::vector<Contour>& out) {
+    chain_.clear();
+    std::uint32_t next = begin;
+    do {
+      used_[next] = 1;
+      chain_.push_back(next);
+      next = next_[next];
+    } while (next != kNone && used_[next] == 0);
+    Contour contour{edges[begin].surface, next == begin, {}, {}};
+    contour.edges.reserve(chain_.size());
+    contour.points_m.reserve(chain_.size() + 1);
+    contour.points_m.push_back(edges[begin].cut.from);
+    for (const std::uint32_t i : chain_) {
+      contour.edges.push_back(static_cast<std::uint32_t>(first + i));
+      contour.points_m.push_back(edges[i].cut.to);
     }
+    if (contour.closed) contour.points_m.pop_back();
     out.push_back(std::move(contour));
   }
 
-  std::span<const ContourEdge> edges_;
-  std::size_t first_;
   std::vector<EdgeEnds> ends_;
-  std::vector<bool> used_;
-  std::vector<bool> follows_;      // an edge ends where this one starts
-  std::vector<std::size_t> next_;  // the edge that starts where this one ends
+  EdgeStarts starts_;
+  std::vector<std::uint8_t> used_;
+  std::vector<std::uint8_t> follows_;  // an edge ends where this one starts
+  std::vector<std::uint32_t> next_;    // the edge that starts where this one ends
+  std::vector<std::uint32_t> chain_;
 };
 
 }  // namespace
@@ -116,13 +132,12 @@ std::vector<Contour> chainContours(std::span<const ContourEdge> edges,
                                    const std::vector<SurfaceTopology>& surfaces,
                                    const SurfaceFrame& frame) {
   std::vector<Contour> contours;
+  thread_local Chainer chainer;
   for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
     const std::size_t surface = index(edges[begin].surface);
-    std::vector<EdgeEnds> ends;
-    for (end = begin; end < edges.size() && index(edges[end].surface) == surface; ++end)
-      ends.push_back(
-          endsOf(surfaces[surface].triangles[edges[end].triangle], frame.positions_m[surface]));
-    Chainer(edges.subspan(begin, end - begin), begin, std::move(ends)).run(contours);
+    for (end = begin; end < edges.size() && index(edges[end].surface) == surface;) ++end;
+    chainer.run(edges.subspan(begin, end - begin), begin, surfaces[surface],
+                frame.positions_m[surface], contours);
   }
   return contours;
 }

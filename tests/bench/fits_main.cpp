@@ -1,7 +1,7 @@
-// fit_table VIEWS HEARTS [FIRST [DEGREES]]: fits of planted hearts, one line each, then bias, RMS,
-// the model error of Eq. 15 and how many intervals hold the planted value. DEGREES limits tilts and
-// rotations of the planes.
-// fit_table VIEWS foreign [DEGREES]: the same for meshes of other people.
+// fit_table VIEWS HEARTS [FIRST [DEGREES [DIALS]]]: fits of planted hearts, one line each, then
+// bias, RMS, the model error of Eq. 15 and how many intervals hold the planted value. DEGREES
+// limits tilts and rotations of the planes. DIALS are those searched, separated by commas.
+// fit_table VIEWS foreign [DEGREES [DIALS]]: the same for meshes of other people.
 
 #include <fmt/format.h>
 
@@ -10,6 +10,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "core/parallel.h"
 #include "fit/fit_interval.h"
@@ -55,6 +58,13 @@ constexpr ForeignHeart kForeignHearts[] = {
     {"patient with atria", &wholePatientScene},
     {"whole heart", &wholeHeartScene},
     {"patient's ventricles alone", [](View view) { return sceneOf(Family::patient, view); }}};
+
+std::vector<std::string> namesIn(const char* list) {
+  std::vector<std::string> names;
+  std::stringstream text(list);
+  for (std::string name; std::getline(text, name, ',');) names.push_back(name);
+  return names;
+}
 
 double sdOf(const HeartFit& fit, const char* key) {
   for (const DialFound& dial : fit.found)
@@ -107,13 +117,17 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
 
 int run(int argc, char** argv) {
   if (argc < 3) {
-    fmt::print("fit_table VIEWS HEARTS [FIRST [DEGREES]], or fit_table VIEWS foreign [DEGREES]\n");
+    fmt::print(
+        "fit_table VIEWS HEARTS [FIRST [DEGREES [DIALS]]], or fit_table VIEWS foreign [DEGREES "
+        "[DIALS]]\n");
     return 2;
   }
   const auto views = static_cast<std::size_t>(std::clamp(std::atoi(argv[1]), 1, 3));
   const bool foreign = std::strcmp(argv[2], "foreign") == 0;
   const int hearts = std::atoi(argv[2]), first = argc > 3 ? std::atoi(argv[3]) : 0;
   const double most_deg = argc > 4 ? std::atof(argv[4]) : 8;
+  HeartFitOptions options;
+  if (const int at = foreign ? 4 : 5; argc > at) options.searched = namesIn(argv[at]);
   Errors ef{"EF"}, edv{"EDV, relative"}, gls{"GLS"};
   withThreads(0, [&] {
     if (foreign) {
@@ -122,13 +136,13 @@ int run(int argc, char** argv) {
       for (const double deg : {0.0, off_deg})
         for (const ForeignHeart& heart : kForeignHearts) {
           fmt::print("{}, planes off by up to {:g} degrees\n", heart.name, deg);
-          tellFit(n, foreignHeart(heart.in, n, views, deg), {}, ef, edv, gls);
+          tellFit(n, foreignHeart(heart.in, n, views, deg), options, ef, edv, gls);
           ++n;
         }
       return;
     }
     for (int n = first; n < first + hearts; ++n)
-      tellFit(n, plantedHeart(n, views, most_deg), {}, ef, edv, gls);
+      tellFit(n, plantedHeart(n, views, most_deg), options, ef, edv, gls);
   });
   ef.print();
   edv.print();

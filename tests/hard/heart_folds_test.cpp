@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <string_view>
 
 #include "core/error.h"
 #include "dataset/aim.h"
@@ -39,11 +40,21 @@ FoldExtent extent() {
 #endif
 }
 
-// Every fourth has all dials given, the others half of them; a third have segments of their own.
+bool isOfShape(const heart::Dial& dial) {
+  const std::string_view key = dial.key;
+  return key == "conicity" || key == "apical-motion";
+}
+
+// Every fourth has all dials given, the others half of them; a third have segments of their own,
+// and a third a shape of their own.
 heart::Parameters randomHeart(std::uint64_t number) {
-  support::Dice dice(number);
+  support::Dice dice(number), shape(number + 1000000);
   std::map<std::string, double> given;
   for (const heart::Dial& dial : heart::dials()) {
+    if (isOfShape(dial)) {
+      if (number % 3 == 1) given[dial.key] = shape.number(dial.low, dial.high);
+      continue;
+    }
     const bool is_given = dice.chance(number % 4 == 3 ? 1.0 : 0.5);
     const double value = dice.number(dial.low, dial.high);
     if (is_given) given[dial.key] = value;

@@ -7,6 +7,7 @@
 
 #include "dataset/aim.h"
 #include "dataset/index_draws.h"
+#include "support/ventricle_sections.h"
 
 namespace echocine::dataset {
 namespace {
@@ -73,7 +74,8 @@ TEST(DatasetPopulation, FiveThousandHeartsHaveTheTablesMoments) {
 }
 
 // The hearts themselves: volume and ejection fraction of the cavity, the posterior wall, the long
-// axis and its shortening, measured on the shape at end-diastole and at its smallest.
+// axis and its shortening, and the conicity, measured on the shape at end-diastole and at its
+// smallest.
 IndexDials measuredIndices(const heart::ParametricHeart& made, double body_surface_m2) {
   const heart::Parameters& p = made.parameters();
   const heart::Landmarks rest = made.landmarksAt(0);
@@ -83,19 +85,22 @@ IndexDials measuredIndices(const heart::ParametricHeart& made, double body_surfa
     const heart::Landmarks now = made.landmarksAt(0.05 * i);
     least_m = std::min(least_m, length(now.apex - now.mitral));
   }
+  const heart::LeftVentricle left(p);
   constexpr std::size_t kMidInferolateral = 10;  // segment 11
   return {p.edv_ml / body_surface_m2,
           100 * p.edv_ml * 1e-6 / (M_PI / 6 * std::pow(made.lvLength(), 3)),
           100 * p.ejection_fraction,
           200 * rest.wall_thickness_m[kMidInferolateral] / (p.sphericity * made.lvLength()),
-          100 * (axis_m - least_m) / axis_m};
+          100 * (axis_m - least_m) / axis_m,
+          100 * support::sectionDiameter(left, heart::kApicalHeight) /
+              support::sectionDiameter(left, heart::kBasalHeight)};
 }
 
 // Each built heart has the indices of its dials; an infarct keeps its ejection fraction although
 // segments of it do not move. The ventricles are possible: none is drawn again.
 TEST(DatasetPopulation, BuiltHeartsHaveTheIndicesOfTheirDials) {
   constexpr int kHearts = 25;
-  constexpr IndexDials kTolerance{1e-6, 1e-3, 1e-6, 1.5, 1.0};
+  constexpr IndexDials kTolerance{1e-6, 1e-3, 1e-6, 1.5, 1.0, 0.01};
   for (const char* name : {"healthy", "infarct_lad", "infarct_rca", "infarct_lcx"}) {
     const Spec spec = populationSpec(name);
     for (int n = 0; n < kHearts; ++n) {

@@ -34,11 +34,11 @@ std::vector<DialRange> searchedRanges() {
 
 // The prior has each searched dial, and a step is a part of its range also in a narrow one.
 TEST(FitDesign, SearchedDialsHaveAPriorAndAStep) {
-  ASSERT_EQ(searchedDials().size(), kPriorDials.size() + 1);
-  EXPECT_EQ(searchedDials().back().range.key, kAtrialPrior.key);
-  for (std::size_t i = 0; i < kPriorDials.size(); ++i) {
+  ASSERT_EQ(searchedDials().size(), kPriorDials.size() + std::size(kLonePriors));
+  for (std::size_t i = 0; i < searchedDials().size(); ++i) {
     const SearchedDial& dial = searchedDials()[i];
-    EXPECT_EQ(dial.range.key, kPriorDials[i]);
+    const bool joint = i < kPriorDials.size();
+    EXPECT_EQ(dial.range.key, joint ? kPriorDials[i] : kLonePriors[i - kPriorDials.size()].key);
     EXPECT_EQ(stepOf(dial.range), dial.step);
     EXPECT_EQ(stepOf({dial.range.key, 0, dial.step}), dial.step / 4);
   }
@@ -66,7 +66,7 @@ TEST(FitDesign, PolynomialsAreReproduced) {
   };
   const std::vector<DialRange> ranges = searchedRanges();
   HeartDesign design = HeartDesign::polynomial(ranges);
-  EXPECT_EQ(design.size(), 39u);  // 32 terms and a fifth more
+  EXPECT_EQ(design.size(), 59u);  // 49 terms and a fifth more
   for (int round = 0; round < 2; ++round) {
     for (int n = 0; n < 50; ++n) {
       const std::vector<double> at = drawnWithin(ranges, n);

@@ -87,6 +87,31 @@ TEST(FitSeen, TheStripThatIsSeenAsWallHasItsArea) {
   }
 }
 
+// The angle of the strip is that of the piece and a small one: the same as that of the place
+// itself, also for strips as wide as their distance from the apex.
+TEST(FitSeen, TheAngleOfAPieceServesAllStripsBesideIt) {
+  const ModelLoop model = disc(0.02, 0.04);
+  const ModelFrame& frame = model.frames.front();
+  for (const double beside_m : {1e-4, 2e-3, 0.03}) {
+    SeenCells seen(model), moved(model);
+    seen.start(frame.cells);
+    moved.start(frame.cells);
+    for (const BoundaryPoint& p : frame.boundary) {
+      seen.take(p, beside_m);
+      // Half as far from a piece that lies a quarter of the strip back.
+      BoundaryPoint q = p;
+      q.x_m -= static_cast<float>(0.25 * beside_m) * p.nx;
+      q.z_m -= static_cast<float>(0.25 * beside_m) * p.nz;
+      q.length_m = 2 * p.length_m;
+      moved.take(q, 0.5 * beside_m);
+    }
+    for (std::size_t c = 0; c < seen.cells().size(); ++c) {
+      ASSERT_EQ(seen.cells()[c].second, moved.cells()[c].second) << beside_m << ' ' << c;
+      ASSERT_NEAR(seen.cells()[c].share, moved.cells()[c].share, 1e-4) << beside_m << ' ' << c;
+    }
+  }
+}
+
 // Strips wider than the chamber: it nearly vanishes, and no cell has less than no blood.
 TEST(FitSeen, NoStripTakesMoreBloodThanThereIs) {
   const ModelLoop model = disc(0.003, 0.11);

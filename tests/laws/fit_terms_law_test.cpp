@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/lanes.h"
 #include "core/parallel.h"
 #include "core/units.h"
 #include "fit/descent.h"
@@ -98,19 +97,6 @@ TEST(CompareFit, ConfidenceIsThePartOfTheWayByWhichTheBestWins) {
   EXPECT_EQ(confidenceOf(0.3, 0.3, 0.8), 0);   // as good elsewhere
   EXPECT_EQ(confidenceOf(0.9, 0.95, 0.8), 0);  // worse than nothing
   EXPECT_LT(confidenceOf(0.70, 0.75, 0.8), confidenceOf(0.20, 0.40, 0.8));
-}
-
-TEST(CompareFit, TheExponentialOfLanesIsThatOfTheLibrary) {
-  for (int i = 0; i < 2000; ++i) {
-    float x[kFloatLanes] = {}, y[kFloatLanes];
-    for (std::size_t k = 0; k < kFloatLanes; ++k)
-      x[k] = static_cast<float>(-86 + 0.0107 * (8 * i + static_cast<int>(k)));
-    store(exponential(lanesAt(x)), y);
-    for (std::size_t k = 0; k < kFloatLanes; ++k) {
-      const double right = std::exp(static_cast<double>(x[k]));
-      ASSERT_NEAR(static_cast<double>(y[k]), right, 2e-7 * right) << x[k];
-    }
-  }
 }
 
 // The heart sinks into noise that moves with nothing. A pose that is told with confidence is right,

@@ -8,22 +8,24 @@
 #include "core/hash_random.h"
 #include "fit/heart_prior.h"
 #include "motion/heart/heart.h"
+#include "motion/heart/wall_place.h"
 
 namespace echocine::fit {
 namespace {
 
-constexpr PriorDials kShippedDials{0.60, 120, 9, 0.60, 13};
+const PriorDials kShippedDials{0.60, 120, 9, 0.60, 13, heart::outlineConicity()};
 
 // The parametric heart has the indices that the formulas give its dials: the posterior wall, the
 // long axis and its shortening are measured on its landmarks.
 TEST(HeartPrior, IndicesAreThoseOfTheParametricHeart) {
-  for (const PriorDials& d :
-       {kShippedDials, PriorDials{0.40, 190, 10, 0.68, 8}, PriorDials{0.65, 90, 8, 0.55, 14}}) {
+  for (const PriorDials& d : {kShippedDials, PriorDials{0.40, 190, 10, 0.68, 8, 0.60},
+                              PriorDials{0.65, 90, 8, 0.55, 14, 0.85}}) {
     const heart::ParametricHeart made(heart::parametersFrom({{"ef", d[kEf]},
                                                              {"edv", d[kEdv_ml]},
                                                              {"wall-thickness", d[kWall_mm]},
                                                              {"sphericity", d[kSphericity]},
-                                                             {"mapse", d[kMapse_mm]}}));
+                                                             {"mapse", d[kMapse_mm]},
+                                                             {"conicity", d[kConicity]}}));
     const PriorDials x = indicesOf(d);
     const double axis = made.lvLength();
     const heart::Landmarks rest = made.landmarksAt(0);
@@ -91,14 +93,15 @@ TEST(HeartPrior, DialsAndIndicesAreInverse) {
     EXPECT_NEAR(x[2], drawn[kEjectionIndex], 1e-9);
     EXPECT_NEAR(x[3], drawn[kWallIndex], 1e-9);
     EXPECT_NEAR(x[4], drawn[kShorteningIndex], 1e-9);
+    EXPECT_NEAR(x[5], drawn[kConicityIndex], 1e-9);
   }
 }
 
 // Against central differences, within 1e-6 of a prior SD's effect.
 TEST(HeartPrior, TheGradientIsThatOfTheDensity) {
   const HeartPrior prior;
-  for (const PriorDials& at :
-       {kShippedDials, PriorDials{0.35, 200, 10, 0.70, 6}, PriorDials{0.52, 150, 7, 0.55, 11}}) {
+  for (const PriorDials& at : {kShippedDials, PriorDials{0.35, 200, 10, 0.70, 6, 0.62},
+                               PriorDials{0.52, 150, 7, 0.55, 11, 0.88}}) {
     PriorDials slope{};
     const double here = prior.logDensity(at, &slope);
     EXPECT_EQ(here, prior.logDensity(at));
@@ -113,7 +116,7 @@ TEST(HeartPrior, TheGradientIsThatOfTheDensity) {
 }
 
 // The integral of exp(logDensity) over the dials is 1: by importance sampling from the draws'
-// moments, five normals of 1.5 SD.
+// moments, six normals of 1.5 SD.
 TEST(HeartPrior, TheDensityIntegratesToOne) {
   const HeartPrior prior;
   constexpr int kPlaces = 400000;
@@ -141,16 +144,16 @@ TEST(HeartPrior, TheShippedHeartIsInside) {
   const HeartPrior prior;
   const PriorDials x = indicesOf(kShippedDials);
   const HeartGroup& healthy = heartGroups()[0];
-  constexpr std::array kRows{kVolumeIndex, kSphericityIndex, kEjectionIndex, kWallIndex,
-                             kShorteningIndex};
+  constexpr std::array kRows{kVolumeIndex, kSphericityIndex, kEjectionIndex,
+                             kWallIndex,   kShorteningIndex, kConicityIndex};
   for (std::size_t i = 0; i < kRows.size(); ++i)
     EXPECT_LT(std::abs(x[i] - healthy.mean[kRows[i]]), 2.5 * healthy.sd[kRows[i]]) << i;
   int below = 0;
   const double shipped = prior.logDensity(kShippedDials);
   for (std::uint64_t n = 0; n < 1000; ++n)
     below += prior.logDensity(HeartPrior::dialsOf(prior.draw(8, n))) < shipped;
-  std::printf("density above that of %d of 1000 draws; indices %.1f %.1f %.1f %.1f %.1f\n", below,
-              x[0], x[1], x[2], x[3], x[4]);
+  std::printf("density above that of %d of 1000 draws; indices %.1f %.1f %.1f %.1f %.1f %.1f\n",
+              below, x[0], x[1], x[2], x[3], x[4], x[5]);
   EXPECT_GT(below, 50);
 }
 

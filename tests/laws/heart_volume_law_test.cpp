@@ -97,6 +97,13 @@ TEST_P(HeartVolumeLaw, DialsAreWhatTheFilesEnclose) {
 
 INSTANTIATE_TEST_SUITE_P(EndDiastolic_mL, HeartVolumeLaw, testing::Values(80, 120, 200));
 
+// Also of the shapes at the limits of what a population has.
+TEST(HeartVolumes, DialsAreWhatTheFilesEncloseInOtherShapes) {
+  for (const Dials& shape : {Dials{{"conicity", 0.55}, {"apical-motion", 1.3}, {"ef", 0.4}},
+                             Dials{{"conicity", 0.93}, {"apical-motion", 0.75}, {"ef", 0.65}}})
+    expectDialled(heart::parametersFrom(shape));
+}
+
 // Ventricles, wall and atria at every keyframe: the record's numbers are those of its meshes, the
 // wall keeps its volume all the way, and a beat's blood goes through every chamber.
 TEST(HeartVolumes, HoldAtEveryKeyframeOfTheDefaultHeart) {

@@ -63,7 +63,9 @@ inline PlantedHeart plantedHeart(int number, std::size_t views, double most_deg)
                {"sphericity", drawn(4, 0.53, 0.68)},
                {"hr", drawn(5, 60, 85)},
                {"la-volume", drawn(7, 40, 75)},
-               {"twist", drawn(9, 6, 15)}};
+               {"twist", drawn(9, 6, 15)},
+               {"conicity", drawn(10, 0.58, 0.84)},
+               {"apical-motion", drawn(11, 0.8, 1.25)}};
   auto& dials = out.dials;
   dials["mapse"] = 13 * dials["ef"] / 0.6 * drawn(6, 0.8, 1.2);
   dials["rv-edv"] = dials["edv"] * std::max(drawn(8, 0.9, 1.2), 1.2 * dials["ef"]);
