@@ -21,7 +21,7 @@ struct WallPlace {
   // How far the place is towards the apex: -1 at the mitral ring, 1 at the apex, and -1/2 and 1/2
   // at the two heights that conicity compares.
   double lean;
-  // Of the outline on either side of the place, for its normal; rho is negative beyond an end.
+  // The outline on either side of the place, for its normal; rho is negative beyond an end.
   struct Beside {
     double rho, lean;
   } before, after;
