@@ -69,11 +69,12 @@ TEST(EchoInstantLaw, EightPlacesAndABlendEqualSingleLookUps) {
           x[lane] = static_cast<float>(placeOf(first + lane, 0));
           z[lane] = static_cast<float>(placeOf(first + lane, 1));
         }
-        EchoStack::Sample together[kFloatLanes];
-        instant.at(x, z, together);
+        const SampleLanes together = instant.at(x, z);
         for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
           const EchoStack::Sample single = sums.at(x[lane], z[lane]);
-          expectNear(together[lane], single);
+          expectNear(
+              {together.grey[lane], together.gx[lane], together.gz[lane], together.visible[lane]},
+              single);
           expectNear(instant.at(x[lane], z[lane]), single);
           seen += single.visible > 0 ? 1 : 0;
         }
