@@ -17,8 +17,10 @@ inline constexpr double kProfileReach_m = 8e-3;  // S of Eq. 4; our choice
 // A pose with its sine and cosine.
 class PoseMapping {
  public:
-  PoseMapping(const FitPose& p, double far_m)
+  // far_m and relief_m are those of the model.
+  PoseMapping(const FitPose& p, double far_m, double relief_m)
       : middle_(far_m / 2),
+        relief_m_(relief_m),
         x_(p.shift_x_m),
         z_(p.shift_z_m),
         c_(p.scale * std::cos(p.turn_rad)),
@@ -45,9 +47,10 @@ class PoseMapping {
     rz = -turn_s_ * x + turn_c_ * z;
   }
   double scale() const { return scale_; }
+  double relief_m() const { return relief_m_; }
 
  private:
-  double middle_, x_, z_, c_, s_, turn_c_, turn_s_, scale_;
+  double middle_, relief_m_, x_, z_, c_, s_, turn_c_, turn_s_, scale_;
 };
 
 // p(s) of Eq. 4 as its first two moments, and its certainty.
@@ -59,15 +62,10 @@ struct EdgeProfile {
   double certainty() const;  // 1 - entropy of p / entropy of an even p
 };
 
-// What Eq. 9 lacks of the displacement, m: trabeculae, and boundaries that curve within the
-// thickness of the slice. Calibrated on five planted hearts with known dials and planes in the look
-// `scanner`, where edges lay 1.1 mm inside the left ventricle's visible boundary, 0.85 mm inside
-// the left atrium's and 0.2 mm inside the right ventricle's. The other looks need 0 to 0.4 mm more.
-inline constexpr double kReliefSeen_m = 1e-3;
-
-// Displacement into the blood at which a boundary is visible: Eq. 9, and kReliefSeen_m if the loop
-// has speckle.
-double seenBeside(const echo::EchoStack& real, double x, double z, double nx, double nz);
+// Displacement into the blood at which a boundary is visible: Eq. 9, and the model's relief if the
+// loop has speckle.
+double seenBeside(const echo::EchoStack& real, const PoseMapping& map, double x, double z,
+                  double nx, double nz);
 
 // A boundary point under a pose, and the edge where it is visible.
 struct PlacedEdge {

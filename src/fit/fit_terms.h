@@ -50,7 +50,7 @@ double fitDiscrepancy(const FitTerms& terms, const FitWeights& weights = {});
 // et al., MICCAI 1998, extended to cells of two tissues). The gain is continuous and linear between
 // four depths. Blood never gets a brighter grey level than another tissue: it scatters 20 to 30 dB
 // less, and no display inverts that. A boundary of blood is visible displaced by the loop's spread
-// of echoes (Eq. 9 of echo_spread.h) and 1 mm (kReliefSeen_m). The strip between counts as the
+// of echoes (Eq. 9 of echo_spread.h) and the model's relief. The strip between counts as the
 // tissue beside the blood (SeenCells).
 //
 // (4)  B = < sum_s p(s) (s/S)^2 > / < (s/S)^2 >,   p(s) = exp(2 e(s)/E) / sum exp(2 e(s)/E)
@@ -94,7 +94,7 @@ class PlacedBeat {
   };
   std::vector<Frame> frames_;
   std::vector<bool> blood_;
-  double far_m_;
+  double far_m_, relief_m_;
   std::shared_ptr<const SeenCells> seen_;  // without cells
 };
 

@@ -73,18 +73,13 @@ std::string truthIn(const fs::path& folder) {
   }
 }
 
-// Dials that files of version 0.1 do not have. Their defaults are the shape of its hearts.
-bool isOfLaterVersion(std::string_view key) {
-  return key == "conicity" || key == "apical-motion";
-}
-
 std::optional<std::map<std::string, double>> dialsOf(const Json& parameters) {
   std::map<std::string, double> values;
   for (const heart::Dial& dial : heart::dials()) {
-    if (!parameters.contains(dial.key)) {
-      if (isOfLaterVersion(dial.key)) continue;
-      return std::nullopt;
-    }
+    const std::string_view key = dial.key;
+    const bool is_new = key == "conicity" || key == "apical-motion";  // since version 0.2
+    if (is_new && !parameters.contains(dial.key)) continue;
+    if (!parameters.contains(dial.key)) return std::nullopt;
     const Json& entry = parameters[dial.key];
     if (!entry.is_null()) values[dial.key] = entry.at("value").get<double>();
   }
