@@ -172,7 +172,6 @@ ModelPlane::ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& s
     empty_.structures.push_back(structure.name);
   }
   empty_.far_m = scene.probe.face_radius_m + scene.probe.max_depth_m;
-  empty_.relief_m = kRelief_m;
   empty_.cells_across = kCellLines;
   empty_.cells_along = kCellsAlong;
 }

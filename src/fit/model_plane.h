@@ -39,21 +39,16 @@ struct ModelFrame {
   std::vector<BoundaryPoint> boundary;
 };
 
-// ModelLoop::relief_m of a heart's meshes: trabeculae, and boundaries that curve within the
-// thickness of the slice, move visible edges into the blood. Calibrated on five planted hearts with
-// known dials and planes in the look `scanner`, where edges lay 1.1 mm inside the left ventricle's
-// boundary of Eq. 9, 0.85 mm inside the left atrium's and 0.2 mm inside the right ventricle's. The
-// other looks need 0 to 0.4 mm more.
-inline constexpr double kRelief_m = 1e-3;
-
 // A beat in frames of equal phase steps, from end-diastole.
 struct ModelLoop {
   std::vector<std::string> tissues;  // media by name, background first
   std::vector<bool> blood;           // by tissue
   std::vector<std::string> structures;
-  double far_m = 0;     // depth of the sector from its apex
-  double relief_m = 0;  // displacement of visible blood boundaries beyond Eq. 9: kRelief_m or 0
-  double systole = 0;   // end-systole, as a fraction of the beat; 0: unknown
+  double far_m = 0;  // depth of the sector from its apex
+  // Displacement of visible blood boundaries beyond Eq. 9, into the blood. 0: a trial with 1 mm
+  // made planted hearts better and a patient's heart worse (README.md).
+  double relief_m = 0;
+  double systole = 0;  // end-systole, as a fraction of the beat; 0: unknown
   int cells_across = 0, cells_along = 0;
   std::vector<ModelFrame> frames;
 };
