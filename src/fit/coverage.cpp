@@ -34,7 +34,7 @@ double sectorArea(const echo::EchoInstant& at) {
 
 double coverageOf(const ModelLoop& model, const echo::EchoStack& real, const FitPose& pose) {
   const echo::EchoInstant at = anyPicture(real);
-  const PoseMapping map(pose, model.far_m, model.relief_m);
+  const PoseMapping map(pose, model.far_m);
   double cells = 0;
   for (const ModelFrame& frame : model.frames)
     for (const TissueCell& cell : frame.cells) {

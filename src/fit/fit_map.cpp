@@ -37,8 +37,7 @@ std::vector<TissueCell> seenIn(const ModelFrame& frame, const echo::EchoInstant&
     double x, z, nx, nz;
     map.place(p.x_m, p.z_m, x, z);
     map.turn(p.nx, p.nz, nx, nz);
-    if (at.at(x, z).visible > 0)
-      seen.take(p, seenBeside(at.stack(), map, x, z, nx, nz) / map.scale());
+    if (at.at(x, z).visible > 0) seen.take(p, seenBeside(at.stack(), x, z, nx, nz) / map.scale());
   }
   return {seen.cells().begin(), seen.cells().end()};
 }
@@ -62,7 +61,7 @@ std::vector<BoundaryOffset> offsetsOf(const ModelFrame& frame, const echo::EchoI
 }  // namespace
 
 FitMap fitMap(const ModelLoop& model, const echo::EchoStack& real, const FitPose& pose) {
-  const PoseMapping map(pose, model.far_m, model.relief_m);
+  const PoseMapping map(pose, model.far_m);
   RegionSums sums{TissueGreys(model.blood)};
   std::vector<echo::EchoInstant> at;
   for (std::size_t n = 0; n < model.frames.size(); ++n)

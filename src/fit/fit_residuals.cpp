@@ -46,7 +46,7 @@ class ResidualBuilder {
  public:
   ResidualBuilder(const ModelLoop& model, const echo::EchoStack& real, const FitPose& pose)
       : model_(model),
-        map_(pose, model.far_m, model.relief_m),
+        map_(pose, model.far_m),
         seen_(model.frames.size()),
         sides_(model.frames.size() * model.structures.size() * kSides),
         sums_{TissueGreys(model.blood)} {

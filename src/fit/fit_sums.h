@@ -17,10 +17,8 @@ inline constexpr double kProfileReach_m = 8e-3;  // S of Eq. 4; our choice
 // A pose with its sine and cosine.
 class PoseMapping {
  public:
-  // far_m and relief_m are those of the model.
-  PoseMapping(const FitPose& p, double far_m, double relief_m)
+  PoseMapping(const FitPose& p, double far_m)
       : middle_(far_m / 2),
-        relief_m_(relief_m),
         x_(p.shift_x_m),
         z_(p.shift_z_m),
         c_(p.scale * std::cos(p.turn_rad)),
@@ -47,10 +45,9 @@ class PoseMapping {
     rz = -turn_s_ * x + turn_c_ * z;
   }
   double scale() const { return scale_; }
-  double relief_m() const { return relief_m_; }
 
  private:
-  double middle_, relief_m_, x_, z_, c_, s_, turn_c_, turn_s_, scale_;
+  double middle_, x_, z_, c_, s_, turn_c_, turn_s_, scale_;
 };
 
 // p(s) of Eq. 4 as its first two moments, and its certainty.
@@ -62,15 +59,13 @@ struct EdgeProfile {
   double certainty() const;  // 1 - entropy of p / entropy of an even p
 };
 
-// Displacement into the blood at which a boundary is visible: Eq. 9, and the model's relief if the
-// loop has speckle.
-double seenBeside(const echo::EchoStack& real, const PoseMapping& map, double x, double z,
-                  double nx, double nz);
+// Displacement into the blood at which a boundary is visible: Eq. 9.
+double seenBeside(const echo::EchoStack& real, double x, double z, double nx, double nz);
 
 // A boundary point under a pose, and the edge where it is visible.
 struct PlacedEdge {
   double x = 0, z = 0, nx = 0, nz = 0;
-  double beside = 0;  // of seenBeside(); 0 without blood
+  double beside = 0;  // of Eq. 9; 0 without blood
   EdgeProfile edge;
 };
 PlacedEdge placedEdge(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map);

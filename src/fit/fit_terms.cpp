@@ -83,10 +83,7 @@ struct TermSums {
 
 PlacedBeat::PlacedBeat(const ModelLoop& model, const echo::EchoStack& real, const FitPose& time,
                        const FitStride& stride)
-    : blood_(model.blood),
-      far_m_(model.far_m),
-      relief_m_(model.relief_m),
-      seen_(std::make_shared<SeenCells>(model, stride)) {
+    : blood_(model.blood), far_m_(model.far_m), seen_(std::make_shared<SeenCells>(model, stride)) {
   for (std::size_t n = 0; n < model.frames.size(); n += static_cast<std::size_t>(stride.picture)) {
     Frame frame{real.instant(placeOf(model, n, time, real)), {}, {}, {}, {}};
     if (!frame.at.seen()) continue;
@@ -119,7 +116,7 @@ void PlacedBeat::blend() {
 std::vector<FitTerms> PlacedBeat::terms(std::span<const FitPose> poses) const {
   std::vector<TermSums> sums(poses.size(), TermSums{{TissueGreys(blood_)}, {}});
   std::vector<PoseMapping> maps;
-  for (const FitPose& pose : poses) maps.emplace_back(pose, far_m_, relief_m_);
+  for (const FitPose& pose : poses) maps.emplace_back(pose, far_m_);
   SeenCells seen = *seen_;
   for (const Frame& frame : frames_) {
     seen.start(frame.cells, frame.number);

@@ -50,13 +50,13 @@ double fitDiscrepancy(const FitTerms& terms, const FitWeights& weights = {});
 // et al., MICCAI 1998, extended to cells of two tissues). The gain is continuous and linear between
 // four depths. Blood never gets a brighter grey level than another tissue: it scatters 20 to 30 dB
 // less, and no display inverts that. A boundary of blood is visible displaced by the loop's spread
-// of echoes (Eq. 9 of echo_spread.h) and the model's relief. The strip between counts as the
-// tissue beside the blood (SeenCells).
+// of echoes (Eq. 9 of echo_spread.h). The strip between counts as the tissue beside the blood
+// (SeenCells).
 //
 // (4)  B = < sum_s p(s) (s/S)^2 > / < (s/S)^2 >,   p(s) = exp(2 e(s)/E) / sum exp(2 e(s)/E)
 // is the mean over pieces of blood boundary, by length. Other boundaries have edges of unknown sign
 // and are not used. e(s) is the gradient of the real grey level along the normal, out of blood, at
-// a distance s from the expected visible position. E is the root mean square of the
+// a distance s from the expected visible position (Eq. 9). E is the root mean square of the
 // gradient over the loop; S is 8 mm, in 9 steps. B is 1 if the loop shows no edge, near 0 if all
 // edges lie on the boundary, and up to 2.4 if they lie elsewhere. Maps also show the other
 // boundaries, by the magnitude of the gradient.
@@ -94,7 +94,7 @@ class PlacedBeat {
   };
   std::vector<Frame> frames_;
   std::vector<bool> blood_;
-  double far_m_, relief_m_;
+  double far_m_;
   std::shared_ptr<const SeenCells> seen_;  // without cells
 };
 

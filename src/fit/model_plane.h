@@ -44,10 +44,7 @@ struct ModelLoop {
   std::vector<std::string> tissues;  // media by name, background first
   std::vector<bool> blood;           // by tissue
   std::vector<std::string> structures;
-  double far_m = 0;  // depth of the sector from its apex
-  // Displacement of visible blood boundaries beyond Eq. 9, into the blood. 0: a trial with 1 mm
-  // made planted hearts better and a patient's heart worse (README.md).
-  double relief_m = 0;
+  double far_m = 0;    // depth of the sector from its apex
   double systole = 0;  // end-systole, as a fraction of the beat; 0: unknown
   int cells_across = 0, cells_along = 0;
   std::vector<ModelFrame> frames;

@@ -10,13 +10,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <sstream>
-#include <string>
-#include <vector>
 
 #include "core/parallel.h"
 #include "fit/fit_interval.h"
 #include "fit/fit_strain.h"
+#include "fit/option_list.h"
 #include "support/planted_fits.h"
 #include "support/whole_patient.h"
 
@@ -58,13 +56,6 @@ constexpr ForeignHeart kForeignHearts[] = {
     {"patient with atria", &wholePatientScene},
     {"whole heart", &wholeHeartScene},
     {"patient's ventricles alone", [](View view) { return sceneOf(Family::patient, view); }}};
-
-std::vector<std::string> namesIn(const char* list) {
-  std::vector<std::string> names;
-  std::stringstream text(list);
-  for (std::string name; std::getline(text, name, ',');) names.push_back(name);
-  return names;
-}
 
 double sdOf(const HeartFit& fit, const char* key) {
   for (const DialFound& dial : fit.found)
@@ -127,7 +118,7 @@ int run(int argc, char** argv) {
   const int hearts = std::atoi(argv[2]), first = argc > 3 ? std::atoi(argv[3]) : 0;
   const double most_deg = argc > 4 ? std::atof(argv[4]) : 8;
   HeartFitOptions options;
-  if (const int at = foreign ? 4 : 5; argc > at) options.searched = namesIn(argv[at]);
+  if (const int at = foreign ? 4 : 5; argc > at) options.searched = splitOption(argv[at], ',');
   Errors ef{"EF"}, edv{"EDV, relative"}, gls{"GLS"};
   withThreads(0, [&] {
     if (foreign) {

@@ -96,7 +96,7 @@ std::pair<double, double> offsetsWithStill(std::size_t still, Look look) {
 }
 
 // A wall that stands still in the loop and moves in the model: at the end of systole its edges lie
-// outside the model's chamber, by more than those of any other segment. With whole borders that
+// outside the model's chamber, by far more than those of any other segment. With whole borders that
 // holds for the mid anterolateral wall (12); behind an uneven chest wall, which hides that one, for
 // the mid inferoseptal wall (9).
 TEST(CompareViews, AStillSegmentIsWhereTheSceneDisagrees) {
@@ -104,7 +104,7 @@ TEST(CompareViews, AStillSegmentIsWhereTheSceneDisagrees) {
     for (const auto& [segment, look] : {std::pair{12u, Look::clean}, {9u, Look::scanner}}) {
       const auto [found, next] = offsetsWithStill(segment, look);
       EXPECT_GT(found, 1.8);
-      EXPECT_LT(next, found - 0.5);
+      EXPECT_LT(next, found - 0.8);
     }
   });
 }
