@@ -7,7 +7,7 @@ namespace echocine::fit {
 
 // (12)  a = sum over cells of weight x area x visibility / area of the real sector,   0 to 1,
 // Mean over the beat: the part of the picture that D describes. The weight is that of
-// weighByBlood().
+// weighByBlood(): the model's Focus is all.
 double coverageOf(const ModelLoop& model, const echo::EchoStack& real, const FitPose& pose);
 
 // (13)  V = D^a,   0 to 1 where D is below 1.

@@ -89,7 +89,7 @@ PoseFound FitCost::viewAt(std::size_t view, const std::vector<double>& at,
 PoseFound FitCost::evaluated(std::size_t view, const std::vector<double>& values,
                              const PlaneTilt& tilt, const PoseFound* from) const {
   const FitSide& side = sides_[view];
-  const ModelLoop model = side.family->at(values, tilt);
+  const ModelLoop model = side.family->at(values, tilt, Focus::left_ventricle);
   return from != nullptr ? side.discrepancy->refine(model, {from->pose})
                          : side.discrepancy->search(model);
 }

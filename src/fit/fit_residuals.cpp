@@ -86,11 +86,11 @@ class ResidualBuilder {
     for (const BoundaryPoint& p : frame.boundary) {
       if (!p.of_blood) continue;
       const auto [x, z, nx, nz, beside, edge] = placedEdge(p, at, map_);
-      const double length = p.length_m * edge.visible;
+      const double length = p.length_m * p.weight * edge.visible, sure = length * p.alone;
       if (!(length > 0)) continue;
       seen.take(p, beside / map_.scale());
       const MotionPair m = motionOf(p, at, map_, x, z, nx, nz);
-      length_ += length;
+      length_ += sure;
       together_ += length * m.weight * m.together;
       const Middle& middle = middles[p.surface];
       const double turns =
@@ -98,16 +98,20 @@ class ResidualBuilder {
       const double side = turns * kSides, share = side - std::floor(side);
       const auto first = static_cast<int>(std::floor(side)) % kSides;
       const std::size_t row = (n * model_.structures.size() + p.surface) * kSides;
-      addTo(sides_[row + static_cast<std::size_t>(first)], (1 - share) * length, edge, m);
-      addTo(sides_[row + static_cast<std::size_t>((first + 1) % kSides)], share * length, edge, m);
+      addTo(sides_[row + static_cast<std::size_t>(first)], 1 - share, sure, length * m.weight, edge,
+            m);
+      addTo(sides_[row + static_cast<std::size_t>((first + 1) % kSides)], share, sure,
+            length * m.weight, edge, m);
     }
   }
-  static void addTo(SideSums& s, double length, const EdgeProfile& edge, const MotionPair& m) {
-    s.length += length;
-    s.offset += length * edge.mean_m / kProfileReach_m;
-    s.weight += length * m.weight;
-    s.dx += length * m.weight * m.dx;
-    s.dz += length * m.weight * m.dz;
+  // A share of a piece, by its weights for the edge and for the motion.
+  static void addTo(SideSums& s, double share, double sure, double tracked, const EdgeProfile& edge,
+                    const MotionPair& m) {
+    s.length += share * sure;
+    s.offset += share * sure * edge.mean_m / kProfileReach_m;
+    s.weight += share * tracked;
+    s.dx += share * tracked * m.dx;
+    s.dz += share * tracked * m.dz;
   }
 
   void addGreys(double factor, std::vector<double>& out) const {

@@ -21,9 +21,12 @@ double EdgeProfile::certainty() const {
   return 1 - entropy / std::log(static_cast<double>(kProfileSteps));
 }
 
-double seenBeside(const echo::EchoStack& real, double x, double z, double nx, double nz) {
+double seenBeside(const BoundaryPoint& p, const echo::EchoStack& real, const PoseMapping& map,
+                  double x, double z, double nx, double nz) {
   const double r = std::sqrt(x * x + z * z);
-  return r > 0 ? real.spread().shift(r, (nx * x + nz * z) / r) : 0;
+  if (!p.of_blood || !(r > 0) || real.spread().patches == 0) return 0;
+  return real.spread().shift(r, (nx * x + nz * z) / r) +
+         static_cast<double>(p.inside_m) * map.scale();
 }
 
 PlacedEdge placedEdge(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map) {
@@ -85,7 +88,7 @@ void placedEdges(std::span<const BoundaryPoint> points, const echo::EchoInstant&
     PlacedEdge& o = out[i];
     map.place(p.x_m, p.z_m, o.x, o.z);
     map.turn(p.nx, p.nz, o.nx, o.nz);
-    o.beside = p.of_blood ? seenBeside(at.stack(), o.x, o.z, o.nx, o.nz) : 0;
+    o.beside = seenBeside(p, at.stack(), map, o.x, o.z, o.nx, o.nz);
     FourEdges& four = halves[i / kDoubleLanes];
     const std::size_t lane = i % kDoubleLanes;
     four.x[lane] = o.x - o.beside * o.nx, four.z[lane] = o.z - o.beside * o.nz;

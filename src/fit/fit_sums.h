@@ -59,13 +59,15 @@ struct EdgeProfile {
   double certainty() const;  // 1 - entropy of p / entropy of an even p
 };
 
-// Displacement into the blood at which a boundary is visible: Eq. 9.
-double seenBeside(const echo::EchoStack& real, double x, double z, double nx, double nz);
+// Displacement into the blood at which a boundary is visible, at its place in the real plane: Eq.
+// 9, and BoundaryPoint::inside_m in a loop with speckle. 0 for other boundaries.
+double seenBeside(const BoundaryPoint& p, const echo::EchoStack& real, const PoseMapping& map,
+                  double x, double z, double nx, double nz);
 
 // A boundary point under a pose, and the edge where it is visible.
 struct PlacedEdge {
   double x = 0, z = 0, nx = 0, nz = 0;
-  double beside = 0;  // of Eq. 9; 0 without blood
+  double beside = 0;  // of seenBeside()
   EdgeProfile edge;
 };
 PlacedEdge placedEdge(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map);

@@ -28,11 +28,11 @@ void addBoundary(const BoundaryPoint& p, double angle_rad, const PlacedEdge& pla
                  const echo::EchoInstant& at, const PoseMapping& map, SeenCells& cells,
                  BoundarySums& sums) {
   const auto& [x, z, nx, nz, beside, edge] = placed;
-  const double length = p.length_m * edge.visible;
+  const double length = p.length_m * p.weight * edge.visible, sure = length * p.alone;
   if (!(length > 0)) return;
   cells.take(p, angle_rad, beside / map.scale());
-  sums.square += length * edge.square;
-  sums.length += length;
+  sums.square += sure * edge.square;
+  sums.length += sure;
   const MotionPair m = motionOf(p, at, map, x, z, nx, nz);
   sums.apart += length * m.weight * m.apart;
   sums.together += length * m.weight * m.together;

@@ -43,6 +43,8 @@ struct FitWeights {
 // (6)  D = c (w_R R + w_B B + w_M M) / (w_R + w_B + w_M) + 1 - c,   c: overlap.
 double fitDiscrepancy(const FitTerms& terms, const FitWeights& weights = {});
 
+// Cells and boundaries also have the weights of the model's Focus, in all terms.
+//
 // (3)  R = residual / total sum of squares
 // of the real grey levels over all cells of the beat, weighted by area. The total is that after the
 // best gain over depth. The residual is that after a joint fit of the gain over depth and one grey
@@ -50,16 +52,17 @@ double fitDiscrepancy(const FitTerms& terms, const FitWeights& weights = {});
 // et al., MICCAI 1998, extended to cells of two tissues). The gain is continuous and linear between
 // four depths. Blood never gets a brighter grey level than another tissue: it scatters 20 to 30 dB
 // less, and no display inverts that. A boundary of blood is visible displaced by the loop's spread
-// of echoes (Eq. 9 of echo_spread.h). The strip between counts as the tissue beside the blood
-// (SeenCells).
+// of echoes (Eq. 9 of echo_spread.h), in a fit farther (kInside_m). The strip between counts as the
+// tissue beside the blood (SeenCells).
 //
 // (4)  B = < sum_s p(s) (s/S)^2 > / < (s/S)^2 >,   p(s) = exp(2 e(s)/E) / sum exp(2 e(s)/E)
-// is the mean over pieces of blood boundary, by length. Other boundaries have edges of unknown sign
-// and are not used. e(s) is the gradient of the real grey level along the normal, out of blood, at
-// a distance s from the expected visible position (Eq. 9). E is the root mean square of the
-// gradient over the loop; S is 8 mm, in 9 steps. B is 1 if the loop shows no edge, near 0 if all
-// edges lie on the boundary, and up to 2.4 if they lie elsewhere. Maps also show the other
-// boundaries, by the magnitude of the gradient.
+// is the mean over pieces of blood boundary, by length. Pieces with a second edge before them count
+// less (second_edges.h). Other boundaries have edges of unknown sign and are not used. e(s) is the
+// gradient of the real grey level along the normal, out of blood, at a distance s from the expected
+// visible position (seenBeside()). E is the root mean square of the gradient over the loop; S is 8
+// mm, in 9 steps. B is 1 if the loop shows no edge, near 0 if all edges lie on the boundary, and up
+// to 2.4 if they lie elsewhere. Maps also show the other boundaries, by the magnitude of the
+// gradient.
 //
 // (5)  M = sum w |u - v|^2 / sum w (|u|^2 + |v|^2)
 // over boundaries of blood. u is the model's displacement between frames, v that of block matching

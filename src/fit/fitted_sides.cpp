@@ -44,7 +44,8 @@ FittedSides::FittedSides(const std::vector<FitLoop>& loops, const HeartNodes& he
 void FittedSides::compare(const std::vector<FitLoop>& loops, const std::vector<double>& dials) {
   std::deque<ModelDiscrepancy> made;
   for (std::size_t v = 0; v < loops.size(); ++v)
-    made.emplace_back(loops[v].loop, loops[v].side, families[v]->at(dials));
+    made.emplace_back(loops[v].loop, loops[v].side,
+                      families[v]->at(dials, {}, Focus::left_ventricle));
   discrepancies = std::move(made);
 }
 
@@ -66,7 +67,8 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
   std::vector<std::deque<ModelDiscrepancy>> others;  // than the first loop
   for (std::size_t v = 0; v < views.size(); ++v) {
     const PlaneTilt tilt = cost.tiltAt(best.at, v);
-    const ModelLoop model = own.families[v]->at(cost.searchedAt(best.at), tilt);
+    const ModelLoop model =
+        own.families[v]->at(cost.searchedAt(best.at), tilt, Focus::left_ventricle);
     loops.emplace_back();
     others.emplace_back();
     for (int twin = 0; twin < kTwins; ++twin) {
@@ -82,8 +84,8 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
   for (std::size_t i = 0; i < cost.dials(); ++i) out.error.push_back(found.best.at[i] - best.at[i]);
   // With the dials that the fit finds: maps of the real loops have the same bias.
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const ModelLoop model =
-        own.families[v]->at(cost.searchedAt(found.best.at), cost.tiltAt(found.best.at, v));
+    const ModelLoop model = own.families[v]->at(
+        cost.searchedAt(found.best.at), cost.tiltAt(found.best.at, v), Focus::left_ventricle);
     const FitPose pose = own.discrepancies[v].refine(model, {FitPose{}}).pose;
     out.report.push_back(fitReport(model, own.discrepancies[v], loops[v].front(), pose));
     out.twins.push_back({out.report.back().map});

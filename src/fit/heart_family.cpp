@@ -212,13 +212,14 @@ std::vector<SurfaceFrame> HeartFamily::surfacesAt(const std::vector<double>& val
   return frames;
 }
 
-ModelLoop HeartFamily::at(const std::vector<double>& values, const PlaneTilt& tilt) const {
+ModelLoop HeartFamily::at(const std::vector<double>& values, const PlaneTilt& tilt,
+                          Focus focus) const {
   checkAngle("tilt_deg", tilt.tilt_rad, tilt_rad_);
   checkAngle("rotate_deg", tilt.rotate_rad, tilt_rad_);
   checkValues(ranges(), values);
   const std::vector<float> share = design_.shares(values);
   ModelLoop loop =
-      ModelPlane(scene_, surfaces_, segments_).cut(blendNearPlane(modes_, share, tilt));
+      ModelPlane(scene_, surfaces_, segments_, focus).cut(blendNearPlane(modes_, share, tilt));
   for (std::size_t n = 0; n < share.size(); ++n)
     loop.systole += static_cast<double>(share[n]) * systoles_[n];
   return loop;

@@ -67,7 +67,8 @@ class HeartFamily {
 
   // A beat of the heart at one value per range, in the order of the ranges. Thread-safe. Throws
   // SceneError like checkValues(), and for an angle beyond the tilt_deg of the constructor.
-  ModelLoop at(const std::vector<double>& values, const PlaneTilt& tilt = {}) const;
+  ModelLoop at(const std::vector<double>& values, const PlaneTilt& tilt = {},
+               Focus focus = Focus::all) const;
   // The surfaces' vertices near the plane, from which `at` cuts the beat.
   std::vector<SurfaceFrame> surfacesAt(const std::vector<double>& values) const;
 

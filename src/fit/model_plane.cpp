@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
 #include "core/lanes.h"
 #include "core/parallel.h"
 #include "core/rough_angle.h"
+#include "fit/plane_cells.h"
+#include "fit/second_edges.h"
 #include "scene/names.h"
+#include "scene/role.h"
 #include "truth/contour.h"
 
 namespace echocine::fit {
@@ -56,61 +57,6 @@ class TissueAt {
   double lines_, samples_, first_rad_, lines_per_rad_, near_m_, samples_per_m_;
 };
 
-bool allEqual(const std::uint32_t* ids) {
-  static_assert(kSamplesPerCell == sizeof(Uints8) / sizeof(std::uint32_t));
-  Uints8 lanes;
-  std::memcpy(&lanes, ids, sizeof lanes);
-  return bitsOf(lanes == Uints8{} + ids[0]) == 0xff;
-}
-
-// The two tissues of most samples.
-void fill(TissueCell& cell, const std::uint32_t* ids, const std::vector<std::uint8_t>& tissue_of) {
-  if (allEqual(ids)) {
-    cell.first = cell.second = tissue_of[ids[0]];
-    return;
-  }
-  std::uint8_t tissues[kSamplesPerCell], counts[kSamplesPerCell];
-  int kinds = 0;
-  for (int s = 0; s < kSamplesPerCell; ++s) {
-    const std::uint8_t tissue = tissue_of[ids[s]];
-    int at = 0;
-    while (at < kinds && tissues[at] != tissue) ++at;
-    if (at == kinds) tissues[kinds] = tissue, counts[kinds++] = 0;
-    ++counts[at];
-  }
-  int first = 0, second = -1;
-  for (int i = 1; i < kinds; ++i)
-    if (counts[i] > counts[first]) first = i;
-  for (int i = 0; i < kinds; ++i)
-    if (i != first && (second < 0 || counts[i] > counts[second])) second = i;
-  cell.first = cell.second = tissues[first];
-  if (second < 0) return;
-  cell.second = tissues[second];
-  cell.share =
-      static_cast<float>(counts[first]) / static_cast<float>(counts[first] + counts[second]);
-}
-
-// The cells without their tissues.
-std::vector<TissueCell> cellsAt(const Probe& p) {
-  std::vector<TissueCell> cells;
-  cells.reserve(static_cast<std::size_t>(kCellLines) * kCellsAlong);
-  const double near = p.face_radius_m + p.min_depth_m, step = p.sampleSpacing() * kSamplesPerCell;
-  for (int i = 0; i < kCellLines; ++i) {
-    const double angle =
-        p.first_angle_rad + (p.last_angle_rad - p.first_angle_rad) * i / (kCellLines - 1);
-    const double across = std::sin(angle), down = std::cos(angle);
-    for (int k = 0; k < kCellsAlong; ++k) {
-      const double r = near + (k + 0.5) * step;
-      TissueCell cell;
-      cell.x_m = static_cast<float>(r * across);
-      cell.z_m = static_cast<float>(r * down);
-      cell.area = static_cast<float>(r / (p.face_radius_m + p.max_depth_m));
-      cells.push_back(cell);
-    }
-  }
-  return cells;
-}
-
 // How far a facet's middle moves, in the plane.
 Vec3d displacementOf(const Triangle& t, const std::vector<Vec3f>& now,
                      const std::vector<Vec3f>& next) {
@@ -121,37 +67,14 @@ Vec3d displacementOf(const Triangle& t, const std::vector<Vec3f>& now,
 
 }  // namespace
 
-// The share of blood, smoothed by kNearBlood_m: a half above an even wall, 0.16 at one standard
-// deviation from it, where the weight has just reached 1, and 0.02 at two.
-void weighByBlood(const ModelLoop& loop, ModelFrame& frame) {
-  cv::Mat blood(loop.cells_across, loop.cells_along, CV_32F);
-  for (std::size_t i = 0; i < frame.cells.size(); ++i) {
-    const TissueCell& cell = frame.cells[i];
-    blood.ptr<float>()[i] =
-        (loop.blood[cell.first] ? cell.share : 0) + (loop.blood[cell.second] ? 1 - cell.share : 0);
-  }
-  const auto at = [&](int i, int k) {
-    const TissueCell& cell = frame.cells[static_cast<std::size_t>(i * loop.cells_along + k)];
-    return Vec3d{cell.x_m, 0, cell.z_m};
-  };
-  // Across the beams at half the depth; it widens with depth as beams do.
-  const int i = loop.cells_across / 2, k = loop.cells_along / 2;
-  const double along = kNearBlood_m / length(at(i, k + 1) - at(i, k)),
-               across = kNearBlood_m / length(at(i + 1, k) - at(i, k));
-  cv::GaussianBlur(blood, blood, {0, 0}, along, across, cv::BORDER_CONSTANT);
-  constexpr float kFull = 0.16f, kNone = 0.02f;
-  for (std::size_t c = 0; c < frame.cells.size(); ++c)
-    frame.cells[c].area *=
-        std::clamp((blood.ptr<float>()[c] - kNone) / (kFull - kNone), 0.0f, 1.0f);
-}
-
 ModelPlane::ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& surfaces,
-                       std::optional<WallSegments> segments)
+                       std::optional<WallSegments> segments, Focus focus)
     : surfaces_(surfaces),
       segments_(std::move(segments)),
+      focus_(focus),
       coarse_(withCoarseLines(scene)),
       labels_(coarse_, PictureGrid{}),
-      cells_(cellsAt(coarse_.probe)) {
+      cells_(planeCells(coarse_.probe)) {
   if (!scene.probe.isSector())
     throw SceneError(
         fmt::format("a {} probe has no sector to compare; give a phased or curvilinear one",
@@ -214,6 +137,14 @@ void stepAlong(const Contour& c, std::span<const ContourEdge> edges, std::vector
   }
 }
 
+std::vector<SheetPoint> sheetsAt(const std::vector<Place>& places) {
+  std::vector<SheetPoint> out;
+  for (const Place& p : places)
+    out.push_back({static_cast<float>(p.x_m), static_cast<float>(p.z_m), static_cast<float>(p.nx),
+                   static_cast<float>(p.nz)});
+  return out;
+}
+
 // Steps to both sides of four places and calls body(place, inner, outer) where two tissues of the
 // sector differ: there a boundary is visible.
 template <typename Body>
@@ -239,13 +170,13 @@ ModelFrame ModelPlane::cutOne(const SurfaceFrame& now, const SurfaceFrame& next,
   ModelFrame frame;
   frame.cells = cells_;
   for (std::size_t c = 0; c < cells_.size(); ++c)
-    fill(frame.cells[c], ids.data() + c * kSamplesPerCell, tissue_of_);
-  weighByBlood(empty_, frame);
+    setTissues(frame.cells[c], ids.data() + c * kSamplesPerCell, tissue_of_);
+  weigh(ids, frame);
   const TissueAt tissueAt(coarse_.probe, ids, tissue_of_);
-  thread_local std::vector<Place> places;
-  places.clear();
+  thread_local std::vector<Place> places, sheets;
+  places.clear(), sheets.clear();
   for (const Contour& contour : chainContours(slice.edges(), surfaces_, now))
-    if (!surfaces_[index(contour.surface)].membrane) stepAlong(contour, slice.edges(), places);
+    stepAlong(contour, slice.edges(), surfaces_[index(contour.surface)].membrane ? sheets : places);
   frame.boundary.reserve(places.size());
   for (std::size_t first = 0; first < places.size(); first += kDoubleLanes)
     whereTissuesDiffer(
@@ -258,7 +189,23 @@ ModelFrame ModelPlane::cutOne(const SurfaceFrame& now, const SurfaceFrame& next,
           p.nx = static_cast<float>(sign * place.nx), p.nz = static_cast<float>(sign * place.nz);
           p.length_m = static_cast<float>(place.length_m);
         });
+  findSecondEdges(sheetsAt(sheets), frame);
   return frame;
+}
+
+// ids: the structure of each sample, by number from 1.
+void ModelPlane::weigh(const std::vector<std::uint32_t>& ids, ModelFrame& frame) const {
+  weighByBlood(empty_, frame);
+  const std::optional<SurfaceId> cavity = structureOf(coarse_, Role::lv_cavity);
+  if (focus_ == Focus::all || !cavity) return;
+  std::vector<float> left(frame.cells.size());
+  const auto number = static_cast<std::uint32_t>(index(*cavity) + 1);
+  for (std::size_t c = 0; c < left.size(); ++c) {
+    const auto first = ids.begin() + static_cast<std::ptrdiff_t>(c * kSamplesPerCell);
+    left[c] =
+        static_cast<float>(std::count(first, first + kSamplesPerCell, number)) / kSamplesPerCell;
+  }
+  weighByLeftVentricle(empty_, left, frame);
 }
 
 // All but the place along the cut and its normal.
@@ -276,6 +223,11 @@ BoundaryPoint ModelPlane::pieceAt(const ContourEdge& cut, int inner, int outer,
   if (segments_ && segments_->surface == s && p.of_blood) p.segment = segments_->of_vertex[t[0]];
   p.blood = static_cast<std::uint8_t>(blood_in ? inner : outer);
   p.beside = static_cast<std::uint8_t>(blood_in ? outer : inner);
+  if (focus_ == Focus::all) return p;
+  const Role role = roleOf(coarse_.structures[s]);
+  if (role != Role::lv_cavity && role != Role::papillary_muscle)
+    p.weight = static_cast<float>(kOtherChambers);
+  p.inside_m = static_cast<float>(kInside_m);
   return p;
 }
 

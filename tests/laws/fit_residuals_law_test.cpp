@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/error.h"
+#include "core/hash_random.h"
 #include "core/parallel.h"
 #include "fit/fit_residuals.h"
 #include "support/drawn_heart.h"
@@ -48,6 +49,25 @@ TEST(FitResiduals, TheirSquaresSumToTheDiscrepancy) {
       }
     EXPECT_EQ(size,
               static_cast<std::size_t>(kFrames * (kCellLines * kCellsAlong + 2 * 3 * kSides) + 1));
+  });
+}
+
+// Also where pieces have weights, and edges that lie farther inside.
+TEST(FitResiduals, WeightedPiecesSumToTheDiscrepancyToo) {
+  withThreads(2, [] {
+    ModelLoop model = phantomOf({1, 0.15});
+    const FitPose pose{0.004, -0.003, 0.05, 1.01};
+    const double even = drawnLoop().at(model, pose).discrepancy;
+    std::uint64_t number = 0;
+    for (ModelFrame& frame : model.frames)
+      for (BoundaryPoint& p : frame.boundary) {
+        p.weight = static_cast<float>(uniformFromHash(hashOf(number, 1, 5)));
+        p.alone = static_cast<float>(uniformFromHash(hashOf(number++, 2, 5)));
+        p.inside_m = 0.6e-3f;
+      }
+    const double weighted = drawnLoop().at(model, pose).discrepancy;
+    EXPECT_GT(std::abs(weighted - even), 1e-4);
+    EXPECT_NEAR(squareOf(residualsOf(drawnLoop(), model, pose)), 1 + weighted, 1e-9);
   });
 }
 

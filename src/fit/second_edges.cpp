@@ -1,0 +1,90 @@
+#include "fit/second_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace echocine::fit {
+
+namespace {
+
+// Distances before a boundary, along its normal. Nearer edges than kSameEdge_m merge with its own;
+// edges beyond kBeyond_m are outside the profile. Linear between the two pairs. Our choice.
+constexpr float kSameEdge_m = 2e-3f, kTwoEdges_m = 3.5e-3f;
+constexpr float kInReach_m = 7e-3f, kBeyond_m = 9e-3f;
+// Across the normal: a hat as wide as the pieces' spacing, so that a boundary counts once.
+constexpr auto kAcross_m = static_cast<float>(kBoundaryPiece_m);
+
+float shareAt(float before_m) {
+  return std::clamp((before_m - kSameEdge_m) / (kTwoEdges_m - kSameEdge_m), 0.0f, 1.0f) *
+         std::clamp((kBeyond_m - before_m) / (kBeyond_m - kInReach_m), 0.0f, 1.0f);
+}
+
+// Edges in square cells of kBeyond_m.
+class EdgeGrid {
+ public:
+  struct Edge {
+    float x, z, nx, nz;
+    bool sheet;
+  };
+
+  explicit EdgeGrid(std::vector<Edge> edges) : edges_(std::move(edges)) {
+    for (const Edge& e : edges_) {
+      low_x_ = std::min(low_x_, cellOf(e.x)), high_x_ = std::max(high_x_, cellOf(e.x));
+      low_z_ = std::min(low_z_, cellOf(e.z)), high_z_ = std::max(high_z_, cellOf(e.z));
+    }
+    if (edges_.empty()) return;
+    starts_.assign(static_cast<std::size_t>((high_x_ - low_x_ + 1) * (high_z_ - low_z_ + 1)) + 1,
+                   0);
+    std::stable_sort(edges_.begin(), edges_.end(),
+                     [&](const Edge& a, const Edge& b) { return at(a) < at(b); });
+    for (const Edge& e : edges_) ++starts_[at(e) + 1];
+    for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+  }
+
+  template <typename Body>
+  void around(float x, float z, const Body& body) const {
+    const int cx = cellOf(x), cz = cellOf(z);
+    for (int i = std::max(cx - 1, low_x_); i <= std::min(cx + 1, high_x_); ++i)
+      for (int k = std::max(cz - 1, low_z_); k <= std::min(cz + 1, high_z_); ++k) {
+        const std::size_t cell = number(i, k);
+        for (std::size_t e = starts_[cell]; e < starts_[cell + 1]; ++e) body(edges_[e]);
+      }
+  }
+
+ private:
+  static int cellOf(float m) { return static_cast<int>(std::floor(m / kBeyond_m)); }
+  std::size_t number(int i, int k) const {
+    return static_cast<std::size_t>((i - low_x_) * (high_z_ - low_z_ + 1) + k - low_z_);
+  }
+  std::size_t at(const Edge& e) const { return number(cellOf(e.x), cellOf(e.z)); }
+
+  std::vector<Edge> edges_;
+  std::vector<std::size_t> starts_;
+  int low_x_ = 1 << 20, high_x_ = -(1 << 20), low_z_ = 1 << 20, high_z_ = -(1 << 20);
+};
+
+}  // namespace
+
+void findSecondEdges(std::span<const SheetPoint> sheets, ModelFrame& frame) {
+  std::vector<EdgeGrid::Edge> edges;
+  for (const BoundaryPoint& p : frame.boundary)
+    if (p.of_blood) edges.push_back({p.x_m, p.z_m, p.nx, p.nz, false});
+  for (const SheetPoint& p : sheets) edges.push_back({p.x_m, p.z_m, p.nx, p.nz, true});
+  const EdgeGrid grid(std::move(edges));
+  for (BoundaryPoint& p : frame.boundary) {
+    if (!p.of_blood) continue;
+    float second = 0;
+    grid.around(p.x_m, p.z_m, [&](const EdgeGrid::Edge& e) {
+      const float dx = e.x - p.x_m, dz = e.z - p.z_m, before = -(dx * p.nx + dz * p.nz),
+                  across = std::abs(dx * p.nz - dz * p.nx);
+      if (across >= kAcross_m) return;
+      const float facing = e.nx * p.nx + e.nz * p.nz;
+      second += shareAt(before) * (1 - across / kAcross_m) *
+                (e.sheet ? std::abs(facing) : std::max(facing, 0.0f));
+    });
+    p.alone = std::max(0.0f, 1 - second);
+  }
+}
+
+}  // namespace echocine::fit
