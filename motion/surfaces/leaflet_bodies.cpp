@@ -5,13 +5,13 @@
 #include <map>
 #include <utility>
 
+#include "motion/surfaces/leaflet_share.h"
 #include "scene/role.h"
 
 namespace echocine {
 
 namespace {
 
-constexpr int kPhasesOfBeat = 16;  // at which no face may be inverted
 constexpr int kMostThinnings = 8;
 constexpr float kOutline = 0.5f;  // of the thickness: a rounded edge. Our choice
 
@@ -41,19 +41,6 @@ void vertexNormals(const std::vector<Triangle>& faces, const std::vector<Vec3f>&
     if (dot(n, n) > 0) n = normalised(n);
 }
 
-// How far each vertex moves from its place at the first instant, between the least and the most of
-// its sheet: 0 to 1.
-std::vector<float> shareOfMotion(const std::vector<const std::vector<Vec3f>*>& instants) {
-  std::vector<float> share(instants.front()->size(), 0);
-  for (const std::vector<Vec3f>* at_m : instants)
-    for (std::size_t v = 0; v < share.size(); ++v)
-      share[v] = std::max(share[v], length((*at_m)[v] - (*instants.front())[v]));
-  const auto [least, most] = std::minmax_element(share.begin(), share.end());
-  const float low_m = *least, range_m = *most - *least;
-  for (float& s : share) s = range_m > 1e-3f ? (s - low_m) / range_m : 0;
-  return share;
-}
-
 // Halves the thickness at faces of the body that would be inverted against their sheet.
 bool thinOut(const std::vector<Triangle>& faces, const std::vector<Vec3f>& at_m,
              std::vector<float>& half_m) {
@@ -81,10 +68,7 @@ bool thinOut(const std::vector<Triangle>& faces, const std::vector<Vec3f>& at_m,
 
 LeafletBodies::LeafletBodies(const Scene& scene, const MeshMotion& motion)
     : surfaces_(motion.surfaces()), sheets_(surfaces_.size()), half_m_(surfaces_.size()) {
-  std::vector<SurfaceFrame> frames(kPhasesOfBeat);
-  for (int i = 0; i < kPhasesOfBeat; ++i)
-    motion.frameAt(static_cast<double>(i) / kPhasesOfBeat, frames[static_cast<std::size_t>(i)],
-                   false);
+  const std::vector<SurfaceFrame> frames = instantsOfBeat(motion);
   for (const SurfaceTopology& surface : motion.surfaces()) {
     const std::size_t s = index(surface.id);
     if (!hasThickness(scene, scene.structures[s])) continue;
@@ -92,8 +76,8 @@ LeafletBodies::LeafletBodies(const Scene& scene, const MeshMotion& motion)
     if (outline.empty()) continue;
     std::vector<const std::vector<Vec3f>*> instants;
     for (const SurfaceFrame& frame : frames) instants.push_back(&frame.positions_m[s]);
-    const auto hinge_m = static_cast<float>(0.5 * scene.leaflets.thickness_m);
-    for (const float share : shareOfMotion(instants))
+    const auto hinge_m = static_cast<float>(0.5 * leafletThickness(scene, scene.structures[s]));
+    for (const float share : shareOfMotion(frames, s))
       half_m_[s].push_back(hinge_m * (1 + share * share));
     for (const auto& [from, to] : outline) half_m_[s][from] *= kOutline;
     for (int round = 0; round < kMostThinnings; ++round) {

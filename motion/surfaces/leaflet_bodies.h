@@ -1,5 +1,5 @@
 #pragma once
-// Leaflets of the mitral and tricuspid valves as bodies with thickness, in the picture only. The
+// Leaflets and cusps of the valves as bodies with thickness, in the picture only. The
 // mesh of a leaflet is the middle surface of its body. Contours, labels and motion are those of the
 // mesh; a leaflet has no volume there.
 
@@ -18,7 +18,7 @@ class LeafletBodies {
   using Outline = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
   // For the scene's leaflets (hasThickness()). Those whose mesh is closed or branches stay sheets.
-  // The thickness is LeafletSettings::thickness_m where a leaflet moves least, and twice that where
+  // The thickness is leafletThickness() where a leaflet moves least, and twice that where
   // it moves most, at its free edge. It is halved at the outline, and locally where a face would be
   // inverted at any of 16 phases.
   LeafletBodies(const Scene& scene, const MeshMotion& motion);

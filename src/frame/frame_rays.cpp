@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "trace/strand_echoes.h"
 #include "trace/thick_slice.h"
 #include "trace/trace_beams.h"
 
@@ -27,10 +28,13 @@ TraceSettings settingsOf(const Scene& scene, const LoopPlan& plan, const Leaflet
 
 }  // namespace
 
-FrameRays::FrameRays(const Scene& scene, const LoopPlan& plan, const LeafletBodies* bodies)
+FrameRays::FrameRays(const Scene& scene, const LoopPlan& plan, const LeafletBodies* bodies,
+                     const Chordae* chordae)
     : probe_(scene.probe),
       settings_(settingsOf(scene, plan, bodies)),
-      request_(planeRequest(scene, plan.effects)) {
+      request_(planeRequest(scene, plan.effects)),
+      chordae_(chordae),
+      chordae_m_(scene.leaflets.chordae_m) {
   if (plan.effects.rays_per_beam > 1)
     beams_.emplace(probe_, beamSpread(plan.effects, scene.acquisition.seed));
 }
@@ -52,9 +56,24 @@ WorkCounts FrameRays::through(const FrameGeometry& geometry, int frame,
                     group ? &group->traced : nullptr);
 }
 
+// Each is of the medium of its leaflet.
+void FrameRays::addChordae(Workspace& w) const {
+  thread_local std::vector<Vec3f> points_m;
+  thread_local std::vector<Strand> strands;
+  chordae_->at(w.surfaces, points_m);
+  strands.clear();
+  for (const Chordae::Chord& chord : chordae_->chords())
+    strands.push_back(
+        {std::span(points_m).subspan(strands.size() * Chordae::kPoints, Chordae::kPoints),
+         settings_.surfaces[index(chord.leaflet)].medium});
+  addStrands(strands, chordae_m_, probe_, settings_, request_.intensity_terms, w.polar);
+}
+
 WorkCounts FrameRays::trace(int frame, const RollingLines::Group* group, Workspace& w) const {
-  return std::visit([&](const auto& geometry) { return through(geometry, frame, group, w); },
-                    w.geometry);
+  const WorkCounts work = std::visit(
+      [&](const auto& geometry) { return through(geometry, frame, group, w); }, w.geometry);
+  if (chordae_) addChordae(w);
+  return work;
 }
 
 }  // namespace echocine

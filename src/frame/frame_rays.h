@@ -6,6 +6,7 @@
 #include "core/work_counts.h"
 #include "frame/rolling.h"
 #include "frame/workspace.h"
+#include "motion/surfaces/chordae.h"
 #include "trace/beam_rays.h"
 #include "trace/trace_frame.h"
 
@@ -13,8 +14,9 @@ namespace echocine {
 
 class FrameRays {
  public:
-  // The scene is kept by reference. `bodies` replace leaflets; null: none.
-  FrameRays(const Scene& scene, const LoopPlan& plan, const LeafletBodies* bodies);
+  // The scene and `chordae` are kept by reference. `bodies` replace leaflets. Null: none.
+  FrameRays(const Scene& scene, const LoopPlan& plan, const LeafletBodies* bodies,
+            const Chordae* chordae = nullptr);
 
   // Does an output need intensities?
   bool receive() const { return request_.intensities; }
@@ -28,11 +30,14 @@ class FrameRays {
                      Workspace& w) const;
   WorkCounts through(const FrameGeometry& geometry, int frame, const RollingLines::Group* group,
                      Workspace& w) const;
+  void addChordae(Workspace& w) const;
 
   const Probe& probe_;
   const TraceSettings settings_;
   const PlaneRequest request_;
   std::optional<BeamRays> beams_;  // several rays per beam
+  const Chordae* chordae_;
+  double chordae_m_;  // their diameter
 };
 
 }  // namespace echocine

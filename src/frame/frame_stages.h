@@ -15,6 +15,7 @@
 #include "frame/work_tally.h"
 #include "frame/workspace.h"
 #include "motion/cycle/cardiac_clock.h"
+#include "motion/surfaces/chordae.h"
 #include "motion/surfaces/leaflet_bodies.h"
 #include "motion/surfaces/mesh_motion.h"
 #include "motion/surfaces/trabeculae.h"
@@ -29,7 +30,8 @@ namespace echocine {
 struct FrameEffects {
   FrameEffects(const Scene& scene, const MeshMotion& motion, const SharedMotionField& field,
                const LoopPlan& plan, const CardiacClock& clock, const SignalChain& chain,
-               const SceneSpeckle* source, std::shared_ptr<const LeafletBodies> leaflets);
+               const SceneSpeckle* source, std::shared_ptr<const LeafletBodies> leaflets,
+               std::shared_ptr<const Chordae> chordae);
 
   std::unique_ptr<const Trabeculae> trabeculae;
   std::shared_ptr<const SceneSpeckle> speckle;
@@ -54,6 +56,7 @@ struct FrameStages {
   const std::shared_ptr<const SignalChain> shared_chain;
   const SignalChain& chain;
   const std::shared_ptr<const LeafletBodies> leaflets;  // null if they have no thickness
+  const std::shared_ptr<const Chordae> chordae;         // null if the plan disables them
   const FrameRays rays;
   const SharedMotionField field;  // of speckle and of truth
   const FrameEffects effects;

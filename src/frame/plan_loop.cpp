@@ -19,6 +19,7 @@
 #include "frame/mesh_placement.h"
 #include "geometry/frame_geometry.h"
 #include "geometry/plane_slice.h"
+#include "motion/surfaces/beam_to_axis.h"
 #include "motion/surfaces/heart_size.h"
 #include "motion/surfaces/motion_warnings.h"
 #include "scene/elevation_slices.h"
@@ -244,6 +245,15 @@ void tellWallsWithoutChambers(const Scene& scene, LoopPlan& plan) {
   }
 }
 
+// Ribs and lung beside the apical window add clutter that the parasternal one hardly has.
+void weighClutter(const Scene& scene, const MeshMotion& motion, EffectPlan& plan) {
+  const double squared_sine = squaredSineToLongAxis(scene, motion);
+  plan.clutter_window_db = scene.artefacts.clutter_parasternal_db * squared_sine * squared_sine;
+  plan.decision(Effect::clutter).reason +=
+      fmt::format(", {:.1f} dB by the direction of the beam to the left ventricle's axis",
+                  plan.clutter_window_db);
+}
+
 }  // namespace
 
 LoopPlan planLoop(const Scene& scene, const MeshMotion& motion) {
@@ -263,6 +273,8 @@ LoopPlan planLoop(const Scene& scene, const MeshMotion& motion) {
   chooseTracer(scene, plan);
   if (scene.signal.tgc == Tgc::mean && plan.effects.attenuation && wantsPicture(scene))
     plan.effects.mean_loss = meanLoss(scene, motion, plan);
+  if (plan.effects.clutter && scene.artefacts.clutter_parasternal_db != 0)
+    weighClutter(scene, motion, plan.effects);
   lookAtFrames(scene, motion, plan);
   return plan;
 }

@@ -16,13 +16,15 @@ SceneSpeckle::SceneSpeckle(const Scene& scene, std::shared_ptr<const Tissue> tis
 SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion,
                            const SharedMotionField& field, const EffectPlan& plan,
                            const Trabeculae* trabeculae,
-                           std::shared_ptr<const LeafletBodies> leaflets)
-    : SceneSpeckle(scene,
-                   std::shared_ptr<const Tissue>(new Tissue{
-                       field.shared(),
-                       {scene, motion, &plan, trabeculae, &field},
-                       {scene, motion, field.field().referencePhase(), std::move(leaflets)}}),
-                   nullptr) {}
+                           std::shared_ptr<const LeafletBodies> leaflets,
+                           std::shared_ptr<const Chordae> chordae)
+    : SceneSpeckle(
+          scene,
+          std::shared_ptr<const Tissue>(new Tissue{field.shared(),
+                                                   {scene, motion, &plan, trabeculae, &field},
+                                                   {scene, motion, field.field().referencePhase(),
+                                                    std::move(leaflets), std::move(chordae)}}),
+          nullptr) {}
 
 SceneSpeckle::SceneSpeckle(const Scene& scene, const SceneSpeckle& source)
     : SceneSpeckle(scene, source.tissue_, source.speckle_.drawn()) {}

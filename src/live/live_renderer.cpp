@@ -74,7 +74,7 @@ Scene withLessEffort(const Scene& scene) {
   less.acquisition.rolling = false;
   less.speckle.on = false;
   less.artefacts.persistence = 0;
-  less.trabeculae.deviation_m = less.leaflets.thickness_m = 0;
+  less.trabeculae.deviation_m = less.leaflets.thickness_m = less.leaflets.chordae_m = 0;
   less.motion.subdivision = 0;  // the meshes of the instant are refined already
   // One keyframe for each structure: the meshes of the instant.
   for (Structure& structure : less.structures) structure.keyframes.resize(1);
@@ -91,6 +91,7 @@ LoopPlan planWithoutMeshes(const Scene& scene, const LoopPlan& still) {
                      scene.accuracy.interface_echo != InterfaceEcho::centre;
   const std::vector<double>& loss = still.effects.mean_loss;
   if (loss.size() == static_cast<std::size_t>(scene.probe.samples)) plan.effects.mean_loss = loss;
+  plan.effects.clutter_window_db = still.effects.clutter_window_db;
   return plan;
 }
 

@@ -265,6 +265,7 @@ EffectPlan planEffects(const Scene& scene) {
   planPulse(scene, plan);
   planTrabeculae(scene, plan);
   planLeaflets(scene, plan);
+  planChordae(scene, plan);
   planSpeckle(scene, plan);
   planArtefacts(scene, plan);
   planRolling(scene, plan);

@@ -36,6 +36,7 @@ struct EffectPlan {
   bool travel_time = false;
   bool trabeculae = false;  // relief of the ventricles' inner surfaces
   bool leaflets = false;    // mitral and tricuspid ones have thickness
+  bool chordae = false;     // of the mitral valve
   bool speckle = false;
   bool heterogeneity = false, anisotropy = false;  // of the scatterers
   bool coherent_echoes = false;                    // interfaces keep part of their phase
@@ -44,6 +45,7 @@ struct EffectPlan {
   bool harmonic = false, downshift = false;  // of the sampled beam
   bool edge_enhancement = false;
   bool clutter = false, noise = false, persistence = false;
+  double clutter_window_db = 0;  // added to the clutter's level: by the acoustic window
   bool averaged = false;  // clutter and noise add their mean power; planned by src/study alone
   bool rolling = false;   // groups of lines have their own instants
   int rays_per_beam = 1;  // that are traced

@@ -85,16 +85,36 @@ void planTrabeculae(const Scene& scene, EffectPlan& plan) {
 }
 
 void planLeaflets(const Scene& scene, EffectPlan& plan) {
-  const double thickness_m = scene.leaflets.thickness_m;
+  const LeafletSettings& given = scene.leaflets;
   plan.leaflets = std::any_of(scene.structures.begin(), scene.structures.end(),
                               [&](const Structure& s) { return hasThickness(scene, s); });
   plan.decisions.push_back(
       {Effect::leaflets, plan.leaflets,
-       thickness_m == 0 ? "leaflets.thickness_mm is 0"
-       : !plan.leaflets ? "no membrane is a mitral or tricuspid leaflet"
-                        : fmt::format("leaflets are {:g} mm thick, up to {:g} mm at the free edge",
-                                      millimetresFromMetres(thickness_m),
-                                      millimetresFromMetres(2 * thickness_m))});
+       given.thickness_m == 0 && given.cusp_m == 0 ? "leaflets.thickness_mm and cusp_mm are 0"
+       : !plan.leaflets ? "no membrane is a leaflet or cusp with thickness"
+                        : fmt::format("leaflets are {:g} mm thick, cusps {:g} mm; up to twice that "
+                                      "at the free edge",
+                                      millimetresFromMetres(given.thickness_m),
+                                      millimetresFromMetres(given.cusp_m))});
+}
+
+void planChordae(const Scene& scene, EffectPlan& plan) {
+  const double diameter_m = scene.leaflets.chordae_m;
+  const bool ends =
+      structureOf(scene, Role::mitral_valve) && structureOf(scene, Role::papillary_muscle);
+  const char* omitted = diameter_m == 0          ? "leaflets.chordae_mm is 0"
+                        : !ends                  ? "no mitral valve with papillary muscles"
+                        : !wantsPicture(scene)   ? "no picture is requested"
+                        : !plan.backscatter      ? "they only scatter, and nothing scatters"
+                        : plan.rays_per_beam > 1 ? "not with several rays per beam"
+                        : scene.probe.lines < 2  ? "a single line has no beam's cell"
+                                                 : nullptr;
+  plan.chordae = !omitted;
+  plan.decisions.push_back(
+      {Effect::chordae, plan.chordae,
+       omitted ? omitted
+               : fmt::format("strands of {:g} mm between papillary muscles and mitral leaflets",
+                             millimetresFromMetres(diameter_m))});
 }
 
 // A single medium without contrast still shows its scatterers.

@@ -30,6 +30,7 @@ enum class Effect {
   travel_time,
   trabeculae,
   leaflets,
+  chordae,
   speckle,
   heterogeneity,
   anisotropy,
@@ -98,10 +99,12 @@ struct ArtefactSettings {
   bool reverberation = false;                   // a tail behind every echo
   double reverberation_db = -27;                // relative to the echo
   double reverberation_length_m = 6e-3;         // where it has fallen to 1/e
-  bool clutter = false;                         // of the near field, static
+  bool clutter = false;                         // of the near field
   double clutter_db = -28;                      // relative to white, at the face
   double clutter_length_m = 6e-3;               // where it has fallen to 1/e
   double clutter_width_rad = 0.15707963267948966;  // of its speckle, full width at half maximum
+  double clutter_parasternal_db = 0;  // added where the beam is across the left ventricle's axis
+  double clutter_time_s = 0;          // of its renewal; 0: static
   int clutter_seed = 1;
   bool noise = false;     // of the receiver, before the time gain
   double noise_db = -55;  // relative to white, at the depth of the largest gain
@@ -143,6 +146,7 @@ inline constexpr EffectRow kEffects[] = {
     {Effect::travel_time, "travel_time", Stage::trace, {.crossing = 2}, "echoes are placed at 1540 m/s t/2 instead of their path length; only when on", &EffectSwitches::travel_time},
     {Effect::trabeculae, "trabeculae", Stage::geometry, {.fixed = 1}},
     {Effect::leaflets, "leaflets", Stage::geometry, {.fixed = 0.3}},
+    {Effect::chordae, "chordae", Stage::trace, {.fixed = 0.01}},
     {Effect::speckle, "speckle", Stage::speckle, {.fixed = 1}},
     {Effect::heterogeneity, "heterogeneity", Stage::speckle, {.fixed = 0.01}},
     {Effect::anisotropy, "anisotropy", Stage::speckle, {.fixed = 0.01}},

@@ -82,10 +82,22 @@ bool hasTrabeculae(const Scene& scene, const Structure& structure) {
   return role == Role::lv_cavity || role == Role::rv_cavity;
 }
 
+double leafletThickness(const Scene& scene, const Structure& structure) {
+  if (!structure.membrane) return 0;
+  switch (roleOf(structure)) {
+    case Role::mitral_valve:
+    case Role::tricuspid_valve:
+      return scene.leaflets.thickness_m;
+    case Role::aortic_valve:
+    case Role::pulmonary_valve:
+      return scene.leaflets.cusp_m;
+    default:
+      return 0;
+  }
+}
+
 bool hasThickness(const Scene& scene, const Structure& structure) {
-  if (!(scene.leaflets.thickness_m > 0) || !structure.membrane) return false;
-  const Role role = roleOf(structure);
-  return role == Role::mitral_valve || role == Role::tricuspid_valve;
+  return leafletThickness(scene, structure) > 0;
 }
 
 double trabeculaeReach(const Scene& scene, const Structure& structure) {

@@ -50,8 +50,11 @@ std::optional<SurfaceId> structureOf(const Scene& scene, Role role);
 // the scene asks for trabeculae.
 bool hasTrabeculae(const Scene& scene, const Structure& structure);
 
-// Does the picture show the structure as a body with thickness? Leaflets of the mitral and the
-// tricuspid valve are, if the scene asks for it.
+// Thickness of a membrane in the picture, m: near its hinge. 0 for one without thickness, and for
+// all but valves.
+double leafletThickness(const Scene& scene, const Structure& structure);
+
+// Does the picture show the structure as a body with thickness?
 bool hasThickness(const Scene& scene, const Structure& structure);
 
 // Largest displacement of its vertices by trabeculae, m: vertices of the ventricles' walls follow

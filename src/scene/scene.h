@@ -100,20 +100,23 @@ struct TrabeculaeSettings {
   double most_m() const { return 2 * deviation_m; }  // largest height. Our choice
 };
 
-// Leaflets of the mitral and tricuspid valves as bodies, in the picture only
-// (motion/surfaces/leaflet_bodies.h).
+// Leaflets and cusps of the valves as bodies (motion/surfaces/leaflet_bodies.h), and
+// chordae (motion/surfaces/chordae.h). In the picture only.
 struct LeafletSettings {
   double thickness_m = 0;  // at the hinge; 0: sheets without thickness
+  double cusp_m = 0;       // the same of aortic and pulmonary cusps
+  double chordae_m = 0;    // diameter of the mitral valve's chordae; 0: none
 };
 
 // Coherent echoes of material scatterers (src/speckle).
 struct SpeckleSettings {
   bool on = false;
   int seed = 1;
-  double per_cell = 3;          // scatterers per resolution cell
-  double smoothing_m = 0.7e-3;  // full width at half maximum, along the lines; 0: none
-  double tissue_time_s = 0;     // renewal time of tissue scatterers; 0: never
-  double blood_time_s = 0.01;   // renewal time of blood scatterers; our choice: well under a frame
+  double per_cell = 3;             // scatterers per resolution cell
+  double smoothing_m = 0.7e-3;     // full width at half maximum, along the lines; 0: none
+  double tissue_time_s = 0;        // renewal time of tissue scatterers; 0: never
+  double surroundings_time_s = 0;  // of chest wall and lung; 0: never
+  double blood_time_s = 0.01;  // renewal time of blood scatterers; our choice: well under a frame
   // Backscatter that varies in space and moves with the tissue. Log-normal with mean 1: the sum of
   // two fields of equal variance, an isotropic one and one of layers across the beam, of the given
   // thickness and width. Standard deviation; 0: none.

@@ -15,11 +15,11 @@ FieldSum::FieldSum(const Scene& scene, const EffectPlan& plan, std::span<const f
   if (plan.noise) levels_ = noiseLevels(scene, gains);
   if (plan.clutter) {
     levels_.resize(static_cast<std::size_t>(samples_));
-    const std::vector<float> clutter = clutterLevels(scene, plan.harmonic);
+    const std::vector<float> clutter = clutterLevels(scene, plan.harmonic, plan.clutter_window_db);
     for (std::size_t k = 0; k < clutter.size(); ++k) levels_[k] += clutter[k];
   }
   if (plan.averaged) return;
-  if (plan.clutter) clutter_.emplace(scene, plan.harmonic);
+  if (plan.clutter) clutter_.emplace(scene, plan.harmonic, plan.clutter_window_db);
   if (plan.noise) noise_.emplace(scene, gains);
 }
 
@@ -50,7 +50,7 @@ void FieldSum::add(double white, double time_s, const EchoField& field,
 
 void FieldSum::addDrawn(double white, double time_s, int number, float* real,
                         float* imaginary) const {
-  if (clutter_) clutter_->add(white, number, real, imaginary);
+  if (clutter_) clutter_->add(white, time_s, number, real, imaginary);
   if (noise_) noise_->add(white, time_s, number, real, imaginary);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "core/hash_random.h"
 #include "core/lanes.h"
@@ -51,9 +52,9 @@ std::vector<float> noiseLevels(const Scene& scene, std::span<const float> gains)
   return levels;
 }
 
-std::vector<float> clutterLevels(const Scene& scene, bool harmonic) {
+std::vector<float> clutterLevels(const Scene& scene, bool harmonic, double window_db) {
   constexpr double kLeast = 1e-6;
-  const double level = intensityFromDecibels(scene.artefacts.clutter_db);
+  const double level = intensityFromDecibels(scene.artefacts.clutter_db + window_db);
   const ScanGeometry geometry(scene.probe);
   std::vector<float> levels;
   for (int k = 0; k < scene.probe.samples; ++k) {
@@ -135,20 +136,42 @@ void ReceiverNoise::add(double white, double time_s, int line, float* real,
   }
 }
 
-NearFieldClutter::NearFieldClutter(const Scene& scene, bool harmonic)
-    : amplitudes_(rootsOf(clutterLevels(scene, harmonic))),
+NearFieldClutter::NearFieldClutter(const Scene& scene, bool harmonic, double window_db)
+    : amplitudes_(rootsOf(clutterLevels(scene, harmonic, window_db))),
+      renewed_s_(scene.artefacts.clutter_time_s),
+      seed_(hashOf(scene.artefacts.clutter_seed, kClutter)),
       // The plane repeats: over a full turn, after as many lines as there are.
       random_(scene.probe.isFullTurn() ? scene.probe.lines : std::max(scene.probe.lines, 128),
               std::max(scene.probe.samples, 512), grainOf(scene, scene.artefacts.clutter_width_rad),
-              hashOf(scene.artefacts.clutter_seed, kClutter)) {}
+              seed_) {}
 
-void NearFieldClutter::add(double white, int line, float* real, float* imaginary) const {
-  const float scale = std::sqrt(heldWhite(white));
-  const float *re = random_.real(line), *im = random_.imaginary(line);
+// Fields after the first are the plane at hashed offsets.
+void NearFieldClutter::addField(float scale, std::int64_t number, int line, float* real,
+                                float* imaginary) const {
+  const auto shift = [&](int axis, int count) {
+    return number == 0
+               ? 0
+               : static_cast<int>(hashOf(seed_, number, axis) % static_cast<std::uint64_t>(count));
+  };
+  const int from = (line + shift(0, random_.lines())) % random_.lines();
+  const int spare = random_.samples() - static_cast<int>(amplitudes_.size()) + 1;
+  const int first = shift(1, spare);
+  const float *re = random_.real(from) + first, *im = random_.imaginary(from) + first;
   for (std::size_t k = 0; k < amplitudes_.size(); ++k) {
     real[k] += scale * amplitudes_[k] * re[k];
     imaginary[k] += scale * amplitudes_[k] * im[k];
   }
+}
+
+void NearFieldClutter::add(double white, double time_s, int line, float* real,
+                           float* imaginary) const {
+  const float scale = std::sqrt(heldWhite(white));
+  if (!(renewed_s_ > 0)) return addField(scale, 0, line, real, imaginary);
+  const double renewals = time_s / renewed_s_, whole = std::floor(renewals);
+  const double turn_rad = 0.5 * std::numbers::pi * (renewals - whole);
+  const auto number = static_cast<std::int64_t>(whole);
+  addField(scale * static_cast<float>(std::cos(turn_rad)), number, line, real, imaginary);
+  addField(scale * static_cast<float>(std::sin(turn_rad)), number + 1, line, real, imaginary);
 }
 
 }  // namespace echocine

@@ -17,7 +17,8 @@ float heldWhite(double white);
 // Mean powers over white, by sample: of the receiver's noise, and of the near-field clutter up to
 // its end. Their classes below have the equations.
 std::vector<float> noiseLevels(const Scene& scene, std::span<const float> gains);
-std::vector<float> clutterLevels(const Scene& scene, bool harmonic = false);
+// window_db: EffectPlan::clutter_window_db.
+std::vector<float> clutterLevels(const Scene& scene, bool harmonic = false, double window_db = 0);
 
 // Complex Gaussian noise of the receiver. Before the time gain it is white in depth and of equal
 // power at all depths; the filter of the pulse limits its band, as it does that of the echoes.
@@ -44,17 +45,23 @@ class ReceiverNoise {
 };
 
 // Reverberation between face and chest wall: mean power level white exp(-r / length) at the path
-// length r. It stands still with the probe while the heart beats. It ends 60 dB below its level.
-// The second harmonic has hardly built up there: its clutter is weaker by the build-up and its gain
+// length r. It stands still with the probe while the heart beats, or is renewed as skin and probe
+// move with breathing: after clutter_time_s it is the next of independent fields, and cos and sin
+// of a quarter turn blend two of them in between. It ends 60 dB below its level. The second
+// harmonic has hardly built up there: its clutter is weaker by the build-up and its gain
 // (harmonic.h).
 class NearFieldClutter {
  public:
-  explicit NearFieldClutter(const Scene& scene, bool harmonic = false);
+  explicit NearFieldClutter(const Scene& scene, bool harmonic = false, double window_db = 0);
 
-  void add(double white, int line, float* real, float* imaginary) const;
+  void add(double white, double time_s, int line, float* real, float* imaginary) const;
 
  private:
+  void addField(float scale, std::int64_t number, int line, float* real, float* imaginary) const;
+
   std::vector<float> amplitudes_;  // up to its end
+  double renewed_s_;
+  std::uint64_t seed_;
   RandomPlane random_;
 };
 

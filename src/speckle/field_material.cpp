@@ -7,10 +7,16 @@
 
 #include "core/box.h"
 #include "core/nearest_vertex.h"
+#include "plan/media_in_use.h"
+#include "scene/role.h"
 
 namespace echocine {
 
 namespace {
+
+// Lung's renewal time, of that of the surroundings. Lung shows no tissue of its own but multiple
+// reflections of moving tissue, so its grain changes faster. Our choice.
+constexpr float kLungTime = 0.4f;
 
 constexpr float kStillBlock_m = 8e-3f;  // where nothing moves
 constexpr float kBehind_m = 1e-3f;      // of a ridge's foot, in the wall. Our choice
@@ -74,10 +80,16 @@ FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion, const
   const std::size_t groups = field_.groupCount();
   blood_.assign(groups, false);
   blood_.back() = scene.medium(scene.background).blood;
+  surroundings_.assign(groups, 0);
+  surroundings_.back() = 1;
   for (const SurfaceTopology& surface : motion.surfaces())
-    if (!surface.membrane)
-      blood_[index(field_.groupOf(surface.id))] =
-          scene.medium(scene.structures[index(surface.id)].medium).blood;
+    if (!surface.membrane) {
+      const Structure& structure = scene.structures[index(surface.id)];
+      const std::size_t group = index(field_.groupOf(surface.id));
+      blood_[group] = scene.medium(structure.medium).blood;
+      if (surface.still && roleOf(structure) == Role::surroundings)
+        surroundings_[group] = isAirFilled(scene.medium(structure.medium)) ? kLungTime : 1;
+    }
   if (trabeculae) {
     SurfaceFrame surfaces;
     motion.frameAt(field_.referencePhase(), surfaces, false);

@@ -23,6 +23,7 @@ class FieldMaterial : public Material {
 
   CubeLattice lattice() const override { return lattice_; }
   bool blood(std::uint16_t group) const override { return blood_[group]; }
+  float surroundings(std::uint16_t group) const override { return surroundings_[group]; }
   bool coarse(std::uint16_t group) const override { return coarse_[group]; }
   std::vector<std::uint16_t> groupsIn(Vec3f low_m) const override;
   void groupsAt(std::span<const Vec3f> reference_m, std::span<std::uint16_t> groups) const override;
@@ -48,6 +49,7 @@ class FieldMaterial : public Material {
   BlockReach reach_;
   CubeLattice lattice_;
   std::vector<bool> blood_, coarse_;  // by group
+  std::vector<float> surroundings_;   // likewise
   std::unique_ptr<const TissueStrength> strength_;
   double across_m_ = 0, along_m_ = 0;
 };

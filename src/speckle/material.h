@@ -39,6 +39,8 @@ class Material {
   virtual ~Material() = default;
   virtual CubeLattice lattice() const { return {}; }
   virtual bool blood(std::uint16_t /*group*/) const { return false; }
+  // For tissue that is not the heart's: its renewal time over that of the surroundings. Else 0.
+  virtual float surroundings(std::uint16_t /*group*/) const { return 0; }
   // Is the group trilinear within whole blocks?
   virtual bool coarse(std::uint16_t /*group*/) const { return false; }
   // Groups with places in the block that begins at low_m: all of them, perhaps more.

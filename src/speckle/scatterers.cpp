@@ -140,7 +140,7 @@ void Scatterers::Drawn::add(const TissueBlock& block, const Material& material) 
     for (std::size_t first = 0; first < places_m.size(); first += kMostOfBatch)
       addBatch(std::span<const Vec3f>(places_m).subspan(
                    first, std::min<std::size_t>(kMostOfBatch, places_m.size() - first)),
-               {low_m, edge_m, 0, 0, group, material.blood(group),
+               {low_m, edge_m, 0, 0, group, material.blood(group), material.surroundings(group),
                 hashOf(block.pattern, kBatch, key, first)});
   }
 }

@@ -19,6 +19,7 @@ struct ScattererBatch {
   std::uint32_t first = 0, count = 0;  // first is a multiple of the lanes
   std::uint16_t group = 0;
   bool blood = false;
+  float surroundings = 0;     // Material::surroundings()
   std::uint64_t pattern = 0;  // what its Gaussian numbers are drawn by
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.h"
 #include "core/hash_random.h"
@@ -13,12 +14,13 @@ namespace echocine {
 namespace {
 
 constexpr double kApartPerWidth = 0.5, kOrdinaryPerCell = 3;
-constexpr double kMostPoints = 1e7;  // 0.2 GB. Our choice
+constexpr double kChordPerSheet = 4;  // a line in a cell needs more than a sheet. Our choice
+constexpr double kMostPoints = 1e7;   // 0.2 GB. Our choice
 constexpr int kSheetPhases = 32;
 constexpr double kBetweenPhases_m = 2e-3;
 
 // Purposes of hashed numbers.
-enum : std::uint64_t { kSheetCount = 11, kSheetPlace = 12, kSheetThrough = 17 };
+enum : std::uint64_t { kSheetCount = 11, kSheetPlace = 12, kSheetThrough = 17, kChordPlace = 18 };
 
 double areaOf(const Triangle& t, const std::vector<Vec3f>& at) {
   return 0.5 * static_cast<double>(length(cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]])));
@@ -27,13 +29,17 @@ double areaOf(const Triangle& t, const std::vector<Vec3f>& at) {
 }  // namespace
 
 SheetPoints::SheetPoints(const Scene& scene, const MeshMotion& motion, double reference_phase,
-                         std::shared_ptr<const LeafletBodies> leaflets)
-    : motion_(motion), leaflets_(std::move(leaflets)) {
+                         std::shared_ptr<const LeafletBodies> leaflets,
+                         std::shared_ptr<const Chordae> chordae)
+    : motion_(motion), leaflets_(std::move(leaflets)), chordae_(std::move(chordae)) {
   const auto& surfaces = motion.surfaces();
-  if (std::none_of(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.membrane; }))
-    return;
+  const bool sheets =
+      std::any_of(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.membrane; });
+  if (!sheets && !chordae_) return;
   const PointSpread spread(scene);
   const double apart_m = kApartPerWidth * spread.axial_width_m;
+  if (chordae_) drawOnChords(scene, apart_m / kChordPerSheet);
+  if (!sheets) return;
   const double per_m2 = scene.speckle.per_cell / kOrdinaryPerCell / (apart_m * apart_m);
   SurfaceFrame frame;
   motion.frameAt(reference_phase, frame, false);
@@ -76,6 +82,26 @@ void SheetPoints::draw(const SurfaceTopology& sheet, const std::vector<Vec3f>& p
   }
 }
 
+// Evenly spaced along each chord at rest, uniform over its section's circumscribed ball.
+void SheetPoints::drawOnChords(const Scene& scene, double apart_m) {
+  const std::vector<Chordae::Chord>& chords = chordae_->chords();
+  const auto radius_m = static_cast<float>(0.5 * scene.leaflets.chordae_m);
+  for (std::uint32_t c = 0; c < chords.size(); ++c) {
+    const auto count = static_cast<std::uint32_t>(std::ceil(chords[c].length_m / apart_m));
+    for (std::uint32_t j = 0; j < count; ++j) {
+      const auto drawn = [&](int axis) {
+        return static_cast<float>(
+            uniformFromHash(hashOf(scene.speckle.seed, kChordPlace, c, j, axis)));
+      };
+      const float z = 2 * drawn(0) - 1, turn_rad = 2 * std::numbers::pi_v<float> * drawn(1),
+                  out_m = radius_m * std::cbrt(drawn(2)), across = std::sqrt(1 - z * z);
+      on_chords_.push_back(
+          {c, (static_cast<float>(j) + 0.5f) / static_cast<float>(count),
+           out_m * Vec3f{across * std::cos(turn_rad), across * std::sin(turn_rad), z}});
+    }
+  }
+}
+
 void SheetPoints::dropUnseen(const MeshMotion& motion, double reach_m) {
   std::vector<bool> seen(points_.size());
   std::vector<Vec3f> places_m;
@@ -111,6 +137,16 @@ void SheetPoints::at(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m)
     const bool thick = leaflets_ && leaflets_->isBody(points_[p].surface);
     places_m.push_back(thick ? on_sheet_m + through_[p] * place(points_[p], faces, front_m[s])
                              : on_sheet_m);
+  }
+  if (on_chords_.empty()) return;
+  thread_local std::vector<Vec3f> chords_m;
+  chordae_->at(surfaces, chords_m);
+  for (const OnChord& point : on_chords_) {
+    const float walked = point.along * (Chordae::kPoints - 1);
+    const auto i = static_cast<std::size_t>(walked);
+    const Vec3f* const from = &chords_m[point.chord * Chordae::kPoints + i];
+    const float t = walked - static_cast<float>(i);
+    places_m.push_back(from[0] + t * (from[1] - from[0]) + point.beside_m);
   }
 }
 

@@ -1,11 +1,13 @@
 #pragma once
-// Scatterers of membranes, bound to their triangles. A leaflet's speckle thus moves with it through
-// blood that renews itself.
+// Scatterers of membranes, bound to their triangles, and of chordae. Their speckle thus moves with
+// them through blood that renews itself.
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "motion/interior/bound_point.h"
+#include "motion/surfaces/chordae.h"
 #include "motion/surfaces/leaflet_bodies.h"
 #include "motion/surfaces/mesh_motion.h"
 #include "speckle/point_spread.h"
@@ -18,24 +20,34 @@ class SheetPoints {
   // instant are omitted. At 3 per resolution cell their spacing is half a pulse's width, so a cell
   // contains many more of them than of the surrounding blood, which hardly contributes to the
   // sheet's echo.
-  // Those of a leaflet with thickness are spread evenly through its body.
+  // Those of a leaflet with thickness are spread evenly through its body. Chordae have four times
+  // as many along each spacing, all over their section.
   SheetPoints(const Scene& scene, const MeshMotion& motion, double reference_phase,
-              std::shared_ptr<const LeafletBodies> leaflets = nullptr);
+              std::shared_ptr<const LeafletBodies> leaflets = nullptr,
+              std::shared_ptr<const Chordae> chordae = nullptr);
 
-  std::size_t count() const { return points_.size(); }
+  std::size_t count() const { return points_.size() + on_chords_.size(); }
   // Positions at an instant, always in the same order. Empty for a frame without
   // surfaces.
   void at(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m) const;
 
  private:
+  struct OnChord {
+    std::uint32_t chord = 0;
+    float along = 0;  // 0 at the muscle to 1 at the leaflet
+    Vec3f beside_m{};
+  };
   void draw(const SurfaceTopology& sheet, const std::vector<Vec3f>& positions_m, double per_m2,
             const SpeckleSettings& settings);
+  void drawOnChords(const Scene& scene, double apart_m);
   void dropUnseen(const MeshMotion& motion, double reach_m);
 
   const MeshMotion& motion_;
   std::shared_ptr<const LeafletBodies> leaflets_;
   std::vector<BoundPoint> points_;
   std::vector<float> through_;  // of each: -1 at the back of its body to 1 at the front
+  std::shared_ptr<const Chordae> chordae_;
+  std::vector<OnChord> on_chords_;
 };
 
 }  // namespace echocine

@@ -30,14 +30,20 @@ double Speckle::farthestAcross_m() const {
   return farthest_m;
 }
 
+double Speckle::renewalOf(const ScattererBatch& batch) const {
+  if (batch.blood) return settings_.blood_time_s;
+  const double renewed_s = static_cast<double>(batch.surroundings) * settings_.surroundings_time_s;
+  return renewed_s > 0 ? renewed_s : settings_.tissue_time_s;
+}
+
 void Speckle::addUp(const MaterialFrame& tissue, double time_s, LineRange lines,
                     SplatLists& splats) const {
   turn_ ? splats.startTurn(lines_, turn_->beside()) : splats.start(lines_, lines);
   for (const ScattererBatch& batch : scatterers_->batches()) {
     const BeamCube cube = view_.cubeOf(tissue.corners(batch.group, batch.low_m, batch.edge_m));
     if (!view_.sees(cube, lines)) continue;
-    GaussianMix mix = mixAt(gaussian_, batch.pattern, time_s,
-                            batch.blood ? settings_.blood_time_s : settings_.tissue_time_s);
+    GaussianMix mix = mixAt(gaussian_, batch.pattern, time_s, renewalOf(batch),
+                            batch.blood || batch.surroundings == 0);
     mix.strength = scatterers_->strength(batch);
     splatter_.add(cube, *scatterers_, batch, mix, splats);
   }

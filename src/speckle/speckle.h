@@ -45,6 +45,7 @@ class Speckle {
  private:
   void applyAround(const MaterialFrame& tissue, double time_s, std::span<float> intensities,
                    const CoherentEchoes& echoes, LineRange lines, EchoField* field) const;
+  double renewalOf(const ScattererBatch& batch) const;
   void addUp(const MaterialFrame& tissue, double time_s, LineRange lines, SplatLists& splats) const;
   void addSheets(std::span<const Vec3f> places_m, double time_s, SplatLists& splats) const;
 

@@ -63,18 +63,23 @@ constexpr std::ptrdiff_t kPlacesAhead = 16;  // eights that memory is asked for.
 
 }  // namespace
 
-GaussianMix mixAt(const GaussianTable& table, std::uint64_t pattern, double time_s, double tau_s) {
+GaussianMix mixAt(const GaussianTable& table, std::uint64_t pattern, double time_s, double tau_s,
+                  bool staggered) {
   if (!(tau_s > 0)) {
     const std::uint64_t start = mixBits(pattern);
     return {table.real(start), table.imaginary(start), table.real(start), table.imaginary(start)};
   }
-  const double at = time_s / tau_s + uniformFromHash(hashOf(pattern, 0x7e));
+  const double stagger = staggered ? uniformFromHash(hashOf(pattern, 0x7e)) : 0;
+  const double at = time_s / tau_s + stagger;
   const double floor = std::floor(at);
   // From 2^52 on a double has no fraction: each instant then has a draw of its own, by its bits.
   const bool whole = !(std::abs(at) < 0x1p52);
   const auto m = whole ? std::bit_cast<std::int64_t>(at) : static_cast<std::int64_t>(floor);
   const double f = whole ? 0 : at - floor;
-  const std::uint64_t one = hashOf(pattern, m), two = hashOf(pattern, m + 1);
+  const auto startOf = [&](std::int64_t number) {
+    return staggered || number != 0 ? hashOf(pattern, number) : mixBits(pattern);
+  };
+  const std::uint64_t one = startOf(m), two = startOf(m + 1);
   return {table.real(one),
           table.imaginary(one),
           table.real(two),

@@ -31,7 +31,10 @@ struct GaussianMix {
 
 // The mixture c(t) = cos(pi f/2) c_m + sin(pi f/2) c_(m+1) with m + f = t / tau + a batch's own
 // phase, so that renewals are not simultaneous. tau = 0: no renewal.
-GaussianMix mixAt(const GaussianTable& table, std::uint64_t pattern, double time_s, double tau_s);
+// staggered: patterns are renewed at different times. Else all together, from time 0 on, where the
+// mix is that of a pattern without renewal.
+GaussianMix mixAt(const GaussianTable& table, std::uint64_t pattern, double time_s, double tau_s,
+                  bool staggered = true);
 
 class Splatter {
  public:

@@ -205,7 +205,8 @@ TEST(Clutter, FallsExponentiallyAndDependsOnItsSeedAlone) {
     scene.artefacts.clutter_seed = seed;
     const NearFieldClutter clutter(scene), same(scene);
     const auto of = [](const NearFieldClutter& c) {
-      return powersOf([&](int i, float* real, float* imaginary) { c.add(1, i, real, imaginary); });
+      return powersOf(
+          [&](int i, float* real, float* imaginary) { c.add(1, 0, i, real, imaginary); });
     };
     const std::vector<float> plane = of(clutter);
     EXPECT_EQ(plane, of(same));

@@ -193,7 +193,41 @@ TEST(LeafletBodies, ChangeThePictureAndNoTruth) {
   support::expectPictureOnly(thickLeaflets({}, 0), thickLeaflets({}, 1.5e-3));
 }
 
-TEST(LeafletBodies, AreOfInflowValvesAndOfLooksButThePaper) {
+// Law: the mesh of a cusp is the middle of its body while it opens and closes. Cusps are a few rows
+// of vertices, whose outline is halved, so few exceed the thickness asked for.
+TEST(LeafletBodies, CuspsOpenAsTheirMeshes) {
+  constexpr double kCusp_m = 0.45e-3;
+  const Scene scene = thickLeaflets({}, 0, kCusp_m);
+  const Thick thick(scene);
+  int cusps = 0;
+  SurfaceFrame sheet;
+  std::vector<Vec3f> front_m;
+  for (const double phase : {0.0, 0.15, 0.6}) {
+    thick.motion.frameAt(phase, sheet, false);
+    const SurfaceFrame body = thick.at(phase);
+    for (const SurfaceTopology& surface : thick.bodies.surfaces()) {
+      const std::size_t s = index(surface.id);
+      if (!thick.bodies.isBody(surface.id)) continue;
+      const Role role = roleOf(scene.structures[s]);
+      EXPECT_TRUE(role == Role::aortic_valve || role == Role::pulmonary_valve);
+      ++cusps;
+      thick.bodies.toFront(surface.id, sheet.positions_m[s], front_m);
+      double most_m = 0;
+      const std::size_t n = front_m.size();
+      for (std::size_t v = 0; v < n; ++v) {
+        most_m = std::max(most_m, 2 * static_cast<double>(length(front_m[v])));
+        const Vec3f middle =
+            0.5f * (body.positions_m[s][v] + body.positions_m[s][v + n]) - sheet.positions_m[s][v];
+        ASSERT_LT(length(middle), 1e-7f);
+      }
+      EXPECT_LE(most_m, 2 * kCusp_m);
+      EXPECT_GT(most_m, 0.9 * kCusp_m) << scene.structures[s].name;
+    }
+  }
+  EXPECT_EQ(cusps, 3 * 6);
+}
+
+TEST(LeafletBodies, AreOfValvesAndOfLooksButThePaper) {
   Scene scene = thickLeaflets({}, 0);
   EXPECT_FALSE(planEffects(scene).leaflets);
   scene.leaflets.thickness_m = 1e-3;
@@ -201,6 +235,10 @@ TEST(LeafletBodies, AreOfInflowValvesAndOfLooksButThePaper) {
   int thick = 0;
   for (const Structure& structure : scene.structures) thick += hasThickness(scene, structure);
   EXPECT_EQ(thick, 4);
+  scene.leaflets.cusp_m = 0.5e-3;
+  thick = 0;
+  for (const Structure& structure : scene.structures) thick += hasThickness(scene, structure);
+  EXPECT_EQ(thick, 10);
   for (const Look look : {Look::paper, Look::clean, Look::scanner})
     EXPECT_EQ(heart::heartScene(heart::parametersFrom({}), heart::View::a4c, 4, look)
                       .leaflets.thickness_m > 0,

@@ -23,10 +23,11 @@ struct Thick {
   LeafletBodies bodies;
 };
 
-// Apical four-chamber view, 8 keyframes.
-inline Scene thickLeaflets(const std::map<std::string, double>& dials, double thickness_m) {
+// Apical four-chamber view, 8 keyframes. Without chordae.
+inline Scene thickLeaflets(const std::map<std::string, double>& dials, double thickness_m,
+                           double cusp_m = 0) {
   Scene scene = heart::heartScene(heart::parametersFrom(dials), heart::View::a4c, 8);
-  scene.leaflets.thickness_m = thickness_m;
+  scene.leaflets = {.thickness_m = thickness_m, .cusp_m = cusp_m};
   return scene;
 }
 
