@@ -30,19 +30,20 @@ SheetPoints::SheetPoints(const Scene& scene, const MeshMotion& motion, double re
                          std::shared_ptr<const LeafletBodies> leaflets)
     : motion_(motion), leaflets_(std::move(leaflets)) {
   const auto& surfaces = motion.surfaces();
-  if (std::none_of(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.membrane; }))
-    return;
+  std::vector<SurfaceId> sheets;
+  for (const SurfaceTopology& surface : surfaces)
+    if (surface.membrane) sheets.push_back(surface.id);
+  if (sheets.empty()) return;
   const PointSpread spread(scene);
   const double apart_m = kApartPerWidth * spread.axial_width_m;
   const double per_m2 = scene.speckle.per_cell / kOrdinaryPerCell / (apart_m * apart_m);
   SurfaceFrame frame;
-  motion.frameAt(reference_phase, frame, false);
-  for (const SurfaceTopology& surface : surfaces)
-    if (surface.membrane)
-      draw(surface, frame.positions_m[index(surface.id)], per_m2, scene.speckle);
+  motion.positionsAt(reference_phase, sheets, frame);
+  for (const SurfaceId sheet : sheets)
+    draw(surfaces[index(sheet)], frame.positions_m[index(sheet)], per_m2, scene.speckle);
   const double widest_m = std::max(spread.elevationWidth(scene.probe.min_depth_m),
                                    spread.elevationWidth(scene.probe.max_depth_m));
-  dropUnseen(motion, kElevationCut * widest_m + kBetweenPhases_m);
+  dropUnseen(sheets, kElevationCut * widest_m + kBetweenPhases_m);
 }
 
 void SheetPoints::draw(const SurfaceTopology& sheet, const std::vector<Vec3f>& positions_m,
@@ -76,12 +77,12 @@ void SheetPoints::draw(const SurfaceTopology& sheet, const std::vector<Vec3f>& p
   }
 }
 
-void SheetPoints::dropUnseen(const MeshMotion& motion, double reach_m) {
+void SheetPoints::dropUnseen(std::span<const SurfaceId> sheets, double reach_m) {
   std::vector<bool> seen(points_.size());
   std::vector<Vec3f> places_m;
   SurfaceFrame frame;
   for (int i = 0; i < kSheetPhases; ++i) {
-    motion.frameAt(static_cast<double>(i) / kSheetPhases, frame, false);
+    motion_.positionsAt(static_cast<double>(i) / kSheetPhases, sheets, frame);
     at(frame, places_m);
     for (std::size_t p = 0; p < seen.size(); ++p)
       seen[p] = seen[p] || std::abs(static_cast<double>(places_m[p].y)) < reach_m;

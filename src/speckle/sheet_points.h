@@ -3,6 +3,7 @@
 // blood that renews itself.
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "motion/interior/bound_point.h"
@@ -30,7 +31,7 @@ class SheetPoints {
  private:
   void draw(const SurfaceTopology& sheet, const std::vector<Vec3f>& positions_m, double per_m2,
             const SpeckleSettings& settings);
-  void dropUnseen(const MeshMotion& motion, double reach_m);
+  void dropUnseen(std::span<const SurfaceId> sheets, double reach_m);
 
   const MeshMotion& motion_;
   std::shared_ptr<const LeafletBodies> leaflets_;
