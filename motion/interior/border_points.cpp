@@ -69,12 +69,11 @@ std::vector<BorderPoint> borderPoints(std::span<const InteriorSurface> surfaces,
     for (std::size_t i = begin; i < end; ++i) {
       BorderPoint& point = points[i];
       const Vec3d p = toDouble(point.reference_m);
-      if (tops.hides(p, point.surface)) {
-        point.beyond = kHidden;
-        continue;
-      }
       const auto beyond = tops.at(p, point.surface);
-      point.beyond = static_cast<std::uint32_t>(beyond ? index(*beyond) : surfaces.size());
+      if (beyond && tops.isStronger(*beyond, point.surface))
+        point.beyond = kHidden;
+      else
+        point.beyond = static_cast<std::uint32_t>(beyond ? index(*beyond) : surfaces.size());
     }
   });
   std::erase_if(points, [](const BorderPoint& point) { return point.beyond == kHidden; });

@@ -44,6 +44,9 @@ class TopSurfaces {
   };
   Within within(const Box& box_m) const;
 
+  // Does `a` win where both closed surfaces overlap?
+  bool isStronger(SurfaceId a, SurfaceId b) const { return rank_[index(a)] < rank_[index(b)]; }
+
   // Does a surface of higher priority than `surface` contain the place?
   bool hides(Vec3d place_m, SurfaceId surface) const;
 

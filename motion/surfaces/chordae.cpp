@@ -86,7 +86,12 @@ Insertions spreadOf(const SurfaceFrame& frame, const std::vector<Chordae::Chord>
 }  // namespace
 
 Chordae::Chordae(const Scene& scene, const MeshMotion& motion) {
-  const std::vector<SurfaceFrame> frames = instantsOfBeat(motion);
+  std::vector<SurfaceId> ends;
+  for (const SurfaceTopology& surface : motion.surfaces()) {
+    const Role role = roleOf(scene.structures[index(surface.id)]);
+    if (role == Role::mitral_valve || role == Role::papillary_muscle) ends.push_back(surface.id);
+  }
+  const std::vector<SurfaceFrame> frames = instantsOfBeat(motion, ends);
   for (const SurfaceTopology& leaflet : motion.surfaces()) {
     const std::size_t s = index(leaflet.id);
     if (roleOf(scene.structures[s]) != Role::mitral_valve) continue;

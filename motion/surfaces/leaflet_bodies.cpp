@@ -68,10 +68,13 @@ bool thinOut(const std::vector<Triangle>& faces, const std::vector<Vec3f>& at_m,
 
 LeafletBodies::LeafletBodies(const Scene& scene, const MeshMotion& motion)
     : surfaces_(motion.surfaces()), sheets_(surfaces_.size()), half_m_(surfaces_.size()) {
-  const std::vector<SurfaceFrame> frames = instantsOfBeat(motion);
-  for (const SurfaceTopology& surface : motion.surfaces()) {
-    const std::size_t s = index(surface.id);
-    if (!hasThickness(scene, scene.structures[s])) continue;
+  std::vector<SurfaceId> leaflets;
+  for (const SurfaceTopology& surface : motion.surfaces())
+    if (hasThickness(scene, scene.structures[index(surface.id)])) leaflets.push_back(surface.id);
+  const std::vector<SurfaceFrame> frames = instantsOfBeat(motion, leaflets);
+  for (const SurfaceId leaflet : leaflets) {
+    const std::size_t s = index(leaflet);
+    const SurfaceTopology& surface = motion.surfaces()[s];
     const Outline outline = outlineOf(surface.triangles);
     if (outline.empty()) continue;
     std::vector<const std::vector<Vec3f>*> instants;

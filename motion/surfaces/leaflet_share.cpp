@@ -4,11 +4,13 @@
 
 namespace echocine {
 
-std::vector<SurfaceFrame> instantsOfBeat(const MeshMotion& motion) {
+std::vector<SurfaceFrame> instantsOfBeat(const MeshMotion& motion,
+                                         std::span<const SurfaceId> some) {
   constexpr int kInstants = 16;
   std::vector<SurfaceFrame> frames(kInstants);
   for (int i = 0; i < kInstants; ++i)
-    motion.frameAt(static_cast<double>(i) / kInstants, frames[static_cast<std::size_t>(i)], false);
+    motion.positionsAt(static_cast<double>(i) / kInstants, some,
+                       frames[static_cast<std::size_t>(i)]);
   return frames;
 }
 

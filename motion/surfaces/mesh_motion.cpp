@@ -231,6 +231,17 @@ void MeshMotion::frameAt(double phase, SurfaceFrame& frame, bool normals) const 
   }
 }
 
+void MeshMotion::positionsAt(double phase, std::span<const SurfaceId> some,
+                             SurfaceFrame& frame) const {
+  frame.positions_m.resize(moving_.size());
+  for (const SurfaceId surface : some) {
+    checkpoint();
+    const std::size_t s = index(surface);
+    if (!surfaces_[s].still || frame.positions_m[s].empty())
+      moving_[s].frameAt(phase, frame.positions_m[s], nullptr);
+  }
+}
+
 double MeshMotion::volumeIn(const SurfaceFrame& frame, const SurfaceTopology& surface) const {
   const std::size_t s = index(surface.id);
   return surface.still ? moving_[s].still_volume_m3 : moving_[s].volume.of(frame.positions_m[s]);

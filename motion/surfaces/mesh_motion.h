@@ -2,6 +2,7 @@
 // The moving surfaces of a scene: keyframe meshes in, surfaces at any phase out.
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ class MeshMotion {
   // `frame` is reused without allocation once it has held a frame of this motion. normals: also
   // smooth normals, if hasNormals().
   void frameAt(double phase, SurfaceFrame& frame, bool normals = true) const;
+
+  // The positions of some surfaces only, with the same bits. Others in `frame` stay as they are.
+  void positionsAt(double phase, std::span<const SurfaceId> some, SurfaceFrame& frame) const;
 
   // Can the surfaces give smooth normals? True if the scene requests them or its rays may bend.
   bool hasNormals() const { return smooth_normals_; }

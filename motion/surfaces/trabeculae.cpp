@@ -136,9 +136,11 @@ Trabeculae::Trabeculae(const Scene& scene, const MeshMotion& motion, bool everyw
     relief.about = surface.triangles;
     reliefs_.push_back(std::move(relief));
   }
+  std::vector<SurfaceId> walls;
+  for (const Relief& relief : reliefs_) walls.push_back(relief.surface);
   SurfaceFrame later;
-  for (int i = 0; i < kPhases && !reliefs_.empty(); ++i) {
-    motion.frameAt(static_cast<double>(i) / kPhases, later, false);
+  for (int i = 0; i < kPhases; ++i) {
+    motion.positionsAt(static_cast<double>(i) / kPhases, walls, later);
     for (Relief& relief : reliefs_) calm(later.positions_m[index(relief.surface)], relief);
   }
   if (!everywhere)

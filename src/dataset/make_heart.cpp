@@ -109,7 +109,7 @@ Tracing measure(const Simulator& simulator, SurfaceId cavity, const CavityMarks&
                 const PictureGeometry& geometry, bool is_short_axis, LoopFrame& frame) {
   const Pose& pose = simulator.scene().probe.pose;
   SurfaceFrame surfaces;
-  simulator.motion().frameAt(frame.time.phase, surfaces, false);
+  simulator.motion().positionsAt(frame.time.phase, {&cavity, 1}, surfaces);
   const SurfaceTopology& surface = simulator.motion().surfaces()[index(cavity)];
   const std::vector<Vec3f>& positions = surfaces.positions_m[index(cavity)];
   const LongAxis axis{pose.fromWorld(marks.mitral), pose.fromWorld(marks.apex)};

@@ -28,7 +28,7 @@ std::pair<Instant, Instant> extremesOf(const Simulator& simulator) {
   SurfaceFrame surfaces;
   for (int i = 0; i < clock.frameCount() && clock.at(i).beat == 0; ++i) {
     const FrameTime time = clock.at(i);
-    simulator.motion().frameAt(time.phase, surfaces, false);
+    simulator.motion().positionsAt(time.phase, {&cavity.id, 1}, surfaces);
     const double ml = millilitresFromCubicMetres(simulator.motion().volumeIn(surfaces, cavity));
     if (i == 0 || ml > ed.ml) ed = {time.time_s, ml};
     if (i == 0 || ml < es.ml) es = {time.time_s, ml};

@@ -17,10 +17,10 @@ namespace echocine {
 
 namespace {
 
-constexpr double kMostScatterers = 5e7;      // 0.3 GB. Our choice
-constexpr double kMostBlocks = 2e7;          // looked at; under a second. Our choice
-constexpr std::size_t kMostKept = 3e6;       // of these, 0.3 GB. Our choice
-constexpr double kBetweenInstants_m = 2e-3;  // tissue moves less to the nearest instant looked at
+constexpr double kMostScatterers = 5e7;  // 0.3 GB. Our choice
+constexpr double kMostBlocks = 2e7;      // looked at; under a second. Our choice
+constexpr std::size_t kMostKept = 3e6;   // of these, 0.3 GB. Our choice
+constexpr auto kBetween_m = static_cast<double>(kBetweenInstants_m);
 constexpr std::size_t kBlocksTogether = 64;  // in a task. Our choice
 constexpr std::uint8_t kAllCubes = 255;
 
@@ -151,7 +151,7 @@ bool BlockSearch::movesIntoView(Vec3f low_m, std::uint16_t group) const {
               high = toDouble(low_m) + Vec3d{edge_m_, edge_m_, edge_m_} + moves.hi;
   const Vec3d middle = 0.5 * (low + high), half = 0.5 * (high - low);
   if (middle.z <= 0) return true;
-  const double margin_m = kBetweenInstants_m + kRounding_m;
+  const double margin_m = kBetween_m + kRounding_m;
   return view_.sees(
       Extent{middle.x, middle.z, half.x + half.z + margin_m, low.y - margin_m, high.y + margin_m});
 }
@@ -176,7 +176,7 @@ void BlockSearch::lookAt(const MaterialFrame& tissue, TissueBlock& block) const 
     for (std::uint32_t cube = 0; cube < (coarse ? 1u : 8u); ++cube) {
       if (part.seen >> cube & 1) continue;
       const Vec3f low_m = block.low_m + cubeOffset(cube, edge_m);
-      if (view_.sees(extentOf(tissue.corners(part.group, low_m, edge_m), kBetweenInstants_m)))
+      if (view_.sees(extentOf(tissue.corners(part.group, low_m, edge_m), kBetween_m)))
         part.seen = static_cast<std::uint8_t>(part.seen | 1u << cube);
     }
   }

@@ -92,11 +92,12 @@ FieldMaterial::FieldMaterial(const Scene& scene, const MeshMotion& motion, const
     }
   if (trabeculae) {
     SurfaceFrame surfaces;
-    motion.frameAt(field_.referencePhase(), surfaces, false);
-    for (const Relief& relief : trabeculae->reliefs())
+    for (const Relief& relief : trabeculae->reliefs()) {
+      motion.positionsAt(field_.referencePhase(), {&relief.surface, 1}, surfaces);
       ridges_.emplace_back(relief, motion.surfaces()[index(relief.surface)],
                            surfaces.positions_m[index(relief.surface)],
                            field_.groupOf(relief.surface));
+    }
   }
   reach_ = BlockReach(field_, kPhasesLookedAt);
   along_m_ = kBetweenPhases * reach_.alongPlane();

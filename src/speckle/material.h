@@ -34,6 +34,9 @@ class MaterialFrame {
   virtual std::span<const Vec3f> onSheets() const { return {}; }
 };
 
+// Tissue moves less from any instant to the nearest of Material::overTheBeat().
+inline constexpr float kBetweenInstants_m = 2e-3f;
+
 class Material {
  public:
   virtual ~Material() = default;
@@ -53,8 +56,7 @@ class Material {
   virtual bool differs() const { return false; }
   virtual void amplitudes(std::span<const Vec3f> /*reference_m*/, std::uint16_t /*group*/,
                           std::span<float> /*out*/) const {}
-  // Calls look() for instants all over the beat, close enough that tissue moves under 2 mm to the
-  // nearest. Never called: whatever may be seen is kept.
+  // Calls look() for instants all over the beat. Never called: whatever may be seen is kept.
   virtual void overTheBeat(const std::function<void(const MaterialFrame&)>& /*look*/) const {}
   // The most that any tissue moves, from the reference: across the imaging plane and in it.
   virtual double reachAcross_m() const { return 0; }

@@ -4,15 +4,19 @@
 #include <cmath>
 #include <map>
 #include <span>
+#include <utility>
 
 #include "core/hash_random.h"
 #include "core/parallel.h"
 #include "core/stop.h"
+#include "speckle/across_range.h"
 #include "speckle/block_search.h"
 
 namespace echocine {
 
 namespace {
+
+constexpr auto kOfEight = static_cast<std::uint32_t>(kFloatLanes);
 
 // Purposes of hashed numbers.
 enum : std::uint64_t { kCount = 2, kGauss = 3, kBatch = 4 };
@@ -34,6 +38,34 @@ Vec3f placeInCube(const EightPlaces& eight, std::size_t lane) {
   constexpr float kOfEdge = 1.0f / kCubeEdge;
   return kOfEdge * Vec3f{static_cast<float>(eight.u[lane]), static_cast<float>(eight.v[lane]),
                          static_cast<float>(eight.w[lane])};
+}
+
+// What a beam can reach of each batch at instants of overTheBeat() and between them; all of it
+// without instants. All of blood, which takes longer to look at than to weigh.
+std::vector<AcrossRange> seenOverTheBeat(std::span<const ScattererBatch> batches,
+                                         const Material& material, const BeamView& view) {
+  AcrossRange all;
+  std::swap(all.first, all.last);
+  std::vector<AcrossRange> seen(batches.size());
+  for (std::size_t n = 0; n < batches.size(); ++n)
+    if (batches[n].blood) seen[n] = all;
+  bool looked = false;
+  material.overTheBeat([&](const MaterialFrame& tissue) {
+    looked = true;
+    parallelBlocks(batches.size(), 64, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) {
+        const ScattererBatch& b = batches[n];
+        if (b.blood) continue;
+        for (const float beside_m : {-kBetweenInstants_m, kBetweenInstants_m}) {
+          CubeCorners corners = tissue.corners(b.group, b.low_m, b.edge_m);
+          for (Vec3f& corner : corners) corner.y += beside_m;
+          seen[n].add(AcrossRange(view.cubeOf(corners).across));
+        }
+      }
+    });
+  });
+  if (!looked) std::ranges::fill(seen, all);
+  return seen;
 }
 
 }  // namespace
@@ -82,7 +114,7 @@ Scatterers::Scatterers(const Probe& probe, const PointSpread& spread, const Beam
   places_.shrink_to_fit();
   for (const EightPlaces& eight : places_)
     highest_.push_back(*std::max_element(std::begin(eight.v), std::end(eight.v)));
-  weigh(material);
+  weigh(material, view);
 }
 
 void Scatterers::take(Drawn& drawn) {
@@ -96,20 +128,40 @@ void Scatterers::take(Drawn& drawn) {
   drawn = {};
 }
 
-void Scatterers::weigh(const Material& material) {
+void Scatterers::weigh(const Material& material, const BeamView& view) {
   if (!material.differs()) return;
   strength_.assign(places_.size() * kFloatLanes, 1);
+  const std::vector<AcrossRange> seen = seenOverTheBeat(batches_, material, view);
   parallelBlocks(batches_.size(), 16, [&](std::size_t begin, std::size_t end) {
     std::vector<Vec3f> places_m;
     for (std::size_t n = begin; n < end; ++n) {
       const ScattererBatch& b = batches_[n];
+      const std::uint32_t from = firstOf(b, seen[n].first), to = endOf(b, seen[n].last);
+      if (from >= to) continue;
       places_m.clear();
-      for (std::uint32_t i = b.first; i < b.first + b.count; ++i)
+      for (std::uint32_t i = b.first + from; i < b.first + to; ++i)
         places_m.push_back(b.low_m +
                            b.edge_m * placeInCube(places_[i / kFloatLanes], i % kFloatLanes));
-      material.amplitudes(places_m, b.group, std::span(strength_).subspan(b.first, b.count));
+      material.amplitudes(places_m, b.group,
+                          std::span(strength_).subspan(b.first + from, to - from));
     }
   });
+}
+
+// Multiples of the lanes. Highest v of the eights ascend.
+std::uint32_t Scatterers::firstOf(const ScattererBatch& b, float v) const {
+  const std::uint16_t *const begin = highest(b), *const end = begin + eightsOf(b);
+  const auto at = std::lower_bound(begin, end, v, [](std::uint16_t high, float least) {
+    return static_cast<float>(high) < least;
+  });
+  return static_cast<std::uint32_t>(at - begin) * kOfEight;
+}
+std::uint32_t Scatterers::endOf(const ScattererBatch& b, float v) const {
+  const std::uint16_t *const begin = highest(b), *const end = begin + eightsOf(b);
+  const auto at = std::upper_bound(begin, end, v, [](float most, std::uint16_t high) {
+    return most < static_cast<float>(high);
+  });
+  return std::min(static_cast<std::uint32_t>(at - begin + 1) * kOfEight, b.count);
 }
 
 // By group and cube, for the cubes that a beam reaches. A place depends on its number alone, so

@@ -59,7 +59,12 @@ class Scatterers {
     return highest_.data() + eightOf(b);
   }
 
-  // Factors of amplitude; none where all are 1.
+  // Numbers within a batch: all scatterers between v = first and v = last lie in
+  // [firstOf(first), endOf(last)).
+  std::uint32_t firstOf(const ScattererBatch& b, float v) const;
+  std::uint32_t endOf(const ScattererBatch& b, float v) const;
+
+  // Factors of amplitude; none where all are 1. Also 1 for scatterers that no beam reaches.
   const float* strength(const ScattererBatch& b) const {
     return strength_.empty() ? nullptr : strength_.data() + b.first;
   }
@@ -67,7 +72,10 @@ class Scatterers {
  private:
   struct Drawn;
   static std::size_t eightOf(const ScattererBatch& b) { return b.first / kFloatLanes; }
-  void weigh(const Material& material);
+  static std::size_t eightsOf(const ScattererBatch& b) {
+    return (b.count + kFloatLanes - 1) / kFloatLanes;
+  }
+  void weigh(const Material& material, const BeamView& view);
   void take(Drawn& drawn);
 
   std::vector<ScattererBatch> batches_;

@@ -33,22 +33,22 @@ SheetPoints::SheetPoints(const Scene& scene, const MeshMotion& motion, double re
                          std::shared_ptr<const Chordae> chordae)
     : motion_(motion), leaflets_(std::move(leaflets)), chordae_(std::move(chordae)) {
   const auto& surfaces = motion.surfaces();
-  const bool sheets =
-      std::any_of(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.membrane; });
-  if (!sheets && !chordae_) return;
+  std::vector<SurfaceId> sheets;
+  for (const SurfaceTopology& surface : surfaces)
+    if (surface.membrane) sheets.push_back(surface.id);
+  if (sheets.empty() && !chordae_) return;
   const PointSpread spread(scene);
   const double apart_m = kApartPerWidth * spread.axial_width_m;
   if (chordae_) drawOnChords(scene, apart_m / kChordPerSheet);
-  if (!sheets) return;
+  if (sheets.empty()) return;
   const double per_m2 = scene.speckle.per_cell / kOrdinaryPerCell / (apart_m * apart_m);
   SurfaceFrame frame;
-  motion.frameAt(reference_phase, frame, false);
-  for (const SurfaceTopology& surface : surfaces)
-    if (surface.membrane)
-      draw(surface, frame.positions_m[index(surface.id)], per_m2, scene.speckle);
+  motion.positionsAt(reference_phase, sheets, frame);
+  for (const SurfaceId sheet : sheets)
+    draw(surfaces[index(sheet)], frame.positions_m[index(sheet)], per_m2, scene.speckle);
   const double widest_m = std::max(spread.elevationWidth(scene.probe.min_depth_m),
                                    spread.elevationWidth(scene.probe.max_depth_m));
-  dropUnseen(motion, kElevationCut * widest_m + kBetweenPhases_m);
+  dropUnseen(sheets, kElevationCut * widest_m + kBetweenPhases_m);
 }
 
 void SheetPoints::draw(const SurfaceTopology& sheet, const std::vector<Vec3f>& positions_m,
@@ -102,13 +102,13 @@ void SheetPoints::drawOnChords(const Scene& scene, double apart_m) {
   }
 }
 
-void SheetPoints::dropUnseen(const MeshMotion& motion, double reach_m) {
+void SheetPoints::dropUnseen(std::span<const SurfaceId> sheets, double reach_m) {
   std::vector<bool> seen(points_.size());
   std::vector<Vec3f> places_m;
   SurfaceFrame frame;
   for (int i = 0; i < kSheetPhases; ++i) {
-    motion.frameAt(static_cast<double>(i) / kSheetPhases, frame, false);
-    at(frame, places_m);
+    motion_.positionsAt(static_cast<double>(i) / kSheetPhases, sheets, frame);
+    onSheetsAt(frame, places_m);
     for (std::size_t p = 0; p < seen.size(); ++p)
       seen[p] = seen[p] || std::abs(static_cast<double>(places_m[p].y)) < reach_m;
   }
@@ -122,9 +122,8 @@ void SheetPoints::dropUnseen(const MeshMotion& motion, double reach_m) {
   through_.resize(kept);
 }
 
-void SheetPoints::at(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m) const {
+void SheetPoints::onSheetsAt(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m) const {
   places_m.clear();
-  if (surfaces.positions_m.empty()) return;
   thread_local std::vector<std::vector<Vec3f>> front_m;
   front_m.resize(surfaces.positions_m.size());
   for (const SurfaceTopology& sheet : motion_.surfaces())
@@ -138,6 +137,12 @@ void SheetPoints::at(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m)
     places_m.push_back(thick ? on_sheet_m + through_[p] * place(points_[p], faces, front_m[s])
                              : on_sheet_m);
   }
+}
+
+void SheetPoints::at(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m) const {
+  places_m.clear();
+  if (surfaces.positions_m.empty()) return;
+  onSheetsAt(surfaces, places_m);
   if (on_chords_.empty()) return;
   thread_local std::vector<Vec3f> chords_m;
   chordae_->at(surfaces, chords_m);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "motion/interior/bound_point.h"
@@ -40,7 +41,8 @@ class SheetPoints {
   void draw(const SurfaceTopology& sheet, const std::vector<Vec3f>& positions_m, double per_m2,
             const SpeckleSettings& settings);
   void drawOnChords(const Scene& scene, double apart_m);
-  void dropUnseen(const MeshMotion& motion, double reach_m);
+  void dropUnseen(std::span<const SurfaceId> sheets, double reach_m);
+  void onSheetsAt(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m) const;
 
   const MeshMotion& motion_;
   std::shared_ptr<const LeafletBodies> leaflets_;

@@ -7,6 +7,7 @@
 
 #include "core/hash_random.h"
 #include "scene/beam_profile.h"
+#include "speckle/across_range.h"
 
 namespace echocine {
 
@@ -33,22 +34,6 @@ struct Trilinear {
   Floats8 at(Floats8 u, Floats8 v, Floats8 w) const {
     return ((c[0] + u * c[1]) + v * (c[2] + u * c[3])) +
            w * ((c[4] + u * c[5]) + v * (c[6] + u * c[7]));
-  }
-};
-
-// Where in a cube places may be seen: a range of v. Along each of the four edges
-// the place across is a line; between them it lies in their hull.
-struct AcrossRange {
-  float first, last;
-  explicit AcrossRange(Floats8 across) {
-    constexpr float kCut = 1.001f;  // a little beyond, for rounding
-    const Floats8 from = __builtin_shufflevector(across, across, 0, 1, 4, 5, 0, 1, 4, 5),
-                  slope = __builtin_shufflevector(across, across, 2, 3, 6, 7, 2, 3, 6, 7) - from;
-    const Floats8 cuts{-kCut, -kCut, -kCut, -kCut, kCut, kCut, kCut, kCut};
-    const Floats8 none{0, 0, 0, 0, 1, 1, 1, 1};
-    const Floats8 at = slope > 0 ? (cuts - from) / slope : none;
-    first = kCubeEdge * std::min(std::min(at[0], at[1]), std::min(at[2], at[3]));
-    last = kCubeEdge * std::max(std::max(at[4], at[5]), std::max(at[6], at[7]));
   }
 };
 
@@ -141,17 +126,14 @@ void Splatter::add(const BeamCube& cube, const Scatterers& scatterers, const Sca
   const AcrossRange range(cube.across);
   const Bend bend = bendOf(cube.sample);
   const EightPlaces* places = scatterers.places(batch);
-  const std::uint16_t* highest = scatterers.highest(batch);
-  const std::uint32_t eights = (batch.count + kFloatLanes - 1) / kFloatLanes;
-  std::uint32_t n = 0;
-  while (n < eights && static_cast<float>(highest[n]) < range.first) ++n;
-  for (; n < eights; ++n) {
-    if (n > 0 && static_cast<float>(highest[n - 1]) > range.last) break;
+  const std::uint32_t end = scatterers.endOf(batch, range.last);
+  for (std::uint32_t j = scatterers.firstOf(batch, range.first); j < end; j += kFloatLanes) {
+    const std::uint32_t n = j / kFloatLanes;
     const Floats8 u = floatsAt(places[n].u), v = floatsAt(places[n].v), w = floatsAt(places[n].w);
     __builtin_prefetch(places + n + kPlacesAhead);
     const Floats8 sample = samples.at(u, v, w);
-    addLanes({lines.at(u, v, w), sample, acrosses.at(u, v, w)}, bend.at(sample), mix,
-             n * kFloatLanes, batch.count, splats);
+    addLanes({lines.at(u, v, w), sample, acrosses.at(u, v, w)}, bend.at(sample), mix, j,
+             batch.count, splats);
   }
 }
 

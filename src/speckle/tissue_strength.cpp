@@ -1,6 +1,7 @@
 #include "speckle/tissue_strength.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -103,11 +104,12 @@ TissueStrength::TissueStrength(const Scene& scene, const EffectPlan& plan, const
   if (!plan.heterogeneity) settings_.heterogeneity_db = 0;
   const auto wall = structureOf(scene, Role::lv_wall), cavity = structureOf(scene, Role::lv_cavity);
   if (!plan.anisotropy || !wall || !cavity) return;
-  SurfaceFrame frame;
-  motion.frameAt(field.referencePhase(), frame, false);
-  const std::vector<Vec3f>& inner = frame.positions_m[index(*cavity)];
   const auto atrium = structureOf(scene, Role::la), valve = structureOf(scene, Role::mitral_valve);
   const auto base = valve ? valve : atrium;
+  SurfaceFrame frame;
+  motion.positionsAt(field.referencePhase(), std::array{*wall, *cavity, base.value_or(*wall)},
+                     frame);
+  const std::vector<Vec3f>& inner = frame.positions_m[index(*cavity)];
   wall_ = std::make_unique<const Wall>(Wall{
       static_cast<std::uint16_t>(index(field.groupOf(*wall))),
       NearestOnSurface(motion.surfaces()[index(*cavity)].triangles, inner),

@@ -123,7 +123,7 @@ void TruthMaker::lookAtBeat() {
   SurfaceFrame surfaces;
   std::vector<double> volume_ml;
   for (int i = 0; i < kSteps; ++i) {
-    motion_.frameAt(static_cast<double>(i) / kSteps, surfaces, false);
+    motion_.positionsAt(static_cast<double>(i) / kSteps, {&cavity.id, 1}, surfaces);
     volume_ml.push_back(millilitresFromCubicMetres(motion_.volumeIn(surfaces, cavity)));
   }
   valves_ = valveTimes(volume_ml);

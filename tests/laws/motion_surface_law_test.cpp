@@ -1,8 +1,11 @@
 // What holds for every frame of a moving surface.
 
+#include <filesystem>
 #include <numbers>
 
 #include "motion/surfaces/mesh_motion.h"
+#include "scene/scene_reader.h"
+#include "support/paths.h"
 #include "tests/stage/motion_fixtures.h"
 
 namespace echocine::motion_test {
@@ -36,6 +39,23 @@ TEST(MotionSurfaceLaw, KeyframePhasesReproduceTheirKeyframes) {
       for (std::size_t v = 0; v < exact.positions.size(); ++v)
         ASSERT_EQ(frame.positions_m[0][v], toFloat(0.01 * exact.positions[v]));
     }
+  }
+}
+
+// Some surfaces of the shipped heart, moving and still ones, against all of them. The others stay.
+TEST(MotionSurfaceLaw, SomeSurfacesHaveTheBitsOfAllOfThem) {
+  const Scene scene =
+      readScene(std::filesystem::path(support::kSourceDir) / "examples/beating_heart/scene.toml");
+  const MeshMotion motion(scene);
+  std::vector<SurfaceId> some;
+  for (const SurfaceTopology& surface : motion.surfaces())
+    if (index(surface.id) % 3 == 0) some.push_back(surface.id);
+  SurfaceFrame all, few;
+  for (const double phase : {0.0, 0.123, 0.36, 0.9}) {
+    motion.frameAt(phase, all, false);
+    motion.positionsAt(phase, some, few);
+    for (std::size_t s = 0; s < all.positions_m.size(); ++s)
+      EXPECT_EQ(few.positions_m[s], s % 3 == 0 ? all.positions_m[s] : std::vector<Vec3f>{});
   }
 }
 

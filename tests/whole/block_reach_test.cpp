@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 
@@ -94,6 +95,60 @@ void expectSameScatterers(const Scene& scene, double most_asked) {
     count += x.count;
   }
   EXPECT_EQ(count, b.count());
+}
+
+// The same tissue with a strength, which counts the scatterers that are weighed.
+class Weighed : public NearReaching {
+ public:
+  using NearReaching::NearReaching;
+  bool differs() const override { return true; }
+  void amplitudes(std::span<const Vec3f> at_m, std::uint16_t group,
+                  std::span<float> out) const override {
+    weighed += at_m.size();
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = strengthAt(at_m[i], group);
+  }
+  static float strengthAt(Vec3f at_m, std::uint16_t group) {
+    return 2 + static_cast<float>(group) + at_m.x + at_m.y + at_m.z;
+  }
+  mutable std::atomic<std::size_t> weighed{0};
+};
+
+// At instants between those that the search looks at, every scatterer whose place a beam may show
+// has its strength. Places are found one by one here.
+TEST(BlockReach, WeighsAllThatABeamShows) {
+  Scene scene = heart::heartScene(heart::parametersFrom({}), heart::View::a4c, 6);
+  scene.speckle.per_cell = 0.7;
+  const MeshMotion motion(scene);
+  const FieldMaterial material(scene, motion);
+  const Weighed weighed(material);
+  const PointSpread spread(scene.probe, scene.signal.pulse_cycles);
+  const BeamView view(scene.probe, spread);
+  const Scatterers all(scene.probe, spread, view, scene.speckle, weighed);
+  EXPECT_LT(static_cast<double>(weighed.weighed), 0.8 * static_cast<double>(all.count()));
+  std::size_t shown = 0;
+  for (const double phase : {0.0, 0.0151, 0.17, 0.359, 0.61, 0.983}) {
+    FieldFrame frame;
+    material.field().at(phase, frame);
+    const FieldMaterialFrame tissue(frame);
+    for (const ScattererBatch& b : all.batches()) {
+      const BeamCube cube = view.cubeOf(tissue.corners(b.group, b.low_m, b.edge_m));
+      for (std::uint32_t i = 0; i < b.count; ++i) {
+        const EightPlaces& eight = all.places(b)[i / kFloatLanes];
+        const std::size_t lane = i % kFloatLanes;
+        const Vec3f in = 1.0f / kCubeEdge *
+                         Vec3f{static_cast<float>(eight.u[lane]), static_cast<float>(eight.v[lane]),
+                               static_cast<float>(eight.w[lane])};
+        float across = 0;
+        for (std::size_t c = 0; c < kFloatLanes; ++c)
+          across += (c & 1 ? in.x : 1 - in.x) * (c & 2 ? in.y : 1 - in.y) *
+                    (c & 4 ? in.z : 1 - in.z) * cube.across[c];
+        if (std::abs(across) > 1) continue;
+        ++shown;
+        ASSERT_EQ(all.strength(b)[i], Weighed::strengthAt(b.low_m + b.edge_m * in, b.group));
+      }
+    }
+  }
+  EXPECT_GT(shown, 1000u);
 }
 
 TEST(BlockReach, ChangesNoScattererOfAHeart) {
