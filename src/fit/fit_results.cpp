@@ -59,7 +59,6 @@ Json viewsJson(const HeartFit& fit, const std::vector<std::string>& labels) {
   return out;
 }
 
-// Subtracted from the dials.
 Json ownErrorJson(const HeartFit& fit) {
   Json out = Json::object();
   for (const auto& [key, error] : fit.own_error)

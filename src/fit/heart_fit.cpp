@@ -176,27 +176,21 @@ void keepPossible(const FitCost& cost, FitDescent& best, HeartFit& fit) {
         "no heart has the dials of the best fit together: those of the nearest one are reported");
 }
 
-// Subtracts the error of the comparison itself from the hearts that were found.
-void correctByOwnLoops(const FittedSides& sides, const FitCost& cost,
-                       const HeartFitOptions& options, const Monitor& monitor,
-                       std::vector<FitDescent>& descents, HeartFit& fit) {
+// Fits the found heart's own rendered loops: regions, and the error of such a fit.
+void compareWithOwnLoops(const FittedSides& sides, const FitCost& cost,
+                         const HeartFitOptions& options, const Monitor& monitor,
+                         const FitPlace& best, HeartFit& fit) {
   std::vector<heart::View> views;
   for (const ViewFitted& view : fit.views) views.push_back(view.view);
-  auto own = fitOwnLoops(sides, cost, views, descents.front().best, options.tilt_deg, monitor,
-                         options.journal);
+  auto own = fitOwnLoops(sides, cost, views, best, options.tilt_deg, monitor, options.journal);
   fit.stopped = !own;
   if (!own) return;
   for (std::size_t v = 0; v < views.size(); ++v) {
     fit.views[v].regions = regionFindings(fit.views[v].report, own->twins[v], kFittedDials);
     fit.views[v].own = std::move(own->report[v]);
   }
-  for (std::size_t i = 0; i < own->error.size(); ++i) {
-    const FitUnknown& u = cost.unknowns()[i];
-    fit.own_error[u.name] = own->error[i];
-    for (FitDescent& descent : descents)
-      descent.best.at[i] = std::clamp(descent.best.at[i] - own->error[i], u.low, u.high);
-  }
-  keepPossible(cost, descents.front(), fit);
+  for (std::size_t i = 0; i < own->error.size(); ++i)
+    fit.own_error[cost.unknowns()[i].name] = own->error[i];
 }
 
 // Intervals that are no narrower than the spread over parts of the loops.
@@ -262,7 +256,8 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
   });
   unlessStopped(monitor, fit, [&] {
     if (options.own_loops)
-      correctByOwnLoops(sides, cost, options, progress.next(stages.own), descents, fit);
+      compareWithOwnLoops(sides, cost, options, progress.next(stages.own), descents.front().best,
+                          fit);
   });
   concludeFit(cost, descents, fit);
   if (!fit.stopped) progress.finish();

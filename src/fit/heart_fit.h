@@ -33,7 +33,7 @@ struct HeartFitOptions {
   double tilt_deg = 12;  // limit of tilt and rotation of each plane; 0: planes as the view has them
   int starts = 12;       // hearts that are compared first: the groups' means, then draws
   int descents = 2;      // from the best of them
-  // Fits the found heart's own rendered loops too, and subtracts the error that this has.
+  // Fits the found heart's own rendered loops too: for regions and own_error.
   bool own_loops = true;
   bool other_views = true;  // compares the found heart in other views (view_check.h)
   int resamples = 0;  // blocks of the beat that are left out in turn (fit_resamples.h); 0: none
@@ -82,12 +82,13 @@ struct HeartFit {
   std::vector<DialFound> found;         // searched dials
   // Empty if the loops do not determine the ejection fraction: `refusal` has the reason.
   std::optional<Estimate> ef;
-  std::optional<Estimate> edv_ml, esv_ml;   // empty without a length scale too
-  std::optional<Estimate> gls;              // Eq. 17 at end-systole; negative
-  std::map<std::string, double> own_error;  // subtracted, by dial
+  std::optional<Estimate> edv_ml, esv_ml;  // empty without a length scale too
+  std::optional<Estimate> gls;             // Eq. 17 at end-systole; negative
+  // By dial, the error of the same fit of the found heart's own rendered loops. Not subtracted.
+  std::map<std::string, double> own_error;
   // By dial, Eq. 19; no SD is smaller. Empty without resamples.
   std::map<std::string, double> resampled_sd;
-  std::vector<ViewFitted> views;  // as they fitted before
+  std::vector<ViewFitted> views;
   std::vector<HeartRival> rivals;
   std::vector<std::string> hints;    // why the result is uncertain and what would help
   std::vector<std::string> assumed;  // of these loops

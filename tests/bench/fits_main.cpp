@@ -89,10 +89,10 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
     return fit.own_error.contains(key) ? fit.own_error.at(key) : 0;
   };
   fmt::print(
-      "{}: EF {:.3f} for {:.3f}: {:+.3f}, {:+.3f} without the correction; EDV {:.1f} for {:.1f}: "
-      "{:+.1f} %, {:+.1f} % without; {:.0f} s\n",
-      number, fit.ef->value, true_ef, ef_error, ef_error + own("ef"), fit.edv_ml->value, true_edv,
-      100 * edv_error, 100 * (edv_error + own("edv") / true_edv), 1e-3 * fit.cpu_ms);
+      "{}: EF {:.3f} for {:.3f}: {:+.3f}, own error {:+.3f}; EDV {:.1f} for {:.1f}: {:+.1f} %, own "
+      "error {:+.1f} %; {:.0f} s\n",
+      number, fit.ef->value, true_ef, ef_error, own("ef"), fit.edv_ml->value, true_edv,
+      100 * edv_error, 100 * own("edv") / true_edv, 1e-3 * fit.cpu_ms);
   for (const std::string& hint : fit.hints) fmt::print("  {}\n", hint);
   for (const ViewFitted& view : fit.views)
     for (const RegionFinding& r : view.regions)

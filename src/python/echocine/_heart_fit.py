@@ -99,7 +99,7 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
         tilt_deg: limit of tilt and rotation of each plane, either way, 0 (none) to 20.
         starts: hearts that are compared first.
         descents: searches, from the best of them.
-        own_loops: fits the found heart's own rendered loops too, and subtracts the error of this.
+        own_loops: fits the found heart's own rendered loops too, for regions and the error of such a fit.
         resamples: fits again without each of so many blocks of the beat, 4 to 10: intervals include their spread; 0: none.
         cache: keeps computed hearts in the user's cache folder and reads them there; a path: in this folder; False: does neither.
         resume: continues a stopped fit in the folder.
