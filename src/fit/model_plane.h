@@ -59,7 +59,7 @@ struct ModelLoop {
 inline constexpr int kCellLines = 64, kCellsAlong = 60, kSamplesPerCell = 8;
 inline constexpr double kBoundaryPiece_m = 1.25e-3;  // spacing along a boundary; our choice
 
-// What a model's discrepancy is used for. all: every chamber counts the same. left_ventricle: to
+// Purpose of a model's discrepancy. all: every chamber counts the same. left_ventricle: to
 // fit a left ventricle. Other chambers, whose shapes no dial fits, then count kOtherChambers,
 // and edges of blood are expected kInside_m farther inside.
 enum class Focus { all, left_ventricle };
