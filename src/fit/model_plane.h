@@ -65,8 +65,8 @@ inline constexpr double kBoundaryPiece_m = 1.25e-3;  // spacing along a boundary
 enum class Focus { all, left_ventricle };
 
 // Weight of cells far from the left ventricle, and of boundaries other than its own and those of
-// its papillary muscles. With 0.3 and the true shape, the curvature of D in EF and EDV was that of 1
-// (three planted hearts, one view). Fits of two of them, whose atria and right ventricles are not
+// its papillary muscles. With 0.3 and the true shape, the curvature of D in EF and EDV was that of
+// 1 (three planted hearts, one view). Fits of two of them, whose atria and right ventricles are not
 // the models', had EF errors of -0.002 and +0.022 with 0.3, and of +0.046 and +0.023 with 1.
 inline constexpr double kOtherChambers = 0.3;
 // Trabeculae, leaflets and boundaries that curve within the thickness of the slice move visible

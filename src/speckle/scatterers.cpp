@@ -40,8 +40,8 @@ Vec3f placeInCube(const EightPlaces& eight, std::size_t lane) {
                          static_cast<float>(eight.w[lane])};
 }
 
-// Range of each batch that a beam can reach at instants of overTheBeat() and between them; all of it
-// without instants. Blood has its whole range: a test would take longer than its strengths.
+// Range of each batch that a beam can reach at instants of overTheBeat() and between them; all of
+// it without instants. Blood has its whole range: a test would take longer than its strengths.
 std::vector<AcrossRange> seenOverTheBeat(std::span<const ScattererBatch> batches,
                                          const Material& material, const BeamView& view) {
   AcrossRange all;
