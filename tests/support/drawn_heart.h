@@ -9,8 +9,8 @@
 #include "core/hash_random.h"
 #include "core/units.h"
 #include "echo/echo_loop.h"
-#include "fit/plane_cells.h"
 #include "fit/model_discrepancy.h"
+#include "fit/plane_cells.h"
 
 namespace echocine::support {
 
