@@ -18,7 +18,7 @@
 #include "support/all_cases.h"
 #include "support/picture_only.h"
 #include "support/plain_scene.h"
-#include "support/random_world.h"
+#include "support/random_dials.h"
 #include "trace/strand_echoes.h"
 
 namespace echocine::chordae_law {
@@ -104,23 +104,9 @@ TEST(ChordaeLaw, FollowMusclesAndLeaflets) {
 
 // Dials of any heart. Those without a shape are rejected elsewhere.
 TEST(ChordaeLaw, FollowMusclesAndLeafletsOfRandomHearts) {
-  int sound = 0;
-  const std::uint64_t count = support::allCases() ? 1000 : 6;
-  for (std::uint64_t number = 0; number < count; ++number) {
-    SCOPED_TRACE(number);
-    support::Dice dice(number);
-    std::map<std::string, double> dials;
-    for (const heart::Dial& dial : heart::dials()) {
-      const double value = dice.number(dial.low, dial.high);
-      if (dice.chance(0.5)) dials[dial.key] = value;
-    }
-    try {
-      expectSound(heartWith(dials));
-      ++sound;
-    } catch (const SceneError&) {
-    }
-  }
-  EXPECT_GT(sound, 0);
+  support::checkRandomHearts(
+      support::allCases() ? 1000 : 6,
+      [](const std::map<std::string, double>& dials) { expectSound(heartWith(dials)); });
 }
 
 // Both muscles hold both leaflets. Chords are longer than in human hearts (12.8 +- 4.0 mm, Kavitha

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "support/all_cases.h"
-#include "support/random_world.h"
+#include "support/random_dials.h"
 #include "support/thick_leaflets.h"
 
 namespace echocine::leaflet_hearts {
@@ -63,23 +63,9 @@ TEST(LeafletHearts, OfHeartsAreClosedAndTurnNoFaceOver) {
 // Random hearts over the full ranges of all dials; those without a shape are refused by name
 // elsewhere.
 TEST(LeafletHearts, OfRandomHeartsTurnNoFaceOver) {
-  int sound = 0;
-  const std::uint64_t count = allCases() ? 60 : 5;
-  for (std::uint64_t number = 0; number < count; ++number) {
-    SCOPED_TRACE(number);
-    support::Dice dice(number);
-    std::map<std::string, double> dials;
-    for (const heart::Dial& dial : heart::dials()) {
-      const double value = dice.number(dial.low, dial.high);
-      if (dice.chance(0.5)) dials[dial.key] = value;
-    }
-    try {
-      expectSound(thickLeaflets(dials, 1.5e-3, 0.45e-3));
-      ++sound;
-    } catch (const SceneError&) {
-    }
-  }
-  EXPECT_GT(sound, 0);
+  support::checkRandomHearts(allCases() ? 60 : 5, [](const std::map<std::string, double>& dials) {
+    expectSound(thickLeaflets(dials, 1.5e-3, 0.45e-3));
+  });
 }
 
 }  // namespace
