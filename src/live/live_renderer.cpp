@@ -74,7 +74,8 @@ Scene withLessEffort(const Scene& scene) {
   less.acquisition.rolling = false;
   less.speckle.on = false;
   less.artefacts.persistence = 0;
-  less.trabeculae.deviation_m = less.leaflets.thickness_m = less.leaflets.chordae_m = 0;
+  less.trabeculae.deviation_m = 0;
+  less.leaflets = {};
   less.motion.subdivision = 0;  // the meshes of the instant are refined already
   // One keyframe for each structure: the meshes of the instant.
   for (Structure& structure : less.structures) structure.keyframes.resize(1);
