@@ -12,7 +12,7 @@ double squaredSineToLongAxis(const Scene& scene, const MeshMotion& motion) {
   const std::optional<SurfaceId> cavity = structureOf(scene, Role::lv_cavity);
   if (!cavity) return 0;
   SurfaceFrame frame;
-  motion.frameAt(0, frame, false);
+  motion.positionsAt(0, {&*cavity, 1}, frame);
   const std::vector<Vec3f>& at_m = frame.positions_m[index(*cavity)];
   Facets facets;
   for (const Triangle& t : motion.surfaces()[index(*cavity)].triangles)

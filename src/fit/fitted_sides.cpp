@@ -56,6 +56,11 @@ std::vector<FitSide> FittedSides::refer() const {
   return out;
 }
 
+ModelLoop FittedSides::modelAt(std::size_t view, const FitCost& cost, const FitPlace& place) const {
+  return families[view]->at(cost.searchedAt(place.at), cost.tiltAt(place.at, view),
+                            Focus::left_ventricle);
+}
+
 std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
                                   const std::vector<heart::View>& views, const FitPlace& best,
                                   double tilt_deg, const Monitor& monitor,
@@ -67,8 +72,7 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
   std::vector<std::deque<ModelDiscrepancy>> others;  // than the first loop
   for (std::size_t v = 0; v < views.size(); ++v) {
     const PlaneTilt tilt = cost.tiltAt(best.at, v);
-    const ModelLoop model =
-        own.families[v]->at(cost.searchedAt(best.at), tilt, Focus::left_ventricle);
+    const ModelLoop model = own.modelAt(v, cost, best);
     loops.emplace_back();
     others.emplace_back();
     for (int twin = 0; twin < kTwins; ++twin) {
@@ -84,8 +88,7 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
   for (std::size_t i = 0; i < cost.dials(); ++i) out.error.push_back(found.best.at[i] - best.at[i]);
   // With the dials that the fit finds: maps of the real loops have the same bias.
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const ModelLoop model = own.families[v]->at(
-        cost.searchedAt(found.best.at), cost.tiltAt(found.best.at, v), Focus::left_ventricle);
+    const ModelLoop model = own.modelAt(v, cost, found.best);
     const FitPose pose = own.discrepancies[v].refine(model, {FitPose{}}).pose;
     out.report.push_back(fitReport(model, own.discrepancies[v], loops[v].front(), pose));
     out.twins.push_back({out.report.back().map});

@@ -20,6 +20,8 @@ struct FittedSides {
   // it throws, nothing has changed.
   void compare(const std::vector<FitLoop>& loops, const std::vector<double>& dials);
   std::vector<FitSide> refer() const;
+  // A view's model at a place of the cost, as FitCost evaluates it.
+  ModelLoop modelAt(std::size_t view, const FitCost& cost, const FitPlace& place) const;
 };
 
 // A fit of the best heart's own rendered loops.

@@ -116,9 +116,7 @@ void addViews(const std::vector<FitLoop>& loops, const FittedSides& sides, const
     view.tilt = cost.tiltAt(best.at, v);
     view.found = best.found[v];
     view.scaled = loop.metres_per_pixel.has_value();
-    const ModelLoop model =
-        sides.families[v]->at(cost.searchedAt(best.at), view.tilt, Focus::left_ventricle);
-    view.report = fitReport(model, discrepancy, loop, pose);
+    view.report = fitReport(sides.modelAt(v, cost, best), discrepancy, loop, pose);
     fit.views.push_back(std::move(view));
   }
 }
@@ -126,10 +124,8 @@ void addViews(const std::vector<FitLoop>& loops, const FittedSides& sides, const
 void addControls(const std::vector<FitLoop>& loops, const FittedSides& sides, const FitCost& cost,
                  const FitPlace& best, HeartFit& fit) {
   for (std::size_t v = 0; v < loops.size(); ++v) {
-    const ModelLoop model =
-        sides.families[v]->at(cost.searchedAt(best.at), fit.views[v].tilt, Focus::left_ventricle);
-    fit.views[v].controls =
-        controlFits(loops[v].loop, fit.views[v].beat.span, model, fit.views[v].found.pose);
+    fit.views[v].controls = controlFits(loops[v].loop, fit.views[v].beat.span,
+                                        sides.modelAt(v, cost, best), fit.views[v].found.pose);
   }
 }
 

@@ -71,7 +71,7 @@ ModelPlane::ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& s
                        std::optional<WallSegments> segments, Focus focus)
     : surfaces_(surfaces),
       segments_(std::move(segments)),
-      focus_(focus),
+      weight_of_(scene.structures.size(), 1),
       coarse_(withCoarseLines(scene)),
       labels_(coarse_, PictureGrid{}),
       cells_(planeCells(coarse_.probe)) {
@@ -97,6 +97,14 @@ ModelPlane::ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& s
   empty_.far_m = scene.probe.face_radius_m + scene.probe.max_depth_m;
   empty_.cells_across = kCellLines;
   empty_.cells_along = kCellsAlong;
+  if (focus == Focus::all) return;
+  left_ = structureOf(scene, Role::lv_cavity);
+  inside_m_ = static_cast<float>(kInside_m);
+  for (std::size_t s = 0; s < weight_of_.size(); ++s) {
+    const Role role = roleOf(scene.structures[s]);
+    if (role != Role::lv_cavity && role != Role::papillary_muscle)
+      weight_of_[s] = static_cast<float>(kOtherChambers);
+  }
 }
 
 namespace {
@@ -196,10 +204,9 @@ ModelFrame ModelPlane::cutOne(const SurfaceFrame& now, const SurfaceFrame& next,
 // ids: the structure of each sample, by number from 1.
 void ModelPlane::weigh(const std::vector<std::uint32_t>& ids, ModelFrame& frame) const {
   weighByBlood(empty_, frame);
-  const std::optional<SurfaceId> cavity = structureOf(coarse_, Role::lv_cavity);
-  if (focus_ == Focus::all || !cavity) return;
+  if (!left_) return;
   std::vector<float> left(frame.cells.size());
-  const auto number = static_cast<std::uint32_t>(index(*cavity) + 1);
+  const auto number = static_cast<std::uint32_t>(index(*left_) + 1);
   for (std::size_t c = 0; c < left.size(); ++c) {
     const auto first = ids.begin() + static_cast<std::ptrdiff_t>(c * kSamplesPerCell);
     left[c] =
@@ -223,11 +230,8 @@ BoundaryPoint ModelPlane::pieceAt(const ContourEdge& cut, int inner, int outer,
   if (segments_ && segments_->surface == s && p.of_blood) p.segment = segments_->of_vertex[t[0]];
   p.blood = static_cast<std::uint8_t>(blood_in ? inner : outer);
   p.beside = static_cast<std::uint8_t>(blood_in ? outer : inner);
-  if (focus_ == Focus::all) return p;
-  const Role role = roleOf(coarse_.structures[s]);
-  if (role != Role::lv_cavity && role != Role::papillary_muscle)
-    p.weight = static_cast<float>(kOtherChambers);
-  p.inside_m = static_cast<float>(kInside_m);
+  p.weight = weight_of_[s];
+  p.inside_m = inside_m_;
   return p;
 }
 

@@ -103,8 +103,10 @@ class ModelPlane {
 
   const std::vector<SurfaceTopology>& surfaces_;
   std::optional<WallSegments> segments_;
-  Focus focus_;
-  Scene coarse_;  // the scene with the plane's number of lines
+  std::optional<SurfaceId> left_;  // left ventricle's cavity, if it is the focus
+  std::vector<float> weight_of_;   // of boundaries, by structure
+  float inside_m_ = 0;             // of all boundaries
+  Scene coarse_;                   // the scene with the plane's number of lines
   PlaneLabels labels_;
   std::vector<std::uint8_t> tissue_of_;  // by structure from 1; 0 is the background
   std::vector<TissueCell> cells_;        // without tissues

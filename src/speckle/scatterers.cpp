@@ -56,10 +56,11 @@ std::vector<AcrossRange> seenOverTheBeat(std::span<const ScattererBatch> batches
       for (std::size_t n = begin; n < end; ++n) {
         const ScattererBatch& b = batches[n];
         if (b.blood) continue;
+        const CubeCorners corners = tissue.corners(b.group, b.low_m, b.edge_m);
         for (const float beside_m : {-kBetweenInstants_m, kBetweenInstants_m}) {
-          CubeCorners corners = tissue.corners(b.group, b.low_m, b.edge_m);
-          for (Vec3f& corner : corners) corner.y += beside_m;
-          seen[n].add(AcrossRange(view.cubeOf(corners).across));
+          CubeCorners moved = corners;
+          for (Vec3f& corner : moved) corner.y += beside_m;
+          seen[n].add(AcrossRange(view.cubeOf(moved).across));
         }
       }
     });
