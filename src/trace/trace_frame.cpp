@@ -82,7 +82,7 @@ class LineSampler {
 
   void sample(int line, const LineTrace& trace) const {
     const bool taken = !needed_ || (line >= needed_->lines.first && line < needed_->lines.end);
-    if (taken) sampleChannels(line, trace);
+    sampleChannels(line, trace, taken);
     if (!request_.intensities) return;
     const std::span<float> values = column(frame_.intensities.values, line);
     Sampling first = sampling_;
@@ -92,11 +92,13 @@ class LineSampler {
     std::fill(values.begin() + first.samples, values.end(), 0.0f);
   }
 
-  void sampleChannels(int line, const LineTrace& trace) const {
+  // Echoes of lung need the media of each line that the average over the beam takes in.
+  void sampleChannels(int line, const LineTrace& trace, bool taken) const {
     for (const Channel channel : request_.channels) {
-      if (channel == Channel::medium)
+      if (channel == Channel::medium && (taken || request_.intensities))
         sampleMedium(trace, sampling_, column(frame_.medium, line));
-      else if (channel == Channel::attenuation)
+      if (channel == Channel::medium || !taken) continue;
+      if (channel == Channel::attenuation)
         sampleExponent(trace, sampling_, column(frame_.planes.at(channel), line));
       else
         sampleIntensity(trace, sampling_, termsOfChannel(channel),
