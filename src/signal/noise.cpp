@@ -18,6 +18,8 @@ namespace echocine {
 namespace {
 
 constexpr std::uint64_t kClutter = 5;  // purpose of hashed numbers
+constexpr double kAlike = 0.01;  // correlation of two fields up to which they count as independent
+constexpr int kAttempts = 32;
 constexpr int kLanes = static_cast<int>(kFloatLanes), kChains = 4, kStep = kChains * kLanes;
 // Longer pulses are filtered from white numbers that are several samples apart, and at least this
 // part of sigma: the power then varies by under 1e-6.
@@ -145,22 +147,53 @@ NearFieldClutter::NearFieldClutter(const Scene& scene, bool harmonic, double win
               std::max(scene.probe.samples, 512), grainOf(scene, scene.artefacts.clutter_width_rad),
               seed_) {}
 
-// Fields after the first are the plane at hashed offsets.
+// Later attempts go on across the end of the samples, where the plane repeats.
+PlaneShift NearFieldClutter::drawn(std::int64_t number, int attempt) const {
+  const auto below = [&](int axis, int count) {
+    return static_cast<int>(hashOf(seed_, number, axis + 2 * attempt) %
+                            static_cast<std::uint64_t>(count));
+  };
+  const int spare = random_.samples() - static_cast<int>(amplitudes_.size()) + 1;
+  return {below(0, random_.lines()), below(1, attempt == 0 ? spare : random_.samples())};
+}
+
+// Fields after the first are the plane at hashed offsets. Two fields in succession must not
+// resemble each other, because their blend would be brighter: an odd one is drawn again until it
+// resembles neither neighbour.
+PlaneShift NearFieldClutter::shiftOf(std::int64_t number) const {
+  if (number == 0) return {};
+  if (number % 2 == 0) return drawn(number, 0);
+  const PlaneShift before = number == 1 ? PlaneShift{} : drawn(number - 1, 0),
+                   after = number == -1 ? PlaneShift{} : drawn(number + 1, 0);
+  PlaneShift best;
+  double least = 2;
+  for (int attempt = 0; attempt < kAttempts && least > kAlike; ++attempt) {
+    const PlaneShift shift = drawn(number, attempt);
+    const double alike =
+        std::max(random_.correlation(shift, before), random_.correlation(shift, after));
+    if (alike >= least) continue;
+    least = alike;
+    best = shift;
+  }
+  return best;
+}
+
 void NearFieldClutter::addField(float scale, std::int64_t number, int line, float* real,
                                 float* imaginary) const {
-  const auto shift = [&](int axis, int count) {
-    return number == 0
-               ? 0
-               : static_cast<int>(hashOf(seed_, number, axis) % static_cast<std::uint64_t>(count));
+  const PlaneShift shift = shiftOf(number);
+  const int from = (line + shift.lines) % random_.lines();
+  const float *re = random_.real(from), *im = random_.imaginary(from);
+  const auto first = static_cast<std::size_t>(shift.samples),
+             split =
+                 std::min(amplitudes_.size(), static_cast<std::size_t>(random_.samples()) - first);
+  const auto addRun = [&](std::size_t begin, std::size_t end, const float* r, const float* i) {
+    for (std::size_t k = begin; k < end; ++k) {
+      real[k] += scale * amplitudes_[k] * r[k - begin];
+      imaginary[k] += scale * amplitudes_[k] * i[k - begin];
+    }
   };
-  const int from = (line + shift(0, random_.lines())) % random_.lines();
-  const int spare = random_.samples() - static_cast<int>(amplitudes_.size()) + 1;
-  const int first = shift(1, spare);
-  const float *re = random_.real(from) + first, *im = random_.imaginary(from) + first;
-  for (std::size_t k = 0; k < amplitudes_.size(); ++k) {
-    real[k] += scale * amplitudes_[k] * re[k];
-    imaginary[k] += scale * amplitudes_[k] * im[k];
-  }
+  addRun(0, split, re + first, im + first);
+  addRun(split, amplitudes_.size(), re, im);
 }
 
 void NearFieldClutter::add(double white, double time_s, int line, float* real,
@@ -168,6 +201,9 @@ void NearFieldClutter::add(double white, double time_s, int line, float* real,
   const float scale = std::sqrt(heldWhite(white));
   if (!(renewed_s_ > 0)) return addField(scale, 0, line, real, imaginary);
   const double renewals = time_s / renewed_s_, whole = std::floor(renewals);
+  // From 2^52 on a double has no fraction: each instant then has a field of its own, by its bits.
+  if (!(std::abs(renewals) < 0x1p52))
+    return addField(scale, std::bit_cast<std::int64_t>(renewals) / 2, line, real, imaginary);
   const double turn_rad = 0.5 * std::numbers::pi * (renewals - whole);
   const auto number = static_cast<std::int64_t>(whole);
   addField(scale * static_cast<float>(std::cos(turn_rad)), number, line, real, imaginary);

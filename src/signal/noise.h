@@ -47,9 +47,9 @@ class ReceiverNoise {
 // Reverberation between face and chest wall: mean power level white exp(-r / length) at the path
 // length r. It stands still with the probe while the heart beats, or is renewed as skin and probe
 // move with breathing: after clutter_time_s it is the next of independent fields, and cos and sin
-// of a quarter turn blend two of them in between. It ends 60 dB below its level. The second
-// harmonic has hardly built up there: its clutter is weaker by the build-up and its gain
-// (harmonic.h).
+// of a quarter turn blend two of them in between, which keeps the mean power. It ends 60 dB below
+// its level. The second harmonic has hardly built up there: its clutter is weaker by the build-up
+// and its gain (harmonic.h).
 class NearFieldClutter {
  public:
   explicit NearFieldClutter(const Scene& scene, bool harmonic = false, double window_db = 0);
@@ -57,6 +57,8 @@ class NearFieldClutter {
   void add(double white, double time_s, int line, float* real, float* imaginary) const;
 
  private:
+  PlaneShift drawn(std::int64_t number, int attempt) const;
+  PlaneShift shiftOf(std::int64_t number) const;
   void addField(float scale, std::int64_t number, int line, float* real, float* imaginary) const;
 
   std::vector<float> amplitudes_;  // up to its end

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 
 #include "core/hash_random.h"
 #include "scene/scan_geometry.h"
@@ -46,7 +47,7 @@ void smear(std::vector<float>& plane, int lines, int samples, const std::vector<
 }  // namespace
 
 RandomPlane::RandomPlane(int lines, int samples, const Grain& grain, std::uint64_t seed)
-    : lines_(lines), samples_(samples) {
+    : lines_(lines), samples_(samples), grain_(grain) {
   const std::vector<float> across = bellTaps(grain.lateral_lines, lines / 2 - 1),
                            along = bellTaps(grain.axial_samples, samples / 2 - 1);
   double power = 0;
@@ -63,6 +64,17 @@ RandomPlane::RandomPlane(int lines, int samples, const Grain& grain, std::uint64
   const auto scale = static_cast<float>(std::sqrt(static_cast<double>(real_.size()) / power));
   for (std::vector<float>* field : {&real_, &imaginary_})
     for (float& value : *field) value *= scale;
+}
+
+// A Gaussian of the amplitude with deviation s leaves amplitudes that correlate by exp(-d^2 / 4
+// s^2).
+double RandomPlane::correlation(PlaneShift a, PlaneShift b) const {
+  const auto along = [](int from, int to, int period, double deviation) {
+    const int straight = std::abs(to - from) % period;
+    return bell(std::min(straight, period - straight), std::numbers::sqrt2 * deviation);
+  };
+  return along(a.lines, b.lines, lines_, grain_.lateral_lines) *
+         along(a.samples, b.samples, samples_, grain_.axial_samples);
 }
 
 Grain grainOf(const Scene& scene, double width_rad) {

@@ -13,18 +13,26 @@ struct Grain {
   double lateral_lines = 0, axial_samples = 0;
 };
 
+// Lines and samples from the first number of a plane on.
+struct PlaneShift {
+  int lines = 0, samples = 0;
+};
+
 // White noise filtered by the grain, with mean power 1; periodic in both directions.
 class RandomPlane {
  public:
   RandomPlane(int lines, int samples, const Grain& grain, std::uint64_t seed);
   int lines() const { return lines_; }
   int samples() const { return samples_; }
+  // Expected correlation of the plane with itself between two shifts, 0 to 1.
+  double correlation(PlaneShift a, PlaneShift b) const;
   const float* real(int line) const { return real_.data() + first(line); }
   const float* imaginary(int line) const { return imaginary_.data() + first(line); }
 
  private:
   std::ptrdiff_t first(int line) const { return static_cast<std::ptrdiff_t>(line) * samples_; }
   int lines_, samples_;
+  Grain grain_;
   std::vector<float> real_, imaginary_;
 };
 

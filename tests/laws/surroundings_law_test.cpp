@@ -131,5 +131,60 @@ TEST(SurroundingsLaw, ClutterIsRenewedAsItsTimeSays) {
   }
 }
 
+// Law: fields in succession are independent also where the clutter reaches the last sample, so that
+// the plane has no samples to spare, and where its grain is wide. Their blend then has the same
+// power at all instants.
+TEST(SurroundingsLaw, ClutterThatReachesTheLastSampleKeepsItsPower) {
+  Scene scene = support::plainScene({support::medium("blood", 1000, 1540)});
+  scene.probe.lines = 64;
+  scene.probe.samples = 600;
+  scene.artefacts.clutter_length_m = 1;
+  scene.artefacts.clutter_time_s = 0.5;
+  const auto samples = static_cast<std::size_t>(scene.probe.samples);
+  for (int seed = 1; seed <= 12; ++seed) {
+    scene.artefacts.clutter_seed = seed;
+    const NearFieldClutter clutter(scene);
+    const auto at = [&](double time_s) {
+      std::vector<float> field;
+      for (int line = 0; line < scene.probe.lines; ++line) {
+        std::vector<float> real(samples), imaginary(samples);
+        clutter.add(1, time_s, line, real.data(), imaginary.data());
+        field.insert(field.end(), real.begin(), real.end());
+        field.insert(field.end(), imaginary.begin(), imaginary.end());
+      }
+      return field;
+    };
+    for (int number = -3; number < 6; ++number) {
+      const std::vector<float> one = at(0.5 * number), two = at(0.5 * (number + 1));
+      double product = 0, first = 0, second = 0;
+      for (std::size_t i = 0; i < one.size(); ++i) {
+        product += static_cast<double>(one[i]) * static_cast<double>(two[i]);
+        first += static_cast<double>(one[i]) * static_cast<double>(one[i]);
+        second += static_cast<double>(two[i]) * static_cast<double>(two[i]);
+      }
+      EXPECT_LT(std::abs(product) / std::sqrt(first * second), 0.15) << seed << " " << number;
+    }
+  }
+}
+
+// Law: any accepted renewal time gives finite numbers.
+TEST(SurroundingsLaw, ClutterThatIsRenewedAtOnceIsFinite) {
+  Scene scene = support::plainScene({support::medium("blood", 1000, 1540)});
+  scene.probe.samples = 64;
+  for (const double time_s : {1e-300, 5e-324}) {
+    scene.artefacts.clutter_time_s = time_s;
+    const NearFieldClutter clutter(scene);
+    double power = 0;
+    for (const double now_s : {0.25, 0.5}) {
+      std::vector<float> real(64), imaginary(64);
+      clutter.add(1, now_s, 3, real.data(), imaginary.data());
+      for (std::size_t k = 0; k < 64; ++k)
+        power += static_cast<double>(real[k] * real[k] + imaginary[k] * imaginary[k]);
+    }
+    EXPECT_TRUE(std::isfinite(power)) << time_s;
+    EXPECT_GT(power, 0) << time_s;
+  }
+}
+
 }  // namespace
 }  // namespace echocine::surroundings_law
