@@ -2,6 +2,7 @@
 #include <png.h>
 #include <turbojpeg.h>
 
+#include <algorithm>
 #include <cstring>
 #include <new>
 
@@ -36,6 +37,21 @@ struct CompressorFree {
   void operator()(void* compressor) const { tjDestroy(compressor); }
 };
 
+// An image's rows as the library reads them: with subsampled chroma, an odd width or height has one
+// more column or row, here the last one again. Valid until the thread's next call.
+const std::uint8_t* lumaOf(const GreyImage& image, int width, int height) {
+  if (width == image.width && height == image.height) return image.pixels.data();
+  thread_local std::vector<std::uint8_t> padded;
+  padded.clear();
+  for (int y = 0; y < height; ++y) {
+    const auto row =
+        image.pixels.begin() + std::ptrdiff_t{std::min(y, image.height - 1)} * image.width;
+    padded.insert(padded.end(), row, row + image.width);
+    padded.resize(static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(width), padded.back());
+  }
+  return padded.data();
+}
+
 // Luma at full resolution, and empty chroma: players take a colour JPEG's range as 0 to 255, while
 // FFmpeg reports an unknown range for a grey one. The accurate transform is used, because the fast
 // one differs between processors, and the same scene must give the same bytes.
@@ -50,8 +66,11 @@ std::vector<std::byte> encodeJpeg(const GreyImage& image, int quality, TJSAMP la
   colour.resize(static_cast<std::size_t>(colour_width) *
                     static_cast<std::size_t>(tjPlaneHeight(1, image.height, layout)),
                 kNoColour);
-  const std::uint8_t* planes[3] = {image.pixels.data(), colour.data(), colour.data()};
-  const int strides[3] = {image.width, colour_width, colour_width};
+  const int luma_width = tjPlaneWidth(0, image.width, layout);
+  const std::uint8_t* planes[3] = {
+      lumaOf(image, luma_width, tjPlaneHeight(0, image.height, layout)), colour.data(),
+      colour.data()};
+  const int strides[3] = {luma_width, colour_width, colour_width};
   std::uint8_t* to = room.data();
   if (tjCompressFromYUVPlanes(compressor.get(), planes, image.width, strides, image.height, layout,
                               &to, &size, quality, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT) != 0) {
