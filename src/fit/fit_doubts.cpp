@@ -56,6 +56,16 @@ void addDialHints(HeartFit& fit) {
   }
 }
 
+void addAssumed(const char* key, const char* unit, const std::optional<Estimate>& e,
+                HeartFit& fit) {
+  const bool searched = std::any_of(fit.found.begin(), fit.found.end(),
+                                    [&](const DialFound& dial) { return dial.key == key; });
+  if (e && !searched)
+    fit.hints.push_back(fmt::format(
+        "{} is not searched: {:.4g}{} is assumed, and its interval has the model error alone", key,
+        e->value, unit));
+}
+
 void addViewHints(const ViewFitted& view, HeartFit& fit) {
   const char* name = keyOf(view.view);
   const auto hint = [&](const std::string& text) {
@@ -93,6 +103,8 @@ std::string refusalOf(const HeartFit& fit) {
 
 void addHints(HeartFit& fit) {
   addDialHints(fit);
+  addAssumed("ef", "", fit.ef, fit);
+  addAssumed("edv", " mL", fit.edv_ml, fit);
   for (const ViewFitted& view : fit.views) addViewHints(view, fit);
   if (!std::all_of(fit.views.begin(), fit.views.end(),
                    [](const ViewFitted& view) { return view.scaled; }))

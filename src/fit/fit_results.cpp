@@ -90,6 +90,8 @@ Json fitJson(const HeartFit& fit, const std::vector<std::string>& labels) {
             {"refusal", fit.refusal.empty() ? Json() : Json(fit.refusal)},
             {"hints", fit.hints},
             {"dials", dialsJson(fit)},
+            {"fixed_dials", fit.fixed},
+            {"tilt_limit_deg", fit.tilt_deg},
             {"own_error", ownErrorJson(fit)},
             {"views", viewsJson(fit, labels)},
             {"rivals", rivalsJson(fit)},

@@ -220,6 +220,8 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
     for (std::string& note : notesOf(one)) fit.hints.push_back(std::move(note));
   if (const auto rate = rateOf(loops, fit); rate && !fit.dials.contains("hr"))
     fit.dials["hr"] = *rate;
+  fit.fixed = fit.dials;
+  fit.tilt_deg = options.tilt_deg;
   const HeartDesign design = HeartDesign::polynomial(rangesOf(options));
   const FitStages stages(loops.size(), design.size(), design.ranges().size(), options);
   FitProgress progress(monitor, stages.all());

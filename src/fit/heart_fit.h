@@ -80,6 +80,9 @@ struct HeartRival {
 struct HeartFit {
   std::map<std::string, double> dials;  // of the heart: fixed and found
   std::vector<DialFound> found;         // searched dials
+  // Dials that are not searched and not defaults: those given, and the heart rate of the loops.
+  std::map<std::string, double> fixed;
+  double tilt_deg = 0;  // HeartFitOptions::tilt_deg
   // Empty if the loops do not determine the ejection fraction: `refusal` has the reason.
   std::optional<Estimate> ef;
   std::optional<Estimate> edv_ml, esv_ml;  // empty without a length scale too

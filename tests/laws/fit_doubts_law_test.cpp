@@ -18,7 +18,9 @@ using namespace support;
 // Nothing to doubt.
 HeartFit soundFit() {
   HeartFit fit;
-  fit.found = {{"ef", 0.5, 0.02, 0.1, false, true}, {"mapse", 12, 1, 3, false, true}};
+  fit.found = {{"ef", 0.5, 0.02, 0.1, false, true},
+               {"mapse", 12, 1, 3, false, true},
+               {"edv", 130, 8, 40, false, true}};
   fit.ef = Estimate{0.5, 0.45, 0.55};
   fit.edv_ml = Estimate{130, 110, 150};
   ViewFitted view;
@@ -93,6 +95,12 @@ TEST(FitDoubts, EachDoubtIsOneHint) {
   EXPECT_NE(hinted([](HeartFit& f) { f.views[0].found.at_limit = true; }).find("--scale"),
             std::string::npos);
   EXPECT_NE(hinted([](HeartFit& f) { f.views[0].scaled = false; }).find("--scale"),
+            std::string::npos);
+  EXPECT_NE(hinted([](HeartFit& f) { f.found.pop_back(); }).find("edv is not searched: 130 mL is"),
+            std::string::npos);
+  EXPECT_NE(hinted([](HeartFit& f) {
+              f.found.erase(f.found.begin());
+            }).find("ef is not searched: 0.5 is"),
             std::string::npos);
   EXPECT_NE(hinted([](HeartFit& f) { f.rivals[0].cost_above = 2; }).find("EF 0.30"),
             std::string::npos);

@@ -71,6 +71,9 @@ TEST(HeartFit, APlantedHeartIsFound) {
     EXPECT_EQ(file["result"]["ef"]["value"], fit.ef->value);
     EXPECT_EQ(file["result"]["edv_ml"]["low"], fit.edv_ml->low);
     EXPECT_EQ(file["views"][0]["view"], "a4c");
+    EXPECT_EQ(file["fixed_dials"], nlohmann::json(fit.fixed));
+    EXPECT_TRUE(file["fixed_dials"].contains("hr"));
+    EXPECT_EQ(file["tilt_limit_deg"], options.tilt_deg);
     EXPECT_NE(bytesOf(folder / "fit/curves.csv").find("lv_ml"), std::string::npos);
     EXPECT_NE(bytesOf(folder / "fit/fit.html").find("a4c twin"), std::string::npos);
     ASSERT_TRUE(fit.views[0].controls);

@@ -95,7 +95,8 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
         folder: for fit.json, curves.csv and heart/ (meshes and scene); None: no files.
         side: view -> what is known better than the file tells, as for `compare`: mm_per_pixel, fps, ed_frame, ...
             For a list of loops, a list.
-        searched: dials that are searched, of ef, edv, wall_thickness, sphericity, mapse and la_volume; None: all but la_volume.
+        searched: dials that are searched, of ef, edv, wall_thickness, sphericity, mapse, conicity, la_volume and
+            apical_motion; None: the first five. Other dials have the values given, or their defaults.
         tilt_deg: limit of tilt and rotation of each plane, either way, 0 (none) to 20.
         starts: hearts that are compared first.
         descents: searches, from the best of them.
