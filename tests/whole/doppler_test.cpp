@@ -10,6 +10,7 @@
 #include "doppler/colour_overlay.h"
 #include "doppler/doppler_files.h"
 #include "motion/cycle/cardiac_clock.h"
+#include "plan/loop_plan.h"
 #include "support/exr_planes.h"
 #include "support/loop_scene.h"
 #include "support/moving_plate.h"
@@ -200,6 +201,31 @@ TEST(Doppler, RefusesWhatCannotBeMeasuredInOneLine) {
   EXPECT_NE(refusal("--gate -1").find("--gate"), std::string::npos);
   EXPECT_NE(refusal("--through mitral-septal").find("role lv_"), std::string::npos);
   refusal("--angle 3");
+}
+
+// Law: a pulse received on one line is that line of a pulse received on all, at any instant and
+// after any other. Lung beside the line is that of the instant too.
+TEST(Doppler, APulseOnOneLineIsThatOfAllLines) {
+  for (const std::string medium : {"blood", "lung"}) {
+    TempFolder folder;
+    SceneText text = ballScene(10);
+    text.structures.replace(text.structures.find("\"blood\""), 7, '"' + medium + '"');
+    text.signal["look"] = "\"scanner\"";
+    text.signal["reference_intensity"] = "1e-4";
+    const Simulator simulator(dopplerScene(readScene(writeBall(folder, text)), {}));
+    ASSERT_EQ(simulator.plan().effects.lung, medium == "lung");
+    const int lines = simulator.scene().probe.lines;
+    const auto samples = static_cast<std::size_t>(simulator.scene().probe.samples);
+    for (const int frame : {0, 4, 2}) {
+      const FrameTime at = simulator.cardiacClock().at(frame);
+      const PulseField one = receivePulse(simulator, at, 1e-4, {14, 15}),
+                       all = receivePulse(simulator, at, 1e-4, {0, lines});
+      for (std::size_t i = 14 * samples; i < 15 * samples; ++i) {
+        ASSERT_EQ(one.real[i], all.real[i]) << medium << " " << frame << " " << i;
+        ASSERT_EQ(one.imaginary[i], all.imaginary[i]) << medium << " " << frame << " " << i;
+      }
+    }
+  }
 }
 
 }  // namespace
