@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "motion/mesh/edge_sides.h"
+
 namespace echocine::heart {
 namespace {
 
@@ -57,22 +59,16 @@ double limitWeight(const Neighbourhood& around) {
 
 std::vector<Neighbourhood> neighbourhoods(std::size_t vertex_count,
                                           const std::vector<Face>& faces) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  // one for each face at it
-  edges.reserve(3 * faces.size());
-  for (const Face& face : faces)
-    for (int k = 0; k < 3; ++k) edges.push_back(std::minmax({face[k], face[(k + 1) % 3]}));
-  std::sort(edges.begin(), edges.end());
   std::vector<Neighbourhood> result(vertex_count);
-  for (std::size_t e = 0; e < edges.size();) {
-    const auto [a, b] = edges[e];
-    const std::size_t first = e;
-    while (e < edges.size() && edges[e] == edges[first]) ++e;
+  const std::vector<Side> sides = sortedSides(faces);
+  forEachEdge(sides, [&](std::span<const Side> edge) {
+    const std::uint32_t a = sideStart(faces, edge[0].side), b = sideEnd(faces, edge[0].side);
     result[a].ring.push_back(b);
     result[b].ring.push_back(a);
-    if (e - first > 1) continue;
+    if (edge.size() > 1) return;
     result[a].boundary.push_back(b);
     result[b].boundary.push_back(a);
-  }
+  });
   for (Neighbourhood& around : result) around.weight = limitWeight(around);
   return result;
 }

@@ -71,7 +71,7 @@ FoldFinder::Normal FoldFinder::normalOf(Vec3d a, Vec3d b, Vec3d c) {
 }
 
 FoldFinder::FoldFinder(std::span<const double> phases, const std::vector<Face>& faces)
-    : faces_(faces), instants_(phases.size()) {
+    : faces_(faces), instants_(phases.size()), known_(faces.size()) {
   for (const auto& [a, b] : neighboursOf(faces)) hinges_.push_back({a, b});
   const std::size_t count = phases.size(), padded = count + kDoubleLanes;
   for (std::vector<double>* bounds : {&before_, &after_, &half_}) bounds->assign(padded, 0);

@@ -73,7 +73,12 @@ class FoldFinder {
     if (may_fold.hinges.empty() && may_fold.faces.empty()) return true;
     const std::size_t next = (k + 1) % rows.keyframes();
     for (const Terms& terms : instants_[k]) {
-      const auto now = [&](std::size_t face) { return normalAt(rows, face, terms); };
+      ++instant_;
+      const auto now = [&](std::size_t face) -> const Normal& {
+        Known& known = known_[face];
+        if (known.instant != instant_) known = {instant_, normalAt(rows, face, terms)};
+        return known.normal;
+      };
       for (const Hinge& hinge : may_fold.hinges)
         if (areFolded(now(hinge.a), now(hinge.b)) && !(found(k, hinge.a) && found(k, hinge.b)))
           return false;
@@ -91,6 +96,12 @@ class FoldFinder {
   // Bounds by interval, for the change of a point from the middle: of the weights of the keyframes
   // before and after it, and of half the difference of the weights of its own two.
   std::vector<double> before_, after_, half_;
+  struct Known {  // a face's normal at an instant
+    std::uint64_t instant = 0;
+    Normal normal{};
+  };
+  std::vector<Known> known_;  // by face
+  std::uint64_t instant_ = 0;
   std::vector<Middle> middles_;                  // by face
   std::array<Suspects, kDoubleLanes> suspects_;  // by interval, of four
 };
