@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "motion/mesh/edge_sides.h"
+
 namespace echocine::heart {
 namespace {
 
@@ -40,8 +42,6 @@ std::vector<Face> icosahedronFaces() {
   return faces;
 }
 
-using WideVec [[gnu::vector_size(32)]] = double;  // a point in one register, its fourth lane idle
-
 // Neighbourhood of a vertex in its Loop limit.
 struct Neighbourhood {
   std::vector<std::uint32_t> ring;      // all neighbours
@@ -59,22 +59,16 @@ double limitWeight(const Neighbourhood& around) {
 
 std::vector<Neighbourhood> neighbourhoods(std::size_t vertex_count,
                                           const std::vector<Face>& faces) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  // one for each face at it
-  edges.reserve(3 * faces.size());
-  for (const Face& face : faces)
-    for (int k = 0; k < 3; ++k) edges.push_back(std::minmax({face[k], face[(k + 1) % 3]}));
-  std::sort(edges.begin(), edges.end());
   std::vector<Neighbourhood> result(vertex_count);
-  for (std::size_t e = 0; e < edges.size();) {
-    const auto [a, b] = edges[e];
-    const std::size_t first = e;
-    while (e < edges.size() && edges[e] == edges[first]) ++e;
+  const std::vector<Side> sides = sortedSides(faces);
+  forEachEdge(sides, [&](std::span<const Side> edge) {
+    const std::uint32_t a = sideStart(faces, edge[0].side), b = sideEnd(faces, edge[0].side);
     result[a].ring.push_back(b);
     result[b].ring.push_back(a);
-    if (e - first > 1) continue;
+    if (edge.size() > 1) return;
     result[a].boundary.push_back(b);
     result[b].boundary.push_back(a);
-  }
+  });
   for (Neighbourhood& around : result) around.weight = limitWeight(around);
   return result;
 }
@@ -163,27 +157,49 @@ LoopFit::LoopFit(std::size_t vertex_count, const std::vector<Face>& faces,
 
 // Loop's limit weights preserve at least a quarter of the finest detail, so each round removes at
 // least a quarter of its remainder, and far more of smooth components.
-std::vector<Vec3d> LoopFit::controlPoints(const std::vector<Vec3d>& points) const {
+std::vector<LoopFit::FourPoints> LoopFit::controlPoints(
+    const std::vector<FourPoints>& wanted) const {
   constexpr int kRounds = 24;
-  std::vector<WideVec> control, wanted;
-  for (const Vec3d& p : points) wanted.push_back(WideVec{p.x, p.y, p.z, 0});
-  control = wanted;
-  std::vector<WideVec> better(points.size());
+  std::vector<FourPoints> control = wanted, better(wanted.size());
   for (int round = 0; round < kRounds; ++round) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const double weight = weights_[i], n = first_[i + 1] - first_[i];
-      WideVec limit = (1 - n * weight) * control[i];
-      for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k)
-        limit = limit + weight * control[others_[k]];
-      better[i] = control[i] + wanted[i] - limit;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const double weight = weights_[i], n = first_[i + 1] - first_[i], own = 1 - n * weight;
+      FourPoints limit{own * control[i].x, own * control[i].y, own * control[i].z};
+      for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
+        const FourPoints& other = control[others_[k]];
+        limit.x += weight * other.x;
+        limit.y += weight * other.y;
+        limit.z += weight * other.z;
+      }
+      better[i] = {control[i].x + wanted[i].x - limit.x, control[i].y + wanted[i].y - limit.y,
+                   control[i].z + wanted[i].z - limit.z};
     }
     for (const std::uint32_t corner : corners_) better[corner] = wanted[corner];
     std::swap(control, better);
   }
-  std::vector<Vec3d> result;
-  result.reserve(points.size());
-  for (const WideVec& p : control) result.push_back({p[0], p[1], p[2]});
-  return result;
+  return control;
+}
+
+std::vector<std::vector<Vec3d>> LoopFit::controlPoints(
+    std::span<const std::vector<Vec3d>> instants) const {
+  std::vector<std::vector<Vec3d>> control;
+  std::vector<FourPoints> wanted;
+  for (std::size_t first = 0; first < instants.size(); first += kDoubleLanes) {
+    const std::size_t count = std::min(kDoubleLanes, instants.size() - first);
+    wanted.assign(instants.front().size(), FourPoints{});
+    for (std::size_t lane = 0; lane < count; ++lane)
+      for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const Vec3d point = instants[first + lane][i];
+        wanted[i].x[lane] = point.x, wanted[i].y[lane] = point.y, wanted[i].z[lane] = point.z;
+      }
+    const std::vector<FourPoints> found = controlPoints(wanted);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      std::vector<Vec3d>& points = control.emplace_back();
+      points.reserve(found.size());
+      for (const FourPoints& at : found) points.push_back({at.x[lane], at.y[lane], at.z[lane]});
+    }
+  }
+  return control;
 }
 
 }  // namespace echocine::heart

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/lanes.h"
 #include "core/vec3.h"
 #include "scene/triangle_mesh.h"
 
@@ -55,9 +56,15 @@ class LoopFit {
   LoopFit(std::size_t vertex_count, const std::vector<Face>& faces,
           std::span<const std::uint32_t> corners = {});
 
-  std::vector<Vec3d> controlPoints(const std::vector<Vec3d>& points) const;
+  // One entry per instant.
+  std::vector<std::vector<Vec3d>> controlPoints(std::span<const std::vector<Vec3d>> instants) const;
 
  private:
+  struct FourPoints {  // a vertex at four instants, in parallel lanes
+    Doubles4 x, y, z;
+  };
+  std::vector<FourPoints> controlPoints(const std::vector<FourPoints>& wanted) const;
+
   std::vector<std::uint32_t> first_;   // start of each vertex's entries in others_
   std::vector<std::uint32_t> others_;  // neighbours with a weight in the vertex's limit
   std::vector<double> weights_;        // one per entry of others_

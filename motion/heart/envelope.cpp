@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/lanes.h"
 #include "motion/heart/heart_units.h"
 
 namespace echocine::heart {
@@ -13,31 +14,77 @@ const std::vector<Vec3d>& sacDirections() {
   return geodesicSphere(Envelope::kFrequency).directions;
 }
 
+constexpr double kCone_rad = 13 * kDegree;
+
+// Cells of a cube's faces, seen from its centre, with the directions whose cones a point in the
+// cell can reach.
+class ConeCells {
+ public:
+  struct Near {
+    Vec3d direction;
+    std::size_t number;
+  };
+
+  ConeCells() {
+    for (std::size_t face = 0; face < 6; ++face)
+      for (int row = 0; row < kSide; ++row)
+        for (int column = 0; column < kSide; ++column)
+          cells_.push_back(nearCell(face, row, column));
+  }
+
+  // Those of a point, relative to the centre.
+  const std::vector<Near>& about(Vec3d from) const {
+    const std::array<double, 3> p{from.x, from.y, from.z};
+    std::size_t axis = std::abs(p[1]) > std::abs(p[0]) ? 1 : 0;
+    if (std::abs(p[2]) > std::abs(p[axis])) axis = 2;
+    const double scale = 0.5 * kSide / std::max(std::abs(p[axis]), kTiny);
+    const auto cell = [&](double at) {
+      return std::min(static_cast<std::size_t>(at * scale + 0.5 * kSide), kSide - std::size_t{1});
+    };
+    const std::size_t face = 2 * axis + (p[axis] < 0 ? 1 : 0);
+    return cells_[(face * kSide + cell(p[(axis + 1) % 3])) * kSide + cell(p[(axis + 2) % 3])];
+  }
+
+ private:
+  static constexpr int kSide = 8;
+
+  static Vec3d onCube(std::size_t face, double row, double column) {
+    std::array<double, 3> p{};
+    const std::size_t axis = face / 2;
+    p[axis] = face % 2 == 0 ? 1 : -1;
+    p[(axis + 1) % 3] = 2 * row / kSide - 1;
+    p[(axis + 2) % 3] = 2 * column / kSide - 1;
+    return normalised(Vec3d{p[0], p[1], p[2]});
+  }
+
+  // The corners of a cell are its places farthest from the middle.
+  static std::vector<Near> nearCell(std::size_t face, int row, int column) {
+    const Vec3d middle = onCube(face, row + 0.5, column + 0.5);
+    double radius_rad = 0;
+    for (const int i : {0, 1})
+      for (const int j : {0, 1})
+        radius_rad =
+            std::max(radius_rad, std::acos(dot(middle, onCube(face, row + i, column + j))));
+    const double least = std::cos(kCone_rad + radius_rad + 0.1 * kDegree);  // room for rounding
+    std::vector<Near> near;
+    for (std::size_t d = 0; d < sacDirections().size(); ++d)
+      if (dot(middle, sacDirections()[d]) >= least) near.push_back({sacDirections()[d], d});
+    return near;
+  }
+
+  std::vector<std::vector<Near>> cells_;
+};
+
 // The farthest point within a cone about each direction.
 std::vector<double> farthestIn(std::span<const Vec3d> points, Vec3d centre) {
-  static const std::array<std::vector<double>, 3> coordinates = [] {  // one by one: they vectorise
-    std::array<std::vector<double>, 3> made;
-    for (const Vec3d d : sacDirections()) {
-      made[0].push_back(d.x);
-      made[1].push_back(d.y);
-      made[2].push_back(d.z);
-    }
-    return made;
-  }();
-  const double cos_cone = std::cos(13 * kDegree);
-  const std::size_t count = sacDirections().size();
-  const double *const x = coordinates[0].data(), *const y = coordinates[1].data(),
-                      *const z = coordinates[2].data();
-  std::vector<double> farthest_m(count, 0);
-  double* const farthest = farthest_m.data();
+  static const ConeCells cells;
+  const double cos_cone = std::cos(kCone_rad);
+  std::vector<double> farthest_m(sacDirections().size(), 0);
   for (const Vec3d point : points) {
     const Vec3d from = point - centre;
     const double distance = length(from), least = cos_cone * distance;
-    for (std::size_t d = 0; d < count; ++d) {
-      const double along = from.x * x[d] + from.y * y[d] + from.z * z[d];
-      const double reached = along >= least ? distance : 0;
-      farthest[d] = farthest[d] < reached ? reached : farthest[d];
-    }
+    for (const auto& [direction, d] : cells.about(from))
+      if (dot(from, direction) >= least) farthest_m[d] = std::max(farthest_m[d], distance);
   }
   return farthest_m;
 }

@@ -34,14 +34,16 @@ const std::vector<std::vector<WallPlace>>& meridianPlaces() {
   return places;
 }
 
-// The wall's points there; twist and bow change their angle.
-std::vector<Sample> meridianOf(const LeftVentricle& ventricle,
-                               const std::vector<WallPlace>& places) {
+// The wall's points there, down to the first one at or below `low_z`; twist and bow change their
+// angle.
+std::vector<Sample> meridianOf(const LeftVentricle& ventricle, const std::vector<WallPlace>& places,
+                               double low_z) {
   std::vector<Sample> samples;
   samples.reserve(places.size());
   for (const WallPlace& place : places) {
     const Vec3d p = ventricle.wallPoint(place);
     samples.push_back({std::atan2(p.y, p.x), std::hypot(p.x, p.y), p.z});
+    if (samples.size() > 1 && p.z <= low_z) break;
   }
   return samples;
 }
@@ -59,10 +61,11 @@ Sample atHeight(const std::vector<Sample>& meridian, double z, std::size_t& i) {
 }  // namespace
 
 Epicardium::Epicardium(const LeftVentricle& ventricle) {
-  std::vector<std::vector<Sample>> meridians;
-  for (const auto& places : meridianPlaces()) meridians.push_back(meridianOf(ventricle, places));
   // Close to the base the wall turns inwards to the valves and no longer affects its neighbours.
   low_z_ = ventricle.ringZ() + 0.04 * ventricle.length();
+  std::vector<std::vector<Sample>> meridians;
+  for (const auto& places : meridianPlaces())
+    meridians.push_back(meridianOf(ventricle, places, low_z_));
   high_z_ = std::numeric_limits<double>::max();
   for (const auto& meridian : meridians) high_z_ = std::min(high_z_, meridian.front().z);
   radius_m_.resize(std::size_t{kAngles} * kHeights);

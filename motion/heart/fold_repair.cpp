@@ -33,9 +33,10 @@ std::vector<double> volumesOf(const RecordedPart& part) {
 // The remaining fault of a part after its folds were smoothed; empty if there is none.
 std::string mend(RecordedPart& part, const std::vector<double>& phases) {
   const SurfaceBeat beat{phases, part.control_m};
-  if (!foldIn(beat, part.faces)) return {};
+  Folds folds(beat, part.faces);
+  if (!folds.first()) return {};
   const std::vector<double> before_m3 = volumesOf(part);
-  const std::optional<Fold> left = unfold(beat, part.faces);
+  const std::optional<Fold> left = folds.smooth();
   for (std::vector<Vec3d>& points : part.control_m)
     for (Vec3d& point : points) point = toMicrometre(point);
   const char* const dial = dialOf(part.kind.name);

@@ -116,13 +116,14 @@ std::vector<Vec3d> inflate(Balloon& balloon, double volume_m3, const char* key,
   const AtriumMesh& mesh = atriumMesh();
   const VolumeGauge gauge(Instant::kAtriumFrequency, pointsOf(mesh.bearings), pointsOf(mesh.fine));
   std::vector<Vec3d> points;
+  double reached = 0;
   const auto volume = [&](double girth) {
     balloon.girth = girth;
     points = pointsOf(mesh.bearings);
-    return gauge(points);
+    return reached = gauge(points);
   };
-  balloon.girth = solve(0.2, 4, volume_m3, kBalloonTolerance * volume_m3, volume);
-  const double reached = volume(balloon.girth);
+  const double girth = solve(0.2, 4, volume_m3, kBalloonTolerance * volume_m3, volume);
+  if (girth != balloon.girth) volume(girth);  // not the last one examined
   if (std::abs(reached - volume_m3) > 0.01 * volume_m3)
     throw SceneError(
         fmt::format("{}: an atrium of {:.3g} mL does not fit this heart; it would have {:.3g}", key,
@@ -156,13 +157,14 @@ void Instant::buildRightVentricle(const Parameters& parameters) {
   right_->arch(0.3 * l);
   const VolumeGauge gauge(kFrequency, right_->cavityPoints(spokes),
                           right_->cavityPoints(right_->spokes(2 * kFrequency)));
+  double arched_m = 0, reached = 0;
   const auto volume = [&](double height_m) {
-    right_->arch(height_m);
-    return gauge(right_->cavityPoints(spokes));
+    right_->arch(arched_m = height_m);
+    return reached = gauge(right_->cavityPoints(spokes));
   };
   const double height_m =
       solve(0.02 * l, 1.5 * l, volume_m3, kBalloonTolerance * volume_m3, volume);
-  const double reached = volume(height_m);
+  if (height_m != arched_m) volume(height_m);  // not the last one examined
   if (std::abs(reached - volume_m3) > 0.01 * volume_m3)
     throw SceneError(
         fmt::format("rv-edv: a right ventricle of {:.3g} mL does not fit around a left one of "

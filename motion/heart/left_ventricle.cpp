@@ -89,21 +89,26 @@ void LeftVentricle::set(const Contraction& contraction) {
 void LeftVentricle::contract(const Contraction& contraction) {
   set(contraction);
   const double volume_m3 = edv_m3_ * (1 - parameters_.ejection_fraction * contraction.ejected);
-  const auto emptied = [this](double correction) {
+  double cavity_m3 = 0;
+  const auto emptied = [&](double correction) {
     correction_ = correction;
-    return -cavityVolume();
+    cavity_m3 = cavityVolume();
+    return -cavity_m3;
   };
-  correction_ = solve(-0.5, 0.5, -volume_m3, kVolumeTolerance * edv_m3_, emptied);
-  const double cavity_m3 = -emptied(correction_);
+  const double correction = solve(-0.5, 0.5, -volume_m3, kVolumeTolerance * edv_m3_, emptied);
+  if (correction != correction_) emptied(correction);  // not the last one examined
   const std::vector<Grown> grown = grownPlaces();
   std::vector<Vec3d> points(grown.size());
+  double outer_m3 = 0;
   const auto outer = [&](double factor) {
+    thickening_ = factor;
     std::transform(grown.begin(), grown.end(), points.begin(),
                    [factor](const Grown& g) { return g.from + factor * g.thickness_m * g.normal; });
-    return (*outer_gauge_)(points);
+    return outer_m3 = (*outer_gauge_)(points);
   };
-  thickening_ = solve(0.5, 2, cavity_m3 + wall_m3_, kVolumeTolerance * edv_m3_, outer);
-  const double wall_m3 = outer(thickening_) - cavity_m3;
+  const double thickening = solve(0.5, 2, cavity_m3 + wall_m3_, kVolumeTolerance * edv_m3_, outer);
+  if (thickening != thickening_) outer(thickening);
+  const double wall_m3 = outer_m3 - cavity_m3;
   if (std::abs(cavity_m3 - volume_m3) > 1e-3 * edv_m3_)
     throw SceneError(fmt::format(
         "segments: with these delays the left ventricle cannot hold {:.4g} mL at {:.0f} % of its "

@@ -34,9 +34,12 @@ LoopFit fitOf(const Part& part, const MeshTags& tags) {
   return {part.points.size(), part.faces, corners};
 }
 
-std::vector<Vec3d> controlPoints(const LoopFit& fit, const std::vector<Vec3d>& points) {
-  std::vector<Vec3d> control = fit.controlPoints(points);
-  std::transform(control.begin(), control.end(), control.begin(), toMicrometre);
+// One entry per instant.
+std::vector<std::vector<Vec3d>> controlPoints(const LoopFit& fit,
+                                              std::span<const std::vector<Vec3d>> instants) {
+  std::vector<std::vector<Vec3d>> control = fit.controlPoints(instants);
+  for (std::vector<Vec3d>& points : control)
+    std::transform(points.begin(), points.end(), points.begin(), toMicrometre);
   return control;
 }
 
@@ -75,9 +78,7 @@ void measureVolumes(RecordedPart& part) {
   }
 }
 
-// Checks and measures all parts.
-void finish(Recording& recording) {
-  repairFolds(recording);
+void measureVolumes(Recording& recording) {
   parallelBlocks(recording.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) measureVolumes(recording.parts[p]);
   });
@@ -147,7 +148,7 @@ Recording recordBeat(const ParametricHeart& heart, View view, int keyframes,
 
   std::vector<double> phases = recording.phases;  // the first is 0
   phases.push_back(recording.end_systole_phase);  // to its last digit, for the sac
-  const std::vector<Shape> shapes = shapesAt(heart, phases, monitor);
+  std::vector<Shape> shapes = shapesAt(heart, phases, monitor);
   const std::array sacs{&shapes.front(), &shapes.back()};
   recording.sac_reach_m = reachOfSac(heart, sacs);
   for (const Part& part : shapes.front().parts)
@@ -155,13 +156,15 @@ Recording recordBeat(const ParametricHeart& heart, View view, int keyframes,
   parallelBlocks(recording.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       const LoopFit fit = fitOf(shapes.front().parts[p], recording.parts[p].tags);
+      std::vector<std::vector<Vec3d>> instants;
       for (std::size_t k = 0; k < recording.phases.size(); ++k)
-        recording.parts[p].control_m.push_back(controlPoints(fit, shapes[k].parts[p].points));
+        instants.push_back(std::move(shapes[k].parts[p].points));
+      recording.parts[p].control_m = controlPoints(fit, instants);
     }
   });
   for (std::size_t k = 0; k < recording.phases.size(); ++k)
     recording.places.push_back(shapes[k].places);
-  finish(recording);
+  repairFolds(recording);
   recording.body_scale = heart.parameters().body_scale;
   recording.pose = poseOf(view, recording);
   return recording;
@@ -171,6 +174,7 @@ Recording record(const ParametricHeart& heart, View view, int keyframes, Keyfram
                  const Monitor& monitor) {
   Recording recording = recordBeat(heart, view, keyframes, spacing, monitor);
   surround(view, recording.pose, heart, recording);
+  measureVolumes(recording);
   return recording;
 }
 
@@ -182,8 +186,8 @@ void surround(View view, const ProbePose& pose, const ParametricHeart& heart,
   still.phases = recording.phases;
   for (const Part& part : surroundingsOf(view, pose, heart, recording.sac_reach_m))
     still.parts.push_back(
-        {part.kind, part.faces, {}, {controlPoints(fitOf(part, {}), part.points)}, {}});
-  finish(still);
+        {part.kind, part.faces, {}, controlPoints(fitOf(part, {}), {&part.points, 1}), {}});
+  repairFolds(still);
   std::move(still.parts.begin(), still.parts.end(), std::back_inserter(recording.parts));
 }
 

@@ -17,7 +17,8 @@ struct RecordedPart {
   // One entry per keyframe; a single one for a static part. Heart coordinates, rounded to a
   // micrometre.
   std::vector<std::vector<Vec3d>> control_m;
-  // Volume within the surface after kLevels of subdivision; empty for membranes.
+  // Volume within the surface after kLevels of subdivision; empty for membranes, and unless
+  // record() made the part.
   std::vector<double> volume_m3;
 };
 
@@ -51,14 +52,15 @@ std::vector<double> keyframePhases(const Cycle& cycle, int count);
 Recording record(const ParametricHeart& heart, View view, int keyframes,
                  KeyframeSpacing spacing = KeyframeSpacing::by_motion, const Monitor& monitor = {});
 
-// The same without the surroundings of the heart, which surround() adds.
+// The same without volumes, and without the surroundings of the heart, which surround() adds.
 Recording recordBeat(const ParametricHeart& heart, View view, int keyframes,
                      KeyframeSpacing spacing = KeyframeSpacing::by_motion,
                      const Monitor& monitor = {});
 
 // Recomputes the surroundings of the heart for a view whose probe is at `pose`: the chest wall is
 // at the probe. The recording's own pose is unchanged. With poseOf(view) for both poses the
-// recording equals that of record() for the view. Precondition: `recording` is of this heart.
+// recording equals that of record() for the view, except volumes. Precondition: `recording` is of
+// this heart.
 void surround(View view, const ProbePose& pose, const ParametricHeart& heart, Recording& recording);
 
 }  // namespace echocine::heart

@@ -13,6 +13,7 @@ namespace echocine::heart {
 namespace {
 
 constexpr int kSections = 120, kFine = 40;
+constexpr std::size_t kStretch = 8;  // sections, a multiple of four
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 Vec3d catmullRom(Vec3d a, Vec3d b, Vec3d c, Vec3d d, double t) {
@@ -59,15 +60,29 @@ Tube::Tube(const std::vector<Station>& stations) {
     centres_m_.add(section.centre);
     most_radius_m_ = std::max(most_radius_m_, section.radius_m);
   }
-  for (std::size_t i = 0; i < sections_.size(); i += 4) {
-    Four& four = fours_.emplace_back(Four{{kFar, kFar, kFar, kFar}, {}, {}});
-    for (std::size_t lane = 0; lane < 4 && i + lane < sections_.size(); ++lane) {
-      const Vec3d centre = sections_[i + lane].centre;
-      four.x[lane] = centre.x;
-      four.y[lane] = centre.y;
-      four.z[lane] = centre.z;
+  std::vector<Vec3d> centres, hubs;
+  for (const Section& section : sections_) centres.push_back(section.centre);
+  for (std::size_t first = 0; first < centres.size(); first += kStretch) {
+    const std::size_t end = std::min(first + kStretch, centres.size());
+    hubs.push_back(centres[(first + end) / 2]);
+    for (std::size_t i = first; i < end; ++i)
+      hub_reach_m_ = std::max(hub_reach_m_, length(centres[i] - hubs.back()));
+  }
+  fours_ = foursOf(centres);
+  hubs_ = foursOf(hubs);
+}
+
+std::vector<Tube::Four> Tube::foursOf(const std::vector<Vec3d>& centres) {
+  std::vector<Four> fours;
+  for (std::size_t i = 0; i < centres.size(); i += 4) {
+    Four& four = fours.emplace_back(Four{{kFar, kFar, kFar, kFar}, {}, {}});
+    for (std::size_t lane = 0; lane < 4 && i + lane < centres.size(); ++lane) {
+      four.x[lane] = centres[i + lane].x;
+      four.y[lane] = centres[i + lane].y;
+      four.z[lane] = centres[i + lane].z;
     }
   }
+  return fours;
 }
 
 Tube::Section Tube::at(double share) const {
@@ -95,22 +110,38 @@ Vec3d Tube::point(Vec3d direction, double thickness_m) const {
          radius_m * std::sin(azimuth_rad) * section.v;
 }
 
-// The first of the nearest. Distances that round to the same value count as equal.
-const Tube::Section& Tube::nearest(Vec3d point) const {
-  constexpr std::size_t kFours = (kSections + 4) / 4;
-  std::array<Lanes, kFours> squares;
+// The first of the nearest. Distances that round to the same value count as equal. Only stretches
+// that may be as near as the nearest hub are examined.
+const Tube::Section* Tube::nearest(Vec3d point, double far_m) const {
+  constexpr std::size_t kFours = (kSections + 4) / 4, kHubs = (kSections + kStretch) / kStretch;
+  constexpr double kSlack = 1 + 1e-9;  // for rounding
+  std::array<Lanes, (kHubs + 3) / 4> hubs;
   Lanes least{kFar, kFar, kFar, kFar};
-  for (std::size_t k = 0; k < kFours; ++k) {
-    const Lanes x = point.x - fours_[k].x, y = point.y - fours_[k].y, z = point.z - fours_[k].z;
-    squares[k] = x * x + y * y + z * z;
-    least = squares[k] < least ? squares[k] : least;
+  for (std::size_t k = 0; k < hubs.size(); ++k) {
+    hubs[k] = hubs_[k].squares(point);
+    least = hubs[k] < least ? hubs[k] : least;
+  }
+  const double hub_m = std::sqrt(std::min({least[0], least[1], least[2], least[3]}));
+  if (hub_m > kSlack * (far_m + hub_reach_m_)) return nullptr;
+  const double reach_m = kSlack * (hub_m + hub_reach_m_), within = reach_m * reach_m;
+  std::array<Lanes, kFours> squares;
+  least = Lanes{kFar, kFar, kFar, kFar};
+  for (std::size_t h = 0; h < kHubs; ++h) {
+    if (hubs[h / 4][h % 4] > within) continue;
+    for (std::size_t k = h * kStretch / 4; k < std::min((h + 1) * kStretch / 4, kFours); ++k) {
+      squares[k] = fours_[k].squares(point);
+      least = squares[k] < least ? squares[k] : least;
+    }
   }
   const double best = std::min({least[0], least[1], least[2], least[3]}), best_m = std::sqrt(best);
-  for (std::size_t i = 0; i + 1 < sections_.size(); ++i) {
-    const double square = squares[i / 4][i % 4];
-    if (square <= best * (1 + 1e-15) && std::sqrt(square) == best_m) return sections_[i];
+  for (std::size_t h = 0; h < kHubs; ++h) {
+    if (hubs[h / 4][h % 4] > within) continue;
+    for (std::size_t i = h * kStretch; i < std::min((h + 1) * kStretch, sections_.size()); ++i) {
+      const double square = squares[i / 4][i % 4];
+      if (square <= best * (1 + 1e-15) && std::sqrt(square) == best_m) return &sections_[i];
+    }
   }
-  return sections_.back();
+  return &sections_.back();
 }
 
 void Tube::pushOut(double gap_m, std::vector<Vec3d>& points) const {
@@ -120,11 +151,12 @@ void Tube::pushOut(double gap_m, std::vector<Vec3d>& points) const {
   const Box within{centres_m_.lo - margin, centres_m_.hi + margin};
   for (Vec3d& point : points) {
     if (!within.contains(point)) continue;
-    const Section& section = nearest(point);
-    const Vec3d away = point - section.centre;
-    const double distance_m = length(away), limit_m = section.radius_m + gap_m;
+    const Section* const section = nearest(point, far_m);
+    if (section == nullptr) continue;
+    const Vec3d away = point - section->centre;
+    const double distance_m = length(away), limit_m = section->radius_m + gap_m;
     if (distance_m > limit_m + 10 * kRounding_m || distance_m < 1e-6) continue;
-    point = section.centre + (smoothMax(distance_m, limit_m, kRounding_m) / distance_m) * away;
+    point = section->centre + (smoothMax(distance_m, limit_m, kRounding_m) / distance_m) * away;
   }
 }
 

@@ -31,16 +31,25 @@ class Tube {
     double radius_m;
   };
   Section at(double share) const;
-  const Section& nearest(Vec3d point) const;
+  // The nearest section; null if all are farther than `far_m`.
+  const Section* nearest(Vec3d point, double far_m) const;
 
   // Coordinates of the centres of four sections, for evaluation in parallel lanes.
   using Lanes [[gnu::vector_size(32)]] = double;
   struct Four {
     Lanes x, y, z;
+    Lanes squares(Vec3d point) const {
+      const Lanes dx = point.x - x, dy = point.y - y, dz = point.z - z;
+      return dx * dx + dy * dy + dz * dz;
+    }
   };
+  static std::vector<Four> foursOf(const std::vector<Vec3d>& centres);
 
   std::vector<Section> sections_;  // evenly spaced by arc length
-  std::vector<Four> fours_;        // unused lanes of the last one lie at infinity
+  // Unused lanes of the last four lie at infinity. The stretches are runs of sections; hub_reach_m_
+  // is the largest distance of a section from the hub of its stretch.
+  std::vector<Four> fours_, hubs_;
+  double hub_reach_m_ = 0;
   double length_m_ = 0;
   Box centres_m_;
   double most_radius_m_ = 0;

@@ -5,7 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "motion/heart/beat_rows.h"
 #include "motion/heart/control_mesh.h"
+#include "motion/heart/fold_finder.h"
 
 namespace echocine::heart {
 
@@ -21,14 +23,25 @@ struct Fold {
   std::size_t face = 0;
 };
 
-// The first fold of a closed surface at and between keyframes, under the default interpolation: two
+// The folds of a closed surface at and between keyframes, under the default interpolation: two
 // neighbouring faces with more than 140 degrees between their normals, or a face more than 70
 // degrees from its direction in both adjacent keyframes. Both are our choice, with a margin for
-// other kinds of interpolation. None without folds.
-std::optional<Fold> foldIn(const SurfaceBeat& beat, const std::vector<Face>& faces);
+// other kinds of interpolation.
+class Folds {
+ public:
+  Folds(const SurfaceBeat& beat, const std::vector<Face>& faces);  // keeps both
 
-// Smooths a closed surface at its folds and near them only. One linear map serves all keyframes, so
-// the motion stays as smooth as before. Returns a remaining fold.
-std::optional<Fold> unfold(const SurfaceBeat& beat, const std::vector<Face>& faces);
+  std::optional<Fold> first();  // none without folds
+
+  // Smooths the surface at its folds and near them only, and writes the beat's points. One linear
+  // map serves all keyframes, so the motion stays as smooth as before. Returns a remaining fold.
+  std::optional<Fold> smooth();
+
+ private:
+  const SurfaceBeat& beat_;
+  const std::vector<Face>& faces_;
+  BeatRows rows_;
+  FoldFinder finder_;
+};
 
 }  // namespace echocine::heart

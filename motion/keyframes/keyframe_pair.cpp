@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/mesh/edge_sides.h"
 #include "motion/mesh/surface_measure.h"
 
 namespace echocine {
@@ -26,24 +27,12 @@ double longestSideSquared(const Triangle& t, const std::vector<Vec3f>& positions
 }  // namespace
 
 std::vector<Neighbours> neighboursOf(std::span<const Triangle> triangles) {
-  struct Side {
-    std::uint64_t key;
-    std::uint32_t triangle;
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint64_t a = triangles[t][k], b = triangles[t][(k + 1) % 3];
-      sides.push_back({std::min(a, b) << 32 | std::max(a, b), t});
-    }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.key != b.key ? a.key < b.key : a.triangle < b.triangle;
-  });
+  const std::vector<Side> sides = sortedSides(triangles);
   std::vector<Neighbours> neighbours;
+  neighbours.reserve(sides.size() / 2);
   for (std::size_t i = 0; i + 1 < sides.size(); ++i)
     if (sides[i].key == sides[i + 1].key)
-      neighbours.push_back({sides[i].triangle, sides[i + 1].triangle});
+      neighbours.push_back({sides[i].triangle(), sides[i + 1].triangle()});
   return neighbours;
 }
 

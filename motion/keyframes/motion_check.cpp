@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include "core/parallel.h"
 #include "motion/keyframes/keyframe_pair.h"
+#include "motion/mesh/surface_measure.h"
 
 namespace echocine {
 
@@ -58,6 +60,24 @@ SurfaceBreaks findBreaks(const ControlMotion& motion, std::span<const FramePhase
   }
   all.triangles = static_cast<std::size_t>(std::count(anywhere.begin(), anywhere.end(), true));
   return all;
+}
+
+// Volumes far above zero decide; only others need the exact check.
+std::optional<SurfaceBreaks::Size> findInsideOut(const ControlMotion& motion,
+                                                 std::span<const FramePhase> frames) {
+  if (motion.still() || motion.membrane) return std::nullopt;
+  const VolumeSum volume(motion.triangles);
+  std::vector<Vec3f> positions_m;
+  double least_m3 = std::numeric_limits<double>::infinity(), most_m3 = 0;
+  for (const FramePhase& frame : frames) {
+    motion.at(frame.phase, positions_m);
+    const double volume_m3 = volume.of(positions_m);
+    if (!(volume_m3 >= least_m3)) least_m3 = volume_m3;  // also takes NaN
+    most_m3 = std::max(most_m3, volume_m3);
+  }
+  constexpr double kFarAbove = 1e-6;
+  if (least_m3 > kFarAbove * most_m3) return std::nullopt;
+  return findBreaks(motion, frames).inside_out;
 }
 
 }  // namespace echocine

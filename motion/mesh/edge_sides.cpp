@@ -6,16 +6,37 @@
 
 namespace echocine {
 
+namespace {
+
+Side sideOf(std::span<const Triangle> triangles, std::uint32_t side) {
+  const std::uint32_t a = sideStart(triangles, side), b = sideEnd(triangles, side);
+  return {edgeKey(a, b), side, a > b};
+}
+
+}  // namespace
+
+// Sorted into one group per lower vertex, and within the groups, which are short. A mesh with few
+// of its vertices in use is one group.
 std::vector<Side> sortedSides(std::span<const Triangle> triangles) {
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (std::uint32_t side = 0; side < 3 * triangles.size(); ++side) {
-    const std::uint32_t a = sideStart(triangles, side), b = sideEnd(triangles, side);
-    sides.push_back({edgeKey(a, b), side, a > b});
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.key != b.key ? a.key < b.key : a.side < b.side;
-  });
+  const auto count = static_cast<std::uint32_t>(3 * triangles.size());
+  std::uint32_t highest = 0;
+  for (const Triangle& triangle : triangles)
+    highest = std::max(highest, *std::max_element(triangle.begin(), triangle.end()));
+  const auto groupOf = [&, is_dense = highest / 4 <= count](std::uint32_t side) -> std::size_t {
+    return is_dense ? std::min(sideStart(triangles, side), sideEnd(triangles, side)) : 0;
+  };
+  const std::size_t groups = highest / 4 <= count ? std::size_t{highest} + 1 : 1;
+  std::vector<std::size_t> next(groups + 1, 0);  // place of a group's next side
+  for (std::uint32_t side = 0; side < count; ++side) ++next[groupOf(side) + 1];
+  for (std::size_t g = 1; g < groups; ++g) next[g] += next[g - 1];
+  std::vector<Side> sides(count);
+  for (std::uint32_t side = 0; side < count; ++side)
+    sides[next[groupOf(side)]++] = sideOf(triangles, side);
+  const auto at = [&](std::size_t i) { return sides.begin() + static_cast<std::ptrdiff_t>(i); };
+  for (std::size_t g = 0, begin = 0; g < groups; begin = next[g++])
+    std::sort(at(begin), at(next[g]), [](const Side& a, const Side& b) {
+      return a.key != b.key ? a.key < b.key : a.side < b.side;
+    });
   return sides;
 }
 

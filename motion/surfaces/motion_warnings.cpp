@@ -171,4 +171,13 @@ std::vector<std::string> motionWarnings(const Scene& scene, const MeshMotion& mo
   return warnings;
 }
 
+void refuseInverted(const Scene& scene, const MeshMotion& motion) {
+  const std::vector<FramePhase> frames = differentFrames(scene.acquisition);
+  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    const ControlMotion& control = motion.control(static_cast<SurfaceId>(s));
+    if (const auto found = findInsideOut(control, frames))
+      refuse(scene.structures[s], control, *found, scene.motion.interpolation);
+  }
+}
+
 }  // namespace echocine

@@ -15,4 +15,7 @@ namespace echocine {
 // encloses no medium.
 std::vector<std::string> motionWarnings(const Scene& scene, const MeshMotion& motion);
 
+// The error only, in a fraction of the time.
+void refuseInverted(const Scene& scene, const MeshMotion& motion);
+
 }  // namespace echocine

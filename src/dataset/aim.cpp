@@ -102,8 +102,12 @@ void setOutput(const Spec& spec, Scene& scene) {
   scene.output = {};
   scene.output.exr = scene.output.report = scene.output.ecg = scene.output.depth_ticks = false;
   scene.output.width = scene.output.height = pictureSide(spec, scene.probe);
-  scene.truth.labels = scene.truth.contours = true;
-  scene.truth.visible_roles.assign(std::begin(kContourRoles), std::end(kContourRoles));
+  scene.truth.contours = true;
+  scene.truth.labels = (spec.has("native") && spec.wants("labels")) || spec.has("camus") ||
+                       spec.has("nnunet") || spec.has("pointodyssey");
+  scene.truth.visible_roles = {Role::lv_cavity};  // for loops.csv
+  if (spec.has("native") && spec.wants("contours"))
+    scene.truth.visible_roles.assign(std::begin(kContourRoles), std::end(kContourRoles));
   scene.truth.papillary_in_cavity = true;  // as laboratories trace it
   scene.truth.label_numbers = {{"lv_cavity", 1}, {"lv_wall", 2}, {"la", 3}};
   if (spec.nnunet_all) {  // reduced to those three in each frame

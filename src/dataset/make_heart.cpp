@@ -16,6 +16,7 @@
 #include "dataset/redraw.h"
 #include "dataset/structure_labels.h"
 #include "dataset/tracing.h"
+#include "frame/plan_loop.h"
 #include "frame/simulator.h"
 #include "frame/workspace.h"
 #include "loop/render_frames.h"
@@ -24,7 +25,9 @@
 #include "motion/heart/heart_scene.h"
 #include "motion/heart/recording.h"
 #include "motion/surfaces/mesh_motion.h"
+#include "motion/surfaces/probe_placement.h"
 #include "output/truth_files.h"
+#include "scene/scene_keys.h"
 #include "scene/view_names.h"
 #include "truth/frame_truth.h"
 #include "truth/view_offset.h"
@@ -158,7 +161,9 @@ LoopSample makeLoop(const Spec& spec, const Draw& draw, std::size_t view, Scene 
   loop.values = draw.valuesOf(view);
   loop.scene = std::move(scene);
   loop.geometry = pictureGeometry(loop.scene);
-  const Simulator simulator(loop.scene);
+  refuseOutOfRange(loop.scene);
+  const auto [placed, motion] = placedWithMotion(loop.scene);
+  const Simulator simulator(placed, motion, planLoop(placed, *motion, PlanWords::without_warnings));
   const CardiacClock& clock = simulator.cardiacClock();
   if (spec.has("myotracker") && clock.frameCount() < kLeastTrackedFrames)  // of varied beats
     throw SceneError(fmt::format("a loop of {} frames, \"myotracker\" needs {}", clock.frameCount(),

@@ -245,6 +245,13 @@ void tellWallsWithoutChambers(const Scene& scene, LoopPlan& plan) {
   }
 }
 
+void addWarnings(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) {
+  plan.warnings = motion.repairNotes();
+  tellWallsWithoutChambers(scene, plan);
+  for (const auto& told : {sizeWarnings(scene, motion), motionWarnings(scene, motion)})
+    plan.warnings.insert(plan.warnings.end(), told.begin(), told.end());
+}
+
 // Ribs and lung beside the apical window add clutter that the parasternal one hardly has.
 void weighClutter(const Scene& scene, const MeshMotion& motion, EffectPlan& plan) {
   const double squared_sine = squaredSineToLongAxis(scene, motion);
@@ -256,16 +263,15 @@ void weighClutter(const Scene& scene, const MeshMotion& motion, EffectPlan& plan
 
 }  // namespace
 
-LoopPlan planLoop(const Scene& scene, const MeshMotion& motion) {
+LoopPlan planLoop(const Scene& scene, const MeshMotion& motion, PlanWords words) {
   refuseOutOfRange(scene);
   LoopPlan plan;
   plan.effects = planEffects(scene);
-  plan.warnings = motion.repairNotes();
-  tellWallsWithoutChambers(scene, plan);
-  for (std::string& warning : sizeWarnings(scene, motion))
-    plan.warnings.push_back(std::move(warning));
-  for (std::string& warning : motionWarnings(scene, motion))
-    plan.warnings.push_back(std::move(warning));
+  const bool warns = words == PlanWords::with_warnings;
+  if (warns)
+    addWarnings(scene, motion, plan);
+  else
+    refuseInverted(scene, motion);
   dropStructures(scene, motion, plan);
   decideRefraction(scene, motion, plan);
   plan.smooth_normals =
@@ -275,7 +281,7 @@ LoopPlan planLoop(const Scene& scene, const MeshMotion& motion) {
     plan.effects.mean_loss = meanLoss(scene, motion, plan);
   if (plan.effects.clutter && scene.artefacts.clutter_parasternal_db != 0)
     weighClutter(scene, motion, plan.effects);
-  lookAtFrames(scene, motion, plan);
+  if (warns) lookAtFrames(scene, motion, plan);
   return plan;
 }
 

@@ -28,7 +28,7 @@ Mesh writtenMesh(const std::vector<heart::Part>& parts, const char* name) {
       heartMesh({part.kind,
                  part.faces,
                  {},
-                 {heart::LoopFit(part.points.size(), part.faces).controlPoints(part.points)},
+                 heart::LoopFit(part.points.size(), part.faces).controlPoints({&part.points, 1}),
                  {}},
                 0));
 }

@@ -23,7 +23,16 @@ SurfaceBreaks breaksOf(const std::vector<TriangleMesh>& keyframes, Interpolation
   const TestFolder folder;
   Scene scene = sceneWith(folder, keyframes, kind);
   scene.structures[0].membrane = membrane;
-  return findBreaks(MeshMotion(scene).control(SurfaceId{}), frames);
+  const MeshMotion motion(scene);
+  const ControlMotion& control = motion.control(SurfaceId{});
+  const SurfaceBreaks breaks = findBreaks(control, frames);
+  const std::optional<SurfaceBreaks::Size> inside_out = findInsideOut(control, frames);
+  EXPECT_EQ(inside_out.has_value(), breaks.inside_out.has_value());
+  if (inside_out && breaks.inside_out) {
+    EXPECT_EQ(inside_out->frame, breaks.inside_out->frame);
+    EXPECT_EQ(inside_out->volume_m3, breaks.inside_out->volume_m3);
+  }
+  return breaks;
 }
 
 TriangleMesh tetrahedron() {

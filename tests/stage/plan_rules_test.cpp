@@ -45,7 +45,17 @@ SceneText ballAndWall(const TempFolder& folder, const std::string& medium,
 
 LoopPlan planOf(const TempFolder& folder, const SceneText& text) {
   const Scene scene = readScene(folder.write("scene.toml", text.text()));
-  return planLoop(scene, MeshMotion(scene));
+  const MeshMotion motion(scene);
+  const LoopPlan plan = planLoop(scene, motion),
+                 silent = planLoop(scene, motion, PlanWords::without_warnings);
+  EXPECT_EQ(silent.left_out, plan.left_out);
+  EXPECT_EQ(silent.triangles_kept, plan.triangles_kept);
+  EXPECT_EQ(silent.effects.refraction, plan.effects.refraction);
+  EXPECT_EQ(silent.effects.mean_loss, plan.effects.mean_loss);
+  EXPECT_EQ(silent.slice, plan.slice);
+  EXPECT_EQ(silent.echo_reason, plan.echo_reason);
+  EXPECT_TRUE(silent.warnings.empty());
+  return plan;
 }
 
 TEST(RefractionRule, FindsALensThatIsInViewAtOneKeyframeAlone) {
