@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "motion/surfaces/leaflet_share.h"
@@ -14,20 +13,6 @@ namespace {
 
 constexpr int kMostThinnings = 8;
 constexpr float kOutline = 0.5f;  // of the thickness: a rounded edge. Our choice
-
-// Directed boundary edges of an oriented sheet; empty if the mesh is closed or an edge is used
-// twice in one direction.
-LeafletBodies::Outline outlineOf(const std::vector<Triangle>& faces) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> runs;
-  for (const Triangle& t : faces)
-    for (std::size_t k = 0; k < 3; ++k) ++runs[{t[k], t[(k + 1) % 3]}];
-  LeafletBodies::Outline outline;
-  for (const auto& [edge, count] : runs) {
-    if (count > 1) return {};
-    if (!runs.contains({edge.second, edge.first})) outline.push_back(edge);
-  }
-  return outline;
-}
 
 // Unit normals by vertex; zero where the faces cancel.
 void vertexNormals(const std::vector<Triangle>& faces, const std::vector<Vec3f>& at_m,
@@ -75,7 +60,7 @@ LeafletBodies::LeafletBodies(const Scene& scene, const MeshMotion& motion)
   for (const SurfaceId leaflet : leaflets) {
     const std::size_t s = index(leaflet);
     const SurfaceTopology& surface = motion.surfaces()[s];
-    const Outline outline = outlineOf(surface.triangles);
+    const SheetOutline outline = outlineOf(surface.triangles);
     if (outline.empty()) continue;
     std::vector<const std::vector<Vec3f>*> instants;
     for (const SurfaceFrame& frame : frames) instants.push_back(&frame.positions_m[s]);
@@ -94,7 +79,7 @@ LeafletBodies::LeafletBodies(const Scene& scene, const MeshMotion& motion)
 }
 
 // Front, back and rim. Normals of the rim are those of its facets: that of index 2 n is zero.
-void LeafletBodies::addBody(const SurfaceTopology& sheet, const Outline& outline) {
+void LeafletBodies::addBody(const SurfaceTopology& sheet, const SheetOutline& outline) {
   const std::uint32_t n = sheet.vertex_count;
   SurfaceTopology& body = surfaces_[index(sheet.id)];
   body.membrane = false;

@@ -4,19 +4,16 @@
 // mesh; a leaflet has no volume there.
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "motion/surfaces/mesh_motion.h"
+#include "motion/surfaces/sheet_outline.h"
 #include "motion/surfaces/surface_frame.h"
 
 namespace echocine {
 
 class LeafletBodies {
  public:
-  // Directed edges of a sheet's boundary, as pairs of vertices.
-  using Outline = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
-
   // For the scene's leaflets (hasThickness()). Those whose mesh is closed or branches stay sheets.
   // The thickness is leafletThickness() where a leaflet moves least, and twice that where
   // it moves most, at its free edge. It is halved at the outline, and locally where a face would be
@@ -41,7 +38,7 @@ class LeafletBodies {
                std::vector<Vec3f>& front_m) const;
 
  private:
-  void addBody(const SurfaceTopology& sheet, const Outline& outline);
+  void addBody(const SurfaceTopology& sheet, const SheetOutline& outline);
 
   std::vector<SurfaceTopology> surfaces_;
   std::vector<std::vector<Triangle>> sheets_;  // faces of the leaflets, by surface

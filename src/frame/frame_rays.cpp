@@ -1,7 +1,11 @@
 #include "frame/frame_rays.h"
 
+#include <array>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "core/units.h"
 #include "trace/strand_echoes.h"
 #include "trace/thick_slice.h"
 #include "trace/trace_beams.h"
@@ -26,15 +30,37 @@ TraceSettings settingsOf(const Scene& scene, const LoopPlan& plan, const Leaflet
   return settings;
 }
 
+// Fibres of a ring, evenly spread over its section: a spiral of equal areas.
+constexpr std::size_t kFibres = 19;
+struct Fibre {
+  float a, b;
+};
+const std::array<Fibre, kFibres>& fibresOfRing() {
+  static const std::array<Fibre, kFibres> fibres = [] {
+    std::array<Fibre, kFibres> made{};
+    const double golden_rad = std::numbers::pi * (3 - std::sqrt(5.0));
+    for (std::size_t i = 0; i < kFibres; ++i) {
+      const double out = std::sqrt((static_cast<double>(i) + 0.5) / kFibres),
+                   turn_rad = golden_rad * static_cast<double>(i);
+      made[i] = {static_cast<float>(out * std::cos(turn_rad)),
+                 static_cast<float>(out * std::sin(turn_rad))};
+    }
+    return made;
+  }();
+  return fibres;
+}
+
 }  // namespace
 
 FrameRays::FrameRays(const Scene& scene, const LoopPlan& plan, const LeafletBodies* bodies,
-                     const Chordae* chordae)
+                     const Chordae* chordae, const ValveRings* rings)
     : probe_(scene.probe),
       settings_(settingsOf(scene, plan, bodies)),
       request_(planeRequest(scene, plan.effects)),
       chordae_(chordae),
-      chordae_m_(scene.leaflets.chordae_m) {
+      chordae_m_(scene.leaflets.chordae_m),
+      rings_(rings),
+      ring_backscatter_(intensityFromDecibels(scene.leaflets.annulus_db)) {
   if (plan.effects.rays_per_beam > 1)
     beams_.emplace(probe_, beamSpread(plan.effects, scene.acquisition.seed));
 }
@@ -69,10 +95,33 @@ void FrameRays::addChordae(Workspace& w) const {
   addStrands(strands, chordae_m_, probe_, settings_, request_.intensity_terms, w.polar);
 }
 
+// Together the fibres of a ring have its section. Each follows the ring.
+void FrameRays::addRings(Workspace& w) const {
+  thread_local std::vector<ValveRings::Section> sections;
+  thread_local std::vector<Vec3f> points_m;
+  thread_local std::vector<Strand> strands;
+  rings_->at(w.surfaces, sections);
+  points_m.clear();
+  strands.clear();
+  if (sections.empty()) return;
+  for (const ValveRings::Stretch& stretch : rings_->stretches())
+    for (const Fibre& fibre : fibresOfRing())
+      for (const std::uint32_t end : {stretch.from, stretch.to})
+        points_m.push_back(rings_->place(sections[end], fibre.a, fibre.b));
+  for (std::size_t i = 0; i < points_m.size(); i += 2)
+    strands.push_back(
+        {std::span(points_m).subspan(i, 2),
+         settings_.surfaces[index(rings_->stretches()[i / (2 * kFibres)].leaflet)].medium,
+         ring_backscatter_});
+  addStrands(strands, 2 * rings_->radius() / std::sqrt(static_cast<double>(kFibres)), probe_,
+             settings_, request_.intensity_terms, w.polar);
+}
+
 WorkCounts FrameRays::trace(int frame, const RollingLines::Group* group, Workspace& w) const {
   const WorkCounts work = std::visit(
       [&](const auto& geometry) { return through(geometry, frame, group, w); }, w.geometry);
   if (chordae_) addChordae(w);
+  if (rings_) addRings(w);
   return work;
 }
 

@@ -7,6 +7,7 @@
 #include "frame/rolling.h"
 #include "frame/workspace.h"
 #include "motion/surfaces/chordae.h"
+#include "motion/surfaces/valve_rings.h"
 #include "trace/beam_rays.h"
 #include "trace/trace_frame.h"
 
@@ -14,9 +15,9 @@ namespace echocine {
 
 class FrameRays {
  public:
-  // The scene and `chordae` are kept by reference. `bodies` replace leaflets. Null: none.
+  // The scene, `chordae` and `rings` are kept by reference. `bodies` replace leaflets. Null: none.
   FrameRays(const Scene& scene, const LoopPlan& plan, const LeafletBodies* bodies,
-            const Chordae* chordae = nullptr);
+            const Chordae* chordae = nullptr, const ValveRings* rings = nullptr);
 
   // Does an output need intensities?
   bool receive() const { return request_.intensities; }
@@ -31,6 +32,7 @@ class FrameRays {
   WorkCounts through(const FrameGeometry& geometry, int frame, const RollingLines::Group* group,
                      Workspace& w) const;
   void addChordae(Workspace& w) const;
+  void addRings(Workspace& w) const;
 
   const Probe& probe_;
   const TraceSettings settings_;
@@ -38,6 +40,8 @@ class FrameRays {
   std::optional<BeamRays> beams_;  // several rays per beam
   const Chordae* chordae_;
   double chordae_m_;  // their diameter
+  const ValveRings* rings_;
+  double ring_backscatter_;  // relative to that of the leaflets
 };
 
 }  // namespace echocine

@@ -128,12 +128,13 @@ FrameEffects::FrameEffects(const Scene& scene, const MeshMotion& motion,
                            const CardiacClock& clock, const SignalChain& chain,
                            const SceneSpeckle* source,
                            std::shared_ptr<const LeafletBodies> leaflets,
-                           std::shared_ptr<const Chordae> chordae)
+                           std::shared_ptr<const Chordae> chordae,
+                           std::shared_ptr<const ValveRings> rings)
     : trabeculae(where<Trabeculae>(plan.effects.trabeculae, scene, motion, !plan.slice)),
-      speckle(source
-                  ? where<SceneSpeckle>(plan.effects.speckle, scene, *source)
-                  : where<SceneSpeckle>(plan.effects.speckle, scene, motion, field, plan.effects,
-                                        trabeculae.get(), std::move(leaflets), std::move(chordae))),
+      speckle(source ? where<SceneSpeckle>(plan.effects.speckle, scene, *source)
+                     : where<SceneSpeckle>(plan.effects.speckle, scene, motion, field, plan.effects,
+                                           trabeculae.get(), std::move(leaflets),
+                                           std::move(chordae), std::move(rings))),
       rolling(where<RollingLines>(
           plan.effects.rolling, scene,
           [&](LineRange lines) { return chain.taken(speckle ? speckle->reach(lines) : lines); })),
@@ -153,9 +154,10 @@ FrameStages::FrameStages(Scene given, std::shared_ptr<const MeshMotion> given_mo
       leaflets(plan.effects.leaflets ? std::make_shared<const LeafletBodies>(scene, *motion)
                                      : nullptr),
       chordae(plan.effects.chordae ? std::make_shared<const Chordae>(scene, *motion) : nullptr),
-      rays(scene, plan, leaflets.get(), chordae.get()),
+      rings(plan.effects.annulus ? std::make_shared<const ValveRings>(scene, *motion) : nullptr),
+      rays(scene, plan, leaflets.get(), chordae.get(), rings.get()),
       field(scene, *motion),
-      effects(scene, *motion, field, plan, cardiac_clock, chain, source, leaflets, chordae),
+      effects(scene, *motion, field, plan, cardiac_clock, chain, source, leaflets, chordae, rings),
       truth(scene, *motion, field, cardiac_clock, plan, effects.rolling.get(),
             plan.left_out.none() && !effects.trabeculae && !leaflets),
       workspaces(scene, leaflets ? leaflets->surfaces() : motion->surfaces(), plan) {}

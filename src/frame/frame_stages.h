@@ -19,6 +19,7 @@
 #include "motion/surfaces/leaflet_bodies.h"
 #include "motion/surfaces/mesh_motion.h"
 #include "motion/surfaces/trabeculae.h"
+#include "motion/surfaces/valve_rings.h"
 #include "motion/surfaces/volumes.h"
 #include "plan/loop_plan.h"
 #include "signal/signal_chain.h"
@@ -31,7 +32,7 @@ struct FrameEffects {
   FrameEffects(const Scene& scene, const MeshMotion& motion, const SharedMotionField& field,
                const LoopPlan& plan, const CardiacClock& clock, const SignalChain& chain,
                const SceneSpeckle* source, std::shared_ptr<const LeafletBodies> leaflets,
-               std::shared_ptr<const Chordae> chordae);
+               std::shared_ptr<const Chordae> chordae, std::shared_ptr<const ValveRings> rings);
 
   std::unique_ptr<const Trabeculae> trabeculae;
   std::shared_ptr<const SceneSpeckle> speckle;
@@ -57,6 +58,7 @@ struct FrameStages {
   const SignalChain& chain;
   const std::shared_ptr<const LeafletBodies> leaflets;  // null if they have no thickness
   const std::shared_ptr<const Chordae> chordae;         // null if the plan disables them
+  const std::shared_ptr<const ValveRings> rings;        // likewise
   const FrameRays rays;
   const SharedMotionField field;  // of speckle and of truth
   const FrameEffects effects;

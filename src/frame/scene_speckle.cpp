@@ -17,14 +17,15 @@ SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion,
                            const SharedMotionField& field, const EffectPlan& plan,
                            const Trabeculae* trabeculae,
                            std::shared_ptr<const LeafletBodies> leaflets,
-                           std::shared_ptr<const Chordae> chordae)
-    : SceneSpeckle(
-          scene,
-          std::shared_ptr<const Tissue>(new Tissue{field.shared(),
-                                                   {scene, motion, &plan, trabeculae, &field},
-                                                   {scene, motion, field.field().referencePhase(),
-                                                    std::move(leaflets), std::move(chordae)}}),
-          nullptr) {}
+                           std::shared_ptr<const Chordae> chordae,
+                           std::shared_ptr<const ValveRings> rings)
+    : SceneSpeckle(scene,
+                   std::shared_ptr<const Tissue>(
+                       new Tissue{field.shared(),
+                                  {scene, motion, &plan, trabeculae, &field},
+                                  {scene, motion, field.field().referencePhase(),
+                                   std::move(leaflets), std::move(chordae), std::move(rings)}}),
+                   nullptr) {}
 
 SceneSpeckle::SceneSpeckle(const Scene& scene, const SceneSpeckle& source)
     : SceneSpeckle(scene, source.tissue_, source.speckle_.drawn()) {}

@@ -266,6 +266,7 @@ EffectPlan planEffects(const Scene& scene) {
   planTrabeculae(scene, plan);
   planLeaflets(scene, plan);
   planChordae(scene, plan);
+  planAnnulus(scene, plan);
   planSpeckle(scene, plan);
   planArtefacts(scene, plan);
   planRolling(scene, plan);

@@ -37,6 +37,7 @@ struct EffectPlan {
   bool trabeculae = false;  // relief of the ventricles' inner surfaces
   bool leaflets = false;    // mitral and tricuspid ones have thickness
   bool chordae = false;     // of the mitral valve
+  bool annulus = false;     // fibrous rings of the valves
   bool speckle = false;
   bool heterogeneity = false, anisotropy = false;  // of the scatterers
   bool coherent_echoes = false;                    // interfaces keep part of their phase

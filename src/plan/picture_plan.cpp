@@ -98,23 +98,51 @@ void planLeaflets(const Scene& scene, EffectPlan& plan) {
                                       millimetresFromMetres(given.cusp_m))});
 }
 
+namespace {
+
+// Why strands are left out; null if they are not.
+const char* withoutStrands(const Scene& scene, const EffectPlan& plan) {
+  return !wantsPicture(scene)     ? "no picture is requested"
+         : !plan.backscatter      ? "they only scatter, and nothing scatters"
+         : plan.rays_per_beam > 1 ? "not with several rays per beam"
+         : scene.probe.lines < 2  ? "a single line has no beam's cell"
+                                  : nullptr;
+}
+
+}  // namespace
+
 void planChordae(const Scene& scene, EffectPlan& plan) {
   const double diameter_m = scene.leaflets.chordae_m;
   const bool ends =
       structureOf(scene, Role::mitral_valve) && structureOf(scene, Role::papillary_muscle);
-  const char* omitted = diameter_m == 0          ? "leaflets.chordae_mm is 0"
-                        : !ends                  ? "no mitral valve with papillary muscles"
-                        : !wantsPicture(scene)   ? "no picture is requested"
-                        : !plan.backscatter      ? "they only scatter, and nothing scatters"
-                        : plan.rays_per_beam > 1 ? "not with several rays per beam"
-                        : scene.probe.lines < 2  ? "a single line has no beam's cell"
-                                                 : nullptr;
+  const char* omitted = diameter_m == 0 ? "leaflets.chordae_mm is 0"
+                        : !ends         ? "no mitral valve with papillary muscles"
+                                        : withoutStrands(scene, plan);
   plan.chordae = !omitted;
   plan.decisions.push_back(
       {Effect::chordae, plan.chordae,
        omitted ? omitted
                : fmt::format("strands of {:g} mm between papillary muscles and mitral leaflets",
                              millimetresFromMetres(diameter_m))});
+}
+
+void planAnnulus(const Scene& scene, EffectPlan& plan) {
+  const LeafletSettings& given = scene.leaflets;
+  const bool valve =
+      std::any_of(scene.structures.begin(), scene.structures.end(), [](const Structure& s) {
+        const Role role = roleOf(s);
+        return s.membrane && (role == Role::mitral_valve || role == Role::tricuspid_valve);
+      });
+  const char* omitted = given.annulus_m == 0 ? "leaflets.annulus_mm is 0"
+                        : !valve             ? "no membrane is a mitral or tricuspid leaflet"
+                                             : withoutStrands(scene, plan);
+  plan.annulus = !omitted;
+  plan.decisions.push_back(
+      {Effect::annulus, plan.annulus,
+       omitted ? omitted
+               : fmt::format("fibrous rings of {:g} mm along the hinges of the leaflets, {:g} dB "
+                             "above the leaflets",
+                             millimetresFromMetres(given.annulus_m), given.annulus_db)});
 }
 
 // A single medium without contrast still shows its scatterers.

@@ -12,8 +12,9 @@ void planGreyMap(const Scene& scene, EffectPlan& plan);
 void planTrabeculae(const Scene& scene, EffectPlan& plan);
 // The thickness of leaflets.
 void planLeaflets(const Scene& scene, EffectPlan& plan);
-// The chordae. Precondition: the rays per beam are planned.
+// The chordae; the fibrous rings. Precondition: the rays per beam are planned.
 void planChordae(const Scene& scene, EffectPlan& plan);
+void planAnnulus(const Scene& scene, EffectPlan& plan);
 
 // Speckle and the properties of scatterers and interfaces. Precondition: plan.contrast,
 // plan.backscatter and plan.reflection are decided.

@@ -16,6 +16,8 @@ void applyClean(Scene& scene) {
   scene.leaflets.thickness_m = 1.5e-3;  // 3 mm at the edge; from 5 mm on leaflets are thickened
   scene.leaflets.cusp_m = 0.45e-3;
   scene.leaflets.chordae_m = 0.45e-3;
+  scene.leaflets.annulus_m = 4e-3;
+  scene.leaflets.annulus_db = 16;  // dense collagen: motion/heart/README.md
   scene.speckle.on = true;
   scene.speckle.smoothing_m = 0.62e-3;
   scene.speckle.heterogeneity_db = 4.5;

@@ -36,6 +36,8 @@ inline constexpr NumberRange kArtefactLength_mm{.lo = 0.01, .hi = 1e4};
 inline constexpr NumberRange kTrabeculae_mm{.lo = 0, .hi = 4};
 inline constexpr NumberRange kLeaflet_mm{.lo = 0, .hi = 10};
 inline constexpr NumberRange kChordae_mm{.lo = 0, .hi = 5};
+inline constexpr NumberRange kAnnulus_mm{.lo = 0, .hi = 10};
+inline constexpr NumberRange kAnnulus_db{.lo = -40, .hi = 40};
 inline constexpr NumberRange kTrabeculaeScale_mm{.lo = 0.5, .hi = 50};
 inline constexpr NumberRange kArtefactWidth_deg{.lo = 0.01, .hi = 180};
 inline constexpr NumberRange kWindowOffset_mm{.lo = -1e4, .hi = 1e4};

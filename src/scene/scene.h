@@ -100,12 +100,15 @@ struct TrabeculaeSettings {
   double most_m() const { return 2 * deviation_m; }  // largest height. Our choice
 };
 
-// Leaflets and cusps of the valves as bodies (motion/surfaces/leaflet_bodies.h), and
-// chordae (motion/surfaces/chordae.h). In the picture only.
+// Leaflets and cusps of the valves as bodies (motion/surfaces/leaflet_bodies.h), chordae
+// (motion/surfaces/chordae.h) and fibrous rings. In the picture only.
 struct LeafletSettings {
   double thickness_m = 0;  // at the hinge; 0: sheets without thickness
   double cusp_m = 0;       // the same of aortic and pulmonary cusps
   double chordae_m = 0;    // diameter of the mitral valve's chordae; 0: none
+  // Cords of the fibrous rings of mitral and tricuspid valves (motion/surfaces/valve_rings.h):
+  // diameter, 0: none; backscatter across their fibres relative to the leaflets'.
+  double annulus_m = 0, annulus_db = 17;
 };
 
 // Coherent echoes of material scatterers (src/speckle).

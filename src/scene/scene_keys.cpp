@@ -118,6 +118,8 @@ constexpr SceneKey kKeys[] = {
     {"leaflets", "thickness_mm", kMm, ranges::kLeaflet_mm, "thickness of mitral and tricuspid leaflets near the hinge; the free edge has up to twice as much", AT(LeafletSettings, thickness_m)},
     {"leaflets", "cusp_mm", kMm, ranges::kLeaflet_mm, "the same for aortic and pulmonary cusps", AT(LeafletSettings, cusp_m)},
     {"leaflets", "chordae_mm", kMm, ranges::kChordae_mm, "diameter of the chordae between papillary muscles and mitral leaflets; 0: none", AT(LeafletSettings, chordae_m)},
+    {"leaflets", "annulus_mm", kMm, ranges::kAnnulus_mm, "diameter of the fibrous rings along the hinges of mitral and tricuspid leaflets; 0: none", AT(LeafletSettings, annulus_m)},
+    {"leaflets", "annulus_db", kDb, ranges::kAnnulus_db, "backscatter of these rings across their fibres, relative to the leaflets' medium", AT(LeafletSettings, annulus_db)},
 
     {"artefacts", "dropout", kNone, kAny, "loss of contact towards the sector's edges", AT(ArtefactSettings, dropout)},
     {"artefacts", "dropout_db", kDb, ranges::kLoss_db, "loss on the outermost lines", AT(ArtefactSettings, dropout_db)},

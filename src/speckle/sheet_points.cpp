@@ -20,7 +20,14 @@ constexpr int kSheetPhases = 32;
 constexpr double kBetweenPhases_m = 2e-3;
 
 // Purposes of hashed numbers.
-enum : std::uint64_t { kSheetCount = 11, kSheetPlace = 12, kSheetThrough = 17, kChordPlace = 18 };
+enum : std::uint64_t {
+  kSheetCount = 11,
+  kSheetPlace = 12,
+  kSheetThrough = 17,
+  kChordPlace = 18,
+  kRingCount = 19,
+  kRingPlace = 20
+};
 
 double areaOf(const Triangle& t, const std::vector<Vec3f>& at) {
   return 0.5 * static_cast<double>(length(cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]])));
@@ -30,16 +37,21 @@ double areaOf(const Triangle& t, const std::vector<Vec3f>& at) {
 
 SheetPoints::SheetPoints(const Scene& scene, const MeshMotion& motion, double reference_phase,
                          std::shared_ptr<const LeafletBodies> leaflets,
-                         std::shared_ptr<const Chordae> chordae)
-    : motion_(motion), leaflets_(std::move(leaflets)), chordae_(std::move(chordae)) {
+                         std::shared_ptr<const Chordae> chordae,
+                         std::shared_ptr<const ValveRings> rings)
+    : motion_(motion),
+      leaflets_(std::move(leaflets)),
+      chordae_(std::move(chordae)),
+      rings_(std::move(rings)) {
   const auto& surfaces = motion.surfaces();
   std::vector<SurfaceId> sheets;
   for (const SurfaceTopology& surface : surfaces)
     if (surface.membrane) sheets.push_back(surface.id);
-  if (sheets.empty() && !chordae_) return;
+  if (sheets.empty() && !chordae_ && !rings_) return;
   const PointSpread spread(scene);
   const double apart_m = kApartPerWidth * spread.axial_width_m;
   if (chordae_) drawOnChords(scene, apart_m / kChordPerSheet);
+  if (rings_) drawOnRings(scene, 1 / (apart_m * apart_m * apart_m));
   if (sheets.empty()) return;
   const double per_m2 = scene.speckle.per_cell / kOrdinaryPerCell / (apart_m * apart_m);
   SurfaceFrame frame;
@@ -102,6 +114,24 @@ void SheetPoints::drawOnChords(const Scene& scene, double apart_m) {
   }
 }
 
+// Uniform over each stretch of a ring.
+void SheetPoints::drawOnRings(const Scene& scene, double per_m3) {
+  const double per_m = per_m3 * std::numbers::pi * rings_->radius() * rings_->radius();
+  const std::vector<ValveRings::Stretch>& stretches = rings_->stretches();
+  for (std::uint32_t s = 0; s < stretches.size(); ++s) {
+    const auto count = static_cast<std::uint32_t>(
+        per_m * stretches[s].length_m + uniformFromHash(hashOf(scene.speckle.seed, kRingCount, s)));
+    for (std::uint32_t j = 0; j < count; ++j) {
+      const auto drawn = [&](int axis) {
+        return static_cast<float>(
+            uniformFromHash(hashOf(scene.speckle.seed, kRingPlace, s, j, axis)));
+      };
+      const float out = std::sqrt(drawn(1)), turn_rad = 2 * std::numbers::pi_v<float> * drawn(2);
+      on_rings_.push_back({s, drawn(0), out * std::cos(turn_rad), out * std::sin(turn_rad)});
+    }
+  }
+}
+
 void SheetPoints::dropUnseen(std::span<const SurfaceId> sheets, double reach_m) {
   std::vector<bool> seen(points_.size());
   std::vector<Vec3f> places_m;
@@ -143,15 +173,22 @@ void SheetPoints::at(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m)
   places_m.clear();
   if (surfaces.positions_m.empty()) return;
   onSheetsAt(surfaces, places_m);
-  if (on_chords_.empty()) return;
   thread_local std::vector<Vec3f> chords_m;
-  chordae_->at(surfaces, chords_m);
+  if (!on_chords_.empty()) chordae_->at(surfaces, chords_m);
   for (const OnChord& point : on_chords_) {
     const float walked = point.along * (Chordae::kPoints - 1);
     const auto i = static_cast<std::size_t>(walked);
     const Vec3f* const from = &chords_m[point.chord * Chordae::kPoints + i];
     const float t = walked - static_cast<float>(i);
     places_m.push_back(from[0] + t * (from[1] - from[0]) + point.beside_m);
+  }
+  thread_local std::vector<ValveRings::Section> sections;
+  if (!on_rings_.empty()) rings_->at(surfaces, sections);
+  for (const OnRing& point : on_rings_) {
+    const ValveRings::Stretch& stretch = rings_->stretches()[point.stretch];
+    const Vec3f from_m = rings_->place(sections[stretch.from], point.a, point.b),
+                to_m = rings_->place(sections[stretch.to], point.a, point.b);
+    places_m.push_back(from_m + point.along * (to_m - from_m));
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // Scatterers of membranes, bound to their triangles, and of chordae. Their speckle thus moves with
-// them through blood that renews itself.
+// them through blood that renews itself, and of fibrous rings.
 
 #include <cstdint>
 #include <memory>
@@ -11,6 +11,7 @@
 #include "motion/surfaces/chordae.h"
 #include "motion/surfaces/leaflet_bodies.h"
 #include "motion/surfaces/mesh_motion.h"
+#include "motion/surfaces/valve_rings.h"
 #include "speckle/point_spread.h"
 
 namespace echocine {
@@ -22,12 +23,14 @@ class SheetPoints {
   // contains many more of them than of the surrounding blood, which hardly contributes to the
   // sheet's echo.
   // Those of a leaflet with thickness are spread evenly through its body. Chordae have four times
-  // as many along each spacing, all over their section.
+  // as many along each spacing, all over their section. Fibrous rings have one to a cube of the
+  // spacing.
   SheetPoints(const Scene& scene, const MeshMotion& motion, double reference_phase,
               std::shared_ptr<const LeafletBodies> leaflets = nullptr,
-              std::shared_ptr<const Chordae> chordae = nullptr);
+              std::shared_ptr<const Chordae> chordae = nullptr,
+              std::shared_ptr<const ValveRings> rings = nullptr);
 
-  std::size_t count() const { return points_.size() + on_chords_.size(); }
+  std::size_t count() const { return points_.size() + on_chords_.size() + on_rings_.size(); }
   // Positions at an instant, always in the same order. Empty for a frame without
   // surfaces.
   void at(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m) const;
@@ -40,7 +43,12 @@ class SheetPoints {
   };
   void draw(const SurfaceTopology& sheet, const std::vector<Vec3f>& positions_m, double per_m2,
             const SpeckleSettings& settings);
+  struct OnRing {
+    std::uint32_t stretch = 0;
+    float along = 0, a = 0, b = 0;  // of the stretch; of the section's disc
+  };
   void drawOnChords(const Scene& scene, double apart_m);
+  void drawOnRings(const Scene& scene, double per_m3);
   void dropUnseen(std::span<const SurfaceId> sheets, double reach_m);
   void onSheetsAt(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m) const;
 
@@ -50,6 +58,8 @@ class SheetPoints {
   std::vector<float> through_;  // of each: -1 at the back of its body to 1 at the front
   std::shared_ptr<const Chordae> chordae_;
   std::vector<OnChord> on_chords_;
+  std::shared_ptr<const ValveRings> rings_;
+  std::vector<OnRing> on_rings_;
 };
 
 }  // namespace echocine

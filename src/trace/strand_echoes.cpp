@@ -47,13 +47,12 @@ class StrandAdder {
       const double length_m = length(to - from);
       const int pieces = std::max(1, static_cast<int>(std::ceil(length_m / sampling_.spacing_m)));
       for (int k = 0; k < pieces; ++k)
-        addPiece(from + ((k + 0.5) / pieces) * (to - from), (1.0 / pieces) * (to - from),
-                 strand.medium);
+        addPiece(from + ((k + 0.5) / pieces) * (to - from), (1.0 / pieces) * (to - from), strand);
     }
   }
 
  private:
-  void addPiece(Vec3d at, Vec3d piece, MediumId medium) {
+  void addPiece(Vec3d at, Vec3d piece, const Strand& strand) {
     const std::optional<ScanGeometry::BeamPosition> place = scan_.beamPosition(at.x, at.z);
     if (!place) return;
     const double deviation_m = bell_.deviation(place->path_m), u = at.y / deviation_m;
@@ -67,16 +66,17 @@ class StrandAdder {
     const double share = intensityFromDecibels(-kStrandAnisotropy_db * cosine * cosine) * per_m *
                          section_m2_ * piece_m / cell_m2;
     const double beside = place->line - line;
-    addToLine(line, place->path_m, (1 - beside) * share, medium);
+    addToLine(line, place->path_m, (1 - beside) * share, strand);
     const int next = scan_.fullTurn() ? (line + 1) % probe_.lines : line + 1;
-    if (next < probe_.lines) addToLine(next, place->path_m, beside * share, medium);
+    if (next < probe_.lines) addToLine(next, place->path_m, beside * share, strand);
   }
 
-  void addToLine(int line, double path_m, double share, MediumId medium) {
+  void addToLine(int line, double path_m, double share, const Strand& strand) {
     if (!(share > 0)) return;
     const MediumSegment* around = segmentAt(frame_.traces[static_cast<std::size_t>(line)], path_m);
     if (!around) return;
-    const double own = settings_.media[index(medium)].backscatter_per_m_sr;
+    const double own =
+        strand.backscatter * settings_.media[index(strand.medium)].backscatter_per_m_sr;
     const double other = settings_.media[index(around->medium)].backscatter_per_m_sr;
     if (own <= other) return;
     // eta_b V times the losses before: those of the medium around, if it scatters.

@@ -14,6 +14,7 @@ namespace echocine {
 struct Strand {
   std::span<const Vec3f> points;
   MediumId medium{};
+  double backscatter = 1;  // relative to that of its medium, across the strand
 };
 
 // Loss of a strand along the beam relative to one across it, dB: its fibres run along it. That of

@@ -71,6 +71,7 @@ void printClassifier(const std::vector<PictureGroup>& simulated,
                areaOf(BoostedStumps(half, some, kRounds), held_s, held_r), held + 1);
   }
   const std::span<const SectorStatistic> statistics = sectorStatistics();
+  constexpr int kShown = 3;
   std::vector<std::size_t> order(statistics.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
@@ -78,14 +79,14 @@ void printClassifier(const std::vector<PictureGroup>& simulated,
   });
   const FeatureRow mean_s = meanOf(all_s), mean_r = meanOf(all_r);
   fmt::print("\nwhat weighs most:");
-  for (int i = 0; i < 2; ++i)
+  for (int i = 0; i < kShown; ++i)
     fmt::print(" {} {:.2f} (simulated {:.3g}, real {:.3g})", statistics[order[i]].name,
                whole.weights()[order[i]], mean_s[order[i]], mean_r[order[i]]);
   const std::vector<double> shares = boosted.shares();
   std::sort(order.begin(), order.end(),
             [&](std::size_t i, std::size_t j) { return shares[i] > shares[j]; });
   fmt::print("\nwhat the stumps ask most:");
-  for (int i = 0; i < 2; ++i)
+  for (int i = 0; i < kShown; ++i)
     fmt::print(" {} {:.2f} (simulated {:.3g}, real {:.3g})", statistics[order[i]].name,
                shares[order[i]], mean_s[order[i]], mean_r[order[i]]);
   fmt::print("\n");

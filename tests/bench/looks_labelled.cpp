@@ -49,13 +49,12 @@ Mask withinRole(const Labelled& picture, double mm, Role role) {
   return within(picture, mm, [&](int x, int y) { return picture.role(x, y) == role; });
 }
 
-// Mean intensity over black.
-double meanIntensity(const Labelled& picture, Role role) {
+// Mean intensity over black, where a pixel counts.
+double meanIntensity(const Labelled& picture, const std::function<bool(int, int)>& counts) {
   const SignalSettings& signal = picture.simulator.scene().signal;
   const GreyCurve curve(signal);
   double sum = 0;
-  const std::vector<double> greys =
-      greysWhere(picture, [&](int x, int y) { return picture.role(x, y) == role; });
+  const std::vector<double> greys = greysWhere(picture, counts);
   for (const double grey : greys)
     sum += intensityFromDecibels(signal.dynamic_range_db * curve.inverse(grey / 255));
   return greys.size() < 50 ? kNone : sum / static_cast<double>(greys.size());
@@ -94,8 +93,13 @@ FibrousGreys fibrousGreys(const Labelled& picture) {
   const auto isBoth = [&](int x, int y) { return isBright(x, y) && all[picture.at(x, y)] != 0; };
   out.brightest = static_cast<double>(greysWhere(picture, isBoth).size()) /
                   static_cast<double>(greysWhere(picture, isBright).size());
-  out.above_wall_db = decibelsFromIntensity(meanIntensity(picture, Role::pericardium) /
-                                            meanIntensity(picture, Role::lv_wall));
+  // Muscle without the fibrous ring.
+  const Mask at_ring = withinRole(picture, 10, Role::la);
+  const auto isMuscle = [&](int x, int y) {
+    return picture.role(x, y) == Role::lv_wall && !at_ring[picture.at(x, y)];
+  };
+  out.above_wall_db = decibelsFromIntensity(meanIntensity(picture, isPericardium) /
+                                            meanIntensity(picture, isMuscle));
   return out;
 }
 

@@ -192,7 +192,8 @@ class StrandLaw : public ::testing::Test {
   }
 
   // The sum of what the strand adds over all cells, times their area, without its losses: m^2.
-  double added(const std::vector<Vec3f>& points_m, double attenuation_np_m = 0) {
+  double added(const std::vector<Vec3f>& points_m, double attenuation_np_m = 0,
+               double backscatter = 1) {
     const TraceSettings settings = support::straightSettings(scene);
     IntensityTerms terms;
     terms.attenuation = attenuation_np_m > 0;
@@ -208,7 +209,7 @@ class StrandLaw : public ::testing::Test {
                         .strength_m2_sr = kBlood * scene.unit_volume_m3,
                         .medium = MediumId{0}}};
     frame.intensities.resize(static_cast<std::size_t>(frame.lines * frame.samples));
-    const Strand strand{points_m, MediumId{1}};
+    const Strand strand{points_m, MediumId{1}, backscatter};
     addStrands(std::span(&strand, 1), kDiameter_m, scene.probe, settings, terms, frame);
     double sum = 0;
     for (int i = 0; i < frame.lines; ++i)
@@ -258,6 +259,14 @@ TEST_F(StrandLaw, AStrandIsAttenuatedAsTheLine) {
   const std::vector<Vec3f> across{{0.01f, -0.03f, 0.08f}, {0.01f, 0.03f, 0.08f}};
   const double path_m = std::hypot(0.01, 0.08);
   EXPECT_NEAR(added(across, 5) / added(across), std::exp(-4 * 5 * path_m), 2e-3);
+}
+
+// Law: a strand adds in proportion to the excess of its backscatter.
+TEST_F(StrandLaw, AStrandAddsTheExcessOfItsBackscatter) {
+  const std::vector<Vec3f> across{{0.01f, -0.03f, 0.08f}, {0.01f, 0.03f, 0.08f}};
+  EXPECT_NEAR(added(across, 0, 40) / added(across), (40 * kStrand - kBlood) / (kStrand - kBlood),
+              1e-3);
+  EXPECT_EQ(added(across, 0, kBlood / kStrand), 0);
 }
 
 // Law: what scatters no more than its surroundings adds nothing, and neither does a strand outside
