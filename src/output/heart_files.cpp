@@ -46,7 +46,7 @@ void appendMillimetres(std::string& text, double metres) {
   text.append(digits, to);
 }
 
-// Of the faces and corners, the same in all keyframes.
+// The lines of faces and corners, the same in all keyframes.
 std::string facesText(const RecordedPart& part) {
   std::string text;
   for (const heart::Face& face : part.faces) {
