@@ -38,8 +38,8 @@ double Balloon::radiusTowards(Vec3d point, double zeta) const {
   const Axes a = axes();
   const Vec3d to = point - centre(zeta);
   const double x = dot(to, a.u), y = dot(to, a.v);
-  return radius(zeta, outline->rhoAt(zeta), a.length_m) * std::hypot(x, y) /
-         std::max(std::hypot(x / aspect, y * aspect), 1e-9);
+  return radius(zeta, outline->rhoAt(zeta), a.length_m) * hypotenuse(x, y) /
+         std::max(hypotenuse(x / aspect, y * aspect), 1e-9);
 }
 
 std::vector<Vec3d> Balloon::points(std::span<const Bearing> bearings) const {
@@ -64,7 +64,7 @@ Vec3d Balloon::pushedOut(Vec3d p, double gap_m, const Axes& a) const {
   if (zeta < outline->lowest() || zeta > 1) return p;
   const Vec3d from = p - centre(zeta);
   const double x = dot(from, a.u), y = dot(from, a.v);
-  const double distance_m = std::hypot(x / aspect, y * aspect);
+  const double distance_m = hypotenuse(x / aspect, y * aspect);
   const double limit_m = radius(zeta, outline->rhoAt(zeta), a.length_m) + gap_m;
   constexpr double kRounding_m = 4e-3;
   if (distance_m < 1e-6) return p;

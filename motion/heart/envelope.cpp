@@ -11,7 +11,8 @@ namespace echocine::heart {
 namespace {
 
 const std::vector<Vec3d>& sacDirections() {
-  return geodesicSphere(Envelope::kFrequency).directions;
+  static const std::vector<Vec3d>& directions = geodesicSphere(Envelope::kFrequency).directions;
+  return directions;
 }
 
 constexpr double kCone_rad = 13 * kDegree;

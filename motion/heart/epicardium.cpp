@@ -42,7 +42,7 @@ std::vector<Sample> meridianOf(const LeftVentricle& ventricle, const std::vector
   samples.reserve(places.size());
   for (const WallPlace& place : places) {
     const Vec3d p = ventricle.wallPoint(place);
-    samples.push_back({std::atan2(p.y, p.x), std::hypot(p.x, p.y), p.z});
+    samples.push_back({std::atan2(p.y, p.x), hypotenuse(p.x, p.y), p.z});
     if (samples.size() > 1 && p.z <= low_z) break;
   }
   return samples;
@@ -110,7 +110,7 @@ double Epicardium::radius(double phi_rad, double z) const {
 Vec3d Epicardium::pushedOut(Vec3d point, double gap_m) const {
   if (point.z > high_z_ + gap_m) return point;
   constexpr double kRounding_m = 4e-3;
-  const double r = std::hypot(point.x, point.y);
+  const double r = hypotenuse(point.x, point.y);
   const double limit = radius(std::atan2(point.y, point.x), point.z) + gap_m;
   const double grow = smoothMax(r, limit, kRounding_m) / std::max(r, 1e-6);
   return {grow * point.x, grow * point.y, point.z};

@@ -4,6 +4,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <optional>
 #include <vector>
 
@@ -29,13 +31,44 @@ double millimetres(double metres) {
   return std::round(metres * 1e6) / 1e3 + 0.0;
 }
 
-// In any locale.
+// Three decimals, as of millimetres(): exact in whole micrometres, which a heart's sizes are.
 void appendMillimetres(std::string& text, double metres) {
+  const auto micrometres = static_cast<std::int64_t>(std::round(metres * 1e6));
   char digits[32];
-  const double mm = millimetres(metres);
-  const auto end = std::to_chars(digits, digits + sizeof digits, mm, std::chars_format::fixed, 3);
-  text += ' ';
-  text.append(digits, end.ptr);
+  char* to = digits;
+  *to++ = ' ';
+  if (micrometres < 0) *to++ = '-';
+  const std::int64_t size = std::abs(micrometres), fraction = size % 1000;
+  to = std::to_chars(to, digits + sizeof digits, size / 1000).ptr;
+  *to++ = '.';
+  for (const std::int64_t place : {100, 10, 1})
+    *to++ = static_cast<char>('0' + fraction / place % 10);
+  text.append(digits, to);
+}
+
+// The lines of faces and corners, the same in all keyframes.
+std::string facesText(const RecordedPart& part) {
+  std::string text;
+  for (const heart::Face& face : part.faces) {
+    text += 'f';
+    for (const auto vertex : face) text += ' ' + std::to_string(vertex + 1);  // OBJ counts from 1
+    text += '\n';
+  }
+  for (const SharpVertex& corner : part.tags.vertices)  // as OpenSubdiv's shapes: counts from 0
+    text += fmt::format("t corner 1/1/0 {} {:g}\n", corner.v, corner.sharpness);
+  return text;
+}
+
+std::string meshText(const RecordedPart& part, std::size_t keyframe, const std::string& faces) {
+  constexpr std::size_t kLine = 28;  // of most vertices
+  std::string text;
+  text.reserve(kLine * part.control_m[keyframe].size() + faces.size());
+  for (const Vec3d point : part.control_m[keyframe]) {
+    text += 'v';
+    for (const double metres : {point.x, point.y, point.z}) appendMillimetres(text, metres);
+    text += '\n';
+  }
+  return text += faces;
 }
 
 void writeText(const fs::path& file, const std::string& text) {
@@ -44,9 +77,10 @@ void writeText(const fs::path& file, const std::string& text) {
 
 // All keyframes of a part. Texts are made on all threads, files are written in order.
 void writePart(const fs::path& folder, const RecordedPart& part) {
+  const std::string faces = facesText(part);
   std::vector<std::string> texts(part.control_m.size());
   parallelBlocks(texts.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) texts[k] = heartMesh(part, k);
+    for (std::size_t k = begin; k < end; ++k) texts[k] = meshText(part, k, faces);
   });
   for (std::size_t k = 0; k < texts.size(); ++k)
     writeText(folder / heart::meshName(part, k), texts[k]);
@@ -113,20 +147,7 @@ class FolderInTheMaking {
 }  // namespace
 
 std::string heartMesh(const RecordedPart& part, std::size_t keyframe) {
-  std::string text;
-  for (const Vec3d point : part.control_m[keyframe]) {
-    text += 'v';
-    for (const double metres : {point.x, point.y, point.z}) appendMillimetres(text, metres);
-    text += '\n';
-  }
-  for (const heart::Face& face : part.faces) {
-    text += 'f';
-    for (const auto vertex : face) text += ' ' + std::to_string(vertex + 1);  // OBJ counts from 1
-    text += '\n';
-  }
-  for (const SharpVertex& corner : part.tags.vertices)  // as OpenSubdiv's shapes: counts from 0
-    text += fmt::format("t corner 1/1/0 {} {:g}\n", corner.v, corner.sharpness);
-  return text;
+  return meshText(part, keyframe, facesText(part));
 }
 
 std::vector<std::byte> heartNpz(const RecordedPart& part) {

@@ -10,6 +10,7 @@
 
 #include "motion/heart/control_mesh.h"
 #include "motion/heart/envelope.h"
+#include "motion/heart/smooth.h"
 #include "motion/heart/unfold.h"
 #include "motion/keyframes/interpolation.h"
 #include "motion/keyframes/keyframe_pair.h"
@@ -139,6 +140,24 @@ TEST(HeartFolds, AreSmoothedWhereTheyAre) {
   }
   EXPECT_LT(before[0].size() / 2, kept);
   EXPECT_LT(0, length(beat[0][100] - before[0][100]));
+}
+
+// In twice the digits.
+TEST(HeartSmooth, HypotenuseIsWithinOneRounding) {
+  std::mt19937_64 dice(11);
+  std::uniform_real_distribution<double> exponent(-12, 2), sign(-1, 1);
+  const auto length_m = [&] { return sign(dice) * std::pow(10, exponent(dice)); };
+  for (int i = 0; i < 200000; ++i) {
+    const double x = length_m(), y = i % 2 == 0 ? 4e-3 : length_m();
+    const long double exact = std::sqrt(static_cast<long double>(x) * static_cast<long double>(x) +
+                                        static_cast<long double>(y) * static_cast<long double>(y));
+    const double found = heart::hypotenuse(x, y);
+    EXPECT_LE(std::abs(static_cast<double>(static_cast<long double>(found) - exact)),
+              1.01 * (std::nextafter(found, 1e9) - found));
+  }
+  EXPECT_EQ(heart::hypotenuse(0, 0), 0);
+  EXPECT_EQ(heart::hypotenuse(-3, 4), 5);
+  EXPECT_EQ(heart::hypotenuse(0.1, 0), 0.1);
 }
 
 // The farthest point within 13 degrees of each direction, by testing all points.
