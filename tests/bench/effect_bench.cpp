@@ -52,6 +52,7 @@ constexpr AddedEffect kRemoved[] = {
     {"trabeculae", [](Scene& s, const Scene&) { s.trabeculae.deviation_m = 0; }},
     {"leaflets", [](Scene& s, const Scene&) { s.leaflets.thickness_m = s.leaflets.cusp_m = 0; }},
     {"chordae", [](Scene& s, const Scene&) { s.leaflets.chordae_m = 0; }},
+    {"annulus", [](Scene& s, const Scene&) { s.leaflets.annulus_m = 0; }},
     {"elevation slices", [](Scene& s, const Scene&) { s.accuracy.elevation_slices = 1; }},
     {"beam profile", [](Scene& s, const Scene&) { s.signal.beam_width = BeamWidth::focused; }},
     {"speckle", [](Scene& s, const Scene&) { s.speckle.on = false; }},
