@@ -16,7 +16,7 @@ void applyClean(Scene& scene) {
   scene.leaflets.thickness_m = 1.5e-3;  // 3 mm at the edge; from 5 mm on leaflets are thickened
   scene.leaflets.cusp_m = 0.45e-3;
   scene.leaflets.chordae_m = 0.45e-3;
-  scene.leaflets.annulus_m = 4e-3;
+  scene.leaflets.annulus_m = 3e-3;
   scene.leaflets.annulus_db = 16;  // dense collagen: motion/heart/README.md
   scene.speckle.on = true;
   scene.speckle.smoothing_m = 0.62e-3;
@@ -89,7 +89,7 @@ constexpr double kChestTime_s = 0.5;
 constexpr Scanner kScanners[] = {
     {Look::scanner,
      2,
-     0.67e-3,
+     0.65e-3,
      0,
      86,
      1.3,
@@ -98,7 +98,7 @@ constexpr Scanner kScanners[] = {
      12.2,
      -30,
      -41,
-     3.0,
+     2.0,
      15.9,
      false,
      0,

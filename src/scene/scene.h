@@ -108,7 +108,7 @@ struct LeafletSettings {
   double chordae_m = 0;    // diameter of the mitral valve's chordae; 0: none
   // Cords of the fibrous rings of mitral and tricuspid valves (motion/surfaces/valve_rings.h):
   // diameter, 0: none; backscatter across their fibres relative to the leaflets'.
-  double annulus_m = 0, annulus_db = 17;
+  double annulus_m = 0, annulus_db = 16;
 };
 
 // Coherent echoes of material scatterers (src/speckle).

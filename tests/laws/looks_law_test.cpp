@@ -107,7 +107,7 @@ TEST(LooksLaw, ScannersShowBloodDarkAndMuscleGrey) {
     EXPECT_GT(wall, 65) << name;
     EXPECT_LT(wall, 130) << name;
     // Clinical stills at end-systole: 30 or more in 90 % of them (288 patients of CAMUS).
-    EXPECT_GT(wall - lv, 29) << name;
+    EXPECT_GT(wall - lv, 30) << name;
     // 18 grey levels lie between atrium and ventricle if the gain is that of soft tissue.
     EXPECT_LT(la - lv, 16) << name;
     EXPECT_LT(ra - lv, 12) << name;
@@ -172,7 +172,7 @@ TEST(LooksLaw, TheMitralRingStandsOutInApicalViews) {
       std::printf("  %s %s: ring %.0f, wall %.0f, pericardium %.0f, p99.9 %.0f\n",
                   view == heart::View::a4c ? "a4c" : "a2c", end_systole ? "ES" : "ED", ring, wall,
                   pericardium, quantileOf(greys.all, 0.999));
-      EXPECT_GT(ring, wall + 30);
+      EXPECT_GT(ring, wall + 25);
     }
 }
 
