@@ -155,7 +155,7 @@ TEST_F(StoppedHeart, LeavesNothing) {
   for (int i = 0; i < 4; ++i) {
     fs::remove_all(folder / "heart");
     run.fault = std::vector<std::string>{"int:", "term:", "hup:"}[i % 3] +
-                std::to_string(drawStep(random, steps.files * 9 / 10));
+                std::to_string(drawStep(random, steps.files / 2));  // later, a run may end first
     SCOPED_TRACE(run.fault);
     const Outcome outcome = outcomeOf(run);
     expectOneLine(outcome, 1);
