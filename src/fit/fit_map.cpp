@@ -38,7 +38,7 @@ std::vector<TissueCell> seenIn(const ModelFrame& frame, const echo::EchoInstant&
     map.place(p.x_m, p.z_m, x, z);
     map.turn(p.nx, p.nz, nx, nz);
     if (at.at(x, z).visible > 0)
-      seen.take(p, wallBeside(p, seenBeside(p, at.stack(), map, x, z, nx, nz), map));
+      seen.take(p, seenBeside(p, at.stack(), map, x, z, nx, nz) / map.scale());
   }
   return {seen.cells().begin(), seen.cells().end()};
 }
@@ -53,7 +53,7 @@ std::vector<BoundaryOffset> offsetsOf(const ModelFrame& frame, const echo::EchoI
     const bool tracked = p.of_blood && m.weight > 0;
     out.push_back({static_cast<float>(x), static_cast<float>(z),
                    static_cast<float>(1e3 * edge.mean_m),
-                   p.distinct * static_cast<float>(edge.certainty()),
+                   p.alone * static_cast<float>(edge.certainty()),
                    static_cast<float>(tracked ? 1e3 * std::sqrt(m.apart) : -1), p.surface,
                    p.segment, p.of_blood});
   }

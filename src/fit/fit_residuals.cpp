@@ -86,9 +86,9 @@ class ResidualBuilder {
     for (const BoundaryPoint& p : frame.boundary) {
       if (!p.of_blood) continue;
       const auto [x, z, nx, nz, beside, edge] = placedEdge(p, at, map_);
-      const double length = p.length_m * p.weight * edge.visible, sure = length * p.distinct;
+      const double length = p.length_m * p.weight * edge.visible, sure = length * p.alone;
       if (!(length > 0)) continue;
-      seen.take(p, wallBeside(p, beside, map_));
+      seen.take(p, beside / map_.scale());
       const MotionPair m = motionOf(p, at, map_, x, z, nx, nz);
       length_ += sure;
       together_ += length * m.weight * m.together;

@@ -64,13 +64,6 @@ struct EdgeProfile {
 double seenBeside(const BoundaryPoint& p, const echo::EchoStack& real, const PoseMapping& map,
                   double x, double z, double nx, double nz);
 
-// Depth of the strip beside a boundary, in the model, that counts as the wall in the region term.
-// beside_m: of seenBeside(); 0 if that is 0. The flanks of an oblique wall (Eq. 20) add in
-// quadrature.
-inline double wallBeside(const BoundaryPoint& p, double beside_m, const PoseMapping& map) {
-  return beside_m > 0 ? std::hypot(beside_m / map.scale(), static_cast<double>(p.oblique_m)) : 0;
-}
-
 // A boundary point under a pose, and the edge where it is visible.
 struct PlacedEdge {
   double x = 0, z = 0, nx = 0, nz = 0;

@@ -28,9 +28,9 @@ void addBoundary(const BoundaryPoint& p, double angle_rad, const PlacedEdge& pla
                  const echo::EchoInstant& at, const PoseMapping& map, SeenCells& cells,
                  BoundarySums& sums) {
   const auto& [x, z, nx, nz, beside, edge] = placed;
-  const double length = p.length_m * p.weight * edge.visible, sure = length * p.distinct;
+  const double length = p.length_m * p.weight * edge.visible, sure = length * p.alone;
   if (!(length > 0)) return;
-  cells.take(p, angle_rad, wallBeside(p, beside, map));
+  cells.take(p, angle_rad, beside / map.scale());
   sums.square += sure * edge.square;
   sums.length += sure;
   const MotionPair m = motionOf(p, at, map, x, z, nx, nz);

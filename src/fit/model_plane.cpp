@@ -73,7 +73,6 @@ ModelPlane::ModelPlane(const Scene& scene, const std::vector<SurfaceTopology>& s
       segments_(std::move(segments)),
       weight_of_(scene.structures.size(), 1),
       coarse_(withCoarseLines(scene)),
-      across_(scene.probe),
       labels_(coarse_, PictureGrid{}),
       cells_(planeCells(coarse_.probe)) {
   if (!scene.probe.isSector())
@@ -182,7 +181,6 @@ ModelFrame ModelPlane::cutOne(const SurfaceFrame& now, const SurfaceFrame& next,
     setTissues(frame.cells[c], ids.data() + c * kSamplesPerCell, tissue_of_);
   weigh(ids, frame);
   const TissueAt tissueAt(coarse_.probe, ids, tissue_of_);
-  const double face_radius_m = coarse_.probe.face_radius_m;
   thread_local std::vector<Place> places, sheets;
   places.clear(), sheets.clear();
   for (const Contour& contour : chainContours(slice.edges(), surfaces_, now))
@@ -198,9 +196,6 @@ ModelFrame ModelPlane::cutOne(const SurfaceFrame& now, const SurfaceFrame& next,
           p.x_m = static_cast<float>(place.x_m), p.z_m = static_cast<float>(place.z_m);
           p.nx = static_cast<float>(sign * place.nx), p.nz = static_cast<float>(sign * place.nz);
           p.length_m = static_cast<float>(place.length_m);
-          const double range_m = std::hypot(place.x_m, place.z_m) - face_radius_m;
-          p.oblique_m = obliqueShift(place.cut->area_normal, across_.deviation(range_m));
-          p.distinct = distinctShare(p.oblique_m);
         });
   findSecondEdges(sheetsAt(sheets), frame);
   return frame;

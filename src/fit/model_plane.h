@@ -9,7 +9,6 @@
 
 #include "geometry/plane_slice.h"
 #include "motion/surfaces/mesh_motion.h"
-#include "scene/elevation_slices.h"
 #include "scene/scene.h"
 #include "truth/plane_labels.h"
 
@@ -35,8 +34,7 @@ struct BoundaryPoint {
   std::uint8_t segment = 0;   // of the left ventricle's wall (WallSegments), 1 to 17; 0: none
   std::uint8_t blood = 0, beside = 0;  // tissues of the two sides, if of_blood
   float weight = 1;                    // kOtherChambers, or 1
-  float distinct = 1;                  // 0: the loop may show another edge there (second_edges.h)
-  float oblique_m = 0;                 // distance that the surface moves within the slice, Eq. 20
+  float alone = 1;     // 0: the model has a second edge before this one (second_edges.h)
   float inside_m = 0;  // distance inside the blood, beyond Eq. 9, at which it is visible
 };
 
@@ -109,7 +107,6 @@ class ModelPlane {
   std::vector<float> weight_of_;   // of boundaries, by structure
   float inside_m_ = 0;             // of all boundaries
   Scene coarse_;                   // the scene with the plane's number of lines
-  ElevationBell across_;           // the slice's thickness
   PlaneLabels labels_;
   std::vector<std::uint8_t> tissue_of_;  // by structure from 1; 0 is the background
   std::vector<TissueCell> cells_;        // without tissues

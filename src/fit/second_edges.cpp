@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace echocine::fit {
@@ -15,10 +14,6 @@ constexpr float kSameEdge_m = 2e-3f, kTwoEdges_m = 3.5e-3f;
 constexpr float kInReach_m = 7e-3f, kBeyond_m = 9e-3f;
 // Across the normal: a hat as wide as the pieces' spacing, so that a boundary counts once.
 constexpr auto kAcross_m = static_cast<float>(kBoundaryPiece_m);
-
-// Shifts within the slice between which the share of an edge falls. Our choice, from five planted
-// hearts with known dials and planes.
-constexpr float kNarrow_m = 1e-3f, kSpread_m = 2e-3f;
 
 float shareAt(float before_m) {
   return std::clamp((before_m - kSameEdge_m) / (kTwoEdges_m - kSameEdge_m), 0.0f, 1.0f) *
@@ -71,17 +66,6 @@ class EdgeGrid {
 
 }  // namespace
 
-float obliqueShift(const Vec3d& normal, double deviation_m) {
-  const double in_plane = std::sqrt(normal.x * normal.x + normal.z * normal.z),
-               across = std::numbers::sqrt3 * deviation_m * std::abs(normal.y);
-  return static_cast<float>(across < kMostOblique_m * in_plane ? across / in_plane
-                                                               : kMostOblique_m);
-}
-
-float distinctShare(float oblique_m) {
-  return std::clamp((kSpread_m - oblique_m) / (kSpread_m - kNarrow_m), 0.0f, 1.0f);
-}
-
 void findSecondEdges(std::span<const SheetPoint> sheets, ModelFrame& frame) {
   std::vector<EdgeGrid::Edge> edges;
   for (const BoundaryPoint& p : frame.boundary)
@@ -99,7 +83,7 @@ void findSecondEdges(std::span<const SheetPoint> sheets, ModelFrame& frame) {
       second += shareAt(before) * (1 - across / kAcross_m) *
                 (e.sheet ? std::abs(facing) : std::max(facing, 0.0f));
     });
-    p.distinct *= std::max(0.0f, 1 - second);
+    p.alone = std::max(0.0f, 1 - second);
   }
 }
 

@@ -62,9 +62,8 @@ TEST(FitResiduals, WeightedPiecesSumToTheDiscrepancyToo) {
     for (ModelFrame& frame : model.frames)
       for (BoundaryPoint& p : frame.boundary) {
         p.weight = static_cast<float>(uniformFromHash(hashOf(number, 1, 5)));
-        p.distinct = static_cast<float>(uniformFromHash(hashOf(number++, 2, 5)));
+        p.alone = static_cast<float>(uniformFromHash(hashOf(number++, 2, 5)));
         p.inside_m = 0.6e-3f;
-        p.oblique_m = 3e-3f * static_cast<float>(uniformFromHash(hashOf(number++, 3, 5)));
       }
     const double weighted = drawnLoop().at(model, pose).discrepancy;
     EXPECT_GT(std::abs(weighted - even), 1e-4);

@@ -10,8 +10,6 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "core/units.h"
-#include "fit/plane_tilt.h"
 #include "fit/second_edges.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/surfaces/mesh_motion.h"
@@ -48,7 +46,7 @@ float aloneBehind(const std::vector<BoundaryPoint>& other, bool sheet) {
     else
       frame.boundary.push_back(p);
   findSecondEdges(sheets, frame);
-  return frame.boundary[kPieces / 2].distinct;
+  return frame.boundary[kPieces / 2].alone;
 }
 
 double shareOf(double before_mm) {
@@ -89,7 +87,7 @@ TEST(FitSecondEdges, ACircleIsAloneAtAnyRadius) {
       frame.boundary.push_back(p);
     }
     findSecondEdges({}, frame);
-    for (const BoundaryPoint& p : frame.boundary) EXPECT_EQ(p.distinct, 1) << r_mm;
+    for (const BoundaryPoint& p : frame.boundary) EXPECT_EQ(p.alone, 1) << r_mm;
   }
 }
 
@@ -108,56 +106,15 @@ TEST(FitSecondEdges, PapillaryMusclesAndLeafletsHideTheWallBehindThem) {
           if (p.surface == s) middle += static_cast<double>(p.x_m), ++all;
       for (const ModelFrame& frame : model.frames)
         for (const BoundaryPoint& p : frame.boundary)
-          if (const float straight = distinctShare(p.oblique_m);
-              p.surface == s && p.of_blood && straight > 0.1f &&
+          if (p.surface == s && p.of_blood &&
               (static_cast<double>(p.x_m) > middle / all) == lateral)
-            sum += static_cast<double>(p.distinct / straight), ++count;
+            sum += static_cast<double>(p.alone), ++count;
       return count > 0 ? sum / count : -1.0;
     };
     EXPECT_LT(meanAlone("lv_cavity", true), 0.95);
     EXPECT_GT(meanAlone("lv_cavity", false), 0.98);
     EXPECT_GT(meanAlone("la", true), 0.99);
     EXPECT_GT(meanAlone("ra", false), 0.97);
-  });
-}
-
-// Eq. 20 for a sphere: at a distance h from its centre, a cut has the slope h / sqrt(R^2 - h^2).
-TEST(FitObliqueWalls, AnOffCentreCutOfASphereMovesByItsSlope) {
-  for (const double radius_mm : {15.0, 25.0, 40.0})
-    for (const double part : {0.0, 0.1, 0.3, 0.6, 0.9})
-      for (const double sigma_mm : {0.5, 1.5, 3.0})
-        for (const double angle : {0.0, 1.0, 2.5}) {
-          const double h = part * radius_mm, across = std::sqrt(radius_mm * radius_mm - h * h);
-          const Vec3d normal{across * std::sin(angle), h, across * std::cos(angle)};
-          const double expected_mm = std::min(3.0, std::sqrt(3.0) * sigma_mm * h / across);
-          const float moved_m = obliqueShift(7.0 * normal, 1e-3 * sigma_mm);
-          EXPECT_NEAR(1e3 * static_cast<double>(moved_m), expected_mm, 1e-6);
-          EXPECT_EQ(obliqueShift({normal.x, -normal.y, normal.z}, 1e-3 * sigma_mm),
-                    obliqueShift(normal, 1e-3 * sigma_mm));
-          EXPECT_NEAR(distinctShare(moved_m), std::clamp(2 - expected_mm, 0.0, 1.0), 1e-5);
-        }
-  EXPECT_EQ(obliqueShift({0, 1, 0}, 1e-3), static_cast<float>(kMostOblique_m));
-  EXPECT_EQ(obliqueShift({0, 1, 0}, 0), static_cast<float>(kMostOblique_m));
-  EXPECT_EQ(obliqueShift({1, 0, 0}, 1e-3), 0);
-}
-
-// A plane through the axis of a ventricle meets its wall at right angles, a tilted one does not.
-TEST(FitObliqueWalls, TiltedPlanesCutObliqueWalls) {
-  withThreads(2, [] {
-    const Scene scene = heart::heartScene({}, heart::View::a4c, 20, Look::scanner);
-    const TiltableModel model(scene, MeshMotion(scene), 2);
-    const auto shiftAt = [&](double tilt_deg) {
-      const ModelLoop cut = model.at({radiansFromDegrees(tilt_deg), 0});
-      double sum = 0, count = 0;
-      for (const ModelFrame& frame : cut.frames)
-        for (const BoundaryPoint& p : frame.boundary)
-          if (p.of_blood && cut.structures[p.surface] == "lv_cavity")
-            sum += 1e3 * static_cast<double>(p.oblique_m), ++count;
-      return sum / count;
-    };
-    const double level = shiftAt(0);
-    EXPECT_LT(level, 0.6);
-    for (const double tilt : {-8.0, 8.0}) EXPECT_GT(shiftAt(tilt), level + 0.2) << tilt;
   });
 }
 
@@ -182,8 +139,7 @@ TEST(FitFocus, OtherChambersCountLess) {
       EXPECT_EQ(b.inside_m, static_cast<float>(kInside_m));
       EXPECT_EQ(a.weight, 1);
       EXPECT_EQ(a.inside_m, 0);
-      EXPECT_EQ(a.distinct, b.distinct);
-      EXPECT_EQ(a.oblique_m, b.oblique_m);
+      EXPECT_EQ(a.alone, b.alone);
     }
     for (std::size_t c = 0; c < all.cells.size(); ++c) {
       const float part = all.cells[c].area > 0 ? left.cells[c].area / all.cells[c].area : 1;
