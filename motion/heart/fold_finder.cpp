@@ -33,10 +33,6 @@ Lanes3 half(const Lanes3& a, const Lanes3& b) {
 Doubles4 squareOf(const Lanes3& a) {
   return a.x * a.x + a.y * a.y + a.z * a.z;
 }
-Doubles4 rootOf(Doubles4 a) {
-  for (std::size_t i = 0; i < kDoubleLanes; ++i) a[i] = std::sqrt(a[i]);
-  return a;
-}
 
 // An edge of a face in the four keyframes about an interval, for four intervals.
 struct EdgeLanes {
@@ -115,8 +111,8 @@ FoldFinder::Middle FoldFinder::middleOf(const BeatRows& rows, const Face& face,
   const Lanes3 a = half(e.at[1], e.at[2]), b = half(f.at[1], f.at[2]);
   const Doubles4 change_a = changeOf(e, a), change_b = changeOf(f, b);
   const Doubles4 square_a = squareOf(a), square_b = squareOf(b);
-  const Doubles4 change =
-      rootOf(square_a * change_b) + rootOf(square_b * change_a) + rootOf(change_a * change_b);
+  const Doubles4 change = squareRoot(square_a * change_b) + squareRoot(square_b * change_a) +
+                          squareRoot(change_a * change_b);
   const Lanes3 normal{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   const Doubles4 square = squareOf(normal);
   constexpr double kCalmSine = 0.34, kThin = 1e-12;  // below sin(20 deg); room for rounding

@@ -122,8 +122,7 @@ std::vector<Vec3d> inflate(Balloon& balloon, double volume_m3, const char* key,
     points = pointsOf(mesh.bearings);
     return reached = gauge(points);
   };
-  const double girth = solve(0.2, 4, volume_m3, kBalloonTolerance * volume_m3, volume);
-  if (girth != balloon.girth) volume(girth);  // not the last one examined
+  solve(0.2, 4, volume_m3, kBalloonTolerance * volume_m3, volume);
   if (std::abs(reached - volume_m3) > 0.01 * volume_m3)
     throw SceneError(
         fmt::format("{}: an atrium of {:.3g} mL does not fit this heart; it would have {:.3g}", key,
@@ -157,14 +156,12 @@ void Instant::buildRightVentricle(const Parameters& parameters) {
   right_->arch(0.3 * l);
   const VolumeGauge gauge(kFrequency, right_->cavityPoints(spokes),
                           right_->cavityPoints(right_->spokes(2 * kFrequency)));
-  double arched_m = 0, reached = 0;
+  double reached = 0;
   const auto volume = [&](double height_m) {
-    right_->arch(arched_m = height_m);
+    right_->arch(height_m);
     return reached = gauge(right_->cavityPoints(spokes));
   };
-  const double height_m =
-      solve(0.02 * l, 1.5 * l, volume_m3, kBalloonTolerance * volume_m3, volume);
-  if (height_m != arched_m) volume(height_m);  // not the last one examined
+  solve(0.02 * l, 1.5 * l, volume_m3, kBalloonTolerance * volume_m3, volume);
   if (std::abs(reached - volume_m3) > 0.01 * volume_m3)
     throw SceneError(
         fmt::format("rv-edv: a right ventricle of {:.3g} mL does not fit around a left one of "

@@ -95,8 +95,7 @@ void LeftVentricle::contract(const Contraction& contraction) {
     cavity_m3 = cavityVolume();
     return -cavity_m3;
   };
-  const double correction = solve(-0.5, 0.5, -volume_m3, kVolumeTolerance * edv_m3_, emptied);
-  if (correction != correction_) emptied(correction);  // not the last one examined
+  solve(-0.5, 0.5, -volume_m3, kVolumeTolerance * edv_m3_, emptied);
   const std::vector<Grown> grown = grownPlaces();
   std::vector<Vec3d> points(grown.size());
   double outer_m3 = 0;
@@ -106,8 +105,7 @@ void LeftVentricle::contract(const Contraction& contraction) {
                    [factor](const Grown& g) { return g.from + factor * g.thickness_m * g.normal; });
     return outer_m3 = (*outer_gauge_)(points);
   };
-  const double thickening = solve(0.5, 2, cavity_m3 + wall_m3_, kVolumeTolerance * edv_m3_, outer);
-  if (thickening != thickening_) outer(thickening);
+  solve(0.5, 2, cavity_m3 + wall_m3_, kVolumeTolerance * edv_m3_, outer);
   const double wall_m3 = outer_m3 - cavity_m3;
   if (std::abs(cavity_m3 - volume_m3) > 1e-3 * edv_m3_)
     throw SceneError(fmt::format(

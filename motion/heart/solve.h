@@ -8,11 +8,13 @@ namespace echocine::heart {
 
 // The x in [low, high] at which a continuous increasing function equals `wanted`, within
 // `tolerance` of the function; the nearer end if there is none. Regula falsi with halved ends
-// (Illinois), about a dozen calls.
+// (Illinois), about a dozen calls. The last call is at the result, so `f` may keep what belongs to
+// it.
 template <typename Function>
 double solve(double low, double high, double wanted, double tolerance, Function&& f) {
-  double f_low = f(low) - wanted, f_high = f(high) - wanted;
+  double f_low = f(low) - wanted;
   if (f_low >= 0) return low;
+  double f_high = f(high) - wanted;
   if (f_high <= 0) return high;
   double middle = low;
   for (int i = 0, side = 0; i < 60; ++i) {

@@ -115,22 +115,22 @@ Vec3d Tube::point(Vec3d direction, double thickness_m) const {
 const Tube::Section* Tube::nearest(Vec3d point, double far_m) const {
   constexpr std::size_t kFours = (kSections + 4) / 4, kHubs = (kSections + kStretch) / kStretch;
   constexpr double kSlack = 1 + 1e-9;  // for rounding
-  std::array<Lanes, (kHubs + 3) / 4> hubs;
-  Lanes least{kFar, kFar, kFar, kFar};
+  std::array<Doubles4, (kHubs + 3) / 4> hubs;
+  Doubles4 least{kFar, kFar, kFar, kFar};
   for (std::size_t k = 0; k < hubs.size(); ++k) {
     hubs[k] = hubs_[k].squares(point);
-    least = hubs[k] < least ? hubs[k] : least;
+    least = smaller(hubs[k], least);
   }
   const double hub_m = std::sqrt(std::min({least[0], least[1], least[2], least[3]}));
   if (hub_m > kSlack * (far_m + hub_reach_m_)) return nullptr;
   const double reach_m = kSlack * (hub_m + hub_reach_m_), within = reach_m * reach_m;
-  std::array<Lanes, kFours> squares;
-  least = Lanes{kFar, kFar, kFar, kFar};
+  std::array<Doubles4, kFours> squares;
+  least = Doubles4{kFar, kFar, kFar, kFar};
   for (std::size_t h = 0; h < kHubs; ++h) {
     if (hubs[h / 4][h % 4] > within) continue;
     for (std::size_t k = h * kStretch / 4; k < std::min((h + 1) * kStretch / 4, kFours); ++k) {
       squares[k] = fours_[k].squares(point);
-      least = squares[k] < least ? squares[k] : least;
+      least = smaller(squares[k], least);
     }
   }
   const double best = std::min({least[0], least[1], least[2], least[3]}), best_m = std::sqrt(best);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/box.h"
+#include "core/lanes.h"
 #include "core/vec3.h"
 
 namespace echocine::heart {
@@ -35,11 +36,10 @@ class Tube {
   const Section* nearest(Vec3d point, double far_m) const;
 
   // Coordinates of the centres of four sections, for evaluation in parallel lanes.
-  using Lanes [[gnu::vector_size(32)]] = double;
   struct Four {
-    Lanes x, y, z;
-    Lanes squares(Vec3d point) const {
-      const Lanes dx = point.x - x, dy = point.y - y, dz = point.z - z;
+    Doubles4 x, y, z;
+    Doubles4 squares(Vec3d point) const {
+      const Doubles4 dx = point.x - x, dy = point.y - y, dz = point.z - z;
       return dx * dx + dy * dy + dz * dz;
     }
   };

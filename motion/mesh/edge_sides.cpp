@@ -22,10 +22,11 @@ std::vector<Side> sortedSides(std::span<const Triangle> triangles) {
   std::uint32_t highest = 0;
   for (const Triangle& triangle : triangles)
     highest = std::max(highest, *std::max_element(triangle.begin(), triangle.end()));
-  const auto groupOf = [&, is_dense = highest / 4 <= count](std::uint32_t side) -> std::size_t {
+  const bool is_dense = highest / 4 <= count;
+  const auto groupOf = [&](std::uint32_t side) -> std::size_t {
     return is_dense ? std::min(sideStart(triangles, side), sideEnd(triangles, side)) : 0;
   };
-  const std::size_t groups = highest / 4 <= count ? std::size_t{highest} + 1 : 1;
+  const std::size_t groups = is_dense ? std::size_t{highest} + 1 : 1;
   std::vector<std::size_t> next(groups + 1, 0);  // place of a group's next side
   for (std::uint32_t side = 0; side < count; ++side) ++next[groupOf(side) + 1];
   for (std::size_t g = 1; g < groups; ++g) next[g] += next[g - 1];

@@ -1,18 +1,22 @@
 #include "motion/surfaces/sheet_outline.h"
 
-#include <map>
+#include <algorithm>
+
+#include "motion/mesh/edge_sides.h"
 
 namespace echocine {
 
 SheetOutline outlineOf(const std::vector<Triangle>& faces) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> runs;
-  for (const Triangle& t : faces)
-    for (std::size_t k = 0; k < 3; ++k) ++runs[{t[k], t[(k + 1) % 3]}];
   SheetOutline outline;
-  for (const auto& [edge, count] : runs) {
-    if (count > 1) return {};
-    if (!runs.contains({edge.second, edge.first})) outline.push_back(edge);
-  }
+  bool is_oriented = true;
+  forEachEdge(sortedSides(faces), [&](std::span<const Side> edge) {
+    if (edge.size() == 1)
+      outline.emplace_back(sideStart(faces, edge[0].side), sideEnd(faces, edge[0].side));
+    else if (edge.size() > 2 || edge[0].descending == edge[1].descending)
+      is_oriented = false;
+  });
+  if (!is_oriented) return {};
+  std::sort(outline.begin(), outline.end());
   return outline;
 }
 

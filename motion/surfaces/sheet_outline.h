@@ -9,7 +9,7 @@
 
 namespace echocine {
 
-// Directed boundary edges, as pairs of vertices.
+// Directed boundary edges, as pairs of vertices, in ascending order.
 using SheetOutline = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 // The sheet is oriented. The result is empty if the mesh is closed, or if an edge is used twice in
