@@ -52,14 +52,12 @@ const std::array<Fibre, kFibres>& fibresOfRing() {
 
 }  // namespace
 
-FrameRays::FrameRays(const Scene& scene, const LoopPlan& plan, const LeafletBodies* bodies,
-                     const Chordae* chordae, const ValveRings* rings)
+FrameRays::FrameRays(const Scene& scene, const LoopPlan& plan, const ValveParts& valves)
     : probe_(scene.probe),
-      settings_(settingsOf(scene, plan, bodies)),
+      settings_(settingsOf(scene, plan, valves.leaflets.get())),
       request_(planeRequest(scene, plan.effects)),
-      chordae_(chordae),
+      valves_(valves),
       chordae_m_(scene.leaflets.chordae_m),
-      rings_(rings),
       ring_backscatter_(intensityFromDecibels(scene.leaflets.annulus_db)) {
   if (plan.effects.rays_per_beam > 1)
     beams_.emplace(probe_, beamSpread(plan.effects, scene.acquisition.seed));
@@ -86,9 +84,9 @@ WorkCounts FrameRays::through(const FrameGeometry& geometry, int frame,
 void FrameRays::addChordae(Workspace& w) const {
   thread_local std::vector<Vec3f> points_m;
   thread_local std::vector<Strand> strands;
-  chordae_->at(w.surfaces, points_m);
+  valves_.chordae->at(w.surfaces, points_m);
   strands.clear();
-  for (const Chordae::Chord& chord : chordae_->chords())
+  for (const Chordae::Chord& chord : valves_.chordae->chords())
     strands.push_back(
         {std::span(points_m).subspan(strands.size() * Chordae::kPoints, Chordae::kPoints),
          settings_.surfaces[index(chord.leaflet)].medium});
@@ -100,28 +98,28 @@ void FrameRays::addRings(Workspace& w) const {
   thread_local std::vector<ValveRings::Section> sections;
   thread_local std::vector<Vec3f> points_m;
   thread_local std::vector<Strand> strands;
-  rings_->at(w.surfaces, sections);
+  valves_.rings->at(w.surfaces, sections);
   points_m.clear();
   strands.clear();
   if (sections.empty()) return;
-  for (const ValveRings::Stretch& stretch : rings_->stretches())
+  for (const ValveRings::Stretch& stretch : valves_.rings->stretches())
     for (const Fibre& fibre : fibresOfRing())
       for (const std::uint32_t end : {stretch.from, stretch.to})
-        points_m.push_back(rings_->place(sections[end], fibre.a, fibre.b));
+        points_m.push_back(valves_.rings->place(sections[end], fibre.a, fibre.b));
   for (std::size_t i = 0; i < points_m.size(); i += 2)
     strands.push_back(
         {std::span(points_m).subspan(i, 2),
-         settings_.surfaces[index(rings_->stretches()[i / (2 * kFibres)].leaflet)].medium,
+         settings_.surfaces[index(valves_.rings->stretches()[i / (2 * kFibres)].leaflet)].medium,
          ring_backscatter_});
-  addStrands(strands, 2 * rings_->radius() / std::sqrt(static_cast<double>(kFibres)), probe_,
+  addStrands(strands, 2 * valves_.rings->radius() / std::sqrt(static_cast<double>(kFibres)), probe_,
              settings_, request_.intensity_terms, w.polar);
 }
 
 WorkCounts FrameRays::trace(int frame, const RollingLines::Group* group, Workspace& w) const {
   const WorkCounts work = std::visit(
       [&](const auto& geometry) { return through(geometry, frame, group, w); }, w.geometry);
-  if (chordae_) addChordae(w);
-  if (rings_) addRings(w);
+  if (valves_.chordae) addChordae(w);
+  if (valves_.rings) addRings(w);
   return work;
 }
 

@@ -6,8 +6,7 @@
 #include "core/work_counts.h"
 #include "frame/rolling.h"
 #include "frame/workspace.h"
-#include "motion/surfaces/chordae.h"
-#include "motion/surfaces/valve_rings.h"
+#include "motion/surfaces/valve_parts.h"
 #include "trace/beam_rays.h"
 #include "trace/trace_frame.h"
 
@@ -15,9 +14,8 @@ namespace echocine {
 
 class FrameRays {
  public:
-  // The scene, `chordae` and `rings` are kept by reference. `bodies` replace leaflets. Null: none.
-  FrameRays(const Scene& scene, const LoopPlan& plan, const LeafletBodies* bodies,
-            const Chordae* chordae = nullptr, const ValveRings* rings = nullptr);
+  // The scene and `valves` are kept by reference. Bodies replace leaflets.
+  FrameRays(const Scene& scene, const LoopPlan& plan, const ValveParts& valves);
 
   // Does an output need intensities?
   bool receive() const { return request_.intensities; }
@@ -38,9 +36,8 @@ class FrameRays {
   const TraceSettings settings_;
   const PlaneRequest request_;
   std::optional<BeamRays> beams_;  // several rays per beam
-  const Chordae* chordae_;
-  double chordae_m_;  // their diameter
-  const ValveRings* rings_;
+  const ValveParts& valves_;
+  double chordae_m_;         // their diameter
   double ring_backscatter_;  // relative to that of the leaflets
 };
 

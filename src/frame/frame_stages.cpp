@@ -80,10 +80,10 @@ void FrameStages::stand(const FrameTime& time, Workspace& w) const {
   clock.time(Stage::motion, [&] { motion->frameAt(time.phase, w.surfaces, plan.smooth_normals); });
   clock.time(Stage::geometry, [&] {
     if (effects.trabeculae) effects.trabeculae->raise(w.surfaces, w.smooth);
-    if (leaflets) leaflets->thicken(w.surfaces, w.sheets);
+    if (valves.leaflets) valves.leaflets->thicken(w.surfaces, w.sheets);
     std::visit([&](auto& g) { g.update(w.surfaces); }, w.geometry);
     if (w.sides) w.sides->update(w.surfaces);
-    if (leaflets) leaflets->thin(w.surfaces, w.sheets);
+    if (valves.leaflets) valves.leaflets->thin(w.surfaces, w.sheets);
     if (effects.trabeculae) effects.trabeculae->lower(w.surfaces, w.smooth);
   });
   w.phase = time.phase;
@@ -126,15 +126,11 @@ std::unique_ptr<const Part> where(bool asked, Arguments&&... arguments) {
 FrameEffects::FrameEffects(const Scene& scene, const MeshMotion& motion,
                            const SharedMotionField& field, const LoopPlan& plan,
                            const CardiacClock& clock, const SignalChain& chain,
-                           const SceneSpeckle* source,
-                           std::shared_ptr<const LeafletBodies> leaflets,
-                           std::shared_ptr<const Chordae> chordae,
-                           std::shared_ptr<const ValveRings> rings)
+                           const SceneSpeckle* source, const ValveParts& valves)
     : trabeculae(where<Trabeculae>(plan.effects.trabeculae, scene, motion, !plan.slice)),
       speckle(source ? where<SceneSpeckle>(plan.effects.speckle, scene, *source)
                      : where<SceneSpeckle>(plan.effects.speckle, scene, motion, field, plan.effects,
-                                           trabeculae.get(), std::move(leaflets),
-                                           std::move(chordae), std::move(rings))),
+                                           trabeculae.get(), valves)),
       rolling(where<RollingLines>(
           plan.effects.rolling, scene,
           [&](LineRange lines) { return chain.taken(speckle ? speckle->reach(lines) : lines); })),
@@ -151,15 +147,14 @@ FrameStages::FrameStages(Scene given, std::shared_ptr<const MeshMotion> given_mo
       shared_chain(given_chain ? std::move(given_chain)
                                : std::make_shared<const SignalChain>(scene, plan.effects)),
       chain(*shared_chain),
-      leaflets(plan.effects.leaflets ? std::make_shared<const LeafletBodies>(scene, *motion)
-                                     : nullptr),
-      chordae(plan.effects.chordae ? std::make_shared<const Chordae>(scene, *motion) : nullptr),
-      rings(plan.effects.annulus ? std::make_shared<const ValveRings>(scene, *motion) : nullptr),
-      rays(scene, plan, leaflets.get(), chordae.get(), rings.get()),
+      valves{where<LeafletBodies>(plan.effects.leaflets, scene, *motion),
+             where<Chordae>(plan.effects.chordae, scene, *motion),
+             where<ValveRings>(plan.effects.annulus, scene, *motion)},
+      rays(scene, plan, valves),
       field(scene, *motion),
-      effects(scene, *motion, field, plan, cardiac_clock, chain, source, leaflets, chordae, rings),
+      effects(scene, *motion, field, plan, cardiac_clock, chain, source, valves),
       truth(scene, *motion, field, cardiac_clock, plan, effects.rolling.get(),
-            plan.left_out.none() && !effects.trabeculae && !leaflets),
-      workspaces(scene, leaflets ? leaflets->surfaces() : motion->surfaces(), plan) {}
+            plan.left_out.none() && !effects.trabeculae && !valves.leaflets),
+      workspaces(scene, valves.leaflets ? valves.leaflets->surfaces() : motion->surfaces(), plan) {}
 
 }  // namespace echocine

@@ -15,11 +15,9 @@
 #include "frame/work_tally.h"
 #include "frame/workspace.h"
 #include "motion/cycle/cardiac_clock.h"
-#include "motion/surfaces/chordae.h"
-#include "motion/surfaces/leaflet_bodies.h"
 #include "motion/surfaces/mesh_motion.h"
 #include "motion/surfaces/trabeculae.h"
-#include "motion/surfaces/valve_rings.h"
+#include "motion/surfaces/valve_parts.h"
 #include "motion/surfaces/volumes.h"
 #include "plan/loop_plan.h"
 #include "signal/signal_chain.h"
@@ -31,8 +29,7 @@ namespace echocine {
 struct FrameEffects {
   FrameEffects(const Scene& scene, const MeshMotion& motion, const SharedMotionField& field,
                const LoopPlan& plan, const CardiacClock& clock, const SignalChain& chain,
-               const SceneSpeckle* source, std::shared_ptr<const LeafletBodies> leaflets,
-               std::shared_ptr<const Chordae> chordae, std::shared_ptr<const ValveRings> rings);
+               const SceneSpeckle* source, const ValveParts& valves);
 
   std::unique_ptr<const Trabeculae> trabeculae;
   std::shared_ptr<const SceneSpeckle> speckle;
@@ -56,9 +53,7 @@ struct FrameStages {
   const CardiacClock cardiac_clock;
   const std::shared_ptr<const SignalChain> shared_chain;
   const SignalChain& chain;
-  const std::shared_ptr<const LeafletBodies> leaflets;  // null if they have no thickness
-  const std::shared_ptr<const Chordae> chordae;         // null if the plan disables them
-  const std::shared_ptr<const ValveRings> rings;        // likewise
+  const ValveParts valves;  // those of the plan
   const FrameRays rays;
   const SharedMotionField field;  // of speckle and of truth
   const FrameEffects effects;

@@ -15,16 +15,12 @@ SceneSpeckle::SceneSpeckle(const Scene& scene, std::shared_ptr<const Tissue> tis
 
 SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion,
                            const SharedMotionField& field, const EffectPlan& plan,
-                           const Trabeculae* trabeculae,
-                           std::shared_ptr<const LeafletBodies> leaflets,
-                           std::shared_ptr<const Chordae> chordae,
-                           std::shared_ptr<const ValveRings> rings)
+                           const Trabeculae* trabeculae, const ValveParts& valves)
     : SceneSpeckle(scene,
                    std::shared_ptr<const Tissue>(
                        new Tissue{field.shared(),
                                   {scene, motion, &plan, trabeculae, &field},
-                                  {scene, motion, field.field().referencePhase(),
-                                   std::move(leaflets), std::move(chordae), std::move(rings)}}),
+                                  {scene, motion, field.field().referencePhase(), valves}}),
                    nullptr) {}
 
 SceneSpeckle::SceneSpeckle(const Scene& scene, const SceneSpeckle& source)

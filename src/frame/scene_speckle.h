@@ -15,10 +15,7 @@ namespace echocine {
 class SceneSpeckle {
  public:
   SceneSpeckle(const Scene& scene, const MeshMotion& motion, const SharedMotionField& field,
-               const EffectPlan& plan, const Trabeculae* trabeculae,
-               std::shared_ptr<const LeafletBodies> leaflets,
-               std::shared_ptr<const Chordae> chordae = nullptr,
-               std::shared_ptr<const ValveRings> rings = nullptr);
+               const EffectPlan& plan, const Trabeculae* trabeculae, const ValveParts& valves);
   // Shares field and scatterers. Preconditions: `source` is of the same motion, which outlives
   // this, and of a scene that differs at most in lines, samples and what no scatterer depends on.
   SceneSpeckle(const Scene& scene, const SceneSpeckle& source);

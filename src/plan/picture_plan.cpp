@@ -100,13 +100,17 @@ void planLeaflets(const Scene& scene, EffectPlan& plan) {
 
 namespace {
 
-// Why strands are left out; null if they are not.
-const char* withoutStrands(const Scene& scene, const EffectPlan& plan) {
-  return !wantsPicture(scene)     ? "no picture is requested"
-         : !plan.backscatter      ? "they only scatter, and nothing scatters"
-         : plan.rays_per_beam > 1 ? "not with several rays per beam"
-         : scene.probe.lines < 2  ? "a single line has no beam's cell"
-                                  : nullptr;
+// Decides an effect of strands. missing: what the scene lacks for it; null: nothing.
+bool decideStrands(const Scene& scene, EffectPlan& plan, Effect effect, const char* missing,
+                   const std::string& on) {
+  const char* omitted = missing                  ? missing
+                        : !wantsPicture(scene)   ? "no picture is requested"
+                        : !plan.backscatter      ? "they only scatter, and nothing scatters"
+                        : plan.rays_per_beam > 1 ? "not with several rays per beam"
+                        : scene.probe.lines < 2  ? "a single line has no beam's cell"
+                                                 : nullptr;
+  plan.decisions.push_back({effect, !omitted, omitted ? omitted : on});
+  return !omitted;
 }
 
 }  // namespace
@@ -115,15 +119,13 @@ void planChordae(const Scene& scene, EffectPlan& plan) {
   const double diameter_m = scene.leaflets.chordae_m;
   const bool ends =
       structureOf(scene, Role::mitral_valve) && structureOf(scene, Role::papillary_muscle);
-  const char* omitted = diameter_m == 0 ? "leaflets.chordae_mm is 0"
-                        : !ends         ? "no mitral valve with papillary muscles"
-                                        : withoutStrands(scene, plan);
-  plan.chordae = !omitted;
-  plan.decisions.push_back(
-      {Effect::chordae, plan.chordae,
-       omitted ? omitted
-               : fmt::format("strands of {:g} mm between papillary muscles and mitral leaflets",
-                             millimetresFromMetres(diameter_m))});
+  plan.chordae =
+      decideStrands(scene, plan, Effect::chordae,
+                    diameter_m == 0 ? "leaflets.chordae_mm is 0"
+                    : !ends         ? "no mitral valve with papillary muscles"
+                                    : nullptr,
+                    fmt::format("strands of {:g} mm between papillary muscles and mitral leaflets",
+                                millimetresFromMetres(diameter_m)));
 }
 
 void planAnnulus(const Scene& scene, EffectPlan& plan) {
@@ -133,16 +135,14 @@ void planAnnulus(const Scene& scene, EffectPlan& plan) {
         const Role role = roleOf(s);
         return s.membrane && (role == Role::mitral_valve || role == Role::tricuspid_valve);
       });
-  const char* omitted = given.annulus_m == 0 ? "leaflets.annulus_mm is 0"
-                        : !valve             ? "no membrane is a mitral or tricuspid leaflet"
-                                             : withoutStrands(scene, plan);
-  plan.annulus = !omitted;
-  plan.decisions.push_back(
-      {Effect::annulus, plan.annulus,
-       omitted ? omitted
-               : fmt::format("fibrous rings of {:g} mm along the hinges of the leaflets, {:g} dB "
-                             "above the leaflets",
-                             millimetresFromMetres(given.annulus_m), given.annulus_db)});
+  plan.annulus = decideStrands(
+      scene, plan, Effect::annulus,
+      given.annulus_m == 0 ? "leaflets.annulus_mm is 0"
+      : !valve             ? "no membrane is a mitral or tricuspid leaflet"
+                           : nullptr,
+      fmt::format("fibrous rings of {:g} mm along the hinges of the leaflets, {:g} dB "
+                  "above the leaflets",
+                  millimetresFromMetres(given.annulus_m), given.annulus_db));
 }
 
 // A single medium without contrast still shows its scatterers.

@@ -36,22 +36,17 @@ double areaOf(const Triangle& t, const std::vector<Vec3f>& at) {
 }  // namespace
 
 SheetPoints::SheetPoints(const Scene& scene, const MeshMotion& motion, double reference_phase,
-                         std::shared_ptr<const LeafletBodies> leaflets,
-                         std::shared_ptr<const Chordae> chordae,
-                         std::shared_ptr<const ValveRings> rings)
-    : motion_(motion),
-      leaflets_(std::move(leaflets)),
-      chordae_(std::move(chordae)),
-      rings_(std::move(rings)) {
+                         ValveParts valves)
+    : motion_(motion), valves_(std::move(valves)) {
   const auto& surfaces = motion.surfaces();
   std::vector<SurfaceId> sheets;
   for (const SurfaceTopology& surface : surfaces)
     if (surface.membrane) sheets.push_back(surface.id);
-  if (sheets.empty() && !chordae_ && !rings_) return;
+  if (sheets.empty() && !valves_.chordae && !valves_.rings) return;
   const PointSpread spread(scene);
   const double apart_m = kApartPerWidth * spread.axial_width_m;
-  if (chordae_) drawOnChords(scene, apart_m / kChordPerSheet);
-  if (rings_) drawOnRings(scene, 1 / (apart_m * apart_m * apart_m));
+  if (valves_.chordae) drawOnChords(scene, apart_m / kChordPerSheet);
+  if (valves_.rings) drawOnRings(scene, 1 / (apart_m * apart_m * apart_m));
   if (sheets.empty()) return;
   const double per_m2 = scene.speckle.per_cell / kOrdinaryPerCell / (apart_m * apart_m);
   SurfaceFrame frame;
@@ -96,7 +91,7 @@ void SheetPoints::draw(const SurfaceTopology& sheet, const std::vector<Vec3f>& p
 
 // Evenly spaced along each chord at rest, uniform over its section's circumscribed ball.
 void SheetPoints::drawOnChords(const Scene& scene, double apart_m) {
-  const std::vector<Chordae::Chord>& chords = chordae_->chords();
+  const std::vector<Chordae::Chord>& chords = valves_.chordae->chords();
   const auto radius_m = static_cast<float>(0.5 * scene.leaflets.chordae_m);
   for (std::uint32_t c = 0; c < chords.size(); ++c) {
     const auto count = static_cast<std::uint32_t>(std::ceil(chords[c].length_m / apart_m));
@@ -116,8 +111,9 @@ void SheetPoints::drawOnChords(const Scene& scene, double apart_m) {
 
 // Uniform over each stretch of a ring.
 void SheetPoints::drawOnRings(const Scene& scene, double per_m3) {
-  const double per_m = per_m3 * std::numbers::pi * rings_->radius() * rings_->radius();
-  const std::vector<ValveRings::Stretch>& stretches = rings_->stretches();
+  const double per_m =
+      per_m3 * std::numbers::pi * valves_.rings->radius() * valves_.rings->radius();
+  const std::vector<ValveRings::Stretch>& stretches = valves_.rings->stretches();
   for (std::uint32_t s = 0; s < stretches.size(); ++s) {
     const auto count = static_cast<std::uint32_t>(
         per_m * stretches[s].length_m + uniformFromHash(hashOf(scene.speckle.seed, kRingCount, s)));
@@ -157,13 +153,14 @@ void SheetPoints::onSheetsAt(const SurfaceFrame& surfaces, std::vector<Vec3f>& p
   thread_local std::vector<std::vector<Vec3f>> front_m;
   front_m.resize(surfaces.positions_m.size());
   for (const SurfaceTopology& sheet : motion_.surfaces())
-    if (leaflets_ && leaflets_->isBody(sheet.id))
-      leaflets_->toFront(sheet.id, surfaces.positions_m[index(sheet.id)], front_m[index(sheet.id)]);
+    if (valves_.leaflets && valves_.leaflets->isBody(sheet.id))
+      valves_.leaflets->toFront(sheet.id, surfaces.positions_m[index(sheet.id)],
+                                front_m[index(sheet.id)]);
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const std::size_t s = index(points_[p].surface);
     const std::vector<Triangle>& faces = motion_.surfaces()[s].triangles;
     const Vec3f on_sheet_m = place(points_[p], faces, surfaces.positions_m[s]);
-    const bool thick = leaflets_ && leaflets_->isBody(points_[p].surface);
+    const bool thick = valves_.leaflets && valves_.leaflets->isBody(points_[p].surface);
     places_m.push_back(thick ? on_sheet_m + through_[p] * place(points_[p], faces, front_m[s])
                              : on_sheet_m);
   }
@@ -174,7 +171,7 @@ void SheetPoints::at(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m)
   if (surfaces.positions_m.empty()) return;
   onSheetsAt(surfaces, places_m);
   thread_local std::vector<Vec3f> chords_m;
-  if (!on_chords_.empty()) chordae_->at(surfaces, chords_m);
+  if (!on_chords_.empty()) valves_.chordae->at(surfaces, chords_m);
   for (const OnChord& point : on_chords_) {
     const float walked = point.along * (Chordae::kPoints - 1);
     const auto i = static_cast<std::size_t>(walked);
@@ -183,11 +180,11 @@ void SheetPoints::at(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m)
     places_m.push_back(from[0] + t * (from[1] - from[0]) + point.beside_m);
   }
   thread_local std::vector<ValveRings::Section> sections;
-  if (!on_rings_.empty()) rings_->at(surfaces, sections);
+  if (!on_rings_.empty()) valves_.rings->at(surfaces, sections);
   for (const OnRing& point : on_rings_) {
-    const ValveRings::Stretch& stretch = rings_->stretches()[point.stretch];
-    const Vec3f from_m = rings_->place(sections[stretch.from], point.a, point.b),
-                to_m = rings_->place(sections[stretch.to], point.a, point.b);
+    const ValveRings::Stretch& stretch = valves_.rings->stretches()[point.stretch];
+    const Vec3f from_m = valves_.rings->place(sections[stretch.from], point.a, point.b),
+                to_m = valves_.rings->place(sections[stretch.to], point.a, point.b);
     places_m.push_back(from_m + point.along * (to_m - from_m));
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Scatterers of membranes, bound to their triangles, and of chordae. Their speckle thus moves with
-// them through blood that renews itself, and of fibrous rings.
+// Scatterers of membranes, bound to their triangles, and of chordae and fibrous rings. Their
+// speckle thus moves with them through blood that renews itself.
 
 #include <cstdint>
 #include <memory>
@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "motion/interior/bound_point.h"
-#include "motion/surfaces/chordae.h"
-#include "motion/surfaces/leaflet_bodies.h"
 #include "motion/surfaces/mesh_motion.h"
-#include "motion/surfaces/valve_rings.h"
+#include "motion/surfaces/valve_parts.h"
 #include "speckle/point_spread.h"
 
 namespace echocine {
@@ -26,9 +24,7 @@ class SheetPoints {
   // as many along each spacing, all over their section. Fibrous rings have one to a cube of the
   // spacing.
   SheetPoints(const Scene& scene, const MeshMotion& motion, double reference_phase,
-              std::shared_ptr<const LeafletBodies> leaflets = nullptr,
-              std::shared_ptr<const Chordae> chordae = nullptr,
-              std::shared_ptr<const ValveRings> rings = nullptr);
+              ValveParts valves = {});
 
   std::size_t count() const { return points_.size() + on_chords_.size() + on_rings_.size(); }
   // Positions at an instant, always in the same order. Empty for a frame without
@@ -53,12 +49,10 @@ class SheetPoints {
   void onSheetsAt(const SurfaceFrame& surfaces, std::vector<Vec3f>& places_m) const;
 
   const MeshMotion& motion_;
-  std::shared_ptr<const LeafletBodies> leaflets_;
+  ValveParts valves_;
   std::vector<BoundPoint> points_;
   std::vector<float> through_;  // of each: -1 at the back of its body to 1 at the front
-  std::shared_ptr<const Chordae> chordae_;
   std::vector<OnChord> on_chords_;
-  std::shared_ptr<const ValveRings> rings_;
   std::vector<OnRing> on_rings_;
 };
 

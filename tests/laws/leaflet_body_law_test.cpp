@@ -124,7 +124,7 @@ TEST(LeafletBodies, ScatterersFillTheBody) {
   scene.speckle.on = true;
   const MeshMotion motion(scene);
   const SheetPoints on_sheet(scene, motion, 0),
-      in_body(scene, motion, 0, std::make_shared<const LeafletBodies>(scene, motion));
+      in_body(scene, motion, 0, {.leaflets = std::make_shared<const LeafletBodies>(scene, motion)});
   ASSERT_EQ(on_sheet.count(), in_body.count());
   SurfaceFrame frame;
   motion.frameAt(0.3, frame);
@@ -239,10 +239,7 @@ TEST(LeafletBodies, AreOfValvesAndOfLooksButThePaper) {
   thick = 0;
   for (const Structure& structure : scene.structures) thick += hasThickness(scene, structure);
   EXPECT_EQ(thick, 10);
-  for (const Look look : {Look::paper, Look::clean, Look::scanner})
-    EXPECT_EQ(heart::heartScene(heart::parametersFrom({}), heart::View::a4c, 4, look)
-                      .leaflets.thickness_m > 0,
-              look != Look::paper);
+  support::expectOfLooksButPaper(&LeafletSettings::thickness_m);
 }
 
 }  // namespace

@@ -24,6 +24,11 @@ inline double along(Vec3d from, Vec3d to, Vec3d p) {
   return length2 > 0 ? std::clamp(dot(p - from, d) / length2, 0.0, 1.0) : 0.0;
 }
 
+inline double distanceToSegment(Vec3f p, Vec3f from, Vec3f to) {
+  const Vec3d a = toDouble(from), ab = toDouble(to) - a, ap = toDouble(p) - a;
+  return length(ap - along(a, a + ab, a + ap) * ab);
+}
+
 // Inside the triangle the foot of the perpendicular, else the best of its three edges.
 inline Nearest nearestOn(Vec3d a, Vec3d b, Vec3d c, Vec3d p) {
   const Vec3d u = b - a, v = c - a, w = p - a;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "frame/simulator.h"
+#include "motion/heart/heart_scene.h"
 
 namespace echocine::support {
 
@@ -26,6 +27,14 @@ inline void expectPictureOnly(Scene plain, Scene changed) {
     EXPECT_EQ(a.truth->tracks_m, b.truth->tracks_m);
     ASSERT_EQ(a.truth->contours.size(), b.truth->contours.size());
     EXPECT_NE(a.image.pixels, b.image.pixels);
+  }
+}
+
+// A part of the valves that all looks but `paper` show.
+inline void expectOfLooksButPaper(double LeafletSettings::*size_m) {
+  for (const Look look : {Look::paper, Look::clean, Look::scanner}) {
+    const Scene scene = heart::heartScene(heart::parametersFrom({}), heart::View::a4c, 4, look);
+    EXPECT_EQ(scene.leaflets.*size_m > 0, look != Look::paper);
   }
 }
 
