@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "core/units.h"
 #include "scene/elevation_slices.h"
@@ -39,12 +40,16 @@ class StrandAdder {
         frame_(frame),
         sampling_(samplingOf(probe, settings)),
         scan_(probe),
-        bell_(probe) {}
+        bell_(probe) {
+    for (int line = 0; line < probe.lines; ++line)
+      directions_.push_back(lineGeometry(probe, line).direction);
+  }
 
   void add(const Strand& strand) {
     for (std::size_t i = 0; i + 1 < strand.points.size(); ++i) {
       const Vec3d from = toDouble(strand.points[i]), to = toDouble(strand.points[i + 1]);
       const double length_m = length(to - from);
+      if (isBeyond(from, to, length_m)) continue;
       const int pieces = std::max(1, static_cast<int>(std::ceil(length_m / sampling_.spacing_m)));
       for (int k = 0; k < pieces; ++k)
         addPiece(from + ((k + 0.5) / pieces) * (to - from), (1.0 / pieces) * (to - from), strand);
@@ -52,6 +57,17 @@ class StrandAdder {
   }
 
  private:
+  // True only where the beam reaches no piece between the two points. Between two path lengths, the
+  // beam's deviation is largest at one of them.
+  bool isBeyond(Vec3d from, Vec3d to, double length_m) const {
+    if (from.y * to.y <= 0) return false;
+    constexpr double kSlack = 1 + 1e-9;  // for rounding
+    const double one_m = scan_.pathOf({from.x, 0, from.z}), other_m = scan_.pathOf({to.x, 0, to.z});
+    const double widest_m = std::max(bell_.deviation(std::min(one_m, other_m) - length_m),
+                                     bell_.deviation(std::max(one_m, other_m)));
+    return std::min(std::abs(from.y), std::abs(to.y)) > kSlack * kDeviations * widest_m;
+  }
+
   void addPiece(Vec3d at, Vec3d piece, const Strand& strand) {
     const std::optional<ScanGeometry::BeamPosition> place = scan_.beamPosition(at.x, at.z);
     if (!place) return;
@@ -62,7 +78,7 @@ class StrandAdder {
     const int line = static_cast<int>(place->line);
     const double piece_m = length(piece);
     if (!(piece_m > 0)) return;
-    const double cosine = dot(piece, lineGeometry(probe_, line).direction) / piece_m;
+    const double cosine = dot(piece, directions_[static_cast<std::size_t>(line)]) / piece_m;
     const double share = intensityFromDecibels(-kStrandAnisotropy_db * cosine * cosine) * per_m *
                          section_m2_ * piece_m / cell_m2;
     const double beside = place->line - line;
@@ -112,6 +128,7 @@ class StrandAdder {
   Sampling sampling_;
   ScanGeometry scan_;
   ElevationBell bell_;
+  std::vector<Vec3d> directions_;  // by line
 };
 
 }  // namespace
