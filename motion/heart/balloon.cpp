@@ -34,6 +34,19 @@ Vec3d Balloon::centre(double zeta) const {
   return ring + zeta * (roof - ring) + middle * bow;
 }
 
+// The same in lanes.
+Doubles4 Balloon::radius(Doubles4 zeta, Doubles4 rho, double length_m) const {
+  const Doubles4 all = Doubles4{} + girth;
+  const Doubles4 grown =
+      ring_zone > 0 ? blended(Doubles4{} + 1, all, smoothStep(0, ring_zone, zeta)) : all;
+  return grown * length_m * rho;
+}
+
+FourPoints Balloon::centre(Doubles4 zeta) const {
+  const Doubles4 middle = clamped(4 * zeta * (1 - zeta), Doubles4{}, Doubles4{} + 1);
+  return inAllLanes(ring) + zeta * inAllLanes(roof - ring) + middle * inAllLanes(bow);
+}
+
 double Balloon::radiusTowards(Vec3d point, double zeta) const {
   const Axes a = axes();
   const Vec3d to = point - centre(zeta);
@@ -44,32 +57,43 @@ double Balloon::radiusTowards(Vec3d point, double zeta) const {
 
 std::vector<Vec3d> Balloon::points(std::span<const Bearing> bearings) const {
   const Axes a = axes();
-  std::vector<Vec3d> points;
-  points.reserve(bearings.size());
-  for (const Bearing& at : bearings) {
-    const double radius_m = radius(at.zeta, at.rho, a.length_m);
-    points.push_back(centre(at.zeta) + radius_m * aspect * at.cos_azimuth * a.u +
-                     radius_m / aspect * at.sin_azimuth * a.v);
+  const FourPoints u = inAllLanes(a.u), v = inAllLanes(a.v);
+  std::vector<Vec3d> points(bearings.size());
+  for (std::size_t i = 0; i < points.size(); i += kDoubleLanes) {
+    Doubles4 zeta, rho, cos_azimuth, sin_azimuth;
+    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) {
+      const Bearing& at = bearings[std::min(i + lane, bearings.size() - 1)];
+      zeta[lane] = at.zeta, rho[lane] = at.rho;
+      cos_azimuth[lane] = at.cos_azimuth, sin_azimuth[lane] = at.sin_azimuth;
+    }
+    const Doubles4 radius_m = radius(zeta, rho, a.length_m);
+    put(centre(zeta) + radius_m * aspect * cos_azimuth * u + radius_m / aspect * sin_azimuth * v,
+        points, i);
   }
   return points;
 }
 
 void Balloon::pushOut(double gap_m, std::vector<Vec3d>& points) const {
   const Axes a = axes();
-  for (Vec3d& p : points) p = pushedOut(p, gap_m, a);
+  for (std::size_t i = 0; i < points.size(); i += kDoubleLanes)
+    put(pushedOut(fourPointsAt(points, i), gap_m, a), points, i);
 }
 
-Vec3d Balloon::pushedOut(Vec3d p, double gap_m, const Axes& a) const {
-  const double zeta = dot(p - ring, a.along) / a.length_m;
-  if (zeta < outline->lowest() || zeta > 1) return p;
-  const Vec3d from = p - centre(zeta);
-  const double x = dot(from, a.u), y = dot(from, a.v);
-  const double distance_m = hypotenuse(x / aspect, y * aspect);
-  const double limit_m = radius(zeta, outline->rhoAt(zeta), a.length_m) + gap_m;
+FourPoints Balloon::pushedOut(const FourPoints& p, double gap_m, const Axes& a) const {
+  const FourPoints u = inAllLanes(a.u), v = inAllLanes(a.v);
+  const Doubles4 zeta = dot(p - inAllLanes(ring), inAllLanes(a.along)) / a.length_m;
+  const Mask4 beside = (zeta >= outline->lowest()) & (zeta <= 1);
+  if (!any(beside)) return p;
+  const FourPoints from = p - centre(zeta);
+  const Doubles4 x = dot(from, u), y = dot(from, v);
+  const Doubles4 distance_m = hypotenuse(x / aspect, y * aspect);
+  Doubles4 rho{};
+  for (std::size_t lane = 0; lane < kDoubleLanes; ++lane)
+    if (beside[lane]) rho[lane] = outline->rhoAt(zeta[lane]);
+  const Doubles4 limit_m = radius(zeta, rho, a.length_m) + gap_m;
   constexpr double kRounding_m = 4e-3;
-  if (distance_m < 1e-6) return p;
-  const double grow = smoothMax(distance_m, limit_m, kRounding_m) / distance_m - 1;
-  return p + grow * x * a.u + grow * y * a.v;
+  const Doubles4 grow = smoothMax(distance_m, limit_m, kRounding_m) / distance_m - 1;
+  return where(beside & (distance_m >= 1e-6), p + grow * x * u + grow * y * v, p);
 }
 
 }  // namespace echocine::heart

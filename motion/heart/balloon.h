@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/vec3.h"
+#include "motion/heart/four_points.h"
 #include "motion/heart/meridian.h"
 
 namespace echocine::heart {
@@ -41,7 +42,9 @@ struct Balloon {
   };
   Axes axes() const;
   double radius(double zeta, double rho, double length_m) const;
-  Vec3d pushedOut(Vec3d p, double gap_m, const Axes& a) const;
+  Doubles4 radius(Doubles4 zeta, Doubles4 rho, double length_m) const;
+  FourPoints centre(Doubles4 zeta) const;
+  FourPoints pushedOut(const FourPoints& p, double gap_m, const Axes& a) const;
 };
 
 }  // namespace echocine::heart

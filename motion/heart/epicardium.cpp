@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "motion/heart/four_points.h"
 #include "motion/heart/heart_units.h"
 #include "motion/heart/smooth.h"
 
@@ -107,13 +108,18 @@ double Epicardium::radius(double phi_rad, double z) const {
   return std::lerp(row(a), row(b), angle - std::floor(angle));
 }
 
-Vec3d Epicardium::pushedOut(Vec3d point, double gap_m) const {
-  if (point.z > high_z_ + gap_m) return point;
+void Epicardium::pushOut(double gap_m, std::vector<Vec3d>& points) const {
   constexpr double kRounding_m = 4e-3;
-  const double r = hypotenuse(point.x, point.y);
-  const double limit = radius(std::atan2(point.y, point.x), point.z) + gap_m;
-  const double grow = smoothMax(r, limit, kRounding_m) / std::max(r, 1e-6);
-  return {grow * point.x, grow * point.y, point.z};
+  for (std::size_t i = 0; i < points.size(); i += kDoubleLanes) {
+    const FourPoints p = fourPointsAt(points, i);
+    const Mask4 above = p.z > high_z_ + gap_m;
+    const Doubles4 r = hypotenuse(p.x, p.y);
+    Doubles4 limit{};
+    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane)
+      if (!above[lane]) limit[lane] = radius(std::atan2(p.y[lane], p.x[lane]), p.z[lane]) + gap_m;
+    const Doubles4 grow = smoothMax(r, limit, kRounding_m) / larger(r, 1e-6);
+    put(where(above, p, {grow * p.x, grow * p.y, p.z}), points, i);
+  }
 }
 
 }  // namespace echocine::heart

@@ -14,8 +14,9 @@ class Epicardium {
 
   // In m, at an angle about the axis and a height z; constant beyond the ends of the table.
   double radius(double phi_rad, double z) const;
-  // `point`, moved away from the axis to at least `gap_m` outside, with a smooth transition.
-  Vec3d pushedOut(Vec3d point, double gap_m) const;
+  // Moves each point away from the axis until it is at least `gap_m` outside, with a smooth
+  // transition.
+  void pushOut(double gap_m, std::vector<Vec3d>& points) const;
 
  private:
   double low_z_ = 0, high_z_ = 0;

@@ -237,7 +237,7 @@ void Instant::buildAtria(const Parameters& parameters) {
     ra_points_ = inflate(ra_, atrialVolume(parameters.ra_volume_ml, state_.atria_filled),
                          "ra-volume", [&](std::vector<Vec3d>& points) {
                            aorta_->pushOut(clear_of_aorta_m, points);
-                           for (Vec3d& p : points) p = epicardium_->pushedOut(p, kClearance_m);
+                           epicardium_->pushOut(kClearance_m, points);
                            la_.pushOut(walls_.atrium_m + kClearance_m, points);
                          });
   };
