@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/lanes.h"
+#include "motion/heart/four_points.h"
 #include "motion/heart/heart_units.h"
 
 namespace echocine::heart {
@@ -18,12 +19,12 @@ const std::vector<Vec3d>& sacDirections() {
 constexpr double kCone_rad = 13 * kDegree;
 
 // Cells of a cube's faces, seen from its centre, with the directions whose cones a point in the
-// cell can reach.
+// cell can reach, by fours. The last of them may be repeated.
 class ConeCells {
  public:
   struct Near {
-    Vec3d direction;
-    std::size_t number;
+    FourPoints directions;
+    std::array<std::size_t, kDoubleLanes> numbers;
   };
 
   ConeCells() {
@@ -67,9 +68,19 @@ class ConeCells {
         radius_rad =
             std::max(radius_rad, std::acos(dot(middle, onCube(face, row + i, column + j))));
     const double least = std::cos(kCone_rad + radius_rad + 0.1 * kDegree);  // room for rounding
-    std::vector<Near> near;
+    std::vector<Vec3d> directions;
+    std::vector<std::size_t> numbers;
     for (std::size_t d = 0; d < sacDirections().size(); ++d)
-      if (dot(middle, sacDirections()[d]) >= least) near.push_back({sacDirections()[d], d});
+      if (dot(middle, sacDirections()[d]) >= least) {
+        directions.push_back(sacDirections()[d]);
+        numbers.push_back(d);
+      }
+    std::vector<Near> near;
+    for (std::size_t i = 0; i < numbers.size(); i += kDoubleLanes) {
+      near.push_back({fourPointsAt(directions, i), {}});
+      for (std::size_t lane = 0; lane < kDoubleLanes; ++lane)
+        near.back().numbers[lane] = numbers[std::min(i + lane, numbers.size() - 1)];
+    }
     return near;
   }
 
@@ -84,8 +95,15 @@ std::vector<double> farthestIn(std::span<const Vec3d> points, Vec3d centre) {
   for (const Vec3d point : points) {
     const Vec3d from = point - centre;
     const double distance = length(from), least = cos_cone * distance;
-    for (const auto& [direction, d] : cells.about(from))
-      if (dot(from, direction) >= least) farthest_m[d] = std::max(farthest_m[d], distance);
+    const FourPoints from_all = inAllLanes(from);
+    for (const auto& [directions, numbers] : cells.about(from)) {
+      const Doubles4 reached =
+          dot(from_all, directions) >= least ? Doubles4{} + distance : Doubles4{};
+      for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) {
+        double& farthest = farthest_m[numbers[lane]];
+        farthest = std::max(farthest, reached[lane]);
+      }
+    }
   }
   return farthest_m;
 }

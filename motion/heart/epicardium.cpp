@@ -95,17 +95,22 @@ Epicardium::Epicardium(const LeftVentricle& ventricle) {
   }
 }
 
-double Epicardium::radius(double phi_rad, double z) const {
-  const double height = std::clamp((z - low_z_) / (high_z_ - low_z_), 0.0, 1.0) * (kHeights - 1);
-  const int h = std::min(static_cast<int>(height), kHeights - 2);
-  double angle = phi_rad / kTurn;
-  angle = (angle - std::floor(angle)) * kAngles;
-  const int a = static_cast<int>(angle) % kAngles, b = (a + 1) % kAngles;
-  const auto row = [&](int index) {
-    const double* const r = &radius_m_[std::size_t(index) * kHeights + h];
-    return std::lerp(r[0], r[1], height - h);
-  };
-  return std::lerp(row(a), row(b), angle - std::floor(angle));
+Doubles4 Epicardium::radius(Doubles4 phi_rad, Doubles4 z) const {
+  const Doubles4 height =
+      clamped((z - low_z_) / (high_z_ - low_z_), Doubles4{}, Doubles4{} + 1) * (kHeights - 1);
+  const Doubles4 turns = phi_rad / kTurn, angle = (turns - floorOf(turns)) * kAngles;
+  Doubles4 below, low_a, high_a, low_b, high_b;
+  for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) {
+    const int h = std::min(static_cast<int>(height[lane]), kHeights - 2);
+    const int a = static_cast<int>(angle[lane]) % kAngles, b = (a + 1) % kAngles;
+    const double* const at_a = &radius_m_[std::size_t(a) * kHeights + h];
+    const double* const at_b = &radius_m_[std::size_t(b) * kHeights + h];
+    below[lane] = h;
+    low_a[lane] = at_a[0], high_a[lane] = at_a[1];
+    low_b[lane] = at_b[0], high_b[lane] = at_b[1];
+  }
+  const Doubles4 up = height - below;
+  return blended(blended(low_a, high_a, up), blended(low_b, high_b, up), angle - floorOf(angle));
 }
 
 void Epicardium::pushOut(double gap_m, std::vector<Vec3d>& points) const {
@@ -114,9 +119,10 @@ void Epicardium::pushOut(double gap_m, std::vector<Vec3d>& points) const {
     const FourPoints p = fourPointsAt(points, i);
     const Mask4 above = p.z > high_z_ + gap_m;
     const Doubles4 r = hypotenuse(p.x, p.y);
-    Doubles4 limit{};
+    Doubles4 phi_rad{};
     for (std::size_t lane = 0; lane < kDoubleLanes; ++lane)
-      if (!above[lane]) limit[lane] = radius(std::atan2(p.y[lane], p.x[lane]), p.z[lane]) + gap_m;
+      if (!above[lane]) phi_rad[lane] = std::atan2(p.y[lane], p.x[lane]);
+    const Doubles4 limit = radius(phi_rad, p.z) + gap_m;
     const Doubles4 grow = smoothMax(r, limit, kRounding_m) / larger(r, 1e-6);
     put(where(above, p, {grow * p.x, grow * p.y, p.z}), points, i);
   }

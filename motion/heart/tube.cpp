@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/check.h"
+#include "motion/heart/four_points.h"
 #include "motion/heart/meridian.h"
 #include "motion/heart/smooth.h"
 
@@ -149,14 +150,26 @@ void Tube::pushOut(double gap_m, std::vector<Vec3d>& points) const {
   const double far_m = most_radius_m_ + gap_m + 10 * kRounding_m;
   const Vec3d margin{far_m, far_m, far_m};
   const Box within{centres_m_.lo - margin, centres_m_.hi + margin};
-  for (Vec3d& point : points) {
-    if (!within.contains(point)) continue;
-    const Section* const section = nearest(point, far_m);
-    if (section == nullptr) continue;
-    const Vec3d away = point - section->centre;
-    const double distance_m = length(away), limit_m = section->radius_m + gap_m;
-    if (distance_m > limit_m + 10 * kRounding_m || distance_m < 1e-6) continue;
-    point = section->centre + (smoothMax(distance_m, limit_m, kRounding_m) / distance_m) * away;
+  for (std::size_t i = 0; i < points.size(); i += kDoubleLanes) {
+    const FourPoints p = fourPointsAt(points, i);
+    FourPoints centre{};
+    Doubles4 radius_m{};
+    Mask4 near{};
+    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) {
+      const Vec3d point{p.x[lane], p.y[lane], p.z[lane]};
+      if (!within.contains(point)) continue;
+      const Section* const section = nearest(point, far_m);
+      if (section == nullptr) continue;
+      centre.x[lane] = section->centre.x, centre.y[lane] = section->centre.y;
+      centre.z[lane] = section->centre.z, radius_m[lane] = section->radius_m;
+      near[lane] = -1;
+    }
+    const FourPoints away = p - centre;
+    const Doubles4 distance_m = squareRoot(dot(away, away)), limit_m = radius_m + gap_m;
+    const FourPoints moved =
+        centre + (smoothMax(distance_m, limit_m, kRounding_m) / distance_m) * away;
+    near = near & (distance_m <= limit_m + 10 * kRounding_m) & (distance_m >= 1e-6);
+    put(where(near, moved, p), points, i);
   }
 }
 
