@@ -248,6 +248,19 @@ TEST_F(StrandLaw, AStrandBesideThePlaneFadesAsTheBeam) {
   }
 }
 
+// Law: a strand that leaves the beam adds as much in many stretches, of which most lie beyond the
+// beam, as in one.
+TEST_F(StrandLaw, AStrandAddsTheSameInManyStretches) {
+  constexpr int kStretches = 64;
+  for (const float z_m : {0.02f, 0.08f, 0.15f}) {
+    const Vec3f from_m{-0.004f, -0.001f, 0.09f}, to_m{0.004f, 0.03f, z_m};
+    std::vector<Vec3f> many_m;
+    for (int i = 0; i <= kStretches; ++i)
+      many_m.push_back(from_m + static_cast<float>(i) / kStretches * (to_m - from_m));
+    EXPECT_NEAR(added(many_m) / added({from_m, to_m}), 1, 2e-3) << z_m;
+  }
+}
+
 // Law: a strand at one depth has the losses of that depth.
 TEST_F(StrandLaw, AStrandIsAttenuatedAsTheLine) {
   const std::vector<Vec3f> across{{0.01f, -0.03f, 0.08f}, {0.01f, 0.03f, 0.08f}};

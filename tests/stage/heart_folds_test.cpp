@@ -10,6 +10,7 @@
 
 #include "motion/heart/control_mesh.h"
 #include "motion/heart/envelope.h"
+#include "motion/heart/four_points.h"
 #include "motion/heart/smooth.h"
 #include "motion/heart/unfold.h"
 #include "motion/keyframes/interpolation.h"
@@ -158,6 +159,27 @@ TEST(HeartSmooth, HypotenuseIsWithinOneRounding) {
   EXPECT_EQ(heart::hypotenuse(0, 0), 0);
   EXPECT_EQ(heart::hypotenuse(-3, 4), 5);
   EXPECT_EQ(heart::hypotenuse(0.1, 0), 0.1);
+}
+
+TEST(HeartSmooth, LanesHaveTheBytesOfSingleNumbers) {
+  std::mt19937_64 dice(12);
+  std::uniform_real_distribution<double> length_m(-0.1, 0.1), share(0, 1), ratio(0.01, 4);
+  for (int i = 0; i < 20000; ++i) {
+    Doubles4 x, y, a, b, t;
+    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) {
+      x[lane] = length_m(dice), y[lane] = i % 2 == 0 ? 4e-3 : length_m(dice);
+      a[lane] = ratio(dice), b[lane] = ratio(dice), t[lane] = share(dice);
+    }
+    x[0] = 0, t[1] = 0, t[2] = 1, b[3] = a[3];
+    const Doubles4 hypotenuse = heart::hypotenuse(x, y), most = heart::smoothMax(x, y, 4e-3),
+                   step = heart::smoothStep(0, 0.35, x * 5), blend = heart::blended(a, b, t);
+    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) {
+      EXPECT_EQ(hypotenuse[lane], heart::hypotenuse(x[lane], y[lane]));
+      EXPECT_EQ(most[lane], heart::smoothMax(x[lane], y[lane], 4e-3));
+      EXPECT_EQ(step[lane], heart::smoothStep(0, 0.35, x[lane] * 5));
+      EXPECT_EQ(blend[lane], std::lerp(a[lane], b[lane], t[lane]));
+    }
+  }
 }
 
 // The farthest point within 13 degrees of each direction, by testing all points.
