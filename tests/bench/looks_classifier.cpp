@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "boosted_stumps.h"
+#include "echo/sector.h"
 #include "metrics/linear_discriminant.h"
 #include "video/read_video.h"
 
@@ -37,8 +39,25 @@ double areaOf(const Classifier& classifier, const std::vector<FeatureRow>& a,
 
 }  // namespace
 
-PictureGroup framesOf(const std::string& video, double mm_per_pixel) {
+EchoPicture coarser(const EchoPicture& picture, double mm_per_pixel) {
+  EchoPicture out;
+  const double x = 1e3 * picture.pixel_x_m / mm_per_pixel,
+               y = 1e3 * picture.pixel_y_m / mm_per_pixel;
+  if (x >= 1 || y >= 1) return picture;
+  cv::Mat from(picture.height, picture.width, CV_32F), to;
+  std::copy(picture.grey.begin(), picture.grey.end(), from.ptr<float>());
+  cv::resize(from, to, {}, x, y, cv::INTER_AREA);
+  out.width = to.cols;
+  out.height = to.rows;
+  out.pixel_x_m = picture.pixel_x_m * picture.width / to.cols;
+  out.pixel_y_m = picture.pixel_y_m * picture.height / to.rows;
+  out.grey.assign(to.begin<float>(), to.end<float>());
+  return out;
+}
+
+PictureGroup framesOf(const std::string& video, double mm_per_pixel, double coarse_mm) {
   const Video loop = readVideo(video);
+  const echo::Sector sector = echo::findSector(loop).sector;
   PictureGroup group;
   for (int i = 0; i < loop.frameCount(); i += 3) {
     EchoPicture picture;
@@ -46,7 +65,11 @@ PictureGroup framesOf(const std::string& video, double mm_per_pixel) {
     picture.height = loop.height;
     picture.pixel_x_m = picture.pixel_y_m = 1e-3 * mm_per_pixel;
     picture.grey.assign(loop.frames[i].begin(), loop.frames[i].end());
-    group.pictures.push_back(sectorTexture(picture));
+    std::size_t pixel = 0;
+    for (int y = 0; y < loop.height; ++y)
+      for (int x = 0; x < loop.width; ++x, ++pixel)
+        if (!sector.contains(x + 0.5, y + 0.5)) picture.grey[pixel] = 0;
+    group.pictures.push_back(sectorTexture(coarser(picture, coarse_mm)));
   }
   return group;
 }

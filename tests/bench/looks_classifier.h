@@ -14,8 +14,13 @@ struct PictureGroup {
   std::vector<SectorTexture> pictures;
 };
 
-// Frames of a loop, every third: neighbours are nearly equal.
-PictureGroup framesOf(const std::string& video, double mm_per_pixel);
+// The picture with pixels of this size, each the mean of those it covers. It stays as it is if its
+// own pixels are as large.
+EchoPicture coarser(const EchoPicture& picture, double mm_per_pixel);
+
+// Frames of a loop, every third: neighbours are nearly equal. Pixels outside the loop's sector are
+// black, so that neither text nor traces of compression count as echo. coarse_mm: of coarser().
+PictureGroup framesOf(const std::string& video, double mm_per_pixel, double coarse_mm);
 
 // Fisher's linear discriminant and boosted stumps over the statistics that need no labels. Prints
 // the area under the ROC curve of the pictures that they were fitted to and of those held out (each

@@ -39,6 +39,7 @@ struct Options : LookHearts {
   std::string regions, loop;
   std::vector<std::pair<std::string, double>> real;  // loops, and how large their pixels are
   double mm_per_pixel = 0;
+  double coarse_mm = 0;  // simulated and real pictures are compared with pixels of this size
 };
 
 // Papillary muscles count as cavity, as those who trace ventricles have them.
@@ -60,7 +61,8 @@ struct Measured {
   RegionTexture region;
 };
 
-Measured measure(const Simulator& simulator, double time_s, const std::string& save) {
+Measured measure(const Simulator& simulator, double time_s, const std::string& save,
+                 double coarse_mm) {
   Frame frame = simulator.frame(time_s);
   if (!save.empty()) savePgm(save, frame.image);
   EchoPicture picture;
@@ -69,7 +71,7 @@ Measured measure(const Simulator& simulator, double time_s, const std::string& s
   picture.pixel_x_m = picture.pixel_y_m = simulator.chain().geometry().metres_per_pixel;
   picture.grey.assign(frame.image.pixels.begin(), frame.image.pixels.end());
   picture.labels = labelsOf(simulator, frame.time.phase);
-  return {sectorTexture(picture), regionTexture(picture)};
+  return {sectorTexture(coarser(picture, coarse_mm)), regionTexture(picture)};
 }
 
 using Column = std::vector<Measured>;
@@ -88,7 +90,8 @@ void addHeart(int number, const Options& options, std::map<int, Column>& columns
       const int column = (view == heart::View::a2c ? 2 : 0) + instant;
       const std::string file =
           options.save.empty() ? "" : fmt::format("{}/{}_{}.pgm", options.save, number, column);
-      columns[column].push_back(measure(simulator, instant == 0 ? 0 : es_s, file));
+      columns[column].push_back(
+          measure(simulator, instant == 0 ? 0 : es_s, file, options.coarse_mm));
     }
   }
 }
@@ -164,6 +167,8 @@ void printTable(const std::map<int, Column>& columns) {
 // Hearts of all grades of quality, in turn.
 void classify(Options options) {
   std::vector<PictureGroup> simulated, real;
+  for (const auto& [file, mm_per_pixel] : options.real)
+    options.coarse_mm = std::max(options.coarse_mm, mm_per_pixel);
   for (int h = 0; h < options.hearts; ++h) {
     options.quality = std::array{Quality::good, Quality::medium, Quality::poor}[h % 3];
     std::map<int, Column> columns;
@@ -173,7 +178,7 @@ void classify(Options options) {
       for (const Measured& m : column) group.pictures.push_back(m.sector);
   }
   for (const auto& [file, mm_per_pixel] : options.real)
-    real.push_back(framesOf(file, mm_per_pixel));
+    real.push_back(framesOf(file, mm_per_pixel, options.coarse_mm));
   printClassifier(simulated, real);
 }
 
