@@ -20,6 +20,12 @@ double lossOf(double discrepancy) {
 
 }  // namespace
 
+ModelLoop FitSide::modelAt(const std::vector<double>& values, const PlaneTilt& tilt) const {
+  ModelLoop model = family->at(values, tilt, Focus::left_ventricle);
+  look->applyTo(model);
+  return model;
+}
+
 PriorDials priorDialsOf(const std::map<std::string, double>& dials) {
   const heart::Parameters parameters = heart::parametersFrom(dials);
   PriorDials out{};
@@ -89,7 +95,7 @@ PoseFound FitCost::viewAt(std::size_t view, const std::vector<double>& at,
 PoseFound FitCost::evaluated(std::size_t view, const std::vector<double>& values,
                              const PlaneTilt& tilt, const PoseFound* from) const {
   const FitSide& side = sides_[view];
-  const ModelLoop model = side.family->at(values, tilt, Focus::left_ventricle);
+  const ModelLoop model = side.modelAt(values, tilt);
   return from != nullptr ? side.discrepancy->refine(model, {from->pose})
                          : side.discrepancy->search(model);
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "fit/expected_edges.h"
+#include "fit/expected_greys.h"
 #include "fit/fit_journal.h"
 #include "fit/heart_family.h"
 #include "fit/heart_prior.h"
@@ -27,10 +29,25 @@ struct FitPlace {
   double cost = 0;
 };
 
+// Deviations that own loops of a heart show beyond its tissues and their boundaries.
+struct ExpectedLook {
+  ExpectedEdges edges;
+  ExpectedGreys greys;
+
+  void applyTo(ModelLoop& model) const {
+    edges.applyTo(model);
+    greys.applyTo(model);
+  }
+};
+
 // A loop's model and its comparison, which must outlive the cost.
 struct FitSide {
   const HeartFamily* family;
   const ModelDiscrepancy* discrepancy;
+  const ExpectedLook* look;
+
+  // With Focus::left_ventricle and the expected look.
+  ModelLoop modelAt(const std::vector<double>& values, const PlaneTilt& tilt) const;
 };
 
 // Independent samples of a loop in Eq. 14. Our choice: with 200, the prior moved EF of planted

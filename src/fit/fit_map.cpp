@@ -22,9 +22,11 @@ std::vector<RegionLeft> leftOver(const std::vector<TissueCell>& cells, const ech
     const echo::EchoStack::Sample s = at.at(x, z);
     if (!(s.visible > 0)) continue;
     const double more =
-        fit.left(cell.first, cell.second, cell.share, std::hypot(x, z) / at.stack().far(), s.grey);
+        fit.left(cell.first, cell.second, cell.share, std::hypot(x, z) / at.stack().far(), s.grey) -
+        cell.expected;
     left.push_back(
-        {static_cast<float>(x), static_cast<float>(z), static_cast<float>(more / deviation)});
+        {static_cast<float>(x), static_cast<float>(z), static_cast<float>(more / deviation),
+         static_cast<std::uint32_t>(&cell - cells.data()), cell.first, cell.second, cell.share});
   }
   return left;
 }
@@ -55,7 +57,7 @@ std::vector<BoundaryOffset> offsetsOf(const ModelFrame& frame, const echo::EchoI
                    static_cast<float>(1e3 * edge.mean_m),
                    p.alone * static_cast<float>(edge.certainty()),
                    static_cast<float>(tracked ? 1e3 * std::sqrt(m.apart) : -1), p.surface,
-                   p.segment, p.of_blood});
+                   p.segment, p.of_blood, static_cast<std::uint32_t>(&p - frame.boundary.data())});
   }
   return out;
 }
@@ -81,6 +83,7 @@ FitMap fitMap(const ModelLoop& model, const echo::EchoStack& real, const FitPose
   if (!fit.solved) return out;
   const double deviation = std::sqrt(std::max(1e-9, fit.residual / sums.seen));
   out.tissue_grey = fit.grey;
+  out.deviation = deviation;
   for (std::size_t n = 0; n < at.size(); ++n) {
     const bool shown = at[n].seen();
     out.region.push_back(shown ? leftOver(cells[n], at[n], map, fit, deviation)

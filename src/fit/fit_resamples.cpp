@@ -35,7 +35,7 @@ std::vector<double> resampledSds(const std::vector<FitSide>& sides, const FitCos
     std::vector<FitSide> some;
     for (const FitSide& side : sides) {
       parts.push_back(side.discrepancy->without(first, end));
-      some.push_back({side.family, &parts.back()});
+      some.push_back({side.family, &parts.back(), side.look});
     }
     const FitCost part(some, cost.fixed(), tilt_deg,
                        {journal, fmt::format("without {} of {}", block, blocks)});

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "fit/boundary_sides.h"
 #include "fit/fit_sums.h"
 #include "fit/seen_cells.h"
 
@@ -24,23 +24,6 @@ struct SideSums {
   double length = 0, offset = 0;      // m; of s / S
   double weight = 0, dx = 0, dz = 0;  // of u - v
 };
-
-struct Middle {
-  double x = 0, z = 0, length = 0;
-};
-
-std::vector<Middle> middlesOf(const ModelFrame& frame, std::size_t structures) {
-  std::vector<Middle> out(structures);
-  for (const BoundaryPoint& p : frame.boundary) {
-    Middle& m = out[p.surface];
-    m.x += static_cast<double>(p.length_m) * p.x_m;
-    m.z += static_cast<double>(p.length_m) * p.z_m;
-    m.length += static_cast<double>(p.length_m);
-  }
-  for (Middle& m : out)
-    if (m.length > 0) m.x /= m.length, m.z /= m.length;
-  return out;
-}
 
 class ResidualBuilder {
  public:
@@ -82,7 +65,7 @@ class ResidualBuilder {
  private:
   void addSides(std::size_t n, const echo::EchoInstant& at, SeenCells& seen) {
     const ModelFrame& frame = model_.frames[n];
-    const std::vector<Middle> middles = middlesOf(frame, model_.structures.size());
+    const std::vector<BoundaryMiddle> middles = middlesOf(frame, model_.structures.size());
     for (const BoundaryPoint& p : frame.boundary) {
       if (!p.of_blood) continue;
       const auto [x, z, nx, nz, beside, edge] = placedEdge(p, at, map_);
@@ -92,16 +75,10 @@ class ResidualBuilder {
       const MotionPair m = motionOf(p, at, map_, x, z, nx, nz);
       length_ += sure;
       together_ += length * m.weight * m.together;
-      const Middle& middle = middles[p.surface];
-      const double turns =
-          std::atan2(p.x_m - middle.x, p.z_m - middle.z) / (2 * std::numbers::pi) + 1;
-      const double side = turns * kSides, share = side - std::floor(side);
-      const auto first = static_cast<int>(std::floor(side)) % kSides;
+      const SideShares sides = sidesOf(p, middles[p.surface]);
       const std::size_t row = (n * model_.structures.size() + p.surface) * kSides;
-      addTo(sides_[row + static_cast<std::size_t>(first)], 1 - share, sure, length * m.weight, edge,
-            m);
-      addTo(sides_[row + static_cast<std::size_t>((first + 1) % kSides)], share, sure,
-            length * m.weight, edge, m);
+      addTo(sides_[row + sides.first], 1 - sides.share, sure, length * m.weight, edge, m);
+      addTo(sides_[row + sides.second], sides.share, sure, length * m.weight, edge, m);
     }
   }
   // A share of a piece, by its weights for the edge and for the motion.
@@ -136,9 +113,10 @@ class ResidualBuilder {
     map_.place(cell.x_m, cell.z_m, x, z);
     const echo::EchoStack::Sample s = at.at(x, z);
     if (!(s.visible > 0)) return 0;
-    const double left =
-        std::sqrt(static_cast<double>(cell.area) * static_cast<double>(s.visible)) *
-        fit.left(cell.first, cell.second, cell.share, std::hypot(x, z) / at.stack().far(), s.grey);
+    const double left = std::sqrt(static_cast<double>(cell.area) * static_cast<double>(s.visible)) *
+                        (fit.left(cell.first, cell.second, cell.share,
+                                  std::hypot(x, z) / at.stack().far(), s.grey) -
+                         static_cast<double>(cell.expected));
     return std::isfinite(left) ? left : 0;  // a tissue that is hardly seen has no grey
   }
 

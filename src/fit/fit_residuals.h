@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "fit/boundary_sides.h"
 #include "fit/model_discrepancy.h"
 
 namespace echocine::fit {
@@ -11,7 +12,8 @@ namespace echocine::fit {
 // (18)  r . r = 1 + D,   D of Eq. 6
 // The residuals, in this order, for a model of F frames, C cells a frame and S structures:
 //   F C            sqrt(c w_R a / (W S_tot)) (g - g'), the grey g of a cell of area a seen, minus
-//                  that g' of its tissues and the gain (Eq. 3), frame by frame;
+//                  that g' of its tissues, the gain (Eq. 3) and what is expected (Eq. 21), frame by
+//                  frame;
 //   3 F S kSides   for each frame and structure, kSides directions from the middle of its boundary:
 //                  the mean signed distance of the edges (Eq. 4), then both components of the mean
 //                  of u - v (Eq. 5), times square roots of their weights;
@@ -20,7 +22,6 @@ namespace echocine::fit {
 // W: w_R + w_B + w_M; c: overlap. Their number depends on F, C and S only, so that models of other
 // dials are comparable residual by residual. Pieces of boundary count for the two nearest
 // directions by linear shares, so residuals are continuous.
-inline constexpr int kSides = 24;  // our choice: 5 to 10 mm of a ventricle's wall
 
 // D at one pose as residuals. Throws SceneError like checkPose(). Thread-safe.
 std::vector<double> residualsOf(const ModelDiscrepancy& discrepancy, const ModelLoop& model,

@@ -49,6 +49,7 @@ Json viewsJson(const HeartFit& fit, const std::vector<std::string>& labels) {
     json["tilt_deg"] = degreesFromRadians(view.tilt.tilt_rad);
     json["rotate_deg"] = degreesFromRadians(view.tilt.rotate_rad);
     json["beat"] = beatJson(view.beat);
+    json["own_look"] = {{"edges", view.edges_seen}, {"greys", view.greys_seen}};
     if (view.controls)
       json["controls"] = {{"own", view.controls->own},
                           {"mirrored", view.controls->mirrored},
@@ -186,6 +187,11 @@ std::vector<std::string> assumptionsOf(const HeartFit& fit) {
         "the loops are of one heart in one state: only their heart rates are compared");
   out.insert(out.end(), fit.assumed.begin(), fit.assumed.end());
   for (const ViewFitted& view : fit.views) {
+    if (view.edges_seen > 0 || view.greys_seen > 0)
+      out.push_back(fmt::format(
+          "{}: edges and greys deviate from the model as in its own rendered loops, by a factor of "
+          "{:.2f} and {:.2f}",
+          keyOf(view.view), view.edges_seen, view.greys_seen));
     if (view.beat.length_source == kLoopIsBeat)
       out.push_back(fmt::format("{}: {}", keyOf(view.view), kLoopIsBeat));
     if (!view.scaled)

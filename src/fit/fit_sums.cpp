@@ -151,7 +151,7 @@ void addCells(std::span<const TissueCell> cells, const echo::EchoInstant& at,
       sums.seen += seen;
       sums.greys.add(cell.first, cell.second, cell.share,
                      per_far * static_cast<double>(std::sqrt(squares[lane])), samples.grey[lane],
-                     seen);
+                     seen, cell.expected);
     }
     count = 0;
   };

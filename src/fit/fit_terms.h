@@ -53,7 +53,8 @@ double fitDiscrepancy(const FitTerms& terms, const FitWeights& weights = {});
 // four depths. Blood never gets a brighter grey level than another tissue: it scatters 20 to 30 dB
 // less, and no display inverts that. A boundary of blood is visible displaced by the loop's spread
 // of echoes (Eq. 9 of echo_spread.h), in a fit farther (kInside_m). The strip between counts as the
-// tissue beside the blood (SeenCells).
+// tissue beside the blood (SeenCells). Expected grey levels of cells (Eq. 21) are subtracted for
+// the residual, not for the total.
 //
 // (4)  B = < sum_s p(s) (s/S)^2 > / < (s/S)^2 >,   p(s) = exp(2 e(s)/E) / sum exp(2 e(s)/E)
 // is the mean over pieces of blood boundary, by length. Pieces with a second edge before them count
@@ -111,16 +112,21 @@ struct BoundaryOffset {
   std::uint16_t surface = 0;
   std::uint8_t segment = 0;  // of the left ventricle's wall; 0: none
   bool of_blood = false;     // blood on exactly one side
+  std::uint32_t piece = 0;   // of the model's frame
 };
 // Residual of the real grey level in a cell, in standard deviations.
 struct RegionLeft {
   float x_m = 0, z_m = 0;  // in the real plane
   float left = 0;
+  std::uint32_t cell = 0;              // of the model's frame
+  std::uint8_t first = 0, second = 0;  // tissues of the cell as it is seen (SeenCells)
+  float share = 1;                     // share of the first
 };
 struct FitMap {
   std::vector<std::vector<BoundaryOffset>> boundary;  // by frame
   std::vector<std::vector<RegionLeft>> region;        // by frame: visible cells near blood
   std::vector<double> tissue_grey;                    // by tissue
+  double deviation = 0;                               // SD of the residual grey level
 };
 FitMap fitMap(const ModelLoop& model, const echo::EchoStack& real, const FitPose& pose);
 

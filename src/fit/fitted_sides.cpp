@@ -21,9 +21,43 @@ bool exists(const std::map<std::string, double>& dials) {
   }
 }
 
+// The mean of Eq. 4's p(s) shows a part of a displacement: its edge has neighbours. Our choice.
+constexpr int kEdgeRounds = 3;
+
 // The seed of an own loop of a view.
 int seedOf(std::size_t view, int twin) {
   return 71 + static_cast<int>(view) + 100 * twin;
+}
+
+// Expects greys as far as a loop shows them, with the look's edges. `plain`: the model without it.
+void scaleGreys(const ModelLoop& plain, const ModelDiscrepancy& loop, const FitPose& pose,
+                ExpectedLook& look) {
+  ModelLoop model = plain;
+  look.edges.applyTo(model);
+  look.greys.scaleTo(model, loop.map(model, pose));
+}
+
+// The look of a model, `plain` without one, in its own loops, as far as a loop shows it.
+ExpectedLook lookIn(const std::deque<ModelDiscrepancy>& own, const ModelLoop& plain,
+                    const ModelDiscrepancy& loop, const FitPose& pose) {
+  ModelLoop model = plain;
+  const auto mapsOf = [&] {
+    std::vector<FitMap> maps;
+    for (const ModelDiscrepancy& one : own) maps.push_back(one.map(model, FitPose{}));
+    return maps;
+  };
+  ExpectedLook look{{model.frames.size(), model.structures.size()}, {}};
+  for (int round = 0; round < kEdgeRounds; ++round) {
+    look.edges.add(model, mapsOf());
+    model = plain;
+    look.edges.applyTo(model);
+  }
+  look.edges.scaleTo(plain, loop.map(plain, pose), pose.scale);
+  model = plain;
+  look.edges.applyTo(model);
+  look.greys = ExpectedGreys(model, mapsOf());
+  scaleGreys(plain, loop, pose, look);
+  return look;
 }
 
 echo::SideOptions fromFirst() {
@@ -39,6 +73,7 @@ FittedSides::FittedSides(const std::vector<FitLoop>& loops, const HeartNodes& he
   for (const FitLoop& one : loops)
     families.push_back(
         std::make_shared<const HeartFamily>(hearts, one.view, monitor, tilt_deg, true));
+  looks.resize(loops.size());
 }
 
 void FittedSides::compare(const std::vector<FitLoop>& loops, const std::vector<double>& dials) {
@@ -52,13 +87,39 @@ void FittedSides::compare(const std::vector<FitLoop>& loops, const std::vector<d
 std::vector<FitSide> FittedSides::refer() const {
   std::vector<FitSide> out;
   for (std::size_t v = 0; v < families.size(); ++v)
-    out.push_back({families[v].get(), &discrepancies[v]});
+    out.push_back({families[v].get(), &discrepancies[v], &looks[v]});
   return out;
 }
 
-ModelLoop FittedSides::modelAt(std::size_t view, const FitCost& cost, const FitPlace& place) const {
+ModelLoop FittedSides::plainAt(std::size_t view, const FitCost& cost, const FitPlace& place) const {
   return families[view]->at(cost.searchedAt(place.at), cost.tiltAt(place.at, view),
                             Focus::left_ventricle);
+}
+
+ModelLoop FittedSides::modelAt(std::size_t view, const FitCost& cost, const FitPlace& place) const {
+  ModelLoop model = plainAt(view, cost, place);
+  looks[view].applyTo(model);
+  return model;
+}
+
+bool FittedSides::expectOwnLook(const FitCost& cost, const std::vector<heart::View>& views,
+                                const FitPlace& place, const Monitor& monitor) {
+  std::vector<ExpectedLook> found(views.size());
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const ModelLoop plain = plainAt(v, cost, place);
+    std::deque<ModelDiscrepancy> own;
+    for (int twin = 0; twin < kTwins; ++twin) {
+      if (!monitor.keep_going()) return false;
+      own.emplace_back(ownLoop(cost.dialsAt(place.at), views[v], cost.tiltAt(place.at, v),
+                               kFitFrames, seedOf(v, kTwins + twin)),
+                       fromFirst(), plain);
+      monitor.tell(
+          {Task::settings, v * kTwins + static_cast<std::size_t>(twin) + 1, views.size() * kTwins});
+    }
+    found[v] = lookIn(own, plain, discrepancies[v], place.found[v].pose);
+  }
+  looks = std::move(found);
+  return true;
 }
 
 std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
@@ -67,6 +128,7 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
                                   const std::shared_ptr<FitJournal>& journal) {
   FittedSides own;
   own.families = sides.families;
+  own.looks = sides.looks;
   OwnFit out;
   std::vector<std::vector<echo::EchoLoop>> loops;
   std::vector<std::deque<ModelDiscrepancy>> others;  // than the first loop
@@ -82,6 +144,10 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
       (twin == 0 ? own.discrepancies : others[v]).emplace_back(loops[v].back(), fromFirst(), model);
     }
   }
+  // Edges are expected at the same distances as in the real loops, so that maps are comparable:
+  // regions assume that a real loop shows all of the offsets of own loops.
+  for (std::size_t v = 0; v < views.size(); ++v)
+    scaleGreys(own.plainAt(v, cost, best), own.discrepancies[v], FitPose{}, own.looks[v]);
   const FitCost again(own.refer(), cost.fixed(), tilt_deg, {journal, "own loops"});
   const FitDescent found = descendFit(again, {best.at, {}, 0}, monitor);
   if (found.stopped) return std::nullopt;

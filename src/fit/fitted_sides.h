@@ -12,6 +12,7 @@ namespace echocine::fit {
 struct FittedSides {
   std::vector<std::shared_ptr<const HeartFamily>> families;
   std::deque<ModelDiscrepancy> discrepancies;
+  std::vector<ExpectedLook> looks;  // by view; nothing is expected before expectOwnLook()
 
   FittedSides() = default;
   FittedSides(const std::vector<FitLoop>& loops, const HeartNodes& hearts, double tilt_deg,
@@ -20,8 +21,15 @@ struct FittedSides {
   // it throws, nothing has changed.
   void compare(const std::vector<FitLoop>& loops, const std::vector<double>& dials);
   std::vector<FitSide> refer() const;
+  // Measures the look of each view's model at a place, in kTwins own loops. Costs of the earlier
+  // look are invalid then. False if the monitor stopped it; nothing has changed then. Throws
+  // SceneError for an impossible heart. Precondition: the place has poses.
+  bool expectOwnLook(const FitCost& cost, const std::vector<heart::View>& views,
+                     const FitPlace& place, const Monitor& monitor);
   // A view's model at a place of the cost, as FitCost evaluates it.
   ModelLoop modelAt(std::size_t view, const FitCost& cost, const FitPlace& place) const;
+  // The same without the expected look.
+  ModelLoop plainAt(std::size_t view, const FitCost& cost, const FitPlace& place) const;
 };
 
 // A fit of the best heart's own rendered loops.

@@ -15,6 +15,7 @@
 #include "fit/fit_interval.h"
 #include "fit/fit_progress.h"
 #include "fit/fit_resamples.h"
+#include "fit/fit_stages.h"
 #include "fit/fit_starts.h"
 #include "fit/fitted_sides.h"
 #include "fit/searched_dials.h"
@@ -39,10 +40,14 @@ std::vector<DialRange> rangesOf(const HeartFitOptions& options) {
   return out;
 }
 
-void checkInput(const std::vector<FitLoop>& loops, const HeartFitOptions& options) {
+std::vector<heart::View> viewsOf(const std::vector<FitLoop>& loops) {
   std::vector<heart::View> views;
   for (const FitLoop& one : loops) views.push_back(one.view);
-  checkFitViews(views);
+  return views;
+}
+
+void checkInput(const std::vector<FitLoop>& loops, const HeartFitOptions& options) {
+  checkFitViews(viewsOf(loops));
   if (options.starts < 1 || options.descents < 1)
     throw SceneError("fit: starts and descents must be 1 or more");
   checkTilt(options.tilt_deg);
@@ -70,26 +75,6 @@ std::optional<double> rateOf(const std::vector<FitLoop>& loops, HeartFit& fit) {
   return std::clamp(sum, kLeast_bpm, kMost_bpm);
 }
 
-// Stages of a fit, with the units of FitProgress.
-struct FitStages {
-  double hearts, families, starts, descent, resamples, own;
-  std::size_t descents;
-  FitStages(std::size_t views, std::size_t hearts_made, std::size_t dials,
-            const HeartFitOptions& options)
-      : descents(static_cast<std::size_t>(std::min(options.descents, options.starts))) {
-    const auto n = static_cast<double>(views);
-    hearts = kHeartUnits * static_cast<double>(hearts_made);
-    families = kFamilyUnits * n;
-    starts = kStartUnits * n * options.starts;
-    descent = descentUnits(n, static_cast<double>(dials) + (options.tilt_deg > 0 ? 2 : 0));
-    resamples = descent * options.resamples;
-    own = options.own_loops ? kOwnLoopUnits * n + descent : 0;
-  }
-  double all() const {
-    return hearts + families + starts + descent * static_cast<double>(descents) + resamples + own;
-  }
-};
-
 std::vector<FitDescent> descentsFrom(const FitCost& cost, const std::vector<FitPlace>& starts,
                                      const FitStages& stages, FitProgress& progress) {
   std::vector<FitDescent> out;
@@ -101,6 +86,38 @@ std::vector<FitDescent> descentsFrom(const FitCost& cost, const std::vector<FitP
     return a.best.cost < b.best.cost;
   });
   return out;
+}
+
+bool anyStopped(const std::vector<FitDescent>& descents) {
+  return std::any_of(descents.begin(), descents.end(),
+                     [](const FitDescent& descent) { return descent.stopped; });
+}
+
+// Measures the look of the best heart and descends again from all ends, with a new cost. A stop
+// leaves everything as it was.
+void descendWithOwnLook(FittedSides& sides, const std::vector<heart::View>& views,
+                        const HeartFitOptions& options, const FitStages& stages,
+                        FitProgress& progress, FitCost& cost, std::vector<FitDescent>& descents,
+                        HeartFit& fit) {
+  FitPlace best = descents.front().best;
+  if (makePossible(cost, best.at)) best = cost.at(best.at, best.found);
+  const std::vector<ExpectedLook> before = sides.looks;
+  fit.stopped = !sides.expectOwnLook(cost, views, best, progress.next(stages.look));
+  if (fit.stopped) return;
+  const auto costOf = [&](const char* stage) {
+    return FitCost(sides.refer(), cost.fixed(), options.tilt_deg, {options.journal, stage});
+  };
+  cost = costOf("own look");
+  std::vector<FitPlace> ends;
+  for (const FitDescent& descent : descents) ends.push_back(descent.best);
+  std::vector<FitDescent> again = descentsFrom(cost, ends, stages, progress);
+  fit.stopped = anyStopped(again);
+  if (fit.stopped) {
+    sides.looks = before;
+    cost = costOf("descents");
+  } else {
+    descents = std::move(again);
+  }
 }
 
 // Adds the views with the best heart in each.
@@ -115,17 +132,20 @@ void addViews(const std::vector<FitLoop>& loops, const FittedSides& sides, const
     view.beat = discrepancy.beat();
     view.tilt = cost.tiltAt(best.at, v);
     view.found = best.found[v];
+    view.edges_seen = sides.looks[v].edges.shown();
+    view.greys_seen = sides.looks[v].greys.shown();
     view.scaled = loop.metres_per_pixel.has_value();
     view.report = fitReport(sides.modelAt(v, cost, best), discrepancy, loop, pose);
     fit.views.push_back(std::move(view));
   }
 }
 
+// Without the expected look, which is that of the loop itself.
 void addControls(const std::vector<FitLoop>& loops, const FittedSides& sides, const FitCost& cost,
                  const FitPlace& best, HeartFit& fit) {
   for (std::size_t v = 0; v < loops.size(); ++v) {
     fit.views[v].controls = controlFits(loops[v].loop, fit.views[v].beat.span,
-                                        sides.modelAt(v, cost, best), fit.views[v].found.pose);
+                                        sides.plainAt(v, cost, best), fit.views[v].found.pose);
   }
 }
 
@@ -238,8 +258,11 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
     sides.compare(loops, cost.searchedAt(starts.places.front().at));
     cost = FitCost(sides.refer(), fit.dials, options.tilt_deg, {options.journal, "descents"});
     descents = descentsFrom(cost, starts.places, stages, progress);
-    fit.stopped = std::any_of(descents.begin(), descents.end(),
-                              [](const FitDescent& descent) { return descent.stopped; });
+    fit.stopped = anyStopped(descents);
+  });
+  unlessStopped(monitor, fit, [&] {
+    if (stages.look > 0)
+      descendWithOwnLook(sides, viewsOf(loops), options, stages, progress, cost, descents, fit);
   });
   unstoppable([&] { keepPossible(cost, descents.front(), fit); });
   const FitPlace best = descents.front().best;

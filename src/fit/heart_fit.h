@@ -35,6 +35,9 @@ struct HeartFitOptions {
   int descents = 2;      // from the best of them
   // Fits the found heart's own rendered loops too: for regions and own_error.
   bool own_loops = true;
+  // Measures the look of the found heart in its own rendered loops, and fits again with it (Eqs. 20
+  // and 21). None: with two or more loops.
+  std::optional<bool> own_look{};
   bool other_views = true;  // compares the found heart in other views (view_check.h)
   int resamples = 0;  // blocks of the beat that are left out in turn (fit_resamples.h); 0: none
   std::filesystem::path heart_cache{};  // folder of computed hearts (HeartCache); empty: none
@@ -61,7 +64,9 @@ struct ViewFitted {
   PlaneTilt tilt;
   PoseFound found;
   bool scaled = true;  // the loop has a length scale
-  FitReport report;    // of the best heart
+  // Shares of the expected edges and greys that the loop shows; 0 without own_look.
+  double edges_seen = 0, greys_seen = 0;
+  FitReport report;  // of the best heart
   // D of the best heart in loops that do not show it; none if the fit was stopped.
   std::optional<ControlFits> controls{};
   std::optional<ViewRival> better{};  // another view that fits better

@@ -21,6 +21,7 @@ struct TissueCell {
       0;  // relative to a cell at the largest depth, reduced far from blood (plane_cells.h)
   std::uint8_t first = 0, second = 0;  // tissues
   float share = 1;                     // share of the first among both
+  float expected = 0;                  // grey level beyond that of its tissues (expected_greys.h)
 };
 
 // A piece of a visible boundary: its two sides have different tissues.

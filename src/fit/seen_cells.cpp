@@ -63,6 +63,7 @@ double SeenCells::angleOf(const BoundaryPoint& p) {
 // The middle of the strip lies between four cells, which lose in proportion to their nearness and
 // blood: D is then continuous in the place.
 void SeenCells::take(const BoundaryPoint& p, double angle_rad, double beside_m) {
+  if (!(beside_m > 0)) return;
   const double dx = -0.5 * beside_m * p.nx, dz = -0.5 * beside_m * p.nz, x = p.x_m + dx,
                z = p.z_m + dz, ahead = x * p.x_m + z * p.z_m, r = std::sqrt(x * x + z * z),
                angle = ahead > 0 ? angle_rad + smallAngle((dx * p.z_m - dz * p.x_m) / ahead)

@@ -21,7 +21,8 @@ class SeenCells {
   void start(std::span<const TissueCell> cells, std::span<const int> number = {});
   // Begins again with the cells of the last start().
   void restart(std::span<const TissueCell> cells) { cells_.assign(cells.begin(), cells.end()); }
-  // Blood becomes the tissue beside it, up to `beside_m` from a piece of boundary.
+  // Blood becomes the tissue beside it, up to `beside_m` from a piece of boundary. An edge outside
+  // the blood (beside_m < 0) changes no cell.
   void take(const BoundaryPoint& p, double beside_m) { take(p, angleOf(p), beside_m); }
   // The same with the angle of angleOf(), which is the dearest part.
   void take(const BoundaryPoint& p, double angle_rad, double beside_m);

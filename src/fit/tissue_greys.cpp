@@ -14,7 +14,8 @@ TissueGreys::TissueGreys(const std::vector<bool>& blood)
       moments_(blood.size() * (kGainKnots - 1) * kMoments, 0),
       mixed_{std::vector<double>(
                  static_cast<std::size_t>(unknowns_) * static_cast<std::size_t>(unknowns_), 0),
-             std::vector<double>(static_cast<std::size_t>(unknowns_), 0)} {}
+             std::vector<double>(static_cast<std::size_t>(unknowns_), 0)},
+      shown_((kGainKnots - 1) * kDoubleLanes, 0) {}
 
 void TissueGreys::Sums::add(const int* at, const double* value, int parts, int unknowns, double g,
                             double w) {
@@ -61,6 +62,21 @@ TissueGreys::Sums TissueGreys::all() const {
       out.square += m[5];
     }
   return out;
+}
+
+// The same cells with their whole grey levels, all of one tissue.
+TissueGreys::Sums TissueGreys::withoutTissues(Sums sums) const {
+  std::fill(sums.right.begin(), sums.right.end(), 0);
+  sums.square = 0;
+  const double* m = shown_.data();
+  for (std::size_t knot = static_cast<std::size_t>(tissues_); knot + 1 < sums.right.size();
+       ++knot, m += kDoubleLanes) {
+    sums.right[0] += m[0];
+    sums.right[knot] += m[0] - m[1];
+    sums.right[knot + 1] += m[1];
+    sums.square += m[2];
+  }
+  return sums;
 }
 
 double TissueGreys::Fit::left(int first, int second, double share, double depth, double g) const {
@@ -116,7 +132,8 @@ TissueGreys::Fit TissueGreys::solve(const Sums& sums, const std::vector<int>& gr
 // under that order (pooling of violators, Barlow et al. 1972).
 TissueGreys::Fit TissueGreys::fit() const {
   const Sums sums = all();
-  const Fit one_grey = solve(sums, std::vector<int>(static_cast<std::size_t>(tissues_), 0));
+  const std::vector<int> one_group(static_cast<std::size_t>(tissues_), 0);
+  const Fit one_grey = solve(any_expected_ ? withoutTissues(sums) : sums, one_group);
   if (!one_grey.solved) return one_grey;
   std::vector<int> group;
   int groups = 1;  // group 0 is blood

@@ -17,19 +17,25 @@ class TissueGreys {
   explicit TissueGreys(const std::vector<bool>& blood);
 
   // A cell of grey level g with a share `share` of tissue `first`, the rest of `second`. depth: 0
-  // to 1.
-  void add(int first, int second, double share, double depth, double g, double weight) {
+  // to 1. `expected`: a part of g that the model knows beyond its tissues. The total sum of squares
+  // includes it.
+  void add(int first, int second, double share, double depth, double g, double weight,
+           double expected = 0) {
     const double place = depth * (kGainKnots - 1);
     const int knot = place >= kGainKnots - 1 ? kGainKnots - 2
                      : place < 0             ? 0
                                              : static_cast<int>(place);
-    const double high = place - knot;
+    const double high = place - knot, rest = g - expected;
+    any_expected_ |= expected != 0;
+    double* all = shown_.data() + knot * kDoubleLanes;
+    store(lanesAt(all) + weight * Doubles4{g, high * g, g * g, 0}, all);
     if (first == second || share >= 1) {
       double* m = moments_.data() + (first * (kGainKnots - 1) + knot) * kMoments;
-      store(lanesAt(m) + weight * Doubles4{1, high, high * high, g}, m);
-      store(lanesAt(m + kDoubleLanes) + weight * Doubles4{high * g, g * g, 0, 0}, m + kDoubleLanes);
+      store(lanesAt(m) + weight * Doubles4{1, high, high * high, rest}, m);
+      store(lanesAt(m + kDoubleLanes) + weight * Doubles4{high * rest, rest * rest, 0, 0},
+            m + kDoubleLanes);
     } else {
-      addMixed(first, second, share, knot, high, g, weight);
+      addMixed(first, second, share, knot, high, rest, weight);
     }
   }
 
@@ -57,6 +63,7 @@ class TissueGreys {
   void addMixed(int first, int second, double share, int knot, double high, double g,
                 double weight);
   Sums all() const;
+  Sums withoutTissues(Sums sums) const;
   Fit solve(const Sums& sums, const std::vector<int>& group_of) const;
 
   std::vector<bool> blood_;
@@ -66,6 +73,9 @@ class TissueGreys {
   static constexpr std::size_t kMoments = 2 * kDoubleLanes;
   std::vector<double> moments_;
   Sums mixed_;  // of cells of two tissues
+  // Sums of g, h g and g^2 over all cells, by knot. g includes expected parts.
+  std::vector<double> shown_;
+  bool any_expected_ = false;
 };
 
 }  // namespace echocine::fit

@@ -52,19 +52,22 @@ TEST(FitResiduals, TheirSquaresSumToTheDiscrepancy) {
   });
 }
 
-// Also where pieces have weights, and edges that lie farther inside.
-TEST(FitResiduals, WeightedPiecesSumToTheDiscrepancyToo) {
+// Also where pieces have weights and edges inside or outside the blood, and cells expected greys.
+TEST(FitResiduals, WeightedPiecesAndExpectedGreysSumToTheDiscrepancyToo) {
   withThreads(2, [] {
     ModelLoop model = phantomOf({1, 0.15});
     const FitPose pose{0.004, -0.003, 0.05, 1.01};
     const double even = drawnLoop().at(model, pose).discrepancy;
     std::uint64_t number = 0;
-    for (ModelFrame& frame : model.frames)
+    for (ModelFrame& frame : model.frames) {
+      for (TissueCell& cell : frame.cells)
+        cell.expected = static_cast<float>(20 * uniformFromHash(hashOf(number++, 3, 5)) - 10);
       for (BoundaryPoint& p : frame.boundary) {
         p.weight = static_cast<float>(uniformFromHash(hashOf(number, 1, 5)));
         p.alone = static_cast<float>(uniformFromHash(hashOf(number++, 2, 5)));
-        p.inside_m = 0.6e-3f;
+        p.inside_m = static_cast<float>(3e-3 - 6e-3 * uniformFromHash(hashOf(number, 4, 5)));
       }
+    }
     const double weighted = drawnLoop().at(model, pose).discrepancy;
     EXPECT_GT(std::abs(weighted - even), 1e-4);
     EXPECT_NEAR(squareOf(residualsOf(drawnLoop(), model, pose)), 1 + weighted, 1e-9);

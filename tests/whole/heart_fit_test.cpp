@@ -49,6 +49,7 @@ TEST(HeartFit, APlantedHeartIsFound) {
     HeartFitOptions options;
     options.searched = {"ef", "edv"};
     options.tilt_deg = 0;
+    options.own_look = true;
     options.starts = 2;
     options.descents = 1;
     const HeartFit fit = fitHeart({{View::a4c, loop, fromFirst()}}, options);
@@ -74,6 +75,10 @@ TEST(HeartFit, APlantedHeartIsFound) {
     EXPECT_EQ(file["fixed_dials"], nlohmann::json(fit.fixed));
     EXPECT_TRUE(file["fixed_dials"].contains("hr"));
     EXPECT_EQ(file["tilt_limit_deg"], options.tilt_deg);
+    // The loop has the look of own loops, except media, gain and grey curve.
+    EXPECT_GT(fit.views[0].greys_seen, 0.5);
+    EXPECT_EQ(file["views"][0]["own_look"]["greys"], fit.views[0].greys_seen);
+    EXPECT_EQ(file["views"][0]["own_look"]["edges"], fit.views[0].edges_seen);
     EXPECT_NE(bytesOf(folder / "fit/curves.csv").find("lv_ml"), std::string::npos);
     EXPECT_NE(bytesOf(folder / "fit/fit.html").find("a4c twin"), std::string::npos);
     ASSERT_TRUE(fit.views[0].controls);
@@ -105,6 +110,7 @@ TEST(HeartFit, AFlippedAndAShuffledLoopAreRefusedAndAKilledFitResumes) {
     options.dials = {{"hr", 72}};
     options.tilt_deg = 0;
     options.starts = options.descents = 1;
+    options.own_look = true;
     options.own_loops = options.other_views = false;
     options.heart_cache = folder / "hearts";
     const auto fitted = [&](const EchoLoop& given) {

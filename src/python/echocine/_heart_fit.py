@@ -85,8 +85,8 @@ Sides = Union[None, Mapping[str, Mapping[str, Any]], Sequence[Mapping[str, Any]]
 
 
 def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
-        searched: Optional[Sequence[str]] = None, tilt_deg: float = 12, starts: int = 12, descents: int = 2, own_loops: bool = True, resamples: int = 0,
-        cache: Union[bool, PathLike] = True, resume: bool = False, threads: int = 0, progress: Progress = None, **dials: float) -> HeartFit:
+        searched: Optional[Sequence[str]] = None, tilt_deg: float = 12, starts: int = 12, descents: int = 2, own_look: Optional[bool] = None, own_loops: bool = True,
+        resamples: int = 0, cache: Union[bool, PathLike] = True, resume: bool = False, threads: int = 0, progress: Progress = None, **dials: float) -> HeartFit:
     """Fits a beating heart to one to three echo loops, as ``echocine fit`` does.
 
     Args:
@@ -100,6 +100,8 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
         tilt_deg: limit of tilt and rotation of each plane, either way, 0 (none) to 20.
         starts: hearts that are compared first.
         descents: searches, from the best of them.
+        own_look: measures in rendered loops of the found heart where its edges and which grey levels are seen, and fits again;
+            None: with two or more loops.
         own_loops: fits the found heart's own rendered loops too, for regions and the error of such a fit.
         resamples: fits again without each of so many blocks of the beat, 4 to 10: intervals include their spread; 0: none.
         cache: keeps computed hearts in the user's cache folder and reads them there; a path: in this folder; False: does neither.
@@ -115,7 +117,7 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
     fixed = {name.replace("_", "-"): _number(f"dials: {name}", value) for name, value in dials.items()}
     keys = None if searched is None else [str(name).replace("_", "-") for name in searched]
     text, curves, found = _echocine.fit(given, None if folder is None else Path(folder), fixed, keys, tilt_deg, starts, descents,
-                                        own_loops, resamples, _cache_folder(cache), resume, threads, report_to(progress))
+                                        own_look, own_loops, resamples, _cache_folder(cache), resume, threads, report_to(progress))
     return HeartFit(json.loads(text), curves, found)
 
 
