@@ -1,7 +1,8 @@
-// fit_table VIEWS HEARTS [FIRST [DEGREES [DIALS]]]: fits of planted hearts, one line each, then
-// bias, RMS, the model error of Eq. 15 and how many intervals hold the planted value. DEGREES
-// limits tilts and rotations of the planes. DIALS are those searched, separated by commas.
-// fit_table VIEWS foreign [DEGREES [DIALS]]: the same for meshes of other people.
+// fit_table VIEWS HEARTS [KEY=VALUE ...]: fits of planted hearts, one line each, then bias, RMS,
+// the model error of Eq. 15 and how many intervals hold the planted value. Keys: `first`, number of
+// the first heart; `degrees`, limit of tilts and rotations of the planes; `dials`, those searched,
+// separated by commas; `look`, that of the planted loops; `own_look` and `own_loops`, 1 or 0: with
+// or without. fit_table VIEWS foreign [KEY=VALUE ...]: the same for meshes of other people.
 
 #include <fmt/format.h>
 
@@ -10,11 +11,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
+#include <optional>
 
 #include "core/parallel.h"
 #include "fit/fit_interval.h"
 #include "fit/fit_strain.h"
 #include "fit/option_list.h"
+#include "scene/names.h"
 #include "support/planted_fits.h"
 #include "support/whole_patient.h"
 
@@ -106,25 +110,39 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
   std::fflush(stdout);
 }
 
+constexpr const char* kUsage =
+    "fit_table VIEWS HEARTS|foreign [first=N] [degrees=D] [dials=A,B] [look=LOOK] [own_look=0] "
+    "[own_loops=0]";
+
 int run(int argc, char** argv) {
-  if (argc < 3) {
-    fmt::print(
-        "fit_table VIEWS HEARTS [FIRST [DEGREES [DIALS]]], or fit_table VIEWS foreign [DEGREES "
-        "[DIALS]]\n");
+  std::map<std::string, std::string> given{{"first", "0"},   {"degrees", ""},
+                                           {"dials", ""},    {"look", "scanner"},
+                                           {"own_look", ""}, {"own_loops", "1"}};
+  bool known = argc >= 3;
+  for (int i = 3; i < argc; ++i) {
+    const std::vector<std::string> parts = splitOption(argv[i], '=');
+    known = known && parts.size() == 2 && given.contains(parts[0]);
+    if (known) given[parts[0]] = parts[1];
+  }
+  const std::optional<Look> look = valueOf<Look>(given["look"]);
+  if (!known || !look) {
+    fmt::print("{}\n", kUsage);
     return 2;
   }
   const auto views = static_cast<std::size_t>(std::clamp(std::atoi(argv[1]), 1, 3));
   const bool foreign = std::strcmp(argv[2], "foreign") == 0;
-  const int hearts = std::atoi(argv[2]), first = argc > 3 ? std::atoi(argv[3]) : 0;
-  const double most_deg = argc > 4 ? std::atof(argv[4]) : 8;
+  const int hearts = std::atoi(argv[2]), first = std::atoi(given["first"].c_str());
+  const double most_deg =
+      given["degrees"].empty() ? (foreign ? 5 : 8) : std::atof(given["degrees"].c_str());
   HeartFitOptions options;
-  if (const int at = foreign ? 4 : 5; argc > at) options.searched = splitOption(argv[at], ',');
+  if (!given["dials"].empty()) options.searched = splitOption(given["dials"], ',');
+  if (!given["own_look"].empty()) options.own_look = given["own_look"] != "0";
+  options.own_loops = given["own_loops"] != "0";
   Errors ef{"EF"}, edv{"EDV, relative"}, gls{"GLS"};
   withThreads(0, [&] {
     if (foreign) {
-      const double off_deg = argc > 3 ? std::atof(argv[3]) : 5;
       int n = 0;
-      for (const double deg : {0.0, off_deg})
+      for (const double deg : {0.0, most_deg})
         for (const ForeignHeart& heart : kForeignHearts) {
           fmt::print("{}, planes off by up to {:g} degrees\n", heart.name, deg);
           tellFit(n, foreignHeart(heart.in, n, views, deg), options, ef, edv, gls);
@@ -133,7 +151,7 @@ int run(int argc, char** argv) {
       return;
     }
     for (int n = first; n < first + hearts; ++n)
-      tellFit(n, plantedHeart(n, views, most_deg), options, ef, edv, gls);
+      tellFit(n, plantedHeart(n, views, most_deg, *look), options, ef, edv, gls);
   });
   ef.print();
   edv.print();

@@ -1,6 +1,6 @@
 #pragma once
 // Random hearts as loops, for fits: dials that a fit searches and dials that it does not, planes
-// off their views, and another scanner's media and look.
+// off their views, and another scanner's media, gain, grey curve and, if requested, look.
 
 #include <algorithm>
 #include <map>
@@ -52,7 +52,8 @@ inline std::vector<double> volumesOf(const Scene& scene) {
 
 // Heart `number` of an endless list in 1 to 3 views, with tilt and rotation of each plane within
 // +-most_deg.
-inline PlantedHeart plantedHeart(int number, std::size_t views, double most_deg) {
+inline PlantedHeart plantedHeart(int number, std::size_t views, double most_deg,
+                                 Look look = Look::scanner) {
   const auto drawn = [&](int k, double low, double high) {
     return low + (high - low) * uniformFromHash(hashOf(number, k, 911));
   };
@@ -70,8 +71,7 @@ inline PlantedHeart plantedHeart(int number, std::size_t views, double most_deg)
   dials["mapse"] = 13 * dials["ef"] / 0.6 * drawn(6, 0.8, 1.2);
   dials["rv-edv"] = dials["edv"] * std::max(drawn(8, 0.9, 1.2), 1.2 * dials["ef"]);
   for (std::size_t v = 0; v < views; ++v) {
-    Scene scene =
-        heart::heartScene(heart::parametersFrom(dials), kPlantedViews[v], 20, Look::scanner);
+    Scene scene = heart::heartScene(heart::parametersFrom(dials), kPlantedViews[v], 20, look);
     const int k = static_cast<int>(v);
     scene.probe.pose =
         turnedAndTilted(scene.probe.pose, radiansFromDegrees(drawn(30 + k, -most_deg, most_deg)),
