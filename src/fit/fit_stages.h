@@ -20,7 +20,7 @@ struct FitStages {
     families = kFamilyUnits * n;
     starts = kStartUnits * n * options.starts;
     descent = descentUnits(n, static_cast<double>(dials) + (options.tilt_deg > 0 ? 2 : 0));
-    look = options.own_look.value_or(views > 1) ? kOwnLoopUnits * n : 0;
+    look = options.own_look ? kOwnLoopUnits * n : 0;
     resamples = descent * options.resamples;
     own = options.own_loops ? kOwnLoopUnits * n + descent : 0;
   }

@@ -36,8 +36,8 @@ struct HeartFitOptions {
   // Fits the found heart's own rendered loops too: for regions and own_error.
   bool own_loops = true;
   // Measures the look of the found heart in its own rendered loops, and fits again with it (Eqs. 20
-  // and 21). None: with two or more loops.
-  std::optional<bool> own_look{};
+  // and 21). It brings no gain on average (README.md).
+  bool own_look = false;
   bool other_views = true;  // compares the found heart in other views (view_check.h)
   int resamples = 0;  // blocks of the beat that are left out in turn (fit_resamples.h); 0: none
   std::filesystem::path heart_cache{};  // folder of computed hearts (HeartCache); empty: none

@@ -85,7 +85,7 @@ Sides = Union[None, Mapping[str, Mapping[str, Any]], Sequence[Mapping[str, Any]]
 
 
 def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
-        searched: Optional[Sequence[str]] = None, tilt_deg: float = 12, starts: int = 12, descents: int = 2, own_look: Optional[bool] = None, own_loops: bool = True,
+        searched: Optional[Sequence[str]] = None, tilt_deg: float = 12, starts: int = 12, descents: int = 2, own_look: bool = False, own_loops: bool = True,
         resamples: int = 0, cache: Union[bool, PathLike] = True, resume: bool = False, threads: int = 0, progress: Progress = None, **dials: float) -> HeartFit:
     """Fits a beating heart to one to three echo loops, as ``echocine fit`` does.
 
@@ -100,8 +100,7 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
         tilt_deg: limit of tilt and rotation of each plane, either way, 0 (none) to 20.
         starts: hearts that are compared first.
         descents: searches, from the best of them.
-        own_look: measures in rendered loops of the found heart where its edges and which grey levels are seen, and fits again;
-            None: with two or more loops.
+        own_look: measures in rendered loops of the found heart where its edges and which grey levels are seen, and fits again.
         own_loops: fits the found heart's own rendered loops too, for regions and the error of such a fit.
         resamples: fits again without each of so many blocks of the beat, 4 to 10: intervals include their spread; 0: none.
         cache: keeps computed hearts in the user's cache folder and reads them there; a path: in this folder; False: does neither.
