@@ -23,18 +23,6 @@ Balloon::Axes Balloon::axes() const {
   return {length_m, along, u, cross(along, u)};
 }
 
-double Balloon::radius(double zeta, double rho, double length_m) const {
-  const double grown =
-      ring_zone > 0 ? std::lerp(1.0, girth, smoothStep(0, ring_zone, zeta)) : girth;
-  return grown * length_m * rho;
-}
-
-Vec3d Balloon::centre(double zeta) const {
-  const double middle = std::clamp(4 * zeta * (1 - zeta), 0.0, 1.0);
-  return ring + zeta * (roof - ring) + middle * bow;
-}
-
-// The same in lanes.
 Doubles4 Balloon::radius(Doubles4 zeta, Doubles4 rho, double length_m) const {
   const Doubles4 all = Doubles4{} + girth;
   const Doubles4 grown =
@@ -45,6 +33,15 @@ Doubles4 Balloon::radius(Doubles4 zeta, Doubles4 rho, double length_m) const {
 FourPoints Balloon::centre(Doubles4 zeta) const {
   const Doubles4 middle = clamped(4 * zeta * (1 - zeta), Doubles4{}, Doubles4{} + 1);
   return inAllLanes(ring) + zeta * inAllLanes(roof - ring) + middle * inAllLanes(bow);
+}
+
+double Balloon::radius(double zeta, double rho, double length_m) const {
+  return radius(Doubles4{} + zeta, Doubles4{} + rho, length_m)[0];
+}
+
+Vec3d Balloon::centre(double zeta) const {
+  const FourPoints same = centre(Doubles4{} + zeta);
+  return {same.x[0], same.y[0], same.z[0]};
 }
 
 double Balloon::radiusTowards(Vec3d point, double zeta) const {

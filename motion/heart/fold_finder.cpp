@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/stop.h"
+#include "motion/heart/four_points.h"
 #include "motion/keyframes/interpolation.h"
 #include "motion/keyframes/keyframe_pair.h"
 
@@ -21,17 +22,11 @@ int instantsBetween(double left, double right) {
   return std::max(kLeastBetween, static_cast<int>(std::ceil((right - left) / kFoldStep)));
 }
 
-struct Lanes3 {
-  Doubles4 x, y, z;
-};
-Lanes3 operator-(const Lanes3& a, const Lanes3& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
+FourPoints half(const FourPoints& a, const FourPoints& b) {
+  return (Doubles4{} + 0.5) * (a + b);
 }
-Lanes3 half(const Lanes3& a, const Lanes3& b) {
-  return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z)};
-}
-Doubles4 squareOf(const Lanes3& a) {
-  return a.x * a.x + a.y * a.y + a.z * a.z;
+Doubles4 squareOf(const FourPoints& a) {
+  return dot(a, a);
 }
 
 // An edge of a face in the four keyframes about an interval, for four intervals.
@@ -43,7 +38,7 @@ struct EdgeLanes {
     };
     for (std::size_t i = 0; i < at.size(); ++i) at[i] = {edge(0, i), edge(1, i), edge(2, i)};
   }
-  std::array<Lanes3, 4> at;
+  std::array<FourPoints, 4> at;
 };
 
 }  // namespace
@@ -102,18 +97,18 @@ FoldFinder::Middle FoldFinder::middleOf(const BeatRows& rows, const Face& face,
                                         std::size_t first) const {
   const Doubles4 before = lanesAt(&before_[first]), after = lanesAt(&after_[first]),
                  half_way = lanesAt(&half_[first]), sum = before + after + half_way;
-  const auto changeOf = [&](const EdgeLanes& edge, const Lanes3& middle) {
+  const auto changeOf = [&](const EdgeLanes& edge, const FourPoints& middle) {
     return sum *
            (before * squareOf(edge.at[0] - middle) + half_way * squareOf(edge.at[2] - edge.at[1]) +
             after * squareOf(edge.at[3] - middle));
   };
   const EdgeLanes e(rows, face[0], face[1], first), f(rows, face[0], face[2], first);
-  const Lanes3 a = half(e.at[1], e.at[2]), b = half(f.at[1], f.at[2]);
+  const FourPoints a = half(e.at[1], e.at[2]), b = half(f.at[1], f.at[2]);
   const Doubles4 change_a = changeOf(e, a), change_b = changeOf(f, b);
   const Doubles4 square_a = squareOf(a), square_b = squareOf(b);
   const Doubles4 change = squareRoot(square_a * change_b) + squareRoot(square_b * change_a) +
                           squareRoot(change_a * change_b);
-  const Lanes3 normal{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  const FourPoints normal = cross(a, b);
   const Doubles4 square = squareOf(normal);
   constexpr double kCalmSine = 0.34, kThin = 1e-12;  // below sin(20 deg); room for rounding
   const Mask4 is_calm =
