@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "core/check.h"
 #include "core/parallel.h"
@@ -21,22 +22,14 @@ struct CellSums {
   std::vector<double> residual, weight;
 };
 
-// Convolves rows of `count` cells at a distance of `step` with the Gaussian.
-void blurRows(std::vector<double>& cells, int rows, int row_step, int count, int step) {
-  double kernel[2 * kReach_cells + 1];
-  for (int d = -kReach_cells; d <= kReach_cells; ++d)
-    kernel[d + kReach_cells] = std::exp(-0.5 * d * d / (kSpread_cells * kSpread_cells));
-  std::vector<double> row(static_cast<std::size_t>(count));
-  for (int r = 0; r < rows; ++r) {
-    double* const first = cells.data() + r * row_step;
-    for (int i = 0; i < count; ++i) row[static_cast<std::size_t>(i)] = first[i * step];
-    for (int i = 0; i < count; ++i) {
-      double sum = 0;
-      for (int d = std::max(-kReach_cells, -i); d <= std::min(kReach_cells, count - 1 - i); ++d)
-        sum += kernel[d + kReach_cells] * row[static_cast<std::size_t>(i + d)];
-      first[i * step] = sum;
-    }
-  }
+// Adds the neighbours of each cell, weighted by a Gaussian that is 1 at the cell itself.
+void blur(const ModelLoop& model, std::vector<double>& cells) {
+  static const cv::Mat kernel = [] {
+    const cv::Mat even = cv::getGaussianKernel(2 * kReach_cells + 1, kSpread_cells, CV_64F);
+    return cv::Mat(even / even.at<double>(kReach_cells));
+  }();
+  const cv::Mat all(model.cells_across, model.cells_along, CV_64F, cells.data());
+  cv::sepFilter2D(all.clone(), all, CV_64F, kernel, kernel, {-1, -1}, 0, cv::BORDER_CONSTANT);
 }
 
 CellSums sumsOf(std::size_t tissue, std::size_t frame, const ModelLoop& model,
@@ -52,10 +45,8 @@ CellSums sumsOf(std::size_t tissue, std::size_t frame, const ModelLoop& model,
       out.residual[r.cell] += w * static_cast<double>(r.left);
       out.weight[r.cell] += w;
     }
-  for (std::vector<double>* cells : {&out.residual, &out.weight}) {
-    blurRows(*cells, model.cells_along, 1, model.cells_across, model.cells_along);
-    blurRows(*cells, model.cells_across, model.cells_along, model.cells_along, 1);
-  }
+  blur(model, out.residual);
+  blur(model, out.weight);
   return out;
 }
 

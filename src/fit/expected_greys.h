@@ -31,6 +31,7 @@ class ExpectedGreys {
   // Sets TissueCell::expected. The model has the same tissues, frames and number of cells.
   void applyTo(ModelLoop& model) const;
 
+  bool empty() const { return field_.empty(); }
   double shown() const { return shown_; }  // c
 
  private:

@@ -29,14 +29,6 @@ int seedOf(std::size_t view, int twin) {
   return 71 + static_cast<int>(view) + 100 * twin;
 }
 
-// Expects greys as far as a loop shows them, with the look's edges. `plain`: the model without it.
-void scaleGreys(const ModelLoop& plain, const ModelDiscrepancy& loop, const FitPose& pose,
-                ExpectedLook& look) {
-  ModelLoop model = plain;
-  look.edges.applyTo(model);
-  look.greys.scaleTo(model, loop.map(model, pose));
-}
-
 // The look of a model, `plain` without one, in its own loops, as far as a loop shows it.
 ExpectedLook lookIn(const std::deque<ModelDiscrepancy>& own, const ModelLoop& plain,
                     const ModelDiscrepancy& loop, const FitPose& pose) {
@@ -56,7 +48,7 @@ ExpectedLook lookIn(const std::deque<ModelDiscrepancy>& own, const ModelLoop& pl
   model = plain;
   look.edges.applyTo(model);
   look.greys = ExpectedGreys(model, mapsOf());
-  scaleGreys(plain, loop, pose, look);
+  look.greys.scaleTo(model, loop.map(model, pose));
   return look;
 }
 
@@ -146,8 +138,13 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
   }
   // Edges are expected at the same distances as in the real loops, so that maps are comparable:
   // regions assume that a real loop shows all of the offsets of own loops.
-  for (std::size_t v = 0; v < views.size(); ++v)
-    scaleGreys(own.plainAt(v, cost, best), own.discrepancies[v], FitPose{}, own.looks[v]);
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    auto& [edges, greys] = own.looks[v];
+    if (greys.empty()) continue;
+    ModelLoop model = own.plainAt(v, cost, best);
+    edges.applyTo(model);
+    greys.scaleTo(model, own.discrepancies[v].map(model, FitPose{}));
+  }
   const FitCost again(own.refer(), cost.fixed(), tilt_deg, {journal, "own loops"});
   const FitDescent found = descendFit(again, {best.at, {}, 0}, monitor);
   if (found.stopped) return std::nullopt;

@@ -261,7 +261,7 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
     fit.stopped = anyStopped(descents);
   });
   unlessStopped(monitor, fit, [&] {
-    if (stages.look > 0)
+    if (options.own_look)
       descendWithOwnLook(sides, viewsOf(loops), options, stages, progress, cost, descents, fit);
   });
   unstoppable([&] { keepPossible(cost, descents.front(), fit); });

@@ -15,7 +15,7 @@ TissueGreys::TissueGreys(const std::vector<bool>& blood)
       mixed_{std::vector<double>(
                  static_cast<std::size_t>(unknowns_) * static_cast<std::size_t>(unknowns_), 0),
              std::vector<double>(static_cast<std::size_t>(unknowns_), 0)},
-      shown_((kGainKnots - 1) * kDoubleLanes, 0) {}
+      expected_((kGainKnots - 1) * kDoubleLanes, 0) {}
 
 void TissueGreys::Sums::add(const int* at, const double* value, int parts, int unknowns, double g,
                             double w) {
@@ -64,11 +64,9 @@ TissueGreys::Sums TissueGreys::all() const {
   return out;
 }
 
-// The same cells with their whole grey levels, all of one tissue.
-TissueGreys::Sums TissueGreys::withoutTissues(Sums sums) const {
-  std::fill(sums.right.begin(), sums.right.end(), 0);
-  sums.square = 0;
-  const double* m = shown_.data();
+// The same cells with their whole grey levels, for a fit of all tissues as one.
+TissueGreys::Sums TissueGreys::withExpected(Sums sums) const {
+  const double* m = expected_.data();
   for (std::size_t knot = static_cast<std::size_t>(tissues_); knot + 1 < sums.right.size();
        ++knot, m += kDoubleLanes) {
     sums.right[0] += m[0];
@@ -132,8 +130,8 @@ TissueGreys::Fit TissueGreys::solve(const Sums& sums, const std::vector<int>& gr
 // under that order (pooling of violators, Barlow et al. 1972).
 TissueGreys::Fit TissueGreys::fit() const {
   const Sums sums = all();
-  const std::vector<int> one_group(static_cast<std::size_t>(tissues_), 0);
-  const Fit one_grey = solve(any_expected_ ? withoutTissues(sums) : sums, one_group);
+  const Fit one_grey =
+      solve(withExpected(sums), std::vector<int>(static_cast<std::size_t>(tissues_), 0));
   if (!one_grey.solved) return one_grey;
   std::vector<int> group;
   int groups = 1;  // group 0 is blood

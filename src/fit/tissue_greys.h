@@ -26,9 +26,11 @@ class TissueGreys {
                      : place < 0             ? 0
                                              : static_cast<int>(place);
     const double high = place - knot, rest = g - expected;
-    any_expected_ |= expected != 0;
-    double* all = shown_.data() + knot * kDoubleLanes;
-    store(lanesAt(all) + weight * Doubles4{g, high * g, g * g, 0}, all);
+    if (expected != 0) {
+      double* all = expected_.data() + knot * kDoubleLanes;
+      store(lanesAt(all) + weight * Doubles4{expected, high * expected, expected * (g + rest), 0},
+            all);
+    }
     if (first == second || share >= 1) {
       double* m = moments_.data() + (first * (kGainKnots - 1) + knot) * kMoments;
       store(lanesAt(m) + weight * Doubles4{1, high, high * high, rest}, m);
@@ -63,7 +65,7 @@ class TissueGreys {
   void addMixed(int first, int second, double share, int knot, double high, double g,
                 double weight);
   Sums all() const;
-  Sums withoutTissues(Sums sums) const;
+  Sums withExpected(Sums sums) const;
   Fit solve(const Sums& sums, const std::vector<int>& group_of) const;
 
   std::vector<bool> blood_;
@@ -73,9 +75,8 @@ class TissueGreys {
   static constexpr std::size_t kMoments = 2 * kDoubleLanes;
   std::vector<double> moments_;
   Sums mixed_;  // of cells of two tissues
-  // Sums of g, h g and g^2 over all cells, by knot. g includes expected parts.
-  std::vector<double> shown_;
-  bool any_expected_ = false;
+  // Sums of g, h g and g^2 over all cells that expected parts add, by knot.
+  std::vector<double> expected_;
 };
 
 }  // namespace echocine::fit
