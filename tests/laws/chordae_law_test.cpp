@@ -248,8 +248,8 @@ TEST_F(StrandLaw, AStrandBesideThePlaneFadesAsTheBeam) {
   }
 }
 
-// Law: a strand that leaves the beam adds as much in many stretches, of which most lie beyond the
-// beam, as in one.
+// Law: a strand that leaves the beam adds the same echo in 64 stretches as in one, although most of
+// the 64 lie outside the beam.
 TEST_F(StrandLaw, AStrandAddsTheSameInManyStretches) {
   constexpr int kStretches = 64;
   for (const float z_m : {0.02f, 0.08f, 0.15f}) {

@@ -1,4 +1,4 @@
-// What a model's own loops show beyond its tissues is expected in a real loop.
+// Edges and grey levels measured in rendered loops of a model are expected in a real loop.
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ double none(const TissueCell&) {
   return 0;
 }
 
-// Grey levels of which a part is known: the residual is that of the rest, the total is that of all.
+// Known parts of the grey levels are subtracted from the residual, but remain in the total.
 TEST(FitOwnLook, KnownGreysCountAsExplained) {
   TissueGreys whole({false, true}), rest({false, true}), known({false, true});
   for (int i = 0; i < 400; ++i) {
@@ -162,7 +162,7 @@ TEST(FitOwnLook, ResidualsAreExpectedByTissueAndAsFarAsTheLoopShowsThem) {
   for (const TissueCell& cell : seen.frames[4].cells) EXPECT_EQ(cell.expected, 0);
 }
 
-// Edges of a model in drawn loops of another phantom or pose, in `rounds`.
+// Edges of a model, measured in drawn loops of another phantom or pose.
 ExpectedEdges edgesIn(const Phantom& drawn, const FitPose& pose, const ModelLoop& model) {
   std::vector<ModelDiscrepancy> own;
   for (const std::uint64_t seed : {1, 2, 3})
