@@ -155,7 +155,7 @@ void printGreys(const LookHearts& options) {
   for (const ViewName& view : viewNames()) {
     if (!options.view.empty() && options.view != view.key) continue;
     std::vector<GreyMeasures> columns[2];
-    for (int h = 0; h < options.hearts; ++h) {
+    for (int h = options.first; h < options.first + options.hearts; ++h) {
       Scene scene = heart::heartScene(parametersOf(h), view.view, 12);
       takeTables(options, scene);
       seedScene(h, scene);

@@ -1,5 +1,6 @@
 // echo_looks: texture of simulated apical stills beside that of clinical ones.
 //   echo_looks [--hearts N] [--quality good|medium|poor] [--with TOML] [--save FOLDER]
+//     --first N: number of the first heart, from 0, here and below
 //   echo_looks --measure FILE MILLIMETRES_PER_PIXEL     frame 0 of a real loop
 //   echo_looks --real FILE=MILLIMETRES_PER_PIXEL [--real ...] [--hearts N] [--view a4c|a2c]
 //   echo_looks --greys 1 [--hearts N] [--look NAME] [--view NAME] [--with TOML] [--save FOLDER]
@@ -169,7 +170,7 @@ void classify(Options options) {
   std::vector<PictureGroup> simulated, real;
   for (const auto& [file, mm_per_pixel] : options.real)
     options.coarse_mm = std::max(options.coarse_mm, mm_per_pixel);
-  for (int h = 0; h < options.hearts; ++h) {
+  for (int h = options.first; h < options.first + options.hearts; ++h) {
     options.quality = std::array{Quality::good, Quality::medium, Quality::poor}[h % 3];
     std::map<int, Column> columns;
     addHeart(h, options, columns);
@@ -201,6 +202,7 @@ int run(int count, char** words) {
   for (int i = 1; i + 1 < count; i += 2) {
     const std::string key = words[i];
     if (key == "--hearts") options.hearts = std::atoi(words[i + 1]);
+    if (key == "--first") options.first = std::atoi(words[i + 1]);
     if (key == "--quality")
       options.quality = valueOf<Quality>(words[i + 1]).value_or(options.quality);
     if (key == "--look") options.look = valueOf<Look>(words[i + 1]).value_or(options.look);
@@ -236,7 +238,8 @@ int run(int count, char** words) {
     return 0;
   }
   std::map<int, Column> columns;
-  for (int h = 0; h < options.hearts; ++h) addHeart(h, options, columns);
+  for (int h = options.first; h < options.first + options.hearts; ++h)
+    addHeart(h, options, columns);
   printTable(columns);
   return 0;
 }

@@ -12,7 +12,7 @@
 namespace echocine::bench {
 
 struct LookHearts {
-  int hearts = 12;
+  int hearts = 12, first = 0;
   Look look = Look::scanner;
   Quality quality = Quality::medium;
   std::string view;        // of the table of greys; empty: all eight
