@@ -11,14 +11,10 @@
 
 namespace echocine::fit {
 
-namespace {
-
 // Minus the log-likelihood. D is never 0: no loop is without noise.
-double lossOf(double discrepancy) {
-  return 0.5 * kLoopSamples * std::log(std::max(discrepancy, 1e-3));
+double viewCostOf(const PoseFound& found) {
+  return 0.5 * kLoopSamples * std::log(std::max(found.discrepancy, 1e-3));
 }
-
-}  // namespace
 
 ModelLoop FitSide::modelAt(const std::vector<double>& values, const PlaneTilt& tilt) const {
   ModelLoop model = family->at(values, tilt, Focus::left_ventricle);
@@ -106,7 +102,7 @@ FitPlace FitCost::at(const std::vector<double>& at, const std::vector<PoseFound>
     for (std::size_t v = begin; v < end; ++v)
       out.found[v] = viewAt(v, at, from.empty() ? nullptr : &from[v]);
   });
-  for (const PoseFound& found : out.found) out.cost += lossOf(found.discrepancy);
+  for (const PoseFound& found : out.found) out.cost += viewCostOf(found);
   return out;
 }
 
@@ -135,7 +131,7 @@ Quadratic FitCost::viewAround(std::size_t view, const PoseFound& from,
     parallelBlocks(places.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         if (!monitor.keep_going()) throw JobError("stopped while a heart was fitted");
-        out[i] = lossOf(viewAt(view, moved(middle, places[i]), &from).discrepancy);
+        out[i] = viewCostOf(viewAt(view, moved(middle, places[i]), &from));
       }
     });
     return out;

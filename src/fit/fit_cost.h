@@ -57,6 +57,9 @@ inline constexpr double kLoopSamples = 1000;
 // different people are a few degrees apart.
 inline constexpr double kTiltSd_deg = 4, kRotateSd_deg = 5;
 
+// A view's part of J, without its plane.
+double viewCostOf(const PoseFound& found);
+
 // (14)  J = sum over views of N/2 ln D + (tilt/4)^2/2 + (rotate/5)^2/2,  minus ln p(dials)
 // with D at the pose of lowest D. If D is a share of variance, N/2 ln D is minus the log-likelihood
 // of N independent samples of unknown variance. N: kLoopSamples; p: HeartPrior.
@@ -82,13 +85,17 @@ class FitCost {
 
   const HeartPrior& prior() const { return prior_; }
   double priorCost(const std::vector<double>& at) const;
+  // By differences about middleOf() a place, in steps. No curvature is below the inverse variance.
+  Quadratic priorAround(const std::vector<double>& middle) const;
+  // All dials, and the plane of this view.
+  std::vector<std::size_t> unknownsOf(std::size_t view) const;
   // A view's part of J without the prior, by differences about middleOf() a place, in steps. The
   // mixed derivatives of earlier ones are kept; empty: all are computed. Runs in parallel.
   std::vector<Quadratic> viewsAround(const FitPlace& place, const std::vector<Quadratic>& mixed,
                                      const Monitor& monitor) const;
   // The nearest place whose differences stay within the limits.
   std::vector<double> middleOf(const std::vector<double>& at) const;
-  // sumOfViews() with the prior. No curvature of the prior is below its inverse variance.
+  // sumOfViews() with the prior.
   Quadratic sumOf(const std::vector<Quadratic>& views, const std::vector<double>& middle) const;
   // Inverse of H in the units of the unknowns, row by row.
   std::vector<double> covariance(const Quadratic& q) const;
@@ -97,13 +104,11 @@ class FitCost {
                             const std::vector<double>& steps) const;
 
  private:
-  std::vector<std::size_t> unknownsOf(std::size_t view) const;
   PoseFound viewAt(std::size_t view, const std::vector<double>& at, const PoseFound* from) const;
   PoseFound evaluated(std::size_t view, const std::vector<double>& values, const PlaneTilt& tilt,
                       const PoseFound* from) const;
   Quadratic viewAround(std::size_t view, const PoseFound& from, const std::vector<double>& middle,
                        const Quadratic* mixed, const Monitor& monitor) const;
-  Quadratic priorAround(const std::vector<double>& middle) const;
   double priorSd(std::size_t unknown) const;
 
   std::vector<FitSide> sides_;

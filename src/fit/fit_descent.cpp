@@ -78,4 +78,10 @@ FitDescent descendFit(const FitCost& cost, const FitPlace& start, const Monitor&
   return out;
 }
 
+void sortByCost(std::vector<FitDescent>& descents) {
+  std::stable_sort(descents.begin(), descents.end(), [](const FitDescent& a, const FitDescent& b) {
+    return a.best.cost < b.best.cost;
+  });
+}
+
 }  // namespace echocine::fit

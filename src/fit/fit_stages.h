@@ -3,14 +3,16 @@
 
 #include <algorithm>
 
+#include "fit/fit_polish.h"
 #include "fit/fit_progress.h"
 #include "fit/heart_fit.h"
 
 namespace echocine::fit {
 
-// In units of FitProgress. The second descents, with the own look, take as long as the first.
+// In units of FitProgress. Each descent has a look and a polish, the best one twice.
 struct FitStages {
-  double hearts, families, starts, descent, look, resamples, own;
+  double hearts, families, starts, descent, resamples, own;
+  double look = 0, polish = 0;
   std::size_t descents;
   FitStages(std::size_t views, std::size_t hearts_made, std::size_t dials,
             const HeartFitOptions& options)
@@ -19,14 +21,19 @@ struct FitStages {
     hearts = kHeartUnits * static_cast<double>(hearts_made);
     families = kFamilyUnits * n;
     starts = kStartUnits * n * options.starts;
-    descent = descentUnits(n, static_cast<double>(dials) + (options.tilt_deg > 0 ? 2 : 0));
-    look = options.own_look ? kOwnLoopUnits * n : 0;
+    const std::size_t unknowns = dials + (options.tilt_deg > 0 ? 2 : 0);
+    descent = descentUnits(n, static_cast<double>(unknowns));
+    if (options.own_look) {
+      look = kOwnLoopUnits * n;
+      polish =
+          n * kEvaluationUnits * static_cast<double>(kPolishRounds * 2 * polishPairs(unknowns));
+    }
     resamples = descent * options.resamples;
-    own = options.own_loops ? kOwnLoopUnits * n + descent : 0;
+    own = options.own_loops ? kOwnLoopUnits * n + descent + polish : 0;
   }
   double all() const {
-    return hearts + families + starts + look +
-           descent * static_cast<double>(descents) * (look > 0 ? 2 : 1) + resamples + own;
+    return hearts + families + starts + descent * static_cast<double>(descents) +
+           (look + polish) * static_cast<double>(descents + 1) + resamples + own;
   }
 };
 

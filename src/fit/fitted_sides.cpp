@@ -1,7 +1,9 @@
 #include "fit/fitted_sides.h"
 
+#include <algorithm>
+
 #include "core/error.h"
-#include "fit/fit_descent.h"
+#include "fit/fit_polish.h"
 #include "fit/fit_regions.h"
 #include "fit/own_loop.h"
 #include "motion/heart/heart.h"
@@ -146,7 +148,11 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
     greys.scaleTo(model, own.discrepancies[v].map(model, FitPose{}));
   }
   const FitCost again(own.refer(), cost.fixed(), tilt_deg, {journal, "own loops"});
-  const FitDescent found = descendFit(again, {best.at, {}, 0}, monitor);
+  // By the same search as in the real loops, without the starts.
+  FitDescent found = descendFit(again, {best.at, {}, 0}, monitor);
+  const bool looked = std::none_of(own.looks.begin(), own.looks.end(),
+                                   [](const ExpectedLook& look) { return look.greys.empty(); });
+  if (looked && !found.stopped) found = polishFit(again, std::move(found), monitor);
   if (found.stopped) return std::nullopt;
   for (std::size_t i = 0; i < cost.dials(); ++i) out.error.push_back(found.best.at[i] - best.at[i]);
   // With the dials that the fit finds: maps of the real loops have the same bias.

@@ -18,6 +18,7 @@
 #include "fit/fit_stages.h"
 #include "fit/fit_starts.h"
 #include "fit/fitted_sides.h"
+#include "fit/own_look_fit.h"
 #include "fit/searched_dials.h"
 
 namespace echocine::fit {
@@ -82,42 +83,13 @@ std::vector<FitDescent> descentsFrom(const FitCost& cost, const std::vector<FitP
     out.push_back(descendFit(cost, starts[d], progress.next(stages.descent)));
     if (out.back().stopped) break;
   }
-  std::stable_sort(out.begin(), out.end(), [](const FitDescent& a, const FitDescent& b) {
-    return a.best.cost < b.best.cost;
-  });
+  sortByCost(out);
   return out;
 }
 
 bool anyStopped(const std::vector<FitDescent>& descents) {
   return std::any_of(descents.begin(), descents.end(),
                      [](const FitDescent& descent) { return descent.stopped; });
-}
-
-// Measures the look of the best heart and descends again from all ends, with a new cost. A stop
-// leaves everything as it was.
-void descendWithOwnLook(FittedSides& sides, const std::vector<heart::View>& views,
-                        const HeartFitOptions& options, const FitStages& stages,
-                        FitProgress& progress, FitCost& cost, std::vector<FitDescent>& descents,
-                        HeartFit& fit) {
-  FitPlace best = descents.front().best;
-  if (makePossible(cost, best.at)) best = cost.at(best.at, best.found);
-  const std::vector<ExpectedLook> before = sides.looks;
-  fit.stopped = !sides.expectOwnLook(cost, views, best, progress.next(stages.look));
-  if (fit.stopped) return;
-  const auto costOf = [&](const char* stage) {
-    return FitCost(sides.refer(), cost.fixed(), options.tilt_deg, {options.journal, stage});
-  };
-  cost = costOf("own look");
-  std::vector<FitPlace> ends;
-  for (const FitDescent& descent : descents) ends.push_back(descent.best);
-  std::vector<FitDescent> again = descentsFrom(cost, ends, stages, progress);
-  fit.stopped = anyStopped(again);
-  if (fit.stopped) {
-    sides.looks = before;
-    cost = costOf("descents");
-  } else {
-    descents = std::move(again);
-  }
 }
 
 // Adds the views with the best heart in each.
@@ -262,7 +234,8 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
   });
   unlessStopped(monitor, fit, [&] {
     if (options.own_look)
-      descendWithOwnLook(sides, viewsOf(loops), options, stages, progress, cost, descents, fit);
+      fit.stopped =
+          !polishWithOwnLooks(sides, viewsOf(loops), options, stages, progress, cost, descents);
   });
   unstoppable([&] { keepPossible(cost, descents.front(), fit); });
   const FitPlace best = descents.front().best;

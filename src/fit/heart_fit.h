@@ -29,14 +29,15 @@ void checkFitViews(const std::vector<heart::View>& views);
 struct HeartFitOptions {
   std::map<std::string, double> dials;  // fixed; other dials follow them
   // Keys of searchedDials().
-  std::vector<std::string> searched{"ef", "edv", "wall-thickness", "sphericity", "mapse"};
+  std::vector<std::string> searched{"ef",         "edv",   "wall-thickness",
+                                    "sphericity", "mapse", "conicity"};
   double tilt_deg = 12;  // limit of tilt and rotation of each plane; 0: planes as the view has them
   int starts = 12;       // hearts that are compared first: the groups' means, then draws
   int descents = 2;      // from the best of them
   // Fits the found heart's own rendered loops too: for regions and own_error.
   bool own_loops = true;
-  // Measures the look of the found heart in its own rendered loops, and fits again with it (Eqs. 20
-  // and 21). It brings no gain on average (README.md).
+  // Measures the look of the found heart in its own rendered loops, and polishes the fit with it
+  // (Eqs. 20 to 22). Takes three times as long.
   bool own_look = false;
   bool other_views = true;  // compares the found heart in other views (view_check.h)
   int resamples = 0;  // blocks of the beat that are left out in turn (fit_resamples.h); 0: none

@@ -15,6 +15,14 @@ double Quadratic::at(const std::vector<double>& u) const {
   return sum;
 }
 
+Quadratic Quadratic::movedTo(const std::vector<double>& origin) const {
+  Quadratic out = *this;
+  out.value = at(origin);
+  for (std::size_t i = 0; i < size(); ++i)
+    for (std::size_t j = 0; j < size(); ++j) out.gradient[i] += hessian[i * size() + j] * origin[j];
+  return out;
+}
+
 Quadratic differencesOf(std::size_t all, const std::vector<std::size_t>& of, const ValuesAt& values,
                         const Quadratic* mixed) {
   std::vector<std::vector<double>> places{std::vector<double>(all, 0)};
@@ -42,6 +50,33 @@ Quadratic differencesOf(std::size_t all, const std::vector<std::size_t>& of, con
                            : y[next] - y[0] - out.gradient[i] - out.gradient[j] -
                                  0.5 * (out.hessian[i * all + i] + out.hessian[j * all + j]);
     }
+  return out;
+}
+
+Quadratic regressionOf(std::size_t all, const std::vector<std::size_t>& of,
+                       const std::vector<WeightedValue>& values) {
+  const std::size_t n = of.size(), terms = 1 + n + n * (n + 1) / 2;
+  cv::Mat rows(static_cast<int>(values.size()), static_cast<int>(terms), CV_64F);
+  cv::Mat right(rows.rows, 1, CV_64F);
+  for (int k = 0; k < rows.rows; ++k) {
+    const auto& [u, value, weight] = values[static_cast<std::size_t>(k)];
+    const double root = std::sqrt(weight);
+    double* row = rows.ptr<double>(k);
+    *row++ = root;
+    for (const std::size_t i : of) *row++ = root * u[i];
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = 0; b <= a; ++b)
+        *row++ = root * (a == b ? 0.5 : 1.0) * u[of[a]] * u[of[b]];
+    right.at<double>(k) = root * value;
+  }
+  cv::Mat solved;
+  cv::solve(rows, right, solved, cv::DECOMP_SVD);
+  Quadratic out(all);
+  const double* next = solved.ptr<double>();
+  out.value = *next++;
+  for (const std::size_t i : of) out.gradient[i] = *next++;
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = 0; b <= a; ++b) out.bend(of[a], of[b]) = out.bend(of[b], of[a]) = *next++;
   return out;
 }
 

@@ -17,6 +17,8 @@ struct Quadratic {
   std::size_t size() const { return gradient.size(); }
   double& bend(std::size_t i, std::size_t j) { return hessian[i * size() + j]; }
   double at(const std::vector<double>& u) const;
+  // The same function of u - origin.
+  Quadratic movedTo(const std::vector<double>& origin) const;
 };
 
 // A function's values at places, each given in steps of every unknown.
@@ -27,6 +29,19 @@ using ValuesAt = std::function<std::vector<double>(const std::vector<std::vector
 // (n^2 + 3 n + 2) / 2.
 Quadratic differencesOf(std::size_t all, const std::vector<std::size_t>& of, const ValuesAt& values,
                         const Quadratic* mixed = nullptr);
+
+// A function's value at a place, and its weight in a regression.
+struct WeightedValue {
+  std::vector<double> u;
+  double value = 0, weight = 1;
+};
+
+// (22)  q = argmin sum_k w_k (f(u_k) - q(u_k))^2
+// The quadratic of the listed unknowns, out of `all`, by weighted least squares. Coefficients that
+// the values leave open are 0. It averages over noise and over deviations from a quadratic, where
+// differencesOf() takes each value as exact.
+Quadratic regressionOf(std::size_t all, const std::vector<std::size_t>& of,
+                       const std::vector<WeightedValue>& values);
 
 // The same with curvatures of at least `least` in all directions: those below it, negative ones
 // too, become it. Differences of a noisy function may have no minimum.

@@ -1,4 +1,4 @@
-// Parts of a fit of dials: designs of hearts, shares of hearts, and the minimum of a quadratic.
+// Parts of a fit of dials: designs of hearts, shares of hearts, and strain.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include "fit/fit_strain.h"
 #include "fit/heart_design.h"
 #include "fit/heart_prior.h"
-#include "fit/quadratic.h"
 #include "fit/searched_dials.h"
 #include "motion/heart/heart_cycle.h"
 #include "motion/heart/heart_scene.h"
@@ -97,95 +96,6 @@ TEST(FitDesign, AGridInterpolatesAtItsPlaces) {
   }
   EXPECT_NEAR(grid.at(1)[0], 0.5, 1e-12);  // the first dial fastest
   EXPECT_NEAR(grid.at(1)[1], 80, 1e-12);
-}
-
-Quadratic bowl() {
-  Quadratic q(2);
-  q.gradient = {-3, 1};
-  q.hessian = {2, 0.8, 0.8, 1};
-  return q;
-}
-
-// The minimum solves H u = -g; at a limit the other unknown has its own minimum there.
-TEST(FitQuadratic, TheMinimumIsThatOfTheSystem) {
-  const Quadratic q = convex(bowl(), 1e-6);
-  const double determinant = 2 * 1 - 0.8 * 0.8;
-  const std::vector<double> u = minimumWithin(q, {-9, -9}, {9, 9});
-  EXPECT_NEAR(u[0], (1 * 3 + 0.8 * 1) / determinant, 1e-6);
-  EXPECT_NEAR(u[1], (-0.8 * 3 - 2 * 1) / determinant, 1e-6);
-  const std::vector<double> held = minimumWithin(q, {-1, -9}, {1, 9});
-  EXPECT_EQ(held[0], 1);
-  EXPECT_NEAR(held[1], -1 - 0.8, 1e-9);
-  EXPECT_LT(q.at(u), q.at(held));
-}
-
-TEST(FitQuadratic, CovarianceIsTheInverseCurvature) {
-  const std::vector<double> c = covarianceOf(convex(bowl(), 1e-6));
-  const double determinant = 2 * 1 - 0.8 * 0.8;
-  EXPECT_NEAR(c[0], 1 / determinant, 1e-9);
-  EXPECT_NEAR(c[1], -0.8 / determinant, 1e-9);
-  EXPECT_NEAR(c[3], 2 / determinant, 1e-9);
-}
-
-// Differences of a quadratic function are exact. With kept mixed derivatives the rest is anew.
-TEST(FitQuadratic, DifferencesOfAQuadraticAreExact) {
-  Quadratic q(3);
-  q.value = 5;
-  q.gradient = {-3, 0, 1};
-  q.hessian = {2, 0, 0.8, 0, 0, 0, 0.8, 0, 1};
-  std::size_t evaluations = 0;
-  const auto values = [&](const std::vector<std::vector<double>>& places) {
-    std::vector<double> out;
-    for (const std::vector<double>& place : places) out.push_back(q.at(place));
-    evaluations = places.size();
-    return out;
-  };
-  const Quadratic found = differencesOf(3, {0, 2}, values);
-  EXPECT_EQ(evaluations, 6u);
-  for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(found.hessian[i], q.hessian[i], 1e-12);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found.gradient[i], q.gradient[i], 1e-12);
-  q.hessian = {4, 0, 0.1, 0, 0, 0, 0.1, 0, 1};
-  const Quadratic kept = differencesOf(3, {0, 2}, values, &found);
-  EXPECT_EQ(evaluations, 5u);
-  EXPECT_NEAR(kept.hessian[0], 4, 1e-12);
-  EXPECT_NEAR(kept.hessian[2], 0.8, 1e-12);
-}
-
-// Views with noisy curvatures, some negative: no further view widens the SD of any unknown.
-TEST(FitQuadratic, AFurtherViewNeverWidens) {
-  constexpr std::size_t kN = 6;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    Quadratic prior(kN);
-    for (std::size_t i = 0; i < kN; ++i) prior.bend(i, i) = 0.3;
-    std::vector<Quadratic> views;
-    std::vector<double> before = covarianceOf(prior);
-    bool saddle = false;
-    for (std::uint64_t v = 0; v < 3; ++v) {
-      Quadratic view(kN);
-      for (std::size_t i = 0; i < kN; ++i)
-        for (std::size_t j = 0; j <= i; ++j)
-          view.bend(i, j) = view.bend(j, i) =
-              (i == j ? 1 : 0) + 4 * uniformFromHash(hashOf(seed, v, i, j)) - 2;
-      saddle = saddle || convex(view, 0).hessian != view.hessian;
-      views.push_back(view);
-      const std::vector<double> after = covarianceOf(sumOfViews(prior, views));
-      for (std::size_t i = 0; i < kN; ++i) {
-        EXPECT_GT(after[i * kN + i], 0);
-        EXPECT_LE(after[i * kN + i], before[i * kN + i] * (1 + 1e-9));
-      }
-      before = after;
-    }
-    EXPECT_TRUE(saddle);
-  }
-}
-
-// A saddle gets the least curvature along its falling direction and keeps the other.
-TEST(FitQuadratic, ASaddleBecomesConvex) {
-  Quadratic q(2);
-  q.hessian = {0, 2, 2, 0};  // eigenvalues 2 and -2
-  const Quadratic mended = convex(q, 0.1);
-  EXPECT_NEAR(mended.hessian[0], (2 + 0.1) / 2, 1e-9);
-  EXPECT_NEAR(mended.hessian[1], (2 - 0.1) / 2, 1e-9);
 }
 
 // That of the ground truth, from meshes and material points.

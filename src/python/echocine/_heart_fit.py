@@ -96,11 +96,11 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
         side: view -> what is known better than the file tells, as for `compare`: mm_per_pixel, fps, ed_frame, ...
             For a list of loops, a list.
         searched: dials that are searched, of ef, edv, wall_thickness, sphericity, mapse, conicity, la_volume and
-            apical_motion; None: the first five. Other dials have the values given, or their defaults.
+            apical_motion; None: the first six. Other dials have the values given, or their defaults.
         tilt_deg: limit of tilt and rotation of each plane, either way, 0 (none) to 20.
         starts: hearts that are compared first.
         descents: searches, from the best of them.
-        own_look: measures in rendered loops of the found heart where its edges and which grey levels are seen, and fits again.
+        own_look: measures in rendered loops of the found heart where its edges and which grey levels are seen, and polishes the fit with them. Takes three times as long.
         own_loops: fits the found heart's own rendered loops too, for regions and the error of such a fit.
         resamples: fits again without each of so many blocks of the beat, 4 to 10: intervals include their spread; 0: none.
         cache: keeps computed hearts in the user's cache folder and reads them there; a path: in this folder; False: does neither.

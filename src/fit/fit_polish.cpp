@@ -1,0 +1,175 @@
+#include "fit/fit_polish.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "core/error.h"
+#include "core/hash_random.h"
+#include "core/parallel.h"
+
+namespace echocine::fit {
+
+namespace {
+
+constexpr double kFirstWidth = 2.5, kShrink = 0.9;  // in standard deviations; a round's factor
+constexpr double kWidest = 1.2;    // steps of an unknown; beyond, J is no quadratic
+constexpr double kFarthest = 1.5;  // widths, of the way to a minimum
+constexpr double kLeastWeight = 0.01;
+constexpr double kPlaceNoise = 1;  // of a single J, above that of a regression's minimum
+
+FitPlace lowestOf(const std::vector<FitPlace>& places) {
+  return *std::min_element(places.begin(), places.end(),
+                           [](const FitPlace& a, const FitPlace& b) { return a.cost < b.cost; });
+}
+
+// Principal axes of a covariance, in steps of the unknowns.
+class Axes {
+ public:
+  Axes(const FitCost& cost, const std::vector<double>& covariance, double width)
+      : cost_(cost), width_(width) {
+    const auto n = static_cast<int>(cost.unknowns().size());
+    cv::Mat c(n, n, CV_64F);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        c.at<double>(i, j) =
+            covariance[static_cast<std::size_t>(i * n + j)] / stepOf(i) / stepOf(j);
+    cv::Mat variance;
+    cv::eigen(0.5 * (c + c.t()), variance, rows_);
+    constexpr double kLeast = 1e-3;
+    for (int i = 0; i < n; ++i)
+      sds_.push_back(
+          std::clamp(std::sqrt(std::max(0.0, variance.at<double>(i))), kLeast, kWidest / width));
+  }
+
+  // A draw of the normal distribution, `width` times as wide.
+  std::vector<double> draw(std::size_t round, std::size_t pair) const {
+    constexpr std::uint64_t kSeed = 22;
+    std::vector<double> out(sds_.size(), 0);
+    for (std::size_t a = 0; a < sds_.size(); ++a) {
+      const double z =
+          width_ * sds_[a] *
+          normalFromHashes(hashOf(kSeed, round, pair, a, 0), hashOf(kSeed, round, pair, a, 1));
+      for (std::size_t i = 0; i < out.size(); ++i) out[i] += z * component(a, i);
+    }
+    return out;
+  }
+
+  // Squared distance in standard deviations.
+  double squareOf(const std::vector<double>& u) const {
+    double sum = 0;
+    for (std::size_t a = 0; a < sds_.size(); ++a) {
+      double along = 0;
+      for (std::size_t i = 0; i < u.size(); ++i) along += u[i] * component(a, i);
+      sum += along * along / (sds_[a] * sds_[a]);
+    }
+    return sum;
+  }
+
+  double sdOf(std::size_t unknown) const {
+    double sum = 0;
+    for (std::size_t a = 0; a < sds_.size(); ++a)
+      sum += std::pow(sds_[a] * component(a, unknown), 2);
+    return std::sqrt(sum);
+  }
+
+ private:
+  double stepOf(int unknown) const {
+    return cost_.unknowns()[static_cast<std::size_t>(unknown)].step;
+  }
+  double component(std::size_t axis, std::size_t unknown) const {
+    return rows_.at<double>(static_cast<int>(axis), static_cast<int>(unknown));
+  }
+
+  const FitCost& cost_;
+  double width_;
+  cv::Mat rows_;
+  std::vector<double> sds_;
+};
+
+std::vector<double> stepsBetween(const FitCost& cost, const std::vector<double>& from,
+                                 const std::vector<double>& to) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < from.size(); ++i)
+    out.push_back((to[i] - from[i]) / cost.unknowns()[i].step);
+  return out;
+}
+
+// Evaluated in parallel; both places of each pair.
+std::vector<FitPlace> placesAbout(const FitCost& cost, const FitPlace& middle, const Axes& axes,
+                                  std::size_t round, const Monitor& monitor) {
+  std::vector<FitPlace> out(2 * polishPairs(cost.unknownsOf(0).size()));
+  parallelBlocks(out.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      if (!monitor.keep_going()) throw JobError("stopped while a heart was fitted");
+      std::vector<double> u = axes.draw(round, k / 2);
+      for (double& one : u) one *= k % 2 == 0 ? 1 : -1;
+      out[k] = cost.at(cost.moved(middle.at, u), middle.found);
+    }
+  });
+  return out;
+}
+
+// The sum of the views' regressions and the prior, in steps from a place.
+Quadratic regressionAbout(const FitCost& cost, const std::vector<double>& middle, const Axes& axes,
+                          double width, const std::vector<FitPlace>& places) {
+  const std::size_t n = middle.size();
+  std::vector<WeightedValue> values;
+  std::vector<const FitPlace*> used;
+  for (const FitPlace& place : places) {
+    std::vector<double> u = stepsBetween(cost, middle, place.at);
+    const double weight =
+        std::exp(-0.5 * axes.squareOf(u) / (static_cast<double>(n) * width * width));
+    if (weight < kLeastWeight) continue;
+    values.push_back({std::move(u), 0, weight});
+    used.push_back(&place);
+  }
+  std::vector<Quadratic> views;
+  for (std::size_t v = 0; v < cost.views(); ++v) {
+    for (std::size_t k = 0; k < values.size(); ++k) values[k].value = viewCostOf(used[k]->found[v]);
+    views.push_back(regressionOf(n, cost.unknownsOf(v), values));
+  }
+  const std::vector<double> inside = cost.middleOf(middle);
+  return sumOfViews(cost.priorAround(inside).movedTo(stepsBetween(cost, inside, middle)), views);
+}
+
+FitPlace minimumOf(const FitCost& cost, const Quadratic& q, const FitPlace& middle,
+                   const Axes& axes, double width) {
+  std::vector<double> low, high;
+  for (std::size_t i = 0; i < middle.at.size(); ++i) {
+    const FitUnknown& u = cost.unknowns()[i];
+    const double farthest = kFarthest * width * axes.sdOf(i);
+    low.push_back(std::max(-farthest, (u.low - middle.at[i]) / u.step));
+    high.push_back(std::min(farthest, (u.high - middle.at[i]) / u.step));
+  }
+  return cost.at(cost.moved(middle.at, minimumWithin(q, low, high)), middle.found);
+}
+
+}  // namespace
+
+FitDescent polishFit(const FitCost& cost, FitDescent from, const Monitor& monitor) {
+  if (from.covariance.empty()) return from;
+  try {
+    std::vector<FitPlace> places{from.best};
+    double width = kFirstWidth;
+    for (std::size_t round = 0; round < kPolishRounds; ++round, width *= kShrink) {
+      const FitPlace middle = from.best;
+      const Axes axes(cost, from.covariance, width);
+      for (FitPlace& place : placesAbout(cost, middle, axes, round, monitor))
+        places.push_back(std::move(place));
+      const Quadratic q = regressionAbout(cost, middle.at, axes, width, places);
+      const FitPlace lowest = lowestOf(places);
+      places.push_back(minimumOf(cost, q, middle, axes, width));
+      if (places.back().cost < middle.cost) from.best = places.back();
+      if (lowest.cost < from.best.cost - kPlaceNoise) from.best = lowest;
+      from.covariance = cost.covariance(q);
+      monitor.tell({Task::settings, round + 1, kPolishRounds});
+    }
+  } catch (const JobError&) {
+    if (monitor.keep_going()) throw;
+    from.stopped = true;
+  }
+  return from;
+}
+
+}  // namespace echocine::fit
