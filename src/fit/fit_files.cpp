@@ -43,7 +43,8 @@ std::string digestOf(const std::vector<FitLoop>& loops, const HeartFitOptions& o
     all.putText(key);
     all.put(value);
   }
-  for (const std::string& key : options.searched) all.putText(key);
+  for (const std::string& key : options.searched.value_or(std::vector<std::string>{}))
+    all.putText(key);
   all.put(options.tilt_deg);
   all.put(options.starts);
   all.put(options.descents);

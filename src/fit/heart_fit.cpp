@@ -25,11 +25,11 @@ namespace echocine::fit {
 
 namespace {
 
-std::vector<DialRange> rangesOf(const HeartFitOptions& options) {
+std::vector<DialRange> rangesOf(const HeartFitOptions& options, std::size_t views) {
+  const auto keys = options.searched.value_or(dialsSearchedIn(views));
   std::vector<DialRange> out;
   std::string accepted;
   for (const SearchedDial& dial : searchedDials()) {
-    const auto& keys = options.searched;
     accepted += (accepted.empty() ? "" : ", ") + dial.range.key;
     if (std::find(keys.begin(), keys.end(), dial.range.key) != keys.end() &&
         !options.dials.contains(dial.range.key))
@@ -214,7 +214,7 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
     fit.dials["hr"] = *rate;
   fit.fixed = fit.dials;
   fit.tilt_deg = options.tilt_deg;
-  const HeartDesign design = HeartDesign::polynomial(rangesOf(options));
+  const HeartDesign design = HeartDesign::polynomial(rangesOf(options, loops.size()));
   const FitStages stages(loops.size(), design.size(), design.ranges().size(), options);
   FitProgress progress(monitor, stages.all());
   const HeartNodes hearts(fit.dials, design, kFitFrames, progress.next(stages.hearts),

@@ -28,9 +28,8 @@ void checkFitViews(const std::vector<heart::View>& views);
 
 struct HeartFitOptions {
   std::map<std::string, double> dials;  // fixed; other dials follow them
-  // Keys of searchedDials().
-  std::vector<std::string> searched{"ef",         "edv",   "wall-thickness",
-                                    "sphericity", "mapse", "conicity"};
+  // Keys of searchedDials(); none: dialsSearchedIn() so many views.
+  std::optional<std::vector<std::string>> searched{};
   double tilt_deg = 12;  // limit of tilt and rotation of each plane; 0: planes as the view has them
   int starts = 12;       // hearts that are compared first: the groups' means, then draws
   int descents = 2;      // from the best of them

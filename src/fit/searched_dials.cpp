@@ -13,6 +13,12 @@ const std::vector<SearchedDial>& searchedDials() {
   return kDials;
 }
 
+std::vector<std::string> dialsSearchedIn(std::size_t views) {
+  std::vector<std::string> keys{"ef", "edv", "wall-thickness", "sphericity", "mapse"};
+  if (views > 1) keys.emplace_back("conicity");
+  return keys;
+}
+
 void addFollowers(std::map<std::string, double>& dials) {
   const auto left = dials.find("la-volume");
   if (left == dials.end() || dials.contains("ra-volume")) return;

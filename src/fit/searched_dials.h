@@ -18,6 +18,10 @@ struct SearchedDial {
 // left atrium, which the right one follows.
 const std::vector<SearchedDial>& searchedDials();
 
+// Those that a fit searches by default: ejection fraction, volume, wall, sphericity and ring; in
+// two or more views conicity too, which one view does not determine.
+std::vector<std::string> dialsSearchedIn(std::size_t views);
+
 // Adds dials that follow searched ones: the right atrium's volume the left one's.
 void addFollowers(std::map<std::string, double>& dials);
 

@@ -44,6 +44,15 @@ TEST(FitDesign, SearchedDialsHaveAPriorAndAStep) {
   EXPECT_NEAR(stepOf({"hr", 60, 80}), 2, 1e-12);
 }
 
+// A default fit searches the first five dials, or six.
+TEST(FitDesign, DefaultDialsAreSearchedDials) {
+  for (const std::size_t views : {1u, 2u, 3u}) {
+    const std::vector<std::string> keys = dialsSearchedIn(views);
+    EXPECT_EQ(keys.size(), views == 1 ? 5u : 6u);
+    for (std::size_t i = 0; i < keys.size(); ++i) EXPECT_EQ(keys[i], searchedDials()[i].range.key);
+  }
+}
+
 // The right atrium follows the left one, unless it is given.
 TEST(FitDesign, TheRightAtriumFollowsTheLeft) {
   std::map<std::string, double> none{{"ef", 0.5}}, healthy{{"la-volume", 55}},

@@ -96,7 +96,7 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
         side: view -> what is known better than the file tells, as for `compare`: mm_per_pixel, fps, ed_frame, ...
             For a list of loops, a list.
         searched: dials that are searched, of ef, edv, wall_thickness, sphericity, mapse, conicity, la_volume and
-            apical_motion; None: the first six. Other dials have the values given, or their defaults.
+            apical_motion; None: the first five, with two or more loops the first six. Other dials have the values given, or their defaults.
         tilt_deg: limit of tilt and rotation of each plane, either way, 0 (none) to 20.
         starts: hearts that are compared first.
         descents: searches, from the best of them.
