@@ -123,6 +123,7 @@ class LivePageTest(live_page.LivePageCase):
             self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
     def test_other_requests_are_refused_and_the_page_goes_on(self):
+        self.wait_for_rest()  # a request of the page would take the place of those below
         host, token = self.link.split("/")[2], self.link.split("=")[1]
         good = {"Content-Type": "application/json", "Echocine-Token": token}
 
