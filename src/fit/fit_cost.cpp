@@ -114,6 +114,21 @@ std::vector<double> FitCost::moved(const std::vector<double>& from,
   return out;
 }
 
+std::vector<double> FitCost::stepsBetween(const std::vector<double>& from,
+                                          const std::vector<double>& to) const {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < from.size(); ++i)
+    out.push_back((to[i] - from[i]) / unknowns_[i].step);
+  return out;
+}
+
+bool FitCost::within(double steps, const std::vector<double>& a,
+                     const std::vector<double>& b) const {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::abs(a[i] - b[i]) > steps * unknowns_[i].step) return false;
+  return true;
+}
+
 std::vector<double> FitCost::middleOf(const std::vector<double>& at) const {
   std::vector<double> middle = at;
   for (std::size_t i = 0; i < middle.size(); ++i) {
@@ -184,9 +199,11 @@ double FitCost::priorSd(std::size_t unknown) const {
   return prior_.sdOf(u.name).value_or((u.high - u.low) / std::sqrt(12.0));
 }
 
+// The prior's differences stay within the limits.
 Quadratic FitCost::sumOf(const std::vector<Quadratic>& views,
-                         const std::vector<double>& middle) const {
-  return sumOfViews(priorAround(middle), views);
+                         const std::vector<double>& place) const {
+  const std::vector<double> middle = middleOf(place);
+  return sumOfViews(priorAround(middle).movedTo(stepsBetween(middle, place)), views);
 }
 
 std::vector<double> FitCost::covariance(const Quadratic& q) const {

@@ -85,8 +85,6 @@ class FitCost {
 
   const HeartPrior& prior() const { return prior_; }
   double priorCost(const std::vector<double>& at) const;
-  // By differences about middleOf() a place, in steps. No curvature is below the inverse variance.
-  Quadratic priorAround(const std::vector<double>& middle) const;
   // All dials, and the plane of this view.
   std::vector<std::size_t> unknownsOf(std::size_t view) const;
   // A view's part of J without the prior, by differences about middleOf() a place, in steps. The
@@ -95,13 +93,19 @@ class FitCost {
                                      const Monitor& monitor) const;
   // The nearest place whose differences stay within the limits.
   std::vector<double> middleOf(const std::vector<double>& at) const;
-  // sumOfViews() with the prior.
-  Quadratic sumOf(const std::vector<Quadratic>& views, const std::vector<double>& middle) const;
+  // sumOfViews() with the prior, in steps from a place. No curvature of the prior is below its
+  // inverse variance.
+  Quadratic sumOf(const std::vector<Quadratic>& views, const std::vector<double>& place) const;
   // Inverse of H in the units of the unknowns, row by row.
   std::vector<double> covariance(const Quadratic& q) const;
-  // Values of the unknowns, given in steps from a place.
+  // Values of the unknowns, given in steps from a place, within the limits.
   std::vector<double> moved(const std::vector<double>& from,
                             const std::vector<double>& steps) const;
+  // Steps from one place to another.
+  std::vector<double> stepsBetween(const std::vector<double>& from,
+                                   const std::vector<double>& to) const;
+  // Whether places differ by no more than so many steps of each unknown.
+  bool within(double steps, const std::vector<double>& a, const std::vector<double>& b) const;
 
  private:
   PoseFound viewAt(std::size_t view, const std::vector<double>& at, const PoseFound* from) const;
@@ -109,6 +113,7 @@ class FitCost {
                       const PoseFound* from) const;
   Quadratic viewAround(std::size_t view, const PoseFound& from, const std::vector<double>& middle,
                        const Quadratic* mixed, const Monitor& monitor) const;
+  Quadratic priorAround(const std::vector<double>& middle) const;
   double priorSd(std::size_t unknown) const;
 
   std::vector<FitSide> sides_;

@@ -1,7 +1,6 @@
 #include "fit/fit_descent.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.h"
 #include "fit/fit_progress.h"
@@ -41,12 +40,6 @@ FitPlace taken(const FitCost& cost, const FitPlace& from, const Quadratic& q,
   return best;
 }
 
-bool isFar(const FitCost& cost, const std::vector<double>& a, const std::vector<double>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if (std::abs(a[i] - b[i]) > kFarther * cost.unknowns()[i].step) return true;
-  return false;
-}
-
 }  // namespace
 
 FitDescent descendFit(const FitCost& cost, const FitPlace& start, const Monitor& monitor) {
@@ -57,7 +50,7 @@ FitDescent descendFit(const FitCost& cost, const FitPlace& start, const Monitor&
     std::vector<double> mixed_at;
     for (int round = 0; round < kMostFitRounds; ++round) {
       const std::vector<double> middle = cost.middleOf(out.best.at);
-      if (mixed_at.empty() || isFar(cost, middle, mixed_at)) {
+      if (mixed_at.empty() || !cost.within(kFarther, middle, mixed_at)) {
         views.clear();
         mixed_at = middle;
       }
@@ -76,12 +69,6 @@ FitDescent descendFit(const FitCost& cost, const FitPlace& start, const Monitor&
     out.stopped = true;
   }
   return out;
-}
-
-void sortByCost(std::vector<FitDescent>& descents) {
-  std::stable_sort(descents.begin(), descents.end(), [](const FitDescent& a, const FitDescent& b) {
-    return a.best.cost < b.best.cost;
-  });
 }
 
 }  // namespace echocine::fit

@@ -21,7 +21,4 @@ inline constexpr int kMostFitRounds = 6;
 // cost. Stops without an error when the monitor requests it.
 FitDescent descendFit(const FitCost& cost, const FitPlace& start, const Monitor& monitor);
 
-// Ascending J.
-void sortByCost(std::vector<FitDescent>& descents);
-
 }  // namespace echocine::fit

@@ -87,14 +87,6 @@ class Axes {
   std::vector<double> sds_;
 };
 
-std::vector<double> stepsBetween(const FitCost& cost, const std::vector<double>& from,
-                                 const std::vector<double>& to) {
-  std::vector<double> out;
-  for (std::size_t i = 0; i < from.size(); ++i)
-    out.push_back((to[i] - from[i]) / cost.unknowns()[i].step);
-  return out;
-}
-
 // Evaluated in parallel; both places of each pair.
 std::vector<FitPlace> placesAbout(const FitCost& cost, const FitPlace& middle, const Axes& axes,
                                   std::size_t round, const Monitor& monitor) {
@@ -117,7 +109,7 @@ Quadratic regressionAbout(const FitCost& cost, const std::vector<double>& middle
   std::vector<WeightedValue> values;
   std::vector<const FitPlace*> used;
   for (const FitPlace& place : places) {
-    std::vector<double> u = stepsBetween(cost, middle, place.at);
+    std::vector<double> u = cost.stepsBetween(middle, place.at);
     const double weight =
         std::exp(-0.5 * axes.squareOf(u) / (static_cast<double>(n) * width * width));
     if (weight < kLeastWeight) continue;
@@ -129,8 +121,7 @@ Quadratic regressionAbout(const FitCost& cost, const std::vector<double>& middle
     for (std::size_t k = 0; k < values.size(); ++k) values[k].value = viewCostOf(used[k]->found[v]);
     views.push_back(regressionOf(n, cost.unknownsOf(v), values));
   }
-  const std::vector<double> inside = cost.middleOf(middle);
-  return sumOfViews(cost.priorAround(inside).movedTo(stepsBetween(cost, inside, middle)), views);
+  return cost.sumOf(views, middle);
 }
 
 FitPlace minimumOf(const FitCost& cost, const Quadratic& q, const FitPlace& middle,

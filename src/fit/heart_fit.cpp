@@ -83,7 +83,9 @@ std::vector<FitDescent> descentsFrom(const FitCost& cost, const std::vector<FitP
     out.push_back(descendFit(cost, starts[d], progress.next(stages.descent)));
     if (out.back().stopped) break;
   }
-  sortByCost(out);
+  std::stable_sort(out.begin(), out.end(), [](const FitDescent& a, const FitDescent& b) {
+    return a.best.cost < b.best.cost;
+  });
   return out;
 }
 

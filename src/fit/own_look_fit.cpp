@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "fit/fit_polish.h"
@@ -58,21 +57,16 @@ class LookRounds {
   const FitCost& plain_;  // only for its unknowns: its sides change
 };
 
-// Within half a step of each unknown: one minimum.
-bool areOne(const FitCost& cost, const FitDescent& a, const FitDescent& b) {
-  for (std::size_t i = 0; i < cost.unknowns().size(); ++i)
-    if (std::abs(a.best.at[i] - b.best.at[i]) > 0.5 * cost.unknowns()[i].step) return false;
-  return true;
-}
-
 // Those that differ and may still become the best.
 std::vector<FitDescent> hopefulOf(const FitCost& cost, const std::vector<FitDescent>& descents) {
-  constexpr double kMostAbove = 100;  // of J; our choice
+  constexpr double kMostAbove = 100;   // of J; our choice
+  constexpr double kOneMinimum = 0.5;  // steps of each unknown; our choice
   std::vector<FitDescent> out;
   for (const FitDescent& descent : descents)
     if (descent.best.cost <= descents.front().best.cost + kMostAbove &&
-        std::none_of(out.begin(), out.end(),
-                     [&](const FitDescent& other) { return areOne(cost, other, descent); }))
+        std::none_of(out.begin(), out.end(), [&](const FitDescent& other) {
+          return cost.within(kOneMinimum, other.best.at, descent.best.at);
+        }))
       out.push_back(descent);
   return out;
 }

@@ -105,14 +105,15 @@ void printClassifier(const std::vector<PictureGroup>& simulated,
   for (int i = 0; i < kShown; ++i)
     fmt::print(" {} {:.2f} (simulated {:.3g}, real {:.3g})", statistics[order[i]].name,
                whole.weights()[order[i]], mean_s[order[i]], mean_r[order[i]]);
+  std::vector<FeatureRow> loop_means;
+  for (const PictureGroup& loop : real) loop_means.push_back(meanOf(featuresOf({loop}, 0, 1)));
   fmt::print("\nmeans, simulated with standard deviation, and each loop:");
   for (std::size_t i = 0; i < statistics.size(); ++i) {
     double squares = 0;
     for (const FeatureRow& row : all_s) squares += std::pow(row[i] - mean_s[i], 2);
     fmt::print("\n  {} {:.3g} +- {:.2g};", statistics[i].name, mean_s[i],
                std::sqrt(squares / static_cast<double>(all_s.size())));
-    for (const PictureGroup& loop : real)
-      fmt::print(" {:.3g}", meanOf(featuresOf({loop}, 0, 1))[i]);
+    for (const FeatureRow& mean : loop_means) fmt::print(" {:.3g}", mean[i]);
   }
   const std::vector<double> shares = boosted.shares();
   std::sort(order.begin(), order.end(),
