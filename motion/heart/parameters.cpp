@@ -115,13 +115,12 @@ std::string faultOf(const Parameters& parameters) {
       return outOfRange(dial.key, *value, dial.low, dial.high, dial.unit);
   if (std::string fault = segmentFault(parameters); !fault.empty()) return fault;
   const double stroke_ml = parameters.edv_ml * parameters.ejection_fraction;
-  constexpr double kMostEjected = 0.85;
-  if (stroke_ml > kMostEjected * parameters.rv_edv_ml)
+  if (stroke_ml > kMostRightEjected * parameters.rv_edv_ml)
     return fmt::format(
         "edv and ef eject {:.4g} mL a beat, but the right ventricle's {:.4g} mL give {:.4g} at "
         "most: raise rv-edv to {:g} or lower ef",
-        stroke_ml, parameters.rv_edv_ml, kMostEjected * parameters.rv_edv_ml,
-        std::ceil(stroke_ml / kMostEjected));
+        stroke_ml, parameters.rv_edv_ml, kMostRightEjected * parameters.rv_edv_ml,
+        std::ceil(stroke_ml / kMostRightEjected));
   return {};
 }
 

@@ -55,6 +55,9 @@ struct Dial {
 };
 std::span<const Dial> dials();
 
+// Largest share of its volume that the right ventricle ejects: it ejects what the left one does.
+inline constexpr double kMostRightEjected = 0.85;
+
 // Parameters from given dials, by key, with healthy segments. Other dials follow the given ones:
 // lengths the body scale and volumes its cube; the right ventricle's volume the left one's;
 // excursion of the ring and twist the ejection fraction. Precondition: every key is a dial's.

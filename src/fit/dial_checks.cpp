@@ -12,8 +12,24 @@
 
 namespace echocine::fit {
 
+namespace {
+
+// Accepted: our choice, from a small right ventricle to a dilated one.
+constexpr heart::Dial kRatioDial{
+    kRightRatio,
+    "1",
+    0.6,
+    1.6,
+    0,
+    "end-diastolic volume of the right ventricle / of the left one",
+    [](heart::Parameters& p, double value) { p.rv_edv_ml = value * p.edv_ml; },
+    [](const heart::Parameters& p) { return std::optional<double>(p.rv_edv_ml / p.edv_ml); }};
+
+}  // namespace
+
 const heart::Dial& dialOf(const std::string& argument, const std::string& key) {
-  std::vector<std::string> known;
+  if (key == kRatioDial.key) return kRatioDial;
+  std::vector<std::string> known{kRatioDial.key};
   for (const heart::Dial& dial : heart::dials()) {
     if (key == dial.key) return dial;
     known.emplace_back(dial.key);
@@ -32,9 +48,15 @@ void checkDial(const std::string& argument, const heart::Dial& dial, double valu
                                  std::string(dial.unit) == "1" ? "" : dial.unit));
 }
 
-void checkFamily(const std::map<std::string, double>& dials, const std::vector<DialRange>& ranges,
-                 int nodes) {
+void checkRanges(const std::map<std::string, double>& dials, const std::vector<DialRange>& ranges) {
   for (const auto& [key, value] : dials) checkDial("dials", dialOf("dials", key), value);
+  const auto has = [&](const std::string& key) {
+    return dials.contains(key) || std::any_of(ranges.begin(), ranges.end(),
+                                              [&](const DialRange& r) { return r.key == key; });
+  };
+  if (has(kRightRatio) && has("rv-edv"))
+    throw SceneError(
+        fmt::format("dials: rv-edv and {} are both given; leave one out", kRightRatio));
   for (auto range = ranges.begin(); range != ranges.end(); ++range) {
     const heart::Dial& dial = dialOf("ranges", range->key);
     checkDial("ranges", dial, range->low);
@@ -48,6 +70,9 @@ void checkFamily(const std::map<std::string, double>& dials, const std::vector<D
     if (dials.contains(range->key))
       throw SceneError(fmt::format("dials: {} has a range; leave it out", range->key));
   }
+}
+
+void checkNodes(const std::vector<DialRange>& ranges, int nodes) {
   if (nodes < kLeastNodes || nodes > kMostNodes)
     throw SceneError(
         fmt::format("nodes: is {}, accepted: {} to {}", nodes, kLeastNodes, kMostNodes));

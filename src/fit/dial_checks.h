@@ -12,9 +12,13 @@
 
 namespace echocine::fit {
 
+// The end-diastolic volume of the right ventricle over that of the left one. A dial of fits and
+// families only, in place of rv-edv: not every right ventricle fits around every left one.
+inline constexpr const char* kRightRatio = "rv-ratio";
+
 // A dial and its range.
 struct DialRange {
-  std::string key;  // of heart::dials()
+  std::string key;  // of heart::dials(), or kRightRatio
   double low = 0, high = 0;
 };
 
@@ -23,16 +27,17 @@ struct DialRange {
 inline constexpr int kLeastNodes = 2, kMostNodes = 9;
 inline constexpr std::size_t kMostHearts = 125;
 
-// The dial of a key. Throws SceneError for an unknown one.
+// The dial of a key, kRightRatio included. Throws SceneError for an unknown one.
 const heart::Dial& dialOf(const std::string& argument, const std::string& key);
 // Throws SceneError unless the value is within the dial's range.
 void checkDial(const std::string& argument, const heart::Dial& dial, double value);
 
 // A family's input. `ranges`: different dials, low below high, within the range of the dial.
-// `dials`: values within their ranges, of none of the dials in `ranges`. nodes^ranges hearts are at
-// most kMostHearts. Throws SceneError.
-void checkFamily(const std::map<std::string, double>& dials, const std::vector<DialRange>& ranges,
-                 int nodes);
+// `dials`: values within their ranges, of none of the dials in `ranges`. They have
+// kRightRatio or rv-edv, not both. Throws SceneError.
+void checkRanges(const std::map<std::string, double>& dials, const std::vector<DialRange>& ranges);
+// Nodes of each dial of a grid. nodes^ranges hearts are at most kMostHearts. Throws SceneError.
+void checkNodes(const std::vector<DialRange>& ranges, int nodes);
 
 // One value per range, within it to rounding: beyond its nodes a polynomial is no heart. Throws
 // SceneError.

@@ -49,7 +49,7 @@ std::string digestOf(const std::vector<FitLoop>& loops, const HeartFitOptions& o
   all.put(options.starts);
   all.put(options.descents);
   all.put(options.own_loops);
-  all.put(options.own_look);
+  all.put(options.ownLook(loops.size()));
   all.put(options.resamples);
   all.put(options.other_views);
   for (const FitLoop& one : loops) {

@@ -138,12 +138,13 @@ FitPlace minimumOf(const FitCost& cost, const Quadratic& q, const FitPlace& midd
 
 }  // namespace
 
-FitDescent polishFit(const FitCost& cost, FitDescent from, const Monitor& monitor) {
+FitDescent polishFit(const FitCost& cost, FitDescent from, const Monitor& monitor,
+                     std::size_t rounds) {
   if (from.covariance.empty()) return from;
   try {
     std::vector<FitPlace> places{from.best};
     double width = kFirstWidth;
-    for (std::size_t round = 0; round < kPolishRounds; ++round, width *= kShrink) {
+    for (std::size_t round = 0; round < rounds; ++round, width *= kShrink) {
       const FitPlace middle = from.best;
       const Axes axes(cost, from.covariance, width);
       for (FitPlace& place : placesAbout(cost, middle, axes, round, monitor))
@@ -154,7 +155,7 @@ FitDescent polishFit(const FitCost& cost, FitDescent from, const Monitor& monito
       if (places.back().cost < middle.cost) from.best = places.back();
       if (lowest.cost < from.best.cost - kPlaceNoise) from.best = lowest;
       from.covariance = cost.covariance(q);
-      monitor.tell({Task::settings, round + 1, kPolishRounds});
+      monitor.tell({Task::settings, round + 1, rounds});
     }
   } catch (const JobError&) {
     if (monitor.keep_going()) throw;

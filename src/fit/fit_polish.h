@@ -5,7 +5,8 @@
 
 namespace echocine::fit {
 
-inline constexpr std::size_t kPolishRounds = 6;
+// Rounds to a minimum, and to tell which of several minima is the lower.
+inline constexpr std::size_t kPolishRounds = 6, kFirstPolishRounds = 3;
 // Pairs of places in a round, a third more places than a quadratic of a view's unknowns has
 // coefficients: 24 of 7 unknowns.
 constexpr std::size_t polishPairs(std::size_t unknowns) {
@@ -21,6 +22,7 @@ constexpr std::size_t polishPairs(std::size_t unknowns) {
 // numbers are our choice. J is rough: descents by differences ended up to 57 above the lowest J of
 // a planted heart that was found. Draws are hashes of round, pair and unknown. Without a
 // covariance nothing is done. Stops without an error when the monitor requests it.
-FitDescent polishFit(const FitCost& cost, FitDescent from, const Monitor& monitor);
+FitDescent polishFit(const FitCost& cost, FitDescent from, const Monitor& monitor,
+                     std::size_t rounds = kPolishRounds);
 
 }  // namespace echocine::fit

@@ -9,11 +9,12 @@
 
 namespace echocine::fit {
 
-// In units of FitProgress. Each descent has a look and a polish, the best one twice.
+// In units of FitProgress. With own look, the planes of the best descent are mirrored in turn, each
+// descent may have a look and a polish, and the best one has them twice.
 struct FitStages {
   double hearts, families, starts, descent, resamples, own;
-  double look = 0, polish = 0;
-  std::size_t descents;
+  double look = 0, first_polish = 0, polish = 0;
+  std::size_t descents, mirrored = 0;
   FitStages(std::size_t views, std::size_t hearts_made, std::size_t dials,
             const HeartFitOptions& options)
       : descents(static_cast<std::size_t>(std::min(options.descents, options.starts))) {
@@ -23,17 +24,20 @@ struct FitStages {
     starts = kStartUnits * n * options.starts;
     const std::size_t unknowns = dials + (options.tilt_deg > 0 ? 2 : 0);
     descent = descentUnits(n, static_cast<double>(unknowns));
-    if (options.own_look) {
+    if (options.ownLook(views)) {
       look = kOwnLoopUnits * n;
-      polish =
-          n * kEvaluationUnits * static_cast<double>(kPolishRounds * 2 * polishPairs(unknowns));
+      const double round = n * kEvaluationUnits * 2 * static_cast<double>(polishPairs(unknowns));
+      first_polish = static_cast<double>(kFirstPolishRounds) * round;
+      polish = static_cast<double>(kPolishRounds) * round;
+      if (options.tilt_deg > 0) mirrored = views;
     }
     resamples = descent * options.resamples;
     own = options.own_loops ? kOwnLoopUnits * n + descent + polish : 0;
   }
   double all() const {
-    return hearts + families + starts + descent * static_cast<double>(descents) +
-           (look + polish) * static_cast<double>(descents + 1) + resamples + own;
+    const auto all_descents = static_cast<double>(descents + mirrored);
+    return hearts + families + starts + descent * all_descents +
+           (look + first_polish) * all_descents + look + polish + resamples + own;
   }
 };
 

@@ -101,14 +101,21 @@ HeartDesign HeartDesign::polynomial(const std::vector<DialRange>& ranges) {
   constexpr int kLatticeNodes = 4;
   const std::vector<std::vector<double>> lattice = latticeOf(ranges.size(), kLatticeNodes);
   const int terms = static_cast<int>(out.powers_.size());
-  std::vector<cv::Mat> rows;
-  for (const std::vector<double>& place : lattice) rows.push_back(rowOf(out.powers_, place));
+  cv::Mat rows(static_cast<int>(lattice.size()), terms, CV_64F);
+  for (int i = 0; i < rows.rows; ++i)
+    rowOf(out.powers_, lattice[static_cast<std::size_t>(i)]).copyTo(rows.row(i));
   constexpr double kUnknown = 1e6;  // variance of a term without hearts
   cv::Mat spread = kUnknown * cv::Mat::eye(terms, terms, CV_64F);
+  std::vector<double> variances(lattice.size());  // of the rows
+  for (int i = 0; i < rows.rows; ++i)
+    variances[static_cast<std::size_t>(i)] = kUnknown * rows.row(i).dot(rows.row(i));
   const auto take = [&](const std::vector<double>& place, const cv::Mat& row) {
     out.places_.push_back(place);
-    const cv::Mat seen = spread * row.t();
-    spread -= seen * seen.t() / (1 + row.dot(seen.t()));
+    const cv::Mat seen = (spread * row.t()).t();
+    const double all = 1 + row.dot(seen);
+    spread -= seen.t() * seen / all;
+    for (int i = 0; i < rows.rows; ++i)
+      variances[static_cast<std::size_t>(i)] -= std::pow(rows.row(i).dot(seen), 2) / all;
   };
   const std::vector<double> centre(ranges.size(), 0);
   take(centre, rowOf(out.powers_, centre));
@@ -116,11 +123,9 @@ HeartDesign HeartDesign::polynomial(const std::vector<DialRange>& ranges) {
   while (out.places_.size() < hearts) {
     std::size_t best = 0;
     double most = -1;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double variance = cv::Mat(rows[i] * spread).dot(rows[i]);
-      if (variance > most * (1 + 1e-9)) most = variance, best = i;
-    }
-    take(lattice[best], rows[best]);
+    for (std::size_t i = 0; i < variances.size(); ++i)
+      if (variances[i] > most * (1 + 1e-9)) most = variances[i], best = i;
+    take(lattice[best], rows.row(static_cast<int>(best)));
   }
   out.settle();
   return out;

@@ -30,7 +30,8 @@ HeartNodes::HeartNodes(const std::map<std::string, double>& dials,
                        const std::vector<DialRange>& ranges, int frames, int nodes,
                        const Monitor& monitor)
     : frames_(frames) {
-  checkFamily(dials, ranges, nodes);
+  checkRanges(dials, ranges);
+  checkNodes(ranges, nodes);
   design_ = HeartDesign::grid(ranges, nodes);
   HeartCache none;
   compute(dials, monitor, none);
@@ -39,7 +40,7 @@ HeartNodes::HeartNodes(const std::map<std::string, double>& dials,
 HeartNodes::HeartNodes(const std::map<std::string, double>& dials, HeartDesign design, int frames,
                        const Monitor& monitor, HeartCache cache)
     : design_(std::move(design)), frames_(frames) {
-  checkFamily(dials, design_.ranges(), kLeastNodes);
+  checkRanges(dials, design_.ranges());
   compute(dials, monitor, cache);
   cache.prune();
 }

@@ -32,7 +32,8 @@ std::vector<DialRange> rangesOf(const HeartFitOptions& options, std::size_t view
   for (const SearchedDial& dial : searchedDials()) {
     accepted += (accepted.empty() ? "" : ", ") + dial.range.key;
     if (std::find(keys.begin(), keys.end(), dial.range.key) != keys.end() &&
-        !options.dials.contains(dial.range.key))
+        !options.dials.contains(dial.range.key) &&
+        !(dial.range.key == kRightRatio && options.dials.contains("rv-edv")))
       out.push_back(dial.range);
   }
   if (out.empty())
@@ -235,7 +236,7 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
     fit.stopped = anyStopped(descents);
   });
   unlessStopped(monitor, fit, [&] {
-    if (options.own_look)
+    if (options.ownLook(loops.size()))
       fit.stopped =
           !polishWithOwnLooks(sides, viewsOf(loops), options, stages, progress, cost, descents);
   });

@@ -35,14 +35,16 @@ struct HeartFitOptions {
   int descents = 2;      // from the best of them
   // Fits the found heart's own rendered loops too: for regions and own_error.
   bool own_loops = true;
-  // Measures the look of the found heart in its own rendered loops, and polishes the fit with it
-  // (Eqs. 20 to 22). Takes three times as long.
-  bool own_look = false;
+  // Measures the look of found hearts in their own rendered loops, and polishes the fit with it
+  // (Eqs. 20 to 22). Takes three times as long. None: with two or more loops.
+  std::optional<bool> own_look{};
   bool other_views = true;  // compares the found heart in other views (view_check.h)
   int resamples = 0;  // blocks of the beat that are left out in turn (fit_resamples.h); 0: none
   std::filesystem::path heart_cache{};  // folder of computed hearts (HeartCache); empty: none
   // Keeps evaluations, so that a stopped fit resumes; none: nothing is kept.
   std::shared_ptr<FitJournal> journal{};
+
+  bool ownLook(std::size_t loops) const { return own_look.value_or(loops > 1); }
 };
 
 // At 90 %.

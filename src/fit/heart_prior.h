@@ -38,8 +38,11 @@ struct LonePrior {
 };
 // Largest volume of the left atrium, mL. Healthy adults have 25 +- 7 mL/m2 and up to 34; 48 is
 // severely enlarged (Lang et al., J. Am. Soc. Echocardiogr. 28, 2015). The spread, which covers
-// both, is our choice. Inward motion towards the apex relative to the base: our choice.
-inline constexpr LonePrior kLonePriors[] = {{"la-volume", 55, 0.35}, {"apical-motion", 1, 0.2}};
+// both, is our choice. Inward motion towards the apex relative to the base: our choice. Volume of
+// the right ventricle over that of the left one: that of the default heart; the spread is our
+// choice.
+inline constexpr LonePrior kLonePriors[] = {
+    {"la-volume", 55, 0.35}, {"apical-motion", 1, 0.2}, {"rv-ratio", 1.04, 0.12}};
 const LonePrior* lonePriorOf(const std::string& key);  // null: none
 
 class HeartPrior {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "fit/fit_polish.h"
@@ -35,7 +36,7 @@ class LookRounds {
   }
 
   // Measures the look of the descent's heart and polishes the descent with it. False if stopped.
-  bool add(Looked& one, std::string stage) {
+  bool add(Looked& one, std::string stage, std::size_t rounds = kPolishRounds) {
     FitDescent& descent = one.descent;
     makePossible(plain_, descent.best.at);
     if (!sides_.expectOwnLook(plain_, views_, descent.best, progress_.next(stages_.look)))
@@ -43,7 +44,9 @@ class LookRounds {
     one.stage = std::move(stage);
     const FitCost cost = costOf(one.stage);
     descent.best = cost.at(descent.best.at, descent.best.found);
-    descent = polishFit(cost, std::move(descent), progress_.next(stages_.polish));
+    descent = polishFit(
+        cost, std::move(descent),
+        progress_.next(rounds == kPolishRounds ? stages_.polish : stages_.first_polish), rounds);
     one.looks = sides_.looks;
     return !descent.stopped;
   }
@@ -57,10 +60,31 @@ class LookRounds {
   const FitCost& plain_;  // only for its unknowns: its sides change
 };
 
+// Descents from the lowest one with the tilt of one plane mirrored, plane by plane. Two planes that
+// are tilted by the same angle to either side of the axis of a body of revolution show the same
+// section, and the plain J often is lower in the wrong one.
+void addMirrored(const FitCost& cost, const FitStages& stages, FitProgress& progress,
+                 std::vector<FitDescent>& descents) {
+  const FitPlace lowest = descents.front().best;
+  for (std::size_t v = 0; v < stages.mirrored; ++v) {
+    const Monitor monitor = progress.next(stages.descent);
+    const std::size_t tilt = cost.dials() + 2 * v;
+    if (std::abs(lowest.at[tilt]) <= cost.unknowns()[tilt].step) continue;
+    FitPlace start = lowest;
+    start.at[tilt] *= -1;
+    descents.push_back(descendFit(cost, start, monitor));
+    if (descents.back().stopped) return;
+  }
+}
+
 // Those that differ and may still become the best.
-std::vector<FitDescent> hopefulOf(const FitCost& cost, const std::vector<FitDescent>& descents) {
-  constexpr double kMostAbove = 100;   // of J; our choice
-  constexpr double kOneMinimum = 0.5;  // steps of each unknown; our choice
+std::vector<FitDescent> hopefulOf(const FitCost& cost, std::vector<FitDescent> descents) {
+  // J of right planes of planted hearts was up to 123 above that of wrong ones. Our choice.
+  constexpr double kMostAbove = 150;
+  constexpr double kOneMinimum = 2;  // steps of each unknown; a polish joins them. Our choice
+  std::stable_sort(descents.begin(), descents.end(), [](const FitDescent& a, const FitDescent& b) {
+    return a.best.cost < b.best.cost;
+  });
   std::vector<FitDescent> out;
   for (const FitDescent& descent : descents)
     if (descent.best.cost <= descents.front().best.cost + kMostAbove &&
@@ -75,7 +99,8 @@ bool addLooks(LookRounds& rounds, const std::vector<FitDescent>& descents,
               std::vector<Looked>& all) {
   for (const FitDescent& descent : descents) {
     all.push_back({descent, {}, {}});
-    if (!rounds.add(all.back(), fmt::format("own look {}", all.size()))) return false;
+    if (!rounds.add(all.back(), fmt::format("own look {}", all.size()), kFirstPolishRounds))
+      return false;
   }
   std::stable_sort(all.begin(), all.end(), [](const Looked& a, const Looked& b) {
     return a.descent.best.cost < b.descent.best.cost;
@@ -95,8 +120,10 @@ bool polishWithOwnLooks(FittedSides& sides, const std::vector<heart::View>& view
                         FitProgress& progress, FitCost& cost, std::vector<FitDescent>& descents) {
   const std::vector<ExpectedLook> before = sides.looks;
   LookRounds rounds(sides, views, options, stages, progress, cost);
+  std::vector<FitDescent> ends = descents;
+  addMirrored(cost, stages, progress, ends);
   std::vector<Looked> all;
-  const bool done = addLooks(rounds, hopefulOf(cost, descents), all);
+  const bool done = !ends.back().stopped && addLooks(rounds, hopefulOf(cost, ends), all);
   sides.looks = done ? all.front().looks : before;
   cost = rounds.costOf(done ? all.front().stage : "descents");
   if (!done) return false;

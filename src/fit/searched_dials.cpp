@@ -9,17 +9,26 @@ const std::vector<SearchedDial>& searchedDials() {
       {{"ef", 0.15, 0.75}, 0.05},       {{"edv", 50, 280}, 10},
       {{"wall-thickness", 5, 15}, 1.5}, {{"sphericity", 0.46, 0.78}, 0.04},
       {{"mapse", 3, 20}, 2.5},          {{"conicity", 0.55, 0.95}, 0.05},
-      {{"la-volume", 20, 130}, 8},      {{"apical-motion", 0.65, 1.5}, 0.12}};
+      {{"la-volume", 20, 130}, 8},      {{"apical-motion", 0.65, 1.5}, 0.12},
+      {{kRightRatio, 0.8, 1.35}, 0.06}};
   return kDials;
 }
 
 std::vector<std::string> dialsSearchedIn(std::size_t views) {
   std::vector<std::string> keys{"ef", "edv", "wall-thickness", "sphericity", "mapse"};
-  if (views > 1) keys.emplace_back("conicity");
+  if (views > 1) keys.insert(keys.end(), {"conicity", "apical-motion", kRightRatio});
   return keys;
 }
 
 void addFollowers(std::map<std::string, double>& dials) {
+  if (const auto given = dials.find(kRightRatio); given != dials.end()) {
+    const double ratio = given->second;
+    dials.erase(given);
+    const heart::Parameters p = heart::parametersFrom(dials);
+    constexpr double kAboveLimit = 1 + 1e-6;  // of a rounded quotient
+    dials["rv-edv"] =
+        p.edv_ml * std::max(ratio, kAboveLimit * p.ejection_fraction / heart::kMostRightEjected);
+  }
   const auto left = dials.find("la-volume");
   if (left == dials.end() || dials.contains("ra-volume")) return;
   const heart::Parameters healthy;

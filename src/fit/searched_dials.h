@@ -15,14 +15,16 @@ struct SearchedDial {
 };
 
 // Adult hearts, failing to vigorous. Our choice. The keys of kPriorDials in their order, then the
-// left atrium, which the right one follows.
+// left atrium, which the right one follows, apical motion and the right ventricle.
 const std::vector<SearchedDial>& searchedDials();
 
 // Those that a fit searches by default: ejection fraction, volume, wall, sphericity and ring; in
-// two or more views conicity too, which one view does not determine.
+// two or more views also conicity, apical motion and the right ventricle's volume, which one view
+// does not determine.
 std::vector<std::string> dialsSearchedIn(std::size_t views);
 
-// Adds dials that follow searched ones: the right atrium's volume the left one's.
+// Adds dials that follow searched ones: the right atrium's volume the left one's. Replaces
+// kRightRatio by rv-edv, which is at least what ejects the stroke volume.
 void addFollowers(std::map<std::string, double>& dials);
 
 // Step of a dial in a range: that of the table, at most a quarter of the range. A tenth of the

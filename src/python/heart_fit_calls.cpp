@@ -32,8 +32,8 @@ std::optional<heart::View> fitViewOf(const std::optional<std::string>& key) {
 py::tuple fitLoops(const std::vector<std::tuple<std::optional<std::string>, Path, py::dict>>& loops,
                    const std::optional<Path>& folder, const std::map<std::string, double>& dials,
                    const std::optional<std::vector<std::string>>& searched, double tilt_deg,
-                   int starts, int descents, bool own_look, bool own_loops, int resamples,
-                   const std::optional<Path>& cache, bool resume, int threads,
+                   int starts, int descents, std::optional<bool> own_look, bool own_loops,
+                   int resamples, const std::optional<Path>& cache, bool resume, int threads,
                    const py::object& progress) {
   std::vector<fit::FitFile> files;
   for (const auto& [view, file, side] : loops)
@@ -66,9 +66,10 @@ py::tuple fitLoops(const std::vector<std::tuple<std::optional<std::string>, Path
 void bindHeartFit(py::module_& module) {
   module.def("fit", &fitLoops, py::arg("loops"), py::arg("folder").none(true), py::arg("dials"),
              py::arg("searched").none(true), py::arg("tilt_deg"), py::arg("starts"),
-             py::arg("descents"), py::arg("own_look"), py::arg("own_loops"), py::arg("resamples"),
-             py::arg("cache").none(true), py::arg("resume"), py::arg("threads"),
-             py::arg("progress").none(true), "fit.json and curves.csv as texts, and the dials.");
+             py::arg("descents"), py::arg("own_look").none(true), py::arg("own_loops"),
+             py::arg("resamples"), py::arg("cache").none(true), py::arg("resume"),
+             py::arg("threads"), py::arg("progress").none(true),
+             "fit.json and curves.csv as texts, and the dials.");
   module.def(
       "heart_cache", [] { return fit::userHeartCache(); }, "The user's folder of hearts.");
 }

@@ -117,7 +117,7 @@ constexpr const char* kUsage =
 int run(int argc, char** argv) {
   std::map<std::string, std::string> given{{"first", "0"},    {"degrees", ""},
                                            {"dials", ""},     {"look", "scanner"},
-                                           {"own_look", "0"}, {"own_loops", "1"}};
+                                           {"own_look", ""}, {"own_loops", "1"}};
   bool known = argc >= 3;
   for (int i = 3; i < argc; ++i) {
     const std::vector<std::string> parts = splitOption(argv[i], '=');
@@ -136,7 +136,7 @@ int run(int argc, char** argv) {
       given["degrees"].empty() ? (foreign ? 5 : 8) : std::atof(given["degrees"].c_str());
   HeartFitOptions options;
   if (!given["dials"].empty()) options.searched = splitOption(given["dials"], ',');
-  options.own_look = given["own_look"] != "0";
+  if (!given["own_look"].empty()) options.own_look = given["own_look"] != "0";
   options.own_loops = given["own_loops"] != "0";
   Errors ef{"EF"}, edv{"EDV, relative"}, gls{"GLS"};
   withThreads(0, [&] {

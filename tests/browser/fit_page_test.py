@@ -7,7 +7,7 @@ import sys
 
 import browser
 
-DIALS = "edv=130,wall-thickness=9,sphericity=0.6,mapse=13,conicity=0.7,hr=72"
+DIALS = "edv=130,wall-thickness=9,sphericity=0.6,mapse=13,conicity=0.7,apical-motion=1,rv-edv=135,hr=72"
 
 
 class FitPage(browser.PageTest):

@@ -43,6 +43,10 @@ TEST(FitChecksLaw, FamiliesThatCannotBeAreRefused) {
   expectRefused(family({}, {{"ef", 0.4, 0.5}, {"ef", 0.4, 0.5}}, 2), "ranges: ef is given twice");
   expectRefused(family({{"ef", 0.5}}, {{"ef", 0.4, 0.6}}, 2), "dials: ef has a range");
   expectRefused(family({{"hr", kNaN}}, {}, 2), "dials: hr is nan");
+  // Two dials of one volume, each given or with a range.
+  expectRefused(family({{"rv-edv", 130}, {"rv-ratio", 1}}, {}, 2), "dials: rv-edv and rv-ratio");
+  expectRefused(family({{"rv-edv", 130}}, {{"rv-ratio", 1, 1.2}}, 2), "dials: rv-edv and rv-ratio");
+  expectRefused(family({{"rv-ratio", 1}}, {{"rv-edv", 130, 140}}, 2), "dials: rv-edv and rv-ratio");
   expectRefused(family({}, {{"ef", 0.4, 0.6}}, 1), "nodes: is 1");
   expectRefused(family({}, {{"ef", 0.4, 0.6}}, 10), "nodes: is 10");
   expectRefused(family({}, {{"ef", 0.4, 0.6}, {"edv", 90, 120}, {"hr", 60, 80}}, 6), "nodes: 6");

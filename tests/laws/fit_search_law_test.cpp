@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "core/hash_random.h"
 #include "fit/fit_strain.h"
@@ -44,12 +47,15 @@ TEST(FitDesign, SearchedDialsHaveAPriorAndAStep) {
   EXPECT_NEAR(stepOf({"hr", 60, 80}), 2, 1e-12);
 }
 
-// A default fit searches the first five dials, or six.
+// One view determines fewer dials than several.
 TEST(FitDesign, DefaultDialsAreSearchedDials) {
+  std::set<std::string> known;
+  for (const SearchedDial& dial : searchedDials()) known.insert(dial.range.key);
   for (const std::size_t views : {1u, 2u, 3u}) {
     const std::vector<std::string> keys = dialsSearchedIn(views);
-    EXPECT_EQ(keys.size(), views == 1 ? 5u : 6u);
-    for (std::size_t i = 0; i < keys.size(); ++i) EXPECT_EQ(keys[i], searchedDials()[i].range.key);
+    EXPECT_EQ(keys.size(), views == 1 ? 5u : 8u);
+    EXPECT_EQ(std::set<std::string>(keys.begin(), keys.end()).size(), keys.size());
+    for (const std::string& key : keys) EXPECT_TRUE(known.contains(key)) << key;
   }
 }
 
@@ -64,6 +70,25 @@ TEST(FitDesign, TheRightAtriumFollowsTheLeft) {
   EXPECT_EQ(given.at("ra-volume"), 40);
 }
 
+// The right ventricle's volume follows a searched ratio, and can always eject the stroke volume.
+TEST(FitDesign, TheRightVentricleFollowsItsRatio) {
+  for (const double ef : {0.15, 0.5, 0.68, 0.75})
+    for (const double edv : {50.0, 120.0, 280.0})
+      for (const double ratio : {0.8, 1.0, 1.35}) {
+        std::map<std::string, double> dials{{"ef", ef}, {"edv", edv}, {kRightRatio, ratio}};
+        addFollowers(dials);
+        EXPECT_FALSE(dials.contains(kRightRatio));
+        EXPECT_NEAR(dials.at("rv-edv"), std::max(ratio * edv, ef * edv / heart::kMostRightEjected),
+                    1e-3);
+        EXPECT_EQ(heart::faultOf(heart::parametersFrom(dials)), "");
+      }
+  // Of the default left ventricle, if its volume is not given.
+  std::map<std::string, double> alone{{kRightRatio, 1.2}};
+  addFollowers(alone);
+  EXPECT_NEAR(alone.at("rv-edv"), 1.2 * heart::Parameters{}.edv_ml, 1e-9);
+  EXPECT_NEAR(dialOf("dials", kRightRatio).get(heart::parametersFrom(alone)).value(), 1.2, 1e-12);
+}
+
 // A cubic in the first two dials and a quadratic in all is reproduced everywhere, also after places
 // have moved.
 TEST(FitDesign, PolynomialsAreReproduced) {
@@ -74,7 +99,7 @@ TEST(FitDesign, PolynomialsAreReproduced) {
   };
   const std::vector<DialRange> ranges = searchedRanges();
   HeartDesign design = HeartDesign::polynomial(ranges);
-  EXPECT_EQ(design.size(), 59u);  // 49 terms and a fifth more
+  EXPECT_EQ(design.size(), 71u);  // 59 terms and a fifth more
   for (int round = 0; round < 2; ++round) {
     for (int n = 0; n < 50; ++n) {
       const std::vector<double> at = drawnWithin(ranges, n);

@@ -10,7 +10,7 @@ import echocine
 
 SIDE = {"a4c": {"read_ecg": False, "ed_frame": 0.0}}
 # All searched dials but one: the search takes seconds.
-FIXED = {"hr": 72.0, "edv": 130.0, "wall_thickness": 9.0, "sphericity": 0.6, "mapse": 13.0, "conicity": 0.7}
+FIXED = {"hr": 72.0, "edv": 130.0, "wall_thickness": 9.0, "sphericity": 0.6, "mapse": 13.0, "conicity": 0.7, "apical_motion": 1.0, "rv_edv": 135.0}
 
 
 @pytest.fixture(scope="module")

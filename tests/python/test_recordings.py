@@ -10,7 +10,7 @@ import pytest
 
 import echocine
 
-FIXED = {"hr": 72.0, "edv": 130.0, "wall_thickness": 9.0, "sphericity": 0.6, "mapse": 13.0, "conicity": 0.7}
+FIXED = {"hr": 72.0, "edv": 130.0, "wall_thickness": 9.0, "sphericity": 0.6, "mapse": 13.0, "conicity": 0.7, "apical_motion": 1.0, "rv_edv": 135.0}
 PATHS = ("root/exam/loop.zarr", "loop.hdf5")
 
 

@@ -143,6 +143,27 @@ TEST(HeartFit, AFlippedAndAShuffledLoopAreRefusedAndAKilledFitResumes) {
   });
 }
 
+// The plain J of this two-chamber loop is lowest in a plane tilted to the wrong side, where a
+// nearly round ventricle shows the same section. The look of each plane's heart tells the sides
+// apart.
+TEST(HeartFit, TheOwnLookFindsTheSideOfATilt) {
+  withThreads(2, [] {
+    const PlantedHeart heart = plantedHeart(3, 2, 8);  // a2c is tilted by -6.4 degrees
+    HeartFitOptions options;
+    options.dials = heart.dials;
+    options.dials.erase("ef");
+    options.searched = {"ef"};
+    options.starts = options.descents = 1;
+    options.own_look = true;
+    options.own_loops = options.other_views = false;
+    const HeartFit fit = fitHeart({{View::a2c, heart.loops[1], fromFirst()}}, options);
+    ASSERT_TRUE(fit.ef);
+    EXPECT_NEAR(degreesFromRadians(fit.views[0].tilt.tilt_rad), -6.4, 2);
+    EXPECT_NEAR(fit.ef->value, heart.dials.at("ef"), 0.04);
+    EXPECT_GT(fit.views[0].edges_seen, 0.5);
+  });
+}
+
 // Random hearts whose other dials the search does not have, with tilted planes, in one to three
 // views. Bounds of the mean and of the largest error are those that were measured.
 TEST(HeartFit, DrawnHeartsInOneToThreeViews) {

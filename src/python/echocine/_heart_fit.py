@@ -85,7 +85,7 @@ Sides = Union[None, Mapping[str, Mapping[str, Any]], Sequence[Mapping[str, Any]]
 
 
 def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
-        searched: Optional[Sequence[str]] = None, tilt_deg: float = 12, starts: int = 12, descents: int = 2, own_look: bool = False, own_loops: bool = True,
+        searched: Optional[Sequence[str]] = None, tilt_deg: float = 12, starts: int = 12, descents: int = 2, own_look: Optional[bool] = None, own_loops: bool = True,
         resamples: int = 0, cache: Union[bool, PathLike] = True, resume: bool = False, threads: int = 0, progress: Progress = None, **dials: float) -> HeartFit:
     """Fits a beating heart to one to three echo loops, as ``echocine fit`` does.
 
@@ -95,12 +95,14 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
         folder: for fit.json, curves.csv and heart/ (meshes and scene); None: no files.
         side: view -> what is known better than the file tells, as for `compare`: mm_per_pixel, fps, ed_frame, ...
             For a list of loops, a list.
-        searched: dials that are searched, of ef, edv, wall_thickness, sphericity, mapse, conicity, la_volume and
-            apical_motion; None: the first five, with two or more loops the first six. Other dials have the values given, or their defaults.
+        searched: dials that are searched, of ef, edv, wall_thickness, sphericity, mapse, conicity, apical_motion,
+            rv_ratio (right over left ventricle's volume) and la_volume; None: the first five, with two or more loops the first eight.
+            Other dials have the values given, or their defaults.
         tilt_deg: limit of tilt and rotation of each plane, either way, 0 (none) to 20.
         starts: hearts that are compared first.
         descents: searches, from the best of them.
-        own_look: measures in rendered loops of the found heart where its edges and which grey levels are seen, and polishes the fit with them. Takes three times as long.
+        own_look: measures in rendered loops of the found heart where its edges and which grey levels are seen, and polishes the fit with them.
+            Takes three times as long. None: with two or more loops.
         own_loops: fits the found heart's own rendered loops too, for regions and the error of such a fit.
         resamples: fits again without each of so many blocks of the beat, 4 to 10: intervals include their spread; 0: none.
         cache: keeps computed hearts in the user's cache folder and reads them there; a path: in this folder; False: does neither.
