@@ -46,7 +46,7 @@ MotionField interiorMotion(const Scene& scene, const MeshMotion& motion) {
 
 const std::shared_ptr<const MotionField>& SharedMotionField::shared() const {
   std::call_once(once_, [this] {
-    field_ = std::make_shared<const MotionField>(interiorMotion(scene_, motion_));
+    if (!field_) field_ = std::make_shared<const MotionField>(interiorMotion(scene_, motion_));
   });
   return field_;
 }

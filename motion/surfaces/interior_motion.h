@@ -16,9 +16,10 @@ MotionField interiorMotion(const Scene& scene, const MeshMotion& motion);
 // The field of a scene for all that ask for it: fitted once, by the first call.
 class SharedMotionField {
  public:
-  // References are kept until the field is fitted.
-  SharedMotionField(const Scene& scene, const MeshMotion& motion)
-      : scene_(scene), motion_(motion) {}
+  // References are kept until the field is fitted. known: the field, if it is known; null: not.
+  SharedMotionField(const Scene& scene, const MeshMotion& motion,
+                    std::shared_ptr<const MotionField> known = nullptr)
+      : scene_(scene), motion_(motion), field_(std::move(known)) {}
 
   // Thread-safe. An error leaves the field to be fitted by the next call.
   const MotionField& field() const { return *shared(); }

@@ -102,11 +102,11 @@ bool FittedSides::expectOwnLook(const FitCost& cost, const std::vector<heart::Vi
   for (std::size_t v = 0; v < views.size(); ++v) {
     const ModelLoop plain = plainAt(v, cost, place);
     std::deque<ModelDiscrepancy> own;
+    RenderedBeats rendered =
+        ownLoops(cost.dialsAt(place.at), views[v], cost.tiltAt(place.at, v), kFitFrames);
     for (int twin = 0; twin < kTwins; ++twin) {
       if (!monitor.keep_going()) return false;
-      own.emplace_back(ownLoop(cost.dialsAt(place.at), views[v], cost.tiltAt(place.at, v),
-                               kFitFrames, seedOf(v, kTwins + twin)),
-                       fromFirst(), plain);
+      own.emplace_back(rendered.loop(seedOf(v, kTwins + twin)), fromFirst(), plain);
       monitor.tell(
           {Task::settings, v * kTwins + static_cast<std::size_t>(twin) + 1, views.size() * kTwins});
     }
@@ -127,14 +127,14 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
   std::vector<std::vector<echo::EchoLoop>> loops;
   std::vector<std::deque<ModelDiscrepancy>> others;  // than the first loop
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const PlaneTilt tilt = cost.tiltAt(best.at, v);
+    RenderedBeats rendered =
+        ownLoops(cost.dialsAt(best.at), views[v], cost.tiltAt(best.at, v), kFitFrames);
     const ModelLoop model = own.modelAt(v, cost, best);
     loops.emplace_back();
     others.emplace_back();
     for (int twin = 0; twin < kTwins; ++twin) {
       if (!monitor.keep_going()) return std::nullopt;
-      loops[v].push_back(
-          ownLoop(cost.dialsAt(best.at), views[v], tilt, kFitFrames, seedOf(v, twin)));
+      loops[v].push_back(rendered.loop(seedOf(v, twin)));
       (twin == 0 ? own.discrepancies : others[v]).emplace_back(loops[v].back(), fromFirst(), model);
     }
   }

@@ -9,16 +9,25 @@
 
 namespace echocine::fit {
 
-echo::EchoLoop renderedBeat(Scene scene, int frames, int seed) {
+RenderedBeats::RenderedBeats(Scene scene, int frames) : scene_(std::move(scene)), frames_(frames) {
+  scene_.acquisition.frame_rate_hz = frames * scene_.acquisition.heart_rate_hz;
+  scene_.acquisition.beats = 1;
+  // Pixels of about 0.5 mm.
+  scene_.output.width = 360;
+  scene_.output.height = 300;
+  scene_.output.ecg = scene_.output.depth_ticks = false;
+}
+
+RenderedBeats::RenderedBeats(RenderedBeats&& other) noexcept = default;
+RenderedBeats::~RenderedBeats() = default;
+
+echo::EchoLoop RenderedBeats::loop(int seed) {
+  Scene scene = first_ ? first_->scene() : scene_;
   scene.speckle.seed = scene.speckle.heterogeneity_seed = seed;
   scene.artefacts.noise_seed = scene.artefacts.clutter_seed = seed;
-  scene.acquisition.frame_rate_hz = frames * scene.acquisition.heart_rate_hz;
-  scene.acquisition.beats = 1;
-  // Pixels of about 0.5 mm.
-  scene.output.width = 360;
-  scene.output.height = 300;
-  scene.output.ecg = scene.output.depth_ticks = false;
-  const Simulator simulator(scene);
+  std::unique_ptr<const Simulator> made = first_ ? std::make_unique<const Simulator>(scene, *first_)
+                                                 : std::make_unique<const Simulator>(scene);
+  const Simulator& simulator = *made;
   const Probe& p = simulator.scene().probe;
   const PictureGeometry& g = simulator.chain().geometry();
   echo::EchoLoop loop;
@@ -27,30 +36,31 @@ echo::EchoLoop renderedBeat(Scene scene, int frames, int seed) {
   loop.video.height = scene.output.height;
   loop.video.rate = {scene.acquisition.frame_rate_hz, "own", true};
   loop.metres_per_pixel = g.metres_per_pixel;
-  loop.frames_per_beat = frames;
+  loop.frames_per_beat = frames_;
   loop.find.sector = {g.origin_x_px,
                       g.origin_y_px,
                       p.first_angle_rad,
                       p.last_angle_rad,
                       (p.face_radius_m + p.min_depth_m) / g.metres_per_pixel,
                       (p.face_radius_m + p.max_depth_m) / g.metres_per_pixel};
-  loop.video.frames.resize(static_cast<std::size_t>(frames));
+  loop.video.frames.resize(static_cast<std::size_t>(frames_));
   simulator.referenceIntensity();
   parallelBlocks(loop.video.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       loop.video.frames[i] =
           simulator.frame(static_cast<double>(i) / scene.acquisition.frame_rate_hz).image.pixels;
   });
+  if (!first_) first_ = std::move(made);
   loop.overlay.assign(loop.video.frames.front().size(), 0);
   loop.video.coloured.assign(loop.overlay.size(), 0);
   return loop;
 }
 
-echo::EchoLoop ownLoop(const std::map<std::string, double>& dials, heart::View view,
-                       const PlaneTilt& tilt, int frames, int seed) {
+RenderedBeats ownLoops(const std::map<std::string, double>& dials, heart::View view,
+                       const PlaneTilt& tilt, int frames) {
   Scene scene = heart::heartScene(heart::parametersFrom(dials), view, frames, Look::scanner);
   scene.probe.pose = turnedAndTilted(scene.probe.pose, tilt.rotate_rad, tilt.tilt_rad);
-  return renderedBeat(std::move(scene), frames, seed);
+  return {std::move(scene), frames};
 }
 
 }  // namespace echocine::fit

@@ -3,21 +3,45 @@
 // error of the comparison.
 
 #include <map>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "echo/echo_loop.h"
 #include "fit/plane_tilt.h"
 #include "motion/heart/heart_scene.h"
 
+namespace echocine {
+class Simulator;
+}
+
 namespace echocine::fit {
 
-// One beat of a scene as an echo loop of `frames` pictures from end-diastole, 360 x 300 pixels. The
-// seed is that of speckle, noise and clutter. Throws like Simulator. Runs in parallel.
-echo::EchoLoop renderedBeat(Scene scene, int frames, int seed);
+// One beat of a scene as echo loops of `frames` pictures from end-diastole, 360 x 300 pixels. A
+// seed is that of speckle, noise and clutter. Loops share the motion of meshes and tissue.
+class RenderedBeats {
+ public:
+  RenderedBeats(Scene scene, int frames);
+  RenderedBeats(RenderedBeats&& other) noexcept;
+  ~RenderedBeats();
 
-// renderedBeat() of a heart in the look scanner, with the plane tilted. Throws SceneError for
-// impossible dials.
-echo::EchoLoop ownLoop(const std::map<std::string, double>& dials, heart::View view,
-                       const PlaneTilt& tilt, int frames, int seed);
+  // Throws like Simulator. Runs in parallel.
+  echo::EchoLoop loop(int seed);
+
+ private:
+  Scene scene_;
+  int frames_;
+  std::unique_ptr<const Simulator> first_;  // null before the first loop
+};
+
+// The only loop of a scene.
+inline echo::EchoLoop renderedBeat(Scene scene, int frames, int seed) {
+  return RenderedBeats(std::move(scene), frames).loop(seed);
+}
+
+// Loops of a heart in the look scanner, with the plane tilted. Throws SceneError for impossible
+// dials.
+RenderedBeats ownLoops(const std::map<std::string, double>& dials, heart::View view,
+                       const PlaneTilt& tilt, int frames);
 
 }  // namespace echocine::fit

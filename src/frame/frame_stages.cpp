@@ -128,9 +128,10 @@ FrameEffects::FrameEffects(const Scene& scene, const MeshMotion& motion,
                            const CardiacClock& clock, const SignalChain& chain,
                            const SceneSpeckle* source, const ValveParts& valves)
     : trabeculae(where<Trabeculae>(plan.effects.trabeculae, scene, motion, !plan.slice)),
-      speckle(source ? where<SceneSpeckle>(plan.effects.speckle, scene, *source)
-                     : where<SceneSpeckle>(plan.effects.speckle, scene, motion, field, plan.effects,
-                                           trabeculae.get(), valves)),
+      speckle(source && source->hasSeedsOf(scene)
+                  ? where<SceneSpeckle>(plan.effects.speckle, scene, *source)
+                  : where<SceneSpeckle>(plan.effects.speckle, scene, motion, field, plan.effects,
+                                        trabeculae.get(), valves)),
       rolling(where<RollingLines>(
           plan.effects.rolling, scene,
           [&](LineRange lines) { return chain.taken(speckle ? speckle->reach(lines) : lines); })),
@@ -151,7 +152,7 @@ FrameStages::FrameStages(Scene given, std::shared_ptr<const MeshMotion> given_mo
              where<Chordae>(plan.effects.chordae, scene, *motion),
              where<ValveRings>(plan.effects.annulus, scene, *motion)},
       rays(scene, plan, valves),
-      field(scene, *motion),
+      field(scene, *motion, source ? source->field() : nullptr),
       effects(scene, *motion, field, plan, cardiac_clock, chain, source, valves),
       truth(scene, *motion, field, cardiac_clock, plan, effects.rolling.get(),
             plan.left_out.none() && !effects.trabeculae && !valves.leaflets),

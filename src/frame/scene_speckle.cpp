@@ -7,8 +7,9 @@ namespace echocine {
 SceneSpeckle::SceneSpeckle(const Scene& scene, std::shared_ptr<const Tissue> tissue,
                            std::shared_ptr<const Scatterers> drawn)
     : tissue_(std::move(tissue)),
-      speckle_(scene.probe, PointSpread(scene), scene.speckle, tissue_->material,
-               std::move(drawn)) {
+      speckle_(scene.probe, PointSpread(scene), scene.speckle, tissue_->material, std::move(drawn)),
+      seed_(scene.speckle.seed),
+      heterogeneity_seed_(scene.speckle.heterogeneity_seed) {
   const auto half_m = static_cast<float>(speckle_.farthestAcross_m());
   about_plane_.assign(tissue_->field->groupCount(), std::pair(-half_m, half_m));
 }
@@ -25,6 +26,10 @@ SceneSpeckle::SceneSpeckle(const Scene& scene, const MeshMotion& motion,
 
 SceneSpeckle::SceneSpeckle(const Scene& scene, const SceneSpeckle& source)
     : SceneSpeckle(scene, source.tissue_, source.speckle_.drawn()) {}
+
+bool SceneSpeckle::hasSeedsOf(const Scene& scene) const {
+  return seed_ == scene.speckle.seed && heterogeneity_seed_ == scene.speckle.heterogeneity_seed;
+}
 
 void SceneSpeckle::apply(const FrameTime& time, const SurfaceFrame& surfaces,
                          Intensities& intensities, const CoherentEchoes& echoes, LineRange lines,

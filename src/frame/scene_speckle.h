@@ -20,6 +20,10 @@ class SceneSpeckle {
   // this, and of a scene that differs at most in lines, samples and what no scatterer depends on.
   SceneSpeckle(const Scene& scene, const SceneSpeckle& source);
 
+  // Whether scatterers and the strength of tissue are drawn from the scene's seeds.
+  bool hasSeedsOf(const Scene& scene) const;
+  const std::shared_ptr<const MotionField>& field() const { return tissue_->field; }
+
   // Applies speckle in place to the intensities of some lines after the beam average, and to their
   // coherent part. `surfaces` are those of the instant. field: unless empty, receives the field of
   // these lines. Thread-safe; frames of equal time are equal.
@@ -43,6 +47,7 @@ class SceneSpeckle {
   std::shared_ptr<const Tissue> tissue_;
   Speckle speckle_;
   FieldPart about_plane_;  // region of the scatterers
+  int seed_, heterogeneity_seed_;
 };
 
 }  // namespace echocine

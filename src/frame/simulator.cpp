@@ -80,6 +80,10 @@ Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, Loop
     : stages_(std::make_unique<const FrameStages>(std::move(scene), std::move(motion),
                                                   std::move(plan), source)) {}
 
+Simulator::Simulator(Scene scene, const Simulator& source)
+    : Simulator(std::move(scene), source.sharedMotion(), source.plan(),
+                source.sharedSpeckle().get()) {}
+
 Simulator::~Simulator() = default;
 
 Volumes Simulator::make(const FrameTime& time, const Making& making, Workspace& workspace) const {

@@ -52,10 +52,15 @@ class Simulator {
   explicit Simulator(Scene scene);
   // Shares the motion with other simulators. Precondition: it was made from this scene.
   Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion);
-  // `source`: speckle of another simulator of this motion, whose field and scatterers are shared;
-  // its precondition is that of SceneSpeckle.
+  // `source`: speckle of another simulator of this motion, whose field is shared, and whose
+  // scatterers too unless the seeds of speckle differ. Otherwise its precondition is that of
+  // SceneSpeckle.
   Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan,
             const SceneSpeckle* source = nullptr);
+
+  // Shares motion, plan and speckle of another simulator likewise. Precondition: their scenes
+  // differ at most in lines, samples, seeds and what neither plan nor scatterers depend on.
+  Simulator(Scene scene, const Simulator& source);
 
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;

@@ -70,8 +70,9 @@ struct PerfectModel {
   std::vector<fit::FitMap> twins;
 
   explicit PerfectModel(const Scene& scene) : model(modelOf(scene)) {
+    fit::RenderedBeats rendered(scene, fit::kFitFrames);
     for (int twin = 0; twin < fit::kTwins; ++twin) {
-      const echo::EchoLoop own = fit::renderedBeat(scene, fit::kFitFrames, 71 + twin);
+      const echo::EchoLoop own = rendered.loop(71 + twin);
       const fit::ModelDiscrepancy d(own, knownBeat(), model);
       twins.push_back(d.map(model, d.refine(model, {fit::FitPose{}}).pose));
     }

@@ -143,6 +143,20 @@ TEST(HeartFit, AFlippedAndAShuffledLoopAreRefusedAndAKilledFitResumes) {
   });
 }
 
+// Loops that share motion have the bytes of loops that do not, whatever the order.
+TEST(HeartFit, OwnLoopsOfOneHeartShareItsMotion) {
+  withThreads(2, [] {
+    const std::map<std::string, double> dials{{"ef", 0.5}, {"edv", 110}, {"hr", 72}};
+    RenderedBeats shared = ownLoops(dials, View::a4c, {}, 4);
+    for (const int seed : {7, 8, 7}) {
+      const EchoLoop loop = shared.loop(seed), alone = ownLoops(dials, View::a4c, {}, 4).loop(seed);
+      EXPECT_EQ(loop.video.frames, alone.video.frames) << seed;
+      EXPECT_EQ(loop.metres_per_pixel, alone.metres_per_pixel);
+    }
+    EXPECT_NE(shared.loop(8).video.frames, shared.loop(7).video.frames);
+  });
+}
+
 // The plain J of this two-chamber loop is lowest in a plane tilted to the wrong side, where a
 // nearly round ventricle shows the same section. The look of each plane's heart tells the sides
 // apart.
