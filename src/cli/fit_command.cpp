@@ -105,7 +105,7 @@ FitCommand::FitCommand(CLI::App& app) {
       ->capture_default_str();
   command->add_flag("--no-own-look", no_own_look_,
                     "Expect the edges and grey levels of the model alone, not those of its "
-                    "rendered loops: a third of the time; always so with one loop");
+                    "rendered loops: a quarter of the time; always so with one loop");
   command->add_flag("--resume", resume_, "Continue a stopped fit in the folder");
   command->add_flag("--no-cache", no_cache_,
                     "Neither read nor keep computed hearts in the user's cache folder");

@@ -10,6 +10,7 @@
 #include "fit/caveats.h"
 #include "fit/cpu_seconds.h"
 #include "fit/option_list.h"
+#include "fit/searched_dials.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/heart/parameters.h"
 #include "motion/heart/recording.h"
@@ -98,6 +99,7 @@ FitReport whereBest(const DialScan& scan, const ModelDiscrepancy& discrepancy,
   std::map<std::string, double> dials = scan.options.dials;
   for (std::size_t a = 0; a < best.values.size(); ++a)
     dials[scan.options.axes[a].range.key] = best.values[a];
+  addFollowers(dials);
   const Scene scene =
       heart::heartScene(heart::parametersFrom(dials), scan.options.view, kFitFrames);
   const MeshMotion motion(scene);
