@@ -103,9 +103,12 @@ FitCommand::FitCommand(CLI::App& app) {
                                fit::kLeastResamples, fit::kMostResamples))
       ->type_name("NUMBER")
       ->capture_default_str();
-  command->add_flag("--no-own-look", no_own_look_,
-                    "Expect the edges and grey levels of the model alone, not those of its "
-                    "rendered loops: a quarter of the time; always so with one loop");
+  CLI::Option* own_look = command->add_flag(
+      "--own-look", own_look_,
+      "Expect the edges and grey levels of the found heart's rendered loops: four times the time; "
+      "default with three loops");
+  command->add_flag("--no-own-look", no_own_look_, "Expect those of the model alone")
+      ->excludes(own_look);
   command->add_flag("--resume", resume_, "Continue a stopped fit in the folder");
   command->add_flag("--no-cache", no_cache_,
                     "Neither read nor keep computed hearts in the user's cache folder");
@@ -174,7 +177,7 @@ int FitCommand::run() {
   options.dials = fit::parseDials(dials_);
   options.tilt_deg = tilt_deg_;
   options.resamples = resamples_;
-  if (no_own_look_) options.own_look = false;
+  if (own_look_ || no_own_look_) options.own_look = own_look_;
   if (!no_cache_) options.heart_cache = fit::userHeartCache();
   ProgressLine line(quiet_);
   fit::HeartFit fit;

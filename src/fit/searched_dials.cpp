@@ -16,7 +16,8 @@ const std::vector<SearchedDial>& searchedDials() {
 
 std::vector<std::string> dialsSearchedIn(std::size_t views) {
   std::vector<std::string> keys{"ef", "edv", "wall-thickness", "sphericity", "mapse"};
-  if (views > 1) keys.insert(keys.end(), {"conicity", "apical-motion", kRightRatio});
+  if (views > 1) keys.emplace_back("conicity");
+  if (views > 2) keys.insert(keys.end(), {"apical-motion", kRightRatio});
   return keys;
 }
 

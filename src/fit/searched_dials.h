@@ -19,8 +19,8 @@ struct SearchedDial {
 const std::vector<SearchedDial>& searchedDials();
 
 // Those that a fit searches by default: ejection fraction, volume, wall, sphericity and ring; in
-// two or more views also conicity, apical motion and the right ventricle's volume, which one view
-// does not determine.
+// two views also conicity, and in three apical motion and the right ventricle's volume too. Fewer
+// views do not determine them.
 std::vector<std::string> dialsSearchedIn(std::size_t views);
 
 // Adds dials that follow searched ones: the right atrium's volume the left one's. Replaces

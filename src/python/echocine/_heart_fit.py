@@ -96,13 +96,13 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
         side: view -> what is known better than the file tells, as for `compare`: mm_per_pixel, fps, ed_frame, ...
             For a list of loops, a list.
         searched: dials that are searched, of ef, edv, wall_thickness, sphericity, mapse, conicity, apical_motion,
-            rv_ratio (right over left ventricle's volume) and la_volume; None: the first five, with two or more loops the first eight.
+            rv_ratio (right over left ventricle's volume) and la_volume; None: the first five, with two loops the first six, with three the first eight.
             Other dials have the values given, or their defaults.
         tilt_deg: limit of tilt and rotation of each plane, either way, 0 (none) to 20.
         starts: hearts that are compared first.
         descents: searches, from the best of them.
         own_look: measures in rendered loops of the found heart where its edges and which grey levels are seen, and polishes the fit with them.
-            Takes four times as long. None: with two or more loops.
+            Takes four times as long. None: with three loops.
         own_loops: fits the found heart's own rendered loops too, for regions and the error of such a fit.
         resamples: fits again without each of so many blocks of the beat, 4 to 10: intervals include their spread; 0: none.
         cache: keeps computed hearts in the user's cache folder and reads them there; a path: in this folder; False: does neither.
