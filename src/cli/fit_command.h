@@ -32,7 +32,8 @@ class FitCommand {
   double tilt_deg_ = fit::HeartFitOptions{}.tilt_deg;
   std::filesystem::path folder_;
   int threads_ = 0, resamples_ = 0;
-  bool quiet_ = false, no_ecg_ = false, no_cache_ = false, resume_ = false, own_look_ = false, no_own_look_ = false;
+  bool quiet_ = false, no_ecg_ = false, no_cache_ = false, resume_ = false, own_look_ = false,
+       no_own_look_ = false;
 };
 
 }  // namespace echocine

@@ -9,8 +9,8 @@
 
 namespace echocine::fit {
 
-// In units of FitProgress. With own look, the planes of the best descent are mirrored in turn, each
-// descent may have a look and a polish, and the best one has them twice.
+// In units of FitProgress. With own look, the planes of the best descent are mirrored in turn,
+// those descents that end apart have a look and a polish, and the best one has them twice.
 struct FitStages {
   double hearts, families, starts, descent, resamples, own;
   double look = 0, first_polish = 0, polish = 0;
@@ -36,8 +36,10 @@ struct FitStages {
   }
   double all() const {
     const auto all_descents = static_cast<double>(descents + mirrored);
+    constexpr double kUsuallyApart = 2;  // ends of descents that have a look; measured
     return hearts + families + starts + descent * all_descents +
-           (look + first_polish) * all_descents + look + polish + resamples + own;
+           (look + first_polish) * std::min(kUsuallyApart, all_descents) + look + polish +
+           resamples + own;
   }
 };
 
