@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "motion/interior/motion_field.h"
 #include "motion/surfaces/mesh_motion.h"

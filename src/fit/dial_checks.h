@@ -33,8 +33,8 @@ const heart::Dial& dialOf(const std::string& argument, const std::string& key);
 void checkDial(const std::string& argument, const heart::Dial& dial, double value);
 
 // A family's input. `ranges`: different dials, low below high, within the range of the dial.
-// `dials`: values within their ranges, of none of the dials in `ranges`. They have
-// kRightRatio or rv-edv, not both. Throws SceneError.
+// `dials`: values within their ranges, of none of the dials in `ranges`. Together they have at most
+// one of kRightRatio and rv-edv. Throws SceneError.
 void checkRanges(const std::map<std::string, double>& dials, const std::vector<DialRange>& ranges);
 // Nodes of each dial of a grid. nodes^ranges hearts are at most kMostHearts. Throws SceneError.
 void checkNodes(const std::vector<DialRange>& ranges, int nodes);

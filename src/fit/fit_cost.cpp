@@ -114,6 +114,17 @@ std::vector<double> FitCost::moved(const std::vector<double>& from,
   return out;
 }
 
+std::vector<double> FitCost::minimumNear(const Quadratic& q, const std::vector<double>& from,
+                                         const std::vector<double>& most_steps) const {
+  std::vector<double> low, high;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const FitUnknown& u = unknowns_[i];
+    low.push_back(std::max(-most_steps[i], (u.low - from[i]) / u.step));
+    high.push_back(std::min(most_steps[i], (u.high - from[i]) / u.step));
+  }
+  return moved(from, minimumWithin(q, low, high));
+}
+
 std::vector<double> FitCost::stepsBetween(const std::vector<double>& from,
                                           const std::vector<double>& to) const {
   std::vector<double> out;

@@ -101,6 +101,10 @@ class FitCost {
   // Values of the unknowns, given in steps from a place, within the limits.
   std::vector<double> moved(const std::vector<double>& from,
                             const std::vector<double>& steps) const;
+  // Where a quadratic, in steps from a place, is least within the limits and so many steps of each
+  // unknown.
+  std::vector<double> minimumNear(const Quadratic& q, const std::vector<double>& from,
+                                  const std::vector<double>& most_steps) const;
   // Steps from one place to another.
   std::vector<double> stepsBetween(const std::vector<double>& from,
                                    const std::vector<double>& to) const;

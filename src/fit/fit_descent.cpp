@@ -17,13 +17,8 @@ constexpr double kFarther = 1;    // steps, beyond which mixed derivatives are c
 // The best of a straight way from the place to the quadratic's minimum.
 FitPlace taken(const FitCost& cost, const FitPlace& from, const Quadratic& q,
                const std::vector<double>& middle) {
-  std::vector<double> low, high;
-  for (std::size_t i = 0; i < middle.size(); ++i) {
-    const FitUnknown& u = cost.unknowns()[i];
-    low.push_back(std::max(-kMostSteps, (u.low - middle[i]) / u.step));
-    high.push_back(std::min(kMostSteps, (u.high - middle[i]) / u.step));
-  }
-  const std::vector<double> to = cost.moved(middle, minimumWithin(q, low, high));
+  const std::vector<double> to =
+      cost.minimumNear(q, middle, std::vector<double>(middle.size(), kMostSteps));
   FitPlace best = from;
   double share = 1, most = from.cost + kNoise;
   for (int halving = 0; halving <= kMostHalvings; ++halving, share /= 2) {

@@ -126,14 +126,10 @@ Quadratic regressionAbout(const FitCost& cost, const std::vector<double>& middle
 
 FitPlace minimumOf(const FitCost& cost, const Quadratic& q, const FitPlace& middle,
                    const Axes& axes, double width) {
-  std::vector<double> low, high;
-  for (std::size_t i = 0; i < middle.at.size(); ++i) {
-    const FitUnknown& u = cost.unknowns()[i];
-    const double farthest = kFarthest * width * axes.sdOf(i);
-    low.push_back(std::max(-farthest, (u.low - middle.at[i]) / u.step));
-    high.push_back(std::min(farthest, (u.high - middle.at[i]) / u.step));
-  }
-  return cost.at(cost.moved(middle.at, minimumWithin(q, low, high)), middle.found);
+  std::vector<double> farthest;
+  for (std::size_t i = 0; i < middle.at.size(); ++i)
+    farthest.push_back(kFarthest * width * axes.sdOf(i));
+  return cost.at(cost.minimumNear(q, middle.at, farthest), middle.found);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace echocine::fit {
 // those descents that end apart have a look and a polish, and the best one has them twice.
 struct FitStages {
   double hearts, families, starts, descent, resamples, own;
-  double look = 0, first_polish = 0, polish = 0;
+  double look = 0, polish_round = 0;
   std::size_t descents, mirrored = 0;
   FitStages(std::size_t views, std::size_t hearts_made, std::size_t dials,
             const HeartFitOptions& options)
@@ -26,20 +26,19 @@ struct FitStages {
     descent = descentUnits(n, static_cast<double>(unknowns));
     if (options.ownLook(views)) {
       look = kOwnLoopUnits * n;
-      const double round = n * kEvaluationUnits * 2 * static_cast<double>(polishPairs(unknowns));
-      first_polish = static_cast<double>(kFirstPolishRounds) * round;
-      polish = static_cast<double>(kPolishRounds) * round;
+      polish_round = n * kEvaluationUnits * 2 * static_cast<double>(polishPairs(unknowns));
       if (options.tilt_deg > 0) mirrored = views;
     }
     resamples = descent * options.resamples;
-    own = options.own_loops ? kOwnLoopUnits * n + descent + polish : 0;
+    own = options.own_loops ? kOwnLoopUnits * n + descent + polish(kPolishRounds) : 0;
   }
+  double polish(std::size_t rounds) const { return static_cast<double>(rounds) * polish_round; }
   double all() const {
     const auto all_descents = static_cast<double>(descents + mirrored);
     constexpr double kUsuallyApart = 2;  // ends of descents that have a look; measured
     return hearts + families + starts + descent * all_descents +
-           (look + first_polish) * std::min(kUsuallyApart, all_descents) + look + polish +
-           resamples + own;
+           (look + polish(kFirstPolishRounds)) * std::min(kUsuallyApart, all_descents) + look +
+           polish(kPolishRounds) + resamples + own;
   }
 };
 

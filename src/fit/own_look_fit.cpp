@@ -36,7 +36,7 @@ class LookRounds {
   }
 
   // Measures the look of the descent's heart and polishes the descent with it. False if stopped.
-  bool add(Looked& one, std::string stage, std::size_t rounds = kPolishRounds) {
+  bool add(Looked& one, std::string stage, std::size_t rounds) {
     FitDescent& descent = one.descent;
     makePossible(plain_, descent.best.at);
     if (!sides_.expectOwnLook(plain_, views_, descent.best, progress_.next(stages_.look)))
@@ -44,9 +44,7 @@ class LookRounds {
     one.stage = std::move(stage);
     const FitCost cost = costOf(one.stage);
     descent.best = cost.at(descent.best.at, descent.best.found);
-    descent = polishFit(
-        cost, std::move(descent),
-        progress_.next(rounds == kPolishRounds ? stages_.polish : stages_.first_polish), rounds);
+    descent = polishFit(cost, std::move(descent), progress_.next(stages_.polish(rounds)), rounds);
     one.looks = sides_.looks;
     return !descent.stopped;
   }
@@ -106,7 +104,7 @@ bool addLooks(LookRounds& rounds, const std::vector<FitDescent>& descents,
     return a.descent.best.cost < b.descent.best.cost;
   });
   const double before = all.front().descent.best.cost;
-  if (!rounds.add(all.front(), "own look again")) return false;
+  if (!rounds.add(all.front(), "own look again", kPolishRounds)) return false;
   // J of the others is comparable with that of the first round.
   const double change = all.front().descent.best.cost - before;
   for (std::size_t i = 1; i < all.size(); ++i) all[i].descent.best.cost += change;

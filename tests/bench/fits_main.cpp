@@ -115,8 +115,8 @@ constexpr const char* kUsage =
     "[own_loops=0]";
 
 int run(int argc, char** argv) {
-  std::map<std::string, std::string> given{{"first", "0"},    {"degrees", ""},
-                                           {"dials", ""},     {"look", "scanner"},
+  std::map<std::string, std::string> given{{"first", "0"},   {"degrees", ""},
+                                           {"dials", ""},    {"look", "scanner"},
                                            {"own_look", ""}, {"own_loops", "1"}};
   bool known = argc >= 3;
   for (int i = 3; i < argc; ++i) {

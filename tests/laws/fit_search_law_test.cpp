@@ -82,7 +82,7 @@ TEST(FitDesign, TheRightVentricleFollowsItsRatio) {
                     1e-3);
         EXPECT_EQ(heart::faultOf(heart::parametersFrom(dials)), "");
       }
-  // Of the default left ventricle, if its volume is not given.
+  // Without edv, the ratio is relative to the default left ventricle.
   std::map<std::string, double> alone{{kRightRatio, 1.2}};
   addFollowers(alone);
   EXPECT_NEAR(alone.at("rv-edv"), 1.2 * heart::Parameters{}.edv_ml, 1e-9);

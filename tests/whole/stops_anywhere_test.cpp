@@ -115,7 +115,8 @@ class StopsAnywhere : public testing::Test {
         {"compare with views", {"compare", cine, "-o", "OUT", "--views", "a4c,plax"}, 2},
         {"fit",
          {"fit", "--no-cache", "--view", "a4c=" + cine, "--tilt", "0", "-o", "OUT", "--dials",
-          "edv=130,wall-thickness=9,sphericity=0.6,mapse=13,conicity=0.7,apical-motion=1,rv-edv=135"},
+          "edv=130,wall-thickness=9,sphericity=0.6,mapse=13,conicity=0.7,apical-motion=1,rv-edv="
+          "135"},
          8},
         {"heart", {"heart", "-o", "OUT/heart", "--keyframes", "24"}, 0.5},
     };
