@@ -6,8 +6,10 @@
 namespace echocine::dataset {
 
 bool isOfHeart(std::string_view name) {
-  return name.starts_with("heart.") || name.starts_with("subject.") ||
-         name.starts_with("scene.acquisition.");
+  constexpr const char* kOfHeart[] = {"heart.", "subject.", "scene.acquisition.",
+                                      "scene.trabeculae.", "scene.leaflets."};
+  return std::any_of(std::begin(kOfHeart), std::end(kOfHeart),
+                     [&](const char* prefix) { return name.starts_with(prefix); });
 }
 
 bool Spec::has(std::string_view layout) const {

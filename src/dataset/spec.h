@@ -22,7 +22,8 @@ struct Parameter {
   SourcePlace place;  // in the spec; empty for built-in ones
 };
 
-// Heart, subject and acquisition are drawn once per heart, the rest once per view.
+// Heart, subject, acquisition, trabeculae and leaflets are drawn once per heart, the rest once per
+// view.
 bool isOfHeart(std::string_view name);
 
 struct Population {

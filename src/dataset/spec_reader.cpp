@@ -81,8 +81,8 @@ void readOffsets(TomlTable offset, std::vector<Parameter>& to) {
 
 // Those of a scene that say how a heart is imaged; its parts and files are the program's own.
 void readSceneKeys(TomlTable scene, std::vector<Parameter>& to) {
-  for (const char* section : {"probe", "acquisition", "motion", "effects", "speckle", "artefacts",
-                              "signal", "accuracy"}) {
+  for (const char* section : {"probe", "acquisition", "motion", "effects", "trabeculae", "leaflets",
+                              "speckle", "artefacts", "signal", "accuracy"}) {
     TomlTable keys = scene.table(section);
     for (const std::string& key : keys.keys())
       to.push_back(readParameter(keys, key, fmt::format("scene.{}.", section)));

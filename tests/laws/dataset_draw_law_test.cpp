@@ -123,6 +123,20 @@ TEST(DatasetDraws, ViewsOfAHeartShareItAndDifferInTheProbe) {
   EXPECT_NE(draw.view_values[0].at("offset.tilt_deg"), draw.view_values[1].at("offset.tilt_deg"));
 }
 
+TEST(DatasetDraws, ViewsOfAHeartShareItsValvesAndTrabeculae) {
+  const Spec spec = parseSpec(
+      "hearts = 2\nviews = [\"a2c\", \"a4c\"]\n[scene.trabeculae]\nheight_mm = { uniform = [0.5, "
+      "2] "
+      "}\n[scene.leaflets]\nthickness_mm = { uniform = [1, 3] }\n[scene.speckle]\nheterogeneity_db "
+      "= { uniform = [1, 5] }\n",
+      "spec.toml");
+  const Draw draw = drawOf(spec, 0, 0);
+  for (const char* key : {"scene.trabeculae.height_mm", "scene.leaflets.thickness_mm"})
+    EXPECT_EQ(draw.valuesOf(0).at(key), draw.valuesOf(1).at(key)) << key;
+  EXPECT_NE(draw.valuesOf(0).at("scene.speckle.heterogeneity_db"),
+            draw.valuesOf(1).at("scene.speckle.heterogeneity_db"));
+}
+
 TEST(DatasetDraws, TheQuantileUndoesTheDistributionFunction) {
   for (const double p : {1e-12, 1e-3, 0.25, 0.5, 0.9, 1 - 1e-9})
     EXPECT_NEAR(normalCumulative(normalQuantile(p)), p, 1e-14);
