@@ -117,6 +117,6 @@ class ModelPlane {
 // A beat of a scene's motion in `frames` steps. End-systole is that of the scene's keyframes, or
 // else the instant of the smallest left ventricular cavity.
 ModelLoop modelLoop(const Scene& scene, const MeshMotion& motion, int frames,
-                    const std::optional<WallSegments>& segments = {});
+                    const std::optional<WallSegments>& segments = {}, Focus focus = Focus::all);
 
 }  // namespace echocine::fit

@@ -45,9 +45,9 @@ double systoleOf(const Scene& scene, const MeshMotion& motion,
 }  // namespace
 
 ModelLoop modelLoop(const Scene& scene, const MeshMotion& motion, int frames,
-                    const std::optional<WallSegments>& segments) {
+                    const std::optional<WallSegments>& segments, Focus focus) {
   const std::vector<SurfaceFrame> surfaces = beatOf(motion, frames);
-  ModelLoop loop = ModelPlane(scene, motion.surfaces(), segments).cut(surfaces);
+  ModelLoop loop = ModelPlane(scene, motion.surfaces(), segments, focus).cut(surfaces);
   loop.systole = systoleOf(scene, motion, surfaces);
   return loop;
 }

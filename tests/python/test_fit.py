@@ -64,6 +64,54 @@ def test_a_scene_has_the_programs_discrepancy(real, program, tmp_path):
     assert found.confidence == pytest.approx(fit["confidence"], abs=1e-12)
 
 
+def test_the_parts_of_a_fit_have_its_cost(real, tmp_path):
+    ranges = {"ef": (0.15, 0.75), "edv": (50, 280), "wall_thickness": (5, 15), "sphericity": (0.46, 0.78)}
+    side = {**SIDE, "es_frame": 9.0}
+    fit = echocine.fit({"a4c": real / "loop"}, side={"a4c": side}, searched=list(ranges), tilt_deg=0, starts=2, descents=1, own_loops=False, cache=tmp_path, hr=72)
+    hearts = {file: file.stat().st_mtime_ns for file in tmp_path.glob("heart_*.bin")}
+    family = echocine.HeartFamily(ranges, "a4c", cache=tmp_path, hr=72)
+    assert family.nodes == 0 and len(hearts) == 23
+    assert {file: file.stat().st_mtime_ns for file in tmp_path.glob("heart_*.bin")}.keys() == hearts.keys()  # read, not computed
+    found = [fit.dials[dial] for dial in ranges]
+    model = family.at(found, focus="left_ventricle")
+    measure = echocine.ModelDiscrepancy(real / "loop", model, side=side)
+    at = fit.details["views"][0]["fit"]["pose"]
+    pose = [*at["shift_mm"], at["turn_deg"], at["scale"], 0, 0]
+    prior = echocine.HeartPrior()
+
+    def cost(values, **options):  # Eq. 14
+        D = measure.refine(family.at(values, **options), pose).discrepancy
+        return 500 * np.log(D) - prior.log_density(hr=72, **dict(zip(ranges, values)))
+
+    assert cost(found, focus="left_ventricle") == pytest.approx(fit.details["cost"], abs=0.01)
+    assert abs(cost(found) - fit.details["cost"]) > 1  # D of comparisons
+    for i, step in enumerate([0.1, 30, 3, 0.08]):
+        for sign in (-1, 1):
+            moved = list(found)
+            moved[i] += sign * step
+            assert cost(moved, focus="left_ventricle") > fit.details["cost"]
+    scene = echocine.ModelLoop(echocine.Scene(real / "scene.toml"), focus="left_ventricle")
+    assert measure.search(scene).discrepancy < 0.5
+
+
+def test_the_prior_of_hearts():
+    prior = echocine.HeartPrior()
+    mean, sd = prior.mean, prior.sd
+    assert mean.keys() == sd.keys() == {"ef", "edv", "wall_thickness", "sphericity", "mapse", "conicity", "la_volume", "apical_motion", "rv_ratio"}
+    draws = [prior.draw(1, n) for n in range(2000)]
+    assert prior.draw(1, 7) == draws[7] != prior.draw(2, 7)
+    for dial in draws[0]:
+        values = np.array([draw[dial] for draw in draws])
+        assert values.mean() == pytest.approx(mean[dial], abs=0.25 * sd[dial])
+    # Independent log-normal dials: the ratio of densities at two values.
+    low, high = prior.log_density(ef=0.6, apical_motion=0.8), prior.log_density(ef=0.6, apical_motion=1.25)
+    assert high - low == pytest.approx(np.log(0.8 / 1.25), abs=1e-9)
+    assert prior.log_density(rv_ratio=mean["rv_ratio"]) > prior.log_density(rv_ratio=1.5)
+    # Jointly: a ring that moves by 9 mm is likelier in a vigorous heart, one by 3 mm in a failing one.
+    rise = {ef: prior.log_density(ef=ef, mapse=9) - prior.log_density(ef=ef, mapse=3) for ef in (0.35, 0.6)}
+    assert rise[0.35] < 0 < rise[0.6]
+
+
 def test_poses_as_arrays(measure, family):
     model = family.at([0.5])
     found = measure.search(model)
@@ -164,6 +212,12 @@ def other(at, value):
     (lambda f, m, r: echocine.HeartFamily({"ef": (0.4, 0.6)}, ef=0.5), "dials: ef has a range"),
     (lambda f, m, r: echocine.HeartFamily({"ef": (0.4, 0.6)}, hr=1000), "dials: hr is 1000, accepted"),
     (lambda f, m, r: echocine.HeartFamily({"ef": (0.4, 0.6)}, "a5x"), "view: is \"a5x\", accepted: \"a4c\""),
+    (lambda f, m, r: echocine.HeartFamily({"ef": (0.4, 0.6), "edv": (90, 100), "hr": (60, 70), "mapse": (9, 12), "ef ": (0.4, 0.6)}), "ranges: \"ef \" is not a dial"),
+    (lambda f, m, r: echocine.HeartFamily({f"ef{n}": (0.4, 0.6) for n in range(9)}), "ranges: holds 9, accepted: up to 8"),
+    (lambda f, m, r: f.at([0.5], focus="lv"), "focus: is \"lv\", accepted: \"all\" | \"left_ventricle\""),
+    (lambda f, m, r: echocine.ModelLoop(echocine.Scene(r / "scene.toml"), focus="lv"), "focus: is \"lv\""),
+    (lambda f, m, r: echocine.HeartPrior().log_density(eff=0.6), r"dials: \"eff\" is not a dial of the heart \(nearest: ef\)"),
+    (lambda f, m, r: echocine.HeartPrior().log_density(ef=2), "dials: ef is 2, accepted"),
     (lambda f, m, r: echocine.HeartFamily({"ef": (0.4, 0.6)}, nodes=1), "nodes: is 1, accepted: 2 to 9"),
     (lambda f, m, r: echocine.HeartFamily({"ef": (0.4, 0.6), "edv": (90, 100), "hr": (60, 70)}, nodes=6), "nodes: 6 for each of 3 ranges"),
     (lambda f, m, r: echocine.HeartFamily({"ef": (0.4, 0.6)}, tilt_deg=21), "tilt_deg: is 21, accepted: 0 to 20"),

@@ -19,7 +19,7 @@ and JobError (the work failed).
 from ._echocine import Frame, __version__
 from ._dataset import Dataset, DatasetLoop, dataset, join_datasets, preview_dataset
 from ._errors import JobError, SceneError, SceneWarning
-from ._fit import HeartFamily, ModelDiscrepancy, ModelLoop, PoseFound
+from ._fit import HeartFamily, HeartPrior, ModelDiscrepancy, ModelLoop, PoseFound
 from ._heart_fit import HeartFit, Interval, fit
 from ._jobs import Comparison, Exported, FrameDiscrepancy, Plan, compare, export, plan, study
 from ._live import LivePage
@@ -28,7 +28,7 @@ from ._modes import Border, Doppler, MMode, Ring, Spectrum, doppler, mmode
 from ._scene import Scene, Table, dials, heart, scene_keys
 from ._simulator import Simulator
 
-__all__ = ["Border", "Comparison", "Dataset", "DatasetLoop", "Doppler", "Exported", "Frame", "FrameDiscrepancy", "HeartFamily", "HeartFit", "Interval", "JobError", "LivePage", "Loop",
+__all__ = ["Border", "Comparison", "Dataset", "DatasetLoop", "Doppler", "Exported", "Frame", "FrameDiscrepancy", "HeartFamily", "HeartFit", "HeartPrior", "Interval", "JobError", "LivePage", "Loop",
            "MMode", "ModelDiscrepancy", "ModelLoop", "Plan", "PoseFound", "Ring", "Scene", "SceneError", "SceneWarning", "Simulator", "Spectrum", "Table",
            "__version__", "compare", "dataset", "dials", "doppler", "export", "fit", "heart", "join_datasets", "mmode", "open", "plan",
            "preview_dataset", "render", "scene_keys", "study"]

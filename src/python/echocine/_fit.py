@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,11 +36,27 @@ def _pair(dial: str, given: Any) -> Tuple[str, float, float]:
     return dial.replace("_", "-"), _number(f"ranges: {dial}", low), _number(f"ranges: {dial}", high)
 
 
+def _dashed(dials: Mapping[str, Any]) -> Dict[str, float]:
+    return {name.replace("_", "-"): _number(f"dials: {name}", value) for name, value in dials.items()}
+
+
+def _underscored(dials: Mapping[str, float]) -> Dict[str, float]:
+    return {key.replace("-", "_"): value for key, value in dials.items()}
+
+
+def _cache_folder(cache: Union[bool, PathLike]) -> Optional[Path]:
+    if isinstance(cache, bool):
+        folder = Path(_echocine.heart_cache()) if cache else Path()
+        return folder if folder != Path() else None
+    return Path(cache)
+
+
 class ModelLoop:
     """A beat of a model in its imaging plane, in 20 frames from end-diastole: tissues and their boundaries.
 
     Args:
         scene: the model: its meshes, probe and media. `HeartFamily.at` gives models of dials.
+        focus: "left_ventricle" for D of a fit: other chambers count 0.3, and edges of blood are expected 0.6 mm farther inside. "all" for that of comparisons.
         threads: 0: one per core.
 
     Attributes:
@@ -50,8 +66,8 @@ class ModelLoop:
         systole: end-systole as a fraction of the beat; 0: unknown.
     """
 
-    def __init__(self, scene: Scene, *, threads: int = 0) -> None:
-        self._native = _echocine.ModelLoop(_scene(scene), threads)
+    def __init__(self, scene: Scene, *, focus: str = "all", threads: int = 0) -> None:
+        self._native = _echocine.ModelLoop(_scene(scene), focus, threads)
 
     @classmethod
     def _of(cls, native: _echocine.ModelLoop) -> "ModelLoop":
@@ -92,13 +108,15 @@ class ModelLoop:
 class HeartFamily:
     """Hearts of one view between computed ones: another heart takes milliseconds instead of a second.
 
-    Hearts are computed at Chebyshev nodes of each dial. Between the nodes, surfaces are polynomials.
+    Up to three dials: hearts are computed at Chebyshev nodes of each dial. Between the nodes, surfaces are polynomials.
+    Four to eight dials: one polynomial through the hearts of a fit, 23 to 59. An impossible one moves towards the centre of the ranges.
 
     Args:
-        ranges: dial -> (least, most), up to three. The order is that of `at`'s values.
+        ranges: dial -> (least, most), up to eight. The order is that of `at`'s values.
         view: where the probe is held, such as "a4c".
-        nodes: computed hearts per dial, 2 to 9, at most 125 hearts; None: 4, with three ranges 3.
+        nodes: computed hearts per dial, 2 to 9, at most 125 hearts; None: 4, with three ranges 3, with more the hearts of a fit.
         tilt_deg: limit of tilt and rotation of the plane, either way, 0 to 20.
+        cache: True: hearts of four dials or more are kept in the user's cache folder; a path: in this folder; False: nowhere.
         threads: 0: one per core.
         progress: None, True, a function (done, total), or a bar as tqdm makes them.
         dials: fixed dials, such as ``hr=72``.
@@ -107,12 +125,11 @@ class HeartFamily:
     """
 
     def __init__(self, ranges: Mapping[str, Tuple[float, float]], view: str = "a4c", *, nodes: Optional[int] = None, tilt_deg: float = 0,
-                 threads: int = 0, progress: Progress = None, **dials: float) -> None:
+                 cache: Union[bool, PathLike] = True, threads: int = 0, progress: Progress = None, **dials: float) -> None:
         if not isinstance(ranges, Mapping):
             raise ValueError(f"ranges: is {type(ranges).__name__}, accepted: dial -> (least, most)")
         pairs = [_pair(str(dial), pair) for dial, pair in ranges.items()]
-        given = {name.replace("_", "-"): _number(f"dials: {name}", value) for name, value in dials.items()}
-        self._native = _echocine.HeartFamily(pairs, view, given, nodes, tilt_deg, threads, report_to(progress))
+        self._native = _echocine.HeartFamily(pairs, view, _dashed(dials), nodes, tilt_deg, _cache_folder(cache), threads, report_to(progress))
 
     @property
     def ranges(self) -> Dict[str, Tuple[float, float]]:
@@ -121,12 +138,45 @@ class HeartFamily:
 
     @property
     def nodes(self) -> int:
-        """Computed hearts per dial."""
+        """Computed hearts per dial; 0: those of a polynomial."""
         return self._native.nodes
 
-    def at(self, values: ArrayLike, *, tilt_deg: float = 0, rotate_deg: float = 0, threads: int = 0) -> ModelLoop:
-        """The heart at one value per range, (ranges,) float64. Angles are within the family's tilt_deg. Thread-safe."""
-        return ModelLoop._of(self._native.at(_numbers("values", values), tilt_deg, rotate_deg, threads))
+    def at(self, values: ArrayLike, *, tilt_deg: float = 0, rotate_deg: float = 0, focus: str = "all", threads: int = 0) -> ModelLoop:
+        """The heart at one value per range, (ranges,) float64. Angles are within the family's tilt_deg; focus: see `ModelLoop`. Thread-safe."""
+        return ModelLoop._of(self._native.at(_numbers("values", values), tilt_deg, rotate_deg, focus, threads))
+
+
+class HeartPrior:
+    """The distribution of hearts before a loop is known: healthy hearts and hearts with an infarct, in equal parts.
+
+    Attributes:
+        mean, sd: of its dials, by name.
+    """
+
+    def __init__(self) -> None:
+        self._native = _echocine.HeartPrior()
+
+    def log_density(self, **dials: float) -> float:
+        """ln p of Eq. 14 for a heart of these dials, up to a constant. Other dials have their defaults.
+
+        ef, edv, wall_thickness, sphericity, mapse and conicity are distributed jointly. la_volume, apical_motion and rv_ratio
+        are independent and count where they are given. Raises SceneError for a dial out of its range.
+        """
+        return self._native.log_density(_dashed(dials))
+
+    def draw(self, seed: int, number: int) -> Dict[str, float]:
+        """The jointly distributed dials of one random heart. A dial may lie beyond its range."""
+        return _underscored(self._native.draw(seed, number))
+
+    @property
+    def mean(self) -> Dict[str, float]:
+        """By dial; of la_volume, apical_motion and rv_ratio the median."""
+        return _underscored(self._native.mean)
+
+    @property
+    def sd(self) -> Dict[str, float]:
+        """By dial."""
+        return _underscored(self._native.sd)
 
 
 class PoseFound:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _echocine
-from ._fit import _number
+from ._fit import _cache_folder, _dashed, _number
 from ._jobs import PathLike
 from ._progress import Progress, report_to
 from ._scene import Scene, heart
@@ -115,18 +115,11 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
     `HeartFit.refusal` has the reason. Ctrl-C raises KeyboardInterrupt; the folder then has the best heart so far.
     """
     given = _given(loops, side)
-    fixed = {name.replace("_", "-"): _number(f"dials: {name}", value) for name, value in dials.items()}
+    fixed = _dashed(dials)
     keys = None if searched is None else [str(name).replace("_", "-") for name in searched]
     text, curves, found = _echocine.fit(given, None if folder is None else Path(folder), fixed, keys, tilt_deg, starts, descents,
                                         own_look, own_loops, resamples, _cache_folder(cache), resume, threads, report_to(progress))
     return HeartFit(json.loads(text), curves, found)
-
-
-def _cache_folder(cache: Union[bool, PathLike]) -> Optional[Path]:
-    if isinstance(cache, bool):
-        folder = Path(_echocine.heart_cache()) if cache else Path()
-        return folder if folder != Path() else None
-    return Path(cache)
 
 
 def _given(loops: Loops, side: Sides) -> List[Tuple[Optional[str], Path, Dict[str, Any]]]:
