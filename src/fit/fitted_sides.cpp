@@ -31,13 +31,15 @@ int seedOf(std::size_t view, int twin) {
   return 71 + static_cast<int>(view) + 100 * twin;
 }
 
+using OwnDiscrepancies = std::vector<const ModelDiscrepancy*>;  // of one view's own loops
+
 // The look of a model, `plain` without one, in its own loops, as far as a loop shows it.
-ExpectedLook lookIn(const std::deque<ModelDiscrepancy>& own, const ModelLoop& plain,
+ExpectedLook lookIn(const OwnDiscrepancies& own, const ModelLoop& plain,
                     const ModelDiscrepancy& loop, const FitPose& pose) {
   ModelLoop model = plain;
   const auto mapsOf = [&] {
     std::vector<FitMap> maps;
-    for (const ModelDiscrepancy& one : own) maps.push_back(one.map(model, FitPose{}));
+    for (const ModelDiscrepancy* one : own) maps.push_back(one->map(model, FitPose{}));
     return maps;
   };
   ExpectedLook look{{model.frames.size(), model.structures.size()}, {}};
@@ -110,7 +112,9 @@ bool FittedSides::expectOwnLook(const FitCost& cost, const std::vector<heart::Vi
       monitor.tell(
           {Task::settings, v * kTwins + static_cast<std::size_t>(twin) + 1, views.size() * kTwins});
     }
-    found[v] = lookIn(own, plain, discrepancies[v], place.found[v].pose);
+    OwnDiscrepancies all;
+    for (const ModelDiscrepancy& one : own) all.push_back(&one);
+    found[v] = lookIn(all, plain, discrepancies[v], place.found[v].pose);
   }
   looks = std::move(found);
   return true;
@@ -137,6 +141,19 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
       loops[v].push_back(rendered.loop(seedOf(v, twin)));
       (twin == 0 ? own.discrepancies : others[v]).emplace_back(loops[v].back(), fromFirst(), model);
     }
+  }
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    OwnDiscrepancies all{&own.discrepancies[v]};
+    for (const ModelDiscrepancy& other : others[v]) all.push_back(&other);
+    const bool measured = !own.looks[v].greys.empty();
+    const ExpectedLook look = measured ? own.looks[v]
+                                       : lookIn(all, own.plainAt(v, cost, best),
+                                                sides.discrepancies[v], best.found[v].pose);
+    OwnSight sight{0, look.edges.shown(), look.greys.shown()};
+    const ModelLoop plain = own.plainAt(v, cost, best);
+    for (const ModelDiscrepancy* one : all)
+      sight.discrepancy += one->at(plain, FitPose{}).discrepancy / static_cast<double>(all.size());
+    out.sight.push_back(sight);
   }
   // Edges are expected at the same distances as in the real loops, so that maps are comparable:
   // regions assume that a real loop shows all of the offsets of own loops.

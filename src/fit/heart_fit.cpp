@@ -179,6 +179,9 @@ void compareWithOwnLoops(const FittedSides& sides, const FitCost& cost,
   for (std::size_t v = 0; v < views.size(); ++v) {
     fit.views[v].regions = regionFindings(fit.views[v].report, own->twins[v], kFittedDials);
     fit.views[v].own = std::move(own->report[v]);
+    fit.views[v].edges_seen = own->sight[v].edges;
+    fit.views[v].greys_seen = own->sight[v].greys;
+    fit.views[v].own_discrepancy = own->sight[v].discrepancy;
   }
   for (std::size_t i = 0; i < own->error.size(); ++i)
     fit.own_error[cost.unknowns()[i].name] = own->error[i];

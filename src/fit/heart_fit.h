@@ -66,8 +66,9 @@ struct ViewFitted {
   PlaneTilt tilt;
   PoseFound found;
   bool scaled = true;  // the loop has a length scale
-  // Shares of the expected edges and greys that the loop shows; 0 without own_look.
+  // Shares of the expected edges and greys that the loop shows; 0 without own_look and own_loops.
   double edges_seen = 0, greys_seen = 0;
+  double own_discrepancy = 0;
   FitReport report;  // of the best heart
   // D of the best heart in loops that do not show it; none if the fit was stopped.
   std::optional<ControlFits> controls{};

@@ -15,6 +15,7 @@
 #include <optional>
 
 #include "core/parallel.h"
+#include "core/units.h"
 #include "fit/fit_interval.h"
 #include "fit/fit_strain.h"
 #include "fit/option_list.h"
@@ -98,7 +99,13 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
       number, fit.ef->value, true_ef, ef_error, own("ef"), fit.edv_ml->value, true_edv,
       100 * edv_error, 100 * own("edv") / true_edv, 1e-3 * fit.cpu_ms);
   for (const std::string& hint : fit.hints) fmt::print("  {}\n", hint);
-  for (const ViewFitted& view : fit.views)
+  for (const ViewFitted& view : fit.views) {
+    fmt::print(
+        "  {}: D {:.3f}, own look {:.2f} (edges), {:.2f} (greys), D plain {:.3f}, own {:.3f}; tilt "
+        "{:.1f}, rotate {:.1f}\n",
+        keyOf(view.view), view.found.discrepancy, view.edges_seen, view.greys_seen,
+        view.controls ? view.controls->own : 0, view.own_discrepancy,
+        degreesFromRadians(view.tilt.tilt_rad), degreesFromRadians(view.tilt.rotate_rad));
     for (const RegionFinding& r : view.regions)
       fmt::print(
           "  {} {}: offset {:+.2f} ({:.2f}) mm, motion {:+.2f} ({:.2f}) mm, local {:+.2f} ({:.2f}) "
@@ -107,6 +114,7 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
           keyOf(view.view), r.name, r.offset_mm, r.offset_sd_mm, r.motion_mm, r.motion_sd_mm,
           r.local_mm.value_or(0), r.local_sd_mm, r.pieces, r.certainty,
           r.significant ? ", significant" : "");
+  }
   std::fflush(stdout);
 }
 
