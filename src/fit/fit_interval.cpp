@@ -90,7 +90,7 @@ void addStrain(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
   if (!value) return;
   // Only for a fit that was stopped. Our choice.
   constexpr double kPriorSd = 0.04;
-  const double model = modelErrorOf(fit.views.size()).gls;
+  const double model = fit.model_error.gls;
   fit.gls = estimateOf(*value, best.covariance.empty()
                                    ? kPriorSd * kPriorSd
                                    : strainVariance(cost, best, *value) + model * model);
@@ -99,7 +99,7 @@ void addStrain(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
 void addResults(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
   const std::size_t e = unknownOf(cost, "ef"), v = unknownOf(cost, "edv");
   const PriorDials dials = priorDialsOf(fit.dials);
-  const ModelError error = modelErrorOf(fit.views.size());
+  const ModelError error = fit.model_error;
   const double ef = dials[kEf], edv = dials[kEdv_ml];
   Spread s{covarianceAt(best, e, e) + error.ef * error.ef,
            covarianceAt(best, v, v) + std::pow(error.edv * edv, 2), covarianceAt(best, e, v)};
@@ -145,16 +145,29 @@ void widenByRivals(HeartFit& fit) {
 
 }  // namespace
 
-ModelError modelErrorOf(std::size_t views) {
-  return views <= 1   ? ModelError{0.040, 0.08, 0.02}
-         : views == 2 ? ModelError{0.035, 0.06, 0.02}
-                      : ModelError{0.045, 0.08, 0.02};
+ModelError modelErrorOf(std::size_t views, double agreement) {
+  // By the number of views: of hearts of the family, and outside it.
+  constexpr ModelError kOfFamily[] = {
+      {0.040, 0.08, 0.02}, {0.035, 0.06, 0.02}, {0.006, 0.035, 0.009}};
+  constexpr ModelError kOfOthers[] = {
+      {0.040, 0.08, 0.02}, {0.035, 0.06, 0.02}, {0.045, 0.08, 0.02}};
+  const std::size_t row = std::clamp<std::size_t>(views, 1, 3) - 1;
+  const double outside = std::clamp(2 * (1 - agreement), 0.0, 1.0);
+  const auto between = [&](double ModelError::*one) {
+    const double of_family = std::pow(kOfFamily[row].*one, 2),
+                 of_others = std::pow(kOfOthers[row].*one, 2);
+    return std::sqrt(of_family + outside * (of_others - of_family));
+  };
+  return {between(&ModelError::ef), between(&ModelError::edv), between(&ModelError::gls)};
 }
 
 void concludeFit(const FitCost& cost, const std::vector<FitDescent>& descents, HeartFit& fit) {
   const FitDescent& best = descents.front();
   fit.cost = best.best.cost;
   fit.dials = cost.dialsAt(best.best.at);
+  for (const ViewFitted& view : fit.views)
+    fit.agreement += view.greys_seen / static_cast<double>(fit.views.size());
+  fit.model_error = modelErrorOf(fit.views.size(), fit.agreement);
   addDials(cost, best, fit);
   addRivals(cost, descents, fit);
   fit.refusal = refusalOf(fit);

@@ -6,13 +6,12 @@
 
 namespace echocine::fit {
 
-// (15)  SD^2 = inverse curvature of J + model error
-// The model error is that of planted hearts with other atria, right ventricles, twist, rates, media
-// and looks than the models' (README.md), as SD. EF of three views: of one patient.
-struct ModelError {
-  double ef, edv, gls;  // SD; that of EDV is relative
-};
-ModelError modelErrorOf(std::size_t views);
+// (15)  SD^2 = inverse curvature of J + model error^2
+// (23)  model error^2 = m_f^2 + (m_o^2 - m_f^2) min(1, 2 (1 - a))
+// m_f: of planted hearts of the family, with other atria, right ventricles, twist, rates and media
+// than the models'; m_o: of hearts outside it (README.md). a: the agreement, HeartFit::agreement,
+// within 0 and 1. It is about 1 for a heart of the family in the look of own loops.
+ModelError modelErrorOf(std::size_t views, double agreement);
 
 // Fills the results, dials, hints and refusal of a fit from its descents, the best first.
 // Precondition: `fit.views` and fixed dials are there.

@@ -88,6 +88,11 @@ Json fitJson(const HeartFit& fit, const std::vector<std::string>& labels) {
               {"edv_ml", estimateJson(fit.edv_ml)},
               {"esv_ml", estimateJson(fit.esv_ml)},
               {"gls", estimateJson(fit.gls)}}},
+            {"model_error",
+             {{"agreement", fit.agreement},
+              {"ef", fit.model_error.ef},
+              {"edv_relative", fit.model_error.edv},
+              {"gls", fit.model_error.gls}}},
             {"refusal", fit.refusal.empty() ? Json() : Json(fit.refusal)},
             {"hints", fit.hints},
             {"dials", dialsJson(fit)},
@@ -181,13 +186,17 @@ std::vector<std::string> assumptionsOf(const HeartFit& fit) {
   std::vector<std::string> out{
       "the heart is one of the parametric family: other shapes and still walls are not fitted",
       "the prior is that of people with and without an infarct, in equal parts",
-      "the interval holds the noise of the loops and the error of the model on planted hearts"};
+      "the interval holds the noise of the loops and the error of the model",
+      fmt::format(
+          "the model error is that of an agreement of {:.2f}: 1 for hearts of the family in "
+          "the look of their own rendered loops, 0.5 and less for others",
+          fit.agreement)};
   if (fit.views.size() > 1)
     out.emplace_back(
         "the loops are of one heart in one state: only their heart rates are compared");
   out.insert(out.end(), fit.assumed.begin(), fit.assumed.end());
   for (const ViewFitted& view : fit.views) {
-    if (view.edges_seen > 0 || view.greys_seen > 0)
+    if (fit.own_look)
       out.push_back(fmt::format(
           "{}: edges and greys deviate from the model as in its own rendered loops, by a factor of "
           "{:.2f} and {:.2f}",

@@ -239,9 +239,10 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
     fit.stopped = anyStopped(descents);
   });
   unlessStopped(monitor, fit, [&] {
-    if (options.ownLook(loops.size()))
-      fit.stopped =
-          !polishWithOwnLooks(sides, viewsOf(loops), options, stages, progress, cost, descents);
+    if (!options.ownLook(loops.size())) return;
+    fit.own_look =
+        polishWithOwnLooks(sides, viewsOf(loops), options, stages, progress, cost, descents);
+    fit.stopped = !fit.own_look;
   });
   unstoppable([&] { keepPossible(cost, descents.front(), fit); });
   const FitPlace best = descents.front().best;

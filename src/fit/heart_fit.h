@@ -66,7 +66,8 @@ struct ViewFitted {
   PlaneTilt tilt;
   PoseFound found;
   bool scaled = true;  // the loop has a length scale
-  // Shares of the expected edges and greys that the loop shows; 0 without own_look and own_loops.
+  // q of Eq. 20 and c of Eq. 21: how far this loop deviates from the labels of the heart as its own
+  // rendered loops do. 0: not at all, or not measured (neither own_look nor own_loops).
   double edges_seen = 0, greys_seen = 0;
   double own_discrepancy = 0;
   FitReport report;  // of the best heart
@@ -75,6 +76,11 @@ struct ViewFitted {
   std::optional<ViewRival> better{};  // another view that fits better
   std::optional<FitReport> own{};  // of the best heart in its own rendered loop, if that is fitted
   std::vector<RegionFinding> regions{};  // the same; empty without own loops
+};
+
+// SDs of Eq. 15; that of EDV is relative.
+struct ModelError {
+  double ef = 0, edv = 0, gls = 0;
 };
 
 // Another descent's end.
@@ -104,8 +110,11 @@ struct HeartFit {
   std::vector<std::string> hints;    // why the result is uncertain and what would help
   std::vector<std::string> assumed;  // of these loops
   std::string refusal;
-  bool stopped = false;  // the best so far
-  double cost = 0;       // J of Eq. 14
+  bool stopped = false;   // the best so far
+  bool own_look = false;  // the views' edges_seen and greys_seen are expected in J
+  double agreement = 0;   // of Eq. 23: mean of greys_seen over the views
+  ModelError model_error;
+  double cost = 0;  // J of Eq. 14
   double cpu_ms = 0;
 };
 

@@ -187,8 +187,9 @@ void BlockSearch::refuseTooMany() const {
   for (const TissueBlock& block : blocks_) planned += block.wanted;
   if (planned > kMostScatterers)
     throw SceneError(fmt::format(
-        "speckle.per_cell = {:g} needs over {:g} scatterers, the memory limit: use a lower value",
-        settings_.per_cell, kMostScatterers));
+        "speckle.per_cell = {:g} needs over {:g} scatterers at {:g} MHz, the memory limit: use a "
+        "lower value or a lower probe.frequency_mhz",
+        settings_.per_cell, kMostScatterers, 1e-6 * probe_.frequency_hz));
 }
 
 }  // namespace

@@ -109,7 +109,8 @@ Video readVideoBytes(const std::string& name, std::span<const std::byte> bytes) 
   readByLibav(bytes, builder);
   if (builder.video().frames.size() == 1)
     throw SceneError(
-        fmt::format("{}: is a still image; give a loop of at least two frames, better "
+        fmt::format("{}: is a still image, or a video that ends after one frame; give a loop of at "
+                    "least two frames, better "
                     "a whole beat, or the folder of all its frames",
                     name));
   return builder.finish();

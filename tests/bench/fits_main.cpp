@@ -85,8 +85,7 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
   if (fit.gls && heart.dials.contains("twist")) {  // of a parametric heart
     const double true_gls = longitudinalStrainOf(heart::parametersFrom(heart.dials));
     // From the interval of Eq. 15, without the model error.
-    const double sd = (fit.gls->high - fit.gls->low) / (2 * 1.645),
-                 model = modelErrorOf(fit.views.size()).gls;
+    const double sd = (fit.gls->high - fit.gls->low) / (2 * 1.645), model = fit.model_error.gls;
     gls.add(fit.gls->value - true_gls, std::sqrt(std::max(0.0, sd * sd - model * model)),
             within(*fit.gls, true_gls));
   }
