@@ -2,6 +2,7 @@
 // The cost of a heart in one to three views: one function for starts, steps, stop and intervals.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,10 +30,22 @@ struct FitPlace {
   double cost = 0;
 };
 
+// How far a loop deviates from the labels of a heart as the heart's own rendered loops do: q of
+// Eq. 20 and c of Eq. 21.
+struct OwnSight {
+  double edges = 0, greys = 0;
+};
+
 // Deviations that own loops of a heart show beyond its tissues and their boundaries.
 struct ExpectedLook {
   ExpectedEdges edges;
   ExpectedGreys greys;
+
+  // None without own loops.
+  std::optional<OwnSight> sight() const {
+    if (greys.empty()) return std::nullopt;
+    return OwnSight{edges.shown(), greys.shown()};
+  }
 
   void applyTo(ModelLoop& model) const {
     edges.applyTo(model);

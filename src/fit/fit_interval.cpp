@@ -131,6 +131,16 @@ void widen(Estimate& e, double other) {
   e.high = std::max(e.high, other);
 }
 
+// a of Eq. 23.
+std::optional<double> agreementOf(const std::vector<ViewFitted>& views) {
+  double sum = 0;
+  for (const ViewFitted& view : views) {
+    if (!view.own_sight) return std::nullopt;
+    sum += view.own_sight->greys;
+  }
+  return sum / static_cast<double>(views.size());
+}
+
 // By rivals that fit nearly as well.
 void widenByRivals(HeartFit& fit) {
   for (const HeartRival& rival : fit.rivals) {
@@ -145,28 +155,24 @@ void widenByRivals(HeartFit& fit) {
 
 }  // namespace
 
-ModelError modelErrorOf(std::size_t views, double agreement) {
-  // By the number of views: of hearts of the family, and outside it.
+ModelError modelErrorOf(std::size_t views, std::optional<double> agreement) {
+  // Hearts of the family, by the number of views; growth outside it.
   constexpr ModelError kOfFamily[] = {
-      {0.040, 0.08, 0.02}, {0.035, 0.06, 0.02}, {0.006, 0.035, 0.009}};
-  constexpr ModelError kOfOthers[] = {
-      {0.040, 0.08, 0.02}, {0.035, 0.06, 0.02}, {0.045, 0.08, 0.02}};
-  const std::size_t row = std::clamp<std::size_t>(views, 1, 3) - 1;
-  const double outside = std::clamp(2 * (1 - agreement), 0.0, 1.0);
-  const auto between = [&](double ModelError::*one) {
-    const double of_family = std::pow(kOfFamily[row].*one, 2),
-                 of_others = std::pow(kOfOthers[row].*one, 2);
-    return std::sqrt(of_family + outside * (of_others - of_family));
-  };
-  return {between(&ModelError::ef), between(&ModelError::edv), between(&ModelError::gls)};
+      {0.015, 0.085, 0.009}, {0.015, 0.05, 0.009}, {0.006, 0.04, 0.009}};
+  constexpr ModelError kOutside{0.10, 0.18, 0.035};
+  constexpr double kUnmeasured = 0.5;  // our choice: that of the patient's heart
+  const ModelError& inside = kOfFamily[std::clamp<std::size_t>(views, 1, 3) - 1];
+  const double beyond = 1 - std::clamp(agreement.value_or(kUnmeasured), 0.0, 1.0);
+  return {std::hypot(inside.ef, beyond * kOutside.ef),
+          std::hypot(inside.edv, beyond * kOutside.edv),
+          std::hypot(inside.gls, beyond * kOutside.gls)};
 }
 
 void concludeFit(const FitCost& cost, const std::vector<FitDescent>& descents, HeartFit& fit) {
   const FitDescent& best = descents.front();
   fit.cost = best.best.cost;
   fit.dials = cost.dialsAt(best.best.at);
-  for (const ViewFitted& view : fit.views)
-    fit.agreement += view.greys_seen / static_cast<double>(fit.views.size());
+  fit.agreement = agreementOf(fit.views);
   fit.model_error = modelErrorOf(fit.views.size(), fit.agreement);
   addDials(cost, best, fit);
   addRivals(cost, descents, fit);

@@ -7,11 +7,11 @@
 namespace echocine::fit {
 
 // (15)  SD^2 = inverse curvature of J + model error^2
-// (23)  model error^2 = m_f^2 + (m_o^2 - m_f^2) min(1, 2 (1 - a))
+// (23)  model error^2 = m_f^2 + ((1 - a) m_o)^2
 // m_f: of planted hearts of the family, with other atria, right ventricles, twist, rates and media
-// than the models'; m_o: of hearts outside it (README.md). a: the agreement, HeartFit::agreement,
-// within 0 and 1. It is about 1 for a heart of the family in the look of own loops.
-ModelError modelErrorOf(std::size_t views, double agreement);
+// than the models', by the number of views; m_o: of hearts outside it (README.md). a: agreement of
+// the loops with own loops (HeartFit::agreement), 0 to 1. None: not measured.
+ModelError modelErrorOf(std::size_t views, std::optional<double> agreement);
 
 // Fills the results, dials, hints and refusal of a fit from its descents, the best first.
 // Precondition: `fit.views` and fixed dials are there.

@@ -49,7 +49,9 @@ Json viewsJson(const HeartFit& fit, const std::vector<std::string>& labels) {
     json["tilt_deg"] = degreesFromRadians(view.tilt.tilt_rad);
     json["rotate_deg"] = degreesFromRadians(view.tilt.rotate_rad);
     json["beat"] = beatJson(view.beat);
-    json["own_look"] = {{"edges", view.edges_seen}, {"greys", view.greys_seen}};
+    json["own_look"] =
+        view.own_sight ? Json{{"edges", view.own_sight->edges}, {"greys", view.own_sight->greys}}
+                       : Json();
     if (view.controls)
       json["controls"] = {{"own", view.controls->own},
                           {"mirrored", view.controls->mirrored},
@@ -89,7 +91,7 @@ Json fitJson(const HeartFit& fit, const std::vector<std::string>& labels) {
               {"esv_ml", estimateJson(fit.esv_ml)},
               {"gls", estimateJson(fit.gls)}}},
             {"model_error",
-             {{"agreement", fit.agreement},
+             {{"agreement", fit.agreement ? Json(*fit.agreement) : Json()},
               {"ef", fit.model_error.ef},
               {"edv_relative", fit.model_error.edv},
               {"gls", fit.model_error.gls}}},
@@ -187,20 +189,22 @@ std::vector<std::string> assumptionsOf(const HeartFit& fit) {
       "the heart is one of the parametric family: other shapes and still walls are not fitted",
       "the prior is that of people with and without an infarct, in equal parts",
       "the interval holds the noise of the loops and the error of the model",
-      fmt::format(
-          "the model error is that of an agreement of {:.2f}: 1 for hearts of the family in "
-          "the look of their own rendered loops, 0.5 and less for others",
-          fit.agreement)};
+      fit.agreement
+          ? fmt::format("the model error belongs to an agreement of {:.2f}: about 1 for hearts of "
+                        "the family "
+                        "in the look of their own rendered loops, lower for others",
+                        *fit.agreement)
+          : "the model error belongs to an agreement of 0.5: without own loops it is not measured"};
   if (fit.views.size() > 1)
     out.emplace_back(
         "the loops are of one heart in one state: only their heart rates are compared");
   out.insert(out.end(), fit.assumed.begin(), fit.assumed.end());
   for (const ViewFitted& view : fit.views) {
-    if (fit.own_look)
+    if (fit.own_look && view.own_sight)
       out.push_back(fmt::format(
           "{}: edges and greys deviate from the model as in its own rendered loops, by a factor of "
           "{:.2f} and {:.2f}",
-          keyOf(view.view), view.edges_seen, view.greys_seen));
+          keyOf(view.view), view.own_sight->edges, view.own_sight->greys));
     if (view.beat.length_source == kLoopIsBeat)
       out.push_back(fmt::format("{}: {}", keyOf(view.view), kLoopIsBeat));
     if (!view.scaled)

@@ -145,15 +145,11 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
   for (std::size_t v = 0; v < views.size(); ++v) {
     OwnDiscrepancies all{&own.discrepancies[v]};
     for (const ModelDiscrepancy& other : others[v]) all.push_back(&other);
-    const bool measured = !own.looks[v].greys.empty();
-    const ExpectedLook look = measured ? own.looks[v]
-                                       : lookIn(all, own.plainAt(v, cost, best),
-                                                sides.discrepancies[v], best.found[v].pose);
-    OwnSight sight{0, look.edges.shown(), look.greys.shown()};
-    const ModelLoop plain = own.plainAt(v, cost, best);
-    for (const ModelDiscrepancy* one : all)
-      sight.discrepancy += one->at(plain, FitPose{}).discrepancy / static_cast<double>(all.size());
-    out.sight.push_back(sight);
+    const auto known = own.looks[v].sight();
+    out.sight.push_back(
+        known ? *known
+              : *lookIn(all, own.plainAt(v, cost, best), sides.discrepancies[v], best.found[v].pose)
+                     .sight());
   }
   // Edges are expected at the same distances as in the real loops, so that maps are comparable:
   // regions assume that a real loop shows all of the offsets of own loops.

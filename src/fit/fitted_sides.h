@@ -32,12 +32,6 @@ struct FittedSides {
   ModelLoop plainAt(std::size_t view, const FitCost& cost, const FitPlace& place) const;
 };
 
-// What a loop shows of the own loops of the best heart in its view.
-struct OwnSight {
-  double discrepancy = 0;       // D of the heart in its own loops, mean; without expected look
-  double edges = 0, greys = 0;  // q of Eq. 20, c of Eq. 21
-};
-
 // A fit of the best heart's own rendered loops.
 struct OwnFit {
   std::vector<OwnSight> sight;  // by view

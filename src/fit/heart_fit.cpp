@@ -107,8 +107,7 @@ void addViews(const std::vector<FitLoop>& loops, const FittedSides& sides, const
     view.beat = discrepancy.beat();
     view.tilt = cost.tiltAt(best.at, v);
     view.found = best.found[v];
-    view.edges_seen = sides.looks[v].edges.shown();
-    view.greys_seen = sides.looks[v].greys.shown();
+    view.own_sight = sides.looks[v].sight();
     view.scaled = loop.metres_per_pixel.has_value();
     view.report = fitReport(sides.modelAt(v, cost, best), discrepancy, loop, pose);
     fit.views.push_back(std::move(view));
@@ -179,9 +178,7 @@ void compareWithOwnLoops(const FittedSides& sides, const FitCost& cost,
   for (std::size_t v = 0; v < views.size(); ++v) {
     fit.views[v].regions = regionFindings(fit.views[v].report, own->twins[v], kFittedDials);
     fit.views[v].own = std::move(own->report[v]);
-    fit.views[v].edges_seen = own->sight[v].edges;
-    fit.views[v].greys_seen = own->sight[v].greys;
-    fit.views[v].own_discrepancy = own->sight[v].discrepancy;
+    fit.views[v].own_sight = own->sight[v];
   }
   for (std::size_t i = 0; i < own->error.size(); ++i)
     fit.own_error[cost.unknowns()[i].name] = own->error[i];

@@ -65,12 +65,9 @@ struct ViewFitted {
   BeatFound beat;
   PlaneTilt tilt;
   PoseFound found;
-  bool scaled = true;  // the loop has a length scale
-  // q of Eq. 20 and c of Eq. 21: how far this loop deviates from the labels of the heart as its own
-  // rendered loops do. 0: not at all, or not measured (neither own_look nor own_loops).
-  double edges_seen = 0, greys_seen = 0;
-  double own_discrepancy = 0;
-  FitReport report;  // of the best heart
+  bool scaled = true;                   // the loop has a length scale
+  std::optional<OwnSight> own_sight{};  // measured with own_look or own_loops
+  FitReport report;                     // of the best heart
   // D of the best heart in loops that do not show it; none if the fit was stopped.
   std::optional<ControlFits> controls{};
   std::optional<ViewRival> better{};  // another view that fits better
@@ -111,8 +108,8 @@ struct HeartFit {
   std::vector<std::string> assumed;  // of these loops
   std::string refusal;
   bool stopped = false;   // the best so far
-  bool own_look = false;  // the views' edges_seen and greys_seen are expected in J
-  double agreement = 0;   // of Eq. 23: mean of greys_seen over the views
+  bool own_look = false;  // J expects the own look of the heart, as far as each loop shows it
+  std::optional<double> agreement;  // of Eq. 23: mean c over the views; none: not measured
   ModelError model_error;
   double cost = 0;  // J of Eq. 14
   double cpu_ms = 0;

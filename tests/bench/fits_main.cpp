@@ -99,11 +99,10 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
       100 * edv_error, 100 * own("edv") / true_edv, 1e-3 * fit.cpu_ms);
   for (const std::string& hint : fit.hints) fmt::print("  {}\n", hint);
   for (const ViewFitted& view : fit.views) {
+    const OwnSight sight = view.own_sight.value_or(OwnSight{});
     fmt::print(
-        "  {}: D {:.3f}, own look {:.2f} (edges), {:.2f} (greys), D plain {:.3f}, own {:.3f}; tilt "
-        "{:.1f}, rotate {:.1f}\n",
-        keyOf(view.view), view.found.discrepancy, view.edges_seen, view.greys_seen,
-        view.controls ? view.controls->own : 0, view.own_discrepancy,
+        "  {}: D {:.3f}, own look {:.2f} (edges), {:.2f} (greys); tilt {:.1f}, rotate {:.1f}\n",
+        keyOf(view.view), view.found.discrepancy, sight.edges, sight.greys,
         degreesFromRadians(view.tilt.tilt_rad), degreesFromRadians(view.tilt.rotate_rad));
     for (const RegionFinding& r : view.regions)
       fmt::print(

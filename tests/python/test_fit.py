@@ -68,6 +68,7 @@ def test_the_parts_of_a_fit_have_its_cost(real, tmp_path):
     ranges = {"ef": (0.15, 0.75), "edv": (50, 280), "wall_thickness": (5, 15), "sphericity": (0.46, 0.78)}
     side = {**SIDE, "es_frame": 9.0}
     fit = echocine.fit({"a4c": real / "loop"}, side={"a4c": side}, searched=list(ranges), tilt_deg=0, starts=2, descents=1, own_loops=False, cache=tmp_path, hr=72)
+    assert fit.details["model_error"]["agreement"] is None and fit.details["views"][0]["own_look"] is None  # not measured
     hearts = {file: file.stat().st_mtime_ns for file in tmp_path.glob("heart_*.bin")}
     family = echocine.HeartFamily(ranges, "a4c", cache=tmp_path, hr=72)
     assert family.nodes == 0 and len(hearts) == 23

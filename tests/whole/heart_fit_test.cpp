@@ -8,6 +8,7 @@
 
 #include "core/digest.h"
 #include "core/parallel.h"
+#include "fit/fit_interval.h"
 #include "fit/fit_results.h"
 #include "fit/heart_fit.h"
 #include "support/all_cases.h"
@@ -15,6 +16,7 @@
 #include "support/planted_fits.h"
 #include "support/temp_folder.h"
 #include "support/view_loops.h"
+#include "support/whole_patient.h"
 
 namespace echocine::fit {
 
@@ -76,9 +78,17 @@ TEST(HeartFit, APlantedHeartIsFound) {
     EXPECT_TRUE(file["fixed_dials"].contains("hr"));
     EXPECT_EQ(file["tilt_limit_deg"], options.tilt_deg);
     // The loop has the look of own loops, except media, gain and grey curve.
-    EXPECT_GT(fit.views[0].greys_seen, 0.5);
-    EXPECT_EQ(file["views"][0]["own_look"]["greys"], fit.views[0].greys_seen);
-    EXPECT_EQ(file["views"][0]["own_look"]["edges"], fit.views[0].edges_seen);
+    EXPECT_GT(fit.views[0].own_sight->greys, 0.5);
+    EXPECT_EQ(file["views"][0]["own_look"]["greys"], fit.views[0].own_sight->greys);
+    EXPECT_EQ(file["views"][0]["own_look"]["edges"], fit.views[0].own_sight->edges);
+    ASSERT_TRUE(fit.agreement);
+    EXPECT_EQ(*fit.agreement, fit.views[0].own_sight->greys);
+    EXPECT_EQ(file["model_error"]["agreement"], *fit.agreement);
+    EXPECT_EQ(file["model_error"]["ef"], fit.model_error.ef);
+    EXPECT_EQ(fit.model_error.edv, modelErrorOf(1, fit.agreement).edv);
+    // Eq. 15, at 90 %.
+    EXPECT_NEAR(fit.ef->high - fit.ef->value,
+                1.645 * std::hypot(fit.found[0].sd, fit.model_error.ef), 1e-9);
     EXPECT_NE(bytesOf(folder / "fit/curves.csv").find("lv_ml"), std::string::npos);
     EXPECT_NE(bytesOf(folder / "fit/fit.html").find("a4c twin"), std::string::npos);
     ASSERT_TRUE(fit.views[0].controls);
@@ -93,6 +103,27 @@ TEST(HeartFit, APlantedHeartIsFound) {
     EXPECT_TRUE(nlohmann::json::parse(text)["result"]["edv_ml"].is_null());
     EXPECT_EQ(text.find("\"edv\""), std::string::npos);
     EXPECT_EQ(bytesOf(folder / "unscaled/curves.csv").find("ml"), std::string::npos);
+  });
+}
+
+// Other shapes deviate from the labels of the found heart in other places than its own loops do.
+TEST(HeartFit, AHeartOutsideTheFamilyDisagreesWithOwnLoops) {
+  if (!realHeartsThere()) GTEST_SKIP() << "no real hearts beside the project";
+  withThreads(2, [] {
+    const PlantedHeart heart = foreignHeart(&wholePatientScene, 0, 1, 0);
+    HeartFitOptions options;
+    options.searched = {"ef", "edv"};
+    options.tilt_deg = 0;
+    options.own_look = true;
+    options.starts = 2;
+    options.descents = 1;
+    options.own_loops = options.other_views = false;
+    const HeartFit fit = fitHeart(heart.given(), options);
+    tell("patient, one view, two dials", fit, heart.dials);
+    ASSERT_TRUE(fit.ef && fit.agreement);
+    EXPECT_LT(*fit.agreement, 0.75);
+    EXPECT_LE(fit.ef->low, heart.dials.at("ef"));
+    EXPECT_GE(fit.ef->high, heart.dials.at("ef"));
   });
 }
 
@@ -174,7 +205,7 @@ TEST(HeartFit, TheOwnLookFindsTheSideOfATilt) {
     ASSERT_TRUE(fit.ef);
     EXPECT_NEAR(degreesFromRadians(fit.views[0].tilt.tilt_rad), -6.4, 2);
     EXPECT_NEAR(fit.ef->value, heart.dials.at("ef"), 0.04);
-    EXPECT_GT(fit.views[0].edges_seen, 0.5);
+    EXPECT_GT(fit.views[0].own_sight->edges, 0.5);
   });
 }
 
