@@ -6,9 +6,9 @@
 namespace echocine::dataset {
 
 bool isOfHeart(std::string_view name) {
-  constexpr const char* kOfHeart[] = {"heart.", "subject.", "scene.acquisition.",
-                                      "scene.trabeculae.", "scene.leaflets."};
-  return std::any_of(std::begin(kOfHeart), std::end(kOfHeart),
+  constexpr const char* kSharedByViews[] = {"heart.", "subject.", "scene.acquisition.",
+                                            "scene.trabeculae.", "scene.leaflets."};
+  return std::any_of(std::begin(kSharedByViews), std::end(kSharedByViews),
                      [&](const char* prefix) { return name.starts_with(prefix); });
 }
 
