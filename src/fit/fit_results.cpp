@@ -11,6 +11,7 @@
 #include "fit/fit_strain.h"
 #include "fit/results_folder.h"
 #include "motion/heart/heart_cycle.h"
+#include "scene/names.h"
 
 namespace echocine::fit {
 
@@ -95,6 +96,7 @@ Json fitJson(const HeartFit& fit, const std::vector<std::string>& labels) {
               {"ef", fit.model_error.ef},
               {"edv_relative", fit.model_error.edv},
               {"gls", fit.model_error.gls}}},
+            {"own_loops_look", nameOf(fit.rendered_as)},
             {"refusal", fit.refusal.empty() ? Json() : Json(fit.refusal)},
             {"hints", fit.hints},
             {"dials", dialsJson(fit)},
@@ -202,9 +204,9 @@ std::vector<std::string> assumptionsOf(const HeartFit& fit) {
   for (const ViewFitted& view : fit.views) {
     if (fit.own_look && view.own_sight)
       out.push_back(fmt::format(
-          "{}: edges and greys deviate from the model as in its own rendered loops, by a factor of "
-          "{:.2f} and {:.2f}",
-          keyOf(view.view), view.own_sight->edges, view.own_sight->greys));
+          "{}: edges and greys deviate from the model as in its own rendered loops (look {}), by a "
+          "factor of {:.2f} and {:.2f}",
+          keyOf(view.view), nameOf(fit.rendered_as), view.own_sight->edges, view.own_sight->greys));
     if (view.beat.length_source == kLoopIsBeat)
       out.push_back(fmt::format("{}: {}", keyOf(view.view), kLoopIsBeat));
     if (!view.scaled)

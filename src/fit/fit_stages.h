@@ -9,11 +9,12 @@
 
 namespace echocine::fit {
 
-// In units of FitProgress. With own look, the planes of the best descent are mirrored in turn,
-// those descents that end apart have a look and a polish, and the best one has them twice.
+// In units of FitProgress. With own look, the look of own loops is chosen, the planes of the best
+// descent are mirrored in turn, those descents that end apart have a look and a polish, and the
+// best one has them twice.
 struct FitStages {
   double hearts, families, starts, descent, resamples, own;
-  double look = 0, polish_round = 0;
+  double choice = 0, look = 0, polish_round = 0;
   std::size_t descents, mirrored = 0;
   FitStages(std::size_t views, std::size_t hearts_made, std::size_t dials,
             const HeartFitOptions& options)
@@ -26,6 +27,8 @@ struct FitStages {
     descent = descentUnits(n, static_cast<double>(unknowns));
     if (options.ownLook(views)) {
       look = kOwnLoopUnits * n;
+      constexpr double kScanners = 5;
+      choice = kScanners / kTwins * look;
       polish_round = n * kEvaluationUnits * 2 * static_cast<double>(polishPairs(unknowns));
       if (options.tilt_deg > 0) mirrored = views;
     }
@@ -36,7 +39,7 @@ struct FitStages {
   double all() const {
     const auto all_descents = static_cast<double>(descents + mirrored);
     constexpr double kUsuallyApart = 2;  // ends of descents that have a look; measured
-    return hearts + families + starts + descent * all_descents +
+    return hearts + families + starts + descent * all_descents + choice +
            (look + polish(kFirstPolishRounds)) * std::min(kUsuallyApart, all_descents) + look +
            polish(kPolishRounds) + resamples + own;
   }

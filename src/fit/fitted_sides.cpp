@@ -1,12 +1,14 @@
 #include "fit/fitted_sides.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/error.h"
 #include "fit/fit_polish.h"
 #include "fit/fit_regions.h"
 #include "fit/own_loop.h"
 #include "motion/heart/heart.h"
+#include "scene/names.h"
 
 namespace echocine::fit {
 
@@ -98,14 +100,42 @@ ModelLoop FittedSides::modelAt(std::size_t view, const FitCost& cost, const FitP
   return model;
 }
 
+bool FittedSides::chooseLook(const FitCost& cost, const std::vector<heart::View>& views,
+                             const FitPlace& place, const Monitor& monitor) {
+  std::vector<Look> scanners;
+  for (const Named<Look>& named : NamesOf<Look>::kAll)
+    if (isScanner(named.value)) scanners.push_back(named.value);
+  double lowest = std::numeric_limits<double>::infinity();
+  Look best = rendered_as;
+  std::size_t done = 0;
+  for (const Look look : scanners) {
+    double sum = 0;
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      if (!monitor.keep_going()) return false;
+      ModelLoop model = plainAt(v, cost, place);
+      const FitPose& pose = place.found[v].pose;
+      const echo::EchoLoop loop =
+          ownLoops(cost.dialsAt(place.at), views[v], cost.tiltAt(place.at, v), kFitFrames, look)
+              .loop(seedOf(v, 2 * kTwins));
+      const ModelDiscrepancy own(loop, fromFirst(), model);
+      lookIn({&own}, model, discrepancies[v], pose).applyTo(model);
+      sum += viewCostOf(discrepancies[v].at(model, pose));
+      monitor.tell({Task::settings, ++done, views.size() * scanners.size()});
+    }
+    if (sum < lowest) lowest = sum, best = look;
+  }
+  rendered_as = best;
+  return true;
+}
+
 bool FittedSides::expectOwnLook(const FitCost& cost, const std::vector<heart::View>& views,
                                 const FitPlace& place, const Monitor& monitor) {
   std::vector<ExpectedLook> found(views.size());
   for (std::size_t v = 0; v < views.size(); ++v) {
     const ModelLoop plain = plainAt(v, cost, place);
     std::deque<ModelDiscrepancy> own;
-    RenderedBeats rendered =
-        ownLoops(cost.dialsAt(place.at), views[v], cost.tiltAt(place.at, v), kFitFrames);
+    RenderedBeats rendered = ownLoops(cost.dialsAt(place.at), views[v], cost.tiltAt(place.at, v),
+                                      kFitFrames, rendered_as);
     for (int twin = 0; twin < kTwins; ++twin) {
       if (!monitor.keep_going()) return false;
       own.emplace_back(rendered.loop(seedOf(v, kTwins + twin)), fromFirst(), plain);
@@ -131,8 +161,8 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
   std::vector<std::vector<echo::EchoLoop>> loops;
   std::vector<std::deque<ModelDiscrepancy>> others;  // than the first loop
   for (std::size_t v = 0; v < views.size(); ++v) {
-    RenderedBeats rendered =
-        ownLoops(cost.dialsAt(best.at), views[v], cost.tiltAt(best.at, v), kFitFrames);
+    RenderedBeats rendered = ownLoops(cost.dialsAt(best.at), views[v], cost.tiltAt(best.at, v),
+                                      kFitFrames, sides.rendered_as);
     const ModelLoop model = own.modelAt(v, cost, best);
     loops.emplace_back();
     others.emplace_back();

@@ -12,7 +12,8 @@ namespace echocine::fit {
 struct FittedSides {
   std::vector<std::shared_ptr<const HeartFamily>> families;
   std::deque<ModelDiscrepancy> discrepancies;
-  std::vector<ExpectedLook> looks;  // by view; nothing is expected before expectOwnLook()
+  std::vector<ExpectedLook> looks;   // by view; nothing is expected before expectOwnLook()
+  Look rendered_as = Look::scanner;  // of own loops
 
   FittedSides() = default;
   FittedSides(const std::vector<FitLoop>& loops, const HeartNodes& hearts, double tilt_deg,
@@ -21,6 +22,11 @@ struct FittedSides {
   // it throws, nothing has changed.
   void compare(const std::vector<FitLoop>& loops, const std::vector<double>& dials);
   std::vector<FitSide> refer() const;
+  // Sets `rendered_as` to the look of a scanner whose own loops of the model at a place lower J
+  // most, one loop in each view. False if the monitor stopped it; nothing has changed then. Throws
+  // like expectOwnLook().
+  bool chooseLook(const FitCost& cost, const std::vector<heart::View>& views, const FitPlace& place,
+                  const Monitor& monitor);
   // Measures the look of each view's model at a place, in kTwins own loops. Costs of the earlier
   // look are invalid then. False if the monitor stopped it; nothing has changed then. Throws
   // SceneError for an impossible heart. Precondition: the place has poses.

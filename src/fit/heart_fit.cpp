@@ -239,6 +239,7 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
     if (!options.ownLook(loops.size())) return;
     fit.own_look =
         polishWithOwnLooks(sides, viewsOf(loops), options, stages, progress, cost, descents);
+    fit.rendered_as = sides.rendered_as;
     fit.stopped = !fit.own_look;
   });
   unstoppable([&] { keepPossible(cost, descents.front(), fit); });

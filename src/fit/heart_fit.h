@@ -107,7 +107,8 @@ struct HeartFit {
   std::vector<std::string> hints;    // why the result is uncertain and what would help
   std::vector<std::string> assumed;  // of these loops
   std::string refusal;
-  bool stopped = false;   // the best so far
+  bool stopped = false;              // the best so far
+  Look rendered_as = Look::scanner;  // of own loops
   bool own_look = false;  // J expects the own look of the heart, as far as each loop shows it
   std::optional<double> agreement;  // of Eq. 23: mean c over the views; none: not measured
   ModelError model_error;

@@ -119,9 +119,12 @@ bool polishWithOwnLooks(FittedSides& sides, const std::vector<heart::View>& view
   const std::vector<ExpectedLook> before = sides.looks;
   LookRounds rounds(sides, views, options, stages, progress, cost);
   std::vector<FitDescent> ends = descents;
-  addMirrored(cost, stages, progress, ends);
+  FitPlace first = descents.front().best;
+  makePossible(cost, first.at);
+  bool done = sides.chooseLook(cost, views, first, progress.next(stages.choice));
+  if (done) addMirrored(cost, stages, progress, ends);
   std::vector<Looked> all;
-  const bool done = !ends.back().stopped && addLooks(rounds, hopefulOf(cost, ends), all);
+  done = done && !ends.back().stopped && addLooks(rounds, hopefulOf(cost, ends), all);
   sides.looks = done ? all.front().looks : before;
   cost = rounds.costOf(done ? all.front().stage : "descents");
   if (!done) return false;

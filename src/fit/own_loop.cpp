@@ -57,8 +57,8 @@ echo::EchoLoop RenderedBeats::loop(int seed) {
 }
 
 RenderedBeats ownLoops(const std::map<std::string, double>& dials, heart::View view,
-                       const PlaneTilt& tilt, int frames) {
-  Scene scene = heart::heartScene(heart::parametersFrom(dials), view, frames, Look::scanner);
+                       const PlaneTilt& tilt, int frames, Look look) {
+  Scene scene = heart::heartScene(heart::parametersFrom(dials), view, frames, look);
   scene.probe.pose = turnedAndTilted(scene.probe.pose, tilt.rotate_rad, tilt.tilt_rad);
   return {std::move(scene), frames};
 }

@@ -39,9 +39,8 @@ inline echo::EchoLoop renderedBeat(Scene scene, int frames, int seed) {
   return RenderedBeats(std::move(scene), frames).loop(seed);
 }
 
-// Loops of a heart in the look scanner, with the plane tilted. Throws SceneError for impossible
-// dials.
+// Loops of a heart, with the plane tilted. Throws SceneError for impossible dials.
 RenderedBeats ownLoops(const std::map<std::string, double>& dials, heart::View view,
-                       const PlaneTilt& tilt, int frames);
+                       const PlaneTilt& tilt, int frames, Look look = Look::scanner);
 
 }  // namespace echocine::fit

@@ -98,6 +98,7 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
       number, fit.ef->value, true_ef, ef_error, own("ef"), fit.edv_ml->value, true_edv,
       100 * edv_error, 100 * own("edv") / true_edv, 1e-3 * fit.cpu_ms);
   for (const std::string& hint : fit.hints) fmt::print("  {}\n", hint);
+  fmt::print("  look {}, agreement {:.2f}\n", nameOf(fit.rendered_as), fit.agreement.value_or(-1));
   for (const ViewFitted& view : fit.views) {
     const OwnSight sight = view.own_sight.value_or(OwnSight{});
     fmt::print(

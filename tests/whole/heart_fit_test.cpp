@@ -206,6 +206,25 @@ TEST(HeartFit, TheOwnLookFindsTheSideOfATilt) {
     EXPECT_NEAR(degreesFromRadians(fit.views[0].tilt.tilt_rad), -6.4, 2);
     EXPECT_NEAR(fit.ef->value, heart.dials.at("ef"), 0.04);
     EXPECT_GT(fit.views[0].own_sight->edges, 0.5);
+    EXPECT_EQ(fit.rendered_as, Look::scanner);
+  });
+}
+
+// Own loops have the look that the loop has, although media, gain and grey curve differ.
+TEST(HeartFit, OwnLoopsHaveTheLookOfTheLoop) {
+  withThreads(2, [] {
+    const PlantedHeart heart = plantedHeart(0, 1, 0, Look::portable);
+    HeartFitOptions options;
+    options.dials = heart.dials;
+    options.dials.erase("ef");
+    options.searched = {"ef"};
+    options.tilt_deg = 0;
+    options.starts = options.descents = 1;
+    options.own_look = true;
+    options.own_loops = options.other_views = false;
+    const HeartFit fit = fitHeart(heart.given(), options);
+    EXPECT_EQ(fit.rendered_as, Look::portable);
+    EXPECT_EQ(nlohmann::json::parse(fitText(fit, {"loop"}))["own_loops_look"], "portable");
   });
 }
 
