@@ -193,8 +193,7 @@ std::vector<std::string> assumptionsOf(const HeartFit& fit) {
       "the interval holds the noise of the loops and the error of the model",
       fit.agreement
           ? fmt::format("the model error belongs to an agreement of {:.2f}: about 1 for hearts of "
-                        "the family "
-                        "in the look of their own rendered loops, lower for others",
+                        "the family in the look of their own rendered loops, lower for others",
                         *fit.agreement)
           : "the model error belongs to an agreement of 0.5: without own loops it is not measured"};
   if (fit.views.size() > 1)
