@@ -160,9 +160,8 @@ ModelError modelErrorOf(std::size_t views, std::optional<double> agreement) {
   constexpr ModelError kOfFamily[] = {
       {0.015, 0.085, 0.009}, {0.015, 0.05, 0.009}, {0.015, 0.045, 0.009}};
   constexpr ModelError kOutside{0.10, 0.18, 0.035};
-  constexpr double kUnmeasured = 0.5;  // our choice: that of the patient's heart
   const ModelError& inside = kOfFamily[std::clamp<std::size_t>(views, 1, 3) - 1];
-  const double beyond = 1 - std::clamp(agreement.value_or(kUnmeasured), 0.0, 1.0);
+  const double beyond = 1 - std::clamp(agreement.value_or(kUnmeasuredAgreement), 0.0, 1.0);
   return {std::hypot(inside.ef, beyond * kOutside.ef),
           std::hypot(inside.edv, beyond * kOutside.edv),
           std::hypot(inside.gls, beyond * kOutside.gls)};

@@ -10,7 +10,8 @@ namespace echocine::fit {
 // (23)  model error^2 = m_f^2 + ((1 - a) m_o)^2
 // m_f: of planted hearts of the family, with other atria, right ventricles, twist, rates and media
 // than the models', by the number of views; m_o: of hearts outside it (README.md). a: agreement of
-// the loops with own loops (HeartFit::agreement), 0 to 1. None: not measured.
+// the loops with own loops (HeartFit::agreement), 0 to 1. None: not measured, kUnmeasuredAgreement.
+inline constexpr double kUnmeasuredAgreement = 0.5;  // our choice: that of the patient's heart
 ModelError modelErrorOf(std::size_t views, std::optional<double> agreement);
 
 // Fills the results, dials, hints and refusal of a fit from its descents, the best first.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
+#include "fit/fit_interval.h"
 #include "fit/fit_page.h"
 #include "fit/fit_report.h"
 #include "fit/fit_strain.h"
@@ -195,7 +196,9 @@ std::vector<std::string> assumptionsOf(const HeartFit& fit) {
           ? fmt::format("the model error belongs to an agreement of {:.2f}: about 1 for hearts of "
                         "the family in the look of their own rendered loops, lower for others",
                         *fit.agreement)
-          : "the model error belongs to an agreement of 0.5: without own loops it is not measured"};
+          : fmt::format("the model error belongs to an agreement of {:g}: without own loops it is "
+                        "not measured",
+                        kUnmeasuredAgreement)};
   if (fit.views.size() > 1)
     out.emplace_back(
         "the loops are of one heart in one state: only their heart rates are compared");

@@ -6,6 +6,7 @@
 #include "fit/fit_polish.h"
 #include "fit/fit_progress.h"
 #include "fit/heart_fit.h"
+#include "fit/own_loop.h"
 
 namespace echocine::fit {
 
@@ -27,8 +28,7 @@ struct FitStages {
     descent = descentUnits(n, static_cast<double>(unknowns));
     if (options.ownLook(views)) {
       look = kOwnLoopUnits * n;
-      constexpr double kScanners = 5;
-      choice = kScanners / kTwins * look;
+      choice = static_cast<double>(scannerLooks().size()) / kTwins * look;
       polish_round = n * kEvaluationUnits * 2 * static_cast<double>(polishPairs(unknowns));
       if (options.tilt_deg > 0) mirrored = views;
     }

@@ -1,14 +1,12 @@
 #include "fit/fitted_sides.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/error.h"
 #include "fit/fit_polish.h"
 #include "fit/fit_regions.h"
 #include "fit/own_loop.h"
 #include "motion/heart/heart.h"
-#include "scene/names.h"
 
 namespace echocine::fit {
 
@@ -34,6 +32,12 @@ int seedOf(std::size_t view, int twin) {
 }
 
 using OwnDiscrepancies = std::vector<const ModelDiscrepancy*>;  // of one view's own loops
+
+OwnDiscrepancies pointersTo(const std::deque<ModelDiscrepancy>& own) {
+  OwnDiscrepancies out;
+  for (const ModelDiscrepancy& one : own) out.push_back(&one);
+  return out;
+}
 
 // The look of a model, `plain` without one, in its own loops, as far as a loop shows it.
 ExpectedLook lookIn(const OwnDiscrepancies& own, const ModelLoop& plain,
@@ -102,29 +106,26 @@ ModelLoop FittedSides::modelAt(std::size_t view, const FitCost& cost, const FitP
 
 bool FittedSides::chooseLook(const FitCost& cost, const std::vector<heart::View>& views,
                              const FitPlace& place, const Monitor& monitor) {
-  std::vector<Look> scanners;
-  for (const Named<Look>& named : NamesOf<Look>::kAll)
-    if (isScanner(named.value)) scanners.push_back(named.value);
-  double lowest = std::numeric_limits<double>::infinity();
-  Look best = rendered_as;
+  const std::vector<Look> scanners = scannerLooks();
+  std::vector<double> costs(scanners.size());
   std::size_t done = 0;
-  for (const Look look : scanners) {
-    double sum = 0;
-    for (std::size_t v = 0; v < views.size(); ++v) {
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const ModelLoop plain = plainAt(v, cost, place);
+    const FitPose& pose = place.found[v].pose;
+    for (std::size_t i = 0; i < scanners.size(); ++i) {
       if (!monitor.keep_going()) return false;
-      ModelLoop model = plainAt(v, cost, place);
-      const FitPose& pose = place.found[v].pose;
-      const echo::EchoLoop loop =
-          ownLoops(cost.dialsAt(place.at), views[v], cost.tiltAt(place.at, v), kFitFrames, look)
-              .loop(seedOf(v, 2 * kTwins));
-      const ModelDiscrepancy own(loop, fromFirst(), model);
-      lookIn({&own}, model, discrepancies[v], pose).applyTo(model);
-      sum += viewCostOf(discrepancies[v].at(model, pose));
+      const echo::EchoLoop loop = ownLoops(cost.dialsAt(place.at), views[v],
+                                           cost.tiltAt(place.at, v), kFitFrames, scanners[i])
+                                      .loop(seedOf(v, 2 * kTwins));
+      const ModelDiscrepancy own(loop, fromFirst(), plain);
+      ModelLoop model = plain;
+      lookIn({&own}, plain, discrepancies[v], pose).applyTo(model);
+      costs[i] += viewCostOf(discrepancies[v].at(model, pose));
       monitor.tell({Task::settings, ++done, views.size() * scanners.size()});
     }
-    if (sum < lowest) lowest = sum, best = look;
   }
-  rendered_as = best;
+  const auto lowest = std::min_element(costs.begin(), costs.end());
+  rendered_as = scanners[static_cast<std::size_t>(lowest - costs.begin())];
   return true;
 }
 
@@ -142,9 +143,7 @@ bool FittedSides::expectOwnLook(const FitCost& cost, const std::vector<heart::Vi
       monitor.tell(
           {Task::settings, v * kTwins + static_cast<std::size_t>(twin) + 1, views.size() * kTwins});
     }
-    OwnDiscrepancies all;
-    for (const ModelDiscrepancy& one : own) all.push_back(&one);
-    found[v] = lookIn(all, plain, discrepancies[v], place.found[v].pose);
+    found[v] = lookIn(pointersTo(own), plain, discrepancies[v], place.found[v].pose);
   }
   looks = std::move(found);
   return true;
@@ -173,13 +172,14 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
     }
   }
   for (std::size_t v = 0; v < views.size(); ++v) {
-    OwnDiscrepancies all{&own.discrepancies[v]};
-    for (const ModelDiscrepancy& other : others[v]) all.push_back(&other);
-    const auto known = own.looks[v].sight();
-    out.sight.push_back(
-        known ? *known
-              : *lookIn(all, own.plainAt(v, cost, best), sides.discrepancies[v], best.found[v].pose)
-                     .sight());
+    std::optional<OwnSight> sight = own.looks[v].sight();
+    if (!sight) {  // a plain fit has not measured it
+      OwnDiscrepancies all = pointersTo(others[v]);
+      all.insert(all.begin(), &own.discrepancies[v]);
+      sight = lookIn(all, own.plainAt(v, cost, best), sides.discrepancies[v], best.found[v].pose)
+                  .sight();
+    }
+    out.sight.push_back(*sight);
   }
   // Edges are expected at the same distances as in the real loops, so that maps are comparable:
   // regions assume that a real loop shows all of the offsets of own loops.

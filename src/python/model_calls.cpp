@@ -53,7 +53,6 @@ std::shared_ptr<fit::HeartFamily> makeFamily(const Ranges& ranges, const std::st
   if (by_key.size() > kMostRanges)
     throw SceneError(
         fmt::format("ranges: holds {}, accepted: up to {}", by_key.size(), kMostRanges));
-  fit::checkRanges(dials, by_key);
   std::shared_ptr<fit::HeartFamily> family;
   runJob(progress, [&](const Monitor& monitor) {
     withThreads(threads, [&] {
@@ -181,8 +180,8 @@ Dials meanOf(const fit::HeartPrior& prior) {
 }
 
 Dials sdOf(const fit::HeartPrior& prior) {
-  Dials out = byKey(prior.sd());
-  for (const fit::LonePrior& lone : fit::kLonePriors) out[lone.key] = lone.sd();
+  Dials out;
+  for (const auto& [key, mean] : meanOf(prior)) out[key] = prior.sdOf(key).value();
   return out;
 }
 

@@ -110,8 +110,7 @@ Video readVideoBytes(const std::string& name, std::span<const std::byte> bytes) 
   if (builder.video().frames.size() == 1)
     throw SceneError(
         fmt::format("{}: is a still image, or a video that ends after one frame; give a loop of at "
-                    "least two frames, better "
-                    "a whole beat, or the folder of all its frames",
+                    "least two frames, better a whole beat, or the folder of all its frames",
                     name));
   return builder.finish();
 }

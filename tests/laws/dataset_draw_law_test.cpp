@@ -125,10 +125,10 @@ TEST(DatasetDraws, ViewsOfAHeartShareItAndDifferInTheProbe) {
 
 TEST(DatasetDraws, ViewsOfAHeartShareItsValvesAndTrabeculae) {
   const Spec spec = parseSpec(
-      "hearts = 2\nviews = [\"a2c\", \"a4c\"]\n[scene.trabeculae]\nheight_mm = { uniform = [0.5, "
-      "2] "
-      "}\n[scene.leaflets]\nthickness_mm = { uniform = [1, 3] }\n[scene.speckle]\nheterogeneity_db "
-      "= { uniform = [1, 5] }\n",
+      "hearts = 2\nviews = [\"a2c\", \"a4c\"]\n"
+      "[scene.trabeculae]\nheight_mm = { uniform = [0.5, 2] }\n"
+      "[scene.leaflets]\nthickness_mm = { uniform = [1, 3] }\n"
+      "[scene.speckle]\nheterogeneity_db = { uniform = [1, 5] }\n",
       "spec.toml");
   const Draw draw = drawOf(spec, 0, 0);
   for (const char* key : {"scene.trabeculae.height_mm", "scene.leaflets.thickness_mm"})

@@ -40,6 +40,17 @@ void tell(const char* what, const HeartFit& fit, const std::map<std::string, dou
   for (const std::string& hint : fit.hints) std::printf("  %s\n", hint.c_str());
 }
 
+// A short fit with own look in the views' own planes.
+HeartFitOptions ownLookOptions(std::vector<std::string> searched, int starts) {
+  HeartFitOptions options;
+  options.searched = std::move(searched);
+  options.tilt_deg = 0;
+  options.own_look = true;
+  options.starts = starts;
+  options.descents = 1;
+  return options;
+}
+
 // EF and EDV of one view, far from all starts, with other media, gain, grey curve and speckle. The
 // files have what the fit has.
 TEST(HeartFit, APlantedHeartIsFound) {
@@ -48,12 +59,7 @@ TEST(HeartFit, APlantedHeartIsFound) {
     Scene scene = heart::heartScene(heart::parametersFrom(dials), View::a4c, 20, Look::scanner);
     scene.probe.lines = 128;
     const EchoLoop loop = scannedLoop(scene, 20, 3);
-    HeartFitOptions options;
-    options.searched = {"ef", "edv"};
-    options.tilt_deg = 0;
-    options.own_look = true;
-    options.starts = 2;
-    options.descents = 1;
+    const HeartFitOptions options = ownLookOptions({"ef", "edv"}, 2);
     const HeartFit fit = fitHeart({{View::a4c, loop, fromFirst()}}, options);
     tell("one view, two dials", fit, dials);
     ASSERT_TRUE(fit.ef && fit.edv_ml && fit.esv_ml);
@@ -111,12 +117,7 @@ TEST(HeartFit, AHeartOutsideTheFamilyDisagreesWithOwnLoops) {
   if (!realHeartsThere()) GTEST_SKIP() << "no real hearts beside the project";
   withThreads(2, [] {
     const PlantedHeart heart = foreignHeart(&wholePatientScene, 0, 1, 0);
-    HeartFitOptions options;
-    options.searched = {"ef", "edv"};
-    options.tilt_deg = 0;
-    options.own_look = true;
-    options.starts = 2;
-    options.descents = 1;
+    HeartFitOptions options = ownLookOptions({"ef", "edv"}, 2);
     options.own_loops = options.other_views = false;
     const HeartFit fit = fitHeart(heart.given(), options);
     tell("patient, one view, two dials", fit, heart.dials);
@@ -136,12 +137,8 @@ TEST(HeartFit, AFlippedAndAShuffledLoopAreRefusedAndAKilledFitResumes) {
     Scene scene = heart::heartScene(heart::parametersFrom(dials), View::a4c, 12, Look::scanner);
     scene.probe.lines = 96;
     const EchoLoop loop = scannedLoop(scene, 20, 5);
-    HeartFitOptions options;
-    options.searched = {"ef"};
+    HeartFitOptions options = ownLookOptions({"ef"}, 1);
     options.dials = {{"hr", 72}};
-    options.tilt_deg = 0;
-    options.starts = options.descents = 1;
-    options.own_look = true;
     options.own_loops = options.other_views = false;
     options.heart_cache = folder / "hearts";
     const auto fitted = [&](const EchoLoop& given) {
@@ -214,13 +211,9 @@ TEST(HeartFit, TheOwnLookFindsTheSideOfATilt) {
 TEST(HeartFit, OwnLoopsHaveTheLookOfTheLoop) {
   withThreads(2, [] {
     const PlantedHeart heart = plantedHeart(0, 1, 0, Look::portable);
-    HeartFitOptions options;
+    HeartFitOptions options = ownLookOptions({"ef"}, 1);
     options.dials = heart.dials;
     options.dials.erase("ef");
-    options.searched = {"ef"};
-    options.tilt_deg = 0;
-    options.starts = options.descents = 1;
-    options.own_look = true;
     options.own_loops = options.other_views = false;
     const HeartFit fit = fitHeart(heart.given(), options);
     EXPECT_EQ(fit.rendered_as, Look::portable);

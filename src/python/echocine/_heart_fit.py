@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _echocine
-from ._fit import _cache_folder, _dashed, _number
+from ._fit import _cache_folder, _dashed, _number, _underscored
 from ._jobs import PathLike
 from ._progress import Progress, report_to
 from ._scene import Scene, heart
@@ -53,7 +53,7 @@ class HeartFit:
         numbers: Dict[str, Any] = details["result"]
         self.result: Dict[str, Optional[Interval]] = {
             key: None if numbers[key] is None else Interval(**numbers[key]) for key in ("ef", "edv_ml", "esv_ml", "gls")}
-        self.dials: Dict[str, float] = {key.replace("-", "_"): value for key, value in dials.items()}
+        self.dials: Dict[str, float] = _underscored(dials)
         self.intervals: Dict[str, Interval] = {
             dial["dial"].replace("-", "_"): Interval(dial["value"], dial["value"] - _NINETY * dial["sd"],
                                                      dial["value"] + _NINETY * dial["sd"]) for dial in details["dials"]}
