@@ -15,7 +15,7 @@ struct PartKind {
   std::string name, medium;
   int priority = 0;  // the highest wins where closed parts overlap
   bool membrane = false;
-  double reflection_gain = 1;  // of its surface
+  double reflection_exponent = 2;  // of its surface
 };
 
 // A structure's surface at one instant, in heart coordinates (left_ventricle.h), metres.

@@ -62,7 +62,7 @@ void putPart(const heart::RecordedPart& part, PackedBytes& out) {
   out.putText(part.kind.medium);
   out.put(part.kind.priority);
   out.put(part.kind.membrane);
-  out.put(part.kind.reflection_gain);
+  out.put(part.kind.reflection_exponent);
   out.putAll(part.faces);
   out.putAll(part.tags.edges);
   out.putAll(part.tags.vertices);
@@ -77,7 +77,7 @@ heart::RecordedPart partFrom(UnpackedBytes& in) {
   part.kind.medium = in.getText();
   part.kind.priority = in.get<int>();
   part.kind.membrane = in.get<bool>();
-  part.kind.reflection_gain = in.get<double>();
+  part.kind.reflection_exponent = in.get<double>();
   part.faces = in.getAll<heart::Face>();
   part.tags.edges = in.getAll<SharpEdge>();
   part.tags.vertices = in.getAll<SharpVertex>();
