@@ -87,7 +87,7 @@ void addMediastinum(const ProbePose& pose, const ParametricHeart& heart,
     const double angle_rad =
         std::acos(std::clamp(dot(kAround.directions[i], normalised(to_probe)), -1.0, 1.0));
     const double open = 1 - smoothStep(0.5 * window_rad, window_rad, angle_rad);
-    const double around_m = reach_m[i] + 0.0025 * scale;
+    const double around_m = reach_m[i] + 0.0045 * scale;
     points.push_back(centre + std::lerp(around_m, std::max(probe_m, around_m), open) *
                                   kAround.directions[i]);
   }

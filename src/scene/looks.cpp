@@ -96,7 +96,7 @@ constexpr Scanner kScanners[] = {
      0.166,
      0,
      12.2,
-     -30,
+     -31.5,
      -41,
      2.0,
      15.9,
