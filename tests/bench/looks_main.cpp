@@ -3,6 +3,7 @@
 //     --first N: number of the first heart, from 0, here and below
 //   echo_looks --measure FILE MILLIMETRES_PER_PIXEL     frame 0 of a real loop
 //   echo_looks --real FILE=MILLIMETRES_PER_PIXEL [--real ...] [--hearts N] [--view a4c|a2c]
+//     --look all: the looks of all scanners, in turn
 //   echo_looks --greys 1 [--hearts N] [--look NAME] [--view NAME] [--with TOML] [--save FOLDER]
 //   echo_looks --regions CSV --loop SCENE_OR_VIDEO [--pixel MILLIMETRES] [--save PGM]
 
@@ -35,6 +36,7 @@ namespace echocine::bench {
 namespace {
 
 struct Options : LookHearts {
+  bool all_looks = false;
   bool greys = false;
   std::string measure;
   std::string regions, loop;
@@ -165,13 +167,17 @@ void printTable(const std::map<int, Column>& columns) {
   fmt::print("\n");
 }
 
-// Hearts of all grades of quality, in turn.
+// Hearts of all grades of quality, in turn; of all looks, too, if asked for.
 void classify(Options options) {
+  std::vector<Look> looks;
+  for (const auto& [look, name] : NamesOf<Look>::kAll)
+    if (options.all_looks ? isScanner(look) : look == options.look) looks.push_back(look);
   std::vector<PictureGroup> simulated, real;
   for (const auto& [file, mm_per_pixel] : options.real)
     options.coarse_mm = std::max(options.coarse_mm, mm_per_pixel);
   for (int h = options.first; h < options.first + options.hearts; ++h) {
     options.quality = std::array{Quality::good, Quality::medium, Quality::poor}[h % 3];
+    options.look = looks[static_cast<std::size_t>(h / 3) % looks.size()];
     std::map<int, Column> columns;
     addHeart(h, options, columns);
     PictureGroup& group = simulated.emplace_back();
@@ -205,6 +211,7 @@ int run(int count, char** words) {
     if (key == "--first") options.first = std::atoi(words[i + 1]);
     if (key == "--quality")
       options.quality = valueOf<Quality>(words[i + 1]).value_or(options.quality);
+    if (key == "--look") options.all_looks = std::string(words[i + 1]) == "all";
     if (key == "--look") options.look = valueOf<Look>(words[i + 1]).value_or(options.look);
     if (key == "--greys") options.greys = true;
     if (key == "--view") options.view = words[i + 1];
