@@ -95,7 +95,7 @@ void addMediastinum(const ProbePose& pose, const ParametricHeart& heart,
 }
 
 // The pleura is smooth: its echo is bright where it faces the probe, and hardly visible along the
-// beam. Our choice: 20 dB less at 55 degrees, where a rough surface returns 5 dB less.
+// beam. Our choice: 19 dB less at 55 degrees, where a rough surface returns 5 dB less.
 constexpr double kPleura = 8;
 
 void addLungs(const ParametricHeart& heart, std::vector<Part>& parts) {

@@ -84,7 +84,7 @@ def test_the_parts_of_a_fit_have_its_cost(real, tmp_path):
         D = measure.refine(family.at(values, **options), pose).discrepancy
         return 500 * np.log(D) - prior.log_density(hr=72, **dict(zip(ranges, values)))
 
-    assert cost(found, focus="left_ventricle") == pytest.approx(fit.details["cost"], abs=0.01)
+    assert cost(found, focus="left_ventricle") == pytest.approx(fit.details["cost"], abs=0.05)
     assert abs(cost(found) - fit.details["cost"]) > 1  # D of comparisons
     for i, step in enumerate([0.1, 30, 3, 0.08]):
         for sign in (-1, 1):
