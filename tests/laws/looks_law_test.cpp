@@ -26,6 +26,7 @@ struct LookGreys {
   std::map<Role, std::vector<double>> by_role;
   std::map<Role, double> posterior;     // mean intensity over black in the deeper half of the lines
   std::vector<double> all, near, ring;  // near: in the first 15 mm; ring: at the mitral hinges
+  std::vector<double> coat;             // mediastinum within about 5 mm of the sac
 };
 
 double quantileOf(std::vector<double> values, double q) {
@@ -70,6 +71,11 @@ LookGreys greysOf(Look look, heart::View view = heart::View::a4c, bool end_systo
         if (roleAt(line * kSamples + k) == role) return true;
     return false;
   };
+  for (std::size_t i = 0; i < frame.greys.size(); ++i)
+    if (const std::uint32_t id = frame.truth->sample_ids[i];
+        id != 0 && simulator.scene().structures[id - 1u].name == "mediastinum" &&
+        isNear(i, Role::pericardium, 2, 12))
+      greys.coat.push_back(255 * curve.at(static_cast<double>(frame.greys[i])));
   // The mitral ring is within about 6 mm of the atrium, and within 7 mm of both cavities.
   const auto isAtRing = [&](std::size_t i) { return isNear(i, Role::la, 3, 14); };
   for (std::size_t i = 0; i < frame.greys.size(); ++i)
@@ -142,6 +148,24 @@ TEST(LooksLaw, ThePericardiumThatFacesTheProbeIsWhite) {
     std::printf("  %-8s p95 %.0f p99.9 %.0f\n", std::string(nameOf(look)).c_str(), bright, white);
     EXPECT_GE(white, 245) << nameOf(look);
     EXPECT_LT(bright, 230) << nameOf(look);
+  }
+}
+
+// Cavities are dark regions in grey tissue. Where the tissue beside the sac is as dark as blood,
+// walls and sac are closed bright rings, as in a drawing.
+TEST(LooksLaw, TheHeartLiesInGreyTissue) {
+  for (const auto& [look, name] : NamesOf<Look>::kAll) {
+    if (!isScanner(look)) continue;
+    for (const heart::View view : {heart::View::a4c, heart::View::plax, heart::View::psax_mid}) {
+      const LookGreys greys = greysOf(look, view, false);
+      const double coat = quantileOf(greys.coat, 0.5),
+                   blood = quantileOf(greys.by_role.at(Role::lv_cavity), 0.5),
+                   wall = quantileOf(greys.by_role.at(Role::lv_wall), 0.5);
+      std::printf("  %-8s blood %.0f, beside the sac %.0f, wall %.0f\n", std::string(name).c_str(),
+                  blood, coat, wall);
+      EXPECT_GT(coat, blood + 50) << name;
+      EXPECT_LT(coat, wall + 45) << name;
+    }
   }
 }
 
