@@ -42,7 +42,7 @@ std::string structureText(const RecordedPart& part, const std::string& mesh_fold
       part.kind.membrane ? "membrane = true\n" : fmt::format("priority = {}\n", part.kind.priority);
   if (const Role role = guessRole(part.kind.name); role != Role::none)
     text += fmt::format("role = \"{}\"\n", nameOf(role));
-  if (part.kind.reflection_exponent != 2)
+  if (part.kind.reflection_exponent != Structure{}.reflection_exponent)
     text += fmt::format("reflection_exponent = {:g}\n", part.kind.reflection_exponent);
   if (format == MeshFormat::npz)
     return text + fmt::format("keyframes = \"{}{}.npz\"\n", mesh_folder, part.kind.name);

@@ -96,14 +96,14 @@ void addMediastinum(const ProbePose& pose, const ParametricHeart& heart,
 
 // The pleura is smooth: its echo is bright where it faces the probe, and hardly visible along the
 // beam. Our choice: 19 dB less at 55 degrees, where a rough surface returns 5 dB less.
-constexpr double kPleura = 8;
+constexpr double kPleuraExponent = 8;
 
 void addLungs(const ParametricHeart& heart, std::vector<Part>& parts) {
   static const SphereMesh& kLung = geodesicSphere(6);
   const double l = heart.lvLength();
   const auto add = [&](const char* name, Vec3d centre, Vec3d semi_axes) {
     Part lung = closedPart(name, "lung", 2, ellipsoid(kLung, l * centre, l * semi_axes), kLung);
-    lung.kind.reflection_exponent = kPleura;
+    lung.kind.reflection_exponent = kPleuraExponent;
     parts.push_back(std::move(lung));
   };
   add("lung_left", {1.35, -0.25, 0.1}, {1.25, 1.9, 2.2});

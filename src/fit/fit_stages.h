@@ -7,6 +7,7 @@
 #include "fit/fit_progress.h"
 #include "fit/heart_fit.h"
 #include "fit/own_loop.h"
+#include "scene/looks.h"
 
 namespace echocine::fit {
 

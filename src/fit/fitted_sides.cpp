@@ -7,6 +7,7 @@
 #include "fit/fit_regions.h"
 #include "fit/own_loop.h"
 #include "motion/heart/heart.h"
+#include "scene/looks.h"
 
 namespace echocine::fit {
 

@@ -5,7 +5,6 @@
 #include "core/parallel.h"
 #include "frame/simulator.h"
 #include "motion/surfaces/probe_placement.h"
-#include "scene/names.h"
 #include "signal/signal_chain.h"
 
 namespace echocine::fit {
@@ -55,13 +54,6 @@ echo::EchoLoop RenderedBeats::loop(int seed) {
   loop.overlay.assign(loop.video.frames.front().size(), 0);
   loop.video.coloured.assign(loop.overlay.size(), 0);
   return loop;
-}
-
-std::vector<Look> scannerLooks() {
-  std::vector<Look> out;
-  for (const Named<Look>& named : NamesOf<Look>::kAll)
-    if (isScanner(named.value)) out.push_back(named.value);
-  return out;
 }
 
 RenderedBeats ownLoops(const std::map<std::string, double>& dials, heart::View view,

@@ -39,9 +39,6 @@ inline echo::EchoLoop renderedBeat(Scene scene, int frames, int seed) {
   return RenderedBeats(std::move(scene), frames).loop(seed);
 }
 
-// The looks of scanners, in their order.
-std::vector<Look> scannerLooks();
-
 // Loops of a heart, with the plane tilted. Throws SceneError for impossible dials.
 RenderedBeats ownLoops(const std::map<std::string, double>& dials, heart::View view,
                        const PlaneTilt& tilt, int frames, Look look = Look::scanner);

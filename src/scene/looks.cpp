@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "scene/names.h"
+
 namespace echocine {
 
 namespace {
@@ -225,6 +227,13 @@ void applyLook(Look look, Quality quality, Scene& scene) {
     applyProcessing(scanner, scene);
     applyArtefacts(gradeOf(quality), scanner, scene);
   }
+}
+
+std::vector<Look> scannerLooks() {
+  std::vector<Look> out;
+  for (const Named<Look>& named : NamesOf<Look>::kAll)
+    if (isScanner(named.value)) out.push_back(named.value);
+  return out;
 }
 
 }  // namespace echocine

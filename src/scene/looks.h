@@ -2,6 +2,8 @@
 // Looks: sets of defaults for [signal], [trabeculae], [leaflets], [speckle] and [artefacts]. Keys
 // in the scene override them.
 
+#include <vector>
+
 #include "scene/scene.h"
 
 namespace echocine {
@@ -10,5 +12,8 @@ namespace echocine {
 // weaker interface echoes. The looks of scanners add an even time gain, noise and artefacts,
 // stronger for poorer quality. They differ in pulse, grey map, smoothing and persistence.
 void applyLook(Look look, Quality quality, Scene& scene);
+
+// The looks of scanners, in their order.
+std::vector<Look> scannerLooks();
 
 }  // namespace echocine

@@ -26,6 +26,7 @@
 #include "looks_scene.h"
 #include "metrics/statistics.h"
 #include "motion/heart/heart_scene.h"
+#include "scene/looks.h"
 #include "scene/names.h"
 #include "scene/role.h"
 #include "signal/signal_chain.h"
@@ -169,9 +170,8 @@ void printTable(const std::map<int, Column>& columns) {
 
 // Hearts of all grades of quality, in turn; of all looks, too, if asked for.
 void classify(Options options) {
-  std::vector<Look> looks;
-  for (const auto& [look, name] : NamesOf<Look>::kAll)
-    if (options.all_looks ? isScanner(look) : look == options.look) looks.push_back(look);
+  const std::vector<Look> looks =
+      options.all_looks ? scannerLooks() : std::vector<Look>{options.look};
   std::vector<PictureGroup> simulated, real;
   for (const auto& [file, mm_per_pixel] : options.real)
     options.coarse_mm = std::max(options.coarse_mm, mm_per_pixel);

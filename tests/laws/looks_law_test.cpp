@@ -14,6 +14,7 @@
 #include "frame/simulator.h"
 #include "motion/heart/heart_scene.h"
 #include "scene/grey_curve.h"
+#include "scene/looks.h"
 #include "scene/names.h"
 #include "scene/role.h"
 #include "scene/scan_geometry.h"
@@ -50,19 +51,25 @@ LookGreys greysOf(Look look, heart::View view = heart::View::a4c, bool end_systo
   const GreyCurve curve(simulator.scene().signal);
   const ScanGeometry geometry(simulator.scene().probe);
   constexpr std::size_t kSamples = 384;
+  const auto greyAt = [&](std::size_t i) {
+    return 255 * curve.at(static_cast<double>(frame.greys[i]));
+  };
+  const auto structureAt = [&](std::size_t i) {
+    const std::uint32_t id = frame.truth->sample_ids[i];
+    return id == 0 ? nullptr : &simulator.scene().structures[id - 1u];
+  };
+  const auto roleAt = [&](std::size_t i) {
+    const Structure* structure = structureAt(i);
+    return structure ? roleOf(*structure) : Role::none;
+  };
   LookGreys greys;
   for (std::size_t i = 0; i < frame.greys.size(); ++i) {
-    const double grey = 255 * curve.at(static_cast<double>(frame.greys[i]));
+    const double grey = greyAt(i);
     greys.all.push_back(grey);
     if (geometry.sampleDepth(static_cast<int>(i % kSamples)) < 15e-3) greys.near.push_back(grey);
-    if (const std::uint32_t id = frame.truth->sample_ids[i]; id != 0)
-      greys.by_role[roleOf(simulator.scene().structures[id - 1u])].push_back(grey);
+    if (structureAt(i)) greys.by_role[roleAt(i)].push_back(grey);
   }
   std::map<Role, std::pair<double, double>> sums;
-  const auto roleAt = [&](std::size_t i) {
-    const std::uint32_t id = frame.truth->sample_ids[i];
-    return id == 0 ? Role::none : roleOf(simulator.scene().structures[id - 1u]);
-  };
   const auto isNear = [&](std::size_t i, Role role, std::size_t lines, std::size_t samples) {
     for (std::size_t line = i / kSamples - std::min(i / kSamples, lines);
          line <= std::min(i / kSamples + lines, frame.greys.size() / kSamples - 1); ++line)
@@ -72,16 +79,15 @@ LookGreys greysOf(Look look, heart::View view = heart::View::a4c, bool end_systo
     return false;
   };
   for (std::size_t i = 0; i < frame.greys.size(); ++i)
-    if (const std::uint32_t id = frame.truth->sample_ids[i];
-        id != 0 && simulator.scene().structures[id - 1u].name == "mediastinum" &&
-        isNear(i, Role::pericardium, 2, 12))
-      greys.coat.push_back(255 * curve.at(static_cast<double>(frame.greys[i])));
+    if (const Structure* structure = structureAt(i);
+        structure && structure->name == "mediastinum" && isNear(i, Role::pericardium, 2, 12))
+      greys.coat.push_back(greyAt(i));
   // The mitral ring is within about 6 mm of the atrium, and within 7 mm of both cavities.
   const auto isAtRing = [&](std::size_t i) { return isNear(i, Role::la, 3, 14); };
   for (std::size_t i = 0; i < frame.greys.size(); ++i)
     if (const Role role = roleAt(i); role == Role::lv_wall || role == Role::la_wall)
       if (isNear(i, Role::la, 3, 18) && isNear(i, Role::lv_cavity, 3, 18))
-        greys.ring.push_back(255 * curve.at(static_cast<double>(frame.greys[i])));
+        greys.ring.push_back(greyAt(i));
   for (std::size_t i = 0; i < frame.greys.size(); ++i)
     if (const Role role = roleAt(i); role != Role::none && i % kSamples > kSamples / 2 &&
                                      !(role == Role::lv_wall && isAtRing(i))) {
@@ -97,8 +103,8 @@ LookGreys greysOf(Look look, heart::View view = heart::View::a4c, bool end_systo
 // Samples near the probe outnumber their pixels, so shares are those of beam space. Black, white:
 // stills of one scanner and "smooth" have no grey under 10; loops of others have 5 to 51 % there.
 TEST(LooksLaw, ScannersShowBloodDarkAndMuscleGrey) {
-  for (const auto& [look, name] : NamesOf<Look>::kAll) {
-    if (!isScanner(look)) continue;
+  for (const Look look : scannerLooks()) {
+    const std::string name(nameOf(look));
     const LookGreys greys = greysOf(look);
     const double lv = quantileOf(greys.by_role.at(Role::lv_cavity), 0.5),
                  la = quantileOf(greys.by_role.at(Role::la), 0.5),
@@ -108,8 +114,8 @@ TEST(LooksLaw, ScannersShowBloodDarkAndMuscleGrey) {
     const double black = static_cast<double>(std::count_if(greys.all.begin(), greys.all.end(),
                                                            [](double grey) { return grey < 10; })) /
                          static_cast<double>(greys.all.size());
-    std::printf("  %-8s LV %.0f LA %.0f RA %.0f wall %.0f p99.9 %.0f black %.3f\n",
-                std::string(name).c_str(), lv, la, ra, wall, white, black);
+    std::printf("  %-8s LV %.0f LA %.0f RA %.0f wall %.0f p99.9 %.0f black %.3f\n", name.c_str(),
+                lv, la, ra, wall, white, black);
     EXPECT_GT(wall, 65) << name;
     EXPECT_LT(wall, 130) << name;
     // Clinical stills at end-systole: 30 or more in 90 % of them (288 patients of CAMUS).
@@ -154,15 +160,15 @@ TEST(LooksLaw, ThePericardiumThatFacesTheProbeIsWhite) {
 // Cavities are dark regions in grey tissue. Where the tissue beside the sac is as dark as blood,
 // walls and sac are closed bright rings, as in a drawing.
 TEST(LooksLaw, TheHeartLiesInGreyTissue) {
-  for (const auto& [look, name] : NamesOf<Look>::kAll) {
-    if (!isScanner(look)) continue;
+  for (const Look look : scannerLooks()) {
+    const std::string name(nameOf(look));
     for (const heart::View view : {heart::View::a4c, heart::View::plax, heart::View::psax_mid}) {
       const LookGreys greys = greysOf(look, view, false);
       const double coat = quantileOf(greys.coat, 0.5),
                    blood = quantileOf(greys.by_role.at(Role::lv_cavity), 0.5),
                    wall = quantileOf(greys.by_role.at(Role::lv_wall), 0.5);
-      std::printf("  %-8s blood %.0f, beside the sac %.0f, wall %.0f\n", std::string(name).c_str(),
-                  blood, coat, wall);
+      std::printf("  %-8s blood %.0f, beside the sac %.0f, wall %.0f\n", name.c_str(), blood, coat,
+                  wall);
       EXPECT_GT(coat, blood + 50) << name;
       EXPECT_LT(coat, wall + 45) << name;
     }
@@ -275,8 +281,7 @@ TEST(LooksLaw, PortablePericardiumIsWhiterThanThePosteriorWall) {
 
 TEST(LooksLaw, DatasetsDrawOverLooks) {
   std::string names;
-  for (const auto& [look, name] : NamesOf<Look>::kAll)
-    if (isScanner(look)) names += "\"" + std::string(name) + "\", ";
+  for (const Look look : scannerLooks()) names += "\"" + std::string(nameOf(look)) + "\", ";
   const dataset::Spec spec = dataset::parseSpec(
       "hearts = 60\nviews = [\"a4c\"]\n[scene.signal]\nlook = { choice = [" + names +
           "] }\nquality = { choice = [\"good\", \"medium\", \"poor\"] }\n",

@@ -45,8 +45,9 @@ TEST(LimitedChild, GivesItsAnswer) {
 }
 
 TEST(LimitedChild, EndsOfAllKindsAreTold) {
-  const auto endOfChild = [](const std::function<void(const ChildWriter&)>& act) {
-    return runInChild(briefLimits(), act).end;
+  const auto endOfChild = [](const std::function<void(const ChildWriter&)>& act,
+                             const ChildLimits& limits = briefLimits()) {
+    return runInChild(limits, act).end;
   };
   const std::string text(100, 'x');
   EXPECT_EQ(endOfChild([&](const ChildWriter& write) {
@@ -70,12 +71,12 @@ TEST(LimitedChild, EndsOfAllKindsAreTold) {
 #ifndef ECHOCINE_SANITIZED  // a sanitizer ends the process instead of throwing
   ChildLimits patient = briefLimits();
   patient.cpu_s = 20;  // new pages of 256 MB may take more than a second
-  EXPECT_EQ(runInChild(patient,
-                       [](const ChildWriter&) {
-                         std::vector<std::vector<char>> all;
-                         for (;;) all.emplace_back(std::size_t{16} << 20);
-                       })
-                .end,
+  EXPECT_EQ(endOfChild(
+                [](const ChildWriter&) {
+                  std::vector<std::vector<char>> all;
+                  for (;;) all.emplace_back(std::size_t{16} << 20);
+                },
+                patient),
             ChildEnd::out_of_memory);
 #endif
   EXPECT_FALSE(hasChildren());
