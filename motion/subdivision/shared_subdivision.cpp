@@ -9,7 +9,7 @@ namespace echocine {
 namespace {
 
 // Parametric hearts have fewer topologies; larger meshes of users are not cached. Our choice.
-constexpr std::size_t kMostKept = 24, kLargestKept = 20000;  // triangles after subdivision
+constexpr std::size_t kMostKept = 24, kLargestKept = 40000;  // triangles after subdivision
 
 template <typename Made>
 struct Kept {

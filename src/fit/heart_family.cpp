@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "core/check.h"
 #include "core/error.h"
@@ -124,7 +126,7 @@ HeartFamily::HeartFamily(const HeartNodes& hearts, heart::View view, const Monit
   });
   for (Structure& structure : scene_.structures) structure.keyframes.clear();
   keepNearPlane(all, recorded);
-  keepModes(recorded);
+  keepModes(std::move(recorded));
 }
 
 // The triangles that some heart between the recorded ones has on the plane: their corners' heights
@@ -192,7 +194,8 @@ void HeartFamily::keepNearPlane(const std::vector<SurfaceTopology>& all,
   }
 }
 
-void HeartFamily::keepModes(const std::vector<Node>& recorded) {
+// Frees each frame of the hearts once its modes are known.
+void HeartFamily::keepModes(std::vector<Node> recorded) {
   std::vector<std::optional<SurfaceModes>> modes(recorded.front().size());
   const SurfacePatches patches = patchesOf(surfaces_);
   parallelBlocks(modes.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -200,6 +203,7 @@ void HeartFamily::keepModes(const std::vector<Node>& recorded) {
       std::vector<const SurfaceFrame*> hearts;
       for (const Node& node : recorded) hearts.push_back(&node[f]);
       modes[f].emplace(hearts, kept_, patches);
+      for (Node& node : recorded) node[f] = {};
     }
   });
   for (std::optional<SurfaceModes>& frame : modes) modes_.push_back(std::move(*frame));
@@ -219,8 +223,10 @@ ModelLoop HeartFamily::at(const std::vector<double>& values, const PlaneTilt& ti
   checkAngle("rotate_deg", tilt.rotate_rad, tilt_rad_);
   checkValues(ranges(), values);
   const std::vector<float> share = design_.shares(values);
-  ModelLoop loop =
-      ModelPlane(scene_, surfaces_, segments_, focus).cut(blendNearPlane(modes_, share, tilt));
+  using Beat = std::vector<SurfaceFrame>;
+  const std::shared_ptr<Beat> beat = beats_.borrow([] { return std::make_unique<Beat>(); });
+  blendNearPlane(modes_, share, tilt, *beat);
+  ModelLoop loop = ModelPlane(scene_, surfaces_, segments_, focus).cut(*beat);
   for (std::size_t n = 0; n < share.size(); ++n)
     loop.systole += static_cast<double>(share[n]) * systoles_[n];
   return loop;

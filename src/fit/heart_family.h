@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/free_list.h"
 #include "core/monitor.h"
 #include "fit/heart_cache.h"
 #include "fit/heart_design.h"
@@ -81,7 +82,7 @@ class HeartFamily {
   std::vector<char> nearPlane(const SurfaceTopology& surface,
                               const std::vector<Node>& recorded) const;
   void keepNearPlane(const std::vector<SurfaceTopology>& all, const std::vector<Node>& recorded);
-  void keepModes(const std::vector<Node>& recorded);
+  void keepModes(std::vector<Node> recorded);
 
   HeartDesign design_;
   std::vector<double> systoles_;  // end-systole of each computed heart, as a fraction of its beat
@@ -89,8 +90,9 @@ class HeartFamily {
   Scene scene_;                   // of the first node, without meshes
   std::optional<WallSegments> segments_;  // of the first node's material, which all share
   std::vector<SurfaceTopology> surfaces_;
-  std::vector<std::vector<std::uint32_t>> kept_;  // vertices, by surface
-  std::vector<SurfaceModes> modes_;               // by frame
+  std::vector<std::vector<std::uint32_t>> kept_;       // vertices, by surface
+  std::vector<SurfaceModes> modes_;                    // by frame
+  mutable FreeList<std::vector<SurfaceFrame>> beats_;  // blended
 };
 
 }  // namespace echocine::fit

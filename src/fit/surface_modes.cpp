@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "core/box.h"
@@ -20,7 +21,20 @@ namespace {
 constexpr double kTolerance_m = 2e-6;
 constexpr float kMargin_m = 2e-4f;
 constexpr std::uint32_t kPatch = 16;
-static_assert(3 * kPatch % kFloatLanes == 0 && sizeof(Vec3f) == 3 * sizeof(float));
+constexpr std::size_t kPatchNumbers = 3 * kPatch, kPatchLanes = kPatchNumbers / kFloatLanes;
+static_assert(kPatchNumbers % (2 * kFloatLanes) == 0 && sizeof(Vec3f) == 3 * sizeof(float));
+constexpr float kMostSteps = 32767;
+
+// Two lanes of a patch: those of the second in the upper halves.
+struct TwoLanes {
+  Floats8 first, second;
+};
+TwoLanes twoLanesAt(const std::uint32_t* from) {
+  Ints8 both;
+  std::memcpy(&both, from, sizeof both);
+  return {__builtin_convertvector(both << 16 >> 16, Floats8),
+          __builtin_convertvector(both >> 16, Floats8)};
+}
 
 }  // namespace
 
@@ -71,18 +85,22 @@ SurfaceModes::SurfaceModes(std::span<const SurfaceFrame* const> hearts,
                            SurfacePatches patches)
     : patches_(std::move(patches)) {
   const auto per_heart = 1 / static_cast<double>(hearts.size());
-  std::vector<Vec3f> means_m, off_m;
-  std::vector<std::size_t> first;  // by surface
+  std::vector<Vec3f> all_m, off_m;  // means; deviations of each heart
+  std::vector<std::size_t> first;   // by surface
+  std::size_t vertices = 0;
+  for (const std::vector<std::uint32_t>& of_surface : kept) vertices += of_surface.size();
+  all_m.reserve(vertices);
+  off_m.reserve(vertices * hearts.size());
   for (std::size_t s = 0; s < kept.size(); ++s) {
-    first.push_back(means_m.size());
-    vertices_.push_back(kept[s].size());
+    first.push_back(all_m.size());
     for (const std::uint32_t v : kept[s]) {
       Vec3d sum;
       for (const SurfaceFrame* heart : hearts) sum = sum + toDouble(heart->positions_m[s][v]);
-      means_m.push_back(toFloat(per_heart * sum));
+      all_m.push_back(toFloat(per_heart * sum));
       for (const SurfaceFrame* heart : hearts)
-        off_m.push_back(heart->positions_m[s][v] - means_m.back());
+        off_m.push_back(heart->positions_m[s][v] - all_m.back());
     }
+    means_m_.emplace_back(all_m.begin() + static_cast<std::ptrdiff_t>(first[s]), all_m.end());
   }
   // motionModes() counts the sum over hearts.
   const MotionModes modes = motionModes(off_m, hearts.size(), kTolerance_m / std::sqrt(per_heart));
@@ -90,44 +108,74 @@ SurfaceModes::SurfaceModes(std::span<const SurfaceFrame* const> hearts,
   for (const std::vector<double>& row : modes.keyframe_from_mode)
     mode_of_heart_.insert(mode_of_heart_.end(), row.begin(), row.end());
   const auto modeAt = [&](std::size_t point, std::size_t m) {
-    return m == 0 ? means_m[point] : modes.shapes_m[point * count_ + m - 1];
+    return m == 0 ? all_m[point] : modes.shapes_m[point * count_ + m - 1];
   };
-  for (std::size_t s = 0; s < kept.size(); ++s)
-    surfaces_m_.push_back(blocksOf(
-        kept[s].size(), [&](std::size_t v, std::size_t m) { return modeAt(first[s] + v, m); }));
-  const auto middleOf = [&](const SurfacePatch& patch, const auto& at) {
+  const auto middleOf = [&](const SurfacePatch& patch, std::size_t m) {
     Vec3d sum;
     for (std::size_t v = patch.first; v < patch.end; ++v)
-      sum = sum + toDouble(at(first[patch.surface] + v));
+      sum = sum + toDouble(modeAt(first[patch.surface] + v, m));
     return toFloat(1.0 / (patch.end - patch.first) * sum);
   };
-  middles_m_ = blocksOf(patches_->size(), [&](std::size_t p, std::size_t m) {
-    return middleOf((*patches_)[p], [&](std::size_t point) { return modeAt(point, m); });
-  });
-  for (const SurfacePatch& patch : *patches_)
+  shapes_.reserve(patches_->size() * count_ * kPatchNumbers / 2);
+  steps_m_.reserve(patches_->size() * count_);
+  std::vector<Vec3f> middles_m;  // by patch, mean and mode
+  std::vector<float> radii_m;
+  middles_m.reserve(patches_->size() * (count_ + 1));
+  radii_m.reserve(patches_->size() * (count_ + 1));
+  for (const SurfacePatch& patch : *patches_) {
     for (std::size_t m = 0; m <= count_; ++m) {
-      const auto at = [&](std::size_t point) { return modeAt(point, m); };
-      const Vec3f middle_m = middleOf(patch, at);
+      middles_m.push_back(middleOf(patch, m));
       float most_m = 0;
       for (const std::uint32_t v : patch.touched)
-        most_m = std::max(most_m, length(at(first[patch.surface] + v) - middle_m));
-      radii_m_.push_back(most_m);
+        most_m = std::max(most_m, length(modeAt(first[patch.surface] + v, m) - middles_m.back()));
+      radii_m.push_back(most_m);
     }
+    addPatch(patch,
+             std::span(modes.shapes_m).subspan((first[patch.surface] + patch.first) * count_));
+  }
+  middles_m_ = blocksOf(3 * patches_->size(), [&](std::size_t i, std::size_t m) {
+    const Vec3f middle_m = middles_m[i / 3 * (count_ + 1) + m];
+    return i % 3 == 0 ? middle_m.x : i % 3 == 1 ? middle_m.y : middle_m.z;
+  });
+  radii_m_ = blocksOf(patches_->size(),
+                      [&](std::size_t p, std::size_t m) { return radii_m[p * (count_ + 1) + m]; });
 }
 
-template <typename At>
-SurfaceModes::Blocks SurfaceModes::blocksOf(std::size_t points, const At& at) const {
-  const std::size_t block = kFloatLanes * (count_ + 1);
-  Blocks blocks((3 * points + kFloatLanes - 1) / kFloatLanes * block, 0);
-  for (std::size_t point = 0; point < points; ++point)
-    for (std::size_t m = 0; m <= count_; ++m) {
-      const Vec3f p = at(point, m);
-      std::size_t i = 3 * point;
-      for (const float number : {p.x, p.y, p.z}) {
-        blocks[i / kFloatLanes * block + m * kFloatLanes + i % kFloatLanes] = number;
+// shapes_m: by vertex of the patch, then mode. The largest coordinate is kMostSteps steps.
+void SurfaceModes::addPatch(const SurfacePatch& patch, std::span<const Vec3f> shapes_m) {
+  const std::size_t vertices = patch.end - patch.first;
+  for (std::size_t m = 0; m < count_; ++m) {
+    float most_m = 0;
+    for (std::size_t v = 0; v < vertices; ++v) {
+      const Vec3f p = shapes_m[v * count_ + m];
+      most_m = std::max({most_m, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+    const float step_m = most_m / kMostSteps;
+    steps_m_.push_back(step_m);
+    const std::size_t begin = shapes_.size();
+    shapes_.resize(begin + kPatchNumbers / 2, 0);
+    if (step_m == 0) continue;
+    for (std::size_t v = 0; v < vertices; ++v) {
+      const Vec3f p = shapes_m[v * count_ + m];
+      std::size_t i = 3 * v;
+      for (const float number_m : {p.x, p.y, p.z}) {
+        const auto steps = static_cast<std::uint16_t>(std::lround(number_m / step_m));
+        const std::size_t lane = i / kFloatLanes;
+        shapes_[begin + lane / 2 * kFloatLanes + i % kFloatLanes] |= std::uint32_t{steps}
+                                                                     << (lane % 2 * 16);
         ++i;
       }
     }
+  }
+}
+
+template <typename At>
+SurfaceModes::Blocks SurfaceModes::blocksOf(std::size_t numbers, const At& at) const {
+  const std::size_t block = kFloatLanes * (count_ + 1);
+  Blocks blocks((numbers + kFloatLanes - 1) / kFloatLanes * block, 0);
+  for (std::size_t i = 0; i < numbers; ++i)
+    for (std::size_t m = 0; m <= count_; ++m)
+      blocks[i / kFloatLanes * block + m * kFloatLanes + i % kFloatLanes] = at(i, m);
   return blocks;
 }
 
@@ -144,63 +192,82 @@ std::vector<float> SurfaceModes::factorsOf(std::span<const float> shares) const 
   return factors;
 }
 
-// first: of the points of `blocks`, at the beginning of a block.
-void SurfaceModes::sum(const Blocks& blocks, std::span<const float> factors, std::size_t first,
-                       std::span<Vec3f> out_m) const {
-  const float* from = blocks.data() + 3 * first * factors.size();
-  const std::size_t numbers = 3 * out_m.size();
-  auto* const to = reinterpret_cast<float*>(out_m.data());
-  for (std::size_t i = 0; i < numbers; i += kFloatLanes) {
+void SurfaceModes::sum(const Blocks& blocks, std::span<const float> factors,
+                       std::span<float> out) const {
+  const float* from = blocks.data();
+  for (std::size_t i = 0; i < out.size(); i += kFloatLanes) {
     Floats8 sum{};
     for (const float factor : factors) {
       sum += factor * lanesAt(from);
       from += kFloatLanes;
     }
-    storeSome(sum, numbers - i, to + i);
+    storeSome(sum, out.size() - i, &out[i]);
   }
+}
+
+void SurfaceModes::blendPatch(std::size_t p, std::span<const float> factors,
+                              std::vector<Vec3f>& out_m) const {
+  const SurfacePatch& patch = (*patches_)[p];
+  const std::size_t numbers = 3 * (patch.end - patch.first);
+  const auto* const mean_m = reinterpret_cast<const float*>(&means_m_[patch.surface][patch.first]);
+  Floats8 sums[kPatchLanes];
+  for (std::size_t i = 0; i < kPatchLanes; ++i)
+    sums[i] = i * kFloatLanes < numbers
+                  ? someLanesAt(mean_m + i * kFloatLanes, numbers - i * kFloatLanes)
+                  : Floats8{};
+  const std::uint32_t* from = shapes_.data() + p * count_ * kPatchNumbers / 2;
+  for (std::size_t m = 0; m < count_; ++m) {
+    const float factor = factors[m + 1] * steps_m_[p * count_ + m];
+    for (std::size_t i = 0; i < kPatchLanes; i += 2) {
+      const TwoLanes two = twoLanesAt(from);
+      sums[i] += factor * two.first;
+      sums[i + 1] += factor * two.second;
+      from += kFloatLanes;
+    }
+  }
+  auto* const to = reinterpret_cast<float*>(&out_m[patch.first]);
+  for (std::size_t i = 0; i * kFloatLanes < numbers; ++i)
+    storeSome(sums[i], numbers - i * kFloatLanes, to + i * kFloatLanes);
 }
 
 SurfaceFrame SurfaceModes::blend(std::span<const float> shares) const {
-  return blend(shares, std::vector<Side>(patches_->size(), Side::near));
-}
-
-SurfaceFrame SurfaceModes::blend(std::span<const float> shares, std::span<const Side> sides) const {
-  CHECK_EQ(sides.size(), patches_->size());
-  const std::vector<float> factors = factorsOf(shares);
   SurfaceFrame frame;
-  for (const std::size_t vertices : vertices_) frame.positions_m.emplace_back(vertices);
-  for (std::size_t p = 0, end = 0; p < sides.size(); p = end) {
-    const SurfacePatch& patch = (*patches_)[p];
-    const auto joins = [&](std::size_t other) {
-      return sides[other] == sides[p] && (*patches_)[other].surface == patch.surface;
-    };
-    for (end = p + 1; end < sides.size() && joins(end);) ++end;
-    const auto out_m = std::span(frame.positions_m[patch.surface])
-                           .subspan(patch.first, (*patches_)[end - 1].end - patch.first);
-    if (sides[p] == Side::near)
-      sum(surfaces_m_[patch.surface], factors, patch.first, out_m);
-    else
-      std::fill(out_m.begin(), out_m.end(), Vec3f{0, sides[p] == Side::above ? 1.0f : -1.0f, 0});
-  }
+  blend(shares, std::vector<Side>(patches_->size(), Side::near), frame);
   return frame;
 }
 
-std::vector<SurfaceModes::Ball> SurfaceModes::balls(std::span<const float> shares) const {
+void SurfaceModes::blend(std::span<const float> shares, std::span<const Side> sides,
+                         SurfaceFrame& frame) const {
+  CHECK_EQ(sides.size(), patches_->size());
   const std::vector<float> factors = factorsOf(shares);
-  std::vector<Vec3f> middles_m(patches_->size());
-  sum(middles_m_, factors, 0, middles_m);
-  std::vector<Ball> out;
-  const float* radius_m = radii_m_.data();
-  for (const Vec3f middle_m : middles_m) {
-    float sum_m = kMargin_m;
-    for (const float factor : factors) sum_m += std::abs(factor) * *radius_m++;
-    out.push_back({middle_m, sum_m});
+  frame.positions_m.resize(means_m_.size());
+  for (std::size_t s = 0; s < means_m_.size(); ++s) frame.positions_m[s].resize(means_m_[s].size());
+  for (std::size_t p = 0; p < sides.size(); ++p) {
+    const SurfacePatch& patch = (*patches_)[p];
+    std::vector<Vec3f>& out_m = frame.positions_m[patch.surface];
+    if (sides[p] == Side::near)
+      blendPatch(p, factors, out_m);
+    else
+      std::fill(out_m.begin() + patch.first, out_m.begin() + patch.end,
+                Vec3f{0, sides[p] == Side::above ? 1.0f : -1.0f, 0});
   }
+}
+
+std::vector<SurfaceModes::Ball> SurfaceModes::balls(std::span<const float> shares) const {
+  std::vector<float> factors = factorsOf(shares), numbers_m(3 * patches_->size()),
+                     radii_m(patches_->size());
+  sum(middles_m_, factors, numbers_m);
+  for (float& factor : factors) factor = std::abs(factor);
+  sum(radii_m_, factors, radii_m);
+  std::vector<Ball> out;
+  for (std::size_t p = 0; p < radii_m.size(); ++p)
+    out.push_back(
+        {{numbers_m[3 * p], numbers_m[3 * p + 1], numbers_m[3 * p + 2]}, kMargin_m + radii_m[p]});
   return out;
 }
 
-std::vector<SurfaceFrame> blendNearPlane(std::span<const SurfaceModes> frames,
-                                         std::span<const float> shares, const PlaneTilt& tilt) {
+void blendNearPlane(std::span<const SurfaceModes> frames, std::span<const float> shares,
+                    const PlaneTilt& tilt, std::vector<SurfaceFrame>& out) {
   using Side = SurfaceModes::Side;
   const Pose pose = turnedAndTilted({}, tilt.rotate_rad, tilt.tilt_rad);
   const auto tilted = [&](Vec3f p) { return toFloat(pose.fromWorld(toDouble(p))); };
@@ -213,14 +280,14 @@ std::vector<SurfaceFrame> blendNearPlane(std::span<const SurfaceModes> frames,
                                             : Side::near);
     }
   });
-  std::vector<SurfaceFrame> out(frames.size());
+  out.resize(frames.size());
   parallelBlocks(frames.size(), 1, [&](std::size_t f, std::size_t) {
     std::vector<Side> sides = own[f];
     // Pieces of the frame before take their motion from here.
     const std::vector<Side>& before = own[(f + frames.size() - 1) % frames.size()];
     for (std::size_t p = 0; p < sides.size(); ++p)
       if (before[p] == Side::near) sides[p] = Side::near;
-    out[f] = frames[f].blend(shares, sides);
+    frames[f].blend(shares, sides, out[f]);
     if (tilt.rotate_rad == 0 && tilt.tilt_rad == 0) return;
     for (std::size_t p = 0; p < sides.size(); ++p) {
       if (sides[p] != Side::near) continue;
@@ -229,7 +296,6 @@ std::vector<SurfaceFrame> blendNearPlane(std::span<const SurfaceModes> frames,
       for (std::size_t v = patch.first; v < patch.end; ++v) positions_m[v] = tilted(positions_m[v]);
     }
   });
-  return out;
 }
 
 }  // namespace echocine::fit

@@ -39,7 +39,7 @@ class SurfaceModes {
   // Whether the plane y = 0 may cut a patch (near), otherwise its side.
   enum class Side : std::int8_t { below, near, above };
   // The same, of the patches near the plane. Vertices of the others lie 1 m away on their side.
-  SurfaceFrame blend(std::span<const float> shares, std::span<const Side> sides) const;
+  void blend(std::span<const float> shares, std::span<const Side> sides, SurfaceFrame& frame) const;
 
   // The middle of a patch, and a radius about it that no touched vertex leaves.
   struct Ball {
@@ -51,28 +51,32 @@ class SurfaceModes {
   std::size_t count() const { return count_; }
 
  private:
-  // Numbers as blocks of eight: those of the mean, then of each mode. A blend reads them in order.
+  // Numbers as blocks of eight: those of the mean, then of each mode. A sum reads them in order.
   using Blocks = std::vector<float>;
   template <typename At>
-  Blocks blocksOf(std::size_t points, const At& at) const;
+  Blocks blocksOf(std::size_t numbers, const At& at) const;
   std::vector<float> factorsOf(std::span<const float> shares) const;
-  void sum(const Blocks& blocks, std::span<const float> factors, std::size_t first,
-           std::span<Vec3f> out_m) const;
+  void sum(const Blocks& blocks, std::span<const float> factors, std::span<float> out) const;
+  void addPatch(const SurfacePatch& patch, std::span<const Vec3f> shapes_m);
+  void blendPatch(std::size_t patch, std::span<const float> factors,
+                  std::vector<Vec3f>& out_m) const;
 
   SurfacePatches patches_;
-  std::size_t count_ = 0;              // of modes
-  std::vector<double> mode_of_heart_;  // count_ per heart
-  std::vector<std::size_t> vertices_;  // by surface
-  std::vector<Blocks> surfaces_m_;
+  std::size_t count_ = 0;                    // of modes
+  std::vector<double> mode_of_heart_;        // count_ per heart
+  std::vector<std::vector<Vec3f>> means_m_;  // by surface
+  // By patch and mode: the coordinates of its vertices in steps, and the size of a step. A blend is
+  // limited by the memory that it reads: half as much as with floats.
+  std::vector<std::uint32_t> shapes_;  // two coordinates of 16 bits in each
+  std::vector<float> steps_m_;
   Blocks middles_m_;
-  // By patch, for the mean and for each mode: farthest of the touched vertices from the middle.
-  std::vector<float> radii_m_;
+  Blocks radii_m_;  // farthest of the touched vertices from the middle
 };
 
 // A beat of a blend of hearts, in the frame of a tilted probe; frames: in their order in time, with
 // the same patches. Vertices are correct where a triangle crosses the plane in this frame or in the
 // one before. Others may lie elsewhere on their side of it.
-std::vector<SurfaceFrame> blendNearPlane(std::span<const SurfaceModes> frames,
-                                         std::span<const float> shares, const PlaneTilt& tilt);
+void blendNearPlane(std::span<const SurfaceModes> frames, std::span<const float> shares,
+                    const PlaneTilt& tilt, std::vector<SurfaceFrame>& out);
 
 }  // namespace echocine::fit

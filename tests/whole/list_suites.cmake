@@ -12,12 +12,12 @@ foreach(suite IN LISTS suites)
   set(cost 1)
   set(labels "")
   # The longest ones first, so that none is left to run alone.
-  if(suite MATCHES "^(ComparedRender|DatasetCommand|DatasetGrowth|DatasetJoin|ExrStackTest|FlippedBits|KilledLoop|NumberSweep|Reading|SimulatorFrame|StopsAnywhere)$")
+  if(suite MATCHES "^(ComparedRender|DatasetCommand|DatasetGrowth|DatasetJoin|ExrStackTest|FlippedBits|NumberSweep|Reading|SimulatorFrame|StopsAnywhere)$")
     set(cost 100)
-  elseif(suite MATCHES "^(CompareFit|CompareSpread|CompareSystole|CompareTilt|CompareViewRanking|CompareViews|DicomViews|FitRegions|FittedRender|FitStrain|HeartFit|HeartMMode|HeartMotionWhole|LeafletBodies|LeafletHearts|LooksLaw|PatientAgainstVideos|Planted|Privacy|SearchPrivacy|StudyCommandTest|StudySeeds|Tolerance|EachFamily/ToleranceOfHeart|Trabeculae|VideoWithEcg)$")
+  elseif(suite MATCHES "^(CompareFit|CompareSpread|CompareSystole|CompareTilt|CompareViewRanking|CompareViews|DicomViews|FitRegions|FittedRender|FitStrain|HeartFit|HeartMMode|HeartMotionWhole|KilledLoop|LeafletBodies|LeafletHearts|LooksLaw|PatientAgainstVideos|Planted|Privacy|SearchPrivacy|StudyCommandTest|StudySeeds|Tolerance|EachFamily/ToleranceOfHeart|Trabeculae|VideoWithEcg)$")
     set(cost 200)
-    set(labels "LABELS long")  # searches and tables: minutes under sanitizers, over code that other suites run too
-  elseif(suite MATCHES "^(BlockReach|CoherentEchoLaw|CompareEcg|DatasetPopulation|DatasetScenes|DecorrelationLaw|Doppler|DopplerHeart|DownshiftLaw|FibreDirection|FitChecksLaw|FitResiduals|GratingLobeLaw|HeartAnatomyLaw|HeartFolds|HeartFunctionLaw|HeartLoopLaw|HeartPatientLaw|HeartPrior|HeartTapseLaw|HeartViews|InteriorMotionLaw|LayerStack|LiveHeartDials|MaterialPointsLaw|MotionBetweenKeyframes|MotionChannelsLaw|NoiseLaw|ProbeView|SampledBeamLaw|SharedWindowsLaw|ShownTruthLaw|SmoothNormals|SpeckleLaw|StraightRays|TruthLabels|ViewByHandLaw|ViewDensityLaw|ViewOffsetLaw|ViewPoseLaw|VisibleBorderLaw)$")
+    set(labels "LABELS long")  # searches, tables, hundreds of runs: minutes under sanitizers, over code that other suites run too
+  elseif(suite MATCHES "^(BeamRecording|BlockReach|ChordaeLaw|CoherentEchoLaw|CompareEcg|DatasetPopulation|DatasetScenes|DecorrelationLaw|Doppler|DopplerHeart|DownshiftLaw|FibreDirection|FitChecksLaw|FitDesign|FitOwnLook|FitResiduals|GratingLobeLaw|HeartAnatomyLaw|HeartCache|HeartFolds|HeartFunctionLaw|HeartLoopLaw|HeartPatientLaw|HeartPrior|HeartTapseLaw|HeartViews|InteriorMotionLaw|LayerStack|LiveHeartDials|MaterialPointsLaw|MotionBetweenKeyframes|MotionChannelsLaw|NoiseLaw|ProbeView|SampledBeamLaw|SharedWindowsLaw|ShownTruthLaw|SmoothNormals|SpeckleLaw|StraightRays|SurroundingsLaw|TruthLabels|ValveRingLaw|ViewByHandLaw|ViewDensityLaw|ViewOffsetLaw|ViewPoseLaw|VisibleBorderLaw)$")
     set(cost 20)
     set(labels "LABELS long")  # numbers of closed forms and of many hearts: half a minute or more under sanitizers
   endif()
