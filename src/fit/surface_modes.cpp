@@ -117,11 +117,8 @@ SurfaceModes::SurfaceModes(std::span<const SurfaceFrame* const> hearts,
     return toFloat(1.0 / (patch.end - patch.first) * sum);
   };
   shapes_.reserve(patches_->size() * count_ * kPatchNumbers / 2);
-  steps_m_.reserve(patches_->size() * count_);
   std::vector<Vec3f> middles_m;  // by patch, mean and mode
   std::vector<float> radii_m;
-  middles_m.reserve(patches_->size() * (count_ + 1));
-  radii_m.reserve(patches_->size() * (count_ + 1));
   for (const SurfacePatch& patch : *patches_) {
     for (std::size_t m = 0; m <= count_; ++m) {
       middles_m.push_back(middleOf(patch, m));
