@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <utility>
 
 #include "core/check.h"
@@ -223,10 +222,8 @@ ModelLoop HeartFamily::at(const std::vector<double>& values, const PlaneTilt& ti
   checkAngle("rotate_deg", tilt.rotate_rad, tilt_rad_);
   checkValues(ranges(), values);
   const std::vector<float> share = design_.shares(values);
-  using Beat = std::vector<SurfaceFrame>;
-  const std::shared_ptr<Beat> beat = beats_.borrow([] { return std::make_unique<Beat>(); });
-  blendNearPlane(modes_, share, tilt, *beat);
-  ModelLoop loop = ModelPlane(scene_, surfaces_, segments_, focus).cut(*beat);
+  ModelLoop loop =
+      ModelPlane(scene_, surfaces_, segments_, focus).cut(blendNearPlane(modes_, share, tilt));
   for (std::size_t n = 0; n < share.size(); ++n)
     loop.systole += static_cast<double>(share[n]) * systoles_[n];
   return loop;

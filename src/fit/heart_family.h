@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "core/free_list.h"
 #include "core/monitor.h"
 #include "fit/heart_cache.h"
 #include "fit/heart_design.h"
@@ -90,9 +89,8 @@ class HeartFamily {
   Scene scene_;                   // of the first node, without meshes
   std::optional<WallSegments> segments_;  // of the first node's material, which all share
   std::vector<SurfaceTopology> surfaces_;
-  std::vector<std::vector<std::uint32_t>> kept_;       // vertices, by surface
-  std::vector<SurfaceModes> modes_;                    // by frame
-  mutable FreeList<std::vector<SurfaceFrame>> beats_;  // blended
+  std::vector<std::vector<std::uint32_t>> kept_;  // vertices, by surface
+  std::vector<SurfaceModes> modes_;               // by frame
 };
 
 }  // namespace echocine::fit

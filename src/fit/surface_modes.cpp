@@ -228,17 +228,14 @@ void SurfaceModes::blendPatch(std::size_t p, std::span<const float> factors,
 }
 
 SurfaceFrame SurfaceModes::blend(std::span<const float> shares) const {
-  SurfaceFrame frame;
-  blend(shares, std::vector<Side>(patches_->size(), Side::near), frame);
-  return frame;
+  return blend(shares, std::vector<Side>(patches_->size(), Side::near));
 }
 
-void SurfaceModes::blend(std::span<const float> shares, std::span<const Side> sides,
-                         SurfaceFrame& frame) const {
+SurfaceFrame SurfaceModes::blend(std::span<const float> shares, std::span<const Side> sides) const {
   CHECK_EQ(sides.size(), patches_->size());
   const std::vector<float> factors = factorsOf(shares);
-  frame.positions_m.resize(means_m_.size());
-  for (std::size_t s = 0; s < means_m_.size(); ++s) frame.positions_m[s].resize(means_m_[s].size());
+  SurfaceFrame frame;
+  for (const std::vector<Vec3f>& mean_m : means_m_) frame.positions_m.emplace_back(mean_m.size());
   for (std::size_t p = 0; p < sides.size(); ++p) {
     const SurfacePatch& patch = (*patches_)[p];
     std::vector<Vec3f>& out_m = frame.positions_m[patch.surface];
@@ -248,6 +245,7 @@ void SurfaceModes::blend(std::span<const float> shares, std::span<const Side> si
       std::fill(out_m.begin() + patch.first, out_m.begin() + patch.end,
                 Vec3f{0, sides[p] == Side::above ? 1.0f : -1.0f, 0});
   }
+  return frame;
 }
 
 std::vector<SurfaceModes::Ball> SurfaceModes::balls(std::span<const float> shares) const {
@@ -263,8 +261,8 @@ std::vector<SurfaceModes::Ball> SurfaceModes::balls(std::span<const float> share
   return out;
 }
 
-void blendNearPlane(std::span<const SurfaceModes> frames, std::span<const float> shares,
-                    const PlaneTilt& tilt, std::vector<SurfaceFrame>& out) {
+std::vector<SurfaceFrame> blendNearPlane(std::span<const SurfaceModes> frames,
+                                         std::span<const float> shares, const PlaneTilt& tilt) {
   using Side = SurfaceModes::Side;
   const Pose pose = turnedAndTilted({}, tilt.rotate_rad, tilt.tilt_rad);
   const auto tilted = [&](Vec3f p) { return toFloat(pose.fromWorld(toDouble(p))); };
@@ -277,14 +275,14 @@ void blendNearPlane(std::span<const SurfaceModes> frames, std::span<const float>
                                             : Side::near);
     }
   });
-  out.resize(frames.size());
+  std::vector<SurfaceFrame> out(frames.size());
   parallelBlocks(frames.size(), 1, [&](std::size_t f, std::size_t) {
     std::vector<Side> sides = own[f];
     // Pieces of the frame before take their motion from here.
     const std::vector<Side>& before = own[(f + frames.size() - 1) % frames.size()];
     for (std::size_t p = 0; p < sides.size(); ++p)
       if (before[p] == Side::near) sides[p] = Side::near;
-    frames[f].blend(shares, sides, out[f]);
+    out[f] = frames[f].blend(shares, sides);
     if (tilt.rotate_rad == 0 && tilt.tilt_rad == 0) return;
     for (std::size_t p = 0; p < sides.size(); ++p) {
       if (sides[p] != Side::near) continue;
@@ -293,6 +291,7 @@ void blendNearPlane(std::span<const SurfaceModes> frames, std::span<const float>
       for (std::size_t v = patch.first; v < patch.end; ++v) positions_m[v] = tilted(positions_m[v]);
     }
   });
+  return out;
 }
 
 }  // namespace echocine::fit

@@ -39,7 +39,7 @@ class SurfaceModes {
   // Whether the plane y = 0 may cut a patch (near), otherwise its side.
   enum class Side : std::int8_t { below, near, above };
   // The same, of the patches near the plane. Vertices of the others lie 1 m away on their side.
-  void blend(std::span<const float> shares, std::span<const Side> sides, SurfaceFrame& frame) const;
+  SurfaceFrame blend(std::span<const float> shares, std::span<const Side> sides) const;
 
   // The middle of a patch, and a radius about it that no touched vertex leaves.
   struct Ball {
@@ -76,7 +76,7 @@ class SurfaceModes {
 // A beat of a blend of hearts, in the frame of a tilted probe; frames: in their order in time, with
 // the same patches. Vertices are correct where a triangle crosses the plane in this frame or in the
 // one before. Others may lie elsewhere on their side of it.
-void blendNearPlane(std::span<const SurfaceModes> frames, std::span<const float> shares,
-                    const PlaneTilt& tilt, std::vector<SurfaceFrame>& out);
+std::vector<SurfaceFrame> blendNearPlane(std::span<const SurfaceModes> frames,
+                                         std::span<const float> shares, const PlaneTilt& tilt);
 
 }  // namespace echocine::fit

@@ -112,12 +112,11 @@ TEST(SurfaceModesLaw, ModesAreAsManyAsTheHeartsDiffer) {
 // frame and in the next; every other triangle lies on one side, as in the whole blend.
 TEST(SurfaceModesLaw, NearThePlaneOfAnyTiltIsTheWholeBlend) {
   const Balls balls;
-  std::vector<SurfaceFrame> near;  // used again
   for (int draw = 0; draw < 6; ++draw) {
     const std::vector<float> shares = Balls::sharesOf(draw);
     const PlaneTilt tilt{radiansFromDegrees(7.0 * draw - 20), radiansFromDegrees(20 - 5.0 * draw)};
     const Pose pose = turnedAndTilted({}, tilt.rotate_rad, tilt.tilt_rad);
-    blendNearPlane(balls.modes, shares, tilt, near);
+    const std::vector<SurfaceFrame> near = blendNearPlane(balls.modes, shares, tilt);
     int cut = 0, left_out = 0;
     for (int f = 0; f < kFrames; ++f)
       for (std::size_t s = 0; s < 2; ++s)
