@@ -8,7 +8,8 @@ namespace echocine {
 
 namespace {
 
-// Parametric hearts have fewer topologies; larger meshes of users are not cached. Our choice.
+// Parametric hearts have fewer topologies, and at most 32,000 triangles in one, a shell of the
+// chest wall; larger meshes of users are not cached. Our choice.
 constexpr std::size_t kMostKept = 24, kLargestKept = 40000;  // triangles after subdivision
 
 template <typename Made>

@@ -36,6 +36,11 @@ inline Doubles4 lanesAt(const double* from) {
   std::memcpy(&lanes, from, sizeof lanes);
   return lanes;
 }
+inline Ints8 intsAt(const std::uint32_t* from) {
+  Ints8 lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
 inline Mask4 masksAt(const std::int64_t* from) {
   Mask4 mask;
   std::memcpy(&mask, from, sizeof mask);

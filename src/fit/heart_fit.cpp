@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "core/error.h"
 #include "core/stop.h"
@@ -222,11 +221,12 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
   const HeartDesign design = HeartDesign::polynomial(rangesOf(options, loops.size()));
   const FitStages stages(loops.size(), design.size(), design.ranges().size(), options);
   FitProgress progress(monitor, stages.all());
-  auto hearts = std::make_unique<const HeartNodes>(
-      fit.dials, design, kFitFrames, progress.next(stages.hearts), cacheOf(options, monitor));
-  FittedSides sides(loops, *hearts, options.tilt_deg, progress.next(stages.families));
-  hearts.reset();  // they take as much memory as a family
-  ::malloc_trim(0);
+  FittedSides sides = [&] {
+    const HeartNodes hearts(fit.dials, design, kFitFrames, progress.next(stages.hearts),
+                            cacheOf(options, monitor));
+    return FittedSides(loops, hearts, options.tilt_deg, progress.next(stages.families));
+  }();
+  ::malloc_trim(0);  // the computed hearts took as much memory as a family
   sides.compare(loops, middleOf(design.ranges()));
   FitCost cost(sides.refer(), fit.dials, options.tilt_deg, {options.journal, "starts"});
   const FitStarts starts = startPlaces(cost, options.starts, progress.next(stages.starts));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "core/box.h"
@@ -30,8 +29,7 @@ struct TwoLanes {
   Floats8 first, second;
 };
 TwoLanes twoLanesAt(const std::uint32_t* from) {
-  Ints8 both;
-  std::memcpy(&both, from, sizeof both);
+  const Ints8 both = intsAt(from);
   return {__builtin_convertvector(both << 16 >> 16, Floats8),
           __builtin_convertvector(both >> 16, Floats8)};
 }
@@ -85,35 +83,36 @@ SurfaceModes::SurfaceModes(std::span<const SurfaceFrame* const> hearts,
                            SurfacePatches patches)
     : patches_(std::move(patches)) {
   const auto per_heart = 1 / static_cast<double>(hearts.size());
-  std::vector<Vec3f> all_m, off_m;  // means; deviations of each heart
-  std::vector<std::size_t> first;   // by surface
-  std::size_t vertices = 0;
-  for (const std::vector<std::uint32_t>& of_surface : kept) vertices += of_surface.size();
-  all_m.reserve(vertices);
-  off_m.reserve(vertices * hearts.size());
+  std::vector<std::size_t> first;  // point, by surface
+  std::size_t points = 0;
+  for (const std::vector<std::uint32_t>& of_surface : kept) {
+    first.push_back(points);
+    points += of_surface.size();
+  }
+  std::vector<Vec3f> off_m;  // by point, of each heart from the mean
+  off_m.reserve(points * hearts.size());
   for (std::size_t s = 0; s < kept.size(); ++s) {
-    first.push_back(all_m.size());
+    std::vector<Vec3f>& mean_m = means_m_.emplace_back();
     for (const std::uint32_t v : kept[s]) {
       Vec3d sum;
       for (const SurfaceFrame* heart : hearts) sum = sum + toDouble(heart->positions_m[s][v]);
-      all_m.push_back(toFloat(per_heart * sum));
+      mean_m.push_back(toFloat(per_heart * sum));
       for (const SurfaceFrame* heart : hearts)
-        off_m.push_back(heart->positions_m[s][v] - all_m.back());
+        off_m.push_back(heart->positions_m[s][v] - mean_m.back());
     }
-    means_m_.emplace_back(all_m.begin() + static_cast<std::ptrdiff_t>(first[s]), all_m.end());
   }
   // motionModes() counts the sum over hearts.
   const MotionModes modes = motionModes(off_m, hearts.size(), kTolerance_m / std::sqrt(per_heart));
   count_ = modes.count;
   for (const std::vector<double>& row : modes.keyframe_from_mode)
     mode_of_heart_.insert(mode_of_heart_.end(), row.begin(), row.end());
-  const auto modeAt = [&](std::size_t point, std::size_t m) {
-    return m == 0 ? all_m[point] : modes.shapes_m[point * count_ + m - 1];
+  const auto modeAt = [&](std::size_t s, std::size_t v, std::size_t m) {
+    return m == 0 ? means_m_[s][v] : modes.shapes_m[(first[s] + v) * count_ + m - 1];
   };
   const auto middleOf = [&](const SurfacePatch& patch, std::size_t m) {
     Vec3d sum;
     for (std::size_t v = patch.first; v < patch.end; ++v)
-      sum = sum + toDouble(modeAt(first[patch.surface] + v, m));
+      sum = sum + toDouble(modeAt(patch.surface, v, m));
     return toFloat(1.0 / (patch.end - patch.first) * sum);
   };
   shapes_.reserve(patches_->size() * count_ * kPatchNumbers / 2);
@@ -124,7 +123,7 @@ SurfaceModes::SurfaceModes(std::span<const SurfaceFrame* const> hearts,
       middles_m.push_back(middleOf(patch, m));
       float most_m = 0;
       for (const std::uint32_t v : patch.touched)
-        most_m = std::max(most_m, length(modeAt(first[patch.surface] + v, m) - middles_m.back()));
+        most_m = std::max(most_m, length(modeAt(patch.surface, v, m) - middles_m.back()));
       radii_m.push_back(most_m);
     }
     addPatch(patch,

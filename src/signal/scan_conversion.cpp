@@ -136,8 +136,7 @@ struct Weights {
 };
 
 Weights weights(const std::uint32_t* parts) {
-  Ints8 both;
-  std::memcpy(&both, parts, sizeof both);
+  const Ints8 both = intsAt(parts);
   const auto share = [](Ints8 part) {
     return __builtin_convertvector(part, Floats8) * (1 / kWhole);
   };
